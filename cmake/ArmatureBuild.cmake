@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: Apache-2.0
+# How every target of this project is built: language, warnings, sanitizers, output folders, tests.
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_CXX_VISIBILITY_PRESET default)
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release)
+endif()
+string(REPLACE "-O3" "-O2" CMAKE_CXX_FLAGS_RELEASE "${CMAKE_CXX_FLAGS_RELEASE}")
+
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/bin")
+set(CMAKE_LIBRARY_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/lib")
+set(ARMATURE_PLUGIN_BUILD_DIR "${CMAKE_BINARY_DIR}/lib/armature/plugins")
+set(CMAKE_INSTALL_RPATH "$ORIGIN/../lib;$ORIGIN")
+
+find_program(CCACHE_PROGRAM ccache)
+if(CCACHE_PROGRAM)
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${CCACHE_PROGRAM}")
+  set(CMAKE_C_COMPILER_LAUNCHER "${CCACHE_PROGRAM}")
+endif()
+
+# Sources say #include "armature/robot/...", here and after installation.
+file(MAKE_DIRECTORY "${CMAKE_BINARY_DIR}/include")
+file(CREATE_LINK "${CMAKE_SOURCE_DIR}/framework" "${CMAKE_BINARY_DIR}/include/armature" SYMBOLIC)
+
+# What must be the same in every library that shares Eigen objects or plugins (see docs/decisions).
+add_library(armature_abi INTERFACE)
+add_library(armature::abi ALIAS armature_abi)
+set_target_properties(armature_abi PROPERTIES EXPORT_NAME abi)
+target_compile_features(armature_abi INTERFACE cxx_std_20)
+target_compile_definitions(armature_abi INTERFACE EIGEN_MAX_ALIGN_BYTES=16
+                                                  EIGEN_MALLOC_ALREADY_ALIGNED=1)
+target_compile_options(armature_abi INTERFACE $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-fno-gnu-unique>)
+target_include_directories(armature_abi INTERFACE $<BUILD_INTERFACE:${CMAKE_BINARY_DIR}/include>
+                                                  $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+target_link_libraries(armature_abi INTERFACE tl::expected)
+
+add_library(armature_warnings INTERFACE)
+target_compile_options(armature_warnings INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion $<$<BOOL:${ARMATURE_WERROR}>:-Werror>)
+if(ARMATURE_SANITIZE)
+  list(JOIN ARMATURE_SANITIZE "," sanitizers)
+  add_compile_options(-fsanitize=${sanitizers} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  add_link_options(-fsanitize=${sanitizers})
+endif()
+
+# armature_add_library(robot SOURCES a.cpp ... LINK Eigen3::Eigen ... PRIVATE yaml-cpp ...)
+# A shared library libarmature_<name> with the alias armature::<name>.
+function(armature_add_library name)
+  cmake_parse_arguments(arg "" "" "SOURCES;LINK;PRIVATE" ${ARGN})
+  add_library(armature_${name} SHARED ${arg_SOURCES})
+  add_library(armature::${name} ALIAS armature_${name})
+  set_target_properties(armature_${name} PROPERTIES EXPORT_NAME ${name} VERSION ${PROJECT_VERSION}
+                                                    SOVERSION ${PROJECT_VERSION_MAJOR})
+  target_link_libraries(armature_${name} PUBLIC armature::abi ${arg_LINK}
+                                         PRIVATE $<BUILD_INTERFACE:armature_warnings> ${arg_PRIVATE})
+  install(TARGETS armature_${name} EXPORT ArmatureTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+endfunction()
+
+# armature_add_test(robot_test SOURCES a_test.cpp ... LINK armature::robot ... [DEPENDS plugin...])
+# One GoogleTest program; every case runs alone and in any order.
+function(armature_add_test name)
+  if(NOT ARMATURE_BUILD_TESTS)
+    return()
+  endif()
+  cmake_parse_arguments(arg "" "TIMEOUT" "SOURCES;LINK;DEPENDS;LABELS" ${ARGN})
+  if(NOT arg_TIMEOUT)
+    set(arg_TIMEOUT 60)
+  endif()
+  if(NOT TARGET armature_test_main)
+    file(WRITE "${CMAKE_BINARY_DIR}/test_main.cpp" "#include <gtest/gtest.h>\n")
+    add_library(armature_test_main STATIC "${CMAKE_BINARY_DIR}/test_main.cpp")
+    target_link_libraries(armature_test_main PUBLIC GTest::gmock GTest::gtest GTest::gtest_main)
+    target_link_libraries(armature_test_main PUBLIC armature::abi PRIVATE armature_warnings)
+    target_precompile_headers(armature_test_main PRIVATE "${CMAKE_SOURCE_DIR}/tests/precompiled.hpp")
+  endif()
+  add_executable(${name} ${arg_SOURCES})
+  target_link_libraries(${name} PRIVATE armature_test_main armature_warnings ${arg_LINK})
+  target_precompile_headers(${name} REUSE_FROM armature_test_main)
+  target_compile_definitions(${name} PRIVATE
+    ARMATURE_SOURCE_DIR="${CMAKE_SOURCE_DIR}" ARMATURE_BINARY_DIR="${CMAKE_BINARY_DIR}"
+    ARMATURE_PLUGIN_BUILD_DIR="${ARMATURE_PLUGIN_BUILD_DIR}")
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/tests")
+  if(arg_DEPENDS)
+    add_dependencies(${name} ${arg_DEPENDS})
+  endif()
+  include(GoogleTest)
+  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST TEST_PREFIX "${name}."
+    PROPERTIES TIMEOUT ${arg_TIMEOUT} LABELS "${arg_LABELS}")
+endfunction()

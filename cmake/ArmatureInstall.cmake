@@ -1,0 +1,13 @@
+# SPDX-License-Identifier: Apache-2.0
+# find_package(Armature) for plugin authors.
+include(CMakePackageConfigHelpers)
+
+install(TARGETS armature_abi EXPORT ArmatureTargets)
+install(EXPORT ArmatureTargets NAMESPACE armature:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/Armature)
+configure_package_config_file(cmake/ArmatureConfig.cmake.in "${CMAKE_BINARY_DIR}/ArmatureConfig.cmake"
+                              INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/Armature)
+write_basic_package_version_file("${CMAKE_BINARY_DIR}/ArmatureConfigVersion.cmake"
+                                 COMPATIBILITY SameMinorVersion)
+install(FILES "${CMAKE_BINARY_DIR}/ArmatureConfig.cmake" "${CMAKE_BINARY_DIR}/ArmatureConfigVersion.cmake"
+              cmake/ArmaturePlugin.cmake cmake/plugin_manifest.cpp.in
+        DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/Armature)

@@ -1,0 +1,37 @@
+# SPDX-License-Identifier: Apache-2.0
+# armature_add_plugin: one line makes a plugin, in this tree and after find_package(Armature).
+#
+#   armature_add_plugin(ik/lamp_geometric SOURCES lamp_geometric.cpp LINK armature::ik [TESTS x_test.cpp])
+#
+# The folder's plugin.yaml (id, kind, parameters, ports) is embedded as constant text, together with
+# the ABI tag of the compiler that builds it; both are read without running the library's code.
+
+set(ARMATURE_PLUGIN_TEMPLATE "${CMAKE_CURRENT_LIST_DIR}/plugin_manifest.cpp.in")
+
+function(armature_add_plugin id)
+  cmake_parse_arguments(arg "" "" "SOURCES;LINK;TESTS;TEST_LINK" ${ARGN})
+  string(REPLACE "/" "_" target "${id}")
+
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS
+                                         "${CMAKE_CURRENT_SOURCE_DIR}/plugin.yaml")
+  file(READ "${CMAKE_CURRENT_SOURCE_DIR}/plugin.yaml" ARMATURE_PLUGIN_MANIFEST)
+  configure_file("${ARMATURE_PLUGIN_TEMPLATE}" "${CMAKE_CURRENT_BINARY_DIR}/${target}_manifest.cpp"
+                 @ONLY)
+
+  add_library(${target} MODULE ${arg_SOURCES}
+                               "${CMAKE_CURRENT_BINARY_DIR}/${target}_manifest.cpp")
+  target_link_libraries(${target} PRIVATE armature::abi ${arg_LINK})
+  set_target_properties(${target} PROPERTIES PREFIX "" CXX_VISIBILITY_PRESET hidden
+                                             VISIBILITY_INLINES_HIDDEN ON)
+  if(TARGET armature_warnings)  # in the framework's own tree
+    target_link_libraries(${target} PRIVATE armature_warnings)
+    set_target_properties(${target} PROPERTIES
+      LIBRARY_OUTPUT_DIRECTORY "${ARMATURE_PLUGIN_BUILD_DIR}" INSTALL_RPATH "$ORIGIN/../..")
+    install(TARGETS ${target} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/armature/plugins)
+    set_property(GLOBAL APPEND PROPERTY ARMATURE_PLUGINS ${target})
+    if(arg_TESTS)
+      armature_add_test(${target}_test SOURCES ${arg_TESTS} LINK ${arg_LINK} ${arg_TEST_LINK}
+                        DEPENDS ${target})
+    endif()
+  endif()
+endfunction()

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "armature/values/time.hpp"
+
+namespace armature {
+
+/// What the bus needs to know of a message type, without knowing it: name, layout, life, encoding.
+/// One constant per type; all of them live in the shared library armature_messages.
+struct MessageType {
+  std::string_view ros_name;   // "sensor_msgs/JointState", as plugin.yaml says it
+  std::string_view dds_name;   // "sensor_msgs::msg::dds_::JointState_"
+  std::uint64_t layout = 0;    // FNV-1a of the flattened field list; equal only for equal layouts
+  void* (*create)() = nullptr;
+  void (*destroy)(void* message) = nullptr;
+  /// header.stamp, or nullptr for types without a header.
+  Time (*stamp)(const void* message) = nullptr;
+  /// Appends the CDR encoding (little endian, with its 4-byte encapsulation header) to `cdr`.
+  void (*encode)(const void* message, std::vector<std::byte>& cdr) = nullptr;
+  /// False when `cdr` is not an encoding of this type.
+  bool (*decode)(std::span<const std::byte> cdr, void* message) = nullptr;
+};
+
+/// The type's constant; specialised for every message in armature/messages/.
+template <class Message>
+const MessageType& message_type();
+
+/// All known types, and one by its ROS name or DDS name (nullptr: unknown).
+std::span<const MessageType* const> known_message_types();
+const MessageType* find_message_type(std::string_view name);
+
+}  // namespace armature

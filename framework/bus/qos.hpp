@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "armature/values/time.hpp"
+
+namespace armature {
+
+/// The named QoS profiles; every field is stated, nothing is left to a middleware's default.
+///   sensor   best effort reader, reliable writer, volatile, newest only
+///   state    reliable, volatile, a short history
+///   command  reliable, volatile, short history, samples expire: yesterday's goal is never executed
+///   latched  reliable, transient local, newest only: late joiners get the last sample
+enum class QosProfile { sensor, state, command, latched };
+
+std::optional<QosProfile> find_qos_profile(std::string_view name);
+std::string_view to_string(QosProfile profile);
+
+struct QosSettings {
+  bool writer_reliable = true;
+  bool reader_reliable = true;
+  bool transient_local = false;
+  int depth = 1;                      // KEEP_LAST
+  Duration lifespan = Duration{0};    // 0: infinite
+  Duration liveliness_lease = seconds(0.5);
+};
+QosSettings settings(QosProfile profile);
+
+}  // namespace armature

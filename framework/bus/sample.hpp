@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+#include "armature/bus/message_type.hpp"
+#include "armature/values/time.hpp"
+
+namespace armature {
+
+/// What travels beside a message.
+struct SampleInfo {
+  Time published;              // deployment clock of the writer's process
+  std::uint64_t sequence = 0;  // counts from 1 per writer
+};
+
+class SamplePool;
+
+/// A message owned by the bus; in flight it is shared and immutable.
+struct SampleBlock {
+  SamplePool* pool = nullptr;
+  void* message = nullptr;
+  SampleInfo info;
+  std::atomic<int> references{0};
+  SampleBlock* next_free = nullptr;
+};
+
+/// A counted reference to a sample. Copying is one atomic increment; the last one gives the block
+/// back to its pool. Real-time safe.
+class SampleRef {
+ public:
+  SampleRef() = default;
+  explicit SampleRef(SampleBlock* block) : block_{block} { retain(); }
+  SampleRef(const SampleRef& other) : block_{other.block_} { retain(); }
+  SampleRef(SampleRef&& other) noexcept : block_{std::exchange(other.block_, nullptr)} {}
+  SampleRef& operator=(SampleRef other) noexcept {
+    std::swap(block_, other.block_);
+    return *this;
+  }
+  ~SampleRef();
+
+  explicit operator bool() const { return block_ != nullptr; }
+  const void* message() const { return block_->message; }
+  void* mutable_message() { return block_->message; }  // only before it is published
+  const SampleInfo& info() const { return block_->info; }
+  SampleInfo& mutable_info() { return block_->info; }
+
+ private:
+  void retain() {
+    if (block_) block_->references.fetch_add(1, std::memory_order_relaxed);
+  }
+  SampleBlock* block_ = nullptr;
+};
+
+/// Preallocated messages of one type. When all are out it allocates another and counts that, so a
+/// slow watcher costs memory, never data. Must outlive its samples: held by shared_ptr in the bus.
+class SamplePool {
+ public:
+  SamplePool(const MessageType& type, std::size_t preallocated);
+  ~SamplePool();
+  SamplePool(const SamplePool&) = delete;
+  SamplePool& operator=(const SamplePool&) = delete;
+
+  const MessageType& type() const { return *type_; }
+  /// A block with whatever content its last use left: overwrite every field. Real-time safe as
+  /// long as a preallocated block is free.
+  SampleRef loan();
+  /// Blocks allocated beyond the preallocated ones.
+  std::size_t grown() const;
+
+ private:
+  friend class SampleRef;
+  void give_back(SampleBlock* block);
+  SampleBlock* allocate();
+
+  const MessageType* type_;
+  mutable std::mutex mutex_;
+  SampleBlock* free_ = nullptr;
+  std::vector<std::unique_ptr<SampleBlock>> blocks_;
+  std::size_t preallocated_;
+};
+
+}  // namespace armature

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "armature/bus/message_type.hpp"
+#include "armature/bus/qos.hpp"
+#include "armature/bus/sample.hpp"
+#include "armature/values/expected.hpp"
+
+namespace armature {
+
+/// One topic as the outside sees it.
+struct TopicSpec {
+  std::string name;  // DDS name: "rt/dental_lamp/arm/measured_js"
+  const MessageType* type = nullptr;
+  QosProfile qos = QosProfile::state;
+};
+
+/// Our end of a topic that others may read.
+class OutsideWriter {
+ public:
+  virtual ~OutsideWriter() = default;
+  /// Hands a sample to the egress thread if anybody outside has matched; never blocks, never
+  /// encodes, drops the oldest waiting sample when the queue is full (and counts it).
+  virtual void offer(const SampleRef& sample) = 0;
+  virtual int watchers() const = 0;
+  virtual std::uint64_t dropped() const = 0;
+};
+
+/// Our end of a topic that another process feeds; destroying it stops the deliveries.
+class OutsideReader {
+ public:
+  virtual ~OutsideReader() = default;
+  virtual int writers() const = 0;
+};
+
+/// What may happen on the network that an operator must know: a second type on a topic, another
+/// layout under the same name, QoS that cannot match, a writer of another deployment that was
+/// refused, a process that died.
+struct TransportEvent {
+  enum class Kind { type_conflict, layout_conflict, qos_conflict, foreign_writer, peer_lost };
+  Kind kind;
+  std::string topic;
+  std::string text;
+};
+
+struct TransportOptions {
+  int domain = 0;
+  std::string deployment;   // its name, and
+  std::string fingerprint;  // the hash of its resolved configuration
+  std::function<void(const TransportEvent&)> on_event;  // any thread; must only enqueue
+  std::function<Time()> now;  // deployment clock
+};
+
+/// The way to other processes. Plugins of kind `transport`; the runtime loads `transport/fast_dds`.
+class Transport {
+ public:
+  static constexpr std::string_view kKind = "transport";
+  static constexpr int kKindVersion = 1;
+  /// Refuses with a reason that names the way out.
+  using Factory = Expected<std::unique_ptr<Transport>> (*)(const TransportOptions&);
+
+  virtual ~Transport() = default;
+  virtual Expected<std::unique_ptr<OutsideWriter>> advertise(const TopicSpec& topic) = 0;
+  /// `deliver` is called on a transport thread and must only enqueue. Samples of this process'
+  /// own writers are never delivered. `same_deployment_only`: writers with another fingerprint are
+  /// refused and reported (command inputs).
+  virtual Expected<std::unique_ptr<OutsideReader>> subscribe(
+      const TopicSpec& topic, bool same_deployment_only,
+      std::function<void(SampleRef)> deliver) = 0;
+};
+
+}  // namespace armature

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "armature/config/node.hpp"
+#include "armature/config/problems.hpp"
+
+namespace armature {
+
+/// One parameter as a plugin declares it in its `plugin.yaml`; reading, checking, defaults,
+/// `armature plugin info` and the JSON Schema all come from it.
+struct ParamSpec {
+  enum class Type { number, integer, flag, text, choice, numbers, file };
+  std::string name;  // a unit suffix (_deg, _mm, _m, _s, _hz) says what the user writes
+  Type type = Type::number;
+  std::string doc;
+  std::optional<config::Node> fallback;  // none: the parameter is required
+  std::optional<double> min, max;        // of a number, in the user's unit, inclusive
+  std::vector<std::string> choices;
+  std::optional<std::size_t> count;  // of numbers; none: any
+};
+
+/// The names of ParamSpec::Type as written in `plugin.yaml`: number, integer, flag, text, choice,
+/// numbers, file.
+std::string_view to_string(ParamSpec::Type type);
+
+/// Reads a `params:` table of a plugin.yaml.
+std::vector<ParamSpec> read_param_specs(const config::Node& table, config::Problems& problems);
+
+/// Checked parameters of one plugin instance. Asking for a name that is not in the plugin's table,
+/// or as another type, is a defect of the plugin and throws std::logic_error naming it.
+/// Not real-time safe: read parameters in the constructor.
+class Params {
+ public:
+  Params() = default;
+  /// `given` (may be null: nothing given) checked against `specs`: unknown keys with did-you-mean,
+  /// wrong types, out of range, missing.
+  static Params read(const std::vector<ParamSpec>& specs, const config::Node* given,
+                     std::string_view plugin_id, config::Problems& problems);
+
+  /// In SI units: `_deg` keys arrive in radians, `_mm` keys in metres.
+  double number(std::string_view name) const;
+  std::vector<double> numbers(std::string_view name) const;
+  std::int64_t integer(std::string_view name) const;
+  bool flag(std::string_view name) const;
+  /// A text or a choice.
+  const std::string& text(std::string_view name) const;
+  /// A path as written, resolved against the folder of the YAML file that says it.
+  std::string file(std::string_view name) const;
+  /// Where the value came from (the plugin's table for a default).
+  const config::Origin& origin(std::string_view name) const;
+
+ private:
+  struct Value {
+    ParamSpec::Type type;
+    std::variant<double, std::int64_t, bool, std::string, std::vector<double>> value;
+    config::Origin origin;
+  };
+  const Value& get(std::string_view name, ParamSpec::Type type) const;
+
+  std::map<std::string, Value, std::less<>> values_;
+  std::string plugin_id_;
+};
+
+}  // namespace armature

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string_view>
+
+#include "armature/kinds/made_for_robot.hpp"
+#include "armature/robot/joint_vector.hpp"
+#include "armature/robot/pose_goal.hpp"
+#include "armature/robot/robot_model.hpp"
+
+namespace armature {
+
+/// What an inverse kinematics solver is asked for: a pose of the tool frame in the base frame.
+struct IkGoal {
+  ToolPose pose;
+  std::optional<double> redundancy;  // [rad] arm angle of a redundant arm; none: the solver's choice
+  struct Tolerance {
+    double position_m = 1e-9;
+    double angle_rad = 1e-9;
+  } tolerance;
+  int max_iterations = 1000;  // of iterative solvers, restarts included
+};
+
+/// One joint position that reaches the goal.
+struct IkBranch {
+  /// Stable name of the branch, "tilt0/balance0/elbow0": it does not shift when another vanishes.
+  /// Points to static storage.
+  std::string_view label;
+  JointVector q;          // independent joints, revolute ones in [-pi, pi)
+  double redundancy = 0;  // [rad] arm angle where the arm has one
+  PoseResidual residual;  // of forward kinematics at q
+  bool within_limits = false;
+  bool singular = false;  // at or numerically at a singular set of the arm
+};
+
+/// All branches of one goal, in the solver's fixed order. Never allocates.
+struct IkBranches {
+  static constexpr int kCapacity = 16;
+  std::array<IkBranch, kCapacity> branch;
+  int count = 0;
+
+  const IkBranch* begin() const { return branch.data(); }
+  const IkBranch* end() const { return branch.data() + count; }
+  void clear() { count = 0; }
+  IkBranch& add() { return branch[static_cast<std::size_t>(count++)]; }
+};
+
+/// Outcome of one solve.
+struct IkStatus {
+  enum class Code { ok, out_of_reach, joint_limit, singular, no_convergence, invalid_input };
+  Code code = Code::ok;
+  double shortfall = 0;        // out_of_reach: how far beyond reach [m]; no_convergence: the residual
+  std::string_view detail;     // static text: which test failed, or which input is wrong
+};
+/// "ok", "out_of_reach", "joint_limit", ...
+std::string_view to_string(IkStatus::Code code);
+/// "out_of_reach: 0.0341 m beyond reach (horizontal distance)".
+std::string describe(const IkStatus& status);
+
+/// What a solver remembers between calls; the caller owns it (start: value-initialised).
+struct IkState {
+  std::optional<double> last_redundancy;  // [rad]
+};
+
+/// Inverse kinematics for one robot. Made by `make`, which refuses a robot that the solver cannot
+/// serve with a reason.
+class IkSolver {
+ public:
+  static constexpr std::string_view kKind = "ik";
+  static constexpr int kKindVersion = 1;
+  using Factory = MadeForRobot<IkSolver>;
+
+  virtual ~IkSolver() = default;
+
+  /// Finds every branch of `goal`; all that were found go to `out` even when none is within limits
+  /// (then the code is joint_limit). `seed` (dof() entries) is where iterative solvers start and
+  /// what free angles at singular sets keep to. Same input, same bits, from any thread.
+  /// Real-time safe unless the plugin's manifest says `allocates: true`: no allocation, no lock.
+  /// Bad input (NaN, wrong length, zero direction) answers invalid_input.
+  virtual IkStatus solve(const IkGoal& goal, const JointVector& seed, IkBranches& out,
+                         IkState& state) const = 0;
+};
+
+/// nullptr, or why `goal` and `seed` cannot be solved for at all: not finite, zero direction, wrong
+/// length. The first lines of every solver.
+const char* invalid_input(const RobotModel& model, const IkGoal& goal, const JointVector& seed);
+
+}  // namespace armature

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "armature/kinds/made_for_robot.hpp"
+#include "armature/robot/pose_goal.hpp"
+
+namespace armature {
+
+/// A point of a path: where the tool shall be when the segment's parameter is `s` in [0, 1].
+struct PathSample {
+  double s = 0;
+  ToolPose pose;
+};
+
+/// A piece of a path. The first sample of a cartesian segment is where it starts (s = 0), the last
+/// one where it ends (s = 1). A joint segment goes straight in joint space from where the segment
+/// before ended through its samples' inverse kinematics; it needs only its end.
+struct PathSegment {
+  enum class Space { joint, cartesian };
+  Space space = Space::cartesian;
+  std::vector<PathSample> samples;
+  bool stop_at_end = true;           // false: a via, passed without stopping
+  std::optional<double> duration_s;  // the path's own time law: exactly this long, rest to rest
+};
+using Path = std::vector<PathSegment>;
+
+struct PathRequest {
+  ToolPose start;
+  ToolPose goal;
+  /// A point of the base frame [m] that the tool should look at on the way (the mouth).
+  std::optional<Eigen::Vector3d> focus;
+};
+
+/// Plans where the tool goes, not when. Pure; may allocate.
+class PathPlanner {
+ public:
+  static constexpr std::string_view kKind = "path";
+  static constexpr int kKindVersion = 1;
+  using Factory = MadeFromParams<PathPlanner>;
+
+  virtual ~PathPlanner() = default;
+  virtual Expected<Path> plan(const PathRequest& request) const = 0;
+};
+
+}  // namespace armature

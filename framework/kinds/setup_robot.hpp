@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "armature/robot/robot_model.hpp"
+#include "armature/robot/stereo_rig.hpp"
+#include "armature/runtime/setup.hpp"
+
+namespace armature {
+
+/// The robot (rig) that the deployment binds to this component; plugin.yaml says `uses: [robot]`
+/// (`[rig]`). Throws config::ConfigError with every problem of the file.
+RobotModel robot_of(Setup& setup);
+StereoRig rig_of(Setup& setup);
+
+}  // namespace armature

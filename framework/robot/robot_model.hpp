@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Geometry>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "armature/robot/joint_vector.hpp"
+#include "armature/values/expected.hpp"
+
+namespace armature::config {
+class Node;
+class Problems;
+}  // namespace armature::config
+
+namespace armature {
+
+/// One Denavit-Hartenberg row and what the joint can do.
+///   standard: T_i = Rz(theta) Tz(d) Tx(a) Rx(alpha)
+///   modified: T_i = Rx(alpha) Tx(a) Rz(theta) Tz(d)     (Craig)
+/// The joint's value is added to `theta` (revolute) or to `d` (prismatic).
+struct Joint {
+  enum class Type { revolute, prismatic };
+  /// q of this joint = ratio * q[to] + offset; `to` indexes an independent joint of the chain.
+  struct Coupling {
+    int to = 0;
+    double ratio = 1;
+    double offset = 0;
+  };
+
+  std::string name;
+  Type type = Type::revolute;
+  double theta = 0;  // [rad] offset of a revolute joint, or the fixed angle of a prismatic one
+  double d = 0;      // [m]
+  double a = 0;      // [m]
+  double alpha = 0;  // [rad]
+  double lower = 0, upper = 0;     // [rad] or [m]
+  double max_velocity = 0;         // [rad/s] or [m/s]
+  double max_acceleration = 0;     // [rad/s2] or [m/s2]
+  std::optional<Coupling> coupling;  // none: an independent joint
+};
+
+/// A frame fixed to a link (a joint's frame), to the base or to another named frame.
+struct NamedFrame {
+  std::string name;
+  int parent_joint = -1;  // index into joints(), -1: the base
+  Eigen::Isometry3d parent_T_frame = Eigen::Isometry3d::Identity();
+};
+
+/// Index of a named frame of a robot model.
+enum class FrameId : int {};
+
+/// A serial arm as data: joints, couplings, limits, named frames, pointing axis and home.
+/// Immutable after it was read; shared by every solver that was made for it.
+/// "independent" vectors have dof() entries, "all" vectors joint_count().
+class RobotModel {
+ public:
+  enum class Convention { standard, modified };
+
+  RobotModel(std::string name, Convention convention, std::vector<Joint> joints,
+             std::vector<NamedFrame> frames, FrameId tool, std::optional<Eigen::Vector3d> pointing_axis,
+             std::optional<JointVector> home_all);
+
+  const std::string& name() const { return name_; }
+  Convention convention() const { return convention_; }
+  const std::vector<Joint>& joints() const { return joints_; }
+  const std::vector<NamedFrame>& frames() const { return frames_; }
+  int joint_count() const { return static_cast<int>(joints_.size()); }
+  int dof() const { return static_cast<int>(independent_.size()); }
+  /// Index into joints() of the i-th independent joint.
+  int independent_joint(int i) const { return independent_[static_cast<std::size_t>(i)]; }
+
+  /// The frame named `tool`: the tip that goals are stated for.
+  FrameId tool() const { return tool_; }
+  std::optional<FrameId> find_frame(std::string_view name) const;
+  const NamedFrame& frame(FrameId id) const { return frames_[static_cast<std::size_t>(id)]; }
+
+  /// The unit axis of the tool frame that a pointing goal aligns with a direction.
+  const std::optional<Eigen::Vector3d>& pointing_axis() const { return pointing_axis_; }
+  /// Home position of all joints, if the file names one.
+  const std::optional<JointVector>& home() const { return home_; }
+
+  /// Independent values -> all joints, couplings applied.
+  JointVector expand(const JointVector& independent) const;
+  /// All joints -> independent values; a reason when the length is wrong, a value is not finite or
+  /// a coupled joint contradicts its coupling by more than 1e-6.
+  Expected<JointVector> contract(const JointVector& all) const;
+
+  /// Limits of the independent joints; coupled joints' position limits are folded in.
+  const JointVector& lower() const { return lower_; }
+  const JointVector& upper() const { return upper_; }
+  const JointVector& max_velocity() const { return max_velocity_; }
+  const JointVector& max_acceleration() const { return max_acceleration_; }
+  bool within_limits(const JointVector& independent, double tolerance = 1e-9) const;
+  /// Revolute independent joints, for wrap-aware distances.
+  bool is_revolute(int i) const;
+
+ private:
+  std::string name_;
+  Convention convention_;
+  std::vector<Joint> joints_;
+  std::vector<NamedFrame> frames_;
+  FrameId tool_;
+  std::optional<Eigen::Vector3d> pointing_axis_;
+  std::optional<JointVector> home_;
+  std::vector<int> independent_;
+  JointVector lower_, upper_, max_velocity_, max_acceleration_;
+};
+
+/// Reads an `armature_robot: 1` document; problems go to `problems`, nothing is returned then.
+std::optional<RobotModel> read_robot_model(const config::Node& document,
+                                           config::Problems& problems);
+/// The same from a file. Throws config::ConfigError.
+RobotModel load_robot_model(const std::filesystem::path& file);
+
+}  // namespace armature

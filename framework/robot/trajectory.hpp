@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "armature/robot/joint_vector.hpp"
+#include "armature/robot/quintic.hpp"
+#include "armature/values/time.hpp"
+
+namespace armature {
+
+/// Piecewise quintics of all independent joints with absolute times: data, evaluated anywhere for
+/// q, v, a and jerk, sent as it is. Piece k holds from `knots[k]` to `knots[k+1]`.
+struct Trajectory {
+  std::uint64_t goal_id = 0;
+  int dof = 0;
+  Time start;                    // the time of knots.front()
+  std::vector<double> knots;     // [s] from `start`, ascending, size pieces + 1, knots[0] = 0
+  std::vector<Quintic> pieces;   // piece-major: pieces[k * dof + joint]; its t counts from knots[k]
+
+  int piece_count() const { return knots.empty() ? 0 : static_cast<int>(knots.size()) - 1; }
+  double duration_s() const { return knots.empty() ? 0 : knots.back(); }
+  Time end() const { return start + seconds(duration_s()); }
+
+  /// q, v, a at `time`; before the start the start, after the end the end, both at rest there only
+  /// if the trajectory is. Real-time safe: no allocation, O(log pieces).
+  JointState at(Time time) const;
+  JointVector jerk_at(Time time) const;
+};
+
+/// A trajectory that stays at `q`.
+Trajectory hold_at(const JointVector& q, Time start, std::uint64_t goal_id);
+
+/// Largest |v| / limit and |a| / limit over all joints and the whole trajectory (exact).
+struct LimitUse {
+  double velocity = 0, acceleration = 0;
+};
+LimitUse limit_use(const Trajectory& trajectory, const JointVector& max_velocity,
+                   const JointVector& max_acceleration);
+
+/// The same path `factor` times slower (velocities / factor, accelerations / factor^2).
+Trajectory stretched(const Trajectory& trajectory, double factor);
+
+/// `trajectory` (which starts at rest at from.q) plus a quintic that carries (from.v, from.a) down
+/// to zero over `blend_s`: it leaves `from` without a jump in q, v or a and ends where `trajectory`
+/// ends. This is how a new goal is spliced into a moving reference.
+Trajectory spliced(const Trajectory& trajectory, const JointState& from, double blend_s);
+
+/// From `from` to rest, within max_acceleration, in the shortest time that a quintic with zero end
+/// velocity and acceleration allows: hold = stop within limits, then stay.
+Trajectory stop_from(const JointState& from, const JointVector& max_velocity,
+                     const JointVector& max_acceleration, Time start, std::uint64_t goal_id);
+
+}  // namespace armature

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "armature/values/time.hpp"
+
+namespace armature {
+
+class Setup;
+class Summary;
+class Voice;
+
+/// A running unit. Its constructor reads parameters and claims its ports and slots from `Setup`
+/// (and throws SetupError with a way out when it cannot work); after that the runtime calls `step`,
+/// never two at a time. Everything it does is a function of its inputs, its state and `now`.
+class Component {
+ public:
+  static constexpr std::string_view kKind = "component";
+  static constexpr int kKindVersion = 1;
+  using Factory = std::unique_ptr<Component> (*)(Setup&);
+
+  explicit Component(Setup& setup);
+  virtual ~Component() = default;
+  Component(const Component&) = delete;
+  Component& operator=(const Component&) = delete;
+
+  /// One activation, on the executor's thread: a trigger input is fresh, or the period elapsed.
+  /// `now` is the only time it may use. Must not block. An exception is a fault: the component is
+  /// not called again and the run ends with status "fault".
+  virtual void step(Time now) = 0;
+
+  /// Once, after the last step, on the thread that stops the deployment.
+  virtual void stop(Time now) { static_cast<void>(now); }
+
+  /// True when the story this component watches has been told; the run then ends. Asked after
+  /// every step.
+  virtual bool finished() const { return false; }
+  /// Adds figures to the run's summary, after the last step.
+  virtual void summarize(Summary& summary) const { static_cast<void>(summary); }
+  /// Writes files for `armature run --report DIR`, after the last step.
+  virtual void write_files(const std::filesystem::path& directory) const {
+    static_cast<void>(directory);
+  }
+
+ protected:
+  /// A line for the operator ("searching 4/9"); printed when it differs from the one before.
+  void say(std::string text);
+  /// Published as the component's state until `healthy` is called: what is missing and why.
+  void degraded(std::string reason);
+  void healthy();
+
+ private:
+  std::shared_ptr<Voice> voice_;
+};
+
+/// The figures of a run, in order: what the closing table and `--json` show, and what `goals:`
+/// refer to.
+class Summary {
+ public:
+  virtual ~Summary() = default;
+  /// `key` ends in its unit ("distance_error_mm"); `title` is for the table.
+  virtual void metric(std::string key, std::string title, double value) = 0;
+  virtual void text(std::string key, std::string title, std::string value) = 0;
+  /// Why the story did not come to its end ("face_not_found"); overrides ok and goals_missed.
+  virtual void failed(std::string status) = 0;
+};
+
+}  // namespace armature

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "armature/config/node.hpp"
+#include "armature/config/params.hpp"
+#include "armature/runtime/plugin_library.hpp"
+#include "armature/runtime/ports.hpp"
+#include "armature/values/time.hpp"
+
+namespace armature {
+
+/// A component cannot be set up: what is wrong and the way out. The runtime adds the place.
+class SetupError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// What a component sees while it is being constructed; not valid afterwards. Not real-time safe.
+class Setup {
+ public:
+  virtual ~Setup() = default;
+
+  /// Name of the component in the deployment.
+  virtual const std::string& name() const = 0;
+  /// The component's own checked parameters.
+  virtual const Params& params() const = 0;
+  /// A number that differs between components and follows the deployment's `seed:`.
+  virtual std::uint64_t seed() const = 0;
+  /// The document of a section ("robots", "rigs") that is bound to this component; plugin.yaml
+  /// must list the section under `uses:`.
+  virtual const config::Node& document(std::string_view section) = 0;
+  /// Also activate it every `period`, counted from the start.
+  virtual void activate_every(Duration period) = 0;
+
+  template <class Message>
+  Input<Message> input(std::string_view port) {
+    return Input<Message>{claim_input(port, message_type<Message>())};
+  }
+  template <class Message>
+  Output<Message> output(std::string_view port) {
+    return Output<Message>{claim_output(port, message_type<Message>())};
+  }
+
+  /// The plugin that sits in slot `slot_name`, made with `args` (after which come its parameters).
+  /// Throws SetupError with the plugin's own reason when it refuses.
+  template <class Kind, class... Args>
+  PluginPtr<Kind> slot(std::string_view slot_name, const Args&... args) {
+    const SlotPlugin plugin = slot_plugin(slot_name, Kind::kKind, Kind::kKindVersion);
+    auto make = reinterpret_cast<typename Kind::Factory>(plugin.library->factory());
+    auto made = make(args..., *plugin.params);
+    if (!made) throw SetupError(plugin.id + " refuses: " + made.error().text);
+    return {plugin.library, std::move(*made)};
+  }
+
+  virtual std::shared_ptr<class Voice> voice() = 0;
+
+ protected:
+  struct SlotPlugin {
+    std::string id;
+    std::shared_ptr<PluginLibrary> library;
+    const Params* params;
+  };
+  virtual const InputPort& claim_input(std::string_view port, const MessageType& type) = 0;
+  virtual OutputPort& claim_output(std::string_view port, const MessageType& type) = 0;
+  virtual SlotPlugin slot_plugin(std::string_view slot, std::string_view kind, int version) = 0;
+};
+
+}  // namespace armature

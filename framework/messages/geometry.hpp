@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include "armature/messages/geometry_msgs.hpp"
+
+namespace armature {
+
+// Between messages and Eigen, both ways; all real-time safe. A Transform or Pose in a message with
+// frame_id a and (child) frame b is a_T_b.
+
+inline Eigen::Vector3d to_eigen(const msg::Point& p) { return {p.x_(), p.y_(), p.z_()}; }
+inline Eigen::Vector3d to_eigen(const msg::Vector3& v) { return {v.x_(), v.y_(), v.z_()}; }
+
+/// As it stands in the message: not normalised.
+inline Eigen::Quaterniond to_eigen(const msg::Quaternion& q) {
+  return {q.w_(), q.x_(), q.y_(), q.z_()};
+}
+
+inline Eigen::Isometry3d to_eigen(const msg::Pose& pose) {
+  return Eigen::Translation3d{to_eigen(pose.position_())} * to_eigen(pose.orientation_());
+}
+
+inline Eigen::Isometry3d to_eigen(const msg::Transform& transform) {
+  return Eigen::Translation3d{to_eigen(transform.translation_())} * to_eigen(transform.rotation_());
+}
+
+inline void assign(msg::Point& to, const Eigen::Vector3d& p) {
+  to.x_(p.x());
+  to.y_(p.y());
+  to.z_(p.z());
+}
+
+inline void assign(msg::Vector3& to, const Eigen::Vector3d& v) {
+  to.x_(v.x());
+  to.y_(v.y());
+  to.z_(v.z());
+}
+
+inline void assign(msg::Quaternion& to, const Eigen::Quaterniond& q) {
+  to.x_(q.x());
+  to.y_(q.y());
+  to.z_(q.z());
+  to.w_(q.w());
+}
+
+inline void assign(msg::Pose& to, const Eigen::Isometry3d& pose) {
+  assign(to.position_(), Eigen::Vector3d{pose.translation()});
+  assign(to.orientation_(), Eigen::Quaterniond{pose.linear()});
+}
+
+inline void assign(msg::Transform& to, const Eigen::Isometry3d& transform) {
+  assign(to.translation_(), Eigen::Vector3d{transform.translation()});
+  assign(to.rotation_(), Eigen::Quaterniond{transform.linear()});
+}
+
+}  // namespace armature

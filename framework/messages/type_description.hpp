@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "armature/values/expected.hpp"
+
+namespace armature {
+
+struct TypeDescription;
+
+enum class FieldKind {
+  boolean,
+  octet,
+  int16,
+  uint16,
+  int32,
+  uint32,
+  int64,
+  uint64,
+  float32,
+  float64,
+  text,
+  structure
+};
+
+/// A field of a message type as its IDL states it.
+struct FieldDescription {
+  enum class Shape { single, array, sequence };
+
+  std::string name;  // without IDL's trailing underscore: "frame_id"
+  FieldKind kind = FieldKind::octet;
+  Shape shape = Shape::single;
+  std::uint32_t bound = 0;                     // length of an array, bound of a sequence (0: none)
+  const TypeDescription* structure = nullptr;  // kind structure
+};
+
+/// A message type as its IDL states it: enough to read its CDR without generated code.
+struct TypeDescription {
+  std::string dds_name;  // "sensor_msgs::msg::dds_::JointState_"
+  std::string ros_name;  // "sensor_msgs/JointState"
+  std::vector<FieldDescription> fields;
+  std::size_t smallest_size = 0;  // [byte] of an encoding without padding and with empty sequences
+};
+
+/// Bytes of one element without padding; a string's or sequence's length counts 4.
+std::size_t smallest_size(const FieldDescription& field);
+
+/// Types by name, as read from IDL. The addresses of its descriptions do not change.
+class TypeDescriptions {
+ public:
+  /// Reads the subset of IDL that idl/ uses: modules, final structs, basic types, string, arrays,
+  /// sequences. Preprocessor lines are passed over: add the included files first. The reason names
+  /// the line.
+  Expected<void> add(std::string_view idl);
+  /// By ROS or DDS name; nullptr: unknown.
+  const TypeDescription* find(std::string_view name) const;
+  const std::vector<std::unique_ptr<TypeDescription>>& all() const { return types_; }
+
+ private:
+  std::vector<std::unique_ptr<TypeDescription>> types_;
+};
+
+/// All types of idl/.
+const TypeDescriptions& type_descriptions();
+
+/// One of them, by ROS or DDS name; nullptr: unknown.
+const TypeDescription* describe_type(std::string_view name);
+
+/// FNV-1a of the type's name and its flattened field list: equal only for the same layout.
+std::uint64_t layout_hash(const TypeDescription& type);
+
+}  // namespace armature

@@ -13,7 +13,7 @@ namespace armature {
 
 /// Answers "base_T_frame at t" from a bounded history of joint positions and the robot's named
 /// frames. Joint positions are interpolated linearly between the two neighbours of t.
-/// No allocation after construction. Not thread-safe: one owner.
+/// No allocation after construction, except for the text of a refusal. Not thread-safe: one owner.
 class FrameBuffer {
  public:
   /// Keeps the newest `capacity` joint samples.
@@ -22,7 +22,8 @@ class FrameBuffer {
   /// Adds a sample of the independent joints; stamps must ascend, an older or equal one is ignored.
   void add(Time stamp, const JointVector& q);
 
-  /// The independent joints at `t`, or "t is 12 ms newer than the history" / "... older ...".
+  /// The independent joints at `t`, or "t = 3.512 s is 12.0 ms newer than the history" / "... older
+  /// ...".
   Expected<JointVector> joints_at(Time t) const;
   Expected<Eigen::Isometry3d> base_T(FrameId frame, Time t) const;
 

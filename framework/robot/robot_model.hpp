@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -37,10 +38,13 @@ struct Joint {
   double d = 0;      // [m]
   double a = 0;      // [m]
   double alpha = 0;  // [rad]
-  double lower = 0, upper = 0;     // [rad] or [m]
-  double max_velocity = 0;         // [rad/s] or [m/s]
-  double max_acceleration = 0;     // [rad/s2] or [m/s2]
-  std::optional<Coupling> coupling;  // none: an independent joint
+  // Without limits of its own until it is given some (a coupled joint may leave them to its
+  // leader).
+  double lower = -std::numeric_limits<double>::infinity();            // [rad] or [m]
+  double upper = std::numeric_limits<double>::infinity();             // [rad] or [m]
+  double max_velocity = std::numeric_limits<double>::infinity();      // [rad/s] or [m/s]
+  double max_acceleration = std::numeric_limits<double>::infinity();  // [rad/s2] or [m/s2]
+  std::optional<Coupling> coupling;                                   // none: an independent joint
 };
 
 /// A frame fixed to a link (a joint's frame), to the base or to another named frame.
@@ -48,6 +52,16 @@ struct NamedFrame {
   std::string name;
   int parent_joint = -1;  // index into joints(), -1: the base
   Eigen::Isometry3d parent_T_frame = Eigen::Isometry3d::Identity();
+};
+
+/// A joint as kinematics needs it, everything that does not change worked out: the joint's value is
+/// ratio * q[independent] + offset.
+struct ChainLink {
+  int independent = 0;  // index into the independent joints
+  double ratio = 1, offset = 0;
+  bool prismatic = false;
+  double theta = 0, d = 0, a = 0;  // [rad], [m], [m]
+  double cos_alpha = 1, sin_alpha = 0;
 };
 
 /// Index of a named frame of a robot model.
@@ -60,9 +74,12 @@ class RobotModel {
  public:
   enum class Convention { standard, modified };
 
+  /// Throws std::invalid_argument when the parts do not fit together (a coupling to a joint that is
+  /// coupled itself or not there, a frame on such a joint, no joints or more than kMaxJoints, a
+  /// home of another length); files are checked by read_robot_model, which says more.
   RobotModel(std::string name, Convention convention, std::vector<Joint> joints,
-             std::vector<NamedFrame> frames, FrameId tool, std::optional<Eigen::Vector3d> pointing_axis,
-             std::optional<JointVector> home_all);
+             std::vector<NamedFrame> frames, FrameId tool,
+             std::optional<Eigen::Vector3d> pointing_axis, std::optional<JointVector> home_all);
 
   const std::string& name() const { return name_; }
   Convention convention() const { return convention_; }
@@ -89,7 +106,10 @@ class RobotModel {
   /// a coupled joint contradicts its coupling by more than 1e-6.
   Expected<JointVector> contract(const JointVector& all) const;
 
-  /// Limits of the independent joints; coupled joints' position limits are folded in.
+  /// One entry per joint, in order: what the kinematics functions walk along.
+  const std::vector<ChainLink>& chain() const { return chain_; }
+
+  /// Limits of the independent joints; those of coupled joints are folded in.
   const JointVector& lower() const { return lower_; }
   const JointVector& upper() const { return upper_; }
   const JointVector& max_velocity() const { return max_velocity_; }
@@ -99,6 +119,9 @@ class RobotModel {
   bool is_revolute(int i) const;
 
  private:
+  void number_joints();
+  void fold_limits();
+
   std::string name_;
   Convention convention_;
   std::vector<Joint> joints_;
@@ -107,6 +130,7 @@ class RobotModel {
   std::optional<Eigen::Vector3d> pointing_axis_;
   std::optional<JointVector> home_;
   std::vector<int> independent_;
+  std::vector<ChainLink> chain_;
   JointVector lower_, upper_, max_velocity_, max_acceleration_;
 };
 

@@ -10,7 +10,7 @@ namespace armature {
 struct StereoCamera {
   int width = 0, height = 0;  // [px]
   double focal_px = 0;
-  double cu = 0, cv = 0;      // [px] principal point, pixel centres at integers
+  double cu = 0, cv = 0;  // [px] principal point, pixel centres at integers
   double baseline_m = 0;
 
   /// Pixel of a point of the left (or right) optical frame, z > 0.

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/robot/frame_reader.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "armature/robot/quantity_reader.hpp"
+
+namespace armature {
+namespace {
+
+using config::MapReader;
+using config::Node;
+using config::Problems;
+using Eigen::Vector3d;
+
+/// A frame as it was written, and the node that names its parent.
+struct ReadFrame {
+  NamedFrame frame;
+  const Node* parent = nullptr;
+};
+
+/// Fixed axes: about x by roll, then y by pitch, then z by yaw (as in URDF).
+Eigen::Quaterniond from_rpy(const Vector3d& rpy) {
+  return Eigen::AngleAxisd(rpy.z(), Vector3d::UnitZ()) *
+         Eigen::AngleAxisd(rpy.y(), Vector3d::UnitY()) *
+         Eigen::AngleAxisd(rpy.x(), Vector3d::UnitX());
+}
+
+ReadFrame read_frame(const Node::Entry& entry, Problems& problems) {
+  MapReader map{entry.value, fmt::format("frame '{}'", entry.key), problems};
+  ReadFrame result;
+  result.frame.name = entry.key;
+  result.parent = map.node("parent");
+  const Quantity translation = read_quantity(map, {"translation_m", "translation_mm"}, 3, problems);
+  const Quantity rpy = read_quantity(map, {"rpy_deg"}, 3, problems);
+  result.frame.parent_T_frame.translation() = translation.vector().value_or(Vector3d::Zero());
+  if (rpy.vector()) result.frame.parent_T_frame.linear() = from_rpy(*rpy.vector()).matrix();
+  map.finish();
+  return result;
+}
+
+/// Follows a frame's parents down to a joint or the base.
+class ParentResolver {
+ public:
+  ParentResolver(const std::vector<ReadFrame>& frames, const std::vector<Joint>& joints,
+                 Problems& problems)
+      : frames_(frames), joints_(joints), problems_(problems) {}
+
+  NamedFrame resolve(const ReadFrame& frame) {
+    NamedFrame result = frame.frame;
+    std::vector<std::string> way{frame.frame.name};
+    const ReadFrame* at = &frame;
+    while (at && at->parent) {
+      const std::string& parent = at->parent->text();
+      if (parent == "base") return result;
+      if (const auto joint = std::ranges::find(joints_, parent, &Joint::name);
+          joint != joints_.end()) {
+        result.parent_joint = static_cast<int>(joint - joints_.begin());
+        return result;
+      }
+      const bool circle = std::ranges::find(way, parent) != way.end();
+      way.push_back(parent);
+      if (circle) {
+        problems_.add(frame.parent->origin(),
+                      fmt::format("frames in a circle: {}", fmt::join(way, " -> ")));
+        return result;
+      }
+      at = find(*at->parent);
+      if (at) result.parent_T_frame = at->frame.parent_T_frame * result.parent_T_frame;
+    }
+    return result;
+  }
+
+ private:
+  const ReadFrame* find(const Node& parent) {
+    const auto found =
+        std::ranges::find(frames_, parent.text(), [](const ReadFrame& f) { return f.frame.name; });
+    if (found != frames_.end()) return &*found;
+    std::vector<std::string> known{"base"};
+    for (const Joint& joint : joints_) known.push_back(joint.name);
+    for (const ReadFrame& frame : frames_) known.push_back(frame.frame.name);
+    problems_.add(parent.origin(), fmt::format("there is no joint or frame '{}'{}", parent.text(),
+                                               config::did_you_mean(parent.text(), known)));
+    return nullptr;
+  }
+
+  const std::vector<ReadFrame>& frames_;
+  const std::vector<Joint>& joints_;
+  Problems& problems_;
+};
+
+}  // namespace
+
+std::vector<NamedFrame> read_frames(const Node& map, const std::vector<Joint>& joints,
+                                    Problems& problems) {
+  if (map.kind() != Node::Kind::map) {
+    problems.add(map.origin(),
+                 fmt::format("'frames' must be a map of frames, not {}", map.describe()));
+    return {};
+  }
+  std::vector<ReadFrame> read;
+  for (const Node::Entry& entry : map.entries()) {
+    read.push_back(read_frame(entry, problems));
+    if (entry.key == "base" || std::ranges::find(joints, entry.key, &Joint::name) != joints.end())
+      problems.add(entry.key_origin,
+                   fmt::format("'{}' is the name of a joint or of the base; a frame needs its own",
+                               entry.key));
+  }
+  std::vector<NamedFrame> frames;
+  ParentResolver resolver{read, joints, problems};
+  for (const ReadFrame& frame : read) frames.push_back(resolver.resolve(frame));
+  return frames;
+}
+
+}  // namespace armature

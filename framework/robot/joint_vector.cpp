@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/robot/joint_vector.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace armature {
+
+double wrap_angle(double angle) {
+  constexpr double kPi = std::numbers::pi;
+  if (angle >= -kPi && angle < kPi) return angle;  // already there: not a bit is changed
+  const double wrapped = std::remainder(angle, 2 * kPi);
+  return wrapped >= kPi ? -kPi : wrapped;
+}
+
+}  // namespace armature

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/robot/kinematics.hpp"
+
+#include <Eigen/QR>
+#include <array>
+#include <cmath>
+
+namespace armature {
+namespace {
+
+using Eigen::Vector3d;
+
+/// A frame that is carried along the chain: its axes and its origin, seen from the base.
+struct Carried {
+  Vector3d x = Vector3d::UnitX(), y = Vector3d::UnitY(), z = Vector3d::UnitZ();
+  Vector3d origin = Vector3d::Zero();
+
+  /// Rz(theta) Tz(d)
+  void screw_along_z(double theta, double d) {
+    const double c = std::cos(theta), s = std::sin(theta);
+    const Vector3d turned = c * x + s * y;
+    y = c * y - s * x;
+    x = turned;
+    origin += d * z;
+  }
+  /// Tx(a) Rx(alpha)
+  void screw_along_x(const ChainLink& link) {
+    const Vector3d turned = link.cos_alpha * y + link.sin_alpha * z;
+    z = link.cos_alpha * z - link.sin_alpha * y;
+    y = turned;
+    origin += link.a * x;
+  }
+
+  Eigen::Isometry3d pose() const {
+    Eigen::Isometry3d result;
+    result.matrix() << x, y, z, origin, 0, 0, 0, 1;
+    return result;
+  }
+};
+
+/// The line about which, or along which, a joint moves.
+struct Axis {
+  Vector3d direction, point;
+};
+
+/// Walks to joint `last`; `visit(i, axis)` is told every joint's axis on the way.
+template <class Visit>
+Carried walk(const RobotModel& model, const JointVector& q, int last, Visit visit) {
+  const bool modified = model.convention() == RobotModel::Convention::modified;
+  Carried frame;
+  for (int i = 0; i <= last; ++i) {
+    const ChainLink& link = model.chain()[static_cast<std::size_t>(i)];
+    const double value = link.ratio * q[link.independent] + link.offset;
+    if (modified) frame.screw_along_x(link);
+    visit(i, Axis{frame.z, frame.origin});
+    frame.screw_along_z(link.prismatic ? link.theta : link.theta + value,
+                        link.prismatic ? link.d + value : link.d);
+    if (!modified) frame.screw_along_x(link);
+  }
+  return frame;
+}
+
+Eigen::Isometry3d frame_on(const Carried& link, const NamedFrame& frame) {
+  return link.pose() * frame.parent_T_frame;
+}
+
+}  // namespace
+
+Eigen::Isometry3d forward_kinematics(const RobotModel& model, const JointVector& q, FrameId frame) {
+  const NamedFrame& named = model.frame(frame);
+  return frame_on(walk(model, q, named.parent_joint, [](int, const Axis&) {}), named);
+}
+
+Eigen::Isometry3d forward_kinematics(const RobotModel& model, const JointVector& q) {
+  return forward_kinematics(model, q, model.tool());
+}
+
+PoseAndJacobian forward_kinematics_with_jacobian(const RobotModel& model, const JointVector& q,
+                                                 FrameId frame) {
+  const NamedFrame& named = model.frame(frame);
+  std::array<Axis, kMaxJoints> axes;
+  const Carried last = walk(model, q, named.parent_joint, [&](int i, const Axis& axis) {
+    axes[static_cast<std::size_t>(i)] = axis;
+  });
+
+  PoseAndJacobian result{frame_on(last, named), Jacobian::Zero(6, model.dof())};
+  const Vector3d tip = result.base_T_frame.translation();
+  for (int i = 0; i <= named.parent_joint; ++i) {
+    const auto& [direction, point] = axes[static_cast<std::size_t>(i)];
+    const ChainLink& link = model.chain()[static_cast<std::size_t>(i)];
+    auto column = result.jacobian.col(link.independent);
+    if (link.prismatic) {
+      column.head<3>() += link.ratio * direction;
+    } else {
+      column.head<3>() += link.ratio * direction.cross(tip - point);
+      column.tail<3>() += link.ratio * direction;
+    }
+  }
+  return result;
+}
+
+double manipulability(const RobotModel& model, const JointVector& q) {
+  const auto [base_T_tool, jacobian] = forward_kinematics_with_jacobian(model, q, model.tool());
+  Jacobian task = jacobian;
+  if (model.pointing_axis()) {
+    // A pointing axis u moves with omega x u: seen from the two directions square to u.
+    const Vector3d u = base_T_tool.linear() * *model.pointing_axis();
+    const Vector3d side = u.unitOrthogonal(), up = u.cross(side);
+    for (int i = 0; i < model.dof(); ++i) {
+      const Vector3d omega = jacobian.col(i).tail<3>();
+      task(3, i) = omega.cross(u).dot(side);
+      task(4, i) = omega.cross(u).dot(up);
+    }
+  }
+  const int rows = model.pointing_axis() ? 5 : 6;
+  if (model.dof() < rows) return 0;
+  // sqrt(det(J J^T)) is the product of the diagonal of R in J^T = Q R; squaring J would cost half
+  // of the digits near a singularity.
+  using Transposed = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxJoints, 6>;
+  const Transposed transposed = task.topRows(rows).transpose();
+  const Eigen::HouseholderQR<Transposed> qr(transposed);
+  return std::abs(qr.matrixQR().diagonal().head(rows).prod());
+}
+
+}  // namespace armature

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/robot/trajectory.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace armature {
+namespace {
+
+constexpr double kShortestBlend_s = 1e-3;
+constexpr double kSameKnot_s = 1e-6;  // a blend that ends this close to a knot ends on it
+
+/// A piece and the time in it.
+struct Place {
+  int piece = 0;
+  double t = 0;
+};
+
+/// Where `t` (from the trajectory's start) falls; clamped to the ends. Needs a piece.
+Place place_of(const Trajectory& trajectory, double t) {
+  const auto& knots = trajectory.knots;
+  const double inside = std::clamp(t, 0.0, knots.back());
+  const auto next = std::upper_bound(knots.begin() + 1, knots.end() - 1, inside);
+  const int piece = static_cast<int>(next - knots.begin()) - 1;
+  return {piece, inside - knots[static_cast<std::size_t>(piece)]};
+}
+
+const Quintic& piece_of(const Trajectory& trajectory, int piece, int joint) {
+  return trajectory.pieces[static_cast<std::size_t>(piece * trajectory.dof + joint)];
+}
+
+JointState state_at(const Trajectory& trajectory, double t) {
+  const JointVector zero = JointVector::Zero(trajectory.dof);
+  JointState state{zero, zero, zero};
+  if (trajectory.piece_count() == 0) return state;
+  const Place place = place_of(trajectory, t);
+  for (int j = 0; j < trajectory.dof; ++j) {
+    const Quintic& quintic = piece_of(trajectory, place.piece, j);
+    state.q[j] = quintic.position(place.t);
+    state.v[j] = quintic.velocity(place.t);
+    state.a[j] = quintic.acceleration(place.t);
+  }
+  return state;
+}
+
+/// The same motion with a knot at `t` too: a piece that holds `t` is split, one is appended that
+/// stays at the end when `t` is behind it.
+Trajectory with_knot_at(Trajectory trajectory, double t) {
+  auto& [id, dof, start, knots, pieces] = trajectory;
+  const auto after = std::upper_bound(knots.begin(), knots.end(), t);
+  if (*(after - 1) == t) return trajectory;
+  const auto piece = after - knots.begin() - 1;  // the one before `t`
+  std::vector<Quintic> rest(static_cast<std::size_t>(dof));
+  for (int j = 0; j < dof; ++j) {
+    auto& behind = rest[static_cast<std::size_t>(j)];
+    if (after == knots.end())
+      behind.c[0] = piece_of(trajectory, static_cast<int>(piece) - 1, j)
+                        .position(knots.back() - knots[static_cast<std::size_t>(piece) - 1]);
+    else
+      behind = piece_of(trajectory, static_cast<int>(piece), j)
+                   .shifted(t - knots[static_cast<std::size_t>(piece)]);
+  }
+  const auto where = after == knots.end() ? piece : piece + 1;
+  pieces.insert(pieces.begin() + where * dof, rest.begin(), rest.end());
+  knots.insert(after, t);
+  return trajectory;
+}
+
+}  // namespace
+
+JointState Trajectory::at(Time time) const { return state_at(*this, to_seconds(time - start)); }
+
+JointVector Trajectory::jerk_at(Time time) const {
+  JointVector jerk = JointVector::Zero(dof);
+  const double t = to_seconds(time - start);
+  if (piece_count() == 0 || t < 0 || t > duration_s()) return jerk;
+  const Place place = place_of(*this, t);
+  for (int j = 0; j < dof; ++j) jerk[j] = piece_of(*this, place.piece, j).jerk(place.t);
+  return jerk;
+}
+
+Trajectory hold_at(const JointVector& q, Time start, std::uint64_t goal_id) {
+  Trajectory hold{.goal_id = goal_id,
+                  .dof = static_cast<int>(q.size()),
+                  .start = start,
+                  .knots = {0, 0},
+                  .pieces = {}};
+  for (const double value : q) hold.pieces.push_back({{value}});
+  return hold;
+}
+
+LimitUse limit_use(const Trajectory& trajectory, const JointVector& max_velocity,
+                   const JointVector& max_acceleration) {
+  LimitUse use;
+  for (int k = 0; k < trajectory.piece_count(); ++k) {
+    const auto knot = trajectory.knots.begin() + k;
+    for (int j = 0; j < trajectory.dof; ++j) {
+      const QuinticPeaks peak = peaks(piece_of(trajectory, k, j), *(knot + 1) - *knot);
+      use.velocity = std::max(use.velocity, peak.velocity / max_velocity[j]);
+      use.acceleration = std::max(use.acceleration, peak.acceleration / max_acceleration[j]);
+    }
+  }
+  return use;
+}
+
+Trajectory stretched(const Trajectory& trajectory, double factor) {
+  Trajectory slower = trajectory;
+  for (double& knot : slower.knots) knot *= factor;
+  for (Quintic& quintic : slower.pieces) {
+    double scale = 1;
+    for (double& c : quintic.c) {
+      c /= scale;
+      scale *= factor;
+    }
+  }
+  return slower;
+}
+
+Trajectory spliced(const Trajectory& trajectory, const JointState& from, double blend_s) {
+  if (trajectory.piece_count() == 0) return trajectory;
+  double blend = std::max(blend_s, kShortestBlend_s);
+  for (const double knot : trajectory.knots)
+    if (std::abs(knot - blend) < kSameKnot_s) blend = knot;
+
+  const JointState planned = state_at(trajectory, 0);
+  Trajectory result = with_knot_at(trajectory, blend);
+  for (int j = 0; j < result.dof; ++j) {
+    const Quintic difference = Quintic::between(
+        {from.q[j] - planned.q[j], from.v[j] - planned.v[j], from.a[j] - planned.a[j]}, {}, blend);
+    for (int k = 0; k < result.piece_count(); ++k) {
+      const double knot = result.knots[static_cast<std::size_t>(k)];
+      if (knot >= blend) break;
+      const Quintic added = difference.shifted(knot);
+      Quintic& quintic = result.pieces[static_cast<std::size_t>(k * result.dof + j)];
+      for (std::size_t i = 0; i < 6; ++i) quintic.c[i] += added.c[i];
+    }
+  }
+  return result;
+}
+
+}  // namespace armature

@@ -11,9 +11,11 @@
 
 namespace armature::config {
 
-/// Reads one YAML file (or text) strictly: one document, no duplicate keys, no anchors' surprises
-/// (`<<` merges are refused with a hint to `include:`), `${NAME}` and `${NAME:-default}` replaced
-/// from the environment in unquoted and double-quoted scalars. Throws ConfigError.
+/// Reads one YAML file (or text) strictly: UTF-8, one document, no duplicate keys, nesting up to
+/// 100 levels; anchors, tags and `<<` merges are refused. `${NAME}` and `${NAME:-default}` are
+/// replaced from the environment in unquoted and double-quoted scalars, also inside `{}` and `[]`;
+/// the default stands for an unset or empty variable. An empty document is a null node. Throws
+/// ConfigError.
 Node parse_file(const std::filesystem::path& file);
 Node parse_text(std::string_view text, std::string_view name);
 
@@ -21,16 +23,19 @@ Node parse_text(std::string_view text, std::string_view name);
 /// file; later ones and the file itself override) resolved. A cycle of includes is an error.
 Node load(const std::filesystem::path& file);
 
-/// The files merged in order (an overlay's maps merge into the map below, everything else
-/// replaces; an explicit null removes the key) and then the `--set path.to.key=value` assignments.
-/// A `--set` value is parsed as YAML; its origin is the option itself.
+/// The files, each with its includes, merged in order and then the `--set path.to.key=value`
+/// assignments (`a.0.b` reaches into a list; maps that are missing on the way are made). A `--set`
+/// value is parsed as YAML; its origin is the option itself. Throws ConfigError.
 Node load_with_overlays(const std::vector<std::filesystem::path>& files,
                         const std::vector<std::string>& assignments);
 
-/// `overlay` merged over `base`, by the rules of `load_with_overlays`.
+/// `overlay` merged over `base`: maps merge key by key, everything else replaces. An explicit null
+/// removes the key below (which must be there); a key without a value is refused where it would
+/// hide something. An empty overlay changes nothing. Throws ConfigError.
 Node merge(const Node& base, const Node& overlay);
 
-/// YAML text of a node; with `origins`, every scalar is followed by `# file:line:column`.
+/// YAML text of a node, which reads back as the same node; with `origins`, every scalar (or list of
+/// scalars that was written on one line) is followed by `# file:line:column`.
 std::string to_yaml(const Node& node, bool origins);
 
 }  // namespace armature::config

@@ -35,10 +35,11 @@ class Node {
 
   Kind kind() const { return kind_; }
   const Origin& origin() const { return origin_; }
-  /// "a map", "a list", "nothing" or "'the text'": for messages.
+  /// "a map", "a list", "nothing" or "'the text'" (one line, cut when long): for messages.
   std::string describe() const;
 
-  /// The text of a scalar; empty otherwise.
+  /// The text of a scalar; `null` or `~` of a null that was written out; empty otherwise, so a null
+  /// without text is a key that was given no value.
   const std::string& text() const { return text_; }
   /// True when the scalar was written in quotes, and so is a string whatever it looks like.
   bool quoted() const { return quoted_; }

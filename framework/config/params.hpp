@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 #include <map>
 #include <optional>
 #include <string>
@@ -22,7 +23,7 @@ struct ParamSpec {
   Type type = Type::number;
   std::string doc;
   std::optional<config::Node> fallback;  // none: the parameter is required
-  std::optional<double> min, max;        // of a number, in the user's unit, inclusive
+  std::optional<double> min, max;        // of every number, in the user's unit, inclusive
   std::vector<std::string> choices;
   std::optional<std::size_t> count;  // of numbers; none: any
 };
@@ -31,7 +32,7 @@ struct ParamSpec {
 /// numbers, file.
 std::string_view to_string(ParamSpec::Type type);
 
-/// Reads a `params:` table of a plugin.yaml.
+/// Reads a `params:` table of a plugin.yaml; a fallback must itself be a valid value.
 std::vector<ParamSpec> read_param_specs(const config::Node& table, config::Problems& problems);
 
 /// Checked parameters of one plugin instance. Asking for a name that is not in the plugin's table,
@@ -41,9 +42,10 @@ class Params {
  public:
   Params() = default;
   /// `given` (may be null: nothing given) checked against `specs`: unknown keys with did-you-mean,
-  /// wrong types, out of range, missing.
+  /// wrong types, out of range, missing. Problems of a missing `given` are noted at `place`.
   static Params read(const std::vector<ParamSpec>& specs, const config::Node* given,
-                     std::string_view plugin_id, config::Problems& problems);
+                     std::string_view plugin_id, config::Problems& problems,
+                     const config::Origin& place = {});
 
   /// In SI units: `_deg` keys arrive in radians, `_mm` keys in metres.
   double number(std::string_view name) const;
@@ -52,7 +54,8 @@ class Params {
   bool flag(std::string_view name) const;
   /// A text or a choice.
   const std::string& text(std::string_view name) const;
-  /// A path as written, resolved against the folder of the YAML file that says it.
+  /// A path, resolved against the folder of the YAML file that says it; a fallback and a `--set`
+  /// are relative to the current directory. Empty stays empty.
   std::string file(std::string_view name) const;
   /// Where the value came from (the plugin's table for a default).
   const config::Origin& origin(std::string_view name) const;
@@ -63,7 +66,8 @@ class Params {
     std::variant<double, std::int64_t, bool, std::string, std::vector<double>> value;
     config::Origin origin;
   };
-  const Value& get(std::string_view name, ParamSpec::Type type) const;
+  const Value& find(std::string_view name) const;
+  const Value& get(std::string_view name, std::initializer_list<ParamSpec::Type> types) const;
 
   std::map<std::string, Value, std::less<>> values_;
   std::string plugin_id_;

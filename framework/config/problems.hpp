@@ -44,8 +44,12 @@ class ConfigError : public std::runtime_error {
   std::vector<Problem> problems_;
 };
 
-/// "; did you mean 'a' or 'b'?" for the known names nearest to `wrong` (edit distance), or, when
-/// none is near, "; known: a, b, c" (at most eight), or "" when nothing is known.
+/// `text` in single quotes on one line: control characters escaped, cut after 60 characters.
+std::string in_quotes(std::string_view text);
+
+/// "; did you mean 'a' or 'b'?" for the known names nearest to `wrong` (edit distance without case;
+/// the same name with another unit suffix or under another family is nearest), or, when none is
+/// near, "; known: a, b, c" (at most eight), or "" when nothing is known.
 std::string did_you_mean(std::string_view wrong, std::span<const std::string> known);
 
 }  // namespace armature::config

@@ -13,8 +13,9 @@
 
 namespace armature::config {
 
-/// A value's conversion, or a problem already noted. Numbers: decimal integers and floats, `.inf`
-/// and `.nan` are refused; `010` is refused as ambiguous. Flags: only `true` and `false`.
+/// A value's conversion, or a problem already noted. Numbers: decimal integers and floats that a
+/// double can hold; `.inf`, `.nan`, `1_000`, `0x10` and quoted numbers are refused, `010` as
+/// ambiguous. Flags: only `true` and `false`. A text may be any scalar.
 std::optional<double> as_number(const Node& node, Problems& problems);
 std::optional<std::int64_t> as_integer(const Node& node, Problems& problems);
 std::optional<bool> as_flag(const Node& node, Problems& problems);
@@ -37,7 +38,7 @@ class MapReader {
   /// `what` names the map in messages: "joint", "component 'arm'".
   MapReader(const Node& node, std::string what, Problems& problems);
 
-  /// Required values: a missing one is a problem.
+  /// Required values: a missing one is a problem, and reads as 0, "", `count` zeros, nullptr.
   double number(std::string_view key);
   std::string text(std::string_view key);
   std::vector<double> numbers(std::string_view key, std::size_t count);

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <tl/expected.hpp>
+#include <vector>
+
+#include "armature/config/node.hpp"
+
+namespace armature::config {
+
+/// Why a node is not what it should be: "must be a number, not 'fast'", and where (an item of a
+/// list has its own place).
+struct Mismatch {
+  Origin origin;
+  std::string message;
+};
+
+template <class T>
+using Converted = tl::expected<T, Mismatch>;
+
+Converted<double> to_number(const Node& node);
+Converted<std::int64_t> to_integer(const Node& node);
+Converted<bool> to_flag(const Node& node);
+Converted<std::string> to_text(const Node& node);
+/// A list of `count` numbers; without a count, of any length.
+Converted<std::vector<double>> to_numbers(const Node& node, std::optional<std::size_t> count);
+
+}  // namespace armature::config

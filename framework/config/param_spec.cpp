@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "armature/config/params.hpp"
+#include "armature/config/reader.hpp"
+
+namespace armature {
+namespace {
+
+using config::MapReader;
+using config::Node;
+using config::Problems;
+using Type = ParamSpec::Type;
+
+constexpr std::array<std::string_view, 7> kTypeNames{"number", "integer", "flag", "text",
+                                                     "choice", "numbers", "file"};
+
+bool is_name(std::string_view name) {
+  const auto is_lower = [](char c) { return c >= 'a' && c <= 'z'; };
+  return !name.empty() && is_lower(name.front()) && std::ranges::all_of(name, [&](char c) {
+    return is_lower(c) || (c >= '0' && c <= '9') || c == '_';
+  });
+}
+
+void read_choices(ParamSpec& spec, MapReader& map, Problems& problems) {
+  const Node* choices = map.optional_node("choices");
+  if (!choices && spec.type == Type::choice) {
+    map.problem("choices", "a choice needs 'choices: [...]'");
+  }
+  if (!choices) return;
+  if (spec.type != Type::choice) map.problem("choices", "'choices' belong to a choice");
+  if (choices->kind() != Node::Kind::sequence || choices->items().empty()) {
+    map.problem("choices", "'choices' must be a list of texts, not " + choices->describe());
+  }
+  for (const Node& item : choices->items()) {
+    if (auto text = config::as_text(item, problems)) spec.choices.push_back(std::move(*text));
+  }
+}
+
+void read_range(ParamSpec& spec, MapReader& map) {
+  const bool is_numeric =
+      spec.type == Type::number || spec.type == Type::integer || spec.type == Type::numbers;
+  for (const auto& [key, bound] : {std::pair{"min", &spec.min}, std::pair{"max", &spec.max}}) {
+    if (!map.optional_node(key)) continue;
+    *bound = map.number(key);
+    if (!is_numeric) map.problem(key, fmt::format("'{}' belongs to a number", key));
+  }
+  if (spec.min && spec.max && *spec.min > *spec.max) {
+    map.problem("max", fmt::format("'max' is {}, below 'min', which is {}", *spec.max, *spec.min));
+  }
+}
+
+void read_count(ParamSpec& spec, MapReader& map) {
+  if (!map.optional_node("count")) return;
+  const std::int64_t count = map.integer("count", 1);
+  if (count < 1) map.problem("count", fmt::format("'count' is {}, must be at least 1", count));
+  if (spec.type != Type::numbers) map.problem("count", "'count' belongs to numbers");
+  spec.count = static_cast<std::size_t>(std::max<std::int64_t>(count, 1));
+}
+
+/// A fallback is checked as if a user had given it.
+void check_fallback(const ParamSpec& spec, Problems& problems) {
+  if (!spec.fallback) return;
+  const config::Origin& origin = spec.fallback->origin();
+  const Node given = Node::map({{spec.name, origin, *spec.fallback}}, origin);
+  ParamSpec required = spec;
+  required.fallback.reset();
+  Params::read({required}, &given, "", problems);
+}
+
+ParamSpec read_param_spec(const Node::Entry& entry, Problems& problems) {
+  ParamSpec spec;
+  spec.name = entry.key;
+  if (!is_name(spec.name)) {
+    problems.add(entry.key_origin,
+                 fmt::format("parameter {} must be named in snake_case", config::in_quotes(spec.name)));
+  }
+  MapReader map{entry.value, "parameter " + config::in_quotes(spec.name), problems};
+  const std::vector<std::string> types{kTypeNames.begin(), kTypeNames.end()};
+  const bool has_type = map.node("type") != nullptr;
+  const std::string type = map.choice("type", types, "number");
+  spec.type = static_cast<Type>(std::ranges::find(types, type) - types.begin());
+  spec.doc = map.text("doc", "");
+  if (const Node* fallback = map.optional_node("default")) spec.fallback = *fallback;
+  read_choices(spec, map, problems);
+  read_range(spec, map);
+  read_count(spec, map);
+  map.finish();
+  if (has_type) check_fallback(spec, problems);
+  return spec;
+}
+
+}  // namespace
+
+std::string_view to_string(ParamSpec::Type type) {
+  return kTypeNames[static_cast<std::size_t>(type)];
+}
+
+std::vector<ParamSpec> read_param_specs(const Node& table, Problems& problems) {
+  std::vector<ParamSpec> specs;
+  if (table.kind() == Node::Kind::null) return specs;
+  if (table.kind() != Node::Kind::map) {
+    problems.add(table.origin(), "'params' must be a map, not " + table.describe());
+  }
+  for (const Node::Entry& entry : table.entries()) {
+    specs.push_back(read_param_spec(entry, problems));
+  }
+  return specs;
+}
+
+}  // namespace armature

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/config/params.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <stdexcept>
+#include <utility>
+
+#include "armature/config/conversion.hpp"
+#include "armature/config/reader.hpp"
+
+namespace armature {
+namespace {
+
+using config::Converted;
+using config::Mismatch;
+using config::Node;
+using config::Origin;
+using Type = ParamSpec::Type;
+using AnyValue = std::variant<double, std::int64_t, bool, std::string, std::vector<double>>;
+
+/// What is wrong with a number's size; empty: nothing.
+std::string out_of_range(const ParamSpec& spec, double value) {
+  if (spec.max && value > *spec.max) {
+    return fmt::format("is {}, must be at most {}", value, *spec.max);
+  }
+  if (spec.min && value < *spec.min) {
+    return fmt::format("is {}, must be at least {}", value, *spec.min);
+  }
+  return "";
+}
+
+Converted<AnyValue> read_number(const ParamSpec& spec, const Node& node) {
+  const auto value = config::to_number(node);
+  if (!value) return tl::unexpected{value.error()};
+  const std::string fault = out_of_range(spec, *value);
+  if (!fault.empty()) return tl::unexpected{Mismatch{node.origin(), fault}};
+  return AnyValue{*value * config::si_factor(spec.name)};
+}
+
+Converted<AnyValue> read_integer(const ParamSpec& spec, const Node& node) {
+  const auto value = config::to_integer(node);
+  if (!value) return tl::unexpected{value.error()};
+  const std::string fault = out_of_range(spec, static_cast<double>(*value));
+  if (!fault.empty()) return tl::unexpected{Mismatch{node.origin(), fault}};
+  return AnyValue{*value};
+}
+
+Converted<AnyValue> read_numbers(const ParamSpec& spec, const Node& node) {
+  auto values = config::to_numbers(node, spec.count);
+  if (!values) return tl::unexpected{values.error()};
+  for (std::size_t i = 0; i < values->size(); ++i) {
+    double& value = (*values)[i];
+    const std::string fault = out_of_range(spec, value);
+    if (!fault.empty()) {
+      return tl::unexpected{
+          Mismatch{node.items()[i].origin(), fmt::format("item {} {}", i + 1, fault)}};
+    }
+    value *= config::si_factor(spec.name);
+  }
+  return AnyValue{std::move(*values)};
+}
+
+Converted<AnyValue> read_choice(const ParamSpec& spec, const Node& node) {
+  const auto text = config::to_text(node);
+  if (!text) return tl::unexpected{text.error()};
+  if (std::ranges::find(spec.choices, *text) != spec.choices.end()) return AnyValue{*text};
+  return tl::unexpected{
+      Mismatch{node.origin(), fmt::format("cannot be {}{}", config::in_quotes(*text),
+                                          config::did_you_mean(*text, spec.choices))}};
+}
+
+/// `folder` is where a relative path starts.
+Converted<AnyValue> read_file(const Node& node, const std::filesystem::path& folder) {
+  const auto text = config::to_text(node);
+  if (!text) return tl::unexpected{text.error()};
+  if (text->empty() || folder.empty()) return AnyValue{*text};
+  return AnyValue{(folder / *text).lexically_normal().string()};
+}
+
+Converted<AnyValue> read_value(const ParamSpec& spec, const Node& node,
+                               const std::filesystem::path& folder) {
+  const auto as_any = [](auto value) { return AnyValue{std::move(value)}; };
+  switch (spec.type) {
+    case Type::number:
+      return read_number(spec, node);
+    case Type::integer:
+      return read_integer(spec, node);
+    case Type::flag:
+      return config::to_flag(node).map(as_any);
+    case Type::text:
+      return config::to_text(node).map(as_any);
+    case Type::choice:
+      return read_choice(spec, node);
+    case Type::numbers:
+      return read_numbers(spec, node);
+    case Type::file:
+      return read_file(node, folder);
+  }
+  return AnyValue{};
+}
+
+/// What stands for a value that could not be read, so that asking for it has an answer.
+AnyValue zero(Type type) {
+  switch (type) {
+    case Type::number:
+      return 0.0;
+    case Type::integer:
+      return std::int64_t{0};
+    case Type::flag:
+      return false;
+    case Type::text:
+    case Type::choice:
+    case Type::file:
+      return std::string{};
+    case Type::numbers:
+      return std::vector<double>{};
+  }
+  return 0.0;
+}
+
+std::filesystem::path folder_of(const Origin& origin) {
+  return origin.line == 0 ? std::filesystem::path{}
+                          : std::filesystem::path{origin.file}.parent_path();
+}
+
+}  // namespace
+
+Params Params::read(const std::vector<ParamSpec>& specs, const Node* given,
+                    std::string_view plugin_id, config::Problems& problems, const Origin& place) {
+  const bool is_given = given && (given->kind() != Node::Kind::null || !given->text().empty());
+  const Node nothing = Node::map({}, given ? given->origin() : place);
+  config::MapReader map{is_given ? *given : nothing, fmt::format("params of '{}'", plugin_id),
+                        problems};
+  Params params;
+  params.plugin_id_ = plugin_id;
+  for (const ParamSpec& spec : specs) {
+    const Node* written = spec.fallback ? map.optional_node(spec.name) : map.node(spec.name);
+    const Node* node = written ? written : spec.fallback ? &*spec.fallback : nullptr;
+    Value value{spec.type, zero(spec.type), node ? node->origin() : place};
+    if (node) {
+      auto read = read_value(spec, *node, written ? folder_of(node->origin()) : "");
+      if (read) {
+        value.value = std::move(*read);
+      } else {
+        problems.add(read.error().origin,
+                     fmt::format("{} {}", config::in_quotes(spec.name), read.error().message));
+      }
+    }
+    params.values_.emplace(spec.name, std::move(value));
+  }
+  map.finish();
+  return params;
+}
+
+const Params::Value& Params::find(std::string_view name) const {
+  const auto found = values_.find(name);
+  if (found != values_.end()) return found->second;
+  std::vector<std::string> known;
+  for (const auto& [key, value] : values_) known.push_back(key);
+  throw std::logic_error{
+      fmt::format("'{}' asks for the parameter '{}', which its plugin.yaml does "
+                  "not declare{}",
+                  plugin_id_, name, config::did_you_mean(name, known))};
+}
+
+const Params::Value& Params::get(std::string_view name,
+                                 std::initializer_list<ParamSpec::Type> types) const {
+  const Value& value = find(name);
+  if (std::ranges::find(types, value.type) != types.end()) return value;
+  throw std::logic_error{
+      fmt::format("'{}' asks for the parameter '{}' as {}, but its plugin.yaml "
+                  "declares type {}",
+                  plugin_id_, name, to_string(*types.begin()), to_string(value.type))};
+}
+
+double Params::number(std::string_view name) const {
+  return std::get<double>(get(name, {Type::number}).value);
+}
+
+std::vector<double> Params::numbers(std::string_view name) const {
+  return std::get<std::vector<double>>(get(name, {Type::numbers}).value);
+}
+
+std::int64_t Params::integer(std::string_view name) const {
+  return std::get<std::int64_t>(get(name, {Type::integer}).value);
+}
+
+bool Params::flag(std::string_view name) const {
+  return std::get<bool>(get(name, {Type::flag}).value);
+}
+
+const std::string& Params::text(std::string_view name) const {
+  return std::get<std::string>(get(name, {Type::text, Type::choice}).value);
+}
+
+std::string Params::file(std::string_view name) const {
+  return std::get<std::string>(get(name, {Type::file}).value);
+}
+
+const Origin& Params::origin(std::string_view name) const { return find(name).origin; }
+
+}  // namespace armature

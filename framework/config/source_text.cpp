@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/config/source_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <memory>
+#include <string_view>
+#include <utility>
+
+#include "armature/config/problems.hpp"
+
+namespace armature::config {
+namespace {
+
+constexpr std::size_t kLargestFile = 16U << 20U;
+
+std::uint32_t byte_at(std::string_view text, std::size_t at) {
+  return at < text.size() ? static_cast<unsigned char>(text[at]) : 0U;
+}
+
+/// Length of the UTF-8 character at `at`; 0 when there is none. RFC 3629: no overlong forms, no
+/// surrogates, at most U+10FFFF.
+std::size_t character_length(std::string_view text, std::size_t at) {
+  const std::uint32_t lead = byte_at(text, at);
+  if (lead < 0x80) return 1;
+  const std::size_t length = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
+  if (lead < 0xC2 || lead > 0xF4) return 0;
+  std::uint32_t code = lead & (0x7FU >> length);
+  for (std::size_t i = 1; i < length; ++i) {
+    const std::uint32_t next = byte_at(text, at + i);
+    if ((next & 0xC0U) != 0x80U) return 0;
+    code = code << 6U | (next & 0x3FU);
+  }
+  constexpr std::array<std::uint32_t, 5> kSmallest{0, 0, 0x80, 0x800, 0x10000};
+  const bool surrogate = code >= 0xD800 && code <= 0xDFFF;
+  return code < kSmallest[length] || code > 0x10FFFF || surrogate ? 0 : length;
+}
+
+/// What is wrong with the character at `at`; empty: nothing.
+std::string fault_at(std::string_view text, std::size_t at) {
+  const std::uint32_t byte = byte_at(text, at);
+  if (character_length(text, at) == 0) {
+    return fmt::format("byte 0x{:02X} is not UTF-8; save the file as UTF-8", byte);
+  }
+  if (byte == '\r' && byte_at(text, at + 1) != '\n') {
+    return "a carriage return without a newline; save the file with Unix line ends";
+  }
+  const bool space = byte == '\t' || byte == '\n' || byte == '\r';
+  if ((byte < 0x20 && !space) || byte == 0x7F) {
+    return fmt::format("control character 0x{:02X}; is this a YAML file?", byte);
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string read_source(const std::filesystem::path& file, const Origin& asked_by) {
+  const auto fail = [&](int error) {
+    throw ConfigError{{{asked_by, fmt::format("cannot read '{}': {}", file.string(),
+                                              std::generic_category().message(error))}}};
+  };
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream{std::fopen(file.c_str(), "rb"),
+                                                               &std::fclose};
+  if (!stream) fail(errno);
+  std::string text;
+  std::array<char, 1U << 16U> chunk;
+  while (const std::size_t count = std::fread(chunk.data(), 1, chunk.size(), stream.get())) {
+    text.append(chunk.data(), count);
+    if (text.size() > kLargestFile) fail(EFBIG);
+  }
+  if (std::ferror(stream.get())) fail(errno);
+  return text;
+}
+
+SourceText::SourceText(std::string text, std::string name)
+    : text_{std::move(text)}, name_{std::move(name)}, line_starts_{0} {
+  if (text_.starts_with("\xEF\xBB\xBF")) text_.erase(0, 3);
+  std::size_t at = 0;
+  while (at < text_.size()) {
+    const std::string fault = fault_at(text_, at);
+    if (!fault.empty()) throw ConfigError{{{place(at), fault}}};
+    if (text_[at] == '\n') line_starts_.push_back(at + 1);
+    at += character_length(text_, at);
+  }
+}
+
+Origin SourceText::place(std::size_t byte) const {
+  byte = std::min(byte, text_.size());
+  const auto next = std::ranges::upper_bound(line_starts_, byte);
+  const std::size_t line_start = *std::prev(next);
+  const auto begins_character = [](char c) {
+    return (static_cast<unsigned char>(c) & 0xC0) != 0x80;
+  };
+  const auto before = std::string_view{text_}.substr(line_start, byte - line_start);
+  return {name_, static_cast<int>(next - line_starts_.begin()),
+          1 + static_cast<int>(std::ranges::count_if(before, begins_character))};
+}
+
+}  // namespace armature::config

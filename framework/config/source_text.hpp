@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+
+#include "armature/config/node.hpp"
+
+namespace armature::config {
+
+/// The bytes of a YAML file. Throws ConfigError at `asked_by` (the place of an `include:`, or
+/// nothing) when it cannot be read or is larger than 16 MB.
+std::string read_source(const std::filesystem::path& file, const Origin& asked_by);
+
+/// Text that is known to be UTF-8 without control characters, and the places in it.
+class SourceText {
+ public:
+  /// Throws ConfigError at the first byte that is not UTF-8 or a control character. A byte order
+  /// mark is dropped.
+  SourceText(std::string text, std::string name);
+
+  const std::string& text() const { return text_; }
+  /// The place of a byte; its column counts characters, as editors do.
+  Origin place(std::size_t byte) const;
+
+ private:
+  std::string text_;
+  std::string name_;
+  std::vector<std::size_t> line_starts_;
+};
+
+}  // namespace armature::config

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/config/yaml_parser.hpp"
+
+#include <fmt/format.h>
+#include <yaml-cpp/eventhandler.h>
+#include <yaml-cpp/exceptions.h>
+#include <yaml-cpp/mark.h>
+#include <yaml-cpp/parser.h>
+
+#include <algorithm>
+#include <array>
+#include <sstream>
+#include <utility>
+
+#include "armature/config/environment.hpp"
+#include "armature/config/problems.hpp"
+#include "armature/config/quoted_scalar.hpp"
+#include "armature/config/source_text.hpp"
+#include "armature/config/tree_builder.hpp"
+
+namespace armature::config {
+namespace {
+
+std::size_t byte_of(const YAML::Mark& mark) {
+  return static_cast<std::size_t>(std::max(0, mark.pos));
+}
+
+/// The events of yaml-cpp as nodes. yaml-cpp says where an event is; the rest (quotes, how a null
+/// was written) stands in the text there.
+class EventReader : public YAML::EventHandler {
+ public:
+  EventReader(const SourceText& source, const std::string& masked,
+              const std::optional<Origin>& fixed, Problems& problems)
+      : source_{source}, masked_{masked}, fixed_{fixed}, problems_{problems}, tree_{problems} {}
+
+  Node root(const Origin& start) const { return tree_.root().value_or(Node::null(start)); }
+
+  Origin place(const YAML::Mark& mark) const { return place(byte_of(mark)); }
+  Origin place(std::size_t byte) const { return fixed_ ? *fixed_ : source_.place(byte); }
+
+  void OnDocumentStart(const YAML::Mark& mark) override {
+    if (++documents_ == 1) return;
+    const bool marked = rest(mark).starts_with("---");
+    problems_.add(place(mark), marked ? "a second document starts here; a file holds one"
+                                      : "this does not belong to the document above; check its "
+                                        "indentation");
+    throw ParsingStopped{};
+  }
+  void OnDocumentEnd() override {}
+
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
+    refuse_anchor(mark, anchor);
+    const std::string written = null_at(mark);
+    const std::optional<Origin> key = tree_.pending_key();
+    if (key && written.empty() && key_mark_ == byte_of(mark)) {
+      problems_.add(*key, "a key without ':'; write 'key: value'");
+    }
+    Node node = Node::null(written.empty() && key ? *key : place(mark));
+    node.set_text(written);
+    tree_.add(std::move(node));
+  }
+
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override {
+    problems_.add(place(mark),
+                  "aliases ('*name') are not read; repeat the value, use 'include:', or put a text "
+                  "in quotes");
+    tree_.add(Node::scalar("", true, place(mark)));
+  }
+
+  void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                const std::string& value) override {
+    refuse_anchor(mark, anchor);
+    refuse_tag(mark, tag);
+    const Origin origin = place(mark);
+    const std::string_view written = rest(mark);
+    const char quote = tag == "!" && !written.empty() ? written.front() : '\0';
+    if (quote == '\'' || quote == '"') {
+      const auto fault = fault_of_quoted(written);
+      if (fault) problems_.add(place(byte_of(mark) + fault->offset), fault->message);
+    }
+    if (tree_.expects_key()) key_mark_ = byte_of(mark);
+    const bool expands = !tree_.expects_key() && (tag != "!" || quote == '"');
+    tree_.add(Node::scalar(expands ? expand_variables(value, origin, problems_) : unmask(value),
+                           tag == "!", origin));
+  }
+
+  void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                       YAML::EmitterStyle::value) override {
+    refuse_anchor(mark, anchor);
+    refuse_tag(mark, tag);
+    tree_.open_sequence(place(mark));
+  }
+  void OnSequenceEnd() override { tree_.close(); }
+
+  void OnMapStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                  YAML::EmitterStyle::value) override {
+    refuse_anchor(mark, anchor);
+    refuse_tag(mark, tag);
+    tree_.open_map(place(mark));
+  }
+  void OnMapEnd() override { tree_.close(); }
+
+ private:
+  std::string_view rest(const YAML::Mark& mark) const {
+    return std::string_view{masked_}.substr(std::min(byte_of(mark), masked_.size()));
+  }
+
+  /// `null` or `~` as written at `mark`; empty when the value was left out.
+  std::string null_at(const YAML::Mark& mark) const {
+    for (const std::string_view word : {"~", "null", "Null", "NULL"}) {
+      const std::string_view text = rest(mark);
+      if (!text.starts_with(word)) continue;
+      const std::string_view after = text.substr(word.size());
+      if (after.empty() || std::string_view{" \t\r\n,]}:"}.find(after.front()) != after.npos) {
+        return std::string{word};
+      }
+    }
+    return "";
+  }
+
+  void refuse_anchor(const YAML::Mark& mark, YAML::anchor_t anchor) {
+    if (anchor == YAML::NullAnchor) return;
+    problems_.add(place(mark),
+                  "anchors ('&name') are not read; use 'include:', or put a text in quotes");
+  }
+
+  void refuse_tag(const YAML::Mark& mark, const std::string& tag) {
+    if (tag.empty() || tag == "?" || tag == "!") return;
+    problems_.add(place(mark), fmt::format("tags ({}) are not read; put a text in quotes",
+                                           in_quotes(unmask(tag))));
+  }
+
+  const SourceText& source_;
+  const std::string& masked_;
+  const std::optional<Origin>& fixed_;
+  Problems& problems_;
+  TreeBuilder tree_;
+  int documents_ = 0;
+  std::size_t key_mark_ = 0;  // byte of the last key
+};
+
+/// yaml-cpp's message with what usually is behind it.
+std::string explained(const YAML::Exception& error, const std::string& text) {
+  const std::size_t at = std::min(byte_of(error.mark), text.size());
+  const std::size_t newline = at == 0 ? std::string::npos : text.rfind('\n', at - 1);
+  const std::size_t start = newline == std::string::npos ? 0 : newline + 1;
+  const std::size_t first = text.find_first_not_of(" \t", start);
+  const auto indentation =
+      std::string_view{text}.substr(start, std::min(first, text.size()) - start);
+  const std::string message = "cannot be read as YAML: " + error.msg;
+  if (indentation.find('\t') != std::string_view::npos) {
+    return message + "; indent with spaces, not tabs";
+  }
+  if (error.msg == YAML::ErrorMsg::MAP_VALUE) {
+    return message + "; check the indentation, and put a text that holds ': ' in quotes";
+  }
+  if (error.msg == YAML::ErrorMsg::UNKNOWN_TOKEN) return message + "; put a text in quotes";
+  return message;
+}
+
+}  // namespace
+
+Node parse_yaml(std::string text, std::string_view name, const std::optional<Origin>& origin) {
+  const SourceText source{std::move(text), std::string{name}};
+  const std::string masked = mask_variables(source.text());
+  Problems problems;
+  EventReader events{source, masked, origin, problems};
+  try {
+    std::istringstream stream{masked};
+    YAML::Parser parser{stream};
+    while (parser.HandleNextDocument(events)) {
+    }
+  } catch (const ParsingStopped&) {
+  } catch (const YAML::Exception& error) {
+    problems.add(events.place(error.mark), explained(error, source.text()));
+  }
+  problems.throw_if_any();
+  return events.root(events.place(0));
+}
+
+}  // namespace armature::config

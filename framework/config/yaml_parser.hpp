@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "armature/config/node.hpp"
+
+namespace armature::config {
+
+/// One YAML document as nodes, by the rules of `parse_text`. With `origin`, every node comes from
+/// there (a value of `--set`), else from its line and column in the text called `name`. Throws
+/// ConfigError.
+Node parse_yaml(std::string text, std::string_view name,
+                const std::optional<Origin>& origin = std::nullopt);
+
+}  // namespace armature::config

@@ -77,6 +77,7 @@ function(armature_add_test name)
     target_link_libraries(armature_test_main PUBLIC armature::abi Eigen3::Eigen
                                              PRIVATE armature_warnings)
     target_precompile_headers(armature_test_main PRIVATE "${CMAKE_SOURCE_DIR}/tests/precompiled.hpp")
+    set_target_properties(armature_test_main PROPERTIES POSITION_INDEPENDENT_CODE OFF)
   endif()
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE armature_test_main armature_warnings ${arg_LINK})
@@ -84,7 +85,9 @@ function(armature_add_test name)
   target_compile_definitions(${name} PRIVATE
     ARMATURE_SOURCE_DIR="${CMAKE_SOURCE_DIR}" ARMATURE_BINARY_DIR="${CMAKE_BINARY_DIR}"
     ARMATURE_PLUGIN_BUILD_DIR="${ARMATURE_PLUGIN_BUILD_DIR}")
-  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/tests")
+  # -fPIC (library) and -fPIE (program) cannot share a precompiled header: the compiler's default can.
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/tests"
+                                           POSITION_INDEPENDENT_CODE OFF)
   if(arg_DEPENDS)
     add_dependencies(${name} ${arg_DEPENDS})
   endif()

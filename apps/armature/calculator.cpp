@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "calculator.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <istream>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <ostream>
+#include <stdexcept>
+
+#include "armature/kinds/ik/ik.hpp"
+#include "armature/robot/kinematics.hpp"
+#include "armature/robot/robot_model.hpp"
+#include "armature/runtime/plugin_registry.hpp"
+#include "exit_code.hpp"
+
+namespace armature {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// A line that cannot be answered; the text is the reason that goes into its answer.
+struct InvalidLine : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+Json parse_line(const std::string& line, std::initializer_list<std::string_view> known) {
+  Json json = Json::parse(line, nullptr, false);
+  if (json.is_discarded()) throw InvalidLine("not JSON");
+  if (!json.is_object()) throw InvalidLine("not a JSON object");
+  for (const auto& [key, value] : json.items()) {
+    if (std::find(known.begin(), known.end(), key) == known.end()) {
+      throw InvalidLine(fmt::format("unknown key '{}'", key));
+    }
+  }
+  return json;
+}
+
+/// `count` finite numbers; 0: any up to the most joints that a robot may have.
+std::vector<double> numbers(const Json& json, const char* key, std::size_t count) {
+  const Json& list = json.at(key);
+  if (!list.is_array()) throw InvalidLine(fmt::format("'{}' must be a list of numbers", key));
+  if (list.size() != count) {
+    throw InvalidLine(fmt::format("'{}' has {} numbers, must have {}", key, list.size(), count));
+  }
+  std::vector<double> values;
+  for (const Json& item : list) {
+    if (!item.is_number()) throw InvalidLine(fmt::format("'{}' must be a list of numbers", key));
+    values.push_back(item.get<double>());
+    if (!std::isfinite(values.back())) throw InvalidLine(fmt::format("'{}' is not finite", key));
+  }
+  return values;
+}
+
+Eigen::Vector3d vector3(const Json& json, const char* key) {
+  const auto v = numbers(json, key, 3);
+  return {v[0], v[1], v[2]};
+}
+
+JointVector joints(const RobotModel& robot, const Json& json, const char* key) {
+  const auto values = numbers(json, key, static_cast<std::size_t>(robot.joint_count()));
+  const auto independent = robot.contract(
+      Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size())));
+  if (!independent) throw InvalidLine(independent.error().text);
+  return *independent;
+}
+
+Json to_json(const auto& vector) {
+  Json list = Json::array();
+  for (Eigen::Index i = 0; i < vector.size(); ++i) list.push_back(vector[i]);
+  return list;
+}
+
+Json answer_fk(const RobotModel& robot, const std::string& line) {
+  const Json question = parse_line(line, {"joints"});
+  if (!question.contains("joints")) throw InvalidLine("'joints' is missing");
+  const Eigen::Isometry3d pose = forward_kinematics(robot, joints(robot, question, "joints"));
+  Json answer;
+  answer["position_m"] = to_json(Eigen::Vector3d{pose.translation()});
+  answer["quaternion_xyzw"] = to_json(Eigen::Quaterniond{pose.rotation()}.coeffs());
+  if (robot.pointing_axis()) {
+    answer["direction"] = to_json(Eigen::Vector3d{pose.rotation() * *robot.pointing_axis()});
+  }
+  return answer;
+}
+
+Orientation read_orientation(const RobotModel& robot, const Json& question) {
+  if (question.contains("direction") == question.contains("quaternion_xyzw")) {
+    throw InvalidLine("give either 'direction' or 'quaternion_xyzw'");
+  }
+  if (question.contains("direction")) {
+    if (!robot.pointing_axis()) {
+      throw InvalidLine("the robot file names no 'pointing_axis'; give 'quaternion_xyzw'");
+    }
+    const Eigen::Vector3d direction = vector3(question, "direction");
+    if (direction.norm() < 1e-9) throw InvalidLine("'direction' has no length");
+    return Direction{direction.normalized()};
+  }
+  const auto q = numbers(question, "quaternion_xyzw", 4);
+  const Eigen::Quaterniond quaternion{q[3], q[0], q[1], q[2]};
+  if (quaternion.norm() < 1e-9) throw InvalidLine("'quaternion_xyzw' has no length");
+  return quaternion.normalized();
+}
+
+Json solution_json(const RobotModel& robot, const IkBranch& branch, bool redundant) {
+  Json json;
+  json["label"] = branch.label;
+  json["joints"] = to_json(robot.expand(branch.q));
+  json["residual_m"] = branch.residual.position_m;
+  json["residual_rad"] = branch.residual.angle_rad;
+  json["within_limits"] = branch.within_limits;
+  json["singular"] = branch.singular;
+  if (redundant) json["redundancy_rad"] = branch.redundancy;
+  return json;
+}
+
+Json answer_ik(const RobotModel& robot, const IkSolver& solver, const JointVector& home,
+               const std::string& line) {
+  const Json question =
+      parse_line(line, {"position_m", "direction", "quaternion_xyzw", "seed", "redundancy_rad"});
+  if (!question.contains("position_m")) throw InvalidLine("'position_m' is missing");
+  IkGoal goal;
+  goal.pose.position = vector3(question, "position_m");
+  goal.pose.orientation = read_orientation(robot, question);
+  if (question.contains("redundancy_rad")) {
+    if (!question["redundancy_rad"].is_number()) {
+      throw InvalidLine("'redundancy_rad' must be a number");
+    }
+    goal.redundancy = question["redundancy_rad"].get<double>();
+  }
+  const JointVector seed = question.contains("seed") ? joints(robot, question, "seed") : home;
+  IkBranches branches;
+  IkState state;
+  const IkStatus status = solver.solve(goal, seed, branches, state);
+  Json answer;
+  answer["status"] = to_string(status.code);
+  if (status.code != IkStatus::Code::ok) answer["reason"] = describe(status);
+  answer["solutions"] = Json::array();
+  for (const IkBranch& branch : branches) {
+    answer["solutions"].push_back(
+        solution_json(robot, branch, robot.dof() > 6 || goal.redundancy.has_value()));
+  }
+  return answer;
+}
+
+/// One answer per line, whatever the line holds. Empty lines are skipped.
+int answer_lines(std::istream& in, std::ostream& out, const auto& answer) {
+  for (std::string line; std::getline(in, line);) {
+    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
+    Json json;
+    try {
+      json = answer(line);
+    } catch (const std::exception& error) {
+      json["status"] = "invalid_input";
+      json["reason"] = error.what();
+    }
+    out << json.dump() << '\n';
+    if (!out) return kFailed;
+  }
+  out.flush();
+  return kOk;
+}
+
+}  // namespace
+
+int run_fk(const std::string& robot_file, std::istream& in, std::ostream& out) {
+  const RobotModel robot = load_robot_model(robot_file);
+  return answer_lines(in, out, [&](const std::string& line) { return answer_fk(robot, line); });
+}
+
+int run_ik(const std::string& robot_file, const std::string& plugin_id, std::istream& in,
+           std::ostream& out) {
+  const RobotModel robot = load_robot_model(robot_file);
+  PluginRegistry plugins;
+  const PluginManifest* plugin = plugins.find(plugin_id);
+  if (!plugin) throw InvalidChoice(plugins.unknown_text(plugin_id));
+  config::Problems problems;
+  const Params params = Params::read(plugin->params, nullptr, plugin_id, problems);
+  problems.throw_if_any();
+  const auto solver = plugins.make<IkSolver>(plugin_id, robot, params);
+  if (!solver) {
+    throw InvalidChoice(
+        fmt::format("{} refuses robot '{}': {}", plugin_id, robot.name(), solver.error().text));
+  }
+  JointVector home = 0.5 * (robot.lower() + robot.upper());
+  if (robot.home()) home = robot.contract(*robot.home()).value_or(home);
+  return answer_lines(in, out, [&](const std::string& line) {
+    return answer_ik(robot, **solver, home, line);
+  });
+}
+
+}  // namespace armature

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "inspect.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "armature/config/document.hpp"
+#include "armature/runtime/deployment.hpp"
+#include "exit_code.hpp"
+
+namespace armature {
+namespace {
+
+DeploymentConfig read(const DeploymentSource& source, const PluginRegistry& plugins) {
+  config::Problems problems;
+  auto config = read_deployment(config::load_with_overlays(source.files, source.assignments),
+                                plugins, problems);
+  problems.throw_if_any();
+  return config;
+}
+
+struct Edge {
+  std::string type;
+  std::vector<std::string> writers, readers;
+};
+
+std::map<std::string, Edge> edges_of(const DeploymentConfig& deployment) {
+  std::map<std::string, Edge> edges;
+  for (const auto& component : deployment.components) {
+    for (const auto& port : component.outputs) {
+      edges[port.topic].type = port.spec.type;
+      edges[port.topic].writers.push_back(component.name);
+    }
+    for (const auto& port : component.inputs) {
+      edges[port.topic].type = port.spec.type;
+      edges[port.topic].readers.push_back(component.name);
+    }
+  }
+  return edges;
+}
+
+void print_dot(const DeploymentConfig& deployment, const std::map<std::string, Edge>& edges) {
+  fmt::print("digraph {} {{\n  rankdir=LR;\n  node [shape=box];\n", deployment.name);
+  for (const auto& component : deployment.components) {
+    fmt::print("  {} [label=\"{}\\n{}\"];\n", component.name, component.name, component.plugin_id);
+  }
+  for (const auto& [topic, edge] : edges) {
+    for (const auto& writer : edge.writers) {
+      for (const auto& reader : edge.readers) {
+        fmt::print("  {} -> {} [label=\"{}\"];\n", writer, reader, topic);
+      }
+    }
+  }
+  fmt::print("}}\n");
+}
+
+void print_json(const std::map<std::string, Edge>& edges) {
+  nlohmann::ordered_json json;
+  for (const auto& [topic, edge] : edges) {
+    json[topic] = {{"type", edge.type}, {"writers", edge.writers}, {"readers", edge.readers}};
+  }
+  fmt::print("{}\n", json.dump());
+}
+
+void print_text(const std::map<std::string, Edge>& edges) {
+  const auto list = [](const std::vector<std::string>& names) {
+    std::string text;
+    for (const auto& name : names) text += (text.empty() ? "" : ", ") + name;
+    return text.empty() ? std::string{"-"} : text;
+  };
+  std::size_t width = 0;
+  for (const auto& [topic, edge] : edges) width = std::max(width, topic.size());
+  for (const auto& [topic, edge] : edges) {
+    fmt::print("{:<{}}  {:<32} {} -> {}\n", topic, width, edge.type, list(edge.writers),
+               list(edge.readers));
+  }
+}
+
+}  // namespace
+
+int check_deployment(const DeploymentSource& source) {
+  PluginRegistry plugins;
+  const Deployment deployment{read(source, plugins), plugins, {.process = "", .on_line = {}, .on_note = {}}};
+  const auto& config = deployment.config();
+  fmt::print("{}: ok, {} components, {} topics\n", config.name, config.components.size(),
+             edges_of(config).size());
+  return kOk;
+}
+
+int show_deployment(const DeploymentSource& source) {
+  fmt::print("{}", config::to_yaml(config::load_with_overlays(source.files, source.assignments), true));
+  return kOk;
+}
+
+int graph_deployment(const DeploymentSource& source, bool dot, bool json) {
+  const PluginRegistry plugins;
+  const DeploymentConfig deployment = read(source, plugins);
+  const auto edges = edges_of(deployment);
+  if (dot) {
+    print_dot(deployment, edges);
+  } else if (json) {
+    print_json(edges);
+  } else {
+    print_text(edges);
+  }
+  return kOk;
+}
+
+}  // namespace armature

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "run.hpp"
+
+namespace armature {
+
+/// `armature check`: everything that `run` would do before it starts.
+int check_deployment(const DeploymentSource& source);
+/// `armature show`: the resolved file, every value with its origin.
+int show_deployment(const DeploymentSource& source);
+/// `armature graph`: who writes and who reads every topic; Graphviz with `dot`.
+int graph_deployment(const DeploymentSource& source, bool dot, bool json);
+
+}  // namespace armature

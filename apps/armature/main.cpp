@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: Apache-2.0
+// The command line. The only file that includes CLI11.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <fstream>
+#include <functional>
+#include <iostream>
+
+#include "armature/config/problems.hpp"
+#include "armature/runtime/plugin_registry.hpp"
+#include "calculator.hpp"
+#include "exit_code.hpp"
+#include "inspect.hpp"
+#include "plugins.hpp"
+#include "run.hpp"
+#include "topics.hpp"
+
+namespace armature {
+namespace {
+
+/// What the chosen verb will do, once the whole line has been understood.
+using Action = std::function<int()>;
+
+void add_source(CLI::App& verb, DeploymentSource& source) {
+  verb.add_option("files", source.files, "deployment file, then overlays that change it")->required();
+  verb.add_option("--set", source.assignments,
+                  "change one value: --set components.motion.ik.plugin=ik/numeric")
+      ->allow_extra_args(false);
+}
+
+void add_run(CLI::App& app, Action& action) {
+  auto options = std::make_shared<RunOptions>();
+  CLI::App* verb = app.add_subcommand("run", "Run a deployment; exit code 0 when its goals are met");
+  add_source(*verb, options->source);
+  verb->add_option("--domain", options->domain, "DDS domain, instead of the file's")
+      ->check(CLI::Range(0, 232));
+  verb->add_option("--process", options->process, "run only this process of the deployment");
+  verb->add_flag("--json", options->json, "print the result as one JSON object");
+  verb->add_option("--report", options->report, "write report.json and pictures into this folder");
+  verb->callback([options, &action] { action = [options] { return run_deployment(*options); }; });
+}
+
+void add_inspection(CLI::App& app, Action& action) {
+  auto source = std::make_shared<DeploymentSource>();
+  CLI::App* check = app.add_subcommand("check", "Find everything that is wrong in a deployment");
+  add_source(*check, *source);
+  check->callback([source, &action] { action = [source] { return check_deployment(*source); }; });
+
+  CLI::App* show = app.add_subcommand("show", "Print the resolved file with the origin of every value");
+  add_source(*show, *source);
+  show->callback([source, &action] { action = [source] { return show_deployment(*source); }; });
+
+  auto dot = std::make_shared<bool>(false);
+  auto json = std::make_shared<bool>(false);
+  CLI::App* graph = app.add_subcommand("graph", "Print who writes and who reads every topic");
+  add_source(*graph, *source);
+  graph->add_flag("--dot", *dot, "as Graphviz");
+  graph->add_flag("--json", *json, "as JSON");
+  graph->callback([=, &action] {
+    action = [=] { return graph_deployment(*source, *dot, *json); };
+  });
+}
+
+void add_plugin_verbs(CLI::App& app, Action& action) {
+  CLI::App* plugin = app.add_subcommand("plugin", "List, describe and start plugins");
+  plugin->require_subcommand(1);
+  auto json = std::make_shared<bool>(false);
+  auto id = std::make_shared<std::string>();
+  auto directory = std::make_shared<std::string>();
+
+  CLI::App* list = plugin->add_subcommand("list", "Every plugin that is found");
+  list->add_flag("--json", *json, "as JSON");
+  list->callback([=, &action] { action = [=] { return list_plugins(*json); }; });
+
+  CLI::App* info = plugin->add_subcommand("info", "What one plugin takes and gives");
+  info->add_option("id", *id, "e.g. ik/numeric")->required();
+  info->add_flag("--json", *json, "as JSON");
+  info->callback([=, &action] { action = [=] { return show_plugin(*id, *json); }; });
+
+  CLI::App* fresh = plugin->add_subcommand("new", "Write a complete small plugin to start from");
+  fresh->add_option("id", *id, "e.g. ik/mine")->required();
+  fresh->add_option("-o,--output", *directory, "folder to write it into")->required();
+  fresh->callback([=, &action] { action = [=] { return new_plugin(*id, *directory); }; });
+}
+
+void add_topic_verbs(CLI::App& app, Action& action) {
+  CLI::App* topic = app.add_subcommand("topic", "Watch a running deployment over DDS");
+  topic->require_subcommand(1);
+  auto options = std::make_shared<TopicOptions>();
+  const auto add_common = [&](CLI::App* verb) {
+    verb->add_option("--domain", options->domain, "DDS domain")->check(CLI::Range(0, 232));
+    verb->add_option("--timeout", options->timeout_s, "give up after this many seconds");
+    verb->add_flag("--json", options->json, "as JSON");
+  };
+  CLI::App* list = topic->add_subcommand("list", "Topics, types, and how many write and read them");
+  add_common(list);
+  list->callback([=, &action] { action = [=] { return list_topics(*options); }; });
+
+  CLI::App* echo = topic->add_subcommand("echo", "Print the samples of a topic");
+  echo->add_option("topic", options->topic, "e.g. /dental_lamp/arm/measured_js")->required();
+  echo->add_option("-n,--count", options->count, "end after this many samples");
+  echo->add_flag("--full", options->full, "long byte arrays in full");
+  add_common(echo);
+  echo->callback([=, &action] { action = [=] { return echo_topic(*options); }; });
+
+  CLI::App* hz = topic->add_subcommand("hz", "How often a topic is written");
+  hz->add_option("topic", options->topic, "e.g. /dental_lamp/arm/measured_js")->required();
+  hz->add_option("-n,--count", options->count, "end after this many samples");
+  add_common(hz);
+  hz->callback([=, &action] { action = [=] { return topic_rate(*options); }; });
+}
+
+/// JSON lines come from a file or from standard input.
+int with_input(const std::string& file, const std::function<int(std::istream&)>& calculate) {
+  if (file.empty() || file == "-") return calculate(std::cin);
+  std::ifstream stream{file};
+  if (!stream) throw InvalidChoice("cannot read '" + file + "'");
+  return calculate(stream);
+}
+
+void add_calculators(CLI::App& app, Action& action) {
+  auto robot = std::make_shared<std::string>();
+  auto plugin = std::make_shared<std::string>("ik/numeric");
+  auto input = std::make_shared<std::string>();
+
+  CLI::App* fk = app.add_subcommand("fk", "Forward kinematics: JSON lines in, JSON lines out");
+  fk->add_option("--robot", *robot, "robot file")->required();
+  fk->add_option("input", *input, "file of JSON lines (standard input)");
+  fk->callback([=, &action] {
+    action = [=] {
+      return with_input(*input, [&](std::istream& in) { return run_fk(*robot, in, std::cout); });
+    };
+  });
+
+  CLI::App* ik = app.add_subcommand("ik", "Inverse kinematics: JSON lines in, JSON lines out");
+  ik->add_option("--robot", *robot, "robot file")->required();
+  ik->add_option("--plugin", *plugin, "solver")->capture_default_str();
+  ik->add_option("input", *input, "file of JSON lines (standard input)");
+  ik->callback([=, &action] {
+    action = [=] {
+      return with_input(*input,
+                        [&](std::istream& in) { return run_ik(*robot, *plugin, in, std::cout); });
+    };
+  });
+}
+
+int guarded(const Action& action) {
+  try {
+    return action();
+  } catch (const config::ConfigError& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return kInvalidConfig;
+  } catch (const InvalidChoice& error) {
+    std::fprintf(stderr, "armature: %s\n", error.what());
+    return kInvalidConfig;
+  } catch (const PluginError& error) {
+    std::fprintf(stderr, "armature: %s\n", error.what());
+    return kUnusablePlugin;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "armature: %s\n", error.what());
+    return kFailed;
+  }
+}
+
+int run_command_line(int argc, char** argv) {
+  CLI::App app{
+      "Config-driven robot systems over DDS.\n\n"
+      "Example: armature run configs/dental_lamp.yaml --set components.motion.ik.plugin=ik/numeric"};
+  app.name("armature");
+  app.require_subcommand(1);
+  Action action;
+  add_run(app, action);
+  add_inspection(app, action);
+  add_plugin_verbs(app, action);
+  add_topic_verbs(app, action);
+  add_calculators(app, action);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kOk : kUsage;
+  }
+  return guarded(action);
+}
+
+}  // namespace
+}  // namespace armature
+
+int main(int argc, char** argv) {
+  std::ios::sync_with_stdio(false);
+  return armature::run_command_line(argc, argv);
+}

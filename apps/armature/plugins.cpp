@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plugins.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "armature/runtime/plugin_registry.hpp"
+#include "exit_code.hpp"
+
+namespace armature {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json param_json(const ParamSpec& spec) {
+  Json json{{"name", spec.name}, {"type", to_string(spec.type)}, {"doc", spec.doc}};
+  if (spec.fallback) {
+    Json list = Json::array();
+    for (const auto& item : spec.fallback->items()) list.push_back(item.text());
+    json["default"] = list.empty() ? Json(spec.fallback->text()) : list;
+  }
+  if (spec.min) json["min"] = *spec.min;
+  if (spec.max) json["max"] = *spec.max;
+  if (!spec.choices.empty()) json["choices"] = spec.choices;
+  return json;
+}
+
+Json port_json(const PortSpec& port) {
+  return {{"name", port.name}, {"type", port.type}, {"topic", port.topic},
+          {"qos", to_string(port.qos)}, {"doc", port.doc}};
+}
+
+Json manifest_json(const PluginManifest& plugin) {
+  Json json{{"id", plugin.id}, {"kind", plugin.kind}, {"doc", plugin.doc},
+            {"file", plugin.file.string()}, {"abi", plugin.abi}};
+  json["params"] = Json::array();
+  for (const auto& spec : plugin.params) json["params"].push_back(param_json(spec));
+  json["slots"] = Json::object();
+  for (const auto& slot : plugin.slots) json["slots"][slot.name] = slot.kind;
+  json["in"] = Json::array();
+  for (const auto& port : plugin.inputs) json["in"].push_back(port_json(port));
+  json["out"] = Json::array();
+  for (const auto& port : plugin.outputs) json["out"].push_back(port_json(port));
+  return json;
+}
+
+std::string range_text(const ParamSpec& spec) {
+  std::string text;
+  if (!spec.choices.empty()) {
+    for (const auto& choice : spec.choices) text += (text.empty() ? "" : " | ") + choice;
+    return " (" + text + ")";
+  }
+  if (spec.min) text += fmt::format(" >= {:g}", *spec.min);
+  if (spec.max) text += fmt::format(" <= {:g}", *spec.max);
+  return text;
+}
+
+std::string default_text(const ParamSpec& spec) {
+  if (!spec.fallback) return "required";
+  if (spec.fallback->kind() == config::Node::Kind::scalar) return spec.fallback->text();
+  std::string text;
+  for (const auto& item : spec.fallback->items()) text += (text.empty() ? "" : ", ") + item.text();
+  return "[" + text + "]";
+}
+
+void print_ports(const char* title, const std::vector<PortSpec>& ports) {
+  if (ports.empty()) return;
+  fmt::print("{}:\n", title);
+  for (const auto& port : ports) {
+    fmt::print("  {:<16} {:<28} {:<24} {}\n", port.name, port.type, port.topic, port.doc);
+  }
+}
+
+}  // namespace
+
+int list_plugins(bool json) {
+  const PluginRegistry plugins;
+  if (json) {
+    Json all{{"plugins", Json::array()}, {"unusable", Json::array()}};
+    for (const auto& plugin : plugins.plugins()) all["plugins"].push_back(manifest_json(plugin));
+    for (const auto& [file, reason] : plugins.unusable()) {
+      all["unusable"].push_back({{"file", file.string()}, {"reason", reason}});
+    }
+    fmt::print("{}\n", all.dump());
+    return kOk;
+  }
+  for (const auto& plugin : plugins.plugins()) {
+    fmt::print("{:<28} {:<11} {}\n", plugin.id, plugin.kind, plugin.doc);
+  }
+  for (const auto& [file, reason] : plugins.unusable()) {
+    fmt::print(stderr, "armature: {} cannot be used: {}\n", file.string(), reason);
+  }
+  return kOk;
+}
+
+int show_plugin(const std::string& id, bool json) {
+  const PluginRegistry plugins;
+  const PluginManifest* plugin = plugins.find(id);
+  if (!plugin) throw InvalidChoice(plugins.unknown_text(id));
+  if (json) {
+    fmt::print("{}\n", manifest_json(*plugin).dump());
+    return kOk;
+  }
+  fmt::print("{} ({})\n  {}\n  {}\n", plugin->id, plugin->kind, plugin->doc, plugin->file.string());
+  if (!plugin->params.empty()) fmt::print("params:\n");
+  for (const auto& spec : plugin->params) {
+    fmt::print("  {:<26} {:<8} {:<12} {}{}\n", spec.name, to_string(spec.type), default_text(spec),
+               spec.doc, range_text(spec));
+  }
+  if (!plugin->slots.empty()) fmt::print("slots:\n");
+  for (const auto& slot : plugin->slots) {
+    fmt::print("  {:<16} {:<12} {}\n", slot.name, slot.kind, slot.doc);
+  }
+  print_ports("in", plugin->inputs);
+  print_ports("out", plugin->outputs);
+  return kOk;
+}
+
+}  // namespace armature

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <mutex>
+
+#include "armature/config/document.hpp"
+#include "armature/runtime/child_processes.hpp"
+#include "armature/runtime/deployment.hpp"
+#include "armature/runtime/instance_lock.hpp"
+#include "armature/runtime/run_report.hpp"
+#include "exit_code.hpp"
+
+namespace armature {
+namespace {
+
+std::atomic<int> g_signal{0};
+
+void on_signal(int signal) {
+  g_signal = signal;
+  std::signal(signal, SIG_DFL);  // the second one ends the process at once
+}
+
+/// Lines for the operator, with the deployment's time; from any thread.
+class Console {
+ public:
+  void start(const Clock& clock) {
+    clock_ = &clock;
+    start_ = clock.now();
+  }
+  void line(const std::string& who, const std::string& text) {
+    const std::scoped_lock lock{mutex_};
+    const double time = clock_ ? to_seconds(clock_->now() - start_) : 0.0;
+    fmt::print(stderr, "[{:7.3f} s] {:<9} {}\n", time, who, text);
+  }
+
+ private:
+  const Clock* clock_ = nullptr;
+  Time start_;
+  std::mutex mutex_;
+};
+
+std::vector<std::string> child_arguments(const RunOptions& options, int domain,
+                                         const std::string& process) {
+  std::vector<std::string> arguments{"run", "--process", process, "--domain",
+                                     std::to_string(domain)};
+  for (const auto& assignment : options.source.assignments) {
+    arguments.insert(arguments.end(), {"--set", assignment});
+  }
+  for (const auto& file : options.source.files) arguments.push_back(file.string());
+  return arguments;
+}
+
+/// Runs the deployment to its end; a line when one of its other processes ended before.
+std::optional<std::string> run_to_end(Deployment& deployment, ChildProcesses& children) {
+  std::optional<std::string> lost;
+  deployment.run([&] {
+    if (!lost) lost = children.ended();
+    return lost || g_signal != 0;
+  });
+  children.stop();
+  return lost;
+}
+
+int conclude(const RunOptions& options, const Deployment& deployment,
+             const std::optional<std::string>& lost) {
+  const RunReport report{deployment};
+  if (options.report) write_report(report, deployment, *options.report);
+  if (options.json) {
+    fmt::print("{}\n", to_json(report));
+  } else {
+    fmt::print("{}", to_table(report));
+  }
+  std::fflush(stdout);
+  if (lost) fmt::print(stderr, "armature: {}\n", *lost);
+  const bool unfinished = g_signal != 0 && !deployment.config().goals.empty();
+  return report.status() == "ok" && !lost && !unfinished ? kOk : kFailed;
+}
+
+}  // namespace
+
+int run_deployment(const RunOptions& options) {
+  PluginRegistry plugins;
+  config::Problems problems;
+  DeploymentConfig config = read_deployment(
+      config::load_with_overlays(options.source.files, options.source.assignments), plugins,
+      problems);
+  problems.throw_if_any();
+  const int domain = options.domain.value_or(config.domain);
+  const bool is_child = !options.process.empty();
+  const std::string process = is_child ? options.process : std::string{kMainProcess};
+  const std::vector<std::string> processes = config.processes();
+
+  std::optional<InstanceLock> lock;
+  if (!is_child) {
+    auto taken = InstanceLock::take(config.name, domain);
+    if (!taken) {
+      fmt::print(stderr, "armature: {}\n", taken.error().text);
+      return kFailed;
+    }
+    lock.emplace(std::move(*taken));
+  }
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+  Console console;
+  Deployment deployment{std::move(config),
+                        plugins,
+                        {.process = process,
+                         .on_line = [&](const auto& who, const auto& text) { console.line(who, text); },
+                         .on_note = [&](const auto& text) { console.line("runtime", text); }}};
+  // Before any thread: a child is forked from a process that has only this one.
+  ChildProcesses children;
+  if (!is_child) {
+    for (const auto& other : processes) {
+      if (other != kMainProcess) children.start(other, child_arguments(options, domain, other));
+    }
+  }
+  console.start(deployment.clock());
+  deployment.connect(plugins, domain);
+  const auto lost = run_to_end(deployment, children);
+  if (is_child) return deployment.fault().empty() ? kOk : kFailed;
+  return conclude(options, deployment, lost);
+}
+
+}  // namespace armature

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/bus/topic.hpp"
+
+namespace armature {
+namespace {
+
+int g_created = 0;
+
+MessageType number_type() {
+  MessageType type;
+  type.ros_name = "test_msgs/Number";
+  type.create = [] {
+    ++g_created;
+    return static_cast<void*>(new int{});
+  };
+  type.destroy = [](void* message) {
+    --g_created;
+    delete static_cast<int*>(message);
+  };
+  return type;
+}
+
+struct Keeper : Subscriber {
+  void deliver(const SampleRef& sample) override { samples.push_back(sample); }
+  std::vector<SampleRef> samples;
+};
+
+class TopicTest : public testing::Test {
+ protected:
+  MessageType type = number_type();
+  Topic topic{{.name = "rt/number", .type = &type}, 2};
+
+  void publish(int value, Time now = {}) {
+    SampleRef sample = topic.loan();
+    *static_cast<int*>(sample.mutable_message()) = value;
+    topic.publish(std::move(sample), now);
+  }
+};
+
+TEST_F(TopicTest, HandsOneSampleByPointerToEverySubscriber) {
+  Keeper first, second;
+  topic.connect(first);
+  topic.connect(second);
+  publish(7);
+  ASSERT_EQ(first.samples.size(), 1U);
+  EXPECT_EQ(first.samples[0].message(), second.samples[0].message());
+  EXPECT_EQ(*static_cast<const int*>(first.samples[0].message()), 7);
+}
+
+TEST_F(TopicTest, NumbersSamplesFromOneAndStampsThem) {
+  Keeper keeper;
+  topic.connect(keeper);
+  publish(1, Time{10});
+  publish(2, Time{20});
+  EXPECT_EQ(keeper.samples[0].info().sequence, 1U);
+  EXPECT_EQ(keeper.samples[1].info().sequence, 2U);
+  EXPECT_EQ(keeper.samples[1].info().published.ns, 20);
+}
+
+TEST_F(TopicTest, ReusesBlocksWhenNobodyHoldsThem) {
+  for (int i = 0; i < 100; ++i) publish(i);
+  EXPECT_EQ(topic.pool_growth(), 0U);
+}
+
+TEST_F(TopicTest, GrowsAndCountsWhenEverySampleIsHeld) {
+  Keeper keeper;
+  topic.connect(keeper);
+  for (int i = 0; i < 5; ++i) publish(i);
+  EXPECT_EQ(topic.pool_growth(), 3U);
+  for (int i = 0; i < 5; ++i) {
+    EXPECT_EQ(*static_cast<const int*>(keeper.samples[static_cast<std::size_t>(i)].message()), i);
+  }
+}
+
+TEST(SamplePool, DestroysEveryMessageItMade) {
+  g_created = 0;
+  const MessageType type = number_type();
+  {
+    SamplePool pool{type, 3};
+    EXPECT_EQ(g_created, 3);
+    const SampleRef one = pool.loan();
+    const SampleRef copy = one;
+    EXPECT_EQ(one.message(), copy.message());
+  }
+  EXPECT_EQ(g_created, 0);
+}
+
+TEST(QosProfiles, HaveANameThatFindsThemAgain) {
+  for (const QosProfile profile :
+       {QosProfile::sensor, QosProfile::state, QosProfile::command, QosProfile::latched}) {
+    EXPECT_EQ(find_qos_profile(to_string(profile)), profile);
+  }
+  EXPECT_EQ(find_qos_profile("sensro"), std::nullopt);
+}
+
+TEST(QosProfiles, LetCommandsExpireAndKeepLatchedOnes) {
+  EXPECT_GT(settings(QosProfile::command).lifespan.count(), 0);
+  EXPECT_FALSE(settings(QosProfile::command).transient_local);
+  EXPECT_TRUE(settings(QosProfile::latched).transient_local);
+}
+
+}  // namespace
+}  // namespace armature

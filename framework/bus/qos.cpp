@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/bus/qos.hpp"
+
+#include <array>
+#include <utility>
+
+namespace armature {
+namespace {
+
+constexpr std::array<std::pair<QosProfile, std::string_view>, 4> kNames{{
+    {QosProfile::sensor, "sensor"},
+    {QosProfile::state, "state"},
+    {QosProfile::command, "command"},
+    {QosProfile::latched, "latched"},
+}};
+
+}  // namespace
+
+std::optional<QosProfile> find_qos_profile(std::string_view name) {
+  for (const auto& [profile, text] : kNames) {
+    if (text == name) return profile;
+  }
+  return std::nullopt;
+}
+
+std::string_view to_string(QosProfile profile) {
+  return kNames[static_cast<std::size_t>(profile)].second;
+}
+
+QosSettings settings(QosProfile profile) {
+  switch (profile) {
+    case QosProfile::sensor:
+      return {.reader_reliable = false, .depth = 2};
+    case QosProfile::state:
+      return {.depth = 10};
+    case QosProfile::command:
+      return {.depth = 10, .lifespan = seconds(0.5)};
+    case QosProfile::latched:
+      return {.transient_local = true, .depth = 1};
+  }
+  return {};
+}
+
+}  // namespace armature

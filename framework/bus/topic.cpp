@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/bus/topic.hpp"
+
+#include <utility>
+
+namespace armature {
+
+Topic::Topic(TopicSpec spec, std::size_t preallocated)
+    : spec_{std::move(spec)}, pool_{*spec_.type, preallocated} {}
+
+void Topic::publish(SampleRef sample, Time now) {
+  sample.mutable_info() = {.published = now, .sequence = ++sequence_};
+  for (Subscriber* subscriber : subscribers_) subscriber->deliver(sample);
+  if (outside_) outside_->offer(sample);
+}
+
+void Topic::deliver_from_outside(const SampleRef& sample) {
+  for (Subscriber* subscriber : subscribers_) subscriber->deliver(sample);
+}
+
+}  // namespace armature

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/runtime/component.hpp"
+
+#include "armature/runtime/setup.hpp"
+#include "armature/runtime/voice.hpp"
+
+namespace armature {
+
+Component::Component(Setup& setup) : voice_{setup.voice()} {}
+
+void Component::say(std::string text) { voice_->say(std::move(text)); }
+void Component::degraded(std::string reason) {
+  voice_->set(Voice::State::degraded, std::move(reason));
+}
+void Component::healthy() { voice_->set(Voice::State::ok, {}); }
+
+}  // namespace armature

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/runtime/component_config.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "armature/runtime/component.hpp"
+
+namespace armature {
+namespace {
+
+using config::MapReader;
+using config::Node;
+
+std::vector<std::string> names_of(const auto& items) {
+  std::vector<std::string> names;
+  for (const auto& item : items) names.push_back(item.name);
+  return names;
+}
+
+}  // namespace
+
+const PluginManifest* ComponentReader::find_plugin(const std::string& id,
+                                                   const config::Origin& origin) const {
+  const PluginManifest* plugin = plugins_.find(id);
+  if (!plugin) problems_.add(origin, plugins_.unknown_text(id));
+  return plugin;
+}
+
+std::optional<ComponentConfig> ComponentReader::read(const Node::Entry& entry) const {
+  ComponentConfig component;
+  component.name = entry.key;
+  component.origin = entry.key_origin;
+  MapReader map{entry.value, fmt::format("component '{}'", entry.key), problems_};
+  const Node* plugin_node = map.optional_node("plugin");
+  // A component without `plugin:` is the framework's own of that name: `motion:`.
+  component.plugin_id = plugin_node ? plugin_node->text() : entry.key;
+  const PluginManifest* named =
+      find_plugin(component.plugin_id, plugin_node ? plugin_node->origin() : entry.key_origin);
+  if (!named) return std::nullopt;
+  component.manifest = named;
+  const bool pure = named->kind != Component::kKind;
+  if (pure) {
+    component.manifest = plugins_.host_of(named->kind);
+    if (!component.manifest) {
+      problems_.add(plugin_node->origin(),
+                    fmt::format("'{}' is of kind '{}' and runs in a slot only; no host for that "
+                                "kind is there", named->id, named->kind));
+      return std::nullopt;
+    }
+  }
+
+  component.executor = map.text("executor", std::string{kMainExecutor});
+  const auto executors = names_of(deployment_.executors);
+  if (std::find(executors.begin(), executors.end(), component.executor) == executors.end()) {
+    map.problem("executor", fmt::format("unknown executor '{}'{}", component.executor,
+                                        config::did_you_mean(component.executor, executors)));
+  }
+  component.process = map.text("process", std::string{kMainProcess});
+  if (component.process != kMainProcess && deployment_.simulated) {
+    map.problem("process", "the simulated clock runs one process; remove 'process' or set "
+                           "'clock: system'");
+  }
+  component.sim_latency = seconds(map.number("sim_latency_s", 0.0));
+  read_params(map, *named, component);
+  if (!pure) read_slots(map, component);
+  bind_documents(map, component);
+  bind_ports(map.optional_node("in"), "input", component.manifest->inputs, component,
+             component.inputs);
+  bind_ports(map.optional_node("out"), "output", component.manifest->outputs, component,
+             component.outputs);
+  map.finish();
+  return component;
+}
+
+/// A host's parameters and those of the pure plugin that it runs are written together.
+void ComponentReader::read_params(MapReader& map, const PluginManifest& named,
+                                  ComponentConfig& component) const {
+  const Node* given = map.optional_node("params");
+  if (component.manifest == &named) {
+    component.params = Params::read(named.params, given, named.id, problems_);
+    return;
+  }
+  std::vector<Node::Entry> of_host, of_plugin;
+  const auto host_names = names_of(component.manifest->params);
+  if (given) {
+    for (const auto& entry : given->entries()) {
+      const bool host = std::find(host_names.begin(), host_names.end(), entry.key) !=
+                        host_names.end();
+      (host ? of_host : of_plugin).push_back(entry);
+    }
+  }
+  const config::Origin& origin = given ? given->origin() : component.origin;
+  const Node host_node = Node::map(std::move(of_host), origin);
+  const Node plugin_node = Node::map(std::move(of_plugin), origin);
+  component.params =
+      Params::read(component.manifest->params, &host_node, component.manifest->id, problems_);
+  component.slots.push_back(
+      {.name = component.manifest->slots.front().name,
+       .plugin_id = named.id,
+       .origin = component.origin,
+       .manifest = &named,
+       .params = Params::read(named.params, &plugin_node, named.id, problems_)});
+}
+
+void ComponentReader::read_slots(MapReader& map, ComponentConfig& component) const {
+  for (const SlotSpec& spec : component.manifest->slots) {
+    const Node* node = map.optional_node(spec.name);
+    if (!node) {
+      problems_.add(component.origin,
+                    fmt::format("component '{}' needs a plugin in its slot '{}': add '{}: "
+                                "{{plugin: {}/...}}'", component.name, spec.name, spec.name,
+                                spec.kind));
+      continue;
+    }
+    read_slot(spec, *node, component);
+  }
+}
+
+void ComponentReader::read_slot(const SlotSpec& spec, const Node& node,
+                                ComponentConfig& component) const {
+  MapReader map{node, fmt::format("slot '{}'", spec.name), problems_};
+  const Node* plugin_node = map.node("plugin");
+  const Node* params = map.optional_node("params");
+  map.finish();
+  if (!plugin_node) return;
+  const PluginManifest* plugin = find_plugin(plugin_node->text(), plugin_node->origin());
+  if (!plugin) return;
+  if (plugin->kind != spec.kind) {
+    problems_.add(plugin_node->origin(),
+                  fmt::format("'{}' is of kind '{}', slot '{}' takes kind '{}'", plugin->id,
+                              plugin->kind, spec.name, spec.kind));
+    return;
+  }
+  component.slots.push_back({.name = spec.name,
+                             .plugin_id = plugin->id,
+                             .origin = plugin_node->origin(),
+                             .manifest = plugin,
+                             .params = Params::read(plugin->params, params, plugin->id, problems_)});
+}
+
+/// `robot: left` binds an entry of `robots:`; with a single entry nothing needs to be said.
+void ComponentReader::bind_documents(MapReader& map, ComponentConfig& component) const {
+  for (const auto& [section, word] : sections_) {
+    const auto& entries = deployment_.documents.at(std::string{section});
+    const auto& uses = component.manifest->uses;
+    const Node* named = map.optional_node(word);
+    if (std::find(uses.begin(), uses.end(), word) == uses.end()) {
+      if (named) {
+        problems_.add(named->origin(), fmt::format("component '{}' uses no {}", component.name, word));
+      }
+      continue;
+    }
+    std::vector<std::string> names;
+    for (const auto& [name, document] : entries) names.push_back(name);
+    if (named) {
+      if (entries.contains(named->text())) {
+        component.documents[std::string{section}] = named->text();
+      } else {
+        problems_.add(named->origin(), fmt::format("unknown {} '{}'{}", word, named->text(),
+                                                   config::did_you_mean(named->text(), names)));
+      }
+    } else if (names.size() == 1) {
+      component.documents[std::string{section}] = names.front();
+    } else if (names.empty()) {
+      problems_.add(component.origin, fmt::format("component '{}' needs a {}: add '{}: {{name: "
+                                                  "file.yaml}}'", component.name, word, section));
+    } else {
+      problems_.add(component.origin, fmt::format("component '{}' must say which {}: '{}: ...'",
+                                                  component.name, word, word));
+    }
+  }
+}
+
+void ComponentReader::bind_ports(const Node* renames, std::string_view direction,
+                                 const std::vector<PortSpec>& specs,
+                                 const ComponentConfig& component,
+                                 std::vector<PortBinding>& bindings) const {
+  for (const PortSpec& spec : specs) {
+    PortBinding binding{.spec = spec, .topic = spec.topic, .origin = component.origin};
+    if (const Node* rename = renames ? renames->find(spec.name) : nullptr) {
+      binding.topic = config::as_text(*rename, problems_).value_or(spec.topic);
+      binding.origin = rename->origin();
+    }
+    if (!binding.topic.starts_with('/')) {
+      binding.topic = fmt::format("/{}/{}", deployment_.name, binding.topic);
+    }
+    bindings.push_back(std::move(binding));
+  }
+  if (!renames) return;
+  const auto names = names_of(specs);
+  for (const auto& [key, key_origin, value] : renames->entries()) {
+    if (std::find(names.begin(), names.end(), key) == names.end()) {
+      problems_.add(key_origin, fmt::format("component '{}' has no {} '{}'{}", component.name,
+                                            direction, key, config::did_you_mean(key, names)));
+    }
+  }
+}
+
+}  // namespace armature

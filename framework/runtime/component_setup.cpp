@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/runtime/component_setup.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <utility>
+
+namespace armature {
+
+ComponentSetup::ComponentSetup(const ComponentConfig& config, const DeploymentConfig& deployment,
+                               PluginRegistry& plugins, Unit& unit, Delivery& delivery,
+                               FindTopic find_topic)
+    : config_{config},
+      deployment_{deployment},
+      plugins_{plugins},
+      unit_{unit},
+      delivery_{delivery},
+      find_topic_{std::move(find_topic)} {}
+
+std::uint64_t ComponentSetup::seed() const {
+  // FNV-1a: the same on every machine.
+  std::uint64_t hash = 14695981039346656037ULL ^ deployment_.seed;
+  for (const unsigned char c : config_.name) hash = (hash ^ c) * 1099511628211ULL;
+  return hash;
+}
+
+const config::Node& ComponentSetup::document(std::string_view section) {
+  const auto bound = config_.documents.find(std::string{section});
+  if (bound == config_.documents.end()) {
+    throw std::logic_error(fmt::format("plugin '{}' reads '{}' but its plugin.yaml does not say so "
+                                       "under 'uses:'", config_.manifest->id, section));
+  }
+  return deployment_.documents.at(std::string{section}).at(bound->second);
+}
+
+void ComponentSetup::activate_every(Duration period) {
+  if (period <= Duration{0}) throw SetupError("its period must be positive");
+  unit_.set_period(period);
+}
+
+const PortBinding& ComponentSetup::declared(const std::vector<PortBinding>& ports,
+                                            std::string_view direction, std::string_view name,
+                                            const MessageType& type) {
+  const auto port = std::find_if(ports.begin(), ports.end(),
+                                 [&](const PortBinding& p) { return p.spec.name == name; });
+  if (port == ports.end()) {
+    throw std::logic_error(fmt::format("plugin '{}' claims the {} '{}', which its plugin.yaml does "
+                                       "not declare", config_.manifest->id, direction, name));
+  }
+  if (port->spec.type != type.ros_name) {
+    throw std::logic_error(fmt::format("plugin '{}' claims the {} '{}' as {}, its plugin.yaml says "
+                                       "{}", config_.manifest->id, direction, name, type.ros_name,
+                                       port->spec.type));
+  }
+  claimed_.insert(&*port);
+  return *port;
+}
+
+const InputPort& ComponentSetup::claim_input(std::string_view port, const MessageType& type) {
+  const PortBinding& binding = declared(config_.inputs, "input", port, type);
+  InputPort& input = unit_.inbox().add(binding.spec, type);
+  find_topic_(binding, type).connect(input);
+  return input;
+}
+
+OutputPort& ComponentSetup::claim_output(std::string_view port, const MessageType& type) {
+  const PortBinding& binding = declared(config_.outputs, "output", port, type);
+  return unit_.outputs().emplace_back(binding.spec, find_topic_(binding, type), delivery_);
+}
+
+ComponentSetup::SlotPlugin ComponentSetup::slot_plugin(std::string_view slot, std::string_view kind,
+                                                       int version) {
+  const auto found = std::find_if(config_.slots.begin(), config_.slots.end(),
+                                  [&](const SlotConfig& s) { return s.name == slot; });
+  if (found == config_.slots.end()) {
+    throw std::logic_error(fmt::format("plugin '{}' uses the slot '{}', which its plugin.yaml does "
+                                       "not declare", config_.manifest->id, slot));
+  }
+  return {found->plugin_id, plugins_.load(*found->manifest, kind, version), &found->params};
+}
+
+void ComponentSetup::check_all_claimed() const {
+  for (const auto* ports : {&config_.inputs, &config_.outputs}) {
+    for (const PortBinding& port : *ports) {
+      if (!claimed_.contains(&port)) {
+        throw std::logic_error(fmt::format("plugin '{}' declares the port '{}' but never claims it",
+                                           config_.manifest->id, port.spec.name));
+      }
+    }
+  }
+}
+
+}  // namespace armature

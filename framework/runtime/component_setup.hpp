@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <set>
+#include <string>
+
+#include "armature/runtime/deployment_config.hpp"
+#include "armature/runtime/setup.hpp"
+#include "armature/runtime/unit.hpp"
+
+namespace armature {
+
+/// What the deployment hands to a component's constructor, made from its entry in the file. Checks
+/// that the class claims exactly the ports that its plugin.yaml declares.
+class ComponentSetup final : public Setup {
+ public:
+  using FindTopic = std::function<Topic&(const PortBinding&, const MessageType&)>;
+
+  ComponentSetup(const ComponentConfig& config, const DeploymentConfig& deployment,
+                 PluginRegistry& plugins, Unit& unit, Delivery& delivery, FindTopic find_topic);
+
+  const std::string& name() const override { return config_.name; }
+  const Params& params() const override { return config_.params; }
+  std::uint64_t seed() const override;
+  const config::Node& document(std::string_view section) override;
+  void activate_every(Duration period) override;
+  std::shared_ptr<Voice> voice() override { return unit_.voice(); }
+
+  /// Throws std::logic_error when a declared port was never claimed.
+  void check_all_claimed() const;
+
+ protected:
+  const InputPort& claim_input(std::string_view port, const MessageType& type) override;
+  OutputPort& claim_output(std::string_view port, const MessageType& type) override;
+  SlotPlugin slot_plugin(std::string_view slot, std::string_view kind, int version) override;
+
+ private:
+  const PortBinding& declared(const std::vector<PortBinding>& ports, std::string_view direction,
+                              std::string_view name, const MessageType& type);
+
+  const ComponentConfig& config_;
+  const DeploymentConfig& deployment_;
+  PluginRegistry& plugins_;
+  Unit& unit_;
+  Delivery& delivery_;
+  FindTopic find_topic_;
+  std::set<const PortBinding*> claimed_;
+};
+
+}  // namespace armature

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/runtime/deployment.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "armature/config/problems.hpp"
+#include "armature/runtime/component_setup.hpp"
+#include "armature/runtime/lockstep_scheduler.hpp"
+#include "armature/runtime/threaded_scheduler.hpp"
+
+namespace armature {
+namespace {
+
+// Samples that a topic keeps ready: what its readers hold, what is in flight, and one to fill.
+constexpr std::size_t kPreallocatedSamples = 8;
+
+}  // namespace
+
+Deployment::Deployment(DeploymentConfig config, PluginRegistry& plugins, Options options)
+    : config_{std::move(config)}, options_{std::move(options)} {
+  make_scheduler();
+  std::vector<const ComponentConfig*> order;
+  for (const ComponentConfig& component : config_.components) {
+    if (options_.process.empty() || component.process == options_.process) {
+      order.push_back(&component);
+    }
+  }
+  std::sort(order.begin(), order.end(),
+            [](const auto* a, const auto* b) { return a->place < b->place; });
+  config::Problems problems;
+  for (const ComponentConfig* component : order) make_unit(*component, plugins, problems);
+  problems.throw_if_any();
+  assign_units();
+}
+
+Deployment::~Deployment() {
+  scheduler_->stop();
+  readers_.clear();  // deliveries end before their inboxes go
+  units_.clear();
+  topics_.clear();  // outside writers go before the transport
+}
+
+void Deployment::make_scheduler() {
+  if (config_.simulated) {
+    auto clock = std::make_unique<SimulatedClock>();
+    scheduler_ = std::make_unique<LockstepScheduler>(*clock);
+    clock_ = std::move(clock);
+  } else {
+    clock_ = std::make_unique<SystemClock>();
+    scheduler_ = std::make_unique<ThreadedScheduler>(*clock_, options_.on_note);
+  }
+}
+
+void Deployment::make_unit(const ComponentConfig& component, PluginRegistry& plugins,
+                           config::Problems& problems) {
+  auto unit = std::make_unique<Unit>(component.name, component.plugin_id, component.place,
+                                     options_.on_line);
+  ComponentSetup setup{component, config_, plugins, *unit, *scheduler_,
+                       [this](const PortBinding& port, const MessageType& type) -> Topic& {
+                         return topic_for(port, type);
+                       }};
+  try {
+    auto library = plugins.load(*component.manifest, Component::kKind, Component::kKindVersion);
+    const auto make = reinterpret_cast<Component::Factory>(library->factory());
+    auto object = make(setup);
+    setup.check_all_claimed();
+    unit->install({std::move(library), std::move(object)});
+    units_.push_back(std::move(unit));
+  } catch (const SetupError& error) {
+    problems.add(component.origin, fmt::format("component '{}': {}", component.name, error.what()));
+  } catch (const config::ConfigError& error) {
+    for (const auto& problem : error.problems()) problems.add(problem.origin, problem.message);
+  }
+}
+
+Topic& Deployment::topic_for(const PortBinding& port, const MessageType& type) {
+  auto& topic = topics_[port.topic];
+  if (!topic) {
+    topic = std::make_unique<Topic>(
+        TopicSpec{.name = "rt" + port.topic, .type = &type, .qos = port.spec.qos},
+        kPreallocatedSamples);
+  }
+  return *topic;
+}
+
+const ComponentConfig& Deployment::config_of(const Unit& unit) const {
+  return *std::find_if(config_.components.begin(), config_.components.end(),
+                       [&](const ComponentConfig& c) { return c.name == unit.name(); });
+}
+
+void Deployment::assign_units() {
+  for (const ExecutorSpec& spec : config_.executors) {
+    std::vector<Unit*> assigned;
+    for (const auto& unit : units_) {
+      if (config_of(*unit).executor == spec.name) assigned.push_back(unit.get());
+    }
+    if (!assigned.empty()) scheduler_->assign(spec, assigned, [this](const Unit& unit) {
+      return config_of(unit).sim_latency;
+    });
+  }
+}
+
+bool Deployment::written_elsewhere(const std::string& topic) const {
+  for (const ComponentConfig& component : config_.components) {
+    if (component.process == options_.process) continue;
+    for (const PortBinding& output : component.outputs) {
+      if (output.topic == topic) return true;
+    }
+  }
+  return false;
+}
+
+void Deployment::connect(PluginRegistry& plugins, int domain) {
+  const TransportOptions options{
+      .domain = domain,
+      .deployment = config_.name,
+      .fingerprint = config_.fingerprint,
+      .on_event = [note = options_.on_note](const TransportEvent& event) { note(event.text); },
+      .now = [this] { return clock_->now(); }};
+  auto transport = plugins.make<Transport>("transport/fast_dds", options);
+  if (!transport) throw PluginError("cannot join DDS: " + transport.error().text);
+  transport_ = std::move(*transport);
+
+  for (const ComponentConfig& component : config_.components) {
+    if (component.process != options_.process) continue;
+    for (const PortBinding& output : component.outputs) advertise(output);
+    for (const PortBinding& input : component.inputs) subscribe(input);
+  }
+}
+
+void Deployment::advertise(const PortBinding& output) {
+  Topic& topic = *topics_.at(output.topic);
+  TopicSpec spec = topic.spec();
+  spec.qos = output.spec.qos;
+  auto writer = transport_->advertise(spec);
+  if (!writer) throw PluginError("cannot write " + output.topic + ": " + writer.error().text);
+  topic.attach(std::move(*writer));
+}
+
+void Deployment::subscribe(const PortBinding& input) {
+  const bool elsewhere = written_elsewhere(input.topic);
+  if ((!elsewhere && !input.spec.outside) || readers_.contains(input.topic)) return;
+  Topic& topic = *topics_.at(input.topic);
+  TopicSpec spec = topic.spec();
+  spec.qos = input.spec.qos;
+  const bool same_deployment_only = elsewhere && input.spec.qos == QosProfile::command;
+  auto reader = transport_->subscribe(
+      spec, same_deployment_only,
+      [&topic](SampleRef sample) { topic.deliver_from_outside(sample); });
+  if (!reader) throw PluginError("cannot read " + input.topic + ": " + reader.error().text);
+  readers_[input.topic] = std::move(*reader);
+}
+
+void Deployment::run(const std::function<bool()>& done) {
+  const Time start = clock_->now();
+  scheduler_->run([&] {
+    const bool too_long =
+        config_.time_limit_s > 0 && clock_->now() - start > seconds(config_.time_limit_s);
+    return too_long || any_finished() || !fault().empty() || done();
+  });
+  stop();
+}
+
+void Deployment::stop() {
+  scheduler_->stop();
+  for (const auto& unit : units_) unit->stop(clock_->now());
+}
+
+bool Deployment::any_finished() const {
+  return std::any_of(units_.begin(), units_.end(), [](const auto& unit) { return unit->finished(); });
+}
+
+std::string Deployment::fault() const {
+  for (const auto& unit : units_) {
+    if (unit->faulted()) return unit->name() + ": " + unit->voice()->status().reason;
+  }
+  return {};
+}
+
+}  // namespace armature

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "armature/bus/transport.hpp"
+#include "armature/runtime/clock.hpp"
+#include "armature/runtime/deployment_config.hpp"
+#include "armature/runtime/scheduler.hpp"
+#include "armature/runtime/unit.hpp"
+
+namespace armature {
+
+/// A deployment in memory: topics, units, scheduler, and the way to other processes. Built in
+/// three steps, each of which throws with every problem it finds: the configuration is read
+/// (read_deployment), the components are constructed (here), the transport is joined (connect).
+class Deployment {
+ public:
+  struct Options {
+    std::string process{kMainProcess};  // constructs only its components; empty: all of them
+    Voice::Sink on_line;                // what components tell the operator
+    std::function<void(const std::string&)> on_note;  // what the runtime tells the operator
+  };
+
+  /// Loads the plugins and constructs the components. Throws config::ConfigError (a plugin refuses
+  /// its parameters or robot) or PluginError (a library cannot be used).
+  Deployment(DeploymentConfig config, PluginRegistry& plugins, Options options);
+  ~Deployment();
+  Deployment(const Deployment&) = delete;
+  Deployment& operator=(const Deployment&) = delete;
+
+  const DeploymentConfig& config() const { return config_; }
+  const Clock& clock() const { return *clock_; }
+  const std::vector<std::unique_ptr<Unit>>& units() const { return units_; }
+
+  /// Joins the DDS domain: writers for every output, readers only for inputs that another process
+  /// feeds. Throws PluginError with the transport's reason.
+  void connect(PluginRegistry& plugins, int domain);
+
+  /// Runs until `done`, or a component is finished, or the time limit; then stops everything,
+  /// sources first.
+  void run(const std::function<bool()>& done);
+
+  bool any_finished() const;
+  /// The first fault, or empty.
+  std::string fault() const;
+
+ private:
+  void make_scheduler();
+  void make_unit(const ComponentConfig& component, PluginRegistry& plugins,
+                 config::Problems& problems);
+  Topic& topic_for(const PortBinding& port, const MessageType& type);
+  const ComponentConfig& config_of(const Unit& unit) const;
+  bool written_elsewhere(const std::string& topic) const;
+  void advertise(const PortBinding& output);
+  void subscribe(const PortBinding& input);
+  void assign_units();
+  void stop();
+
+  DeploymentConfig config_;
+  Options options_;
+  std::unique_ptr<Clock> clock_;
+  std::map<std::string, std::unique_ptr<Topic>> topics_;
+  std::unique_ptr<Scheduler> scheduler_;
+  std::vector<std::unique_ptr<Unit>> units_;  // in the order of the graph
+  PluginPtr<Transport> transport_;
+  std::map<std::string, std::unique_ptr<OutsideReader>> readers_;  // by topic
+};
+
+}  // namespace armature

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/runtime/deployment_config.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <filesystem>
+#include <functional>
+#include <set>
+
+#include "armature/config/document.hpp"
+#include "armature/config/reader.hpp"
+#include "armature/runtime/component_config.hpp"
+#include "armature/runtime/graph.hpp"
+
+namespace armature {
+namespace {
+
+using config::MapReader;
+using config::Node;
+using config::Problems;
+
+// The sections whose entries are files that components are bound to, and the word that a
+// component (and a plugin's `uses:`) says for one of them.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 2> kDocumentSections{{
+    {"robots", "robot"},
+    {"rigs", "rig"},
+}};
+
+bool is_name(std::string_view text) {
+  return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
+           return std::isalnum(c) || c == '_';
+         });
+}
+
+/// `name: file.yaml` entries; the files are relative to the YAML file that names them.
+std::map<std::string, Node> read_documents(const Node* section, Problems& problems) {
+  std::map<std::string, Node> documents;
+  if (!section) return documents;
+  for (const auto& [name, name_origin, value] : section->entries()) {
+    const auto file = config::as_text(value, problems);
+    if (!file) continue;
+    std::filesystem::path path{*file};
+    if (path.is_relative()) {
+      path = std::filesystem::path{value.origin().file}.parent_path() / path;
+    }
+    try {
+      documents.emplace(name, config::load(path));
+    } catch (const config::ConfigError& error) {
+      for (const auto& problem : error.problems()) {
+        // A file that is not there is a mistake of the line that names it.
+        problems.add(problem.origin.line > 0 ? problem.origin : value.origin(), problem.message);
+      }
+    }
+  }
+  return documents;
+}
+
+std::vector<ExecutorSpec> read_executors(const Node* section, Problems& problems) {
+  std::vector<ExecutorSpec> executors;
+  if (section) {
+    for (const auto& [name, name_origin, value] : section->entries()) {
+      MapReader map{value, fmt::format("executor '{}'", name), problems};
+      ExecutorSpec spec{.name = name, .period = {}, .priority = 0, .cpu = {}};
+      if (const double period = map.number("period_s", 0.0); period > 0) {
+        spec.period = seconds(period);
+      } else if (period < 0) {
+        map.problem("period_s", "'period_s' must be positive");
+      }
+      spec.priority = static_cast<int>(map.integer("priority", 0));
+      if (spec.priority < 0 || spec.priority > 99) {
+        map.problem("priority", "'priority' must be from 0 (normal) to 99");
+      }
+      if (const auto cpu = map.integer("cpu", -1); cpu >= 0) spec.cpu = static_cast<int>(cpu);
+      map.finish();
+      executors.push_back(std::move(spec));
+    }
+  }
+  const auto is_main = [](const ExecutorSpec& spec) { return spec.name == kMainExecutor; };
+  if (std::none_of(executors.begin(), executors.end(), is_main)) {
+    executors.push_back({.name = std::string{kMainExecutor}, .period = {}, .priority = 0, .cpu = {}});
+  }
+  return executors;
+}
+
+std::vector<Goal> read_goals(const Node* section, Problems& problems) {
+  std::vector<Goal> goals;
+  if (!section) return goals;
+  for (const auto& [metric, origin, value] : section->entries()) {
+    if (const auto limit = config::as_number(value, problems)) goals.push_back({metric, *limit});
+  }
+  return goals;
+}
+
+std::string fingerprint_of(const Node& root) {
+  const std::string text = config::to_yaml(root, false);
+  return fmt::format("{:016x}", std::hash<std::string>{}(text));
+}
+
+}  // namespace
+
+std::vector<std::string> DeploymentConfig::processes() const {
+  std::set<std::string> others;
+  for (const auto& component : components) {
+    if (component.process != kMainProcess) others.insert(component.process);
+  }
+  std::vector<std::string> all{std::string{kMainProcess}};
+  all.insert(all.end(), others.begin(), others.end());
+  return all;
+}
+
+DeploymentConfig read_deployment(const Node& root, const PluginRegistry& plugins,
+                                 Problems& problems) {
+  DeploymentConfig deployment;
+  MapReader map{root, "the deployment", problems};
+  if (!root.find("armature")) {
+    problems.add(root.origin(), "not a deployment: it must begin with 'armature: 1'");
+  } else if (map.integer("armature", 1) != 1) {
+    map.problem("armature", "'armature' is the version of the file format and must be 1");
+  }
+  deployment.name = map.text("name");
+  if (!deployment.name.empty() && !is_name(deployment.name)) {
+    map.problem("name", fmt::format("'{}' must consist of letters, digits and '_': it is the "
+                                    "namespace of the topics", deployment.name));
+  }
+  deployment.simulated = map.choice("clock", {"system", "simulated"}, "system") == "simulated";
+  deployment.domain = static_cast<int>(map.integer("domain", 0));
+  if (deployment.domain < 0 || deployment.domain > 232) {
+    map.problem("domain", "'domain' must be from 0 to 232");
+  }
+  deployment.seed = static_cast<std::uint64_t>(map.integer("seed", 1));
+  deployment.time_limit_s = 0;
+  if (const Node* run = map.optional_node("run")) {
+    MapReader run_map{*run, "run", problems};
+    deployment.time_limit_s = run_map.number("time_limit_s", 0.0);
+    run_map.finish();
+  }
+  deployment.executors = read_executors(map.optional_node("executors"), problems);
+  for (const auto& [section, word] : kDocumentSections) {
+    deployment.documents[std::string{section}] = read_documents(map.optional_node(section), problems);
+  }
+  deployment.goals = read_goals(map.optional_node("goals"), problems);
+  if (const Node* components = map.node("components")) {
+    const ComponentReader reader{deployment, plugins, kDocumentSections, problems};
+    for (const auto& entry : components->entries()) {
+      if (auto component = reader.read(entry)) deployment.components.push_back(std::move(*component));
+    }
+    // With a component missing, every one of its readers would look wrong too.
+    if (deployment.components.size() == components->entries().size()) {
+      check_graph(deployment, problems);
+    }
+  }
+  map.finish();
+  deployment.fingerprint = fingerprint_of(root);
+  return deployment;
+}
+
+}  // namespace armature

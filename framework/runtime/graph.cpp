@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/runtime/graph.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <map>
+#include <set>
+
+#include "armature/config/problems.hpp"
+
+namespace armature {
+namespace {
+
+struct Writer {
+  std::size_t component;
+  const PortBinding* port;
+};
+using Writers = std::map<std::string, Writer>;
+
+std::string port_name(const ComponentConfig& component, const PortBinding& port) {
+  return fmt::format("{}.{}", component.name, port.spec.name);
+}
+
+Writers find_writers(const DeploymentConfig& deployment, config::Problems& problems) {
+  Writers writers;
+  for (std::size_t i = 0; i < deployment.components.size(); ++i) {
+    const ComponentConfig& component = deployment.components[i];
+    for (const PortBinding& port : component.outputs) {
+      const auto [first, inserted] = writers.try_emplace(port.topic, Writer{i, &port});
+      if (inserted) continue;
+      problems.add(port.origin,
+                   fmt::format("{} and {} both write topic '{}'; rename one with 'out:'",
+                               port_name(deployment.components[first->second.component],
+                                         *first->second.port),
+                               port_name(component, port), port.topic));
+    }
+  }
+  return writers;
+}
+
+/// Does `input` understand what `output` writes?
+void check_match(const ComponentConfig& reader, const PortBinding& input,
+                 const ComponentConfig& writer, const PortBinding& output,
+                 config::Problems& problems) {
+  const auto mismatch = [&](std::string_view what, std::string_view wanted, std::string_view got) {
+    problems.add(input.origin, fmt::format("{} reads {} '{}' from topic '{}', but {} writes {} '{}'",
+                                           port_name(reader, input), what, wanted, input.topic,
+                                           port_name(writer, output), what, got));
+  };
+  if (input.spec.type != output.spec.type) {
+    mismatch("type", input.spec.type, output.spec.type);
+  }
+  if (!input.spec.frame.empty() && !output.spec.frame.empty() &&
+      input.spec.frame != output.spec.frame) {
+    mismatch("poses in frame", input.spec.frame, output.spec.frame);
+  }
+  if (settings(input.spec.qos).transient_local && !settings(output.spec.qos).transient_local) {
+    mismatch("QoS", to_string(input.spec.qos), to_string(output.spec.qos));
+  }
+}
+
+void check_inputs(const DeploymentConfig& deployment, const Writers& writers,
+                  config::Problems& problems) {
+  std::vector<std::string> topics;
+  for (const auto& [topic, writer] : writers) topics.push_back(topic);
+  for (const ComponentConfig& component : deployment.components) {
+    for (const PortBinding& input : component.inputs) {
+      const auto writer = writers.find(input.topic);
+      if (writer != writers.end()) {
+        check_match(component, input, deployment.components[writer->second.component],
+                    *writer->second.port, problems);
+      } else if (!input.spec.optional && !input.spec.outside) {
+        problems.add(input.origin, fmt::format("{} reads topic '{}', which nobody writes{}",
+                                               port_name(component, input), input.topic,
+                                               config::did_you_mean(input.topic, topics)));
+      }
+    }
+  }
+}
+
+/// Places the components so that every writer comes before its readers, feedback aside.
+void place_components(DeploymentConfig& deployment, const Writers& writers,
+                      config::Problems& problems) {
+  const std::size_t count = deployment.components.size();
+  std::vector<std::set<std::size_t>> sources(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    for (const PortBinding& input : deployment.components[i].inputs) {
+      const auto writer = writers.find(input.topic);
+      if (writer != writers.end() && !input.spec.feedback) sources[i].insert(writer->second.component);
+    }
+  }
+  std::set<std::size_t> placed;
+  for (int place = 0; placed.size() < count; ++place) {
+    std::size_t next = 0;
+    while (next < count && (placed.contains(next) ||
+                            !std::includes(placed.begin(), placed.end(), sources[next].begin(),
+                                           sources[next].end()))) {
+      ++next;
+    }
+    if (next == count) {
+      std::vector<std::string> cycle;
+      const ComponentConfig* first = nullptr;
+      for (std::size_t i = 0; i < count; ++i) {
+        if (placed.contains(i)) continue;
+        if (!first) first = &deployment.components[i];
+        cycle.push_back(deployment.components[i].name);
+      }
+      problems.add(first->origin,
+                   fmt::format("a cycle without a declared delay among {}: one input in it must be "
+                               "'feedback: true' in its plugin.yaml", fmt::join(cycle, ", ")));
+      return;
+    }
+    deployment.components[next].place = place;
+    placed.insert(next);
+  }
+}
+
+}  // namespace
+
+void check_graph(DeploymentConfig& deployment, config::Problems& problems) {
+  const Writers writers = find_writers(deployment, problems);
+  check_inputs(deployment, writers, problems);
+  place_components(deployment, writers, problems);
+}
+
+}  // namespace armature

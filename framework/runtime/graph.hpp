@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "armature/runtime/deployment_config.hpp"
+
+namespace armature {
+
+/// Checks how the components of a deployment are wired and sets every component's place in the
+/// graph (sources first; file order among equals). Problems: a topic with two writers, two types,
+/// frames or unmatchable QoS on one topic, an input nobody writes, a cycle in which no input is
+/// declared as feedback.
+void check_graph(DeploymentConfig& deployment, config::Problems& problems);
+
+}  // namespace armature

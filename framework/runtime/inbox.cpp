@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/runtime/inbox.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "armature/runtime/ports.hpp"
+
+namespace armature {
+namespace {
+
+// Joined inputs wait for their partners this many samples long.
+constexpr std::size_t kJoinDepth = 4;
+
+}  // namespace
+
+InputPort::InputPort(PortSpec spec, const MessageType& type, Inbox& inbox)
+    : spec_{std::move(spec)},
+      type_{&type},
+      inbox_{&inbox},
+      capacity_{static_cast<std::size_t>(spec_.queue.value_or(1))} {
+  waiting_.reserve(capacity_);
+  shown_.reserve(capacity_);
+}
+
+void InputPort::deliver(const SampleRef& sample) { inbox_->arrived(*this, sample); }
+
+void InputPort::keep(const SampleRef& sample) {
+  if (waiting_.size() == capacity_) {
+    waiting_.erase(waiting_.begin());
+    if (spec_.queue) ++inbox_->dropped_;
+  }
+  waiting_.push_back(sample);
+}
+
+Time InputPort::stamp_of(const SampleRef& sample) const {
+  return type_->stamp ? type_->stamp(sample.message()) : sample.info().published;
+}
+
+void InputPort::show(Time now) {
+  fresh_ = !waiting_.empty();
+  if (spec_.queue || fresh_) {
+    std::swap(shown_, waiting_);
+    waiting_.clear();
+  }
+  if (spec_.max_age && !shown_.empty() && now - stamp_of(shown_.back()) > *spec_.max_age) {
+    shown_.clear();
+    fresh_ = false;
+  }
+}
+
+InputPort& Inbox::add(PortSpec spec, const MessageType& type) {
+  ports_.push_back(std::make_unique<InputPort>(std::move(spec), type, *this));
+  return *ports_.back();
+}
+
+void Inbox::arrived(InputPort& port, const SampleRef& sample) {
+  bool triggered = false;
+  {
+    const std::scoped_lock lock{mutex_};
+    if (port.spec_.join) {
+      port.unmatched_.push_back(sample);
+      if (port.unmatched_.size() > kJoinDepth) port.unmatched_.pop_front();
+      triggered = match_joined();
+    } else {
+      port.keep(sample);
+      triggered = port.spec_.trigger;
+    }
+  }
+  if (triggered) on_trigger_();
+}
+
+/// Moves the newest set of equal stamps to the waiting samples of its ports.
+bool Inbox::match_joined() {
+  std::vector<InputPort*> joined;
+  for (const auto& port : ports_) {
+    if (port->spec_.join) joined.push_back(port.get());
+  }
+  const auto find = [](InputPort& port, Time stamp) {
+    return std::find_if(port.unmatched_.begin(), port.unmatched_.end(),
+                        [&](const SampleRef& sample) { return port.stamp_of(sample) == stamp; });
+  };
+  const auto& first = joined.front()->unmatched_;
+  for (auto newest = first.rbegin(); newest != first.rend(); ++newest) {
+    const Time stamp = joined.front()->stamp_of(*newest);
+    if (!std::all_of(joined.begin(), joined.end(), [&](InputPort* port) {
+          return find(*port, stamp) != port->unmatched_.end();
+        })) {
+      continue;
+    }
+    for (InputPort* port : joined) {
+      const auto match = find(*port, stamp);
+      port->keep(*match);
+      port->unmatched_.erase(port->unmatched_.begin(), std::next(match));
+    }
+    return true;
+  }
+  return false;
+}
+
+void Inbox::show(Time now) {
+  const std::scoped_lock lock{mutex_};
+  for (const auto& port : ports_) port->show(now);
+}
+
+std::uint64_t Inbox::dropped() const {
+  const std::scoped_lock lock{mutex_};
+  return dropped_;
+}
+
+namespace detail {
+
+std::size_t input_size(const InputPort& port) { return port.shown().size(); }
+const SampleRef& input_sample(const InputPort& port, std::size_t index) {
+  return port.shown()[index];
+}
+bool input_fresh(const InputPort& port) { return port.fresh(); }
+
+}  // namespace detail
+}  // namespace armature

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/runtime/output_port.hpp"
+
+#include "armature/runtime/ports.hpp"
+
+namespace armature::detail {
+
+SampleRef output_loan(OutputPort& port) { return port.topic().loan(); }
+void output_publish(OutputPort& port, SampleRef sample) { port.publish(std::move(sample)); }
+
+}  // namespace armature::detail

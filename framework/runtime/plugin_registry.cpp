@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/runtime/plugin_registry.hpp"
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <sstream>
+
+#include "armature/config/problems.hpp"
+#include "armature/runtime/elf_section.hpp"
+
+namespace armature {
+namespace {
+
+/// lib/armature/plugins beside the library that this code lives in: the same in a build tree and
+/// after installation.
+std::filesystem::path own_plugin_folder() {
+  Dl_info info{};
+  if (dladdr(reinterpret_cast<void*>(&PluginRegistry::default_search_path), &info) == 0) return {};
+  return std::filesystem::canonical(info.dli_fname).parent_path() / "armature" / "plugins";
+}
+
+}  // namespace
+
+std::vector<std::filesystem::path> PluginRegistry::default_search_path() {
+  std::vector<std::filesystem::path> path;
+  if (const char* variable = std::getenv("ARMATURE_PLUGIN_PATH")) {
+    std::istringstream folders{variable};
+    for (std::string folder; std::getline(folders, folder, ':');) {
+      if (!folder.empty()) path.emplace_back(folder);
+    }
+  }
+  path.push_back(own_plugin_folder());
+  return path;
+}
+
+PluginRegistry::PluginRegistry(std::vector<std::filesystem::path> search_path)
+    : search_path_{std::move(search_path)} {
+  for (const auto& folder : search_path_) scan(folder);
+  std::sort(plugins_.begin(), plugins_.end(),
+            [](const auto& a, const auto& b) { return a.id < b.id; });
+}
+
+void PluginRegistry::scan(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator{folder, error}) {
+    if (entry.path().extension() == ".so") files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());  // the directory's own order is not reproducible
+  for (const auto& file : files) add(file);
+}
+
+void PluginRegistry::add(const std::filesystem::path& file) {
+  const auto sections = read_elf_sections(file, {".armature.manifest", ".armature.abi"});
+  if (!sections) {
+    unusable_.push_back({file, sections.error().text});
+    return;
+  }
+  const auto text = sections->find(".armature.manifest");
+  if (text == sections->end()) {
+    unusable_.push_back({file, "not an Armature plugin: it has no manifest"});
+    return;
+  }
+  config::Problems problems;
+  try {
+    PluginManifest manifest = parse_manifest(text->second, file.string() + ":plugin.yaml", problems);
+    problems.throw_if_any();
+    manifest.file = file;
+    if (const auto abi = sections->find(".armature.abi"); abi != sections->end()) {
+      manifest.abi = abi->second;
+    }
+    if (const PluginManifest* first = find(manifest.id)) {
+      unusable_.push_back({file, fmt::format("'{}' is already provided by {}, which comes earlier "
+                                             "in the search path",
+                                             manifest.id, first->file.string())});
+      return;
+    }
+    plugins_.push_back(std::move(manifest));
+  } catch (const config::ConfigError& error) {
+    unusable_.push_back({file, fmt::format("its manifest is wrong: {}", error.what())});
+  }
+}
+
+const PluginManifest* PluginRegistry::find(std::string_view id) const {
+  const auto found = std::find_if(plugins_.begin(), plugins_.end(),
+                                  [&](const auto& plugin) { return plugin.id == id; });
+  return found == plugins_.end() ? nullptr : &*found;
+}
+
+const PluginManifest* PluginRegistry::host_of(std::string_view kind) const {
+  const auto found = std::find_if(plugins_.begin(), plugins_.end(),
+                                  [&](const auto& plugin) { return plugin.hosts == kind; });
+  return found == plugins_.end() ? nullptr : &*found;
+}
+
+std::string PluginRegistry::unknown_text(std::string_view id) const {
+  std::vector<std::string> ids, folders;
+  for (const auto& plugin : plugins_) ids.push_back(plugin.id);
+  for (const auto& folder : search_path_) folders.push_back(folder.string());
+  std::string text = fmt::format("unknown plugin '{}'{}; searched {}", id,
+                                 config::did_you_mean(id, ids), fmt::join(folders, ", "));
+  for (const auto& [file, reason] : unusable_) {
+    text += fmt::format("; {} cannot be used: {}", file.string(), reason);
+  }
+  return text;
+}
+
+std::shared_ptr<PluginLibrary> PluginRegistry::load(const PluginManifest& plugin,
+                                                    std::string_view kind, int kind_version) {
+  for (auto& [id, weak] : loaded_) {
+    if (id != plugin.id) continue;
+    if (auto library = weak.lock()) return library;
+  }
+  auto library = PluginLibrary::load(plugin.file, kind, kind_version);
+  if (!library) {
+    throw PluginError(fmt::format("plugin '{}' cannot be used: {}: {}", plugin.id,
+                                  plugin.file.string(), library.error().text));
+  }
+  loaded_.emplace_back(plugin.id, *library);
+  return *library;
+}
+
+}  // namespace armature

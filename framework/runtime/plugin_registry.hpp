@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "armature/runtime/plugin_library.hpp"
+#include "armature/runtime/plugin_manifest.hpp"
+
+namespace armature {
+
+/// A plugin library is there but cannot be used.
+class PluginError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The plugins of the search path, known by their manifests; libraries are loaded only when asked
+/// for and shared by everybody who uses them.
+class PluginRegistry {
+ public:
+  struct Unusable {
+    std::filesystem::path file;
+    std::string reason;
+  };
+
+  /// $ARMATURE_PLUGIN_PATH (colon-separated), then the framework's own plugin folder.
+  static std::vector<std::filesystem::path> default_search_path();
+  /// Reads the manifests of every *.so in the folders, in order; the first of an id wins.
+  explicit PluginRegistry(std::vector<std::filesystem::path> search_path = default_search_path());
+
+  const std::vector<std::filesystem::path>& search_path() const { return search_path_; }
+  /// Sorted by id.
+  const std::vector<PluginManifest>& plugins() const { return plugins_; }
+  const std::vector<Unusable>& unusable() const { return unusable_; }
+
+  /// The plugin, or nullptr.
+  const PluginManifest* find(std::string_view id) const;
+  /// The component that runs a pure kind alone on topics, or nullptr.
+  const PluginManifest* host_of(std::string_view kind) const;
+  /// "unknown plugin 'ik/geometric'; did you mean ...; searched: ..." with the reasons of
+  /// libraries that might have been it.
+  std::string unknown_text(std::string_view id) const;
+
+  /// Loads (once) the library of `plugin`. Throws PluginError with file and reason.
+  std::shared_ptr<PluginLibrary> load(const PluginManifest& plugin, std::string_view kind,
+                                      int kind_version);
+
+  /// Loads `id` and makes an object of it; throws PluginError when the library cannot be used, and
+  /// hands on the plugin's own refusal as a reason.
+  template <class Kind, class... Args>
+  Expected<PluginPtr<Kind>> make(std::string_view id, const Args&... args) {
+    const PluginManifest* plugin = find(id);
+    if (!plugin) return refuse(unknown_text(id));
+    auto library = load(*plugin, Kind::kKind, Kind::kKindVersion);
+    auto factory = reinterpret_cast<typename Kind::Factory>(library->factory());
+    auto made = factory(args...);
+    if (!made) return tl::unexpected{made.error()};
+    return PluginPtr<Kind>{std::move(library), std::move(*made)};
+  }
+
+ private:
+  void scan(const std::filesystem::path& folder);
+  void add(const std::filesystem::path& file);
+
+  std::vector<std::filesystem::path> search_path_;
+  std::vector<PluginManifest> plugins_;
+  std::vector<Unusable> unusable_;
+  std::vector<std::pair<std::string, std::weak_ptr<PluginLibrary>>> loaded_;
+};
+
+}  // namespace armature

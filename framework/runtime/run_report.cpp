@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/runtime/run_report.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <utility>
+
+namespace armature {
+
+RunReport::RunReport(const Deployment& deployment) {
+  for (const auto& unit : deployment.units()) unit->component().summarize(*this);
+  judge(deployment);
+}
+
+void RunReport::metric(std::string key, std::string title, double value) {
+  figures_.push_back({std::move(key), std::move(title), value});
+}
+void RunReport::text(std::string key, std::string title, std::string value) {
+  figures_.push_back({std::move(key), std::move(title), std::move(value)});
+}
+void RunReport::failed(std::string status) { story_status_ = std::move(status); }
+
+void RunReport::judge(const Deployment& deployment) {
+  for (const Goal& goal : deployment.config().goals) {
+    bool found = false;
+    for (Figure& figure : figures_) {
+      const double* value = std::get_if<double>(&figure.value);
+      if (figure.key != goal.metric || !value) continue;
+      found = true;
+      figure.goal = &goal;
+      figure.met = *value <= goal.limit;  // false for NaN: nothing was measured
+      if (!figure.met) {
+        reasons_.push_back(std::isnan(*value)
+                               ? fmt::format("{} was never measured", goal.metric)
+                               : fmt::format("{} is {:.3f}, the goal is at most {:g}", goal.metric,
+                                             *value, goal.limit));
+      }
+    }
+    if (!found) reasons_.push_back(fmt::format("no component measures {}", goal.metric));
+  }
+  if (!reasons_.empty()) status_ = "goals_missed";
+  if (!story_status_.empty()) status_ = story_status_;
+  if (const std::string fault = deployment.fault(); !fault.empty()) {
+    status_ = "fault";
+    reasons_.insert(reasons_.begin(), fault);
+  }
+}
+
+std::string to_json(const RunReport& report) {
+  nlohmann::ordered_json json;
+  json["status"] = report.status();
+  for (const auto& figure : report.figures()) {
+    if (const double* value = std::get_if<double>(&figure.value)) {
+      json[figure.key] = std::isfinite(*value) ? nlohmann::ordered_json(*value) : nullptr;
+    } else {
+      json[figure.key] = std::get<std::string>(figure.value);
+    }
+  }
+  if (!report.reasons().empty()) json["reasons"] = report.reasons();
+  return json.dump();
+}
+
+std::string to_table(const RunReport& report) {
+  std::size_t width = 0;
+  for (const auto& figure : report.figures()) width = std::max(width, figure.title.size());
+  std::string table;
+  for (const auto& figure : report.figures()) {
+    const double* value = std::get_if<double>(&figure.value);
+    std::string shown = value ? fmt::format("{:10.3f}", *value) : std::get<std::string>(figure.value);
+    if (value && std::isnan(*value)) shown = "         -";
+    table += fmt::format("  {:<{}}  {}", figure.title, width, shown);
+    if (figure.goal) {
+      table += fmt::format("   goal {:g}  {}", figure.goal->limit, figure.met ? "met" : "MISSED");
+    }
+    table += '\n';
+  }
+  table += fmt::format("  {:<{}}  {}\n", "status", width, report.status());
+  for (const auto& reason : report.reasons()) table += fmt::format("    {}\n", reason);
+  return table;
+}
+
+void write_report(const RunReport& report, const Deployment& deployment,
+                  const std::filesystem::path& directory) {
+  std::filesystem::create_directories(directory);
+  for (const auto& unit : deployment.units()) unit->component().write_files(directory);
+  const auto file = directory / "report.json";
+  std::ofstream stream{file};
+  stream << to_json(report) << '\n';
+  stream.close();
+  if (!stream) throw std::runtime_error("cannot write " + file.string());
+}
+
+}  // namespace armature

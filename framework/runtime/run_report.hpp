@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "armature/runtime/component.hpp"
+#include "armature/runtime/deployment.hpp"
+
+namespace armature {
+
+/// The outcome of a run: what its components measured, held against the deployment's goals.
+class RunReport final : public Summary {
+ public:
+  struct Figure {
+    std::string key, title;
+    std::variant<double, std::string> value;
+    const Goal* goal = nullptr;  // of a metric that the deployment set a limit for
+    bool met = true;
+  };
+
+  /// Asks every component of a deployment that has stopped.
+  explicit RunReport(const Deployment& deployment);
+
+  void metric(std::string key, std::string title, double value) override;
+  void text(std::string key, std::string title, std::string value) override;
+  void failed(std::string status) override;
+
+  /// "ok", "goals_missed", "fault", or what a component gave for the story's failure
+  /// ("face_not_found").
+  const std::string& status() const { return status_; }
+  /// Why, when it is not ok: a line per cause.
+  const std::vector<std::string>& reasons() const { return reasons_; }
+  const std::vector<Figure>& figures() const { return figures_; }
+
+ private:
+  void judge(const Deployment& deployment);
+
+  std::vector<Figure> figures_;
+  std::string story_status_;
+  std::string status_ = "ok";
+  std::vector<std::string> reasons_;
+};
+
+/// One JSON object, `status` first, figures in order; numbers as the shortest text that reads back
+/// the same.
+std::string to_json(const RunReport& report);
+/// The closing table for people.
+std::string to_table(const RunReport& report);
+/// Lets every component write its files, and report.json beside them. Throws
+/// std::filesystem::filesystem_error or std::runtime_error naming the file.
+void write_report(const RunReport& report, const Deployment& deployment,
+                  const std::filesystem::path& directory);
+
+}  // namespace armature

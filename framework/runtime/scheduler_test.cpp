@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <atomic>
+#include <thread>
+
+#include "armature/runtime/fake_setup.hpp"
+#include "armature/runtime/lockstep_scheduler.hpp"
+#include "armature/runtime/threaded_scheduler.hpp"
+
+namespace armature {
+namespace {
+
+MessageType number_type() {
+  MessageType type;
+  type.ros_name = "test_msgs/Number";
+  type.create = [] { return static_cast<void*>(new int{}); };
+  type.destroy = [](void* message) { delete static_cast<int*>(message); };
+  return type;
+}
+
+const std::function<Duration(const Unit&)> kNoLatency = [](const Unit&) { return Duration{0}; };
+
+TEST(LockstepScheduler, ActivatesInTheOrderOfTimeThenGraph) {
+  SimulatedClock clock;
+  LockstepScheduler scheduler{clock};
+  std::vector<std::string> log;
+  const auto record = [&](const std::string& name) {
+    return [&log, name](Time now) { log.push_back(name + "@" + std::to_string(now.ns)); };
+  };
+  const auto late = make_unit("late", 1, record("late"));
+  const auto early = make_unit("early", 0, record("early"));
+  scheduler.assign({.name = "a", .period = Duration{20}, .cpu = {}}, {late.get()}, kNoLatency);
+  scheduler.assign({.name = "b", .period = Duration{10}, .cpu = {}}, {early.get()}, kNoLatency);
+  scheduler.run([&] { return log.size() >= 5; });
+  EXPECT_EQ(log, (std::vector<std::string>{"early@0", "late@0", "early@10", "early@20", "late@20"}));
+}
+
+TEST(LockstepScheduler, DeliversAtOnceWithoutLatencyAndLaterWithOne) {
+  for (const Duration latency : {Duration{0}, Duration{7}}) {
+    SimulatedClock clock;
+    LockstepScheduler scheduler{clock};
+    const MessageType type = number_type();
+    Topic topic{{.name = "rt/n", .type = &type}, 2};
+    const auto source =
+        make_unit("source", 0, [&](Time) { scheduler.publish(topic, topic.loan()); });
+    std::vector<std::int64_t> seen;
+    const auto sink = make_unit("sink", 1, [&](Time now) { seen.push_back(now.ns); });
+    topic.connect(sink->inbox().add({.name = "in", .trigger = true}, type));
+    scheduler.assign({.name = "a", .period = Duration{100}, .cpu = {}}, {source.get()},
+                     [&](const Unit&) { return latency; });
+    scheduler.assign({.name = "b", .period = {}, .cpu = {}}, {sink.get()}, kNoLatency);
+    scheduler.run([&] { return seen.size() >= 2; });
+    EXPECT_EQ(seen, (std::vector<std::int64_t>{latency.count(), 100 + latency.count()}));
+  }
+}
+
+TEST(LockstepScheduler, EndsWhenNothingIsLeftToDo) {
+  SimulatedClock clock;
+  LockstepScheduler scheduler{clock};
+  scheduler.run([] { return false; });
+  EXPECT_EQ(clock.now().ns, 0);
+}
+
+TEST(Unit, AnExceptionBecomesItsFaultAndItIsNotCalledAgain) {
+  int calls = 0;
+  const auto unit = make_unit("arm", 0, [&](Time) {
+    ++calls;
+    throw std::runtime_error("joint 3 is gone");
+  });
+  unit->activate({});
+  unit->activate({});
+  EXPECT_EQ(calls, 1);
+  EXPECT_TRUE(unit->faulted());
+  EXPECT_EQ(unit->voice()->status().reason, "step failed: joint 3 is gone");
+}
+
+TEST(ThreadedScheduler, ActivatesPeriodicallyAndOnTriggersAndStops) {
+  const SystemClock clock;
+  ThreadedScheduler scheduler{clock, [](const std::string&) {}};
+  const MessageType type = number_type();
+  Topic topic{{.name = "rt/n", .type = &type}, 2};
+  std::atomic<int> sent{0}, received{0};
+  const auto source = make_unit("source", 0, [&](Time) {
+    if (sent < 20) {
+      scheduler.publish(topic, topic.loan());
+      ++sent;
+    }
+  });
+  const auto sink = make_unit("sink", 1, [&](Time) { ++received; });
+  topic.connect(sink->inbox().add({.name = "in", .queue = 32, .trigger = true}, type));
+  scheduler.assign({.name = "periodic", .period = seconds(0.001), .cpu = {}}, {source.get()},
+                   kNoLatency);
+  scheduler.assign({.name = "triggered", .period = {}, .cpu = {}}, {sink.get()}, kNoLatency);
+  scheduler.run([&] { return sent >= 20 && received >= 1; });
+  scheduler.stop();
+  const int after_stop = received;
+  std::this_thread::sleep_for(std::chrono::milliseconds{20});
+  EXPECT_EQ(received, after_stop);
+  EXPECT_LE(received, 20);
+}
+
+TEST(ThreadedScheduler, CountsMissedPeriodsInsteadOfCatchingUp) {
+  const SystemClock clock;
+  ThreadedScheduler scheduler{clock, [](const std::string&) {}};
+  std::atomic<int> calls{0};
+  const auto slow = make_unit("slow", 0, [&](Time) {
+    if (calls++ == 0) std::this_thread::sleep_for(std::chrono::milliseconds{50});
+  });
+  scheduler.assign({.name = "control", .period = seconds(0.005), .cpu = {}}, {slow.get()},
+                   kNoLatency);
+  scheduler.run([&] { return calls >= 3; });
+  scheduler.stop();
+  EXPECT_GE(slow->overruns(), 8U);
+}
+
+}  // namespace
+}  // namespace armature

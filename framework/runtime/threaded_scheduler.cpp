@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/runtime/threaded_scheduler.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+#include <vector>
+
+namespace armature {
+
+void ThreadedScheduler::assign(const ExecutorSpec& executor, const std::vector<Unit*>& units,
+                               const std::function<Duration(const Unit&)>&) {
+  Executor& thread = executors_.emplace_back(executor, *clock_);
+  for (Unit* unit : units) thread.assign(*unit);
+}
+
+void ThreadedScheduler::run(const std::function<bool()>& done) {
+  for (Executor& executor : executors_) executor.start(note_);
+  while (!done()) std::this_thread::sleep_for(std::chrono::milliseconds{10});
+}
+
+void ThreadedScheduler::stop() {
+  std::vector<Executor*> order;
+  for (Executor& executor : executors_) order.push_back(&executor);
+  std::sort(order.begin(), order.end(),
+            [](const auto* a, const auto* b) { return a->first_place() < b->first_place(); });
+  for (Executor* executor : order) {
+    executor->request_stop();
+    executor->join();
+  }
+}
+
+}  // namespace armature

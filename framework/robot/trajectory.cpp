@@ -68,7 +68,10 @@ Trajectory with_knot_at(Trajectory trajectory, double t) {
 
 }  // namespace
 
-JointState Trajectory::at(Time time) const { return state_at(*this, to_seconds(time - start)); }
+JointState Trajectory::at(Time time) const {
+  // end() is rounded to nanoseconds; from there on it is the end itself, not half a one before it.
+  return state_at(*this, time >= end() ? duration_s() : to_seconds(time - start));
+}
 
 JointVector Trajectory::jerk_at(Time time) const {
   JointVector jerk = JointVector::Zero(dof);

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+
+#include "armature/robot/frame_buffer.hpp"
+#include "armature/robot/kinematics.hpp"
+#include "armature/robot/test_robots.hpp"
+#include "armature/robot/trajectory.hpp"
+
+// Eigen allocates with malloc, everything else through operator new, which calls malloc: counting
+// malloc sees both, also inside the library under test. A sanitizer brings its own malloc.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define ARMATURE_COUNTS_MALLOC 0
+#else
+#define ARMATURE_COUNTS_MALLOC 1
+#endif
+
+namespace {
+std::atomic<long> allocations{0};
+}
+
+#if ARMATURE_COUNTS_MALLOC
+extern "C" void* __libc_malloc(std::size_t size);
+extern "C" void* malloc(std::size_t size) noexcept {
+  ++allocations;
+  return __libc_malloc(size);
+}
+#endif
+
+namespace armature {
+namespace {
+
+template <class Work>
+long allocations_of(Work work) {
+  const long before = allocations;
+  work();
+  return allocations - before;
+}
+
+class NoAllocation : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (!ARMATURE_COUNTS_MALLOC) GTEST_SKIP() << "the sanitizer's malloc cannot be counted";
+    // The counter must see both ways of allocating, or it proves nothing.
+    ASSERT_GT(allocations_of([] { ::operator delete(::operator new(8)); }), 0);
+    Eigen::VectorXd vector;
+    ASSERT_GT(allocations_of([&] { vector.resize(100); }), 0);
+  }
+
+  const RobotModel lamp = testing::dental_lamp();
+  const JointVector q = *lamp.contract(*lamp.home());
+  double sum = 0;
+};
+
+TEST_F(NoAllocation, InKinematics) {
+  EXPECT_EQ(allocations_of([&] {
+              sum += forward_kinematics(lamp, q).translation().x();
+              sum += forward_kinematics_with_jacobian(lamp, q, lamp.tool()).jacobian.sum();
+              sum += manipulability(lamp, q);
+              sum += lamp.expand(q).sum() + lamp.contract(*lamp.home())->sum();
+              sum += lamp.within_limits(q) ? 1 : 0;
+            }),
+            0);
+}
+
+TEST_F(NoAllocation, InEvaluatingATrajectory) {
+  const JointState from{q, JointVector::Ones(5), JointVector::Zero(5)};
+  const Trajectory trajectory =
+      spliced(stop_from(from, lamp.max_velocity(), lamp.max_acceleration(), Time{}, 1), from, 0.1);
+  EXPECT_EQ(allocations_of([&] {
+              for (double t = -1; t < 3; t += 0.01) {
+                sum += trajectory.at(Time{} + seconds(t)).q.sum();
+                sum += trajectory.jerk_at(Time{} + seconds(t)).sum();
+              }
+              sum += limit_use(trajectory, lamp.max_velocity(), lamp.max_acceleration()).velocity;
+            }),
+            0);
+}
+
+TEST_F(NoAllocation, InTheFrameBuffer) {
+  FrameBuffer buffer{lamp, 100};
+  EXPECT_EQ(allocations_of([&] {
+              for (int i = 0; i < 1000; ++i) {
+                buffer.add(Time{i * 1'000'000}, q);
+                sum += buffer.base_T(lamp.tool(), buffer.newest())->translation().x();
+              }
+            }),
+            0);
+}
+
+}  // namespace
+}  // namespace armature

@@ -83,6 +83,7 @@ function(armature_add_test name)
   endif()
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE armature_test_main armature_warnings ${arg_LINK})
+  target_include_directories(${name} PRIVATE "${CMAKE_SOURCE_DIR}")  # "tests/dds_domain.hpp"
   target_precompile_headers(${name} REUSE_FROM armature_test_main)
   target_compile_definitions(${name} PRIVATE
     ARMATURE_SOURCE_DIR="${CMAKE_SOURCE_DIR}" ARMATURE_BINARY_DIR="${CMAKE_BINARY_DIR}"

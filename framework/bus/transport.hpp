@@ -41,9 +41,9 @@ class OutsideReader {
 
 /// What may happen on the network that an operator must know: a second type on a topic, another
 /// layout under the same name, QoS that cannot match, a writer of another deployment that was
-/// refused, a process that died.
+/// refused, a process that died, a note of the transport itself (no shared memory, its own errors).
 struct TransportEvent {
-  enum class Kind { type_conflict, layout_conflict, qos_conflict, foreign_writer, peer_lost };
+  enum class Kind { type_conflict, layout_conflict, qos_conflict, foreign_writer, peer_lost, note };
   Kind kind;
   std::string topic;
   std::string text;

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/bus/fast_dds/conflicts.hpp"
+
+#include <utility>
+
+namespace armature {
+namespace {
+
+std::string end_name(bool writes) { return writes ? "writer" : "reader"; }
+
+bool has_other_layout(const Endpoint& other, const OwnEndpoint& own) {
+  return other.tag.ours && other.tag.layout != 0 && other.type == own.topic.type->dds_name &&
+         other.tag.layout != own.topic.type->layout;
+}
+
+}  // namespace
+
+void Conflicts::own_endpoint_added(const OwnEndpoint& added, const std::vector<Endpoint>& others,
+                                   const Discovery& discovery) {
+  {
+    const std::scoped_lock lock{mutex_};
+    endpoints_.push_back(added);
+  }
+  for (const Endpoint& other : others) compare(added, other, discovery);
+}
+
+void Conflicts::endpoint_found(const Endpoint& other, const Discovery& discovery) {
+  std::vector<OwnEndpoint> same_topic;
+  {
+    const std::scoped_lock lock{mutex_};
+    for (const OwnEndpoint& own : endpoints_) {
+      if (own.topic.name == other.topic) same_topic.push_back(own);
+    }
+  }
+  for (const OwnEndpoint& own : same_topic) compare(own, other, discovery);
+}
+
+bool Conflicts::refuses(const Endpoint& writer, const OwnEndpoint& reader) const {
+  if (has_other_layout(writer, reader)) return true;
+  return reader.same_deployment_only &&
+         (!writer.tag.ours || writer.tag.fingerprint != own_.fingerprint);
+}
+
+void Conflicts::compare(const OwnEndpoint& own, const Endpoint& other, const Discovery& discovery) {
+  if (own.topic.name != other.topic) return;
+  const std::string who = "a " + end_name(other.writes) + " of " + discovery.owner(other);
+  const std::string own_type{own.topic.type->dds_name};
+  if (other.type != own_type) {
+    report({TransportEvent::Kind::type_conflict, other.topic,
+            who + " uses the type " + other.type + " on '" + other.topic + "', our " +
+                end_name(own.writes) + " uses " + own_type + ": they never meet"});
+    return;
+  }
+  if (has_other_layout(other, own)) {
+    report({TransportEvent::Kind::layout_conflict, other.topic,
+            who + " has another layout of " + own_type + " on '" + other.topic +
+                "' than this process: build both from the same idl/"});
+    return;
+  }
+  if (other.writes && !own.writes && refuses(other, own)) {
+    const std::string theirs =
+        other.tag.ours ? " (configuration " + other.tag.fingerprint.substr(0, 12) + ")" : "";
+    report({TransportEvent::Kind::foreign_writer, other.topic,
+            who + theirs + " was refused on '" + other.topic +
+                "': commands are taken only from deployment '" + own_.deployment +
+                "' (configuration " + own_.fingerprint.substr(0, 12) + ")"});
+  }
+}
+
+void Conflicts::report(const TransportEvent& event) {
+  {
+    const std::scoped_lock lock{mutex_};
+    if (!reported_.emplace(event.kind, event.topic + "\n" + event.text).second) return;
+  }
+  report_always(event);
+}
+
+void Conflicts::report_always(const TransportEvent& event) const {
+  if (on_event_) on_event_(event);
+}
+
+}  // namespace armature

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <map>
+#include <mutex>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "armature/bus/fast_dds/discovery.hpp"
+#include "armature/bus/transport.hpp"
+
+namespace armature {
+
+/// An endpoint of this process, as far as conflicts go.
+struct OwnEndpoint {
+  bool writes = false;
+  TopicSpec topic;
+  bool same_deployment_only = false;
+};
+
+/// Compares the endpoints of others with ours and reports, once each, what DDS is silent about or
+/// tells without names. Any thread.
+class Conflicts {
+ public:
+  Conflicts(EndpointTag own, std::function<void(const TransportEvent&)> on_event)
+      : own_{std::move(own)}, on_event_{std::move(on_event)} {}
+
+  /// `others`: everything discovered so far.
+  void own_endpoint_added(const OwnEndpoint& added, const std::vector<Endpoint>& others,
+                          const Discovery& discovery);
+  void endpoint_found(const Endpoint& other, const Discovery& discovery);
+
+  /// Whether samples of that writer must not reach a reader of ours.
+  bool refuses(const Endpoint& writer, const OwnEndpoint& reader) const;
+  /// Reports `event` unless the same was reported before.
+  void report(const TransportEvent& event);
+  /// What may happen again: a peer that was lost.
+  void report_always(const TransportEvent& event) const;
+
+ private:
+  void compare(const OwnEndpoint& own, const Endpoint& other, const Discovery& discovery);
+
+  EndpointTag own_;
+  std::function<void(const TransportEvent&)> on_event_;
+  std::mutex mutex_;
+  std::vector<OwnEndpoint> endpoints_;
+  std::set<std::pair<TransportEvent::Kind, std::string>> reported_;
+};
+
+}  // namespace armature

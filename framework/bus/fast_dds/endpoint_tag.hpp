@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+
+namespace armature {
+
+/// What an endpoint of ours says of itself in its DDS user data:
+/// "armature;deployment=dental_lamp;fingerprint=4f2a...;layout=00c0ffee00c0ffee".
+struct EndpointTag {
+  bool ours = false;  // false: the endpoint belongs to some other program
+  std::string deployment;
+  std::string fingerprint;
+  std::uint64_t layout = 0;
+};
+
+std::string to_user_data(const EndpointTag& tag);
+/// Never fails: unknown keys are passed over, anything else is an endpoint that is not ours.
+EndpointTag parse_endpoint_tag(std::span<const std::uint8_t> user_data);
+
+}  // namespace armature

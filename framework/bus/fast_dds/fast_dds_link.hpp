@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "armature/bus/fast_dds/conflicts.hpp"
+#include "armature/bus/fast_dds/egress.hpp"
+#include "armature/bus/fast_dds/participant.hpp"
+#include "armature/bus/transport.hpp"
+
+namespace armature {
+
+/// What the transport, its writers and its readers share; they hold it together, so the order in
+/// which a program lets go of them does not matter.
+struct FastDdsLink {
+  FastDdsLink(EndpointTag own, std::function<void(const TransportEvent&)> on_event)
+      : tag{own}, conflicts{own, std::move(on_event)} {}
+
+  EndpointTag tag;
+  Conflicts conflicts;
+  /// Whether the deployment's clock is the system clock: then DDS carries its time stamps.
+  bool system_clock = true;
+  std::mutex pools_mutex;
+  std::vector<std::unique_ptr<SamplePool>> pools;  // of the readers; may outlive them
+  std::unique_ptr<Participant> participant;        // goes first: its threads use the rest
+  std::unique_ptr<Egress> egress;
+
+  EndpointTag tag_for(const MessageType& type) const {
+    EndpointTag made = tag;
+    made.layout = type.layout;
+    return made;
+  }
+};
+
+Expected<std::unique_ptr<OutsideWriter>> make_fast_dds_writer(std::shared_ptr<FastDdsLink> link,
+                                                              const TopicSpec& topic);
+Expected<std::unique_ptr<OutsideReader>> make_fast_dds_reader(
+    std::shared_ptr<FastDdsLink> link, const TopicSpec& topic, bool same_deployment_only,
+    std::function<void(SampleRef)> deliver);
+
+/// "reliability", for the policies that can keep a writer and a reader apart.
+std::string qos_policy_name(std::uint32_t policy_id);
+/// Who else is on the topic: "deployment 'a', participant 'b'".
+std::string owners_on(const std::string& topic, bool writers, const Discovery& discovery);
+
+}  // namespace armature

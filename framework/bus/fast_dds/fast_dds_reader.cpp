@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <fastdds/dds/subscriber/DataReader.hpp>
+#include <fastdds/dds/subscriber/DataReaderListener.hpp>
+#include <fastdds/dds/subscriber/SampleInfo.hpp>
+#include <fastdds/dds/subscriber/Subscriber.hpp>
+#include <fastdds/dds/subscriber/qos/DataReaderQos.hpp>
+#include <fastdds/dds/topic/Topic.hpp>
+#include <map>
+#include <utility>
+
+#include "armature/bus/fast_dds/endpoint_qos.hpp"
+#include "armature/bus/fast_dds/fast_dds_link.hpp"
+#include "armature/bus/fast_dds/raw_cdr_type.hpp"
+
+namespace armature {
+namespace {
+
+namespace dds = eprosima::fastdds::dds;
+namespace rtps = eprosima::fastrtps::rtps;
+
+Guid to_guid(const rtps::GUID_t& guid) {
+  Guid copy;
+  std::copy(std::begin(guid.guidPrefix.value), std::end(guid.guidPrefix.value),
+            copy.participant.begin());
+  std::copy(std::begin(guid.entityId.value), std::end(guid.entityId.value), copy.entity.begin());
+  return copy;
+}
+
+class FastDdsReader final : public OutsideReader, private dds::DataReaderListener {
+ public:
+  FastDdsReader(std::shared_ptr<FastDdsLink> link, OwnEndpoint own,
+                std::function<void(SampleRef)> deliver)
+      : link_{std::move(link)}, own_{std::move(own)}, deliver_{std::move(deliver)} {}
+
+  Expected<void> open() {
+    Participant& participant = *link_->participant;
+    const MessageType& type = *own_.topic.type;
+    const QosSettings settings = armature::settings(own_.topic.qos);
+    const auto topic = participant.topic(own_.topic.name, std::string{type.dds_name});
+    if (!topic) return tl::unexpected{topic.error()};
+    auto pool = std::make_unique<SamplePool>(type, static_cast<std::size_t>(settings.depth) + 2);
+    pool_ = pool.get();
+    {
+      const std::scoped_lock lock{link_->pools_mutex};
+      link_->pools.push_back(std::move(pool));
+    }
+    // Commands come from writers of ours, which promise to be heard every 0.5 s; elsewhere a writer
+    // of ROS 2 promises nothing and must match all the same.
+    std::optional<Duration> lease;
+    if (own_.same_deployment_only) lease = settings.liveliness_lease;
+    reader_ = participant.subscriber().create_datareader(
+        *topic, reader_qos(settings, lease, to_user_data(link_->tag_for(type))), this);
+    if (!reader_) return refuse("DDS: cannot create a reader on '" + own_.topic.name + "'");
+    link_->conflicts.own_endpoint_added(own_, participant.discovery().endpoints(),
+                                        participant.discovery());
+    return {};
+  }
+
+  ~FastDdsReader() override {
+    {
+      const std::scoped_lock lock{mutex_};
+      closed_ = true;
+    }
+    if (!reader_) return;
+    reader_->set_listener(nullptr);
+    link_->participant->subscriber().delete_datareader(reader_);
+  }
+
+  int writers() const override { return writers_.load(std::memory_order_relaxed); }
+
+ private:
+  void on_data_available(dds::DataReader* reader) override {
+    const std::scoped_lock lock{mutex_};  // several receive threads, one order
+    dds::SampleInfo info;
+    while (reader->take_next_sample(&cdr_, &info) == ReturnCode_t::RETCODE_OK) {
+      if (closed_ || !info.valid_data) continue;
+      const Guid writer = to_guid(info.sample_identity.writer_guid());
+      if (writer.participant == link_->participant->guid_prefix() || is_refused(writer)) continue;
+      SampleRef sample = pool_->loan();
+      if (!own_.topic.type->decode(cdr_.bytes, sample.mutable_message())) {
+        report_undecodable(writer);
+        continue;
+      }
+      sample.mutable_info() = {.published = Time{info.source_timestamp.to_ns()},
+                               .sequence = info.sample_identity.sequence_number().to64long()};
+      deliver_(std::move(sample));
+    }
+  }
+
+  /// A writer that is not discovered (yet) is nobody's; it may not command.
+  bool is_refused(const Guid& writer) {
+    if (const auto known = verdicts_.find(writer); known != verdicts_.end()) return known->second;
+    const auto endpoint = link_->participant->discovery().find(writer);
+    if (!endpoint) return own_.same_deployment_only;
+    return verdicts_[writer] = link_->conflicts.refuses(*endpoint, own_);
+  }
+
+  void report_undecodable(const Guid& writer) {
+    const auto endpoint = link_->participant->discovery().find(writer);
+    link_->conflicts.report(
+        {TransportEvent::Kind::layout_conflict, own_.topic.name,
+         "a sample on '" + own_.topic.name + "' from " +
+             (endpoint ? link_->participant->discovery().owner(*endpoint) : "an unknown writer") +
+             " is no " + std::string{own_.topic.type->dds_name} +
+             ": its layout differs, or it is damaged"});
+  }
+
+  void on_subscription_matched(dds::DataReader*,
+                               const dds::SubscriptionMatchedStatus& status) override {
+    const Guid writer = to_guid(rtps::iHandle2GUID(status.last_publication_handle));
+    if (writer.participant == link_->participant->guid_prefix()) return;
+    writers_.fetch_add(status.current_count_change, std::memory_order_relaxed);
+  }
+
+  void on_liveliness_changed(dds::DataReader*,
+                             const dds::LivelinessChangedStatus& status) override {
+    if (status.not_alive_count_change <= 0) return;
+    const auto endpoint = link_->participant->discovery().find(
+        to_guid(rtps::iHandle2GUID(status.last_publication_handle)));
+    link_->conflicts.report_always(
+        {TransportEvent::Kind::peer_lost, own_.topic.name,
+         "the writer on '" + own_.topic.name + "'" +
+             (endpoint ? " of " + link_->participant->discovery().owner(*endpoint) : "") +
+             " fell silent: its process died or hangs"});
+  }
+
+  void on_requested_incompatible_qos(dds::DataReader*,
+                                     const dds::RequestedIncompatibleQosStatus& status) override {
+    link_->conflicts.report(
+        {TransportEvent::Kind::qos_conflict, own_.topic.name,
+         "a writer on '" + own_.topic.name + "' offers less than our reader's profile '" +
+             std::string{to_string(own_.topic.qos)} +
+             "' asks for: " + qos_policy_name(static_cast<std::uint32_t>(status.last_policy_id)) +
+             " (writers there: " +
+             owners_on(own_.topic.name, true, link_->participant->discovery()) + ")"});
+  }
+
+  std::shared_ptr<FastDdsLink> link_;
+  OwnEndpoint own_;
+  std::function<void(SampleRef)> deliver_;
+  SamplePool* pool_ = nullptr;
+  dds::DataReader* reader_ = nullptr;
+  std::atomic<int> writers_{0};
+  std::mutex mutex_;  // guards what follows
+  bool closed_ = false;
+  RawCdr cdr_;
+  std::map<Guid, bool> verdicts_;
+};
+
+}  // namespace
+
+Expected<std::unique_ptr<OutsideReader>> make_fast_dds_reader(
+    std::shared_ptr<FastDdsLink> link, const TopicSpec& topic, bool same_deployment_only,
+    std::function<void(SampleRef)> deliver) {
+  auto reader = std::make_unique<FastDdsReader>(
+      std::move(link),
+      OwnEndpoint{.writes = false, .topic = topic, .same_deployment_only = same_deployment_only},
+      std::move(deliver));
+  if (const auto opened = reader->open(); !opened) return tl::unexpected{opened.error()};
+  return reader;
+}
+
+}  // namespace armature

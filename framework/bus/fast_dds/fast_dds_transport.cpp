@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/bus/fast_dds/fast_dds_transport.hpp"
+
+#include <chrono>
+#include <cstdlib>
+#include <set>
+#include <utility>
+
+#include "armature/bus/fast_dds/fast_dds_link.hpp"
+
+namespace armature {
+namespace {
+
+bool is_system_time(Time now) {
+  const auto system = std::chrono::system_clock::now().time_since_epoch();
+  return std::chrono::abs(Duration{now.ns} - std::chrono::duration_cast<Duration>(system)) <
+         seconds(1);
+}
+
+Discovery::Watcher watch(const std::shared_ptr<FastDdsLink>& link) {
+  // Raw: the link owns the participant that calls these.
+  FastDdsLink* raw = link.get();
+  return {.endpoint_found =
+              [raw](const Endpoint& other, const Discovery& discovery) {
+                raw->conflicts.endpoint_found(other, discovery);
+              },
+          .participant_lost =
+              [raw](const std::string& owner, std::size_t endpoints) {
+                raw->conflicts.report_always(
+                    {TransportEvent::Kind::peer_lost, "",
+                     owner + " fell silent, with " + std::to_string(endpoints) +
+                         " writers and readers: its process died or hangs"});
+              }};
+}
+
+}  // namespace
+
+Expected<std::unique_ptr<Transport>> FastDdsTransport::make(const TransportOptions& options) {
+  return make(options, "/dev/shm");
+}
+
+Expected<std::unique_ptr<Transport>> FastDdsTransport::make(
+    const TransportOptions& options, const std::filesystem::path& shared_memory) {
+  const EndpointTag tag{.ours = true,
+                        .deployment = options.deployment,
+                        .fingerprint = options.fingerprint,
+                        .layout = 0};
+  auto link = std::make_shared<FastDdsLink>(tag, options.on_event);
+  link->system_clock = !options.now || is_system_time(options.now());
+  const auto note = [raw = link.get()](const std::string& text) {
+    raw->conflicts.report({TransportEvent::Kind::note, "", text});
+  };
+  auto participant = Participant::make({.domain = options.domain,
+                                        .name = "armature " + options.deployment,
+                                        .watcher = watch(link),
+                                        .on_note = note,
+                                        .shared_memory = shared_memory});
+  if (!participant) return tl::unexpected{participant.error()};
+  link->participant = std::move(*participant);
+  link->egress = std::make_unique<Egress>();
+  return std::make_unique<FastDdsTransport>(std::move(link));
+}
+
+Expected<std::unique_ptr<OutsideWriter>> FastDdsTransport::advertise(const TopicSpec& topic) {
+  return make_fast_dds_writer(link_, topic);
+}
+
+Expected<std::unique_ptr<OutsideReader>> FastDdsTransport::subscribe(
+    const TopicSpec& topic, bool same_deployment_only, std::function<void(SampleRef)> deliver) {
+  return make_fast_dds_reader(link_, topic, same_deployment_only, std::move(deliver));
+}
+
+std::string qos_policy_name(std::uint32_t policy_id) {
+  // Numbers of the DDS specification, table 2.2.3.
+  switch (policy_id) {
+    case 2:
+      return "durability";
+    case 4:
+      return "deadline";
+    case 5:
+      return "latency budget";
+    case 6:
+      return "ownership";
+    case 8:
+      return "liveliness";
+    case 11:
+      return "reliability";
+    case 12:
+      return "destination order";
+    case 23:
+      return "data representation";
+    default:
+      return "policy " + std::to_string(policy_id);
+  }
+}
+
+std::string owners_on(const std::string& topic, bool writers, const Discovery& discovery) {
+  std::set<std::string> owners;
+  for (const Endpoint& endpoint : discovery.endpoints()) {
+    if (endpoint.topic == topic && endpoint.writes == writers) {
+      owners.insert(discovery.owner(endpoint));
+    }
+  }
+  std::string text;
+  for (const std::string& owner : owners) text += (text.empty() ? "" : ", ") + owner;
+  return text;
+}
+
+}  // namespace armature

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "armature/bus/transport.hpp"
+
+namespace armature {
+
+struct FastDdsLink;
+
+/// Topics to other processes over Fast DDS. Samples that were delivered must be released before it
+/// is destroyed, and its writers and readers too.
+class FastDdsTransport final : public Transport {
+ public:
+  static Expected<std::unique_ptr<Transport>> make(const TransportOptions& options);
+  /// `shared_memory`: the folder that is looked at before shared memory is used.
+  static Expected<std::unique_ptr<Transport>> make(const TransportOptions& options,
+                                                   const std::filesystem::path& shared_memory);
+  explicit FastDdsTransport(std::shared_ptr<FastDdsLink> link) : link_{std::move(link)} {}
+
+  Expected<std::unique_ptr<OutsideWriter>> advertise(const TopicSpec& topic) override;
+  Expected<std::unique_ptr<OutsideReader>> subscribe(
+      const TopicSpec& topic, bool same_deployment_only,
+      std::function<void(SampleRef)> deliver) override;
+
+ private:
+  std::shared_ptr<FastDdsLink> link_;
+};
+
+}  // namespace armature

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <atomic>
+#include <fastdds/dds/publisher/DataWriter.hpp>
+#include <fastdds/dds/publisher/DataWriterListener.hpp>
+#include <fastdds/dds/publisher/Publisher.hpp>
+#include <fastdds/dds/publisher/qos/DataWriterQos.hpp>
+#include <fastdds/dds/topic/Topic.hpp>
+#include <utility>
+
+#include "armature/bus/fast_dds/endpoint_qos.hpp"
+#include "armature/bus/fast_dds/fast_dds_link.hpp"
+#include "armature/bus/fast_dds/raw_cdr_type.hpp"
+
+namespace armature {
+namespace {
+
+namespace dds = eprosima::fastdds::dds;
+namespace rtps = eprosima::fastrtps::rtps;
+
+class FastDdsWriter final : public OutsideWriter, private dds::DataWriterListener {
+ public:
+  FastDdsWriter(std::shared_ptr<FastDdsLink> link, const TopicSpec& topic)
+      : link_{std::move(link)}, topic_{topic}, settings_{settings(topic.qos)} {}
+
+  Expected<void> open() {
+    Participant& participant = *link_->participant;
+    const auto topic = participant.topic(topic_.name, std::string{topic_.type->dds_name});
+    if (!topic) return tl::unexpected{topic.error()};
+    writer_ = participant.publisher().create_datawriter(
+        *topic, writer_qos(settings_, to_user_data(link_->tag_for(*topic_.type))), this);
+    if (!writer_) return refuse("DDS: cannot create a writer on '" + topic_.name + "'");
+    queue_ = link_->egress->open(static_cast<std::size_t>(settings_.depth),
+                                 [this](const SampleRef& sample) { send(sample); });
+    link_->conflicts.own_endpoint_added({.writes = true, .topic = topic_},
+                                        participant.discovery().endpoints(),
+                                        participant.discovery());
+    return {};
+  }
+
+  ~FastDdsWriter() override {
+    if (!writer_) return;
+    queue_.reset();
+    writer_->set_listener(nullptr);
+    link_->participant->publisher().delete_datawriter(writer_);
+  }
+
+  void offer(const SampleRef& sample) override {
+    // A latched sample is kept by DDS for those who come later.
+    if (watchers() > 0 || settings_.transient_local) queue_->offer(sample);
+  }
+  int watchers() const override { return watchers_.load(std::memory_order_relaxed); }
+  std::uint64_t dropped() const override { return queue_->dropped(); }
+
+ private:
+  void send(const SampleRef& sample) {
+    cdr_.bytes.clear();
+    topic_.type->encode(sample.message(), cdr_.bytes);
+    rtps::WriteParams params;
+    if (link_->system_clock) {
+      rtps::Time_t stamp;
+      stamp.from_ns(sample.info().published.ns);
+      params.source_timestamp(stamp);
+    }
+    writer_->write(&cdr_, params);
+  }
+
+  void on_publication_matched(dds::DataWriter*,
+                              const dds::PublicationMatchedStatus& status) override {
+    // The process' own readers match too and get their samples by pointer.
+    const rtps::GUID_t reader = rtps::iHandle2GUID(status.last_subscription_handle);
+    const GuidPrefix& own = link_->participant->guid_prefix();
+    if (!std::equal(own.begin(), own.end(), std::begin(reader.guidPrefix.value))) {
+      watchers_.fetch_add(status.current_count_change, std::memory_order_relaxed);
+    }
+  }
+
+  void on_offered_incompatible_qos(dds::DataWriter*,
+                                   const dds::OfferedIncompatibleQosStatus& status) override {
+    link_->conflicts.report(
+        {TransportEvent::Kind::qos_conflict, topic_.name,
+         "a reader on '" + topic_.name + "' asks for more than our writer's profile '" +
+             std::string{to_string(topic_.qos)} +
+             "' offers: " + qos_policy_name(static_cast<std::uint32_t>(status.last_policy_id)) +
+             " (readers there: " + owners_on(topic_.name, false, link_->participant->discovery()) +
+             ")"});
+  }
+
+  std::shared_ptr<FastDdsLink> link_;
+  TopicSpec topic_;
+  QosSettings settings_;
+  dds::DataWriter* writer_ = nullptr;
+  std::atomic<int> watchers_{0};
+  RawCdr cdr_;  // of the egress thread
+  std::unique_ptr<Egress::Queue> queue_;
+};
+
+}  // namespace
+
+Expected<std::unique_ptr<OutsideWriter>> make_fast_dds_writer(std::shared_ptr<FastDdsLink> link,
+                                                              const TopicSpec& topic) {
+  auto writer = std::make_unique<FastDdsWriter>(std::move(link), topic);
+  if (const auto opened = writer->open(); !opened) return tl::unexpected{opened.error()};
+  return writer;
+}
+
+}  // namespace armature

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/bus/fast_dds/observer.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <fastdds/dds/subscriber/DataReader.hpp>
+#include <fastdds/dds/subscriber/DataReaderListener.hpp>
+#include <fastdds/dds/subscriber/SampleInfo.hpp>
+#include <fastdds/dds/subscriber/Subscriber.hpp>
+#include <fastdds/dds/subscriber/qos/DataReaderQos.hpp>
+#include <fastdds/dds/topic/Topic.hpp>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <utility>
+
+#include "armature/bus/fast_dds/endpoint_qos.hpp"
+#include "armature/bus/fast_dds/participant.hpp"
+#include "armature/bus/fast_dds/raw_cdr_type.hpp"
+
+namespace armature {
+namespace {
+
+namespace dds = eprosima::fastdds::dds;
+
+class Watch final : public dds::DataReaderListener {
+ public:
+  Watch(std::string type, std::function<void(const ObservedSample&)> on_sample)
+      : type_{std::move(type)}, on_sample_{std::move(on_sample)} {}
+
+  void on_data_available(dds::DataReader* from) override {
+    const std::scoped_lock lock{mutex_};
+    dds::SampleInfo info;
+    while (from->take_next_sample(&cdr_, &info) == ReturnCode_t::RETCODE_OK) {
+      if (info.valid_data) on_sample_({cdr_.bytes, Time{info.source_timestamp.to_ns()}, type_});
+    }
+  }
+
+  dds::DataReader* reader = nullptr;
+
+ private:
+  std::string type_;
+  std::function<void(const ObservedSample&)> on_sample_;
+  std::mutex mutex_;
+  RawCdr cdr_;
+};
+
+class Observer final : public DdsObserver {
+ public:
+  explicit Observer(std::unique_ptr<Participant> participant)
+      : participant_{std::move(participant)} {}
+
+  ~Observer() override {
+    for (const auto& watch : watches_) {
+      watch->reader->set_listener(nullptr);
+      participant_->subscriber().delete_datareader(watch->reader);
+    }
+  }
+
+  std::vector<ObservedTopic> topics() const override {
+    std::map<std::string, ObservedTopic> by_name;
+    const auto add_once = [](std::vector<std::string>& texts, const std::string& text) {
+      if (std::ranges::find(texts, text) == texts.end()) texts.push_back(text);
+    };
+    for (const Endpoint& endpoint : participant_->discovery().endpoints()) {
+      ObservedTopic& topic = by_name[endpoint.topic];
+      topic.name = endpoint.topic;
+      add_once(topic.types, endpoint.type);
+      if (endpoint.tag.ours) add_once(topic.deployments, endpoint.tag.deployment);
+      ++(endpoint.writes ? topic.writers : topic.readers);
+    }
+    std::vector<ObservedTopic> sorted;
+    for (auto& [name, topic] : by_name) sorted.push_back(std::move(topic));
+    return sorted;
+  }
+
+  Expected<void> watch(const std::string& topic, Duration patience,
+                       std::function<void(const ObservedSample&)> on_sample) override {
+    const std::string name = dds_topic_name(topic);
+    const auto writer = wait_for_writer(name, patience);
+    if (!writer) return refuse("nobody writes '" + name + "'");
+    const auto dds_topic = participant_->topic(name, writer->type);
+    if (!dds_topic) return tl::unexpected{dds_topic.error()};
+    // Asks for what the writer offers and no more, so that it always matches.
+    const QosSettings settings{.reader_reliable = writer->reliable,
+                               .transient_local = writer->transient_local,
+                               .depth = 10};
+    auto watch = std::make_unique<Watch>(writer->type, std::move(on_sample));
+    watch->reader = participant_->subscriber().create_datareader(
+        *dds_topic, reader_qos(settings, std::nullopt, ""), watch.get());
+    if (!watch->reader) return refuse("DDS: cannot create a reader on '" + name + "'");
+    watches_.push_back(std::move(watch));
+    return {};
+  }
+
+ private:
+  std::optional<Endpoint> wait_for_writer(const std::string& topic, Duration patience) const {
+    const auto deadline = std::chrono::steady_clock::now() + patience;
+    do {
+      for (Endpoint& endpoint : participant_->discovery().endpoints()) {
+        if (endpoint.topic == topic && endpoint.writes) return std::move(endpoint);
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds{10});
+    } while (std::chrono::steady_clock::now() < deadline);
+    return std::nullopt;
+  }
+
+  std::unique_ptr<Participant> participant_;
+  std::vector<std::unique_ptr<Watch>> watches_;
+};
+
+}  // namespace
+
+Expected<std::unique_ptr<DdsObserver>> DdsObserver::make(int domain) {
+  auto participant = Participant::make(
+      {.domain = domain, .name = "armature observer", .watcher = {}, .on_note = {}});
+  if (!participant) return tl::unexpected{participant.error()};
+  return std::make_unique<Observer>(std::move(*participant));
+}
+
+std::string dds_topic_name(const std::string& name) {
+  if (name.starts_with("rt/")) return name;
+  return name.starts_with('/') ? "rt" + name : "rt/" + name;
+}
+
+std::string ros_topic_name(const std::string& name) {
+  return name.starts_with("rt/") ? name.substr(2) : name;
+}
+
+}  // namespace armature

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "armature/values/expected.hpp"
+#include "armature/values/time.hpp"
+
+namespace armature {
+
+/// A topic as discovery shows it.
+struct ObservedTopic {
+  std::string name;                      // DDS name: "rt/dental_lamp/arm/measured_js"
+  std::vector<std::string> types;        // DDS names; more than one is a conflict
+  std::vector<std::string> deployments;  // those of ours that have endpoints there
+  int writers = 0;
+  int readers = 0;
+};
+
+struct ObservedSample {
+  std::span<const std::byte> cdr;  // with encapsulation header; valid during the call
+  Time source;                     // time stamp of the writer
+  const std::string& type;         // DDS name
+};
+
+/// An onlooker for the tools: sees every topic of a DDS domain and can read any of them without
+/// generated code.
+class DdsObserver {
+ public:
+  static Expected<std::unique_ptr<DdsObserver>> make(int domain);
+  virtual ~DdsObserver() = default;
+
+  /// What has been discovered so far, sorted by name; complete about a second after make().
+  virtual std::vector<ObservedTopic> topics() const = 0;
+
+  /// Waits until `topic` has a writer (at most `patience`), then calls `on_sample` on a DDS thread,
+  /// one sample at a time, until the observer is destroyed. Takes "rt/a/b" and "/a/b".
+  virtual Expected<void> watch(const std::string& topic, Duration patience,
+                               std::function<void(const ObservedSample&)> on_sample) = 0;
+};
+
+/// "/a/b" or "a/b" -> "rt/a/b", as ROS 2 names its topics in DDS; "rt/a/b" stays.
+std::string dds_topic_name(const std::string& name);
+/// "rt/a/b" -> "/a/b"; other names stay.
+std::string ros_topic_name(const std::string& name);
+
+}  // namespace armature

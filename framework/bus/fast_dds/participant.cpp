@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/bus/fast_dds/participant.hpp"
+
+#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
+#include <fastdds/rtps/transport/shared_mem/SharedMemTransportDescriptor.h>
+
+#include <algorithm>
+#include <csignal>
+#include <fastdds/dds/domain/DomainParticipant.hpp>
+#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
+#include <fastdds/dds/domain/DomainParticipantListener.hpp>
+#include <fastdds/dds/publisher/Publisher.hpp>
+#include <fastdds/dds/subscriber/Subscriber.hpp>
+#include <fastdds/dds/topic/Topic.hpp>
+#include <fastdds/dds/topic/TypeSupport.hpp>
+#include <utility>
+
+#include "armature/bus/fast_dds/dds_log.hpp"
+#include "armature/bus/fast_dds/raw_cdr_type.hpp"
+#include "armature/bus/fast_dds/shared_memory.hpp"
+
+namespace armature {
+namespace {
+
+namespace dds = eprosima::fastdds::dds;
+namespace rtps = eprosima::fastrtps::rtps;
+using eprosima::fastdds::rtps::SharedMemTransportDescriptor;
+using eprosima::fastdds::rtps::UDPv4TransportDescriptor;
+using eprosima::fastrtps::Duration_t;
+
+// A camera image must fit several times; the default of 512 KiB makes its round trip 50 times
+// longer.
+constexpr std::uint32_t kSegmentBytes = 16U << 20;
+constexpr std::uint32_t kGreatestMessageBytes = 4U << 20;
+constexpr std::uint64_t kNeededBytes = kSegmentBytes + (2U << 20);  // and the ports
+constexpr int kGreatestDomain = 232;  // beyond it, RTPS port numbers pass 65535
+
+GuidPrefix to_prefix(const rtps::GuidPrefix_t& prefix) {
+  GuidPrefix copy{};
+  std::copy(std::begin(prefix.value), std::end(prefix.value), copy.begin());
+  return copy;
+}
+
+Guid to_guid(const rtps::GUID_t& guid) {
+  Guid copy{.participant = to_prefix(guid.guidPrefix), .entity = {}};
+  std::copy(std::begin(guid.entityId.value), std::end(guid.entityId.value), copy.entity.begin());
+  return copy;
+}
+
+/// Threads that are started meanwhile leave the process' signals to the program's own threads.
+class SignalsBlocked {
+ public:
+  SignalsBlocked() {
+    sigset_t all;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before_);
+  }
+  ~SignalsBlocked() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  SignalsBlocked(const SignalsBlocked&) = delete;
+  SignalsBlocked& operator=(const SignalsBlocked&) = delete;
+
+ private:
+  sigset_t before_{};
+};
+
+void use_transports(dds::DomainParticipantQos& qos, const ParticipantSettings& settings) {
+  qos.transport().use_builtin_transports = false;
+  auto udp = std::make_shared<UDPv4TransportDescriptor>();
+  udp->interfaceWhiteList = {"127.0.0.1"};
+  qos.transport().user_transports.push_back(udp);
+
+  clean_shared_memory(settings.shared_memory);
+  if (const auto usable = check_shared_memory(settings.shared_memory, kNeededBytes); !usable) {
+    settings.on_note("no shared memory, topics go over UDP: " + usable.error().text);
+    return;
+  }
+  auto shared_memory = std::make_shared<SharedMemTransportDescriptor>();
+  shared_memory->segment_size(kSegmentBytes);
+  shared_memory->max_message_size(kGreatestMessageBytes);
+  qos.transport().user_transports.push_back(shared_memory);
+}
+
+dds::DomainParticipantQos participant_qos(const ParticipantSettings& settings) {
+  dds::DomainParticipantQos qos;
+  qos.name(settings.name);
+  use_transports(qos, settings);
+  auto& discovery = qos.wire_protocol().builtin.discovery_config;
+  discovery.leaseDuration = Duration_t{1, 0};  // a killed process is gone after this
+  discovery.leaseDuration_announcementperiod = Duration_t{0.25L};
+  discovery.initial_announcements.count = 10;
+  discovery.initial_announcements.period = Duration_t{0.05L};
+  qos.wire_protocol().builtin.use_WriterLivelinessProtocol = true;
+  qos.wire_protocol().builtin.typelookup_config.use_client = false;
+  qos.wire_protocol().builtin.typelookup_config.use_server = false;
+  return qos;
+}
+
+}  // namespace
+
+/// Feeds the discovery.
+class Participant::Listener final : public dds::DomainParticipantListener {
+ public:
+  Listener(Participant& participant) : participant_{participant} {}
+
+  void on_participant_discovery(dds::DomainParticipant*,
+                                rtps::ParticipantDiscoveryInfo&& found) override {
+    using Info = rtps::ParticipantDiscoveryInfo;
+    const GuidPrefix prefix = to_prefix(found.info.m_guid.guidPrefix);
+    if (found.status == Info::DISCOVERED_PARTICIPANT) {
+      discovery().participant_found(prefix, found.info.m_participantName.to_string());
+    } else if (found.status != Info::CHANGED_QOS_PARTICIPANT) {
+      discovery().participant_gone(prefix, found.status == Info::DROPPED_PARTICIPANT);
+    }
+  }
+
+  void on_publisher_discovery(dds::DomainParticipant*, rtps::WriterDiscoveryInfo&& found) override {
+    using Info = rtps::WriterDiscoveryInfo;
+    if (found.status == Info::REMOVED_WRITER)
+      return discovery().endpoint_gone(to_guid(found.info.guid()));
+    note(found.info, true);
+  }
+
+  void on_subscriber_discovery(dds::DomainParticipant*,
+                               rtps::ReaderDiscoveryInfo&& found) override {
+    using Info = rtps::ReaderDiscoveryInfo;
+    if (found.status == Info::REMOVED_READER)
+      return discovery().endpoint_gone(to_guid(found.info.guid()));
+    note(found.info, false);
+  }
+
+ private:
+  Discovery& discovery() { return participant_.discovery_; }
+
+  template <class ProxyData>
+  void note(const ProxyData& data, bool writes) {
+    Endpoint endpoint;
+    endpoint.guid = to_guid(data.guid());
+    if (endpoint.guid.participant == participant_.guid_prefix_) return;
+    endpoint.writes = writes;
+    endpoint.topic = data.topicName().to_string();
+    endpoint.type = data.typeName().to_string();
+    endpoint.reliable = data.m_qos.m_reliability.kind == dds::RELIABLE_RELIABILITY_QOS;
+    endpoint.transient_local = data.m_qos.m_durability.kind != dds::VOLATILE_DURABILITY_QOS;
+    endpoint.tag = parse_endpoint_tag(data.m_qos.m_userData.data_vec());
+    discovery().endpoint_found(std::move(endpoint));
+  }
+
+  Participant& participant_;
+};
+
+Expected<std::unique_ptr<Participant>> Participant::make(ParticipantSettings settings) {
+  if (settings.domain < 0 || settings.domain > kGreatestDomain) {
+    return refuse("DDS domain " + std::to_string(settings.domain) + " is not within 0 and " +
+                  std::to_string(kGreatestDomain));
+  }
+  if (!settings.on_note) settings.on_note = [](const std::string&) {};
+  std::unique_ptr<Participant> made{new Participant{settings}};
+  if (const auto opened = made->open(settings); !opened) return tl::unexpected{opened.error()};
+  return made;
+}
+
+Participant::Participant(ParticipantSettings& settings)
+    : discovery_{std::move(settings.watcher)},
+      log_{std::make_unique<DdsLog>(settings.on_note)},
+      listener_{std::make_unique<Listener>(*this)} {}
+
+Expected<void> Participant::open(const ParticipantSettings& settings) {
+  const SignalsBlocked signals_blocked;
+  const auto refused = [&](const std::string& what) {
+    return refuse("DDS: no " + what + " in domain " + std::to_string(settings.domain) +
+                  "; is the loopback interface up, and are UDP ports free?");
+  };
+  auto* factory = dds::DomainParticipantFactory::get_instance();
+  // Enabled by hand: its own GUID must be known before the first endpoint is discovered.
+  dds::DomainParticipantFactoryQos factory_qos;
+  factory->get_qos(factory_qos);
+  factory_qos.entity_factory().autoenable_created_entities = false;
+  factory->set_qos(factory_qos);
+  participant_ = factory->create_participant(static_cast<dds::DomainId_t>(settings.domain),
+                                             participant_qos(settings), listener_.get(),
+                                             dds::StatusMask::none());
+  factory_qos.entity_factory().autoenable_created_entities = true;
+  factory->set_qos(factory_qos);
+  if (!participant_) return refused("participant");
+  guid_prefix_ = to_prefix(participant_->guid().guidPrefix);
+  if (participant_->enable() != ReturnCode_t::RETCODE_OK) return refused("participant");
+  publisher_ = participant_->create_publisher(dds::PublisherQos{});
+  subscriber_ = participant_->create_subscriber(dds::SubscriberQos{});
+  if (!publisher_ || !subscriber_) return refused("publisher and subscriber");
+  return {};
+}
+
+Participant::~Participant() {
+  if (participant_) {
+    participant_->set_listener(nullptr);
+    participant_->delete_contained_entities();
+    dds::DomainParticipantFactory::get_instance()->delete_participant(participant_);
+  }
+}
+
+Expected<dds::Topic*> Participant::topic(const std::string& name, const std::string& type) {
+  const std::scoped_lock lock{topics_mutex_};
+  if (const auto found = topics_.find(name); found != topics_.end()) {
+    if (found->second->get_type_name() == type) return found->second;
+    return refuse("topic '" + name + "' is used with the type " + found->second->get_type_name() +
+                  " and with " + type + " in this process");
+  }
+  if (participant_->find_type(type).empty()) {
+    participant_->register_type(make_raw_cdr_type(type));
+  }
+  dds::Topic* made = participant_->create_topic(name, type, dds::TopicQos{});
+  if (!made) return refuse("DDS: cannot create the topic '" + name + "'");
+  topics_[name] = made;
+  return made;
+}
+
+}  // namespace armature

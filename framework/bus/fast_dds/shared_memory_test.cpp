@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/bus/fast_dds/shared_memory.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <set>
+
+namespace armature {
+namespace {
+
+namespace fs = std::filesystem;
+
+class SharedMemory : public testing::Test {
+ protected:
+  SharedMemory() {
+    std::string name = (fs::temp_directory_path() / "armature_shm_XXXXXX").string();
+    folder_ = mkdtemp(name.data());
+  }
+  ~SharedMemory() override { fs::remove_all(folder_); }
+
+  void touch(const std::string& name) { std::ofstream{folder_ / name} << "x"; }
+  std::set<std::string> files() const {
+    std::set<std::string> names;
+    for (const auto& entry : fs::directory_iterator{folder_}) names.insert(entry.path().filename());
+    return names;
+  }
+  /// "fast_datasharing_" of a process.
+  static std::string data_sharing_of(pid_t pid) {
+    char text[100];
+    std::snprintf(text, sizeof text,
+                  "fast_datasharing_01.0f.78.fd.%02x.%02x.fc.84.01.00.00.00_0.0.1.3",
+                  static_cast<unsigned>(pid) & 0xff, static_cast<unsigned>(pid) >> 8 & 0xff);
+    return text;
+  }
+  fs::path folder_;
+};
+
+TEST_F(SharedMemory, IsUsableWhenThereIsRoom) {
+  EXPECT_TRUE(check_shared_memory(folder_, 1 << 20));
+}
+
+TEST_F(SharedMemory, TooLittleIsToldWithBothSizes) {
+  const auto usable = check_shared_memory(folder_, std::uint64_t{1} << 60);
+  ASSERT_FALSE(usable);
+  EXPECT_THAT(usable.error().text, testing::EndsWith(" MiB free, 1099511627776 MiB are needed"));
+}
+
+TEST_F(SharedMemory, AFolderThatIsNotThereIsTold) {
+  const auto usable = check_shared_memory(folder_ / "none", 1);
+  ASSERT_FALSE(usable);
+  EXPECT_EQ(usable.error().text,
+            (folder_ / "none").string() + " is not writable: No such file or directory");
+}
+
+TEST_F(SharedMemory, LeavesNoProbeBehind) {
+  EXPECT_TRUE(check_shared_memory(folder_, 1));
+  EXPECT_TRUE(files().empty());
+}
+
+TEST_F(SharedMemory, WhatNobodyLocksIsRemoved) {
+  for (const char* name : {"fastrtps_00aa", "fastrtps_00aa_el", "fastrtps_port7410",
+                           "fastrtps_port7410_el", "sem.fastrtps_port7410_mutex"}) {
+    touch(name);
+  }
+  EXPECT_EQ(clean_shared_memory(folder_, 0), 5);
+  EXPECT_TRUE(files().empty());
+}
+
+TEST_F(SharedMemory, WhatSomebodyLocksStays) {
+  const std::set<std::string> names{"fastrtps_00aa", "fastrtps_00aa_el", "fastrtps_port7400",
+                                    "fastrtps_port7400_el", "fastrtps_port7400_sl"};
+  for (const std::string& name : names) touch(name);
+  std::vector<int> locks;
+  for (const char* name : {"fastrtps_00aa_el", "fastrtps_port7400_sl"}) {
+    locks.push_back(open((folder_ / name).c_str(), O_RDWR | O_CLOEXEC));
+    ASSERT_EQ(flock(locks.back(), LOCK_SH), 0);
+  }
+  EXPECT_EQ(clean_shared_memory(folder_, 0), 0);
+  EXPECT_EQ(files(), names);
+  for (const int lock : locks) close(lock);
+}
+
+TEST_F(SharedMemory, WhatHasNoLockOrIsYoungOrForeignStays) {
+  const std::set<std::string> names{"fastrtps_00bb", "other_program", "fastrtps_00cc",
+                                    "fastrtps_00cc_el"};
+  for (const std::string& name : names) touch(name);
+  EXPECT_EQ(clean_shared_memory(folder_, 3600), 0);
+  fs::remove(folder_ / "fastrtps_00cc_el");
+  EXPECT_EQ(clean_shared_memory(folder_, 0), 0);
+  EXPECT_EQ(files().size(), 3U);
+}
+
+TEST_F(SharedMemory, DataSharingGoesWithItsProcess) {
+  const pid_t ended = fork();
+  if (ended == 0) _exit(0);
+  // Not yet collected: its number is still taken.
+  touch(data_sharing_of(ended));
+  touch(data_sharing_of(getpid()));
+  touch("fast_datasharing_nonsense");
+  EXPECT_EQ(clean_shared_memory(folder_, 0), 0);
+  waitpid(ended, nullptr, 0);
+  EXPECT_EQ(clean_shared_memory(folder_, 0), 1);
+  EXPECT_EQ(files(),
+            (std::set<std::string>{data_sharing_of(getpid()), "fast_datasharing_nonsense"}));
+}
+
+}  // namespace
+}  // namespace armature

@@ -33,7 +33,8 @@ std::optional<std::string> value_of(const std::string& inside, const Origin& ori
                                     Problems& problems) {
   const std::size_t dash = inside.find(":-");
   const std::string name = inside.substr(0, dash);
-  if (!is_variable_name(name)) {
+  const bool nested = inside.find("${") != std::string::npos;
+  if (!is_variable_name(name) || nested) {
     problems.add(origin, fmt::format("{} is neither ${{NAME}} nor ${{NAME:-default}}; in single "
                                      "quotes it stays as it is written",
                                      in_quotes("${" + inside + "}")));
@@ -53,11 +54,17 @@ std::optional<std::string> value_of(const std::string& inside, const Origin& ori
 }  // namespace
 
 std::string mask_variables(std::string text) {
+  std::size_t unclosed_until = 0;
   for (std::size_t at = text.find("${"); at != std::string::npos; at = text.find("${", at + 2)) {
     text[at + 1] = kOpen;
-    const std::size_t end = text.find_first_of("}\n", at);
-    if (end == std::string::npos || text[end] == '\n') continue;
+    if (at < unclosed_until) continue;
+    const std::size_t end = std::min(text.find_first_of("}\n", at), text.size());
+    if (end == text.size() || text[end] == '\n') {
+      unclosed_until = end;
+      continue;
+    }
     for (std::size_t i = at + 2; i <= end; ++i) text[i] = exchanged(text[i], kSpecial, kMasked);
+    at = end - 1;
   }
   return text;
 }

@@ -76,8 +76,8 @@ ParamSpec read_param_spec(const Node::Entry& entry, Problems& problems) {
   ParamSpec spec;
   spec.name = entry.key;
   if (!is_name(spec.name)) {
-    problems.add(entry.key_origin,
-                 fmt::format("parameter {} must be named in snake_case", config::in_quotes(spec.name)));
+    problems.add(entry.key_origin, fmt::format("parameter {} must be named in snake_case",
+                                               config::in_quotes(spec.name)));
   }
   MapReader map{entry.value, "parameter " + config::in_quotes(spec.name), problems};
   const std::vector<std::string> types{kTypeNames.begin(), kTypeNames.end()};

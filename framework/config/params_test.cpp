@@ -1,2 +1,179 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "armature/config/params.hpp"
+
 #include <gtest/gtest.h>
+
+#include <numbers>
+#include <stdexcept>
+
+#include "armature/config/document.hpp"
+
+namespace armature {
+namespace {
+
+using config::Node;
+using config::parse_text;
+using config::Problems;
+
+std::string text_of(const Problems& problems) {
+  std::string text;
+  for (const config::Problem& problem : problems.sorted()) text += problem.text() + "\n";
+  return text;
+}
+
+constexpr const char* kTable = R"(
+rate_hz: {type: number, default: 10, min: 1, max: 120, doc: "Frames per second."}
+tilt_deg: {type: number, default: 0}
+tries: {type: integer, default: 3, min: 1}
+blur: {type: flag, default: false}
+label: {type: text, default: lamp}
+photo: {type: choice, choices: [generated, astronaut], default: generated}
+mouth_mm: {type: numbers, count: 3, max: 2000, default: [1550, 0, 450]}
+model: {type: file, default: data/model.dat}
+seed: {type: integer}
+)";
+
+std::vector<ParamSpec> specs_of(const std::string& table) {
+  Problems problems;
+  auto specs = read_param_specs(parse_text(table, "plugin.yaml"), problems);
+  EXPECT_EQ(text_of(problems), "");
+  return specs;
+}
+
+Params read(const std::string& given, Problems& problems) {
+  const Node node = parse_text(given, "deployments/lamp.yaml");
+  return Params::read(specs_of(kTable), &node, "sim/scene", problems);
+}
+
+TEST(ParamSpecs, KeepTheOrderAndContentOfTheTable) {
+  const auto specs = specs_of(kTable);
+  ASSERT_EQ(specs.size(), 9U);
+  EXPECT_EQ(specs[0].name, "rate_hz");
+  EXPECT_EQ(specs[0].type, ParamSpec::Type::number);
+  EXPECT_EQ(specs[0].doc, "Frames per second.");
+  EXPECT_EQ(specs[0].fallback->text(), "10");
+  EXPECT_EQ(specs[0].min, 1.0);
+  EXPECT_EQ(specs[0].max, 120.0);
+  EXPECT_EQ(specs[5].choices, (std::vector<std::string>{"generated", "astronaut"}));
+  EXPECT_EQ(specs[6].count, 3U);
+  EXPECT_FALSE(specs[8].fallback);
+  EXPECT_EQ(to_string(specs[7].type), "file");
+}
+
+TEST(ParamSpecs, RefuseWhatIsNoTable) {
+  Problems problems;
+  read_param_specs(parse_text(R"(
+a: {type: numbr, default: 5}
+b: {default: 5}
+c: {type: number, default: fast, minimum: 1}
+d: {type: number, default: 5, max: 3}
+e: {type: number, min: 3, max: 2}
+f: {type: choice}
+g: {type: choice, choices: [x, y], default: z}
+h: {type: text, max: 3, count: 2}
+Bad-Name: {type: flag}
+i: {type: numbers, count: 2, default: [1]}
+j: 5
+)",
+                              "p"),
+                   problems);
+  EXPECT_EQ(text_of(problems),
+            "p:2:11: 'type' cannot be 'numbr'; did you mean 'number'?\n"
+            "p:3:4: missing key 'type' in parameter 'b'\n"
+            "p:4:28: 'c' must be a number, not 'fast'\n"
+            "p:4:34: unknown key 'minimum' in parameter 'c'; known: choices, count, default, doc, "
+            "max, min, type\n"
+            "p:5:28: 'd' is 5, must be at most 3\n"
+            "p:6:32: 'max' is 2, below 'min', which is 3\n"
+            "p:7:4: a choice needs 'choices: [...]'\n"
+            "p:8:45: 'g' cannot be 'z'; known: x, y\n"
+            "p:9:22: 'max' belongs to a number\n"
+            "p:9:32: 'count' belongs to numbers\n"
+            "p:10:1: parameter 'Bad-Name' must be named in snake_case\n"
+            "p:11:39: 'i' must be a list of 2 numbers, not of 1\n"
+            "p:12:4: parameter 'j' must be a map, not '5'\n");
+}
+
+TEST(ParamSpecs, OfAnEmptyTableAreNone) { EXPECT_TRUE(specs_of("").empty()); }
+
+TEST(Parameters, FallBackToTheTable) {
+  Problems problems;
+  const Params params = read("seed: 7\n", problems);
+  EXPECT_EQ(text_of(problems), "");
+  EXPECT_EQ(params.number("rate_hz"), 10);
+  EXPECT_EQ(params.integer("tries"), 3);
+  EXPECT_EQ(params.flag("blur"), false);
+  EXPECT_EQ(params.text("label"), "lamp");
+  EXPECT_EQ(params.text("photo"), "generated");
+  EXPECT_EQ(params.origin("rate_hz").text(), "plugin.yaml:2:34");
+  EXPECT_EQ(params.origin("seed").text(), "deployments/lamp.yaml:1:7");
+}
+
+TEST(Parameters, ArriveInSiUnits) {
+  Problems problems;
+  const Params params = read("{seed: 7, tilt_deg: 180, mouth_mm: [1000, -500, 0]}", problems);
+  EXPECT_DOUBLE_EQ(params.number("tilt_deg"), std::numbers::pi);
+  EXPECT_EQ(params.numbers("mouth_mm"), (std::vector<double>{1, -0.5, 0}));
+}
+
+TEST(Parameters, OfTypeFileStartAtTheFolderOfTheFileThatSaysThem) {
+  Problems problems;
+  EXPECT_EQ(read("seed: 7", problems).file("model"), "data/model.dat");
+  EXPECT_EQ(read("{seed: 7, model: ../m.dat}", problems).file("model"), "m.dat");
+  EXPECT_EQ(read("{seed: 7, model: /m.dat}", problems).file("model"), "/m.dat");
+  EXPECT_EQ(read("{seed: 7, model: \"\"}", problems).file("model"), "");
+  const Node option = config::load_with_overlays({}, {"model=m.dat", "seed=7"});
+  EXPECT_EQ(Params::read(specs_of(kTable), &option, "x", problems).file("model"), "m.dat");
+}
+
+TEST(Parameters, ThatAreWrongAreAllTold) {
+  Problems problems;
+  const Params params = read(
+      "rate_hz: 500\ntries: 0\nblur: yes\nlabel: [a]\nphoto: generatd\nmouth_mm: [1, 2, 3000]\n"
+      "tilt_rad: 1\n",
+      problems);
+  EXPECT_EQ(text_of(problems),
+            "deployments/lamp.yaml:1:1: missing key 'seed' in params of 'sim/scene'\n"
+            "deployments/lamp.yaml:1:10: 'rate_hz' is 500, must be at most 120\n"
+            "deployments/lamp.yaml:2:8: 'tries' is 0, must be at least 1\n"
+            "deployments/lamp.yaml:3:7: 'blur' must be true or false, not 'yes'\n"
+            "deployments/lamp.yaml:4:8: 'label' must be a text, not a list\n"
+            "deployments/lamp.yaml:5:8: 'photo' cannot be 'generatd'; did you mean 'generated'?\n"
+            "deployments/lamp.yaml:6:18: 'mouth_mm' item 3 is 3000, must be at most 2000\n"
+            "deployments/lamp.yaml:7:1: unknown key 'tilt_rad' in params of 'sim/scene'; did you "
+            "mean 'tilt_deg'?\n");
+  EXPECT_EQ(params.number("rate_hz"), 0) << "a wrong value still has an answer";
+}
+
+TEST(Parameters, ThatAreNotGivenAreMissedAtTheirPlace) {
+  Problems problems;
+  Params::read(specs_of(kTable), nullptr, "sim/scene", problems, {"lamp.yaml", 4, 2});
+  const Node empty = parse_text("params:\n", "lamp.yaml");
+  Params::read(specs_of(kTable), empty.find("params"), "sim/scene", problems);
+  EXPECT_EQ(text_of(problems),
+            "lamp.yaml:1:1: missing key 'seed' in params of 'sim/scene'\n"
+            "lamp.yaml:4:2: missing key 'seed' in params of 'sim/scene'\n");
+}
+
+TEST(Parameters, ThatThePluginDoesNotDeclareAreItsDefect) {
+  Problems problems;
+  const Params params = read("seed: 7", problems);
+  const auto defect = [](auto ask) -> std::string {
+    try {
+      ask();
+    } catch (const std::logic_error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(
+      defect([&] { params.number("rate"); }),
+      "'sim/scene' asks for the parameter 'rate', which its plugin.yaml does not declare; did "
+      "you mean 'rate_hz'?");
+  EXPECT_EQ(defect([&] { params.integer("rate_hz"); }),
+            "'sim/scene' asks for the parameter 'rate_hz' as integer, but its plugin.yaml declares "
+            "type number");
+}
+
+}  // namespace
+}  // namespace armature

@@ -84,7 +84,8 @@ SourceText::SourceText(std::string text, std::string name)
     const std::string fault = fault_at(text_, at);
     if (!fault.empty()) throw ConfigError{{{place(at), fault}}};
     if (text_[at] == '\n') line_starts_.push_back(at + 1);
-    at += character_length(text_, at);
+    const std::size_t next = at + character_length(text_, at);
+    while (++at < next) continuation_bytes_.push_back(at);
   }
 }
 
@@ -92,12 +93,12 @@ Origin SourceText::place(std::size_t byte) const {
   byte = std::min(byte, text_.size());
   const auto next = std::ranges::upper_bound(line_starts_, byte);
   const std::size_t line_start = *std::prev(next);
-  const auto begins_character = [](char c) {
-    return (static_cast<unsigned char>(c) & 0xC0) != 0x80;
+  const auto continuation_bytes_before = [this](std::size_t end) {
+    return std::ranges::lower_bound(continuation_bytes_, end) - continuation_bytes_.begin();
   };
-  const auto before = std::string_view{text_}.substr(line_start, byte - line_start);
+  const auto skipped = continuation_bytes_before(byte) - continuation_bytes_before(line_start);
   return {name_, static_cast<int>(next - line_starts_.begin()),
-          1 + static_cast<int>(std::ranges::count_if(before, begins_character))};
+          1 + static_cast<int>(byte - line_start) - static_cast<int>(skipped)};
 }
 
 }  // namespace armature::config

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "armature/config/node.hpp"
 
@@ -28,6 +29,7 @@ class SourceText {
   std::string text_;
   std::string name_;
   std::vector<std::size_t> line_starts_;
+  std::vector<std::size_t> continuation_bytes_;  // those that start no character
 };
 
 }  // namespace armature::config

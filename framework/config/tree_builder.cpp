@@ -41,7 +41,8 @@ void TreeBuilder::add(Node node) {
 void TreeBuilder::add_key(Level& level, const Node& key) {
   if (key.kind() != Node::Kind::scalar) {
     problems_.add(key.origin(), fmt::format("a key must be a text, not {}", key.describe()));
-    throw ParsingStopped{};
+    level.pending = Node::Entry{"", key.origin(), Node::null(key.origin())};
+    return;
   }
   if (key.text() == "<<" && !key.quoted()) {
     problems_.add(key.origin(),
@@ -58,10 +59,6 @@ void TreeBuilder::add_key(Level& level, const Node& key) {
 }
 
 void TreeBuilder::open(bool is_map, const Origin& origin) {
-  if (expects_key()) {
-    problems_.add(origin, fmt::format("a key must be a text, not {}", is_map ? "a map" : "a list"));
-    throw ParsingStopped{};
-  }
   if (levels_.size() >= kDeepest) {
     problems_.add(origin, fmt::format("nested deeper than {} levels", kDeepest));
     throw ParsingStopped{};

@@ -8,9 +8,9 @@
 #include <yaml-cpp/parser.h>
 
 #include <algorithm>
-#include <array>
 #include <sstream>
 #include <utility>
+#include <vector>
 
 #include "armature/config/environment.hpp"
 #include "armature/config/problems.hpp"
@@ -52,7 +52,7 @@ class EventReader : public YAML::EventHandler {
     refuse_anchor(mark, anchor);
     const std::string written = null_at(mark);
     const std::optional<Origin> key = tree_.pending_key();
-    if (key && written.empty() && key_mark_ == byte_of(mark)) {
+    if (key && written.empty() && !has_colon(byte_of(mark))) {
       problems_.add(*key, "a key without ':'; write 'key: value'");
     }
     Node node = Node::null(written.empty() && key ? *key : place(mark));
@@ -78,31 +78,57 @@ class EventReader : public YAML::EventHandler {
       const auto fault = fault_of_quoted(written);
       if (fault) problems_.add(place(byte_of(mark) + fault->offset), fault->message);
     }
-    if (tree_.expects_key()) key_mark_ = byte_of(mark);
+    if (tree_.expects_key()) key_end_ = byte_of(mark) + value.size() + (quote == '\0' ? 0 : 2);
     const bool expands = !tree_.expects_key() && (tag != "!" || quote == '"');
     tree_.add(Node::scalar(expands ? expand_variables(value, origin, problems_) : unmask(value),
                            tag == "!", origin));
   }
 
   void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
-                       YAML::EmitterStyle::value) override {
+                       YAML::EmitterStyle::value style) override {
     refuse_anchor(mark, anchor);
     refuse_tag(mark, tag);
+    open_bracket(mark, style);
     tree_.open_sequence(place(mark));
   }
-  void OnSequenceEnd() override { tree_.close(); }
+  void OnSequenceEnd() override {
+    open_brackets_.pop_back();
+    tree_.close();
+  }
 
   void OnMapStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
-                  YAML::EmitterStyle::value) override {
+                  YAML::EmitterStyle::value style) override {
     refuse_anchor(mark, anchor);
     refuse_tag(mark, tag);
+    open_bracket(mark, style);
     tree_.open_map(place(mark));
   }
-  void OnMapEnd() override { tree_.close(); }
+  void OnMapEnd() override {
+    open_brackets_.pop_back();
+    tree_.close();
+  }
+
+  /// The innermost '[' or '{' that is open.
+  std::optional<Origin> open_bracket() const {
+    const auto open = std::ranges::find_if(open_brackets_.rbegin(), open_brackets_.rend(),
+                                           [](const auto& place) { return place.has_value(); });
+    return open == open_brackets_.rend() ? std::nullopt : *open;
+  }
 
  private:
   std::string_view rest(const YAML::Mark& mark) const {
     return std::string_view{masked_}.substr(std::min(byte_of(mark), masked_.size()));
+  }
+
+  /// True when a colon stands between the last key and `end`.
+  bool has_colon(std::size_t end) const {
+    end = std::min(end, masked_.size());
+    return key_end_ < end && masked_.find(':', key_end_) < end;
+  }
+
+  void open_bracket(const YAML::Mark& mark, YAML::EmitterStyle::value style) {
+    const bool flow = style == YAML::EmitterStyle::Flow;
+    open_brackets_.push_back(flow ? std::optional{place(mark)} : std::nullopt);
   }
 
   /// `null` or `~` as written at `mark`; empty when the value was left out.
@@ -136,31 +162,44 @@ class EventReader : public YAML::EventHandler {
   Problems& problems_;
   TreeBuilder tree_;
   int documents_ = 0;
-  std::size_t key_mark_ = 0;  // byte of the last key
+  std::size_t key_end_ = 0;                           // the byte behind the last key
+  std::vector<std::optional<Origin>> open_brackets_;  // of the open lists and maps; none: indented
 };
 
-/// yaml-cpp's message with what usually is behind it.
-std::string explained(const YAML::Exception& error, const std::string& text) {
-  const std::size_t at = std::min(byte_of(error.mark), text.size());
+bool is_indented_by_tab(const std::string& text, std::size_t byte) {
+  const std::size_t at = std::min(byte, text.size());
   const std::size_t newline = at == 0 ? std::string::npos : text.rfind('\n', at - 1);
   const std::size_t start = newline == std::string::npos ? 0 : newline + 1;
-  const std::size_t first = text.find_first_not_of(" \t", start);
-  const auto indentation =
-      std::string_view{text}.substr(start, std::min(first, text.size()) - start);
+  const std::size_t tab = text.find('\t', start);
+  return tab < text.find_first_not_of(" \t", start);
+}
+
+/// yaml-cpp's message with what usually is behind it.
+Problem explained(const YAML::Exception& error, const EventReader& events,
+                  const std::string& text) {
+  const Origin place = events.place(error.mark);
   const std::string message = "cannot be read as YAML: " + error.msg;
-  if (indentation.find('\t') != std::string_view::npos) {
-    return message + "; indent with spaces, not tabs";
+  const bool not_closed =
+      error.msg == YAML::ErrorMsg::END_OF_SEQ_FLOW || error.msg == YAML::ErrorMsg::END_OF_MAP_FLOW;
+  if (const auto open = events.open_bracket(); open && not_closed) {
+    return {*open, message + "; what opens here is not closed"};
+  }
+  if (is_indented_by_tab(text, byte_of(error.mark))) {
+    return {place, message + "; indent with spaces, not tabs"};
   }
   if (error.msg == YAML::ErrorMsg::MAP_VALUE) {
-    return message + "; check the indentation, and put a text that holds ': ' in quotes";
+    return {place, message + "; check the indentation, and put a text that holds ': ' in quotes"};
   }
-  if (error.msg == YAML::ErrorMsg::UNKNOWN_TOKEN) return message + "; put a text in quotes";
-  return message;
+  if (error.msg == YAML::ErrorMsg::UNKNOWN_TOKEN || error.msg == YAML::ErrorMsg::UNKNOWN_ANCHOR) {
+    return {place, message + "; put a text in quotes"};
+  }
+  return {place, message};
 }
 
 }  // namespace
 
 Node parse_yaml(std::string text, std::string_view name, const std::optional<Origin>& origin) {
+  if (!text.ends_with('\n')) text += '\n';
   const SourceText source{std::move(text), std::string{name}};
   const std::string masked = mask_variables(source.text());
   Problems problems;
@@ -172,7 +211,8 @@ Node parse_yaml(std::string text, std::string_view name, const std::optional<Ori
     }
   } catch (const ParsingStopped&) {
   } catch (const YAML::Exception& error) {
-    problems.add(events.place(error.mark), explained(error, source.text()));
+    // What was seen before may itself be a consequence, so it stands alone.
+    throw ConfigError{{explained(error, events, source.text())}};
   }
   problems.throw_if_any();
   return events.root(events.place(0));

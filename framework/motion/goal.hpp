@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+
+#include "armature/robot/pose_goal.hpp"
+#include "armature/values/expected.hpp"
+
+namespace armature {
+
+/// How a goal is to be reached.
+enum class MotionMode {
+  planned,   // along a path, to rest
+  tracking,  // a target that moves; the next goal follows soon
+  hold,      // stop within limits and stay
+};
+
+/// What the arm shall do next.
+struct Goal {
+  std::uint64_t id = 0;
+  MotionMode mode = MotionMode::planned;
+  ToolPose pose;                                       // of the tool, in the base frame
+  std::optional<Eigen::Vector3d> focus;                // [m] to look at on the way
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // [m/s] of the pose, tracking only
+};
+
+/// `goal` with a unit direction or quaternion, or why it cannot be used: a number that is not
+/// finite, a direction or quaternion whose length is not 1 within 1 %.
+Expected<Goal> checked(Goal goal);
+
+}  // namespace armature

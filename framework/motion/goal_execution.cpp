@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/motion/goal_execution.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "armature/motion/tracking.hpp"
+
+namespace armature {
+
+using State = GoalStatus::State;
+
+GoalExecution::GoalExecution(GoalPlanner planner, const ExecutionOptions& options)
+    : planner_{std::move(planner)}, options_{options} {}
+
+void GoalExecution::report(std::uint64_t goal_id, State state, std::string stage,
+                           std::string reason) {
+  last_ = GoalStatus{.goal_id = goal_id,
+                     .state = state,
+                     .stage = std::move(stage),
+                     .reason = std::move(reason),
+                     .remaining_s = 0};
+  statuses_.push_back(*last_);
+}
+
+void GoalExecution::finish_active(State state) {
+  if (active_) report(*active_, state);
+  active_.reset();
+}
+
+void GoalExecution::fail_active(const std::string& reason) {
+  if (active_) report(*active_, State::failed, "execution", reason);
+  active_.reset();
+}
+
+std::optional<std::string> GoalExecution::deviation(const MeasuredJoints& measured) const {
+  const JointVector difference = reference_.at(measured.stamp).q - measured.q;
+  Eigen::Index worst = 0;
+  const double largest = difference.cwiseAbs().maxCoeff(&worst);
+  if (largest <= options_.max_deviation) return std::nullopt;
+  const RobotModel& model = planner_.model();
+  const int joint = model.independent_joint(static_cast<int>(worst));
+  return fmt::format("joint {} of the arm is {:.3f} away from the reference (at most {:.3f})",
+                     model.joints()[static_cast<std::size_t>(joint)].name, largest,
+                     options_.max_deviation);
+}
+
+bool GoalExecution::silent(Time now, const std::optional<MeasuredJoints>& measured) {
+  if (measured && now - measured->stamp <= options_.measured_max_age) return false;
+  if (!trouble_.empty()) return true;
+  trouble_ = measured ? fmt::format("no joint state of the arm for {:.2f} s",
+                                    to_seconds(now - measured->stamp))
+                      : std::string{"no joint state of the arm"};
+  fail_active(trouble_);
+  const MotionLimits& limits = planner_.limits();
+  reference_.splice(stop_from(reference_.at(now), limits.max_velocity, limits.max_acceleration, now,
+                              last_goal_id_));
+  return true;
+}
+
+void GoalExecution::update(Time now, const std::optional<MeasuredJoints>& measured) {
+  if (!reference_.started()) {
+    if (!measured) return;
+    reference_.start(measured->q, now);
+    trouble_.clear();
+    return;
+  }
+  if (silent(now, measured)) {
+    reference_.advance(now);
+    return;
+  }
+  if (auto reason = deviation(*measured)) {
+    fail_active(*reason);
+    reference_.start(measured->q, now);
+  }
+  trouble_.clear();
+  reference_.advance(now);
+  if (active_ && now >= reference_.last().end()) finish_active(State::done);
+}
+
+std::optional<std::string> GoalExecution::refusal(const Expected<Goal>& goal,
+                                                  std::uint64_t goal_id) const {
+  if (!goal) return goal.error().text;
+  if (!trouble_.empty()) return trouble_;
+  if (goal_id <= last_goal_id_) {
+    return fmt::format("goal {} is not newer than goal {}", goal_id, last_goal_id_);
+  }
+  return std::nullopt;
+}
+
+PlanResult GoalExecution::plan(const Goal& goal, Time start) {
+  const JointState from = reference_.at(start);
+  if (goal.mode == MotionMode::tracking) {
+    return track(planner_, goal, from, start, options_.tracking_horizon_s);
+  }
+  if (goal.mode == MotionMode::planned) return planner_.plan(goal, from, start);
+  const MotionLimits& limits = planner_.limits();
+  return Plan{
+      .path = {},
+      .joint_path = {},
+      .trajectory = stop_from(from, limits.max_velocity, limits.max_acceleration, start, goal.id)};
+}
+
+void GoalExecution::take(const Expected<Goal>& goal, std::uint64_t goal_id, Time now) {
+  if (auto reason = refusal(goal, goal_id)) {
+    report(goal_id, State::failed, "accept", *reason);
+    return;
+  }
+  last_goal_id_ = goal_id;
+  report(goal_id, State::accepted);
+  PlanResult planned = plan(*goal, now + options_.plan_budget);
+  if (!planned) {
+    report(goal_id, State::failed, planned.error().stage, planned.error().reason);
+    return;
+  }
+  finish_active(State::superseded);
+  active_ = goal_id;
+  reference_.splice(planned->trajectory);
+  new_plan_ = std::move(*planned);
+  report(goal_id, State::executing);
+  statuses_.back().remaining_s = current(now)->remaining_s;
+}
+
+std::optional<GoalStatus> GoalExecution::current(Time now) const {
+  if (!active_) return last_;
+  return GoalStatus{.goal_id = *active_,
+                    .state = State::executing,
+                    .stage = {},
+                    .reason = {},
+                    .remaining_s = std::max(0.0, to_seconds(reference_.last().end() - now))};
+}
+
+std::vector<GoalStatus> GoalExecution::take_statuses() { return std::exchange(statuses_, {}); }
+
+std::optional<Plan> GoalExecution::take_plan() { return std::exchange(new_plan_, std::nullopt); }
+
+}  // namespace armature

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "armature/motion/goal_planner.hpp"
+#include "armature/motion/reference.hpp"
+
+namespace armature {
+
+/// What became of a goal; the numbers are those of MotionStatus.
+struct GoalStatus {
+  enum class State : std::uint8_t { accepted = 0, executing, done, superseded, failed };
+  std::uint64_t goal_id = 0;
+  State state = State::accepted;
+  std::string stage;       // path, ik, select, trajectory, execution; accept: it was refused
+  std::string reason;      // why it failed
+  double remaining_s = 0;  // until the goal's trajectory ends
+};
+
+/// The joint positions that the arm reports.
+struct MeasuredJoints {
+  Time stamp;
+  JointVector q;  // independent joints
+};
+
+struct ExecutionOptions {
+  Duration plan_budget = seconds(0.005);  // from the decision to the splice
+  double max_deviation = 0.1;             // [rad] of the arm from the reference
+  Duration measured_max_age = seconds(0.5);
+  double tracking_horizon_s = 0.1;
+};
+
+/// Goals in, one commanded reference out. Every new goal is spliced into the motion at
+/// now + plan_budget from the reference's own (q, v, a), never from what the arm measures. A goal
+/// that fails leaves the motion before it as it is.
+class GoalExecution {
+ public:
+  GoalExecution(GoalPlanner planner, const ExecutionOptions& options);
+
+  /// Once per activation, before goals: starts the reference at the first measurement, ends what is
+  /// done, and holds when the arm does not follow or falls silent.
+  void update(Time now, const std::optional<MeasuredJoints>& measured);
+
+  /// Plans and splices `goal`; the statuses say what came of it, `new_plan` what was decided.
+  void take(const Expected<Goal>& goal, std::uint64_t goal_id, Time now);
+
+  const Reference& reference() const { return reference_; }
+  /// Statuses since the last call, in order.
+  std::vector<GoalStatus> take_statuses();
+  /// The plan that was spliced since the last call.
+  std::optional<Plan> take_plan();
+  /// The goal that is being executed, or was last.
+  std::optional<GoalStatus> current(Time now) const;
+  /// Why the arm is not driven, or "".
+  const std::string& trouble() const { return trouble_; }
+
+ private:
+  std::optional<std::string> refusal(const Expected<Goal>& goal, std::uint64_t goal_id) const;
+  PlanResult plan(const Goal& goal, Time start);
+  void report(std::uint64_t goal_id, GoalStatus::State state, std::string stage = {},
+              std::string reason = {});
+  void fail_active(const std::string& reason);
+  void finish_active(GoalStatus::State state);
+  std::optional<std::string> deviation(const MeasuredJoints& measured) const;
+  bool silent(Time now, const std::optional<MeasuredJoints>& measured);
+
+  GoalPlanner planner_;
+  ExecutionOptions options_;
+  Reference reference_;
+  std::uint64_t last_goal_id_ = 0;
+  std::optional<std::uint64_t> active_;
+  std::optional<GoalStatus> last_;
+  std::vector<GoalStatus> statuses_;
+  std::optional<Plan> new_plan_;
+  std::string trouble_ = "no joint state of the arm yet";
+};
+
+}  // namespace armature

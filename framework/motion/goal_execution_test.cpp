@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/motion/goal_execution.hpp"
+
+#include <gtest/gtest.h>
+
+#include "armature/motion/gantry_stages_test.hpp"
+
+namespace armature {
+namespace {
+
+using test::Gantry;
+using test::goal_at;
+using State = GoalStatus::State;
+
+/// An arm that is where the reference is, stepped at 1 kHz.
+class GoalExecutionTest : public testing::Test {
+ protected:
+  void step_to(double time_s) {
+    while (now_ < Time{} + seconds(time_s)) step();
+  }
+  void step() {
+    now_ = now_ + seconds(0.001);
+    const bool started = execution_.reference().started();
+    const JointVector q = started ? execution_.reference().at(now_).q : home_;
+    execution_.update(now_, MeasuredJoints{now_, q});
+    collect();
+    const JointState state = execution_.reference().at(now_);
+    if (started) {
+      EXPECT_TRUE(test::no_jump(before_, state, 0.001)) << to_seconds(now_ - Time{});
+    }
+    before_ = state;
+  }
+  void give(const Goal& goal) {
+    execution_.take(goal, goal.id, now_);
+    collect();
+  }
+  void collect() {
+    for (GoalStatus& status : execution_.take_statuses()) statuses_.push_back(std::move(status));
+  }
+  std::vector<std::pair<std::uint64_t, State>> story() const {
+    std::vector<std::pair<std::uint64_t, State>> told;
+    for (const GoalStatus& status : statuses_) told.emplace_back(status.goal_id, status.state);
+    return told;
+  }
+
+  Gantry gantry_;
+  GoalExecution execution_{gantry_.planner(), {}};
+  JointVector home_ = Eigen::Vector3d{0.1, 0.2, 0.3};
+  Time now_;
+  JointState before_;
+  std::vector<GoalStatus> statuses_;
+};
+
+using Story = std::vector<std::pair<std::uint64_t, State>>;
+
+TEST_F(GoalExecutionTest, HasNoReferenceBeforeTheArmSaysWhereItIs) {
+  execution_.update(Time{1000}, std::nullopt);
+  EXPECT_FALSE(execution_.reference().started());
+  give(goal_at(1, 0, 0, 0));
+  ASSERT_EQ(statuses_.size(), 1u);
+  EXPECT_EQ(statuses_[0].state, State::failed);
+  EXPECT_EQ(statuses_[0].stage, "accept");
+  EXPECT_EQ(statuses_[0].reason, "no joint state of the arm yet");
+  step();
+  EXPECT_EQ(execution_.reference().at(now_).q, home_);
+}
+
+TEST_F(GoalExecutionTest, TellsTheWholeStoryOfAGoal) {
+  step_to(0.1);
+  give(goal_at(1, 0.5, 0.5, 0.5));
+  EXPECT_EQ(story(), (Story{{1, State::accepted}, {1, State::executing}}));
+  EXPECT_GT(statuses_.back().remaining_s, 0.1);
+  EXPECT_TRUE(execution_.take_plan());
+  EXPECT_FALSE(execution_.take_plan());
+  step_to(3);
+  EXPECT_EQ(story().back(), (std::pair<std::uint64_t, State>{1, State::done}));
+  EXPECT_NEAR((execution_.reference().at(now_).q - Eigen::Vector3d::Constant(0.5)).norm(), 0, 1e-9);
+}
+
+TEST_F(GoalExecutionTest, SplicesANewGoalIntoTheMotionWithoutAJump) {
+  step_to(0.1);
+  give(goal_at(1, 1, 1, 1));
+  step_to(0.8);
+  EXPECT_GT(execution_.reference().at(now_).v.norm(), 0.3);
+  give(goal_at(2, -1, 0.5, 0));
+  step_to(0.802);
+  give(goal_at(3, -0.5, 0.5, 0));
+  step_to(6);
+  EXPECT_EQ(story(), (Story{{1, State::accepted},
+                            {1, State::executing},
+                            {2, State::accepted},
+                            {1, State::superseded},
+                            {2, State::executing},
+                            {3, State::accepted},
+                            {2, State::superseded},
+                            {3, State::executing},
+                            {3, State::done}}));
+  EXPECT_NEAR((execution_.reference().at(now_).q - Eigen::Vector3d(0, 0.5, -0.5)).norm(), 0, 1e-9);
+}
+
+TEST_F(GoalExecutionTest, AFailedGoalLeavesTheMotionBeforeItAsItIs) {
+  step_to(0.1);
+  give(goal_at(1, 1, 1, 1));
+  step_to(0.5);
+  give(goal_at(2, 5, 0, 0));
+  EXPECT_EQ(statuses_.back().state, State::failed);
+  EXPECT_EQ(statuses_.back().stage, "ik");
+  EXPECT_EQ(execution_.current(now_)->goal_id, 1u);
+  step_to(4);
+  EXPECT_EQ(statuses_.back().goal_id, 1u);
+  EXPECT_EQ(statuses_.back().state, State::done);
+}
+
+TEST_F(GoalExecutionTest, RefusesAGoalFromThePast) {
+  step_to(0.1);
+  give(goal_at(7, 1, 1, 1));
+  give(goal_at(7, 0, 0, 0));
+  EXPECT_EQ(statuses_.back().reason, "goal 7 is not newer than goal 7");
+  EXPECT_EQ(execution_.current(now_)->state, State::executing);
+}
+
+TEST_F(GoalExecutionTest, HoldStopsWithinLimitsAndStays) {
+  step_to(0.1);
+  give(goal_at(1, 2, -2, 2));
+  step_to(1.0);
+  const JointState moving = execution_.reference().at(now_);
+  Goal hold;
+  hold.id = 2;
+  hold.mode = MotionMode::hold;
+  give(hold);
+  step_to(3);
+  EXPECT_EQ(statuses_.back().state, State::done);
+  EXPECT_TRUE(at_rest(execution_.reference().at(now_)));
+  EXPECT_LT((execution_.reference().at(now_).q - moving.q).norm(), 0.8);
+}
+
+TEST_F(GoalExecutionTest, FailsTheGoalAndHoldsWhereTheArmIsWhenItDoesNotFollow) {
+  step_to(0.1);
+  give(goal_at(1, 1, 1, 1));
+  step_to(1.2);
+  execution_.update(now_, MeasuredJoints{now_, home_});
+  collect();
+  EXPECT_EQ(statuses_.back().state, State::failed);
+  EXPECT_EQ(statuses_.back().stage, "execution");
+  EXPECT_THAT(statuses_.back().reason, testing::StartsWith("joint z of the arm is "));
+  EXPECT_EQ(execution_.reference().at(now_).q, home_);
+  EXPECT_TRUE(execution_.trouble().empty());
+}
+
+TEST_F(GoalExecutionTest, StopsWhenTheArmFallsSilentAndGoesOnWhenItIsBack) {
+  step_to(0.1);
+  give(goal_at(1, 1, 1, 1));
+  step_to(0.6);
+  const MeasuredJoints last{now_, execution_.reference().at(now_).q};
+  for (int k = 0; k < 600; ++k) {
+    now_ = now_ + seconds(0.001);
+    execution_.update(now_, last);
+  }
+  collect();
+  EXPECT_EQ(statuses_.back().state, State::failed);
+  EXPECT_THAT(execution_.trouble(), testing::StartsWith("no joint state of the arm for 0.5"));
+  give(goal_at(2, 0, 0, 0));
+  EXPECT_EQ(statuses_.back().stage, "accept");
+  before_ = execution_.reference().at(now_);
+  step_to(3);
+  EXPECT_TRUE(at_rest(execution_.reference().at(now_)));
+  give(goal_at(3, 0, 0, 0));
+  EXPECT_EQ(statuses_.back().state, State::executing);
+}
+
+TEST_F(GoalExecutionTest, ReportsABadGoalWithItsReason) {
+  step_to(0.1);
+  execution_.take(refuse("the goal's position is not finite"), 9, now_);
+  collect();
+  EXPECT_EQ(statuses_.back().goal_id, 9u);
+  EXPECT_EQ(statuses_.back().reason, "the goal's position is not finite");
+}
+
+TEST_F(GoalExecutionTest, TracksATargetAndStopsWhenItsGoalsCease) {
+  step_to(0.1);
+  for (std::uint64_t id = 1; id <= 20; ++id) {
+    Goal goal = goal_at(id, 0.3 + 0.02 * static_cast<double>(id), 0.2, 0.1);
+    goal.mode = MotionMode::tracking;
+    goal.velocity = {0.2, 0, 0};
+    give(goal);
+    step_to(0.1 + 0.1 * static_cast<double>(id));
+  }
+  EXPECT_GT(execution_.reference().at(now_).v[2], 0.15);
+  step_to(5);
+  EXPECT_TRUE(at_rest(execution_.reference().at(now_)));
+  EXPECT_EQ(statuses_.back().state, State::done);
+}
+
+}  // namespace
+}  // namespace armature

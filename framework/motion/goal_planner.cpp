@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/motion/goal_planner.hpp"
+
+#include <fmt/core.h>
+
+#include <cstddef>
+#include <utility>
+
+#include "armature/robot/kinematics.hpp"
+
+namespace armature {
+namespace {
+
+tl::unexpected<PlanFailure> fail(std::string stage, std::string reason) {
+  return tl::unexpected<PlanFailure>{PlanFailure{std::move(stage), std::move(reason)}};
+}
+
+/// The tool's pose at `q`, told in the same way as `like`: a direction or a rotation.
+ToolPose pose_at(const RobotModel& model, const JointVector& q, const ToolPose& like) {
+  const Eigen::Isometry3d base_T_tool = forward_kinematics(model, q);
+  ToolPose pose{.position = base_T_tool.translation(), .orientation = {}};
+  if (std::holds_alternative<Direction>(like.orientation)) {
+    const Eigen::Vector3d axis = model.pointing_axis().value_or(Eigen::Vector3d::UnitX());
+    pose.orientation = Direction{base_T_tool.linear() * axis};
+  } else {
+    pose.orientation = Eigen::Quaterniond{base_T_tool.linear()};
+  }
+  return pose;
+}
+
+/// The branch within limits that is nearest to `near`, or nullptr.
+const IkBranch* nearest(const IkBranches& branches, const JointVector& near,
+                        const RobotModel& model) {
+  const IkBranch* best = nullptr;
+  double best_distance = 0;
+  for (const IkBranch& branch : branches) {
+    if (!branch.within_limits) continue;
+    double distance = 0;
+    for (int i = 0; i < model.dof(); ++i) {
+      const double d = branch.q[i] - near[i];
+      const double shortest = model.is_revolute(i) ? wrap_angle(d) : d;
+      distance += shortest * shortest;
+    }
+    if (!best || distance < best_distance) {
+      best = &branch;
+      best_distance = distance;
+    }
+  }
+  return best;
+}
+
+/// A cartesian segment starts where the one before ended; that point needs no solution of its own.
+bool is_known(const PathSegment& segment, std::size_t sample) {
+  return segment.space == PathSegment::Space::cartesian && sample == 0 &&
+         segment.samples.front().s <= 0;
+}
+
+Path straight_to(const ToolPose& pose) {
+  return {PathSegment{.space = PathSegment::Space::joint,
+                      .samples = {PathSample{.s = 1, .pose = pose}},
+                      .stop_at_end = true,
+                      .duration_s = std::nullopt}};
+}
+
+IkGoal ik_goal(const ToolPose& pose) {
+  IkGoal goal;
+  goal.pose = pose;
+  return goal;
+}
+
+bool reaches(const IkStatus& status) {
+  return status.code == IkStatus::Code::ok || status.code == IkStatus::Code::singular;
+}
+
+}  // namespace
+
+GoalPlanner::GoalPlanner(const RobotModel& model, const PlanStages& stages,
+                         const MotionLimits& limits)
+    : model_{model}, stages_{stages}, limits_{limits} {}
+
+tl::expected<JointVector, PlanFailure> GoalPlanner::solve(const ToolPose& pose,
+                                                          const JointVector& near) {
+  waypoints_.resize(1);
+  IkState state;
+  const IkStatus status = stages_.ik.solve(ik_goal(pose), near, waypoints_[0], state);
+  if (!reaches(status)) return fail("ik", "the goal: " + describe(status));
+  auto chosen = stages_.select.choose(near, waypoints_);
+  if (!chosen) return fail("select", chosen.error().text);
+  if (chosen->size() != 1) return fail("select", "the plugin did not answer for the waypoint");
+  return chosen->front();
+}
+
+PlanResult GoalPlanner::plan(const Goal& goal, const JointState& from, Time start) {
+  if (auto end = solve(goal.pose, from.q); !end) return tl::unexpected{end.error()};
+  PlanResult first = attempt(goal, from, start, false);
+  if (first) return first;
+  const bool moving = !at_rest(from);
+  if (moving) {
+    if (PlanResult stopped = after_stop(goal, from, start, false)) return stopped;
+  }
+  PlanResult straight =
+      moving ? after_stop(goal, from, start, true) : attempt(goal, from, start, true);
+  return straight ? std::move(straight) : std::move(first);
+}
+
+PlanResult GoalPlanner::after_stop(const Goal& goal, const JointState& from, Time start,
+                                   bool straight) {
+  const Trajectory stop =
+      stop_from(from, limits_.max_velocity, limits_.max_acceleration, start, goal.id);
+  JointState rest = stop.at(stop.end());
+  rest.v.setZero();
+  rest.a.setZero();
+  PlanResult plan = attempt(goal, rest, stop.end(), straight);
+  if (!plan) return plan;
+  plan->trajectory = joined(stop, plan->trajectory);
+  if (auto defect = trajectory_defect(plan->trajectory, model_, limits_, from, start)) {
+    return fail("trajectory", *defect);
+  }
+  return plan;
+}
+
+PlanResult GoalPlanner::attempt(const Goal& goal, const JointState& from, Time start,
+                                bool straight) {
+  Plan plan;
+  if (straight) {
+    plan.path = straight_to(goal.pose);
+  } else {
+    auto path = stages_.path.plan(
+        {.start = pose_at(model_, from.q, goal.pose), .goal = goal.pose, .focus = goal.focus});
+    if (!path) return fail("path", path.error().text);
+    plan.path = std::move(*path);
+  }
+  auto joint_path = this->joint_path(plan.path, from.q);
+  if (!joint_path) return tl::unexpected{joint_path.error()};
+  plan.joint_path = std::move(*joint_path);
+  auto trajectory = stages_.trajectory.plan({.goal_id = goal.id,
+                                             .start = start,
+                                             .from = from,
+                                             .segments = plan.joint_path,
+                                             .max_velocity = limits_.max_velocity,
+                                             .max_acceleration = limits_.max_acceleration});
+  if (!trajectory) return fail("trajectory", trajectory.error().text);
+  plan.trajectory = std::move(*trajectory);
+  plan.trajectory.goal_id = goal.id;
+  if (auto defect = trajectory_defect(plan.trajectory, model_, limits_, from, start)) {
+    return fail("trajectory", *defect);
+  }
+  return plan;
+}
+
+tl::expected<void, PlanFailure> GoalPlanner::solve_samples(const Path& path,
+                                                           const JointVector& start) {
+  waypoints_.clear();
+  JointVector seed = start;
+  IkState state;
+  for (std::size_t k = 0; k < path.size(); ++k) {
+    const auto& samples = path[k].samples;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      if (is_known(path[k], i)) continue;
+      IkBranches& branches = waypoints_.emplace_back();
+      const IkStatus status = stages_.ik.solve(ik_goal(samples[i].pose), seed, branches, state);
+      const IkBranch* next = reaches(status) ? nearest(branches, seed, model_) : nullptr;
+      if (!next) {
+        return fail("ik", fmt::format("sample {} of {} of segment {}: {}", i + 1, samples.size(),
+                                      k + 1, describe(status)));
+      }
+      seed = next->q;
+    }
+  }
+  return {};
+}
+
+tl::expected<std::vector<JointSegment>, PlanFailure> GoalPlanner::joint_path(
+    const Path& path, const JointVector& start) {
+  if (auto solved = solve_samples(path, start); !solved) return tl::unexpected{solved.error()};
+  if (waypoints_.empty()) return fail("path", "the path has no samples");
+  auto chosen = stages_.select.choose(start, waypoints_);
+  if (!chosen) return fail("select", chosen.error().text);
+  if (chosen->size() != waypoints_.size()) {
+    return fail("select", "the plugin did not answer for every waypoint");
+  }
+  std::vector<JointSegment> segments;
+  JointVector last = start;
+  std::size_t next = 0;
+  for (const PathSegment& segment : path) {
+    JointSegment& joint = segments.emplace_back(JointSegment{.s = {0.0},
+                                                             .q = {last},
+                                                             .stop_at_end = segment.stop_at_end,
+                                                             .duration_s = segment.duration_s});
+    for (std::size_t i = 0; i < segment.samples.size(); ++i) {
+      if (is_known(segment, i)) continue;
+      if (!(segment.samples[i].s > joint.s.back())) {
+        return fail("path", "the samples of a segment do not ascend in s");
+      }
+      joint.s.push_back(segment.samples[i].s);
+      joint.q.push_back((*chosen)[next++]);
+    }
+    last = joint.q.back();
+  }
+  return segments;
+}
+
+}  // namespace armature

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "armature/kinds/ik/ik.hpp"
+#include "armature/kinds/select/select.hpp"
+#include "armature/motion/goal.hpp"
+#include "armature/motion/plan.hpp"
+
+namespace armature {
+
+/// The four slots of the motion component.
+struct PlanStages {
+  const PathPlanner& path;
+  const IkSolver& ik;
+  const BranchSelector& select;
+  const TrajectoryPlanner& trajectory;
+};
+
+/// From a goal to a trajectory: path, inverse kinematics at every sample, one branch per sample for
+/// the whole path, time. All stages in one go, so that when one refuses another answer is tried.
+class GoalPlanner {
+ public:
+  /// Keeps references to everything.
+  GoalPlanner(const RobotModel& model, const PlanStages& stages, const MotionLimits& limits);
+
+  /// A plan for `goal` that leaves `from` at `start` without a jump in q, v, a and ends at rest at
+  /// the goal. Tried in this order: the path plugin's path, spliced while moving; the same after a
+  /// stop; straight in joint space. Fails with the reason of the first.
+  PlanResult plan(const Goal& goal, const JointState& from, Time start);
+
+  /// The joint position nearest to `near` that reaches `pose`.
+  tl::expected<JointVector, PlanFailure> solve(const ToolPose& pose, const JointVector& near);
+
+  const RobotModel& model() const { return model_; }
+  const MotionLimits& limits() const { return limits_; }
+
+ private:
+  PlanResult attempt(const Goal& goal, const JointState& from, Time start, bool straight);
+  PlanResult after_stop(const Goal& goal, const JointState& from, Time start, bool straight);
+  tl::expected<std::vector<JointSegment>, PlanFailure> joint_path(const Path& path,
+                                                                  const JointVector& start);
+  tl::expected<void, PlanFailure> solve_samples(const Path& path, const JointVector& start);
+
+  const RobotModel& model_;
+  PlanStages stages_;
+  MotionLimits limits_;
+  std::vector<IkBranches> waypoints_;  // of one plan; kept for its memory
+};
+
+}  // namespace armature

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/motion/goal_planner.hpp"
+
+#include <gtest/gtest.h>
+
+#include "armature/motion/gantry_stages_test.hpp"
+
+namespace armature {
+namespace {
+
+using test::Gantry;
+using test::goal_at;
+using test::rest_at;
+
+constexpr Time kStart{1'000'000'000};
+
+TEST(GoalPlanner, EndsAtRestAtTheGoal) {
+  const Gantry gantry;
+  auto plan = gantry.planner().plan(goal_at(4, 0.5, 0.6, 0.7), rest_at(0, 0, 0), kStart);
+  ASSERT_TRUE(plan) << plan.error().reason;
+  const JointState end = plan->trajectory.at(plan->trajectory.end());
+  EXPECT_NEAR((end.q - Eigen::Vector3d(0.7, 0.6, 0.5)).norm(), 0, 1e-9);
+  EXPECT_NEAR(end.v.norm(), 0, 1e-9);
+  EXPECT_EQ(plan->trajectory.goal_id, 4u);
+  EXPECT_EQ(plan->trajectory.start, kStart);
+}
+
+TEST(GoalPlanner, LeavesAMovingReferenceWithItsPositionVelocityAndAcceleration) {
+  const Gantry gantry;
+  JointState from = rest_at(0.1, 0.2, 0.3);
+  from.v = Eigen::Vector3d{0.4, -0.3, 0.1};
+  from.a = Eigen::Vector3d{-1, 1, 0.5};
+  auto plan = gantry.planner().plan(goal_at(1, 0.5, 0.6, 0.7), from, kStart);
+  ASSERT_TRUE(plan) << plan.error().reason;
+  const JointState start = plan->trajectory.at(kStart);
+  EXPECT_NEAR((start.q - from.q).norm(), 0, 1e-12);
+  EXPECT_NEAR((start.v - from.v).norm(), 0, 1e-12);
+  EXPECT_NEAR((start.a - from.a).norm(), 0, 1e-12);
+}
+
+TEST(GoalPlanner, SolvesEverySampleOfTheWholePath) {
+  const Gantry gantry;
+  Goal goal = goal_at(1, 1, 0, 0);
+  goal.focus = Eigen::Vector3d{0.5, 0.5, 0};
+  auto plan = gantry.planner().plan(goal, rest_at(0, 0, 0), kStart);
+  ASSERT_TRUE(plan) << plan.error().reason;
+  ASSERT_EQ(plan->joint_path.size(), 1u);
+  const JointSegment& segment = plan->joint_path[0];
+  EXPECT_EQ(segment.s, (std::vector<double>{0, 0.5, 1}));
+  EXPECT_EQ(segment.q[0], (Eigen::Vector3d{0, 0, 0}));
+  EXPECT_EQ(segment.q[1], (Eigen::Vector3d{0, 0.5, 0.5}));
+  EXPECT_EQ(segment.q[2], (Eigen::Vector3d{0, 0, 1}));
+}
+
+TEST(GoalPlanner, SaysByHowMuchAGoalIsOutOfReach) {
+  const Gantry gantry;
+  auto plan = gantry.planner().plan(goal_at(1, 2.25, 0, 0), rest_at(0, 0, 0), kStart);
+  ASSERT_FALSE(plan);
+  EXPECT_EQ(plan.error().stage, "ik");
+  EXPECT_THAT(plan.error().reason, testing::StartsWith("the goal: out_of_reach: 0.25"));
+}
+
+TEST(GoalPlanner, GoesStraightInJointSpaceWhenThePathRefuses) {
+  const Gantry gantry;
+  auto plan = gantry.planner().plan(goal_at(1, 1.75, 0, 0), rest_at(0, 0, 0), kStart);
+  ASSERT_TRUE(plan) << plan.error().reason;
+  EXPECT_EQ(plan->path.front().space, PathSegment::Space::joint);
+}
+
+TEST(GoalPlanner, StopsFirstWhenTheTrajectoryCannotBeSpliced) {
+  Gantry gantry;
+  gantry.trajectory.jumps = true;  // a plugin that starts from rest whatever it is told
+  JointState from = rest_at(0, 0, 0);
+  from.v = Eigen::Vector3d{0.5, 0, 0};
+  auto plan = gantry.planner().plan(goal_at(1, 0, 0, 1), from, kStart);
+  ASSERT_TRUE(plan) << plan.error().reason;
+  EXPECT_NEAR(plan->trajectory.at(kStart).v[0], 0.5, 1e-12);
+  EXPECT_GE(plan->trajectory.piece_count(), 2);
+  EXPECT_NEAR(plan->trajectory.at(plan->trajectory.end()).q[0], 1, 1e-9);
+  JointState before = plan->trajectory.at(kStart);
+  for (Time t = kStart; t < plan->trajectory.end(); t = t + seconds(0.001)) {
+    const JointState state = plan->trajectory.at(t);
+    ASSERT_TRUE(t == kStart || test::no_jump(before, state, 0.001));
+    before = state;
+  }
+}
+
+TEST(TrajectoryDefect, NamesTheJointThatJumps) {
+  const Gantry gantry;
+  const Trajectory hold = hold_at(Eigen::Vector3d{0, 0.25, 0}, kStart, 1);
+  EXPECT_EQ(trajectory_defect(hold, gantry.model, gantry.limits, rest_at(0, 0.25, 0), kStart),
+            std::nullopt);
+  EXPECT_EQ(trajectory_defect(hold, gantry.model, gantry.limits, rest_at(0, 0, 0), kStart),
+            "the trajectory does not leave the reference: joint y jumps by 0.25 in position, 0 in "
+            "velocity, 0 in acceleration");
+}
+
+TEST(TrajectoryDefect, FindsBrokenLimits) {
+  const Gantry gantry;
+  const auto plan = gantry.planner().plan(goal_at(1, 1, 1, 1), rest_at(0, 0, 0), kStart);
+  ASSERT_TRUE(plan);
+  MotionLimits half = gantry.limits;
+  half.max_velocity *= 0.5;
+  EXPECT_THAT(*trajectory_defect(plan->trajectory, gantry.model, half, rest_at(0, 0, 0), kStart),
+              testing::StartsWith("the trajectory needs "));
+  const Trajectory outside = hold_at(Eigen::Vector3d{0, 0, 2.5}, kStart, 1);
+  EXPECT_EQ(*trajectory_defect(outside, gantry.model, gantry.limits, rest_at(0, 0, 2.5), kStart),
+            "joint x would be at 2.5000 after 0.00 s, outside -2.0000 to 2.0000");
+}
+
+}  // namespace
+}  // namespace armature

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/motion/goal.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace armature {
+namespace {
+
+Goal good_goal() {
+  Goal goal;
+  goal.id = 1;
+  goal.pose = {.position = {1, 0, 0.5}, .orientation = Direction{Eigen::Vector3d::UnitX()}};
+  return goal;
+}
+
+TEST(Goal, IsNormalised) {
+  Goal goal = good_goal();
+  goal.pose.orientation = Direction{Eigen::Vector3d{1.005, 0, 0}};
+  const auto usable = checked(goal);
+  ASSERT_TRUE(usable);
+  EXPECT_DOUBLE_EQ(std::get<Direction>(usable->pose.orientation).unit.norm(), 1);
+}
+
+TEST(Goal, WithAnythingNotFiniteIsRefusedByName) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  Goal goal = good_goal();
+  goal.pose.position.y() = nan;
+  EXPECT_EQ(checked(goal).error().text, "the goal's position is not finite");
+  goal = good_goal();
+  goal.focus = Eigen::Vector3d{0, nan, 0};
+  EXPECT_EQ(checked(goal).error().text, "the goal's focus is not finite");
+  goal = good_goal();
+  goal.velocity.x() = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(checked(goal).error().text, "the goal's velocity is not finite");
+  goal = good_goal();
+  goal.pose.orientation = Direction{Eigen::Vector3d{nan, 0, 0}};
+  EXPECT_EQ(checked(goal).error().text, "the goal's direction has length nan, not 1");
+}
+
+TEST(Goal, WithAZeroDirectionOrQuaternionIsRefused) {
+  Goal goal = good_goal();
+  goal.pose.orientation = Direction{Eigen::Vector3d::Zero()};
+  EXPECT_EQ(checked(goal).error().text, "the goal's direction has length 0, not 1");
+  goal.pose.orientation = Eigen::Quaterniond{0, 0, 0, 0};
+  EXPECT_EQ(checked(goal).error().text, "the goal's quaternion has length 0, not 1");
+}
+
+TEST(Goal, ToHoldNeedsNoPose) {
+  Goal goal = good_goal();
+  goal.mode = MotionMode::hold;
+  goal.pose.orientation = Direction{Eigen::Vector3d::Zero()};
+  EXPECT_TRUE(checked(goal));
+}
+
+}  // namespace
+}  // namespace armature

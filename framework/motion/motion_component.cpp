@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
+#include <memory>
+#include <utility>
+
+#include "armature/kinds/setup_robot.hpp"
+#include "armature/messages/stamp.hpp"
+#include "armature/motion/motion_messages.hpp"
+#include "armature/runtime/component.hpp"
+#include "armature/runtime/plugin.hpp"
+#include "armature/runtime/setup.hpp"
+
+namespace armature {
+namespace {
+
+constexpr Duration kStatusPeriod = seconds(0.1);
+
+/// The same limit for every joint, refused where the robot's own is lower.
+JointVector limit_of(const Setup& setup, const char* param, const RobotModel& model,
+                     const JointVector& robot_limit, const char* unit) {
+  const double value = setup.params().number(param);
+  for (int i = 0; i < model.dof(); ++i) {
+    if (value > robot_limit[i]) {
+      const auto joint = static_cast<std::size_t>(model.independent_joint(i));
+      throw SetupError(fmt::format("{} is {}, above the {} {} of joint {} of robot {}", param,
+                                   value, robot_limit[i], unit, model.joints()[joint].name,
+                                   model.name()));
+    }
+  }
+  return JointVector::Constant(model.dof(), value);
+}
+
+MotionLimits limits_of(const Setup& setup, const RobotModel& model) {
+  return {limit_of(setup, "max_velocity_rad_s", model, model.max_velocity(), "rad/s"),
+          limit_of(setup, "max_acceleration_rad_s2", model, model.max_acceleration(), "rad/s2")};
+}
+
+ExecutionOptions options_of(const Params& params) {
+  return {.plan_budget = seconds(params.number("plan_budget_s")),
+          .max_deviation = params.number("max_deviation_rad"),
+          .measured_max_age = seconds(params.number("measured_max_age_s")),
+          .tracking_horizon_s = params.number("tracking_horizon_s")};
+}
+
+}  // namespace
+
+class Motion : public Component {
+ public:
+  explicit Motion(Setup& setup)
+      : Component(setup),
+        model_{robot_of(setup)},
+        path_{setup.slot<PathPlanner>("path")},
+        ik_{setup.slot<IkSolver>("ik", model_)},
+        select_{setup.slot<BranchSelector>("select", model_)},
+        trajectory_{setup.slot<TrajectoryPlanner>("trajectory")},
+        goals_{setup.input<msg::MotionGoal>("goal")},
+        measured_js_{setup.input<msg::JointState>("measured_js")},
+        servo_jp_{setup.output<msg::JointState>("servo_jp")},
+        reference_js_{setup.output<msg::JointState>("reference")},
+        status_{setup.output<msg::MotionStatus>("status")},
+        path_out_{setup.output<msg::ToolPath>("path")},
+        joint_path_out_{setup.output<msg::JointTrajectory>("joint_path")},
+        trajectory_out_{setup.output<msg::QuinticTrajectory>("trajectory")},
+        execution_{
+            GoalPlanner{model_, {*path_, *ik_, *select_, *trajectory_}, limits_of(setup, model_)},
+            options_of(setup.params())} {}
+
+  void step(Time now) override {
+    const auto measured = read_measured();
+    execution_.update(now, measured);
+    for (std::size_t i = 0; i < goals_.size(); ++i) {
+      execution_.take(read_goal(goals_[i]), goals_[i].goal_id_(), now);
+    }
+    publish_statuses(now);
+    publish_plan();
+    if (execution_.reference().started()) publish_reference(now);
+    show_health();
+  }
+
+ private:
+  std::optional<MeasuredJoints> read_measured() {
+    const msg::JointState* message = measured_js_.latest();
+    if (!message) return std::nullopt;
+    const auto& position = message->position_();
+    if (position.size() != static_cast<std::size_t>(model_.joint_count())) {
+      bad_measurement_ = fmt::format("measured_js has {} joints, the robot {}", position.size(),
+                                     model_.joint_count());
+      return std::nullopt;
+    }
+    auto q = model_.contract(Eigen::Map<const Eigen::VectorXd>(
+        position.data(), static_cast<Eigen::Index>(position.size())));
+    if (!q) {
+      bad_measurement_ = "measured_js: " + q.error().text;
+      return std::nullopt;
+    }
+    bad_measurement_.clear();
+    return MeasuredJoints{stamp_of(message->header_().stamp_()), *q};
+  }
+
+  void publish_statuses(Time now) {
+    for (const GoalStatus& status : execution_.take_statuses()) {
+      publish_status(status, now);
+      if (status.state == GoalStatus::State::failed) {
+        say(fmt::format("goal {} failed in {}: {}", status.goal_id, status.stage, status.reason));
+      }
+    }
+    if (now - last_status_ < kStatusPeriod) return;
+    if (const auto current = execution_.current(now)) publish_status(*current, now);
+  }
+
+  void publish_status(const GoalStatus& status, Time now) {
+    auto loan = status_.loan();
+    write_status(status, now, *loan);
+    loan.publish();
+    last_status_ = now;
+  }
+
+  void publish_plan() {
+    const auto plan = execution_.take_plan();
+    if (!plan) return;
+    auto path = path_out_.loan();
+    write_path(*plan, model_, *path);
+    path.publish();
+    auto joint_path = joint_path_out_.loan();
+    write_joint_path(*plan, model_, *joint_path);
+    joint_path.publish();
+    auto trajectory = trajectory_out_.loan();
+    write_trajectory(plan->trajectory, model_, *trajectory);
+    trajectory.publish();
+  }
+
+  void publish_reference(Time now) {
+    const JointState state = execution_.reference().at(now);
+    auto servo = servo_jp_.loan();
+    write_all_joints(model_, state, now, *servo);
+    servo.publish();
+    auto reference = reference_js_.loan();
+    write_independent_joints(model_, state, now, *reference);
+    reference.publish();
+  }
+
+  void show_health() {
+    const std::string& trouble = bad_measurement_.empty() ? execution_.trouble() : bad_measurement_;
+    if (trouble == shown_trouble_) return;
+    shown_trouble_ = trouble;
+    if (trouble.empty()) {
+      healthy();
+    } else {
+      degraded(trouble);
+    }
+  }
+
+  RobotModel model_;
+  PluginPtr<PathPlanner> path_;
+  PluginPtr<IkSolver> ik_;
+  PluginPtr<BranchSelector> select_;
+  PluginPtr<TrajectoryPlanner> trajectory_;
+  Input<msg::MotionGoal> goals_;
+  Input<msg::JointState> measured_js_;
+  Output<msg::JointState> servo_jp_, reference_js_;
+  Output<msg::MotionStatus> status_;
+  Output<msg::ToolPath> path_out_;
+  Output<msg::JointTrajectory> joint_path_out_;
+  Output<msg::QuinticTrajectory> trajectory_out_;
+  GoalExecution execution_;
+  Time last_status_;
+  std::string bad_measurement_, shown_trouble_;
+};
+
+}  // namespace armature
+
+ARMATURE_PLUGIN(armature::Motion);

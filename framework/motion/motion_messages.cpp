@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/motion/motion_messages.hpp"
+
+#include <fmt/core.h>
+
+#include <cstddef>
+
+#include "armature/messages/geometry.hpp"
+#include "armature/messages/stamp.hpp"
+
+namespace armature {
+namespace {
+
+constexpr std::string_view kBaseFrame = "base";
+
+template <class Header>
+void write_header(Header& header, Time stamp) {
+  set_stamp(header.stamp_(), stamp);
+  if (header.frame_id_() != kBaseFrame) header.frame_id_() = kBaseFrame;
+}
+
+const Joint& independent(const RobotModel& model, int i) {
+  return model.joints()[static_cast<std::size_t>(model.independent_joint(i))];
+}
+
+std::vector<std::string> independent_names(const RobotModel& model) {
+  std::vector<std::string> names;
+  for (int i = 0; i < model.dof(); ++i) names.push_back(independent(model, i).name);
+  return names;
+}
+
+std::vector<double> to_vector(const JointVector& values) {
+  return {values.data(), values.data() + values.size()};
+}
+
+}  // namespace
+
+Expected<Goal> read_goal(const msg::MotionGoal& message) {
+  const std::string& frame = message.header_().frame_id_();
+  if (frame != kBaseFrame) {
+    return refuse(fmt::format("the goal is stated in frame '{}', not in '{}'", frame, kBaseFrame));
+  }
+  if (message.mode_() > static_cast<int>(MotionMode::hold)) {
+    return refuse(fmt::format("the goal has the unknown mode {}", message.mode_()));
+  }
+  Goal goal;
+  goal.id = message.goal_id_();
+  goal.mode = static_cast<MotionMode>(message.mode_());
+  goal.pose.position = to_eigen(message.position_());
+  if (message.pointing_()) {
+    goal.pose.orientation = Direction{to_eigen(message.direction_())};
+  } else {
+    goal.pose.orientation = to_eigen(message.orientation_());
+  }
+  if (message.has_focus_()) goal.focus = to_eigen(message.focus_());
+  if (goal.mode == MotionMode::tracking) goal.velocity = to_eigen(message.velocity_());
+  return checked(goal);
+}
+
+void write_all_joints(const RobotModel& model, const JointState& state, Time stamp,
+                      msg::JointState& message) {
+  write_header(message.header_(), stamp);
+  const auto count = static_cast<std::size_t>(model.joint_count());
+  message.name_().resize(count);
+  message.position_().resize(count);
+  message.velocity_().resize(count);
+  message.effort_().clear();
+  int next = 0;  // index of the next independent joint
+  for (std::size_t j = 0; j < count; ++j) {
+    const Joint& joint = model.joints()[j];
+    message.name_()[j] = joint.name;
+    if (joint.coupling) continue;
+    message.position_()[j] = state.q[next];
+    message.velocity_()[j] = state.v[next++];
+  }
+  for (std::size_t j = 0; j < count; ++j) {
+    const Joint& joint = model.joints()[j];
+    if (!joint.coupling) continue;
+    const auto to = static_cast<std::size_t>(joint.coupling->to);
+    message.position_()[j] =
+        joint.coupling->ratio * message.position_()[to] + joint.coupling->offset;
+    message.velocity_()[j] = joint.coupling->ratio * message.velocity_()[to];
+  }
+}
+
+void write_independent_joints(const RobotModel& model, const JointState& state, Time stamp,
+                              msg::JointState& message) {
+  write_header(message.header_(), stamp);
+  const auto dof = static_cast<std::size_t>(model.dof());
+  message.name_().resize(dof);
+  message.position_().resize(dof);
+  message.velocity_().resize(dof);
+  message.effort_().resize(dof);
+  for (int i = 0; i < model.dof(); ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    message.name_()[k] = independent(model, i).name;
+    message.position_()[k] = state.q[i];
+    message.velocity_()[k] = state.v[i];
+    message.effort_()[k] = state.a[i];
+  }
+}
+
+void write_status(const GoalStatus& status, Time stamp, msg::MotionStatus& message) {
+  write_header(message.header_(), stamp);
+  message.goal_id_(status.goal_id);
+  message.state_(static_cast<std::uint8_t>(status.state));
+  message.stage_() = status.stage;
+  message.reason_() = status.reason;
+  message.remaining_(status.remaining_s);
+}
+
+void write_path(const Plan& plan, const RobotModel& model, msg::ToolPath& message) {
+  write_header(message.header_(), plan.trajectory.start);
+  message.goal_id_(plan.trajectory.goal_id);
+  message.position_().clear();
+  message.direction_().clear();
+  const Eigen::Vector3d axis = model.pointing_axis().value_or(Eigen::Vector3d::UnitX());
+  for (const PathSegment& segment : plan.path) {
+    for (const PathSample& sample : segment.samples) {
+      const auto* direction = std::get_if<Direction>(&sample.pose.orientation);
+      assign(message.position_().emplace_back(), sample.pose.position);
+      assign(message.direction_().emplace_back(),
+             direction
+                 ? direction->unit
+                 : Eigen::Vector3d{std::get<Eigen::Quaterniond>(sample.pose.orientation) * axis});
+    }
+  }
+}
+
+void write_joint_path(const Plan& plan, const RobotModel& model, msg::JointTrajectory& message) {
+  write_header(message.header_(), plan.trajectory.start);
+  message.joint_names_().clear();
+  for (const Joint& joint : model.joints()) message.joint_names_().push_back(joint.name);
+  message.points_().clear();
+  for (const JointSegment& segment : plan.joint_path) {
+    for (const JointVector& q : segment.q) {
+      auto& point = message.points_().emplace_back();
+      point.positions_() = to_vector(model.expand(q));
+    }
+  }
+}
+
+void write_trajectory(const Trajectory& trajectory, const RobotModel& model,
+                      msg::QuinticTrajectory& message) {
+  write_header(message.header_(), trajectory.start);
+  message.goal_id_(trajectory.goal_id);
+  message.joint_names_() = independent_names(model);
+  message.knots_() = trajectory.knots;
+  message.coefficients_().clear();
+  for (const Quintic& piece : trajectory.pieces) {
+    message.coefficients_().insert(message.coefficients_().end(), piece.c.begin(), piece.c.end());
+  }
+}
+
+}  // namespace armature

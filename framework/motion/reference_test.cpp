@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/motion/reference.hpp"
+
+#include <gtest/gtest.h>
+
+#include "armature/motion/gantry_stages_test.hpp"
+
+namespace armature {
+namespace {
+
+Trajectory move(const JointState& from, const JointVector& to, Time start, double duration_s) {
+  Trajectory made{.goal_id = 1,
+                  .dof = static_cast<int>(to.size()),
+                  .start = start,
+                  .knots = {0, duration_s},
+                  .pieces = {}};
+  for (int i = 0; i < made.dof; ++i) {
+    made.pieces.push_back(
+        Quintic::between({from.q[i], from.v[i], from.a[i]}, {to[i], 0, 0}, duration_s));
+  }
+  return made;
+}
+
+const JointVector kThere = Eigen::Vector3d{0.5, -0.5, 1};
+
+TEST(Reference, HoldsWhereItStarted) {
+  Reference reference;
+  EXPECT_FALSE(reference.started());
+  reference.start(kThere, Time{1'000'000'000});
+  const JointState later = reference.at(Time{9'000'000'000});
+  EXPECT_EQ(later.q, kThere);
+  EXPECT_TRUE(at_rest(later));
+}
+
+TEST(Reference, FollowsTheOldTrajectoryUntilTheNewOneStarts) {
+  Reference reference;
+  reference.start(Eigen::Vector3d::Zero(), Time{0});
+  const Time splice = Time{} + seconds(0.005);
+  reference.splice(move(reference.at(splice), kThere, splice, 1));
+  EXPECT_EQ(reference.at(Time{} + seconds(0.004)).q, Eigen::Vector3d::Zero());
+  EXPECT_NEAR((reference.at(Time{} + seconds(0.505)).q - 0.5 * kThere).norm(), 0, 1e-12);
+  EXPECT_NEAR((reference.at(Time{} + seconds(3)).q - kThere).norm(), 0, 1e-12);
+}
+
+TEST(Reference, HasNoJumpInPositionVelocityOrAccelerationAtAnySplice) {
+  Reference reference;
+  reference.start(Eigen::Vector3d::Zero(), Time{0});
+  const Duration step = seconds(0.001);
+  std::mt19937 random{20260101};
+  SCOPED_TRACE("seed 20260101");
+  std::uniform_real_distribution<double> position{-1, 1};
+  JointState before = reference.at(Time{0});
+  for (int k = 1; k < 3000; ++k) {
+    const Time now = Time{} + k * step;
+    reference.advance(now);
+    if (k % 100 == 3) {
+      const Time splice = now + seconds(0.005);
+      const Eigen::Vector3d goal{position(random), position(random), position(random)};
+      reference.splice(move(reference.at(splice), goal, splice, 1.5));
+    }
+    const JointState state = reference.at(now);
+    ASSERT_TRUE(test::no_jump(before, state, 0.001)) << "at step " << k;
+    before = state;
+  }
+}
+
+TEST(Reference, DropsWhatWouldHaveTakenOverLater) {
+  Reference reference;
+  reference.start(Eigen::Vector3d::Zero(), Time{0});
+  reference.splice(move(reference.at(Time{500}), kThere, Time{500}, 1));
+  reference.splice(hold_at(Eigen::Vector3d::Zero(), Time{400}, 7));
+  EXPECT_EQ(reference.last().goal_id, 7u);
+  EXPECT_EQ(reference.at(Time{2'000'000'000}).q, Eigen::Vector3d::Zero());
+}
+
+}  // namespace
+}  // namespace armature

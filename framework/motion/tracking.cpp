@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/motion/tracking.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace armature {
+namespace {
+
+constexpr double kHorizonGrowth = 1.25;
+constexpr double kLongestHorizon = 20.0;    // [s]
+constexpr double kLongestPrediction = 1.0;  // [s] a velocity is not trusted longer
+constexpr double kVelocityStep = 1e-3;      // [s] for the difference quotient
+
+ToolPose after(const Goal& goal, double time_s) {
+  ToolPose pose = goal.pose;
+  pose.position += goal.velocity * time_s;
+  return pose;
+}
+
+/// Where the joints shall be after `horizon_s`, and how fast they move there.
+tl::expected<JointState, PlanFailure> meeting_point(GoalPlanner& planner, const Goal& goal,
+                                                    const JointState& from, double horizon_s) {
+  const double ahead = std::min(horizon_s, kLongestPrediction);
+  auto q = planner.solve(after(goal, ahead), from.q);
+  if (!q) return tl::unexpected{q.error()};
+  JointState meet{.q = *q, .v = JointVector::Zero(q->size()), .a = JointVector::Zero(q->size())};
+  if (goal.velocity.isZero() || horizon_s > kLongestPrediction) return meet;
+  auto next = planner.solve(after(goal, ahead + kVelocityStep), *q);
+  if (!next) return meet;  // the target leaves the reach: wait for it at the border
+  meet.v = (*next - *q) / kVelocityStep;
+  const JointVector& limit = planner.limits().max_velocity;
+  const double use = meet.v.cwiseQuotient(limit).cwiseAbs().maxCoeff();
+  if (use > 0.9) meet.v *= 0.9 / use;
+  return meet;
+}
+
+Trajectory quintic_to(const JointState& from, const JointState& to, Time start, double horizon_s,
+                      std::uint64_t goal_id) {
+  Trajectory trajectory{.goal_id = goal_id,
+                        .dof = static_cast<int>(from.q.size()),
+                        .start = start,
+                        .knots = {0.0, horizon_s},
+                        .pieces = {}};
+  for (int i = 0; i < trajectory.dof; ++i) {
+    trajectory.pieces.push_back(Quintic::between({from.q[i], from.v[i], from.a[i]},
+                                                 {to.q[i], to.v[i], to.a[i]}, horizon_s));
+  }
+  return trajectory;
+}
+
+}  // namespace
+
+PlanResult track(GoalPlanner& planner, const Goal& goal, const JointState& from, Time start,
+                 double shortest_horizon_s) {
+  const MotionLimits& limits = planner.limits();
+  std::string defect;
+  for (double horizon = shortest_horizon_s; horizon <= kLongestHorizon; horizon *= kHorizonGrowth) {
+    auto meet = meeting_point(planner, goal, from, horizon);
+    if (!meet) return tl::unexpected{meet.error()};
+    Trajectory trajectory = quintic_to(from, *meet, start, horizon, goal.id);
+    if (!at_rest(*meet)) {
+      trajectory = joined(trajectory, stop_from(*meet, limits.max_velocity, limits.max_acceleration,
+                                                trajectory.end(), goal.id));
+    }
+    if (auto found = trajectory_defect(trajectory, planner.model(), limits, from, start)) {
+      defect = std::move(*found);
+      continue;
+    }
+    return Plan{
+        .path = {},
+        .joint_path = {JointSegment{
+            .s = {0, 1}, .q = {from.q, meet->q}, .stop_at_end = false, .duration_s = horizon}},
+        .trajectory = std::move(trajectory)};
+  }
+  return tl::unexpected{PlanFailure{"trajectory", "tracking within limits: " + defect}};
+}
+
+}  // namespace armature

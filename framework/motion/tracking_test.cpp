@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/motion/tracking.hpp"
+
+#include <gtest/gtest.h>
+
+#include "armature/motion/gantry_stages_test.hpp"
+
+namespace armature {
+namespace {
+
+using test::Gantry;
+using test::goal_at;
+using test::rest_at;
+
+constexpr double kHorizon = 0.1;
+
+TEST(Tracking, MeetsATargetThatMovesWithItsVelocity) {
+  const Gantry gantry;
+  GoalPlanner planner = gantry.planner();
+  Goal goal = goal_at(1, 0.02, 0, 0);
+  goal.mode = MotionMode::tracking;
+  goal.velocity = {0.1, 0, 0};
+  auto plan = track(planner, goal, rest_at(0, 0, 0), Time{0}, kHorizon);
+  ASSERT_TRUE(plan) << plan.error().reason;
+  const double horizon = plan->trajectory.knots[1];
+  const JointState meet = plan->trajectory.at(Time{} + seconds(horizon));
+  EXPECT_NEAR(meet.q[2], 0.02 + 0.1 * horizon, 1e-9);
+  EXPECT_NEAR(meet.v[2], 0.1, 1e-6);
+  EXPECT_NEAR(plan->trajectory.at(plan->trajectory.end()).v.norm(), 0, 1e-9);
+}
+
+TEST(Tracking, TakesLongerInsteadOfBreakingLimits) {
+  const Gantry gantry;
+  GoalPlanner planner = gantry.planner();
+  Goal goal = goal_at(1, 1.2, -1, 0.4);
+  auto plan = track(planner, goal, rest_at(0, 0, 0), Time{0}, kHorizon);
+  ASSERT_TRUE(plan) << plan.error().reason;
+  const LimitUse use =
+      limit_use(plan->trajectory, gantry.limits.max_velocity, gantry.limits.max_acceleration);
+  EXPECT_LE(use.velocity, 1.001);
+  EXPECT_LE(use.acceleration, 1.001);
+  EXPECT_GT(plan->trajectory.knots[1], 1.2);
+}
+
+TEST(Tracking, FollowsACircleWithoutAJumpAndWithinLimits) {
+  const Gantry gantry;
+  GoalPlanner planner = gantry.planner();
+  Trajectory current = hold_at(Eigen::Vector3d{0, 0, 0.3}, Time{0}, 0);
+  JointState before = current.at(Time{0});
+  double worst_lag_m = 0;
+  for (int k = 1; k < 6000; ++k) {
+    const Time now = Time{} + k * seconds(0.001);
+    const double t = 0.001 * k;
+    const Eigen::Vector3d target{0.3 * std::cos(t), 0.3 * std::sin(t), 0};
+    if (k % 33 == 0) {
+      Goal goal = goal_at(static_cast<std::uint64_t>(k), target.x(), target.y(), 0);
+      goal.velocity = {-0.3 * std::sin(t), 0.3 * std::cos(t), 0};
+      auto plan = track(planner, goal, current.at(now), now, kHorizon);
+      ASSERT_TRUE(plan) << plan.error().reason;
+      current = plan->trajectory;
+    }
+    const JointState state = current.at(now);
+    ASSERT_TRUE(test::no_jump(before, state, 0.001)) << "at step " << k;
+    ASSERT_LE(state.v.cwiseAbs().maxCoeff(), 1.001);
+    ASSERT_LE(state.a.cwiseAbs().maxCoeff(), 2.501);
+    if (k > 2000) {
+      worst_lag_m = std::max(worst_lag_m,
+                             (Eigen::Vector3d{state.q[2], state.q[1], state.q[0]} - target).norm());
+    }
+    before = state;
+  }
+  EXPECT_LT(worst_lag_m, 0.003);
+}
+
+TEST(Tracking, RefusesATargetOutOfReach) {
+  const Gantry gantry;
+  GoalPlanner planner = gantry.planner();
+  auto plan = track(planner, goal_at(1, 3, 0, 0), rest_at(0, 0, 0), Time{0}, kHorizon);
+  ASSERT_FALSE(plan);
+  EXPECT_EQ(plan.error().stage, "ik");
+}
+
+}  // namespace
+}  // namespace armature

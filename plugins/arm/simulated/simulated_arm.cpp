@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "simulated_arm.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace armature {
+namespace {
+
+constexpr double kRounding = 1e-9;
+
+/// The fastest approach from which the joint can still stop after `distance`, when its velocity
+/// changes in steps of `a * dt`.
+double stopping_velocity(double distance, double a, double dt) {
+  const double step = 0.5 * a * dt;
+  return std::sqrt(step * step + 2 * a * std::max(distance, 0.0)) - step;
+}
+
+}  // namespace
+
+SimulatedArm::SimulatedArm(const RobotModel& model, const Options& options, const JointVector& q)
+    : model_{model},
+      options_{options},
+      q_{q},
+      v_{JointVector::Zero(q.size())},
+      executed_v_{v_},
+      measured_{q},
+      measured_v_{v_} {}
+
+void SimulatedArm::step(Time now, const std::optional<ServoCommand>& command) {
+  const double dt = last_ ? to_seconds(now - *last_) : options_.period_s;
+  if (dt <= 0) return;
+  last_ = now;
+  excess_.reset();
+  following_ = command && to_seconds(now - command->stamp) <= options_.stale_s;
+  if (following_) {
+    follow(*command, now, dt);
+  } else {
+    stop(dt);
+  }
+  measure(dt);
+}
+
+void SimulatedArm::follow(const ServoCommand& command, Time now, double dt) {
+  // Two clocks may tick on their own: what was commanded a moment ago is carried on to now.
+  const double age_s = std::max(0.0, to_seconds(now - command.stamp));
+  for (int i = 0; i < model_.dof(); ++i) {
+    const Step wanted{.q = command.q[i] + command.v[i] * age_s,
+                      .v = command.v[i],
+                      .dt = dt,
+                      .in_step = age_s == 0};
+    const auto found = obstacle(i, wanted);
+    if (!found) {
+      executed_v_[i] = wanted.in_step ? (wanted.q - q_[i]) / dt : wanted.v;
+      q_[i] = wanted.q;
+      v_[i] = wanted.v;
+      continue;
+    }
+    if (!excess_) excess_ = found;
+    move_within_limits(i, wanted);
+  }
+}
+
+std::optional<LimitExcess> SimulatedArm::obstacle(int joint, const Step& wanted) const {
+  using Quantity = LimitExcess::Quantity;
+  const double lower = model_.lower()[joint], upper = model_.upper()[joint];
+  if (wanted.q < lower - kRounding) return LimitExcess{joint, Quantity::position, wanted.q, lower};
+  if (wanted.q > upper + kRounding) return LimitExcess{joint, Quantity::position, wanted.q, upper};
+  // In step with the commands the positions alone tell velocity and acceleration; out of step the
+  // command's own velocity does, with one period of slack.
+  const double v = wanted.in_step ? (wanted.q - q_[joint]) / wanted.dt : wanted.v;
+  const double v_limit = model_.max_velocity()[joint];
+  if (std::abs(v) > v_limit * (1 + kRounding)) {
+    return LimitExcess{joint, Quantity::velocity, v, v_limit};
+  }
+  const double a_limit = model_.max_acceleration()[joint];
+  const double window = wanted.in_step ? wanted.dt : wanted.dt + options_.period_s;
+  const double a = (v - executed_v_[joint]) / window;
+  if (std::abs(a) > a_limit) return LimitExcess{joint, Quantity::acceleration, a, a_limit};
+  if (wanted.in_step) return std::nullopt;
+  const double gap = wanted.q - q_[joint] - 0.5 * (executed_v_[joint] + v) * wanted.dt;
+  if (std::abs(gap) <= 0.5 * a_limit * window * window) return std::nullopt;
+  return LimitExcess{joint, Quantity::acceleration, 2 * gap / (window * window), a_limit};
+}
+
+void SimulatedArm::stop(double dt) {
+  for (int i = 0; i < model_.dof(); ++i) {
+    const double change = model_.max_acceleration()[i] * dt;
+    const double v = executed_v_[i] - std::clamp(executed_v_[i], -change, change);
+    advance(i, v, dt);
+  }
+}
+
+void SimulatedArm::move_within_limits(int joint, const Step& wanted) {
+  const double dt = wanted.dt;
+  const double a = model_.max_acceleration()[joint];
+  const double v_limit = model_.max_velocity()[joint];
+  const double gap = wanted.q - q_[joint];
+  const double approach =
+      std::copysign(std::min(stopping_velocity(std::abs(gap), a, dt), std::abs(gap) / dt), gap);
+  double v = std::clamp(wanted.v + approach, -v_limit, v_limit);
+  v = std::min(v, stopping_velocity(model_.upper()[joint] - q_[joint], a, dt));
+  v = std::max(v, -stopping_velocity(q_[joint] - model_.lower()[joint], a, dt));
+  v = std::clamp(v, executed_v_[joint] - a * dt, executed_v_[joint] + a * dt);
+  advance(joint, v, dt);
+}
+
+void SimulatedArm::advance(int joint, double v, double dt) {
+  q_[joint] = std::clamp(q_[joint] + v * dt, model_.lower()[joint], model_.upper()[joint]);
+  v_[joint] = executed_v_[joint] = v;
+}
+
+void SimulatedArm::measure(double dt) {
+  if (options_.lag_s <= 0) {
+    measured_ = q_;
+    measured_v_ = v_;
+    return;
+  }
+  const double share = 1 - std::exp(-dt / options_.lag_s);
+  measured_v_ = (q_ - measured_) * (share / dt);
+  measured_ += (q_ - measured_) * share;
+}
+
+}  // namespace armature

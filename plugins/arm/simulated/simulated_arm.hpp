@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "armature/robot/robot_model.hpp"
+#include "armature/values/time.hpp"
+
+namespace armature {
+
+/// A set point from outside: independent joints.
+struct ServoCommand {
+  Time stamp;
+  JointVector q, v;
+};
+
+/// What a command asked for beyond the limits of a joint.
+struct LimitExcess {
+  enum class Quantity { position, velocity, acceleration };
+  int joint = 0;  // index of the independent joint
+  Quantity quantity = Quantity::position;
+  double wanted = 0, limit = 0;
+};
+
+/// The servo loop of an ideal arm. A command that can be followed is followed exactly; one that
+/// asks for more than the limits is followed as fast as they allow, without overshoot at the
+/// position limits. Real-time safe after construction.
+class SimulatedArm {
+ public:
+  struct Options {
+    double period_s = 0.001;
+    double lag_s = 0;
+    double stale_s = 0.1;
+  };
+
+  /// Starts at rest at `q`. The model outlives the arm.
+  SimulatedArm(const RobotModel& model, const Options& options, const JointVector& q);
+
+  /// Moves on to `now`; `command` is the newest one, if any.
+  void step(Time now, const std::optional<ServoCommand>& command);
+
+  const JointVector& setpoint() const { return q_; }
+  const JointVector& setpoint_velocity() const { return v_; }
+  const JointVector& measured() const { return measured_; }
+  const JointVector& measured_velocity() const { return measured_v_; }
+  /// False while there is no fresh command.
+  bool following() const { return following_; }
+  /// The worst that the last step had to hold back.
+  const std::optional<LimitExcess>& excess() const { return excess_; }
+
+ private:
+  /// What one joint is asked to do in one step of `dt`; `in_step`: the command is of this instant.
+  struct Step {
+    double q = 0, v = 0, dt = 0;
+    bool in_step = true;
+  };
+  void follow(const ServoCommand& command, Time now, double dt);
+  void stop(double dt);
+  std::optional<LimitExcess> obstacle(int joint, const Step& wanted) const;
+  void move_within_limits(int joint, const Step& wanted);
+  void advance(int joint, double v, double dt);
+  void measure(double dt);
+
+  const RobotModel& model_;
+  Options options_;
+  JointVector q_, v_;
+  JointVector executed_v_;  // of the last step, what limits are kept against
+  JointVector measured_, measured_v_;
+  std::optional<Time> last_;
+  bool following_ = false;
+  std::optional<LimitExcess> excess_;
+};
+
+}  // namespace armature

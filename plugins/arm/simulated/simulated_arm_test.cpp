@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "simulated_arm.hpp"
+
+#include <gtest/gtest.h>
+
+#include "armature/robot/quintic.hpp"
+
+namespace armature {
+namespace {
+
+RobotModel one_joint() {
+  Joint joint;
+  joint.name = "j1";
+  joint.lower = -1;
+  joint.upper = 1;
+  joint.max_velocity = 2.5;
+  joint.max_acceleration = 8;
+  return {"one_joint", RobotModel::Convention::standard,
+          {joint},     {{.name = "tool", .parent_joint = 0}},
+          FrameId{0},  std::nullopt,
+          std::nullopt};
+}
+
+JointVector value(double v) { return JointVector::Constant(1, v); }
+
+class SimulatedArmTest : public testing::Test {
+ protected:
+  /// One step of 1 ms; velocity and acceleration are checked from the positions themselves.
+  void step(std::optional<ServoCommand> command) {
+    now_ = now_ + seconds(0.001);
+    arm_.step(now_, command);
+    const double q = arm_.setpoint()[0];
+    const double v = (q - last_q_) / 0.001;
+    EXPECT_LE(std::abs(v), 2.5 + 1e-6);
+    EXPECT_LE(std::abs(v - last_v_) / 0.001, 8 + 1e-3);
+    EXPECT_LE(std::abs(q), 1);
+    last_q_ = q;
+    last_v_ = v;
+  }
+  ServoCommand command(double q, double v = 0) const {
+    return {now_ + seconds(0.001), value(q), value(v)};
+  }
+
+  RobotModel model_ = one_joint();
+  SimulatedArm arm_{model_, {}, value(0)};
+  Time now_;
+  double last_q_ = 0, last_v_ = 0;
+};
+
+TEST_F(SimulatedArmTest, HoldsAtHomeWithoutACommand) {
+  for (int k = 0; k < 10; ++k) step(std::nullopt);
+  EXPECT_EQ(arm_.measured(), value(0));
+  EXPECT_FALSE(arm_.following());
+}
+
+TEST_F(SimulatedArmTest, ExecutesAReachableReferenceExactly) {
+  const Quintic move = Quintic::between({0, 0, 0}, {0.8, 0, 0}, 1.2);
+  for (int k = 1; k <= 1200; ++k) {
+    const double t = 0.001 * k;
+    step(command(move.position(t), move.velocity(t)));
+    ASSERT_EQ(arm_.measured()[0], move.position(t));
+    ASSERT_FALSE(arm_.excess());
+  }
+}
+
+TEST_F(SimulatedArmTest, FollowsAJumpWithinLimitsAndTellsTheNumber) {
+  step(command(0));
+  step(command(0.5));
+  ASSERT_TRUE(arm_.excess());
+  EXPECT_EQ(arm_.excess()->quantity, LimitExcess::Quantity::velocity);
+  EXPECT_NEAR(arm_.excess()->wanted, 500, 1e-6);
+  EXPECT_EQ(arm_.excess()->limit, 2.5);
+  for (int k = 0; k < 1000; ++k) step(command(0.5));
+  EXPECT_FALSE(arm_.excess());
+  EXPECT_EQ(arm_.measured()[0], 0.5);
+}
+
+TEST_F(SimulatedArmTest, StopsAtThePositionLimit) {
+  for (int k = 0; k < 2000; ++k) step(command(3));
+  ASSERT_TRUE(arm_.excess());
+  EXPECT_EQ(arm_.excess()->quantity, LimitExcess::Quantity::position);
+  EXPECT_NEAR(arm_.measured()[0], 1, 1e-3);
+}
+
+TEST_F(SimulatedArmTest, NeverExceedsLimitsWhateverIsCommanded) {
+  std::mt19937 random{7};
+  SCOPED_TRACE("seed 7");
+  std::uniform_real_distribution<double> position{-1.5, 1.5}, velocity{-4, 4};
+  ServoCommand wild = command(0);
+  for (int k = 0; k < 20000; ++k) {
+    if (k % 50 == 0) wild = command(position(random), velocity(random));
+    wild.stamp = now_ + seconds(0.001);
+    step(wild);
+  }
+}
+
+TEST_F(SimulatedArmTest, DeceleratesAndHoldsWhenTheCommandIsStale) {
+  const Quintic move = Quintic::between({0, 0, 0}, {0.8, 0, 0}, 1.2);
+  ServoCommand last = command(0);
+  for (int k = 1; k <= 400; ++k) {
+    last = command(move.position(0.001 * k), move.velocity(0.001 * k));
+    step(last);
+  }
+  EXPECT_GT(arm_.setpoint_velocity()[0], 0.5);
+  for (int k = 0; k < 500; ++k) step(last);
+  EXPECT_FALSE(arm_.following());
+  EXPECT_EQ(arm_.setpoint_velocity()[0], 0);
+  const double held = arm_.measured()[0];
+  for (int k = 0; k < 100; ++k) step(last);
+  EXPECT_EQ(arm_.measured()[0], held);
+}
+
+TEST(SimulatedArm, FollowsACommandStreamThatIsSampledAtOtherInstants) {
+  const RobotModel model = one_joint();
+  SimulatedArm arm{model, {}, value(0)};
+  const Quintic move = Quintic::between({0, 0, 0}, {0.8, 0, 0}, 1.2);
+  std::mt19937 random{11};
+  SCOPED_TRACE("seed 11");
+  std::uniform_int_distribution<int> jitter{0, 400'000};
+  for (int k = 1; k <= 1200; ++k) {
+    const Time now{k * 1'000'000LL + jitter(random)};
+    const double t = 0.001 * k;
+    arm.step(now,
+             ServoCommand{Time{k * 1'000'000LL}, value(move.position(t)), value(move.velocity(t))});
+    ASSERT_FALSE(arm.excess()) << "at " << t;
+  }
+}
+
+TEST(SimulatedArm, MeasuresWithAFirstOrderLag) {
+  const RobotModel model = one_joint();
+  SimulatedArm arm{model, {.lag_s = 0.02}, value(0)};
+  Time now;
+  for (int k = 1; k <= 600; ++k) {
+    now = now + seconds(0.001);
+    const double q = 0.5 * 0.001 * k * (k > 200);
+    arm.step(now, ServoCommand{now, value(q), value(k > 200 ? 0.5 : 0)});
+  }
+  EXPECT_NEAR(arm.setpoint()[0] - arm.measured()[0], 0.5 * 0.02, 1e-3);
+}
+
+}  // namespace
+}  // namespace armature

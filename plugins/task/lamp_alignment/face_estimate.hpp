@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <deque>
+
+#include "armature/values/time.hpp"
+
+namespace armature {
+
+/// Where the mouth is and where the face looks, in the base frame.
+struct FaceEstimate {
+  Time stamp;
+  Eigen::Vector3d mouth = Eigen::Vector3d::Zero();    // [m]
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitX();  // unit, out of the face
+};
+
+/// How far two estimates are apart, and whether that is beyond a band.
+struct FaceBand {
+  double position_m = 0, angle_rad = 0;
+
+  bool left_by(const FaceEstimate& a, const FaceEstimate& b) const;
+};
+
+/// The mean of the newest estimates, at most `capacity` of them.
+class FaceAverage {
+ public:
+  explicit FaceAverage(std::size_t capacity) : capacity_{capacity} {}
+
+  void clear() { estimates_.clear(); }
+  void add(const FaceEstimate& estimate);
+  std::size_t count() const { return estimates_.size(); }
+  /// Of the newest `count` estimates, at least one of which there must be.
+  FaceEstimate mean(std::size_t count) const;
+
+ private:
+  std::size_t capacity_;
+  std::deque<FaceEstimate> estimates_;
+};
+
+}  // namespace armature

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lamp_alignment.hpp"
+
+#include <algorithm>
+
+namespace armature {
+namespace {
+
+/// A face in the picture but no estimate yet: so many more pictures to wait for one.
+constexpr int kPicturesForEstimate = 10;
+
+Goal face_goal(const FaceEstimate& face, double distance_m) {
+  Goal goal;
+  goal.pose = {.position = face.mouth + distance_m * face.normal,
+               .orientation = Direction{-face.normal}};
+  goal.focus = face.mouth;
+  return goal;
+}
+
+std::size_t window_of(const AlignmentSettings& settings) {
+  return static_cast<std::size_t>(settings.settle_frames) * 3;
+}
+
+}  // namespace
+
+const char* to_string(LampAlignment::Phase phase) {
+  switch (phase) {
+    case LampAlignment::Phase::checking_light:
+      return "checking light";
+    case LampAlignment::Phase::searching:
+      return "searching";
+    case LampAlignment::Phase::aligning:
+      return "aligning";
+    case LampAlignment::Phase::holding:
+      return "holding";
+    case LampAlignment::Phase::following:
+      return "following";
+    case LampAlignment::Phase::unreachable:
+      return "unreachable";
+  }
+  return "";
+}
+
+LampAlignment::LampAlignment(const AlignmentSettings& settings)
+    : settings_{settings},
+      poses_{search_poses(settings.search)},
+      light_{settings.light},
+      at_rest_{window_of(settings)} {}
+
+void LampAlignment::see(const Picture& picture, Time now) {
+  if (picture.face || phase_ == Phase::checking_light) {
+    const double intensity = picture.face ? picture.face_intensity : picture.image_intensity;
+    const bool answers = light_.answers(picture.stamp);
+    const auto level = light_.update(picture.stamp, intensity, now);
+    if (level) new_level_ = level;
+    if (phase_ == Phase::checking_light && answers && !level) start_search(now);
+  }
+  if (phase_ == Phase::searching && looking_ && picture.stamp >= looking_since_) {
+    ++pictures_;
+    face_in_picture_ = picture.face;
+  }
+}
+
+void LampAlignment::see(const FaceEstimate& estimate) {
+  latest_ = estimate;
+  ++fresh_;
+  if (goals_.state() == GoalState::done && estimate.stamp >= goals_.done_at()) {
+    at_rest_.add(estimate);
+  }
+}
+
+void LampAlignment::step(Time now) {
+  switch (phase_) {
+    case Phase::checking_light:
+      if (latest_) align_with(*latest_, Phase::aligning, now);
+      break;
+    case Phase::searching:
+      search(now);
+      break;
+    case Phase::aligning:
+    case Phase::following:
+      come_to_rest(now);
+      break;
+    case Phase::holding:
+      hold(now);
+      break;
+    case Phase::unreachable:
+      wait_for_another_face_position(now);
+      break;
+  }
+}
+
+void LampAlignment::start_search(Time now) {
+  phase_ = Phase::searching;
+  trouble_.clear();
+  views_looked_at_ = 0;
+  pose_ = 0;
+  if (goal_estimate_) pose_ = nearest_pose(poses_, -goal_estimate_->normal);
+  pose_ = (pose_ + poses_.size() - 1) % poses_.size();
+  looking_since_ = now;
+  next_view();
+}
+
+void LampAlignment::next_view() {
+  pose_ = (pose_ + 1) % poses_.size();
+  views_looked_at_ = views_looked_at_ % poses_.size() + 1;
+  looking_ = false;
+  capture_ = false;
+  Goal goal;
+  goal.pose = poses_[pose_];
+  goals_.set(goal);
+}
+
+void LampAlignment::search(Time now) {
+  if (!looking_) {
+    if (goals_.state() == GoalState::failed) {
+      trouble_ = "search pose: " + goals_.reason();
+      next_view();
+    } else if (goals_.state() == GoalState::done) {
+      trouble_.clear();
+      looking_ = capture_ = true;
+      looking_since_ = now;
+      pictures_ = 0;
+      face_in_picture_ = false;
+    }
+    return;
+  }
+  if (face_since(looking_since_)) {
+    align_with(*latest_, Phase::aligning, now);
+    return;
+  }
+  const int enough = settings_.frames_per_view + (face_in_picture_ ? kPicturesForEstimate : 0);
+  if (pictures_ >= enough) next_view();
+}
+
+void LampAlignment::align_with(const FaceEstimate& estimate, Phase phase, Time now) {
+  phase_ = phase;
+  capture_ = true;
+  trouble_.clear();
+  goal_estimate_ = estimate;
+  goal_set_at_ = now;
+  fresh_ = 0;
+  at_rest_.clear();
+  goals_.set(face_goal(estimate, settings_.distance_m));
+}
+
+bool LampAlignment::follow_if_moved(Time now) {
+  if (to_seconds(now - goal_set_at_) < settings_.replan_interval_s) return false;
+  if (!latest_ || fresh_ == 0 || !settings_.moved.left_by(*latest_, *goal_estimate_)) return false;
+  align_with(*latest_, Phase::following, now);
+  return true;
+}
+
+bool LampAlignment::lost(Time now) const {
+  const Time since = std::max(latest_->stamp, goals_.done_at());
+  return goals_.state() == GoalState::done && to_seconds(now - since) > settings_.lost_s;
+}
+
+void LampAlignment::come_to_rest(Time now) {
+  if (goals_.state() == GoalState::failed) {
+    phase_ = Phase::unreachable;
+    trouble_ = goals_.reason();
+    return;
+  }
+  if (goals_.state() != GoalState::done) {
+    follow_if_moved(now);
+    return;
+  }
+  if (lost(now)) {
+    start_search(now);
+    return;
+  }
+  const auto frames = static_cast<std::size_t>(settings_.settle_frames);
+  const auto few = static_cast<std::size_t>(settings_.moved_frames);
+  if (at_rest_.count() == few && settings_.moved.left_by(at_rest_.mean(few), *goal_estimate_)) {
+    align_with(at_rest_.mean(few), phase_, now);
+    return;
+  }
+  if (at_rest_.count() < frames) return;
+  const FaceEstimate mean = at_rest_.mean(frames);
+  if (settings_.settled.left_by(mean, *goal_estimate_)) {
+    align_with(mean, phase_, now);
+  } else {
+    phase_ = Phase::holding;
+  }
+}
+
+void LampAlignment::hold(Time now) {
+  if (lost(now)) {
+    start_search(now);
+    return;
+  }
+  const auto few = static_cast<std::size_t>(settings_.moved_frames);
+  const FaceEstimate recent = at_rest_.mean(few);
+  if (settings_.moved.left_by(recent, *goal_estimate_)) {
+    align_with(*latest_, Phase::following, now);
+    return;
+  }
+  const FaceEstimate mean = at_rest_.mean(window_of(settings_));
+  if (at_rest_.count() >= window_of(settings_) && settings_.still.left_by(mean, *goal_estimate_)) {
+    align_with(mean, Phase::aligning, now);
+  }
+}
+
+void LampAlignment::wait_for_another_face_position(Time now) {
+  if (latest_ && to_seconds(now - latest_->stamp) > settings_.lost_s) {
+    start_search(now);
+    return;
+  }
+  if (to_seconds(now - goal_set_at_) < settings_.replan_interval_s) return;
+  if (settings_.settled.left_by(*latest_, *goal_estimate_)) {
+    align_with(*latest_, Phase::aligning, now);
+  }
+}
+
+}  // namespace armature

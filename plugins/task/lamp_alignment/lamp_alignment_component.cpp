@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
+#include <string>
+
+#include "armature/kinds/setup_robot.hpp"
+#include "armature/messages/armature_msgs.hpp"
+#include "armature/messages/geometry.hpp"
+#include "armature/messages/stamp.hpp"
+#include "armature/runtime/component.hpp"
+#include "armature/runtime/plugin.hpp"
+#include "armature/runtime/setup.hpp"
+#include "lamp_alignment.hpp"
+
+namespace armature {
+namespace {
+
+constexpr Duration kPeriod = seconds(0.02);
+constexpr Duration kStatePeriod = seconds(0.2);
+
+SearchSettings search_settings(const Params& params, const RobotModel& model) {
+  const auto point = params.numbers("search_point_m");
+  SearchSettings search{.joint_6 = {point[0], point[1], point[2]},
+                        .joint_6_to_lamp_m = model.joints().back().a,
+                        .yaw = params.numbers("search_yaw_deg"),
+                        .pitch = params.numbers("search_pitch_deg")};
+  if (search.yaw.empty() || search.pitch.empty()) {
+    throw SetupError("search_yaw_deg and search_pitch_deg need at least one angle each");
+  }
+  return search;
+}
+
+AlignmentSettings settings_of(const Params& params, const RobotModel& model) {
+  return {.distance_m = params.number("distance_m"),
+          .search = search_settings(params, model),
+          .frames_per_view = static_cast<int>(params.integer("frames_per_view")),
+          .settle_frames = static_cast<int>(params.integer("settle_frames")),
+          .settled = {params.number("settled_position_mm"), params.number("settled_angle_deg")},
+          .still = {params.number("replan_position_mm"), params.number("replan_angle_deg")},
+          .moved = {params.number("moved_position_mm"), params.number("moved_angle_deg")},
+          .moved_frames = static_cast<int>(params.integer("moved_frames")),
+          .replan_interval_s = params.number("replan_interval_s"),
+          .lost_s = params.number("lost_s"),
+          .light = {.dark = params.number("dark"),
+                    .bright = params.number("bright"),
+                    .step = params.number("light_step"),
+                    .level = params.number("light_level")}};
+}
+
+}  // namespace
+
+class LampAlignmentComponent : public Component {
+ public:
+  explicit LampAlignmentComponent(Setup& setup)
+      : Component(setup),
+        task_{settings_of(setup.params(), robot_of(setup))},
+        target_{setup.input<msg::Target>("target")},
+        landmarks_{setup.input<msg::FaceLandmarks>("landmarks")},
+        motion_status_{setup.input<msg::MotionStatus>("motion_status")},
+        goal_{setup.output<msg::MotionGoal>("goal")},
+        light_level_{setup.output<msg::LightLevel>("light_level")},
+        capture_{setup.output<msg::Capture>("capture")},
+        state_{setup.output<msg::TaskState>("state")} {
+    setup.activate_every(kPeriod);
+  }
+
+  void step(Time now) override {
+    read(now);
+    task_.step(now);
+    send_goal(now);
+    send_light_and_capture(now);
+    publish_state(now);
+  }
+
+ private:
+  void read(Time now) {
+    for (std::size_t i = 0; i < motion_status_.size(); ++i) {
+      const msg::MotionStatus& status = motion_status_[i];
+      task_.hear({.goal_id = status.goal_id_(),
+                  .state = static_cast<GoalReport::State>(status.state_()),
+                  .stage = status.stage_(),
+                  .reason = status.reason_()},
+                 now);
+    }
+    for (std::size_t i = 0; i < landmarks_.size(); ++i) {
+      const msg::FaceLandmarks& seen = landmarks_[i];
+      task_.see(Picture{.stamp = stamp_of(seen.header_().stamp_()),
+                        .face = seen.valid_(),
+                        .image_intensity = seen.image_intensity_(),
+                        .face_intensity = seen.face_intensity_()},
+                now);
+    }
+    for (std::size_t i = 0; i < target_.size(); ++i) {
+      const msg::Target& target = target_[i];
+      if (!target.valid_()) continue;
+      task_.see(FaceEstimate{.stamp = stamp_of(target.header_().stamp_()),
+                             .mouth = to_eigen(target.position_()),
+                             .normal = to_eigen(target.normal_()).normalized()});
+    }
+  }
+
+  void send_goal(Time now) {
+    const auto goal = task_.outgoing_goal(now);
+    if (!goal) return;
+    auto loan = goal_.loan();
+    set_stamp(loan->header_().stamp_(), now);
+    loan->header_().frame_id_() = "base";
+    loan->goal_id_(goal->id);
+    loan->mode_(static_cast<std::uint8_t>(goal->mode));
+    assign(loan->position_(), goal->pose.position);
+    loan->pointing_(true);
+    assign(loan->direction_(), std::get<Direction>(goal->pose.orientation).unit);
+    assign(loan->orientation_(), Eigen::Quaterniond::Identity());
+    loan->has_focus_(goal->focus.has_value());
+    assign(loan->focus_(), goal->focus.value_or(Eigen::Vector3d::Zero()));
+    assign(loan->velocity_(), Eigen::Vector3d{Eigen::Vector3d::Zero()});
+    loan.publish();
+  }
+
+  void send_light_and_capture(Time now) {
+    if (const auto level = task_.take_light_level()) {
+      auto loan = light_level_.loan();
+      set_stamp(loan->header_().stamp_(), now);
+      loan->header_().frame_id_().clear();
+      loan->level_(*level);
+      loan.publish();
+      say(fmt::format("light level {:.0f} %", *level * 100));
+    }
+    if (sent_capture_ == task_.capture()) return;
+    sent_capture_ = task_.capture();
+    auto loan = capture_.loan();
+    set_stamp(loan->header_().stamp_(), now);
+    loan->header_().frame_id_().clear();
+    loan->on_(*sent_capture_);
+    loan.publish();
+  }
+
+  void publish_state(Time now) {
+    const bool searching = task_.phase() == LampAlignment::Phase::searching;
+    std::string line = to_string(task_.phase());
+    if (searching) line += fmt::format(" {}/{}", task_.view(), task_.views());
+    if (!task_.trouble().empty()) line += ": " + task_.trouble();
+    if (line == line_ && now - published_ < kStatePeriod) return;
+    if (line != line_) say(line);
+    line_ = line;
+    published_ = now;
+    auto loan = state_.loan();
+    set_stamp(loan->header_().stamp_(), now);
+    loan->header_().frame_id_().clear();
+    loan->state_() = to_string(task_.phase());
+    loan->step_(static_cast<std::uint32_t>(searching ? task_.view() : 0));
+    loan->steps_(static_cast<std::uint32_t>(searching ? task_.views() : 0));
+    loan->detail_() = task_.trouble();
+    loan.publish();
+  }
+
+  LampAlignment task_;
+  Input<msg::Target> target_;
+  Input<msg::FaceLandmarks> landmarks_;
+  Input<msg::MotionStatus> motion_status_;
+  Output<msg::MotionGoal> goal_;
+  Output<msg::LightLevel> light_level_;
+  Output<msg::Capture> capture_;
+  Output<msg::TaskState> state_;
+  std::optional<bool> sent_capture_;
+  std::string line_;
+  Time published_;
+};
+
+}  // namespace armature
+
+ARMATURE_PLUGIN(armature::LampAlignmentComponent);

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lamp_alignment.hpp"
+
+#include <gtest/gtest.h>
+
+namespace armature {
+namespace {
+
+using Phase = LampAlignment::Phase;
+constexpr double kDegree = std::numbers::pi / 180;
+
+AlignmentSettings settings() {
+  return {.search = {.yaw = {40 * kDegree, 0, -40 * kDegree},
+                     .pitch = {26 * kDegree, 0, -26 * kDegree}},
+          .settled = {0.001, 0.8 * kDegree},
+          .still = {0.003, 2.5 * kDegree},
+          .moved = {0.01, 7 * kDegree},
+          .light = {}};
+}
+
+/// A lamp in a world where every goal takes one second, and a patient who is seen from straight
+/// ahead only, at 10 Hz, with noise.
+class LampAlignmentTest : public testing::Test {
+ protected:
+  void run(double duration_s) {
+    const Time end = now_ + seconds(duration_s);
+    while (now_ < end) tick();
+  }
+  bool run_until(Phase phase, double at_most_s) {
+    const Time end = now_ + seconds(at_most_s);
+    while (now_ < end && task_.phase() != phase) tick();
+    return task_.phase() == phase;
+  }
+
+  void tick() {
+    now_ = now_ + seconds(0.02);
+    ++ticks_;
+    if (goal_ && now_ >= arrival_) {
+      lamp_ = goal_->pose;
+      task_.hear({.goal_id = goal_->id, .state = GoalReport::State::done}, now_);
+      goal_.reset();
+    }
+    if (ticks_ % 5 == 0 && task_.capture()) take_picture();
+    task_.step(now_);
+    if (auto level = task_.take_light_level()) light_ = *level;
+    if (auto goal = task_.outgoing_goal(now_)) receive(*goal);
+  }
+
+  void receive(const Goal& goal) {
+    goals_.push_back(goal);
+    if (goal.pose.position.norm() > reach_m_) {
+      task_.hear({.goal_id = goal.id,
+                  .state = GoalReport::State::failed,
+                  .stage = "ik",
+                  .reason = "out_of_reach"},
+                 now_);
+      return;
+    }
+    goal_ = goal;
+    arrival_ = now_ + seconds(1);
+    task_.hear({.goal_id = goal.id, .state = GoalReport::State::executing}, now_);
+  }
+
+  void take_picture() {
+    const Eigen::Vector3d looks_along = std::get<Direction>(lamp_.orientation).unit;
+    const bool seen = present_ && looks_along.x() > 0.8;
+    const double gray = gain_ * (100 + 200 * light_);
+    task_.see(Picture{now_, seen, gray, gray}, now_);
+    if (seen)
+      task_.see(
+          FaceEstimate{now_, mouth_ + noise(noise_m_), (normal_ + noise(noise_rad_)).normalized()});
+  }
+  Eigen::Vector3d noise(double sigma) {
+    std::normal_distribution<double> normal{0, sigma};
+    return {normal(random_), normal(random_), normal(random_)};
+  }
+
+  LampAlignment task_{settings()};
+  Time now_;
+  int ticks_ = 0;
+  std::optional<Goal> goal_;
+  Time arrival_;
+  ToolPose lamp_{.position = {0.6, 0, 0.5}, .orientation = Direction{Eigen::Vector3d::UnitY()}};
+  std::vector<Goal> goals_;
+  bool present_ = true;
+  double reach_m_ = 10, gain_ = 1, light_ = 0;
+  double noise_m_ = 0.0005, noise_rad_ = 0.01;
+  Eigen::Vector3d mouth_{1.55, 0, 0.45}, normal_{-1, 0, 0};
+  std::mt19937 random_{5};
+};
+
+TEST_F(LampAlignmentTest, ChecksTheLightThenSearchesThenAlignsAndHolds) {
+  EXPECT_EQ(task_.phase(), Phase::checking_light);
+  ASSERT_TRUE(run_until(Phase::searching, 1));
+  EXPECT_EQ(task_.view(), 1u);
+  EXPECT_FALSE(task_.capture());
+  ASSERT_TRUE(run_until(Phase::aligning, 5));
+  EXPECT_EQ(task_.view(), 2u);  // straight ahead
+  EXPECT_TRUE(task_.capture());
+  ASSERT_TRUE(run_until(Phase::holding, 10));
+  const Goal& last = goals_.back();
+  EXPECT_NEAR((last.pose.position - Eigen::Vector3d(1.05, 0, 0.45)).norm(), 0, 0.01);
+  EXPECT_NEAR((std::get<Direction>(last.pose.orientation).unit - Eigen::Vector3d::UnitX()).norm(),
+              0, 0.02);
+  EXPECT_NEAR((*last.focus - mouth_).norm(), 0, 0.001);
+}
+
+TEST_F(LampAlignmentTest, DoesNotReplanWhileEverythingIsStill) {
+  ASSERT_TRUE(run_until(Phase::holding, 15));
+  const std::size_t goals = goals_.size();
+  run(120);
+  EXPECT_EQ(goals_.size(), goals);
+  EXPECT_EQ(task_.phase(), Phase::holding);
+}
+
+TEST_F(LampAlignmentTest, FollowsThePatient) {
+  ASSERT_TRUE(run_until(Phase::holding, 15));
+  for (int k = 0; k < 50; ++k) {  // 50 mm and 10 degrees in one second
+    mouth_.y() += 0.001;
+    normal_ = Eigen::AngleAxisd(0.2 * kDegree, Eigen::Vector3d::UnitZ()) * normal_;
+    tick();
+  }
+  EXPECT_EQ(task_.phase(), Phase::following);
+  ASSERT_TRUE(run_until(Phase::holding, 6));
+  EXPECT_NEAR((*goals_.back().focus - mouth_).norm(), 0, 0.002);
+  EXPECT_NEAR((std::get<Direction>(goals_.back().pose.orientation).unit + normal_).norm(), 0, 0.02);
+}
+
+TEST_F(LampAlignmentTest, SearchesAgainWhenTheFaceIsLostAndStartsWhereItWas) {
+  ASSERT_TRUE(run_until(Phase::holding, 15));
+  present_ = false;
+  run(1.5);
+  EXPECT_EQ(task_.phase(), Phase::holding);
+  ASSERT_TRUE(run_until(Phase::searching, 2));
+  EXPECT_NEAR(std::get<Direction>(goals_.back().pose.orientation).unit.x(), 1, 1e-9);
+  run(60);
+  EXPECT_EQ(task_.phase(), Phase::searching);
+  present_ = true;
+  ASSERT_TRUE(run_until(Phase::holding, 30));
+}
+
+TEST_F(LampAlignmentTest, LooksAtAllNinePosesAndBeginsAgain) {
+  present_ = false;
+  run(0.3);
+  std::set<std::size_t> views;
+  for (int k = 0; k < 1200; ++k) {
+    tick();
+    views.insert(task_.view());
+  }
+  EXPECT_EQ(views, (std::set<std::size_t>{1, 2, 3, 4, 5, 6, 7, 8, 9}));
+}
+
+TEST_F(LampAlignmentTest, HoldsAndSaysWhyWhenTheFaceCannotBeReached) {
+  ASSERT_TRUE(run_until(Phase::aligning, 10));
+  mouth_.x() = 3;
+  reach_m_ = 2;
+  ASSERT_TRUE(run_until(Phase::unreachable, 10));
+  EXPECT_EQ(task_.trouble(), "ik: out_of_reach");
+  mouth_.x() = 1.5;
+  ASSERT_TRUE(run_until(Phase::holding, 10));
+  EXPECT_EQ(task_.trouble(), "");
+}
+
+TEST_F(LampAlignmentTest, RaisesTheLightInADarkRoomBeforeItSearches) {
+  gain_ = 0.3;
+  ASSERT_TRUE(run_until(Phase::searching, 5));
+  EXPECT_NEAR(light_, 0.7, 1e-9);  // 0.3 (100 + 200 * 0.7) = 72, the first above 70
+  EXPECT_TRUE(run_until(Phase::holding, 15));
+}
+
+}  // namespace
+}  // namespace armature

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lamp_goals.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace armature {
+namespace {
+
+constexpr Duration kRetryAfter = seconds(0.25);
+constexpr Duration kAnswerWithin = seconds(1.0);
+constexpr Time kAtOnce{std::numeric_limits<std::int64_t>::min()};
+
+/// The motion component was not able to execute anything at that moment.
+bool not_ready(const GoalReport& report) {
+  return report.stage == "accept" || report.stage == "execution";
+}
+
+}  // namespace
+
+void LampGoals::set(const Goal& goal) {
+  goal_ = goal;
+  state_ = State::waiting;
+  send_at_ = kAtOnce;
+  reason_.clear();
+}
+
+void LampGoals::hear(const GoalReport& report, Time now) {
+  // A task that starts late, or again, goes on counting where the goals are.
+  last_id_ = std::max(last_id_, report.goal_id);
+  const bool mine = report.goal_id == goal_.id && sent_ > 0 && !send_at_;
+  if (!mine || state_ == State::none || state_ == State::failed) return;
+  switch (report.state) {
+    case GoalReport::State::accepted:
+      break;
+    case GoalReport::State::executing:
+      if (state_ == State::waiting) state_ = State::moving;
+      break;
+    case GoalReport::State::done:
+      if (state_ != State::done) done_at_ = now;
+      state_ = State::done;
+      break;
+    case GoalReport::State::superseded:  // by a goal that is not ours
+    case GoalReport::State::failed:
+      reason_ = report.reason;
+      if (report.state == GoalReport::State::superseded || not_ready(report)) {
+        state_ = State::waiting;
+        send_at_ = now + kRetryAfter;
+      } else {
+        state_ = State::failed;
+        reason_ = report.stage + ": " + report.reason;
+      }
+      break;
+  }
+}
+
+std::optional<Goal> LampGoals::outgoing(Time now) {
+  const bool unanswered = state_ == State::waiting && !send_at_ && now - sent_at_ > kAnswerWithin;
+  const bool due = send_at_ && now >= *send_at_;
+  if (!due && !unanswered) return std::nullopt;
+  send_at_.reset();
+  sent_at_ = now;
+  ++sent_;
+  goal_.id = ++last_id_;
+  return goal_;
+}
+
+}  // namespace armature

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "armature/motion/goal.hpp"
+#include "armature/values/time.hpp"
+
+namespace armature {
+
+/// What the motion component said about a goal.
+struct GoalReport {
+  enum class State : std::uint8_t { accepted = 0, executing, done, superseded, failed };
+  std::uint64_t goal_id = 0;
+  State state = State::accepted;
+  std::string stage, reason;
+};
+
+/// The one goal that the lamp is on its way to. Goals that were refused because the motion was not
+/// ready, and goals that nobody answered, are given again.
+class LampGoals {
+ public:
+  enum class State { none, waiting, moving, done, failed };
+
+  /// Makes `goal` the current one; it is sent with the next `outgoing`.
+  void set(const Goal& goal);
+  void hear(const GoalReport& report, Time now);
+  /// The goal to send now, with its id, if any.
+  std::optional<Goal> outgoing(Time now);
+
+  State state() const { return state_; }
+  Time done_at() const { return done_at_; }
+  const std::string& reason() const { return reason_; }
+  int sent() const { return sent_; }
+
+ private:
+  Goal goal_;
+  State state_ = State::none;
+  std::uint64_t last_id_ = 0;
+  std::optional<Time> send_at_;  // not sent yet: at once or later
+  Time sent_at_, done_at_;
+  std::string reason_;
+  int sent_ = 0;
+};
+
+}  // namespace armature

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lamp_goals.hpp"
+
+#include <gtest/gtest.h>
+
+namespace armature {
+namespace {
+
+using Report = GoalReport::State;
+using State = LampGoals::State;
+
+constexpr Time at(double s) { return Time{} + seconds(s); }
+
+TEST(LampGoals, SendsAGoalOnceAndHearsItsStory) {
+  LampGoals goals;
+  EXPECT_FALSE(goals.outgoing(at(0)));
+  goals.set({});
+  const auto goal = goals.outgoing(at(0));
+  ASSERT_TRUE(goal);
+  EXPECT_EQ(goal->id, 1u);
+  EXPECT_FALSE(goals.outgoing(at(0.1)));
+  goals.hear({.goal_id = 1, .state = Report::accepted}, at(0.1));
+  goals.hear({.goal_id = 1, .state = Report::executing}, at(0.1));
+  EXPECT_EQ(goals.state(), State::moving);
+  goals.hear({.goal_id = 1, .state = Report::done}, at(2));
+  goals.hear({.goal_id = 1, .state = Report::done}, at(3));
+  EXPECT_EQ(goals.state(), State::done);
+  EXPECT_EQ(goals.done_at(), at(2));
+}
+
+TEST(LampGoals, IgnoresWhatIsSaidAboutTheGoalBefore) {
+  LampGoals goals;
+  goals.set({});
+  goals.outgoing(at(0));
+  goals.hear({.goal_id = 1, .state = Report::executing}, at(0.1));
+  goals.set({});
+  goals.hear({.goal_id = 1, .state = Report::done}, at(0.2));
+  EXPECT_EQ(goals.state(), State::waiting);
+  EXPECT_EQ(goals.outgoing(at(0.2))->id, 2u);
+  goals.hear({.goal_id = 1, .state = Report::superseded}, at(0.3));
+  EXPECT_EQ(goals.state(), State::waiting);
+}
+
+TEST(LampGoals, GivesAGoalAgainThatTheMotionWasNotReadyFor) {
+  LampGoals goals;
+  goals.set({});
+  goals.outgoing(at(0));
+  const GoalReport refused{.goal_id = 1, .state = Report::failed, .stage = "accept", .reason = "x"};
+  goals.hear(refused, at(0.1));
+  EXPECT_FALSE(goals.outgoing(at(0.2)));
+  goals.hear(refused, at(0.3));  // told again every now and then
+  EXPECT_EQ(goals.outgoing(at(0.4))->id, 2u);
+}
+
+TEST(LampGoals, GivesAGoalAgainThatNobodyAnswered) {
+  LampGoals goals;
+  goals.set({});
+  goals.outgoing(at(0));
+  EXPECT_FALSE(goals.outgoing(at(0.9)));
+  EXPECT_EQ(goals.outgoing(at(1.1))->id, 2u);
+}
+
+TEST(LampGoals, CountsOnFromGoalsOfAnEarlierLife) {
+  LampGoals goals;
+  goals.hear({.goal_id = 41, .state = Report::done}, at(0));
+  goals.set({});
+  EXPECT_EQ(goals.outgoing(at(0))->id, 42u);
+}
+
+TEST(LampGoals, KeepsTheReasonOfAGoalThatCannotBeReached) {
+  LampGoals goals;
+  goals.set({});
+  goals.outgoing(at(0));
+  goals.hear({.goal_id = 1, .state = Report::failed, .stage = "ik", .reason = "0.1 m too far"},
+             at(0.1));
+  EXPECT_EQ(goals.state(), State::failed);
+  EXPECT_EQ(goals.reason(), "ik: 0.1 m too far");
+}
+
+}  // namespace
+}  // namespace armature

@@ -33,7 +33,7 @@ namespace {
 using Kind = TransportEvent::Kind;
 using namespace std::chrono_literals;
 
-/// fast_dds_peer as a child; killed at the end if it still runs.
+/// fast_dds_peer as a child; asked to end when the test is over.
 class Peer {
  public:
   Peer(int domain, const std::string& deployment, const std::string& fingerprint,
@@ -54,18 +54,16 @@ class Peer {
     close(pipe_ends[0]);
   }
   ~Peer() {
-    if (pid_ > 0) kill_now();
-    if (input_ >= 0) close(input_);
+    if (pid_ > 0) end();
   }
   Peer(const Peer&) = delete;
   Peer& operator=(const Peer&) = delete;
 
   void kill_now() {
     kill(pid_, SIGKILL);
-    waitpid(pid_, nullptr, 0);
-    pid_ = -1;
+    end();
   }
-  /// Its exit status after it was asked to end.
+  /// Its exit status, after it was asked to end.
   int end() {
     close(input_);
     input_ = -1;

@@ -7,10 +7,12 @@
 #include <sys/statvfs.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
 #include <ctime>
+#include <fstream>
 #include <set>
 #include <string>
 #include <string_view>
@@ -48,24 +50,47 @@ bool is_old_and_mine(const fs::path& file, double least_age_s) {
 
 int remove_file(const fs::path& file) { return unlink(file.c_str()) == 0 ? 1 : 0; }
 
-/// "<name>" with its locks "<name>_el" (one owner) and "<name>_sl" (several readers).
-int clean_locked_file(const fs::path& file, double least_age_s) {
-  const fs::path exclusive = file.string() + "_el";
-  const fs::path shared = file.string() + "_sl";
-  const bool has_exclusive = fs::exists(exclusive);
-  const bool has_shared = fs::exists(shared);
-  if (!has_exclusive && !has_shared) return 0;  // no lock, no proof
-  if (has_exclusive && !is_old_and_mine(exclusive, least_age_s)) return 0;
-  if (has_shared && !is_old_and_mine(shared, least_age_s)) return 0;
-  const FreeLock exclusive_lock{exclusive};
-  const FreeLock shared_lock{shared};
-  if (has_exclusive && !exclusive_lock.free()) return 0;
-  if (has_shared && !shared_lock.free()) return 0;
-  int removed = remove_file(file);
-  removed += remove_file(file.parent_path() / ("sem." + file.filename().string() + "_mutex"));
-  if (has_exclusive) removed += remove_file(exclusive);
-  if (has_shared) removed += remove_file(shared);
+/// A segment or port "fastrtps_x", its locks (one owner, several readers) and its mutex: all of it,
+/// or nothing when any sign of life is found.
+int clean_group(const fs::path& folder, const std::string& name, const std::set<fs::path>& mapped,
+                double least_age_s) {
+  const std::array<fs::path, 4> group{folder / name, folder / (name + "_el"),
+                                      folder / (name + "_sl"), folder / ("sem." + name + "_mutex")};
+  for (const fs::path& file : group) {
+    if (fs::exists(file) && (mapped.contains(file) || !is_old_and_mine(file, least_age_s)))
+      return 0;
+  }
+  const FreeLock exclusive{group[1]};
+  const FreeLock shared{group[2]};
+  if (fs::exists(group[1]) && !exclusive.free()) return 0;
+  if (fs::exists(group[2]) && !shared.free()) return 0;
+  int removed = 0;
+  for (const fs::path& file : group) removed += remove_file(file);
   return removed;
+}
+
+/// "fastrtps_x" of any file of its group; empty for other files.
+std::string group_name(std::string name) {
+  for (const std::string_view suffix : {"_el", "_sl", "_mutex"}) {
+    if (name.ends_with(suffix)) name.resize(name.size() - suffix.size());
+  }
+  if (name.starts_with("sem.")) name.erase(0, 4);
+  return name.starts_with("fastrtps_") ? name : "";
+}
+
+/// The files of `folder` that some process has mapped (of those whose maps may be read: this
+/// user's, and nobody else may write the files).
+std::set<fs::path> mapped_files(const fs::path& folder) {
+  std::set<fs::path> files;
+  std::error_code error;
+  for (const auto& process : fs::directory_iterator{"/proc", error}) {
+    std::ifstream maps{process.path() / "maps"};
+    for (std::string line; std::getline(maps, line);) {
+      const std::size_t path = line.find(folder.string() + "/");
+      if (path != std::string::npos) files.insert(line.substr(path));
+    }
+  }
+  return files;
 }
 
 /// The low 16 bits of every running process' id.
@@ -118,22 +143,26 @@ Expected<void> check_shared_memory(const fs::path& folder, std::uint64_t bytes) 
 }
 
 int clean_shared_memory(const fs::path& folder, double least_age_s) {
-  const std::set<unsigned> running = running_processes();
-  std::vector<fs::path> files;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator{folder, error}) files.push_back(entry.path());
-
   constexpr std::string_view kDataSharing = "fast_datasharing_";
+  std::set<std::string> groups;
+  std::vector<std::string> data_sharing;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator{folder, error}) {
+    const std::string name = entry.path().filename();
+    if (const std::string group = group_name(name); !group.empty()) groups.insert(group);
+    if (name.starts_with(kDataSharing)) data_sharing.push_back(name);
+  }
+  if (groups.empty() && data_sharing.empty()) return 0;
+
+  const std::set<fs::path> mapped = mapped_files(folder);
+  const std::set<unsigned> running = running_processes();
   int removed = 0;
-  for (const fs::path& file : files) {
-    const std::string name = file.filename();
-    if (name.starts_with(kDataSharing)) {
-      if (is_old_and_mine(file, least_age_s) &&
-          is_process_gone(std::string_view{name}.substr(kDataSharing.size()), running)) {
-        removed += remove_file(file);
-      }
-    } else if (name.starts_with("fastrtps_") && !name.ends_with("_el") && !name.ends_with("_sl")) {
-      if (is_old_and_mine(file, least_age_s)) removed += clean_locked_file(file, least_age_s);
+  for (const std::string& name : groups) removed += clean_group(folder, name, mapped, least_age_s);
+  for (const std::string& name : data_sharing) {
+    const fs::path file = folder / name;
+    if (is_old_and_mine(file, least_age_s) && !mapped.contains(file) &&
+        is_process_gone(std::string_view{name}.substr(kDataSharing.size()), running)) {
+      removed += remove_file(file);
     }
   }
   return removed;

@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -83,14 +84,25 @@ TEST_F(SharedMemory, WhatSomebodyLocksStays) {
   for (const int lock : locks) close(lock);
 }
 
-TEST_F(SharedMemory, WhatHasNoLockOrIsYoungOrForeignStays) {
-  const std::set<std::string> names{"fastrtps_00bb", "other_program", "fastrtps_00cc",
-                                    "fastrtps_00cc_el"};
-  for (const std::string& name : names) touch(name);
-  EXPECT_EQ(clean_shared_memory(folder_, 3600), 0);
-  fs::remove(folder_ / "fastrtps_00cc_el");
+TEST_F(SharedMemory, WhatIsMappedStays) {
+  touch("fastrtps_port7412");
+  const int file = open((folder_ / "fastrtps_port7412").c_str(), O_RDWR | O_CLOEXEC);
+  void* mapped = mmap(nullptr, 1, PROT_READ, MAP_SHARED, file, 0);
+  ASSERT_NE(mapped, MAP_FAILED);
   EXPECT_EQ(clean_shared_memory(folder_, 0), 0);
-  EXPECT_EQ(files().size(), 3U);
+  munmap(mapped, 1);
+  close(file);
+  EXPECT_EQ(clean_shared_memory(folder_, 0), 1);
+}
+
+TEST_F(SharedMemory, WhatIsYoungOrOfOtherProgramsStays) {
+  touch("fastrtps_00cc");
+  EXPECT_EQ(clean_shared_memory(folder_, 3600), 0);
+  fs::remove(folder_ / "fastrtps_00cc");
+  touch("other_program");
+  touch("sem.other");
+  EXPECT_EQ(clean_shared_memory(folder_, 0), 0);
+  EXPECT_EQ(files().size(), 2U);
 }
 
 TEST_F(SharedMemory, DataSharingGoesWithItsProcess) {

@@ -17,7 +17,8 @@ namespace armature {
 /// What an inverse kinematics solver is asked for: a pose of the tool frame in the base frame.
 struct IkGoal {
   ToolPose pose;
-  std::optional<double> redundancy;  // [rad] arm angle of a redundant arm; none: the solver's choice
+  std::optional<double>
+      redundancy;  // [rad] arm angle of a redundant arm; none: the solver's choice
   struct Tolerance {
     double position_m = 1e-9;
     double angle_rad = 1e-9;
@@ -30,11 +31,11 @@ struct IkBranch {
   /// Stable name of the branch, "tilt0/balance0/elbow0": it does not shift when another vanishes.
   /// Points to static storage.
   std::string_view label;
-  JointVector q;          // independent joints, revolute ones in [-pi, pi)
-  double redundancy = 0;  // [rad] arm angle where the arm has one
-  PoseResidual residual;  // of forward kinematics at q
-  bool within_limits = false;
-  bool singular = false;  // at or numerically at a singular set of the arm
+  JointVector q;               // independent joints, revolute ones in [-pi, pi)
+  double redundancy = 0;       // [rad] arm angle where the arm has one
+  PoseResidual residual;       // of forward kinematics at q
+  bool within_limits = false;  // q, or the same posture whole turns away, keeps the limits
+  bool singular = false;       // at or numerically at a singular set of the arm
 };
 
 /// All branches of one goal, in the solver's fixed order. Never allocates.
@@ -53,8 +54,8 @@ struct IkBranches {
 struct IkStatus {
   enum class Code { ok, out_of_reach, joint_limit, singular, no_convergence, invalid_input };
   Code code = Code::ok;
-  double shortfall = 0;        // out_of_reach: how far beyond reach [m]; no_convergence: the residual
-  std::string_view detail;     // static text: which test failed, or which input is wrong
+  double shortfall = 0;     // out_of_reach: how far beyond reach [m]; no_convergence: the residual
+  std::string_view detail;  // static text: which test failed, or which input is wrong
 };
 /// "ok", "out_of_reach", "joint_limit", ...
 std::string_view to_string(IkStatus::Code code);
@@ -88,5 +89,12 @@ class IkSolver {
 /// nullptr, or why `goal` and `seed` cannot be solved for at all: not finite, zero direction, wrong
 /// length. The first lines of every solver.
 const char* invalid_input(const RobotModel& model, const IkGoal& goal, const JointVector& seed);
+
+/// Turns the revolute joints of `q` by whole turns as near to `near` as the limits allow; false
+/// when some joint keeps its limits at no turn. Real-time safe.
+bool unwind(const RobotModel& model, const JointVector& near, JointVector& q);
+
+/// Home, or the middle of the limits for a robot without one: the seed of a caller who has none.
+JointVector resting_position(const RobotModel& model);
 
 }  // namespace armature

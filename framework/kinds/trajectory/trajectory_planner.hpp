@@ -17,8 +17,8 @@ namespace armature {
 /// first waypoint is the end of the segment before (or the start). A segment with more than two
 /// waypoints is followed as a curve, one with two is a straight line in joint space.
 struct JointSegment {
-  std::vector<double> s;        // ascending from 0 to 1
-  std::vector<JointVector> q;   // same size
+  std::vector<double> s;       // ascending from 0 to 1
+  std::vector<JointVector> q;  // same size
   bool stop_at_end = true;
   std::optional<double> duration_s;
 };

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/kinds/ik/ik.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace armature {
+
+std::string_view to_string(IkStatus::Code code) {
+  switch (code) {
+    case IkStatus::Code::ok:
+      return "ok";
+    case IkStatus::Code::out_of_reach:
+      return "out_of_reach";
+    case IkStatus::Code::joint_limit:
+      return "joint_limit";
+    case IkStatus::Code::singular:
+      return "singular";
+    case IkStatus::Code::no_convergence:
+      return "no_convergence";
+    case IkStatus::Code::invalid_input:
+      return "invalid_input";
+  }
+  return "invalid_input";
+}
+
+std::string describe(const IkStatus& status) {
+  std::string text{to_string(status.code)};
+  if (status.code == IkStatus::Code::out_of_reach) {
+    text += fmt::format(": {:.3g} m beyond reach", status.shortfall);
+    if (!status.detail.empty()) text += fmt::format(" ({})", status.detail);
+    return text;
+  }
+  if (!status.detail.empty()) text += fmt::format(": {}", status.detail);
+  if (status.code == IkStatus::Code::no_convergence) {
+    text += fmt::format(" (residual {:.3g})", status.shortfall);
+  }
+  return text;
+}
+
+const char* invalid_input(const RobotModel& model, const IkGoal& goal, const JointVector& seed) {
+  if (!goal.pose.position.allFinite()) return "the position is not finite";
+  if (const auto* direction = std::get_if<Direction>(&goal.pose.orientation)) {
+    if (!direction->unit.allFinite()) return "the direction is not finite";
+    if (!(direction->unit.norm() > 1e-9)) return "the direction is zero";
+    if (!model.pointing_axis()) return "the robot has no pointing axis, so it needs a rotation";
+  } else {
+    const auto& rotation = std::get<Eigen::Quaterniond>(goal.pose.orientation);
+    if (!rotation.coeffs().allFinite()) return "the rotation is not finite";
+    if (!(rotation.norm() > 1e-9)) return "the rotation is a zero quaternion";
+  }
+  if (goal.redundancy && !std::isfinite(*goal.redundancy)) return "the redundancy is not finite";
+  if (!(goal.tolerance.position_m > 0) || !(goal.tolerance.angle_rad > 0)) {
+    return "the tolerance is not positive";
+  }
+  if (seed.size() != model.dof()) return "the seed has the wrong number of joints";
+  if (!seed.allFinite()) return "the seed is not finite";
+  return nullptr;
+}
+
+bool unwind(const RobotModel& model, const JointVector& near, JointVector& q) {
+  constexpr double kTurn = 2 * std::numbers::pi;
+  constexpr double kTolerance = 1e-9;
+  bool inside = true;
+  for (int i = 0; i < model.dof(); ++i) {
+    const double lower = model.lower()[i] - kTolerance, upper = model.upper()[i] + kTolerance;
+    if (!model.is_revolute(i)) {
+      inside = inside && q[i] >= lower && q[i] <= upper;
+      continue;
+    }
+    const double wanted = q[i] + kTurn * std::round((near[i] - q[i]) / kTurn);
+    const double least = q[i] + kTurn * std::ceil((lower - q[i]) / kTurn);
+    const double most = q[i] + kTurn * std::floor((upper - q[i]) / kTurn);
+    inside = inside && least <= most;
+    q[i] = least <= most ? std::clamp(wanted, least, most) : wanted;
+  }
+  return inside;
+}
+
+JointVector resting_position(const RobotModel& model) {
+  if (model.home()) {
+    if (auto home = model.contract(*model.home())) return *home;
+  }
+  return 0.5 * (model.lower() + model.upper());
+}
+
+}  // namespace armature

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/kinds/trajectory/legs.hpp"
+
+#include <fmt/format.h>
+
+#include <string>
+
+namespace armature {
+namespace {
+
+constexpr double kNearest_s = 1e-6;  // waypoints nearer in s than this are one
+constexpr double kStill = 1e-12;     // [rad] or [m]: no motion
+constexpr double kStartGap = 1e-6;   // [rad] or [m] between from.q and the first waypoint
+constexpr int kStraightParts = 8;    // of a straight line that runs on through a via
+
+std::string defect(const JointSegment& segment, Eigen::Index dof) {
+  if (segment.s.size() < 2 || segment.s.size() != segment.q.size()) {
+    return "needs two or more waypoints and an s for each";
+  }
+  for (const JointVector& q : segment.q) {
+    if (q.size() != dof || !q.allFinite()) return "has a waypoint that is not a joint position";
+  }
+  for (std::size_t i = 1; i < segment.s.size(); ++i) {
+    if (!(segment.s[i] > segment.s[i - 1])) return "has waypoints whose s does not ascend";
+  }
+  if (segment.duration_s && !(*segment.duration_s > 0)) return "lasts no time";
+  return {};
+}
+
+std::string defect(const TrajectoryRequest& request) {
+  const Eigen::Index dof = request.from.q.size();
+  const auto& from = request.from;
+  if (dof == 0 || from.v.size() != dof || from.a.size() != dof || !from.q.allFinite() ||
+      !from.v.allFinite() || !from.a.allFinite()) {
+    return "the start is not a joint state";
+  }
+  const auto positive = [&](const JointVector& limit) {
+    return limit.size() == dof && (limit.array() > 0).all();
+  };
+  if (!positive(request.max_velocity) || !positive(request.max_acceleration)) {
+    return "the limits are not positive numbers, one per joint";
+  }
+  if (request.segments.empty()) return "there is no segment";
+  for (std::size_t i = 0; i < request.segments.size(); ++i) {
+    const JointSegment& segment = request.segments[i];
+    if (auto what = defect(segment, dof); !what.empty()) {
+      return fmt::format("segment {} {}", i + 1, what);
+    }
+    const bool from_stop = i == 0 || request.segments[i - 1].stop_at_end;
+    if (segment.duration_s && !(segment.stop_at_end && from_stop)) {
+      return fmt::format("segment {} has its own duration but does not run from stop to stop",
+                         i + 1);
+    }
+    const JointVector& before = i == 0 ? from.q : request.segments[i - 1].q.back();
+    const double gap = (segment.q.front() - before).cwiseAbs().maxCoeff();
+    if (gap > kStartGap) {
+      return fmt::format("segment {} starts {:.3g} away from where it should", i + 1, gap);
+    }
+  }
+  return {};
+}
+
+/// A measure of a segment's length that lets the speed be about even across vias: the time that the
+/// slowest joint needs at full speed.
+double length(const JointSegment& segment, const JointVector& max_velocity) {
+  double sum = 0;
+  for (std::size_t i = 1; i < segment.q.size(); ++i) {
+    const auto step = (segment.q[i] - segment.q[i - 1]).cwiseAbs();
+    sum += step.cwiseQuotient(max_velocity).maxCoeff();
+  }
+  return sum;
+}
+
+/// A straight line in equal parts, so that the curve stays on it when it runs on behind.
+JointSegment divided(const JointSegment& line) {
+  JointSegment parts = line;
+  parts.s.clear();
+  parts.q.clear();
+  for (int i = 0; i <= kStraightParts; ++i) {
+    const double s = static_cast<double>(i) / kStraightParts;
+    parts.s.push_back(s);
+    parts.q.push_back((1 - s) * line.q.front() + s * line.q.back());
+  }
+  return parts;
+}
+
+/// Segments [first, end) as one curve over s from 0 to 1.
+Leg joined(const TrajectoryRequest& request, std::size_t first, std::size_t end) {
+  double total = 0;
+  int moving = 0;
+  for (std::size_t i = first; i < end; ++i) {
+    const double part = length(request.segments[i], request.max_velocity);
+    total += part;
+    moving += part > kStill ? 1 : 0;
+  }
+  std::vector<double> s{0};
+  std::vector<JointVector> q{request.segments[first].q.front()};
+  double done = 0;
+  for (std::size_t i = first; i < end && moving > 0; ++i) {
+    const JointSegment& given = request.segments[i];
+    const double share = length(given, request.max_velocity) / total;
+    if (share * total <= kStill) continue;
+    const JointSegment& segment = moving > 1 && given.q.size() == 2 ? divided(given) : given;
+    const double low = segment.s.front(), span = segment.s.back() - low;
+    for (std::size_t k = 1; k < segment.s.size(); ++k) {
+      const double here = done + share * (segment.s[k] - low) / span;
+      if (here - s.back() < kNearest_s) continue;
+      s.push_back(here);
+      q.push_back(segment.q[k]);
+    }
+    done += share;
+  }
+  if (moving == 0) {
+    s.push_back(1);
+    q.push_back(q.front());
+  }
+  s.back() = 1;
+  q.back() = moving == 0 ? q.front() : request.segments[end - 1].q.back();
+  return {first, JointCurve{std::move(s), std::move(q)}, moving > 0,
+          request.segments[first].duration_s};
+}
+
+}  // namespace
+
+Expected<std::vector<Leg>> legs_of(const TrajectoryRequest& request) {
+  if (auto what = defect(request); !what.empty()) return refuse(what);
+  std::vector<Leg> legs;
+  std::size_t first = 0;
+  for (std::size_t i = 0; i < request.segments.size(); ++i) {
+    const bool last = i + 1 == request.segments.size();
+    if (!request.segments[i].stop_at_end && !last) continue;
+    Leg leg = joined(request, first, i + 1);
+    if (leg.moves || leg.duration_s) legs.push_back(std::move(leg));
+    first = i + 1;
+  }
+  return legs;
+}
+
+}  // namespace armature

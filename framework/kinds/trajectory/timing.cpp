@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/kinds/trajectory/timing.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "armature/kinds/trajectory/legs.hpp"
+
+namespace armature {
+namespace {
+
+constexpr double kShortestLeg_s = 0.02;
+constexpr double kShortestFade_s = 0.05;
+constexpr double kAtRest = 1e-9;    // [rad/s], [rad/s2] or the like
+constexpr double kRounding = 1e-9;  // of a limit
+// A moving start is tried with longer and longer durations from this part of what the leg needs
+// from rest; 1.1^90 is 5000 times longer.
+constexpr double kFirstTry = 0.3, kGrowth = 1.1;
+constexpr int kMostTries = 90, kRefinements = 5;
+
+/// One leg on its own clock, and how it is allowed to use the limits.
+class LegTimer {
+ public:
+  LegTimer(const TrajectoryRequest& request, const Leg& leg, PiecesAlong pieces_along)
+      : request_{request}, leg_{leg}, pieces_along_{pieces_along} {}
+
+  Expected<Trajectory> from_rest() const {
+    const Trajectory unit = along(TimeLaw{1});
+    const double needed = needed_factor(unit);
+    if (!leg_.duration_s)
+      return stretched(unit, std::max(needed * (1 + kRounding), kShortestLeg_s));
+    if (needed > *leg_.duration_s * (1 + kRounding)) return too_short(needed);
+    return along(TimeLaw{*leg_.duration_s});
+  }
+
+  Expected<Trajectory> from_moving() const {
+    if (leg_.duration_s) {
+      Trajectory fixed = from_moving_in(*leg_.duration_s, 1);
+      if (within_limits(fixed) && fixed.duration_s() <= *leg_.duration_s) return fixed;
+      const auto shortest = shortest_from_moving();
+      return shortest ? too_short(shortest->duration_s()) : shortest;
+    }
+    return shortest_from_moving();
+  }
+
+ private:
+  Trajectory along(const TimeLaw& law) const {
+    Trajectory trajectory{.goal_id = request_.goal_id,
+                          .dof = leg_.curve.dof(),
+                          .start = request_.start,
+                          .knots = {},
+                          .pieces = {}};
+    for (const double s : leg_.curve.s()) trajectory.knots.push_back(law.time_at(s));
+    trajectory.pieces = pieces_along_(leg_.curve, law, trajectory.knots);
+    return trajectory;
+  }
+
+  /// By how much a trajectory from rest must be slowed down (velocities fall with the factor,
+  /// accelerations with its square).
+  double needed_factor(const Trajectory& trajectory) const {
+    const LimitUse use = limit_use(trajectory, request_.max_velocity, request_.max_acceleration);
+    return std::max(use.velocity, std::sqrt(use.acceleration));
+  }
+
+  /// Within the limits, or no worse than the start itself.
+  bool within_limits(const Trajectory& trajectory) const {
+    const auto start_use = [](const JointVector& rate, const JointVector& limit) {
+      return std::max(1.0, rate.cwiseAbs().cwiseQuotient(limit).maxCoeff()) * (1 + kRounding);
+    };
+    const LimitUse use = limit_use(trajectory, request_.max_velocity, request_.max_acceleration);
+    return use.velocity <= start_use(request_.from.v, request_.max_velocity) &&
+           use.acceleration <= start_use(request_.from.a, request_.max_acceleration);
+  }
+
+  /// `patience` >= 1 lengthens the fade of what the time law cannot take over.
+  Trajectory from_moving_in(double duration_s, double patience) const {
+    const JointState& from = request_.from;
+    const JointState slope = leg_.curve.at(0);
+    const double steepness = slope.v.squaredNorm();
+    double speed = 0, acceleration = 0;
+    if (steepness > 0) {
+      speed = from.v.dot(slope.v) / steepness;
+      acceleration = (from.a - speed * speed * slope.a).dot(slope.v) / steepness;
+    }
+    const TimeLaw law{duration_s, speed, acceleration};
+    const JointVector rest = from.v - law.speed(0) * slope.v;
+    // A quintic that fades v out in B peaks at 3.94 v/B: take half of the limit for it.
+    const double fade = 8 * rest.cwiseAbs().cwiseQuotient(request_.max_acceleration).maxCoeff();
+    return spliced(along(law), from, patience * std::max(fade, kShortestFade_s));
+  }
+
+  Expected<Trajectory> shortest_from_moving() const {
+    const double needed = std::max(needed_factor(along(TimeLaw{1})), kShortestLeg_s);
+    double patience = 1;
+    for (int i = 0; i < kMostTries; ++i) {
+      const double duration = kFirstTry * needed * std::pow(kGrowth, i);
+      patience = std::sqrt(std::pow(kGrowth, i));
+      Trajectory found = from_moving_in(duration, patience);
+      if (within_limits(found)) return i == 0 ? found : refined(duration, patience, found);
+    }
+    return refuse(fmt::format("segment {}: no duration keeps the limits from this moving start",
+                              leg_.first_segment + 1));
+  }
+
+  /// Halves the last step of the search a few times.
+  Trajectory refined(double duration, double patience, Trajectory found) const {
+    double low = duration / kGrowth, high = duration;
+    for (int i = 0; i < kRefinements; ++i) {
+      const double middle = 0.5 * (low + high);
+      Trajectory shorter = from_moving_in(middle, patience);
+      const bool fits = within_limits(shorter);
+      (fits ? high : low) = middle;
+      if (fits) found = std::move(shorter);
+    }
+    return found;
+  }
+
+  tl::unexpected<Reason> too_short(double needed_s) const {
+    return refuse(fmt::format("segment {} lasts {:.3f} s, its limits need {:.3f} s",
+                              leg_.first_segment + 1, *leg_.duration_s, needed_s));
+  }
+
+  const TrajectoryRequest& request_;
+  const Leg& leg_;
+  PiecesAlong pieces_along_;
+};
+
+void append(Trajectory& trajectory, const Trajectory& next) {
+  const double offset = trajectory.duration_s();
+  for (std::size_t i = 1; i < next.knots.size(); ++i) {
+    trajectory.knots.push_back(offset + next.knots[i]);
+  }
+  trajectory.pieces.insert(trajectory.pieces.end(), next.pieces.begin(), next.pieces.end());
+}
+
+bool moves(const JointState& from) {
+  return from.v.cwiseAbs().maxCoeff() > kAtRest || from.a.cwiseAbs().maxCoeff() > kAtRest;
+}
+
+}  // namespace
+
+JointState state_along(const JointCurve& curve, const TimeLaw& law, double t) {
+  const double speed = law.speed(t);
+  JointState state = curve.at(law.s(t));
+  state.a = speed * speed * state.a + law.acceleration(t) * state.v;
+  state.v *= speed;
+  return state;
+}
+
+Expected<Trajectory> timed(const TrajectoryRequest& request, PiecesAlong pieces_along) {
+  auto legs = legs_of(request);
+  if (!legs) return tl::unexpected{legs.error()};
+  const bool moving = moves(request.from);
+  if (moving && (legs->empty() || !legs->front().moves)) {
+    const JointVector& here = request.segments.front().q.front();
+    legs->insert(legs->begin(), Leg{0, JointCurve{{0, 1}, {here, here}}, false, {}});
+  }
+  Trajectory trajectory =
+      hold_at(request.segments.front().q.front(), request.start, request.goal_id);
+  if (legs->empty()) return trajectory;
+  trajectory.knots = {0};
+  trajectory.pieces.clear();
+  for (std::size_t i = 0; i < legs->size(); ++i) {
+    const LegTimer timer{request, (*legs)[i], pieces_along};
+    auto leg = moving && i == 0 ? timer.from_moving() : timer.from_rest();
+    if (!leg) return leg;
+    append(trajectory, *leg);
+  }
+  return trajectory;
+}
+
+}  // namespace armature

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "armature/kinds/trajectory/joint_curve.hpp"
+#include "armature/kinds/trajectory/time_law.hpp"
+#include "armature/kinds/trajectory/trajectory_planner.hpp"
+
+namespace armature {
+
+/// What distinguishes one trajectory plugin from another: quintics (piece-major) that follow
+/// `curve` under `law`, with a knot at the time of every waypoint.
+using PiecesAlong = std::vector<Quintic> (*)(const JointCurve& curve, const TimeLaw& law,
+                                             std::span<const double> knots);
+
+/// q, v, a of a motion along `curve` under `law` at time `t` (chain rule).
+JointState state_along(const JointCurve& curve, const TimeLaw& law, double t);
+
+/// The fastest trajectory within the limits that goes from stop to stop under one time law each.
+/// From a moving start the time law takes over the velocity along the path; what points elsewhere
+/// fades out in a quintic that is added (`spliced`).
+Expected<Trajectory> timed(const TrajectoryRequest& request, PiecesAlong pieces_along);
+
+}  // namespace armature

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "quintic.hpp"
+
+#include "armature/kinds/trajectory/timing.hpp"
+#include "armature/runtime/plugin.hpp"
+
+namespace armature {
+namespace {
+
+std::vector<Quintic> hermite_along(const JointCurve& curve, const TimeLaw& law,
+                                   std::span<const double> knots) {
+  std::vector<Quintic> pieces;
+  pieces.reserve((knots.size() - 1) * static_cast<std::size_t>(curve.dof()));
+  JointState from = state_along(curve, law, knots.front());
+  for (std::size_t i = 1; i < knots.size(); ++i) {
+    const JointState to = state_along(curve, law, knots[i]);
+    for (int j = 0; j < curve.dof(); ++j) {
+      pieces.push_back(Quintic::between({from.q[j], from.v[j], from.a[j]},
+                                        {to.q[j], to.v[j], to.a[j]}, knots[i] - knots[i - 1]));
+    }
+    from = to;
+  }
+  return pieces;
+}
+
+}  // namespace
+
+Expected<Trajectory> QuinticTrajectory::plan(const TrajectoryRequest& request) const {
+  return timed(request, hermite_along);
+}
+
+}  // namespace armature
+
+ARMATURE_PLUGIN(armature::QuinticTrajectory);

@@ -111,8 +111,8 @@ struct Gantry {
   GoalPlanner planner() const { return {model, {path, ik, select, trajectory}, limits}; }
 };
 
-inline Goal goal_at(std::uint64_t id, double x, double y, double z) {
-  Goal goal;
+inline MotionGoal goal_at(std::uint64_t id, double x, double y, double z) {
+  MotionGoal goal;
   goal.id = id;
   goal.pose = {.position = {x, y, z}, .orientation = Direction{Eigen::Vector3d::UnitX()}};
   return goal;

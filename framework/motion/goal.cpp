@@ -31,7 +31,7 @@ Expected<Orientation> unit_orientation(const Orientation& orientation) {
 
 }  // namespace
 
-Expected<Goal> checked(Goal goal) {
+Expected<MotionGoal> checked(MotionGoal goal) {
   if (goal.mode == MotionMode::hold) return goal;
   if (!finite(goal.pose.position)) return refuse("the goal's position is not finite");
   if (!finite(goal.velocity)) return refuse("the goal's velocity is not finite");

@@ -18,7 +18,7 @@ enum class MotionMode {
 };
 
 /// What the arm shall do next.
-struct Goal {
+struct MotionGoal {
   std::uint64_t id = 0;
   MotionMode mode = MotionMode::planned;
   ToolPose pose;                                       // of the tool, in the base frame
@@ -28,6 +28,6 @@ struct Goal {
 
 /// `goal` with a unit direction or quaternion, or why it cannot be used: a number that is not
 /// finite, a direction or quaternion whose length is not 1 within 1 %.
-Expected<Goal> checked(Goal goal);
+Expected<MotionGoal> checked(MotionGoal goal);
 
 }  // namespace armature

@@ -81,7 +81,7 @@ void GoalExecution::update(Time now, const std::optional<MeasuredJoints>& measur
   if (active_ && now >= reference_.last().end()) finish_active(State::done);
 }
 
-std::optional<std::string> GoalExecution::refusal(const Expected<Goal>& goal,
+std::optional<std::string> GoalExecution::refusal(const Expected<MotionGoal>& goal,
                                                   std::uint64_t goal_id) const {
   if (!goal) return goal.error().text;
   if (!trouble_.empty()) return trouble_;
@@ -91,7 +91,7 @@ std::optional<std::string> GoalExecution::refusal(const Expected<Goal>& goal,
   return std::nullopt;
 }
 
-PlanResult GoalExecution::plan(const Goal& goal, Time start) {
+PlanResult GoalExecution::plan(const MotionGoal& goal, Time start) {
   const JointState from = reference_.at(start);
   if (goal.mode == MotionMode::tracking) {
     return track(planner_, goal, from, start, options_.tracking_horizon_s);
@@ -104,7 +104,7 @@ PlanResult GoalExecution::plan(const Goal& goal, Time start) {
       .trajectory = stop_from(from, limits.max_velocity, limits.max_acceleration, start, goal.id)};
 }
 
-void GoalExecution::take(const Expected<Goal>& goal, std::uint64_t goal_id, Time now) {
+void GoalExecution::take(const Expected<MotionGoal>& goal, std::uint64_t goal_id, Time now) {
   if (auto reason = refusal(goal, goal_id)) {
     report(goal_id, State::failed, "accept", *reason);
     return;

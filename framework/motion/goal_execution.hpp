@@ -45,7 +45,7 @@ class GoalExecution {
   void update(Time now, const std::optional<MeasuredJoints>& measured);
 
   /// Plans and splices `goal`; the statuses say what came of it, `new_plan` what was decided.
-  void take(const Expected<Goal>& goal, std::uint64_t goal_id, Time now);
+  void take(const Expected<MotionGoal>& goal, std::uint64_t goal_id, Time now);
 
   const Reference& reference() const { return reference_; }
   /// Statuses since the last call, in order.
@@ -58,8 +58,8 @@ class GoalExecution {
   const std::string& trouble() const { return trouble_; }
 
  private:
-  std::optional<std::string> refusal(const Expected<Goal>& goal, std::uint64_t goal_id) const;
-  PlanResult plan(const Goal& goal, Time start);
+  std::optional<std::string> refusal(const Expected<MotionGoal>& goal, std::uint64_t goal_id) const;
+  PlanResult plan(const MotionGoal& goal, Time start);
   void report(std::uint64_t goal_id, GoalStatus::State state, std::string stage = {},
               std::string reason = {});
   void fail_active(const std::string& reason);

@@ -30,7 +30,7 @@ class GoalExecutionTest : public testing::Test {
     }
     before_ = state;
   }
-  void give(const Goal& goal) {
+  void give(const MotionGoal& goal) {
     execution_.take(goal, goal.id, now_);
     collect();
   }
@@ -124,7 +124,7 @@ TEST_F(GoalExecutionTest, HoldStopsWithinLimitsAndStays) {
   give(goal_at(1, 2, -2, 2));
   step_to(1.0);
   const JointState moving = execution_.reference().at(now_);
-  Goal hold;
+  MotionGoal hold;
   hold.id = 2;
   hold.mode = MotionMode::hold;
   give(hold);
@@ -179,7 +179,7 @@ TEST_F(GoalExecutionTest, ReportsABadGoalWithItsReason) {
 TEST_F(GoalExecutionTest, TracksATargetAndStopsWhenItsGoalsCease) {
   step_to(0.1);
   for (std::uint64_t id = 1; id <= 20; ++id) {
-    Goal goal = goal_at(id, 0.3 + 0.02 * static_cast<double>(id), 0.2, 0.1);
+    MotionGoal goal = goal_at(id, 0.3 + 0.02 * static_cast<double>(id), 0.2, 0.1);
     goal.mode = MotionMode::tracking;
     goal.velocity = {0.2, 0, 0};
     give(goal);

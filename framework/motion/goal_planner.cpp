@@ -90,7 +90,7 @@ tl::expected<JointVector, PlanFailure> GoalPlanner::solve(const ToolPose& pose,
   return chosen->front();
 }
 
-PlanResult GoalPlanner::plan(const Goal& goal, const JointState& from, Time start) {
+PlanResult GoalPlanner::plan(const MotionGoal& goal, const JointState& from, Time start) {
   if (auto end = solve(goal.pose, from.q); !end) return tl::unexpected{end.error()};
   PlanResult first = attempt(goal, from, start, false);
   if (first) return first;
@@ -103,7 +103,7 @@ PlanResult GoalPlanner::plan(const Goal& goal, const JointState& from, Time star
   return straight ? std::move(straight) : std::move(first);
 }
 
-PlanResult GoalPlanner::after_stop(const Goal& goal, const JointState& from, Time start,
+PlanResult GoalPlanner::after_stop(const MotionGoal& goal, const JointState& from, Time start,
                                    bool straight) {
   const Trajectory stop =
       stop_from(from, limits_.max_velocity, limits_.max_acceleration, start, goal.id);
@@ -119,7 +119,7 @@ PlanResult GoalPlanner::after_stop(const Goal& goal, const JointState& from, Tim
   return plan;
 }
 
-PlanResult GoalPlanner::attempt(const Goal& goal, const JointState& from, Time start,
+PlanResult GoalPlanner::attempt(const MotionGoal& goal, const JointState& from, Time start,
                                 bool straight) {
   Plan plan;
   if (straight) {

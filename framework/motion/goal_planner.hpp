@@ -28,7 +28,7 @@ class GoalPlanner {
   /// A plan for `goal` that leaves `from` at `start` without a jump in q, v, a and ends at rest at
   /// the goal. Tried in this order: the path plugin's path, spliced while moving; the same after a
   /// stop; straight in joint space. Fails with the reason of the first.
-  PlanResult plan(const Goal& goal, const JointState& from, Time start);
+  PlanResult plan(const MotionGoal& goal, const JointState& from, Time start);
 
   /// The joint position nearest to `near` that reaches `pose`.
   tl::expected<JointVector, PlanFailure> solve(const ToolPose& pose, const JointVector& near);
@@ -37,8 +37,8 @@ class GoalPlanner {
   const MotionLimits& limits() const { return limits_; }
 
  private:
-  PlanResult attempt(const Goal& goal, const JointState& from, Time start, bool straight);
-  PlanResult after_stop(const Goal& goal, const JointState& from, Time start, bool straight);
+  PlanResult attempt(const MotionGoal& goal, const JointState& from, Time start, bool straight);
+  PlanResult after_stop(const MotionGoal& goal, const JointState& from, Time start, bool straight);
   tl::expected<std::vector<JointSegment>, PlanFailure> joint_path(const Path& path,
                                                                   const JointVector& start);
   tl::expected<void, PlanFailure> solve_samples(const Path& path, const JointVector& start);

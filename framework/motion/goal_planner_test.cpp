@@ -40,7 +40,7 @@ TEST(GoalPlanner, LeavesAMovingReferenceWithItsPositionVelocityAndAcceleration) 
 
 TEST(GoalPlanner, SolvesEverySampleOfTheWholePath) {
   const Gantry gantry;
-  Goal goal = goal_at(1, 1, 0, 0);
+  MotionGoal goal = goal_at(1, 1, 0, 0);
   goal.focus = Eigen::Vector3d{0.5, 0.5, 0};
   auto plan = gantry.planner().plan(goal, rest_at(0, 0, 0), kStart);
   ASSERT_TRUE(plan) << plan.error().reason;

@@ -8,15 +8,15 @@
 namespace armature {
 namespace {
 
-Goal good_goal() {
-  Goal goal;
+MotionGoal good_goal() {
+  MotionGoal goal;
   goal.id = 1;
   goal.pose = {.position = {1, 0, 0.5}, .orientation = Direction{Eigen::Vector3d::UnitX()}};
   return goal;
 }
 
 TEST(Goal, IsNormalised) {
-  Goal goal = good_goal();
+  MotionGoal goal = good_goal();
   goal.pose.orientation = Direction{Eigen::Vector3d{1.005, 0, 0}};
   const auto usable = checked(goal);
   ASSERT_TRUE(usable);
@@ -25,7 +25,7 @@ TEST(Goal, IsNormalised) {
 
 TEST(Goal, WithAnythingNotFiniteIsRefusedByName) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  Goal goal = good_goal();
+  MotionGoal goal = good_goal();
   goal.pose.position.y() = nan;
   EXPECT_EQ(checked(goal).error().text, "the goal's position is not finite");
   goal = good_goal();
@@ -40,7 +40,7 @@ TEST(Goal, WithAnythingNotFiniteIsRefusedByName) {
 }
 
 TEST(Goal, WithAZeroDirectionOrQuaternionIsRefused) {
-  Goal goal = good_goal();
+  MotionGoal goal = good_goal();
   goal.pose.orientation = Direction{Eigen::Vector3d::Zero()};
   EXPECT_EQ(checked(goal).error().text, "the goal's direction has length 0, not 1");
   goal.pose.orientation = Eigen::Quaterniond{0, 0, 0, 0};
@@ -48,7 +48,7 @@ TEST(Goal, WithAZeroDirectionOrQuaternionIsRefused) {
 }
 
 TEST(Goal, ToHoldNeedsNoPose) {
-  Goal goal = good_goal();
+  MotionGoal goal = good_goal();
   goal.mode = MotionMode::hold;
   goal.pose.orientation = Direction{Eigen::Vector3d::Zero()};
   EXPECT_TRUE(checked(goal));

@@ -35,7 +35,7 @@ std::vector<double> to_vector(const JointVector& values) {
 
 }  // namespace
 
-Expected<Goal> read_goal(const msg::MotionGoal& message) {
+Expected<MotionGoal> read_goal(const msg::MotionGoal& message) {
   const std::string& frame = message.header_().frame_id_();
   if (frame != kBaseFrame) {
     return refuse(fmt::format("the goal is stated in frame '{}', not in '{}'", frame, kBaseFrame));
@@ -43,7 +43,7 @@ Expected<Goal> read_goal(const msg::MotionGoal& message) {
   if (message.mode_() > static_cast<int>(MotionMode::hold)) {
     return refuse(fmt::format("the goal has the unknown mode {}", message.mode_()));
   }
-  Goal goal;
+  MotionGoal goal;
   goal.id = message.goal_id_();
   goal.mode = static_cast<MotionMode>(message.mode_());
   goal.pose.position = to_eigen(message.position_());

@@ -12,7 +12,7 @@ namespace armature {
 // of joint states is real-time safe once the message has had the robot's size.
 
 /// The goal of a message, checked; refuses a frame other than "base" and an unknown mode.
-Expected<Goal> read_goal(const msg::MotionGoal& message);
+Expected<MotionGoal> read_goal(const msg::MotionGoal& message);
 
 /// Position and velocity of all joints, coupled ones included; effort empty.
 void write_all_joints(const RobotModel& model, const JointState& state, Time stamp,

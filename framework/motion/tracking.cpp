@@ -12,14 +12,14 @@ constexpr double kLongestHorizon = 20.0;    // [s]
 constexpr double kLongestPrediction = 1.0;  // [s] a velocity is not trusted longer
 constexpr double kVelocityStep = 1e-3;      // [s] for the difference quotient
 
-ToolPose after(const Goal& goal, double time_s) {
+ToolPose after(const MotionGoal& goal, double time_s) {
   ToolPose pose = goal.pose;
   pose.position += goal.velocity * time_s;
   return pose;
 }
 
 /// Where the joints shall be after `horizon_s`, and how fast they move there.
-tl::expected<JointState, PlanFailure> meeting_point(GoalPlanner& planner, const Goal& goal,
+tl::expected<JointState, PlanFailure> meeting_point(GoalPlanner& planner, const MotionGoal& goal,
                                                     const JointState& from, double horizon_s) {
   const double ahead = std::min(horizon_s, kLongestPrediction);
   auto q = planner.solve(after(goal, ahead), from.q);
@@ -51,7 +51,7 @@ Trajectory quintic_to(const JointState& from, const JointState& to, Time start, 
 
 }  // namespace
 
-PlanResult track(GoalPlanner& planner, const Goal& goal, const JointState& from, Time start,
+PlanResult track(GoalPlanner& planner, const MotionGoal& goal, const JointState& from, Time start,
                  double shortest_horizon_s) {
   const MotionLimits& limits = planner.limits();
   std::string defect;

@@ -10,7 +10,7 @@ namespace armature {
 /// to rest, so that an arm whose target falls silent stops by itself. The horizon is the shortest
 /// one from `shortest_horizon_s` on with which the limits on velocity and acceleration hold; the
 /// jerk is finite everywhere. Fails in stage ik (out of reach) or trajectory (no horizon).
-PlanResult track(GoalPlanner& planner, const Goal& goal, const JointState& from, Time start,
+PlanResult track(GoalPlanner& planner, const MotionGoal& goal, const JointState& from, Time start,
                  double shortest_horizon_s);
 
 }  // namespace armature

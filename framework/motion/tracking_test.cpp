@@ -17,7 +17,7 @@ constexpr double kHorizon = 0.1;
 TEST(Tracking, MeetsATargetThatMovesWithItsVelocity) {
   const Gantry gantry;
   GoalPlanner planner = gantry.planner();
-  Goal goal = goal_at(1, 0.02, 0, 0);
+  MotionGoal goal = goal_at(1, 0.02, 0, 0);
   goal.mode = MotionMode::tracking;
   goal.velocity = {0.1, 0, 0};
   auto plan = track(planner, goal, rest_at(0, 0, 0), Time{0}, kHorizon);
@@ -32,7 +32,7 @@ TEST(Tracking, MeetsATargetThatMovesWithItsVelocity) {
 TEST(Tracking, TakesLongerInsteadOfBreakingLimits) {
   const Gantry gantry;
   GoalPlanner planner = gantry.planner();
-  Goal goal = goal_at(1, 1.2, -1, 0.4);
+  MotionGoal goal = goal_at(1, 1.2, -1, 0.4);
   auto plan = track(planner, goal, rest_at(0, 0, 0), Time{0}, kHorizon);
   ASSERT_TRUE(plan) << plan.error().reason;
   const LimitUse use =
@@ -53,7 +53,7 @@ TEST(Tracking, FollowsACircleWithoutAJumpAndWithinLimits) {
     const double t = 0.001 * k;
     const Eigen::Vector3d target{0.3 * std::cos(t), 0.3 * std::sin(t), 0};
     if (k % 33 == 0) {
-      Goal goal = goal_at(static_cast<std::uint64_t>(k), target.x(), target.y(), 0);
+      MotionGoal goal = goal_at(static_cast<std::uint64_t>(k), target.x(), target.y(), 0);
       goal.velocity = {-0.3 * std::sin(t), 0.3 * std::cos(t), 0};
       auto plan = track(planner, goal, current.at(now), now, kHorizon);
       ASSERT_TRUE(plan) << plan.error().reason;

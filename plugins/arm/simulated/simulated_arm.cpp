@@ -13,7 +13,8 @@ constexpr double kRounding = 1e-9;
 /// changes in steps of `a * dt`.
 double stopping_velocity(double distance, double a, double dt) {
   const double step = 0.5 * a * dt;
-  return std::sqrt(step * step + 2 * a * std::max(distance, 0.0)) - step;
+  const double left = std::max(distance, 0.0);
+  return std::min(std::sqrt(step * step + 2 * a * left) - step, left / dt);
 }
 
 }  // namespace
@@ -96,8 +97,7 @@ void SimulatedArm::move_within_limits(int joint, const Step& wanted) {
   const double a = model_.max_acceleration()[joint];
   const double v_limit = model_.max_velocity()[joint];
   const double gap = wanted.q - q_[joint];
-  const double approach =
-      std::copysign(std::min(stopping_velocity(std::abs(gap), a, dt), std::abs(gap) / dt), gap);
+  const double approach = std::copysign(stopping_velocity(std::abs(gap), a, dt), gap);
   double v = std::clamp(wanted.v + approach, -v_limit, v_limit);
   v = std::min(v, stopping_velocity(model_.upper()[joint] - q_[joint], a, dt));
   v = std::max(v, -stopping_velocity(q_[joint] - model_.lower()[joint], a, dt));

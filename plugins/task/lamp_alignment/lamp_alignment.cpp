@@ -9,8 +9,8 @@ namespace {
 /// A face in the picture but no estimate yet: so many more pictures to wait for one.
 constexpr int kPicturesForEstimate = 10;
 
-Goal face_goal(const FaceEstimate& face, double distance_m) {
-  Goal goal;
+MotionGoal face_goal(const FaceEstimate& face, double distance_m) {
+  MotionGoal goal;
   goal.pose = {.position = face.mouth + distance_m * face.normal,
                .orientation = Direction{-face.normal}};
   goal.focus = face.mouth;
@@ -106,7 +106,7 @@ void LampAlignment::next_view() {
   views_looked_at_ = views_looked_at_ % poses_.size() + 1;
   looking_ = false;
   capture_ = false;
-  Goal goal;
+  MotionGoal goal;
   goal.pose = poses_[pose_];
   goals_.set(goal);
 }

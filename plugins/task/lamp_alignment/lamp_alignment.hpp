@@ -46,7 +46,7 @@ class LampAlignment {
   void hear(const GoalReport& report, Time now) { goals_.hear(report, now); }
   void step(Time now);
 
-  std::optional<Goal> outgoing_goal(Time now) { return goals_.outgoing(now); }
+  std::optional<MotionGoal> outgoing_goal(Time now) { return goals_.outgoing(now); }
   std::optional<double> take_light_level() { return std::exchange(new_level_, std::nullopt); }
   bool capture() const { return capture_; }
 

@@ -46,7 +46,7 @@ class LampAlignmentTest : public testing::Test {
     if (auto goal = task_.outgoing_goal(now_)) receive(*goal);
   }
 
-  void receive(const Goal& goal) {
+  void receive(const MotionGoal& goal) {
     goals_.push_back(goal);
     if (goal.pose.position.norm() > reach_m_) {
       task_.hear({.goal_id = goal.id,
@@ -78,10 +78,10 @@ class LampAlignmentTest : public testing::Test {
   LampAlignment task_{settings()};
   Time now_;
   int ticks_ = 0;
-  std::optional<Goal> goal_;
+  std::optional<MotionGoal> goal_;
   Time arrival_;
   ToolPose lamp_{.position = {0.6, 0, 0.5}, .orientation = Direction{Eigen::Vector3d::UnitY()}};
-  std::vector<Goal> goals_;
+  std::vector<MotionGoal> goals_;
   bool present_ = true;
   double reach_m_ = 10, gain_ = 1, light_ = 0;
   double noise_m_ = 0.0005, noise_rad_ = 0.01;
@@ -98,7 +98,7 @@ TEST_F(LampAlignmentTest, ChecksTheLightThenSearchesThenAlignsAndHolds) {
   EXPECT_EQ(task_.view(), 2u);  // straight ahead
   EXPECT_TRUE(task_.capture());
   ASSERT_TRUE(run_until(Phase::holding, 10));
-  const Goal& last = goals_.back();
+  const MotionGoal& last = goals_.back();
   EXPECT_NEAR((last.pose.position - Eigen::Vector3d(1.05, 0, 0.45)).norm(), 0, 0.01);
   EXPECT_NEAR((std::get<Direction>(last.pose.orientation).unit - Eigen::Vector3d::UnitX()).norm(),
               0, 0.02);

@@ -18,7 +18,7 @@ bool not_ready(const GoalReport& report) {
 
 }  // namespace
 
-void LampGoals::set(const Goal& goal) {
+void LampGoals::set(const MotionGoal& goal) {
   goal_ = goal;
   state_ = State::waiting;
   send_at_ = kAtOnce;
@@ -54,7 +54,7 @@ void LampGoals::hear(const GoalReport& report, Time now) {
   }
 }
 
-std::optional<Goal> LampGoals::outgoing(Time now) {
+std::optional<MotionGoal> LampGoals::outgoing(Time now) {
   const bool unanswered = state_ == State::waiting && !send_at_ && now - sent_at_ > kAnswerWithin;
   const bool due = send_at_ && now >= *send_at_;
   if (!due && !unanswered) return std::nullopt;

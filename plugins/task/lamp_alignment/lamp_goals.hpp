@@ -15,7 +15,7 @@ struct GoalReport {
   enum class State : std::uint8_t { accepted = 0, executing, done, superseded, failed };
   std::uint64_t goal_id = 0;
   State state = State::accepted;
-  std::string stage, reason;
+  std::string stage = {}, reason = {};
 };
 
 /// The one goal that the lamp is on its way to. Goals that were refused because the motion was not
@@ -25,10 +25,10 @@ class LampGoals {
   enum class State { none, waiting, moving, done, failed };
 
   /// Makes `goal` the current one; it is sent with the next `outgoing`.
-  void set(const Goal& goal);
+  void set(const MotionGoal& goal);
   void hear(const GoalReport& report, Time now);
   /// The goal to send now, with its id, if any.
-  std::optional<Goal> outgoing(Time now);
+  std::optional<MotionGoal> outgoing(Time now);
 
   State state() const { return state_; }
   Time done_at() const { return done_at_; }
@@ -36,7 +36,7 @@ class LampGoals {
   int sent() const { return sent_; }
 
  private:
-  Goal goal_;
+  MotionGoal goal_;
   State state_ = State::none;
   std::uint64_t last_id_ = 0;
   std::optional<Time> send_at_;  // not sent yet: at once or later

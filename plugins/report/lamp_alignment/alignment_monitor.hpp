@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Geometry>
+#include <optional>
+#include <vector>
+
+#include "armature/values/time.hpp"
+
+namespace armature {
+
+/// What "aligned" means.
+struct AlignmentGoals {
+  double distance_m = 0.5;
+  double distance_error_m = 0.0015, direction_error_rad = 0.0436;
+  double mouth_error_m = 0.0025, normal_error_rad = 0.0436;
+  int least_frames = 10;
+  double aligned_for_s = 1;
+  double search_timeout_s = 40;
+  bool expect_move = false;
+};
+
+/// A mouth and a face normal in the base frame.
+struct Face {
+  Eigen::Vector3d mouth = Eigen::Vector3d::Zero();    // [m]
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitX();  // unit
+};
+
+/// How far the lamp is from where it should be.
+struct LampError {
+  double time_s = 0;  // since the start
+  double distance_m = 0, distance_error_m = 0, direction_error_rad = 0;
+};
+
+/// How far the averaged estimate is from the truth.
+struct EstimateError {
+  double mouth_m = 0, normal_rad = 0;
+};
+
+/// Holds the lamp against the truth. Time counts from the first `step`.
+class AlignmentMonitor {
+ public:
+  explicit AlignmentMonitor(const AlignmentGoals& goals) : goals_{goals} {}
+
+  void see_truth(const Face& truth, Time now);
+  /// An estimate of a picture taken at `stamp`.
+  void see_estimate(const Face& estimate, Time stamp, Time now);
+  /// The lamp's centre and the way its light points, in the base frame.
+  void see_lamp(const Eigen::Vector3d& center, const Eigen::Vector3d& light, bool at_rest,
+                Time now);
+  void see_task(bool holding) { holding_ = holding; }
+  void see_new_goal() { replans_ += first_aligned_s_.has_value(); }
+  void step(Time now);
+
+  /// Told to the end: aligned (and again after the move), or no face found in time.
+  bool finished() const;
+  bool face_not_found() const { return not_found_; }
+
+  std::optional<double> time_to_find_s() const { return found_s_; }
+  std::optional<double> time_to_align_s() const { return first_aligned_s_; }
+  /// From the end of the patient's move.
+  std::optional<double> time_to_realign_s() const { return realigned_s_; }
+  /// Of the mean of all estimates since the arm came to rest.
+  std::optional<EstimateError> estimate_error() const;
+  const std::vector<LampError>& lamp_errors() const { return lamp_errors_; }
+  int replans() const { return replans_; }
+
+ private:
+  double since_start(Time time) const { return to_seconds(time - *start_); }
+  bool patient_moved() const { return moved_at_.has_value(); }
+  void restart_average(Time now);
+  bool estimates_good() const;
+
+  AlignmentGoals goals_;
+  std::optional<Time> start_;
+  std::optional<Face> truth_;
+  Face sum_;  // of the estimates since rest_since_
+  int count_ = 0;
+  Time rest_since_;
+  bool holding_ = false, at_rest_ = false;
+  std::vector<LampError> lamp_errors_;
+  std::optional<Time> good_since_, moved_at_;  // moved_at_: when the truth changed last
+  std::optional<double> found_s_, first_aligned_s_, realigned_s_;
+  int replans_ = 0;
+  bool not_found_ = false;
+};
+
+}  // namespace armature

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "alignment_monitor.hpp"
+
+#include <gtest/gtest.h>
+
+namespace armature {
+namespace {
+
+/// A lamp in front of a face, watched at 50 Hz, with an estimate at 10 Hz.
+class AlignmentMonitorTest : public testing::Test {
+ protected:
+  void run(double duration_s) {
+    for (int k = 0; k < static_cast<int>(std::lround(duration_s * 50)); ++k) {
+      now_ = now_ + seconds(0.02);
+      monitor_.see_truth(truth_, now_);
+      monitor_.see_lamp(lamp_, light_, at_rest_, now_);
+      if (++ticks_ % 5 == 0 && seen_) monitor_.see_estimate(estimate_, now_, now_);
+      monitor_.see_task(at_rest_);
+      monitor_.step(now_);
+    }
+  }
+  void align() {
+    at_rest_ = false;
+    run(0.04);
+    lamp_ = truth_.mouth + 0.5 * truth_.normal;
+    light_ = -truth_.normal;
+    estimate_ = truth_;
+    at_rest_ = true;
+  }
+
+  AlignmentGoals goals_{.search_timeout_s = 5};
+  AlignmentMonitor monitor_{goals_};
+  Time now_;
+  int ticks_ = 0;
+  bool seen_ = true, at_rest_ = false;
+  Face truth_{.mouth = {1.55, 0, 0.45}, .normal = {-1, 0, 0}};
+  Face estimate_ = truth_;
+  Eigen::Vector3d lamp_{0.8, 0, 0.5}, light_{0, 1, 0};
+};
+
+TEST_F(AlignmentMonitorTest, SaysWhenNoFaceWasFoundInTime) {
+  seen_ = false;
+  run(4.9);
+  EXPECT_FALSE(monitor_.finished());
+  run(0.2);
+  EXPECT_TRUE(monitor_.finished());
+  EXPECT_TRUE(monitor_.face_not_found());
+}
+
+TEST_F(AlignmentMonitorTest, IsAlignedAfterOneSecondWithoutABreak) {
+  run(2);
+  EXPECT_NEAR(*monitor_.time_to_find_s(), 0.08, 1e-9);
+  align();
+  run(0.9);
+  EXPECT_FALSE(monitor_.finished());
+  lamp_.x() += 0.002;  // beyond 1.5 mm for a moment
+  run(0.02);
+  lamp_.x() -= 0.002;
+  run(0.9);
+  EXPECT_FALSE(monitor_.finished());
+  run(0.2);
+  EXPECT_TRUE(monitor_.finished());
+  EXPECT_NEAR(*monitor_.time_to_align_s(), 2 + 0.02 + 0.9 + 0.02 + 1.04, 0.05);
+}
+
+TEST_F(AlignmentMonitorTest, MeasuresDistanceAndDirectionAgainstTheTruth) {
+  align();
+  lamp_.x() -= 0.001;
+  light_ = Eigen::AngleAxisd(0.01, Eigen::Vector3d::UnitZ()) * light_;
+  run(0.1);
+  EXPECT_NEAR(monitor_.lamp_errors().back().distance_m, 0.501, 1e-12);
+  EXPECT_NEAR(monitor_.lamp_errors().back().distance_error_m, 0.001, 1e-12);
+  EXPECT_NEAR(monitor_.lamp_errors().back().direction_error_rad, 0.01, 1e-9);
+}
+
+TEST_F(AlignmentMonitorTest, AveragesTheEstimatesAtRestAndNeedsEnoughOfThem) {
+  align();
+  estimate_.mouth.z() += 0.001;
+  run(0.9);
+  EXPECT_FALSE(monitor_.estimate_error());
+  run(0.3);
+  ASSERT_TRUE(monitor_.estimate_error());
+  EXPECT_NEAR(monitor_.estimate_error()->mouth_m, 0.001, 1e-9);
+  EXPECT_NEAR(monitor_.estimate_error()->normal_rad, 0, 1e-9);
+}
+
+TEST_F(AlignmentMonitorTest, IsNotAlignedWhileTheEstimateIsBad) {
+  align();
+  estimate_.mouth.z() += 0.003;
+  run(5);
+  EXPECT_FALSE(monitor_.finished());
+}
+
+TEST(AlignmentMonitor, WaitsForThePatientToMoveWhenTheStorySaysSo) {
+  AlignmentMonitor monitor{{.expect_move = true}};
+  Face truth{.mouth = {1.5, 0, 0.5}, .normal = {-1, 0, 0}};
+  Time now;
+  int replans_at_first = 0;
+  for (int k = 0; k < 500; ++k) {
+    now = now + seconds(0.02);
+    const bool moving = k >= 200 && k < 250;
+    if (moving) truth.mouth.y() += 0.001;
+    monitor.see_truth(truth, now);
+    monitor.see_lamp(truth.mouth + 0.5 * truth.normal, -truth.normal, true, now);
+    if (k % 5 == 0) monitor.see_estimate(truth, now, now);
+    if (k == 220) monitor.see_new_goal();
+    monitor.see_task(true);
+    monitor.step(now);
+    if (k == 199) {
+      EXPECT_TRUE(monitor.time_to_align_s());
+      EXPECT_FALSE(monitor.finished());
+      replans_at_first = monitor.replans();
+    }
+  }
+  EXPECT_TRUE(monitor.finished());
+  EXPECT_NEAR(*monitor.time_to_realign_s(), 1, 0.15);
+  EXPECT_EQ(replans_at_first, 0);
+  EXPECT_EQ(monitor.replans(), 1);
+}
+
+}  // namespace
+}  // namespace armature

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <numbers>
+#include <string>
+
+#include "alignment_monitor.hpp"
+#include "armature/kinds/setup_robot.hpp"
+#include "armature/messages/armature_msgs.hpp"
+#include "armature/messages/geometry.hpp"
+#include "armature/messages/sensor_msgs.hpp"
+#include "armature/messages/stamp.hpp"
+#include "armature/robot/kinematics.hpp"
+#include "armature/runtime/component.hpp"
+#include "armature/runtime/plugin.hpp"
+#include "armature/runtime/setup.hpp"
+#include "report_pictures.hpp"
+#include "trajectory_hash.hpp"
+
+namespace armature {
+namespace {
+
+constexpr Duration kPeriod = seconds(0.02);
+constexpr double kAtRest = 1e-7;  // [rad] between two samples of the arm
+constexpr double kDegrees = 180 / std::numbers::pi;
+
+AlignmentGoals goals_of(const Params& params) {
+  return {.distance_m = params.number("distance_m"),
+          .distance_error_m = params.number("distance_error_mm"),
+          .direction_error_rad = params.number("direction_error_deg"),
+          .mouth_error_m = params.number("mouth_position_error_mm"),
+          .normal_error_rad = params.number("face_normal_error_deg"),
+          .least_frames = static_cast<int>(params.integer("least_frames")),
+          .aligned_for_s = params.number("aligned_for_s"),
+          .search_timeout_s = params.number("search_timeout_s"),
+          .expect_move = params.flag("expect_move")};
+}
+
+Face face_of(const msg::Target& target) {
+  return {.mouth = to_eigen(target.position_()), .normal = to_eigen(target.normal_())};
+}
+
+}  // namespace
+
+class LampReport : public Component {
+ public:
+  explicit LampReport(Setup& setup)
+      : Component(setup),
+        model_{robot_of(setup)},
+        light_axis_{model_.pointing_axis().value_or(Eigen::Vector3d::UnitX())},
+        goals_{goals_of(setup.params())},
+        monitor_{goals_},
+        truth_{setup.input<msg::Target>("truth")},
+        target_{setup.input<msg::Target>("target")},
+        measured_js_{setup.input<msg::JointState>("measured_js")},
+        task_state_{setup.input<msg::TaskState>("task_state")},
+        motion_status_{setup.input<msg::MotionStatus>("motion_status")},
+        left_image_{setup.input<msg::Image>("left_image")},
+        left_info_{setup.input<msg::CameraInfo>("left_info")},
+        landmarks_{setup.input<msg::FaceLandmarks>("landmarks")},
+        face_{setup.input<msg::FacePose>("face")} {
+    setup.activate_every(kPeriod);
+  }
+
+  void step(Time now) override {
+    if (truth_.latest()) monitor_.see_truth(face_of(*truth_.latest()), now);
+    read_arm(now);
+    for (std::size_t i = 0; i < target_.size(); ++i) {
+      if (!target_[i].valid_()) continue;
+      monitor_.see_estimate(face_of(target_[i]), stamp_of(target_[i].header_().stamp_()), now);
+    }
+    if (task_state_.latest()) monitor_.see_task(task_state_.latest()->state_() == "holding");
+    for (std::size_t i = 0; i < motion_status_.size(); ++i) {
+      constexpr std::uint8_t kAccepted = 0;
+      if (motion_status_[i].state_() == kAccepted) monitor_.see_new_goal();
+    }
+    keep_picture();
+    monitor_.step(now);
+  }
+
+  bool finished() const override { return monitor_.finished(); }
+
+  void summarize(Summary& summary) const override {
+    if (monitor_.face_not_found()) summary.failed("face_not_found");
+    const auto metric = [&](const char* key, const char* title, std::optional<double> value) {
+      if (value) summary.metric(key, title, *value);
+    };
+    metric("time_to_find_s", "time to find the face [s]", monitor_.time_to_find_s());
+    metric("time_to_align_s", "time to align [s]", monitor_.time_to_align_s());
+    metric("time_to_realign_s", "time to align again after the move [s]",
+           monitor_.time_to_realign_s());
+    if (const auto error = monitor_.estimate_error()) {
+      metric("mouth_position_error_mm", "mouth position error [mm]", 1000 * error->mouth_m);
+      metric("face_normal_error_deg", "face normal error [deg]", kDegrees * error->normal_rad);
+    }
+    if (!monitor_.lamp_errors().empty()) {
+      const LampError& last = monitor_.lamp_errors().back();
+      metric("distance_mm", "final distance to the mouth [mm]", 1000 * last.distance_m);
+      metric("distance_error_mm", "its error [mm]", 1000 * last.distance_error_m);
+      metric("direction_error_deg", "direction error [deg]", kDegrees * last.direction_error_rad);
+    }
+    metric("replans", "goals after the first alignment", monitor_.replans());
+    summary.text("trajectory_sha256", "SHA-256 of the arm's trajectory", hash_.hex());
+  }
+
+  void write_files(const std::filesystem::path& directory) const override {
+    if (!picture_.gray.empty()) write_camera_picture(picture_, directory / "left_camera.png");
+    write_error_plot(monitor_.lamp_errors(), goals_, directory / "errors.png");
+  }
+
+ private:
+  void read_arm(Time now) {
+    bool at_rest = true;
+    for (std::size_t i = 0; i < measured_js_.size(); ++i) {
+      const auto& position = measured_js_[i].position_();
+      hash_.add(stamp_of(measured_js_[i].header_().stamp_()), position);
+      const JointVector all = Eigen::Map<const Eigen::VectorXd>(
+          position.data(),
+          static_cast<Eigen::Index>(std::min(position.size(), std::size_t{kMaxJoints})));
+      if (all.size() != last_all_.size() || (all - last_all_).cwiseAbs().maxCoeff() > kAtRest) {
+        at_rest = false;
+      }
+      last_all_ = all;
+    }
+    if (measured_js_.size() == 0) return;
+    const auto q = model_.contract(last_all_);
+    if (!q) return;
+    const Eigen::Isometry3d base_T_tool = forward_kinematics(model_, *q);
+    monitor_.see_lamp(base_T_tool.translation(), base_T_tool.linear() * light_axis_, at_rest, now);
+  }
+
+  /// The newest image whose landmarks are known already.
+  void keep_picture() {
+    const msg::Image* image = left_image_.latest();
+    const msg::FaceLandmarks* landmarks = landmarks_.latest();
+    const msg::CameraInfo* info = left_info_.latest();
+    if (!image || !landmarks || !info || !landmarks_.fresh()) return;
+    if (stamp_of(image->header_().stamp_()) != stamp_of(landmarks->header_().stamp_())) return;
+    picture_.width = static_cast<int>(image->width_());
+    picture_.height = static_cast<int>(image->height_());
+    if (image->data_().size() != std::size_t{image->width_()} * image->height_()) return;
+    picture_.gray = image->data_();
+    picture_.focal_px = info->k_()[0];
+    picture_.cu = info->k_()[2];
+    picture_.cv = info->k_()[5];
+    picture_.landmarks.clear();
+    const auto& left = landmarks->left_();
+    for (std::size_t i = 0; landmarks->valid_() && i + 1 < left.size(); i += 2) {
+      picture_.landmarks.emplace_back(left[i], left[i + 1]);
+    }
+    keep_face();
+  }
+
+  void keep_face() {
+    picture_.face.reset();
+    const msg::FacePose* face = face_.latest();
+    if (!face || !face->valid_() || picture_.landmarks.empty()) return;
+    const Eigen::Vector3d across = to_eigen(face->right_eye_()) - to_eigen(face->left_eye_());
+    picture_.face = CameraPicture::FaceAxes{.mouth = to_eigen(face->mouth_()),
+                                            .across = across.normalized(),
+                                            .normal = to_eigen(face->normal_())};
+  }
+
+  RobotModel model_;
+  Eigen::Vector3d light_axis_;
+  AlignmentGoals goals_;
+  AlignmentMonitor monitor_;
+  TrajectoryHash hash_;
+  CameraPicture picture_;
+  JointVector last_all_;
+  Input<msg::Target> truth_, target_;
+  Input<msg::JointState> measured_js_;
+  Input<msg::TaskState> task_state_;
+  Input<msg::MotionStatus> motion_status_;
+  Input<msg::Image> left_image_;
+  Input<msg::CameraInfo> left_info_;
+  Input<msg::FaceLandmarks> landmarks_;
+  Input<msg::FacePose> face_;
+};
+
+}  // namespace armature
+
+ARMATURE_PLUGIN(armature::LampReport);

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report_pictures.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <stdexcept>
+#include <string>
+
+namespace armature {
+namespace {
+
+const cv::Scalar kBlack{0, 0, 0}, kGrid{225, 225, 225}, kCurve{180, 90, 20}, kGoal{60, 60, 220};
+const cv::Scalar kGreen{60, 220, 60}, kRed{40, 40, 255}, kBlue{255, 120, 40};
+constexpr double kAxisLength = 0.05;  // [m]
+
+void save(const cv::Mat& image, const std::filesystem::path& file) {
+  if (!cv::imwrite(file.string(), image)) {
+    throw std::runtime_error("cannot write " + file.string());
+  }
+}
+
+void text(cv::Mat& image, const std::string& words, cv::Point at, double scale = 0.45) {
+  cv::putText(image, words, at, cv::FONT_HERSHEY_SIMPLEX, scale, kBlack, 1, cv::LINE_AA);
+}
+
+/// The nearest of 1, 2, 5 times a power of ten that makes at most `most` ticks over `range`.
+double tick_step(double range, int most) {
+  const double power = std::pow(10, std::floor(std::log10(range / most)));
+  for (const double factor : {1.0, 2.0, 5.0}) {
+    if (factor * power * most >= range) return factor * power;
+  }
+  return 10 * power;
+}
+
+/// One curve over time in a frame with ticks and labels.
+struct Panel {
+  cv::Rect frame;
+  std::string title;
+  double duration_s, top, goal;
+
+  cv::Point at(double time_s, double value) const {
+    const double x = frame.x + frame.width * time_s / duration_s;
+    const double y = frame.y + frame.height * (1 - std::min(value, top) / top);
+    return {static_cast<int>(std::lround(x)), static_cast<int>(std::lround(y))};
+  }
+
+  void draw_axes(cv::Mat& image) const {
+    const double step_y = tick_step(top, 6), step_x = tick_step(duration_s, 10);
+    for (double y = 0; y <= top * 1.0001; y += step_y) {
+      cv::line(image, at(0, y), at(duration_s, y), kGrid);
+      text(image, fmt::format("{:g}", y), at(0, y) + cv::Point{-42, 5});
+    }
+    for (double x = 0; x <= duration_s * 1.0001; x += step_x) {
+      cv::line(image, at(x, 0), at(x, top), kGrid);
+      text(image, fmt::format("{:g}", x), at(x, 0) + cv::Point{-8, 18});
+    }
+    cv::line(image, at(0, goal), at(duration_s, goal), kGoal, 1, cv::LINE_AA);
+    cv::rectangle(image, frame, kBlack);
+    text(image, title, {frame.x, frame.y - 10}, 0.55);
+    text(image, "time [s]", {frame.x + frame.width - 60, frame.y + frame.height + 36});
+  }
+
+  void draw_curve(cv::Mat& image, std::span<const LampError> errors,
+                  const std::function<double(const LampError&)>& value) const {
+    for (std::size_t i = 1; i < errors.size(); ++i) {
+      cv::line(image, at(errors[i - 1].time_s, value(errors[i - 1])),
+               at(errors[i].time_s, value(errors[i])), kCurve, 2, cv::LINE_AA);
+    }
+  }
+};
+
+void draw_axis(cv::Mat& image, const CameraPicture& picture, const Eigen::Vector3d& from,
+               const Eigen::Vector3d& axis, const cv::Scalar& color) {
+  const auto pixel = [&](const Eigen::Vector3d& p) {
+    return cv::Point{static_cast<int>(std::lround(picture.focal_px * p.x() / p.z() + picture.cu)),
+                     static_cast<int>(std::lround(picture.focal_px * p.y() / p.z() + picture.cv))};
+  };
+  const Eigen::Vector3d to = from + kAxisLength * axis;
+  if (from.z() < 0.01 || to.z() < 0.01) return;
+  cv::arrowedLine(image, pixel(from), pixel(to), color, 2, cv::LINE_AA, 0, 0.15);
+}
+
+}  // namespace
+
+void write_camera_picture(const CameraPicture& picture, const std::filesystem::path& file) {
+  cv::Mat gray(picture.height, picture.width, CV_8UC1);
+  std::copy(picture.gray.begin(), picture.gray.end(), gray.data);
+  cv::Mat image;
+  cv::cvtColor(gray, image, cv::COLOR_GRAY2BGR);
+  for (const Eigen::Vector2d& point : picture.landmarks) {
+    cv::circle(image, cv::Point2d{point.x(), point.y()}, 2, kGreen, cv::FILLED, cv::LINE_AA);
+  }
+  if (picture.face) {
+    const auto& face = *picture.face;
+    draw_axis(image, picture, face.mouth, face.across, kGreen);
+    draw_axis(image, picture, face.mouth, face.normal.cross(face.across), kBlue);
+    draw_axis(image, picture, face.mouth, face.normal, kRed);
+  }
+  save(image, file);
+}
+
+void write_error_plot(std::span<const LampError> errors, const AlignmentGoals& goals,
+                      const std::filesystem::path& file) {
+  constexpr double kDegrees = 180 / std::numbers::pi;
+  cv::Mat image(760, 1000, CV_8UC3, cv::Scalar{255, 255, 255});
+  const double duration_s = errors.empty() ? 1 : std::max(1.0, errors.back().time_s);
+  const auto distance_mm = [](const LampError& e) { return 1000 * e.distance_error_m; };
+  const auto direction_deg = [](const LampError& e) { return kDegrees * e.direction_error_rad; };
+  double most_mm = 10, most_deg = 10;
+  for (const LampError& error : errors) {
+    most_mm = std::max(most_mm, distance_mm(error));
+    most_deg = std::max(most_deg, direction_deg(error));
+  }
+  const Panel distance{.frame = {70, 40, 900, 280},
+                       .title = "distance error [mm]; red: goal",
+                       .duration_s = duration_s,
+                       .top = most_mm,
+                       .goal = 1000 * goals.distance_error_m};
+  const Panel direction{.frame = {70, 415, 900, 280},
+                        .title = "direction error [deg]; red: goal",
+                        .duration_s = duration_s,
+                        .top = most_deg,
+                        .goal = kDegrees * goals.direction_error_rad};
+  distance.draw_axes(image);
+  distance.draw_curve(image, errors, distance_mm);
+  direction.draw_axes(image);
+  direction.draw_curve(image, errors, direction_deg);
+  save(image, file);
+}
+
+}  // namespace armature

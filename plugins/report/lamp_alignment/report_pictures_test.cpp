@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report_pictures.hpp"
+
+#include <gtest/gtest.h>
+
+#include <opencv2/imgcodecs.hpp>
+
+namespace armature {
+namespace {
+
+class ReportPicturesTest : public testing::Test {
+ protected:
+  void SetUp() override { std::filesystem::create_directories(folder_); }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+  std::filesystem::path folder_ =
+      std::filesystem::temp_directory_path() / ("report_pictures_" + std::to_string(::getpid()));
+};
+
+TEST_F(ReportPicturesTest, TheCameraPictureShowsLandmarksInGreen) {
+  CameraPicture picture{.width = 64, .height = 48};
+  picture.gray.assign(64 * 48, 100);
+  picture.landmarks = {{20, 30}};
+  picture.face =
+      CameraPicture::FaceAxes{.mouth = {0, 0, 0.5}, .across = {1, 0, 0}, .normal = {0, 0, -1}};
+  picture.focal_px = 50;
+  write_camera_picture(picture, folder_ / "left_camera.png");
+  const cv::Mat image = cv::imread((folder_ / "left_camera.png").string());
+  ASSERT_EQ(image.cols, 64);
+  ASSERT_EQ(image.rows, 48);
+  EXPECT_EQ(image.at<cv::Vec3b>(30, 20), (cv::Vec3b{60, 220, 60}));
+  EXPECT_EQ(image.at<cv::Vec3b>(40, 60), (cv::Vec3b{100, 100, 100}));
+}
+
+TEST_F(ReportPicturesTest, TheErrorPlotHasCurvesInBothPanels) {
+  std::vector<LampError> errors;
+  for (int k = 0; k <= 100; ++k) {
+    errors.push_back({.time_s = 0.1 * k,
+                      .distance_m = 0.6 - 0.001 * k,
+                      .distance_error_m = 0.1 - 0.001 * k,
+                      .direction_error_rad = 1 - 0.01 * k});
+  }
+  write_error_plot(errors, {}, folder_ / "errors.png");
+  const cv::Mat image = cv::imread((folder_ / "errors.png").string());
+  const auto curve_pixels = [&](int from_row, int to_row) {
+    int count = 0;
+    for (int v = from_row; v < to_row; ++v) {
+      for (int u = 0; u < image.cols; ++u) {
+        count += image.at<cv::Vec3b>(v, u) == cv::Vec3b{180, 90, 20};
+      }
+    }
+    return count;
+  };
+  EXPECT_GT(curve_pixels(0, 380), 500);
+  EXPECT_GT(curve_pixels(380, 760), 500);
+}
+
+TEST_F(ReportPicturesTest, ARunWithoutAnySampleStillHasAPlot) {
+  write_error_plot({}, {}, folder_ / "errors.png");
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "errors.png"));
+}
+
+TEST_F(ReportPicturesTest, AFolderThatIsNotThereIsNamed) {
+  EXPECT_THROW(write_error_plot({}, {}, folder_ / "missing" / "errors.png"), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace armature

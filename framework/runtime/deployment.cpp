@@ -9,6 +9,7 @@
 #include "armature/config/problems.hpp"
 #include "armature/runtime/component_setup.hpp"
 #include "armature/runtime/lockstep_scheduler.hpp"
+#include "armature/runtime/state_publisher.hpp"
 #include "armature/runtime/threaded_scheduler.hpp"
 
 namespace armature {
@@ -33,6 +34,7 @@ Deployment::Deployment(DeploymentConfig config, PluginRegistry& plugins, Options
   config::Problems problems;
   for (const ComponentConfig* component : order) make_unit(*component, plugins, problems);
   problems.throw_if_any();
+  make_state_publisher(plugins);
   assign_units();
 }
 
@@ -74,6 +76,30 @@ void Deployment::make_unit(const ComponentConfig& component, PluginRegistry& plu
   } catch (const config::ConfigError& error) {
     for (const auto& problem : error.problems()) problems.add(problem.origin, problem.message);
   }
+}
+
+void Deployment::make_state_publisher(PluginRegistry& plugins) {
+  const PluginManifest& manifest = StatePublisher::manifest();
+  ComponentConfig component{.name = "runtime",
+                            .plugin_id = manifest.id,
+                            .manifest = &manifest,
+                            .executor = std::string{kMainExecutor},
+                            .process = options_.process,
+                            .place = static_cast<int>(config_.components.size())};
+  for (const PortSpec& spec : manifest.outputs) {
+    const bool absolute = spec.topic.starts_with('/');
+    component.outputs.push_back(
+        {.spec = spec, .topic = absolute ? spec.topic : "/" + config_.name + "/" + spec.topic});
+  }
+  config_.components.push_back(std::move(component));
+  auto unit = std::make_unique<Unit>("runtime", manifest.id, config_.components.back().place,
+                                     options_.on_line);
+  ComponentSetup setup{config_.components.back(), config_, plugins, *unit, *scheduler_,
+                       [this](const PortBinding& port, const MessageType& type) -> Topic& {
+                         return topic_for(port, type);
+                       }};
+  unit->install({nullptr, std::make_unique<StatePublisher>(setup, units_)});
+  units_.push_back(std::move(unit));
 }
 
 Topic& Deployment::topic_for(const PortBinding& port, const MessageType& type) {
@@ -175,7 +201,7 @@ bool Deployment::any_finished() const {
 
 std::string Deployment::fault() const {
   for (const auto& unit : units_) {
-    if (unit->faulted()) return unit->name() + ": " + unit->voice()->status().reason;
+    if (unit->faulted()) return unit->name() + ": " + unit->status().reason;
   }
   return {};
 }

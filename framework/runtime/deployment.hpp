@@ -54,6 +54,7 @@ class Deployment {
   void make_scheduler();
   void make_unit(const ComponentConfig& component, PluginRegistry& plugins,
                  config::Problems& problems);
+  void make_state_publisher(PluginRegistry& plugins);
   Topic& topic_for(const PortBinding& port, const MessageType& type);
   const ComponentConfig& config_of(const Unit& unit) const;
   bool written_elsewhere(const std::string& topic) const;

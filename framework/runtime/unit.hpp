@@ -31,6 +31,7 @@ class Unit {
   const Inbox& inbox() const { return inbox_; }
   std::deque<OutputPort>& outputs() { return outputs_; }
   const std::shared_ptr<Voice>& voice() { return voice_; }
+  Voice::Status status() const { return voice_->status(); }
   const std::optional<Duration>& period() const { return period_; }
   void set_period(Duration period) { period_ = period; }
   void install(PluginPtr<Component> component) { component_ = std::move(component); }

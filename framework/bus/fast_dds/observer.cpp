@@ -18,6 +18,7 @@
 #include "armature/bus/fast_dds/endpoint_qos.hpp"
 #include "armature/bus/fast_dds/participant.hpp"
 #include "armature/bus/fast_dds/raw_cdr_type.hpp"
+#include "armature/bus/topic_name.hpp"
 
 namespace armature {
 namespace {
@@ -117,15 +118,6 @@ Expected<std::unique_ptr<DdsObserver>> DdsObserver::make(int domain) {
       {.domain = domain, .name = "armature observer", .watcher = {}, .on_note = {}});
   if (!participant) return tl::unexpected{participant.error()};
   return std::make_unique<Observer>(std::move(*participant));
-}
-
-std::string dds_topic_name(const std::string& name) {
-  if (name.starts_with("rt/")) return name;
-  return name.starts_with('/') ? "rt" + name : "rt/" + name;
-}
-
-std::string ros_topic_name(const std::string& name) {
-  return name.starts_with("rt/") ? name.substr(2) : name;
 }
 
 }  // namespace armature

@@ -6,6 +6,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "armature/values/expected.hpp"
@@ -32,6 +33,10 @@ struct ObservedSample {
 /// generated code.
 class DdsObserver {
  public:
+  static constexpr std::string_view kKind = "observer";
+  static constexpr int kKindVersion = 1;
+  using Factory = Expected<std::unique_ptr<DdsObserver>> (*)(int domain);
+
   static Expected<std::unique_ptr<DdsObserver>> make(int domain);
   virtual ~DdsObserver() = default;
 
@@ -43,10 +48,5 @@ class DdsObserver {
   virtual Expected<void> watch(const std::string& topic, Duration patience,
                                std::function<void(const ObservedSample&)> on_sample) = 0;
 };
-
-/// "/a/b" or "a/b" -> "rt/a/b", as ROS 2 names its topics in DDS; "rt/a/b" stays.
-std::string dds_topic_name(const std::string& name);
-/// "rt/a/b" -> "/a/b"; other names stay.
-std::string ros_topic_name(const std::string& name);
 
 }  // namespace armature

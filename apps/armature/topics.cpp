@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "topics.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <thread>
+
+#include "armature/bus/fast_dds/observer.hpp"
+#include "armature/bus/topic_name.hpp"
+#include "armature/messages/cdr_to_json.hpp"
+#include "armature/runtime/plugin_registry.hpp"
+#include "exit_code.hpp"
+
+namespace armature {
+namespace {
+
+constexpr Duration kDiscovery = seconds(1.5);
+
+std::atomic<bool> g_interrupted{false};
+
+/// Ends a watch: enough samples, the time is over, or the operator wants it.
+class Finish {
+ public:
+  explicit Finish(const TopicOptions& options) : options_{options} {
+    std::signal(SIGINT, [](int) { g_interrupted = true; });
+    std::signal(SIGTERM, [](int) { g_interrupted = true; });
+  }
+  /// Counts a sample; true when it was the last one wanted.
+  bool count() { return ++seen_ == options_.count; }
+  std::uint64_t seen() const { return seen_; }
+  /// kTimedOut when fewer samples than wanted came in the time given.
+  int wait() {
+    const auto start = std::chrono::steady_clock::now();
+    while (!g_interrupted && (options_.count == 0 || seen_ < options_.count)) {
+      const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+      if (options_.timeout_s > 0 && elapsed.count() > options_.timeout_s) {
+        return options_.count > 0 || seen_ == 0 ? kTimedOut : kOk;
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds{20});
+    }
+    return kOk;
+  }
+
+ private:
+  TopicOptions options_;
+  std::atomic<std::uint64_t> seen_{0};
+};
+
+PluginPtr<DdsObserver> observe(PluginRegistry& plugins, int domain) {
+  auto observer = plugins.make<DdsObserver>("observer/fast_dds", domain);
+  if (!observer) throw PluginError(observer.error().text);
+  return std::move(*observer);
+}
+
+/// Watches a topic; a topic that nobody writes is answered with those that are there.
+void watch(DdsObserver& observer, const TopicOptions& options,
+           std::function<void(const ObservedSample&)> on_sample) {
+  const Duration patience = options.timeout_s > 0 ? seconds(options.timeout_s) : seconds(5.0);
+  const auto watching = observer.watch(options.topic, patience, std::move(on_sample));
+  if (watching) return;
+  std::string there;
+  for (const auto& topic : observer.topics()) there += "\n  " + ros_topic_name(topic.name);
+  throw std::runtime_error(watching.error().text +
+                           (there.empty() ? fmt::format("; domain {} has no topics", options.domain)
+                                          : "; topics that are there:" + there));
+}
+
+std::string ros_type(const std::string& dds_name) {
+  const TypeDescription* type = describe_type(dds_name);
+  return type ? type->ros_name : dds_name;
+}
+
+}  // namespace
+
+int list_topics(const TopicOptions& options) {
+  PluginRegistry plugins;
+  const auto observer = observe(plugins, options.domain);
+  std::this_thread::sleep_for(options.timeout_s > 0 ? seconds(options.timeout_s) : kDiscovery);
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const auto& topic : observer->topics()) {
+    std::string types;
+    for (const auto& type : topic.types) types += (types.empty() ? "" : ", ") + ros_type(type);
+    if (options.json) {
+      json.push_back({{"topic", ros_topic_name(topic.name)}, {"type", types},
+                      {"writers", topic.writers}, {"readers", topic.readers},
+                      {"deployments", topic.deployments}});
+    } else {
+      fmt::print("{:<40} {:<32} {} writers, {} readers{}\n", ros_topic_name(topic.name), types,
+                 topic.writers, topic.readers,
+                 topic.types.size() > 1 ? "   CONFLICT: two types on one topic" : "");
+    }
+  }
+  if (options.json) fmt::print("{}\n", json.dump());
+  return kOk;
+}
+
+int echo_topic(const TopicOptions& options) {
+  PluginRegistry plugins;
+  Finish finish{options};
+  auto observer = observe(plugins, options.domain);  // goes before what its callback uses
+  watch(*observer, options, [&](const ObservedSample& sample) {
+    if (options.count > 0 && finish.seen() >= options.count) return;
+    const TypeDescription* type = describe_type(sample.type);
+    if (!type) {
+      fmt::print("{} bytes of {}, which is not in idl/\n", sample.cdr.size(), sample.type);
+    } else {
+      const auto json = cdr_to_json(*type, sample.cdr,
+                                    options.full ? OctetArrays::whole : OctetArrays::shortened);
+      if (!json) {
+        fmt::print(stderr, "armature: not a {}: {}\n", type->ros_name, json.error().text);
+      } else {
+        fmt::print("{}\n", options.json ? json->dump() : json->dump(1) + "\n---");
+      }
+    }
+    std::fflush(stdout);
+    finish.count();
+  });
+  return finish.wait();
+}
+
+int topic_rate(const TopicOptions& options) {
+  PluginRegistry plugins;
+  Finish finish{options};
+  std::mutex mutex;
+  std::optional<Time> first, last;
+  std::uint64_t intervals = 0;
+  double shortest = 1e300, longest = 0;
+  auto observer = observe(plugins, options.domain);  // goes before what its callback uses
+  watch(*observer, options, [&](const ObservedSample& sample) {
+    const std::scoped_lock lock{mutex};
+    if (last) {
+      const double interval = to_seconds(sample.source - *last);
+      shortest = std::min(shortest, interval);
+      longest = std::max(longest, interval);
+      ++intervals;
+    } else {
+      first = sample.source;
+    }
+    last = sample.source;
+    finish.count();
+  });
+  const int code = finish.wait();
+  const std::scoped_lock lock{mutex};
+  if (intervals == 0) throw std::runtime_error("fewer than two samples came");
+  const double rate = static_cast<double>(intervals) / to_seconds(*last - *first);
+  if (options.json) {
+    fmt::print("{}\n", nlohmann::ordered_json{{"rate_hz", rate}, {"samples", intervals + 1},
+                                              {"shortest_s", shortest}, {"longest_s", longest}}.dump());
+  } else {
+    fmt::print("{:.1f} Hz over {} samples, intervals from {:.2f} to {:.2f} ms\n", rate,
+               intervals + 1, shortest * 1e3, longest * 1e3);
+  }
+  return code;
+}
+
+}  // namespace armature

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+namespace armature {
+
+/// "/a/b" or "a/b" -> "rt/a/b", as ROS 2 names its topics in DDS; "rt/a/b" stays.
+std::string dds_topic_name(const std::string& name);
+/// "rt/a/b" -> "/a/b"; other names stay.
+std::string ros_topic_name(const std::string& name);
+
+}  // namespace armature

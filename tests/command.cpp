@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "command.hpp"
+
+#include <fcntl.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <thread>
+
+namespace armature::test {
+namespace {
+
+using std::chrono::steady_clock;
+
+std::string read_all(const std::string& file) {
+  std::ostringstream text;
+  text << std::ifstream{file}.rdbuf();
+  return text.str();
+}
+
+void redirect(const std::string& file, int flags, int to) {
+  const int from = open(file.c_str(), flags, 0600);
+  if (from < 0 || dup2(from, to) < 0) _exit(126);
+}
+
+}  // namespace
+
+Command::Command(const std::vector<std::string>& arguments, const Options& options) {
+  std::string pattern = (std::filesystem::temp_directory_path() / "armature-test-XXXXXX").string();
+  if (!mkdtemp(pattern.data())) throw std::runtime_error("cannot make " + pattern);
+  folder_ = pattern;
+  std::ofstream{folder_ + "/in"} << options.input;
+  std::vector<std::string> copies = arguments;
+  std::vector<char*> argv;
+  for (std::string& argument : copies) argv.push_back(argument.data());
+  argv.push_back(nullptr);
+  pid_ = fork();
+  if (pid_ != 0) return;
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  for (const auto& [name, value] : options.environment) setenv(name.c_str(), value.c_str(), 1);
+  redirect(folder_ + "/in", O_RDONLY, STDIN_FILENO);
+  redirect(folder_ + "/out", O_WRONLY | O_CREAT | O_TRUNC, STDOUT_FILENO);
+  redirect(folder_ + "/err", O_WRONLY | O_CREAT | O_TRUNC, STDERR_FILENO);
+  execv(argv[0], argv.data());
+  _exit(127);
+}
+
+Command::~Command() {
+  if (pid_ > 0) {
+    kill(pid_, SIGKILL);
+    waitpid(pid_, nullptr, 0);
+  }
+  std::filesystem::remove_all(folder_);
+}
+
+void Command::signal(int number) const { kill(pid_, number); }
+std::string Command::out() const { return read_all(folder_ + "/out"); }
+std::string Command::err() const { return read_all(folder_ + "/err"); }
+
+bool Command::wait_for_err(const std::string& text, std::chrono::seconds patience) const {
+  for (const auto end = steady_clock::now() + patience; steady_clock::now() < end;) {
+    if (err().find(text) != std::string::npos) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds{20});
+  }
+  return false;
+}
+
+CommandResult Command::finish(std::chrono::seconds patience) {
+  CommandResult result;
+  const auto end = steady_clock::now() + patience;
+  int status = 0;
+  while (waitpid(pid_, &status, WNOHANG) == 0) {
+    if (steady_clock::now() > end && !result.timed_out) {
+      result.timed_out = true;
+      kill(pid_, SIGKILL);
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds{2});
+  }
+  pid_ = -1;
+  result.exit_code = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
+  result.out = out();
+  result.err = err();
+  return result;
+}
+
+CommandResult run_command(const std::vector<std::string>& arguments,
+                          const Command::Options& options, std::chrono::seconds patience) {
+  return Command{arguments, options}.finish(patience);
+}
+
+std::string armature() { return std::string{ARMATURE_BINARY_DIR} + "/bin/armature"; }
+std::string source_file(const std::string& path) {
+  return std::string{ARMATURE_SOURCE_DIR} + "/" + path;
+}
+
+}  // namespace armature::test

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+// `armature fk` and `armature ik`: JSON lines in, one answer per line out, whatever comes in.
+#include <nlohmann/json.hpp>
+
+#include "command.hpp"
+
+namespace armature::test {
+namespace {
+
+using nlohmann::json;
+
+const std::string kLamp = source_file("configs/robots/dental_lamp.yaml");
+
+std::vector<json> answers(const std::vector<std::string>& arguments, const std::string& input) {
+  const CommandResult result = run_command(arguments, {.environment = {}, .input = input});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  std::vector<json> lines;
+  std::istringstream out{result.out};
+  for (std::string line; std::getline(out, line);) lines.push_back(json::parse(line));
+  return lines;
+}
+
+std::vector<json> ik(const std::string& input, const std::string& plugin = "ik/lamp_geometric") {
+  return answers({armature(), "ik", "--robot", kLamp, "--plugin", plugin}, input);
+}
+std::vector<json> fk(const std::string& input) {
+  return answers({armature(), "fk", "--robot", kLamp}, input);
+}
+
+constexpr const char* kPaperGoal =
+    R"({"position_m":[1.3,0.321,0.504],"direction":[0.894427,-0.268328,-0.357771]})" "\n";
+
+TEST(IkCalculator, AnswersThePapersExampleWithAllBranches) {
+  const auto lines = ik(kPaperGoal);
+  ASSERT_EQ(lines.size(), 1U);
+  EXPECT_EQ(lines[0]["status"], "ok");
+  const json& first = lines[0]["solutions"][0];
+  EXPECT_EQ(first["label"], "tilt0/balance0/elbow0");
+  const std::vector<double> paper{1.1435, -1.3390, 0.0476, -0.0476, -0.0960, -0.3659};
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(first["joints"][i].get<double>(), paper[i], 1e-4);
+  EXPECT_LT(first["residual_m"].get<double>(), 1e-9);
+}
+
+TEST(IkCalculator, FindsTheSamePoseWithAnotherSolverByOneWord) {
+  const auto lines = ik(kPaperGoal, "ik/numeric");
+  EXPECT_EQ(lines[0]["status"], "ok");
+  EXPECT_LT(lines[0]["solutions"][0]["residual_m"].get<double>(), 1e-6);
+}
+
+TEST(IkCalculator, AnswersEveryBadLineWithAReasonAndGoesOn) {
+  const auto lines = ik(std::string{"this is not JSON\n"
+                                    "[1,2,3]\n"
+                                    R"({"position_m":[1.3,0.321],"direction":[1,0,0]})" "\n"
+                                    R"({"position_m":[1.3,0.321,NaN],"direction":[1,0,0]})" "\n"
+                                    R"({"position_m":[1.3,0.321,1e999],"direction":[1,0,0]})" "\n"
+                                    R"({"position_m":[1.3,0.321,0.5],"direction":[0,0,0]})" "\n"
+                                    R"({"position_m":[1.3,0.321,0.5]})" "\n"
+                                    R"({"position_m":[1.3,0.321,0.5],"directoin":[1,0,0]})" "\n"
+                                    R"({"position_m":[1.8,0,0.50407],"direction":[1,0,0]})" "\n"} +
+                        kPaperGoal);
+  ASSERT_EQ(lines.size(), 10U);
+  for (std::size_t i = 0; i < 8; ++i) {
+    EXPECT_EQ(lines[i]["status"], "invalid_input") << i;
+    EXPECT_FALSE(lines[i]["reason"].get<std::string>().empty()) << i;
+  }
+  EXPECT_EQ(lines[8]["status"], "out_of_reach");
+  EXPECT_NE(lines[8]["reason"].get<std::string>().find("0.11"), std::string::npos) << lines[8];
+  EXPECT_EQ(lines[9]["status"], "ok");
+}
+
+TEST(IkCalculator, RefusesAnUnknownSolverByNameWithExitCodeThree) {
+  const auto result =
+      run_command({armature(), "ik", "--robot", kLamp, "--plugin", "ik/lamp_geometrc"});
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_NE(result.err.find("did you mean 'ik/lamp_geometric'"), std::string::npos) << result.err;
+}
+
+TEST(FkCalculator, GivesThePapersZeroPose) {
+  const auto lines = fk("{\"joints\":[0,0,0,0,0,0]}\n");
+  EXPECT_NEAR(lines[0]["position_m"][0].get<double>(), 1.690, 1e-12);
+  EXPECT_NEAR(lines[0]["position_m"][2].get<double>(), 0.50407, 1e-12);
+  EXPECT_NEAR(lines[0]["direction"][0].get<double>(), 1, 1e-12);
+}
+
+TEST(FkCalculator, RefusesJointsThatContradictTheParallelogram) {
+  const auto lines = fk("{\"joints\":[0,0,0.5,0.5,0,0]}\n{\"joints\":[0,0,0]}\n");
+  EXPECT_EQ(lines[0]["status"], "invalid_input");
+  EXPECT_EQ(lines[1]["reason"], "'joints' has 3 numbers, must have 6");
+}
+
+TEST(Calculator, LoadsNeitherDdsNorOpenCvNorDlib) {
+  const auto result =
+      run_command({armature(), "ik", "--robot", kLamp, "--plugin", "ik/lamp_geometric"},
+                  {.environment = {{"LD_DEBUG", "libs"}}, .input = kPaperGoal});
+  EXPECT_EQ(result.exit_code, 0);
+  for (const char* library : {"libfastrtps", "libopencv", "libdlib"}) {
+    EXPECT_EQ(result.err.find(library), std::string::npos) << library;
+  }
+  EXPECT_NE(result.err.find("ik_lamp_geometric"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace armature::test

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// A crashing, a foreign and an outdated library in the plugin path: each gives a clear message,
+// and stops nothing else.
+#include "command.hpp"
+
+namespace armature::test {
+namespace {
+
+const Command::Options kFaultyPath{.environment = {{"ARMATURE_PLUGIN_PATH", FAULTY_LIBRARIES}},
+                                   .input = {}};
+const std::string kLamp = source_file("configs/robots/dental_lamp.yaml");
+
+CommandResult ik_with(const std::string& plugin) {
+  return run_command({armature(), "ik", "--robot", kLamp, "--plugin", plugin}, kFaultyPath);
+}
+
+TEST(FaultyLibrary, OneThatCrashesIsNamedAndTheProgramLives) {
+  const auto result = ik_with("ik/crashing");
+  EXPECT_EQ(result.exit_code, 4);
+  EXPECT_EQ(result.err, "armature: plugin 'ik/crashing' cannot be used: " FAULTY_LIBRARIES
+                        "/crashing.so: it crashes when it is loaded (Aborted)\n");
+}
+
+TEST(FaultyLibrary, OneBuiltForAnotherFrameworkIsRefusedWithBothTags) {
+  const auto result = ik_with("ik/old");
+  EXPECT_EQ(result.exit_code, 4);
+  EXPECT_NE(result.err.find("built for [armature 0, compiler abi 1014], this is [armature 1, "),
+            std::string::npos)
+      << result.err;
+  EXPECT_NE(result.err.find("rebuild the plugin"), std::string::npos);
+}
+
+TEST(FaultyLibrary, AForeignOneIsListedWithItsReason) {
+  const auto result = run_command({armature(), "plugin", "list"}, kFaultyPath);
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_NE(result.err.find("foreign.so cannot be used: not an Armature plugin: it has no manifest"),
+            std::string::npos)
+      << result.err;
+  EXPECT_NE(result.out.find("ik/lamp_geometric"), std::string::npos);
+}
+
+TEST(FaultyLibrary, AFileThatIsNoLibraryIsListedWithItsReason) {
+  const auto folder = std::filesystem::temp_directory_path() /
+                      ("armature-no-library-" + std::to_string(getpid()));
+  std::filesystem::create_directories(folder);
+  std::ofstream{folder / "text.so"} << "just text";
+  const auto result = run_command({armature(), "plugin", "list"},
+                                  {.environment = {{"ARMATURE_PLUGIN_PATH", folder}}, .input = {}});
+  std::filesystem::remove_all(folder);
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_NE(result.err.find("text.so cannot be used: not a 64-bit ELF library"), std::string::npos)
+      << result.err;
+}
+
+TEST(FaultyLibrary, StopsNoOther) {
+  const auto result = run_command(
+      {armature(), "ik", "--robot", kLamp, "--plugin", "ik/lamp_geometric"},
+      {.environment = kFaultyPath.environment,
+       .input = R"({"position_m":[1.3,0.321,0.504],"direction":[1,0,0]})"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_NE(result.out.find("\"ok\""), std::string::npos);
+}
+
+}  // namespace
+}  // namespace armature::test

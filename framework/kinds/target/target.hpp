@@ -21,10 +21,10 @@ struct TargetMeasurement {
 /// Where the target is and how it moves, in the base frame.
 struct TargetEstimate {
   Time stamp;
-  Eigen::Vector3d position;                                       // [m]
-  Eigen::Vector3d normal;                                         // unit
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();             // [m/s]
-  Eigen::Vector3d normal_rate = Eigen::Vector3d::Zero();          // [1/s] d(normal)/dt
+  Eigen::Vector3d position;                               // [m]
+  Eigen::Vector3d normal;                                 // unit
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();     // [m/s]
+  Eigen::Vector3d normal_rate = Eigen::Vector3d::Zero();  // [1/s] d(normal)/dt
   int measurements = 0;  // that went into it since it was last started
 };
 
@@ -40,6 +40,9 @@ class TargetFilter {
     bool started = false;
     Time stamp;
     int measurements = 0;
+    int rejected = 0;     // in a row
+    double surprise = 1;  // smoothed normalised innovation: about 1 while the model holds
+    bool moving = false;
     Eigen::Matrix<double, 12, 1> mean = Eigen::Matrix<double, 12, 1>::Zero();
     Eigen::Matrix<double, 12, 12> covariance = Eigen::Matrix<double, 12, 12>::Zero();
   };

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/kinds/face_pose/face_pose.hpp"
+#include "armature/kinds/landmarks/landmark_messages.hpp"
+#include "armature/messages/geometry.hpp"
+#include "armature/runtime/component.hpp"
+#include "armature/runtime/plugin.hpp"
+#include "armature/runtime/setup.hpp"
+
+namespace armature {
+namespace {
+
+/// The rectified pair whose right camera `info` describes.
+Expected<StereoCamera> camera_of(const msg::CameraInfo& info) {
+  const auto& p = info.p_();
+  if (!(p[0] > 0) || !(p[3] < 0)) {
+    return refuse(
+        fmt::format("the right camera's info has f = {} px and P[3] = {}; a rectified "
+                    "pair has f > 0 and P[3] = -f b < 0",
+                    p[0], p[3]));
+  }
+  return StereoCamera{.width = static_cast<int>(info.width_()),
+                      .height = static_cast<int>(info.height_()),
+                      .focal_px = p[0],
+                      .cu = p[2],
+                      .cv = p[6],
+                      .baseline_m = -p[3] / p[0]};
+}
+
+}  // namespace
+
+/// Images and landmarks in, the face's pose out.
+class FacePoseHost final : public Component {
+ public:
+  explicit FacePoseHost(Setup& setup)
+      : Component{setup},
+        estimator_{setup.slot<FacePoseEstimator>("face_pose")},
+        left_image_{setup.input<msg::Image>("left_image")},
+        right_image_{setup.input<msg::Image>("right_image")},
+        landmarks_{setup.input<msg::FaceLandmarks>("landmarks")},
+        right_info_{setup.input<msg::CameraInfo>("right_info")},
+        face_{setup.output<msg::FacePose>("face")} {}
+
+  void step(Time) override;
+
+ private:
+  Expected<FacePose> estimate() const;
+
+  PluginPtr<FacePoseEstimator> estimator_;
+  Input<msg::Image> left_image_, right_image_;
+  Input<msg::FaceLandmarks> landmarks_;
+  Input<msg::CameraInfo> right_info_;
+  Output<msg::FacePose> face_;
+};
+
+Expected<FacePose> FacePoseHost::estimate() const {
+  if (!landmarks_.latest()->valid_()) return refuse(landmarks_.latest()->reason_());
+  if (!right_info_.latest()) return refuse("no camera_info yet");
+  const auto camera = camera_of(*right_info_.latest());
+  if (!camera) return tl::unexpected{camera.error()};
+  const auto landmarks = landmarks_of(*landmarks_.latest());
+  if (!landmarks) return tl::unexpected{landmarks.error()};
+  const auto left = image_of(*left_image_.latest()), right = image_of(*right_image_.latest());
+  if (!left) return tl::unexpected{left.error()};
+  if (!right) return tl::unexpected{right.error()};
+  return estimator_->estimate(
+      {.left = *left, .right = *right, .landmarks = *landmarks, .camera = *camera});
+}
+
+void FacePoseHost::step(Time) {
+  if (!landmarks_.fresh() || !landmarks_.latest() || !left_image_.latest() ||
+      !right_image_.latest()) {
+    return;
+  }
+  const auto estimated = estimate();
+  const FacePose pose = estimated.value_or(FacePose{.left_eye = Eigen::Vector3d::Zero(),
+                                                    .right_eye = Eigen::Vector3d::Zero(),
+                                                    .mouth = Eigen::Vector3d::Zero(),
+                                                    .normal = Eigen::Vector3d::Zero()});
+  auto face = face_.loan();
+  face->header_() = landmarks_.latest()->header_();
+  face->valid_(estimated.has_value());
+  face->reason_(estimated ? std::string{} : estimated.error().text);
+  assign(face->left_eye_(), pose.left_eye);
+  assign(face->right_eye_(), pose.right_eye);
+  assign(face->mouth_(), pose.mouth);
+  assign(face->normal_(), pose.normal);
+  face->mouth_sigma_(pose.mouth_sigma_m);
+  face->normal_sigma_(pose.normal_sigma_rad);
+  face.publish();
+}
+
+}  // namespace armature
+
+ARMATURE_PLUGIN(armature::FacePoseHost);

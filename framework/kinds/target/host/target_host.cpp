@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/kinds/setup_robot.hpp"
+#include "armature/kinds/target/target.hpp"
+#include "armature/messages/armature_msgs.hpp"
+#include "armature/messages/geometry.hpp"
+#include "armature/messages/sensor_msgs.hpp"
+#include "armature/messages/stamp.hpp"
+#include "armature/robot/frame_buffer.hpp"
+#include "armature/runtime/component.hpp"
+#include "armature/runtime/plugin.hpp"
+#include "armature/runtime/setup.hpp"
+
+namespace armature {
+namespace {
+
+constexpr const char* kBaseFrame = "base";
+
+FrameId mount_of(const StereoRig& rig, const RobotModel& robot) {
+  const auto mount = robot.find_frame(rig.mounted_on);
+  if (!mount) {
+    throw SetupError("the rig '" + rig.name + "' is mounted on '" + rig.mounted_on +
+                     "', which is no frame of the robot '" + robot.name() + "'");
+  }
+  return *mount;
+}
+
+}  // namespace
+
+/// Face poses of a moving camera in, the filtered target in the base frame out.
+class TargetHost final : public Component {
+ public:
+  explicit TargetHost(Setup& setup);
+  void step(Time now) override;
+
+ private:
+  void remember(const msg::JointState& arm);
+  Expected<TargetMeasurement> measurement(const msg::FacePose& face) const;
+  Expected<TargetEstimate> updated(const msg::FacePose& face);
+  void publish(Time stamp, const Expected<TargetEstimate>& estimate);
+
+  RobotModel robot_;
+  StereoRig rig_;
+  FrameId mount_;
+  FrameBuffer history_;
+  PluginPtr<TargetFilter> filter_;
+  TargetFilter::State state_;
+  Input<msg::FacePose> face_;
+  Input<msg::JointState> measured_js_;
+  Output<msg::Target> target_;
+};
+
+TargetHost::TargetHost(Setup& setup)
+    : Component{setup},
+      robot_{robot_of(setup)},
+      rig_{rig_of(setup)},
+      mount_{mount_of(rig_, robot_)},
+      history_{robot_, static_cast<std::size_t>(setup.params().number("history_s") *
+                                                setup.params().number("arm_rate_hz")) +
+                           1},
+      filter_{setup.slot<TargetFilter>("target")},
+      face_{setup.input<msg::FacePose>("face")},
+      measured_js_{setup.input<msg::JointState>("measured_js")},
+      target_{setup.output<msg::Target>("target")} {}
+
+void TargetHost::step(Time) {
+  for (std::size_t i = 0; i < measured_js_.size(); ++i) remember(measured_js_[i]);
+  for (std::size_t i = 0; i < face_.size(); ++i) {
+    publish(stamp_of(face_[i].header_().stamp_()), updated(face_[i]));
+  }
+}
+
+void TargetHost::remember(const msg::JointState& arm) {
+  const auto& position = arm.position_();
+  if (position.size() > kMaxJoints) return degraded("measured_js has too many joints");
+  const auto q = robot_.contract(Eigen::Map<const Eigen::VectorXd>(
+      position.data(), static_cast<Eigen::Index>(position.size())));
+  if (!q) return degraded("measured_js: " + q.error().text);
+  healthy();
+  history_.add(stamp_of(arm.header_().stamp_()), *q);
+}
+
+Expected<TargetMeasurement> TargetHost::measurement(const msg::FacePose& face) const {
+  if (!face.valid_()) return refuse(face.reason_());
+  const Time stamp = stamp_of(face.header_().stamp_());
+  return history_.base_T(mount_, stamp).map([&](const Eigen::Isometry3d& base_T_mount) {
+    const Eigen::Isometry3d base_T_camera = base_T_mount * rig_.mount_T_left;
+    return TargetMeasurement{.stamp = stamp,
+                             .position = base_T_camera * to_eigen(face.mouth_()),
+                             .normal = base_T_camera.linear() * to_eigen(face.normal_()),
+                             .position_sigma_m = face.mouth_sigma_(),
+                             .normal_sigma_rad = face.normal_sigma_()};
+  });
+}
+
+/// The new estimate. Without a good measurement the filter predicts over the gap, for as long as it
+/// trusts itself; then what is missing is told.
+Expected<TargetEstimate> TargetHost::updated(const msg::FacePose& face) {
+  auto estimate = measurement(face).and_then(
+      [&](const TargetMeasurement& m) { return filter_->update(m, state_); });
+  if (estimate) return estimate;
+  auto predicted = filter_->predict(stamp_of(face.header_().stamp_()), state_);
+  return predicted ? predicted : estimate;
+}
+
+void TargetHost::publish(Time stamp, const Expected<TargetEstimate>& estimate) {
+  const TargetEstimate value = estimate.value_or(TargetEstimate{
+      .stamp = stamp, .position = Eigen::Vector3d::Zero(), .normal = Eigen::Vector3d::Zero()});
+  auto target = target_.loan();
+  set_stamp(target->header_().stamp_(), stamp);
+  target->header_().frame_id_(kBaseFrame);
+  target->valid_(estimate.has_value());
+  target->reason_(estimate ? std::string{} : estimate.error().text);
+  assign(target->position_(), value.position);
+  assign(target->normal_(), value.normal);
+  assign(target->velocity_(), value.velocity);
+  assign(target->normal_rate_(), value.normal_rate);
+  target->measurements_(static_cast<std::uint32_t>(value.measurements));
+  target.publish();
+}
+
+}  // namespace armature
+
+ARMATURE_PLUGIN(armature::TargetHost);

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "patient.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace armature {
+
+Eigen::Vector3d face_normal(const HeadPose& pose) {
+  const double cu = std::cos(pose.tilt_up), su = std::sin(pose.tilt_up);
+  const double cs = std::cos(pose.tilt_side), ss = std::sin(pose.tilt_side);
+  return {-cu * cs, cu * ss, su};
+}
+
+Eigen::Isometry3d base_T_photo(const HeadPose& pose) {
+  const Eigen::Vector3d forward = -face_normal(pose);
+  // Horizontal, so that the head is upright; from the angle and not from forward x z, which
+  // vanishes for a patient who looks straight up.
+  const Eigen::Vector3d right{-std::sin(pose.tilt_side), -std::cos(pose.tilt_side), 0};
+  Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
+  result.linear().col(0) = right;
+  result.linear().col(1) = forward.cross(right);
+  result.linear().col(2) = forward;
+  result.translation() = pose.mouth;
+  return result;
+}
+
+MovingHead at(const HeadMotion& motion, double t_s) {
+  const bool moves = motion.duration_s > 0;
+  const double s = moves ? std::clamp((t_s - motion.begin_s) / motion.duration_s, 0.0, 1.0) : 0.0;
+  const double share = s * s * s * (10 + s * (-15 + 6 * s));
+  const double rate = moves ? 30 * s * s * (1 - s) * (1 - s) / motion.duration_s : 0.0;
+
+  MovingHead head;
+  head.pose = {.mouth = motion.from.mouth + share * motion.shift,
+               .tilt_up = motion.from.tilt_up + share * motion.turn_up,
+               .tilt_side = motion.from.tilt_side + share * motion.turn_side};
+  head.velocity = rate * motion.shift;
+  const double cu = std::cos(head.pose.tilt_up), su = std::sin(head.pose.tilt_up);
+  const double cs = std::cos(head.pose.tilt_side), ss = std::sin(head.pose.tilt_side);
+  head.normal_rate = rate * (motion.turn_up * Eigen::Vector3d{su * cs, -su * ss, cu} +
+                             motion.turn_side * Eigen::Vector3d{cu * ss, cu * cs, 0});
+  return head;
+}
+
+}  // namespace armature

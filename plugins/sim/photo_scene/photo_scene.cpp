@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string>
+
+#include "armature/kinds/setup_robot.hpp"
+#include "armature/messages/armature_msgs.hpp"
+#include "armature/messages/geometry.hpp"
+#include "armature/messages/sensor_msgs.hpp"
+#include "armature/messages/stamp.hpp"
+#include "armature/robot/kinematics.hpp"
+#include "armature/runtime/component.hpp"
+#include "armature/runtime/plugin.hpp"
+#include "armature/runtime/setup.hpp"
+#include "patient.hpp"
+#include "photo.hpp"
+#include "plane_renderer.hpp"
+
+namespace armature {
+namespace {
+
+constexpr const char* kCameraFrame = "left_camera_optical";  // of both: the pair is rectified
+constexpr const char* kBaseFrame = "base";
+
+Photo photo_of(const Params& params) {
+  const double eye_distance = params.number("eye_distance_mm");
+  if (params.text("photo") == "generated") {
+    return generated_face(static_cast<std::uint64_t>(params.integer("face_seed")), eye_distance);
+  }
+  // Eyes and mouth of NASA's portrait of Eileen Collins, in its pixels.
+  auto photo = read_photo(params.file("astronaut_file"), {203.6, 101.8}, {246.9, 104.0},
+                          {223.1, 144.4}, eye_distance);
+  if (!photo) {
+    throw SetupError(photo.error().text +
+                     "; install the Debian package python3-imageio, or set photo: generated");
+  }
+  return std::move(*photo);
+}
+
+HeadMotion motion_of(const Params& params) {
+  const auto mouth = params.numbers("mouth_m"), shift = params.numbers("move_mm");
+  return {.from = {.mouth = {mouth[0], mouth[1], mouth[2]},
+                   .tilt_up = params.number("tilt_up_deg"),
+                   .tilt_side = params.number("tilt_side_deg")},
+          .shift = {shift[0], shift[1], shift[2]},
+          .turn_up = params.number("move_tilt_up_deg"),
+          .turn_side = params.number("move_tilt_side_deg"),
+          .begin_s = params.number("move_at_s"),
+          .duration_s = params.number("move_duration_s")};
+}
+
+msg::CameraInfo camera_info(const StereoCamera& camera, double offset_m) {
+  const double f = camera.focal_px;
+  msg::CameraInfo info;
+  info.header_().frame_id_(kCameraFrame);
+  info.width_(static_cast<std::uint32_t>(camera.width));
+  info.height_(static_cast<std::uint32_t>(camera.height));
+  info.distortion_model_("plumb_bob");
+  info.d_().assign(5, 0.0);
+  info.k_(std::array<double, 9>{f, 0, camera.cu, 0, f, camera.cv, 0, 0, 1});
+  info.r_(std::array<double, 9>{1, 0, 0, 0, 1, 0, 0, 0, 1});
+  info.p_(std::array<double, 12>{f, 0, camera.cu, -f * offset_m, 0, f, camera.cv, 0, 0, 0, 1, 0});
+  return info;
+}
+
+}  // namespace
+
+/// The patient, as a photo on a plane, in front of the arm's two cameras.
+class PhotoScene final : public Component {
+ public:
+  explicit PhotoScene(Setup& setup);
+  void step(Time now) override;
+
+ private:
+  void publish_truth(Time now, const MovingHead& head);
+  void take_pictures(Time stamp, const JointVector& q, const HeadPose& head);
+  void publish_info(Time stamp);
+
+  RobotModel robot_;
+  StereoRig rig_;
+  FrameId mount_;
+  HeadMotion motion_;
+  double gain_, light_response_;
+  PlaneRenderer renderer_;
+  Input<msg::JointState> measured_js_;
+  Input<msg::LightLevel> light_level_;
+  Input<msg::Capture> capture_;
+  Output<msg::Image> left_image_, right_image_;
+  Output<msg::CameraInfo> left_info_, right_info_;
+  Output<msg::Target> truth_;
+  std::optional<Time> start_, last_picture_;
+  std::uint64_t pictures_ = 0;
+};
+
+PhotoScene::PhotoScene(Setup& setup)
+    : Component{setup},
+      robot_{robot_of(setup)},
+      rig_{rig_of(setup)},
+      motion_{motion_of(setup.params())},
+      gain_{setup.params().number("gain")},
+      light_response_{setup.params().number("light_response")},
+      renderer_{photo_of(setup.params()),
+                {.noise = setup.params().number("noise"),
+                 .blur_px = setup.params().number("blur_px"),
+                 .background = setup.params().number("background")},
+                setup.seed()},
+      measured_js_{setup.input<msg::JointState>("measured_js")},
+      light_level_{setup.input<msg::LightLevel>("light_level")},
+      capture_{setup.input<msg::Capture>("capture")},
+      left_image_{setup.output<msg::Image>("left_image")},
+      right_image_{setup.output<msg::Image>("right_image")},
+      left_info_{setup.output<msg::CameraInfo>("left_info")},
+      right_info_{setup.output<msg::CameraInfo>("right_info")},
+      truth_{setup.output<msg::Target>("truth")} {
+  const auto mount = robot_.find_frame(rig_.mounted_on);
+  if (!mount) {
+    throw SetupError("the rig '" + rig_.name + "' is mounted on '" + rig_.mounted_on +
+                     "', which is no frame of the robot '" + robot_.name() + "'");
+  }
+  mount_ = *mount;
+  setup.activate_every(seconds(1.0 / setup.params().number("rate_hz")));
+}
+
+void PhotoScene::step(Time now) {
+  if (!start_) start_ = now;
+  publish_truth(now, at(motion_, to_seconds(now - *start_)));
+
+  if (capture_.latest() && !capture_.latest()->on_()) return;
+  const msg::JointState* arm = measured_js_.latest();
+  if (!arm) return;
+  const Time stamp = stamp_of(arm->header_().stamp_());
+  if (last_picture_ && stamp <= *last_picture_) return;
+  const auto& position = arm->position_();
+  if (position.size() > kMaxJoints) return degraded("measured_js has too many joints");
+  const auto q = robot_.contract(Eigen::Map<const Eigen::VectorXd>(
+      position.data(), static_cast<Eigen::Index>(position.size())));
+  if (!q) return degraded("measured_js: " + q.error().text);
+  healthy();
+  if (!last_picture_) publish_info(stamp);
+  last_picture_ = stamp;
+  take_pictures(stamp, *q, at(motion_, to_seconds(stamp - *start_)).pose);
+}
+
+void PhotoScene::publish_truth(Time now, const MovingHead& head) {
+  auto truth = truth_.loan();
+  set_stamp(truth->header_().stamp_(), now);
+  truth->header_().frame_id_(kBaseFrame);
+  truth->valid_(true);
+  truth->reason_().clear();
+  assign(truth->position_(), head.pose.mouth);
+  assign(truth->normal_(), face_normal(head.pose));
+  assign(truth->velocity_(), head.velocity);
+  assign(truth->normal_rate_(), head.normal_rate);
+  truth->measurements_(1);
+  truth.publish();
+}
+
+void PhotoScene::publish_info(Time stamp) {
+  for (auto* output : {&left_info_, &right_info_}) {
+    msg::CameraInfo info =
+        camera_info(rig_.camera, output == &left_info_ ? 0 : rig_.camera.baseline_m);
+    set_stamp(info.header_().stamp_(), stamp);
+    output->publish(info);
+  }
+}
+
+void PhotoScene::take_pictures(Time stamp, const JointVector& q, const HeadPose& head) {
+  const double light = light_level_.latest() ? light_level_.latest()->level_() : 0.0;
+  const double brightness = gain_ * (1 + light_response_ * std::clamp(light, 0.0, 1.0));
+  const Eigen::Isometry3d base_T_left = forward_kinematics(robot_, q, mount_) * rig_.mount_T_left;
+  Eigen::Isometry3d camera_T_photo = base_T_left.inverse() * base_T_photo(head);
+  for (auto* output : {&left_image_, &right_image_}) {
+    auto image = output->loan();
+    set_stamp(image->header_().stamp_(), stamp);
+    image->header_().frame_id_(kCameraFrame);
+    image->width_(static_cast<std::uint32_t>(rig_.camera.width));
+    image->height_(static_cast<std::uint32_t>(rig_.camera.height));
+    image->step_(static_cast<std::uint32_t>(rig_.camera.width));
+    image->encoding_("mono8");
+    image->is_bigendian_(0);
+    image->data_().resize(std::size_t{image->width_()} * image->height_());
+    renderer_.render(camera_T_photo, rig_.camera, brightness, pictures_++, image->data_());
+    image.publish();
+    camera_T_photo.pretranslate(Eigen::Vector3d{-rig_.camera.baseline_m, 0, 0});  // next: the right
+  }
+}
+
+}  // namespace armature
+
+ARMATURE_PLUGIN(armature::PhotoScene);

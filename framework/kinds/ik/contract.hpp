@@ -67,7 +67,7 @@ class IkLaws : public testing::TestWithParam<IkSubject> {
   double distance(const JointVector& a, const JointVector& b) const {
     double largest = 0;
     for (int i = 0; i < model().dof(); ++i) {
-      const double d = model().is_revolute(i) ? wrap_angle(a[i] - b[i]) : a[i] - b[i];
+      const double d = turns_freely(model(), i) ? wrap_angle(a[i] - b[i]) : a[i] - b[i];
       largest = std::max(largest, std::abs(d));
     }
     return largest;
@@ -131,7 +131,7 @@ TEST_P(IkLaws, FlagsAndLabelsTellTheTruth) {
       EXPECT_FALSE(branch.label.empty());
       EXPECT_TRUE(branch.singular || manipulability(model(), branch.q) > 1e-12);
       for (int j = 0; j < model().dof(); ++j) {
-        if (!model().is_revolute(j)) continue;
+        if (!turns_freely(model(), j)) continue;
         EXPECT_GE(branch.q[j], -M_PI);
         EXPECT_LT(branch.q[j], M_PI);
       }

@@ -61,13 +61,21 @@ const char* invalid_input(const RobotModel& model, const IkGoal& goal, const Joi
   return nullptr;
 }
 
+bool turns_freely(const RobotModel& model, int i) {
+  for (const ChainLink& link : model.chain()) {
+    if (link.independent != i) continue;
+    if (link.prismatic || link.ratio != std::round(link.ratio)) return false;
+  }
+  return true;
+}
+
 bool unwind(const RobotModel& model, const JointVector& near, JointVector& q) {
   constexpr double kTurn = 2 * std::numbers::pi;
   constexpr double kTolerance = 1e-9;
   bool inside = true;
   for (int i = 0; i < model.dof(); ++i) {
     const double lower = model.lower()[i] - kTolerance, upper = model.upper()[i] + kTolerance;
-    if (!model.is_revolute(i)) {
+    if (!turns_freely(model, i)) {
       inside = inside && q[i] >= lower && q[i] <= upper;
       continue;
     }

@@ -31,7 +31,7 @@ struct IkBranch {
   /// Stable name of the branch, "tilt0/balance0/elbow0": it does not shift when another vanishes.
   /// Points to static storage.
   std::string_view label;
-  JointVector q;               // independent joints, revolute ones in [-pi, pi)
+  JointVector q;               // independent joints, freely turning ones in [-pi, pi)
   double redundancy = 0;       // [rad] arm angle where the arm has one
   PoseResidual residual;       // of forward kinematics at q
   bool within_limits = false;  // q, or the same posture whole turns away, keeps the limits
@@ -90,7 +90,11 @@ class IkSolver {
 /// length. The first lines of every solver.
 const char* invalid_input(const RobotModel& model, const IkGoal& goal, const JointVector& seed);
 
-/// Turns the revolute joints of `q` by whole turns as near to `near` as the limits allow; false
+/// True when a whole turn of independent joint `i` changes nothing: it is revolute, and so is what
+/// is coupled to it, with whole ratios.
+bool turns_freely(const RobotModel& model, int i);
+
+/// Turns the freely turning joints of `q` by whole turns as near to `near` as the limits allow; false
 /// when some joint keeps its limits at no turn. Real-time safe.
 bool unwind(const RobotModel& model, const JointVector& near, JointVector& q);
 

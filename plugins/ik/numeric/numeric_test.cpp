@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "numeric.hpp"
+
+#include <gtest/gtest.h>
+
+#include "armature/kinds/declared_params.hpp"
+#include "armature/kinds/ik/contract.hpp"
+
+namespace armature {
+namespace {
+
+using Row = std::array<double, 4>;  // d, a [m], alpha [deg], limit [deg]
+
+RobotModel arm(std::string name, const std::vector<Row>& rows,
+               RobotModel::Convention convention = RobotModel::Convention::standard) {
+  std::vector<Joint> joints;
+  for (const auto& [d, a, alpha, limit] : rows) {
+    const double radians = M_PI / 180;
+    joints.push_back({.name = "j" + std::to_string(joints.size() + 1),
+                      .d = d,
+                      .a = a,
+                      .alpha = alpha * radians,
+                      .lower = -limit * radians,
+                      .upper = limit * radians,
+                      .max_velocity = 1,
+                      .max_acceleration = 1,
+                      .coupling = {}});
+  }
+  const int last = static_cast<int>(joints.size()) - 1;
+  return {std::move(name),
+          convention,
+          std::move(joints),
+          {{"tool", last, Eigen::Isometry3d::Identity()}},
+          FrameId{0},
+          {},
+          {}};
+}
+
+/// PUMA 560.
+RobotModel puma() {
+  return arm("puma", {{0, 0, 90, 160},
+                      {0, 0.4318, 0, 125},
+                      {0.15005, 0.0203, -90, 135},
+                      {0.4318, 0, 90, 140},
+                      {0, 0, -90, 100},
+                      {0.056, 0, 0, 180}});
+}
+/// Seven joints, shoulder and wrist spherical.
+RobotModel seven() {
+  return arm("seven", {{0.34, 0, -90, 170},
+                       {0, 0, 90, 120},
+                       {0.4, 0, 90, 170},
+                       {0, 0, -90, 120},
+                       {0.4, 0, -90, 170},
+                       {0, 0, 90, 120},
+                       {0.126, 0, 0, 175}});
+}
+/// A slide, four turns and a wrist that turns with the second joint, pointing with its z.
+RobotModel gantry() {
+  RobotModel base = arm("gantry", {{0, 0, -90, 0},
+                                   {0.1, 0.4, 0, 150},
+                                   {0, 0.3, 90, 150},
+                                   {0.1, 0, -90, 170},
+                                   {0, 0.1, 90, 120},
+                                   {0.1, 0.05, 30, 90}});
+  auto joints = base.joints();
+  joints[0].type = Joint::Type::prismatic;
+  joints[0].lower = 0.2, joints[0].upper = 0.8;
+  joints[5].coupling = Joint::Coupling{.to = 1, .ratio = 0.5, .offset = 0.1};
+  return {"gantry",   RobotModel::Convention::modified,
+          joints,     {{"tool", 5, Eigen::Isometry3d{Eigen::Translation3d{0, 0, 0.1}}}},
+          FrameId{0}, Eigen::Vector3d{0, 0.6, 0.8},
+          {}};
+}
+RobotModel lamp() {
+  return load_robot_model(ARMATURE_SOURCE_DIR "/configs/robots/dental_lamp.yaml");
+}
+
+std::shared_ptr<const IkSolver> solver_for(const RobotModel& model, std::string_view params = "") {
+  const auto given = declared_params(ARMATURE_SOURCE_DIR "/plugins/ik/numeric/plugin.yaml", params);
+  return std::move(Numeric::make(model, given).value());
+}
+
+IkSubject subject(RobotModel model) {
+  auto shared = std::make_shared<const RobotModel>(std::move(model));
+  return {.name = shared->name(), .model = shared, .solver = solver_for(*shared), .poses = 1000};
+}
+
+INSTANTIATE_TEST_SUITE_P(Numeric, IkLaws,
+                         testing::Values(subject(lamp()), subject(puma()), subject(seven()),
+                                         subject(gantry())),
+                         testing::PrintToStringParamName());
+
+IkGoal goal_at(const RobotModel& model, const JointVector& q) {
+  const Eigen::Isometry3d pose = forward_kinematics(model, q);
+  IkGoal goal;
+  goal.pose = {pose.translation(), Eigen::Quaterniond{pose.linear()}};
+  return goal;
+}
+
+TEST(Numeric, TheSolutionNextToTheSeedIsFoundFromTheSeed) {
+  const RobotModel model = puma();
+  const JointVector q = Eigen::Matrix<double, 6, 1>{0.3, -0.6, 0.9, 0.4, 0.7, -0.2};
+  IkBranches found;
+  IkState state;
+  ASSERT_EQ(solver_for(model)->solve(goal_at(model, q), q.array() + 0.05, found, state).code,
+            IkStatus::Code::ok);
+  ASSERT_EQ(found.count, 1);
+  EXPECT_EQ(found.begin()->label, "from_seed");
+  EXPECT_LE((found.begin()->q - q).cwiseAbs().maxCoeff(), 1e-9);
+}
+
+TEST(Numeric, ASeedThatIsTheSolutionStaysWhereItIsEvenAtASingularPose) {
+  const RobotModel model = lamp();
+  const JointVector stretched = JointVector::Zero(5);
+  IkGoal goal;
+  goal.pose = {{1.69, 0, 0.50407}, Direction{{1, 0, 0}}};
+  IkBranches found;
+  IkState state;
+  ASSERT_EQ(solver_for(model)->solve(goal, stretched, found, state).code, IkStatus::Code::ok);
+  EXPECT_LE(found.begin()->q.norm(), 1e-9);
+  EXPECT_TRUE(found.begin()->singular);
+}
+
+TEST(Numeric, AGoalThatOnlySolutionsBeyondTheLimitsReachIsAJointLimit) {
+  RobotModel wide = puma();
+  auto joints = wide.joints();
+  joints[0].lower = -0.1, joints[0].upper = 0.1;
+  const RobotModel narrow{"narrow", wide.convention(), joints, wide.frames(), wide.tool(), {}, {}};
+  const JointVector q = Eigen::Matrix<double, 6, 1>{1.2, -0.6, 0.9, 0.4, 0.7, -0.2};
+  IkBranches found;
+  IkState state;
+  const IkStatus status = solver_for(narrow)->solve(goal_at(narrow, q), q, found, state);
+  EXPECT_EQ(status.code, IkStatus::Code::joint_limit) << describe(status);
+  EXPECT_GE(found.count, 1);
+  for (const IkBranch& branch : found) EXPECT_FALSE(branch.within_limits);
+}
+
+TEST(Numeric, WithoutRestartsAnUnreachableGoalEndsWithItsResidual) {
+  const RobotModel model = lamp();
+  IkGoal goal;
+  goal.pose = {{1.75, 0, 0.50407}, Direction{{1, 0, 0}}};  // 60 mm too far, inside the ball
+  IkBranches found;
+  IkState state;
+  const IkStatus status = solver_for(model, "max_restarts: 0")
+                              ->solve(goal, JointVector::Constant(5, 0.3), found, state);
+  EXPECT_EQ(status.code, IkStatus::Code::no_convergence);
+  EXPECT_GE(status.shortfall, 0.02);
+  EXPECT_LE(status.shortfall, 0.5);
+}
+
+TEST(Numeric, TheIterationBudgetOfTheGoalIsKept) {
+  const RobotModel model = puma();
+  IkGoal goal = goal_at(model, Eigen::Matrix<double, 6, 1>{1.3, -0.6, 0.9, 0.4, 0.7, -0.2});
+  goal.max_iterations = 1;
+  IkBranches found;
+  IkState state;
+  EXPECT_EQ(solver_for(model)->solve(goal, JointVector::Zero(6), found, state).code,
+            IkStatus::Code::no_convergence);
+}
+
+}  // namespace
+}  // namespace armature

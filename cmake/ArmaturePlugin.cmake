@@ -21,6 +21,9 @@ function(armature_add_plugin id)
   add_library(${target} MODULE ${arg_SOURCES}
                                "${CMAKE_CURRENT_BINARY_DIR}/${target}_manifest.cpp")
   target_link_libraries(${target} PRIVATE armature::abi ${arg_LINK})
+  if(NOT ARMATURE_SANITIZE)  # a missing symbol is found here, not when the plugin is loaded
+    target_link_options(${target} PRIVATE LINKER:-z,defs)
+  endif()
   set_target_properties(${target} PROPERTIES PREFIX "" CXX_VISIBILITY_PRESET hidden
                                              VISIBILITY_INLINES_HIDDEN ON)
   if(TARGET armature_warnings)  # in the framework's own tree

@@ -2,6 +2,7 @@
 #include "face_estimate.hpp"
 
 #include <algorithm>
+#include <Eigen/Geometry>
 #include <cmath>
 
 namespace armature {

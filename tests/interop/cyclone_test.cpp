@@ -42,6 +42,7 @@ TEST(CycloneDds, ReadsOurJointStatesWithEqualValues) {
   const auto transport = FastDdsTransport::make(options);
   ASSERT_TRUE(transport) << transport.error().text;
   const MessageType& type = message_type<msg::JointState>();
+  SamplePool pool{type, 8};  // outlives the writer, which may still be sending
   const auto writer =
       (*transport)->advertise({"rt/lamp/arm/measured_js", &type, QosProfile::state}).value();
 
@@ -54,7 +55,6 @@ TEST(CycloneDds, ReadsOurJointStatesWithEqualValues) {
   // the first line tells where it came in.
   std::atomic<bool> stop{false};
   std::thread talker{[&] {
-    SamplePool pool{type, 8};
     for (int i = 0; !stop; ++i) {
       SampleRef sample = pool.loan();
       fill(*static_cast<msg::JointState*>(sample.mutable_message()), i);

@@ -34,9 +34,9 @@ bool input_closed(int timeout_ms) {
 }
 
 void talk(Transport& transport, const MessageType& type) {
+  SamplePool pool{type, 16};  // outlives the writer, which may still be sending
   const TopicSpec topic{"rt/test/from_peer", &type, QosProfile::command};
   const auto writer = transport.advertise(topic).value();
-  SamplePool pool{type, 16};
   while (!input_closed(10)) {
     SampleRef sample = pool.loan();
     sample.mutable_info().published = system_now();

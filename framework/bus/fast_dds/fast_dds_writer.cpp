@@ -61,7 +61,10 @@ class FastDdsWriter final : public OutsideWriter, private dds::DataWriterListene
       stamp.from_ns(sample.info().published.ns);
       params.source_timestamp(stamp);
     }
-    writer_->write(&cdr_, params);
+    if (!writer_->write(&cdr_, params)) {
+      link_->conflicts.report({TransportEvent::Kind::note, topic_.name,
+                               "DDS did not take a sample of '" + topic_.name + "'"});
+    }
   }
 
   void on_publication_matched(dds::DataWriter*,

@@ -186,9 +186,8 @@ int run_ik(const std::string& robot_file, const std::string& plugin_id, std::ist
   }
   JointVector home = 0.5 * (robot.lower() + robot.upper());
   if (robot.home()) home = robot.contract(*robot.home()).value_or(home);
-  return answer_lines(in, out, [&](const std::string& line) {
-    return answer_ik(robot, **solver, home, line);
-  });
+  return answer_lines(
+      in, out, [&](const std::string& line) { return answer_ik(robot, **solver, home, line); });
 }
 
 }  // namespace armature

@@ -7,10 +7,10 @@ namespace armature {
 
 // What `armature` ends with.
 inline constexpr int kOk = 0;
-inline constexpr int kFailed = 1;         // at run time
-inline constexpr int kUsage = 2;          // of the command line
-inline constexpr int kInvalidConfig = 3;  // a file or a name in it, an unknown plugin id too
-inline constexpr int kUnusablePlugin = 4; // a library that is there but cannot be used
+inline constexpr int kFailed = 1;          // at run time
+inline constexpr int kUsage = 2;           // of the command line
+inline constexpr int kInvalidConfig = 3;   // a file or a name in it, an unknown plugin id too
+inline constexpr int kUnusablePlugin = 4;  // a library that is there but cannot be used
 inline constexpr int kTimedOut = 5;
 
 /// A name on the command line that means nothing here (exit code 3).

@@ -83,7 +83,8 @@ void print_text(const std::map<std::string, Edge>& edges) {
 
 int check_deployment(const DeploymentSource& source) {
   PluginRegistry plugins;
-  const Deployment deployment{read(source, plugins), plugins, {.process = "", .on_line = {}, .on_note = {}}};
+  const Deployment deployment{
+      read(source, plugins), plugins, {.process = "", .on_line = {}, .on_note = {}}};
   const auto& config = deployment.config();
   fmt::print("{}: ok, {} components, {} topics\n", config.name, config.components.size(),
              edges_of(config).size());
@@ -91,7 +92,8 @@ int check_deployment(const DeploymentSource& source) {
 }
 
 int show_deployment(const DeploymentSource& source) {
-  fmt::print("{}", config::to_yaml(config::load_with_overlays(source.files, source.assignments), true));
+  fmt::print("{}",
+             config::to_yaml(config::load_with_overlays(source.files, source.assignments), true));
   return kOk;
 }
 

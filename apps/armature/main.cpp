@@ -23,7 +23,8 @@ namespace {
 using Action = std::function<int()>;
 
 void add_source(CLI::App& verb, DeploymentSource& source) {
-  verb.add_option("files", source.files, "deployment file, then overlays that change it")->required();
+  verb.add_option("files", source.files, "deployment file, then overlays that change it")
+      ->required();
   verb.add_option("--set", source.assignments,
                   "change one value: --set components.motion.ik.plugin=ik/numeric")
       ->allow_extra_args(false);
@@ -31,7 +32,8 @@ void add_source(CLI::App& verb, DeploymentSource& source) {
 
 void add_run(CLI::App& app, Action& action) {
   auto options = std::make_shared<RunOptions>();
-  CLI::App* verb = app.add_subcommand("run", "Run a deployment; exit code 0 when its goals are met");
+  CLI::App* verb =
+      app.add_subcommand("run", "Run a deployment; exit code 0 when its goals are met");
   add_source(*verb, options->source);
   verb->add_option("--domain", options->domain, "DDS domain, instead of the file's")
       ->check(CLI::Range(0, 232));
@@ -47,7 +49,8 @@ void add_inspection(CLI::App& app, Action& action) {
   add_source(*check, *source);
   check->callback([source, &action] { action = [source] { return check_deployment(*source); }; });
 
-  CLI::App* show = app.add_subcommand("show", "Print the resolved file with the origin of every value");
+  CLI::App* show =
+      app.add_subcommand("show", "Print the resolved file with the origin of every value");
   add_source(*show, *source);
   show->callback([source, &action] { action = [source] { return show_deployment(*source); }; });
 
@@ -57,9 +60,8 @@ void add_inspection(CLI::App& app, Action& action) {
   add_source(*graph, *source);
   graph->add_flag("--dot", *dot, "as Graphviz");
   graph->add_flag("--json", *json, "as JSON");
-  graph->callback([=, &action] {
-    action = [=] { return graph_deployment(*source, *dot, *json); };
-  });
+  graph->callback(
+      [=, &action] { action = [=] { return graph_deployment(*source, *dot, *json); }; });
 }
 
 void add_plugin_verbs(CLI::App& app, Action& action) {
@@ -166,7 +168,8 @@ int guarded(const Action& action) {
 int run_command_line(int argc, char** argv) {
   CLI::App app{
       "Config-driven robot systems over DDS.\n\n"
-      "Example: armature run configs/dental_lamp.yaml --set components.motion.ik.plugin=ik/numeric"};
+      "Example: armature run configs/dental_lamp.yaml --set "
+      "components.motion.ik.plugin=ik/numeric"};
   app.name("armature");
   app.require_subcommand(1);
   Action action;

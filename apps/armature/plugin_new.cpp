@@ -90,7 +90,8 @@ IkStatus @CLASS@::solve(const IkGoal& goal, const JointVector& seed, IkBranches&
 ARMATURE_PLUGIN(@CLASS@);
 )";
 
-constexpr std::string_view kTest = R"(// fk(ik(x)) = x for the robot file given as the argument, or a small arm.
+constexpr std::string_view kTest =
+    R"(// fk(ik(x)) = x for the robot file given as the argument, or a small arm.
 #include <cstdio>
 
 #include "@NAME@.hpp"
@@ -133,7 +134,8 @@ An inverse kinematics solver for Armature: damped least squares from the seed.
 )";
 
 void replace_all(std::string& text, std::string_view mark, std::string_view value) {
-  for (auto at = text.find(mark); at != std::string::npos; at = text.find(mark, at + value.size())) {
+  for (auto at = text.find(mark); at != std::string::npos;
+       at = text.find(mark, at + value.size())) {
     text.replace(at, mark.size(), value);
   }
 }
@@ -152,7 +154,8 @@ std::string class_name(std::string_view name) {
 fs::path package_folder() {
   const fs::path program = fs::canonical("/proc/self/exe");
   const fs::path prefix = program.parent_path().parent_path();
-  return fs::exists(prefix / "ArmatureConfig.cmake") ? prefix : prefix / "lib" / "cmake" / "Armature";
+  return fs::exists(prefix / "ArmatureConfig.cmake") ? prefix
+                                                     : prefix / "lib" / "cmake" / "Armature";
 }
 
 void write(const fs::path& file, std::string text) {
@@ -172,8 +175,10 @@ int new_plugin(const std::string& id, const fs::path& directory) {
                        return std::islower(c) || std::isdigit(c) || c == '_';
                      });
   if (!valid || id.substr(0, slash) != "ik") {
-    throw InvalidChoice(fmt::format("'{}' must be 'ik/name', the name in lower case letters, digits "
-                                    "and '_'", id));
+    throw InvalidChoice(
+        fmt::format("'{}' must be 'ik/name', the name in lower case letters, digits "
+                    "and '_'",
+                    id));
   }
   if (fs::exists(directory) && !fs::is_empty(directory)) {
     throw InvalidChoice(fmt::format("'{}' is there already and not empty", directory.string()));

@@ -27,13 +27,19 @@ Json param_json(const ParamSpec& spec) {
 }
 
 Json port_json(const PortSpec& port) {
-  return {{"name", port.name}, {"type", port.type}, {"topic", port.topic},
-          {"qos", to_string(port.qos)}, {"doc", port.doc}};
+  return {{"name", port.name},
+          {"type", port.type},
+          {"topic", port.topic},
+          {"qos", to_string(port.qos)},
+          {"doc", port.doc}};
 }
 
 Json manifest_json(const PluginManifest& plugin) {
-  Json json{{"id", plugin.id}, {"kind", plugin.kind}, {"doc", plugin.doc},
-            {"file", plugin.file.string()}, {"abi", plugin.abi}};
+  Json json{{"id", plugin.id},
+            {"kind", plugin.kind},
+            {"doc", plugin.doc},
+            {"file", plugin.file.string()},
+            {"abi", plugin.abi}};
   json["params"] = Json::array();
   for (const auto& spec : plugin.params) json["params"].push_back(param_json(spec));
   json["slots"] = Json::object();

@@ -87,9 +87,9 @@ int conclude(const RunOptions& options, const Deployment& deployment,
 int run_deployment(const RunOptions& options) {
   PluginRegistry plugins;
   config::Problems problems;
-  DeploymentConfig config = read_deployment(
-      config::load_with_overlays(options.source.files, options.source.assignments), plugins,
-      problems);
+  DeploymentConfig config =
+      read_deployment(config::load_with_overlays(options.source.files, options.source.assignments),
+                      plugins, problems);
   problems.throw_if_any();
   const int domain = options.domain.value_or(config.domain);
   const bool is_child = !options.process.empty();
@@ -108,11 +108,12 @@ int run_deployment(const RunOptions& options) {
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
   Console console;
-  Deployment deployment{std::move(config),
-                        plugins,
-                        {.process = process,
-                         .on_line = [&](const auto& who, const auto& text) { console.line(who, text); },
-                         .on_note = [&](const auto& text) { console.line("runtime", text); }}};
+  Deployment deployment{
+      std::move(config),
+      plugins,
+      {.process = process,
+       .on_line = [&](const auto& who, const auto& text) { console.line(who, text); },
+       .on_note = [&](const auto& text) { console.line("runtime", text); }}};
   // Before any thread: a child is forked from a process that has only this one.
   ChildProcesses children;
   if (!is_child) {

@@ -16,8 +16,8 @@ struct DeploymentSource {
 
 struct RunOptions {
   DeploymentSource source;
-  std::optional<int> domain;   // instead of the file's
-  std::string process;         // only this one of the deployment; empty: main, and it starts the rest
+  std::optional<int> domain;  // instead of the file's
+  std::string process;  // only this one of the deployment; empty: main, and it starts the rest
   bool json = false;
   std::optional<std::filesystem::path> report;
 };

@@ -88,8 +88,10 @@ int list_topics(const TopicOptions& options) {
     std::string types;
     for (const auto& type : topic.types) types += (types.empty() ? "" : ", ") + ros_type(type);
     if (options.json) {
-      json.push_back({{"topic", ros_topic_name(topic.name)}, {"type", types},
-                      {"writers", topic.writers}, {"readers", topic.readers},
+      json.push_back({{"topic", ros_topic_name(topic.name)},
+                      {"type", types},
+                      {"writers", topic.writers},
+                      {"readers", topic.readers},
                       {"deployments", topic.deployments}});
     } else {
       fmt::print("{:<40} {:<32} {} writers, {} readers{}\n", ros_topic_name(topic.name), types,
@@ -151,8 +153,11 @@ int topic_rate(const TopicOptions& options) {
   if (intervals == 0) throw std::runtime_error("fewer than two samples came");
   const double rate = static_cast<double>(intervals) / to_seconds(*last - *first);
   if (options.json) {
-    fmt::print("{}\n", nlohmann::ordered_json{{"rate_hz", rate}, {"samples", intervals + 1},
-                                              {"shortest_s", shortest}, {"longest_s", longest}}.dump());
+    fmt::print("{}\n", nlohmann::ordered_json{{"rate_hz", rate},
+                                              {"samples", intervals + 1},
+                                              {"shortest_s", shortest},
+                                              {"longest_s", longest}}
+                           .dump());
   } else {
     fmt::print("{:.1f} Hz over {} samples, intervals from {:.2f} to {:.2f} ms\n", rate,
                intervals + 1, shortest * 1e3, longest * 1e3);

@@ -14,9 +14,9 @@ namespace armature {
 /// What the bus needs to know of a message type, without knowing it: name, layout, life, encoding.
 /// One constant per type; all of them live in the shared library armature_messages.
 struct MessageType {
-  std::string_view ros_name;   // "sensor_msgs/JointState", as plugin.yaml says it
-  std::string_view dds_name;   // "sensor_msgs::msg::dds_::JointState_"
-  std::uint64_t layout = 0;    // FNV-1a of the flattened field list; equal only for equal layouts
+  std::string_view ros_name;  // "sensor_msgs/JointState", as plugin.yaml says it
+  std::string_view dds_name;  // "sensor_msgs::msg::dds_::JointState_"
+  std::uint64_t layout = 0;   // FNV-1a of the flattened field list; equal only for equal layouts
   void* (*create)() = nullptr;
   void (*destroy)(void* message) = nullptr;
   /// header.stamp, or nullptr for types without a header.

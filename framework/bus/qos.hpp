@@ -22,8 +22,8 @@ struct QosSettings {
   bool writer_reliable = true;
   bool reader_reliable = true;
   bool transient_local = false;
-  int depth = 1;                      // KEEP_LAST
-  Duration lifespan = Duration{0};    // 0: infinite
+  int depth = 1;                    // KEEP_LAST
+  Duration lifespan = Duration{0};  // 0: infinite
   Duration liveliness_lease = seconds(0.5);
 };
 QosSettings settings(QosProfile profile);

@@ -51,10 +51,10 @@ struct TransportEvent {
 
 struct TransportOptions {
   int domain = 0;
-  std::string deployment;   // its name, and
-  std::string fingerprint;  // the hash of its resolved configuration
+  std::string deployment;                               // its name, and
+  std::string fingerprint;                              // the hash of its resolved configuration
   std::function<void(const TransportEvent&)> on_event;  // any thread; must only enqueue
-  std::function<Time()> now;  // deployment clock
+  std::function<Time()> now;                            // deployment clock
 };
 
 /// The way to other processes. Plugins of kind `transport`; the runtime loads `transport/fast_dds`.

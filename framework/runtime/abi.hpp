@@ -23,7 +23,7 @@
 #define ARMATURE_ABI_EIGEN_MALLOC "unset"
 #endif
 
-#define ARMATURE_ABI_TAG                                                              \
+#define ARMATURE_ABI_TAG \
   "armature " ARMATURE_ABI_TEXT(ARMATURE_FRAMEWORK_ABI) ", compiler abi " ARMATURE_ABI_TEXT( \
       __GXX_ABI_VERSION) ", libstdc++ " ARMATURE_ABI_TEXT(_GLIBCXX_RELEASE)           \
       " cxx11 " ARMATURE_ABI_TEXT(_GLIBCXX_USE_CXX11_ABI) ", c++ " ARMATURE_ABI_TEXT( \

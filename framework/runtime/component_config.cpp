@@ -46,7 +46,8 @@ std::optional<ComponentConfig> ComponentReader::read(const Node::Entry& entry) c
     if (!component.manifest) {
       problems_.add(plugin_node->origin(),
                     fmt::format("'{}' is of kind '{}' and runs in a slot only; no host for that "
-                                "kind is there", named->id, named->kind));
+                                "kind is there",
+                                named->id, named->kind));
       return std::nullopt;
     }
   }
@@ -59,8 +60,9 @@ std::optional<ComponentConfig> ComponentReader::read(const Node::Entry& entry) c
   }
   component.process = map.text("process", std::string{kMainProcess});
   if (component.process != kMainProcess && deployment_.simulated) {
-    map.problem("process", "the simulated clock runs one process; remove 'process' or set "
-                           "'clock: system'");
+    map.problem("process",
+                "the simulated clock runs one process; remove 'process' or set "
+                "'clock: system'");
   }
   component.sim_latency = seconds(map.number("sim_latency_s", 0.0));
   read_params(map, *named, component);
@@ -86,8 +88,8 @@ void ComponentReader::read_params(MapReader& map, const PluginManifest& named,
   const auto host_names = names_of(component.manifest->params);
   if (given) {
     for (const auto& entry : given->entries()) {
-      const bool host = std::find(host_names.begin(), host_names.end(), entry.key) !=
-                        host_names.end();
+      const bool host =
+          std::find(host_names.begin(), host_names.end(), entry.key) != host_names.end();
       (host ? of_host : of_plugin).push_back(entry);
     }
   }
@@ -110,8 +112,8 @@ void ComponentReader::read_slots(MapReader& map, ComponentConfig& component) con
     if (!node) {
       problems_.add(component.origin,
                     fmt::format("component '{}' needs a plugin in its slot '{}': add '{}: "
-                                "{{plugin: {}/...}}'", component.name, spec.name, spec.name,
-                                spec.kind));
+                                "{{plugin: {}/...}}'",
+                                component.name, spec.name, spec.name, spec.kind));
       continue;
     }
     read_slot(spec, *node, component);
@@ -133,11 +135,12 @@ void ComponentReader::read_slot(const SlotSpec& spec, const Node& node,
                               plugin->kind, spec.name, spec.kind));
     return;
   }
-  component.slots.push_back({.name = spec.name,
-                             .plugin_id = plugin->id,
-                             .origin = plugin_node->origin(),
-                             .manifest = plugin,
-                             .params = Params::read(plugin->params, params, plugin->id, problems_)});
+  component.slots.push_back(
+      {.name = spec.name,
+       .plugin_id = plugin->id,
+       .origin = plugin_node->origin(),
+       .manifest = plugin,
+       .params = Params::read(plugin->params, params, plugin->id, problems_)});
 }
 
 /// `robot: left` binds an entry of `robots:`; with a single entry nothing needs to be said.
@@ -148,7 +151,8 @@ void ComponentReader::bind_documents(MapReader& map, ComponentConfig& component)
     const Node* named = map.optional_node(word);
     if (std::find(uses.begin(), uses.end(), word) == uses.end()) {
       if (named) {
-        problems_.add(named->origin(), fmt::format("component '{}' uses no {}", component.name, word));
+        problems_.add(named->origin(),
+                      fmt::format("component '{}' uses no {}", component.name, word));
       }
       continue;
     }
@@ -165,7 +169,8 @@ void ComponentReader::bind_documents(MapReader& map, ComponentConfig& component)
       component.documents[std::string{section}] = names.front();
     } else if (names.empty()) {
       problems_.add(component.origin, fmt::format("component '{}' needs a {}: add '{}: {{name: "
-                                                  "file.yaml}}'", component.name, word, section));
+                                                  "file.yaml}}'",
+                                                  component.name, word, section));
     } else {
       problems_.add(component.origin, fmt::format("component '{}' must say which {}: '{}: ...'",
                                                   component.name, word, word));

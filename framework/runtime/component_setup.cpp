@@ -29,8 +29,10 @@ std::uint64_t ComponentSetup::seed() const {
 const config::Node& ComponentSetup::document(std::string_view section) {
   const auto bound = config_.documents.find(std::string{section});
   if (bound == config_.documents.end()) {
-    throw std::logic_error(fmt::format("plugin '{}' reads '{}' but its plugin.yaml does not say so "
-                                       "under 'uses:'", config_.manifest->id, section));
+    throw std::logic_error(
+        fmt::format("plugin '{}' reads '{}' but its plugin.yaml does not say so "
+                    "under 'uses:'",
+                    config_.manifest->id, section));
   }
   return deployment_.documents.at(std::string{section}).at(bound->second);
 }
@@ -46,13 +48,16 @@ const PortBinding& ComponentSetup::declared(const std::vector<PortBinding>& port
   const auto port = std::find_if(ports.begin(), ports.end(),
                                  [&](const PortBinding& p) { return p.spec.name == name; });
   if (port == ports.end()) {
-    throw std::logic_error(fmt::format("plugin '{}' claims the {} '{}', which its plugin.yaml does "
-                                       "not declare", config_.manifest->id, direction, name));
+    throw std::logic_error(
+        fmt::format("plugin '{}' claims the {} '{}', which its plugin.yaml does "
+                    "not declare",
+                    config_.manifest->id, direction, name));
   }
   if (port->spec.type != type.ros_name) {
-    throw std::logic_error(fmt::format("plugin '{}' claims the {} '{}' as {}, its plugin.yaml says "
-                                       "{}", config_.manifest->id, direction, name, type.ros_name,
-                                       port->spec.type));
+    throw std::logic_error(
+        fmt::format("plugin '{}' claims the {} '{}' as {}, its plugin.yaml says "
+                    "{}",
+                    config_.manifest->id, direction, name, type.ros_name, port->spec.type));
   }
   claimed_.insert(&*port);
   return *port;
@@ -75,8 +80,10 @@ ComponentSetup::SlotPlugin ComponentSetup::slot_plugin(std::string_view slot, st
   const auto found = std::find_if(config_.slots.begin(), config_.slots.end(),
                                   [&](const SlotConfig& s) { return s.name == slot; });
   if (found == config_.slots.end()) {
-    throw std::logic_error(fmt::format("plugin '{}' uses the slot '{}', which its plugin.yaml does "
-                                       "not declare", config_.manifest->id, slot));
+    throw std::logic_error(
+        fmt::format("plugin '{}' uses the slot '{}', which its plugin.yaml does "
+                    "not declare",
+                    config_.manifest->id, slot));
   }
   return {found->plugin_id, plugins_.load(*found->manifest, kind, version), &found->params};
 }

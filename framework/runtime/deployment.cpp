@@ -60,7 +60,11 @@ void Deployment::make_unit(const ComponentConfig& component, PluginRegistry& plu
                            config::Problems& problems) {
   auto unit = std::make_unique<Unit>(component.name, component.plugin_id, component.place,
                                      options_.on_line);
-  ComponentSetup setup{component, config_, plugins, *unit, *scheduler_,
+  ComponentSetup setup{component,
+                       config_,
+                       plugins,
+                       *unit,
+                       *scheduler_,
                        [this](const PortBinding& port, const MessageType& type) -> Topic& {
                          return topic_for(port, type);
                        }};
@@ -94,7 +98,11 @@ void Deployment::make_state_publisher(PluginRegistry& plugins) {
   config_.components.push_back(std::move(component));
   auto unit = std::make_unique<Unit>("runtime", manifest.id, config_.components.back().place,
                                      options_.on_line);
-  ComponentSetup setup{config_.components.back(), config_, plugins, *unit, *scheduler_,
+  ComponentSetup setup{config_.components.back(),
+                       config_,
+                       plugins,
+                       *unit,
+                       *scheduler_,
                        [this](const PortBinding& port, const MessageType& type) -> Topic& {
                          return topic_for(port, type);
                        }};
@@ -123,9 +131,9 @@ void Deployment::assign_units() {
     for (const auto& unit : units_) {
       if (config_of(*unit).executor == spec.name) assigned.push_back(unit.get());
     }
-    if (!assigned.empty()) scheduler_->assign(spec, assigned, [this](const Unit& unit) {
-      return config_of(unit).sim_latency;
-    });
+    if (!assigned.empty())
+      scheduler_->assign(spec, assigned,
+                         [this](const Unit& unit) { return config_of(unit).sim_latency; });
   }
 }
 
@@ -173,9 +181,9 @@ void Deployment::subscribe(const PortBinding& input) {
   TopicSpec spec = topic.spec();
   spec.qos = input.spec.qos;
   const bool same_deployment_only = elsewhere && input.spec.qos == QosProfile::command;
-  auto reader = transport_->subscribe(
-      spec, same_deployment_only,
-      [&topic](SampleRef sample) { topic.deliver_from_outside(sample); });
+  auto reader = transport_->subscribe(spec, same_deployment_only, [&topic](SampleRef sample) {
+    topic.deliver_from_outside(sample);
+  });
   if (!reader) throw PluginError("cannot read " + input.topic + ": " + reader.error().text);
   readers_[input.topic] = std::move(*reader);
 }
@@ -196,7 +204,8 @@ void Deployment::stop() {
 }
 
 bool Deployment::any_finished() const {
-  return std::any_of(units_.begin(), units_.end(), [](const auto& unit) { return unit->finished(); });
+  return std::any_of(units_.begin(), units_.end(),
+                     [](const auto& unit) { return unit->finished(); });
 }
 
 std::string Deployment::fault() const {

@@ -30,9 +30,8 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 2> kDocument
 }};
 
 bool is_name(std::string_view text) {
-  return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
-           return std::isalnum(c) || c == '_';
-         });
+  return !text.empty() && std::all_of(text.begin(), text.end(),
+                                      [](unsigned char c) { return std::isalnum(c) || c == '_'; });
 }
 
 /// `name: file.yaml` entries; the files are relative to the YAML file that names them.
@@ -80,7 +79,8 @@ std::vector<ExecutorSpec> read_executors(const Node* section, Problems& problems
   }
   const auto is_main = [](const ExecutorSpec& spec) { return spec.name == kMainExecutor; };
   if (std::none_of(executors.begin(), executors.end(), is_main)) {
-    executors.push_back({.name = std::string{kMainExecutor}, .period = {}, .priority = 0, .cpu = {}});
+    executors.push_back(
+        {.name = std::string{kMainExecutor}, .period = {}, .priority = 0, .cpu = {}});
   }
   return executors;
 }
@@ -123,7 +123,8 @@ DeploymentConfig read_deployment(const Node& root, const PluginRegistry& plugins
   deployment.name = map.text("name");
   if (!deployment.name.empty() && !is_name(deployment.name)) {
     map.problem("name", fmt::format("'{}' must consist of letters, digits and '_': it is the "
-                                    "namespace of the topics", deployment.name));
+                                    "namespace of the topics",
+                                    deployment.name));
   }
   deployment.simulated = map.choice("clock", {"system", "simulated"}, "system") == "simulated";
   deployment.domain = static_cast<int>(map.integer("domain", 0));
@@ -139,13 +140,15 @@ DeploymentConfig read_deployment(const Node& root, const PluginRegistry& plugins
   }
   deployment.executors = read_executors(map.optional_node("executors"), problems);
   for (const auto& [section, word] : kDocumentSections) {
-    deployment.documents[std::string{section}] = read_documents(map.optional_node(section), problems);
+    deployment.documents[std::string{section}] =
+        read_documents(map.optional_node(section), problems);
   }
   deployment.goals = read_goals(map.optional_node("goals"), problems);
   if (const Node* components = map.node("components")) {
     const ComponentReader reader{deployment, plugins, kDocumentSections, problems};
     for (const auto& entry : components->entries()) {
-      if (auto component = reader.read(entry)) deployment.components.push_back(std::move(*component));
+      if (auto component = reader.read(entry))
+        deployment.components.push_back(std::move(*component));
     }
     // With a component missing, every one of its readers would look wrong too.
     if (deployment.components.size() == components->entries().size()) {

@@ -45,8 +45,7 @@ Expected<std::map<std::string, std::string>> read_elf_sections(
   ElfFile elf{file};
   if (!elf) return refuse(std::string{"cannot read it: "} + std::strerror(errno));
   Elf64_Ehdr header;
-  if (!elf.read(0, &header, sizeof header) ||
-      std::memcmp(header.e_ident, ELFMAG, SELFMAG) != 0 ||
+  if (!elf.read(0, &header, sizeof header) || std::memcmp(header.e_ident, ELFMAG, SELFMAG) != 0 ||
       header.e_ident[EI_CLASS] != ELFCLASS64 || header.e_shentsize != sizeof(Elf64_Shdr)) {
     return refuse("not a 64-bit ELF library");
   }

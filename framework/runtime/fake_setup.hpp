@@ -16,7 +16,9 @@ class FakeSetup final : public Setup {
   const std::string& name() const override { return unit_.name(); }
   const Params& params() const override { return params_; }
   std::uint64_t seed() const override { return 1; }
-  const config::Node& document(std::string_view) override { throw std::logic_error("no documents"); }
+  const config::Node& document(std::string_view) override {
+    throw std::logic_error("no documents");
+  }
   void activate_every(Duration period) override { unit_.set_period(period); }
   std::shared_ptr<Voice> voice() override { return unit_.voice(); }
 

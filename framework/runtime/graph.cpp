@@ -44,9 +44,10 @@ void check_match(const ComponentConfig& reader, const PortBinding& input,
                  const ComponentConfig& writer, const PortBinding& output,
                  config::Problems& problems) {
   const auto mismatch = [&](std::string_view what, std::string_view wanted, std::string_view got) {
-    problems.add(input.origin, fmt::format("{} reads {} '{}' from topic '{}', but {} writes {} '{}'",
-                                           port_name(reader, input), what, wanted, input.topic,
-                                           port_name(writer, output), what, got));
+    problems.add(input.origin,
+                 fmt::format("{} reads {} '{}' from topic '{}', but {} writes {} '{}'",
+                             port_name(reader, input), what, wanted, input.topic,
+                             port_name(writer, output), what, got));
   };
   if (input.spec.type != output.spec.type) {
     mismatch("type", input.spec.type, output.spec.type);
@@ -87,15 +88,16 @@ void place_components(DeploymentConfig& deployment, const Writers& writers,
   for (std::size_t i = 0; i < count; ++i) {
     for (const PortBinding& input : deployment.components[i].inputs) {
       const auto writer = writers.find(input.topic);
-      if (writer != writers.end() && !input.spec.feedback) sources[i].insert(writer->second.component);
+      if (writer != writers.end() && !input.spec.feedback)
+        sources[i].insert(writer->second.component);
     }
   }
   std::set<std::size_t> placed;
   for (int place = 0; placed.size() < count; ++place) {
     std::size_t next = 0;
-    while (next < count && (placed.contains(next) ||
-                            !std::includes(placed.begin(), placed.end(), sources[next].begin(),
-                                           sources[next].end()))) {
+    while (next < count &&
+           (placed.contains(next) || !std::includes(placed.begin(), placed.end(),
+                                                    sources[next].begin(), sources[next].end()))) {
       ++next;
     }
     if (next == count) {
@@ -108,7 +110,8 @@ void place_components(DeploymentConfig& deployment, const Writers& writers,
       }
       problems.add(first->origin,
                    fmt::format("a cycle without a declared delay among {}: one input in it must be "
-                               "'feedback: true' in its plugin.yaml", fmt::join(cycle, ", ")));
+                               "'feedback: true' in its plugin.yaml",
+                               fmt::join(cycle, ", ")));
       return;
     }
     deployment.components[next].place = place;

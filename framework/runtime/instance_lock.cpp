@@ -44,8 +44,10 @@ Expected<InstanceLock> InstanceLock::take(const std::string& deployment, int dom
   if (flock(file, LOCK_EX | LOCK_NB) != 0) {
     const std::string holder = holder_of(file);
     close(file);
-    return refuse(fmt::format("deployment '{}' already runs as pid {} on domain {}; stop it, or use "
-                              "another domain with --domain", deployment, holder, domain));
+    return refuse(
+        fmt::format("deployment '{}' already runs as pid {} on domain {}; stop it, or use "
+                    "another domain with --domain",
+                    deployment, holder, domain));
   }
   const std::string pid = std::to_string(getpid());
   if (ftruncate(file, 0) != 0 || pwrite(file, pid.data(), pid.size(), 0) < 0) {

@@ -46,11 +46,10 @@ struct PluginFactory<Plugin, std::unique_ptr<Kind> (*)(Arg&)> {
 
 /// The one registration line of a plugin: `ARMATURE_PLUGIN(armature::LampGeometric);` at global
 /// scope, once per library. Id, kind, parameters and ports stand in the plugin.yaml beside it.
-#define ARMATURE_PLUGIN(Class)                                                                \
-  extern "C" [[gnu::visibility("default")]] const ::armature::PluginEntry                     \
-      armature_plugin_entry;                                                                  \
-  const ::armature::PluginEntry armature_plugin_entry {                                       \
-    Class::kKind.data(), Class::kKindVersion,                                                 \
-        reinterpret_cast<void (*)()>(                                                         \
-            &::armature::detail::PluginFactory<Class, Class::Factory>::call)                  \
+#define ARMATURE_PLUGIN(Class)                                                                   \
+  extern "C" [[gnu::visibility("default")]] const ::armature::PluginEntry armature_plugin_entry; \
+  const ::armature::PluginEntry armature_plugin_entry {                                          \
+    Class::kKind.data(), Class::kKindVersion,                                                    \
+        reinterpret_cast<void (*)()>(                                                            \
+            &::armature::detail::PluginFactory<Class, Class::Factory>::call)                     \
   }

@@ -36,8 +36,8 @@ Expected<void> survives_loading(const std::filesystem::path& file) {
     return refuse(fmt::format("it crashes when it is loaded ({})", strsignal(WTERMSIG(status))));
   }
   if (WEXITSTATUS(status) != 0) {
-    return refuse(fmt::format("it ends the process when it is loaded (exit code {})",
-                              WEXITSTATUS(status)));
+    return refuse(
+        fmt::format("it ends the process when it is loaded (exit code {})", WEXITSTATUS(status)));
   }
   return {};
 }
@@ -50,7 +50,8 @@ Expected<std::shared_ptr<PluginLibrary>> PluginLibrary::load(const std::filesyst
   const auto sections = read_elf_sections(file, {".armature.abi"});
   if (!sections) return tl::unexpected{sections.error()};
   const auto abi = sections->find(".armature.abi");
-  if (abi == sections->end()) return refuse("it carries no ABI tag: not built as an Armature plugin");
+  if (abi == sections->end())
+    return refuse("it carries no ABI tag: not built as an Armature plugin");
   if (abi->second != ARMATURE_ABI_TAG) {
     return refuse(fmt::format("built for [{}], this is [{}]; rebuild the plugin", abi->second,
                               ARMATURE_ABI_TAG));

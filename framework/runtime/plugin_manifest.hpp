@@ -24,13 +24,13 @@ struct PortSpec {
   config::Origin origin;
 
   // Inputs only.
-  std::optional<int> queue;          // reads: queue(n); none: reads: latest
-  bool trigger = false;              // a new sample activates the component
-  bool join = false;                 // shown only together, with equal header.stamp
-  bool optional = false;             // nobody needs to write it
-  bool outside = false;              // fed by programs that are not part of the deployment
-  bool feedback = false;             // an arrow against the flow, read a cycle late
-  std::optional<Duration> max_age;   // older samples are not shown
+  std::optional<int> queue;         // reads: queue(n); none: reads: latest
+  bool trigger = false;             // a new sample activates the component
+  bool join = false;                // shown only together, with equal header.stamp
+  bool optional = false;            // nobody needs to write it
+  bool outside = false;             // fed by programs that are not part of the deployment
+  bool feedback = false;            // an arrow against the flow, read a cycle late
+  std::optional<Duration> max_age;  // older samples are not shown
 };
 
 /// A place in a component where a plugin of a kind sits.

@@ -67,7 +67,8 @@ void PluginRegistry::add(const std::filesystem::path& file) {
   }
   config::Problems problems;
   try {
-    PluginManifest manifest = parse_manifest(text->second, file.string() + ":plugin.yaml", problems);
+    PluginManifest manifest =
+        parse_manifest(text->second, file.string() + ":plugin.yaml", problems);
     problems.throw_if_any();
     manifest.file = file;
     if (const auto abi = sections->find(".armature.abi"); abi != sections->end()) {

@@ -70,7 +70,8 @@ std::string to_table(const RunReport& report) {
   std::string table;
   for (const auto& figure : report.figures()) {
     const double* value = std::get_if<double>(&figure.value);
-    std::string shown = value ? fmt::format("{:10.3f}", *value) : std::get<std::string>(figure.value);
+    std::string shown =
+        value ? fmt::format("{:10.3f}", *value) : std::get<std::string>(figure.value);
     if (value && std::isnan(*value)) shown = "         -";
     table += fmt::format("  {:<{}}  {}", figure.title, width, shown);
     if (figure.goal) {

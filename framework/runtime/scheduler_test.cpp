@@ -31,7 +31,8 @@ TEST(LockstepScheduler, ActivatesInTheOrderOfTimeThenGraph) {
   scheduler.assign({.name = "a", .period = Duration{20}, .cpu = {}}, {late.get()}, kNoLatency);
   scheduler.assign({.name = "b", .period = Duration{10}, .cpu = {}}, {early.get()}, kNoLatency);
   scheduler.run([&] { return log.size() >= 5; });
-  EXPECT_EQ(log, (std::vector<std::string>{"early@0", "late@0", "early@10", "early@20", "late@20"}));
+  EXPECT_EQ(log,
+            (std::vector<std::string>{"early@0", "late@0", "early@10", "early@20", "late@20"}));
 }
 
 TEST(LockstepScheduler, DeliversAtOnceWithoutLatencyAndLaterWithOne) {

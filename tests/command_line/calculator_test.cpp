@@ -28,7 +28,8 @@ std::vector<json> fk(const std::string& input) {
 }
 
 constexpr const char* kPaperGoal =
-    R"({"position_m":[1.3,0.321,0.504],"direction":[0.894427,-0.268328,-0.357771]})" "\n";
+    R"({"position_m":[1.3,0.321,0.504],"direction":[0.894427,-0.268328,-0.357771]})"
+    "\n";
 
 TEST(IkCalculator, AnswersThePapersExampleWithAllBranches) {
   const auto lines = ik(kPaperGoal);
@@ -50,13 +51,20 @@ TEST(IkCalculator, FindsTheSamePoseWithAnotherSolverByOneWord) {
 TEST(IkCalculator, AnswersEveryBadLineWithAReasonAndGoesOn) {
   const auto lines = ik(std::string{"this is not JSON\n"
                                     "[1,2,3]\n"
-                                    R"({"position_m":[1.3,0.321],"direction":[1,0,0]})" "\n"
-                                    R"({"position_m":[1.3,0.321,NaN],"direction":[1,0,0]})" "\n"
-                                    R"({"position_m":[1.3,0.321,1e999],"direction":[1,0,0]})" "\n"
-                                    R"({"position_m":[1.3,0.321,0.5],"direction":[0,0,0]})" "\n"
-                                    R"({"position_m":[1.3,0.321,0.5]})" "\n"
-                                    R"({"position_m":[1.3,0.321,0.5],"directoin":[1,0,0]})" "\n"
-                                    R"({"position_m":[1.8,0,0.50407],"direction":[1,0,0]})" "\n"} +
+                                    R"({"position_m":[1.3,0.321],"direction":[1,0,0]})"
+                                    "\n"
+                                    R"({"position_m":[1.3,0.321,NaN],"direction":[1,0,0]})"
+                                    "\n"
+                                    R"({"position_m":[1.3,0.321,1e999],"direction":[1,0,0]})"
+                                    "\n"
+                                    R"({"position_m":[1.3,0.321,0.5],"direction":[0,0,0]})"
+                                    "\n"
+                                    R"({"position_m":[1.3,0.321,0.5]})"
+                                    "\n"
+                                    R"({"position_m":[1.3,0.321,0.5],"directoin":[1,0,0]})"
+                                    "\n"
+                                    R"({"position_m":[1.8,0,0.50407],"direction":[1,0,0]})"
+                                    "\n"} +
                         kPaperGoal);
   ASSERT_EQ(lines.size(), 10U);
   for (std::size_t i = 0; i < 8; ++i) {

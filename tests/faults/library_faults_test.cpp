@@ -33,15 +33,16 @@ TEST(FaultyLibrary, OneBuiltForAnotherFrameworkIsRefusedWithBothTags) {
 TEST(FaultyLibrary, AForeignOneIsListedWithItsReason) {
   const auto result = run_command({armature(), "plugin", "list"}, kFaultyPath);
   EXPECT_EQ(result.exit_code, 0);
-  EXPECT_NE(result.err.find("foreign.so cannot be used: not an Armature plugin: it has no manifest"),
-            std::string::npos)
+  EXPECT_NE(
+      result.err.find("foreign.so cannot be used: not an Armature plugin: it has no manifest"),
+      std::string::npos)
       << result.err;
   EXPECT_NE(result.out.find("ik/lamp_geometric"), std::string::npos);
 }
 
 TEST(FaultyLibrary, AFileThatIsNoLibraryIsListedWithItsReason) {
-  const auto folder = std::filesystem::temp_directory_path() /
-                      ("armature-no-library-" + std::to_string(getpid()));
+  const auto folder =
+      std::filesystem::temp_directory_path() / ("armature-no-library-" + std::to_string(getpid()));
   std::filesystem::create_directories(folder);
   std::ofstream{folder / "text.so"} << "just text";
   const auto result = run_command({armature(), "plugin", "list"},
@@ -53,10 +54,10 @@ TEST(FaultyLibrary, AFileThatIsNoLibraryIsListedWithItsReason) {
 }
 
 TEST(FaultyLibrary, StopsNoOther) {
-  const auto result = run_command(
-      {armature(), "ik", "--robot", kLamp, "--plugin", "ik/lamp_geometric"},
-      {.environment = kFaultyPath.environment,
-       .input = R"({"position_m":[1.3,0.321,0.504],"direction":[1,0,0]})"});
+  const auto result =
+      run_command({armature(), "ik", "--robot", kLamp, "--plugin", "ik/lamp_geometric"},
+                  {.environment = kFaultyPath.environment,
+                   .input = R"({"position_m":[1.3,0.321,0.504],"direction":[1,0,0]})"});
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_NE(result.out.find("\"ok\""), std::string::npos);
 }

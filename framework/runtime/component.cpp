@@ -6,6 +6,8 @@
 
 namespace armature {
 
+SetupError::~SetupError() = default;
+
 Component::Component(Setup& setup) : voice_{setup.voice()} {}
 
 void Component::say(std::string text) { voice_->say(std::move(text)); }

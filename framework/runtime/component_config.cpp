@@ -28,6 +28,21 @@ const PluginManifest* ComponentReader::find_plugin(const std::string& id,
   return plugin;
 }
 
+void ComponentReader::report_missing_plugin(const Node::Entry& entry) const {
+  if (entry.value.kind() != Node::Kind::map) return;  // which its MapReader has said
+  const std::vector<std::string> word{"plugin"};
+  for (const auto& [key, key_origin, value] : entry.value.entries()) {
+    const std::string hint = config::did_you_mean(key, word);
+    if (hint.find("did you mean") == std::string::npos) continue;
+    problems_.add(key_origin,
+                  fmt::format("unknown key '{}' in component '{}'{}", key, entry.key, hint));
+    return;
+  }
+  problems_.add(entry.key_origin, fmt::format("component '{}' names no plugin: add 'plugin: "
+                                              "family/name'",
+                                              entry.key));
+}
+
 std::optional<ComponentConfig> ComponentReader::read(const Node::Entry& entry) const {
   ComponentConfig component;
   component.name = entry.key;
@@ -36,6 +51,10 @@ std::optional<ComponentConfig> ComponentReader::read(const Node::Entry& entry) c
   const Node* plugin_node = map.optional_node("plugin");
   // A component without `plugin:` is the framework's own of that name: `motion:`.
   component.plugin_id = plugin_node ? plugin_node->text() : entry.key;
+  if (!plugin_node && !plugins_.find(entry.key)) {
+    report_missing_plugin(entry);
+    return std::nullopt;
+  }
   const PluginManifest* named =
       find_plugin(component.plugin_id, plugin_node ? plugin_node->origin() : entry.key_origin);
   if (!named) return std::nullopt;
@@ -44,10 +63,11 @@ std::optional<ComponentConfig> ComponentReader::read(const Node::Entry& entry) c
   if (pure) {
     component.manifest = plugins_.host_of(named->kind);
     if (!component.manifest) {
-      problems_.add(plugin_node->origin(),
-                    fmt::format("'{}' is of kind '{}' and runs in a slot only; no host for that "
-                                "kind is there",
-                                named->id, named->kind));
+      problems_.add(
+          plugin_node->origin(),
+          fmt::format("'{}' is of kind '{}', which is no component and has no host to run "
+                      "it alone",
+                      named->id, named->kind));
       return std::nullopt;
     }
   }

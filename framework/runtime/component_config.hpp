@@ -26,6 +26,7 @@ class ComponentReader {
 
  private:
   const PluginManifest* find_plugin(const std::string& id, const config::Origin& origin) const;
+  void report_missing_plugin(const config::Node::Entry& entry) const;
   void read_params(config::MapReader& map, const PluginManifest& named,
                    ComponentConfig& component) const;
   void read_slots(config::MapReader& map, ComponentConfig& component) const;

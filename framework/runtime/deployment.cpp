@@ -68,12 +68,13 @@ void Deployment::make_unit(const ComponentConfig& component, PluginRegistry& plu
                        [this](const PortBinding& port, const MessageType& type) -> Topic& {
                          return topic_for(port, type);
                        }};
+  // Outlives the exceptions that its code throws.
+  auto library = plugins.load(*component.manifest, Component::kKind, Component::kKindVersion);
   try {
-    auto library = plugins.load(*component.manifest, Component::kKind, Component::kKindVersion);
     const auto make = reinterpret_cast<Component::Factory>(library->factory());
     auto object = make(setup);
     setup.check_all_claimed();
-    unit->install({std::move(library), std::move(object)});
+    unit->install({library, std::move(object)});
     units_.push_back(std::move(unit));
   } catch (const SetupError& error) {
     problems.add(component.origin, fmt::format("component '{}': {}", component.name, error.what()));

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <functional>
 #include <set>
+#include <span>
 
 #include "armature/config/document.hpp"
 #include "armature/config/reader.hpp"
@@ -34,11 +35,23 @@ bool is_name(std::string_view text) {
                                       [](unsigned char c) { return std::isalnum(c) || c == '_'; });
 }
 
+/// The entries of a section that must be a map; none when it is missing or wrong.
+std::span<const Node::Entry> entries_of(const Node* section, std::string_view name,
+                                        Problems& problems) {
+  if (!section) return {};
+  if (section->kind() != Node::Kind::map) {
+    problems.add(section->origin(),
+                 fmt::format("'{}' must be a map, not {}", name, section->describe()));
+  }
+  return section->entries();
+}
+
 /// `name: file.yaml` entries; the files are relative to the YAML file that names them.
-std::map<std::string, Node> read_documents(const Node* section, Problems& problems) {
+std::map<std::string, Node> read_documents(std::span<const Node::Entry> section,
+                                           Problems& problems) {
   std::map<std::string, Node> documents;
-  if (!section) return documents;
-  for (const auto& [name, name_origin, value] : section->entries()) {
+  for (const auto& [name, name_origin, value] : section) {
+    documents.emplace(name, Node::null(value.origin()));  // known, even when it cannot be read
     const auto file = config::as_text(value, problems);
     if (!file) continue;
     std::filesystem::path path{*file};
@@ -46,7 +59,7 @@ std::map<std::string, Node> read_documents(const Node* section, Problems& proble
       path = std::filesystem::path{value.origin().file}.parent_path() / path;
     }
     try {
-      documents.emplace(name, config::load(path));
+      documents.insert_or_assign(name, config::load(path));
     } catch (const config::ConfigError& error) {
       for (const auto& problem : error.problems()) {
         // A file that is not there is a mistake of the line that names it.
@@ -57,25 +70,23 @@ std::map<std::string, Node> read_documents(const Node* section, Problems& proble
   return documents;
 }
 
-std::vector<ExecutorSpec> read_executors(const Node* section, Problems& problems) {
+std::vector<ExecutorSpec> read_executors(std::span<const Node::Entry> section, Problems& problems) {
   std::vector<ExecutorSpec> executors;
-  if (section) {
-    for (const auto& [name, name_origin, value] : section->entries()) {
-      MapReader map{value, fmt::format("executor '{}'", name), problems};
-      ExecutorSpec spec{.name = name, .period = {}, .priority = 0, .cpu = {}};
-      if (const double period = map.number("period_s", 0.0); period > 0) {
-        spec.period = seconds(period);
-      } else if (period < 0) {
-        map.problem("period_s", "'period_s' must be positive");
-      }
-      spec.priority = static_cast<int>(map.integer("priority", 0));
-      if (spec.priority < 0 || spec.priority > 99) {
-        map.problem("priority", "'priority' must be from 0 (normal) to 99");
-      }
-      if (const auto cpu = map.integer("cpu", -1); cpu >= 0) spec.cpu = static_cast<int>(cpu);
-      map.finish();
-      executors.push_back(std::move(spec));
+  for (const auto& [name, name_origin, value] : section) {
+    MapReader map{value, fmt::format("executor '{}'", name), problems};
+    ExecutorSpec spec{.name = name, .period = {}, .priority = 0, .cpu = {}};
+    if (const double period = map.number("period_s", 0.0); period > 0) {
+      spec.period = seconds(period);
+    } else if (period < 0) {
+      map.problem("period_s", "'period_s' must be positive");
     }
+    spec.priority = static_cast<int>(map.integer("priority", 0));
+    if (spec.priority < 0 || spec.priority > 99) {
+      map.problem("priority", "'priority' must be from 0 (normal) to 99");
+    }
+    if (const auto cpu = map.integer("cpu", -1); cpu >= 0) spec.cpu = static_cast<int>(cpu);
+    map.finish();
+    executors.push_back(std::move(spec));
   }
   const auto is_main = [](const ExecutorSpec& spec) { return spec.name == kMainExecutor; };
   if (std::none_of(executors.begin(), executors.end(), is_main)) {
@@ -88,8 +99,9 @@ std::vector<ExecutorSpec> read_executors(const Node* section, Problems& problems
 std::vector<Goal> read_goals(const Node* section, Problems& problems) {
   std::vector<Goal> goals;
   if (!section) return goals;
-  for (const auto& [metric, origin, value] : section->entries()) {
-    if (const auto limit = config::as_number(value, problems)) goals.push_back({metric, *limit});
+  MapReader map{*section, "goals", problems};
+  for (const auto& entry : section->entries()) {
+    goals.push_back({entry.key, map.number(entry.key)});
   }
   return goals;
 }
@@ -138,15 +150,16 @@ DeploymentConfig read_deployment(const Node& root, const PluginRegistry& plugins
     deployment.time_limit_s = run_map.number("time_limit_s", 0.0);
     run_map.finish();
   }
-  deployment.executors = read_executors(map.optional_node("executors"), problems);
+  deployment.executors =
+      read_executors(entries_of(map.optional_node("executors"), "executors", problems), problems);
   for (const auto& [section, word] : kDocumentSections) {
     deployment.documents[std::string{section}] =
-        read_documents(map.optional_node(section), problems);
+        read_documents(entries_of(map.optional_node(section), section, problems), problems);
   }
   deployment.goals = read_goals(map.optional_node("goals"), problems);
   if (const Node* components = map.node("components")) {
     const ComponentReader reader{deployment, plugins, kDocumentSections, problems};
-    for (const auto& entry : components->entries()) {
+    for (const auto& entry : entries_of(components, "components", problems)) {
       if (auto component = reader.read(entry))
         deployment.components.push_back(std::move(*component));
     }

@@ -17,9 +17,10 @@
 namespace armature {
 
 /// A component cannot be set up: what is wrong and the way out. The runtime adds the place.
-class SetupError : public std::runtime_error {
+class [[gnu::visibility("default")]] SetupError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
+  ~SetupError() override;  // one type in every library that throws or catches it
 };
 
 /// What a component sees while it is being constructed; not valid afterwards. Not real-time safe.

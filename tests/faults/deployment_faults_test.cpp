@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: Apache-2.0
+// Faulty deployments: each is one change of base.yaml, and gives its exact messages, with line and
+// column, and exit code 3 before anything is started.
+#include <unistd.h>
+
+#include "command.hpp"
+
+namespace armature::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Fault {
+  const char* name;
+  const char* from;  // this text of base.yaml
+  const char* to;    // is replaced by this
+  const char* messages;
+};
+
+void PrintTo(const Fault& fault, std::ostream* out) { *out << fault.name; }
+
+const Fault kFaults[] = {
+    {"UnknownKeyAtTheTop", "clock: simulated", "clok: simulated",
+     "deployment.yaml:3:1: unknown key 'clok' in the deployment; did you mean 'clock'?\n"},
+    {"UnknownKeyInAComponent", "  face: {plugin: face_pose/three_point}",
+     "  face: {plugn: face_pose/three_point}",
+     "deployment.yaml:10:10: unknown key 'plugn' in component 'face'; did you mean 'plugin'?\n"},
+    {"UnknownKeyBesideAPlugin", "executor: control}", "executr: control}",
+     "deployment.yaml:20:32: unknown key 'executr' in component 'arm'; did you mean 'executor'?\n"},
+    {"DuplicateKey", "clock: simulated", "name: again",
+     "deployment.yaml:3:1: 'name' is given twice; first at deployment.yaml:2:1\n"},
+    {"DuplicateComponent", "  face: {plugin: face_pose/three_point}",
+     "  face: {plugin: face_pose/three_point}\n  face: {plugin: face_pose/three_point}",
+     "deployment.yaml:11:3: 'face' is given twice; first at deployment.yaml:10:3\n"},
+    {"UnknownPlugin", "plugin: ik/lamp_geometric", "plugin: ik/lamp_geometrik",
+     "deployment.yaml:17:18: unknown plugin 'ik/lamp_geometrik'; did you mean "
+     "'ik/lamp_geometric'?\n"},
+    {"PluginOfAnotherKindInASlot", "plugin: ik/lamp_geometric", "plugin: select/nearest",
+     "deployment.yaml:17:18: 'select/nearest' is of kind 'select', slot 'ik' takes kind 'ik'\n"},
+    {"MissingSlot", "    select: {plugin: select/nearest}\n", "",
+     "deployment.yaml:13:3: component 'motion' needs a plugin in its slot 'select': add 'select: "
+     "{plugin: select/...}'\n"},
+    {"ParameterWithAnotherUnit", "distance_m: 0.5", "distance_mm: 0.5",
+     "deployment.yaml:12:48: unknown key 'distance_mm' in params of 'task/lamp_alignment'; did you "
+     "mean 'distance_m'?\n"},
+    {"ParameterTypo", "photo: generated", "foto: generated",
+     "deployment.yaml:8:45: unknown key 'foto' in params of 'sim/photo_scene'; did you mean "
+     "'photo'?\n"},
+    {"ParameterWrongType", "distance_m: 0.5", "distance_m: half",
+     "deployment.yaml:12:60: 'distance_m' must be a number, not 'half'\n"},
+    {"ParameterOutOfRange", "tilt_up_deg: 0", "tilt_up_deg: 120",
+     "deployment.yaml:8:76: 'tilt_up_deg' is 120, must be at most 90\n"},
+    {"ParameterUnknownChoice", "photo: generated", "photo: astronout",
+     "deployment.yaml:8:52: 'photo' cannot be 'astronout'; did you mean 'astronaut'?\n"},
+    {"ParameterNaN", "distance_m: 0.5", "distance_m: .nan",
+     "deployment.yaml:12:60: 'distance_m' must be a number, not '.nan'; it must be finite\n"},
+    {"ParameterOctal", "distance_m: 0.5", "distance_m: 010",
+     "deployment.yaml:12:60: 'distance_m' must be a number, and '010' is octal to some readers; "
+     "write 10\n"},
+    {"UnknownExecutor", "executor: control}", "executor: contrl}",
+     "deployment.yaml:20:42: unknown executor 'contrl'; did you mean 'control'?\n"},
+    {"NegativePeriod", "period_s: 0.001", "period_s: -0.001",
+     "deployment.yaml:6:33: 'period_s' must be positive\n"},
+    {"UnknownClock", "clock: simulated", "clock: simulatd",
+     "deployment.yaml:3:8: 'clock' cannot be 'simulatd'; did you mean 'simulated'?\n"},
+    {"RenameOfNoInput", "{plugin: face_pose/three_point}",
+     "{plugin: face_pose/three_point, in: {landmark: face/points}}",
+     "deployment.yaml:10:46: component 'face' has no input 'landmark'; did you mean "
+     "'landmarks'?\n"},
+    {"RenameOfNoOutput", "{plugin: face_pose/three_point}",
+     "{plugin: face_pose/three_point, out: {pose: face/pose}}",
+     "deployment.yaml:10:47: component 'face' has no output 'pose'; known: face\n"},
+    {"InputNobodyWrites", "{plugin: face_pose/three_point}",
+     "{plugin: face_pose/three_point, in: {landmarks: landmark}}",
+     "deployment.yaml:10:57: face.landmarks reads topic '/faulty/landmark', which nobody writes; "
+     "did you mean '/faulty/landmarks'?\n"},
+    {"TwoTypesOnOneTopic", "{plugin: face_pose/three_point}",
+     "{plugin: face_pose/three_point, in: {landmarks: left/image_raw}}",
+     "deployment.yaml:10:57: face.landmarks reads type 'armature_msgs/FaceLandmarks' from topic "
+     "'/faulty/left/image_raw', but scene.left_image writes type 'sensor_msgs/Image'\n"},
+    {"TwoWritersOfOneTopic", "{plugin: face_pose/three_point}",
+     "{plugin: face_pose/three_point, out: {face: landmarks}}",
+     "deployment.yaml:10:53: landmarks.landmarks and face.face both write topic "
+     "'/faulty/landmarks'; rename one with 'out:'\n"
+     "deployment.yaml:11:3: target.face reads topic '/faulty/face', which nobody writes; did you "
+     "mean '/faulty/target'?\n"},
+    {"RobotFileMissing", "robots/dental_lamp.yaml", "robots/dental_lmap.yaml",
+     "deployment.yaml:4:15: cannot read 'robots/dental_lmap.yaml': No such file or directory\n"},
+    {"NoRobot", "robots: {arm: @CONFIGS@/robots/dental_lamp.yaml}\n", "",
+     "deployment.yaml:7:3: component 'scene' needs a robot: add 'robots: {name: file.yaml}'\n"
+     "deployment.yaml:10:3: component 'target' needs a robot: add 'robots: {name: file.yaml}'\n"
+     "deployment.yaml:11:3: component 'task' needs a robot: add 'robots: {name: file.yaml}'\n"
+     "deployment.yaml:12:3: component 'motion' needs a robot: add 'robots: {name: file.yaml}'\n"
+     "deployment.yaml:19:3: component 'arm' needs a robot: add 'robots: {name: file.yaml}'\n"},
+    {"TwoRobotsUnnamed", "robots: {arm: @CONFIGS@/robots/dental_lamp.yaml}",
+     "robots: {arm: @CONFIGS@/robots/dental_lamp.yaml, left: @CONFIGS@/robots/dental_lamp.yaml}",
+     "deployment.yaml:8:3: component 'scene' must say which robot: 'robot: ...'\n"
+     "deployment.yaml:11:3: component 'target' must say which robot: 'robot: ...'\n"
+     "deployment.yaml:12:3: component 'task' must say which robot: 'robot: ...'\n"
+     "deployment.yaml:13:3: component 'motion' must say which robot: 'robot: ...'\n"
+     "deployment.yaml:20:3: component 'arm' must say which robot: 'robot: ...'\n"},
+    {"UnknownRobot", "{plugin: arm/simulated, executor: control}",
+     "{plugin: arm/simulated, executor: control, robot: lamp}",
+     "deployment.yaml:20:58: unknown robot 'lamp'; known: arm\n"},
+    {"NotADeployment", "armature: 1\n", "",
+     "deployment.yaml:1:1: not a deployment: it must begin with 'armature: 1'\n"},
+    {"WrongVersion", "armature: 1", "armature: 2",
+     "deployment.yaml:1:11: 'armature' is the version of the file format and must be 1\n"},
+    {"NameWithSlash", "name: faulty", "name: lamp/one",
+     "deployment.yaml:2:7: 'lamp/one' must consist of letters, digits and '_': it is the namespace "
+     "of the topics\n"},
+    {"TabForIndentation", "    executor: control", "	executor: control",
+     "deployment.yaml:14:2: cannot be read as YAML: end of map not found; indent with spaces, not "
+     "tabs\n"},
+    {"MergeKey", "  face: {plugin: face_pose/three_point}",
+     "  face:\n    <<: {plugin: face_pose/three_point}",
+     "deployment.yaml:11:5: '<<' merges are not read; use 'include:' at the top of the file for "
+     "shared values\n"},
+    {"Anchor", "  face: {plugin: face_pose/three_point}",
+     "  face: &f {plugin: face_pose/three_point}",
+     "deployment.yaml:10:9: anchors ('&name') are not read; use 'include:', or put a text in "
+     "quotes\n"},
+    {"EnvironmentUnset", "distance_m: 0.5", "distance_m: ${ARMATURE_TEST_UNSET}",
+     "deployment.yaml:12:60: the environment variable 'ARMATURE_TEST_UNSET' is not set; set it or "
+     "write ${ARMATURE_TEST_UNSET:-default}\n"},
+    {"ProcessOnSimulatedClock", "{plugin: face_pose/three_point}",
+     "{plugin: face_pose/three_point, process: vision}",
+     "deployment.yaml:10:50: the simulated clock runs one process; remove 'process' or set 'clock: "
+     "system'\n"},
+    {"VelocityAboveTheRobots", "max_velocity_rad_s: 1.0", "max_velocity_rad_s: 9.0",
+     "deployment.yaml:13:3: component 'motion': max_velocity_rad_s is 9, above the 2.5 rad/s of "
+     "joint j1 of robot dental_lamp\n"},
+    {"GoalNotANumber", "distance_error_mm: 1.5", "distance_error_mm: small",
+     "deployment.yaml:21:28: 'distance_error_mm' must be a number, not 'small'\n"},
+    {"ComponentsMissing", "components:", "component:",
+     "deployment.yaml:1:1: missing key 'components' in the deployment\n"
+     "deployment.yaml:7:1: unknown key 'component' in the deployment; did you mean "
+     "'components'?\n"},
+    {"Cycle", "  face: {plugin: face_pose/three_point}",
+     "  face: {plugin: face_pose/three_point, in: {landmarks: face}}",
+     "deployment.yaml:10:3: a cycle without a declared delay among face, target, task, motion, "
+     "arm: one input in it must be 'feedback: true' in its plugin.yaml\n"
+     "deployment.yaml:10:57: face.landmarks reads type 'armature_msgs/FaceLandmarks' from topic "
+     "'/faulty/face', but face.face writes type 'armature_msgs/FacePose'\n"},
+    {"IncludeMissing", "clock: simulated", "include: nowhere.yaml",
+     "deployment.yaml:3:10: cannot read 'nowhere.yaml': No such file or directory\n"},
+    {"ParameterWithoutAValue", "photo: generated",
+     "photo: ", "deployment.yaml:8:45: 'photo' must be a text, not nothing\n"},
+    {"ListForMap", "goals: {distance_error_mm: 1.5}", "goals: [distance_error_mm]",
+     "deployment.yaml:21:8: goals must be a map, not a list\n"},
+    {"ComponentIsText", "  face: {plugin: face_pose/three_point}", "  face: face_pose/three_point",
+     "deployment.yaml:10:9: component 'face' must be a map, not 'face_pose/three_point'\n"},
+    {"DomainOutOfRange", "clock: simulated", "domain: 400",
+     "deployment.yaml:3:9: 'domain' must be from 0 to 232\n"},
+    {"SlotInAPurePlugin", "{plugin: face_pose/three_point}",
+     "{plugin: face_pose/three_point, ik: {plugin: ik/numeric}}",
+     "deployment.yaml:10:41: unknown key 'ik' in component 'face'; did you mean 'in'?\n"},
+    {"TransportAsAComponent", "{plugin: face_pose/three_point}", "{plugin: transport/fast_dds}",
+     "deployment.yaml:10:18: 'transport/fast_dds' is of kind 'transport', which is no component "
+     "and has no host to run it alone\n"},
+};
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const auto at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << "base.yaml has no '" << from << "'";
+  return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
+
+std::string without(std::string text, const std::string& part) {
+  for (auto at = text.find(part); at != std::string::npos; at = text.find(part)) {
+    text.erase(at, part.size());
+  }
+  return text;
+}
+
+class FaultyDeployment : public testing::TestWithParam<Fault> {
+ protected:
+  FaultyDeployment() { fs::create_directories(folder_); }
+  ~FaultyDeployment() override { fs::remove_all(folder_); }
+
+  CommandResult check(const std::string& from, const std::string& to) const {
+    std::ostringstream base;
+    base << std::ifstream{source_file("tests/faults/base.yaml")}.rdbuf();
+    std::string text = replaced(base.str(), from, to);
+    for (const std::string mark = "@CONFIGS@"; text.find(mark) != std::string::npos;) {
+      text = replaced(text, mark, source_file("configs"));
+    }
+    const fs::path file = folder_ / "deployment.yaml";
+    std::ofstream{file} << text;
+    CommandResult result = run_command({armature(), "check", file.string()});
+    result.err = without(without(result.err, folder_.string() + "/"), source_file("configs/"));
+    result.err = without(result.err, "; searched " ARMATURE_PLUGIN_BUILD_DIR);
+    return result;
+  }
+
+ private:
+  fs::path folder_ = fs::temp_directory_path() / ("armature-fault-" + std::to_string(getpid()));
+};
+
+TEST_P(FaultyDeployment, IsRefusedWithItsExactMessage) {
+  const auto result = check(GetParam().from, GetParam().to);
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_EQ(result.err, GetParam().messages);
+  EXPECT_EQ(result.out, "");
+}
+
+INSTANTIATE_TEST_SUITE_P(Faults, FaultyDeployment, testing::ValuesIn(kFaults),
+                         [](const auto& info) { return std::string{info.param.name}; });
+
+using SoundDeployment = FaultyDeployment;
+
+TEST_F(SoundDeployment, PassesTheCheck) {
+  const auto result = check("name: faulty", "name: sound");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+}
+
+}  // namespace
+}  // namespace armature::test

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-# find_package(Armature) for plugin authors.
+# find_package(Armature) for plugin authors, from an installation or straight from a build folder.
 include(CMakePackageConfigHelpers)
 
 install(TARGETS armature_abi EXPORT ArmatureTargets)
 install(EXPORT ArmatureTargets NAMESPACE armature:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/Armature)
+export(EXPORT ArmatureTargets NAMESPACE armature:: FILE "${CMAKE_BINARY_DIR}/ArmatureTargets.cmake")
+file(COPY cmake/ArmaturePlugin.cmake cmake/plugin_manifest.cpp.in DESTINATION "${CMAKE_BINARY_DIR}")
 configure_package_config_file(cmake/ArmatureConfig.cmake.in "${CMAKE_BINARY_DIR}/ArmatureConfig.cmake"
                               INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/Armature)
 write_basic_package_version_file("${CMAKE_BINARY_DIR}/ArmatureConfigVersion.cmake"

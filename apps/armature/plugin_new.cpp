@@ -58,7 +58,6 @@ constexpr std::string_view kSource = R"(#include "@NAME@.hpp"
 
 #include <Eigen/Cholesky>
 
-#include "armature/kinds/ik/pose_error.hpp"
 #include "armature/robot/kinematics.hpp"
 #include "armature/runtime/plugin.hpp"
 
@@ -70,19 +69,30 @@ IkStatus @CLASS@::solve(const IkGoal& goal, const JointVector& seed, IkBranches&
   if (const char* wrong = invalid_input(robot_, goal, seed)) {
     return {IkStatus::Code::invalid_input, 0, wrong};
   }
+  const Eigen::Vector3d axis = robot_.pointing_axis().value_or(Eigen::Vector3d::UnitZ());
   JointVector q = seed;
   for (int i = 0; i < goal.max_iterations; ++i) {
-    const auto [pose, jacobian] = forward_kinematics_with_jacobian(robot_, q, robot_.tool());
-    const PoseError error = pose_error(robot_, pose, jacobian, goal.pose);
-    if (error.residual.position_m <= goal.tolerance.position_m &&
-        error.residual.angle_rad <= goal.tolerance.angle_rad) {
-      out.add() = {"from_seed", q, 0, error.residual, robot_.within_limits(q), false};
-      return {robot_.within_limits(q) ? IkStatus::Code::ok : IkStatus::Code::joint_limit, 0, {}};
+    auto [base_T_tool, J] = forward_kinematics_with_jacobian(robot_, q, robot_.tool());
+    const PoseResidual left = residual(base_T_tool, axis, goal.pose);
+    if (left.position_m <= goal.tolerance.position_m && left.angle_rad <= goal.tolerance.angle_rad) {
+      const bool inside = robot_.within_limits(q);
+      out.add() = {"from_seed", q, 0, left, inside, false};
+      return {inside ? IkStatus::Code::ok : IkStatus::Code::joint_limit, 0, "outside its limits"};
     }
-    const auto& J = error.jacobian;
+    Eigen::Matrix<double, 6, 1> error;
+    error.head<3>() = goal.pose.position - base_T_tool.translation();
+    if (const auto* direction = std::get_if<Direction>(&goal.pose.orientation)) {
+      const Eigen::Vector3d pointing = base_T_tool.rotation() * axis;  // the turn about it is free
+      J.bottomRows<3>() -= (pointing * (pointing.transpose() * J.bottomRows<3>())).eval();
+      error.tail<3>() = pointing.cross(direction->unit);
+    } else {
+      const Eigen::AngleAxisd turn{std::get<Eigen::Quaterniond>(goal.pose.orientation) *
+                                   Eigen::Quaterniond{base_T_tool.rotation()}.inverse()};
+      error.tail<3>() = turn.angle() * turn.axis();
+    }
     Eigen::MatrixXd A = J.transpose() * J;
-    A.diagonal().array() += damping_ * error.vector.squaredNorm();
-    q += A.ldlt().solve(J.transpose() * error.vector);
+    A.diagonal().array() += damping_ * error.squaredNorm() + 1e-12;
+    q += A.ldlt().solve(J.transpose() * error);
   }
   return {IkStatus::Code::no_convergence, 0, "more iterations than the goal allows"};
 }

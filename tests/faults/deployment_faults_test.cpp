@@ -205,7 +205,7 @@ TEST_P(FaultyDeployment, IsRefusedWithItsExactMessage) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Faults, FaultyDeployment, testing::ValuesIn(kFaults),
-                         [](const auto& info) { return std::string{info.param.name}; });
+                         [](const auto& test) { return std::string{test.param.name}; });
 
 using SoundDeployment = FaultyDeployment;
 

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// `armature check`, `show`, `graph` and `plugin` tell what a deployment and a plugin are.
+#include <nlohmann/json.hpp>
+
+#include "command.hpp"
+
+namespace armature::test {
+namespace {
+
+const std::string kLamp = source_file("configs/dental_lamp.yaml");
+
+TEST(Check, CountsWhatItFoundSound) {
+  const auto result = run_command({armature(), "check", kLamp});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.out.rfind("dental_lamp: ok, 8 components, ", 0), 0U) << result.out;
+}
+
+TEST(Show, GivesEveryValueItsOrigin) {
+  const auto result =
+      run_command({armature(), "show", kLamp, "--set", "components.motion.ik.plugin=ik/numeric"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("ik/numeric"), std::string::npos);
+  EXPECT_NE(result.out.find("--set components.motion.ik.plugin=ik/numeric"), std::string::npos);
+  EXPECT_NE(result.out.find("dental_lamp.yaml:"), std::string::npos);
+}
+
+TEST(Graph, NamesTheWriterAndTheReadersOfATopic) {
+  const auto result = run_command({armature(), "graph", kLamp, "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto topic = nlohmann::json::parse(result.out)["/dental_lamp/arm/servo_jp"];
+  EXPECT_EQ(topic["writers"], (std::vector<std::string>{"motion"}));
+  EXPECT_EQ(topic["readers"], (std::vector<std::string>{"arm"}));
+}
+
+TEST(PluginInfo, ShowsParametersAndPortsFromTheManifest) {
+  const auto result = run_command({armature(), "plugin", "info", "sim/photo_scene", "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_EQ(json["kind"], "component");
+  EXPECT_FALSE(json["params"].empty());
+  EXPECT_FALSE(json["out"].empty());
+}
+
+TEST(PluginInfo, OfAnUnknownOneNamesTheNearest) {
+  const auto result = run_command({armature(), "plugin", "info", "ik/numerc"});
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_NE(result.err.find("did you mean 'ik/numeric'"), std::string::npos) << result.err;
+}
+
+TEST(CommandLine, EndsWithTwoWhenItIsNotUnderstood) {
+  EXPECT_EQ(run_command({armature(), "rnu", kLamp}).exit_code, 2);
+  EXPECT_EQ(run_command({armature(), "run"}).exit_code, 2);
+  EXPECT_EQ(run_command({armature(), "--help"}).exit_code, 0);
+}
+
+}  // namespace
+}  // namespace armature::test

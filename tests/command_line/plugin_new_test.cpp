@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// A newcomer's plugin: written by `armature plugin new`, built outside this tree, and used.
+#include <unistd.h>
+
+#include "command.hpp"
+
+namespace armature::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class NewPlugin : public testing::Test {
+ protected:
+  NewPlugin() { fs::remove_all(folder); }
+  ~NewPlugin() override { fs::remove_all(folder); }
+
+  CommandResult write(const std::string& id) const {
+    return run_command({armature(), "plugin", "new", id, "-o", folder});
+  }
+  void expect_ok(const std::vector<std::string>& command) const {
+    const auto result = run_command(command, {}, std::chrono::seconds{120});
+    EXPECT_EQ(result.exit_code, 0) << command[0] << ": " << result.out << result.err;
+  }
+
+  const fs::path folder = fs::temp_directory_path() / ("armature-new-" + std::to_string(getpid()));
+};
+
+TEST_F(NewPlugin, BuildsOutsideTheTreePassesItsTestAndSolvesForTheLamp) {
+  ASSERT_EQ(write("ik/mine").exit_code, 0);
+  const std::string build = folder / "build";
+  expect_ok({CMAKE_PROGRAM, "-S", folder, "-B", build, "-DCMAKE_BUILD_TYPE=Release"});
+  expect_ok({CMAKE_PROGRAM, "--build", build});
+  expect_ok({build + "/ik_mine_test"});
+
+  const Command::Options with_it{
+      .environment = {{"ARMATURE_PLUGIN_PATH", build}},
+      .input = R"({"position_m":[1.05,0,0.45],"direction":[1,0,0],"seed":[1.2,-2,0,0,0.8,0]})"};
+  const auto info = run_command({armature(), "plugin", "info", "ik/mine"}, with_it);
+  EXPECT_NE(info.out.find("damping"), std::string::npos) << info.err;
+  const auto answer =
+      run_command({armature(), "ik", "--robot", source_file("configs/robots/dental_lamp.yaml"),
+                   "--plugin", "ik/mine"},
+                  with_it);
+  EXPECT_EQ(answer.out.rfind("{\"status\":\"ok\"", 0), 0U) << answer.out << answer.err;
+  const auto check = run_command({armature(), "check", source_file("configs/dental_lamp.yaml"),
+                                  "--set", "components.motion.ik.plugin=ik/mine"},
+                                 with_it);
+  EXPECT_EQ(check.exit_code, 0) << check.err;
+}
+
+TEST_F(NewPlugin, RefusesANameThatIsNoName) {
+  const auto result = write("ik/My Solver");
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_EQ(result.err,
+            "armature: 'ik/My Solver' must be 'ik/name', the name in lower case letters, digits "
+            "and '_'\n");
+}
+
+TEST_F(NewPlugin, RefusesAFolderThatIsNotEmpty) {
+  ASSERT_EQ(write("ik/mine").exit_code, 0);
+  const auto result = write("ik/mine");
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_NE(result.err.find("is there already and not empty"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace armature::test

@@ -5,6 +5,7 @@
 
 #include <map>
 #include <nlohmann/json.hpp>
+#include <utility>
 #include <vector>
 
 #include "armature/config/document.hpp"
@@ -83,8 +84,12 @@ void print_text(const std::map<std::string, Edge>& edges) {
 
 int check_deployment(const DeploymentSource& source) {
   PluginRegistry plugins;
-  const Deployment deployment{
-      read(source, plugins), plugins, {.process = "", .on_line = {}, .on_note = {}}};
+  DeploymentConfig config = read(source, plugins);
+  const std::string text = fmt::format("{}: ok, {} components, {} topics\n", config.name,
+                                       config.components.size(), edges_of(config).size());
+  // Constructing the components is how a solver gets to refuse its robot.
+  const Deployment constructed{
+      std::move(config), plugins, {.process = "", .on_line = {}, .on_note = {}}};
   fmt::print("{}", text);
   return kOk;
 }

@@ -94,8 +94,8 @@ const char* invalid_input(const RobotModel& model, const IkGoal& goal, const Joi
 /// is coupled to it, with whole ratios.
 bool turns_freely(const RobotModel& model, int i);
 
-/// Turns the freely turning joints of `q` by whole turns as near to `near` as the limits allow; false
-/// when some joint keeps its limits at no turn. Real-time safe.
+/// Turns the freely turning joints of `q` by whole turns as near to `near` as the limits allow;
+/// false when some joint keeps its limits at no turn. Real-time safe.
 bool unwind(const RobotModel& model, const JointVector& near, JointVector& q);
 
 /// Home, or the middle of the limits for a robot without one: the seed of a caller who has none.

@@ -20,6 +20,20 @@ constexpr double kRounding = 1e-9;  // of a limit
 constexpr double kFirstTry = 0.3, kGrowth = 1.1;
 constexpr int kMostTries = 90, kRefinements = 5;
 
+/// The times of all waypoints, and between them as many more as it takes to have no gap longer than
+/// if they were even: where the law is slow, waypoints even in s lie far apart in time.
+std::vector<double> knots_of(const JointCurve& curve, const TimeLaw& law) {
+  const double even = law.duration_s() / static_cast<double>(curve.s().size() - 1);
+  std::vector<double> knots{0};
+  for (std::size_t i = 1; i < curve.s().size(); ++i) {
+    const double before = knots.back(), behind = law.time_at(curve.s()[i]);
+    const int parts = static_cast<int>(std::ceil((behind - before) / even - kRounding));
+    for (int k = 1; k < parts; ++k) knots.push_back(before + (behind - before) * k / parts);
+    knots.push_back(behind);
+  }
+  return knots;
+}
+
 /// One leg on its own clock, and how it is allowed to use the limits.
 class LegTimer {
  public:
@@ -52,7 +66,7 @@ class LegTimer {
                           .start = request_.start,
                           .knots = {},
                           .pieces = {}};
-    for (const double s : leg_.curve.s()) trajectory.knots.push_back(law.time_at(s));
+    trajectory.knots = knots_of(leg_.curve, law);
     trajectory.pieces = pieces_along_(leg_.curve, law, trajectory.knots);
     return trajectory;
   }

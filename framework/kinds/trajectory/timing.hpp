@@ -11,7 +11,7 @@
 namespace armature {
 
 /// What distinguishes one trajectory plugin from another: quintics (piece-major) that follow
-/// `curve` under `law`, with a knot at the time of every waypoint.
+/// `curve` under `law` from each of `knots` to the next; every waypoint's time is one of them.
 using PiecesAlong = std::vector<Quintic> (*)(const JointCurve& curve, const TimeLaw& law,
                                              std::span<const double> knots);
 

@@ -15,8 +15,9 @@
 namespace armature {
 namespace {
 
-// Levenberg-Marquardt: damping falls with the error, so that the end is Newton's quadratic one.
-constexpr double kDamping = 1e-2, kLeastDamping = 1e-13;
+// Levenberg-Marquardt: the damping falls with the error, below kNear with its square, so that the
+// end is Newton's quadratic one; next to a singular pose anything more keeps it from the goal.
+constexpr double kDamping = 1e-2, kLeastDamping = 1e-14, kNear = 0.1;
 constexpr double kLongestStep = 1.0;  // [rad] or [m], of any joint
 constexpr int kPatience = 6;          // iterations in which the error must fall ...
 constexpr double kEnoughGain = 0.7;   // ... to this part, or the start is given up
@@ -61,7 +62,8 @@ template <int Rows>
 JointVector step(const PoseError<Rows>& e) {
   using Square = Eigen::Matrix<double, Rows, Rows>;
   Square A = e.jacobian.lazyProduct(e.jacobian.transpose());
-  A.diagonal().array() += kDamping * size_of(e) + kLeastDamping;
+  const double size = size_of(e);
+  A.diagonal().array() += kDamping * size * std::min(1.0, size / kNear) + kLeastDamping;
   const Eigen::Matrix<double, Rows, 1> y = Eigen::LLT<Square>{A}.solve(e.error);
   JointVector dq = e.jacobian.transpose().lazyProduct(y);
   const double longest = dq.cwiseAbs().maxCoeff();

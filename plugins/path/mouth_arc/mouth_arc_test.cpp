@@ -55,7 +55,7 @@ TEST(MouthArc, EverySampleOfTheArcLooksAtTheMouthFromTheSameDistance) {
 TEST(MouthArc, SamplesAreAtMostAStepApartAndAtLeastEight) {
   const Vector3d from{-1, 0, 0}, to{-std::cos(0.6), std::sin(0.6), 0};
   const auto path = plan(looking_at_mouth_from(from, 0.5), looking_at_mouth_from(to, 0.5));
-  EXPECT_EQ(path->front().samples.size(), 36u);  // 34.4 degrees in steps of one
+  EXPECT_EQ(path->front().samples.size(), 70u);  // 34.4 degrees in steps of half a degree
   const auto small =
       plan(looking_at_mouth_from({-1, 0, 0}, 0.5), looking_at_mouth_from({-1, 0.01, 0}, 0.5));
   EXPECT_EQ(small->front().samples.size(), 9u);

@@ -10,7 +10,10 @@ namespace {
 
 std::vector<Quintic> spline_along(const JointCurve& curve, const TimeLaw& law,
                                   std::span<const double> knots) {
-  return quintic_spline(knots, curve.waypoints(), state_along(curve, law, knots.front()),
+  std::vector<JointVector> points;
+  points.reserve(knots.size());
+  for (const double t : knots) points.push_back(curve.at(law.s(t)).q);
+  return quintic_spline(knots, points, state_along(curve, law, knots.front()),
                         state_along(curve, law, knots.back()));
 }
 

@@ -6,6 +6,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "armature/config/params.hpp"
 #include "armature/runtime/plugin.hpp"
@@ -21,10 +22,11 @@ using Matrix12 = Eigen::Matrix<double, 12, 12>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Matrix12x6 = Eigen::Matrix<double, 12, 6>;
 
-constexpr double kDegreesOfFreedom = 5;   // of a measurement: a point and a direction
+constexpr double kDegreesOfFreedom = 5;  // of a measurement: a point and a direction
+constexpr double kDegreesPerRadian = 180 / std::numbers::pi;
 constexpr double kSmoothing = 0.4;        // weight of the newest innovation
 constexpr double kSettledSurprise = 1.5;  // moving -> still, and
-constexpr double kSettledSigmas = 3;      // rates no larger than this many of their sigmas
+constexpr double kSettledRates = 1.3;     // normalised square of the rates: 1 for a still target
 constexpr double kLeastSigma_m = 1e-6, kLeastSigma_rad = 1e-6;
 
 /// Transition over dt; `decay` is what is left of a rate.
@@ -87,6 +89,16 @@ Innovation innovation(const TargetMeasurement& m, const TargetFilter::State& sta
   return result;
 }
 
+/// Are the rates larger than their uncertainty explains?
+bool has_rates(const TargetFilter::State& state) {
+  Vector6 rates;
+  rates << state.mean.segment<3>(kVelocity), state.mean.segment<3>(kNormalRate);
+  Vector6 variances;
+  variances << state.covariance.diagonal().segment<3>(kVelocity),
+      state.covariance.diagonal().segment<3>(kNormalRate);
+  return rates.cwiseAbs2().cwiseQuotient(variances).mean() > kSettledRates;
+}
+
 TargetEstimate estimate_of(const TargetFilter::State& state) {
   const Eigen::Vector3d normal = state.mean.segment<3>(kNormal).normalized();
   const Eigen::Vector3d rate = state.mean.segment<3>(kNormalRate);
@@ -108,7 +120,8 @@ Expected<std::unique_ptr<TargetFilter>> ConstantVelocity::make(const Params& par
                .turn_acceleration_rad_s2 = params.number("turn_acceleration_rad_s2"),
                .decay_s = params.number("decay_s"),
                .surprise = params.number("surprise"),
-               .gate_sigma = params.number("gate_sigma"),
+               .outlier_position_m = params.number("outlier_position_mm"),
+               .outlier_angle_rad = params.number("outlier_angle_deg"),
                .restart_after = static_cast<int>(params.integer("restart_after")),
                .max_gap_s = params.number("max_gap_s")});
 }
@@ -162,13 +175,16 @@ Expected<TargetEstimate> ConstantVelocity::update(const TargetMeasurement& measu
   State still = state, moving = state;
   advance(still, dt, false);
   advance(moving, dt, true);
-  const double outlier = std::sqrt(innovation(measurement, moving).normalised);
-  if (outlier > settings_.gate_sigma) {
+  const Vector6 off = innovation(measurement, moving).value;
+  const double distance = off.head<3>().norm();
+  const double angle = 2 * std::asin(std::min(0.5 * off.tail<3>().norm(), 1.0));
+  if (distance > settings_.outlier_position_m || angle > settings_.outlier_angle_rad) {
     if (++state.rejected < settings_.restart_after) {
       return refuse(
-          fmt::format("outlier: {:.1f} sigma from where the target should be, more than "
-                      "{:.1f}",
-                      outlier, settings_.gate_sigma));
+          fmt::format("outlier: {:.0f} mm and {:.0f} degrees from where the target "
+                      "should be, more than {:.0f} mm or {:.0f} degrees",
+                      distance * 1e3, angle * kDegreesPerRadian, settings_.outlier_position_m * 1e3,
+                      settings_.outlier_angle_rad * kDegreesPerRadian));
     }
     start(measurement, state);
     return estimate_of(state);
@@ -176,13 +192,8 @@ Expected<TargetEstimate> ConstantVelocity::update(const TargetMeasurement& measu
 
   const double surprise = innovation(measurement, still).normalised / kDegreesOfFreedom;
   const double smoothed = state.surprise + kSmoothing * (surprise - state.surprise);
-  const auto fast = [&](int rate) {
-    const Eigen::Vector3d sigma = state.covariance.diagonal().segment<3>(rate).cwiseSqrt();
-    return (state.mean.segment<3>(rate).cwiseAbs().array() > kSettledSigmas * sigma.array()).any();
-  };
-  const bool is_moving = state.moving
-                             ? smoothed > kSettledSurprise || fast(kVelocity) || fast(kNormalRate)
-                             : smoothed > settings_.surprise;
+  const bool is_moving = state.moving ? smoothed > kSettledSurprise || has_rates(state)
+                                      : smoothed > settings_.surprise;
 
   State next = is_moving ? moving : still;
   const Innovation i = innovation(measurement, next);

@@ -15,10 +15,10 @@ class ConstantVelocity final : public TargetFilter {
  public:
   struct Settings {
     double still_speed_m_s = 0.0003, still_turn_rad_s = 0.005;  // standard deviations
-    double acceleration_m_s2 = 0.6, turn_acceleration_rad_s2 = 2;
-    double decay_s = 0.5;    // of the rates while still
-    double surprise = 2.5;   // smoothed normalised innovation above which the target moves
-    double gate_sigma = 6;   // an outlier is farther off than this
+    double acceleration_m_s2 = 0.3, turn_acceleration_rad_s2 = 1;
+    double decay_s = 0.5;   // of the rates while still
+    double surprise = 2.5;  // smoothed normalised innovation above which the target moves
+    double outlier_position_m = 0.15, outlier_angle_rad = 0.785;  // farther off is not believed
     int restart_after = 4;   // outliers in a row: the target has been moved, start again there
     double max_gap_s = 1.0;  // longest prediction
   };

@@ -1,2 +1,236 @@
 // SPDX-License-Identifier: Apache-2.0
+// The target filter: 1. it averages a still target, 2. it follows one that moves, 3. it forgets
+// outliers and believes a target that stays elsewhere, 4. its memory is the State alone, 5. bad
+// input.
+#include "constant_velocity.hpp"
+
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+namespace armature {
+namespace {
+
+using Eigen::Vector3d;
+constexpr double kDegree = std::numbers::pi / 180;
+
+double angle(const Vector3d& a, const Vector3d& b) {
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+/// A target seen ten times a second with Gaussian noise.
+class Camera {
+ public:
+  Camera(std::uint64_t seed, double position_sigma, double normal_sigma)
+      : random_{seed}, position_{position_sigma}, normal_{normal_sigma} {}
+  TargetMeasurement look(double t_s, const Vector3d& position, const Vector3d& normal) {
+    return {.stamp = Time{} + seconds(t_s),
+            .position = position + position_ * noise(),
+            .normal = (normal + normal_ * noise()).normalized(),
+            .position_sigma_m = position_,
+            .normal_sigma_rad = normal_};
+  }
+
+ private:
+  Vector3d noise() { return {unit_(random_), unit_(random_), unit_(random_)}; }
+  std::mt19937_64 random_;
+  std::normal_distribution<double> unit_{0, 1};
+  double position_, normal_;
+};
+
+const Vector3d kMouth{1.55, 0, 0.45};
+const Vector3d kNormal{-1, 0, 0};
+
+TEST(ConstantVelocity, AveragesAStillTarget) {
+  const ConstantVelocity filter{{}};
+  double position = 0, normal = 0;
+  constexpr int kRuns = 200;
+  for (int run = 0; run < kRuns; ++run) {
+    SCOPED_TRACE(run);
+    Camera camera{static_cast<std::uint64_t>(run), 0.0015, 1.5 * kDegree};
+    TargetFilter::State state;
+    TargetEstimate estimate{};
+    for (int i = 0; i < 20; ++i) {
+      const auto updated = filter.update(camera.look(0.1 * i, kMouth, kNormal), state);
+      ASSERT_TRUE(updated) << updated.error().text;
+      estimate = *updated;
+    }
+    EXPECT_EQ(estimate.measurements, 20);
+    EXPECT_NEAR(estimate.normal.norm(), 1, 1e-12);
+    position += (estimate.position - kMouth).squaredNorm();
+    normal += std::pow(angle(estimate.normal, kNormal), 2);
+  }
+  // One look has sqrt(3) x 1.5 mm = 2.6 mm and sqrt(2) x 1.5 = 2.1 degrees.
+  EXPECT_LT(std::sqrt(position / kRuns), 0.0010);
+  EXPECT_LT(std::sqrt(normal / kRuns), 0.9 * kDegree);
+}
+
+struct Follow {
+  double worst_position = 0, worst_normal = 0;      // while it moves
+  double settled_position = 0, settled_normal = 0;  // a second after it stopped
+  int rejected = 0;
+};
+
+/// The patient moves 50 mm and 10 degrees within one second, as the scene lets him.
+Follow follow_a_move(std::uint64_t seed, double position_sigma, double normal_sigma) {
+  const ConstantVelocity filter{{}};
+  Camera camera{seed, position_sigma, normal_sigma};
+  TargetFilter::State state;
+  Follow result;
+  for (int i = 0; i <= 70; ++i) {
+    const double t = 0.1 * i, s = std::clamp(t - 4.05, 0.0, 1.0);
+    const double share = s * s * s * (10 + s * (-15 + 6 * s));
+    const Vector3d mouth = kMouth + share * Vector3d{0, 0.04, 0.03};
+    const double turn = 10 * kDegree * share;
+    const Vector3d normal{-std::cos(turn), std::sin(turn), 0};
+    const auto estimate = filter.update(camera.look(t, mouth, normal), state);
+    if (!estimate) {
+      ++result.rejected;
+      continue;
+    }
+    const double position_error = (estimate->position - mouth).norm();
+    const double normal_error = angle(estimate->normal, normal);
+    if (t > 4.05 && t < 5.5) {
+      result.worst_position = std::max(result.worst_position, position_error);
+      result.worst_normal = std::max(result.worst_normal, normal_error);
+    }
+    if (t >= 6.5) {
+      result.settled_position = std::max(result.settled_position, position_error);
+      result.settled_normal = std::max(result.settled_normal, normal_error);
+    }
+  }
+  return result;
+}
+
+TEST(ConstantVelocity, FollowsAPatientWhoMovesFiftyMillimetresAndTenDegreesInASecond) {
+  for (std::uint64_t seed = 0; seed < 50; ++seed) {
+    SCOPED_TRACE(seed);
+    const Follow result = follow_a_move(seed, 0.001, 1.2 * kDegree);
+    EXPECT_EQ(result.rejected, 0);
+    EXPECT_LT(result.worst_position, 0.012);
+    EXPECT_LT(result.worst_normal, 8 * kDegree);
+    EXPECT_LT(result.settled_position, 0.0025);
+    EXPECT_LT(result.settled_normal, 2.5 * kDegree);
+  }
+}
+
+TEST(ConstantVelocity, FollowsThroughThePapersNoise) {
+  for (std::uint64_t seed = 0; seed < 50; ++seed) {
+    SCOPED_TRACE(seed);
+    const Follow result = follow_a_move(seed, 0.005, 4.5 * kDegree);
+    EXPECT_EQ(result.rejected, 0);
+    EXPECT_LT(result.worst_position, 0.04);
+    EXPECT_LT(result.settled_position, 0.012);
+    EXPECT_LT(result.settled_normal, 9 * kDegree);
+  }
+}
+
+TEST(ConstantVelocity, RejectsOneOutlierAndSaysHowFarItIs) {
+  const ConstantVelocity filter{{}};
+  Camera camera{1, 0.001, 1 * kDegree};
+  TargetFilter::State state;
+  for (int i = 0; i < 10; ++i)
+    ASSERT_TRUE(filter.update(camera.look(0.1 * i, kMouth, kNormal), state));
+  const auto outlier =
+      filter.update(camera.look(1.0, kMouth + Vector3d{0.3, 0, 0}, kNormal), state);
+  ASSERT_FALSE(outlier);
+  EXPECT_THAT(outlier.error().text,
+              testing::MatchesRegex("outlier: (299|300|301) mm and . degrees from where the target "
+                                    "should be, more than 150 mm or 45 degrees"));
+  const auto next = filter.update(camera.look(1.1, kMouth, kNormal), state);
+  ASSERT_TRUE(next);
+  EXPECT_LT((next->position - kMouth).norm(), 0.002);
+  EXPECT_EQ(next->measurements, 11);
+}
+
+TEST(ConstantVelocity, StartsAgainWhereATargetStays) {
+  const ConstantVelocity filter{{}};
+  Camera camera{1, 0.001, 1 * kDegree};
+  TargetFilter::State state;
+  for (int i = 0; i < 10; ++i)
+    ASSERT_TRUE(filter.update(camera.look(0.1 * i, kMouth, kNormal), state));
+  const Vector3d elsewhere = kMouth + Vector3d{0, 0.4, 0};
+  for (int i = 10; i < 13; ++i) {
+    EXPECT_FALSE(filter.update(camera.look(0.1 * i, elsewhere, kNormal), state));
+  }
+  const auto restarted = filter.update(camera.look(1.3, elsewhere, kNormal), state);
+  ASSERT_TRUE(restarted);
+  EXPECT_LT((restarted->position - elsewhere).norm(), 0.005);
+  EXPECT_EQ(restarted->measurements, 1);
+}
+
+TEST(ConstantVelocity, PredictsAlongTheVelocity) {
+  const ConstantVelocity filter{{}};
+  Camera camera{1, 0.0002, 0.1 * kDegree};
+  TargetFilter::State state;
+  const Vector3d velocity{0.02, -0.1, 0.05};
+  for (int i = 0; i < 30; ++i) {
+    filter.update(camera.look(0.1 * i, kMouth + 0.1 * i * velocity, kNormal), state);
+  }
+  const auto later = filter.predict(Time{} + seconds(3.1), state);
+  ASSERT_TRUE(later);
+  EXPECT_LT((later->position - (kMouth + 3.1 * velocity)).norm(), 0.008);
+  EXPECT_LT((later->velocity - velocity).norm(), 0.04);
+  EXPECT_EQ(later->stamp, Time{} + seconds(3.1));
+}
+
+TEST(ConstantVelocity, PredictsNoFurtherThanItsGap) {
+  const ConstantVelocity filter{{}};
+  TargetFilter::State state;
+  EXPECT_EQ(filter.predict(Time{}, state).error().text, "no measurement yet");
+  Camera camera{1, 0.001, 1 * kDegree};
+  ASSERT_TRUE(filter.update(camera.look(1, kMouth, kNormal), state));
+  EXPECT_TRUE(filter.predict(Time{} + seconds(1.9), state));
+  EXPECT_EQ(filter.predict(Time{} + seconds(2.5), state).error().text,
+            "1.50 s without a measurement, more than 1.00 s");
+}
+
+TEST(ConstantVelocity, StartsAgainAfterTheGap) {
+  const ConstantVelocity filter{{}};
+  TargetFilter::State state;
+  Camera camera{1, 0.001, 1 * kDegree};
+  ASSERT_TRUE(filter.update(camera.look(1, kMouth, kNormal), state));
+  const auto again = filter.update(camera.look(2.5, kMouth + Vector3d{0.5, 0, 0}, kNormal), state);
+  ASSERT_TRUE(again);
+  EXPECT_EQ(again->measurements, 1);
+}
+
+TEST(ConstantVelocity, GivesTheSameBitsFromTheSameState) {
+  const ConstantVelocity a{{}}, b{{}};
+  Camera camera{5, 0.001, 1 * kDegree};
+  TargetFilter::State state;
+  for (int i = 0; i < 5; ++i) a.update(camera.look(0.1 * i, kMouth, kNormal), state);
+  TargetFilter::State copy = state;
+  const TargetMeasurement next = camera.look(0.5, kMouth, kNormal);
+  const auto first = a.update(next, state), second = b.update(next, copy);
+  ASSERT_TRUE(first && second);
+  EXPECT_EQ(first->position, second->position);
+  EXPECT_EQ(first->normal, second->normal);
+  EXPECT_EQ(state.covariance, copy.covariance);
+}
+
+TEST(ConstantVelocity, RefusesBadMeasurementsAndKeepsItsState) {
+  const ConstantVelocity filter{{}};
+  Camera camera{5, 0.001, 1 * kDegree};
+  TargetFilter::State state;
+  ASSERT_TRUE(filter.update(camera.look(1, kMouth, kNormal), state));
+  const TargetFilter::State before = state;
+  auto bad = camera.look(1.1, kMouth, kNormal);
+  bad.position.x() = NAN;
+  EXPECT_EQ(filter.update(bad, state).error().text,
+            "the measurement is not finite, or its normal is no unit vector");
+  bad = camera.look(1.1, kMouth, kNormal);
+  bad.normal.setZero();
+  EXPECT_FALSE(filter.update(bad, state));
+  EXPECT_EQ(filter.update(camera.look(0.9, kMouth, kNormal), state).error().text,
+            "the measurement is 100.0 ms older than the newest one");
+  EXPECT_EQ(state.mean, before.mean);
+  EXPECT_EQ(state.measurements, 1);
+}
+
+}  // namespace
+}  // namespace armature

@@ -15,6 +15,7 @@ namespace armature {
 namespace {
 
 constexpr Duration kStatusPeriod = seconds(0.1);
+constexpr Duration kPatience = seconds(0.5);
 
 /// The same limit for every joint, refused where the robot's own is lower.
 JointVector limit_of(const Setup& setup, const char* param, const RobotModel& model,
@@ -75,7 +76,7 @@ class Motion : public Component {
     publish_statuses(now);
     publish_plan();
     if (execution_.reference().started()) publish_reference(now);
-    show_health();
+    show_health(now);
   }
 
  private:
@@ -140,7 +141,10 @@ class Motion : public Component {
     reference.publish();
   }
 
-  void show_health() {
+  void show_health(Time now) {
+    // That an arm has not spoken yet is worth a word only when it takes long.
+    if (!first_step_) first_step_ = now;
+    if (!execution_.reference().started() && now - *first_step_ < kPatience) return;
     const std::string& trouble = bad_measurement_.empty() ? execution_.trouble() : bad_measurement_;
     if (trouble == shown_trouble_) return;
     shown_trouble_ = trouble;
@@ -165,6 +169,7 @@ class Motion : public Component {
   Output<msg::QuinticTrajectory> trajectory_out_;
   GoalExecution execution_;
   Time last_status_;
+  std::optional<Time> first_step_;
   std::string bad_measurement_, shown_trouble_;
 };
 

@@ -9,9 +9,13 @@ namespace {
 
 constexpr double kRounding = 1e-9;
 
+/// Braking uses less than the limit: the last step is an incomplete one, and drops by up to 9/8.
+constexpr double kBrake = 0.85;
+
 /// The fastest approach from which the joint can still stop after `distance`, when its velocity
-/// changes in steps of `a * dt`.
-double stopping_velocity(double distance, double a, double dt) {
+/// changes in steps.
+double stopping_velocity(double distance, double a_limit, double dt) {
+  const double a = kBrake * a_limit;
   const double step = 0.5 * a * dt;
   const double left = std::max(distance, 0.0);
   return std::min(std::sqrt(step * step + 2 * a * left) - step, left / dt);

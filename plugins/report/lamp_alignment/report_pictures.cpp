@@ -38,27 +38,33 @@ double tick_step(double range, int most) {
   return 10 * power;
 }
 
-/// One curve over time in a frame with ticks and labels.
+/// One curve over time in a frame with ticks and labels. The errors span four powers of ten and the
+/// goal lies at their small end, so their axis is logarithmic.
 struct Panel {
   cv::Rect frame;
   std::string title;
-  double duration_s, top, goal;
+  double duration_s, goal;
+  static constexpr int kLowest = -2, kHighest = 3;  // powers of ten
 
   cv::Point at(double time_s, double value) const {
+    const double decade = std::log10(std::max(value, std::pow(10, kLowest)));
+    const double share = (std::min<double>(decade, kHighest) - kLowest) / (kHighest - kLowest);
     const double x = frame.x + frame.width * time_s / duration_s;
-    const double y = frame.y + frame.height * (1 - std::min(value, top) / top);
+    const double y = frame.y + frame.height * (1 - share);
     return {static_cast<int>(std::lround(x)), static_cast<int>(std::lround(y))};
   }
 
   void draw_axes(cv::Mat& image) const {
-    const double step_y = tick_step(top, 6), step_x = tick_step(duration_s, 10);
-    for (double y = 0; y <= top * 1.0001; y += step_y) {
+    const double lowest = std::pow(10, kLowest), highest = std::pow(10, kHighest);
+    for (int power = kLowest; power <= kHighest; ++power) {
+      const double y = std::pow(10, power);
       cv::line(image, at(0, y), at(duration_s, y), kGrid);
-      text(image, fmt::format("{:g}", y), at(0, y) + cv::Point{-42, 5});
+      text(image, fmt::format("{:g}", y), at(0, y) + cv::Point{-48, 5});
     }
+    const double step_x = tick_step(duration_s, 10);
     for (double x = 0; x <= duration_s * 1.0001; x += step_x) {
-      cv::line(image, at(x, 0), at(x, top), kGrid);
-      text(image, fmt::format("{:g}", x), at(x, 0) + cv::Point{-8, 18});
+      cv::line(image, at(x, lowest), at(x, highest), kGrid);
+      text(image, fmt::format("{:g}", x), at(x, lowest) + cv::Point{-8, 18});
     }
     cv::line(image, at(0, goal), at(duration_s, goal), kGoal, 1, cv::LINE_AA);
     cv::rectangle(image, frame, kBlack);
@@ -112,20 +118,13 @@ void write_error_plot(std::span<const LampError> errors, const AlignmentGoals& g
   const double duration_s = errors.empty() ? 1 : std::max(1.0, errors.back().time_s);
   const auto distance_mm = [](const LampError& e) { return 1000 * e.distance_error_m; };
   const auto direction_deg = [](const LampError& e) { return kDegrees * e.direction_error_rad; };
-  double most_mm = 10, most_deg = 10;
-  for (const LampError& error : errors) {
-    most_mm = std::max(most_mm, distance_mm(error));
-    most_deg = std::max(most_deg, direction_deg(error));
-  }
   const Panel distance{.frame = {70, 40, 900, 280},
                        .title = "distance error [mm]; red: goal",
                        .duration_s = duration_s,
-                       .top = most_mm,
                        .goal = 1000 * goals.distance_error_m};
   const Panel direction{.frame = {70, 415, 900, 280},
                         .title = "direction error [deg]; red: goal",
                         .duration_s = duration_s,
-                        .top = most_deg,
                         .goal = kDegrees * goals.direction_error_rad};
   distance.draw_axes(image);
   distance.draw_curve(image, errors, distance_mm);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "face_estimate.hpp"
 
-#include <algorithm>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 namespace armature {

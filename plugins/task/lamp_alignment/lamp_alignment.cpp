@@ -147,7 +147,7 @@ void LampAlignment::align_with(const FaceEstimate& estimate, Phase phase, Time n
 bool LampAlignment::follow_if_moved(Time now) {
   if (to_seconds(now - goal_set_at_) < settings_.replan_interval_s) return false;
   if (!latest_ || fresh_ == 0 || !settings_.moved.left_by(*latest_, *goal_estimate_)) return false;
-  align_with(*latest_, Phase::following, now);
+  align_with(*latest_, phase_, now);  // the first approach stays one
   return true;
 }
 

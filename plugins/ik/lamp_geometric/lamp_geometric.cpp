@@ -83,9 +83,22 @@ PoseResidual residual_at(const Problem& p, const Tilt& tilt, const Balance& bala
     base_R_tool.col(1) = base_R_tool.col(2).cross(x);
     residual.angle_rad = Eigen::Quaterniond{base_R_tool}.angularDistance(rotation->normalized());
   } else {
-    residual.angle_rad = std::atan2(x.cross(p.direction).norm(), x.dot(p.direction));
+    const double sine = x.cross(p.direction).norm(), cosine = x.dot(p.direction);
+    residual.angle_rad = cosine > 0 && sine < 1e-6 ? sine : std::atan2(sine, cosine);
   }
   return residual;
+}
+
+/// What `unwind` answers, without turning: every joint of the lamp turns freely.
+bool keeps_limits(const RobotModel& model, const JointVector& q) {
+  constexpr double kTolerance = 1e-9;
+  for (Eigen::Index i = 0; i < q.size(); ++i) {
+    const double lower = model.lower()[i] - kTolerance, upper = model.upper()[i] + kTolerance;
+    if (q[i] >= lower && q[i] <= upper) continue;
+    const double least = q[i] + 2 * kPi * std::ceil((lower - q[i]) / (2 * kPi));
+    if (least > upper) return false;
+  }
+  return true;
 }
 
 void add_branch(Problem& p, const Tilt& tilt, const Balance& balance, int elbow, double q1,
@@ -106,8 +119,7 @@ void add_branch(Problem& p, const Tilt& tilt, const Balance& balance, int elbow,
     p.out_of_reach(0, "the lamp cannot roll about its pointing axis");
     return;
   }
-  JointVector turned = branch.q;
-  branch.within_limits = unwind(p.model, branch.q, turned);
+  branch.within_limits = keeps_limits(p.model, branch.q);
 }
 
 /// Steps 3 to 5: the two elbows that bring the wrist over the goal.
@@ -117,7 +129,7 @@ void solve_elbows(Problem& p, const Tilt& tilt, const Balance& balance) {
   const double wy = p.goal.pose.position.y() - r * tilt.sin_psi;
   const double a1 = p.arm.a1, l = balance.l;
   const double far = a1 + std::abs(l), near = std::abs(a1 - std::abs(l));
-  const double D = std::hypot(wx, wy);
+  const double D = std::sqrt(wx * wx + wy * wy);
   // The two radicands of the half angle, factored so that nothing cancels.
   double outside = (far - D) * (far + D), inside = (D - near) * (D + near);
   const double rim = far * far;

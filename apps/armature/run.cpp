@@ -78,6 +78,9 @@ int conclude(const RunOptions& options, const Deployment& deployment,
   }
   std::fflush(stdout);
   if (lost) fmt::print(stderr, "armature: {}\n", *lost);
+  if (g_signal != 0) {
+    fmt::print(stderr, "armature: {}\n", g_signal == SIGINT ? "interrupted" : "terminated");
+  }
   const bool unfinished = g_signal != 0 && !deployment.config().goals.empty();
   return report.status() == "ok" && !lost && !unfinished ? kOk : kFailed;
 }

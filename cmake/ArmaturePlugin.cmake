@@ -5,11 +5,12 @@
 #
 # The folder's plugin.yaml (id, kind, parameters, ports) is embedded as constant text, together with
 # the ABI tag of the compiler that builds it; both are read without running the library's code.
+# TEST_ONLY: for the framework's own tests; kept apart from the plugins and not installed.
 
 set(ARMATURE_PLUGIN_TEMPLATE "${CMAKE_CURRENT_LIST_DIR}/plugin_manifest.cpp.in")
 
 function(armature_add_plugin id)
-  cmake_parse_arguments(arg "" "" "SOURCES;LINK;TESTS;TEST_LINK" ${ARGN})
+  cmake_parse_arguments(arg "TEST_ONLY" "" "SOURCES;LINK;TESTS;TEST_LINK" ${ARGN})
   string(REPLACE "/" "_" target "${id}")
 
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS
@@ -26,7 +27,11 @@ function(armature_add_plugin id)
   endif()
   set_target_properties(${target} PROPERTIES PREFIX "" CXX_VISIBILITY_PRESET hidden
                                              VISIBILITY_INLINES_HIDDEN ON)
-  if(TARGET armature_warnings)  # in the framework's own tree
+  if(arg_TEST_ONLY)
+    target_link_libraries(${target} PRIVATE armature_warnings)
+    set_target_properties(${target} PROPERTIES
+      LIBRARY_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/tests/plugins")
+  elseif(TARGET armature_warnings)  # in the framework's own tree
     target_link_libraries(${target} PRIVATE armature_warnings)
     set_target_properties(${target} PROPERTIES
       LIBRARY_OUTPUT_DIRECTORY "${ARMATURE_PLUGIN_BUILD_DIR}" INSTALL_RPATH "$ORIGIN/../..")

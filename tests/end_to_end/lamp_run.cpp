@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lamp_run.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "tests/dds_domain.hpp"
+
+namespace armature::test {
+namespace {
+
+// Far beyond what a run takes: only a hang ends here.
+constexpr std::chrono::seconds kPatience{180};
+
+}  // namespace
+
+double LampRun::figure(const std::string& name) const {
+  const auto found = report.find(name);
+  const bool there = found != report.end() && found->is_number();
+  return there ? found->get<double>() : std::numeric_limits<double>::quiet_NaN();
+}
+
+std::string LampRun::text() const {
+  return "exit code " + std::to_string(command.exit_code) +
+         (command.timed_out ? " (timed out)" : "") + "\n" + command.out + command.err;
+}
+
+std::vector<std::string> lamp_command(const LampStart& start) {
+  std::vector<std::string> command{armature(), "run"};
+  command.insert(command.end(), start.files.begin(), start.files.end());
+  const int domain = start.domain > 0 ? start.domain : unique_dds_domain();
+  command.insert(command.end(), {"--json", "--domain", std::to_string(domain)});
+  for (const auto& setting : start.settings) command.insert(command.end(), {"--set", setting});
+  return command;
+}
+
+LampRun run_lamp(const LampStart& start) {
+  LampRun run{.command = run_command(lamp_command(start), start.options, kPatience), .report = {}};
+  const auto report = nlohmann::json::parse(run.command.out, nullptr, false);
+  if (report.is_object()) run.report = report;
+  return run;
+}
+
+void expect_aligned(const LampRun& run, const LampGoals& goals) {
+  SCOPED_TRACE(run.text());
+  EXPECT_EQ(run.command.exit_code, 0);
+  EXPECT_EQ(run.report.value("status", "none"), "ok");
+  EXPECT_LE(run.figure("mouth_position_error_mm"), goals.mouth_mm);
+  EXPECT_LE(run.figure("face_normal_error_deg"), goals.normal_deg);
+  EXPECT_LE(run.figure("distance_error_mm"), goals.distance_mm);
+  EXPECT_LE(run.figure("direction_error_deg"), goals.direction_deg);
+  EXPECT_LE(run.figure("time_to_find_s"), run.figure("time_to_align_s"));
+}
+
+}  // namespace armature::test

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "command.hpp"
+
+namespace armature::test {
+
+/// How the lamp is started.
+struct LampStart {
+  std::vector<std::string> files{source_file("configs/dental_lamp.yaml")};
+  std::vector<std::string> settings;  // "components.motion.ik.plugin=ik/numeric"
+  int domain = 0;                     // 0: one that no other test uses
+  Command::Options options;
+};
+
+/// What came of a run to its end.
+struct LampRun {
+  CommandResult command;
+  nlohmann::json report;  // null when it printed none
+
+  double figure(const std::string& name) const;  // NaN when it is missing
+  std::string text() const;                      // for messages
+};
+
+/// The limits of the four goals.
+struct LampGoals {
+  double mouth_mm = 2.5, normal_deg = 2.5, distance_mm = 1.5, direction_deg = 2.5;
+};
+
+/// On the simulated clock: the same on every machine.
+inline const std::string kSimulated = "clock=simulated";
+/// The face's two stages in a process of their own.
+inline const std::vector<std::string> kVisionApart{"components.landmarks.process=vision",
+                                                   "components.face.process=vision"};
+
+std::vector<std::string> lamp_command(const LampStart& start);
+LampRun run_lamp(const LampStart& start);
+
+/// Found, aligned, all four goals met, and not slower than 20 s of the deployment's own time.
+void expect_aligned(const LampRun& run, const LampGoals& goals = {});
+
+}  // namespace armature::test

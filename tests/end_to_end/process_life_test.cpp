@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+// Interrupted, killed, started twice, started without room in /dev/shm: a clear message, no hang,
+// and nothing left behind that breaks the next run.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <fstream>
+#include <thread>
+
+#include "lamp_run.hpp"
+#include "tests/dds_domain.hpp"
+
+namespace armature::test {
+namespace {
+
+using std::chrono::seconds;
+using testing::HasSubstr;
+
+// The arm moves and, with two processes, pictures have crossed to the other one and back.
+const std::string kRuns = "task      searching 1/9";
+constexpr seconds kStartsWithin{60};
+
+/// The lamp, with as much time as it wants.
+LampStart endless(int domain, std::vector<std::string> settings = {}) {
+  settings.push_back("run.time_limit_s=0");
+  settings.push_back("components.report.params.expect_move=true");  // the patient never moves
+  return {.settings = std::move(settings), .domain = domain};
+}
+
+bool runs(pid_t pid) {
+  std::ifstream stat{"/proc/" + std::to_string(pid) + "/stat"};
+  std::string number, name, state;
+  return stat >> number >> name >> state && state != "Z";
+}
+
+bool ends_within(pid_t pid, seconds patience) {
+  for (const auto end = std::chrono::steady_clock::now() + patience; runs(pid);) {
+    if (std::chrono::steady_clock::now() > end) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds{20});
+  }
+  return true;
+}
+
+/// The process that `lamp` has started; 0: none.
+pid_t child_of(const Command& lamp) {
+  const std::string pid = std::to_string(lamp.pid());
+  std::ifstream children{"/proc/" + pid + "/task/" + pid + "/children"};
+  pid_t child = 0;
+  children >> child;
+  return child;
+}
+
+TEST(ProcessLife, AnInterruptedRunEndsAtOnceAndSaysSo) {
+  Command lamp{lamp_command(endless(unique_dds_domain()))};
+  ASSERT_TRUE(lamp.wait_for_err(kRuns, kStartsWithin)) << lamp.err();
+  lamp.signal(SIGINT);
+  const CommandResult result = lamp.finish(seconds{3});
+  EXPECT_FALSE(result.timed_out) << result.err;
+  EXPECT_EQ(result.exit_code, 1) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("armature: interrupted"));
+  EXPECT_THAT(result.out, HasSubstr(R"("status":"goals_missed")"));
+}
+
+TEST(ProcessLife, AKilledRunTakesItsOtherProcessAlongAndTheNextOneWorksAndEndsClean) {
+  const int domain = unique_dds_domain();
+  {
+    Command lamp{lamp_command(endless(domain, kVisionApart))};
+    ASSERT_TRUE(lamp.wait_for_err(kRuns, kStartsWithin)) << lamp.err();
+    const pid_t vision = child_of(lamp);
+    ASSERT_GT(vision, 0);
+    lamp.signal(SIGKILL);
+    EXPECT_EQ(lamp.finish(seconds{10}).exit_code, 128 + SIGKILL);
+    EXPECT_TRUE(ends_within(vision, seconds{10}));
+  }
+  Command next{lamp_command(endless(domain, kVisionApart))};
+  EXPECT_TRUE(next.wait_for_err(kRuns, kStartsWithin)) << next.err();
+  const pid_t vision = child_of(next);
+  next.signal(SIGINT);
+  const CommandResult result = next.finish(seconds{6});
+  EXPECT_FALSE(result.timed_out) << result.err;
+  EXPECT_EQ(result.exit_code, 1) << result.err;
+  EXPECT_FALSE(runs(vision));
+}
+
+TEST(ProcessLife, ARunWhoseOtherProcessIsKilledSaysSoAndEnds) {
+  Command lamp{lamp_command(endless(unique_dds_domain(), kVisionApart))};
+  ASSERT_TRUE(lamp.wait_for_err(kRuns, kStartsWithin)) << lamp.err();
+  const pid_t vision = child_of(lamp);
+  ASSERT_GT(vision, 0);
+  kill(vision, SIGKILL);
+  const CommandResult result = lamp.finish(seconds{10});
+  EXPECT_FALSE(result.timed_out) << result.err;
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr("armature: process 'vision' (pid " + std::to_string(vision) +
+                                    ") was killed (Killed)"));
+}
+
+TEST(ProcessLife, ASecondStartNamesTheFirst) {
+  const int domain = unique_dds_domain();
+  Command lamp{lamp_command(endless(domain))};
+  ASSERT_TRUE(lamp.wait_for_err(kRuns, kStartsWithin)) << lamp.err();
+  const CommandResult second = run_command(lamp_command(endless(domain)), {}, seconds{3});
+  EXPECT_FALSE(second.timed_out);
+  EXPECT_EQ(second.exit_code, 1);
+  EXPECT_EQ(second.out, "");
+  EXPECT_EQ(second.err, "armature: deployment 'dental_lamp' already runs as pid " +
+                            std::to_string(lamp.pid()) + " on domain " + std::to_string(domain) +
+                            "; stop it, or use another domain with --domain\n");
+}
+
+TEST(ProcessLife, WithoutSharedMemoryItSaysSoAndWorksOverUdp) {
+  // A mount namespace of its own, in which /dev/shm has one megabyte.
+  std::vector<std::string> command{"/usr/bin/unshare",
+                                   geteuid() == 0 ? "-m" : "-rm",
+                                   "/bin/sh",
+                                   "-c",
+                                   "mount -t tmpfs -o size=1m none /dev/shm && exec \"$@\"",
+                                   "sh"};
+  for (const auto& word : lamp_command(endless(unique_dds_domain(), kVisionApart))) {
+    command.push_back(word);
+  }
+  Command lamp{command};
+  ASSERT_TRUE(lamp.wait_for_err(kRuns, kStartsWithin)) << lamp.err();
+  lamp.signal(SIGINT);
+  const CommandResult result = lamp.finish(seconds{10});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr("no shared memory, topics go over UDP: /dev/shm has 1 MiB free,"
+                                    " 18 MiB are needed"));
+}
+
+}  // namespace
+}  // namespace armature::test

@@ -192,9 +192,9 @@ void Deployment::subscribe(const PortBinding& input) {
 void Deployment::run(const std::function<bool()>& done) {
   const Time start = clock_->now();
   scheduler_->run([&] {
-    const bool too_long =
-        config_.time_limit_s > 0 && clock_->now() - start > seconds(config_.time_limit_s);
-    return too_long || any_finished() || !fault().empty() || done();
+    if (any_finished() || !fault().empty() || done()) return true;
+    timed_out_ = config_.time_limit_s > 0 && clock_->now() - start > seconds(config_.time_limit_s);
+    return timed_out_;
   });
   stop();
 }

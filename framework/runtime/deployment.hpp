@@ -47,6 +47,8 @@ class Deployment {
   void run(const std::function<bool()>& done);
 
   bool any_finished() const;
+  /// True when the run ended because its time limit was over.
+  bool timed_out() const { return timed_out_; }
   /// The first fault, or empty.
   std::string fault() const;
 
@@ -69,6 +71,7 @@ class Deployment {
   std::map<std::string, std::unique_ptr<Topic>> topics_;
   std::unique_ptr<Scheduler> scheduler_;
   std::vector<std::unique_ptr<Unit>> units_;  // in the order of the graph
+  bool timed_out_ = false;
   PluginPtr<Transport> transport_;
   std::map<std::string, std::unique_ptr<OutsideReader>> readers_;  // by topic
 };

@@ -42,6 +42,10 @@ void RunReport::judge(const Deployment& deployment) {
     }
     if (!found) reasons_.push_back(fmt::format("no component measures {}", goal.metric));
   }
+  if (deployment.timed_out() && !deployment.config().goals.empty()) {
+    reasons_.push_back(fmt::format("the time limit of {:g} s was over before the end of the story",
+                                   deployment.config().time_limit_s));
+  }
   if (!reasons_.empty()) status_ = "goals_missed";
   if (!story_status_.empty()) status_ = story_status_;
   if (const std::string fault = deployment.fault(); !fault.empty()) {

@@ -118,6 +118,26 @@ TEST_P(TrajectoryLaws, FromAMovingStartItLeavesWithoutAJumpWithinTheLimits) {
   }
 }
 
+TEST_P(TrajectoryLaws, PlanningAgainAndAgainOnTheWayStillArrivesInTime) {
+  SCOPED_TRACE("seed 11");
+  for (int i = 0; i < 20; ++i) {
+    TrajectoryRequest wanted = request(0.2);
+    const JointVector goal = wanted.from.q + random_vector(0.7);
+    double first_duration = 0;
+    for (int step = 0; step < 200; ++step) {
+      wanted.segments = {JointSegment{{0, 1}, {wanted.from.q, goal}, true, {}}};
+      const auto planned = planner().plan(wanted);
+      ASSERT_TRUE(planned) << planned.error().text;
+      if (step == 0) first_duration = planned->duration_s();
+      if (planned->duration_s() < 0.1) break;
+      EXPECT_LE(0.1 * step + planned->duration_s(), 1.25 * first_duration + 0.1);
+      wanted.start = wanted.start + seconds(0.1);
+      wanted.from = planned->at(wanted.start);
+    }
+    EXPECT_LE((wanted.from.q - goal).norm(), 0.02);
+  }
+}
+
 TEST_P(TrajectoryLaws, PassesEveryWaypointOfACurve) {
   SCOPED_TRACE("seed 11");
   TrajectoryRequest wanted = request(0);

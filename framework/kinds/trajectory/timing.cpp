@@ -12,13 +12,12 @@ namespace armature {
 namespace {
 
 constexpr double kShortestLeg_s = 0.02;
-constexpr double kShortestFade_s = 0.05;
 constexpr double kAtRest = 1e-9;    // [rad/s], [rad/s2] or the like
 constexpr double kRounding = 1e-9;  // of a limit
-// A moving start is tried with longer and longer durations from this part of what the leg needs
-// from rest; 1.1^90 is 5000 times longer.
-constexpr double kFirstTry = 0.3, kGrowth = 1.1;
-constexpr int kMostTries = 90, kRefinements = 5;
+// A moving start is tried with longer and longer durations, from this part of what the leg needs
+// from rest or the velocity needs to vanish; 1.25^39 is 6000 times longer.
+constexpr double kFirstTry = 0.3, kGrowth = 1.25;
+constexpr int kMostTries = 40, kRefinements = 6;
 
 /// The times of all waypoints, and between them as many more as it takes to have no gap longer than
 /// if they were even: where the law is slow, waypoints even in s lie far apart in time.
@@ -51,8 +50,8 @@ class LegTimer {
 
   Expected<Trajectory> from_moving() const {
     if (leg_.duration_s) {
-      Trajectory fixed = from_moving_in(*leg_.duration_s, 1);
-      if (within_limits(fixed) && fixed.duration_s() <= *leg_.duration_s) return fixed;
+      Trajectory fixed = from_moving_in(*leg_.duration_s);
+      if (within_limits(fixed)) return fixed;
       const auto shortest = shortest_from_moving();
       return shortest ? too_short(shortest->duration_s()) : shortest;
     }
@@ -88,8 +87,10 @@ class LegTimer {
            use.acceleration <= start_use(request_.from.a, request_.max_acceleration);
   }
 
-  /// `patience` >= 1 lengthens the fade of what the time law cannot take over.
-  Trajectory from_moving_in(double duration_s, double patience) const {
+  /// The time law takes over what it can; the rest fades out in an added quintic. On a straight
+  /// line with a fade as long as the leg the sum is the one quintic from the start's state to rest,
+  /// so that planning again on the way changes nothing.
+  Trajectory from_moving_in(double duration_s) const {
     const JointState& from = request_.from;
     const JointState slope = leg_.curve.at(0);
     const double steepness = slope.v.squaredNorm();
@@ -100,30 +101,34 @@ class LegTimer {
     }
     const TimeLaw law{duration_s, speed, acceleration};
     const JointVector rest = from.v - law.speed(0) * slope.v;
-    // A quintic that fades v out in B peaks at 3.94 v/B: take half of the limit for it.
-    const double fade = 8 * rest.cwiseAbs().cwiseQuotient(request_.max_acceleration).maxCoeff();
-    return spliced(along(law), from, patience * std::max(fade, kShortestFade_s));
+    // A quintic that fades v out in B peaks at 3.94 v/B: half of the limit is enough for it.
+    const double gentle = std::max(8 * stopping_time(rest), 0.5 * duration_s);
+    return spliced(along(law), from, std::min(duration_s, gentle));
+  }
+
+  /// At full deceleration, of the slowest joint.
+  double stopping_time(const JointVector& velocity) const {
+    return velocity.cwiseAbs().cwiseQuotient(request_.max_acceleration).maxCoeff();
   }
 
   Expected<Trajectory> shortest_from_moving() const {
     const double needed = std::max(needed_factor(along(TimeLaw{1})), kShortestLeg_s);
-    double patience = 1;
+    const double first = std::max(kFirstTry * needed, stopping_time(request_.from.v));
     for (int i = 0; i < kMostTries; ++i) {
-      const double duration = kFirstTry * needed * std::pow(kGrowth, i);
-      patience = std::sqrt(std::pow(kGrowth, i));
-      Trajectory found = from_moving_in(duration, patience);
-      if (within_limits(found)) return i == 0 ? found : refined(duration, patience, found);
+      const double duration = first * std::pow(kGrowth, i);
+      Trajectory found = from_moving_in(duration);
+      if (within_limits(found)) return i == 0 ? found : refined(duration, found);
     }
     return refuse(fmt::format("segment {}: no duration keeps the limits from this moving start",
                               leg_.first_segment + 1));
   }
 
   /// Halves the last step of the search a few times.
-  Trajectory refined(double duration, double patience, Trajectory found) const {
+  Trajectory refined(double duration, Trajectory found) const {
     double low = duration / kGrowth, high = duration;
     for (int i = 0; i < kRefinements; ++i) {
       const double middle = 0.5 * (low + high);
-      Trajectory shorter = from_moving_in(middle, patience);
+      Trajectory shorter = from_moving_in(middle);
       const bool fits = within_limits(shorter);
       (fits ? high : low) = middle;
       if (fits) found = std::move(shorter);

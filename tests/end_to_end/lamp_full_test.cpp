@@ -2,6 +2,9 @@
 // Every tilt, both photos, every swap, and the paper's own lamp.
 #include <gtest/gtest.h>
 
+#include <ostream>
+
+#include "follow.hpp"
 #include "lamp_run.hpp"
 
 namespace armature::test {
@@ -10,6 +13,8 @@ namespace {
 struct Tilt {
   std::string name;
   int up_deg, side_deg;
+
+  friend void PrintTo(const Tilt& tilt, std::ostream* out) { *out << tilt.name; }
 };
 
 const std::vector<Tilt> kTilts{{"Tilt0", 0, 0},        {"Up15", 15, 0},   {"Up30", 30, 0},
@@ -49,23 +54,52 @@ TEST(LampFull, RaisesTheLightInADarkRoomAndAligns) {
   EXPECT_NE(run.command.err.find("task      light level 10 %"), std::string::npos) << run.text();
 }
 
-class LampSwap : public testing::TestWithParam<std::vector<std::string>> {};
+struct Swap {
+  std::string name;
+  std::vector<std::string> settings;
+
+  friend void PrintTo(const Swap& swap, std::ostream* out) { *out << swap.name; }
+};
+
+class LampSwap : public testing::TestWithParam<Swap> {};
 
 TEST_P(LampSwap, AlignsWithAnotherPluginByOneWord) {
-  std::vector<std::string> settings = GetParam();
+  std::vector<std::string> settings = GetParam().settings;
   settings.push_back(kSimulated);
   expect_aligned(run_lamp({.settings = settings}));
 }
 
+const std::string kNumericIk = "components.motion.ik.plugin=ik/numeric";
+const std::string kPaperPath = "components.motion.path.plugin=path/mouth_points";
+const std::string kPaperQuintics = "components.motion.trajectory.plugin=trajectory/quintic";
+
+INSTANTIATE_TEST_SUITE_P(Slots, LampSwap,
+                         testing::Values(Swap{"NumericIk", {kNumericIk}},
+                                         Swap{"PaperPath", {kPaperPath}},
+                                         Swap{"PaperQuintics", {kPaperQuintics}},
+                                         Swap{"PaperPathAndQuintics", {kPaperPath, kPaperQuintics}},
+                                         Swap{"All", {kNumericIk, kPaperPath, kPaperQuintics}}),
+                         [](const auto& place) { return place.param.name; });
+
+struct NamedMove {
+  std::string name;
+  PatientMove move;
+
+  friend void PrintTo(const NamedMove& named, std::ostream* out) { *out << named.name; }
+};
+
+class LampFollowsEveryWay : public testing::TestWithParam<NamedMove> {};
+
+TEST_P(LampFollowsEveryWay, WithoutAJumpAndAlignsAgain) { expect_followed(GetParam().move); }
+
 INSTANTIATE_TEST_SUITE_P(
-    Slots, LampSwap,
-    testing::Values(std::vector<std::string>{"components.motion.ik.plugin=ik/numeric"},
-                    std::vector<std::string>{"components.motion.path.plugin=path/mouth_points"},
-                    std::vector<std::string>{"components.motion.trajectory.plugin="
-                                             "trajectory/quintic"},
-                    std::vector<std::string>{
-                        "components.motion.path.plugin=path/mouth_points",
-                        "components.motion.trajectory.plugin=trajectory/quintic"}));
+    Moves, LampFollowsEveryWay,
+    testing::Values(NamedMove{"OtherSide", {.move_mm = "[0,-50,0]", .tilt_side_deg = -10}},
+                    NamedMove{"NearerAndUp", {.move_mm = "[-40,0,30]", .tilt_up_deg = 10}},
+                    NamedMove{"FartherAndDown", {.move_mm = "[30,0,-40]", .tilt_up_deg = -10}},
+                    NamedMove{"SlowWalk",
+                              {.duration_s = 4, .move_mm = "[0,200,0]", .spliced_goals = 3}}),
+    [](const auto& place) { return place.param.name; });
 
 }  // namespace
 }  // namespace armature::test

@@ -119,6 +119,11 @@ PhotoScene::PhotoScene(Setup& setup)
                      "', which is no frame of the robot '" + robot_.name() + "'");
   }
   mount_ = *mount;
+  if (rig_.camera.width > PlaneRenderer::kWidestImage) {
+    throw SetupError("the rig '" + rig_.name + "' is " + std::to_string(rig_.camera.width) +
+                     " px wide; the scene draws at most " +
+                     std::to_string(PlaneRenderer::kWidestImage));
+  }
   setup.activate_every(seconds(1.0 / setup.params().number("rate_hz")));
 }
 

@@ -11,7 +11,6 @@ namespace armature {
 namespace {
 
 constexpr std::size_t kNoiseLength = std::size_t{1} << 16;
-constexpr std::size_t kLongestRow = 8192;
 constexpr double kBlurReach = 3.0;  // sigmas
 constexpr int kSmallestLevel = 16;  // px
 
@@ -66,7 +65,7 @@ PlaneRenderer::PlaneRenderer(const Photo& photo, const ImagingSettings& settings
 
   std::mt19937_64 generator{seed};
   std::normal_distribution<float> normal{0.0f, static_cast<float>(settings.noise)};
-  noise_.assign(kNoiseLength + kLongestRow, 0.0f);
+  noise_.assign(kNoiseLength + kWidestImage, 0.0f);
   if (settings.noise > 0)
     std::generate(noise_.begin(), noise_.end(), [&] { return normal(generator); });
 }

@@ -23,6 +23,8 @@ struct ImagingSettings {
 /// Zisserman, Multiple View Geometry, (8.7)).
 class PlaneRenderer {
  public:
+  static constexpr int kWidestImage = 8192;  // [px]
+
   PlaneRenderer(const Photo& photo, const ImagingSettings& settings, std::uint64_t seed);
 
   /// Draws `width * height` pixels of a camera with the intrinsics of `camera`. The photo's frame:

@@ -15,8 +15,8 @@ namespace armature {
 /// image's left eye is the subject's right one (iBUG 36-41).
 struct FacePose {
   Eigen::Vector3d left_eye, right_eye, mouth;
-  Eigen::Vector3d normal;      // unit, out of the face, towards the camera
-  double mouth_sigma_m = 0;    // 1-sigma of the mouth position along the line of sight
+  Eigen::Vector3d normal;    // unit, out of the face, towards the camera
+  double mouth_sigma_m = 0;  // 1-sigma of the mouth position along the line of sight
   double normal_sigma_rad = 0;
 };
 

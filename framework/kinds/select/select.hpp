@@ -22,8 +22,8 @@ class BranchSelector {
   /// The joint path from `start` through one branch of every waypoint, revolute joints unwound so
   /// that neighbours are near each other and within limits; or the waypoint that has no branch
   /// within limits. Pure; may allocate.
-  virtual Expected<std::vector<JointVector>> choose(const JointVector& start,
-                                                    std::span<const IkBranches> waypoints) const = 0;
+  virtual Expected<std::vector<JointVector>> choose(
+      const JointVector& start, std::span<const IkBranches> waypoints) const = 0;
 };
 
 }  // namespace armature

@@ -69,25 +69,27 @@ std::optional<std::string> run_to_end(Deployment& deployment, ChildProcesses& ch
 
 int conclude(const RunOptions& options, const Deployment& deployment,
              const std::optional<std::string>& lost) {
-  const RunReport report{deployment};
-  if (options.report) write_report(report, deployment, *options.report);
+  const RunReport report{deployment, lost};
   if (options.json) {
     fmt::print("{}\n", to_json(report));
   } else {
     fmt::print("{}", to_table(report));
   }
   std::fflush(stdout);
+  if (options.report) write_report(report, deployment, *options.report);
   if (lost) fmt::print(stderr, "armature: {}\n", *lost);
   if (g_signal != 0) {
     fmt::print(stderr, "armature: {}\n", g_signal == SIGINT ? "interrupted" : "terminated");
   }
   const bool unfinished = g_signal != 0 && !deployment.config().goals.empty();
-  return report.status() == "ok" && !lost && !unfinished ? kOk : kFailed;
+  return report.status() == "ok" && !unfinished ? kOk : kFailed;
 }
 
 }  // namespace
 
 int run_deployment(const RunOptions& options) {
+  // A folder that cannot be written is told before the run, not after it.
+  if (options.report) std::filesystem::create_directories(*options.report);
   PluginRegistry plugins;
   config::Problems problems;
   DeploymentConfig config =

@@ -11,9 +11,9 @@
 
 namespace armature {
 
-RunReport::RunReport(const Deployment& deployment) {
+RunReport::RunReport(const Deployment& deployment, const std::optional<std::string>& lost_process) {
   for (const auto& unit : deployment.units()) unit->component().summarize(*this);
-  judge(deployment);
+  judge(deployment, lost_process);
 }
 
 void RunReport::metric(std::string key, std::string title, double value) {
@@ -24,7 +24,8 @@ void RunReport::text(std::string key, std::string title, std::string value) {
 }
 void RunReport::failed(std::string status) { story_status_ = std::move(status); }
 
-void RunReport::judge(const Deployment& deployment) {
+void RunReport::judge(const Deployment& deployment,
+                      const std::optional<std::string>& lost_process) {
   for (const Goal& goal : deployment.config().goals) {
     bool found = false;
     for (Figure& figure : figures_) {
@@ -51,6 +52,10 @@ void RunReport::judge(const Deployment& deployment) {
   if (const std::string fault = deployment.fault(); !fault.empty()) {
     status_ = "fault";
     reasons_.insert(reasons_.begin(), fault);
+  }
+  if (lost_process) {
+    status_ = "fault";
+    reasons_.insert(reasons_.begin(), *lost_process);
   }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -21,8 +22,10 @@ class RunReport final : public Summary {
     bool met = true;
   };
 
-  /// Asks every component of a deployment that has stopped.
-  explicit RunReport(const Deployment& deployment);
+  /// Asks every component of a deployment that has stopped; `lost_process` says which of its other
+  /// processes ended before.
+  explicit RunReport(const Deployment& deployment,
+                     const std::optional<std::string>& lost_process = std::nullopt);
 
   void metric(std::string key, std::string title, double value) override;
   void text(std::string key, std::string title, std::string value) override;
@@ -36,7 +39,7 @@ class RunReport final : public Summary {
   const std::vector<Figure>& figures() const { return figures_; }
 
  private:
-  void judge(const Deployment& deployment);
+  void judge(const Deployment& deployment, const std::optional<std::string>& lost_process);
 
   std::vector<Figure> figures_;
   std::string story_status_;

@@ -86,6 +86,9 @@ Json answer_fk(const RobotModel& robot, const std::string& line) {
   return answer;
 }
 
+/// Neither vanishing nor overflowing when it is made a unit.
+bool usable_length(double length) { return length > 1e-9 && std::isfinite(length); }
+
 Orientation read_orientation(const RobotModel& robot, const Json& question) {
   if (question.contains("direction") == question.contains("quaternion_xyzw")) {
     throw InvalidLine("give either 'direction' or 'quaternion_xyzw'");
@@ -95,12 +98,14 @@ Orientation read_orientation(const RobotModel& robot, const Json& question) {
       throw InvalidLine("the robot file names no 'pointing_axis'; give 'quaternion_xyzw'");
     }
     const Eigen::Vector3d direction = vector3(question, "direction");
-    if (direction.norm() < 1e-9) throw InvalidLine("'direction' has no length");
+    if (!usable_length(direction.norm())) throw InvalidLine("'direction' has no usable length");
     return Direction{direction.normalized()};
   }
   const auto q = numbers(question, "quaternion_xyzw", 4);
   const Eigen::Quaterniond quaternion{q[3], q[0], q[1], q[2]};
-  if (quaternion.norm() < 1e-9) throw InvalidLine("'quaternion_xyzw' has no length");
+  if (!usable_length(quaternion.norm())) {
+    throw InvalidLine("'quaternion_xyzw' has no usable length");
+  }
   return quaternion.normalized();
 }
 
@@ -114,6 +119,13 @@ Json solution_json(const RobotModel& robot, const IkBranch& branch, bool redunda
   json["singular"] = branch.singular;
   if (redundant) json["redundancy_rad"] = branch.redundancy;
   return json;
+}
+
+/// What `describe` says behind the name of the status, which the answer carries already.
+std::string reason_of(const IkStatus& status) {
+  const std::string text = describe(status);
+  const std::string name = std::string{to_string(status.code)} + ": ";
+  return text.starts_with(name) ? text.substr(name.size()) : text;
 }
 
 Json answer_ik(const RobotModel& robot, const IkSolver& solver, const JointVector& home,
@@ -136,7 +148,7 @@ Json answer_ik(const RobotModel& robot, const IkSolver& solver, const JointVecto
   const IkStatus status = solver.solve(goal, seed, branches, state);
   Json answer;
   answer["status"] = to_string(status.code);
-  if (status.code != IkStatus::Code::ok) answer["reason"] = describe(status);
+  if (status.code != IkStatus::Code::ok) answer["reason"] = reason_of(status);
   answer["solutions"] = Json::array();
   for (const IkBranch& branch : branches) {
     answer["solutions"].push_back(

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <cstdio>
@@ -69,7 +70,9 @@ std::optional<std::string> run_to_end(Deployment& deployment, ChildProcesses& ch
 
 int conclude(const RunOptions& options, const Deployment& deployment,
              const std::optional<std::string>& lost) {
-  const RunReport report{deployment, lost};
+  std::optional<std::string> stopped;
+  if (g_signal != 0) stopped = g_signal == SIGINT ? "interrupted" : "terminated";
+  const RunReport report{deployment, {.lost_process = lost, .stopped = stopped}};
   if (options.json) {
     fmt::print("{}\n", to_json(report));
   } else {
@@ -78,11 +81,8 @@ int conclude(const RunOptions& options, const Deployment& deployment,
   std::fflush(stdout);
   if (options.report) write_report(report, deployment, *options.report);
   if (lost) fmt::print(stderr, "armature: {}\n", *lost);
-  if (g_signal != 0) {
-    fmt::print(stderr, "armature: {}\n", g_signal == SIGINT ? "interrupted" : "terminated");
-  }
-  const bool unfinished = g_signal != 0 && !deployment.config().goals.empty();
-  return report.status() == "ok" && !unfinished ? kOk : kFailed;
+  if (stopped) fmt::print(stderr, "armature: {}\n", *stopped);
+  return report.status() == "ok" ? kOk : kFailed;
 }
 
 }  // namespace
@@ -100,6 +100,10 @@ int run_deployment(const RunOptions& options) {
   const bool is_child = !options.process.empty();
   const std::string process = is_child ? options.process : std::string{kMainProcess};
   const std::vector<std::string> processes = config.processes();
+  if (std::find(processes.begin(), processes.end(), process) == processes.end()) {
+    throw InvalidChoice(fmt::format("deployment '{}' has no process '{}'{}", config.name, process,
+                                    config::did_you_mean(process, processes)));
+  }
 
   std::optional<InstanceLock> lock;
   if (!is_child) {

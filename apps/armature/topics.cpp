@@ -94,8 +94,8 @@ int list_topics(const TopicOptions& options) {
                       {"readers", topic.readers},
                       {"deployments", topic.deployments}});
     } else {
-      fmt::print("{:<40} {:<32} {} writers, {} readers{}\n", ros_topic_name(topic.name), types,
-                 topic.writers, topic.readers,
+      fmt::print("{:<40} {:<32} {} writers, {} readers in other processes{}\n",
+                 ros_topic_name(topic.name), types, topic.writers, topic.readers,
                  topic.types.size() > 1 ? "   CONFLICT: two types on one topic" : "");
     }
   }

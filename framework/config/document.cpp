@@ -107,4 +107,9 @@ Node parse_text(std::string_view text, std::string_view name) {
 
 Node load(const fs::path& file) { return Loader{}.load(file, Origin{}); }
 
+std::filesystem::path folder_of(const Origin& origin) {
+  return origin.line == 0 ? std::filesystem::path{}
+                          : std::filesystem::path{origin.file}.parent_path();
+}
+
 }  // namespace armature::config

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "armature/config/conversion.hpp"
+#include "armature/config/document.hpp"
 #include "armature/config/reader.hpp"
 
 namespace armature {
@@ -122,11 +123,6 @@ AnyValue zero(Type type) {
   return 0.0;
 }
 
-std::filesystem::path folder_of(const Origin& origin) {
-  return origin.line == 0 ? std::filesystem::path{}
-                          : std::filesystem::path{origin.file}.parent_path();
-}
-
 }  // namespace
 
 Params Params::read(const std::vector<ParamSpec>& specs, const Node* given,
@@ -142,7 +138,7 @@ Params Params::read(const std::vector<ParamSpec>& specs, const Node* given,
     const Node* node = written ? written : spec.fallback ? &*spec.fallback : nullptr;
     Value value{spec.type, zero(spec.type), node ? node->origin() : place};
     if (node) {
-      auto read = read_value(spec, *node, written ? folder_of(node->origin()) : "");
+      auto read = read_value(spec, *node, written ? config::folder_of(node->origin()) : "");
       if (read) {
         value.value = std::move(*read);
       } else {

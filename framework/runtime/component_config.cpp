@@ -38,9 +38,12 @@ void ComponentReader::report_missing_plugin(const Node::Entry& entry) const {
                   fmt::format("unknown key '{}' in component '{}'{}", key, entry.key, hint));
     return;
   }
-  problems_.add(entry.key_origin, fmt::format("component '{}' names no plugin: add 'plugin: "
-                                              "family/name'",
-                                              entry.key));
+  std::vector<std::string> ids;
+  for (const auto& plugin : plugins_.plugins()) ids.push_back(plugin.id);
+  const std::string hint = config::did_you_mean(entry.key, ids);
+  problems_.add(entry.key_origin,
+                fmt::format("component '{}' names no plugin: add 'plugin: family/name'{}",
+                            entry.key, hint.find("did you mean") == std::string::npos ? "" : hint));
 }
 
 std::optional<ComponentConfig> ComponentReader::read(const Node::Entry& entry) const {

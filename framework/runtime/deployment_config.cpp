@@ -30,6 +30,8 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 2> kDocument
     {"rigs", "rig"},
 }};
 
+constexpr double kShortestPeriod_s = 1e-4;
+
 bool is_name(std::string_view text) {
   return !text.empty() && std::all_of(text.begin(), text.end(),
                                       [](unsigned char c) { return std::isalnum(c) || c == '_'; });
@@ -54,10 +56,7 @@ std::map<std::string, Node> read_documents(std::span<const Node::Entry> section,
     documents.emplace(name, Node::null(value.origin()));  // known, even when it cannot be read
     const auto file = config::as_text(value, problems);
     if (!file) continue;
-    std::filesystem::path path{*file};
-    if (path.is_relative()) {
-      path = std::filesystem::path{value.origin().file}.parent_path() / path;
-    }
+    const std::filesystem::path path = config::folder_of(value.origin()) / *file;
     try {
       documents.insert_or_assign(name, config::load(path));
     } catch (const config::ConfigError& error) {
@@ -75,10 +74,13 @@ std::vector<ExecutorSpec> read_executors(std::span<const Node::Entry> section, P
   for (const auto& [name, name_origin, value] : section) {
     MapReader map{value, fmt::format("executor '{}'", name), problems};
     ExecutorSpec spec{.name = name, .period = {}, .priority = 0, .cpu = {}};
-    if (const double period = map.number("period_s", 0.0); period > 0) {
+    if (map.optional_node("period_s")) {
+      const double period = map.number("period_s");
       spec.period = seconds(period);
-    } else if (period < 0) {
-      map.problem("period_s", "'period_s' must be positive");
+      if (!(period >= kShortestPeriod_s)) {
+        map.problem("period_s", fmt::format("'period_s' is {:g}, must be at least {:g}", period,
+                                            kShortestPeriod_s));
+      }
     }
     spec.priority = static_cast<int>(map.integer("priority", 0));
     if (spec.priority < 0 || spec.priority > 99) {
@@ -143,11 +145,16 @@ DeploymentConfig read_deployment(const Node& root, const PluginRegistry& plugins
   if (deployment.domain < 0 || deployment.domain > 232) {
     map.problem("domain", "'domain' must be from 0 to 232");
   }
-  deployment.seed = static_cast<std::uint64_t>(map.integer("seed", 1));
+  const std::int64_t seed = map.integer("seed", 1);
+  if (seed < 0) map.problem("seed", "'seed' must not be negative");
+  deployment.seed = static_cast<std::uint64_t>(seed);
   deployment.time_limit_s = 0;
   if (const Node* run = map.optional_node("run")) {
     MapReader run_map{*run, "run", problems};
     deployment.time_limit_s = run_map.number("time_limit_s", 0.0);
+    if (deployment.time_limit_s < 0) {
+      run_map.problem("time_limit_s", "'time_limit_s' must be positive, or 0 for none");
+    }
     run_map.finish();
   }
   deployment.executors =

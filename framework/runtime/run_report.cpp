@@ -11,9 +11,9 @@
 
 namespace armature {
 
-RunReport::RunReport(const Deployment& deployment, const std::optional<std::string>& lost_process) {
+RunReport::RunReport(const Deployment& deployment, const Ending& ending) {
   for (const auto& unit : deployment.units()) unit->component().summarize(*this);
-  judge(deployment, lost_process);
+  judge(deployment, ending);
 }
 
 void RunReport::metric(std::string key, std::string title, double value) {
@@ -24,8 +24,7 @@ void RunReport::text(std::string key, std::string title, std::string value) {
 }
 void RunReport::failed(std::string status) { story_status_ = std::move(status); }
 
-void RunReport::judge(const Deployment& deployment,
-                      const std::optional<std::string>& lost_process) {
+void RunReport::judge(const Deployment& deployment, const Ending& ending) {
   for (const Goal& goal : deployment.config().goals) {
     bool found = false;
     for (Figure& figure : figures_) {
@@ -41,7 +40,7 @@ void RunReport::judge(const Deployment& deployment,
                                              *value, goal.limit));
       }
     }
-    if (!found) reasons_.push_back(fmt::format("no component measures {}", goal.metric));
+    if (!found) reasons_.push_back(fmt::format("{} was never measured", goal.metric));
   }
   if (deployment.timed_out() && !deployment.config().goals.empty()) {
     reasons_.push_back(fmt::format("the time limit of {:g} s was over before the end of the story",
@@ -53,9 +52,13 @@ void RunReport::judge(const Deployment& deployment,
     status_ = "fault";
     reasons_.insert(reasons_.begin(), fault);
   }
-  if (lost_process) {
+  if (ending.lost_process) {
     status_ = "fault";
-    reasons_.insert(reasons_.begin(), *lost_process);
+    reasons_.insert(reasons_.begin(), *ending.lost_process);
+  }
+  // A deployment with goals tells a story, and this one was not heard to its end.
+  if (ending.stopped && status_ != "fault" && !deployment.config().goals.empty()) {
+    status_ = *ending.stopped;
   }
 }
 
@@ -73,15 +76,24 @@ std::string to_json(const RunReport& report) {
   return json.dump();
 }
 
+namespace {
+
+/// Counts without decimals, measures with three; nothing measured is a dash.
+std::string number_text(double value) {
+  if (std::isnan(value)) return "         -";
+  return value == std::floor(value) ? fmt::format("{:10.0f}", value)
+                                    : fmt::format("{:10.3f}", value);
+}
+
+}  // namespace
+
 std::string to_table(const RunReport& report) {
   std::size_t width = 0;
   for (const auto& figure : report.figures()) width = std::max(width, figure.title.size());
   std::string table;
   for (const auto& figure : report.figures()) {
     const double* value = std::get_if<double>(&figure.value);
-    std::string shown =
-        value ? fmt::format("{:10.3f}", *value) : std::get<std::string>(figure.value);
-    if (value && std::isnan(*value)) shown = "         -";
+    std::string shown = value ? number_text(*value) : std::get<std::string>(figure.value);
     table += fmt::format("  {:<{}}  {}", figure.title, width, shown);
     if (figure.goal) {
       table += fmt::format("   goal {:g}  {}", figure.goal->limit, figure.met ? "met" : "MISSED");

@@ -22,16 +22,21 @@ class RunReport final : public Summary {
     bool met = true;
   };
 
-  /// Asks every component of a deployment that has stopped; `lost_process` says which of its other
-  /// processes ended before.
-  explicit RunReport(const Deployment& deployment,
-                     const std::optional<std::string>& lost_process = std::nullopt);
+  /// What ended the run from outside of the deployment's components.
+  struct Ending {
+    std::optional<std::string> lost_process;  // which other process ended before, and how
+    std::optional<std::string> stopped;       // "interrupted", "terminated": by the operator
+  };
+
+  /// Asks every component of a deployment that has stopped.
+  RunReport(const Deployment& deployment, const Ending& ending);
 
   void metric(std::string key, std::string title, double value) override;
   void text(std::string key, std::string title, std::string value) override;
   void failed(std::string status) override;
 
-  /// "ok", "goals_missed", "fault", or what a component gave for the story's failure
+  /// "ok", "goals_missed", "fault", "interrupted" (before its goals were met), or what a component
+  /// gave for the story's failure
   /// ("face_not_found").
   const std::string& status() const { return status_; }
   /// Why, when it is not ok: a line per cause.
@@ -39,7 +44,7 @@ class RunReport final : public Summary {
   const std::vector<Figure>& figures() const { return figures_; }
 
  private:
-  void judge(const Deployment& deployment, const std::optional<std::string>& lost_process);
+  void judge(const Deployment& deployment, const Ending& ending);
 
   std::vector<Figure> figures_;
   std::string story_status_;

@@ -47,6 +47,21 @@ TEST(PluginInfo, OfAnUnknownOneNamesTheNearest) {
   EXPECT_NE(result.err.find("did you mean 'ik/numeric'"), std::string::npos) << result.err;
 }
 
+TEST(Check, ReadsAPathGivenBySetFromWhereTheUserStands) {
+  const auto result = run_command(
+      {armature(), "check", kLamp, "--set",
+       "robots.arm=" +
+           std::filesystem::relative(source_file("configs/robots/dental_lamp.yaml")).string()});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+}
+
+TEST(Run, RefusesAProcessThatTheDeploymentDoesNotHave) {
+  const auto result = run_command({armature(), "run", kLamp, "--process", "visoin"});
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_EQ(result.err,
+            "armature: deployment 'dental_lamp' has no process 'visoin'; known: main\n");
+}
+
 TEST(CommandLine, EndsWithTwoWhenItIsNotUnderstood) {
   EXPECT_EQ(run_command({armature(), "rnu", kLamp}).exit_code, 2);
   EXPECT_EQ(run_command({armature(), "run"}).exit_code, 2);

@@ -46,6 +46,10 @@ void RunReport::judge(const Deployment& deployment, const Ending& ending) {
     reasons_.push_back(fmt::format("the time limit of {:g} s was over before the end of the story",
                                    deployment.config().time_limit_s));
   }
+  // A deployment with goals tells a story, and this one was not heard to its end.
+  if (ending.stopped && !deployment.config().goals.empty()) {
+    reasons_.push_back(*ending.stopped + " before the end of the story");
+  }
   if (!reasons_.empty()) status_ = "goals_missed";
   if (!story_status_.empty()) status_ = story_status_;
   if (const std::string fault = deployment.fault(); !fault.empty()) {
@@ -55,10 +59,6 @@ void RunReport::judge(const Deployment& deployment, const Ending& ending) {
   if (ending.lost_process) {
     status_ = "fault";
     reasons_.insert(reasons_.begin(), *ending.lost_process);
-  }
-  // A deployment with goals tells a story, and this one was not heard to its end.
-  if (ending.stopped && status_ != "fault" && !deployment.config().goals.empty()) {
-    status_ = *ending.stopped;
   }
 }
 

@@ -35,7 +35,7 @@ class RunReport final : public Summary {
   void text(std::string key, std::string title, std::string value) override;
   void failed(std::string status) override;
 
-  /// "ok", "goals_missed", "fault", "interrupted" (before its goals were met), or what a component
+  /// "ok", "goals_missed", "fault", or what a component
   /// gave for the story's failure
   /// ("face_not_found").
   const std::string& status() const { return status_; }

@@ -38,8 +38,8 @@ Node merge(const Node& base, const Node& overlay);
 /// scalars that was written on one line) is followed by `# file:line:column`.
 std::string to_yaml(const Node& node, bool origins);
 
-/// What a relative path written at `origin` is relative to: the file's folder, or for a place without
-/// lines (`--set`, a default) the current one.
+/// What a relative path written at `origin` is relative to: the file's folder, or for a place
+/// without lines (`--set`, a default) the current one.
 std::filesystem::path folder_of(const Origin& origin);
 
 }  // namespace armature::config

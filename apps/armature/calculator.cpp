@@ -38,7 +38,7 @@ Json parse_line(const std::string& line, std::initializer_list<std::string_view>
   return json;
 }
 
-/// `count` finite numbers; 0: any up to the most joints that a robot may have.
+/// Exactly `count` finite numbers.
 std::vector<double> numbers(const Json& json, const char* key, std::size_t count) {
   const Json& list = json.at(key);
   if (!list.is_array()) throw InvalidLine(fmt::format("'{}' must be a list of numbers", key));

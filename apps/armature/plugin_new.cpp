@@ -101,7 +101,7 @@ ARMATURE_PLUGIN(@CLASS@);
 )";
 
 constexpr std::string_view kTest =
-    R"(// fk(ik(x)) = x for the robot file given as the argument, or a small arm.
+    R"(// fk(ik(x)) = x on an arm of two links.
 #include <cstdio>
 
 #include "@NAME@.hpp"

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <memory>
+#include <string_view>
 #include <vector>
 
 #include "armature/kinds/ik/ik.hpp"
+#include "descent.hpp"
 #include "reach.hpp"
 
 namespace armature {
@@ -20,14 +22,15 @@ class Numeric final : public IkSolver {
 
  private:
   Numeric(const RobotModel& model, int max_restarts, int candidates);
-  template <int Rows>
-  IkStatus search(const IkGoal& goal, const JointVector& seed, IkBranches& out) const;
-  template <int Rows>
-  const JointVector& best_sample(const IkGoal& goal, int restart) const;
+  const JointVector& best_sample(const descent::Goal& goal, int restart) const;
+  /// Adds where a start ended; true when it keeps the limits.
+  bool add_branch(const descent::End& end, std::string_view label, IkBranches& out) const;
 
   const RobotModel* model_;
   int max_restarts_, candidates_;
   Reach reach_;
+  descent::Chain chain_;
+  const descent::Kernel& kernel_;
   std::vector<JointVector> samples_;  // of the joint space, `candidates_` per restart
 };
 

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+
+#include "descent.hpp"
+
+#if defined(__x86_64__)
+#pragma GCC push_options
+#pragma GCC target("avx2,fma")
+#include "descent_body.hpp"
+
+namespace armature::descent {
+
+const Kernel& avx2_kernel() {
+  static constexpr Kernel kernel{descend_any, measure_any};
+  return kernel;
+}
+
+}  // namespace armature::descent
+#pragma GCC pop_options
+#endif

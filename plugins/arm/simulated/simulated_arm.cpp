@@ -40,8 +40,10 @@ void SimulatedArm::step(Time now, const std::optional<ServoCommand>& command) {
   following_ = command && to_seconds(now - command->stamp) <= options_.stale_s;
   if (following_) {
     follow(*command, now, dt);
+    last_command_ = command;
   } else {
     stop(dt);
+    last_command_.reset();
   }
   measure(dt);
 }
@@ -50,11 +52,18 @@ void SimulatedArm::follow(const ServoCommand& command, Time now, double dt) {
   // Two clocks may tick on their own: what was commanded a moment ago is carried on to now.
   const double age_s = std::max(0.0, to_seconds(now - command.stamp));
   for (int i = 0; i < model_.dof(); ++i) {
+    const auto joint = static_cast<std::size_t>(i);
     const Step wanted{.q = command.q[i] + command.v[i] * age_s,
                       .v = command.v[i],
                       .dt = dt,
                       .in_step = age_s == 0};
-    const auto found = obstacle(i, wanted);
+    auto found = outside_limits(i, wanted);
+    if (!found) {
+      const bool streaming = !wanted.in_step && last_command_ && on_stream_[joint] &&
+                             command.stamp >= last_command_->stamp;
+      found = streaming ? jump_in_stream(i, command) : jump(i, wanted);
+    }
+    on_stream_[joint] = !found;
     if (!found) {
       executed_v_[i] = wanted.in_step ? (wanted.q - q_[i]) / dt : wanted.v;
       q_[i] = wanted.q;
@@ -66,26 +75,52 @@ void SimulatedArm::follow(const ServoCommand& command, Time now, double dt) {
   }
 }
 
-std::optional<LimitExcess> SimulatedArm::obstacle(int joint, const Step& wanted) const {
+std::optional<LimitExcess> SimulatedArm::outside_limits(int joint, const Step& wanted) const {
   using Quantity = LimitExcess::Quantity;
   const double lower = model_.lower()[joint], upper = model_.upper()[joint];
   if (wanted.q < lower - kRounding) return LimitExcess{joint, Quantity::position, wanted.q, lower};
   if (wanted.q > upper + kRounding) return LimitExcess{joint, Quantity::position, wanted.q, upper};
-  // In step with the commands the positions alone tell velocity and acceleration; out of step the
-  // command's own velocity does, with one period of slack.
-  const double v = wanted.in_step ? (wanted.q - q_[joint]) / wanted.dt : wanted.v;
+  const double v = velocity(joint, wanted);
   const double v_limit = model_.max_velocity()[joint];
-  if (std::abs(v) > v_limit * (1 + kRounding)) {
-    return LimitExcess{joint, Quantity::velocity, v, v_limit};
-  }
-  const double a_limit = model_.max_acceleration()[joint];
+  if (std::abs(v) <= v_limit * (1 + kRounding)) return std::nullopt;
+  return LimitExcess{joint, Quantity::velocity, v, v_limit};
+}
+
+/// In step with the commands the positions alone tell velocity and acceleration; out of step the
+/// command's own velocity does.
+double SimulatedArm::velocity(int joint, const Step& wanted) const {
+  return wanted.in_step ? (wanted.q - q_[joint]) / wanted.dt : wanted.v;
+}
+
+std::optional<LimitExcess> SimulatedArm::jump(int joint, const Step& wanted) const {
+  const double v = velocity(joint, wanted);
   const double window = wanted.in_step ? wanted.dt : wanted.dt + options_.period_s;
-  const double a = (v - executed_v_[joint]) / window;
-  if (std::abs(a) > a_limit) return LimitExcess{joint, Quantity::acceleration, a, a_limit};
+  if (auto found = sudden(joint, v - executed_v_[joint], window)) return found;
   if (wanted.in_step) return std::nullopt;
-  const double gap = wanted.q - q_[joint] - 0.5 * (executed_v_[joint] + v) * wanted.dt;
-  if (std::abs(gap) <= 0.5 * a_limit * window * window) return std::nullopt;
-  return LimitExcess{joint, Quantity::acceleration, 2 * gap / (window * window), a_limit};
+  return displaced(joint, wanted.q - q_[joint] - 0.5 * (executed_v_[joint] + v) * wanted.dt,
+                   window);
+}
+
+std::optional<LimitExcess> SimulatedArm::jump_in_stream(int joint,
+                                                        const ServoCommand& command) const {
+  const ServoCommand& last = *last_command_;
+  const double apart = to_seconds(command.stamp - last.stamp);
+  if (apart == 0) return std::nullopt;
+  const double v = command.v[joint], v_last = last.v[joint];
+  const double window = apart + options_.period_s;
+  if (auto found = sudden(joint, v - v_last, window)) return found;
+  return displaced(joint, command.q[joint] - last.q[joint] - 0.5 * (v + v_last) * apart, window);
+}
+
+std::optional<LimitExcess> SimulatedArm::sudden(int joint, double change, double window) const {
+  const double limit = model_.max_acceleration()[joint];
+  const double a = change / window;
+  if (std::abs(a) <= limit) return std::nullopt;
+  return LimitExcess{joint, LimitExcess::Quantity::acceleration, a, limit};
+}
+
+std::optional<LimitExcess> SimulatedArm::displaced(int joint, double gap, double window) const {
+  return sudden(joint, 2 * gap / window, window);
 }
 
 void SimulatedArm::stop(double dt) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <optional>
 
 #include "armature/robot/robot_model.hpp"
@@ -56,7 +58,15 @@ class SimulatedArm {
   };
   void follow(const ServoCommand& command, Time now, double dt);
   void stop(double dt);
-  std::optional<LimitExcess> obstacle(int joint, const Step& wanted) const;
+  double velocity(int joint, const Step& wanted) const;
+  std::optional<LimitExcess> outside_limits(int joint, const Step& wanted) const;
+  /// Does the step ask for more acceleration than the joint has, from what was executed last?
+  std::optional<LimitExcess> jump(int joint, const Step& wanted) const;
+  /// The same between two commands, by their own stamps: when either side's thread runs late, the
+  /// commands still tell a motion that keeps the limits.
+  std::optional<LimitExcess> jump_in_stream(int joint, const ServoCommand& command) const;
+  std::optional<LimitExcess> sudden(int joint, double change, double window) const;
+  std::optional<LimitExcess> displaced(int joint, double gap, double window) const;
   void move_within_limits(int joint, const Step& wanted);
   void advance(int joint, double v, double dt);
   void measure(double dt);
@@ -67,6 +77,8 @@ class SimulatedArm {
   JointVector executed_v_;  // of the last step, what limits are kept against
   JointVector measured_, measured_v_;
   std::optional<Time> last_;
+  std::optional<ServoCommand> last_command_;  // while commands come
+  std::array<bool, kMaxJoints> on_stream_{};     // joints that follow them exactly
   bool following_ = false;
   std::optional<LimitExcess> excess_;
 };

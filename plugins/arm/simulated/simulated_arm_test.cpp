@@ -126,6 +126,33 @@ TEST(SimulatedArm, FollowsACommandStreamThatIsSampledAtOtherInstants) {
   }
 }
 
+TEST(SimulatedArm, FollowsACommandStreamAcrossAPauseOfItsOwnThread) {
+  const RobotModel model = one_joint();
+  SimulatedArm arm{model, {}, value(0)};
+  const Quintic move = Quintic::between({0, 0, 0}, {0.8, 0, 0}, 1.2);
+  const auto follow = [&](double command_s, double now_s) {
+    arm.step(Time{} + seconds(now_s),
+             ServoCommand{Time{} + seconds(command_s), value(move.position(command_s)),
+                          value(move.velocity(command_s))});
+    ASSERT_FALSE(arm.excess()) << "commanded at " << command_s << ", executed at " << now_s;
+  };
+  for (int k = 1; k < 250; ++k) follow(0.001 * k, 0.001 * k + 2e-5);
+  follow(0.250, 0.258);    // stopped for 8 ms between the command and its execution
+  follow(0.2581, 0.2582);  // and the next command comes at once
+  follow(0.259, 0.2591);
+}
+
+TEST(SimulatedArm, RefusesAJumpInACommandStreamThatIsSampledAtOtherInstants) {
+  const RobotModel model = one_joint();
+  SimulatedArm arm{model, {}, value(0)};
+  const auto at = [](double t) { return Time{} + seconds(t); };
+  arm.step(at(0.0011), ServoCommand{at(0.001), value(0), value(0)});
+  arm.step(at(0.0021), ServoCommand{at(0.002), value(0.01), value(0)});
+  ASSERT_TRUE(arm.excess());
+  EXPECT_EQ(arm.excess()->quantity, LimitExcess::Quantity::acceleration);
+  EXPECT_LT(arm.setpoint()[0], 0.001);
+}
+
 TEST(SimulatedArm, MeasuresWithAFirstOrderLag) {
   const RobotModel model = one_joint();
   SimulatedArm arm{model, {.lag_s = 0.02}, value(0)};

@@ -203,13 +203,20 @@ void LampAlignment::hold(Time now) {
 }
 
 void LampAlignment::wait_for_another_face_position(Time now) {
+  if (goals_.state() == GoalState::moving || goals_.state() == GoalState::done) {
+    phase_ = Phase::aligning;
+    trouble_.clear();
+    return;
+  }
   if (latest_ && to_seconds(now - latest_->stamp) > settings_.lost_s) {
     start_search(now);
     return;
   }
   if (to_seconds(now - goal_set_at_) < settings_.replan_interval_s) return;
   if (settings_.settled.left_by(*latest_, *goal_estimate_)) {
-    align_with(*latest_, Phase::aligning, now);
+    const std::string why = trouble_;
+    align_with(*latest_, Phase::unreachable, now);
+    trouble_ = why;  // until a goal is accepted
   }
 }
 

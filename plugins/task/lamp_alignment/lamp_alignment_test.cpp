@@ -161,6 +161,20 @@ TEST_F(LampAlignmentTest, HoldsAndSaysWhyWhenTheFaceCannotBeReached) {
   EXPECT_EQ(task_.trouble(), "");
 }
 
+TEST_F(LampAlignmentTest, StaysUnreachableWhileItTriesAgain) {
+  ASSERT_TRUE(run_until(Phase::aligning, 10));
+  mouth_.x() = 3;
+  reach_m_ = 2;
+  ASSERT_TRUE(run_until(Phase::unreachable, 10));
+  const std::size_t goals = goals_.size();
+  for (int k = 0; k < 500; ++k) {
+    tick();
+    ASSERT_EQ(task_.phase(), Phase::unreachable) << "after " << 0.02 * k << " s";
+    ASSERT_EQ(task_.trouble(), "ik: out_of_reach");
+  }
+  EXPECT_GT(goals_.size(), goals + 5);
+}
+
 TEST_F(LampAlignmentTest, RaisesTheLightInADarkRoomBeforeItSearches) {
   gain_ = 0.3;
   ASSERT_TRUE(run_until(Phase::searching, 5));

@@ -34,13 +34,9 @@ const IkBranch* nearest(const IkBranches& branches, const JointVector& near,
   const IkBranch* best = nullptr;
   double best_distance = 0;
   for (const IkBranch& branch : branches) {
-    if (!branch.within_limits) continue;
-    double distance = 0;
-    for (int i = 0; i < model.dof(); ++i) {
-      const double d = branch.q[i] - near[i];
-      const double shortest = model.is_revolute(i) ? wrap_angle(d) : d;
-      distance += shortest * shortest;
-    }
+    JointVector q = branch.q;
+    if (!branch.within_limits || !unwind(model, near, q)) continue;
+    const double distance = (q - near).squaredNorm();
     if (!best || distance < best_distance) {
       best = &branch;
       best_distance = distance;

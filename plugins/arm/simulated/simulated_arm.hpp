@@ -78,7 +78,7 @@ class SimulatedArm {
   JointVector measured_, measured_v_;
   std::optional<Time> last_;
   std::optional<ServoCommand> last_command_;  // while commands come
-  std::array<bool, kMaxJoints> on_stream_{};     // joints that follow them exactly
+  std::array<bool, kMaxJoints> on_stream_{};  // joints that follow them exactly
   bool following_ = false;
   std::optional<LimitExcess> excess_;
 };

@@ -14,8 +14,8 @@ namespace armature::descent {
 /// Four doubles that the processor works on at once; vectors of space leave the last one zero.
 using Lanes = double __attribute__((vector_size(32)));
 
-/// A robot as the descent walks along it: every joint is a constant step and then a turn about, or a
-/// slide along, the z axis that it led to.
+/// A robot as the descent walks along it: every joint is a constant step and then a turn about, or
+/// a slide along, the z axis that it led to.
 struct Chain {
   struct Step {
     Lanes x, y, z, origin;  // of the constant transform, columns

@@ -119,8 +119,7 @@ inline Error pointing_error(const Chain& chain, const Goal& goal, const Pose& po
 inline Error rotation_error(const Goal& goal, const Pose& pose) {
   Error error;
   error.position = goal.position - pose.origin;
-  const Lanes sine =
-      0.5 * (cross(pose.x, goal.x) + cross(pose.y, goal.y) + cross(pose.z, goal.z));
+  const Lanes sine = 0.5 * (cross(pose.x, goal.x) + cross(pose.y, goal.y) + cross(pose.z, goal.z));
   const double trace = dot(pose.x, goal.x) + dot(pose.y, goal.y) + dot(pose.z, goal.z);
   const double half = 0.25 * (1 + trace);
   if (half > kHalfTurn) {

@@ -110,7 +110,9 @@ TEST_P(KernelTest, EndsAtTheGoalFromNearby) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Compiled, KernelTest, testing::Values(&portable_kernel(), &kernel()),
-                         [](const auto& kernel) { return kernel.index == 0 ? "Portable" : "Fastest"; });
+                         [](const auto& kernel) {
+                           return kernel.index == 0 ? "Portable" : "Fastest";
+                         });
 
 }  // namespace
 }  // namespace armature::descent

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 
 #include "armature/kinds/ik/ik.hpp"
 #include "armature/robot/robot_model.hpp"
@@ -46,6 +47,7 @@ struct End {
   double error;                  // both together, as a length
   double gram;                   // det(J J^T): manipulability squared
   bool reached = false;
+  std::uint32_t locked = 0;  // a bit for every joint that shall stay where it starts
 };
 
 /// Levenberg-Marquardt from `end.q`; `budget` counts down with every iteration. Real-time safe.

@@ -144,7 +144,8 @@ struct Task {
   Lanes linear[kMaxJoints], angular[kMaxJoints];
   double gram[kMostRows][kMostRows];  // J J^T, lower part
 
-  void fill(const Chain& chain, const Axes& axes, const Pose& pose, const Error& error) {
+  void fill(const Chain& chain, const Axes& axes, const Pose& pose, const Error& error,
+            std::uint32_t locked) {
     for (int j = 0; j < chain.dof; ++j) linear[j] = angular[j] = Lanes{};
     for (int i = 0; i < chain.joints; ++i) {
       const Chain::Step& step = chain.step[i];
@@ -156,6 +157,9 @@ struct Task {
         linear[j] += cross(omega, pose.origin - axes.point[i]);
         angular[j] += omega;
       }
+    }
+    for (int j = 0; locked != 0; ++j, locked >>= 1) {
+      if (locked & 1) linear[j] = angular[j] = Lanes{};
     }
     if constexpr (Rows == 5) {
       for (int j = 0; j < chain.dof; ++j) {
@@ -255,11 +259,13 @@ void descend_rows(const Chain& chain, const Goal& goal, int& budget, End& end) {
       if (!(least < kEnoughGain * to_beat)) return;
       to_beat = least;
     }
-    task.fill(chain, axes, pose, error);
+    task.fill(chain, axes, pose, error, end.locked);
     if (within) {
       end.reached = true;
+      if (end.locked != 0) task.fill(chain, axes, pose, error, 0);  // of the whole arm
       end.gram = task.solve(error, 0, y);
       if (polishing || error.size == 0) return;
+      if (end.locked != 0) task.fill(chain, axes, pose, error, end.locked);
       polishing = true;  // one more: the tolerance is a bound, not an aim
     }
     const double size = error.size;

@@ -61,7 +61,8 @@ Numeric::Numeric(const RobotModel& model, int max_restarts, int candidates)
       candidates_{candidates},
       reach_{reach_of(model)},
       chain_{descent::chain_of(model)},
-      kernel_{descent::kernel()} {
+      kernel_{descent::kernel()},
+      resting_{resting_position(model)} {
   for (int i = 0; i < max_restarts * candidates; ++i) samples_.push_back(halton(model, i + 1));
 }
 
@@ -74,6 +75,29 @@ const JointVector& Numeric::best_sample(const descent::Goal& goal, int restart) 
     if (!best || error < least) best = &sample, least = error;
   }
   return *best;
+}
+
+int Numeric::worst_joint(const JointVector& q) const {
+  Eigen::Index worst = 0;
+  (model_->lower() - q).cwiseMax(q - model_->upper()).maxCoeff(&worst);
+  return static_cast<int>(worst);
+}
+
+void Numeric::bring_inside(const descent::Goal& goal, int& budget, descent::End& end) const {
+  const int spare = model_->dof() - (goal.pointing ? 5 : 6);
+  descent::End tried = end;
+  for (int i = 0; i < spare && budget > 0; ++i) {
+    JointVector q = Eigen::Map<const Eigen::VectorXd>(tried.q.data(), model_->dof());
+    if (unwind(*model_, resting_, q)) return;
+    const int worst = worst_joint(q);
+    q[worst] = std::clamp(q[worst], model_->lower()[worst], model_->upper()[worst]);
+    std::copy(q.begin(), q.end(), tried.q.begin());
+    tried.locked |= 1U << worst;
+    kernel_.descend(chain_, goal, budget, tried);
+    if (!tried.reached) return;
+    q = Eigen::Map<const Eigen::VectorXd>(tried.q.data(), model_->dof());
+    if (unwind(*model_, resting_, q)) end = tried;
+  }
 }
 
 bool Numeric::add_branch(const descent::End& end, std::string_view label, IkBranches& out) const {
@@ -110,9 +134,11 @@ IkStatus Numeric::solve(const IkGoal& goal, const JointVector& seed, IkBranches&
   for (int start = 0; start <= max_restarts_ && budget > 0; ++start) {
     const JointVector& from = start == 0 ? seed : best_sample(target, start - 1);
     std::copy(from.begin(), from.end(), end.q.begin());
+    end.locked = 0;
     kernel_.descend(chain_, target, budget, end);
     least = std::min(least, end.error);
     if (!end.reached) continue;
+    bring_inside(target, budget, end);
     if (add_branch(end, start == 0 ? "from_seed" : "restart", out)) return {};
   }
   if (out.count > 0) {

@@ -23,6 +23,10 @@ class Numeric final : public IkSolver {
  private:
   Numeric(const RobotModel& model, int max_restarts, int candidates);
   const JointVector& best_sample(const descent::Goal& goal, int restart) const;
+  /// A redundant arm beyond its limits: locks the joint that is farthest beyond at its limit and
+  /// goes down again, once for every spare joint. `end` changes only when that keeps the limits.
+  void bring_inside(const descent::Goal& goal, int& budget, descent::End& end) const;
+  int worst_joint(const JointVector& q) const;
   /// Adds where a start ended; true when it keeps the limits.
   bool add_branch(const descent::End& end, std::string_view label, IkBranches& out) const;
 
@@ -31,6 +35,7 @@ class Numeric final : public IkSolver {
   Reach reach_;
   descent::Chain chain_;
   const descent::Kernel& kernel_;
+  JointVector resting_;
   std::vector<JointVector> samples_;  // of the joint space, `candidates_` per restart
 };
 

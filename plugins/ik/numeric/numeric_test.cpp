@@ -136,6 +136,39 @@ TEST(Numeric, AGoalThatOnlySolutionsBeyondTheLimitsReachIsAJointLimit) {
   for (const IkBranch& branch : found) EXPECT_FALSE(branch.within_limits);
 }
 
+TEST(Numeric, ARedundantArmIsBroughtInsideItsLimitsWithoutARestart) {
+  const RobotModel model = seven();
+  const auto solver = solver_for(model, "max_restarts: 0");
+  std::mt19937_64 random{9};
+  SCOPED_TRACE("seed 9");
+  const auto within_limits = [&] {
+    JointVector q(model.dof());
+    for (int i = 0; i < model.dof(); ++i) {
+      q[i] = std::uniform_real_distribution{model.lower()[i], model.upper()[i]}(random);
+    }
+    return q;
+  };
+  int at_a_limit = 0;
+  for (int k = 0; k < 2000; ++k) {
+    IkBranches found;
+    IkState state;
+    const JointVector q = within_limits();
+    if (solver->solve(goal_at(model, q), within_limits(), found, state).code !=
+        IkStatus::Code::ok) {
+      continue;
+    }
+    const IkBranch& branch = *found.begin();
+    const double spare =
+        (branch.q - model.lower()).cwiseMin(model.upper() - branch.q).cwiseAbs().minCoeff();
+    if (spare > 1e-12) continue;
+    ++at_a_limit;
+    EXPECT_LE(residual(forward_kinematics(model, branch.q), {}, goal_at(model, q).pose).position_m,
+              1e-9);
+    EXPECT_EQ(branch.singular, manipulability(model, branch.q) < 1e-6);
+  }
+  EXPECT_GE(at_a_limit, 100);
+}
+
 TEST(Numeric, WithoutRestartsAnUnreachableGoalEndsWithItsResidual) {
   const RobotModel model = lamp();
   IkGoal goal;

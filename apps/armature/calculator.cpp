@@ -61,8 +61,7 @@ Eigen::Vector3d vector3(const Json& json, const char* key) {
 
 JointVector joints(const RobotModel& robot, const Json& json, const char* key) {
   const auto values = numbers(json, key, static_cast<std::size_t>(robot.joint_count()));
-  const auto independent = robot.contract(
-      Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size())));
+  const auto independent = robot.contract(values);
   if (!independent) throw InvalidLine(independent.error().text);
   return *independent;
 }
@@ -196,8 +195,7 @@ int run_ik(const std::string& robot_file, const std::string& plugin_id, std::ist
     throw InvalidChoice(
         fmt::format("{} refuses robot '{}': {}", plugin_id, robot.name(), solver.error().text));
   }
-  JointVector home = 0.5 * (robot.lower() + robot.upper());
-  if (robot.home()) home = robot.contract(*robot.home()).value_or(home);
+  const JointVector home = resting_position(robot);
   return answer_lines(
       in, out, [&](const std::string& line) { return answer_ik(robot, **solver, home, line); });
 }

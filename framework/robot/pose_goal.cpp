@@ -1,9 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/robot/pose_goal.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 namespace armature {
+namespace {
+
+constexpr double kLengthTolerance = 0.01;
+
+}  // namespace
+
+Expected<ToolPose> checked(ToolPose pose, std::string_view whose) {
+  if (!pose.position.allFinite()) return refuse(fmt::format("{} position is not finite", whose));
+  auto* direction = std::get_if<Direction>(&pose.orientation);
+  auto* rotation = std::get_if<Eigen::Quaterniond>(&pose.orientation);
+  const double length = direction ? direction->unit.norm() : rotation->norm();
+  // A comparison that is false for NaN as well.
+  if (!(std::abs(length - 1) <= kLengthTolerance)) {
+    return refuse(fmt::format("{} {} has length {:.6g}, not 1", whose,
+                              direction ? "direction" : "quaternion", length));
+  }
+  if (direction) {
+    direction->unit /= length;
+  } else {
+    rotation->normalize();
+  }
+  return pose;
+}
 
 PoseResidual residual(const Eigen::Isometry3d& base_T_tool, const Eigen::Vector3d& pointing_axis,
                       const ToolPose& goal) {

@@ -2,7 +2,10 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <string_view>
 #include <variant>
+
+#include "armature/values/expected.hpp"
 
 namespace armature {
 
@@ -20,6 +23,11 @@ struct ToolPose {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   Orientation orientation = Direction{};
 };
+
+/// `pose` with its direction or quaternion made a unit; or what is wrong with it: a position that
+/// is not finite, a direction or quaternion whose length is not 1 within 1 %. `whose` begins the
+/// reason: "the goal's".
+Expected<ToolPose> checked(ToolPose pose, std::string_view whose);
 
 /// How far base_T_tool is from `goal`: [m] and [rad] (of the rotation, or between the pointing axis
 /// and the direction).

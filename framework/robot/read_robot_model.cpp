@@ -139,19 +139,15 @@ std::optional<RobotModel> read(const Node& document, Problems& problems) {
 
 }  // namespace
 
-std::optional<RobotModel> read_robot_model(const Node& document, Problems& problems) {
-  Problems own;  // only what is wrong here decides whether there is a model
-  auto model = read(document, own);
-  for (const config::Problem& problem : own.sorted()) problems.add(problem.origin, problem.message);
-  return model;
+RobotModel read_robot_model(const Node& document) {
+  Problems problems;
+  auto model = read(document, problems);
+  problems.throw_if_any();
+  return std::move(*model);
 }
 
 RobotModel load_robot_model(const std::filesystem::path& file) {
-  const Node document = config::load(file);
-  Problems problems;
-  auto model = read_robot_model(document, problems);
-  problems.throw_if_any();
-  return std::move(*model);
+  return read_robot_model(config::load(file));
 }
 
 }  // namespace armature

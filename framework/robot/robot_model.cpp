@@ -128,22 +128,36 @@ JointVector RobotModel::expand(const JointVector& independent) const {
 }
 
 Expected<JointVector> RobotModel::contract(const JointVector& all) const {
-  if (all.size() != joint_count())
+  return contracted({all.data(), static_cast<std::size_t>(all.size())}, 1);
+}
+
+Expected<JointVector> RobotModel::contract(std::span<const double> all) const {
+  return contracted(all, 1);
+}
+
+Expected<JointVector> RobotModel::contract_rates(std::span<const double> all) const {
+  return contracted(all, 0);
+}
+
+Expected<JointVector> RobotModel::contracted(std::span<const double> all,
+                                             double offset_factor) const {
+  if (all.size() != joints_.size())
     return refuse(
         fmt::format("{} joint values; {} has {} joints", all.size(), name_, joint_count()));
-  for (int i = 0; i < joint_count(); ++i)
+  for (std::size_t i = 0; i < all.size(); ++i)
     if (!std::isfinite(all[i]))
-      return refuse(fmt::format("{} = {} is not a number",
-                                joints_[static_cast<std::size_t>(i)].name, all[i]));
+      return refuse(fmt::format("{} = {} is not a number", joints_[i].name, all[i]));
   JointVector independent(dof());
-  for (int i = 0; i < dof(); ++i) independent[i] = all[independent_joint(i)];
-  const JointVector expanded = expand(independent);
-  for (int i = 0; i < joint_count(); ++i) {
-    const Joint& joint = joints_[static_cast<std::size_t>(i)];
-    if (std::abs(all[i] - expanded[i]) > kCouplingTolerance)
+  for (int i = 0; i < dof(); ++i) {
+    independent[i] = all[static_cast<std::size_t>(independent_joint(i))];
+  }
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const ChainLink& link = chain_[i];
+    const double follows = link.ratio * independent[link.independent] + offset_factor * link.offset;
+    if (std::abs(all[i] - follows) > kCouplingTolerance)
       return refuse(fmt::format(
-          "{} = {:.6g} contradicts its coupling to {}, which makes it {:.6g}", joint.name, all[i],
-          joints_[static_cast<std::size_t>(joint.coupling->to)].name, expanded[i]));
+          "{} = {:.6g} contradicts its coupling to {}, which makes it {:.6g}", joints_[i].name,
+          all[i], joints_[static_cast<std::size_t>(joints_[i].coupling->to)].name, follows));
   }
   return independent;
 }
@@ -157,6 +171,13 @@ bool RobotModel::within_limits(const JointVector& independent, double tolerance)
 
 bool RobotModel::is_revolute(int i) const {
   return joints_[static_cast<std::size_t>(independent_joint(i))].type == Joint::Type::revolute;
+}
+
+JointVector resting_position(const RobotModel& model) {
+  if (model.home()) {
+    if (auto home = model.contract(*model.home())) return *home;
+  }
+  return 0.5 * (model.lower() + model.upper());
 }
 
 }  // namespace armature

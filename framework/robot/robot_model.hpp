@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,7 +15,6 @@
 
 namespace armature::config {
 class Node;
-class Problems;
 }  // namespace armature::config
 
 namespace armature {
@@ -105,6 +105,10 @@ class RobotModel {
   /// All joints -> independent values; a reason when the length is wrong, a value is not finite or
   /// a coupled joint contradicts its coupling by more than 1e-6.
   Expected<JointVector> contract(const JointVector& all) const;
+  /// The same from a list that may have any length, as it comes from outside.
+  Expected<JointVector> contract(std::span<const double> all) const;
+  /// The same of velocities or accelerations: a coupling's offset does not count.
+  Expected<JointVector> contract_rates(std::span<const double> all) const;
 
   /// One entry per joint, in order: what the kinematics functions walk along.
   const std::vector<ChainLink>& chain() const { return chain_; }
@@ -121,6 +125,7 @@ class RobotModel {
  private:
   void number_joints();
   void fold_limits();
+  Expected<JointVector> contracted(std::span<const double> all, double offset_factor) const;
 
   std::string name_;
   Convention convention_;
@@ -134,10 +139,12 @@ class RobotModel {
   JointVector lower_, upper_, max_velocity_, max_acceleration_;
 };
 
-/// Reads an `armature_robot: 1` document; problems go to `problems`, nothing is returned then.
-std::optional<RobotModel> read_robot_model(const config::Node& document,
-                                           config::Problems& problems);
-/// The same from a file. Throws config::ConfigError.
+/// Home, or the middle of the limits for a robot without one: independent joints.
+JointVector resting_position(const RobotModel& model);
+
+/// Reads an `armature_robot: 1` document. Throws config::ConfigError with everything that is wrong.
+RobotModel read_robot_model(const config::Node& document);
+/// The same from a file.
 RobotModel load_robot_model(const std::filesystem::path& file);
 
 }  // namespace armature

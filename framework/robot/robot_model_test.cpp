@@ -56,6 +56,17 @@ TEST(RobotModel, ContractSaysWhatIsWrong) {
   EXPECT_EQ(lamp.contract(joint_vector({0, 0, 0.5, 0.25, 0, 0})).error().text,
             "j4 = 0.25 contradicts its coupling to j3, which makes it -0.5");
   EXPECT_TRUE(lamp.contract(joint_vector({0, 0, 0.5, -0.5 + 9e-7, 0, 0})));
+  EXPECT_EQ(lamp.contract(std::vector<double>(40, 0.0)).error().text,
+            "40 joint values; dental_lamp has 6 joints");
+}
+
+TEST(RobotModel, ContractsRatesWithoutTheOffsetOfACoupling) {
+  const RobotModel robot = testing::synthetic_robot(RobotModel::Convention::standard, 3);
+  const std::vector<double> rates{1, 2, 3, 4, -1.5 * 2, 0.7 * 3, 5};
+  EXPECT_EQ(robot.contract_rates(rates).value(), joint_vector({1, 2, 3, 4, 5}));
+  EXPECT_FALSE(robot.contract(rates));
+  EXPECT_EQ(robot.contract_rates(std::vector<double>{1, 2, 3, 4, 0, 0.7 * 3, 5}).error().text,
+            "j5 = 0 contradicts its coupling to j2, which makes it -3");
 }
 
 TEST(RobotModel, FoldsTheLimitsOfCoupledJointsIntoTheirLeaders) {

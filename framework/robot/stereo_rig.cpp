@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <optional>
 
 #include "armature/config/document.hpp"
 #include "armature/config/reader.hpp"
@@ -98,7 +99,10 @@ void read_mount(const Node& node, StereoRig& rig, Problems& problems) {
   rig.mount_T_left.translation() = center - 0.5 * rig.camera.baseline_m * *right;
 }
 
-std::optional<StereoRig> read(const Node& document, Problems& problems) {
+}  // namespace
+
+StereoRig read_stereo_rig(const Node& document) {
+  Problems problems;
   MapReader map{document, "rig", problems};
   StereoRig rig;
   check_format(map, "armature_rig", problems);
@@ -109,25 +113,12 @@ std::optional<StereoRig> read(const Node& document, Problems& problems) {
   read_baseline(map, rig.camera, problems);
   if (const Node* mount = map.node("mount")) read_mount(*mount, rig, problems);
   map.finish();
-  if (!problems.empty()) return std::nullopt;
-  return rig;
-}
-
-}  // namespace
-
-std::optional<StereoRig> read_stereo_rig(const Node& document, Problems& problems) {
-  Problems own;  // only what is wrong here decides whether there is a rig
-  auto rig = read(document, own);
-  for (const config::Problem& problem : own.sorted()) problems.add(problem.origin, problem.message);
+  problems.throw_if_any();
   return rig;
 }
 
 StereoRig load_stereo_rig(const std::filesystem::path& file) {
-  const Node document = config::load(file);
-  Problems problems;
-  auto rig = read_stereo_rig(document, problems);
-  problems.throw_if_any();
-  return std::move(*rig);
+  return read_stereo_rig(config::load(file));
 }
 
 }  // namespace armature

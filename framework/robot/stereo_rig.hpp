@@ -3,14 +3,12 @@
 
 #include <Eigen/Geometry>
 #include <filesystem>
-#include <optional>
 #include <string>
 
 #include "armature/robot/stereo_camera.hpp"
 
 namespace armature::config {
 class Node;
-class Problems;
 }  // namespace armature::config
 
 namespace armature {
@@ -27,9 +25,10 @@ struct StereoRig {
 
 /// Reads an `armature_rig: 1` document: {name, resolution: [w, h], fov_deg | focal_px, (principal
 /// point optional, the image centre), baseline_mm, mount: {frame: tool, center_mm: [0,0,0],
-/// forward: [1,0,0], right: [0,0,1]}}; `center` is the middle between both cameras.
-std::optional<StereoRig> read_stereo_rig(const config::Node& document, config::Problems& problems);
-/// The same from a file. Throws config::ConfigError.
+/// forward: [1,0,0], right: [0,0,1]}}; `center` is the middle between both cameras. Throws
+/// config::ConfigError with everything that is wrong.
+StereoRig read_stereo_rig(const config::Node& document);
+/// The same from a file.
 StereoRig load_stereo_rig(const std::filesystem::path& file);
 
 }  // namespace armature

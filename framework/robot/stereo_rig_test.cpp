@@ -17,10 +17,12 @@ StereoRig rig(const std::string& name) {
 }
 
 std::vector<std::string> problems_of(const std::string& text) {
-  config::Problems problems;
-  EXPECT_FALSE(read_stereo_rig(config::parse_text(text, "rig.yaml"), problems));
   std::vector<std::string> texts;
-  for (const auto& problem : problems.sorted()) texts.push_back(problem.text());
+  try {
+    read_stereo_rig(config::parse_text(text, "rig.yaml"));
+  } catch (const config::ConfigError& error) {
+    for (const auto& problem : error.problems()) texts.push_back(problem.text());
+  }
   return texts;
 }
 

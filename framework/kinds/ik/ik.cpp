@@ -88,11 +88,4 @@ bool unwind(const RobotModel& model, const JointVector& near, JointVector& q) {
   return inside;
 }
 
-JointVector resting_position(const RobotModel& model) {
-  if (model.home()) {
-    if (auto home = model.contract(*model.home())) return *home;
-  }
-  return 0.5 * (model.lower() + model.upper());
-}
-
 }  // namespace armature

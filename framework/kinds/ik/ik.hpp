@@ -98,7 +98,4 @@ bool turns_freely(const RobotModel& model, int i);
 /// false when some joint keeps its limits at no turn. Real-time safe.
 bool unwind(const RobotModel& model, const JointVector& near, JointVector& q);
 
-/// Home, or the middle of the limits for a robot without one: the seed of a caller who has none.
-JointVector resting_position(const RobotModel& model);
-
 }  // namespace armature

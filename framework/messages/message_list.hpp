@@ -63,6 +63,18 @@
   X(armature_msgs, IkRequest)              \
   X(armature_msgs, IkSolution)             \
   X(armature_msgs, IkResponse)             \
+  X(armature_msgs, ToolPose)               \
+  X(armature_msgs, PathRequest)            \
+  X(armature_msgs, PathSample)             \
+  X(armature_msgs, PathSegment)            \
+  X(armature_msgs, PathResponse)           \
+  X(armature_msgs, JointPosition)          \
+  X(armature_msgs, IkBranches)             \
+  X(armature_msgs, SelectRequest)          \
+  X(armature_msgs, SelectResponse)         \
+  X(armature_msgs, JointSegment)           \
+  X(armature_msgs, TrajectoryRequest)      \
+  X(armature_msgs, TrajectoryResponse)     \
   X(armature_msgs, LightLevel)             \
   X(armature_msgs, Capture)                \
   X(armature_msgs, TaskState)              \

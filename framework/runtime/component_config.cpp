@@ -168,7 +168,7 @@ void ComponentReader::read_slot(const SlotSpec& spec, const Node& node,
 
 /// `robot: left` binds an entry of `robots:`; with a single entry nothing needs to be said.
 void ComponentReader::bind_documents(MapReader& map, ComponentConfig& component) const {
-  for (const auto& [section, word] : sections_) {
+  for (const auto& [section, word] : kDocumentSections) {
     const auto& entries = deployment_.documents.at(std::string{section});
     const auto& uses = component.manifest->uses;
     const Node* named = map.optional_node(word);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -12,14 +12,20 @@
 
 namespace armature {
 
+// The sections whose entries are files that components are bound to, and the word that a
+// component (and a plugin's `uses:`) says for one of them.
+inline constexpr std::array<std::pair<std::string_view, std::string_view>, 2> kDocumentSections{{
+    {"robots", "robot"},
+    {"rigs", "rig"},
+}};
+
 /// Reads one entry of `components:` against the manifests of the plugins it names.
 class ComponentReader {
  public:
-  using DocumentSections = std::span<const std::pair<std::string_view, std::string_view>>;
-
+  /// `deployment` has its name, documents and executors.
   ComponentReader(const DeploymentConfig& deployment, const PluginRegistry& plugins,
-                  DocumentSections sections, config::Problems& problems)
-      : deployment_{deployment}, plugins_{plugins}, sections_{sections}, problems_{problems} {}
+                  config::Problems& problems)
+      : deployment_{deployment}, plugins_{plugins}, problems_{problems} {}
 
   /// Nothing when its plugin is unknown: nothing else can be said of it then.
   std::optional<ComponentConfig> read(const config::Node::Entry& entry) const;
@@ -38,7 +44,6 @@ class ComponentReader {
 
   const DeploymentConfig& deployment_;
   const PluginRegistry& plugins_;
-  DocumentSections sections_;
   config::Problems& problems_;
 };
 

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <filesystem>
 #include <functional>
@@ -22,13 +21,6 @@ namespace {
 using config::MapReader;
 using config::Node;
 using config::Problems;
-
-// The sections whose entries are files that components are bound to, and the word that a
-// component (and a plugin's `uses:`) says for one of them.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 2> kDocumentSections{{
-    {"robots", "robot"},
-    {"rigs", "rig"},
-}};
 
 constexpr double kShortestPeriod_s = 1e-4;
 
@@ -165,7 +157,7 @@ DeploymentConfig read_deployment(const Node& root, const PluginRegistry& plugins
   }
   deployment.goals = read_goals(map.optional_node("goals"), problems);
   if (const Node* components = map.node("components")) {
-    const ComponentReader reader{deployment, plugins, kDocumentSections, problems};
+    const ComponentReader reader{deployment, plugins, problems};
     for (const auto& entry : entries_of(components, "components", problems)) {
       if (auto component = reader.read(entry))
         deployment.components.push_back(std::move(*component));

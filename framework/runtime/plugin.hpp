@@ -41,6 +41,12 @@ struct PluginFactory<Plugin, std::unique_ptr<Kind> (*)(Arg&)> {
   static std::unique_ptr<Kind> call(Arg& arg) { return std::make_unique<Plugin>(arg); }
 };
 
+template <class Plugin>
+PluginEntry plugin_entry() {
+  return {Plugin::kKind.data(), Plugin::kKindVersion,
+          reinterpret_cast<void (*)()>(&PluginFactory<Plugin, typename Plugin::Factory>::call)};
+}
+
 }  // namespace detail
 }  // namespace armature
 
@@ -48,8 +54,4 @@ struct PluginFactory<Plugin, std::unique_ptr<Kind> (*)(Arg&)> {
 /// scope, once per library. Id, kind, parameters and ports stand in the plugin.yaml beside it.
 #define ARMATURE_PLUGIN(Class)                                                                   \
   extern "C" [[gnu::visibility("default")]] const ::armature::PluginEntry armature_plugin_entry; \
-  const ::armature::PluginEntry armature_plugin_entry {                                          \
-    Class::kKind.data(), Class::kKindVersion,                                                    \
-        reinterpret_cast<void (*)()>(                                                            \
-            &::armature::detail::PluginFactory<Class, Class::Factory>::call)                     \
-  }
+  const ::armature::PluginEntry armature_plugin_entry = ::armature::detail::plugin_entry<Class>()

@@ -8,6 +8,7 @@
 
 #include <csignal>
 #include <cstring>
+#include <optional>
 
 #include "armature/runtime/abi.hpp"
 #include "armature/runtime/elf_section.hpp"
@@ -42,7 +43,26 @@ Expected<void> survives_loading(const std::filesystem::path& file) {
   return {};
 }
 
+std::optional<std::string> wrong_entry(const PluginEntry& entry, std::string_view kind,
+                                       int kind_version) {
+  if (entry.kind != kind) {
+    return fmt::format("its class is of kind '{}', wanted '{}'", entry.kind, kind);
+  }
+  if (entry.kind_version != kind_version) {
+    return fmt::format("it implements version {} of kind '{}', this is version {}",
+                       entry.kind_version, kind, kind_version);
+  }
+  return std::nullopt;
+}
+
 }  // namespace
+
+Expected<std::shared_ptr<PluginLibrary>> PluginLibrary::of_this_program(const PluginEntry& entry,
+                                                                        std::string_view kind,
+                                                                        int kind_version) {
+  if (auto wrong = wrong_entry(entry, kind, kind_version)) return refuse(*wrong);
+  return std::shared_ptr<PluginLibrary>(new PluginLibrary({}, nullptr, entry));
+}
 
 Expected<std::shared_ptr<PluginLibrary>> PluginLibrary::load(const std::filesystem::path& file,
                                                              std::string_view kind,
@@ -62,22 +82,17 @@ Expected<std::shared_ptr<PluginLibrary>> PluginLibrary::load(const std::filesyst
   void* handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (!handle) return refuse(dlerror());
   const auto* entry = static_cast<const PluginEntry*>(dlsym(handle, "armature_plugin_entry"));
-  std::string wrong;
-  if (!entry) {
-    wrong = "it has no ARMATURE_PLUGIN(...) line";
-  } else if (entry->kind != kind) {
-    wrong = fmt::format("its class is of kind '{}', wanted '{}'", entry->kind, kind);
-  } else if (entry->kind_version != kind_version) {
-    wrong = fmt::format("it implements version {} of kind '{}', this is version {}",
-                        entry->kind_version, kind, kind_version);
-  }
-  if (!wrong.empty()) {
+  const auto wrong = entry ? wrong_entry(*entry, kind, kind_version)
+                           : std::optional<std::string>{"it has no ARMATURE_PLUGIN(...) line"};
+  if (wrong) {
     dlclose(handle);
-    return refuse(wrong);
+    return refuse(*wrong);
   }
-  return std::shared_ptr<PluginLibrary>(new PluginLibrary(file, handle, entry));
+  return std::shared_ptr<PluginLibrary>(new PluginLibrary(file, handle, *entry));
 }
 
-PluginLibrary::~PluginLibrary() { dlclose(handle_); }
+PluginLibrary::~PluginLibrary() {
+  if (handle_) dlclose(handle_);
+}
 
 }  // namespace armature

@@ -11,28 +11,33 @@
 
 namespace armature {
 
-/// A loaded plugin library; unloaded when the last holder is gone.
+/// A loaded plugin library; unloaded when the last holder is gone. Or a plugin that is part of this
+/// program, which stays.
 class PluginLibrary {
  public:
   /// Loads `file` after its ABI tag was compared with ours; checks kind and kind version of its
   /// entry. The reason carries both tags, or the text of dlerror.
   static Expected<std::shared_ptr<PluginLibrary>> load(const std::filesystem::path& file,
                                                        std::string_view kind, int kind_version);
+  /// The same for a class of this program.
+  static Expected<std::shared_ptr<PluginLibrary>> of_this_program(const PluginEntry& entry,
+                                                                  std::string_view kind,
+                                                                  int kind_version);
   ~PluginLibrary();
   PluginLibrary(const PluginLibrary&) = delete;
   PluginLibrary& operator=(const PluginLibrary&) = delete;
 
   const std::filesystem::path& file() const { return file_; }
   /// The factory of the plugin's class; cast it to Kind::Factory.
-  void (*factory() const)() { return entry_->factory; }
+  void (*factory() const)() { return entry_.factory; }
 
  private:
-  PluginLibrary(std::filesystem::path file, void* handle, const PluginEntry* entry)
+  PluginLibrary(std::filesystem::path file, void* handle, const PluginEntry& entry)
       : file_{std::move(file)}, handle_{handle}, entry_{entry} {}
 
   std::filesystem::path file_;
-  void* handle_;
-  const PluginEntry* entry_;
+  void* handle_;  // nullptr: this program
+  PluginEntry entry_;
 };
 
 /// An object made by a plugin, and the library that its code lives in: the library stays loaded

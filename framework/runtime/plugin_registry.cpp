@@ -40,8 +40,24 @@ std::vector<std::filesystem::path> PluginRegistry::default_search_path() {
 PluginRegistry::PluginRegistry(std::vector<std::filesystem::path> search_path)
     : search_path_{std::move(search_path)} {
   for (const auto& folder : search_path_) scan(folder);
+  sort();
+}
+
+void PluginRegistry::sort() {
   std::sort(plugins_.begin(), plugins_.end(),
             [](const auto& a, const auto& b) { return a.id < b.id; });
+}
+
+void PluginRegistry::add(std::string_view plugin_yaml, const PluginEntry& entry) {
+  config::Problems problems;
+  PluginManifest manifest = parse_manifest(plugin_yaml, "plugin.yaml", problems);
+  problems.throw_if_any();
+  if (find(manifest.id)) {
+    throw std::invalid_argument(fmt::format("there is a plugin '{}' already", manifest.id));
+  }
+  of_this_program_.emplace(manifest.id, entry);
+  plugins_.push_back(std::move(manifest));
+  sort();
 }
 
 void PluginRegistry::scan(const std::filesystem::path& folder) {
@@ -116,10 +132,14 @@ std::shared_ptr<PluginLibrary> PluginRegistry::load(const PluginManifest& plugin
     if (id != plugin.id) continue;
     if (auto library = weak.lock()) return library;
   }
-  auto library = PluginLibrary::load(plugin.file, kind, kind_version);
+  const auto own = of_this_program_.find(plugin.id);
+  auto library = own == of_this_program_.end()
+                     ? PluginLibrary::load(plugin.file, kind, kind_version)
+                     : PluginLibrary::of_this_program(own->second, kind, kind_version);
   if (!library) {
     throw PluginError(fmt::format("plugin '{}' cannot be used: {}: {}", plugin.id,
-                                  plugin.file.string(), library.error().text));
+                                  plugin.file.empty() ? "this program" : plugin.file.string(),
+                                  library.error().text));
   }
   loaded_.emplace_back(plugin.id, *library);
   return *library;

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -33,6 +35,14 @@ class PluginRegistry {
   static std::vector<std::filesystem::path> default_search_path();
   /// Reads the manifests of every *.so in the folders, in order; the first of an id wins.
   explicit PluginRegistry(std::vector<std::filesystem::path> search_path = default_search_path());
+
+  /// Adds class `Plugin` of this program under the manifest of `plugin_yaml`, before anything that
+  /// was read with this registry refers to it. An id that is there already is not replaced: throws
+  /// std::invalid_argument.
+  template <class Plugin>
+  void add(std::string_view plugin_yaml) {
+    add(plugin_yaml, detail::plugin_entry<Plugin>());
+  }
 
   const std::vector<std::filesystem::path>& search_path() const { return search_path_; }
   /// Sorted by id.
@@ -67,10 +77,13 @@ class PluginRegistry {
  private:
   void scan(const std::filesystem::path& folder);
   void add(const std::filesystem::path& file);
+  void add(std::string_view plugin_yaml, const PluginEntry& entry);
+  void sort();
 
   std::vector<std::filesystem::path> search_path_;
   std::vector<PluginManifest> plugins_;
   std::vector<Unusable> unusable_;
+  std::map<std::string, PluginEntry, std::less<>> of_this_program_;
   std::vector<std::pair<std::string, std::weak_ptr<PluginLibrary>>> loaded_;
 };
 

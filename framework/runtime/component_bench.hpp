@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <deque>
+#include <map>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "armature/config/document.hpp"
+#include "armature/runtime/component_config.hpp"
+#include "armature/runtime/component_setup.hpp"
+
+namespace armature {
+
+/// One component on a bench, for tests: made from its plugin.yaml and library as a deployment makes
+/// it, its topics in memory only, and activated by hand.
+///
+///     ComponentBench arm{plugins, {.component = "{plugin: arm/simulated}", .robot = lamp}};
+///     arm.send("servo_jp", command);
+///     arm.step(0.001);
+///     EXPECT_EQ(arm.take<msg::JointState>("measured_js").size(), 1u);
+class ComponentBench final : private Delivery {
+ public:
+  struct Options {
+    std::string component;  // its entry in a deployment: "{plugin: ik/numeric, params: {...}}"
+    std::optional<config::Node> robot, rig;  // the documents it is bound to
+  };
+
+  /// Throws config::ConfigError, PluginError, or what the component's own constructor throws;
+  /// std::logic_error when it does not claim exactly the ports of its plugin.yaml. `plugins`
+  /// outlives the bench.
+  ComponentBench(PluginRegistry& plugins, const Options& options);
+  ComponentBench(const ComponentBench&) = delete;
+  ComponentBench& operator=(const ComponentBench&) = delete;
+
+  /// Hands `message` to the input, as if it had just been published.
+  template <class Message>
+  void send(std::string_view input, const Message& message) {
+    Topic& topic = topic_of(config_.inputs, input, message_type<Message>());
+    SampleRef sample = topic.loan();
+    *static_cast<Message*>(sample.mutable_message()) = message;
+    topic.publish(std::move(sample), now_);
+  }
+  /// True when a trigger input has asked for an activation since the last one.
+  bool triggered() const { return triggered_; }
+  /// One activation at `now_s`; an exception out of the component is thrown on as runtime_error.
+  void step(double now_s);
+  /// Everything the output published since the last call, oldest first.
+  template <class Message>
+  std::vector<Message> take(std::string_view output) {
+    topic_of(config_.outputs, output, message_type<Message>());
+    std::vector<Message> messages;
+    for (const SampleRef& sample : std::exchange(taps_[std::string{output}].samples, {})) {
+      messages.push_back(*static_cast<const Message*>(sample.message()));
+    }
+    return messages;
+  }
+
+  Voice::Status status() const { return unit_->status(); }
+  /// What it told the operator.
+  const std::vector<std::string>& lines() const { return lines_; }
+  const std::optional<Duration>& period() const { return unit_->period(); }
+  Component& component() { return unit_->component(); }
+
+ private:
+  struct Tap final : Subscriber {
+    std::vector<SampleRef> samples;
+    void deliver(const SampleRef& sample) override { samples.push_back(sample); }
+  };
+
+  void publish(Topic& topic, SampleRef sample) override { topic.publish(std::move(sample), now_); }
+  void read(const PluginRegistry& plugins, const Options& options);
+  Topic& topic_for(const PortBinding& port, const MessageType& type);
+  Topic& topic_of(const std::vector<PortBinding>& ports, std::string_view name,
+                  const MessageType& type);
+
+  DeploymentConfig deployment_;
+  ComponentConfig config_;
+  Time now_;
+  bool triggered_ = false;
+  std::vector<std::string> lines_;
+  std::map<std::string, std::unique_ptr<Topic>> topics_;  // by name; outlive their samples
+  std::map<std::string, Tap> taps_;                       // by output
+  std::unique_ptr<Unit> unit_;
+};
+
+inline ComponentBench::ComponentBench(PluginRegistry& plugins, const Options& options) {
+  read(plugins, options);
+  unit_ = std::make_unique<Unit>(
+      config_.name, config_.plugin_id, 0,
+      [this](const std::string&, const std::string& line) { lines_.push_back(line); });
+  unit_->on_triggered([this] { triggered_ = true; });
+  ComponentSetup setup{config_,
+                       deployment_,
+                       plugins,
+                       *unit_,
+                       *this,
+                       [this](const PortBinding& port, const MessageType& type) -> Topic& {
+                         return topic_for(port, type);
+                       }};
+  auto library = plugins.load(*config_.manifest, Component::kKind, Component::kKindVersion);
+  auto component = reinterpret_cast<Component::Factory>(library->factory())(setup);
+  setup.check_all_claimed();
+  unit_->install({std::move(library), std::move(component)});
+  for (const PortBinding& output : config_.outputs) {
+    topics_.at(output.topic)->connect(taps_[output.spec.name]);
+  }
+}
+
+inline void ComponentBench::read(const PluginRegistry& plugins, const Options& options) {
+  deployment_.name = "bench";
+  deployment_.seed = 1;
+  deployment_.executors.push_back(
+      {.name = std::string{kMainExecutor}, .period = {}, .priority = 0, .cpu = {}});
+  for (const auto& [section, word] : kDocumentSections) {
+    auto& documents = deployment_.documents[std::string{section}];
+    const auto& document = word == "robot" ? options.robot : options.rig;
+    if (document) documents.emplace(word, *document);
+  }
+  const config::Node file = config::parse_text("bench: " + options.component, "bench");
+  config::Problems problems;
+  auto read = ComponentReader{deployment_, plugins, problems}.read(file.entries().front());
+  problems.throw_if_any();
+  config_ = std::move(*read);
+}
+
+inline void ComponentBench::step(double now_s) {
+  now_ = Time{} + seconds(now_s);
+  triggered_ = false;
+  unit_->activate(now_);
+  if (unit_->faulted()) throw std::runtime_error(unit_->status().reason);
+}
+
+inline Topic& ComponentBench::topic_for(const PortBinding& port, const MessageType& type) {
+  auto& topic = topics_[port.topic];
+  if (!topic) {
+    topic = std::make_unique<Topic>(
+        TopicSpec{.name = "rt" + port.topic, .type = &type, .qos = port.spec.qos}, 1);
+  }
+  return *topic;
+}
+
+inline Topic& ComponentBench::topic_of(const std::vector<PortBinding>& ports, std::string_view name,
+                                       const MessageType& type) {
+  for (const PortBinding& port : ports) {
+    if (port.spec.name != name) continue;
+    if (port.spec.type != type.ros_name) {
+      throw std::invalid_argument("port '" + port.spec.name + "' is a " + port.spec.type +
+                                  ", not a " + std::string{type.ros_name});
+    }
+    return *topics_.at(port.topic);
+  }
+  throw std::invalid_argument("there is no port '" + std::string{name} + "'");
+}
+
+}  // namespace armature

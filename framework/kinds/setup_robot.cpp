@@ -1,22 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/kinds/setup_robot.hpp"
 
-#include "armature/config/problems.hpp"
-
 namespace armature {
 
-RobotModel robot_of(Setup& setup) {
-  config::Problems problems;
-  auto robot = read_robot_model(setup.document("robots"), problems);
-  problems.throw_if_any();
-  return std::move(*robot);
-}
+RobotModel robot_of(Setup& setup) { return read_robot_model(setup.document("robots")); }
 
-StereoRig rig_of(Setup& setup) {
-  config::Problems problems;
-  auto rig = read_stereo_rig(setup.document("rigs"), problems);
-  problems.throw_if_any();
-  return std::move(*rig);
+StereoRig rig_of(Setup& setup) { return read_stereo_rig(setup.document("rigs")); }
+
+FrameId mount_of(const StereoRig& rig, const RobotModel& robot) {
+  const auto mount = robot.find_frame(rig.mounted_on);
+  if (!mount) {
+    throw SetupError("the rig '" + rig.name + "' is mounted on '" + rig.mounted_on +
+                     "', which is no frame of the robot '" + robot.name() + "'");
+  }
+  return *mount;
 }
 
 }  // namespace armature

@@ -12,4 +12,8 @@ namespace armature {
 RobotModel robot_of(Setup& setup);
 StereoRig rig_of(Setup& setup);
 
+/// The frame of the robot that the rig hangs on. Throws SetupError when the robot has none of that
+/// name.
+FrameId mount_of(const StereoRig& rig, const RobotModel& robot);
+
 }  // namespace armature

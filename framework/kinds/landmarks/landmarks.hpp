@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "armature/kinds/landmarks/image_view.hpp"
@@ -43,10 +44,28 @@ class LandmarkFinder {
   };
 
   virtual ~LandmarkFinder() = default;
-  /// Landmarks in both images, or why not ("no face in the left image"). Not const: a detector may
-  /// keep scratch memory, never knowledge. May allocate.
+  /// Landmarks in both images, or why not ("no face in the left image"). What is not found is
+  /// forgotten in the state. Not const: a detector may keep scratch memory, never knowledge. May
+  /// allocate.
   virtual Expected<StereoLandmarks> find(const ImageView& left, const ImageView& right,
                                          State& state) = 0;
 };
+
+/// nullopt, or why the views are no stereo pair: no pixels, rows that overlap, two sizes. The first
+/// line of every finder.
+inline std::optional<std::string> invalid_input(const ImageView& left, const ImageView& right) {
+  for (const ImageView* view : {&left, &right}) {
+    if (view->data == nullptr || view->width <= 0 || view->height <= 0) return "empty image";
+    if (view->stride < static_cast<std::size_t>(view->width)) {
+      return "an image of " + std::to_string(view->width) + " pixels in rows of " +
+             std::to_string(view->stride);
+    }
+  }
+  if (left.width == right.width && left.height == right.height) return std::nullopt;
+  const auto size = [](const ImageView& view) {
+    return std::to_string(view.width) + " x " + std::to_string(view.height);
+  };
+  return "the left image is " + size(left) + " pixels, the right one " + size(right);
+}
 
 }  // namespace armature

@@ -36,7 +36,9 @@ struct PathRequest {
   std::optional<Eigen::Vector3d> focus;
 };
 
-/// Plans where the tool goes, not when. Pure; may allocate.
+/// Plans where the tool goes, not when. The path starts at the request's start (a cartesian first
+/// segment with it as its first sample), every segment starts where the one before ended, and the
+/// last sample is the goal. Refuses with a reason. Pure; may allocate.
 class PathPlanner {
  public:
   static constexpr std::string_view kKind = "path";
@@ -46,5 +48,9 @@ class PathPlanner {
   virtual ~PathPlanner() = default;
   virtual Expected<Path> plan(const PathRequest& request) const = 0;
 };
+
+/// `request` with unit directions or quaternions; or what is wrong with it: a number that is not
+/// finite, a direction or quaternion whose length is not 1. The first line of every planner.
+Expected<PathRequest> checked(PathRequest request);
 
 }  // namespace armature

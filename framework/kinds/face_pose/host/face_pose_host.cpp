@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <cstdint>
+
 #include "armature/kinds/face_pose/face_pose.hpp"
 #include "armature/kinds/landmarks/landmark_messages.hpp"
 #include "armature/messages/geometry.hpp"
@@ -9,14 +12,23 @@
 namespace armature {
 namespace {
 
-/// The rectified pair whose right camera `info` describes.
-Expected<StereoCamera> camera_of(const msg::CameraInfo& info) {
+/// The rectified pair whose right camera `info` describes and that took `image`.
+Expected<StereoCamera> camera_of(const msg::CameraInfo& info, const ImageView& image) {
   const auto& p = info.p_();
   if (!(p[0] > 0) || !(p[3] < 0)) {
     return refuse(
         fmt::format("the right camera's info has f = {} px and P[3] = {}; a rectified "
                     "pair has f > 0 and P[3] = -f b < 0",
                     p[0], p[3]));
+  }
+  if (!std::isfinite(p[0]) || !std::isfinite(p[3]) || !std::isfinite(p[2]) ||
+      !std::isfinite(p[6])) {
+    return refuse("the right camera's info is not finite");
+  }
+  if (std::int64_t{info.width_()} != image.width || std::int64_t{info.height_()} != image.height) {
+    return refuse(
+        fmt::format("the right camera's info is for {} x {} pixels, the image has {} x {}",
+                    info.width_(), info.height_(), image.width, image.height));
   }
   return StereoCamera{.width = static_cast<int>(info.width_()),
                       .height = static_cast<int>(info.height_()),
@@ -55,13 +67,13 @@ class FacePoseHost final : public Component {
 Expected<FacePose> FacePoseHost::estimate() const {
   if (!landmarks_.latest()->valid_()) return refuse(landmarks_.latest()->reason_());
   if (!right_info_.latest()) return refuse("no camera_info yet");
-  const auto camera = camera_of(*right_info_.latest());
-  if (!camera) return tl::unexpected{camera.error()};
   const auto landmarks = landmarks_of(*landmarks_.latest());
   if (!landmarks) return tl::unexpected{landmarks.error()};
   const auto left = image_of(*left_image_.latest()), right = image_of(*right_image_.latest());
-  if (!left) return tl::unexpected{left.error()};
-  if (!right) return tl::unexpected{right.error()};
+  if (!left) return refuse("left: " + left.error().text);
+  if (!right) return refuse("right: " + right.error().text);
+  const auto camera = camera_of(*right_info_.latest(), *right);
+  if (!camera) return tl::unexpected{camera.error()};
   return estimator_->estimate(
       {.left = *left, .right = *right, .landmarks = *landmarks, .camera = *camera});
 }

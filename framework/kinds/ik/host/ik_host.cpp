@@ -1,40 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "armature/kinds/ik/ik.hpp"
+#include "armature/kinds/joint_messages.hpp"
+#include "armature/kinds/request_host.hpp"
 #include "armature/kinds/setup_robot.hpp"
-#include "armature/messages/armature_msgs.hpp"
-#include "armature/messages/geometry.hpp"
-#include "armature/runtime/component.hpp"
+#include "armature/kinds/tool_pose_messages.hpp"
 #include "armature/runtime/plugin.hpp"
-#include "armature/runtime/setup.hpp"
 
 namespace armature {
 namespace {
-
-IkGoal goal_of(const msg::IkRequest& request) {
-  IkGoal goal;
-  goal.pose.position = to_eigen(request.position_());
-  if (request.pointing_()) {
-    goal.pose.orientation = Direction{to_eigen(request.direction_())};
-  } else {
-    goal.pose.orientation = to_eigen(request.orientation_());
-  }
-  if (request.has_redundancy_()) goal.redundancy = request.redundancy_();
-  return goal;
-}
-
-Expected<JointVector> seed_of(const RobotModel& robot, const std::vector<double>& joints) {
-  if (joints.empty()) return resting_position(robot);
-  if (joints.size() != static_cast<std::size_t>(robot.joint_count())) {
-    return refuse("the seed has " + std::to_string(joints.size()) + " joints, the robot has " +
-                  std::to_string(robot.joint_count()));
-  }
-  return robot.contract(
-      Eigen::Map<const Eigen::VectorXd>(joints.data(), static_cast<Eigen::Index>(joints.size())));
-}
 
 msg::IkSolution solution_of(const RobotModel& robot, const IkBranch& branch) {
   const JointVector all = robot.expand(branch.q);
@@ -51,51 +27,53 @@ msg::IkSolution solution_of(const RobotModel& robot, const IkBranch& branch) {
 
 }  // namespace
 
-/// Requests in, every branch of every request out; each request is answered once, in order.
-class IkHost final : public Component {
+/// Poses in, every branch of every pose out.
+class IkHost final : public RequestHost<msg::IkRequest, msg::IkResponse> {
  public:
   explicit IkHost(Setup& setup)
-      : Component{setup},
+      : RequestHost{setup},
         robot_{robot_of(setup)},
-        solver_{setup.slot<IkSolver>("solver", robot_)},
-        requests_{setup.input<msg::IkRequest>("request")},
-        responses_{setup.output<msg::IkResponse>("response")} {}
-
-  void step(Time) override {
-    for (std::size_t i = 0; i < requests_.size(); ++i) answer(requests_[i]);
-  }
+        solver_{setup.slot<IkSolver>("solver", robot_)} {}
 
  private:
-  void answer(const msg::IkRequest& request);
+  void answer(const msg::IkRequest& request, msg::IkResponse& response) override;
+  IkStatus solve(const msg::IkRequest& request, std::string& reason);
 
   const RobotModel robot_;
   PluginPtr<IkSolver> solver_;
   IkState state_;
   IkBranches branches_;
-  Input<msg::IkRequest> requests_;
-  Output<msg::IkResponse> responses_;
 };
 
-void IkHost::answer(const msg::IkRequest& request) {
-  branches_.clear();
-  IkStatus status{IkStatus::Code::invalid_input, 0, {}};
-  std::string reason;
-  if (const auto seed = seed_of(robot_, request.seed_())) {
-    status = solver_->solve(goal_of(request), *seed, branches_, state_);
-    if (status.code != IkStatus::Code::ok) reason = describe(status);
-  } else {
+IkStatus IkHost::solve(const msg::IkRequest& request, std::string& reason) {
+  const IkStatus invalid{IkStatus::Code::invalid_input, 0, {}};
+  if (const auto wrong = in_another_frame(request)) {
+    reason = *wrong;
+    return invalid;
+  }
+  const auto seed = joints_or_home(robot_, request.seed_(), "the seed");
+  if (!seed) {
     reason = seed.error().text;
+    return invalid;
   }
-  auto response = responses_.loan();
-  response->header_() = request.header_();
-  response->request_id_(request.request_id_());
-  response->status_(std::string{to_string(status.code)});
-  response->reason_(reason);
-  response->solutions_().clear();
+  IkGoal goal;
+  goal.pose = tool_pose_of(request);
+  if (request.has_redundancy_()) goal.redundancy = request.redundancy_();
+  const IkStatus status = solver_->solve(goal, *seed, branches_, state_);
+  if (status.code != IkStatus::Code::ok) reason = describe(status);
+  return status;
+}
+
+void IkHost::answer(const msg::IkRequest& request, msg::IkResponse& response) {
+  branches_.clear();
+  std::string reason;
+  const IkStatus status = solve(request, reason);
+  response.status_(std::string{to_string(status.code)});
+  response.reason_(reason);
+  response.solutions_().clear();
   for (const IkBranch& branch : branches_) {
-    response->solutions_().push_back(solution_of(robot_, branch));
+    response.solutions_().push_back(solution_of(robot_, branch));
   }
-  response.publish();
 }
 
 }  // namespace armature

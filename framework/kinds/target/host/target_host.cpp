@@ -1,30 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/kinds/setup_robot.hpp"
-#include "armature/kinds/target/target.hpp"
-#include "armature/messages/armature_msgs.hpp"
-#include "armature/messages/geometry.hpp"
+#include "armature/kinds/target/target_messages.hpp"
 #include "armature/messages/sensor_msgs.hpp"
-#include "armature/messages/stamp.hpp"
 #include "armature/robot/frame_buffer.hpp"
 #include "armature/runtime/component.hpp"
 #include "armature/runtime/plugin.hpp"
 #include "armature/runtime/setup.hpp"
 
 namespace armature {
-namespace {
-
-constexpr const char* kBaseFrame = "base";
-
-FrameId mount_of(const StereoRig& rig, const RobotModel& robot) {
-  const auto mount = robot.find_frame(rig.mounted_on);
-  if (!mount) {
-    throw SetupError("the rig '" + rig.name + "' is mounted on '" + rig.mounted_on +
-                     "', which is no frame of the robot '" + robot.name() + "'");
-  }
-  return *mount;
-}
-
-}  // namespace
 
 /// Face poses of a moving camera in, the filtered target in the base frame out.
 class TargetHost final : public Component {
@@ -70,10 +53,7 @@ void TargetHost::step(Time) {
 }
 
 void TargetHost::remember(const msg::JointState& arm) {
-  const auto& position = arm.position_();
-  if (position.size() > kMaxJoints) return degraded("measured_js has too many joints");
-  const auto q = robot_.contract(Eigen::Map<const Eigen::VectorXd>(
-      position.data(), static_cast<Eigen::Index>(position.size())));
+  const auto q = robot_.contract(arm.position_());
   if (!q) return degraded("measured_js: " + q.error().text);
   healthy();
   history_.add(stamp_of(arm.header_().stamp_()), *q);
@@ -103,18 +83,12 @@ Expected<TargetEstimate> TargetHost::updated(const msg::FacePose& face) {
 }
 
 void TargetHost::publish(Time stamp, const Expected<TargetEstimate>& estimate) {
-  const TargetEstimate value = estimate.value_or(TargetEstimate{
-      .stamp = stamp, .position = Eigen::Vector3d::Zero(), .normal = Eigen::Vector3d::Zero()});
   auto target = target_.loan();
-  set_stamp(target->header_().stamp_(), stamp);
-  target->header_().frame_id_(kBaseFrame);
-  target->valid_(estimate.has_value());
-  target->reason_(estimate ? std::string{} : estimate.error().text);
-  assign(target->position_(), value.position);
-  assign(target->normal_(), value.normal);
-  assign(target->velocity_(), value.velocity);
-  assign(target->normal_rate_(), value.normal_rate);
-  target->measurements_(static_cast<std::uint32_t>(value.measurements));
+  if (estimate) {
+    write_estimate(*estimate, *target);
+  } else {
+    write_no_estimate(stamp, estimate.error(), *target);
+  }
   target.publish();
 }
 

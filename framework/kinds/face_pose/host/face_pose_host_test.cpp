@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: Apache-2.0
+// The host of the face pose estimators: 1. one answer for each pair of pictures with its landmarks,
+// under their header, 2. the camera is that of the right camera's info, 3. what cannot be estimated
+// is answered with its exact reason.
+#include "armature/kinds/face_pose/face_pose.hpp"
+#include "armature/kinds/landmarks/landmark_messages.hpp"
+#include "armature/messages/geometry.hpp"
+#include "armature/messages/header.hpp"
+#include "armature/runtime/component_bench.hpp"
+
+namespace armature {
+namespace {
+
+using Eigen::Vector3d;
+
+/// A mouth where the first landmark is, on the camera's axis in the middle of the image.
+class FirstLandmark final : public FacePoseEstimator {
+ public:
+  static inline FacePoseInput asked;
+
+  Expected<FacePose> estimate(const FacePoseInput& input) override {
+    asked = input;
+    const double u = input.landmarks.left.points[0].x();
+    if (u < 0) return refuse("the mouth is outside the image");
+    return FacePose{.left_eye = {1, 2, 3},
+                    .right_eye = {4, 5, 6},
+                    .mouth = {u, 0, 1},
+                    .normal = {0, 0, -1},
+                    .mouth_sigma_m = 0.001,
+                    .normal_sigma_rad = 0.02};
+  }
+};
+
+PluginRegistry& plugins() {
+  static PluginRegistry registry = [] {
+    PluginRegistry made{{ARMATURE_PLUGIN_BUILD_DIR}};
+    made.add<FirstLandmark>("{armature_plugin: 1, id: face_pose/first, kind: face_pose}");
+    return made;
+  }();
+  return registry;
+}
+
+msg::Image image(double stamp_s) {
+  msg::Image message;
+  write_header(message.header_(), Time{} + seconds(stamp_s), "left_camera_optical");
+  message.width_(4);
+  message.height_(2);
+  message.step_(4);
+  message.encoding_("mono8");
+  message.data_().assign(8, 7);
+  return message;
+}
+
+msg::FaceLandmarks landmarks(double stamp_s, double u) {
+  msg::FaceLandmarks message;
+  message.header_() = image(stamp_s).header_();
+  message.valid_(true);
+  message.left_().assign(136, 0.5);
+  message.left_()[0] = u;
+  message.right_().assign(136, 0.25);
+  message.left_box_(std::array<double, 4>{1, 2, 3, 4});
+  message.score_(1.5);
+  message.face_intensity_(80);
+  return message;
+}
+
+/// f = 500 px, principal point (1.5, 0.5), baseline 120 mm.
+msg::CameraInfo info() {
+  msg::CameraInfo message;
+  message.width_(4);
+  message.height_(2);
+  message.p_(std::array<double, 12>{500, 0, 1.5, -60, 0, 500, 0.5, 0, 0, 0, 1, 0});
+  return message;
+}
+
+class FacePoseHostTest : public testing::Test {
+ protected:
+  msg::FacePose see(const msg::Image& left, const msg::Image& right,
+                    const msg::FaceLandmarks& found) {
+    host_.send("left_image", left);
+    host_.send("right_image", right);
+    host_.send("landmarks", found);
+    EXPECT_TRUE(host_.triggered());
+    host_.step(1);
+    const auto answers = host_.take<msg::FacePose>("face");
+    EXPECT_EQ(answers.size(), 1u);
+    return answers.empty() ? msg::FacePose{} : answers.front();
+  }
+  msg::FacePose see(double stamp_s, double u) {
+    return see(image(stamp_s), image(stamp_s), landmarks(stamp_s, u));
+  }
+  ComponentBench host_{plugins(),
+                       {.component = "{plugin: face_pose/first}", .robot = {}, .rig = {}}};
+};
+
+TEST_F(FacePoseHostTest, TellsThePoseUnderTheHeaderOfThePictures) {
+  host_.send("right_info", info());
+  const msg::FacePose face = see(0.5, 2);
+  EXPECT_EQ(face.header_(), image(0.5).header_());
+  EXPECT_TRUE(face.valid_());
+  EXPECT_EQ(face.reason_(), "");
+  EXPECT_EQ(to_eigen(face.left_eye_()), (Vector3d{1, 2, 3}));
+  EXPECT_EQ(to_eigen(face.right_eye_()), (Vector3d{4, 5, 6}));
+  EXPECT_EQ(to_eigen(face.mouth_()), (Vector3d{2, 0, 1}));
+  EXPECT_EQ(to_eigen(face.normal_()), (Vector3d{0, 0, -1}));
+  EXPECT_EQ(face.mouth_sigma_(), 0.001);
+  EXPECT_EQ(face.normal_sigma_(), 0.02);
+}
+
+TEST_F(FacePoseHostTest, AsksWithThePairItsLandmarksAndItsCamera) {
+  host_.send("right_info", info());
+  see(0.5, 2);
+  const FacePoseInput& asked = FirstLandmark::asked;
+  EXPECT_EQ(asked.camera.width, 4);
+  EXPECT_EQ(asked.camera.height, 2);
+  EXPECT_EQ(asked.camera.focal_px, 500);
+  EXPECT_EQ(asked.camera.cu, 1.5);
+  EXPECT_EQ(asked.camera.cv, 0.5);
+  EXPECT_DOUBLE_EQ(asked.camera.baseline_m, 0.12);
+  EXPECT_EQ(asked.left.width, 4);
+  EXPECT_EQ(asked.right.height, 2);
+  EXPECT_EQ(asked.landmarks.right.points[67], (Eigen::Vector2d{0.25, 0.25}));
+  EXPECT_EQ(asked.landmarks.left.box.width, 3);
+  EXPECT_EQ(asked.landmarks.left.score, 1.5);
+  EXPECT_EQ(asked.landmarks.left.mean_intensity, 80);
+}
+
+TEST_F(FacePoseHostTest, WaitsForPicturesAndLandmarksOfOneStampAndAnswersThemOnce) {
+  host_.send("right_info", info());
+  host_.send("left_image", image(1));
+  host_.send("right_image", image(1));
+  host_.send("landmarks", landmarks(0.9, 2));
+  EXPECT_FALSE(host_.triggered());
+  host_.step(1);
+  EXPECT_TRUE(host_.take<msg::FacePose>("face").empty());
+  host_.send("landmarks", landmarks(1, 2));
+  host_.step(1.1);
+  EXPECT_EQ(host_.take<msg::FacePose>("face").size(), 1u);
+  host_.step(1.2);
+  EXPECT_TRUE(host_.take<msg::FacePose>("face").empty());
+}
+
+TEST_F(FacePoseHostTest, SaysWhyThereIsNoPoseAndTellsNothingOfTheOneBefore) {
+  EXPECT_EQ(see(1, 2).reason_(), "no camera_info yet");
+  host_.send("right_info", info());
+  ASSERT_TRUE(see(2, 2).valid_());
+  const msg::FacePose none = see(3, -1);
+  EXPECT_FALSE(none.valid_());
+  EXPECT_EQ(none.reason_(), "the mouth is outside the image");
+  EXPECT_EQ(to_eigen(none.mouth_()), Vector3d::Zero());
+  EXPECT_EQ(to_eigen(none.normal_()), Vector3d::Zero());
+  EXPECT_EQ(none.mouth_sigma_(), 0);
+}
+
+TEST_F(FacePoseHostTest, AnswersBadInputWithItsReason) {
+  host_.send("right_info", info());
+  double stamp = 10;
+  const auto refusal = [&](auto change) {
+    ++stamp;
+    msg::Image left = image(stamp), right = image(stamp);
+    msg::FaceLandmarks found = landmarks(stamp, 2);
+    change(left, right, found);
+    const msg::FacePose face = see(left, right, found);
+    EXPECT_FALSE(face.valid_());
+    EXPECT_EQ(stamp_of(face.header_().stamp_()), Time{} + seconds(stamp));
+    return face.reason_();
+  };
+  EXPECT_EQ(refusal([](auto&, auto&, auto& found) {
+              found.valid_(false);
+              found.reason_("no face in the right image");
+            }),
+            "no face in the right image");
+  EXPECT_EQ(refusal([](auto&, auto&, auto& found) { found.right_().pop_back(); }),
+            "136 and 135 landmark coordinates, not 136");
+  EXPECT_EQ(refusal([](auto& left, auto&, auto&) { left.encoding_("bgr8"); }),
+            "left: the image is 'bgr8', not mono8");
+  EXPECT_EQ(refusal([](auto&, auto& right, auto&) { right.data_().clear(); }),
+            "right: an image of 4 x 2 pixels with 0 bytes in steps of 4");
+  EXPECT_TRUE(see(50, 2).valid_());
+}
+
+TEST_F(FacePoseHostTest, RefusesACameraThatIsNoneOrAnotherOne) {
+  double stamp = 20;
+  const auto refusal = [&](auto change) {
+    msg::CameraInfo wrong = info();
+    change(wrong);
+    host_.send("right_info", wrong);
+    const msg::FacePose face = see(++stamp, 2);
+    EXPECT_FALSE(face.valid_());
+    return face.reason_();
+  };
+  EXPECT_EQ(refusal([](auto& i) { i.p_()[3] = 0; }),
+            "the right camera's info has f = 500 px and P[3] = 0; a rectified pair has f > 0 and "
+            "P[3] = -f b < 0");
+  EXPECT_EQ(refusal([](auto& i) { i.p_()[0] = NAN; }),
+            "the right camera's info has f = nan px and P[3] = -60; a rectified pair has f > 0 and "
+            "P[3] = -f b < 0");
+  EXPECT_EQ(refusal([](auto& i) { i.p_()[2] = NAN; }), "the right camera's info is not finite");
+  EXPECT_EQ(refusal([](auto& i) { i.width_(640); }),
+            "the right camera's info is for 640 x 2 pixels, the image has 4 x 2");
+  host_.send("right_info", info());
+  EXPECT_TRUE(see(50, 2).valid_());
+}
+
+}  // namespace
+}  // namespace armature

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+// The host of the inverse kinematics solvers, with a solver that remembers what it was asked:
+// 1. one answer for each request, in order, under its header and id, 2. requests and solutions are
+// carried over as they are, 3. bad requests are answered with their exact reason.
+#include "armature/kinds/ik/ik.hpp"
+#include "armature/messages/armature_msgs.hpp"
+#include "armature/messages/geometry.hpp"
+#include "armature/messages/header.hpp"
+#include "armature/robot/test_robots.hpp"
+#include "armature/runtime/component_bench.hpp"
+
+namespace armature {
+namespace {
+
+using testing::joint_vector;
+
+/// Two branches for every good goal; the second is where the seed was.
+class EchoIk final : public IkSolver {
+ public:
+  static inline IkGoal asked;
+  static inline IkStatus answer;
+
+  EchoIk(const RobotModel& robot, const Params&) : robot_{robot} {}
+  IkStatus solve(const IkGoal& goal, const JointVector& seed, IkBranches& out,
+                 IkState&) const override {
+    out.clear();
+    asked = goal;
+    if (const char* wrong = invalid_input(robot_, goal, seed)) {
+      return {IkStatus::Code::invalid_input, 0, wrong};
+    }
+    out.add() = {.label = "up",
+                 .q = joint_vector({0.1, 0.2, 0.3, 0.4, 0.5}),
+                 .redundancy = 0.25,
+                 .residual = {.position_m = 1e-12, .angle_rad = 2e-12},
+                 .within_limits = true};
+    out.add() = {.label = "seed", .q = seed, .singular = true};
+    return answer;
+  }
+
+ private:
+  const RobotModel& robot_;
+};
+
+PluginRegistry& plugins() {
+  static PluginRegistry registry = [] {
+    PluginRegistry made{{ARMATURE_PLUGIN_BUILD_DIR}};
+    made.add<EchoIk>("{armature_plugin: 1, id: ik/echo, kind: ik}");
+    return made;
+  }();
+  return registry;
+}
+
+msg::IkRequest request(std::uint64_t id) {
+  msg::IkRequest message;
+  write_header(message.header_(), Time{static_cast<std::int64_t>(id) * 1000}, kBaseFrame);
+  message.request_id_(id);
+  assign(message.position_(), Eigen::Vector3d{1, 2, 3});
+  message.pointing_(true);
+  assign(message.direction_(), Eigen::Vector3d{0, 1, 0});
+  return message;
+}
+
+class IkHostTest : public ::testing::Test {
+ protected:
+  IkHostTest() { EchoIk::answer = {}; }
+  msg::IkResponse ask(const msg::IkRequest& message) {
+    host_.send("request", message);
+    host_.step(0.1);
+    const auto answers = host_.take<msg::IkResponse>("response");
+    EXPECT_EQ(answers.size(), 1u);
+    return answers.empty() ? msg::IkResponse{} : answers.front();
+  }
+  ComponentBench host_{
+      plugins(),
+      {.component = "{plugin: ik/echo}",
+       .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/dental_lamp.yaml"),
+       .rig = {}}};
+};
+
+TEST_F(IkHostTest, AnswersEveryRequestOnceInOrderUnderItsHeaderAndId) {
+  for (const std::uint64_t id : {7u, 3u, 3u, 9u}) host_.send("request", request(id));
+  EXPECT_TRUE(host_.triggered());
+  host_.step(0.1);
+  const auto answers = host_.take<msg::IkResponse>("response");
+  ASSERT_EQ(answers.size(), 4u);
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    const std::uint64_t id = std::array{7u, 3u, 3u, 9u}[i];
+    EXPECT_EQ(answers[i].request_id_(), id);
+    EXPECT_EQ(answers[i].header_(), request(id).header_());
+  }
+  host_.step(0.2);
+  EXPECT_TRUE(host_.take<msg::IkResponse>("response").empty());
+}
+
+TEST_F(IkHostTest, AsksForThePoseOfTheRequest) {
+  msg::IkRequest message = request(1);
+  ask(message);
+  EXPECT_EQ(EchoIk::asked.pose.position, (Eigen::Vector3d{1, 2, 3}));
+  EXPECT_EQ(std::get<Direction>(EchoIk::asked.pose.orientation).unit, Eigen::Vector3d::UnitY());
+  EXPECT_FALSE(EchoIk::asked.redundancy);
+  message.pointing_(false);
+  assign(message.orientation_(), Eigen::Quaterniond{0.5, 0.5, -0.5, 0.5});
+  message.has_redundancy_(true);
+  message.redundancy_(0.75);
+  ask(message);
+  EXPECT_EQ(std::get<Eigen::Quaterniond>(EchoIk::asked.pose.orientation).coeffs(),
+            (Eigen::Quaterniond{0.5, 0.5, -0.5, 0.5}.coeffs()));
+  EXPECT_EQ(EchoIk::asked.redundancy, 0.75);
+}
+
+TEST_F(IkHostTest, TellsEveryBranchWithAllJoints) {
+  const msg::IkResponse answer = ask(request(1));
+  EXPECT_EQ(answer.status_(), "ok");
+  EXPECT_EQ(answer.reason_(), "");
+  ASSERT_EQ(answer.solutions_().size(), 2u);
+  const msg::IkSolution& up = answer.solutions_()[0];
+  EXPECT_EQ(up.label_(), "up");
+  EXPECT_EQ(up.joints_(), (std::vector<double>{0.1, 0.2, 0.3, -0.3, 0.4, 0.5}));
+  EXPECT_EQ(up.redundancy_(), 0.25);
+  EXPECT_EQ(up.residual_m_(), 1e-12);
+  EXPECT_EQ(up.residual_rad_(), 2e-12);
+  EXPECT_TRUE(up.within_limits_());
+  EXPECT_FALSE(up.singular_());
+  EXPECT_TRUE(answer.solutions_()[1].singular_());
+}
+
+TEST_F(IkHostTest, StartsFromTheSeedOrFromHomeWithoutOne) {
+  const RobotModel lamp = testing::dental_lamp();
+  const auto home = ask(request(1)).solutions_()[1].joints_();
+  EXPECT_EQ(lamp.contract(home).value(), lamp.contract(*lamp.home()).value());
+  msg::IkRequest seeded = request(2);
+  seeded.seed_({0.5, -0.5, 0.25, -0.25, 1, 0.125});
+  EXPECT_EQ(ask(seeded).solutions_()[1].joints_(), seeded.seed_());
+}
+
+TEST_F(IkHostTest, HandsOnTheStatusWithItsReasonAndWhatWasFoundAllTheSame) {
+  EchoIk::answer = {IkStatus::Code::joint_limit, 0, "j5 at no turn"};
+  const msg::IkResponse limit = ask(request(1));
+  EXPECT_EQ(limit.status_(), "joint_limit");
+  EXPECT_EQ(limit.reason_(), "joint_limit: j5 at no turn");
+  EXPECT_EQ(limit.solutions_().size(), 2u);
+  EchoIk::answer = {IkStatus::Code::out_of_reach, 0.0341, "horizontal distance"};
+  EXPECT_EQ(ask(request(2)).reason_(), "out_of_reach: 0.0341 m beyond reach (horizontal distance)");
+}
+
+TEST_F(IkHostTest, AnswersABadRequestWithItsReasonAndTheNextOneAsIfNothingHadBeen) {
+  const auto refusal = [&](auto change) {
+    msg::IkRequest bad = request(5);
+    change(bad);
+    const msg::IkResponse answer = ask(bad);
+    EXPECT_EQ(answer.status_(), "invalid_input");
+    EXPECT_EQ(answer.request_id_(), 5u);
+    EXPECT_TRUE(answer.solutions_().empty());
+    EXPECT_EQ(ask(request(6)).status_(), "ok");
+    return answer.reason_();
+  };
+  EXPECT_EQ(refusal([](auto& r) { r.position_().y_(NAN); }),
+            "invalid_input: the position is not finite");
+  EXPECT_EQ(refusal([](auto& r) { r.direction_().y_(0); }), "invalid_input: the direction is zero");
+  EXPECT_EQ(refusal([](auto& r) {
+              r.pointing_(false);
+              assign(r.orientation_(), Eigen::Quaterniond{0, 0, 0, 0});
+            }),
+            "invalid_input: the rotation is a zero quaternion");
+  EXPECT_EQ(refusal([](auto& r) {
+              r.has_redundancy_(true);
+              r.redundancy_(INFINITY);
+            }),
+            "invalid_input: the redundancy is not finite");
+  EXPECT_EQ(refusal([](auto& r) {
+              r.seed_({1, 2, 3});
+            }),
+            "the seed: 3 joint values; dental_lamp has 6 joints");
+  EXPECT_EQ(refusal([](auto& r) {
+              r.seed_({0, 0, NAN, 0, 0, 0});
+            }),
+            "the seed: j3 = nan is not a number");
+  EXPECT_EQ(refusal([](auto& r) {
+              r.seed_({0, 0, 0.5, 0.5, 0, 0});
+            }),
+            "the seed: j4 = 0.5 contradicts its coupling to j3, which makes it -0.5");
+  EXPECT_EQ(refusal([](auto& r) { r.seed_(std::vector<double>(1000, 0.0)); }),
+            "the seed: 1000 joint values; dental_lamp has 6 joints");
+  EXPECT_EQ(refusal([](auto& r) { r.header_().frame_id_() = "camera"; }),
+            "the request is stated in frame 'camera', not in 'base'");
+}
+
+TEST_F(IkHostTest, TakesARequestWithoutAFrameForOneInTheBaseFrame) {
+  msg::IkRequest message = request(1);
+  message.header_().frame_id_().clear();
+  EXPECT_EQ(ask(message).status_(), "ok");
+}
+
+TEST(IkHost, DoesNotStartWithARobotThatTheSolverRefuses) {
+  const config::Node refused = config::parse_text(
+      "{armature_robot: 1, name: one, joints: [{name: j1, a_m: 1, limits_deg: [-90, 90], "
+      "velocity_rad_s: 1, acceleration_rad_s2: 1}], frames: {tool: {parent: j1}}}",
+      "one.yaml");
+  class Refusing final : public IkSolver {
+   public:
+    static Expected<std::unique_ptr<IkSolver>> make(const RobotModel& robot, const Params&) {
+      return refuse(robot.name() + " has too few joints");
+    }
+    IkStatus solve(const IkGoal&, const JointVector&, IkBranches&, IkState&) const override {
+      return {};
+    }
+  };
+  PluginRegistry registry{{ARMATURE_PLUGIN_BUILD_DIR}};
+  registry.add<Refusing>("{armature_plugin: 1, id: ik/refusing, kind: ik}");
+  try {
+    ComponentBench host{registry,
+                        {.component = "{plugin: ik/refusing}", .robot = refused, .rig = {}}};
+    ADD_FAILURE() << "it was made";
+  } catch (const SetupError& error) {
+    EXPECT_STREQ(error.what(), "ik/refusing refuses: one has too few joints");
+  }
+}
+
+}  // namespace
+}  // namespace armature

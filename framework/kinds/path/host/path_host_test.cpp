@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+// The host of the path planners: 1. one answer for each request, in order, under its header and id,
+// 2. requests and paths are carried over as they are, 3. bad requests are answered with their
+// reason.
+#include "armature/kinds/path/path.hpp"
+#include "armature/kinds/tool_pose_messages.hpp"
+#include "armature/messages/header.hpp"
+#include "armature/runtime/component_bench.hpp"
+
+namespace armature {
+namespace {
+
+/// To the focus, passing it, and on to the goal in 2.5 s.
+class OverTheFocus final : public PathPlanner {
+ public:
+  static inline PathRequest asked;
+
+  Expected<Path> plan(const PathRequest& request) const override {
+    asked = request;
+    const auto good = checked(request);
+    if (!good) return tl::unexpected{good.error()};
+    if (!good->focus) return refuse("there is no point to look at");
+    ToolPose middle = good->goal;
+    middle.position = *good->focus;
+    return Path{{.space = PathSegment::Space::joint,
+                 .samples = {{1, middle}},
+                 .stop_at_end = false,
+                 .duration_s = {}},
+                {.space = PathSegment::Space::cartesian,
+                 .samples = {{0, middle}, {0.5, middle}, {1, good->goal}},
+                 .stop_at_end = true,
+                 .duration_s = 2.5}};
+  }
+};
+
+PluginRegistry& plugins() {
+  static PluginRegistry registry = [] {
+    PluginRegistry made{{ARMATURE_PLUGIN_BUILD_DIR}};
+    made.add<OverTheFocus>("{armature_plugin: 1, id: path/over_the_focus, kind: path}");
+    return made;
+  }();
+  return registry;
+}
+
+msg::PathRequest request(std::uint64_t id) {
+  msg::PathRequest message;
+  write_header(message.header_(), Time{static_cast<std::int64_t>(id) * 1000}, kBaseFrame);
+  message.request_id_(id);
+  write_tool_pose({{1, 2, 3}, Eigen::Quaterniond{0.5, 0.5, 0.5, 0.5}}, message.start_());
+  write_tool_pose({{4, 5, 6}, Direction{{0, 0, -1}}}, message.goal_());
+  message.has_focus_(true);
+  assign(message.focus_(), Eigen::Vector3d{7, 8, 9});
+  return message;
+}
+
+class PathHostTest : public testing::Test {
+ protected:
+  msg::PathResponse ask(const msg::PathRequest& message) {
+    host_.send("request", message);
+    host_.step(0.1);
+    const auto answers = host_.take<msg::PathResponse>("response");
+    EXPECT_EQ(answers.size(), 1u);
+    return answers.empty() ? msg::PathResponse{} : answers.front();
+  }
+  ComponentBench host_{plugins(),
+                       {.component = "{plugin: path/over_the_focus}", .robot = {}, .rig = {}}};
+};
+
+TEST_F(PathHostTest, AnswersEveryRequestOnceInOrderUnderItsHeaderAndId) {
+  msg::PathRequest bad = request(3);
+  bad.has_focus_(false);
+  host_.send("request", request(7));
+  host_.send("request", bad);
+  host_.send("request", request(9));
+  EXPECT_TRUE(host_.triggered());
+  host_.step(0.1);
+  const auto answers = host_.take<msg::PathResponse>("response");
+  ASSERT_EQ(answers.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::uint64_t id = std::array{7u, 3u, 9u}[i];
+    EXPECT_EQ(answers[i].request_id_(), id);
+    EXPECT_EQ(answers[i].header_(), request(id).header_());
+    EXPECT_EQ(answers[i].valid_(), id != 3);
+  }
+  host_.step(0.2);
+  EXPECT_TRUE(host_.take<msg::PathResponse>("response").empty());
+}
+
+TEST_F(PathHostTest, AsksForThePathOfTheRequest) {
+  ask(request(1));
+  const PathRequest& asked = OverTheFocus::asked;
+  EXPECT_EQ(asked.start.position, (Eigen::Vector3d{1, 2, 3}));
+  EXPECT_EQ(std::get<Eigen::Quaterniond>(asked.start.orientation).coeffs(),
+            Eigen::Vector4d::Constant(0.5));
+  EXPECT_EQ(asked.goal.position, (Eigen::Vector3d{4, 5, 6}));
+  EXPECT_EQ(std::get<Direction>(asked.goal.orientation).unit, -Eigen::Vector3d::UnitZ());
+  EXPECT_EQ(*asked.focus, (Eigen::Vector3d{7, 8, 9}));
+}
+
+TEST_F(PathHostTest, TellsTheSegmentsAsTheyAre) {
+  const msg::PathResponse answer = ask(request(1));
+  EXPECT_TRUE(answer.valid_());
+  EXPECT_EQ(answer.reason_(), "");
+  ASSERT_EQ(answer.segments_().size(), 2u);
+  const msg::PathSegment &first = answer.segments_()[0], &second = answer.segments_()[1];
+  EXPECT_EQ(first.space_(), 0);
+  EXPECT_FALSE(first.stop_at_end_());
+  EXPECT_FALSE(first.has_duration_());
+  ASSERT_EQ(first.samples_().size(), 1u);
+  EXPECT_EQ(to_eigen(first.samples_()[0].pose_().position_()), (Eigen::Vector3d{7, 8, 9}));
+  EXPECT_EQ(second.space_(), 1);
+  EXPECT_TRUE(second.stop_at_end_());
+  EXPECT_TRUE(second.has_duration_());
+  EXPECT_EQ(second.duration_(), 2.5);
+  ASSERT_EQ(second.samples_().size(), 3u);
+  EXPECT_EQ(second.samples_()[1].s_(), 0.5);
+  EXPECT_TRUE(second.samples_()[2].pose_().pointing_());
+  EXPECT_EQ(to_eigen(second.samples_()[2].pose_().direction_()), -Eigen::Vector3d::UnitZ());
+}
+
+TEST_F(PathHostTest, AnswersABadRequestWithItsReasonAndTheNextOneAsIfNothingHadBeen) {
+  const auto refusal = [&](auto change) {
+    msg::PathRequest bad = request(5);
+    change(bad);
+    const msg::PathResponse answer = ask(bad);
+    EXPECT_FALSE(answer.valid_());
+    EXPECT_TRUE(answer.segments_().empty());
+    EXPECT_TRUE(ask(request(6)).valid_());
+    return answer.reason_();
+  };
+  EXPECT_EQ(refusal([](auto& r) { r.start_().position_().x_(NAN); }),
+            "the start's position is not finite");
+  EXPECT_EQ(refusal([](auto& r) { r.start_().orientation_().w_(3); }),
+            "the start's quaternion has length 3.1225, not 1");
+  EXPECT_EQ(refusal([](auto& r) { r.goal_().direction_().z_(0); }),
+            "the goal's direction has length 0, not 1");
+  EXPECT_EQ(refusal([](auto& r) { r.focus_().z_(INFINITY); }),
+            "the point to look at is not finite");
+  EXPECT_EQ(refusal([](auto& r) { r.has_focus_(false); }), "there is no point to look at");
+  EXPECT_EQ(refusal([](auto& r) { r = msg::PathRequest{}; }),
+            "the start's quaternion has length 0, not 1");
+  EXPECT_EQ(refusal([](auto& r) { r.header_().frame_id_() = "tool"; }),
+            "the request is stated in frame 'tool', not in 'base'");
+}
+
+}  // namespace
+}  // namespace armature

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: Apache-2.0
+// The host of the target filters: 1. a face pose goes through where the arm was when the picture
+// was taken, 2. one answer for each face, stamped as its picture, 3. the filter predicts over a
+// gap, then what is missing is told, 4. a bad joint state is told as the component's own trouble.
+#include "armature/kinds/target/target_messages.hpp"
+#include "armature/messages/sensor_msgs.hpp"
+#include "armature/robot/kinematics.hpp"
+#include "armature/robot/stereo_rig.hpp"
+#include "armature/robot/test_robots.hpp"
+#include "armature/runtime/component_bench.hpp"
+
+namespace armature {
+namespace {
+
+using Eigen::Vector3d;
+using testing::joint_vector;
+
+/// The newest measurement; predicts for half a second.
+class LastLook final : public TargetFilter {
+ public:
+  static inline TargetMeasurement asked;
+
+  Expected<TargetEstimate> update(const TargetMeasurement& measurement,
+                                  State& state) const override {
+    asked = measurement;
+    if (!measurement.position.allFinite()) return refuse("the position is not finite");
+    if (state.started && measurement.stamp <= state.stamp) return refuse("an older picture");
+    state.started = true;
+    state.stamp = measurement.stamp;
+    state.mean.head<3>() = measurement.position;
+    ++state.measurements;
+    return estimate(measurement.stamp, state);
+  }
+  Expected<TargetEstimate> predict(Time when, const State& state) const override {
+    if (!state.started || when - state.stamp > seconds(0.5)) return refuse("too long ago");
+    return estimate(when, state);
+  }
+
+ private:
+  static TargetEstimate estimate(Time stamp, const State& state) {
+    return {.stamp = stamp,
+            .position = state.mean.head<3>(),
+            .normal = Vector3d::UnitX(),
+            .velocity = {0.1, 0.2, 0.3},
+            .normal_rate = {0, 0.5, 0},
+            .measurements = state.measurements};
+  }
+};
+
+PluginRegistry& plugins() {
+  static PluginRegistry registry = [] {
+    PluginRegistry made{{ARMATURE_PLUGIN_BUILD_DIR}};
+    made.add<LastLook>("{armature_plugin: 1, id: target/last_look, kind: target}");
+    return made;
+  }();
+  return registry;
+}
+
+const std::string kRig = ARMATURE_SOURCE_DIR "/configs/rigs/default.yaml";
+const RobotModel& lamp() {
+  static const RobotModel model = testing::dental_lamp();
+  return model;
+}
+
+msg::FacePose face(double stamp_s) {
+  msg::FacePose message;
+  write_header(message.header_(), Time{} + seconds(stamp_s), "left_camera_optical");
+  message.valid_(true);
+  assign(message.mouth_(), Vector3d{0.06, 0.02, 0.5});
+  assign(message.normal_(), Vector3d{0, 0, -1});
+  message.mouth_sigma_(0.001);
+  message.normal_sigma_(0.02);
+  return message;
+}
+
+msg::JointState arm_at(double stamp_s, const JointVector& q) {
+  msg::JointState message;
+  write_header(message.header_(), Time{} + seconds(stamp_s), kBaseFrame);
+  const JointVector all = lamp().expand(q);
+  message.position_().assign(all.begin(), all.end());
+  return message;
+}
+
+/// base_T_left with the arm at `q`.
+Eigen::Isometry3d camera_at(const JointVector& q) {
+  const StereoRig rig = load_stereo_rig(kRig);
+  return forward_kinematics(lamp(), q, *lamp().find_frame(rig.mounted_on)) * rig.mount_T_left;
+}
+
+class TargetHostTest : public ::testing::Test {
+ protected:
+  static ComponentBench bench(const std::string& params = "") {
+    return {plugins(),
+            {.component = "{plugin: target/last_look, params: {" + params + "}}",
+             .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/dental_lamp.yaml"),
+             .rig = config::load(kRig)}};
+  }
+  msg::Target see(const msg::FacePose& seen) {
+    host_.send("face", seen);
+    EXPECT_TRUE(host_.triggered());
+    host_.step(10);
+    const auto targets = host_.take<msg::Target>("target");
+    EXPECT_EQ(targets.size(), 1u);
+    return targets.empty() ? msg::Target{} : targets.front();
+  }
+  const JointVector kHome = lamp().contract(*lamp().home()).value();
+  const JointVector kAway = kHome + joint_vector({0.2, 0.1, 0.1, -0.2, 0.1});
+  ComponentBench host_{bench()};
+};
+
+TEST_F(TargetHostTest, CarriesAFaceThroughWhereTheArmWasWhenThePictureWasTaken) {
+  host_.send("measured_js", arm_at(1.0, kHome));
+  host_.send("measured_js", arm_at(1.2, kAway));
+  EXPECT_FALSE(host_.triggered()) << "the arm alone is no reason to compute";
+  const msg::Target target = see(face(1.05));
+  const Eigen::Isometry3d base_T_left = camera_at(0.75 * kHome + 0.25 * kAway);
+  EXPECT_LE((LastLook::asked.position - base_T_left * Vector3d{0.06, 0.02, 0.5}).norm(), 1e-12);
+  EXPECT_LE((LastLook::asked.normal + base_T_left.linear().col(2)).norm(), 1e-12);
+  EXPECT_EQ(LastLook::asked.stamp, Time{} + seconds(1.05));
+  EXPECT_EQ(LastLook::asked.position_sigma_m, 0.001);
+  EXPECT_EQ(LastLook::asked.normal_sigma_rad, 0.02);
+  EXPECT_EQ(stamp_of(target.header_().stamp_()), Time{} + seconds(1.05));
+  EXPECT_EQ(target.header_().frame_id_(), "base");
+  EXPECT_TRUE(target.valid_());
+  EXPECT_EQ(target.reason_(), "");
+  EXPECT_EQ(to_eigen(target.position_()), LastLook::asked.position);
+  EXPECT_EQ(to_eigen(target.normal_()), Vector3d::UnitX());
+  EXPECT_EQ(to_eigen(target.velocity_()), (Vector3d{0.1, 0.2, 0.3}));
+  EXPECT_EQ(to_eigen(target.normal_rate_()), (Vector3d{0, 0.5, 0}));
+  EXPECT_EQ(target.measurements_(), 1u);
+}
+
+TEST_F(TargetHostTest, AnswersEveryFaceOnceInOrder) {
+  for (int i = 0; i <= 4; ++i) host_.send("measured_js", arm_at(1 + 0.1 * i, kHome));
+  for (int i = 0; i < 4; ++i) host_.send("face", face(1 + 0.1 * i));
+  host_.step(2);
+  const auto targets = host_.take<msg::Target>("target");
+  ASSERT_EQ(targets.size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(stamp_of(targets[i].header_().stamp_()),
+              Time{} + seconds(1 + 0.1 * static_cast<double>(i)));
+    EXPECT_EQ(targets[i].measurements_(), i + 1);
+  }
+  host_.step(2.1);
+  EXPECT_TRUE(host_.take<msg::Target>("target").empty());
+}
+
+TEST_F(TargetHostTest, SaysWhenTheHistoryDoesNotReachToThePicture) {
+  EXPECT_EQ(see(face(1)).reason_(), "no joint positions have arrived yet");
+  host_.send("measured_js", arm_at(1.000, kHome));
+  EXPECT_EQ(see(face(1.012)).reason_(), "t = 1.012 s is 12.0 ms newer than the history");
+  EXPECT_EQ(see(face(0.5)).reason_(), "t = 0.500 s is 500.0 ms older than the history");
+  host_.send("measured_js", arm_at(1.5, kHome));
+  EXPECT_TRUE(see(face(1.2)).valid_());
+}
+
+TEST_F(TargetHostTest, RemembersTheArmForAsLongAsItsParametersSay) {
+  ComponentBench host = bench("history_s: 0.5, arm_rate_hz: 10");  // five samples and one
+  for (int i = 0; i < 20; ++i) host.send("measured_js", arm_at(0.1 * i, kHome));
+  host.send("face", face(1.45));
+  host.send("face", face(1.35));
+  host.step(2);
+  const auto targets = host.take<msg::Target>("target");
+  ASSERT_EQ(targets.size(), 2u);
+  EXPECT_TRUE(targets[0].valid_());
+  EXPECT_NE(to_eigen(targets[0].position_()), Vector3d::Zero());
+  EXPECT_TRUE(targets[1].reason_().empty()) << "predicted over the gap";
+  EXPECT_EQ(targets[1].measurements_(), 1u);
+}
+
+TEST_F(TargetHostTest, PredictsOverAGapAndThenTellsWhatIsMissing) {
+  for (int i = 0; i <= 20; ++i) host_.send("measured_js", arm_at(1 + 0.1 * i, kHome));
+  ASSERT_TRUE(see(face(1)).valid_());
+  msg::FacePose lost = face(1.3);
+  lost.valid_(false);
+  lost.reason_("no face in the left image");
+  const msg::Target predicted = see(lost);
+  EXPECT_TRUE(predicted.valid_());
+  EXPECT_EQ(stamp_of(predicted.header_().stamp_()), Time{} + seconds(1.3));
+  EXPECT_EQ(predicted.measurements_(), 1u);
+  write_header(lost.header_(), Time{} + seconds(1.8), "left_camera_optical");
+  const msg::Target gone = see(lost);
+  EXPECT_FALSE(gone.valid_());
+  EXPECT_EQ(gone.reason_(), "no face in the left image");
+  EXPECT_EQ(stamp_of(gone.header_().stamp_()), Time{} + seconds(1.8));
+  EXPECT_EQ(gone.header_().frame_id_(), "base");
+  EXPECT_EQ(to_eigen(gone.position_()), Vector3d::Zero());
+  EXPECT_EQ(to_eigen(gone.velocity_()), Vector3d::Zero());
+  EXPECT_EQ(gone.measurements_(), 0u);
+}
+
+TEST_F(TargetHostTest, TellsTheFiltersOwnRefusal) {
+  host_.send("measured_js", arm_at(1, kHome));
+  msg::FacePose broken = face(1);
+  broken.mouth_().x_(NAN);
+  EXPECT_EQ(see(broken).reason_(), "the position is not finite");
+}
+
+TEST_F(TargetHostTest, IsDegradedByABadJointStateUntilAGoodOneComes) {
+  msg::JointState bad = arm_at(1, kHome);
+  bad.position_().pop_back();
+  host_.send("measured_js", bad);
+  host_.step(1);
+  EXPECT_EQ(host_.status().state, Voice::State::degraded);
+  EXPECT_EQ(host_.status().reason, "measured_js: 5 joint values; dental_lamp has 6 joints");
+  bad.position_().assign(10'000, 0.0);
+  host_.send("measured_js", bad);
+  host_.step(1.1);
+  EXPECT_EQ(host_.status().reason, "measured_js: 10000 joint values; dental_lamp has 6 joints");
+  bad = arm_at(1, kHome);
+  bad.position_()[0] = NAN;
+  host_.send("measured_js", bad);
+  host_.step(1.2);
+  EXPECT_EQ(host_.status().reason, "measured_js: j1 = nan is not a number");
+  EXPECT_EQ(see(face(1)).reason_(), "no joint positions have arrived yet");
+  host_.send("measured_js", arm_at(1, kHome));
+  host_.step(1.3);
+  EXPECT_EQ(host_.status().state, Voice::State::ok);
+}
+
+TEST_F(TargetHostTest, DoesNotStartWithARigThatHangsOnNoFrameOfTheRobot) {
+  const config::Node rig = config::parse_text(
+      "{armature_rig: 1, name: lost, resolution: [640, 480], fov_deg: 60, baseline_mm: 100, "
+      "mount: {frame: elbow, forward: [1, 0, 0], right: [0, 0, 1]}}",
+      "rig.yaml");
+  try {
+    ComponentBench host{
+        plugins(),
+        {.component = "{plugin: target/last_look}",
+         .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/dental_lamp.yaml"),
+         .rig = rig}};
+    ADD_FAILURE() << "it was made";
+  } catch (const SetupError& error) {
+    EXPECT_STREQ(error.what(),
+                 "the rig 'lost' is mounted on 'elbow', which is no frame of the robot "
+                 "'dental_lamp'");
+  }
+}
+
+}  // namespace
+}  // namespace armature

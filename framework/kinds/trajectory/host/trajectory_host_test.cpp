@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+// The host of the trajectory planners: 1. one answer for each request, in order, under its header
+// and id, 2. requests and trajectories are carried over as they are, 3. bad requests are answered
+// with their exact reason.
+#include "armature/kinds/trajectory/trajectory_planner.hpp"
+#include "armature/messages/armature_msgs.hpp"
+#include "armature/messages/header.hpp"
+#include "armature/robot/test_robots.hpp"
+#include "armature/runtime/component_bench.hpp"
+
+namespace armature {
+namespace {
+
+using testing::joint_vector;
+
+/// One quintic of 2 s to the last waypoint; refuses to last no time.
+class TwoSeconds final : public TrajectoryPlanner {
+ public:
+  static inline TrajectoryRequest asked;
+
+  Expected<Trajectory> plan(const TrajectoryRequest& request) const override {
+    asked = request;
+    const JointVector& end = request.segments.back().q.back();
+    if (request.segments.front().duration_s == 0.0) return refuse("segment 1 lasts no time");
+    Trajectory trajectory{.goal_id = request.goal_id,
+                          .dof = static_cast<int>(end.size()),
+                          .start = request.start,
+                          .knots = {0, 2},
+                          .pieces = {}};
+    for (int i = 0; i < end.size(); ++i) {
+      trajectory.pieces.push_back(Quintic::between({request.from.q[i], 0, 0}, {end[i], 0, 0}, 2));
+    }
+    return trajectory;
+  }
+};
+
+PluginRegistry& plugins() {
+  static PluginRegistry registry = [] {
+    PluginRegistry made{{ARMATURE_PLUGIN_BUILD_DIR}};
+    made.add<TwoSeconds>("{armature_plugin: 1, id: trajectory/two_seconds, kind: trajectory}");
+    return made;
+  }();
+  return registry;
+}
+
+msg::JointPosition at(std::vector<double> joints) {
+  msg::JointPosition position;
+  position.joints_(std::move(joints));
+  return position;
+}
+
+msg::TrajectoryRequest request(std::uint64_t id) {
+  msg::TrajectoryRequest message;
+  write_header(message.header_(), Time{static_cast<std::int64_t>(id) * 1'500'000'000}, kBaseFrame);
+  message.request_id_(id);
+  message.segments_().resize(2);
+  msg::JointSegment &first = message.segments_()[0], &second = message.segments_()[1];
+  first.s_({0, 1});
+  first.waypoints_() = {at({0, 0, 0.1, -0.1, 0, 0}), at({1, 0, 0.2, -0.2, 0, 1})};
+  first.stop_at_end_(false);
+  second.s_({0, 0.25, 1});
+  second.waypoints_() = {first.waypoints_()[1], at({1, 1, 0, 0, 0, 0}),
+                         at({2, 0, 0.4, -0.4, 0, 0})};
+  second.stop_at_end_(true);
+  second.has_duration_(true);
+  second.duration_(3.5);
+  return message;
+}
+
+class TrajectoryHostTest : public ::testing::Test {
+ protected:
+  msg::TrajectoryResponse ask(const msg::TrajectoryRequest& message) {
+    host_.send("request", message);
+    host_.step(0.1);
+    const auto answers = host_.take<msg::TrajectoryResponse>("response");
+    EXPECT_EQ(answers.size(), 1u);
+    return answers.empty() ? msg::TrajectoryResponse{} : answers.front();
+  }
+  ComponentBench host_{
+      plugins(),
+      {.component = "{plugin: trajectory/two_seconds}",
+       .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/dental_lamp.yaml"),
+       .rig = {}}};
+};
+
+TEST_F(TrajectoryHostTest, AnswersEveryRequestOnceInOrderUnderItsHeaderAndId) {
+  msg::TrajectoryRequest bad = request(3);
+  bad.segments_().clear();
+  host_.send("request", request(7));
+  host_.send("request", bad);
+  host_.send("request", request(9));
+  EXPECT_TRUE(host_.triggered());
+  host_.step(0.1);
+  const auto answers = host_.take<msg::TrajectoryResponse>("response");
+  ASSERT_EQ(answers.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::uint64_t id = std::array{7u, 3u, 9u}[i];
+    EXPECT_EQ(answers[i].request_id_(), id);
+    EXPECT_EQ(answers[i].header_(), request(id).header_());
+    EXPECT_EQ(answers[i].valid_(), id != 3);
+  }
+  host_.step(0.2);
+  EXPECT_TRUE(host_.take<msg::TrajectoryResponse>("response").empty());
+}
+
+TEST_F(TrajectoryHostTest, AsksForTheSegmentsInIndependentJointsFromRestWithTheRobotsLimits) {
+  const RobotModel lamp = testing::dental_lamp();
+  ask(request(4));
+  const TrajectoryRequest& asked = TwoSeconds::asked;
+  EXPECT_EQ(asked.goal_id, 4u);
+  EXPECT_EQ(asked.start, Time{6'000'000'000});
+  EXPECT_EQ(asked.from.q, joint_vector({0, 0, 0.1, 0, 0}));
+  EXPECT_EQ(asked.from.v, JointVector::Zero(5));
+  EXPECT_EQ(asked.from.a, JointVector::Zero(5));
+  EXPECT_EQ(asked.max_velocity, lamp.max_velocity());
+  EXPECT_EQ(asked.max_acceleration, lamp.max_acceleration());
+  ASSERT_EQ(asked.segments.size(), 2u);
+  EXPECT_FALSE(asked.segments[0].stop_at_end);
+  EXPECT_FALSE(asked.segments[0].duration_s);
+  EXPECT_EQ(asked.segments[1].s, (std::vector<double>{0, 0.25, 1}));
+  EXPECT_EQ(asked.segments[1].q[2], joint_vector({2, 0, 0.4, 0, 0}));
+  EXPECT_EQ(asked.segments[1].duration_s, 3.5);
+}
+
+TEST_F(TrajectoryHostTest, AsksWithTheRequestsOwnStartAndLimits) {
+  msg::TrajectoryRequest moving = request(1);
+  moving.start_velocity_({0.1, 0.2, 0.3, -0.3, 0.4, 0.5});
+  moving.start_acceleration_({1, 2, 3, -3, 4, 5});
+  moving.max_velocity_({1, 1, 1, 0.5, 1, 2.5});  // the one that follows binds its leader
+  moving.max_acceleration_({8, 8, 2, 8, 8, 8});
+  EXPECT_TRUE(ask(moving).valid_());
+  const TrajectoryRequest& asked = TwoSeconds::asked;
+  EXPECT_EQ(asked.from.v, joint_vector({0.1, 0.2, 0.3, 0.4, 0.5}));
+  EXPECT_EQ(asked.from.a, joint_vector({1, 2, 3, 4, 5}));
+  EXPECT_EQ(asked.max_velocity, joint_vector({1, 1, 0.5, 1, 2.5}));
+  EXPECT_EQ(asked.max_acceleration, joint_vector({8, 8, 2, 8, 8}));
+}
+
+TEST_F(TrajectoryHostTest, TellsTheTrajectoryAsItIs) {
+  const msg::TrajectoryResponse answer = ask(request(4));
+  EXPECT_EQ(answer.reason_(), "");
+  const msg::QuinticTrajectory& told = answer.trajectory_();
+  EXPECT_EQ(stamp_of(told.header_().stamp_()), Time{6'000'000'000});
+  EXPECT_EQ(told.header_().frame_id_(), "base");
+  EXPECT_EQ(told.goal_id_(), 4u);
+  EXPECT_EQ(told.joint_names_(), (std::vector<std::string>{"j1", "j2", "j3", "j5", "j6"}));
+  EXPECT_EQ(told.knots_(), (std::vector<double>{0, 2}));
+  ASSERT_EQ(told.coefficients_().size(), 5u * 6u);
+  const Quintic j3 = Quintic::between({0.1, 0, 0}, {0.4, 0, 0}, 2);
+  for (std::size_t k = 0; k < 6; ++k) EXPECT_EQ(told.coefficients_()[2 * 6 + k], j3.c[k]);
+}
+
+TEST_F(TrajectoryHostTest, AnswersABadRequestWithItsReasonAndTheNextOneAsIfNothingHadBeen) {
+  const auto refusal = [&](auto change) {
+    msg::TrajectoryRequest bad = request(5);
+    change(bad);
+    const msg::TrajectoryResponse answer = ask(bad);
+    EXPECT_FALSE(answer.valid_());
+    EXPECT_EQ(answer.trajectory_(), msg::QuinticTrajectory{});
+    EXPECT_TRUE(ask(request(6)).valid_());
+    return answer.reason_();
+  };
+  EXPECT_EQ(refusal([](auto& r) { r.segments_().clear(); }), "there is no waypoint");
+  EXPECT_EQ(refusal([](auto& r) { r.segments_()[0].waypoints_().clear(); }),
+            "there is no waypoint");
+  EXPECT_EQ(refusal([](auto& r) { r.segments_()[1].waypoints_()[2].joints_()[0] = NAN; }),
+            "segment 2, waypoint 3: j1 = nan is not a number");
+  EXPECT_EQ(refusal([](auto& r) { r.segments_()[1].waypoints_()[0].joints_().clear(); }),
+            "segment 2, waypoint 1: 0 joint values; dental_lamp has 6 joints");
+  EXPECT_EQ(refusal([](auto& r) {
+              r.start_velocity_({1, 2});
+            }),
+            "start_velocity: 2 joint values; dental_lamp has 6 joints");
+  EXPECT_EQ(refusal([](auto& r) {
+              r.start_acceleration_({0, 0, 1, 1, 0, 0});
+            }),
+            "start_acceleration: j4 = 1 contradicts its coupling to j3, which makes it -1");
+  EXPECT_EQ(refusal([](auto& r) {
+              r.max_velocity_({1, 1, 1, 1, 1});
+            }),
+            "max_velocity: 5 joint values; dental_lamp has 6 joints");
+  EXPECT_EQ(refusal([](auto& r) {
+              r.max_velocity_({1, 1, 1, 1, 9, 1});
+            }),
+            "max_velocity: j5 = 9 is not above 0 and at most the robot's 2.5");
+  EXPECT_EQ(refusal([](auto& r) {
+              r.max_acceleration_({1, NAN, 1, 1, 1, 1});
+            }),
+            "max_acceleration: j2 = nan is not above 0 and at most the robot's 8");
+  EXPECT_EQ(refusal([](auto& r) {
+              r.segments_()[0].has_duration_(true);
+              r.segments_()[0].duration_(0);
+            }),
+            "segment 1 lasts no time");
+}
+
+}  // namespace
+}  // namespace armature

@@ -80,6 +80,7 @@ TEST_P(TargetLaws, PredictsFromTheEstimateWithoutAJumpAndWithoutChangingTheState
   const TargetFilter::State before = state;
   const auto same = filter().predict(measurement.stamp, state);
   ASSERT_TRUE(same) << same.error().text;
+  EXPECT_EQ(same->stamp, measurement.stamp);
   EXPECT_LT((same->position - now->position).norm(), 1e-12);
   EXPECT_LT((same->normal - now->normal).norm(), 1e-12);
   EXPECT_EQ(state.mean, before.mean);

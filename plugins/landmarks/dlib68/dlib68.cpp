@@ -20,6 +20,7 @@ using Image = dlib::array2d<unsigned char>;
 constexpr double kNativeFace = 80;    // [px] the detector's window
 constexpr double kSearchScale = 2.0;  // searched first: the last box, this much larger
 constexpr double kSearchFace = 120;   // [px] width of the last box in the picture that is searched
+constexpr double kMostEnlarged = 6;   // chip pixels per image pixel: a face of 20 px
 constexpr double kLandmarkScale = 1.4;  // landmarks are sought in the box, this much larger
 constexpr double kStripSlack = 0.35;    // of the box height: rows searched above and below
 constexpr double kMostDisparity = 1.6;  // of the box width: columns searched to the left
@@ -171,10 +172,7 @@ Expected<std::unique_ptr<LandmarkFinder>> Dlib68::make(const Params& params) {
 
 Expected<StereoLandmarks> Dlib68::find(const ImageView& left, const ImageView& right,
                                        State& state) {
-  if (left.data == nullptr || right.data == nullptr || left.width <= 0 || left.height <= 0 ||
-      right.width <= 0 || right.height <= 0) {
-    return refuse("empty image");
-  }
+  if (auto wrong = invalid_input(left, right)) return refuse(*wrong);
   Image left_image = copied(left), right_image = copied(right);
   stretch_if_dark(left_image, stretch_below_);
   stretch_if_dark(right_image, stretch_below_);
@@ -218,7 +216,8 @@ std::optional<Dlib68::Face> Dlib68::detect_in(const Image& image, const PixelBox
 }
 
 std::optional<Dlib68::Face> Dlib68::detect_near(const Image& image, const PixelBox& last) {
-  return detect_in(image, scaled(last, kSearchScale), kSearchFace / last.width);
+  return detect_in(image, scaled(last, kSearchScale),
+                   std::min(kSearchFace / last.width, kMostEnlarged));
 }
 
 std::optional<Dlib68::Face> Dlib68::detect_anywhere(const Image& image) {

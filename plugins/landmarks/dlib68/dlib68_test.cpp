@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The landmark finder, loaded as the plugin that it is (dlib is compiled once): 1. landmarks lie
-// where the face was drawn, 2. it looks where the face was, and everywhere when it is lost, 3.
-// light, 4. refusals.
+// The landmark finder, loaded as the plugin that it is (dlib is compiled once): 1. the laws of
+// every landmark finder, 2. landmarks lie where the face was drawn, 3. it looks where the face was,
+// and everywhere when it is lost, 4. light, 5. refusals.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 #include "../../sim/photo_scene/photo.hpp"
 #include "../../sim/photo_scene/plane_renderer.hpp"
 #include "armature/kinds/declared_params.hpp"
-#include "armature/kinds/landmarks/landmarks.hpp"
+#include "armature/kinds/landmarks/contract.hpp"
 #include "armature/runtime/plugin_library.hpp"
 
 namespace armature {
@@ -41,20 +41,12 @@ LandmarkFinder& finder() {
   return **shared;
 }
 
-struct Pair {
-  std::vector<std::uint8_t> left, right;
-  ImageView left_view() const { return view(left); }
-  ImageView right_view() const { return view(right); }
-  static ImageView view(const std::vector<std::uint8_t>& pixels) {
-    return {.data = pixels.data(), .width = 1280, .height = 720, .stride = 1280};
-  }
-};
-
 /// The drawn face before both cameras; `camera_T_photo` of the left one.
-Pair picture(const Eigen::Isometry3d& left_T_photo, double brightness = 1) {
+StereoPicture picture(const Eigen::Isometry3d& left_T_photo, double brightness = 1) {
   static const Photo photo = generated_face(1, 0.063);
   static PlaneRenderer renderer{photo, {.noise = 2, .blur_px = 0.5, .background = 120}, 1};
-  Pair pair{std::vector<std::uint8_t>(1280 * 720), std::vector<std::uint8_t>(1280 * 720)};
+  const std::vector<std::uint8_t> black(1280 * 720);
+  StereoPicture pair{1280, 720, black, black};
   Eigen::Isometry3d right_T_photo = left_T_photo;
   right_T_photo.pretranslate(Eigen::Vector3d{-kCamera.baseline_m, 0, 0});
   renderer.render(left_T_photo, kCamera, brightness, 0, pair.left);
@@ -90,11 +82,17 @@ double worst_error(const StereoLandmarks& found, const Eigen::Isometry3d& left_T
   return worst;
 }
 
+INSTANTIATE_TEST_SUITE_P(
+    Dlib68, LandmarkLaws,
+    testing::Values(LandmarkSubject{
+        .name = "dlib68", .finder = &finder, .face = [] { return picture(placed(0.06, 0, 0.5)); }}),
+    testing::PrintToStringParamName());
+
 TEST(Dlib68, FindsEyesAndMouthWhereTheyWereDrawn) {
   for (const auto& pose : {placed(0.06, 0, 0.5), placed(0, 0.03, 0.6, 0.2, 0.1),
                            placed(0.1, -0.02, 0.45, -0.25, -0.15)}) {
     LandmarkFinder::State state;
-    const Pair pair = picture(pose);
+    const StereoPicture pair = picture(pose);
     const auto found = finder().find(pair.left_view(), pair.right_view(), state);
     ASSERT_TRUE(found) << found.error().text;
     EXPECT_LT(worst_error(*found, pose), 4.0);  // of a face 260 px wide
@@ -107,11 +105,11 @@ TEST(Dlib68, FindsEyesAndMouthWhereTheyWereDrawn) {
 
 TEST(Dlib68, FindsTheSameFaceFromWhereItWasLast) {
   LandmarkFinder::State state;
-  const Pair first = picture(placed(0.06, 0, 0.5));
+  const StereoPicture first = picture(placed(0.06, 0, 0.5));
   ASSERT_TRUE(finder().find(first.left_view(), first.right_view(), state));
   for (int i = 1; i <= 5; ++i) {
     const auto pose = placed(0.06 + 0.01 * i, 0.005 * i, 0.5 + 0.01 * i);
-    const Pair next = picture(pose);
+    const StereoPicture next = picture(pose);
     const auto found = finder().find(next.left_view(), next.right_view(), state);
     ASSERT_TRUE(found) << found.error().text;
     EXPECT_LT(worst_error(*found, pose), 4.0);
@@ -122,14 +120,14 @@ TEST(Dlib68, SearchesEverywhereWhenTheFaceIsNotWhereItWas) {
   LandmarkFinder::State state{.left = PixelBox{20, 20, 200, 200},
                               .right = PixelBox{900, 400, 90, 90}};
   const auto pose = placed(0.06, 0, 0.5);
-  const Pair pair = picture(pose);
+  const StereoPicture pair = picture(pose);
   const auto found = finder().find(pair.left_view(), pair.right_view(), state);
   ASSERT_TRUE(found) << found.error().text;
   EXPECT_LT(worst_error(*found, pose), 4.0);
 }
 
 TEST(Dlib68, SaysWhichImageHasNoFaceAndForgetsWhereItWas) {
-  const Pair face = picture(placed(0.06, 0, 0.5)), wall = picture(placed(0, 0, -1));
+  const StereoPicture face = picture(placed(0.06, 0, 0.5)), wall = picture(placed(0, 0, -1));
   LandmarkFinder::State state;
   ASSERT_TRUE(finder().find(face.left_view(), face.right_view(), state));
   const auto none = finder().find(wall.left_view(), wall.right_view(), state);
@@ -146,36 +144,12 @@ TEST(Dlib68, FindsAFaceInTheDark) {
   for (const double brightness : {0.3, 0.15}) {
     SCOPED_TRACE(brightness);
     LandmarkFinder::State state;
-    const Pair pair = picture(pose, brightness);
+    const StereoPicture pair = picture(pose, brightness);
     const auto found = finder().find(pair.left_view(), pair.right_view(), state);
     ASSERT_TRUE(found) << found.error().text;
     EXPECT_LT(worst_error(*found, pose), 5.0);
     EXPECT_LT(found->left.mean_intensity, 160 * brightness);  // of the picture as it came
   }
-}
-
-TEST(Dlib68, GivesTheSameBitsForTheSamePictures) {
-  const Pair pair = picture(placed(0.06, 0, 0.5));
-  LandmarkFinder::State a, b;
-  const auto first = finder().find(pair.left_view(), pair.right_view(), a);
-  const auto second = finder().find(pair.left_view(), pair.right_view(), b);
-  ASSERT_TRUE(first && second);
-  EXPECT_EQ(first->left.points, second->left.points);
-  EXPECT_EQ(first->right.points, second->right.points);
-}
-
-TEST(Dlib68, RefusesAnEmptyImage) {
-  LandmarkFinder::State state;
-  const auto found = finder().find({}, {}, state);
-  ASSERT_FALSE(found);
-  EXPECT_EQ(found.error().text, "empty image");
-}
-
-TEST(Dlib68, RefusesATinyImageWithoutCrashing) {
-  const std::vector<std::uint8_t> pixels(9, 100);
-  const ImageView tiny{.data = pixels.data(), .width = 3, .height = 3, .stride = 3};
-  LandmarkFinder::State state{.left = PixelBox{-50, 900, 1, 1}, .right = PixelBox{}};
-  EXPECT_FALSE(finder().find(tiny, tiny, state));
 }
 
 TEST(Dlib68, NamesAMissingModelAndThePackageThatHasIt) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "armature/runtime/plugin.hpp"
 
@@ -11,6 +12,9 @@ namespace {
 
 constexpr int kFewestSteps = 8;
 constexpr double kNothing = 1e-9;  // [m] or [rad]: no motion at all
+// [rad] between a goal's direction and the way to its focus: beyond, the miss that fades along the
+// arc would pass through no direction at all.
+constexpr double kMostMiss = std::numbers::pi / 2;
 
 PathSegment joint_move(const ToolPose& end) {
   return {.space = PathSegment::Space::joint,
@@ -44,30 +48,35 @@ PathSegment MouthArc::along(const Swing& swing, const ToolPose& goal, double tur
 }
 
 Expected<Path> MouthArc::plan(const PathRequest& request) const {
-  if (!request.focus) return Path{joint_move(request.goal)};
-  const auto* start_direction = std::get_if<Direction>(&request.start.orientation);
-  const auto* goal_direction = std::get_if<Direction>(&request.goal.orientation);
-  if (!start_direction || !goal_direction) {
+  const auto valid = checked(request);
+  if (!valid) return tl::unexpected{valid.error()};
+  const auto& [from, to, focus] = *valid;
+  if (!focus) return Path{joint_move(to)};
+  const auto* from_direction = std::get_if<Direction>(&from.orientation);
+  const auto* to_direction = std::get_if<Direction>(&to.orientation);
+  if (!from_direction || !to_direction) {
     return refuse("a goal with a point to look at needs a pointing direction, not a rotation");
   }
-  const Eigen::Vector3d& focus = *request.focus;
-  if ((request.goal.position - focus).norm() < kNothing) {
+  if ((to.position - *focus).norm() < kNothing) {
     return refuse("the goal lies on the point to look at");
   }
-  if ((request.start.position - focus).norm() < kNothing) return Path{joint_move(request.goal)};
+  if ((from.position - *focus).norm() < kNothing) return Path{joint_move(to)};
 
-  const View goal = view_of(focus, request.goal.position, goal_direction->unit);
-  const View start = view_of(focus, request.start.position, start_direction->unit);
+  const View goal = view_of(*focus, to.position, to_direction->unit);
+  if (goal.miss_angle() > kMostMiss) {
+    return refuse("the goal looks away from the point to look at");
+  }
+  const View start = view_of(*focus, from.position, from_direction->unit);
   if (std::abs(start.distance - goal.distance) <= near_m_ && start.miss_angle() <= near_rad_) {
-    const Swing swing{focus, start, goal};  // small corrections: all at once
+    const Swing swing{*focus, start, goal};  // small corrections: all at once
     const double turn = swing.angle() + start.miss_angle() + goal.miss_angle();
-    return Path{along(swing, request.goal, turn)};
+    return Path{along(swing, to, turn)};
   }
   const View approach{goal.distance, start.outward, Eigen::Vector3d::Zero()};  // P1, (43)
-  const Swing swing{focus, approach, goal};
-  if (swing.angle() < step_) return Path{joint_move(request.goal)};
+  const Swing swing{*focus, approach, goal};
+  if (swing.angle() < step_) return Path{joint_move(to)};
   return Path{joint_move({swing.position(0), Direction{swing.direction(0)}}),
-              along(swing, request.goal, swing.angle() + goal.miss_angle())};
+              along(swing, to, swing.angle() + goal.miss_angle())};
 }
 
 }  // namespace armature

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/kinds/declared_params.hpp"
+#include "armature/kinds/path/contract.hpp"
 
 namespace armature {
 namespace {
@@ -29,6 +30,14 @@ const Vector3d& direction(const PathSample& sample) {
 double angle(const Vector3d& a, const Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
+
+INSTANTIATE_TEST_SUITE_P(MouthArc, PathLaws,
+                         testing::Values(PathSubject{
+                             "mouth_arc", MouthArc::make(declared_params(ARMATURE_SOURCE_DIR
+                                                                         "/plugins/path/mouth_arc/"
+                                                                         "plugin.yaml"))
+                                              .value()}),
+                         testing::PrintToStringParamName());
 
 TEST(MouthArc, EverySampleOfTheArcLooksAtTheMouthFromTheSameDistance) {
   SCOPED_TRACE("seed 3");
@@ -133,6 +142,8 @@ TEST(MouthArc, RefusesWhatCannotBeLookedAt) {
   const ToolPose start = looking_at_mouth_from({-1, 0, 0}, 0.8);
   EXPECT_EQ(plan(start, {kMouth, Direction{{1, 0, 0}}}).error().text,
             "the goal lies on the point to look at");
+  EXPECT_EQ(plan(start, {{1.05, 0, 0.45}, Direction{{-1, 0, 0}}}).error().text,
+            "the goal looks away from the point to look at");
   EXPECT_EQ(plan(start, {{1, 0, 0.5}, Eigen::Quaterniond::Identity()}).error().text,
             "a goal with a point to look at needs a pointing direction, not a rotation");
 }

@@ -44,13 +44,15 @@ PathSegment MouthPoints::move_to(const ToolPose& end) const {
 }
 
 Expected<Path> MouthPoints::plan(const PathRequest& request) const {
-  if (!request.focus) return Path{move_to(request.goal)};
-  if (!std::holds_alternative<Direction>(request.start.orientation) ||
-      !std::holds_alternative<Direction>(request.goal.orientation)) {
+  const auto valid = checked(request);
+  if (!valid) return tl::unexpected{valid.error()};
+  const auto& [P0, P3, focus] = *valid;
+  if (!focus) return Path{move_to(P3)};
+  if (!std::holds_alternative<Direction>(P0.orientation) ||
+      !std::holds_alternative<Direction>(P3.orientation)) {
     return refuse("a goal with a point to look at needs a pointing direction, not a rotation");
   }
-  const Vector3d& m = *request.focus;
-  const ToolPose &P0 = request.start, &P3 = request.goal;
+  const Vector3d& m = *focus;
   const double d = (P3.position - m).norm();
   if (d < kSame) return refuse("the goal lies on the point to look at");
   if ((P0.position - m).norm() < kSame) return refuse("the start lies on the point to look at");

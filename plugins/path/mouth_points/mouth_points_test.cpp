@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/kinds/declared_params.hpp"
+#include "armature/kinds/path/contract.hpp"
 
 namespace armature {
 namespace {
@@ -26,6 +27,15 @@ const ToolPose& end_of(const PathSegment& segment) { return segment.samples.back
 const Vector3d& direction_of(const ToolPose& pose) {
   return std::get<Direction>(pose.orientation).unit;
 }
+
+INSTANTIATE_TEST_SUITE_P(MouthPoints, PathLaws,
+                         testing::Values(PathSubject{
+                             "mouth_points",
+                             MouthPoints::make(declared_params(ARMATURE_SOURCE_DIR
+                                                               "/plugins/path/mouth_points/"
+                                                               "plugin.yaml"))
+                                 .value()}),
+                         testing::PrintToStringParamName());
 
 TEST(MouthPoints, EveryPointIsAtTheGoalsDistanceAndLooksAtTheMouth) {
   const auto path = plan(kStart, kGoal);

@@ -23,6 +23,7 @@ double Nearest::travel_time(const JointVector& from, const JointVector& to) cons
 
 Expected<std::vector<JointVector>> Nearest::choose(const JointVector& start,
                                                    std::span<const IkBranches> waypoints) const {
+  if (auto wrong = invalid_input(*model_, start, waypoints)) return refuse(*wrong);
   std::vector<JointVector> chosen;
   chosen.reserve(waypoints.size());
   JointVector previous = start;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/kinds/declared_params.hpp"
+#include "armature/kinds/select/contract.hpp"
 
 namespace armature {
 namespace {
@@ -48,6 +49,22 @@ Expected<std::vector<JointVector>> choose(const JointVector& start,
   return Nearest::make(model, given).value()->choose(start, waypoints);
 }
 
+SelectSubject subject(const std::string& name, const RobotModel& model, std::string_view params) {
+  const auto shared = std::make_shared<const RobotModel>(model);
+  const auto given =
+      declared_params(ARMATURE_SOURCE_DIR "/plugins/select/nearest/plugin.yaml", params);
+  return {name, shared, Nearest::make(*shared, given).value()};
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Nearest, SelectLaws,
+    testing::Values(
+        subject("crane_by_slowest_joint", robot(), ""),
+        subject("crane_by_sum", robot(), "nearness: sum"),
+        subject("lamp", load_robot_model(ARMATURE_SOURCE_DIR "/configs/robots/dental_lamp.yaml"),
+                "")),
+    testing::PrintToStringParamName());
+
 TEST(Nearest, TakesTheBranchNearestToTheOneBefore) {
   const auto path = choose(joints(0, 0, 0), {branches({joints(1, 0, 0), joints(0.2, 0, 0)}),
                                              branches({joints(0, 0, 0), joints(0.9, 0, 0)})});
@@ -86,8 +103,6 @@ TEST(Nearest, NamesTheWaypointWithoutABranchWithinLimits) {
   EXPECT_EQ(choose(joints(0, 0, 0), {good, branches({})}).error().text,
             "waypoint 2 of 2: no branch");
 }
-
-TEST(Nearest, NoWaypointsIsAnEmptyPath) { EXPECT_TRUE(choose(joints(0, 0, 0), {})->empty()); }
 
 }  // namespace
 }  // namespace armature

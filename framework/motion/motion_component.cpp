@@ -4,8 +4,9 @@
 #include <memory>
 #include <utility>
 
+#include "armature/kinds/joint_messages.hpp"
 #include "armature/kinds/setup_robot.hpp"
-#include "armature/messages/stamp.hpp"
+#include "armature/kinds/trajectory/trajectory_messages.hpp"
 #include "armature/motion/motion_messages.hpp"
 #include "armature/runtime/component.hpp"
 #include "armature/runtime/plugin.hpp"
@@ -83,14 +84,7 @@ class Motion : public Component {
   std::optional<MeasuredJoints> read_measured() {
     const msg::JointState* message = measured_js_.latest();
     if (!message) return std::nullopt;
-    const auto& position = message->position_();
-    if (position.size() != static_cast<std::size_t>(model_.joint_count())) {
-      bad_measurement_ = fmt::format("measured_js has {} joints, the robot {}", position.size(),
-                                     model_.joint_count());
-      return std::nullopt;
-    }
-    auto q = model_.contract(Eigen::Map<const Eigen::VectorXd>(
-        position.data(), static_cast<Eigen::Index>(position.size())));
+    const auto q = model_.contract(message->position_());
     if (!q) {
       bad_measurement_ = "measured_js: " + q.error().text;
       return std::nullopt;
@@ -134,7 +128,7 @@ class Motion : public Component {
   void publish_reference(Time now) {
     const JointState state = execution_.reference().at(now);
     auto servo = servo_jp_.loan();
-    write_all_joints(model_, state, now, *servo);
+    write_all_joints(model_, state.q, state.v, now, *servo);
     servo.publish();
     auto reference = reference_js_.loan();
     write_independent_joints(model_, state, now, *reference);

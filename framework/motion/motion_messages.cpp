@@ -5,28 +5,14 @@
 
 #include <cstddef>
 
-#include "armature/messages/geometry.hpp"
-#include "armature/messages/stamp.hpp"
+#include "armature/kinds/tool_pose_messages.hpp"
+#include "armature/messages/header.hpp"
 
 namespace armature {
 namespace {
 
-constexpr std::string_view kBaseFrame = "base";
-
-template <class Header>
-void write_header(Header& header, Time stamp) {
-  set_stamp(header.stamp_(), stamp);
-  if (header.frame_id_() != kBaseFrame) header.frame_id_() = kBaseFrame;
-}
-
 const Joint& independent(const RobotModel& model, int i) {
   return model.joints()[static_cast<std::size_t>(model.independent_joint(i))];
-}
-
-std::vector<std::string> independent_names(const RobotModel& model) {
-  std::vector<std::string> names;
-  for (int i = 0; i < model.dof(); ++i) names.push_back(independent(model, i).name);
-  return names;
 }
 
 std::vector<double> to_vector(const JointVector& values) {
@@ -36,56 +22,22 @@ std::vector<double> to_vector(const JointVector& values) {
 }  // namespace
 
 Expected<MotionGoal> read_goal(const msg::MotionGoal& message) {
-  const std::string& frame = message.header_().frame_id_();
-  if (frame != kBaseFrame) {
-    return refuse(fmt::format("the goal is stated in frame '{}', not in '{}'", frame, kBaseFrame));
-  }
+  if (const auto wrong = not_in_base(message.header_(), "the goal")) return refuse(*wrong);
   if (message.mode_() > static_cast<int>(MotionMode::hold)) {
     return refuse(fmt::format("the goal has the unknown mode {}", message.mode_()));
   }
   MotionGoal goal;
   goal.id = message.goal_id_();
   goal.mode = static_cast<MotionMode>(message.mode_());
-  goal.pose.position = to_eigen(message.position_());
-  if (message.pointing_()) {
-    goal.pose.orientation = Direction{to_eigen(message.direction_())};
-  } else {
-    goal.pose.orientation = to_eigen(message.orientation_());
-  }
+  goal.pose = tool_pose_of(message);
   if (message.has_focus_()) goal.focus = to_eigen(message.focus_());
   if (goal.mode == MotionMode::tracking) goal.velocity = to_eigen(message.velocity_());
   return checked(goal);
 }
 
-void write_all_joints(const RobotModel& model, const JointState& state, Time stamp,
-                      msg::JointState& message) {
-  write_header(message.header_(), stamp);
-  const auto count = static_cast<std::size_t>(model.joint_count());
-  message.name_().resize(count);
-  message.position_().resize(count);
-  message.velocity_().resize(count);
-  message.effort_().clear();
-  int next = 0;  // index of the next independent joint
-  for (std::size_t j = 0; j < count; ++j) {
-    const Joint& joint = model.joints()[j];
-    message.name_()[j] = joint.name;
-    if (joint.coupling) continue;
-    message.position_()[j] = state.q[next];
-    message.velocity_()[j] = state.v[next++];
-  }
-  for (std::size_t j = 0; j < count; ++j) {
-    const Joint& joint = model.joints()[j];
-    if (!joint.coupling) continue;
-    const auto to = static_cast<std::size_t>(joint.coupling->to);
-    message.position_()[j] =
-        joint.coupling->ratio * message.position_()[to] + joint.coupling->offset;
-    message.velocity_()[j] = joint.coupling->ratio * message.velocity_()[to];
-  }
-}
-
 void write_independent_joints(const RobotModel& model, const JointState& state, Time stamp,
                               msg::JointState& message) {
-  write_header(message.header_(), stamp);
+  write_header(message.header_(), stamp, kBaseFrame);
   const auto dof = static_cast<std::size_t>(model.dof());
   message.name_().resize(dof);
   message.position_().resize(dof);
@@ -101,7 +53,7 @@ void write_independent_joints(const RobotModel& model, const JointState& state, 
 }
 
 void write_status(const GoalStatus& status, Time stamp, msg::MotionStatus& message) {
-  write_header(message.header_(), stamp);
+  write_header(message.header_(), stamp, kBaseFrame);
   message.goal_id_(status.goal_id);
   message.state_(static_cast<std::uint8_t>(status.state));
   message.stage_() = status.stage;
@@ -110,7 +62,7 @@ void write_status(const GoalStatus& status, Time stamp, msg::MotionStatus& messa
 }
 
 void write_path(const Plan& plan, const RobotModel& model, msg::ToolPath& message) {
-  write_header(message.header_(), plan.trajectory.start);
+  write_header(message.header_(), plan.trajectory.start, kBaseFrame);
   message.goal_id_(plan.trajectory.goal_id);
   message.position_().clear();
   message.direction_().clear();
@@ -128,7 +80,7 @@ void write_path(const Plan& plan, const RobotModel& model, msg::ToolPath& messag
 }
 
 void write_joint_path(const Plan& plan, const RobotModel& model, msg::JointTrajectory& message) {
-  write_header(message.header_(), plan.trajectory.start);
+  write_header(message.header_(), plan.trajectory.start, kBaseFrame);
   message.joint_names_().clear();
   for (const Joint& joint : model.joints()) message.joint_names_().push_back(joint.name);
   message.points_().clear();
@@ -137,18 +89,6 @@ void write_joint_path(const Plan& plan, const RobotModel& model, msg::JointTraje
       auto& point = message.points_().emplace_back();
       point.positions_() = to_vector(model.expand(q));
     }
-  }
-}
-
-void write_trajectory(const Trajectory& trajectory, const RobotModel& model,
-                      msg::QuinticTrajectory& message) {
-  write_header(message.header_(), trajectory.start);
-  message.goal_id_(trajectory.goal_id);
-  message.joint_names_() = independent_names(model);
-  message.knots_() = trajectory.knots;
-  message.coefficients_().clear();
-  for (const Quintic& piece : trajectory.pieces) {
-    message.coefficients_().insert(message.coefficients_().end(), piece.c.begin(), piece.c.end());
   }
 }
 

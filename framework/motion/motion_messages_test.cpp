@@ -5,7 +5,6 @@
 
 #include "armature/messages/geometry.hpp"
 #include "armature/messages/stamp.hpp"
-#include "armature/motion/gantry_stages_test.hpp"
 
 namespace armature {
 namespace {
@@ -42,48 +41,19 @@ TEST(MotionMessages, AGoalInAnotherFrameOrModeIsRefused) {
   EXPECT_EQ(read_goal(message).error().text, "the goal has the unknown mode 9");
 }
 
-TEST(MotionMessages, CoupledJointsFollowTheirLeaders) {
-  std::vector<Joint> joints(3);
-  joints[0].name = "a";
-  joints[1].name = "b";
-  joints[2].name = "c";
-  joints[1].coupling = Joint::Coupling{.to = 2, .ratio = -2, .offset = 0.5};
-  for (Joint& joint : joints) {
-    joint.lower = -3;
-    joint.upper = 3;
-    joint.max_velocity = joint.max_acceleration = 1;
-  }
-  const RobotModel model{"coupled",   RobotModel::Convention::standard,
-                         joints,      {{.name = "tool", .parent_joint = 2}},
-                         FrameId{0},  std::nullopt,
-                         std::nullopt};
-  const JointState state{
-      .q = Eigen::Vector2d{0.1, 0.2}, .v = Eigen::Vector2d{1, 2}, .a = Eigen::Vector2d{3, 4}};
+TEST(MotionMessages, TheReferenceTellsPositionVelocityAndAccelerationOfTheIndependentJoints) {
+  const RobotModel lamp = load_robot_model(ARMATURE_SOURCE_DIR "/configs/robots/dental_lamp.yaml");
+  const JointState state{.q = JointVector::LinSpaced(5, 1, 5),
+                         .v = JointVector::LinSpaced(5, 6, 10),
+                         .a = JointVector::LinSpaced(5, 11, 15)};
   msg::JointState message;
-  write_all_joints(model, state, Time{1'500'000'000}, message);
-  EXPECT_EQ(message.name_(), (std::vector<std::string>{"a", "b", "c"}));
-  EXPECT_THAT(message.position_(), testing::ElementsAre(0.1, testing::DoubleNear(0.1, 1e-15), 0.2));
-  EXPECT_EQ(message.velocity_(), (std::vector<double>{1, -4, 2}));
-  EXPECT_TRUE(message.effort_().empty());
+  write_independent_joints(lamp, state, Time{1'500'000'000}, message);
   EXPECT_EQ(message.header_().frame_id_(), "base");
   EXPECT_EQ(stamp_of(message.header_().stamp_()), Time{1'500'000'000});
-  write_independent_joints(model, state, Time{0}, message);
-  EXPECT_EQ(message.name_(), (std::vector<std::string>{"a", "c"}));
-  EXPECT_EQ(message.effort_(), (std::vector<double>{3, 4}));
-}
-
-TEST(MotionMessages, ATrajectoryIsSentAsItIs) {
-  const test::Gantry gantry;
-  const auto plan =
-      gantry.planner().plan(test::goal_at(5, 0.1, 0.2, 0.3), test::rest_at(0, 0, 0), Time{42});
-  ASSERT_TRUE(plan);
-  msg::QuinticTrajectory message;
-  write_trajectory(plan->trajectory, gantry.model, message);
-  EXPECT_EQ(message.goal_id_(), 5u);
-  EXPECT_EQ(message.knots_(), plan->trajectory.knots);
-  ASSERT_EQ(message.coefficients_().size(), 18u);
-  EXPECT_EQ(message.coefficients_()[2 * 6 + 3], plan->trajectory.pieces[2].c[3]);
-  EXPECT_EQ(message.joint_names_(), (std::vector<std::string>{"z", "y", "x"}));
+  EXPECT_EQ(message.name_(), (std::vector<std::string>{"j1", "j2", "j3", "j5", "j6"}));
+  EXPECT_EQ(message.position_(), (std::vector<double>{1, 2, 3, 4, 5}));
+  EXPECT_EQ(message.velocity_(), (std::vector<double>{6, 7, 8, 9, 10}));
+  EXPECT_EQ(message.effort_(), (std::vector<double>{11, 12, 13, 14, 15}));
 }
 
 }  // namespace

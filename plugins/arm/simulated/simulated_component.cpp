@@ -5,8 +5,8 @@
 #include <string>
 #include <utility>
 
+#include "armature/kinds/joint_messages.hpp"
 #include "armature/kinds/setup_robot.hpp"
-#include "armature/messages/sensor_msgs.hpp"
 #include "armature/messages/stamp.hpp"
 #include "armature/messages/std_msgs.hpp"
 #include "armature/runtime/component.hpp"
@@ -30,21 +30,6 @@ JointVector home_of(const RobotModel& model) {
   auto home = model.contract(*model.home());
   if (!home) throw SetupError("home of robot " + model.name() + ": " + home.error().text);
   return *home;
-}
-
-/// Values of the independent joints spread over all joints; `offset` 1 for positions, 0 for rates.
-void spread(const RobotModel& model, const JointVector& independent, double offset,
-            std::vector<double>& all) {
-  all.resize(static_cast<std::size_t>(model.joint_count()));
-  for (int i = 0; i < model.dof(); ++i) {
-    all[static_cast<std::size_t>(model.independent_joint(i))] = independent[i];
-  }
-  for (std::size_t j = 0; j < all.size(); ++j) {
-    const auto& coupling = model.joints()[j].coupling;
-    if (!coupling) continue;
-    all[j] =
-        coupling->ratio * all[static_cast<std::size_t>(coupling->to)] + offset * coupling->offset;
-  }
 }
 
 std::string describe(const LimitExcess& excess, const RobotModel& model) {
@@ -83,51 +68,35 @@ class SimulatedArmComponent : public Component {
   void read_command() {
     if (!servo_jp_.fresh()) return;
     const msg::JointState& message = *servo_jp_.latest();
-    const auto count = static_cast<std::size_t>(model_.joint_count());
-    if (message.position_().size() != count || message.velocity_().size() != count) {
-      fault_ = fmt::format("refused a command with {} positions and {} velocities for {} joints",
-                           message.position_().size(), message.velocity_().size(), count);
-      return;
-    }
-    const auto size = static_cast<Eigen::Index>(count);
-    const JointVector all = Eigen::Map<const Eigen::VectorXd>(message.position_().data(), size);
-    auto q = model_.contract(all);
-    JointVector v(model_.dof());
-    for (int i = 0; i < model_.dof(); ++i) {
-      v[i] = message.velocity_()[static_cast<std::size_t>(model_.independent_joint(i))];
-    }
-    if (!q || !v.allFinite()) {
-      fault_ = "refused a command: " + (q ? "a velocity is not finite" : q.error().text);
+    const auto q = model_.contract(message.position_());
+    const auto v = model_.contract_rates(message.velocity_());
+    if (!q || !v) {
+      fault_ = q ? "refused a command: velocity: " + v.error().text
+                 : "refused a command: position: " + q.error().text;
       return;
     }
     fault_.clear();
-    command_ = ServoCommand{stamp_of(message.header_().stamp_()), *q, v};
+    command_ = ServoCommand{stamp_of(message.header_().stamp_()), *q, *v};
   }
 
   void publish(Output<msg::JointState>& output, const JointVector& q, const JointVector& v,
                Time now) {
     auto loan = output.loan();
-    set_stamp(loan->header_().stamp_(), now);
-    loan->header_().frame_id_() = "base";
-    loan->name_().resize(model_.joints().size());
-    for (std::size_t j = 0; j < model_.joints().size(); ++j) {
-      loan->name_()[j] = model_.joints()[j].name;
-    }
-    spread(model_, q, 1, loan->position_());
-    spread(model_, v, 0, loan->velocity_());
-    loan->effort_().clear();
+    write_all_joints(model_, q, v, now, *loan);
     loan.publish();
   }
 
-  /// A text is only made when something changed: the state is told on every step otherwise.
+  /// A text is only made when the trouble is another one: the state is told on every step.
   void show_health() {
-    const bool in_trouble = !fault_.empty() || arm_.excess();
-    if (in_trouble && !shown_trouble_) {
-      degraded(!fault_.empty() ? fault_ : describe(*arm_.excess(), model_));
-    } else if (!in_trouble && shown_trouble_) {
+    if (!fault_.empty()) {
+      if (fault_ != shown_fault_) degraded(fault_);
+    } else if (arm_.excess()) {
+      if (!shown_excess_ || !shown_fault_.empty()) degraded(describe(*arm_.excess(), model_));
+    } else if (shown_excess_ || !shown_fault_.empty()) {
       healthy();
     }
-    shown_trouble_ = in_trouble;
+    shown_excess_ = arm_.excess().has_value();
+    shown_fault_ = fault_;
   }
 
   void publish_operating_state(Time now) {
@@ -144,8 +113,8 @@ class SimulatedArmComponent : public Component {
   Output<msg::JointState> measured_js_, setpoint_js_;
   Output<msg::String> operating_state_;
   std::optional<ServoCommand> command_;
-  std::string fault_;
-  bool shown_trouble_ = false;
+  std::string fault_, shown_fault_;
+  bool shown_excess_ = false;
   Time last_state_;
 };
 

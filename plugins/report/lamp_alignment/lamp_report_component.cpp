@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <numbers>
+#include <optional>
 #include <string>
 
 #include "alignment_monitor.hpp"
 #include "armature/kinds/setup_robot.hpp"
-#include "armature/messages/armature_msgs.hpp"
-#include "armature/messages/geometry.hpp"
+#include "armature/kinds/target/target_messages.hpp"
 #include "armature/messages/sensor_msgs.hpp"
-#include "armature/messages/stamp.hpp"
 #include "armature/robot/kinematics.hpp"
 #include "armature/runtime/component.hpp"
 #include "armature/runtime/plugin.hpp"
@@ -34,8 +33,8 @@ AlignmentGoals goals_of(const Params& params) {
           .expect_move = params.flag("expect_move")};
 }
 
-Face face_of(const msg::Target& target) {
-  return {.mouth = to_eigen(target.position_()), .normal = to_eigen(target.normal_())};
+Face face_of(const TargetEstimate& target) {
+  return {.mouth = target.position, .normal = target.normal};
 }
 
 }  // namespace
@@ -61,11 +60,11 @@ class LampReport : public Component {
   }
 
   void step(Time now) override {
-    if (truth_.latest()) monitor_.see_truth(face_of(*truth_.latest()), now);
+    see_truth(now);
     read_arm(now);
     for (std::size_t i = 0; i < target_.size(); ++i) {
-      if (!target_[i].valid_()) continue;
-      monitor_.see_estimate(face_of(target_[i]), stamp_of(target_[i].header_().stamp_()), now);
+      const auto estimate = estimate_of(target_[i]);
+      if (estimate) monitor_.see_estimate(face_of(*estimate), estimate->stamp, now);
     }
     if (task_state_.latest()) monitor_.see_task(task_state_.latest()->state_() == "holding");
     for (std::size_t i = 0; i < motion_status_.size(); ++i) {
@@ -107,23 +106,29 @@ class LampReport : public Component {
   }
 
  private:
+  void see_truth(Time now) {
+    if (!truth_.latest()) return;
+    const auto truth = estimate_of(*truth_.latest());
+    if (truth) monitor_.see_truth(face_of(*truth), now);
+  }
+
   void read_arm(Time now) {
-    bool at_rest = true;
+    bool at_rest = true, heard = false;
     for (std::size_t i = 0; i < measured_js_.size(); ++i) {
       const auto& position = measured_js_[i].position_();
       hash_.add(stamp_of(measured_js_[i].header_().stamp_()), position);
-      const JointVector all = Eigen::Map<const Eigen::VectorXd>(
-          position.data(),
-          static_cast<Eigen::Index>(std::min(position.size(), std::size_t{kMaxJoints})));
-      if (all.size() != last_all_.size() || (all - last_all_).cwiseAbs().maxCoeff() > kAtRest) {
-        at_rest = false;
+      const auto q = model_.contract(position);
+      if (!q) {
+        degraded("measured_js: " + q.error().text);
+        continue;
       }
-      last_all_ = all;
+      healthy();
+      if (!last_q_ || (*q - *last_q_).cwiseAbs().maxCoeff() > kAtRest) at_rest = false;
+      last_q_ = *q;
+      heard = true;
     }
-    if (measured_js_.size() == 0) return;
-    const auto q = model_.contract(last_all_);
-    if (!q) return;
-    const Eigen::Isometry3d base_T_tool = forward_kinematics(model_, *q);
+    if (!heard) return;
+    const Eigen::Isometry3d base_T_tool = forward_kinematics(model_, *last_q_);
     monitor_.see_lamp(base_T_tool.translation(), base_T_tool.linear() * light_axis_, at_rest, now);
   }
 
@@ -134,9 +139,9 @@ class LampReport : public Component {
     const msg::CameraInfo* info = left_info_.latest();
     if (!image || !landmarks || !info || !landmarks_.fresh()) return;
     if (stamp_of(image->header_().stamp_()) != stamp_of(landmarks->header_().stamp_())) return;
+    if (image->data_().size() != std::size_t{image->width_()} * image->height_()) return;
     picture_.width = static_cast<int>(image->width_());
     picture_.height = static_cast<int>(image->height_());
-    if (image->data_().size() != std::size_t{image->width_()} * image->height_()) return;
     picture_.gray = image->data_();
     picture_.focal_px = info->k_()[0];
     picture_.cu = info->k_()[2];
@@ -165,7 +170,7 @@ class LampReport : public Component {
   AlignmentMonitor monitor_;
   TrajectoryHash hash_;
   CameraPicture picture_;
-  JointVector last_all_;
+  std::optional<JointVector> last_q_;  // of the arm
   Input<msg::Target> truth_, target_;
   Input<msg::JointState> measured_js_;
   Input<msg::TaskState> task_state_;

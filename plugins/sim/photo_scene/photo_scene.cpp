@@ -5,10 +5,8 @@
 #include <string>
 
 #include "armature/kinds/setup_robot.hpp"
-#include "armature/messages/armature_msgs.hpp"
-#include "armature/messages/geometry.hpp"
+#include "armature/kinds/target/target_messages.hpp"
 #include "armature/messages/sensor_msgs.hpp"
-#include "armature/messages/stamp.hpp"
 #include "armature/robot/kinematics.hpp"
 #include "armature/runtime/component.hpp"
 #include "armature/runtime/plugin.hpp"
@@ -21,7 +19,6 @@ namespace armature {
 namespace {
 
 constexpr const char* kCameraFrame = "left_camera_optical";  // of both: the pair is rectified
-constexpr const char* kBaseFrame = "base";
 
 Photo photo_of(const Params& params) {
   const double eye_distance = params.number("eye_distance_mm");
@@ -97,6 +94,7 @@ PhotoScene::PhotoScene(Setup& setup)
     : Component{setup},
       robot_{robot_of(setup)},
       rig_{rig_of(setup)},
+      mount_{mount_of(rig_, robot_)},
       motion_{motion_of(setup.params())},
       gain_{setup.params().number("gain")},
       light_response_{setup.params().number("light_response")},
@@ -113,12 +111,6 @@ PhotoScene::PhotoScene(Setup& setup)
       left_info_{setup.output<msg::CameraInfo>("left_info")},
       right_info_{setup.output<msg::CameraInfo>("right_info")},
       truth_{setup.output<msg::Target>("truth")} {
-  const auto mount = robot_.find_frame(rig_.mounted_on);
-  if (!mount) {
-    throw SetupError("the rig '" + rig_.name + "' is mounted on '" + rig_.mounted_on +
-                     "', which is no frame of the robot '" + robot_.name() + "'");
-  }
-  mount_ = *mount;
   if (rig_.camera.width > PlaneRenderer::kWidestImage) {
     throw SetupError("the rig '" + rig_.name + "' is " + std::to_string(rig_.camera.width) +
                      " px wide; the scene draws at most " +
@@ -136,10 +128,7 @@ void PhotoScene::step(Time now) {
   if (!arm) return;
   const Time stamp = stamp_of(arm->header_().stamp_());
   if (last_picture_ && stamp <= *last_picture_) return;
-  const auto& position = arm->position_();
-  if (position.size() > kMaxJoints) return degraded("measured_js has too many joints");
-  const auto q = robot_.contract(Eigen::Map<const Eigen::VectorXd>(
-      position.data(), static_cast<Eigen::Index>(position.size())));
+  const auto q = robot_.contract(arm->position_());
   if (!q) return degraded("measured_js: " + q.error().text);
   healthy();
   if (!last_picture_) publish_info(stamp);
@@ -149,15 +138,13 @@ void PhotoScene::step(Time now) {
 
 void PhotoScene::publish_truth(Time now, const MovingHead& head) {
   auto truth = truth_.loan();
-  set_stamp(truth->header_().stamp_(), now);
-  truth->header_().frame_id_(kBaseFrame);
-  truth->valid_(true);
-  truth->reason_().clear();
-  assign(truth->position_(), head.pose.mouth);
-  assign(truth->normal_(), face_normal(head.pose));
-  assign(truth->velocity_(), head.velocity);
-  assign(truth->normal_rate_(), head.normal_rate);
-  truth->measurements_(1);
+  write_estimate({.stamp = now,
+                  .position = head.pose.mouth,
+                  .normal = face_normal(head.pose),
+                  .velocity = head.velocity,
+                  .normal_rate = head.normal_rate,
+                  .measurements = 1},
+                 *truth);
   truth.publish();
 }
 
@@ -177,8 +164,7 @@ void PhotoScene::take_pictures(Time stamp, const JointVector& q, const HeadPose&
   Eigen::Isometry3d camera_T_photo = base_T_left.inverse() * base_T_photo(head);
   for (auto* output : {&left_image_, &right_image_}) {
     auto image = output->loan();
-    set_stamp(image->header_().stamp_(), stamp);
-    image->header_().frame_id_(kCameraFrame);
+    write_header(image->header_(), stamp, kCameraFrame);
     image->width_(static_cast<std::uint32_t>(rig_.camera.width));
     image->height_(static_cast<std::uint32_t>(rig_.camera.height));
     image->step_(static_cast<std::uint32_t>(rig_.camera.width));

@@ -4,9 +4,8 @@
 #include <string>
 
 #include "armature/kinds/setup_robot.hpp"
-#include "armature/messages/armature_msgs.hpp"
-#include "armature/messages/geometry.hpp"
-#include "armature/messages/stamp.hpp"
+#include "armature/kinds/target/target_messages.hpp"
+#include "armature/kinds/tool_pose_messages.hpp"
 #include "armature/runtime/component.hpp"
 #include "armature/runtime/plugin.hpp"
 #include "armature/runtime/setup.hpp"
@@ -91,11 +90,9 @@ class LampAlignmentComponent : public Component {
                 now);
     }
     for (std::size_t i = 0; i < target_.size(); ++i) {
-      const msg::Target& target = target_[i];
-      if (!target.valid_()) continue;
-      task_.see(FaceEstimate{.stamp = stamp_of(target.header_().stamp_()),
-                             .mouth = to_eigen(target.position_()),
-                             .normal = to_eigen(target.normal_()).normalized()});
+      const auto face = estimate_of(target_[i]);
+      if (!face) continue;
+      task_.see({.stamp = face->stamp, .mouth = face->position, .normal = face->normal});
     }
   }
 
@@ -103,14 +100,10 @@ class LampAlignmentComponent : public Component {
     const auto goal = task_.outgoing_goal(now);
     if (!goal) return;
     auto loan = goal_.loan();
-    set_stamp(loan->header_().stamp_(), now);
-    loan->header_().frame_id_() = "base";
+    write_header(loan->header_(), now, kBaseFrame);
     loan->goal_id_(goal->id);
     loan->mode_(static_cast<std::uint8_t>(goal->mode));
-    assign(loan->position_(), goal->pose.position);
-    loan->pointing_(true);
-    assign(loan->direction_(), std::get<Direction>(goal->pose.orientation).unit);
-    assign(loan->orientation_(), Eigen::Quaterniond::Identity());
+    write_tool_pose(goal->pose, *loan);
     loan->has_focus_(goal->focus.has_value());
     assign(loan->focus_(), goal->focus.value_or(Eigen::Vector3d::Zero()));
     assign(loan->velocity_(), Eigen::Vector3d{Eigen::Vector3d::Zero()});
@@ -120,8 +113,7 @@ class LampAlignmentComponent : public Component {
   void send_light_and_capture(Time now) {
     if (const auto level = task_.take_light_level()) {
       auto loan = light_level_.loan();
-      set_stamp(loan->header_().stamp_(), now);
-      loan->header_().frame_id_().clear();
+      write_header(loan->header_(), now);
       loan->level_(*level);
       loan.publish();
       say(fmt::format("light level {:.0f} %", *level * 100));
@@ -129,8 +121,7 @@ class LampAlignmentComponent : public Component {
     if (sent_capture_ == task_.capture()) return;
     sent_capture_ = task_.capture();
     auto loan = capture_.loan();
-    set_stamp(loan->header_().stamp_(), now);
-    loan->header_().frame_id_().clear();
+    write_header(loan->header_(), now);
     loan->on_(*sent_capture_);
     loan.publish();
   }
@@ -145,8 +136,7 @@ class LampAlignmentComponent : public Component {
     line_ = line;
     published_ = now;
     auto loan = state_.loan();
-    set_stamp(loan->header_().stamp_(), now);
-    loan->header_().frame_id_().clear();
+    write_header(loan->header_(), now);
     loan->state_() = to_string(task_.phase());
     loan->step_(static_cast<std::uint32_t>(searching ? task_.view() : 0));
     loan->steps_(static_cast<std::uint32_t>(searching ? task_.views() : 0));

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+// The simulated arm on its topics: 1. what it publishes and how often, 2. commands that it follows,
+// holds back or refuses, and what it says of them.
+#include <gtest/gtest.h>
+
+#include "armature/kinds/joint_messages.hpp"
+#include "armature/messages/header.hpp"
+#include "armature/messages/std_msgs.hpp"
+#include "armature/runtime/component_bench.hpp"
+
+namespace armature {
+namespace {
+
+constexpr double kPeriod_s = 0.001;
+const std::string kLamp = ARMATURE_SOURCE_DIR "/configs/robots/dental_lamp.yaml";
+
+PluginRegistry& plugins() {
+  static PluginRegistry registry{{ARMATURE_PLUGIN_BUILD_DIR}};
+  return registry;
+}
+
+class SimulatedArmComponentTest : public testing::Test {
+ protected:
+  void step() {
+    arm_.step(now_s_ += kPeriod_s);
+    for (const auto& told : arm_.take<msg::String>("operating_state")) state_ = told.data_();
+    measured_ = arm_.take<msg::JointState>("measured_js").back();
+  }
+  void steps(int count) {
+    for (int i = 0; i < count; ++i) step();
+  }
+  /// A command for the next step.
+  msg::JointState command(const JointVector& q, const JointVector& v) const {
+    msg::JointState message;
+    write_all_joints(lamp_, q, v, Time{} + seconds(now_s_ + kPeriod_s), message);
+    return message;
+  }
+  JointVector measured() const { return lamp_.contract(measured_.position_()).value(); }
+
+  const RobotModel lamp_ = load_robot_model(kLamp);
+  const JointVector home_ = resting_position(lamp_), still_ = JointVector::Zero(5);
+  ComponentBench arm_{
+      plugins(), {.component = "{plugin: arm/simulated}", .robot = config::load(kLamp), .rig = {}}};
+  double now_s_ = 5;
+  msg::JointState measured_;
+  std::string state_;
+};
+
+TEST_F(SimulatedArmComponentTest, RunsAtItsRate) {
+  EXPECT_EQ(arm_.period(), seconds(0.001));
+  const ComponentBench slow{plugins(),
+                            {.component = "{plugin: arm/simulated, params: {rate_hz: 250}}",
+                             .robot = config::load(kLamp),
+                             .rig = {}}};
+  EXPECT_EQ(slow.period(), seconds(0.004));
+}
+
+TEST_F(SimulatedArmComponentTest, HoldsAtHomeAndTellsAllJointsOnEveryStep) {
+  for (int i = 0; i < 10; ++i) {
+    arm_.step(now_s_ += kPeriod_s);
+    for (const char* output : {"measured_js", "setpoint_js"}) {
+      const auto told = arm_.take<msg::JointState>(output);
+      ASSERT_EQ(told.size(), 1u) << output;
+      EXPECT_EQ(stamp_of(told[0].header_().stamp_()), Time{} + seconds(now_s_));
+      EXPECT_EQ(told[0].header_().frame_id_(), "base");
+      EXPECT_EQ(told[0].name_(), (std::vector<std::string>{"j1", "j2", "j3", "j4", "j5", "j6"}));
+      EXPECT_EQ(lamp_.contract(told[0].position_()).value(), home_);
+      EXPECT_EQ(told[0].velocity_(), std::vector<double>(6, 0.0));
+    }
+  }
+}
+
+TEST_F(SimulatedArmComponentTest, TellsItsOperatingStateTenTimesASecond) {
+  std::size_t told = 0;
+  for (int i = 0; i < 1000; ++i) {
+    arm_.step(now_s_ += kPeriod_s);
+    const auto states = arm_.take<msg::String>("operating_state");
+    told += states.size();
+    for (const auto& state : states) EXPECT_EQ(state.data_(), "HOLDING");
+  }
+  EXPECT_EQ(told, 10u);
+}
+
+TEST_F(SimulatedArmComponentTest, FollowsFreshCommandsExactlyAndHoldsWhenTheyCease) {
+  JointVector q = home_;
+  for (int i = 0; i < 200; ++i) {
+    const double v = 0.004 * i;  // 4 rad/s2
+    q[0] += v * kPeriod_s;
+    JointVector rate = still_;
+    rate[0] = v;
+    arm_.send("servo_jp", command(q, rate));
+    step();
+    ASSERT_EQ(measured(), q);
+  }
+  EXPECT_EQ(state_, "ENABLED");
+  EXPECT_EQ(arm_.status().state, Voice::State::ok);
+  steps(400);
+  EXPECT_EQ(state_, "HOLDING");
+  EXPECT_EQ(measured_.velocity_(), std::vector<double>(6, 0.0));
+}
+
+TEST_F(SimulatedArmComponentTest, TheJointThatFollowsMovesWithItsLeader) {
+  JointVector q = home_, v = still_;
+  q[2] += 0.001;
+  v[2] = 1;
+  arm_.send("servo_jp", command(q, v));
+  steps(50);
+  EXPECT_EQ(measured_.position_()[3], -measured_.position_()[2]);
+  EXPECT_EQ(measured_.velocity_()[3], -measured_.velocity_()[2]);
+}
+
+TEST_F(SimulatedArmComponentTest, SaysWhatACommandAsksBeyondTheLimits) {
+  step();
+  JointVector q = home_;
+  q[0] += 0.5;
+  arm_.send("servo_jp", command(q, still_));
+  step();
+  EXPECT_EQ(arm_.status().state, Voice::State::degraded);
+  EXPECT_EQ(arm_.status().reason, "the command asks joint j1 for velocity 500.000, limit 2.500");
+  EXPECT_LT(std::abs(measured()[0] - home_[0]), 1e-4);
+  const auto told = arm_.lines().size();
+  for (int i = 0; i < 1000; ++i) {
+    arm_.send("servo_jp", command(q, still_));
+    step();
+  }
+  EXPECT_EQ(measured(), q);
+  EXPECT_EQ(arm_.status().state, Voice::State::ok);
+  EXPECT_EQ(arm_.lines().size(), told + 1) << "told once, and once that it is over";
+}
+
+TEST_F(SimulatedArmComponentTest, RefusesACommandThatIsNoneAndStandsStill) {
+  steps(10);
+  const auto refusal = [&](auto change) {
+    msg::JointState bad = command(home_ + JointVector::Constant(5, 0.001), still_);
+    change(bad);
+    arm_.send("servo_jp", bad);
+    steps(150);
+    EXPECT_EQ(state_, "FAULT");
+    EXPECT_EQ(measured(), home_);
+    EXPECT_EQ(arm_.status().state, Voice::State::degraded);
+    return arm_.status().reason;
+  };
+  EXPECT_EQ(refusal([](auto& c) { c.position_().pop_back(); }),
+            "refused a command: position: 5 joint values; dental_lamp has 6 joints");
+  EXPECT_EQ(refusal([](auto& c) { c.position_().clear(); }),
+            "refused a command: position: 0 joint values; dental_lamp has 6 joints");
+  EXPECT_EQ(refusal([](auto& c) { c.position_().assign(100, 0.0); }),
+            "refused a command: position: 100 joint values; dental_lamp has 6 joints");
+  EXPECT_EQ(refusal([](auto& c) { c.position_()[4] = NAN; }),
+            "refused a command: position: j5 = nan is not a number");
+  EXPECT_EQ(refusal([](auto& c) { c.position_()[3] += 0.1; }),
+            "refused a command: position: j4 = 0.099 contradicts its coupling to j3, which makes "
+            "it -0.001");
+  EXPECT_EQ(refusal([](auto& c) { c.velocity_().clear(); }),
+            "refused a command: velocity: 0 joint values; dental_lamp has 6 joints");
+  EXPECT_EQ(refusal([](auto& c) { c.velocity_()[0] = INFINITY; }),
+            "refused a command: velocity: j1 = inf is not a number");
+  arm_.send("servo_jp", command(home_, still_));
+  step();
+  EXPECT_EQ(arm_.status().state, Voice::State::ok);
+  steps(100);
+  EXPECT_EQ(state_, "ENABLED");
+}
+
+TEST_F(SimulatedArmComponentTest, ARefusedCommandIsTheTroubleThatIsToldFirst) {
+  step();
+  JointVector q = home_;
+  q[0] += 0.5;
+  arm_.send("servo_jp", command(q, still_));
+  step();
+  ASSERT_EQ(arm_.status().reason, "the command asks joint j1 for velocity 500.000, limit 2.500");
+  msg::JointState bad = command(q, still_);
+  bad.velocity_().pop_back();
+  arm_.send("servo_jp", bad);
+  step();
+  EXPECT_EQ(arm_.status().reason,
+            "refused a command: velocity: 5 joint values; dental_lamp has 6 joints");
+  arm_.send("servo_jp", command(q, still_));
+  step();
+  EXPECT_EQ(arm_.status().reason.substr(0, 30), "the command asks joint j1 for ");
+}
+
+TEST_F(SimulatedArmComponentTest, AnOldCommandIsNotFollowed) {
+  JointVector q = home_;
+  q[0] += 0.01;
+  msg::JointState old = command(q, still_);
+  write_header(old.header_(), Time{} + seconds(now_s_ - 0.2), kBaseFrame);
+  arm_.send("servo_jp", old);
+  steps(200);
+  EXPECT_EQ(state_, "HOLDING");
+  EXPECT_EQ(measured(), home_);
+}
+
+TEST(SimulatedArmComponent, DoesNotStartWithARobotThatNamesNoHome) {
+  const config::Node robot = config::parse_text(
+      "{armature_robot: 1, name: one, joints: [{name: j1, a_m: 1, limits_deg: [-90, 90], "
+      "velocity_rad_s: 1, acceleration_rad_s2: 1}], frames: {tool: {parent: j1}}}",
+      "one.yaml");
+  try {
+    ComponentBench arm{plugins(),
+                       {.component = "{plugin: arm/simulated}", .robot = robot, .rig = {}}};
+    ADD_FAILURE() << "it was made";
+  } catch (const SetupError& error) {
+    EXPECT_STREQ(error.what(), "robot one names no home_deg to start from");
+  }
+}
+
+}  // namespace
+}  // namespace armature

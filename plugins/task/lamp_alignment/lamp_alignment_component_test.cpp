@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+// The lamp's behaviour on its topics: 1. goals, light, capture and state, and how often, 2. what it
+// takes for a face, 3. what it says when it does not go on. The behaviour itself is tested beside
+// it.
+#include <gtest/gtest.h>
+
+#include "armature/kinds/target/target_messages.hpp"
+#include "armature/robot/robot_model.hpp"
+#include "armature/runtime/component_bench.hpp"
+
+namespace armature {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kPeriod_s = 0.02;
+
+PluginRegistry& plugins() {
+  static PluginRegistry registry{{ARMATURE_PLUGIN_BUILD_DIR}};
+  return registry;
+}
+
+ComponentBench::Options task_with(const std::string& params) {
+  return {.component = "{plugin: task/lamp_alignment, params: {" + params + "}}",
+          .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/dental_lamp.yaml"),
+          .rig = {}};
+}
+
+class LampAlignmentComponentTest : public testing::Test {
+ protected:
+  void step() {
+    task_.step(now_s_ += kPeriod_s);
+    for (const auto& told : task_.take<msg::MotionGoal>("goal")) goals_.push_back(told);
+    for (const auto& told : task_.take<msg::LightLevel>("light_level")) levels_.push_back(told);
+    for (const auto& told : task_.take<msg::Capture>("capture")) captures_.push_back(told);
+    for (const auto& told : task_.take<msg::TaskState>("state")) states_.push_back(told);
+  }
+  void steps(int count) {
+    for (int i = 0; i < count; ++i) step();
+  }
+  /// A picture without a face.
+  void see_picture(double grey) {
+    msg::FaceLandmarks message;
+    write_header(message.header_(), Time{} + seconds(now_s_), "left_camera_optical");
+    message.image_intensity_(grey);
+    task_.send("landmarks", message);
+  }
+  msg::Target face() const {
+    msg::Target message;
+    write_estimate({.stamp = Time{} + seconds(now_s_),
+                    .position = {1.55, 0, 0.45},
+                    .normal = {-1, 0, 0},
+                    .measurements = 1},
+                   message);
+    return message;
+  }
+  void report(std::uint64_t goal_id, std::uint8_t state, const std::string& stage = "",
+              const std::string& reason = "") {
+    msg::MotionStatus message;
+    message.goal_id_(goal_id);
+    message.state_(state);
+    message.stage_(stage);
+    message.reason_(reason);
+    task_.send("motion_status", message);
+  }
+
+  ComponentBench task_{plugins(), task_with("")};
+  double now_s_ = 100;
+  std::vector<msg::MotionGoal> goals_;
+  std::vector<msg::LightLevel> levels_;
+  std::vector<msg::Capture> captures_;
+  std::vector<msg::TaskState> states_;
+};
+
+TEST_F(LampAlignmentComponentTest, ChecksTheLightFirstWithTheCamerasOn) {
+  EXPECT_EQ(task_.period(), seconds(kPeriod_s));
+  step();
+  ASSERT_EQ(captures_.size(), 1u);
+  EXPECT_TRUE(captures_[0].on_());
+  EXPECT_EQ(stamp_of(captures_[0].header_().stamp_()), Time{} + seconds(now_s_));
+  ASSERT_EQ(states_.size(), 1u);
+  EXPECT_EQ(states_[0].state_(), "checking light");
+  EXPECT_EQ(states_[0].steps_(), 0u);
+  EXPECT_TRUE(goals_.empty());
+  EXPECT_EQ(task_.lines(), std::vector<std::string>{"checking light"});
+}
+
+TEST_F(LampAlignmentComponentTest, TellsItsStateFiveTimesASecondAndAtEveryChange) {
+  steps(101);
+  EXPECT_NEAR(static_cast<double>(states_.size()), 2 * 5 + 1, 1);
+  EXPECT_EQ(task_.lines().size(), 1u) << "the operator is told of changes only";
+  states_.clear();
+  see_picture(120);
+  step();
+  ASSERT_EQ(states_.size(), 1u);
+  EXPECT_EQ(states_[0].state_(), "searching");
+  EXPECT_EQ(states_[0].step_(), 1u);
+  EXPECT_EQ(states_[0].steps_(), 9u);
+  EXPECT_EQ(task_.lines().back(), "searching 1/9");
+}
+
+TEST_F(LampAlignmentComponentTest, RaisesTheLightOneStepForEachDarkPicture) {
+  for (int i = 1; i <= 3; ++i) {
+    step();
+    see_picture(30);
+    step();
+    ASSERT_EQ(levels_.size(), static_cast<std::size_t>(i));
+    EXPECT_NEAR(levels_.back().level_(), 0.1 * i, 1e-12);
+    EXPECT_EQ(stamp_of(levels_.back().header_().stamp_()), Time{} + seconds(now_s_));
+    EXPECT_EQ(task_.lines().back(), "light level " + std::to_string(10 * i) + " %");
+  }
+  steps(20);
+  EXPECT_EQ(levels_.size(), 3u);
+}
+
+TEST_F(LampAlignmentComponentTest, SendsAGoalForASearchPoseWithTheCamerasOff) {
+  step();
+  see_picture(120);
+  step();
+  ASSERT_EQ(goals_.size(), 1u);
+  const msg::MotionGoal& goal = goals_[0];
+  EXPECT_EQ(goal.header_().frame_id_(), "base");
+  EXPECT_EQ(stamp_of(goal.header_().stamp_()), Time{} + seconds(now_s_));
+  EXPECT_EQ(goal.goal_id_(), 1u);
+  EXPECT_EQ(goal.mode_(), 0);
+  EXPECT_TRUE(goal.pointing_());
+  EXPECT_NEAR(to_eigen(goal.direction_()).norm(), 1, 1e-12);
+  EXPECT_EQ(to_eigen(goal.orientation_()).coeffs(), Eigen::Quaterniond::Identity().coeffs());
+  EXPECT_FALSE(goal.has_focus_());
+  EXPECT_EQ(to_eigen(goal.velocity_()), Vector3d::Zero());
+  EXPECT_FALSE(captures_.back().on_());
+  report(1, 1);
+  steps(30);
+  EXPECT_EQ(goals_.size(), 1u) << "it is on its way";
+  report(1, 2);
+  step();
+  EXPECT_TRUE(captures_.back().on_());
+  EXPECT_EQ(captures_.size(), 3u) << "told when it changes";
+}
+
+TEST_F(LampAlignmentComponentTest, GoesInFrontOfAFaceAndLooksBackAlongItsNormal) {
+  step();
+  task_.send("target", face());
+  step();
+  ASSERT_EQ(goals_.size(), 1u);
+  EXPECT_LE((to_eigen(goals_[0].position_()) - Vector3d{1.05, 0, 0.45}).norm(), 1e-12);
+  EXPECT_LE((to_eigen(goals_[0].direction_()) - Vector3d{1, 0, 0}).norm(), 1e-12);
+  EXPECT_TRUE(goals_[0].has_focus_());
+  EXPECT_EQ(to_eigen(goals_[0].focus_()), (Vector3d{1.55, 0, 0.45}));
+  EXPECT_EQ(states_.back().state_(), "aligning");
+}
+
+TEST_F(LampAlignmentComponentTest, TakesNothingForAFaceThatIsNone) {
+  step();
+  const auto see = [&](auto change) {
+    msg::Target message = face();
+    change(message);
+    task_.send("target", message);
+    step();
+  };
+  see([](auto& t) { t.valid_(false); });
+  see([](auto& t) { t.position_().x_(NAN); });
+  see([](auto& t) { assign(t.normal_(), Vector3d{0, 0, 0}); });
+  see([](auto& t) { t.header_().frame_id_() = "left_camera_optical"; });
+  EXPECT_TRUE(goals_.empty());
+  see([](auto&) {});
+  EXPECT_EQ(goals_.size(), 1u);
+}
+
+TEST_F(LampAlignmentComponentTest, SaysWhyAFaceCannotBeReached) {
+  step();
+  task_.send("target", face());
+  step();
+  report(1, 0);
+  report(1, 4, "ik", "the goal: out_of_reach: 0.2 m beyond reach");
+  step();
+  step();
+  EXPECT_EQ(states_.back().state_(), "unreachable");
+  EXPECT_EQ(states_.back().detail_(), "ik: the goal: out_of_reach: 0.2 m beyond reach");
+  EXPECT_EQ(task_.lines().back(), "unreachable: ik: the goal: out_of_reach: 0.2 m beyond reach");
+}
+
+TEST_F(LampAlignmentComponentTest, CountsItsGoalsFromWhereTheMotionIs) {
+  step();
+  report(41, 2);
+  see_picture(120);
+  step();
+  ASSERT_EQ(goals_.size(), 1u);
+  EXPECT_EQ(goals_[0].goal_id_(), 42u);
+}
+
+TEST(LampAlignmentComponent, DoesNotStartWithoutAnAngleToSearchAt) {
+  try {
+    ComponentBench task{plugins(), task_with("search_pitch_deg: []")};
+    ADD_FAILURE() << "it was made";
+  } catch (const SetupError& error) {
+    EXPECT_STREQ(error.what(), "search_yaw_deg and search_pitch_deg need at least one angle each");
+  }
+}
+
+}  // namespace
+}  // namespace armature

@@ -18,6 +18,7 @@ namespace armature {
 namespace {
 
 constexpr Duration kStatePeriod = seconds(0.1);
+constexpr Duration kCalm = seconds(0.1);  // without trouble: it is over
 
 SimulatedArm::Options options_of(const Params& params) {
   return {.period_s = 1 / params.number("rate_hz"),
@@ -60,7 +61,7 @@ class SimulatedArmComponent : public Component {
     arm_.step(now, command_);
     publish(measured_js_, arm_.measured(), arm_.measured_velocity(), now);
     publish(setpoint_js_, arm_.setpoint(), arm_.setpoint_velocity(), now);
-    show_health();
+    show_health(now);
     publish_operating_state(now);
   }
 
@@ -86,17 +87,25 @@ class SimulatedArmComponent : public Component {
     loan.publish();
   }
 
-  /// A text is only made when the trouble is another one: the state is told on every step.
-  void show_health() {
-    if (!fault_.empty()) {
-      if (fault_ != shown_fault_) degraded(fault_);
-    } else if (arm_.excess()) {
-      if (!shown_excess_ || !shown_fault_.empty()) degraded(describe(*arm_.excess(), model_));
-    } else if (shown_excess_ || !shown_fault_.empty()) {
-      healthy();
+  /// A text is only made when the trouble is another one: every step tells how it is. Trouble that
+  /// comes and goes from step to step is told as one.
+  void show_health(Time now) {
+    const Trouble trouble = !fault_.empty() ? Trouble::refused_command
+                            : arm_.excess() ? Trouble::held_back
+                                            : Trouble::none;
+    if (trouble != Trouble::none) {
+      last_trouble_ = now;
+    } else if (now - last_trouble_ < kCalm) {
+      return;
     }
-    shown_excess_ = arm_.excess().has_value();
+    if (trouble == shown_trouble_ && fault_ == shown_fault_) return;
+    shown_trouble_ = trouble;
     shown_fault_ = fault_;
+    if (trouble == Trouble::none) {
+      healthy();
+    } else {
+      degraded(fault_.empty() ? describe(*arm_.excess(), model_) : fault_);
+    }
   }
 
   void publish_operating_state(Time now) {
@@ -113,8 +122,9 @@ class SimulatedArmComponent : public Component {
   Output<msg::JointState> measured_js_, setpoint_js_;
   Output<msg::String> operating_state_;
   std::optional<ServoCommand> command_;
+  enum class Trouble { none, held_back, refused_command } shown_trouble_ = Trouble::none;
   std::string fault_, shown_fault_;
-  bool shown_excess_ = false;
+  Time last_trouble_;
   Time last_state_;
 };
 

@@ -36,11 +36,11 @@ Discovery::Watcher watch(const std::shared_ptr<FastDdsLink>& link) {
 }  // namespace
 
 Expected<std::unique_ptr<Transport>> FastDdsTransport::make(const TransportOptions& options) {
-  return make(options, "/dev/shm");
+  return make(options, SharedMemory{});
 }
 
-Expected<std::unique_ptr<Transport>> FastDdsTransport::make(
-    const TransportOptions& options, const std::filesystem::path& shared_memory) {
+Expected<std::unique_ptr<Transport>> FastDdsTransport::make(const TransportOptions& options,
+                                                            const SharedMemory& shared_memory) {
   const EndpointTag tag{.ours = true,
                         .deployment = options.deployment,
                         .fingerprint = options.fingerprint,

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <filesystem>
 #include <memory>
 
+#include "armature/bus/fast_dds/shared_memory.hpp"
 #include "armature/bus/transport.hpp"
 
 namespace armature {
@@ -15,9 +15,9 @@ struct FastDdsLink;
 class FastDdsTransport final : public Transport {
  public:
   static Expected<std::unique_ptr<Transport>> make(const TransportOptions& options);
-  /// `shared_memory`: the folder that is looked at before shared memory is used.
+  /// `shared_memory`: what is looked at before shared memory is used.
   static Expected<std::unique_ptr<Transport>> make(const TransportOptions& options,
-                                                   const std::filesystem::path& shared_memory);
+                                                   const SharedMemory& shared_memory);
   explicit FastDdsTransport(std::shared_ptr<FastDdsLink> link) : link_{std::move(link)} {}
 
   Expected<std::unique_ptr<OutsideWriter>> advertise(const TopicSpec& topic) override;

@@ -17,7 +17,6 @@
 
 #include "armature/bus/fast_dds/dds_log.hpp"
 #include "armature/bus/fast_dds/raw_cdr_type.hpp"
-#include "armature/bus/fast_dds/shared_memory.hpp"
 
 namespace armature {
 namespace {
@@ -69,7 +68,7 @@ void use_transports(dds::DomainParticipantQos& qos, const ParticipantSettings& s
   udp->interfaceWhiteList = {"127.0.0.1"};
   qos.transport().user_transports.push_back(udp);
 
-  clean_shared_memory(settings.shared_memory);
+  clean_shared_memory(settings.shared_memory.folder);
   if (const auto usable = check_shared_memory(settings.shared_memory, kNeededBytes); !usable) {
     settings.on_note("no shared memory, topics go over UDP: " + usable.error().text);
     return;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
@@ -9,6 +8,7 @@
 #include <string>
 
 #include "armature/bus/fast_dds/discovery.hpp"
+#include "armature/bus/fast_dds/shared_memory.hpp"
 #include "armature/values/expected.hpp"
 
 namespace eprosima::fastdds::dds {
@@ -26,8 +26,8 @@ struct ParticipantSettings {
   int domain = 0;
   std::string name;
   Discovery::Watcher watcher;
-  std::function<void(const std::string&)> on_note;   // any thread; must only enqueue
-  std::filesystem::path shared_memory = "/dev/shm";  // looked at before Fast DDS uses it
+  std::function<void(const std::string&)> on_note;  // any thread; must only enqueue
+  SharedMemory shared_memory;                       // looked at before Fast DDS uses it
 };
 
 /// The one DDS participant of the process: shared memory and UDP on the loopback interface only,

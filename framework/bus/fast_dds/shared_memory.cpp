@@ -123,20 +123,26 @@ bool is_process_gone(std::string_view guid_text, const std::set<unsigned>& runni
 
 }  // namespace
 
-Expected<void> check_shared_memory(const fs::path& folder, std::uint64_t bytes) {
-  std::string probe = (folder / "armature_probe_XXXXXX").string();
-  const int fd = mkostemp(probe.data(), O_CLOEXEC);
-  if (fd < 0) return refuse(folder.string() + " is not writable: " + std::strerror(errno));
-  close(fd);
-  unlink(probe.c_str());
-
+Expected<std::uint64_t> free_bytes_of(const fs::path& folder) {
   struct statvfs status {};
   if (statvfs(folder.c_str(), &status) != 0) {
     return refuse(folder.string() + ": " + std::strerror(errno));
   }
-  const std::uint64_t free_bytes = std::uint64_t{status.f_bavail} * status.f_frsize;
-  if (free_bytes < bytes) {
-    return refuse(folder.string() + " has " + std::to_string(free_bytes >> 20) + " MiB free, " +
+  return std::uint64_t{status.f_bavail} * status.f_frsize;
+}
+
+Expected<void> check_shared_memory(const SharedMemory& memory, std::uint64_t bytes) {
+  const std::string folder = memory.folder.string();
+  std::string probe = (memory.folder / "armature_probe_XXXXXX").string();
+  const int fd = mkostemp(probe.data(), O_CLOEXEC);
+  if (fd < 0) return refuse(folder + " is not writable: " + std::strerror(errno));
+  close(fd);
+  unlink(probe.c_str());
+
+  const auto free_bytes = memory.free_bytes(memory.folder);
+  if (!free_bytes) return tl::unexpected{free_bytes.error()};
+  if (*free_bytes < bytes) {
+    return refuse(folder + " has " + std::to_string(*free_bytes >> 20) + " MiB free, " +
                   std::to_string(bytes >> 20) + " MiB are needed");
   }
   return {};

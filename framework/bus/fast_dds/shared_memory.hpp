@@ -3,14 +3,24 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 
 #include "armature/values/expected.hpp"
 
 namespace armature {
 
-/// Whether `folder` (/dev/shm) takes `bytes` more. Fast DDS does not ask: on a full one the process
-/// dies of SIGBUS in the middle of a write.
-Expected<void> check_shared_memory(const std::filesystem::path& folder, std::uint64_t bytes);
+/// Bytes that the file system of `folder` has left for us, or why it cannot be known.
+Expected<std::uint64_t> free_bytes_of(const std::filesystem::path& folder);
+
+/// Where Fast DDS puts its segments, and how the room there is measured.
+struct SharedMemory {
+  std::filesystem::path folder = "/dev/shm";
+  std::function<Expected<std::uint64_t>(const std::filesystem::path&)> free_bytes = free_bytes_of;
+};
+
+/// Whether `memory` takes `bytes` more. Fast DDS does not ask: on a full one the process dies of
+/// SIGBUS in the middle of a write.
+Expected<void> check_shared_memory(const SharedMemory& memory, std::uint64_t bytes);
 
 /// Removes what killed processes of this user left in `folder`: Fast DDS segments and ports that
 /// nobody has locked or mapped, and data sharing files whose process is gone. Files younger than

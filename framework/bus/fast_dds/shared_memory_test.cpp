@@ -14,13 +14,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class SharedMemory : public testing::Test {
+class SharedMemoryTest : public testing::Test {
  protected:
-  SharedMemory() {
+  SharedMemoryTest() {
     std::string name = (fs::temp_directory_path() / "armature_shm_XXXXXX").string();
     folder_ = mkdtemp(name.data());
   }
-  ~SharedMemory() override { fs::remove_all(folder_); }
+  ~SharedMemoryTest() override { fs::remove_all(folder_); }
 
   void touch(const std::string& name) { std::ofstream{folder_ / name} << "x"; }
   std::set<std::string> files() const {
@@ -39,29 +39,41 @@ class SharedMemory : public testing::Test {
   fs::path folder_;
 };
 
-TEST_F(SharedMemory, IsUsableWhenThereIsRoom) {
-  EXPECT_TRUE(check_shared_memory(folder_, 1 << 20));
+/// `folder` on a file system that has so much room left.
+SharedMemory with_room(const fs::path& folder, std::uint64_t bytes) {
+  return {.folder = folder,
+          .free_bytes = [bytes](const fs::path&) { return Expected<std::uint64_t>{bytes}; }};
 }
 
-TEST_F(SharedMemory, TooLittleIsToldWithBothSizes) {
-  const auto usable = check_shared_memory(folder_, std::uint64_t{1} << 60);
+TEST_F(SharedMemoryTest, IsUsableWhenThereIsRoom) {
+  EXPECT_TRUE(check_shared_memory(with_room(folder_, 18U << 20), 18U << 20));
+}
+
+TEST_F(SharedMemoryTest, TooLittleIsToldWithBothSizes) {
+  const auto usable = check_shared_memory(with_room(folder_, (18U << 20) - 1), 18U << 20);
   ASSERT_FALSE(usable);
-  EXPECT_THAT(usable.error().text, testing::EndsWith(" MiB free, 1099511627776 MiB are needed"));
+  EXPECT_EQ(usable.error().text, folder_.string() + " has 17 MiB free, 18 MiB are needed");
 }
 
-TEST_F(SharedMemory, AFolderThatIsNotThereIsTold) {
-  const auto usable = check_shared_memory(folder_ / "none", 1);
+TEST_F(SharedMemoryTest, TheRoomOfARealFolderIsMeasured) {
+  EXPECT_GT(free_bytes_of(folder_).value(), 0U);
+  EXPECT_EQ(free_bytes_of("/proc").value(), 0U);
+  EXPECT_EQ(free_bytes_of("/none").error().text, "/none: No such file or directory");
+}
+
+TEST_F(SharedMemoryTest, AFolderThatIsNotThereIsTold) {
+  const auto usable = check_shared_memory({.folder = folder_ / "none"}, 1);
   ASSERT_FALSE(usable);
   EXPECT_EQ(usable.error().text,
             (folder_ / "none").string() + " is not writable: No such file or directory");
 }
 
-TEST_F(SharedMemory, LeavesNoProbeBehind) {
-  EXPECT_TRUE(check_shared_memory(folder_, 1));
+TEST_F(SharedMemoryTest, LeavesNoProbeBehind) {
+  EXPECT_TRUE(check_shared_memory(with_room(folder_, 1), 1));
   EXPECT_TRUE(files().empty());
 }
 
-TEST_F(SharedMemory, WhatNobodyLocksIsRemoved) {
+TEST_F(SharedMemoryTest, WhatNobodyLocksIsRemoved) {
   for (const char* name : {"fastrtps_00aa", "fastrtps_00aa_el", "fastrtps_port7410",
                            "fastrtps_port7410_el", "sem.fastrtps_port7410_mutex"}) {
     touch(name);
@@ -70,7 +82,7 @@ TEST_F(SharedMemory, WhatNobodyLocksIsRemoved) {
   EXPECT_TRUE(files().empty());
 }
 
-TEST_F(SharedMemory, WhatSomebodyLocksStays) {
+TEST_F(SharedMemoryTest, WhatSomebodyLocksStays) {
   const std::set<std::string> names{"fastrtps_00aa", "fastrtps_00aa_el", "fastrtps_port7400",
                                     "fastrtps_port7400_el", "fastrtps_port7400_sl"};
   for (const std::string& name : names) touch(name);
@@ -84,7 +96,7 @@ TEST_F(SharedMemory, WhatSomebodyLocksStays) {
   for (const int lock : locks) close(lock);
 }
 
-TEST_F(SharedMemory, WhatIsMappedStays) {
+TEST_F(SharedMemoryTest, WhatIsMappedStays) {
   touch("fastrtps_port7412");
   const int file = open((folder_ / "fastrtps_port7412").c_str(), O_RDWR | O_CLOEXEC);
   void* mapped = mmap(nullptr, 1, PROT_READ, MAP_SHARED, file, 0);
@@ -95,7 +107,7 @@ TEST_F(SharedMemory, WhatIsMappedStays) {
   EXPECT_EQ(clean_shared_memory(folder_, 0), 1);
 }
 
-TEST_F(SharedMemory, WhatIsYoungOrOfOtherProgramsStays) {
+TEST_F(SharedMemoryTest, WhatIsYoungOrOfOtherProgramsStays) {
   touch("fastrtps_00cc");
   EXPECT_EQ(clean_shared_memory(folder_, 3600), 0);
   fs::remove(folder_ / "fastrtps_00cc");
@@ -105,7 +117,7 @@ TEST_F(SharedMemory, WhatIsYoungOrOfOtherProgramsStays) {
   EXPECT_EQ(files().size(), 2U);
 }
 
-TEST_F(SharedMemory, DataSharingGoesWithItsProcess) {
+TEST_F(SharedMemoryTest, DataSharingGoesWithItsProcess) {
   const pid_t ended = fork();
   if (ended == 0) _exit(0);
   // Not yet collected: its number is still taken.

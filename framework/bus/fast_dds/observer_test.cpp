@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// The observer sees and reads what it has no code for.
+#include "armature/bus/fast_dds/observer.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "armature/bus/fast_dds/fast_dds_test.hpp"
+#include "armature/messages/cdr_to_json.hpp"
+
+namespace armature {
+namespace {
+
+TEST_F(FastDds, TheObserverReadsATopicByItsName) {
+  const auto transport = make_transport();
+  const auto writer = transport->advertise(to_peer_).value();
+  const auto reader = transport->subscribe(from_peer_, false, collect()).value();
+  const auto observer = DdsObserver::make(domain_).value();
+  std::mutex mutex;
+  std::string shown;
+  ASSERT_TRUE(observer->watch("/test/to_peer", seconds(30), [&](const ObservedSample& seen) {
+    const std::scoped_lock lock{mutex};
+    shown = cdr_to_json(*describe_type(seen.type), seen.cdr)->at("position").dump();
+  }));
+  ASSERT_TRUE(eventually([&] {
+    writer->offer(sample(2.5));
+    const std::scoped_lock lock{mutex};
+    return !shown.empty();
+  }));
+  EXPECT_EQ(shown, "[2.5,-2.5]");
+
+  ASSERT_TRUE(eventually([&] { return observer->topics().size() == 2; }));
+  const auto topics = observer->topics();
+  EXPECT_EQ(topics[0].name, "rt/test/from_peer");
+  EXPECT_EQ(topics[0].readers, 1);
+  EXPECT_EQ(topics[0].writers, 0);
+  EXPECT_EQ(topics[1].name, "rt/test/to_peer");
+  EXPECT_EQ(topics[1].writers, 1);
+  EXPECT_EQ(topics[1].types, std::vector<std::string>{"sensor_msgs::msg::dds_::JointState_"});
+  EXPECT_EQ(topics[1].deployments, std::vector<std::string>{"lamp"});
+}
+
+TEST_F(FastDds, AnUnwrittenTopicIsRefusedByTheObserver) {
+  const auto observer = DdsObserver::make(domain_).value();
+  const auto watched = observer->watch("/none", seconds(0.1), [](const ObservedSample&) {});
+  ASSERT_FALSE(watched);
+  EXPECT_EQ(watched.error().text, "nobody writes 'rt/none'");
+}
+
+}  // namespace
+}  // namespace armature

@@ -8,7 +8,9 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <ostream>
+#include <set>
 #include <stdexcept>
+#include <vector>
 
 #include "armature/kinds/ik/ik.hpp"
 #include "armature/robot/kinematics.hpp"
@@ -26,8 +28,23 @@ struct InvalidLine : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Throws InvalidLine when an object, however deep, has a key twice: JSON itself would take the
+/// last one and say nothing.
+Json::parser_callback_t without_duplicates() {
+  return [keys = std::vector<std::set<std::string>>{}](int, Json::parse_event_t event,
+                                                       Json& parsed) mutable {
+    if (event == Json::parse_event_t::object_start) keys.emplace_back();
+    if (event == Json::parse_event_t::object_end) keys.pop_back();
+    if (event == Json::parse_event_t::key &&
+        !keys.back().insert(parsed.get<std::string>()).second) {
+      throw InvalidLine(fmt::format("'{}' is given twice", parsed.get<std::string>()));
+    }
+    return true;
+  };
+}
+
 Json parse_line(const std::string& line, std::initializer_list<std::string_view> known) {
-  Json json = Json::parse(line, nullptr, false);
+  Json json = Json::parse(line, without_duplicates(), false);
   if (json.is_discarded()) throw InvalidLine("not JSON");
   if (!json.is_object()) throw InvalidLine("not a JSON object");
   for (const auto& [key, value] : json.items()) {

@@ -16,6 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::string_view kKind = "ik";  // of which there is a template
+
 // The files of a new plugin; @ID@, @NAME@, @CLASS@, @TARGET@ and @PACKAGE@ are filled in.
 constexpr std::string_view kCMake = R"(cmake_minimum_required(VERSION 3.25)
 project(@TARGET@ LANGUAGES CXX)
@@ -184,11 +186,16 @@ int new_plugin(const std::string& id, const fs::path& directory) {
                      std::all_of(name.begin(), name.end(), [](unsigned char c) {
                        return std::islower(c) || std::isdigit(c) || c == '_';
                      });
-  if (!valid || id.substr(0, slash) != "ik") {
-    throw InvalidChoice(
-        fmt::format("'{}' must be 'ik/name', the name in lower case letters, digits "
-                    "and '_'",
-                    id));
+  const std::string kind = id.substr(0, slash);
+  if (slash != std::string::npos && kind != kKind) {
+    throw InvalidChoice(fmt::format(
+        "there is no template for a plugin of kind '{}', only for '{}'; begin with a copy "
+        "of a plugin of that kind, see plugins/ in the sources",
+        kind, kKind));
+  }
+  if (!valid || slash == std::string::npos) {
+    throw InvalidChoice(fmt::format(
+        "'{}' must be '{}/name', the name in lower case letters, digits and '_'", id, kKind));
   }
   if (fs::exists(directory) && !fs::is_empty(directory)) {
     throw InvalidChoice(fmt::format("'{}' is there already and not empty", directory.string()));

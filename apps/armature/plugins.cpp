@@ -34,6 +34,16 @@ Json port_json(const PortSpec& port) {
           {"doc", port.doc}};
 }
 
+Json traits_json(const std::vector<Trait>& traits) {
+  Json list = Json::array();
+  for (const Trait& trait : traits) {
+    Json json{{"name", trait.word}, {"doc", trait.doc}};
+    if (!trait.when.empty()) json["when"] = trait.when;
+    list.push_back(std::move(json));
+  }
+  return list;
+}
+
 Json manifest_json(const PluginManifest& plugin) {
   Json json{{"id", plugin.id},
             {"kind", plugin.kind},
@@ -44,6 +54,10 @@ Json manifest_json(const PluginManifest& plugin) {
   for (const auto& spec : plugin.params) json["params"].push_back(param_json(spec));
   json["slots"] = Json::object();
   for (const auto& slot : plugin.slots) json["slots"][slot.name] = slot.kind;
+  json["needs"] = traits_json(plugin.needs);
+  json["offers"] = traits_json(plugin.offers);
+  json["measures"] = Json::object();
+  for (const auto& metric : plugin.measures) json["measures"][metric.name] = metric.doc;
   json["in"] = Json::array();
   for (const auto& port : plugin.inputs) json["in"].push_back(port_json(port));
   json["out"] = Json::array();
@@ -75,6 +89,15 @@ void print_ports(const char* title, const std::vector<PortSpec>& ports) {
   fmt::print("{}:\n", title);
   for (const auto& port : ports) {
     fmt::print("  {:<16} {:<28} {:<24} {}\n", port.name, port.type, port.topic, port.doc);
+  }
+}
+
+void print_traits(const char* title, const std::vector<Trait>& traits,
+                  const std::vector<ParamSpec>& params) {
+  if (traits.empty()) return;
+  fmt::print("{}:\n", title);
+  for (const auto& trait : traits) {
+    fmt::print("  {:<26} {}{}\n", trait.word, trait.doc, unless_text(trait, params));
   }
 }
 
@@ -117,6 +140,12 @@ int show_plugin(const std::string& id, bool json) {
   if (!plugin->slots.empty()) fmt::print("slots:\n");
   for (const auto& slot : plugin->slots) {
     fmt::print("  {:<16} {:<12} {}\n", slot.name, slot.kind, slot.doc);
+  }
+  print_traits("needs", plugin->needs, plugin->params);
+  print_traits("offers", plugin->offers, plugin->params);
+  if (!plugin->measures.empty()) fmt::print("measures:\n");
+  for (const auto& metric : plugin->measures) {
+    fmt::print("  {:<26} {}\n", metric.name, metric.doc);
   }
   print_ports("in", plugin->inputs);
   print_ports("out", plugin->outputs);

@@ -9,6 +9,7 @@
 #include <csignal>
 #include <cstdio>
 #include <mutex>
+#include <string_view>
 
 #include "armature/config/document.hpp"
 #include "armature/runtime/child_processes.hpp"
@@ -25,6 +26,15 @@ std::atomic<int> g_signal{0};
 void on_signal(int signal) {
   g_signal = signal;
   std::signal(signal, SIG_DFL);  // the second one ends the process at once
+}
+
+/// Before the components run there is nothing to end in order, and constructing them (a landmark
+/// model is read) cannot be told to stop: the process ends at once.
+void end_before_start(int signal) {
+  const std::string_view text = signal == SIGINT ? "armature: interrupted before the start\n"
+                                                 : "armature: terminated before the start\n";
+  [[maybe_unused]] const auto written = write(STDERR_FILENO, text.data(), text.size());
+  _exit(kFailed);
 }
 
 /// Lines for the operator, with the deployment's time; from any thread.
@@ -88,6 +98,11 @@ int conclude(const RunOptions& options, const Deployment& deployment,
 }  // namespace
 
 int run_deployment(const RunOptions& options) {
+  const bool is_child = !options.process.empty();
+  if (!is_child) {  // another process of a deployment just ends: its main process tells
+    std::signal(SIGINT, end_before_start);
+    std::signal(SIGTERM, end_before_start);
+  }
   // A folder that cannot be written is told before the run, not after it.
   if (options.report) std::filesystem::create_directories(*options.report);
   PluginRegistry plugins;
@@ -97,7 +112,6 @@ int run_deployment(const RunOptions& options) {
                       plugins, problems);
   problems.throw_if_any();
   const int domain = options.domain.value_or(config.domain);
-  const bool is_child = !options.process.empty();
   const std::string process = is_child ? options.process : std::string{kMainProcess};
   const std::vector<std::string> processes = config.processes();
   if (std::find(processes.begin(), processes.end(), process) == processes.end()) {
@@ -114,8 +128,6 @@ int run_deployment(const RunOptions& options) {
     }
     lock.emplace(std::move(*taken));
   }
-  std::signal(SIGINT, on_signal);
-  std::signal(SIGTERM, on_signal);
   Console console;
   Deployment deployment{
       std::move(config),
@@ -123,6 +135,8 @@ int run_deployment(const RunOptions& options) {
       {.process = process,
        .on_line = [&](const auto& who, const auto& text) { console.line(who, text); },
        .on_note = [&](const auto& text) { console.line("runtime", text); }}};
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
   // Before any thread: a child is forked from a process that has only this one.
   ChildProcesses children;
   if (!is_child) {

@@ -87,7 +87,9 @@ std::optional<ComponentConfig> ComponentReader::read(const Node::Entry& entry) c
                 "the simulated clock runs one process; remove 'process' or set "
                 "'clock: system'");
   }
-  component.sim_latency = seconds(map.number("sim_latency_s", 0.0));
+  const double sim_latency = map.number("sim_latency_s", 0.0);
+  if (sim_latency < 0) map.problem("sim_latency_s", "'sim_latency_s' must not be negative");
+  component.sim_latency = seconds(sim_latency);
   read_params(map, *named, component);
   if (!pure) read_slots(map, component);
   bind_documents(map, component);

@@ -37,6 +37,8 @@ class Deployment {
   const DeploymentConfig& config() const { return config_; }
   const Clock& clock() const { return *clock_; }
   const std::vector<std::unique_ptr<Unit>>& units() const { return units_; }
+  /// The entry of the deployment that `unit` was made from.
+  const ComponentConfig& config_of(const Unit& unit) const;
 
   /// Joins the DDS domain: writers for every output, readers only for inputs that another process
   /// feeds. Throws PluginError with the transport's reason.
@@ -58,7 +60,6 @@ class Deployment {
                  config::Problems& problems);
   void make_state_publisher(PluginRegistry& plugins);
   Topic& topic_for(const PortBinding& port, const MessageType& type);
-  const ComponentConfig& config_of(const Unit& unit) const;
   bool written_elsewhere(const std::string& topic) const;
   void advertise(const PortBinding& output);
   void subscribe(const PortBinding& input);

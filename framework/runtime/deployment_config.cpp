@@ -2,6 +2,7 @@
 #include "armature/runtime/deployment_config.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
@@ -13,7 +14,9 @@
 #include "armature/config/document.hpp"
 #include "armature/config/reader.hpp"
 #include "armature/runtime/component_config.hpp"
+#include "armature/runtime/goals.hpp"
 #include "armature/runtime/graph.hpp"
+#include "armature/runtime/needs.hpp"
 
 namespace armature {
 namespace {
@@ -61,6 +64,15 @@ std::map<std::string, Node> read_documents(std::span<const Node::Entry> section,
   return documents;
 }
 
+int read_cpu(MapReader& map) {
+  const std::int64_t cpu = map.integer("cpu", 0);
+  const std::int64_t count = sysconf(_SC_NPROCESSORS_CONF);
+  if (cpu < 0 || cpu >= count) {
+    map.problem("cpu", fmt::format("'cpu' is {}, this machine has 0 to {}", cpu, count - 1));
+  }
+  return static_cast<int>(cpu);
+}
+
 std::vector<ExecutorSpec> read_executors(std::span<const Node::Entry> section, Problems& problems) {
   std::vector<ExecutorSpec> executors;
   for (const auto& [name, name_origin, value] : section) {
@@ -78,7 +90,7 @@ std::vector<ExecutorSpec> read_executors(std::span<const Node::Entry> section, P
     if (spec.priority < 0 || spec.priority > 99) {
       map.problem("priority", "'priority' must be from 0 (normal) to 99");
     }
-    if (const auto cpu = map.integer("cpu", -1); cpu >= 0) spec.cpu = static_cast<int>(cpu);
+    if (map.optional_node("cpu")) spec.cpu = read_cpu(map);
     map.finish();
     executors.push_back(std::move(spec));
   }
@@ -88,16 +100,6 @@ std::vector<ExecutorSpec> read_executors(std::span<const Node::Entry> section, P
         {.name = std::string{kMainExecutor}, .period = {}, .priority = 0, .cpu = {}});
   }
   return executors;
-}
-
-std::vector<Goal> read_goals(const Node* section, Problems& problems) {
-  std::vector<Goal> goals;
-  if (!section) return goals;
-  MapReader map{*section, "goals", problems};
-  for (const auto& entry : section->entries()) {
-    goals.push_back({entry.key, map.number(entry.key)});
-  }
-  return goals;
 }
 
 std::string fingerprint_of(const Node& root) {
@@ -159,12 +161,16 @@ DeploymentConfig read_deployment(const Node& root, const PluginRegistry& plugins
   if (const Node* components = map.node("components")) {
     const ComponentReader reader{deployment, plugins, problems};
     for (const auto& entry : entries_of(components, "components", problems)) {
-      if (auto component = reader.read(entry))
+      if (auto component = reader.read(entry)) {
+        check_slot_needs(*component, plugins, problems);
         deployment.components.push_back(std::move(*component));
+      }
     }
-    // With a component missing, every one of its readers would look wrong too.
+    // With a component missing, whoever waits for it would look wrong too.
     if (deployment.components.size() == components->entries().size()) {
       check_graph(deployment, problems);
+      check_component_needs(deployment, plugins, problems);
+      check_goals(deployment, plugins, problems);
     }
   }
   map.finish();

@@ -51,6 +51,7 @@ struct ComponentConfig {
 struct Goal {
   std::string metric;
   double limit;
+  config::Origin origin;
 };
 
 /// A deployment file, read, checked and resolved against the plugins that are there.

@@ -2,14 +2,19 @@
 // A Setup for tests that drive components and schedulers without a deployment file.
 #pragma once
 
+#include <map>
+#include <memory>
 #include <stdexcept>
+#include <string>
 
 #include "armature/runtime/setup.hpp"
 #include "armature/runtime/unit.hpp"
 
 namespace armature {
 
-class FakeSetup final : public Setup {
+/// Grants every port that is asked for; what is published reaches its readers at once. Outlives the
+/// component.
+class FakeSetup final : public Setup, public Delivery {
  public:
   explicit FakeSetup(Unit& unit) : unit_{unit} {}
 
@@ -21,21 +26,35 @@ class FakeSetup final : public Setup {
   }
   void activate_every(Duration period) override { unit_.set_period(period); }
   std::shared_ptr<Voice> voice() override { return unit_.voice(); }
+  void publish(Topic& topic, SampleRef sample) override { topic.publish(std::move(sample), {}); }
+
+  /// The topic of a port that has been claimed.
+  Topic& topic(const std::string& port) { return *topics_.at(port); }
 
  protected:
-  const InputPort& claim_input(std::string_view, const MessageType&) override {
-    throw std::logic_error("no inputs");
+  const InputPort& claim_input(std::string_view port, const MessageType& type) override {
+    InputPort& input = unit_.inbox().add({.name = std::string{port}}, type);
+    make_topic(port, type).connect(input);
+    return input;
   }
-  OutputPort& claim_output(std::string_view, const MessageType&) override {
-    throw std::logic_error("no outputs");
+  OutputPort& claim_output(std::string_view port, const MessageType& type) override {
+    return unit_.outputs().emplace_back(PortSpec{.name = std::string{port}}, make_topic(port, type),
+                                        *this);
   }
   SlotPlugin slot_plugin(std::string_view, std::string_view, int) override {
     throw std::logic_error("no slots");
   }
 
  private:
+  Topic& make_topic(std::string_view port, const MessageType& type) {
+    auto& topic = topics_[std::string{port}];
+    topic = std::make_unique<Topic>(TopicSpec{.name = std::string{port}, .type = &type}, 2);
+    return *topic;
+  }
+
   Unit& unit_;
   Params params_;
+  std::map<std::string, std::unique_ptr<Topic>> topics_;
 };
 
 /// A component whose step is a function.

@@ -43,9 +43,10 @@ void InputPort::show(Time now) {
     std::swap(shown_, waiting_);
     waiting_.clear();
   }
-  if (spec_.max_age && !shown_.empty() && now - stamp_of(shown_.back()) > *spec_.max_age) {
-    shown_.clear();
-    fresh_ = false;
+  if (spec_.max_age) {
+    std::erase_if(shown_,
+                  [&](const SampleRef& sample) { return now - stamp_of(sample) > *spec_.max_age; });
+    fresh_ = fresh_ && !shown_.empty();
   }
 }
 

@@ -113,6 +113,16 @@ TEST_F(InboxTest, ASampleOlderThanItsGreatestAgeIsNotShown) {
   EXPECT_EQ(shown(port), std::vector<int>{1});
   inbox.show(Time{} + seconds(0.2));
   EXPECT_TRUE(shown(port).empty());
+  EXPECT_FALSE(port.fresh());
+}
+
+TEST_F(InboxTest, OfAQueueOnlyTheSamplesThatAreTooOldAreNotShown) {
+  InputPort& port = add({.name = "in", .queue = 4, .max_age = seconds(0.1)});
+  send(port, 1, Time{});
+  send(port, 2, Time{} + seconds(0.15));
+  inbox.show(Time{} + seconds(0.2));
+  EXPECT_EQ(shown(port), std::vector<int>{2});
+  EXPECT_TRUE(port.fresh());
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 
 #include "armature/config/document.hpp"
@@ -38,7 +39,10 @@ void read_input_rules(MapReader& map, PortSpec& port) {
   port.optional = map.flag("optional", false);
   port.outside = map.flag("outside", false);
   port.feedback = map.flag("feedback", false);
-  if (const double age = map.number("max_age_s", 0.0); age > 0) port.max_age = seconds(age);
+  if (map.optional_node("max_age_s")) {
+    port.max_age = seconds(map.number("max_age_s"));
+    if (port.max_age <= Duration{0}) map.problem("max_age_s", "'max_age_s' must be positive");
+  }
 }
 
 std::vector<PortSpec> read_ports(const Node* table, bool inputs, Problems& problems) {
@@ -74,7 +78,63 @@ std::vector<SlotSpec> read_slots(const Node* table, Problems& problems) {
   return slots;
 }
 
+/// The parameter that a trait hangs on must be one of the plugin's own, and one that can be off.
+void check_when(const Trait& trait, const std::vector<ParamSpec>& params, MapReader& map) {
+  if (trait.when.empty()) return;
+  std::vector<std::string> names;
+  for (const ParamSpec& param : params) {
+    using Type = ParamSpec::Type;
+    if (param.type != Type::number && param.type != Type::integer && param.type != Type::flag) {
+      continue;
+    }
+    if (param.name == trait.when) return;
+    names.push_back(param.name);
+  }
+  map.problem("when",
+              fmt::format("'when' names '{}', which is no number, integer or flag among the "
+                          "plugin's parameters{}",
+                          trait.when, config::did_you_mean(trait.when, names)));
+}
+
+std::vector<Trait> read_traits(const Node* table, const std::vector<ParamSpec>& params,
+                               Problems& problems) {
+  std::vector<Trait> traits;
+  if (!table) return traits;
+  for (const auto& [key, key_origin, value] : table->entries()) {
+    MapReader map{value, fmt::format("'{}'", key), problems};
+    traits.push_back({.word = key, .when = map.text("when", ""), .doc = map.text("doc", "")});
+    check_when(traits.back(), params, map);
+    map.finish();
+  }
+  return traits;
+}
+
+std::vector<MetricSpec> read_metrics(const Node* table, Problems& problems) {
+  std::vector<MetricSpec> metrics;
+  if (!table) return metrics;
+  for (const auto& [key, key_origin, value] : table->entries()) {
+    metrics.push_back({.name = key, .doc = config::as_text(value, problems).value_or("")});
+  }
+  return metrics;
+}
+
+/// The map under `key`; nullptr when there is none. Anything else than a map is a problem.
+const Node* read_table(MapReader& map, const char* key) {
+  const Node* table = map.optional_node(key);
+  if (!table || table->kind() == Node::Kind::null) return nullptr;
+  if (table->kind() == Node::Kind::map) return table;
+  map.problem(key, fmt::format("'{}' must be a map, not {}", key, table->describe()));
+  return nullptr;
+}
+
 }  // namespace
+
+std::string unless_text(const Trait& trait, const std::vector<ParamSpec>& params) {
+  if (trait.when.empty()) return "";
+  const auto param = std::ranges::find(params, trait.when, &ParamSpec::name);
+  return fmt::format(" unless '{}' is {}", trait.when,
+                     param->type == ParamSpec::Type::flag ? "false" : "0");
+}
 
 PluginManifest parse_manifest(std::string_view yaml, std::string_view name, Problems& problems) {
   PluginManifest manifest;
@@ -92,9 +152,12 @@ PluginManifest parse_manifest(std::string_view yaml, std::string_view name, Prob
   if (const Node* params = map.optional_node("params")) {
     manifest.params = read_param_specs(*params, problems);
   }
-  manifest.slots = read_slots(map.optional_node("slots"), problems);
-  manifest.inputs = read_ports(map.optional_node("in"), true, problems);
-  manifest.outputs = read_ports(map.optional_node("out"), false, problems);
+  manifest.slots = read_slots(read_table(map, "slots"), problems);
+  manifest.needs = read_traits(read_table(map, "needs"), manifest.params, problems);
+  manifest.offers = read_traits(read_table(map, "offers"), manifest.params, problems);
+  manifest.measures = read_metrics(read_table(map, "measures"), problems);
+  manifest.inputs = read_ports(read_table(map, "in"), true, problems);
+  manifest.outputs = read_ports(read_table(map, "out"), false, problems);
   map.finish();
   return manifest;
 }

@@ -40,6 +40,23 @@ struct SlotSpec {
   std::string doc;
 };
 
+/// A word that one plugin needs and another one offers, "time_law". The words mean something to
+/// their plugins, nothing to the runtime.
+struct Trait {
+  std::string word;
+  std::string when;  // only while this parameter is not 0 or false; empty: always
+  std::string doc;
+};
+
+/// " unless 'segment_s' is 0"; empty for a trait that always holds.
+std::string unless_text(const Trait& trait, const std::vector<ParamSpec>& params);
+
+/// A figure that a component reports to the summary of a run.
+struct MetricSpec {
+  std::string name;  // ends in its unit: "distance_error_mm"
+  std::string doc;
+};
+
 /// Everything that can be known of a plugin without running its code: its plugin.yaml.
 struct PluginManifest {
   std::string id;
@@ -50,6 +67,8 @@ struct PluginManifest {
   std::vector<std::string> uses;  // "robot", "rig"
   std::vector<ParamSpec> params;
   std::vector<SlotSpec> slots;
+  std::vector<Trait> needs, offers;
+  std::vector<MetricSpec> measures;
   std::vector<PortSpec> inputs, outputs;
 
   std::filesystem::path file;  // the library

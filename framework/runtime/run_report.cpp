@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -12,11 +13,21 @@
 namespace armature {
 
 RunReport::RunReport(const Deployment& deployment, const Ending& ending) {
-  for (const auto& unit : deployment.units()) unit->component().summarize(*this);
+  for (const auto& unit : deployment.units()) {
+    speaker_ = &deployment.config_of(*unit);
+    unit->component().summarize(*this);
+  }
   judge(deployment, ending);
 }
 
 void RunReport::metric(std::string key, std::string title, double value) {
+  const auto& declared = speaker_->manifest->measures;
+  if (std::ranges::find(declared, key, &MetricSpec::name) == declared.end()) {
+    defect_ = fmt::format(
+        "{}: plugin '{}' reports the metric '{}', which its plugin.yaml does not "
+        "declare under 'measures:'",
+        speaker_->name, speaker_->manifest->id, key);
+  }
   figures_.push_back({std::move(key), std::move(title), value});
 }
 void RunReport::text(std::string key, std::string title, std::string value) {
@@ -55,6 +66,10 @@ void RunReport::judge(const Deployment& deployment, const Ending& ending) {
   if (const std::string fault = deployment.fault(); !fault.empty()) {
     status_ = "fault";
     reasons_.insert(reasons_.begin(), fault);
+  }
+  if (!defect_.empty()) {
+    status_ = "fault";
+    reasons_.insert(reasons_.begin(), defect_);
   }
   if (ending.lost_process) {
     status_ = "fault";

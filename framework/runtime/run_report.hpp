@@ -35,8 +35,7 @@ class RunReport final : public Summary {
   void text(std::string key, std::string title, std::string value) override;
   void failed(std::string status) override;
 
-  /// "ok", "goals_missed", "fault", or what a component
-  /// gave for the story's failure
+  /// "ok", "goals_missed", "fault", or what a component gave for the story's failure
   /// ("face_not_found").
   const std::string& status() const { return status_; }
   /// Why, when it is not ok: a line per cause.
@@ -46,6 +45,8 @@ class RunReport final : public Summary {
  private:
   void judge(const Deployment& deployment, const Ending& ending);
 
+  const ComponentConfig* speaker_ = nullptr;  // the component that is being asked
+  std::string defect_;                        // of a plugin that reports what it does not declare
   std::vector<Figure> figures_;
   std::string story_status_;
   std::string status_ = "ok";

@@ -54,6 +54,20 @@ TEST(LockstepScheduler, DeliversAtOnceWithoutLatencyAndLaterWithOne) {
   }
 }
 
+TEST(LockstepScheduler, WhenItStopsNothingIsOnItsWayAnyMore) {
+  SimulatedClock clock;
+  LockstepScheduler scheduler{clock};
+  const MessageType type = number_type();
+  Topic topic{{.name = "rt/n", .type = &type}, 1};
+  const auto source = make_unit("source", 0, [&](Time) { scheduler.publish(topic, topic.loan()); });
+  scheduler.assign({.name = "a", .period = Duration{100}, .cpu = {}}, {source.get()},
+                   [](const Unit&) { return Duration{7}; });
+  scheduler.run([&] { return source->activations() == 1; });
+  scheduler.stop();
+  topic.loan();
+  EXPECT_EQ(topic.pool_growth(), 0U);  // the one sample is back
+}
+
 TEST(LockstepScheduler, EndsWhenNothingIsLeftToDo) {
   SimulatedClock clock;
   LockstepScheduler scheduler{clock};

@@ -76,6 +76,27 @@ TEST(IkCalculator, AnswersEveryBadLineWithAReasonAndGoesOn) {
   EXPECT_EQ(lines[9]["status"], "ok");
 }
 
+TEST(IkCalculator, AKeyThatIsGivenTwiceIsRefusedWithItsName) {
+  const auto lines =
+      ik(R"({"position_m":[1.3,0.321,0.504],"direction":[1,0,0],"position_m":[1,0,0.5]})"
+         "\n"
+         R"({"position_m":[1.3,0.321,0.504],"direction":[1,0,0],"seed":{"a":1,"a":2}})"
+         "\n");
+  EXPECT_EQ(lines[0],
+            (json{{"status", "invalid_input"}, {"reason", "'position_m' is given twice"}}));
+  EXPECT_EQ(lines[1], (json{{"status", "invalid_input"}, {"reason", "'a' is given twice"}}));
+  const auto zero = fk(R"({"joints":[0,0,0,0,0,0],"joints":[1,0,0,0,0,0]})"
+                       "\n");
+  EXPECT_EQ(zero[0]["reason"], "'joints' is given twice");
+}
+
+TEST(IkCalculator, SaysThatARollCannotBeReachedAndNotHowFarAwayItIs) {
+  const auto lines = ik(R"({"position_m":[1.3,0.321,0.504],"quaternion_xyzw":[0.5,0.5,0.5,0.5]})"
+                        "\n");
+  EXPECT_EQ(lines[0]["status"], "out_of_reach");
+  EXPECT_EQ(lines[0]["reason"], "the lamp cannot roll about its pointing axis");
+}
+
 TEST(IkCalculator, RefusesAnUnknownSolverByNameWithExitCodeThree) {
   const auto result =
       run_command({armature(), "ik", "--robot", kLamp, "--plugin", "ik/lamp_geometrc"});

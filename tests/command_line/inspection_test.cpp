@@ -41,6 +41,24 @@ TEST(PluginInfo, ShowsParametersAndPortsFromTheManifest) {
   EXPECT_FALSE(json["out"].empty());
 }
 
+TEST(PluginInfo, ShowsWhatAPluginNeedsOffersAndMeasures) {
+  const auto info = [](const std::string& id) {
+    return run_command({armature(), "plugin", "info", id}).out;
+  };
+  EXPECT_THAT(info("path/mouth_points"),
+              testing::HasSubstr("needs:\n  time_law                   Each of the moves lasts "
+                                 "segment_s unless 'segment_s' is 0\n"));
+  EXPECT_THAT(info("trajectory/quintic"), testing::HasSubstr("offers:\n  time_law   "));
+  EXPECT_THAT(info("report/lamp_alignment"), testing::HasSubstr("measures:\n  time_to_find_s   "));
+
+  const auto result =
+      run_command({armature(), "plugin", "info", "report/lamp_alignment", "--json"});
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_EQ(json["needs"][0]["name"], "patient_moves");
+  EXPECT_EQ(json["needs"][0]["when"], "expect_move");
+  EXPECT_TRUE(json["measures"].contains("distance_error_mm"));
+}
+
 TEST(PluginInfo, OfAnUnknownOneNamesTheNearest) {
   const auto result = run_command({armature(), "plugin", "info", "ik/numerc"});
   EXPECT_EQ(result.exit_code, 3);

@@ -56,6 +56,15 @@ TEST_F(NewPlugin, RefusesANameThatIsNoName) {
             "and '_'\n");
 }
 
+TEST_F(NewPlugin, OfAKindWithoutATemplateNamesTheKindsThatHaveOne) {
+  const auto result = write("path/mine");
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_EQ(result.err,
+            "armature: there is no template for a plugin of kind 'path', only for 'ik'; begin with "
+            "a copy of a plugin of that kind, see plugins/ in the sources\n");
+  EXPECT_FALSE(fs::exists(folder));
+}
+
 TEST_F(NewPlugin, RefusesAFolderThatIsNotEmpty) {
   ASSERT_EQ(write("ik/mine").exit_code, 0);
   const auto result = write("ik/mine");

@@ -89,6 +89,8 @@ const Fault kFaults[] = {
      "deployment.yaml:10:53: landmarks.landmarks and face.face both write topic "
      "'/faulty/landmarks'; rename one with 'out:'\n"
      "deployment.yaml:11:3: target.face reads topic '/faulty/face', which nobody writes; did you "
+     "mean '/faulty/target'?\n"
+     "deployment.yaml:21:3: report.face reads topic '/faulty/face', which nobody writes; did you "
      "mean '/faulty/target'?\n"},
     {"RobotFileMissing", "robots/dental_lamp.yaml", "robots/dental_lmap.yaml",
      "deployment.yaml:4:15: cannot read 'robots/dental_lmap.yaml': No such file or directory\n"},
@@ -97,14 +99,16 @@ const Fault kFaults[] = {
      "deployment.yaml:10:3: component 'target' needs a robot: add 'robots: {name: file.yaml}'\n"
      "deployment.yaml:11:3: component 'task' needs a robot: add 'robots: {name: file.yaml}'\n"
      "deployment.yaml:12:3: component 'motion' needs a robot: add 'robots: {name: file.yaml}'\n"
-     "deployment.yaml:19:3: component 'arm' needs a robot: add 'robots: {name: file.yaml}'\n"},
+     "deployment.yaml:19:3: component 'arm' needs a robot: add 'robots: {name: file.yaml}'\n"
+     "deployment.yaml:20:3: component 'report' needs a robot: add 'robots: {name: file.yaml}'\n"},
     {"TwoRobotsUnnamed", "robots: {arm: @CONFIGS@/robots/dental_lamp.yaml}",
      "robots: {arm: @CONFIGS@/robots/dental_lamp.yaml, left: @CONFIGS@/robots/dental_lamp.yaml}",
      "deployment.yaml:8:3: component 'scene' must say which robot: 'robot: ...'\n"
      "deployment.yaml:11:3: component 'target' must say which robot: 'robot: ...'\n"
      "deployment.yaml:12:3: component 'task' must say which robot: 'robot: ...'\n"
      "deployment.yaml:13:3: component 'motion' must say which robot: 'robot: ...'\n"
-     "deployment.yaml:20:3: component 'arm' must say which robot: 'robot: ...'\n"},
+     "deployment.yaml:20:3: component 'arm' must say which robot: 'robot: ...'\n"
+     "deployment.yaml:21:3: component 'report' must say which robot: 'robot: ...'\n"},
     {"UnknownRobot", "{plugin: arm/simulated, executor: control}",
      "{plugin: arm/simulated, executor: control, robot: lamp}",
      "deployment.yaml:20:58: unknown robot 'lamp'; known: arm\n"},
@@ -137,7 +141,7 @@ const Fault kFaults[] = {
      "deployment.yaml:13:3: component 'motion': max_velocity_rad_s is 9, above the 2.5 rad/s of "
      "joint j1 of robot dental_lamp\n"},
     {"GoalNotANumber", "distance_error_mm: 1.5", "distance_error_mm: small",
-     "deployment.yaml:21:28: 'distance_error_mm' must be a number, not 'small'\n"},
+     "deployment.yaml:22:28: 'distance_error_mm' must be a number, not 'small'\n"},
     {"ComponentsMissing", "components:", "component:",
      "deployment.yaml:1:1: missing key 'components' in the deployment\n"
      "deployment.yaml:7:1: unknown key 'component' in the deployment; did you mean "
@@ -145,7 +149,7 @@ const Fault kFaults[] = {
     {"Cycle", "  face: {plugin: face_pose/three_point}",
      "  face: {plugin: face_pose/three_point, in: {landmarks: face}}",
      "deployment.yaml:10:3: a cycle without a declared delay among face, target, task, motion, "
-     "arm: one input in it must be 'feedback: true' in its plugin.yaml\n"
+     "arm, report: one input in it must be 'feedback: true' in its plugin.yaml\n"
      "deployment.yaml:10:57: face.landmarks reads type 'armature_msgs/FaceLandmarks' from topic "
      "'/faulty/face', but face.face writes type 'armature_msgs/FacePose'\n"},
     {"IncludeMissing", "clock: simulated", "include: nowhere.yaml",
@@ -153,7 +157,7 @@ const Fault kFaults[] = {
     {"ParameterWithoutAValue", "photo: generated",
      "photo: ", "deployment.yaml:8:45: 'photo' must be a text, not nothing\n"},
     {"ListForMap", "goals: {distance_error_mm: 1.5}", "goals: [distance_error_mm]",
-     "deployment.yaml:21:8: goals must be a map, not a list\n"},
+     "deployment.yaml:22:8: goals must be a map, not a list\n"},
     {"ComponentIsText", "  face: {plugin: face_pose/three_point}", "  face: face_pose/three_point",
      "deployment.yaml:10:9: component 'face' must be a map, not 'face_pose/three_point'\n"},
     {"DomainOutOfRange", "clock: simulated", "domain: 400",
@@ -164,6 +168,43 @@ const Fault kFaults[] = {
     {"TransportAsAComponent", "{plugin: face_pose/three_point}", "{plugin: transport/fast_dds}",
      "deployment.yaml:10:18: 'transport/fast_dds' is of kind 'transport', which is no component "
      "and has no host to run it alone\n"},
+    {"CpuThatTheMachineDoesNotHave", "period_s: 0.001", "period_s: 0.001, cpu: -1",
+     "deployment.yaml:6:45: 'cpu' is -1, this machine has 0 to @LAST_CPU@\n"},
+    {"CpuThatIsNoNumber", "period_s: 0.001", "period_s: 0.001, cpu: all",
+     "deployment.yaml:6:45: 'cpu' must be a whole number, not 'all'\n"},
+    {"PriorityOutOfRange", "period_s: 0.001", "period_s: 0.001, priority: 100",
+     "deployment.yaml:6:50: 'priority' must be from 0 (normal) to 99\n"},
+    {"NegativeLatency", "{plugin: face_pose/three_point}",
+     "{plugin: face_pose/three_point, sim_latency_s: -0.1}",
+     "deployment.yaml:10:56: 'sim_latency_s' must not be negative\n"},
+    {"TimeLawThatNobodyKeeps",
+     "path: {plugin: path/mouth_arc}\n"
+     "    ik: {plugin: ik/lamp_geometric}\n"
+     "    select: {plugin: select/nearest}\n"
+     "    trajectory: {plugin: trajectory/quintic_spline}",
+     "path: {plugin: path/mouth_points}\n"
+     "    ik: {plugin: ik/lamp_geometric}\n"
+     "    select: {plugin: select/nearest}\n"
+     "    trajectory: {plugin: trajectory/hasty}",
+     "deployment.yaml:16:20: 'path/mouth_points' needs 'time_law' unless 'segment_s' is 0, and no "
+     "plugin in component 'motion' offers it; offered by trajectory/quintic, "
+     "trajectory/quintic_spline\n"},
+    {"NeedThatNoPluginKnows", "path: {plugin: path/mouth_arc}", "path: {plugin: path/mistyped}",
+     "deployment.yaml:16:20: 'path/mistyped' needs 'time_lwa', and no plugin in component 'motion' "
+     "offers it; no plugin on the search path does; did you mean 'time_law'?\n"},
+    {"MoveThatNeverComes", "{plugin: report/lamp_alignment}",
+     "{plugin: report/lamp_alignment, params: {expect_move: true}}",
+     "deployment.yaml:21:3: 'report' needs 'patient_moves' unless 'expect_move' is false, and no "
+     "component offers it; 'scene' does unless 'move_duration_s' is 0\n"},
+    {"MoveOfNothing", "tilt_up_deg: 0", "move_duration_s: 2",
+     "deployment.yaml:8:3: component 'scene': move_duration_s is set but nothing moves; set "
+     "move_mm, move_tilt_up_deg or move_tilt_side_deg, or move_duration_s to 0\n"},
+    {"GoalForAMetricThatIsMistyped", "distance_error_mm: 1.5", "distance_eror_mm: 1.5",
+     "deployment.yaml:22:9: no component measures 'distance_eror_mm'; did you mean "
+     "'distance_error_mm'?\n"},
+    {"GoalThatNobodyMeasures", "  report: {plugin: report/lamp_alignment}\n", "",
+     "deployment.yaml:21:9: no component measures 'distance_error_mm'; measured by "
+     "report/lamp_alignment\n"},
 };
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
@@ -184,18 +225,23 @@ class FaultyDeployment : public testing::TestWithParam<Fault> {
   FaultyDeployment() { fs::create_directories(folder_); }
   ~FaultyDeployment() override { fs::remove_all(folder_); }
 
-  CommandResult check(const std::string& from, const std::string& to) const {
+  using Change = std::pair<std::string, std::string>;  // this text becomes that
+
+  CommandResult check(const std::vector<Change>& changes) const {
     std::ostringstream base;
     base << std::ifstream{source_file("tests/faults/base.yaml")}.rdbuf();
-    std::string text = replaced(base.str(), from, to);
+    std::string text = base.str();
+    for (const auto& [from, to] : changes) text = replaced(text, from, to);
     for (const std::string mark = "@CONFIGS@"; text.find(mark) != std::string::npos;) {
       text = replaced(text, mark, source_file("configs"));
     }
     const fs::path file = folder_ / "deployment.yaml";
     std::ofstream{file} << text;
-    CommandResult result = run_command({armature(), "check", file.string()});
+    CommandResult result =
+        run_command({armature(), "check", file.string()},
+                    {.environment = {{"ARMATURE_PLUGIN_PATH", FAULT_PLUGINS}}, .input = {}});
     result.err = without(without(result.err, folder_.string() + "/"), source_file("configs/"));
-    result.err = without(result.err, "; searched " ARMATURE_PLUGIN_BUILD_DIR);
+    result.err = without(result.err, "; searched " FAULT_PLUGINS ", " ARMATURE_PLUGIN_BUILD_DIR);
     return result;
   }
 
@@ -204,9 +250,13 @@ class FaultyDeployment : public testing::TestWithParam<Fault> {
 };
 
 TEST_P(FaultyDeployment, IsRefusedWithItsExactMessage) {
-  const auto result = check(GetParam().from, GetParam().to);
+  const auto result = check({{GetParam().from, GetParam().to}});
+  std::string messages = GetParam().messages;
+  if (const std::string mark = "@LAST_CPU@"; messages.find(mark) != std::string::npos) {
+    messages = replaced(messages, mark, std::to_string(sysconf(_SC_NPROCESSORS_CONF) - 1));
+  }
   EXPECT_EQ(result.exit_code, 3);
-  EXPECT_EQ(result.err, GetParam().messages);
+  EXPECT_EQ(result.err, messages);
   EXPECT_EQ(result.out, "");
 }
 
@@ -216,8 +266,43 @@ INSTANTIATE_TEST_SUITE_P(Faults, FaultyDeployment, testing::ValuesIn(kFaults),
 using SoundDeployment = FaultyDeployment;
 
 TEST_F(SoundDeployment, PassesTheCheck) {
-  const auto result = check("name: faulty", "name: sound");
+  const auto result = check({{"name: faulty", "name: sound"}});
   EXPECT_EQ(result.exit_code, 0) << result.err;
+}
+
+TEST_F(SoundDeployment, ATimeLawThatIsKeptOrNotUsedPassesTheCheck) {
+  const Change points{"path/mouth_arc}", "path/mouth_points}"};
+  const Change idle_points{"path/mouth_arc}", "path/mouth_points, params: {segment_s: 0}}"};
+  const Change hasty{"trajectory/quintic_spline", "trajectory/hasty"};
+  for (const auto& changes : std::vector<std::vector<Change>>{{points}, {idle_points, hasty}}) {
+    const auto result = check(changes);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+  }
+}
+
+TEST_F(SoundDeployment, APathThatRunsAloneNeedsNobody) {
+  const auto result =
+      check({{"components:\n", "components:\n  alone: {plugin: path/mouth_points}\n"}});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+}
+
+TEST_F(SoundDeployment, AMoveThatComesPassesTheCheck) {
+  const auto result = check({{"{plugin: report/lamp_alignment}",
+                              "{plugin: report/lamp_alignment, params: {expect_move: true}}"},
+                             {"tilt_up_deg: 0", "move_duration_s: 2, move_mm: [0, 10, 0]"}});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+}
+
+using SplitDeployment = FaultyDeployment;
+
+TEST_F(SplitDeployment, AGoalThatIsMeasuredInAnotherProcessIsRefused) {
+  const auto result = check(
+      {{"clock: simulated", "clock: system"},
+       {"{plugin: report/lamp_alignment}", "{plugin: report/lamp_alignment, process: aside}"}});
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_EQ(result.err,
+            "deployment.yaml:22:9: goal 'distance_error_mm' is measured by 'report' in process "
+            "'aside', but goals are judged in process 'main'; remove 'process' from 'report'\n");
 }
 
 }  // namespace

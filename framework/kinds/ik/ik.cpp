@@ -29,7 +29,7 @@ std::string_view to_string(IkStatus::Code code) {
 
 std::string describe(const IkStatus& status) {
   std::string text{to_string(status.code)};
-  if (status.code == IkStatus::Code::out_of_reach) {
+  if (status.code == IkStatus::Code::out_of_reach && status.shortfall > 0) {
     text += fmt::format(": {:.3g} m beyond reach", status.shortfall);
     if (!status.detail.empty()) text += fmt::format(" ({})", status.detail);
     return text;

@@ -54,7 +54,9 @@ struct IkBranches {
 struct IkStatus {
   enum class Code { ok, out_of_reach, joint_limit, singular, no_convergence, invalid_input };
   Code code = Code::ok;
-  double shortfall = 0;     // out_of_reach: how far beyond reach [m]; no_convergence: the residual
+  /// out_of_reach: how far beyond reach [m], 0 when it is not the position that cannot be reached;
+  /// no_convergence: the residual.
+  double shortfall = 0;
   std::string_view detail;  // static text: which test failed, or which input is wrong
 };
 /// "ok", "out_of_reach", "joint_limit", ...

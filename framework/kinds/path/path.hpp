@@ -24,8 +24,10 @@ struct PathSegment {
   enum class Space { joint, cartesian };
   Space space = Space::cartesian;
   std::vector<PathSample> samples;
-  bool stop_at_end = true;           // false: a via, passed without stopping
-  std::optional<double> duration_s;  // the path's own time law: exactly this long, rest to rest
+  bool stop_at_end = true;  // false: a via, passed without stopping
+  /// The path's own time law: exactly this long, rest to rest. A plugin that sets it needs
+  /// `time_law` (plugin.yaml).
+  std::optional<double> duration_s;
 };
 using Path = std::vector<PathSegment>;
 

@@ -48,8 +48,10 @@ void AlignmentMonitor::see_lamp(const Eigen::Vector3d& center, const Eigen::Vect
   const double distance = (center - truth_->mouth).norm();
   lamp_errors_.push_back({.time_s = since_start(now),
                           .distance_m = distance,
-                          .distance_error_m = std::abs(distance - goals_.distance_m),
                           .direction_error_rad = angle_between(light, -truth_->normal)});
+  if (asked_distance_m_) {
+    lamp_errors_.back().distance_error_m = std::abs(distance - *asked_distance_m_);
+  }
 }
 
 std::optional<EstimateError> AlignmentMonitor::estimate_error() const {
@@ -69,7 +71,7 @@ void AlignmentMonitor::step(Time now) {
   if (!found_s_ && since_start(now) > goals_.search_timeout_s) not_found_ = true;
   if (lamp_errors_.empty()) return;
   const LampError& error = lamp_errors_.back();
-  const bool good = error.distance_error_m <= goals_.distance_error_m &&
+  const bool good = error.distance_error_m && *error.distance_error_m <= goals_.distance_error_m &&
                     error.direction_error_rad <= goals_.direction_error_rad;
   if (!good) {
     good_since_.reset();
@@ -80,12 +82,8 @@ void AlignmentMonitor::step(Time now) {
                        to_seconds(now - *good_since_) >= goals_.aligned_for_s &&
                        (!moved_at_ || to_seconds(now - *moved_at_) >= goals_.aligned_for_s);
   if (!aligned) return;
-  if (!first_aligned_s_) {
-    first_aligned_s_ = since_start(now);
-    moved_at_.reset();
-  } else if (patient_moved() && !realigned_s_) {
-    realigned_s_ = to_seconds(now - *moved_at_);
-  }
+  if (!first_aligned_s_) first_aligned_s_ = since_start(now);
+  if (moved_at_ && !realigned_s_) realigned_s_ = to_seconds(now - *moved_at_);
 }
 
 bool AlignmentMonitor::finished() const {

@@ -11,7 +11,6 @@ namespace armature {
 
 /// What "aligned" means.
 struct AlignmentGoals {
-  double distance_m = 0.5;
   double distance_error_m = 0.0015, direction_error_rad = 0.0436;
   double mouth_error_m = 0.0025, normal_error_rad = 0.0436;
   int least_frames = 10;
@@ -29,7 +28,8 @@ struct Face {
 /// How far the lamp is from where it should be.
 struct LampError {
   double time_s = 0;  // since the start
-  double distance_m = 0, distance_error_m = 0, direction_error_rad = 0;
+  double distance_m = 0, direction_error_rad = 0;
+  std::optional<double> distance_error_m;  // none: no goal has asked for a distance yet
 };
 
 /// How far the averaged estimate is from the truth.
@@ -48,6 +48,11 @@ class AlignmentMonitor {
   /// The lamp's centre and the way its light points, in the base frame.
   void see_lamp(const Eigen::Vector3d& center, const Eigen::Vector3d& light, bool at_rest,
                 Time now);
+  /// A goal for the lamp's centre, in front of the mouth that it looks at: how far away it shall
+  /// be.
+  void see_goal(const Eigen::Vector3d& center, const Eigen::Vector3d& mouth) {
+    asked_distance_m_ = (center - mouth).norm();
+  }
   void see_task(bool holding) { holding_ = holding; }
   void see_new_goal() { replans_ += first_aligned_s_.has_value(); }
   void step(Time now);
@@ -58,7 +63,7 @@ class AlignmentMonitor {
 
   std::optional<double> time_to_find_s() const { return found_s_; }
   std::optional<double> time_to_align_s() const { return first_aligned_s_; }
-  /// From the end of the patient's move.
+  /// From the end of the patient's move, also of one that was over before the first alignment.
   std::optional<double> time_to_realign_s() const { return realigned_s_; }
   /// Of the mean of all estimates since the arm came to rest.
   std::optional<EstimateError> estimate_error() const;
@@ -67,7 +72,6 @@ class AlignmentMonitor {
 
  private:
   double since_start(Time time) const { return to_seconds(time - *start_); }
-  bool patient_moved() const { return moved_at_.has_value(); }
   void restart_average(Time now);
   bool estimates_good() const;
 
@@ -76,6 +80,7 @@ class AlignmentMonitor {
   std::optional<Face> truth_;
   Face sum_;  // of the estimates since rest_since_
   int count_ = 0;
+  std::optional<double> asked_distance_m_;
   Time rest_since_;
   bool holding_ = false, at_rest_ = false;
   std::vector<LampError> lamp_errors_;

@@ -24,6 +24,7 @@ class AlignmentMonitorTest : public testing::Test {
     run(0.04);
     lamp_ = truth_.mouth + 0.5 * truth_.normal;
     light_ = -truth_.normal;
+    monitor_.see_goal(lamp_, truth_.mouth);
     estimate_ = truth_;
     at_rest_ = true;
   }
@@ -69,8 +70,22 @@ TEST_F(AlignmentMonitorTest, MeasuresDistanceAndDirectionAgainstTheTruth) {
   light_ = Eigen::AngleAxisd(0.01, Eigen::Vector3d::UnitZ()) * light_;
   run(0.1);
   EXPECT_NEAR(monitor_.lamp_errors().back().distance_m, 0.501, 1e-12);
-  EXPECT_NEAR(monitor_.lamp_errors().back().distance_error_m, 0.001, 1e-12);
+  EXPECT_NEAR(monitor_.lamp_errors().back().distance_error_m.value(), 0.001, 1e-12);
   EXPECT_NEAR(monitor_.lamp_errors().back().direction_error_rad, 0.01, 1e-9);
+}
+
+TEST_F(AlignmentMonitorTest, HoldsTheDistanceAgainstWhatTheNewestGoalAsksFor) {
+  run(0.1);
+  EXPECT_FALSE(monitor_.lamp_errors().back().distance_error_m);
+  align();
+  lamp_ = truth_.mouth + 0.45 * truth_.normal;
+  run(3);
+  EXPECT_NEAR(monitor_.lamp_errors().back().distance_error_m.value(), 0.05, 1e-12);
+  EXPECT_FALSE(monitor_.finished());
+  monitor_.see_goal(lamp_, truth_.mouth);
+  run(3);
+  EXPECT_NEAR(monitor_.lamp_errors().back().distance_error_m.value(), 0, 1e-12);
+  EXPECT_TRUE(monitor_.finished());
 }
 
 TEST_F(AlignmentMonitorTest, AveragesTheEstimatesAtRestAndNeedsEnoughOfThem) {
@@ -101,6 +116,7 @@ TEST(AlignmentMonitor, WaitsForThePatientToMoveWhenTheStorySaysSo) {
     const bool moving = k >= 200 && k < 250;
     if (moving) truth.mouth.y() += 0.001;
     monitor.see_truth(truth, now);
+    monitor.see_goal(truth.mouth + 0.5 * truth.normal, truth.mouth);
     monitor.see_lamp(truth.mouth + 0.5 * truth.normal, -truth.normal, true, now);
     if (k % 5 == 0) monitor.see_estimate(truth, now, now);
     if (k == 220) monitor.see_new_goal();
@@ -116,6 +132,24 @@ TEST(AlignmentMonitor, WaitsForThePatientToMoveWhenTheStorySaysSo) {
   EXPECT_NEAR(*monitor.time_to_realign_s(), 1, 0.15);
   EXPECT_EQ(replans_at_first, 0);
   EXPECT_EQ(monitor.replans(), 1);
+}
+
+TEST(AlignmentMonitor, AMoveBeforeTheFirstAlignmentIsTheMoveThatTheStoryWaitsFor) {
+  AlignmentMonitor monitor{{.expect_move = true}};
+  Face truth{.mouth = {1.5, 0, 0.5}, .normal = {-1, 0, 0}};
+  Time now;
+  for (int k = 0; k < 300; ++k) {
+    now = now + seconds(0.02);
+    if (k >= 5 && k < 20) truth.mouth.y() += 0.001;
+    monitor.see_truth(truth, now);
+    monitor.see_goal(truth.mouth + 0.5 * truth.normal, truth.mouth);
+    monitor.see_lamp(truth.mouth + 0.5 * truth.normal, -truth.normal, true, now);
+    if (k % 5 == 0) monitor.see_estimate(truth, now, now);
+    monitor.see_task(true);
+    monitor.step(now);
+  }
+  EXPECT_TRUE(monitor.finished());
+  EXPECT_NEAR(*monitor.time_to_realign_s(), *monitor.time_to_align_s() - 19 * 0.02, 1e-9);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "alignment_monitor.hpp"
 #include "armature/kinds/setup_robot.hpp"
 #include "armature/kinds/target/target_messages.hpp"
+#include "armature/messages/geometry.hpp"
 #include "armature/messages/sensor_msgs.hpp"
 #include "armature/robot/kinematics.hpp"
 #include "armature/runtime/component.hpp"
@@ -22,8 +23,7 @@ constexpr double kAtRest = 1e-7;  // [rad] between two samples of the arm
 constexpr double kDegrees = 180 / std::numbers::pi;
 
 AlignmentGoals goals_of(const Params& params) {
-  return {.distance_m = params.number("distance_m"),
-          .distance_error_m = params.number("distance_error_mm"),
+  return {.distance_error_m = params.number("distance_error_mm"),
           .direction_error_rad = params.number("direction_error_deg"),
           .mouth_error_m = params.number("mouth_position_error_mm"),
           .normal_error_rad = params.number("face_normal_error_deg"),
@@ -52,6 +52,7 @@ class LampReport : public Component {
         measured_js_{setup.input<msg::JointState>("measured_js")},
         task_state_{setup.input<msg::TaskState>("task_state")},
         motion_status_{setup.input<msg::MotionStatus>("motion_status")},
+        goal_{setup.input<msg::MotionGoal>("goal")},
         left_image_{setup.input<msg::Image>("left_image")},
         left_info_{setup.input<msg::CameraInfo>("left_info")},
         landmarks_{setup.input<msg::FaceLandmarks>("landmarks")},
@@ -61,6 +62,7 @@ class LampReport : public Component {
 
   void step(Time now) override {
     see_truth(now);
+    see_goals();
     read_arm(now);
     for (std::size_t i = 0; i < target_.size(); ++i) {
       const auto estimate = estimate_of(target_[i]);
@@ -93,7 +95,9 @@ class LampReport : public Component {
     if (!monitor_.lamp_errors().empty()) {
       const LampError& last = monitor_.lamp_errors().back();
       metric("distance_mm", "final distance to the mouth [mm]", 1000 * last.distance_m);
-      metric("distance_error_mm", "its error [mm]", 1000 * last.distance_error_m);
+      if (const auto error = last.distance_error_m) {
+        metric("distance_error_mm", "its error [mm]", 1000 * *error);
+      }
       metric("direction_error_deg", "direction error [deg]", kDegrees * last.direction_error_rad);
     }
     metric("replans", "goals after the first alignment", monitor_.replans());
@@ -110,6 +114,15 @@ class LampReport : public Component {
     if (!truth_.latest()) return;
     const auto truth = estimate_of(*truth_.latest());
     if (truth) monitor_.see_truth(face_of(*truth), now);
+  }
+
+  void see_goals() {
+    for (std::size_t i = 0; i < goal_.size(); ++i) {
+      const Eigen::Vector3d center = to_eigen(goal_[i].position_());
+      const Eigen::Vector3d mouth = to_eigen(goal_[i].focus_());
+      const bool for_a_face = goal_[i].has_focus_() && center.allFinite() && mouth.allFinite();
+      if (for_a_face) monitor_.see_goal(center, mouth);
+    }
   }
 
   void read_arm(Time now) {
@@ -175,6 +188,7 @@ class LampReport : public Component {
   Input<msg::JointState> measured_js_;
   Input<msg::TaskState> task_state_;
   Input<msg::MotionStatus> motion_status_;
+  Input<msg::MotionGoal> goal_;
   Input<msg::Image> left_image_;
   Input<msg::CameraInfo> left_info_;
   Input<msg::FaceLandmarks> landmarks_;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The report on its topics: 1. the figures of a story that ends well, 2. a face that is never
-// found,
-// 3. what is not counted, 4. the files. The judgement itself is tested beside it.
+// found, 3. what is not counted, 4. the files. The judgement itself is tested beside it.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -41,8 +40,9 @@ class LampReportTest : public ::testing::Test {
  protected:
   void tick() {
     now_s_ += kPeriod_s;
+    if (ticks_ == 0) ask_for(base_T_tool_.translation(), truth_);
     report_.send("truth", target(truth_));
-    if (seen_ && ++ticks_ % 5 == 0) report_.send("target", target(estimate_));
+    if (++ticks_ % 5 == 0 && seen_) report_.send("target", target(estimate_));
     msg::JointState arm;
     write_all_joints(lamp_, q_, JointVector::Zero(5), Time{} + seconds(now_s_), arm);
     report_.send("measured_js", arm);
@@ -59,6 +59,14 @@ class LampReportTest : public ::testing::Test {
     write_estimate({.stamp = Time{} + seconds(now_s_), .position = mouth, .normal = normal_},
                    message);
     return message;
+  }
+  /// A goal in front of a mouth.
+  void ask_for(const Vector3d& lamp, const Vector3d& mouth) {
+    msg::MotionGoal goal;
+    assign(goal.position_(), lamp);
+    assign(goal.focus_(), mouth);
+    goal.has_focus_(true);
+    report_.send("goal", goal);
   }
   Figures figures() {
     Figures told;
@@ -102,6 +110,26 @@ TEST_F(LampReportTest, TellsTheFiguresOfALampThatIsAligned) {
   EXPECT_EQ(told.metrics.at("replans"), 0);
   EXPECT_EQ(told.metrics.count("time_to_realign_s"), 0u);
   EXPECT_EQ(told.texts.at("trajectory_sha256").size(), 64u);
+}
+
+TEST_F(LampReportTest, HoldsTheDistanceAgainstTheNewestGoalForAFace) {
+  tick();
+  EXPECT_NEAR(figures().metrics.at("distance_error_mm"), 0, 1e-6);
+  ask_for(truth_ + 0.45 * normal_, truth_);
+  tick();
+  EXPECT_NEAR(figures().metrics.at("distance_error_mm"), 50, 1e-6);
+  ask_for({NAN, 0, 0}, truth_);
+  msg::MotionGoal search;  // looks at nothing
+  report_.send("goal", search);
+  tick();
+  EXPECT_NEAR(figures().metrics.at("distance_error_mm"), 50, 1e-6);
+}
+
+TEST_F(LampReportTest, WithoutAGoalItKnowsNoDistanceError) {
+  ticks_ = 1;
+  tick();
+  EXPECT_EQ(figures().metrics.count("distance_mm"), 1U);
+  EXPECT_EQ(figures().metrics.count("distance_error_mm"), 0U);
 }
 
 TEST_F(LampReportTest, EndsWithoutAFace) {

@@ -73,10 +73,12 @@ struct Panel {
   }
 
   void draw_curve(cv::Mat& image, std::span<const LampError> errors,
-                  const std::function<double(const LampError&)>& value) const {
+                  const std::function<std::optional<double>(const LampError&)>& value) const {
     for (std::size_t i = 1; i < errors.size(); ++i) {
-      cv::line(image, at(errors[i - 1].time_s, value(errors[i - 1])),
-               at(errors[i].time_s, value(errors[i])), kCurve, 2, cv::LINE_AA);
+      const auto from = value(errors[i - 1]), to = value(errors[i]);
+      if (!from || !to) continue;
+      cv::line(image, at(errors[i - 1].time_s, *from), at(errors[i].time_s, *to), kCurve, 2,
+               cv::LINE_AA);
     }
   }
 };
@@ -116,8 +118,13 @@ void write_error_plot(std::span<const LampError> errors, const AlignmentGoals& g
   constexpr double kDegrees = 180 / std::numbers::pi;
   cv::Mat image(760, 1000, CV_8UC3, cv::Scalar{255, 255, 255});
   const double duration_s = errors.empty() ? 1 : std::max(1.0, errors.back().time_s);
-  const auto distance_mm = [](const LampError& e) { return 1000 * e.distance_error_m; };
-  const auto direction_deg = [](const LampError& e) { return kDegrees * e.direction_error_rad; };
+  const auto distance_mm = [](const LampError& e) -> std::optional<double> {
+    if (!e.distance_error_m) return std::nullopt;
+    return 1000 * *e.distance_error_m;
+  };
+  const auto direction_deg = [](const LampError& e) {
+    return std::optional{kDegrees * e.direction_error_rad};
+  };
   const Panel distance{.frame = {70, 40, 900, 280},
                        .title = "distance error [mm]; red: goal",
                        .duration_s = duration_s,

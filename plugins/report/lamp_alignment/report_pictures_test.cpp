@@ -36,8 +36,8 @@ TEST_F(ReportPicturesTest, TheErrorPlotHasCurvesInBothPanels) {
   for (int k = 0; k <= 100; ++k) {
     errors.push_back({.time_s = 0.1 * k,
                       .distance_m = 0.6 - 0.001 * k,
-                      .distance_error_m = 0.1 - 0.001 * k,
-                      .direction_error_rad = 1 - 0.01 * k});
+                      .direction_error_rad = 1 - 0.01 * k,
+                      .distance_error_m = 0.1 - 0.001 * k});
   }
   write_error_plot(errors, {}, folder_ / "errors.png");
   const cv::Mat image = cv::imread((folder_ / "errors.png").string());

@@ -37,14 +37,21 @@ Photo photo_of(const Params& params) {
 
 HeadMotion motion_of(const Params& params) {
   const auto mouth = params.numbers("mouth_m"), shift = params.numbers("move_mm");
-  return {.from = {.mouth = {mouth[0], mouth[1], mouth[2]},
-                   .tilt_up = params.number("tilt_up_deg"),
-                   .tilt_side = params.number("tilt_side_deg")},
-          .shift = {shift[0], shift[1], shift[2]},
-          .turn_up = params.number("move_tilt_up_deg"),
-          .turn_side = params.number("move_tilt_side_deg"),
-          .begin_s = params.number("move_at_s"),
-          .duration_s = params.number("move_duration_s")};
+  const HeadMotion motion{.from = {.mouth = {mouth[0], mouth[1], mouth[2]},
+                                   .tilt_up = params.number("tilt_up_deg"),
+                                   .tilt_side = params.number("tilt_side_deg")},
+                          .shift = {shift[0], shift[1], shift[2]},
+                          .turn_up = params.number("move_tilt_up_deg"),
+                          .turn_side = params.number("move_tilt_side_deg"),
+                          .begin_s = params.number("move_at_s"),
+                          .duration_s = params.number("move_duration_s")};
+  if (motion.duration_s > 0 && motion.shift.isZero(0) && motion.turn_up == 0 &&
+      motion.turn_side == 0) {
+    throw SetupError(
+        "move_duration_s is set but nothing moves; set move_mm, move_tilt_up_deg or "
+        "move_tilt_side_deg, or move_duration_s to 0");
+  }
+  return motion;
 }
 
 msg::CameraInfo camera_info(const StereoCamera& camera, double offset_m) {

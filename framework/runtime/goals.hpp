@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "armature/runtime/deployment_config.hpp"
+
+namespace armature {
+
+/// Reads `goals:`, a map from metrics to their limits; null: none.
+std::vector<Goal> read_goals(const config::Node* section, config::Problems& problems);
+
+/// A goal for a metric that no component measures would never be met: a problem at the goal, with
+/// the metrics that are measured, or the plugins that would measure it.
+void check_goals(const DeploymentConfig& deployment, const PluginRegistry& plugins,
+                 config::Problems& problems);
+
+}  // namespace armature

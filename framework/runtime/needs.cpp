@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/runtime/needs.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <functional>
+#include <string_view>
+#include <vector>
+
+namespace armature {
+namespace {
+
+/// One of those that may help each other: the plugins in a component's slots, or the components of
+/// a deployment.
+struct Party {
+  std::string name;  // for messages: what the user calls it
+  const PluginManifest* manifest;
+  const Params* params;
+  config::Origin origin;
+};
+
+bool holds(const Trait& trait, const Party& party) {
+  if (trait.when.empty()) return true;
+  switch (std::ranges::find(party.manifest->params, trait.when, &ParamSpec::name)->type) {
+    case ParamSpec::Type::flag:
+      return party.params->flag(trait.when);
+    case ParamSpec::Type::integer:
+      return party.params->integer(trait.when) != 0;
+    default:
+      return party.params->number(trait.when) != 0;
+  }
+}
+
+const Trait* find_trait(const std::vector<Trait>& traits, std::string_view word) {
+  const auto found = std::ranges::find(traits, word, &Trait::word);
+  return found == traits.end() ? nullptr : &*found;
+}
+
+/// Who could offer `word`: one of the parties whose offer is switched off, else the plugins on the
+/// search path that `fits` lets in; a word that nobody knows is a typo.
+std::string way_out(std::string_view word, const std::vector<Party>& parties,
+                    const PluginRegistry& plugins,
+                    const std::function<bool(const PluginManifest&)>& fits) {
+  for (const Party& party : parties) {
+    if (const Trait* offer = find_trait(party.manifest->offers, word)) {
+      return fmt::format("'{}' does{}", party.name, unless_text(*offer, party.manifest->params));
+    }
+  }
+  std::vector<std::string> ids, words;
+  for (const PluginManifest& plugin : plugins.plugins()) {
+    for (const Trait& offer : plugin.offers) {
+      words.push_back(offer.word);
+      if (offer.word == word && fits(plugin)) ids.push_back(plugin.id);
+    }
+  }
+  if (!ids.empty()) return fmt::format("offered by {}", fmt::join(ids, ", "));
+  return "no plugin on the search path does" + config::did_you_mean(word, words);
+}
+
+void check_parties(const std::vector<Party>& parties, std::string_view nobody,
+                   const PluginRegistry& plugins,
+                   const std::function<bool(const PluginManifest&)>& fits,
+                   config::Problems& problems) {
+  for (const Party& needy : parties) {
+    for (const Trait& need : needy.manifest->needs) {
+      if (!holds(need, needy)) continue;
+      const bool met = std::ranges::any_of(parties, [&](const Party& party) {
+        const Trait* offer = find_trait(party.manifest->offers, need.word);
+        return offer && holds(*offer, party);
+      });
+      if (met) continue;
+      problems.add(needy.origin, fmt::format("'{}' needs '{}'{}, and {} offers it; {}", needy.name,
+                                             need.word, unless_text(need, needy.manifest->params),
+                                             nobody, way_out(need.word, parties, plugins, fits)));
+    }
+  }
+}
+
+}  // namespace
+
+void check_slot_needs(const ComponentConfig& component, const PluginRegistry& plugins,
+                      config::Problems& problems) {
+  // Alone on topics: who it works with does not stand in its entry.
+  if (!component.manifest->hosts.empty()) return;
+  // With a slot missing, what its plugin would offer is missing too, and that slot is a problem.
+  if (component.slots.size() != component.manifest->slots.size()) return;
+  std::vector<Party> parties;
+  for (const SlotConfig& slot : component.slots) {
+    parties.push_back({slot.plugin_id, slot.manifest, &slot.params, slot.origin});
+  }
+  const auto fits_a_slot = [&](const PluginManifest& plugin) {
+    const auto& slots = component.manifest->slots;
+    return std::ranges::find(slots, plugin.kind, &SlotSpec::kind) != slots.end();
+  };
+  check_parties(parties, fmt::format("no plugin in component '{}'", component.name), plugins,
+                fits_a_slot, problems);
+}
+
+void check_component_needs(const DeploymentConfig& deployment, const PluginRegistry& plugins,
+                           config::Problems& problems) {
+  std::vector<Party> parties;
+  for (const ComponentConfig& component : deployment.components) {
+    parties.push_back({component.name, component.manifest, &component.params, component.origin});
+  }
+  const auto is_component = [](const PluginManifest& plugin) { return plugin.kind == "component"; };
+  check_parties(parties, "no component", plugins, is_component, problems);
+}
+
+}  // namespace armature

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/runtime/state_publisher.hpp"
+
+#include "armature/messages/stamp.hpp"
+#include "armature/runtime/fake_setup.hpp"
+
+namespace armature {
+namespace {
+
+/// Keeps copies of what a topic carries.
+template <class Message>
+class Collector final : public Subscriber {
+ public:
+  void deliver(const SampleRef& sample) override {
+    messages.push_back(*static_cast<const Message*>(sample.message()));
+  }
+  std::vector<Message> messages;
+};
+
+/// Three components: one is well, one misses something and has lost samples and periods, one threw.
+class StatePublisherTest : public testing::Test {
+ protected:
+  StatePublisherTest() {
+    units_.push_back(make_unit("arm", 0, [](Time) {}));
+    units_.push_back(make_unit("camera", 1, [](Time) {}));
+    units_.push_back(make_unit("motion", 2, [](Time) { throw std::runtime_error("no way"); }));
+    InputPort& full = units_[1]->inbox().add({.name = "in", .queue = 1}, pool_.type());
+    for (int i = 0; i < 4; ++i) full.deliver(pool_.loan());
+    units_[1]->inbox().show({});
+    units_[1]->voice()->set(Voice::State::degraded, "no light");
+    units_[1]->count_overruns(7);
+    for (int i = 0; i < 5; ++i) units_[0]->activate({});
+    for (int i = 0; i < 5; ++i) units_[2]->activate({});
+    setup_.topic("state").connect(states_);
+    setup_.topic("diagnostics").connect(diagnostics_);
+    publisher_.step(Time{} + seconds(1.5));
+  }
+
+  SamplePool pool_{message_type<msg::ComponentState>(), 4};
+  std::vector<std::unique_ptr<Unit>> units_;
+  Unit own_{"runtime", "runtime/state_publisher", 3, {}};
+  FakeSetup setup_{own_};
+  StatePublisher publisher_{setup_, units_};
+  Collector<msg::ComponentState> states_;
+  Collector<msg::DiagnosticArray> diagnostics_;
+};
+
+TEST_F(StatePublisherTest, TellsOfEveryComponentWhetherItIsWellAndWhyNot) {
+  ASSERT_EQ(states_.messages.size(), 3U);
+  const auto told = [&](std::size_t i) {
+    const msg::ComponentState& state = states_.messages[i];
+    EXPECT_EQ(stamp_of(state.header_().stamp_()), Time{} + seconds(1.5));
+    EXPECT_EQ(state.plugin_(), "test/lambda");
+    return std::tuple{state.component_(), static_cast<int>(state.state_()), state.reason_()};
+  };
+  EXPECT_EQ(told(0), (std::tuple{"arm", 0, ""}));
+  EXPECT_EQ(told(1), (std::tuple{"camera", 1, "no light"}));
+  EXPECT_EQ(told(2), (std::tuple{"motion", 2, "step failed: no way"}));
+}
+
+TEST_F(StatePublisherTest, CountsActivationsMissedPeriodsAndLostSamples) {
+  const auto counts = [&](std::size_t i) {
+    const msg::ComponentState& state = states_.messages[i];
+    return std::vector<std::uint64_t>{state.activations_(), state.overruns_(), state.dropped_()};
+  };
+  EXPECT_EQ(counts(0), (std::vector<std::uint64_t>{5, 0, 0}));
+  EXPECT_EQ(counts(1), (std::vector<std::uint64_t>{0, 7, 3}));
+  EXPECT_EQ(counts(2), (std::vector<std::uint64_t>{1, 0, 0}));  // not called again after its fault
+}
+
+TEST_F(StatePublisherTest, TellsRosToolsTheSameOnDiagnostics) {
+  ASSERT_EQ(diagnostics_.messages.size(), 1U);
+  const msg::DiagnosticArray& array = diagnostics_.messages[0];
+  EXPECT_EQ(stamp_of(array.header_().stamp_()), Time{} + seconds(1.5));
+  ASSERT_EQ(array.status_().size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const msg::DiagnosticStatus& diagnostic = array.status_()[i];
+    const msg::ComponentState& state = states_.messages[i];
+    EXPECT_EQ(diagnostic.level_(), state.state_());  // OK 0, WARN 1, ERROR 2
+    EXPECT_EQ(diagnostic.name_(), state.component_());
+    EXPECT_EQ(diagnostic.message_(), state.reason_());
+    EXPECT_EQ(diagnostic.hardware_id_(), "test/lambda");
+    std::vector<std::string> values;
+    for (const auto& value : diagnostic.values_()) {
+      values.push_back(value.key_() + "=" + value.value_());
+    }
+    EXPECT_EQ(values,
+              (std::vector<std::string>{"activations=" + std::to_string(state.activations_()),
+                                        "overruns=" + std::to_string(state.overruns_()),
+                                        "dropped=" + std::to_string(state.dropped_())}));
+  }
+}
+
+TEST_F(StatePublisherTest, AComponentThatIsWellAgainHasNoReasonAnyMore) {
+  units_[1]->voice()->set(Voice::State::ok, {});
+  publisher_.step(Time{} + seconds(2));
+  EXPECT_EQ(states_.messages[4].component_(), "camera");
+  EXPECT_EQ(states_.messages[4].state_(), 0);
+  EXPECT_EQ(states_.messages[4].reason_(), "");
+}
+
+TEST_F(StatePublisherTest, TellsTwiceASecondOnTheTopicsThatRosToolsKnow) {
+  EXPECT_EQ(own_.period(), seconds(0.5));
+  const auto& outputs = StatePublisher::manifest().outputs;
+  ASSERT_EQ(outputs.size(), 2U);
+  EXPECT_EQ(outputs[0].topic, "component_state");  // of the deployment
+  EXPECT_EQ(outputs[1].topic, "/diagnostics");     // of everybody
+}
+
+}  // namespace
+}  // namespace armature

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a deployment file says of its components comes true when it runs: read, constructed and run
+// on the simulated clock in this process.
+#include "armature/runtime/deployment.hpp"
+
+#include <cmath>
+
+#include "armature/config/document.hpp"
+#include "armature/runtime/run_report.hpp"
+
+namespace armature {
+namespace {
+
+/// What a run has told.
+struct Told {
+  std::string status;
+  std::vector<std::string> reasons;
+  std::map<std::string, double> metrics;
+  std::map<std::string, std::string> texts;
+};
+
+class DeploymentTest : public testing::Test {
+ protected:
+  DeploymentConfig read(const std::string& text) {
+    config::Problems problems;
+    auto config = read_deployment(config::parse_text(text, "test.yaml"), plugins_, problems);
+    problems.throw_if_any();
+    return config;
+  }
+
+  /// `beat` and `ear` are added to what is said of the two components.
+  Told run(const std::string& beat, const std::string& ear, const std::string& more = "") {
+    Deployment deployment{read("armature: 1\nname: pulse\nclock: simulated\n" + more +
+                               "components:\n"
+                               "  beat: {plugin: test/beat" +
+                               beat +
+                               "}\n"
+                               "  ear: {plugin: test/ear" +
+                               ear + "}\n"),
+                          plugins_,
+                          {.process = "main", .on_line = {}, .on_note = {}}};
+    deployment.run([] { return false; });
+    const RunReport report{deployment, {}};
+    Told told{.status = report.status(), .reasons = report.reasons(), .metrics = {}, .texts = {}};
+    for (const auto& figure : report.figures()) {
+      if (const double* value = std::get_if<double>(&figure.value)) {
+        told.metrics[figure.key] = *value;
+      } else {
+        told.texts[figure.key] = std::get<std::string>(figure.value);
+      }
+    }
+    return told;
+  }
+
+  PluginRegistry plugins_{{ARMATURE_TEST_PLUGINS}};
+};
+
+TEST_F(DeploymentTest, ASimulatedLatencyShiftsWhatAComponentSends) {
+  EXPECT_DOUBLE_EQ(run("", "").metrics.at("delay_s"), 0);
+  EXPECT_DOUBLE_EQ(run(", sim_latency_s: 0.004", "").metrics.at("delay_s"), 0.004);
+  EXPECT_DOUBLE_EQ(run(", sim_latency_s: 0.025", "").metrics.at("delay_s"), 0.025);
+  EXPECT_DOUBLE_EQ(run("", ", sim_latency_s: 0.004").metrics.at("delay_s"), 0);
+}
+
+TEST_F(DeploymentTest, ASampleThatIsTooOldForAPortIsNotShownThere) {
+  const Told told = run(", params: {beats: 1}", "");
+  EXPECT_DOUBLE_EQ(told.metrics.at("oldest_s"), 0.2);
+  EXPECT_DOUBLE_EQ(told.metrics.at("oldest_young_s"), 0.05);
+}
+
+TEST_F(DeploymentTest, TheRuntimeTellsOfEveryComponentAndOfItself) {
+  EXPECT_EQ(run("", "").texts.at("told_of"), "beat ear runtime ");
+}
+
+TEST_F(DeploymentTest, AGoalIsMetMissedOrWasNeverMeasured) {
+  EXPECT_EQ(run("", "", "goals: {delay_s: 0.001}\n").status, "ok");
+  const Told missed = run(", sim_latency_s: 0.004", "", "goals: {delay_s: 0.001}\n");
+  EXPECT_EQ(missed.status, "goals_missed");
+  EXPECT_EQ(missed.reasons,
+            (std::vector<std::string>{"delay_s is 0.004, the goal is at most 0.001"}));
+  const Told deaf = run(", sim_latency_s: 1", "", "goals: {delay_s: 0.001}\n");
+  EXPECT_EQ(deaf.status, "goals_missed");
+  EXPECT_EQ(deaf.reasons, (std::vector<std::string>{"delay_s was never measured"}));
+}
+
+TEST_F(DeploymentTest, AMetricThatItsPluginDoesNotDeclareIsAFaultThatNamesIt) {
+  const Told told = run("", ", params: {undeclared: true}");
+  EXPECT_EQ(told.status, "fault");
+  EXPECT_EQ(
+      told.reasons,
+      (std::vector<std::string>{
+          "ear: plugin 'test/ear' reports the metric 'surprise_s', which its plugin.yaml does "
+          "not declare under 'measures:'"}));
+}
+
+TEST_F(DeploymentTest, AnExecutorIsReadWithItsPeriodPriorityAndCpu) {
+  const auto config = read(
+      "armature: 1\nname: pulse\nexecutors: {control: {period_s: 0.002, priority: 20, cpu: 0}}\n"
+      "components: {beat: {plugin: test/beat, executor: control}}\n");
+  ASSERT_EQ(config.executors.size(), 2U);
+  EXPECT_EQ(config.executors[0].name, "control");
+  EXPECT_EQ(config.executors[0].period, seconds(0.002));
+  EXPECT_EQ(config.executors[0].priority, 20);
+  EXPECT_EQ(config.executors[0].cpu, 0);
+  EXPECT_EQ(config.executors[1].name, "main");
+  EXPECT_FALSE(config.executors[1].cpu);
+}
+
+}  // namespace
+}  // namespace armature

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "armature/messages/armature_msgs.hpp"
+#include "armature/messages/stamp.hpp"
+#include "armature/runtime/component.hpp"
+#include "armature/runtime/plugin.hpp"
+#include "armature/runtime/setup.hpp"
+
+namespace armature {
+
+class Ear final : public Component {
+ public:
+  explicit Ear(Setup& setup)
+      : Component{setup},
+        listens_{seconds(setup.params().number("listens_s"))},
+        undeclared_{setup.params().flag("undeclared")},
+        beat_{setup.input<msg::Capture>("beat")},
+        young_{setup.input<msg::Capture>("young")},
+        states_{setup.input<msg::ComponentState>("states")} {
+    setup.activate_every(seconds(0.01));
+  }
+
+  void step(Time now) override {
+    if (!start_) start_ = now;
+    finished_ = now - *start_ >= listens_;
+    if (beat_.fresh()) delay_s_ = age_s(beat_, now);
+    if (beat_.latest()) oldest_s_ = std::max(oldest_s_, age_s(beat_, now));
+    if (young_.latest()) oldest_young_s_ = std::max(oldest_young_s_, age_s(young_, now));
+    for (std::size_t i = 0; i < states_.size(); ++i) told_of_.insert(states_[i].component_());
+  }
+
+  bool finished() const override { return finished_; }
+
+  void summarize(Summary& summary) const override {
+    if (delay_s_) summary.metric("delay_s", "delay [s]", *delay_s_);
+    summary.metric("oldest_s", "oldest beat [s]", oldest_s_);
+    summary.metric("oldest_young_s", "oldest young beat [s]", oldest_young_s_);
+    if (undeclared_) summary.metric("surprise_s", "surprise [s]", 1);
+    std::string names;
+    for (const std::string& name : told_of_) names += name + " ";
+    summary.text("told_of", "components that the runtime told of", names);
+  }
+
+ private:
+  static double age_s(const Input<msg::Capture>& input, Time now) {
+    return to_seconds(now - stamp_of(input.latest()->header_().stamp_()));
+  }
+
+  Duration listens_;
+  bool undeclared_;
+  Input<msg::Capture> beat_, young_;
+  Input<msg::ComponentState> states_;
+  std::optional<Time> start_;
+  bool finished_ = false;
+  std::optional<double> delay_s_;
+  double oldest_s_ = 0, oldest_young_s_ = 0;
+  std::set<std::string> told_of_;
+};
+
+}  // namespace armature
+
+ARMATURE_PLUGIN(armature::Ear);

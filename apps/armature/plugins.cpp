@@ -97,7 +97,9 @@ void print_traits(const char* title, const std::vector<Trait>& traits,
   if (traits.empty()) return;
   fmt::print("{}:\n", title);
   for (const auto& trait : traits) {
-    fmt::print("  {:<26} {}{}\n", trait.word, trait.doc, unless_text(trait, params));
+    const std::string unless = unless_text(trait, params);
+    fmt::print("  {:<26} {}{}\n", trait.word, trait.doc,
+               unless.empty() ? "" : fmt::format(" ({})", unless));
   }
 }
 

@@ -45,7 +45,7 @@ std::string way_out(std::string_view word, const std::vector<Party>& parties,
                     const std::function<bool(const PluginManifest&)>& fits) {
   for (const Party& party : parties) {
     if (const Trait* offer = find_trait(party.manifest->offers, word)) {
-      return fmt::format("'{}' does{}", party.name, unless_text(*offer, party.manifest->params));
+      return fmt::format("'{}' does {}", party.name, unless_text(*offer, party.manifest->params));
     }
   }
   std::vector<std::string> ids, words;
@@ -66,6 +66,7 @@ void check_parties(const std::vector<Party>& parties, std::string_view nobody,
   for (const Party& needy : parties) {
     for (const Trait& need : needy.manifest->needs) {
       if (!holds(need, needy)) continue;
+      const std::string unless = unless_text(need, needy.manifest->params);
       const bool met = std::ranges::any_of(parties, [&](const Party& party) {
         const Trait* offer = find_trait(party.manifest->offers, need.word);
         return offer && holds(*offer, party);

@@ -132,7 +132,7 @@ const Node* read_table(MapReader& map, const char* key) {
 std::string unless_text(const Trait& trait, const std::vector<ParamSpec>& params) {
   if (trait.when.empty()) return "";
   const auto param = std::ranges::find(params, trait.when, &ParamSpec::name);
-  return fmt::format(" unless '{}' is {}", trait.when,
+  return fmt::format("unless '{}' is {}", trait.when,
                      param->type == ParamSpec::Type::flag ? "false" : "0");
 }
 

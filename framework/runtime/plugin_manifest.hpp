@@ -48,7 +48,7 @@ struct Trait {
   std::string doc;
 };
 
-/// " unless 'segment_s' is 0"; empty for a trait that always holds.
+/// "unless 'segment_s' is 0"; empty for a trait that always holds.
 std::string unless_text(const Trait& trait, const std::vector<ParamSpec>& params);
 
 /// A figure that a component reports to the summary of a run.

@@ -36,10 +36,10 @@ TEST(PluginManifest, ReadsWhatAPluginNeedsOffersAndMeasures) {
   ASSERT_EQ(manifest.needs.size(), 1U);
   EXPECT_EQ(manifest.needs[0].word, "time_law");
   EXPECT_EQ(manifest.needs[0].doc, "Its moves last segment_s");
-  EXPECT_EQ(unless_text(manifest.needs[0], manifest.params), " unless 'segment_s' is 0");
+  EXPECT_EQ(unless_text(manifest.needs[0], manifest.params), "unless 'segment_s' is 0");
   ASSERT_EQ(manifest.offers.size(), 2U);
   EXPECT_EQ(unless_text(manifest.offers[0], manifest.params), "");
-  EXPECT_EQ(unless_text(manifest.offers[1], manifest.params), " unless 'exact' is false");
+  EXPECT_EQ(unless_text(manifest.offers[1], manifest.params), "unless 'exact' is false");
   ASSERT_EQ(manifest.measures.size(), 1U);
   EXPECT_EQ(manifest.measures[0].name, "length_m");
   EXPECT_EQ(manifest.measures[0].doc, "Of the path");

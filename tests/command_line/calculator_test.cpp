@@ -91,7 +91,7 @@ TEST(IkCalculator, AKeyThatIsGivenTwiceIsRefusedWithItsName) {
 }
 
 TEST(IkCalculator, SaysThatARollCannotBeReachedAndNotHowFarAwayItIs) {
-  const auto lines = ik(R"({"position_m":[1.3,0.321,0.504],"quaternion_xyzw":[0.5,0.5,0.5,0.5]})"
+  const auto lines = ik(R"({"position_m":[1.3,0.321,0.504],"quaternion_xyzw":[0,0,0,1]})"
                         "\n");
   EXPECT_EQ(lines[0]["status"], "out_of_reach");
   EXPECT_EQ(lines[0]["reason"], "the lamp cannot roll about its pointing axis");

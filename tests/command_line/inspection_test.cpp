@@ -47,7 +47,7 @@ TEST(PluginInfo, ShowsWhatAPluginNeedsOffersAndMeasures) {
   };
   EXPECT_THAT(info("path/mouth_points"),
               testing::HasSubstr("needs:\n  time_law                   Each of the moves lasts "
-                                 "segment_s unless 'segment_s' is 0\n"));
+                                 "segment_s (unless 'segment_s' is 0)\n"));
   EXPECT_THAT(info("trajectory/quintic"), testing::HasSubstr("offers:\n  time_law   "));
   EXPECT_THAT(info("report/lamp_alignment"), testing::HasSubstr("measures:\n  time_to_find_s   "));
 

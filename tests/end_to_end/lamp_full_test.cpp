@@ -54,6 +54,12 @@ TEST(LampFull, RaisesTheLightInADarkRoomAndAligns) {
   EXPECT_NE(run.command.err.find("task      light level 10 %"), std::string::npos) << run.text();
 }
 
+TEST(LampFull, MeetsItsGoalsAtTheDistanceThatTheTaskAloneIsTold) {
+  const LampRun run = run_lamp({.settings = {kSimulated, "components.task.params.distance_m=0.4"}});
+  expect_aligned(run);
+  EXPECT_NEAR(run.figure("distance_mm"), 400, 1.5);
+}
+
 struct Swap {
   std::string name;
   std::vector<std::string> settings;

@@ -161,8 +161,7 @@ TEST_F(LampGeometricTest, ARotationIsReachedOnlyWithoutRoll) {
   goal.pose.orientation =
       Eigen::Quaterniond{pose.linear() * Eigen::AngleAxisd{0.1, Eigen::Vector3d::UnitX()}};
   const IkStatus status = solver_->solve(goal, q, found_, state);
-  EXPECT_EQ(describe(status),
-            "out_of_reach: 0 m beyond reach (the lamp cannot roll about its pointing axis)");
+  EXPECT_EQ(describe(status), "out_of_reach: the lamp cannot roll about its pointing axis");
 }
 
 /// Why the solver refuses a lamp with some rows changed.

@@ -30,6 +30,12 @@ void redirect(const std::string& file, int flags, int to) {
   if (from < 0 || dup2(from, to) < 0) _exit(126);
 }
 
+bool runs(pid_t pid) {
+  std::ifstream stat{"/proc/" + std::to_string(pid) + "/stat"};
+  std::string number, name, state;
+  return stat >> number >> name >> state && state != "Z";
+}
+
 }  // namespace
 
 Command::Command(const std::vector<std::string>& arguments, const Options& options) {
@@ -60,6 +66,14 @@ Command::~Command() {
   std::filesystem::remove_all(folder_);
 }
 
+pid_t Command::child() const {
+  const std::string pid = std::to_string(pid_);
+  std::ifstream children{"/proc/" + pid + "/task/" + pid + "/children"};
+  pid_t child = 0;
+  children >> child;
+  return child;
+}
+
 void Command::signal(int number) const { kill(pid_, number); }
 std::string Command::out() const { return read_all(folder_ + "/out"); }
 std::string Command::err() const { return read_all(folder_ + "/err"); }
@@ -88,6 +102,14 @@ CommandResult Command::finish(std::chrono::seconds patience) {
   result.out = out();
   result.err = err();
   return result;
+}
+
+bool ends_within(pid_t pid, std::chrono::seconds patience) {
+  for (const auto end = steady_clock::now() + patience; runs(pid);) {
+    if (steady_clock::now() > end) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds{20});
+  }
+  return true;
 }
 
 CommandResult run_command(const std::vector<std::string>& arguments,

@@ -31,6 +31,8 @@ class Command {
   ~Command();
 
   pid_t pid() const { return pid_; }
+  /// A process that it has started; 0: none.
+  pid_t child() const;
   void signal(int number) const;
   /// What it has printed so far.
   std::string out() const;
@@ -44,6 +46,9 @@ class Command {
   std::string folder_;
   pid_t pid_ = -1;
 };
+
+/// True when the process is gone, or gone before `patience` is over.
+bool ends_within(pid_t pid, std::chrono::seconds patience);
 
 /// Runs a program to its end.
 CommandResult run_command(const std::vector<std::string>& arguments,

@@ -66,15 +66,16 @@ void check_parties(const std::vector<Party>& parties, std::string_view nobody,
   for (const Party& needy : parties) {
     for (const Trait& need : needy.manifest->needs) {
       if (!holds(need, needy)) continue;
-      const std::string unless = unless_text(need, needy.manifest->params);
       const bool met = std::ranges::any_of(parties, [&](const Party& party) {
         const Trait* offer = find_trait(party.manifest->offers, need.word);
         return offer && holds(*offer, party);
       });
       if (met) continue;
-      problems.add(needy.origin, fmt::format("'{}' needs '{}'{}, and {} offers it; {}", needy.name,
-                                             need.word, unless_text(need, needy.manifest->params),
-                                             nobody, way_out(need.word, parties, plugins, fits)));
+      const std::string unless = unless_text(need, needy.manifest->params);
+      problems.add(needy.origin,
+                   fmt::format("'{}' needs '{}'{}{}, and {} offers it; {}", needy.name, need.word,
+                               unless.empty() ? "" : " ", unless, nobody,
+                               way_out(need.word, parties, plugins, fits)));
     }
   }
 }

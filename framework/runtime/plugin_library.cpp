@@ -3,6 +3,7 @@
 
 #include <dlfcn.h>
 #include <fmt/format.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -19,9 +20,13 @@ namespace {
 /// Loads the library in a child process first: one that crashes while it is loaded takes only the
 /// child with it.
 Expected<void> survives_loading(const std::filesystem::path& file) {
+  const pid_t parent = getpid();
   const pid_t child = fork();
   if (child < 0) return refuse(fmt::format("cannot fork to try it: {}", std::strerror(errno)));
   if (child == 0) {
+    // Not left behind with what it inherited (the instance lock) when the program is killed.
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != parent) _exit(0);
     for (const int signal : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL}) {
       std::signal(signal, SIG_DFL);
     }

@@ -6,7 +6,6 @@
 
 #include <csignal>
 #include <fstream>
-#include <thread>
 
 #include "lamp_run.hpp"
 #include "tests/dds_domain.hpp"
@@ -29,29 +28,6 @@ LampStart endless(int domain, std::vector<std::string> settings = {}) {
   settings.push_back("components.scene.params.move_duration_s=1");
   settings.push_back("components.scene.params.move_mm=[0,10,0]");
   return {.settings = std::move(settings), .domain = domain};
-}
-
-bool runs(pid_t pid) {
-  std::ifstream stat{"/proc/" + std::to_string(pid) + "/stat"};
-  std::string number, name, state;
-  return stat >> number >> name >> state && state != "Z";
-}
-
-bool ends_within(pid_t pid, seconds patience) {
-  for (const auto end = std::chrono::steady_clock::now() + patience; runs(pid);) {
-    if (std::chrono::steady_clock::now() > end) return false;
-    std::this_thread::sleep_for(std::chrono::milliseconds{20});
-  }
-  return true;
-}
-
-/// The process that `lamp` has started; 0: none.
-pid_t child_of(const Command& lamp) {
-  const std::string pid = std::to_string(lamp.pid());
-  std::ifstream children{"/proc/" + pid + "/task/" + pid + "/children"};
-  pid_t child = 0;
-  children >> child;
-  return child;
 }
 
 TEST(ProcessLife, AnInterruptedRunEndsAtOnceAndSaysSo) {
@@ -86,7 +62,7 @@ TEST(ProcessLife, AKilledRunTakesItsOtherProcessAlongAndTheNextOneWorksAndEndsCl
   {
     Command lamp{lamp_command(endless(domain, kVisionApart))};
     ASSERT_TRUE(lamp.wait_for_err(kRuns, kStartsWithin)) << lamp.err();
-    const pid_t vision = child_of(lamp);
+    const pid_t vision = lamp.child();
     ASSERT_GT(vision, 0);
     lamp.signal(SIGKILL);
     EXPECT_EQ(lamp.finish(seconds{10}).exit_code, 128 + SIGKILL);
@@ -94,18 +70,18 @@ TEST(ProcessLife, AKilledRunTakesItsOtherProcessAlongAndTheNextOneWorksAndEndsCl
   }
   Command next{lamp_command(endless(domain, kVisionApart))};
   EXPECT_TRUE(next.wait_for_err(kRuns, kStartsWithin)) << next.err();
-  const pid_t vision = child_of(next);
+  const pid_t vision = next.child();
   next.signal(SIGINT);
   const CommandResult result = next.finish(seconds{6});
   EXPECT_FALSE(result.timed_out) << result.err;
   EXPECT_EQ(result.exit_code, 1) << result.err;
-  EXPECT_FALSE(runs(vision));
+  EXPECT_TRUE(ends_within(vision, seconds{0}));
 }
 
 TEST(ProcessLife, ARunWhoseOtherProcessIsKilledSaysSoAndEnds) {
   Command lamp{lamp_command(endless(unique_dds_domain(), kVisionApart))};
   ASSERT_TRUE(lamp.wait_for_err(kRuns, kStartsWithin)) << lamp.err();
-  const pid_t vision = child_of(lamp);
+  const pid_t vision = lamp.child();
   ASSERT_GT(vision, 0);
   kill(vision, SIGKILL);
   const CommandResult result = lamp.finish(seconds{10});

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// A crashing, a foreign and an outdated library in the plugin path: each gives a clear message,
-// and stops nothing else.
+// A crashing, a hanging, a foreign and an outdated library in the plugin path: each gives a clear
+// message, and stops nothing else.
+#include <csignal>
+#include <thread>
+
 #include "command.hpp"
 
 namespace armature::test {
@@ -19,6 +22,19 @@ TEST(FaultyLibrary, OneThatCrashesIsNamedAndTheProgramLives) {
   EXPECT_EQ(result.exit_code, 4);
   EXPECT_EQ(result.err, "armature: plugin 'ik/crashing' cannot be used: " FAULTY_LIBRARIES
                         "/crashing.so: it crashes when it is loaded (Aborted)\n");
+}
+
+TEST(FaultyLibrary, OneThatHangsWhileItIsTriedGoesWithTheProgram) {
+  Command ik{{armature(), "ik", "--robot", kLamp, "--plugin", "ik/hanging"}, kFaultyPath};
+  pid_t trial = 0;
+  for (int i = 0; i < 3000 && trial == 0; ++i) {
+    trial = ik.child();
+    std::this_thread::sleep_for(std::chrono::milliseconds{10});
+  }
+  ASSERT_GT(trial, 0);
+  ik.signal(SIGKILL);
+  ik.finish(std::chrono::seconds{10});
+  EXPECT_TRUE(ends_within(trial, std::chrono::seconds{10}));
 }
 
 TEST(FaultyLibrary, OneBuiltForAnotherFrameworkIsRefusedWithBothTags) {

@@ -17,6 +17,8 @@
 #include "armature/messages/cdr_to_json.hpp"
 #include "armature/runtime/plugin_registry.hpp"
 #include "exit_code.hpp"
+#include "rate_meter.hpp"
+#include "readable_json.hpp"
 
 namespace armature {
 namespace {
@@ -36,9 +38,14 @@ class Finish {
   bool count() { return ++seen_ == options_.count; }
   std::uint64_t seen() const { return seen_; }
   /// kTimedOut when fewer samples than wanted came in the time given.
-  int wait() {
+  int wait(const std::function<void()>& every_second = [] {}) {
     const auto start = std::chrono::steady_clock::now();
+    auto tick = start;
     while (!g_interrupted && (options_.count == 0 || seen_ < options_.count)) {
+      if (std::chrono::steady_clock::now() - tick >= std::chrono::seconds{1}) {
+        tick += std::chrono::seconds{1};
+        every_second();
+      }
       const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
       if (options_.timeout_s > 0 && elapsed.count() > options_.timeout_s) {
         return options_.count > 0 || seen_ == 0 ? kTimedOut : kOk;
@@ -84,7 +91,9 @@ int list_topics(const TopicOptions& options) {
   const auto observer = observe(plugins, options.domain);
   std::this_thread::sleep_for(options.timeout_s > 0 ? seconds(options.timeout_s) : kDiscovery);
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
-  for (const auto& topic : observer->topics()) {
+  const auto topics = observer->topics();
+  if (topics.empty()) fmt::print(stderr, "armature: domain {} has no topics\n", options.domain);
+  for (const auto& topic : topics) {
     std::string types;
     for (const auto& type : topic.types) types += (types.empty() ? "" : ", ") + ros_type(type);
     if (options.json) {
@@ -118,7 +127,7 @@ int echo_topic(const TopicOptions& options) {
       if (!json) {
         fmt::print(stderr, "armature: not a {}: {}\n", type->ros_name, json.error().text);
       } else {
-        fmt::print("{}\n", options.json ? json->dump() : json->dump(1) + "\n---");
+        fmt::print("{}\n", options.json ? json->dump() : readable(*json) + "\n---");
       }
     }
     std::fflush(stdout);
@@ -127,41 +136,48 @@ int echo_topic(const TopicOptions& options) {
   return finish.wait();
 }
 
+namespace {
+
+/// One line; `over` is "second" or "all".
+void print_rate(const Rate& rate, const char* over, bool json) {
+  if (json) {
+    nlohmann::ordered_json line{{"over", over}, {"rate_hz", rate.hz()}, {"samples", rate.samples}};
+    if (rate.intervals > 0) {
+      line["shortest_s"] = to_seconds(rate.shortest);
+      line["longest_s"] = to_seconds(rate.longest);
+    }
+    fmt::print("{}\n", line.dump());
+  } else if (rate.intervals == 0) {
+    fmt::print("no samples\n");
+  } else {
+    fmt::print("{:.1f} Hz over {} samples{}, intervals from {:.2f} to {:.2f} ms\n", rate.hz(),
+               rate.samples, std::string_view{over} == "all" ? " in all" : "",
+               to_seconds(rate.shortest) * 1e3, to_seconds(rate.longest) * 1e3);
+  }
+  std::fflush(stdout);
+}
+
+}  // namespace
+
 int topic_rate(const TopicOptions& options) {
   PluginRegistry plugins;
   Finish finish{options};
   std::mutex mutex;
-  std::optional<Time> first, last;
-  std::uint64_t intervals = 0;
-  double shortest = 1e300, longest = 0;
+  RateMeter meter;
   auto observer = observe(plugins, options.domain);  // goes before what its callback uses
   watch(*observer, options, [&](const ObservedSample& sample) {
+    if (options.count > 0 && finish.seen() >= options.count) return;
     const std::scoped_lock lock{mutex};
-    if (last) {
-      const double interval = to_seconds(sample.source - *last);
-      shortest = std::min(shortest, interval);
-      longest = std::max(longest, interval);
-      ++intervals;
-    } else {
-      first = sample.source;
-    }
-    last = sample.source;
+    meter.add(sample.source);
     finish.count();
   });
-  const int code = finish.wait();
+  const int code = finish.wait([&] {
+    const std::scoped_lock lock{mutex};
+    if (meter.all().samples > 0) print_rate(meter.take_recent(), "second", options.json);
+  });
   const std::scoped_lock lock{mutex};
-  if (intervals == 0) throw std::runtime_error("fewer than two samples came");
-  const double rate = static_cast<double>(intervals) / to_seconds(*last - *first);
-  if (options.json) {
-    fmt::print("{}\n", nlohmann::ordered_json{{"rate_hz", rate},
-                                              {"samples", intervals + 1},
-                                              {"shortest_s", shortest},
-                                              {"longest_s", longest}}
-                           .dump());
-  } else {
-    fmt::print("{:.1f} Hz over {} samples, intervals from {:.2f} to {:.2f} ms\n", rate,
-               intervals + 1, shortest * 1e3, longest * 1e3);
-  }
+  if (meter.all().intervals == 0) throw std::runtime_error("fewer than two samples came");
+  print_rate(meter.all(), "all", options.json);
   return code;
 }
 

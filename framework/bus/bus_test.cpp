@@ -47,6 +47,43 @@ TEST_F(TopicTest, HandsOneSampleByPointerToEverySubscriber) {
   EXPECT_EQ(*static_cast<const int*>(first.samples[0].message()), 7);
 }
 
+TEST_F(TopicTest, PassesOnToTheSubscribersOfTheTopicThatItIsAPartOf) {
+  Keeper keeper;
+  Topic hub{{.name = "rt/number", .type = &type}, 2};
+  hub.connect(keeper);
+  Topic other{{.name = "rt/number", .type = &type}, 2};
+  for (Topic* part : {&topic, &other}) part->pass_on_to(hub);
+  publish(7);
+  other.publish(other.loan(), Time{});
+  ASSERT_EQ(keeper.samples.size(), 2U);
+  EXPECT_EQ(*static_cast<const int*>(keeper.samples[0].message()), 7);
+  EXPECT_EQ(keeper.samples[1].info().sequence, 1U) << "every writer counts its own";
+  keeper.samples.clear();
+}
+
+TEST_F(TopicTest, KnowsWhetherASampleWouldReachSomebody) {
+  struct Outside final : OutsideWriter {
+    explicit Outside(const int& count) : count_{count} {}
+    void offer(const SampleRef&) override {}
+    int watchers() const override { return count_; }
+    std::uint64_t dropped() const override { return 0; }
+    const int& count_;
+  };
+  int watching = 0;
+  topic.attach(std::make_unique<Outside>(watching));
+  EXPECT_FALSE(topic.has_readers());
+  watching = 1;
+  EXPECT_TRUE(topic.has_readers());
+  watching = 0;
+
+  Topic hub{{.name = "rt/number", .type = &type}, 2};
+  topic.pass_on_to(hub);
+  EXPECT_FALSE(topic.has_readers());
+  Keeper keeper;
+  hub.connect(keeper);
+  EXPECT_TRUE(topic.has_readers());
+}
+
 TEST_F(TopicTest, NumbersSamplesFromOneAndStampsThem) {
   Keeper keeper;
   topic.connect(keeper);

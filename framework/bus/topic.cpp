@@ -10,12 +10,18 @@ Topic::Topic(TopicSpec spec, std::size_t preallocated)
 
 void Topic::publish(SampleRef sample, Time now) {
   sample.mutable_info() = {.published = now, .sequence = ++sequence_};
-  for (Subscriber* subscriber : subscribers_) subscriber->deliver(sample);
+  deliver(sample);
+  if (hub_) hub_->deliver(sample);
   if (outside_) outside_->offer(sample);
 }
 
-void Topic::deliver_from_outside(const SampleRef& sample) {
+void Topic::deliver(const SampleRef& sample) {
   for (Subscriber* subscriber : subscribers_) subscriber->deliver(sample);
+}
+
+bool Topic::has_readers() const {
+  return !subscribers_.empty() || (hub_ && !hub_->subscribers_.empty()) ||
+         (outside_ && outside_->watchers() > 0);
 }
 
 }  // namespace armature

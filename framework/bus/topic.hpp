@@ -21,7 +21,9 @@ class Subscriber {
 };
 
 /// One topic inside this process: by pointer to every subscriber, and to the outside writer when
-/// there is one. Wired before the deployment starts and constant while it runs.
+/// there is one. Wired before the deployment starts and constant while it runs. One component
+/// publishes on it; several that share a topic have one each, which pass on to the subscribers'
+/// one.
 class Topic {
  public:
   Topic(TopicSpec spec, std::size_t preallocated);
@@ -30,12 +32,16 @@ class Topic {
   void connect(Subscriber& subscriber) { subscribers_.push_back(&subscriber); }
   void attach(std::unique_ptr<OutsideWriter> writer) { outside_ = std::move(writer); }
   const OutsideWriter* outside() const { return outside_.get(); }
+  /// Samples also go to the subscribers of `hub`, which outlives this topic's publishing.
+  void pass_on_to(Topic& hub) { hub_ = &hub; }
+  /// True when a sample published now reaches somebody, here or outside. Real-time safe.
+  bool has_readers() const;
 
   SampleRef loan() { return pool_.loan(); }
   /// Stamps the sample with `now` and the next sequence number and hands it to everybody.
   void publish(SampleRef sample, Time now);
-  /// Hands over a sample that came from outside (its info is kept).
-  void deliver_from_outside(const SampleRef& sample);
+  /// Hands a sample of another writer to the subscribers (its info is kept). Any thread.
+  void deliver(const SampleRef& sample);
 
   std::uint64_t published() const { return sequence_; }
   std::size_t pool_growth() const { return pool_.grown(); }
@@ -44,6 +50,7 @@ class Topic {
   TopicSpec spec_;
   SamplePool pool_;
   std::vector<Subscriber*> subscribers_;
+  Topic* hub_ = nullptr;
   std::unique_ptr<OutsideWriter> outside_;
   std::uint64_t sequence_ = 0;
 };

@@ -7,6 +7,11 @@ RobotModel robot_of(Setup& setup) { return read_robot_model(setup.document("robo
 
 StereoRig rig_of(Setup& setup) { return read_stereo_rig(setup.document("rigs")); }
 
+std::optional<StereoRig> optional_rig_of(Setup& setup) {
+  if (!setup.has_document("rigs")) return std::nullopt;
+  return rig_of(setup);
+}
+
 FrameId mount_of(const StereoRig& rig, const RobotModel& robot) {
   const auto mount = robot.find_frame(rig.mounted_on);
   if (!mount) {

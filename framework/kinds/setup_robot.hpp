@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+
 #include "armature/robot/robot_model.hpp"
 #include "armature/robot/stereo_rig.hpp"
 #include "armature/runtime/setup.hpp"
@@ -11,6 +13,9 @@ namespace armature {
 /// (`[rig]`). Throws config::ConfigError with every problem of the file.
 RobotModel robot_of(Setup& setup);
 StereoRig rig_of(Setup& setup);
+
+/// The rig, where the deployment has one for this component; plugin.yaml says `may_use: [rig]`.
+std::optional<StereoRig> optional_rig_of(Setup& setup);
 
 /// The frame of the robot that the rig hangs on. Throws SetupError when the robot has none of that
 /// name.

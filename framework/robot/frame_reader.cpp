@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "armature/robot/quantity_reader.hpp"
+#include "armature/robot/rotation.hpp"
 
 namespace armature {
 namespace {
@@ -22,13 +23,6 @@ struct ReadFrame {
   const Node* parent = nullptr;
 };
 
-/// Fixed axes: about x by roll, then y by pitch, then z by yaw (as in URDF).
-Eigen::Quaterniond from_rpy(const Vector3d& rpy) {
-  return Eigen::AngleAxisd(rpy.z(), Vector3d::UnitZ()) *
-         Eigen::AngleAxisd(rpy.y(), Vector3d::UnitY()) *
-         Eigen::AngleAxisd(rpy.x(), Vector3d::UnitX());
-}
-
 ReadFrame read_frame(const Node::Entry& entry, Problems& problems) {
   MapReader map{entry.value, fmt::format("frame '{}'", entry.key), problems};
   ReadFrame result;
@@ -37,7 +31,7 @@ ReadFrame read_frame(const Node::Entry& entry, Problems& problems) {
   const Quantity translation = read_quantity(map, {"translation_m", "translation_mm"}, 3, problems);
   const Quantity rpy = read_quantity(map, {"rpy_deg"}, 3, problems);
   result.frame.parent_T_frame.translation() = translation.vector().value_or(Vector3d::Zero());
-  if (rpy.vector()) result.frame.parent_T_frame.linear() = from_rpy(*rpy.vector()).matrix();
+  if (rpy.vector()) result.frame.parent_T_frame.linear() = rotation_from_rpy(*rpy.vector());
   map.finish();
   return result;
 }

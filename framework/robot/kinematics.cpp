@@ -43,7 +43,7 @@ struct Axis {
   Vector3d direction, point;
 };
 
-/// Walks to joint `last`; `visit(i, axis)` is told every joint's axis on the way.
+/// Walks to joint `last`; `visit(i, axis, frame)` is told every joint's axis and frame on the way.
 template <class Visit>
 Carried walk(const RobotModel& model, const JointVector& q, int last, Visit visit) {
   const bool modified = model.convention() == RobotModel::Convention::modified;
@@ -52,10 +52,11 @@ Carried walk(const RobotModel& model, const JointVector& q, int last, Visit visi
     const ChainLink& link = model.chain()[static_cast<std::size_t>(i)];
     const double value = link.ratio * q[link.independent] + link.offset;
     if (modified) frame.screw_along_x(link);
-    visit(i, Axis{frame.z, frame.origin});
+    const Axis axis{frame.z, frame.origin};
     frame.screw_along_z(link.prismatic ? link.theta : link.theta + value,
                         link.prismatic ? link.d + value : link.d);
     if (!modified) frame.screw_along_x(link);
+    visit(i, axis, frame);
   }
   return frame;
 }
@@ -68,20 +69,28 @@ Eigen::Isometry3d frame_on(const Carried& link, const NamedFrame& frame) {
 
 Eigen::Isometry3d forward_kinematics(const RobotModel& model, const JointVector& q, FrameId frame) {
   const NamedFrame& named = model.frame(frame);
-  return frame_on(walk(model, q, named.parent_joint, [](int, const Axis&) {}), named);
+  return frame_on(walk(model, q, named.parent_joint, [](int, const Axis&, const Carried&) {}),
+                  named);
 }
 
 Eigen::Isometry3d forward_kinematics(const RobotModel& model, const JointVector& q) {
   return forward_kinematics(model, q, model.tool());
 }
 
+void joint_frames(const RobotModel& model, const JointVector& q,
+                  std::span<Eigen::Isometry3d> base_T_joint) {
+  walk(model, q, model.joint_count() - 1, [&](int i, const Axis&, const Carried& frame) {
+    base_T_joint[static_cast<std::size_t>(i)] = frame.pose();
+  });
+}
+
 PoseAndJacobian forward_kinematics_with_jacobian(const RobotModel& model, const JointVector& q,
                                                  FrameId frame) {
   const NamedFrame& named = model.frame(frame);
   std::array<Axis, kMaxJoints> axes;
-  const Carried last = walk(model, q, named.parent_joint, [&](int i, const Axis& axis) {
-    axes[static_cast<std::size_t>(i)] = axis;
-  });
+  const Carried last = walk(
+      model, q, named.parent_joint,
+      [&](int i, const Axis& axis, const Carried&) { axes[static_cast<std::size_t>(i)] = axis; });
 
   PoseAndJacobian result{frame_on(last, named), Jacobian::Zero(6, model.dof())};
   const Vector3d tip = result.base_T_frame.translation();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <span>
 
 #include "armature/robot/joint_vector.hpp"
 #include "armature/robot/robot_model.hpp"
@@ -14,6 +15,10 @@ namespace armature {
 Eigen::Isometry3d forward_kinematics(const RobotModel& model, const JointVector& q, FrameId frame);
 /// base_T_tool.
 Eigen::Isometry3d forward_kinematics(const RobotModel& model, const JointVector& q);
+
+/// The frames of all joints, in order: `base_T_joint` has joint_count() entries.
+void joint_frames(const RobotModel& model, const JointVector& q,
+                  std::span<Eigen::Isometry3d> base_T_joint);
 
 /// base_T_frame and the geometric Jacobian of that frame's origin with respect to the independent
 /// joints; a coupled joint's column is added to its leader's, times the ratio.

@@ -13,6 +13,10 @@ class Node;
 
 namespace armature {
 
+/// The optical frames of a stereo head, as the headers of pictures and face poses name them.
+inline constexpr const char* kLeftCameraFrame = "left_camera_optical";
+inline constexpr const char* kRightCameraFrame = "right_camera_optical";
+
 /// A stereo head: two equal, rectified pinhole cameras mounted on a frame of the arm.
 struct StereoRig {
   std::string name;

@@ -13,6 +13,9 @@ namespace {
 using config::MapReader;
 using config::Node;
 
+// `rig: none`: this component uses no rig although there is one.
+constexpr std::string_view kNoDocument = "none";
+
 std::vector<std::string> names_of(const auto& items) {
   std::vector<std::string> names;
   for (const auto& item : items) names.push_back(item.name);
@@ -51,6 +54,11 @@ std::optional<ComponentConfig> ComponentReader::read(const Node::Entry& entry) c
   component.name = entry.key;
   component.origin = entry.key_origin;
   MapReader map{entry.value, fmt::format("component '{}'", entry.key), problems_};
+  if (entry.key == kStateComponent || entry.key == kClockComponent) {
+    problems_.add(
+        entry.key_origin,
+        fmt::format("'{}' is a component of the runtime; choose another name", entry.key));
+  }
   const Node* plugin_node = map.optional_node("plugin");
   // A component without `plugin:` is the framework's own of that name: `motion:`.
   component.plugin_id = plugin_node ? plugin_node->text() : entry.key;
@@ -170,36 +178,46 @@ void ComponentReader::read_slot(const SlotSpec& spec, const Node& node,
 
 /// `robot: left` binds an entry of `robots:`; with a single entry nothing needs to be said.
 void ComponentReader::bind_documents(MapReader& map, ComponentConfig& component) const {
+  const auto lists = [](const std::vector<std::string>& words, std::string_view word) {
+    return std::find(words.begin(), words.end(), word) != words.end();
+  };
   for (const auto& [section, word] : kDocumentSections) {
-    const auto& entries = deployment_.documents.at(std::string{section});
-    const auto& uses = component.manifest->uses;
+    const bool needed = lists(component.manifest->uses, word);
     const Node* named = map.optional_node(word);
-    if (std::find(uses.begin(), uses.end(), word) == uses.end()) {
-      if (named) {
-        problems_.add(named->origin(),
-                      fmt::format("component '{}' uses no {}", component.name, word));
-      }
-      continue;
+    if (needed || lists(component.manifest->may_use, word)) {
+      bind_document({section, word, needed}, named, component);
+    } else if (named) {
+      problems_.add(named->origin(),
+                    fmt::format("component '{}' uses no {}", component.name, word));
     }
-    std::vector<std::string> names;
-    for (const auto& [name, document] : entries) names.push_back(name);
-    if (named) {
-      if (entries.contains(named->text())) {
-        component.documents[std::string{section}] = named->text();
-      } else {
-        problems_.add(named->origin(), fmt::format("unknown {} '{}'{}", word, named->text(),
-                                                   config::did_you_mean(named->text(), names)));
-      }
-    } else if (names.size() == 1) {
-      component.documents[std::string{section}] = names.front();
-    } else if (names.empty()) {
-      problems_.add(component.origin, fmt::format("component '{}' needs a {}: add '{}: {{name: "
-                                                  "file.yaml}}'",
-                                                  component.name, word, section));
+  }
+}
+
+void ComponentReader::bind_document(const DocumentUse& use, const Node* named,
+                                    ComponentConfig& component) const {
+  const std::string section{use.section};
+  std::vector<std::string> names;
+  for (const auto& [name, document] : deployment_.documents.at(section)) names.push_back(name);
+  const bool named_none = !use.needed && named && named->text() == kNoDocument;
+  if (named_none || (!named && !use.needed && names.empty())) return;
+  if (named) {
+    if (std::find(names.begin(), names.end(), named->text()) != names.end()) {
+      component.documents[section] = named->text();
     } else {
-      problems_.add(component.origin, fmt::format("component '{}' must say which {}: '{}: ...'",
-                                                  component.name, word, word));
+      problems_.add(named->origin(), fmt::format("unknown {} '{}'{}", use.word, named->text(),
+                                                 config::did_you_mean(named->text(), names)));
     }
+  } else if (names.size() == 1) {
+    component.documents[section] = names.front();
+  } else if (names.empty()) {
+    problems_.add(component.origin, fmt::format("component '{}' needs a {}: add '{}: {{name: "
+                                                "file.yaml}}'",
+                                                component.name, use.word, use.section));
+  } else {
+    problems_.add(
+        component.origin,
+        fmt::format("component '{}' must say which {}: '{}: ...'{}", component.name, use.word,
+                    use.word, use.needed ? "" : fmt::format(", or '{}: none'", use.word)));
   }
 }
 
@@ -208,10 +226,12 @@ void ComponentReader::bind_ports(const Node* renames, std::string_view direction
                                  const ComponentConfig& component,
                                  std::vector<PortBinding>& bindings) const {
   for (const PortSpec& spec : specs) {
-    PortBinding binding{.spec = spec, .topic = spec.topic, .origin = component.origin};
+    PortBinding binding{
+        .spec = spec, .topic = spec.topic, .origin = component.origin, .renamed = false};
     if (const Node* rename = renames ? renames->find(spec.name) : nullptr) {
       binding.topic = config::as_text(*rename, problems_).value_or(spec.topic);
       binding.origin = rename->origin();
+      binding.renamed = true;
     }
     if (!binding.topic.starts_with('/')) {
       binding.topic = fmt::format("/{}/{}", deployment_.name, binding.topic);

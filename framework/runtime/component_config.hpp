@@ -37,7 +37,13 @@ class ComponentReader {
                    ComponentConfig& component) const;
   void read_slots(config::MapReader& map, ComponentConfig& component) const;
   void read_slot(const SlotSpec& spec, const config::Node& node, ComponentConfig& component) const;
+  struct DocumentUse {
+    std::string_view section, word;  // "robots", "robot"
+    bool needed;                     // `uses:`, not `may_use:`
+  };
   void bind_documents(config::MapReader& map, ComponentConfig& component) const;
+  void bind_document(const DocumentUse& use, const config::Node* named,
+                     ComponentConfig& component) const;
   void bind_ports(const config::Node* renames, std::string_view direction,
                   const std::vector<PortSpec>& specs, const ComponentConfig& component,
                   std::vector<PortBinding>& bindings) const;

@@ -37,6 +37,10 @@ const config::Node& ComponentSetup::document(std::string_view section) {
   return deployment_.documents.at(std::string{section}).at(bound->second);
 }
 
+bool ComponentSetup::has_document(std::string_view section) const {
+  return config_.documents.contains(std::string{section});
+}
+
 void ComponentSetup::activate_every(Duration period) {
   if (period <= Duration{0}) throw SetupError("its period must be positive");
   unit_.set_period(period);

@@ -24,6 +24,7 @@ class ComponentSetup final : public Setup {
   const Params& params() const override { return config_.params; }
   std::uint64_t seed() const override;
   const config::Node& document(std::string_view section) override;
+  bool has_document(std::string_view section) const override;
   void activate_every(Duration period) override;
   std::shared_ptr<Voice> voice() override { return unit_.voice(); }
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "armature/config/problems.hpp"
-#include "armature/runtime/component_setup.hpp"
+#include "armature/runtime/clock_publisher.hpp"
 #include "armature/runtime/lockstep_scheduler.hpp"
 #include "armature/runtime/state_publisher.hpp"
 #include "armature/runtime/threaded_scheduler.hpp"
@@ -17,6 +17,13 @@ namespace {
 
 // Samples that a topic keeps ready: what its readers hold, what is in flight, and one to fill.
 constexpr std::size_t kPreallocatedSamples = 8;
+
+/// Where the samples of one output are: the topic itself, or of a shared one the writer's own part,
+/// with a DDS writer of its own.
+std::string writer_key(const ComponentConfig& component, const PortBinding& output) {
+  if (!output.spec.shared) return output.topic;
+  return output.topic + " of " + component.name + "." + output.spec.name;
+}
 
 }  // namespace
 
@@ -34,7 +41,7 @@ Deployment::Deployment(DeploymentConfig config, PluginRegistry& plugins, Options
   config::Problems problems;
   for (const ComponentConfig* component : order) make_unit(*component, plugins, problems);
   problems.throw_if_any();
-  make_state_publisher(plugins);
+  make_own_units(plugins);
   assign_units();
 }
 
@@ -60,14 +67,7 @@ void Deployment::make_unit(const ComponentConfig& component, PluginRegistry& plu
                            config::Problems& problems) {
   auto unit = std::make_unique<Unit>(component.name, component.plugin_id, component.place,
                                      options_.on_line);
-  ComponentSetup setup{component,
-                       config_,
-                       plugins,
-                       *unit,
-                       *scheduler_,
-                       [this](const PortBinding& port, const MessageType& type) -> Topic& {
-                         return topic_for(port, type);
-                       }};
+  ComponentSetup setup = setup_of(component, plugins, *unit);
   // Outlives the exceptions that its code throws.
   auto library = plugins.load(*component.manifest, Component::kKind, Component::kKindVersion);
   try {
@@ -83,36 +83,65 @@ void Deployment::make_unit(const ComponentConfig& component, PluginRegistry& plu
   }
 }
 
-void Deployment::make_state_publisher(PluginRegistry& plugins) {
-  const PluginManifest& manifest = StatePublisher::manifest();
-  ComponentConfig component{.name = "runtime",
+void Deployment::make_own_units(PluginRegistry& plugins) {
+  // The time is told before anything happens in it, how all are when all has happened.
+  if (config_.simulated) {
+    make_own_unit(kClockComponent, ClockPublisher::manifest(), -1, plugins,
+                  [](Setup& setup) { return std::make_unique<ClockPublisher>(setup); });
+  }
+  const int last = static_cast<int>(config_.components.size());
+  make_own_unit(kStateComponent, StatePublisher::manifest(), last, plugins,
+                [this](Setup& setup) { return std::make_unique<StatePublisher>(setup, units_); });
+  std::sort(units_.begin(), units_.end(),
+            [](const auto& a, const auto& b) { return a->place() < b->place(); });
+}
+
+void Deployment::make_own_unit(std::string_view name, const PluginManifest& manifest, int place,
+                               PluginRegistry& plugins,
+                               const std::function<std::unique_ptr<Component>(Setup&)>& make) {
+  ComponentConfig component{.name = std::string{name},
                             .plugin_id = manifest.id,
                             .manifest = &manifest,
                             .executor = std::string{kMainExecutor},
                             .process = options_.process,
-                            .place = static_cast<int>(config_.components.size())};
+                            .place = place};
   for (const PortSpec& spec : manifest.outputs) {
     const bool absolute = spec.topic.starts_with('/');
     component.outputs.push_back(
         {.spec = spec, .topic = absolute ? spec.topic : "/" + config_.name + "/" + spec.topic});
   }
   config_.components.push_back(std::move(component));
-  auto unit = std::make_unique<Unit>("runtime", manifest.id, config_.components.back().place,
-                                     options_.on_line);
-  ComponentSetup setup{config_.components.back(),
-                       config_,
-                       plugins,
-                       *unit,
-                       *scheduler_,
-                       [this](const PortBinding& port, const MessageType& type) -> Topic& {
-                         return topic_for(port, type);
-                       }};
-  unit->install({nullptr, std::make_unique<StatePublisher>(setup, units_)});
+  const ComponentConfig& config = config_.components.back();
+  auto unit = std::make_unique<Unit>(config.name, manifest.id, place, options_.on_line);
+  ComponentSetup setup = setup_of(config, plugins, *unit);
+  unit->install({nullptr, make(setup)});
   units_.push_back(std::move(unit));
 }
 
-Topic& Deployment::topic_for(const PortBinding& port, const MessageType& type) {
-  auto& topic = topics_[port.topic];
+ComponentSetup Deployment::setup_of(const ComponentConfig& component, PluginRegistry& plugins,
+                                    Unit& unit) {
+  return {component,
+          config_,
+          plugins,
+          unit,
+          *scheduler_,
+          [this, &component](const PortBinding& port, const MessageType& type) -> Topic& {
+            return topic_for(component, port, type);
+          }};
+}
+
+Topic& Deployment::topic_for(const ComponentConfig& component, const PortBinding& port,
+                             const MessageType& type) {
+  Topic& topic = topic_at(port.topic, port, type);
+  if (!port.spec.shared) return topic;
+  Topic& own = topic_at(writer_key(component, port), port, type);
+  own.pass_on_to(topic);
+  return own;
+}
+
+Topic& Deployment::topic_at(const std::string& key, const PortBinding& port,
+                            const MessageType& type) {
+  auto& topic = topics_[key];
   if (!topic) {
     topic = std::make_unique<Topic>(
         TopicSpec{.name = "rt" + port.topic, .type = &type, .qos = port.spec.qos},
@@ -161,13 +190,13 @@ void Deployment::connect(PluginRegistry& plugins, int domain) {
 
   for (const ComponentConfig& component : config_.components) {
     if (component.process != options_.process) continue;
-    for (const PortBinding& output : component.outputs) advertise(output);
+    for (const PortBinding& output : component.outputs) advertise(component, output);
     for (const PortBinding& input : component.inputs) subscribe(input);
   }
 }
 
-void Deployment::advertise(const PortBinding& output) {
-  Topic& topic = *topics_.at(output.topic);
+void Deployment::advertise(const ComponentConfig& component, const PortBinding& output) {
+  Topic& topic = *topics_.at(writer_key(component, output));
   TopicSpec spec = topic.spec();
   spec.qos = output.spec.qos;
   auto writer = transport_->advertise(spec);
@@ -182,9 +211,8 @@ void Deployment::subscribe(const PortBinding& input) {
   TopicSpec spec = topic.spec();
   spec.qos = input.spec.qos;
   const bool same_deployment_only = elsewhere && input.spec.qos == QosProfile::command;
-  auto reader = transport_->subscribe(spec, same_deployment_only, [&topic](SampleRef sample) {
-    topic.deliver_from_outside(sample);
-  });
+  auto reader = transport_->subscribe(spec, same_deployment_only,
+                                      [&topic](SampleRef sample) { topic.deliver(sample); });
   if (!reader) throw PluginError("cannot read " + input.topic + ": " + reader.error().text);
   readers_[input.topic] = std::move(*reader);
 }

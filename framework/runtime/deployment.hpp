@@ -10,6 +10,7 @@
 
 #include "armature/bus/transport.hpp"
 #include "armature/runtime/clock.hpp"
+#include "armature/runtime/component_setup.hpp"
 #include "armature/runtime/deployment_config.hpp"
 #include "armature/runtime/scheduler.hpp"
 #include "armature/runtime/unit.hpp"
@@ -58,10 +59,17 @@ class Deployment {
   void make_scheduler();
   void make_unit(const ComponentConfig& component, PluginRegistry& plugins,
                  config::Problems& problems);
-  void make_state_publisher(PluginRegistry& plugins);
-  Topic& topic_for(const PortBinding& port, const MessageType& type);
+  void make_own_units(PluginRegistry& plugins);
+  void make_own_unit(std::string_view name, const PluginManifest& manifest, int place,
+                     PluginRegistry& plugins,
+                     const std::function<std::unique_ptr<Component>(Setup&)>& make);
+  ComponentSetup setup_of(const ComponentConfig& component, PluginRegistry& plugins, Unit& unit);
+  Topic& topic_for(const ComponentConfig& component, const PortBinding& port,
+                   const MessageType& type);
+  Topic& topic_at(const std::string& key, const PortBinding& port, const MessageType& type);
+  const ComponentConfig& config_of(const Unit& unit) const;
   bool written_elsewhere(const std::string& topic) const;
-  void advertise(const PortBinding& output);
+  void advertise(const ComponentConfig& component, const PortBinding& output);
   void subscribe(const PortBinding& input);
   void assign_units();
   void stop();
@@ -69,7 +77,7 @@ class Deployment {
   DeploymentConfig config_;
   Options options_;
   std::unique_ptr<Clock> clock_;
-  std::map<std::string, std::unique_ptr<Topic>> topics_;
+  std::map<std::string, std::unique_ptr<Topic>> topics_;  // by name, of shared ones also by writer
   std::unique_ptr<Scheduler> scheduler_;
   std::vector<std::unique_ptr<Unit>> units_;  // in the order of the graph
   bool timed_out_ = false;

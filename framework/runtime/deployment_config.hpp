@@ -29,6 +29,7 @@ struct PortBinding {
   PortSpec spec;
   std::string topic;      // absolute: "/dental_lamp/arm/measured_js"
   config::Origin origin;  // of the rename, or of the component
+  bool renamed = false;   // the file says which topic
 };
 
 /// One entry of `components:`, resolved.
@@ -72,6 +73,9 @@ struct DeploymentConfig {
 
 inline constexpr std::string_view kMainProcess = "main";
 inline constexpr std::string_view kMainExecutor = "main";
+// The runtime's own components, which every process has (the clock: on the simulated clock).
+inline constexpr std::string_view kStateComponent = "runtime";
+inline constexpr std::string_view kClockComponent = "runtime_clock";
 
 /// Reads `root` (a merged document). Every mistake that can be known without loading a library is
 /// added to `problems`; the result is usable only when there is none.

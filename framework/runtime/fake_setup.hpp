@@ -24,6 +24,7 @@ class FakeSetup final : public Setup, public Delivery {
   const config::Node& document(std::string_view) override {
     throw std::logic_error("no documents");
   }
+  bool has_document(std::string_view) const override { return false; }
   void activate_every(Duration period) override { unit_.set_period(period); }
   std::shared_ptr<Voice> voice() override { return unit_.voice(); }
   void publish(Topic& topic, SampleRef sample) override { topic.publish(std::move(sample), {}); }

@@ -16,10 +16,26 @@ struct Writer {
   std::size_t component;
   const PortBinding* port;
 };
-using Writers = std::map<std::string, Writer>;
+using Writers = std::map<std::string, std::vector<Writer>>;
 
 std::string port_name(const ComponentConfig& component, const PortBinding& port) {
   return fmt::format("{}.{}", component.name, port.spec.name);
+}
+
+/// A topic has one writer, or several that all share it and write alike.
+void check_writers(const ComponentConfig& first, const PortBinding& first_port,
+                   const ComponentConfig& second, const PortBinding& second_port,
+                   config::Problems& problems) {
+  const std::string both =
+      fmt::format("{} and {} both write topic '{}'", port_name(first, first_port),
+                  port_name(second, second_port), second_port.topic);
+  if (!first_port.spec.shared || !second_port.spec.shared) {
+    problems.add(second_port.origin, both + "; rename one with 'out:'");
+  } else if (first_port.spec.type != second_port.spec.type) {
+    problems.add(second_port.origin,
+                 fmt::format("{}, as '{}' and as '{}'; rename one with 'out:'", both,
+                             first_port.spec.type, second_port.spec.type));
+  }
 }
 
 Writers find_writers(const DeploymentConfig& deployment, config::Problems& problems) {
@@ -27,13 +43,12 @@ Writers find_writers(const DeploymentConfig& deployment, config::Problems& probl
   for (std::size_t i = 0; i < deployment.components.size(); ++i) {
     const ComponentConfig& component = deployment.components[i];
     for (const PortBinding& port : component.outputs) {
-      const auto [first, inserted] = writers.try_emplace(port.topic, Writer{i, &port});
-      if (inserted) continue;
-      problems.add(port.origin,
-                   fmt::format("{} and {} both write topic '{}'; rename one with 'out:'",
-                               port_name(deployment.components[first->second.component],
-                                         *first->second.port),
-                               port_name(component, port), port.topic));
+      std::vector<Writer>& there = writers[port.topic];
+      if (!there.empty()) {
+        check_writers(deployment.components[there.front().component], *there.front().port,
+                      component, port, problems);
+      }
+      there.push_back({i, &port});
     }
   }
   return writers;
@@ -64,14 +79,16 @@ void check_match(const ComponentConfig& reader, const PortBinding& input,
 void check_inputs(const DeploymentConfig& deployment, const Writers& writers,
                   config::Problems& problems) {
   std::vector<std::string> topics;
-  for (const auto& [topic, writer] : writers) topics.push_back(topic);
+  for (const auto& [topic, there] : writers) topics.push_back(topic);
   for (const ComponentConfig& component : deployment.components) {
     for (const PortBinding& input : component.inputs) {
-      const auto writer = writers.find(input.topic);
-      if (writer != writers.end()) {
-        check_match(component, input, deployment.components[writer->second.component],
-                    *writer->second.port, problems);
-      } else if (!input.spec.optional && !input.spec.outside) {
+      const auto there = writers.find(input.topic);
+      if (there != writers.end()) {
+        for (const Writer& writer : there->second) {
+          check_match(component, input, deployment.components[writer.component], *writer.port,
+                      problems);
+        }
+      } else if (!input.spec.outside && (!input.spec.optional || input.renamed)) {
         problems.add(input.origin, fmt::format("{} reads topic '{}', which nobody writes{}",
                                                port_name(component, input), input.topic,
                                                config::did_you_mean(input.topic, topics)));
@@ -87,9 +104,9 @@ void place_components(DeploymentConfig& deployment, const Writers& writers,
   std::vector<std::set<std::size_t>> sources(count);
   for (std::size_t i = 0; i < count; ++i) {
     for (const PortBinding& input : deployment.components[i].inputs) {
-      const auto writer = writers.find(input.topic);
-      if (writer != writers.end() && !input.spec.feedback)
-        sources[i].insert(writer->second.component);
+      const auto there = writers.find(input.topic);
+      if (there == writers.end() || input.spec.feedback) continue;
+      for (const Writer& writer : there->second) sources[i].insert(writer.component);
     }
   }
   std::set<std::size_t> placed;

@@ -8,4 +8,6 @@ namespace armature::detail {
 SampleRef output_loan(OutputPort& port) { return port.topic().loan(); }
 void output_publish(OutputPort& port, SampleRef sample) { port.publish(std::move(sample)); }
 
+bool output_wanted(const OutputPort& port) { return port.wanted(); }
+
 }  // namespace armature::detail

@@ -60,7 +60,11 @@ std::vector<PortSpec> read_ports(const Node* table, bool inputs, Problems& probl
     const auto qos =
         find_qos_profile(map.choice("qos", {"sensor", "state", "command", "latched"}, "state"));
     port.qos = qos.value_or(QosProfile::state);
-    if (inputs) read_input_rules(map, port);
+    if (inputs) {
+      read_input_rules(map, port);
+    } else {
+      port.shared = map.flag("shared", false);
+    }
     map.finish();
     ports.push_back(std::move(port));
   }
@@ -149,6 +153,9 @@ PluginManifest parse_manifest(std::string_view yaml, std::string_view name, Prob
   if (const Node* uses = map.optional_node("uses")) {
     for (const Node& item : uses->items()) manifest.uses.push_back(item.text());
   }
+  if (const Node* may_use = map.optional_node("may_use")) {
+    for (const Node& item : may_use->items()) manifest.may_use.push_back(item.text());
+  }
   if (const Node* params = map.optional_node("params")) {
     manifest.params = read_param_specs(*params, problems);
   }
@@ -159,6 +166,13 @@ PluginManifest parse_manifest(std::string_view yaml, std::string_view name, Prob
   manifest.inputs = read_ports(read_table(map, "in"), true, problems);
   manifest.outputs = read_ports(read_table(map, "out"), false, problems);
   map.finish();
+  return manifest;
+}
+
+PluginManifest parse_own_manifest(std::string_view yaml) {
+  Problems problems;
+  PluginManifest manifest = parse_manifest(yaml, "runtime", problems);
+  problems.throw_if_any();
   return manifest;
 }
 

@@ -31,6 +31,9 @@ struct PortSpec {
   bool outside = false;             // fed by programs that are not part of the deployment
   bool feedback = false;            // an arrow against the flow, read a cycle late
   std::optional<Duration> max_age;  // older samples are not shown
+
+  // Outputs only.
+  bool shared = false;  // other components may write the topic too, as ROS does with /tf
 };
 
 /// A place in a component where a plugin of a kind sits.
@@ -64,7 +67,8 @@ struct PluginManifest {
   std::string hosts;  // the pure kind that this component runs alone on topics
   std::string doc;
   bool allocates = false;
-  std::vector<std::string> uses;  // "robot", "rig"
+  std::vector<std::string> uses;     // "robot", "rig"
+  std::vector<std::string> may_use;  // the same, where the deployment has one
   std::vector<ParamSpec> params;
   std::vector<SlotSpec> slots;
   std::vector<Trait> needs, offers;
@@ -78,5 +82,8 @@ struct PluginManifest {
 /// Parses the text of a plugin.yaml; `name` stands for the file in messages.
 PluginManifest parse_manifest(std::string_view yaml, std::string_view name,
                               config::Problems& problems);
+
+/// The manifest of a component that is part of the runtime. Throws config::ConfigError.
+PluginManifest parse_own_manifest(std::string_view yaml);
 
 }  // namespace armature

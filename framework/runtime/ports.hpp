@@ -18,6 +18,7 @@ const SampleRef& input_sample(const InputPort& port, std::size_t index);
 bool input_fresh(const InputPort& port);
 SampleRef output_loan(OutputPort& port);
 void output_publish(OutputPort& port, SampleRef sample);
+bool output_wanted(const OutputPort& port);
 }  // namespace detail
 
 /// A component's typed input. What it shows is frozen for one activation: nothing changes while
@@ -71,6 +72,9 @@ class Output {
   Output() = default;
   explicit Output(OutputPort& port) : port_{&port} {}
 
+  /// False while nobody would get a sample: what is only for onlookers need not be computed then.
+  /// Always true for a latched output. Real-time safe.
+  bool wanted() const { return detail::output_wanted(*port_); }
   /// A sample with the content of an earlier one (so that its sequences keep their memory): write
   /// every field. Real-time safe in the steady state.
   Loan<Message> loan() { return {*port_, detail::output_loan(*port_)}; }

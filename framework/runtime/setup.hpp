@@ -37,6 +37,8 @@ class Setup {
   /// The document of a section ("robots", "rigs") that is bound to this component; plugin.yaml
   /// must list the section under `uses:`.
   virtual const config::Node& document(std::string_view section) = 0;
+  /// False when the deployment binds none, which it may when plugin.yaml lists it under `may_use:`.
+  virtual bool has_document(std::string_view section) const = 0;
   /// Also activate it every `period`, counted from the start.
   virtual void activate_every(Duration period) = 0;
 

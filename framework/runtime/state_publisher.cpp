@@ -17,7 +17,7 @@ kind: component
 doc: Tells how every component of this process is.
 out:
   state: {type: armature_msgs/ComponentState, topic: component_state, doc: "One message per component, twice a second."}
-  diagnostics: {type: diagnostic_msgs/DiagnosticArray, topic: /diagnostics, doc: "The same for ROS tools."}
+  diagnostics: {type: diagnostic_msgs/DiagnosticArray, topic: /diagnostics, shared: true, doc: "The same for ROS tools."}
 )";
 
 msg::KeyValue key_value(std::string key, std::uint64_t value) {
@@ -30,12 +30,7 @@ msg::KeyValue key_value(std::string key, std::uint64_t value) {
 }  // namespace
 
 const PluginManifest& StatePublisher::manifest() {
-  static const PluginManifest manifest = [] {
-    config::Problems problems;
-    PluginManifest parsed = parse_manifest(kManifest, "runtime/state_publisher", problems);
-    problems.throw_if_any();
-    return parsed;
-  }();
+  static const PluginManifest manifest = parse_own_manifest(kManifest);
   return manifest;
 }
 

@@ -12,7 +12,23 @@ const std::string kLamp = source_file("configs/dental_lamp.yaml");
 TEST(Check, CountsWhatItFoundSound) {
   const auto result = run_command({armature(), "check", kLamp});
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_EQ(result.out.rfind("dental_lamp: ok, 8 components, ", 0), 0U) << result.out;
+  EXPECT_EQ(result.out.rfind("dental_lamp: ok, 9 components, ", 0), 0U) << result.out;
+}
+
+TEST(Check, LetsAComponentThatMayUseARigUseNone) {
+  const auto result =
+      run_command({armature(), "check", kLamp, "--set", "components.monitor.rig=none"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+}
+
+TEST(Check, AsksWhichOfTwoRigsOrNone) {
+  const auto result = run_command(
+      {armature(), "check", kLamp, "--set", "rigs.hand=" + source_file("configs/rigs/default.yaml"),
+       "--set", "components.scene.rig=head", "--set", "components.target.rig=head"});
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_NE(result.err.find("component 'monitor' must say which rig: 'rig: ...', or 'rig: none'"),
+            std::string::npos)
+      << result.err;
 }
 
 TEST(Show, GivesEveryValueItsOrigin) {
@@ -30,6 +46,16 @@ TEST(Graph, NamesTheWriterAndTheReadersOfATopic) {
   const auto topic = nlohmann::json::parse(result.out)["/dental_lamp/arm/servo_jp"];
   EXPECT_EQ(topic["writers"], (std::vector<std::string>{"motion"}));
   EXPECT_EQ(topic["readers"], (std::vector<std::string>{"arm"}));
+}
+
+TEST(Graph, NamesTheTopicsThatRosToolsLookFor) {
+  const auto result = run_command({armature(), "graph", kLamp, "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto topics = nlohmann::json::parse(result.out);
+  EXPECT_EQ(topics["/tf"]["type"], "tf2_msgs/TFMessage");
+  EXPECT_EQ(topics["/tf_static"]["type"], "tf2_msgs/TFMessage");
+  EXPECT_EQ(topics["/dental_lamp/markers"]["type"], "visualization_msgs/MarkerArray");
+  EXPECT_EQ(topics["/dental_lamp/tool_pose"]["type"], "geometry_msgs/PoseStamped");
 }
 
 TEST(PluginInfo, ShowsParametersAndPortsFromTheManifest) {

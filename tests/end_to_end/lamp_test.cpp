@@ -19,6 +19,9 @@ TEST(Lamp, FindsADrawnFaceAndAlignsTwiceOnTheSameTrajectory) {
   EXPECT_EQ(first.report.value("trajectory_sha256", "first"),
             second.report.value("trajectory_sha256", "second"));
   EXPECT_EQ(first.report, second.report);
+
+  const LampRun unwatched = run_lamp({.settings = {kSimulated, "components.monitor=null"}});
+  EXPECT_EQ(first.report, unwatched.report) << "a monitor changes nothing";
 }
 
 TEST(Lamp, FindsAPhotographedFaceThatLooksUpAndAligns) {

@@ -92,6 +92,27 @@ const Fault kFaults[] = {
      "mean '/faulty/target'?\n"
      "deployment.yaml:21:3: report.face reads topic '/faulty/face', which nobody writes; did you "
      "mean '/faulty/target'?\n"},
+    {"OptionalInputRenamedToWhatNobodyWrites", "executor: control}",
+     "executor: control, in: {servo_jp: arm/servo}}",
+     "deployment.yaml:20:66: arm.servo_jp reads topic '/faulty/arm/servo', which nobody writes; "
+     "did "
+     "you mean '/faulty/arm/servo_jp'?\n"},
+    {"SharedTopicWithAWriterThatDoesNotShareIt", "executor: control}",
+     "executor: control}\n  monitor: {plugin: monitor/rviz, out: {tool_pose: /tf}}",
+     "deployment.yaml:21:52: monitor.tf and monitor.tool_pose both write topic '/tf'; rename one "
+     "with 'out:'\n"},
+    {"UnknownRigWhereNoneIsNeeded", "executor: control}",
+     "executor: control}\n  monitor: {plugin: monitor/rviz, rig: lft}",
+     "deployment.yaml:21:40: unknown rig 'lft'; known: head\n"},
+    {"FrameCalledAsAnotherOne", "executor: control}",
+     "executor: control}\n  monitor: {plugin: monitor/rviz, params: {world_frame: tool}}",
+     "deployment.yaml:21:3: component 'monitor': two frames would be called 'tool'\n"},
+    {"BasePlacedInNoWorld", "executor: control}",
+     "executor: control}\n  monitor: {plugin: monitor/rviz, params: {base_position_m: [1, 0, 0]}}",
+     "deployment.yaml:21:3: component 'monitor': base_position_m and base_rpy_deg place base in "
+     "world_frame: name one\n"},
+    {"NameOfTheRuntimesOwn", "  arm: {", "  runtime: {",
+     "deployment.yaml:20:3: 'runtime' is a component of the runtime; choose another name\n"},
     {"RobotFileMissing", "robots/dental_lamp.yaml", "robots/dental_lmap.yaml",
      "deployment.yaml:4:15: cannot read 'robots/dental_lmap.yaml': No such file or directory\n"},
     {"NoRobot", "robots: {arm: @CONFIGS@/robots/dental_lamp.yaml}\n", "",

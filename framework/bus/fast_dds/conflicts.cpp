@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "armature/bus/topic_name.hpp"
+
 namespace armature {
 namespace {
 
@@ -47,13 +49,13 @@ void Conflicts::compare(const OwnEndpoint& own, const Endpoint& other, const Dis
   const std::string own_type{own.topic.type->dds_name};
   if (other.type != own_type) {
     report({TransportEvent::Kind::type_conflict, other.topic,
-            who + " uses the type " + other.type + " on '" + other.topic + "', our " +
-                end_name(own.writes) + " uses " + own_type + ": they never meet"});
+            who + " uses the type " + other.type + " on '" + ros_topic_name(other.topic) +
+                "', our " + end_name(own.writes) + " uses " + own_type + ": they never meet"});
     return;
   }
   if (has_other_layout(other, own)) {
     report({TransportEvent::Kind::layout_conflict, other.topic,
-            who + " has another layout of " + own_type + " on '" + other.topic +
+            who + " has another layout of " + own_type + " on '" + ros_topic_name(other.topic) +
                 "' than this process: build both from the same idl/"});
     return;
   }
@@ -61,7 +63,7 @@ void Conflicts::compare(const OwnEndpoint& own, const Endpoint& other, const Dis
     const std::string theirs =
         other.tag.ours ? " (configuration " + other.tag.fingerprint.substr(0, 12) + ")" : "";
     report({TransportEvent::Kind::foreign_writer, other.topic,
-            who + theirs + " was refused on '" + other.topic +
+            who + theirs + " was refused on '" + ros_topic_name(other.topic) +
                 "': commands are taken only from deployment '" + own_.deployment +
                 "' (configuration " + own_.fingerprint.substr(0, 12) + ")"});
   }

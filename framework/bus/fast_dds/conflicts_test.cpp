@@ -21,7 +21,7 @@ TEST_F(FastDds, CommandsOfAnotherDeploymentAreRefusedAndReported) {
   const auto reader = transport->subscribe(command_, true, collect()).value();
   EXPECT_EQ(event(Kind::foreign_writer),
             "a writer of deployment 'other' (configuration beef) was refused on "
-            "'rt/test/from_peer': commands are taken only from deployment 'lamp' (configuration "
+            "'/test/from_peer': commands are taken only from deployment 'lamp' (configuration "
             "f00d)");
   // A writer that is known to send: one of the right deployment gets through, the other never.
   Peer friend_{domain_, "lamp", "f00d", "talk"};
@@ -40,7 +40,7 @@ TEST_F(FastDds, ASecondTypeOnATopicIsReported) {
   Peer peer{domain_, "other", "beef", "talk_text"};
   EXPECT_EQ(event(Kind::type_conflict),
             "a writer of deployment 'other' uses the type std_msgs::msg::dds_::String_ on "
-            "'rt/test/from_peer', our reader uses sensor_msgs::msg::dds_::JointState_: they never "
+            "'/test/from_peer', our reader uses sensor_msgs::msg::dds_::JointState_: they never "
             "meet");
 }
 
@@ -51,7 +51,7 @@ TEST_F(FastDds, ASecondTypeInTheSameProcessIsRefused) {
       transport->advertise({"rt/test/to_peer", &message_type<msg::Image>(), QosProfile::state});
   ASSERT_FALSE(second);
   EXPECT_EQ(second.error().text,
-            "topic 'rt/test/to_peer' is used with the type sensor_msgs::msg::dds_::JointState_ and "
+            "topic '/test/to_peer' is used with the type sensor_msgs::msg::dds_::JointState_ and "
             "with sensor_msgs::msg::dds_::Image_ in this process");
 }
 
@@ -61,7 +61,7 @@ TEST_F(FastDds, AnotherLayoutUnderTheSameNameIsReportedAndNotDecoded) {
   Peer peer{domain_, "lamp", "f00d", "talk_other_layout"};
   EXPECT_EQ(event(Kind::layout_conflict),
             "a writer of deployment 'lamp' has another layout of "
-            "sensor_msgs::msg::dds_::JointState_ on 'rt/test/from_peer' than this process: build "
+            "sensor_msgs::msg::dds_::JointState_ on '/test/from_peer' than this process: build "
             "both from the same idl/");
   ASSERT_TRUE(eventually([&] { return reader->writers() == 1; }));
   std::this_thread::sleep_for(100ms);
@@ -73,7 +73,7 @@ TEST_F(FastDds, QosThatCannotMeetIsReported) {
   const auto writer = transport->advertise(to_peer_).value();
   Peer peer{domain_, "other", "beef", "latched_reader"};
   EXPECT_EQ(event(Kind::qos_conflict),
-            "a reader on 'rt/test/to_peer' asks for more than our writer's profile 'state' offers: "
+            "a reader on '/test/to_peer' asks for more than our writer's profile 'state' offers: "
             "durability (readers there: deployment 'other')");
 }
 

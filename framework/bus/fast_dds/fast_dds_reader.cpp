@@ -12,6 +12,7 @@
 #include "armature/bus/fast_dds/endpoint_qos.hpp"
 #include "armature/bus/fast_dds/fast_dds_link.hpp"
 #include "armature/bus/fast_dds/raw_cdr_type.hpp"
+#include "armature/bus/topic_name.hpp"
 
 namespace armature {
 namespace {
@@ -51,7 +52,8 @@ class FastDdsReader final : public OutsideReader, private dds::DataReaderListene
     if (own_.same_deployment_only) lease = settings.liveliness_lease;
     reader_ = participant.subscriber().create_datareader(
         *topic, reader_qos(settings, lease, to_user_data(link_->tag_for(type))), this);
-    if (!reader_) return refuse("DDS: cannot create a reader on '" + own_.topic.name + "'");
+    if (!reader_)
+      return refuse("DDS: cannot create a reader on '" + ros_topic_name(own_.topic.name) + "'");
     link_->conflicts.own_endpoint_added(own_, participant.discovery().endpoints(),
                                         participant.discovery());
     return {};
@@ -100,7 +102,7 @@ class FastDdsReader final : public OutsideReader, private dds::DataReaderListene
     const auto endpoint = link_->participant->discovery().find(writer);
     link_->conflicts.report(
         {TransportEvent::Kind::layout_conflict, own_.topic.name,
-         "a sample on '" + own_.topic.name + "' from " +
+         "a sample on '" + ros_topic_name(own_.topic.name) + "' from " +
              (endpoint ? link_->participant->discovery().owner(*endpoint) : "an unknown writer") +
              " is no " + std::string{own_.topic.type->dds_name} +
              ": its layout differs, or it is damaged"});
@@ -120,7 +122,7 @@ class FastDdsReader final : public OutsideReader, private dds::DataReaderListene
         to_guid(rtps::iHandle2GUID(status.last_publication_handle)));
     link_->conflicts.report_always(
         {TransportEvent::Kind::peer_lost, own_.topic.name,
-         "the writer on '" + own_.topic.name + "'" +
+         "the writer on '" + ros_topic_name(own_.topic.name) + "'" +
              (endpoint ? " of " + link_->participant->discovery().owner(*endpoint) : "") +
              " fell silent: its process died or hangs"});
   }
@@ -129,8 +131,8 @@ class FastDdsReader final : public OutsideReader, private dds::DataReaderListene
                                      const dds::RequestedIncompatibleQosStatus& status) override {
     link_->conflicts.report(
         {TransportEvent::Kind::qos_conflict, own_.topic.name,
-         "a writer on '" + own_.topic.name + "' offers less than our reader's profile '" +
-             std::string{to_string(own_.topic.qos)} +
+         "a writer on '" + ros_topic_name(own_.topic.name) +
+             "' offers less than our reader's profile '" + std::string{to_string(own_.topic.qos)} +
              "' asks for: " + qos_policy_name(static_cast<std::uint32_t>(status.last_policy_id)) +
              " (writers there: " +
              owners_on(own_.topic.name, true, link_->participant->discovery()) + ")"});

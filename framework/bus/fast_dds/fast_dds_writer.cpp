@@ -10,6 +10,7 @@
 #include "armature/bus/fast_dds/endpoint_qos.hpp"
 #include "armature/bus/fast_dds/fast_dds_link.hpp"
 #include "armature/bus/fast_dds/raw_cdr_type.hpp"
+#include "armature/bus/topic_name.hpp"
 
 namespace armature {
 namespace {
@@ -28,7 +29,8 @@ class FastDdsWriter final : public OutsideWriter, private dds::DataWriterListene
     if (!topic) return tl::unexpected{topic.error()};
     writer_ = participant.publisher().create_datawriter(
         *topic, writer_qos(settings_, to_user_data(link_->tag_for(*topic_.type))), this);
-    if (!writer_) return refuse("DDS: cannot create a writer on '" + topic_.name + "'");
+    if (!writer_)
+      return refuse("DDS: cannot create a writer on '" + ros_topic_name(topic_.name) + "'");
     queue_ = link_->egress->open(static_cast<std::size_t>(settings_.depth),
                                  [this](const SampleRef& sample) { send(sample); });
     link_->conflicts.own_endpoint_added({.writes = true, .topic = topic_},
@@ -62,8 +64,9 @@ class FastDdsWriter final : public OutsideWriter, private dds::DataWriterListene
       params.source_timestamp(stamp);
     }
     if (!writer_->write(&cdr_, params)) {
-      link_->conflicts.report({TransportEvent::Kind::note, topic_.name,
-                               "DDS did not take a sample of '" + topic_.name + "'"});
+      link_->conflicts.report(
+          {TransportEvent::Kind::note, topic_.name,
+           "DDS did not take a sample of '" + ros_topic_name(topic_.name) + "'"});
     }
   }
 
@@ -81,8 +84,8 @@ class FastDdsWriter final : public OutsideWriter, private dds::DataWriterListene
                                    const dds::OfferedIncompatibleQosStatus& status) override {
     link_->conflicts.report(
         {TransportEvent::Kind::qos_conflict, topic_.name,
-         "a reader on '" + topic_.name + "' asks for more than our writer's profile '" +
-             std::string{to_string(topic_.qos)} +
+         "a reader on '" + ros_topic_name(topic_.name) +
+             "' asks for more than our writer's profile '" + std::string{to_string(topic_.qos)} +
              "' offers: " + qos_policy_name(static_cast<std::uint32_t>(status.last_policy_id)) +
              " (readers there: " + owners_on(topic_.name, false, link_->participant->discovery()) +
              ")"});

@@ -80,7 +80,7 @@ class Observer final : public DdsObserver {
                        std::function<void(const ObservedSample&)> on_sample) override {
     const std::string name = dds_topic_name(topic);
     const auto writer = wait_for_writer(name, patience);
-    if (!writer) return refuse("nobody writes '" + name + "'");
+    if (!writer) return refuse("nobody writes '" + ros_topic_name(name) + "'");
     const auto dds_topic = participant_->topic(name, writer->type);
     if (!dds_topic) return tl::unexpected{dds_topic.error()};
     // Asks for what the writer offers and no more, so that it always matches.
@@ -90,7 +90,8 @@ class Observer final : public DdsObserver {
     auto watch = std::make_unique<Watch>(writer->type, std::move(on_sample));
     watch->reader = participant_->subscriber().create_datareader(
         *dds_topic, reader_qos(settings, std::nullopt, ""), watch.get());
-    if (!watch->reader) return refuse("DDS: cannot create a reader on '" + name + "'");
+    if (!watch->reader)
+      return refuse("DDS: cannot create a reader on '" + ros_topic_name(name) + "'");
     watches_.push_back(std::move(watch));
     return {};
   }

@@ -43,7 +43,7 @@ TEST_F(FastDds, AnUnwrittenTopicIsRefusedByTheObserver) {
   const auto observer = DdsObserver::make(domain_).value();
   const auto watched = observer->watch("/none", seconds(0.1), [](const ObservedSample&) {});
   ASSERT_FALSE(watched);
-  EXPECT_EQ(watched.error().text, "nobody writes 'rt/none'");
+  EXPECT_EQ(watched.error().text, "nobody writes '/none'");
 }
 
 }  // namespace

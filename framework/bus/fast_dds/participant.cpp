@@ -17,6 +17,7 @@
 
 #include "armature/bus/fast_dds/dds_log.hpp"
 #include "armature/bus/fast_dds/raw_cdr_type.hpp"
+#include "armature/bus/topic_name.hpp"
 
 namespace armature {
 namespace {
@@ -201,14 +202,14 @@ Expected<dds::Topic*> Participant::topic(const std::string& name, const std::str
   const std::scoped_lock lock{topics_mutex_};
   if (const auto found = topics_.find(name); found != topics_.end()) {
     if (found->second->get_type_name() == type) return found->second;
-    return refuse("topic '" + name + "' is used with the type " + found->second->get_type_name() +
-                  " and with " + type + " in this process");
+    return refuse("topic '" + ros_topic_name(name) + "' is used with the type " +
+                  found->second->get_type_name() + " and with " + type + " in this process");
   }
   if (participant_->find_type(type).empty()) {
     participant_->register_type(make_raw_cdr_type(type));
   }
   dds::Topic* made = participant_->create_topic(name, type, dds::TopicQos{});
-  if (!made) return refuse("DDS: cannot create the topic '" + name + "'");
+  if (!made) return refuse("DDS: cannot create the topic '" + ros_topic_name(name) + "'");
   topics_[name] = made;
   return made;
 }

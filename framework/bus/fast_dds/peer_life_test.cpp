@@ -13,7 +13,7 @@ TEST_F(FastDds, AKilledProcessIsNoticed) {
   EXPECT_EQ(events(Kind::peer_lost), 0);
   peer.kill_now();
   EXPECT_EQ(event(Kind::peer_lost),
-            "the writer on 'rt/test/from_peer' of deployment 'lamp' fell silent: its process died "
+            "the writer on '/test/from_peer' of deployment 'lamp' fell silent: its process died "
             "or hangs");
   EXPECT_TRUE(eventually([&] { return reader->writers() == 0; }));
 }

@@ -38,33 +38,49 @@ double tick_step(double range, int most) {
   return 10 * power;
 }
 
-/// One curve over time in a frame with ticks and labels. The errors span four powers of ten and the
-/// goal lies at their small end, so their axis is logarithmic.
+using ErrorValue = std::function<std::optional<double>(const LampError&)>;
+
+/// One curve over time in a frame with ticks and labels. The errors span several powers of ten and
+/// the goal lies at their small end, so their axis is logarithmic: from the least value, but no
+/// farther than two powers of ten below the goal, to the greatest.
 struct Panel {
+  Panel(cv::Rect in, std::string what, double until_s, double limit,
+        std::span<const LampError> errors, const ErrorValue& value)
+      : frame{in}, title{std::move(what)}, duration_s{until_s}, goal{limit} {
+    double least = goal, greatest = goal;
+    for (const LampError& error : errors) {
+      const auto known = value(error);
+      least = std::min(least, known.value_or(least));
+      greatest = std::max(greatest, known.value_or(greatest));
+    }
+    lowest = static_cast<int>(std::floor(std::log10(std::max({least, goal / 100, 1e-4}))));
+    highest = std::max(static_cast<int>(std::ceil(std::log10(greatest))), lowest + 1);
+  }
+
   cv::Rect frame;
   std::string title;
   double duration_s, goal;
-  static constexpr int kLowest = -2, kHighest = 3;  // powers of ten
+  int lowest, highest;  // powers of ten
 
   cv::Point at(double time_s, double value) const {
-    const double decade = std::log10(std::max(value, std::pow(10, kLowest)));
-    const double share = (std::min<double>(decade, kHighest) - kLowest) / (kHighest - kLowest);
+    const double decade = std::log10(std::max(value, std::pow(10, lowest)));
+    const double share = (decade - lowest) / (highest - lowest);
     const double x = frame.x + frame.width * time_s / duration_s;
     const double y = frame.y + frame.height * (1 - share);
     return {static_cast<int>(std::lround(x)), static_cast<int>(std::lround(y))};
   }
 
   void draw_axes(cv::Mat& image) const {
-    const double lowest = std::pow(10, kLowest), highest = std::pow(10, kHighest);
-    for (int power = kLowest; power <= kHighest; ++power) {
+    const double bottom = std::pow(10, lowest), top = std::pow(10, highest);
+    for (int power = lowest; power <= highest; ++power) {
       const double y = std::pow(10, power);
       cv::line(image, at(0, y), at(duration_s, y), kGrid);
       text(image, fmt::format("{:g}", y), at(0, y) + cv::Point{-48, 5});
     }
     const double step_x = tick_step(duration_s, 10);
     for (double x = 0; x <= duration_s * 1.0001; x += step_x) {
-      cv::line(image, at(x, lowest), at(x, highest), kGrid);
-      text(image, fmt::format("{:g}", x), at(x, lowest) + cv::Point{-8, 18});
+      cv::line(image, at(x, bottom), at(x, top), kGrid);
+      text(image, fmt::format("{:g}", x), at(x, bottom) + cv::Point{-8, 18});
     }
     cv::line(image, at(0, goal), at(duration_s, goal), kGoal, 1, cv::LINE_AA);
     cv::rectangle(image, frame, kBlack);
@@ -73,7 +89,7 @@ struct Panel {
   }
 
   void draw_curve(cv::Mat& image, std::span<const LampError> errors,
-                  const std::function<std::optional<double>(const LampError&)>& value) const {
+                  const ErrorValue& value) const {
     for (std::size_t i = 1; i < errors.size(); ++i) {
       const auto from = value(errors[i - 1]), to = value(errors[i]);
       if (!from || !to) continue;
@@ -125,14 +141,18 @@ void write_error_plot(std::span<const LampError> errors, const AlignmentGoals& g
   const auto direction_deg = [](const LampError& e) {
     return std::optional{kDegrees * e.direction_error_rad};
   };
-  const Panel distance{.frame = {70, 40, 900, 280},
-                       .title = "distance error [mm]; red: goal",
-                       .duration_s = duration_s,
-                       .goal = 1000 * goals.distance_error_m};
-  const Panel direction{.frame = {70, 415, 900, 280},
-                        .title = "direction error [deg]; red: goal",
-                        .duration_s = duration_s,
-                        .goal = kDegrees * goals.direction_error_rad};
+  const Panel distance{{70, 40, 900, 280},
+                       "distance error [mm]; red: goal",
+                       duration_s,
+                       1000 * goals.distance_error_m,
+                       errors,
+                       distance_mm};
+  const Panel direction{{70, 415, 900, 280},
+                        "direction error [deg]; red: goal",
+                        duration_s,
+                        kDegrees * goals.direction_error_rad,
+                        errors,
+                        direction_deg};
   distance.draw_axes(image);
   distance.draw_curve(image, errors, distance_mm);
   direction.draw_axes(image);

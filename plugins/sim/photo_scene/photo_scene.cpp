@@ -18,7 +18,7 @@
 namespace armature {
 namespace {
 
-constexpr const char* kCameraFrame = "left_camera_optical";  // of both: the pair is rectified
+constexpr const char* kCameraFrame = kLeftCameraFrame;  // of both: the pair is rectified
 
 Photo photo_of(const Params& params) {
   const double eye_distance = params.number("eye_distance_mm");

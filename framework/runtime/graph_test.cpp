@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// How components may be wired: one writer to a topic, or several that share it.
+#include "armature/runtime/graph.hpp"
+
+#include <gtest/gtest.h>
+
+#include "armature/config/problems.hpp"
+
+namespace armature {
+namespace {
+
+PortBinding port(const std::string& name, const std::string& topic, bool shared,
+                 const std::string& type = "tf2_msgs/TFMessage") {
+  PortBinding binding;
+  binding.spec = {.name = name, .type = type, .shared = shared};
+  binding.topic = topic;
+  return binding;
+}
+
+ComponentConfig writer(const std::string& name, const PortBinding& output) {
+  ComponentConfig component;
+  component.name = name;
+  component.outputs = {output};
+  return component;
+}
+
+ComponentConfig reader(const std::string& name, const PortBinding& input) {
+  ComponentConfig component;
+  component.name = name;
+  component.inputs = {input};
+  return component;
+}
+
+/// The problems of a deployment of these components; their places are set.
+std::vector<std::string> check(std::vector<ComponentConfig>& components) {
+  DeploymentConfig deployment;
+  deployment.components = components;
+  config::Problems problems;
+  check_graph(deployment, problems);
+  components = deployment.components;
+  std::vector<std::string> messages;
+  for (const auto& problem : problems.sorted()) messages.push_back(problem.message);
+  return messages;
+}
+
+using Messages = std::vector<std::string>;
+
+TEST(Graph, ATopicHasOneWriter) {
+  std::vector components{writer("a", port("x", "/t", false)), writer("b", port("y", "/t", false))};
+  EXPECT_EQ(check(components),
+            Messages{"a.x and b.y both write topic '/t'; rename one with 'out:'"});
+}
+
+TEST(Graph, ATopicThatItsWritersShareHasSeveral) {
+  std::vector components{reader("r", port("in", "/tf", false)), writer("a", port("x", "/tf", true)),
+                         writer("b", port("y", "/tf", true))};
+  EXPECT_EQ(check(components), Messages{});
+  EXPECT_EQ(components[0].place, 2) << "a reader comes after all of them";
+}
+
+TEST(Graph, AWriterThatDoesNotShareATopicIsNotTakenIn) {
+  std::vector components{writer("a", port("x", "/tf", true)), writer("b", port("y", "/tf", false))};
+  EXPECT_EQ(check(components),
+            Messages{"a.x and b.y both write topic '/tf'; rename one with 'out:'"});
+}
+
+TEST(Graph, WritersThatShareATopicWriteOneType) {
+  std::vector components{writer("a", port("x", "/tf", true)),
+                         writer("b", port("y", "/tf", true, "std_msgs/String"))};
+  EXPECT_EQ(check(components),
+            Messages{"a.x and b.y both write topic '/tf', as 'tf2_msgs/TFMessage' and as "
+                     "'std_msgs/String'; rename one with 'out:'"});
+}
+
+TEST(Graph, AnOptionalInputNeedsAWriterOnlyWhenTheFileSaysWhich) {
+  PortBinding input = port("in", "/nowhere", false);
+  input.spec.optional = true;
+  std::vector components{reader("r", input)};
+  EXPECT_EQ(check(components), Messages{});
+  components[0].inputs[0].renamed = true;
+  EXPECT_EQ(check(components), Messages{"r.in reads topic '/nowhere', which nobody writes"});
+}
+
+}  // namespace
+}  // namespace armature

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "frame_tree.hpp"
+
+#include <array>
+#include <set>
+#include <utility>
+
+#include "armature/messages/geometry.hpp"
+#include "armature/messages/header.hpp"
+#include "armature/robot/kinematics.hpp"
+
+namespace armature {
+namespace {
+
+void write_edge(const std::string& parent, const std::string& child,
+                const Eigen::Isometry3d& parent_T_child, Time stamp,
+                msg::TransformStamped& message) {
+  write_header(message.header_(), stamp, parent);
+  message.child_frame_id_() = child;
+  assign(message.transform_(), parent_T_child);
+}
+
+}  // namespace
+
+Expected<FrameTree> FrameTree::make(const RobotModel& model, const std::optional<StereoRig>& rig,
+                                    Options options) {
+  FrameTree tree{model, std::move(options)};
+  tree.add_fixed(rig);
+  if (const auto sound = tree.check_names(); !sound) return tl::unexpected{sound.error()};
+  return tree;
+}
+
+void FrameTree::add_fixed(const std::optional<StereoRig>& rig) {
+  if (!options_.world.empty()) {
+    fixed_.push_back({options_.world, name(kBaseFrame), options_.world_T_base});
+  }
+  for (const NamedFrame& frame : model_->frames()) {
+    fixed_.push_back({joint_frame(frame.parent_joint), name(frame.name), frame.parent_T_frame});
+  }
+  if (!rig) return;
+  Eigen::Isometry3d left_T_right = Eigen::Isometry3d::Identity();
+  left_T_right.translation().x() = rig->camera.baseline_m;
+  fixed_.push_back({name(rig->mounted_on), name(kLeftCameraFrame), rig->mount_T_left});
+  fixed_.push_back({name(kLeftCameraFrame), name(kRightCameraFrame), left_T_right});
+}
+
+Expected<void> FrameTree::check_names() const {
+  for (const std::string& given : {options_.prefix, options_.world}) {
+    if (given.starts_with('/')) {
+      return refuse("'" + given + "' begins with '/', which no tf2 frame may");
+    }
+  }
+  std::set<std::string> taken{options_.world.empty() ? name(kBaseFrame) : options_.world};
+  const auto take = [&taken](const std::string& child) -> Expected<void> {
+    if (taken.insert(child).second) return {};
+    return refuse("two frames would be called '" + child + "'");
+  };
+  for (int joint = 0; joint < model_->joint_count(); ++joint) {
+    if (const auto taking = take(joint_frame(joint)); !taking) return taking;
+  }
+  for (const Edge& edge : fixed_) {
+    if (const auto taking = take(edge.child); !taking) return taking;
+  }
+  return {};
+}
+
+std::string FrameTree::joint_frame(int joint) const {
+  return name(joint < 0 ? kBaseFrame
+                        : std::string_view{model_->joints()[static_cast<std::size_t>(joint)].name});
+}
+
+void FrameTree::write_moving(const JointVector& q, Time stamp, msg::TFMessage& message) const {
+  std::array<Eigen::Isometry3d, kMaxJoints> base_T_joint;
+  joint_frames(*model_, q, base_T_joint);
+  const auto count = static_cast<std::size_t>(model_->joint_count());
+  message.transforms_().resize(count);
+  Eigen::Isometry3d base_T_parent = Eigen::Isometry3d::Identity();
+  for (std::size_t i = 0; i < count; ++i) {
+    const int joint = static_cast<int>(i);
+    write_edge(joint_frame(joint - 1), joint_frame(joint),
+               base_T_parent.inverse() * base_T_joint[i], stamp, message.transforms_()[i]);
+    base_T_parent = base_T_joint[i];
+  }
+}
+
+void FrameTree::write_fixed(Time stamp, msg::TFMessage& message) const {
+  message.transforms_().resize(fixed_.size());
+  for (std::size_t i = 0; i < fixed_.size(); ++i) {
+    const Edge& edge = fixed_[i];
+    write_edge(edge.parent, edge.child, edge.parent_T_child, stamp, message.transforms_()[i]);
+  }
+}
+
+}  // namespace armature

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Geometry>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "armature/messages/tf2_msgs.hpp"
+#include "armature/robot/robot_model.hpp"
+#include "armature/robot/stereo_rig.hpp"
+#include "armature/values/time.hpp"
+
+namespace armature {
+
+/// The robot's frames as tf2 has them. Every joint's frame hangs on the one before it, the first on
+/// `base`; a named frame on its joint (or base); the cameras on the frame that the rig is mounted
+/// on. Names are those of the robot file, so they equal the frame_id of the other topics.
+class FrameTree {
+ public:
+  struct Options {
+    std::string prefix;  // put before every name but world's
+    std::string world;   // a frame that base hangs on; empty: base is the root
+    Eigen::Isometry3d world_T_base = Eigen::Isometry3d::Identity();
+  };
+
+  /// `model` must outlive it. Refuses names that tf2 does not take or that two frames would have.
+  static Expected<FrameTree> make(const RobotModel& model, const std::optional<StereoRig>& rig,
+                                  Options options);
+
+  /// How tf calls a frame of the robot: "base" -> "left/base".
+  std::string name(std::string_view frame) const { return options_.prefix + std::string{frame}; }
+  /// The frame of a joint; -1: base.
+  std::string joint_frame(int joint) const;
+
+  /// The frames of all joints at the independent joint values `q`.
+  void write_moving(const JointVector& q, Time stamp, msg::TFMessage& message) const;
+  /// All others: they never move against their parent.
+  void write_fixed(Time stamp, msg::TFMessage& message) const;
+
+ private:
+  struct Edge {
+    std::string parent, child;
+    Eigen::Isometry3d parent_T_child;
+  };
+  FrameTree(const RobotModel& model, Options options)
+      : model_{&model}, options_{std::move(options)} {}
+  void add_fixed(const std::optional<StereoRig>& rig);
+  Expected<void> check_names() const;
+
+  const RobotModel* model_;
+  Options options_;
+  std::vector<Edge> fixed_;
+};
+
+}  // namespace armature

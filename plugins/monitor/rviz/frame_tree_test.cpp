@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rules proved here:
+//  1. composed along tf, every frame is where forward kinematics puts it at the joint sample
+//  2. the cameras are where the rig says
+//  3. it is one tree: a parent each, one root; a prefix goes before every name, a world above base
+//  4. names that tf2 cannot take are refused
+#include "frame_tree.hpp"
+
+#include <gtest/gtest.h>
+
+#include "armature/messages/stamp.hpp"
+#include "armature/robot/kinematics.hpp"
+#include "armature/robot/test_robots.hpp"
+#include "tf_listener_test.hpp"
+
+namespace armature {
+namespace {
+
+using testing::TfListener;
+using Convention = RobotModel::Convention;
+
+constexpr double kExact = 1e-12;
+
+FrameTree tree_of(const RobotModel& model, const std::optional<StereoRig>& rig = {},
+                  FrameTree::Options options = {}) {
+  return FrameTree::make(model, rig, std::move(options)).value();
+}
+
+TfListener heard(const FrameTree& tree, const JointVector& q) {
+  TfListener listener;
+  msg::TFMessage moving, fixed;
+  tree.write_moving(q, Time{}, moving);
+  tree.write_fixed(Time{}, fixed);
+  listener.hear(moving);
+  listener.hear(fixed);
+  return listener;
+}
+
+StereoRig lamp_rig() {
+  return load_stereo_rig(std::filesystem::path{ARMATURE_SOURCE_DIR} / "configs/rigs/default.yaml");
+}
+
+class EveryRobot : public ::testing::TestWithParam<RobotModel> {};
+
+TEST_P(EveryRobot, HasItsFramesWhereForwardKinematicsPutsThem) {
+  const RobotModel& model = GetParam();
+  const FrameTree tree = tree_of(model);
+  const unsigned seed = std::random_device{}();
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937 random{seed};
+  for (int k = 0; k < 200; ++k) {
+    const JointVector q = testing::random_joints(model, random);
+    const TfListener tf = heard(tree, q);
+    for (std::size_t i = 0; i < model.frames().size(); ++i) {
+      const Eigen::Isometry3d expected = forward_kinematics(model, q, FrameId{static_cast<int>(i)});
+      EXPECT_TRUE(tf.transform("base", model.frames()[i].name).isApprox(expected, kExact))
+          << model.frames()[i].name;
+    }
+  }
+}
+
+TEST_P(EveryRobot, HasOneChainOfJointsFromTheBase) {
+  const RobotModel& model = GetParam();
+  const TfListener tf = heard(tree_of(model), JointVector::Zero(model.dof()));
+  EXPECT_EQ(tf.size(), model.joints().size() + model.frames().size());
+  std::string parent = "base";
+  for (const Joint& joint : model.joints()) {
+    EXPECT_EQ(tf.parent(joint.name), parent);
+    parent = joint.name;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(FrameTree, EveryRobot,
+                         ::testing::Values(testing::dental_lamp(),
+                                           testing::synthetic_robot(Convention::standard, 7),
+                                           testing::synthetic_robot(Convention::modified, 8)),
+                         [](const auto& test) {
+                           return test.param.name() +
+                                  (test.param.convention() == Convention::modified ? "Modified"
+                                                                                   : "Standard");
+                         });
+
+TEST(FrameTree, HangsTheCamerasOnTheFrameThatTheRigIsMountedOn) {
+  const RobotModel lamp = testing::dental_lamp();
+  const StereoRig rig = lamp_rig();
+  const JointVector q = *lamp.contract(*lamp.home());
+  const TfListener tf = heard(tree_of(lamp, rig), q);
+  EXPECT_EQ(tf.parent("left_camera_optical"), "tool");
+  const Eigen::Isometry3d base_T_left = forward_kinematics(lamp, q) * rig.mount_T_left;
+  EXPECT_TRUE(tf.transform("base", "left_camera_optical").isApprox(base_T_left, kExact));
+  // 60 mm to both sides of the tool, along the light's right, which is the tool's z.
+  const auto tool_T = [&](const char* camera) -> Eigen::Vector3d {
+    return tf.transform("tool", camera).translation();
+  };
+  EXPECT_TRUE(tool_T("left_camera_optical").isApprox(Eigen::Vector3d{0, 0, -0.06}, kExact));
+  EXPECT_TRUE(tool_T("right_camera_optical").isApprox(Eigen::Vector3d{0, 0, 0.06}, kExact));
+}
+
+TEST(FrameTree, StampsEveryFrameWithTheSample) {
+  const RobotModel lamp = testing::dental_lamp();
+  msg::TFMessage message;
+  tree_of(lamp).write_moving(JointVector::Zero(lamp.dof()), Time{12'345'678'901}, message);
+  for (const auto& edge : message.transforms_()) {
+    EXPECT_EQ(stamp_of(edge.header_().stamp_()).ns, 12'345'678'901);
+  }
+}
+
+TEST(FrameTree, PutsAPrefixBeforeItsOwnNamesAndAWorldAboveTheBase) {
+  const RobotModel lamp = testing::dental_lamp();
+  FrameTree::Options options{.prefix = "left/", .world = "room"};
+  options.world_T_base.translation() = Eigen::Vector3d{1, 2, 3};
+  const JointVector q = *lamp.contract(*lamp.home());
+  const TfListener tf = heard(tree_of(lamp, lamp_rig(), options), q);
+  EXPECT_EQ(tf.parent("left/base"), "room");
+  EXPECT_EQ(tf.parent("left/j1"), "left/base");
+  EXPECT_EQ(tf.parent("left/left_camera_optical"), "left/tool");
+  const Eigen::Isometry3d room_T_tool = options.world_T_base * forward_kinematics(lamp, q);
+  EXPECT_TRUE(tf.transform("room", "left/tool").isApprox(room_T_tool, kExact));
+}
+
+TEST(FrameTree, RefusesNamesThatTf2CannotTake) {
+  const RobotModel lamp = testing::dental_lamp();
+  const auto reason = [&](const RobotModel& model, FrameTree::Options options) {
+    const auto tree = FrameTree::make(model, lamp_rig(), std::move(options));
+    return tree ? std::string{"taken"} : tree.error().text;
+  };
+  EXPECT_EQ(reason(lamp, {.prefix = "/left/"}), "'/left/' begins with '/', which no tf2 frame may");
+  EXPECT_EQ(reason(lamp, {.world = "tool"}), "two frames would be called 'tool'");
+  EXPECT_EQ(reason(lamp, {.world = "base"}), "two frames would be called 'base'");
+  const RobotModel camera_robot{"r",
+                                Convention::standard,
+                                lamp.joints(),
+                                {{"tool", 5, Eigen::Isometry3d::Identity()},
+                                 {"left_camera_optical", 5, Eigen::Isometry3d::Identity()}},
+                                FrameId{0},
+                                std::nullopt,
+                                std::nullopt};
+  EXPECT_EQ(reason(camera_robot, {}), "two frames would be called 'left_camera_optical'");
+}
+
+}  // namespace
+}  // namespace armature

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "armature/robot/robot_model.hpp"
+
+namespace armature {
+
+/// A straight line from one point to another [m].
+struct Segment {
+  Eigen::Vector3d from, to;
+};
+
+/// A part of the robot's picture, in a frame that it does not move against (a prismatic joint's
+/// link only grows).
+struct RobotPart {
+  enum class Kind { link, revolute_joint, prismatic_joint };
+  int id = 0;  // stable: 3 * joint, + 0 along d, + 1 along a, + 2 the joint's body
+  Kind kind = Kind::link;
+  int frame = -1;   // a joint's frame; -1: base
+  Segment segment;  // a link's ends; a joint's axis, unit length, round its middle
+};
+
+/// What the Denavit-Hartenberg rows say of the robot's looks: for every joint its body and the two
+/// lines along d and a that lead to the next one. Lines of no length are left out, except the one
+/// that a prismatic joint moves.
+std::vector<RobotPart> robot_shape(const RobotModel& model, const JointVector& q);
+
+/// The length of the stretched robot [m], from its rows and limits: what its parts' thickness is
+/// chosen by.
+double robot_size(const RobotModel& model);
+
+}  // namespace armature

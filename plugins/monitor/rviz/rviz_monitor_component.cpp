@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <optional>
+#include <utility>
+
+#include "armature/kinds/setup_robot.hpp"
+#include "armature/messages/geometry.hpp"
+#include "armature/messages/header.hpp"
+#include "armature/messages/sensor_msgs.hpp"
+#include "armature/robot/kinematics.hpp"
+#include "armature/robot/rotation.hpp"
+#include "armature/runtime/beat.hpp"
+#include "armature/runtime/component.hpp"
+#include "armature/runtime/plugin.hpp"
+#include "armature/runtime/setup.hpp"
+#include "frame_tree.hpp"
+#include "picture.hpp"
+
+namespace armature {
+namespace {
+
+Eigen::Vector3d vector_of(const Params& params, const char* name) {
+  const auto numbers = params.numbers(name);
+  return {numbers[0], numbers[1], numbers[2]};
+}
+
+FrameTree tree_of(const Params& params, const RobotModel& model,
+                  const std::optional<StereoRig>& rig) {
+  if (rig) mount_of(*rig, model);  // or it refuses
+  FrameTree::Options options{.prefix = params.text("frame_prefix"),
+                             .world = params.text("world_frame")};
+  options.world_T_base.translation() = vector_of(params, "base_position_m");
+  options.world_T_base.linear() = rotation_from_rpy(vector_of(params, "base_rpy_deg"));
+  if (options.world.empty() && !options.world_T_base.isApprox(Eigen::Isometry3d::Identity())) {
+    throw SetupError("base_position_m and base_rpy_deg place base in world_frame: name one");
+  }
+  auto tree = FrameTree::make(model, rig, std::move(options));
+  if (!tree) throw SetupError(tree.error().text);
+  return std::move(*tree);
+}
+
+}  // namespace
+
+/// The system as ROS tools like to see it. Nobody in the deployment reads what it writes.
+class RvizMonitor final : public Component {
+ public:
+  explicit RvizMonitor(Setup& setup)
+      : Component{setup},
+        model_{robot_of(setup)},
+        tree_{tree_of(setup.params(), model_, optional_rig_of(setup))},
+        picture_{model_,
+                 tree_,
+                 {.axis_length_m = setup.params().number("axis_length_m"),
+                  .cone_half_angle_rad = setup.params().number("cone_half_angle_deg")}},
+        beat_{seconds(1 / setup.params().number("rate_hz"))},
+        marker_beat_{seconds(1 / setup.params().number("marker_rate_hz"))},
+        measured_js_{setup.input<msg::JointState>("measured_js")},
+        target_{setup.input<msg::Target>("target")},
+        truth_{setup.input<msg::Target>("truth")},
+        face_{setup.input<msg::FacePose>("face")},
+        path_{setup.input<msg::ToolPath>("path")},
+        motion_status_{setup.input<msg::MotionStatus>("motion_status")},
+        tf_{setup.output<msg::TFMessage>("tf")},
+        tf_static_{setup.output<msg::TFMessage>("tf_static")},
+        tool_pose_{setup.output<msg::PoseStamped>("tool_pose")},
+        markers_{setup.output<msg::MarkerArray>("markers")} {
+    setup.activate_every(seconds(1 / setup.params().number("rate_hz")));
+  }
+
+  void step(Time now) override {
+    for (std::size_t i = 0; i < motion_status_.size(); ++i) goals_.see(motion_status_[i]);
+    publish_fixed_frames(now);
+    if (!beat_.due(now)) return;
+    const msg::JointState* arm = measured_js_.latest();
+    if (!arm) return;
+    const auto q = model_.contract(arm->position_());
+    if (!q) return degraded("measured_js: " + q.error().text);
+    healthy();
+    const Time stamp = stamp_of(arm->header_().stamp_());
+    if (!told_ || stamp > *told_) {
+      publish_frames(*q, stamp);
+      publish_tool_pose(*q, stamp);
+      told_ = stamp;
+    }
+    if (marker_beat_.due(now)) publish_markers(*q, stamp);
+  }
+
+ private:
+  /// Once: DDS keeps them for those who come later.
+  void publish_fixed_frames(Time now) {
+    if (std::exchange(told_fixed_, true)) return;
+    auto fixed = tf_static_.loan();
+    tree_.write_fixed(now, *fixed);
+    fixed.publish();
+  }
+
+  void publish_frames(const JointVector& q, Time stamp) {
+    if (!tf_.wanted()) return;
+    auto frames = tf_.loan();
+    tree_.write_moving(q, stamp, *frames);
+    frames.publish();
+  }
+
+  void publish_tool_pose(const JointVector& q, Time stamp) {
+    if (!tool_pose_.wanted()) return;
+    auto pose = tool_pose_.loan();
+    write_header(pose->header_(), stamp, tree_.name(kBaseFrame));
+    assign(pose->pose_(), forward_kinematics(model_, q));
+    pose.publish();
+  }
+
+  void publish_markers(const JointVector& q, Time stamp) {
+    if (!markers_.wanted()) return;
+    const msg::ToolPath* path = path_.latest();
+    auto markers = markers_.loan();
+    *markers = picture_.draw(q, stamp,
+                             {.target = target_.latest(),
+                              .truth = truth_.latest(),
+                              .face = face_.latest(),
+                              .path = path,
+                              .path_is_followed = path && goals_.pursues(path->goal_id_())});
+    markers.publish();
+  }
+
+  RobotModel model_;
+  FrameTree tree_;
+  Picture picture_;
+  GoalWatch goals_;
+  Beat beat_, marker_beat_;
+  bool told_fixed_ = false;
+  std::optional<Time> told_;
+  Input<msg::JointState> measured_js_;
+  Input<msg::Target> target_, truth_;
+  Input<msg::FacePose> face_;
+  Input<msg::ToolPath> path_;
+  Input<msg::MotionStatus> motion_status_;
+  Output<msg::TFMessage> tf_, tf_static_;
+  Output<msg::PoseStamped> tool_pose_;
+  Output<msg::MarkerArray> markers_;
+};
+
+}  // namespace armature
+
+ARMATURE_PLUGIN(armature::RvizMonitor);

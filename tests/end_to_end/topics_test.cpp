@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a user sees of a running deployment from another terminal: time, frames and rates.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+#include "command.hpp"
+#include "tests/dds_domain.hpp"
+
+namespace armature::test {
+namespace {
+
+using nlohmann::json;
+
+std::int64_t nanoseconds(const json& time) {
+  return time["sec"].get<std::int64_t>() * 1'000'000'000 + time["nanosec"].get<std::int64_t>();
+}
+
+std::vector<json> lines_of(const CommandResult& result) {
+  std::vector<json> lines;
+  std::istringstream text{result.out};
+  for (std::string line; std::getline(text, line);) lines.push_back(json::parse(line));
+  return lines;
+}
+
+/// A deployment in the background, and `armature topic` beside it.
+class Watched : public testing::Test {
+ protected:
+  Command start(const std::string& file, std::vector<std::string> more = {}) const {
+    std::vector<std::string> arguments{armature(), "run", source_file("tests/end_to_end/" + file),
+                                       "--domain", std::to_string(domain_)};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return Command{arguments};
+  }
+  std::vector<std::string> topic(std::vector<std::string> arguments) const {
+    std::vector<std::string> all{armature(), "topic"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    all.insert(all.end(), {"--domain", std::to_string(domain_)});
+    return all;
+  }
+  int domain_ = unique_dds_domain();
+};
+
+TEST_F(Watched, OnTheSimulatedClockTellsTheTimeOfItsStamps) {
+  Command run = start("arm_watched.yaml");
+  Command clock{topic({"echo", "/clock", "-n", "50", "--timeout", "30", "--json"})};
+  Command frames{topic({"echo", "/tf", "-n", "50", "--timeout", "30", "--json"})};
+  const auto times = lines_of(clock.finish(std::chrono::seconds{40}));
+  const auto told = lines_of(frames.finish(std::chrono::seconds{40}));
+  ASSERT_EQ(times.size(), 50U) << run.err();
+  ASSERT_EQ(told.size(), 50U) << run.err();
+
+  std::int64_t last = -1;
+  for (const json& time : times) {
+    const std::int64_t now = nanoseconds(time["clock"]);
+    EXPECT_EQ(now % 10'000'000, 0);
+    EXPECT_GT(now, last);
+    last = now;
+  }
+  // A day of simulated time at the most: stamps of the system clock are 50 years away.
+  constexpr std::int64_t kDay = 86'400'000'000'000;
+  EXPECT_LT(last, kDay);
+  for (const json& message : told) {
+    const std::int64_t stamp = nanoseconds(message["transforms"][0]["header"]["stamp"]);
+    EXPECT_EQ(stamp % 20'000'000, 0);
+    EXPECT_LT(stamp, kDay);
+  }
+  run.signal(SIGINT);
+  EXPECT_EQ(run.finish(std::chrono::seconds{10}).exit_code, 0);
+}
+
+TEST_F(Watched, OnTheSystemClockHasNoClockTopic) {
+  const Command run = start("arm_watched.yaml", {"--set", "clock=system"});
+  const auto list = run_command(topic({"list", "--json", "--timeout", "3"}));
+  std::set<std::string> topics;
+  for (const json& entry : json::parse(list.out)) topics.insert(entry["topic"]);
+  EXPECT_TRUE(topics.contains("/tf")) << list.out << run.err();
+  EXPECT_TRUE(topics.contains("/tf_static"));
+  EXPECT_TRUE(topics.contains("/watched/markers"));
+  EXPECT_FALSE(topics.contains("/clock"));
+}
+
+TEST_F(Watched, TwoArmsShareOneTreeOfFrames) {
+  const Command run = start("two_arms_watched.yaml");
+  // Latched, and each monitor's own: one who comes late gets both.
+  const auto fixed =
+      lines_of(run_command(topic({"echo", "/tf_static", "-n", "2", "--timeout", "30", "--json"})));
+  const auto moving =
+      lines_of(run_command(topic({"echo", "/tf", "-n", "40", "--timeout", "30", "--json"})));
+  std::map<std::string, std::string> parents;
+  for (const auto* messages : {&fixed, &moving}) {
+    for (const json& message : *messages) {
+      for (const json& edge : message["transforms"]) {
+        const std::string child = edge["child_frame_id"], parent = edge["header"]["frame_id"];
+        EXPECT_EQ(parents.try_emplace(child, parent).first->second, parent);
+      }
+    }
+  }
+  for (const std::string arm : {"left", "right"}) {
+    std::string at = arm + "/tool";
+    for (int steps = 0; steps < 20 && parents.contains(at); ++steps) at = parents[at];
+    EXPECT_EQ(at, "room") << arm << run.err();
+  }
+  EXPECT_EQ(parents.size(), 2U * (1 + 6 + 1)) << "base, six joints and the tool of each arm";
+}
+
+TEST_F(Watched, TopicHzPrintsALineEverySecondAndOneInAll) {
+  const Command run = start("arm_watched.yaml", {"--set", "clock=system"});
+  const auto result =
+      run_command(topic({"hz", "/watched/arm/measured_js", "--timeout", "4", "--json"}), {},
+                  std::chrono::seconds{40});
+  const auto lines = lines_of(result);
+  ASSERT_GE(lines.size(), 4U) << result.out << result.err << run.err();
+  std::uint64_t sum = 0;
+  for (std::size_t i = 0; i + 1 < lines.size(); ++i) {
+    EXPECT_EQ(lines[i]["over"], "second");
+    sum += lines[i]["samples"].get<std::uint64_t>();
+  }
+  EXPECT_EQ(lines.back()["over"], "all");
+  EXPECT_GE(lines.back()["samples"], sum);
+}
+
+TEST_F(Watched, TopicEchoOfATopicThatNobodyWritesNamesItAsRosDoes) {
+  const auto result = run_command(topic({"echo", "/lamp/trget", "--timeout", "0.5"}));
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.err, "armature: nobody writes '/lamp/trget'; domain " + std::to_string(domain_) +
+                            " has no topics\n");
+}
+
+}  // namespace
+}  // namespace armature::test

@@ -84,6 +84,10 @@ std::string ros_type(const std::string& dds_name) {
   return type ? type->ros_name : dds_name;
 }
 
+std::string counted(int count, std::string_view what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
 }  // namespace
 
 int list_topics(const TopicOptions& options) {
@@ -103,8 +107,8 @@ int list_topics(const TopicOptions& options) {
                       {"readers", topic.readers},
                       {"deployments", topic.deployments}});
     } else {
-      fmt::print("{:<40} {:<32} {} writers, {} readers in other processes{}\n",
-                 ros_topic_name(topic.name), types, topic.writers, topic.readers,
+      fmt::print("{:<40} {:<32} {}, {} in other processes{}\n", ros_topic_name(topic.name), types,
+                 counted(topic.writers, "writer"), counted(topic.readers, "reader"),
                  topic.types.size() > 1 ? "   CONFLICT: two types on one topic" : "");
     }
   }

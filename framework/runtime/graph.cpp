@@ -5,7 +5,9 @@
 #include <fmt/ranges.h>
 
 #include <map>
+#include <optional>
 #include <set>
+#include <vector>
 
 #include "armature/config/problems.hpp"
 
@@ -22,33 +24,30 @@ std::string port_name(const ComponentConfig& component, const PortBinding& port)
   return fmt::format("{}.{}", component.name, port.spec.name);
 }
 
-/// A topic has one writer, or several that all share it and write alike.
-void check_writers(const ComponentConfig& first, const PortBinding& first_port,
-                   const ComponentConfig& second, const PortBinding& second_port,
-                   config::Problems& problems) {
-  const std::string both =
-      fmt::format("{} and {} both write topic '{}'", port_name(first, first_port),
-                  port_name(second, second_port), second_port.topic);
-  if (!first_port.spec.shared || !second_port.spec.shared) {
-    problems.add(second_port.origin, both + "; rename one with 'out:'");
-  } else if (first_port.spec.type != second_port.spec.type) {
-    problems.add(second_port.origin,
-                 fmt::format("{}, as '{}' and as '{}'; rename one with 'out:'", both,
-                             first_port.spec.type, second_port.spec.type));
-  }
+/// A topic has one writer, or several that all share it and write alike; else why not.
+std::optional<std::string> refusal(const PortBinding& first, const PortBinding& second) {
+  if (!first.spec.shared || !second.spec.shared) return "";
+  if (first.spec.type == second.spec.type) return std::nullopt;
+  return fmt::format(", as '{}' and as '{}'", first.spec.type, second.spec.type);
 }
 
+/// Of topics that are written wrongly, the first writer: what follows from the second is no news.
 Writers find_writers(const DeploymentConfig& deployment, config::Problems& problems) {
   Writers writers;
   for (std::size_t i = 0; i < deployment.components.size(); ++i) {
     const ComponentConfig& component = deployment.components[i];
     for (const PortBinding& port : component.outputs) {
       std::vector<Writer>& there = writers[port.topic];
-      if (!there.empty()) {
-        check_writers(deployment.components[there.front().component], *there.front().port,
-                      component, port, problems);
+      const auto refused = there.empty() ? std::nullopt : refusal(*there.front().port, port);
+      if (!refused) {
+        there.push_back({i, &port});
+        continue;
       }
-      there.push_back({i, &port});
+      const Writer& first = there.front();
+      problems.add(port.origin,
+                   fmt::format("{} and {} both write topic '{}'{}; rename one with 'out:'",
+                               port_name(deployment.components[first.component], *first.port),
+                               port_name(component, port), port.topic, *refused));
     }
   }
   return writers;

@@ -117,7 +117,9 @@ TEST(CycloneViewer, SeesTheToolWhereTheJointsPutItAndWhatTheLampIsAfter) {
   for (const auto& marker : viewed.markers) {
     actions[marker.ns].insert(marker.action);
     frames.insert(marker.frame);
-    if (marker.ns == "path" && marker.action == 0) EXPECT_GE(marker.points, 2);
+    if (marker.ns == "path" && marker.action == 0) {
+      EXPECT_GE(marker.points, 2);
+    }
   }
   EXPECT_EQ(actions["links"], std::set<int>{0});
   EXPECT_EQ(actions["path"], (std::set<int>{0, 2}))

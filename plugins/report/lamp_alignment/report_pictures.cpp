@@ -42,7 +42,7 @@ using ErrorValue = std::function<std::optional<double>(const LampError&)>;
 
 /// One curve over time in a frame with ticks and labels. The errors span several powers of ten and
 /// the goal lies at their small end, so their axis is logarithmic: from the least value, but no
-/// farther than two powers of ten below the goal, to the greatest.
+/// farther than two powers of ten below the goal, to the greatest. What is less lies on the edge.
 struct Panel {
   Panel(cv::Rect in, std::string what, double until_s, double limit,
         std::span<const LampError> errors, const ErrorValue& value)

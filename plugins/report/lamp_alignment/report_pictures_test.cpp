@@ -54,6 +54,25 @@ TEST_F(ReportPicturesTest, TheErrorPlotHasCurvesInBothPanels) {
   EXPECT_GT(curve_pixels(380, 760), 500);
 }
 
+TEST_F(ReportPicturesTest, TheErrorPlotReachesFromTheGreatestErrorDown) {
+  // 3 m and 120 degrees, then good: the curve begins below the upper edge of its panel.
+  std::vector<LampError> errors{{.time_s = 0, .distance_error_m = 3, .direction_error_rad = 2.1},
+                                {.time_s = 1, .distance_error_m = 3, .direction_error_rad = 2.1},
+                                {.time_s = 2, .distance_error_m = 1e-9, .direction_error_rad = 0}};
+  write_error_plot(errors, {}, folder_ / "errors.png");
+  const cv::Mat image = cv::imread((folder_ / "errors.png").string());
+  const auto first_row = [&](int from) {
+    for (int v = from; v < image.rows; ++v) {
+      if (image.at<cv::Vec3b>(v, 200) == cv::Vec3b{180, 90, 20}) return v;
+    }
+    return image.rows;
+  };
+  EXPECT_GT(first_row(0), 40 + 20);
+  EXPECT_LT(first_row(0), 40 + 60);
+  EXPECT_GT(first_row(380), 415 + 20);
+  EXPECT_LT(first_row(380), 415 + 60);
+}
+
 TEST_F(ReportPicturesTest, ARunWithoutAnySampleStillHasAPlot) {
   write_error_plot({}, {}, folder_ / "errors.png");
   EXPECT_TRUE(std::filesystem::exists(folder_ / "errors.png"));

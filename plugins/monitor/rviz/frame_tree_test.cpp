@@ -10,7 +10,7 @@
 
 #include "armature/messages/stamp.hpp"
 #include "armature/robot/kinematics.hpp"
-#include "armature/robot/test_robots.hpp"
+#include "every_robot_test.hpp"
 #include "tf_listener_test.hpp"
 
 namespace armature {
@@ -40,10 +40,10 @@ StereoRig lamp_rig() {
   return load_stereo_rig(std::filesystem::path{ARMATURE_SOURCE_DIR} / "configs/rigs/default.yaml");
 }
 
-class EveryRobot : public ::testing::TestWithParam<RobotModel> {};
+using FramesOfEveryRobot = testing::EveryRobot;
 
-TEST_P(EveryRobot, HasItsFramesWhereForwardKinematicsPutsThem) {
-  const RobotModel& model = GetParam();
+TEST_P(FramesOfEveryRobot, HasItsFramesWhereForwardKinematicsPutsThem) {
+  const RobotModel model = robot();
   const FrameTree tree = tree_of(model);
   const unsigned seed = std::random_device{}();
   SCOPED_TRACE("seed " + std::to_string(seed));
@@ -59,8 +59,8 @@ TEST_P(EveryRobot, HasItsFramesWhereForwardKinematicsPutsThem) {
   }
 }
 
-TEST_P(EveryRobot, HasOneChainOfJointsFromTheBase) {
-  const RobotModel& model = GetParam();
+TEST_P(FramesOfEveryRobot, HasOneChainOfJointsFromTheBase) {
+  const RobotModel model = robot();
   const TfListener tf = heard(tree_of(model), JointVector::Zero(model.dof()));
   EXPECT_EQ(tf.size(), model.joints().size() + model.frames().size());
   std::string parent = "base";
@@ -70,15 +70,8 @@ TEST_P(EveryRobot, HasOneChainOfJointsFromTheBase) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(FrameTree, EveryRobot,
-                         ::testing::Values(testing::dental_lamp(),
-                                           testing::synthetic_robot(Convention::standard, 7),
-                                           testing::synthetic_robot(Convention::modified, 8)),
-                         [](const auto& test) {
-                           return test.param.name() +
-                                  (test.param.convention() == Convention::modified ? "Modified"
-                                                                                   : "Standard");
-                         });
+INSTANTIATE_TEST_SUITE_P(FrameTree, FramesOfEveryRobot, testing::kEveryRobot,
+                         [](const auto& test) { return std::string{test.param}; });
 
 TEST(FrameTree, HangsTheCamerasOnTheFrameThatTheRigIsMountedOn) {
   const RobotModel lamp = testing::dental_lamp();

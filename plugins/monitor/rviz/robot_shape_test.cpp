@@ -8,7 +8,7 @@
 #include <map>
 
 #include "armature/robot/kinematics.hpp"
-#include "armature/robot/test_robots.hpp"
+#include "every_robot_test.hpp"
 
 namespace armature {
 namespace {
@@ -36,10 +36,10 @@ std::map<int, Segment> placed(const RobotModel& model, const JointVector& q) {
   return parts;
 }
 
-class EveryShape : public ::testing::TestWithParam<RobotModel> {};
+using ShapeOfEveryRobot = testing::EveryRobot;
 
-TEST_P(EveryShape, IsOneUnbrokenLineThroughTheFramesOfAllJoints) {
-  const RobotModel& model = GetParam();
+TEST_P(ShapeOfEveryRobot, IsOneUnbrokenLineThroughTheFramesOfAllJoints) {
+  const RobotModel model = robot();
   const unsigned seed = std::random_device{}();
   SCOPED_TRACE("seed " + std::to_string(seed));
   std::mt19937 random{seed};
@@ -64,8 +64,8 @@ TEST_P(EveryShape, IsOneUnbrokenLineThroughTheFramesOfAllJoints) {
   }
 }
 
-TEST_P(EveryShape, HasEveryJointsBodyOnItsAxis) {
-  const RobotModel& model = GetParam();
+TEST_P(ShapeOfEveryRobot, HasEveryJointsBodyOnItsAxis) {
+  const RobotModel model = robot();
   std::mt19937 random{5};
   const JointVector q = testing::random_joints(model, random);
   for (int i = 0; i < model.dof(); ++i) {
@@ -92,15 +92,8 @@ TEST_P(EveryShape, HasEveryJointsBodyOnItsAxis) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(RobotShape, EveryShape,
-                         ::testing::Values(testing::dental_lamp(),
-                                           testing::synthetic_robot(Convention::standard, 7),
-                                           testing::synthetic_robot(Convention::modified, 8)),
-                         [](const auto& test) {
-                           return test.param.name() +
-                                  (test.param.convention() == Convention::modified ? "Modified"
-                                                                                   : "Standard");
-                         });
+INSTANTIATE_TEST_SUITE_P(RobotShape, ShapeOfEveryRobot, testing::kEveryRobot,
+                         [](const auto& test) { return std::string{test.param}; });
 
 TEST(RobotShape, KeepsTheIdsOfItsPartsWhereverTheJointsAre) {
   const RobotModel robot = testing::synthetic_robot(Convention::standard, 9);

@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "armature/robot/task_error.hpp"
+
 namespace armature {
 namespace {
 
@@ -109,26 +111,14 @@ PoseAndJacobian forward_kinematics_with_jacobian(const RobotModel& model, const 
 }
 
 double manipulability(const RobotModel& model, const JointVector& q) {
-  const auto [base_T_tool, jacobian] = forward_kinematics_with_jacobian(model, q, model.tool());
-  Jacobian task = jacobian;
-  if (model.pointing_axis()) {
-    // A pointing axis u moves with omega x u: seen from the two directions square to u.
-    const Vector3d u = base_T_tool.linear() * *model.pointing_axis();
-    const Vector3d side = u.unitOrthogonal(), up = u.cross(side);
-    for (int i = 0; i < model.dof(); ++i) {
-      const Vector3d omega = jacobian.col(i).tail<3>();
-      task(3, i) = omega.cross(u).dot(side);
-      task(4, i) = omega.cross(u).dot(up);
-    }
-  }
-  const int rows = model.pointing_axis() ? 5 : 6;
-  if (model.dof() < rows) return 0;
+  const TaskJacobian task = task_jacobian(model, q);
+  if (task.cols() < task.rows()) return 0;
   // sqrt(det(J J^T)) is the product of the diagonal of R in J^T = Q R; squaring J would cost half
   // of the digits near a singularity.
   using Transposed = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxJoints, 6>;
-  const Transposed transposed = task.topRows(rows).transpose();
+  const Transposed transposed = task.transpose();
   const Eigen::HouseholderQR<Transposed> qr(transposed);
-  return std::abs(qr.matrixQR().diagonal().head(rows).prod());
+  return std::abs(qr.matrixQR().diagonal().head(task.rows()).prod());
 }
 
 }  // namespace armature

@@ -30,7 +30,7 @@ PoseAndJacobian forward_kinematics_with_jacobian(const RobotModel& model, const 
                                                  FrameId frame);
 
 /// Yoshikawa's manipulability sqrt(det(J J^T)) of the rows that the task uses: 6, or with a
-/// pointing axis the 3 positions and 2 directions.
+/// pointing axis 5.
 double manipulability(const RobotModel& model, const JointVector& q);
 
 }  // namespace armature

@@ -128,10 +128,8 @@ std::string PluginRegistry::unknown_text(std::string_view id) const {
 
 std::shared_ptr<PluginLibrary> PluginRegistry::load(const PluginManifest& plugin,
                                                     std::string_view kind, int kind_version) {
-  for (auto& [id, weak] : loaded_) {
-    if (id != plugin.id) continue;
-    if (auto library = weak.lock()) return library;
-  }
+  std::weak_ptr<PluginLibrary>& held = loaded_[plugin.id];
+  if (auto library = held.lock()) return library;
   const auto own = of_this_program_.find(plugin.id);
   auto library = own == of_this_program_.end()
                      ? PluginLibrary::load(plugin.file, kind, kind_version)
@@ -141,7 +139,7 @@ std::shared_ptr<PluginLibrary> PluginRegistry::load(const PluginManifest& plugin
                                   plugin.file.empty() ? "this program" : plugin.file.string(),
                                   library.error().text));
   }
-  loaded_.emplace_back(plugin.id, *library);
+  held = *library;
   return *library;
 }
 

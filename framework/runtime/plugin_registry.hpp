@@ -8,7 +8,6 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "armature/runtime/plugin_library.hpp"
@@ -84,7 +83,7 @@ class PluginRegistry {
   std::vector<PluginManifest> plugins_;
   std::vector<Unusable> unusable_;
   std::map<std::string, PluginEntry, std::less<>> of_this_program_;
-  std::vector<std::pair<std::string, std::weak_ptr<PluginLibrary>>> loaded_;
+  std::map<std::string, std::weak_ptr<PluginLibrary>> loaded_;
 };
 
 }  // namespace armature

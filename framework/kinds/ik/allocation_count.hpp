@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cerrno>
 #include <cstddef>
 #include <cstdlib>
 
-// Counts the calls of malloc (and so of operator new and of Eigen's own allocations) by the calling
-// thread. Defines malloc: include it in one source file of a test program. A sanitizer brings its
-// own malloc; nothing is counted then.
+// Counts how often the calling thread asks for memory: malloc (and so operator new and Eigen's own
+// allocations) and its like. Defines these functions: include it in one source file of a program.
+// A sanitizer brings its own; nothing is counted then.
 
 namespace armature {
 inline thread_local std::size_t allocation_count = 0;
@@ -14,11 +15,34 @@ inline thread_local std::size_t allocation_count = 0;
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define ARMATURE_COUNTS_ALLOCATIONS 1
+// NOLINTBEGIN: the names are glibc's
 extern "C" {
-void* __libc_malloc(std::size_t size);  // NOLINT: glibc's name
-void* malloc(std::size_t size) {        // NOLINT: replaces glibc's
+void* __libc_malloc(std::size_t size);
+void* __libc_calloc(std::size_t count, std::size_t size);
+void* __libc_realloc(void* memory, std::size_t size);
+void* __libc_memalign(std::size_t alignment, std::size_t size);
+
+void* malloc(std::size_t size) {
   ++armature::allocation_count;
   return __libc_malloc(size);
 }
+void* calloc(std::size_t count, std::size_t size) {
+  ++armature::allocation_count;
+  return __libc_calloc(count, size);
 }
+void* realloc(void* memory, std::size_t size) {
+  ++armature::allocation_count;
+  return __libc_realloc(memory, size);
+}
+void* memalign(std::size_t alignment, std::size_t size) {
+  ++armature::allocation_count;
+  return __libc_memalign(alignment, size);
+}
+void* aligned_alloc(std::size_t alignment, std::size_t size) { return memalign(alignment, size); }
+int posix_memalign(void** memory, std::size_t alignment, std::size_t size) {
+  *memory = memalign(alignment, size);
+  return *memory ? 0 : ENOMEM;
+}
+}
+// NOLINTEND
 #endif

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "armature/robot/kinematics.hpp"
+
 namespace armature {
 
 std::string_view to_string(IkStatus::Code code) {
@@ -42,7 +44,11 @@ std::string describe(const IkStatus& status) {
 }
 
 const char* invalid_input(const RobotModel& model, const IkGoal& goal, const JointVector& seed) {
+  constexpr double kFarthest_m = 1e100;
   if (!goal.pose.position.allFinite()) return "the position is not finite";
+  if (goal.pose.position.cwiseAbs().maxCoeff() > kFarthest_m) {
+    return "the position is more than 1e100 m away";
+  }
   if (const auto* direction = std::get_if<Direction>(&goal.pose.orientation)) {
     if (!direction->unit.allFinite()) return "the direction is not finite";
     if (!(direction->unit.norm() > 1e-9)) return "the direction is zero";
@@ -59,6 +65,23 @@ const char* invalid_input(const RobotModel& model, const IkGoal& goal, const Joi
   if (seed.size() != model.dof()) return "the seed has the wrong number of joints";
   if (!seed.allFinite()) return "the seed is not finite";
   return nullptr;
+}
+
+IkBranch branch_at(const RobotModel& model, const IkGoal& goal, const JointVector& q,
+                   std::string_view label) {
+  constexpr double kSingular = 1e-6;  // manipulability
+  IkBranch branch;
+  branch.label = label;
+  branch.q = q;
+  for (int i = 0; i < model.dof(); ++i) {
+    if (turns_freely(model, i)) branch.q[i] = wrap_angle(q[i]);
+  }
+  JointVector turned = branch.q;
+  branch.within_limits = unwind(model, branch.q, turned);
+  branch.singular = manipulability(model, branch.q) < kSingular;
+  const Eigen::Vector3d axis = model.pointing_axis().value_or(Eigen::Vector3d::UnitX());
+  branch.residual = residual(forward_kinematics(model, branch.q), axis, goal.pose);
+  return branch;
 }
 
 bool turns_freely(const RobotModel& model, int i) {

@@ -88,9 +88,15 @@ class IkSolver {
                          IkState& state) const = 0;
 };
 
-/// nullptr, or why `goal` and `seed` cannot be solved for at all: not finite, zero direction, wrong
-/// length. The first lines of every solver.
+/// nullptr, or why `goal` and `seed` cannot be solved for at all: not finite, further away than
+/// squares of it could be added, zero direction, wrong length. The first lines of every solver.
 const char* invalid_input(const RobotModel& model, const IkGoal& goal, const JointVector& seed);
+
+/// The branch that stands at joints `q`: wrapped, its residual, limits and singular flag worked out
+/// by forward kinematics. For solvers that know no shorter way. `label` points to static storage.
+/// Real-time safe.
+IkBranch branch_at(const RobotModel& model, const IkGoal& goal, const JointVector& q,
+                   std::string_view label);
 
 /// True when a whole turn of independent joint `i` changes nothing: it is revolute, and so is what
 /// is coupled to it, with whole ratios.

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/kinds/ik/contract/edges.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace armature::ik_contract {
+namespace {
+
+constexpr double kSame = 1e-6;       // [rad] or [m]: two postures are one
+constexpr double kOnTheWay = 1e-6;   // [m], [rad]: still the same pose
+constexpr double kPromised = 0.995;  // of a set at an edge, by `any_seed`
+
+/// The straight way from `a` to `b` keeps the pose: a motion of the arm within itself, as at a
+/// singular wrist. The two are one solution.
+bool same_by_self_motion(const Probe& probe, const JointVector& a, const JointVector& b) {
+  constexpr int kSteps = 8;
+  JointVector way = b - a;
+  for (int i = 0; i < way.size(); ++i) {
+    if (turns_freely(probe.model(), i)) way[i] = wrap_angle(way[i]);
+  }
+  for (int i = 1; i < kSteps; ++i) {
+    const PoseResidual off = probe.residual_of(a + (1.0 * i / kSteps) * way, probe.goal());
+    if (!(off.position_m <= kOnTheWay) || !(off.angle_rad <= kOnTheWay)) return false;
+  }
+  return true;
+}
+
+bool is_found(const Probe& probe, const JointVector& q) {
+  if (probe.nearest(q) <= kSame) return true;
+  for (const IkBranch& branch : probe.found()) {
+    if (same_by_self_motion(probe, branch.q, q)) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+void EdgeSet::ask(const IkGoal& goal, const JointVector& q) {
+  ++asked_;
+  ask_from_anywhere(goal);
+  ask_from_itself(goal, q);
+}
+
+void EdgeSet::ask_from_anywhere(const IkGoal& goal) {
+  probe_.solve(goal, probe_.random_joints());
+  expect_true_residuals(probe_);
+  expect_true_flags(probe_);
+  const bool ok = probe_.status().code == IkStatus::Code::ok;
+  if (ok) ++reached_;
+  if (!ok && probe_.subject().closed_form) {
+    probe_.violated(fmt::format("{}: {}", name_, describe(probe_.status())));
+  }
+}
+
+void EdgeSet::ask_from_itself(const IkGoal& goal, const JointVector& q) {
+  probe_.solve(goal, q);
+  expect_true_residuals(probe_);
+  expect_true_flags(probe_);
+  if (probe_.status().code != IkStatus::Code::ok) {
+    probe_.violated(
+        fmt::format("{}, the seed is a solution: {}", name_, describe(probe_.status())));
+  } else if (probe_.subject().closed_form && !probe_.redundant() && !is_found(probe_, q)) {
+    probe_.violated(
+        fmt::format("{}: the seed is a solution, the nearest of {} branches is {:.3g} away", name_,
+                    probe_.found().count, probe_.nearest(q)));
+  }
+}
+
+void EdgeSet::close() {
+  if (asked_ == 0) return;
+  const double part = 1.0 * reached_ / asked_;
+  if (reached_ < asked_) {
+    std::string& note = probe_.report().note;
+    note += fmt::format("{}{} {:.1f} %", note.empty() ? "reached: " : ", ", name_, 100 * part);
+  }
+  if (probe_.subject().any_seed && part < kPromised) {
+    probe_.violated(fmt::format("{}: {} of {} reached from random seeds, `any_seed` promises {} %",
+                                name_, reached_, asked_, 100 * kPromised));
+  }
+}
+
+}  // namespace armature::ik_contract

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <ostream>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "armature/kinds/ik/ik.hpp"
+
+namespace armature {
+
+namespace ik_contract {
+class Probe;
+}
+
+/// A solver made for a robot, and what it promises.
+struct IkSubject {
+  std::string name;
+  std::shared_ptr<const RobotModel> model;
+  std::shared_ptr<const IkSolver> solver;
+  bool closed_form = false;  // `all_branches`: finds every branch; else at least one
+  int poses = 2000;          // random ones
+  std::uint64_t seed = 20210612;
+  bool any_seed = true;    // `any_seed`: reaches what can be reached, wherever the seed is
+  bool allocates = false;  // `allocates`: may allocate while it solves
+  int edge_poses = 1000;   // of every set of edges
+
+  friend void PrintTo(const IkSubject& subject, std::ostream* out) { *out << subject.name; }
+};
+
+/// What a law needs of the program that it runs in.
+struct IkLawTools {
+  /// How often the calling thread has allocated; none: the program does not count.
+  std::size_t (*allocations)() = nullptr;
+  /// Told every question before it is asked: what was the last one, should the solver crash?
+  std::function<void(const IkGoal&, const JointVector& seed)> before_solve;
+};
+
+/// One answer that breaks a law.
+struct IkViolation {
+  std::string what;
+  /// The question as a line for `armature ik`; empty when no line can say it (a NaN).
+  std::string question;
+};
+
+/// What came of checking one law.
+struct IkLawReport {
+  std::string skipped;                  // why the law does not apply; empty: it was checked
+  std::string note;                     // what was counted on the way
+  int goals = 0;                        // how many questions were asked
+  int failed = 0;                       // how many answers broke the law
+  std::vector<IkViolation> violations;  // the first few of them
+
+  bool kept() const { return failed == 0; }
+};
+
+/// A law that every `ik` plugin keeps, for any robot that it serves.
+struct IkLaw {
+  std::string_view name;  // "ForwardKinematicsOfEverySolutionIsTheGoal"
+  std::string_view says;  // in short, for a table
+  void (*check)(ik_contract::Probe&);
+};
+
+/// Every law, in the order in which they are best read.
+std::span<const IkLaw> ik_laws();
+
+/// Checks `law` with goals of the subject's robot; the same goals on every run. An exception out of
+/// the solver breaks the law.
+IkLawReport check_law(const IkLaw& law, const IkSubject& subject, const IkLawTools& tools = {});
+
+/// `goal` and `seed` as a line of `armature ik`.
+std::string question_line(const RobotModel& model, const IkGoal& goal, const JointVector& seed);
+
+}  // namespace armature
+
+// The laws by name: LAW(TheSentence, the_function, "in short").
+#define ARMATURE_IK_LAWS(LAW)                                                                    \
+  LAW(ForwardKinematicsOfEverySolutionIsTheGoal, solutions_reach, "fk(ik(goal)) = goal")         \
+  LAW(AGoalWithinLimitsIsReached, goals_are_reached, "what is within limits is reached")         \
+  LAW(TheJointsThatMadeAGoalAreAmongItsSolutions, generator_is_found, "no branch is missing")    \
+  LAW(FlagsAndLabelsTellTheTruth, flags_are_true, "limits, singular, residual, label are true")  \
+  LAW(AnAskedArmAngleIsKept, redundancy_is_kept, "an asked arm angle is kept")                   \
+  LAW(SingularPosturesAreAnswered, singular_postures, "singular to 0, 1e-9, 1e-7, 1e-4")         \
+  LAW(PosturesAtTheJointLimitsAreAnswered, postures_at_limits, "joints at their limits")         \
+  LAW(StretchedAndFoldedPosturesAreAnswered, extreme_postures, "stretched, less 1e-9 m, folded") \
+  LAW(GoalsOnTheBaseAxisAreAnswered, goals_on_base_axis, "goals on the base axis")               \
+  LAW(GoalsStraightUpAndDownAreAnswered, upright_goals, "pointing straight up and down")         \
+  LAW(AGoalOutOfReachSaysHowFar, out_of_reach, "out of reach by 1e-9 m, 10 %, metres")           \
+  LAW(ASmallChangeOfTheGoalIsASmallChangeOfTheJointsAwayFromSingularPoses, continuity,           \
+      "a small change of the goal is one of the joints")                                         \
+  LAW(EqualInputGivesEqualBitsFromAnyThread, equal_bits, "equal bits from any thread")           \
+  LAW(BadInputIsAnsweredAndNotSolved, bad_input, "bad input is answered")                        \
+  LAW(SolvingDoesNotAllocate, no_allocation, "solving does not allocate")

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+// The laws of what is found for random goals.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "armature/kinds/ik/contract/laws.hpp"
+#include "armature/kinds/ik/contract/search.hpp"
+#include "armature/robot/kinematics.hpp"
+
+namespace armature::ik_contract {
+namespace {
+
+constexpr double kSame = 1e-6;  // [rad] or [m]: two postures are one
+
+/// How near the branches come to `q` when the arm angle is free to choose: a grid, then a golden
+/// section around its best places.
+double nearest_at_any_arm_angle(Probe& probe, IkGoal goal, const JointVector& q) {
+  constexpr int kGrid = 64, kPlaces = 3;
+  constexpr double kStep = 2 * std::numbers::pi / kGrid;
+  const auto at = [&](double arm_angle) {
+    goal.redundancy = wrap_angle(arm_angle);
+    probe.solve(goal, q);
+    return probe.nearest(q);
+  };
+  std::array<std::pair<double, double>, kGrid> grid;  // distance, arm angle
+  for (int i = 0; i < kGrid; ++i) {
+    const double arm_angle = -std::numbers::pi + i * kStep;
+    grid[static_cast<std::size_t>(i)] = {at(arm_angle), arm_angle};
+  }
+  std::ranges::partial_sort(grid, grid.begin() + kPlaces);
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < kPlaces && least > kSame; ++i) {
+    const double centre = grid[static_cast<std::size_t>(i)].second;
+    least = std::min(least, at(golden_section(centre - kStep, centre + kStep, at)));
+  }
+  return least;
+}
+
+}  // namespace
+
+void solutions_reach(Probe& probe) {
+  for (int i = 0; i < probe.subject().poses; ++i) {
+    const IkGoal goal = probe.goal_at(probe.random_joints());
+    probe.solve(goal, probe.random_joints());
+    expect_true_residuals(probe);
+  }
+}
+
+void goals_are_reached(Probe& probe) {
+  const bool promised = probe.subject().any_seed || probe.subject().closed_form;
+  int reached = 0;
+  for (int i = 0; i < probe.subject().poses; ++i) {
+    const JointVector q = probe.random_joints();
+    const IkGoal goal = probe.goal_at(q);
+    probe.solve(goal, probe.random_joints());
+    const bool ok = probe.status().code == IkStatus::Code::ok;
+    if (ok) ++reached;
+    if (!ok && promised) {
+      probe.violated("a goal that joints within limits reach: " + describe(probe.status()));
+    }
+    if (promised) continue;
+    probe.solve(goal, q);
+    if (probe.status().code != IkStatus::Code::ok) {
+      probe.violated("a goal that the seed itself reaches: " + describe(probe.status()));
+    }
+  }
+  if (!promised) {
+    probe.report().note = fmt::format(
+        "only seeds that are solutions: `any_seed` is not offered; from random ones {:.1f} %",
+        100.0 * reached / probe.subject().poses);
+  }
+}
+
+void generator_is_found(Probe& probe) {
+  const bool all = probe.subject().closed_form;
+  for (int i = 0; i < probe.subject().poses; ++i) {
+    const JointVector q = probe.random_joints();
+    const IkGoal goal = probe.goal_at(q);
+    probe.solve(goal, all ? probe.random_joints() : q);
+    double distance = probe.nearest(q);
+    if (all && probe.redundant() && distance > kSame) {
+      distance = nearest_at_any_arm_angle(probe, goal, q);
+    }
+    if (!(distance <= kSame)) {
+      const JointVector joints = probe.model().expand(q);
+      probe.violated(
+          fmt::format("the joints [{:.9g}] made this goal, the nearest of {} branches is "
+                      "{:.3g} away",
+                      fmt::join(joints, ", "), probe.found().count, distance));
+    }
+  }
+  if (!all) probe.report().note = "only from the joints themselves: `all_branches` is not offered";
+}
+
+void flags_are_true(Probe& probe) {
+  for (int i = 0; i < probe.subject().poses; ++i) {
+    const IkGoal goal = probe.goal_at(probe.random_joints());
+    probe.solve(goal, probe.random_joints());
+    expect_true_flags(probe);
+  }
+}
+
+void redundancy_is_kept(Probe& probe) {
+  if (!probe.redundant()) {
+    probe.report().skipped = "the arm is not redundant";
+    return;
+  }
+  if (!probe.subject().closed_form) {
+    probe.report().skipped = "`all_branches` is not offered";
+    return;
+  }
+  std::uniform_real_distribution<double> angle{-std::numbers::pi, std::numbers::pi};
+  int answered = 0;
+  for (int i = 0; i < probe.subject().poses; ++i) {
+    IkGoal goal = probe.goal_at(probe.random_joints());
+    goal.redundancy = angle(probe.random());
+    probe.solve(goal, probe.random_joints());
+    if (probe.found().count > 0) ++answered;
+    for (const IkBranch& branch : probe.found()) {
+      if (std::abs(wrap_angle(branch.redundancy - *goal.redundancy)) <= 1e-9) continue;
+      probe.violated(fmt::format("branch {} has arm angle {}, asked was {}", branch.label,
+                                 branch.redundancy, *goal.redundancy));
+    }
+    expect_true_residuals(probe);
+  }
+  probe.report().note = fmt::format("{} had branches", answered);
+}
+
+namespace {
+
+/// Far enough from singular for joints to follow the goal.
+bool regular(const RobotModel& model, const JointVector& q) {
+  const bool wide = model.dof() >= task_rows(model);
+  return smallest_singular_value(model, q) > 0.05 && (!wide || manipulability(model, q) > 0.02);
+}
+
+/// Branches before and after a small step of the goal: each has its like under the same label.
+void expect_branches_follow(Probe& probe, const IkBranches& before, double allowed) {
+  for (const IkBranch& branch : before) {
+    if (!regular(probe.model(), branch.q)) continue;
+    double least = std::numeric_limits<double>::infinity();
+    for (const IkBranch& after : probe.found()) {
+      if (after.label == branch.label) least = std::min(least, probe.distance(after.q, branch.q));
+    }
+    if (!(least <= allowed)) {
+      probe.violated(
+          fmt::format("the goal has moved a little, branch {} by {:.3g}", branch.label, least));
+    }
+  }
+}
+
+}  // namespace
+
+void continuity(Probe& probe) {
+  constexpr double kStep = 1e-6, kGain = 100;
+  std::normal_distribution<double> normal;
+  int checked = 0;
+  for (int i = 0; i < probe.subject().poses / 4; ++i) {
+    const JointVector q = probe.random_joints();
+    if (!regular(probe.model(), q)) continue;
+    ++checked;
+    JointVector step(probe.model().dof());
+    for (double& value : step) value = normal(probe.random());
+    const JointVector moved = q + kStep * step.normalized();
+    IkGoal goal = probe.goal_at(q), next = probe.goal_at(moved);
+    const bool all = probe.subject().closed_form;
+    probe.solve(goal, q);
+    if (all && probe.redundant() && probe.found().count > 0) {
+      goal.redundancy = next.redundancy = probe.found().begin()->redundancy;
+      probe.solve(goal, q);
+    }
+    const IkBranches before = probe.found();
+    probe.solve(next, q);
+    if (all) {
+      expect_branches_follow(probe, before, kGain * kStep);
+    } else if (const double nearest = probe.nearest(q); !(nearest <= kGain * kStep)) {
+      probe.violated(fmt::format("the goal moves by {:.0e}, the joints by {:.3g}", kStep, nearest));
+    }
+  }
+  if (checked == 0) probe.report().skipped = "no posture is far from singular";
+}
+
+}  // namespace armature::ik_contract

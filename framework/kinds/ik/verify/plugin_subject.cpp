@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/kinds/ik/verify/plugin_subject.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "armature/config/problems.hpp"
+#include "armature/runtime/growth.hpp"
+
+namespace armature {
+namespace {
+
+constexpr std::string_view kAllBranches = "all_branches", kAnySeed = "any_seed";
+
+/// True when the plugin offers `word` with these parameters.
+bool offers(const PluginManifest& plugin, std::string_view word, const Params& params) {
+  const auto offer = std::ranges::find(plugin.offers, word, &Trait::word);
+  if (offer == plugin.offers.end()) return false;
+  if (offer->when.empty()) return true;
+  const auto param = std::ranges::find(plugin.params, offer->when, &ParamSpec::name);
+  if (param == plugin.params.end()) return false;
+  switch (param->type) {
+    case ParamSpec::Type::flag:
+      return params.flag(offer->when);
+    case ParamSpec::Type::integer:
+      return params.integer(offer->when) != 0;
+    default:
+      return params.number(offer->when) != 0;
+  }
+}
+
+}  // namespace
+
+Expected<IkSubject> plugin_subject(PluginRegistry& plugins, const PluginManifest& plugin,
+                                   std::shared_ptr<const RobotModel> model, const Params& params) {
+  auto made = plugins.make<IkSolver>(plugin.id, *model, params);
+  if (!made) return tl::unexpected{made.error()};
+  auto held = std::make_shared<PluginPtr<IkSolver>>(std::move(*made));
+  IkSubject subject;
+  subject.name = plugin.id;
+  subject.model = std::move(model);
+  subject.solver = std::shared_ptr<const IkSolver>{held, &**held};
+  subject.closed_form = offers(plugin, kAllBranches, params);
+  subject.any_seed = subject.closed_form || offers(plugin, kAnySeed, params);
+  subject.allocates = plugin.allocates;
+  return subject;
+}
+
+std::string wrong_offers(const PluginManifest& plugin) {
+  const std::array known{std::string{kAllBranches}, std::string{kAnySeed}};
+  for (const Trait& offer : plugin.offers) {
+    if (std::ranges::find(known, offer.word) != known.end()) continue;
+    return fmt::format("its plugin.yaml offers '{}', which is no promise of the kind ik{}",
+                       offer.word, config::did_you_mean(offer.word, known));
+  }
+  return "";
+}
+
+IkLawReport check_loading(const std::vector<std::filesystem::path>& search_path,
+                          std::string_view plugin_id, const RobotModel& model,
+                          const Params& params) {
+  constexpr int kCycles = 1000;
+  constexpr double kBudget_s = 60;
+  PluginRegistry plugins{search_path};
+  const PluginManifest* plugin = plugins.find(plugin_id);
+  IkLawReport report;
+  if (!plugin) {
+    report.skipped = plugins.unknown_text(plugin_id);
+    return report;
+  }
+  IkGoal goal;
+  const JointVector seed = resting_position(model);
+  goal.pose.position = {0.1, 0.2, 0.3};
+  if (!model.pointing_axis()) goal.pose.orientation = Eigen::Quaterniond::Identity();
+  const Growth growth = growth_of(plugin->file, kCycles, kBudget_s, [&] {
+    const auto solver = plugins.make<IkSolver>(plugin_id, model, params);
+    if (!solver) return;
+    IkBranches found;
+    IkState state;
+    (*solver)->solve(goal, seed, found, state);
+    ++report.goals;
+  });
+  report.note = fmt::format("{} times", growth.cycles);
+  if (const std::string fault = growth.fault(); !fault.empty()) {
+    report.failed = 1;
+    report.violations.push_back({fault, ""});
+  }
+  return report;
+}
+
+}  // namespace armature

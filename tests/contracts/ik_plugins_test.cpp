@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+// The laws of the kind `ik`, for every plugin of the build times every robot of configs/robots: one
+// test each. A robot that the plugin refuses is not served; a plugin that needs parameters is left
+// to its own test.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "armature/config/problems.hpp"
+#include "armature/kinds/ik/contract.hpp"
+#include "armature/kinds/ik/verify/plugin_subject.hpp"
+
+namespace armature {
+namespace {
+
+namespace fs = std::filesystem;
+using RobotPtr = std::shared_ptr<const RobotModel>;
+
+PluginRegistry& registry() {
+  static PluginRegistry plugins{{ARMATURE_PLUGIN_BUILD_DIR}};
+  return plugins;
+}
+
+std::vector<RobotPtr> robots() {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator{ARMATURE_SOURCE_DIR "/configs/robots"}) {
+    if (entry.path().extension() == ".yaml") files.push_back(entry.path());
+  }
+  std::ranges::sort(files);
+  std::vector<RobotPtr> list;
+  for (const auto& file : files) {
+    list.push_back(std::make_shared<const RobotModel>(load_robot_model(file)));
+  }
+  return list;
+}
+
+/// nullopt when some parameter has no default.
+std::optional<Params> defaults(const PluginManifest& plugin) {
+  config::Problems problems;
+  Params params = Params::read(plugin.params, nullptr, plugin.id, problems);
+  if (!problems.empty()) return std::nullopt;
+  return params;
+}
+
+class LawTest : public testing::Test {
+ public:
+  explicit LawTest(std::function<void()> body) : body_{std::move(body)} {}
+  void TestBody() override { body_(); }
+
+ private:
+  std::function<void()> body_;
+};
+
+void add_test(const std::string& suite, std::string_view name, std::function<void()> body) {
+  testing::RegisterTest(suite.c_str(), std::string{name}.c_str(), nullptr, nullptr, __FILE__,
+                        __LINE__, [body] { return new LawTest{body}; });
+}
+
+void add_tests_of(const PluginManifest& plugin, const Params& params, const RobotPtr& robot) {
+  // Made anew in every test: the loading law wants the library held by nobody.
+  const auto subject = [&plugin, params, robot] {
+    return plugin_subject(registry(), plugin, robot, params);
+  };
+  if (!subject()) return;  // refused: not served
+  std::string suite = plugin.id + "_" + robot->name();
+  std::ranges::replace(suite, '/', '_');
+  for (const IkLaw& law : ik_laws()) {
+    add_test(suite, law.name, [law, subject] { expect_kept(law, subject().value()); });
+  }
+  add_test(suite, IkLoadingLaw::kName, [&plugin, params, robot] {
+    const IkLawReport report =
+        check_loading({ARMATURE_PLUGIN_BUILD_DIR}, plugin.id, *robot, params);
+    for (const auto& [what, question] : report.violations) ADD_FAILURE() << what;
+  });
+}
+
+bool add_all_tests() {
+  for (const PluginManifest& plugin : registry().plugins()) {
+    if (plugin.kind != IkSolver::kKind) continue;
+    add_test("offers", plugin.id, [&plugin] { EXPECT_EQ(wrong_offers(plugin), ""); });
+    const auto params = defaults(plugin);
+    if (!params) continue;
+    for (const RobotPtr& robot : robots()) add_tests_of(plugin, *params, robot);
+  }
+  return true;
+}
+[[maybe_unused]] const bool added = add_all_tests();
+
+}  // namespace
+}  // namespace armature

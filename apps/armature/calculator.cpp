@@ -2,6 +2,7 @@
 #include "calculator.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <istream>
@@ -17,6 +18,7 @@
 #include "armature/robot/robot_model.hpp"
 #include "armature/runtime/plugin_registry.hpp"
 #include "exit_code.hpp"
+#include "progress.hpp"
 
 namespace armature {
 namespace {
@@ -105,6 +107,23 @@ Json answer_fk(const RobotModel& robot, const std::string& line) {
 /// Neither vanishing nor overflowing when it is made a unit.
 bool usable_length(double length) { return length > 1e-9 && std::isfinite(length); }
 
+/// `coefficients` over their length; bit for bit as they are when that is 1 already.
+template <class Coefficients>
+Coefficients unit(const Coefficients& coefficients, const char* key) {
+  const double length = coefficients.norm();
+  if (!usable_length(length)) throw InvalidLine(fmt::format("'{}' has no usable length", key));
+  constexpr double kRounding = 1e-15;
+  return std::abs(length - 1) <= kRounding ? coefficients : Coefficients(coefficients / length);
+}
+
+/// A positive number of the line, or `usual`.
+double positive(const Json& json, const char* key, double usual) {
+  if (!json.contains(key)) return usual;
+  const double value = json[key].is_number() ? json[key].get<double>() : 0;
+  if (!(value > 0)) throw InvalidLine(fmt::format("'{}' must be a positive number", key));
+  return value;
+}
+
 Orientation read_orientation(const RobotModel& robot, const Json& question) {
   if (question.contains("direction") == question.contains("quaternion_xyzw")) {
     throw InvalidLine("give either 'direction' or 'quaternion_xyzw'");
@@ -113,16 +132,10 @@ Orientation read_orientation(const RobotModel& robot, const Json& question) {
     if (!robot.pointing_axis()) {
       throw InvalidLine("the robot file names no 'pointing_axis'; give 'quaternion_xyzw'");
     }
-    const Eigen::Vector3d direction = vector3(question, "direction");
-    if (!usable_length(direction.norm())) throw InvalidLine("'direction' has no usable length");
-    return Direction{direction.normalized()};
+    return Direction{unit(vector3(question, "direction"), "direction")};
   }
   const auto q = numbers(question, "quaternion_xyzw", 4);
-  const Eigen::Quaterniond quaternion{q[3], q[0], q[1], q[2]};
-  if (!usable_length(quaternion.norm())) {
-    throw InvalidLine("'quaternion_xyzw' has no usable length");
-  }
-  return quaternion.normalized();
+  return Eigen::Quaterniond{unit(Eigen::Vector4d{q[0], q[1], q[2], q[3]}, "quaternion_xyzw")};
 }
 
 Json solution_json(const RobotModel& robot, const IkBranch& branch, bool redundant) {
@@ -146,8 +159,8 @@ std::string reason_of(const IkStatus& status) {
 
 Json answer_ik(const RobotModel& robot, const IkSolver& solver, const JointVector& home,
                const std::string& line) {
-  const Json question =
-      parse_line(line, {"position_m", "direction", "quaternion_xyzw", "seed", "redundancy_rad"});
+  const Json question = parse_line(line, {"position_m", "direction", "quaternion_xyzw", "seed",
+                                          "redundancy_rad", "tolerance_m", "tolerance_rad"});
   if (!question.contains("position_m")) throw InvalidLine("'position_m' is missing");
   IkGoal goal;
   goal.pose.position = vector3(question, "position_m");
@@ -158,6 +171,8 @@ Json answer_ik(const RobotModel& robot, const IkSolver& solver, const JointVecto
     }
     goal.redundancy = question["redundancy_rad"].get<double>();
   }
+  goal.tolerance.position_m = positive(question, "tolerance_m", goal.tolerance.position_m);
+  goal.tolerance.angle_rad = positive(question, "tolerance_rad", goal.tolerance.angle_rad);
   const JointVector seed = question.contains("seed") ? joints(robot, question, "seed") : home;
   IkBranches branches;
   IkState state;
@@ -175,6 +190,9 @@ Json answer_ik(const RobotModel& robot, const IkSolver& solver, const JointVecto
 
 /// One answer per line, whatever the line holds. Empty lines are skipped.
 int answer_lines(std::istream& in, std::ostream& out, const auto& answer) {
+  std::optional<Progress> progress;
+  if (isatty(STDOUT_FILENO) == 0) progress.emplace("lines");  // else the answers show it
+  std::uint64_t answered = 0;
   for (std::string line; std::getline(in, line);) {
     if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
     Json json;
@@ -186,6 +204,7 @@ int answer_lines(std::istream& in, std::ostream& out, const auto& answer) {
     }
     out << json.dump() << '\n';
     if (!out) return kFailed;
+    if (progress) progress->count(++answered);
   }
   out.flush();
   return kOk;
@@ -193,24 +212,21 @@ int answer_lines(std::istream& in, std::ostream& out, const auto& answer) {
 
 }  // namespace
 
-int run_fk(const std::string& robot_file, std::istream& in, std::ostream& out) {
-  const RobotModel robot = load_robot_model(robot_file);
+int run_fk(const ArmChoice& arm, std::istream& in, std::ostream& out) {
+  const RobotModel robot = load_arm(arm);
   return answer_lines(in, out, [&](const std::string& line) { return answer_fk(robot, line); });
 }
 
-int run_ik(const std::string& robot_file, const std::string& plugin_id, std::istream& in,
-           std::ostream& out) {
-  const RobotModel robot = load_robot_model(robot_file);
+int run_ik(const ArmChoice& arm, const SolverChoice& choice, std::istream& in, std::ostream& out) {
+  const RobotModel robot = load_arm(arm);
   PluginRegistry plugins;
-  const PluginManifest* plugin = plugins.find(plugin_id);
-  if (!plugin) throw InvalidChoice(plugins.unknown_text(plugin_id));
-  config::Problems problems;
-  const Params params = Params::read(plugin->params, nullptr, plugin_id, problems);
-  problems.throw_if_any();
-  const auto solver = plugins.make<IkSolver>(plugin_id, robot, params);
+  const PluginManifest* plugin = plugins.find(choice.plugin);
+  if (!plugin) throw InvalidChoice(plugins.unknown_text(choice.plugin));
+  const Params params = params_of(*plugin, choice.params);
+  const auto solver = plugins.make<IkSolver>(choice.plugin, robot, params);
   if (!solver) {
     throw InvalidChoice(
-        fmt::format("{} refuses robot '{}': {}", plugin_id, robot.name(), solver.error().text));
+        fmt::format("{} refuses robot '{}': {}", choice.plugin, robot.name(), solver.error().text));
   }
   const JointVector home = resting_position(robot);
   return answer_lines(

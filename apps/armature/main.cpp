@@ -11,10 +11,12 @@
 #include "armature/runtime/plugin_registry.hpp"
 #include "calculator.hpp"
 #include "exit_code.hpp"
+#include "ik_bench/bench.hpp"
 #include "inspect.hpp"
 #include "plugins.hpp"
 #include "run.hpp"
 #include "topics.hpp"
+#include "verify.hpp"
 
 namespace armature {
 namespace {
@@ -64,8 +66,27 @@ void add_inspection(CLI::App& app, Action& action) {
       [=, &action] { action = [=] { return graph_deployment(*source, *dot, *json); }; });
 }
 
+void add_arm(CLI::App* verb, ArmChoice& arm) {
+  verb->add_option("--robot", arm.robot, "robot file");
+  verb->add_option("--tip", arm.tip, "frame that goals are stated for, instead of 'tool'");
+}
+
+void add_verify(CLI::App& plugin, Action& action) {
+  auto options = std::make_shared<VerifyOptions>();
+  CLI::App* verify = plugin.add_subcommand("verify", "Check every law of the plugin's kind");
+  verify->add_option("plugin", options->plugin, "its id, or a library file")->required();
+  add_arm(verify, options->arm);
+  verify->add_option("--params", options->params, "the plugin's parameters, a YAML map");
+  verify->add_option("--poses", options->poses, "of every set")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1000000));
+  verify->add_option("--seed", options->seed, "of the random numbers")->capture_default_str();
+  verify->add_flag("--json", options->json, "as JSON");
+  verify->callback([options, &action] { action = [options] { return verify_plugin(*options); }; });
+}
+
 void add_plugin_verbs(CLI::App& app, Action& action) {
-  CLI::App* plugin = app.add_subcommand("plugin", "List, describe and start plugins");
+  CLI::App* plugin = app.add_subcommand("plugin", "List, describe, start and verify plugins");
   plugin->require_subcommand(1);
   auto json = std::make_shared<bool>(false);
   auto id = std::make_shared<std::string>();
@@ -84,6 +105,8 @@ void add_plugin_verbs(CLI::App& app, Action& action) {
   fresh->add_option("id", *id, "e.g. ik/mine")->required();
   fresh->add_option("-o,--output", *directory, "folder to write it into")->required();
   fresh->callback([=, &action] { action = [=] { return new_plugin(*id, *directory); }; });
+
+  add_verify(*plugin, action);
 }
 
 void add_topic_verbs(CLI::App& app, Action& action) {
@@ -122,29 +145,60 @@ int with_input(const std::string& file, const std::function<int(std::istream&)>&
 }
 
 void add_calculators(CLI::App& app, Action& action) {
-  auto robot = std::make_shared<std::string>();
-  auto plugin = std::make_shared<std::string>("ik/numeric");
+  auto arm = std::make_shared<ArmChoice>();
+  auto solver = std::make_shared<SolverChoice>();
   auto input = std::make_shared<std::string>();
 
   CLI::App* fk = app.add_subcommand("fk", "Forward kinematics: JSON lines in, JSON lines out");
-  fk->add_option("--robot", *robot, "robot file")->required();
+  add_arm(fk, *arm);
+  fk->get_option("--robot")->required();
   fk->add_option("input", *input, "file of JSON lines (standard input)");
   fk->callback([=, &action] {
     action = [=] {
-      return with_input(*input, [&](std::istream& in) { return run_fk(*robot, in, std::cout); });
+      return with_input(*input, [&](std::istream& in) { return run_fk(*arm, in, std::cout); });
     };
   });
 
   CLI::App* ik = app.add_subcommand("ik", "Inverse kinematics: JSON lines in, JSON lines out");
-  ik->add_option("--robot", *robot, "robot file")->required();
-  ik->add_option("--plugin", *plugin, "solver")->capture_default_str();
+  add_arm(ik, *arm);
+  ik->get_option("--robot")->required();
+  ik->add_option("--plugin", solver->plugin, "solver")->capture_default_str();
+  ik->add_option("--params", solver->params, "its parameters, a YAML map: '{max_restarts: 3}'");
   ik->add_option("input", *input, "file of JSON lines (standard input)");
   ik->callback([=, &action] {
     action = [=] {
       return with_input(*input,
-                        [&](std::istream& in) { return run_ik(*robot, *plugin, in, std::cout); });
+                        [&](std::istream& in) { return run_ik(*arm, *solver, in, std::cout); });
     };
   });
+}
+
+void add_bench(CLI::App& app, Action& action) {
+  CLI::App* bench = app.add_subcommand("bench", "Measure plugins side by side");
+  bench->require_subcommand(1);
+  auto options = std::make_shared<BenchOptions>();
+  CLI::App* ik = bench->add_subcommand(
+      "ik", "Solvers on the same goals: armature bench ik --robot configs/robots/dental_lamp.yaml");
+  add_arm(ik, options->arm);
+  ik->get_option("--robot")->required();
+  ik->add_option("--plugins", options->plugins, "solvers, 'ik/kdl,ik/numeric' (all)")
+      ->delimiter(',');
+  ik->add_option("--params", options->params, "YAML: '{ik/numeric: {max_restarts: 3}}'");
+  ik->add_option("--poses", options->poses, "goals")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 10000000));
+  ik->add_option("--seed", options->seed, "of the random numbers")->capture_default_str();
+  ik->add_flag("--near", options->near_only, "only seeds within 5 degrees of a solution");
+  ik->add_option("--repetitions", options->repetitions, "of every solve")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1000));
+  ik->add_option("--tolerance", options->tolerance, "of a residual, m and rad")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  ik->add_option("--baseline", options->baseline, "what the others are compared with (ik/kdl)");
+  ik->add_option("--out", options->out, "folder for solves.csv, cumulative.svg, summary.json");
+  ik->add_flag("--json", options->json, "as JSON");
+  ik->callback([options, &action] { action = [options] { return bench_ik(*options); }; });
 }
 
 int guarded(const Action& action) {
@@ -178,6 +232,7 @@ int run_command_line(int argc, char** argv) {
   add_plugin_verbs(app, action);
   add_topic_verbs(app, action);
   add_calculators(app, action);
+  add_bench(app, action);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -22,12 +22,7 @@ constexpr std::string_view kKind = "ik";  // of which there is a template
 constexpr std::string_view kCMake = R"(cmake_minimum_required(VERSION 3.25)
 project(@TARGET@ LANGUAGES CXX)
 find_package(Armature REQUIRED HINTS "@PACKAGE@")
-armature_add_plugin(@ID@ SOURCES @NAME@.cpp LINK armature::ik)
-
-enable_testing()
-add_executable(@TARGET@_test @NAME@_test.cpp @NAME@.cpp)
-target_link_libraries(@TARGET@_test PRIVATE armature::ik)
-add_test(NAME @TARGET@ COMMAND @TARGET@_test)
+armature_add_plugin(@ID@ SOURCES @NAME@.cpp LINK armature::ik TESTS @NAME@_test.cpp)
 )";
 
 constexpr std::string_view kManifest = R"(armature_plugin: 1
@@ -35,114 +30,114 @@ id: @ID@
 kind: ik
 doc: Damped least squares from the seed, one branch.
 params:
-  damping: {type: number, default: 0.001, min: 0, doc: "lambda of (J^T J + lambda I) dq = J^T e"}
+  damping: {type: number, default: 0.01, min: 0, doc: "lambda of J^T (J J^T + lambda e^2 I)^-1 e, e the error in m and rad"}
+# What you promise, once you do; `armature plugin verify @ID@` checks it:
+# offers:
+#   any_seed: {doc: "What joints within limits reach is found from any seed."}
+#   all_branches: {doc: "Every joint position that reaches the goal is found."}
 )";
 
-constexpr std::string_view kHeader = R"(#pragma once
+constexpr std::string_view kSource = R"(#include <Eigen/Cholesky>
 
 #include "armature/kinds/ik/ik.hpp"
-
-class @CLASS@ final : public armature::IkSolver {
- public:
-  @CLASS@(const armature::RobotModel& robot, const armature::Params& params)
-      : robot_{robot}, damping_{params.number("damping")} {}
-
-  armature::IkStatus solve(const armature::IkGoal& goal, const armature::JointVector& seed,
-                           armature::IkBranches& out, armature::IkState& state) const override;
-
- private:
-  const armature::RobotModel& robot_;
-  double damping_;
-};
-)";
-
-constexpr std::string_view kSource = R"(#include "@NAME@.hpp"
-
-#include <Eigen/Cholesky>
-
-#include "armature/robot/kinematics.hpp"
+#include "armature/robot/task_error.hpp"
 #include "armature/runtime/plugin.hpp"
-
 using namespace armature;
 
-IkStatus @CLASS@::solve(const IkGoal& goal, const JointVector& seed, IkBranches& out,
-                        IkState&) const {
-  out.clear();
-  if (const char* wrong = invalid_input(robot_, goal, seed)) {
-    return {IkStatus::Code::invalid_input, 0, wrong};
-  }
-  const Eigen::Vector3d axis = robot_.pointing_axis().value_or(Eigen::Vector3d::UnitZ());
-  JointVector q = seed;
-  for (int i = 0; i < goal.max_iterations; ++i) {
-    auto [base_T_tool, J] = forward_kinematics_with_jacobian(robot_, q, robot_.tool());
-    const PoseResidual left = residual(base_T_tool, axis, goal.pose);
-    if (left.position_m <= goal.tolerance.position_m && left.angle_rad <= goal.tolerance.angle_rad) {
-      const bool inside = robot_.within_limits(q);
-      out.add() = {"from_seed", q, 0, left, inside, false};
-      return {inside ? IkStatus::Code::ok : IkStatus::Code::joint_limit, 0, "outside its limits"};
-    }
-    Eigen::Matrix<double, 6, 1> error;
-    error.head<3>() = goal.pose.position - base_T_tool.translation();
-    if (const auto* direction = std::get_if<Direction>(&goal.pose.orientation)) {
-      const Eigen::Vector3d pointing = base_T_tool.rotation() * axis;  // the turn about it is free
-      J.bottomRows<3>() -= (pointing * (pointing.transpose() * J.bottomRows<3>())).eval();
-      error.tail<3>() = pointing.cross(direction->unit);
-    } else {
-      const Eigen::AngleAxisd turn{std::get<Eigen::Quaterniond>(goal.pose.orientation) *
-                                   Eigen::Quaterniond{base_T_tool.rotation()}.inverse()};
-      error.tail<3>() = turn.angle() * turn.axis();
-    }
-    Eigen::MatrixXd A = J.transpose() * J;
-    A.diagonal().array() += damping_ * error.squaredNorm() + 1e-12;
-    q += A.ldlt().solve(J.transpose() * error);
-  }
-  return {IkStatus::Code::no_convergence, 0, "more iterations than the goal allows"};
-}
+/// Damped least squares from the seed (Wampler 1986; Nakamura and Hanafusa 1986).
+class @CLASS@ final : public IkSolver {
+ public:
+  @CLASS@(const RobotModel& robot, const Params& params)
+      : robot_{robot}, damping_{params.number("damping")} {}
 
+  IkStatus solve(const IkGoal& goal, const JointVector& seed, IkBranches& out,
+                 IkState&) const override {
+    out.clear();
+    if (const char* wrong = invalid_input(robot_, goal, seed))
+      return {IkStatus::Code::invalid_input, 0, wrong};
+    const auto [position_m, angle_rad] = goal.tolerance;
+    JointVector q = seed;
+    TaskError e = task_error(robot_, q, goal.pose);
+    for (int i = 0; i < goal.max_iterations && !e.within(position_m, angle_rad); ++i) {
+      Eigen::Matrix<double, -1, -1, 0, 6, 6> A = e.jacobian.lazyProduct(e.jacobian.transpose());
+      A.diagonal().array() += damping_ * e.error.squaredNorm() + 1e-12;
+      q += e.jacobian.transpose().lazyProduct(A.llt().solve(e.error));
+      e = task_error(robot_, q, goal.pose);
+    }
+    if (!e.within(position_m, angle_rad))
+      return {IkStatus::Code::no_convergence, e.error.norm(), "the seed leads elsewhere"};
+    out.add() = branch_at(robot_, goal, q, "from_seed");
+    if (out.begin()->within_limits) return {};
+    return {IkStatus::Code::joint_limit, 0, "the solution leaves the joint limits"};
+  }
+
+ private:
+  const RobotModel& robot_;
+  double damping_;
+};
 ARMATURE_PLUGIN(@CLASS@);
 )";
 
-constexpr std::string_view kTest =
-    R"(// fk(ik(x)) = x on an arm of two links.
+constexpr std::string_view kTest = R"(// Every law of the kind, on the arm in @NAME@_arm.yaml.
 #include <cstdio>
 
-#include "@NAME@.hpp"
 #include "armature/config/problems.hpp"
-#include "armature/robot/kinematics.hpp"
+#include "armature/kinds/ik/verify/plugin_subject.hpp"
 
 using namespace armature;
 
-int main() {
-  const Joint base{.name = "j1", .a = 0.4, .lower = -3, .upper = 3, .max_velocity = 1,
-                   .max_acceleration = 1, .coupling = {}};
-  std::vector<Joint> joints{base, base};
-  joints[1].name = "j2";
-  const RobotModel robot("two_links", RobotModel::Convention::standard, joints,
-                         {{"tool", 1, Eigen::Isometry3d::Identity()}}, FrameId{0},
-                         Eigen::Vector3d::UnitX(), std::nullopt);
+int main(int, char** argv) {
+  PluginRegistry plugins;  // ctest sets ARMATURE_PLUGIN_PATH to where the plugin was built
+  const PluginManifest* plugin = plugins.find("@ID@");
+  if (!plugin) return std::puts(plugins.unknown_text("@ID@").c_str()), 1;
   config::Problems problems;
-  const auto specs = std::vector<ParamSpec>{{.name = "damping", .doc = {},
-      .fallback = config::Node::scalar("0.001", false, {}), .min = {}, .max = {}, .choices = {}, .count = {}}};
-  const @CLASS@ solver{robot, Params::read(specs, nullptr, "@ID@", problems)};
-  const JointVector q = JointVector::Constant(2, 0.7);
-  const Eigen::Isometry3d pose = forward_kinematics(robot, q);
-  const IkGoal goal{.pose = {pose.translation(), Direction{pose.rotation().col(0)}}, .redundancy = {}};
-  IkBranches branches;
-  IkState state;
-  const IkStatus status = solver.solve(goal, q + JointVector::Constant(2, 0.2), branches, state);
-  std::printf("%s\n", describe(status).c_str());
-  return status.code == IkStatus::Code::ok ? 0 : 1;
+  const Params params = Params::read(plugin->params, nullptr, plugin->id, problems);
+  const auto arm = std::make_shared<const RobotModel>(load_robot_model("@NAME@_arm.yaml"));
+  IkSubject subject = plugin_subject(plugins, *plugin, arm, params).value();
+  subject.poses = subject.edge_poses = 200;
+  int broken = 0;
+  for (const IkLaw& law : ik_laws()) {
+    const IkLawReport report = check_law(law, subject);
+    std::printf("%s: %d of %d answers break it\n", law.name.data(), report.failed, report.goals);
+    for (const auto& [what, question] : report.violations) std::puts(what.c_str());
+    broken += report.failed;
+  }
+  return broken == 0 ? 0 : 1;
 }
+)";
+
+constexpr std::string_view kArm =
+    R"(# An arm to start with: six joints, lengths like a small table robot's. Put your own here.
+armature_robot: 1
+name: @NAME@_arm
+convention: standard
+joints:
+  - {name: j1, type: revolute, d_m: 0.15, a_m: 0, alpha_deg: 90, limits_deg: [-170, 170], velocity_rad_s: 3, acceleration_rad_s2: 12}
+  - {name: j2, type: revolute, d_m: 0, a_m: 0.3, alpha_deg: 0, limits_deg: [-100, 100], velocity_rad_s: 3, acceleration_rad_s2: 12}
+  - {name: j3, type: revolute, d_m: 0, a_m: 0.05, alpha_deg: 90, limits_deg: [-60, 200], velocity_rad_s: 3, acceleration_rad_s2: 12}
+  - {name: j4, type: revolute, d_m: 0.3, a_m: 0, alpha_deg: -90, limits_deg: [-170, 170], velocity_rad_s: 4, acceleration_rad_s2: 16}
+  - {name: j5, type: revolute, d_m: 0, a_m: 0, alpha_deg: 90, limits_deg: [-120, 120], velocity_rad_s: 4, acceleration_rad_s2: 16}
+  - {name: j6, type: revolute, d_m: 0.08, a_m: 0, alpha_deg: 0, limits_deg: [-170, 170], velocity_rad_s: 4, acceleration_rad_s2: 16}
+frames:
+  tool: {parent: j6}
 )";
 
 constexpr std::string_view kReadme = R"(# @ID@
 
-An inverse kinematics solver for Armature: damped least squares from the seed.
+An inverse kinematics solver for Armature: damped least squares from the seed, dq = J^T (J J^T + lambda e^2 I)^-1 e.
 
-    cmake -B build && cmake --build build && ctest --test-dir build
+    cmake -B build -DCMAKE_BUILD_TYPE=Release && cmake --build build && ctest --test-dir build
     export ARMATURE_PLUGIN_PATH=$PWD/build
-    armature plugin info @ID@
+    armature plugin verify @ID@ --robot @NAME@_arm.yaml
+    armature bench ik --robot @NAME@_arm.yaml --plugins @ID@,ik/numeric --poses 10000 --seed 1 --out bench
     armature run dental_lamp.yaml --set components.motion.ik.plugin=@ID@
+
+| file | what |
+|---|---|
+| `@NAME@.cpp` | the solver, and the line that registers it |
+| `plugin.yaml` | id, kind, parameters, what the plugin promises |
+| `@NAME@_test.cpp` | every law of the kind as a test |
+| `@NAME@_arm.yaml` | an arm to try it with |
 )";
 
 void replace_all(std::string& text, std::string_view mark, std::string_view value) {
@@ -187,15 +182,15 @@ int new_plugin(const std::string& id, const fs::path& directory) {
                        return std::islower(c) || std::isdigit(c) || c == '_';
                      });
   const std::string kind = id.substr(0, slash);
-  if (slash != std::string::npos && kind != kKind) {
+  if (slash != std::string::npos && kind != "ik") {
     throw InvalidChoice(fmt::format(
-        "there is no template for a plugin of kind '{}', only for '{}'; begin with a copy "
+        "there is no template for a plugin of kind '{}', only for 'ik'; begin with a copy "
         "of a plugin of that kind, see plugins/ in the sources",
-        kind, kKind));
+        kind));
   }
   if (!valid || slash == std::string::npos) {
     throw InvalidChoice(fmt::format(
-        "'{}' must be '{}/name', the name in lower case letters, digits and '_'", id, kKind));
+        "'{}' must be 'ik/name', the name in lower case letters, digits and '_'", id));
   }
   if (fs::exists(directory) && !fs::is_empty(directory)) {
     throw InvalidChoice(fmt::format("'{}' is there already and not empty", directory.string()));
@@ -212,9 +207,9 @@ int new_plugin(const std::string& id, const fs::path& directory) {
   };
   write(directory / "CMakeLists.txt", fill(kCMake));
   write(directory / "plugin.yaml", fill(kManifest));
-  write(directory / (name + ".hpp"), fill(kHeader));
   write(directory / (name + ".cpp"), fill(kSource));
   write(directory / (name + "_test.cpp"), fill(kTest));
+  write(directory / (name + "_arm.yaml"), fill(kArm));
   write(directory / "README.md", fill(kReadme));
   fmt::print("wrote {}: see {}\n", id, (directory / "README.md").string());
   return kOk;

@@ -2,6 +2,10 @@
 // A newcomer's plugin: written by `armature plugin new`, built outside this tree, and used.
 #include <unistd.h>
 
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+
 #include "command.hpp"
 
 namespace armature::test {
@@ -30,7 +34,7 @@ TEST_F(NewPlugin, BuildsOutsideTheTreePassesItsTestAndSolvesForTheLamp) {
   const std::string build = folder / "build";
   expect_ok({CMAKE_PROGRAM, "-S", folder, "-B", build, "-DCMAKE_BUILD_TYPE=Release"});
   expect_ok({CMAKE_PROGRAM, "--build", build});
-  expect_ok({build + "/ik_mine_test"});
+  expect_ok({CTEST_PROGRAM, "--test-dir", build, "--no-tests=error", "--output-on-failure"});
 
   const Command::Options with_it{
       .environment = {{"ARMATURE_PLUGIN_PATH", build}},
@@ -46,13 +50,35 @@ TEST_F(NewPlugin, BuildsOutsideTheTreePassesItsTestAndSolvesForTheLamp) {
                                   "--set", "components.motion.ik.plugin=ik/mine"},
                                  with_it);
   EXPECT_EQ(check.exit_code, 0) << check.err;
+  const auto verify = run_command({armature(), "plugin", "verify", "ik/mine", "--robot",
+                                   folder / "mine_arm.yaml", "--poses", "50"},
+                                  with_it);
+  EXPECT_EQ(verify.exit_code, 0) << verify.out << verify.err;
+}
+
+TEST_F(NewPlugin, IsAShortSolverAndThreeLinesOfCMakeBesidesItsVersion) {
+  ASSERT_EQ(write("ik/mine").exit_code, 0);
+  const auto lines_of = [&](const char* file) {
+    std::ifstream in{folder / file};
+    return std::count(std::istreambuf_iterator<char>{in}, {}, '\n');
+  };
+  EXPECT_LE(lines_of("mine.cpp"), 40);
+  EXPECT_EQ(lines_of("CMakeLists.txt"), 4);
+}
+
+TEST_F(NewPlugin, SaysForWhichKindsThereIsATemplate) {
+  const auto result = write("target/mine");
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_EQ(result.err,
+            "armature: there is no template for the kind 'target'; there is one for 'ik'. Start "
+            "from a plugin of that kind under plugins/target/\n");
 }
 
 TEST_F(NewPlugin, RefusesANameThatIsNoName) {
   const auto result = write("ik/My Solver");
   EXPECT_EQ(result.exit_code, 3);
   EXPECT_EQ(result.err,
-            "armature: 'ik/My Solver' must be 'ik/name', the name in lower case letters, digits "
+            "armature: 'ik/My Solver' must be 'kind/name', the name in lower case letters, digits "
             "and '_'\n");
 }
 

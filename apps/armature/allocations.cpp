@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "allocations.hpp"
+
+#include "armature/kinds/ik/allocation_count.hpp"
+
+namespace armature {
+
+AllocationCounter allocation_counter() {
+#ifdef ARMATURE_COUNTS_ALLOCATIONS
+  return [] { return allocation_count; };
+#else
+  return nullptr;
+#endif
+}
+
+}  // namespace armature

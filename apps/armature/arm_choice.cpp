@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "arm_choice.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "armature/config/document.hpp"
+#include "armature/config/problems.hpp"
+#include "exit_code.hpp"
+
+namespace armature {
+
+RobotModel load_arm(const ArmChoice& arm) {
+  RobotModel robot = load_robot_model(arm.robot);
+  if (arm.tip.empty() || arm.tip == robot.frame(robot.tool()).name) return robot;
+  const auto tip = robot.find_frame(arm.tip);
+  if (!tip) {
+    std::vector<std::string> names;
+    for (const NamedFrame& frame : robot.frames()) names.push_back(frame.name);
+    throw InvalidChoice(fmt::format("robot '{}' has no frame '{}'{}", robot.name(), arm.tip,
+                                    config::did_you_mean(arm.tip, names)));
+  }
+  // The pointing axis is one of the tool frame; another tip is given as a full rotation.
+  return {robot.name(), robot.convention(), robot.joints(), robot.frames(),
+          *tip,         std::nullopt,       robot.home()};
+}
+
+Params params_of(const PluginManifest& plugin, const std::string& given) {
+  config::Problems problems;
+  const config::Node values = config::parse_text(given, "--params");
+  const bool none = values.kind() == config::Node::Kind::null;
+  Params params = Params::read(plugin.params, none ? nullptr : &values, plugin.id, problems);
+  problems.throw_if_any();
+  return params;
+}
+
+std::vector<std::filesystem::path> shipped_robots() {
+  namespace fs = std::filesystem;
+  const fs::path prefix = fs::canonical("/proc/self/exe").parent_path().parent_path();
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (const auto& entry :
+       fs::directory_iterator{prefix / "share" / "armature" / "configs" / "robots", error}) {
+    if (entry.path().extension() == ".yaml") files.push_back(entry.path());
+  }
+  std::ranges::sort(files);
+  return files;
+}
+
+}  // namespace armature

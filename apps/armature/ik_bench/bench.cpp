@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ik_bench/bench.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "armature/config/document.hpp"
+#include "armature/config/problems.hpp"
+#include "armature/kinds/ik/verify/plugin_subject.hpp"
+#include "exit_code.hpp"
+#include "ik_bench/report.hpp"
+#include "progress.hpp"
+
+namespace armature {
+namespace {
+
+using bench::Report;
+using bench::Runner;
+
+/// The parameters that `all` (a map from plugin to parameters) gives to `plugin`.
+Params params_for(const PluginManifest& plugin, const config::Node& all) {
+  config::Problems problems;
+  const bool none = all.kind() == config::Node::Kind::null;
+  const config::Node* own = none ? nullptr : all.find(plugin.id);
+  Params params = Params::read(plugin.params, own, plugin.id, problems);
+  problems.throw_if_any();
+  return params;
+}
+
+std::vector<std::string> plugins_of(const BenchOptions& options, const PluginRegistry& registry) {
+  if (!options.plugins.empty()) return options.plugins;
+  std::vector<std::string> ids;
+  for (const PluginManifest& plugin : registry.plugins()) {
+    if (plugin.kind == IkSolver::kKind) ids.push_back(plugin.id);
+  }
+  return ids;
+}
+
+/// The solvers that serve the robot; the others go to the report. A plugin that was named but is
+/// not there is an error; one whose parameters are missing does not serve.
+std::vector<Runner> runners_of(const BenchOptions& options, PluginRegistry& registry,
+                               const std::shared_ptr<const RobotModel>& model, Report& report) {
+  const config::Node params = config::parse_text(options.params, "--params");
+  std::vector<Runner> runners;
+  for (const std::string& id : plugins_of(options, registry)) {
+    const PluginManifest* plugin = registry.find(id);
+    if (!plugin) throw InvalidChoice(registry.unknown_text(id));
+    try {
+      auto subject = plugin_subject(registry, *plugin, model, params_for(*plugin, params));
+      if (subject) {
+        runners.push_back({id, subject->solver});
+      } else {
+        report.refused.push_back({id, subject.error().text});
+      }
+    } catch (const config::ConfigError& error) {
+      report.refused.push_back({id, error.what()});
+    }
+  }
+  return runners;
+}
+
+std::string baseline_of(const BenchOptions& options, const std::vector<Runner>& runners) {
+  const auto runs = [&](const std::string& id) {
+    return std::ranges::find(runners, id, &Runner::plugin) != runners.end();
+  };
+  if (!options.baseline.empty()) {
+    if (runs(options.baseline)) return options.baseline;
+    throw InvalidChoice(
+        fmt::format("the baseline '{}' is not one of the solvers that serve the "
+                    "robot",
+                    options.baseline));
+  }
+  return runs("ik/kdl") ? "ik/kdl" : runners.front().plugin;
+}
+
+void write_files(const std::filesystem::path& folder, const Report& report,
+                 const std::vector<bench::Series>& series) {
+  std::filesystem::create_directories(folder);
+  bench::write_csv(folder / "solves.csv", series);
+  bench::write_plot(folder / "cumulative.svg", report, series);
+  std::ofstream summary{folder / "summary.json"};
+  summary << to_json(report).dump(2) << '\n';
+  summary.close();
+  if (!summary) throw std::runtime_error("cannot write " + (folder / "summary.json").string());
+}
+
+}  // namespace
+
+int bench_ik(const BenchOptions& options) {
+  const auto model = std::make_shared<const RobotModel>(load_arm(options.arm));
+  PluginRegistry registry;
+  Report report;
+  const std::vector<Runner> runners = runners_of(options, registry, model, report);
+  report.robot = model->name();
+  report.tip = model->frame(model->tool()).name;
+  report.poses = options.poses;
+  report.seed = options.seed;
+  report.tolerance = options.tolerance;
+  report.repetitions = options.repetitions;
+  report.machine = bench::this_machine();
+  std::vector<bench::Series> series;
+  if (!runners.empty()) {
+    report.baseline = baseline_of(options, runners);
+    Progress progress{"solves"};
+    bench::MeasureOptions how{.repetitions = options.repetitions,
+                              .order = options.seed,
+                              .allocations = allocation_counter(),
+                              .progress = [&](double part) { progress.part(part); }};
+    if (options.near_only) how.seeds = {bench::Seeds::near};
+    report.counts_allocations = how.allocations != nullptr;
+    const auto poses = bench::poses(*model, options.poses, options.seed, options.tolerance);
+    series = bench::measure(*model, runners, poses, how);
+    report.rows = bench::rows_of(series, report.baseline, options.seed);
+  }
+  if (!options.out.empty() && !series.empty()) write_files(options.out, report, series);
+  fmt::print("{}", options.json ? to_json(report).dump() + "\n" : table(report));
+  if (runners.empty()) fmt::print(stderr, "armature: no solver serves this robot\n");
+  return runners.empty() ? kFailed : kOk;
+}
+
+}  // namespace armature

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ik_bench/poses.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "armature/robot/kinematics.hpp"
+
+namespace armature::bench {
+namespace {
+
+/// Uniform in [0, 1), the same in every standard library.
+double unit(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
+
+/// Limits, or a turn where there are none.
+std::pair<double, double> range(const RobotModel& model, int i) {
+  const double lower = model.lower()[i], upper = model.upper()[i];
+  const bool finite = std::isfinite(lower) && std::isfinite(upper);
+  return finite ? std::pair{lower, upper} : std::pair{-std::numbers::pi, std::numbers::pi};
+}
+
+JointVector anywhere(const RobotModel& model, std::mt19937_64& random) {
+  JointVector q(model.dof());
+  for (int i = 0; i < model.dof(); ++i) {
+    const auto [lower, upper] = range(model, i);
+    q[i] = lower + unit(random) * (upper - lower);
+  }
+  return q;
+}
+
+JointVector next_to(const RobotModel& model, const JointVector& q, std::mt19937_64& random) {
+  constexpr double kDegrees = std::numbers::pi / 180;
+  JointVector near = q;
+  for (int i = 0; i < model.dof(); ++i) {
+    const auto [lower, upper] = range(model, i);
+    const double most = model.is_revolute(i) ? 5 * kDegrees : 0.025 * (upper - lower);
+    near[i] = std::clamp(q[i] + (2 * unit(random) - 1) * most, lower, upper);
+  }
+  return near;
+}
+
+}  // namespace
+
+std::string_view to_string(Seeds seeds) { return seeds == Seeds::random ? "random" : "near"; }
+
+std::vector<Pose> poses(const RobotModel& model, int count, std::uint64_t seed, double tolerance) {
+  std::mt19937_64 random{seed};
+  std::vector<Pose> list(static_cast<std::size_t>(count));
+  for (Pose& pose : list) {
+    pose.q = anywhere(model, random);
+    const Eigen::Isometry3d reached = forward_kinematics(model, pose.q);
+    pose.goal.pose.position = reached.translation();
+    if (model.pointing_axis()) {
+      pose.goal.pose.orientation = Direction{reached.linear() * *model.pointing_axis()};
+    } else {
+      pose.goal.pose.orientation = Eigen::Quaterniond{reached.linear()}.normalized();
+    }
+    pose.goal.tolerance = {.position_m = tolerance, .angle_rad = tolerance};
+    pose.random = anywhere(model, random);
+    pose.near = next_to(model, pose.q, random);
+  }
+  return list;
+}
+
+}  // namespace armature::bench

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace armature::bench {
+
+/// The value below which `part` (0 to 1) of `values` lie, between two of them by interpolation. NaN
+/// of none.
+double quantile(std::vector<double> values, double part);
+
+struct Interval {
+  double lower = 0, middle = 0, upper = 0;
+};
+
+/// median(a) / median(b) of paired values, and between what it lies in 95 % of 1000 resamples that
+/// draw the same pairs for both (percentile bootstrap; Efron and Tibshirani 1993, chapter 13). The
+/// same numbers for the same seed.
+Interval ratio_of_medians(const std::vector<double>& a, const std::vector<double>& b,
+                          std::uint64_t seed);
+
+}  // namespace armature::bench

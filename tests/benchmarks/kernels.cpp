@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the solvers are made of, by itself: forward kinematics, Jacobian and one solve, for every
+// robot of configs/robots and every solver that serves it. `armature bench ik` compares solvers;
+// this shows where their time goes. --benchmark_filter=fk/dental_lamp
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <random>
+#include <vector>
+
+#include "armature/config/problems.hpp"
+#include "armature/kinds/ik/verify/plugin_subject.hpp"
+#include "armature/robot/kinematics.hpp"
+
+namespace armature {
+namespace {
+
+namespace fs = std::filesystem;
+using RobotPtr = std::shared_ptr<const RobotModel>;
+
+constexpr std::size_t kPostures = 256;  // a power of two
+
+std::vector<JointVector> postures(const RobotModel& robot) {
+  std::mt19937_64 random{1};
+  std::uniform_real_distribution<double> part{0, 1};
+  std::vector<JointVector> list(kPostures, JointVector(robot.dof()));
+  for (JointVector& q : list) {
+    for (int i = 0; i < robot.dof(); ++i) {
+      q[i] = std::lerp(robot.lower()[i], robot.upper()[i], part(random));
+    }
+  }
+  return list;
+}
+
+IkGoal goal_at(const RobotModel& robot, const JointVector& q) {
+  const Eigen::Isometry3d pose = forward_kinematics(robot, q);
+  IkGoal goal;
+  goal.tolerance = {.position_m = 1e-6, .angle_rad = 1e-6};
+  goal.pose.position = pose.translation();
+  if (robot.pointing_axis()) {
+    goal.pose.orientation = Direction{pose.linear() * *robot.pointing_axis()};
+  } else {
+    goal.pose.orientation = Eigen::Quaterniond{pose.linear()};
+  }
+  return goal;
+}
+
+void fk(benchmark::State& state, const RobotPtr& robot) {
+  const auto list = postures(*robot);
+  for (std::size_t i = 0; auto _ : state) {
+    benchmark::DoNotOptimize(forward_kinematics(*robot, list[++i % kPostures]));
+  }
+}
+
+void jacobian(benchmark::State& state, const RobotPtr& robot) {
+  const auto list = postures(*robot);
+  for (std::size_t i = 0; auto _ : state) {
+    benchmark::DoNotOptimize(
+        forward_kinematics_with_jacobian(*robot, list[++i % kPostures], robot->tool()));
+  }
+}
+
+/// From the posture of another goal: a seed anywhere.
+void solve(benchmark::State& state, const IkSubject& subject) {
+  const auto list = postures(*subject.model);
+  std::vector<IkGoal> goals;
+  for (const JointVector& q : list) goals.push_back(goal_at(*subject.model, q));
+  IkBranches found;
+  for (std::size_t i = 0; auto _ : state) {
+    ++i;
+    IkState memory;
+    benchmark::DoNotOptimize(
+        subject.solver->solve(goals[i % kPostures], list[(i + 1) % kPostures], found, memory));
+  }
+}
+
+void add_robot(PluginRegistry& plugins, const RobotPtr& robot) {
+  const auto add = [](const std::string& name, auto body) {
+    benchmark::RegisterBenchmark(name.c_str(), body);
+  };
+  add("fk/" + robot->name(), [robot](benchmark::State& state) { fk(state, robot); });
+  add("jacobian/" + robot->name(), [robot](benchmark::State& state) { jacobian(state, robot); });
+  for (const PluginManifest& plugin : plugins.plugins()) {
+    if (plugin.kind != IkSolver::kKind) continue;
+    config::Problems problems;
+    const Params params = Params::read(plugin.params, nullptr, plugin.id, problems);
+    if (!problems.empty()) continue;  // needs parameters
+    auto subject = plugin_subject(plugins, plugin, robot, params);
+    if (!subject) continue;  // does not serve it
+    add("solve/" + plugin.id + "/" + robot->name(),
+        [made = *subject](benchmark::State& state) { solve(state, made); });
+  }
+}
+
+}  // namespace
+}  // namespace armature
+
+int main(int argc, char** argv) {
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  armature::PluginRegistry plugins;
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry :
+       std::filesystem::directory_iterator{ARMATURE_SOURCE_DIR "/configs/robots"}) {
+    if (entry.path().extension() == ".yaml") files.push_back(entry.path());
+  }
+  std::ranges::sort(files);
+  for (const auto& file : files) {
+    armature::add_robot(
+        plugins, std::make_shared<const armature::RobotModel>(armature::load_robot_model(file)));
+  }
+  benchmark::RunSpecifiedBenchmarks();
+  return 0;
+}

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// `armature bench ik`: solvers side by side, in one run.
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <nlohmann/json.hpp>
+
+#include "command.hpp"
+
+namespace armature::test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::HasSubstr;
+
+const std::string kLamp = source_file("configs/robots/dental_lamp.yaml");
+
+CommandResult bench(const std::vector<std::string>& more) {
+  std::vector<std::string> command{armature(), "bench",  "ik", "--robot",       kLamp, "--poses",
+                                   "200",      "--seed", "3",  "--repetitions", "2"};
+  command.insert(command.end(), more.begin(), more.end());
+  return run_command(command);
+}
+
+TEST(BenchIk, ChecksEveryAnswerAndComparesWithTheBaseline) {
+  const auto result = bench({"--plugins", "ik/lamp_geometric,ik/numeric", "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json report = json::parse(result.out);
+  EXPECT_EQ(report["baseline"], "ik/lamp_geometric");
+  ASSERT_EQ(report["rows"].size(), 4U);
+  for (const json& row : report["rows"]) {
+    EXPECT_EQ(row["reached"], 1) << row;
+    EXPECT_EQ(row["wrong"], 0) << row;
+    EXPECT_GT(row["median_s"], 0) << row;
+    EXPECT_GE(row["p99_s"], row["median_s"]) << row;
+    EXPECT_LE(row["interval_95"][0], row["times_baseline"]) << row;
+    EXPECT_GE(row["interval_95"][1], row["times_baseline"]) << row;
+  }
+  EXPECT_EQ(report["rows"][0]["times_baseline"], 1);
+}
+
+TEST(BenchIk, WritesTheSolvesThePlotAndTheSummary) {
+  const fs::path folder =
+      fs::temp_directory_path() / ("armature-bench-ik-" + std::to_string(getpid()));
+  const auto result = bench({"--plugins", "ik/lamp_geometric", "--near", "--out", folder});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("200 goals of robot 'dental_lamp' (tool), seed 3"));
+  for (const char* file : {"solves.csv", "cumulative.svg", "summary.json"}) {
+    EXPECT_GT(fs::file_size(folder / file), 0U) << file;
+  }
+  fs::remove_all(folder);
+}
+
+TEST(BenchIk, ListsASolverThatDoesNotServeTheRobotWithItsReason) {
+  const auto result = bench({"--plugins", "ik/lamp_geometric,ik/numeric", "--params",
+                             "{ik/numeric: {max_restarts: -1}}"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("ik/numeric        not served: "));
+  EXPECT_THAT(result.out, HasSubstr("max_restarts"));
+}
+
+TEST(BenchIk, NamesWhatIsWrongOnTheCommandLine) {
+  const auto unknown = bench({"--plugins", "ik/numerc"});
+  EXPECT_EQ(unknown.exit_code, 3);
+  EXPECT_THAT(unknown.err, HasSubstr("did you mean 'ik/numeric'"));
+  const auto baseline = bench({"--plugins", "ik/lamp_geometric", "--baseline", "ik/numeric"});
+  EXPECT_EQ(baseline.exit_code, 3);
+  EXPECT_THAT(baseline.err, HasSubstr("the baseline 'ik/numeric' is not one of the solvers"));
+}
+
+}  // namespace
+}  // namespace armature::test

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+// `armature plugin verify`: one line per law, and for what breaks one the command that shows it.
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+#include <regex>
+
+#include "command.hpp"
+
+namespace armature::test {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+const std::string kLamp = source_file("configs/robots/dental_lamp.yaml");
+const std::string kFaulty = std::string{ARMATURE_BINARY_DIR} + "/tests/plugins/ik_faulty.so";
+
+CommandResult verify(const std::string& plugin, const std::vector<std::string>& more) {
+  std::vector<std::string> command{armature(), "plugin", "verify", plugin};
+  command.insert(command.end(), more.begin(), more.end());
+  return run_command(command, {}, std::chrono::seconds{200});
+}
+CommandResult verify_faulty(const std::string& params) {
+  return verify(kFaulty, {"--robot", kLamp, "--poses", "20", "--params", params});
+}
+
+/// The first "echo ... | armature ik ..." of the output, run by a shell.
+CommandResult reproduce(const std::string& out) {
+  std::smatch found;
+  if (!std::regex_search(out, found, std::regex{"echo '[^\n]*"})) return {.exit_code = -1};
+  const std::string command =
+      std::regex_replace(found.str(), std::regex{"armature ik"}, armature() + " ik");
+  return run_command({"/bin/bash", "-c", "set -o pipefail; " + command});
+}
+
+TEST(PluginVerify, PrintsALinePerLawAndEndsWithZeroWhenAllAreKept) {
+  const auto result = verify("ik/lamp_geometric", {"--robot", kLamp, "--poses", "50"});
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+  std::istringstream lines{result.out};
+  int laws = 0;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("  pass  ") || line.starts_with("  skip  ")) ++laws;
+  }
+  EXPECT_EQ(laws, 16) << result.out;
+  EXPECT_THAT(result.out, HasSubstr("  pass  fk(ik(goal)) = goal"));
+  EXPECT_THAT(result.out, HasSubstr("  skip  an asked arm angle is kept"));
+  EXPECT_THAT(result.out, HasSubstr("the arm is not redundant"));
+  EXPECT_THAT(result.out, testing::ContainsRegex("pass  solving does not allocate"));
+}
+
+TEST(PluginVerify, TriesEveryRobotThatCameWithItWhenNoneIsNamed) {
+  const auto result = verify("ik/lamp_geometric", {"--poses", "5", "--json"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const json all = json::parse(result.out);
+  EXPECT_EQ(all["ok"], true);
+  int served = 0;
+  for (const json& robot : all["robots"]) {
+    if (robot["refused"] == "") ++served;
+    EXPECT_EQ(robot["laws"].empty(), robot["refused"] != "") << robot;
+  }
+  EXPECT_EQ(served, 1);
+}
+
+TEST(PluginVerify, ShowsTheQuestionThatBreaksALaw) {
+  const auto result = verify_faulty("{fault: residual}");
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.out, HasSubstr("  FAIL  fk(ik(goal)) = goal"));
+  EXPECT_THAT(result.out, HasSubstr("tells a residual of 0.5 m"));
+  const auto again = reproduce(result.out);
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_THAT(again.out, HasSubstr("\"residual_m\":0.5"));
+}
+
+TEST(PluginVerify, SurvivesASolverThatCrashesAndShowsWhatItWasAsked) {
+  const auto result = verify_faulty("{fault: crash}");
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.out, HasSubstr("killed by signal 11"));
+  EXPECT_THAT(result.out, HasSubstr("loaded and unloaded 1000 times"));  // the last law is reached
+  EXPECT_EQ(reproduce(result.out).exit_code, 128 + 11) << result.out;
+}
+
+TEST(PluginVerify, CountsWhatAnUnloadedLibraryLeavesBehind) {
+  const auto result = verify_faulty("{fault: leak}");
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.out, testing::ContainsRegex("[0-9]+ bytes of heap.* more after 1000 cycles"));
+}
+
+TEST(PluginVerify, HoldsAPluginToWhatItOffersWithItsParameters) {
+  EXPECT_EQ(verify_faulty("{}").exit_code, 0);
+  const auto result = verify_faulty("{promises: true}");
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.out, HasSubstr("  FAIL  what is within limits is reached"));
+}
+
+TEST(PluginVerify, ARobotThatIsNotServedIsSaidAndNothingIsVerified) {
+  const auto result = verify_faulty("{fault: refuse}");
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.out, HasSubstr("not served: it serves no robot at all"));
+  EXPECT_THAT(result.err, HasSubstr("ik/faulty serves none of these robots"));
+}
+
+TEST(PluginVerify, NamesWhatIsWrongOnTheCommandLine) {
+  const auto unknown = verify("ik/lamp_geometrc", {"--robot", kLamp});
+  EXPECT_EQ(unknown.exit_code, 3);
+  EXPECT_THAT(unknown.err, HasSubstr("did you mean 'ik/lamp_geometric'"));
+  const auto kind = verify("target/constant_velocity", {});
+  EXPECT_EQ(kind.exit_code, 3);
+  EXPECT_THAT(kind.err, HasSubstr("is of kind 'target'; there are laws to verify for kind 'ik'"));
+  const auto tip = verify("ik/numeric", {"--robot", kLamp, "--tip", "tol"});
+  EXPECT_EQ(tip.exit_code, 3);
+  EXPECT_THAT(tip.err, HasSubstr("robot 'dental_lamp' has no frame 'tol'; did you mean 'tool'?"));
+  const auto params = verify("ik/numeric", {"--robot", kLamp, "--params", "{restarts: 3}"});
+  EXPECT_EQ(params.exit_code, 3);
+  EXPECT_THAT(params.err, HasSubstr("restarts"));
+}
+
+}  // namespace
+}  // namespace armature::test

@@ -189,8 +189,8 @@ int new_plugin(const std::string& id, const fs::path& directory) {
         kind));
   }
   if (!valid || slash == std::string::npos) {
-    throw InvalidChoice(fmt::format(
-        "'{}' must be 'ik/name', the name in lower case letters, digits and '_'", id));
+    throw InvalidChoice(
+        fmt::format("'{}' must be 'ik/name', the name in lower case letters, digits and '_'", id));
   }
   if (fs::exists(directory) && !fs::is_empty(directory)) {
     throw InvalidChoice(fmt::format("'{}' is there already and not empty", directory.string()));

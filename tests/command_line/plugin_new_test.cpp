@@ -66,20 +66,12 @@ TEST_F(NewPlugin, IsAShortSolverAndThreeLinesOfCMakeBesidesItsVersion) {
   EXPECT_EQ(lines_of("CMakeLists.txt"), 4);
 }
 
-TEST_F(NewPlugin, SaysForWhichKindsThereIsATemplate) {
-  const auto result = write("target/mine");
-  EXPECT_EQ(result.exit_code, 3);
-  EXPECT_EQ(result.err,
-            "armature: there is no template for the kind 'target'; there is one for 'ik'. Start "
-            "from a plugin of that kind under plugins/target/\n");
-}
-
 TEST_F(NewPlugin, RefusesANameThatIsNoName) {
   const auto result = write("ik/My Solver");
   EXPECT_EQ(result.exit_code, 3);
   EXPECT_EQ(result.err,
-            "armature: 'ik/My Solver' must be 'kind/name', the name in lower case letters, digits "
-            "and '_'\n");
+            "armature: 'ik/My Solver' must be 'ik/name', the name in lower case letters, digits and "
+            "'_'\n");
 }
 
 TEST_F(NewPlugin, OfAKindWithoutATemplateNamesTheKindsThatHaveOne) {

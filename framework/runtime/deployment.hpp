@@ -67,7 +67,6 @@ class Deployment {
   Topic& topic_for(const ComponentConfig& component, const PortBinding& port,
                    const MessageType& type);
   Topic& topic_at(const std::string& key, const PortBinding& port, const MessageType& type);
-  const ComponentConfig& config_of(const Unit& unit) const;
   bool written_elsewhere(const std::string& topic) const;
   void advertise(const ComponentConfig& component, const PortBinding& output);
   void subscribe(const PortBinding& input);

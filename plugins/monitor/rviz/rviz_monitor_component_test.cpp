@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+// The monitor on its topics: 1. what it tells, how often, and with which stamp, 2. it needs nothing
+// but joints, 3. joints that are none.
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "armature/kinds/joint_messages.hpp"
+#include "armature/messages/armature_msgs.hpp"
+#include "armature/messages/header.hpp"
+#include "armature/messages/visualization_msgs.hpp"
+#include "armature/robot/kinematics.hpp"
+#include "armature/robot/stereo_rig.hpp"
+#include "armature/runtime/component_bench.hpp"
+#include "tf_listener_test.hpp"
+
+namespace armature {
+namespace {
+
+const std::string kConfigs = ARMATURE_SOURCE_DIR "/configs/";
+
+PluginRegistry& plugins() {
+  static PluginRegistry registry{{ARMATURE_PLUGIN_BUILD_DIR}};
+  return registry;
+}
+
+config::Node robot() { return config::load(kConfigs + "robots/dental_lamp.yaml"); }
+config::Node rig() { return config::load(kConfigs + "rigs/default.yaml"); }
+
+class RvizMonitorTest : public ::testing::Test {
+ protected:
+  /// One millisecond: a joint sample, then an activation, as from a quick executor.
+  void step() {
+    now_s_ += 0.001;
+    msg::JointState joints;
+    write_all_joints(lamp_, q_, JointVector::Zero(lamp_.dof()), now(), joints);
+    monitor_.send("measured_js", joints);
+    monitor_.step(now_s_);
+  }
+  void steps(int count) {
+    for (int i = 0; i < count; ++i) step();
+  }
+  Time now() const { return Time{} + seconds(now_s_); }
+  std::set<std::string> namespaces() {
+    std::set<std::string> names;
+    for (const auto& array : monitor_.take<msg::MarkerArray>("markers")) {
+      for (const auto& marker : array.markers_()) names.insert(marker.ns_());
+    }
+    return names;
+  }
+
+  const RobotModel lamp_ = load_robot_model(kConfigs + "robots/dental_lamp.yaml");
+  JointVector q_ = JointVector::Constant(lamp_.dof(), 0.1);
+  ComponentBench monitor_{plugins(),
+                          {.component = "{plugin: monitor/rviz}", .robot = robot(), .rig = rig()}};
+  double now_s_ = 5;
+};
+
+TEST_F(RvizMonitorTest, KeepsItsRatesHoweverOftenItIsActivated) {
+  steps(1000);
+  EXPECT_NEAR(static_cast<double>(monitor_.take<msg::TFMessage>("tf").size()), 50, 1);
+  EXPECT_NEAR(static_cast<double>(monitor_.take<msg::PoseStamped>("tool_pose").size()), 50, 1);
+  EXPECT_NEAR(static_cast<double>(monitor_.take<msg::MarkerArray>("markers").size()), 10, 1);
+  EXPECT_EQ(monitor_.take<msg::TFMessage>("tf_static").size(), 1U);
+  EXPECT_EQ(monitor_.period(), seconds(0.02));
+}
+
+TEST_F(RvizMonitorTest, TellsWhereTheToolIsWithTheStampOfTheJoints) {
+  step();
+  const auto moving = monitor_.take<msg::TFMessage>("tf");
+  const auto fixed = monitor_.take<msg::TFMessage>("tf_static");
+  const auto pose = monitor_.take<msg::PoseStamped>("tool_pose");
+  ASSERT_EQ(moving.size() * fixed.size() * pose.size(), 1U);
+  testing::TfListener tf;
+  tf.hear(moving[0]);
+  tf.hear(fixed[0]);
+  const Eigen::Isometry3d base_T_tool = forward_kinematics(lamp_, q_);
+  EXPECT_TRUE(tf.transform("base", "tool").isApprox(base_T_tool, 1e-12));
+  EXPECT_TRUE(to_eigen(pose[0].pose_()).isApprox(base_T_tool, 1e-12));
+  EXPECT_EQ(pose[0].header_().frame_id_(), "base");
+  EXPECT_EQ(stamp_of(pose[0].header_().stamp_()), now());
+  EXPECT_EQ(stamp_of(moving[0].transforms_()[0].header_().stamp_()), now());
+}
+
+TEST_F(RvizMonitorTest, TellsNoSampleOfTheArmTwice) {
+  step();
+  monitor_.take<msg::TFMessage>("tf");
+  for (int i = 1; i <= 10; ++i) monitor_.step(now_s_ + 0.02 * i);
+  EXPECT_TRUE(monitor_.take<msg::TFMessage>("tf").empty()) << "tf2 warns of repeated data";
+}
+
+TEST_F(RvizMonitorTest, NeedsNothingButJoints) {
+  ComponentBench bare{plugins(),
+                      {.component = "{plugin: monitor/rviz}", .robot = robot(), .rig = {}}};
+  bare.step(1);
+  EXPECT_TRUE(bare.take<msg::TFMessage>("tf").empty()) << "no arm yet";
+  const auto fixed = bare.take<msg::TFMessage>("tf_static");
+  ASSERT_EQ(fixed.size(), 1U);
+  ASSERT_EQ(fixed[0].transforms_().size(), 1U) << "no rig, no cameras";
+  EXPECT_EQ(fixed[0].transforms_()[0].child_frame_id_(), "tool");
+  EXPECT_EQ(bare.status().state, Voice::State::ok);
+}
+
+TEST_F(RvizMonitorTest, DrawsWhatItIsTold) {
+  step();
+  EXPECT_EQ(namespaces(), (std::set<std::string>{"links", "pointing"}));
+  msg::Target target;
+  target.valid_(true);
+  monitor_.send("target", target);
+  monitor_.send("truth", target);
+  monitor_.send("face", msg::FacePose{});
+  monitor_.send("path", msg::ToolPath{});
+  steps(150);
+  EXPECT_EQ(namespaces(),
+            (std::set<std::string>{"links", "pointing", "target", "truth", "face", "path"}));
+}
+
+TEST_F(RvizMonitorTest, TellsNothingOfJointsThatAreNone) {
+  step();
+  monitor_.take<msg::TFMessage>("tf");
+  msg::JointState broken;
+  broken.position_() = {1, 2};
+  monitor_.send("measured_js", broken);
+  monitor_.step(now_s_ += 0.02);
+  EXPECT_TRUE(monitor_.take<msg::TFMessage>("tf").empty());
+  EXPECT_EQ(monitor_.status().state, Voice::State::degraded);
+  EXPECT_EQ(monitor_.status().reason, "measured_js: 2 joint values; dental_lamp has 6 joints");
+  now_s_ += 0.02;
+  step();
+  EXPECT_EQ(monitor_.take<msg::TFMessage>("tf").size(), 1U);
+  EXPECT_EQ(monitor_.status().state, Voice::State::ok);
+}
+
+TEST_F(RvizMonitorTest, RefusesAPrefixThatTf2DoesNotTake) {
+  const ComponentBench::Options options{
+      .component = "{plugin: monitor/rviz, params: {frame_prefix: /left/}}",
+      .robot = robot(),
+      .rig = {}};
+  try {
+    const ComponentBench bench{plugins(), options};
+    FAIL() << "it took the prefix";
+  } catch (const SetupError& error) {
+    EXPECT_STREQ(error.what(), "'/left/' begins with '/', which no tf2 frame may");
+  }
+}
+
+}  // namespace
+}  // namespace armature

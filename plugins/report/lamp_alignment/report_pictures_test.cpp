@@ -56,9 +56,9 @@ TEST_F(ReportPicturesTest, TheErrorPlotHasCurvesInBothPanels) {
 
 TEST_F(ReportPicturesTest, TheErrorPlotReachesFromTheGreatestErrorDown) {
   // 3 m and 120 degrees, then good: the curve begins below the upper edge of its panel.
-  std::vector<LampError> errors{{.time_s = 0, .distance_error_m = 3, .direction_error_rad = 2.1},
-                                {.time_s = 1, .distance_error_m = 3, .direction_error_rad = 2.1},
-                                {.time_s = 2, .distance_error_m = 1e-9, .direction_error_rad = 0}};
+  std::vector<LampError> errors{{.time_s = 0, .direction_error_rad = 2.1, .distance_error_m = 3},
+                                {.time_s = 1, .direction_error_rad = 2.1, .distance_error_m = 3},
+                                {.time_s = 2, .direction_error_rad = 0, .distance_error_m = 1e-9}};
   write_error_plot(errors, {}, folder_ / "errors.png");
   const cv::Mat image = cv::imread((folder_ / "errors.png").string());
   const auto first_row = [&](int from) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <csignal>
 #include <cstdint>
 #include <numbers>
 #include <sstream>
@@ -16,7 +17,7 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr std::array<double, 6> kHome{60, -120, 0, 0, 150, 0};       // [deg]
 constexpr std::array<double, 6> kLimits{170, 160, 60, 60, 170, 80};  // [deg]
-constexpr int kSamples = 6000;
+constexpr std::size_t kFewSamples = 500;  // even of an arm on a busy machine
 
 struct WatchedJoints {
   std::int64_t ns = 0;
@@ -55,16 +56,18 @@ void expect_possible(const WatchedJoints& joints) {
 TEST(CycloneDds, WatchesTheArmWhileTheLampRuns) {
   const int domain = unique_dds_domain();
   Command listener{{CYCLONE_LISTENER, std::to_string(domain), "rt/dental_lamp/arm/measured_js",
-                    std::to_string(kSamples), "120"}};
+                    "1000000", "120"}};
   // A dark room: it raises the light in many small steps before it moves, so that whoever watches
   // comes in while it is still at home.
   Command lamp{lamp_command(
       {.settings = {"components.scene.params.gain=0.3", "components.task.params.light_step=0.02"},
        .domain = domain})};
-  const CommandResult watched = listener.finish(std::chrono::seconds{130});
+  // Before it looks elsewhere it has gone to the first view.
+  EXPECT_TRUE(lamp.wait_for_err("searching 2/9", std::chrono::seconds{100})) << lamp.err();
+  listener.signal(SIGTERM);
   lamp.signal(SIGINT);
-  const CommandResult lamp_result = lamp.finish(std::chrono::seconds{20});
-  EXPECT_EQ(watched.exit_code, 0) << watched.err << lamp_result.err;
+  const CommandResult watched = listener.finish(std::chrono::seconds{20});
+  lamp.finish(std::chrono::seconds{20});
 
   std::vector<WatchedJoints> samples;
   std::istringstream lines{watched.out};
@@ -74,7 +77,7 @@ TEST(CycloneDds, WatchesTheArmWhileTheLampRuns) {
     if (samples.size() < 2) continue;
     EXPECT_GT(samples.back().ns, samples[samples.size() - 2].ns);
   }
-  ASSERT_EQ(samples.size(), static_cast<std::size_t>(kSamples));
+  ASSERT_GT(samples.size(), kFewSamples) << watched.err;
   double farthest = 0;
   for (std::size_t j = 0; j < 6; ++j) {
     EXPECT_NEAR(samples.front().q[j], kHome[j] * kDegree, 1e-9) << "joint " << j + 1;

@@ -33,6 +33,11 @@ struct Choice {
   std::string environment;  // what the shell must set to find it again
 };
 
+bool is_same(const fs::path& a, const fs::path& b) {
+  std::error_code error;
+  return fs::equivalent(a, b, error);
+}
+
 Choice choose(const std::string& plugin) {
   Choice choice{PluginRegistry::default_search_path(), plugin, ""};
   if (!fs::is_regular_file(plugin)) return choice;
@@ -41,10 +46,10 @@ Choice choose(const std::string& plugin) {
   choice.environment = fmt::format("ARMATURE_PLUGIN_PATH={} ", file.parent_path().string());
   const PluginRegistry plugins{choice.search_path};
   for (const PluginManifest& found : plugins.plugins()) {
-    if (fs::equivalent(found.file, file)) choice.id = found.id;
+    if (is_same(found.file, file)) choice.id = found.id;
   }
   for (const auto& [unusable, reason] : plugins.unusable()) {
-    if (fs::equivalent(unusable, file)) {
+    if (is_same(unusable, file)) {
       throw PluginError(fmt::format("{} cannot be used: {}", plugin, reason));
     }
   }
@@ -154,6 +159,7 @@ class Verification {
     const Isolated done = isolated(kPatience_s, [&] { return check().dump(); });
     Json law{{"law", says}};
     law["result"] = "pass";
+    law["violations"] = Json::array();
     law["seconds"] = std::chrono::duration<double>{Clock::now() - start}.count();
     if (done.fault.empty()) {
       law.update(Json::parse(done.result));
@@ -161,7 +167,7 @@ class Verification {
       if (law.value("skipped", "") != "") law["result"] = "skip";
     } else {
       law["result"] = "fail";
-      law["violations"] = {{{"what", done.fault}, {"question", last_.line(*model_)}}};
+      law["violations"].push_back({{"what", done.fault}, {"question", last_.line(*model_)}});
     }
     for (Json& violation : law["violations"]) {
       violation["reproduce"] = command_for(violation["question"].get<std::string>());

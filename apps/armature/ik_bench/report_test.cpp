@@ -32,10 +32,11 @@ class ReportTest : public testing::Test {
     report.rows = rows_of(series, report.baseline, 1);
     report.refused = {{"ik/other", "not a lamp arm"}};
   }
-  std::string written(void (*write)(const std::filesystem::path&, const ReportTest&)) const {
+  template <class Write>
+  static std::string written(const Write& write) {
     const auto file = std::filesystem::temp_directory_path() /
                       ("armature-bench-" + std::to_string(getpid()) + ".out");
-    write(file, *this);
+    write(file);
     std::ostringstream text;
     text << std::ifstream{file}.rdbuf();
     std::filesystem::remove(file);
@@ -73,15 +74,13 @@ TEST_F(ReportTest, AsJsonItIsTheSame) {
 }
 
 TEST_F(ReportTest, TheCsvHasALinePerSolve) {
-  const std::string csv =
-      written([](const auto& file, const ReportTest& test) { write_csv(file, test.series); });
+  const std::string csv = written([&](const auto& file) { write_csv(file, series); });
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 301);
   EXPECT_THAT(csv, HasSubstr("\n0,ik/fast,near,5e-07,1,0,"));
 }
 
 TEST_F(ReportTest, ThePlotHasALinePerSeriesNearSeedsDashed) {
-  const std::string svg = written(
-      [](const auto& file, const ReportTest& test) { write_plot(file, test.report, test.series); });
+  const std::string svg = written([&](const auto& file) { write_plot(file, report, series); });
   EXPECT_THAT(svg, HasSubstr("ik/slow, random seeds"));
   EXPECT_THAT(svg, HasSubstr("ik/fast, near seeds"));
   EXPECT_THAT(svg, HasSubstr("stroke-dasharray"));

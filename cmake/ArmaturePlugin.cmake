@@ -46,7 +46,6 @@ function(armature_add_plugin id)
                         DEPENDS ${target})
     endif()
   elseif(arg_TESTS)  # of somebody else's project: a program that ends with 0
-    enable_testing()
     add_executable(${target}_test ${arg_TESTS})
     add_dependencies(${target}_test ${target})
     string(REGEX REPLACE "/.*" "" kind "${id}")

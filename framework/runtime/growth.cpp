@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 #include <malloc.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <fstream>
@@ -19,10 +18,16 @@ long heap_bytes() {
   return static_cast<long>(info.uordblks + info.hblkhd);
 }
 
+/// Of memory that no file backs: pages of libraries are mapped ahead of use, and are no growth.
 long resident_bytes() {
-  long total_pages = 0, resident_pages = 0;
-  std::ifstream{"/proc/self/statm"} >> total_pages >> resident_pages;
-  return resident_pages * sysconf(_SC_PAGESIZE);
+  std::ifstream rollup{"/proc/self/smaps_rollup"};
+  for (std::string word; rollup >> word;) {
+    if (word != "Anonymous:") continue;
+    long kibibytes = 0;
+    rollup >> kibibytes;
+    return kibibytes * 1024;
+  }
+  return 0;
 }
 
 long mappings() {

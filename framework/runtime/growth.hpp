@@ -13,7 +13,7 @@ struct Growth {
   int cycles = 0;
   long mappings = 0;          // of memory, as in /proc/self/maps
   long heap_bytes = 0;        // handed out by malloc and not freed
-  long resident_bytes = 0;    // in RAM
+  long resident_bytes = 0;    // in RAM, backed by no file
   bool still_mapped = false;  // the library is loaded although nobody holds it
 
   /// Why this is growth; empty: nothing was left behind. Allowed are 1 byte a cycle of heap, 64 KiB

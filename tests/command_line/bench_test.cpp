@@ -12,6 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using testing::ContainsRegex;
 using testing::HasSubstr;
 
 const std::string kLamp = source_file("configs/robots/dental_lamp.yaml");
@@ -56,7 +57,7 @@ TEST(BenchIk, ListsASolverThatDoesNotServeTheRobotWithItsReason) {
   const auto result = bench({"--plugins", "ik/lamp_geometric,ik/numeric", "--params",
                              "{ik/numeric: {max_restarts: -1}}"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(result.out, HasSubstr("ik/numeric        not served: "));
+  EXPECT_THAT(result.out, ContainsRegex("ik/numeric +not served: "));
   EXPECT_THAT(result.out, HasSubstr("max_restarts"));
 }
 

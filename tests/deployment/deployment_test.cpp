@@ -69,7 +69,7 @@ TEST_F(DeploymentTest, ASampleThatIsTooOldForAPortIsNotShownThere) {
 }
 
 TEST_F(DeploymentTest, TheRuntimeTellsOfEveryComponentAndOfItself) {
-  EXPECT_EQ(run("", "").texts.at("told_of"), "beat ear runtime ");
+  EXPECT_EQ(run("", "").texts.at("told_of"), "beat ear runtime runtime_clock ");
 }
 
 TEST_F(DeploymentTest, AGoalIsMetMissedOrWasNeverMeasured) {

@@ -12,8 +12,9 @@
 namespace armature {
 namespace {
 
-constexpr double kSame = 1e-6;      // [rad] or [m]: two solutions are one
-constexpr double kSingular = 1e-6;  // manipulability
+constexpr double kSame = 1e-6;       // [rad] or [m]: two solutions are one
+constexpr double kRounding = 1e-12;  // [m] of a goal at the rim of what the arm reaches
+constexpr double kSingular = 1e-6;   // manipulability
 
 /// The i-th number of the van der Corput sequence in `base`: in (0, 1), evenly spread.
 double radical_inverse(int i, int base) {
@@ -126,7 +127,7 @@ IkStatus Numeric::solve(const IkGoal& goal, const JointVector& seed, IkBranches&
     return {IkStatus::Code::invalid_input, 0, why};
   }
   const double beyond = (goal.pose.position - reach_.centre).norm() - reach_.radius;
-  if (beyond > 0) return {IkStatus::Code::out_of_reach, beyond, "longer than the arm"};
+  if (beyond > kRounding) return {IkStatus::Code::out_of_reach, beyond, "longer than the arm"};
   const descent::Goal target = descent::goal_of(goal);
   int budget = goal.max_iterations;
   double least = std::numeric_limits<double>::infinity();

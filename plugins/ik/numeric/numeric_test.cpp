@@ -83,7 +83,11 @@ std::shared_ptr<const IkSolver> solver_for(const RobotModel& model, std::string_
 
 IkSubject subject(RobotModel model) {
   auto shared = std::make_shared<const RobotModel>(std::move(model));
-  return {.name = shared->name(), .model = shared, .solver = solver_for(*shared), .poses = 1000};
+  return {.name = shared->name(),
+          .model = shared,
+          .solver = solver_for(*shared),
+          .poses = 1000,
+          .any_seed_at_edges = false};
 }
 
 INSTANTIATE_TEST_SUITE_P(Numeric, IkLaws,

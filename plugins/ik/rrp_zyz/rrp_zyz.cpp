@@ -93,24 +93,60 @@ Base solve_base(const RrpArm& arm, const Vector3d& p, double distance, double se
           Angle::from(radius / distance, cos2), false};
 }
 
-/// theta4 to theta6 (wrist 0) that make the wrist's rotation M. theta6 comes from the row of
-/// Rz(-theta4) M that theta5 leaves alone: it has length 1, so that an error of theta4 next to the
-/// singular pose is taken back.
+/// The joint's value in [-pi, pi) for a Denavit-Hartenberg angle in [-pi, pi].
+double joint_value(const RrpArm& arm, std::size_t joint, const Angle& theta) {
+  const double value = theta.value - arm.theta[joint];
+  if (value >= kPi) return value - 2 * kPi;
+  return value < -kPi ? value + 2 * kPi : value;
+}
+
+/// theta6 after theta4, from the row of Rz(-theta4) M that theta5 leaves alone: it has length 1, so
+/// that an error of theta4 next to the singular pose is taken back.
+Angle last_turn(const RrpArm& arm, const Matrix3d& M, const Angle& t4) {
+  const double e = arm.s4 * arm.s5;
+  return Angle::from(-e * (t4.cos * M(1, 0) - t4.sin * M(0, 0)),
+                     -e * (t4.cos * M(1, 1) - t4.sin * M(0, 1)));
+}
+
+bool within(const RrpArm& arm, std::size_t joint, double value) {
+  return value >= arm.lower[joint] - kLimitTolerance && value <= arm.upper[joint] + kLimitTolerance;
+}
+
+/// theta4 of a singular wrist: the seed's; where joint 6 would leave its limits, the one that puts
+/// it on the nearer limit, or else on the other.
+Angle free_turn(const RrpArm& arm, const Matrix3d& M, double seed_theta4) {
+  const Angle wanted = Angle::of(seed_theta4);
+  const double q6 = joint_value(arm, 5, last_turn(arm, M, wanted));
+  if (within(arm, 5, q6)) return wanted;
+  const bool low_first =
+      std::abs(wrap_angle(q6 - arm.lower[5])) < std::abs(wrap_angle(q6 - arm.upper[5]));
+  for (const bool low : {low_first, !low_first}) {
+    const double turn = wrap_angle((low ? arm.lower[5] : arm.upper[5]) - q6);
+    for (const double sign : {1.0, -1.0}) {  // joints 4 and 6 turn the same or opposite ways
+      const Angle moved = Angle::of(seed_theta4 + sign * turn);
+      if (within(arm, 5, joint_value(arm, 5, last_turn(arm, M, moved))) &&
+          within(arm, 3, joint_value(arm, 3, moved))) {
+        return moved;
+      }
+    }
+  }
+  return wanted;
+}
+
+/// theta4 to theta6 (wrist 0) that make the wrist's rotation M.
 Wrist solve_wrist(const RrpArm& arm, const Matrix3d& M, double seed_theta4) {
   const double s = std::sqrt(M(0, 2) * M(0, 2) + M(1, 2) * M(1, 2));
   const double e = arm.s4 * arm.s5, cos5 = -e * M(2, 2);
   Wrist wrist;
   wrist.free = s <= kFree;
   if (wrist.free) {
-    wrist.theta4 = Angle::of(seed_theta4);
+    wrist.theta4 = free_turn(arm, M, seed_theta4);
     wrist.theta5 = Angle::from(0, std::copysign(1.0, cos5));
   } else {
     wrist.theta4 = Angle::from(arm.s5 * M(1, 2) / s, arm.s5 * M(0, 2) / s);
     wrist.theta5 = Angle::from(s, cos5);
   }
-  const Angle& t4 = wrist.theta4;
-  wrist.theta6 = Angle::from(-e * (t4.cos * M(1, 0) - t4.sin * M(0, 0)),
-                             -e * (t4.cos * M(1, 1) - t4.sin * M(0, 1)));
+  wrist.theta6 = last_turn(arm, M, wrist.theta4);
   return wrist;
 }
 
@@ -151,13 +187,6 @@ bool keeps_limits(const RrpArm& arm, const JointVector& q) {
     if (value + 2 * kPi * std::ceil((lower - value) / (2 * kPi)) > upper) return false;
   }
   return true;
-}
-
-/// The joint's value in [-pi, pi) for a Denavit-Hartenberg angle in [-pi, pi].
-double joint_value(const RrpArm& arm, std::size_t joint, const Angle& theta) {
-  const double value = theta.value - arm.theta[joint];
-  if (value >= kPi) return value - 2 * kPi;
-  return value < -kPi ? value + 2 * kPi : value;
 }
 
 void add_branch(Problem& p, std::size_t label, const Base& base, const Wrist& wrist,

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kSame = 1e-6;       // [rad] or [m]: two postures are one
 constexpr double kOnTheWay = 1e-6;   // [m], [rad]: still the same pose
-constexpr double kPromised = 0.995;  // of a set at an edge, by `any_seed`
+constexpr double kPromised = 0.995;  // of a set at an edge
 
 /// The straight way from `a` to `b` keeps the pose: a motion of the arm within itself, as at a
 /// singular wrist. The two are one solution.
@@ -75,9 +75,10 @@ void EdgeSet::close() {
     std::string& note = probe_.report().note;
     note += fmt::format("{}{} {:.1f} %", note.empty() ? "reached: " : ", ", name_, 100 * part);
   }
-  if (probe_.subject().any_seed && part < kPromised) {
-    probe_.violated(fmt::format("{}: {} of {} reached from random seeds, `any_seed` promises {} %",
-                                name_, reached_, asked_, 100 * kPromised));
+  if (probe_.subject().any_seed_at_edges && part < kPromised) {
+    probe_.violated(
+        fmt::format("{}: {} of {} reached from random seeds, `any_seed_at_edges` promises {} %",
+                    name_, reached_, asked_, 100 * kPromised));
   }
 }
 

@@ -245,7 +245,7 @@ TEST(IkLaw, AViolationNamesTheQuestionAsALineForTheCalculator) {
 
 TEST(IkLaw, WithoutPromisesOnlyASeedThatIsASolutionHasToBeReached) {
   IkSubject one = subject(Fault::a_branch_missing);
-  one.closed_form = one.any_seed = false;
+  one.closed_form = one.any_seed = one.any_seed_at_edges = false;
   const IkLawReport report = report_of("AGoalWithinLimitsIsReached", one);
   EXPECT_NE(report.note.find("`any_seed` is not offered"), std::string::npos) << report.note;
 }

@@ -26,9 +26,10 @@ struct IkSubject {
   bool closed_form = false;  // `all_branches`: finds every branch; else at least one
   int poses = 2000;          // random ones
   std::uint64_t seed = 20210612;
-  bool any_seed = true;    // `any_seed`: reaches what can be reached, wherever the seed is
-  bool allocates = false;  // `allocates`: may allocate while it solves
-  int edge_poses = 1000;   // of every set of edges
+  bool any_seed = true;           // `any_seed`: reaches what can be reached, wherever the seed is
+  bool any_seed_at_edges = true;  // the same at singular poses, limits and the rim: 99.5 %
+  bool allocates = false;         // `allocates`: may allocate while it solves
+  int edge_poses = 1000;          // of every set of edges
 
   friend void PrintTo(const IkSubject& subject, std::ostream* out) { *out << subject.name; }
 };

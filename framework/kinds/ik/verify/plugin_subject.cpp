@@ -13,7 +13,8 @@
 namespace armature {
 namespace {
 
-constexpr std::string_view kAllBranches = "all_branches", kAnySeed = "any_seed";
+constexpr std::string_view kAllBranches = "all_branches", kAnySeed = "any_seed",
+                           kAnySeedAtEdges = "any_seed_at_edges";
 
 /// True when the plugin offers `word` with these parameters.
 bool offers(const PluginManifest& plugin, std::string_view word, const Params& params) {
@@ -45,6 +46,7 @@ Expected<IkSubject> plugin_subject(PluginRegistry& plugins, const PluginManifest
   subject.solver = std::shared_ptr<const IkSolver>{held, &**held};
   subject.closed_form = offers(plugin, kAllBranches, params);
   subject.any_seed = subject.closed_form || offers(plugin, kAnySeed, params);
+  subject.any_seed_at_edges = subject.closed_form || offers(plugin, kAnySeedAtEdges, params);
   subject.allocates = plugin.allocates;
   return subject;
 }

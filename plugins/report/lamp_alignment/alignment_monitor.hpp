@@ -48,8 +48,7 @@ class AlignmentMonitor {
   /// The lamp's centre and the way its light points, in the base frame.
   void see_lamp(const Eigen::Vector3d& center, const Eigen::Vector3d& light, bool at_rest,
                 Time now);
-  /// A goal for the lamp's centre, in front of the mouth that it looks at: how far away it shall
-  /// be.
+  /// A goal: where the lamp's centre shall be, and the mouth that it looks at from there.
   void see_goal(const Eigen::Vector3d& center, const Eigen::Vector3d& mouth) {
     asked_distance_m_ = (center - mouth).norm();
   }

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "descent.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <numbers>
 
 namespace armature::descent {
 namespace {
@@ -59,7 +62,7 @@ Goal goal_of(const IkGoal& goal) {
               .z = {},
               .pointing = std::holds_alternative<Direction>(goal.pose.orientation),
               .position_m = goal.tolerance.position_m,
-              .angle_rad = goal.tolerance.angle_rad};
+              .chord = 2 * std::sin(0.5 * std::min(goal.tolerance.angle_rad, std::numbers::pi))};
   if (result.pointing) {
     result.x = lanes(std::get<Direction>(goal.pose.orientation).unit.normalized());
   } else {

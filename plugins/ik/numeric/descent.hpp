@@ -36,7 +36,7 @@ struct Goal {
   Lanes position;
   Lanes x, y, z;  // base_R_tool; of a pointing goal only x, the direction
   bool pointing;
-  double position_m, angle_rad;
+  double position_m, chord;  // chord: twice the sine of half the angle that may be left
 };
 Goal goal_of(const IkGoal& goal);
 

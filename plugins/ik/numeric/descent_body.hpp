@@ -236,6 +236,11 @@ inline void keep(const double* q, const Error& error, int dof, End& end) {
   end.error = error.size;
 }
 
+inline bool is_within(const Error& error, const Goal& goal) {
+  return std::sqrt(dot(error.position, error.position)) <= goal.position_m &&
+         std::sqrt(dot(error.angle, error.angle)) <= goal.chord;
+}
+
 template <int Rows>
 void descend_rows(const Chain& chain, const Goal& goal, int& budget, End& end) {
   double q[kMaxJoints], y[kMostRows];
@@ -249,12 +254,12 @@ void descend_rows(const Chain& chain, const Goal& goal, int& budget, End& end) {
   for (int i = 0; budget > 0; ++i, --budget) {
     const Pose pose = walk(chain, q, axes);
     const Error error = error_at<Rows>(chain, goal, pose);
-    if (!(error.size < least) && polishing) return;
-    if (error.size < least) {
+    const bool within = is_within(error, goal);
+    if (polishing && !(within && error.size < least)) return;
+    if (error.size < least || within) {
       least = error.size;
       keep(q, error, chain.dof, end);
     }
-    const bool within = end.position_m <= goal.position_m && end.angle_rad <= goal.angle_rad;
     if (!within && i % kPatience == 0) {
       if (!(least < kEnoughGain * to_beat)) return;
       to_beat = least;

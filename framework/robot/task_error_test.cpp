@@ -13,8 +13,8 @@ namespace {
 
 class TaskErrorTest : public ::testing::Test {
  protected:
-  ToolPose pose_at(const JointVector& q, bool pointing) const {
-    const Eigen::Isometry3d pose = forward_kinematics(lamp, q);
+  ToolPose pose_at(const JointVector& joints, bool pointing) const {
+    const Eigen::Isometry3d pose = forward_kinematics(lamp, joints);
     ToolPose goal;
     goal.position = pose.translation();
     if (pointing) {

@@ -181,7 +181,7 @@ void add_bench(CLI::App& app, Action& action) {
       "ik", "Solvers on the same goals: armature bench ik --robot configs/robots/dental_lamp.yaml");
   add_arm(ik, options->arm);
   ik->get_option("--robot")->required();
-  ik->add_option("--plugins", options->plugins, "solvers, 'ik/kdl,ik/numeric' (all)")
+  ik->add_option("--plugins", options->plugins, "solvers, 'ik/lamp_geometric,ik/numeric' (all)")
       ->delimiter(',');
   ik->add_option("--params", options->params, "YAML: '{ik/numeric: {max_restarts: 3}}'");
   ik->add_option("--poses", options->poses, "goals")
@@ -195,7 +195,7 @@ void add_bench(CLI::App& app, Action& action) {
   ik->add_option("--tolerance", options->tolerance, "of a residual, m and rad")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
-  ik->add_option("--baseline", options->baseline, "what the others are compared with (ik/kdl)");
+  ik->add_option("--baseline", options->baseline, "what the others are compared with (the first)");
   ik->add_option("--out", options->out, "folder for solves.csv, cumulative.svg, summary.json");
   ik->add_flag("--json", options->json, "as JSON");
   ik->callback([options, &action] { action = [options] { return bench_ik(*options); }; });

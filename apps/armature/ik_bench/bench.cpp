@@ -64,17 +64,12 @@ std::vector<Runner> runners_of(const BenchOptions& options, PluginRegistry& regi
 }
 
 std::string baseline_of(const BenchOptions& options, const std::vector<Runner>& runners) {
-  const auto runs = [&](const std::string& id) {
-    return std::ranges::find(runners, id, &Runner::plugin) != runners.end();
-  };
-  if (!options.baseline.empty()) {
-    if (runs(options.baseline)) return options.baseline;
-    throw InvalidChoice(
-        fmt::format("the baseline '{}' is not one of the solvers that serve the "
-                    "robot",
-                    options.baseline));
+  if (options.baseline.empty()) return runners.front().plugin;
+  if (std::ranges::find(runners, options.baseline, &Runner::plugin) != runners.end()) {
+    return options.baseline;
   }
-  return runs("ik/kdl") ? "ik/kdl" : runners.front().plugin;
+  throw InvalidChoice(fmt::format(
+      "the baseline '{}' is not one of the solvers that serve the robot", options.baseline));
 }
 
 void write_files(const std::filesystem::path& folder, const Report& report,

@@ -138,7 +138,8 @@ Orientation read_orientation(const RobotModel& robot, const Json& question) {
   return Eigen::Quaterniond{unit(Eigen::Vector4d{q[0], q[1], q[2], q[3]}, "quaternion_xyzw")};
 }
 
-Json solution_json(const RobotModel& robot, const IkBranch& branch, bool redundant) {
+/// `key` is what a redundancy is called, empty where there is none.
+Json solution_json(const RobotModel& robot, const IkBranch& branch, std::string_view key) {
   Json json;
   json["label"] = branch.label;
   json["joints"] = to_json(robot.expand(branch.q));
@@ -146,8 +147,24 @@ Json solution_json(const RobotModel& robot, const IkBranch& branch, bool redunda
   json["residual_rad"] = branch.residual.angle_rad;
   json["within_limits"] = branch.within_limits;
   json["singular"] = branch.singular;
-  if (redundant) json["redundancy_rad"] = branch.redundancy;
+  if (!key.empty()) json[std::string{key}] = branch.redundancy;
   return json;
+}
+
+const char* redundancy_key(const IkSolver& solver) {
+  return solver.redundancy_is_length() ? "redundancy_m" : "redundancy_rad";
+}
+
+std::optional<double> read_redundancy(const IkSolver& solver, const Json& question) {
+  const std::string key = redundancy_key(solver);
+  for (const char* other : {"redundancy_rad", "redundancy_m"}) {
+    if (question.contains(other) && key != other) {
+      throw InvalidLine(fmt::format("'{}' is '{}' for this solver", other, key));
+    }
+  }
+  if (!question.contains(key)) return std::nullopt;
+  if (!question[key].is_number()) throw InvalidLine(fmt::format("'{}' must be a number", key));
+  return question[key].get<double>();
 }
 
 /// What `describe` says behind the name of the status, which the answer carries already.
@@ -159,18 +176,14 @@ std::string reason_of(const IkStatus& status) {
 
 Json answer_ik(const RobotModel& robot, const IkSolver& solver, const JointVector& home,
                const std::string& line) {
-  const Json question = parse_line(line, {"position_m", "direction", "quaternion_xyzw", "seed",
-                                          "redundancy_rad", "tolerance_m", "tolerance_rad"});
+  const Json question =
+      parse_line(line, {"position_m", "direction", "quaternion_xyzw", "seed", "redundancy_rad",
+                        "redundancy_m", "tolerance_m", "tolerance_rad"});
   if (!question.contains("position_m")) throw InvalidLine("'position_m' is missing");
   IkGoal goal;
   goal.pose.position = vector3(question, "position_m");
   goal.pose.orientation = read_orientation(robot, question);
-  if (question.contains("redundancy_rad")) {
-    if (!question["redundancy_rad"].is_number()) {
-      throw InvalidLine("'redundancy_rad' must be a number");
-    }
-    goal.redundancy = question["redundancy_rad"].get<double>();
-  }
+  goal.redundancy = read_redundancy(solver, question);
   goal.tolerance.position_m = positive(question, "tolerance_m", goal.tolerance.position_m);
   goal.tolerance.angle_rad = positive(question, "tolerance_rad", goal.tolerance.angle_rad);
   const JointVector seed = question.contains("seed") ? joints(robot, question, "seed") : home;
@@ -181,9 +194,10 @@ Json answer_ik(const RobotModel& robot, const IkSolver& solver, const JointVecto
   answer["status"] = to_string(status.code);
   if (status.code != IkStatus::Code::ok) answer["reason"] = reason_of(status);
   answer["solutions"] = Json::array();
+  const bool redundant = robot.dof() > 6 || goal.redundancy;
   for (const IkBranch& branch : branches) {
     answer["solutions"].push_back(
-        solution_json(robot, branch, robot.dof() > 6 || goal.redundancy.has_value()));
+        solution_json(robot, branch, redundant ? redundancy_key(solver) : ""));
   }
   return answer;
 }

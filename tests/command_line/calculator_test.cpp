@@ -97,6 +97,22 @@ TEST(IkCalculator, SaysThatARollCannotBeReachedAndNotHowFarAwayItIs) {
   EXPECT_EQ(lines[0]["reason"], "the lamp cannot roll about its pointing axis");
 }
 
+TEST(IkCalculator, ANeedlesDepthIsAskedForAndToldInMetres) {
+  const std::string goal = R"({"position_m":[0.55,0.15,0.1],"direction":[0,0,-1],)";
+  const auto lines =
+      answers({armature(), "ik", "--robot", source_file("configs/robots/sr1_needle.yaml"),
+               "--plugin", "ik/puma_algebraic"},
+              goal + "\"redundancy_m\":0.12}\n" + goal + "\"redundancy_rad\":0.12}\n");
+  EXPECT_EQ(lines[0]["status"], "ok");
+  ASSERT_EQ(lines[0]["solutions"].size(), 8U);
+  for (const json& solution : lines[0]["solutions"]) {
+    EXPECT_EQ(solution["redundancy_m"], 0.12);
+    EXPECT_EQ(solution["joints"][5], 0.12);
+  }
+  EXPECT_EQ(lines[1], (json{{"status", "invalid_input"},
+                            {"reason", "'redundancy_rad' is 'redundancy_m' for this solver"}}));
+}
+
 TEST(IkCalculator, RefusesAnUnknownSolverByNameWithExitCodeThree) {
   const auto result =
       run_command({armature(), "ik", "--robot", kLamp, "--plugin", "ik/lamp_geometrc"});

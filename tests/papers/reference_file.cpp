@@ -29,4 +29,10 @@ Figures dental_lamp() {
   return Figures{file};
 }
 
+Figures sr1() {
+  static const config::Node file =
+      config::parse_file(ARMATURE_SOURCE_DIR "/tests/data/sr1_reference.yaml");
+  return Figures{file};
+}
+
 }  // namespace armature::paper

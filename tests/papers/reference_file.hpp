@@ -32,5 +32,7 @@ class Figures {
 
 /// tests/data/dental_lamp_reference.yaml.
 Figures dental_lamp();
+/// tests/data/sr1_reference.yaml.
+Figures sr1();
 
 }  // namespace armature::paper

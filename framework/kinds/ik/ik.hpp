@@ -17,8 +17,8 @@ namespace armature {
 /// What an inverse kinematics solver is asked for: a pose of the tool frame in the base frame.
 struct IkGoal {
   ToolPose pose;
-  std::optional<double>
-      redundancy;  // [rad] arm angle of a redundant arm; none: the solver's choice
+  /// What the pose leaves free: arm angle [rad], or needle depth [m]; none: the solver's choice.
+  std::optional<double> redundancy;
   struct Tolerance {
     double position_m = 1e-9;
     double angle_rad = 1e-9;
@@ -32,7 +32,7 @@ struct IkBranch {
   /// Points to static storage.
   std::string_view label;
   JointVector q;               // independent joints, freely turning ones in [-pi, pi)
-  double redundancy = 0;       // [rad] arm angle where the arm has one
+  double redundancy = 0;       // arm angle [rad] or needle depth [m] where the goal leaves it free
   PoseResidual residual;       // of forward kinematics at q
   bool within_limits = false;  // q, or the same posture whole turns away, keeps the limits
   bool singular = false;       // at or numerically at a singular set of the arm
@@ -66,7 +66,7 @@ std::string describe(const IkStatus& status);
 
 /// What a solver remembers between calls; the caller owns it (start: value-initialised).
 struct IkState {
-  std::optional<double> last_redundancy;  // [rad]
+  std::optional<double> last_redundancy;  // arm angle [rad] or needle depth [m]
 };
 
 /// Inverse kinematics for one robot. Made by `make`, which refuses a robot that the solver cannot
@@ -86,6 +86,15 @@ class IkSolver {
   /// Bad input (NaN, wrong length, zero direction) answers invalid_input.
   virtual IkStatus solve(const IkGoal& goal, const JointVector& seed, IkBranches& out,
                          IkState& state) const = 0;
+
+  /// The redundancy of `q` (dof() entries), arm angle [rad] or needle depth [m]: with it as
+  /// goal.redundancy, `solve` finds q again. None when the arm, or the solver, has none. Real-time
+  /// safe as `solve` is.
+  virtual std::optional<double> redundancy_of([[maybe_unused]] const JointVector& q) const {
+    return std::nullopt;
+  }
+  /// Whether the redundancy is a length [m] and not an angle [rad].
+  virtual bool redundancy_is_length() const { return false; }
 };
 
 /// nullptr, or why `goal` and `seed` cannot be solved for at all: not finite, further away than

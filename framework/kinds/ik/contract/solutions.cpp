@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <Eigen/SVD>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,6 +13,7 @@
 #include "armature/kinds/ik/contract/laws.hpp"
 #include "armature/kinds/ik/contract/search.hpp"
 #include "armature/robot/kinematics.hpp"
+#include "armature/robot/task_error.hpp"
 
 namespace armature::ik_contract {
 namespace {
@@ -81,7 +83,8 @@ void generator_is_found(Probe& probe) {
   const bool all = probe.subject().closed_form;
   for (int i = 0; i < probe.subject().poses; ++i) {
     const JointVector q = probe.random_joints();
-    const IkGoal goal = probe.goal_at(q);
+    IkGoal goal = probe.goal_at(q);
+    if (all && probe.redundant()) goal.redundancy = probe.solver().redundancy_of(q);
     probe.solve(goal, all ? probe.random_joints() : q);
     double distance = probe.nearest(q);
     if (all && probe.redundant() && distance > kSame) {
@@ -119,7 +122,8 @@ void redundancy_is_kept(Probe& probe) {
   int answered = 0;
   for (int i = 0; i < probe.subject().poses; ++i) {
     IkGoal goal = probe.goal_at(probe.random_joints());
-    goal.redundancy = angle(probe.random());
+    goal.redundancy =
+        probe.solver().redundancy_of(probe.random_joints()).value_or(angle(probe.random()));
     probe.solve(goal, probe.random_joints());
     if (probe.found().count > 0) ++answered;
     for (const IkBranch& branch : probe.found()) {
@@ -134,16 +138,34 @@ void redundancy_is_kept(Probe& probe) {
 
 namespace {
 
+/// The rows of the task, and the redundancy that the solver keeps.
+Eigen::MatrixXd rows_that_are_kept(const Probe& probe, const JointVector& q) {
+  Eigen::MatrixXd rows = task_jacobian(probe.model(), q);
+  const auto redundancy = probe.solver().redundancy_of(q);
+  if (!probe.redundant() || !redundancy) return rows;
+  constexpr double kStep = 1e-6;
+  rows.conservativeResize(rows.rows() + 1, Eigen::NoChange);
+  for (int i = 0; i < probe.model().dof(); ++i) {
+    JointVector moved = q;
+    moved[i] += kStep;
+    const double there = probe.solver().redundancy_of(moved).value_or(*redundancy);
+    rows(rows.rows() - 1, i) = wrap_angle(there - *redundancy) / kStep;
+  }
+  return rows;
+}
+
 /// Far enough from singular for joints to follow the goal.
-bool regular(const RobotModel& model, const JointVector& q) {
-  const bool wide = model.dof() >= task_rows(model);
-  return smallest_singular_value(model, q) > 0.05 && (!wide || manipulability(model, q) > 0.02);
+bool regular(const Probe& probe, const JointVector& q) {
+  const bool wide = probe.model().dof() >= task_rows(probe.model());
+  if (wide && manipulability(probe.model(), q) <= 0.02) return false;
+  const Eigen::MatrixXd rows = rows_that_are_kept(probe, q);
+  return Eigen::JacobiSVD<Eigen::MatrixXd>{rows}.singularValues().minCoeff() > 0.05;
 }
 
 /// Branches before and after a small step of the goal: each has its like under the same label.
 void expect_branches_follow(Probe& probe, const IkBranches& before, double allowed) {
   for (const IkBranch& branch : before) {
-    if (!regular(probe.model(), branch.q)) continue;
+    if (!regular(probe, branch.q)) continue;
     double least = std::numeric_limits<double>::infinity();
     for (const IkBranch& after : probe.found()) {
       if (after.label == branch.label) least = std::min(least, probe.distance(after.q, branch.q));
@@ -163,7 +185,7 @@ void continuity(Probe& probe) {
   int checked = 0;
   for (int i = 0; i < probe.subject().poses / 4; ++i) {
     const JointVector q = probe.random_joints();
-    if (!regular(probe.model(), q)) continue;
+    if (!regular(probe, q)) continue;
     ++checked;
     JointVector step(probe.model().dof());
     for (double& value : step) value = normal(probe.random());

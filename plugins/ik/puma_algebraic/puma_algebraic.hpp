@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+
+#include "armature/kinds/ik/ik.hpp"
+#include "four_arms.hpp"
+#include "puma_goal.hpp"
+#include "puma_structure.hpp"
+#include "roll_roots.hpp"
+
+namespace armature {
+
+/// Closed-form inverse kinematics of PUMA-pattern arms: 8 branches shoulder x elbow x wrist, of
+/// six revolute joints or of five and a needle.
+class PumaAlgebraic final : public IkSolver {
+ public:
+  static Expected<std::unique_ptr<IkSolver>> make(const RobotModel& model, const Params& params);
+
+  IkStatus solve(const IkGoal& goal, const JointVector& seed, IkBranches& out,
+                 IkState& state) const override;
+  std::optional<double> redundancy_of(const JointVector& q) const override;
+  bool redundancy_is_length() const override { return arm_.needle; }
+
+ private:
+  PumaAlgebraic(const RobotModel& model, const PumaArm& arm)
+      : model_{&model}, arm_{arm}, numbers_{numbers_of(arm, model)} {}
+
+  IkStatus add_branches(const ArmQuestion& question, FourArms& arms, IkBranches& out) const;
+  /// All branches of a rotation, or of a direction with joint 6 at `question.sixth`. Where joint 1
+  /// or 2 is free and keeping the seed's leads beyond the limits, other values are tried.
+  IkStatus solve_at(const ArmQuestion& question, IkBranches& out) const;
+  /// A direction, by an arm with a needle.
+  IkStatus solve_line(const PumaGoal& goal, const std::optional<double>& given,
+                      IkBranches& out) const;
+  /// A rotation, by an arm with a needle.
+  IkStatus solve_needle_rotation(const PumaGoal& goal, IkBranches& out) const;
+  void add_root(const PumaGoal& goal, std::size_t arm, const RollRoots::Root& root,
+                std::array<std::size_t, 2>& found, IkBranches& out) const;
+
+  const RobotModel* model_;
+  PumaArm arm_;
+  ArmNumbers numbers_;
+  const ArmKernel& kernel_ = arm_kernel();
+};
+
+}  // namespace armature

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sr1_arms.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "armature/runtime/plugin_registry.hpp"
+
+namespace armature::paper {
+namespace {
+
+SolvedArm solved(RobotModel model) {
+  static PluginRegistry plugins{{ARMATURE_PLUGIN_BUILD_DIR}};
+  SolvedArm arm{.model = std::make_shared<const RobotModel>(std::move(model)), .solver = {}};
+  auto solver = plugins.make<IkSolver>("ik/puma_algebraic", *arm.model, Params{});
+  if (!solver) throw std::runtime_error(solver.error().text);
+  auto held = std::make_shared<PluginPtr<IkSolver>>(std::move(*solver));
+  arm.solver = std::shared_ptr<const IkSolver>{held, &**held};
+  return arm;
+}
+
+const RobotModel& file() {
+  static const RobotModel model = load_robot_model(ARMATURE_SOURCE_DIR "/configs/robots/sr1.yaml");
+  return model;
+}
+
+SolvedArm with_joints(std::vector<Joint> joints, double d6) {
+  const NamedFrame tool{"tool", 5, Eigen::Isometry3d{Eigen::Translation3d{0, 0, d6}}};
+  return solved({"sr1", file().convention(), std::move(joints), {tool}, FrameId{}, {}, {}});
+}
+
+}  // namespace
+
+SolvedArm sr1_with_tool(double d6) { return with_joints(file().joints(), d6); }
+
+SolvedArm sr1_with_lengths(double d1, double a1, double a3, double d6) {
+  auto joints = file().joints();
+  joints[0].d = d1;
+  joints[1].a = a1;
+  joints[3].a = a3;
+  return with_joints(joints, d6);
+}
+
+SolvedArm sr1_needle() {
+  return solved(load_robot_model(ARMATURE_SOURCE_DIR "/configs/robots/sr1_needle.yaml"));
+}
+
+Eigen::Isometry3d pose_of(const Figures& rows) {
+  Eigen::Isometry3d pose;
+  for (std::size_t i = 0; i < 4; ++i) {
+    pose.matrix().row(static_cast<Eigen::Index>(i)) = rows[i].numbers();
+  }
+  return pose;
+}
+
+IkGoal goal_of(const Eigen::Isometry3d& base_T_tool) {
+  IkGoal goal;
+  goal.pose = {base_T_tool.translation(), Eigen::Quaterniond{base_T_tool.linear()}};
+  return goal;
+}
+
+std::string label_of(const Figures& signs) {
+  const Eigen::VectorXd s = signs.numbers();
+  const auto digit = [&](Eigen::Index i) { return s[i] > 0 ? "0" : "1"; };
+  return std::string{"shoulder"} + digit(0) + "/elbow" + digit(1) + "/wrist" + digit(2);
+}
+
+double wrapped_difference(const JointVector& a, const JointVector& b) {
+  double largest = 0;
+  for (Eigen::Index i = 0; i < a.size(); ++i) {
+    largest = std::max(largest, std::abs(wrap_angle(a[i] - b[i])));
+  }
+  return largest;
+}
+
+}  // namespace armature::paper

@@ -110,7 +110,8 @@ TEST(Sr1, AtTheElbowsAndTheShouldersSingularSetBothRootsAreOne) {
 TEST(Sr1, ThePoseBeyondReachHasNoBranch) {
   IkBranches found;
   const Eigen::Isometry3d pose = pose_of(sr1()["unreachable_case"]["T"]);
-  const IkStatus status = sr1_with_tool(0).solve(goal_of(pose), JointVector::Zero(6), found);
+  const SolvedArm arm = sr1_with_tool(0);
+  const IkStatus status = arm.solve(goal_of(pose), JointVector::Zero(6), found);
   EXPECT_EQ(status.code, IkStatus::Code::out_of_reach);
   EXPECT_EQ(found.count, 0);
   EXPECT_NEAR(status.shortfall, std::hypot(0.9136, 0.0203) - 0.4318 - std::hypot(0.4318, 0.0203),
@@ -125,7 +126,8 @@ TEST(Sr1, TheStartOfThePlannedPathHasTheReferencesJointsInEveryBranch) {
     home.linear().row(static_cast<Eigen::Index>(i)) = plan["R"][i].numbers();
   }
   IkBranches found;
-  sr1_with_tool(plan["tool_d6"].number()).solve(goal_of(home), JointVector::Zero(6), found);
+  const SolvedArm arm = sr1_with_tool(plan["tool_d6"].number());  // its library holds the labels
+  arm.solve(goal_of(home), JointVector::Zero(6), found);
   ASSERT_EQ(static_cast<std::size_t>(found.count), plan["branches"].size());
   for (std::size_t i = 0; i < 8; ++i) {
     const Figures wanted = plan["branches"][i];

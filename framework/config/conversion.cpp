@@ -195,4 +195,20 @@ Converted<std::vector<double>> to_numbers(const Node& node, std::optional<std::s
   return values;
 }
 
+Converted<std::vector<std::string>> to_texts(const Node& node) {
+  if (node.kind() != Node::Kind::sequence) {
+    return mismatch(node, "must be a list of texts, not " + node.describe());
+  }
+  std::vector<std::string> texts;
+  for (const Node& item : node.items()) {
+    const auto text = to_text(item);
+    if (!text) {
+      return mismatch(item, fmt::format("must be a list of texts; item {} {}", texts.size() + 1,
+                                        text.error().message));
+    }
+    texts.push_back(*text);
+  }
+  return texts;
+}
+
 }  // namespace armature::config

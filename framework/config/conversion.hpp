@@ -27,5 +27,7 @@ Converted<bool> to_flag(const Node& node);
 Converted<std::string> to_text(const Node& node);
 /// A list of `count` numbers; without a count, of any length.
 Converted<std::vector<double>> to_numbers(const Node& node, std::optional<std::size_t> count);
+/// A list of texts, of any length.
+Converted<std::vector<std::string>> to_texts(const Node& node);
 
 }  // namespace armature::config

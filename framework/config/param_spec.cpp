@@ -16,8 +16,8 @@ using config::Node;
 using config::Problems;
 using Type = ParamSpec::Type;
 
-constexpr std::array<std::string_view, 7> kTypeNames{"number", "integer", "flag", "text",
-                                                     "choice", "numbers", "file"};
+constexpr std::array<std::string_view, 8> kTypeNames{"number", "integer", "flag",  "text",
+                                                     "choice", "numbers", "texts", "file"};
 
 bool is_name(std::string_view name) {
   const auto is_lower = [](char c) { return c >= 'a' && c <= 'z'; };

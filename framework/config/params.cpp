@@ -21,7 +21,8 @@ using config::Mismatch;
 using config::Node;
 using config::Origin;
 using Type = ParamSpec::Type;
-using AnyValue = std::variant<double, std::int64_t, bool, std::string, std::vector<double>>;
+using AnyValue = std::variant<double, std::int64_t, bool, std::string, std::vector<double>,
+                              std::vector<std::string>>;
 
 /// What is wrong with a number's size; empty: nothing.
 std::string out_of_range(const ParamSpec& spec, double value) {
@@ -98,6 +99,8 @@ Converted<AnyValue> read_value(const ParamSpec& spec, const Node& node,
       return read_choice(spec, node);
     case Type::numbers:
       return read_numbers(spec, node);
+    case Type::texts:
+      return config::to_texts(node).map(as_any);
     case Type::file:
       return read_file(node, folder);
   }
@@ -119,6 +122,8 @@ AnyValue zero(Type type) {
       return std::string{};
     case Type::numbers:
       return std::vector<double>{};
+    case Type::texts:
+      return std::vector<std::string>{};
   }
   return 0.0;
 }
@@ -191,6 +196,10 @@ bool Params::flag(std::string_view name) const {
 
 const std::string& Params::text(std::string_view name) const {
   return std::get<std::string>(get(name, {Type::text, Type::choice}).value);
+}
+
+const std::vector<std::string>& Params::texts(std::string_view name) const {
+  return std::get<std::vector<std::string>>(get(name, {Type::texts}).value);
 }
 
 std::string Params::file(std::string_view name) const {

@@ -18,7 +18,7 @@ namespace armature {
 /// One parameter as a plugin declares it in its `plugin.yaml`; reading, checking, defaults,
 /// `armature plugin info` and the JSON Schema all come from it.
 struct ParamSpec {
-  enum class Type { number, integer, flag, text, choice, numbers, file };
+  enum class Type { number, integer, flag, text, choice, numbers, texts, file };
   std::string name;  // a unit suffix (_deg, _mm, _m, _s, _hz) says what the user writes
   Type type = Type::number;
   std::string doc;
@@ -29,7 +29,7 @@ struct ParamSpec {
 };
 
 /// The names of ParamSpec::Type as written in `plugin.yaml`: number, integer, flag, text, choice,
-/// numbers, file.
+/// numbers, texts, file.
 std::string_view to_string(ParamSpec::Type type);
 
 /// Reads a `params:` table of a plugin.yaml; a fallback must itself be a valid value.
@@ -54,6 +54,7 @@ class Params {
   bool flag(std::string_view name) const;
   /// A text or a choice.
   const std::string& text(std::string_view name) const;
+  const std::vector<std::string>& texts(std::string_view name) const;
   /// A path, resolved against the folder of the YAML file that says it; a fallback and a `--set`
   /// are relative to the current directory. Empty stays empty.
   std::string file(std::string_view name) const;
@@ -63,7 +64,9 @@ class Params {
  private:
   struct Value {
     ParamSpec::Type type;
-    std::variant<double, std::int64_t, bool, std::string, std::vector<double>> value;
+    std::variant<double, std::int64_t, bool, std::string, std::vector<double>,
+                 std::vector<std::string>>
+        value;
     config::Origin origin;
   };
   const Value& find(std::string_view name) const;

@@ -31,6 +31,7 @@ photo: {type: choice, choices: [generated, astronaut], default: generated}
 mouth_mm: {type: numbers, count: 3, max: 2000, default: [1550, 0, 450]}
 model: {type: file, default: data/model.dat}
 seed: {type: integer}
+command: {type: texts, default: [solver, --fast]}
 )";
 
 std::vector<ParamSpec> specs_of(const std::string& table) {
@@ -47,7 +48,7 @@ Params read(const std::string& given, Problems& problems) {
 
 TEST(ParamSpecs, KeepTheOrderAndContentOfTheTable) {
   const auto specs = specs_of(kTable);
-  ASSERT_EQ(specs.size(), 9U);
+  ASSERT_EQ(specs.size(), 10U);
   EXPECT_EQ(specs[0].name, "rate_hz");
   EXPECT_EQ(specs[0].type, ParamSpec::Type::number);
   EXPECT_EQ(specs[0].doc, "Frames per second.");
@@ -58,6 +59,7 @@ TEST(ParamSpecs, KeepTheOrderAndContentOfTheTable) {
   EXPECT_EQ(specs[6].count, 3U);
   EXPECT_FALSE(specs[8].fallback);
   EXPECT_EQ(to_string(specs[7].type), "file");
+  EXPECT_EQ(to_string(specs[9].type), "texts");
 }
 
 TEST(ParamSpecs, RefuseWhatIsNoTable) {
@@ -74,6 +76,7 @@ h: {type: text, max: 3, count: 2}
 Bad-Name: {type: flag}
 i: {type: numbers, count: 2, default: [1]}
 j: 5
+k: {type: texts, default: [x, [y]]}
 )",
                               "p"),
                    problems);
@@ -91,7 +94,8 @@ j: 5
             "p:9:32: 'count' belongs to numbers\n"
             "p:10:1: parameter 'Bad-Name' must be named in snake_case\n"
             "p:11:39: 'i' must be a list of 2 numbers, not of 1\n"
-            "p:12:4: parameter 'j' must be a map, not '5'\n");
+            "p:12:4: parameter 'j' must be a map, not '5'\n"
+            "p:13:31: 'k' must be a list of texts; item 2 must be a text, not a list\n");
 }
 
 TEST(ParamSpecs, OfAnEmptyTableAreNone) { EXPECT_TRUE(specs_of("").empty()); }
@@ -105,6 +109,7 @@ TEST(Parameters, FallBackToTheTable) {
   EXPECT_EQ(params.flag("blur"), false);
   EXPECT_EQ(params.text("label"), "lamp");
   EXPECT_EQ(params.text("photo"), "generated");
+  EXPECT_EQ(params.texts("command"), (std::vector<std::string>{"solver", "--fast"}));
   EXPECT_EQ(params.origin("rate_hz").text(), "plugin.yaml:2:34");
   EXPECT_EQ(params.origin("seed").text(), "deployments/lamp.yaml:1:7");
 }
@@ -130,7 +135,7 @@ TEST(Parameters, ThatAreWrongAreAllTold) {
   Problems problems;
   const Params params = read(
       "rate_hz: 500\ntries: 0\nblur: yes\nlabel: [a]\nphoto: generatd\nmouth_mm: [1, 2, 3000]\n"
-      "tilt_rad: 1\n",
+      "tilt_rad: 1\ncommand: solver\n",
       problems);
   EXPECT_EQ(text_of(problems),
             "deployments/lamp.yaml:1:1: missing key 'seed' in params of 'sim/scene'\n"
@@ -141,7 +146,8 @@ TEST(Parameters, ThatAreWrongAreAllTold) {
             "deployments/lamp.yaml:5:8: 'photo' cannot be 'generatd'; did you mean 'generated'?\n"
             "deployments/lamp.yaml:6:18: 'mouth_mm' item 3 is 3000, must be at most 2000\n"
             "deployments/lamp.yaml:7:1: unknown key 'tilt_rad' in params of 'sim/scene'; did you "
-            "mean 'tilt_deg'?\n");
+            "mean 'tilt_deg'?\n"
+            "deployments/lamp.yaml:8:10: 'command' must be a list of texts, not 'solver'\n");
   EXPECT_EQ(params.number("rate_hz"), 0) << "a wrong value still has an answer";
 }
 

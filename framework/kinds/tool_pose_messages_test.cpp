@@ -10,8 +10,8 @@ using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
 template <class Message>
-class ToolPoseMessages : public testing::Test {};
-using EveryMessageWithAPose = testing::Types<msg::ToolPose, msg::IkRequest, msg::MotionGoal>;
+class ToolPoseMessages : public ::testing::Test {};
+using EveryMessageWithAPose = ::testing::Types<msg::ToolPose, msg::IkRequest, msg::MotionGoal>;
 TYPED_TEST_SUITE(ToolPoseMessages, EveryMessageWithAPose);
 
 TYPED_TEST(ToolPoseMessages, APoseIsReadAsItWasWritten) {

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 #include <vector>
 
 #include "armature/motion/goal_planner.hpp"
@@ -32,9 +33,19 @@ inline RobotModel gantry() {
                     FrameId{0}, Eigen::Vector3d::UnitZ(),         std::nullopt};
 }
 
-class GantryIk : public IkSolver {
+/// Throws when it is told to.
+struct Moody {
+  bool throws = false;
+
+  void may_throw() const {
+    if (throws) throw std::runtime_error{"no more of this"};
+  }
+};
+
+class GantryIk : public IkSolver, public Moody {
  public:
   IkStatus solve(const IkGoal& goal, const JointVector&, IkBranches& out, IkState&) const override {
+    may_throw();
     out.clear();
     const Eigen::Vector3d& p = goal.pose.position;
     IkBranch& branch = out.add();
@@ -48,10 +59,11 @@ class GantryIk : public IkSolver {
   }
 };
 
-class FirstBranch : public BranchSelector {
+class FirstBranch : public BranchSelector, public Moody {
  public:
   Expected<std::vector<JointVector>> choose(const JointVector&,
                                             std::span<const IkBranches> waypoints) const override {
+    may_throw();
     std::vector<JointVector> chosen;
     for (const IkBranches& branches : waypoints) chosen.push_back(branches.branch[0].q);
     return chosen;
@@ -59,9 +71,10 @@ class FirstBranch : public BranchSelector {
 };
 
 /// One joint segment to the goal; with a focus a cartesian line whose middle lies on the focus.
-class LinePath : public PathPlanner {
+class LinePath : public PathPlanner, public Moody {
  public:
   Expected<Path> plan(const PathRequest& request) const override {
+    may_throw();
     if (request.goal.position.x() > 1.5) return refuse("x beyond 1.5 m");
     if (!request.focus) {
       return Path{{.space = PathSegment::Space::joint, .samples = {{1, request.goal}}}};
@@ -74,12 +87,13 @@ class LinePath : public PathPlanner {
 };
 
 /// One quintic to the end of the last segment, as long as the limits want it.
-class OneQuintic : public TrajectoryPlanner {
+class OneQuintic : public TrajectoryPlanner, public Moody {
  public:
   mutable TrajectoryRequest last_request;
   bool jumps = false;
 
   Expected<Trajectory> plan(const TrajectoryRequest& request) const override {
+    may_throw();
     last_request = request;
     const JointVector& end = request.segments.back().q.back();
     for (double duration = 0.05; duration < 30; duration *= 1.1) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "armature/robot/kinematics.hpp"
+#include "armature/values/guarded.hpp"
 
 namespace armature {
 namespace {
@@ -64,6 +65,12 @@ IkGoal ik_goal(const ToolPose& pose) {
   return goal;
 }
 
+/// Which branch was reached, or why none.
+Expected<IkStatus> solved(const IkSolver& solver, const ToolPose& pose, const JointVector& seed,
+                          IkBranches& branches, IkState& state) {
+  return guarded(state, [&](IkState& s) { return solver.solve(ik_goal(pose), seed, branches, s); });
+}
+
 bool reaches(const IkStatus& status) {
   return status.code == IkStatus::Code::ok || status.code == IkStatus::Code::singular;
 }
@@ -78,9 +85,10 @@ tl::expected<JointVector, PlanFailure> GoalPlanner::solve(const ToolPose& pose,
                                                           const JointVector& near) {
   waypoints_.resize(1);
   IkState state;
-  const IkStatus status = stages_.ik.solve(ik_goal(pose), near, waypoints_[0], state);
-  if (!reaches(status)) return fail("ik", "the goal: " + describe(status));
-  auto chosen = stages_.select.choose(near, waypoints_);
+  const auto status = solved(stages_.ik, pose, near, waypoints_[0], state);
+  if (!status) return fail("ik", "the goal: " + status.error().text);
+  if (!reaches(*status)) return fail("ik", "the goal: " + describe(*status));
+  auto chosen = guarded([&] { return stages_.select.choose(near, waypoints_); });
   if (!chosen) return fail("select", chosen.error().text);
   if (chosen->size() != 1) return fail("select", "the plugin did not answer for the waypoint");
   return chosen->front();
@@ -121,20 +129,24 @@ PlanResult GoalPlanner::attempt(const MotionGoal& goal, const JointState& from, 
   if (straight) {
     plan.path = straight_to(goal.pose);
   } else {
-    auto path = stages_.path.plan(
-        {.start = pose_at(model_, from.q, goal.pose), .goal = goal.pose, .focus = goal.focus});
+    auto path = guarded([&] {
+      return stages_.path.plan(
+          {.start = pose_at(model_, from.q, goal.pose), .goal = goal.pose, .focus = goal.focus});
+    });
     if (!path) return fail("path", path.error().text);
     plan.path = std::move(*path);
   }
   auto joint_path = this->joint_path(plan.path, from.q);
   if (!joint_path) return tl::unexpected{joint_path.error()};
   plan.joint_path = std::move(*joint_path);
-  auto trajectory = stages_.trajectory.plan({.goal_id = goal.id,
-                                             .start = start,
-                                             .from = from,
-                                             .segments = plan.joint_path,
-                                             .max_velocity = limits_.max_velocity,
-                                             .max_acceleration = limits_.max_acceleration});
+  auto trajectory = guarded([&] {
+    return stages_.trajectory.plan({.goal_id = goal.id,
+                                    .start = start,
+                                    .from = from,
+                                    .segments = plan.joint_path,
+                                    .max_velocity = limits_.max_velocity,
+                                    .max_acceleration = limits_.max_acceleration});
+  });
   if (!trajectory) return fail("trajectory", trajectory.error().text);
   plan.trajectory = std::move(*trajectory);
   plan.trajectory.goal_id = goal.id;
@@ -154,11 +166,11 @@ tl::expected<void, PlanFailure> GoalPlanner::solve_samples(const Path& path,
     for (std::size_t i = 0; i < samples.size(); ++i) {
       if (is_known(path[k], i)) continue;
       IkBranches& branches = waypoints_.emplace_back();
-      const IkStatus status = stages_.ik.solve(ik_goal(samples[i].pose), seed, branches, state);
-      const IkBranch* next = reaches(status) ? nearest(branches, seed, model_) : nullptr;
+      const auto status = solved(stages_.ik, samples[i].pose, seed, branches, state);
+      const IkBranch* next = status && reaches(*status) ? nearest(branches, seed, model_) : nullptr;
       if (!next) {
         return fail("ik", fmt::format("sample {} of {} of segment {}: {}", i + 1, samples.size(),
-                                      k + 1, describe(status)));
+                                      k + 1, status ? describe(*status) : status.error().text));
       }
       seed = next->q;
     }
@@ -170,7 +182,7 @@ tl::expected<std::vector<JointSegment>, PlanFailure> GoalPlanner::joint_path(
     const Path& path, const JointVector& start) {
   if (auto solved = solve_samples(path, start); !solved) return tl::unexpected{solved.error()};
   if (waypoints_.empty()) return fail("path", "the path has no samples");
-  auto chosen = stages_.select.choose(start, waypoints_);
+  auto chosen = guarded([&] { return stages_.select.choose(start, waypoints_); });
   if (!chosen) return fail("select", chosen.error().text);
   if (chosen->size() != waypoints_.size()) {
     return fail("select", "the plugin did not answer for every waypoint");

@@ -85,27 +85,27 @@ TEST(GoalPlanner, StopsFirstWhenTheTrajectoryCannotBeSpliced) {
   }
 }
 
-TEST(TrajectoryDefect, NamesTheJointThatJumps) {
-  const Gantry gantry;
-  const Trajectory hold = hold_at(Eigen::Vector3d{0, 0.25, 0}, kStart, 1);
-  EXPECT_EQ(trajectory_defect(hold, gantry.model, gantry.limits, rest_at(0, 0.25, 0), kStart),
-            std::nullopt);
-  EXPECT_EQ(trajectory_defect(hold, gantry.model, gantry.limits, rest_at(0, 0, 0), kStart),
-            "the trajectory does not leave the reference: joint y jumps by 0.25 in position, 0 in "
-            "velocity, 0 in acceleration");
+TEST(GoalPlanner, NamesTheStageWhosePluginThrewAndPlansTheNextGoal) {
+  Gantry gantry;
+  GoalPlanner planner = gantry.planner();
+  const auto failure = [&](bool& throws) {
+    throws = true;
+    const auto plan = planner.plan(goal_at(1, 1, 1, 1), rest_at(0, 0, 0), kStart);
+    throws = false;
+    EXPECT_TRUE(planner.plan(goal_at(2, 1, 1, 1), rest_at(0, 0, 0), kStart));
+    return plan ? "a plan" : plan.error().stage + ": " + plan.error().reason;
+  };
+  EXPECT_EQ(failure(gantry.ik.throws), "ik: the goal: the plugin threw: no more of this");
+  EXPECT_EQ(failure(gantry.select.throws), "select: the plugin threw: no more of this");
+  EXPECT_EQ(failure(gantry.trajectory.throws), "trajectory: the plugin threw: no more of this");
 }
 
-TEST(TrajectoryDefect, FindsBrokenLimits) {
-  const Gantry gantry;
-  const auto plan = gantry.planner().plan(goal_at(1, 1, 1, 1), rest_at(0, 0, 0), kStart);
-  ASSERT_TRUE(plan);
-  MotionLimits half = gantry.limits;
-  half.max_velocity *= 0.5;
-  EXPECT_THAT(*trajectory_defect(plan->trajectory, gantry.model, half, rest_at(0, 0, 0), kStart),
-              testing::StartsWith("the trajectory needs "));
-  const Trajectory outside = hold_at(Eigen::Vector3d{0, 0, 2.5}, kStart, 1);
-  EXPECT_EQ(*trajectory_defect(outside, gantry.model, gantry.limits, rest_at(0, 0, 2.5), kStart),
-            "joint x would be at 2.5000 after 0.00 s, outside -2.0000 to 2.0000");
+TEST(GoalPlanner, GoesStraightInJointSpaceWhenThePathPluginThrows) {
+  Gantry gantry;
+  gantry.path.throws = true;
+  auto plan = gantry.planner().plan(goal_at(1, 1, 1, 1), rest_at(0, 0, 0), kStart);
+  ASSERT_TRUE(plan) << plan.error().reason;
+  EXPECT_EQ(plan->path.front().space, PathSegment::Space::joint);
 }
 
 }  // namespace

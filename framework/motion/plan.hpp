@@ -9,6 +9,7 @@
 #include "armature/kinds/trajectory/trajectory_planner.hpp"
 #include "armature/robot/robot_model.hpp"
 #include "armature/robot/trajectory.hpp"
+#include "armature/robot/trajectory_check.hpp"
 
 namespace armature {
 
@@ -25,17 +26,6 @@ struct PlanFailure {
   std::string reason;
 };
 using PlanResult = tl::expected<Plan, PlanFailure>;
-
-/// How fast the motion component drives; never above the robot's own limits.
-struct MotionLimits {
-  JointVector max_velocity, max_acceleration;  // per independent joint
-};
-
-/// nullopt, or what is wrong with a trajectory that shall take over at `start` from `from`: a jump
-/// in q, v or a, a limit that it breaks, a motion that goes on at its end.
-std::optional<std::string> trajectory_defect(const Trajectory& trajectory, const RobotModel& model,
-                                             const MotionLimits& limits, const JointState& from,
-                                             Time start);
 
 /// `first`, then `second`, which starts where and when `first` ends.
 Trajectory joined(const Trajectory& first, const Trajectory& second);

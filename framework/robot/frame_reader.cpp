@@ -40,8 +40,8 @@ ReadFrame read_frame(const Node::Entry& entry, Problems& problems) {
 class ParentResolver {
  public:
   ParentResolver(const std::vector<ReadFrame>& frames, const std::vector<Joint>& joints,
-                 Problems& problems)
-      : frames_(frames), joints_(joints), problems_(problems) {}
+                 const std::vector<NamedFrame>& links, Problems& problems)
+      : frames_(frames), joints_(joints), links_(links), problems_(problems) {}
 
   NamedFrame resolve(const ReadFrame& frame) {
     NamedFrame result = frame.frame;
@@ -53,6 +53,12 @@ class ParentResolver {
       if (const auto joint = std::ranges::find(joints_, parent, &Joint::name);
           joint != joints_.end()) {
         result.parent_joint = static_cast<int>(joint - joints_.begin());
+        return result;
+      }
+      if (const auto link = std::ranges::find(links_, parent, &NamedFrame::name);
+          link != links_.end()) {
+        result.parent_joint = link->parent_joint;
+        result.parent_T_frame = link->parent_T_frame * result.parent_T_frame;
         return result;
       }
       const bool circle = std::ranges::find(way, parent) != way.end();
@@ -75,6 +81,7 @@ class ParentResolver {
     if (found != frames_.end()) return &*found;
     std::vector<std::string> known{"base"};
     for (const Joint& joint : joints_) known.push_back(joint.name);
+    for (const NamedFrame& link : links_) known.push_back(link.name);
     for (const ReadFrame& frame : frames_) known.push_back(frame.frame.name);
     problems_.add(parent.origin(), fmt::format("there is no joint or frame '{}'{}", parent.text(),
                                                config::did_you_mean(parent.text(), known)));
@@ -83,13 +90,14 @@ class ParentResolver {
 
   const std::vector<ReadFrame>& frames_;
   const std::vector<Joint>& joints_;
+  const std::vector<NamedFrame>& links_;
   Problems& problems_;
 };
 
 }  // namespace
 
 std::vector<NamedFrame> read_frames(const Node& map, const std::vector<Joint>& joints,
-                                    Problems& problems) {
+                                    const std::vector<NamedFrame>& links, Problems& problems) {
   if (map.kind() != Node::Kind::map) {
     problems.add(map.origin(),
                  fmt::format("'frames' must be a map of frames, not {}", map.describe()));
@@ -98,13 +106,16 @@ std::vector<NamedFrame> read_frames(const Node& map, const std::vector<Joint>& j
   std::vector<ReadFrame> read;
   for (const Node::Entry& entry : map.entries()) {
     read.push_back(read_frame(entry, problems));
+    if (std::ranges::find(links, entry.key, &NamedFrame::name) != links.end())
+      problems.add(entry.key_origin,
+                   fmt::format("'{}' is the name of a link; a frame needs its own", entry.key));
     if (entry.key == "base" || std::ranges::find(joints, entry.key, &Joint::name) != joints.end())
       problems.add(entry.key_origin,
                    fmt::format("'{}' is the name of a joint or of the base; a frame needs its own",
                                entry.key));
   }
   std::vector<NamedFrame> frames;
-  ParentResolver resolver{read, joints, problems};
+  ParentResolver resolver{read, joints, links, problems};
   for (const ReadFrame& frame : read) frames.push_back(resolver.resolve(frame));
   return frames;
 }

@@ -30,9 +30,7 @@ void read_positive(MapReader& map, std::string_view key, bool required, double& 
   if (!(value > 0)) map.problem(key, fmt::format("'{}' must be more than 0, not {}", key, value));
 }
 
-/// A coupled joint may leave its limits to its leader.
-void read_limits(MapReader& map, Joint& joint, Problems& problems) {
-  const bool required = !joint.coupling;
+void read_limits(MapReader& map, bool required, Joint& joint, Problems& problems) {
   const bool revolute = joint.type == Joint::Type::revolute;
   const auto read = required ? require_quantity : read_quantity;
   const Quantity limits = revolute ? read(map, {"limits_deg"}, 2, problems)
@@ -85,9 +83,29 @@ ReadJoint read_joint(const Node& node, Problems& problems) {
   joint.a = read_quantity(map, {"a_m", "a_mm"}, 1, problems).number().value_or(0);
   joint.alpha = read_quantity(map, {"alpha_deg"}, 1, problems).number().value_or(0);
   result.leader = read_coupling(map, joint, problems);
-  read_limits(map, joint, problems);
+  read_limits(map, !joint.coupling, joint, problems);  // a leader's limits may do
   map.finish();
   return result;
+}
+
+void read_limits_of(const Node& node, std::vector<Joint>& joints, Problems& problems) {
+  MapReader map{node, "joint", problems};
+  const std::string name = map.text("name");
+  const auto joint = std::ranges::find(joints, name, &Joint::name);
+  if (joint == joints.end()) {
+    std::vector<std::string> names;
+    for (const Joint& other : joints) names.push_back(other.name);
+    if (!name.empty())
+      map.problem("name",
+                  fmt::format("there is no joint '{}'{}", name, config::did_you_mean(name, names)));
+    return;
+  }
+  const double before = joint->max_velocity;
+  read_limits(map, false, *joint, problems);
+  const bool says = node.find("acceleration_rad_s2") || node.find("acceleration_m_s2");
+  if (joint->max_velocity != before && !says)
+    joint->max_acceleration = usual_acceleration(joint->max_velocity);
+  map.finish();
 }
 
 void check_names(const std::vector<ReadJoint>& joints, Problems& problems) {
@@ -126,15 +144,18 @@ void resolve_couplings(std::vector<ReadJoint>& joints, Problems& problems) {
   }
 }
 
+bool is_list(const Node& node, Problems& problems) {
+  if (node.kind() == Node::Kind::sequence && !node.items().empty()) return true;
+  problems.add(node.origin(),
+               fmt::format("'joints' must be a list of joints, not {}",
+                           node.kind() == Node::Kind::sequence ? "empty" : node.describe()));
+  return false;
+}
+
 }  // namespace
 
 std::vector<Joint> read_joints(const Node& list, Problems& problems) {
-  if (list.kind() != Node::Kind::sequence || list.items().empty()) {
-    problems.add(list.origin(),
-                 fmt::format("'joints' must be a list of joints, not {}",
-                             list.kind() == Node::Kind::sequence ? "empty" : list.describe()));
-    return {};
-  }
+  if (!is_list(list, problems)) return {};
   if (list.items().size() > static_cast<std::size_t>(kMaxJoints))
     problems.add(list.origin(), fmt::format("{} joints are too many; a robot may have {}",
                                             list.items().size(), kMaxJoints));
@@ -147,5 +168,12 @@ std::vector<Joint> read_joints(const Node& list, Problems& problems) {
   for (ReadJoint& joint : read) joints.push_back(std::move(joint.joint));
   return joints;
 }
+
+void read_other_limits(const Node& list, std::vector<Joint>& joints, Problems& problems) {
+  if (!is_list(list, problems)) return;
+  for (const Node& item : list.items()) read_limits_of(item, joints, problems);
+}
+
+double usual_acceleration(double max_velocity) { return max_velocity / 0.25; }
 
 }  // namespace armature

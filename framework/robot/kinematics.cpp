@@ -33,6 +33,14 @@ struct Carried {
     origin += link.a * x;
   }
 
+  void place(const Eigen::Isometry3d& placement) {
+    Eigen::Matrix3d axes;
+    axes << x, y, z;
+    origin += axes * placement.translation();
+    axes *= placement.linear();
+    x = axes.col(0), y = axes.col(1), z = axes.col(2);
+  }
+
   Eigen::Isometry3d pose() const {
     Eigen::Isometry3d result;
     result.matrix() << x, y, z, origin, 0, 0, 0, 1;
@@ -45,14 +53,15 @@ struct Axis {
   Vector3d direction, point;
 };
 
-/// Walks to joint `last`; `visit(i, axis, frame)` is told every joint's axis and frame on the way.
-template <class Visit>
-Carried walk(const RobotModel& model, const JointVector& q, int last, Visit visit) {
+/// `kPlaced`: rows are placed; the others do not even ask.
+template <bool kPlaced, class Visit>
+Carried walk_rows(const RobotModel& model, const JointVector& q, int last, Visit visit) {
   const bool modified = model.convention() == RobotModel::Convention::modified;
   Carried frame;
   for (int i = 0; i <= last; ++i) {
     const ChainLink& link = model.chain()[static_cast<std::size_t>(i)];
     const double value = link.ratio * q[link.independent] + link.offset;
+    if constexpr (kPlaced) frame.place(link.placement);
     if (modified) frame.screw_along_x(link);
     const Axis axis{frame.z, frame.origin};
     frame.screw_along_z(link.prismatic ? link.theta : link.theta + value,
@@ -61,6 +70,13 @@ Carried walk(const RobotModel& model, const JointVector& q, int last, Visit visi
     visit(i, axis, frame);
   }
   return frame;
+}
+
+/// Walks to joint `last`; `visit(i, axis, frame)` is told every joint's axis and frame on the way.
+template <class Visit>
+Carried walk(const RobotModel& model, const JointVector& q, int last, Visit visit) {
+  return model.is_placed() ? walk_rows<true>(model, q, last, visit)
+                           : walk_rows<false>(model, q, last, visit);
 }
 
 Eigen::Isometry3d frame_on(const Carried& link, const NamedFrame& frame) {

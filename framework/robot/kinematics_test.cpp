@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "armature/robot/axis_steps.hpp"
 #include "armature/robot/test_robots.hpp"
 
 namespace armature {
@@ -24,6 +25,7 @@ Isometry3d textbook_kinematics(const RobotModel& model, const JointVector& indep
     const Eigen::Translation3d along_z{0, 0, joint.d + (slides ? all[i] : 0)};
     const Eigen::AngleAxisd about_x{joint.alpha, Vector3d::UnitX()};
     const Eigen::Translation3d along_x{joint.a, 0, 0};
+    T = T * joint.placement.value_or(Isometry3d::Identity());
     if (model.convention() == RobotModel::Convention::standard)
       T = T * about_z * along_z * along_x * about_x;
     else
@@ -57,6 +59,8 @@ std::vector<RobotModel> robots() {
   for (unsigned seed = 1; seed <= 5; ++seed) {
     all.push_back(testing::synthetic_robot(RobotModel::Convention::standard, seed));
     all.push_back(testing::synthetic_robot(RobotModel::Convention::modified, seed));
+    all.push_back(testing::placed_robot(RobotModel::Convention::standard, seed));
+    all.push_back(testing::placed_robot(RobotModel::Convention::modified, seed));
   }
   return all;
 }
@@ -88,6 +92,28 @@ TEST(Kinematics, JacobianEqualsCentralDifferencesOfEveryFrame) {
         ASSERT_LT((jacobian - numeric_jacobian(robot, q, frame)).cwiseAbs().maxCoeff(), 2e-9);
         ASSERT_TRUE(pose.matrix() == forward_kinematics(robot, q, frame).matrix());
       }
+    }
+}
+
+TEST(AxisSteps, AndTheJointsBetweenThemAreForwardKinematics) {
+  std::mt19937 random{17};
+  for (const RobotModel& robot : robots())
+    for (int f = 0; f < static_cast<int>(robot.frames().size()); ++f) {
+      const FrameId frame{f};
+      const auto steps = axis_steps(robot, frame);
+      ASSERT_EQ(static_cast<int>(steps.size()), robot.frame(frame).parent_joint + 2);
+      const JointVector q = random_joints(robot, random), all = robot.expand(q);
+      Isometry3d T = steps[0];
+      for (std::size_t i = 1; i < steps.size(); ++i) {
+        const double value = all[static_cast<Eigen::Index>(i) - 1];
+        if (robot.joints()[i - 1].type == Joint::Type::prismatic)
+          T.translate(Vector3d{0, 0, value});
+        else
+          T.rotate(Eigen::AngleAxisd{value, Vector3d::UnitZ()});
+        T = T * steps[i];
+      }
+      ASSERT_LT((T.matrix() - forward_kinematics(robot, q, frame).matrix()).norm(), 1e-13)
+          << "seed 17, " << robot.name();
     }
 }
 

@@ -31,16 +31,21 @@ Roots quadratic_roots(double k0, double k1, double k2, double end) {
   return roots;
 }
 
-/// The root of the acceleration between a and b, where it has opposite signs. Bisection down to
-/// neighbouring doubles at worst; the velocity there is exact to rounding (it is flat).
-double acceleration_root(const Quintic& quintic, double a, double b) {
-  const bool rising = quintic.acceleration(a) < 0;
+/// The root of `f` between a and b, where it has opposite signs. Bisection down to neighbouring
+/// doubles at worst; what `f` is the derivative of is exact there to rounding (it is flat).
+template <class Function>
+double root_between(double a, double b, Function f) {
+  const bool rising = f(a) < 0;
   for (int i = 0; i < 64; ++i) {
     const double middle = 0.5 * (a + b);
     if (middle <= a || middle >= b) break;
-    ((quintic.acceleration(middle) < 0) == rising ? a : b) = middle;
+    ((f(middle) < 0) == rising ? a : b) = middle;
   }
   return 0.5 * (a + b);
+}
+
+double acceleration_root(const Quintic& quintic, double a, double b) {
+  return root_between(a, b, [&](double t) { return quintic.acceleration(t); });
 }
 
 }  // namespace
@@ -100,6 +105,36 @@ QuinticPeaks peaks(const Quintic& quintic, double duration_s) {
                                  std::abs(quintic.velocity(acceleration_root(quintic, from, to))));
     from = to;
   }
+  return result;
+}
+
+QuinticRange range(const Quintic& quintic, double duration_s) {
+  const double T = duration_s;
+  const auto velocity = [&](double t) { return quintic.velocity(t); };
+  QuinticRange result{quintic.position(0), quintic.position(0)};
+  const auto pass = [&](double t) {
+    const double q = quintic.position(t);
+    result = {std::min(result.lowest, q), std::max(result.highest, q)};
+  };
+  // Where the acceleration changes sign the velocity turns: between those it has one zero at most.
+  double from = 0;
+  const auto piece_to = [&](double to) {
+    if ((quintic.velocity(from) < 0) != (quintic.velocity(to) < 0)) {
+      pass(root_between(from, to, velocity));
+    }
+    pass(to);
+    from = to;
+  };
+  const Roots flat = quadratic_roots(6 * quintic.c[3], 24 * quintic.c[4], 60 * quintic.c[5], T);
+  double left = 0;
+  for (int i = 0; i <= flat.count; ++i) {
+    const double right = i < flat.count ? flat.t[static_cast<std::size_t>(i)] : T;
+    if ((quintic.acceleration(left) < 0) != (quintic.acceleration(right) < 0)) {
+      piece_to(acceleration_root(quintic, left, right));
+    }
+    left = right;
+  }
+  piece_to(T);
   return result;
 }
 

@@ -31,4 +31,10 @@ struct QuinticPeaks {
 };
 QuinticPeaks peaks(const Quintic& quintic, double duration_s);
 
+/// Lowest and highest position of a quintic on [0, duration_s], as exact as the peaks.
+struct QuinticRange {
+  double lowest = 0, highest = 0;
+};
+QuinticRange range(const Quintic& quintic, double duration_s);
+
 }  // namespace armature

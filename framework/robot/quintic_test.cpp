@@ -98,5 +98,37 @@ TEST(QuinticPeaks, OfLowerPolynomialsAreExactToo) {
   EXPECT_EQ(peaks(Quintic{{0, -3, 0, 1}}, 1.5).velocity, 3.75);
 }
 
+TEST(QuinticRange, HoldsEverySampleAndIsReached) {
+  std::mt19937 random{25};
+  for (int n = 0; n < 500; ++n) {
+    SCOPED_TRACE("seed 25");
+    const double T = std::uniform_real_distribution<double>{0.2, 3}(random);
+    const Quintic quintic = Quintic::between(random_end(random), random_end(random), T);
+    const QuinticRange told = range(quintic, T);
+    double lowest = quintic.position(0), highest = lowest;
+    constexpr int kSamples = 20000;
+    for (int i = 1; i <= kSamples; ++i) {
+      const double q = quintic.position(T * i / kSamples);
+      lowest = std::min(lowest, q), highest = std::max(highest, q);
+    }
+    const double slack = 1e-6 * (highest - lowest);
+    ASSERT_LE(told.lowest, lowest + 1e-14);
+    ASSERT_GE(told.highest, highest - 1e-14);
+    ASSERT_GE(told.lowest, lowest - slack);
+    ASSERT_LE(told.highest, highest + slack);
+  }
+}
+
+TEST(QuinticRange, OfLowerPolynomialsIsExactToo) {
+  const auto expect = [](const Quintic& quintic, double duration, double lowest, double highest) {
+    EXPECT_EQ(range(quintic, duration).lowest, lowest);
+    EXPECT_EQ(range(quintic, duration).highest, highest);
+  };
+  expect(Quintic{{3}}, 2, 3, 3);
+  expect(Quintic{{3, -4}}, 2, -5, 3);
+  expect(Quintic{{0, 1, -0.5}}, 4, -4, 0.5);
+  expect(Quintic{{0, -3, 0, 1}}, 2, -2, 2);  // turns at t = 1
+}
+
 }  // namespace
 }  // namespace armature

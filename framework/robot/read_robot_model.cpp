@@ -12,6 +12,7 @@
 #include "armature/robot/joint_reader.hpp"
 #include "armature/robot/quantity_reader.hpp"
 #include "armature/robot/robot_model.hpp"
+#include "armature/robot/urdf_robot.hpp"
 
 namespace armature {
 namespace {
@@ -105,18 +106,71 @@ void check_whole(const RobotModel& model, MapReader& map, const Quantity& home) 
   }
 }
 
+/// How a robot is built.
+struct Build {
+  RobotModel::Convention convention;
+  std::vector<Joint> joints;
+  std::vector<NamedFrame> frames;
+  std::optional<FrameId> tool;
+};
+
+/// From the rows in the file itself.
+Build read_rows(MapReader& map, Problems& problems) {
+  const bool modified =
+      map.choice("convention", {"standard", "modified"}, "standard") == "modified";
+  Build build{
+      modified ? RobotModel::Convention::modified : RobotModel::Convention::standard, {}, {}, {}};
+  if (const Node* list = map.node("joints")) build.joints = read_joints(*list, problems);
+  if (const Node* frames = map.optional_node("frames"))
+    build.frames = read_frames(*frames, build.joints, {}, problems);
+  build.tool = find_tool(map, build.frames, build.joints);
+  return build;
+}
+
+/// Motion needs every joint's speed; URDF may leave a continuous joint's open.
+void check_speeds(const std::vector<Joint>& joints, MapReader& map) {
+  for (const Joint& joint : joints) {
+    if (joint.coupling || std::isfinite(joint.max_velocity)) continue;
+    const bool slides = joint.type == Joint::Type::prismatic;
+    map.problem("urdf", fmt::format("joint '{0}' has no velocity limit; state it in the URDF file, "
+                                    "or here: joints: [{{name: {0}, {1}: 1}}]",
+                                    joint.name, slides ? "velocity_m_s" : "velocity_rad_s"));
+  }
+}
+
+/// From a URDF file; its frames are the links from base to tip, and what the robot file adds.
+Build read_urdf(const Node& file, MapReader& map, Problems& problems) {
+  const auto link = [](const Node* node, const Node& otherwise) {
+    return node ? LinkName{node->text(), node->origin()} : LinkName{"", otherwise.origin()};
+  };
+  const LinkName base = link(map.optional_node("base"), file);
+  const LinkName tip = link(map.node("tip"), file);
+  const Node* limits = map.optional_node("joints");
+  const Node* more = map.optional_node("frames");
+  Build build{RobotModel::Convention::modified, {}, {}, {}};
+  if (tip.name.empty()) return build;  // noted as missing
+  UrdfArm arm = read_urdf_arm(config::folder_of(file.origin()) / file.text(), base, tip, problems);
+  build = {build.convention, std::move(arm.joints), std::move(arm.frames), arm.tip};
+  if (build.joints.empty()) return build;
+  if (limits) read_other_limits(*limits, build.joints, problems);
+  check_speeds(build.joints, map);
+  if (!more) return build;
+  const auto added = read_frames(*more, {}, build.frames, problems);
+  const auto tool = std::ranges::find(added, "tool", &NamedFrame::name);
+  if (tool != added.end())
+    build.tool = FrameId{
+        static_cast<int>(build.frames.size() + static_cast<std::size_t>(tool - added.begin()))};
+  build.frames.insert(build.frames.end(), added.begin(), added.end());
+  return build;
+}
+
 std::optional<RobotModel> read(const Node& document, Problems& problems) {
   MapReader map{document, "robot", problems};
   check_format(map, "armature_robot", problems);
   const std::string name = map.text("name");
-  const bool modified =
-      map.choice("convention", {"standard", "modified"}, "standard") == "modified";
-  const Node* joint_list = map.node("joints");
-  const auto joints = joint_list ? read_joints(*joint_list, problems) : std::vector<Joint>{};
-  const Node* frame_map = map.optional_node("frames");
-  const auto frames =
-      frame_map ? read_frames(*frame_map, joints, problems) : std::vector<NamedFrame>{};
-  const auto tool = find_tool(map, frames, joints);
+  const Node* urdf = map.optional_node("urdf");
+  const auto [convention, joints, frames, tool] =
+      urdf ? read_urdf(*urdf, map, problems) : read_rows(map, problems);
   const auto axis = read_pointing_axis(map, problems);
   const Quantity home = read_home(map, joints, problems);
   map.finish();
@@ -127,11 +181,7 @@ std::optional<RobotModel> read(const Node& document, Problems& problems) {
     home_all.emplace(static_cast<Eigen::Index>(home.si.size()));
     std::ranges::copy(home.si, home_all->begin());
   }
-  RobotModel model{
-      name,    modified ? RobotModel::Convention::modified : RobotModel::Convention::standard,
-      joints,  frames,
-      *tool,   axis,
-      home_all};
+  RobotModel model{name, convention, joints, frames, *tool, axis, home_all};
   check_whole(model, map, home);
   if (!problems.empty()) return std::nullopt;
   return model;

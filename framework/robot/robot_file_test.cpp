@@ -15,7 +15,7 @@ RobotModel read_good(const std::string& text) {
   return read_robot_model(config::parse_text(text, "arm.yaml"));
 }
 
-std::vector<std::string> problems_of(const std::string& text) {
+std::vector<std::string> problems_in(const std::string& text) {
   std::vector<std::string> texts;
   try {
     read_robot_model(config::parse_text(text, "arm.yaml"));
@@ -103,7 +103,7 @@ TEST(RobotFile, HangsFramesOnJointsTheBaseAndOtherFrames) {
 
 TEST(RobotFile, ReportsEverythingThatIsWrongAtOnceWithItsPlace) {
   EXPECT_THAT(
-      problems_of("armature_robot: 2\n"
+      problems_in("armature_robot: 2\n"
                   "name: broken\n"
                   "convention: standart\n"
                   "joints:\n"
@@ -143,17 +143,17 @@ TEST(RobotFile, ReportsEverythingThatIsWrongAtOnceWithItsPlace) {
           "arm.yaml:12:11: 'home_deg' needs a value for each of the 5 joints, not 2",
           "arm.yaml:13:1: unknown key 'colour' in robot; known: armature_robot, convention, "
           "frames, "
-          "home, home_deg, joints, name, pointing_axis"));
+          "home, home_deg, joints, name, pointing_axis, ..."));
 }
 
 TEST(RobotFile, WithoutAToolFrameSaysHowToAddIt) {
-  EXPECT_THAT(problems_of(with(kGoodJoint, "")),
+  EXPECT_THAT(problems_in(with(kGoodJoint, "")),
               ElementsAre("arm.yaml:1:1: there is no frame 'tool', for which goals are stated; add "
                           "frames: {tool: {parent: b}}"));
 }
 
 TEST(RobotFile, AsksForTheLimitsOfIndependentJointsOnly) {
-  EXPECT_THAT(problems_of(with("{name: b}", kGoodFrames)),
+  EXPECT_THAT(problems_in(with("{name: b}", kGoodFrames)),
               ElementsAre("arm.yaml:5:5: missing key 'limits_deg' in joint 'b'",
                           "arm.yaml:5:5: missing key 'velocity_rad_s' in joint 'b'",
                           "arm.yaml:5:5: missing key 'acceleration_rad_s2' in joint 'b'"));
@@ -161,22 +161,22 @@ TEST(RobotFile, AsksForTheLimitsOfIndependentJointsOnly) {
 }
 
 TEST(RobotFile, RefusesAHomeThatTheRobotCannotTake) {
-  EXPECT_THAT(problems_of(with(kGoodJoint, kGoodFrames + "\nhome_deg: [0, 91]")),
+  EXPECT_THAT(problems_in(with(kGoodJoint, kGoodFrames + "\nhome_deg: [0, 91]")),
               ElementsAre("arm.yaml:7:11: 'home_deg': b = 91 deg is outside of -90 deg to 90 deg"));
   EXPECT_THAT(
-      problems_of(with("{name: b, coupled: {to: a}}", kGoodFrames + "\nhome: [0, 0.5]")),
+      problems_in(with("{name: b, coupled: {to: a}}", kGoodFrames + "\nhome: [0, 0.5]")),
       ElementsAre("arm.yaml:7:7: 'home': b = 0.5 contradicts its coupling to a, which makes it 0"));
 }
 
 TEST(RobotFile, RefusesLimitsThatExcludeEachOther) {
   EXPECT_THAT(
-      problems_of(with("{name: b, limits_deg: [100, 120], coupled: {to: a}}", kGoodFrames)),
+      problems_in(with("{name: b, limits_deg: [100, 120], coupled: {to: a}}", kGoodFrames)),
       ElementsAre("arm.yaml:4:3: joint 'a' has no room to move: its limits and those of the "
                   "joints that follow it exclude each other"));
 }
 
 TEST(RobotFile, RefusesFramesInACircleAndNamesThatAreTaken) {
-  EXPECT_THAT(problems_of(with(kGoodJoint,
+  EXPECT_THAT(problems_in(with(kGoodJoint,
                                "frames:\n"
                                "  tool: {parent: grip}\n"
                                "  grip: {parent: tool}\n"
@@ -188,13 +188,13 @@ TEST(RobotFile, RefusesFramesInACircleAndNamesThatAreTaken) {
 }
 
 TEST(RobotFile, RefusesWrongShapes) {
-  EXPECT_THAT(problems_of("3"), ElementsAre("arm.yaml:1:1: robot must be a map, not '3'"));
-  EXPECT_THAT(problems_of("{armature_robot: 1, name: r, joints: [], frames: {}}"),
+  EXPECT_THAT(problems_in("3"), ElementsAre("arm.yaml:1:1: robot must be a map, not '3'"));
+  EXPECT_THAT(problems_in("{armature_robot: 1, name: r, joints: [], frames: {}}"),
               ElementsAre("arm.yaml:1:38: 'joints' must be a list of joints, not empty"));
-  EXPECT_THAT(problems_of("{armature_robot: 1, name: r, joints: 3, frames: 4}"),
+  EXPECT_THAT(problems_in("{armature_robot: 1, name: r, joints: 3, frames: 4}"),
               ElementsAre("arm.yaml:1:38: 'joints' must be a list of joints, not '3'",
                           "arm.yaml:1:49: 'frames' must be a map of frames, not '4'"));
-  EXPECT_THAT(problems_of(with(kGoodJoint,
+  EXPECT_THAT(problems_in(with(kGoodJoint,
                                "frames: {tool: {parent: b, rpy_deg: [1, 2]}}\n"
                                "pointing_axis: [0, 0, 0]")),
               ElementsAre("arm.yaml:6:37: 'rpy_deg' needs 3 numbers, not 2",
@@ -206,7 +206,7 @@ TEST(RobotFile, RefusesMoreJointsThanFit) {
   for (int i = 0; i < 13; ++i)
     text += "  - {name: j" + std::to_string(i) +
             ", limits_deg: [0, 1], velocity_rad_s: 1, acceleration_rad_s2: 1}\n";
-  EXPECT_THAT(problems_of(text + "frames: {tool: {parent: j12}}"),
+  EXPECT_THAT(problems_in(text + "frames: {tool: {parent: j12}}"),
               ElementsAre("arm.yaml:4:3: 13 joints are too many; a robot may have 12"));
 }
 

@@ -40,6 +40,7 @@ ChainLink link_of(const Joint& joint) {
   const bool exact = std::abs(quarters - std::round(quarters)) < 1e-14;
   link.cos_alpha = exact ? std::round(std::cos(joint.alpha)) : std::cos(joint.alpha);
   link.sin_alpha = exact ? std::round(std::sin(joint.alpha)) : std::sin(joint.alpha);
+  link.placement = joint.placement.value_or(Eigen::Isometry3d::Identity());
   return link;
 }
 
@@ -91,6 +92,7 @@ void RobotModel::number_joints() {
       link.offset = coupling->offset;
     }
     chain_.push_back(link);
+    is_placed_ = is_placed_ || joints_[i].placement;
   }
 }
 
@@ -177,7 +179,11 @@ JointVector resting_position(const RobotModel& model) {
   if (model.home()) {
     if (auto home = model.contract(*model.home())) return *home;
   }
-  return 0.5 * (model.lower() + model.upper());
+  JointVector middle = 0.5 * (model.lower() + model.upper());
+  for (double& q : middle) {
+    if (!std::isfinite(q)) q = 0;
+  }
+  return middle;
 }
 
 }  // namespace armature

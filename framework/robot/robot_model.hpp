@@ -22,7 +22,8 @@ namespace armature {
 /// One Denavit-Hartenberg row and what the joint can do.
 ///   standard: T_i = Rz(theta) Tz(d) Tx(a) Rx(alpha)
 ///   modified: T_i = Rx(alpha) Tx(a) Rz(theta) Tz(d)     (Craig)
-/// The joint's value is added to `theta` (revolute) or to `d` (prismatic).
+/// The joint's value is added to `theta` (revolute) or to `d` (prismatic). In front of the row
+/// stands the frame of the joint before, or the base; with a `placement` what that maps to.
 struct Joint {
   enum class Type { revolute, prismatic };
   /// q of this joint = ratio * q[to] + offset; `to` indexes an independent joint of the chain.
@@ -45,6 +46,9 @@ struct Joint {
   double max_velocity = std::numeric_limits<double>::infinity();      // [rad/s] or [m/s]
   double max_acceleration = std::numeric_limits<double>::infinity();  // [rad/s2] or [m/s2]
   std::optional<Coupling> coupling;                                   // none: an independent joint
+  /// Constant, in front of the row: how it hangs on the frame before where no row can say it well
+  /// (a base turned in space, axes nearly parallel). None: identity.
+  std::optional<Eigen::Isometry3d> placement;
 };
 
 /// A frame fixed to a link (a joint's frame), to the base or to another named frame.
@@ -62,6 +66,7 @@ struct ChainLink {
   bool prismatic = false;
   double theta = 0, d = 0, a = 0;  // [rad], [m], [m]
   double cos_alpha = 1, sin_alpha = 0;
+  Eigen::Isometry3d placement = Eigen::Isometry3d::Identity();
 };
 
 /// Index of a named frame of a robot model.
@@ -112,6 +117,8 @@ class RobotModel {
 
   /// One entry per joint, in order: what the kinematics functions walk along.
   const std::vector<ChainLink>& chain() const { return chain_; }
+  /// Whether some joint has a placement.
+  bool is_placed() const { return is_placed_; }
 
   /// Limits of the independent joints; those of coupled joints are folded in.
   const JointVector& lower() const { return lower_; }
@@ -136,10 +143,12 @@ class RobotModel {
   std::optional<JointVector> home_;
   std::vector<int> independent_;
   std::vector<ChainLink> chain_;
+  bool is_placed_ = false;
   JointVector lower_, upper_, max_velocity_, max_acceleration_;
 };
 
-/// Home, or the middle of the limits for a robot without one: independent joints.
+/// Home, or for a robot without one the middle of the limits (0 without limits): independent
+/// joints.
 JointVector resting_position(const RobotModel& model);
 
 /// Reads an `armature_robot: 1` document. Throws config::ConfigError with everything that is wrong.

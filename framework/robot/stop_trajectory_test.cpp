@@ -9,12 +9,12 @@ namespace {
 
 using testing::joint_vector;
 
-constexpr Time kStart{5'000'000'000};
+constexpr Time kStopFrom{5'000'000'000};
 const JointVector kVelocity = joint_vector({2.5, 2.5, 0.5});
 const JointVector kAcceleration = joint_vector({8, 3, 1});
 
 Trajectory stop(const JointState& from) {
-  return stop_from(from, kVelocity, kAcceleration, kStart, 9);
+  return stop_from(from, kVelocity, kAcceleration, kStopFrom, 9);
 }
 
 /// Uniform within the limits.
@@ -36,14 +36,14 @@ TEST(Stop, BeginsInTheGivenStateAndEndsAtRestWithinTheAccelerationLimits) {
     SCOPED_TRACE(::testing::Message()
                  << "seed 51, v " << from.v.transpose() << ", a " << from.a.transpose());
     const Trajectory trajectory = stop(from);
-    const JointState first = trajectory.at(kStart), last = trajectory.at(trajectory.end());
+    const JointState first = trajectory.at(kStopFrom), last = trajectory.at(trajectory.end());
     ASSERT_TRUE(first.q == from.q && first.v == from.v && first.a == from.a);
     ASSERT_LT(last.v.cwiseAbs().maxCoeff(), 1e-12);
     ASSERT_LT(last.a.cwiseAbs().maxCoeff(), 1e-11);
     ASSERT_LE(limit_use(trajectory, kVelocity, kAcceleration).acceleration, 1 + 1e-9);
     for (double t = 0; t < trajectory.duration_s(); t += 0.01) {  // no jump anywhere
-      const JointState a = trajectory.at(kStart + seconds(t));
-      const JointState b = trajectory.at(kStart + seconds(t + 1e-6));
+      const JointState a = trajectory.at(kStopFrom + seconds(t));
+      const JointState b = trajectory.at(kStopFrom + seconds(t + 1e-6));
       ASSERT_LT((a.q - b.q).cwiseAbs().maxCoeff(), 1e-5);
       ASSERT_LT((a.v - b.v).cwiseAbs().maxCoeff(), 2e-5);
       ASSERT_LT((a.a - b.a).cwiseAbs().maxCoeff(), 0.1);
@@ -76,7 +76,7 @@ TEST(Stop, WithoutAccelerationKeepsTheDirectionOfTheMotion) {
   const JointVector v = joint_vector({1, -2, 0.3});
   const Trajectory trajectory = stop({joint_vector({0, 0, 0}), v, joint_vector({0, 0, 0})});
   for (double t = 0.05; t < trajectory.duration_s(); t += 0.05) {
-    const JointVector q = trajectory.at(kStart + seconds(t)).q;
+    const JointVector q = trajectory.at(kStopFrom + seconds(t)).q;
     EXPECT_NEAR(q.normalized().dot(v.normalized()), 1, 1e-12);
   }
 }
@@ -110,16 +110,16 @@ TEST(Stop, LetsAJointStopSoonerThatWouldOtherwisePassItsVelocityLimit) {
   EXPECT_EQ(trajectory.piece_count(), 2);
   EXPECT_NEAR(trajectory.duration_s(), 1.25, 1e-12);
   EXPECT_LT(trajectory.knots[1], 1.0);
-  EXPECT_EQ(trajectory.at(kStart + seconds(1.1)).v[2], 0.0);
+  EXPECT_EQ(trajectory.at(kStopFrom + seconds(1.1)).v[2], 0.0);
   EXPECT_NEAR(limit_use(trajectory, kVelocity, kAcceleration).acceleration, 1, 1e-9);
 }
 
 TEST(Stop, AtRestIsAHold) {
   const JointVector zero = JointVector::Zero(3);
   const Trajectory trajectory = stop({joint_vector({1, 2, 3}), zero, zero});
-  EXPECT_EQ(trajectory.end(), kStart);
+  EXPECT_EQ(trajectory.end(), kStopFrom);
   EXPECT_EQ(trajectory.goal_id, 9u);
-  EXPECT_TRUE(trajectory.at(kStart + seconds(2)).q == joint_vector({1, 2, 3}));
+  EXPECT_TRUE(trajectory.at(kStopFrom + seconds(2)).q == joint_vector({1, 2, 3}));
 }
 
 TEST(Stop, DoesNotExceedAnAccelerationThatIsBeyondTheLimitAlready) {

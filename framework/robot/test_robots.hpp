@@ -42,6 +42,14 @@ inline RobotModel synthetic_robot(RobotModel::Convention convention, unsigned se
                     std::nullopt};
 }
 
+/// The same with placements in front of the first and the fourth row.
+inline RobotModel placed_robot(RobotModel::Convention convention, unsigned seed) {
+  const RobotModel plain = synthetic_robot(convention, seed);
+  std::vector<Joint> joints = plain.joints();
+  joints[0].placement = joints[3].placement = plain.frames()[0].parent_T_frame;
+  return RobotModel{"placed", convention, joints, plain.frames(), plain.tool(), {}, {}};
+}
+
 inline RobotModel dental_lamp() {
   return load_robot_model(std::filesystem::path{ARMATURE_SOURCE_DIR} /
                           "configs/robots/dental_lamp.yaml");

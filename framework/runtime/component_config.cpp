@@ -28,6 +28,13 @@ const PluginManifest* ComponentReader::find_plugin(const std::string& id,
                                                    const config::Origin& origin) const {
   const PluginManifest* plugin = plugins_.find(id);
   if (!plugin) problems_.add(origin, plugins_.unknown_text(id));
+  if (plugin && !plugin->pure && deployment_.simulated) {
+    problems_.add(
+        origin, fmt::format("on the simulated clock a run is the same every time, and '{}' cannot "
+                            "promise that (its plugin.yaml says 'pure: false'); choose another "
+                            "plugin or set 'clock: system'",
+                            id));
+  }
   return plugin;
 }
 

@@ -31,6 +31,7 @@ class ComponentReader {
   std::optional<ComponentConfig> read(const config::Node::Entry& entry) const;
 
  private:
+  /// Noted at `origin`: an id that nobody has, and one that the deployment's clock rules out.
   const PluginManifest* find_plugin(const std::string& id, const config::Origin& origin) const;
   void report_missing_plugin(const config::Node::Entry& entry) const;
   void read_params(config::MapReader& map, const PluginManifest& named,

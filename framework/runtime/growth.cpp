@@ -7,6 +7,8 @@
 #include <chrono>
 #include <fstream>
 
+#include "armature/values/sanitizer.hpp"
+
 namespace armature {
 namespace {
 
@@ -79,6 +81,7 @@ Growth growth_of(const std::filesystem::path& library, int cycles, double budget
   growth.resident_bytes += resident_bytes();
   growth.heap_bytes += heap_bytes();
   growth.mappings += mappings();
+  if (kSanitized) growth.resident_bytes = growth.heap_bytes = growth.mappings = 0;
   growth.still_mapped = is_mapped(library);
   return growth;
 }

@@ -150,6 +150,7 @@ PluginManifest parse_manifest(std::string_view yaml, std::string_view name, Prob
   manifest.hosts = map.text("hosts", "");
   manifest.doc = map.text("doc", "");
   manifest.allocates = map.flag("allocates", false);
+  manifest.pure = map.flag("pure", true);
   if (const Node* uses = map.optional_node("uses")) {
     for (const Node& item : uses->items()) manifest.uses.push_back(item.text());
   }

@@ -67,6 +67,7 @@ struct PluginManifest {
   std::string hosts;  // the pure kind that this component runs alone on topics
   std::string doc;
   bool allocates = false;
+  bool pure = true;  // false: equal input may give other output, so no place on the simulated clock
   std::vector<std::string> uses;     // "robot", "rig"
   std::vector<std::string> may_use;  // the same, where the deployment has one
   std::vector<ParamSpec> params;

@@ -37,7 +37,7 @@ std::string describe(const IkStatus& status) {
     return text;
   }
   if (!status.detail.empty()) text += fmt::format(": {}", status.detail);
-  if (status.code == IkStatus::Code::no_convergence) {
+  if (status.code == IkStatus::Code::no_convergence && status.shortfall > 0) {
     text += fmt::format(" (residual {:.3g})", status.shortfall);
   }
   return text;

@@ -50,6 +50,30 @@ struct IkBranches {
   IkBranch& add() { return branch[static_cast<std::size_t>(count++)]; }
 };
 
+/// Values of the redundancy, from `lower` to `upper`, at which one branch keeps the joint limits.
+struct RedundancyInterval {
+  std::string_view label;       // of the branch, static storage
+  double lower = 0, upper = 0;  // arm angle [rad] within [-pi, pi], or needle depth [m]
+};
+
+/// All of them, branch by branch in the solver's fixed order, rising within a branch; a circle of
+/// arm angles is cut at pi. Never allocates.
+struct RedundancyIntervals {
+  static constexpr int kCapacity = 160;
+  std::array<RedundancyInterval, kCapacity> interval;
+  int count = 0;
+
+  const RedundancyInterval* begin() const { return interval.data(); }
+  const RedundancyInterval* end() const { return interval.data() + count; }
+  void clear() { count = 0; }
+  /// False, and nothing is added, when there is no more room.
+  bool add(const RedundancyInterval& another) {
+    if (count == kCapacity) return false;
+    interval[static_cast<std::size_t>(count++)] = another;
+    return true;
+  }
+};
+
 /// Outcome of one solve.
 struct IkStatus {
   enum class Code { ok, out_of_reach, joint_limit, singular, no_convergence, invalid_input };
@@ -74,7 +98,7 @@ struct IkState {
 class IkSolver {
  public:
   static constexpr std::string_view kKind = "ik";
-  static constexpr int kKindVersion = 1;
+  static constexpr int kKindVersion = 2;
   using Factory = MadeForRobot<IkSolver>;
 
   virtual ~IkSolver() = default;
@@ -92,6 +116,15 @@ class IkSolver {
   /// safe as `solve` is.
   virtual std::optional<double> redundancy_of([[maybe_unused]] const JointVector& q) const {
     return std::nullopt;
+  }
+  /// Every redundancy at which a branch of `goal` keeps the joint limits (goal.redundancy is not
+  /// looked at); `seed` is what it is for `solve`. False, and nothing in `out`, when the solver
+  /// does not tell, or when the goal is bad input or out of reach. Real-time safe as `solve` is.
+  virtual bool feasible_redundancy([[maybe_unused]] const IkGoal& goal,
+                                   [[maybe_unused]] const JointVector& seed,
+                                   RedundancyIntervals& out) const {
+    out.clear();
+    return false;
   }
   /// Whether the redundancy is a length [m] and not an angle [rad].
   virtual bool redundancy_is_length() const { return false; }

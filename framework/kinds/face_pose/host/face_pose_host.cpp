@@ -8,6 +8,7 @@
 #include "armature/runtime/component.hpp"
 #include "armature/runtime/plugin.hpp"
 #include "armature/runtime/setup.hpp"
+#include "armature/values/guarded.hpp"
 
 namespace armature {
 namespace {
@@ -74,8 +75,10 @@ Expected<FacePose> FacePoseHost::estimate() const {
   if (!right) return refuse("right: " + right.error().text);
   const auto camera = camera_of(*right_info_.latest(), *right);
   if (!camera) return tl::unexpected{camera.error()};
-  return estimator_->estimate(
-      {.left = *left, .right = *right, .landmarks = *landmarks, .camera = *camera});
+  return guarded([&] {
+    return estimator_->estimate(
+        {.left = *left, .right = *right, .landmarks = *landmarks, .camera = *camera});
+  });
 }
 
 void FacePoseHost::step(Time) {

@@ -2,6 +2,8 @@
 // The host of the face pose estimators: 1. one answer for each pair of pictures with its landmarks,
 // under their header, 2. the camera is that of the right camera's info, 3. what cannot be estimated
 // is answered with its exact reason.
+#include <stdexcept>
+
 #include "armature/kinds/face_pose/face_pose.hpp"
 #include "armature/kinds/landmarks/landmark_messages.hpp"
 #include "armature/messages/geometry.hpp"
@@ -17,9 +19,11 @@ using Eigen::Vector3d;
 class FirstLandmark final : public FacePoseEstimator {
  public:
   static inline FacePoseInput asked;
+  static inline bool throws = false;
 
   Expected<FacePose> estimate(const FacePoseInput& input) override {
     asked = input;
+    if (throws) throw std::runtime_error{"the matrix is singular"};
     const double u = input.landmarks.left.points[0].x();
     if (u < 0) return refuse("the mouth is outside the image");
     return FacePose{.left_eye = {1, 2, 3},
@@ -200,6 +204,16 @@ TEST_F(FacePoseHostTest, RefusesACameraThatIsNoneOrAnotherOne) {
             "the right camera's info is for 640 x 2 pixels, the image has 4 x 2");
   host_.send("right_info", info());
   EXPECT_TRUE(see(50, 2).valid_());
+}
+
+TEST_F(FacePoseHostTest, AnExceptionOfTheEstimatorIsAReasonAndTheNextPicturesAreAnswered) {
+  host_.send("right_info", info());
+  FirstLandmark::throws = true;
+  const msg::FacePose answer = see(1, 2);
+  FirstLandmark::throws = false;
+  EXPECT_FALSE(answer.valid_());
+  EXPECT_EQ(answer.reason_(), "the plugin threw: the matrix is singular");
+  EXPECT_TRUE(see(2, 2).valid_());
 }
 
 }  // namespace

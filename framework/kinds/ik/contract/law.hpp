@@ -74,9 +74,6 @@ std::span<const IkLaw> ik_laws();
 /// the solver breaks the law.
 IkLawReport check_law(const IkLaw& law, const IkSubject& subject, const IkLawTools& tools = {});
 
-/// `goal` and `seed` as a line of `armature ik`.
-std::string question_line(const RobotModel& model, const IkGoal& goal, const JointVector& seed);
-
 }  // namespace armature
 
 // The laws by name: LAW(TheSentence, the_function, "in short").

@@ -3,13 +3,14 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <utility>
 
+#include "armature/kinds/ik/contract/singular_value.hpp"
+#include "armature/kinds/ik/lines/asking.hpp"
 #include "armature/robot/kinematics.hpp"
 #include "armature/robot/task_error.hpp"
 
@@ -91,8 +92,12 @@ void Probe::violated_without_line(std::string what) { note(std::move(what), fals
 void Probe::note(std::string what, bool with_question) {
   if (!std::exchange(counted_, true)) ++report_.failed;
   if (report_.violations.size() >= kShown) return;
+  const IkQuestion question{.goal = goal_,
+                            .seed = seed_,
+                            .redundancy_is_length = solver().redundancy_is_length(),
+                            .id = {}};
   report_.violations.push_back(
-      {std::move(what), with_question ? question_line(model(), goal_, seed_) : ""});
+      {std::move(what), with_question ? question_line(model(), question) : ""});
 }
 
 void expect_true_residuals(Probe& probe) {
@@ -190,7 +195,7 @@ void expect_true_flags(Probe& probe) {
 int task_rows(const RobotModel& model) { return model.pointing_axis() ? 5 : 6; }
 
 double smallest_singular_value(const RobotModel& model, const JointVector& q) {
-  return Eigen::JacobiSVD<TaskJacobian>{task_jacobian(model, q)}.singularValues().minCoeff();
+  return smallest_singular_value(task_jacobian(model, q));
 }
 
 }  // namespace armature::ik_contract

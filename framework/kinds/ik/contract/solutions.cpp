@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,6 +11,7 @@
 
 #include "armature/kinds/ik/contract/laws.hpp"
 #include "armature/kinds/ik/contract/search.hpp"
+#include "armature/kinds/ik/contract/singular_value.hpp"
 #include "armature/robot/kinematics.hpp"
 #include "armature/robot/task_error.hpp"
 
@@ -159,7 +159,7 @@ bool regular(const Probe& probe, const JointVector& q) {
   const bool wide = probe.model().dof() >= task_rows(probe.model());
   if (wide && manipulability(probe.model(), q) <= 0.02) return false;
   const Eigen::MatrixXd rows = rows_that_are_kept(probe, q);
-  return Eigen::JacobiSVD<Eigen::MatrixXd>{rows}.singularValues().minCoeff() > 0.05;
+  return smallest_singular_value(rows) > 0.05;
 }
 
 /// Branches before and after a small step of the goal: each has its like under the same label.

@@ -8,6 +8,7 @@
 #include "armature/kinds/setup_robot.hpp"
 #include "armature/kinds/tool_pose_messages.hpp"
 #include "armature/runtime/plugin.hpp"
+#include "armature/values/guarded.hpp"
 
 namespace armature {
 namespace {
@@ -59,9 +60,15 @@ IkStatus IkHost::solve(const msg::IkRequest& request, std::string& reason) {
   IkGoal goal;
   goal.pose = tool_pose_of(request);
   if (request.has_redundancy_()) goal.redundancy = request.redundancy_();
-  const IkStatus status = solver_->solve(goal, *seed, branches_, state_);
-  if (status.code != IkStatus::Code::ok) reason = describe(status);
-  return status;
+  const auto status = guarded(
+      state_, [&](IkState& state) { return solver_->solve(goal, *seed, branches_, state); });
+  if (!status) {
+    branches_.clear();
+    reason = status.error().text;
+    return {IkStatus::Code::no_convergence, 0, {}};
+  }
+  if (status->code != IkStatus::Code::ok) reason = describe(*status);
+  return *status;
 }
 
 void IkHost::answer(const msg::IkRequest& request, msg::IkResponse& response) {

@@ -2,6 +2,8 @@
 // The host of the inverse kinematics solvers, with a solver that remembers what it was asked:
 // 1. one answer for each request, in order, under its header and id, 2. requests and solutions are
 // carried over as they are, 3. bad requests are answered with their exact reason.
+#include <stdexcept>
+
 #include "armature/kinds/ik/ik.hpp"
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/geometry.hpp"
@@ -19,6 +21,7 @@ class EchoIk final : public IkSolver {
  public:
   static inline IkGoal asked;
   static inline IkStatus answer;
+  static inline bool throws = false;
 
   EchoIk(const RobotModel& robot, const Params&) : robot_{robot} {}
   IkStatus solve(const IkGoal& goal, const JointVector& seed, IkBranches& out,
@@ -34,6 +37,7 @@ class EchoIk final : public IkSolver {
                  .residual = {.position_m = 1e-12, .angle_rad = 2e-12},
                  .within_limits = true};
     out.add() = {.label = "seed", .q = seed, .singular = true};
+    if (throws) throw std::runtime_error{"the matrix is singular"};
     return answer;
   }
 
@@ -62,7 +66,10 @@ msg::IkRequest request(std::uint64_t id) {
 
 class IkHostTest : public ::testing::Test {
  protected:
-  IkHostTest() { EchoIk::answer = {}; }
+  IkHostTest() {
+    EchoIk::answer = {};
+    EchoIk::throws = false;
+  }
   msg::IkResponse ask(const msg::IkRequest& message) {
     host_.send("request", message);
     host_.step(0.1);
@@ -214,6 +221,16 @@ TEST(IkHost, DoesNotStartWithARobotThatTheSolverRefuses) {
   } catch (const SetupError& error) {
     EXPECT_STREQ(error.what(), "ik/refusing refuses: one has too few joints");
   }
+}
+
+TEST_F(IkHostTest, AnExceptionOfTheSolverIsAReasonAndTheNextRequestIsAnswered) {
+  EchoIk::throws = true;
+  const msg::IkResponse answer = ask(request(1));
+  EXPECT_EQ(answer.status_(), "no_convergence");
+  EXPECT_EQ(answer.reason_(), "the plugin threw: the matrix is singular");
+  EXPECT_TRUE(answer.solutions_().empty());
+  EchoIk::throws = false;
+  EXPECT_EQ(ask(request(2)).status_(), "ok");
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include "armature/config/problems.hpp"
 #include "armature/runtime/growth.hpp"
+#include "armature/values/sanitizer.hpp"
 
 namespace armature {
 namespace {
@@ -52,7 +53,8 @@ Expected<IkSubject> plugin_subject(PluginRegistry& plugins, const PluginManifest
 }
 
 std::string wrong_offers(const PluginManifest& plugin) {
-  const std::array known{std::string{kAllBranches}, std::string{kAnySeed}};
+  const std::array known{std::string{kAllBranches}, std::string{kAnySeed},
+                         std::string{kAnySeedAtEdges}};
   for (const Trait& offer : plugin.offers) {
     if (std::ranges::find(known, offer.word) != known.end()) continue;
     return fmt::format("its plugin.yaml offers '{}', which is no promise of the kind ik{}",
@@ -85,7 +87,8 @@ IkLawReport check_loading(const std::vector<std::filesystem::path>& search_path,
     (*solver)->solve(goal, seed, found, state);
     ++report.goals;
   });
-  report.note = fmt::format("{} times", growth.cycles);
+  report.note = fmt::format("{} times{}", growth.cycles,
+                            kSanitized ? ", memory is not counted under a sanitizer" : "");
   if (const std::string fault = growth.fault(); !fault.empty()) {
     report.failed = 1;
     report.violations.push_back({fault, ""});

@@ -8,6 +8,7 @@
 #include "armature/runtime/component.hpp"
 #include "armature/runtime/plugin.hpp"
 #include "armature/runtime/setup.hpp"
+#include "armature/values/guarded.hpp"
 
 namespace armature {
 namespace {
@@ -55,7 +56,8 @@ Expected<StereoLandmarks> LandmarksHost::find(LandmarkFinder& finder, const msg:
   const auto left_view = image_of(left), right_view = image_of(right);
   if (!left_view) return refuse("left: " + left_view.error().text);
   if (!right_view) return refuse("right: " + right_view.error().text);
-  return finder.find(*left_view, *right_view, state);
+  return guarded(state,
+                 [&](LandmarkFinder::State& s) { return finder.find(*left_view, *right_view, s); });
 }
 
 void LandmarksHost::step(Time) {

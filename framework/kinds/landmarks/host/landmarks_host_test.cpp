@@ -2,6 +2,8 @@
 // The host of the landmark finders: 1. one answer for each pair of pictures, under the header of
 // the left one, 2. the finder's memory is kept between pictures, 3. pictures that are none are
 // answered with their exact reason.
+#include <stdexcept>
+
 #include "armature/kinds/landmarks/landmark_messages.hpp"
 #include "armature/messages/header.hpp"
 #include "armature/runtime/component_bench.hpp"
@@ -12,6 +14,8 @@ namespace {
 /// A face wherever the first pixel is 200, its box as wide as the pictures it was seen in before.
 class FirstPixel final : public LandmarkFinder {
  public:
+  static inline bool throws = false;
+
   Expected<StereoLandmarks> find(const ImageView& left, const ImageView& right,
                                  State& state) override {
     if (auto wrong = invalid_input(left, right)) return refuse(*wrong);
@@ -21,6 +25,7 @@ class FirstPixel final : public LandmarkFinder {
     }
     const double width = state.left ? state.left->width + 1 : 1;
     state.left = PixelBox{1, 2, width, 4};
+    if (throws) throw std::runtime_error{"the matrix is singular"};
     StereoLandmarks found;
     for (std::size_t i = 0; i < FaceLandmarks::kCount; ++i) {
       found.left.points[i] = {static_cast<double>(i), 0.5};
@@ -147,6 +152,18 @@ TEST_F(LandmarksHostTest, AnswersPicturesThatAreNoneWithTheirReason) {
   EXPECT_EQ(refusal(as_it_is, [](msg::Image& i) { i.width_(3); }),
             "the left image is 4 x 2 pixels, the right one 3 x 2");
   EXPECT_TRUE(see(image(50, 200), image(50, 200)).valid_());
+}
+
+TEST_F(LandmarksHostTest, AnExceptionOfTheFinderIsAReasonAndItStartsColdAgain) {
+  const msg::Image face = image(0.5, 200);
+  EXPECT_EQ(see(face, face).left_box_()[2], 1);
+  EXPECT_EQ(see(face, face).left_box_()[2], 2);
+  FirstPixel::throws = true;
+  const msg::FaceLandmarks answer = see(face, face);
+  FirstPixel::throws = false;
+  EXPECT_FALSE(answer.valid_());
+  EXPECT_EQ(answer.reason_(), "the plugin threw: the matrix is singular");
+  EXPECT_EQ(see(face, face).left_box_()[2], 1);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include "armature/kinds/request_host.hpp"
 #include "armature/kinds/tool_pose_messages.hpp"
 #include "armature/runtime/plugin.hpp"
+#include "armature/values/guarded.hpp"
 
 namespace armature {
 namespace {
@@ -42,8 +43,9 @@ class PathHost final : public RequestHost<msg::PathRequest, msg::PathResponse> {
  private:
   void answer(const msg::PathRequest& request, msg::PathResponse& response) override {
     const auto wrong = in_another_frame(request);
-    const Expected<Path> path =
-        wrong ? Expected<Path>{refuse(*wrong)} : planner_->plan(request_of(request));
+    const Expected<Path> path = wrong
+                                    ? Expected<Path>{refuse(*wrong)}
+                                    : guarded([&] { return planner_->plan(request_of(request)); });
     response.valid_(path.has_value());
     response.reason_() = path ? "" : path.error().text;
     response.segments_().clear();

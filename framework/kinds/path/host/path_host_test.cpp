@@ -2,6 +2,8 @@
 // The host of the path planners: 1. one answer for each request, in order, under its header and id,
 // 2. requests and paths are carried over as they are, 3. bad requests are answered with their
 // reason.
+#include <stdexcept>
+
 #include "armature/kinds/path/path.hpp"
 #include "armature/kinds/tool_pose_messages.hpp"
 #include "armature/messages/header.hpp"
@@ -14,9 +16,11 @@ namespace {
 class OverTheFocus final : public PathPlanner {
  public:
   static inline PathRequest asked;
+  static inline bool throws = false;
 
   Expected<Path> plan(const PathRequest& request) const override {
     asked = request;
+    if (throws) throw std::runtime_error{"the matrix is singular"};
     const auto good = checked(request);
     if (!good) return tl::unexpected{good.error()};
     if (!good->focus) return refuse("there is no point to look at");
@@ -141,6 +145,15 @@ TEST_F(PathHostTest, AnswersABadRequestWithItsReasonAndTheNextOneAsIfNothingHadB
             "the start's quaternion has length 0, not 1");
   EXPECT_EQ(refusal([](auto& r) { r.header_().frame_id_() = "tool"; }),
             "the request is stated in frame 'tool', not in 'base'");
+}
+
+TEST_F(PathHostTest, AnExceptionOfThePluginIsAReasonAndTheNextRequestIsAnswered) {
+  OverTheFocus::throws = true;
+  const msg::PathResponse answer = ask(request(1));
+  OverTheFocus::throws = false;
+  EXPECT_FALSE(answer.valid_());
+  EXPECT_EQ(answer.reason_(), "the plugin threw: the matrix is singular");
+  EXPECT_TRUE(ask(request(2)).valid_());
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "armature/kinds/setup_robot.hpp"
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/runtime/plugin.hpp"
+#include "armature/values/guarded.hpp"
 
 namespace armature {
 namespace {
@@ -63,7 +64,7 @@ class SelectHost final : public RequestHost<msg::SelectRequest, msg::SelectRespo
     if (!start) return tl::unexpected{start.error()};
     const auto waypoints = waypoints_of(robot_, request);
     if (!waypoints) return tl::unexpected{waypoints.error()};
-    return selector_->choose(*start, *waypoints);
+    return guarded([&] { return selector_->choose(*start, *waypoints); });
   }
 
   void answer(const msg::SelectRequest& request, msg::SelectResponse& response) override {

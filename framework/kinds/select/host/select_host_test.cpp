@@ -2,6 +2,8 @@
 // The host of the branch selectors: 1. one answer for each request, in order, under its header and
 // id, 2. branches and choices are carried over as they are, 3. bad requests are answered with their
 // exact reason.
+#include <stdexcept>
+
 #include "armature/kinds/select/select.hpp"
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/header.hpp"
@@ -19,11 +21,13 @@ class LastBranch final : public BranchSelector {
   static inline JointVector start;
   static inline std::vector<IkBranches> asked;
   static inline std::string label;
+  static inline bool throws = false;
 
   Expected<std::vector<JointVector>> choose(const JointVector& from,
                                             std::span<const IkBranches> waypoints) const override {
     start = from;
     asked.assign(waypoints.begin(), waypoints.end());
+    if (throws) throw std::runtime_error{"the matrix is singular"};
     std::vector<JointVector> chosen;
     for (const IkBranches& branches : waypoints) {
       if (branches.count == 0) {
@@ -174,6 +178,15 @@ TEST_F(SelectHostTest, AnswersABadRequestWithItsReasonAndTheNextOneAsIfNothingHa
             "waypoint 2 has 17 solutions, at most 16 are read");
   EXPECT_EQ(refusal([](auto& r) { r.waypoints_()[1].solutions_().clear(); }),
             "waypoint 2: no branch");
+}
+
+TEST_F(SelectHostTest, AnExceptionOfThePluginIsAReasonAndTheNextRequestIsAnswered) {
+  LastBranch::throws = true;
+  const msg::SelectResponse answer = ask(request(1));
+  LastBranch::throws = false;
+  EXPECT_FALSE(answer.valid_());
+  EXPECT_EQ(answer.reason_(), "the plugin threw: the matrix is singular");
+  EXPECT_TRUE(ask(request(2)).valid_());
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "armature/runtime/component.hpp"
 #include "armature/runtime/plugin.hpp"
 #include "armature/runtime/setup.hpp"
+#include "armature/values/guarded.hpp"
 
 namespace armature {
 
@@ -75,10 +76,12 @@ Expected<TargetMeasurement> TargetHost::measurement(const msg::FacePose& face) c
 /// The new estimate. Without a good measurement the filter predicts over the gap, for as long as it
 /// trusts itself; then what is missing is told.
 Expected<TargetEstimate> TargetHost::updated(const msg::FacePose& face) {
-  auto estimate = measurement(face).and_then(
-      [&](const TargetMeasurement& m) { return filter_->update(m, state_); });
+  auto estimate = measurement(face).and_then([&](const TargetMeasurement& m) {
+    return guarded(state_, [&](TargetFilter::State& state) { return filter_->update(m, state); });
+  });
   if (estimate) return estimate;
-  auto predicted = filter_->predict(stamp_of(face.header_().stamp_()), state_);
+  auto predicted =
+      guarded([&] { return filter_->predict(stamp_of(face.header_().stamp_()), state_); });
   return predicted ? predicted : estimate;
 }
 

@@ -2,6 +2,8 @@
 // The host of the target filters: 1. a face pose goes through where the arm was when the picture
 // was taken, 2. one answer for each face, stamped as its picture, 3. the filter predicts over a
 // gap, then what is missing is told, 4. a bad joint state is told as the component's own trouble.
+#include <stdexcept>
+
 #include "armature/kinds/target/target_messages.hpp"
 #include "armature/messages/sensor_msgs.hpp"
 #include "armature/robot/kinematics.hpp"
@@ -19,6 +21,7 @@ using testing::joint_vector;
 class LastLook final : public TargetFilter {
  public:
   static inline TargetMeasurement asked;
+  static inline bool throws = false;
 
   Expected<TargetEstimate> update(const TargetMeasurement& measurement,
                                   State& state) const override {
@@ -28,6 +31,7 @@ class LastLook final : public TargetFilter {
     state.started = true;
     state.stamp = measurement.stamp;
     state.mean.head<3>() = measurement.position;
+    if (throws) throw std::runtime_error{"the matrix is singular"};
     ++state.measurements;
     return estimate(measurement.stamp, state);
   }
@@ -235,6 +239,17 @@ TEST_F(TargetHostTest, DoesNotStartWithARigThatHangsOnNoFrameOfTheRobot) {
                  "the rig 'lost' is mounted on 'elbow', which is no frame of the robot "
                  "'dental_lamp'");
   }
+}
+
+TEST_F(TargetHostTest, AnExceptionOfTheFilterIsAReasonAndItStartsColdAgain) {
+  for (int i = 0; i <= 20; ++i) host_.send("measured_js", arm_at(1 + 0.1 * i, kHome));
+  EXPECT_EQ(see(face(1)).measurements_(), 1u);
+  LastLook::throws = true;
+  const msg::Target answer = see(face(1.1));
+  LastLook::throws = false;
+  EXPECT_FALSE(answer.valid_());
+  EXPECT_EQ(answer.reason_(), "the plugin threw: the matrix is singular");
+  EXPECT_EQ(see(face(1.2)).measurements_(), 1u);
 }
 
 }  // namespace

@@ -13,7 +13,9 @@
 #include "armature/kinds/setup_robot.hpp"
 #include "armature/kinds/trajectory/trajectory_messages.hpp"
 #include "armature/kinds/trajectory/trajectory_planner.hpp"
+#include "armature/robot/trajectory_check.hpp"
 #include "armature/runtime/plugin.hpp"
+#include "armature/values/guarded.hpp"
 
 namespace armature {
 namespace {
@@ -112,9 +114,20 @@ class TrajectoryHost final : public RequestHost<msg::TrajectoryRequest, msg::Tra
         planner_{setup.slot<TrajectoryPlanner>("planner")} {}
 
  private:
+  /// What the plugin answers, held to what was asked for, as the motion component does.
+  Expected<Trajectory> checked(const TrajectoryRequest& asked) const {
+    auto planned = guarded([&] { return planner_->plan(asked); });
+    if (!planned) return planned;
+    const MotionLimits limits{asked.max_velocity, asked.max_acceleration};
+    if (const auto defect = trajectory_defect(*planned, robot_, limits, asked.from, asked.start)) {
+      return refuse(*defect);
+    }
+    return planned;
+  }
+
   void answer(const msg::TrajectoryRequest& request, msg::TrajectoryResponse& response) override {
     const auto planned = request_of(robot_, request).and_then([&](const TrajectoryRequest& asked) {
-      return planner_->plan(asked);
+      return checked(asked);
     });
     response.valid_(planned.has_value());
     response.reason_() = planned ? "" : planned.error().text;

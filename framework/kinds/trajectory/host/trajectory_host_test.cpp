@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The host of the trajectory planners: 1. one answer for each request, in order, under its header
 // and id, 2. requests and trajectories are carried over as they are, 3. bad requests are answered
-// with their exact reason.
+// with their exact reason, 4. a trajectory that breaks what was asked for is no answer.
+#include <stdexcept>
+
 #include "armature/kinds/trajectory/trajectory_planner.hpp"
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/header.hpp"
@@ -13,12 +15,15 @@ namespace {
 
 using testing::joint_vector;
 
-/// One quintic of 2 s to the last waypoint; refuses to last no time.
+/// One quintic of 2 s from the start to the last waypoint; refuses to last no time.
 class TwoSeconds final : public TrajectoryPlanner {
  public:
   static inline TrajectoryRequest asked;
+  static inline bool throws = false;
+  static inline double overshoot = 0;  // of the first joint
 
   Expected<Trajectory> plan(const TrajectoryRequest& request) const override {
+    if (throws) throw std::runtime_error{"the matrix is singular"};
     asked = request;
     const JointVector& end = request.segments.back().q.back();
     if (request.segments.front().duration_s == 0.0) return refuse("segment 1 lasts no time");
@@ -28,7 +33,9 @@ class TwoSeconds final : public TrajectoryPlanner {
                           .knots = {0, 2},
                           .pieces = {}};
     for (int i = 0; i < end.size(); ++i) {
-      trajectory.pieces.push_back(Quintic::between({request.from.q[i], 0, 0}, {end[i], 0, 0}, 2));
+      const JointState& from = request.from;
+      trajectory.pieces.push_back(Quintic::between({from.q[i], from.v[i], from.a[i]},
+                                                   {end[i] + (i == 0 ? overshoot : 0), 0, 0}, 2));
     }
     return trajectory;
   }
@@ -125,14 +132,14 @@ TEST_F(TrajectoryHostTest, AsksForTheSegmentsInIndependentJointsFromRestWithTheR
 TEST_F(TrajectoryHostTest, AsksWithTheRequestsOwnStartAndLimits) {
   msg::TrajectoryRequest moving = request(1);
   moving.start_velocity_({0.1, 0.2, 0.3, -0.3, 0.4, 0.5});
-  moving.start_acceleration_({1, 2, 3, -3, 4, 5});
-  moving.max_velocity_({1, 1, 1, 0.5, 1, 2.5});  // the one that follows binds its leader
+  moving.start_acceleration_({0.1, 0.2, 0.3, -0.3, 0.4, 0.5});
+  moving.max_velocity_({2.5, 1, 1, 0.5, 1, 2.5});  // the one that follows binds its leader
   moving.max_acceleration_({8, 8, 2, 8, 8, 8});
   EXPECT_TRUE(ask(moving).valid_());
   const TrajectoryRequest& asked = TwoSeconds::asked;
   EXPECT_EQ(asked.from.v, joint_vector({0.1, 0.2, 0.3, 0.4, 0.5}));
-  EXPECT_EQ(asked.from.a, joint_vector({1, 2, 3, 4, 5}));
-  EXPECT_EQ(asked.max_velocity, joint_vector({1, 1, 0.5, 1, 2.5}));
+  EXPECT_EQ(asked.from.a, joint_vector({0.1, 0.2, 0.3, 0.4, 0.5}));
+  EXPECT_EQ(asked.max_velocity, joint_vector({2.5, 1, 0.5, 1, 2.5}));
   EXPECT_EQ(asked.max_acceleration, joint_vector({8, 8, 2, 8, 8}));
 }
 
@@ -192,6 +199,31 @@ TEST_F(TrajectoryHostTest, AnswersABadRequestWithItsReasonAndTheNextOneAsIfNothi
               r.segments_()[0].duration_(0);
             }),
             "segment 1 lasts no time");
+}
+
+TEST_F(TrajectoryHostTest, ATrajectoryThatBreaksALimitIsNoAnswer) {
+  TwoSeconds::overshoot = 1.5;
+  const msg::TrajectoryResponse answer = ask(request(1));
+  TwoSeconds::overshoot = 0;
+  EXPECT_FALSE(answer.valid_());
+  EXPECT_EQ(answer.reason_(),
+            "joint j1 would reach 3.5000 rad between 0.00 and 2.00 s, its limits are -2.9671 and "
+            "2.9671 rad");
+  EXPECT_EQ(answer.trajectory_(), msg::QuinticTrajectory{});
+  msg::TrajectoryRequest slow = request(2);
+  slow.max_velocity_({1, 2.5, 2.5, 2.5, 2.5, 2.5});
+  EXPECT_EQ(ask(slow).reason_(),
+            "joint j1 would need 1.8750 rad/s between 0.00 and 2.00 s, its limit is 1.0000");
+  EXPECT_TRUE(ask(request(3)).valid_());
+}
+
+TEST_F(TrajectoryHostTest, AnExceptionOfThePluginIsAReasonAndTheNextRequestIsAnswered) {
+  TwoSeconds::throws = true;
+  const msg::TrajectoryResponse answer = ask(request(1));
+  TwoSeconds::throws = false;
+  EXPECT_FALSE(answer.valid_());
+  EXPECT_EQ(answer.reason_(), "the plugin threw: the matrix is singular");
+  EXPECT_TRUE(ask(request(2)).valid_());
 }
 
 }  // namespace

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/kinds/ik/lines/answering.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <initializer_list>
+
+#include "armature/kinds/ik/lines/json_line.hpp"
+#include "armature/kinds/ik/lines/reason.hpp"
+#include "armature/robot/kinematics.hpp"
+
+namespace armature {
+namespace {
+
+using ik_lines::InvalidLine;
+using ik_lines::Json;
+using ik_lines::number;
+using ik_lines::numbers;
+using ik_lines::to_json;
+
+void expect_known(const Json& json, std::initializer_list<std::string_view> known) {
+  for (const auto& [key, value] : json.items()) {
+    if (key == "id" && (value.is_number() || value.is_string())) continue;
+    if (key == "id") throw InvalidLine("'id' must be a number or a text");
+    if (std::ranges::find(known, key) == known.end()) {
+      throw InvalidLine(fmt::format("unknown key '{}'", key));
+    }
+  }
+}
+
+/// The answer that `answer` makes of the question, under the question's id.
+std::string answered(std::string_view line, std::initializer_list<std::string_view> known,
+                     const auto& answer) {
+  Json whole = Json::object();
+  try {
+    const Json question = ik_lines::parse_object(line);
+    if (question.contains("id")) whole["id"] = question["id"];
+    expect_known(question, known);
+    whole.update(answer(question));
+  } catch (const std::exception& error) {
+    whole["status"] = "invalid_input";
+    whole["reason"] = error.what();
+  }
+  return whole.dump();
+}
+
+Eigen::Vector3d vector3(const Json& json, const char* key) {
+  const auto v = numbers(json, key, 3);
+  return {v[0], v[1], v[2]};
+}
+
+/// Neither vanishing nor overflowing when it is made a unit.
+bool usable_length(double length) { return length > 1e-9 && std::isfinite(length); }
+
+/// `coefficients` over their length; bit for bit as they are when that is 1 already.
+template <class Coefficients>
+Coefficients unit(const Coefficients& coefficients, const char* key) {
+  const double length = coefficients.norm();
+  if (!usable_length(length)) throw InvalidLine(fmt::format("'{}' has no usable length", key));
+  constexpr double kRounding = 1e-15;
+  return std::abs(length - 1) <= kRounding ? coefficients : Coefficients(coefficients / length);
+}
+
+/// A positive number of the line, or `usual`.
+double positive(const Json& json, const char* key, double usual) {
+  if (!json.contains(key)) return usual;
+  const double value = json[key].is_number() ? json[key].get<double>() : 0;
+  if (!(value > 0)) throw InvalidLine(fmt::format("'{}' must be a positive number", key));
+  return value;
+}
+
+Orientation read_orientation(const RobotModel& robot, const Json& question) {
+  if (question.contains("direction") == question.contains("quaternion_xyzw")) {
+    throw InvalidLine("give either 'direction' or 'quaternion_xyzw'");
+  }
+  if (question.contains("direction")) {
+    if (!robot.pointing_axis()) {
+      throw InvalidLine("the robot file names no 'pointing_axis'; give 'quaternion_xyzw'");
+    }
+    return Direction{unit(vector3(question, "direction"), "direction")};
+  }
+  const auto q = numbers(question, "quaternion_xyzw", 4);
+  return Eigen::Quaterniond{unit(Eigen::Vector4d{q[0], q[1], q[2], q[3]}, "quaternion_xyzw")};
+}
+
+const char* redundancy_key(const IkSolver& solver) {
+  return ik_lines::redundancy_key(solver.redundancy_is_length());
+}
+
+std::optional<double> read_redundancy(const IkSolver& solver, const Json& question) {
+  const std::string key = redundancy_key(solver);
+  for (const char* other : {"redundancy_rad", "redundancy_m"}) {
+    if (question.contains(other) && key != other) {
+      throw InvalidLine(fmt::format("'{}' is '{}' for this solver", other, key));
+    }
+  }
+  if (!question.contains(key)) return std::nullopt;
+  return number(question, key.c_str());
+}
+
+IkGoal read_goal(const RobotModel& robot, const IkSolver& solver, const Json& question) {
+  if (!question.contains("position_m")) throw InvalidLine("'position_m' is missing");
+  IkGoal goal;
+  goal.pose.position = vector3(question, "position_m");
+  goal.pose.orientation = read_orientation(robot, question);
+  goal.redundancy = read_redundancy(solver, question);
+  goal.tolerance.position_m = positive(question, "tolerance_m", goal.tolerance.position_m);
+  goal.tolerance.angle_rad = positive(question, "tolerance_rad", goal.tolerance.angle_rad);
+  return goal;
+}
+
+Json status_json(const IkStatus& status) {
+  Json json{{"status", to_string(status.code)}};
+  if (status.code == IkStatus::Code::ok) return json;
+  json["reason"] = ik_lines::reason_of(status);
+  if (status.shortfall == 0) return json;
+  if (status.code == IkStatus::Code::out_of_reach) json["beyond_reach_m"] = status.shortfall;
+  if (status.code == IkStatus::Code::no_convergence) json["residual"] = status.shortfall;
+  return json;
+}
+
+/// `key` is what a redundancy is called, empty where there is none.
+Json solution_json(const RobotModel& robot, const IkBranch& branch, std::string_view key) {
+  Json json;
+  json["label"] = branch.label;
+  json["joints"] = to_json(robot.expand(branch.q));
+  json["residual_m"] = branch.residual.position_m;
+  json["residual_rad"] = branch.residual.angle_rad;
+  json["within_limits"] = branch.within_limits;
+  json["singular"] = branch.singular;
+  if (!key.empty()) json[std::string{key}] = branch.redundancy;
+  return json;
+}
+
+/// Under every solution the redundancies at which its branch keeps the limits, when the solver
+/// tells them.
+void add_intervals(const IkSolver& solver, const IkGoal& goal, const JointVector& seed,
+                   Json& solutions) {
+  RedundancyIntervals intervals;
+  if (!solver.feasible_redundancy(goal, seed, intervals)) return;
+  const std::string key =
+      solver.redundancy_is_length() ? "redundancy_intervals_m" : "redundancy_intervals_rad";
+  for (Json& solution : solutions) {
+    Json& list = solution[key] = Json::array();
+    for (const RedundancyInterval& interval : intervals) {
+      if (solution["label"] == interval.label) list.push_back({interval.lower, interval.upper});
+    }
+  }
+}
+
+Json fk_json(const RobotModel& robot, const Json& question) {
+  if (!question.contains("joints")) throw InvalidLine("'joints' is missing");
+  const Eigen::Isometry3d pose =
+      forward_kinematics(robot, ik_lines::joints(robot, question, "joints"));
+  Json answer;
+  answer["position_m"] = to_json(Eigen::Vector3d{pose.translation()});
+  answer["quaternion_xyzw"] = to_json(Eigen::Quaterniond{pose.rotation()}.coeffs());
+  if (robot.pointing_axis()) {
+    answer["direction"] = to_json(Eigen::Vector3d{pose.rotation() * *robot.pointing_axis()});
+  }
+  return answer;
+}
+
+Json ik_json(const RobotModel& robot, const IkSolver& solver, const JointVector& home,
+             const Json& question) {
+  const IkGoal goal = read_goal(robot, solver, question);
+  const JointVector seed =
+      question.contains("seed") ? ik_lines::joints(robot, question, "seed") : home;
+  IkBranches branches;
+  IkState state;
+  Json answer = status_json(solver.solve(goal, seed, branches, state));
+  answer["solutions"] = Json::array();
+  const bool redundant = robot.dof() > 6 || goal.redundancy;
+  for (const IkBranch& branch : branches) {
+    answer["solutions"].push_back(
+        solution_json(robot, branch, redundant ? redundancy_key(solver) : ""));
+  }
+  add_intervals(solver, goal, seed, answer["solutions"]);
+  return answer;
+}
+
+}  // namespace
+
+std::string answer_fk(const RobotModel& robot, std::string_view line) {
+  return answered(line, {"joints"}, [&](const Json& question) { return fk_json(robot, question); });
+}
+
+std::string answer_ik(const RobotModel& robot, const IkSolver& solver, const JointVector& home,
+                      std::string_view line) {
+  return answered(line,
+                  {"position_m", "direction", "quaternion_xyzw", "seed", "redundancy_rad",
+                   "redundancy_m", "tolerance_m", "tolerance_rad"},
+                  [&](const Json& question) { return ik_json(robot, solver, home, question); });
+}
+
+}  // namespace armature

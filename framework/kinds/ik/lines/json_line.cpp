@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/kinds/ik/lines/json_line.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <set>
+#include <string>
+
+namespace armature::ik_lines {
+namespace {
+
+Json::parser_callback_t without_duplicates() {
+  return [keys = std::vector<std::set<std::string>>{}](int, Json::parse_event_t event,
+                                                       Json& parsed) mutable {
+    if (event == Json::parse_event_t::object_start) keys.emplace_back();
+    if (event == Json::parse_event_t::object_end) keys.pop_back();
+    if (event == Json::parse_event_t::key &&
+        !keys.back().insert(parsed.get<std::string>()).second) {
+      throw InvalidLine(fmt::format("'{}' is given twice", parsed.get<std::string>()));
+    }
+    return true;
+  };
+}
+
+}  // namespace
+
+Json parse_object(std::string_view line) {
+  Json json = Json::parse(line, without_duplicates(), false);
+  if (json.is_discarded()) throw InvalidLine("not JSON");
+  if (!json.is_object()) throw InvalidLine("not a JSON object");
+  return json;
+}
+
+std::vector<double> numbers(const Json& json, const char* key, std::size_t count) {
+  const Json& list = json.at(key);
+  if (!list.is_array()) throw InvalidLine(fmt::format("'{}' must be a list of numbers", key));
+  if (list.size() != count) {
+    throw InvalidLine(fmt::format("'{}' has {} numbers, must have {}", key, list.size(), count));
+  }
+  std::vector<double> values;
+  for (const Json& item : list) {
+    if (!item.is_number()) throw InvalidLine(fmt::format("'{}' must be a list of numbers", key));
+    values.push_back(item.get<double>());
+    if (!std::isfinite(values.back())) throw InvalidLine(fmt::format("'{}' is not finite", key));
+  }
+  return values;
+}
+
+double number(const Json& json, const char* key) {
+  const Json& value = json.at(key);
+  if (!value.is_number()) throw InvalidLine(fmt::format("'{}' must be a number", key));
+  if (!std::isfinite(value.get<double>()))
+    throw InvalidLine(fmt::format("'{}' is not finite", key));
+  return value.get<double>();
+}
+
+JointVector joints(const RobotModel& robot, const Json& json, const char* key) {
+  const auto values = numbers(json, key, static_cast<std::size_t>(robot.joint_count()));
+  const auto independent = robot.contract(values);
+  if (!independent) throw InvalidLine(independent.error().text);
+  return *independent;
+}
+
+}  // namespace armature::ik_lines

@@ -6,11 +6,12 @@
 # The folder's plugin.yaml (id, kind, parameters, ports) is embedded as constant text, together with
 # the ABI tag of the compiler that builds it; both are read without running the library's code.
 # TEST_ONLY: for the framework's own tests; kept apart from the plugins and not installed.
+# TEST_OPTIONS: of armature_add_test.
 
 set(ARMATURE_PLUGIN_TEMPLATE "${CMAKE_CURRENT_LIST_DIR}/plugin_manifest.cpp.in")
 
 function(armature_add_plugin id)
-  cmake_parse_arguments(arg "TEST_ONLY" "" "SOURCES;LINK;TESTS;TEST_LINK" ${ARGN})
+  cmake_parse_arguments(arg "TEST_ONLY" "" "SOURCES;LINK;TESTS;TEST_LINK;TEST_OPTIONS" ${ARGN})
   string(REPLACE "/" "_" target "${id}")
 
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS
@@ -37,13 +38,14 @@ function(armature_add_plugin id)
       LIBRARY_OUTPUT_DIRECTORY "${ARMATURE_PLUGIN_BUILD_DIR}" INSTALL_RPATH "$ORIGIN/../..")
     install(TARGETS ${target} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/armature/plugins)
     set_property(GLOBAL APPEND PROPERTY ARMATURE_PLUGINS ${target})
+    armature_precompile(${target} plugins)
     if(arg_TESTS)
       string(REGEX REPLACE "/.*" "" kind "${id}")
       if(TARGET armature::${kind}_contract)  # the laws of its kind
         list(APPEND arg_TEST_LINK armature::${kind}_contract)
       endif()
-      armature_add_test(${target}_test SOURCES ${arg_TESTS} LINK ${arg_LINK} ${arg_TEST_LINK}
-                        DEPENDS ${target})
+      armature_add_test(${target}_test SOURCES ${arg_TESTS} $<TARGET_OBJECTS:${target}> LINK ${arg_LINK} ${arg_TEST_LINK}
+                        DEPENDS ${target} ${arg_TEST_OPTIONS})
     endif()
   elseif(arg_TESTS)  # of somebody else's project: a program that ends with 0
     add_executable(${target}_test ${arg_TESTS})

@@ -23,6 +23,7 @@ std::string joint_mismatch(const Joint& joint, std::size_t i) {
   };
   if (joint.type != Joint::Type::revolute)
     return fmt::format("joint '{}' is not revolute", joint.name);
+  if (joint.placement) return fmt::format("joint '{}' is placed beside its row", joint.name);
   if (std::abs(joint.alpha - kTwistDeg[i] * kDegree) > kSame) {
     return must("alpha_deg", kTwistDeg[i], joint.alpha / kDegree);
   }

@@ -6,51 +6,40 @@
 #include <cstddef>
 #include <numbers>
 
+#include "armature/robot/axis_steps.hpp"
+
 namespace armature::descent {
 namespace {
 
 Lanes lanes(const Eigen::Vector3d& v) { return Lanes{v.x(), v.y(), v.z(), 0}; }
 
-/// Rz(theta) Tz(d), and Tx(a) Rx(alpha); the two of a row commute.
-Eigen::Isometry3d screw_along_z(const ChainLink& link) {
-  return Eigen::Translation3d{0, 0, link.d} *
-         Eigen::AngleAxisd{link.theta, Eigen::Vector3d::UnitZ()};
-}
-Eigen::Isometry3d screw_along_x(const ChainLink& link) {
-  Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
-  result.linear() << 1, 0, 0, 0, link.cos_alpha, -link.sin_alpha, 0, link.sin_alpha, link.cos_alpha;
-  result.translation().x() = link.a;
-  return result;
-}
-
 }  // namespace
 
 Chain chain_of(const RobotModel& model) {
   const NamedFrame& tool = model.frame(model.tool());
-  const bool modified = model.convention() == RobotModel::Convention::modified;
+  const auto steps = axis_steps(model, model.tool());
   Chain chain;
   chain.joints = tool.parent_joint + 1;
   chain.dof = model.dof();
-  Eigen::Isometry3d constant = Eigen::Isometry3d::Identity();  // since the joint before
+  std::copy(model.lower().begin(), model.lower().end(), chain.lower.begin());
+  std::copy(model.upper().begin(), model.upper().end(), chain.upper.begin());
   for (int i = 0; i < chain.joints; ++i) {
     const ChainLink& link = model.chain()[static_cast<std::size_t>(i)];
-    if (modified) constant = constant * screw_along_x(link);
-    constant = constant * screw_along_z(link);
-    chain.step[static_cast<std::size_t>(i)] = {.x = lanes(constant.linear().col(0)),
-                                               .y = lanes(constant.linear().col(1)),
-                                               .z = lanes(constant.linear().col(2)),
-                                               .origin = lanes(constant.translation()),
+    const Eigen::Isometry3d& step = steps[static_cast<std::size_t>(i)];
+    chain.step[static_cast<std::size_t>(i)] = {.x = lanes(step.linear().col(0)),
+                                               .y = lanes(step.linear().col(1)),
+                                               .z = lanes(step.linear().col(2)),
+                                               .origin = lanes(step.translation()),
                                                .prismatic = link.prismatic,
                                                .independent = link.independent,
                                                .ratio = link.ratio,
                                                .offset = link.offset};
-    constant = modified ? Eigen::Isometry3d::Identity() : screw_along_x(link);
   }
-  constant = constant * tool.parent_T_frame;
-  chain.tool_x = lanes(constant.linear().col(0));
-  chain.tool_y = lanes(constant.linear().col(1));
-  chain.tool_z = lanes(constant.linear().col(2));
-  chain.tool_origin = lanes(constant.translation());
+  const Eigen::Isometry3d& last = steps.back();
+  chain.tool_x = lanes(last.linear().col(0));
+  chain.tool_y = lanes(last.linear().col(1));
+  chain.tool_z = lanes(last.linear().col(2));
+  chain.tool_origin = lanes(last.translation());
   chain.pointing_axis = lanes(model.pointing_axis().value_or(Eigen::Vector3d::UnitX()));
   return chain;
 }

@@ -27,7 +27,8 @@ struct Chain {
   int joints = 0, dof = 0;
   std::array<Step, kMaxJoints> step;
   Lanes tool_x, tool_y, tool_z, tool_origin;
-  Lanes pointing_axis;  // of the tool frame
+  Lanes pointing_axis;                          // of the tool frame
+  std::array<double, kMaxJoints> lower, upper;  // of the independent joints
 };
 Chain chain_of(const RobotModel& model);
 
@@ -40,6 +41,10 @@ struct Goal {
 };
 Goal goal_of(const IkGoal& goal);
 
+/// A bit for every independent joint.
+using JointSet = std::uint32_t;
+inline constexpr JointSet kAllJoints = ~JointSet{0};
+
 /// What one start came to.
 struct End {
   std::array<double, kMaxJoints> q;
@@ -47,7 +52,9 @@ struct End {
   double error;                  // both together, as a length
   double gram;                   // det(J J^T): manipulability squared
   bool reached = false;
-  std::uint32_t locked = 0;  // a bit for every joint that shall stay where it starts
+  JointSet locked = 0;    // what shall stay where it starts
+  JointSet bounded = 0;   // what shall keep its limits all the way
+  JointSet pressing = 0;  // what the last step would have taken beyond its limits
 };
 
 /// Levenberg-Marquardt from `end.q`; `budget` counts down with every iteration. Real-time safe.

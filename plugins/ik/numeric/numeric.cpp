@@ -12,9 +12,11 @@
 namespace armature {
 namespace {
 
-constexpr double kSame = 1e-6;       // [rad] or [m]: two solutions are one
-constexpr double kRounding = 1e-12;  // [m] of a goal at the rim of what the arm reaches
-constexpr double kSingular = 1e-6;   // manipulability
+constexpr double kSame = 1e-6;      // [rad] or [m]: two solutions are one
+constexpr double kSingular = 1e-6;  // manipulability
+constexpr int kUnbounded = 6;       // restarts of an arm without spare joints
+constexpr int kAnywhere = 8;        // every so manieth start may end beyond all limits
+constexpr int kJumps = 2;           // over gaps between limits, in one start
 
 /// The i-th number of the van der Corput sequence in `base`: in (0, 1), evenly spread.
 double radical_inverse(int i, int base) {
@@ -60,10 +62,13 @@ Numeric::Numeric(const RobotModel& model, int max_restarts, int candidates)
     : model_{&model},
       max_restarts_{max_restarts},
       candidates_{candidates},
-      reach_{reach_of(model)},
       chain_{descent::chain_of(model)},
+      reach_{model, chain_},
       kernel_{descent::kernel()},
       resting_{resting_position(model)} {
+  for (int i = 0; i < model.dof(); ++i) {
+    if (turns_freely(model, i)) turning_ |= descent::JointSet{1} << i;
+  }
   for (int i = 0; i < max_restarts * candidates; ++i) samples_.push_back(halton(model, i + 1));
 }
 
@@ -78,6 +83,29 @@ const JointVector& Numeric::best_sample(const descent::Goal& goal, int restart) 
   return *best;
 }
 
+int Numeric::spare(const descent::Goal& goal) const {
+  return model_->dof() - (goal.pointing ? 5 : 6);
+}
+
+descent::JointSet Numeric::bounded(const descent::Goal& goal, int start) const {
+  if (start % kAnywhere == 0) return 0;
+  if (spare(goal) > 0 || (start > kUnbounded && start % 2 == 1)) return descent::kAllJoints;
+  return ~turning_;
+}
+
+bool Numeric::jump(descent::End& end) const {
+  const descent::JointSet pressing = end.pressing & turning_;
+  for (int i = 0; i < model_->dof(); ++i) {
+    const double lower = model_->lower()[i], upper = model_->upper()[i];
+    const bool gap = std::isfinite(upper - lower) && upper - lower > std::numbers::pi;
+    if (!gap || !(pressing >> i & 1)) continue;
+    double& q = end.q[static_cast<std::size_t>(i)];
+    q = q > 0.5 * (lower + upper) ? lower : upper;
+    return true;
+  }
+  return false;
+}
+
 int Numeric::worst_joint(const JointVector& q) const {
   Eigen::Index worst = 0;
   (model_->lower() - q).cwiseMax(q - model_->upper()).maxCoeff(&worst);
@@ -85,9 +113,8 @@ int Numeric::worst_joint(const JointVector& q) const {
 }
 
 void Numeric::bring_inside(const descent::Goal& goal, int& budget, descent::End& end) const {
-  const int spare = model_->dof() - (goal.pointing ? 5 : 6);
   descent::End tried = end;
-  for (int i = 0; i < spare && budget > 0; ++i) {
+  for (int i = 0; i < spare(goal) && budget > 0; ++i) {
     JointVector q = Eigen::Map<const Eigen::VectorXd>(tried.q.data(), model_->dof());
     if (unwind(*model_, resting_, q)) return;
     const int worst = worst_joint(q);
@@ -126,8 +153,9 @@ IkStatus Numeric::solve(const IkGoal& goal, const JointVector& seed, IkBranches&
   if (const char* why = invalid_input(*model_, goal, seed)) {
     return {IkStatus::Code::invalid_input, 0, why};
   }
-  const double beyond = (goal.pose.position - reach_.centre).norm() - reach_.radius;
-  if (beyond > kRounding) return {IkStatus::Code::out_of_reach, beyond, "longer than the arm"};
+  if (const auto miss = reach_.miss_of(goal)) {
+    return {IkStatus::Code::out_of_reach, miss->by, miss->why};
+  }
   const descent::Goal target = descent::goal_of(goal);
   int budget = goal.max_iterations;
   double least = std::numeric_limits<double>::infinity();
@@ -136,7 +164,12 @@ IkStatus Numeric::solve(const IkGoal& goal, const JointVector& seed, IkBranches&
     const JointVector& from = start == 0 ? seed : best_sample(target, start - 1);
     std::copy(from.begin(), from.end(), end.q.begin());
     end.locked = 0;
+    end.bounded = bounded(target, start);
     kernel_.descend(chain_, target, budget, end);
+    for (int i = 0; i < kJumps && !end.reached && jump(end); ++i) {
+      least = std::min(least, end.error);
+      kernel_.descend(chain_, target, budget, end);
+    }
     least = std::min(least, end.error);
     if (!end.reached) continue;
     bring_inside(target, budget, end);

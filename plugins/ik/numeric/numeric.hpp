@@ -23,6 +23,13 @@ class Numeric final : public IkSolver {
  private:
   Numeric(const RobotModel& model, int max_restarts, int candidates);
   const JointVector& best_sample(const descent::Goal& goal, int restart) const;
+  /// How many joints more than `goal` needs.
+  int spare(const descent::Goal& goal) const;
+  /// The joints that keep their limits all the way from a start.
+  descent::JointSet bounded(const descent::Goal& goal, int start) const;
+  /// Where a descent got stuck with a joint at a limit: that joint jumps over the gap between its
+  /// limits, to the other one. False when there is none.
+  bool jump(descent::End& end) const;
   /// A redundant arm beyond its limits: locks the joint that is farthest beyond at its limit and
   /// goes down again, once for every spare joint. `end` changes only when that keeps the limits.
   void bring_inside(const descent::Goal& goal, int& budget, descent::End& end) const;
@@ -32,10 +39,11 @@ class Numeric final : public IkSolver {
 
   const RobotModel* model_;
   int max_restarts_, candidates_;
-  Reach reach_;
   descent::Chain chain_;
+  Reach reach_;
   const descent::Kernel& kernel_;
   JointVector resting_;
+  descent::JointSet turning_ = 0;     // joints for which a whole turn changes nothing
   std::vector<JointVector> samples_;  // of the joint space, `candidates_` per restart
 };
 

@@ -58,6 +58,8 @@ std::string link_mismatch(const Link& link, std::size_t i) {
 /// Why joint `i` (from 0) is not the pattern's; empty when it is.
 std::string joint_mismatch(const Joint& joint, std::size_t i) {
   if (joint.coupling) return fmt::format("joint '{}' is coupled", joint.name);
+  if (i > 0 && joint.placement)  // the first one's is where the arm stands
+    return fmt::format("joint '{}' is placed beside its row", joint.name);
   if (i < 5 && joint.type != Joint::Type::revolute)
     return fmt::format("joint '{}' is not revolute", joint.name);
   if (i == 4 && std::abs(joint.d) > kSame)
@@ -136,7 +138,8 @@ Expected<PumaArm> puma_arm(const RobotModel& model) {
     arm.sign[i] = turned[i] ? -1 : 1;
     arm.zero[i] = wrap_angle(arm.sign[i] * extra[i] + joints[i].theta);
   }
-  arm.base_T_shoulder = links[0].transform() * Eigen::Translation3d{0, 0, joints[0].d};
+  arm.base_T_shoulder = joints[0].placement.value_or(Eigen::Isometry3d::Identity()) *
+                        links[0].transform() * Eigen::Translation3d{0, 0, joints[0].d};
   arm.wrist_T_tool = Eigen::Translation3d{0, 0, d(5)} * Link{0, turned[5] ? kPi : 0}.transform() *
                      links[6].transform() * model.frame(model.tool()).parent_T_frame;
   arm.needle = joints[5].type == Joint::Type::prismatic;

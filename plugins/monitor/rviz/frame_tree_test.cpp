@@ -19,7 +19,7 @@ namespace {
 using testing::TfListener;
 using Convention = RobotModel::Convention;
 
-constexpr double kExact = 1e-12;
+constexpr double kSamePose = 1e-12;
 
 FrameTree tree_of(const RobotModel& model, const std::optional<StereoRig>& rig = {},
                   FrameTree::Options options = {}) {
@@ -53,7 +53,7 @@ TEST_P(FramesOfEveryRobot, HasItsFramesWhereForwardKinematicsPutsThem) {
     const TfListener tf = heard(tree, q);
     for (std::size_t i = 0; i < model.frames().size(); ++i) {
       const Eigen::Isometry3d expected = forward_kinematics(model, q, FrameId{static_cast<int>(i)});
-      EXPECT_TRUE(tf.transform("base", model.frames()[i].name).isApprox(expected, kExact))
+      EXPECT_TRUE(tf.transform("base", model.frames()[i].name).isApprox(expected, kSamePose))
           << model.frames()[i].name;
     }
   }
@@ -80,13 +80,13 @@ TEST(FrameTree, HangsTheCamerasOnTheFrameThatTheRigIsMountedOn) {
   const TfListener tf = heard(tree_of(lamp, rig), q);
   EXPECT_EQ(tf.parent("left_camera_optical"), "tool");
   const Eigen::Isometry3d base_T_left = forward_kinematics(lamp, q) * rig.mount_T_left;
-  EXPECT_TRUE(tf.transform("base", "left_camera_optical").isApprox(base_T_left, kExact));
+  EXPECT_TRUE(tf.transform("base", "left_camera_optical").isApprox(base_T_left, kSamePose));
   // 60 mm to both sides of the tool, along the light's right, which is the tool's z.
   const auto tool_T = [&](const char* camera) -> Eigen::Vector3d {
     return tf.transform("tool", camera).translation();
   };
-  EXPECT_TRUE(tool_T("left_camera_optical").isApprox(Eigen::Vector3d{0, 0, -0.06}, kExact));
-  EXPECT_TRUE(tool_T("right_camera_optical").isApprox(Eigen::Vector3d{0, 0, 0.06}, kExact));
+  EXPECT_TRUE(tool_T("left_camera_optical").isApprox(Eigen::Vector3d{0, 0, -0.06}, kSamePose));
+  EXPECT_TRUE(tool_T("right_camera_optical").isApprox(Eigen::Vector3d{0, 0, 0.06}, kSamePose));
 }
 
 TEST(FrameTree, StampsEveryFrameWithTheSample) {
@@ -108,7 +108,7 @@ TEST(FrameTree, PutsAPrefixBeforeItsOwnNamesAndAWorldAboveTheBase) {
   EXPECT_EQ(tf.parent("left/j1"), "left/base");
   EXPECT_EQ(tf.parent("left/left_camera_optical"), "left/tool");
   const Eigen::Isometry3d room_T_tool = options.world_T_base * forward_kinematics(lamp, q);
-  EXPECT_TRUE(tf.transform("room", "left/tool").isApprox(room_T_tool, kExact));
+  EXPECT_TRUE(tf.transform("room", "left/tool").isApprox(room_T_tool, kSamePose));
 }
 
 TEST(FrameTree, RefusesNamesThatTf2CannotTake) {

@@ -35,6 +35,15 @@ msg::Marker begin(const MarkerHead& head, MarkerType type, MarkerAction action,
   return marker;
 }
 
+/// Some rotation that turns z into `along`.
+Quaterniond with_z_along(const Vector3d& along) {
+  Eigen::Matrix3d axes;
+  axes.col(2) = along.normalized();
+  axes.col(0) = along.unitOrthogonal();
+  axes.col(1) = axes.col(2).cross(axes.col(0));
+  return Quaterniond{axes};
+}
+
 /// Of a solid whose axis is its own z.
 msg::Marker solid(const MarkerHead& head, MarkerType type, const Segment& axis, double width) {
   const Vector3d along = axis.to - axis.from;
@@ -42,7 +51,7 @@ msg::Marker solid(const MarkerHead& head, MarkerType type, const Segment& axis, 
       begin(head, type, MarkerAction::add, {width, width, std::max(along.norm(), kShortest)});
   assign(marker.pose_().position_(), Vector3d{0.5 * (axis.from + axis.to)});
   if (along.norm() > 0) {
-    assign(marker.pose_().orientation_(), Quaterniond::FromTwoVectors(Vector3d::UnitZ(), along));
+    assign(marker.pose_().orientation_(), with_z_along(along));
   }
   return marker;
 }

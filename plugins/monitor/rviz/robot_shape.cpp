@@ -14,7 +14,7 @@ constexpr double kNoLength = 1e-9;  // [m]
 struct JointLines {
   Segment along_d, along_a;
   int frame_of_d, frame_of_a;
-  Vector3d middle, axis;  // of the joint, in the frame before it
+  Vector3d middle, axis;  // of the joint, in front of its row
 };
 
 /// T = Rz(theta) Tz(d) Tx(a) Rx(alpha): both lines are fixed to the frame behind the joint.
@@ -50,17 +50,27 @@ std::vector<RobotPart> robot_shape(const RobotModel& model, const JointVector& q
     const JointLines lines = model.convention() == RobotModel::Convention::standard
                                  ? standard_lines(i, link, d)
                                  : modified_lines(i, link, d);
+    const auto in_frame_before = [&](const Segment& s) -> Segment {
+      return {link.placement * s.from, link.placement * s.to};
+    };
+    if (link.placement.translation().norm() > kNoLength) {
+      parts.push_back({4 * i + 3,
+                       RobotPart::Kind::link,
+                       i - 1,
+                       {Vector3d::Zero(), link.placement.translation()}});
+    }
     if (link.prismatic || std::abs(d) > kNoLength) {
-      parts.push_back({3 * i, RobotPart::Kind::link, lines.frame_of_d, lines.along_d});
+      parts.push_back({4 * i, RobotPart::Kind::link, lines.frame_of_d, lines.along_d});
     }
     if (std::abs(link.a) > kNoLength) {
-      parts.push_back({3 * i + 1, RobotPart::Kind::link, lines.frame_of_a, lines.along_a});
+      const bool before = lines.frame_of_a < i;
+      parts.push_back({4 * i + 1, RobotPart::Kind::link, lines.frame_of_a,
+                       before ? in_frame_before(lines.along_a) : lines.along_a});
     }
     parts.push_back(
-        {3 * i + 2,
-         link.prismatic ? RobotPart::Kind::prismatic_joint : RobotPart::Kind::revolute_joint,
-         i - 1,
-         {lines.middle - 0.5 * lines.axis, lines.middle + 0.5 * lines.axis}});
+        {4 * i + 2,
+         link.prismatic ? RobotPart::Kind::prismatic_joint : RobotPart::Kind::revolute_joint, i - 1,
+         in_frame_before({lines.middle - 0.5 * lines.axis, lines.middle + 0.5 * lines.axis})});
   }
   return parts;
 }
@@ -74,6 +84,7 @@ double robot_size(const RobotModel& model) {
       d = std::max(std::abs(joint.d + joint.lower), std::abs(joint.d + joint.upper));
     }
     size += d + std::abs(joint.a);
+    if (joint.placement) size += joint.placement->translation().norm();
   }
   return size;
 }

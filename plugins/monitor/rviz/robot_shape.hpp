@@ -17,15 +17,15 @@ struct Segment {
 /// link only grows).
 struct RobotPart {
   enum class Kind { link, revolute_joint, prismatic_joint };
-  int id = 0;  // stable: 3 * joint, + 0 along d, + 1 along a, + 2 the joint's body
+  int id = 0;  // stable: 4 * joint, + 0 along d, + 1 along a, + 2 the body, + 3 to its placement
   Kind kind = Kind::link;
   int frame = -1;   // a joint's frame; -1: base
   Segment segment;  // a link's ends; a joint's axis, unit length, round its middle
 };
 
 /// What the Denavit-Hartenberg rows say of the robot's looks: for every joint its body and the two
-/// lines along d and a that lead to the next one. Lines of no length are left out, except the one
-/// that a prismatic joint moves.
+/// lines along d and a that lead to the next one, and a straight one to where a placement puts its
+/// row. Lines of no length are left out, except the one that a prismatic joint moves.
 std::vector<RobotPart> robot_shape(const RobotModel& model, const JointVector& q);
 
 /// The length of the stretched robot [m], from its rows and limits: what its parts' thickness is

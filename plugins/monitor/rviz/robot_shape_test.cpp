@@ -38,8 +38,7 @@ std::map<int, Segment> placed(const RobotModel& model, const JointVector& q) {
 
 using ShapeOfEveryRobot = testing::EveryRobot;
 
-TEST_P(ShapeOfEveryRobot, IsOneUnbrokenLineThroughTheFramesOfAllJoints) {
-  const RobotModel model = robot();
+void expect_unbroken(const RobotModel& model) {
   const unsigned seed = std::random_device{}();
   SCOPED_TRACE("seed " + std::to_string(seed));
   std::mt19937 random{seed};
@@ -57,11 +56,21 @@ TEST_P(ShapeOfEveryRobot, IsOneUnbrokenLineThroughTheFramesOfAllJoints) {
     };
     for (int i = 0; i < model.joint_count(); ++i) {
       const bool d_first = model.convention() == Convention::standard;
-      follow(3 * i + (d_first ? 0 : 1));
-      follow(3 * i + (d_first ? 1 : 0));
+      follow(4 * i + 3);
+      follow(4 * i + (d_first ? 0 : 1));
+      follow(4 * i + (d_first ? 1 : 0));
       EXPECT_LT((base_T_joint[static_cast<std::size_t>(i)].translation() - at).norm(), kExact);
     }
   }
+}
+
+TEST_P(ShapeOfEveryRobot, IsOneUnbrokenLineThroughTheFramesOfAllJoints) {
+  expect_unbroken(robot());
+}
+
+TEST(RobotShape, IsUnbrokenWherePlacementsStandInFrontOfRows) {
+  for (const Convention convention : {Convention::standard, Convention::modified})
+    expect_unbroken(testing::placed_robot(convention, 4));
 }
 
 TEST_P(ShapeOfEveryRobot, HasEveryJointsBodyOnItsAxis) {
@@ -73,8 +82,8 @@ TEST_P(ShapeOfEveryRobot, HasEveryJointsBodyOnItsAxis) {
     const int joint = model.independent_joint(i);
     JointVector moved = q;
     moved[i] += 0.1;
-    const Segment before = placed(model, q).at(3 * joint + 2);
-    const Segment after = placed(model, moved).at(3 * joint + 2);
+    const Segment before = placed(model, q).at(4 * joint + 2);
+    const Segment after = placed(model, moved).at(4 * joint + 2);
     EXPECT_LT((before.from - after.from).norm(), kExact);
     EXPECT_LT((before.to - after.to).norm(), kExact);
     EXPECT_NEAR((before.to - before.from).norm(), 1, kExact);

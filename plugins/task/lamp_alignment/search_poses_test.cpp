@@ -6,10 +6,10 @@
 namespace armature {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kDeg = std::numbers::pi / 180;
 
 SearchSettings nine() {
-  return {.yaw = {40 * kDegree, 0, -40 * kDegree}, .pitch = {26 * kDegree, 0, -26 * kDegree}};
+  return {.yaw = {40 * kDeg, 0, -40 * kDeg}, .pitch = {26 * kDeg, 0, -26 * kDeg}};
 }
 
 Eigen::Vector3d direction(const ToolPose& pose) {
@@ -28,17 +28,17 @@ TEST(SearchPoses, AreNineAndTurnAboutJoint6) {
 
 TEST(SearchPoses, StartWithTheMiddleRowAndTheFirstHeading) {
   const auto poses = search_poses(nine());
-  EXPECT_NEAR(direction(poses[0]).y(), std::sin(40 * kDegree), 1e-12);
+  EXPECT_NEAR(direction(poses[0]).y(), std::sin(40 * kDeg), 1e-12);
   EXPECT_NEAR((direction(poses[1]) - Eigen::Vector3d::UnitX()).norm(), 0, 1e-12);
-  EXPECT_NEAR(direction(poses[3]).z(), std::sin(26 * kDegree), 1e-12);
-  EXPECT_NEAR(direction(poses[6]).z(), std::sin(-26 * kDegree), 1e-12);
+  EXPECT_NEAR(direction(poses[3]).z(), std::sin(26 * kDeg), 1e-12);
+  EXPECT_NEAR(direction(poses[6]).z(), std::sin(-26 * kDeg), 1e-12);
 }
 
 TEST(SearchPoses, NeighboursInTheListDifferInOneAngleOrOneRow) {
   const auto poses = search_poses(nine());
   for (std::size_t i = 1; i < poses.size(); ++i) {
     const double turn = std::acos(direction(poses[i]).dot(direction(poses[i - 1])));
-    EXPECT_LT(turn, 53 * kDegree) << "between " << i - 1 << " and " << i;
+    EXPECT_LT(turn, 53 * kDeg) << "between " << i - 1 << " and " << i;
   }
 }
 

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "process.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "armature/robot/kinematics.hpp"
+#include "armature/runtime/plugin.hpp"
+#include "lasting_text.hpp"
+
+namespace armature {
+namespace {
+
+using Code = IkStatus::Code;
+using process::Command;
+using process::Program;
+
+/// The goal that the robot's resting position reaches.
+IkGoal resting_goal(const RobotModel& model, const JointVector& q) {
+  const Eigen::Isometry3d base_T_tool = forward_kinematics(model, q);
+  IkGoal goal;
+  goal.pose.position = base_T_tool.translation();
+  if (model.pointing_axis()) {
+    goal.pose.orientation = Direction{(base_T_tool.linear() * *model.pointing_axis()).normalized()};
+  } else {
+    goal.pose.orientation = Eigen::Quaterniond{base_T_tool.linear()}.normalized();
+  }
+  return goal;
+}
+
+bool misses(const PoseResidual& residual, const IkGoal& goal) {
+  constexpr double kRounding = 1e-12;  // [m], [rad]
+  return !(residual.position_m <= goal.tolerance.position_m + kRounding &&
+           residual.angle_rad <= goal.tolerance.angle_rad + kRounding);
+}
+
+}  // namespace
+
+Expected<std::unique_ptr<IkSolver>> Process::make(const RobotModel& model, const Params& params) {
+  auto command = process::find_command(params.texts("command"), params.file("folder"));
+  if (!command) return tl::unexpected{command.error()};
+  const Rules rules{.timeout_s = params.number("timeout_s"),
+                    .start_timeout_s = params.number("start_timeout_s"),
+                    .max_restarts = params.integer("max_restarts"),
+                    .redundancy_is_length = params.text("redundancy") == "length"};
+  std::unique_ptr<Process> made{new Process{model, std::move(*command), rules}};
+  const JointVector resting = resting_position(model);
+  const auto told = made->ask_once(resting_goal(model, resting), resting);
+  if (!told) return tl::unexpected{told.error()};
+  if (told->code == Code::invalid_input) {
+    return refuse(
+        fmt::format("the program '{}' does not accept the robot's resting position as a goal: {}",
+                    made->command_.text(), told->detail));
+  }
+  return made;
+}
+
+IkStatus Process::solve(const IkGoal& goal, const JointVector& seed, IkBranches& out,
+                        IkState&) const {
+  out.clear();
+  if (const char* why = invalid_input(*model_, goal, seed)) return {Code::invalid_input, 0, why};
+  const std::lock_guard one_at_a_time{mutex_};
+  const auto told = ask(goal, seed);
+  if (!told) return {Code::no_convergence, 0, process::lasting_detail(told.error().text)};
+  return believed(goal, *told, out);
+}
+
+/// Asks, and keeps the book of what went wrong.
+Expected<ToldAnswer> Process::ask(const IkGoal& goal, const JointVector& seed) const {
+  if (failures_ > rules_.max_restarts) return refuse(last_failure_);
+  auto told = ask_once(goal, seed);
+  if (told) {
+    failures_ = 0;
+    return told;
+  }
+  program_.reset();
+  ++failures_;
+  last_failure_ = told.error().text + "; " + what_comes_next();
+  return refuse(last_failure_);
+}
+
+std::string Process::what_comes_next() const {
+  const auto restarts = rules_.max_restarts;
+  if (failures_ <= restarts) {
+    return fmt::format("it is started again for the next goal, {} of {} times in a row", failures_,
+                       restarts);
+  }
+  if (restarts == 0) return "it is not started again, since max_restarts is 0";
+  return fmt::format("{} restarts in a row did not help, and it is left alone", restarts);
+}
+
+Expected<ToldAnswer> Process::ask_once(const IkGoal& goal, const JointVector& seed) const {
+  const auto failed = [&](const std::string& what) {
+    if (program_) program_->kill();
+    return refuse(fmt::format("the program '{}' {}", command_.text(), what));
+  };
+  if (!program_) {
+    auto started = Program::start(command_);
+    if (!started) return failed(started.error().text);
+    program_ = std::move(*started);
+    has_answered_ = false;
+  }
+  const IkQuestion question{.goal = goal,
+                            .seed = seed,
+                            .redundancy_is_length = rules_.redundancy_is_length,
+                            .id = ++questions_};
+  const double patience_s = has_answered_ ? rules_.timeout_s : rules_.start_timeout_s;
+  const auto line = program_->ask(question_line(*model_, question), patience_s);
+  if (!line) return failed(line.error().text);
+  auto told = read_answer(*model_, question, *line);
+  if (!told) return failed("answers " + told.error().text);
+  has_answered_ = true;
+  return told;
+}
+
+/// What was told and stands up to forward kinematics; the program's word for nothing else.
+IkStatus Process::believed(const IkGoal& goal, const ToldAnswer& told, IkBranches& out) const {
+  bool inside = false;
+  for (std::size_t i = 0; i < told.solutions.size(); ++i) {
+    const ToldSolution& solution = told.solutions[i];
+    const auto label = process::lasting_label(solution.label);
+    IkBranch branch =
+        branch_at(*model_, goal, solution.q, label && !label->empty() ? *label : "solution");
+    branch.redundancy = solution.redundancy;
+    std::string wrong;
+    if (!label) wrong = "has a label that is too long, or the 257th: a label names a branch";
+    if (misses(branch.residual, goal)) {
+      wrong = fmt::format("misses the goal by {:.3g} m and {:.3g} rad", branch.residual.position_m,
+                          branch.residual.angle_rad);
+    }
+    if (!wrong.empty()) {
+      out.clear();
+      return refused(fmt::format("answers with solution {} of {}, which {}", i + 1,
+                                 told.solutions.size(), wrong));
+    }
+    inside = inside || branch.within_limits;
+    out.add() = branch;
+  }
+  if (inside) return {};
+  if (out.count > 0) {
+    const bool told_so = told.code == Code::joint_limit && !told.detail.empty();
+    return {Code::joint_limit, 0,
+            told_so ? process::lasting_detail(told.detail)
+                    : "every solution of the program leaves the joint limits"};
+  }
+  if (told.code == Code::ok) return refused("says 'ok' and tells no solution");
+  return {told.code, told.shortfall, process::lasting_detail(told.detail)};
+}
+
+IkStatus Process::refused(const std::string& what) const {
+  const std::string text = fmt::format("the program '{}' {}", command_.text(), what);
+  return {Code::no_convergence, 0, process::lasting_detail(text)};
+}
+
+}  // namespace armature
+
+ARMATURE_PLUGIN(armature::Process);

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "armature/kinds/ik/ik.hpp"
+#include "armature/kinds/ik/lines/asking.hpp"
+#include "program.hpp"
+
+namespace armature {
+
+/// A solver in a program of its own, asked in the JSON lines of `armature ik`. What it answers is
+/// worked out again by forward kinematics; a program that is dead, slow or makes no sense is ended,
+/// and that is the reason why there is no solution.
+///
+/// Not real-time safe: `solve` waits for the program, one thread after the other. A detail of a
+/// status stays until the same thread asks again.
+class Process final : public IkSolver {
+ public:
+  /// Starts the program and asks it once, for the robot's resting position: refuses one that is not
+  /// there, does not answer, or does not take that for a goal.
+  static Expected<std::unique_ptr<IkSolver>> make(const RobotModel& model, const Params& params);
+
+  IkStatus solve(const IkGoal& goal, const JointVector& seed, IkBranches& out,
+                 IkState& state) const override;
+  bool redundancy_is_length() const override { return rules_.redundancy_is_length; }
+
+ private:
+  struct Rules {
+    double timeout_s, start_timeout_s;
+    std::int64_t max_restarts;
+    bool redundancy_is_length;
+  };
+  Process(const RobotModel& model, process::Command command, const Rules& rules)
+      : model_{&model}, command_{std::move(command)}, rules_{rules} {}
+
+  Expected<ToldAnswer> ask(const IkGoal& goal, const JointVector& seed) const;
+  Expected<ToldAnswer> ask_once(const IkGoal& goal, const JointVector& seed) const;
+  std::string what_comes_next() const;
+  IkStatus believed(const IkGoal& goal, const ToldAnswer& told, IkBranches& out) const;
+  IkStatus refused(const std::string& what) const;
+
+  const RobotModel* model_;
+  process::Command command_;
+  Rules rules_;
+
+  // One question at a time.
+  mutable std::mutex mutex_;
+  mutable std::unique_ptr<process::Program> program_;  // none: to be started
+  mutable bool has_answered_ = false;                  // since it was started
+  mutable std::int64_t questions_ = 0;
+  mutable std::int64_t failures_ = 0;  // in a row
+  mutable std::string last_failure_;   // and what comes next
+};
+
+}  // namespace armature

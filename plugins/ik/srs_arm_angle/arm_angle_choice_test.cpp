@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is chosen is at least as good as anything on a dense scan, by costs worked out from joints
+// and Jacobians.
+#include "arm_angle_choice.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "armature/robot/kinematics.hpp"
+#include "test_arms.hpp"
+
+namespace armature {
+namespace {
+
+struct Subject {
+  std::string objective;
+  std::string name;
+  ModelPtr model;
+  friend void PrintTo(const Subject& subject, std::ostream* out) {
+    *out << subject.objective << "_" << subject.name;
+  }
+};
+
+class ArmAngleChoices : public testing::TestWithParam<Subject> {
+ protected:
+  const RobotModel& model() const { return *GetParam().model; }
+
+  double limit_cost(const JointVector& q) const {
+    double sum = 0;
+    for (int i = 0; i < 7; ++i) {
+      const double half = 0.5 * (model().upper()[i] - model().lower()[i]);
+      const double middle = 0.5 * (model().upper()[i] + model().lower()[i]);
+      if (half >= M_PI) continue;
+      const double u = wrap_angle(q[i] - middle) / half;
+      sum += u * u / std::max(1 - u * u, 1e-9);
+    }
+    return sum;
+  }
+  double cost(const JointVector& q, double arm_angle, double wanted) const {
+    const std::string& objective = GetParam().objective;
+    const double from_wanted = wrap_angle(arm_angle - wanted);
+    const double from_last = last_ ? from_wanted : 0;
+    if (objective == "limits") return limit_cost(q);
+    if (objective == "singularity") return -std::pow(manipulability(model(), q), 2);
+    if (objective == "continuity") return std::abs(from_wanted);
+    const double s = std::sin(arm_.canonical(1, q[1])), z = std::sin(arm_.canonical(5, q[5]));
+    return limit_cost(q) + 0.02 * (1 / (s * s + 1e-3) + 1 / (z * z + 1e-3)) +
+           0.1 * from_last * from_last;
+  }
+  const IkBranch& branch_at(double arm_angle, std::string_view label) {
+    goal_.redundancy = arm_angle;
+    IkState state;
+    solver_->solve(goal_, seed_, scanned_, state);
+    return *std::ranges::find(scanned_, label, &IkBranch::label);
+  }
+  /// No better place, by more than rounding, on a scan of the branch's intervals; nor next to it.
+  void expect_best(const IkBranch& chosen, double wanted, int samples) {
+    const double least = cost(chosen.q, chosen.redundancy, wanted);
+    const double slack = 1e-10 * (1 + std::abs(least));
+    bool is_inside = false;
+    for (const RedundancyInterval& interval : intervals_) {
+      if (interval.label != chosen.label) continue;
+      is_inside = is_inside || (chosen.redundancy >= interval.lower - 1e-9 &&
+                                chosen.redundancy <= interval.upper + 1e-9);
+      const double width = interval.upper - interval.lower;
+      const int steps = 2 + static_cast<int>(samples * width / (2 * M_PI));
+      for (int i = 0; i <= steps; ++i) {
+        expect_not_better(interval.lower + width * i / steps, chosen, wanted, least - slack);
+      }
+      for (const double by : {1e-3, -1e-3, 1e-5, -1e-5}) {
+        const double at = chosen.redundancy + by;
+        if (at > interval.lower && at < interval.upper) {
+          expect_not_better(at, chosen, wanted, least - slack);
+        }
+      }
+    }
+    EXPECT_TRUE(is_inside) << chosen.label << " at " << chosen.redundancy;
+  }
+  void expect_not_better(double at, const IkBranch& chosen, double wanted, double least) {
+    const IkBranch& other = branch_at(at, chosen.label);
+    if (!other.within_limits) return;
+    EXPECT_GE(cost(other.q, at, wanted), least)
+        << chosen.label << " at " << at << ", " << other.q.transpose() << " instead of "
+        << chosen.redundancy << ", " << chosen.q.transpose();
+  }
+
+  SrsArm arm_ = srs_arm(model()).value();
+  std::shared_ptr<const IkSolver> solver_ = solver_for(model(), GetParam().objective);
+  std::mt19937_64 random_{909};
+  IkGoal goal_;
+  JointVector seed_;
+  std::optional<double> last_;  // arm angle that is remembered
+  IkBranches scanned_;
+  RedundancyIntervals intervals_;
+};
+
+TEST_P(ArmAngleChoices, AreAsGoodAsADenseScan) {
+  SCOPED_TRACE("seed 909");
+  int branches = 0;
+  for (int i = 0; i < 200 && !HasFailure(); ++i) {
+    const JointVector q =
+        i % 3 == 0 ? joints_at_limits(model(), random_) : random_joints(model(), random_);
+    goal_ = goal_at(model(), q);
+    seed_ = random_joints(model(), random_);
+    solver_->feasible_redundancy(goal_, seed_, intervals_);
+    if (i % 2 == 1) last_ = std::uniform_real_distribution{-M_PI, M_PI}(random_);
+    if (i % 2 == 0) last_.reset();
+    IkBranches found;
+    IkState state{last_};
+    EXPECT_EQ(solver_->solve(goal_, seed_, found, state).code, IkStatus::Code::ok);
+    ASSERT_EQ(found.count, 8);
+    for (const IkBranch& branch : found) {
+      const bool feasible = std::ranges::any_of(
+          intervals_, [&](const auto& interval) { return interval.label == branch.label; });
+      EXPECT_EQ(branch.within_limits, feasible) << branch.label << ", " << q.transpose();
+      if (!feasible) continue;
+      expect_best(branch, last_ ? *last_ : *solver_->redundancy_of(seed_), 360);
+      ++branches;
+    }
+  }
+  EXPECT_GT(branches, 200);
+}
+
+std::vector<Subject> subjects() {
+  std::vector<Subject> list;
+  for (const char* objective : {"limits", "singularity", "continuity", "balanced"}) {
+    list.push_back({objective, "med7", med7()});
+    list.push_back({objective, "uneven_arm", uneven_arm()});
+    list.push_back({objective, "narrow_arm", narrow_arm()});
+  }
+  return list;
+}
+INSTANTIATE_TEST_SUITE_P(Srs, ArmAngleChoices, testing::ValuesIn(subjects()),
+                         testing::PrintToStringParamName());
+
+TEST(ArmAngleChoice, SlopesAreThoseOfTheCosts) {
+  SCOPED_TRACE("seed 910");
+  std::mt19937_64 random{910};
+  const SrsArm arm = srs_arm(*uneven_arm()).value();
+  std::uniform_real_distribution<double> angle{-M_PI, M_PI};
+  int checked = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const JointVector q = random_joints(*uneven_arm(), random);
+    const SrsGoal goal = srs_goal(arm, goal_at(*uneven_arm(), q), q);
+    const ArmCircle circle = arm_circle(goal, i % 2);
+    const double at = angle(random);
+    constexpr double kStep = 1e-6;
+    for (const Objective objective :
+         {Objective::limits, Objective::singularity, Objective::balanced}) {
+      const auto cost = [&](double arm_angle) {
+        return cost_of(arm, circle, objective, arm_angle);
+      };
+      if (std::min(cost(at).shoulder.sine2.value, cost(at).wrist.sine2.value) < 0.01) continue;
+      const Flips flips{random() % 2, random() % 2};
+      const Level here = cost(at).of(objective, flips, 0.3);
+      const Level next = cost(at + kStep).of(objective, flips, 0.3 + kStep);
+      const Level last = cost(at - kStep).of(objective, flips, 0.3 - kStep);
+      if (!(here.value < 20)) continue;  // beyond the limits
+      const double slope = (next.value - last.value) / (2 * kStep);
+      EXPECT_NEAR(here.slope, slope, 1e-4 * (1 + std::abs(slope)));
+      ++checked;
+    }
+  }
+  EXPECT_GT(checked, 1000);
+}
+
+TEST(ArmAngleChoice, TheLastArmAngleIsKeptBeforeTheSeeds) {
+  const auto solver = solver_for(*med7(), "continuity");
+  JointVector q(7), seed(7);
+  q << 0.1, 0.5, 0.2, 1, -0.3, -0.8, 0.4;
+  seed = *med7()->home();
+  const IkGoal goal = goal_at(*med7(), q);
+  IkBranches found;
+  IkState fresh, told{.last_redundancy = 0.25};
+  solver->solve(goal, seed, found, fresh);
+  EXPECT_NEAR(found.branch[1].redundancy, *solver->redundancy_of(seed), 1e-15);
+  solver->solve(goal, seed, found, told);
+  EXPECT_EQ(found.branch[1].redundancy, 0.25);
+}
+
+TEST(ArmAngleChoice, OfAnArmWithoutLimitsStaysWhereItWas) {
+  const ModelPtr model = without_limits(*med7());
+  const auto solver = solver_for(*model, "limits");
+  JointVector q(7);
+  q << 0.1, 0.5, 0.2, 1, -0.3, -0.8, 0.4;
+  IkBranches found;
+  IkState state;
+  solver->solve(goal_at(*model, q), q, found, state);
+  for (const IkBranch& branch : found) {
+    EXPECT_EQ(branch.redundancy, *solver->redundancy_of(q));
+  }
+  EXPECT_LE(joint_distance(found.branch[1].q, q), 1e-14);
+}
+
+}  // namespace
+}  // namespace armature

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+
+#include "armature/kinds/ik/ik.hpp"
+#include "feasible_angles.hpp"
+#include "srs_joints.hpp"
+
+namespace armature {
+
+/// All that the arms of one elbow have at one arm angle.
+struct SolvedElbow {
+  double arm_angle = 0;
+  std::array<BallTurns, 2> shoulder, wrist;  // as found and flipped
+  double t4 = 0;
+  bool t4_within_limits = false;
+  PoseResidual residual;
+  bool singular = false;
+};
+SolvedElbow solve_elbow(const SrsArm& arm, const SrsGoal& goal, const ArmCircle& circle,
+                        double arm_angle);
+
+/// One branch of it.
+IkBranch branch_of(const SrsArm& arm, const SolvedElbow& solved, const Flips& flips,
+                   std::string_view label);
+
+}  // namespace armature

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "srs_goal.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace armature {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+// Relative to the arm's length: a gap to the rim of reach below kOnRim is rounding, a wrist nearer
+// to the shoulder or to the axis of joint 1 than kOnAxis is there.
+constexpr double kOnRim = 2e-15, kOnAxis = 1e-13;
+// A wrist out of reach by less than this part of the arm is on the rim of reach, and axes nearer to
+// in line than this [rad] are in line; but never by more than the goal tolerates.
+constexpr double kSlack = 1e-11, kInLine = 1e-10, kRounding = 1e-14;
+
+/// Azimuth and polar angle of a direction; no azimuth on the axis.
+struct Spherical {
+  SinCos azimuth, polar;
+};
+Spherical spherical(const Vector3d& v, double on_axis) {
+  const double radius = std::hypot(v.x(), v.y()), length = std::hypot(radius, v.z());
+  if (radius <= on_axis) return {{}, {0, v.z() < 0 ? -1.0 : 1.0}};
+  return {{v.y() / radius, v.x() / radius}, {radius / length, v.z() / length}};
+}
+
+Matrix3d frame_of(const SinCos& azimuth, const SinCos& polar) {
+  Matrix3d F;
+  F << azimuth.cos * polar.cos, -azimuth.sin, azimuth.cos * polar.sin,  //
+      azimuth.sin * polar.cos, azimuth.cos, azimuth.sin * polar.sin,    //
+      -polar.sin, 0, polar.cos;
+  return F;
+}
+
+/// The upper arm: Rz(t1) Ry(t2) Rz(t3).
+Matrix3d upper_rotation(const std::array<double, 7>& t) {
+  const SinCos t1 = SinCos::of(t[0]), t2 = SinCos::of(t[1]), t3 = SinCos::of(t[2]);
+  Matrix3d turn;
+  turn << t3.cos, -t3.sin, 0, t3.sin, t3.cos, 0, 0, 0, 1;
+  return frame_of(t1, t2) * turn;
+}
+
+/// Shoulder to wrist, seen from the upper arm.
+Vector3d wrist_in_upper(const SrsArm& arm, const SinCos& t4) {
+  return {-arm.fore * t4.sin, 0, arm.upper + arm.fore * t4.cos};
+}
+
+/// The direction of that: phi is its angle to the upper arm. Where the forearm folds back onto the
+/// shoulder, what it comes to.
+SinCos direction_in_upper(const SrsArm& arm, const SinCos& t4) {
+  const Vector3d v = wrist_in_upper(arm, t4);
+  const double length = v.norm();
+  if (length < kOnAxis * arm.reach()) return {t4.sin < 0 ? 1.0 : -1.0, 0};
+  return {v.x() / length, v.z() / length};
+}
+
+/// Shoulder to wrist at the joints `t`; of a wrist on the shoulder, a unit vector of where it came
+/// from.
+Vector3d wrist_or_direction(const SrsArm& arm, const std::array<double, 7>& t) {
+  const SinCos t4 = SinCos::of(t[3]);
+  const Matrix3d upper = upper_rotation(t);
+  const Vector3d wrist = upper * wrist_in_upper(arm, t4);
+  if (wrist.norm() >= kOnAxis * arm.reach()) return wrist;
+  const SinCos phi = direction_in_upper(arm, t4);
+  return upper * Vector3d{phi.sin, 0, phi.cos};
+}
+
+void set_reach(const SrsArm& arm, const IkGoal::Tolerance& tolerance, SrsGoal& goal) {
+  const double far = arm.reach(), near = std::abs(arm.upper - arm.fore), rho = goal.distance;
+  const double slack = std::clamp(tolerance.position_m, kRounding * far, kSlack * far);
+  const auto too = [&](double by, std::string_view detail) {
+    if (by > slack) goal.shortfall = by, goal.detail = detail;
+  };
+  too(rho - far, "the arm is stretched");
+  too(near - rho, "the arm is folded");
+}
+
+/// The elbow from half angles, whose squares are factored so that nothing cancels.
+void set_elbow(const SrsArm& arm, SrsGoal& goal) {
+  const double far = arm.reach(), near = std::abs(arm.upper - arm.fore), rho = goal.distance;
+  const double outside = far - rho, inside = rho - near;
+  const double up2 = outside < kOnRim * far ? 0 : outside * (far + rho);
+  const double flat2 = inside < kOnRim * far ? 0 : inside * (rho + near);
+  const double up = std::sqrt(up2), flat = std::sqrt(flat2), scale = 1 / (up2 + flat2);
+  goal.t4 = 2 * std::atan2(up, flat);
+  goal.elbow = {2 * up * flat * scale, (flat2 - up2) * scale};
+  goal.phi = direction_in_upper(arm, goal.elbow);
+}
+
+/// The line to the wrist and the hand seen from it.
+void set_frame(const SrsArm& arm, const Vector3d& along, SrsGoal& goal) {
+  const Spherical line = spherical(along, kOnAxis * arm.reach());
+  goal.azimuth = line.azimuth;
+  goal.polar = line.polar;
+  const Matrix3d hand = frame_of(line.azimuth, line.polar).transpose() * goal.rotation;
+  const Spherical axis = spherical(hand.col(2), 0);
+  goal.alpha = axis.azimuth;
+  goal.gamma = axis.polar;
+  goal.beta = {axis.azimuth.cos * hand(1, 0) - axis.azimuth.sin * hand(0, 0),
+               axis.azimuth.cos * hand(1, 1) - axis.azimuth.sin * hand(0, 1)};
+  goal.azimuth_rad = goal.azimuth.angle();
+  goal.alpha_rad = goal.alpha.angle();
+  goal.beta_rad = goal.beta.angle();
+}
+
+}  // namespace
+
+double nearest_within_limits(const SrsArm& arm, std::size_t i, double t) {
+  const double offset = wrap_angle(t - arm.middle[i]);
+  return wrap_angle(arm.middle[i] + std::clamp(offset, -arm.half[i], arm.half[i]));
+}
+
+double arm_angle_of(const SrsArm& arm, const std::array<double, 7>& t) {
+  const Vector3d along = wrist_or_direction(arm, t);
+  const Spherical line = spherical(along, kOnAxis * arm.reach());
+  const SinCos phi = direction_in_upper(arm, SinCos::of(t[3]));
+  const Matrix3d F = frame_of(line.azimuth, line.polar);
+  const Matrix3d turned = F.transpose() * upper_rotation(t);  // Rz(psi) Ry(-phi)
+  const Vector3d x = phi.cos * turned.col(0) - phi.sin * turned.col(2);
+  return wrap_angle(std::atan2(x.y() - turned(0, 1), x.x() + turned(1, 1)));
+}
+
+SrsGoal srs_goal(const SrsArm& arm, const IkGoal& goal, const JointVector& seed) {
+  const Matrix3d shoulder_R_base = arm.base_T_shoulder.linear().transpose();
+  const auto& rotation = std::get<Eigen::Quaterniond>(goal.pose.orientation);
+  SrsGoal own;
+  own.rotation = shoulder_R_base * rotation.normalized().toRotationMatrix() *
+                 arm.wrist_T_tool.linear().transpose();
+  own.lever = own.rotation * arm.wrist_T_tool.translation();
+  own.wrist =
+      shoulder_R_base * (goal.pose.position - arm.base_T_shoulder.translation()) - own.lever;
+  own.distance = own.wrist.norm();
+  set_reach(arm, goal.tolerance, own);
+  if (own.shortfall > 0) return own;
+  set_elbow(arm, own);
+  std::array<double, 7> t;
+  for (std::size_t i = 0; i < 7; ++i) t[i] = arm.canonical(i, seed.data()[i]);
+  const bool on_shoulder = own.distance < kOnAxis * arm.reach();
+  set_frame(arm, on_shoulder ? wrist_or_direction(arm, t) : own.wrist, own);
+  own.in_line = std::clamp(goal.tolerance.angle_rad, kRounding, kInLine);
+  own.kept1 = nearest_within_limits(arm, 0, t[0]);
+  own.kept5 = nearest_within_limits(arm, 4, t[4]);
+  return own;
+}
+
+}  // namespace armature

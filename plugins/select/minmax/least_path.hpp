@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "moves.hpp"
+
+namespace armature::minmax {
+
+/// The branches of every waypoint that can stand, in the solver's order.
+using Waypoints = std::vector<std::vector<const IkBranch*>>;
+
+/// How the times of a path's moves become one figure.
+enum class Measure {
+  greatest,  // of the moves that count
+  sum,       // of all
+};
+
+/// What two paths may differ by and still be equal [s]: rounding must not choose between them.
+inline constexpr double kEqual_s = 1e-9;
+
+/// A branch of a waypoint at one of the turns that moves lead to, and the least that the moves up
+/// to there come to.
+struct Place {
+  Origin at;
+  double so_far = 0;
+};
+
+/// The places of every waypoint that a least path may pass; the start is the first and only one of
+/// layer 0.
+struct Layers {
+  std::vector<std::vector<Place>> of;  // one more than waypoints; fewer when one is not reached
+
+  bool complete(const Waypoints& waypoints) const { return of.size() == waypoints.size() + 1; }
+  /// The least of the measure over all paths [s]. Complete layers only.
+  double least() const;
+};
+
+/// Dynamic programming over branches x turns x waypoints, exact: O(waypoints * branches^2) where no
+/// limit forces a joint the far way round, times the turns that the limits leave otherwise.
+///
+/// What lies behind a place is bounded from below as if every joint could always turn the near way,
+/// which needs no turns (backward, branches only); what the bound and one path that there is rule
+/// out is left out of the search over turns (forward).
+class LeastPath {
+ public:
+  /// All outlive the search. A move that counts and takes longer than `most_s` is not made.
+  LeastPath(const Moves& moves, const Waypoints& waypoints, Measure measure,
+            double most_s = std::numeric_limits<double>::infinity())
+      : moves_{&moves}, waypoints_{&waypoints}, measure_{measure}, most_s_{most_s} {}
+
+  /// Without places where no path goes on: ends before the waypoint that none reaches.
+  Layers from(const JointVector& start) const;
+
+  /// One position for each waypoint: of the paths that are equal to the least one the first in the
+  /// solver's order, the last waypoint deciding first. `layers` are complete and of this search.
+  std::vector<JointVector> first_of(const Layers& layers) const;
+
+ private:
+  using Bounds = std::vector<std::vector<double>>;
+  Bounds bounds() const;
+  double some_path(const JointVector& start, const Bounds& ahead) const;
+  std::vector<Place> next(const std::vector<Place>& places, std::size_t waypoint,
+                          const Bounds& ahead, double bound) const;
+
+  double joined(double so_far, double time_s, bool counts) const;
+  bool allowed(double time_s, bool counts) const { return !counts || time_s <= most_s_; }
+
+  const Moves* moves_;
+  const Waypoints* waypoints_;
+  Measure measure_;
+  double most_s_;
+};
+
+}  // namespace armature::minmax

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "moves.hpp"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace armature::minmax {
+
+bool Moves::can_stand(const IkBranch& branch) const {
+  JointVector q = branch.q;
+  return unwind(*model_, branch.q, q);
+}
+
+std::optional<Move> Moves::between(const Origin& from, const IkBranch& branch) const {
+  if (from.branch && !same_branch(*from.branch, branch)) return std::nullopt;
+  Move move;
+  move.q = branch.q;
+  unwind(*model_, from.q, move.q);
+  const JointVector way = move.q - from.q;
+  move.time_s = time_of(way);
+  move.counts = from.branch || rules_.first_move_counts;
+  if (move.counts && jumps(way)) return std::nullopt;
+  return move;
+}
+
+double Moves::least_time(const IkBranch& from, const IkBranch& branch) const {
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  if (!same_branch(from, branch)) return kNever;
+  JointVector way = branch.q - from.q;
+  for (int i = 0; i < way.size(); ++i) {
+    if (turns_freely(*model_, i)) way[i] = std::remainder(way[i], 2 * std::numbers::pi);
+  }
+  return jumps(way) ? kNever : time_of(way);
+}
+
+bool Moves::jumps(const JointVector& way) const {
+  constexpr double kRounding = 1e-9;
+  if (rules_.jump_limit == 0) return false;
+  for (int i = 0; i < way.size(); ++i) {
+    if (model_->is_revolute(i) && std::abs(way[i]) > rules_.jump_limit + kRounding) return true;
+  }
+  return false;
+}
+
+double Moves::time_of(const JointVector& way) const {
+  return way.cwiseAbs().cwiseQuotient(model_->max_velocity()).maxCoeff();
+}
+
+}  // namespace armature::minmax

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "armature/kinds/ik/ik.hpp"
+
+namespace armature::minmax {
+
+/// Which moves a path may be made of.
+struct Rules {
+  bool first_move_counts = true;
+  bool one_branch = false;
+  double jump_limit = 0;  // [rad] 0: none
+};
+
+/// From the start, or from a branch of the waypoint before.
+struct Origin {
+  JointVector q;
+  const IkBranch* branch = nullptr;  // none: the start
+};
+
+/// A move to a branch of the next waypoint.
+struct Move {
+  JointVector q;       // where it ends: the branch, whole turns added
+  double time_s = 0;   // of the slowest joint at its highest velocity
+  bool counts = true;  // false: the first one, where that is free
+};
+
+/// What moves there are and how long they take.
+class Moves {
+ public:
+  Moves(const RobotModel& model, const Rules& rules) : model_{&model}, rules_{rules} {}
+
+  /// True when `branch` keeps the limits at some turn.
+  bool can_stand(const IkBranch& branch) const;
+  /// The move from `from` to `branch`, turning the near way where limits allow it and the far way
+  /// where they do not; none when the rules forbid it. The branch can stand.
+  std::optional<Move> between(const Origin& from, const IkBranch& branch) const;
+  /// A bound from below of what `between` says for any turns of `from`: the near way always [s];
+  /// infinite where no turn makes the move allowed.
+  double least_time(const IkBranch& from, const IkBranch& branch) const;
+
+ private:
+  bool same_branch(const IkBranch& a, const IkBranch& b) const {
+    return !rules_.one_branch || a.label == b.label;
+  }
+  bool jumps(const JointVector& way) const;
+  double time_of(const JointVector& way) const;
+
+  const RobotModel* model_;
+  Rules rules_;
+};
+
+}  // namespace armature::minmax

@@ -14,6 +14,8 @@
 #include <stdexcept>
 #include <thread>
 
+#include "armature/values/sanitizer.hpp"
+
 namespace armature::test {
 namespace {
 
@@ -34,6 +36,11 @@ bool runs(pid_t pid) {
   std::ifstream stat{"/proc/" + std::to_string(pid) + "/stat"};
   std::string number, name, state;
   return stat >> number >> name >> state && state != "Z";
+}
+
+/// When `patience` is over; a program with a sanitizer takes several times as long.
+steady_clock::time_point end_of(std::chrono::seconds patience) {
+  return steady_clock::now() + patience * (kSanitized ? 5 : 1);
 }
 
 }  // namespace
@@ -79,7 +86,7 @@ std::string Command::out() const { return read_all(folder_ + "/out"); }
 std::string Command::err() const { return read_all(folder_ + "/err"); }
 
 bool Command::wait_for_err(const std::string& text, std::chrono::seconds patience) const {
-  for (const auto end = steady_clock::now() + patience; steady_clock::now() < end;) {
+  for (const auto end = end_of(patience); steady_clock::now() < end;) {
     if (err().find(text) != std::string::npos) return true;
     std::this_thread::sleep_for(std::chrono::milliseconds{20});
   }
@@ -88,7 +95,7 @@ bool Command::wait_for_err(const std::string& text, std::chrono::seconds patienc
 
 CommandResult Command::finish(std::chrono::seconds patience) {
   CommandResult result;
-  const auto end = steady_clock::now() + patience;
+  const auto end = end_of(patience);
   int status = 0;
   while (waitpid(pid_, &status, WNOHANG) == 0) {
     if (steady_clock::now() > end && !result.timed_out) {
@@ -105,7 +112,7 @@ CommandResult Command::finish(std::chrono::seconds patience) {
 }
 
 bool ends_within(pid_t pid, std::chrono::seconds patience) {
-  for (const auto end = steady_clock::now() + patience; runs(pid);) {
+  for (const auto end = end_of(patience); runs(pid);) {
     if (steady_clock::now() > end) return false;
     std::this_thread::sleep_for(std::chrono::milliseconds{20});
   }

@@ -7,11 +7,19 @@
 
 #include "armature/config/document.hpp"
 #include "armature/config/problems.hpp"
+#include "armature/robot/urdf_robot.hpp"
 #include "exit_code.hpp"
 
 namespace armature {
 
 RobotModel load_arm(const ArmChoice& arm) {
+  if (std::filesystem::path{arm.robot}.extension() == ".urdf") {
+    return load_urdf_robot(arm.robot, {arm.base, {"--base", 0, 0}}, {arm.tip, {"--tip", 0, 0}});
+  }
+  if (!arm.base.empty()) {
+    throw InvalidChoice(fmt::format(
+        "--base names a link of a URDF file; where '{}' stands is written in it", arm.robot));
+  }
   RobotModel robot = load_robot_model(arm.robot);
   if (arm.tip.empty() || arm.tip == robot.frame(robot.tool()).name) return robot;
   const auto tip = robot.find_frame(arm.tip);
@@ -35,13 +43,16 @@ Params params_of(const PluginManifest& plugin, const std::string& given) {
   return params;
 }
 
+std::filesystem::path shipped_robot_folder() {
+  const auto prefix = std::filesystem::canonical("/proc/self/exe").parent_path().parent_path();
+  return prefix / "share" / "armature" / "configs" / "robots";
+}
+
 std::vector<std::filesystem::path> shipped_robots() {
   namespace fs = std::filesystem;
-  const fs::path prefix = fs::canonical("/proc/self/exe").parent_path().parent_path();
   std::vector<fs::path> files;
   std::error_code error;
-  for (const auto& entry :
-       fs::directory_iterator{prefix / "share" / "armature" / "configs" / "robots", error}) {
+  for (const auto& entry : fs::directory_iterator{shipped_robot_folder(), error}) {
     if (entry.path().extension() == ".yaml") files.push_back(entry.path());
   }
   std::ranges::sort(files);

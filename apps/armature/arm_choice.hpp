@@ -13,17 +13,19 @@ namespace armature {
 
 /// The arm that a verb calculates with.
 struct ArmChoice {
-  std::string robot;  // file
-  std::string tip;    // frame that goals are stated for, instead of `tool`; empty: `tool`
+  std::string robot;  // a robot file, or a URDF file (*.urdf)
+  std::string tip;    // frame that goals are stated for, instead of `tool`; of a URDF file a link
+  std::string base;   // link of a URDF file; empty: its root
 };
-/// Throws config::ConfigError, and InvalidChoice when the robot has no such frame.
+/// Throws config::ConfigError, and InvalidChoice when the robot has no such frame or base.
 RobotModel load_arm(const ArmChoice& arm);
 
 /// The plugin's parameters with those of `given`, a YAML map ("{max_restarts: 3}"), in place of the
 /// defaults. Throws config::ConfigError.
 Params params_of(const PluginManifest& plugin, const std::string& given);
 
-/// The robot files that came with this program, sorted.
+/// Where the robots are that came with this program, and the robot files among them, sorted.
+std::filesystem::path shipped_robot_folder();
 std::vector<std::filesystem::path> shipped_robots();
 
 }  // namespace armature

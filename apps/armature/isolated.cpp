@@ -72,7 +72,7 @@ Isolated isolated(double patience_s, const std::function<std::string()>& work) {
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   if (!in_time) {
-    outcome.fault = fmt::format("not done after {:.0f} s", patience_s);
+    outcome.fault = fmt::format("not done after {:g} s", patience_s);
   } else if (WIFSIGNALED(status)) {
     outcome.fault =
         fmt::format("killed by signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)));

@@ -67,8 +67,10 @@ void add_inspection(CLI::App& app, Action& action) {
 }
 
 void add_arm(CLI::App* verb, ArmChoice& arm) {
-  verb->add_option("--robot", arm.robot, "robot file");
-  verb->add_option("--tip", arm.tip, "frame that goals are stated for, instead of 'tool'");
+  verb->add_option("--robot", arm.robot, "robot file, or URDF file (*.urdf) with --tip");
+  verb->add_option("--tip", arm.tip,
+                   "frame that goals are stated for, instead of 'tool'; of a URDF file a link");
+  verb->add_option("--base", arm.base, "link of a URDF file that is the base (its root)");
 }
 
 void add_verify(CLI::App& plugin, Action& action) {
@@ -81,6 +83,11 @@ void add_verify(CLI::App& plugin, Action& action) {
       ->capture_default_str()
       ->check(CLI::Range(1, 1000000));
   verify->add_option("--seed", options->seed, "of the random numbers")->capture_default_str();
+  verify
+      ->add_option("--patience", options->patience_s,
+                   "seconds that a law may take; a solver that hangs breaks it")
+      ->capture_default_str()
+      ->check(CLI::Range(0.1, 1e6));
   verify->add_flag("--json", options->json, "as JSON");
   verify->callback([options, &action] { action = [options] { return verify_plugin(*options); }; });
 }
@@ -195,7 +202,8 @@ void add_bench(CLI::App& app, Action& action) {
   ik->add_option("--tolerance", options->tolerance, "of a residual, m and rad")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
-  ik->add_option("--baseline", options->baseline, "what the others are compared with (the first)");
+  ik->add_option("--baseline", options->baseline,
+                 "what the others are compared with (ik/kdl if it is among them, else the first)");
   ik->add_option("--out", options->out, "folder for solves.csv, cumulative.svg, summary.json");
   ik->add_flag("--json", options->json, "as JSON");
   ik->callback([options, &action] { action = [options] { return bench_ik(*options); }; });

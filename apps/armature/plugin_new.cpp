@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "arm_choice.hpp"
 #include "exit_code.hpp"
 #include "plugins.hpp"
 
@@ -78,11 +79,12 @@ class @CLASS@ final : public IkSolver {
 ARMATURE_PLUGIN(@CLASS@);
 )";
 
-constexpr std::string_view kTest = R"(// Every law of the kind, on the arm in @NAME@_arm.yaml.
+constexpr std::string_view kTest = R"(// Every law of the kind, on the arm in arm.urdf.
 #include <cstdio>
 
 #include "armature/config/problems.hpp"
 #include "armature/kinds/ik/verify/plugin_subject.hpp"
+#include "armature/robot/urdf_robot.hpp"
 
 using namespace armature;
 
@@ -92,7 +94,8 @@ int main(int, char** argv) {
   if (!plugin) return std::puts(plugins.unknown_text("@ID@").c_str()), 1;
   config::Problems problems;
   const Params params = Params::read(plugin->params, nullptr, plugin->id, problems);
-  const auto arm = std::make_shared<const RobotModel>(load_robot_model("@NAME@_arm.yaml"));
+  const LinkName root, tool{"tool0", {}};
+  const auto arm = std::make_shared<const RobotModel>(load_urdf_robot("arm.urdf", root, tool));
   IkSubject subject = plugin_subject(plugins, *plugin, arm, params).value();
   subject.poses = subject.edge_poses = 200;
   int broken = 0;
@@ -106,30 +109,14 @@ int main(int, char** argv) {
 }
 )";
 
-constexpr std::string_view kArm =
-    R"(# An arm to start with: six joints, lengths like a small table robot's. Put your own here.
-armature_robot: 1
-name: @NAME@_arm
-convention: standard
-joints:
-  - {name: j1, type: revolute, d_m: 0.15, a_m: 0, alpha_deg: 90, limits_deg: [-170, 170], velocity_rad_s: 3, acceleration_rad_s2: 12}
-  - {name: j2, type: revolute, d_m: 0, a_m: 0.3, alpha_deg: 0, limits_deg: [-100, 100], velocity_rad_s: 3, acceleration_rad_s2: 12}
-  - {name: j3, type: revolute, d_m: 0, a_m: 0.05, alpha_deg: 90, limits_deg: [-60, 200], velocity_rad_s: 3, acceleration_rad_s2: 12}
-  - {name: j4, type: revolute, d_m: 0.3, a_m: 0, alpha_deg: -90, limits_deg: [-170, 170], velocity_rad_s: 4, acceleration_rad_s2: 16}
-  - {name: j5, type: revolute, d_m: 0, a_m: 0, alpha_deg: 90, limits_deg: [-120, 120], velocity_rad_s: 4, acceleration_rad_s2: 16}
-  - {name: j6, type: revolute, d_m: 0.08, a_m: 0, alpha_deg: 0, limits_deg: [-170, 170], velocity_rad_s: 4, acceleration_rad_s2: 16}
-frames:
-  tool: {parent: j6}
-)";
-
 constexpr std::string_view kReadme = R"(# @ID@
 
 An inverse kinematics solver for Armature: damped least squares from the seed, dq = J^T (J J^T + lambda e^2 I)^-1 e.
 
     cmake -B build -DCMAKE_BUILD_TYPE=Release && cmake --build build && ctest --test-dir build
     export ARMATURE_PLUGIN_PATH=$PWD/build
-    armature plugin verify @ID@ --robot @NAME@_arm.yaml
-    armature bench ik --robot @NAME@_arm.yaml --plugins @ID@,ik/numeric --poses 10000 --seed 1 --out bench
+    armature plugin verify @ID@ --robot arm.urdf --tip tool0
+    armature bench ik --robot arm.urdf --tip tool0 --plugins @ID@,ik/kdl,ik/numeric --poses 10000 --seed 1 --out bench
     armature run dental_lamp.yaml --set components.motion.ik.plugin=@ID@
 
 | file | what |
@@ -137,7 +124,7 @@ An inverse kinematics solver for Armature: damped least squares from the seed, d
 | `@NAME@.cpp` | the solver, and the line that registers it |
 | `plugin.yaml` | id, kind, parameters, what the plugin promises |
 | `@NAME@_test.cpp` | every law of the kind as a test |
-| `@NAME@_arm.yaml` | an arm to try it with |
+| `arm.urdf` | an arm to try it with: put your own here |
 )";
 
 void replace_all(std::string& text, std::string_view mark, std::string_view value) {
@@ -209,7 +196,7 @@ int new_plugin(const std::string& id, const fs::path& directory) {
   write(directory / "plugin.yaml", fill(kManifest));
   write(directory / (name + ".cpp"), fill(kSource));
   write(directory / (name + "_test.cpp"), fill(kTest));
-  write(directory / (name + "_arm.yaml"), fill(kArm));
+  fs::copy_file(shipped_robot_folder() / "arm.urdf", directory / "arm.urdf");
   write(directory / "README.md", fill(kReadme));
   fmt::print("wrote {}: see {}\n", id, (directory / "README.md").string());
   return kOk;

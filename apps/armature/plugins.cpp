@@ -45,17 +45,12 @@ Json traits_json(const std::vector<Trait>& traits) {
 }
 
 Json manifest_json(const PluginManifest& plugin) {
-  Json json{{"id", plugin.id},
-            {"kind", plugin.kind},
-            {"doc", plugin.doc},
-            {"file", plugin.file.string()},
-            {"abi", plugin.abi}};
+  Json json{{"id", plugin.id},    {"kind", plugin.kind},
+            {"doc", plugin.doc},  {"file", plugin.file.string()},
+            {"abi", plugin.abi},  {"allocates", plugin.allocates},
+            {"pure", plugin.pure}};
   json["params"] = Json::array();
   for (const auto& spec : plugin.params) json["params"].push_back(param_json(spec));
-  json["offers"] = Json::array();
-  for (const auto& offer : plugin.offers) {
-    json["offers"].push_back({{"word", offer.word}, {"when", offer.when}, {"doc", offer.doc}});
-  }
   json["slots"] = Json::object();
   for (const auto& slot : plugin.slots) json["slots"][slot.name] = slot.kind;
   json["needs"] = traits_json(plugin.needs);
@@ -138,15 +133,11 @@ int show_plugin(const std::string& id, bool json) {
     return kOk;
   }
   fmt::print("{} ({})\n  {}\n  {}\n", plugin->id, plugin->kind, plugin->doc, plugin->file.string());
+  if (!plugin->pure) fmt::print("  not pure: only on the system clock\n");
   if (!plugin->params.empty()) fmt::print("params:\n");
   for (const auto& spec : plugin->params) {
     fmt::print("  {:<26} {:<8} {:<12} {}{}\n", spec.name, to_string(spec.type), default_text(spec),
                spec.doc, range_text(spec));
-  }
-  if (!plugin->offers.empty()) fmt::print("offers:\n");
-  for (const auto& [word, when, doc] : plugin->offers) {
-    const std::string condition = when.empty() ? "" : fmt::format(" (while {} is not 0)", when);
-    fmt::print("  {:<26} {}{}\n", word, doc, condition);
   }
   if (!plugin->slots.empty()) fmt::print("slots:\n");
   for (const auto& slot : plugin->slots) {

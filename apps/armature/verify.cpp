@@ -10,9 +10,11 @@
 #include <memory>
 #include <new>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <vector>
 
 #include "allocations.hpp"
+#include "armature/kinds/ik/lines/asking.hpp"
 #include "armature/kinds/ik/verify/plugin_subject.hpp"
 #include "armature/runtime/plugin_registry.hpp"
 #include "exit_code.hpp"
@@ -23,8 +25,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-constexpr double kPatience_s = 300;  // for one law
 
 /// The library or id of the command line.
 struct Choice {
@@ -72,7 +72,8 @@ class LastQuestion {
   void set(const IkGoal& goal, const JointVector& seed) { *question_ = {goal, seed, true}; }
   void forget() { *question_ = {}; }
   std::string line(const RobotModel& model) const {
-    return question_->asked ? question_line(model, question_->goal, question_->seed) : "";
+    if (!question_->asked) return "";
+    return question_line(model, {.goal = question_->goal, .seed = question_->seed, .id = {}});
   }
 
  private:
@@ -137,11 +138,12 @@ class Verification {
     return made ? "" : made.error().text;
   }
   IkSubject subject() {
-    IkSubject made = plugin_subject(plugins_, plugin_, model_, params_).value();
-    made.poses = 2 * options_.poses;
-    made.edge_poses = options_.poses;
-    made.seed = options_.seed;
-    return made;
+    auto made = plugin_subject(plugins_, plugin_, model_, params_);
+    if (!made) throw std::runtime_error("refused this time: " + made.error().text);
+    made->poses = 2 * options_.poses;
+    made->edge_poses = options_.poses;
+    made->seed = options_.seed;
+    return *made;
   }
   IkLawTools tools() {
     return {.allocations = allocation_counter(),
@@ -156,7 +158,7 @@ class Verification {
     using Clock = std::chrono::steady_clock;
     last_.forget();
     const auto start = Clock::now();
-    const Isolated done = isolated(kPatience_s, [&] { return check().dump(); });
+    const Isolated done = isolated(options_.patience_s, [&] { return check().dump(); });
     Json law{{"law", says}};
     law["result"] = "pass";
     law["violations"] = Json::array();
@@ -181,6 +183,7 @@ class Verification {
     std::string command = fmt::format("echo '{}' | {}armature ik --robot '{}'", question,
                                       choice_.environment, arm_.robot);
     if (!arm_.tip.empty()) command += fmt::format(" --tip '{}'", arm_.tip);
+    if (!arm_.base.empty()) command += fmt::format(" --base '{}'", arm_.base);
     if (!options_.params.empty()) command += fmt::format(" --params '{}'", options_.params);
     return command + " --plugin " + choice_.id;
   }
@@ -222,7 +225,8 @@ bool kept(const Json& robot) {
 std::vector<ArmChoice> arms_of(const VerifyOptions& options) {
   if (!options.arm.robot.empty()) return {options.arm};
   std::vector<ArmChoice> arms;
-  for (const fs::path& file : shipped_robots()) arms.push_back({file.string(), options.arm.tip});
+  for (const fs::path& file : shipped_robots())
+    arms.push_back({file.string(), options.arm.tip, options.arm.base});
   return arms;
 }
 

@@ -14,6 +14,7 @@ struct VerifyOptions {
   std::string params;  // YAML map
   int poses = 1000;    // of every set
   std::uint64_t seed = 1;
+  double patience_s = 300;  // for one law
   bool json = false;
 };
 

@@ -61,11 +61,17 @@ void jacobian(benchmark::State& state, const RobotPtr& robot) {
   }
 }
 
-/// From the posture of another goal: a seed anywhere.
-void solve(benchmark::State& state, const IkSubject& subject) {
+/// From the posture of another goal: a seed anywhere. The redundancy is the solver's choice, or
+/// that of the posture that made the goal.
+enum class Redundancy { chosen, given };
+void solve(benchmark::State& state, const IkSubject& subject, Redundancy redundancy) {
   const auto list = postures(*subject.model);
   std::vector<IkGoal> goals;
-  for (const JointVector& q : list) goals.push_back(goal_at(*subject.model, q));
+  for (const JointVector& q : list) {
+    goals.push_back(goal_at(*subject.model, q));
+    if (redundancy == Redundancy::chosen) continue;
+    goals.back().redundancy = subject.solver->redundancy_of(q);
+  }
   IkBranches found;
   for (std::size_t i = 0; auto _ : state) {
     ++i;
@@ -89,7 +95,10 @@ void add_robot(PluginRegistry& plugins, const RobotPtr& robot) {
     auto subject = plugin_subject(plugins, plugin, robot, params);
     if (!subject) continue;  // does not serve it
     add("solve/" + plugin.id + "/" + robot->name(),
-        [made = *subject](benchmark::State& state) { solve(state, made); });
+        [made = *subject](benchmark::State& state) { solve(state, made, Redundancy::chosen); });
+    if (!subject->solver->redundancy_of(resting_position(*robot))) continue;
+    add("solve_at_redundancy/" + plugin.id + "/" + robot->name(),
+        [made = *subject](benchmark::State& state) { solve(state, made, Redundancy::given); });
   }
 }
 

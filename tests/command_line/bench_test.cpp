@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "command.hpp"
+#include "tests/command_line/lamp_robot.hpp"
 
 namespace armature::test {
 namespace {
@@ -14,8 +14,6 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using testing::ContainsRegex;
 using testing::HasSubstr;
-
-const std::string kLamp = source_file("configs/robots/dental_lamp.yaml");
 
 CommandResult bench(const std::vector<std::string>& more) {
   std::vector<std::string> command{armature(), "bench",  "ik", "--robot",       kLamp, "--poses",
@@ -39,6 +37,23 @@ TEST(BenchIk, ChecksEveryAnswerAndComparesWithTheBaseline) {
     EXPECT_GE(row["interval_95"][1], row["times_baseline"]) << row;
   }
   EXPECT_EQ(report["rows"][0]["times_baseline"], 1);
+}
+
+TEST(BenchIk, ComparesWithKdlUnlessTheRobotOrTheUserHasItOtherwise) {
+  const auto baseline = [](const std::string& robot, const std::vector<std::string>& more) {
+    std::vector<std::string> command{armature(), "bench", "ik", "--robot", source_file(robot)};
+    command.insert(command.end(), {"--poses", "20", "--repetitions", "1", "--json", "--plugins",
+                                   "ik/numeric,ik/kdl"});
+    command.insert(command.end(), more.begin(), more.end());
+    const auto result = run_command(command);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return json::parse(result.out)["baseline"];
+  };
+  const std::vector<std::string> tip{"--tip", "tool0"}, numeric{"--baseline", "ik/numeric"};
+  EXPECT_EQ(baseline("configs/robots/arm.urdf", tip), "ik/kdl");
+  EXPECT_EQ(baseline("configs/robots/sr1.yaml", {}), "ik/kdl");
+  EXPECT_EQ(baseline("configs/robots/sr1.yaml", numeric), "ik/numeric");
+  EXPECT_EQ(baseline("configs/robots/dental_lamp.yaml", {}), "ik/numeric");  // coupled joints
 }
 
 TEST(BenchIk, WritesTheSolvesThePlotAndTheSummary) {

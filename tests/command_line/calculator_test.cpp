@@ -2,14 +2,12 @@
 // `armature fk` and `armature ik`: JSON lines in, one answer per line out, whatever comes in.
 #include <nlohmann/json.hpp>
 
-#include "command.hpp"
+#include "tests/command_line/lamp_robot.hpp"
 
 namespace armature::test {
 namespace {
 
 using nlohmann::json;
-
-const std::string kLamp = source_file("configs/robots/dental_lamp.yaml");
 
 std::vector<json> answers(const std::vector<std::string>& arguments, const std::string& input) {
   const CommandResult result = run_command(arguments, {.environment = {}, .input = input});
@@ -113,6 +111,24 @@ TEST(IkCalculator, ANeedlesDepthIsAskedForAndToldInMetres) {
                             {"reason", "'redundancy_rad' is 'redundancy_m' for this solver"}}));
 }
 
+TEST(IkCalculator, TellsWhereARedundantArmKeepsItsLimits) {
+  const auto lines = answers({armature(), "ik", "--robot", source_file("configs/robots/med7.yaml"),
+                              "--plugin", "ik/srs_arm_angle"},
+                             R"({"position_m":[0.4,0.1,0.5],"quaternion_xyzw":[0,1,0,0]})"
+                             "\n");
+  EXPECT_EQ(lines[0]["status"], "ok");
+  ASSERT_EQ(lines[0]["solutions"].size(), 8U);
+  for (const json& solution : lines[0]["solutions"]) {
+    const double chosen = solution["redundancy_rad"];
+    bool inside = false;
+    for (const json& interval : solution["redundancy_intervals_rad"]) {
+      inside = inside || (chosen >= interval[0] && chosen <= interval[1]);
+    }
+    EXPECT_EQ(inside, solution["within_limits"].get<bool>()) << solution;
+  }
+  EXPECT_FALSE(ik(kPaperGoal)[0]["solutions"][0].contains("redundancy_intervals_rad"));
+}
+
 TEST(IkCalculator, RefusesAnUnknownSolverByNameWithExitCodeThree) {
   const auto result =
       run_command({armature(), "ik", "--robot", kLamp, "--plugin", "ik/lamp_geometrc"});
@@ -131,6 +147,61 @@ TEST(FkCalculator, RefusesJointsThatContradictTheParallelogram) {
   const auto lines = fk("{\"joints\":[0,0,0.5,0.5,0,0]}\n{\"joints\":[0,0,0]}\n");
   EXPECT_EQ(lines[0]["status"], "invalid_input");
   EXPECT_EQ(lines[1]["reason"], "'joints' has 3 numbers, must have 6");
+}
+
+const std::string kGantry = source_file("tests/data/urdf/gantry.urdf");
+
+TEST(FkCalculator, TakesAUrdfFileWithATipAndABase) {
+  const std::vector<std::string> gripper{armature(), "fk", "--robot", kGantry, "--tip", "gripper"};
+  std::vector<std::string> from_bridge = gripper;
+  from_bridge.insert(from_bridge.end(), {"--base", "bridge"});
+  const auto rail = answers(gripper, "{\"joints\":[0.5,0.1,0.2,0.3,0.4]}\n");
+  const auto bridge =
+      answers(from_bridge, "{\"joints\":[0.1,0.2,0.3,0.4]}\n{\"joints\":[0.5,0.1,0.2,0.3,0.4]}\n");
+  const std::vector<double> rail_to_bridge{0.1 + 0.5, 0, 1.8};
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(rail[0]["position_m"][i].get<double>(),
+                bridge[0]["position_m"][i].get<double>() + rail_to_bridge[i], 1e-12);
+  }
+  EXPECT_EQ(bridge[1]["reason"], "'joints' has 5 numbers, must have 4");
+}
+
+TEST(IkCalculator, ServesAUrdfArmThatHasASolversPatternInClosedForm) {
+  const std::string file = source_file("tests/data/urdf/skew_puma.urdf");
+  const std::vector<double> q{0.2, -1, -1.5, 0.3, 0.5, 0.1};
+  const json pose = answers({armature(), "fk", "--robot", file, "--tip", "tool0"},
+                            json{{"joints", q}}.dump() + "\n")[0];
+  const json answer = answers(
+      {armature(), "ik", "--robot", file, "--tip", "tool0", "--plugin", "ik/puma_algebraic"},
+      pose.dump() + "\n")[0];
+  EXPECT_EQ(answer["status"], "ok");
+  ASSERT_EQ(answer["solutions"].size(), 8U);
+  double nearest = 1;
+  for (const json& solution : answer["solutions"]) {
+    double off = 0;
+    for (std::size_t i = 0; i < 6; ++i)
+      off = std::max(off, std::abs(solution["joints"][i].get<double>() - q[i]));
+    nearest = std::min(nearest, off);
+  }
+  EXPECT_LT(nearest, 1e-12);
+}
+
+TEST(Calculator, SaysWhichLinkIsMissingAndWhatABaseIsFor) {
+  const auto refused = [](const std::vector<std::string>& more) {
+    std::vector<std::string> command{armature(), "fk", "--robot"};
+    command.insert(command.end(), more.begin(), more.end());
+    const auto result = run_command(command);
+    EXPECT_EQ(result.exit_code, 3);
+    return result.err;
+  };
+  EXPECT_EQ(refused({kGantry}),
+            "--tip: the link that goals are stated for is missing; links at the ends of " +
+                kGantry + ": camera, gripper\n");
+  EXPECT_EQ(refused({kGantry, "--tip", "griper"}),
+            "--tip: there is no link 'griper' in " + kGantry + "; did you mean 'gripper'?\n");
+  EXPECT_EQ(refused({kLamp, "--base", "base"}),
+            "armature: --base names a link of a URDF file; where '" + kLamp +
+                "' stands is written in it\n");
 }
 
 TEST(Calculator, LoadsNeitherDdsNorOpenCvNorDlib) {

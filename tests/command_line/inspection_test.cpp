@@ -7,24 +7,25 @@
 namespace armature::test {
 namespace {
 
-const std::string kLamp = source_file("configs/dental_lamp.yaml");
+const std::string kLampDeployment = source_file("configs/dental_lamp.yaml");
 
 TEST(Check, CountsWhatItFoundSound) {
-  const auto result = run_command({armature(), "check", kLamp});
+  const auto result = run_command({armature(), "check", kLampDeployment});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(result.out.rfind("dental_lamp: ok, 9 components, ", 0), 0U) << result.out;
 }
 
 TEST(Check, LetsAComponentThatMayUseARigUseNone) {
   const auto result =
-      run_command({armature(), "check", kLamp, "--set", "components.monitor.rig=none"});
+      run_command({armature(), "check", kLampDeployment, "--set", "components.monitor.rig=none"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
 }
 
 TEST(Check, AsksWhichOfTwoRigsOrNone) {
-  const auto result = run_command(
-      {armature(), "check", kLamp, "--set", "rigs.hand=" + source_file("configs/rigs/default.yaml"),
-       "--set", "components.scene.rig=head", "--set", "components.target.rig=head"});
+  const auto result =
+      run_command({armature(), "check", kLampDeployment, "--set",
+                   "rigs.hand=" + source_file("configs/rigs/default.yaml"), "--set",
+                   "components.scene.rig=head", "--set", "components.target.rig=head"});
   EXPECT_EQ(result.exit_code, 3);
   EXPECT_NE(result.err.find("component 'monitor' must say which rig: 'rig: ...', or 'rig: none'"),
             std::string::npos)
@@ -32,8 +33,8 @@ TEST(Check, AsksWhichOfTwoRigsOrNone) {
 }
 
 TEST(Show, GivesEveryValueItsOrigin) {
-  const auto result =
-      run_command({armature(), "show", kLamp, "--set", "components.motion.ik.plugin=ik/numeric"});
+  const auto result = run_command(
+      {armature(), "show", kLampDeployment, "--set", "components.motion.ik.plugin=ik/numeric"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_NE(result.out.find("ik/numeric"), std::string::npos);
   EXPECT_NE(result.out.find("--set components.motion.ik.plugin=ik/numeric"), std::string::npos);
@@ -41,7 +42,7 @@ TEST(Show, GivesEveryValueItsOrigin) {
 }
 
 TEST(Graph, NamesTheWriterAndTheReadersOfATopic) {
-  const auto result = run_command({armature(), "graph", kLamp, "--json"});
+  const auto result = run_command({armature(), "graph", kLampDeployment, "--json"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const auto topic = nlohmann::json::parse(result.out)["/dental_lamp/arm/servo_jp"];
   EXPECT_EQ(topic["writers"], (std::vector<std::string>{"motion"}));
@@ -49,7 +50,7 @@ TEST(Graph, NamesTheWriterAndTheReadersOfATopic) {
 }
 
 TEST(Graph, NamesTheTopicsThatRosToolsLookFor) {
-  const auto result = run_command({armature(), "graph", kLamp, "--json"});
+  const auto result = run_command({armature(), "graph", kLampDeployment, "--json"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const auto topics = nlohmann::json::parse(result.out);
   EXPECT_EQ(topics["/tf"]["type"], "tf2_msgs/TFMessage");
@@ -93,21 +94,21 @@ TEST(PluginInfo, OfAnUnknownOneNamesTheNearest) {
 
 TEST(Check, ReadsAPathGivenBySetFromWhereTheUserStands) {
   const auto result = run_command(
-      {armature(), "check", kLamp, "--set",
+      {armature(), "check", kLampDeployment, "--set",
        "robots.arm=" +
            std::filesystem::relative(source_file("configs/robots/dental_lamp.yaml")).string()});
   EXPECT_EQ(result.exit_code, 0) << result.err;
 }
 
 TEST(Run, RefusesAProcessThatTheDeploymentDoesNotHave) {
-  const auto result = run_command({armature(), "run", kLamp, "--process", "visoin"});
+  const auto result = run_command({armature(), "run", kLampDeployment, "--process", "visoin"});
   EXPECT_EQ(result.exit_code, 3);
   EXPECT_EQ(result.err,
             "armature: deployment 'dental_lamp' has no process 'visoin'; known: main\n");
 }
 
 TEST(CommandLine, EndsWithTwoWhenItIsNotUnderstood) {
-  EXPECT_EQ(run_command({armature(), "rnu", kLamp}).exit_code, 2);
+  EXPECT_EQ(run_command({armature(), "rnu", kLampDeployment}).exit_code, 2);
   EXPECT_EQ(run_command({armature(), "run"}).exit_code, 2);
   EXPECT_EQ(run_command({armature(), "--help"}).exit_code, 0);
 }

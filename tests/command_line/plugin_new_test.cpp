@@ -51,7 +51,7 @@ TEST_F(NewPlugin, BuildsOutsideTheTreePassesItsTestAndSolvesForTheLamp) {
                                  with_it);
   EXPECT_EQ(check.exit_code, 0) << check.err;
   const auto verify = run_command({armature(), "plugin", "verify", "ik/mine", "--robot",
-                                   folder / "mine_arm.yaml", "--poses", "50"},
+                                   folder / "arm.urdf", "--tip", "tool0", "--poses", "50"},
                                   with_it);
   EXPECT_EQ(verify.exit_code, 0) << verify.out << verify.err;
 }
@@ -69,9 +69,10 @@ TEST_F(NewPlugin, IsAShortSolverAndThreeLinesOfCMakeBesidesItsVersion) {
 TEST_F(NewPlugin, RefusesANameThatIsNoName) {
   const auto result = write("ik/My Solver");
   EXPECT_EQ(result.exit_code, 3);
-  EXPECT_EQ(result.err,
-            "armature: 'ik/My Solver' must be 'ik/name', the name in lower case letters, digits and "
-            "'_'\n");
+  EXPECT_EQ(
+      result.err,
+      "armature: 'ik/My Solver' must be 'ik/name', the name in lower case letters, digits and "
+      "'_'\n");
 }
 
 TEST_F(NewPlugin, OfAKindWithoutATemplateNamesTheKindsThatHaveOne) {

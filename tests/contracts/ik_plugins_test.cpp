@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The laws of the kind `ik`, for every plugin of the build times every robot of configs/robots: one
-// test each. A robot that the plugin refuses is not served; a plugin that needs parameters is left
-// to its own test.
+// The laws of the kind `ik`, for every plugin of the build times every robot of configs/robots and
+// every URDF arm of tests/data: one test each. A robot that the plugin refuses is not served; a
+// plugin that needs parameters is left to its own test.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,6 +10,7 @@
 #include "armature/config/problems.hpp"
 #include "armature/kinds/ik/contract.hpp"
 #include "armature/kinds/ik/verify/plugin_subject.hpp"
+#include "armature/robot/urdf_robot.hpp"
 
 namespace armature {
 namespace {
@@ -31,6 +32,10 @@ std::vector<RobotPtr> robots() {
   std::vector<RobotPtr> list;
   for (const auto& file : files) {
     list.push_back(std::make_shared<const RobotModel>(load_robot_model(file)));
+  }
+  for (const auto& [name, tip] : {std::pair{"skew_puma", "tool0"}, {"seven_joints", "hand"}}) {
+    const std::string file = std::string{ARMATURE_SOURCE_DIR "/tests/data/urdf/"} + name + ".urdf";
+    list.push_back(std::make_shared<const RobotModel>(load_urdf_robot(file, {"", {}}, {tip, {}})));
   }
   return list;
 }

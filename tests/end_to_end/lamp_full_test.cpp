@@ -78,14 +78,16 @@ TEST_P(LampSwap, AlignsWithAnotherPluginByOneWord) {
 const std::string kNumericIk = "components.motion.ik.plugin=ik/numeric";
 const std::string kPaperPath = "components.motion.path.plugin=path/mouth_points";
 const std::string kPaperQuintics = "components.motion.trajectory.plugin=trajectory/quintic";
+const std::string kMinMax = "components.motion.select.plugin=select/minmax";
 
-INSTANTIATE_TEST_SUITE_P(Slots, LampSwap,
-                         testing::Values(Swap{"NumericIk", {kNumericIk}},
-                                         Swap{"PaperPath", {kPaperPath}},
-                                         Swap{"PaperQuintics", {kPaperQuintics}},
-                                         Swap{"PaperPathAndQuintics", {kPaperPath, kPaperQuintics}},
-                                         Swap{"All", {kNumericIk, kPaperPath, kPaperQuintics}}),
-                         [](const auto& place) { return place.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Slots, LampSwap,
+    testing::Values(Swap{"NumericIk", {kNumericIk}}, Swap{"PaperPath", {kPaperPath}},
+                    Swap{"PaperQuintics", {kPaperQuintics}},
+                    Swap{"PaperPathAndQuintics", {kPaperPath, kPaperQuintics}},
+                    Swap{"MinMax", {kMinMax}},
+                    Swap{"All", {kNumericIk, kPaperPath, kPaperQuintics, kMinMax}}),
+    [](const auto& place) { return place.param.name; });
 
 struct NamedMove {
   std::string name;

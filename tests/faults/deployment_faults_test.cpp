@@ -158,6 +158,22 @@ const Fault kFaults[] = {
      "{plugin: face_pose/three_point, process: vision}",
      "deployment.yaml:10:50: the simulated clock runs one process; remove 'process' or set 'clock: "
      "system'\n"},
+    {"ImpurePluginOnSimulatedClock", "plugin: ik/lamp_geometric",
+     "plugin: ik/process, params: {command: [solver]}",
+     "deployment.yaml:17:18: on the simulated clock a run is the same every time, and 'ik/process' "
+     "cannot promise that (its plugin.yaml says 'pure: false'); choose another plugin or set "
+     "'clock: system'\n"},
+    {"ImpurePluginAloneOnSimulatedClock", "components:\n",
+     "components:\n  alone: {plugin: ik/process, params: {command: [solver]}}\n",
+     "deployment.yaml:8:19: on the simulated clock a run is the same every time, and 'ik/process' "
+     "cannot promise that (its plugin.yaml says 'pure: false'); choose another plugin or set "
+     "'clock: system'\n"},
+    {"CommandThatIsNoList", "plugin: ik/lamp_geometric}",
+     "plugin: ik/process, params: {command: solver}}",
+     "deployment.yaml:17:18: on the simulated clock a run is the same every time, and 'ik/process' "
+     "cannot promise that (its plugin.yaml says 'pure: false'); choose another plugin or set "
+     "'clock: system'\n"
+     "deployment.yaml:17:48: 'command' must be a list of texts, not 'solver'\n"},
     {"VelocityAboveTheRobots", "max_velocity_rad_s: 1.0", "max_velocity_rad_s: 9.0",
      "deployment.yaml:13:3: component 'motion': max_velocity_rad_s is 9, above the 2.5 rad/s of "
      "joint j1 of robot dental_lamp\n"},
@@ -242,11 +258,12 @@ std::string without(std::string text, const std::string& part) {
 }
 
 class FaultyDeployment : public testing::TestWithParam<Fault> {
+ public:
+  using Change = std::pair<std::string, std::string>;  // this text becomes that
+
  protected:
   FaultyDeployment() { fs::create_directories(folder_); }
   ~FaultyDeployment() override { fs::remove_all(folder_); }
-
-  using Change = std::pair<std::string, std::string>;  // this text becomes that
 
   CommandResult check(const std::vector<Change>& changes) const {
     std::ostringstream base;
@@ -314,7 +331,33 @@ TEST_F(SoundDeployment, AMoveThatComesPassesTheCheck) {
   EXPECT_EQ(result.exit_code, 0) << result.err;
 }
 
+const FaultyDeployment::Change kSystemClock{"clock: simulated", "clock: system"};
+
+TEST_F(SoundDeployment, AnIkProgramOnTheSystemClockPassesTheCheck) {
+  const std::string command = armature() + ", ik, --robot, @CONFIGS@/robots/dental_lamp.yaml";
+  const auto result =
+      check({kSystemClock,
+             {"plugin: ik/lamp_geometric", "plugin: ik/process, params: {command: [" + command +
+                                               ", --plugin, ik/lamp_geometric]}"}});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+}
+
 using SplitDeployment = FaultyDeployment;
+
+TEST_F(SplitDeployment, AnIkProgramThatDoesNotKnowTheRobotIsRefusedWithItsAnswer) {
+  const std::string command = armature() + ", ik, --robot, @CONFIGS@/robots/sr1.yaml";
+  const auto result = check(
+      {kSystemClock,
+       {"plugin: ik/lamp_geometric", "plugin: ik/process, params: {command: [" + command + "]}"}});
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_TRUE(result.err.starts_with(
+      "deployment.yaml:13:3: component 'motion': ik/process refuses: the program '"))
+      << result.err;
+  EXPECT_TRUE(
+      result.err.ends_with("' does not accept the robot's resting position as a goal: the "
+                           "robot file names no 'pointing_axis'; give 'quaternion_xyzw'\n"))
+      << result.err;
+}
 
 TEST_F(SplitDeployment, AGoalThatIsMeasuredInAnotherProcessIsRefused) {
   const auto result = check(

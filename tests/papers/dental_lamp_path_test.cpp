@@ -9,7 +9,7 @@
 namespace armature::paper {
 namespace {
 
-double angle_deg(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+double degrees_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b)) / kDegree;
 }
 
@@ -34,11 +34,11 @@ TEST(DentalLampPath, AnglesBetweenTheDirectionsAreThoseOfTheReference) {
   const auto& points = mouth_points();
   const Eigen::Vector3d u1 = direction_of(points[0]), u2 = direction_of(points[1]),
                         u3 = direction_of(points[2]);
-  EXPECT_NEAR(angle_deg(example().u0, u3), angles["u0_u3"]["recomputed"].number(), 1e-4);
-  EXPECT_NEAR(angle_deg(u1, u3), angles["u1_u3"].number(), 1e-4);
-  EXPECT_NEAR(angle_deg(u1, u2), angles["u1_u2"].number(), 1e-4);
-  EXPECT_NEAR(angle_deg(u2, u3), angles["u2_u3"].number(), 1e-4);
-  EXPECT_NEAR(angle_deg(example().u0, u1), angles["u0_to_mouth_at_P0"].number(), 1e-4);
+  EXPECT_NEAR(degrees_between(example().u0, u3), angles["u0_u3"]["recomputed"].number(), 1e-4);
+  EXPECT_NEAR(degrees_between(u1, u3), angles["u1_u3"].number(), 1e-4);
+  EXPECT_NEAR(degrees_between(u1, u2), angles["u1_u2"].number(), 1e-4);
+  EXPECT_NEAR(degrees_between(u2, u3), angles["u2_u3"].number(), 1e-4);
+  EXPECT_NEAR(degrees_between(example().u0, u1), angles["u0_to_mouth_at_P0"].number(), 1e-4);
 }
 
 TEST(DentalLampPath, JointsAtThePathPointsAreThoseOfTheReference) {

@@ -9,9 +9,8 @@
 #include "armature/runtime/plugin_registry.hpp"
 
 namespace armature::paper {
-namespace {
 
-SolvedArm solved(RobotModel model) {
+SolvedArm solved_arm(RobotModel model) {
   static PluginRegistry plugins{{ARMATURE_PLUGIN_BUILD_DIR}};
   SolvedArm arm{.model = std::make_shared<const RobotModel>(std::move(model)), .solver = {}};
   auto solver = plugins.make<IkSolver>("ik/puma_algebraic", *arm.model, Params{});
@@ -21,6 +20,8 @@ SolvedArm solved(RobotModel model) {
   return arm;
 }
 
+namespace {
+
 const RobotModel& file() {
   static const RobotModel model = load_robot_model(ARMATURE_SOURCE_DIR "/configs/robots/sr1.yaml");
   return model;
@@ -28,7 +29,7 @@ const RobotModel& file() {
 
 SolvedArm with_joints(std::vector<Joint> joints, double d6) {
   const NamedFrame tool{"tool", 5, Eigen::Isometry3d{Eigen::Translation3d{0, 0, d6}}};
-  return solved({"sr1", file().convention(), std::move(joints), {tool}, FrameId{}, {}, {}});
+  return solved_arm({"sr1", file().convention(), std::move(joints), {tool}, FrameId{}, {}, {}});
 }
 
 }  // namespace
@@ -44,7 +45,7 @@ SolvedArm sr1_with_lengths(double d1, double a1, double a3, double d6) {
 }
 
 SolvedArm sr1_needle() {
-  return solved(load_robot_model(ARMATURE_SOURCE_DIR "/configs/robots/sr1_needle.yaml"));
+  return solved_arm(load_robot_model(ARMATURE_SOURCE_DIR "/configs/robots/sr1_needle.yaml"));
 }
 
 Eigen::Isometry3d pose_of(const Figures& rows) {

@@ -22,6 +22,8 @@ struct SolvedArm {
   }
 };
 
+/// Throws std::runtime_error when the solver refuses the robot.
+SolvedArm solved_arm(RobotModel model);
 /// configs/robots/sr1.yaml with a tool of length `d6`.
 SolvedArm sr1_with_tool(double d6);
 /// The same with other lengths.

@@ -64,10 +64,12 @@ std::vector<Runner> runners_of(const BenchOptions& options, PluginRegistry& regi
 }
 
 std::string baseline_of(const BenchOptions& options, const std::vector<Runner>& runners) {
-  if (options.baseline.empty()) return runners.front().plugin;
-  if (std::ranges::find(runners, options.baseline, &Runner::plugin) != runners.end()) {
-    return options.baseline;
-  }
+  constexpr const char* kUsual = "ik/kdl";  // what everybody knows
+  const auto runs = [&](std::string_view id) {
+    return std::ranges::find(runners, id, &Runner::plugin) != runners.end();
+  };
+  if (options.baseline.empty()) return runs(kUsual) ? kUsual : runners.front().plugin;
+  if (runs(options.baseline)) return options.baseline;
   throw InvalidChoice(fmt::format(
       "the baseline '{}' is not one of the solvers that serve the robot", options.baseline));
 }

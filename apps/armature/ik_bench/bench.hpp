@@ -18,7 +18,7 @@ struct BenchOptions {
   bool near_only = false;
   int repetitions = 5;
   double tolerance = 1e-6;  // [m] and [rad]
-  std::string baseline;     // empty: the first
+  std::string baseline;     // empty: ik/kdl if it is one of them, else the first
   std::string out;          // folder; empty: no files
   bool json = false;
 };

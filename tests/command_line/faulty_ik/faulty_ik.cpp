@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <unistd.h>
+
 #include <Eigen/Cholesky>
 #include <csignal>
 #include <string>
@@ -26,6 +28,7 @@ class FaultyIk final : public IkSolver {
       return {IkStatus::Code::invalid_input, 0, why};
     }
     if (fault_ == "crash" && goal.pose.position.x() > 0.5) std::raise(SIGSEGV);
+    while (fault_ == "hang" && goal.pose.position.x() > 0.5) pause();
     const auto& [position_m, angle_rad] = goal.tolerance;
     JointVector q = seed;
     TaskError e = task_error(model_, q, goal.pose);

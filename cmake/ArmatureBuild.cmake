@@ -22,10 +22,6 @@ if(CCACHE_PROGRAM)
   set(CMAKE_C_COMPILER_LAUNCHER "${CCACHE_PROGRAM}")
 endif()
 
-# Sources say #include "armature/robot/...", here and after installation.
-file(MAKE_DIRECTORY "${CMAKE_BINARY_DIR}/include")
-file(CREATE_LINK "${CMAKE_SOURCE_DIR}/framework" "${CMAKE_BINARY_DIR}/include/armature" SYMBOLIC)
-
 # What must be the same in every library that shares Eigen objects or plugins (see docs/decisions).
 add_library(armature_abi INTERFACE)
 add_library(armature::abi ALIAS armature_abi)
@@ -34,7 +30,8 @@ target_compile_features(armature_abi INTERFACE cxx_std_20)
 target_compile_definitions(armature_abi INTERFACE EIGEN_MAX_ALIGN_BYTES=16
                                                   EIGEN_MALLOC_ALREADY_ALIGNED=1)
 target_compile_options(armature_abi INTERFACE $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-fno-gnu-unique>)
-target_include_directories(armature_abi INTERFACE $<BUILD_INTERFACE:${CMAKE_BINARY_DIR}/include>
+# Sources say #include "armature/robot/...", here and after installation.
+target_include_directories(armature_abi INTERFACE $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}/framework>
                                                   $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 target_link_libraries(armature_abi INTERFACE tl::expected)
 

@@ -29,9 +29,9 @@ class Asker {
   Asker(Transport& transport, const std::string& topic)
       : requests_{message_type<Request>(), 4},
         writer_{std::move(*transport.advertise(
-            {"rt" + topic + "/request", &message_type<Request>(), QosProfile::command}))},
+            {"rt" + topic + "/request", &message_type<Request>(), QosProfile::state}))},
         reader_{std::move(*transport.subscribe(
-            {"rt" + topic + "/response", &message_type<Response>(), QosProfile::command}, false,
+            {"rt" + topic + "/response", &message_type<Response>(), QosProfile::reply}, false,
             [this](const SampleRef& sample) { keep(sample); }))} {}
 
   bool connected(std::chrono::seconds patience) const {

@@ -124,7 +124,8 @@ TEST(SamplePool, DestroysEveryMessageItMade) {
 
 TEST(QosProfiles, HaveANameThatFindsThemAgain) {
   for (const QosProfile profile :
-       {QosProfile::sensor, QosProfile::state, QosProfile::command, QosProfile::latched}) {
+       {QosProfile::sensor, QosProfile::state, QosProfile::command, QosProfile::reply,
+        QosProfile::latched}) {
     EXPECT_EQ(find_qos_profile(to_string(profile)), profile);
   }
   EXPECT_EQ(find_qos_profile("sensro"), std::nullopt);
@@ -134,6 +135,12 @@ TEST(QosProfiles, LetCommandsExpireAndKeepLatchedOnes) {
   EXPECT_GT(settings(QosProfile::command).lifespan.count(), 0);
   EXPECT_FALSE(settings(QosProfile::command).transient_local);
   EXPECT_TRUE(settings(QosProfile::latched).transient_local);
+}
+
+TEST(QosProfiles, KeepAReplyForAReaderThatIsDiscoveredAMomentLater) {
+  EXPECT_TRUE(settings(QosProfile::reply).transient_local);
+  EXPECT_GT(settings(QosProfile::reply).depth, 1) << "more than one may have asked";
+  EXPECT_GT(settings(QosProfile::reply).lifespan.count(), 0) << "but not for the next program";
 }
 
 }  // namespace

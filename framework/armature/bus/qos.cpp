@@ -7,10 +7,11 @@
 namespace armature {
 namespace {
 
-constexpr std::array<std::pair<QosProfile, std::string_view>, 4> kNames{{
+constexpr std::array<std::pair<QosProfile, std::string_view>, 5> kNames{{
     {QosProfile::sensor, "sensor"},
     {QosProfile::state, "state"},
     {QosProfile::command, "command"},
+    {QosProfile::reply, "reply"},
     {QosProfile::latched, "latched"},
 }};
 
@@ -35,6 +36,8 @@ QosSettings settings(QosProfile profile) {
       return {.depth = 10};
     case QosProfile::command:
       return {.depth = 10, .lifespan = seconds(0.5)};
+    case QosProfile::reply:
+      return {.transient_local = true, .depth = 10, .lifespan = seconds(5)};
     case QosProfile::latched:
       return {.transient_local = true, .depth = 1};
   }

@@ -12,8 +12,10 @@ namespace armature {
 ///   sensor   best effort reader, reliable writer, volatile, newest only
 ///   state    reliable, volatile, a short history
 ///   command  reliable, volatile, short history, samples expire: yesterday's goal is never executed
+///   reply    reliable, transient local, samples expire: whoever asked gets the answer also when the
+///            answering end discovers its reader a moment after its question
 ///   latched  reliable, transient local, newest only: late joiners get the last sample
-enum class QosProfile { sensor, state, command, latched };
+enum class QosProfile { sensor, state, command, reply, latched };
 
 std::optional<QosProfile> find_qos_profile(std::string_view name);
 std::string_view to_string(QosProfile profile);

@@ -22,7 +22,7 @@ class OutputPort {
 
   const PortSpec& spec() const { return spec_; }
   Topic& topic() { return *topic_; }
-  bool wanted() const { return spec_.qos == QosProfile::latched || topic_->has_readers(); }
+  bool wanted() const { return settings(spec_.qos).transient_local || topic_->has_readers(); }
   void publish(SampleRef sample) { delivery_->publish(*topic_, std::move(sample)); }
 
  private:

@@ -78,6 +78,17 @@ TEST_F(FastDds, LatchedSamplesReachLateComers) {
   EXPECT_TRUE(eventually([&] { return seen == 1; }));
 }
 
+TEST_F(FastDds, RepliesReachTheReaderThatIsDiscoveredAMomentAfterTheyWereWritten) {
+  const auto solver = make_transport(), asker = make_transport();
+  const TopicSpec reply{"rt/test/reply", &type_, QosProfile::reply};
+  const auto writer = solver->advertise(reply).value();
+  writer->offer(sample(1));
+  writer->offer(sample(2));
+  std::atomic<int> seen{0};
+  const auto reader = asker->subscribe(reply, false, [&](const SampleRef&) { ++seen; });
+  EXPECT_TRUE(eventually([&] { return seen == 2; }));
+}
+
 TEST_F(FastDds, MessagesLargerThanADatagramCross) {
   for (const char* folder : {"/dev/shm", "/proc"}) {
     SCOPED_TRACE(folder);

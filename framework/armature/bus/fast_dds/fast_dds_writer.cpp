@@ -47,7 +47,7 @@ class FastDdsWriter final : public OutsideWriter, private dds::DataWriterListene
   }
 
   void offer(const SampleRef& sample) override {
-    // A latched sample is kept by DDS for those who come later.
+    // DDS keeps such a sample for those who come later.
     if (watchers() > 0 || settings_.transient_local) queue_->offer(sample);
   }
   int watchers() const override { return watchers_.load(std::memory_order_relaxed); }

@@ -75,6 +75,9 @@
   X(armature_msgs, JointSegment)           \
   X(armature_msgs, TrajectoryRequest)      \
   X(armature_msgs, TrajectoryResponse)     \
+  X(armature_msgs, RegistrationRequest)    \
+  X(armature_msgs, RegisteredTarget)       \
+  X(armature_msgs, RegistrationResponse)   \
   X(armature_msgs, LightLevel)             \
   X(armature_msgs, Capture)                \
   X(armature_msgs, TaskState)              \

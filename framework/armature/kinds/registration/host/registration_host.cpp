@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <numeric>
+
+#include "armature/kinds/registration/marker_matching.hpp"
+#include "armature/kinds/registration/registration.hpp"
+#include "armature/kinds/registration/target_error.hpp"
+#include "armature/kinds/request_host.hpp"
+#include "armature/messages/armature_msgs.hpp"
+#include "armature/messages/geometry.hpp"
+#include "armature/runtime/plugin.hpp"
+#include "armature/values/guarded.hpp"
+
+namespace armature {
+namespace {
+
+using Points = std::vector<Eigen::Vector3d>;
+
+Points points_of(const std::vector<msg::Point>& message) {
+  Points points;
+  for (const msg::Point& point : message) points.push_back(to_eigen(point));
+  return points;
+}
+
+/// All that a request asks for.
+struct Answer {
+  std::vector<std::size_t> robot_marker;  // of each image marker
+  Registration found;
+  std::vector<TargetError> errors;  // of each target
+};
+
+Expected<std::vector<std::size_t>> matched(const msg::RegistrationRequest& request,
+                                           const Points& image, const Points& robot) {
+  if (!request.ordered_()) return match_markers(image, robot, request.match_tolerance_());
+  std::vector<std::size_t> same(robot.size());
+  std::iota(same.begin(), same.end(), std::size_t{0});
+  return same;
+}
+
+Expected<Answer> answer_to(const Registrar& registrar, const msg::RegistrationRequest& request) {
+  MarkerPairs markers{points_of(request.image_markers_()), {}};
+  const Points robot = points_of(request.robot_markers_());
+  auto match = matched(request, markers.image, robot);
+  if (!match) return tl::unexpected{match.error()};
+  for (const std::size_t i : *match) markers.robot.push_back(robot[i]);
+  auto found = guarded([&] { return registrar.find(markers); });
+  if (!found) return tl::unexpected{found.error()};
+  Answer answer{std::move(*match), std::move(*found), {}};
+  for (const msg::Point& target : request.targets_()) {
+    const auto error = guarded([&] {
+      return predicted_error(registrar, markers, to_eigen(target), request.marker_error_());
+    });
+    if (!error) return tl::unexpected{error.error()};
+    answer.errors.push_back(*error);
+  }
+  return answer;
+}
+
+void write(const Answer& answer, const std::vector<msg::Point>& targets,
+           msg::RegistrationResponse& response) {
+  const Eigen::Affine3d& map = answer.found.robot_T_image;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 4; ++column) {
+      response.robot_t_image_()[static_cast<std::size_t>(4 * row + column)] = map(row, column);
+    }
+  }
+  response.robot_marker_().assign(answer.robot_marker.begin(), answer.robot_marker.end());
+  response.used_() = answer.found.used;
+  response.residuals_() = answer.found.residual_m;
+  response.fre_(answer.found.fre_m);
+  response.condition_(answer.found.condition);
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    auto& target = response.targets_().emplace_back();
+    assign(target.position_(), Eigen::Vector3d{map * to_eigen(targets[i])});
+    target.error_rms_(answer.errors[i].rms_m);
+    target.error_95_(answer.errors[i].bound95_m);
+  }
+}
+
+}  // namespace
+
+/// Markers and targets in; the map, and where the targets are before the robot, out.
+class RegistrationHost final
+    : public RequestHost<msg::RegistrationRequest, msg::RegistrationResponse> {
+ public:
+  explicit RegistrationHost(Setup& setup)
+      : RequestHost{setup}, registrar_{setup.slot<Registrar>("registrar")} {}
+
+ private:
+  void answer(const msg::RegistrationRequest& request,
+              msg::RegistrationResponse& response) override {
+    const auto wrong = in_another_frame(request);
+    const Expected<Answer> found =
+        wrong ? Expected<Answer>{refuse(*wrong)} : answer_to(*registrar_, request);
+    const msg::Header header = response.header_();
+    response = msg::RegistrationResponse{};
+    response.header_() = header;
+    response.request_id_(request.request_id_());
+    response.valid_(found.has_value());
+    response.reason_() = found ? "" : found.error().text;
+    if (found) write(*found, request.targets_(), response);
+  }
+
+  PluginPtr<Registrar> registrar_;
+};
+
+}  // namespace armature
+
+ARMATURE_PLUGIN(armature::RegistrationHost);

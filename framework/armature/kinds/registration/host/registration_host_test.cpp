@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+// The host of the registrations: 1. one answer for each request, under its header and id, 2.
+// markers in any order are matched first, 3. targets come back with their error, 4. bad requests
+// are answered with their reason.
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+#include "armature/kinds/registration/registration.hpp"
+#include "armature/messages/armature_msgs.hpp"
+#include "armature/messages/geometry.hpp"
+#include "armature/messages/header.hpp"
+#include "armature/runtime/component_bench.hpp"
+
+namespace armature {
+namespace {
+
+/// Moves the first marker onto the first.
+class FirstMarker final : public Registrar {
+ public:
+  static inline bool throws = false;
+
+  Expected<Registration> find(const MarkerPairs& markers) const override {
+    if (throws) throw std::runtime_error{"the matrix is singular"};
+    if (auto wrong = invalid_input(markers, 1)) return refuse(std::move(*wrong));
+    Registration found;
+    found.robot_T_image.translation() = markers.robot[0] - markers.image[0];
+    found.used.assign(markers.image.size(), false);
+    found.used[0] = true;
+    found.condition = 2.5;
+    measure_residuals(markers, found);
+    return found;
+  }
+};
+
+PluginRegistry& plugins() {
+  static PluginRegistry registry = [] {
+    PluginRegistry made{{ARMATURE_PLUGIN_BUILD_DIR}};
+    made.add<FirstMarker>(
+        "{armature_plugin: 1, id: registration/first_marker, kind: registration}");
+    return made;
+  }();
+  return registry;
+}
+
+const std::array<Eigen::Vector3d, 4> kMarkers{
+    {{0, 0, 0}, {0.1, 0, 0}, {0, 0.07, 0}, {0.01, 0.02, 0.05}}};
+const Eigen::Vector3d kShift{1, 2, 3};
+
+void add(std::vector<msg::Point>& points, const Eigen::Vector3d& point) {
+  assign(points.emplace_back(), point);
+}
+
+/// The markers moved by kShift, in reverse order, after a point that is none.
+msg::RegistrationRequest request(std::uint64_t id) {
+  msg::RegistrationRequest message;
+  write_header(message.header_(), Time{static_cast<std::int64_t>(id) * 1000}, kBaseFrame);
+  message.request_id_(id);
+  for (const Eigen::Vector3d& marker : kMarkers) add(message.image_markers_(), marker);
+  add(message.robot_markers_(), {9, 9, 9});
+  for (std::size_t i = kMarkers.size(); i-- > 0;) {
+    add(message.robot_markers_(), kMarkers[i] + kShift);
+  }
+  message.match_tolerance_(0.003);
+  message.marker_error_(0.0005);
+  add(message.targets_(), {0.03, 0.02, 0.01});
+  return message;
+}
+
+class RegistrationHostTest : public testing::Test {
+ protected:
+  msg::RegistrationResponse ask(const msg::RegistrationRequest& message) {
+    host_.send("request", message);
+    host_.step(0.1);
+    const auto answers = host_.take<msg::RegistrationResponse>("response");
+    EXPECT_EQ(answers.size(), 1u);
+    return answers.empty() ? msg::RegistrationResponse{} : answers.front();
+  }
+  ComponentBench host_{
+      plugins(), {.component = "{plugin: registration/first_marker}", .robot = {}, .rig = {}}};
+};
+
+TEST_F(RegistrationHostTest, TellsTheMapItsMarkersAndTheTargets) {
+  const msg::RegistrationResponse answer = ask(request(7));
+  EXPECT_TRUE(answer.valid_()) << answer.reason_();
+  EXPECT_EQ(answer.request_id_(), 7u);
+  EXPECT_EQ(answer.header_(), request(7).header_());
+  EXPECT_EQ(answer.robot_marker_(), (std::vector<std::uint32_t>{4, 3, 2, 1}));
+  EXPECT_EQ(answer.used_(), (std::vector<bool>{true, false, false, false}));
+  const std::array<double, 12> map{1, 0, 0, 1, 0, 1, 0, 2, 0, 0, 1, 3};
+  for (std::size_t i = 0; i < map.size(); ++i) {
+    EXPECT_NEAR(answer.robot_t_image_()[i], map[i], 1e-15) << i;
+  }
+  for (const double residual : answer.residuals_()) EXPECT_LT(residual, 1e-12);
+  EXPECT_EQ(answer.residuals_().size(), 4u);
+  EXPECT_LT(answer.fre_(), 1e-12);
+  EXPECT_EQ(answer.condition_(), 2.5);
+  ASSERT_EQ(answer.targets_().size(), 1u);
+  const Eigen::Vector3d target = to_eigen(answer.targets_()[0].position_());
+  EXPECT_LT((target - Eigen::Vector3d{1.03, 2.02, 3.01}).norm(), 1e-12);
+  EXPECT_NEAR(answer.targets_()[0].error_rms_(), 0.0005, 1e-9);
+  EXPECT_GT(answer.targets_()[0].error_95_(), 0.0005);
+}
+
+TEST_F(RegistrationHostTest, TakesOrderedMarkersAsTheyStand) {
+  msg::RegistrationRequest ordered = request(1);
+  ordered.ordered_(true);
+  EXPECT_EQ(ask(ordered).reason_(), "4 markers in the image, 5 before the robot");
+  ordered.robot_markers_().pop_back();
+  const msg::RegistrationResponse answer = ask(ordered);
+  EXPECT_EQ(answer.robot_marker_(), (std::vector<std::uint32_t>{0, 1, 2, 3}));
+  EXPECT_EQ(answer.robot_t_image_()[3], 9) << "the first point, marker or not";
+}
+
+TEST_F(RegistrationHostTest, AnswersABadRequestWithItsReasonAndTheNextOneAsIfNothingHadBeen) {
+  const auto refusal = [&](auto change) {
+    msg::RegistrationRequest bad = request(5);
+    change(bad);
+    const msg::RegistrationResponse answer = ask(bad);
+    EXPECT_FALSE(answer.valid_());
+    EXPECT_EQ(answer.request_id_(), 5u);
+    EXPECT_TRUE(answer.targets_().empty() && answer.residuals_().empty());
+    EXPECT_TRUE(ask(request(6)).valid_());
+    return answer.reason_();
+  };
+  EXPECT_EQ(refusal([](auto& r) { r.image_markers_()[1].x_(NAN); }),
+            "planned marker 2 is not finite");
+  EXPECT_EQ(refusal([](auto& r) { r.robot_markers_().resize(3); }),
+            "4 markers are planned, 3 points measured");
+  EXPECT_EQ(refusal([](auto& r) { r.match_tolerance_(0); }), "the tolerance is 0 m");
+  EXPECT_EQ(refusal([](auto& r) { r.marker_error_(NAN); }), "a marker's error is nan m");
+  EXPECT_EQ(refusal([](auto& r) { r.targets_()[0].z_(INFINITY); }), "the target is not finite");
+  EXPECT_EQ(refusal([](auto& r) { r.header_().frame_id_() = "tool"; }),
+            "the request is stated in frame 'tool', not in 'base'");
+}
+
+TEST_F(RegistrationHostTest, AnExceptionOfThePluginIsAReasonAndTheNextRequestIsAnswered) {
+  FirstMarker::throws = true;
+  const msg::RegistrationResponse answer = ask(request(1));
+  FirstMarker::throws = false;
+  EXPECT_FALSE(answer.valid_());
+  EXPECT_EQ(answer.reason_(), "the plugin threw: the matrix is singular");
+  EXPECT_TRUE(ask(request(2)).valid_());
+}
+
+}  // namespace
+}  // namespace armature

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/kinds/registration/marker_matching.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+
+#include "armature/kinds/registration/rigid_fit.hpp"
+
+namespace armature {
+namespace {
+
+using Choice = std::vector<std::size_t>;
+
+/// All choices that keep the distances, the two best of them by how well a rigid motion fits.
+class Search {
+ public:
+  Search(std::span<const Eigen::Vector3d> planned, std::span<const Eigen::Vector3d> measured,
+         double tolerance_m)
+      : planned_{planned},
+        measured_{measured},
+        tolerance_m_{tolerance_m},
+        taken_(measured.size(), false) {
+    extend();
+  }
+
+  Expected<Choice> answer() const;
+
+ private:
+  struct Fit {
+    Choice choice;
+    double rms_m = std::numeric_limits<double>::infinity();
+  };
+  void extend();
+  bool keeps_distances(std::size_t candidate) const;
+  void consider();
+  std::string exchanged() const;
+
+  static constexpr int kMostSteps = 1'000'000;
+  std::span<const Eigen::Vector3d> planned_, measured_;
+  double tolerance_m_;
+  std::vector<bool> taken_;
+  Choice choice_;
+  int steps_ = 0;
+  std::size_t deepest_ = 0;
+  Fit best_, second_;
+  double best_mirrored_m_ = std::numeric_limits<double>::infinity();
+};
+
+bool Search::keeps_distances(std::size_t candidate) const {
+  for (std::size_t i = 0; i < choice_.size(); ++i) {
+    const double planned = (planned_[choice_.size()] - planned_[i]).norm();
+    const double measured = (measured_[candidate] - measured_[choice_[i]]).norm();
+    if (std::abs(planned - measured) > tolerance_m_) return false;
+  }
+  return true;
+}
+
+void Search::extend() {
+  deepest_ = std::max(deepest_, choice_.size());
+  if (choice_.size() == planned_.size()) return consider();
+  for (std::size_t candidate = 0; candidate < measured_.size(); ++candidate) {
+    if (taken_[candidate] || ++steps_ > kMostSteps || !keeps_distances(candidate)) continue;
+    taken_[candidate] = true;
+    choice_.push_back(candidate);
+    extend();
+    choice_.pop_back();
+    taken_[candidate] = false;
+  }
+}
+
+void Search::consider() {
+  std::vector<Eigen::Vector3d> to;
+  for (const std::size_t i : choice_) to.push_back(measured_[i]);
+  Fit fit{choice_, rms_of(rigid_fit(planned_, to), planned_, to)};
+  if (!(fit.rms_m <= tolerance_m_)) {
+    best_mirrored_m_ = std::min(best_mirrored_m_, mirrored_rms(planned_, to));
+    return;
+  }
+  if (fit.rms_m < best_.rms_m) std::swap(fit, best_);
+  if (fit.rms_m < second_.rms_m) second_ = std::move(fit);
+}
+
+/// "markers 1 and 3": those that the second choice takes for another.
+std::string Search::exchanged() const {
+  std::string text;
+  for (std::size_t i = 0; i < planned_.size(); ++i) {
+    if (best_.choice[i] == second_.choice[i]) continue;
+    text += (text.empty() ? "" : ", ") + std::to_string(i + 1);
+  }
+  return text;
+}
+
+Expected<Choice> Search::answer() const {
+  if (steps_ > kMostSteps) {
+    return refuse(
+        fmt::format("too many ways to match {} markers with {} points within {} m: "
+                    "lower the tolerance",
+                    planned_.size(), measured_.size(), tolerance_m_));
+  }
+  if (best_.choice.empty()) {
+    if (best_mirrored_m_ <= tolerance_m_) {
+      return refuse(
+          "the measured markers are the mirror image of the planned ones: is an axis of "
+          "the images turned round?");
+    }
+    return refuse(
+        fmt::format("no choice of measured points keeps the distances of marker {} to "
+                    "those before it within {} m",
+                    std::min(deepest_ + 1, planned_.size()), tolerance_m_));
+  }
+  // Half the tolerance is three times the error of a marker: a wrong choice that fits as well.
+  constexpr double kAlike = 2, kNoise = 0.1;
+  if (second_.rms_m < kAlike * best_.rms_m + kNoise * tolerance_m_) {
+    return refuse(
+        fmt::format("ambiguous: markers {} may be exchanged (fits to {:.6f} m, or "
+                    "exchanged to {:.6f} m)",
+                    exchanged(), best_.rms_m, second_.rms_m));
+  }
+  return best_.choice;
+}
+
+std::optional<std::string> unusable(std::span<const Eigen::Vector3d> planned,
+                                    std::span<const Eigen::Vector3d> measured, double tolerance_m) {
+  if (planned.size() < 3) return fmt::format("{} markers, at least 3 are needed", planned.size());
+  if (measured.size() < planned.size()) {
+    return fmt::format("{} markers are planned, {} points measured", planned.size(),
+                       measured.size());
+  }
+  if (!(tolerance_m > 0 && std::isfinite(tolerance_m))) {
+    return fmt::format("the tolerance is {} m", tolerance_m);
+  }
+  for (const auto& [points, what] :
+       {std::pair{planned, "planned marker"}, std::pair{measured, "measured point"}}) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (!points[i].allFinite()) return fmt::format("{} {} is not finite", what, i + 1);
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Expected<std::vector<std::size_t>> match_markers(std::span<const Eigen::Vector3d> planned,
+                                                 std::span<const Eigen::Vector3d> measured,
+                                                 double tolerance_m) {
+  if (auto wrong = unusable(planned, measured, tolerance_m)) return refuse(std::move(*wrong));
+  return Search{planned, measured, tolerance_m}.answer();
+}
+
+}  // namespace armature

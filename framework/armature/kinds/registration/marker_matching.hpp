@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "armature/values/expected.hpp"
+
+namespace armature {
+
+/// Which of the measured points is which planned marker: for each planned one the index of the
+/// measured one. Points that are no marker may be among the measured. All pairs of markers keep
+/// their distance to within `tolerance_m` (six times the error of a marker is a good choice), and a
+/// rigid motion takes all of them there to within it.
+///
+/// Refuses with a reason: too few of either, points that no choice fits, a mirror image, and more
+/// than one choice that fits about as well (planned markers whose distances to the others are
+/// alike: move one). Four markers in one plane, or three, have no mirror image to be told from.
+/// Backtracking over partial choices; bounded. Allocates.
+Expected<std::vector<std::size_t>> match_markers(std::span<const Eigen::Vector3d> planned,
+                                                 std::span<const Eigen::Vector3d> measured,
+                                                 double tolerance_m);
+
+}  // namespace armature

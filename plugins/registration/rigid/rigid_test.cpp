@@ -105,6 +105,18 @@ TEST_P(RigidRegistration, RefusesMarkersOfWhichNobodyCanSayWhichIsWrong) {
             "the markers disagree: no four of 4 fit to within 3 mm (outlier_mm)");
 }
 
+TEST_P(RigidRegistration, RefusesTwoGroupsOfMarkersThatEachMovedAsOne) {
+  MarkerPairs markers = seen(random_motion());
+  for (std::size_t i = 0; i < 2; ++i) {
+    markers.image.push_back(markers.image[i] + Eigen::Vector3d{0.02, 0.01, -0.03});
+    markers.robot.push_back(markers.robot[i] + Eigen::Vector3d{0.04, 0, 0.05});
+  }
+  const Eigen::Isometry3d other = random_motion();
+  for (std::size_t i = 4; i < 8; ++i) markers.robot[i] = other * markers.image[i];
+  EXPECT_EQ(registrar().find(markers).error().text,
+            "the markers disagree: two different sets of 4 fit to within 3 mm (outlier_mm)");
+}
+
 TEST_P(RigidRegistration, RefusesAMirrorImage) {
   MarkerPairs markers = seen(random_motion());
   for (Eigen::Vector3d& marker : markers.robot) marker.y() = -marker.y();

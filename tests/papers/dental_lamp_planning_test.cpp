@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/kinds/trajectory/joint_curve.hpp"
-#include "armature/kinds/trajectory/timing.hpp"
+#include "armature/kinds/trajectory/one_law.hpp"
 #include "armature/robot/kinematics.hpp"
 #include "armature/robot/quintic_spline.hpp"
 #include "lamp_plugins.hpp"

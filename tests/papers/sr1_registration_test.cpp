@@ -50,7 +50,7 @@ Eigen::Matrix3d matrix(const Figures& rows) {
 Eigen::Vector3d target() { return sr1()["registration"]["case"]["target_image"].point_m(); }
 
 /// Figures are printed to 1e-12 and, lengths, to 1e-9 mm; exact markers to 1e-9 mm.
-constexpr double kPrinted = 1e-11, kPrintedLength = 1e-12;
+constexpr double kLastFigure = 1e-11, kLastDigit = 1e-12;
 
 TEST(Sr1Registration, ExactMarkersLeadToTheExactTarget) {
   const Figures figures = sr1()["registration"]["case"];
@@ -58,7 +58,8 @@ TEST(Sr1Registration, ExactMarkersLeadToTheExactTarget) {
     SCOPED_TRACE(id);
     const auto found = registrar(id)->find(markers(6, "robot_markers_exact"));
     ASSERT_TRUE(found) << found.error().text;
-    EXPECT_LT((found->robot_T_image.linear() - matrix(figures["R_robot_image"])).norm(), kPrinted);
+    EXPECT_LT((found->robot_T_image.linear() - matrix(figures["R_robot_image"])).norm(),
+              kLastFigure);
     EXPECT_LT((found->robot_T_image * target() - figures["target_robot_exact"].point_m()).norm(),
               2e-12);
     EXPECT_LT(found->fre_m, 1e-12);
@@ -69,9 +70,9 @@ TEST(Sr1Registration, FourMarkersMakeTheAffineMapOfTheCase) {
   const Figures figures = sr1()["registration"]["case"]["noisy_affine4"];
   const auto found = registrar("registration/affine4")->find(markers(4, "robot_markers_noisy"));
   ASSERT_TRUE(found) << found.error().text;
-  EXPECT_LT((found->robot_T_image.linear() - matrix(figures["A"])).norm(), kPrinted);
-  EXPECT_LT((found->robot_T_image.translation() - figures["b"].point_m()).norm(), kPrintedLength);
-  EXPECT_LT((found->robot_T_image * target() - figures["target"].point_m()).norm(), kPrintedLength);
+  EXPECT_LT((found->robot_T_image.linear() - matrix(figures["A"])).norm(), kLastFigure);
+  EXPECT_LT((found->robot_T_image.translation() - figures["b"].point_m()).norm(), kLastDigit);
+  EXPECT_LT((found->robot_T_image * target() - figures["target"].point_m()).norm(), kLastDigit);
   EXPECT_LT(found->fre_m, 1e-15) << figures["fre"].number();
   EXPECT_NEAR(found->condition, 3.03, 0.005);
 }
@@ -80,8 +81,8 @@ TEST(Sr1Registration, ThreeMarkersMakeTheFrameOfTheCase) {
   const Figures figures = sr1()["registration"]["case"]["noisy_frame3"];
   const auto found = registrar("registration/frame3")->find(markers(3, "robot_markers_noisy"));
   ASSERT_TRUE(found) << found.error().text;
-  EXPECT_LT((found->robot_T_image.linear() - matrix(figures["T"])).norm(), kPrinted);
-  EXPECT_LT((found->robot_T_image * target() - figures["target"].point_m()).norm(), kPrintedLength);
+  EXPECT_LT((found->robot_T_image.linear() - matrix(figures["T"])).norm(), kLastFigure);
+  EXPECT_LT((found->robot_T_image * target() - figures["target"].point_m()).norm(), kLastDigit);
 }
 
 TEST(Sr1Registration, LeastSquaresOverThreeFourAndSixMarkersIsThatOfTheCase) {
@@ -92,10 +93,9 @@ TEST(Sr1Registration, LeastSquaresOverThreeFourAndSixMarkersIsThatOfTheCase) {
     const auto rigid = registrar("registration/rigid");
     const auto found = rigid->find(pairs);
     ASSERT_TRUE(found) << found.error().text;
-    EXPECT_LT((found->robot_T_image.linear() - matrix(figures["R"])).norm(), kPrinted);
-    EXPECT_LT((found->robot_T_image.translation() - figures["t"].point_m()).norm(), kPrintedLength);
-    EXPECT_LT((found->robot_T_image * target() - figures["target"].point_m()).norm(),
-              kPrintedLength);
+    EXPECT_LT((found->robot_T_image.linear() - matrix(figures["R"])).norm(), kLastFigure);
+    EXPECT_LT((found->robot_T_image.translation() - figures["t"].point_m()).norm(), kLastDigit);
+    EXPECT_LT((found->robot_T_image * target() - figures["target"].point_m()).norm(), kLastDigit);
     EXPECT_NEAR(1e3 * found->fre_m, figures["fre_rms"].number(), 1e-9);
     // Fitzpatrick's formula is that of markers without error.
     const auto error =

@@ -5,10 +5,6 @@
 
 namespace armature {
 
-bool at_rest(const JointState& state) {
-  return state.v.cwiseAbs().maxCoeff() < 1e-9 && state.a.cwiseAbs().maxCoeff() < 1e-9;
-}
-
 Trajectory joined(const Trajectory& first, const Trajectory& second) {
   Trajectory both = first;
   both.goal_id = second.goal_id;

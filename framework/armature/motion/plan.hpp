@@ -30,7 +30,4 @@ using PlanResult = tl::expected<Plan, PlanFailure>;
 /// `first`, then `second`, which starts where and when `first` ends.
 Trajectory joined(const Trajectory& first, const Trajectory& second);
 
-/// True when nothing moves: velocities and accelerations below 1e-9.
-bool at_rest(const JointState& state);
-
 }  // namespace armature

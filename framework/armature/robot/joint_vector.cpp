@@ -6,6 +6,10 @@
 
 namespace armature {
 
+bool at_rest(const JointState& state) {
+  return state.v.cwiseAbs().maxCoeff() < 1e-9 && state.a.cwiseAbs().maxCoeff() < 1e-9;
+}
+
 double wrap_angle(double angle) {
   constexpr double kPi = std::numbers::pi;
   if (angle >= -kPi && angle < kPi) return angle;  // already there: not a bit is changed

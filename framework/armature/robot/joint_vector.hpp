@@ -19,6 +19,8 @@ using Jacobian = Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, kMaxJoints>;
 struct JointState {
   JointVector q, v, a;
 };
+/// True when nothing moves: velocities and accelerations below 1e-9.
+bool at_rest(const JointState& state);
 
 /// `angle` shifted by whole turns into [-pi, pi).
 double wrap_angle(double angle);

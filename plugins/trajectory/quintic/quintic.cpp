@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "quintic.hpp"
 
-#include "armature/kinds/trajectory/timing.hpp"
+#include "armature/kinds/trajectory/one_law.hpp"
 #include "armature/runtime/plugin.hpp"
 
 namespace armature {
@@ -26,7 +26,7 @@ std::vector<Quintic> hermite_along(const JointCurve& curve, const TimeLaw& law,
 }  // namespace
 
 Expected<Trajectory> QuinticTrajectory::plan(const TrajectoryRequest& request) const {
-  return timed(request, hermite_along);
+  return timed(request, under_one_law(hermite_along));
 }
 
 }  // namespace armature

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "quintic_spline.hpp"
 
-#include "armature/kinds/trajectory/timing.hpp"
+#include "armature/kinds/trajectory/one_law.hpp"
 #include "armature/robot/quintic_spline.hpp"
 #include "armature/runtime/plugin.hpp"
 
@@ -20,7 +20,7 @@ std::vector<Quintic> spline_along(const JointCurve& curve, const TimeLaw& law,
 }  // namespace
 
 Expected<Trajectory> QuinticSplineTrajectory::plan(const TrajectoryRequest& request) const {
-  return timed(request, spline_along);
+  return timed(request, under_one_law(spline_along));
 }
 
 }  // namespace armature

@@ -173,7 +173,7 @@ TEST_P(TrajectoryLaws, AViaIsPassedWithoutStopping) {
 TEST_P(TrajectoryLaws, ASegmentsOwnDurationIsKeptExactlyOrRefusedWithTheNeededOne) {
   TrajectoryRequest wanted = request(0);
   wanted.from.q.setZero();
-  JointSegment segment{{0, 1}, {wanted.from.q, JointVector::Constant(kDof, 0.5)}, true, 1.0};
+  JointSegment segment{{0, 1}, {wanted.from.q, JointVector::Constant(kDof, 0.5)}, true, 1.25};
   JointSegment back{{0, 1}, {segment.q[1], segment.q[0]}, true, 1.5};
   wanted.segments = {segment, back};
   const auto planned = planner().plan(wanted);
@@ -182,12 +182,21 @@ TEST_P(TrajectoryLaws, ASegmentsOwnDurationIsKeptExactlyOrRefusedWithTheNeededOn
     return;
   }
   ASSERT_TRUE(planned);
-  EXPECT_EQ(planned->knots, (std::vector<double>{0, 1, 2.5}));
-  wanted.max_velocity.setConstant(0.75);  // the peak is 1.875 D / T
-  wanted.segments[0].duration_s = 2;
-  wanted.segments[1].duration_s = 1;
-  EXPECT_EQ(planner().plan(wanted).error().text,
-            "segment 2 lasts 1.000 s, its limits need 1.250 s");
+  EXPECT_EQ(planned->duration_s(), 2.75);
+  EXPECT_LE((planned->at(wanted.start + seconds(1.25)).q - segment.q[1]).norm(), 1e-9);
+  wanted.max_velocity.setConstant(0.75);
+  wanted.segments[0].duration_s = 3;
+  wanted.segments[1].duration_s = 0.6;  // a mean speed of 0.83
+  const auto refused = planner().plan(wanted);
+  ASSERT_FALSE(refused);
+  const std::string text = refused.error().text,
+                    known = "segment 2 lasts 0.600 s, its limits need ";
+  ASSERT_EQ(text.substr(0, known.size()), known);
+  const double needed = std::stod(text.substr(known.size()));
+  wanted.segments[1].duration_s = needed + 0.001;
+  EXPECT_TRUE(planner().plan(wanted));
+  wanted.segments[1].duration_s = needed - 0.001;
+  EXPECT_FALSE(planner().plan(wanted));
 }
 
 TEST_P(TrajectoryLaws, GoingNowhereIsHolding) {

@@ -6,51 +6,34 @@
 #include <algorithm>
 #include <cmath>
 
-#include "armature/kinds/trajectory/legs.hpp"
-
 namespace armature {
 namespace {
 
 constexpr double kShortestLeg_s = 0.02;
-constexpr double kAtRest = 1e-9;    // [rad/s], [rad/s2] or the like
 constexpr double kRounding = 1e-9;  // of a limit
 // A moving start is tried with longer and longer durations, from this part of what the leg needs
 // from rest or the velocity needs to vanish; 1.25^39 is 6000 times longer.
 constexpr double kFirstTry = 0.3, kGrowth = 1.25;
 constexpr int kMostTries = 40, kRefinements = 6;
 
-/// The times of all waypoints, and between them as many more as it takes to have no gap longer than
-/// if they were even: where the law is slow, waypoints even in s lie far apart in time.
-std::vector<double> knots_of(const JointCurve& curve, const TimeLaw& law) {
-  const double even = law.duration_s() / static_cast<double>(curve.s().size() - 1);
-  std::vector<double> knots{0};
-  for (std::size_t i = 1; i < curve.s().size(); ++i) {
-    const double before = knots.back(), behind = law.time_at(curve.s()[i]);
-    const int parts = static_cast<int>(std::ceil((behind - before) / even - kRounding));
-    for (int k = 1; k < parts; ++k) knots.push_back(before + (behind - before) * k / parts);
-    knots.push_back(behind);
-  }
-  return knots;
-}
-
 /// One leg on its own clock, and how it is allowed to use the limits.
 class LegTimer {
  public:
-  LegTimer(const TrajectoryRequest& request, const Leg& leg, PiecesAlong pieces_along)
-      : request_{request}, leg_{leg}, pieces_along_{pieces_along} {}
+  LegTimer(const TrajectoryRequest& request, const Leg& leg, const LegShape& shape)
+      : request_{request}, leg_{leg}, shape_{shape} {}
 
   Expected<Trajectory> from_rest() const {
-    const Trajectory unit = along(TimeLaw{1});
-    const double needed = needed_factor(unit);
+    const Trajectory unit = shape_.in(1, rest());
+    const double needed = needed_factor(request_, unit);
     if (!leg_.duration_s)
       return stretched(unit, std::max(needed * (1 + kRounding), kShortestLeg_s));
     if (needed > *leg_.duration_s * (1 + kRounding)) return too_short(needed);
-    return along(TimeLaw{*leg_.duration_s});
+    return shape_.in(*leg_.duration_s, rest());
   }
 
   Expected<Trajectory> from_moving() const {
     if (leg_.duration_s) {
-      Trajectory fixed = from_moving_in(*leg_.duration_s);
+      Trajectory fixed = shape_.in(*leg_.duration_s, request_.from);
       if (within_limits(fixed)) return fixed;
       const auto shortest = shortest_from_moving();
       return shortest ? too_short(shortest->duration_s()) : shortest;
@@ -59,22 +42,9 @@ class LegTimer {
   }
 
  private:
-  Trajectory along(const TimeLaw& law) const {
-    Trajectory trajectory{.goal_id = request_.goal_id,
-                          .dof = leg_.curve.dof(),
-                          .start = request_.start,
-                          .knots = {},
-                          .pieces = {}};
-    trajectory.knots = knots_of(leg_.curve, law);
-    trajectory.pieces = pieces_along_(leg_.curve, law, trajectory.knots);
-    return trajectory;
-  }
-
-  /// By how much a trajectory from rest must be slowed down (velocities fall with the factor,
-  /// accelerations with its square).
-  double needed_factor(const Trajectory& trajectory) const {
-    const LimitUse use = limit_use(trajectory, request_.max_velocity, request_.max_acceleration);
-    return std::max(use.velocity, std::sqrt(use.acceleration));
+  JointState rest() const {
+    const JointVector& q = leg_.curve.waypoints().front();
+    return {q, JointVector::Zero(q.size()), JointVector::Zero(q.size())};
   }
 
   /// Within the limits, or no worse than the start itself.
@@ -87,36 +57,14 @@ class LegTimer {
            use.acceleration <= start_use(request_.from.a, request_.max_acceleration);
   }
 
-  /// The time law takes over what it can; the rest fades out in an added quintic. On a straight
-  /// line with a fade as long as the leg the sum is the one quintic from the start's state to rest,
-  /// so that planning again on the way changes nothing.
-  Trajectory from_moving_in(double duration_s) const {
-    const JointState& from = request_.from;
-    const JointState slope = leg_.curve.at(0);
-    const double steepness = slope.v.squaredNorm();
-    double speed = 0, acceleration = 0;
-    if (steepness > 0) {
-      speed = from.v.dot(slope.v) / steepness;
-      acceleration = (from.a - speed * speed * slope.a).dot(slope.v) / steepness;
-    }
-    const TimeLaw law{duration_s, speed, acceleration};
-    const JointVector rest = from.v - law.speed(0) * slope.v;
-    // A quintic that fades v out in B peaks at 3.94 v/B: half of the limit is enough for it.
-    const double gentle = std::max(8 * stopping_time(rest), 0.5 * duration_s);
-    return spliced(along(law), from, std::min(duration_s, gentle));
-  }
-
-  /// At full deceleration, of the slowest joint.
-  double stopping_time(const JointVector& velocity) const {
-    return velocity.cwiseAbs().cwiseQuotient(request_.max_acceleration).maxCoeff();
-  }
-
   Expected<Trajectory> shortest_from_moving() const {
-    const double needed = std::max(needed_factor(along(TimeLaw{1})), kShortestLeg_s);
-    const double first = std::max(kFirstTry * needed, stopping_time(request_.from.v));
+    const double needed = std::max(needed_factor(request_, shape_.in(1, rest())), kShortestLeg_s);
+    const double stopping =
+        request_.from.v.cwiseAbs().cwiseQuotient(request_.max_acceleration).maxCoeff();
+    const double first = std::max(kFirstTry * needed, stopping);
     for (int i = 0; i < kMostTries; ++i) {
       const double duration = first * std::pow(kGrowth, i);
-      Trajectory found = from_moving_in(duration);
+      Trajectory found = shape_.in(duration, request_.from);
       if (within_limits(found)) return i == 0 ? found : refined(duration, found);
     }
     return refuse(fmt::format("segment {}: no duration keeps the limits from this moving start",
@@ -128,7 +76,7 @@ class LegTimer {
     double low = duration / kGrowth, high = duration;
     for (int i = 0; i < kRefinements; ++i) {
       const double middle = 0.5 * (low + high);
-      Trajectory shorter = from_moving_in(middle);
+      Trajectory shorter = shape_.in(middle, request_.from);
       const bool fits = within_limits(shorter);
       (fits ? high : low) = middle;
       if (fits) found = std::move(shorter);
@@ -143,7 +91,7 @@ class LegTimer {
 
   const TrajectoryRequest& request_;
   const Leg& leg_;
-  PiecesAlong pieces_along_;
+  const LegShape& shape_;
 };
 
 void append(Trajectory& trajectory, const Trajectory& next) {
@@ -154,24 +102,17 @@ void append(Trajectory& trajectory, const Trajectory& next) {
   trajectory.pieces.insert(trajectory.pieces.end(), next.pieces.begin(), next.pieces.end());
 }
 
-bool moves(const JointState& from) {
-  return from.v.cwiseAbs().maxCoeff() > kAtRest || from.a.cwiseAbs().maxCoeff() > kAtRest;
-}
-
 }  // namespace
 
-JointState state_along(const JointCurve& curve, const TimeLaw& law, double t) {
-  const double speed = law.speed(t);
-  JointState state = curve.at(law.s(t));
-  state.a = speed * speed * state.a + law.acceleration(t) * state.v;
-  state.v *= speed;
-  return state;
+double needed_factor(const TrajectoryRequest& request, const Trajectory& from_rest) {
+  const LimitUse use = limit_use(from_rest, request.max_velocity, request.max_acceleration);
+  return std::max(use.velocity, std::sqrt(use.acceleration));
 }
 
-Expected<Trajectory> timed(const TrajectoryRequest& request, PiecesAlong pieces_along) {
+Expected<Trajectory> timed(const TrajectoryRequest& request, const LegShaper& shape_of) {
   auto legs = legs_of(request);
   if (!legs) return tl::unexpected{legs.error()};
-  const bool moving = moves(request.from);
+  const bool moving = !at_rest(request.from);
   if (moving && (legs->empty() || !legs->front().moves)) {
     const JointVector& here = request.segments.front().q.front();
     legs->insert(legs->begin(), Leg{0, JointCurve{{0, 1}, {here, here}}, false, {}});
@@ -182,7 +123,8 @@ Expected<Trajectory> timed(const TrajectoryRequest& request, PiecesAlong pieces_
   trajectory.knots = {0};
   trajectory.pieces.clear();
   for (std::size_t i = 0; i < legs->size(); ++i) {
-    const LegTimer timer{request, (*legs)[i], pieces_along};
+    const auto shape = shape_of(request, (*legs)[i]);
+    const LegTimer timer{request, (*legs)[i], *shape};
     auto leg = moving && i == 0 ? timer.from_moving() : timer.from_rest();
     if (!leg) return leg;
     append(trajectory, *leg);

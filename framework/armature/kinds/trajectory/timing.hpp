@@ -1,26 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <span>
-#include <vector>
+#include <functional>
+#include <memory>
 
-#include "armature/kinds/trajectory/joint_curve.hpp"
-#include "armature/kinds/trajectory/time_law.hpp"
+#include "armature/kinds/trajectory/legs.hpp"
 #include "armature/kinds/trajectory/trajectory_planner.hpp"
 
 namespace armature {
 
-/// What distinguishes one trajectory plugin from another: quintics (piece-major) that follow
-/// `curve` under `law` from each of `knots` to the next; every waypoint's time is one of them.
-using PiecesAlong = std::vector<Quintic> (*)(const JointCurve& curve, const TimeLaw& law,
-                                             std::span<const double> knots);
+/// What distinguishes one trajectory plugin from another: how it follows one leg. From rest, twice
+/// the time must be the same motion at half the speed.
+class LegShape {
+ public:
+  virtual ~LegShape() = default;
+  /// From `from`, which may move, to rest at the leg's end in exactly `duration_s`, without a jump
+  /// in q, v or a and through all waypoints, whatever the limits.
+  virtual Trajectory in(double duration_s, const JointState& from) const = 0;
+};
+/// Of a leg of a request, both of which outlive it.
+using LegShaper = std::function<std::unique_ptr<LegShape>(const TrajectoryRequest&, const Leg&)>;
 
-/// q, v, a of a motion along `curve` under `law` at time `t` (chain rule).
-JointState state_along(const JointCurve& curve, const TimeLaw& law, double t);
+/// The fastest trajectory within the limits that goes from stop to stop in the given shapes, or in
+/// the path's own durations.
+Expected<Trajectory> timed(const TrajectoryRequest& request, const LegShaper& shape_of);
 
-/// The fastest trajectory within the limits that goes from stop to stop under one time law each.
-/// From a moving start the time law takes over the velocity along the path; what points elsewhere
-/// fades out in a quintic that is added (`spliced`).
-Expected<Trajectory> timed(const TrajectoryRequest& request, PiecesAlong pieces_along);
+/// By how much slower a motion from rest has to be to keep the request's limits: velocities fall
+/// with the factor, accelerations with its square.
+double needed_factor(const TrajectoryRequest& request, const Trajectory& from_rest);
 
 }  // namespace armature

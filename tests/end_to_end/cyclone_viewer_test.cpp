@@ -12,7 +12,7 @@
 
 #include "armature/robot/kinematics.hpp"
 #include "armature/robot/robot_model.hpp"
-#include "lamp_run.hpp"
+#include "deployment_run.hpp"
 #include "tests/dds_domain.hpp"
 
 namespace armature::test {
@@ -100,7 +100,8 @@ TEST(CycloneViewer, SeesTheToolWhereTheJointsPutItAndWhatTheLampIsAfter) {
   const std::string domain = std::to_string(unique_dds_domain());
   Command joints{{CYCLONE_LISTENER, domain, "rt/dental_lamp/arm/measured_js", "1000000", "170"}};
   Command viewer{{CYCLONE_VIEWER, domain, "rt/dental_lamp/markers", "base", "tool", "170"}};
-  const LampRun run = run_lamp({.settings = {"run.time_limit_s=120"}, .domain = std::stoi(domain)});
+  const DeploymentRun run =
+      run_deployment({.settings = {"run.time_limit_s=120"}, .domain = std::stoi(domain)});
   EXPECT_EQ(run.report.value("status", "none"), "ok") << run.text();
   joints.signal(SIGTERM);
   viewer.signal(SIGTERM);

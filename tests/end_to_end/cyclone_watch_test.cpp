@@ -8,7 +8,7 @@
 #include <numbers>
 #include <sstream>
 
-#include "lamp_run.hpp"
+#include "deployment_run.hpp"
 #include "tests/dds_domain.hpp"
 
 namespace armature::test {
@@ -53,13 +53,13 @@ void expect_possible(const WatchedJoints& joints) {
   }
 }
 
-TEST(CycloneDds, WatchesTheArmWhileTheLampRuns) {
+TEST(CycloneDds, WatchesTheArmWhileTheDeploymentRuns) {
   const int domain = unique_dds_domain();
   Command listener{{CYCLONE_LISTENER, std::to_string(domain), "rt/dental_lamp/arm/measured_js",
                     "1000000", "120"}};
   // A dark room: it raises the light in many small steps before it moves, so that whoever watches
   // comes in while it is still at home.
-  Command lamp{lamp_command(
+  Command lamp{deployment_command(
       {.settings = {"components.scene.params.gain=0.3", "components.task.params.light_step=0.02"},
        .domain = domain})};
   // Before it looks elsewhere it has gone to the first view.

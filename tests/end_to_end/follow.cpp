@@ -38,7 +38,8 @@ bool moving_at(const Recording& recording, double time_s) {
 }
 
 void expect_new_goals_while_the_patient_moves_only(const Recording& recording,
-                                                   const PatientMove& move, const LampRun& run) {
+                                                   const PatientMove& move,
+                                                   const DeploymentRun& run) {
   const double aligned = run.figure("time_to_align_s");
   const double aligned_again = kMoveAt + move.duration_s + run.figure("time_to_realign_s");
   int spliced = 0;
@@ -67,7 +68,7 @@ void expect_smooth(const Recording& recording) {
 }  // namespace
 
 void expect_followed(const PatientMove& move) {
-  LampRun run;
+  DeploymentRun run;
   const Recording recording = record_lamp({.settings = settings_of(move)}, run);
   expect_aligned(run);
   SCOPED_TRACE(run.text());

@@ -4,8 +4,8 @@
 
 #include <ostream>
 
+#include "deployment_run.hpp"
 #include "follow.hpp"
-#include "lamp_run.hpp"
 
 namespace armature::test {
 namespace {
@@ -25,7 +25,7 @@ class LampMatrix : public testing::TestWithParam<std::tuple<Tilt, std::string>> 
 
 TEST_P(LampMatrix, FindsTheFaceAndAligns) {
   const auto& [tilt, photo] = GetParam();
-  const LampRun run = run_lamp(
+  const DeploymentRun run = run_deployment(
       {.settings = {kSimulated, "components.scene.params.photo=" + photo,
                     "components.scene.params.tilt_up_deg=" + std::to_string(tilt.up_deg),
                     "components.scene.params.tilt_side_deg=" + std::to_string(tilt.side_deg)}});
@@ -40,22 +40,24 @@ INSTANTIATE_TEST_SUITE_P(AllTilts, LampMatrix,
                            return std::get<0>(place.param).name + "_" + std::get<1>(place.param);
                          });
 
-TEST(LampFull, AlignsOnTheSystemClock) { expect_aligned(run_lamp({})); }
+TEST(LampFull, AlignsOnTheSystemClock) { expect_aligned(run_deployment({})); }
 
 TEST(LampFull, AlignsAsThePaperHasIt) {
-  const LampRun run = run_lamp(
+  const DeploymentRun run = run_deployment(
       {.files = {source_file("configs/dental_lamp_paper.yaml")}, .settings = {kSimulated}});
   expect_aligned(run, {.mouth_mm = 8, .normal_deg = 6, .distance_mm = 8, .direction_deg = 6});
 }
 
 TEST(LampFull, RaisesTheLightInADarkRoomAndAligns) {
-  const LampRun run = run_lamp({.settings = {kSimulated, "components.scene.params.gain=0.3"}});
+  const DeploymentRun run =
+      run_deployment({.settings = {kSimulated, "components.scene.params.gain=0.3"}});
   expect_aligned(run);
   EXPECT_NE(run.command.err.find("task      light level 10 %"), std::string::npos) << run.text();
 }
 
 TEST(LampFull, MeetsItsGoalsAtTheDistanceThatTheTaskAloneIsTold) {
-  const LampRun run = run_lamp({.settings = {kSimulated, "components.task.params.distance_m=0.4"}});
+  const DeploymentRun run =
+      run_deployment({.settings = {kSimulated, "components.task.params.distance_m=0.4"}});
   expect_aligned(run);
   EXPECT_NEAR(run.figure("distance_mm"), 400, 1.5);
 }
@@ -72,7 +74,7 @@ class LampSwap : public testing::TestWithParam<Swap> {};
 TEST_P(LampSwap, AlignsWithAnotherPluginByOneWord) {
   std::vector<std::string> settings = GetParam().settings;
   settings.push_back(kSimulated);
-  expect_aligned(run_lamp({.settings = settings}));
+  expect_aligned(run_deployment({.settings = settings}));
 }
 
 const std::string kNumericIk = "components.motion.ik.plugin=ik/numeric";

@@ -2,7 +2,7 @@
 // The main job: from home it finds the face and goes in front of the mouth.
 #include <gtest/gtest.h>
 
-#include "lamp_run.hpp"
+#include "deployment_run.hpp"
 
 namespace armature::test {
 namespace {
@@ -10,23 +10,25 @@ namespace {
 constexpr double kStoryEndsWithin = 20;  // [s] of virtual time
 
 TEST(Lamp, FindsADrawnFaceAndAlignsTwiceOnTheSameTrajectory) {
-  const LampRun first = run_lamp({.settings = {kSimulated}});
+  const DeploymentRun first = run_deployment({.settings = {kSimulated}});
   expect_aligned(first);
   EXPECT_LE(first.figure("time_to_align_s"), kStoryEndsWithin);
   EXPECT_EQ(first.figure("replans"), 0);
 
-  const LampRun second = run_lamp({.settings = {kSimulated}});
+  const DeploymentRun second = run_deployment({.settings = {kSimulated}});
   EXPECT_EQ(first.report.value("trajectory_sha256", "first"),
             second.report.value("trajectory_sha256", "second"));
   EXPECT_EQ(first.report, second.report);
 
-  const LampRun unwatched = run_lamp({.settings = {kSimulated, "components.monitor=null"}});
+  const DeploymentRun unwatched =
+      run_deployment({.settings = {kSimulated, "components.monitor=null"}});
   EXPECT_EQ(first.report, unwatched.report) << "a monitor changes nothing";
 }
 
 TEST(Lamp, FindsAPhotographedFaceThatLooksUpAndAligns) {
-  const LampRun run = run_lamp({.settings = {kSimulated, "components.scene.params.photo=astronaut",
-                                             "components.scene.params.tilt_up_deg=30"}});
+  const DeploymentRun run =
+      run_deployment({.settings = {kSimulated, "components.scene.params.photo=astronaut",
+                                   "components.scene.params.tilt_up_deg=30"}});
   expect_aligned(run);
   EXPECT_LE(run.figure("time_to_align_s"), kStoryEndsWithin);
 }

@@ -7,7 +7,7 @@
 #include <csignal>
 #include <fstream>
 
-#include "lamp_run.hpp"
+#include "deployment_run.hpp"
 #include "tests/dds_domain.hpp"
 
 namespace armature::test {
@@ -21,7 +21,7 @@ const std::string kRuns = "task      searching 1/9";
 constexpr seconds kStartsWithin{60};
 
 /// The lamp, with as much time as it wants.
-LampStart endless(int domain, std::vector<std::string> settings = {}) {
+DeploymentStart endless(int domain, std::vector<std::string> settings = {}) {
   settings.push_back("run.time_limit_s=0");
   settings.push_back("components.report.params.expect_move=true");  // which is far away:
   settings.push_back("components.scene.params.move_at_s=1000000");
@@ -31,7 +31,7 @@ LampStart endless(int domain, std::vector<std::string> settings = {}) {
 }
 
 TEST(ProcessLife, AnInterruptedRunEndsAtOnceAndSaysSo) {
-  Command lamp{lamp_command(endless(unique_dds_domain()))};
+  Command lamp{deployment_command(endless(unique_dds_domain()))};
   ASSERT_TRUE(lamp.wait_for_err(kRuns, kStartsWithin)) << lamp.err();
   lamp.signal(SIGINT);
   const CommandResult result = lamp.finish(seconds{3});
@@ -60,7 +60,7 @@ TEST(ProcessLife, ARunThatIsInterruptedBeforeItStartsEndsAtOnce) {
 TEST(ProcessLife, AKilledRunTakesItsOtherProcessAlongAndTheNextOneWorksAndEndsClean) {
   const int domain = unique_dds_domain();
   {
-    Command lamp{lamp_command(endless(domain, kVisionApart))};
+    Command lamp{deployment_command(endless(domain, kVisionApart))};
     ASSERT_TRUE(lamp.wait_for_err(kRuns, kStartsWithin)) << lamp.err();
     const pid_t vision = lamp.child();
     ASSERT_GT(vision, 0);
@@ -68,7 +68,7 @@ TEST(ProcessLife, AKilledRunTakesItsOtherProcessAlongAndTheNextOneWorksAndEndsCl
     EXPECT_EQ(lamp.finish(seconds{10}).exit_code, 128 + SIGKILL);
     EXPECT_TRUE(ends_within(vision, seconds{10}));
   }
-  Command next{lamp_command(endless(domain, kVisionApart))};
+  Command next{deployment_command(endless(domain, kVisionApart))};
   EXPECT_TRUE(next.wait_for_err(kRuns, kStartsWithin)) << next.err();
   const pid_t vision = next.child();
   next.signal(SIGINT);
@@ -79,7 +79,7 @@ TEST(ProcessLife, AKilledRunTakesItsOtherProcessAlongAndTheNextOneWorksAndEndsCl
 }
 
 TEST(ProcessLife, ARunWhoseOtherProcessIsKilledSaysSoAndEnds) {
-  Command lamp{lamp_command(endless(unique_dds_domain(), kVisionApart))};
+  Command lamp{deployment_command(endless(unique_dds_domain(), kVisionApart))};
   ASSERT_TRUE(lamp.wait_for_err(kRuns, kStartsWithin)) << lamp.err();
   const pid_t vision = lamp.child();
   ASSERT_GT(vision, 0);
@@ -93,9 +93,9 @@ TEST(ProcessLife, ARunWhoseOtherProcessIsKilledSaysSoAndEnds) {
 
 TEST(ProcessLife, ASecondStartNamesTheFirst) {
   const int domain = unique_dds_domain();
-  Command lamp{lamp_command(endless(domain))};
+  Command lamp{deployment_command(endless(domain))};
   ASSERT_TRUE(lamp.wait_for_err(kRuns, kStartsWithin)) << lamp.err();
-  const CommandResult second = run_command(lamp_command(endless(domain)), {}, seconds{3});
+  const CommandResult second = run_command(deployment_command(endless(domain)), {}, seconds{3});
   EXPECT_FALSE(second.timed_out);
   EXPECT_EQ(second.exit_code, 1);
   EXPECT_EQ(second.out, "");
@@ -105,9 +105,9 @@ TEST(ProcessLife, ASecondStartNamesTheFirst) {
 }
 
 TEST(ProcessLife, WithoutRoomInSharedMemoryItSaysSoAndWorksOverUdp) {
-  LampStart start = endless(unique_dds_domain(), kVisionApart);
+  DeploymentStart start = endless(unique_dds_domain(), kVisionApart);
   start.options.environment["ARMATURE_PLUGIN_PATH"] = FULL_SHARED_MEMORY;
-  Command lamp{lamp_command(start), start.options};
+  Command lamp{deployment_command(start), start.options};
   ASSERT_TRUE(lamp.wait_for_err(kRuns, kStartsWithin)) << lamp.err();
   lamp.signal(SIGINT);
   const CommandResult result = lamp.finish(seconds{10});

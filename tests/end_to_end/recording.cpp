@@ -85,12 +85,12 @@ Recording read_recording(const fs::path& folder) {
 
 }  // namespace
 
-Recording record_lamp(LampStart start, LampRun& run) {
+Recording record_lamp(DeploymentStart start, DeploymentRun& run) {
   const TemporaryFolder folder;
   start.files.push_back(source_file("tests/end_to_end/recorder.yaml"));
   start.options.environment["ARMATURE_PLUGIN_PATH"] = ARMATURE_BINARY_DIR "/tests/plugins";
   start.options.environment["RECORDER_FOLDER"] = folder.path();
-  run = run_lamp(start);
+  run = run_deployment(start);
   return read_recording(folder.path());
 }
 

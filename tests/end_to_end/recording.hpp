@@ -6,7 +6,7 @@
 #include <map>
 #include <vector>
 
-#include "lamp_run.hpp"
+#include "deployment_run.hpp"
 #include "reference_check.hpp"
 
 namespace armature::test {
@@ -32,6 +32,6 @@ struct Recording {
 };
 
 /// Runs the lamp with the recorder beside it.
-Recording record_lamp(LampStart start, LampRun& run);
+Recording record_lamp(DeploymentStart start, DeploymentRun& run);
 
 }  // namespace armature::test

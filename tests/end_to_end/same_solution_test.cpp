@@ -73,7 +73,7 @@ Eigen::VectorXd nearest(const json& answer, const Eigen::VectorXd& seed, double 
 }
 
 TEST(IkSolvers, AgreeOnEveryGoalOfTheDefaultRun) {
-  LampRun run;
+  DeploymentRun run;
   const std::vector<Question> questions =
       questions_of(record_lamp({.settings = {kSimulated}}, run));
   ASSERT_EQ(run.command.exit_code, 0) << run.text();

@@ -223,11 +223,11 @@ const Fault kFaults[] = {
      "    ik: {plugin: ik/lamp_geometric}\n"
      "    select: {plugin: select/nearest}\n"
      "    trajectory: {plugin: trajectory/hasty}",
-     "deployment.yaml:16:20: 'path/mouth_points' needs 'time_law' unless 'segment_s' is 0, and no "
-     "plugin in component 'motion' offers it; offered by trajectory/quintic, "
-     "trajectory/quintic_spline\n"},
+     "deployment.yaml:16:20: 'path/mouth_points' needs 'time_law' unless 'segment_s' is 0, and "
+     "nothing in component 'motion' offers it; offered by trajectory/cubic_spline, "
+     "trajectory/quintic, trajectory/quintic_spline\n"},
     {"NeedThatNoPluginKnows", "path: {plugin: path/mouth_arc}", "path: {plugin: path/mistyped}",
-     "deployment.yaml:16:20: 'path/mistyped' needs 'time_lwa', and no plugin in component 'motion' "
+     "deployment.yaml:16:20: 'path/mistyped' needs 'time_lwa', and nothing in component 'motion' "
      "offers it; no plugin on the search path does; did you mean 'time_law'?\n"},
     {"MoveThatNeverComes", "{plugin: report/lamp_alignment}",
      "{plugin: report/lamp_alignment, params: {expect_move: true}}",

@@ -56,6 +56,7 @@
   X(armature_msgs, FaceLandmarks)          \
   X(armature_msgs, FacePose)               \
   X(armature_msgs, Target)                 \
+  X(armature_msgs, ForbiddenZone)          \
   X(armature_msgs, MotionGoal)             \
   X(armature_msgs, MotionStatus)           \
   X(armature_msgs, ToolPath)               \
@@ -78,6 +79,8 @@
   X(armature_msgs, RegistrationRequest)    \
   X(armature_msgs, RegisteredTarget)       \
   X(armature_msgs, RegistrationResponse)   \
+  X(armature_msgs, NeedlePlan)             \
+  X(armature_msgs, MeasuredMarkers)        \
   X(armature_msgs, LightLevel)             \
   X(armature_msgs, Capture)                \
   X(armature_msgs, TaskState)              \

@@ -73,8 +73,11 @@ class FirstBranch : public BranchSelector, public Moody {
 /// One joint segment to the goal; with a focus a cartesian line whose middle lies on the focus.
 class LinePath : public PathPlanner, public Moody {
  public:
+  mutable PathRequest last_request;
+
   Expected<Path> plan(const PathRequest& request) const override {
     may_throw();
+    last_request = request;
     if (request.goal.position.x() > 1.5) return refuse("x beyond 1.5 m");
     if (!request.focus) {
       return Path{{.space = PathSegment::Space::joint, .samples = {{1, request.goal}}}};
@@ -122,7 +125,9 @@ struct Gantry {
   OneQuintic trajectory;
   MotionLimits limits{JointVector::Constant(3, 1.0), JointVector::Constant(3, 2.5)};
 
-  GoalPlanner planner() const { return {model, {path, ik, select, trajectory}, limits}; }
+  GoalPlanner planner(bool path_only = false) const {
+    return {model, {path, ik, select, trajectory}, limits, path_only};
+  }
 };
 
 inline MotionGoal goal_at(std::uint64_t id, double x, double y, double z) {

@@ -7,6 +7,12 @@ Expected<MotionGoal> checked(MotionGoal goal) {
   if (goal.mode == MotionMode::hold) return goal;
   if (!goal.velocity.allFinite()) return refuse("the goal's velocity is not finite");
   if (goal.focus && !goal.focus->allFinite()) return refuse("the goal's focus is not finite");
+  for (const ForbiddenZone& zone : goal.forbidden) {
+    if (auto wrong = defect(zone)) return refuse("the goal's " + *wrong);
+  }
+  if (goal.mode == MotionMode::tracking && !goal.forbidden.empty()) {
+    return refuse("the goal has forbidden zones, which tracking does not keep away from");
+  }
   auto pose = checked(goal.pose, "the goal's");
   if (!pose) return tl::unexpected{pose.error()};
   goal.pose = *pose;

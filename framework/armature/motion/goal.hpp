@@ -4,7 +4,9 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
+#include "armature/robot/forbidden_zone.hpp"
 #include "armature/robot/pose_goal.hpp"
 #include "armature/values/expected.hpp"
 
@@ -23,11 +25,13 @@ struct MotionGoal {
   MotionMode mode = MotionMode::planned;
   ToolPose pose;                                       // of the tool, in the base frame
   std::optional<Eigen::Vector3d> focus;                // [m] to look at on the way
+  std::vector<ForbiddenZone> forbidden = {};           // to keep away from, planned only
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // [m/s] of the pose, tracking only
 };
 
 /// `goal` with a unit direction or quaternion, or why it cannot be used: a number that is not
-/// finite, a direction or quaternion whose length is not 1 within 1 %.
+/// finite, a direction or quaternion whose length is not 1 within 1 %, forbidden zones for a motion
+/// that has no path.
 Expected<MotionGoal> checked(MotionGoal goal);
 
 }  // namespace armature

@@ -59,16 +59,19 @@ Path straight_to(const ToolPose& pose) {
                       .duration_s = std::nullopt}};
 }
 
-IkGoal ik_goal(const ToolPose& pose) {
+/// A redundancy is that of an arm which has a freedom more than the pose takes.
+IkGoal ik_goal(const RobotModel& model, const PathSample& sample) {
+  const int taken = std::holds_alternative<Direction>(sample.pose.orientation) ? 5 : 6;
   IkGoal goal;
-  goal.pose = pose;
+  goal.pose = sample.pose;
+  if (model.dof() > taken) goal.redundancy = sample.redundancy;
   return goal;
 }
 
 /// Which branch was reached, or why none.
-Expected<IkStatus> solved(const IkSolver& solver, const ToolPose& pose, const JointVector& seed,
+Expected<IkStatus> solved(const IkSolver& solver, const IkGoal& goal, const JointVector& seed,
                           IkBranches& branches, IkState& state) {
-  return guarded(state, [&](IkState& s) { return solver.solve(ik_goal(pose), seed, branches, s); });
+  return guarded(state, [&](IkState& s) { return solver.solve(goal, seed, branches, s); });
 }
 
 bool reaches(const IkStatus& status) {
@@ -78,14 +81,14 @@ bool reaches(const IkStatus& status) {
 }  // namespace
 
 GoalPlanner::GoalPlanner(const RobotModel& model, const PlanStages& stages,
-                         const MotionLimits& limits)
-    : model_{model}, stages_{stages}, limits_{limits} {}
+                         const MotionLimits& limits, bool path_only)
+    : model_{model}, stages_{stages}, limits_{limits}, path_only_{path_only} {}
 
 tl::expected<JointVector, PlanFailure> GoalPlanner::solve(const ToolPose& pose,
                                                           const JointVector& near) {
   waypoints_.resize(1);
   IkState state;
-  const auto status = solved(stages_.ik, pose, near, waypoints_[0], state);
+  const auto status = solved(stages_.ik, IkGoal{.pose = pose}, near, waypoints_[0], state);
   if (!status) return fail("ik", "the goal: " + status.error().text);
   if (!reaches(*status)) return fail("ik", "the goal: " + describe(*status));
   auto chosen = guarded([&] { return stages_.select.choose(near, waypoints_); });
@@ -102,6 +105,7 @@ PlanResult GoalPlanner::plan(const MotionGoal& goal, const JointState& from, Tim
   if (moving) {
     if (PlanResult stopped = after_stop(goal, from, start, false)) return stopped;
   }
+  if (path_only_) return first;
   PlanResult straight =
       moving ? after_stop(goal, from, start, true) : attempt(goal, from, start, true);
   return straight ? std::move(straight) : std::move(first);
@@ -130,8 +134,10 @@ PlanResult GoalPlanner::attempt(const MotionGoal& goal, const JointState& from, 
     plan.path = straight_to(goal.pose);
   } else {
     auto path = guarded([&] {
-      return stages_.path.plan(
-          {.start = pose_at(model_, from.q, goal.pose), .goal = goal.pose, .focus = goal.focus});
+      return stages_.path.plan({.start = pose_at(model_, from.q, goal.pose),
+                                .goal = goal.pose,
+                                .focus = goal.focus,
+                                .forbidden = goal.forbidden});
     });
     if (!path) return fail("path", path.error().text);
     plan.path = std::move(*path);
@@ -166,7 +172,7 @@ tl::expected<void, PlanFailure> GoalPlanner::solve_samples(const Path& path,
     for (std::size_t i = 0; i < samples.size(); ++i) {
       if (is_known(path[k], i)) continue;
       IkBranches& branches = waypoints_.emplace_back();
-      const auto status = solved(stages_.ik, samples[i].pose, seed, branches, state);
+      const auto status = solved(stages_.ik, ik_goal(model_, samples[i]), seed, branches, state);
       const IkBranch* next = status && reaches(*status) ? nearest(branches, seed, model_) : nullptr;
       if (!next) {
         return fail("ik", fmt::format("sample {} of {} of segment {}: {}", i + 1, samples.size(),

@@ -23,11 +23,13 @@ struct PlanStages {
 class GoalPlanner {
  public:
   /// Keeps references to everything.
-  GoalPlanner(const RobotModel& model, const PlanStages& stages, const MotionLimits& limits);
+  /// `path_only`: a goal that the path plugin's path does not reach is refused.
+  GoalPlanner(const RobotModel& model, const PlanStages& stages, const MotionLimits& limits,
+              bool path_only = false);
 
   /// A plan for `goal` that leaves `from` at `start` without a jump in q, v, a and ends at rest at
   /// the goal. Tried in this order: the path plugin's path, spliced while moving; the same after a
-  /// stop; straight in joint space. Fails with the reason of the first.
+  /// stop; unless path_only, straight in joint space. Fails with the reason of the first.
   PlanResult plan(const MotionGoal& goal, const JointState& from, Time start);
 
   /// The joint position nearest to `near` that reaches `pose`.
@@ -46,6 +48,7 @@ class GoalPlanner {
   const RobotModel& model_;
   PlanStages stages_;
   MotionLimits limits_;
+  bool path_only_;
   std::vector<IkBranches> waypoints_;  // of one plan; kept for its memory
 };
 

@@ -67,6 +67,76 @@ TEST(GoalPlanner, GoesStraightInJointSpaceWhenThePathRefuses) {
   EXPECT_EQ(plan->path.front().space, PathSegment::Space::joint);
 }
 
+TEST(GoalPlanner, GoesNowhereElseWhenOnlyThePathWillDo) {
+  Gantry gantry;
+  const auto refused = gantry.planner(true).plan(goal_at(1, 1.75, 0, 0), rest_at(0, 0, 0), kStart);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().stage, "path");
+  EXPECT_EQ(refused.error().reason, "x beyond 1.5 m");
+  gantry.path.throws = true;
+  EXPECT_FALSE(gantry.planner(true).plan(goal_at(1, 1, 0, 0), rest_at(0, 0, 0), kStart));
+  JointState moving = rest_at(0, 0, 0);
+  moving.v = Eigen::Vector3d{0.2, 0, 0};
+  EXPECT_FALSE(gantry.planner(true).plan(goal_at(1, 1, 0, 0), moving, kStart));
+}
+
+TEST(GoalPlanner, HandsForbiddenZonesToThePath) {
+  const Gantry gantry;
+  MotionGoal goal = goal_at(1, 1, 0, 0);
+  goal.forbidden = {{"artery", {1, 2, 3}, {4, 5, 6}, 0.01}};
+  ASSERT_TRUE(gantry.planner().plan(goal, rest_at(0, 0, 0), kStart));
+  ASSERT_EQ(gantry.path.last_request.forbidden.size(), 1u);
+  EXPECT_EQ(gantry.path.last_request.forbidden[0].name, "artery");
+}
+
+/// A path that asks for a redundancy, and a solver that keeps the last one it was asked for.
+class DeepPath final : public PathPlanner {
+ public:
+  Expected<Path> plan(const PathRequest& request) const override {
+    return Path{{.space = PathSegment::Space::joint, .samples = {{1, request.goal, 0.25}}}};
+  }
+};
+class AlwaysHome final : public IkSolver {
+ public:
+  mutable std::optional<double> asked;
+
+  IkStatus solve(const IkGoal& goal, const JointVector& seed, IkBranches& out,
+                 IkState&) const override {
+    asked = goal.redundancy;
+    out.clear();
+    IkBranch& branch = out.add();
+    branch.q = seed;
+    branch.within_limits = true;
+    return {};
+  }
+};
+
+TEST(GoalPlanner, AsksForARedundancyOnlyWhereTheArmHasAFreedomMoreThanThePoseTakes) {
+  const auto asked = [](const RobotModel& model, const Orientation& orientation) {
+    const Gantry stages;
+    const DeepPath path;
+    const AlwaysHome ik;
+    GoalPlanner planner{model,
+                        {path, ik, stages.select, stages.trajectory},
+                        {model.max_velocity(), model.max_acceleration()},
+                        true};
+    MotionGoal goal = goal_at(1, 1, 0, 0);
+    goal.pose.orientation = orientation;
+    const JointVector zero = JointVector::Zero(model.dof());
+    static_cast<void>(planner.plan(goal, {resting_position(model), zero, zero}, kStart));
+    return ik.asked;
+  };
+  const Orientation direction = Direction{Eigen::Vector3d::UnitX()};
+  const Orientation rotation = Eigen::Quaterniond::Identity();
+  const auto robot = [](const char* file) {
+    return load_robot_model(std::string{ARMATURE_SOURCE_DIR "/configs/robots/"} + file);
+  };
+  EXPECT_EQ(asked(test::gantry(), direction), std::nullopt);
+  EXPECT_EQ(asked(robot("sr1_needle.yaml"), direction), 0.25);
+  EXPECT_EQ(asked(robot("sr1.yaml"), rotation), std::nullopt);
+  EXPECT_EQ(asked(robot("med7.yaml"), rotation), 0.25);
+}
+
 TEST(GoalPlanner, StopsFirstWhenTheTrajectoryCannotBeSpliced) {
   Gantry gantry;
   gantry.trajectory.jumps = true;  // a plugin that starts from rest whatever it is told

@@ -39,6 +39,19 @@ TEST(Goal, WithAnythingNotFiniteIsRefusedByName) {
   EXPECT_EQ(checked(goal).error().text, "the goal's direction has length nan, not 1");
 }
 
+TEST(Goal, WithForbiddenZonesIsForAPath) {
+  MotionGoal goal = good_goal();
+  goal.forbidden = {{"artery", {0, 0, 0}, {1, 0, 0}, 0.01}};
+  EXPECT_TRUE(checked(goal));
+  goal.mode = MotionMode::tracking;
+  EXPECT_EQ(checked(goal).error().text,
+            "the goal has forbidden zones, which tracking does not keep away from");
+  goal = good_goal();
+  goal.forbidden = {{"artery", {0, 0, 0}, {1, 0, 0}, -0.01}};
+  EXPECT_EQ(checked(goal).error().text,
+            "the goal's forbidden zone 'artery' has the radius -0.01 m");
+}
+
 TEST(Goal, WithAZeroDirectionOrQuaternionIsRefused) {
   MotionGoal goal = good_goal();
   goal.pose.orientation = Direction{Eigen::Vector3d::Zero()};

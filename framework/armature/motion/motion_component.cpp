@@ -18,24 +18,38 @@ namespace {
 constexpr Duration kStatusPeriod = seconds(0.1);
 constexpr Duration kPatience = seconds(0.5);
 
-/// The same limit for every joint, refused where the robot's own is lower.
-JointVector limit_of(const Setup& setup, const char* param, const RobotModel& model,
-                     const JointVector& robot_limit, const char* unit) {
-  const double value = setup.params().number(param);
+/// A limit for joints that turn and one for joints that slide.
+struct LimitParams {
+  const char *turning, *sliding;
+  const char *turning_unit, *sliding_unit;
+};
+
+/// The same limit for every joint of a kind, refused where the robot's own is lower; 0: the robot's
+/// own.
+JointVector limits_from(const Setup& setup, const LimitParams& params, const RobotModel& model,
+                        const JointVector& robot_limit) {
+  JointVector limits = robot_limit;
   for (int i = 0; i < model.dof(); ++i) {
+    const Joint& joint = model.joints()[static_cast<std::size_t>(model.independent_joint(i))];
+    const bool slides = joint.type == Joint::Type::prismatic;
+    const char* param = slides ? params.sliding : params.turning;
+    const double value = setup.params().number(param);
+    if (value == 0) continue;
     if (value > robot_limit[i]) {
-      const auto joint = static_cast<std::size_t>(model.independent_joint(i));
-      throw SetupError(fmt::format("{} is {}, above the {} {} of joint {} of robot {}", param,
-                                   value, robot_limit[i], unit, model.joints()[joint].name,
-                                   model.name()));
+      throw SetupError(fmt::format(
+          "{} is {}, above the {} {} of joint {} of robot {}", param, value, robot_limit[i],
+          slides ? params.sliding_unit : params.turning_unit, joint.name, model.name()));
     }
+    limits[i] = value;
   }
-  return JointVector::Constant(model.dof(), value);
+  return limits;
 }
 
 MotionLimits limits_of(const Setup& setup, const RobotModel& model) {
-  return {limit_of(setup, "max_velocity_rad_s", model, model.max_velocity(), "rad/s"),
-          limit_of(setup, "max_acceleration_rad_s2", model, model.max_acceleration(), "rad/s2")};
+  return {limits_from(setup, {"max_velocity_rad_s", "max_velocity_m_s", "rad/s", "m/s"}, model,
+                      model.max_velocity()),
+          limits_from(setup, {"max_acceleration_rad_s2", "max_acceleration_m_s2", "rad/s2", "m/s2"},
+                      model, model.max_acceleration())};
 }
 
 ExecutionOptions options_of(const Params& params) {
@@ -64,9 +78,11 @@ class Motion : public Component {
         path_out_{setup.output<msg::ToolPath>("path")},
         joint_path_out_{setup.output<msg::JointTrajectory>("joint_path")},
         trajectory_out_{setup.output<msg::QuinticTrajectory>("trajectory")},
-        execution_{
-            GoalPlanner{model_, {*path_, *ik_, *select_, *trajectory_}, limits_of(setup, model_)},
-            options_of(setup.params())} {}
+        execution_{GoalPlanner{model_,
+                               {*path_, *ik_, *select_, *trajectory_},
+                               limits_of(setup, model_),
+                               setup.params().flag("path_only")},
+                   options_of(setup.params())} {}
 
   void step(Time now) override {
     const auto measured = read_measured();

@@ -300,11 +300,11 @@ TEST_F(MotionComponentTest, AJointStateThatIsNoneIsTroubleUntilAGoodOneComes) {
 
 TEST_F(MotionComponentTest, DoesNotStartWithMoreThanTheRobotCan) {
   try {
-    ComponentBench fast{plugins(), motion_with("max_acceleration_rad_s2: 3")};
+    ComponentBench fast{plugins(), motion_with("max_acceleration_m_s2: 3")};
     ADD_FAILURE() << "it was made";
   } catch (const SetupError& error) {
     EXPECT_STREQ(error.what(),
-                 "max_acceleration_rad_s2 is 3, above the 2.5 rad/s2 of joint z of robot gantry");
+                 "max_acceleration_m_s2 is 3, above the 2.5 m/s2 of joint z of robot gantry");
   }
 }
 

@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "armature/kinds/tool_pose_messages.hpp"
+#include "armature/kinds/zone_messages.hpp"
 #include "armature/messages/header.hpp"
 
 namespace armature {
@@ -31,6 +32,7 @@ Expected<MotionGoal> read_goal(const msg::MotionGoal& message) {
   goal.mode = static_cast<MotionMode>(message.mode_());
   goal.pose = tool_pose_of(message);
   if (message.has_focus_()) goal.focus = to_eigen(message.focus_());
+  goal.forbidden = zones_of(message.forbidden_());
   if (goal.mode == MotionMode::tracking) goal.velocity = to_eigen(message.velocity_());
   return checked(goal);
 }

@@ -5,6 +5,7 @@
 
 #include "armature/messages/geometry.hpp"
 #include "armature/messages/stamp.hpp"
+#include "armature/motion/goal_messages.hpp"
 
 namespace armature {
 namespace {
@@ -20,16 +21,24 @@ msg::MotionGoal goal_message() {
 }
 
 TEST(MotionMessages, AGoalIsReadAsItWasWritten) {
-  msg::MotionGoal message = goal_message();
-  message.has_focus_(true);
-  assign(message.focus_(), Eigen::Vector3d{4, 5, 6});
+  MotionGoal written;
+  written.id = 3;
+  written.pose = {.position = {1, 2, 3}, .orientation = Direction{{0, 1, 0}}};
+  written.focus = Eigen::Vector3d{4, 5, 6};
+  written.forbidden = {{"artery", {7, 8, 9}, {10, 11, 12}, 0.5}};
+  msg::MotionGoal message;
+  write_goal(written, Time{5}, message);
   const auto goal = read_goal(message);
   ASSERT_TRUE(goal) << goal.error().text;
   EXPECT_EQ(goal->id, 3u);
   EXPECT_EQ(goal->mode, MotionMode::planned);
-  EXPECT_EQ(goal->pose.position, (Eigen::Vector3d{1, 2, 3}));
+  EXPECT_EQ(goal->pose.position, written.pose.position);
   EXPECT_EQ(std::get<Direction>(goal->pose.orientation).unit, (Eigen::Vector3d{0, 1, 0}));
-  EXPECT_EQ(*goal->focus, (Eigen::Vector3d{4, 5, 6}));
+  EXPECT_EQ(*goal->focus, *written.focus);
+  ASSERT_EQ(goal->forbidden.size(), 1u);
+  EXPECT_EQ(goal->forbidden[0].name, "artery");
+  EXPECT_EQ(goal->forbidden[0].to, (Eigen::Vector3d{10, 11, 12}));
+  EXPECT_EQ(goal->forbidden[0].radius_m, 0.5);
 }
 
 TEST(MotionMessages, AGoalInAnotherFrameOrModeIsRefused) {

@@ -59,14 +59,18 @@ std::string way_out(std::string_view word, const std::vector<Party>& parties,
   return "no plugin on the search path does" + config::did_you_mean(word, words);
 }
 
-void check_parties(const std::vector<Party>& parties, std::string_view nobody,
+/// `parties` need, and they and `more` offer.
+void check_parties(const std::vector<Party>& parties, const std::vector<Party>& more,
+                   std::string_view nobody,
                    const PluginRegistry& plugins,
                    const std::function<bool(const PluginManifest&)>& fits,
                    config::Problems& problems) {
+  std::vector<Party> offering = parties;
+  offering.insert(offering.end(), more.begin(), more.end());
   for (const Party& needy : parties) {
     for (const Trait& need : needy.manifest->needs) {
       if (!holds(need, needy)) continue;
-      const bool met = std::ranges::any_of(parties, [&](const Party& party) {
+      const bool met = std::ranges::any_of(offering, [&](const Party& party) {
         const Trait* offer = find_trait(party.manifest->offers, need.word);
         return offer && holds(*offer, party);
       });
@@ -75,7 +79,7 @@ void check_parties(const std::vector<Party>& parties, std::string_view nobody,
       problems.add(needy.origin,
                    fmt::format("'{}' needs '{}'{}{}, and {} offers it; {}", needy.name, need.word,
                                unless.empty() ? "" : " ", unless, nobody,
-                               way_out(need.word, parties, plugins, fits)));
+                               way_out(need.word, offering, plugins, fits)));
     }
   }
 }
@@ -96,7 +100,8 @@ void check_slot_needs(const ComponentConfig& component, const PluginRegistry& pl
     const auto& slots = component.manifest->slots;
     return std::ranges::find(slots, plugin.kind, &SlotSpec::kind) != slots.end();
   };
-  check_parties(parties, fmt::format("no plugin in component '{}'", component.name), plugins,
+  const Party itself{component.name, component.manifest, &component.params, component.origin};
+  check_parties(parties, {itself}, fmt::format("nothing in component '{}'", component.name), plugins,
                 fits_a_slot, problems);
 }
 
@@ -107,7 +112,7 @@ void check_component_needs(const DeploymentConfig& deployment, const PluginRegis
     parties.push_back({component.name, component.manifest, &component.params, component.origin});
   }
   const auto is_component = [](const PluginManifest& plugin) { return plugin.kind == "component"; };
-  check_parties(parties, "no component", plugins, is_component, problems);
+  check_parties(parties, {}, "no component", plugins, is_component, problems);
 }
 
 }  // namespace armature

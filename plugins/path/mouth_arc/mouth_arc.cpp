@@ -50,7 +50,8 @@ PathSegment MouthArc::along(const Swing& swing, const ToolPose& goal, double tur
 Expected<Path> MouthArc::plan(const PathRequest& request) const {
   const auto valid = checked(request);
   if (!valid) return tl::unexpected{valid.error()};
-  const auto& [from, to, focus] = *valid;
+  const ToolPose &from = valid->start, &to = valid->goal;
+  const auto& focus = valid->focus;
   if (!focus) return Path{joint_move(to)};
   const auto* from_direction = std::get_if<Direction>(&from.orientation);
   const auto* to_direction = std::get_if<Direction>(&to.orientation);

@@ -46,7 +46,8 @@ PathSegment MouthPoints::move_to(const ToolPose& end) const {
 Expected<Path> MouthPoints::plan(const PathRequest& request) const {
   const auto valid = checked(request);
   if (!valid) return tl::unexpected{valid.error()};
-  const auto& [P0, P3, focus] = *valid;
+  const ToolPose &P0 = valid->start, &P3 = valid->goal;
+  const auto& focus = valid->focus;
   if (!focus) return Path{move_to(P3)};
   if (!std::holds_alternative<Direction>(P0.orientation) ||
       !std::holds_alternative<Direction>(P3.orientation)) {

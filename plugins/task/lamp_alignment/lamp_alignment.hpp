@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "armature/motion/pursued_goal.hpp"
 #include "face_estimate.hpp"
-#include "lamp_goals.hpp"
 #include "light_control.hpp"
 #include "search_poses.hpp"
 
@@ -57,7 +57,7 @@ class LampAlignment {
   const std::string& trouble() const { return trouble_; }
 
  private:
-  using GoalState = LampGoals::State;
+  using GoalState = PursuedGoal::State;
 
   void start_search(Time now);
   void next_view();
@@ -73,7 +73,7 @@ class LampAlignment {
   AlignmentSettings settings_;
   std::vector<ToolPose> poses_;
   LightControl light_;
-  LampGoals goals_;
+  PursuedGoal goals_;
   FaceAverage at_rest_;  // estimates since the arm came to rest
   std::optional<FaceEstimate> latest_, goal_estimate_;
   std::size_t fresh_ = 0;  // estimates since the goal was set

@@ -5,7 +5,7 @@
 
 #include "armature/kinds/setup_robot.hpp"
 #include "armature/kinds/target/target_messages.hpp"
-#include "armature/kinds/tool_pose_messages.hpp"
+#include "armature/motion/goal_messages.hpp"
 #include "armature/runtime/component.hpp"
 #include "armature/runtime/plugin.hpp"
 #include "armature/runtime/setup.hpp"
@@ -74,12 +74,7 @@ class LampAlignmentComponent : public Component {
  private:
   void read(Time now) {
     for (std::size_t i = 0; i < motion_status_.size(); ++i) {
-      const msg::MotionStatus& status = motion_status_[i];
-      task_.hear({.goal_id = status.goal_id_(),
-                  .state = static_cast<GoalReport::State>(status.state_()),
-                  .stage = status.stage_(),
-                  .reason = status.reason_()},
-                 now);
+      task_.hear(report_of(motion_status_[i]), now);
     }
     for (std::size_t i = 0; i < landmarks_.size(); ++i) {
       const msg::FaceLandmarks& seen = landmarks_[i];
@@ -100,13 +95,7 @@ class LampAlignmentComponent : public Component {
     const auto goal = task_.outgoing_goal(now);
     if (!goal) return;
     auto loan = goal_.loan();
-    write_header(loan->header_(), now, kBaseFrame);
-    loan->goal_id_(goal->id);
-    loan->mode_(static_cast<std::uint8_t>(goal->mode));
-    write_tool_pose(goal->pose, *loan);
-    loan->has_focus_(goal->focus.has_value());
-    assign(loan->focus_(), goal->focus.value_or(Eigen::Vector3d::Zero()));
-    assign(loan->velocity_(), Eigen::Vector3d{Eigen::Vector3d::Zero()});
+    write_goal(*goal, now, *loan);
     loan.publish();
   }
 

@@ -113,6 +113,15 @@ class PathLaws : public testing::TestWithParam<PathSubject> {
 };
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(PathLaws);
 
+TEST_P(PathLaws, KeepsAwayFromForbiddenZonesOrRefusesThem) {
+  PathRequest request{
+      .start = looking_at_focus(0.6, 0.1), .goal = looking_at_focus(0.5, 0), .focus = kFocus};
+  request.forbidden = {{"everything", kFocus, kFocus, 10}};
+  const auto path = planner().plan(request);
+  ASSERT_FALSE(path) << "start, goal and all between are forbidden";
+  EXPECT_FALSE(path.error().text.empty());
+}
+
 TEST_P(PathLaws, StartsAtTheStartGoesWithoutAGapAndEndsAtTheGoal) {
   SCOPED_TRACE("seed 17");
   for (int i = 0; i < 500; ++i) {

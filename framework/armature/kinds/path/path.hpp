@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "armature/kinds/made_for_robot.hpp"
+#include "armature/robot/forbidden_zone.hpp"
 #include "armature/robot/pose_goal.hpp"
 
 namespace armature {
@@ -15,6 +16,9 @@ namespace armature {
 struct PathSample {
   double s = 0;
   ToolPose pose;
+  /// Arm angle [rad] or needle depth [m], for an arm that has a freedom more than the pose takes;
+  /// others do not look at it.
+  std::optional<double> redundancy = std::nullopt;
 };
 
 /// A piece of a path. The first sample of a cartesian segment is where it starts (s = 0), the last
@@ -36,6 +40,8 @@ struct PathRequest {
   ToolPose goal;
   /// A point of the base frame [m] that the tool should look at on the way (the mouth).
   std::optional<Eigen::Vector3d> focus;
+  /// What the tool must keep away from, in the base frame.
+  std::vector<ForbiddenZone> forbidden = {};
 };
 
 /// Plans where the tool goes, not when. The path starts at the request's start (a cartesian first
@@ -44,15 +50,19 @@ struct PathRequest {
 class PathPlanner {
  public:
   static constexpr std::string_view kKind = "path";
-  static constexpr int kKindVersion = 1;
+  static constexpr int kKindVersion = 2;
   using Factory = MadeFromParams<PathPlanner>;
 
   virtual ~PathPlanner() = default;
   virtual Expected<Path> plan(const PathRequest& request) const = 0;
 };
 
+/// What a planner does about forbidden zones.
+enum class Zones { refused, kept };
+
 /// `request` with unit directions or quaternions; or what is wrong with it: a number that is not
-/// finite, a direction or quaternion whose length is not 1. The first line of every planner.
-Expected<PathRequest> checked(PathRequest request);
+/// finite, a direction or quaternion whose length is not 1, forbidden zones that the planner does
+/// not keep away from. The first line of every planner.
+Expected<PathRequest> checked(PathRequest request, Zones zones = Zones::refused);
 
 }  // namespace armature

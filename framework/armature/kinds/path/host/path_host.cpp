@@ -4,6 +4,7 @@
 #include "armature/kinds/path/path.hpp"
 #include "armature/kinds/request_host.hpp"
 #include "armature/kinds/tool_pose_messages.hpp"
+#include "armature/kinds/zone_messages.hpp"
 #include "armature/runtime/plugin.hpp"
 #include "armature/values/guarded.hpp"
 
@@ -11,8 +12,10 @@ namespace armature {
 namespace {
 
 PathRequest request_of(const msg::PathRequest& message) {
-  PathRequest request{
-      .start = tool_pose_of(message.start_()), .goal = tool_pose_of(message.goal_()), .focus = {}};
+  PathRequest request{.start = tool_pose_of(message.start_()),
+                      .goal = tool_pose_of(message.goal_()),
+                      .focus = {},
+                      .forbidden = zones_of(message.forbidden_())};
   if (message.has_focus_()) request.focus = to_eigen(message.focus_());
   return request;
 }
@@ -25,6 +28,8 @@ msg::PathSegment message_of(const PathSegment& segment) {
     auto& written = message.samples_().emplace_back();
     written.s_(sample.s);
     write_tool_pose(sample.pose, written.pose_());
+    written.has_redundancy_(sample.redundancy.has_value());
+    written.redundancy_(sample.redundancy.value_or(0));
   }
   message.stop_at_end_(segment.stop_at_end);
   message.has_duration_(segment.duration_s.has_value());

@@ -6,6 +6,7 @@
 
 #include "armature/kinds/path/path.hpp"
 #include "armature/kinds/tool_pose_messages.hpp"
+#include "armature/kinds/zone_messages.hpp"
 #include "armature/messages/header.hpp"
 #include "armature/runtime/component_bench.hpp"
 
@@ -21,7 +22,7 @@ class OverTheFocus final : public PathPlanner {
   Expected<Path> plan(const PathRequest& request) const override {
     asked = request;
     if (throws) throw std::runtime_error{"the matrix is singular"};
-    const auto good = checked(request);
+    const auto good = checked(request, Zones::kept);
     if (!good) return tl::unexpected{good.error()};
     if (!good->focus) return refuse("there is no point to look at");
     ToolPose middle = good->goal;
@@ -31,7 +32,7 @@ class OverTheFocus final : public PathPlanner {
                  .stop_at_end = false,
                  .duration_s = {}},
                 {.space = PathSegment::Space::cartesian,
-                 .samples = {{0, middle}, {0.5, middle}, {1, good->goal}},
+                 .samples = {{0, middle}, {0.5, middle, 0.07}, {1, good->goal}},
                  .stop_at_end = true,
                  .duration_s = 2.5}};
   }
@@ -54,6 +55,7 @@ msg::PathRequest request(std::uint64_t id) {
   write_tool_pose({{4, 5, 6}, Direction{{0, 0, -1}}}, message.goal_());
   message.has_focus_(true);
   assign(message.focus_(), Eigen::Vector3d{7, 8, 9});
+  write_zones({{"artery", {1, 0, 0}, {2, 0, 0}, 0.003}}, message.forbidden_());
   return message;
 }
 
@@ -99,6 +101,11 @@ TEST_F(PathHostTest, AsksForThePathOfTheRequest) {
   EXPECT_EQ(asked.goal.position, (Eigen::Vector3d{4, 5, 6}));
   EXPECT_EQ(std::get<Direction>(asked.goal.orientation).unit, -Eigen::Vector3d::UnitZ());
   EXPECT_EQ(*asked.focus, (Eigen::Vector3d{7, 8, 9}));
+  ASSERT_EQ(asked.forbidden.size(), 1u);
+  EXPECT_EQ(asked.forbidden[0].name, "artery");
+  EXPECT_EQ(asked.forbidden[0].from, (Eigen::Vector3d{1, 0, 0}));
+  EXPECT_EQ(asked.forbidden[0].to, (Eigen::Vector3d{2, 0, 0}));
+  EXPECT_EQ(asked.forbidden[0].radius_m, 0.003);
 }
 
 TEST_F(PathHostTest, TellsTheSegmentsAsTheyAre) {
@@ -118,6 +125,9 @@ TEST_F(PathHostTest, TellsTheSegmentsAsTheyAre) {
   EXPECT_EQ(second.duration_(), 2.5);
   ASSERT_EQ(second.samples_().size(), 3u);
   EXPECT_EQ(second.samples_()[1].s_(), 0.5);
+  EXPECT_TRUE(second.samples_()[1].has_redundancy_());
+  EXPECT_EQ(second.samples_()[1].redundancy_(), 0.07);
+  EXPECT_FALSE(second.samples_()[2].has_redundancy_());
   EXPECT_TRUE(second.samples_()[2].pose_().pointing_());
   EXPECT_EQ(to_eigen(second.samples_()[2].pose_().direction_()), -Eigen::Vector3d::UnitZ());
 }
@@ -141,6 +151,8 @@ TEST_F(PathHostTest, AnswersABadRequestWithItsReasonAndTheNextOneAsIfNothingHadB
   EXPECT_EQ(refusal([](auto& r) { r.focus_().z_(INFINITY); }),
             "the point to look at is not finite");
   EXPECT_EQ(refusal([](auto& r) { r.has_focus_(false); }), "there is no point to look at");
+  EXPECT_EQ(refusal([](auto& r) { r.forbidden_()[0].radius_(-1); }),
+            "forbidden zone 'artery' has the radius -1 m");
   EXPECT_EQ(refusal([](auto& r) { r = msg::PathRequest{}; }),
             "the start's quaternion has length 0, not 1");
   EXPECT_EQ(refusal([](auto& r) { r.header_().frame_id_() = "tool"; }),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lamp_run.hpp"
+#include "deployment_run.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,18 +15,18 @@ constexpr std::chrono::seconds kPatience{180};
 
 }  // namespace
 
-double LampRun::figure(const std::string& name) const {
+double DeploymentRun::figure(const std::string& name) const {
   const auto found = report.find(name);
   const bool there = found != report.end() && found->is_number();
   return there ? found->get<double>() : std::numeric_limits<double>::quiet_NaN();
 }
 
-std::string LampRun::text() const {
+std::string DeploymentRun::text() const {
   return "exit code " + std::to_string(command.exit_code) +
          (command.timed_out ? " (timed out)" : "") + "\n" + command.out + command.err;
 }
 
-std::vector<std::string> lamp_command(const LampStart& start) {
+std::vector<std::string> deployment_command(const DeploymentStart& start) {
   std::vector<std::string> command{armature(), "run"};
   command.insert(command.end(), start.files.begin(), start.files.end());
   const int domain = start.domain > 0 ? start.domain : unique_dds_domain();
@@ -35,14 +35,15 @@ std::vector<std::string> lamp_command(const LampStart& start) {
   return command;
 }
 
-LampRun run_lamp(const LampStart& start) {
-  LampRun run{.command = run_command(lamp_command(start), start.options, kPatience), .report = {}};
+DeploymentRun run_deployment(const DeploymentStart& start) {
+  DeploymentRun run{.command = run_command(deployment_command(start), start.options, kPatience),
+                    .report = {}};
   const auto report = nlohmann::json::parse(run.command.out, nullptr, false);
   if (report.is_object()) run.report = report;
   return run;
 }
 
-void expect_aligned(const LampRun& run, const LampGoals& goals) {
+void expect_aligned(const DeploymentRun& run, const LampGoals& goals) {
   SCOPED_TRACE(run.text());
   EXPECT_EQ(run.command.exit_code, 0);
   EXPECT_EQ(run.report.value("status", "none"), "ok");

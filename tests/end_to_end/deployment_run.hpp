@@ -9,8 +9,8 @@
 
 namespace armature::test {
 
-/// How the lamp is started.
-struct LampStart {
+/// How a deployment is started; the lamp unless said otherwise.
+struct DeploymentStart {
   std::vector<std::string> files{source_file("configs/dental_lamp.yaml")};
   std::vector<std::string> settings;  // "components.motion.ik.plugin=ik/numeric"
   int domain = 0;                     // 0: one that no other test uses
@@ -18,7 +18,7 @@ struct LampStart {
 };
 
 /// What came of a run to its end.
-struct LampRun {
+struct DeploymentRun {
   CommandResult command;
   nlohmann::json report;  // null when it printed none
 
@@ -26,7 +26,7 @@ struct LampRun {
   std::string text() const;                      // for messages
 };
 
-/// The limits of the four goals.
+/// The limits of the lamp's four goals.
 struct LampGoals {
   double mouth_mm = 2.5, normal_deg = 2.5, distance_mm = 1.5, direction_deg = 2.5;
 };
@@ -37,10 +37,11 @@ inline const std::string kSimulated = "clock=simulated";
 inline const std::vector<std::string> kVisionApart{"components.landmarks.process=vision",
                                                    "components.face.process=vision"};
 
-std::vector<std::string> lamp_command(const LampStart& start);
-LampRun run_lamp(const LampStart& start);
+std::vector<std::string> deployment_command(const DeploymentStart& start);
+DeploymentRun run_deployment(const DeploymentStart& start);
 
-/// Found, aligned, all four goals met, and not slower than 20 s of the deployment's own time.
-void expect_aligned(const LampRun& run, const LampGoals& goals = {});
+/// Of the lamp: found, aligned, all four goals met, and not slower than 20 s of the deployment's
+/// own time.
+void expect_aligned(const DeploymentRun& run, const LampGoals& goals = {});
 
 }  // namespace armature::test

@@ -18,9 +18,9 @@ struct GoalReport {
   std::string stage = {}, reason = {};
 };
 
-/// The one goal that the lamp is on its way to. Goals that were refused because the motion was not
-/// ready, and goals that nobody answered, are given again.
-class LampGoals {
+/// The one goal that a task has the arm on its way to. Goals that were refused because the motion
+/// was not ready, and goals that nobody answered, are given again.
+class PursuedGoal {
  public:
   enum class State { none, waiting, moving, done, failed };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lamp_goals.hpp"
+#include "armature/motion/pursued_goal.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,12 +7,12 @@ namespace armature {
 namespace {
 
 using Report = GoalReport::State;
-using State = LampGoals::State;
+using State = PursuedGoal::State;
 
 constexpr Time at(double s) { return Time{} + seconds(s); }
 
-TEST(LampGoals, SendsAGoalOnceAndHearsItsStory) {
-  LampGoals goals;
+TEST(PursuedGoal, SendsAGoalOnceAndHearsItsStory) {
+  PursuedGoal goals;
   EXPECT_FALSE(goals.outgoing(at(0)));
   goals.set({});
   const auto goal = goals.outgoing(at(0));
@@ -28,8 +28,8 @@ TEST(LampGoals, SendsAGoalOnceAndHearsItsStory) {
   EXPECT_EQ(goals.done_at(), at(2));
 }
 
-TEST(LampGoals, IgnoresWhatIsSaidAboutTheGoalBefore) {
-  LampGoals goals;
+TEST(PursuedGoal, IgnoresWhatIsSaidAboutTheGoalBefore) {
+  PursuedGoal goals;
   goals.set({});
   goals.outgoing(at(0));
   goals.hear({.goal_id = 1, .state = Report::executing}, at(0.1));
@@ -41,8 +41,8 @@ TEST(LampGoals, IgnoresWhatIsSaidAboutTheGoalBefore) {
   EXPECT_EQ(goals.state(), State::waiting);
 }
 
-TEST(LampGoals, GivesAGoalAgainThatTheMotionWasNotReadyFor) {
-  LampGoals goals;
+TEST(PursuedGoal, GivesAGoalAgainThatTheMotionWasNotReadyFor) {
+  PursuedGoal goals;
   goals.set({});
   goals.outgoing(at(0));
   const GoalReport refused{.goal_id = 1, .state = Report::failed, .stage = "accept", .reason = "x"};
@@ -52,23 +52,23 @@ TEST(LampGoals, GivesAGoalAgainThatTheMotionWasNotReadyFor) {
   EXPECT_EQ(goals.outgoing(at(0.4))->id, 2u);
 }
 
-TEST(LampGoals, GivesAGoalAgainThatNobodyAnswered) {
-  LampGoals goals;
+TEST(PursuedGoal, GivesAGoalAgainThatNobodyAnswered) {
+  PursuedGoal goals;
   goals.set({});
   goals.outgoing(at(0));
   EXPECT_FALSE(goals.outgoing(at(0.9)));
   EXPECT_EQ(goals.outgoing(at(1.1))->id, 2u);
 }
 
-TEST(LampGoals, CountsOnFromGoalsOfAnEarlierLife) {
-  LampGoals goals;
+TEST(PursuedGoal, CountsOnFromGoalsOfAnEarlierLife) {
+  PursuedGoal goals;
   goals.hear({.goal_id = 41, .state = Report::done}, at(0));
   goals.set({});
   EXPECT_EQ(goals.outgoing(at(0))->id, 42u);
 }
 
-TEST(LampGoals, KeepsTheReasonOfAGoalThatCannotBeReached) {
-  LampGoals goals;
+TEST(PursuedGoal, KeepsTheReasonOfAGoalThatCannotBeReached) {
+  PursuedGoal goals;
   goals.set({});
   goals.outgoing(at(0));
   goals.hear({.goal_id = 1, .state = Report::failed, .stage = "ik", .reason = "0.1 m too far"},

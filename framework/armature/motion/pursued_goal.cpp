@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lamp_goals.hpp"
+#include "armature/motion/pursued_goal.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -18,14 +18,14 @@ bool not_ready(const GoalReport& report) {
 
 }  // namespace
 
-void LampGoals::set(const MotionGoal& goal) {
+void PursuedGoal::set(const MotionGoal& goal) {
   goal_ = goal;
   state_ = State::waiting;
   send_at_ = kAtOnce;
   reason_.clear();
 }
 
-void LampGoals::hear(const GoalReport& report, Time now) {
+void PursuedGoal::hear(const GoalReport& report, Time now) {
   // A task that starts late, or again, goes on counting where the goals are.
   last_id_ = std::max(last_id_, report.goal_id);
   const bool mine = report.goal_id == goal_.id && sent_ > 0 && !send_at_;
@@ -54,7 +54,7 @@ void LampGoals::hear(const GoalReport& report, Time now) {
   }
 }
 
-std::optional<MotionGoal> LampGoals::outgoing(Time now) {
+std::optional<MotionGoal> PursuedGoal::outgoing(Time now) {
   const bool unanswered = state_ == State::waiting && !send_at_ && now - sent_at_ > kAnswerWithin;
   const bool due = send_at_ && now >= *send_at_;
   if (!due && !unanswered) return std::nullopt;

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "needle_path.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "armature/runtime/plugin.hpp"
+
+namespace armature {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kDegrees = 180 / std::numbers::pi;
+
+Vector3d axis_of(const ToolPose& pose) {
+  const auto* direction = std::get_if<Direction>(&pose.orientation);
+  return direction ? direction->unit
+                   : std::get<Eigen::Quaterniond>(pose.orientation) * Vector3d::UnitZ();
+}
+
+double angle_between(const Vector3d& a, const Vector3d& b) {
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+}  // namespace
+
+/// Places on it are told by their distance behind the entry [m]; before the entry they are
+/// negative.
+struct NeedlePath::Line {
+  Vector3d entry, along;  // along: unit, into the head
+
+  double at(const Vector3d& point) const { return along.dot(point - entry); }
+  Vector3d point(double at) const { return entry + at * along; }
+  double off(const Vector3d& position) const { return (position - point(at(position))).norm(); }
+};
+
+Expected<std::unique_ptr<PathPlanner>> NeedlePath::make(const Params& params) {
+  return std::unique_ptr<PathPlanner>{new NeedlePath{params}};
+}
+
+NeedlePath::NeedlePath(const Params& params)
+    : stand_off_m_{params.number("stand_off_mm")},
+      step_m_{params.number("step_mm")},
+      needle_radius_m_{params.number("needle_radius_mm")},
+      margin_m_{params.number("margin_mm")},
+      on_line_m_{params.number("on_line_mm")},
+      on_line_rad_{params.number("on_line_deg")},
+      needle_at_entry_m_{params.number("needle_at_entry_m")} {}
+
+/// Through the goal along its axis; the entry must be on it.
+Expected<NeedlePath::Line> NeedlePath::line_of(const PathRequest& request) const {
+  if (!request.focus) {
+    return refuse("there is no entry: a goal for a needle names it as the point to look at");
+  }
+  const Line through_goal{request.goal.position, axis_of(request.goal)};
+  const double off = through_goal.off(*request.focus);
+  if (off > on_line_m_) {
+    return refuse(
+        fmt::format("the needle's line passes the entry at {:.3f} mm, {:g} mm are allowed "
+                    "(on_line_mm)",
+                    1e3 * off, 1e3 * on_line_m_));
+  }
+  // What is left of `off` would be a step where the straight segments meet.
+  return Line{through_goal.point(through_goal.at(*request.focus)), through_goal.along};
+}
+
+bool NeedlePath::is_on(const Line& line, const ToolPose& pose) const {
+  return line.off(pose.position) <= on_line_m_ &&
+         angle_between(axis_of(pose), line.along) <= on_line_rad_;
+}
+
+std::optional<std::string> NeedlePath::obstacle(const Line& line, double from, double to,
+                                                const PathRequest& request) const {
+  for (const ForbiddenZone& zone : request.forbidden) {
+    const double left = clearance(line.point(from), line.point(to), zone) - needle_radius_m_;
+    if (left >= margin_m_) continue;
+    return fmt::format("the needle leaves {:.2f} mm to '{}', {:g} mm are required (margin_mm)",
+                       1e3 * left, zone.name, 1e3 * margin_m_);
+  }
+  return std::nullopt;
+}
+
+PathSample NeedlePath::sample(const Line& line, double at, double s, const ToolPose& goal) const {
+  PathSample sample{.s = s, .pose = goal};
+  sample.pose.position = line.point(at);
+  if (needle_at_entry_m_ > 0) sample.redundancy = needle_at_entry_m_ + at;
+  return sample;
+}
+
+PathSegment NeedlePath::straight(const Line& line, double from, double to,
+                                 const ToolPose& goal) const {
+  const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(to - from) / step_m_)));
+  PathSegment segment;
+  for (int i = 0; i <= steps; ++i) {
+    const double s = static_cast<double>(i) / steps;
+    segment.samples.push_back(sample(line, from + s * (to - from), s, goal));
+  }
+  return segment;
+}
+
+Expected<Path> NeedlePath::plan(const PathRequest& request) const {
+  const auto valid = checked(request, Zones::kept);
+  if (!valid) return tl::unexpected{valid.error()};
+  const auto line = line_of(*valid);
+  if (!line) return tl::unexpected{line.error()};
+  const double goal = line->at(valid->goal.position), here = line->at(valid->start.position);
+  const bool on_line = is_on(*line, valid->start);
+  const double begin = on_line ? here : -stand_off_m_;
+  if (auto wrong = obstacle(*line, std::min(begin, goal), std::max(begin, goal), *valid)) {
+    return refuse(std::move(*wrong));
+  }
+  if (needle_at_entry_m_ > 0 && needle_at_entry_m_ + std::min(begin, goal) < 0) {
+    return refuse(fmt::format(
+        "the needle starts {:g} mm before the entry and would have to be {:g} "
+        "mm shorter than nothing (needle_at_entry_m)",
+        -1e3 * std::min(begin, goal), -1e3 * (needle_at_entry_m_ + std::min(begin, goal))));
+  }
+  Path path;
+  if (!on_line) {
+    const double past = (valid->start.position - line->entry).dot(line->along);
+    const double aside = line->off(valid->start.position);
+    if (past > on_line_m_ && aside < stand_off_m_) {
+      return refuse(
+          fmt::format("the tip is {:.1f} mm past the entry and {:.1f} mm beside the line: "
+                      "it has to be drawn back first",
+                      1e3 * past, 1e3 * aside));
+    }
+    path.push_back({.space = PathSegment::Space::joint,
+                    .samples = {sample(*line, begin, 1, valid->goal)},
+                    .stop_at_end = true,
+                    .duration_s = {}});
+  }
+  // A stop at the entry, whichever way it is passed.
+  const bool passes_entry =
+      std::min(begin, goal) < -on_line_m_ && std::max(begin, goal) > on_line_m_;
+  if (passes_entry) path.push_back(straight(*line, begin, 0, valid->goal));
+  path.push_back(straight(*line, passes_entry ? 0 : begin, goal, valid->goal));
+  if (on_line) path.front().samples.front().pose = valid->start;
+  path.back().samples.back().pose = valid->goal;
+  return path;
+}
+
+}  // namespace armature
+
+ARMATURE_PLUGIN(armature::NeedlePath);

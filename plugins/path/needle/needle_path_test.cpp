@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+// The straight way of a needle: 1. stand-off, entry, target on one line, 2. from the line only
+// along the line, 3. away from forbidden zones, 4. what is refused.
+#include "needle_path.hpp"
+
+#include <gtest/gtest.h>
+
+#include "armature/kinds/declared_params.hpp"
+#include "armature/kinds/path/contract.hpp"
+
+namespace armature {
+namespace {
+
+using Eigen::Vector3d;
+
+std::unique_ptr<PathPlanner> needle(std::string_view params = {}) {
+  return *NeedlePath::make(
+      declared_params(ARMATURE_SOURCE_DIR "/plugins/path/needle/plugin.yaml", params));
+}
+
+class NeedlePaths : public PathLaws {
+ protected:
+  /// From somewhere outside to 60 mm behind the entry.
+  PathRequest insertion() {
+    along_ = random_unit();
+    entry_ = random_unit();
+    return {.start = {entry_ - 0.3 * along_, Direction{random_unit()}},
+            .goal = {entry_ + 0.06 * along_, Direction{along_}},
+            .focus = entry_};
+  }
+  Vector3d along_, entry_;
+};
+INSTANTIATE_TEST_SUITE_P(Needle, NeedlePaths, testing::Values(PathSubject{"needle", needle()}));
+
+TEST_P(NeedlePaths, GoToTheStandOffStopAtTheEntryAndEndAtTheTargetOnOneLine) {
+  SCOPED_TRACE("seed 17");
+  for (int i = 0; i < 200; ++i) {
+    const PathRequest request = insertion();
+    const auto path = planner().plan(request);
+    ASSERT_TRUE(path) << path.error().text;
+    expect_sound(*path, request);
+    ASSERT_EQ(path->size(), 3u);
+    EXPECT_EQ((*path)[0].space, PathSegment::Space::joint);
+    for (const PathSegment& segment : *path) EXPECT_TRUE(segment.stop_at_end);
+    EXPECT_LT(((*path)[0].samples.back().pose.position - (entry_ - 0.05 * along_)).norm(), 1e-12);
+    EXPECT_LT(((*path)[1].samples.back().pose.position - entry_).norm(), 1e-12);
+    for (const PathSegment& segment : {(*path)[1], (*path)[2]}) {
+      EXPECT_EQ(segment.space, PathSegment::Space::cartesian);
+      for (std::size_t k = 0; k < segment.samples.size(); ++k) {
+        const Vector3d at = segment.samples[k].pose.position;
+        EXPECT_LT((at - entry_).cross(along_).norm(), 1e-12);
+        EXPECT_FALSE(segment.samples[k].redundancy);
+        if (k == 0) continue;
+        EXPECT_LE((at - segment.samples[k - 1].pose.position).norm(), 0.001 + 1e-12);
+      }
+    }
+  }
+}
+
+TEST_P(NeedlePaths, AFullRotationIsKeptAndItsZIsTheNeedle) {
+  PathRequest request = insertion();
+  const Eigen::Quaterniond rotation = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), along_);
+  request.goal.orientation = rotation;
+  request.start.orientation = random_rotation();
+  const auto path = planner().plan(request);
+  ASSERT_TRUE(path) << path.error().text;
+  expect_sound(*path, request);
+  for (const PathSample& sample : path->back().samples) {
+    EXPECT_EQ(std::get<Eigen::Quaterniond>(sample.pose.orientation).coeffs(), rotation.coeffs());
+  }
+}
+
+TEST_P(NeedlePaths, FromTheLineTheyGoNowhereElseInAndOut) {
+  const PathRequest in = insertion();
+  PathRequest out{
+      .start = in.goal, .goal = {entry_ - 0.05 * along_, Direction{along_}}, .focus = entry_};
+  const auto back = planner().plan(out);
+  ASSERT_TRUE(back) << back.error().text;
+  expect_sound(*back, out);
+  ASSERT_EQ(back->size(), 2u) << "to the entry, and out of it";
+  for (const PathSegment& segment : *back) EXPECT_EQ(segment.space, PathSegment::Space::cartesian);
+  out.start = {entry_ + 0.02 * along_, Direction{along_}};
+  out.goal = in.goal;
+  const auto on = planner().plan(out);
+  ASSERT_TRUE(on);
+  expect_sound(*on, out);
+  EXPECT_EQ(on->size(), 1u);
+}
+
+TEST_P(NeedlePaths, ASlidingNeedleIsToldItsDepth) {
+  const auto sliding = needle("{needle_at_entry_m: 0.1}");
+  const PathRequest request = insertion();
+  const auto path = sliding->plan(request);
+  ASSERT_TRUE(path) << path.error().text;
+  EXPECT_NEAR(*path->front().samples.back().redundancy, 0.05, 1e-12);
+  for (const PathSample& sample : path->back().samples) {
+    EXPECT_NEAR(*sample.redundancy, 0.1 + along_.dot(sample.pose.position - entry_), 1e-12);
+  }
+  EXPECT_EQ(needle("{needle_at_entry_m: 0.03}")->plan(request).error().text,
+            "the needle starts 50 mm before the entry and would have to be 20 mm shorter than "
+            "nothing (needle_at_entry_m)");
+}
+
+TEST_P(NeedlePaths, AZoneThatIsTooNearIsNamedWithItsDistance) {
+  PathRequest request{.start = {{0, 0, 0.3}, Direction{{1, 0, 0}}},
+                      .goal = {{0, 0, -0.08}, Direction{{0, 0, -1}}},
+                      .focus = Vector3d{0, 0, 0}};
+  // 1.5 mm are left: 4 mm of radius and 1 mm of needle beside a line that is 6.5 mm away.
+  request.forbidden = {{"far", {0.1, 0, 0}, {0.1, 0, -0.1}, 0.004},
+                       {"artery", {0.0065, -1, -0.04}, {0.0065, 1, -0.04}, 0.004}};
+  EXPECT_EQ(planner().plan(request).error().text,
+            "the needle leaves 1.50 mm to 'artery', 2 mm are required (margin_mm)");
+  EXPECT_TRUE(needle("{margin_mm: 1.4}")->plan(request));
+  request.forbidden[1].from.z() = request.forbidden[1].to.z() = -0.09;
+  EXPECT_TRUE(planner().plan(request)) << "behind the target, 10 mm and a bit";
+  request.forbidden[1].from.z() = request.forbidden[1].to.z() = 0.03;
+  EXPECT_FALSE(planner().plan(request)) << "between stand-off and entry";
+}
+
+TEST_P(NeedlePaths, WhatWouldHurtIsRefused) {
+  const PathRequest good = insertion();
+  const auto refusal = [&](auto change) {
+    PathRequest bad = good;
+    change(bad);
+    const auto path = planner().plan(bad);
+    return path ? "" : path.error().text;
+  };
+  EXPECT_EQ(refusal([](auto& r) { r.focus.reset(); }),
+            "there is no entry: a goal for a needle names it as the point to look at");
+  const Vector3d side = along_.unitOrthogonal();
+  EXPECT_EQ(refusal([&](auto& r) { *r.focus += 0.002 * side; }),
+            "the needle's line passes the entry at 2.000 mm, 0.1 mm are allowed (on_line_mm)");
+  EXPECT_EQ(
+      refusal([&](auto& r) { r.start.position = entry_ + 0.02 * along_ + 0.01 * side; }),
+      "the tip is 20.0 mm past the entry and 10.0 mm beside the line: it has to be drawn back "
+      "first");
+  EXPECT_EQ(refusal([](auto& r) { r.goal.position.x() = NAN; }),
+            "the goal's position is not finite");
+  EXPECT_EQ(refusal([](auto& r) {
+              r.forbidden = {{"vein", {0, 0, 0}, {0, 0, 0}, NAN}};
+            }),
+            "forbidden zone 'vein' has the radius nan m");
+}
+
+}  // namespace
+}  // namespace armature

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <numbers>
+#include <optional>
+#include <string>
+
+#include "armature/kinds/setup_robot.hpp"
+#include "armature/messages/armature_msgs.hpp"
+#include "armature/messages/geometry.hpp"
+#include "armature/messages/header.hpp"
+#include "armature/messages/sensor_msgs.hpp"
+#include "armature/robot/kinematics.hpp"
+#include "armature/runtime/component.hpp"
+#include "armature/runtime/plugin.hpp"
+#include "armature/runtime/setup.hpp"
+#include "insertion_monitor.hpp"
+
+namespace armature {
+namespace {
+
+constexpr Duration kPeriod = seconds(0.02);
+constexpr double kDegrees = 180 / std::numbers::pi;
+
+}  // namespace
+
+class BiopsyReport final : public Component {
+ public:
+  explicit BiopsyReport(Setup& setup)
+      : Component{setup},
+        robot_{robot_of(setup)},
+        needle_axis_{robot_.pointing_axis().value_or(Eigen::Vector3d::UnitZ())},
+        still_for_{seconds(setup.params().number("still_for_s"))},
+        plan_{setup.input<msg::NeedlePlan>("plan")},
+        truth_{setup.input<msg::TransformStamped>("truth")},
+        registration_{setup.input<msg::RegistrationResponse>("registration")},
+        measured_js_{setup.input<msg::JointState>("measured_js")},
+        task_state_{setup.input<msg::TaskState>("task_state")} {
+    setup.activate_every(kPeriod);
+  }
+
+  void step(Time now) override {
+    if (!start_) start_ = now;
+    for (std::size_t i = 0; i < registration_.size(); ++i) read(registration_[i]);
+    for (std::size_t i = 0; i < measured_js_.size(); ++i) read(measured_js_[i]);
+    for (std::size_t i = 0; i < task_state_.size(); ++i) read(task_state_[i], now);
+    finished_ = refused_ || (at_target_since_ && now - *at_target_since_ >= still_for_);
+  }
+
+  bool finished() const override { return finished_; }
+
+  void summarize(Summary& summary) const override {
+    if (refused_) summary.failed("refused");
+    const auto metric = [&](const char* key, const char* title, std::optional<double> value,
+                            double unit = 1) {
+      if (value) summary.metric(key, title, *value * unit);
+    };
+    metric("time_to_target_s", "time to the target [s]", time_to_target_s_);
+    const auto error = target_error_m();
+    metric("target_error_mm", "error of the tip at the true target [mm]", error, 1e3);
+    if (const auto& needle = monitor_.needle()) {
+      metric("predicted_target_error_rms_mm", "its expected rms [mm]", needle->error_rms_m, 1e3);
+      metric("predicted_target_error_95_mm", "95 of 100 are below [mm]", needle->error_95_m, 1e3);
+      if (error && needle->error_95_m > 0) {
+        metric("target_error_of_bound", "error as a part of that", *error / needle->error_95_m);
+      }
+      metric("fiducial_error_mm", "the markers' fit, rms [mm]", needle->fiducial_error_m, 1e3);
+    }
+    metric("line_deviation_mm", "farthest off the line inside [mm]", monitor_.line_deviation_m(),
+           1e3);
+    metric("line_tilt_deg", "most tilted against it [deg]", monitor_.line_tilt_rad(), kDegrees);
+    metric("other_joints_deg", "most that a turning joint moved inside [deg]",
+           monitor_.turned_rad(), kDegrees);
+  }
+
+ private:
+  /// None until the task said that the needle is there.
+  std::optional<double> target_error_m() const {
+    if (!time_to_target_s_ || !plan_.latest() || !truth_.latest() || !monitor_.tip()) return {};
+    const Eigen::Isometry3d robot_T_image = to_eigen(truth_.latest()->transform_());
+    return (*monitor_.tip() - robot_T_image * to_eigen(plan_.latest()->target_())).norm();
+  }
+
+  void read(const msg::RegistrationResponse& response) {
+    if (!response.valid_() || response.targets_().size() < 2) return;
+    const msg::RegisteredTarget& target = response.targets_()[0];
+    monitor_.see_registration({.entry = to_eigen(response.targets_()[1].position_()),
+                               .target = to_eigen(target.position_()),
+                               .error_rms_m = target.error_rms_(),
+                               .error_95_m = target.error_95_(),
+                               .fiducial_error_m = response.fre_()});
+  }
+
+  void read(const msg::JointState& state) {
+    const auto q = robot_.contract(state.position_());
+    if (!q) return degraded("measured_js: " + q.error().text);
+    healthy();
+    const Eigen::Isometry3d base_T_tool = forward_kinematics(robot_, *q);
+    monitor_.see_tip(base_T_tool.translation(), base_T_tool.linear() * needle_axis_, turning(*q));
+  }
+
+  JointVector turning(const JointVector& q) const {
+    JointVector values(robot_.dof());
+    Eigen::Index count = 0;
+    for (int i = 0; i < robot_.dof(); ++i) {
+      const auto joint = static_cast<std::size_t>(robot_.independent_joint(i));
+      if (robot_.joints()[joint].type == Joint::Type::revolute) values[count++] = q[i];
+    }
+    return values.head(count);
+  }
+
+  void read(const msg::TaskState& state, Time now) {
+    refused_ = state.state_() == "refused";
+    if (state.state_() != "at target") {
+      at_target_since_.reset();
+      return;
+    }
+    if (!at_target_since_) at_target_since_ = now;
+    if (!time_to_target_s_) time_to_target_s_ = to_seconds(now - *start_);
+  }
+
+  RobotModel robot_;
+  Eigen::Vector3d needle_axis_;
+  Duration still_for_;
+  InsertionMonitor monitor_;
+  std::optional<Time> start_, at_target_since_;
+  std::optional<double> time_to_target_s_;
+  bool refused_ = false, finished_ = false;
+  Input<msg::NeedlePlan> plan_;
+  Input<msg::TransformStamped> truth_;
+  Input<msg::RegistrationResponse> registration_;
+  Input<msg::JointState> measured_js_;
+  Input<msg::TaskState> task_state_;
+};
+
+}  // namespace armature
+
+ARMATURE_PLUGIN(armature::BiopsyReport);

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+// The report of a biopsy on its topics: 1. the figures, 2. when the story ends, 3. bad samples.
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "armature/messages/armature_msgs.hpp"
+#include "armature/messages/geometry.hpp"
+#include "armature/messages/header.hpp"
+#include "armature/messages/sensor_msgs.hpp"
+#include "armature/robot/kinematics.hpp"
+#include "armature/runtime/component_bench.hpp"
+
+namespace armature {
+namespace {
+
+PluginRegistry& plugins() {
+  static PluginRegistry registry{{ARMATURE_PLUGIN_BUILD_DIR}};
+  return registry;
+}
+
+class Figures final : public Summary {
+ public:
+  void metric(std::string key, std::string, double value) override { metrics[key] = value; }
+  void text(std::string, std::string, std::string) override {}
+  void failed(std::string why) override { status = why; }
+
+  std::map<std::string, double> metrics;
+  std::string status;
+};
+
+class BiopsyReportTest : public testing::Test {
+ protected:
+  void show_head() {
+    msg::NeedlePlan plan;
+    assign(plan.target_(), Eigen::Vector3d{0, 0, -0.03});
+    report_.send("plan", plan);
+    msg::TransformStamped truth;
+    Eigen::Isometry3d robot_T_image = Eigen::Isometry3d::Identity();
+    robot_T_image.translation() = tip_ - Eigen::Vector3d{0.0004, 0, -0.03};  // 0.4 mm beside
+    assign(truth.transform_(), robot_T_image);
+    report_.send("truth", truth);
+    msg::RegistrationResponse response;
+    response.valid_(true);
+    response.fre_(0.0003);
+    response.targets_().resize(2);
+    assign(response.targets_()[0].position_(), tip_);
+    assign(response.targets_()[1].position_(), tip_ - 0.08 * down_);
+    response.targets_()[0].error_rms_(0.0005);
+    response.targets_()[0].error_95_(0.0008);
+    report_.send("registration", response);
+  }
+  void move_arm() { send_arm(resting_position(robot_)); }
+  void send_arm(const JointVector& q) {
+    msg::JointState state;
+    const JointVector all = robot_.expand(q);
+    state.position_().assign(all.begin(), all.end());
+    report_.send("measured_js", state);
+  }
+  void tell(const std::string& state) {
+    msg::TaskState message;
+    message.state_() = state;
+    report_.send("task_state", message);
+  }
+  Figures figures() {
+    Figures figures;
+    report_.component().summarize(figures);
+    return figures;
+  }
+
+  const RobotModel robot_ = load_robot_model(ARMATURE_SOURCE_DIR "/configs/robots/sr1_needle.yaml");
+  const Eigen::Isometry3d home_ = forward_kinematics(robot_, resting_position(robot_));
+  const Eigen::Vector3d tip_ = home_.translation(), down_ = home_.linear().col(2);
+  ComponentBench report_{
+      plugins(),
+      {.component = "{plugin: report/biopsy}",
+       .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/sr1_needle.yaml"),
+       .rig = {}}};
+};
+
+TEST_F(BiopsyReportTest, TellsTheErrorsAgainstTruthAndExpectation) {
+  show_head();
+  move_arm();
+  tell("inserting");
+  report_.step(1);
+  EXPECT_FALSE(figures().metrics.contains("target_error_mm")) << "it is not there yet";
+  tell("at target");
+  report_.step(5);
+  EXPECT_FALSE(report_.component().finished());
+  report_.step(5.5);
+  EXPECT_TRUE(report_.component().finished());
+  auto told = figures();
+  EXPECT_EQ(told.status, "");
+  EXPECT_NEAR(told.metrics.at("time_to_target_s"), 4, 1e-9);
+  EXPECT_NEAR(told.metrics.at("target_error_mm"), 0.4, 1e-9);
+  EXPECT_NEAR(told.metrics.at("predicted_target_error_rms_mm"), 0.5, 1e-12);
+  EXPECT_NEAR(told.metrics.at("predicted_target_error_95_mm"), 0.8, 1e-12);
+  EXPECT_NEAR(told.metrics.at("target_error_of_bound"), 0.5, 1e-9);
+  EXPECT_NEAR(told.metrics.at("fiducial_error_mm"), 0.3, 1e-12);
+  EXPECT_FALSE(told.metrics.contains("line_deviation_mm")) << "it did not come by the entry";
+}
+
+TEST_F(BiopsyReportTest, TellsHowStraightTheNeedleWentIn) {
+  show_head();
+  for (const double depth : {0.0, 0.03, 0.08}) {  // the needle's joint alone moves
+    JointVector q = resting_position(robot_);
+    q[5] += depth - 0.08;
+    send_arm(q);
+  }
+  report_.step(1);
+  auto told = figures();
+  EXPECT_NEAR(told.metrics.at("line_deviation_mm"), 0, 1e-9);
+  EXPECT_NEAR(told.metrics.at("line_tilt_deg"), 0, 1e-9);
+  EXPECT_EQ(told.metrics.at("other_joints_deg"), 0);
+}
+
+TEST_F(BiopsyReportTest, ARefusedBiopsyEndsTheRun) {
+  tell("refused");
+  report_.step(1);
+  EXPECT_TRUE(report_.component().finished());
+  EXPECT_EQ(figures().status, "refused");
+  EXPECT_FALSE(figures().metrics.contains("target_error_mm"));
+}
+
+TEST_F(BiopsyReportTest, ASampleThatIsNoPositionIsSaid) {
+  msg::JointState state;
+  state.position_() = {1, 2};
+  report_.send("measured_js", state);
+  report_.step(1);
+  EXPECT_EQ(report_.status().reason.substr(0, 13), "measured_js: ");
+  move_arm();
+  report_.step(2);
+  EXPECT_EQ(report_.status().reason, "");
+}
+
+}  // namespace
+}  // namespace armature

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <string>
+
+#include "armature/kinds/zone_messages.hpp"
+#include "armature/messages/geometry_msgs.hpp"
+#include "armature/messages/header.hpp"
+#include "armature/runtime/component.hpp"
+#include "armature/runtime/plugin.hpp"
+#include "armature/runtime/setup.hpp"
+#include "marked_head.hpp"
+
+namespace armature {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr const char* kImageFrame = "image";
+
+Vector3d vector_of(const Params& params, const char* name) {
+  const auto values = params.numbers(name);
+  return {values[0], values[1], values[2]};
+}
+
+std::vector<Vector3d> markers_of(const Params& params) {
+  const auto values = params.numbers("markers_mm");
+  if (values.size() < 9 || values.size() % 3 != 0) {
+    throw SetupError("markers_mm has " + std::to_string(values.size()) +
+                     " numbers; three for each of at least three markers are needed");
+  }
+  std::vector<Vector3d> markers;
+  for (std::size_t i = 0; i < values.size(); i += 3) {
+    markers.emplace_back(values[i], values[i + 1], values[i + 2]);
+  }
+  return markers;
+}
+
+std::vector<ForbiddenZone> vessels_of(const Params& params) {
+  const auto values = params.numbers("vessels_mm");
+  if (values.size() % 7 != 0) {
+    throw SetupError("vessels_mm has " + std::to_string(values.size()) +
+                     " numbers; seven for each vessel are needed: from, to, radius");
+  }
+  std::vector<ForbiddenZone> vessels;
+  for (std::size_t i = 0; i < values.size(); i += 7) {
+    const double* v = values.data() + i;
+    vessels.push_back(
+        {"vessel " + std::to_string(i / 7 + 1), {v[0], v[1], v[2]}, {v[3], v[4], v[5]}, v[6]});
+    if (const auto wrong = defect(vessels.back())) throw SetupError("vessels_mm: " + *wrong);
+  }
+  return vessels;
+}
+
+Eigen::Isometry3d robot_T_image(const Params& params) {
+  const Vector3d rpy = vector_of(params, "head_rpy_deg");
+  return Eigen::Translation3d{vector_of(params, "head_mm")} *
+         (Eigen::AngleAxisd{rpy.z(), Vector3d::UnitZ()} *
+          Eigen::AngleAxisd{rpy.y(), Vector3d::UnitY()} *
+          Eigen::AngleAxisd{rpy.x(), Vector3d::UnitX()});
+}
+
+void add_points(const std::vector<Vector3d>& points, std::vector<msg::Point>& messages) {
+  for (const Vector3d& point : points) assign(messages.emplace_back(), point);
+}
+
+}  // namespace
+
+/// Tells plan, measured markers and truth once: the head stays where it is.
+class MarkedHeadComponent final : public Component {
+ public:
+  explicit MarkedHeadComponent(Setup& setup)
+      : Component{setup},
+        head_{.markers = markers_of(setup.params()),
+              .entry = vector_of(setup.params(), "entry_mm"),
+              .target = vector_of(setup.params(), "target_mm"),
+              .vessels = vessels_of(setup.params()),
+              .robot_T_image = robot_T_image(setup.params())},
+        measurement_{setup.params().number("marker_error_mm"),
+                     static_cast<int>(setup.params().integer("spurious_points"))},
+        seed_{setup.seed()},
+        plan_{setup.output<msg::NeedlePlan>("plan")},
+        markers_{setup.output<msg::MeasuredMarkers>("markers")},
+        truth_{setup.output<msg::TransformStamped>("truth")} {
+    setup.activate_every(seconds(0.1));
+  }
+
+  void step(Time now) override {
+    if (told_) return;
+    told_ = true;
+    msg::NeedlePlan plan;
+    write_header(plan.header_(), now, kImageFrame);
+    add_points(head_.markers, plan.markers_());
+    assign(plan.entry_(), head_.entry);
+    assign(plan.target_(), head_.target);
+    write_zones(head_.vessels, plan.forbidden_());
+    plan_.publish(plan);
+    msg::MeasuredMarkers markers;
+    write_header(markers.header_(), now, kBaseFrame);
+    add_points(measured_points(head_, measurement_, seed_), markers.points_());
+    markers_.publish(markers);
+    msg::TransformStamped truth;
+    write_header(truth.header_(), now, kBaseFrame);
+    truth.child_frame_id_(kImageFrame);
+    assign(truth.transform_(), head_.robot_T_image);
+    truth_.publish(truth);
+  }
+
+ private:
+  MarkedHead head_;
+  Measurement measurement_;
+  std::uint64_t seed_;
+  bool told_ = false;
+  Output<msg::NeedlePlan> plan_;
+  Output<msg::MeasuredMarkers> markers_;
+  Output<msg::TransformStamped> truth_;
+};
+
+}  // namespace armature
+
+ARMATURE_PLUGIN(armature::MarkedHeadComponent);

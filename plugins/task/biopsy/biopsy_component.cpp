@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <string>
+
+#include "armature/kinds/setup_robot.hpp"
+#include "armature/motion/goal_messages.hpp"
+#include "armature/runtime/component.hpp"
+#include "armature/runtime/plugin.hpp"
+#include "armature/runtime/setup.hpp"
+#include "biopsy.hpp"
+
+namespace armature {
+namespace {
+
+constexpr Duration kPeriod = seconds(0.02);
+constexpr Duration kStatePeriod = seconds(0.2);
+
+BiopsySettings settings_of(const Params& params) {
+  return {.most_fiducial_error_m = params.number("most_fiducial_error_mm"),
+          .most_target_error_m = params.number("most_target_error_mm")};
+}
+
+NeedleLine line_of(const msg::NeedlePlan& plan) {
+  return {to_eigen(plan.entry_()), to_eigen(plan.target_()), zones_of(plan.forbidden_())};
+}
+
+RegisteredHead head_of(const msg::RegistrationResponse& response) {
+  RegisteredHead head;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 4; ++column) {
+      head.robot_T_image(row, column) =
+          response.robot_t_image_()[static_cast<std::size_t>(4 * row + column)];
+    }
+  }
+  head.fiducial_error_m = response.fre_();
+  head.target_error95_m = response.targets_().front().error_95_();
+  return head;
+}
+
+}  // namespace
+
+class BiopsyComponent final : public Component {
+ public:
+  explicit BiopsyComponent(Setup& setup)
+      : Component{setup},
+        robot_{robot_of(setup)},
+        task_{settings_of(setup.params()), robot_},
+        marker_error_m_{setup.params().number("marker_error_mm")},
+        match_tolerance_m_{setup.params().number("match_tolerance_mm")},
+        plan_{setup.input<msg::NeedlePlan>("plan")},
+        markers_{setup.input<msg::MeasuredMarkers>("markers")},
+        registration_{setup.input<msg::RegistrationResponse>("registration")},
+        motion_status_{setup.input<msg::MotionStatus>("motion_status")},
+        request_{setup.output<msg::RegistrationRequest>("request")},
+        goal_{setup.output<msg::MotionGoal>("goal")},
+        state_{setup.output<msg::TaskState>("state")} {
+    setup.activate_every(kPeriod);
+  }
+
+  void step(Time now) override {
+    read(now);
+    if (task_.should_ask(now)) ask(now);
+    if (const auto goal = task_.outgoing_goal(now)) {
+      auto loan = goal_.loan();
+      write_goal(*goal, now, *loan);
+      loan.publish();
+    }
+    publish_state(now);
+  }
+
+ private:
+  void read(Time now) {
+    if (plan_.latest() && markers_.latest()) task_.see_head(line_of(*plan_.latest()));
+    for (std::size_t i = 0; i < registration_.size(); ++i) {
+      const msg::RegistrationResponse& response = registration_[i];
+      if (response.request_id_() != asked_) continue;  // somebody else's
+      if (!response.valid_()) {
+        task_.see_refused_registration(response.reason_());
+      } else if (!response.targets_().empty()) {
+        tell(response);
+        task_.see_registration(head_of(response));
+      }
+    }
+    for (std::size_t i = 0; i < motion_status_.size(); ++i) {
+      task_.hear(report_of(motion_status_[i]), now);
+    }
+  }
+
+  void tell(const msg::RegistrationResponse& response) {
+    const auto& used = response.used_();
+    say(fmt::format("{} of {} markers fit to {:.2f} mm, the target is known to {:.2f} mm (95 %)",
+                    std::count(used.begin(), used.end(), true), used.size(), 1e3 * response.fre_(),
+                    1e3 * response.targets_().front().error_95_()));
+  }
+
+  /// A number that nobody else's question on this topic has, as far as one can tell.
+  void ask(Time now) {
+    asked_ = static_cast<std::uint64_t>(now.ns);
+    auto loan = request_.loan();
+    write_header(loan->header_(), now, kBaseFrame);
+    loan->request_id_(asked_);
+    loan->image_markers_() = plan_.latest()->markers_();
+    loan->robot_markers_() = markers_.latest()->points_();
+    loan->ordered_(false);
+    loan->match_tolerance_(match_tolerance_m_);
+    loan->marker_error_(marker_error_m_);
+    loan->targets_() = {plan_.latest()->target_(), plan_.latest()->entry_()};
+    loan.publish();
+  }
+
+  void publish_state(Time now) {
+    std::string line = to_string(task_.phase());
+    if (!task_.trouble().empty()) line += ": " + task_.trouble();
+    if (line == line_ && now - published_ < kStatePeriod) return;
+    if (line != line_) say(line);
+    line_ = line;
+    published_ = now;
+    auto loan = state_.loan();
+    write_header(loan->header_(), now);
+    loan->state_() = to_string(task_.phase());
+    loan->step_(0);
+    loan->steps_(0);
+    loan->detail_() = task_.trouble();
+    loan.publish();
+  }
+
+  RobotModel robot_;
+  Biopsy task_;
+  double marker_error_m_, match_tolerance_m_;
+  std::uint64_t asked_ = 0;
+  std::string line_;
+  Time published_;
+  Input<msg::NeedlePlan> plan_;
+  Input<msg::MeasuredMarkers> markers_;
+  Input<msg::RegistrationResponse> registration_;
+  Input<msg::MotionStatus> motion_status_;
+  Output<msg::RegistrationRequest> request_;
+  Output<msg::MotionGoal> goal_;
+  Output<msg::TaskState> state_;
+};
+
+}  // namespace armature
+
+ARMATURE_PLUGIN(armature::BiopsyComponent);

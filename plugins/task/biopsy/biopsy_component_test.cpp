@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+// The biopsy on its topics: 1. what it asks the registration, 2. the goal, 3. answers to others'
+// questions are none, 4. what it says.
+#include <gtest/gtest.h>
+
+#include "armature/kinds/zone_messages.hpp"
+#include "armature/messages/header.hpp"
+#include "armature/runtime/component_bench.hpp"
+
+namespace armature {
+namespace {
+
+PluginRegistry& plugins() {
+  static PluginRegistry registry{{ARMATURE_PLUGIN_BUILD_DIR}};
+  return registry;
+}
+
+class BiopsyComponentTest : public testing::Test {
+ protected:
+  void show_head() {
+    msg::NeedlePlan plan;
+    for (const double x : {0.0, 0.1, 0.2}) {
+      assign(plan.markers_().emplace_back(), Eigen::Vector3d{x, x * x, 0});
+    }
+    assign(plan.entry_(), Eigen::Vector3d{0, 0, 0.05});
+    assign(plan.target_(), Eigen::Vector3d{0, 0, -0.03});
+    write_zones({{"artery", {0.1, 0, 0}, {0.1, 0.1, 0}, 0.002}}, plan.forbidden_());
+    task_.send("plan", plan);
+    msg::MeasuredMarkers markers;
+    assign(markers.points_().emplace_back(), Eigen::Vector3d{7, 8, 9});
+    task_.send("markers", markers);
+  }
+  msg::RegistrationRequest asked() {
+    task_.step(now_s_ += 0.02);
+    const auto requests = task_.take<msg::RegistrationRequest>("request");
+    EXPECT_EQ(requests.size(), 1u);
+    return requests.empty() ? msg::RegistrationRequest{} : requests.front();
+  }
+  static msg::RegistrationResponse answer_to(const msg::RegistrationRequest& request) {
+    msg::RegistrationResponse response;
+    response.request_id_(request.request_id_());
+    response.valid_(true);
+    response.robot_t_image_({1, 0, 0, 0.4, 0, 1, 0, 0, 0, 0, 1, 0.2});
+    response.used_({true, true, false});
+    response.fre_(0.0003);
+    response.targets_().resize(2);
+    response.targets_()[0].error_95_(0.0004);
+    return response;
+  }
+
+  ComponentBench task_{
+      plugins(),
+      {.component = "{plugin: task/biopsy}",
+       .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/sr1_needle.yaml"),
+       .rig = {}}};
+  double now_s_ = 100;
+};
+
+TEST_F(BiopsyComponentTest, AsksForARegistrationOfUnorderedMarkersOnceItHasThem) {
+  task_.step(now_s_);
+  EXPECT_TRUE(task_.take<msg::RegistrationRequest>("request").empty());
+  EXPECT_EQ(task_.take<msg::TaskState>("state").front().state_(), "waiting");
+  show_head();
+  const msg::RegistrationRequest request = asked();
+  EXPECT_EQ(request.header_().frame_id_(), "base");
+  EXPECT_EQ(request.image_markers_().size(), 3u);
+  ASSERT_EQ(request.robot_markers_().size(), 1u);
+  EXPECT_EQ(request.robot_markers_()[0].z_(), 9);
+  EXPECT_FALSE(request.ordered_());
+  EXPECT_DOUBLE_EQ(request.match_tolerance_(), 0.003);
+  EXPECT_DOUBLE_EQ(request.marker_error_(), 0.0005);
+  ASSERT_EQ(request.targets_().size(), 2u);
+  EXPECT_EQ(request.targets_()[0].z_(), -0.03);
+}
+
+TEST_F(BiopsyComponentTest, SendsTheRegisteredTargetAsAGoal) {
+  show_head();
+  task_.send("registration", answer_to(asked()));
+  task_.step(now_s_ += 0.02);
+  const auto goals = task_.take<msg::MotionGoal>("goal");
+  ASSERT_EQ(goals.size(), 1u);
+  EXPECT_EQ(goals[0].header_().frame_id_(), "base");
+  EXPECT_EQ(goals[0].mode_(), 0);
+  EXPECT_NEAR(goals[0].position_().x_(), 0.4, 1e-15);
+  EXPECT_NEAR(goals[0].position_().z_(), 0.17, 1e-15);
+  EXPECT_TRUE(goals[0].pointing_());
+  EXPECT_NEAR(goals[0].direction_().z_(), -1, 1e-15);
+  EXPECT_TRUE(goals[0].has_focus_());
+  EXPECT_NEAR(goals[0].focus_().z_(), 0.25, 1e-15);
+  ASSERT_EQ(goals[0].forbidden_().size(), 1u);
+  EXPECT_NEAR(goals[0].forbidden_()[0].to_().x_(), 0.5, 1e-15);
+  EXPECT_EQ(task_.lines().back(), "inserting");
+  EXPECT_EQ(task_.lines()[task_.lines().size() - 2],
+            "2 of 3 markers fit to 0.30 mm, the target is known to 0.40 mm (95 %)");
+}
+
+TEST_F(BiopsyComponentTest, AnAnswerToSomebodyElseIsNone) {
+  show_head();
+  msg::RegistrationResponse other = answer_to(asked());
+  other.request_id_(other.request_id_() + 1);
+  task_.send("registration", other);
+  task_.step(now_s_ += 0.02);
+  EXPECT_TRUE(task_.take<msg::MotionGoal>("goal").empty());
+  EXPECT_EQ(task_.take<msg::TaskState>("state").back().state_(), "registering");
+}
+
+TEST_F(BiopsyComponentTest, SaysWhyItDoesNotGoOn) {
+  show_head();
+  msg::RegistrationResponse refused = answer_to(asked());
+  refused.valid_(false);
+  refused.reason_() = "the markers lie nearly on one line";
+  task_.send("registration", refused);
+  task_.step(now_s_ += 0.02);
+  const auto state = task_.take<msg::TaskState>("state").back();
+  EXPECT_EQ(state.state_(), "refused");
+  EXPECT_EQ(state.detail_(), "the markers lie nearly on one line");
+  EXPECT_EQ(task_.lines().back(), "refused: the markers lie nearly on one line");
+}
+
+}  // namespace
+}  // namespace armature

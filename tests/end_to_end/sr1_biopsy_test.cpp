@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+// SR-1: from unordered markers to a needle at its target, by one file; and every way in which it
+// must not go on.
+#include <gtest/gtest.h>
+
+#include "deployment_run.hpp"
+
+namespace armature::test {
+namespace {
+
+DeploymentRun biopsy(std::vector<std::string> settings = {}) {
+  return run_deployment(
+      {.files = {source_file("configs/sr1_biopsy.yaml")}, .settings = std::move(settings)});
+}
+
+const std::string kSixTurningJoints = "robots.arm=" + source_file("configs/robots/sr1.yaml");
+
+void expect_inserted(const DeploymentRun& run) {
+  SCOPED_TRACE(run.text());
+  EXPECT_EQ(run.command.exit_code, 0);
+  EXPECT_EQ(run.report.value("status", "none"), "ok");
+  EXPECT_LE(run.figure("target_error_of_bound"), 1);
+  EXPECT_LE(run.figure("line_deviation_mm"), 0.01);
+  EXPECT_LE(run.figure("line_tilt_deg"), 0.01);
+}
+
+TEST(Sr1Biopsy, ComesToTheTargetTwiceInTheSameWay) {
+  const DeploymentRun first = biopsy(), second = biopsy();
+  expect_inserted(first);
+  EXPECT_EQ(first.report, second.report);
+  EXPECT_NEAR(first.figure("target_error_mm"), 0.253, 0.001);
+  EXPECT_NEAR(first.figure("predicted_target_error_rms_mm"), 0.226, 0.001);
+}
+
+TEST(Sr1Biopsy, ASlidingNeedleGoesInWithoutAnyOtherJoint) {
+  const DeploymentRun run = biopsy();
+  EXPECT_LE(run.figure("other_joints_deg"), 1e-9) << run.text();
+}
+
+TEST(Sr1Biopsy, SixTurningJointsKeepTheNeedleOnTheLineAsWell) {
+  const DeploymentRun run = biopsy({kSixTurningJoints});
+  expect_inserted(run);
+  EXPECT_GT(run.figure("other_joints_deg"), 10);
+}
+
+TEST(Sr1Biopsy, SolversRegistrationsAndTrajectoriesAreSwappedByOneWord) {
+  for (const char* swap : {"components.motion.ik.plugin=ik/numeric",
+                           "components.registration.plugin=registration/affine4",
+                           "components.registration.plugin=registration/frame3",
+                           "components.motion.trajectory.plugin=trajectory/cubic_spline"}) {
+    SCOPED_TRACE(swap);
+    expect_inserted(biopsy({swap}));
+    expect_inserted(biopsy({swap, kSixTurningJoints}));
+  }
+}
+
+/// It ends by itself, with the reason; the needle has not moved towards the head.
+void expect_refused(const std::vector<std::string>& settings, const std::string& reason) {
+  const DeploymentRun run = biopsy(settings);
+  SCOPED_TRACE(run.text());
+  EXPECT_EQ(run.command.exit_code, 1);
+  EXPECT_EQ(run.report.value("status", "none"), "refused");
+  EXPECT_NE(run.command.err.find("refused: " + reason), std::string::npos);
+  EXPECT_FALSE(run.report.contains("target_error_mm"));
+  EXPECT_FALSE(run.report.contains("line_deviation_mm"));
+}
+
+const std::string kHead = "components.head.params.";
+
+TEST(Sr1Biopsy, AVesselInTheWayIsNamed) {
+  expect_refused({kHead + "vessels_mm=[6, 30, 45, 6, 30, 45, 4]"}, "path: the needle leaves -0.2");
+  expect_refused({kHead + "vessels_mm=[10, 5, 12, 10, 5, 12, 8]"}, "path: the needle leaves -9");
+}
+
+TEST(Sr1Biopsy, MarkersThatDecideNothingAreRefused) {
+  expect_refused({kHead + "markers_mm=[0, 0, 0, 30, 0, 0, 50, 0, 0, 90, 0, 0]"},
+                 "the markers lie nearly on one line");
+  expect_refused({kHead + "markers_mm=[0, 0, 0, 90, 0, 0, 0, 70, 0, 90, 70, 0]"},
+                 "ambiguous: markers ");
+  expect_refused({"components.registration.plugin=registration/affine4",
+                  kHead + "markers_mm=[0, 0, 0, 90, 0, 0, 10, 70, 0, 70, 50, 1]"},
+                 "markers 1 to 4 lie nearly in one plane");
+}
+
+TEST(Sr1Biopsy, AMarkerThatMovedOrATargetKnownTooBadlyIsRefused) {
+  expect_refused({kHead + "marker_error_mm=8"}, "no choice of measured points keeps");
+  expect_refused({"components.task.params.most_target_error_mm=0.3"},
+                 "the target is known to 0.36 mm (95 %), 0.3 mm are required");
+  expect_refused({"components.task.params.most_fiducial_error_mm=0.3"},
+                 "the markers fit to 0.54 mm rms, 0.3 mm are allowed");
+}
+
+TEST(Sr1Biopsy, AHeadOutOfReachIsRefused) {
+  expect_refused({kHead + "head_mm=[1450, -120, 260]"}, "ik: the goal: out_of_reach");
+}
+
+TEST(Sr1Biopsy, ANeedlesPathMustNotBecomeAStraightJointMove) {
+  const DeploymentRun run = biopsy({"components.motion.params.path_only=false"});
+  EXPECT_EQ(run.command.exit_code, 3);
+  EXPECT_NE(run.command.err.find("'path/needle' needs 'path_only', and nothing in component "
+                                 "'motion' offers it; 'motion' does unless 'path_only' is false"),
+            std::string::npos)
+      << run.text();
+}
+
+}  // namespace
+}  // namespace armature::test

@@ -86,9 +86,10 @@ TEST(Sr1Registration, ThreeMarkersMakeTheFrameOfTheCase) {
 }
 
 TEST(Sr1Registration, LeastSquaresOverThreeFourAndSixMarkersIsThatOfTheCase) {
-  for (const std::size_t count : {3u, 4u, 6u}) {
+  for (const auto& [count, name] : {std::pair{3u, "noisy_kabsch3"}, std::pair{4u, "noisy_kabsch4"},
+                                    std::pair{6u, "noisy_kabsch6"}}) {
     SCOPED_TRACE(count);
-    const Figures figures = sr1()["registration"]["case"]["noisy_kabsch" + std::to_string(count)];
+    const Figures figures = sr1()["registration"]["case"][name];
     const MarkerPairs pairs = markers(count, "robot_markers_noisy");
     const auto rigid = registrar("registration/rigid");
     const auto found = rigid->find(pairs);

@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the solvers are made of, by itself: forward kinematics, Jacobian and one solve, for every
-// robot of configs/robots and every solver that serves it. `armature bench ik` compares solvers;
-// this shows where their time goes. --benchmark_filter=fk/dental_lamp
+// robot of configs/robots and every solver that serves it; and a sample of each orientation curve.
+// `armature bench ik` compares solvers; this shows where their time goes.
+// --benchmark_filter=fk/dental_lamp
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <random>
+#include <string>
 #include <vector>
 
 #include "armature/config/problems.hpp"
 #include "armature/kinds/ik/verify/plugin_subject.hpp"
 #include "armature/robot/kinematics.hpp"
+#include "armature/robot/orientation_curve.hpp"
 
 namespace armature {
 namespace {
@@ -81,6 +84,32 @@ void solve(benchmark::State& state, const IkSubject& subject, Redundancy redunda
   }
 }
 
+/// Rotation, angular velocity and angular acceleration anywhere on a curve through eight keys.
+void orientation(benchmark::State& state, OrientationInterpolator interpolator) {
+  std::mt19937_64 random{1};
+  std::normal_distribution<double> normal;
+  std::vector<Eigen::Quaterniond> keys(8);
+  for (auto& key : keys) {
+    key.coeffs() = Eigen::Vector4d::NullaryExpr([&] { return normal(random); }).normalized();
+  }
+  const OrientationCurve curve = OrientationCurve::through(keys, interpolator).value();
+  std::uniform_real_distribution<double> part{0, 1};
+  std::vector<double> u(kPostures);
+  for (double& each : u) each = part(random);
+  for (std::size_t i = 0; auto _ : state) {
+    benchmark::DoNotOptimize(curve.at(u[++i % kPostures]));
+  }
+}
+
+void add_orientations() {
+  for (const std::string name : {"slerp", "squad", "rotvec_bspline", "chart_bspline"}) {
+    const OrientationInterpolator interpolator = *orientation_interpolator(name);
+    benchmark::RegisterBenchmark(
+        ("orientation/" + name).c_str(),
+        [interpolator](benchmark::State& state) { orientation(state, interpolator); });
+  }
+}
+
 void add_robot(PluginRegistry& plugins, const RobotPtr& robot) {
   const auto add = [](const std::string& name, auto body) {
     benchmark::RegisterBenchmark(name.c_str(), body);
@@ -119,6 +148,7 @@ int main(int argc, char** argv) {
     armature::add_robot(
         plugins, std::make_shared<const armature::RobotModel>(armature::load_robot_model(file)));
   }
+  armature::add_orientations();
   benchmark::RunSpecifiedBenchmarks();
   return 0;
 }

@@ -4,8 +4,10 @@
 #include <atomic>
 #include <cstdlib>
 
+#include "armature/robot/corner_blend.hpp"
 #include "armature/robot/frame_buffer.hpp"
 #include "armature/robot/kinematics.hpp"
+#include "armature/robot/orientation_probe_test.hpp"
 #include "armature/robot/test_robots.hpp"
 #include "armature/robot/trajectory.hpp"
 
@@ -77,6 +79,24 @@ TEST_F(NoAllocation, InEvaluatingATrajectory) {
               sum += limit_use(trajectory, lamp.max_velocity(), lamp.max_acceleration()).velocity;
             }),
             0);
+}
+
+TEST_F(NoAllocation, InEvaluatingAnOrientationCurveOrABlendedPolyline) {
+  std::mt19937_64 random{1};
+  const auto keys = testing::random_keys(random, 6);
+  const std::vector<Eigen::Vector3d> points{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}};
+  const BlendedPolyline line{points, std::vector<double>{0, 0.5, 1}};
+  for (const auto interpolator :
+       {OrientationInterpolator::slerp, OrientationInterpolator::squad,
+        OrientationInterpolator::rotvec_bspline, OrientationInterpolator::chart_bspline}) {
+    const OrientationCurve curve = OrientationCurve::through(keys, interpolator).value();
+    EXPECT_EQ(allocations_of([&] {
+                for (double u = -0.1; u < 1.1; u += 0.01) {
+                  sum += curve.at(u).acceleration.sum() + line.at(u).sum();
+                }
+              }),
+              0);
+  }
 }
 
 TEST_F(NoAllocation, InTheFrameBuffer) {

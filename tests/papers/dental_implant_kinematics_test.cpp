@@ -10,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "armature/config/document.hpp"
 #include "armature/kinds/declared_params.hpp"
 #include "armature/kinds/ik/ik.hpp"
 #include "armature/robot/kinematics.hpp"
@@ -22,12 +21,6 @@ namespace {
 
 constexpr double kDegree = M_PI / 180;
 constexpr double kPrinted = 1e-11;  // the figures have 12 digits
-
-Figures reference() {
-  static const config::Node file =
-      config::parse_file(ARMATURE_SOURCE_DIR "/tests/data/dental_implant_reference.yaml");
-  return Figures{file};
-}
 
 const RobotModel& med7() {
   static const RobotModel model = load_robot_model(ARMATURE_SOURCE_DIR "/configs/robots/med7.yaml");
@@ -105,7 +98,7 @@ IkBranches solve(const IkGoal& goal, const JointVector& seed,
 }
 
 TEST(DentalImplantArm, TheRobotFileHasTheLengthsLimitsAndSpeedsOfTheMed7) {
-  const Figures srs = reference()["srs"];
+  const Figures srs = dental_implant()["srs"];
   const auto& joints = med7().joints();
   EXPECT_EQ(joints[0].d, srs["d_bs"].number());
   EXPECT_EQ(joints[2].d, srs["d_se"].number());
@@ -120,7 +113,7 @@ TEST(DentalImplantArm, TheRobotFileHasTheLengthsLimitsAndSpeedsOfTheMed7) {
 }
 
 TEST(DentalImplantArm, ForwardKinematicsGivesEveryReferencePose) {
-  const Figures cases = reference()["srs"]["cases"];
+  const Figures cases = dental_implant()["srs"]["cases"];
   ASSERT_EQ(cases.size(), 4U);
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const JointVector q = kDegree * cases[i]["q_deg"].numbers();
@@ -132,7 +125,7 @@ TEST(DentalImplantArm, ForwardKinematicsGivesEveryReferencePose) {
 }
 
 TEST(DentalImplantArm, EveryBranchOfEveryPoseIsFoundUnderItsNameAtTheReferencesArmAngle) {
-  const Figures cases = reference()["srs"]["cases"];
+  const Figures cases = dental_implant()["srs"]["cases"];
   for (std::size_t i = 0; i < cases.size(); ++i) {
     SCOPED_TRACE(i);
     IkGoal goal = goal_of(pose_of(cases[i]["R"], cases[i]["p"]));
@@ -151,7 +144,7 @@ TEST(DentalImplantArm, EveryBranchOfEveryPoseIsFoundUnderItsNameAtTheReferencesA
 }
 
 TEST(DentalImplantArm, EveryArmAngleIntervalOfTheReferenceIsFoundAndNoOther) {
-  const Figures cases = reference()["srs"]["cases"];
+  const Figures cases = dental_implant()["srs"]["cases"];
   for (std::size_t i = 0; i < cases.size(); ++i) {
     SCOPED_TRACE(i);
     RedundancyIntervals found;
@@ -185,7 +178,7 @@ double balanced_cost(const JointVector& q) {
 }
 
 TEST(DentalImplantArm, TheBestOfAllBranchesIsTheReferencesOptimum) {
-  const Figures cases = reference()["srs"]["cases"];
+  const Figures cases = dental_implant()["srs"]["cases"];
   for (std::size_t i = 0; i < cases.size(); ++i) {
     SCOPED_TRACE(i);
     const Figures best = cases[i]["best"];
@@ -206,7 +199,7 @@ TEST(DentalImplantArm, TheBestOfAllBranchesIsTheReferencesOptimum) {
 }
 
 TEST(DentalImplantArm, TheDrillComesToTheImplantThroughTheChainOfFrames) {
-  const Figures frames = reference()["frames"];
+  const Figures frames = dental_implant()["frames"];
   const Eigen::Isometry3d robot_T_implant =
       transform(frames["T_R_N"]) * transform(frames["T_N_M"]) * transform(frames["T_M_P"]) *
       transform(frames["T_P_implant"]);

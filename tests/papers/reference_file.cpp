@@ -35,4 +35,10 @@ Figures sr1() {
   return Figures{file};
 }
 
+Figures dental_implant() {
+  static const config::Node file =
+      config::parse_file(ARMATURE_SOURCE_DIR "/tests/data/dental_implant_reference.yaml");
+  return Figures{file};
+}
+
 }  // namespace armature::paper

@@ -34,5 +34,7 @@ class Figures {
 Figures dental_lamp();
 /// tests/data/sr1_reference.yaml.
 Figures sr1();
+/// tests/data/dental_implant_reference.yaml.
+Figures dental_implant();
 
 }  // namespace armature::paper

@@ -70,7 +70,8 @@ class FirstBranch : public BranchSelector, public Moody {
   }
 };
 
-/// One joint segment to the goal; with a focus a cartesian line whose middle lies on the focus.
+/// One joint segment to the goal; with a focus a cartesian line whose middle lies on the focus;
+/// with key poses a cartesian line through them.
 class LinePath : public PathPlanner, public Moody {
  public:
   mutable PathRequest last_request;
@@ -79,6 +80,15 @@ class LinePath : public PathPlanner, public Moody {
     may_throw();
     last_request = request;
     if (request.goal.position.x() > 1.5) return refuse("x beyond 1.5 m");
+    if (!request.through.empty()) {
+      PathSegment line{.space = PathSegment::Space::cartesian, .samples = {{0, request.start}}};
+      const double count = static_cast<double>(request.through.size()) + 1;
+      for (const ToolPose& key : request.through) {
+        line.samples.push_back({static_cast<double>(line.samples.size()) / count, key});
+      }
+      line.samples.push_back({1, request.goal});
+      return Path{line};
+    }
     if (!request.focus) {
       return Path{{.space = PathSegment::Space::joint, .samples = {{1, request.goal}}}};
     }

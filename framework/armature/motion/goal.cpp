@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/motion/goal.hpp"
 
+#include <fmt/format.h>
+
+#include <cstddef>
+
 namespace armature {
 
 Expected<MotionGoal> checked(MotionGoal goal) {
@@ -16,6 +20,14 @@ Expected<MotionGoal> checked(MotionGoal goal) {
   auto pose = checked(goal.pose, "the goal's");
   if (!pose) return tl::unexpected{pose.error()};
   goal.pose = *pose;
+  if (goal.mode == MotionMode::tracking && !goal.through.empty()) {
+    return refuse("a goal that is tracked has no key poses");
+  }
+  for (std::size_t i = 0; i < goal.through.size(); ++i) {
+    auto key = checked(goal.through[i], fmt::format("key pose {}'s", i + 1));
+    if (!key) return tl::unexpected{key.error()};
+    goal.through[i] = *key;
+  }
   return goal;
 }
 

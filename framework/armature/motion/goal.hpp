@@ -27,11 +27,12 @@ struct MotionGoal {
   std::optional<Eigen::Vector3d> focus;                // [m] to look at on the way
   std::vector<ForbiddenZone> forbidden = {};           // to keep away from, planned only
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // [m/s] of the pose, tracking only
+  std::vector<ToolPose> through = {};  // key poses on the way, in order; planned only
 };
 
 /// `goal` with a unit direction or quaternion, or why it cannot be used: a number that is not
-/// finite, a direction or quaternion whose length is not 1 within 1 %, forbidden zones for a motion
-/// that has no path.
+/// finite, a direction or quaternion whose length is not 1 within 1 %, key poses or forbidden zones
+/// for a motion that has no path.
 Expected<MotionGoal> checked(MotionGoal goal);
 
 }  // namespace armature

@@ -18,6 +18,10 @@ inline void write_goal(const MotionGoal& goal, Time now, msg::MotionGoal& messag
   write_tool_pose(goal.pose, message);
   message.has_focus_(goal.focus.has_value());
   assign(message.focus_(), goal.focus.value_or(Eigen::Vector3d::Zero()));
+  message.through_().resize(goal.through.size());
+  for (std::size_t i = 0; i < goal.through.size(); ++i) {
+    write_tool_pose(goal.through[i], message.through_()[i]);
+  }
   write_zones(goal.forbidden, message.forbidden_());
   assign(message.velocity_(), goal.velocity);
 }

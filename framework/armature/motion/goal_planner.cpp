@@ -99,9 +99,12 @@ tl::expected<JointVector, PlanFailure> GoalPlanner::solve(const ToolPose& pose,
 
 PlanResult GoalPlanner::plan(const MotionGoal& goal, const JointState& from, Time start) {
   if (auto end = solve(goal.pose, from.q); !end) return tl::unexpected{end.error()};
+  const bool moving = !at_rest(from);
+  if (!goal.through.empty()) {
+    return moving ? after_stop(goal, from, start, false) : attempt(goal, from, start, false);
+  }
   PlanResult first = attempt(goal, from, start, false);
   if (first) return first;
-  const bool moving = !at_rest(from);
   if (moving) {
     if (PlanResult stopped = after_stop(goal, from, start, false)) return stopped;
   }
@@ -137,6 +140,7 @@ PlanResult GoalPlanner::attempt(const MotionGoal& goal, const JointState& from, 
       return stages_.path.plan({.start = pose_at(model_, from.q, goal.pose),
                                 .goal = goal.pose,
                                 .focus = goal.focus,
+                                .through = goal.through,
                                 .forbidden = goal.forbidden});
     });
     if (!path) return fail("path", path.error().text);

@@ -52,6 +52,46 @@ TEST(GoalPlanner, SolvesEverySampleOfTheWholePath) {
   EXPECT_EQ(segment.q[2], (Eigen::Vector3d{0, 0, 1}));
 }
 
+TEST(GoalPlanner, GoesThroughTheKeyPosesOfAGoal) {
+  const Gantry gantry;
+  MotionGoal goal = goal_at(1, 1, 0, 0);
+  goal.through = {goal_at(0, 0.25, 0.5, 0).pose, goal_at(0, 0.75, 0, 0.5).pose};
+  auto plan = gantry.planner().plan(goal, rest_at(0, 0, 0), kStart);
+  ASSERT_TRUE(plan) << plan.error().reason;
+  ASSERT_EQ(plan->joint_path.size(), 1u);
+  const JointSegment& segment = plan->joint_path[0];
+  ASSERT_EQ(segment.q.size(), 4u);
+  EXPECT_EQ(segment.q[1], (Eigen::Vector3d{0, 0.5, 0.25}));
+  EXPECT_EQ(segment.q[2], (Eigen::Vector3d{0.5, 0, 0.75}));
+}
+
+TEST(GoalPlanner, NeverGoesStraightPastKeyPoses) {
+  Gantry gantry;
+  MotionGoal goal = goal_at(1, 1.75, 0, 0);  // which the path refuses
+  EXPECT_TRUE(gantry.planner().plan(goal, rest_at(0, 0, 0), kStart));
+  goal.through = {goal_at(0, 0.5, 0.5, 0).pose};
+  auto plan = gantry.planner().plan(goal, rest_at(0, 0, 0), kStart);
+  ASSERT_FALSE(plan);
+  EXPECT_EQ(plan.error().stage, "path");
+  EXPECT_EQ(plan.error().reason, "x beyond 1.5 m");
+}
+
+/// A splice leaves the path for as long as the old motion fades out.
+TEST(GoalPlanner, StopsBeforeItGoesThroughKeyPoses) {
+  Gantry gantry;
+  JointState from = rest_at(0, 0, 0);
+  from.v = Eigen::Vector3d{0.5, 0, 0};
+  MotionGoal goal = goal_at(1, 1, 0, 0);
+  ASSERT_TRUE(gantry.planner().plan(goal, from, kStart));
+  EXPECT_NE(gantry.trajectory.last_request.from.v.norm(), 0);
+  goal.through = {goal_at(0, 0.5, 0.5, 0).pose};
+  auto plan = gantry.planner().plan(goal, from, kStart);
+  ASSERT_TRUE(plan) << plan.error().reason;
+  EXPECT_EQ(gantry.trajectory.last_request.from.v.norm(), 0);
+  EXPECT_NEAR(plan->trajectory.at(kStart).v[0], 0.5, 1e-12);
+  EXPECT_NEAR(plan->trajectory.at(plan->trajectory.end()).q[2], 1, 1e-9);
+}
+
 TEST(GoalPlanner, SaysByHowMuchAGoalIsOutOfReach) {
   const Gantry gantry;
   auto plan = gantry.planner().plan(goal_at(1, 2.25, 0, 0), rest_at(0, 0, 0), kStart);

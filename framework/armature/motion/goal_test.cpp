@@ -60,6 +60,23 @@ TEST(Goal, WithAZeroDirectionOrQuaternionIsRefused) {
   EXPECT_EQ(checked(goal).error().text, "the goal's quaternion has length 0, not 1");
 }
 
+TEST(Goal, WithAKeyPoseThatIsNoneIsRefusedByItsNumber) {
+  MotionGoal goal = good_goal();
+  goal.through = {goal.pose, goal.pose};
+  goal.through[1].orientation = Eigen::Quaterniond{2, 0, 0, 0};
+  EXPECT_EQ(checked(goal).error().text, "key pose 2's quaternion has length 2, not 1");
+  goal.through[1].orientation = Direction{Eigen::Vector3d{0, 1.005, 0}};
+  EXPECT_DOUBLE_EQ(std::get<Direction>(checked(goal)->through[1].orientation).unit.norm(), 1);
+}
+
+TEST(Goal, ThatIsTrackedHasNoKeyPoses) {
+  MotionGoal goal = good_goal();
+  goal.mode = MotionMode::tracking;
+  EXPECT_TRUE(checked(goal));
+  goal.through = {goal.pose};
+  EXPECT_EQ(checked(goal).error().text, "a goal that is tracked has no key poses");
+}
+
 TEST(Goal, ToHoldNeedsNoPose) {
   MotionGoal goal = good_goal();
   goal.mode = MotionMode::hold;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "armature/kinds/tool_pose_messages.hpp"
 #include "armature/messages/geometry.hpp"
 #include "armature/messages/stamp.hpp"
 #include "armature/motion/goal_messages.hpp"
@@ -39,6 +40,19 @@ TEST(MotionMessages, AGoalIsReadAsItWasWritten) {
   EXPECT_EQ(goal->forbidden[0].name, "artery");
   EXPECT_EQ(goal->forbidden[0].to, (Eigen::Vector3d{10, 11, 12}));
   EXPECT_EQ(goal->forbidden[0].radius_m, 0.5);
+  EXPECT_TRUE(goal->through.empty());
+}
+
+TEST(MotionMessages, TheKeyPosesOfAGoalAreReadInTheirOrder) {
+  msg::MotionGoal message = goal_message();
+  write_tool_pose({{1, 0, 0}, Direction{{0, 0, 1}}}, message.through_().emplace_back());
+  write_tool_pose({{2, 0, 0}, Eigen::Quaterniond{0, 1, 0, 0}}, message.through_().emplace_back());
+  const auto goal = read_goal(message);
+  ASSERT_TRUE(goal) << goal.error().text;
+  ASSERT_EQ(goal->through.size(), 2u);
+  EXPECT_EQ(std::get<Direction>(goal->through[0].orientation).unit, Eigen::Vector3d::UnitZ());
+  EXPECT_EQ(goal->through[1].position, (Eigen::Vector3d{2, 0, 0}));
+  EXPECT_EQ(std::get<Eigen::Quaterniond>(goal->through[1].orientation).x(), 1);
 }
 
 TEST(MotionMessages, AGoalInAnotherFrameOrModeIsRefused) {

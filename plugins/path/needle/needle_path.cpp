@@ -103,7 +103,7 @@ PathSegment NeedlePath::straight(const Line& line, double from, double to,
 }
 
 Expected<Path> NeedlePath::plan(const PathRequest& request) const {
-  const auto valid = checked(request, Zones::kept);
+  const auto valid = checked(request, {.zones = true});
   if (!valid) return tl::unexpected{valid.error()};
   const auto line = line_of(*valid);
   if (!line) return tl::unexpected{line.error()};

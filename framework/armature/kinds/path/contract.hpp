@@ -84,8 +84,25 @@ class PathLaws : public testing::TestWithParam<PathSubject> {
       }
     }
   }
+  /// Every key pose is a sample, in their order.
+  static void expect_passes_key_poses(const Path& path, const PathRequest& request) {
+    std::size_t passed = 0;
+    for (const PathSegment& segment : path) {
+      for (const PathSample& sample : segment.samples) {
+        if (passed == request.through.size()) return;
+        const ToolPose& key = request.through[passed];
+        const double off = (sample.pose.position - key.position).norm();
+        if (off <= kRounding * (1 + key.position.norm()) &&
+            angle_between(sample.pose.orientation, key.orientation) <= 10 * kRounding) {
+          ++passed;
+        }
+      }
+    }
+    EXPECT_EQ(passed, request.through.size()) << "key poses that the path goes through";
+  }
   static void expect_sound(const Path& path, const PathRequest& request) {
     ASSERT_FALSE(path.empty());
+    expect_passes_key_poses(path, request);
     ToolPose last = request.start;
     bool from_stop = true;
     for (const PathSegment& segment : path) {
@@ -227,9 +244,31 @@ TEST_P(PathLaws, ARequestThatIsNoneIsRefusedWithItsReason) {
             }),
             "the goal's quaternion has length 2, not 1");
   EXPECT_EQ(refusal([&](auto& r) {
+              r.through = {good.start, {{0, nan, 0}, Direction{}}};
+            }),
+            "key pose 2's position is not finite");
+  EXPECT_EQ(refusal([&](auto& r) {
               r.focus = Eigen::Vector3d{0, nan, 0};
             }),
             "the point to look at is not finite");
+}
+
+TEST_P(PathLaws, KeyPosesAreGoneThroughInTheirOrderOrRefused) {
+  SCOPED_TRACE("seed 17");
+  for (int i = 0; i < 100; ++i) {
+    PathRequest request{.start = {random_unit(), random_rotation()},
+                        .goal = {random_unit(), random_rotation()},
+                        .focus = {}};
+    for (int k = 0; k < 1 + i % 3; ++k) {
+      request.through.push_back({random_unit(), random_rotation()});
+    }
+    const auto path = planner().plan(request);
+    if (path) {
+      expect_sound(*path, request);
+    } else {
+      EXPECT_EQ(path.error().text, checked(request).error().text);
+    }
+  }
 }
 
 TEST_P(PathLaws, AnAwkwardRequestIsPlannedSoundlyOrRefusedWithAReason) {

@@ -40,13 +40,16 @@ struct PathRequest {
   ToolPose goal;
   /// A point of the base frame [m] that the tool should look at on the way (the mouth).
   std::optional<Eigen::Vector3d> focus;
+  /// Key poses between start and goal, in order; most paths know none and refuse.
+  std::vector<ToolPose> through = {};
   /// What the tool must keep away from, in the base frame.
   std::vector<ForbiddenZone> forbidden = {};
 };
 
 /// Plans where the tool goes, not when. The path starts at the request's start (a cartesian first
-/// segment with it as its first sample), every segment starts where the one before ended, and the
-/// last sample is the goal. Refuses with a reason. Pure; may allocate.
+/// segment with it as its first sample), every segment starts where the one before ended, the
+/// request's key poses are among the samples in their order, and the last sample is the goal.
+/// Refuses with a reason. Pure; may allocate.
 class PathPlanner {
  public:
   static constexpr std::string_view kKind = "path";
@@ -57,12 +60,15 @@ class PathPlanner {
   virtual Expected<Path> plan(const PathRequest& request) const = 0;
 };
 
-/// What a planner does about forbidden zones.
-enum class Zones { refused, kept };
+/// What a planner can do beyond going from a start to a goal.
+struct PathSkills {
+  bool key_poses = false;  // go through them
+  bool zones = false;      // keep away from them
+};
 
 /// `request` with unit directions or quaternions; or what is wrong with it: a number that is not
-/// finite, a direction or quaternion whose length is not 1, forbidden zones that the planner does
-/// not keep away from. The first line of every planner.
-Expected<PathRequest> checked(PathRequest request, Zones zones = Zones::refused);
+/// finite, a direction or quaternion whose length is not 1, key poses or forbidden zones that the
+/// planner knows nothing of. The first line of every planner.
+Expected<PathRequest> checked(PathRequest request, PathSkills skills = {});
 
 }  // namespace armature

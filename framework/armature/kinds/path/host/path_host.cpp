@@ -17,6 +17,9 @@ PathRequest request_of(const msg::PathRequest& message) {
                       .focus = {},
                       .forbidden = zones_of(message.forbidden_())};
   if (message.has_focus_()) request.focus = to_eigen(message.focus_());
+  for (const msg::ToolPose& key : message.through_()) {
+    request.through.push_back(tool_pose_of(key));
+  }
   return request;
 }
 

@@ -22,7 +22,7 @@ class OverTheFocus final : public PathPlanner {
   Expected<Path> plan(const PathRequest& request) const override {
     asked = request;
     if (throws) throw std::runtime_error{"the matrix is singular"};
-    const auto good = checked(request, Zones::kept);
+    const auto good = checked(request, {.key_poses = true, .zones = true});
     if (!good) return tl::unexpected{good.error()};
     if (!good->focus) return refuse("there is no point to look at");
     ToolPose middle = good->goal;
@@ -106,6 +106,20 @@ TEST_F(PathHostTest, AsksForThePathOfTheRequest) {
   EXPECT_EQ(asked.forbidden[0].from, (Eigen::Vector3d{1, 0, 0}));
   EXPECT_EQ(asked.forbidden[0].to, (Eigen::Vector3d{2, 0, 0}));
   EXPECT_EQ(asked.forbidden[0].radius_m, 0.003);
+  EXPECT_TRUE(asked.through.empty());
+}
+
+TEST_F(PathHostTest, AsksForThePathThroughTheKeyPosesInTheirOrder) {
+  msg::PathRequest message = request(1);
+  write_tool_pose({{1, 0, 0}, Eigen::Quaterniond{0, 1, 0, 0}}, message.through_().emplace_back());
+  write_tool_pose({{2, 0, 0}, Direction{{0, 1, 0}}}, message.through_().emplace_back());
+  EXPECT_TRUE(ask(message).valid_());
+  const auto& through = OverTheFocus::asked.through;
+  ASSERT_EQ(through.size(), 2u);
+  EXPECT_EQ(through[0].position, (Eigen::Vector3d{1, 0, 0}));
+  EXPECT_EQ(std::get<Eigen::Quaterniond>(through[0].orientation).x(), 1);
+  EXPECT_EQ(through[1].position, (Eigen::Vector3d{2, 0, 0}));
+  EXPECT_EQ(std::get<Direction>(through[1].orientation).unit, Eigen::Vector3d::UnitY());
 }
 
 TEST_F(PathHostTest, TellsTheSegmentsAsTheyAre) {
@@ -150,6 +164,11 @@ TEST_F(PathHostTest, AnswersABadRequestWithItsReasonAndTheNextOneAsIfNothingHadB
             "the goal's direction has length 0, not 1");
   EXPECT_EQ(refusal([](auto& r) { r.focus_().z_(INFINITY); }),
             "the point to look at is not finite");
+  EXPECT_EQ(refusal([](auto& r) {
+              r.through_().resize(2);
+              write_tool_pose({}, r.through_()[0]);
+            }),
+            "key pose 2's quaternion has length 0, not 1");
   EXPECT_EQ(refusal([](auto& r) { r.has_focus_(false); }), "there is no point to look at");
   EXPECT_EQ(refusal([](auto& r) { r.forbidden_()[0].radius_(-1); }),
             "forbidden zone 'artery' has the radius -1 m");

@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <utility>
 
 namespace armature {
@@ -139,20 +138,17 @@ std::vector<BlendPiece> blends_of_the_paper(const Vectors& points) {
   return pieces;
 }
 
-/// Inner points for the common velocity at a key that the parabola through it and its neighbours
-/// has; with even parameters both are q exp(-(log to the next + log to the one before) / 4).
-Expected<Path> squad(const Keys& keys, const Vectors& turns, std::span<const double> u) {
+/// The velocity at a key is that of its neighbours' turns together over their time; an inner point
+/// of either side follows from it. With even parameters both are the usual one,
+/// q exp(-(log to the next + log to the one before) / 4); none is more than a quarter turn away.
+Path squad(const Keys& keys, const Vectors& turns, std::span<const double> u) {
   const std::size_t last = keys.size() - 1;
   Keys into = keys, out_of = keys;  // inner points of the interval before and behind a key
   for (std::size_t i = 1; i < last; ++i) {
     const double before = u[i] - u[i - 1], behind = u[i + 1] - u[i];
-    const Eigen::Vector3d velocity =
-        (before / behind * turns[i] + behind / before * turns[i - 1]) / (before + behind);
+    const Eigen::Vector3d velocity = (turns[i - 1] + turns[i]) / (before + behind);
     const Eigen::Vector3d to_out = 0.5 * (behind * velocity - turns[i]);
     const Eigen::Vector3d to_into = 0.5 * (turns[i - 1] - before * velocity);
-    if (std::max(to_out.norm(), to_into.norm()) >= std::numbers::pi) {
-      return refuse(fmt::format("the parameters about key {} are too uneven for squad", i + 1));
-    }
     out_of[i] = keys[i] * RotationAt{to_out}.rotation();
     into[i] = keys[i] * RotationAt{to_into}.rotation();
   }
@@ -160,7 +156,7 @@ Expected<Path> squad(const Keys& keys, const Vectors& turns, std::span<const dou
   for (std::size_t i = 0; i < last; ++i) {
     pieces.emplace_back(keys[i], out_of[i], into[i + 1], keys[i + 1], u[i + 1] - u[i]);
   }
-  return Path{{u.begin(), u.end() - 1}, std::move(pieces)};
+  return {{u.begin(), u.end() - 1}, std::move(pieces)};
 }
 
 constexpr std::array kNames{
@@ -205,11 +201,8 @@ Expected<OrientationCurve> OrientationCurve::through(std::span<const Eigen::Quat
   switch (interpolator) {
     case OrientationInterpolator::slerp:
       return made(slerp(*keys, slopes, *parameters), *parameters);
-    case OrientationInterpolator::squad: {
-      auto path = squad(*keys, steps, *parameters);
-      if (!path) return tl::unexpected{path.error()};
-      return made(std::move(*path), *parameters);
-    }
+    case OrientationInterpolator::squad:
+      return made(squad(*keys, steps, *parameters), *parameters);
     case OrientationInterpolator::rotvec_bspline:
     case OrientationInterpolator::chart_bspline:
       break;

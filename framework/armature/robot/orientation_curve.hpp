@@ -34,8 +34,8 @@ class OrientationCurve {
   /// rotation vectors), which is one common speed; but rotvec_bspline through three keys is the
   /// paper's: line, blend and line last a third each. Refuses: fewer than two keys, a key that is
   /// not finite or no unit (within 1 %), parameters that do not fit or ascend, without parameters
-  /// two equal neighbours, neighbours half a turn apart (antipodal); for rotvec_bspline a key that
-  /// is half a turn itself, for squad parameters so uneven that an inner point is half a turn away.
+  /// two equal neighbours, neighbours half a turn apart (antipodal), for rotvec_bspline a key that
+  /// is half a turn itself.
   static Expected<OrientationCurve> through(std::span<const Eigen::Quaterniond> keys,
                                             OrientationInterpolator interpolator,
                                             std::span<const double> u = {});

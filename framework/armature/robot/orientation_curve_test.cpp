@@ -47,7 +47,7 @@ class OrientationCurves : public ::testing::Test {
  protected:
   Keys keys(std::size_t count) { return testing::random_keys(random_, count); }
   std::vector<double> uneven(std::size_t count) {
-    std::uniform_real_distribution<double> step{0.8, 1.2};
+    std::uniform_real_distribution<double> step{0.2, 1.8};
     std::vector<double> u{step(random_)};
     while (u.size() < count) u.push_back(u.back() + step(random_));
     return u;
@@ -257,8 +257,6 @@ TEST(OrientationCurve, RefusesKeysThatMakeNoneWithTheReason) {
   }
   EXPECT_EQ(refusal({about_z(1), about_z(M_PI)}, Interpolator::rotvec_bspline),
             "key 2 is half a turn: its rotation vector has two signs");
-  EXPECT_EQ(refusal({about_z(0), about_z(1), about_z(2)}, Interpolator::squad, {0, 0.1, 10}),
-            "the parameters about key 2 are too uneven for squad");
 }
 
 TEST(OrientationCurve, MakesKeysThatAreNearlyUnitsSuch) {

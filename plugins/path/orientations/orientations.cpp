@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "orientations.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "armature/robot/corner_blend.hpp"
+#include "armature/runtime/plugin.hpp"
+
+namespace armature {
+namespace {
+
+constexpr double kFewestParts = 8, kMostParts = 50'000;  // of a path from key to key
+constexpr double kRounding = 1e-6;                       // of a step
+
+/// Orientation and position, and how far they go.
+struct Curves {
+  const OrientationCurve& orientation;
+  BlendedPolyline position;
+
+  /// The larger of turn and way from u to v, in steps.
+  double steps(double u, double v, double step_rad, double step_m) const {
+    const double turn = orientation.at(u).rotation.angularDistance(orientation.at(v).rotation);
+    return std::max(turn / step_rad, (position.at(v) - position.at(u)).norm() / step_m);
+  }
+};
+
+/// Into how many equal parts of u the way between two keys is cut, so that none is longer than a
+/// step; more than kMostParts when it cannot be done with fewer.
+double parts_between(const Curves& curves, double from, double to, double step_rad, double step_m) {
+  double parts = kFewestParts;
+  while (parts <= kMostParts) {
+    double longest = 0;
+    for (double k = 0; k < parts; ++k) {
+      longest =
+          std::max(longest, curves.steps(std::lerp(from, to, k / parts),
+                                         std::lerp(from, to, (k + 1) / parts), step_rad, step_m));
+    }
+    if (longest <= 1 + kRounding) break;
+    parts = std::ceil(parts * std::min(longest, kMostParts));
+  }
+  return parts;
+}
+
+}  // namespace
+
+Expected<std::unique_ptr<PathPlanner>> Orientations::make(const Params& params) {
+  return std::unique_ptr<PathPlanner>{new Orientations{params}};
+}
+
+Orientations::Orientations(const Params& params)
+    : interpolator_{orientation_interpolator(params.text("interpolator")).value()},
+      step_rad_{params.number("step_deg")},
+      step_m_{params.number("step_mm")} {}
+
+Expected<PathSegment> Orientations::along(const KeyPoses& keys,
+                                          const OrientationCurve& curve) const {
+  const std::vector<double>& u = curve.key_parameters();
+  const Curves curves{curve, BlendedPolyline{keys.positions, u}};
+  PathSegment segment;
+  segment.space = PathSegment::Space::cartesian;
+  segment.samples.push_back({0, keys.poses.front()});
+  for (std::size_t i = 1; i < u.size(); ++i) {
+    const double parts = parts_between(curves, u[i - 1], u[i], step_rad_, step_m_);
+    if (static_cast<double>(segment.samples.size()) + parts > kMostParts) {
+      return refuse(
+          fmt::format("the path would have more than {} samples of {:.3g} mm and {:.3g} "
+                      "degrees",
+                      kMostParts, 1e3 * step_m_, step_rad_ * 180 / M_PI));
+    }
+    for (double k = 1; k < parts; ++k) {
+      const double s = std::lerp(u[i - 1], u[i], k / parts);
+      segment.samples.push_back({s, {curves.position.at(s), keys.told(curve.at(s).rotation)}});
+    }
+    segment.samples.push_back({u[i], keys.poses[i]});
+  }
+  return segment;
+}
+
+Expected<Path> Orientations::plan(const PathRequest& request) const {
+  const auto valid = checked(request);
+  if (!valid) return tl::unexpected{valid.error()};
+  const auto keys = key_poses_of(*valid);
+  if (!keys) return tl::unexpected{keys.error()};
+  if (keys->poses.size() == 1) {
+    return Path{{.space = PathSegment::Space::joint,
+                 .samples = {{1, valid->goal}},
+                 .stop_at_end = true,
+                 .duration_s = {}}};
+  }
+  const auto curve =
+      OrientationCurve::through(keys->rotations, interpolator_, key_parameters(*keys));
+  if (!curve) {
+    return refuse(curve.error().text + " (key 1 is the start; repeated poses are not counted)");
+  }
+  auto segment = along(*keys, *curve);
+  if (!segment) return tl::unexpected{segment.error()};
+  segment->samples.back().pose = valid->goal;
+  return Path{std::move(*segment)};
+}
+
+}  // namespace armature
+
+ARMATURE_PLUGIN(armature::Orientations);

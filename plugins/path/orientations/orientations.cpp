@@ -82,7 +82,7 @@ Expected<PathSegment> Orientations::along(const KeyPoses& keys,
 }
 
 Expected<Path> Orientations::plan(const PathRequest& request) const {
-  const auto valid = checked(request);
+  const auto valid = checked(request, {.key_poses = true});
   if (!valid) return tl::unexpected{valid.error()};
   const auto keys = key_poses_of(*valid);
   if (!keys) return tl::unexpected{keys.error()};

@@ -175,6 +175,13 @@ void no_allocation(Probe& probe) {
     probe.solve(goal, seed);
     const std::size_t made = probe.tools().allocations() - before;
     if (made > 0) probe.violated(fmt::format("{} allocations in one solve", made));
+    RedundancyIntervals intervals;
+    const std::size_t before_intervals = probe.tools().allocations();
+    probe.feasible_redundancy(goal, seed, intervals);
+    const std::size_t made_then = probe.tools().allocations() - before_intervals;
+    if (made_then > 0) {
+      probe.violated(fmt::format("{} allocations in one feasible_redundancy", made_then));
+    }
   }
 }
 

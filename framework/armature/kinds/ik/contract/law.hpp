@@ -83,6 +83,8 @@ IkLawReport check_law(const IkLaw& law, const IkSubject& subject, const IkLawToo
   LAW(TheJointsThatMadeAGoalAreAmongItsSolutions, generator_is_found, "no branch is missing")    \
   LAW(FlagsAndLabelsTellTheTruth, flags_are_true, "limits, singular, residual, label are true")  \
   LAW(AnAskedArmAngleIsKept, redundancy_is_kept, "an asked arm angle is kept")                   \
+  LAW(ABranchKeepsItsLimitsAtTheRedundanciesThatAreToldAndNoOthers, redundancy_is_feasible,      \
+      "told arm angles are those within limits")                                                 \
   LAW(SingularPosturesAreAnswered, singular_postures, "singular to 0, 1e-9, 1e-7, 1e-4")         \
   LAW(PosturesAtTheJointLimitsAreAnswered, postures_at_limits, "joints at their limits")         \
   LAW(StretchedAndFoldedPosturesAreAnswered, extreme_postures, "stretched, less 1e-9 m, folded") \

@@ -69,15 +69,25 @@ double Probe::distance(const JointVector& a, const JointVector& b) const {
   return largest;
 }
 
-const IkStatus& Probe::solve(const IkGoal& goal, const JointVector& seed) {
+void Probe::begin(const IkGoal& goal, const JointVector& seed) {
   goal_ = goal;
   seed_ = seed;
   counted_ = false;
   ++report_.goals;
   if (tools_.before_solve) tools_.before_solve(goal, seed);
+}
+
+const IkStatus& Probe::solve(const IkGoal& goal, const JointVector& seed) {
+  begin(goal, seed);
   IkState state;
   status_ = solver().solve(goal, seed, found_, state);
   return status_;
+}
+
+bool Probe::feasible_redundancy(const IkGoal& goal, const JointVector& seed,
+                                RedundancyIntervals& out) {
+  begin(goal, seed);
+  return solver().feasible_redundancy(goal, seed, out);
 }
 
 double Probe::nearest(const JointVector& q) const {

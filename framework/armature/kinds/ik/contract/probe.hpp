@@ -32,6 +32,8 @@ class Probe {
 
   /// Asks with a fresh state; `violated` is about the last question.
   const IkStatus& solve(const IkGoal& goal, const JointVector& seed);
+  /// Asks for the intervals of the redundancy; `violated` is about this question.
+  bool feasible_redundancy(const IkGoal& goal, const JointVector& seed, RedundancyIntervals& out);
   const IkGoal& goal() const { return goal_; }
   const IkStatus& status() const { return status_; }
   const IkBranches& found() const { return found_; }
@@ -44,6 +46,7 @@ class Probe {
   void violated_without_line(std::string what);
 
  private:
+  void begin(const IkGoal& goal, const JointVector& seed);
   void note(std::string what, bool with_question);
 
   const IkSubject& subject_;

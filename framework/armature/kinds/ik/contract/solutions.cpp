@@ -109,33 +109,6 @@ void flags_are_true(Probe& probe) {
   }
 }
 
-void redundancy_is_kept(Probe& probe) {
-  if (!probe.redundant()) {
-    probe.report().skipped = "the arm is not redundant";
-    return;
-  }
-  if (!probe.subject().closed_form) {
-    probe.report().skipped = "`all_branches` is not offered";
-    return;
-  }
-  std::uniform_real_distribution<double> angle{-std::numbers::pi, std::numbers::pi};
-  int answered = 0;
-  for (int i = 0; i < probe.subject().poses; ++i) {
-    IkGoal goal = probe.goal_at(probe.random_joints());
-    goal.redundancy =
-        probe.solver().redundancy_of(probe.random_joints()).value_or(angle(probe.random()));
-    probe.solve(goal, probe.random_joints());
-    if (probe.found().count > 0) ++answered;
-    for (const IkBranch& branch : probe.found()) {
-      if (std::abs(wrap_angle(branch.redundancy - *goal.redundancy)) <= 1e-9) continue;
-      probe.violated(fmt::format("branch {} has arm angle {}, asked was {}", branch.label,
-                                 branch.redundancy, *goal.redundancy));
-    }
-    expect_true_residuals(probe);
-  }
-  probe.report().note = fmt::format("{} had branches", answered);
-}
-
 namespace {
 
 /// The rows of the task, and the redundancy that the solver keeps.

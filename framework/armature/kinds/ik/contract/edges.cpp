@@ -59,13 +59,28 @@ void EdgeSet::ask_from_itself(const IkGoal& goal, const JointVector& q) {
   expect_true_residuals(probe_);
   expect_true_flags(probe_);
   if (probe_.status().code != IkStatus::Code::ok) {
-    probe_.violated(
+    return probe_.violated(
         fmt::format("{}, the seed is a solution: {}", name_, describe(probe_.status())));
-  } else if (probe_.subject().closed_form && !probe_.redundant() && !is_found(probe_, q)) {
-    probe_.violated(
-        fmt::format("{}: the seed is a solution, the nearest of {} branches is {:.3g} away", name_,
-                    probe_.found().count, probe_.nearest(q)));
   }
+  if (!probe_.subject().closed_form) return;
+  if (probe_.redundant()) {
+    const auto own = probe_.solver().redundancy_of(q);
+    if (!own) return;
+    ask_at(*own, goal, q);
+  }
+  if (is_found(probe_, q)) return;
+  probe_.violated(
+      fmt::format("{}: the seed is a solution, the nearest of {} branches is {:.3g} away", name_,
+                  probe_.found().count, probe_.nearest(q)));
+}
+
+/// What a redundant arm chooses for itself need not be near `q`; asked for the redundancy of `q` it
+/// has no choice.
+void EdgeSet::ask_at(double redundancy, IkGoal goal, const JointVector& q) {
+  goal.redundancy = redundancy;
+  probe_.solve(goal, q);
+  expect_true_residuals(probe_);
+  expect_true_flags(probe_);
 }
 
 void EdgeSet::close() {

@@ -12,7 +12,8 @@ class EdgeSet {
  public:
   EdgeSet(Probe& probe, std::string name) : probe_{probe}, name_{std::move(name)} {}
 
-  /// Asks for the goal that `q` reaches, from a random seed and from `q` itself.
+  /// Asks for the goal that `q` reaches, from a random seed and from `q` itself; of a redundant arm
+  /// also at the redundancy of `q`.
   void ask(const JointVector& q) { ask(probe_.goal_at(q), q); }
   void ask(const IkGoal& goal, const JointVector& q);
   /// Notes how many were reached, and a violation when that is less than promised.
@@ -21,6 +22,7 @@ class EdgeSet {
  private:
   void ask_from_anywhere(const IkGoal& goal);
   void ask_from_itself(const IkGoal& goal, const JointVector& q);
+  void ask_at(double redundancy, IkGoal goal, const JointVector& q);
 
   Probe& probe_;
   std::string name_;

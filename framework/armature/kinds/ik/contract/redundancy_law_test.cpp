@@ -247,7 +247,10 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"another_redundancy", Fault::another_redundancy, Free::slide,
              "of the joints that made the goal, the nearest of 2 branches"},
         Case{"allocates", Fault::allocates, Free::roll, "allocations in one feasible_redundancy",
-             "SolvingDoesNotAllocate"}),
+             "SolvingDoesNotAllocate"},
+        Case{"a_branch_missing_at_limits", Fault::a_branch_missing_at_limits, Free::roll,
+             "at joint limits: the seed is a solution, the nearest of 1",
+             "PosturesAtTheJointLimitsAreAnswered"}),
     testing::PrintToStringParamName());
 
 TEST(RedundancyLaw, AViolationNamesTheRedundancyInItsUnit) {

@@ -87,7 +87,7 @@ void generator_is_found(Probe& probe) {
     if (all && probe.redundant()) goal.redundancy = probe.solver().redundancy_of(q);
     probe.solve(goal, all ? probe.random_joints() : q);
     double distance = probe.nearest(q);
-    if (all && probe.redundant() && distance > kSame) {
+    if (all && probe.redundant() && !goal.redundancy && distance > kSame) {
       distance = nearest_at_any_arm_angle(probe, goal, q);
     }
     if (!(distance <= kSame)) {

@@ -69,17 +69,23 @@ class LastQuestion {
   LastQuestion(const LastQuestion&) = delete;
   LastQuestion& operator=(const LastQuestion&) = delete;
 
-  void set(const IkGoal& goal, const JointVector& seed) { *question_ = {goal, seed, true}; }
+  void set(const IkGoal& goal, const JointVector& seed, bool redundancy_is_length) {
+    *question_ = {goal, seed, redundancy_is_length, true};
+  }
   void forget() { *question_ = {}; }
   std::string line(const RobotModel& model) const {
     if (!question_->asked) return "";
-    return question_line(model, {.goal = question_->goal, .seed = question_->seed, .id = {}});
+    return question_line(model, {.goal = question_->goal,
+                                 .seed = question_->seed,
+                                 .redundancy_is_length = question_->redundancy_is_length,
+                                 .id = {}});
   }
 
  private:
   struct Question {
     IkGoal goal;
     JointVector seed;
+    bool redundancy_is_length = false;
     bool asked = false;
   };
   Question* question_;
@@ -123,7 +129,10 @@ class Verification {
     if (made["result"] == "fail") keep(made);
     if (made["result"] == "fail" || result["refused"] != "") return result;
     for (const IkLaw& law : ik_laws()) {
-      keep(outcome(law.says, [&] { return report_json(check_law(law, subject(), tools())); }));
+      keep(outcome(law.says, [&] {
+        const IkSubject tried = subject();
+        return report_json(check_law(law, tried, tools(*tried.solver)));
+      }));
     }
     keep(outcome(IkLoadingLaw::kSays, [&] {
       return report_json(check_loading(choice_.search_path, choice_.id, *model_, params_));
@@ -145,10 +154,11 @@ class Verification {
     made->seed = options_.seed;
     return *made;
   }
-  IkLawTools tools() {
+  IkLawTools tools(const IkSolver& solver) {
     return {.allocations = allocation_counter(),
-            .before_solve = [this](const IkGoal& goal, const JointVector& seed) {
-              last_.set(goal, seed);
+            .before_solve = [this, is_length = solver.redundancy_is_length()](
+                                const IkGoal& goal, const JointVector& seed) {
+              last_.set(goal, seed, is_length);
             }};
   }
 

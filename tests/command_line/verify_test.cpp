@@ -94,6 +94,15 @@ TEST(PluginVerify, SurvivesASolverThatCrashesAndShowsWhatItWasAsked) {
   EXPECT_EQ(reproduce(result.out).exit_code, 128 + 11) << result.out;
 }
 
+TEST(PluginVerify, ShowsTheDepthThatANeedleCrashesAtInMetres) {
+  const auto result = verify(kFaulty, {"--robot", source_file("configs/robots/sr1_needle.yaml"),
+                                       "--poses", "5", "--params", "{fault: crash_at_depth}"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.out, HasSubstr("\"redundancy_m\":0.125,"));
+  EXPECT_THAT(result.out, testing::Not(HasSubstr("redundancy_rad")));
+  EXPECT_EQ(reproduce(result.out).exit_code, 128 + 11) << result.out;
+}
+
 TEST(PluginVerify, EndsALawThatHangsWithALineThatNamesIt) {
   const auto result = verify(
       kFaulty, {"--robot", kLamp, "--poses", "5", "--patience", "1", "--params", "{fault: hang}"});

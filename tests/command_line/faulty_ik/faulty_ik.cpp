@@ -28,6 +28,7 @@ class FaultyIk final : public IkSolver {
       return {IkStatus::Code::invalid_input, 0, why};
     }
     if (fault_ == "crash" && goal.pose.position.x() > 0.5) std::raise(SIGSEGV);
+    if (fault_ == "crash_at_depth" && goal.redundancy) std::raise(SIGSEGV);
     while (fault_ == "hang" && goal.pose.position.x() > 0.5) pause();
     const auto& [position_m, angle_rad] = goal.tolerance;
     JointVector q = seed;
@@ -46,6 +47,13 @@ class FaultyIk final : public IkSolver {
     if (out.begin()->within_limits) return {};
     return {IkStatus::Code::joint_limit, 0, "the solution leaves the joint limits"};
   }
+
+  bool feasible_redundancy(const IkGoal&, const JointVector&,
+                           RedundancyIntervals& out) const override {
+    out.clear();
+    return fault_ == "crash_at_depth" && out.add({"from_seed", 0.125, 0.25});
+  }
+  bool redundancy_is_length() const override { return fault_ == "crash_at_depth"; }
 
  private:
   FaultyIk(const RobotModel& model, std::string fault) : model_{model}, fault_{std::move(fault)} {}

@@ -65,6 +65,8 @@ def misbehave(question):
     if fault == "refuses":
         out(changed(question, status="out_of_reach", solutions=[], beyond_reach_m=0.25,
                     reason="0.25 m beyond reach (the rail ends)"))
+    if fault == "refuses_each":
+        out(changed(question, status="no_convergence", solutions=[], reason=f"{x:.3f} is too far"))
     if fault == "many_labels":
         out(changed(question, solutions=[{"label": f"answer{question['id']}",
                                           "joints": question["position_m"][::-1]}]))

@@ -11,7 +11,7 @@ namespace armature::process {
 /// have up to 100 bytes: then they do not name branches.
 std::optional<std::string_view> lasting_label(std::string_view label);
 
-/// A copy of `text`, cut at 500 bytes, that is there until the same thread asks for the next one.
-std::string_view lasting_detail(std::string_view text);
+/// `text`, cut at 500 bytes, in static storage; none when there are 1024 different ones already.
+std::optional<std::string_view> lasting_detail(std::string_view text);
 
 }  // namespace armature::process

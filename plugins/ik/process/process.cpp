@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cstdio>
 #include <utility>
 
 #include "armature/robot/kinematics.hpp"
@@ -62,7 +63,7 @@ IkStatus Process::solve(const IkGoal& goal, const JointVector& seed, IkBranches&
   if (const char* why = invalid_input(*model_, goal, seed)) return {Code::invalid_input, 0, why};
   const std::lock_guard one_at_a_time{mutex_};
   const auto told = ask(goal, seed);
-  if (!told) return {Code::no_convergence, 0, process::lasting_detail(told.error().text)};
+  if (!told) return {Code::no_convergence, 0, kept(told.error().text)};
   return believed(goal, *told, out);
 }
 
@@ -141,16 +142,20 @@ IkStatus Process::believed(const IkGoal& goal, const ToldAnswer& told, IkBranche
   if (out.count > 0) {
     const bool told_so = told.code == Code::joint_limit && !told.detail.empty();
     return {Code::joint_limit, 0,
-            told_so ? process::lasting_detail(told.detail)
-                    : "every solution of the program leaves the joint limits"};
+            told_so ? kept(told.detail) : "every solution of the program leaves the joint limits"};
   }
   if (told.code == Code::ok) return refused("says 'ok' and tells no solution");
-  return {told.code, told.shortfall, process::lasting_detail(told.detail)};
+  return {told.code, told.shortfall, kept(told.detail)};
 }
 
 IkStatus Process::refused(const std::string& what) const {
-  const std::string text = fmt::format("the program '{}' {}", command_.text(), what);
-  return {Code::no_convergence, 0, process::lasting_detail(text)};
+  return {Code::no_convergence, 0, kept(fmt::format("the program '{}' {}", command_.text(), what))};
+}
+
+std::string_view Process::kept(const std::string& detail) const {
+  if (const auto lasting = process::lasting_detail(detail)) return *lasting;
+  fmt::print(stderr, "ik/process ({}): {}\n", command_.text(), detail);
+  return "a reason behind 1024 different ones: it is printed on standard error";
 }
 
 }  // namespace armature

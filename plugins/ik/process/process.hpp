@@ -16,8 +16,8 @@ namespace armature {
 /// worked out again by forward kinematics; a program that is dead, slow or makes no sense is ended,
 /// and that is the reason why there is no solution.
 ///
-/// Not real-time safe: `solve` waits for the program, one thread after the other. A detail of a
-/// status stays until the same thread asks again.
+/// Not real-time safe: `solve` waits for the program, one thread after the other. Details of a
+/// status are kept for good; the 1025th different one is printed, and the detail says so.
 class Process final : public IkSolver {
  public:
   /// Starts the program and asks it once, for the robot's resting position: refuses one that is not
@@ -42,6 +42,7 @@ class Process final : public IkSolver {
   std::string what_comes_next() const;
   IkStatus believed(const IkGoal& goal, const ToldAnswer& told, IkBranches& out) const;
   IkStatus refused(const std::string& what) const;
+  std::string_view kept(const std::string& detail) const;
 
   const RobotModel* model_;
   process::Command command_;

@@ -176,6 +176,29 @@ TEST(ARefusal, ComesThroughAsItIs) {
   EXPECT_EQ(status.detail, "the rail ends");
 }
 
+TEST(AReason, StaysWhatItIsWhateverIsAskedNext) {
+  Faulty gantry{"refuses_each", 2, 3};
+  ASSERT_EQ(gantry.refusal(), "");
+  const IkStatus first = gantry.ask(0.1);
+  const std::string text{first.detail};
+  const IkStatus second = gantry.ask(0.2);
+  EXPECT_EQ(first.detail, text);
+  EXPECT_NE(second.detail, text);
+}
+
+/// Ends the process with 0 when a reason behind 1024 others is not kept, and says so.
+[[noreturn]] void ask_for_more_reasons_than_are_kept() {
+  Faulty gantry{"refuses_each", 2, 2000};
+  std::string_view last;
+  for (int asked = 1; asked <= 1025; ++asked) last = gantry.ask(0.001 * asked).detail;
+  std::exit(last == "a reason behind 1024 different ones: it is printed on standard error" ? 0 : 1);
+}
+
+TEST(AReasonDeathTest, BehindAThousandOthersIsPrinted) {  // they stay: so in a process of its own
+  EXPECT_EXIT(ask_for_more_reasons_than_are_kept(), testing::ExitedWithCode(0),
+              "refuses_each 2 2000\\): 1.025 is too far\n");
+}
+
 TEST(StandardError, IsPassedOnUnderTheProgramsName) {
   testing::internal::CaptureStderr();
   {

@@ -70,6 +70,8 @@ def misbehave(question):
     if fault == "many_labels":
         out(changed(question, solutions=[{"label": f"answer{question['id']}",
                                           "joints": question["position_m"][::-1]}]))
+    if fault == "counts":
+        out(changed(question, last_redundancy_rad=1 + question.get("last_redundancy_rad", 0)))
     if fault == "says_much":
         sys.stderr.write("working on it\nnot there yet\n" + "x" * 300000 + "\n")
         out(changed(question))

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdio>
 #include <utility>
 
@@ -47,7 +48,7 @@ Expected<std::unique_ptr<IkSolver>> Process::make(const RobotModel& model, const
                     .redundancy_is_length = params.text("redundancy") == "length"};
   std::unique_ptr<Process> made{new Process{model, std::move(*command), rules}};
   const JointVector resting = resting_position(model);
-  const auto told = made->ask_once(resting_goal(model, resting), resting);
+  const auto told = made->ask_once({.goal = resting_goal(model, resting), .seed = resting});
   if (!told) return tl::unexpected{told.error()};
   if (told->code == Code::invalid_input) {
     return refuse(
@@ -58,19 +59,24 @@ Expected<std::unique_ptr<IkSolver>> Process::make(const RobotModel& model, const
 }
 
 IkStatus Process::solve(const IkGoal& goal, const JointVector& seed, IkBranches& out,
-                        IkState&) const {
+                        IkState& state) const {
   out.clear();
   if (const char* why = invalid_input(*model_, goal, seed)) return {Code::invalid_input, 0, why};
+  if (state.last_redundancy && !std::isfinite(*state.last_redundancy)) {
+    return {Code::invalid_input, 0, "the last redundancy is not finite"};
+  }
   const std::lock_guard one_at_a_time{mutex_};
-  const auto told = ask(goal, seed);
+  const auto told = ask({.goal = goal, .seed = seed, .state = state});
   if (!told) return {Code::no_convergence, 0, kept(told.error().text)};
-  return believed(goal, *told, out);
+  const IkStatus status = believed(goal, *told, out);
+  if (out.count > 0 && told->state.last_redundancy) state = told->state;
+  return status;
 }
 
 /// Asks, and keeps the book of what went wrong.
-Expected<ToldAnswer> Process::ask(const IkGoal& goal, const JointVector& seed) const {
+Expected<ToldAnswer> Process::ask(IkQuestion question) const {
   if (failures_ > rules_.max_restarts) return refuse(last_failure_);
-  auto told = ask_once(goal, seed);
+  auto told = ask_once(std::move(question));
   if (told) {
     failures_ = 0;
     return told;
@@ -91,7 +97,7 @@ std::string Process::what_comes_next() const {
   return fmt::format("{} restarts in a row did not help, and it is left alone", restarts);
 }
 
-Expected<ToldAnswer> Process::ask_once(const IkGoal& goal, const JointVector& seed) const {
+Expected<ToldAnswer> Process::ask_once(IkQuestion question) const {
   const auto failed = [&](const std::string& what) {
     if (program_) program_->kill();
     return refuse(fmt::format("the program '{}' {}", command_.text(), what));
@@ -102,10 +108,8 @@ Expected<ToldAnswer> Process::ask_once(const IkGoal& goal, const JointVector& se
     program_ = std::move(*started);
     has_answered_ = false;
   }
-  const IkQuestion question{.goal = goal,
-                            .seed = seed,
-                            .redundancy_is_length = rules_.redundancy_is_length,
-                            .id = ++questions_};
+  question.redundancy_is_length = rules_.redundancy_is_length;
+  question.id = ++questions_;
   const double patience_s = has_answered_ ? rules_.timeout_s : rules_.start_timeout_s;
   const auto line = program_->ask(question_line(*model_, question), patience_s);
   if (!line) return failed(line.error().text);

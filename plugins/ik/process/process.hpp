@@ -37,8 +37,8 @@ class Process final : public IkSolver {
   Process(const RobotModel& model, process::Command command, const Rules& rules)
       : model_{&model}, command_{std::move(command)}, rules_{rules} {}
 
-  Expected<ToldAnswer> ask(const IkGoal& goal, const JointVector& seed) const;
-  Expected<ToldAnswer> ask_once(const IkGoal& goal, const JointVector& seed) const;
+  Expected<ToldAnswer> ask(IkQuestion question) const;
+  Expected<ToldAnswer> ask_once(IkQuestion question) const;
   std::string what_comes_next() const;
   IkStatus believed(const IkGoal& goal, const ToldAnswer& told, IkBranches& out) const;
   IkStatus refused(const std::string& what) const;

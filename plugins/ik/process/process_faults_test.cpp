@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <thread>
@@ -40,6 +41,9 @@ class Faulty {
   const std::string& refusal() const { return refusal_; }
   IkStatus ask(double x) {
     IkState state;
+    return ask(x, state);
+  }
+  IkStatus ask(double x, IkState& state) {
     return solver_->solve(at(x, 0.2, 0.3), JointVector::Zero(3), found_, state);
   }
   std::string reason(double x) { return describe(ask(x)); }
@@ -174,6 +178,22 @@ TEST(ARefusal, ComesThroughAsItIs) {
   EXPECT_EQ(status.code, Code::out_of_reach);
   EXPECT_EQ(status.shortfall, 0.25);
   EXPECT_EQ(status.detail, "the rail ends");
+}
+
+TEST(WhatAProgramRemembers, IsKeptByTheAskerAndSentAgain) {
+  Faulty gantry{"counts", 2, 1000};
+  IkState one, other;
+  for (const double calls : {1, 2, 3}) {
+    EXPECT_EQ(gantry.ask(0.1, one).code, Code::ok);
+    EXPECT_EQ(one.last_redundancy, calls);
+  }
+  EXPECT_EQ(gantry.ask(0.1, other).code, Code::ok);
+  EXPECT_EQ(other.last_redundancy, 1);
+  Faulty forgetful{"none", 0, 0};
+  EXPECT_EQ(forgetful.ask(0.1, one).code, Code::ok);
+  EXPECT_EQ(one.last_redundancy, 3) << "what is not told is as it was";
+  one.last_redundancy = NAN;
+  EXPECT_EQ(describe(gantry.ask(0.1, one)), "invalid_input: the last redundancy is not finite");
 }
 
 TEST(AReason, StaysWhatItIsWhateverIsAskedNext) {

@@ -93,14 +93,18 @@ void expect_same_answers(const std::string& robot_name, const std::string& plugi
   std::mt19937_64 random{61};
   int solved = 0;
   for (int i = 0; i < 300; ++i) {
-    const IkGoal goal = random_goal(*model, random);
+    IkGoal goal = random_goal(*model, random);
     const JointVector seed = resting_position(*model);
+    if (i % 3 == 0) goal.max_iterations = 1 + i / 30;
     IkBranches wanted, found;
-    IkState state, other_state;
+    IkState state;
+    if (i % 2 == 0) state.last_redundancy = 0.01 * i;
+    IkState other_state = state;
     const IkStatus told = (*direct)->solve(goal, seed, wanted, state);
     const IkStatus status = relayed->solve(goal, seed, found, other_state);
     ASSERT_EQ(describe(status), describe(told));
     EXPECT_EQ(status.shortfall, told.shortfall);
+    EXPECT_EQ(other_state.last_redundancy, state.last_redundancy);
     ASSERT_EQ(found.count, wanted.count);
     for (int b = 0; b < found.count; ++b) {
       const IkBranch &a = found.branch[static_cast<std::size_t>(b)],
@@ -120,6 +124,7 @@ TEST(Relay, GivesTheAnswersOfTheSolverBehindIt) {
   expect_same_answers("dental_lamp", "ik/numeric");
   expect_same_answers("dental_lamp", "ik/lamp_geometric");
   expect_same_answers("sr1", "ik/numeric");
+  expect_same_answers("med7", "ik/srs_arm_angle");
 }
 
 TEST(PythonExample, SolvesTheLampFromNearbySeeds) {

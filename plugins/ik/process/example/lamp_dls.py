@@ -68,7 +68,7 @@ def answer(question):
     direction = [v / length for v in question["direction"]]
     q = [question["seed"][i] for i in SEED_OF]
     wanted = 0.1 * min(question.get("tolerance_m", 1e-9), question.get("tolerance_rad", 1e-9))
-    for _ in range(200):
+    for _ in range(min(200, question.get("max_iterations", 1000))):
         e, J = error_and_jacobian(q, question["position_m"], direction)
         size = math.sqrt(sum(v * v for v in e))
         if size <= wanted:

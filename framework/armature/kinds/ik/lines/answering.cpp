@@ -7,6 +7,7 @@
 #include <cmath>
 #include <exception>
 #include <initializer_list>
+#include <limits>
 
 #include "armature/kinds/ik/lines/json_line.hpp"
 #include "armature/kinds/ik/lines/reason.hpp"
@@ -86,19 +87,27 @@ Orientation read_orientation(const RobotModel& robot, const Json& question) {
   return Eigen::Quaterniond{unit(Eigen::Vector4d{q[0], q[1], q[2], q[3]}, "quaternion_xyzw")};
 }
 
-const char* redundancy_key(const IkSolver& solver) {
-  return ik_lines::redundancy_key(solver.redundancy_is_length());
-}
-
-std::optional<double> read_redundancy(const IkSolver& solver, const Json& question) {
-  const std::string key = redundancy_key(solver);
-  for (const char* other : {"redundancy_rad", "redundancy_m"}) {
-    if (question.contains(other) && key != other) {
-      throw InvalidLine(fmt::format("'{}' is '{}' for this solver", other, key));
-    }
+/// The number that `key_of` names in the solver's unit; it is refused in the other one.
+std::optional<double> read_redundancy(const IkSolver& solver, const Json& question,
+                                      const char* (*key_of)(bool is_length)) {
+  const bool is_length = solver.redundancy_is_length();
+  const char *key = key_of(is_length), *other = key_of(!is_length);
+  if (question.contains(other)) {
+    throw InvalidLine(fmt::format("'{}' is '{}' for this solver", other, key));
   }
   if (!question.contains(key)) return std::nullopt;
-  return number(question, key.c_str());
+  return number(question, key);
+}
+
+int read_iterations(const Json& question, int usual) {
+  if (!question.contains("max_iterations")) return usual;
+  const Json& value = question["max_iterations"];
+  const bool whole =
+      value.is_number_integer() && value >= 0 && value <= std::numeric_limits<int>::max();
+  if (!whole) {
+    throw InvalidLine("'max_iterations' must be a whole number from 0 to 2147483647");
+  }
+  return value.get<int>();
 }
 
 IkGoal read_goal(const RobotModel& robot, const IkSolver& solver, const Json& question) {
@@ -106,9 +115,10 @@ IkGoal read_goal(const RobotModel& robot, const IkSolver& solver, const Json& qu
   IkGoal goal;
   goal.pose.position = vector3(question, "position_m");
   goal.pose.orientation = read_orientation(robot, question);
-  goal.redundancy = read_redundancy(solver, question);
+  goal.redundancy = read_redundancy(solver, question, ik_lines::redundancy_key);
   goal.tolerance.position_m = positive(question, "tolerance_m", goal.tolerance.position_m);
   goal.tolerance.angle_rad = positive(question, "tolerance_rad", goal.tolerance.angle_rad);
+  goal.max_iterations = read_iterations(question, goal.max_iterations);
   return goal;
 }
 
@@ -170,13 +180,17 @@ Json ik_json(const RobotModel& robot, const IkSolver& solver, const JointVector&
   const JointVector seed =
       question.contains("seed") ? ik_lines::joints(robot, question, "seed") : home;
   IkBranches branches;
-  IkState state;
+  IkState state{read_redundancy(solver, question, ik_lines::last_redundancy_key)};
   Json answer = status_json(solver.solve(goal, seed, branches, state));
+  const bool is_length = solver.redundancy_is_length();
+  if (state.last_redundancy) {
+    answer[ik_lines::last_redundancy_key(is_length)] = *state.last_redundancy;
+  }
   answer["solutions"] = Json::array();
   const bool redundant = robot.dof() > 6 || goal.redundancy;
   for (const IkBranch& branch : branches) {
     answer["solutions"].push_back(
-        solution_json(robot, branch, redundant ? redundancy_key(solver) : ""));
+        solution_json(robot, branch, redundant ? ik_lines::redundancy_key(is_length) : ""));
   }
   add_intervals(solver, goal, seed, answer["solutions"]);
   return answer;
@@ -192,7 +206,8 @@ std::string answer_ik(const RobotModel& robot, const IkSolver& solver, const Joi
                       std::string_view line) {
   return answered(line,
                   {"position_m", "direction", "quaternion_xyzw", "seed", "redundancy_rad",
-                   "redundancy_m", "tolerance_m", "tolerance_rad"},
+                   "redundancy_m", "last_redundancy_rad", "last_redundancy_m", "tolerance_m",
+                   "tolerance_rad", "max_iterations"},
                   [&](const Json& question) { return ik_json(robot, solver, home, question); });
 }
 

@@ -16,8 +16,10 @@ namespace armature {
 std::string answer_fk(const RobotModel& robot, std::string_view line);
 
 /// `line`: {"position_m", "direction" or "quaternion_xyzw", and if wanted "seed" (else `home`,
-/// dof() entries), "redundancy_rad" or "redundancy_m", "tolerance_m", "tolerance_rad"}. Answer:
-/// status, reason, by how much it was missed ("beyond_reach_m", "residual"), and the solutions.
+/// dof() entries), "redundancy_rad" or "redundancy_m", what the solver remembers
+/// ("last_redundancy_rad" or "last_redundancy_m"), "tolerance_m", "tolerance_rad",
+/// "max_iterations"}. Answer: status, reason, by how much it was missed ("beyond_reach_m",
+/// "residual"), what the solver remembers now, and the solutions.
 std::string answer_ik(const RobotModel& robot, const IkSolver& solver, const JointVector& home,
                       std::string_view line);
 

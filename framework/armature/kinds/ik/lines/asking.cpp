@@ -91,6 +91,18 @@ std::vector<ToldSolution> read_solutions(const RobotModel& robot, const IkQuesti
   return told;
 }
 
+/// What ends a search, where it is not as usual.
+void add_limits(const IkGoal& goal, Json& line) {
+  const IkGoal usual;
+  if (goal.tolerance.position_m != usual.tolerance.position_m) {
+    line["tolerance_m"] = goal.tolerance.position_m;
+  }
+  if (goal.tolerance.angle_rad != usual.tolerance.angle_rad) {
+    line["tolerance_rad"] = goal.tolerance.angle_rad;
+  }
+  if (goal.max_iterations != usual.max_iterations) line["max_iterations"] = goal.max_iterations;
+}
+
 }  // namespace
 
 std::string question_line(const RobotModel& robot, const IkQuestion& question) {
@@ -104,14 +116,12 @@ std::string question_line(const RobotModel& robot, const IkQuestion& question) {
     line["quaternion_xyzw"] =
         ik_lines::to_json(std::get<Eigen::Quaterniond>(goal.pose.orientation).coeffs());
   }
-  if (goal.redundancy) {
-    line[ik_lines::redundancy_key(question.redundancy_is_length)] = *goal.redundancy;
+  const bool is_length = question.redundancy_is_length;
+  if (goal.redundancy) line[ik_lines::redundancy_key(is_length)] = *goal.redundancy;
+  if (const auto last = question.state.last_redundancy) {
+    line[ik_lines::last_redundancy_key(is_length)] = *last;
   }
-  const IkGoal::Tolerance usual;
-  if (goal.tolerance.position_m != usual.position_m) {
-    line["tolerance_m"] = goal.tolerance.position_m;
-  }
-  if (goal.tolerance.angle_rad != usual.angle_rad) line["tolerance_rad"] = goal.tolerance.angle_rad;
+  add_limits(goal, line);
   if (question.seed.size() == robot.dof()) {
     line["seed"] = ik_lines::to_json(robot.expand(question.seed));
   }
@@ -129,6 +139,10 @@ Expected<ToldAnswer> read_answer(const RobotModel& robot, const IkQuestion& ques
     if (answer.contains("reason") && answer["reason"].is_string()) {
       told.detail =
           ik_lines::detail_in(answer["reason"].get<std::string>(), told.code, told.shortfall);
+    }
+    const char* remembered = ik_lines::last_redundancy_key(question.redundancy_is_length);
+    if (answer.contains(remembered)) {
+      told.state.last_redundancy = ik_lines::number(answer, remembered);
     }
     told.solutions = read_solutions(robot, question, answer);
     return told;

@@ -17,6 +17,7 @@ namespace armature {
 struct IkQuestion {
   IkGoal goal;
   JointVector seed;                   // dof() entries; another length: no seed
+  IkState state;                      // what the solver remembers
   bool redundancy_is_length = false;  // [m] instead of [rad]
   std::optional<std::int64_t> id;     // which the answer repeats
 };
@@ -35,6 +36,7 @@ struct ToldAnswer {
   IkStatus::Code code = IkStatus::Code::ok;
   double shortfall = 0;
   std::string detail;
+  IkState state;  // what is to be remembered; nothing: it was not told
   std::vector<ToldSolution> solutions;
 };
 

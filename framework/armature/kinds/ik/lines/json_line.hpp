@@ -39,5 +39,9 @@ Json to_json(const auto& vector) {
 inline const char* redundancy_key(bool is_length) {
   return is_length ? "redundancy_m" : "redundancy_rad";
 }
+/// And what the one is called that a solver remembers.
+inline const char* last_redundancy_key(bool is_length) {
+  return is_length ? "last_redundancy_m" : "last_redundancy_rad";
+}
 
 }  // namespace armature::ik_lines

@@ -27,15 +27,18 @@ const RobotModel& lamp() {
 class Parrot final : public IkSolver {
  public:
   IkStatus solve(const IkGoal& goal, const JointVector& seed, IkBranches& out,
-                 IkState&) const override {
-    asked_goal = goal, asked_seed = seed;
+                 IkState& state) const override {
+    asked_goal = goal, asked_seed = seed, asked_state = state;
     out = branches;
+    if (remembers) state.last_redundancy = *remembers;
     return status;
   }
   bool redundancy_is_length() const override { return is_length; }
 
   mutable IkGoal asked_goal;
   mutable JointVector asked_seed;
+  mutable IkState asked_state;
+  std::optional<double> remembers;
   IkStatus status;
   IkBranches branches;
   bool is_length = false;
@@ -95,6 +98,8 @@ IkQuestion random_question(Numbers& random) {
   }
   question.redundancy_is_length = random.below(2) == 0;
   if (random.below(2) == 0) question.goal.redundancy = random.any();
+  if (random.below(2) == 0) question.state.last_redundancy = random.any();
+  if (random.below(2) == 0) question.goal.max_iterations = random.below(1 << 30);
   if (random.below(2) == 0) question.goal.tolerance.position_m = std::abs(random.any()) + 1e-15;
   if (random.below(2) == 0) question.goal.tolerance.angle_rad = std::abs(random.any()) + 1e-15;
   return question;
@@ -125,6 +130,10 @@ TEST(IkLines, AQuestionArrivesBitForBit) {
     EXPECT_TRUE(same_bits(got.redundancy.value_or(0), sent.redundancy.value_or(0)));
     EXPECT_TRUE(same_bits(got.tolerance.position_m, sent.tolerance.position_m));
     EXPECT_TRUE(same_bits(got.tolerance.angle_rad, sent.tolerance.angle_rad));
+    EXPECT_EQ(got.max_iterations, sent.max_iterations) << line;
+    const auto last = solver.asked_state.last_redundancy;
+    ASSERT_EQ(last.has_value(), question.state.last_redundancy.has_value()) << line;
+    EXPECT_TRUE(same_bits(last.value_or(0), question.state.last_redundancy.value_or(0))) << line;
     EXPECT_EQ(solver.asked_seed, question.seed) << line;
   }
 }
@@ -135,8 +144,14 @@ TEST(IkLines, AnAnswerIsReadBitForBit) {
   constexpr std::array kCodes{Code::ok,       Code::out_of_reach,   Code::joint_limit,
                               Code::singular, Code::no_convergence, Code::invalid_input};
   for (int i = 0; i < 2000; ++i) {
-    const IkQuestion question{.goal = {}, .seed = JointVector::Zero(lamp().dof()), .id = i};
+    const bool is_length = random.below(2) == 0;
+    const IkQuestion question{.goal = {},
+                              .seed = JointVector::Zero(lamp().dof()),
+                              .redundancy_is_length = is_length,
+                              .id = i};
     Parrot solver;
+    solver.is_length = is_length;
+    if (random.below(2) == 0) solver.remembers = random.any();
     solver.status.code = kCodes[static_cast<std::size_t>(random.below(6))];
     const bool measured =
         solver.status.code == Code::out_of_reach || solver.status.code == Code::no_convergence;
@@ -153,6 +168,8 @@ TEST(IkLines, AnAnswerIsReadBitForBit) {
     ASSERT_TRUE(told) << told.error().text << line;
     EXPECT_EQ(told->code, solver.status.code);
     EXPECT_TRUE(same_bits(told->shortfall, solver.status.shortfall)) << line;
+    ASSERT_EQ(told->state.last_redundancy.has_value(), solver.remembers.has_value()) << line;
+    EXPECT_TRUE(same_bits(told->state.last_redundancy.value_or(0), solver.remembers.value_or(0)));
     EXPECT_EQ(told->detail, told->code == Code::ok ? "" : solver.status.detail) << line;
     ASSERT_EQ(told->solutions.size(), static_cast<std::size_t>(solver.branches.count));
     for (std::size_t b = 0; b < told->solutions.size(); ++b) {
@@ -167,6 +184,36 @@ TEST(IkLines, WithoutASeedTheArmStartsFromHome) {
   const JointVector home = JointVector::Constant(lamp().dof(), 0.25);
   answer_ik(lamp(), solver, home, R"({"position_m":[1,0,0.5],"direction":[1,0,0]})");
   EXPECT_EQ(solver.asked_seed, home);
+}
+
+TEST(IkLines, AnUnknownUnitOrANumberThatIsNoneIsRefused) {
+  Parrot solver;
+  const auto refusal_of = [&](const char* key) {
+    const std::string line =
+        std::string{R"({"position_m":[1,0,0.5],"direction":[1,0,0],)"} + key + "}";
+    const json answer =
+        json::parse(answer_ik(lamp(), solver, JointVector::Zero(lamp().dof()), line));
+    return answer["status"] == "ok" ? "" : answer["reason"].get<std::string>();
+  };
+  const std::string wrong = "'max_iterations' must be a whole number from 0 to 2147483647";
+  EXPECT_EQ(refusal_of(R"("max_iterations":0)"), "");
+  EXPECT_EQ(refusal_of(R"("max_iterations":2147483647)"), "");
+  EXPECT_EQ(refusal_of(R"("max_iterations":2147483648)"), wrong);
+  EXPECT_EQ(refusal_of(R"("max_iterations":18446744073709551615)"), wrong);
+  EXPECT_EQ(refusal_of(R"("max_iterations":-1)"), wrong);
+  EXPECT_EQ(refusal_of(R"("max_iterations":2.5)"), wrong);
+  EXPECT_EQ(refusal_of(R"("last_redundancy_rad":0.5)"), "");
+  EXPECT_EQ(refusal_of(R"("last_redundancy_rad":null)"), "'last_redundancy_rad' must be a number");
+  EXPECT_EQ(refusal_of(R"("last_redundancy_m":0.5)"),
+            "'last_redundancy_m' is 'last_redundancy_rad' for this solver");
+}
+
+TEST(IkLines, WhatASolverRemembersComesBackEvenWhenItIsWhatItWas) {
+  const Parrot solver;
+  const std::string answer =
+      answer_ik(lamp(), solver, JointVector::Zero(lamp().dof()),
+                R"({"position_m":[1,0,0.5],"direction":[1,0,0],"last_redundancy_rad":0.1})");
+  EXPECT_EQ(json::parse(answer)["last_redundancy_rad"], 0.1);
 }
 
 TEST(IkLines, AnIdComesBackWhateverBecameOfTheQuestion) {

@@ -110,6 +110,47 @@ void add_orientations() {
   }
 }
 
+/// Goals that the solver says are out of reach: those of the postures, moved away from the base or
+/// towards it until it says so, to a thousandth of that distance.
+enum class Beyond { too_far, too_near };
+std::vector<IkGoal> out_of_reach(const IkSubject& subject, Beyond beyond) {
+  std::vector<IkGoal> goals;
+  const JointVector seed = resting_position(*subject.model);
+  for (const JointVector& q : postures(*subject.model)) {
+    const IkGoal reached = goal_at(*subject.model, q);
+    const auto moved = [&](double factor) {
+      IkGoal goal = reached;
+      goal.pose.position *= factor;
+      return goal;
+    };
+    const auto refused = [&](double factor) {
+      IkBranches found;
+      IkState state;
+      return subject.solver->solve(moved(factor), seed, found, state).code ==
+             IkStatus::Code::out_of_reach;
+    };
+    double inside = 1, outside = beyond == Beyond::too_far ? 20 : 0;
+    if (!refused(outside)) continue;
+    while (std::abs(outside - inside) > 1e-3) {
+      const double middle = std::midpoint(inside, outside);
+      (refused(middle) ? outside : inside) = middle;
+    }
+    goals.push_back(moved(outside));
+  }
+  return goals;
+}
+
+void refuse(benchmark::State& state, const IkSubject& subject, const std::vector<IkGoal>& goals) {
+  const auto seeds = postures(*subject.model);
+  IkBranches found;
+  for (std::size_t i = 0; auto _ : state) {
+    ++i;
+    IkState memory;
+    benchmark::DoNotOptimize(
+        subject.solver->solve(goals[i % goals.size()], seeds[i % kPostures], found, memory));
+  }
+}
+
 void add_robot(PluginRegistry& plugins, const RobotPtr& robot) {
   const auto add = [](const std::string& name, auto body) {
     benchmark::RegisterBenchmark(name.c_str(), body);
@@ -125,6 +166,13 @@ void add_robot(PluginRegistry& plugins, const RobotPtr& robot) {
     if (!subject) continue;  // does not serve it
     add("solve/" + plugin.id + "/" + robot->name(),
         [made = *subject](benchmark::State& state) { solve(state, made, Redundancy::chosen); });
+    for (const auto& [kind, beyond] :
+         {std::pair{"too_far", Beyond::too_far}, {"too_near", Beyond::too_near}}) {
+      const auto goals = out_of_reach(*subject, beyond);
+      if (goals.empty()) continue;
+      add(std::string{"solve_"} + kind + "/" + plugin.id + "/" + robot->name(),
+          [made = *subject, goals](benchmark::State& state) { refuse(state, made, goals); });
+    }
     if (!subject->solver->redundancy_of(resting_position(*robot))) continue;
     add("solve_at_redundancy/" + plugin.id + "/" + robot->name(),
         [made = *subject](benchmark::State& state) { solve(state, made, Redundancy::given); });

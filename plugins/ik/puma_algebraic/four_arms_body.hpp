@@ -43,12 +43,15 @@ void note_shortfall(FourArms& out, double by, const char* why) {
   if (by < out.shortfall) out.shortfall = by, out.detail = why;
 }
 
-/// Nearer to the axis of joint 1 than d2 allows, and perhaps too high as well.
+/// Nearer to the axis of joint 1 than d2 allows, and perhaps too high or too low as well.
 void too_near_the_axis(const ArmNumbers& arm, double by, double height, FourArms& out) {
-  const double stretch =
-      std::fmax(std::sqrt(arm.a1 * arm.a1 + height * height) - arm.a2 - arm.forearm, 0.0);
-  note_shortfall(out, std::sqrt(by * by + stretch * stretch),
-                 by > stretch ? "too near the axis of joint 1" : "the arm is stretched");
+  const double rho = std::sqrt(arm.a1 * arm.a1 + height * height);
+  const double stretch = rho - arm.a2 - arm.forearm, fold = std::fabs(arm.a2 - arm.forearm) - rho;
+  const double plane = std::fmax(std::fmax(stretch, fold), 0.0);
+  note_shortfall(out, std::sqrt(by * by + plane * plane),
+                 by > plane       ? "too near the axis of joint 1"
+                 : stretch > fold ? "the arm is stretched"
+                                  : "the arm is folded");
 }
 
 /// How far the wrist is from the axis of joint 1: (37) has roots only beyond d2.

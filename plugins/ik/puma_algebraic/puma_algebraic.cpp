@@ -10,6 +10,7 @@
 #include "branch_labels.hpp"
 #include "depth_choice.hpp"
 #include "free_joints.hpp"
+#include "needle_reach.hpp"
 #include "roll_roots.hpp"
 
 namespace armature {
@@ -92,13 +93,17 @@ IkStatus PumaAlgebraic::solve_at(const ArmQuestion& question, IkBranches& out) c
   return add_branches(question, arms, out);
 }
 
-IkStatus PumaAlgebraic::solve_line(const PumaGoal& goal, const std::optional<double>& given,
-                                   IkBranches& out) const {
-  const double wanted = given.value_or(goal.at_zero.sixth);
+NeedleTask PumaAlgebraic::needle_task(const PumaGoal& goal, double beyond) const {
+  return {kernel_, numbers_, goal, model_->lower()[5] - beyond, model_->upper()[5] + beyond};
+}
+
+IkStatus PumaAlgebraic::solve_line(const PumaGoal& goal, IkBranches& out) const {
+  const NeedleTask task = needle_task(goal, 0);
+  if (const auto miss = line_out_of_reach(task)) return out_of_reach(miss->shortfall, miss->detail);
+  const double wanted = goal.at_zero.sixth;
   const IkStatus status = solve_at(goal.at(wanted), out);
-  if (status.code == IkStatus::Code::ok || given) return status;
-  const ChosenDepth chosen =
-      choose_depth({kernel_, numbers_, goal, model_->lower()[5], model_->upper()[5]}, wanted);
+  if (status.code == IkStatus::Code::ok) return status;
+  const ChosenDepth chosen = choose_depth(task, wanted);
   if (!chosen.reachable) return out_of_reach(chosen.shortfall, chosen.detail);
   if (!chosen.within_limits && out.count > 0) return status;
   out.clear();
@@ -122,8 +127,9 @@ void PumaAlgebraic::add_root(const PumaGoal& goal, std::size_t arm, const RollRo
 IkStatus PumaAlgebraic::solve_needle_rotation(const PumaGoal& goal, IkBranches& out) const {
   // A root at the very end of the range may be rounded beyond it.
   constexpr double kEnd = 1e-10;
-  const RollRoots roots =
-      roll_roots({kernel_, numbers_, goal, model_->lower()[5] - kEnd, model_->upper()[5] + kEnd});
+  const NeedleTask task = needle_task(goal, kEnd);
+  if (const auto miss = line_out_of_reach(task)) return out_of_reach(miss->shortfall, miss->detail);
+  const RollRoots roots = roll_roots(task);
   if (roots.shortfall > 0) return out_of_reach(roots.shortfall, roots.detail);
   for (std::size_t arm = 0; arm < 4; ++arm) {
     std::array<std::size_t, 2> found{};  // of each wrist
@@ -152,9 +158,8 @@ IkStatus PumaAlgebraic::solve(const IkGoal& goal, const JointVector& seed, IkBra
     return {IkStatus::Code::invalid_input, 0, "a full rotation leaves nothing redundant"};
   }
   PumaGoal own = puma_goal(arm_, numbers_, goal, seed);
-  if (arm_.needle) {
-    return pointing ? solve_line(own, goal.redundancy, out) : solve_needle_rotation(own, out);
-  }
+  if (arm_.needle && goal.redundancy) return solve_at(own.at(*goal.redundancy), out);
+  if (arm_.needle) return pointing ? solve_line(own, out) : solve_needle_rotation(own, out);
   if (goal.redundancy) own.at_zero.sixth = wrap_angle(*goal.redundancy);
   return solve_at(own.at_zero, out);
 }

@@ -7,6 +7,7 @@
 
 #include "armature/kinds/ik/ik.hpp"
 #include "four_arms.hpp"
+#include "needle_task.hpp"
 #include "puma_goal.hpp"
 #include "puma_structure.hpp"
 #include "roll_roots.hpp"
@@ -32,9 +33,10 @@ class PumaAlgebraic final : public IkSolver {
   /// All branches of a rotation, or of a direction with joint 6 at `question.sixth`. Where joint 1
   /// or 2 is free and keeping the seed's leads beyond the limits, other values are tried.
   IkStatus solve_at(const ArmQuestion& question, IkBranches& out) const;
-  /// A direction, by an arm with a needle.
-  IkStatus solve_line(const PumaGoal& goal, const std::optional<double>& given,
-                      IkBranches& out) const;
+  /// With every depth of the needle, and `beyond` [m] more at both ends.
+  NeedleTask needle_task(const PumaGoal& goal, double beyond) const;
+  /// A direction, by an arm with a needle whose depth is left open.
+  IkStatus solve_line(const PumaGoal& goal, IkBranches& out) const;
   /// A rotation, by an arm with a needle.
   IkStatus solve_needle_rotation(const PumaGoal& goal, IkBranches& out) const;
   void add_root(const PumaGoal& goal, std::size_t arm, const RollRoots::Root& root,

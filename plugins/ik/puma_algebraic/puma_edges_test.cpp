@@ -190,7 +190,7 @@ double shortfall_by_lengths(const PumaArm& arm, const Eigen::Vector3d& wrist) {
     const double rho = std::hypot(side - arm.a1, wrist.z());
     const double far = std::max(rho - arm.a2 - arm.forearm, 0.0);
     const double folded = std::max(std::abs(arm.a2 - arm.forearm) - rho, 0.0);
-    least = std::min(least, near > 0 ? std::hypot(near, far) : std::max(far, folded));
+    least = std::min(least, std::hypot(near, std::max(far, folded)));
   }
   return least;
 }

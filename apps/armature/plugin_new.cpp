@@ -19,7 +19,8 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kKind = "ik";  // of which there is a template
 
-// The files of a new plugin; @ID@, @NAME@, @CLASS@, @TARGET@ and @PACKAGE@ are filled in.
+// The files of a new plugin; @ID@, @NAME@, @CLASS@, @TARGET@, @PACKAGE@ and @CONFIGS@ are
+// filled in.
 constexpr std::string_view kCMake = R"(cmake_minimum_required(VERSION 3.25)
 project(@TARGET@ LANGUAGES CXX)
 find_package(Armature REQUIRED HINTS "@PACKAGE@")
@@ -117,7 +118,7 @@ An inverse kinematics solver for Armature: damped least squares from the seed, d
     export ARMATURE_PLUGIN_PATH=$PWD/build
     armature plugin verify @ID@ --robot arm.urdf --tip tool0
     armature bench ik --robot arm.urdf --tip tool0 --plugins @ID@,ik/kdl,ik/numeric --poses 10000 --seed 1 --out bench
-    armature run dental_lamp.yaml --set components.motion.ik.plugin=@ID@
+    armature run @CONFIGS@/dental_lamp.yaml --set components.motion.ik.plugin=@ID@ --set clock=simulated
 
 | file | what |
 |---|---|
@@ -190,6 +191,7 @@ int new_plugin(const std::string& id, const fs::path& directory) {
     replace_all(filled, "@CLASS@", class_name(name));
     replace_all(filled, "@TARGET@", "ik_" + name);
     replace_all(filled, "@PACKAGE@", package_folder().string());
+    replace_all(filled, "@CONFIGS@", shipped_robot_folder().parent_path().string());
     return filled;
   };
   write(directory / "CMakeLists.txt", fill(kCMake));

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // `armature fk` and `armature ik`: JSON lines in, one answer per line out, whatever comes in.
+#include <gtest/gtest.h>
+
 #include <nlohmann/json.hpp>
 
 #include "tests/command_line/lamp_robot.hpp"

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // `armature check`, `show`, `graph` and `plugin` tell what a deployment and a plugin are.
+#include <gmock/gmock.h>
+
 #include <nlohmann/json.hpp>
 
 #include "command.hpp"
@@ -62,10 +64,10 @@ TEST(Graph, NamesTheTopicsThatRosToolsLookFor) {
 TEST(PluginInfo, ShowsParametersAndPortsFromTheManifest) {
   const auto result = run_command({armature(), "plugin", "info", "sim/photo_scene", "--json"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
-  const auto json = nlohmann::json::parse(result.out);
-  EXPECT_EQ(json["kind"], "component");
-  EXPECT_FALSE(json["params"].empty());
-  EXPECT_FALSE(json["out"].empty());
+  const auto told = nlohmann::json::parse(result.out);
+  EXPECT_EQ(told["kind"], "component");
+  EXPECT_FALSE(told["params"].empty());
+  EXPECT_FALSE(told["out"].empty());
 }
 
 TEST(PluginInfo, ShowsWhatAPluginNeedsOffersAndMeasures) {
@@ -80,10 +82,10 @@ TEST(PluginInfo, ShowsWhatAPluginNeedsOffersAndMeasures) {
 
   const auto result =
       run_command({armature(), "plugin", "info", "report/lamp_alignment", "--json"});
-  const auto json = nlohmann::json::parse(result.out);
-  EXPECT_EQ(json["needs"][0]["name"], "patient_moves");
-  EXPECT_EQ(json["needs"][0]["when"], "expect_move");
-  EXPECT_TRUE(json["measures"].contains("distance_error_mm"));
+  const auto told = nlohmann::json::parse(result.out);
+  EXPECT_EQ(told["needs"][0]["name"], "patient_moves");
+  EXPECT_EQ(told["needs"][0]["when"], "expect_move");
+  EXPECT_TRUE(told["measures"].contains("distance_error_mm"));
 }
 
 TEST(PluginInfo, OfAnUnknownOneNamesTheNearest) {

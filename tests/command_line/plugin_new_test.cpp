@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // A newcomer's plugin: written by `armature plugin new`, built outside this tree, and used.
+#include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 

@@ -2,6 +2,7 @@
 // `armature fk` and `armature ik` over long files: every line answered in order, in memory that
 // does not grow with their number.
 #include <fcntl.h>
+#include <gtest/gtest.h>
 #include <poll.h>
 #include <stdlib.h>
 #include <sys/resource.h>

@@ -3,6 +3,8 @@
 // on the simulated clock in this process.
 #include "armature/runtime/deployment.hpp"
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 
 #include "armature/config/document.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Interrupted, killed, started twice, started without room for shared memory: a clear message, no
 // hang, and nothing left behind that breaks the next run.
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 #include <unistd.h>
 
 #include <csignal>

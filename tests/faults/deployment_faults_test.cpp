@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Faulty deployments: each is one change of base.yaml, and gives its exact messages, with line and
 // column, and exit code 3 before anything is started.
+#include <gtest/gtest.h>
 #include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
 
 #include "command.hpp"
 

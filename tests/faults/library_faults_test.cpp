@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // A crashing, a hanging, a foreign and an outdated library in the plugin path: each gives a clear
 // message, and stops nothing else.
+#include <gtest/gtest.h>
+
 #include <csignal>
+#include <filesystem>
+#include <fstream>
 #include <thread>
 
 #include "command.hpp"

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A program of another vendor, which knows nothing of this project but idl/, reads what we publish.
+#include <gtest/gtest.h>
+
 #include <chrono>
 #include <cstdio>
 #include <thread>

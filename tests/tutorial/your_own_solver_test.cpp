@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // docs/your_own_solver.md does what it says: its "$ ..." lines are run, in order, by one shell.
+#include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <filesystem>

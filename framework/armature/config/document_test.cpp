@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/config/document.hpp"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <filesystem>
 #include <fstream>

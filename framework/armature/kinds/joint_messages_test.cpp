@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/kinds/joint_messages.hpp"
 
+#include <gtest/gtest.h>
+
 #include "armature/messages/header.hpp"
 #include "armature/robot/test_robots.hpp"
 

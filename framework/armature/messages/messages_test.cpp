@@ -5,7 +5,11 @@
 //  3. a layout hash belongs to one type
 //  4. truncated or hostile CDR is refused with a reason; it never crashes or allocates at will
 //  5. the generic reading by IDL agrees with the generated code
+#include <gtest/gtest.h>
+
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <random>
 #include <set>
 
 #include "armature/messages/armature_msgs.hpp"

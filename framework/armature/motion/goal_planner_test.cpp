@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/motion/goal_planner.hpp"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include "armature/motion/gantry_stages_test.hpp"
 

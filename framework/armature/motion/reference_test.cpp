@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "armature/motion/gantry_stages_test.hpp"
 
 namespace armature {

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/robot/quintic.hpp"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <random>
 
 namespace armature {
 namespace {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/robot/stereo_rig.hpp"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
+
+#include <random>
 
 #include "armature/config/document.hpp"
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/runtime/component_bench.hpp"
 
+#include <gtest/gtest.h>
+
 #include "armature/messages/std_msgs.hpp"
 
 namespace armature {

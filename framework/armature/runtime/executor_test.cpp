@@ -2,6 +2,7 @@
 // What an executor asks of the operating system: seen from its own thread.
 #include "armature/runtime/executor.hpp"
 
+#include <gtest/gtest.h>
 #include <linux/capability.h>
 #include <pthread.h>
 #include <sched.h>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/runtime/inbox.hpp"
 
+#include <gtest/gtest.h>
+
 #include "armature/runtime/ports.hpp"
 
 namespace armature {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/runtime/instance_lock.hpp"
 
+#include <gtest/gtest.h>
 #include <unistd.h>
 
 namespace armature {

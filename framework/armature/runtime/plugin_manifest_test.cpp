@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/runtime/plugin_manifest.hpp"
 
+#include <gtest/gtest.h>
+
 namespace armature {
 namespace {
 

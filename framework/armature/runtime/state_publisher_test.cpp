@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/runtime/state_publisher.hpp"
 
+#include <gtest/gtest.h>
+
 #include "armature/messages/stamp.hpp"
 #include "armature/runtime/fake_setup.hpp"
 

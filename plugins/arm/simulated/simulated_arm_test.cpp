@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "armature/robot/quintic.hpp"
 
 namespace armature {

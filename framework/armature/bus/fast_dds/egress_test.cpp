@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/bus/fast_dds/egress.hpp"
 
+#include <gtest/gtest.h>
+
 #include <atomic>
 #include <latch>
 #include <thread>

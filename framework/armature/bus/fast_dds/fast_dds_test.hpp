@@ -2,6 +2,7 @@
 // For the tests of the transport: a transport whose events are kept, and a second process.
 #pragma once
 
+#include <gtest/gtest.h>
 #include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>

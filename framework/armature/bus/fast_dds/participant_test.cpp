@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // How a process joins: its domain, its shared memory, its library.
 #include <dlfcn.h>
+#include <gmock/gmock.h>
 
 #include "armature/bus/fast_dds/fast_dds_test.hpp"
 #include "armature/runtime/plugin.hpp"

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A process that is killed is noticed, one that ends properly is not missed.
+#include <gtest/gtest.h>
+
 #include "armature/bus/fast_dds/fast_dds_test.hpp"
 
 namespace armature {

@@ -2,6 +2,8 @@
 // The host of the face pose estimators: 1. one answer for each pair of pictures with its landmarks,
 // under their header, 2. the camera is that of the right camera's info, 3. what cannot be estimated
 // is answered with its exact reason.
+#include <gtest/gtest.h>
+
 #include <stdexcept>
 
 #include "armature/kinds/face_pose/face_pose.hpp"

@@ -4,9 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "armature/kinds/ik/contract.hpp"
 
@@ -105,7 +109,7 @@ class PointingGantry final : public IkSolver {
     if (invalid_input(model_, goal, seed)) return false;
     if (fault_ == Fault::none_told && goal.pose.position.x() > 0.3) return false;
     if (beyond_reach(goal) > 1e-9 && fault_ != Fault::told_out_of_reach) return false;
-    if (fault_ == Fault::allocates) delete std::exchange(kept_, new double{seed[0]});
+    if (fault_ == Fault::allocates) kept_ = std::make_unique<double>(seed[0]);
     for (int branch : {0, 1}) {
       IkGoal within = goal;
       within.redundancy = free_ == Free::roll ? 2 : nearest_slide(goal, 0);
@@ -177,7 +181,7 @@ class PointingGantry final : public IkSolver {
   Free free_;
   Fault fault_;
   Eigen::Matrix3d base_R_pan_;
-  mutable double* kept_ = nullptr;
+  mutable std::unique_ptr<double> kept_;
 };
 
 IkSubject subject(Free free, Fault fault) {

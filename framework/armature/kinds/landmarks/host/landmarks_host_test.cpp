@@ -2,6 +2,8 @@
 // The host of the landmark finders: 1. one answer for each pair of pictures, under the header of
 // the left one, 2. the finder's memory is kept between pictures, 3. pictures that are none are
 // answered with their exact reason.
+#include <gtest/gtest.h>
+
 #include <stdexcept>
 
 #include "armature/kinds/landmarks/landmark_messages.hpp"

@@ -2,6 +2,8 @@
 // The host of the path planners: 1. one answer for each request, in order, under its header and id,
 // 2. requests and paths are carried over as they are, 3. bad requests are answered with their
 // reason.
+#include <gtest/gtest.h>
+
 #include <stdexcept>
 
 #include "armature/kinds/path/path.hpp"

@@ -2,6 +2,8 @@
 // The host of the branch selectors: 1. one answer for each request, in order, under its header and
 // id, 2. branches and choices are carried over as they are, 3. bad requests are answered with their
 // exact reason.
+#include <gtest/gtest.h>
+
 #include <stdexcept>
 
 #include "armature/kinds/select/select.hpp"

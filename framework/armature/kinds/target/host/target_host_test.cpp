@@ -2,6 +2,8 @@
 // The host of the target filters: 1. a face pose goes through where the arm was when the picture
 // was taken, 2. one answer for each face, stamped as its picture, 3. the filter predicts over a
 // gap, then what is missing is told, 4. a bad joint state is told as the component's own trouble.
+#include <gtest/gtest.h>
+
 #include <stdexcept>
 
 #include "armature/kinds/target/target_messages.hpp"

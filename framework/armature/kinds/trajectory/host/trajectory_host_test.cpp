@@ -2,6 +2,8 @@
 // The host of the trajectory planners: 1. one answer for each request, in order, under its header
 // and id, 2. requests and trajectories are carried over as they are, 3. bad requests are answered
 // with their exact reason, 4. a trajectory that breaks what was asked for is no answer.
+#include <gtest/gtest.h>
+
 #include <stdexcept>
 
 #include "armature/kinds/trajectory/trajectory_planner.hpp"

@@ -20,7 +20,7 @@ constexpr double kLengthTolerance = 0.01;
 // [rad] nearer to nothing or to half a turn, rounding decides the length or the way round.
 constexpr double kRounding = 1e-9;
 
-struct Path {
+struct PieceTable {
   std::vector<double> starts;
   Pieces pieces;
 };
@@ -87,7 +87,7 @@ Vectors slopes_of(Vectors steps, std::span<const double> u) {
   return steps;
 }
 
-Path slerp(const Keys& keys, const Vectors& slopes, std::span<const double> u) {
+PieceTable slerp(const Keys& keys, const Vectors& slopes, std::span<const double> u) {
   std::vector<ChartPiece> pieces;
   for (std::size_t i = 0; i < slopes.size(); ++i) {
     ChartPiece& piece = pieces.emplace_back(ChartPiece{keys[i], {}});
@@ -97,8 +97,8 @@ Path slerp(const Keys& keys, const Vectors& slopes, std::span<const double> u) {
 }
 
 /// The blends, with the anchor of each key.
-Path charted(const std::vector<BlendPiece>& blends, const Keys& anchors) {
-  Path path;
+PieceTable charted(const std::vector<BlendPiece>& blends, const Keys& anchors) {
+  PieceTable path;
   auto& pieces = path.pieces.emplace<std::vector<ChartPiece>>();
   for (const BlendPiece& blend : blends) {
     path.starts.push_back(blend.start);
@@ -141,7 +141,7 @@ std::vector<BlendPiece> blends_of_the_paper(const Vectors& points) {
 /// The velocity at a key is that of its neighbours' turns together over their time; an inner point
 /// of either side follows from it. With even parameters both are the usual one,
 /// q exp(-(log to the next + log to the one before) / 4); none is more than a quarter turn away.
-Path squad(const Keys& keys, const Vectors& turns, std::span<const double> u) {
+PieceTable squad(const Keys& keys, const Vectors& turns, std::span<const double> u) {
   const std::size_t last = keys.size() - 1;
   Keys into = keys, out_of = keys;  // inner points of the interval before and behind a key
   for (std::size_t i = 1; i < last; ++i) {
@@ -189,7 +189,7 @@ Expected<OrientationCurve> OrientationCurve::through(std::span<const Eigen::Quat
   const Vectors steps = in_base ? steps_between(points) : turns_between(*keys);
   const auto parameters = u.empty() ? in_proportion(steps) : fitting(u, keys->size());
   if (!parameters) return tl::unexpected{parameters.error()};
-  const auto made = [&](Path path, std::vector<double> key_parameters) {
+  const auto made = [&](PieceTable path, std::vector<double> key_parameters) {
     return OrientationCurve{std::move(key_parameters), std::move(path.starts),
                             std::move(path.pieces)};
   };

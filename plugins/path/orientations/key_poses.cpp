@@ -9,7 +9,9 @@
 namespace armature {
 namespace {
 
-constexpr double kSame = 1e-9;  // [m] and [rad]: two poses are one
+// [m] and [rad]: two poses are one. Keys as near as where an arm stands and where it should stand
+// would make a corner as short.
+constexpr double kSame = 1e-6;
 // [rad] and [m] in all: below, a turn or a way is rather the rounding of where the arm stands, and
 // loses its weight in the parameters.
 constexpr double kLittleTurn = 0.01, kLittleWay = 0.001;
@@ -61,6 +63,18 @@ Orientation KeyPoses::told(const Eigen::Quaterniond& rotation) const {
   return Direction{rotation * Eigen::Vector3d::UnitX()};
 }
 
+void KeyPoses::add(const ToolPose& pose, const Eigen::Quaterniond& rotation) {
+  poses.push_back(pose);
+  positions.push_back(pose.position);
+  rotations.push_back(rotation);
+}
+
+void KeyPoses::remove_last() {
+  poses.pop_back();
+  positions.pop_back();
+  rotations.pop_back();
+}
+
 Expected<KeyPoses> key_poses_of(const PathRequest& request) {
   std::vector<ToolPose> all{request.start};
   all.insert(all.end(), request.through.begin(), request.through.end());
@@ -73,10 +87,12 @@ Expected<KeyPoses> key_poses_of(const PathRequest& request) {
     }
     const auto rotation = next_rotation(keys, pose.orientation);
     if (!rotation) return tl::unexpected{rotation.error()};
-    if (repeats_last(keys, pose, *rotation)) continue;
-    keys.poses.push_back(pose);
-    keys.positions.push_back(pose.position);
-    keys.rotations.push_back(*rotation);
+    if (repeats_last(keys, pose, *rotation)) {
+      const bool is_goal = &pose == &all.back(), only_start = keys.poses.size() == 1;
+      if (!is_goal || only_start) continue;
+      keys.remove_last();
+    }
+    keys.add(pose, *rotation);
   }
   return keys;
 }

@@ -8,15 +8,17 @@
 
 namespace armature {
 
-/// Where a path must go through: start, key poses, goal; one that repeats the pose before is left
-/// out. A direction has become a rotation that takes x to it, turned from key to key by no more
-/// than it takes.
+/// Where a path must go through: start, key poses, goal; of poses that are no farther apart than
+/// 1e-6 m and rad the first stays, of the goal the goal. A direction has become a rotation that
+/// takes x to it, turned from key to key by no more than it takes.
 struct KeyPoses {
   std::vector<ToolPose> poses;
   std::vector<Eigen::Vector3d> positions;
   std::vector<Eigen::Quaterniond> rotations;
   bool pointing = false;
 
+  void add(const ToolPose& pose, const Eigen::Quaterniond& rotation);
+  void remove_last();
   /// A rotation of the curve as the request tells orientations.
   Orientation told(const Eigen::Quaterniond& rotation) const;
 };

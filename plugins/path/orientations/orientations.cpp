@@ -99,7 +99,6 @@ Expected<Path> Orientations::plan(const PathRequest& request) const {
   }
   auto segment = along(*keys, *curve);
   if (!segment) return tl::unexpected{segment.error()};
-  segment->samples.back().pose = valid->goal;
   return Path{std::move(*segment)};
 }
 

@@ -185,6 +185,21 @@ TEST(Orientations, AKeyPoseThatRepeatsTheOneBeforeChangesNothing) {
   }
 }
 
+TEST(Orientations, AKeyPoseWhereTheArmNearlyStandsMakesNoCorner) {
+  PathRequest request = three_bores();
+  const auto path = planner()->plan(request);
+  const Vector3d off{3e-7, -4e-7, 2e-7};
+  request.through.insert(request.through.begin(), request.start);
+  request.through.front().position += off;
+  request.through.push_back(request.goal);
+  request.through.back().position += off;
+  const auto same = planner()->plan(request);
+  ASSERT_TRUE(path && same);
+  ASSERT_EQ(path->front().samples.size(), same->front().samples.size());
+  EXPECT_EQ(same->front().samples.front().pose.position, request.start.position);
+  EXPECT_EQ(same->front().samples.back().pose.position, request.goal.position);
+}
+
 /// 1e-8 rad of where the arm stands are no turn that deserves half of the time.
 TEST(Orientations, ATurnByRoundingHasNoWeight) {
   const PathRequest request{.start = turned(1e-8, {0, 0, 1}, {0, 0, 0}),

@@ -149,8 +149,8 @@ PieceTable squad(const Keys& keys, const Vectors& turns, std::span<const double>
     const Eigen::Vector3d velocity = (turns[i - 1] + turns[i]) / (before + behind);
     const Eigen::Vector3d to_out = 0.5 * (behind * velocity - turns[i]);
     const Eigen::Vector3d to_into = 0.5 * (turns[i - 1] - before * velocity);
-    out_of[i] = keys[i] * RotationAt{to_out}.rotation();
-    into[i] = keys[i] * RotationAt{to_into}.rotation();
+    out_of[i] = keys[i] * rotation_of(to_out);
+    into[i] = keys[i] * rotation_of(to_into);
   }
   std::vector<SquadPiece> pieces;
   for (std::size_t i = 0; i < last; ++i) {

@@ -58,16 +58,19 @@ Eigen::Vector3d rotation_vector_of(const Eigen::Quaterniond& unit) {
   return double_logarithm(Eigen::Quaterniond{-unit.coeffs()});
 }
 
+Eigen::Quaterniond rotation_of(const Eigen::Vector3d& P) {
+  const double t = P.norm();
+  const Eigen::Vector3d vector = (t > 0 ? std::sin(0.5 * t) / t : 0.5) * P;
+  return {std::cos(0.5 * t), vector.x(), vector.y(), vector.z()};
+}
+
 RotationAt::RotationAt(const Eigen::Vector3d& P)
     : P_{P},
       t_{P.norm()},
       half_cos_{std::cos(0.5 * t_)},
-      half_sinc_{t_ > 0 ? std::sin(0.5 * t_) / t_ : 0.5} {}
-
-double RotationAt::b() const {
-  const double t2 = t_ * t_;
-  return t_ < kSeriesBelow ? sum(kB, t2) : (1 - 2 * half_sinc_ * half_cos_) / t2;
-}
+      half_sinc_{t_ > 0 ? std::sin(0.5 * t_) / t_ : 0.5},
+      a_{2 * half_sinc_ * half_sinc_},
+      b_{t_ < kSeriesBelow ? sum(kB, t_ * t_) : (1 - 2 * half_sinc_ * half_cos_) / (t_ * t_)} {}
 
 Eigen::Quaterniond RotationAt::rotation() const {
   const Eigen::Vector3d vector = half_sinc_ * P_;
@@ -76,24 +79,24 @@ Eigen::Quaterniond RotationAt::rotation() const {
 
 Eigen::Vector3d RotationAt::velocity(const Eigen::Vector3d& dP) const {
   const Eigen::Vector3d across = P_.cross(dP);
-  return dP + a() * across + b() * P_.cross(across);
+  return dP + a_ * across + b_ * P_.cross(across);
 }
 
 Eigen::Vector3d RotationAt::acceleration(const Eigen::Vector3d& dP,
                                          const Eigen::Vector3d& ddP) const {
-  const double t2 = t_ * t_, b = this->b();
+  const double t2 = t_ * t_;
   double slope_a, slope_b;  // (da/dt)/t and (db/dt)/t
   if (t_ < kSeriesBelow) {
     slope_a = sum(kSlopeA, t2);
     slope_b = sum(kSlopeB, t2);
   } else {
-    slope_a = 2 * (half_sinc_ * half_cos_ - a()) / t2;
-    slope_b = (a() - 3 * b) / t2;
+    slope_a = 2 * (half_sinc_ * half_cos_ - a_) / t2;
+    slope_b = (a_ - 3 * b_) / t2;
   }
   const double along = P_.dot(dP);
   const Eigen::Vector3d across = P_.cross(dP);
-  return ddP + P_.cross(a() * ddP + b * P_.cross(ddP) + along * slope_b * across) +
-         along * slope_a * across + b * dP.cross(across);
+  return ddP + P_.cross(a_ * ddP + b_ * P_.cross(ddP) + along * slope_b * across) +
+         along * slope_a * across + b_ * dP.cross(across);
 }
 
 Eigen::Vector3d RotationAt::rate_of(const Eigen::Vector3d& velocity) const {

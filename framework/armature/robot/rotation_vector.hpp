@@ -16,12 +16,15 @@ Eigen::Vector3d rotation_vector_of(const Eigen::Quaterniond& unit);
 /// at -1, which has no axis.
 Eigen::Vector3d double_logarithm(const Eigen::Quaterniond& unit);
 
+/// q = [cos(|P|/2), sin(|P|/2) P/|P|].
+Eigen::Quaterniond rotation_of(const Eigen::Vector3d& P);
+
 /// What turns by a rotation vector P and by its changes: exp(P) and its Jacobians at one P.
 class RotationAt {
  public:
   explicit RotationAt(const Eigen::Vector3d& P);
 
-  /// q = [cos(|P|/2), sin(|P|/2) P/|P|].
+  /// rotation_of(P).
   Eigen::Quaterniond rotation() const;
   /// J_l(P) dP, the angular velocity in the frame in which P is told when P changes with dP:
   /// J_l = I + (1 - cos t)/t^2 [P] + (t - sin t)/t^3 [P]^2 with t = |P|. It is not dP.
@@ -32,11 +35,9 @@ class RotationAt {
   Eigen::Vector3d rate_of(const Eigen::Vector3d& velocity) const;
 
  private:
-  double a() const { return 2 * half_sinc_ * half_sinc_; }  // of [P] in J_l
-  double b() const;                                         // of [P]^2
-
   Eigen::Vector3d P_;
   double t_, half_cos_, half_sinc_;  // sin(t/2)/t
+  double a_, b_;                     // of [P] and [P]^2 in J_l
 };
 
 }  // namespace armature

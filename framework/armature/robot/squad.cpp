@@ -17,13 +17,13 @@ SquadPiece::SquadPiece(const Eigen::Quaterniond& key, const Eigen::Quaterniond& 
 OrientationState SquadPiece::at(double x) const {
   // a and b are the two slerps, delta the rotation vector from a to b, k = 2 x (1 - x) the part of
   // it that is taken: r = a exp(k delta). Rates are by x until the end.
-  const Eigen::Quaterniond a = key_ * RotationAt{x * turn_}.rotation();
-  const Eigen::Quaterniond b = inner_ * RotationAt{x * inner_turn_}.rotation();
-  const Eigen::Vector3d delta = double_logarithm(a.conjugate() * b);
+  const Eigen::Quaterniond a = key_ * rotation_of(x * turn_);
+  const Eigen::Quaterniond b = inner_ * rotation_of(x * inner_turn_);
+  const Eigen::Quaterniond a_R_b = a.conjugate() * b;
+  const Eigen::Vector3d delta = double_logarithm(a_R_b);
   const double k = 2 * x * (1 - x), dk = 2 - 4 * x, ddk = -4;
 
   // How delta changes, from the turning of b in a's frame: J_l(delta) ddelta/dx = w.
-  const Eigen::Quaterniond a_R_b = a.conjugate() * b;
   const Eigen::Vector3d b_rate = a_R_b * inner_turn_;
   const Eigen::Vector3d w = b_rate - turn_;
   const RotationAt at_delta{delta};

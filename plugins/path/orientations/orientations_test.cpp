@@ -95,6 +95,7 @@ TEST(Orientations, NeighboursAreAtMostAStepApart) {
 TEST(Orientations, BendsThroughAKeyPoseWithoutAStepInItsSecondDerivative) {
   const PathRequest request = three_bores();
   const auto path = planner("step_deg: 0.05, step_mm: 0.1")->plan(request);
+  ASSERT_TRUE(path) << path.error().text;
   const auto& samples = path->front().samples;
   const auto key = std::ranges::find_if(samples, [&](const PathSample& sample) {
     return sample.pose.position == request.through[1].position;
@@ -124,6 +125,7 @@ TEST(Orientations, KeysOnOnePlaceAreTurnedThroughAtOneSpeed) {
   for (ToolPose& key : request.through) key.position = request.start.position;
   request.goal.position = request.start.position;
   const auto path = planner("interpolator: slerp")->plan(request);
+  ASSERT_TRUE(path) << path.error().text;
   const auto& samples = path->front().samples;
   const double first = rotation(samples[1]).angularDistance(rotation(samples[0])) / samples[1].s;
   for (std::size_t i = 1; i < samples.size(); ++i) {
@@ -139,6 +141,7 @@ TEST(Orientations, AcrossHalfATurnOnlyTheRotationVectorsGoTheLongWay) {
                           ->plan({.start = turned(3.1, {0, 0, 1}, {0, 0, 0}),
                                   .goal = turned(3.3, {0, 0, 1}, {0.1, 0, 0}),
                                   .focus = {}});
+    if (!path) return -1.0;
     double total = 0;
     const auto& samples = path->front().samples;
     for (std::size_t i = 1; i < samples.size(); ++i) {
@@ -207,6 +210,7 @@ TEST(Orientations, ATurnByRoundingHasNoWeight) {
                             .focus = {},
                             .through = {turned(0, {0, 0, 1}, {0.1, 0, 0})}};
   const auto path = planner()->plan(request);
+  ASSERT_TRUE(path) << path.error().text;
   const auto& samples = path->front().samples;
   const double to_key = 0.1 / (0.1 + std::hypot(0.1, 0.1));
   const auto key = std::ranges::find_if(samples, [](const PathSample& sample) {

@@ -110,7 +110,8 @@ function(armature_add_test name)
     # What takes time when tests run is the libraries; what takes time to compile is the tests.
     # There GCC 12 falsely warns of the small buffer inside of std::string.
     target_compile_options(armature_test_main PUBLIC
-      $<$<CONFIG:Release,RelWithDebInfo>:-O1> -Wno-array-bounds -Wno-stringop-overflow -Wno-restrict)
+      $<$<CONFIG:Release,RelWithDebInfo>:-O1> -Wno-array-bounds -Wno-stringop-overflow
+      -Wno-stringop-overread -Wno-restrict)
     target_precompile_headers(armature_test_main PRIVATE "${CMAKE_SOURCE_DIR}/tests/precompiled.hpp")
     set_target_properties(armature_test_main PROPERTIES POSITION_INDEPENDENT_CODE OFF)
   endif()

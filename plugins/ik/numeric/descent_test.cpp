@@ -6,29 +6,9 @@
 #include <random>
 
 #include "armature/robot/kinematics.hpp"
-#include "lanes.hpp"
 
 namespace armature::descent {
 namespace {
-
-TEST(Lanes, SineAndCosineAreThoseOfTheLibraryToTwoUnitsInTheLastPlace) {
-  std::mt19937_64 random{3};
-  SCOPED_TRACE("seed 3");
-  std::uniform_real_distribution<double> magnitude{-8, 5}, sign{-1, 1};
-  const double ulp = std::numeric_limits<double>::epsilon();
-  for (int i = 0; i < 100'000; ++i) {
-    alignas(32) double angle[4], sine[4], cosine[4];
-    for (double& a : angle) a = std::copysign(std::pow(10, magnitude(random)), sign(random));
-    angle[i % 4] = i * 0.25 * std::numbers::pi;  // at and near the quarter turns
-    sine_and_cosine(angle, sine, cosine);
-    for (int k = 0; k < 4; ++k) {
-      ASSERT_NEAR(sine[k], std::sin(angle[k]), 2 * ulp * std::abs(std::sin(angle[k])) + 1e-18)
-          << angle[k];
-      ASSERT_NEAR(cosine[k], std::cos(angle[k]), 2 * ulp * std::abs(std::cos(angle[k])) + 1e-18)
-          << angle[k];
-    }
-  }
-}
 
 class KernelTest : public testing::TestWithParam<const Kernel*> {
  protected:

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstring>
 
 #include "descent.hpp"
 #include "lanes.hpp"
@@ -28,7 +29,13 @@ inline Pose walk(const Chain& chain, const double* q, Axes& axes) {
     value[i] = step.ratio * q[step.independent] + step.offset;
   }
   for (int i = chain.joints; i % 4 != 0; ++i) value[i] = 0;
-  for (int i = 0; i < chain.joints; i += 4) sine_and_cosine(value + i, sine + i, cosine + i);
+  for (int i = 0; i < chain.joints; i += 4) {
+    Lanes angles;
+    std::memcpy(&angles, value + i, sizeof angles);
+    const LaneSinCos turned = sine_and_cosine(angles);
+    std::memcpy(sine + i, &turned.sin, sizeof angles);
+    std::memcpy(cosine + i, &turned.cos, sizeof angles);
+  }
 
   Pose frame{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 0}};
   const auto carry = [&frame](const Lanes& x, const Lanes& y, const Lanes& z, const Lanes& origin) {

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "armature/kinds/ik/lanes.hpp"
 #include "four_arms.hpp"
-#include "lanes.hpp"
 
 namespace armature {
 namespace {

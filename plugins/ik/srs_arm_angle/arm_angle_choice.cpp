@@ -2,21 +2,72 @@
 #include "arm_angle_choice.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 namespace armature {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
+constexpr int kRegular = 24;  // a multiple of four
+constexpr double kStep = 2 * kPi / kRegular;
+
+/// By where the tangents at a falling and a rising slope meet. Where the chord is steeper than one
+/// of them, the valley is not convex and they tell nothing.
+template <class Node>
+bool may_fall_below(double least, const Node& left, const Node& right) {
+  const double fall = left.slope, rise = right.slope, width = right.at - left.at;
+  const double chord = (right.value - left.value) / width;
+  if (!(chord > fall && chord < rise)) return true;
+  const double meet = left.value + fall * width * (rise - chord) / (rise - fall);
+  // Twice as deep, for a valley that is steeper within than at its rims.
+  return 2 * meet - std::min(left.value, right.value) < least;
+}
+
+class Places {
+ public:
+  explicit Places(CostTable& table) : table_{table} {
+    for (int i = 0; i < kRegular; ++i) add(-kPi + kStep * i);
+  }
+  void add(double at) {
+    if (table_.count < CostTable::kMost - 3) table_.place[table_.count++] = wrap_angle(at);
+  }
+  /// Where the hinge is nearest to in line, x = 0 and x = pi, its outer turns go like
+  /// arctan(x / width): places at twice and twice the distance, from a quarter of the width.
+  /// `sign` and `whole`: the arm angle is whole + sign x.
+  void add_around(const SinCos& p, const SinCos& q, double whole) {
+    constexpr double kNarrowest = 1e-6;
+    for (const auto& [x, sine] : {std::pair{0.0, (p + q).sin}, std::pair{kPi, (p - q).sin}}) {
+      const double width = std::abs(sine) / std::max({std::abs(p.sin), std::abs(q.sin), 1e-9});
+      if (width > kStep) continue;
+      for (double away = std::max(width, kNarrowest) / 4; away < kStep; away *= 2) {
+        add(whole + x - away);
+        add(whole + x + away);
+      }
+    }
+  }
+  void finish() {
+    if (table_.count == kRegular) return;
+    for (int i = 0; table_.count % 4 != 0; ++i) {
+      table_.place[table_.count++] = -kPi + kStep * (i + 0.5);
+    }
+    std::sort(table_.place, table_.place + table_.count);
+  }
+
+ private:
+  CostTable& table_;
+};
 
 }  // namespace
 
 double nearest_in(const Spans& spans, double wanted) {
   double best = spans.begin()->lower, least = std::numeric_limits<double>::infinity();
   for (const Span& span : spans) {
-    for (const double at : {std::clamp(wanted, span.lower, span.upper), span.lower, span.upper}) {
+    if (wanted >= span.lower && wanted <= span.upper) return wanted;
+    for (const double at : {span.lower, span.upper}) {
       const double distance = std::abs(wrap_angle(at - wanted));
       if (distance < least) best = at, least = distance;
     }
@@ -24,135 +75,210 @@ double nearest_in(const Spans& spans, double wanted) {
   return best;
 }
 
-ArmAngleChoice::ArmAngleChoice(const SrsArm& arm, const ArmCircle& circle, Objective objective,
-                               double wanted, std::optional<double> last)
-    : arm_{arm}, circle_{circle}, objective_{objective}, wanted_{wanted}, last_{last} {
-  for (int i = 0; i < kRegular; ++i) add_place(-kPi + kStep * i);
-  add_places(circle.shoulder);
-  add_places(circle.wrist);
-  if (last) {  // opposite to it the way back has a kink
+void ArmAngleChoice::set_places() {
+  table_.count = 0;
+  Places places{table_};
+  places.add_around(goal_.polar, -goal_.phi, 0);
+  places.add_around(goal_.bend, goal_.gamma, goal_.alpha_rad);
+  if (aim_.objective == Objective::balanced && aim_.remembers) {
+    // Opposite to the last arm angle the way back has a kink.
     constexpr double kBeside = 1e-9;
-    add_place(*last + kPi - kBeside);
-    add_place(*last + kPi + kBeside);
+    for (const double opposite : {aim_.last, aim_.last + kPi}) {
+      places.add(opposite - kBeside);
+      places.add(opposite + kBeside);
+    }
   }
-  if (places_ > kRegular) std::sort(place_.begin(), place_.begin() + places_);
+  places.finish();
 }
 
-/// Where the hinge is nearest to in line, x = 0 and x = pi, its outer turns go like
-/// arctan(x / width): places at twice and twice the distance, from a quarter of the width.
-void ArmAngleChoice::add_places(const ArmBall& ball) {
-  constexpr double kNarrowest = 1e-6;
-  const auto& [p, q] = ball.ball;
-  for (const auto& [x, sine] : {std::pair{0.0, (p + q).sin}, std::pair{kPi, (p - q).sin}}) {
-    const double width = std::abs(sine) / std::max({std::abs(p.sin), std::abs(q.sin), 1e-9});
-    if (width > kStep) continue;
-    const double centre = ball.x_at(x);
-    for (double away = std::max(width, kNarrowest) / 4; away < kStep; away *= 2) {
-      add_place(centre - away);
-      add_place(centre + away);
+/// The first place not below `at`, which is in [-pi, pi].
+int ArmAngleChoice::place_from(double at) const {
+  int i = std::max(static_cast<int>((at + kPi) / kStep) - 1, 0);
+  while (i < table_.count && table_.place[i] < at) ++i;
+  return i;
+}
+
+ArmAngleChoice::Stretch ArmAngleChoice::stretch_of(std::size_t branch, const Span& span) const {
+  Stretch stretch{.span = span, .branch = branch};
+  double shift = branch / 2 % 2 == 0 ? 0 : kPi;
+  if (span.lower - shift < -kPi) shift -= 2 * kPi;
+  const double lower = span.lower - shift, upper = span.upper - shift;
+  stretch.shift = shift;
+  stretch.first = place_from(lower);
+  // The last place not above.
+  double rest = upper;
+  int turns = 0;
+  if (upper >= kPi) rest -= 2 * kPi, turns = table_.count;
+  int end = place_from(rest);
+  if (end < table_.count && table_.place[end] == rest) ++end;
+  stretch.end = end + turns;
+  return stretch;
+}
+
+ArmAngleChoice::Node ArmAngleChoice::node_of(const Stretch& stretch, int place) const {
+  const bool again = place >= table_.count;
+  const int i = again ? place - table_.count : place;
+  return {table_.place[i] + (again ? 2 * kPi : 0) + stretch.shift, table_.value[stretch.branch][i],
+          table_.slope[stretch.branch][i]};
+}
+
+void ArmAngleChoice::add_node(std::size_t branch, double at) {
+  at_[nodes_] = at;
+  branch_of_node_[nodes_] = static_cast<int>(branch);
+  ++nodes_;
+}
+
+void ArmAngleChoice::set_stretches(const std::array<Spans, 8>& spans) {
+  for (std::size_t branch = 0; branch < 8; ++branch) {
+    for (const Span& span : spans[branch]) {
+      Stretch stretch = stretch_of(branch, span);
+      const double width = span.upper - span.lower;
+      stretch.nodes = nodes_;
+      stretch.few = stretch.end - stretch.first < kFew;
+      if (stretch.few) {
+        add_node(branch, span.lower);
+        for (std::size_t i = 1; width > 0 && i < kFewNodes; ++i) {
+          add_node(branch, i + 1 == kFewNodes ? span.upper
+                                              : span.lower + width * static_cast<double>(i) /
+                                                                 (kFewNodes - 1));
+        }
+      } else {
+        const Node first = node_of(stretch, stretch.first), last = node_of(stretch, stretch.end - 1);
+        stretch.falls_to_lower = first.at > span.lower && first.slope > 0;
+        stretch.falls_to_upper = last.at < span.upper && last.slope < 0;
+        if (stretch.falls_to_lower) add_node(branch, span.lower);
+        if (stretch.falls_to_upper) add_node(branch, span.upper);
+      }
+      stretch.node_count = nodes_ - stretch.nodes;
+      stretch_[stretches_++] = stretch;
     }
   }
 }
 
-ArmAngleChoice::Node ArmAngleChoice::node_at(double arm_angle, const Flips& flips) const {
-  const PostureCost cost = cost_of(arm_, circle_, objective_, arm_angle);
-  return {arm_angle, cost.of(objective_, flips, from_last(arm_angle))};
-}
-
-ArmAngleChoice::Node ArmAngleChoice::place(std::size_t i, const Flips& flips) {
-  if (!known_[i]) {
-    cost_[i] = cost_of(arm_, circle_, objective_, place_[i]);
-    known_[i] = true;
-  }
-  return {place_[i], cost_[i].of(objective_, flips, from_last(place_[i]))};
-}
-
-/// By where the tangents at a falling and a rising slope meet. Where the chord is steeper than one
-/// of them, the valley is not convex and they tell nothing.
-bool ArmAngleChoice::may_fall_below(double least, const Node& left, const Node& right) {
-  const double fall = left.level.slope, rise = right.level.slope;
-  if (!(fall < 0 && rise > 0)) return false;
-  const double width = right.at - left.at;
-  const double chord = (right.level.value - left.level.value) / width;
-  if (!(chord > fall && chord < rise)) return true;
-  const double meet = left.level.value + fall * width * (rise - chord) / (rise - fall);
-  // Twice as deep, for a valley that is steeper within than at its rims.
-  return 2 * meet - std::min(left.level.value, right.level.value) < least;
-}
-
-/// The minimum of the cubic through both, again and again; the middle where that does not get on.
-ArmAngleChoice::Node ArmAngleChoice::minimum_between(Node left, Node right,
-                                                     const Flips& flips) const {
-  constexpr double kExact = 1e-9;
-  constexpr int kSteps = 60;
-  Node best = left.level.value < right.level.value ? left : right;
-  double steepness = std::numeric_limits<double>::infinity();
-  bool gets_on = true;
-  for (int i = 0; i < kSteps && right.at - left.at > kExact; ++i) {
-    const double width = right.at - left.at, fall = left.level.slope, rise = right.level.slope;
-    const double chord = fall + rise - 3 * (right.level.value - left.level.value) / width;
-    const double root = std::sqrt(std::max(chord * chord - fall * rise, 0.0));
-    const double cubic = right.at - width * (rise + root - chord) / (rise - fall + 2 * root);
-    const bool inside = cubic > left.at && cubic < right.at;
-    if (inside && gets_on && std::abs(cubic - best.at) < kExact) break;
-    const Node next = node_at(inside && gets_on ? cubic : left.at + 0.5 * width, flips);
-    if (next.level.value <= best.level.value) best = next;
-    if (next.level.slope == 0) break;
-    gets_on = std::abs(next.level.slope) < 0.25 * steepness || !gets_on;
-    steepness = std::abs(next.level.slope);
-    (next.level.slope < 0 ? left : right) = next;
-  }
-  return best;
-}
-
-void ArmAngleChoice::look_into(const Node& left, const Node& right, const Flips& flips,
-                               Node& best) const {
-  if (!may_fall_below(best.level.value, left, right)) return;
-  const Node bottom = minimum_between(left, right, flips);
-  if (bottom.level.value < best.level.value) best = bottom;
-}
-
-void ArmAngleChoice::look_along(const Span& span, const Flips& flips, Node& best) {
-  const auto end = place_.begin() + places_;
-  const auto first = std::upper_bound(place_.begin(), end, span.lower);
-  const auto last = std::lower_bound(first, end, span.upper);
-  constexpr int kFew = 3;
-  std::array<Node, kMost> nodes;
-  std::size_t count = 0;
-  if (last - first >= kFew) {
-    for (auto at = first; at != last; ++at) {
-      nodes[count++] = place(static_cast<std::size_t>(at - place_.begin()), flips);
+void ArmAngleChoice::set_costs_of_nodes() {
+  for (std::size_t i = 0; i < nodes_; i += 4) {
+    FourPlaces at;
+    double value[4], slope[4];
+    for (std::size_t k = 0; k < 4; ++k) {
+      const std::size_t node = std::min(i + k, nodes_ - 1);
+      at.arm_angle[k] = at_[node];
+      at.branch[k] = branch_of_node_[node];
     }
-  } else {
-    for (int i = 1; i <= kFew; ++i) {
-      nodes[count++] = node_at(span.lower + (span.upper - span.lower) * i / (kFew + 1), flips);
-    }
-  }
-  for (std::size_t i = 0; i < count; ++i) {
-    if (nodes[i].level.value < best.level.value) best = nodes[i];
-  }
-  for (std::size_t i = 1; i < count; ++i) look_into(nodes[i - 1], nodes[i], flips, best);
-  // An end is of interest where it goes down towards it.
-  if (nodes[0].level.slope > 0) {
-    const Node lower = node_at(span.lower, flips);
-    if (lower.level.value < best.level.value) best = lower;
-    look_into(lower, nodes[0], flips, best);
-  }
-  if (nodes[count - 1].level.slope < 0) {
-    const Node upper = node_at(span.upper, flips);
-    if (upper.level.value < best.level.value) best = upper;
-    look_into(nodes[count - 1], upper, flips, best);
+    kernel_.cost_at(numbers_, goal_, aim_, at, value, slope);
+    std::copy_n(value, 4, value_.begin() + static_cast<std::ptrdiff_t>(i));
+    std::copy_n(slope, 4, slope_.begin() + static_cast<std::ptrdiff_t>(i));
   }
 }
 
-double ArmAngleChoice::best(const Flips& flips, const Spans& spans) {
-  const double nearest = nearest_in(spans, wanted_);
-  if (objective_ == Objective::continuity) return nearest;
-  const Node kept = node_at(nearest, flips);
-  Node best = kept;
-  for (const Span& span : spans) look_along(span, flips, best);
-  const double gain = kept.level.value - best.level.value;
-  return gain > 1e-14 * std::abs(kept.level.value) ? best.at : nearest;
+/// Notes what may be a valley between two nodes, and the lower of them.
+void ArmAngleChoice::look_between(std::size_t branch, const Node& left, const Node& right,
+                                  Node& best) {
+  const Node& lower = left.value < right.value ? left : right;
+  if (lower.value < best.value) best = lower;
+  const bool valley = (left.slope < 0 && (right.slope >= 0 || right.value >= left.value)) ||
+                      (right.slope > 0 && (left.slope <= 0 || left.value >= right.value));
+  if (valley && right.at > left.at) valley_[valleys_++] = {branch, left, right};
+}
+
+void ArmAngleChoice::look_along(const Stretch& stretch, Node& best) {
+  if (stretch.few) {
+    if (stretch.node_count == 1 && value_[stretch.nodes] < best.value) {
+      best = node_of(stretch.nodes);
+    }
+    for (std::size_t i = 1; i < stretch.node_count; ++i) {
+      look_between(stretch.branch, node_of(stretch.nodes + i - 1), node_of(stretch.nodes + i),
+                   best);
+    }
+    return;
+  }
+  std::size_t node = stretch.nodes;
+  const Node first = node_of(stretch, stretch.first), last = node_of(stretch, stretch.end - 1);
+  if (stretch.falls_to_lower) look_between(stretch.branch, node_of(node++), first, best);
+  if (stretch.falls_to_upper) look_between(stretch.branch, last, node_of(node), best);
+  // Of the places between the first and the last one, those next to a valley are the lowest.
+  for (const Node& end : {first, last}) {
+    if (end.value < best.value) best = end;
+  }
+  look_at_valleys(stretch, stretch.first, std::min(stretch.end - 1, table_.count), 0, best);
+  look_at_valleys(stretch, std::max(stretch.first - table_.count, 0),
+                  stretch.end - 1 - table_.count, table_.count, best);
+}
+
+/// Between the places from `from` to `to`, `turned` places on.
+void ArmAngleChoice::look_at_valleys(const Stretch& stretch, int from, int to, int turned,
+                                     Node& best) {
+  for (int i = from; i < to; ++i) {
+    const std::uint64_t bits = table_.valley[stretch.branch][i / 64] >> (i % 64);
+    i += bits != 0 ? std::countr_zero(bits) : 63 - i % 64;
+    if (bits == 0 || i >= to) continue;
+    look_between(stretch.branch, node_of(stretch, i + turned), node_of(stretch, i + 1 + turned),
+                 best);
+  }
+}
+
+/// Of the valleys after `from`.
+void ArmAngleChoice::keep_promising(std::size_t from, double least) {
+  const auto begin = valley_.begin() + static_cast<std::ptrdiff_t>(from);
+  const auto end = valley_.begin() + static_cast<std::ptrdiff_t>(valleys_);
+  const auto last = std::remove_if(begin, end, [least](const Valley& valley) {
+    return !may_fall_below(least, valley.left, valley.right);
+  });
+  valleys_ = static_cast<std::size_t>(last - valley_.begin());
+}
+
+void ArmAngleChoice::go_down(std::array<Node, 8>& best) {
+  for (std::size_t i = 0; i < valleys_; i += 4) {
+    CostNode left, right;
+    int branch[4];
+    double at[4], value[4];
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Valley& valley = valley_[std::min(i + k, valleys_ - 1)];
+      branch[k] = static_cast<int>(valley.branch);
+      left.at[k] = valley.left.at, right.at[k] = valley.right.at;
+      left.value[k] = valley.left.value, right.value[k] = valley.right.value;
+      left.slope[k] = valley.left.slope, right.slope[k] = valley.right.slope;
+    }
+    kernel_.minima(numbers_, goal_, aim_, branch, left, right, at, value);
+    for (std::size_t k = 0; k < 4; ++k) {
+      Node& known = best[static_cast<std::size_t>(branch[k])];
+      if (value[k] < known.value) known = {at[k], value[k], 0};
+    }
+  }
+}
+
+void ArmAngleChoice::choose(const std::array<Spans, 8>& spans, std::array<double, 8>& arm_angle) {
+  arm_angle.fill(wanted_);
+  std::array<std::size_t, 8> kept;
+  nodes_ = stretches_ = valleys_ = 0;
+  for (std::size_t branch = 0; branch < 8; ++branch) {
+    if (spans[branch].count == 0) continue;
+    arm_angle[branch] = nearest_in(spans[branch], wanted_);
+    kept[branch] = nodes_;
+    add_node(branch, arm_angle[branch]);
+  }
+  if (aim_.objective == Objective::continuity || nodes_ == 0) return;
+  set_places();
+  kernel_.cost_all_round(numbers_, goal_, aim_, table_);
+  set_stretches(spans);
+  set_costs_of_nodes();
+
+  std::array<Node, 8> best;
+  std::size_t stretch = 0;
+  for (std::size_t branch = 0; branch < 8; ++branch) {
+    if (spans[branch].count == 0) continue;
+    best[branch] = node_of(kept[branch]);
+    const std::size_t from = valleys_;
+    for (; stretch < stretches_ && stretch_[stretch].branch == branch; ++stretch) {
+      look_along(stretch_[stretch], best[branch]);
+    }
+    keep_promising(from, best[branch].value);
+  }
+  go_down(best);
+  for (std::size_t branch = 0; branch < 8; ++branch) {
+    if (spans[branch].count == 0) continue;
+    const double value = value_[kept[branch]];
+    if (value - best[branch].value > 1e-14 * std::abs(value)) arm_angle[branch] = best[branch].at;
+  }
 }
 
 }  // namespace armature

@@ -2,59 +2,80 @@
 #pragma once
 
 #include <array>
-#include <numbers>
-#include <optional>
+#include <cstddef>
 
-#include "posture_cost.hpp"
+#include "arm_kernel.hpp"
+#include "feasible_angles.hpp"
 
 namespace armature {
 
-/// The arm angle that an objective likes best, of the arms of one elbow. Looks at 48 places around
-/// the turn, at three at least of every span, and where a shoulder or wrist is next to in line and
+/// The arm angles that an objective likes best, one for each branch. Looks at regular places around
+/// the turn, at five at least of every span, and where a shoulder or wrist is next to in line and
 /// its outer joints therefore sweep through half a turn, at as many more as that takes; at a span's
-/// end where it goes down to it. Wherever the slope turns from falling to rising between two
-/// neighbours, the minimum is found to 1e-9 rad, unless their tangents leave it no room below what
-/// is known. No allocation.
+/// end where it goes down to it. Wherever two neighbours have a minimum between them it is found to
+/// 1e-9 rad, unless their tangents leave it no room below what is known. No allocation.
 class ArmAngleChoice {
  public:
-  /// `wanted`: what continuity keeps to, and what decides among equals [rad]; `last`: the arm angle
-  /// that is remembered, if any.
-  ArmAngleChoice(const SrsArm& arm, const ArmCircle& circle, Objective objective, double wanted,
-                 std::optional<double> last);
+  /// `wanted`: what continuity keeps to, and what decides among equals [rad].
+  ArmAngleChoice(const ArmNumbers& numbers, const SrsGoal& goal, const SrsKernel& kernel,
+                 const Aim& aim, double wanted)
+      : numbers_{numbers}, goal_{goal}, kernel_{kernel}, aim_{aim}, wanted_{wanted} {}
 
-  /// Of one branch; `spans` is not empty.
-  double best(const Flips& flips, const Spans& spans);
+  /// By branch; `wanted` where it has no span.
+  void choose(const std::array<Spans, 8>& spans, std::array<double, 8>& arm_angle);
 
  private:
-  static constexpr int kRegular = 48, kMost = 256;
-  static constexpr double kStep = 2 * std::numbers::pi / kRegular;
-
+  /// A place of one branch: arm angle, cost, slope.
   struct Node {
-    double at;
-    Level level;
+    double at, value, slope;
   };
-  void add_places(const ArmBall& ball);
-  void add_place(double at) {
-    if (places_ < kMost) place_[static_cast<std::size_t>(places_++)] = wrap_angle(at);
-  }
-  double from_last(double arm_angle) const { return last_ ? wrap_angle(arm_angle - *last_) : 0; }
-  Node node_at(double arm_angle, const Flips& flips) const;
-  /// The same at place `i`, whose shoulder and wrist all branches share.
-  Node place(std::size_t i, const Flips& flips);
-  void look_along(const Span& span, const Flips& flips, Node& best);
-  void look_into(const Node& left, const Node& right, const Flips& flips, Node& best) const;
-  static bool may_fall_below(double least, const Node& left, const Node& right);
-  Node minimum_between(Node left, Node right, const Flips& flips) const;
+  /// A span and where it is in the table: places first, ..., end - 1, which begin anew at `count`.
+  /// Fewer than kFew are as good as none; `nodes` then are places of its own. Otherwise they are
+  /// its ends, where it goes down to them.
+  struct Stretch {
+    Span span;
+    std::size_t branch;
+    int first, end;
+    double shift;  // from a place of elbow 0 to the arm angle of the branch
+    bool few, falls_to_lower, falls_to_upper;
+    std::size_t nodes, node_count;
+  };
+  struct Valley {
+    std::size_t branch;
+    Node left, right;
+  };
+  static constexpr int kFew = 2;
+  static constexpr std::size_t kFewNodes = 5;
+  static constexpr std::size_t kStretches = 8 * Spans::kCapacity;
+  static constexpr std::size_t kNodes = 8 + kStretches * kFewNodes;
 
-  const SrsArm& arm_;
-  const ArmCircle& circle_;
-  Objective objective_;
+  void set_places();
+  void set_stretches(const std::array<Spans, 8>& spans);
+  Stretch stretch_of(std::size_t branch, const Span& span) const;
+  int place_from(double at) const;
+  void add_node(std::size_t branch, double at);
+  void set_costs_of_nodes();
+  Node node_of(std::size_t node) const { return {at_[node], value_[node], slope_[node]}; }
+  Node node_of(const Stretch& stretch, int place) const;
+  void look_between(std::size_t branch, const Node& left, const Node& right, Node& best);
+  void look_along(const Stretch& stretch, Node& best);
+  void look_at_valleys(const Stretch& stretch, int from, int to, int turned, Node& best);
+  void keep_promising(std::size_t from, double least);
+  void go_down(std::array<Node, 8>& best);
+
+  const ArmNumbers& numbers_;
+  const SrsGoal& goal_;
+  const SrsKernel& kernel_;
+  const Aim& aim_;
   double wanted_;
-  std::optional<double> last_;
-  std::array<double, kMost> place_;  // [rad], rising
-  int places_ = 0;
-  std::array<PostureCost, kMost> cost_;
-  std::array<bool, kMost> known_{};
+  CostTable table_;
+  std::array<Stretch, kStretches> stretch_;
+  std::size_t stretches_ = 0;
+  std::array<double, kNodes + 3> at_, value_, slope_;
+  std::array<int, kNodes + 3> branch_of_node_;
+  std::size_t nodes_ = 0;
+  std::array<Valley, kNodes> valley_;
+  std::size_t valleys_ = 0;
 };
 
 /// The angle of `spans`, which is not empty, that is nearest to `wanted`, the short way round.

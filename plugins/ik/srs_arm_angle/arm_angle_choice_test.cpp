@@ -136,28 +136,42 @@ std::vector<Subject> subjects() {
 INSTANTIATE_TEST_SUITE_P(Srs, ArmAngleChoices, testing::ValuesIn(subjects()),
                          testing::PrintToStringParamName());
 
+/// Value and slope at one arm angle of one branch.
+struct Cost {
+  double value, slope;
+};
+Cost cost_at(const ArmNumbers& numbers, const SrsGoal& goal, const Aim& aim, int branch,
+             double arm_angle) {
+  const FourPlaces at{.arm_angle = {arm_angle, arm_angle, arm_angle, arm_angle},
+                      .branch = {branch, branch, branch, branch}};
+  double value[4], slope[4];
+  srs_kernel().cost_at(numbers, goal, aim, at, value, slope);
+  return {value[0], slope[0]};
+}
+
 TEST(ArmAngleChoice, SlopesAreThoseOfTheCosts) {
   SCOPED_TRACE("seed 910");
   std::mt19937_64 random{910};
   const SrsArm arm = srs_arm(*uneven_arm()).value();
+  const ArmNumbers numbers = numbers_of(arm);
   std::uniform_real_distribution<double> angle{-M_PI, M_PI};
   int checked = 0;
   for (int i = 0; i < 2000; ++i) {
     const JointVector q = random_joints(*uneven_arm(), random);
     const SrsGoal goal = srs_goal(arm, goal_at(*uneven_arm(), q), q);
-    const ArmCircle circle = arm_circle(goal, i % 2);
     const double at = angle(random);
+    const ArmPosture posture = posture_at(arm_circle(goal, i % 2), at);
+    const double s = posture.shoulder.b.sin, z = posture.wrist.b.sin;
+    if (std::min(s * s, z * z) < 0.01) continue;
+    const int shoulder = static_cast<int>(random() % 2), wrist = static_cast<int>(random() % 2);
+    const int branch = 4 * shoulder + 2 * (i % 2) + wrist;
     constexpr double kStep = 1e-6;
     for (const Objective objective :
          {Objective::limits, Objective::singularity, Objective::balanced}) {
-      const auto cost = [&](double arm_angle) {
-        return cost_of(arm, circle, objective, arm_angle);
-      };
-      if (std::min(cost(at).shoulder.sine2.value, cost(at).wrist.sine2.value) < 0.01) continue;
-      const Flips flips{random() % 2, random() % 2};
-      const Level here = cost(at).of(objective, flips, 0.3);
-      const Level next = cost(at + kStep).of(objective, flips, 0.3 + kStep);
-      const Level last = cost(at - kStep).of(objective, flips, 0.3 - kStep);
+      const Aim aim{.objective = objective, .remembers = true, .last = at - 0.3};
+      const Cost here = cost_at(numbers, goal, aim, branch, at);
+      const Cost next = cost_at(numbers, goal, aim, branch, at + kStep);
+      const Cost last = cost_at(numbers, goal, aim, branch, at - kStep);
       if (!(here.value < 20)) continue;  // beyond the limits
       const double slope = (next.value - last.value) / (2 * kStep);
       EXPECT_NEAR(here.slope, slope, 1e-4 * (1 + std::abs(slope)));

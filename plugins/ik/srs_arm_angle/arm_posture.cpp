@@ -52,7 +52,7 @@ ArmCircle arm_circle(const SrsGoal& goal, int elbow) {
                      .in_line = goal.in_line,
                      .wrist = false,
                      .whole = 0};
-  circle.wrist = {.ball = {phi + t4, goal.gamma},
+  circle.wrist = {.ball = {elbow == 0 ? goal.bend : -goal.bend, goal.gamma},
                   .first = 4,
                   .shift_a = 0,
                   .shift_c = goal.beta_rad,
@@ -86,7 +86,6 @@ double spread_of(const ArmCircle& circle, const ArmPosture& posture) {
 
 bool is_singular(const SrsArm& arm, const SrsGoal& goal, const ArmCircle& circle,
                  const ArmPosture& posture) {
-  constexpr double kSingular = 1e-6;  // of the manipulability over upper fore (upper + fore)
   return goal.distance * std::abs(circle.elbow.sin) * spread_of(circle, posture) <
          kSingular * arm.reach();
 }

@@ -49,6 +49,8 @@ PoseResidual residual_of(const SrsArm& arm, const SrsGoal& goal, const ArmCircle
 /// minors of the 6 x 7 Jacobian are the arm's motion within itself. Finite everywhere.
 double spread_of(const ArmCircle& circle, const ArmPosture& posture);
 
+/// An arm is singular when its manipulability over upper fore (upper + fore) is below.
+inline constexpr double kSingular = 1e-6;
 /// A singular arm: elbow straight or folded, or spread zero (t2 = 0 and t3 = +-90 degrees, t6 = 0
 /// and t5 = +-90 degrees, t2 = t6 = 0).
 bool is_singular(const SrsArm& arm, const SrsGoal& goal, const ArmCircle& circle,

@@ -2,11 +2,15 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <string_view>
 
-#include "feasible_angles.hpp"
-
 namespace armature {
+
+/// Which shoulder and which wrist: as found (0) or flipped (1).
+struct Flips {
+  std::size_t shoulder = 0, wrist = 0;
+};
 
 /// One of the eight, in the order in which they are answered. Shoulder 0: sin t2 >= 0; elbow 0:
 /// t4 >= 0; wrist 0: sin t6 >= 0, of SrsArm's angles.

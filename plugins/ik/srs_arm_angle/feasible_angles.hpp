@@ -3,19 +3,15 @@
 
 #include <array>
 
-#include "arm_posture.hpp"
+#include "arm_kernel.hpp"
+#include "branches.hpp"
 #include "srs_joints.hpp"
 
 namespace armature {
 
-/// Which shoulder and which wrist: as found (0) or flipped (1).
-struct Flips {
-  std::size_t shoulder = 0, wrist = 0;
-};
-
 /// Arm angles from `lower` to `upper` [rad], both included.
 struct Span {
-  double lower = 0, upper = 0;
+  double lower, upper;
 };
 
 /// Disjoint ones, rising, within [-pi, pi]. Never allocates.
@@ -33,14 +29,32 @@ struct Spans {
   }
 };
 
-/// Where a shoulder or wrist keeps its limits, as it is found (0) and flipped (1): the ends are
-/// roots of a sin x + b cos x + c = 0, one for each limit (Shimizu et al. 2008), and
-/// between two neighbouring roots one place tells all. Real-time safe.
-std::array<Spans, 2> feasible_spans(const SrsArm& arm, const ArmBall& ball);
+/// Where the branches of a goal keep their limits: the ends are roots of a sin x + b cos x + c = 0,
+/// one for each limit (Shimizu et al. 2008), and between two neighbouring roots one place tells
+/// all (SrsKernel::limit_pieces). Where joints come in line turns are shared out as in turns_of.
+/// Real-time safe.
+class FeasibleAngles {
+ public:
+  FeasibleAngles(const ArmNumbers& numbers, const SrsGoal& goal, const SrsKernel& kernel);
 
-/// Where shoulder and wrist of one branch both do. Spans that miss each other by rounding have the
-/// points in common at which both keep their limits.
-Spans common_spans(const SrsArm& arm, const ArmCircle& circle, const Flips& flips,
-                   const Spans& shoulder, const Spans& wrist);
+  /// Where shoulder and wrist of a branch both do. Spans that miss each other by rounding have the
+  /// points in common at which both keep their limits.
+  Spans of(const Branch& branch) const;
+
+ private:
+  struct Ball;
+  /// By ball: shoulder of elbow 0 and of elbow 1, wrist of elbow 0 and of elbow 1.
+  using Kept = std::array<std::array<Spans, 2>, 4>;
+  ArmBall ball(std::size_t which) const;
+  std::array<bool, 2> keep_at(std::size_t which, double arm_angle) const;
+  bool in_line_everywhere(std::size_t which) const;
+  void add_points_in_line(std::size_t which, LimitPieces& pieces) const;
+  std::array<Spans, 2> spans_in_line(std::size_t which) const;
+
+  const SrsArm& arm_;
+  const SrsGoal& goal_;
+  std::array<bool, 2> elbow_within_limits_;
+  Kept kept_;
+};
 
 }  // namespace armature

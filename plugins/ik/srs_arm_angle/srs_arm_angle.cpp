@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "arm_angle_choice.hpp"
 #include "armature/runtime/plugin.hpp"
 #include "branches.hpp"
+#include "feasible_angles.hpp"
 #include "srs_branch.hpp"
 
 namespace armature {
@@ -20,39 +22,25 @@ IkStatus status_of(const IkBranches& branches) {
   return {IkStatus::Code::joint_limit, 0, "every branch leaves the joint limits"};
 }
 
-/// The arms of one elbow and where they keep their limits.
-struct ElbowRange {
-  ArmCircle circle;
-  bool t4_within_limits = false;
-  std::array<Spans, 2> shoulder, wrist;
-
-  ElbowRange(const SrsArm& arm, const SrsGoal& goal, int elbow)
-      : circle{arm_circle(goal, elbow)}, t4_within_limits{within_limits(arm, 3, circle.t4)} {
-    if (!t4_within_limits) return;
-    shoulder = feasible_spans(arm, circle.shoulder);
-    wrist = feasible_spans(arm, circle.wrist);
-  }
-  Spans of(const SrsArm& arm, const Flips& flips) const {
-    if (!t4_within_limits) return {};
-    return common_spans(arm, circle, flips, shoulder[flips.shoulder], wrist[flips.wrist]);
-  }
-};
-
 /// `arm_angle`, or where that is the end of a span and rounding puts a fast joint beyond its limit,
 /// a place a little further inside.
-SolvedElbow solve_inside(const SrsArm& arm, const SrsGoal& goal, const ArmCircle& circle,
-                         const Flips& flips, const Spans& spans, double arm_angle) {
-  const SolvedElbow solved = solve_elbow(arm, goal, circle, arm_angle);
-  if (branch_of(arm, solved, flips, "").within_limits) return solved;
+IkBranch branch_inside(const SrsArm& arm, const SrsGoal& goal, const Branch& branch,
+                       const Spans& spans, double arm_angle) {
+  const ArmCircle circle = arm_circle(goal, static_cast<int>(branch.elbow));
+  const auto at = [&](double place) {
+    return branch_of(arm, solve_elbow(arm, goal, circle, place), branch.flips, branch.label);
+  };
+  const IkBranch found = at(arm_angle);
+  if (found.within_limits) return found;
   for (const Span& span : spans) {
     if (arm_angle < span.lower || arm_angle > span.upper) continue;
     const double inwards = 0.5 * (span.lower + span.upper) - arm_angle;
     for (const double part : {1e-9, 1e-6, 1e-3, 1.0}) {
-      const SolvedElbow other = solve_elbow(arm, goal, circle, arm_angle + part * inwards);
-      if (branch_of(arm, other, flips, "").within_limits) return other;
+      const IkBranch other = at(arm_angle + part * inwards);
+      if (other.within_limits) return other;
     }
   }
-  return solved;
+  return found;
 }
 
 }  // namespace
@@ -67,33 +55,55 @@ Expected<std::unique_ptr<IkSolver>> SrsArmAngle::make(const RobotModel& model,
 
 std::optional<double> SrsArmAngle::redundancy_of(const JointVector& q) const {
   std::array<double, 7> t;
-  for (std::size_t i = 0; i < 7; ++i) t[i] = arm_.canonical(i, q.data()[i]);
-  return arm_angle_of(arm_, t);
+  for (std::size_t i = 0; i < 7; ++i) t[i] = numbers_.arm.canonical(i, q.data()[i]);
+  return arm_angle_of(numbers_.arm, t);
 }
 
 void SrsArmAngle::add_branches(const SrsGoal& goal, double arm_angle, IkBranches& out) const {
-  const std::array<SolvedElbow, 2> elbows{solve_elbow(arm_, goal, arm_circle(goal, 0), arm_angle),
-                                          solve_elbow(arm_, goal, arm_circle(goal, 1), arm_angle)};
-  for (const Branch& branch : kBranches) {
-    out.add() = branch_of(arm_, elbows[branch.elbow], branch.flips, branch.label);
+  FourBranches found[2];
+  srs_kernel().turn_to(numbers_, goal, arm_angle, found);
+  std::array<SolvedElbow, 2> elbows;
+  std::array<bool, 2> solved{};
+  for (std::size_t i = 0; i < kBranches.size(); ++i) {
+    const Branch& branch = kBranches[i];
+    if (!found[i / 4].in_line[i % 4]) {
+      out.add() = branch_of(found[i / 4], i % 4, arm_angle, branch.label);
+      continue;
+    }
+    const std::size_t elbow = branch.elbow;
+    if (!std::exchange(solved[elbow], true)) {
+      elbows[elbow] = solve_elbow(numbers_.arm, goal, arm_circle(goal, static_cast<int>(elbow)),
+                                  arm_angle);
+    }
+    out.add() = branch_of(numbers_.arm, elbows[elbow], branch.flips, branch.label);
   }
 }
 
 void SrsArmAngle::add_best_branches(const SrsGoal& goal, const JointVector& seed,
                                     std::optional<double> last, IkBranches& out) const {
   const double wanted = last ? *last : *redundancy_of(seed);
-  const std::array<ElbowRange, 2> ranges{ElbowRange{arm_, goal, 0}, ElbowRange{arm_, goal, 1}};
-  std::array<ArmAngleChoice, 2> choice{
-      ArmAngleChoice{arm_, ranges[0].circle, objective_, wanted, last},
-      ArmAngleChoice{arm_, ranges[1].circle, objective_, wanted, last}};
-  for (const Branch& branch : kBranches) {
-    const ElbowRange& range = ranges[branch.elbow];
-    const Spans spans = range.of(arm_, branch.flips);
-    const double arm_angle =
-        spans.count > 0 ? choice[branch.elbow].best(branch.flips, spans) : wanted;
-    const SolvedElbow solved =
-        solve_inside(arm_, goal, range.circle, branch.flips, spans, arm_angle);
-    out.add() = branch_of(arm_, solved, branch.flips, branch.label);
+  const SrsKernel& kernel = srs_kernel();
+  const FeasibleAngles feasible{numbers_, goal, kernel};
+  std::array<Spans, 8> spans;
+  for (std::size_t i = 0; i < 8; ++i) spans[i] = feasible.of(kBranches[i]);
+  const Aim aim{objective_, last.has_value(), last.value_or(0)};
+  std::array<double, 8> arm_angle;
+  ArmAngleChoice{numbers_, goal, kernel, aim, wanted}.choose(spans, arm_angle);
+  for (std::size_t group = 0; group < 8; group += 4) {
+    FourPlaces at;
+    FourBranches found;
+    for (std::size_t k = 0; k < 4; ++k) {
+      at.arm_angle[k] = arm_angle[group + k];
+      at.branch[k] = static_cast<int>(group + k);
+    }
+    kernel.turn_each(numbers_, goal, at, found);
+    for (std::size_t k = 0; k < 4; ++k) {
+      const std::size_t i = group + k;
+      const bool inside = found.within_limits[k] || spans[i].count == 0;
+      out.add() = inside && !found.in_line[k]
+                      ? branch_of(found, k, arm_angle[i], kBranches[i].label)
+                      : branch_inside(numbers_.arm, goal, kBranches[i], spans[i], arm_angle[i]);
+    }
   }
 }
 
@@ -106,7 +116,7 @@ IkStatus SrsArmAngle::solve(const IkGoal& goal, const JointVector& seed, IkBranc
   if (state.last_redundancy && !std::isfinite(*state.last_redundancy)) {
     return {IkStatus::Code::invalid_input, 0, "the last arm angle is not finite"};
   }
-  const SrsGoal own = srs_goal(arm_, goal, seed);
+  const SrsGoal own = srs_goal(numbers_.arm, goal, seed);
   if (own.shortfall > 0) return {IkStatus::Code::out_of_reach, own.shortfall, own.detail};
   if (goal.redundancy) {
     add_branches(own, wrap_angle(*goal.redundancy), out);
@@ -122,11 +132,11 @@ bool SrsArmAngle::feasible_redundancy(const IkGoal& goal, const JointVector& see
                                       RedundancyIntervals& out) const {
   out.clear();
   if (invalid_input(*model_, goal, seed)) return false;
-  const SrsGoal own = srs_goal(arm_, goal, seed);
+  const SrsGoal own = srs_goal(numbers_.arm, goal, seed);
   if (own.shortfall > 0) return false;
-  const std::array<ElbowRange, 2> ranges{ElbowRange{arm_, own, 0}, ElbowRange{arm_, own, 1}};
+  const FeasibleAngles feasible{numbers_, own, srs_kernel()};
   for (const Branch& branch : kBranches) {
-    const Spans spans = ranges[branch.elbow].of(arm_, branch.flips);
+    const Spans spans = feasible.of(branch);
     for (const Span& span : spans) out.add({branch.label, span.lower, span.upper});
   }
   return true;

@@ -4,10 +4,8 @@
 #include <memory>
 #include <optional>
 
+#include "arm_kernel.hpp"
 #include "armature/kinds/ik/ik.hpp"
-#include "feasible_angles.hpp"
-#include "posture_cost.hpp"
-#include "srs_goal.hpp"
 
 namespace armature {
 
@@ -26,7 +24,7 @@ class SrsArmAngle final : public IkSolver {
 
  private:
   SrsArmAngle(const RobotModel& model, const SrsArm& arm, Objective objective)
-      : model_{&model}, arm_{arm}, objective_{objective} {}
+      : model_{&model}, numbers_{numbers_of(arm)}, objective_{objective} {}
 
   /// Every branch at one arm angle.
   void add_branches(const SrsGoal& goal, double arm_angle, IkBranches& out) const;
@@ -36,7 +34,7 @@ class SrsArmAngle final : public IkSolver {
                          IkBranches& out) const;
 
   const RobotModel* model_;
-  SrsArm arm_;
+  ArmNumbers numbers_;
   Objective objective_;
 };
 

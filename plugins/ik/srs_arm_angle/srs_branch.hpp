@@ -4,7 +4,8 @@
 #include <array>
 
 #include "armature/kinds/ik/ik.hpp"
-#include "feasible_angles.hpp"
+#include "arm_kernel.hpp"
+#include "branches.hpp"
 #include "srs_joints.hpp"
 
 namespace armature {
@@ -23,6 +24,10 @@ SolvedElbow solve_elbow(const SrsArm& arm, const SrsGoal& goal, const ArmCircle&
 
 /// One branch of it.
 IkBranch branch_of(const SrsArm& arm, const SolvedElbow& solved, const Flips& flips,
+                   std::string_view label);
+
+/// Branch `lane` of four that the kernel found, of which none is in line.
+IkBranch branch_of(const FourBranches& found, std::size_t lane, double arm_angle,
                    std::string_view label);
 
 }  // namespace armature

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "arm_kernel.hpp"
+
 namespace armature {
 namespace {
 
@@ -68,6 +70,12 @@ Vector3d wrist_or_direction(const SrsArm& arm, const std::array<double, 7>& t) {
   return upper * Vector3d{phi.sin, 0, phi.cos};
 }
 
+std::array<double, 7> canonical(const SrsArm& arm, const JointVector& q) {
+  std::array<double, 7> t;
+  for (std::size_t i = 0; i < 7; ++i) t[i] = arm.canonical(i, q.data()[i]);
+  return t;
+}
+
 void set_reach(const SrsArm& arm, const IkGoal::Tolerance& tolerance, SrsGoal& goal) {
   const double far = arm.reach(), near = std::abs(arm.upper - arm.fore), rho = goal.distance;
   const double slack = std::clamp(tolerance.position_m, kRounding * far, kSlack * far);
@@ -78,16 +86,18 @@ void set_reach(const SrsArm& arm, const IkGoal::Tolerance& tolerance, SrsGoal& g
   too(near - rho, "the arm is folded");
 }
 
-/// The elbow from half angles, whose squares are factored so that nothing cancels.
-void set_elbow(const SrsArm& arm, SrsGoal& goal) {
+/// The elbow from half its angle, whose squares are factored so that nothing cancels; that is
+/// returned, times a length.
+SinCos set_elbow(const SrsArm& arm, SrsGoal& goal) {
   const double far = arm.reach(), near = std::abs(arm.upper - arm.fore), rho = goal.distance;
   const double outside = far - rho, inside = rho - near;
   const double up2 = outside < kOnRim * far ? 0 : outside * (far + rho);
   const double flat2 = inside < kOnRim * far ? 0 : inside * (rho + near);
   const double up = std::sqrt(up2), flat = std::sqrt(flat2), scale = 1 / (up2 + flat2);
-  goal.t4 = 2 * std::atan2(up, flat);
   goal.elbow = {2 * up * flat * scale, (flat2 - up2) * scale};
   goal.phi = direction_in_upper(arm, goal.elbow);
+  goal.bend = goal.phi + goal.elbow;
+  return {up, flat};
 }
 
 /// The line to the wrist and the hand seen from it.
@@ -101,9 +111,36 @@ void set_frame(const SrsArm& arm, const Vector3d& along, SrsGoal& goal) {
   goal.gamma = axis.polar;
   goal.beta = {axis.azimuth.cos * hand(1, 0) - axis.azimuth.sin * hand(0, 0),
                axis.azimuth.cos * hand(1, 1) - axis.azimuth.sin * hand(0, 1)};
-  goal.azimuth_rad = goal.azimuth.angle();
-  goal.alpha_rad = goal.alpha.angle();
-  goal.beta_rad = goal.beta.angle();
+}
+
+/// t4 and the angles of azimuth, alpha and beta; t4 from its half.
+void set_angles(const SinCos& half_elbow, SrsGoal& goal) {
+  const double sine[4]{half_elbow.sin, goal.azimuth.sin, goal.alpha.sin, goal.beta.sin};
+  const double cosine[4]{half_elbow.cos, goal.azimuth.cos, goal.alpha.cos, goal.beta.cos};
+  double angle[4];
+  srs_kernel().angles(sine, cosine, angle);
+  goal.t4 = 2 * angle[0];
+  goal.azimuth_rad = angle[1];
+  goal.alpha_rad = angle[2];
+  goal.beta_rad = angle[3];
+}
+
+/// Whether axes come in line at x = 0 or x = pi.
+bool comes_in_line(const SinCos& p, const SinCos& q, double in_line) {
+  return std::min(std::abs((p + q).sin), std::abs((p - q).sin)) < 2 * in_line;
+}
+
+void set_free_joints(const SrsArm& arm, const JointVector& seed, SrsGoal& goal) {
+  goal.shoulder_in_line = comes_in_line(goal.polar, goal.phi, goal.in_line);
+  goal.wrist_in_line = comes_in_line(goal.bend, goal.gamma, goal.in_line);
+  if (goal.shoulder_in_line) {
+    goal.kept1 = nearest_within_limits(arm, 0, arm.canonical(0, seed[0]));
+    goal.kept_shoulder = SinCos::of(goal.kept1) - goal.azimuth;
+  }
+  if (goal.wrist_in_line) {
+    goal.kept5 = nearest_within_limits(arm, 4, arm.canonical(4, seed[4]));
+    goal.kept_wrist = SinCos::of(goal.kept5);
+  }
 }
 
 }  // namespace
@@ -135,14 +172,12 @@ SrsGoal srs_goal(const SrsArm& arm, const IkGoal& goal, const JointVector& seed)
   own.distance = own.wrist.norm();
   set_reach(arm, goal.tolerance, own);
   if (own.shortfall > 0) return own;
-  set_elbow(arm, own);
-  std::array<double, 7> t;
-  for (std::size_t i = 0; i < 7; ++i) t[i] = arm.canonical(i, seed.data()[i]);
+  const SinCos half_elbow = set_elbow(arm, own);
   const bool on_shoulder = own.distance < kOnAxis * arm.reach();
-  set_frame(arm, on_shoulder ? wrist_or_direction(arm, t) : own.wrist, own);
+  set_frame(arm, on_shoulder ? wrist_or_direction(arm, canonical(arm, seed)) : own.wrist, own);
+  set_angles(half_elbow, own);
   own.in_line = std::clamp(goal.tolerance.angle_rad, kRounding, kInLine);
-  own.kept1 = nearest_within_limits(arm, 0, t[0]);
-  own.kept5 = nearest_within_limits(arm, 4, t[4]);
+  set_free_joints(arm, seed, own);
   return own;
 }
 

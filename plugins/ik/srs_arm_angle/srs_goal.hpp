@@ -23,11 +23,15 @@ struct SrsGoal {
   double t4 = 0;                 // [rad] of elbow 0; elbow 1 has -t4
   SinCos elbow;                  // of t4
   SinCos phi;                    // from the upper arm to the line to the wrist, of elbow 0
+  SinCos bend;                   // phi + t4
   SinCos azimuth, polar;         // of that line
   SinCos alpha, gamma, beta;     // of the hand, seen from F
   double azimuth_rad = 0, alpha_rad = 0, beta_rad = 0;
   double in_line = 0;           // [rad] axes nearer to in line are in line
-  double kept1 = 0, kept5 = 0;  // [rad] where the pose leaves t1 or t5 free
+  /// Somewhere on the circle of the arm angle a shoulder or a wrist is in line.
+  bool shoulder_in_line = false, wrist_in_line = false;
+  double kept1 = 0, kept5 = 0;        // [rad] where the pose leaves t1 or t5 free
+  SinCos kept_shoulder, kept_wrist;  // the same of the ball joint's a
   /// How far the wrist is out of reach [m], and why.
   double shortfall = 0;
   std::string_view detail;

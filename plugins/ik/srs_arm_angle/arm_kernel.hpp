@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "arm_posture.hpp"
+#include "objective.hpp"
+#include "srs_goal.hpp"
+#include "srs_structure.hpp"
+
+namespace armature {
+
+/// What the kernel needs of joints 1 and 5, of 2 and 6, or of 3 and 7: first the shoulder's joint,
+/// twice, then the wrist's.
+struct TurnNumbers {
+  double sign[4], offset[4], middle[4], half[4];  // as in SrsArm
+  double weight[4];                               // 1 / half; 0 where the limits cost nothing
+  double middle_sin[4], middle_cos[4];
+  double half_sin[4], half_cos[4];  // of half with its tolerance; 0 and -1 of a joint without limits
+  // Of the lower and the upper limit, shoulder and then wrist; NaN of a joint without limits.
+  double end_sin[4], end_cos[4];
+};
+struct ArmNumbers {
+  SrsArm arm;
+  TurnNumbers turn[3];
+};
+ArmNumbers numbers_of(const SrsArm& arm);
+
+/// Four branches, each at an arm angle of its own.
+struct FourPlaces {
+  double arm_angle[4];
+  int branch[4];  // index into kBranches
+};
+struct FourBranches {
+  double joint[7][4];  // the robot's values, in [-pi, pi)
+  bool within_limits[4], singular[4];
+  double position_m[4], angle_rad[4];  // by which forward kinematics miss the goal
+  /// Shoulder or wrist is in line: the joints are not told, solve_elbow has the rules.
+  bool in_line[4];
+};
+
+/// Where the shoulder of elbow 0, that of elbow 1, and the two wrists keep their limits, each as
+/// found and flipped: in the lane's arm angles from -pi to pi, between two of which nothing changes.
+struct LimitPieces {
+  static constexpr int kEvents = 16;
+  double event[kEvents][4];  // rising; the last ones may be equal
+  /// Bit 2 i: the limits are kept at event i; bit 2 i + 1: between it and the next.
+  std::int64_t kept[2][4];
+};
+
+/// Costs all round: places are arm angles of elbow 0, for elbow 1 half a turn further.
+struct CostTable {
+  static constexpr int kMost = 192, kWords = kMost / 64;
+  double place[kMost + 4];  // [rad], rising from -pi; `count` is a multiple of four
+  int count = 0;
+  double value[8][kMost + 4], slope[8][kMost + 4];  // by branch; the first follows the last
+  /// A bit for every place: between it and the next there is a minimum.
+  std::uint64_t valley[8][kWords];
+};
+
+/// Two places of one branch with a minimum between them.
+struct CostNode {
+  double at[4], value[4], slope[4];
+};
+
+/// What an arm angle costs; `last`: the one that is remembered, if any.
+struct Aim {
+  Objective objective = Objective::limits;
+  bool remembers = false;
+  double last = 0;
+};
+
+/// Lanes are shoulders and wrists of both elbows, places, or branches: four at once. The same
+/// source is compiled twice. Real-time safe.
+struct SrsKernel {
+  /// Of four sines and cosines.
+  void (*angles)(const double (&sine)[4], const double (&cosine)[4], double (&angle)[4]);
+  /// All branches at one arm angle, in the order of kBranches.
+  void (*turn_to)(const ArmNumbers& arm, const SrsGoal& goal, double arm_angle,
+                  FourBranches (&out)[2]);
+  void (*turn_each)(const ArmNumbers& arm, const SrsGoal& goal, const FourPlaces& at,
+                    FourBranches& out);
+  void (*limit_pieces)(const ArmNumbers& arm, const SrsGoal& goal, LimitPieces& out);
+  void (*cost_all_round)(const ArmNumbers& arm, const SrsGoal& goal, const Aim& aim,
+                         CostTable& table);
+  void (*cost_at)(const ArmNumbers& arm, const SrsGoal& goal, const Aim& aim, const FourPlaces& at,
+                  double (&value)[4], double (&slope)[4]);
+  /// The minima between `left` and `right`: places and values.
+  void (*minima)(const ArmNumbers& arm, const SrsGoal& goal, const Aim& aim, const int (&branch)[4],
+                 const CostNode& left, const CostNode& right, double (&at)[4], double (&value)[4]);
+};
+const SrsKernel& portable_srs_kernel();
+const SrsKernel& avx2_srs_kernel();
+/// The one that this processor runs fastest.
+const SrsKernel& srs_kernel();
+
+}  // namespace armature

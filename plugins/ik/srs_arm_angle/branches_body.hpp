@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+// Joints of branches, how far they miss the goal, and which are singular; see balls_body.hpp.
+#pragma once
+
+#include "balls_body.hpp"
+
+namespace armature {
+namespace {
+
+constexpr double kLimitTolerance = 1e-9;  // [rad] that of the kind
+
+/// The robot's joint values at canonical angles; `within` loses the lanes beyond their limits.
+template <Which which>
+Lanes joint_at(const TurnNumbers& numbers, const Lanes& t, Masks& within) {
+  const Lanes from_middle = wrapped(t - either<which>(numbers.middle));
+  within &= magnitude(from_middle) - either<which>(numbers.half) <= kLimitTolerance;
+  return wrapped(either<which>(numbers.sign) * (t - either<which>(numbers.offset)));
+}
+
+/// Rz(a) Ry(b) Rz(c) by columns.
+struct LaneRotation {
+  LaneTriple x, y, z;
+};
+LaneRotation rotation_of(const LaneSinCos& a, const LaneSinCos& b, const LaneSinCos& c) {
+  const Lanes cc = a.cos * b.cos, sc = a.sin * b.cos;
+  return {{cc * c.cos - a.sin * c.sin, sc * c.cos + a.cos * c.sin, -(b.sin * c.cos)},
+          {-(cc * c.sin) - a.sin * c.cos, a.cos * c.cos - sc * c.sin, b.sin * c.sin},
+          {a.cos * b.sin, a.sin * b.sin, b.cos}};
+}
+inline LaneTriple combined(const LaneTriple& u, const Lanes& f, const LaneTriple& v,
+                           const Lanes& g) {
+  return {u.x * f + v.x * g, u.y * f + v.y * g, u.z * f + v.z * g};
+}
+inline LaneTriple everywhere(const Eigen::Vector3d& v) { return {all(v[0]), all(v[1]), all(v[2])}; }
+inline LaneSinCos sum(const LaneSinCos& a, const SinCos& b) {
+  return {a.sin * b.cos + a.cos * b.sin, a.cos * b.cos - a.sin * b.sin};
+}
+
+/// By how much forward kinematics miss the goal, of arms of elbow 0.
+struct LaneResidual {
+  Lanes position_m, angle_rad;
+};
+LaneResidual residual_of(const SrsArm& arm, const SrsGoal& goal, const LaneAngles& shoulder,
+                         const LaneAngles& wrist) {
+  const LaneRotation upper = rotation_of(sum(shoulder.a, goal.azimuth), shoulder.b, shoulder.c);
+  const Lanes bend_cos = all(goal.elbow.cos), bend_sin = all(goal.elbow.sin);
+  const LaneTriple fore_x = combined(upper.x, bend_cos, upper.z, bend_sin);
+  const LaneTriple fore_z = combined(upper.z, bend_cos, upper.x, -bend_sin);
+  const LaneRotation turned = rotation_of(wrist.a, wrist.b, sum(wrist.c, goal.beta));
+  const auto hand = [&](const LaneTriple& v) {
+    const LaneTriple flat = combined(fore_x, v.x, upper.y, v.y);
+    return LaneTriple{flat.x + fore_z.x * v.z, flat.y + fore_z.y * v.z, flat.z + fore_z.z * v.z};
+  };
+  // From the wanted to the reached rotation.
+  const LaneTriple twice = cross(everywhere(goal.rotation.col(0)), hand(turned.x)) +
+                           cross(everywhere(goal.rotation.col(1)), hand(turned.y)) +
+                           cross(everywhere(goal.rotation.col(2)), hand(turned.z));
+  const LaneTriple turn{0.5 * twice.x, 0.5 * twice.y, 0.5 * twice.z};
+  const LaneTriple wrist_at = combined(upper.z, all(arm.upper), fore_z, all(arm.fore));
+  const LaneTriple off{wrist_at.x - goal.wrist[0], wrist_at.y - goal.wrist[1],
+                       wrist_at.z - goal.wrist[2]};
+  return {norm(off + cross(turn, everywhere(goal.lever))), norm(turn)};
+}
+
+/// Square of sin(b) times the length of (a', b', c').
+Lanes squared_rates(const Balls& balls, const LaneAngles& angles) {
+  const Lanes along = balls.q_sin * angles.c.cos;
+  const Lanes across = angles.b.sin * balls.q_sin * angles.c.sin;
+  const Lanes last = angles.b.sin * balls.q_cos - angles.b.cos * along;
+  return along * along + across * across + last * last;
+}
+/// As is_singular, from the squares of sin(b) and of the rates.
+Masks are_singular(const SrsArm& arm, const SrsGoal& goal, const Lanes& shoulder_sin,
+                   const Lanes& shoulder_rates2, const Lanes& wrist_sin,
+                   const Lanes& wrist_rates2) {
+  const Lanes spread = root(wrist_sin * wrist_sin * shoulder_rates2 +
+                            shoulder_sin * shoulder_sin * wrist_rates2);
+  return goal.distance * goal.elbow.sin * spread < kSingular * arm.reach();
+}
+
+inline void store(const Masks& from, bool* to) {
+  for (int k = 0; k < 4; ++k) to[k] = from[k] != 0;
+}
+void store_accuracy(const LaneResidual& residual, const Masks& singular, const Masks& free,
+                    FourBranches& out) {
+  store(residual.position_m, out.position_m);
+  store(residual.angle_rad, out.angle_rad);
+  store(singular, out.singular);
+  store(free, out.in_line);
+}
+
+/// Joint 4 of elbow 0 where `elbow` is not set.
+Lanes fourth_joint(const SrsArm& arm, double t4, const Masks& elbow, Masks& within) {
+  const Lanes t = elbow ? all(-t4) : all(t4);
+  within = magnitude(wrapped(t - arm.middle[3])) - arm.half[3] <= kLimitTolerance;
+  return wrapped(arm.sign[3] * (t - arm.offset[3]));
+}
+
+LaneAngles half_of(const LaneAngles& angles, bool wrist) {
+  const auto half = [wrist](const Lanes& v) {
+    return wrist ? __builtin_shufflevector(v, v, 2, 3, 2, 3)
+                 : __builtin_shufflevector(v, v, 0, 1, 0, 1);
+  };
+  const auto both = [&](const LaneSinCos& v) { return LaneSinCos{half(v.sin), half(v.cos)}; };
+  return {both(angles.a), both(angles.b), both(angles.c), Masks{}};
+}
+
+/// Lanes: shoulder of elbow 0 and of elbow 1, wrist of elbow 0 and of elbow 1.
+void turn_all_to(const ArmNumbers& numbers, const SrsGoal& goal, double arm_angle,
+                 FourBranches (&out)[2]) {
+  const SrsArm& arm = numbers.arm;
+  const Balls balls = balls_of<Which::both>(goal);
+  LaneSinCos x = balls.at(sine_and_cosine(all(arm_angle)));
+  const Lanes back{1, -1, 1, -1};
+  x = {x.sin * back, x.cos * back};
+  const LaneAngles angles = angles_at(balls, x, goal.in_line);
+
+  const Shifts shift = shifts_of<Which::both>(goal);
+  const Lanes a = angle_of(angles.a) + shift.a + Lanes{0, 0, 0, kPi};
+  const Lanes b = angle_of(angles.b);
+  const Lanes c = angle_of(angles.c) + shift.c + Lanes{0, kPi, 0, 0};
+  const Lanes t[2][3]{{a, b, c}, {a - kPi, -b, c - kPi}};
+  Lanes joint[2][3];
+  Masks within[2]{Masks{-1, -1, -1, -1}, Masks{-1, -1, -1, -1}};
+  for (int flip = 0; flip < 2; ++flip) {
+    for (int i = 0; i < 3; ++i) {
+      joint[flip][i] = joint_at<Which::both>(numbers.turn[i], t[flip][i], within[flip]);
+    }
+  }
+
+  // Branches of one shoulder: {elbow 0, 0, 1, 1}, {wrist 0, 1, 0, 1}.
+  const Masks elbow{0, 0, -1, -1};
+  Masks within4;
+  const Lanes fourth = fourth_joint(arm, goal.t4, elbow, within4);
+  const Lanes rates2 = squared_rates(balls, angles);
+  const auto shoulders = [](const auto& v) { return __builtin_shufflevector(v, v, 0, 0, 1, 1); };
+  const auto wrists = [](const auto& v) { return __builtin_shufflevector(v, v, 2, 2, 3, 3); };
+  const LaneResidual two = residual_of(arm, goal, half_of(angles, false), half_of(angles, true));
+  const LaneResidual four{shoulders(two.position_m), shoulders(two.angle_rad)};
+  const Masks singular = are_singular(arm, goal, shoulders(angles.b.sin), shoulders(rates2),
+                                      wrists(angles.b.sin), wrists(rates2));
+  const Masks free = shoulders(angles.free) | wrists(angles.free);
+  const Masks wrist_within = __builtin_shufflevector(within[0], within[1], 2, 6, 3, 7);
+  for (int flip = 0; flip < 2; ++flip) {
+    for (int i = 0; i < 3; ++i) {
+      store(shoulders(joint[flip][i]), out[flip].joint[i]);
+      store(__builtin_shufflevector(joint[0][i], joint[1][i], 2, 6, 3, 7), out[flip].joint[i + 4]);
+    }
+    store(fourth, out[flip].joint[3]);
+    store(shoulders(within[flip]) & wrist_within & within4, out[flip].within_limits);
+    store_accuracy(four, singular, free, out[flip]);
+  }
+}
+
+void turn_each_to(const ArmNumbers& numbers, const SrsGoal& goal, const FourPlaces& at,
+                  FourBranches& out) {
+  const BranchTurns turns = turns_of_branches(at.branch);
+  const LaneSinCos arm_angle = turned_back(at.arm_angle, turns);
+  const Balls shoulders = balls_of<Which::shoulder>(goal), wrists = balls_of<Which::wrist>(goal);
+  const LaneAngles shoulder = angles_at(shoulders, shoulders.at(arm_angle), goal.in_line);
+  const LaneAngles wrist = angles_at(wrists, wrists.at(arm_angle), goal.in_line);
+
+  const auto turned = [](const Lanes& t, const Masks& by) { return t + (by ? all(kPi) : all(0)); };
+  Masks within;
+  store(fourth_joint(numbers.arm, goal.t4, turns.elbow, within), out.joint[3]);
+  const Lanes t[6]{turned(angle_of(shoulder.a) + goal.azimuth_rad, turns.shoulder_a),
+                   turns.shoulder_sign * angle_of(shoulder.b),
+                   turned(angle_of(shoulder.c), turns.shoulder_c),
+                   turned(angle_of(wrist.a), turns.wrist_a),
+                   turns.wrist_sign * angle_of(wrist.b),
+                   turned(angle_of(wrist.c) + goal.beta_rad, turns.wrist_c)};
+  for (int i = 0; i < 3; ++i) {
+    store(joint_at<Which::shoulder>(numbers.turn[i], t[i], within), out.joint[i]);
+    store(joint_at<Which::wrist>(numbers.turn[i], t[i + 3], within), out.joint[i + 4]);
+  }
+  store(within, out.within_limits);
+  store_accuracy(residual_of(numbers.arm, goal, shoulder, wrist),
+                 are_singular(numbers.arm, goal, shoulder.b.sin, squared_rates(shoulders, shoulder),
+                              wrist.b.sin, squared_rates(wrists, wrist)),
+                 shoulder.free | wrist.free, out);
+}
+
+void arctangents(const double (&sine)[4], const double (&cosine)[4], double (&angle)[4]) {
+  store(arctangent(load(sine), load(cosine)), angle);
+}
+
+}  // namespace
+}  // namespace armature

@@ -24,7 +24,7 @@ bool may_fall_below(double least, const Node& left, const Node& right) {
   if (!(chord > fall && chord < rise)) return true;
   const double meet = left.value + fall * width * (rise - chord) / (rise - fall);
   // Twice as deep, for a valley that is steeper within than at its rims.
-  return 2 * meet - std::min(left.value, right.value) < least;
+  return 2 * meet - std::min(left.value, right.value) <= least;
 }
 
 class Places {
@@ -93,13 +93,13 @@ void ArmAngleChoice::set_places() {
 
 /// The first place not below `at`, which is in [-pi, pi].
 int ArmAngleChoice::place_from(double at) const {
-  int i = std::max(static_cast<int>((at + kPi) / kStep) - 1, 0);
+  int i = std::max(static_cast<int>((at + kPi) * (1 / kStep) - 0.5), 0);
   while (i < table_.count && table_.place[i] < at) ++i;
   return i;
 }
 
 ArmAngleChoice::Stretch ArmAngleChoice::stretch_of(std::size_t branch, const Span& span) const {
-  Stretch stretch{.span = span, .branch = branch};
+  Stretch stretch{.span = span, .branch = branch, .inner_count = 0, .lower = kNone, .upper = kNone};
   double shift = branch / 2 % 2 == 0 ? 0 : kPi;
   if (span.lower - shift < -kPi) shift -= 2 * kPi;
   const double lower = span.lower - shift, upper = span.upper - shift;
@@ -122,41 +122,53 @@ ArmAngleChoice::Node ArmAngleChoice::node_of(const Stretch& stretch, int place) 
           table_.slope[stretch.branch][i]};
 }
 
-void ArmAngleChoice::add_node(std::size_t branch, double at) {
+ArmAngleChoice::Node ArmAngleChoice::first_of(const Stretch& stretch) const {
+  return stretch.inner_count > 0 ? node_of(stretch.inner) : node_of(stretch, stretch.first);
+}
+ArmAngleChoice::Node ArmAngleChoice::last_of(const Stretch& stretch) const {
+  return stretch.inner_count > 0 ? node_of(stretch.inner + stretch.inner_count - 1)
+                                 : node_of(stretch, stretch.end - 1);
+}
+
+std::size_t ArmAngleChoice::add_node(std::size_t branch, double at) {
   at_[nodes_] = at;
   branch_of_node_[nodes_] = static_cast<int>(branch);
-  ++nodes_;
+  return nodes_++;
+}
+
+/// Where the stretch goes down to them.
+void ArmAngleChoice::add_ends(Stretch& stretch) {
+  const Node first = first_of(stretch), last = last_of(stretch);
+  if (first.slope > 0 && first.at > stretch.span.lower) {
+    stretch.lower = add_node(stretch.branch, stretch.span.lower);
+  }
+  if (last.slope < 0 && last.at < stretch.span.upper) {
+    stretch.upper = add_node(stretch.branch, stretch.span.upper);
+  }
 }
 
 void ArmAngleChoice::set_stretches(const std::array<Spans, 8>& spans) {
   for (std::size_t branch = 0; branch < 8; ++branch) {
     for (const Span& span : spans[branch]) {
-      Stretch stretch = stretch_of(branch, span);
+      Stretch& stretch = stretch_[stretches_++];
+      stretch = stretch_of(branch, span);
+      if (stretch.end - stretch.first >= kFew) continue;
       const double width = span.upper - span.lower;
-      stretch.nodes = nodes_;
-      stretch.few = stretch.end - stretch.first < kFew;
-      if (stretch.few) {
-        add_node(branch, span.lower);
-        for (std::size_t i = 1; width > 0 && i < kFewNodes; ++i) {
-          add_node(branch, i + 1 == kFewNodes ? span.upper
-                                              : span.lower + width * static_cast<double>(i) /
-                                                                 (kFewNodes - 1));
-        }
-      } else {
-        const Node first = node_of(stretch, stretch.first), last = node_of(stretch, stretch.end - 1);
-        stretch.falls_to_lower = first.at > span.lower && first.slope > 0;
-        stretch.falls_to_upper = last.at < span.upper && last.slope < 0;
-        if (stretch.falls_to_lower) add_node(branch, span.lower);
-        if (stretch.falls_to_upper) add_node(branch, span.upper);
+      stretch.inner = nodes_;
+      stretch.inner_count = width > 0 ? kInner : 1;
+      for (std::size_t i = 1; i <= stretch.inner_count; ++i) {
+        add_node(branch, span.lower + width * static_cast<double>(i) / (kInner + 1));
       }
-      stretch.node_count = nodes_ - stretch.nodes;
-      stretch_[stretches_++] = stretch;
     }
   }
+  set_costs_of_nodes(0);
+  const std::size_t ends = nodes_;
+  for (std::size_t i = 0; i < stretches_; ++i) add_ends(stretch_[i]);
+  set_costs_of_nodes(ends);
 }
 
-void ArmAngleChoice::set_costs_of_nodes() {
-  for (std::size_t i = 0; i < nodes_; i += 4) {
+void ArmAngleChoice::set_costs_of_nodes(std::size_t from) {
+  for (std::size_t i = from; i < nodes_; i += 4) {
     FourPlaces at;
     double value[4], slope[4];
     for (std::size_t k = 0; k < 4; ++k) {
@@ -170,35 +182,42 @@ void ArmAngleChoice::set_costs_of_nodes() {
   }
 }
 
+/// Among equals the nearest to what is wanted is the best.
+void ArmAngleChoice::consider(const Node& node, Node& best) const {
+  const double equal = 1e-12 * std::abs(node.value);
+  if (node.value > best.value + equal) return;
+  if (node.value >= best.value - equal &&
+      std::abs(wrap_angle(node.at - wanted_)) >= std::abs(wrap_angle(best.at - wanted_))) {
+    return;
+  }
+  best = node;
+}
+
 /// Notes what may be a valley between two nodes, and the lower of them.
 void ArmAngleChoice::look_between(std::size_t branch, const Node& left, const Node& right,
                                   Node& best) {
-  const Node& lower = left.value < right.value ? left : right;
-  if (lower.value < best.value) best = lower;
+  if (left.slope == 0 && right.slope == 0) {  // it does not matter where
+    consider({std::clamp(wanted_, left.at, right.at), left.value, 0}, best);
+    return;
+  }
+  consider(left.value < right.value ? left : right, best);
   const bool valley = (left.slope < 0 && (right.slope >= 0 || right.value >= left.value)) ||
                       (right.slope > 0 && (left.slope <= 0 || left.value >= right.value));
   if (valley && right.at > left.at) valley_[valleys_++] = {branch, left, right};
 }
 
 void ArmAngleChoice::look_along(const Stretch& stretch, Node& best) {
-  if (stretch.few) {
-    if (stretch.node_count == 1 && value_[stretch.nodes] < best.value) {
-      best = node_of(stretch.nodes);
-    }
-    for (std::size_t i = 1; i < stretch.node_count; ++i) {
-      look_between(stretch.branch, node_of(stretch.nodes + i - 1), node_of(stretch.nodes + i),
-                   best);
-    }
-    return;
+  const Node first = first_of(stretch), last = last_of(stretch);
+  if (stretch.inner_count == 1) consider(first, best);
+  for (std::size_t i = 1; i < stretch.inner_count; ++i) {
+    look_between(stretch.branch, node_of(stretch.inner + i - 1), node_of(stretch.inner + i), best);
   }
-  std::size_t node = stretch.nodes;
-  const Node first = node_of(stretch, stretch.first), last = node_of(stretch, stretch.end - 1);
-  if (stretch.falls_to_lower) look_between(stretch.branch, node_of(node++), first, best);
-  if (stretch.falls_to_upper) look_between(stretch.branch, last, node_of(node), best);
-  // Of the places between the first and the last one, those next to a valley are the lowest.
-  for (const Node& end : {first, last}) {
-    if (end.value < best.value) best = end;
-  }
+  if (stretch.lower != kNone) look_between(stretch.branch, node_of(stretch.lower), first, best);
+  if (stretch.upper != kNone) look_between(stretch.branch, last, node_of(stretch.upper), best);
+  if (stretch.inner_count > 0) return;
+  // Of the places between these, the lowest is next to a valley.
+  if (first.slope > 0) consider(first, best);
+  if (last.slope < 0) consider(last, best);
   look_at_valleys(stretch, stretch.first, std::min(stretch.end - 1, table_.count), 0, best);
   look_at_valleys(stretch, std::max(stretch.first - table_.count, 0),
                   stretch.end - 1 - table_.count, table_.count, best);
@@ -240,44 +259,37 @@ void ArmAngleChoice::go_down(std::array<Node, 8>& best) {
     }
     kernel_.minima(numbers_, goal_, aim_, branch, left, right, at, value);
     for (std::size_t k = 0; k < 4; ++k) {
-      Node& known = best[static_cast<std::size_t>(branch[k])];
-      if (value[k] < known.value) known = {at[k], value[k], 0};
+      consider({at[k], value[k], 0}, best[static_cast<std::size_t>(branch[k])]);
     }
   }
 }
 
 void ArmAngleChoice::choose(const std::array<Spans, 8>& spans, std::array<double, 8>& arm_angle) {
-  arm_angle.fill(wanted_);
-  std::array<std::size_t, 8> kept;
-  nodes_ = stretches_ = valleys_ = 0;
+  std::array<Node, 8> best;
+  bool any = false;
   for (std::size_t branch = 0; branch < 8; ++branch) {
-    if (spans[branch].count == 0) continue;
-    arm_angle[branch] = nearest_in(spans[branch], wanted_);
-    kept[branch] = nodes_;
-    add_node(branch, arm_angle[branch]);
+    const bool none = spans[branch].count == 0;
+    arm_angle[branch] = none ? wanted_ : nearest_in(spans[branch], wanted_);
+    best[branch] = {arm_angle[branch], std::numeric_limits<double>::infinity(), 0};
+    any = any || !none;
   }
-  if (aim_.objective == Objective::continuity || nodes_ == 0) return;
+  if (aim_.objective == Objective::continuity || !any) return;
   set_places();
   kernel_.cost_all_round(numbers_, goal_, aim_, table_);
+  nodes_ = stretches_ = valleys_ = 0;
   set_stretches(spans);
-  set_costs_of_nodes();
-
-  std::array<Node, 8> best;
-  std::size_t stretch = 0;
-  for (std::size_t branch = 0; branch < 8; ++branch) {
-    if (spans[branch].count == 0) continue;
-    best[branch] = node_of(kept[branch]);
-    const std::size_t from = valleys_;
-    for (; stretch < stretches_ && stretch_[stretch].branch == branch; ++stretch) {
-      look_along(stretch_[stretch], best[branch]);
+  for (std::size_t i = 0; i < stretches_;) {
+    const std::size_t branch = stretch_[i].branch, from = valleys_;
+    for (; i < stretches_ && stretch_[i].branch == branch; ++i) {
+      look_along(stretch_[i], best[branch]);
     }
     keep_promising(from, best[branch].value);
   }
   go_down(best);
+  constexpr double kSame = 1e-8;  // [rad] as exactly as minima are found
   for (std::size_t branch = 0; branch < 8; ++branch) {
-    if (spans[branch].count == 0) continue;
-    const double value = value_[kept[branch]];
-    if (value - best[branch].value > 1e-14 * std::abs(value)) arm_angle[branch] = best[branch].at;
+    const double away = std::abs(wrap_angle(best[branch].at - arm_angle[branch]));
+    if (away > kSame) arm_angle[branch] = best[branch].at;
   }
 }
 

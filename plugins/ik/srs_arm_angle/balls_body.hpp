@@ -118,13 +118,11 @@ struct BranchTurns {
   Masks shoulder_a, shoulder_c, wrist_a, wrist_c, elbow;  // which are half a turn on
 };
 BranchTurns turns_of_branches(const int* branch) {
+  const Masks number{branch[0], branch[1], branch[2], branch[3]};
   BranchTurns turns;
-  for (int k = 0; k < 4; ++k) {
-    const bool shoulder = branch[k] & 4, elbow = branch[k] & 2, wrist = branch[k] & 1;
-    turns.elbow[k] = elbow ? -1 : 0;
-    turns.shoulder_a[k] = shoulder ? -1 : 0;
-    turns.wrist_c[k] = wrist ? -1 : 0;
-  }
+  turns.shoulder_a = -(number >> 2);
+  turns.elbow = -((number >> 1) & 1);
+  turns.wrist_c = -(number & 1);
   turns.shoulder_c = turns.shoulder_a ^ turns.elbow;
   turns.wrist_a = turns.wrist_c ^ turns.elbow;
   turns.shoulder_sign = turns.shoulder_a ? all(-1) : all(1);

@@ -188,10 +188,7 @@ void mark_valleys(CostTable& table) {
       const Lanes fall = load(slope + i), rise = load(slope + i + 1);
       const Masks valley = ((fall < 0) & ((rise >= 0) | (right >= left))) |
                            ((rise > 0) & ((fall <= 0) | (left >= right)));
-      if (!any(valley)) continue;
-      std::uint64_t bits = 0;
-      for (int k = 0; k < 4; ++k) bits |= static_cast<std::uint64_t>(valley[k] & (1 << k));
-      table.valley[branch][i / 64] |= bits << (i % 64);
+      table.valley[branch][i / 64] |= std::uint64_t{bits_of(valley)} << (i % 64);
     }
   }
 }

@@ -50,7 +50,7 @@ void find_minima(const ArmNumbers& numbers, const SrsGoal& goal, const Aim& aim,
     next = inside ? next : left.at + 0.5 * width;
     // What the cubic leaves out is of the fourth order.
     const Lanes step = magnitude(next - last.at), reach = step + magnitude(last.at - before.at);
-    const Masks near = inside & (step * reach * reach < kExact * 1e-2);
+    const Masks near = inside & (step * reach * reach < kExact);
     const Masks narrow = width <= kExact;
     if (i > 1) {
       const Masks now = near & ~done;

@@ -26,14 +26,15 @@ constexpr double kPi = std::numbers::pi;
 constexpr std::int64_t kSignBit = INT64_MIN;
 
 inline Lanes all(double x) { return Lanes{x, x, x, x}; }
-/// Of masks that come out of a comparison.
-inline bool any(const Masks& m) {
+/// A bit for every lane of what comes out of a comparison.
+inline unsigned bits_of(const Masks& m) {
 #if defined(__AVX__)
-  return _mm256_movemask_pd(std::bit_cast<__m256d>(m)) != 0;
+  return static_cast<unsigned>(_mm256_movemask_pd(std::bit_cast<__m256d>(m)));
 #else
-  return (m[0] | m[1] | m[2] | m[3]) != 0;
+  return static_cast<unsigned>((m[0] & 1) | (m[1] & 2) | (m[2] & 4) | (m[3] & 8));
 #endif
 }
+inline bool any(const Masks& m) { return bits_of(m) != 0; }
 inline Lanes magnitude(const Lanes& x) {
   return std::bit_cast<Lanes>(std::bit_cast<Masks>(x) & ~kSignBit);
 }

@@ -12,7 +12,7 @@ namespace armature {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr int kRegular = 24;  // a multiple of four
+constexpr int kRegular = 32;  // a multiple of four
 constexpr double kStep = 2 * kPi / kRegular;
 
 /// By where the tangents at a falling and a rising slope meet. Where the chord is steeper than one
@@ -20,9 +20,9 @@ constexpr double kStep = 2 * kPi / kRegular;
 template <class Node>
 bool may_fall_below(double least, const Node& left, const Node& right) {
   const double fall = left.slope, rise = right.slope, width = right.at - left.at;
-  const double chord = (right.value - left.value) / width;
-  if (!(chord > fall && chord < rise)) return true;
-  const double meet = left.value + fall * width * (rise - chord) / (rise - fall);
+  const double climb = right.value - left.value;
+  if (!(climb > fall * width && climb < rise * width)) return true;
+  const double meet = left.value + fall * (rise * width - climb) / (rise - fall);
   // Twice as deep, for a valley that is steeper within than at its rims.
   return 2 * meet - std::min(left.value, right.value) <= least;
 }
@@ -50,11 +50,11 @@ class Places {
     }
   }
   void finish() {
-    if (table_.count == kRegular) return;
     for (int i = 0; table_.count % 4 != 0; ++i) {
       table_.place[table_.count++] = -kPi + kStep * (i + 0.5);
     }
-    std::sort(table_.place, table_.place + table_.count);
+    if (table_.count > kRegular) std::sort(table_.place, table_.place + table_.count);
+    for (int i = 0; i < 4; ++i) table_.place[table_.count + i] = 2 * kPi;
   }
 
  private:
@@ -93,8 +93,12 @@ void ArmAngleChoice::set_places() {
 
 /// The first place not below `at`, which is in [-pi, pi].
 int ArmAngleChoice::place_from(double at) const {
+  // Among regular places alone it is this or one of the next two; behind the last there are more.
   int i = std::max(static_cast<int>((at + kPi) * (1 / kStep) - 0.5), 0);
-  while (i < table_.count && table_.place[i] < at) ++i;
+  i += table_.place[i] < at ? 1 : 0;
+  i += table_.place[i] < at ? 1 : 0;
+  if (table_.count == kRegular) return i;
+  while (table_.place[i] < at) ++i;
   return i;
 }
 

@@ -51,7 +51,8 @@ struct LimitPieces {
 /// Costs all round: places are arm angles of elbow 0, for elbow 1 half a turn further.
 struct CostTable {
   static constexpr int kMost = 192, kWords = kMost / 64;
-  double place[kMost + 4];  // [rad], rising from -pi; `count` is a multiple of four
+  // [rad], rising from -pi; `count` is a multiple of four, and behind it they are beyond pi
+  double place[kMost + 4];
   int count = 0;
   double value[8][kMost + 4], slope[8][kMost + 4];  // by branch; the first follows the last
   /// A bit for every place: between it and the next there is a minimum.
@@ -73,8 +74,9 @@ struct Aim {
 /// Lanes are shoulders and wrists of both elbows, places, or branches: four at once. The same
 /// source is compiled twice. Real-time safe.
 struct SrsKernel {
-  /// Of four sines and cosines.
+  /// Of four sines and cosines, and back.
   void (*angles)(const double (&sine)[4], const double (&cosine)[4], double (&angle)[4]);
+  void (*sines)(const double (&angle)[4], double (&sine)[4], double (&cosine)[4]);
   /// All branches at one arm angle, in the order of kBranches.
   void (*turn_to)(const ArmNumbers& arm, const SrsGoal& goal, double arm_angle,
                   FourBranches (&out)[2]);

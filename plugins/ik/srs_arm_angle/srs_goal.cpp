@@ -24,7 +24,7 @@ struct Spherical {
   SinCos azimuth, polar;
 };
 Spherical spherical(const Vector3d& v, double on_axis) {
-  const double radius = std::hypot(v.x(), v.y()), length = std::hypot(radius, v.z());
+  const double radius = v.head<2>().norm(), length = v.norm();
   if (radius <= on_axis) return {{}, {0, v.z() < 0 ? -1.0 : 1.0}};
   return {{v.y() / radius, v.x() / radius}, {radius / length, v.z() / length}};
 }
@@ -37,12 +37,21 @@ Matrix3d frame_of(const SinCos& azimuth, const SinCos& polar) {
   return F;
 }
 
-/// The upper arm: Rz(t1) Ry(t2) Rz(t3).
-Matrix3d upper_rotation(const std::array<double, 7>& t) {
-  const SinCos t1 = SinCos::of(t[0]), t2 = SinCos::of(t[1]), t3 = SinCos::of(t[2]);
-  Matrix3d turn;
-  turn << t3.cos, -t3.sin, 0, t3.sin, t3.cos, 0, 0, 0, 1;
-  return frame_of(t1, t2) * turn;
+/// Joints 1 to 4 of a posture: Rz(t1) Ry(t2) Rz(t3), and t4.
+struct UpperArm {
+  Matrix3d rotation;
+  SinCos elbow;
+};
+UpperArm upper_arm(const std::array<double, 7>& t) {
+  double sine[4], cosine[4];
+  srs_kernel().sines({t[0], t[1], t[2], t[3]}, sine, cosine);
+  const Matrix3d F = frame_of({sine[0], cosine[0]}, {sine[1], cosine[1]});
+  UpperArm upper;
+  upper.rotation.col(0) = cosine[2] * F.col(0) + sine[2] * F.col(1);
+  upper.rotation.col(1) = cosine[2] * F.col(1) - sine[2] * F.col(0);
+  upper.rotation.col(2) = F.col(2);
+  upper.elbow = {sine[3], cosine[3]};
+  return upper;
 }
 
 /// Shoulder to wrist, seen from the upper arm.
@@ -59,15 +68,12 @@ SinCos direction_in_upper(const SrsArm& arm, const SinCos& t4) {
   return {v.x() / length, v.z() / length};
 }
 
-/// Shoulder to wrist at the joints `t`; of a wrist on the shoulder, a unit vector of where it came
-/// from.
-Vector3d wrist_or_direction(const SrsArm& arm, const std::array<double, 7>& t) {
-  const SinCos t4 = SinCos::of(t[3]);
-  const Matrix3d upper = upper_rotation(t);
-  const Vector3d wrist = upper * wrist_in_upper(arm, t4);
+/// Shoulder to wrist; of a wrist on the shoulder, a unit vector of where it came from.
+Vector3d wrist_or_direction(const SrsArm& arm, const UpperArm& upper) {
+  const Vector3d wrist = upper.rotation * wrist_in_upper(arm, upper.elbow);
   if (wrist.norm() >= kOnAxis * arm.reach()) return wrist;
-  const SinCos phi = direction_in_upper(arm, t4);
-  return upper * Vector3d{phi.sin, 0, phi.cos};
+  const SinCos phi = direction_in_upper(arm, upper.elbow);
+  return upper.rotation * Vector3d{phi.sin, 0, phi.cos};
 }
 
 std::array<double, 7> canonical(const SrsArm& arm, const JointVector& q) {
@@ -151,13 +157,18 @@ double nearest_within_limits(const SrsArm& arm, std::size_t i, double t) {
 }
 
 double arm_angle_of(const SrsArm& arm, const std::array<double, 7>& t) {
-  const Vector3d along = wrist_or_direction(arm, t);
-  const Spherical line = spherical(along, kOnAxis * arm.reach());
-  const SinCos phi = direction_in_upper(arm, SinCos::of(t[3]));
-  const Matrix3d F = frame_of(line.azimuth, line.polar);
-  const Matrix3d turned = F.transpose() * upper_rotation(t);  // Rz(psi) Ry(-phi)
-  const Vector3d x = phi.cos * turned.col(0) - phi.sin * turned.col(2);
-  return wrap_angle(std::atan2(x.y() - turned(0, 1), x.x() + turned(1, 1)));
+  const UpperArm upper = upper_arm(t);
+  const Spherical line = spherical(wrist_or_direction(arm, upper), kOnAxis * arm.reach());
+  const SinCos phi = direction_in_upper(arm, upper.elbow);
+  // The first two columns of F^T upper Ry(phi) = Rz(psi).
+  const Vector3d x = phi.cos * upper.rotation.col(0) - phi.sin * upper.rotation.col(2);
+  const Vector3d y = upper.rotation.col(1);
+  const auto& [azimuth, polar] = line;
+  const double sine = azimuth.cos * x.y() - azimuth.sin * x.x();
+  const double cosine = azimuth.cos * y.y() - azimuth.sin * y.x();
+  const double ahead_x = polar.cos * (azimuth.cos * x.x() + azimuth.sin * x.y()) - polar.sin * x.z();
+  const double ahead_y = polar.cos * (azimuth.cos * y.x() + azimuth.sin * y.y()) - polar.sin * y.z();
+  return wrap_angle(std::atan2(sine - ahead_y, cosine + ahead_x));
 }
 
 SrsGoal srs_goal(const SrsArm& arm, const IkGoal& goal, const JointVector& seed) {
@@ -174,7 +185,7 @@ SrsGoal srs_goal(const SrsArm& arm, const IkGoal& goal, const JointVector& seed)
   if (own.shortfall > 0) return own;
   const SinCos half_elbow = set_elbow(arm, own);
   const bool on_shoulder = own.distance < kOnAxis * arm.reach();
-  set_frame(arm, on_shoulder ? wrist_or_direction(arm, canonical(arm, seed)) : own.wrist, own);
+  set_frame(arm, on_shoulder ? wrist_or_direction(arm, upper_arm(canonical(arm, seed))) : own.wrist, own);
   set_angles(half_elbow, own);
   own.in_line = std::clamp(goal.tolerance.angle_rad, kRounding, kInLine);
   set_free_joints(arm, seed, own);

@@ -102,21 +102,30 @@ int ArmAngleChoice::place_from(double at) const {
   return i;
 }
 
-ArmAngleChoice::Stretch ArmAngleChoice::stretch_of(std::size_t branch, const Span& span) const {
-  Stretch stretch{.span = span, .branch = branch, .inner_count = 0, .lower = kNone, .upper = kNone};
+void ArmAngleChoice::add_stretch(std::size_t branch, const Span& span) {
+  Stretch& stretch = stretch_[stretches_++];
+  stretch.span = span;
+  stretch.branch = branch;
+  stretch.lower = stretch.upper = kNone;
   double shift = branch / 2 % 2 == 0 ? 0 : kPi;
-  if (span.lower - shift < -kPi) shift -= 2 * kPi;
-  const double lower = span.lower - shift, upper = span.upper - shift;
+  shift -= span.lower - shift < -kPi ? 2 * kPi : 0;
   stretch.shift = shift;
-  stretch.first = place_from(lower);
-  // The last place not above.
-  double rest = upper;
-  int turns = 0;
-  if (upper >= kPi) rest -= 2 * kPi, turns = table_.count;
-  int end = place_from(rest);
-  if (end < table_.count && table_.place[end] == rest) ++end;
-  stretch.end = end + turns;
-  return stretch;
+  const bool around = span.upper - shift >= kPi;
+  const double upper = span.upper - shift - (around ? 2 * kPi : 0);
+  const int end = place_from(upper);
+  stretch.first = place_from(span.lower - shift);
+  stretch.end = end + (table_.place[end] == upper ? 1 : 0) + (around ? table_.count : 0);
+  stretch.inner = nodes_;
+  stretch.inner_count = 0;
+  if (stretch.end - stretch.first >= kFew) {
+    add_ends(stretch);
+    return;
+  }
+  const double width = span.upper - span.lower;
+  stretch.inner_count = width > 0 ? kInner : 1;
+  for (std::size_t i = 1; i <= stretch.inner_count; ++i) {
+    add_node(branch, span.lower + width * static_cast<double>(i) / (kInner + 1));
+  }
 }
 
 ArmAngleChoice::Node ArmAngleChoice::node_of(const Stretch& stretch, int place) const {
@@ -153,22 +162,14 @@ void ArmAngleChoice::add_ends(Stretch& stretch) {
 
 void ArmAngleChoice::set_stretches(const std::array<Spans, 8>& spans) {
   for (std::size_t branch = 0; branch < 8; ++branch) {
-    for (const Span& span : spans[branch]) {
-      Stretch& stretch = stretch_[stretches_++];
-      stretch = stretch_of(branch, span);
-      if (stretch.end - stretch.first >= kFew) continue;
-      const double width = span.upper - span.lower;
-      stretch.inner = nodes_;
-      stretch.inner_count = width > 0 ? kInner : 1;
-      for (std::size_t i = 1; i <= stretch.inner_count; ++i) {
-        add_node(branch, span.lower + width * static_cast<double>(i) / (kInner + 1));
-      }
-    }
+    for (const Span& span : spans[branch]) add_stretch(branch, span);
   }
   set_costs_of_nodes(0);
-  const std::size_t ends = nodes_;
-  for (std::size_t i = 0; i < stretches_; ++i) add_ends(stretch_[i]);
-  set_costs_of_nodes(ends);
+  const std::size_t known = nodes_;
+  for (std::size_t i = 0; i < stretches_; ++i) {
+    if (stretch_[i].inner_count > 0) add_ends(stretch_[i]);
+  }
+  set_costs_of_nodes(known);
 }
 
 void ArmAngleChoice::set_costs_of_nodes(std::size_t from) {
@@ -219,23 +220,19 @@ void ArmAngleChoice::look_along(const Stretch& stretch, Node& best) {
   if (stretch.lower != kNone) look_between(stretch.branch, node_of(stretch.lower), first, best);
   if (stretch.upper != kNone) look_between(stretch.branch, last, node_of(stretch.upper), best);
   if (stretch.inner_count > 0) return;
-  // Of the places between these, the lowest is next to a valley.
-  if (first.slope > 0) consider(first, best);
-  if (last.slope < 0) consider(last, best);
-  look_at_valleys(stretch, stretch.first, std::min(stretch.end - 1, table_.count), 0, best);
-  look_at_valleys(stretch, std::max(stretch.first - table_.count, 0),
-                  stretch.end - 1 - table_.count, table_.count, best);
-}
-
-/// Between the places from `from` to `to`, `turned` places on.
-void ArmAngleChoice::look_at_valleys(const Stretch& stretch, int from, int to, int turned,
-                                     Node& best) {
-  for (int i = from; i < to; ++i) {
-    const std::uint64_t bits = table_.valley[stretch.branch][i / 64] >> (i % 64);
-    i += bits != 0 ? std::countr_zero(bits) : 63 - i % 64;
-    if (bits == 0 || i >= to) continue;
-    look_between(stretch.branch, node_of(stretch, i + turned), node_of(stretch, i + 1 + turned),
-                 best);
+  // Of the places between these, the lowest is next to a valley, or it is the end itself.
+  if (stretch.lower == kNone && first.slope > 0) consider(first, best);
+  if (stretch.upper == kNone && last.slope < 0) consider(last, best);
+  for (int i = stretch.first; i + 1 < stretch.end;) {
+    const int at = i >= table_.count ? i - table_.count : i;
+    const int left = std::min({stretch.end - 1 - i, table_.count - at, 64 - at % 64});
+    std::uint64_t bits = table_.valley[stretch.branch][at / 64] >> (at % 64);
+    bits &= ~std::uint64_t{0} >> (64 - left);
+    for (; bits != 0; bits &= bits - 1) {
+      const int place = i + std::countr_zero(bits);
+      look_between(stretch.branch, node_of(stretch, place), node_of(stretch, place + 1), best);
+    }
+    i += left;
   }
 }
 

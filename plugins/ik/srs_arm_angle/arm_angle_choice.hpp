@@ -50,7 +50,7 @@ class ArmAngleChoice {
 
   void set_places();
   void set_stretches(const std::array<Spans, 8>& spans);
-  Stretch stretch_of(std::size_t branch, const Span& span) const;
+  void add_stretch(std::size_t branch, const Span& span);
   int place_from(double at) const;
   std::size_t add_node(std::size_t branch, double at);
   void add_ends(Stretch& stretch);
@@ -62,7 +62,6 @@ class ArmAngleChoice {
   void consider(const Node& node, Node& best) const;
   void look_between(std::size_t branch, const Node& left, const Node& right, Node& best);
   void look_along(const Stretch& stretch, Node& best);
-  void look_at_valleys(const Stretch& stretch, int from, int to, int turned, Node& best);
   void keep_promising(std::size_t from, double least);
   void go_down(std::array<Node, 8>& best);
 

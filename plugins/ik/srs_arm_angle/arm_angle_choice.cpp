@@ -236,31 +236,37 @@ void ArmAngleChoice::look_along(const Stretch& stretch, Node& best) {
   }
 }
 
-/// Of the valleys after `from`.
+/// Of the valleys of one branch, which begin at `from`.
 void ArmAngleChoice::keep_promising(std::size_t from, double least) {
-  const auto begin = valley_.begin() + static_cast<std::ptrdiff_t>(from);
-  const auto end = valley_.begin() + static_cast<std::ptrdiff_t>(valleys_);
-  const auto last = std::remove_if(begin, end, [least](const Valley& valley) {
-    return !may_fall_below(least, valley.left, valley.right);
-  });
-  valleys_ = static_cast<std::size_t>(last - valley_.begin());
+  std::size_t kept = from;
+  for (std::size_t i = from; i < valleys_; ++i) {
+    const Valley& valley = valley_[i];
+    if (may_fall_below(least, valley.left, valley.right)) valley_[kept++] = valley;
+  }
+  valleys_ = kept;
 }
 
 void ArmAngleChoice::go_down(std::array<Node, 8>& best) {
-  for (std::size_t i = 0; i < valleys_; i += 4) {
-    CostNode left, right;
-    int branch[4];
-    double at[4], value[4];
-    for (std::size_t k = 0; k < 4; ++k) {
-      const Valley& valley = valley_[std::min(i + k, valleys_ - 1)];
-      branch[k] = static_cast<int>(valley.branch);
-      left.at[k] = valley.left.at, right.at[k] = valley.right.at;
-      left.value[k] = valley.left.value, right.value[k] = valley.right.value;
-      left.slope[k] = valley.left.slope, right.slope[k] = valley.right.slope;
+  constexpr std::size_t kTogether = 4;  // a few times four
+  for (std::size_t from = 0; from < valleys_; from += 4 * kTogether) {
+    std::array<Valleys, kTogether> valleys;
+    std::array<Minima, kTogether> minima;
+    const std::size_t count = std::min((valleys_ - from + 3) / 4, kTogether);
+    for (std::size_t i = 0; i < 4 * count; ++i) {
+      const Valley& valley = valley_[std::min(from + i, valleys_ - 1)];
+      Valleys& four = valleys[i / 4];
+      const std::size_t k = i % 4;
+      four.branch[k] = static_cast<int>(valley.branch);
+      four.left.at[k] = valley.left.at, four.right.at[k] = valley.right.at;
+      four.left.value[k] = valley.left.value, four.right.value[k] = valley.right.value;
+      four.left.slope[k] = valley.left.slope, four.right.slope[k] = valley.right.slope;
     }
-    kernel_.minima(numbers_, goal_, aim_, branch, left, right, at, value);
-    for (std::size_t k = 0; k < 4; ++k) {
-      consider({at[k], value[k], 0}, best[static_cast<std::size_t>(branch[k])]);
+    kernel_.find_minima(numbers_, goal_, aim_, valleys.data(), static_cast<int>(count),
+                        minima.data());
+    for (std::size_t i = 0; i < 4 * count; ++i) {
+      const Minima& found = minima[i / 4];
+      const auto branch = static_cast<std::size_t>(valleys[i / 4].branch[i % 4]);
+      consider({found.at[i % 4], found.value[i % 4], 0}, best[branch]);
     }
   }
 }

@@ -59,9 +59,16 @@ struct CostTable {
   std::uint64_t valley[8][kWords];
 };
 
-/// Two places of one branch with a minimum between them.
-struct CostNode {
+/// Places of four branches and what they cost; two of each with a minimum between them; and that.
+struct FourNodes {
   double at[4], value[4], slope[4];
+};
+struct Valleys {
+  int branch[4];
+  FourNodes left, right;
+};
+struct Minima {
+  double at[4], value[4];
 };
 
 /// What an arm angle costs; `last`: the one that is remembered, if any.
@@ -87,9 +94,8 @@ struct SrsKernel {
                          CostTable& table);
   void (*cost_at)(const ArmNumbers& arm, const SrsGoal& goal, const Aim& aim, const FourPlaces& at,
                   double (&value)[4], double (&slope)[4]);
-  /// The minima between `left` and `right`: places and values.
-  void (*minima)(const ArmNumbers& arm, const SrsGoal& goal, const Aim& aim, const int (&branch)[4],
-                 const CostNode& left, const CostNode& right, double (&at)[4], double (&value)[4]);
+  void (*find_minima)(const ArmNumbers& arm, const SrsGoal& goal, const Aim& aim,
+                      const Valleys* valleys, int count, Minima* minima);
 };
 const SrsKernel& portable_srs_kernel();
 const SrsKernel& avx2_srs_kernel();

@@ -130,8 +130,8 @@ BranchTurns turns_of_branches(const int* branch) {
   return turns;
 }
 /// Sine and cosine of the arm angles of elbow 0 at which the arms stand where the branches do.
-inline LaneSinCos turned_back(const double* arm_angle, const BranchTurns& turns) {
-  const LaneSinCos turned = sine_and_cosine(load(arm_angle));
+inline LaneSinCos turned_back(const Lanes& arm_angle, const BranchTurns& turns) {
+  const LaneSinCos turned = sine_and_cosine(arm_angle);
   const LaneSinCos back = negated(turned);
   return {turns.elbow ? back.sin : turned.sin, turns.elbow ? back.cos : turned.cos};
 }

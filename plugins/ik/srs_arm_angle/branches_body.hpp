@@ -155,7 +155,7 @@ void turn_all_to(const ArmNumbers& numbers, const SrsGoal& goal, double arm_angl
 void turn_each_to(const ArmNumbers& numbers, const SrsGoal& goal, const FourPlaces& at,
                   FourBranches& out) {
   const BranchTurns turns = turns_of_branches(at.branch);
-  const LaneSinCos arm_angle = turned_back(at.arm_angle, turns);
+  const LaneSinCos arm_angle = turned_back(load(at.arm_angle), turns);
   const Balls shoulders = balls_of<Which::shoulder>(goal), wrists = balls_of<Which::wrist>(goal);
   const LaneAngles shoulder = angles_at(shoulders, shoulders.at(arm_angle), goal.in_line);
   const LaneAngles wrist = angles_at(wrists, wrists.at(arm_angle), goal.in_line);

@@ -210,11 +210,11 @@ class CostOfBranches {
         shoulders_{balls_of<Which::shoulder>(goal)},
         wrists_{balls_of<Which::wrist>(goal)} {}
 
-  Level at(const double* arm_angle) const {
+  Level at(const Lanes& arm_angle) const {
     const LaneSinCos back = turned_back(arm_angle, turns_);
     const CostOfBall<Which::shoulder> shoulder{numbers_, goal_, shoulders_, back};
     const CostOfBall<Which::wrist> wrist{numbers_, goal_, wrists_, back};
-    const Level cost = shared_cost(aim_, shoulder, wrist) + way_cost(aim_, load(arm_angle));
+    const Level cost = shared_cost(aim_, shoulder, wrist) + way_cost(aim_, arm_angle);
     if (aim_.objective == Objective::singularity) return cost;
     return cost +
            limits(shoulder, turns_.shoulder_a, turns_.shoulder_sign, turns_.shoulder_c,
@@ -243,7 +243,7 @@ class CostOfBranches {
 
 void find_costs_at(const ArmNumbers& numbers, const SrsGoal& goal, const Aim& aim,
                    const FourPlaces& at, double (&value)[4], double (&slope)[4]) {
-  const Level cost = CostOfBranches{numbers, goal, aim, at.branch}.at(at.arm_angle);
+  const Level cost = CostOfBranches{numbers, goal, aim, at.branch}.at(load(at.arm_angle));
   store(cost.value, value);
   store(cost.slope, slope);
 }

@@ -25,56 +25,98 @@ Lanes minimum_of_cubic(const Nodes& p, const Nodes& q) {
   return q.at - width * (q.slope + e - d) / (q.slope - p.slope + 2 * e);
 }
 
-/// The minimum of the cubic through the last two places, again and again, as long as that halves
-/// the slope; where it does not, or leads out, the middle.
-void find_minima(const ArmNumbers& numbers, const SrsGoal& goal, const Aim& aim,
-                 const int (&branch)[4], const CostNode& from, const CostNode& to,
-                 double (&at)[4], double (&value)[4]) {
-  constexpr int kSteps = 60;
-  constexpr double kExact = 1e-9, kEdge = 0.1;
-  const CostOfBranches cost{numbers, goal, aim, branch};
-  Nodes left{load(from.at), load(from.value), load(from.slope)};
-  Nodes right{load(to.at), load(to.value), load(to.slope)};
-  Nodes last = either_of(left.value < right.value, left, right);
-  Nodes before = either_of(left.value < right.value, right, left);
-  Nodes best = last;
-  Masks done{}, gets_on{-1, -1, -1, -1};
-  for (int i = 0; i < kSteps; ++i) {
-    const Lanes width = right.at - left.at;
-    Lanes next = minimum_of_cubic(last, before);
-    if (i == 0) {  // a limit next to an end bends the cost too much for a cubic
-      next = next < left.at + kEdge * width ? left.at + kEdge * width : next;
-      next = next > right.at - kEdge * width ? right.at - kEdge * width : next;
-    }
-    const Masks inside = (next > left.at) & (next < right.at) & gets_on;
-    next = inside ? next : left.at + 0.5 * width;
-    // What the cubic leaves out is of the fourth order.
-    const Lanes step = magnitude(next - last.at), reach = step + magnitude(last.at - before.at);
-    const Masks near = inside & (step * reach * reach < kExact);
-    const Masks narrow = width <= kExact;
-    if (i > 1) {
-      const Masks now = near & ~done;
-      best.at = now ? next : best.at;
-      best.value = now ? last.value + 0.5 * last.slope * (next - last.at) : best.value;
-      done |= near;
-    }
-    done |= narrow | (last.slope == 0);
-    if (!any(~done)) break;
-    double place[4];
-    store(done ? best.at : next, place);
-    const Level level = cost.at(place);
-    const Nodes found{next, level.value, level.slope};
-    best = either_of(~done & (found.value <= best.value), found, best);
-    const Masks to_left = found.slope < 0 ? (right.slope > 0) | (right.value >= found.value)
-                                          : ~((left.slope < 0) | (left.value >= found.value));
-    left = either_of(to_left, found, left);
-    right = either_of(to_left, right, found);
-    gets_on = (magnitude(found.slope) < 0.5 * magnitude(last.slope)) | ~gets_on;
-    before = last;
-    last = found;
+/// Between two nodes of each of four branches: the minimum of the cubic through the last two
+/// places, again and again, as long as that halves the slope; where it does not, or leads out, the
+/// middle.
+class Descent {
+ public:
+  explicit Descent(const Valleys& valleys)
+      : left_{load(valleys.left.at), load(valleys.left.value), load(valleys.left.slope)},
+        right_{load(valleys.right.at), load(valleys.right.value), load(valleys.right.slope)} {
+    const Masks left_is_lower = left_.value < right_.value;
+    last_ = best_ = either_of(left_is_lower, left_, right_);
+    before_ = either_of(left_is_lower, right_, left_);
   }
-  store(best.at, at);
-  store(best.value, value);
+
+  /// The next place of each branch; false when all are found.
+  bool next() {
+    const Lanes width = right_.at - left_.at;
+    next_ = minimum_of_cubic(last_, before_);
+    if (steps_ == 0) {  // a limit next to an end bends the cost too much for a cubic
+      const Lanes edge = 0.1 * width;
+      next_ = next_ < left_.at + edge ? left_.at + edge : next_;
+      next_ = next_ > right_.at - edge ? right_.at - edge : next_;
+    }
+    const Masks inside = (next_ > left_.at) & (next_ < right_.at) & gets_on_;
+    next_ = inside ? next_ : left_.at + 0.5 * width;
+    const Lanes step = next_ - last_.at;
+    if (steps_ > 1) {
+      // What the cubic leaves out is of the fourth order.
+      const Lanes reach = magnitude(step) + magnitude(last_.at - before_.at);
+      const Masks exact = inside & ~done_ & (magnitude(step) * reach * reach < kExact);
+      best_.at = exact ? next_ : best_.at;
+      best_.value = exact ? last_.value + 0.5 * last_.slope * step : best_.value;
+      done_ |= exact;
+    }
+    done_ |= (width <= kExact) | (last_.slope == 0);
+    next_ = done_ ? best_.at : next_;
+    return ++steps_ <= kSteps && any(~done_);
+  }
+  const Lanes& place() const { return next_; }
+
+  /// What the places cost.
+  void take(const Level& level) {
+    const Nodes found{next_, level.value, level.slope};
+    best_ = either_of(~done_ & (found.value <= best_.value), found, best_);
+    const Masks to_left = found.slope < 0 ? (right_.slope > 0) | (right_.value >= found.value)
+                                          : ~((left_.slope < 0) | (left_.value >= found.value));
+    left_ = either_of(to_left, found, left_);
+    right_ = either_of(to_left, right_, found);
+    gets_on_ = (magnitude(found.slope) < 0.5 * magnitude(last_.slope)) | ~gets_on_;
+    before_ = last_;
+    last_ = found;
+  }
+  const Nodes& best() const { return best_; }
+
+ private:
+  static constexpr int kSteps = 60;
+  static constexpr double kExact = 1e-9;
+
+  Nodes left_, right_, last_, before_, best_;
+  Lanes next_;
+  Masks done_{}, gets_on_{-1, -1, -1, -1};
+  int steps_ = 0;
+};
+
+/// All in step: what one waits for, another one computes.
+void find_minima(const ArmNumbers& numbers, const SrsGoal& goal, const Aim& aim,
+                 const Valleys* valleys, int count, Minima* minima) {
+  constexpr int kTogether = 4;
+  for (int from = 0; from < count; from += kTogether) {
+    const int together = count - from < kTogether ? count - from : kTogether;
+    const Valleys* these = valleys + from;
+    const CostOfBranches cost[kTogether]{
+        {numbers, goal, aim, these[0].branch},
+        {numbers, goal, aim, these[together > 1 ? 1 : 0].branch},
+        {numbers, goal, aim, these[together > 2 ? 2 : 0].branch},
+        {numbers, goal, aim, these[together > 3 ? 3 : 0].branch}};
+    Descent descent[kTogether]{Descent{these[0]}, Descent{these[together > 1 ? 1 : 0]},
+                               Descent{these[together > 2 ? 2 : 0]},
+                               Descent{these[together > 3 ? 3 : 0]}};
+    unsigned walking = (1U << together) - 1;
+    while (walking != 0) {
+      for (int i = 0; i < together; ++i) {
+        if (!(walking >> i & 1)) continue;
+        if (descent[i].next()) {
+          descent[i].take(cost[i].at(descent[i].place()));
+        } else {
+          walking &= ~(1U << i);
+          store(descent[i].best().at, minima[from + i].at);
+          store(descent[i].best().value, minima[from + i].value);
+        }
+      }
+    }
+  }
 }
 
 }  // namespace

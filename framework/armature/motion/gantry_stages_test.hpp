@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
@@ -42,10 +43,16 @@ struct Moody {
   }
 };
 
+/// Remembers what it was told of the last redundancy; that of joints is their sum.
 class GantryIk : public IkSolver, public Moody {
  public:
-  IkStatus solve(const IkGoal& goal, const JointVector&, IkBranches& out, IkState&) const override {
+  mutable std::vector<std::optional<double>> told;
+
+  std::optional<double> redundancy_of(const JointVector& q) const override { return q.sum(); }
+  IkStatus solve(const IkGoal& goal, const JointVector&, IkBranches& out,
+                 IkState& state) const override {
     may_throw();
+    told.push_back(state.last_redundancy);
     out.clear();
     const Eigen::Vector3d& p = goal.pose.position;
     IkBranch& branch = out.add();

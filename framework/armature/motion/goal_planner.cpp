@@ -68,10 +68,14 @@ IkGoal ik_goal(const RobotModel& model, const PathSample& sample) {
   return goal;
 }
 
-/// Which branch was reached, or why none.
+/// Which branch was reached, or why none. A solver answers every branch and is not told which one is
+/// taken: what it is to remember of the last choice follows from the joints `seed`, which were it.
 Expected<IkStatus> solved(const IkSolver& solver, const IkGoal& goal, const JointVector& seed,
                           IkBranches& branches, IkState& state) {
-  return guarded(state, [&](IkState& s) { return solver.solve(goal, seed, branches, s); });
+  return guarded(state, [&](IkState& s) {
+    s.last_redundancy = solver.redundancy_of(seed);
+    return solver.solve(goal, seed, branches, s);
+  });
 }
 
 bool reaches(const IkStatus& status) {

@@ -92,6 +92,20 @@ TEST(GoalPlanner, StopsBeforeItGoesThroughKeyPoses) {
   EXPECT_NEAR(plan->trajectory.at(plan->trajectory.end()).q[2], 1, 1e-9);
 }
 
+TEST(GoalPlanner, TellsTheSolverTheRedundancyOfTheJointsThatItTookBefore) {
+  const Gantry gantry;
+  MotionGoal goal = goal_at(1, 1, 0, 0);
+  goal.focus = Eigen::Vector3d{0.5, 0.5, 0};
+  auto plan = gantry.planner().plan(goal, rest_at(0.1, 0.2, 0.3), kStart);
+  ASSERT_TRUE(plan) << plan.error().reason;
+  // The goal by itself and the first sample from the start, the next from the first.
+  const double start = 0.1 + 0.2 + 0.3, first = plan->joint_path[0].q[1].sum();
+  ASSERT_EQ(gantry.ik.told.size(), 3u);
+  EXPECT_EQ(gantry.ik.told[0], start);
+  EXPECT_EQ(gantry.ik.told[1], start);
+  EXPECT_EQ(gantry.ik.told[2], first);
+}
+
 TEST(GoalPlanner, SaysByHowMuchAGoalIsOutOfReach) {
   const Gantry gantry;
   auto plan = gantry.planner().plan(goal_at(1, 2.25, 0, 0), rest_at(0, 0, 0), kStart);

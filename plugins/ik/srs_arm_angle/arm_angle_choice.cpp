@@ -12,8 +12,6 @@ namespace armature {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr int kRegular = 32;  // a multiple of four
-constexpr double kStep = 2 * kPi / kRegular;
 
 /// By where the tangents at a falling and a rising slope meet. Where the chord is steeper than one
 /// of them, the valley is not convex and they tell nothing.
@@ -29,8 +27,10 @@ bool may_fall_below(double least, const Node& left, const Node& right) {
 
 class Places {
  public:
-  explicit Places(CostTable& table) : table_{table} {
-    for (int i = 0; i < kRegular; ++i) add(-kPi + kStep * i);
+  /// `count` regular ones, a multiple of four.
+  Places(CostTable& table, int count) : table_{table}, step_{2 * kPi / count} {
+    table_.count = table_.regular = count;
+    for (int i = 0; i < count; ++i) table_.place[i] = -kPi + step_ * i;
   }
   void add(double at) {
     if (table_.count < CostTable::kMost - 3) table_.place[table_.count++] = wrap_angle(at);
@@ -42,8 +42,8 @@ class Places {
     constexpr double kNarrowest = 1e-6;
     for (const auto& [x, sine] : {std::pair{0.0, (p + q).sin}, std::pair{kPi, (p - q).sin}}) {
       const double width = std::abs(sine) / std::max({std::abs(p.sin), std::abs(q.sin), 1e-9});
-      if (width > kStep) continue;
-      for (double away = std::max(width, kNarrowest) / 4; away < kStep; away *= 2) {
+      if (width > step_) continue;
+      for (double away = std::max(width, kNarrowest) / 4; away < step_; away *= 2) {
         add(whole + x - away);
         add(whole + x + away);
       }
@@ -51,14 +51,15 @@ class Places {
   }
   void finish() {
     for (int i = 0; table_.count % 4 != 0; ++i) {
-      table_.place[table_.count++] = -kPi + kStep * (i + 0.5);
+      table_.place[table_.count++] = -kPi + step_ * (i + 0.5);
     }
-    if (table_.count > kRegular) std::sort(table_.place, table_.place + table_.count);
+    if (table_.count > table_.regular) std::sort(table_.place, table_.place + table_.count);
     for (int i = 0; i < 4; ++i) table_.place[table_.count + i] = 2 * kPi;
   }
 
  private:
   CostTable& table_;
+  double step_;
 };
 
 }  // namespace
@@ -76,8 +77,8 @@ double nearest_in(const Spans& spans, double wanted) {
 }
 
 void ArmAngleChoice::set_places() {
-  table_.count = 0;
-  Places places{table_};
+  // The manipulability has more hills than the limits have.
+  Places places{table_, aim_.objective == Objective::singularity ? 48 : 32};
   places.add_around(goal_.polar, -goal_.phi, 0);
   places.add_around(goal_.bend, goal_.gamma, goal_.alpha_rad);
   if (aim_.objective == Objective::balanced && aim_.remembers) {
@@ -94,10 +95,10 @@ void ArmAngleChoice::set_places() {
 /// The first place not below `at`, which is in [-pi, pi].
 int ArmAngleChoice::place_from(double at) const {
   // Among regular places alone it is this or one of the next two; behind the last there are more.
-  int i = std::max(static_cast<int>((at + kPi) * (1 / kStep) - 0.5), 0);
+  int i = std::max(static_cast<int>((at + kPi) * (0.5 / kPi * table_.regular) - 0.5), 0);
   i += table_.place[i] < at ? 1 : 0;
   i += table_.place[i] < at ? 1 : 0;
-  if (table_.count == kRegular) return i;
+  if (table_.count == table_.regular) return i;
   while (table_.place[i] < at) ++i;
   return i;
 }
@@ -189,7 +190,7 @@ void ArmAngleChoice::set_costs_of_nodes(std::size_t from) {
 
 /// Among equals the nearest to what is wanted is the best.
 void ArmAngleChoice::consider(const Node& node, Node& best) const {
-  const double equal = 1e-12 * std::abs(node.value);
+  const double equal = 1e-10 * std::abs(node.value);  // what minima are predicted to
   if (node.value > best.value + equal) return;
   if (node.value >= best.value - equal &&
       std::abs(wrap_angle(node.at - wanted_)) >= std::abs(wrap_angle(best.at - wanted_))) {

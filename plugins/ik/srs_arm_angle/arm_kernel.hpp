@@ -53,7 +53,7 @@ struct CostTable {
   static constexpr int kMost = 192, kWords = kMost / 64;
   // [rad], rising from -pi; `count` is a multiple of four, and behind it they are beyond pi
   double place[kMost + 4];
-  int count = 0;
+  int count = 0, regular = 0;  // of them, in equal steps from -pi
   double value[8][kMost + 4], slope[8][kMost + 4];  // by branch; the first follows the last
   /// A bit for every place: between it and the next there is a minimum.
   std::uint64_t valley[8][kWords];

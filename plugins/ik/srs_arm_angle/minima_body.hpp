@@ -50,15 +50,19 @@ class Descent {
     const Masks inside = (next_ > left_.at) & (next_ < right_.at) & gets_on_;
     next_ = inside ? next_ : left_.at + 0.5 * width;
     const Lanes step = next_ - last_.at;
+    // What a cubic leaves out is of the fourth order: it misses by some factor times this. What the
+    // last one missed by is the step that is left now, which tells the factor, if not by chance.
+    const Lanes reach = magnitude(step) + magnitude(last_.at - before_.at);
+    const Lanes fourth = magnitude(step) * reach * reach;
     if (steps_ > 1) {
-      // What the cubic leaves out is of the fourth order.
-      const Lanes reach = magnitude(step) + magnitude(last_.at - before_.at);
-      const Masks exact = inside & ~done_ & (magnitude(step) * reach * reach < kExact);
+      const Masks exact = inside & ~done_ & (fourth < 0.01 * kExact) &
+                          (magnitude(step) * fourth < kExact * last_fourth_);
       best_.at = exact ? next_ : best_.at;
       best_.value = exact ? last_.value + 0.5 * last_.slope * step : best_.value;
       done_ |= exact;
     }
     done_ |= (width <= kExact) | (last_.slope == 0);
+    last_fourth_ = inside ? fourth : all(0);
     next_ = done_ ? best_.at : next_;
     return ++steps_ <= kSteps && any(~done_);
   }
@@ -83,7 +87,7 @@ class Descent {
   static constexpr double kExact = 1e-9;
 
   Nodes left_, right_, last_, before_, best_;
-  Lanes next_;
+  Lanes next_, last_fourth_{};
   Masks done_{}, gets_on_{-1, -1, -1, -1};
   int steps_ = 0;
 };

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+// The kernel's arithmetic against the scalar forms and the joints, for both builds of it.
+#include "arm_kernel.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "arm_angle_choice.hpp"
+#include "srs_branch.hpp"
+#include "test_arms.hpp"
+
+namespace armature {
+namespace {
+
+struct Subject {
+  std::string name;
+  const SrsKernel* kernel;
+  ModelPtr model;
+  friend void PrintTo(const Subject& subject, std::ostream* out) { *out << subject.name; }
+};
+
+class SrsKernelTest : public testing::TestWithParam<Subject> {
+ protected:
+  const SrsKernel& kernel() const { return *GetParam().kernel; }
+  const RobotModel& model() const { return *GetParam().model; }
+
+  SrsGoal any_goal() {
+    const JointVector q = random_joints(model(), random_);
+    return srs_goal(arm_, goal_at(model(), q), random_joints(model(), random_));
+  }
+  double any_angle() { return std::uniform_real_distribution{-M_PI, M_PI}(random_); }
+  FourPlaces any_places() {
+    FourPlaces at;
+    for (double& angle : at.arm_angle) angle = any_angle();
+    for (int& branch : at.branch) branch = static_cast<int>(random_() % 8);
+    return at;
+  }
+  /// A branch of the kernel's against the scalar form.
+  void expect_branch(const SrsGoal& goal, const FourBranches& found, std::size_t lane,
+                     std::size_t index, double arm_angle) const {
+    const Branch& branch = kBranches[index];
+    const ArmCircle circle = arm_circle(goal, static_cast<int>(branch.elbow));
+    const ArmPosture posture = posture_at(circle, arm_angle);
+    const IkBranch wanted =
+        branch_of(arm_, solve_elbow(arm_, goal, circle, arm_angle), branch.flips, branch.label);
+    const double sine = std::min(posture.shoulder.b.sin, posture.wrist.b.sin);
+    EXPECT_FALSE(found.in_line[lane]);
+    for (std::size_t i = 0; i < 7; ++i) {
+      EXPECT_NEAR(wrap_angle(found.joint[i][lane] - wanted.q.data()[i]), 0, 4e-15 / sine)
+          << branch.label << ", joint " << i;
+      EXPECT_GE(found.joint[i][lane], -M_PI);
+      EXPECT_LT(found.joint[i][lane], M_PI);
+    }
+    EXPECT_EQ(found.within_limits[lane], wanted.within_limits) << branch.label;
+    EXPECT_EQ(found.singular[lane], wanted.singular) << branch.label;
+    EXPECT_NEAR(found.position_m[lane], wanted.residual.position_m, 1e-14);
+    EXPECT_NEAR(found.angle_rad[lane], wanted.residual.angle_rad, 1e-14);
+  }
+
+  SrsArm arm_ = srs_arm(model()).value();
+  ArmNumbers numbers_ = numbers_of(arm_);
+  std::mt19937_64 random_{31};
+};
+
+TEST_P(SrsKernelTest, TurnsAllBranchesAsTheScalarFormDoes) {
+  SCOPED_TRACE("seed 31");
+  for (int i = 0; i < 3000 && !HasFailure(); ++i) {
+    const SrsGoal goal = any_goal();
+    const double arm_angle = any_angle();
+    FourBranches found[2];
+    kernel().turn_to(numbers_, goal, arm_angle, found);
+    for (std::size_t k = 0; k < 8; ++k) expect_branch(goal, found[k / 4], k % 4, k, arm_angle);
+  }
+}
+
+TEST_P(SrsKernelTest, TurnsEachBranchToAnArmAngleOfItsOwn) {
+  SCOPED_TRACE("seed 31");
+  for (int i = 0; i < 3000 && !HasFailure(); ++i) {
+    const SrsGoal goal = any_goal();
+    const FourPlaces at = any_places();
+    FourBranches found;
+    kernel().turn_each(numbers_, goal, at, found);
+    for (std::size_t k = 0; k < 4; ++k) {
+      expect_branch(goal, found, k, static_cast<std::size_t>(at.branch[k]), at.arm_angle[k]);
+    }
+  }
+}
+
+TEST_P(SrsKernelTest, TellsWhatIsInLine) {
+  SCOPED_TRACE("seed 31");
+  for (int i = 0; i < 1000; ++i) {
+    Angles t = angles_of(arm_, random_joints(model(), random_));
+    t[i % 2 == 0 ? 1 : 5] = 0;
+    const JointVector q = joints_of(arm_, t);
+    const SrsGoal goal = srs_goal(arm_, goal_at(model(), q), q);
+    EXPECT_TRUE(i % 2 == 0 ? goal.shoulder_in_line : goal.wrist_in_line);
+    const double arm_angle = arm_angle_of(arm_, t);
+    FourBranches found[2];
+    kernel().turn_to(numbers_, goal, arm_angle, found);
+    const std::size_t elbow = t[3] >= 0 ? 0 : 1;
+    for (std::size_t k = 0; k < 8; ++k) {
+      if (kBranches[k].elbow == elbow) {
+        EXPECT_TRUE(found[k / 4].in_line[k % 4]) << k;
+      }
+    }
+  }
+}
+
+/// Elbow 1 at an arm angle is elbow 0 half a turn on: one table has both.
+TEST_P(SrsKernelTest, CostsAllRoundAreThoseOfTheBranches) {
+  SCOPED_TRACE("seed 31");
+  for (int i = 0; i < 500 && !HasFailure(); ++i) {
+    const SrsGoal goal = any_goal();
+    const Aim aim{.objective = static_cast<Objective>(i % 4), .remembers = i % 3 == 0, .last = 0.4};
+    if (aim.objective == Objective::continuity) continue;
+    CostTable table;
+    table.count = 8;
+    for (int k = 0; k < table.count; ++k) table.place[k] = -3 + 0.7 * k;
+    kernel().cost_all_round(numbers_, goal, aim, table);
+    for (int branch = 0; branch < 8; ++branch) {
+      for (int k = 0; k < table.count; ++k) {
+        const double at = wrap_angle(table.place[k] + (branch / 2 % 2 == 0 ? 0 : M_PI));
+        const FourPlaces places{.arm_angle = {at, 0, 0, 0}, .branch = {branch, 0, 0, 0}};
+        double value[4], slope[4];
+        kernel().cost_at(numbers_, goal, aim, places, value, slope);
+        if (value[0] > 1e4) continue;  // beyond the limits
+        EXPECT_NEAR(table.value[branch][k], value[0], 1e-9 * (1 + std::abs(value[0])));
+        EXPECT_NEAR(table.slope[branch][k], slope[0], 1e-7 * (1 + std::abs(slope[0])));
+      }
+    }
+  }
+}
+
+/// To within 1e-8 rad: the slope changes its sign there.
+TEST_P(SrsKernelTest, MinimaAreWhereTheSlopeChangesItsSign) {
+  SCOPED_TRACE("seed 31");
+  int checked = 0;
+  for (int i = 0; i < 20000 && !HasFailure(); ++i) {
+    const SrsGoal goal = any_goal();
+    const Aim aim{.objective = i % 2 == 0 ? Objective::limits : Objective::singularity};
+    FourPlaces from = any_places(), to = from;
+    for (double& at : to.arm_angle) at += 0.2;
+    Valleys valleys;
+    kernel().cost_at(numbers_, goal, aim, from, valleys.left.value, valleys.left.slope);
+    kernel().cost_at(numbers_, goal, aim, to, valleys.right.value, valleys.right.slope);
+    std::copy_n(from.branch, 4, valleys.branch);
+    std::copy_n(from.arm_angle, 4, valleys.left.at);
+    std::copy_n(to.arm_angle, 4, valleys.right.at);
+    Minima found;
+    kernel().find_minima(numbers_, goal, aim, &valleys, 1, &found);
+    FourPlaces before = from, behind = from;
+    for (int k = 0; k < 4; ++k) {
+      before.arm_angle[k] = found.at[k] - 1e-8;
+      behind.arm_angle[k] = found.at[k] + 1e-8;
+    }
+    double value[4], fall[4], rise[4];
+    kernel().cost_at(numbers_, goal, aim, before, value, fall);
+    kernel().cost_at(numbers_, goal, aim, behind, value, rise);
+    for (int k = 0; k < 4; ++k) {
+      const bool valley = valleys.left.slope[k] < 0 && valleys.right.slope[k] > 0 &&
+                          valleys.left.value[k] < 100 && valleys.right.value[k] < 100;
+      if (!valley) continue;
+      EXPECT_LE(fall[k], 0) << found.at[k];
+      EXPECT_GE(rise[k], 0) << found.at[k];
+      EXPECT_NEAR(found.value[k], value[k], 1e-10 * (1 + std::abs(value[k])));
+      ++checked;
+    }
+  }
+  EXPECT_GT(checked, 100);
+}
+
+std::vector<Subject> subjects() {
+  std::vector<Subject> list;
+  for (const auto& [name, model] :
+       {std::pair{std::string{"med7"}, med7()}, std::pair{std::string{"uneven_arm"}, uneven_arm()}}) {
+    list.push_back({"portable_" + name, &portable_srs_kernel(), model});
+    if (&srs_kernel() != &portable_srs_kernel()) {
+      list.push_back({"fast_" + name, &srs_kernel(), model});
+    }
+  }
+  return list;
+}
+INSTANTIATE_TEST_SUITE_P(Srs, SrsKernelTest, testing::ValuesIn(subjects()),
+                         testing::PrintToStringParamName());
+
+TEST(SrsKernel, BothBuildsFindTheSameIntervalsAndArmAngles) {
+  if (&srs_kernel() == &portable_srs_kernel()) GTEST_SKIP() << "this processor has one only";
+  SCOPED_TRACE("seed 32");
+  std::mt19937_64 random{32};
+  const SrsArm arm = srs_arm(*med7()).value();
+  const ArmNumbers numbers = numbers_of(arm);
+  const Aim aim{.objective = Objective::limits};
+  for (int i = 0; i < 2000 && !testing::Test::HasFailure(); ++i) {
+    const JointVector q = random_joints(*med7(), random);
+    const SrsGoal goal = srs_goal(arm, goal_at(*med7(), q), q);
+    std::array<std::array<Spans, 8>, 2> spans;
+    std::array<std::array<double, 8>, 2> arm_angle;
+    for (std::size_t build = 0; build < 2; ++build) {
+      const SrsKernel& kernel = build == 0 ? portable_srs_kernel() : srs_kernel();
+      const FeasibleAngles feasible{numbers, goal, kernel};
+      for (std::size_t k = 0; k < 8; ++k) spans[build][k] = feasible.of(kBranches[k]);
+      ArmAngleChoice{numbers, goal, kernel, aim, 0.1}.choose(spans[build], arm_angle[build]);
+    }
+    for (std::size_t k = 0; k < 8; ++k) {
+      ASSERT_EQ(spans[0][k].count, spans[1][k].count) << q.transpose();
+      for (int n = 0; n < spans[0][k].count; ++n) {
+        EXPECT_NEAR(spans[0][k].begin()[n].lower, spans[1][k].begin()[n].lower, 1e-9);
+        EXPECT_NEAR(spans[0][k].begin()[n].upper, spans[1][k].begin()[n].upper, 1e-9);
+      }
+      EXPECT_NEAR(arm_angle[0][k], arm_angle[1][k], 1e-8) << q.transpose();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace armature

@@ -33,10 +33,10 @@ struct FourPlaces {
 };
 struct FourBranches {
   double joint[7][4];  // the robot's values, in [-pi, pi)
-  bool within_limits[4], singular[4];
   double position_m[4], angle_rad[4];  // by which forward kinematics miss the goal
-  /// Shoulder or wrist is in line: the joints are not told, solve_elbow has the rules.
-  bool in_line[4];
+  // A bit for each branch. Where shoulder or wrist is in line the joints are not told: solve_elbow
+  // has the rules.
+  unsigned within_limits, singular, in_line;
 };
 
 /// Where the shoulder of elbow 0, that of elbow 1, and the two wrists keep their limits, each as

@@ -81,7 +81,7 @@ struct LaneAngles {
   Masks free;
 };
 
-LaneAngles angles_at(const Balls& balls, const LaneSinCos& x, double in_line) {
+[[gnu::always_inline]] inline LaneAngles angles_at(const Balls& balls, const LaneSinCos& x, double in_line) {
   const Lanes m13 = balls.cos_sin * x.cos + balls.sin_cos, m23 = balls.q_sin * x.sin;
   LaneAngles angles;
   angles.b = {root(m13 * m13 + m23 * m23), balls.cos_cos - balls.sin_sin * x.cos};

@@ -11,7 +11,7 @@ constexpr double kLimitTolerance = 1e-9;  // [rad] that of the kind
 
 /// The robot's joint values at canonical angles; `within` loses the lanes beyond their limits.
 template <Which which>
-Lanes joint_at(const TurnNumbers& numbers, const Lanes& t, Masks& within) {
+[[gnu::always_inline]] inline Lanes joint_at(const TurnNumbers& numbers, const Lanes& t, Masks& within) {
   const Lanes from_middle = wrapped(t - either<which>(numbers.middle));
   within &= magnitude(from_middle) - either<which>(numbers.half) <= kLimitTolerance;
   return wrapped(either<which>(numbers.sign) * (t - either<which>(numbers.offset)));
@@ -21,7 +21,7 @@ Lanes joint_at(const TurnNumbers& numbers, const Lanes& t, Masks& within) {
 struct LaneRotation {
   LaneTriple x, y, z;
 };
-LaneRotation rotation_of(const LaneSinCos& a, const LaneSinCos& b, const LaneSinCos& c) {
+[[gnu::always_inline]] inline LaneRotation rotation_of(const LaneSinCos& a, const LaneSinCos& b, const LaneSinCos& c) {
   const Lanes cc = a.cos * b.cos, sc = a.sin * b.cos;
   return {{cc * c.cos - a.sin * c.sin, sc * c.cos + a.cos * c.sin, -(b.sin * c.cos)},
           {-(cc * c.sin) - a.sin * c.cos, a.cos * c.cos - sc * c.sin, b.sin * c.sin},
@@ -40,7 +40,7 @@ inline LaneSinCos sum(const LaneSinCos& a, const SinCos& b) {
 struct LaneResidual {
   Lanes position_m, angle_rad;
 };
-LaneResidual residual_of(const SrsArm& arm, const SrsGoal& goal, const LaneAngles& shoulder,
+[[gnu::always_inline]] inline LaneResidual residual_of(const SrsArm& arm, const SrsGoal& goal, const LaneAngles& shoulder,
                          const LaneAngles& wrist) {
   const LaneRotation upper = rotation_of(sum(shoulder.a, goal.azimuth), shoulder.b, shoulder.c);
   const Lanes bend_cos = all(goal.elbow.cos), bend_sin = all(goal.elbow.sin);
@@ -63,14 +63,14 @@ LaneResidual residual_of(const SrsArm& arm, const SrsGoal& goal, const LaneAngle
 }
 
 /// Square of sin(b) times the length of (a', b', c').
-Lanes squared_rates(const Balls& balls, const LaneAngles& angles) {
+[[gnu::always_inline]] inline Lanes squared_rates(const Balls& balls, const LaneAngles& angles) {
   const Lanes along = balls.q_sin * angles.c.cos;
   const Lanes across = angles.b.sin * balls.q_sin * angles.c.sin;
   const Lanes last = angles.b.sin * balls.q_cos - angles.b.cos * along;
   return along * along + across * across + last * last;
 }
 /// As is_singular, from the squares of sin(b) and of the rates.
-Masks are_singular(const SrsArm& arm, const SrsGoal& goal, const Lanes& shoulder_sin,
+[[gnu::always_inline]] inline Masks are_singular(const SrsArm& arm, const SrsGoal& goal, const Lanes& shoulder_sin,
                    const Lanes& shoulder_rates2, const Lanes& wrist_sin,
                    const Lanes& wrist_rates2) {
   const Lanes spread = root(wrist_sin * wrist_sin * shoulder_rates2 +
@@ -78,15 +78,12 @@ Masks are_singular(const SrsArm& arm, const SrsGoal& goal, const Lanes& shoulder
   return goal.distance * goal.elbow.sin * spread < kSingular * arm.reach();
 }
 
-inline void store(const Masks& from, bool* to) {
-  for (int k = 0; k < 4; ++k) to[k] = from[k] != 0;
-}
 void store_accuracy(const LaneResidual& residual, const Masks& singular, const Masks& free,
                     FourBranches& out) {
   store(residual.position_m, out.position_m);
   store(residual.angle_rad, out.angle_rad);
-  store(singular, out.singular);
-  store(free, out.in_line);
+  out.singular = bits_of(singular);
+  out.in_line = bits_of(free);
 }
 
 /// Joint 4 of elbow 0 where `elbow` is not set.
@@ -96,7 +93,7 @@ Lanes fourth_joint(const SrsArm& arm, double t4, const Masks& elbow, Masks& with
   return wrapped(arm.sign[3] * (t - arm.offset[3]));
 }
 
-LaneAngles half_of(const LaneAngles& angles, bool wrist) {
+[[gnu::always_inline]] inline LaneAngles half_of(const LaneAngles& angles, bool wrist) {
   const auto half = [wrist](const Lanes& v) {
     return wrist ? __builtin_shufflevector(v, v, 2, 3, 2, 3)
                  : __builtin_shufflevector(v, v, 0, 1, 0, 1);
@@ -147,7 +144,7 @@ void turn_all_to(const ArmNumbers& numbers, const SrsGoal& goal, double arm_angl
       store(__builtin_shufflevector(joint[0][i], joint[1][i], 2, 6, 3, 7), out[flip].joint[i + 4]);
     }
     store(fourth, out[flip].joint[3]);
-    store(shoulders(within[flip]) & wrist_within & within4, out[flip].within_limits);
+    out[flip].within_limits = bits_of(shoulders(within[flip]) & wrist_within & within4);
     store_accuracy(four, singular, free, out[flip]);
   }
 }
@@ -173,7 +170,7 @@ void turn_each_to(const ArmNumbers& numbers, const SrsGoal& goal, const FourPlac
     store(joint_at<Which::shoulder>(numbers.turn[i], t[i], within), out.joint[i]);
     store(joint_at<Which::wrist>(numbers.turn[i], t[i + 3], within), out.joint[i + 4]);
   }
-  store(within, out.within_limits);
+  out.within_limits = bits_of(within);
   store_accuracy(residual_of(numbers.arm, goal, shoulder, wrist),
                  are_singular(numbers.arm, goal, shoulder.b.sin, squared_rates(shoulders, shoulder),
                               wrist.b.sin, squared_rates(wrists, wrist)),

@@ -80,7 +80,7 @@ Spread spread_of(const Balls& balls, const LaneAngles& angles, const Motion& m) 
 template <Which which>
 class CostOfBall {
  public:
-  CostOfBall(const ArmNumbers& numbers, const SrsGoal& goal, const Balls& balls,
+  [[gnu::always_inline]] CostOfBall(const ArmNumbers& numbers, const SrsGoal& goal, const Balls& balls,
              const LaneSinCos& arm_angle)
       : numbers_{numbers},
         balls_{balls},
@@ -210,7 +210,7 @@ class CostOfBranches {
         shoulders_{balls_of<Which::shoulder>(goal)},
         wrists_{balls_of<Which::wrist>(goal)} {}
 
-  Level at(const Lanes& arm_angle) const {
+  [[gnu::always_inline]] Level at(const Lanes& arm_angle) const {
     const LaneSinCos back = turned_back(arm_angle, turns_);
     const CostOfBall<Which::shoulder> shoulder{numbers_, goal_, shoulders_, back};
     const CostOfBall<Which::wrist> wrist{numbers_, goal_, wrists_, back};

@@ -42,8 +42,8 @@ IkBranch branch_of(const FourBranches& found, std::size_t lane, double arm_angle
   for (std::size_t i = 0; i < 7; ++i) branch.q.data()[i] = found.joint[i][lane];
   branch.redundancy = wrap_angle(arm_angle);
   branch.residual = {found.position_m[lane], found.angle_rad[lane]};
-  branch.within_limits = found.within_limits[lane];
-  branch.singular = found.singular[lane];
+  branch.within_limits = (found.within_limits >> lane & 1) != 0;
+  branch.singular = (found.singular >> lane & 1) != 0;
   return branch;
 }
 

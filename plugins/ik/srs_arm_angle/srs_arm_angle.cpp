@@ -67,7 +67,7 @@ void SrsArmAngle::add_branches(const SrsGoal& goal, double arm_angle, IkBranches
   for (std::size_t i = 0; i < kBranches.size(); ++i) {
     const Branch& branch = kBranches[i];
     if ((found[i / 4].in_line >> i % 4 & 1) == 0) {
-      out.add() = branch_of(found[i / 4], i % 4, arm_angle, branch.label);
+      set_branch(found[i / 4], i % 4, arm_angle, branch.label, out.add());
       continue;
     }
     const std::size_t elbow = branch.elbow;
@@ -100,9 +100,11 @@ void SrsArmAngle::add_best_branches(const SrsGoal& goal, const JointVector& seed
     for (std::size_t k = 0; k < 4; ++k) {
       const std::size_t i = group + k;
       const bool inside = (found.within_limits >> k & 1) != 0 || spans[i].count == 0;
-      out.add() = inside && (found.in_line >> k & 1) == 0
-                      ? branch_of(found, k, arm_angle[i], kBranches[i].label)
-                      : branch_inside(numbers_.arm, goal, kBranches[i], spans[i], arm_angle[i]);
+      if (inside && (found.in_line >> k & 1) == 0) {
+        set_branch(found, k, wrap_angle(arm_angle[i]), kBranches[i].label, out.add());
+      } else {
+        out.add() = branch_inside(numbers_.arm, goal, kBranches[i], spans[i], arm_angle[i]);
+      }
     }
   }
 }

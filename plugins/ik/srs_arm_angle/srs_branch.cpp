@@ -34,17 +34,15 @@ IkBranch branch_of(const SrsArm& arm, const SolvedElbow& solved, const Flips& fl
   return branch;
 }
 
-IkBranch branch_of(const FourBranches& found, std::size_t lane, double arm_angle,
-                   std::string_view label) {
-  IkBranch branch;
+void set_branch(const FourBranches& found, std::size_t lane, double arm_angle,
+                std::string_view label, IkBranch& branch) {
   branch.label = label;
   branch.q.resize(7);
   for (std::size_t i = 0; i < 7; ++i) branch.q.data()[i] = found.joint[i][lane];
-  branch.redundancy = wrap_angle(arm_angle);
+  branch.redundancy = arm_angle;
   branch.residual = {found.position_m[lane], found.angle_rad[lane]};
   branch.within_limits = (found.within_limits >> lane & 1) != 0;
   branch.singular = (found.singular >> lane & 1) != 0;
-  return branch;
 }
 
 }  // namespace armature

@@ -26,8 +26,8 @@ SolvedElbow solve_elbow(const SrsArm& arm, const SrsGoal& goal, const ArmCircle&
 IkBranch branch_of(const SrsArm& arm, const SolvedElbow& solved, const Flips& flips,
                    std::string_view label);
 
-/// Branch `lane` of four that the kernel found, of which none is in line.
-IkBranch branch_of(const FourBranches& found, std::size_t lane, double arm_angle,
-                   std::string_view label);
+/// Branch `lane` of four that the kernel found, which is not in line; `arm_angle` in [-pi, pi).
+void set_branch(const FourBranches& found, std::size_t lane, double arm_angle,
+                std::string_view label, IkBranch& branch);
 
 }  // namespace armature

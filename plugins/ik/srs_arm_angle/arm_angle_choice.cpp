@@ -13,6 +13,12 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
+/// Between two angles in [-pi, pi], the short way round.
+double between(double a, double b) {
+  const double way = std::abs(a - b);
+  return std::min(way, 2 * kPi - way);
+}
+
 /// By where the tangents at a falling and a rising slope meet. Where the chord is steeper than one
 /// of them, the valley is not convex and they tell nothing.
 template <class Node>
@@ -69,7 +75,7 @@ double nearest_in(const Spans& spans, double wanted) {
   for (const Span& span : spans) {
     if (wanted >= span.lower && wanted <= span.upper) return wanted;
     for (const double at : {span.lower, span.upper}) {
-      const double distance = std::abs(wrap_angle(at - wanted));
+      const double distance = between(at, wanted);
       if (distance < least) best = at, least = distance;
     }
   }
@@ -193,7 +199,7 @@ void ArmAngleChoice::consider(const Node& node, Node& best) const {
   const double equal = 1e-10 * std::abs(node.value);  // what minima are predicted to
   if (node.value > best.value + equal) return;
   if (node.value >= best.value - equal &&
-      std::abs(wrap_angle(node.at - wanted_)) >= std::abs(wrap_angle(best.at - wanted_))) {
+      between(node.at, wanted_) >= between(best.at, wanted_)) {
     return;
   }
   best = node;
@@ -296,8 +302,7 @@ void ArmAngleChoice::choose(const std::array<Spans, 8>& spans, std::array<double
   go_down(best);
   constexpr double kSame = 1e-8;  // [rad] as exactly as minima are found
   for (std::size_t branch = 0; branch < 8; ++branch) {
-    const double away = std::abs(wrap_angle(best[branch].at - arm_angle[branch]));
-    if (away > kSame) arm_angle[branch] = best[branch].at;
+    if (between(best[branch].at, arm_angle[branch]) > kSame) arm_angle[branch] = best[branch].at;
   }
 }
 

@@ -79,7 +79,8 @@ struct Aim {
 };
 
 /// Lanes are shoulders and wrists of both elbows, places, or branches: four at once. The same
-/// source is compiled twice. Real-time safe.
+/// source is compiled for each kind of processor; AVX-512 is taken for its registers and masks, not
+/// for its width. Real-time safe.
 struct SrsKernel {
   /// Of four sines and cosines, and back.
   void (*angles)(const double (&sine)[4], const double (&cosine)[4], double (&angle)[4]);
@@ -99,7 +100,13 @@ struct SrsKernel {
 };
 const SrsKernel& portable_srs_kernel();
 const SrsKernel& avx2_srs_kernel();
-/// The one that this processor runs fastest.
-const SrsKernel& srs_kernel();
+const SrsKernel& avx512_srs_kernel();
+/// Those that this processor can run, the fastest last.
+struct SrsKernels {
+  const SrsKernel* kernel[3];
+  int count;
+};
+SrsKernels srs_kernels();
+const SrsKernel& srs_kernel();  // the fastest
 
 }  // namespace armature

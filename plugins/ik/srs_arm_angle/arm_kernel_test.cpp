@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The kernel's arithmetic against the scalar forms and the joints, for both builds of it.
+// The kernel's arithmetic against the scalar forms and the joints, for all builds of it.
 #include "arm_kernel.hpp"
 
 #include <gtest/gtest.h>
@@ -177,9 +177,10 @@ std::vector<Subject> subjects() {
   std::vector<Subject> list;
   for (const auto& [name, model] :
        {std::pair{std::string{"med7"}, med7()}, std::pair{std::string{"uneven_arm"}, uneven_arm()}}) {
-    list.push_back({"portable_" + name, &portable_srs_kernel(), model});
-    if (&srs_kernel() != &portable_srs_kernel()) {
-      list.push_back({"fast_" + name, &srs_kernel(), model});
+    const SrsKernels kernels = srs_kernels();
+    for (int i = 0; i < kernels.count; ++i) {
+      list.push_back({name + std::array{"_portable", "_avx2", "_avx512"}[static_cast<std::size_t>(i)],
+                      kernels.kernel[i], model});
     }
   }
   return list;
@@ -187,8 +188,7 @@ std::vector<Subject> subjects() {
 INSTANTIATE_TEST_SUITE_P(Srs, SrsKernelTest, testing::ValuesIn(subjects()),
                          testing::PrintToStringParamName());
 
-TEST(SrsKernel, BothBuildsFindTheSameIntervalsAndArmAngles) {
-  if (&srs_kernel() == &portable_srs_kernel()) GTEST_SKIP() << "this processor has one only";
+void expect_same(const SrsKernel& first, const SrsKernel& second) {
   SCOPED_TRACE("seed 32");
   std::mt19937_64 random{32};
   const SrsArm arm = srs_arm(*med7()).value();
@@ -200,7 +200,7 @@ TEST(SrsKernel, BothBuildsFindTheSameIntervalsAndArmAngles) {
     std::array<std::array<Spans, 8>, 2> spans;
     std::array<std::array<double, 8>, 2> arm_angle;
     for (std::size_t build = 0; build < 2; ++build) {
-      const SrsKernel& kernel = build == 0 ? portable_srs_kernel() : srs_kernel();
+      const SrsKernel& kernel = build == 0 ? first : second;
       const FeasibleAngles feasible{numbers, goal, kernel};
       for (std::size_t k = 0; k < 8; ++k) spans[build][k] = feasible.of(kBranches[k]);
       ArmAngleChoice{numbers, goal, kernel, aim, 0.1}.choose(spans[build], arm_angle[build]);
@@ -213,6 +213,14 @@ TEST(SrsKernel, BothBuildsFindTheSameIntervalsAndArmAngles) {
       }
       EXPECT_NEAR(arm_angle[0][k], arm_angle[1][k], 1e-8) << q.transpose();
     }
+  }
+}
+
+TEST(SrsKernel, AllBuildsFindTheSameIntervalsAndArmAngles) {
+  const SrsKernels kernels = srs_kernels();
+  if (kernels.count == 1) GTEST_SKIP() << "this processor has one only";
+  for (int i = 1; i < kernels.count; ++i) {
+    expect_same(portable_srs_kernel(), *kernels.kernel[i]);
   }
 }
 

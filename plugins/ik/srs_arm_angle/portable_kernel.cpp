@@ -12,12 +12,22 @@ const SrsKernel& portable_srs_kernel() {
   return kernel;
 }
 
-const SrsKernel& srs_kernel() {
+SrsKernels srs_kernels() {
+  SrsKernels list{{&portable_srs_kernel()}, 1};
 #if defined(__x86_64__)
-  static const bool wide = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-  if (wide) return avx2_srs_kernel();
+  if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) return list;
+  list.kernel[list.count++] = &avx2_srs_kernel();
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+      __builtin_cpu_supports("avx512dq")) {
+    list.kernel[list.count++] = &avx512_srs_kernel();
+  }
 #endif
-  return portable_srs_kernel();
+  return list;
+}
+
+const SrsKernel& srs_kernel() {
+  static const SrsKernels list = srs_kernels();
+  return *list.kernel[list.count - 1];
 }
 
 }  // namespace armature

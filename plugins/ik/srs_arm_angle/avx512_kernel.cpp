@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <numbers>
+
+#include "arm_kernel.hpp"
+
+#if defined(__x86_64__)
+#pragma GCC push_options
+#pragma GCC target("avx2,fma,avx512f,avx512vl,avx512dq")
+#include "branches_body.hpp"
+#include "minima_body.hpp"
+#include "pieces_body.hpp"
+
+namespace armature {
+
+const SrsKernel& avx512_srs_kernel() {
+  static constexpr SrsKernel kernel{arctangents,  sines_and_cosines,    turn_all_to,
+                                    turn_each_to, find_pieces,          find_costs_all_round,
+                                    find_costs_at, find_minima};
+  return kernel;
+}
+
+}  // namespace armature
+#pragma GCC pop_options
+#endif

@@ -169,7 +169,12 @@ void ArmAngleChoice::add_ends(Stretch& stretch) {
 
 void ArmAngleChoice::set_stretches(const std::array<Spans, 8>& spans) {
   for (std::size_t branch = 0; branch < 8; ++branch) {
-    for (const Span& span : spans[branch]) add_stretch(branch, span);
+    const Spans& own = spans[branch];
+    if (own.count == 0) continue;
+    const Span *first = own.begin(), *last = own.end() - 1;
+    const bool cut = first < last && first->lower == -kPi && last->upper == kPi;
+    for (const Span* span = first + (cut ? 1 : 0); span < last; ++span) add_stretch(branch, *span);
+    add_stretch(branch, cut ? Span{last->lower, first->upper + 2 * kPi} : *last);
   }
   set_costs_of_nodes(0);
   const std::size_t known = nodes_;
@@ -199,7 +204,7 @@ void ArmAngleChoice::consider(const Node& node, Node& best) const {
   const double equal = 1e-10 * std::abs(node.value);  // what minima are predicted to
   if (node.value > best.value + equal) return;
   if (node.value >= best.value - equal &&
-      between(node.at, wanted_) >= between(best.at, wanted_)) {
+      std::abs(wrap_angle(node.at - wanted_)) >= std::abs(wrap_angle(best.at - wanted_))) {
     return;
   }
   best = node;
@@ -302,7 +307,8 @@ void ArmAngleChoice::choose(const std::array<Spans, 8>& spans, std::array<double
   go_down(best);
   constexpr double kSame = 1e-8;  // [rad] as exactly as minima are found
   for (std::size_t branch = 0; branch < 8; ++branch) {
-    if (between(best[branch].at, arm_angle[branch]) > kSame) arm_angle[branch] = best[branch].at;
+    const double at = wrap_angle(best[branch].at);
+    if (between(at, arm_angle[branch]) > kSame) arm_angle[branch] = at;
   }
 }
 

@@ -68,8 +68,9 @@ IkGoal ik_goal(const RobotModel& model, const PathSample& sample) {
   return goal;
 }
 
-/// Which branch was reached, or why none. A solver answers every branch and is not told which one is
-/// taken: what it is to remember of the last choice follows from the joints `seed`, which were it.
+/// Which branch was reached, or why none. A solver answers every branch and is not told which one
+/// is taken: what it is to remember of the last choice follows from the joints `seed`, which were
+/// it.
 Expected<IkStatus> solved(const IkSolver& solver, const IkGoal& goal, const JointVector& seed,
                           IkBranches& branches, IkState& state) {
   return guarded(state, [&](IkState& s) {

@@ -6,7 +6,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <utility>
+
+#include "places.hpp"
 
 namespace armature {
 namespace {
@@ -31,43 +32,6 @@ bool may_fall_below(double least, const Node& left, const Node& right) {
   return 2 * meet - std::min(left.value, right.value) <= least;
 }
 
-class Places {
- public:
-  /// `count` regular ones, a multiple of four.
-  Places(CostTable& table, int count) : table_{table}, step_{2 * kPi / count} {
-    table_.count = table_.regular = count;
-    for (int i = 0; i < count; ++i) table_.place[i] = -kPi + step_ * i;
-  }
-  void add(double at) {
-    if (table_.count < CostTable::kMost - 3) table_.place[table_.count++] = wrap_angle(at);
-  }
-  /// Where the hinge is nearest to in line, x = 0 and x = pi, its outer turns go like
-  /// arctan(x / width): places at twice and twice the distance, from a quarter of the width.
-  /// `sign` and `whole`: the arm angle is whole + sign x.
-  void add_around(const SinCos& p, const SinCos& q, double whole) {
-    constexpr double kNarrowest = 1e-6;
-    for (const auto& [x, sine] : {std::pair{0.0, (p + q).sin}, std::pair{kPi, (p - q).sin}}) {
-      const double width = std::abs(sine) / std::max({std::abs(p.sin), std::abs(q.sin), 1e-9});
-      if (width > step_) continue;
-      for (double away = std::max(width, kNarrowest) / 4; away < step_; away *= 2) {
-        add(whole + x - away);
-        add(whole + x + away);
-      }
-    }
-  }
-  void finish() {
-    for (int i = 0; table_.count % 4 != 0; ++i) {
-      table_.place[table_.count++] = -kPi + step_ * (i + 0.5);
-    }
-    if (table_.count > table_.regular) std::sort(table_.place, table_.place + table_.count);
-    for (int i = 0; i < 4; ++i) table_.place[table_.count + i] = 2 * kPi;
-  }
-
- private:
-  CostTable& table_;
-  double step_;
-};
-
 }  // namespace
 
 double nearest_in(const Spans& spans, double wanted) {
@@ -82,33 +46,6 @@ double nearest_in(const Spans& spans, double wanted) {
   return best;
 }
 
-void ArmAngleChoice::set_places() {
-  // The manipulability has more hills than the limits have.
-  Places places{table_, aim_.objective == Objective::singularity ? 48 : 32};
-  places.add_around(goal_.polar, -goal_.phi, 0);
-  places.add_around(goal_.bend, goal_.gamma, goal_.alpha_rad);
-  if (aim_.objective == Objective::balanced && aim_.remembers) {
-    // Opposite to the last arm angle the way back has a kink.
-    constexpr double kBeside = 1e-9;
-    for (const double opposite : {aim_.last, aim_.last + kPi}) {
-      places.add(opposite - kBeside);
-      places.add(opposite + kBeside);
-    }
-  }
-  places.finish();
-}
-
-/// The first place not below `at`, which is in [-pi, pi].
-int ArmAngleChoice::place_from(double at) const {
-  // Among regular places alone it is this or one of the next two; behind the last there are more.
-  int i = std::max(static_cast<int>((at + kPi) * (0.5 / kPi * table_.regular) - 0.5), 0);
-  i += table_.place[i] < at ? 1 : 0;
-  i += table_.place[i] < at ? 1 : 0;
-  if (table_.count == table_.regular) return i;
-  while (table_.place[i] < at) ++i;
-  return i;
-}
-
 void ArmAngleChoice::add_stretch(std::size_t branch, const Span& span) {
   Stretch& stretch = stretch_[stretches_++];
   stretch.span = span;
@@ -119,8 +56,8 @@ void ArmAngleChoice::add_stretch(std::size_t branch, const Span& span) {
   stretch.shift = shift;
   const bool around = span.upper - shift >= kPi;
   const double upper = span.upper - shift - (around ? 2 * kPi : 0);
-  const int end = place_from(upper);
-  stretch.first = place_from(span.lower - shift);
+  const int end = place_from(table_, upper);
+  stretch.first = place_from(table_, span.lower - shift);
   stretch.end = end + (table_.place[end] == upper ? 1 : 0) + (around ? table_.count : 0);
   stretch.inner = nodes_;
   stretch.inner_count = 0;
@@ -293,7 +230,7 @@ void ArmAngleChoice::choose(const std::array<Spans, 8>& spans, std::array<double
     any = any || !none;
   }
   if (aim_.objective == Objective::continuity || !any) return;
-  set_places();
+  set_places(goal_, aim_, table_);
   kernel_.cost_all_round(numbers_, goal_, aim_, table_);
   nodes_ = stretches_ = valleys_ = 0;
   set_stretches(spans);

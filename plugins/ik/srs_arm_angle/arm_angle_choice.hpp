@@ -48,10 +48,8 @@ class ArmAngleChoice {
   static constexpr std::size_t kStretches = 8 * Spans::kCapacity;
   static constexpr std::size_t kNodes = kStretches * (kInner + 2);
 
-  void set_places();
   void set_stretches(const std::array<Spans, 8>& spans);
   void add_stretch(std::size_t branch, const Span& span);
-  int place_from(double at) const;
   std::size_t add_node(std::size_t branch, double at);
   void add_ends(Stretch& stretch);
   void set_costs_of_nodes(std::size_t from);

@@ -110,9 +110,8 @@ class ArmAngleChoices : public testing::TestWithParam<Subject> {
       EXPECT_EQ(solver_->solve(goal_, seed_, found, state).code, IkStatus::Code::ok);
       EXPECT_EQ(found.count, 8);
       for (const IkBranch& branch : found) {
-        const bool feasible =
-            std::ranges::find(intervals_, branch.label, &RedundancyInterval::label) !=
-            intervals_.end();
+        const bool feasible = std::ranges::find(intervals_, branch.label,
+                                                &RedundancyInterval::label) != intervals_.end();
         EXPECT_EQ(branch.within_limits, feasible) << branch.label << ", " << q.transpose();
         if (!feasible) continue;
         EXPECT_TRUE(is_inside(branch)) << branch.label << " at " << branch.redundancy;

@@ -16,7 +16,8 @@ struct TurnNumbers {
   double sign[4], offset[4], middle[4], half[4];  // as in SrsArm
   double weight[4];                               // 1 / half; 0 where the limits cost nothing
   double middle_sin[4], middle_cos[4];
-  double half_sin[4], half_cos[4];  // of half with its tolerance; 0 and -1 of a joint without limits
+  double half_sin[4],
+      half_cos[4];  // of half with its tolerance; 0 and -1 of a joint without limits
   // Of the lower and the upper limit, shoulder and then wrist; NaN of a joint without limits.
   double end_sin[4], end_cos[4];
 };
@@ -32,7 +33,7 @@ struct FourPlaces {
   int branch[4];  // index into kBranches
 };
 struct FourBranches {
-  double joint[7][4];  // the robot's values, in [-pi, pi)
+  double joint[7][4];                  // the robot's values, in [-pi, pi)
   double position_m[4], angle_rad[4];  // by which forward kinematics miss the goal
   // A bit for each branch. Where shoulder or wrist is in line the joints are not told: solve_elbow
   // has the rules.
@@ -40,7 +41,8 @@ struct FourBranches {
 };
 
 /// Where the shoulder of elbow 0, that of elbow 1, and the two wrists keep their limits, each as
-/// found and flipped: in the lane's arm angles from -pi to pi, between two of which nothing changes.
+/// found and flipped: in the lane's arm angles from -pi to pi, between two of which nothing
+/// changes.
 struct LimitPieces {
   static constexpr int kEvents = 16;
   double event[kEvents][4];  // rising; the last ones may be equal
@@ -50,10 +52,10 @@ struct LimitPieces {
 
 /// Costs all round: places are arm angles of elbow 0, for elbow 1 half a turn further.
 struct CostTable {
-  static constexpr int kMost = 192, kWords = kMost / 64;
+  static constexpr int kMost = 256, kWords = kMost / 64;
   // [rad], rising from -pi; `count` is a multiple of four, and behind it they are beyond pi
   double place[kMost + 4];
-  int count = 0, regular = 0;  // of them, in equal steps from -pi
+  int count = 0, regular = 0;                       // of them, in equal steps from -pi
   double value[8][kMost + 4], slope[8][kMost + 4];  // by branch; the first follows the last
   /// A bit for every place: between it and the next there is a minimum.
   std::uint64_t valley[8][kWords];

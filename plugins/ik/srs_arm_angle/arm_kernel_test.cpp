@@ -175,12 +175,13 @@ TEST_P(SrsKernelTest, MinimaAreWhereTheSlopeChangesItsSign) {
 
 std::vector<Subject> subjects() {
   std::vector<Subject> list;
-  for (const auto& [name, model] :
-       {std::pair{std::string{"med7"}, med7()}, std::pair{std::string{"uneven_arm"}, uneven_arm()}}) {
+  for (const auto& [name, model] : {std::pair{std::string{"med7"}, med7()},
+                                    std::pair{std::string{"uneven_arm"}, uneven_arm()}}) {
     const SrsKernels kernels = srs_kernels();
     for (int i = 0; i < kernels.count; ++i) {
-      list.push_back({name + std::array{"_portable", "_avx2", "_avx512"}[static_cast<std::size_t>(i)],
-                      kernels.kernel[i], model});
+      list.push_back(
+          {name + std::array{"_portable", "_avx2", "_avx512"}[static_cast<std::size_t>(i)],
+           kernels.kernel[i], model});
     }
   }
   return list;

@@ -20,9 +20,8 @@
 namespace armature {
 
 const SrsKernel& avx512_srs_kernel() {
-  static constexpr SrsKernel kernel{arctangents,  sines_and_cosines,    turn_all_to,
-                                    turn_each_to, find_pieces,          find_costs_all_round,
-                                    find_costs_at, find_minima};
+  static constexpr SrsKernel kernel{arctangents, sines_and_cosines,    turn_all_to,   turn_each_to,
+                                    find_pieces, find_costs_all_round, find_costs_at, find_minima};
   return kernel;
 }
 

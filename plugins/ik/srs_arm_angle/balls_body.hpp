@@ -28,8 +28,8 @@ struct Balls {
   Lanes p_sin, p_cos, q_sin, q_cos;
   Lanes cos_cos, cos_sin, sin_cos, sin_sin;  // of p and q
   Lanes kept_sin, kept_cos;                  // of a where sin(b) is zero
-  // sin x = along_s sin psi + along_c cos psi, cos x = along_s cos psi - along_c sin psi, the second
-  // one negated for wrists, whose x goes against psi.
+  // sin x = along_s sin psi + along_c cos psi, cos x = along_s cos psi - along_c sin psi, the
+  // second one negated for wrists, whose x goes against psi.
   Lanes x_sin, x_cos;
   Lanes direction;
 
@@ -64,10 +64,9 @@ Lanes either(const double (&numbers)[4]) {
 
 template <Which which>
 Balls balls_of(const SrsGoal& goal) {
-  Balls balls = balls_of(either<which>(goal.polar.sin, goal.bend.sin),
-                         either<which>(goal.polar.cos, goal.bend.cos),
-                         either<which>(-goal.phi.sin, goal.gamma.sin),
-                         either<which>(goal.phi.cos, goal.gamma.cos));
+  Balls balls = balls_of(
+      either<which>(goal.polar.sin, goal.bend.sin), either<which>(goal.polar.cos, goal.bend.cos),
+      either<which>(-goal.phi.sin, goal.gamma.sin), either<which>(goal.phi.cos, goal.gamma.cos));
   balls.kept_sin = either<which>(goal.kept_shoulder.sin, goal.kept_wrist.sin);
   balls.kept_cos = either<which>(goal.kept_shoulder.cos, goal.kept_wrist.cos);
   balls.x_sin = either<which>(0, goal.alpha.sin);
@@ -82,7 +81,8 @@ struct LaneAngles {
   Masks free;
 };
 
-[[gnu::always_inline]] inline LaneAngles angles_at(const Balls& balls, const LaneSinCos& x, double in_line) {
+[[gnu::always_inline]] inline LaneAngles angles_at(const Balls& balls, const LaneSinCos& x,
+                                                   double in_line) {
   const Lanes m13 = balls.cos_sin * x.cos + balls.sin_cos, m23 = balls.q_sin * x.sin;
   LaneAngles angles;
   angles.b = {root(m13 * m13 + m23 * m23), balls.cos_cos - balls.sin_sin * x.cos};
@@ -115,7 +115,7 @@ Shifts shifts_of(const SrsGoal& goal) {
 
 /// Which half turns make the joints of elbow 0 those of four branches.
 struct BranchTurns {
-  Lanes shoulder_sign, wrist_sign;                          // of t2 and t6
+  Lanes shoulder_sign, wrist_sign;                        // of t2 and t6
   Masks shoulder_a, shoulder_c, wrist_a, wrist_c, elbow;  // which are half a turn on
 };
 BranchTurns turns_of_branches(const int* branch) {

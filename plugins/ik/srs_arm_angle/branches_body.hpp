@@ -11,7 +11,8 @@ constexpr double kLimitTolerance = 1e-9;  // [rad] that of the kind
 
 /// The robot's joint values at canonical angles; `within` loses the lanes beyond their limits.
 template <Which which>
-[[gnu::always_inline]] inline Lanes joint_at(const TurnNumbers& numbers, const Lanes& t, Masks& within) {
+[[gnu::always_inline]] inline Lanes joint_at(const TurnNumbers& numbers, const Lanes& t,
+                                             Masks& within) {
   const Lanes from_middle = wrapped(t - either<which>(numbers.middle));
   within &= magnitude(from_middle) - either<which>(numbers.half) <= kLimitTolerance;
   return wrapped(either<which>(numbers.sign) * (t - either<which>(numbers.offset)));
@@ -21,7 +22,8 @@ template <Which which>
 struct LaneRotation {
   LaneTriple x, y, z;
 };
-[[gnu::always_inline]] inline LaneRotation rotation_of(const LaneSinCos& a, const LaneSinCos& b, const LaneSinCos& c) {
+[[gnu::always_inline]] inline LaneRotation rotation_of(const LaneSinCos& a, const LaneSinCos& b,
+                                                       const LaneSinCos& c) {
   const Lanes cc = a.cos * b.cos, sc = a.sin * b.cos;
   return {{cc * c.cos - a.sin * c.sin, sc * c.cos + a.cos * c.sin, -(b.sin * c.cos)},
           {-(cc * c.sin) - a.sin * c.cos, a.cos * c.cos - sc * c.sin, b.sin * c.sin},
@@ -40,8 +42,9 @@ inline LaneSinCos sum(const LaneSinCos& a, const SinCos& b) {
 struct LaneResidual {
   Lanes position_m, angle_rad;
 };
-[[gnu::always_inline]] inline LaneResidual residual_of(const SrsArm& arm, const SrsGoal& goal, const LaneAngles& shoulder,
-                         const LaneAngles& wrist) {
+[[gnu::always_inline]] inline LaneResidual residual_of(const SrsArm& arm, const SrsGoal& goal,
+                                                       const LaneAngles& shoulder,
+                                                       const LaneAngles& wrist) {
   const LaneRotation upper = rotation_of(sum(shoulder.a, goal.azimuth), shoulder.b, shoulder.c);
   const Lanes bend_cos = all(goal.elbow.cos), bend_sin = all(goal.elbow.sin);
   const LaneTriple fore_x = combined(upper.x, bend_cos, upper.z, bend_sin);
@@ -70,11 +73,13 @@ struct LaneResidual {
   return along * along + across * across + last * last;
 }
 /// As is_singular, from the squares of sin(b) and of the rates.
-[[gnu::always_inline]] inline Masks are_singular(const SrsArm& arm, const SrsGoal& goal, const Lanes& shoulder_sin,
-                   const Lanes& shoulder_rates2, const Lanes& wrist_sin,
-                   const Lanes& wrist_rates2) {
-  const Lanes spread = root(wrist_sin * wrist_sin * shoulder_rates2 +
-                            shoulder_sin * shoulder_sin * wrist_rates2);
+[[gnu::always_inline]] inline Masks are_singular(const SrsArm& arm, const SrsGoal& goal,
+                                                 const Lanes& shoulder_sin,
+                                                 const Lanes& shoulder_rates2,
+                                                 const Lanes& wrist_sin,
+                                                 const Lanes& wrist_rates2) {
+  const Lanes spread =
+      root(wrist_sin * wrist_sin * shoulder_rates2 + shoulder_sin * shoulder_sin * wrist_rates2);
   return goal.distance * goal.elbow.sin * spread < kSingular * arm.reach();
 }
 

@@ -33,9 +33,9 @@ inline Level reciprocal(const Level& a) {
 /// How fast the joints of a ball turn with the arm angle: the turn about the axis of x, seen from
 /// behind Ry(q), shared out among the three axes. Finite at sin(b) = 0.
 struct Motion {
-  Lanes a, b, c;       // slopes
-  Lanes sine;          // of b
-  Lanes along, last;   // sine times a, sine times c
+  Lanes a, b, c;      // slopes
+  Lanes sine;         // of b
+  Lanes along, last;  // sine times a, sine times c
 };
 Motion motion_of(const Balls& balls, const LaneAngles& angles) {
   constexpr double kLeastSine = 1e-12;
@@ -69,8 +69,8 @@ Spread spread_of(const Balls& balls, const LaneAngles& angles, const Motion& m) 
   const Lanes q_sin = balls.direction * balls.q_sin;
   const Lanes along = -(q_sin * c.sin * m.c), across = m.sine * m.b;
   const Lanes across_slope = -(q_sin * (b.cos * m.b * c.sin + m.sine * c.cos * m.c));
-  const Lanes last = balls.direction * b.cos * m.b * balls.q_cos + m.sine * m.b * m.along -
-                     b.cos * along;
+  const Lanes last =
+      balls.direction * b.cos * m.b * balls.q_cos + m.sine * m.b * m.along - b.cos * along;
   return {{m.sine * m.sine, 2 * m.sine * b.cos * m.b},
           {m.along * m.along + across * across + m.last * m.last,
            2 * (m.along * along + across * across_slope + m.last * last)}};
@@ -80,8 +80,8 @@ Spread spread_of(const Balls& balls, const LaneAngles& angles, const Motion& m) 
 template <Which which>
 class CostOfBall {
  public:
-  [[gnu::always_inline]] CostOfBall(const ArmNumbers& numbers, const SrsGoal& goal, const Balls& balls,
-             const LaneSinCos& arm_angle)
+  [[gnu::always_inline]] CostOfBall(const ArmNumbers& numbers, const SrsGoal& goal,
+                                    const Balls& balls, const LaneSinCos& arm_angle)
       : numbers_{numbers},
         balls_{balls},
         angles_{angles_at(balls, balls.at(arm_angle), goal.in_line)},
@@ -167,8 +167,7 @@ void set_costs(const ArmNumbers& numbers, const SrsGoal& goal, const Aim& aim, C
     const Level base[2]{shared + way_cost(aim, place), shared + way_cost(aim, place + kPi)};
     for (int branch = 0; branch < 8; ++branch) {
       const int elbow = branch / 2 % 2;
-      const Level cost =
-          base[elbow] + of_shoulder[elbow][branch / 4] + of_wrist[elbow][branch % 2];
+      const Level cost = base[elbow] + of_shoulder[elbow][branch / 4] + of_wrist[elbow][branch % 2];
       store(cost.value, table.value[branch] + i);
       store(cost.slope, table.slope[branch] + i);
     }

@@ -99,11 +99,10 @@ void find_minima(const ArmNumbers& numbers, const SrsGoal& goal, const Aim& aim,
   for (int from = 0; from < count; from += kTogether) {
     const int together = count - from < kTogether ? count - from : kTogether;
     const Valleys* these = valleys + from;
-    const CostOfBranches cost[kTogether]{
-        {numbers, goal, aim, these[0].branch},
-        {numbers, goal, aim, these[together > 1 ? 1 : 0].branch},
-        {numbers, goal, aim, these[together > 2 ? 2 : 0].branch},
-        {numbers, goal, aim, these[together > 3 ? 3 : 0].branch}};
+    const CostOfBranches cost[kTogether]{{numbers, goal, aim, these[0].branch},
+                                         {numbers, goal, aim, these[together > 1 ? 1 : 0].branch},
+                                         {numbers, goal, aim, these[together > 2 ? 2 : 0].branch},
+                                         {numbers, goal, aim, these[together > 3 ? 3 : 0].branch}};
     Descent descent[kTogether]{Descent{these[0]}, Descent{these[together > 1 ? 1 : 0]},
                                Descent{these[together > 2 ? 2 : 0]},
                                Descent{these[together > 3 ? 3 : 0]}};

@@ -82,8 +82,8 @@ ShiftTurns shift_turns_of(const SrsGoal& goal) {
           {either<Which::both>(0, goal.beta.sin), either<Which::both>(1, goal.beta.cos)}};
 }
 
-/// Where a limit is reached or b is at its ends, where turns may jump. a and c of the ball joint are
-/// arctangents of (M23, M13) and (M32, -M31), b is arccos M33:
+/// Where a limit is reached or b is at its ends, where turns may jump. a and c of the ball joint
+/// are arctangents of (M23, M13) and (M32, -M31), b is arccos M33:
 ///   M13 = cos p sin q cos x + sin p cos q    M23 = sin q sin x
 ///   M31 = -sin p cos q cos x - cos p sin q   M32 = sin p sin x
 ///   M33 = cos p cos q - sin p sin q cos x

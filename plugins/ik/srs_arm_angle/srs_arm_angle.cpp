@@ -72,8 +72,8 @@ void SrsArmAngle::add_branches(const SrsGoal& goal, double arm_angle, IkBranches
     }
     const std::size_t elbow = branch.elbow;
     if (!std::exchange(solved[elbow], true)) {
-      elbows[elbow] = solve_elbow(numbers_.arm, goal, arm_circle(goal, static_cast<int>(elbow)),
-                                  arm_angle);
+      elbows[elbow] =
+          solve_elbow(numbers_.arm, goal, arm_circle(goal, static_cast<int>(elbow)), arm_angle);
     }
     out.add() = branch_of(numbers_.arm, elbows[elbow], branch.flips, branch.label);
   }

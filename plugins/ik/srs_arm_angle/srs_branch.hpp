@@ -3,8 +3,8 @@
 
 #include <array>
 
-#include "armature/kinds/ik/ik.hpp"
 #include "arm_kernel.hpp"
+#include "armature/kinds/ik/ik.hpp"
 #include "branches.hpp"
 #include "srs_joints.hpp"
 

@@ -166,8 +166,10 @@ double arm_angle_of(const SrsArm& arm, const std::array<double, 7>& t) {
   const auto& [azimuth, polar] = line;
   const double sine = azimuth.cos * x.y() - azimuth.sin * x.x();
   const double cosine = azimuth.cos * y.y() - azimuth.sin * y.x();
-  const double ahead_x = polar.cos * (azimuth.cos * x.x() + azimuth.sin * x.y()) - polar.sin * x.z();
-  const double ahead_y = polar.cos * (azimuth.cos * y.x() + azimuth.sin * y.y()) - polar.sin * y.z();
+  const double ahead_x =
+      polar.cos * (azimuth.cos * x.x() + azimuth.sin * x.y()) - polar.sin * x.z();
+  const double ahead_y =
+      polar.cos * (azimuth.cos * y.x() + azimuth.sin * y.y()) - polar.sin * y.z();
   return wrap_angle(std::atan2(sine - ahead_y, cosine + ahead_x));
 }
 
@@ -185,7 +187,8 @@ SrsGoal srs_goal(const SrsArm& arm, const IkGoal& goal, const JointVector& seed)
   if (own.shortfall > 0) return own;
   const SinCos half_elbow = set_elbow(arm, own);
   const bool on_shoulder = own.distance < kOnAxis * arm.reach();
-  set_frame(arm, on_shoulder ? wrist_or_direction(arm, upper_arm(canonical(arm, seed))) : own.wrist, own);
+  set_frame(arm, on_shoulder ? wrist_or_direction(arm, upper_arm(canonical(arm, seed))) : own.wrist,
+            own);
   set_angles(half_elbow, own);
   own.in_line = std::clamp(goal.tolerance.angle_rad, kRounding, kInLine);
   set_free_joints(arm, seed, own);

@@ -27,10 +27,10 @@ struct SrsGoal {
   SinCos azimuth, polar;         // of that line
   SinCos alpha, gamma, beta;     // of the hand, seen from F
   double azimuth_rad = 0, alpha_rad = 0, beta_rad = 0;
-  double in_line = 0;           // [rad] axes nearer to in line are in line
+  double in_line = 0;  // [rad] axes nearer to in line are in line
   /// Somewhere on the circle of the arm angle a shoulder or a wrist is in line.
   bool shoulder_in_line = false, wrist_in_line = false;
-  double kept1 = 0, kept5 = 0;        // [rad] where the pose leaves t1 or t5 free
+  double kept1 = 0, kept5 = 0;       // [rad] where the pose leaves t1 or t5 free
   SinCos kept_shoulder, kept_wrist;  // the same of the ball joint's a
   /// How far the wrist is out of reach [m], and why.
   double shortfall = 0;

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "places.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace armature {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+class Places {
+ public:
+  /// `count` regular ones, a multiple of four.
+  Places(CostTable& table, int count) : table_{table}, step_{2 * kPi / count} {
+    table_.count = table_.regular = count;
+    for (int i = 0; i < count; ++i) table_.place[i] = -kPi + step_ * i;
+  }
+  void add(double at) {
+    if (table_.count < CostTable::kMost - 3) table_.place[table_.count++] = wrap_angle(at);
+  }
+  /// Where the hinge is nearest to in line, x = 0 and x = pi, its outer turns go like
+  /// arctan(x / width): places at twice and twice the distance, from a quarter of the width.
+  /// The arm angle is `whole` + x or `whole` - x.
+  void add_around(const SinCos& p, const SinCos& q, double whole) {
+    constexpr double kNarrowest = 1e-6;
+    for (const auto& [x, sine] : {std::pair{0.0, (p + q).sin}, std::pair{kPi, (p - q).sin}}) {
+      const double width = std::abs(sine) / std::max({std::abs(p.sin), std::abs(q.sin), 1e-9});
+      if (width > step_) continue;
+      for (double away = std::max(width, kNarrowest) / 4; away < step_; away *= 2) {
+        add(whole + x - away);
+        add(whole + x + away);
+      }
+    }
+  }
+  void finish() {
+    for (int i = 0; table_.count % 4 != 0; ++i) {
+      table_.place[table_.count++] = -kPi + step_ * (i + 0.5);
+    }
+    if (table_.count > table_.regular) std::sort(table_.place, table_.place + table_.count);
+    for (int i = 0; i < 4; ++i) table_.place[table_.count + i] = 2 * kPi;
+  }
+
+ private:
+  CostTable& table_;
+  double step_;
+};
+
+}  // namespace
+
+void set_places(const SrsGoal& goal, const Aim& aim, CostTable& table) {
+  // The manipulability has more hills than the limits have.
+  Places places{table, aim.objective == Objective::singularity ? 48 : 40};
+  places.add_around(goal.polar, -goal.phi, 0);
+  places.add_around(goal.bend, goal.gamma, goal.alpha_rad);
+  if (aim.objective == Objective::balanced && aim.remembers) {
+    // Opposite to the last arm angle the way back has a kink.
+    constexpr double kBeside = 1e-9;
+    for (const double opposite : {aim.last, aim.last + kPi}) {
+      places.add(opposite - kBeside);
+      places.add(opposite + kBeside);
+    }
+  }
+  places.finish();
+}
+
+int place_from(const CostTable& table, double at) {
+  // Among regular places alone it is this or one of the next two; behind the last there are more.
+  int i = std::max(static_cast<int>((at + kPi) * (0.5 / kPi * table.regular) - 0.5), 0);
+  i += table.place[i] < at ? 1 : 0;
+  i += table.place[i] < at ? 1 : 0;
+  if (table.count == table.regular) return i;
+  while (table.place[i] < at) ++i;
+  return i;
+}
+
+}  // namespace armature

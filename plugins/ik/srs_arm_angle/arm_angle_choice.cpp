@@ -157,7 +157,9 @@ void ArmAngleChoice::look_between(std::size_t branch, const Node& left, const No
   consider(left.value < right.value ? left : right, best);
   const bool valley = (left.slope < 0 && (right.slope >= 0 || right.value >= left.value)) ||
                       (right.slope > 0 && (left.slope <= 0 || left.value >= right.value));
-  if (valley && right.at > left.at) valley_[valleys_++] = {branch, left, right};
+  if (valley && right.at > left.at && valleys_ < valley_.size()) {
+    valley_[valleys_++] = {branch, left, right};
+  }
 }
 
 void ArmAngleChoice::look_along(const Stretch& stretch, Node& best) {

@@ -51,7 +51,7 @@ endif()
 
 # Most of a file's compile time is reading Eigen and the standard library: each precompiled once,
 # for libraries and commands, for plugins (which hide their symbols) and for tests. The preset `dev`
-# builds without the first two, so that a forgotten #include is found.
+# builds without them, so that a forgotten #include is found.
 #   armature_precompile(robot code)
 function(armature_precompile target purpose)
   if(NOT ARMATURE_PRECOMPILE)
@@ -112,13 +112,18 @@ function(armature_add_test name)
     target_compile_options(armature_test_main PUBLIC
       $<$<CONFIG:Release,RelWithDebInfo>:-O1> -Wno-array-bounds -Wno-stringop-overflow
       -Wno-stringop-overread -Wno-restrict)
-    target_precompile_headers(armature_test_main PRIVATE "${CMAKE_SOURCE_DIR}/tests/precompiled.hpp")
+    if(ARMATURE_PRECOMPILE)
+      target_precompile_headers(armature_test_main PRIVATE
+                                "${CMAKE_SOURCE_DIR}/tests/precompiled.hpp")
+    endif()
     set_target_properties(armature_test_main PROPERTIES POSITION_INDEPENDENT_CODE OFF)
   endif()
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE armature_test_main armature_warnings ${arg_LINK})
   target_include_directories(${name} PRIVATE "${CMAKE_SOURCE_DIR}")  # "tests/dds_domain.hpp"
-  target_precompile_headers(${name} REUSE_FROM armature_test_main)
+  if(ARMATURE_PRECOMPILE)
+    target_precompile_headers(${name} REUSE_FROM armature_test_main)
+  endif()
   if(ARMATURE_TESTS_TOGETHER AND NOT arg_SEPARATELY)
     set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 4)
   endif()

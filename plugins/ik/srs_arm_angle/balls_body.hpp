@@ -28,14 +28,14 @@ struct Balls {
   Lanes p_sin, p_cos, q_sin, q_cos;
   Lanes cos_cos, cos_sin, sin_cos, sin_sin;  // of p and q
   Lanes kept_sin, kept_cos;                  // of a where sin(b) is zero
-  // sin x = along_s sin psi + along_c cos psi, cos x = along_s cos psi - along_c sin psi, the
-  // second one negated for wrists, whose x goes against psi.
-  Lanes x_sin, x_cos;
+  // x = start + direction psi, by the sine and cosine of start.
+  Lanes start_sin, start_cos;
   Lanes direction;
 
   LaneSinCos at(const LaneSinCos& arm_angle) const {
     const Lanes turned = direction * arm_angle.sin;
-    return {x_sin * arm_angle.cos + x_cos * turned, x_cos * arm_angle.cos - x_sin * turned};
+    return {start_sin * arm_angle.cos + start_cos * turned,
+            start_cos * arm_angle.cos - start_sin * turned};
   }
 };
 
@@ -47,7 +47,7 @@ Balls balls_of(const Lanes& p_sin, const Lanes& p_cos, const Lanes& q_sin, const
   return balls;
 }
 
-/// `Shoulder` of four lanes, or `Wrist`, or {shoulder, shoulder, wrist, wrist}.
+/// What four lanes are: shoulders, wrists, or {shoulder, shoulder, wrist, wrist}.
 enum class Which { shoulder, wrist, both };
 template <Which which>
 Lanes either(double shoulder, double wrist) {
@@ -69,8 +69,8 @@ Balls balls_of(const SrsGoal& goal) {
       either<which>(-goal.phi.sin, goal.gamma.sin), either<which>(goal.phi.cos, goal.gamma.cos));
   balls.kept_sin = either<which>(goal.kept_shoulder.sin, goal.kept_wrist.sin);
   balls.kept_cos = either<which>(goal.kept_shoulder.cos, goal.kept_wrist.cos);
-  balls.x_sin = either<which>(0, goal.alpha.sin);
-  balls.x_cos = either<which>(1, goal.alpha.cos);
+  balls.start_sin = either<which>(0, goal.alpha.sin);
+  balls.start_cos = either<which>(1, goal.alpha.cos);
   balls.direction = either<which>(1, -1);
   return balls;
 }

@@ -223,13 +223,15 @@ class CostOfBranches {
 
  private:
   template <Which which>
-  static Level limits(const CostOfBall<which>& ball, Masks a, Lanes sign, Masks c,
-                      const Masks& elbow) {
-    if (any(ball.free())) {
-      a &= ~ball.free();
-      sign = ball.free() ? all(1) : sign;
-      c = (ball.free() & elbow) | (~ball.free() & c);
-    }
+  static Level limits(const CostOfBall<which>& ball, const Masks& a, const Lanes& sign,
+                      const Masks& c, const Masks& elbow) {
+    if (!any(ball.free())) return turned(ball, a, sign, c);
+    const Masks bound = ~ball.free();
+    return turned(ball, a & bound, bound ? sign : all(1), (c & bound) | (elbow & ~bound));
+  }
+  template <Which which>
+  static Level turned(const CostOfBall<which>& ball, const Masks& a, const Lanes& sign,
+                      const Masks& c) {
     return ball.a(a ? all(kPi) : all(0)) + ball.b(sign) + ball.c(c ? all(kPi) : all(0));
   }
 

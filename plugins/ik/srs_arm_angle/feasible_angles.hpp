@@ -42,7 +42,6 @@ class FeasibleAngles {
   Spans of(const Branch& branch) const;
 
  private:
-  struct Ball;
   /// By ball: shoulder of elbow 0 and of elbow 1, wrist of elbow 0 and of elbow 1.
   using Kept = std::array<std::array<Spans, 2>, 4>;
   ArmBall ball(std::size_t which) const;

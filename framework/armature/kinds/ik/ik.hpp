@@ -88,9 +88,12 @@ std::string_view to_string(IkStatus::Code code);
 /// "out_of_reach: 0.0341 m beyond reach (horizontal distance)".
 std::string describe(const IkStatus& status);
 
-/// What a solver remembers between calls; the caller owns it (start: value-initialised).
+/// What is remembered between calls; the caller owns it (start: value-initialised). A solver answers
+/// every branch and is not told which one is taken.
 struct IkState {
-  std::optional<double> last_redundancy;  // arm angle [rad] or needle depth [m]
+  /// Arm angle [rad] or needle depth [m] of the joints that were taken; the caller sets it
+  /// (`redundancy_of`).
+  std::optional<double> last_redundancy;
 };
 
 /// Inverse kinematics for one robot. Made by `make`, which refuses a robot that the solver cannot

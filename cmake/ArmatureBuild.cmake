@@ -72,10 +72,18 @@ function(armature_precompile target purpose)
   target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:fmt::fmt>)
 endfunction()
 
+# A target's files are compiled a few at a time, which makes templates once for them.
+function(armature_compile_together target)
+  if(ARMATURE_TOGETHER)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 4)
+  endif()
+endfunction()
+
 # armature_add_library(robot SOURCES a.cpp ... LINK Eigen3::Eigen ... PRIVATE yaml-cpp ...)
-# A shared library libarmature_<name> with the alias armature::<name>.
+# A shared library libarmature_<name> with the alias armature::<name>. SEPARATELY: its files use the
+# same names for other things.
 function(armature_add_library name)
-  cmake_parse_arguments(arg "" "" "SOURCES;LINK;PRIVATE" ${ARGN})
+  cmake_parse_arguments(arg "SEPARATELY" "" "SOURCES;LINK;PRIVATE" ${ARGN})
   add_library(armature_${name} SHARED ${arg_SOURCES})
   add_library(armature::${name} ALIAS armature_${name})
   set_target_properties(armature_${name} PROPERTIES EXPORT_NAME ${name} VERSION ${PROJECT_VERSION}
@@ -83,6 +91,9 @@ function(armature_add_library name)
   target_link_libraries(armature_${name} PUBLIC armature::abi ${arg_LINK}
                                          PRIVATE $<BUILD_INTERFACE:armature_warnings> ${arg_PRIVATE})
   armature_precompile(armature_${name} code)
+  if(NOT arg_SEPARATELY)
+    armature_compile_together(armature_${name})
+  endif()
   install(TARGETS armature_${name} EXPORT ArmatureTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 endfunction()
 
@@ -124,8 +135,8 @@ function(armature_add_test name)
   if(ARMATURE_PRECOMPILE)
     target_precompile_headers(${name} REUSE_FROM armature_test_main)
   endif()
-  if(ARMATURE_TESTS_TOGETHER AND NOT arg_SEPARATELY)
-    set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 4)
+  if(NOT arg_SEPARATELY)
+    armature_compile_together(${name})
   endif()
   target_compile_definitions(${name} PRIVATE
     ARMATURE_SOURCE_DIR="${CMAKE_SOURCE_DIR}" ARMATURE_BINARY_DIR="${CMAKE_BINARY_DIR}"

@@ -59,7 +59,9 @@ TEST_P(NeedlePaths, GoToTheStandOffStopAtTheEntryAndEndAtTheTargetOnOneLine) {
 
 TEST_P(NeedlePaths, AFullRotationIsKeptAndItsZIsTheNeedle) {
   PathRequest request = insertion();
-  const Eigen::Quaterniond rotation = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), along_);
+  Eigen::Matrix3d R;
+  R << along_.unitOrthogonal(), along_.cross(along_.unitOrthogonal()), along_;
+  const Eigen::Quaterniond rotation{R};
   request.goal.orientation = rotation;
   request.start.orientation = random_rotation();
   const auto path = planner().plan(request);

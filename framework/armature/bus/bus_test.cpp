@@ -125,9 +125,8 @@ TEST(SamplePool, DestroysEveryMessageItMade) {
 }
 
 TEST(QosProfiles, HaveANameThatFindsThemAgain) {
-  for (const QosProfile profile :
-       {QosProfile::sensor, QosProfile::state, QosProfile::command, QosProfile::reply,
-        QosProfile::latched}) {
+  for (const QosProfile profile : {QosProfile::sensor, QosProfile::state, QosProfile::command,
+                                   QosProfile::reply, QosProfile::latched}) {
     EXPECT_EQ(find_qos_profile(to_string(profile)), profile);
   }
   EXPECT_EQ(find_qos_profile("sensro"), std::nullopt);

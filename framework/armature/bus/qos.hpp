@@ -12,7 +12,8 @@ namespace armature {
 ///   sensor   best effort reader, reliable writer, volatile, newest only
 ///   state    reliable, volatile, a short history
 ///   command  reliable, volatile, short history, samples expire: yesterday's goal is never executed
-///   reply    reliable, transient local, samples expire: whoever asked gets the answer also when the
+///   reply    reliable, transient local, samples expire: whoever asked gets the answer also when
+///   the
 ///            answering end discovers its reader a moment after its question
 ///   latched  reliable, transient local, newest only: late joiners get the last sample
 enum class QosProfile { sensor, state, command, reply, latched };

@@ -12,8 +12,8 @@ namespace armature {
 inline std::vector<ForbiddenZone> zones_of(const std::vector<msg::ForbiddenZone>& messages) {
   std::vector<ForbiddenZone> zones;
   for (const msg::ForbiddenZone& message : messages) {
-    zones.push_back({message.name_(), to_eigen(message.from_()), to_eigen(message.to_()),
-                     message.radius_()});
+    zones.push_back(
+        {message.name_(), to_eigen(message.from_()), to_eigen(message.to_()), message.radius_()});
   }
   return zones;
 }

@@ -7,8 +7,8 @@
 
 namespace armature {
 
-/// What a tool must keep away from: everything within `radius_m` of a line (a capsule: a vessel) or,
-/// where both ends are one point, of a point (a sphere).
+/// What a tool must keep away from: everything within `radius_m` of a line (a capsule: a vessel)
+/// or, where both ends are one point, of a point (a sphere).
 struct ForbiddenZone {
   std::string name;
   Eigen::Vector3d from, to;  // [m]

@@ -25,7 +25,8 @@ TEST(ForbiddenZones, TheClearanceIsThatOfADenseSearch) {
     constexpr int kSteps = 400;
     for (int s = 0; s <= kSteps; ++s) {
       for (int t = 0; t <= kSteps; ++t) {
-        const Vector3d gap = a + (b - a) * s / kSteps - zone.from - (zone.to - zone.from) * t / kSteps;
+        const Vector3d gap =
+            a + (b - a) * s / kSteps - zone.from - (zone.to - zone.from) * t / kSteps;
         least = std::min(least, gap.squaredNorm());
       }
     }

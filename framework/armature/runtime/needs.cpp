@@ -61,8 +61,7 @@ std::string way_out(std::string_view word, const std::vector<Party>& parties,
 
 /// `parties` need, and they and `more` offer.
 void check_parties(const std::vector<Party>& parties, const std::vector<Party>& more,
-                   std::string_view nobody,
-                   const PluginRegistry& plugins,
+                   std::string_view nobody, const PluginRegistry& plugins,
                    const std::function<bool(const PluginManifest&)>& fits,
                    config::Problems& problems) {
   std::vector<Party> offering = parties;
@@ -101,8 +100,8 @@ void check_slot_needs(const ComponentConfig& component, const PluginRegistry& pl
     return std::ranges::find(slots, plugin.kind, &SlotSpec::kind) != slots.end();
   };
   const Party itself{component.name, component.manifest, &component.params, component.origin};
-  check_parties(parties, {itself}, fmt::format("nothing in component '{}'", component.name), plugins,
-                fits_a_slot, problems);
+  check_parties(parties, {itself}, fmt::format("nothing in component '{}'", component.name),
+                plugins, fits_a_slot, problems);
 }
 
 void check_component_needs(const DeploymentConfig& deployment, const PluginRegistry& plugins,

@@ -57,8 +57,8 @@ std::vector<PortSpec> read_ports(const Node* table, bool inputs, Problems& probl
     port.topic = map.text("topic", key);
     port.frame = map.text("frame", "");
     port.doc = map.text("doc", "");
-    const auto qos =
-        find_qos_profile(map.choice("qos", {"sensor", "state", "command", "reply", "latched"}, "state"));
+    const auto qos = find_qos_profile(
+        map.choice("qos", {"sensor", "state", "command", "reply", "latched"}, "state"));
     port.qos = qos.value_or(QosProfile::state);
     if (inputs) {
       read_input_rules(map, port);

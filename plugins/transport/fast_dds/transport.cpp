@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/runtime/plugin.hpp"
-
 #include "armature/bus/fast_dds/fast_dds_transport.hpp"
+#include "armature/runtime/plugin.hpp"
 
 ARMATURE_PLUGIN(armature::FastDdsTransport);

@@ -88,8 +88,8 @@ std::string_view to_string(IkStatus::Code code);
 /// "out_of_reach: 0.0341 m beyond reach (horizontal distance)".
 std::string describe(const IkStatus& status);
 
-/// What is remembered between calls; the caller owns it (start: value-initialised). A solver answers
-/// every branch and is not told which one is taken.
+/// What is remembered between calls; the caller owns it (start: value-initialised). A solver
+/// answers every branch and is not told which one is taken.
 struct IkState {
   /// Arm angle [rad] or needle depth [m] of the joints that were taken; the caller sets it
   /// (`redundancy_of`).

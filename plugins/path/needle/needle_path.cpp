@@ -121,13 +121,12 @@ Expected<Path> NeedlePath::plan(const PathRequest& request) const {
   }
   Path path;
   if (!on_line) {
-    const double past = (valid->start.position - line->entry).dot(line->along);
     const double aside = line->off(valid->start.position);
-    if (past > on_line_m_ && aside < stand_off_m_) {
+    if (here > on_line_m_ && aside < stand_off_m_) {
       return refuse(
           fmt::format("the tip is {:.1f} mm past the entry and {:.1f} mm beside the line: "
                       "it has to be drawn back first",
-                      1e3 * past, 1e3 * aside));
+                      1e3 * here, 1e3 * aside));
     }
     path.push_back({.space = PathSegment::Space::joint,
                     .samples = {sample(*line, begin, 1, valid->goal)},

@@ -81,6 +81,8 @@
   X(armature_msgs, RegistrationResponse)   \
   X(armature_msgs, NeedlePlan)             \
   X(armature_msgs, MeasuredMarkers)        \
+  X(armature_msgs, TrackedBody)            \
+  X(armature_msgs, ImplantPlan)            \
   X(armature_msgs, LightLevel)             \
   X(armature_msgs, Capture)                \
   X(armature_msgs, TaskState)              \

@@ -13,6 +13,7 @@
 #include "exit_code.hpp"
 #include "ik_bench/bench.hpp"
 #include "inspect.hpp"
+#include "plan_bench/bench_plan.hpp"
 #include "plugins.hpp"
 #include "run.hpp"
 #include "topics.hpp"
@@ -180,9 +181,34 @@ void add_calculators(CLI::App& app, Action& action) {
   });
 }
 
+void add_bench_plan(CLI::App* bench, Action& action) {
+  auto options = std::make_shared<PlanBenchOptions>();
+  CLI::App* plan = bench->add_subcommand(
+      "plan",
+      "Trajectories on the same motions: armature bench plan --robot configs/robots/med7.yaml");
+  add_arm(plan, options->arm);
+  plan->get_option("--robot")->required();
+  plan->add_option("--plugins", options->plugins, "planners, 'trajectory/quintic' (all)")
+      ->delimiter(',');
+  plan->add_option("--params", options->params, "YAML: '{trajectory/cubic_spline: {...}}'");
+  plan->add_option("--motions", options->motions, "of each shape")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1000000));
+  plan->add_option("--keys", options->keys, "of an orientation curve")
+      ->capture_default_str()
+      ->check(CLI::Range(2, 1000));
+  plan->add_option("--seed", options->seed, "of the random numbers")->capture_default_str();
+  plan->add_option("--repetitions", options->repetitions, "of every plan")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1000));
+  plan->add_flag("--json", options->json, "as JSON");
+  plan->callback([options, &action] { action = [options] { return bench_plan(*options); }; });
+}
+
 void add_bench(CLI::App& app, Action& action) {
   CLI::App* bench = app.add_subcommand("bench", "Measure plugins side by side");
   bench->require_subcommand(1);
+  add_bench_plan(bench, action);
   auto options = std::make_shared<BenchOptions>();
   CLI::App* ik = bench->add_subcommand(
       "ik", "Solvers on the same goals: armature bench ik --robot configs/robots/dental_lamp.yaml");

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/calibration/hand_eye.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "armature/calibration/hand_eye_fit.hpp"
+#include "armature/calibration/recorded_pose.hpp"
+
+namespace armature {
+namespace {
+
+std::optional<std::string> wrong_with_a_pose(std::span<const HandEyePose> poses) {
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    if (const auto wrong = wrong_with(poses[i].base_T_flange)) {
+      return fmt::format("base_T_flange of pose {} {}", i + 1, *wrong);
+    }
+    if (const auto wrong = wrong_with(poses[i].tracker_T_body)) {
+      return fmt::format("tracker_T_body of pose {} {}", i + 1, *wrong);
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> wrong_with_the_noise(const std::optional<PoseNoise>& noise) {
+  if (!noise) return std::nullopt;
+  const auto usable = [](double value) { return value > 0 && std::isfinite(value); };
+  if (usable(noise->position_m) && usable(noise->rotation_rad)) return std::nullopt;
+  return fmt::format("the stated noise is {} m, {} rad; both must be positive", noise->position_m,
+                     noise->rotation_rad);
+}
+
+Eigen::Vector3d flange_spread(std::span<const HandEyePose> poses) {
+  std::vector<Eigen::Isometry3d> flanges;
+  for (const HandEyePose& pose : poses) flanges.push_back(pose.base_T_flange);
+  return spread_of(flanges);
+}
+
+std::optional<std::string> too_narrow(const Eigen::Vector3d& spread, double least) {
+  if (spread[1] >= least) return std::nullopt;
+  if (spread[0] < least) {
+    return fmt::format("the flange hardly turns: by {:.2g} deg rms, at least {:.2g} deg are needed",
+                       degrees(spread[0]), degrees(least));
+  }
+  return fmt::format(
+      "the flange turns about one axis only: by {:.2g} deg rms about the next one, at least {:.2g} "
+      "deg are needed",
+      degrees(spread[1]), degrees(least));
+}
+
+std::string far_off(const HandEyeFit& fit, std::size_t pose) {
+  return fmt::format(
+      "pose {} does not fit the others: {:.3g} mm and {:.3g} deg off; was the arm "
+      "still moving, or the body hidden?",
+      pose + 1, millimetres(fit.residuals[pose].shift.norm()),
+      degrees(fit.residuals[pose].turn.norm()));
+}
+
+HandEye result_of(const HandEyeFit& fit) {
+  HandEye result;
+  result.flange_T_body = fit.found.flange_T_body;
+  result.base_T_tracker = fit.found.base_T_tracker;
+  result.noise = fit.noise;
+  result.flange_T_body_covariance = fit.covariance.topLeftCorner<6, 6>();
+  result.base_T_tracker_covariance = fit.covariance.bottomRightCorner<6, 6>();
+  double shifts = 0, turns = 0, worst = -1;
+  for (std::size_t i = 0; i < fit.residuals.size(); ++i) {
+    const double shift = fit.residuals[i].shift.norm(), turn = fit.residuals[i].turn.norm();
+    shifts += shift * shift;
+    turns += turn * turn;
+    const double off = std::hypot(shift / fit.noise.position_m, turn / fit.noise.rotation_rad);
+    if (off <= worst) continue;
+    worst = off;
+    result.worst_pose = i;
+    result.worst_m = shift;
+    result.worst_rad = turn;
+  }
+  const double n = static_cast<double>(fit.residuals.size());
+  result.residual_rms_m = std::sqrt(shifts / n);
+  result.residual_rms_rad = std::sqrt(turns / n);
+  return result;
+}
+
+/// What the covariance of a_T_b makes of a point of b that lies at `arm` from its origin, along a.
+PointError error_at_end_of(const Eigen::Vector3d& arm, const PoseCovariance& covariance) {
+  Eigen::Matrix<double, 3, 6> slope;
+  slope.leftCols<3>().setIdentity();
+  for (int axis = 0; axis < 3; ++axis) {
+    slope.col(3 + axis) = Eigen::Vector3d::Unit(axis).cross(arm);
+  }
+  return point_error(slope * covariance * slope.transpose());
+}
+
+}  // namespace
+
+PointError HandEye::error_at(const Eigen::Vector3d& point_in_base) const {
+  return error_at_end_of(point_in_base - base_T_tracker.translation(), base_T_tracker_covariance);
+}
+
+PointError HandEye::body_error_at(const Eigen::Vector3d& point_in_flange) const {
+  return error_at_end_of(point_in_flange - flange_T_body.translation(), flange_T_body_covariance);
+}
+
+Expected<HandEye> calibrate_hand_eye(std::span<const HandEyePose> poses,
+                                     const HandEyeOptions& options) {
+  constexpr std::size_t kLeastPoses = 3;
+  constexpr double kLeastMisfit = 1e-6;  // [m], [rad]
+  if (poses.size() < kLeastPoses) {
+    return refuse(fmt::format("{} poses, at least {} are needed", poses.size(), kLeastPoses));
+  }
+  if (auto wrong = wrong_with_a_pose(poses)) return refuse(std::move(*wrong));
+  if (auto wrong = wrong_with_the_noise(options.noise)) return refuse(std::move(*wrong));
+  const Eigen::Vector3d spread = flange_spread(poses);
+  if (auto narrow = too_narrow(spread, options.least_spread_rad)) return refuse(std::move(*narrow));
+
+  const auto fit = fit_hand_eye(poses, solve_robot_world(poses), options.noise);
+  if (!fit) return tl::unexpected{fit.error()};
+  const double freedom = 6 * static_cast<double>(poses.size()) - 18;  // without one pose
+  if (const auto outlying = outlying_pose(fit->deletions, freedom, 3, kLeastMisfit)) {
+    return refuse(far_off(*fit, *outlying));
+  }
+  HandEye result = result_of(*fit);
+  result.spread_rad = spread[1];
+  if (result.residual_rms_m > options.most_residual.position_m ||
+      result.residual_rms_rad > options.most_residual.rotation_rad) {
+    return refuse(fmt::format(
+        "the poses do not belong together: {:.3g} mm and {:.3g} deg rms remain, at most {:.3g} mm "
+        "and {:.3g} deg; is a transform the wrong way round, or a unit wrong?",
+        millimetres(result.residual_rms_m), degrees(result.residual_rms_rad),
+        millimetres(options.most_residual.position_m),
+        degrees(options.most_residual.rotation_rad)));
+  }
+  return result;
+}
+
+}  // namespace armature

@@ -7,11 +7,15 @@
 #include <cmath>
 #include <vector>
 
+#include "armature/calibration/beyond_chance.hpp"
 #include "armature/calibration/hand_eye_fit.hpp"
 #include "armature/calibration/recorded_pose.hpp"
 
 namespace armature {
 namespace {
+
+constexpr std::size_t kLeastPoses = 3;
+constexpr double kStatedFreedom = 1e6;  // of a noise that is not estimated
 
 std::optional<std::string> wrong_with_a_pose(std::span<const HandEyePose> poses) {
   for (std::size_t i = 0; i < poses.size(); ++i) {
@@ -51,12 +55,31 @@ std::optional<std::string> too_narrow(const Eigen::Vector3d& spread, double leas
       degrees(spread[1]), degrees(least));
 }
 
-std::string far_off(const HandEyeFit& fit, std::size_t pose) {
+/// The pose that the others contradict, to be read as a reason.
+std::optional<std::string> outlying(std::span<const HandEyePose> poses, const HandEyeFit& all,
+                                    const HandEyeOptions& options) {
+  constexpr double kLeastMisfit = 1e-6;  // [m], [rad]; rounding is not normal
+  std::vector<HandEyePose> others(poses.begin(), poses.end());
+  others.erase(others.begin() + static_cast<std::ptrdiff_t>(all.suspect));
+  if (others.size() < kLeastPoses || flange_spread(others)[1] < options.least_spread_rad) {
+    return std::nullopt;
+  }
+  const auto fit = fit_hand_eye(others, options.noise);
+  if (!fit) return std::nullopt;
+  const Misfit misfit = misfit_of(poses[all.suspect], *fit);
+  const double shift = misfit.residual.shift.norm(), turn = misfit.residual.turn.norm();
+  const auto doubtful = [&](double off, double ratio, double freedom) {
+    const double known = options.noise ? kStatedFreedom : freedom;
+    return off > kLeastMisfit && beyond_chance({ratio, 3, known}, 2 * poses.size());
+  };
+  if (!doubtful(shift, misfit.shift_ratio, fit->shift_freedom) &&
+      !doubtful(turn, misfit.turn_ratio, fit->turn_freedom)) {
+    return std::nullopt;
+  }
   return fmt::format(
-      "pose {} does not fit the others: {:.3g} mm and {:.3g} deg off; was the arm "
-      "still moving, or the body hidden?",
-      pose + 1, millimetres(fit.residuals[pose].shift.norm()),
-      degrees(fit.residuals[pose].turn.norm()));
+      "pose {} does not fit the others: it is {:.3g} mm and {:.3g} deg off; was the "
+      "arm still moving, or the body hidden?",
+      all.suspect + 1, millimetres(shift), degrees(turn));
 }
 
 HandEye result_of(const HandEyeFit& fit) {
@@ -106,8 +129,6 @@ PointError HandEye::body_error_at(const Eigen::Vector3d& point_in_flange) const 
 
 Expected<HandEye> calibrate_hand_eye(std::span<const HandEyePose> poses,
                                      const HandEyeOptions& options) {
-  constexpr std::size_t kLeastPoses = 3;
-  constexpr double kLeastMisfit = 1e-6;  // [m], [rad]
   if (poses.size() < kLeastPoses) {
     return refuse(fmt::format("{} poses, at least {} are needed", poses.size(), kLeastPoses));
   }
@@ -116,12 +137,9 @@ Expected<HandEye> calibrate_hand_eye(std::span<const HandEyePose> poses,
   const Eigen::Vector3d spread = flange_spread(poses);
   if (auto narrow = too_narrow(spread, options.least_spread_rad)) return refuse(std::move(*narrow));
 
-  const auto fit = fit_hand_eye(poses, solve_robot_world(poses), options.noise);
+  const auto fit = fit_hand_eye(poses, options.noise);
   if (!fit) return tl::unexpected{fit.error()};
-  const double freedom = 6 * static_cast<double>(poses.size()) - 18;  // without one pose
-  if (const auto outlying = outlying_pose(fit->deletions, freedom, 3, kLeastMisfit)) {
-    return refuse(far_off(*fit, *outlying));
-  }
+  if (auto stranger = outlying(poses, *fit, options)) return refuse(std::move(*stranger));
   HandEye result = result_of(*fit);
   result.spread_rad = spread[1];
   if (result.residual_rms_m > options.most_residual.position_m ||

@@ -27,7 +27,7 @@ struct HandEyeOptions {
   /// Of tracker_T_body against what the flange says; none: as the residuals show.
   std::optional<PoseNoise> noise;
   /// By which the orientations must turn about a second axis, rms.
-  double least_spread_rad = 0.05;
+  double least_spread_rad = 0.035;
   /// What may remain, rms: beyond, the poses do not belong together.
   PoseNoise most_residual{0.01, 0.05};
 };

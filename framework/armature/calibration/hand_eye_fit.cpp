@@ -15,7 +15,8 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Matrix12 = Eigen::Matrix<double, 12, 12>;
 using Vector12 = Eigen::Matrix<double, 12, 1>;
-using Residual = HandEyeFit::Residual;
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
 /// Rows: the shift and the turn of a residual. Columns: shift and turn of flange_T_body along the
 /// flange's axes, shift and turn of base_T_tracker along those of the base.
@@ -26,7 +27,7 @@ Isometry3d predicted(const RobotWorld& estimate, const HandEyePose& pose) {
          estimate.flange_T_body;
 }
 
-Residual residual_of(const RobotWorld& estimate, const HandEyePose& pose) {
+PoseResidual residual_of(const RobotWorld& estimate, const HandEyePose& pose) {
   const Isometry3d tracker_T_body = predicted(estimate, pose);
   const Matrix3d turn = tracker_T_body.linear() * pose.tracker_T_body.linear().transpose();
   return {tracker_T_body.translation() - pose.tracker_T_body.translation(),
@@ -39,7 +40,7 @@ Matrix3d cross(const Vector3d& v) {
   return matrix;
 }
 
-Rows slope_at(const RobotWorld& estimate, const HandEyePose& pose, const Residual& residual) {
+Rows slope_at(const RobotWorld& estimate, const HandEyePose& pose, const PoseResidual& residual) {
   const Matrix3d tracker_R_base = estimate.base_T_tracker.linear().transpose();
   const Matrix3d tracker_R_flange = tracker_R_base * pose.base_T_flange.linear();
   const RotationAt turn{residual.turn};
@@ -86,7 +87,7 @@ class Fit {
   Normal normal(const RobotWorld& estimate) const {
     Normal normal;
     for (const HandEyePose& pose : poses_) {
-      const Residual residual = residual_of(estimate, pose);
+      const PoseResidual residual = residual_of(estimate, pose);
       const Rows rows = weighed(slope_at(estimate, pose, residual));
       normal.matrix += rows.transpose() * rows;
       normal.gradient += rows.transpose() * weighed(residual);
@@ -94,6 +95,7 @@ class Fit {
     return normal;
   }
 
+  /// Where the steps end: at the best fit, or with poses that contradict each other near it.
   Expected<RobotWorld> settle(RobotWorld estimate) const {
     constexpr int kSteps = 100;
     constexpr double kSettled = 1e-13;  // [m], [rad]
@@ -102,6 +104,7 @@ class Fit {
       Normal here = normal(estimate);
       here.matrix.diagonal() *= 1 + damping;
       const Vector12 step = -here.matrix.ldlt().solve(here.gradient);
+      if (!step.allFinite()) return refuse("the poses determine nothing: no step is finite");
       const RobotWorld next = moved(estimate, step);
       const double reached = cost(next);
       if (reached < least) {
@@ -111,14 +114,13 @@ class Fit {
       } else {
         damping *= 10;
       }
-      if (!step.allFinite()) break;
-      if (step.cwiseAbs().maxCoeff() < kSettled) return estimate;
+      if (step.cwiseAbs().maxCoeff() < kSettled) break;
     }
-    return refuse("the poses determine nothing: the best fit does not settle");
+    return estimate;
   }
 
-  Eigen::Matrix<double, 6, 1> weighed(const Residual& residual) const {
-    Eigen::Matrix<double, 6, 1> result;
+  Vector6 weighed(const PoseResidual& residual) const {
+    Vector6 result;
     result << residual.shift / noise_.position_m, residual.turn / noise_.rotation_rad;
     return result;
   }
@@ -133,70 +135,83 @@ class Fit {
   PoseNoise noise_;
 };
 
+/// What the poses tell at their best fit.
 HandEyeFit told(std::span<const HandEyePose> poses, const RobotWorld& found,
                 const PoseNoise& noise) {
   const Fit fit{poses, noise};
-  HandEyeFit result{found, noise, {}, {}, {}};
+  HandEyeFit result;
+  result.found = found;
+  result.noise = noise;
   result.covariance = fit.normal(found).matrix.ldlt().solve(Matrix12::Identity());
-  const double whole = fit.cost(found);
-  for (const HandEyePose& pose : poses) {
-    const Residual residual = residual_of(found, pose);
+  double most = -1;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const PoseResidual residual = residual_of(found, poses[i]);
+    const Rows rows = fit.weighed(slope_at(found, poses[i], residual));
+    const Matrix6 leverage = rows * result.covariance * rows.transpose();
     result.residuals.push_back(residual);
-    // Without the pose it is missed by (1 - leverage)^-1 of what it is missed by with it.
-    const Rows rows = fit.weighed(slope_at(found, pose, residual));
-    const Eigen::Matrix<double, 6, 6> free =
-        Eigen::Matrix<double, 6, 6>::Identity() - rows * result.covariance * rows.transpose();
-    const Eigen::Matrix<double, 6, 1> apart = free.ldlt().solve(fit.weighed(residual));
+    result.shift_freedom += 3 - leverage.diagonal().head<3>().sum();
+    result.turn_freedom += 3 - leverage.diagonal().tail<3>().sum();
+    const Vector6 apart = (Matrix6::Identity() - leverage).ldlt().solve(fit.weighed(residual));
     const double taken = fit.weighed(residual).dot(apart);
-    result.deletions.push_back({whole > 0 ? std::clamp(1 - taken / whole, 0.0, 1.0) : 1.0,
-                                std::max(apart.head<3>().norm() * noise.position_m,
-                                         apart.tail<3>().norm() * noise.rotation_rad)});
+    if (taken <= most) continue;
+    most = taken;
+    result.suspect = i;
   }
   return result;
 }
 
 /// What the residuals show of the noise: sum of squares over redundancy, of shifts and of turns.
-PoseNoise shown_by(std::span<const HandEyePose> poses, const HandEyeFit& fit) {
-  const Fit weights{poses, fit.noise};
-  double shifts = 0, turns = 0, free_shifts = 0, free_turns = 0;
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    const Residual& residual = fit.residuals[i];
-    const Rows rows = weights.weighed(slope_at(fit.found, poses[i], residual));
-    const auto leverage = (rows * fit.covariance * rows.transpose()).eval().diagonal();
+PoseNoise shown_by(const HandEyeFit& fit) {
+  double shifts = 0, turns = 0;
+  for (const PoseResidual& residual : fit.residuals) {
     shifts += residual.shift.squaredNorm();
     turns += residual.turn.squaredNorm();
-    free_shifts += 3 - leverage.head<3>().sum();
-    free_turns += 3 - leverage.tail<3>().sum();
   }
-  // Rounding, if nothing else. The length that is in no body's reach keeps few poses from giving
-  // all weight to one of the two.
-  constexpr double kRounding = 1e-14, kShortest = 0.005, kLongest = 5;  // [rad], [m/rad]
-  const double turn = std::max(std::sqrt(turns / free_turns), kRounding);
-  const double shift = std::sqrt(shifts / free_shifts);
+  // Rounding, if nothing else, and hardly an equation left over. The lengths, which no body has,
+  // keep few poses from giving all weight to one of the two.
+  constexpr double kRounding = 1e-14, kLeastFreedom = 1e-3, kShortest = 0.005,
+                   kLongest = 5;  // [rad], [m/rad]
+  const double turn =
+      std::max(std::sqrt(turns / std::max(fit.turn_freedom, kLeastFreedom)), kRounding);
+  const double shift = std::sqrt(shifts / std::max(fit.shift_freedom, kLeastFreedom));
   return {std::clamp(shift, kShortest * turn, kLongest * turn), turn};
 }
 
 }  // namespace
 
-Expected<HandEyeFit> fit_hand_eye(std::span<const HandEyePose> poses, const RobotWorld& start,
+Expected<HandEyeFit> fit_hand_eye(std::span<const HandEyePose> poses,
                                   const std::optional<PoseNoise>& stated) {
   constexpr int kRounds = 50;
   constexpr double kAgreed = 1e-3, kUsualLength = 0.1;  // relative, [m/rad]
   PoseNoise noise = stated.value_or(PoseNoise{kUsualLength, 1});
-  RobotWorld estimate = start;
+  RobotWorld estimate = solve_robot_world(poses);
   for (int round = 0;; ++round) {
     const auto settled = Fit{poses, noise}.settle(estimate);
     if (!settled) return tl::unexpected{settled.error()};
     estimate = *settled;
     HandEyeFit fit = told(poses, estimate, noise);
     if (stated) return fit;
-    const PoseNoise shown = shown_by(poses, fit);
+    const PoseNoise shown = shown_by(fit);
     const bool agreed =
         std::abs(shown.position_m - noise.position_m) <= kAgreed * noise.position_m &&
         std::abs(shown.rotation_rad - noise.rotation_rad) <= kAgreed * noise.rotation_rad;
     if (agreed || round == kRounds) return fit;
     noise = shown;
   }
+}
+
+Misfit misfit_of(const HandEyePose& pose, const HandEyeFit& fit) {
+  Misfit misfit{residual_of(fit.found, pose), 0, 0};
+  const Rows rows = slope_at(fit.found, pose, misfit.residual);
+  Matrix6 expected = rows * fit.covariance * rows.transpose();
+  expected.diagonal().head<3>().array() += fit.noise.position_m * fit.noise.position_m;
+  expected.diagonal().tail<3>().array() += fit.noise.rotation_rad * fit.noise.rotation_rad;
+  const auto mean_square = [](const Vector3d& off, const Matrix3d& covariance) {
+    return off.dot(covariance.ldlt().solve(off)) / 3;
+  };
+  misfit.shift_ratio = mean_square(misfit.residual.shift, expected.topLeftCorner<3, 3>());
+  misfit.turn_ratio = mean_square(misfit.residual.turn, expected.bottomRightCorner<3, 3>());
+  return misfit;
 }
 
 }  // namespace armature

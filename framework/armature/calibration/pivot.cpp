@@ -9,7 +9,7 @@
 #include <cmath>
 #include <vector>
 
-#include "armature/calibration/outlying_pose.hpp"
+#include "armature/calibration/beyond_chance.hpp"
 #include "armature/calibration/recorded_pose.hpp"
 
 namespace armature {
@@ -87,21 +87,34 @@ Matrix3d tip_covariance(const Equations& equations, const std::vector<Vector3d>&
   return inverse * passed_on * inverse;
 }
 
-std::vector<Deletion> deletions_of(const Equations& equations,
-                                   const std::vector<Vector3d>& residuals) {
-  const Matrix3d inverse = equations.normal.inverse();
+/// The pose that the others contradict, to be read as a reason.
+std::optional<std::string> outlying(const Equations& equations,
+                                    const std::vector<Vector3d>& residuals) {
+  constexpr double kLeastMisfit = 1e-6;  // [m]; rounding is not normal
   const double n = static_cast<double>(residuals.size());
-  double whole = 0;
-  for (const Vector3d& residual : residuals) whole += residual.squaredNorm();
-  std::vector<Deletion> deletions;
+  const double freedom = 3 * n - 9;  // of the others
+  if (freedom < 1) return std::nullopt;
+  const Matrix3d inverse = equations.normal.inverse();
+  double whole = 0, most = -1, off = 0;
+  std::size_t suspect = 0;
   for (std::size_t i = 0; i < residuals.size(); ++i) {
+    whole += residuals[i].squaredNorm();
     const Matrix3d row = equations.poses[i].linear() - equations.mean_rotation;
     const Matrix3d free = (1 - 1 / n) * Matrix3d::Identity() - row * inverse * row.transpose();
-    const Vector3d apart = free.ldlt().solve(residuals[i]);
+    const Vector3d apart = free.ldlt().solve(residuals[i]);  // missed by the others' tip
     const double taken = residuals[i].dot(apart);
-    deletions.push_back({whole > 0 ? std::clamp(1 - taken / whole, 0.0, 1.0) : 1.0, apart.norm()});
+    if (taken <= most) continue;
+    most = taken;
+    off = apart.norm();
+    suspect = i;
   }
-  return deletions;
+  const double others = std::max(whole - most, 0.0);
+  if (off <= kLeastMisfit) return std::nullopt;
+  if (!beyond_chance({most / 3 / (others / freedom), 3, freedom}, residuals.size())) {
+    return std::nullopt;
+  }
+  return fmt::format("pose {} does not fit the others: its tip is {:.3g} mm off; did the tip slip?",
+                     suspect + 1, millimetres(off));
 }
 
 }  // namespace
@@ -109,7 +122,6 @@ std::vector<Deletion> deletions_of(const Equations& equations,
 Expected<Pivot> calibrate_pivot(std::span<const Isometry3d> fixed_T_body,
                                 const PivotOptions& options) {
   constexpr std::size_t kLeastPoses = 3;
-  constexpr double kLeastMisfit = 1e-6;  // [m]
   const std::size_t n = fixed_T_body.size();
   if (n < kLeastPoses) {
     return refuse(fmt::format("{} poses, at least {} are needed", n, kLeastPoses));
@@ -132,13 +144,7 @@ Expected<Pivot> calibrate_pivot(std::span<const Isometry3d> fixed_T_body,
   found.point = equations.mean_rotation * found.tip + equations.mean_position;
   const std::vector<Vector3d> residuals = residuals_of(fixed_T_body, found);
   measure_residuals(residuals, found);
-  const double freedom = 3 * static_cast<double>(n) - 9;  // without one pose
-  const auto outlying = outlying_pose(deletions_of(equations, residuals), freedom, 2, kLeastMisfit);
-  if (outlying) {
-    return refuse(
-        fmt::format("pose {} does not fit the others: its tip is {:.3g} mm off; did the tip slip?",
-                    *outlying + 1, millimetres(residuals[*outlying].norm())));
-  }
+  if (auto stranger = outlying(equations, residuals)) return refuse(std::move(*stranger));
   if (found.residual_rms_m > options.most_residual_m) {
     return refuse(fmt::format(
         "the tip did not stand still: {:.3g} mm rms remain, at most {:.3g} mm; is a transform the "

@@ -12,7 +12,7 @@ namespace armature {
 
 struct PivotOptions {
   /// By which the body must turn about the axis that its turns are seen worst about, rms.
-  double least_spread_rad = 0.05;
+  double least_spread_rad = 0.035;
   double most_residual_m = 0.01;  // what may remain, rms: beyond, the tip did not stand still
 };
 

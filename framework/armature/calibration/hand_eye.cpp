@@ -46,13 +46,36 @@ Eigen::Vector3d flange_spread(std::span<const HandEyePose> poses) {
 std::optional<std::string> too_narrow(const Eigen::Vector3d& spread, double least) {
   if (spread[1] >= least) return std::nullopt;
   if (spread[0] < least) {
-    return fmt::format("the flange hardly turns: by {:.2g} deg rms, at least {:.2g} deg are needed",
+    return fmt::format("the flange hardly turns: by {:.1f} deg rms, at least {:.1f} deg are needed",
                        degrees(spread[0]), degrees(least));
   }
   return fmt::format(
-      "the flange turns about one axis only: by {:.2g} deg rms about the next one, at least {:.2g} "
+      "the flange turns about one axis only: by {:.1f} deg rms about the next one, at least {:.1f} "
       "deg are needed",
       degrees(spread[1]), degrees(least));
+}
+
+/// Rms of the distances and of the angles.
+PoseNoise rms_of(const std::vector<PoseResidual>& residuals) {
+  double shifts = 0, turns = 0;
+  for (const PoseResidual& residual : residuals) {
+    shifts += residual.shift.squaredNorm();
+    turns += residual.turn.squaredNorm();
+  }
+  const double n = static_cast<double>(residuals.size());
+  return {std::sqrt(shifts / n), std::sqrt(turns / n)};
+}
+
+std::optional<std::string> too_far_apart(const HandEyeFit& fit, const PoseNoise& most) {
+  const PoseNoise rms = rms_of(fit.residuals);
+  if (rms.position_m <= most.position_m && rms.rotation_rad <= most.rotation_rad) {
+    return std::nullopt;
+  }
+  return fmt::format(
+      "the poses do not belong together: {:.3g} mm and {:.3g} deg rms remain, at most {:.3g} mm "
+      "and {:.3g} deg; is a transform the wrong way round, or a unit wrong?",
+      millimetres(rms.position_m), degrees(rms.rotation_rad), millimetres(most.position_m),
+      degrees(most.rotation_rad));
 }
 
 /// The pose that the others contradict, to be read as a reason.
@@ -65,7 +88,7 @@ std::optional<std::string> outlying(std::span<const HandEyePose> poses, const Ha
     return std::nullopt;
   }
   const auto fit = fit_hand_eye(others, options.noise);
-  if (!fit) return std::nullopt;
+  if (!fit || too_far_apart(*fit, options.most_residual)) return std::nullopt;
   const Misfit misfit = misfit_of(poses[all.suspect], *fit);
   const double shift = misfit.residual.shift.norm(), turn = misfit.residual.turn.norm();
   const auto doubtful = [&](double off, double ratio, double freedom) {
@@ -89,11 +112,12 @@ HandEye result_of(const HandEyeFit& fit) {
   result.noise = fit.noise;
   result.flange_T_body_covariance = fit.covariance.topLeftCorner<6, 6>();
   result.base_T_tracker_covariance = fit.covariance.bottomRightCorner<6, 6>();
-  double shifts = 0, turns = 0, worst = -1;
+  const PoseNoise rms = rms_of(fit.residuals);
+  result.residual_rms_m = rms.position_m;
+  result.residual_rms_rad = rms.rotation_rad;
+  double worst = -1;
   for (std::size_t i = 0; i < fit.residuals.size(); ++i) {
     const double shift = fit.residuals[i].shift.norm(), turn = fit.residuals[i].turn.norm();
-    shifts += shift * shift;
-    turns += turn * turn;
     const double off = std::hypot(shift / fit.noise.position_m, turn / fit.noise.rotation_rad);
     if (off <= worst) continue;
     worst = off;
@@ -101,9 +125,6 @@ HandEye result_of(const HandEyeFit& fit) {
     result.worst_m = shift;
     result.worst_rad = turn;
   }
-  const double n = static_cast<double>(fit.residuals.size());
-  result.residual_rms_m = std::sqrt(shifts / n);
-  result.residual_rms_rad = std::sqrt(turns / n);
   return result;
 }
 
@@ -140,17 +161,9 @@ Expected<HandEye> calibrate_hand_eye(std::span<const HandEyePose> poses,
   const auto fit = fit_hand_eye(poses, options.noise);
   if (!fit) return tl::unexpected{fit.error()};
   if (auto stranger = outlying(poses, *fit, options)) return refuse(std::move(*stranger));
+  if (auto apart = too_far_apart(*fit, options.most_residual)) return refuse(std::move(*apart));
   HandEye result = result_of(*fit);
   result.spread_rad = spread[1];
-  if (result.residual_rms_m > options.most_residual.position_m ||
-      result.residual_rms_rad > options.most_residual.rotation_rad) {
-    return refuse(fmt::format(
-        "the poses do not belong together: {:.3g} mm and {:.3g} deg rms remain, at most {:.3g} mm "
-        "and {:.3g} deg; is a transform the wrong way round, or a unit wrong?",
-        millimetres(result.residual_rms_m), degrees(result.residual_rms_rad),
-        millimetres(options.most_residual.position_m),
-        degrees(options.most_residual.rotation_rad)));
-  }
   return result;
 }
 

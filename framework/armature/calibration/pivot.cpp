@@ -136,8 +136,8 @@ Expected<Pivot> calibrate_pivot(std::span<const Isometry3d> fixed_T_body,
   found.spread_rad = equations.spread();
   if (!(found.spread_rad >= options.least_spread_rad)) {
     return refuse(fmt::format(
-        "the body hardly turns, or about one axis only: by {:.2g} deg rms about the others, at "
-        "least {:.2g} deg are needed",
+        "the body hardly turns, or about one axis only: by {:.1f} deg rms about the others, at "
+        "least {:.1f} deg are needed",
         degrees(found.spread_rad), degrees(options.least_spread_rad)));
   }
   found.tip = equations.tip();
@@ -146,10 +146,15 @@ Expected<Pivot> calibrate_pivot(std::span<const Isometry3d> fixed_T_body,
   measure_residuals(residuals, found);
   if (auto stranger = outlying(equations, residuals)) return refuse(std::move(*stranger));
   if (found.residual_rms_m > options.most_residual_m) {
+    return refuse(
+        fmt::format("the tip did not stand still: {:.3g} mm rms remain, at most {:.3g} mm",
+                    millimetres(found.residual_rms_m), millimetres(options.most_residual_m)));
+  }
+  if (!(found.tip.norm() <= options.longest_tool_m)) {
     return refuse(fmt::format(
-        "the tip did not stand still: {:.3g} mm rms remain, at most {:.3g} mm; is a transform the "
-        "wrong way round, or a unit wrong?",
-        millimetres(found.residual_rms_m), millimetres(options.most_residual_m)));
+        "the tip lies {:.3g} m from the body's origin, at most {:g} m; is a transform the wrong "
+        "way round, or a unit wrong?",
+        found.tip.norm(), options.longest_tool_m));
   }
   found.tip_error = point_error(tip_covariance(equations, residuals));
   return found;

@@ -14,6 +14,8 @@ struct PivotOptions {
   /// By which the body must turn about the axis that its turns are seen worst about, rms.
   double least_spread_rad = 0.035;
   double most_residual_m = 0.01;  // what may remain, rms: beyond, the tip did not stand still
+  /// From the body's origin: poses the wrong way round fit as well, and tell the point as the tip.
+  double longest_tool_m = 1;
 };
 
 /// Where the tip of a tool is that was turned about it.
@@ -33,7 +35,8 @@ struct Pivot {
 ///
 /// Refuses with a reason that names it (poses are counted from 1): fewer than three poses, a pose
 /// that is not finite or no rotation, a body that turns about one axis only or hardly at all, a tip
-/// that did not stand still, a pose that does not fit the others. Allocates.
+/// that did not stand still, a pose that does not fit the others, a tool that is too long.
+/// Allocates.
 Expected<Pivot> calibrate_pivot(std::span<const Eigen::Isometry3d> fixed_T_body,
                                 const PivotOptions& options = {});
 

@@ -18,6 +18,7 @@ class SimulatedTracker {
  public:
   SimulatedTracker(std::uint64_t seed, double sphere_error_m)
       : random_{seed}, per_axis_{sphere_error_m / std::sqrt(3.0)} {}
+  void set_sphere_error(double rms_m) { per_axis_ = rms_m / std::sqrt(3.0); }
 
   std::mt19937_64& random() { return random_; }
   Eigen::Vector3d gauss(double sigma) {

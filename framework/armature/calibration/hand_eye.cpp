@@ -9,7 +9,7 @@
 
 #include "armature/calibration/beyond_chance.hpp"
 #include "armature/calibration/hand_eye_fit.hpp"
-#include "armature/calibration/recorded_pose.hpp"
+#include "armature/calibration/usable_pose.hpp"
 
 namespace armature {
 namespace {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "armature/calibration/beyond_chance.hpp"
-#include "armature/calibration/recorded_pose.hpp"
+#include "armature/calibration/usable_pose.hpp"
 
 namespace armature {
 namespace {

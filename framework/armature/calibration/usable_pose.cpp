@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/calibration/recorded_pose.hpp"
+#include "armature/calibration/usable_pose.hpp"
 
 #include <Eigen/Eigenvalues>
 

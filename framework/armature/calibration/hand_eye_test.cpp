@@ -207,8 +207,11 @@ TEST_F(HandEyeCalibration, NamesAPoseThatDoesNotFitTheOthers) {
 
 TEST_F(HandEyeCalibration, DoesNotDoubtPosesThatAreAsGoodAsTheOthers) {
   for (std::size_t trial = 0; trial < 1000; ++trial) {
-    const auto found = calibrate_hand_eye(recorded(6 + trial % 20, 0.12e-3));
-    ASSERT_TRUE(found) << trial << ": " << found.error().text;
+    HandEyeOptions options;
+    if (trial % 2 == 0) options.noise = PoseNoise{0.035e-3, 1.6e-3};  // about what it is
+    const auto found = calibrate_hand_eye(recorded(4 + trial % 10, 0.12e-3), options);
+    if (found) continue;  // four random ones may turn about one axis only
+    EXPECT_FALSE(found.error().text.starts_with("pose ")) << trial << ": " << found.error().text;
   }
 }
 

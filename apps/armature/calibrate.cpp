@@ -146,12 +146,19 @@ Json hand_eye_json(const HandEye& found, const std::vector<HandEyePose>& poses,
   return json;
 }
 
+void check(const CalibrationOptions& options) {
+  for (const double coordinate : options.at_m) {
+    if (!std::isfinite(coordinate)) throw InvalidChoice("--at must be finite");
+  }
+  for (const double noise : options.noise) {
+    if (!(noise > 0 && std::isfinite(noise))) throw InvalidChoice("--noise must be positive");
+  }
+}
+
 }  // namespace
 
 int run_hand_eye_calibration(const CalibrationOptions& options) {
-  for (const double coordinate : options.at_m) {
-    if (!std::isfinite(coordinate)) throw InvalidChoice("--at is not finite");
-  }
+  check(options);
   const auto robot = load_flange(options);
   const auto poses = read_hand_eye_poses(options.poses, robot ? &*robot : nullptr);
   HandEyeOptions how;

@@ -256,9 +256,10 @@ void add_calibrations(CLI::App& app, Action& action) {
                            run_hand_eye_calibration);
   hand_eye->add_option("--noise", options->noise, "of the tracker's poses, mm and deg per axis")
       ->expected(2)
-      ->check(CLI::PositiveNumber);
+      ->allow_extra_args(false);
   hand_eye->add_option("--at", options->at_m, "point of the base [m] whose error is told")
-      ->expected(3);
+      ->expected(3)
+      ->allow_extra_args(false);
   CLI::App* tool = add("tool",
                        "The tip of a tool that was turned about it: armature calibrate tool "
                        "poses.jsonl -o tool.yaml",

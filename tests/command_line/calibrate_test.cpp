@@ -112,7 +112,7 @@ TEST_F(Calibrate, FindsTheTipAsWellAsItSays) {
 }
 
 TEST_F(Calibrate, AStatedNoiseIsTakenAsItIs) {
-  const json found = calibrated({"hand-eye", kHandEye, "--robot", kMed7, "--noise", "0.05", "0.1"});
+  const json found = calibrated({"hand-eye", "--noise", "0.05", "0.1", kHandEye, "--robot", kMed7});
   EXPECT_EQ(found["noise_per_axis"],
             json::parse(R"({"from": "stated", "position_mm": 0.05, "rotation_deg": 0.1})"));
 }
@@ -253,7 +253,12 @@ const BadPoses kBadPoses[] = {
      {"hand-eye", "--at", "nan", "0", "0"},
      "{}",
      3,
-     "armature: --at is not finite\n"},
+     "armature: --at must be finite\n"},
+    {"ANoiseThatIsNone",
+     {"hand-eye", "--noise", "0.1", "nan"},
+     "{}",
+     3,
+     "armature: --noise must be positive\n"},
     {"NoPosesAtAll",
      {"tool"},
      "armature_poses: 1\nposes: []\n",

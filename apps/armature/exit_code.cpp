@@ -9,7 +9,7 @@
 
 namespace armature {
 
-int guarded(const std::function<int()>& action) {
+int exit_code_of(const std::function<int()>& action) {
   try {
     return action();
   } catch (const config::ConfigError& error) {

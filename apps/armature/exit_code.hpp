@@ -21,6 +21,6 @@ class InvalidChoice : public std::runtime_error {
 };
 
 /// What `action` ends with; an exception is told on standard error and has its own code.
-int guarded(const std::function<int()>& action);
+int exit_code_of(const std::function<int()>& action);
 
 }  // namespace armature

@@ -287,7 +287,7 @@ int run_command_line(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kOk : kUsage;
   }
-  return guarded(action);
+  return exit_code_of(action);
 }
 
 }  // namespace

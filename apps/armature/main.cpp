@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The command line. The only file that includes CLI11.
 #include <CLI/CLI.hpp>
-#include <cstdio>
-#include <exception>
 #include <fstream>
 #include <functional>
 #include <iostream>
 
-#include "armature/config/problems.hpp"
-#include "armature/runtime/plugin_registry.hpp"
 #include "calculator.hpp"
+#include "calibrate.hpp"
 #include "exit_code.hpp"
 #include "ik_bench/bench.hpp"
 #include "inspect.hpp"
@@ -235,22 +232,39 @@ void add_bench(CLI::App& app, Action& action) {
   ik->callback([options, &action] { action = [options] { return bench_ik(*options); }; });
 }
 
-int guarded(const Action& action) {
-  try {
-    return action();
-  } catch (const config::ConfigError& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return kInvalidConfig;
-  } catch (const InvalidChoice& error) {
-    std::fprintf(stderr, "armature: %s\n", error.what());
-    return kInvalidConfig;
-  } catch (const PluginError& error) {
-    std::fprintf(stderr, "armature: %s\n", error.what());
-    return kUnusablePlugin;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "armature: %s\n", error.what());
-    return kFailed;
-  }
+void add_calibrations(CLI::App& app, Action& action) {
+  CLI::App* calibrate =
+      app.add_subcommand("calibrate", "Where a tool or a tracker is, from recorded poses");
+  calibrate->require_subcommand(1);
+  auto options = std::make_shared<CalibrationOptions>();
+  const auto add = [&](const char* name, const char* what, int (*run)(const CalibrationOptions&)) {
+    CLI::App* verb = calibrate->add_subcommand(name, what);
+    verb->add_option("poses", options->poses, "file of recorded poses: JSON lines, or YAML")
+        ->required();
+    add_arm(verb, options->arm);
+    verb->get_option("--tip")->description("frame that is the flange (flange)");
+    verb->add_option("-o,--output", options->output, "YAML file to write (standard output)");
+    verb->add_option("--tracker", options->tracker, "name of its frame")->capture_default_str();
+    verb->add_option("--body", options->body, "name of its frame")->capture_default_str();
+    verb->add_flag("--json", options->json, "as JSON");
+    verb->callback([=, &action] { action = [=] { return run(*options); }; });
+    return verb;
+  };
+  CLI::App* hand_eye = add("hand-eye",
+                           "A tracker and a body on the flange: armature calibrate hand-eye "
+                           "poses.jsonl --robot configs/robots/med7.yaml -o hand_eye.yaml",
+                           run_hand_eye_calibration);
+  hand_eye->add_option("--noise", options->noise, "of the tracker's poses, mm and deg per axis")
+      ->expected(2)
+      ->allow_extra_args(false);
+  hand_eye->add_option("--at", options->at_m, "point of the base [m] whose error is told")
+      ->expected(3)
+      ->allow_extra_args(false);
+  CLI::App* tool = add("tool",
+                       "The tip of a tool that was turned about it: armature calibrate tool "
+                       "poses.jsonl -o tool.yaml",
+                       run_tool_calibration);
+  tool->add_option("--tool", options->tool, "name of its frame")->capture_default_str();
 }
 
 int run_command_line(int argc, char** argv) {
@@ -266,13 +280,14 @@ int run_command_line(int argc, char** argv) {
   add_plugin_verbs(app, action);
   add_topic_verbs(app, action);
   add_calculators(app, action);
+  add_calibrations(app, action);
   add_bench(app, action);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kOk : kUsage;
   }
-  return guarded(action);
+  return exit_code_of(action);
 }
 
 }  // namespace

@@ -62,14 +62,6 @@ Eigen::Isometry3d pose_of(const Figures& rotation, const Figures& position) {
   return pose;
 }
 
-Eigen::Isometry3d transform(const Figures& rows) {
-  Eigen::Isometry3d result;
-  for (std::size_t row = 0; row < 4; ++row) {
-    result.matrix().row(static_cast<Eigen::Index>(row)) = rows[row].numbers();
-  }
-  return result;
-}
-
 /// The reference's signs of elbow, shoulder and wrist.
 std::string label_of(const Figures& g4_g2_g6) {
   const Eigen::VectorXd g = g4_g2_g6.numbers();
@@ -201,12 +193,12 @@ TEST(DentalImplantArm, TheBestOfAllBranchesIsTheReferencesOptimum) {
 TEST(DentalImplantArm, TheDrillComesToTheImplantThroughTheChainOfFrames) {
   const Figures frames = dental_implant()["frames"];
   const Eigen::Isometry3d robot_T_implant =
-      transform(frames["T_R_N"]) * transform(frames["T_N_M"]) * transform(frames["T_M_P"]) *
-      transform(frames["T_P_implant"]);
-  const Eigen::Isometry3d flange_T_drill = transform(frames["T_F_D"]);
+      frames["T_R_N"].transform() * frames["T_N_M"].transform() * frames["T_M_P"].transform() *
+      frames["T_P_implant"].transform();
+  const Eigen::Isometry3d flange_T_drill = frames["T_F_D"].transform();
   EXPECT_LE((flange_T_tool().matrix() - flange_T_drill.matrix()).cwiseAbs().maxCoeff(), 1e-12);
   const Eigen::Isometry3d command = robot_T_implant * flange_T_drill.inverse();
-  EXPECT_LE((command.matrix() - transform(frames["T_R_F_command"]).matrix()).cwiseAbs().maxCoeff(),
+  EXPECT_LE((command.matrix() - frames["T_R_F_command"].transform().matrix()).cwiseAbs().maxCoeff(),
             1e-11);
   IkGoal goal;
   goal.pose = {robot_T_implant.translation(),

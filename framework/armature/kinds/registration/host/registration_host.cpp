@@ -26,7 +26,7 @@ Points points_of(const std::vector<msg::Point>& message) {
 struct Answer {
   std::vector<std::size_t> robot_marker;  // of each image marker
   Registration found;
-  std::vector<TargetError> errors;  // of each target
+  std::vector<PointError> errors;  // of each target
 };
 
 Expected<std::vector<std::size_t>> matched(const msg::RegistrationRequest& request,

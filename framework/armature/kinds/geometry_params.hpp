@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "armature/config/params.hpp"
@@ -23,8 +24,10 @@ inline Eigen::Vector3d vector_of(const Params& params, std::string_view name) {
 /// Of two parameters with `count: 3`: the position, and roll, pitch and yaw.
 inline Eigen::Isometry3d pose_of(const Params& params, std::string_view position,
                                  std::string_view rpy) {
-  return Eigen::Translation3d{vector_of(params, position)} *
-         Eigen::Quaterniond{rotation_from_rpy(vector_of(params, rpy))};
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.translation() = vector_of(params, position);
+  pose.linear() = rotation_from_rpy(vector_of(params, rpy));
+  return pose;
 }
 
 /// x, y, z of each. Throws SetupError for numbers left over and for fewer than `least`, at least

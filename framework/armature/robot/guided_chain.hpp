@@ -6,8 +6,8 @@
 namespace armature {
 
 /// The frames between an arm's flange and a place in a patient's image, as a tracker ties them
-/// together (Zhong et al. 2023: T_R_F = T_R_N T_N_M T_M_P T_P_implant T_F_D^-1). A chain of what was
-/// calibrated says where the arm has to go, one of the truth where its tool then is.
+/// together (Zhong et al. 2023: T_R_F = T_R_N T_N_M T_M_P T_P_implant T_F_D^-1). A chain of what
+/// was calibrated says where the arm has to go, one of the truth where its tool then is.
 struct GuidedChain {
   Eigen::Isometry3d base_T_tracker = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d flange_T_body = Eigen::Isometry3d::Identity();

@@ -8,8 +8,7 @@ using Eigen::Vector3d;
 
 Vector3d tip_error(const GuidedChain& estimate, const GuidedChain& truth,
                    const Isometry3d& image_T_site) {
-  const Vector3d tip =
-      estimate.base_T_flange(image_T_site) * truth.flange_T_tool().translation();
+  const Vector3d tip = estimate.base_T_flange(image_T_site) * truth.flange_T_tool().translation();
   return tip - truth.base_T_site(image_T_site).translation();
 }
 

@@ -10,6 +10,7 @@
 
 #include "armature/kinds/chain_messages.hpp"
 #include "armature/kinds/registration_messages.hpp"
+#include "armature/kinds/setup_flange.hpp"
 #include "armature/kinds/setup_robot.hpp"
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/sensor_msgs.hpp"
@@ -29,12 +30,6 @@ using Eigen::Vector3d;
 constexpr Duration kPeriod = seconds(0.02);
 constexpr double kDegrees = 180 / std::numbers::pi, kMillimetres = 1e3;
 
-FrameId flange_of(const RobotModel& robot) {
-  const auto flange = robot.find_frame("flange");
-  if (!flange) throw SetupError("the robot " + robot.name() + " has no frame 'flange'");
-  return *flange;
-}
-
 double rms(const std::vector<Vector3d>& errors) {
   double sum = 0;
   for (const Vector3d& error : errors) sum += error.squaredNorm();
@@ -48,7 +43,7 @@ class ImplantReport final : public Component {
   explicit ImplantReport(Setup& setup)
       : Component{setup},
         robot_{robot_of(setup)},
-        flange_{flange_of(robot_)},
+        flange_{flange_of(robot_).frame},
         depth_m_{setup.params().number("depth_mm")},
         still_for_{seconds(setup.params().number("still_for_s"))},
         plan_{setup.input<msg::ImplantPlan>("plan")},

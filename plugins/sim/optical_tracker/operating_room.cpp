@@ -6,22 +6,12 @@
 #include <string>
 
 #include "armature/kinds/geometry_params.hpp"
-#include "armature/robot/kinematics.hpp"
 
 namespace armature {
 namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
-
-Isometry3d drill_of_file(const RobotModel& robot) {
-  const auto flange = robot.find_frame("flange");
-  if (!flange) {
-    throw SetupError("the robot " + robot.name() + " has no frame 'flange' for the body to sit on");
-  }
-  const JointVector q = resting_position(robot);
-  return forward_kinematics(robot, q, *flange).inverse() * forward_kinematics(robot, q);
-}
 
 std::vector<Isometry3d> sites_of(const Params& params) {
   const auto positions = points_of(params, "sites_mm", 1, "at least one site");
@@ -40,9 +30,9 @@ std::vector<Isometry3d> sites_of(const Params& params) {
 
 }  // namespace
 
-OperatingRoom operating_room(const Params& params, const RobotModel& robot) {
+OperatingRoom operating_room(const Params& params, const Isometry3d& flange_T_file_tool) {
   const Isometry3d flange_T_drill =
-      drill_of_file(robot) * Eigen::Translation3d{vector_of(params, "drill_offset_mm")};
+      flange_T_file_tool * Eigen::Translation3d{vector_of(params, "drill_offset_mm")};
   OperatingRoom room;
   room.chain.base_T_tracker = pose_of(params, "tracker_mm", "tracker_rpy_deg");
   room.chain.flange_T_body = pose_of(params, "body_mm", "body_rpy_deg");

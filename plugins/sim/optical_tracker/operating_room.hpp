@@ -6,20 +6,19 @@
 
 #include "armature/config/params.hpp"
 #include "armature/robot/guided_chain.hpp"
-#include "armature/robot/robot_model.hpp"
 
 namespace armature {
 
 /// Where everything is in truth [m]: nobody in the deployment but the report is told.
 struct OperatingRoom {
   GuidedChain chain;
-  std::vector<Eigen::Vector3d> markers;   // on the jaw, in the image
-  std::vector<Eigen::Isometry3d> sites;   // of the drill with its tip at the bottom, in the image
+  std::vector<Eigen::Vector3d> markers;  // on the jaw, in the image
+  std::vector<Eigen::Isometry3d> sites;  // of the drill with its tip at the bottom, in the image
 };
 
 /// Of the plugin's parameters and the robot file's drill. Throws SetupError for lists that do not
-/// come out and a robot without a frame `flange`.
-OperatingRoom operating_room(const Params& params, const RobotModel& robot);
+/// come out.
+OperatingRoom operating_room(const Params& params, const Eigen::Isometry3d& flange_T_file_tool);
 
 /// While its tip stands in a divot at `tracker_divot` the body is turned by hand: tilted up to
 /// `cone_rad` in changing directions, twisted a little; where it is after `elapsed_s`.

@@ -5,6 +5,7 @@
 
 #include "armature/kinds/chain_messages.hpp"
 #include "armature/kinds/geometry_params.hpp"
+#include "armature/kinds/setup_flange.hpp"
 #include "armature/kinds/setup_robot.hpp"
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/sensor_msgs.hpp"
@@ -41,7 +42,8 @@ class OpticalTracker final : public Component {
   explicit OpticalTracker(Setup& setup)
       : Component{setup},
         robot_{robot_of(setup)},
-        room_{operating_room(setup.params(), robot_)},
+        mount_{flange_of(robot_)},
+        room_{operating_room(setup.params(), mount_.flange_T_tool)},
         history_{robot_, kHistory},
         spheres_{points_of(setup.params(), "spheres_mm", 3, "at least three spheres")},
         sphere_error_m_{setup.params().number("sphere_error_mm")},
@@ -124,7 +126,7 @@ class OpticalTracker final : public Component {
   }
 
   void look_at_flange(double elapsed_s, Time light) {
-    const auto base_T_flange = history_.base_T(*robot_.find_frame("flange"), light);
+    const auto base_T_flange = history_.base_T(mount_.frame, light);
     if (!base_T_flange) {
       return blind(flange_, "flange", base_T_flange.error().text, light);
     }
@@ -148,8 +150,8 @@ class OpticalTracker final : public Component {
     publish(output, body, reason, {}, light);
   }
 
-  static void publish(Output<msg::TrackedBody>& output, const char* body,
-                      const std::string& reason, const SeenBody& seen, Time light) {
+  static void publish(Output<msg::TrackedBody>& output, const char* body, const std::string& reason,
+                      const SeenBody& seen, Time light) {
     auto loan = output.loan();
     write_header(loan->header_(), light, kTrackerFrame);
     loan->body_() = body;
@@ -161,6 +163,7 @@ class OpticalTracker final : public Component {
   }
 
   RobotModel robot_;
+  Flange mount_;
   OperatingRoom room_;
   FrameBuffer history_;
   std::vector<Eigen::Vector3d> spheres_;

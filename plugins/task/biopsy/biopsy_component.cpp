@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <string>
 
+#include "armature/kinds/registration_messages.hpp"
 #include "armature/kinds/setup_robot.hpp"
 #include "armature/motion/goal_messages.hpp"
 #include "armature/runtime/component.hpp"
@@ -28,12 +29,7 @@ NeedleLine line_of(const msg::NeedlePlan& plan) {
 
 RegisteredHead head_of(const msg::RegistrationResponse& response) {
   RegisteredHead head;
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 4; ++column) {
-      head.robot_T_image(row, column) =
-          response.robot_t_image_()[static_cast<std::size_t>(4 * row + column)];
-    }
-  }
+  head.robot_T_image = robot_T_image_of(response);
   head.fiducial_error_m = response.fre_();
   head.target_error95_m = response.targets_().front().error_95_();
   return head;

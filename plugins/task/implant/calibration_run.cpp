@@ -9,7 +9,13 @@
 namespace armature {
 namespace {
 
-constexpr Duration kSettle = seconds(0.05);  // until the arm does not swing any more
+// [m], [rad]: an arm that moved by less from the first sample to the last stood still.
+constexpr double kStill = 2e-5, kStillRad = 1e-4;
+
+bool moved(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to) {
+  const Eigen::Isometry3d way = from.inverse() * to;
+  return way.translation().norm() > kStill || Eigen::AngleAxisd{way.linear()}.angle() > kStillRad;
+}
 
 }  // namespace
 
@@ -33,9 +39,13 @@ void CalibrationRun::arrive(Time now) {
 }
 
 void CalibrationRun::see(const Sighting& sighting, const Eigen::Isometry3d& base_T_flange) {
-  if (!arrived_ || sighting.stamp < *arrived_ + kSettle) return;
+  if (!arrived_ || sighting.stamp < *arrived_) return;
   watch_.see(sighting);
   if (!sighting.tracker_T_body) return;
+  if (average_.count() == 0 || moved(base_T_flange_, base_T_flange)) {
+    average_.clear();
+    base_T_flange_ = base_T_flange;
+  }
   average_.add(*sighting.tracker_T_body);
   if (average_.count() < settings_.samples) return;
   poses_.push_back({base_T_flange, average_.mean()});

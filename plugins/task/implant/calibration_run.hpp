@@ -54,6 +54,7 @@ class CalibrationRun {
   std::optional<Time> arrived_;
   BodyWatch watch_;
   PoseAverage average_;
+  Eigen::Isometry3d base_T_flange_ = Eigen::Isometry3d::Identity();  // since the average began
   std::vector<HandEyePose> poses_;
   std::string left_out_, trouble_;
 };

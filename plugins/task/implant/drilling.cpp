@@ -1,39 +1,39 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "drilling.hpp"
 
-#include "armature/robot/kinematics.hpp"
+#include <cstddef>
+#include <utility>
 
 namespace armature {
 
 using Eigen::Isometry3d;
 
-Expected<Isometry3d> flange_T_file_tool(const RobotModel& robot) {
-  const auto flange = robot.find_frame("flange");
-  if (!flange) return refuse("the robot " + robot.name() + " has no frame 'flange'");
-  const JointVector q = resting_position(robot);
-  return forward_kinematics(robot, q, *flange).inverse() * forward_kinematics(robot, q);
-}
-
 DrillingWay drilling_way(const GuidedChain& chain, const Isometry3d& flange_T_file_tool,
-                         const std::vector<Isometry3d>& image_T_sites, double stand_off_m) {
+                         const std::vector<Isometry3d>& image_T_sites,
+                         const DrillingSettings& settings) {
   const auto pose_at = [&](const Isometry3d& image_T_site) -> ToolPose {
     const Isometry3d pose = chain.base_T_flange(image_T_site) * flange_T_file_tool;
     return {pose.translation(), Eigen::Quaterniond{pose.linear()}.normalized()};
   };
-  const Eigen::Translation3d up{0, 0, -stand_off_m};
-  DrillingWay way;
-  for (const Isometry3d& site : image_T_sites) {
-    const ToolPose above = pose_at(site * up);
-    if (&site == &image_T_sites.front()) {
-      way.approach = above;
+  const Eigen::Translation3d up{0, 0, -settings.stand_off_m};
+  DrillingWay way{.approach = pose_at(image_T_sites.front() * up), .bores = {}};
+  MotionGoal goal;
+  const auto stop_at = [&](const ToolPose& pose, bool at_bottom) {
+    goal.pose = pose;
+    way.bores.push_back({std::exchange(goal, {}), at_bottom});
+  };
+  for (std::size_t i = 0; i < image_T_sites.size(); ++i) {
+    const ToolPose above = pose_at(image_T_sites[i] * up), bottom = pose_at(image_T_sites[i]);
+    if (i > 0) goal.through.push_back(above);
+    if (settings.stop_at_sites) {
+      stop_at(bottom, true);
     } else {
-      way.bores.through.push_back(above);
+      goal.through.push_back(bottom);
     }
-    way.bores.through.push_back(pose_at(site));
-    if (&site == &image_T_sites.back()) {
-      way.bores.pose = above;
+    if (i + 1 < image_T_sites.size()) {
+      goal.through.push_back(above);
     } else {
-      way.bores.through.push_back(above);
+      stop_at(above, false);
     }
   }
   return way;

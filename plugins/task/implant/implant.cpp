@@ -14,12 +14,6 @@ constexpr Duration kAnswerWithin = seconds(1.0);
 
 }  // namespace
 
-Expected<Implant> Implant::make(const ImplantSettings& settings, const RobotModel& robot) {
-  const auto tool = flange_T_file_tool(robot);
-  if (!tool) return tl::unexpected{tool.error()};
-  return Implant{settings, robot, *tool};
-}
-
 Implant::Implant(const ImplantSettings& settings, const RobotModel& robot,
                  const Isometry3d& flange_T_file_tool)
     : settings_{settings},
@@ -87,13 +81,9 @@ void Implant::hear(const GoalReport& report, Time now) {
   }
   if (phase_ != Phase::approaching && phase_ != Phase::drilling) return;
   if (failed) return refuse(goal_.reason());
-  if (!there) return;
-  if (phase_ == Phase::approaching) {
-    goal_.set(way_.bores);
-    enter(Phase::drilling, now);
-  } else {
-    enter(Phase::drilled, now);
-  }
+  if (!there || phase_ == Phase::drilling) return;
+  goal_.set(way_.bores.front().goal);
+  enter(Phase::drilling, now);
 }
 
 void Implant::update(Time now) {
@@ -115,7 +105,8 @@ void Implant::update(Time now) {
     case Phase::approaching:
     case Phase::drilling:
       if (const auto blind = jaw_watch_.blind(now)) return hold(*blind);
-      if (const auto blind = flange_watch_.blind(now)) hold(*blind);
+      if (const auto blind = flange_watch_.blind(now)) return hold(*blind);
+      if (phase_ == Phase::drilling) go_on_drilling(now);
       break;
     case Phase::registering:
     case Phase::drilled:
@@ -133,10 +124,10 @@ void Implant::finish_pivot(Time now) {
   }
   pivot_ = *pivot;
   chain_.tip = pivot_.tip;
-  news_.push_back(fmt::format("pivot: {} poses, the tip stood still to {:.2f} mm and is known to "
-                              "{:.2f} mm (95 %)",
-                              pivot_poses_.size(), 1e3 * pivot_.residual_rms_m,
-                              1e3 * pivot_.tip_error.bound95_m));
+  news_.push_back(fmt::format(
+      "pivot: {} poses, the tip stood still to {:.2f} mm and is known to "
+      "{:.2f} mm (95 %)",
+      pivot_poses_.size(), 1e3 * pivot_.residual_rms_m, 1e3 * pivot_.tip_error.bound95_m));
   enter(Phase::calibrating, now);
 }
 
@@ -157,9 +148,9 @@ void Implant::finish_calibration(Time now) {
   hand_eye_ = *found;
   chain_.flange_T_body = hand_eye_.flange_T_body;
   chain_.base_T_tracker = hand_eye_.base_T_tracker;
-  std::string line = fmt::format("hand-eye: {} of {} poses fit to {:.2f} mm",
-                                 calibration_.poses().size(), calibration_.count(),
-                                 1e3 * hand_eye_.residual_rms_m);
+  std::string line =
+      fmt::format("hand-eye: {} of {} poses fit to {:.2f} mm", calibration_.poses().size(),
+                  calibration_.count(), 1e3 * hand_eye_.residual_rms_m);
   if (!calibration_.left_out().empty()) line += "; left out: " + calibration_.left_out();
   news_.push_back(line);
   enter(Phase::registering, now);
@@ -198,9 +189,16 @@ void Implant::finish_locating(Time now) {
                                 1e3 * forecast.bound95_m(), 1e3 * settings_.most_site_error_m));
     }
   }
-  way_ = drilling_way(chain_, flange_T_file_tool_, sites_, settings_.stand_off_m);
+  way_ = drilling_way(chain_, flange_T_file_tool_, sites_, settings_.drilling);
   goal_.set({.pose = way_.approach, .focus = {}});
   enter(Phase::approaching, now);
+}
+
+void Implant::go_on_drilling(Time now) {
+  if (goal_.state() != PursuedGoal::State::done) return;
+  if (way_.bores[bore_].ends_at_bottom && now - goal_.done_at() < settings_.dwell) return;
+  if (++bore_ == way_.bores.size()) return enter(Phase::drilled, now);
+  goal_.set(way_.bores[bore_].goal);
 }
 
 void Implant::refuse(const std::string& why) {

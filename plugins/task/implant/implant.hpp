@@ -19,7 +19,8 @@ struct ImplantSettings {
   CalibrationSettings calibration;
   int jaw_samples = 60;              // averaged before the way is worked out
   Duration patience = seconds(0.5);  // without a body being seen that is needed
-  double stand_off_m = 0.03;
+  DrillingSettings drilling;
+  Duration dwell = seconds(0.5);  // at a bottom where the drill stops
   double most_pivot_residual_m = 0.0005, most_hand_eye_residual_m = 0.0005;
   double most_fiducial_error_m = 0.0015, most_site_error_m = 0.0015;
   double most_jaw_motion_m = 0.001;
@@ -32,9 +33,10 @@ struct RegisteredJaw {
   std::vector<RegisteredSite> sites;
 };
 
-/// The story of a drilling: the drill's tip is found (pivot), where tracker and body are (hand-eye),
-/// how the image lies in the jaw (registration), where the jaw is (tracker), and then the drill goes
-/// through all sites. Everything it knows comes in through the `see` and `hear` calls.
+/// The story of a drilling: the drill's tip is found (pivot), where tracker and body are
+/// (hand-eye), how the image lies in the jaw (registration), where the jaw is (tracker), and then
+/// the drill goes through all sites. Everything it knows comes in through the `see` and `hear`
+/// calls.
 class Implant {
  public:
   enum class Phase {
@@ -48,8 +50,9 @@ class Implant {
     refused
   };
 
-  /// Refuses a robot without a frame `flange`.
-  static Expected<Implant> make(const ImplantSettings& settings, const RobotModel& robot);
+  /// `flange_T_file_tool`: the drill as the robot file has it.
+  Implant(const ImplantSettings& settings, const RobotModel& robot,
+          const Eigen::Isometry3d& flange_T_file_tool);
 
   void begin(Time now);
   /// The sites of the plan: of the drill, in the image.
@@ -81,13 +84,12 @@ class Implant {
   const std::vector<ErrorForecast>& forecasts() const { return forecasts_; }
 
  private:
-  Implant(const ImplantSettings& settings, const RobotModel& robot,
-          const Eigen::Isometry3d& flange_T_file_tool);
   void enter(Phase phase, Time now);
   void finish_pivot(Time now);
   void go_on_calibrating();
   void finish_calibration(Time now);
   void finish_locating(Time now);
+  void go_on_drilling(Time now);
   void refuse(const std::string& why);
   void hold(const std::string& why);
 
@@ -108,6 +110,7 @@ class Implant {
   RegisteredJaw registered_;
   GuidedChain chain_;
   DrillingWay way_;
+  std::size_t bore_ = 0;  // of way_
   std::vector<ErrorForecast> forecasts_;
   std::vector<std::string> news_;
   std::string trouble_;

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <string>
 
+#include "armature/calibration/recorded_pose.hpp"
 #include "armature/kinds/chain_messages.hpp"
 #include "armature/kinds/registration_messages.hpp"
+#include "armature/kinds/setup_flange.hpp"
 #include "armature/kinds/setup_robot.hpp"
 #include "armature/messages/sensor_msgs.hpp"
 #include "armature/motion/goal_messages.hpp"
@@ -35,7 +37,9 @@ ImplantSettings settings_of(const Params& params) {
           .calibration = calibration_of(params),
           .jaw_samples = static_cast<int>(params.integer("jaw_samples")),
           .patience = seconds(params.number("patience_s")),
-          .stand_off_m = params.number("stand_off_mm"),
+          .drilling = {.stand_off_m = params.number("stand_off_mm"),
+                       .stop_at_sites = params.flag("stop_at_sites")},
+          .dwell = seconds(params.number("dwell_s")),
           .most_pivot_residual_m = params.number("most_pivot_residual_mm"),
           .most_hand_eye_residual_m = params.number("most_hand_eye_residual_mm"),
           .most_fiducial_error_m = params.number("most_fiducial_error_mm"),
@@ -43,18 +47,17 @@ ImplantSettings settings_of(const Params& params) {
           .most_jaw_motion_m = params.number("most_jaw_motion_mm")};
 }
 
-Implant story_of(const Params& params, const RobotModel& robot) {
-  auto story = Implant::make(settings_of(params), robot);
-  if (!story) throw SetupError(story.error().text);
-  return std::move(*story);
-}
-
 Sighting sighting_of(const msg::TrackedBody& body) {
   Sighting sighting{.stamp = stamp_of(body.header_().stamp_()), .tracker_T_body = {}};
-  if (body.valid_()) {
-    sighting.tracker_T_body = to_eigen(body.pose_());
-  } else {
+  if (!body.valid_()) {
     sighting.reason = body.reason_();
+    return sighting;
+  }
+  const Eigen::Isometry3d pose = to_eigen(body.pose_());
+  if (const auto wrong = wrong_with(pose)) {
+    sighting.reason = "its pose " + *wrong;
+  } else {
+    sighting.tracker_T_body = pose;
   }
   return sighting;
 }
@@ -68,9 +71,8 @@ std::vector<ToolPose> sites_of(const msg::ImplantPlan& plan) {
 }
 
 RegisteredJaw jaw_of(const msg::RegistrationResponse& response) {
-  RegisteredJaw jaw{.jaw_T_image = robot_T_image_of(response),
-                    .fiducial_error_m = response.fre_(),
-                    .sites = {}};
+  RegisteredJaw jaw{
+      .jaw_T_image = robot_T_image_of(response), .fiducial_error_m = response.fre_(), .sites = {}};
   for (const msg::RegisteredTarget& target : response.targets_()) {
     jaw.sites.push_back({.error_rms_m = target.error_rms_(), .error_95_m = target.error_95_()});
   }
@@ -91,7 +93,8 @@ class ImplantComponent final : public Component {
   explicit ImplantComponent(Setup& setup)
       : Component{setup},
         robot_{robot_of(setup)},
-        task_{story_of(setup.params(), robot_)},
+        mount_{flange_of(robot_)},
+        task_{settings_of(setup.params()), robot_, mount_.flange_T_tool},
         marker_error_m_{setup.params().number("marker_error_mm")},
         match_tolerance_m_{setup.params().number("match_tolerance_mm")},
         flange_{setup.input<msg::TrackedBody>("flange")},
@@ -141,8 +144,7 @@ class ImplantComponent final : public Component {
            [](Site site) { return site.tool.rms_m; });
     metric("expected_tracker_error_mm", "expected of the tracker [mm]",
            [](Site site) { return site.tracker.rms_m; });
-    metric("expected_error_rms_mm", "expected in all [mm]",
-           [](Site site) { return site.rms_m(); });
+    metric("expected_error_rms_mm", "expected in all [mm]", [](Site site) { return site.rms_m(); });
   }
 
  private:
@@ -151,7 +153,7 @@ class ImplantComponent final : public Component {
     const auto q = robot_.contract(measured_js_.latest()->position_());
     if (!q) return degraded("measured_js: " + q.error().text);
     healthy();
-    task_.see_arm(forward_kinematics(robot_, *q, *robot_.find_frame("flange")));
+    task_.see_arm(forward_kinematics(robot_, *q, mount_.frame));
   }
 
   void read(Time now) {
@@ -217,6 +219,7 @@ class ImplantComponent final : public Component {
   }
 
   RobotModel robot_;
+  Flange mount_;
   Implant task_;
   double marker_error_m_, match_tolerance_m_;
   std::uint64_t asked_ = 0;

@@ -11,9 +11,9 @@ namespace armature {
 
 /// What the tracker said of a body.
 struct Sighting {
-  Time stamp;                                      // of the light
+  Time stamp;                                       // of the light
   std::optional<Eigen::Isometry3d> tracker_T_body;  // none: not seen
-  std::string reason = {};                         // why not
+  std::string reason = {};                          // why not
 };
 
 /// Whether a body that is needed is still seen.

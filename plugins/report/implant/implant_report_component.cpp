@@ -114,6 +114,7 @@ class ImplantReport final : public Component {
   }
 
   void tell_errors(Summary& summary) const {
+    std::string each;
     std::vector<Vector3d> errors, registration, hand_eye, tool, tracker;
     double worst = 0, angle = 0, unexplained = 0, off = 0, tilt = 0;
     for (const BoreMonitor& bore : bores_) {
@@ -124,6 +125,7 @@ class ImplantReport final : public Component {
       hand_eye.push_back(budget.hand_eye);
       tool.push_back(budget.tool);
       tracker.push_back(budget.tracker);
+      each += fmt::format("{}{:.3f}", each.empty() ? "" : ", ", 1e3 * errors.back().norm());
       worst = std::max(worst, errors.back().norm());
       angle = std::max(angle, bore.axis_error_rad());
       unexplained = std::max(unexplained, (errors.back() - budget.sum()).norm());
@@ -133,10 +135,10 @@ class ImplantReport final : public Component {
     const auto millimetres = [&](const char* key, const char* title, double metres) {
       summary.metric(key, title, kMillimetres * metres);
     };
-    millimetres("site_error_mm", "error of the tip at the worst site [mm]", worst);
-    millimetres("site_error_rms_mm", "rms over the sites [mm]", rms(errors));
-    summary.metric("site_angle_deg", "angle of the drill at the worst site [deg]",
-                   kDegrees * angle);
+    summary.text("site_errors_mm", "error of the tip at each site [mm]", each);
+    millimetres("site_error_mm", "  at the worst [mm]", worst);
+    millimetres("site_error_rms_mm", "  rms over the sites [mm]", rms(errors));
+    summary.metric("site_angle_deg", "  angle of the drill at the worst [deg]", kDegrees * angle);
     millimetres("registration_error_mm", "  by the registration, rms [mm]", rms(registration));
     millimetres("hand_eye_error_mm", "  by the hand-eye calibration [mm]", rms(hand_eye));
     millimetres("tool_error_mm", "  by the tool calibration [mm]", rms(tool));

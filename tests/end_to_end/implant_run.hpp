@@ -4,15 +4,20 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "deployment_run.hpp"
+#include "tests/dds_domain.hpp"
 
 namespace armature::test {
 
+/// One run after the other, all in one domain: there are not enough for hundreds.
 inline DeploymentRun implant(std::vector<std::string> settings = {}) {
-  return run_deployment(
-      {.files = {source_file("configs/dental_implant.yaml")}, .settings = std::move(settings)});
+  static const int domain = unique_dds_domain();
+  return run_deployment({.files = {source_file("configs/dental_implant.yaml")},
+                         .settings = std::move(settings),
+                         .domain = domain});
 }
 
 /// It ends by itself, with the reason; the arm stands still.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -72,8 +73,8 @@ class Implant {
 
   Phase phase() const { return phase_; }
   /// Where in the calibration it is, from 1.
-  int calibration_pose() const { return calibration_.number(); }
-  int calibration_poses() const { return calibration_.count(); }
+  std::size_t calibration_pose() const { return static_cast<std::size_t>(calibration_.number()); }
+  std::size_t calibration_poses() const { return static_cast<std::size_t>(calibration_.count()); }
   /// Why it does not go on, or "".
   const std::string& trouble() const { return trouble_; }
   /// What was found, each said once.

@@ -12,6 +12,7 @@
 #include "armature/kinds/setup_robot.hpp"
 #include "armature/messages/sensor_msgs.hpp"
 #include "armature/motion/goal_messages.hpp"
+#include "armature/motion/task_state_publisher.hpp"
 #include "armature/robot/kinematics.hpp"
 #include "armature/runtime/component.hpp"
 #include "armature/runtime/plugin.hpp"
@@ -22,7 +23,6 @@ namespace armature {
 namespace {
 
 constexpr Duration kPeriod = seconds(0.02);
-constexpr Duration kStatePeriod = seconds(0.2);
 
 CalibrationSettings calibration_of(const Params& params) {
   return {.poses = static_cast<int>(params.integer("calibration_poses")),
@@ -108,7 +108,7 @@ class ImplantComponent final : public Component {
         request_{setup.output<msg::RegistrationRequest>("request")},
         goal_{setup.output<msg::MotionGoal>("goal")},
         estimate_{setup.output<msg::TFMessage>("estimate")},
-        state_{setup.output<msg::TaskState>("state")} {
+        state_{setup} {
     setup.activate_every(kPeriod);
   }
 
@@ -205,17 +205,11 @@ class ImplantComponent final : public Component {
     const bool calibrating = task_.phase() == Implant::Phase::calibrating;
     std::string line = to_string(task_.phase());
     if (!task_.trouble().empty()) line += ": " + task_.trouble();
-    if (line == line_ && now - published_ < kStatePeriod) return;
-    if (line != line_) say(line);
-    line_ = line;
-    published_ = now;
-    auto loan = state_.loan();
-    write_header(loan->header_(), now);
-    loan->state_() = to_string(task_.phase());
-    loan->step_(static_cast<std::uint32_t>(calibrating ? task_.calibration_pose() : 0));
-    loan->steps_(static_cast<std::uint32_t>(calibrating ? task_.calibration_poses() : 0));
-    loan->detail_() = task_.trouble();
-    loan.publish();
+    const TaskReport report{.state = to_string(task_.phase()),
+                            .step = calibrating ? task_.calibration_pose() : 0,
+                            .steps = calibrating ? task_.calibration_poses() : 0,
+                            .detail = task_.trouble()};
+    if (state_.publish(now, report, line)) say(line);
   }
 
   RobotModel robot_;
@@ -224,8 +218,6 @@ class ImplantComponent final : public Component {
   double marker_error_m_, match_tolerance_m_;
   std::uint64_t asked_ = 0;
   bool begun_ = false, told_ = false;
-  std::string line_;
-  Time published_;
   Input<msg::TrackedBody> flange_, jaw_, pivot_;
   Input<msg::JointState> measured_js_;
   Input<msg::ImplantPlan> plan_;
@@ -235,7 +227,7 @@ class ImplantComponent final : public Component {
   Output<msg::RegistrationRequest> request_;
   Output<msg::MotionGoal> goal_;
   Output<msg::TFMessage> estimate_;
-  Output<msg::TaskState> state_;
+  TaskStatePublisher state_;
 };
 
 }  // namespace armature

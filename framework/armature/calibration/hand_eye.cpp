@@ -112,6 +112,7 @@ HandEye result_of(const HandEyeFit& fit) {
   result.noise = fit.noise;
   result.flange_T_body_covariance = fit.covariance.topLeftCorner<6, 6>();
   result.base_T_tracker_covariance = fit.covariance.bottomRightCorner<6, 6>();
+  result.cross_covariance = fit.covariance.topRightCorner<6, 6>();
   const PoseNoise rms = rms_of(fit.residuals);
   result.residual_rms_m = rms.position_m;
   result.residual_rms_rad = rms.rotation_rad;
@@ -128,24 +129,38 @@ HandEye result_of(const HandEyeFit& fit) {
   return result;
 }
 
-/// What the covariance of a_T_b makes of a point of b that lies at `arm` from its origin, along a.
-PointError error_at_end_of(const Eigen::Vector3d& arm, const PoseCovariance& covariance) {
+/// By which a point of b moves that lies at `arm` from its origin, along a, with a_T_b.
+Eigen::Matrix<double, 3, 6> slope_at_end_of(const Eigen::Vector3d& arm) {
   Eigen::Matrix<double, 3, 6> slope;
   slope.leftCols<3>().setIdentity();
   for (int axis = 0; axis < 3; ++axis) {
     slope.col(3 + axis) = Eigen::Vector3d::Unit(axis).cross(arm);
   }
-  return point_error(slope * covariance * slope.transpose());
+  return slope;
 }
 
 }  // namespace
 
 PointError HandEye::error_at(const Eigen::Vector3d& point_in_base) const {
-  return error_at_end_of(point_in_base - base_T_tracker.translation(), base_T_tracker_covariance);
+  const auto slope = slope_at_end_of(point_in_base - base_T_tracker.translation());
+  return point_error(slope * base_T_tracker_covariance * slope.transpose());
 }
 
 PointError HandEye::body_error_at(const Eigen::Vector3d& point_in_flange) const {
-  return error_at_end_of(point_in_flange - flange_T_body.translation(), flange_T_body_covariance);
+  const auto slope = slope_at_end_of(point_in_flange - flange_T_body.translation());
+  return point_error(slope * flange_T_body_covariance * slope.transpose());
+}
+
+PointError HandEye::guided_error_at(const Eigen::Vector3d& point_in_flange,
+                                    const Eigen::Isometry3d& base_T_flange) const {
+  const Eigen::Vector3d point_in_base = base_T_flange * point_in_flange;
+  const Eigen::Matrix<double, 3, 6> body =
+      base_T_flange.linear() * slope_at_end_of(point_in_flange - flange_T_body.translation());
+  const auto tracker = slope_at_end_of(point_in_base - base_T_tracker.translation());
+  const Eigen::Matrix3d common = body * cross_covariance * tracker.transpose();
+  return point_error(body * flange_T_body_covariance * body.transpose() +
+                     tracker * base_T_tracker_covariance * tracker.transpose() - common -
+                     common.transpose());
 }
 
 Expected<HandEye> calibrate_hand_eye(std::span<const HandEyePose> poses,

@@ -48,12 +48,19 @@ struct HandEye {
   PoseNoise noise;        // the one that was stated, or what the residuals show
   PoseCovariance flange_T_body_covariance = PoseCovariance::Zero();
   PoseCovariance base_T_tracker_covariance = PoseCovariance::Zero();
+  PoseCovariance cross_covariance =
+      PoseCovariance::Zero();  // rows of the body, columns of the tracker
 
   /// Of a point that the tracker sees there, told in the base frame by base_T_tracker: what the
   /// calibration adds to the tracker's own error, to first order.
   PointError error_at(const Eigen::Vector3d& point_in_base) const;
   /// Of a point fixed to the body, told in the flange's frame by flange_T_body.
   PointError body_error_at(const Eigen::Vector3d& point_in_flange) const;
+  /// Of a point fixed to the body that the arm brings, with the flange there, to where the tracker
+  /// sees another: what both together add, in the base frame. Their errors belong together, and
+  /// where the calibration's poses are near they nearly cancel.
+  PointError guided_error_at(const Eigen::Vector3d& point_in_flange,
+                             const Eigen::Isometry3d& base_T_flange) const;
 };
 
 /// Solves base_T_flange flange_T_body = base_T_tracker tracker_T_body for all poses at once (A X =

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "armature/calibration/recorded_pose.hpp"
+#include "armature/calibration/usable_pose.hpp"
 #include "armature/robot/kinematics.hpp"
 #include "calibration_poses.hpp"
 

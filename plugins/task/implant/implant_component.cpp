@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "armature/calibration/recorded_pose.hpp"
+#include "armature/calibration/usable_pose.hpp"
 #include "armature/kinds/chain_messages.hpp"
 #include "armature/kinds/registration_messages.hpp"
 #include "armature/kinds/setup_flange.hpp"

@@ -2,6 +2,8 @@
 // The host of the registrations: 1. one answer for each request, under its header and id, 2.
 // markers in any order are matched first, 3. targets come back with their error, 4. bad requests
 // are answered with their reason.
+#include <gtest/gtest.h>
+
 #include <array>
 #include <cmath>
 #include <stdexcept>

@@ -17,6 +17,7 @@ enum class MotionMode {
   planned,   // along a path, to rest
   tracking,  // a target that moves; the next goal follows soon
   hold,      // stop within limits and stay
+  guided,    // stop within limits, then let a hand move the arm: the reference is where it is
 };
 
 /// What the arm shall do next.

@@ -24,7 +24,7 @@ std::vector<double> to_vector(const JointVector& values) {
 
 Expected<MotionGoal> read_goal(const msg::MotionGoal& message) {
   if (const auto wrong = not_in_base(message.header_(), "the goal")) return refuse(*wrong);
-  if (message.mode_() > static_cast<int>(MotionMode::hold)) {
+  if (message.mode_() > static_cast<int>(MotionMode::guided)) {
     return refuse(fmt::format("the goal has the unknown mode {}", message.mode_()));
   }
   MotionGoal goal;

@@ -7,8 +7,10 @@
 
 #include "armature/kinds/joint_messages.hpp"
 #include "armature/kinds/setup_robot.hpp"
-#include "armature/messages/stamp.hpp"
+#include "armature/messages/geometry.hpp"
+#include "armature/messages/header.hpp"
 #include "armature/messages/std_msgs.hpp"
+#include "armature/robot/kinematics.hpp"
 #include "armature/runtime/component.hpp"
 #include "armature/runtime/plugin.hpp"
 #include "armature/runtime/setup.hpp"
@@ -33,10 +35,10 @@ JointVector home_of(const RobotModel& model) {
   return *home;
 }
 
-std::string describe(const LimitExcess& excess, const RobotModel& model) {
+std::string describe(const LimitExcess& excess, const RobotModel& model, const char* who) {
   static constexpr const char* kQuantity[] = {"position", "velocity", "acceleration"};
   const auto joint = static_cast<std::size_t>(model.independent_joint(excess.joint));
-  return fmt::format("the command asks joint {} for {} {:.3f}, limit {:.3f}",
+  return fmt::format("the {} asks joint {} for {} {:.3f}, limit {:.3f}", who,
                      model.joints()[joint].name, kQuantity[static_cast<int>(excess.quantity)],
                      excess.wanted, excess.limit);
 }
@@ -49,7 +51,10 @@ class SimulatedArmComponent : public Component {
       : Component(setup),
         model_{robot_of(setup)},
         arm_{model_, options_of(setup.params()), home_of(model_)},
+        hand_lets_go_{seconds(setup.params().number("stale_s"))},
+        hand_js_{setup.input<msg::JointState>("hand_js")},
         servo_jp_{setup.input<msg::JointState>("servo_jp")},
+        measured_cp_{setup.output<msg::PoseStamped>("measured_cp")},
         measured_js_{setup.output<msg::JointState>("measured_js")},
         setpoint_js_{setup.output<msg::JointState>("setpoint_js")},
         operating_state_{setup.output<msg::String>("operating_state")} {
@@ -57,8 +62,11 @@ class SimulatedArmComponent : public Component {
   }
 
   void step(Time now) override {
-    read_command();
-    arm_.step(now, command_);
+    read(servo_jp_, "a command", command_);
+    read(hand_js_, "a hand", hand_);
+    guided_ = hand_ && now - hand_->stamp <= hand_lets_go_;
+    arm_.step(now, guided_ ? hand_ : command_);
+    publish_pose(now);
     publish(measured_js_, arm_.measured(), arm_.measured_velocity(), now);
     publish(setpoint_js_, arm_.setpoint(), arm_.setpoint_velocity(), now);
     show_health(now);
@@ -66,18 +74,27 @@ class SimulatedArmComponent : public Component {
   }
 
  private:
-  void read_command() {
-    if (!servo_jp_.fresh()) return;
-    const msg::JointState& message = *servo_jp_.latest();
+  void read(const Input<msg::JointState>& input, const char* what,
+            std::optional<ServoCommand>& command) {
+    if (!input.fresh()) return;
+    const msg::JointState& message = *input.latest();
     const auto q = model_.contract(message.position_());
     const auto v = model_.contract_rates(message.velocity_());
     if (!q || !v) {
-      fault_ = q ? "refused a command: velocity: " + v.error().text
-                 : "refused a command: position: " + q.error().text;
+      fault_ = fmt::format("refused {}: {}", what,
+                           q ? "velocity: " + v.error().text : "position: " + q.error().text);
       return;
     }
     fault_.clear();
-    command_ = ServoCommand{stamp_of(message.header_().stamp_()), *q, *v};
+    command = ServoCommand{stamp_of(message.header_().stamp_()), *q, *v};
+  }
+
+  void publish_pose(Time now) {
+    if (!measured_cp_.wanted()) return;
+    auto loan = measured_cp_.loan();
+    write_header(loan->header_(), now, kBaseFrame);
+    assign(loan->pose_(), forward_kinematics(model_, arm_.measured()));
+    loan.publish();
   }
 
   void publish(Output<msg::JointState>& output, const JointVector& q, const JointVector& v,
@@ -104,7 +121,8 @@ class SimulatedArmComponent : public Component {
     if (trouble == Trouble::none) {
       healthy();
     } else {
-      degraded(fault_.empty() ? describe(*arm_.excess(), model_) : fault_);
+      const char* who = guided_ ? "hand" : "command";
+      degraded(fault_.empty() ? describe(*arm_.excess(), model_, who) : fault_);
     }
   }
 
@@ -118,10 +136,13 @@ class SimulatedArmComponent : public Component {
 
   RobotModel model_;
   SimulatedArm arm_;
-  Input<msg::JointState> servo_jp_;
+  Duration hand_lets_go_;
+  Input<msg::JointState> hand_js_, servo_jp_;
+  Output<msg::PoseStamped> measured_cp_;
   Output<msg::JointState> measured_js_, setpoint_js_;
   Output<msg::String> operating_state_;
-  std::optional<ServoCommand> command_;
+  std::optional<ServoCommand> command_, hand_;
+  bool guided_ = false;
   enum class Trouble { none, held_back, refused_command } shown_trouble_ = Trouble::none;
   std::string fault_, shown_fault_;
   Time last_trouble_;

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scaled_motion.hpp"
+
+#include "armature/robot/quintic.hpp"
+
+namespace armature {
+
+void ScaledMotion::engage(const Eigen::Isometry3d& slave_T_tool,
+                          const Eigen::Isometry3d& master_T_hand,
+                          const Eigen::Matrix3d& slave_R_master) {
+  slave_R_master_ = slave_R_master;
+  hand_ = master_T_hand;
+  position_ = slave_T_tool.translation();
+  rotation_ = slave_T_tool.linear();
+  engaged_s_ = 0;
+}
+
+SlaveTarget ScaledMotion::follow(const Eigen::Isometry3d& master_T_hand) {
+  engaged_s_ += settings_.period_s;
+  const double engage = settings_.engage_s;
+  const double grip =
+      engaged_s_ < engage ? Quintic::between({0, 0, 0}, {1, 0, 0}, engage).position(engaged_s_) : 1;
+
+  const Eigen::Vector3d moved = master_T_hand.translation() - hand_.translation();
+  Eigen::Vector3d velocity =
+      grip * settings_.scale / settings_.period_s * (slave_R_master_ * moved);
+  const double speed = velocity.norm();
+  if (speed > settings_.max_speed) velocity *= settings_.max_speed / speed;
+  position_ += velocity * settings_.period_s;
+
+  const Eigen::AngleAxisd turned{master_T_hand.linear() * hand_.linear().transpose()};
+  const Eigen::AngleAxisd turn{grip * turned.angle(), slave_R_master_ * turned.axis()};
+  rotation_ = (turn * rotation_).normalized();
+
+  hand_ = master_T_hand;
+  return {.pose = Eigen::Translation3d{position_} * rotation_, .velocity = velocity};
+}
+
+}  // namespace armature

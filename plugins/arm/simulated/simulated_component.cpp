@@ -65,7 +65,11 @@ class SimulatedArmComponent : public Component {
     read(servo_jp_, "a command", command_);
     read(hand_js_, "a hand", hand_);
     guided_ = hand_ && now - hand_->stamp <= hand_lets_go_;
-    arm_.step(now, guided_ ? hand_ : command_);
+    if (guided_) {
+      arm_.guide(now, hand_->q);
+    } else {
+      arm_.step(now, command_);
+    }
     publish_pose(now);
     publish(measured_js_, arm_.measured(), arm_.measured_velocity(), now);
     publish(setpoint_js_, arm_.setpoint(), arm_.setpoint_velocity(), now);

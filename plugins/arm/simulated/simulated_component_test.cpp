@@ -186,11 +186,8 @@ TEST_F(SimulatedArmComponentTest, ARefusedCommandIsTheTroubleThatIsToldFirst) {
 TEST_F(SimulatedArmComponentTest, YieldsToAHandAndFollowsCommandsAgainWhenItLetsGo) {
   JointVector q = home_;
   for (int i = 0; i < 100; ++i) {
-    const double v = 0.004 * i;  // 4 rad/s2
-    q[1] += v * kPeriod_s;
-    JointVector rate = still_;
-    rate[1] = v;
-    arm_.send("hand_js", command(q, rate));
+    q[1] += 0.002 * std::sin(0.3 * i);  // 2 rad/s at most, 600 rad/s2
+    arm_.send("hand_js", command(q, still_));
     arm_.send("servo_jp", command(home_, still_));
     step();
     ASSERT_EQ(measured(), q);

@@ -33,7 +33,10 @@ Expected<MotionGoal> read_goal(const msg::MotionGoal& message) {
   goal.pose = tool_pose_of(message);
   if (message.has_focus_()) goal.focus = to_eigen(message.focus_());
   goal.forbidden = zones_of(message.forbidden_());
-  if (goal.mode == MotionMode::tracking) goal.velocity = to_eigen(message.velocity_());
+  if (goal.mode == MotionMode::tracking) {
+    goal.velocity = to_eigen(message.velocity_());
+    goal.angular_velocity = to_eigen(message.angular_velocity_());
+  }
   for (const msg::ToolPose& key : message.through_()) goal.through.push_back(tool_pose_of(key));
   return checked(goal);
 }

@@ -2,6 +2,7 @@
 #include "scaled_motion.hpp"
 
 #include "armature/robot/quintic.hpp"
+#include "armature/robot/rotation_vector.hpp"
 
 namespace armature {
 
@@ -28,12 +29,14 @@ SlaveTarget ScaledMotion::follow(const Eigen::Isometry3d& master_T_hand) {
   if (speed > settings_.max_speed) velocity *= settings_.max_speed / speed;
   position_ += velocity * settings_.period_s;
 
-  const Eigen::AngleAxisd turned{master_T_hand.linear() * hand_.linear().transpose()};
-  const Eigen::AngleAxisd turn{grip * turned.angle(), slave_R_master_ * turned.axis()};
-  rotation_ = (turn * rotation_).normalized();
+  const Eigen::Quaterniond turned{master_T_hand.linear() * hand_.linear().transpose()};
+  const Eigen::Vector3d turn = grip * (slave_R_master_ * rotation_vector_of(turned));
+  rotation_ = (rotation_of(turn) * rotation_).normalized();
 
   hand_ = master_T_hand;
-  return {.pose = Eigen::Translation3d{position_} * rotation_, .velocity = velocity};
+  return {.pose = Eigen::Translation3d{position_} * rotation_,
+          .velocity = velocity,
+          .angular_velocity = turn / settings_.period_s};
 }
 
 }  // namespace armature

@@ -12,10 +12,12 @@ struct ScaledMotionSettings {
   double period_s = 0.001;  // between two poses of the hand
 };
 
-/// Where the slave's tool shall be, and how fast it moves there [m/s], in the slave's base frame.
+/// Where the slave's tool shall be, and how fast it moves [m/s] and turns [rad/s] there, in the
+/// slave's base frame.
 struct SlaveTarget {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
+  Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();
 };
 
 /// What the slave does while the clutch is closed: the hand's moves from there on, scaled, and its

@@ -92,7 +92,8 @@ void Teleoperation::follow_hand(const ConsoleView& view) {
     const SlaveTarget target = motion_.follow(*hand_);
     slave_goal_ = MotionGoal{.mode = MotionMode::tracking,
                              .pose = tool_pose_of(target.pose),
-                             .velocity = target.velocity};
+                             .velocity = target.velocity,
+                             .angular_velocity = target.angular_velocity};
     return;
   }
   if (!missing.empty()) return;

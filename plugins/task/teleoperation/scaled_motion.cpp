@@ -1,10 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scaled_motion.hpp"
 
+#include <cmath>
+
 #include "armature/robot/quintic.hpp"
 #include "armature/robot/rotation_vector.hpp"
 
 namespace armature {
+namespace {
+
+/// `speed` up to four fifths of `limit`, from there on smoothly less and never more than it: a
+/// sharp corner would be overshot by the slave.
+double gently_limited(double speed, double limit) {
+  constexpr double kKnee = 0.8;
+  const double part = speed / limit;
+  if (part <= kKnee) return speed;
+  return limit * (kKnee + (1 - kKnee) * std::tanh((part - kKnee) / (1 - kKnee)));
+}
+
+}  // namespace
 
 void ScaledMotion::engage(const Eigen::Isometry3d& slave_T_tool,
                           const Eigen::Isometry3d& master_T_hand,
@@ -26,7 +40,7 @@ SlaveTarget ScaledMotion::follow(const Eigen::Isometry3d& master_T_hand) {
   Eigen::Vector3d velocity =
       grip * settings_.scale / settings_.period_s * (slave_R_master_ * moved);
   const double speed = velocity.norm();
-  if (speed > settings_.max_speed) velocity *= settings_.max_speed / speed;
+  if (speed > 0) velocity *= gently_limited(speed, settings_.max_speed) / speed;
   position_ += velocity * settings_.period_s;
 
   const Eigen::Quaterniond turned{master_T_hand.linear() * hand_.linear().transpose()};

@@ -8,7 +8,7 @@ namespace armature {
 struct ScaledMotionSettings {
   double scale = 0.5;       // the slave's way as a part of the hand's
   double engage_s = 0.3;    // from the clutch's closing to the full scale
-  double max_speed = 0.1;   // [m/s] of the slave's tip
+  double max_speed = 0.05;  // [m/s] of the slave's tip
   double period_s = 0.001;  // between two poses of the hand
 };
 
@@ -23,8 +23,8 @@ struct SlaveTarget {
 /// What the slave does while the clutch is closed: the hand's moves from there on, scaled, and its
 /// turns, not scaled, about the same axes in space. Where the hand was before plays no part, so
 /// closing the clutch moves nothing; the scale comes up smoothly. Of a hand that is too fast for
-/// the slave, what is beyond is lost, as with an open clutch: the slave never goes on when the hand
-/// stops. Real-time safe.
+/// the slave (from four fifths of its top speed on), what is beyond is lost, as with an open
+/// clutch: the slave never goes on when the hand stops. Real-time safe.
 class ScaledMotion {
  public:
   explicit ScaledMotion(const ScaledMotionSettings& settings) : settings_{settings} {}

@@ -8,7 +8,7 @@ namespace armature {
 
 struct TremorFilterSettings {
   double stop_hz = 8;           // from here on up ...
-  double attenuation_db = 24;   // ... everything is down by so much at least
+  double attenuation_db = 22;   // ... everything is down by so much at least
   double period_s = 0.001;      // between two poses
 };
 

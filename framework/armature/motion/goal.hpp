@@ -28,7 +28,8 @@ struct MotionGoal {
   std::optional<Eigen::Vector3d> focus;                // [m] to look at on the way
   std::vector<ForbiddenZone> forbidden = {};           // to keep away from, planned only
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // [m/s] of the pose, tracking only
-  Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  // [rad/s] in the base frame, the same
+  Eigen::Vector3d angular_velocity =
+      Eigen::Vector3d::Zero();         // [rad/s] in the base frame, the same
   std::vector<ToolPose> through = {};  // key poses on the way, in order; planned only
 };
 

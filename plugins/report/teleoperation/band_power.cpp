@@ -18,8 +18,7 @@ double band_power(std::span<const TrackPoint> track, double from_hz, double to_h
     Eigen::Vector3d real = Eigen::Vector3d::Zero(), imaginary = Eigen::Vector3d::Zero();
     for (const TrackPoint& point : track) {
       const double turns = (point.t - begin) / duration;
-      const Eigen::Vector3d x =
-          (0.5 - 0.5 * std::cos(kTurn * turns)) * (point.position - mean);
+      const Eigen::Vector3d x = (0.5 - 0.5 * std::cos(kTurn * turns)) * (point.position - mean);
       real += std::cos(kTurn * k * turns) * x;
       imaginary += std::sin(kTurn * k * turns) * x;
     }

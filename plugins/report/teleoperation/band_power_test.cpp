@@ -20,7 +20,9 @@ double sine(double hz, double t) { return std::sin(2 * M_PI * hz * t + 0.7); }
 
 TEST(BandPower, OfASineIsHalfOfItsAmplitudesSquare) {
   for (const double hz : {9.0, 10.13, 11.31}) {
-    const Track track = track_of(4.5, [&](double t) { return Eigen::Vector3d{0, 0.003 * sine(hz, t), 5}; });
+    const Track track = track_of(4.5, [&](double t) {
+      return Eigen::Vector3d{0, 0.003 * sine(hz, t), 5};
+    });
     EXPECT_NEAR(band_power(track, 8, 12), 0.5 * 0.003 * 0.003, 1e-8) << hz;
     EXPECT_LT(band_power(track, 13, 20), 1e-10) << hz;
   }
@@ -34,8 +36,9 @@ TEST(BandPower, OfSinesAlongSeveralAxesIsTheirSum) {
 }
 
 TEST(BandPower, ASlowMotionDoesNotLeakIn) {
-  const Track track =
-      track_of(2.5, [](double t) { return Eigen::Vector3d{0.02 * sine(0.25, t), 0.01 * t, 1}; });
+  const Track track = track_of(2.5, [](double t) {
+    return Eigen::Vector3d{0.02 * sine(0.25, t), 0.01 * t, 1};
+  });
   EXPECT_LT(std::sqrt(band_power(track, 8, 12)), 2e-6);
 }
 

@@ -68,7 +68,8 @@ std::optional<FollowMonitor::Following> FollowMonitor::following() const {
   Following result;
   for (const Stretch& stretch : stretches(true)) {
     std::vector<Vector3d> off, rate;
-    for (const TrackPoint& point : between(slave_, stretch.from + settings_.settles_s, stretch.to)) {
+    for (const TrackPoint& point :
+         between(slave_, stretch.from + settings_.settles_s, stretch.to)) {
       const double t = point.t - settings_.lag_s;
       const auto meant = position_at(intended_, t), next = position_at(intended_, t + kStep);
       if (!meant || !next) continue;

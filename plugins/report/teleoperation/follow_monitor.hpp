@@ -9,11 +9,11 @@
 namespace armature {
 
 struct FollowSettings {
-  double scale = 0.5;       // of the hand's way
-  double lag_s = 0;         // by which the slave shall come later
-  double settles_s = 0.5;   // after the clutch has closed, before the following is judged
-  double stops_s = 0.1;     // after the clutch has opened, until the slave must stand
-  double closes_s = 0.05;   // after it has closed: no jump in this time
+  double scale = 0.5;      // of the hand's way
+  double lag_s = 0;        // by which the slave shall come later
+  double settles_s = 0.5;  // after the clutch has closed, before the following is judged
+  double stops_s = 0.1;    // after the clutch has opened, until the slave must stand
+  double closes_s = 0.05;  // after it has closed: no jump in this time
 };
 
 /// Watches a slave that follows a hand; the slave's points are told along the master's axes, from

@@ -70,7 +70,8 @@ Eigen::Isometry3d HandMotion::actual(double t, const Eigen::Isometry3d& start) c
 
 bool HandMotion::clutch_closed(double t) const {
   if (t < settings_.clutch_closes_s) return false;
-  return t < settings_.clutch_opens_s || t >= settings_.clutch_opens_s + settings_.clutch_open_for_s;
+  return t < settings_.clutch_opens_s ||
+         t >= settings_.clutch_opens_s + settings_.clutch_open_for_s;
 }
 
 }  // namespace armature

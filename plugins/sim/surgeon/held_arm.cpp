@@ -34,7 +34,8 @@ Expected<JointVector> joints_of_held_arm(const RobotModel& model, const ToolPose
       }
       return q;
     }
-    const JointVector step = missing.jacobian.completeOrthogonalDecomposition().solve(missing.error);
+    const JointVector step =
+        missing.jacobian.completeOrthogonalDecomposition().solve(missing.error);
     if (!step.allFinite() || step.cwiseAbs().maxCoeff() > kLargestStep) break;
     q += step;
   }

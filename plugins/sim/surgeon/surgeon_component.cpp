@@ -102,8 +102,8 @@ class Surgeon final : public Component {
   /// A hand that the master cannot follow stays where the master is.
   void move(double t, Time now) {
     const Eigen::Isometry3d pose = hand_.actual(t, start_);
-    const auto q = joints_of_held_arm(
-        robot_, {pose.translation(), Eigen::Quaterniond{pose.linear()}}, q_);
+    const auto q =
+        joints_of_held_arm(robot_, {pose.translation(), Eigen::Quaterniond{pose.linear()}}, q_);
     if (q) {
       healthy();
     } else {

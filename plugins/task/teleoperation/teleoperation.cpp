@@ -23,7 +23,7 @@ ToolPose tool_pose_of(const Eigen::Isometry3d& base_T_tool) {
 void Teleoperation::see(const ConsoleView& view, Time now) {
   switch (phase_) {
     case Phase::waiting:
-      return align(view, now);
+      return align(view);
     case Phase::aligning:
       return judge_alignment(view, now);
     case Phase::refused:
@@ -34,13 +34,12 @@ void Teleoperation::see(const ConsoleView& view, Time now) {
   }
 }
 
-void Teleoperation::align(const ConsoleView& view, Time now) {
+void Teleoperation::align(const ConsoleView& view) {
   if (!view.slave_T_master || !view.master_T_hand || !view.slave_T_tool) return;
   const Eigen::Isometry3d master_T_instrument =
       view.slave_T_master->inverse(Eigen::Isometry) * *view.slave_T_tool;
   master_goal_.set({.pose = tool_pose_of(master_T_instrument)});
   phase_ = Phase::aligning;
-  static_cast<void>(now);
 }
 
 void Teleoperation::judge_alignment(const ConsoleView& view, Time now) {
@@ -49,9 +48,8 @@ void Teleoperation::judge_alignment(const ConsoleView& view, Time now) {
     return refuse("the master cannot come to the instrument: " + master_goal_.reason());
   }
   if (master_goal_.state() != State::done || !view.master_T_hand || !view.slave_T_tool) return;
-  const PoseResidual off =
-      residual(*view.slave_T_master * *view.master_T_hand, Eigen::Vector3d::UnitX(),
-               tool_pose_of(*view.slave_T_tool));
+  const PoseResidual off = residual(*view.slave_T_master * *view.master_T_hand,
+                                    Eigen::Vector3d::UnitX(), tool_pose_of(*view.slave_T_tool));
   if (off.position_m <= settings_.aligned_m && off.angle_rad <= settings_.aligned_rad) {
     master_goal_.set({.mode = MotionMode::guided, .pose = {}});
     phase_ = Phase::aligned;

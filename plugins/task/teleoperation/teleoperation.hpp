@@ -56,7 +56,7 @@ class Teleoperation {
   const TremorFilter& filter() const { return filter_; }
 
  private:
-  void align(const ConsoleView& view, Time now);
+  void align(const ConsoleView& view);
   void judge_alignment(const ConsoleView& view, Time now);
   void follow_hand(const ConsoleView& view);
   /// What is missing for the slave to follow, or "".

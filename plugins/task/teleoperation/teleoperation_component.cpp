@@ -5,8 +5,8 @@
 #include <cmath>
 #include <string>
 
-#include "armature/motion/goal_messages.hpp"
 #include "armature/messages/geometry.hpp"
+#include "armature/motion/goal_messages.hpp"
 #include "armature/runtime/component.hpp"
 #include "armature/runtime/plugin.hpp"
 #include "armature/runtime/setup.hpp"

@@ -19,16 +19,16 @@ struct Pair {
   double zero;                // on the imaginary axis
 };
 
-/// Pair k = 1, 2 of the prototype with its stop band from `omega` on: with e = 1 / sqrt(10^(A/10) - 1),
-/// m = asinh(1/e) / n and t = pi (2k - 1) / (2n) the zeros are +-i omega / cos t and the poles
+/// Pair k = 1, 2 of the prototype with its stop band from `omega` on: with e = 1 / sqrt(10^(A/10) -
+/// 1), m = asinh(1/e) / n and t = pi (2k - 1) / (2n) the zeros are +-i omega / cos t and the poles
 /// omega / (-sinh m sin t +- i cosh m cos t).
 Pair pair_of(int k, double omega, double attenuation_db) {
   const double e = 1 / std::sqrt(std::pow(10, attenuation_db / 10) - 1);
   const double m = std::asinh(1 / e) / kOrder;
   const double t = pi * (2 * k - 1) / (2 * kOrder);
-  return {.pole = omega / std::complex<double>{-std::sinh(m) * std::sin(t),
-                                               std::cosh(m) * std::cos(t)},
-          .zero = omega / std::cos(t)};
+  return {
+      .pole = omega / std::complex<double>{-std::sinh(m) * std::sin(t), std::cosh(m) * std::cos(t)},
+      .zero = omega / std::cos(t)};
 }
 
 }  // namespace

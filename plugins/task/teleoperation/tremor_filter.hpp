@@ -7,9 +7,9 @@
 namespace armature {
 
 struct TremorFilterSettings {
-  double stop_hz = 8;           // from here on up ...
-  double attenuation_db = 22;   // ... everything is down by so much at least
-  double period_s = 0.001;      // between two poses
+  double stop_hz = 8;          // from here on up ...
+  double attenuation_db = 22;  // ... everything is down by so much at least
+  double period_s = 0.001;     // between two poses
 };
 
 /// Takes the tremor out of a hand's pose: an inverse Chebyshev (type II) low-pass of order 4 for

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the filter does to a hand: 1. tremor goes, 2. a slow motion stays and comes by the stated lag
-// later, 3. rotations too, 4. a hand at rest is where it is.
+// What the filter does to a hand: 1. tremor goes, 2. a slow motion stays and comes by the stated
+// lag later, 3. rotations too, 4. a hand at rest is where it is.
 #include "tremor_filter.hpp"
 
 #include <gtest/gtest.h>

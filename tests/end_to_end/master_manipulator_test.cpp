@@ -40,15 +40,18 @@ TEST(MasterManipulator, AlignsAndDrivesTheSlaveTwiceInTheSameWay) {
   EXPECT_GT(first.figure("tip_speed_mm_s"), 20);
 }
 
-TEST(MasterManipulator, SolversAndSelectorsAreSwappedByOneWord) {
-  for (const char* swap :
-       {"components.motion.ik={plugin: ik/numeric}", "components.motion.ik.params.objective=limits",
-        "components.motion.select.plugin=select/minmax",
-        "components.master_motion.ik.plugin=ik/numeric",
-        "components.master_motion.trajectory.plugin=trajectory/quintic_spline",
-        "components.master_motion.select.plugin=select/minmax"}) {
-    SCOPED_TRACE(swap);
-    expect_teleoperated(teleoperation({swap}));
+TEST(MasterManipulator, SolversSelectorsAndTrajectoriesAreSwapped) {
+  const std::string slave_ik = "components.motion.ik.";
+  const std::vector<std::vector<std::string>> swaps{
+      {slave_ik + "plugin=ik/numeric", slave_ik + "params=null"},
+      {slave_ik + "params.objective=limits"},
+      {"components.motion.select.plugin=select/minmax"},
+      {"components.master_motion.ik.plugin=ik/numeric"},
+      {"components.master_motion.trajectory.plugin=trajectory/quintic_spline"},
+      {"components.master_motion.select.plugin=select/minmax"}};
+  for (const auto& swap : swaps) {
+    SCOPED_TRACE(swap.front());
+    expect_teleoperated(teleoperation(swap));
   }
 }
 

@@ -6,7 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <complex>
 
 namespace armature {
 namespace {
@@ -48,6 +50,31 @@ TEST(TremorFilter, LeavesASlowMotionAsItIsButForTheStatedLag) {
     }
     EXPECT_LT(worst, 0.1 * 0.003 * hz * hz * hz) << hz << " Hz: the phase bends with the cube";
   }
+}
+
+/// The lag of the analogue low-pass d0 / (s^4 + ... + d0) when s is scaled so that its gain at `hz`
+/// is `gain`.
+double lag_of_other(const std::array<double, 5>& denominator, double gain, double hz) {
+  const auto gain_at = [&](double x) {
+    const std::complex<double> s{0, x};
+    std::complex<double> value = 0;
+    for (const double c : denominator) value = value * s + c;
+    return denominator[4] / std::abs(value);
+  };
+  double low = 0, high = 100;
+  while (high - low > 1e-9) (gain_at((low + high) / 2) > gain ? low : high) = (low + high) / 2;
+  return denominator[3] / denominator[4] * low / (2 * M_PI * hz);
+}
+
+TEST(TremorFilter, CostsLessThanHalfOfTheLagOfOthersOfItsOrder) {
+  const TremorFilter filter{{.stop_hz = 8, .attenuation_db = 22}};
+  const double root = std::sqrt(4 + 2 * std::sqrt(2.0));
+  const double bessel = lag_of_other({1, 10, 45, 105, 105}, filter.gain(8), 8);
+  const double butterworth =
+      lag_of_other({1, root, 2 + std::sqrt(2.0), root, 1}, filter.gain(8), 8);
+  EXPECT_NEAR(filter.lag_s(), 0.0466, 5e-5);
+  EXPECT_NEAR(butterworth, 0.0978, 5e-5);
+  EXPECT_NEAR(bessel, 0.1142, 5e-5);
 }
 
 TEST(TremorFilter, WhatItSaysOfASineIsWhatItDoes) {

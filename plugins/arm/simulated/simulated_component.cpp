@@ -52,8 +52,8 @@ class SimulatedArmComponent : public Component {
         model_{robot_of(setup)},
         arm_{model_, options_of(setup.params()), home_of(model_)},
         hand_lets_go_{seconds(setup.params().number("stale_s"))},
-        hand_js_{setup.input<msg::JointState>("hand_js")},
-        servo_jp_{setup.input<msg::JointState>("servo_jp")},
+        servo_{.input = setup.input<msg::JointState>("servo_jp"), .what = "a command"},
+        hand_{.input = setup.input<msg::JointState>("hand_js"), .what = "a hand"},
         measured_cp_{setup.output<msg::PoseStamped>("measured_cp")},
         measured_js_{setup.output<msg::JointState>("measured_js")},
         setpoint_js_{setup.output<msg::JointState>("setpoint_js")},
@@ -62,13 +62,14 @@ class SimulatedArmComponent : public Component {
   }
 
   void step(Time now) override {
-    read(servo_jp_, "a command", command_);
-    read(hand_js_, "a hand", hand_);
-    guided_ = hand_ && now - hand_->stamp <= hand_lets_go_;
+    read(servo_);
+    read(hand_);
+    if (!hand_.input.fresh()) hand_.fault.clear();  // it has let go, which is no trouble
+    guided_ = hand_.command && now - hand_.command->stamp <= hand_lets_go_;
     if (guided_) {
-      arm_.guide(now, hand_->q);
+      arm_.guide(now, hand_.command->q);
     } else {
-      arm_.step(now, command_);
+      arm_.step(now, servo_.command);
     }
     publish_pose(now);
     publish(measured_js_, arm_.measured(), arm_.measured_velocity(), now);
@@ -78,20 +79,28 @@ class SimulatedArmComponent : public Component {
   }
 
  private:
-  void read(const Input<msg::JointState>& input, const char* what,
-            std::optional<ServoCommand>& command) {
-    if (!input.fresh()) return;
-    const msg::JointState& message = *input.latest();
+  /// Somebody who says where the arm shall be.
+  struct Source {
+    Input<msg::JointState> input;
+    const char* what;
+    std::optional<ServoCommand> command = {};
+    std::string fault = {};
+  };
+
+  void read(Source& source) {
+    if (!source.input.fresh()) return;
+    const msg::JointState& message = *source.input.latest();
     const auto q = model_.contract(message.position_());
     const auto v = model_.contract_rates(message.velocity_());
     if (!q || !v) {
-      fault_ = fmt::format("refused {}: {}", what,
-                           q ? "velocity: " + v.error().text : "position: " + q.error().text);
+      source.fault = fmt::format("refused {}: {}", source.what,
+                                 q ? "velocity: " + v.error().text : "position: " + q.error().text);
       return;
     }
-    fault_.clear();
-    command = ServoCommand{stamp_of(message.header_().stamp_()), *q, *v};
+    source.fault.clear();
+    source.command = ServoCommand{stamp_of(message.header_().stamp_()), *q, *v};
   }
+  const std::string& fault() const { return servo_.fault.empty() ? hand_.fault : servo_.fault; }
 
   void publish_pose(Time now) {
     if (!measured_cp_.wanted()) return;
@@ -111,22 +120,22 @@ class SimulatedArmComponent : public Component {
   /// A text is only made when the trouble is another one: every step tells how it is. Trouble that
   /// comes and goes from step to step is told as one.
   void show_health(Time now) {
-    const Trouble trouble = !fault_.empty() ? Trouble::refused_command
-                            : arm_.excess() ? Trouble::held_back
-                                            : Trouble::none;
+    const Trouble trouble = !fault().empty() ? Trouble::refused_command
+                            : arm_.excess()  ? Trouble::held_back
+                                             : Trouble::none;
     if (trouble != Trouble::none) {
       last_trouble_ = now;
     } else if (now - last_trouble_ < kCalm) {
       return;
     }
-    if (trouble == shown_trouble_ && fault_ == shown_fault_) return;
+    if (trouble == shown_trouble_ && fault() == shown_fault_) return;
     shown_trouble_ = trouble;
-    shown_fault_ = fault_;
+    shown_fault_ = fault();
     if (trouble == Trouble::none) {
       healthy();
     } else {
       const char* who = guided_ ? "hand" : "command";
-      degraded(fault_.empty() ? describe(*arm_.excess(), model_, who) : fault_);
+      degraded(fault().empty() ? describe(*arm_.excess(), model_, who) : fault());
     }
   }
 
@@ -134,21 +143,20 @@ class SimulatedArmComponent : public Component {
     if (now - last_state_ < kStatePeriod) return;
     last_state_ = now;
     auto loan = operating_state_.loan();
-    loan->data_() = !fault_.empty() ? "FAULT" : arm_.following() ? "ENABLED" : "HOLDING";
+    loan->data_() = !fault().empty() ? "FAULT" : arm_.following() ? "ENABLED" : "HOLDING";
     loan.publish();
   }
 
   RobotModel model_;
   SimulatedArm arm_;
   Duration hand_lets_go_;
-  Input<msg::JointState> hand_js_, servo_jp_;
+  Source servo_, hand_;
   Output<msg::PoseStamped> measured_cp_;
   Output<msg::JointState> measured_js_, setpoint_js_;
   Output<msg::String> operating_state_;
-  std::optional<ServoCommand> command_, hand_;
   bool guided_ = false;
   enum class Trouble { none, held_back, refused_command } shown_trouble_ = Trouble::none;
-  std::string fault_, shown_fault_;
+  std::string shown_fault_;
   Time last_trouble_;
   Time last_state_;
 };

@@ -212,6 +212,16 @@ TEST_F(SimulatedArmComponentTest, AHandMovesItWithinItsLimitsOnly) {
   step();
   EXPECT_EQ(arm_.status().reason,
             "refused a hand: position: 0 joint values; dental_lamp has 6 joints");
+  steps(300);
+  EXPECT_EQ(arm_.status().reason, "") << "it has let go";
+}
+
+TEST_F(SimulatedArmComponentTest, AGoodHandDoesNotHideABadCommand) {
+  arm_.send("servo_jp", msg::JointState{});
+  arm_.send("hand_js", command(home_, still_));
+  step();
+  EXPECT_EQ(arm_.status().reason,
+            "refused a command: position: 0 joint values; dental_lamp has 6 joints");
 }
 
 TEST_F(SimulatedArmComponentTest, TellsTheToolsPoseOfWhatItMeasures) {

@@ -4,10 +4,9 @@
 #include <string>
 
 #include "alignment_monitor.hpp"
+#include "armature/kinds/pose_in_base.hpp"
 #include "armature/kinds/setup_robot.hpp"
 #include "armature/messages/armature_msgs.hpp"
-#include "armature/messages/geometry.hpp"
-#include "armature/messages/header.hpp"
 #include "armature/messages/sensor_msgs.hpp"
 #include "armature/runtime/component.hpp"
 #include "armature/runtime/plugin.hpp"
@@ -51,14 +50,16 @@ class TeleoperationReport final : public Component {
 
   void step(Time now) override {
     if (!start_) start_ = now;
+    complaint_.clear();
     for (std::size_t i = 0; i < task_state_.size(); ++i) read(task_state_[i]);
-    if (console_.latest()) slave_T_master_ = to_eigen(console_.latest()->transform_());
+    if (console_.latest()) read(*console_.latest());
     for (std::size_t i = 0; i < master_js_.size(); ++i) read_rates(master_js_[i]);
     for (std::size_t i = 0; i < master_cp_.size(); ++i) read_master(master_cp_[i]);
     for (std::size_t i = 0; i < slave_cp_.size(); ++i) read_slave(slave_cp_[i]);
     for (std::size_t i = 0; i < intended_cp_.size(); ++i) {
-      follow_.see_intended(point_of(intended_cp_[i], Eigen::Matrix3d::Identity()));
+      read_intended(intended_cp_[i]);
     }
+    show_health();
     const bool watched = closed_at_ && now - *closed_at_ >= watch_for_;
     held_ = held_since_ && now - *held_since_ >= held_for_;
     finished_ = refused_ || held_ || watched;
@@ -99,16 +100,21 @@ class TeleoperationReport final : public Component {
   }
 
  private:
+  void complain(const std::string& what) { complaint_ = what; }
+  void show_health() {
+    if (complaint_.empty()) {
+      healthy();
+    } else {
+      degraded(complaint_);
+    }
+  }
+
   double since_start(const msg::Header& header) const {
     return to_seconds(stamp_of(header.stamp_()) - *start_);
   }
   /// Before the task's word the master moves by itself, afterwards in the hand.
   bool is_aligning(const msg::Header& header) const {
     return !aligned_at_ || stamp_of(header.stamp_()) <= *aligned_at_;
-  }
-
-  TrackPoint point_of(const msg::PoseStamped& message, const Eigen::Matrix3d& turn) const {
-    return {since_start(message.header_()), turn * to_eigen(message.pose_().position_())};
   }
 
   void read(const msg::TaskState& state) {
@@ -123,25 +129,41 @@ class TeleoperationReport final : public Component {
     refused_ = phase == "refused";
   }
 
+  void read(const msg::TransformStamped& console) {
+    const auto pose = pose_in_base(console, "the console");
+    if (!pose) return complain(pose.error().text);
+    slave_T_master_ = *pose;
+  }
+
   void read_rates(const msg::JointState& state) {
     if (!is_aligning(state.header_())) return;
     const auto v = master_.contract_rates(state.velocity_());
-    if (!v) return degraded("master_js: " + v.error().text);
-    healthy();
+    if (!v) return complain("master_js: " + v.error().text);
     alignment_.see_rates(*v);
   }
 
   void read_master(const msg::PoseStamped& message) {
-    if (is_aligning(message.header_())) alignment_.see_master(to_eigen(message.pose_()));
-    follow_.see_hand(point_of(message, Eigen::Matrix3d::Identity()));
+    const auto pose = pose_in_base(message, "the master");
+    if (!pose) return complain(pose.error().text);
+    if (is_aligning(message.header_())) alignment_.see_master(*pose);
+    follow_.see_hand({since_start(message.header_()), pose->translation()});
+  }
+
+  void read_intended(const msg::PoseStamped& message) {
+    const auto pose = pose_in_base(message, "the intended pose");
+    if (!pose) return complain(pose.error().text);
+    follow_.see_intended({since_start(message.header_()), pose->translation()});
   }
 
   void read_slave(const msg::PoseStamped& message) {
+    const auto pose = pose_in_base(message, "the slave's tool");
+    if (!pose) return complain(pose.error().text);
     if (!slave_T_master_) return;
     if (is_aligning(message.header_())) {
-      alignment_error_ = alignment_.error(*slave_T_master_, to_eigen(message.pose_()));
+      alignment_error_ = alignment_.error(*slave_T_master_, *pose);
     }
-    follow_.see_slave(point_of(message, slave_T_master_->linear().transpose()));
+    const Eigen::Matrix3d master_R_slave = slave_T_master_->linear().transpose();
+    follow_.see_slave({since_start(message.header_()), master_R_slave * pose->translation()});
   }
 
   RobotModel master_;
@@ -152,6 +174,7 @@ class TeleoperationReport final : public Component {
   std::optional<PoseResidual> alignment_error_;
   std::optional<Eigen::Isometry3d> slave_T_master_;
   std::optional<Time> start_, aligned_at_, closed_at_, held_since_;
+  std::string complaint_;
   bool refused_ = false, held_ = false, finished_ = false;
   Input<msg::TransformStamped> console_;
   Input<msg::JointState> master_js_;

@@ -44,6 +44,7 @@ class TeleoperationReportTest : public testing::Test {
  protected:
   TeleoperationReportTest() {
     msg::TransformStamped console;
+    write_header(console.header_(), Time{}, kBaseFrame);
     assign(console.transform_(), slave_T_master_);
     report_.send("console", console);
   }
@@ -157,6 +158,9 @@ TEST_F(TeleoperationReportTest, ASampleThatIsNoneIsSaid) {
   report_.send("master_js", state);
   report_.step(1);
   EXPECT_EQ(report_.status().reason, "master_js: 2 joint values; master has 6 joints");
+  report_.send("slave_cp", msg::PoseStamped{});
+  report_.step(2);
+  EXPECT_EQ(report_.status().reason, "the slave's tool is stated in frame '', not in 'base'");
 }
 
 TEST(TeleoperationReport, RefusesSpeedsThatAreNotTheRobots) {

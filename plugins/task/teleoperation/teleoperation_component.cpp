@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "armature/messages/geometry.hpp"
+#include "armature/kinds/pose_in_base.hpp"
 #include "armature/motion/goal_messages.hpp"
 #include "armature/runtime/component.hpp"
 #include "armature/runtime/plugin.hpp"
@@ -29,11 +29,6 @@ TeleoperationSettings settings_of(const Params& params) {
                      .engage_s = params.number("engage_s"),
                      .max_speed = params.number("max_tip_speed_m_s"),
                      .period_s = period_s}};
-}
-
-std::optional<Eigen::Isometry3d> pose_in(const Input<msg::PoseStamped>& input) {
-  if (!input.latest()) return std::nullopt;
-  return to_eigen(input.latest()->pose_());
 }
 
 }  // namespace
@@ -72,11 +67,36 @@ class TeleoperationComponent final : public Component {
   }
 
  private:
-  ConsoleView view() const {
-    ConsoleView view{.master_T_hand = pose_in(master_cp_), .slave_T_tool = pose_in(slave_cp_)};
-    if (console_.latest()) view.slave_T_master = to_eigen(console_.latest()->transform_());
+  /// What is told badly is not told.
+  ConsoleView view() {
+    std::string bad;
+    const auto pose_of = [&](const auto& input, const char* what) {
+      std::optional<Eigen::Isometry3d> found;
+      if (!input.latest()) return found;
+      const auto pose = pose_in_base(*input.latest(), what);
+      if (pose) {
+        found = *pose;
+      } else {
+        bad = pose.error().text;
+      }
+      return found;
+    };
+    ConsoleView view{.slave_T_master = pose_of(console_, "the console"),
+                     .master_T_hand = pose_of(master_cp_, "the master"),
+                     .slave_T_tool = pose_of(slave_cp_, "the slave's tool")};
     if (clutch_.latest()) view.clutch_closed = clutch_.latest()->data_();
+    show_health(bad);
     return view;
+  }
+
+  void show_health(const std::string& bad) {
+    if (bad == shown_bad_) return;
+    shown_bad_ = bad;
+    if (bad.empty()) {
+      healthy();
+    } else {
+      degraded(bad);
+    }
   }
 
   static void send(const std::optional<MotionGoal>& goal, Output<msg::MotionGoal>& output,
@@ -106,7 +126,7 @@ class TeleoperationComponent final : public Component {
 
   Teleoperation task_;
   std::optional<Teleoperation::Phase> told_phase_;
-  std::string told_trouble_;
+  std::string told_trouble_, shown_bad_;
   Time published_;
   Input<msg::TransformStamped> console_;
   Input<msg::PoseStamped> master_cp_, slave_cp_;

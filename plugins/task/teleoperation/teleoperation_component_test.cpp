@@ -123,6 +123,20 @@ TEST_F(TeleoperationComponentTest, TheSlaveIsToldAThousandTimesASecondWhereAndHo
   EXPECT_NEAR(goals.back().position_().y_(), 0.1 + 0.02 * (0.5 - 0.0466), 1e-4);
 }
 
+TEST_F(TeleoperationComponentTest, APoseThatIsNoneIsSaidAndHoldsTheSlave) {
+  take_master();
+  step(10);
+  master_T_hand_.translation().x() = NAN;
+  step();
+  EXPECT_EQ(task_.status().reason, "the master's position is not finite");
+  EXPECT_EQ(state_.state_(), "held");
+  EXPECT_EQ(state_.detail_(), "the master tells nothing");
+  EXPECT_EQ(task_.take<msg::MotionGoal>("slave_goal").back().mode_(), 2);
+  master_T_hand_.translation().x() = 0.1;
+  step();
+  EXPECT_EQ(task_.status().reason, "");
+}
+
 TEST_F(TeleoperationComponentTest, ASilentClutchOrArmHoldsTheSlaveWithinATenthOfASecond) {
   take_master();
   step(500);

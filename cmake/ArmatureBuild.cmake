@@ -35,6 +35,10 @@ target_include_directories(armature_abi INTERFACE $<BUILD_INTERFACE:${CMAKE_SOUR
                                                   $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 target_link_libraries(armature_abi INTERFACE tl::expected)
 
+# The compiler collects its garbage too often for a machine that has memory: a tenth of its time.
+add_compile_options($<$<COMPILE_LANG_AND_ID:CXX,GNU>:--param=ggc-min-heapsize=1000000>
+                    $<$<COMPILE_LANG_AND_ID:CXX,GNU>:--param=ggc-min-expand=200>)
+
 add_library(armature_warnings INTERFACE)
 target_compile_options(armature_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion
@@ -75,7 +79,7 @@ endfunction()
 # A target's files are compiled a few at a time, which makes templates once for them.
 function(armature_compile_together target)
   if(ARMATURE_TOGETHER)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 4)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
   endif()
 endfunction()
 
@@ -97,6 +101,28 @@ function(armature_add_library name)
   install(TARGETS armature_${name} EXPORT ArmatureTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 endfunction()
 
+# What every test links: GoogleTest and the flags and the precompiled header of tests.
+function(armature_test_main)
+  if(TARGET armature_test_main)
+    return()
+  endif()
+  file(WRITE "${CMAKE_BINARY_DIR}/test_main.cpp" "#include <gtest/gtest.h>\n")
+  add_library(armature_test_main STATIC "${CMAKE_BINARY_DIR}/test_main.cpp")
+  target_link_libraries(armature_test_main PUBLIC GTest::gmock GTest::gtest GTest::gtest_main)
+  target_link_libraries(armature_test_main PUBLIC armature::abi Eigen3::Eigen
+                                           PRIVATE armature_warnings)
+  # What takes time when tests run is the libraries; what takes time to compile is the tests.
+  # There GCC 12 falsely warns of the small buffer inside of std::string.
+  target_compile_options(armature_test_main PUBLIC
+    $<$<CONFIG:Release,RelWithDebInfo>:-O1> -Wno-array-bounds -Wno-stringop-overflow
+    -Wno-stringop-overread -Wno-restrict)
+  if(ARMATURE_PRECOMPILE)
+    target_precompile_headers(armature_test_main PRIVATE
+                              "${CMAKE_SOURCE_DIR}/tests/precompiled.hpp")
+  endif()
+  set_target_properties(armature_test_main PROPERTIES POSITION_INDEPENDENT_CODE OFF)
+endfunction()
+
 # armature_add_test(robot_test SOURCES a_test.cpp ... LINK armature::robot ... [DEPENDS plugin...])
 # One GoogleTest program; every case runs alone and in any order. Its files are compiled a few at a
 # time, which reads headers and makes templates once for them; SEPARATELY: they use the same names
@@ -112,23 +138,7 @@ function(armature_add_test name)
   if(ARMATURE_SANITIZE)  # which slows everything down
     math(EXPR arg_TIMEOUT "${arg_TIMEOUT} * 5")
   endif()
-  if(NOT TARGET armature_test_main)
-    file(WRITE "${CMAKE_BINARY_DIR}/test_main.cpp" "#include <gtest/gtest.h>\n")
-    add_library(armature_test_main STATIC "${CMAKE_BINARY_DIR}/test_main.cpp")
-    target_link_libraries(armature_test_main PUBLIC GTest::gmock GTest::gtest GTest::gtest_main)
-    target_link_libraries(armature_test_main PUBLIC armature::abi Eigen3::Eigen
-                                             PRIVATE armature_warnings)
-    # What takes time when tests run is the libraries; what takes time to compile is the tests.
-    # There GCC 12 falsely warns of the small buffer inside of std::string.
-    target_compile_options(armature_test_main PUBLIC
-      $<$<CONFIG:Release,RelWithDebInfo>:-O1> -Wno-array-bounds -Wno-stringop-overflow
-      -Wno-stringop-overread -Wno-restrict)
-    if(ARMATURE_PRECOMPILE)
-      target_precompile_headers(armature_test_main PRIVATE
-                                "${CMAKE_SOURCE_DIR}/tests/precompiled.hpp")
-    endif()
-    set_target_properties(armature_test_main PROPERTIES POSITION_INDEPENDENT_CODE OFF)
-  endif()
+  armature_test_main()
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE armature_test_main armature_warnings ${arg_LINK})
   target_include_directories(${name} PRIVATE "${CMAKE_SOURCE_DIR}")  # "tests/dds_domain.hpp"
@@ -150,4 +160,22 @@ function(armature_add_test name)
   include(GoogleTest)
   gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST TEST_PREFIX "${name}."
     PROPERTIES TIMEOUT ${arg_TIMEOUT} LABELS "${arg_LABELS}")
+endfunction()
+
+# armature_add_contract(path LINK armature::path): contract.cpp, the laws that the tests of all
+# plugins of a kind instantiate, compiled once for them.
+function(armature_add_contract kind)
+  if(NOT ARMATURE_BUILD_TESTS)
+    return()
+  endif()
+  cmake_parse_arguments(arg "" "" "LINK" ${ARGN})
+  armature_test_main()
+  set(name armature_${kind}_contract)
+  add_library(${name} OBJECT contract.cpp)
+  add_library(armature::${kind}_contract ALIAS ${name})
+  target_link_libraries(${name} PRIVATE armature_test_main armature_warnings ${arg_LINK})
+  if(ARMATURE_PRECOMPILE)
+    target_precompile_headers(${name} REUSE_FROM armature_test_main)
+  endif()
+  set_target_properties(${name} PROPERTIES POSITION_INDEPENDENT_CODE OFF)
 endfunction()

@@ -6,13 +6,12 @@
 # The folder's plugin.yaml (id, kind, parameters, ports) is embedded as constant text, together with
 # the ABI tag of the compiler that builds it; both are read without running the library's code.
 # TEST_ONLY: for the framework's own tests; kept apart from the plugins and not installed.
-# SOURCES_SEPARATELY: in the framework's own tree, files that use the same names for other things.
 # TEST_OPTIONS: of armature_add_test.
 
 set(ARMATURE_PLUGIN_TEMPLATE "${CMAKE_CURRENT_LIST_DIR}/plugin_manifest.cpp.in")
 
 function(armature_add_plugin id)
-  cmake_parse_arguments(arg "TEST_ONLY;SOURCES_SEPARATELY" ""
+  cmake_parse_arguments(arg "TEST_ONLY" ""
                         "SOURCES;LINK;TESTS;TEST_LINK;TEST_OPTIONS" ${ARGN})
   string(REPLACE "/" "_" target "${id}")
 
@@ -41,9 +40,7 @@ function(armature_add_plugin id)
     install(TARGETS ${target} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/armature/plugins)
     set_property(GLOBAL APPEND PROPERTY ARMATURE_PLUGINS ${target})
     armature_precompile(${target} plugins)
-    if(NOT arg_SOURCES_SEPARATELY)
-      armature_compile_together(${target})
-    endif()
+    armature_compile_together(${target})
     if(arg_TESTS)
       string(REGEX REPLACE "/.*" "" kind "${id}")
       if(TARGET armature::${kind}_contract)  # the laws of its kind

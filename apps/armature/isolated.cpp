@@ -48,7 +48,7 @@ bool read_all(int from, double patience_s, std::string& text) {
     if (left.count() <= 0) return false;
     pollfd ready{from, POLLIN, 0};
     if (poll(&ready, 1, static_cast<int>(left.count()) + 1) <= 0) continue;
-    const ssize_t n = read(from, buffer.data(), buffer.size());
+    const ssize_t n = ::read(from, buffer.data(), buffer.size());
     if (n == 0) return true;
     if (n > 0) text.append(buffer.data(), static_cast<std::size_t>(n));
   }

@@ -33,7 +33,7 @@ void on_signal(int signal) {
 void end_before_start(int signal) {
   const std::string_view text = signal == SIGINT ? "armature: interrupted before the start\n"
                                                  : "armature: terminated before the start\n";
-  [[maybe_unused]] const auto written = write(STDERR_FILENO, text.data(), text.size());
+  [[maybe_unused]] const auto written = ::write(STDERR_FILENO, text.data(), text.size());
   _exit(kFailed);
 }
 

@@ -18,13 +18,8 @@ inline Eigen::Quaterniond to_eigen(const msg::Quaternion& q) {
   return {q.w_(), q.x_(), q.y_(), q.z_()};
 }
 
-inline Eigen::Isometry3d to_eigen(const msg::Pose& pose) {
-  return Eigen::Translation3d{to_eigen(pose.position_())} * to_eigen(pose.orientation_());
-}
-
-inline Eigen::Isometry3d to_eigen(const msg::Transform& transform) {
-  return Eigen::Translation3d{to_eigen(transform.translation_())} * to_eigen(transform.rotation_());
-}
+Eigen::Isometry3d to_eigen(const msg::Pose& pose);
+Eigen::Isometry3d to_eigen(const msg::Transform& transform);
 
 inline void assign(msg::Point& to, const Eigen::Vector3d& p) {
   to.x_(p.x());
@@ -45,14 +40,7 @@ inline void assign(msg::Quaternion& to, const Eigen::Quaterniond& q) {
   to.w_(q.w());
 }
 
-inline void assign(msg::Pose& to, const Eigen::Isometry3d& pose) {
-  assign(to.position_(), Eigen::Vector3d{pose.translation()});
-  assign(to.orientation_(), Eigen::Quaterniond{pose.linear()});
-}
-
-inline void assign(msg::Transform& to, const Eigen::Isometry3d& transform) {
-  assign(to.translation_(), Eigen::Vector3d{transform.translation()});
-  assign(to.rotation_(), Eigen::Quaterniond{transform.linear()});
-}
+void assign(msg::Pose& to, const Eigen::Isometry3d& pose);
+void assign(msg::Transform& to, const Eigen::Isometry3d& transform);
 
 }  // namespace armature

@@ -7,7 +7,6 @@ namespace armature {
 namespace {
 
 using Report = GoalReport::State;
-using State = PursuedGoal::State;
 
 constexpr Time at(double s) { return Time{} + seconds(s); }
 
@@ -21,10 +20,10 @@ TEST(PursuedGoal, SendsAGoalOnceAndHearsItsStory) {
   EXPECT_FALSE(goals.outgoing(at(0.1)));
   goals.hear({.goal_id = 1, .state = Report::accepted}, at(0.1));
   goals.hear({.goal_id = 1, .state = Report::executing}, at(0.1));
-  EXPECT_EQ(goals.state(), State::moving);
+  EXPECT_EQ(goals.state(), PursuedGoal::State::moving);
   goals.hear({.goal_id = 1, .state = Report::done}, at(2));
   goals.hear({.goal_id = 1, .state = Report::done}, at(3));
-  EXPECT_EQ(goals.state(), State::done);
+  EXPECT_EQ(goals.state(), PursuedGoal::State::done);
   EXPECT_EQ(goals.done_at(), at(2));
 }
 
@@ -35,10 +34,10 @@ TEST(PursuedGoal, IgnoresWhatIsSaidAboutTheGoalBefore) {
   goals.hear({.goal_id = 1, .state = Report::executing}, at(0.1));
   goals.set({});
   goals.hear({.goal_id = 1, .state = Report::done}, at(0.2));
-  EXPECT_EQ(goals.state(), State::waiting);
+  EXPECT_EQ(goals.state(), PursuedGoal::State::waiting);
   EXPECT_EQ(goals.outgoing(at(0.2))->id, 2u);
   goals.hear({.goal_id = 1, .state = Report::superseded}, at(0.3));
-  EXPECT_EQ(goals.state(), State::waiting);
+  EXPECT_EQ(goals.state(), PursuedGoal::State::waiting);
 }
 
 TEST(PursuedGoal, GivesAGoalAgainThatTheMotionWasNotReadyFor) {
@@ -73,7 +72,7 @@ TEST(PursuedGoal, KeepsTheReasonOfAGoalThatCannotBeReached) {
   goals.outgoing(at(0));
   goals.hear({.goal_id = 1, .state = Report::failed, .stage = "ik", .reason = "0.1 m too far"},
              at(0.1));
-  EXPECT_EQ(goals.state(), State::failed);
+  EXPECT_EQ(goals.state(), PursuedGoal::State::failed);
   EXPECT_EQ(goals.reason(), "ik: 0.1 m too far");
 }
 

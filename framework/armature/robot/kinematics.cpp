@@ -129,11 +129,11 @@ PoseAndJacobian forward_kinematics_with_jacobian(const RobotModel& model, const 
 double manipulability(const RobotModel& model, const JointVector& q) {
   const TaskJacobian task = task_jacobian(model, q);
   if (task.cols() < task.rows()) return 0;
-  // sqrt(det(J J^T)) is the product of the diagonal of R in J^T = Q R; squaring J would cost half
+  // sqrt(det(J J^T)) is the product of the diagonal of R in J^T P = Q R; squaring J would cost half
   // of the digits near a singularity.
   using Transposed = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxJoints, 6>;
   const Transposed transposed = task.transpose();
-  const Eigen::HouseholderQR<Transposed> qr(transposed);
+  const Eigen::ColPivHouseholderQR<Transposed> qr(transposed);
   return std::abs(qr.matrixQR().diagonal().head(task.rows()).prod());
 }
 

@@ -16,9 +16,9 @@ using Keys = std::vector<Eigen::Quaterniond>;
 using Vectors = std::vector<Eigen::Vector3d>;
 using Pieces = std::variant<std::vector<ChartPiece>, std::vector<SquadPiece>>;
 
-constexpr double kLengthTolerance = 0.01;
+constexpr double kKeyLengthTolerance = 0.01;
 // [rad] nearer to nothing or to half a turn, rounding decides the length or the way round.
-constexpr double kRounding = 1e-9;
+constexpr double kAngleRounding = 1e-9;
 
 struct PieceTable {
   std::vector<double> starts;
@@ -34,13 +34,13 @@ Expected<Keys> usable(std::span<const Eigen::Quaterniond> given) {
   for (std::size_t i = 0; i < keys.size(); ++i) {
     const double length = keys[i].norm();
     if (!std::isfinite(length)) return refuse(fmt::format("key {} is not finite", i + 1));
-    if (!(std::abs(length - 1) <= kLengthTolerance)) {
+    if (!(std::abs(length - 1) <= kKeyLengthTolerance)) {
       return refuse(fmt::format("key {} has length {:.6g}, not 1", i + 1, length));
     }
     keys[i].normalize();
     if (i == 0) continue;
     const double cosine = keys[i - 1].dot(keys[i]);
-    if (std::abs(cosine) < 0.5 * kRounding) {
+    if (std::abs(cosine) < 0.5 * kAngleRounding) {
       return refuse(fmt::format(
           "keys {} and {} are antipodal: half a turn apart, either way is as short", i, i + 1));
     }
@@ -62,7 +62,7 @@ Vectors turns_between(const Keys& keys) {
 Expected<std::vector<double>> in_proportion(const Vectors& steps) {
   std::vector<double> u{0};
   for (std::size_t i = 0; i < steps.size(); ++i) {
-    if (steps[i].norm() <= kRounding) {
+    if (steps[i].norm() <= kAngleRounding) {
       return refuse(fmt::format("keys {} and {} are equal: they need parameters", i + 1, i + 2));
     }
     u.push_back(u.back() + steps[i].norm());
@@ -111,7 +111,7 @@ PieceTable charted(const std::vector<BlendPiece>& blends, const Keys& anchors) {
 Expected<Vectors> vectors_of(const Keys& keys) {
   Vectors points;
   for (std::size_t i = 0; i < keys.size(); ++i) {
-    if (std::abs(keys[i].w()) < 0.5 * kRounding) {
+    if (std::abs(keys[i].w()) < 0.5 * kAngleRounding) {
       return refuse(fmt::format("key {} is half a turn: its rotation vector has two signs", i + 1));
     }
     points.push_back(rotation_vector_of(keys[i]));

@@ -35,6 +35,7 @@ class ComponentBench final : private Delivery {
   /// std::logic_error when it does not claim exactly the ports of its plugin.yaml. `plugins`
   /// outlives the bench.
   ComponentBench(PluginRegistry& plugins, const Options& options);
+  ~ComponentBench() override;
   ComponentBench(const ComponentBench&) = delete;
   ComponentBench& operator=(const ComponentBench&) = delete;
 
@@ -88,74 +89,5 @@ class ComponentBench final : private Delivery {
   std::map<std::string, Tap> taps_;                       // by output
   std::unique_ptr<Unit> unit_;
 };
-
-inline ComponentBench::ComponentBench(PluginRegistry& plugins, const Options& options) {
-  read(plugins, options);
-  unit_ = std::make_unique<Unit>(
-      config_.name, config_.plugin_id, 0,
-      [this](const std::string&, const std::string& line) { lines_.push_back(line); });
-  unit_->on_triggered([this] { triggered_ = true; });
-  ComponentSetup setup{config_,
-                       deployment_,
-                       plugins,
-                       *unit_,
-                       *this,
-                       [this](const PortBinding& port, const MessageType& type) -> Topic& {
-                         return topic_for(port, type);
-                       }};
-  auto library = plugins.load(*config_.manifest, Component::kKind, Component::kKindVersion);
-  auto component = reinterpret_cast<Component::Factory>(library->factory())(setup);
-  setup.check_all_claimed();
-  unit_->install({std::move(library), std::move(component)});
-  for (const PortBinding& output : config_.outputs) {
-    topics_.at(output.topic)->connect(taps_[output.spec.name]);
-  }
-}
-
-inline void ComponentBench::read(const PluginRegistry& plugins, const Options& options) {
-  deployment_.name = "bench";
-  deployment_.seed = 1;
-  deployment_.executors.push_back(
-      {.name = std::string{kMainExecutor}, .period = {}, .priority = 0, .cpu = {}});
-  for (const auto& [section, word] : kDocumentSections) {
-    auto& documents = deployment_.documents[std::string{section}];
-    const auto& document = word == "robot" ? options.robot : options.rig;
-    if (document) documents.emplace(word, *document);
-  }
-  const config::Node file = config::parse_text("bench: " + options.component, "bench");
-  config::Problems problems;
-  auto read = ComponentReader{deployment_, plugins, problems}.read(file.entries().front());
-  problems.throw_if_any();
-  config_ = std::move(*read);
-}
-
-inline void ComponentBench::step(double now_s) {
-  now_ = Time{} + seconds(now_s);
-  triggered_ = false;
-  unit_->activate(now_);
-  if (unit_->faulted()) throw std::runtime_error(unit_->status().reason);
-}
-
-inline Topic& ComponentBench::topic_for(const PortBinding& port, const MessageType& type) {
-  auto& topic = topics_[port.topic];
-  if (!topic) {
-    topic = std::make_unique<Topic>(
-        TopicSpec{.name = "rt" + port.topic, .type = &type, .qos = port.spec.qos}, 1);
-  }
-  return *topic;
-}
-
-inline Topic& ComponentBench::topic_of(const std::vector<PortBinding>& ports, std::string_view name,
-                                       const MessageType& type) {
-  for (const PortBinding& port : ports) {
-    if (port.spec.name != name) continue;
-    if (port.spec.type != type.ros_name) {
-      throw std::invalid_argument("port '" + port.spec.name + "' is a " + port.spec.type +
-                                  ", not a " + std::string{type.ros_name});
-    }
-    return *topics_.at(port.topic);
-  }
-  throw std::invalid_argument("there is no port '" + std::string{name} + "'");
-}
 
 }  // namespace armature

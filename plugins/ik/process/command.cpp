@@ -23,8 +23,9 @@ bool can_be_executed(const fs::path& file) {
 std::string Command::text() const {
   constexpr std::size_t kLength = 60;
   std::string all;
-  for (const std::string& word : words) all += (all.empty() ? "" : " ") + word;
-  return all.size() <= kLength ? all : all.substr(0, kLength) + "...";
+  for (const std::string& word : words) all.append(all.empty() ? "" : " ").append(word);
+  if (all.size() > kLength) all.replace(kLength, std::string::npos, "...");
+  return all;
 }
 
 Expected<Command> find_command(std::vector<std::string> words, std::string folder) {

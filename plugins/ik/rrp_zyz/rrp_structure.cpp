@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Matrix3d;
 
-constexpr double kPi = std::numbers::pi, kDegree = kPi / 180;
+constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kSame = 1e-9;  // [m] or [rad]
 
 /// The sine of a right angle, +1 or -1; 0 for any other angle.

@@ -12,12 +12,10 @@
 namespace armature {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 /// Between two angles in [-pi, pi], the short way round.
 double between(double a, double b) {
   const double way = std::abs(a - b);
-  return std::min(way, 2 * kPi - way);
+  return std::min(way, 2 * std::numbers::pi - way);
 }
 
 /// By where the tangents at a falling and a rising slope meet. Where the chord is steeper than one
@@ -51,11 +49,11 @@ void ArmAngleChoice::add_stretch(std::size_t branch, const Span& span) {
   stretch.span = span;
   stretch.branch = branch;
   stretch.lower = stretch.upper = kNone;
-  double shift = branch / 2 % 2 == 0 ? 0 : kPi;
-  shift -= span.lower - shift < -kPi ? 2 * kPi : 0;
+  double shift = branch / 2 % 2 == 0 ? 0 : std::numbers::pi;
+  shift -= span.lower - shift < -std::numbers::pi ? 2 * std::numbers::pi : 0;
   stretch.shift = shift;
-  const bool around = span.upper - shift >= kPi;
-  const double upper = span.upper - shift - (around ? 2 * kPi : 0);
+  const bool around = span.upper - shift >= std::numbers::pi;
+  const double upper = span.upper - shift - (around ? 2 * std::numbers::pi : 0);
   const int end = place_from(table_, upper);
   stretch.first = place_from(table_, span.lower - shift);
   stretch.end = end + (table_.place[end] == upper ? 1 : 0) + (around ? table_.count : 0);
@@ -75,8 +73,8 @@ void ArmAngleChoice::add_stretch(std::size_t branch, const Span& span) {
 ArmAngleChoice::Node ArmAngleChoice::node_of(const Stretch& stretch, int place) const {
   const bool again = place >= table_.count;
   const int i = again ? place - table_.count : place;
-  return {table_.place[i] + (again ? 2 * kPi : 0) + stretch.shift, table_.value[stretch.branch][i],
-          table_.slope[stretch.branch][i]};
+  return {table_.place[i] + (again ? 2 * std::numbers::pi : 0) + stretch.shift,
+          table_.value[stretch.branch][i], table_.slope[stretch.branch][i]};
 }
 
 ArmAngleChoice::Node ArmAngleChoice::first_of(const Stretch& stretch) const {
@@ -109,9 +107,10 @@ void ArmAngleChoice::set_stretches(const std::array<Spans, 8>& spans) {
     const Spans& own = spans[branch];
     if (own.count == 0) continue;
     const Span *first = own.begin(), *last = own.end() - 1;
-    const bool cut = first < last && first->lower == -kPi && last->upper == kPi;
+    const bool cut =
+        first < last && first->lower == -std::numbers::pi && last->upper == std::numbers::pi;
     for (const Span* span = first + (cut ? 1 : 0); span < last; ++span) add_stretch(branch, *span);
-    add_stretch(branch, cut ? Span{last->lower, first->upper + 2 * kPi} : *last);
+    add_stretch(branch, cut ? Span{last->lower, first->upper + 2 * std::numbers::pi} : *last);
   }
   set_costs_of_nodes(0);
   const std::size_t known = nodes_;

@@ -16,14 +16,14 @@
 namespace armature {
 namespace {
 
-struct Subject {
+struct KernelSubject {
   std::string name;
   const SrsKernel* kernel;
   ModelPtr model;
-  friend void PrintTo(const Subject& subject, std::ostream* out) { *out << subject.name; }
+  friend void PrintTo(const KernelSubject& subject, std::ostream* out) { *out << subject.name; }
 };
 
-class SrsKernelTest : public testing::TestWithParam<Subject> {
+class SrsKernelTest : public testing::TestWithParam<KernelSubject> {
  protected:
   const SrsKernel& kernel() const { return *GetParam().kernel; }
   const RobotModel& model() const { return *GetParam().model; }
@@ -173,8 +173,8 @@ TEST_P(SrsKernelTest, MinimaAreWhereTheSlopeChangesItsSign) {
   EXPECT_GT(checked, 100);
 }
 
-std::vector<Subject> subjects() {
-  std::vector<Subject> list;
+std::vector<KernelSubject> kernel_subjects() {
+  std::vector<KernelSubject> list;
   for (const auto& [name, model] : {std::pair{std::string{"med7"}, med7()},
                                     std::pair{std::string{"uneven_arm"}, uneven_arm()}}) {
     const SrsKernels kernels = srs_kernels();
@@ -186,7 +186,7 @@ std::vector<Subject> subjects() {
   }
   return list;
 }
-INSTANTIATE_TEST_SUITE_P(Srs, SrsKernelTest, testing::ValuesIn(subjects()),
+INSTANTIATE_TEST_SUITE_P(Srs, SrsKernelTest, testing::ValuesIn(kernel_subjects()),
                          testing::PrintToStringParamName());
 
 void expect_same(const SrsKernel& first, const SrsKernel& second) {

@@ -9,8 +9,6 @@
 namespace armature {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 /// `piece` begins where the last span ends, or later.
 void join(const Span& piece, Spans& spans) {
   if (spans.count > 0) {
@@ -88,7 +86,8 @@ void FeasibleAngles::add_points_in_line(std::size_t which, LimitPieces& pieces) 
 std::array<Spans, 2> FeasibleAngles::spans_in_line(std::size_t which) const {
   const ArmBall own = ball(which);
   const std::size_t a = own.first, c = own.first + 2;
-  std::array<double, 20> events{-kPi, kPi, wrap_angle(own.x_at(0)), wrap_angle(own.x_at(kPi))};
+  std::array<double, 20> events{-std::numbers::pi, std::numbers::pi, wrap_angle(own.x_at(0)),
+                                wrap_angle(own.x_at(std::numbers::pi))};
   std::size_t count = 4;
   for (const double end_a : {-arm_.half[a], arm_.half[a]}) {
     for (const double end_c : {-arm_.half[c], arm_.half[c]}) {

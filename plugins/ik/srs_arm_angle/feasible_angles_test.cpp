@@ -17,13 +17,13 @@ namespace {
 
 constexpr double kNear = 1e-7;  // [rad] nearer to an end, rounding may decide
 
-struct Subject {
+struct AnglesSubject {
   std::string name;
   ModelPtr model;
-  friend void PrintTo(const Subject& subject, std::ostream* out) { *out << subject.name; }
+  friend void PrintTo(const AnglesSubject& subject, std::ostream* out) { *out << subject.name; }
 };
 
-class FeasibleAngles : public testing::TestWithParam<Subject> {
+class FeasibleAngles : public testing::TestWithParam<AnglesSubject> {
  protected:
   using Posture = std::function<JointVector()>;
 
@@ -189,9 +189,9 @@ TEST_P(FeasibleAngles, AreRightNextToEverySingularSet) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Srs, FeasibleAngles,
-                         testing::Values(Subject{"med7", med7()},
-                                         Subject{"narrow_arm", narrow_arm()},
-                                         Subject{"uneven_arm", uneven_arm()}),
+                         testing::Values(AnglesSubject{"med7", med7()},
+                                         AnglesSubject{"narrow_arm", narrow_arm()},
+                                         AnglesSubject{"uneven_arm", uneven_arm()}),
                          testing::PrintToStringParamName());
 
 TEST(FeasibleRedundancy, OfAGoalThatIsOutOfReachOrBadIsNotTold) {

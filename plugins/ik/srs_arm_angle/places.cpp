@@ -9,14 +9,12 @@
 namespace armature {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 class Places {
  public:
   /// `count` regular ones, a multiple of four.
-  Places(CostTable& table, int count) : table_{table}, step_{2 * kPi / count} {
+  Places(CostTable& table, int count) : table_{table}, step_{2 * std::numbers::pi / count} {
     table_.count = table_.regular = count;
-    for (int i = 0; i < count; ++i) table_.place[i] = -kPi + step_ * i;
+    for (int i = 0; i < count; ++i) table_.place[i] = -std::numbers::pi + step_ * i;
   }
   void add(double at) {
     if (table_.count < CostTable::kMost - 3) table_.place[table_.count++] = wrap_angle(at);
@@ -26,7 +24,8 @@ class Places {
   /// The arm angle is `whole` + x or `whole` - x.
   void add_around(const SinCos& p, const SinCos& q, double whole) {
     constexpr double kNarrowest = 1e-6;
-    for (const auto& [x, sine] : {std::pair{0.0, (p + q).sin}, std::pair{kPi, (p - q).sin}}) {
+    for (const auto& [x, sine] :
+         {std::pair{0.0, (p + q).sin}, std::pair{std::numbers::pi, (p - q).sin}}) {
       const double width = std::abs(sine) / std::max({std::abs(p.sin), std::abs(q.sin), 1e-9});
       if (width > step_) continue;
       for (double away = std::max(width, kNarrowest) / 4; away < step_; away *= 2) {
@@ -37,10 +36,10 @@ class Places {
   }
   void finish() {
     for (int i = 0; table_.count % 4 != 0; ++i) {
-      table_.place[table_.count++] = -kPi + step_ * (i + 0.5);
+      table_.place[table_.count++] = -std::numbers::pi + step_ * (i + 0.5);
     }
     if (table_.count > table_.regular) std::sort(table_.place, table_.place + table_.count);
-    for (int i = 0; i < 4; ++i) table_.place[table_.count + i] = 2 * kPi;
+    for (int i = 0; i < 4; ++i) table_.place[table_.count + i] = 2 * std::numbers::pi;
   }
 
  private:
@@ -58,7 +57,7 @@ void set_places(const SrsGoal& goal, const Aim& aim, CostTable& table) {
   if (aim.objective == Objective::balanced && aim.remembers) {
     // Opposite to the last arm angle the way back has a kink.
     constexpr double kBeside = 1e-9;
-    for (const double opposite : {aim.last, aim.last + kPi}) {
+    for (const double opposite : {aim.last, aim.last + std::numbers::pi}) {
       places.add(opposite - kBeside);
       places.add(opposite + kBeside);
     }
@@ -68,7 +67,9 @@ void set_places(const SrsGoal& goal, const Aim& aim, CostTable& table) {
 
 int place_from(const CostTable& table, double at) {
   // Among regular places alone it is this or one of the next two; behind the last there are more.
-  int i = std::max(static_cast<int>((at + kPi) * (0.5 / kPi * table.regular) - 0.5), 0);
+  int i = std::max(
+      static_cast<int>((at + std::numbers::pi) * (0.5 / std::numbers::pi * table.regular) - 0.5),
+      0);
   i += table.place[i] < at ? 1 : 0;
   i += table.place[i] < at ? 1 : 0;
   if (table.count == table.regular) return i;

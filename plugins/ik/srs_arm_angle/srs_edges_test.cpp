@@ -16,13 +16,13 @@ namespace {
 constexpr int kPoses = 1000;
 constexpr std::array<double, 4> kOffsets{0, 1e-9, 1e-7, 1e-4};
 
-struct Subject {
+struct EdgeSubject {
   std::string name;
   ModelPtr model;
-  friend void PrintTo(const Subject& subject, std::ostream* out) { *out << subject.name; }
+  friend void PrintTo(const EdgeSubject& subject, std::ostream* out) { *out << subject.name; }
 };
 
-class SrsEdges : public testing::TestWithParam<Subject> {
+class SrsEdges : public testing::TestWithParam<EdgeSubject> {
  protected:
   double any(double lower, double upper) {
     return std::uniform_real_distribution{lower, upper}(random_);
@@ -230,9 +230,9 @@ TEST_P(SrsEdges, ANanometreDecidesAtTheRims) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Srs, SrsEdges,
-                         testing::Values(Subject{"med7", med7()},
-                                         Subject{"med7_flange", med7_flange()},
-                                         Subject{"uneven_arm", uneven_arm()}),
+                         testing::Values(EdgeSubject{"med7", med7()},
+                                         EdgeSubject{"med7_flange", med7_flange()},
+                                         EdgeSubject{"uneven_arm", uneven_arm()}),
                          testing::PrintToStringParamName());
 
 }  // namespace

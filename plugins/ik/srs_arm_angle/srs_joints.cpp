@@ -9,7 +9,6 @@
 namespace armature {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kTolerance = 1e-9;  // [rad] that of the kind
 
 double beyond(const SrsArm& arm, std::size_t i, double t) {
@@ -53,7 +52,8 @@ std::array<BallTurns, 2> turns_of(const SrsArm& arm, const ArmBall& ball, const 
   const double a = found.a.angle() + ball.shift_a, b = found.b.angle(),
                c = found.c.angle() + ball.shift_c;
   const BallTurns turns = checked(arm, first, a, b, c);
-  if (!found.free) return {turns, checked(arm, first, a + kPi, -b, c + kPi)};
+  if (!found.free)
+    return {turns, checked(arm, first, a + std::numbers::pi, -b, c + std::numbers::pi)};
   if (turns.within_limits) return {turns, turns};
   const double ratio = found.b.cos > 0 ? -1 : 1;  // c goes against a, or with it
   const double way = way_to_limits(arm, first, turns.t[0], turns.t[2], ratio);

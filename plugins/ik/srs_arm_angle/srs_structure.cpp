@@ -10,7 +10,7 @@
 namespace armature {
 namespace {
 
-constexpr double kPi = std::numbers::pi, kDegree = kPi / 180;
+constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kSame = 1e-9;  // [m] or [rad]
 constexpr std::size_t kJoints = 7;
 
@@ -41,7 +41,7 @@ bool is_angle(double angle, double wanted) { return std::abs(wrap_angle(angle - 
 
 /// Why the link between two joints is not the pattern's; empty when it is.
 std::string link_mismatch(const Link& link) {
-  if (!is_angle(link.alpha, kPi / 2) && !is_angle(link.alpha, -kPi / 2))
+  if (!is_angle(link.alpha, std::numbers::pi / 2) && !is_angle(link.alpha, -std::numbers::pi / 2))
     return fmt::format("joint '{}': alpha_deg must be 90 or -90, it is {:g}", link.row->name,
                        link.alpha / kDegree);
   if (std::abs(link.a) > kSame)
@@ -82,11 +82,16 @@ std::string mismatch(const RobotModel& model) {
 /// Joints whose axis points against the pattern's: Z(t, d) = Rx(180) Z(-t, -d) Rx(180) turns one
 /// round, and the half turns go into the twists of the links on either side.
 std::array<bool, kJoints> turned_joints(const Links& links) {
-  constexpr std::array<double, kJoints> kTwist{0,        -kPi / 2, kPi / 2, kPi / 2,
-                                               -kPi / 2, -kPi / 2, kPi / 2};
+  constexpr std::array<double, kJoints> kTwist{0,
+                                               -std::numbers::pi / 2,
+                                               std::numbers::pi / 2,
+                                               std::numbers::pi / 2,
+                                               -std::numbers::pi / 2,
+                                               -std::numbers::pi / 2,
+                                               std::numbers::pi / 2};
   std::array<bool, kJoints> turned{};
   for (std::size_t i = 1; i < kJoints; ++i) {
-    const double wanted = kTwist[i] + (turned[i - 1] ? kPi : 0);
+    const double wanted = kTwist[i] + (turned[i - 1] ? std::numbers::pi : 0);
     turned[i] = !is_angle(links[i].alpha, wanted);
   }
   return turned;
@@ -99,8 +104,8 @@ void make_positive(SrsArm& arm, double& length, std::size_t i) {
   length = -length;
   arm.sign[i] = -arm.sign[i];
   arm.offset[i] = -arm.offset[i];
-  arm.offset[i - 1] += kPi;
-  arm.offset[i + 1] += kPi;
+  arm.offset[i - 1] += std::numbers::pi;
+  arm.offset[i + 1] += std::numbers::pi;
 }
 
 void set_limits(const RobotModel& model, SrsArm& arm) {
@@ -135,8 +140,9 @@ Expected<SrsArm> srs_arm(const RobotModel& model) {
   set_limits(model, arm);
   arm.base_T_shoulder = joints[0].placement.value_or(Eigen::Isometry3d::Identity()) *
                         links[0].transform() * Eigen::Translation3d{0, 0, joints[0].d};
-  arm.wrist_T_tool = Eigen::Translation3d{0, 0, d(6)} * Link{0, turned[6] ? kPi : 0}.transform() *
-                     links[7].transform() * model.frame(model.tool()).parent_T_frame;
+  arm.wrist_T_tool = Eigen::Translation3d{0, 0, d(6)} *
+                     Link{0, turned[6] ? std::numbers::pi : 0}.transform() * links[7].transform() *
+                     model.frame(model.tool()).parent_T_frame;
   return arm;
 }
 

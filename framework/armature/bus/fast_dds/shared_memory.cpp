@@ -72,7 +72,7 @@ int clean_group(const fs::path& folder, const std::string& name, const std::set<
 /// "fastrtps_x" of any file of its group; empty for other files.
 std::string group_name(std::string name) {
   for (const std::string_view suffix : {"_el", "_sl", "_mutex"}) {
-    if (name.ends_with(suffix)) name.resize(name.size() - suffix.size());
+    if (name.ends_with(suffix)) name.erase(name.size() - suffix.size());
   }
   if (name.starts_with("sem.")) name.erase(0, 4);
   return name.starts_with("fastrtps_") ? name : "";

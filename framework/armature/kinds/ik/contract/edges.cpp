@@ -8,7 +8,6 @@
 namespace armature::ik_contract {
 namespace {
 
-constexpr double kSame = 1e-6;       // [rad] or [m]: two postures are one
 constexpr double kOnTheWay = 1e-6;   // [m], [rad]: still the same pose
 constexpr double kPromised = 0.995;  // of a set at an edge
 
@@ -28,7 +27,7 @@ bool same_by_self_motion(const Probe& probe, const JointVector& a, const JointVe
 }
 
 bool is_found(const Probe& probe, const JointVector& q) {
-  if (probe.nearest(q) <= kSame) return true;
+  if (probe.nearest(q) <= kOnePosture) return true;
   for (const IkBranch& branch : probe.found()) {
     if (same_by_self_motion(probe, branch.q, q)) return true;
   }

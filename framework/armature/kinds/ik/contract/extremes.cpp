@@ -12,8 +12,8 @@ namespace {
 
 constexpr int kStarts = 24;
 constexpr int kSweeps = 400;
-constexpr int kSamples = 16;    // along a joint
-constexpr double kSame = 1e-9;  // [m]
+constexpr int kSteps = 16;       // along a joint
+constexpr double kAsFar = 1e-9;  // [m]
 
 /// The best posture that turning one joint after the other leads to from `q`.
 template <class Cost>
@@ -28,9 +28,9 @@ double descend(const RobotModel& model, bool free, JointVector& q, Cost cost) {
         return cost(moved);
       };
       const auto [lower, upper] = range_of(model, k, free);
-      const double step = (upper - lower) / (kSamples - 1);
+      const double step = (upper - lower) / (kSteps - 1);
       double centre = q[k], least = best;
-      for (int i = 0; i < kSamples; ++i) {
+      for (int i = 0; i < kSteps; ++i) {
         if (const double f = along(lower + i * step); f < least)
           least = f, centre = lower + i * step;
       }
@@ -107,7 +107,7 @@ ReachBall reach_ball(const RobotModel& model, int count, Random& random) {
   ball.radius = -ends.front().cost;
   std::vector<JointVector> farthest;
   for (const auto& [q, reached] : ends) {
-    if (reached < ends.front().cost + kSame) farthest.push_back(q);
+    if (reached < ends.front().cost + kAsFar) farthest.push_back(q);
   }
   for (int i = 0; i < count; ++i) {
     const auto& q = farthest[static_cast<std::size_t>(i) % farthest.size()];

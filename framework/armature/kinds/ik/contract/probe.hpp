@@ -8,6 +8,8 @@
 
 namespace armature::ik_contract {
 
+inline constexpr double kOnePosture = 1e-6;  // [rad] or [m]: two nearer than that are one
+
 /// Asks a solver and keeps the book: what every law is written with.
 class Probe {
  public:

@@ -43,7 +43,6 @@ namespace {
 
 constexpr double kBeyond = 1e-6;    // [rad] or [m] beyond an end the limits are surely left
 constexpr double kRounding = 1e-9;  // [rad] or [m] by which a told end may be off
-constexpr double kSame = 1e-6;      // [rad] or [m]: two postures are one
 
 /// What a solver tells about the redundancy of one goal, put to the test by asking it there.
 class ToldIntervals {
@@ -99,7 +98,7 @@ class ToldIntervals {
     solve_at(*own);
     const auto branch =
         std::find_if(probe_.found().begin(), probe_.found().end(),
-                     [&](const IkBranch& one) { return probe_.distance(one.q, q) <= kSame; });
+                     [&](const IkBranch& one) { return probe_.distance(one.q, q) <= kOnePosture; });
     if (branch == probe_.found().end()) {
       return probe_.violated(fmt::format(
           "at the redundancy {:.17g} of the joints that made the goal, the nearest of {} branches "
@@ -107,7 +106,7 @@ class ToldIntervals {
           *own, probe_.found().count, probe_.nearest(q)));
     }
     const bool told = std::any_of(probe_.found().begin(), probe_.found().end(), [&](auto& one) {
-      return probe_.distance(one.q, q) <= kSame && is_inside(one.label, *own, kRounding);
+      return probe_.distance(one.q, q) <= kOnePosture && is_inside(one.label, *own, kRounding);
     });
     if (told) return;
     probe_.violated(

@@ -18,8 +18,6 @@
 namespace armature::ik_contract {
 namespace {
 
-constexpr double kSame = 1e-6;  // [rad] or [m]: two postures are one
-
 /// How near the branches come to `q` when the arm angle is free to choose: a grid, then a golden
 /// section around its best places.
 double nearest_at_any_arm_angle(Probe& probe, IkGoal goal, const JointVector& q) {
@@ -37,7 +35,7 @@ double nearest_at_any_arm_angle(Probe& probe, IkGoal goal, const JointVector& q)
   }
   std::ranges::partial_sort(grid, grid.begin() + kPlaces);
   double least = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < kPlaces && least > kSame; ++i) {
+  for (int i = 0; i < kPlaces && least > kOnePosture; ++i) {
     const double centre = grid[static_cast<std::size_t>(i)].second;
     least = std::min(least, at(golden_section(centre - kStep, centre + kStep, at)));
   }
@@ -87,10 +85,10 @@ void generator_is_found(Probe& probe) {
     if (all && probe.redundant()) goal.redundancy = probe.solver().redundancy_of(q);
     probe.solve(goal, all ? probe.random_joints() : q);
     double distance = probe.nearest(q);
-    if (all && probe.redundant() && !goal.redundancy && distance > kSame) {
+    if (all && probe.redundant() && !goal.redundancy && distance > kOnePosture) {
       distance = nearest_at_any_arm_angle(probe, goal, q);
     }
-    if (!(distance <= kSame)) {
+    if (!(distance <= kOnePosture)) {
       const JointVector joints = probe.model().expand(q);
       probe.violated(
           fmt::format("the joints [{:.9g}] made this goal, the nearest of {} branches is "

@@ -42,6 +42,13 @@ TEST(BandPower, ASlowMotionDoesNotLeakIn) {
   EXPECT_LT(std::sqrt(band_power(track, 8, 12)), 2e-6);
 }
 
+TEST(BandPower, MissingPointsOfASlowMotionAreNoTremor) {
+  Track track = track_of(4, [](double t) { return Eigen::Vector3d{0.02 * sine(0.25, t), 0, 1}; });
+  track.erase(track.begin() + 1500, track.begin() + 1506);
+  track.erase(track.begin() + 2500, track.begin() + 2503);
+  EXPECT_LT(std::sqrt(band_power(track, 8, 12)), 2e-6);
+}
+
 TEST(BandPower, OfNothingIsNothing) {
   EXPECT_EQ(band_power({}, 8, 12), 0);
   EXPECT_EQ(band_power(track_of(0.002, [](double) { return Eigen::Vector3d{1, 2, 3}; }), 8, 12), 0);

@@ -98,7 +98,8 @@ TEST(TremorFilter, AHandAtRestStaysWhereItIs) {
 
 TEST(TremorFilter, TurnsAreFilteredLikeMoves) {
   TremorFilter filter{{}};
-  const auto angle = [](double t) { return 2.9 + 0.3 * t; };  // on through half a turn
+  // On through a third of a turn, where the quaternion of a matrix changes its sign.
+  const auto angle = [](double t) { return -1.7 - 0.3 * t; };
   filter.start(pose_at({0, 0, 0}, angle(0)));
   for (int k = 1; k < 3000; ++k) {
     const Eigen::Isometry3d out = filter.step(pose_at({0, 0, 0}, angle(k * kPeriod)));

@@ -8,8 +8,11 @@
 namespace armature {
 
 Expected<MotionGoal> checked(MotionGoal goal) {
-  if (goal.mode == MotionMode::hold) return goal;
+  if (goal.mode == MotionMode::hold || goal.mode == MotionMode::guided) return goal;
   if (!goal.velocity.allFinite()) return refuse("the goal's velocity is not finite");
+  if (!goal.angular_velocity.allFinite()) {
+    return refuse("the goal's angular velocity is not finite");
+  }
   if (goal.focus && !goal.focus->allFinite()) return refuse("the goal's focus is not finite");
   for (const ForbiddenZone& zone : goal.forbidden) {
     if (auto wrong = defect(zone)) return refuse("the goal's " + *wrong);

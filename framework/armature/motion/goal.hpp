@@ -17,6 +17,7 @@ enum class MotionMode {
   planned,   // along a path, to rest
   tracking,  // a target that moves; the next goal follows soon
   hold,      // stop within limits and stay
+  guided,    // stop within limits, then let a hand move the arm: the reference is where it is
 };
 
 /// What the arm shall do next.
@@ -27,6 +28,8 @@ struct MotionGoal {
   std::optional<Eigen::Vector3d> focus;                // [m] to look at on the way
   std::vector<ForbiddenZone> forbidden = {};           // to keep away from, planned only
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // [m/s] of the pose, tracking only
+  Eigen::Vector3d angular_velocity =
+      Eigen::Vector3d::Zero();         // [rad/s] in the base frame, the same
   std::vector<ToolPose> through = {};  // key poses on the way, in order; planned only
 };
 

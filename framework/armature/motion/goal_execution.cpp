@@ -61,6 +61,10 @@ bool GoalExecution::silent(Time now, const std::optional<MeasuredJoints>& measur
   return true;
 }
 
+bool GoalExecution::guided(Time now) const {
+  return active_ && active_mode_ == MotionMode::guided && now >= reference_.last().end();
+}
+
 void GoalExecution::update(Time now, const std::optional<MeasuredJoints>& measured) {
   if (!reference_.started()) {
     if (!measured) return;
@@ -72,11 +76,15 @@ void GoalExecution::update(Time now, const std::optional<MeasuredJoints>& measur
     reference_.advance(now);
     return;
   }
+  trouble_.clear();
+  if (guided(now)) {
+    reference_.start(measured->q, now);
+    return;
+  }
   if (auto reason = deviation(*measured)) {
     fail_active(*reason);
     reference_.start(measured->q, now);
   }
-  trouble_.clear();
   reference_.advance(now);
   if (active_ && now >= reference_.last().end()) finish_active(State::done);
 }
@@ -118,6 +126,7 @@ void GoalExecution::take(const Expected<MotionGoal>& goal, std::uint64_t goal_id
   }
   finish_active(State::superseded);
   active_ = goal_id;
+  active_mode_ = goal->mode;
   reference_.splice(planned->trajectory);
   new_plan_ = std::move(*planned);
   report(goal_id, State::executing);

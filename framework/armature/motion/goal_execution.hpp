@@ -41,7 +41,7 @@ class GoalExecution {
   GoalExecution(GoalPlanner planner, const ExecutionOptions& options);
 
   /// Once per activation, before goals: starts the reference at the first measurement, ends what is
-  /// done, and holds when the arm does not follow or falls silent.
+  /// done, holds when the arm does not follow or falls silent, and follows the arm that is guided.
   void update(Time now, const std::optional<MeasuredJoints>& measured);
 
   /// Plans and splices `goal`; the statuses say what came of it, `new_plan` what was decided.
@@ -66,12 +66,15 @@ class GoalExecution {
   void finish_active(GoalStatus::State state);
   std::optional<std::string> deviation(const MeasuredJoints& measured) const;
   bool silent(Time now, const std::optional<MeasuredJoints>& measured);
+  /// True while a hand moves the arm; it does not before the arm has stopped.
+  bool guided(Time now) const;
 
   GoalPlanner planner_;
   ExecutionOptions options_;
   Reference reference_;
   std::uint64_t last_goal_id_ = 0;
   std::optional<std::uint64_t> active_;
+  MotionMode active_mode_ = MotionMode::planned;
   std::optional<GoalStatus> last_;
   std::vector<GoalStatus> statuses_;
   std::optional<Plan> new_plan_;

@@ -12,6 +12,13 @@ using test::Gantry;
 using test::goal_at;
 using State = GoalStatus::State;
 
+MotionGoal guided(std::uint64_t id) {
+  MotionGoal goal;
+  goal.id = id;
+  goal.mode = MotionMode::guided;
+  return goal;
+}
+
 /// An arm that is where the reference is, stepped at 1 kHz.
 class GoalExecutionTest : public testing::Test {
  protected:
@@ -132,6 +139,56 @@ TEST_F(GoalExecutionTest, HoldStopsWithinLimitsAndStays) {
   EXPECT_EQ(statuses_.back().state, State::done);
   EXPECT_TRUE(at_rest(execution_.reference().at(now_)));
   EXPECT_LT((execution_.reference().at(now_).q - moving.q).norm(), 0.8);
+}
+
+TEST_F(GoalExecutionTest, AGuidedArmStopsAndThenTheReferenceIsWhereAHandMovesIt) {
+  step_to(0.1);
+  give(goal_at(1, 2, -2, 2));
+  step_to(1.0);
+  give(guided(2));
+  step_to(3);
+  EXPECT_EQ(story().back(), (std::pair<std::uint64_t, State>{2, State::executing})) << "for good";
+  EXPECT_TRUE(at_rest(execution_.reference().at(now_)));
+
+  const JointVector moved = execution_.reference().at(now_).q + Eigen::Vector3d{0.5, 0, -0.3};
+  execution_.update(now_, MeasuredJoints{now_, moved});
+  collect();
+  EXPECT_EQ(execution_.reference().at(now_).q, moved);
+  EXPECT_EQ(statuses_.back().state, State::executing);
+  before_ = execution_.reference().at(now_);
+  EXPECT_TRUE(at_rest(before_));
+
+  give(goal_at(3, 0, 0, 0));
+  EXPECT_EQ(story()[story().size() - 2], (std::pair<std::uint64_t, State>{2, State::superseded}));
+  step_to(8);
+  EXPECT_EQ(story().back(), (std::pair<std::uint64_t, State>{3, State::done}));
+  EXPECT_LT(execution_.reference().at(now_).q.norm(), 1e-9);
+}
+
+TEST_F(GoalExecutionTest, AnArmThatFallsSilentIsNotGuidedAnyMore) {
+  step_to(0.1);
+  give(guided(1));
+  step_to(0.5);
+  const MeasuredJoints last{now_, home_};
+  for (int k = 0; k < 600; ++k) execution_.update(now_ = now_ + seconds(0.001), last);
+  collect();
+  EXPECT_EQ(statuses_.back().state, State::failed);
+  EXPECT_EQ(statuses_.back().stage, "execution");
+  const JointVector elsewhere = home_ + Eigen::Vector3d{0, 0.05, 0};
+  execution_.update(now_, MeasuredJoints{now_, elsewhere});
+  EXPECT_EQ(execution_.reference().at(now_).q, home_) << "it holds";
+}
+
+TEST_F(GoalExecutionTest, AGoalThatFailsLeavesAGuidedArmGuided) {
+  step_to(0.1);
+  give(guided(1));
+  step_to(0.5);
+  give(goal_at(2, 5, 0, 0));
+  EXPECT_EQ(statuses_.back().stage, "ik");
+  const JointVector moved = home_ + Eigen::Vector3d{0, 0.5, 0};
+  execution_.update(now_, MeasuredJoints{now_, moved});
+  EXPECT_EQ(execution_.reference().at(now_).q, moved);
+  EXPECT_EQ(execution_.current(now_)->goal_id, 1u);
 }
 
 TEST_F(GoalExecutionTest, FailsTheGoalAndHoldsWhereTheArmIsWhenItDoesNotFollow) {

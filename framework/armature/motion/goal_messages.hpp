@@ -24,6 +24,7 @@ inline void write_goal(const MotionGoal& goal, Time now, msg::MotionGoal& messag
   }
   write_zones(goal.forbidden, message.forbidden_());
   assign(message.velocity_(), goal.velocity);
+  assign(message.angular_velocity_(), goal.angular_velocity);
 }
 
 inline GoalReport report_of(const msg::MotionStatus& status) {

@@ -35,6 +35,9 @@ TEST(Goal, WithAnythingNotFiniteIsRefusedByName) {
   goal.velocity.x() = std::numeric_limits<double>::infinity();
   EXPECT_EQ(checked(goal).error().text, "the goal's velocity is not finite");
   goal = good_goal();
+  goal.angular_velocity.z() = nan;
+  EXPECT_EQ(checked(goal).error().text, "the goal's angular velocity is not finite");
+  goal = good_goal();
   goal.pose.orientation = Direction{Eigen::Vector3d{nan, 0, 0}};
   EXPECT_EQ(checked(goal).error().text, "the goal's direction has length nan, not 1");
 }

@@ -24,7 +24,7 @@ std::vector<double> to_vector(const JointVector& values) {
 
 Expected<MotionGoal> read_goal(const msg::MotionGoal& message) {
   if (const auto wrong = not_in_base(message.header_(), "the goal")) return refuse(*wrong);
-  if (message.mode_() > static_cast<int>(MotionMode::hold)) {
+  if (message.mode_() > static_cast<int>(MotionMode::guided)) {
     return refuse(fmt::format("the goal has the unknown mode {}", message.mode_()));
   }
   MotionGoal goal;
@@ -33,7 +33,10 @@ Expected<MotionGoal> read_goal(const msg::MotionGoal& message) {
   goal.pose = tool_pose_of(message);
   if (message.has_focus_()) goal.focus = to_eigen(message.focus_());
   goal.forbidden = zones_of(message.forbidden_());
-  if (goal.mode == MotionMode::tracking) goal.velocity = to_eigen(message.velocity_());
+  if (goal.mode == MotionMode::tracking) {
+    goal.velocity = to_eigen(message.velocity_());
+    goal.angular_velocity = to_eigen(message.angular_velocity_());
+  }
   for (const msg::ToolPose& key : message.through_()) goal.through.push_back(tool_pose_of(key));
   return checked(goal);
 }

@@ -43,6 +43,24 @@ TEST(MotionMessages, AGoalIsReadAsItWasWritten) {
   EXPECT_TRUE(goal->through.empty());
 }
 
+TEST(MotionMessages, HowATargetMovesAndTurnsIsReadWhenItIsTracked) {
+  MotionGoal written;
+  written.pose = {.position = {1, 2, 3}, .orientation = Direction{{0, 1, 0}}};
+  written.velocity = {1, 2, 3};
+  written.angular_velocity = {4, 5, 6};
+  for (const MotionMode mode : {MotionMode::tracking, MotionMode::planned}) {
+    written.mode = mode;
+    msg::MotionGoal message;
+    write_goal(written, Time{5}, message);
+    const auto goal = read_goal(message);
+    ASSERT_TRUE(goal) << goal.error().text;
+    const bool tracked = mode == MotionMode::tracking;
+    EXPECT_EQ(goal->velocity, (tracked ? Eigen::Vector3d{1, 2, 3} : Eigen::Vector3d{0, 0, 0}));
+    EXPECT_EQ(goal->angular_velocity,
+              (tracked ? Eigen::Vector3d{4, 5, 6} : Eigen::Vector3d{0, 0, 0}));
+  }
+}
+
 TEST(MotionMessages, TheKeyPosesOfAGoalAreReadInTheirOrder) {
   msg::MotionGoal message = goal_message();
   write_tool_pose({{1, 0, 0}, Direction{{0, 0, 1}}}, message.through_().emplace_back());

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <variant>
+
+#include "armature/robot/rotation_vector.hpp"
 
 namespace armature {
 namespace {
@@ -15,6 +18,12 @@ constexpr double kVelocityStep = 1e-3;      // [s] for the difference quotient
 ToolPose after(const MotionGoal& goal, double time_s) {
   ToolPose pose = goal.pose;
   pose.position += goal.velocity * time_s;
+  const Eigen::Quaterniond turn = rotation_of(goal.angular_velocity * time_s);
+  if (auto* direction = std::get_if<Direction>(&pose.orientation)) {
+    direction->unit = turn * direction->unit;
+  } else {
+    pose.orientation = turn * std::get<Eigen::Quaterniond>(pose.orientation);
+  }
   return pose;
 }
 
@@ -25,7 +34,8 @@ tl::expected<JointState, PlanFailure> meeting_point(GoalPlanner& planner, const 
   auto q = planner.solve(after(goal, ahead), from.q);
   if (!q) return tl::unexpected{q.error()};
   JointState meet{.q = *q, .v = JointVector::Zero(q->size()), .a = JointVector::Zero(q->size())};
-  if (goal.velocity.isZero() || horizon_s > kLongestPrediction) return meet;
+  const bool moves = !goal.velocity.isZero() || !goal.angular_velocity.isZero();
+  if (!moves || horizon_s > kLongestPrediction) return meet;
   auto next = planner.solve(after(goal, ahead + kVelocityStep), *q);
   if (!next) return meet;  // the target leaves the reach: wait for it at the border
   meet.v = (*next - *q) / kVelocityStep;

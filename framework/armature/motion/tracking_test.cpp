@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <variant>
+
 #include "armature/motion/gantry_stages_test.hpp"
 
 namespace armature {
@@ -70,6 +73,48 @@ TEST(Tracking, FollowsACircleWithoutAJumpAndWithinLimits) {
     before = state;
   }
   EXPECT_LT(worst_lag_m, 0.003);
+}
+
+/// The one joint of a turntable points where the goal does.
+class TurntableIk : public IkSolver {
+ public:
+  IkStatus solve(const IkGoal& goal, const JointVector&, IkBranches& out, IkState&) const override {
+    const Eigen::Vector3d& u = std::get<Direction>(goal.pose.orientation).unit;
+    out.clear();
+    IkBranch& branch = out.add();
+    branch.q = JointVector::Constant(1, std::atan2(u.y(), u.x()));
+    branch.within_limits = true;
+    return {};
+  }
+};
+
+TEST(Tracking, MeetsATargetThatTurnsWithItsAngularVelocity) {
+  Joint joint;
+  joint.name = "turn";
+  joint.lower = -3;
+  joint.upper = 3;
+  joint.max_velocity = 2;
+  joint.max_acceleration = 20;
+  const RobotModel turntable{"turntable", RobotModel::Convention::standard,
+                             {joint},     {{.name = "tool", .parent_joint = 0}},
+                             FrameId{0},  Eigen::Vector3d::UnitX(),
+                             std::nullopt};
+  const Gantry other;
+  const TurntableIk ik;
+  GoalPlanner planner{turntable,
+                      {other.path, ik, other.select, other.trajectory},
+                      {turntable.max_velocity(), turntable.max_acceleration()}};
+  MotionGoal goal = goal_at(1, 0, 0, 0);
+  goal.mode = MotionMode::tracking;
+  goal.pose.orientation = Direction{{1, 0, 0}};
+  goal.angular_velocity = {0, 0, 0.4};
+  const JointVector zero = JointVector::Zero(1);
+  auto plan = track(planner, goal, {zero, zero, zero}, Time{0}, kHorizon);
+  ASSERT_TRUE(plan) << plan.error().reason;
+  const double horizon = plan->trajectory.knots[1];
+  const JointState meet = plan->trajectory.at(Time{} + seconds(horizon));
+  EXPECT_NEAR(meet.q[0], 0.4 * horizon, 1e-9);
+  EXPECT_NEAR(meet.v[0], 0.4, 1e-6);
 }
 
 TEST(Tracking, RefusesATargetOutOfReach) {

@@ -32,11 +32,17 @@ SimulatedArm::SimulatedArm(const RobotModel& model, const Options& options, cons
       measured_{q},
       measured_v_{v_} {}
 
-void SimulatedArm::step(Time now, const std::optional<ServoCommand>& command) {
+double SimulatedArm::elapsed(Time now) {
   const double dt = last_ ? to_seconds(now - *last_) : options_.period_s;
-  if (dt <= 0) return;
+  if (dt <= 0) return 0;
   last_ = now;
   excess_.reset();
+  return dt;
+}
+
+void SimulatedArm::step(Time now, const std::optional<ServoCommand>& command) {
+  const double dt = elapsed(now);
+  if (dt == 0) return;
   following_ = command && to_seconds(now - command->stamp) <= options_.stale_s;
   if (following_) {
     follow(*command, now, dt);
@@ -44,6 +50,23 @@ void SimulatedArm::step(Time now, const std::optional<ServoCommand>& command) {
   } else {
     stop(dt);
     last_command_.reset();
+  }
+  measure(dt);
+}
+
+void SimulatedArm::guide(Time now, const JointVector& q) {
+  const double dt = elapsed(now);
+  if (dt == 0) return;
+  following_ = true;
+  last_command_.reset();
+  for (int i = 0; i < model_.dof(); ++i) {
+    const Step wanted{.q = q[i], .v = 0, .dt = dt, .in_step = true};
+    if (const auto found = outside_limits(i, wanted); found && !excess_) excess_ = found;
+    const double farthest = model_.max_velocity()[i] * dt;
+    const double next = std::clamp(q[i], std::max(model_.lower()[i], q_[i] - farthest),
+                                   std::min(model_.upper()[i], q_[i] + farthest));
+    v_[i] = executed_v_[i] = (next - q_[i]) / dt;
+    q_[i] = next;
   }
   measure(dt);
 }

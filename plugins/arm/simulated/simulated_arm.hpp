@@ -40,6 +40,9 @@ class SimulatedArm {
 
   /// Moves on to `now`; `command` is the newest one, if any.
   void step(Time now, const std::optional<ServoCommand>& command);
+  /// Moves on to `now` in a hand that has it at `q`. The hand is as strong as it likes: it is held
+  /// back by the limits of position and velocity only.
+  void guide(Time now, const JointVector& q);
 
   const JointVector& setpoint() const { return q_; }
   const JointVector& setpoint_velocity() const { return v_; }
@@ -56,6 +59,8 @@ class SimulatedArm {
     double q = 0, v = 0, dt = 0;
     bool in_step = true;
   };
+  /// The time since the last step, which this one then is; 0: there is nothing to do.
+  double elapsed(Time now);
   void follow(const ServoCommand& command, Time now, double dt);
   void stop(double dt);
   double velocity(int joint, const Step& wanted) const;

@@ -112,6 +112,24 @@ TEST_F(SimulatedArmTest, DeceleratesAndHoldsWhenTheCommandIsStale) {
   EXPECT_EQ(arm_.measured()[0], held);
 }
 
+TEST(SimulatedArm, YieldsToAHandWithinItsLimitsOfPositionAndVelocity) {
+  const RobotModel model = one_joint();
+  SimulatedArm arm{model, {}, value(0)};
+  Time now;
+  const auto guide = [&](double q) { arm.guide(now = now + seconds(0.001), value(q)); };
+  guide(0.002);
+  EXPECT_EQ(arm.measured()[0], 0.002) << "2 rad/s at once: a hand is strong";
+  EXPECT_NEAR(arm.measured_velocity()[0], 2, 1e-12);
+  EXPECT_FALSE(arm.excess());
+  guide(0.5);
+  EXPECT_NEAR(arm.measured()[0], 0.0045, 1e-12);
+  EXPECT_EQ(arm.excess()->quantity, LimitExcess::Quantity::velocity);
+  for (int k = 0; k < 1000; ++k) guide(1.5);
+  EXPECT_EQ(arm.measured()[0], 1);
+  EXPECT_EQ(arm.measured_velocity()[0], 0);
+  EXPECT_EQ(arm.excess()->quantity, LimitExcess::Quantity::position);
+}
+
 TEST(SimulatedArm, FollowsACommandStreamThatIsSampledAtOtherInstants) {
   const RobotModel model = one_joint();
   SimulatedArm arm{model, {}, value(0)};

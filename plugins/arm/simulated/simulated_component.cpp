@@ -7,8 +7,10 @@
 
 #include "armature/kinds/joint_messages.hpp"
 #include "armature/kinds/setup_robot.hpp"
-#include "armature/messages/stamp.hpp"
+#include "armature/messages/geometry.hpp"
+#include "armature/messages/header.hpp"
 #include "armature/messages/std_msgs.hpp"
+#include "armature/robot/kinematics.hpp"
 #include "armature/runtime/component.hpp"
 #include "armature/runtime/plugin.hpp"
 #include "armature/runtime/setup.hpp"
@@ -33,10 +35,10 @@ JointVector home_of(const RobotModel& model) {
   return *home;
 }
 
-std::string describe(const LimitExcess& excess, const RobotModel& model) {
+std::string describe(const LimitExcess& excess, const RobotModel& model, const char* who) {
   static constexpr const char* kQuantity[] = {"position", "velocity", "acceleration"};
   const auto joint = static_cast<std::size_t>(model.independent_joint(excess.joint));
-  return fmt::format("the command asks joint {} for {} {:.3f}, limit {:.3f}",
+  return fmt::format("the {} asks joint {} for {} {:.3f}, limit {:.3f}", who,
                      model.joints()[joint].name, kQuantity[static_cast<int>(excess.quantity)],
                      excess.wanted, excess.limit);
 }
@@ -49,7 +51,10 @@ class SimulatedArmComponent : public Component {
       : Component(setup),
         model_{robot_of(setup)},
         arm_{model_, options_of(setup.params()), home_of(model_)},
-        servo_jp_{setup.input<msg::JointState>("servo_jp")},
+        hand_lets_go_{seconds(setup.params().number("stale_s"))},
+        servo_{.input = setup.input<msg::JointState>("servo_jp"), .what = "a command"},
+        hand_{.input = setup.input<msg::JointState>("hand_js"), .what = "a hand"},
+        measured_cp_{setup.output<msg::PoseStamped>("measured_cp")},
         measured_js_{setup.output<msg::JointState>("measured_js")},
         setpoint_js_{setup.output<msg::JointState>("setpoint_js")},
         operating_state_{setup.output<msg::String>("operating_state")} {
@@ -57,8 +62,16 @@ class SimulatedArmComponent : public Component {
   }
 
   void step(Time now) override {
-    read_command();
-    arm_.step(now, command_);
+    read(servo_);
+    read(hand_);
+    if (!hand_.input.fresh()) hand_.fault.clear();  // it has let go, which is no trouble
+    guided_ = hand_.command && now - hand_.command->stamp <= hand_lets_go_;
+    if (guided_) {
+      arm_.guide(now, hand_.command->q);
+    } else {
+      arm_.step(now, servo_.command);
+    }
+    publish_pose(now);
     publish(measured_js_, arm_.measured(), arm_.measured_velocity(), now);
     publish(setpoint_js_, arm_.setpoint(), arm_.setpoint_velocity(), now);
     show_health(now);
@@ -66,18 +79,35 @@ class SimulatedArmComponent : public Component {
   }
 
  private:
-  void read_command() {
-    if (!servo_jp_.fresh()) return;
-    const msg::JointState& message = *servo_jp_.latest();
+  /// Somebody who says where the arm shall be.
+  struct Source {
+    Input<msg::JointState> input;
+    const char* what;
+    std::optional<ServoCommand> command = {};
+    std::string fault = {};
+  };
+
+  void read(Source& source) {
+    if (!source.input.fresh()) return;
+    const msg::JointState& message = *source.input.latest();
     const auto q = model_.contract(message.position_());
     const auto v = model_.contract_rates(message.velocity_());
     if (!q || !v) {
-      fault_ = q ? "refused a command: velocity: " + v.error().text
-                 : "refused a command: position: " + q.error().text;
+      source.fault = fmt::format("refused {}: {}", source.what,
+                                 q ? "velocity: " + v.error().text : "position: " + q.error().text);
       return;
     }
-    fault_.clear();
-    command_ = ServoCommand{stamp_of(message.header_().stamp_()), *q, *v};
+    source.fault.clear();
+    source.command = ServoCommand{stamp_of(message.header_().stamp_()), *q, *v};
+  }
+  const std::string& fault() const { return servo_.fault.empty() ? hand_.fault : servo_.fault; }
+
+  void publish_pose(Time now) {
+    if (!measured_cp_.wanted()) return;
+    auto loan = measured_cp_.loan();
+    write_header(loan->header_(), now, kBaseFrame);
+    assign(loan->pose_(), forward_kinematics(model_, arm_.measured()));
+    loan.publish();
   }
 
   void publish(Output<msg::JointState>& output, const JointVector& q, const JointVector& v,
@@ -90,21 +120,22 @@ class SimulatedArmComponent : public Component {
   /// A text is only made when the trouble is another one: every step tells how it is. Trouble that
   /// comes and goes from step to step is told as one.
   void show_health(Time now) {
-    const Trouble trouble = !fault_.empty() ? Trouble::refused_command
-                            : arm_.excess() ? Trouble::held_back
-                                            : Trouble::none;
+    const Trouble trouble = !fault().empty() ? Trouble::refused_command
+                            : arm_.excess()  ? Trouble::held_back
+                                             : Trouble::none;
     if (trouble != Trouble::none) {
       last_trouble_ = now;
     } else if (now - last_trouble_ < kCalm) {
       return;
     }
-    if (trouble == shown_trouble_ && fault_ == shown_fault_) return;
+    if (trouble == shown_trouble_ && fault() == shown_fault_) return;
     shown_trouble_ = trouble;
-    shown_fault_ = fault_;
+    shown_fault_ = fault();
     if (trouble == Trouble::none) {
       healthy();
     } else {
-      degraded(fault_.empty() ? describe(*arm_.excess(), model_) : fault_);
+      const char* who = guided_ ? "hand" : "command";
+      degraded(fault().empty() ? describe(*arm_.excess(), model_, who) : fault());
     }
   }
 
@@ -112,18 +143,20 @@ class SimulatedArmComponent : public Component {
     if (now - last_state_ < kStatePeriod) return;
     last_state_ = now;
     auto loan = operating_state_.loan();
-    loan->data_() = !fault_.empty() ? "FAULT" : arm_.following() ? "ENABLED" : "HOLDING";
+    loan->data_() = !fault().empty() ? "FAULT" : arm_.following() ? "ENABLED" : "HOLDING";
     loan.publish();
   }
 
   RobotModel model_;
   SimulatedArm arm_;
-  Input<msg::JointState> servo_jp_;
+  Duration hand_lets_go_;
+  Source servo_, hand_;
+  Output<msg::PoseStamped> measured_cp_;
   Output<msg::JointState> measured_js_, setpoint_js_;
   Output<msg::String> operating_state_;
-  std::optional<ServoCommand> command_;
+  bool guided_ = false;
   enum class Trouble { none, held_back, refused_command } shown_trouble_ = Trouble::none;
-  std::string fault_, shown_fault_;
+  std::string shown_fault_;
   Time last_trouble_;
   Time last_state_;
 };

@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include "armature/kinds/joint_messages.hpp"
+#include "armature/messages/geometry.hpp"
 #include "armature/messages/header.hpp"
 #include "armature/messages/std_msgs.hpp"
+#include "armature/robot/kinematics.hpp"
 #include "armature/runtime/component_bench.hpp"
 
 namespace armature {
@@ -179,6 +181,56 @@ TEST_F(SimulatedArmComponentTest, ARefusedCommandIsTheTroubleThatIsToldFirst) {
   arm_.send("servo_jp", command(q, still_));
   step();
   EXPECT_EQ(arm_.status().reason.substr(0, 30), "the command asks joint j1 for ");
+}
+
+TEST_F(SimulatedArmComponentTest, YieldsToAHandAndFollowsCommandsAgainWhenItLetsGo) {
+  JointVector q = home_;
+  for (int i = 0; i < 100; ++i) {
+    q[1] += 0.002 * std::sin(0.3 * i);  // 2 rad/s at most, 600 rad/s2
+    arm_.send("hand_js", command(q, still_));
+    arm_.send("servo_jp", command(home_, still_));
+    step();
+    ASSERT_EQ(measured(), q);
+  }
+  for (int i = 0; i < 1000; ++i) {
+    arm_.send("servo_jp", command(home_, still_));
+    step();
+  }
+  EXPECT_EQ(measured(), home_);
+}
+
+TEST_F(SimulatedArmComponentTest, AHandMovesItWithinItsLimitsOnly) {
+  JointVector far = home_;
+  far[1] += 10;
+  for (int i = 0; i < 3000; ++i) {
+    arm_.send("hand_js", command(far, still_));
+    step();
+  }
+  EXPECT_NEAR(measured()[1], lamp_.upper()[1], 1e-3);
+  EXPECT_EQ(arm_.status().reason.substr(0, 36), "the hand asks joint j2 for position ");
+  arm_.send("hand_js", msg::JointState{});
+  step();
+  EXPECT_EQ(arm_.status().reason,
+            "refused a hand: position: 0 joint values; dental_lamp has 6 joints");
+  steps(300);
+  EXPECT_EQ(arm_.status().reason, "") << "it has let go";
+}
+
+TEST_F(SimulatedArmComponentTest, AGoodHandDoesNotHideABadCommand) {
+  arm_.send("servo_jp", msg::JointState{});
+  arm_.send("hand_js", command(home_, still_));
+  step();
+  EXPECT_EQ(arm_.status().reason,
+            "refused a command: position: 0 joint values; dental_lamp has 6 joints");
+}
+
+TEST_F(SimulatedArmComponentTest, TellsTheToolsPoseOfWhatItMeasures) {
+  arm_.step(now_s_ += kPeriod_s);
+  const auto told = arm_.take<msg::PoseStamped>("measured_cp");
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(told[0].header_().frame_id_(), "base");
+  EXPECT_EQ(stamp_of(told[0].header_().stamp_()), Time{} + seconds(now_s_));
+  EXPECT_TRUE(to_eigen(told[0].pose_()).isApprox(forward_kinematics(lamp_, home_), 1e-12));
 }
 
 TEST_F(SimulatedArmComponentTest, AnOldCommandIsNotFollowed) {

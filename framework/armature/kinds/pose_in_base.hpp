@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Geometry>
+#include <string>
+#include <string_view>
+
+#include "armature/messages/geometry.hpp"
+#include "armature/messages/header.hpp"
+#include "armature/robot/pose_goal.hpp"
+#include "armature/values/expected.hpp"
+
+namespace armature {
+
+// What stands in a message about where something is, checked: "the master is stated in frame
+// 'camera', not in 'base'", "the master's quaternion has length 0, not 1". Real-time safe but for
+// the reason.
+
+inline Expected<Eigen::Isometry3d> pose_in_base(const msg::Header& header,
+                                                const Eigen::Vector3d& position,
+                                                const Eigen::Quaterniond& rotation,
+                                                std::string_view what) {
+  if (auto wrong = not_in_base(header, what)) return refuse(*wrong);
+  const auto pose = checked(ToolPose{position, rotation}, std::string{what} + "'s");
+  if (!pose) return tl::unexpected{pose.error()};
+  return Eigen::Isometry3d{Eigen::Translation3d{pose->position} *
+                           std::get<Eigen::Quaterniond>(pose->orientation)};
+}
+
+inline Expected<Eigen::Isometry3d> pose_in_base(const msg::PoseStamped& message,
+                                                std::string_view what) {
+  return pose_in_base(message.header_(), to_eigen(message.pose_().position_()),
+                      to_eigen(message.pose_().orientation_()), what);
+}
+
+inline Expected<Eigen::Isometry3d> pose_in_base(const msg::TransformStamped& message,
+                                                std::string_view what) {
+  return pose_in_base(message.header_(), to_eigen(message.transform_().translation_()),
+                      to_eigen(message.transform_().rotation_()), what);
+}
+
+}  // namespace armature

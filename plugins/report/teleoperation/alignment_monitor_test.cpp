@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// A master on its way to the instrument.
+#include "alignment_monitor.hpp"
+
+#include <gtest/gtest.h>
+
+namespace armature {
+namespace {
+
+using Eigen::Vector3d;
+
+TEST(AlignmentMonitor, TellsHowFarTheMasterIsFromTheInstrument) {
+  const Eigen::Isometry3d slave_T_master =
+      Eigen::Translation3d{0.6, 0, 0.1} * Eigen::AngleAxisd{1.2, Vector3d::UnitZ()};
+  const Eigen::Isometry3d master_T_hand =
+      Eigen::Translation3d{0.1, 0.1, 0.1} * Eigen::AngleAxisd{0.7, Vector3d::UnitX()};
+  AlignmentMonitor monitor;
+  EXPECT_FALSE(monitor.error(slave_T_master, Eigen::Isometry3d::Identity()));
+  monitor.see_master(master_T_hand);
+  Eigen::Isometry3d instrument = slave_T_master * master_T_hand;
+  instrument.translation().y() += 0.0003;
+  instrument.linear() = instrument.linear() * Eigen::AngleAxisd{0.01, Vector3d{0.6, 0.8, 0}};
+  const auto off = monitor.error(slave_T_master, instrument);
+  ASSERT_TRUE(off);
+  EXPECT_NEAR(off->position_m, 0.0003, 1e-15);
+  EXPECT_NEAR(off->angle_rad, 0.01, 1e-12);
+}
+
+TEST(AlignmentMonitor, HoldsEveryJointsPeakSpeedAgainstTheReference) {
+  AlignmentMonitor monitor;
+  for (const double v : {0.0, 0.3, -0.5, 0.4}) {
+    JointVector rates(2);
+    rates << v, -0.2 * v;
+    monitor.see_rates(rates);
+  }
+  EXPECT_NEAR(*monitor.peak_speed_error({0.5, 0.1}), 0, 1e-15);
+  EXPECT_NEAR(*monitor.peak_speed_error({0.5, -0.08}), 0.25, 1e-12) << "slower or faster";
+  EXPECT_NEAR(*monitor.peak_speed_error({1, 0.1}), 0.5, 1e-12);
+  EXPECT_FALSE(monitor.peak_speed_error({}));
+  EXPECT_FALSE(AlignmentMonitor{}.peak_speed_error({0.5, 0.1}));
+}
+
+}  // namespace
+}  // namespace armature

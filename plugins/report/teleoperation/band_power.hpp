@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+
+#include "track.hpp"
+
+namespace armature {
+
+/// Mean square distance [m^2] of the part of a motion whose frequencies lie between `from_hz` and
+/// `to_hz`: its Fourier sum at their multiples of 1 / duration, under a Hann window, so that a slow
+/// motion beside it does not leak in. 0 for fewer than three points.
+double band_power(std::span<const TrackPoint> track, double from_hz, double to_hz);
+
+}  // namespace armature

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "follow_monitor.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <span>
+
+#include "band_power.hpp"
+
+namespace armature {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kTremorFrom_hz = 8, kTremorTo_hz = 12;
+
+bool before(const TrackPoint& point, double t) { return point.t < t; }
+
+/// The points from `from` on, before `to`.
+std::span<const TrackPoint> between(const Track& track, double from, double to) {
+  const auto first = std::lower_bound(track.begin(), track.end(), from, before);
+  const auto last = std::lower_bound(first, track.end(), to, before);
+  return {first, last};
+}
+
+/// Between the two points next to `t`; none outside the track.
+std::optional<Vector3d> position_at(const Track& track, double t) {
+  const auto next = std::lower_bound(track.begin(), track.end(), t, before);
+  if (next == track.end() || (next == track.begin() && t < next->t)) return std::nullopt;
+  if (next->t == t) return next->position;
+  const auto last = std::prev(next);
+  const double share = (t - last->t) / (next->t - last->t);
+  return last->position + share * (next->position - last->position);
+}
+
+void subtract_mean(std::vector<Vector3d>& values) {
+  Vector3d mean = Vector3d::Zero();
+  for (const Vector3d& value : values) mean += value / static_cast<double>(values.size());
+  for (Vector3d& value : values) value -= mean;
+}
+
+void keep_largest(std::optional<double>& kept, double value) {
+  kept = std::max(kept.value_or(0), value);
+}
+
+}  // namespace
+
+void FollowMonitor::see_clutch(bool closed, double t) {
+  const bool was_closed = !clutch_.empty() && clutch_.back().closed;
+  if (closed != was_closed) clutch_.push_back({closed, t});
+}
+
+std::vector<FollowMonitor::Stretch> FollowMonitor::stretches(bool closed) const {
+  std::vector<Stretch> found;
+  if (slave_.empty()) return found;
+  for (std::size_t i = 0; i < clutch_.size(); ++i) {
+    if (clutch_[i].closed != closed) continue;
+    const bool last = i + 1 == clutch_.size();
+    found.push_back({clutch_[i].t, last ? slave_.back().t : clutch_[i + 1].t});
+  }
+  return found;
+}
+
+std::optional<FollowMonitor::Following> FollowMonitor::following() const {
+  constexpr double kStep = 1e-3;  // [s] of the difference quotient
+  double squares = 0, along = 0, rates = 0, count = 0;
+  Following result;
+  for (const Stretch& stretch : stretches(true)) {
+    std::vector<Vector3d> off, rate;
+    for (const TrackPoint& point :
+         between(slave_, stretch.from + settings_.settles_s, stretch.to)) {
+      const double t = point.t - settings_.lag_s;
+      const auto meant = position_at(intended_, t), next = position_at(intended_, t + kStep);
+      if (!meant || !next) continue;
+      off.push_back(point.position - settings_.scale * *meant);
+      rate.push_back(settings_.scale * (*next - *meant) / kStep);
+    }
+    subtract_mean(off);
+    subtract_mean(rate);
+    for (std::size_t i = 0; i < off.size(); ++i) {
+      squares += off[i].squaredNorm();
+      along += off[i].dot(rate[i]);
+      rates += rate[i].squaredNorm();
+      result.worst_m = std::max(result.worst_m, off[i].norm());
+    }
+    count += static_cast<double>(off.size());
+  }
+  if (count == 0) return std::nullopt;
+  result.rms_m = std::sqrt(squares / count);
+  // off grows by rate for every second that the way is taken later: least squares in that.
+  result.lag_s = settings_.lag_s - (rates > 0 ? along / rates : 0);
+  return result;
+}
+
+std::optional<FollowMonitor::Tremor> FollowMonitor::tremor() const {
+  double hand = 0, slave = 0, duration = 0;
+  for (const Stretch& stretch : stretches(true)) {
+    const double from = stretch.from + settings_.settles_s, lasts = stretch.to - from;
+    if (lasts <= 0) continue;
+    hand += lasts * band_power(between(hand_, from, stretch.to), kTremorFrom_hz, kTremorTo_hz);
+    slave += lasts * band_power(between(slave_, from, stretch.to), kTremorFrom_hz, kTremorTo_hz);
+    duration += lasts;
+  }
+  if (!(hand > 0)) return std::nullopt;
+  return Tremor{.hand_m = std::sqrt(hand / duration),
+                .slave_m = std::sqrt(slave / duration),
+                .left_db = 10 * std::log10(slave / (settings_.scale * settings_.scale * hand))};
+}
+
+std::optional<double> FollowMonitor::open_motion_m() const {
+  std::optional<double> farthest;
+  for (const Stretch& stretch : stretches(false)) {
+    const auto stands = between(slave_, stretch.from + settings_.stops_s, stretch.to);
+    for (const TrackPoint& point : stands) {
+      keep_largest(farthest, (point.position - stands.front().position).norm());
+    }
+  }
+  return farthest;
+}
+
+std::optional<double> FollowMonitor::stopping_m() const {
+  std::optional<double> farthest;
+  for (const Stretch& stretch : stretches(false)) {
+    const double stands = std::min(stretch.from + settings_.stops_s, stretch.to);
+    const auto stopping = between(slave_, stretch.from, stands);
+    if (stopping.empty()) continue;
+    keep_largest(farthest, (stopping.back().position - stopping.front().position).norm());
+  }
+  return farthest;
+}
+
+std::optional<double> FollowMonitor::closing_step_m() const {
+  std::optional<double> longest;
+  for (const Stretch& stretch : stretches(true)) {
+    const auto closing = between(slave_, stretch.from, stretch.from + settings_.closes_s);
+    for (std::size_t i = 1; i < closing.size(); ++i) {
+      keep_largest(longest, (closing[i].position - closing[i - 1].position).norm());
+    }
+  }
+  return longest;
+}
+
+std::optional<double> FollowMonitor::top_speed_m_s() const {
+  std::optional<double> fastest;
+  for (std::size_t i = 1; i < slave_.size(); ++i) {
+    const TrackPoint &a = slave_[i - 1], &b = slave_[i];
+    if (b.t > a.t) keep_largest(fastest, (b.position - a.position).norm() / (b.t - a.t));
+  }
+  return fastest;
+}
+
+}  // namespace armature

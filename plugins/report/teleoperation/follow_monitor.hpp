@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "track.hpp"
+
+namespace armature {
+
+struct FollowSettings {
+  double scale = 0.5;      // of the hand's way
+  double lag_s = 0;        // by which the slave shall come later
+  double settles_s = 0.5;  // after the clutch has closed, before the following is judged
+  double stops_s = 0.1;    // after the clutch has opened, until the slave must stand
+  double closes_s = 0.05;  // after it has closed: no jump in this time
+};
+
+/// Watches a slave that follows a hand; the slave's points are told along the master's axes, from
+/// any origin. Times in [s].
+class FollowMonitor {
+ public:
+  explicit FollowMonitor(const FollowSettings& settings) : settings_{settings} {}
+
+  /// Where the hand means to be, where it is, and where the slave's tip is.
+  void see_intended(const TrackPoint& point) { intended_.push_back(point); }
+  void see_hand(const TrackPoint& point) { hand_.push_back(point); }
+  void see_slave(const TrackPoint& point) { slave_.push_back(point); }
+  /// Every change; open before the first.
+  void see_clutch(bool closed, double t);
+
+  /// Of the slave from the intended way, scaled, that much later. Where either began plays no part
+  /// (the clutch), so the mean of each stretch is taken off.
+  struct Following {
+    double rms_m = 0, worst_m = 0;
+    double lag_s = 0;  // with which the rms would be least
+  };
+  std::optional<Following> following() const;
+
+  /// What the hand's tremor is, and what the slave has of it; rms [m].
+  struct Tremor {
+    double hand_m = 0, slave_m = 0;
+    double left_db = 0;  // the slave's, over scale times the hand's
+  };
+  std::optional<Tremor> tremor() const;
+
+  /// The farthest that the slave went while the clutch was open, once it stood.
+  std::optional<double> open_motion_m() const;
+  /// How far it went until then.
+  std::optional<double> stopping_m() const;
+  /// The longest step of the slave, from one point to the next, as the clutch closes.
+  std::optional<double> closing_step_m() const;
+  std::optional<double> top_speed_m_s() const;
+
+ private:
+  struct Stretch {
+    double from, to;
+  };
+  /// With the clutch closed, or open after it was closed, up to the last point of the slave.
+  std::vector<Stretch> stretches(bool closed) const;
+
+  FollowSettings settings_;
+  Track intended_, hand_, slave_;
+  struct ClutchChange {
+    bool closed;
+    double t;
+  };
+  std::vector<ClutchChange> clutch_;
+};
+
+}  // namespace armature

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+// How well a slave follows: 1. how far off and how late, 2. tremor, 3. the clutch, 4. speed.
+#include "follow_monitor.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+namespace armature {
+namespace {
+
+using Eigen::Vector3d;
+using Way = std::function<Vector3d(double)>;
+
+constexpr double kSample = 0.001;  // [s]
+
+Vector3d curve(double t) {
+  return {0.02 * std::sin(1.5 * t), 0.01 * std::cos(1.5 * t), 0.01 * std::sin(3 * t)};
+}
+Vector3d shaking(double t, double amplitude) {
+  return {amplitude * std::sin(2 * M_PI * 10 * t), 0, 0};
+}
+
+/// From 0 to `end` s, the clutch closed from 1 s to 5 s and from 7 s on.
+FollowMonitor watched(const Way& intended, const Way& hand, const Way& slave, double end = 11,
+                      const FollowSettings& settings = {.scale = 0.5, .lag_s = 0.05}) {
+  FollowMonitor monitor{settings};
+  for (int k = 0; k * kSample < end; ++k) {
+    const double t = k * kSample;
+    monitor.see_intended({t, intended(t)});
+    monitor.see_hand({t, hand(t)});
+    monitor.see_slave({t, slave(t)});
+    monitor.see_clutch((t >= 1 && t < 5) || t >= 7, t);
+  }
+  return monitor;
+}
+
+TEST(FollowMonitor, TellsNothingOfASlaveThatNeverFollowed) {
+  const FollowMonitor monitor{{}};
+  EXPECT_FALSE(monitor.following());
+  EXPECT_FALSE(monitor.tremor());
+  EXPECT_FALSE(monitor.open_motion_m());
+  EXPECT_FALSE(monitor.stopping_m());
+  EXPECT_FALSE(monitor.closing_step_m());
+  EXPECT_FALSE(monitor.top_speed_m_s());
+}
+
+TEST(FollowMonitor, ASlaveThatFollowsAsStatedIsNowhereOffWhereverItBegan) {
+  const auto monitor = watched(curve, curve, [](double t) {
+    const Vector3d began = t < 6 ? Vector3d{1, 2, 3} : Vector3d{1, 2, 3.1};
+    return Vector3d{began + 0.5 * curve(t - 0.05)};
+  });
+  EXPECT_LT(monitor.following()->rms_m, 1e-8);
+  EXPECT_LT(monitor.following()->worst_m, 1e-8);
+  EXPECT_NEAR(monitor.following()->lag_s, 0.05, 1e-6);
+}
+
+TEST(FollowMonitor, TellsHowFarOffItIs) {
+  const auto monitor = watched(curve, curve, [](double t) {
+    return Vector3d{0.5 * curve(t - 0.05) + Vector3d{0, 0, 1e-4 * std::sqrt(2) * std::sin(80 * t)}};
+  });
+  EXPECT_NEAR(monitor.following()->rms_m, 1e-4, 1e-6);
+  EXPECT_NEAR(monitor.following()->worst_m, 1.414e-4, 2e-6);
+}
+
+TEST(FollowMonitor, TellsHowLateItComesInTruth) {
+  const auto monitor =
+      watched(curve, curve, [](double t) { return Vector3d{0.5 * curve(t - 0.053)}; });
+  EXPECT_NEAR(monitor.following()->lag_s, 0.053, 1e-5);
+  EXPECT_GT(monitor.following()->rms_m, 3e-5);
+}
+
+TEST(FollowMonitor, ComparesTheTremorOfBothScaled) {
+  const auto monitor = watched(
+      curve, [](double t) { return Vector3d{curve(t) + shaking(t, 2e-4)}; },
+      [](double t) { return Vector3d{0.5 * curve(t - 0.05) + shaking(t, 1e-5)}; });
+  const auto tremor = monitor.tremor();
+  ASSERT_TRUE(tremor);
+  EXPECT_NEAR(tremor->hand_m, 2e-4 / std::sqrt(2), 1e-6);
+  EXPECT_NEAR(tremor->slave_m, 1e-5 / std::sqrt(2), 1e-7);
+  EXPECT_NEAR(tremor->left_db, -20, 0.05) << "0.1 of half of it";
+}
+
+TEST(FollowMonitor, TellsWhatTheSlaveDoesWithTheClutchOpen) {
+  const Way standing = [](double) { return Vector3d{0, 0, 0}; };
+  const auto monitor = watched(curve, curve, [](double t) {
+    const double rolls_out = std::min(std::max(t - 5, 0.0), 0.06);
+    return Vector3d{0.02 * rolls_out, 0, t > 6 && t < 6.2 ? 0.003 : 0};
+  });
+  EXPECT_NEAR(*monitor.stopping_m(), 0.0012, 1e-9);
+  EXPECT_NEAR(*monitor.open_motion_m(), 0.003, 1e-12);
+  EXPECT_EQ(*watched(curve, curve, standing).open_motion_m(), 0);
+}
+
+TEST(FollowMonitor, SeesAJumpWhenTheClutchCloses) {
+  const auto monitor = watched(curve, curve, [](double t) {
+    return Vector3d{t >= 7.01 ? 0.002 : 0, 0.01 * t, 0};
+  });
+  EXPECT_NEAR(*monitor.closing_step_m(), std::hypot(0.002, 1e-5), 1e-9);
+  const auto later = watched(curve, curve, [](double t) {
+    return Vector3d{t >= 8 ? 0.002 : 0, 0.01 * t, 0};
+  });
+  EXPECT_NEAR(*later.closing_step_m(), 1e-5, 1e-9);
+}
+
+TEST(FollowMonitor, TellsTheTopSpeedOfTheWholeRun) {
+  const auto monitor = watched(curve, curve, [](double t) {
+    return Vector3d{0, 0.05 * std::min(t, 0.5), 0};
+  });
+  EXPECT_NEAR(*monitor.top_speed_m_s(), 0.05, 1e-9);
+}
+
+}  // namespace
+}  // namespace armature

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <numbers>
+#include <optional>
+#include <string>
+
+#include "alignment_monitor.hpp"
+#include "armature/kinds/pose_in_base.hpp"
+#include "armature/kinds/setup_robot.hpp"
+#include "armature/messages/armature_msgs.hpp"
+#include "armature/messages/sensor_msgs.hpp"
+#include "armature/runtime/component.hpp"
+#include "armature/runtime/plugin.hpp"
+#include "armature/runtime/setup.hpp"
+#include "follow_monitor.hpp"
+
+namespace armature {
+namespace {
+
+constexpr Duration kPeriod = seconds(0.02);
+constexpr double kDegrees = 180 / std::numbers::pi;
+
+FollowSettings settings_of(const Params& params) {
+  return {.scale = params.number("scale"), .lag_s = 1e-3 * params.number("lag_ms")};
+}
+
+}  // namespace
+
+class TeleoperationReport final : public Component {
+ public:
+  explicit TeleoperationReport(Setup& setup)
+      : Component{setup},
+        master_{robot_of(setup)},
+        peak_speeds_{setup.params().numbers("peak_speeds")},
+        watch_for_{seconds(setup.params().number("watch_s"))},
+        held_for_{seconds(setup.params().number("held_for_s"))},
+        follow_{settings_of(setup.params())},
+        console_{setup.input<msg::TransformStamped>("console")},
+        master_js_{setup.input<msg::JointState>("master_js")},
+        master_cp_{setup.input<msg::PoseStamped>("master_cp")},
+        slave_cp_{setup.input<msg::PoseStamped>("slave_cp")},
+        intended_cp_{setup.input<msg::PoseStamped>("intended_cp")},
+        task_state_{setup.input<msg::TaskState>("task_state")} {
+    setup.activate_every(kPeriod);
+    if (!peak_speeds_.empty() && static_cast<int>(peak_speeds_.size()) != master_.dof()) {
+      throw SetupError("peak_speeds has " + std::to_string(peak_speeds_.size()) +
+                       " numbers; robot " + master_.name() + " has " +
+                       std::to_string(master_.dof()) + " joints");
+    }
+  }
+
+  void step(Time now) override {
+    if (!start_) start_ = now;
+    complaint_.clear();
+    for (std::size_t i = 0; i < task_state_.size(); ++i) read(task_state_[i]);
+    if (console_.latest()) read(*console_.latest());
+    for (std::size_t i = 0; i < master_js_.size(); ++i) read_rates(master_js_[i]);
+    for (std::size_t i = 0; i < master_cp_.size(); ++i) read_master(master_cp_[i]);
+    for (std::size_t i = 0; i < slave_cp_.size(); ++i) read_slave(slave_cp_[i]);
+    for (std::size_t i = 0; i < intended_cp_.size(); ++i) {
+      read_intended(intended_cp_[i]);
+    }
+    show_health();
+    const bool watched = closed_at_ && now - *closed_at_ >= watch_for_;
+    held_ = held_since_ && now - *held_since_ >= held_for_;
+    finished_ = refused_ || held_ || watched;
+  }
+
+  bool finished() const override { return finished_; }
+
+  void summarize(Summary& summary) const override {
+    if (refused_) summary.failed("refused");
+    if (held_) summary.failed("held");
+    const auto metric = [&](const char* key, const char* title, std::optional<double> value,
+                            double unit = 1) {
+      if (value) summary.metric(key, title, *value * unit);
+    };
+    if (aligned_at_) {
+      metric("time_to_align_s", "time to align [s]", to_seconds(*aligned_at_ - *start_));
+      if (const auto& off = alignment_error_) {
+        metric("alignment_error_mm", "master off the instrument [mm]", off->position_m, 1e3);
+        metric("alignment_error_deg", "its rotation [deg]", off->angle_rad, kDegrees);
+      }
+      metric("peak_speed_error_percent", "peak joint speeds off the reference [%]",
+             alignment_.peak_speed_error(peak_speeds_), 100);
+    }
+    if (const auto following = follow_.following()) {
+      metric("tracking_error_mm", "slave off the hand, later, rms [mm]", following->rms_m, 1e3);
+      metric("tracking_worst_mm", "the largest [mm]", following->worst_m, 1e3);
+      metric("measured_lag_ms", "best lag [ms]", following->lag_s, 1e3);
+    }
+    if (const auto tremor = follow_.tremor()) {
+      metric("hand_tremor_mm", "tremor of the hand, rms [mm]", tremor->hand_m, 1e3);
+      metric("slave_tremor_mm", "tremor of the slave's tip, rms [mm]", tremor->slave_m, 1e3);
+      metric("tremor_db", "what is left of it, scaled [dB]", tremor->left_db);
+    }
+    metric("tip_speed_mm_s", "top speed of the slave's tip [mm/s]", follow_.top_speed_m_s(), 1e3);
+    metric("stopping_mm", "stops after the clutch opens within [mm]", follow_.stopping_m(), 1e3);
+    metric("clutch_motion_mm", "moves with the clutch open [mm]", follow_.open_motion_m(), 1e3);
+    metric("closing_step_mm", "longest step when it closes [mm]", follow_.closing_step_m(), 1e3);
+  }
+
+ private:
+  void complain(const std::string& what) { complaint_ = what; }
+  void show_health() {
+    if (complaint_.empty()) {
+      healthy();
+    } else {
+      degraded(complaint_);
+    }
+  }
+
+  double since_start(const msg::Header& header) const {
+    return to_seconds(stamp_of(header.stamp_()) - *start_);
+  }
+  /// Before the task's word the master moves by itself, afterwards in the hand.
+  bool is_aligning(const msg::Header& header) const {
+    return !aligned_at_ || stamp_of(header.stamp_()) <= *aligned_at_;
+  }
+
+  void read(const msg::TaskState& state) {
+    const std::string& phase = state.state_();
+    const Time at = stamp_of(state.header_().stamp_());
+    const bool closed = phase == "teleoperating";
+    follow_.see_clutch(closed, since_start(state.header_()));
+    if (phase == "aligned" && !aligned_at_) aligned_at_ = at;
+    if (closed && !closed_at_) closed_at_ = at;
+    if (phase != "held") held_since_.reset();
+    if (phase == "held" && !held_since_) held_since_ = at;
+    refused_ = phase == "refused";
+  }
+
+  void read(const msg::TransformStamped& console) {
+    const auto pose = pose_in_base(console, "the console");
+    if (!pose) return complain(pose.error().text);
+    slave_T_master_ = *pose;
+  }
+
+  void read_rates(const msg::JointState& state) {
+    if (!is_aligning(state.header_())) return;
+    const auto v = master_.contract_rates(state.velocity_());
+    if (!v) return complain("master_js: " + v.error().text);
+    alignment_.see_rates(*v);
+  }
+
+  void read_master(const msg::PoseStamped& message) {
+    const auto pose = pose_in_base(message, "the master");
+    if (!pose) return complain(pose.error().text);
+    if (is_aligning(message.header_())) alignment_.see_master(*pose);
+    follow_.see_hand({since_start(message.header_()), pose->translation()});
+  }
+
+  void read_intended(const msg::PoseStamped& message) {
+    const auto pose = pose_in_base(message, "the intended pose");
+    if (!pose) return complain(pose.error().text);
+    follow_.see_intended({since_start(message.header_()), pose->translation()});
+  }
+
+  void read_slave(const msg::PoseStamped& message) {
+    const auto pose = pose_in_base(message, "the slave's tool");
+    if (!pose) return complain(pose.error().text);
+    if (!slave_T_master_) return;
+    if (is_aligning(message.header_())) {
+      alignment_error_ = alignment_.error(*slave_T_master_, *pose);
+    }
+    const Eigen::Matrix3d master_R_slave = slave_T_master_->linear().transpose();
+    follow_.see_slave({since_start(message.header_()), master_R_slave * pose->translation()});
+  }
+
+  RobotModel master_;
+  std::vector<double> peak_speeds_;
+  Duration watch_for_, held_for_;
+  AlignmentMonitor alignment_;
+  FollowMonitor follow_;
+  std::optional<PoseResidual> alignment_error_;
+  std::optional<Eigen::Isometry3d> slave_T_master_;
+  std::optional<Time> start_, aligned_at_, closed_at_, held_since_;
+  std::string complaint_;
+  bool refused_ = false, held_ = false, finished_ = false;
+  Input<msg::TransformStamped> console_;
+  Input<msg::JointState> master_js_;
+  Input<msg::PoseStamped> master_cp_, slave_cp_, intended_cp_;
+  Input<msg::TaskState> task_state_;
+};
+
+}  // namespace armature
+
+ARMATURE_PLUGIN(armature::TeleoperationReport);

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+// The report of a teleoperation on its topics: 1. the figures, 2. when the story ends, 3. what it
+// refuses.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+#include "armature/kinds/joint_messages.hpp"
+#include "armature/messages/armature_msgs.hpp"
+#include "armature/messages/geometry.hpp"
+#include "armature/messages/header.hpp"
+#include "armature/runtime/component_bench.hpp"
+
+namespace armature {
+namespace {
+
+using Eigen::Vector3d;
+
+const std::string kMasterFile = ARMATURE_SOURCE_DIR "/configs/robots/master.yaml";
+
+PluginRegistry& plugins() {
+  static PluginRegistry registry{{ARMATURE_PLUGIN_BUILD_DIR}};
+  return registry;
+}
+
+class Figures final : public Summary {
+ public:
+  void metric(std::string key, std::string, double value) override { metrics[key] = value; }
+  void text(std::string, std::string, std::string) override {}
+  void failed(std::string why) override { status = why; }
+
+  std::map<std::string, double> metrics;
+  std::string status;
+};
+
+ComponentBench::Options report_with(const std::string& params) {
+  return {.component = "{plugin: report/teleoperation, params: {" + params + "}}",
+          .robot = config::load(kMasterFile),
+          .rig = {}};
+}
+
+class TeleoperationReportTest : public testing::Test {
+ protected:
+  TeleoperationReportTest() {
+    msg::TransformStamped console;
+    write_header(console.header_(), Time{}, kBaseFrame);
+    assign(console.transform_(), slave_T_master_);
+    report_.send("console", console);
+  }
+  /// One millisecond of both arms and the hand; the report wakes up every 20.
+  void sample(const Vector3d& hand, const Vector3d& intended, const Vector3d& slave_in_master) {
+    ++sample_;
+    const Time now = Time{} + sample_ * seconds(0.001);
+    const auto tell = [&](const char* input, const Vector3d& position) {
+      msg::PoseStamped pose;
+      write_header(pose.header_(), now, kBaseFrame);
+      assign(pose.pose_(), Eigen::Isometry3d{Eigen::Translation3d{position}});
+      pose.pose_().orientation_().w_(1);
+      report_.send(input, pose);
+    };
+    tell("master_cp", hand);
+    tell("intended_cp", intended);
+    tell("slave_cp", slave_T_master_ * slave_in_master);
+    msg::JointState joints;
+    write_all_joints(master_, JointVector::Zero(6), JointVector::Constant(6, 0.1), now, joints);
+    report_.send("master_js", joints);
+    if (sample_ % 20 == 0) report_.step(0.001 * sample_);
+  }
+  void tell(const std::string& state) {
+    msg::TaskState message;
+    write_header(message.header_(), Time{} + sample_ * seconds(0.001));
+    message.state_() = state;
+    report_.send("task_state", message);
+  }
+  static Vector3d hand_at(double t) { return {0.02 * std::sin(2 * t), 0, 0.01 * std::cos(2 * t)}; }
+  void teleoperate(int samples) {
+    for (int i = 0; i < samples; ++i) {
+      const double t = 0.001 * sample_ + 0.001;
+      sample(hand_at(t), hand_at(t), 0.5 * hand_at(t - 0.04));
+    }
+  }
+  Figures figures() {
+    Figures figures;
+    report_.component().summarize(figures);
+    return figures;
+  }
+
+  const RobotModel master_ = load_robot_model(kMasterFile);
+  // A pure move, so that the rotations of hand and tool, which stay, are equal.
+  const Eigen::Isometry3d slave_T_master_{Eigen::Translation3d{0.6, -0.1, 0.1}};
+  ComponentBench report_{plugins(), report_with("peak_speeds: [0.1, 0.1, 0.1, 0.1, 0.1, 0.08], "
+                                                "lag_ms: 40, watch_s: 3")};
+  int sample_ = 0;
+};
+
+TEST_F(TeleoperationReportTest, TellsTheAlignmentAtTheTasksWord) {
+  tell("aligning");
+  for (int i = 0; i < 40; ++i) sample({0.1, 0, 0}, {0, 0, 0}, {0.1002, 0, 0});
+  EXPECT_FALSE(figures().metrics.contains("alignment_error_mm")) << "it is not there yet";
+  tell("aligned");
+  for (int i = 0; i < 40; ++i) sample({0.2, 0, 0}, {0, 0, 0}, {0.1, 0, 0});  // in the hand
+  auto told = figures().metrics;
+  EXPECT_NEAR(told.at("time_to_align_s"), 0.02, 1e-9);
+  EXPECT_NEAR(told.at("alignment_error_mm"), 0.2, 1e-9);
+  EXPECT_NEAR(told.at("alignment_error_deg"), 0, 1e-9);
+  EXPECT_NEAR(told.at("peak_speed_error_percent"), 25, 1e-9);
+  EXPECT_FALSE(told.contains("tracking_error_mm"));
+}
+
+TEST_F(TeleoperationReportTest, TellsHowTheSlaveFollowsAndEnds) {
+  teleoperate(100);
+  tell("aligned");
+  teleoperate(100);
+  tell("teleoperating");
+  teleoperate(2900);
+  EXPECT_FALSE(report_.component().finished());
+  teleoperate(200);
+  EXPECT_TRUE(report_.component().finished());
+  auto told = figures();
+  EXPECT_EQ(told.status, "");
+  EXPECT_LT(told.metrics.at("tracking_error_mm"), 1e-4);
+  EXPECT_NEAR(told.metrics.at("measured_lag_ms"), 40, 1e-3);
+  EXPECT_NEAR(told.metrics.at("tip_speed_mm_s"), 20, 1e-2);
+  EXPECT_LT(told.metrics.at("closing_step_mm"), 0.021);
+  EXPECT_FALSE(told.metrics.contains("clutch_motion_mm")) << "it was not opened";
+}
+
+TEST_F(TeleoperationReportTest, TellsWhatHappensWithTheClutchOpen) {
+  tell("teleoperating");
+  teleoperate(1000);
+  tell("clutch open");
+  for (int i = 0; i < 500; ++i) sample({0, 0, 0}, {0, 0, 0}, {i < 300 ? 0.0 : 0.004, 0, 0});
+  EXPECT_NEAR(figures().metrics.at("clutch_motion_mm"), 4, 1e-9);
+}
+
+TEST_F(TeleoperationReportTest, ASlaveThatIsHeldForLongOrARefusalEndsTheRun) {
+  tell("teleoperating");
+  teleoperate(500);
+  tell("held");
+  teleoperate(980);
+  EXPECT_FALSE(report_.component().finished());
+  tell("teleoperating");
+  teleoperate(20);
+  tell("held");
+  teleoperate(1040);
+  EXPECT_TRUE(report_.component().finished());
+  EXPECT_EQ(figures().status, "held");
+
+  tell("refused");
+  teleoperate(20);
+  EXPECT_TRUE(report_.component().finished());
+}
+
+TEST_F(TeleoperationReportTest, ASampleThatIsNoneIsSaid) {
+  msg::JointState state;
+  state.velocity_() = {1, 2};
+  report_.send("master_js", state);
+  report_.step(1);
+  EXPECT_EQ(report_.status().reason, "master_js: 2 joint values; master has 6 joints");
+  report_.send("slave_cp", msg::PoseStamped{});
+  report_.step(2);
+  EXPECT_EQ(report_.status().reason, "the slave's tool is stated in frame '', not in 'base'");
+}
+
+TEST(TeleoperationReport, RefusesSpeedsThatAreNotTheRobots) {
+  try {
+    ComponentBench report{plugins(), report_with("peak_speeds: [1, 2]")};
+    ADD_FAILURE() << "it was made";
+  } catch (const SetupError& error) {
+    EXPECT_STREQ(error.what(), "peak_speeds has 2 numbers; robot master has 6 joints");
+  }
+}
+
+}  // namespace
+}  // namespace armature

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <optional>
+
+#include "armature/kinds/joint_messages.hpp"
+#include "armature/kinds/setup_robot.hpp"
+#include "armature/messages/armature_msgs.hpp"
+#include "armature/messages/geometry.hpp"
+#include "armature/messages/header.hpp"
+#include "armature/robot/kinematics.hpp"
+#include "armature/robot/rotation.hpp"
+#include "armature/runtime/component.hpp"
+#include "armature/runtime/plugin.hpp"
+#include "armature/runtime/setup.hpp"
+#include "hand_motion.hpp"
+#include "held_arm.hpp"
+
+namespace armature {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr Duration kPeriod = seconds(0.001);
+constexpr const char* kMasterFrame = "master_base";
+
+Vector3d vector_of(const Params& params, const char* name) {
+  const auto values = params.numbers(name);
+  return {values[0], values[1], values[2]};
+}
+
+HandMotionSettings settings_of(const Params& params) {
+  return {.curve = vector_of(params, "curve_mm"),
+          .curve_hz = params.number("curve_hz"),
+          .turn = params.number("turn_deg"),
+          .tremor = params.number("tremor_mm"),
+          .ease_s = params.number("ease_s"),
+          .clutch_closes_s = params.number("clutch_closes_s"),
+          .clutch_opens_s = params.number("clutch_opens_s"),
+          .clutch_open_for_s = params.number("clutch_open_for_s"),
+          .shift = vector_of(params, "shift_mm")};
+}
+
+Eigen::Isometry3d console_of(const Params& params) {
+  return Eigen::Translation3d{vector_of(params, "console_mm")} *
+         Eigen::Isometry3d{rotation_from_rpy(vector_of(params, "console_rpy_deg"))};
+}
+
+}  // namespace
+
+class Surgeon final : public Component {
+ public:
+  explicit Surgeon(Setup& setup)
+      : Component{setup},
+        robot_{robot_of(setup)},
+        hand_{settings_of(setup.params()), setup.seed()},
+        slave_T_master_{console_of(setup.params())},
+        silent_after_s_{setup.params().number("silent_after_s")},
+        task_state_{setup.input<msg::TaskState>("task_state")},
+        measured_js_{setup.input<msg::JointState>("measured_js")},
+        console_{setup.output<msg::TransformStamped>("console")},
+        hand_js_{setup.output<msg::JointState>("hand_js")},
+        clutch_{setup.output<msg::Bool>("clutch")},
+        intended_cp_{setup.output<msg::PoseStamped>("intended_cp")} {
+    setup.activate_every(kPeriod);
+  }
+
+  void step(Time now) override {
+    if (!console_told_) tell_console(now);
+    if (!taken_at_) take_hold(now);
+    if (!taken_at_) return;
+    const double t = to_seconds(now - *taken_at_);
+    if (silent_after_s_ > 0 && t >= silent_after_s_) return;
+    move(t, now);
+    auto clutch = clutch_.loan();
+    clutch->data_(hand_.clutch_closed(t));
+    clutch.publish();
+    auto intended = intended_cp_.loan();
+    write_header(intended->header_(), now, kBaseFrame);
+    assign(intended->pose_(), hand_.intended(t, start_));
+    intended.publish();
+  }
+
+ private:
+  void tell_console(Time now) {
+    console_told_ = true;
+    auto loan = console_.loan();
+    write_header(loan->header_(), now, kBaseFrame);
+    loan->child_frame_id_(kMasterFrame);
+    assign(loan->transform_(), slave_T_master_);
+    loan.publish();
+  }
+
+  void take_hold(Time now) {
+    if (!task_state_.latest() || task_state_.latest()->state_() != "aligned") return;
+    if (!measured_js_.latest()) return;
+    const auto q = robot_.contract(measured_js_.latest()->position_());
+    if (!q) return degraded("measured_js: " + q.error().text);
+    q_ = *q;
+    start_ = forward_kinematics(robot_, q_);
+    taken_at_ = moved_at_ = now;
+  }
+
+  /// A hand that the master cannot follow stays where the master is.
+  void move(double t, Time now) {
+    const Eigen::Isometry3d pose = hand_.actual(t, start_);
+    const auto q =
+        joints_of_held_arm(robot_, {pose.translation(), Eigen::Quaterniond{pose.linear()}}, q_);
+    if (q) {
+      healthy();
+    } else {
+      degraded("the hand stops: " + q.error().text);
+    }
+    const JointVector next = q.value_or(q_);
+    const double dt = to_seconds(now - moved_at_);
+    auto loan = hand_js_.loan();
+    write_all_joints(robot_, next, JointVector{(next - q_) / (dt > 0 ? dt : 1)}, now, *loan);
+    loan.publish();
+    q_ = next;
+    moved_at_ = now;
+  }
+
+  RobotModel robot_;
+  HandMotion hand_;
+  Eigen::Isometry3d slave_T_master_;
+  double silent_after_s_;
+  bool console_told_ = false;
+  std::optional<Time> taken_at_;
+  Time moved_at_;
+  Eigen::Isometry3d start_ = Eigen::Isometry3d::Identity();  // master_T_hand when it took hold
+  JointVector q_;
+  Input<msg::TaskState> task_state_;
+  Input<msg::JointState> measured_js_;
+  Output<msg::TransformStamped> console_;
+  Output<msg::JointState> hand_js_;
+  Output<msg::Bool> clutch_;
+  Output<msg::PoseStamped> intended_cp_;
+};
+
+}  // namespace armature
+
+ARMATURE_PLUGIN(armature::Surgeon);

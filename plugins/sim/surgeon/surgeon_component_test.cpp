@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+// The simulated surgeon on its topics: 1. the console, told once, 2. the hand and the clutch, once
+// the master is aligned, 3. a hand that the master cannot follow, or that falls silent.
+#include <gtest/gtest.h>
+
+#include "armature/kinds/joint_messages.hpp"
+#include "armature/messages/armature_msgs.hpp"
+#include "armature/messages/geometry.hpp"
+#include "armature/messages/header.hpp"
+#include "armature/robot/kinematics.hpp"
+#include "armature/runtime/component_bench.hpp"
+
+namespace armature {
+namespace {
+
+const std::string kMaster = ARMATURE_SOURCE_DIR "/configs/robots/master.yaml";
+
+PluginRegistry& plugins() {
+  static PluginRegistry registry{{ARMATURE_PLUGIN_BUILD_DIR}};
+  return registry;
+}
+
+class SurgeonTest : public testing::Test {
+ protected:
+  void make(const std::string& params) {
+    bench_.emplace(plugins(), ComponentBench::Options{
+                                  .component = "{plugin: sim/surgeon, params: {" + params + "}}",
+                                  .robot = config::load(kMaster),
+                                  .rig = {}});
+  }
+  void align() {
+    msg::JointState state;
+    write_all_joints(master_, q_, JointVector::Zero(6), Time{}, state);
+    bench_->send("measured_js", state);
+    msg::TaskState task;
+    task.state_("aligned");
+    bench_->send("task_state", task);
+  }
+  void steps(int count) {
+    for (int i = 0; i < count; ++i) bench_->step(now_s_ += 0.001);
+  }
+  Eigen::Isometry3d hand_at(const msg::JointState& message) const {
+    return forward_kinematics(master_, master_.contract(message.position_()).value());
+  }
+
+  const RobotModel master_ = load_robot_model(kMaster);
+  const JointVector q_ = [] {
+    JointVector q(6);
+    q << 0.7898, 1.1733, 0.1666349, 0.4488, -0.3927, 0.5236;
+    return q;
+  }();
+  std::optional<ComponentBench> bench_;
+  double now_s_ = 7;
+};
+
+TEST_F(SurgeonTest, TellsOnceWhereTheConsoleStands) {
+  make("console_mm: [100, 200, 300], console_rpy_deg: [0, 0, 90]");
+  steps(3);
+  const auto told = bench_->take<msg::TransformStamped>("console");
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(told[0].header_().frame_id_(), "base");
+  EXPECT_EQ(told[0].child_frame_id_(), "master_base");
+  const Eigen::Vector3d x = to_eigen(told[0].transform_()) * Eigen::Vector3d{0.1, 0, 0};
+  EXPECT_LT((x - Eigen::Vector3d{0.1, 0.3, 0.3}).norm(), 1e-12);
+}
+
+TEST_F(SurgeonTest, TakesTheMasterWhenItIsAlignedAndNotBefore) {
+  make("tremor_mm: 0");
+  steps(10);
+  EXPECT_TRUE(bench_->take<msg::JointState>("hand_js").empty());
+  EXPECT_TRUE(bench_->take<msg::Bool>("clutch").empty());
+  align();
+  steps(1);
+  const auto hand = bench_->take<msg::JointState>("hand_js");
+  ASSERT_EQ(hand.size(), 1u);
+  EXPECT_LT((master_.contract(hand[0].position_()).value() - q_).norm(), 1e-12);
+  EXPECT_EQ(stamp_of(hand[0].header_().stamp_()), Time{} + seconds(now_s_));
+  EXPECT_FALSE(bench_->take<msg::Bool>("clutch").back().data_());
+  steps(500);
+  EXPECT_TRUE(bench_->take<msg::Bool>("clutch").back().data_());
+}
+
+TEST_F(SurgeonTest, TheMastersJointsAreThoseOfTheHandAndTheTruthHasNoTremor) {
+  make("tremor_mm: 0.1");
+  align();
+  steps(5000);
+  const auto hand = bench_->take<msg::JointState>("hand_js");
+  const auto intended = bench_->take<msg::PoseStamped>("intended_cp");
+  ASSERT_EQ(hand.size(), 5000u);
+  ASSERT_EQ(intended.size(), 5000u);
+  double squares = 0, farthest = 0;
+  for (std::size_t i = 1500; i < hand.size(); ++i) {
+    const Eigen::Isometry3d is = hand_at(hand[i]), meant = to_eigen(intended[i].pose_());
+    squares += (is.translation() - meant.translation()).squaredNorm();
+    farthest = std::max(farthest, (meant.translation() - hand_at(hand[0]).translation()).norm());
+    ASSERT_LT((is.linear() - meant.linear()).norm(), 1e-8);
+  }
+  EXPECT_NEAR(std::sqrt(squares / 3500), 1e-4, 1e-5);
+  EXPECT_GT(farthest, 0.025);
+  const auto& last = hand.back();
+  const auto& before = hand[hand.size() - 2];
+  EXPECT_NEAR(last.velocity_()[0], (last.position_()[0] - before.position_()[0]) / 0.001, 1e-6);
+}
+
+TEST_F(SurgeonTest, AHandThatTheMasterCannotFollowStops) {
+  make("curve_mm: [0, 200, 0], tremor_mm: 0, ease_s: 0");
+  align();
+  for (int i = 0; i < 600 && bench_->status().reason.empty(); ++i) steps(1);
+  EXPECT_EQ(bench_->status().reason, "the hand stops: joint j3 is at its limit");
+  const auto hand = bench_->take<msg::JointState>("hand_js");
+  EXPECT_GT(hand.size(), 50u);
+  for (const auto& state : hand) {
+    ASSERT_TRUE(master_.within_limits(master_.contract(state.position_()).value()));
+  }
+  EXPECT_EQ(hand.back().velocity_(), std::vector<double>(6, 0.0));
+}
+
+TEST_F(SurgeonTest, FallsSilentWhenTold) {
+  make("silent_after_s: 0.2");
+  align();
+  steps(500);
+  EXPECT_EQ(bench_->take<msg::JointState>("hand_js").size(), 200u);
+  EXPECT_EQ(bench_->take<msg::Bool>("clutch").size(), 200u);
+}
+
+TEST_F(SurgeonTest, AMasterStateThatIsNoneIsSaid) {
+  make("");
+  msg::JointState state;
+  state.position_() = {1, 2};
+  bench_->send("measured_js", state);
+  msg::TaskState task;
+  task.state_("aligned");
+  bench_->send("task_state", task);
+  steps(1);
+  EXPECT_EQ(bench_->status().reason, "measured_js: 2 joint values; master has 6 joints");
+  EXPECT_TRUE(bench_->take<msg::JointState>("hand_js").empty());
+}
+
+}  // namespace
+}  // namespace armature

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scaled_motion.hpp"
+
+#include <cmath>
+
+#include "armature/robot/quintic.hpp"
+#include "armature/robot/rotation_vector.hpp"
+
+namespace armature {
+namespace {
+
+/// `speed` up to four fifths of `limit`, from there on smoothly less and never more than it: a
+/// sharp corner would be overshot by the slave.
+double gently_limited(double speed, double limit) {
+  constexpr double kKnee = 0.8;
+  const double part = speed / limit;
+  if (part <= kKnee) return speed;
+  return limit * (kKnee + (1 - kKnee) * std::tanh((part - kKnee) / (1 - kKnee)));
+}
+
+}  // namespace
+
+void ScaledMotion::engage(const Eigen::Isometry3d& slave_T_tool,
+                          const Eigen::Isometry3d& master_T_hand,
+                          const Eigen::Matrix3d& slave_R_master) {
+  slave_R_master_ = slave_R_master;
+  hand_ = master_T_hand;
+  position_ = slave_T_tool.translation();
+  rotation_ = slave_T_tool.linear();
+  engaged_s_ = 0;
+}
+
+SlaveTarget ScaledMotion::follow(const Eigen::Isometry3d& master_T_hand) {
+  engaged_s_ += settings_.period_s;
+  const double engage = settings_.engage_s;
+  const double grip =
+      engaged_s_ < engage ? Quintic::between({0, 0, 0}, {1, 0, 0}, engage).position(engaged_s_) : 1;
+
+  const Eigen::Vector3d moved = master_T_hand.translation() - hand_.translation();
+  Eigen::Vector3d velocity =
+      grip * settings_.scale / settings_.period_s * (slave_R_master_ * moved);
+  const double speed = velocity.norm();
+  if (speed > 0) velocity *= gently_limited(speed, settings_.max_speed) / speed;
+  position_ += velocity * settings_.period_s;
+
+  const Eigen::Quaterniond turned{master_T_hand.linear() * hand_.linear().transpose()};
+  const Eigen::Vector3d turn = grip * (slave_R_master_ * rotation_vector_of(turned));
+  rotation_ = (rotation_of(turn) * rotation_).normalized();
+
+  hand_ = master_T_hand;
+  return {.pose = Eigen::Translation3d{position_} * rotation_,
+          .velocity = velocity,
+          .angular_velocity = turn / settings_.period_s};
+}
+
+}  // namespace armature

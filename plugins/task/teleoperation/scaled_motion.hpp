@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Geometry>
+
+namespace armature {
+
+struct ScaledMotionSettings {
+  double scale = 0.5;       // the slave's way as a part of the hand's
+  double engage_s = 0.3;    // from the clutch's closing to the full scale
+  double max_speed = 0.05;  // [m/s] of the slave's tip
+  double period_s = 0.001;  // between two poses of the hand
+};
+
+/// Where the slave's tool shall be, and how fast it moves [m/s] and turns [rad/s] there, in the
+/// slave's base frame.
+struct SlaveTarget {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
+  Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();
+};
+
+/// What the slave does while the clutch is closed: the hand's moves from there on, scaled, and its
+/// turns, not scaled, about the same axes in space. Where the hand was before plays no part, so
+/// closing the clutch moves nothing; the scale comes up smoothly. Of a hand that is too fast for
+/// the slave (from four fifths of its top speed on), what is beyond is lost, as with an open
+/// clutch: the slave never goes on when the hand stops. Real-time safe.
+class ScaledMotion {
+ public:
+  explicit ScaledMotion(const ScaledMotionSettings& settings) : settings_{settings} {}
+
+  /// The clutch closes with the slave and the hand there; `slave_R_master` turns what is told in
+  /// the master's base frame into the slave's.
+  void engage(const Eigen::Isometry3d& slave_T_tool, const Eigen::Isometry3d& master_T_hand,
+              const Eigen::Matrix3d& slave_R_master);
+  /// One period later.
+  SlaveTarget follow(const Eigen::Isometry3d& master_T_hand);
+
+ private:
+  ScaledMotionSettings settings_;
+  Eigen::Matrix3d slave_R_master_ = Eigen::Matrix3d::Identity();
+  Eigen::Isometry3d hand_ = Eigen::Isometry3d::Identity();
+  Eigen::Vector3d position_ = Eigen::Vector3d::Zero();
+  Eigen::Quaterniond rotation_ = Eigen::Quaterniond::Identity();
+  double engaged_s_ = 0;
+};
+
+}  // namespace armature

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+// The slave's moves from the hand's: 1. scaled and turned into its frame, 2. closing the clutch
+// moves nothing, 3. its speed.
+#include "scaled_motion.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+
+namespace armature {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kStep_s = 0.001;
+
+Eigen::Isometry3d turned_pose(const Vector3d& position, double angle, const Vector3d& axis) {
+  return Eigen::Translation3d{position} * Eigen::AngleAxisd{angle, axis.normalized()};
+}
+double angle_between(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
+  return Eigen::AngleAxisd{a.linear() * b.linear().transpose()}.angle();
+}
+
+class ScaledMotionTest : public testing::Test {
+ protected:
+  /// Engages at hand(0) and follows it for `duration`; every step is looked at.
+  SlaveTarget follow(const std::function<Eigen::Isometry3d(double)>& hand, double duration,
+                     ScaledMotionSettings settings = {.scale = 0.5, .engage_s = 0}) {
+    ScaledMotion motion{settings};
+    motion.engage(slave_, hand(0), turn_);
+    SlaveTarget last{.pose = slave_};
+    for (int k = 1; k * kStep_s < duration + kStep_s / 2; ++k) {
+      const SlaveTarget target = motion.follow(hand(k * kStep_s));
+      const Vector3d step = target.pose.translation() - last.pose.translation();
+      EXPECT_LT((step - kStep_s * target.velocity).norm(), 1e-15) << k;
+      const Eigen::AngleAxisd turned{target.pose.linear() * last.pose.linear().transpose()};
+      EXPECT_LT((turned.angle() * turned.axis() - kStep_s * target.angular_velocity).norm(), 1e-9);
+      fastest_ = std::max(fastest_, target.velocity.norm());
+      hardest_ = std::max(hardest_, (target.velocity - last.velocity).norm() / kStep_s);
+      last = target;
+    }
+    return last;
+  }
+
+  const Eigen::Isometry3d slave_ = turned_pose({0.5, 0.1, 0.2}, 1, {1, 2, 3});
+  const Eigen::Isometry3d hand_ = turned_pose({0.1, 0.1, 0.1}, 2, {-1, 0, 3});
+  const Eigen::Matrix3d turn_{Eigen::AngleAxisd{M_PI / 2, Vector3d::UnitZ()}};
+  double fastest_ = 0, hardest_ = 0;
+};
+
+TEST_F(ScaledMotionTest, TheSlaveGoesItsPartOfTheHandsWayInItsOwnFrame) {
+  const auto hand = [&](double t) {
+    Eigen::Isometry3d pose = hand_;
+    pose.translation() += Vector3d{0.02 * t, -0.01 * t, 0.03 * t};
+    return pose;
+  };
+  const SlaveTarget target = follow(hand, 1);
+  const Vector3d wanted = slave_.translation() + 0.5 * Vector3d{0.01, 0.02, 0.03};
+  EXPECT_LT((target.pose.translation() - wanted).norm(), 1e-12);
+  EXPECT_LT((target.velocity - 0.5 * Vector3d{0.01, 0.02, 0.03}).norm(), 1e-9);
+  EXPECT_LT(angle_between(target.pose, slave_), 1e-12);
+}
+
+TEST_F(ScaledMotionTest, TurnsAreAboutTheSameAxesInSpaceAndNotScaled) {
+  const auto hand = [&](double t) {
+    Eigen::Isometry3d pose = hand_;
+    pose.linear() = Eigen::AngleAxisd{0.4 * t, Vector3d::UnitX()} * hand_.linear();
+    return pose;
+  };
+  const SlaveTarget target = follow(hand, 1);
+  Eigen::Isometry3d wanted = slave_;
+  wanted.linear() = Eigen::AngleAxisd{0.4, Vector3d::UnitY()} * slave_.linear();
+  EXPECT_LT(angle_between(target.pose, wanted), 1e-9);
+  EXPECT_LT((target.angular_velocity - Vector3d{0, 0.4, 0}).norm(), 1e-9);
+  EXPECT_LT((target.pose.translation() - slave_.translation()).norm(), 1e-15);
+}
+
+TEST_F(ScaledMotionTest, ClosingTheClutchMovesNothingWhereverTheHandIs) {
+  const SlaveTarget target = follow([&](double) { return hand_; }, 0.1);
+  EXPECT_LT((target.pose.translation() - slave_.translation()).norm(), 1e-15);
+  EXPECT_LT(angle_between(target.pose, slave_), 1e-9);
+  EXPECT_EQ(fastest_, 0);
+}
+
+TEST_F(ScaledMotionTest, OnAMovingHandTheScaleComesUpSmoothly) {
+  const auto hand = [&](double t) {
+    Eigen::Isometry3d pose = hand_;
+    pose.translation().x() += 0.04 * t;
+    return pose;
+  };
+  const SlaveTarget target = follow(hand, 1, {.scale = 0.5, .engage_s = 0.3});
+  EXPECT_NEAR(target.velocity.norm(), 0.02, 1e-9);
+  EXPECT_LT(hardest_, 1.9 * 0.02 / 0.3) << "the quintic's steepest slope is 1.875";
+  EXPECT_NEAR((target.pose.translation() - slave_.translation()).norm(), 0.02 * 0.85, 2e-5);
+}
+
+TEST_F(ScaledMotionTest, ItsSpeedKeepsItsLimitAndItStopsWithTheHand) {
+  const auto hand = [&](double t) {
+    Eigen::Isometry3d pose = hand_;
+    pose.translation().x() += 0.2 * std::min(t, 0.5);  // 200 mm/s, then at rest
+    return pose;
+  };
+  const SlaveTarget target = follow(hand, 1, {.scale = 0.5, .engage_s = 0, .max_speed = 0.05});
+  EXPECT_LE(fastest_, 0.05);
+  EXPECT_GT(fastest_, 0.049);
+  EXPECT_EQ(target.velocity.norm(), 0) << "what was lost is not made up for";
+  EXPECT_LE((target.pose.translation() - slave_.translation()).norm(), 0.025 + 1e-12);
+}
+
+TEST_F(ScaledMotionTest, UpToFourFifthsOfTheLimitNothingIsLost) {
+  const auto hand = [&](double t) {
+    Eigen::Isometry3d pose = hand_;
+    pose.translation().z() += 0.0799 * t;
+    return pose;
+  };
+  const SlaveTarget target = follow(hand, 1, {.scale = 0.5, .engage_s = 0, .max_speed = 0.05});
+  EXPECT_NEAR(target.velocity.z(), 0.03995, 1e-9);
+}
+
+}  // namespace
+}  // namespace armature

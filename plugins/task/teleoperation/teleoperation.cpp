@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "teleoperation.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <numbers>
+#include <utility>
+
+namespace armature {
+namespace {
+
+constexpr Duration kSettlesWithin = seconds(1.0);  // an arm that lags behind its reference
+constexpr double kDegrees = 180 / std::numbers::pi;
+
+ToolPose tool_pose_of(const Eigen::Isometry3d& base_T_tool) {
+  return {.position = base_T_tool.translation(),
+          .orientation = Eigen::Quaterniond{base_T_tool.linear()}};
+}
+
+}  // namespace
+
+void Teleoperation::see(const ConsoleView& view, Time now) {
+  switch (phase_) {
+    case Phase::waiting:
+      return align(view);
+    case Phase::aligning:
+      return judge_alignment(view, now);
+    case Phase::refused:
+      return;
+    default:
+      filter_hand(view.master_T_hand);
+      return follow_hand(view);
+  }
+}
+
+void Teleoperation::align(const ConsoleView& view) {
+  if (!view.slave_T_master || !view.master_T_hand || !view.slave_T_tool) return;
+  const Eigen::Isometry3d master_T_instrument =
+      view.slave_T_master->inverse(Eigen::Isometry) * *view.slave_T_tool;
+  master_goal_.set({.pose = tool_pose_of(master_T_instrument)});
+  phase_ = Phase::aligning;
+}
+
+void Teleoperation::judge_alignment(const ConsoleView& view, Time now) {
+  using State = PursuedGoal::State;
+  if (master_goal_.state() == State::failed) {
+    return refuse("the master cannot come to the instrument: " + master_goal_.reason());
+  }
+  if (master_goal_.state() != State::done || !view.master_T_hand || !view.slave_T_tool) return;
+  const PoseResidual off = residual(*view.slave_T_master * *view.master_T_hand,
+                                    Eigen::Vector3d::UnitX(), tool_pose_of(*view.slave_T_tool));
+  if (off.position_m <= settings_.aligned_m && off.angle_rad <= settings_.aligned_rad) {
+    master_goal_.set({.mode = MotionMode::guided, .pose = {}});
+    phase_ = Phase::aligned;
+  } else if (now - master_goal_.done_at() > kSettlesWithin) {
+    refuse(fmt::format("the master stands {:.3f} mm and {:.3f} degrees off the instrument",
+                       1e3 * off.position_m, kDegrees * off.angle_rad));
+  }
+}
+
+void Teleoperation::filter_hand(const std::optional<Eigen::Isometry3d>& master_T_hand) {
+  if (!master_T_hand) {
+    hand_.reset();
+  } else if (hand_) {
+    hand_ = filter_.step(*master_T_hand);
+  } else {
+    filter_.start(*master_T_hand);
+    hand_ = master_T_hand;
+  }
+}
+
+std::string Teleoperation::missing(const ConsoleView& view) const {
+  if (!view.master_T_hand) return "the master tells nothing";
+  if (!view.slave_T_tool) return "the slave tells nothing";
+  if (master_goal_.state() != PursuedGoal::State::moving) {
+    const std::string& why = master_goal_.reason();
+    return "the master is not free for the hand" + (why.empty() ? "" : ": " + why);
+  }
+  if (!view.clutch_closed) return "the clutch tells nothing";
+  return "";
+}
+
+void Teleoperation::follow_hand(const ConsoleView& view) {
+  const std::string missing = this->missing(view);
+  const bool closed = view.clutch_closed.value_or(false);
+  if (phase_ == Phase::teleoperating) {
+    if (!missing.empty()) return stop_slave(Phase::held, missing);
+    if (!closed) return stop_slave(Phase::clutch_open, "");
+    const SlaveTarget target = motion_.follow(*hand_);
+    slave_goal_ = MotionGoal{.mode = MotionMode::tracking,
+                             .pose = tool_pose_of(target.pose),
+                             .velocity = target.velocity,
+                             .angular_velocity = target.angular_velocity};
+    return;
+  }
+  if (!missing.empty()) return;
+  if (phase_ == Phase::held) {
+    if (closed) return;
+    phase_ = Phase::clutch_open;
+    trouble_.clear();
+  }
+  if (closed) engage(view);
+}
+
+void Teleoperation::engage(const ConsoleView& view) {
+  motion_.engage(*view.slave_T_tool, *hand_, view.slave_T_master->linear());
+  first_engaged_id_ = last_slave_id_ + 1;
+  phase_ = Phase::teleoperating;
+}
+
+void Teleoperation::hear_slave(const GoalReport& report) {
+  // A task that starts late, or again, goes on counting where the goals are.
+  last_slave_id_ = std::max(last_slave_id_, report.goal_id);
+  if (report.state != GoalReport::State::failed || report.goal_id < first_engaged_id_) return;
+  if (phase_ == Phase::teleoperating) {
+    stop_slave(Phase::held, "the slave cannot follow: " + report.stage + ": " + report.reason);
+  }
+}
+
+std::optional<MotionGoal> Teleoperation::outgoing_slave_goal() {
+  if (slave_goal_) slave_goal_->id = ++last_slave_id_;
+  return std::exchange(slave_goal_, std::nullopt);
+}
+
+void Teleoperation::stop_slave(Phase phase, std::string trouble) {
+  slave_goal_ = MotionGoal{.mode = MotionMode::hold, .pose = {}};
+  phase_ = phase;
+  trouble_ = std::move(trouble);
+}
+
+void Teleoperation::refuse(std::string why) {
+  phase_ = Phase::refused;
+  trouble_ = std::move(why);
+}
+
+const char* to_string(Teleoperation::Phase phase) {
+  switch (phase) {
+    case Teleoperation::Phase::waiting:
+      return "waiting";
+    case Teleoperation::Phase::aligning:
+      return "aligning";
+    case Teleoperation::Phase::aligned:
+      return "aligned";
+    case Teleoperation::Phase::teleoperating:
+      return "teleoperating";
+    case Teleoperation::Phase::clutch_open:
+      return "clutch open";
+    case Teleoperation::Phase::held:
+      return "held";
+    case Teleoperation::Phase::refused:
+      return "refused";
+  }
+  return "";
+}
+
+}  // namespace armature

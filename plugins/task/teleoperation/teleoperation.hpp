@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Geometry>
+#include <optional>
+#include <string>
+
+#include "armature/motion/pursued_goal.hpp"
+#include "scaled_motion.hpp"
+#include "tremor_filter.hpp"
+
+namespace armature {
+
+struct TeleoperationSettings {
+  double aligned_m = 1e-4, aligned_rad = 2e-3;  // the master is on the instrument
+  TremorFilterSettings filter;
+  ScaledMotionSettings motion;
+};
+
+/// What is known at one instant; what is silent is not there.
+struct ConsoleView {
+  std::optional<Eigen::Isometry3d> slave_T_master;  // where the console stands
+  std::optional<Eigen::Isometry3d> master_T_hand, slave_T_tool;
+  std::optional<bool> clutch_closed;
+};
+
+/// The story of a master-slave robot. The master comes to the pose of the instrument by itself
+/// (never the other way round, which would move the instrument in the body); then a hand may take
+/// it, and while the clutch is closed the slave follows. Call `see` once a period.
+class Teleoperation {
+ public:
+  enum class Phase {
+    waiting,        // for the console and both arms
+    aligning,       // the master comes to the instrument
+    aligned,        // the hand may take the master; the clutch has not been closed yet
+    teleoperating,  // the slave follows
+    clutch_open,    // the slave stands, the hand is free to move
+    held,           // the slave stands for a reason, until the clutch is opened
+    refused,        // the master does not come to the instrument
+  };
+
+  explicit Teleoperation(const TeleoperationSettings& settings)
+      : settings_{settings}, filter_{settings.filter}, motion_{settings.motion} {}
+
+  void see(const ConsoleView& view, Time now);
+  void hear_master(const GoalReport& report, Time now) { master_goal_.hear(report, now); }
+  void hear_slave(const GoalReport& report);
+
+  std::optional<MotionGoal> outgoing_master_goal(Time now) { return master_goal_.outgoing(now); }
+  /// A target that moves, once a period while the slave follows, and `hold` when it ends.
+  std::optional<MotionGoal> outgoing_slave_goal();
+
+  Phase phase() const { return phase_; }
+  /// Why it does not go on, or "".
+  const std::string& trouble() const { return trouble_; }
+  const TremorFilter& filter() const { return filter_; }
+
+ private:
+  void align(const ConsoleView& view);
+  void judge_alignment(const ConsoleView& view, Time now);
+  void follow_hand(const ConsoleView& view);
+  /// What is missing for the slave to follow, or "".
+  std::string missing(const ConsoleView& view) const;
+  void filter_hand(const std::optional<Eigen::Isometry3d>& master_T_hand);
+  void engage(const ConsoleView& view);
+  void stop_slave(Phase phase, std::string trouble);
+  void refuse(std::string why);
+
+  TeleoperationSettings settings_;
+  TremorFilter filter_;
+  ScaledMotion motion_;
+  std::optional<Eigen::Isometry3d> hand_;  // filtered
+  PursuedGoal master_goal_;
+  std::optional<MotionGoal> slave_goal_;
+  std::uint64_t last_slave_id_ = 0, first_engaged_id_ = 0;
+  Phase phase_ = Phase::waiting;
+  std::string trouble_;
+};
+
+/// "waiting", "aligning", "aligned", "teleoperating", "clutch open", "held", "refused".
+const char* to_string(Teleoperation::Phase phase);
+
+}  // namespace armature

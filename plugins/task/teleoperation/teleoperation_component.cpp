@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "armature/kinds/pose_in_base.hpp"
+#include "armature/motion/goal_messages.hpp"
+#include "armature/runtime/component.hpp"
+#include "armature/runtime/plugin.hpp"
+#include "armature/runtime/setup.hpp"
+#include "teleoperation.hpp"
+
+namespace armature {
+namespace {
+
+constexpr Duration kPeriod = seconds(0.001);
+constexpr Duration kStatePeriod = seconds(0.2);
+
+TeleoperationSettings settings_of(const Params& params) {
+  const double period_s = to_seconds(kPeriod);
+  return {.aligned_m = params.number("aligned_mm"),
+          .aligned_rad = params.number("aligned_deg"),
+          .filter = {.stop_hz = params.number("stop_hz"),
+                     .attenuation_db = params.number("attenuation_db"),
+                     .period_s = period_s},
+          .motion = {.scale = params.number("scale"),
+                     .engage_s = params.number("engage_s"),
+                     .max_speed = params.number("max_tip_speed_m_s"),
+                     .period_s = period_s}};
+}
+
+}  // namespace
+
+class TeleoperationComponent final : public Component {
+ public:
+  explicit TeleoperationComponent(Setup& setup)
+      : Component{setup},
+        task_{settings_of(setup.params())},
+        console_{setup.input<msg::TransformStamped>("console")},
+        master_cp_{setup.input<msg::PoseStamped>("master_cp")},
+        slave_cp_{setup.input<msg::PoseStamped>("slave_cp")},
+        clutch_{setup.input<msg::Bool>("clutch")},
+        master_status_{setup.input<msg::MotionStatus>("master_status")},
+        slave_status_{setup.input<msg::MotionStatus>("slave_status")},
+        master_goal_{setup.output<msg::MotionGoal>("master_goal")},
+        slave_goal_{setup.output<msg::MotionGoal>("slave_goal")},
+        state_{setup.output<msg::TaskState>("state")} {
+    setup.activate_every(kPeriod);
+    const TremorFilter& filter = task_.filter();
+    say(fmt::format("the slave follows {:.1f} ms behind the hand; 10 Hz is down by {:.1f} dB",
+                    1e3 * filter.lag_s(), -20 * std::log10(filter.gain(10))));
+  }
+
+  void step(Time now) override {
+    for (std::size_t i = 0; i < master_status_.size(); ++i) {
+      task_.hear_master(report_of(master_status_[i]), now);
+    }
+    for (std::size_t i = 0; i < slave_status_.size(); ++i) {
+      task_.hear_slave(report_of(slave_status_[i]));
+    }
+    task_.see(view(), now);
+    send(task_.outgoing_master_goal(now), master_goal_, now);
+    send(task_.outgoing_slave_goal(), slave_goal_, now);
+    publish_state(now);
+  }
+
+ private:
+  /// What is told badly is not told.
+  ConsoleView view() {
+    std::string bad;
+    const auto pose_of = [&](const auto& input, const char* what) {
+      std::optional<Eigen::Isometry3d> found;
+      if (!input.latest()) return found;
+      const auto pose = pose_in_base(*input.latest(), what);
+      if (pose) {
+        found = *pose;
+      } else {
+        bad = pose.error().text;
+      }
+      return found;
+    };
+    ConsoleView view{.slave_T_master = pose_of(console_, "the console"),
+                     .master_T_hand = pose_of(master_cp_, "the master"),
+                     .slave_T_tool = pose_of(slave_cp_, "the slave's tool")};
+    if (clutch_.latest()) view.clutch_closed = clutch_.latest()->data_();
+    show_health(bad);
+    return view;
+  }
+
+  void show_health(const std::string& bad) {
+    if (bad == shown_bad_) return;
+    shown_bad_ = bad;
+    if (bad.empty()) {
+      healthy();
+    } else {
+      degraded(bad);
+    }
+  }
+
+  static void send(const std::optional<MotionGoal>& goal, Output<msg::MotionGoal>& output,
+                   Time now) {
+    if (!goal) return;
+    auto loan = output.loan();
+    write_goal(*goal, now, *loan);
+    loan.publish();
+  }
+
+  void publish_state(Time now) {
+    const bool news = task_.phase() != told_phase_ || task_.trouble() != told_trouble_;
+    if (!news && now - published_ < kStatePeriod) return;
+    const std::string phase = to_string(task_.phase());
+    if (news) say(task_.trouble().empty() ? phase : phase + ": " + task_.trouble());
+    told_phase_ = task_.phase();
+    told_trouble_ = task_.trouble();
+    published_ = now;
+    auto loan = state_.loan();
+    write_header(loan->header_(), now);
+    loan->state_() = phase;
+    loan->step_(0);
+    loan->steps_(0);
+    loan->detail_() = task_.trouble();
+    loan.publish();
+  }
+
+  Teleoperation task_;
+  std::optional<Teleoperation::Phase> told_phase_;
+  std::string told_trouble_, shown_bad_;
+  Time published_;
+  Input<msg::TransformStamped> console_;
+  Input<msg::PoseStamped> master_cp_, slave_cp_;
+  Input<msg::Bool> clutch_;
+  Input<msg::MotionStatus> master_status_, slave_status_;
+  Output<msg::MotionGoal> master_goal_, slave_goal_;
+  Output<msg::TaskState> state_;
+};
+
+}  // namespace armature
+
+ARMATURE_PLUGIN(armature::TeleoperationComponent);

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+// The master manipulator: from the instrument's pose to a slave that follows a hand, by one file;
+// and every way in which the slave must stand still.
+#include <gtest/gtest.h>
+
+#include "deployment_run.hpp"
+
+namespace armature::test {
+namespace {
+
+DeploymentRun teleoperation(std::vector<std::string> settings = {}) {
+  return run_deployment(
+      {.files = {source_file("configs/master_manipulator.yaml")}, .settings = std::move(settings)});
+}
+
+const std::string kSurgeon = "components.surgeon.params.", kTask = "components.task.params.";
+
+void expect_teleoperated(const DeploymentRun& run) {
+  SCOPED_TRACE(run.text());
+  EXPECT_EQ(run.command.exit_code, 0);
+  EXPECT_EQ(run.report.value("status", "none"), "ok");
+  EXPECT_LE(run.figure("alignment_error_mm"), 0.01);
+  EXPECT_LE(run.figure("alignment_error_deg"), 0.001);
+  EXPECT_LE(run.figure("peak_speed_error_percent"), 0.1);
+  EXPECT_LE(run.figure("tracking_error_mm"), 0.1);
+  EXPECT_LE(run.figure("tremor_db"), -20);
+  EXPECT_LE(run.figure("tip_speed_mm_s"), 50);
+  EXPECT_LE(run.figure("clutch_motion_mm"), 0.001);
+  EXPECT_LE(run.figure("closing_step_mm"), 0.01);
+}
+
+TEST(MasterManipulator, AlignsAndDrivesTheSlaveTwiceInTheSameWay) {
+  const DeploymentRun first = teleoperation(), second = teleoperation();
+  expect_teleoperated(first);
+  EXPECT_EQ(first.report, second.report);
+  EXPECT_LE(first.figure("alignment_error_mm"), 1e-9);
+  EXPECT_LE(first.figure("tracking_error_mm"), 0.005);
+  EXPECT_NEAR(first.figure("measured_lag_ms"), 48.6, 0.1) << "the lag that the file states";
+  EXPECT_NEAR(first.figure("hand_tremor_mm"), 0.1, 0.01);
+  EXPECT_GT(first.figure("tip_speed_mm_s"), 20);
+}
+
+TEST(MasterManipulator, SolversSelectorsAndTrajectoriesAreSwapped) {
+  const std::string slave_ik = "components.motion.ik.";
+  const std::vector<std::vector<std::string>> swaps{
+      {slave_ik + "plugin=ik/numeric", slave_ik + "params=null"},
+      {slave_ik + "params.objective=limits"},
+      {"components.motion.select.plugin=select/minmax"},
+      {"components.master_motion.ik.plugin=ik/numeric"},
+      {"components.master_motion.trajectory.plugin=trajectory/quintic_spline"},
+      {"components.master_motion.select.plugin=select/minmax"}};
+  for (const auto& swap : swaps) {
+    SCOPED_TRACE(swap.front());
+    expect_teleoperated(teleoperation(swap));
+  }
+}
+
+TEST(MasterManipulator, AnyHandsTremorIsTakenOut) {
+  for (const char* seed : {"seed=2", "seed=3", "seed=4"}) {
+    SCOPED_TRACE(seed);
+    expect_teleoperated(teleoperation({seed}));
+  }
+}
+
+TEST(MasterManipulator, OfAHandThatIsTooFastTheSlaveKeepsItsTopSpeed) {
+  const DeploymentRun run =
+      teleoperation({kSurgeon + "curve_mm=[-30, 30, 20]", kSurgeon + "curve_hz=0.4"});
+  EXPECT_GT(run.figure("tip_speed_mm_s"), 45) << run.text();
+  EXPECT_LE(run.figure("tip_speed_mm_s"), 50);
+  EXPECT_EQ(run.report.value("status", "none"), "goals_missed") << "it does not follow then";
+  EXPECT_GT(run.figure("tracking_error_mm"), 0.1);
+  EXPECT_LE(run.figure("clutch_motion_mm"), 0.001);
+}
+
+/// It ends by itself with a reason, and the slave stands.
+void expect_ended(const DeploymentRun& run, const std::string& status, const std::string& reason) {
+  SCOPED_TRACE(run.text());
+  EXPECT_EQ(run.command.exit_code, 1);
+  EXPECT_EQ(run.report.value("status", "none"), status);
+  EXPECT_NE(run.command.err.find(status + ": " + reason), std::string::npos);
+}
+
+TEST(MasterManipulator, AnInstrumentOutOfTheMastersReachIsRefusedAndNothingMoves) {
+  const DeploymentRun run = teleoperation({kSurgeon + "console_mm=[922, -122, 79]"});
+  expect_ended(run, "refused",
+               "the master cannot come to the instrument: ik: the goal: out_of_reach");
+  EXPECT_EQ(run.figure("tip_speed_mm_s"), 0);
+}
+
+TEST(MasterManipulator, AMoveThatTheMastersLimitsForbidInThePapersTimeIsRefused) {
+  const DeploymentRun run = teleoperation({"components.master_motion.path.params.duration_s=0.5",
+                                           "components.master_motion.params={path_only: true}"});
+  expect_ended(run, "refused",
+               "the master cannot come to the instrument: trajectory: segment 1 lasts");
+}
+
+TEST(MasterManipulator, ASlaveThatCannotFollowIsHeld) {
+  const DeploymentRun run = teleoperation({kTask + "scale=10", kTask + "max_tip_speed_m_s=1"});
+  expect_ended(run, "held", "the slave cannot follow: ik: the goal: out_of_reach");
+}
+
+TEST(MasterManipulator, AHandThatFallsSilentHoldsTheSlave) {
+  const DeploymentRun run = teleoperation({kSurgeon + "silent_after_s=3"});
+  expect_ended(run, "held", "the clutch tells nothing");
+  EXPECT_LE(run.figure("clutch_motion_mm"), 0.001);
+  EXPECT_LE(run.figure("stopping_mm"), 1);
+}
+
+TEST(MasterManipulator, TwoArmsNeedTopicsOfTheirOwn) {
+  const DeploymentRun run = teleoperation({"components.master.out=null"});
+  EXPECT_EQ(run.command.exit_code, 3);
+  EXPECT_NE(run.command.err.find("both write topic '/master_manipulator/arm/measured_js'"),
+            std::string::npos)
+      << run.text();
+}
+
+}  // namespace
+}  // namespace armature::test

@@ -7,6 +7,7 @@
 
 #include "armature/kinds/pose_in_base.hpp"
 #include "armature/motion/goal_messages.hpp"
+#include "armature/motion/task_state_publisher.hpp"
 #include "armature/runtime/component.hpp"
 #include "armature/runtime/plugin.hpp"
 #include "armature/runtime/setup.hpp"
@@ -16,7 +17,6 @@ namespace armature {
 namespace {
 
 constexpr Duration kPeriod = seconds(0.001);
-constexpr Duration kStatePeriod = seconds(0.2);
 
 TeleoperationSettings settings_of(const Params& params) {
   const double period_s = to_seconds(kPeriod);
@@ -46,7 +46,7 @@ class TeleoperationComponent final : public Component {
         slave_status_{setup.input<msg::MotionStatus>("slave_status")},
         master_goal_{setup.output<msg::MotionGoal>("master_goal")},
         slave_goal_{setup.output<msg::MotionGoal>("slave_goal")},
-        state_{setup.output<msg::TaskState>("state")} {
+        state_{setup} {
     setup.activate_every(kPeriod);
     const TremorFilter& filter = task_.filter();
     say(fmt::format("the slave follows {:.1f} ms behind the hand; 10 Hz is down by {:.1f} dB",
@@ -108,32 +108,20 @@ class TeleoperationComponent final : public Component {
   }
 
   void publish_state(Time now) {
-    const bool news = task_.phase() != told_phase_ || task_.trouble() != told_trouble_;
-    if (!news && now - published_ < kStatePeriod) return;
-    const std::string phase = to_string(task_.phase());
-    if (news) say(task_.trouble().empty() ? phase : phase + ": " + task_.trouble());
-    told_phase_ = task_.phase();
-    told_trouble_ = task_.trouble();
-    published_ = now;
-    auto loan = state_.loan();
-    write_header(loan->header_(), now);
-    loan->state_() = phase;
-    loan->step_(0);
-    loan->steps_(0);
-    loan->detail_() = task_.trouble();
-    loan.publish();
+    std::string line = to_string(task_.phase());
+    if (!task_.trouble().empty()) line += ": " + task_.trouble();
+    const TaskReport report{.state = to_string(task_.phase()), .detail = task_.trouble()};
+    if (state_.publish(now, report, line)) say(line);
   }
 
   Teleoperation task_;
-  std::optional<Teleoperation::Phase> told_phase_;
-  std::string told_trouble_, shown_bad_;
-  Time published_;
+  std::string shown_bad_;
   Input<msg::TransformStamped> console_;
   Input<msg::PoseStamped> master_cp_, slave_cp_;
   Input<msg::Bool> clutch_;
   Input<msg::MotionStatus> master_status_, slave_status_;
   Output<msg::MotionGoal> master_goal_, slave_goal_;
-  Output<msg::TaskState> state_;
+  TaskStatePublisher state_;
 };
 
 }  // namespace armature

@@ -93,9 +93,12 @@ std::string to_json(const RunReport& report) {
 
 namespace {
 
-/// Counts without decimals, measures with three; nothing measured is a dash.
+/// Counts without decimals, measures with three, or where these would all be 0 by their power of
+/// ten; nothing measured is a dash.
 std::string number_text(double value) {
+  constexpr double kShownAsZero = 0.0005;
   if (std::isnan(value)) return "         -";
+  if (value != 0 && std::abs(value) < kShownAsZero) return fmt::format("{:10.0e}", value);
   return value == std::floor(value) ? fmt::format("{:10.0f}", value)
                                     : fmt::format("{:10.3f}", value);
 }

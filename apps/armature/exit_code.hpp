@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <stdexcept>
 
 namespace armature {
@@ -18,5 +19,8 @@ class InvalidChoice : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
+
+/// What `action` ends with; an exception is told on standard error and has its own code.
+int exit_code_of(const std::function<int()>& action);
 
 }  // namespace armature

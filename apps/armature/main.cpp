@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // The command line. The only file that includes CLI11.
 #include <CLI/CLI.hpp>
-#include <cstdio>
-#include <exception>
 #include <fstream>
 #include <functional>
 #include <iostream>
 
-#include "armature/config/problems.hpp"
-#include "armature/runtime/plugin_registry.hpp"
 #include "calculator.hpp"
+#include "calibrate.hpp"
 #include "exit_code.hpp"
 #include "ik_bench/bench.hpp"
 #include "inspect.hpp"
+#include "plan_bench/bench_plan.hpp"
 #include "plugins.hpp"
 #include "run.hpp"
 #include "topics.hpp"
@@ -180,9 +178,34 @@ void add_calculators(CLI::App& app, Action& action) {
   });
 }
 
+void add_bench_plan(CLI::App* bench, Action& action) {
+  auto options = std::make_shared<PlanBenchOptions>();
+  CLI::App* plan = bench->add_subcommand(
+      "plan",
+      "Trajectories on the same motions: armature bench plan --robot configs/robots/med7.yaml");
+  add_arm(plan, options->arm);
+  plan->get_option("--robot")->required();
+  plan->add_option("--plugins", options->plugins, "planners, 'trajectory/quintic' (all)")
+      ->delimiter(',');
+  plan->add_option("--params", options->params, "YAML: '{trajectory/cubic_spline: {...}}'");
+  plan->add_option("--motions", options->motions, "of each shape")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1000000));
+  plan->add_option("--keys", options->keys, "of an orientation curve")
+      ->capture_default_str()
+      ->check(CLI::Range(2, 1000));
+  plan->add_option("--seed", options->seed, "of the random numbers")->capture_default_str();
+  plan->add_option("--repetitions", options->repetitions, "of every plan")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1000));
+  plan->add_flag("--json", options->json, "as JSON");
+  plan->callback([options, &action] { action = [options] { return bench_plan(*options); }; });
+}
+
 void add_bench(CLI::App& app, Action& action) {
   CLI::App* bench = app.add_subcommand("bench", "Measure plugins side by side");
   bench->require_subcommand(1);
+  add_bench_plan(bench, action);
   auto options = std::make_shared<BenchOptions>();
   CLI::App* ik = bench->add_subcommand(
       "ik", "Solvers on the same goals: armature bench ik --robot configs/robots/dental_lamp.yaml");
@@ -209,22 +232,39 @@ void add_bench(CLI::App& app, Action& action) {
   ik->callback([options, &action] { action = [options] { return bench_ik(*options); }; });
 }
 
-int guarded(const Action& action) {
-  try {
-    return action();
-  } catch (const config::ConfigError& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return kInvalidConfig;
-  } catch (const InvalidChoice& error) {
-    std::fprintf(stderr, "armature: %s\n", error.what());
-    return kInvalidConfig;
-  } catch (const PluginError& error) {
-    std::fprintf(stderr, "armature: %s\n", error.what());
-    return kUnusablePlugin;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "armature: %s\n", error.what());
-    return kFailed;
-  }
+void add_calibrations(CLI::App& app, Action& action) {
+  CLI::App* calibrate =
+      app.add_subcommand("calibrate", "Where a tool or a tracker is, from recorded poses");
+  calibrate->require_subcommand(1);
+  auto options = std::make_shared<CalibrationOptions>();
+  const auto add = [&](const char* name, const char* what, int (*run)(const CalibrationOptions&)) {
+    CLI::App* verb = calibrate->add_subcommand(name, what);
+    verb->add_option("poses", options->poses, "file of recorded poses: JSON lines, or YAML")
+        ->required();
+    add_arm(verb, options->arm);
+    verb->get_option("--tip")->description("frame that is the flange (flange)");
+    verb->add_option("-o,--output", options->output, "YAML file to write (standard output)");
+    verb->add_option("--tracker", options->tracker, "name of its frame")->capture_default_str();
+    verb->add_option("--body", options->body, "name of its frame")->capture_default_str();
+    verb->add_flag("--json", options->json, "as JSON");
+    verb->callback([=, &action] { action = [=] { return run(*options); }; });
+    return verb;
+  };
+  CLI::App* hand_eye = add("hand-eye",
+                           "A tracker and a body on the flange: armature calibrate hand-eye "
+                           "poses.jsonl --robot configs/robots/med7.yaml -o hand_eye.yaml",
+                           run_hand_eye_calibration);
+  hand_eye->add_option("--noise", options->noise, "of the tracker's poses, mm and deg per axis")
+      ->expected(2)
+      ->allow_extra_args(false);
+  hand_eye->add_option("--at", options->at_m, "point of the base [m] whose error is told")
+      ->expected(3)
+      ->allow_extra_args(false);
+  CLI::App* tool = add("tool",
+                       "The tip of a tool that was turned about it: armature calibrate tool "
+                       "poses.jsonl -o tool.yaml",
+                       run_tool_calibration);
+  tool->add_option("--tool", options->tool, "name of its frame")->capture_default_str();
 }
 
 int run_command_line(int argc, char** argv) {
@@ -240,13 +280,14 @@ int run_command_line(int argc, char** argv) {
   add_plugin_verbs(app, action);
   add_topic_verbs(app, action);
   add_calculators(app, action);
+  add_calibrations(app, action);
   add_bench(app, action);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kOk : kUsage;
   }
-  return guarded(action);
+  return exit_code_of(action);
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 
 #include "armature/kinds/declared_params.hpp"
 #include "armature/kinds/ik/ik.hpp"
+#include "armature/robot/guided_chain.hpp"
 #include "armature/robot/kinematics.hpp"
 #include "armature/runtime/plugin_registry.hpp"
 #include "reference_file.hpp"
@@ -60,14 +61,6 @@ Eigen::Isometry3d pose_of(const Figures& rotation, const Figures& position) {
   }
   pose.translation() = position.numbers();
   return pose;
-}
-
-Eigen::Isometry3d transform(const Figures& rows) {
-  Eigen::Isometry3d result;
-  for (std::size_t row = 0; row < 4; ++row) {
-    result.matrix().row(static_cast<Eigen::Index>(row)) = rows[row].numbers();
-  }
-  return result;
 }
 
 /// The reference's signs of elbow, shoulder and wrist.
@@ -200,13 +193,18 @@ TEST(DentalImplantArm, TheBestOfAllBranchesIsTheReferencesOptimum) {
 
 TEST(DentalImplantArm, TheDrillComesToTheImplantThroughTheChainOfFrames) {
   const Figures frames = dental_implant()["frames"];
-  const Eigen::Isometry3d robot_T_implant =
-      transform(frames["T_R_N"]) * transform(frames["T_N_M"]) * transform(frames["T_M_P"]) *
-      transform(frames["T_P_implant"]);
-  const Eigen::Isometry3d flange_T_drill = transform(frames["T_F_D"]);
+  GuidedChain chain;
+  chain.base_T_tracker = frames["T_R_N"].transform();
+  chain.tracker_T_patient = frames["T_N_M"].transform();
+  chain.patient_T_image = frames["T_M_P"].transform();
+  const Eigen::Isometry3d flange_T_drill = frames["T_F_D"].transform();
+  chain.tip = flange_T_drill.translation();  // the body sits where the flange is
+  chain.flange_R_tool = flange_T_drill.linear();
   EXPECT_LE((flange_T_tool().matrix() - flange_T_drill.matrix()).cwiseAbs().maxCoeff(), 1e-12);
-  const Eigen::Isometry3d command = robot_T_implant * flange_T_drill.inverse();
-  EXPECT_LE((command.matrix() - transform(frames["T_R_F_command"]).matrix()).cwiseAbs().maxCoeff(),
+  const Eigen::Isometry3d patient_T_implant = frames["T_P_implant"].transform();
+  const Eigen::Isometry3d robot_T_implant = chain.base_T_site(patient_T_implant);
+  const Eigen::Isometry3d command = chain.base_T_flange(patient_T_implant);
+  EXPECT_LE((command.matrix() - frames["T_R_F_command"].transform().matrix()).cwiseAbs().maxCoeff(),
             1e-11);
   IkGoal goal;
   goal.pose = {robot_T_implant.translation(),

@@ -10,6 +10,7 @@
 
 #include "armature/kinds/declared_params.hpp"
 #include "armature/robot/kinematics.hpp"
+#include "armature/robot/trajectory_check.hpp"
 #include "armature/runtime/plugin_registry.hpp"
 #include "reference_file.hpp"
 
@@ -41,6 +42,19 @@ const Kind& made(std::string_view id, const Args&... args) {
 
 double angle(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+Trajectory planned(std::string_view id, const std::vector<JointSegment>& segments,
+                   const MotionLimits& limits) {
+  const JointVector zero = JointVector::Zero(5);
+  return lamp_trajectory(id)
+      .plan({.goal_id = 1,
+             .start = {},
+             .from = {segments.front().q.front(), zero, zero},
+             .segments = segments,
+             .max_velocity = limits.max_velocity,
+             .max_acceleration = limits.max_acceleration})
+      .value();
 }
 
 }  // namespace
@@ -117,15 +131,12 @@ std::vector<JointVector> joints_along(const std::vector<PathSample>& samples,
 }
 
 Trajectory timed(std::string_view id, const std::vector<JointSegment>& segments) {
-  const JointVector zero = JointVector::Zero(5);
-  return lamp_trajectory(id)
-      .plan({.goal_id = 1,
-             .start = {},
-             .from = {segments.front().q.front(), zero, zero},
-             .segments = segments,
-             .max_velocity = lamp().max_velocity(),
-             .max_acceleration = lamp().max_acceleration()})
-      .value();
+  return planned(id, segments, {lamp().max_velocity(), lamp().max_acceleration()});
+}
+
+Trajectory unlimited(std::string_view id, const std::vector<JointSegment>& segments) {
+  const JointVector high = JointVector::Constant(5, 1e6);
+  return planned(id, segments, {high, high});
 }
 
 const Trajectory& paper_trajectory() {

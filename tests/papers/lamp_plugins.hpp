@@ -45,6 +45,8 @@ std::vector<JointVector> joints_along(const std::vector<PathSample>& samples,
                                       const JointVector& start);
 /// trajectory plugin `id` on `segments` with the lamp's limits.
 Trajectory timed(std::string_view id, const std::vector<JointSegment>& segments);
+/// The same whatever the limits, for plans of a given duration that are compared.
+Trajectory unlimited(std::string_view id, const std::vector<JointSegment>& segments);
 /// The paper's plan: three moves of a second each, at rest in between.
 const Trajectory& paper_trajectory();
 /// The great-circle arc from one pose to another as one segment of so many seconds.

@@ -23,6 +23,14 @@ Eigen::VectorXd Figures::numbers() const {
   return result;
 }
 
+Eigen::Isometry3d Figures::transform() const {
+  Eigen::Isometry3d result;
+  for (std::size_t row = 0; row < 4; ++row) {
+    result.matrix().row(static_cast<Eigen::Index>(row)) = (*this)[row].numbers();
+  }
+  return result;
+}
+
 Figures dental_lamp() {
   static const config::Node file =
       config::parse_file(ARMATURE_SOURCE_DIR "/tests/data/dental_lamp_reference.yaml");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,6 +25,8 @@ class Figures {
   Eigen::VectorXd numbers() const;
   /// A point in millimetres, in metres.
   Eigen::Vector3d point_m() const { return 1e-3 * numbers().head<3>(); }
+  /// Four rows of four numbers.
+  Eigen::Isometry3d transform() const;
 
  private:
   const config::Node* node_;

@@ -11,6 +11,7 @@
 #include "armature/config/document.hpp"
 #include "armature/config/problems.hpp"
 #include "armature/kinds/ik/verify/plugin_subject.hpp"
+#include "bench/contestants.hpp"
 #include "exit_code.hpp"
 #include "ik_bench/report.hpp"
 #include "progress.hpp"
@@ -21,36 +22,17 @@ namespace {
 using bench::Report;
 using bench::Runner;
 
-/// The parameters that `all` (a map from plugin to parameters) gives to `plugin`.
-Params params_for(const PluginManifest& plugin, const config::Node& all) {
-  config::Problems problems;
-  const bool none = all.kind() == config::Node::Kind::null;
-  const config::Node* own = none ? nullptr : all.find(plugin.id);
-  Params params = Params::read(plugin.params, own, plugin.id, problems);
-  problems.throw_if_any();
-  return params;
-}
-
-std::vector<std::string> plugins_of(const BenchOptions& options, const PluginRegistry& registry) {
-  if (!options.plugins.empty()) return options.plugins;
-  std::vector<std::string> ids;
-  for (const PluginManifest& plugin : registry.plugins()) {
-    if (plugin.kind == IkSolver::kKind) ids.push_back(plugin.id);
-  }
-  return ids;
-}
-
 /// The solvers that serve the robot; the others go to the report. A plugin that was named but is
 /// not there is an error; one whose parameters are missing does not serve.
 std::vector<Runner> runners_of(const BenchOptions& options, PluginRegistry& registry,
                                const std::shared_ptr<const RobotModel>& model, Report& report) {
   const config::Node params = config::parse_text(options.params, "--params");
   std::vector<Runner> runners;
-  for (const std::string& id : plugins_of(options, registry)) {
+  for (const std::string& id : bench::plugins_of(registry, IkSolver::kKind, options.plugins)) {
     const PluginManifest* plugin = registry.find(id);
     if (!plugin) throw InvalidChoice(registry.unknown_text(id));
     try {
-      auto subject = plugin_subject(registry, *plugin, model, params_for(*plugin, params));
+      auto subject = plugin_subject(registry, *plugin, model, bench::params_for(*plugin, params));
       if (subject) {
         runners.push_back({id, subject->solver});
       } else {

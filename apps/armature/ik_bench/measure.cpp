@@ -2,24 +2,17 @@
 #include "ik_bench/measure.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <limits>
 #include <numeric>
 #include <random>
 
 #include "armature/robot/kinematics.hpp"
-#include "ik_bench/statistics.hpp"
+#include "bench/clock.hpp"
 
 namespace armature::bench {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr std::size_t kBlock = 50;  // poses of one runner in one go
-
-double seconds_between(Clock::time_point start, Clock::time_point end) {
-  return std::chrono::duration<double>{end - start}.count();
-}
 
 /// Does the branch reach the goal with joints within limits? By forward kinematics and the robot's
 /// limits, whatever the branch says of itself.
@@ -72,15 +65,6 @@ void time_block(const Runner& runner, const std::vector<Pose>& poses, std::size_
 }
 
 }  // namespace
-
-double clock_seconds() {
-  std::vector<double> pairs(10001);
-  for (double& pair : pairs) {
-    const auto start = Clock::now();
-    pair = seconds_between(start, Clock::now());
-  }
-  return quantile(pairs, 0.5);
-}
 
 std::vector<double> Series::seconds() const {
   std::vector<double> list;

@@ -51,7 +51,4 @@ struct MeasureOptions {
 std::vector<Series> measure(const RobotModel& model, const std::vector<Runner>& runners,
                             const std::vector<Pose>& poses, const MeasureOptions& options);
 
-/// What reading the clock twice takes by itself [s].
-double clock_seconds();
-
 }  // namespace armature::bench

@@ -7,28 +7,10 @@
 #include <random>
 
 #include "armature/robot/kinematics.hpp"
+#include "bench/random_joints.hpp"
 
 namespace armature::bench {
 namespace {
-
-/// Uniform in [0, 1), the same in every standard library.
-double unit(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
-
-/// Limits, or a turn where there are none.
-std::pair<double, double> range(const RobotModel& model, int i) {
-  const double lower = model.lower()[i], upper = model.upper()[i];
-  const bool finite = std::isfinite(lower) && std::isfinite(upper);
-  return finite ? std::pair{lower, upper} : std::pair{-std::numbers::pi, std::numbers::pi};
-}
-
-JointVector anywhere(const RobotModel& model, std::mt19937_64& random) {
-  JointVector q(model.dof());
-  for (int i = 0; i < model.dof(); ++i) {
-    const auto [lower, upper] = range(model, i);
-    q[i] = lower + unit(random) * (upper - lower);
-  }
-  return q;
-}
 
 JointVector next_to(const RobotModel& model, const JointVector& q, std::mt19937_64& random) {
   constexpr double kDegrees = std::numbers::pi / 180;

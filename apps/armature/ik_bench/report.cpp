@@ -64,14 +64,14 @@ std::string table(const Report& report) {
   for (const auto& [plugin, reason] : report.refused) {
     text += fmt::format("{:<{}}  not served: {}\n", plugin, width, reason);
   }
-  const Machine& machine = report.machine;
-  text += fmt::format(
-      "\n{} goals of robot '{}' ({}), seed {}; residual up to {:g} m and rad, within limits\n"
-      "time of a goal: the least of {} repetitions; median and p99 over all goals, reached or not\n"
-      "{}, {} processors, load {:.1f}; {}; {}\n",
-      report.poses, report.robot, report.tip, report.seed, report.tolerance, report.repetitions,
-      machine.processor, machine.processors, machine.load, machine.system, machine.compiler);
-  return text;
+  return text + fmt::format(
+                    "\n{} goals of robot '{}' ({}), seed {}; residual up to {:g} m and rad, within "
+                    "limits\n"
+                    "time of a goal: the least of {} repetitions; median and p99 over all goals, "
+                    "reached or "
+                    "not\n{}\n",
+                    report.poses, report.robot, report.tip, report.seed, report.tolerance,
+                    report.repetitions, to_text(report.machine));
 }
 
 nlohmann::ordered_json to_json(const Report& report) {
@@ -80,11 +80,7 @@ nlohmann::ordered_json to_json(const Report& report) {
             {"poses", report.poses},         {"seed", report.seed},
             {"tolerance", report.tolerance}, {"repetitions", report.repetitions},
             {"baseline", report.baseline}};
-  json["machine"] = {{"processor", report.machine.processor},
-                     {"processors", report.machine.processors},
-                     {"load", report.machine.load},
-                     {"system", report.machine.system},
-                     {"compiler", report.machine.compiler}};
+  json["machine"] = to_json(report.machine);
   json["rows"] = Json::array();
   for (const Row& row : report.rows) {
     Json line{{"plugin", row.plugin}, {"seeds", to_string(row.seeds)}, {"median_s", row.median_s},

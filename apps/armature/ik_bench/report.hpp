@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "ik_bench/machine.hpp"
+#include "bench/machine.hpp"
+#include "bench/statistics.hpp"
 #include "ik_bench/measure.hpp"
-#include "ik_bench/statistics.hpp"
 
 namespace armature::bench {
 

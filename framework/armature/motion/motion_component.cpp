@@ -91,6 +91,7 @@ class Motion : public Component {
         status_{setup.output<msg::MotionStatus>("status")},
         path_out_{setup.output<msg::ToolPath>("path")},
         joint_path_out_{setup.output<msg::JointTrajectory>("joint_path")},
+        joint_trajectory_out_{setup.output<msg::JointTrajectory>("joint_trajectory")},
         trajectory_out_{setup.output<msg::QuinticTrajectory>("trajectory")},
         execution_{GoalPlanner{model_,
                                {*path_, *ik_, *select_, *trajectory_},
@@ -153,6 +154,9 @@ class Motion : public Component {
     auto trajectory = trajectory_out_.loan();
     write_trajectory(plan->trajectory, model_, *trajectory);
     trajectory.publish();
+    auto points = joint_trajectory_out_.loan();
+    write_trajectory_points(plan->trajectory, model_, *points);
+    points.publish();
   }
 
   void publish_reference(Time now) {
@@ -189,7 +193,7 @@ class Motion : public Component {
   Output<msg::JointState> servo_jp_, reference_js_;
   Output<msg::MotionStatus> status_;
   Output<msg::ToolPath> path_out_;
-  Output<msg::JointTrajectory> joint_path_out_;
+  Output<msg::JointTrajectory> joint_path_out_, joint_trajectory_out_;
   Output<msg::QuinticTrajectory> trajectory_out_;
   GoalExecution execution_;
   Time last_status_;

@@ -161,6 +161,10 @@ TEST_F(MotionComponentTest, TellsTheStoryAndThePlanOfAGoal) {
   EXPECT_EQ(to_eigen(path[0].position_().back()), (Vector3d{0.5, 0.4, 0.3}));
   EXPECT_EQ(joint_path[0].points_().back().positions_(), (std::vector<double>{0.3, 0.4, 0.5}));
   EXPECT_EQ(trajectory[0].goal_id_(), 7u);
+  const auto points = motion_.take<msg::JointTrajectory>("joint_trajectory");
+  ASSERT_EQ(points.size(), 1u);
+  EXPECT_EQ(points[0].points_().size(), trajectory[0].knots_().size());
+  EXPECT_NEAR(points[0].points_().back().positions_()[2], 0.5, 1e-12);
   EXPECT_EQ(stamp_of(trajectory[0].header_().stamp_()), Time{} + seconds(now_s_ + 0.005));
   run(103);
   EXPECT_EQ(story(), (std::vector<std::string>{"7 accepted", "7 executing", "7 done"}));

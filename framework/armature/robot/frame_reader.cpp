@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "armature/robot/calibrated_frame.hpp"
 #include "armature/robot/quantity_reader.hpp"
 #include "armature/robot/rotation.hpp"
 
@@ -23,6 +24,25 @@ struct ReadFrame {
   const Node* parent = nullptr;
 };
 
+/// What a calibration found is not stated again beside it: which of them would count?
+void take_calibrated(MapReader& map, const Node& path, const Quantity& translation,
+                     const Quantity& rpy, ReadFrame& result, Problems& problems) {
+  const auto keep_one = [&](const Quantity& stated) {
+    if (!stated.node) return;
+    map.problem(stated.key,
+                fmt::format("'{}' and 'calibrated' state the same; keep one", stated.key));
+  };
+  keep_one(translation);
+  if (!result.parent) return;  // which is noted
+  const auto found =
+      read_calibrated_frame(path, result.parent->text(), result.frame.name, problems);
+  if (!found) return;
+  result.frame.parent_T_frame.translation() = found->translation;
+  if (!found->rotation) return;
+  keep_one(rpy);
+  result.frame.parent_T_frame.linear() = found->rotation->toRotationMatrix();
+}
+
 ReadFrame read_frame(const Node::Entry& entry, Problems& problems) {
   MapReader map{entry.value, fmt::format("frame '{}'", entry.key), problems};
   ReadFrame result;
@@ -32,6 +52,9 @@ ReadFrame read_frame(const Node::Entry& entry, Problems& problems) {
   const Quantity rpy = read_quantity(map, {"rpy_deg"}, 3, problems);
   result.frame.parent_T_frame.translation() = translation.vector().value_or(Vector3d::Zero());
   if (rpy.vector()) result.frame.parent_T_frame.linear() = rotation_from_rpy(*rpy.vector());
+  if (const Node* path = map.optional_node("calibrated")) {
+    take_calibrated(map, *path, translation, rpy, result, problems);
+  }
   map.finish();
   return result;
 }

@@ -64,13 +64,21 @@ Eigen::Quaterniond rotation_of(const Eigen::Vector3d& P) {
   return {std::cos(0.5 * t), vector.x(), vector.y(), vector.z()};
 }
 
-RotationAt::RotationAt(const Eigen::Vector3d& P)
+RotationAt::RotationAt(const Eigen::Vector3d& P, double t, double half_cos, double half_sine)
     : P_{P},
-      t_{P.norm()},
-      half_cos_{std::cos(0.5 * t_)},
-      half_sinc_{t_ > 0 ? std::sin(0.5 * t_) / t_ : 0.5},
+      t_{t},
+      half_cos_{half_cos},
+      half_sinc_{t > 0 ? half_sine / t : 0.5},
       a_{2 * half_sinc_ * half_sinc_},
-      b_{t_ < kSeriesBelow ? sum(kB, t_ * t_) : (1 - 2 * half_sinc_ * half_cos_) / (t_ * t_)} {}
+      b_{t < kSeriesBelow ? sum(kB, t * t) : (1 - 2 * half_sinc_ * half_cos) / (t * t)} {}
+
+RotationAt::RotationAt(const Eigen::Vector3d& P, const Eigen::Quaterniond& rotation)
+    : RotationAt{P, P.norm(), rotation.w(), rotation.vec().norm()} {}
+
+RotationAt::RotationAt(const Eigen::Vector3d& P, double t)
+    : RotationAt{P, t, std::cos(0.5 * t), std::sin(0.5 * t)} {}
+
+RotationAt::RotationAt(const Eigen::Vector3d& P) : RotationAt{P, P.norm()} {}
 
 Eigen::Quaterniond RotationAt::rotation() const {
   const Eigen::Vector3d vector = half_sinc_ * P_;

@@ -23,6 +23,8 @@ Eigen::Quaterniond rotation_of(const Eigen::Vector3d& P);
 class RotationAt {
  public:
   explicit RotationAt(const Eigen::Vector3d& P);
+  /// The same where exp(P) is known, without a sine: P = double_logarithm(rotation).
+  RotationAt(const Eigen::Vector3d& P, const Eigen::Quaterniond& rotation);
 
   /// rotation_of(P).
   Eigen::Quaterniond rotation() const;
@@ -35,6 +37,9 @@ class RotationAt {
   Eigen::Vector3d rate_of(const Eigen::Vector3d& velocity) const;
 
  private:
+  RotationAt(const Eigen::Vector3d& P, double t);
+  RotationAt(const Eigen::Vector3d& P, double t, double half_cos, double half_sine);
+
   Eigen::Vector3d P_;
   double t_, half_cos_, half_sinc_;  // sin(t/2)/t
   double a_, b_;                     // of [P] and [P]^2 in J_l

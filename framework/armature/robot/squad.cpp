@@ -26,7 +26,7 @@ OrientationState SquadPiece::at(double x) const {
   // How delta changes, from the turning of b in a's frame: J_l(delta) ddelta/dx = w.
   const Eigen::Vector3d b_rate = a_R_b * inner_turn_;
   const Eigen::Vector3d w = b_rate - turn_;
-  const RotationAt at_delta{delta};
+  const RotationAt at_delta{delta, a_R_b};
   const Eigen::Vector3d delta1 = at_delta.rate_of(w);
   const Eigen::Vector3d dw = -turn_.cross(b_rate);
   const Eigen::Vector3d no_change = Eigen::Vector3d::Zero();

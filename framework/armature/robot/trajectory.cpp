@@ -29,16 +29,33 @@ const Quintic& piece_of(const Trajectory& trajectory, int piece, int joint) {
   return trajectory.pieces[static_cast<std::size_t>(piece * trajectory.dof + joint)];
 }
 
+/// What a quintic's coefficients are multiplied with for its value and first two derivatives at t.
+struct Powers {
+  using Row = Eigen::Matrix<double, 6, 1>;
+  Row value, first, second;
+
+  explicit Powers(double t) {
+    const double t2 = t * t, t3 = t2 * t, t4 = t2 * t2;
+    value << 1, t, t2, t3, t4, t4 * t;
+    first << 0, 1, 2 * t, 3 * t2, 4 * t3, 5 * t4;
+    second << 0, 0, 2, 6 * t, 12 * t2, 20 * t3;
+  }
+};
+
 JointState state_at(const Trajectory& trajectory, double t) {
-  const JointVector zero = JointVector::Zero(trajectory.dof);
-  JointState state{zero, zero, zero};
-  if (trajectory.piece_count() == 0) return state;
+  JointState state{JointVector(trajectory.dof), JointVector(trajectory.dof),
+                   JointVector(trajectory.dof)};
+  if (trajectory.piece_count() == 0) {
+    for (JointVector* values : {&state.q, &state.v, &state.a}) values->setZero();
+    return state;
+  }
   const Place place = place_of(trajectory, t);
+  const Powers at{place.t};
   for (int j = 0; j < trajectory.dof; ++j) {
-    const Quintic& quintic = piece_of(trajectory, place.piece, j);
-    state.q[j] = quintic.position(place.t);
-    state.v[j] = quintic.velocity(place.t);
-    state.a[j] = quintic.acceleration(place.t);
+    const Eigen::Map<const Powers::Row> c{piece_of(trajectory, place.piece, j).c.data()};
+    state.q[j] = at.value.dot(c);
+    state.v[j] = at.first.dot(c);
+    state.a[j] = at.second.dot(c);
   }
   return state;
 }

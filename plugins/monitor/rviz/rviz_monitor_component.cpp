@@ -2,12 +2,12 @@
 #include <optional>
 #include <utility>
 
+#include "armature/kinds/geometry_params.hpp"
 #include "armature/kinds/setup_robot.hpp"
 #include "armature/messages/geometry.hpp"
 #include "armature/messages/header.hpp"
 #include "armature/messages/sensor_msgs.hpp"
 #include "armature/robot/kinematics.hpp"
-#include "armature/robot/rotation.hpp"
 #include "armature/runtime/beat.hpp"
 #include "armature/runtime/component.hpp"
 #include "armature/runtime/plugin.hpp"
@@ -18,18 +18,12 @@
 namespace armature {
 namespace {
 
-Eigen::Vector3d vector_of(const Params& params, const char* name) {
-  const auto numbers = params.numbers(name);
-  return {numbers[0], numbers[1], numbers[2]};
-}
-
 FrameTree tree_of(const Params& params, const RobotModel& model,
                   const std::optional<StereoRig>& rig) {
   if (rig) mount_of(*rig, model);  // or it refuses
   FrameTree::Options options{.prefix = params.text("frame_prefix"),
                              .world = params.text("world_frame")};
-  options.world_T_base.translation() = vector_of(params, "base_position_m");
-  options.world_T_base.linear() = rotation_from_rpy(vector_of(params, "base_rpy_deg"));
+  options.world_T_base = pose_of(params, "base_position_m", "base_rpy_deg");
   if (options.world.empty() && !options.world_T_base.isApprox(Eigen::Isometry3d::Identity())) {
     throw SetupError("base_position_m and base_rpy_deg place base in world_frame: name one");
   }

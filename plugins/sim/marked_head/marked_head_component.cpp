@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <string>
 
+#include "armature/kinds/geometry_params.hpp"
 #include "armature/kinds/zone_messages.hpp"
 #include "armature/messages/geometry_msgs.hpp"
 #include "armature/messages/header.hpp"
@@ -15,24 +16,6 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr const char* kImageFrame = "image";
-
-Vector3d vector_of(const Params& params, const char* name) {
-  const auto values = params.numbers(name);
-  return {values[0], values[1], values[2]};
-}
-
-std::vector<Vector3d> markers_of(const Params& params) {
-  const auto values = params.numbers("markers_mm");
-  if (values.size() < 9 || values.size() % 3 != 0) {
-    throw SetupError("markers_mm has " + std::to_string(values.size()) +
-                     " numbers; three for each of at least three markers are needed");
-  }
-  std::vector<Vector3d> markers;
-  for (std::size_t i = 0; i < values.size(); i += 3) {
-    markers.emplace_back(values[i], values[i + 1], values[i + 2]);
-  }
-  return markers;
-}
 
 std::vector<ForbiddenZone> vessels_of(const Params& params) {
   const auto values = params.numbers("vessels_mm");
@@ -50,14 +33,6 @@ std::vector<ForbiddenZone> vessels_of(const Params& params) {
   return vessels;
 }
 
-Eigen::Isometry3d robot_T_image(const Params& params) {
-  const Vector3d rpy = vector_of(params, "head_rpy_deg");
-  return Eigen::Translation3d{vector_of(params, "head_mm")} *
-         (Eigen::AngleAxisd{rpy.z(), Vector3d::UnitZ()} *
-          Eigen::AngleAxisd{rpy.y(), Vector3d::UnitY()} *
-          Eigen::AngleAxisd{rpy.x(), Vector3d::UnitX()});
-}
-
 void add_points(const std::vector<Vector3d>& points, std::vector<msg::Point>& messages) {
   for (const Vector3d& point : points) assign(messages.emplace_back(), point);
 }
@@ -69,11 +44,11 @@ class MarkedHeadComponent final : public Component {
  public:
   explicit MarkedHeadComponent(Setup& setup)
       : Component{setup},
-        head_{.markers = markers_of(setup.params()),
+        head_{.markers = points_of(setup.params(), "markers_mm", 3, "at least three markers"),
               .entry = vector_of(setup.params(), "entry_mm"),
               .target = vector_of(setup.params(), "target_mm"),
               .vessels = vessels_of(setup.params()),
-              .robot_T_image = robot_T_image(setup.params())},
+              .robot_T_image = pose_of(setup.params(), "head_mm", "head_rpy_deg")},
         measurement_{setup.params().number("marker_error_mm"),
                      static_cast<int>(setup.params().integer("spurious_points"))},
         seed_{setup.seed()},

@@ -74,7 +74,7 @@ Matrix6 measured_block(const Matrix12x6& columns) {
 struct Innovation {
   Vector6 value;
   Matrix12x6 gain_numerator;  // P H'
-  Eigen::LDLT<Matrix6> covariance;
+  Eigen::LLT<Matrix6> covariance;
   double normalised;  // value' S^-1 value
 };
 

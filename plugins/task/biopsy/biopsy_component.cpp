@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <string>
 
+#include "armature/kinds/registration_messages.hpp"
 #include "armature/kinds/setup_robot.hpp"
 #include "armature/motion/goal_messages.hpp"
+#include "armature/motion/task_state_publisher.hpp"
 #include "armature/runtime/component.hpp"
 #include "armature/runtime/plugin.hpp"
 #include "armature/runtime/setup.hpp"
@@ -15,7 +17,6 @@ namespace armature {
 namespace {
 
 constexpr Duration kPeriod = seconds(0.02);
-constexpr Duration kStatePeriod = seconds(0.2);
 
 BiopsySettings settings_of(const Params& params) {
   return {.most_fiducial_error_m = params.number("most_fiducial_error_mm"),
@@ -28,12 +29,7 @@ NeedleLine line_of(const msg::NeedlePlan& plan) {
 
 RegisteredHead head_of(const msg::RegistrationResponse& response) {
   RegisteredHead head;
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 4; ++column) {
-      head.robot_T_image(row, column) =
-          response.robot_t_image_()[static_cast<std::size_t>(4 * row + column)];
-    }
-  }
+  head.robot_T_image = robot_T_image_of(response);
   head.fiducial_error_m = response.fre_();
   head.target_error95_m = response.targets_().front().error_95_();
   return head;
@@ -55,7 +51,7 @@ class BiopsyComponent final : public Component {
         motion_status_{setup.input<msg::MotionStatus>("motion_status")},
         request_{setup.output<msg::RegistrationRequest>("request")},
         goal_{setup.output<msg::MotionGoal>("goal")},
-        state_{setup.output<msg::TaskState>("state")} {
+        state_{setup} {
     setup.activate_every(kPeriod);
   }
 
@@ -113,32 +109,21 @@ class BiopsyComponent final : public Component {
   void publish_state(Time now) {
     std::string line = to_string(task_.phase());
     if (!task_.trouble().empty()) line += ": " + task_.trouble();
-    if (line == line_ && now - published_ < kStatePeriod) return;
-    if (line != line_) say(line);
-    line_ = line;
-    published_ = now;
-    auto loan = state_.loan();
-    write_header(loan->header_(), now);
-    loan->state_() = to_string(task_.phase());
-    loan->step_(0);
-    loan->steps_(0);
-    loan->detail_() = task_.trouble();
-    loan.publish();
+    const TaskReport report{.state = to_string(task_.phase()), .detail = task_.trouble()};
+    if (state_.publish(now, report, line)) say(line);
   }
 
   RobotModel robot_;
   Biopsy task_;
   double marker_error_m_, match_tolerance_m_;
   std::uint64_t asked_ = 0;
-  std::string line_;
-  Time published_;
   Input<msg::NeedlePlan> plan_;
   Input<msg::MeasuredMarkers> markers_;
   Input<msg::RegistrationResponse> registration_;
   Input<msg::MotionStatus> motion_status_;
   Output<msg::RegistrationRequest> request_;
   Output<msg::MotionGoal> goal_;
-  Output<msg::TaskState> state_;
+  TaskStatePublisher state_;
 };
 
 }  // namespace armature

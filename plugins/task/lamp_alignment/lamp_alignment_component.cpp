@@ -6,6 +6,7 @@
 #include "armature/kinds/setup_robot.hpp"
 #include "armature/kinds/target/target_messages.hpp"
 #include "armature/motion/goal_messages.hpp"
+#include "armature/motion/task_state_publisher.hpp"
 #include "armature/runtime/component.hpp"
 #include "armature/runtime/plugin.hpp"
 #include "armature/runtime/setup.hpp"
@@ -15,7 +16,6 @@ namespace armature {
 namespace {
 
 constexpr Duration kPeriod = seconds(0.02);
-constexpr Duration kStatePeriod = seconds(0.2);
 
 SearchSettings search_settings(const Params& params, const RobotModel& model) {
   const auto point = params.numbers("search_point_m");
@@ -59,7 +59,7 @@ class LampAlignmentComponent : public Component {
         goal_{setup.output<msg::MotionGoal>("goal")},
         light_level_{setup.output<msg::LightLevel>("light_level")},
         capture_{setup.output<msg::Capture>("capture")},
-        state_{setup.output<msg::TaskState>("state")} {
+        state_{setup} {
     setup.activate_every(kPeriod);
   }
 
@@ -120,17 +120,11 @@ class LampAlignmentComponent : public Component {
     std::string line = to_string(task_.phase());
     if (searching) line += fmt::format(" {}/{}", task_.view(), task_.views());
     if (!task_.trouble().empty()) line += ": " + task_.trouble();
-    if (line == line_ && now - published_ < kStatePeriod) return;
-    if (line != line_) say(line);
-    line_ = line;
-    published_ = now;
-    auto loan = state_.loan();
-    write_header(loan->header_(), now);
-    loan->state_() = to_string(task_.phase());
-    loan->step_(static_cast<std::uint32_t>(searching ? task_.view() : 0));
-    loan->steps_(static_cast<std::uint32_t>(searching ? task_.views() : 0));
-    loan->detail_() = task_.trouble();
-    loan.publish();
+    const TaskReport report{.state = to_string(task_.phase()),
+                            .step = searching ? task_.view() : 0,
+                            .steps = searching ? task_.views() : 0,
+                            .detail = task_.trouble()};
+    if (state_.publish(now, report, line)) say(line);
   }
 
   LampAlignment task_;
@@ -140,10 +134,8 @@ class LampAlignmentComponent : public Component {
   Output<msg::MotionGoal> goal_;
   Output<msg::LightLevel> light_level_;
   Output<msg::Capture> capture_;
-  Output<msg::TaskState> state_;
+  TaskStatePublisher state_;
   std::optional<bool> sent_capture_;
-  std::string line_;
-  Time published_;
 };
 
 }  // namespace armature

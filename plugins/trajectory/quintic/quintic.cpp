@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "quintic.hpp"
 
+#include <utility>
+
 #include "armature/kinds/trajectory/one_law.hpp"
+#include "armature/kinds/trajectory/point_to_point.hpp"
 #include "armature/runtime/plugin.hpp"
 
 namespace armature {
@@ -26,6 +29,7 @@ std::vector<Quintic> hermite_along(const JointCurve& curve, const TimeLaw& law,
 }  // namespace
 
 Expected<Trajectory> QuinticTrajectory::plan(const TrajectoryRequest& request) const {
+  if (auto direct = point_to_point(request)) return std::move(*direct);
   return timed(request, under_one_law(hermite_along));
 }
 

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "quintic_spline.hpp"
 
+#include <utility>
+
 #include "armature/kinds/trajectory/one_law.hpp"
+#include "armature/kinds/trajectory/point_to_point.hpp"
 #include "armature/robot/quintic_spline.hpp"
 #include "armature/runtime/plugin.hpp"
 
@@ -20,6 +23,7 @@ std::vector<Quintic> spline_along(const JointCurve& curve, const TimeLaw& law,
 }  // namespace
 
 Expected<Trajectory> QuinticSplineTrajectory::plan(const TrajectoryRequest& request) const {
+  if (auto direct = point_to_point(request)) return std::move(*direct);
   return timed(request, under_one_law(spline_along));
 }
 

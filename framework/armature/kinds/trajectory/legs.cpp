@@ -3,13 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <string>
-
 namespace armature {
 namespace {
 
 constexpr double kNearest_s = 1e-6;  // waypoints nearer in s than this are one
-constexpr double kStill = 1e-12;     // [rad] or [m]: no motion
 constexpr double kStartGap = 1e-6;   // [rad] or [m] between from.q and the first waypoint
 constexpr int kStraightParts = 8;    // of a straight line that runs on through a via
 
@@ -24,39 +21,6 @@ std::string defect(const JointSegment& segment, Eigen::Index dof) {
     if (!(segment.s[i] > segment.s[i - 1])) return "has waypoints whose s does not ascend";
   }
   if (segment.duration_s && !(*segment.duration_s > 0)) return "lasts no time";
-  return {};
-}
-
-std::string defect(const TrajectoryRequest& request) {
-  const Eigen::Index dof = request.from.q.size();
-  const auto& from = request.from;
-  if (dof == 0 || from.v.size() != dof || from.a.size() != dof || !from.q.allFinite() ||
-      !from.v.allFinite() || !from.a.allFinite()) {
-    return "the start is not a joint state";
-  }
-  const auto positive = [&](const JointVector& limit) {
-    return limit.size() == dof && (limit.array() > 0).all();
-  };
-  if (!positive(request.max_velocity) || !positive(request.max_acceleration)) {
-    return "the limits are not positive numbers, one per joint";
-  }
-  if (request.segments.empty()) return "there is no segment";
-  for (std::size_t i = 0; i < request.segments.size(); ++i) {
-    const JointSegment& segment = request.segments[i];
-    if (auto what = defect(segment, dof); !what.empty()) {
-      return fmt::format("segment {} {}", i + 1, what);
-    }
-    const bool from_stop = i == 0 || request.segments[i - 1].stop_at_end;
-    if (segment.duration_s && !(segment.stop_at_end && from_stop)) {
-      return fmt::format("segment {} has its own duration but does not run from stop to stop",
-                         i + 1);
-    }
-    const JointVector& before = i == 0 ? from.q : request.segments[i - 1].q.back();
-    const double gap = (segment.q.front() - before).cwiseAbs().maxCoeff();
-    if (gap > kStartGap) {
-      return fmt::format("segment {} starts {:.3g} away from where it should", i + 1, gap);
-    }
-  }
   return {};
 }
 
@@ -91,7 +55,7 @@ Leg joined(const TrajectoryRequest& request, std::size_t first, std::size_t end)
   for (std::size_t i = first; i < end; ++i) {
     const double part = length(request.segments[i], request.max_velocity);
     total += part;
-    moving += part > kStill ? 1 : 0;
+    moving += part > kStillWay ? 1 : 0;
   }
   std::vector<double> s{0};
   std::vector<JointVector> q{request.segments[first].q.front()};
@@ -99,7 +63,7 @@ Leg joined(const TrajectoryRequest& request, std::size_t first, std::size_t end)
   for (std::size_t i = first; i < end && moving > 0; ++i) {
     const JointSegment& given = request.segments[i];
     const double share = length(given, request.max_velocity) / total;
-    if (share * total <= kStill) continue;
+    if (share * total <= kStillWay) continue;
     const JointSegment& segment = moving > 1 && given.q.size() == 2 ? divided(given) : given;
     const double low = segment.s.front(), span = segment.s.back() - low;
     for (std::size_t k = 1; k < segment.s.size(); ++k) {
@@ -122,8 +86,41 @@ Leg joined(const TrajectoryRequest& request, std::size_t first, std::size_t end)
 
 }  // namespace
 
+std::string defect_of(const TrajectoryRequest& request) {
+  const Eigen::Index dof = request.from.q.size();
+  const auto& from = request.from;
+  if (dof == 0 || from.v.size() != dof || from.a.size() != dof || !from.q.allFinite() ||
+      !from.v.allFinite() || !from.a.allFinite()) {
+    return "the start is not a joint state";
+  }
+  const auto positive = [&](const JointVector& limit) {
+    return limit.size() == dof && (limit.array() > 0).all();
+  };
+  if (!positive(request.max_velocity) || !positive(request.max_acceleration)) {
+    return "the limits are not positive numbers, one per joint";
+  }
+  if (request.segments.empty()) return "there is no segment";
+  for (std::size_t i = 0; i < request.segments.size(); ++i) {
+    const JointSegment& segment = request.segments[i];
+    if (auto what = defect(segment, dof); !what.empty()) {
+      return fmt::format("segment {} {}", i + 1, what);
+    }
+    const bool from_stop = i == 0 || request.segments[i - 1].stop_at_end;
+    if (segment.duration_s && !(segment.stop_at_end && from_stop)) {
+      return fmt::format("segment {} has its own duration but does not run from stop to stop",
+                         i + 1);
+    }
+    const JointVector& before = i == 0 ? from.q : request.segments[i - 1].q.back();
+    const double gap = (segment.q.front() - before).cwiseAbs().maxCoeff();
+    if (gap > kStartGap) {
+      return fmt::format("segment {} starts {:.3g} away from where it should", i + 1, gap);
+    }
+  }
+  return {};
+}
+
 Expected<std::vector<Leg>> legs_of(const TrajectoryRequest& request) {
-  if (auto what = defect(request); !what.empty()) return refuse(what);
+  if (auto what = defect_of(request); !what.empty()) return refuse(what);
   std::vector<Leg> legs;
   std::size_t first = 0;
   for (std::size_t i = 0; i < request.segments.size(); ++i) {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "armature/kinds/trajectory/joint_curve.hpp"
@@ -11,6 +12,8 @@
 
 namespace armature {
 
+inline constexpr double kStillWay = 1e-12;  // [rad] or [m]: no motion
+
 /// The joint path from one stop to the next: one segment, or several joined at vias.
 struct Leg {
   std::size_t first_segment = 0;  // of the request
@@ -18,6 +21,9 @@ struct Leg {
   bool moves = true;                 // false: all waypoints are the same
   std::optional<double> duration_s;  // the path's own
 };
+
+/// What contradicts itself in a request, or "".
+std::string defect_of(const TrajectoryRequest& request);
 
 /// The request's segments put together from stop to stop; a leg that neither moves nor lasts is
 /// left out. Refuses a request that contradicts itself.

@@ -9,8 +9,6 @@
 namespace armature {
 namespace {
 
-constexpr double kShortestLeg_s = 0.02;
-constexpr double kRounding = 1e-9;  // of a limit
 // A moving start is tried with longer and longer durations, from this part of what the leg needs
 // from rest or the velocity needs to vanish; 1.25^39 is 6000 times longer.
 constexpr double kFirstTry = 0.3, kGrowth = 1.25;
@@ -26,8 +24,8 @@ class LegTimer {
     const Trajectory unit = shape_.in(1, rest());
     const double needed = needed_factor(request_, unit);
     if (!leg_.duration_s)
-      return stretched(unit, std::max(needed * (1 + kRounding), kShortestLeg_s));
-    if (needed > *leg_.duration_s * (1 + kRounding)) return too_short(needed);
+      return stretched(unit, std::max(needed * (1 + kLimitRounding), kShortestLeg_s));
+    if (needed > *leg_.duration_s * (1 + kLimitRounding)) return too_short(needed);
     return shape_.in(*leg_.duration_s, rest());
   }
 
@@ -50,7 +48,7 @@ class LegTimer {
   /// Within the limits, or no worse than the start itself.
   bool within_limits(const Trajectory& trajectory) const {
     const auto start_use = [](const JointVector& rate, const JointVector& limit) {
-      return std::max(1.0, rate.cwiseAbs().cwiseQuotient(limit).maxCoeff()) * (1 + kRounding);
+      return std::max(1.0, rate.cwiseAbs().cwiseQuotient(limit).maxCoeff()) * (1 + kLimitRounding);
     };
     const LimitUse use = limit_use(trajectory, request_.max_velocity, request_.max_acceleration);
     return use.velocity <= start_use(request_.from.v, request_.max_velocity) &&

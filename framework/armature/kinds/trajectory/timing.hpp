@@ -9,6 +9,9 @@
 
 namespace armature {
 
+inline constexpr double kShortestLeg_s = 0.02;
+inline constexpr double kLimitRounding = 1e-9;  // part of a limit that is not told from rounding
+
 /// What distinguishes one trajectory plugin from another: how it follows one leg. From rest, twice
 /// the time must be the same motion at half the speed.
 class LegShape {

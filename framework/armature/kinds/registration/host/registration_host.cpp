@@ -26,7 +26,7 @@ Points points_of(const std::vector<msg::Point>& message) {
 struct Answer {
   std::vector<std::size_t> robot_marker;  // of each image marker
   Registration found;
-  std::vector<TargetError> errors;  // of each target
+  std::vector<PointError> errors;  // of each target
 };
 
 Expected<std::vector<std::size_t>> matched(const msg::RegistrationRequest& request,
@@ -79,7 +79,9 @@ void write(const Answer& answer, const std::vector<msg::Point>& targets,
 
 }  // namespace
 
-/// Markers and targets in; the map, and where the targets are before the robot, out.
+/// Markers and targets in; the map, and where the targets are before the robot, out. The robot's
+/// markers may be told in any frame, a tracked body's as well as the base's: the answer is told in
+/// the same one.
 class RegistrationHost final
     : public RequestHost<msg::RegistrationRequest, msg::RegistrationResponse> {
  public:
@@ -89,9 +91,7 @@ class RegistrationHost final
  private:
   void answer(const msg::RegistrationRequest& request,
               msg::RegistrationResponse& response) override {
-    const auto wrong = in_another_frame(request);
-    const Expected<Answer> found =
-        wrong ? Expected<Answer>{refuse(*wrong)} : answer_to(*registrar_, request);
+    const Expected<Answer> found = answer_to(*registrar_, request);
     const msg::Header header = response.header_();
     response = msg::RegistrationResponse{};
     response.header_() = header;

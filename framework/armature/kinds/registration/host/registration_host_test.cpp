@@ -2,6 +2,8 @@
 // The host of the registrations: 1. one answer for each request, under its header and id, 2.
 // markers in any order are matched first, 3. targets come back with their error, 4. bad requests
 // are answered with their reason.
+#include <gtest/gtest.h>
+
 #include <array>
 #include <cmath>
 #include <stdexcept>
@@ -130,8 +132,14 @@ TEST_F(RegistrationHostTest, AnswersABadRequestWithItsReasonAndTheNextOneAsIfNot
   EXPECT_EQ(refusal([](auto& r) { r.match_tolerance_(0); }), "the tolerance is 0 m");
   EXPECT_EQ(refusal([](auto& r) { r.marker_error_(NAN); }), "a marker's error is nan m");
   EXPECT_EQ(refusal([](auto& r) { r.targets_()[0].z_(INFINITY); }), "the target is not finite");
-  EXPECT_EQ(refusal([](auto& r) { r.header_().frame_id_() = "tool"; }),
-            "the request is stated in frame 'tool', not in 'base'");
+}
+
+TEST_F(RegistrationHostTest, MarkersMayBeToldInAnyFrameAndTheAnswerIsInTheSame) {
+  msg::RegistrationRequest on_a_jaw = request(5);
+  on_a_jaw.header_().frame_id_() = "jaw";
+  const msg::RegistrationResponse answer = ask(on_a_jaw);
+  EXPECT_TRUE(answer.valid_()) << answer.reason_();
+  EXPECT_EQ(answer.header_().frame_id_(), "jaw");
 }
 
 TEST_F(RegistrationHostTest, AnExceptionOfThePluginIsAReasonAndTheNextRequestIsAnswered) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ik_bench/statistics.hpp"
+#include "bench/statistics.hpp"
 
 #include <algorithm>
 #include <cmath>

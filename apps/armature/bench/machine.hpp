@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 namespace armature::bench {
@@ -14,5 +15,9 @@ struct Machine {
   double load = 0;        // how many others were running: the load average of the last minute
 };
 Machine this_machine();
+
+nlohmann::ordered_json to_json(const Machine& machine);
+/// In one line.
+std::string to_text(const Machine& machine);
 
 }  // namespace armature::bench

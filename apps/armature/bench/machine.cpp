@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ik_bench/machine.hpp"
+#include "bench/machine.hpp"
 
 #include <fmt/format.h>
 #include <sched.h>
@@ -7,6 +7,7 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 namespace armature::bench {
 namespace {
@@ -40,6 +41,19 @@ Machine this_machine() {
 #endif
   getloadavg(&machine.load, 1);
   return machine;
+}
+
+nlohmann::ordered_json to_json(const Machine& machine) {
+  return {{"processor", machine.processor},
+          {"processors", machine.processors},
+          {"load", machine.load},
+          {"system", machine.system},
+          {"compiler", machine.compiler}};
+}
+
+std::string to_text(const Machine& machine) {
+  return fmt::format("{}, {} processors, load {:.1f}; {}; {}", machine.processor,
+                     machine.processors, machine.load, machine.system, machine.compiler);
 }
 
 }  // namespace armature::bench

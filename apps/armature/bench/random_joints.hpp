@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <random>
+#include <utility>
+
+#include "armature/robot/robot_model.hpp"
+
+namespace armature::bench {
+
+/// Uniform in [0, 1), the same in every standard library.
+double unit(std::mt19937_64& random);
+
+/// Limits of independent joint `i`, or a turn where there are none.
+std::pair<double, double> range(const RobotModel& model, int i);
+
+/// Every joint uniform in its range.
+JointVector anywhere(const RobotModel& model, std::mt19937_64& random);
+
+}  // namespace armature::bench

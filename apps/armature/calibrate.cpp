@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "calibrate.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <cmath>
+#include <ctime>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <optional>
+#include <stdexcept>
+
+#include "armature/calibration/hand_eye.hpp"
+#include "armature/calibration/pivot.hpp"
+#include "armature/calibration/recorded_poses.hpp"
+#include "armature/config/document.hpp"
+#include "exit_code.hpp"
+#include "readable_json.hpp"
+#include "write_atomically.hpp"
+
+namespace armature {
+namespace {
+
+using config::Node;
+using Json = nlohmann::ordered_json;
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+/// For people: four digits are enough.
+double rounded(double value) { return std::stod(fmt::format("{:.4g}", value)); }
+double mm(double m) { return rounded(1e3 * m); }
+double deg(double rad) { return rounded(rad / kDegree); }
+
+Json list(const auto& vector) {
+  Json numbers = Json::array();
+  for (const double number : vector) numbers.push_back(number);
+  return numbers;
+}
+
+Json transform(const Eigen::Isometry3d& pose) {
+  return {{"translation_m", list(pose.translation())},
+          {"quaternion_xyzw", list(Eigen::Quaterniond{pose.linear()}.normalized().coeffs())}};
+}
+
+Node to_node(const Json& json) {
+  if (json.is_array()) {
+    std::vector<Node> items;
+    for (const Json& item : json) items.push_back(to_node(item));
+    return Node::sequence(std::move(items), {});
+  }
+  if (json.is_object()) {
+    std::vector<Node::Entry> entries;
+    for (const auto& [key, value] : json.items()) entries.push_back({key, {}, to_node(value)});
+    return Node::map(std::move(entries), {});
+  }
+  return Node::scalar(json.is_string() ? json.get<std::string>() : json.dump(), false, {});
+}
+
+/// The robot whose joints are told, with the flange for its tool.
+std::optional<RobotModel> load_flange(const CalibrationOptions& options) {
+  if (options.arm.robot.empty()) return std::nullopt;
+  ArmChoice arm = options.arm;
+  if (arm.tip.empty()) arm.tip = "flange";
+  return load_arm(arm);
+}
+
+std::string flange_name(const CalibrationOptions& options) {
+  return options.arm.tip.empty() ? "flange" : options.arm.tip;
+}
+
+/// What every calibration says of itself.
+Json head(const char* kind, const char* method, const CalibrationOptions& options,
+          std::size_t poses) {
+  Json json{{"armature_calibration", 1}, {"kind", kind}, {"method", method}};
+  json["date_utc"] = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
+  json["poses_file"] = options.poses;
+  if (!options.arm.robot.empty()) json["robot_file"] = options.arm.robot;
+  json["poses"] = poses;
+  return json;
+}
+
+[[noreturn]] void refuse_poses(const CalibrationOptions& options, const Reason& reason) {
+  throw std::runtime_error{fmt::format("{}: {}", options.poses, reason.text)};
+}
+
+/// `hint`: how a robot file takes it.
+int deliver(const Json& json, const CalibrationOptions& options, const std::string& hint) {
+  const std::string yaml = fmt::format("# For a robot file: frames: {{{}}}\n{}", hint,
+                                       config::to_yaml(to_node(json), false));
+  if (!options.output.empty()) {
+    write_atomically(options.output, yaml);
+    fmt::print(stderr, "{}: {} poses, {} mm rms remain\n", options.output, json["poses"].get<int>(),
+               json["residual"]["rms_mm"].get<double>());
+  }
+  if (options.json) fmt::print("{}\n", readable(json));
+  if (options.output.empty() && !options.json) fmt::print("{}", yaml);
+  return kOk;
+}
+
+std::string calibrated(const std::string& frame, const std::string& parent,
+                       const CalibrationOptions& options) {
+  return fmt::format("{}: {{parent: {}, calibrated: {}}}", frame, parent,
+                     options.output.empty() ? "THIS FILE" : options.output);
+}
+
+/// Where the error is told: a stated point, or the middle of the recorded bodies.
+Eigen::Vector3d point_of_interest(const CalibrationOptions& options,
+                                  const std::vector<HandEyePose>& poses, const HandEye& found) {
+  if (!options.at_m.empty()) return {options.at_m[0], options.at_m[1], options.at_m[2]};
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const HandEyePose& pose : poses) {
+    sum += (pose.base_T_flange * found.flange_T_body).translation();
+  }
+  return sum / static_cast<double>(poses.size());
+}
+
+Json expected(const PointError& error) {
+  return {{"rms_mm", mm(error.rms_m)}, {"bound95_mm", mm(error.bound95_m)}};
+}
+
+Json hand_eye_json(const HandEye& found, const std::vector<HandEyePose>& poses,
+                   const CalibrationOptions& options) {
+  Json json = head("hand_eye",
+                   "base_T_flange flange_T_body = base_T_tracker tracker_T_body: Shah 2013, then "
+                   "least squares weighed by noise",
+                   options, poses.size());
+  json[fmt::format("{}_T_{}", flange_name(options), options.body)] = transform(found.flange_T_body);
+  json["base_T_" + options.tracker] = transform(found.base_T_tracker);
+  json["residual"] = {{"rms_mm", mm(found.residual_rms_m)},
+                      {"rms_deg", deg(found.residual_rms_rad)},
+                      {"worst_pose", found.worst_pose + 1},
+                      {"worst_mm", mm(found.worst_m)},
+                      {"worst_deg", deg(found.worst_rad)}};
+  json["noise_per_axis"] = {{"from", options.noise.empty() ? "residuals" : "stated"},
+                            {"position_mm", mm(found.noise.position_m)},
+                            {"rotation_deg", deg(found.noise.rotation_rad)}};
+  json["orientation_spread_deg"] = deg(found.spread_rad);
+  const Eigen::Vector3d point = point_of_interest(options, poses, found);
+  Json at{{"point_of_base_m",
+           Json::array({rounded(point.x()), rounded(point.y()), rounded(point.z())})}};
+  at.update(expected(found.error_at(point)));
+  json["expected_error"] = at;
+  json["expected_error_of_" + options.body] =
+      expected(found.body_error_at(found.flange_T_body.translation()));
+  return json;
+}
+
+void check(const CalibrationOptions& options) {
+  for (const double coordinate : options.at_m) {
+    if (!std::isfinite(coordinate)) throw InvalidChoice("--at must be finite");
+  }
+  for (const double noise : options.noise) {
+    if (!(noise > 0 && std::isfinite(noise))) throw InvalidChoice("--noise must be positive");
+  }
+}
+
+}  // namespace
+
+int run_hand_eye_calibration(const CalibrationOptions& options) {
+  check(options);
+  const auto robot = load_flange(options);
+  const auto poses = read_hand_eye_poses(options.poses, robot ? &*robot : nullptr);
+  HandEyeOptions how;
+  if (!options.noise.empty()) {
+    how.noise = PoseNoise{1e-3 * options.noise[0], kDegree * options.noise[1]};
+  }
+  const auto found = calibrate_hand_eye(poses, how);
+  if (!found) refuse_poses(options, found.error());
+  return deliver(hand_eye_json(*found, poses, options), options,
+                 calibrated(options.body, flange_name(options), options) + ", " +
+                     calibrated(options.tracker, "base", options));
+}
+
+int run_tool_calibration(const CalibrationOptions& options) {
+  const auto robot = load_flange(options);
+  const ToolPoses poses = read_tool_poses(options.poses, robot ? &*robot : nullptr);
+  const auto found = calibrate_pivot(poses.fixed_T_body);
+  if (!found) refuse_poses(options, found.error());
+  const std::string parent = poses.is_tracked ? options.body : flange_name(options);
+  Json json =
+      head("tool", "least squares of one fixed point, the tip", options, poses.fixed_T_body.size());
+  json[parent + "_T_" + options.tool] = {{"translation_m", list(found->tip)}};
+  json[(poses.is_tracked ? options.tracker : "base") + "_T_point"] = {
+      {"translation_m", list(found->point)}};
+  json["residual"] = {{"rms_mm", mm(found->residual_rms_m)},
+                      {"worst_pose", found->worst_pose + 1},
+                      {"worst_mm", mm(found->worst_m)}};
+  json["orientation_spread_deg"] = deg(found->spread_rad);
+  json["expected_error"] = expected(found->tip_error);
+  return deliver(json, options, calibrated(options.tool, parent, options));
+}
+
+}  // namespace armature

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plan_bench/interpolators.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <random>
+
+#include "armature/robot/orientation_curve.hpp"
+#include "bench/clock.hpp"
+#include "bench/random_joints.hpp"
+#include "bench/statistics.hpp"
+
+namespace armature::bench {
+namespace {
+
+using Keys = std::vector<Eigen::Quaterniond>;
+
+constexpr std::array kNames{"slerp", "squad", "rotvec_bspline", "chart_bspline"};
+constexpr int kSamplesOfACurve = 1000;
+constexpr double kBeside = 1e-7;  // of the parameter, before and behind the place of a jump
+
+/// Uniform over all rotations (Shoemake 1992, "Uniform random rotations").
+Eigen::Quaterniond any_rotation(std::mt19937_64& random) {
+  constexpr double kTurn = 2 * std::numbers::pi;
+  const double u = unit(random), a = kTurn * unit(random), b = kTurn * unit(random);
+  const double low = std::sqrt(1 - u), high = std::sqrt(u);
+  return {high * std::cos(b), low * std::sin(a), low * std::cos(a), high * std::sin(b)};
+}
+
+struct Figures {
+  std::vector<double> build_s, sample_s, turn, peak, velocity_jump, acceleration_jump;
+};
+
+double turn_of(const OrientationCurve& curve) {
+  double turn = 0;
+  Eigen::Quaterniond before = curve.at(0).rotation;
+  for (int i = 1; i <= kSamplesOfACurve; ++i) {
+    const Eigen::Quaterniond here = curve.at(static_cast<double>(i) / kSamplesOfACurve).rotation;
+    turn += before.angularDistance(here);
+    before = here;
+  }
+  return turn;
+}
+
+double peak_of(const OrientationCurve& curve) {
+  double peak = 0;
+  for (int i = 0; i <= kSamplesOfACurve; ++i) {
+    peak = std::max(peak, curve.at(static_cast<double>(i) / kSamplesOfACurve).acceleration.norm());
+  }
+  return peak;
+}
+
+void add_jumps(const OrientationCurve& curve, Figures& figures) {
+  double velocity = 0, acceleration = 0;
+  for (const double u : curve.piece_starts()) {
+    if (u < kBeside) continue;
+    const OrientationState before = curve.at(u - kBeside), behind = curve.at(u + kBeside);
+    velocity = std::max(velocity, (behind.velocity - before.velocity).norm());
+    acceleration = std::max(acceleration, (behind.acceleration - before.acceleration).norm());
+  }
+  figures.velocity_jump.push_back(velocity);
+  figures.acceleration_jump.push_back(acceleration);
+}
+
+void add_times(const Keys& keys, OrientationInterpolator kind, int repetitions, double clock_s,
+               Figures& figures) {
+  double build = std::numeric_limits<double>::infinity(), sample = build;
+  volatile double kept = 0;  // so that no sample can be left out
+  for (int repetition = 0; repetition < repetitions; ++repetition) {
+    const auto start = Clock::now();
+    const auto curve = OrientationCurve::through(keys, kind);
+    const auto built = Clock::now();
+    double sum = 0;
+    for (int i = 0; i < kSamplesOfACurve; ++i) {
+      const OrientationState state = curve->at(static_cast<double>(i) / kSamplesOfACurve);
+      sum += state.rotation.w() + state.velocity.x() + state.acceleration.y();
+    }
+    kept = sum;
+    const auto sampled = Clock::now();
+    build = std::min(build, seconds_between(start, built) - clock_s);
+    sample = std::min(sample, (seconds_between(built, sampled) - clock_s) / kSamplesOfACurve);
+  }
+  static_cast<void>(kept);
+  figures.build_s.push_back(std::max(0.0, build));
+  figures.sample_s.push_back(std::max(0.0, sample));
+}
+
+}  // namespace
+
+std::vector<InterpolatorRow> measure_interpolators(int curves, int keys, std::uint64_t seed,
+                                                   int repetitions) {
+  std::array<Figures, kNames.size()> figures;
+  std::mt19937_64 random{seed};
+  const double clock_s = clock_seconds();
+  for (int i = 0; i < curves; ++i) {
+    Keys own(static_cast<std::size_t>(keys));
+    for (Eigen::Quaterniond& key : own) key = any_rotation(random);
+    double shortest = 0;  // the great arcs'
+    for (std::size_t k = 0; k < kNames.size(); ++k) {
+      const auto kind = *orientation_interpolator(kNames[k]);
+      const auto curve = OrientationCurve::through(own, kind);
+      if (!curve) continue;  // two neighbours half a turn apart
+      const double turn = turn_of(*curve);
+      if (k == 0) shortest = turn;
+      figures[k].turn.push_back(turn / shortest);
+      figures[k].peak.push_back(peak_of(*curve));
+      add_jumps(*curve, figures[k]);
+      add_times(own, kind, repetitions, clock_s, figures[k]);
+    }
+  }
+  std::vector<InterpolatorRow> rows;
+  for (std::size_t k = 0; k < kNames.size(); ++k) {
+    const Figures& all = figures[k];
+    rows.push_back({.name = kNames[k],
+                    .build_s = quantile(all.build_s, 0.5),
+                    .sample_s = quantile(all.sample_s, 0.5),
+                    .turn = quantile(all.turn, 0.5),
+                    .peak_acceleration = quantile(all.peak, 0.5),
+                    .velocity_jump = quantile(all.velocity_jump, 0.5),
+                    .acceleration_jump = quantile(all.acceleration_jump, 0.5)});
+  }
+  return rows;
+}
+
+}  // namespace armature::bench

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/calibration/usable_pose.hpp"
+
+#include <Eigen/Eigenvalues>
+
+#include "armature/robot/rotation_vector.hpp"
+
+namespace armature {
+
+std::optional<std::string> wrong_with(const Eigen::Isometry3d& pose) {
+  constexpr double kRounding = 1e-5;  // of files with six digits
+  if (!pose.matrix().allFinite()) return "is not finite";
+  if (pose.linear().isUnitary(kRounding) && pose.linear().determinant() > 0) return std::nullopt;
+  return "is no rotation";
+}
+
+Eigen::Vector3d spread_of(std::span<const Eigen::Isometry3d> poses) {
+  const double n = static_cast<double>(poses.size());
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const Eigen::Isometry3d& pose : poses) {
+    const Eigen::Quaterniond turn{poses.front().linear().transpose() * pose.linear()};
+    const Eigen::Vector3d P = rotation_vector_of(turn.normalized());
+    squares += P * P.transpose();
+    sum += P;
+  }
+  const Eigen::Matrix3d scatter = squares / n - sum * sum.transpose() / (n * n);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes{scatter, Eigen::EigenvaluesOnly};
+  return axes.eigenvalues().reverse().cwiseMax(0).cwiseSqrt();
+}
+
+}  // namespace armature

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+
+#include "armature/messages/geometry.hpp"
+#include "armature/messages/header.hpp"
+#include "armature/messages/tf2_msgs.hpp"
+#include "armature/robot/guided_chain.hpp"
+#include "armature/values/expected.hpp"
+
+namespace armature {
+
+/// The links of a guided chain, as ROS tells frames. Of a map that is not rigid the rotation only.
+inline void write_chain(const GuidedChain& chain, Time stamp, msg::TFMessage& message) {
+  message.transforms_().clear();
+  const auto link = [&](std::string_view parent, std::string_view child,
+                        const Eigen::Isometry3d& parent_T_child) {
+    auto& transform = message.transforms_().emplace_back();
+    write_header(transform.header_(), stamp, parent);
+    transform.child_frame_id_().assign(child);
+    assign(transform.transform_(), parent_T_child);
+  };
+  link(kBaseFrame, "tracker", chain.base_T_tracker);
+  link("flange", "body", chain.flange_T_body);
+  link("body", "tool", chain.flange_T_body.inverse() * chain.flange_T_tool());
+  link("tracker", "patient", chain.tracker_T_patient);
+  link("patient", "image",
+       Eigen::Translation3d{chain.patient_T_image.translation()} *
+           Eigen::Quaterniond{chain.patient_T_image.rotation()});
+}
+
+/// The chain of such a message, or which link it lacks.
+inline Expected<GuidedChain> chain_of(const msg::TFMessage& message) {
+  std::string missing;
+  const auto link = [&](std::string_view parent, std::string_view child) {
+    for (const auto& transform : message.transforms_()) {
+      if (transform.header_().frame_id_() == parent && transform.child_frame_id_() == child) {
+        return to_eigen(transform.transform_());
+      }
+    }
+    missing = "no transform from '" + std::string{parent} + "' to '" + std::string{child} + "'";
+    return Eigen::Isometry3d::Identity();
+  };
+  GuidedChain chain;
+  chain.base_T_tracker = link(kBaseFrame, "tracker");
+  chain.flange_T_body = link("flange", "body");
+  const Eigen::Isometry3d body_T_tool = link("body", "tool");
+  chain.tip = body_T_tool.translation();
+  chain.flange_R_tool = chain.flange_T_body.linear() * body_T_tool.linear();
+  chain.tracker_T_patient = link("tracker", "patient");
+  chain.patient_T_image = link("patient", "image");
+  if (!missing.empty()) return refuse(missing);
+  return chain;
+}
+
+}  // namespace armature

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "operating_room.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <string>
+
+#include "armature/kinds/geometry_params.hpp"
+
+namespace armature {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+std::vector<Isometry3d> sites_of(const Params& params) {
+  const auto positions = points_of(params, "sites_mm", 1, "at least one site");
+  const auto angles = points_of(params, "sites_rpy_deg", 1, "at least one site");
+  if (positions.size() != angles.size()) {
+    throw SetupError("sites_mm has " + std::to_string(positions.size()) +
+                     " sites, sites_rpy_deg has " + std::to_string(angles.size()));
+  }
+  std::vector<Isometry3d> sites;
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    sites.emplace_back(Eigen::Translation3d{positions[i]} *
+                       Eigen::Quaterniond{rotation_from_rpy(angles[i])});
+  }
+  return sites;
+}
+
+}  // namespace
+
+OperatingRoom operating_room(const Params& params, const Isometry3d& flange_T_file_tool) {
+  const Isometry3d flange_T_drill =
+      flange_T_file_tool * Eigen::Translation3d{vector_of(params, "drill_offset_mm")};
+  OperatingRoom room;
+  room.chain.base_T_tracker = pose_of(params, "tracker_mm", "tracker_rpy_deg");
+  room.chain.flange_T_body = pose_of(params, "body_mm", "body_rpy_deg");
+  room.chain.tip = room.chain.flange_T_body.inverse() * flange_T_drill.translation();
+  room.chain.flange_R_tool = flange_T_drill.linear();
+  room.chain.tracker_T_patient =
+      room.chain.base_T_tracker.inverse() * pose_of(params, "jaw_mm", "jaw_rpy_deg");
+  room.chain.patient_T_image = pose_of(params, "image_mm", "image_rpy_deg");
+  room.markers = points_of(params, "markers_mm", 3, "at least three markers");
+  room.sites = sites_of(params);
+  return room;
+}
+
+Isometry3d turned_about_tip(const Vector3d& tip, const Vector3d& tracker_divot, double cone_rad,
+                            double elapsed_s) {
+  // [1/s]: incommensurable, so that no orientation comes back soon.
+  constexpr double kRound = 1.3, kTilt = 0.37, kTwist = 0.71, kTwistRad = 0.2;
+  const double turn = 2 * M_PI * elapsed_s;
+  const double tilt = cone_rad * (0.5 - 0.5 * std::cos(kTilt * turn));
+  const Vector3d about{std::cos(kRound * turn), std::sin(kRound * turn), 0};
+  const Eigen::Quaterniond rotation =
+      Eigen::AngleAxisd{tilt, about} *
+      Eigen::AngleAxisd{kTwistRad * std::sin(kTwist * turn), Vector3d::UnitZ()};
+  return Eigen::Translation3d{tracker_divot} * rotation * Eigen::Translation3d{-tip};
+}
+
+}  // namespace armature

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "calibration_run.hpp"
+
+#include <fmt/format.h>
+
+#include "armature/robot/kinematics.hpp"
+#include "calibration_poses.hpp"
+
+namespace armature {
+namespace {
+
+// [m], [rad]: an arm that moved by less from the first sample to the last stood still.
+constexpr double kStill = 2e-5, kStillRad = 1e-4;
+
+bool moved(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to) {
+  const Eigen::Isometry3d way = from.inverse() * to;
+  return way.translation().norm() > kStill || Eigen::AngleAxisd{way.linear()}.angle() > kStillRad;
+}
+
+}  // namespace
+
+CalibrationRun::CalibrationRun(const CalibrationSettings& settings, const RobotModel& robot)
+    : settings_{settings}, watch_{"the flange", settings.patience} {
+  for (const JointVector& q : calibration_poses(robot, settings.poses, settings.spread_rad)) {
+    const Eigen::Isometry3d base_T_tool = forward_kinematics(robot, q);
+    goals_.push_back({base_T_tool.translation(), Eigen::Quaterniond{base_T_tool.linear()}});
+  }
+}
+
+std::optional<ToolPose> CalibrationRun::destination() const {
+  if (at_ == count()) return std::nullopt;
+  return goals_[static_cast<std::size_t>(at_)];
+}
+
+void CalibrationRun::arrive(Time now) {
+  if (arrived_) return;
+  arrived_ = now;
+  watch_.begin(now);
+}
+
+void CalibrationRun::see(const Sighting& sighting, const Eigen::Isometry3d& base_T_flange) {
+  if (!arrived_ || sighting.stamp < *arrived_) return;
+  watch_.see(sighting);
+  if (!sighting.tracker_T_body) return;
+  if (average_.count() == 0 || moved(base_T_flange_, base_T_flange)) {
+    average_.clear();
+    base_T_flange_ = base_T_flange;
+  }
+  average_.add(*sighting.tracker_T_body);
+  if (average_.count() < settings_.samples) return;
+  poses_.push_back({base_T_flange, average_.mean()});
+  next();
+}
+
+void CalibrationRun::update(Time now) {
+  if (!arrived_) return;
+  if (const auto blind = watch_.blind(now)) leave_out(*blind);
+}
+
+void CalibrationRun::leave_out(const std::string& why) {
+  left_out_ = fmt::format("pose {}: {}", number(), why);
+  next();
+  const int most = static_cast<int>(poses_.size()) + count() - at_;
+  if (most < settings_.least_poses) {
+    trouble_ = fmt::format("{} of {} poses at most, {} are needed; {}", most, count(),
+                           settings_.least_poses, left_out_);
+  }
+}
+
+void CalibrationRun::next() {
+  arrived_.reset();
+  average_.clear();
+  ++at_;
+}
+
+}  // namespace armature

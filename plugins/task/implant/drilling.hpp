@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "armature/motion/goal.hpp"
+#include "armature/robot/guided_chain.hpp"
+
+namespace armature {
+
+/// One motion of the drill.
+struct Bore {
+  MotionGoal goal;
+  bool ends_at_bottom = false;  // of a site, where the drill stays for a while
+};
+
+/// Which way the drill goes, in poses of the robot file's tool.
+struct DrillingWay {
+  ToolPose approach;  // above the first site
+  std::vector<Bore> bores;
+};
+
+struct DrillingSettings {
+  double stand_off_m = 0.03;  // from where above a bottom the drill goes in, along its z axis
+  /// A goal for every site, with its end at the bottom; else one through all of them.
+  bool stop_at_sites = false;
+};
+
+/// From the approach into every site and back out, over to the next, and above the last at the
+/// end. `flange_T_file_tool` is the frame that motion goals are stated for, wherever the true drill
+/// is. A line that comes back on itself has no speed at its turn, so that the drill turns round at
+/// every bottom also in the midst of a motion. At least one site.
+DrillingWay drilling_way(const GuidedChain& chain, const Eigen::Isometry3d& flange_T_file_tool,
+                         const std::vector<Eigen::Isometry3d>& image_T_sites,
+                         const DrillingSettings& settings);
+
+}  // namespace armature

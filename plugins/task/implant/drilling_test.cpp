@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which way the drill goes.
+#include "drilling.hpp"
+
+#include <gtest/gtest.h>
+
+namespace armature {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+class DrillingWayTest : public testing::Test {
+ protected:
+  DrillingWayTest() {
+    chain_.base_T_tracker = Eigen::Translation3d{-1, 0.5, 1.2} *
+                            Eigen::AngleAxisd{1.8, Vector3d{0.3, 1, 0.2}.normalized()};
+    chain_.flange_T_body =
+        Eigen::Translation3d{0.06, -0.03, 0.08} * Eigen::AngleAxisd{0.4, Vector3d::UnitZ()};
+    chain_.tip = {0.01, 0.02, 0.1};
+    chain_.flange_R_tool = file_tool_.linear();
+    chain_.tracker_T_patient = Eigen::Translation3d{0.1, 0.2, 1.5} * Eigen::Quaterniond::Identity();
+    chain_.patient_T_image = Eigen::Affine3d{Eigen::Translation3d{0.03, 0, 0}};
+    for (const double x : {0.0, 0.012, 0.025}) {
+      sites_.emplace_back(Eigen::Translation3d{x, 0, 0.01} *
+                          Eigen::AngleAxisd{20 * x, Vector3d::UnitX()});
+    }
+  }
+  /// Where the true drill is in the image when the file's tool is at `pose`.
+  Isometry3d drill_in_image(const ToolPose& pose) const {
+    const Isometry3d base_T_tool =
+        Eigen::Translation3d{pose.position} * std::get<Eigen::Quaterniond>(pose.orientation);
+    const Isometry3d base_T_drill = base_T_tool * file_tool_.inverse() * chain_.flange_T_tool();
+    return chain_.base_T_site(Isometry3d::Identity()).inverse() * base_T_drill;
+  }
+  void expect_at(const ToolPose& pose, std::size_t site, double above_m) const {
+    const Isometry3d wanted = sites_[site] * Eigen::Translation3d{0, 0, -above_m};
+    EXPECT_LT((drill_in_image(pose).matrix() - wanted.matrix()).norm(), 1e-12);
+  }
+
+  const Isometry3d file_tool_ =
+      Eigen::Translation3d{0, 0.02, 0.15} * Eigen::AngleAxisd{0.5, Vector3d::UnitY()};
+  GuidedChain chain_;
+  std::vector<Isometry3d> sites_;
+};
+
+TEST_F(DrillingWayTest, GoesThroughAllSitesInOneMotion) {
+  const DrillingWay way = drilling_way(chain_, file_tool_, sites_, {.stand_off_m = 0.03});
+  expect_at(way.approach, 0, 0.03);
+  ASSERT_EQ(way.bores.size(), 1u);
+  EXPECT_FALSE(way.bores[0].ends_at_bottom);
+  const auto& through = way.bores[0].goal.through;
+  ASSERT_EQ(through.size(), 7u);
+  expect_at(through[0], 0, 0);
+  expect_at(through[1], 0, 0.03);
+  expect_at(through[2], 1, 0.03);
+  expect_at(through[3], 1, 0);
+  expect_at(through[4], 1, 0.03);
+  expect_at(through[5], 2, 0.03);
+  expect_at(through[6], 2, 0);
+  expect_at(way.bores[0].goal.pose, 2, 0.03);
+}
+
+TEST_F(DrillingWayTest, OrEndsAMotionAtEveryBottom) {
+  const DrillingWay way =
+      drilling_way(chain_, file_tool_, sites_, {.stand_off_m = 0.02, .stop_at_sites = true});
+  ASSERT_EQ(way.bores.size(), 4u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_TRUE(way.bores[i].ends_at_bottom);
+    expect_at(way.bores[i].goal.pose, i, 0);
+    if (i == 0) continue;
+    ASSERT_EQ(way.bores[i].goal.through.size(), 2u);
+    expect_at(way.bores[i].goal.through[0], i - 1, 0.02);
+    expect_at(way.bores[i].goal.through[1], i, 0.02);
+  }
+  EXPECT_TRUE(way.bores[0].goal.through.empty());
+  EXPECT_FALSE(way.bores[3].ends_at_bottom);
+  expect_at(way.bores[3].goal.pose, 2, 0.02);
+}
+
+TEST_F(DrillingWayTest, OneSiteIsEnough) {
+  sites_.resize(1);
+  const DrillingWay way = drilling_way(chain_, file_tool_, sites_, {});
+  ASSERT_EQ(way.bores.size(), 1u);
+  ASSERT_EQ(way.bores[0].goal.through.size(), 1u);
+  expect_at(way.bores[0].goal.through[0], 0, 0);
+  expect_at(way.bores[0].goal.pose, 0, 0.03);
+}
+
+}  // namespace
+}  // namespace armature

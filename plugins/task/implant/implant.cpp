@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "implant.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace armature {
+namespace {
+
+using Eigen::Isometry3d;
+
+constexpr Duration kAnswerWithin = seconds(1.0);
+
+}  // namespace
+
+Implant::Implant(const ImplantSettings& settings, const RobotModel& robot,
+                 const Isometry3d& flange_T_file_tool)
+    : settings_{settings},
+      flange_T_file_tool_{flange_T_file_tool},
+      calibration_{settings.calibration, robot},
+      drill_watch_{"the drill in the hand", settings.patience},
+      flange_watch_{"the flange", settings.patience},
+      jaw_watch_{"the jaw", settings.patience} {
+  chain_.flange_R_tool = flange_T_file_tool.linear();
+}
+
+void Implant::begin(Time now) { enter(Phase::pivoting, now); }
+
+void Implant::enter(Phase phase, Time now) {
+  phase_ = phase;
+  if (phase == Phase::pivoting) drill_watch_.begin(now);
+  if (phase == Phase::locating || phase == Phase::approaching) jaw_watch_.begin(now);
+  if (phase == Phase::approaching) flange_watch_.begin(now);
+}
+
+void Implant::see_plan(const std::vector<ToolPose>& sites) {
+  if (!sites_.empty() || phase_ == Phase::refused) return;
+  if (sites.empty()) return refuse("the plan has no sites");
+  for (const ToolPose& site : sites) {
+    const auto valid = checked(site, fmt::format("site {}'s", sites_.size() + 1));
+    if (!valid) return refuse("the plan: " + valid.error().text);
+    sites_.emplace_back(Eigen::Translation3d{valid->position} *
+                        std::get<Eigen::Quaterniond>(valid->orientation));
+  }
+}
+
+void Implant::see_pivot(const Sighting& sighting) {
+  if (phase_ != Phase::pivoting) return;
+  drill_watch_.see(sighting);
+  if (!sighting.tracker_T_body) return;
+  if (!pivot_since_) pivot_since_ = sighting.stamp;
+  pivot_poses_.push_back(*sighting.tracker_T_body);
+}
+
+void Implant::see_flange(const Sighting& sighting) {
+  flange_watch_.see(sighting);
+  if (phase_ == Phase::calibrating && base_T_flange_) calibration_.see(sighting, *base_T_flange_);
+}
+
+void Implant::see_jaw(const Sighting& sighting) {
+  jaw_watch_.see(sighting);
+  if (!sighting.tracker_T_body) return;
+  if (phase_ == Phase::locating) jaw_.add(*sighting.tracker_T_body);
+  if (phase_ != Phase::approaching && phase_ != Phase::drilling) return;
+  const Eigen::Vector3d site = chain_.patient_T_image * sites_.front().translation();
+  const double moved_m = (*sighting.tracker_T_body * site - chain_.tracker_T_patient * site).norm();
+  if (moved_m > settings_.most_jaw_motion_m) {
+    hold(fmt::format("the jaw has moved by {:.2f} mm, {:g} mm are allowed", 1e3 * moved_m,
+                     1e3 * settings_.most_jaw_motion_m));
+  }
+}
+
+void Implant::hear(const GoalReport& report, Time now) {
+  goal_.hear(report, now);
+  const bool there = goal_.state() == PursuedGoal::State::done;
+  const bool failed = goal_.state() == PursuedGoal::State::failed;
+  if (phase_ == Phase::calibrating && sent_to_ == calibration_.number()) {
+    if (there) calibration_.arrive(goal_.done_at());
+    if (failed) calibration_.leave_out(goal_.reason());
+  }
+  if (phase_ != Phase::approaching && phase_ != Phase::drilling) return;
+  if (failed) return refuse(goal_.reason());
+  if (!there || phase_ == Phase::drilling) return;
+  goal_.set(way_.bores.front().goal);
+  enter(Phase::drilling, now);
+}
+
+void Implant::update(Time now) {
+  switch (phase_) {
+    case Phase::pivoting:
+      if (pivot_since_ && now - *pivot_since_ >= settings_.pivot) return finish_pivot(now);
+      if (const auto blind = drill_watch_.blind(now)) refuse("pivot: " + *blind);
+      break;
+    case Phase::calibrating:
+      calibration_.update(now);
+      if (!calibration_.trouble().empty()) return refuse("hand-eye: " + calibration_.trouble());
+      if (!calibration_.destination()) return finish_calibration(now);
+      go_on_calibrating();
+      break;
+    case Phase::locating:
+      if (jaw_.count() >= settings_.jaw_samples) return finish_locating(now);
+      if (const auto blind = jaw_watch_.blind(now)) refuse(*blind);
+      break;
+    case Phase::approaching:
+    case Phase::drilling:
+      if (const auto blind = jaw_watch_.blind(now)) return hold(*blind);
+      if (const auto blind = flange_watch_.blind(now)) return hold(*blind);
+      if (phase_ == Phase::drilling) go_on_drilling(now);
+      break;
+    case Phase::registering:
+    case Phase::drilled:
+    case Phase::refused:
+      break;
+  }
+}
+
+void Implant::finish_pivot(Time now) {
+  const auto pivot = calibrate_pivot(pivot_poses_);
+  if (!pivot) return refuse("pivot: " + pivot.error().text);
+  if (pivot->residual_rms_m > settings_.most_pivot_residual_m) {
+    return refuse(fmt::format("pivot: the tip stood still to {:.2f} mm rms, {:g} mm are allowed",
+                              1e3 * pivot->residual_rms_m, 1e3 * settings_.most_pivot_residual_m));
+  }
+  pivot_ = *pivot;
+  chain_.tip = pivot_.tip;
+  news_.push_back(fmt::format(
+      "pivot: {} poses, the tip stood still to {:.2f} mm and is known to "
+      "{:.2f} mm (95 %)",
+      pivot_poses_.size(), 1e3 * pivot_.residual_rms_m, 1e3 * pivot_.tip_error.bound95_m));
+  enter(Phase::calibrating, now);
+}
+
+void Implant::go_on_calibrating() {
+  if (sent_to_ == calibration_.number()) return;
+  sent_to_ = calibration_.number();
+  goal_.set({.pose = *calibration_.destination(), .focus = {}});
+}
+
+void Implant::finish_calibration(Time now) {
+  const auto found = calibrate_hand_eye(calibration_.poses());
+  if (!found) return refuse("hand-eye: " + found.error().text);
+  if (found->residual_rms_m > settings_.most_hand_eye_residual_m) {
+    return refuse(fmt::format("hand-eye: the poses fit to {:.2f} mm rms, {:g} mm are allowed",
+                              1e3 * found->residual_rms_m,
+                              1e3 * settings_.most_hand_eye_residual_m));
+  }
+  hand_eye_ = *found;
+  chain_.flange_T_body = hand_eye_.flange_T_body;
+  chain_.base_T_tracker = hand_eye_.base_T_tracker;
+  std::string line =
+      fmt::format("hand-eye: {} of {} poses fit to {:.2f} mm", calibration_.poses().size(),
+                  calibration_.count(), 1e3 * hand_eye_.residual_rms_m);
+  if (!calibration_.left_out().empty()) line += "; left out: " + calibration_.left_out();
+  news_.push_back(line);
+  enter(Phase::registering, now);
+}
+
+bool Implant::should_ask(Time now) {
+  if (phase_ != Phase::registering || sites_.empty()) return false;
+  if (asked_at_ && now - *asked_at_ < kAnswerWithin) return false;
+  asked_at_ = now;
+  return true;
+}
+
+void Implant::see_registration(const RegisteredJaw& jaw, Time now) {
+  if (phase_ != Phase::registering) return;
+  if (jaw.sites.size() != sites_.size()) {
+    return refuse(fmt::format("the registration tells the error of {} sites, the plan has {}",
+                              jaw.sites.size(), sites_.size()));
+  }
+  if (!(jaw.fiducial_error_m <= settings_.most_fiducial_error_m)) {
+    return refuse(fmt::format("the markers fit to {:.2f} mm rms, {:g} mm are allowed",
+                              1e3 * jaw.fiducial_error_m, 1e3 * settings_.most_fiducial_error_m));
+  }
+  registered_ = jaw;
+  chain_.patient_T_image = jaw.jaw_T_image;
+  enter(Phase::locating, now);
+}
+
+void Implant::finish_locating(Time now) {
+  chain_.tracker_T_patient = jaw_.mean();
+  forecasts_.clear();
+  for (std::size_t i = 0; i < sites_.size(); ++i) {
+    const ErrorForecast& forecast = forecasts_.emplace_back(
+        forecast_at(sites_[i], chain_, pivot_, hand_eye_, jaw_, registered_.sites[i]));
+    if (!(forecast.bound95_m() <= settings_.most_site_error_m)) {
+      return refuse(fmt::format("site {} is known to {:.2f} mm (95 %), {:g} mm are required", i + 1,
+                                1e3 * forecast.bound95_m(), 1e3 * settings_.most_site_error_m));
+    }
+  }
+  way_ = drilling_way(chain_, flange_T_file_tool_, sites_, settings_.drilling);
+  goal_.set({.pose = way_.approach, .focus = {}});
+  enter(Phase::approaching, now);
+}
+
+void Implant::go_on_drilling(Time now) {
+  if (goal_.state() != PursuedGoal::State::done) return;
+  if (way_.bores[bore_].ends_at_bottom && now - goal_.done_at() < settings_.dwell) return;
+  if (++bore_ == way_.bores.size()) return enter(Phase::drilled, now);
+  goal_.set(way_.bores[bore_].goal);
+}
+
+void Implant::refuse(const std::string& why) {
+  if (phase_ == Phase::refused) return;
+  phase_ = Phase::refused;
+  trouble_ = why;
+}
+
+void Implant::hold(const std::string& why) {
+  refuse(why);
+  goal_.set({.mode = MotionMode::hold, .pose = {}, .focus = {}});
+}
+
+std::vector<std::string> Implant::take_news() { return std::exchange(news_, {}); }
+
+const char* to_string(Implant::Phase phase) {
+  switch (phase) {
+    case Implant::Phase::pivoting:
+      return "pivoting";
+    case Implant::Phase::calibrating:
+      return "calibrating";
+    case Implant::Phase::registering:
+      return "registering";
+    case Implant::Phase::locating:
+      return "locating";
+    case Implant::Phase::approaching:
+      return "approaching";
+    case Implant::Phase::drilling:
+      return "drilling";
+    case Implant::Phase::drilled:
+      return "drilled";
+    case Implant::Phase::refused:
+      return "refused";
+  }
+  return "";
+}
+
+}  // namespace armature

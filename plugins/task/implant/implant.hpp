@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "armature/motion/pursued_goal.hpp"
+#include "calibration_run.hpp"
+#include "drilling.hpp"
+#include "error_forecast.hpp"
+#include "sighting.hpp"
+
+namespace armature {
+
+struct ImplantSettings {
+  Duration pivot = seconds(2.0);  // of samples with the tip in the divot
+  CalibrationSettings calibration;
+  int jaw_samples = 60;              // averaged before the way is worked out
+  Duration patience = seconds(0.5);  // without a body being seen that is needed
+  DrillingSettings drilling;
+  Duration dwell = seconds(0.5);  // at a bottom where the drill stops
+  double most_pivot_residual_m = 0.0005, most_hand_eye_residual_m = 0.0005;
+  double most_fiducial_error_m = 0.0015, most_site_error_m = 0.0015;
+  double most_jaw_motion_m = 0.001;
+};
+
+/// What a registration answered.
+struct RegisteredJaw {
+  Eigen::Affine3d jaw_T_image = Eigen::Affine3d::Identity();
+  double fiducial_error_m = 0;
+  std::vector<RegisteredSite> sites;
+};
+
+/// The story of a drilling: the drill's tip is found (pivot), where tracker and body are
+/// (hand-eye), how the image lies in the jaw (registration), where the jaw is (tracker), and then
+/// the drill goes through all sites. Everything it knows comes in through the `see` and `hear`
+/// calls.
+class Implant {
+ public:
+  enum class Phase {
+    pivoting,
+    calibrating,
+    registering,
+    locating,
+    approaching,
+    drilling,
+    drilled,
+    refused
+  };
+
+  /// `flange_T_file_tool`: the drill as the robot file has it.
+  Implant(const ImplantSettings& settings, const RobotModel& robot,
+          const Eigen::Isometry3d& flange_T_file_tool);
+
+  void begin(Time now);
+  /// The sites of the plan: of the drill, in the image.
+  void see_plan(const std::vector<ToolPose>& sites);
+  void see_arm(const Eigen::Isometry3d& base_T_flange) { base_T_flange_ = base_T_flange; }
+  void see_pivot(const Sighting& sighting);
+  void see_flange(const Sighting& sighting);
+  void see_jaw(const Sighting& sighting);
+  void see_registration(const RegisteredJaw& jaw, Time now);
+  void see_refused_registration(const std::string& reason) { refuse(reason); }
+  void hear(const GoalReport& report, Time now);
+  void update(Time now);
+
+  /// True once in a while as long as the registration has not answered.
+  bool should_ask(Time now);
+  std::optional<MotionGoal> outgoing_goal(Time now) { return goal_.outgoing(now); }
+
+  Phase phase() const { return phase_; }
+  /// Where in the calibration it is, from 1.
+  std::size_t calibration_pose() const { return static_cast<std::size_t>(calibration_.number()); }
+  std::size_t calibration_poses() const { return static_cast<std::size_t>(calibration_.count()); }
+  /// Why it does not go on, or "".
+  const std::string& trouble() const { return trouble_; }
+  /// What was found, each said once.
+  std::vector<std::string> take_news();
+  /// As far as it is known: complete from `approaching` on.
+  const GuidedChain& chain() const { return chain_; }
+  /// Of every site, from `approaching` on.
+  const std::vector<ErrorForecast>& forecasts() const { return forecasts_; }
+
+ private:
+  void enter(Phase phase, Time now);
+  void finish_pivot(Time now);
+  void go_on_calibrating();
+  void finish_calibration(Time now);
+  void finish_locating(Time now);
+  void go_on_drilling(Time now);
+  void refuse(const std::string& why);
+  void hold(const std::string& why);
+
+  ImplantSettings settings_;
+  Eigen::Isometry3d flange_T_file_tool_;
+  CalibrationRun calibration_;
+  BodyWatch drill_watch_, flange_watch_, jaw_watch_;
+  PursuedGoal goal_;
+  int sent_to_ = 0;  // the calibration pose that goal_ is
+  Phase phase_ = Phase::pivoting;
+  std::vector<Eigen::Isometry3d> sites_;
+  std::optional<Eigen::Isometry3d> base_T_flange_;
+  std::vector<Eigen::Isometry3d> pivot_poses_;
+  std::optional<Time> pivot_since_, asked_at_;
+  Pivot pivot_;
+  HandEye hand_eye_;
+  PoseAverage jaw_;
+  RegisteredJaw registered_;
+  GuidedChain chain_;
+  DrillingWay way_;
+  std::size_t bore_ = 0;  // of way_
+  std::vector<ErrorForecast> forecasts_;
+  std::vector<std::string> news_;
+  std::string trouble_;
+};
+
+/// "pivoting", "calibrating", "registering", "locating", "approaching", "drilling", "drilled",
+/// "refused".
+const char* to_string(Implant::Phase phase);
+
+}  // namespace armature

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "armature/calibration/usable_pose.hpp"
+#include "armature/kinds/chain_messages.hpp"
+#include "armature/kinds/registration_messages.hpp"
+#include "armature/kinds/setup_flange.hpp"
+#include "armature/kinds/setup_robot.hpp"
+#include "armature/messages/sensor_msgs.hpp"
+#include "armature/motion/goal_messages.hpp"
+#include "armature/motion/task_state_publisher.hpp"
+#include "armature/robot/kinematics.hpp"
+#include "armature/runtime/component.hpp"
+#include "armature/runtime/plugin.hpp"
+#include "armature/runtime/setup.hpp"
+#include "implant.hpp"
+
+namespace armature {
+namespace {
+
+constexpr Duration kPeriod = seconds(0.02);
+
+CalibrationSettings calibration_of(const Params& params) {
+  return {.poses = static_cast<int>(params.integer("calibration_poses")),
+          .least_poses = static_cast<int>(params.integer("least_poses")),
+          .spread_rad = params.number("calibration_spread_deg"),
+          .samples = static_cast<int>(params.integer("samples_per_pose")),
+          .patience = seconds(params.number("patience_s"))};
+}
+
+ImplantSettings settings_of(const Params& params) {
+  return {.pivot = seconds(params.number("pivot_s")),
+          .calibration = calibration_of(params),
+          .jaw_samples = static_cast<int>(params.integer("jaw_samples")),
+          .patience = seconds(params.number("patience_s")),
+          .drilling = {.stand_off_m = params.number("stand_off_mm"),
+                       .stop_at_sites = params.flag("stop_at_sites")},
+          .dwell = seconds(params.number("dwell_s")),
+          .most_pivot_residual_m = params.number("most_pivot_residual_mm"),
+          .most_hand_eye_residual_m = params.number("most_hand_eye_residual_mm"),
+          .most_fiducial_error_m = params.number("most_fiducial_error_mm"),
+          .most_site_error_m = params.number("most_site_error_mm"),
+          .most_jaw_motion_m = params.number("most_jaw_motion_mm")};
+}
+
+Sighting sighting_of(const msg::TrackedBody& body) {
+  Sighting sighting{.stamp = stamp_of(body.header_().stamp_()), .tracker_T_body = {}};
+  if (!body.valid_()) {
+    sighting.reason = body.reason_();
+    return sighting;
+  }
+  const Eigen::Isometry3d pose = to_eigen(body.pose_());
+  if (const auto wrong = wrong_with(pose)) {
+    sighting.reason = "its pose " + *wrong;
+  } else {
+    sighting.tracker_T_body = pose;
+  }
+  return sighting;
+}
+
+std::vector<ToolPose> sites_of(const msg::ImplantPlan& plan) {
+  std::vector<ToolPose> sites;
+  for (const msg::Pose& site : plan.sites_()) {
+    sites.push_back({to_eigen(site.position_()), to_eigen(site.orientation_())});
+  }
+  return sites;
+}
+
+RegisteredJaw jaw_of(const msg::RegistrationResponse& response) {
+  RegisteredJaw jaw{
+      .jaw_T_image = robot_T_image_of(response), .fiducial_error_m = response.fre_(), .sites = {}};
+  for (const msg::RegisteredTarget& target : response.targets_()) {
+    jaw.sites.push_back({.error_rms_m = target.error_rms_(), .error_95_m = target.error_95_()});
+  }
+  return jaw;
+}
+
+/// [m] over the sites.
+double rms_of(const std::vector<ErrorForecast>& sites, double (*error_of)(const ErrorForecast&)) {
+  double sum = 0;
+  for (const ErrorForecast& site : sites) sum += std::pow(error_of(site), 2);
+  return std::sqrt(sum / static_cast<double>(sites.size()));
+}
+
+}  // namespace
+
+class ImplantComponent final : public Component {
+ public:
+  explicit ImplantComponent(Setup& setup)
+      : Component{setup},
+        robot_{robot_of(setup)},
+        mount_{flange_of(robot_)},
+        task_{settings_of(setup.params()), robot_, mount_.flange_T_tool},
+        marker_error_m_{setup.params().number("marker_error_mm")},
+        match_tolerance_m_{setup.params().number("match_tolerance_mm")},
+        flange_{setup.input<msg::TrackedBody>("flange")},
+        jaw_{setup.input<msg::TrackedBody>("jaw")},
+        pivot_{setup.input<msg::TrackedBody>("pivot")},
+        measured_js_{setup.input<msg::JointState>("measured_js")},
+        plan_{setup.input<msg::ImplantPlan>("plan")},
+        markers_{setup.input<msg::MeasuredMarkers>("markers")},
+        registration_{setup.input<msg::RegistrationResponse>("registration")},
+        motion_status_{setup.input<msg::MotionStatus>("motion_status")},
+        request_{setup.output<msg::RegistrationRequest>("request")},
+        goal_{setup.output<msg::MotionGoal>("goal")},
+        estimate_{setup.output<msg::TFMessage>("estimate")},
+        state_{setup} {
+    setup.activate_every(kPeriod);
+  }
+
+  void step(Time now) override {
+    if (!begun_) task_.begin(now);
+    begun_ = true;
+    read_arm();
+    read(now);
+    task_.update(now);
+    if (markers_.latest() && task_.should_ask(now)) ask(now);
+    if (const auto goal = task_.outgoing_goal(now)) {
+      auto loan = goal_.loan();
+      write_goal(*goal, now, *loan);
+      loan.publish();
+    }
+    for (const std::string& line : task_.take_news()) say(line);
+    publish_estimate(now);
+    publish_state(now);
+  }
+
+  void summarize(Summary& summary) const override {
+    const auto& sites = task_.forecasts();
+    if (sites.empty()) return;
+    const auto metric = [&](const char* key, const char* title, auto error_of) {
+      summary.metric(key, title, 1e3 * rms_of(sites, error_of));
+    };
+    using Site = const ErrorForecast&;
+    metric("expected_registration_error_mm", "expected of the registration, rms [mm]",
+           [](Site site) { return site.registration.rms_m; });
+    metric("expected_hand_eye_error_mm", "expected of the hand-eye calibration [mm]",
+           [](Site site) { return site.hand_eye.rms_m; });
+    metric("expected_tool_error_mm", "expected of the tool calibration [mm]",
+           [](Site site) { return site.tool.rms_m; });
+    metric("expected_tracker_error_mm", "expected of the tracker [mm]",
+           [](Site site) { return site.tracker.rms_m; });
+    metric("expected_error_rms_mm", "expected in all [mm]", [](Site site) { return site.rms_m(); });
+  }
+
+ private:
+  void read_arm() {
+    if (!measured_js_.latest()) return;
+    const auto q = robot_.contract(measured_js_.latest()->position_());
+    if (!q) return degraded("measured_js: " + q.error().text);
+    healthy();
+    task_.see_arm(forward_kinematics(robot_, *q, mount_.frame));
+  }
+
+  void read(Time now) {
+    if (plan_.latest()) task_.see_plan(sites_of(*plan_.latest()));
+    for (std::size_t i = 0; i < motion_status_.size(); ++i) {
+      task_.hear(report_of(motion_status_[i]), now);
+    }
+    for (std::size_t i = 0; i < pivot_.size(); ++i) task_.see_pivot(sighting_of(pivot_[i]));
+    for (std::size_t i = 0; i < flange_.size(); ++i) task_.see_flange(sighting_of(flange_[i]));
+    for (std::size_t i = 0; i < jaw_.size(); ++i) task_.see_jaw(sighting_of(jaw_[i]));
+    for (std::size_t i = 0; i < registration_.size(); ++i) {
+      const msg::RegistrationResponse& response = registration_[i];
+      if (response.request_id_() != asked_) continue;  // somebody else's
+      if (response.valid_()) {
+        task_.see_registration(jaw_of(response), now);
+      } else {
+        task_.see_refused_registration(response.reason_());
+      }
+    }
+  }
+
+  /// A number that nobody else's question on this topic has, as far as one can tell.
+  void ask(Time now) {
+    asked_ = static_cast<std::uint64_t>(now.ns);
+    auto loan = request_.loan();
+    write_header(loan->header_(), now, markers_.latest()->header_().frame_id_());
+    loan->request_id_(asked_);
+    loan->image_markers_() = plan_.latest()->markers_();
+    loan->robot_markers_() = markers_.latest()->points_();
+    loan->ordered_(false);
+    loan->match_tolerance_(match_tolerance_m_);
+    loan->marker_error_(marker_error_m_);
+    loan->targets_().clear();
+    for (const msg::Pose& site : plan_.latest()->sites_()) {
+      loan->targets_().push_back(site.position_());
+    }
+    loan.publish();
+  }
+
+  void publish_estimate(Time now) {
+    if (told_ || task_.forecasts().empty()) return;
+    told_ = true;
+    msg::TFMessage estimate;
+    write_chain(task_.chain(), now, estimate);
+    estimate_.publish(estimate);
+  }
+
+  void publish_state(Time now) {
+    const bool calibrating = task_.phase() == Implant::Phase::calibrating;
+    std::string line = to_string(task_.phase());
+    if (!task_.trouble().empty()) line += ": " + task_.trouble();
+    const TaskReport report{.state = to_string(task_.phase()),
+                            .step = calibrating ? task_.calibration_pose() : 0,
+                            .steps = calibrating ? task_.calibration_poses() : 0,
+                            .detail = task_.trouble()};
+    if (state_.publish(now, report, line)) say(line);
+  }
+
+  RobotModel robot_;
+  Flange mount_;
+  Implant task_;
+  double marker_error_m_, match_tolerance_m_;
+  std::uint64_t asked_ = 0;
+  bool begun_ = false, told_ = false;
+  Input<msg::TrackedBody> flange_, jaw_, pivot_;
+  Input<msg::JointState> measured_js_;
+  Input<msg::ImplantPlan> plan_;
+  Input<msg::MeasuredMarkers> markers_;
+  Input<msg::RegistrationResponse> registration_;
+  Input<msg::MotionStatus> motion_status_;
+  Output<msg::RegistrationRequest> request_;
+  Output<msg::MotionGoal> goal_;
+  Output<msg::TFMessage> estimate_;
+  TaskStatePublisher state_;
+};
+
+}  // namespace armature
+
+ARMATURE_PLUGIN(armature::ImplantComponent);

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+// An operating room without any error, for tests of the story.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "implant.hpp"
+
+namespace armature {
+
+inline const RobotModel& med7() {
+  static const RobotModel model = load_robot_model(ARMATURE_SOURCE_DIR "/configs/robots/med7.yaml");
+  return model;
+}
+
+inline Eigen::Isometry3d pose(double x, double y, double z, double angle,
+                              const Eigen::Vector3d& axis) {
+  return Eigen::Translation3d{x, y, z} * Eigen::AngleAxisd{angle, axis.normalized()};
+}
+
+inline ImplantSettings quick(bool stop_at_sites = false) {
+  return {.pivot = seconds(0.5),
+          .calibration = {.poses = 8, .least_poses = 6, .samples = 2},
+          .jaw_samples = 5,
+          .drilling = {.stop_at_sites = stop_at_sites}};
+}
+
+/// An operating room without any error, and an arm that is where it shall go at once.
+class ImplantTest : public testing::Test {
+ protected:
+  using Isometry3d = Eigen::Isometry3d;
+  using Vector3d = Eigen::Vector3d;
+  using Phase = Implant::Phase;
+  using Report = GoalReport::State;
+
+  ImplantTest() {
+    chain_.base_T_tracker = pose(-1.7, 0.5, 1.2, 1.9, {0.1, 1, -0.2});
+    chain_.flange_T_body = pose(0.06, -0.03, 0.08, 0.4, {0.3, 0.2, 1});
+    chain_.tip = {0.01, 0.02, 0.09};
+    chain_.flange_R_tool = file_tool_.linear();
+    chain_.tracker_T_patient = chain_.base_T_tracker.inverse() * pose(-0.2, 0, 0.7, 2, {1, 1, 0});
+    chain_.patient_T_image = pose(0.03, 0.02, -0.04, 0.3, {0, 0, 1});
+    for (const double x : {0.0, 0.012}) {
+      sites_.push_back(
+          {{x, 0, 0.01}, Eigen::Quaterniond{Eigen::AngleAxisd{9 * x, Vector3d::UnitX()}}});
+    }
+  }
+  void begin() {
+    task_.begin(now());
+    task_.see_plan(sites_);
+  }
+  Time now() const { return Time{} + seconds(now_s_); }
+  /// 20 ms; what the arm was told before is done.
+  void step() {
+    now_s_ += 0.02;
+    task_.see_arm(base_T_flange_);
+    if (done_) task_.hear({.goal_id = done_, .state = Report::done}, now());
+    if (see_drill_) task_.see_pivot(drill_in_hand());
+    if (see_flange_) task_.see_flange(flange());
+    if (see_jaw_) task_.see_jaw({now(), chain_.tracker_T_patient});
+    task_.update(now());
+    if (const auto goal = task_.outgoing_goal(now())) drive(*goal);
+  }
+  Sighting drill_in_hand() const {
+    const double turn = 7 * now_s_;
+    const Isometry3d about = pose(0.1, 0, 1.5, 0.5, {std::cos(turn), std::sin(turn), 0.3}) *
+                             Eigen::Translation3d{jitter_m_ * std::sin(40 * turn), 0, 0};
+    return {now(), about * Eigen::Translation3d{-chain_.tip}};
+  }
+  Sighting flange() {
+    std::normal_distribution<double> normal{0, jitter_m_ + 1e-15};
+    const Vector3d jitter{normal(random_), normal(random_), normal(random_)};
+    return {now(), chain_.base_T_tracker.inverse() * base_T_flange_ * chain_.flange_T_body *
+                       Eigen::Translation3d{jitter} *
+                       Eigen::AngleAxisd{10 * normal(random_), Vector3d::UnitX()} *
+                       Eigen::AngleAxisd{10 * normal(random_), Vector3d::UnitY()} *
+                       Eigen::AngleAxisd{10 * normal(random_), Vector3d::UnitZ()}};
+  }
+  void drive(const MotionGoal& goal) {
+    goals_.push_back(goal);
+    task_.hear({.goal_id = goal.id, .state = Report::executing}, now());
+    if (goal.mode == MotionMode::hold) return;
+    base_T_flange_ = flange_at(goal.pose);
+    done_ = goal.id;
+  }
+  Isometry3d flange_at(const ToolPose& tool) const {
+    return Eigen::Translation3d{tool.position} * std::get<Eigen::Quaterniond>(tool.orientation) *
+           file_tool_.inverse();
+  }
+  /// Until `phase`, or for ten seconds.
+  void go_to(Phase phase) {
+    for (int i = 0; i < 500 && task_.phase() != phase; ++i) {
+      step();
+      if (task_.phase() == phase) break;
+      if (task_.should_ask(now())) task_.see_registration(registered(), now());
+    }
+    ASSERT_EQ(task_.phase(), phase) << to_string(task_.phase()) << ": " << task_.trouble();
+  }
+  RegisteredJaw registered() const {
+    return {.jaw_T_image = chain_.patient_T_image,
+            .fiducial_error_m = 0.0004,
+            .sites = {{0.0003, 0.0005}, {0.0002, 0.0004}}};
+  }
+  void expect_tip_at(const ToolPose& tool, std::size_t site) const {
+    const Vector3d tip = flange_at(tool) * chain_.flange_T_tool().translation();
+    const Isometry3d image_T_site = Eigen::Translation3d{sites_[site].position} *
+                                    std::get<Eigen::Quaterniond>(sites_[site].orientation);
+    EXPECT_LT((tip - chain_.base_T_site(image_T_site).translation()).norm(), 1e-8);
+  }
+  void wait(double for_s) {
+    for (double s = 0; s < for_s; s += 0.02) step();
+  }
+
+  const Isometry3d file_tool_ = pose(0, 0.02, 0.15, 0.5, {0, 1, 0});
+  GuidedChain chain_;
+  std::vector<ToolPose> sites_;
+  double now_s_ = 100, jitter_m_ = 0;
+  std::mt19937 random_{5};
+  bool see_drill_ = true, see_flange_ = true, see_jaw_ = true;
+  Isometry3d base_T_flange_ = Isometry3d::Identity();
+  std::uint64_t done_ = 0;
+  std::vector<MotionGoal> goals_;
+  Implant task_{quick(), med7(), file_tool_};
+};
+
+}  // namespace armature

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+// The story of a drilling, without topics: 1. from the pivot to the last site, 2. what it does not
+// trust, 3. bodies that are not seen, 4. a jaw that moves, 5. a motion that is refused.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "implant_room_test.hpp"
+
+namespace armature {
+namespace {
+
+TEST_F(ImplantTest, GoesFromThePivotThroughAllSites) {
+  begin();
+  EXPECT_EQ(task_.phase(), Phase::pivoting);
+  go_to(Phase::calibrating);
+  EXPECT_TRUE(goals_.empty()) << "the arm waits while the drill is in the hand";
+  go_to(Phase::registering);
+  EXPECT_EQ(goals_.size(), 8u);
+  go_to(Phase::drilling);
+  EXPECT_LT((task_.chain().base_T_tracker.matrix() - chain_.base_T_tracker.matrix()).norm(), 1e-9);
+  EXPECT_LT((task_.chain().tip - chain_.tip).norm(), 1e-9);
+  go_to(Phase::drilled);
+  ASSERT_EQ(goals_.size(), 10u);
+  const MotionGoal& bores = goals_.back();
+  ASSERT_EQ(bores.through.size(), 4u);
+  expect_tip_at(bores.through[0], 0);
+  expect_tip_at(bores.through[3], 1);
+  ASSERT_EQ(task_.forecasts().size(), 2u);
+  EXPECT_NEAR(task_.forecasts()[0].rms_m(), 0.0003, 1e-9) << "only the registration errs";
+  EXPECT_NEAR(task_.forecasts()[1].bound95_m(), 0.0004, 1e-9);
+  EXPECT_EQ(task_.take_news().size(), 2u);
+  EXPECT_TRUE(task_.take_news().empty());
+}
+
+TEST_F(ImplantTest, StaysForAWhileAtEveryBottomWhereItStops) {
+  task_ = Implant{quick(true), med7(), file_tool_};
+  begin();
+  go_to(Phase::drilling);
+  step();
+  const std::size_t first = goals_.size();
+  expect_tip_at(goals_.back().pose, 0);
+  wait(0.4);
+  EXPECT_EQ(goals_.size(), first);
+  wait(0.2);
+  EXPECT_EQ(goals_.size(), first + 1);
+  expect_tip_at(goals_.back().pose, 1);
+  go_to(Phase::drilled);
+  EXPECT_EQ(goals_.size(), first + 2) << "and out again";
+}
+
+TEST_F(ImplantTest, AsksAgainWhenNobodyRegisters) {
+  begin();
+  while (task_.phase() != Phase::registering) step();
+  EXPECT_TRUE(task_.should_ask(now()));
+  EXPECT_FALSE(task_.should_ask(now() + seconds(0.5)));
+  EXPECT_TRUE(task_.should_ask(now() + seconds(1.1)));
+}
+
+TEST_F(ImplantTest, DoesNotAskForARegistrationBeforeThereIsAPlan) {
+  task_.begin(now());
+  while (task_.phase() != Phase::registering) step();
+  EXPECT_FALSE(task_.should_ask(now()));
+  task_.see_plan(sites_);
+  EXPECT_TRUE(task_.should_ask(now()));
+}
+
+TEST_F(ImplantTest, ASitesNumbersAreChecked) {
+  const auto refusal = [&](std::vector<ToolPose> sites) {
+    Implant task{quick(), med7(), file_tool_};
+    task.begin(now());
+    task.see_plan(sites);
+    EXPECT_EQ(task.phase(), Phase::refused);
+    return task.trouble();
+  };
+  EXPECT_EQ(refusal({}), "the plan has no sites");
+  sites_[1].position.y() = NAN;
+  EXPECT_EQ(refusal(sites_).substr(0, 16), "the plan: site 2");
+  sites_[1] = sites_[0];
+  sites_[1].orientation = Eigen::Quaterniond{0, 0, 0, 0};
+  EXPECT_EQ(refusal(sites_).substr(0, 16), "the plan: site 2");
+}
+
+TEST_F(ImplantTest, DoesNotTrustATipThatDidNotStandStill) {
+  jitter_m_ = 0.002;
+  begin();
+  go_to(Phase::refused);
+  EXPECT_EQ(task_.trouble().substr(0, 29), "pivot: the tip stood still to");
+}
+
+TEST_F(ImplantTest, DoesNotTrustPosesThatDoNotFit) {
+  begin();
+  go_to(Phase::calibrating);
+  jitter_m_ = 0.002;
+  go_to(Phase::refused);
+  EXPECT_EQ(task_.trouble().substr(0, 27), "hand-eye: the poses fit to ");
+}
+
+TEST_F(ImplantTest, DoesNotTrustARegistrationThatIsTooBad) {
+  const auto refusal = [&](const std::function<void(RegisteredJaw&)>& spoil) {
+    task_ = Implant{quick(), med7(), file_tool_};
+    done_ = 0;
+    begin();
+    while (task_.phase() != Phase::registering) step();
+    RegisteredJaw jaw = registered();
+    spoil(jaw);
+    task_.see_registration(jaw, now());
+    if (task_.phase() == Phase::locating) wait(0.2);
+    EXPECT_EQ(task_.phase(), Phase::refused);
+    return task_.trouble();
+  };
+  EXPECT_EQ(refusal([](RegisteredJaw& jaw) { jaw.fiducial_error_m = 0.002; }),
+            "the markers fit to 2.00 mm rms, 1.5 mm are allowed");
+  EXPECT_EQ(refusal([](RegisteredJaw& jaw) { jaw.sites[1].error_95_m = 0.003; }),
+            "site 2 is known to 3.00 mm (95 %), 1.5 mm are required");
+  EXPECT_EQ(refusal([](RegisteredJaw& jaw) { jaw.sites[0].error_95_m = NAN; }),
+            "site 1 is known to nan mm (95 %), 1.5 mm are required");
+  EXPECT_EQ(refusal([](RegisteredJaw& jaw) { jaw.sites.pop_back(); }),
+            "the registration tells the error of 1 sites, the plan has 2");
+}
+
+TEST_F(ImplantTest, ABodyThatIsNotSeenIsNamedAndAMovingArmHolds) {
+  see_drill_ = false;
+  begin();
+  go_to(Phase::refused);
+  EXPECT_EQ(task_.trouble(),
+            "pivot: the tracker has not seen the drill in the hand for 0.52 s: it sends nothing");
+  for (bool* body : {&see_flange_, &see_jaw_}) {
+    task_ = Implant{quick(true), med7(), file_tool_};
+    done_ = 0;
+    see_drill_ = see_flange_ = see_jaw_ = true;
+    begin();
+    go_to(Phase::drilling);
+    done_ = 0;  // on its way
+    *body = false;
+    go_to(Phase::refused);
+    step();
+    EXPECT_EQ(goals_.back().mode, MotionMode::hold);
+    EXPECT_EQ(task_.trouble(), body == &see_jaw_
+                                   ? "the tracker has not seen the jaw for 0.52 s: it sends nothing"
+                                   : "the tracker has not seen the flange for 0.52 s: it sends "
+                                     "nothing");
+  }
+}
+
+TEST_F(ImplantTest, AJawThatIsNotSeenIsNotDrilled) {
+  see_jaw_ = false;
+  begin();
+  go_to(Phase::refused);
+  EXPECT_EQ(task_.trouble(), "the tracker has not seen the jaw for 0.52 s: it sends nothing");
+  EXPECT_EQ(goals_.size(), 8u) << "only the calibration's";
+}
+
+TEST_F(ImplantTest, AFlangeThatIsNeverSeenEndsTheCalibrationAsSoonAsItCannotSucceed) {
+  see_flange_ = false;
+  begin();
+  go_to(Phase::refused);
+  EXPECT_EQ(task_.trouble(),
+            "hand-eye: 5 of 8 poses at most, 6 are needed; pose 3: the tracker has not seen the "
+            "flange for 0.52 s: it sends nothing");
+}
+
+TEST_F(ImplantTest, AJawThatMovesStopsTheArm) {
+  begin();
+  go_to(Phase::drilling);
+  done_ = 0;
+  chain_.tracker_T_patient.translate(Vector3d{0, 0.0009, 0});
+  step();
+  EXPECT_EQ(task_.phase(), Phase::drilling);
+  chain_.tracker_T_patient.translate(Vector3d{0, 0.0009, 0});
+  step();
+  EXPECT_EQ(task_.phase(), Phase::refused);
+  EXPECT_EQ(task_.trouble(), "the jaw has moved by 1.80 mm, 1 mm are allowed");
+  EXPECT_EQ(goals_.back().mode, MotionMode::hold);
+}
+
+TEST_F(ImplantTest, StopsWithTheReasonWhenTheMotionRefuses) {
+  begin();
+  go_to(Phase::drilling);
+  task_.hear({.goal_id = goals_.back().id, .state = Report::failed, .stage = "ik", .reason = "far"},
+             now());
+  EXPECT_EQ(task_.phase(), Phase::refused);
+  EXPECT_EQ(task_.trouble(), "ik: far");
+}
+
+TEST_F(ImplantTest, ACalibrationPoseThatCannotBeReachedIsLeftOut) {
+  begin();
+  go_to(Phase::calibrating);
+  while (goals_.empty()) step();
+  task_.hear({.goal_id = goals_.back().id, .state = Report::failed, .stage = "ik", .reason = "far"},
+             now());
+  go_to(Phase::registering);
+  const auto news = task_.take_news();
+  EXPECT_EQ(news.back().substr(0, 28), "hand-eye: 7 of 8 poses fit t");
+  EXPECT_NE(news.back().find("left out: pose 1: ik: far"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace armature

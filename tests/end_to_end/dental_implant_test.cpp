@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+// A dental-implant robot: from a pivot and a hand-eye calibration over a registration to three
+// bores, by one file; and every way in which it must not go on.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+#include "implant_run.hpp"
+
+namespace armature::test {
+namespace {
+
+const std::string kTracker = "components.tracker.params.", kTask = "components.task.params.",
+                  kMotion = "components.motion.";
+
+void expect_drilled(const DeploymentRun& run) {
+  SCOPED_TRACE(run.text());
+  EXPECT_EQ(run.command.exit_code, 0);
+  EXPECT_EQ(run.report.value("status", "none"), "ok");
+  EXPECT_LE(run.figure("site_error_mm"), 0.8);
+  EXPECT_LE(run.figure("line_deviation_mm"), 0.05);
+  EXPECT_LE(run.figure("unexplained_error_mm"), 0.01);
+}
+
+TEST(DentalImplant, DrillsThreeSitesTwiceInTheSameWay) {
+  const DeploymentRun first = implant(), second = implant();
+  expect_drilled(first);
+  EXPECT_EQ(first.report, second.report);
+  EXPECT_NEAR(first.figure("site_error_rms_mm"), 0.31, 0.02);
+  EXPECT_NEAR(first.figure("expected_error_rms_mm"), 0.25, 0.02);
+}
+
+TEST(DentalImplant, WithoutAnyErrorOfItsSourcesTheDrillIsAtEverySite) {
+  const DeploymentRun run =
+      implant({kTracker + "sphere_error_mm=0", kTracker + "marker_error_mm=0"});
+  expect_drilled(run);
+  EXPECT_LE(run.figure("site_error_mm"), 1e-3);
+  EXPECT_LE(run.figure("site_angle_deg"), 1e-3);
+}
+
+/// Each source of error alone: what the budget names is what there is.
+TEST(DentalImplant, TheBudgetNamesTheSourceThatErrs) {
+  const DeploymentRun markers = implant({kTracker + "sphere_error_mm=0"});
+  expect_drilled(markers);
+  EXPECT_NEAR(markers.figure("site_error_rms_mm"), markers.figure("registration_error_mm"), 1e-3);
+  EXPECT_GE(markers.figure("registration_error_mm"), 0.05);
+  const DeploymentRun spheres = implant({kTracker + "marker_error_mm=0"});
+  expect_drilled(spheres);
+  EXPECT_LE(spheres.figure("registration_error_mm"), 1e-6);
+  EXPECT_GE(spheres.figure("tool_error_mm"), 1e-3);
+  EXPECT_LE(spheres.figure("site_error_mm"), 0.25);
+}
+
+TEST(DentalImplant, TurnsFromSiteToSiteByAnyInterpolator) {
+  std::map<std::string, DeploymentRun> runs;
+  for (const char* interpolator : {"slerp", "squad", "rotvec_bspline", "chart_bspline"}) {
+    SCOPED_TRACE(interpolator);
+    runs[interpolator] = implant({kMotion + "path.params.interpolator=" + interpolator});
+    expect_drilled(runs[interpolator]);
+  }
+  const auto of = [&](const char* interpolator, const char* figure) {
+    return runs[interpolator].figure(figure);
+  };
+  // The shortest way is slerp's, whose corners cost acceleration and time.
+  EXPECT_LE(of("slerp", "total_rotation_deg"), of("chart_bspline", "total_rotation_deg"));
+  EXPECT_LE(of("chart_bspline", "total_rotation_deg"), of("squad", "total_rotation_deg"));
+  EXPECT_GE(of("slerp", "peak_angular_acceleration_deg_s2"),
+            1.3 * of("chart_bspline", "peak_angular_acceleration_deg_s2"));
+  EXPECT_GE(of("slerp", "time_to_drilled_s"), of("chart_bspline", "time_to_drilled_s") + 5);
+  // Only squad turns between two keys of one orientation: inside the bone.
+  EXPECT_GE(of("squad", "line_tilt_deg"), 0.2);
+  for (const char* straight : {"slerp", "rotvec_bspline", "chart_bspline"}) {
+    EXPECT_LE(of(straight, "line_tilt_deg"), 0.001) << straight;
+  }
+}
+
+/// On a C2 curve the acceleration's step from sample to sample shrinks with the samples.
+TEST(DentalImplant, TheTurnThatWasExecutedHasAContinuousAcceleration) {
+  const DeploymentRun coarse = implant(), fine = implant({"executors.control.period_s=0.0005",
+                                                          "components.arm.params.rate_hz=2000"});
+  expect_drilled(fine);
+  EXPECT_LE(coarse.figure("acceleration_jump_of_peak"), 0.02);
+  EXPECT_NEAR(fine.figure("acceleration_jump_of_peak") / coarse.figure("acceleration_jump_of_peak"),
+              0.5, 0.05)
+      << coarse.text() << fine.text();
+}
+
+TEST(DentalImplant, SolversAndTrajectoriesAreSwappedByOneWord) {
+  for (const char* swap :
+       {"ik.plugin=ik/numeric", "select.plugin=select/minmax",
+        "trajectory.plugin=trajectory/cubic_spline", "trajectory.plugin=trajectory/quintic"}) {
+    SCOPED_TRACE(swap);
+    expect_drilled(implant({kMotion + swap}));
+  }
+}
+
+TEST(DentalImplant, OtherRegistrationsDoWhereTheMarkersAreGoodEnough) {
+  for (const char* plugin : {"registration/affine4", "registration/frame3"}) {
+    SCOPED_TRACE(plugin);
+    const std::string swap = std::string{"components.registration.plugin="} + plugin;
+    expect_drilled(
+        implant({swap, kTracker + "marker_error_mm=0.15", kTask + "marker_error_mm=0.15"}));
+    expect_refused({swap}, " mm (95 %), 1.5 mm are required");
+  }
+}
+
+TEST(DentalImplant, AnArmThatLagsComesToTheBottomWhenItStopsThere) {
+  const std::string lag = "components.arm.params.lag_s=0.05";
+  EXPECT_GT(implant({lag}).figure("unexplained_error_mm"), 0.5);
+  expect_drilled(implant({lag, kTask + "stop_at_sites=true"}));
+}
+
+TEST(DentalImplant, AFastTrackerWithALongLatencyDoesAsWell) {
+  expect_drilled(implant({kTracker + "rate_hz=250", kTracker + "latency_s=0.05"}));
+}
+
+TEST(DentalImplant, ATrackerThatGoesBlindIsNamedAndTheArmHolds) {
+  expect_refused({kTracker + "jaw_hidden_s=[40, 1000]"},
+                 "the tracker has not seen the jaw for 0.50 s: its spheres are hidden");
+  expect_refused({kTracker + "flange_hidden_s=[40, 1000]"},
+                 "the tracker has not seen the flange for 0.50 s: its spheres are hidden");
+  expect_drilled(implant({kTracker + "jaw_hidden_s=[40, 40.4]"}));
+}
+
+TEST(DentalImplant, ATrackerThatIsBlindForAWhileDuringTheCalibrationCostsPoses) {
+  const DeploymentRun some = implant({kTracker + "flange_hidden_s=[1, 1.4, 10, 16]"});
+  expect_drilled(some);
+  EXPECT_NE(some.command.err.find("hand-eye: 17 of 20 poses fit to"), std::string::npos)
+      << some.text();
+  expect_refused({kTracker + "flange_hidden_s=[10, 1000]"},
+                 "hand-eye: 11 of 20 poses at most, 12 are needed; pose ");
+  expect_refused({kTracker + "flange_hidden_s=[1, 2]"},
+                 "pivot: the tracker has not seen the drill in the hand for 0.50 s");
+}
+
+TEST(DentalImplant, AJawThatMovesStopsTheArm) {
+  expect_refused({kTracker + "jaw_shift_mm=[0, 2, 0]", kTracker + "jaw_shift_at_s=42"},
+                 "the jaw has moved by 2.0");
+}
+
+TEST(DentalImplant, ASiteOutOfReachIsRefused) {
+  const std::string nearest = kTracker + "nearest_mm=100";
+  expect_refused({nearest, kTracker + "jaw_mm=[-1100, -50, 650]"}, "ik: the goal: out_of_reach");
+}
+
+TEST(DentalImplant, CalibrationsMarkersAndSitesThatAreKnownTooBadlyAreRefused) {
+  expect_refused({kTracker + "sphere_error_mm=1"}, "pivot: the tip stood still to 1.");
+  expect_refused({kTracker + "pivot_cone_deg=0"}, "pivot: ");
+  expect_refused({kTracker + "marker_error_mm=4"}, "no choice of measured points keeps");
+  expect_refused({kTracker + "markers_mm=[0, 0, 0, 30, 0, 0, 70, 0, 0]"},
+                 "the markers lie nearly on one line");
+  expect_refused({kTask + "most_site_error_mm=0.3"},
+                 "site 1 is known to 0.39 mm (95 %), 0.3 mm are required");
+}
+
+TEST(DentalImplant, SitesWithWrongNumbersAreFoundBeforeAnythingStarts) {
+  const auto problem = [](const std::string& setting) {
+    const DeploymentRun run = implant({kTracker + setting});
+    EXPECT_EQ(run.command.exit_code, 3) << run.text();
+    return run.command.err;
+  };
+  EXPECT_NE(problem("sites_mm=[10, -5]").find("sites_mm has 2 numbers; three for each of"),
+            std::string::npos);
+  EXPECT_NE(problem("sites_rpy_deg=[1, 2, 3]").find("sites_mm has 3 sites, sites_rpy_deg has 1"),
+            std::string::npos);
+  EXPECT_NE(problem("sites_mm=[10, -5, north]").find("north"), std::string::npos);
+  EXPECT_NE(problem("jaw_hidden_s=[5, 4]").find("jaw_hidden_s: from 5 s until 4 s is no time"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace armature::test

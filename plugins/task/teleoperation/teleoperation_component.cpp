@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include "armature/kinds/pose_in_base.hpp"
 #include "armature/motion/goal_messages.hpp"
+#include "armature/motion/task_state_publisher.hpp"
 #include "armature/runtime/component.hpp"
 #include "armature/runtime/plugin.hpp"
 #include "armature/runtime/setup.hpp"
@@ -16,7 +17,6 @@ namespace armature {
 namespace {
 
 constexpr Duration kPeriod = seconds(0.001);
-constexpr Duration kStatePeriod = seconds(0.2);
 
 TeleoperationSettings settings_of(const Params& params) {
   const double period_s = to_seconds(kPeriod);
@@ -46,7 +46,7 @@ class TeleoperationComponent final : public Component {
         slave_status_{setup.input<msg::MotionStatus>("slave_status")},
         master_goal_{setup.output<msg::MotionGoal>("master_goal")},
         slave_goal_{setup.output<msg::MotionGoal>("slave_goal")},
-        state_{setup.output<msg::TaskState>("state")} {
+        state_{setup} {
     setup.activate_every(kPeriod);
     const TremorFilter& filter = task_.filter();
     say(fmt::format("the slave follows {:.1f} ms behind the hand; 10 Hz is down by {:.1f} dB",
@@ -84,6 +84,7 @@ class TeleoperationComponent final : public Component {
     ConsoleView view{.slave_T_master = pose_of(console_, "the console"),
                      .master_T_hand = pose_of(master_cp_, "the master"),
                      .slave_T_tool = pose_of(slave_cp_, "the slave's tool")};
+    if (view.master_T_hand) view.hand_stamp = stamp_of(master_cp_.latest()->header_().stamp_());
     if (clutch_.latest()) view.clutch_closed = clutch_.latest()->data_();
     show_health(bad);
     return view;
@@ -108,32 +109,20 @@ class TeleoperationComponent final : public Component {
   }
 
   void publish_state(Time now) {
-    const bool news = task_.phase() != told_phase_ || task_.trouble() != told_trouble_;
-    if (!news && now - published_ < kStatePeriod) return;
-    const std::string phase = to_string(task_.phase());
-    if (news) say(task_.trouble().empty() ? phase : phase + ": " + task_.trouble());
-    told_phase_ = task_.phase();
-    told_trouble_ = task_.trouble();
-    published_ = now;
-    auto loan = state_.loan();
-    write_header(loan->header_(), now);
-    loan->state_() = phase;
-    loan->step_(0);
-    loan->steps_(0);
-    loan->detail_() = task_.trouble();
-    loan.publish();
+    const TaskReport report{.state = to_string(task_.phase()), .detail = task_.trouble()};
+    const std::string line =
+        report.detail.empty() ? report.state : report.state + ": " + report.detail;
+    if (state_.publish(now, report, line)) say(line);
   }
 
   Teleoperation task_;
-  std::optional<Teleoperation::Phase> told_phase_;
-  std::string told_trouble_, shown_bad_;
-  Time published_;
+  std::string shown_bad_;
   Input<msg::TransformStamped> console_;
   Input<msg::PoseStamped> master_cp_, slave_cp_;
   Input<msg::Bool> clutch_;
   Input<msg::MotionStatus> master_status_, slave_status_;
   Output<msg::MotionGoal> master_goal_, slave_goal_;
-  Output<msg::TaskState> state_;
+  TaskStatePublisher state_;
 };
 
 }  // namespace armature

@@ -37,7 +37,7 @@ void Teleoperation::see(const ConsoleView& view, Time now) {
 }
 
 void Teleoperation::align(const ConsoleView& view) {
-  if (!view.slave_T_master || !view.master_T_hand || !view.slave_T_tool) return;
+  if (!view.is_whole()) return;
   const Eigen::Isometry3d master_T_instrument =
       view.slave_T_master->inverse(Eigen::Isometry) * *view.slave_T_tool;
   master_goal_.set({.pose = tool_pose_of(master_T_instrument)});
@@ -49,7 +49,7 @@ void Teleoperation::judge_alignment(const ConsoleView& view, Time now) {
   if (master_goal_.state() == State::failed) {
     return refuse("the master cannot come to the instrument: " + master_goal_.reason());
   }
-  if (master_goal_.state() != State::done || !view.master_T_hand || !view.slave_T_tool) return;
+  if (master_goal_.state() != State::done || !view.is_whole()) return;
   const PoseResidual off = residual(*view.slave_T_master * *view.master_T_hand,
                                     Eigen::Vector3d::UnitX(), tool_pose_of(*view.slave_T_tool));
   if (off.position_m <= settings_.aligned_m && off.angle_rad <= settings_.aligned_rad) {
@@ -81,6 +81,7 @@ int Teleoperation::filter_hand(const ConsoleView& view) {
 }
 
 std::string Teleoperation::missing(const ConsoleView& view) const {
+  if (!view.slave_T_master) return "where the console stands is not known";
   if (!view.master_T_hand) return "the master tells nothing";
   if (!view.slave_T_tool) return "the slave tells nothing";
   if (master_goal_.state() != PursuedGoal::State::moving) {

@@ -23,6 +23,8 @@ struct ConsoleView {
   std::optional<Eigen::Isometry3d> master_T_hand, slave_T_tool;
   Time hand_stamp;  // of master_T_hand
   std::optional<bool> clutch_closed;
+
+  bool is_whole() const { return slave_T_master && master_T_hand && slave_T_tool; }
 };
 
 /// The story of a master-slave robot. The master comes to the pose of the instrument by itself

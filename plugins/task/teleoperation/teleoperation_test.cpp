@@ -106,6 +106,20 @@ TEST_F(TeleoperationTest, AMasterThatStandsBesideTheInstrumentIsNotGivenToTheHan
   EXPECT_EQ(task_.trouble(), "the master stands 0.500 mm and 0.000 degrees off the instrument");
 }
 
+TEST_F(TeleoperationTest, IsNotAlignedAsLongAsItCannotBeJudged) {
+  show_console();
+  see();
+  hear_master(Report::executing);
+  hear_master(Report::done);
+  view_.master_T_hand = console_.inverse() * instrument_;
+  view_.slave_T_master.reset();
+  see(2000);
+  EXPECT_EQ(task_.phase(), Phase::aligning);
+  view_.slave_T_master = console_;
+  see();
+  EXPECT_EQ(task_.phase(), Phase::aligned);
+}
+
 TEST_F(TeleoperationTest, AnInstrumentOutOfTheMastersReachIsRefusedWithTheReason) {
   show_console();
   see();
@@ -236,6 +250,7 @@ TEST_F(TeleoperationTest, WhatFallsSilentHoldsTheSlaveUntilTheClutchWasOpen) {
   held([&] { view_.clutch_closed.reset(); }, "the clutch tells nothing");
   held([&] { view_.master_T_hand.reset(); }, "the master tells nothing");
   held([&] { view_.slave_T_tool.reset(); }, "the slave tells nothing");
+  held([&] { view_.slave_T_master.reset(); }, "where the console stands is not known");
 }
 
 TEST_F(TeleoperationTest, ASlaveThatCannotFollowIsHeldWithItsReason) {

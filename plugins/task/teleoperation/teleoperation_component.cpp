@@ -109,9 +109,9 @@ class TeleoperationComponent final : public Component {
   }
 
   void publish_state(Time now) {
+    std::string line = to_string(task_.phase());
+    if (!task_.trouble().empty()) line += ": " + task_.trouble();
     const TaskReport report{.state = to_string(task_.phase()), .detail = task_.trouble()};
-    const std::string line =
-        report.detail.empty() ? report.state : report.state + ": " + report.detail;
     if (state_.publish(now, report, line)) say(line);
   }
 

@@ -40,11 +40,12 @@ TEST(MasterManipulator, AlignsAndDrivesTheSlaveTwiceInTheSameWay) {
   EXPECT_GT(first.figure("tip_speed_mm_s"), 20);
 }
 
-TEST(MasterManipulator, SolversSelectorsAndTrajectoriesAreSwapped) {
+TEST(MasterManipulator, SolversSelectorsAndTrajectoriesAreSwappedAndLimitsLowered) {
   const std::string slave_ik = "components.motion.ik.";
   const std::vector<std::vector<std::string>> swaps{
       {slave_ik + "plugin=ik/numeric", slave_ik + "params=null"},
       {slave_ik + "params.objective=limits"},
+      {"components.motion.params.max_jerk_rad_s3=100"},
       {"components.motion.select.plugin=select/minmax"},
       {"components.master_motion.ik.plugin=ik/numeric"},
       {"components.master_motion.trajectory.plugin=trajectory/quintic_spline"},

@@ -7,8 +7,6 @@
 #include <cmath>
 #include <utility>
 
-#include "armature/motion/tracking.hpp"
-
 namespace armature {
 
 using State = GoalStatus::State;
@@ -102,7 +100,7 @@ std::optional<std::string> GoalExecution::refusal(const Expected<MotionGoal>& go
 PlanResult GoalExecution::plan(const MotionGoal& goal, Time start) {
   const JointState from = reference_.at(start);
   if (goal.mode == MotionMode::tracking) {
-    return track(planner_, goal, from, start, options_.tracking_horizon_s);
+    return track(planner_, goal, from, start, options_.tracking);
   }
   if (goal.mode == MotionMode::planned) return planner_.plan(goal, from, start);
   const MotionLimits& limits = planner_.limits();

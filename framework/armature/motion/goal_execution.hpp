@@ -7,6 +7,7 @@
 
 #include "armature/motion/goal_planner.hpp"
 #include "armature/motion/reference.hpp"
+#include "armature/motion/tracking.hpp"
 
 namespace armature {
 
@@ -30,7 +31,7 @@ struct ExecutionOptions {
   Duration plan_budget = seconds(0.005);  // from the decision to the splice
   double max_deviation = 0.1;             // [rad] of the arm from the reference
   Duration measured_max_age = seconds(0.5);
-  double tracking_horizon_s = 0.1;
+  TrackingOptions tracking = {};
 };
 
 /// Goals in, one commanded reference out. Every new goal is spliced into the motion at

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/core.h>
 
+#include <limits>
 #include <memory>
 #include <utility>
 
@@ -52,11 +53,24 @@ MotionLimits limits_of(const Setup& setup, const RobotModel& model) {
                       model, model.max_acceleration())};
 }
 
-ExecutionOptions options_of(const Params& params) {
+/// Empty when neither kind of joint has a limit.
+JointVector max_jerk_of(const Params& params, const RobotModel& model) {
+  const double turning = params.number("max_jerk_rad_s3"), sliding = params.number("max_jerk_m_s3");
+  if (turning == 0 && sliding == 0) return {};
+  JointVector limits(model.dof());
+  for (int i = 0; i < model.dof(); ++i) {
+    const double limit = model.is_revolute(i) ? turning : sliding;
+    limits[i] = limit > 0 ? limit : std::numeric_limits<double>::infinity();
+  }
+  return limits;
+}
+
+ExecutionOptions options_of(const Params& params, const RobotModel& model) {
   return {.plan_budget = seconds(params.number("plan_budget_s")),
           .max_deviation = params.number("max_deviation_rad"),
           .measured_max_age = seconds(params.number("measured_max_age_s")),
-          .tracking_horizon_s = params.number("tracking_horizon_s")};
+          .tracking = {.shortest_horizon_s = params.number("tracking_horizon_s"),
+                       .max_jerk = max_jerk_of(params, model)}};
 }
 
 }  // namespace
@@ -83,7 +97,7 @@ class Motion : public Component {
                                {*path_, *ik_, *select_, *trajectory_},
                                limits_of(setup, model_),
                                setup.params().flag("path_only")},
-                   options_of(setup.params())} {}
+                   options_of(setup.params(), model_)} {}
 
   void step(Time now) override {
     const auto measured = read_measured();

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/motion/tracking.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <utility>
 #include <variant>
 
 #include "armature/robot/rotation_vector.hpp"
@@ -59,16 +63,42 @@ Trajectory quintic_to(const JointState& from, const JointState& to, Time start, 
   return trajectory;
 }
 
+/// Largest |jerk| of a quintic on [0, duration_s]: its jerk is a parabola.
+double peak_jerk(const Quintic& quintic, double duration_s) {
+  double peak = std::max(std::abs(quintic.jerk(0)), std::abs(quintic.jerk(duration_s)));
+  const double vertex = -24 * quintic.c[4] / (120 * quintic.c[5]);
+  if (vertex > 0 && vertex < duration_s) peak = std::max(peak, std::abs(quintic.jerk(vertex)));
+  return peak;
+}
+
+/// nullopt, or which joint the way to the meeting point would jerk beyond its limit.
+std::optional<std::string> jerk_defect(const Trajectory& way, const RobotModel& model,
+                                       const JointVector& max_jerk) {
+  for (int i = 0; i < max_jerk.size(); ++i) {
+    const double peak = peak_jerk(way.pieces[static_cast<std::size_t>(i)], way.duration_s());
+    if (peak <= max_jerk[i]) continue;
+    const auto joint = static_cast<std::size_t>(model.independent_joint(i));
+    return fmt::format("joint {} would need a jerk of {:.4g}, its limit is {:.4g}",
+                       model.joints()[joint].name, peak, max_jerk[i]);
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 PlanResult track(GoalPlanner& planner, const MotionGoal& goal, const JointState& from, Time start,
-                 double shortest_horizon_s) {
+                 const TrackingOptions& options) {
   const MotionLimits& limits = planner.limits();
   std::string defect;
-  for (double horizon = shortest_horizon_s; horizon <= kLongestHorizon; horizon *= kHorizonGrowth) {
+  for (double horizon = options.shortest_horizon_s; horizon <= kLongestHorizon;
+       horizon *= kHorizonGrowth) {
     auto meet = meeting_point(planner, goal, from, horizon);
     if (!meet) return tl::unexpected{meet.error()};
     Trajectory trajectory = quintic_to(from, *meet, start, horizon, goal.id);
+    if (auto found = jerk_defect(trajectory, planner.model(), options.max_jerk)) {
+      defect = std::move(*found);
+      continue;
+    }
     if (!at_rest(*meet)) {
       trajectory = joined(trajectory, stop_from(*meet, limits.max_velocity, limits.max_acceleration,
                                                 trajectory.end(), goal.id));

@@ -5,12 +5,18 @@
 
 namespace armature {
 
-/// A trajectory towards a target that moves: one quintic per joint from `from` to where the target
-/// will be after the horizon, with the target's joint velocity there and no acceleration, and then
-/// to rest, so that an arm whose target falls silent stops by itself. The horizon is the shortest
-/// one from `shortest_horizon_s` on with which the limits on velocity and acceleration hold; the
-/// jerk is finite everywhere. Fails in stage ik (out of reach) or trajectory (no horizon).
+struct TrackingOptions {
+  double shortest_horizon_s = 0.1;
+  JointVector max_jerk = {};  // [rad/s3] or [m/s3] of each independent joint; empty: any
+};
+
+/// A trajectory towards a target that moves and turns: one quintic per joint from `from` to where
+/// the target will be after the horizon, with the target's joint velocity there and no
+/// acceleration, and then to rest, so that an arm whose target falls silent stops by itself. The
+/// horizon is the shortest one from `shortest_horizon_s` on with which the limits on velocity,
+/// acceleration and, until the target is met, jerk hold. Fails in stage ik (out of reach) or
+/// trajectory (no horizon).
 PlanResult track(GoalPlanner& planner, const MotionGoal& goal, const JointState& from, Time start,
-                 double shortest_horizon_s);
+                 const TrackingOptions& options);
 
 }  // namespace armature

@@ -15,7 +15,7 @@ using test::Gantry;
 using test::goal_at;
 using test::rest_at;
 
-constexpr double kHorizon = 0.1;
+const TrackingOptions kHorizon{.shortest_horizon_s = 0.1};
 
 TEST(Tracking, MeetsATargetThatMovesWithItsVelocity) {
   const Gantry gantry;
@@ -115,6 +115,40 @@ TEST(Tracking, MeetsATargetThatTurnsWithItsAngularVelocity) {
   const JointState meet = plan->trajectory.at(Time{} + seconds(horizon));
   EXPECT_NEAR(meet.q[0], 0.4 * horizon, 1e-9);
   EXPECT_NEAR(meet.v[0], 0.4, 1e-6);
+}
+
+TEST(Tracking, TakesLongerInsteadOfBreakingTheJerkLimit) {
+  const Gantry gantry;
+  GoalPlanner planner = gantry.planner();
+  const MotionGoal goal = goal_at(1, 0.1, -0.05, 0.02);
+  const JointState from{.q = Eigen::Vector3d{0, 0, 0},
+                        .v = Eigen::Vector3d{0.1, 0, -0.2},
+                        .a = Eigen::Vector3d{0, 0.5, 1}};
+  const auto highest_jerk = [&](const JointVector& limit) {
+    const auto plan =
+        track(planner, goal, from, Time{0}, {.shortest_horizon_s = 0.05, .max_jerk = limit});
+    EXPECT_TRUE(plan) << plan.error().reason;
+    double highest = 0;
+    for (double t = 0; t < plan->trajectory.knots[1]; t += 1e-4) {
+      highest =
+          std::max(highest, plan->trajectory.jerk_at(Time{} + seconds(t)).cwiseAbs().maxCoeff());
+    }
+    return highest;
+  };
+  EXPECT_GT(highest_jerk({}), 20);
+  EXPECT_LE(highest_jerk(JointVector::Constant(3, 20)), 20 * (1 + 1e-9));
+  EXPECT_GT(highest_jerk(JointVector::Constant(3, 20)), 5) << "it need not take much longer";
+}
+
+TEST(Tracking, AJerkLimitThatNoHorizonKeepsIsToldWithItsNumber) {
+  const Gantry gantry;
+  GoalPlanner planner = gantry.planner();
+  const auto plan = track(planner, goal_at(1, 0.1, 0, 0), rest_at(0, 0, 0), Time{0},
+                          {.shortest_horizon_s = 0.1, .max_jerk = JointVector::Constant(3, 1e-6)});
+  ASSERT_FALSE(plan);
+  EXPECT_EQ(plan.error().stage, "trajectory");
+  EXPECT_EQ(plan.error().reason.substr(0, 59),
+            "tracking within limits: joint x would need a jerk of 0.0012");
 }
 
 TEST(Tracking, RefusesATargetOutOfReach) {

@@ -30,18 +30,18 @@ void ScaledMotion::engage(const Eigen::Isometry3d& slave_T_tool,
   engaged_s_ = 0;
 }
 
-SlaveTarget ScaledMotion::follow(const Eigen::Isometry3d& master_T_hand) {
-  engaged_s_ += settings_.period_s;
+SlaveTarget ScaledMotion::follow(const Eigen::Isometry3d& master_T_hand, int periods) {
+  const double dt = periods * settings_.period_s;
+  engaged_s_ += dt;
   const double engage = settings_.engage_s;
   const double grip =
       engaged_s_ < engage ? Quintic::between({0, 0, 0}, {1, 0, 0}, engage).position(engaged_s_) : 1;
 
   const Eigen::Vector3d moved = master_T_hand.translation() - hand_.translation();
-  Eigen::Vector3d velocity =
-      grip * settings_.scale / settings_.period_s * (slave_R_master_ * moved);
+  Eigen::Vector3d velocity = grip * settings_.scale / dt * (slave_R_master_ * moved);
   const double speed = velocity.norm();
   if (speed > 0) velocity *= gently_limited(speed, settings_.max_speed) / speed;
-  position_ += velocity * settings_.period_s;
+  position_ += velocity * dt;
 
   const Eigen::Quaterniond turned{master_T_hand.linear() * hand_.linear().transpose()};
   const Eigen::Vector3d turn = grip * (slave_R_master_ * rotation_vector_of(turned));
@@ -50,7 +50,7 @@ SlaveTarget ScaledMotion::follow(const Eigen::Isometry3d& master_T_hand) {
   hand_ = master_T_hand;
   return {.pose = Eigen::Translation3d{position_} * rotation_,
           .velocity = velocity,
-          .angular_velocity = turn / settings_.period_s};
+          .angular_velocity = turn / dt};
 }
 
 }  // namespace armature

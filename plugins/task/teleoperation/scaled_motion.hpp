@@ -33,8 +33,8 @@ class ScaledMotion {
   /// the master's base frame into the slave's.
   void engage(const Eigen::Isometry3d& slave_T_tool, const Eigen::Isometry3d& master_T_hand,
               const Eigen::Matrix3d& slave_R_master);
-  /// One period later.
-  SlaveTarget follow(const Eigen::Isometry3d& master_T_hand);
+  /// One period later; or so many, when the hand's poses between were missed.
+  SlaveTarget follow(const Eigen::Isometry3d& master_T_hand, int periods = 1);
 
  private:
   ScaledMotionSettings settings_;

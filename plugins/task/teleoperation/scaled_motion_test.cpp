@@ -95,6 +95,18 @@ TEST_F(ScaledMotionTest, OnAMovingHandTheScaleComesUpSmoothly) {
   EXPECT_NEAR((target.pose.translation() - slave_.translation()).norm(), 0.02 * 0.85, 2e-5);
 }
 
+TEST_F(ScaledMotionTest, MissedPosesOfTheHandMakeItNoFaster) {
+  ScaledMotion motion{{.scale = 0.5, .engage_s = 0, .max_speed = 0.05}};
+  motion.engage(slave_, hand_, turn_);
+  Eigen::Isometry3d hand = hand_;
+  hand.translation().x() += 0.0004;
+  hand.linear() = Eigen::AngleAxisd{0.01, Vector3d::UnitX()} * hand.linear();
+  const SlaveTarget target = motion.follow(hand, 8);
+  EXPECT_NEAR(target.velocity.norm(), 0.025, 1e-12);
+  EXPECT_NEAR(target.angular_velocity.norm(), 1.25, 1e-9);
+  EXPECT_NEAR((target.pose.translation() - slave_.translation()).norm(), 0.0002, 1e-15);
+}
+
 TEST_F(ScaledMotionTest, ItsSpeedKeepsItsLimitAndItStopsWithTheHand) {
   const auto hand = [&](double t) {
     Eigen::Isometry3d pose = hand_;

@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <utility>
 
@@ -11,6 +12,8 @@ namespace armature {
 namespace {
 
 constexpr Duration kSettlesWithin = seconds(1.0);  // an arm that lags behind its reference
+constexpr double kLongestGap_s = 0.1;              // between two poses of the hand
+constexpr int kBroken = -1;                        // the gap is longer, or time went back
 constexpr double kDegrees = 180 / std::numbers::pi;
 
 ToolPose tool_pose_of(const Eigen::Isometry3d& base_T_tool) {
@@ -29,13 +32,12 @@ void Teleoperation::see(const ConsoleView& view, Time now) {
     case Phase::refused:
       return;
     default:
-      filter_hand(view.master_T_hand);
-      return follow_hand(view);
+      return follow_hand(view, filter_hand(view));
   }
 }
 
 void Teleoperation::align(const ConsoleView& view) {
-  if (!view.slave_T_master || !view.master_T_hand || !view.slave_T_tool) return;
+  if (!view.is_whole()) return;
   const Eigen::Isometry3d master_T_instrument =
       view.slave_T_master->inverse(Eigen::Isometry) * *view.slave_T_tool;
   master_goal_.set({.pose = tool_pose_of(master_T_instrument)});
@@ -47,7 +49,7 @@ void Teleoperation::judge_alignment(const ConsoleView& view, Time now) {
   if (master_goal_.state() == State::failed) {
     return refuse("the master cannot come to the instrument: " + master_goal_.reason());
   }
-  if (master_goal_.state() != State::done || !view.master_T_hand || !view.slave_T_tool) return;
+  if (master_goal_.state() != State::done || !view.is_whole()) return;
   const PoseResidual off = residual(*view.slave_T_master * *view.master_T_hand,
                                     Eigen::Vector3d::UnitX(), tool_pose_of(*view.slave_T_tool));
   if (off.position_m <= settings_.aligned_m && off.angle_rad <= settings_.aligned_rad) {
@@ -59,18 +61,27 @@ void Teleoperation::judge_alignment(const ConsoleView& view, Time now) {
   }
 }
 
-void Teleoperation::filter_hand(const std::optional<Eigen::Isometry3d>& master_T_hand) {
-  if (!master_T_hand) {
+int Teleoperation::filter_hand(const ConsoleView& view) {
+  if (!view.master_T_hand) {
     hand_.reset();
-  } else if (hand_) {
-    hand_ = filter_.step(*master_T_hand);
-  } else {
-    filter_.start(*master_T_hand);
-    hand_ = master_T_hand;
+    return 0;
   }
+  const double passed_s = to_seconds(view.hand_stamp - hand_stamp_);
+  hand_stamp_ = view.hand_stamp;
+  const bool unbroken = hand_ && passed_s >= 0 && passed_s <= kLongestGap_s;
+  if (!unbroken) {
+    const int broken = hand_ ? kBroken : 0;
+    filter_.start(*view.master_T_hand);
+    hand_ = view.master_T_hand;
+    return broken;
+  }
+  const int periods = static_cast<int>(std::lround(passed_s / settings_.filter.period_s));
+  if (periods > 0) hand_ = filter_.step(*view.master_T_hand, periods);
+  return periods;
 }
 
 std::string Teleoperation::missing(const ConsoleView& view) const {
+  if (!view.slave_T_master) return "where the console stands is not known";
   if (!view.master_T_hand) return "the master tells nothing";
   if (!view.slave_T_tool) return "the slave tells nothing";
   if (master_goal_.state() != PursuedGoal::State::moving) {
@@ -81,13 +92,15 @@ std::string Teleoperation::missing(const ConsoleView& view) const {
   return "";
 }
 
-void Teleoperation::follow_hand(const ConsoleView& view) {
+void Teleoperation::follow_hand(const ConsoleView& view, int periods) {
   const std::string missing = this->missing(view);
   const bool closed = view.clutch_closed.value_or(false);
   if (phase_ == Phase::teleoperating) {
     if (!missing.empty()) return stop_slave(Phase::held, missing);
     if (!closed) return stop_slave(Phase::clutch_open, "");
-    const SlaveTarget target = motion_.follow(*hand_);
+    if (periods == kBroken) return stop_slave(Phase::held, "the master's stamps jump");
+    if (periods == 0) return;
+    const SlaveTarget target = motion_.follow(*hand_, periods);
     slave_goal_ = MotionGoal{.mode = MotionMode::tracking,
                              .pose = tool_pose_of(target.pose),
                              .velocity = target.velocity,

@@ -21,7 +21,10 @@ struct TeleoperationSettings {
 struct ConsoleView {
   std::optional<Eigen::Isometry3d> slave_T_master;  // where the console stands
   std::optional<Eigen::Isometry3d> master_T_hand, slave_T_tool;
+  Time hand_stamp;  // of master_T_hand
   std::optional<bool> clutch_closed;
+
+  bool is_whole() const { return slave_T_master && master_T_hand && slave_T_tool; }
 };
 
 /// The story of a master-slave robot. The master comes to the pose of the instrument by itself
@@ -58,10 +61,12 @@ class Teleoperation {
  private:
   void align(const ConsoleView& view);
   void judge_alignment(const ConsoleView& view, Time now);
-  void follow_hand(const ConsoleView& view);
+  void follow_hand(const ConsoleView& view, int periods);
   /// What is missing for the slave to follow, or "".
   std::string missing(const ConsoleView& view) const;
-  void filter_hand(const std::optional<Eigen::Isometry3d>& master_T_hand);
+  /// For how many periods the hand has moved on: 0 when nothing new is told of it, -1 when it
+  /// cannot be said.
+  int filter_hand(const ConsoleView& view);
   void engage(const ConsoleView& view);
   void stop_slave(Phase phase, std::string trouble);
   void refuse(std::string why);
@@ -70,6 +75,7 @@ class Teleoperation {
   TremorFilter filter_;
   ScaledMotion motion_;
   std::optional<Eigen::Isometry3d> hand_;  // filtered
+  Time hand_stamp_;
   PursuedGoal master_goal_;
   std::optional<MotionGoal> slave_goal_;
   std::uint64_t last_slave_id_ = 0, first_engaged_id_ = 0;

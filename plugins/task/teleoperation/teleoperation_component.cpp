@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include "armature/kinds/pose_in_base.hpp"
@@ -84,6 +84,7 @@ class TeleoperationComponent final : public Component {
     ConsoleView view{.slave_T_master = pose_of(console_, "the console"),
                      .master_T_hand = pose_of(master_cp_, "the master"),
                      .slave_T_tool = pose_of(slave_cp_, "the slave's tool")};
+    if (view.master_T_hand) view.hand_stamp = stamp_of(master_cp_.latest()->header_().stamp_());
     if (clutch_.latest()) view.clutch_closed = clutch_.latest()->data_();
     show_health(bad);
     return view;

@@ -21,6 +21,7 @@ class TeleoperationTest : public testing::Test {
   /// One millisecond on.
   void see() {
     now_ = now_ + seconds(0.001);
+    view_.hand_stamp = now_ - hand_is_late_;
     task_.see(view_, now_);
     if (const auto goal = task_.outgoing_master_goal(now_)) master_goal_ = goal;
     slave_goal_ = task_.outgoing_slave_goal();
@@ -64,6 +65,7 @@ class TeleoperationTest : public testing::Test {
   Teleoperation task_{{}};
   ConsoleView view_;
   Time now_;
+  Duration hand_is_late_ = seconds(0.001);
   std::optional<MotionGoal> master_goal_, slave_goal_;
 };
 
@@ -104,6 +106,20 @@ TEST_F(TeleoperationTest, AMasterThatStandsBesideTheInstrumentIsNotGivenToTheHan
   EXPECT_EQ(task_.trouble(), "the master stands 0.500 mm and 0.000 degrees off the instrument");
 }
 
+TEST_F(TeleoperationTest, IsNotAlignedAsLongAsItCannotBeJudged) {
+  show_console();
+  see();
+  hear_master(Report::executing);
+  hear_master(Report::done);
+  view_.master_T_hand = console_.inverse() * instrument_;
+  view_.slave_T_master.reset();
+  see(2000);
+  EXPECT_EQ(task_.phase(), Phase::aligning);
+  view_.slave_T_master = console_;
+  see();
+  EXPECT_EQ(task_.phase(), Phase::aligned);
+}
+
 TEST_F(TeleoperationTest, AnInstrumentOutOfTheMastersReachIsRefusedWithTheReason) {
   show_console();
   see();
@@ -127,6 +143,38 @@ TEST_F(TeleoperationTest, WithTheClutchClosedTheSlaveFollowsScaled) {
   const Vector3d moved = slave_goal_->pose.position - instrument_.translation();
   EXPECT_LT((moved - console_.linear() * Vector3d{0.01, 0, 0}).norm(), 1e-6) << moved.transpose();
   EXPECT_LT(slave_goal_->velocity.norm(), 1e-6);
+}
+
+TEST_F(TeleoperationTest, WhereNothingNewIsToldOfTheHandTheSlaveIsToldNothing) {
+  close_clutch();
+  see(1000);
+  for (int i = 0; i < 5; ++i) {
+    hand_is_late_ += seconds(0.001);
+    see();
+    EXPECT_FALSE(slave_goal_);
+  }
+  EXPECT_EQ(task_.phase(), Phase::teleoperating);
+  hand_is_late_ = seconds(0.001);
+  move_hand(0.3);  // in six milliseconds
+  see();
+  ASSERT_TRUE(slave_goal_);
+  EXPECT_LT(slave_goal_->velocity.norm(), 0.025);
+}
+
+TEST_F(TeleoperationTest, StampsThatJumpHoldTheSlave) {
+  close_clutch();
+  see(100);
+  for (const Duration jump : {seconds(1000), -seconds(2000)}) {
+    hand_is_late_ += jump;
+    see();
+    EXPECT_EQ(task_.phase(), Phase::held);
+    EXPECT_EQ(task_.trouble(), "the master's stamps jump");
+    view_.clutch_closed = false;
+    see();
+    view_.clutch_closed = true;
+    see(2);
+    EXPECT_EQ(task_.phase(), Phase::teleoperating);
+  }
 }
 
 TEST_F(TeleoperationTest, GoalsOfTheSlaveAscendFromWhereItsMotionIs) {
@@ -202,6 +250,7 @@ TEST_F(TeleoperationTest, WhatFallsSilentHoldsTheSlaveUntilTheClutchWasOpen) {
   held([&] { view_.clutch_closed.reset(); }, "the clutch tells nothing");
   held([&] { view_.master_T_hand.reset(); }, "the master tells nothing");
   held([&] { view_.slave_T_tool.reset(); }, "the slave tells nothing");
+  held([&] { view_.slave_T_master.reset(); }, "where the console stands is not known");
 }
 
 TEST_F(TeleoperationTest, ASlaveThatCannotFollowIsHeldWithItsReason) {

@@ -72,10 +72,14 @@ void TremorFilter::start(const Eigen::Isometry3d& pose) {
   for (Section& section : sections_) section.start(last_);
 }
 
-Eigen::Isometry3d TremorFilter::step(const Eigen::Isometry3d& pose) {
+Eigen::Isometry3d TremorFilter::step(const Eigen::Isometry3d& pose, int periods) {
+  const Channels before = last_;
   last_ = channels_of(pose);
-  Channels y = last_;
-  for (Section& section : sections_) y = section.step(y);
+  Channels y;
+  for (int k = 1; k <= periods; ++k) {
+    y = before + (last_ - before) * k / periods;
+    for (Section& section : sections_) y = section.step(y);
+  }
   const Eigen::Vector4d rotation = y.tail<4>().normalized();
   Eigen::Isometry3d filtered = Eigen::Isometry3d::Identity();
   filtered.translation() = y.head<3>();

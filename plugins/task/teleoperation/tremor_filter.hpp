@@ -22,8 +22,9 @@ class TremorFilter {
 
   /// As if the hand had been at `pose` for ever.
   void start(const Eigen::Isometry3d& pose);
-  /// The pose one period later, filtered.
-  Eigen::Isometry3d step(const Eigen::Isometry3d& pose);
+  /// The pose one period later, filtered; or so many periods later, when those between were missed:
+  /// the hand is taken to have gone straight.
+  Eigen::Isometry3d step(const Eigen::Isometry3d& pose, int periods = 1);
 
   /// By how much a slow motion comes later [s]: the group delay at 0 Hz.
   double lag_s() const;

@@ -89,6 +89,25 @@ TEST(TremorFilter, WhatItSaysOfASineIsWhatItDoes) {
   EXPECT_NEAR(peak, filter.gain(10), 1e-3 * peak + 1e-4);
 }
 
+TEST(TremorFilter, PosesThatWereMissedHardlyMatter) {
+  TremorFilter all{{}}, some{{}};
+  const auto hand = [](double t) { return pose_at({0.02 * std::sin(3 * t), 0.01 * t, 0}, t); };
+  all.start(hand(0));
+  some.start(hand(0));
+  int missed = 0;
+  for (int k = 1; k < 3000; ++k) {
+    const Eigen::Isometry3d wanted = all.step(hand(k * kPeriod));
+    if (k % 50 < 8) {
+      ++missed;
+      continue;
+    }
+    const Eigen::Isometry3d out = some.step(hand(k * kPeriod), missed + 1);
+    missed = 0;
+    ASSERT_LT((out.translation() - wanted.translation()).norm(), 1e-6) << k;
+    ASSERT_LT((out.linear() - wanted.linear()).norm(), 1e-5) << k;
+  }
+}
+
 TEST(TremorFilter, AHandAtRestStaysWhereItIs) {
   const Eigen::Isometry3d pose = pose_at({0.1, -0.2, 0.3}, 2.5);
   TremorFilter filter{{}};

@@ -229,7 +229,7 @@ const Fault kFaults[] = {
      "    trajectory: {plugin: trajectory/hasty}",
      "deployment.yaml:16:20: 'path/mouth_points' needs 'time_law' unless 'segment_s' is 0, and "
      "nothing in component 'motion' offers it; offered by trajectory/cubic_spline, "
-     "trajectory/quintic, trajectory/quintic_spline\n"},
+     "trajectory/quintic, trajectory/quintic_spline, trajectory/sampled\n"},
     {"NeedThatNoPluginKnows", "path: {plugin: path/mouth_arc}", "path: {plugin: path/mistyped}",
      "deployment.yaml:16:20: 'path/mistyped' needs 'time_lwa', and nothing in component 'motion' "
      "offers it; no plugin on the search path does; did you mean 'time_law'?\n"},

@@ -3,16 +3,13 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
-#include <random>
 
 #include "armature/robot/kinematics.hpp"
 #include "bench/clock.hpp"
+#include "bench/turns.hpp"
 
 namespace armature::bench {
 namespace {
-
-constexpr std::size_t kBlock = 50;  // poses of one runner in one go
 
 /// Does the branch reach the goal with joints within limits? By forward kinematics and the robot's
 /// limits, whatever the branch says of itself.
@@ -48,11 +45,10 @@ Solve checked(const RobotModel& model, const Runner& runner, const Pose& pose, S
   return solve;
 }
 
-/// One block of poses with one runner, with the clock.
+/// Poses [from, to) with one runner, with the clock.
 void time_block(const Runner& runner, const std::vector<Pose>& poses, std::size_t from,
-                double clock_s, Series& series) {
+                std::size_t to, double clock_s, Series& series) {
   IkBranches found;
-  const std::size_t to = std::min(from + kBlock, poses.size());
   for (std::size_t i = from; i < to; ++i) {
     const JointVector& seed = poses[i].seed(series.seeds);
     IkState state;
@@ -86,20 +82,14 @@ std::vector<Series> measure(const RobotModel& model, const std::vector<Runner>& 
     }
   }
   const double clock_s = clock_seconds();
-  std::mt19937_64 random{options.order};
-  std::vector<std::size_t> turns(all.size()), blocks;
-  std::iota(turns.begin(), turns.end(), 0U);
-  for (std::size_t from = 0; from < poses.size(); from += kBlock) blocks.push_back(from);
-  const double work = static_cast<double>(blocks.size()) * options.repetitions;
-  double done = 0;
-  for (int repetition = 0; repetition < options.repetitions; ++repetition) {
-    std::ranges::shuffle(blocks, random);
-    for (const std::size_t from : blocks) {
-      std::ranges::shuffle(turns, random);
-      for (const std::size_t k : turns) time_block(*runner_of[k], poses, from, clock_s, all[k]);
-      if (options.progress) options.progress(++done / work);
-    }
-  }
+  take_turns({.contestants = all.size(),
+              .items = poses.size(),
+              .repetitions = options.repetitions,
+              .order = options.order,
+              .progress = options.progress},
+             [&](std::size_t k, std::size_t from, std::size_t to) {
+               time_block(*runner_of[k], poses, from, to, clock_s, all[k]);
+             });
   return all;
 }
 

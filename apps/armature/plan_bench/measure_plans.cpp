@@ -4,17 +4,16 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <numeric>
 #include <random>
 
 #include "bench/clock.hpp"
 #include "bench/random_joints.hpp"
 #include "bench/statistics.hpp"
+#include "bench/turns.hpp"
 
 namespace armature::bench {
 namespace {
 
-constexpr std::size_t kMotionsInOneGo = 50;  // motions of one planner in one go
 constexpr std::size_t kSamplesOfAPlan = 64;
 
 struct Timed {
@@ -42,8 +41,7 @@ class Race {
     for (double& part : parts_) part = unit(random);
   }
 
-  void run(Planner& planner, std::size_t from, std::vector<Timed>& all) {
-    const std::size_t to = std::min(from + kMotionsInOneGo, motions_.size());
+  void run(Planner& planner, std::size_t from, std::size_t to, std::vector<Timed>& all) {
     for (std::size_t i = from; i < to; ++i) {
       if (all[i].planned) run(planner, motions_[i], all[i]);
     }
@@ -103,20 +101,14 @@ std::vector<PlanRow> measure_plans(const std::vector<NamedPlanner>& planners, Sh
     }
   }
   Race race{motions, options.order};
-  std::mt19937_64 random{options.order};
-  std::vector<std::size_t> turns(planners.size()), blocks;
-  std::iota(turns.begin(), turns.end(), 0U);
-  for (std::size_t from = 0; from < motions.size(); from += kMotionsInOneGo) blocks.push_back(from);
-  const double work = static_cast<double>(blocks.size()) * options.repetitions;
-  double done = 0;
-  for (int repetition = 0; repetition < options.repetitions; ++repetition) {
-    std::ranges::shuffle(blocks, random);
-    for (const std::size_t from : blocks) {
-      std::ranges::shuffle(turns, random);
-      for (const std::size_t k : turns) race.run(*planners[k].planner, from, all[k]);
-      if (options.progress) options.progress(++done / work);
-    }
-  }
+  take_turns({.contestants = planners.size(),
+              .items = motions.size(),
+              .repetitions = options.repetitions,
+              .order = options.order,
+              .progress = options.progress},
+             [&](std::size_t k, std::size_t from, std::size_t to) {
+               race.run(*planners[k].planner, from, to, all[k]);
+             });
   std::vector<PlanRow> rows;
   for (std::size_t k = 0; k < planners.size(); ++k) {
     rows.push_back(row_of(planners[k].name, shape, motions, all[k]));

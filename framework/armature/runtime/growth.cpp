@@ -67,14 +67,14 @@ std::string Growth::fault() const {
 
 Growth growth_of(const std::filesystem::path& library, int cycles, double budget_s,
                  const std::function<void()>& cycle) {
-  using Clock = std::chrono::steady_clock;
-  const auto end = Clock::now() + std::chrono::duration<double>{budget_s};
+  using Steady = std::chrono::steady_clock;
+  const auto end = Steady::now() + std::chrono::duration<double>{budget_s};
   for (int i = 0; i < kWarmUp; ++i) cycle();
   Growth growth;
   growth.mappings = -mappings();
   growth.heap_bytes = -heap_bytes();
   growth.resident_bytes = -resident_bytes();
-  while (growth.cycles < cycles && Clock::now() < end) {
+  while (growth.cycles < cycles && Steady::now() < end) {
     cycle();
     ++growth.cycles;
   }

@@ -11,6 +11,7 @@ namespace {
 using Eigen::Isometry3d;
 
 constexpr Duration kAnswerWithin = seconds(1.0);
+constexpr int kJawSamples = 10;  // one by itself errs too much far from the body
 
 }  // namespace
 
@@ -63,12 +64,18 @@ void Implant::see_jaw(const Sighting& sighting) {
   if (!sighting.tracker_T_body) return;
   if (phase_ == Phase::locating) jaw_.add(*sighting.tracker_T_body);
   if (phase_ != Phase::approaching && phase_ != Phase::drilling) return;
+  jaw_now_.add(*sighting.tracker_T_body);
+  if (jaw_now_.count() == kJawSamples) guard_jaw();
+}
+
+/// Against where the jaw was when the way was worked out.
+void Implant::guard_jaw() {
   const Eigen::Vector3d site = chain_.patient_T_image * sites_.front().translation();
-  const double moved_m = (*sighting.tracker_T_body * site - chain_.tracker_T_patient * site).norm();
-  if (moved_m > settings_.most_jaw_motion_m) {
-    hold(fmt::format("the jaw has moved by {:.2f} mm, {:g} mm are allowed", 1e3 * moved_m,
-                     1e3 * settings_.most_jaw_motion_m));
-  }
+  const double moved_m = (jaw_now_.mean() * site - chain_.tracker_T_patient * site).norm();
+  jaw_now_.clear();
+  if (moved_m <= settings_.most_jaw_motion_m) return;
+  hold(fmt::format("the jaw has moved by {:.2f} mm, {:g} mm are allowed", 1e3 * moved_m,
+                   1e3 * settings_.most_jaw_motion_m));
 }
 
 void Implant::hear(const GoalReport& report, Time now) {

@@ -24,7 +24,7 @@ struct ImplantSettings {
   Duration dwell = seconds(0.5);  // at a bottom where the drill stops
   double most_pivot_residual_m = 0.0005, most_hand_eye_residual_m = 0.0005;
   double most_fiducial_error_m = 0.0015, most_site_error_m = 0.0015;
-  double most_jaw_motion_m = 0.001;
+  double most_jaw_motion_m = 0.001;  // of the mean of some samples
 };
 
 /// What a registration answered.
@@ -91,6 +91,7 @@ class Implant {
   void finish_calibration(Time now);
   void finish_locating(Time now);
   void go_on_drilling(Time now);
+  void guard_jaw();
   void refuse(const std::string& why);
   void hold(const std::string& why);
 
@@ -107,7 +108,7 @@ class Implant {
   std::optional<Time> pivot_since_, asked_at_;
   Pivot pivot_;
   HandEye hand_eye_;
-  PoseAverage jaw_;
+  PoseAverage jaw_, jaw_now_;
   RegisteredJaw registered_;
   GuidedChain chain_;
   DrillingWay way_;

@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // The drilling on its topics: 1. what it says while it waits, 2. a tracker that is silent, or tells
-// what is no pose, 3. the question to the registration, and whose answers count, 4. what it needs.
+// what is no pose, 3. the question to the registration, and whose answers count, 4. what it
+// refuses and needs.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "armature/kinds/chain_messages.hpp"
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/geometry.hpp"
 #include "armature/messages/header.hpp"
 #include "armature/messages/sensor_msgs.hpp"
 #include "armature/robot/kinematics.hpp"
 #include "armature/runtime/component_bench.hpp"
+#include "calibration_poses.hpp"
 
 namespace armature {
 namespace {
@@ -58,19 +62,56 @@ class ImplantComponentTest : public testing::Test {
     task_.send("pivot", body(Eigen::Translation3d{0, 0, 1.5} *
                              Eigen::AngleAxisd{0.5, Vector3d{std::cos(turn), std::sin(turn), 0}} *
                              Eigen::Translation3d{0, 0, -0.1}));
-    task_.send("flange", body(base_T_tool_));
-    task_.send("jaw", body(Isometry3d{Eigen::Translation3d{0.2, 0, 1.5}}));
+    const JointVector q = at_ ? poses_[at_ - 1] : resting_position(robot_);
     msg::JointState state;
-    const JointVector home = resting_position(robot_);
-    state.position_().assign(home.begin(), home.end());
+    state.position_().assign(q.begin(), q.end());
     task_.send("measured_js", state);
+    if (at_) task_.send("motion_status", done());
+    task_.send("flange", body(base_T_tracker_.inverse() *
+                              forward_kinematics(robot_, q, *robot_.find_frame("flange"))));
+    task_.send("jaw", body(base_T_tracker_.inverse() * base_T_jaw_));
     task_.step(now_s_);
     for (const auto& told : task_.take<msg::TaskState>("state")) state_ = told;
+    for (const auto& goal : task_.take<msg::MotionGoal>("goal")) {
+      goals_.push_back(goal);
+      at_ = std::min(goals_.size(), poses_.size());
+    }
+  }
+  msg::MotionStatus done() const {
+    msg::MotionStatus status;
+    status.goal_id_(goals_.back().goal_id_());
+    status.state_(2);
+    return status;
+  }
+  void go_to(const std::string& state) {
+    for (int i = 0; i < 500 && state_.state_() != state; ++i) step();
+    ASSERT_EQ(state_.state_(), state) << state_.detail_();
+  }
+  msg::RegistrationRequest asked() {
+    const auto requests = task_.take<msg::RegistrationRequest>("request");
+    EXPECT_EQ(requests.size(), 1u);
+    return requests.empty() ? msg::RegistrationRequest{} : requests.front();
+  }
+  static msg::RegistrationResponse answer_to(const msg::RegistrationRequest& request) {
+    msg::RegistrationResponse response;
+    response.request_id_(request.request_id_());
+    response.valid_(true);
+    response.robot_t_image_({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0.1});
+    response.fre_(0.0003);
+    response.targets_().resize(1);
+    response.targets_()[0].error_rms_(0.0003);
+    response.targets_()[0].error_95_(0.0004);
+    return response;
   }
 
   const RobotModel robot_ = load_robot_model(ARMATURE_SOURCE_DIR "/configs/robots/med7.yaml");
   double now_s_ = 10;
-  Isometry3d base_T_tool_ = Isometry3d::Identity();
+  const Isometry3d base_T_tracker_{Eigen::Translation3d{-1.7, 0.5, 1.2} *
+                                   Eigen::AngleAxisd{1.8, Vector3d{0.1, 1, -0.3}.normalized()}};
+  const Isometry3d base_T_jaw_{Eigen::Translation3d{-0.3, 0, 0.8}};
+  const std::vector<JointVector> poses_ = calibration_poses(robot_, 6, 25 * M_PI / 180);
+  std::size_t at_ = 0;  // of poses_, from 1
+  std::vector<msg::MotionGoal> goals_;
   msg::TaskState state_;
   ComponentBench task_{plugins(), task("med7.yaml")};
 };
@@ -79,17 +120,69 @@ TEST_F(ImplantComponentTest, FindsTheTipAndThenSendsTheArmToThePosesOfItsCalibra
   for (int i = 0; i < 20; ++i) step();
   EXPECT_EQ(state_.state_(), "pivoting");
   EXPECT_EQ(state_.steps_(), 0u);
-  EXPECT_TRUE(task_.take<msg::MotionGoal>("goal").empty());
-  for (int i = 0; i < 10; ++i) step();
-  EXPECT_EQ(state_.state_(), "calibrating");
+  EXPECT_TRUE(goals_.empty());
+  go_to("calibrating");
   EXPECT_EQ(state_.step_(), 1u);
   EXPECT_EQ(state_.steps_(), 6u);
-  const auto goals = task_.take<msg::MotionGoal>("goal");
-  ASSERT_EQ(goals.size(), 1u);
-  EXPECT_EQ(goals[0].header_().frame_id_(), "base");
-  EXPECT_FALSE(goals[0].pointing_());
+  step();
+  ASSERT_EQ(goals_.size(), 1u);
+  EXPECT_EQ(goals_[0].header_().frame_id_(), "base");
+  EXPECT_FALSE(goals_[0].pointing_());
+  const Isometry3d pose = forward_kinematics(robot_, poses_[0]);
+  EXPECT_LT((to_eigen(goals_[0].position_()) - pose.translation()).norm(), 1e-12);
   ASSERT_GE(task_.lines().size(), 3u);
   EXPECT_EQ(task_.lines()[1].substr(0, 16), "pivot: 26 poses,");
+}
+
+TEST_F(ImplantComponentTest, AsksForARegistrationInTheFrameOfTheMarkers) {
+  show_plan();
+  go_to("registering");
+  const msg::RegistrationRequest request = asked();
+  EXPECT_EQ(request.header_().frame_id_(), "jaw");
+  EXPECT_EQ(request.image_markers_().size(), 3u);
+  ASSERT_EQ(request.robot_markers_().size(), 3u);
+  EXPECT_EQ(request.robot_markers_()[0].z_(), 0.1);
+  EXPECT_FALSE(request.ordered_());
+  EXPECT_DOUBLE_EQ(request.match_tolerance_(), 0.003);
+  EXPECT_DOUBLE_EQ(request.marker_error_(), 0.0005);
+  ASSERT_EQ(request.targets_().size(), 1u);
+  EXPECT_EQ(request.targets_()[0].x_(), 0.02);
+}
+
+TEST_F(ImplantComponentTest, GoesToTheSiteThatWasRegisteredAndTellsItsChain) {
+  show_plan();
+  go_to("registering");
+  task_.send("registration", answer_to(asked()));
+  go_to("approaching");
+  step();
+  const auto estimates = task_.take<msg::TFMessage>("estimate");
+  ASSERT_EQ(estimates.size(), 1u);
+  const auto chain = chain_of(estimates[0]);
+  ASSERT_TRUE(chain) << chain.error().text;
+  EXPECT_LT((chain->base_T_tracker.matrix() - base_T_tracker_.matrix()).norm(), 1e-8);
+  const Vector3d site = base_T_jaw_ * Vector3d{0.02, 0, 0.11};
+  EXPECT_LT(
+      (chain->base_T_site(Isometry3d{Eigen::Translation3d{0.02, 0, 0.01}}).translation() - site)
+          .norm(),
+      1e-8);
+  EXPECT_LT((chain->tip - Vector3d{0, 0, 0.1}).norm(), 1e-8);
+}
+
+TEST_F(ImplantComponentTest, AnAnswerToSomebodyElseIsNoneAndARefusedOneIsTheEnd) {
+  show_plan();
+  go_to("registering");
+  msg::RegistrationResponse answer = answer_to(asked());
+  answer.request_id_(answer.request_id_() + 1);
+  task_.send("registration", answer);
+  step();
+  EXPECT_EQ(state_.state_(), "registering");
+  answer.request_id_(answer.request_id_() - 1);
+  answer.valid_(false);
+  answer.reason_() = "the markers lie nearly on one line";
+  task_.send("registration", answer);
+  step();
+  EXPECT_EQ(state_.state_(), "refused");
+  EXPECT_EQ(state_.detail_(), "the markers lie nearly on one line");
 }
 
 TEST_F(ImplantComponentTest, ASilentTrackerIsNamed) {

@@ -165,13 +165,15 @@ TEST_F(ImplantTest, AJawThatMovesStopsTheArm) {
   begin();
   go_to(Phase::drilling);
   done_ = 0;
-  chain_.tracker_T_patient.translate(Vector3d{0, 0.0009, 0});
-  step();
+  for (int i = 0; i < 100; ++i) {  // a tracker that errs
+    chain_.tracker_T_patient.translate(Vector3d{0, i % 2 ? 0.0018 : -0.0018, 0});
+    step();
+  }
   EXPECT_EQ(task_.phase(), Phase::drilling);
-  chain_.tracker_T_patient.translate(Vector3d{0, 0.0009, 0});
-  step();
+  chain_.tracker_T_patient.translate(Vector3d{0, 0.0018, 0});
+  wait(0.5);
   EXPECT_EQ(task_.phase(), Phase::refused);
-  EXPECT_EQ(task_.trouble(), "the jaw has moved by 1.80 mm, 1 mm are allowed");
+  EXPECT_EQ(task_.trouble().substr(0, 21), "the jaw has moved by ");
   EXPECT_EQ(goals_.back().mode, MotionMode::hold);
 }
 

@@ -70,15 +70,18 @@ class ImplantReport final : public Component {
 
   void summarize(Summary& summary) const override {
     if (state_ == "refused") summary.failed("refused");
+    if (state_ == "drilled") tell_drilling(summary);
     summary.metric("final_speed_rad_s", "speed of the fastest joint at the end [rad/s]", speed_);
-    if (state_ != "drilled") return;
+  }
+
+ private:
+  void tell_drilling(Summary& summary) const {
     summary.metric("time_to_drilled_s", "time until all sites are drilled [s]",
                    to_seconds(*ended_at_ - *start_));
     tell_errors(summary);
     tell_smoothness(summary);
   }
 
- private:
   void read_chains() {
     if (!truth_.latest() || !estimate_.latest() || !plan_.latest() || !jaw_T_image_) return;
     const auto truth = chain_of(*truth_.latest()), estimate = chain_of(*estimate_.latest());

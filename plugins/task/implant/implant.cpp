@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace armature {
@@ -180,6 +181,8 @@ void Implant::see_registration(const RegisteredJaw& jaw, Time now) {
     return refuse(fmt::format("the markers fit to {:.2f} mm rms, {:g} mm are allowed",
                               1e3 * jaw.fiducial_error_m, 1e3 * settings_.most_fiducial_error_m));
   }
+  news_.push_back(
+      fmt::format("registration: the markers fit to {:.2f} mm", 1e3 * jaw.fiducial_error_m));
   registered_ = jaw;
   chain_.patient_T_image = jaw.jaw_T_image;
   enter(Phase::locating, now);
@@ -187,15 +190,18 @@ void Implant::see_registration(const RegisteredJaw& jaw, Time now) {
 
 void Implant::finish_locating(Time now) {
   chain_.tracker_T_patient = jaw_.mean();
-  forecasts_.clear();
+  double worst_m = 0;
   for (std::size_t i = 0; i < sites_.size(); ++i) {
     const ErrorForecast& forecast = forecasts_.emplace_back(
         forecast_at(sites_[i], chain_, pivot_, hand_eye_, jaw_, registered_.sites[i]));
+    worst_m = std::max(worst_m, forecast.bound95_m());
     if (!(forecast.bound95_m() <= settings_.most_site_error_m)) {
       return refuse(fmt::format("site {} is known to {:.2f} mm (95 %), {:g} mm are required", i + 1,
                                 1e3 * forecast.bound95_m(), 1e3 * settings_.most_site_error_m));
     }
   }
+  news_.push_back(fmt::format("the worst of {} sites is known to {:.2f} mm (95 %)", sites_.size(),
+                              1e3 * worst_m));
   way_ = drilling_way(chain_, flange_T_file_tool_, sites_, settings_.drilling);
   goal_.set({.pose = way_.approach, .focus = {}});
   enter(Phase::approaching, now);

@@ -30,7 +30,10 @@ TEST_F(ImplantTest, GoesFromThePivotThroughAllSites) {
   ASSERT_EQ(task_.forecasts().size(), 2u);
   EXPECT_NEAR(task_.forecasts()[0].rms_m(), 0.0003, 1e-9) << "only the registration errs";
   EXPECT_NEAR(task_.forecasts()[1].bound95_m(), 0.0004, 1e-9);
-  EXPECT_EQ(task_.take_news().size(), 2u);
+  const auto news = task_.take_news();
+  ASSERT_EQ(news.size(), 4u);
+  EXPECT_EQ(news[2], "registration: the markers fit to 0.40 mm");
+  EXPECT_EQ(news[3], "the worst of 2 sites is known to 0.50 mm (95 %)");
   EXPECT_TRUE(task_.take_news().empty());
 }
 

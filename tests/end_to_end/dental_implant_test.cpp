@@ -140,8 +140,20 @@ TEST(DentalImplant, AJawThatMovesStopsTheArm) {
 }
 
 TEST(DentalImplant, ASiteOutOfReachIsRefused) {
-  const std::string nearest = kTracker + "nearest_mm=100";
-  expect_refused({nearest, kTracker + "jaw_mm=[-1100, -50, 650]"}, "ik: the goal: out_of_reach");
+  const std::string near_is_seen = kTracker + "nearest_mm=100";
+  expect_refused({near_is_seen, kTracker + "jaw_mm=[-1100, -50, 650]"},
+                 "above site 1: ik: the goal: out_of_reach");
+  expect_refused({near_is_seen, kTracker + "jaw_mm=[-620, -50, 650]"},
+                 "sites 1 to 3: ik: the goal: out_of_reach");
+  expect_refused({kTracker + "sites_rpy_deg=[3, 11, 18, -8, 2, 30, 90, -12, 8]"},
+                 "sites 1 to 3: ik: the goal: joint_limit");
+}
+
+TEST(DentalImplant, OtherSeedsAreDrilledAsWell) {
+  for (const int seed : {2, 3, 5, 8, 13}) {
+    SCOPED_TRACE(seed);
+    expect_drilled(implant({"seed=" + std::to_string(seed)}));
+  }
 }
 
 TEST(DentalImplant, CalibrationsMarkersAndSitesThatAreKnownTooBadlyAreRefused) {

@@ -1,12 +1,50 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "drilling.hpp"
 
+#include <fmt/format.h>
+
 #include <cstddef>
-#include <utility>
+#include <string>
 
 namespace armature {
+namespace {
 
 using Eigen::Isometry3d;
+
+/// Of the robot file's tool.
+struct SitePoses {
+  ToolPose above, bottom;
+};
+
+std::vector<Bore> in_one_motion(const std::vector<SitePoses>& sites) {
+  Bore bore;
+  auto& through = bore.goal.through;
+  for (const SitePoses& site : sites) {
+    if (!through.empty()) through.push_back(site.above);
+    through.push_back(site.bottom);
+    through.push_back(site.above);
+  }
+  bore.goal.pose = through.back();
+  through.pop_back();
+  bore.name = sites.size() == 1 ? "site 1" : fmt::format("sites 1 to {}", sites.size());
+  return {bore};
+}
+
+std::vector<Bore> site_by_site(const std::vector<SitePoses>& sites) {
+  std::vector<Bore> bores;
+  for (std::size_t i = 0; i < sites.size(); ++i) {
+    Bore bore{.goal = {}, .ends_at_bottom = true, .name = fmt::format("site {}", i + 1)};
+    if (i > 0) bore.goal.through = {sites[i - 1].above, sites[i].above};
+    bore.goal.pose = sites[i].bottom;
+    bores.push_back(bore);
+  }
+  Bore out{.goal = {}, .name = "out of " + bores.back().name};
+  out.goal.pose = sites.back().above;
+  bores.push_back(out);
+  return bores;
+}
+
+}  // namespace
 
 DrillingWay drilling_way(const GuidedChain& chain, const Isometry3d& flange_T_file_tool,
                          const std::vector<Isometry3d>& image_T_sites,
@@ -16,27 +54,9 @@ DrillingWay drilling_way(const GuidedChain& chain, const Isometry3d& flange_T_fi
     return {pose.translation(), Eigen::Quaterniond{pose.linear()}.normalized()};
   };
   const Eigen::Translation3d up{0, 0, -settings.stand_off_m};
-  DrillingWay way{.approach = pose_at(image_T_sites.front() * up), .bores = {}};
-  MotionGoal goal;
-  const auto stop_at = [&](const ToolPose& pose, bool at_bottom) {
-    goal.pose = pose;
-    way.bores.push_back({std::exchange(goal, {}), at_bottom});
-  };
-  for (std::size_t i = 0; i < image_T_sites.size(); ++i) {
-    const ToolPose above = pose_at(image_T_sites[i] * up), bottom = pose_at(image_T_sites[i]);
-    if (i > 0) goal.through.push_back(above);
-    if (settings.stop_at_sites) {
-      stop_at(bottom, true);
-    } else {
-      goal.through.push_back(bottom);
-    }
-    if (i + 1 < image_T_sites.size()) {
-      goal.through.push_back(above);
-    } else {
-      stop_at(above, false);
-    }
-  }
-  return way;
+  std::vector<SitePoses> sites;
+  for (const Isometry3d& site : image_T_sites) sites.push_back({pose_at(site * up), pose_at(site)});
+  return {sites.front().above, settings.stop_at_sites ? site_by_site(sites) : in_one_motion(sites)};
 }
 
 }  // namespace armature

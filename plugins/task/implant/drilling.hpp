@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <string>
 #include <vector>
 
 #include "armature/motion/goal.hpp"
@@ -13,6 +14,7 @@ namespace armature {
 struct Bore {
   MotionGoal goal;
   bool ends_at_bottom = false;  // of a site, where the drill stays for a while
+  std::string name = {};        // "sites 1 to 3", "site 2", "out of site 3"
 };
 
 /// Which way the drill goes, in poses of the robot file's tool.

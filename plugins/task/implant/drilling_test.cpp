@@ -49,6 +49,7 @@ TEST_F(DrillingWayTest, GoesThroughAllSitesInOneMotion) {
   expect_at(way.approach, 0, 0.03);
   ASSERT_EQ(way.bores.size(), 1u);
   EXPECT_FALSE(way.bores[0].ends_at_bottom);
+  EXPECT_EQ(way.bores[0].name, "sites 1 to 3");
   const auto& through = way.bores[0].goal.through;
   ASSERT_EQ(through.size(), 7u);
   expect_at(through[0], 0, 0);
@@ -74,6 +75,8 @@ TEST_F(DrillingWayTest, OrEndsAMotionAtEveryBottom) {
     expect_at(way.bores[i].goal.through[1], i, 0.02);
   }
   EXPECT_TRUE(way.bores[0].goal.through.empty());
+  EXPECT_EQ(way.bores[1].name, "site 2");
+  EXPECT_EQ(way.bores[3].name, "out of site 3");
   EXPECT_FALSE(way.bores[3].ends_at_bottom);
   expect_at(way.bores[3].goal.pose, 2, 0.02);
 }
@@ -82,6 +85,7 @@ TEST_F(DrillingWayTest, OneSiteIsEnough) {
   sites_.resize(1);
   const DrillingWay way = drilling_way(chain_, file_tool_, sites_, {});
   ASSERT_EQ(way.bores.size(), 1u);
+  EXPECT_EQ(way.bores[0].name, "site 1");
   ASSERT_EQ(way.bores[0].goal.through.size(), 1u);
   expect_at(way.bores[0].goal.through[0], 0, 0);
   expect_at(way.bores[0].goal.pose, 0, 0.03);

@@ -88,7 +88,10 @@ void Implant::hear(const GoalReport& report, Time now) {
     if (failed) calibration_.leave_out(goal_.reason());
   }
   if (phase_ != Phase::approaching && phase_ != Phase::drilling) return;
-  if (failed) return refuse(goal_.reason());
+  if (failed) {
+    const bool above = phase_ == Phase::approaching;
+    return refuse((above ? "above site 1" : way_.bores[bore_].name) + ": " + goal_.reason());
+  }
   if (!there || phase_ == Phase::drilling) return;
   goal_.set(way_.bores.front().goal);
   enter(Phase::drilling, now);

@@ -186,7 +186,24 @@ TEST_F(ImplantTest, StopsWithTheReasonWhenTheMotionRefuses) {
   task_.hear({.goal_id = goals_.back().id, .state = Report::failed, .stage = "ik", .reason = "far"},
              now());
   EXPECT_EQ(task_.phase(), Phase::refused);
-  EXPECT_EQ(task_.trouble(), "ik: far");
+  EXPECT_EQ(task_.trouble(), "sites 1 to 2: ik: far");
+}
+
+TEST_F(ImplantTest, AWayThatIsRefusedIsNamed) {
+  task_ = Implant{quick(true), med7(), file_tool_};
+  begin();
+  go_to(Phase::approaching);
+  task_.hear({.goal_id = goals_.back().id, .state = Report::failed, .stage = "ik", .reason = "far"},
+             now());
+  EXPECT_EQ(task_.trouble(), "above site 1: ik: far");
+  task_ = Implant{quick(true), med7(), file_tool_};
+  done_ = 0;
+  begin();
+  go_to(Phase::drilling);
+  wait(0.7);
+  task_.hear({.goal_id = goals_.back().id, .state = Report::failed, .stage = "ik", .reason = "far"},
+             now());
+  EXPECT_EQ(task_.trouble(), "site 2: ik: far");
 }
 
 TEST_F(ImplantTest, ACalibrationPoseThatCannotBeReachedIsLeftOut) {

@@ -75,8 +75,8 @@ void Implant::guard_jaw() {
   const double moved_m = (jaw_now_.mean() * site - chain_.tracker_T_patient * site).norm();
   jaw_now_.clear();
   if (moved_m <= settings_.most_jaw_motion_m) return;
-  hold(fmt::format("the jaw has moved by {:.2f} mm, {:g} mm are allowed", 1e3 * moved_m,
-                   1e3 * settings_.most_jaw_motion_m));
+  refuse(fmt::format("the jaw has moved by {:.2f} mm, {:g} mm are allowed", 1e3 * moved_m,
+                     1e3 * settings_.most_jaw_motion_m));
 }
 
 void Implant::hear(const GoalReport& report, Time now) {
@@ -115,8 +115,8 @@ void Implant::update(Time now) {
       break;
     case Phase::approaching:
     case Phase::drilling:
-      if (const auto blind = jaw_watch_.blind(now)) return hold(*blind);
-      if (const auto blind = flange_watch_.blind(now)) return hold(*blind);
+      if (const auto blind = jaw_watch_.blind(now)) return refuse(*blind);
+      if (const auto blind = flange_watch_.blind(now)) return refuse(*blind);
       if (phase_ == Phase::drilling) go_on_drilling(now);
       break;
     case Phase::registering:
@@ -221,11 +221,9 @@ void Implant::refuse(const std::string& why) {
   if (phase_ == Phase::refused) return;
   phase_ = Phase::refused;
   trouble_ = why;
-}
-
-void Implant::hold(const std::string& why) {
-  refuse(why);
-  goal_.set({.mode = MotionMode::hold, .pose = {}, .focus = {}});
+  const bool on_its_way =
+      goal_.state() == PursuedGoal::State::waiting || goal_.state() == PursuedGoal::State::moving;
+  if (on_its_way) goal_.set({.mode = MotionMode::hold, .pose = {}, .focus = {}});
 }
 
 std::vector<std::string> Implant::take_news() { return std::exchange(news_, {}); }

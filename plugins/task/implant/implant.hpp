@@ -92,8 +92,8 @@ class Implant {
   void finish_locating(Time now);
   void go_on_drilling(Time now);
   void guard_jaw();
+  /// For good; an arm that is on its way holds.
   void refuse(const std::string& why);
-  void hold(const std::string& why);
 
   ImplantSettings settings_;
   Eigen::Isometry3d flange_T_file_tool_;

@@ -123,6 +123,16 @@ TEST_F(ImplantTest, DoesNotTrustARegistrationThatIsTooBad) {
             "the registration tells the error of 1 sites, the plan has 2");
 }
 
+TEST_F(ImplantTest, AnArmOnItsWayHoldsWhateverTheReason) {
+  task_.begin(now());
+  go_to(Phase::calibrating);
+  while (goals_.empty()) step();
+  task_.see_plan({});
+  step();
+  EXPECT_EQ(task_.phase(), Phase::refused);
+  EXPECT_EQ(goals_.back().mode, MotionMode::hold);
+}
+
 TEST_F(ImplantTest, ABodyThatIsNotSeenIsNamedAndAMovingArmHolds) {
   see_drill_ = false;
   begin();

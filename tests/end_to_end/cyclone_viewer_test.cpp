@@ -102,7 +102,7 @@ TEST(CycloneViewer, SeesTheToolWhereTheJointsPutItAndWhatTheLampIsAfter) {
   Command viewer{{CYCLONE_VIEWER, domain, "rt/dental_lamp/markers", "base", "tool", "170"}};
   const DeploymentRun run =
       run_deployment({.settings = {"run.time_limit_s=120"}, .domain = std::stoi(domain)});
-  EXPECT_EQ(run.report.value("status", "none"), "ok") << run.text();
+  EXPECT_EQ(run.status(), "ok") << run.text();
   joints.signal(SIGTERM);
   viewer.signal(SIGTERM);
   const Viewed viewed = read_view(viewer.finish(std::chrono::seconds{10}).out);

@@ -17,7 +17,7 @@ const std::string kTracker = "components.tracker.params.", kTask = "components.t
 void expect_drilled(const DeploymentRun& run) {
   SCOPED_TRACE(run.text());
   EXPECT_EQ(run.command.exit_code, 0);
-  EXPECT_EQ(run.report.value("status", "none"), "ok");
+  EXPECT_EQ(run.status(), "ok");
   EXPECT_LE(run.figure("site_error_mm"), 0.8);
   EXPECT_LE(run.figure("line_deviation_mm"), 0.05);
   EXPECT_LE(run.figure("unexplained_error_mm"), 0.01);

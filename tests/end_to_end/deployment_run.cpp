@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "tests/dds_domain.hpp"
 
@@ -13,12 +14,26 @@ namespace {
 // Far beyond what a run takes: only a hang ends here.
 constexpr std::chrono::seconds kPatience{180};
 
+/// Null when there is none of that name.
+nlohmann::json value_of(const DeploymentRun& run, const std::string& name) {
+  const auto report = nlohmann::json::parse(run.report, nullptr, false);
+  return report.is_object() ? report.value(name, nlohmann::json{}) : nlohmann::json{};
+}
+
 }  // namespace
 
 double DeploymentRun::figure(const std::string& name) const {
-  const auto found = report.find(name);
-  const bool there = found != report.end() && found->is_number();
-  return there ? found->get<double>() : std::numeric_limits<double>::quiet_NaN();
+  const auto value = value_of(*this, name);
+  return value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
+}
+
+std::string DeploymentRun::word(const std::string& name) const {
+  const auto value = value_of(*this, name);
+  return value.is_string() ? value.get<std::string>() : "none";
+}
+
+bool DeploymentRun::tells(const std::string& name) const {
+  return !value_of(*this, name).is_null();
 }
 
 std::string DeploymentRun::text() const {
@@ -38,15 +53,16 @@ std::vector<std::string> deployment_command(const DeploymentStart& start) {
 DeploymentRun run_deployment(const DeploymentStart& start) {
   DeploymentRun run{.command = run_command(deployment_command(start), start.options, kPatience),
                     .report = {}};
-  const auto report = nlohmann::json::parse(run.command.out, nullptr, false);
-  if (report.is_object()) run.report = report;
+  if (nlohmann::json::parse(run.command.out, nullptr, false).is_object()) {
+    run.report = run.command.out;
+  }
   return run;
 }
 
 void expect_aligned(const DeploymentRun& run, const LampGoals& goals) {
   SCOPED_TRACE(run.text());
   EXPECT_EQ(run.command.exit_code, 0);
-  EXPECT_EQ(run.report.value("status", "none"), "ok");
+  EXPECT_EQ(run.status(), "ok");
   EXPECT_LE(run.figure("mouth_position_error_mm"), goals.mouth_mm);
   EXPECT_LE(run.figure("face_normal_error_deg"), goals.normal_deg);
   EXPECT_LE(run.figure("distance_error_mm"), goals.distance_mm);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -20,10 +19,13 @@ struct DeploymentStart {
 /// What came of a run to its end.
 struct DeploymentRun {
   CommandResult command;
-  nlohmann::json report;  // null when it printed none
+  std::string report;  // the object that it printed, as it stands; empty when it printed none
 
-  double figure(const std::string& name) const;  // NaN when it is missing
-  std::string text() const;                      // for messages
+  double figure(const std::string& name) const;     // NaN when it is missing
+  std::string word(const std::string& name) const;  // "none" when it is missing
+  std::string status() const { return word("status"); }
+  bool tells(const std::string& name) const;
+  std::string text() const;  // for messages
 };
 
 /// The limits of the lamp's four goals.

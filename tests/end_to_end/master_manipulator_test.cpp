@@ -18,7 +18,7 @@ const std::string kSurgeon = "components.surgeon.params.", kTask = "components.t
 void expect_teleoperated(const DeploymentRun& run) {
   SCOPED_TRACE(run.text());
   EXPECT_EQ(run.command.exit_code, 0);
-  EXPECT_EQ(run.report.value("status", "none"), "ok");
+  EXPECT_EQ(run.status(), "ok");
   EXPECT_LE(run.figure("alignment_error_mm"), 0.01);
   EXPECT_LE(run.figure("alignment_error_deg"), 0.001);
   EXPECT_LE(run.figure("peak_speed_error_percent"), 0.1);
@@ -68,7 +68,7 @@ TEST(MasterManipulator, OfAHandThatIsTooFastTheSlaveKeepsItsTopSpeed) {
       teleoperation({kSurgeon + "curve_mm=[-30, 30, 20]", kSurgeon + "curve_hz=0.4"});
   EXPECT_GT(run.figure("tip_speed_mm_s"), 45) << run.text();
   EXPECT_LE(run.figure("tip_speed_mm_s"), 50);
-  EXPECT_EQ(run.report.value("status", "none"), "goals_missed") << "it does not follow then";
+  EXPECT_EQ(run.status(), "goals_missed") << "it does not follow then";
   EXPECT_GT(run.figure("tracking_error_mm"), 0.1);
   EXPECT_LE(run.figure("clutch_motion_mm"), 0.001);
 }
@@ -77,7 +77,7 @@ TEST(MasterManipulator, OfAHandThatIsTooFastTheSlaveKeepsItsTopSpeed) {
 void expect_ended(const DeploymentRun& run, const std::string& status, const std::string& reason) {
   SCOPED_TRACE(run.text());
   EXPECT_EQ(run.command.exit_code, 1);
-  EXPECT_EQ(run.report.value("status", "none"), status);
+  EXPECT_EQ(run.status(), status);
   EXPECT_NE(run.command.err.find(status + ": " + reason), std::string::npos);
 }
 

@@ -2,6 +2,7 @@
 // Two solvers that share no code, asked for every goal that the default run solved.
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "recording.hpp"

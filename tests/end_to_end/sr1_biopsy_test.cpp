@@ -18,7 +18,7 @@ const std::string kSixTurningJoints = "robots.arm=" + source_file("configs/robot
 void expect_inserted(const DeploymentRun& run) {
   SCOPED_TRACE(run.text());
   EXPECT_EQ(run.command.exit_code, 0);
-  EXPECT_EQ(run.report.value("status", "none"), "ok");
+  EXPECT_EQ(run.status(), "ok");
   EXPECT_LE(run.figure("target_error_of_bound"), 1);
   EXPECT_LE(run.figure("line_deviation_mm"), 0.01);
   EXPECT_LE(run.figure("line_tilt_deg"), 0.01);
@@ -59,10 +59,10 @@ void expect_refused(const std::vector<std::string>& settings, const std::string&
   const DeploymentRun run = biopsy(settings);
   SCOPED_TRACE(run.text());
   EXPECT_EQ(run.command.exit_code, 1);
-  EXPECT_EQ(run.report.value("status", "none"), "refused");
+  EXPECT_EQ(run.status(), "refused");
   EXPECT_NE(run.command.err.find("refused: " + reason), std::string::npos);
-  EXPECT_FALSE(run.report.contains("target_error_mm"));
-  EXPECT_FALSE(run.report.contains("line_deviation_mm"));
+  EXPECT_FALSE(run.tells("target_error_mm"));
+  EXPECT_FALSE(run.tells("line_deviation_mm"));
 }
 
 const std::string kHead = "components.head.params.";

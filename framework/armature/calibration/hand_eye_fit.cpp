@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/calibration/hand_eye_fit.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
+#include "armature/calibration/symmetric.hpp"
 #include "armature/robot/rotation_vector.hpp"
 
 namespace armature {
@@ -12,15 +12,13 @@ namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Matrix3d;
+using Eigen::MatrixXd;
 using Eigen::Vector3d;
-using Matrix12 = Eigen::Matrix<double, 12, 12>;
-using Vector12 = Eigen::Matrix<double, 12, 1>;
-using Vector6 = Eigen::Matrix<double, 6, 1>;
-using Matrix6 = Eigen::Matrix<double, 6, 6>;
+using Eigen::VectorXd;
 
-/// Rows: the shift and the turn of a residual. Columns: shift and turn of flange_T_body along the
-/// flange's axes, shift and turn of base_T_tracker along those of the base.
-using Rows = Eigen::Matrix<double, 6, 12>;
+/// 6 x 12. Rows: the shift and the turn of a residual. Columns: shift and turn of flange_T_body
+/// along the flange's axes, shift and turn of base_T_tracker along those of the base.
+using Rows = MatrixXd;
 
 Isometry3d predicted(const RobotWorld& estimate, const HandEyePose& pose) {
   return estimate.base_T_tracker.inverse(Eigen::Isometry) * pose.base_T_flange *
@@ -44,7 +42,7 @@ Rows slope_at(const RobotWorld& estimate, const HandEyePose& pose, const PoseRes
   const Matrix3d tracker_R_base = estimate.base_T_tracker.linear().transpose();
   const Matrix3d tracker_R_flange = tracker_R_base * pose.base_T_flange.linear();
   const RotationAt turn{residual.turn};
-  Rows rows = Rows::Zero();
+  Rows rows = Rows::Zero(6, 12);
   rows.block<3, 3>(0, 0) = tracker_R_flange;
   rows.block<3, 3>(0, 6) = -tracker_R_base;
   rows.block<3, 3>(0, 9) = cross(predicted(estimate, pose).translation()) * tracker_R_base;
@@ -62,7 +60,7 @@ Isometry3d moved(const Isometry3d& pose, const Vector3d& shift, const Vector3d& 
   return result;
 }
 
-RobotWorld moved(const RobotWorld& estimate, const Vector12& step) {
+RobotWorld moved(const RobotWorld& estimate, const VectorXd& step) {
   return {moved(estimate.flange_T_body, step.segment<3>(0), step.segment<3>(3)),
           moved(estimate.base_T_tracker, step.segment<3>(6), step.segment<3>(9))};
 }
@@ -81,8 +79,8 @@ class Fit {
 
   /// The normal equations at `estimate`.
   struct Normal {
-    Matrix12 matrix = Matrix12::Zero();
-    Vector12 gradient = Vector12::Zero();
+    MatrixXd matrix = MatrixXd::Zero(12, 12);
+    VectorXd gradient = VectorXd::Zero(12);
   };
   Normal normal(const RobotWorld& estimate) const {
     Normal normal;
@@ -103,7 +101,7 @@ class Fit {
     for (int i = 0; i < kSteps; ++i) {
       Normal here = normal(estimate);
       here.matrix.diagonal() *= 1 + damping;
-      const Vector12 step = -here.matrix.ldlt().solve(here.gradient);
+      const VectorXd step = -solve_symmetric(here.matrix, here.gradient);
       if (!step.allFinite()) return refuse("the poses determine nothing: no step is finite");
       const RobotWorld next = moved(estimate, step);
       const double reached = cost(next);
@@ -119,8 +117,8 @@ class Fit {
     return estimate;
   }
 
-  Vector6 weighed(const PoseResidual& residual) const {
-    Vector6 result;
+  VectorXd weighed(const PoseResidual& residual) const {
+    VectorXd result(6);
     result << residual.shift / noise_.position_m, residual.turn / noise_.rotation_rad;
     return result;
   }
@@ -142,16 +140,17 @@ HandEyeFit told(std::span<const HandEyePose> poses, const RobotWorld& found,
   HandEyeFit result;
   result.found = found;
   result.noise = noise;
-  result.covariance = fit.normal(found).matrix.ldlt().solve(Matrix12::Identity());
+  result.covariance = solve_symmetric(fit.normal(found).matrix, MatrixXd::Identity(12, 12));
   double most = -1;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const PoseResidual residual = residual_of(found, poses[i]);
     const Rows rows = fit.weighed(slope_at(found, poses[i], residual));
-    const Matrix6 leverage = rows * result.covariance * rows.transpose();
+    const MatrixXd leverage = rows * result.covariance * rows.transpose();
     result.residuals.push_back(residual);
     result.shift_freedom += 3 - leverage.diagonal().head<3>().sum();
     result.turn_freedom += 3 - leverage.diagonal().tail<3>().sum();
-    const Vector6 apart = (Matrix6::Identity() - leverage).ldlt().solve(fit.weighed(residual));
+    const VectorXd apart =
+        solve_symmetric(MatrixXd::Identity(6, 6) - leverage, fit.weighed(residual));
     const double taken = fit.weighed(residual).dot(apart);
     if (taken <= most) continue;
     most = taken;
@@ -203,11 +202,11 @@ Expected<HandEyeFit> fit_hand_eye(std::span<const HandEyePose> poses,
 Misfit misfit_of(const HandEyePose& pose, const HandEyeFit& fit) {
   Misfit misfit{residual_of(fit.found, pose), 0, 0};
   const Rows rows = slope_at(fit.found, pose, misfit.residual);
-  Matrix6 expected = rows * fit.covariance * rows.transpose();
+  MatrixXd expected = rows * fit.covariance * rows.transpose();
   expected.diagonal().head<3>().array() += fit.noise.position_m * fit.noise.position_m;
   expected.diagonal().tail<3>().array() += fit.noise.rotation_rad * fit.noise.rotation_rad;
   const auto mean_square = [](const Vector3d& off, const Matrix3d& covariance) {
-    return off.dot(covariance.ldlt().solve(off)) / 3;
+    return off.dot(Vector3d{solve_symmetric(covariance, off)}) / 3;
   };
   misfit.shift_ratio = mean_square(misfit.residual.shift, expected.topLeftCorner<3, 3>());
   misfit.turn_ratio = mean_square(misfit.residual.turn, expected.bottomRightCorner<3, 3>());

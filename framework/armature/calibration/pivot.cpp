@@ -3,13 +3,12 @@
 
 #include <fmt/core.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "armature/calibration/beyond_chance.hpp"
+#include "armature/calibration/symmetric.hpp"
 #include "armature/calibration/usable_pose.hpp"
 
 namespace armature {
@@ -42,13 +41,13 @@ struct Equations {
     for (const Isometry3d& pose : poses) {
       right -= (pose.linear() - mean_rotation).transpose() * (pose.translation() - mean_position);
     }
-    return normal.ldlt().solve(right);
+    return solve_symmetric(normal, right);
   }
   /// By which the body turns, seen from the axis it is seen worst from: turns by w move the tip by
   /// w x tip, so the least eigenvalue is the mean square of the turns about the two other axes.
   double spread() const {
-    const Eigen::SelfAdjointEigenSolver<Matrix3d> axes{normal, Eigen::EigenvaluesOnly};
-    return std::sqrt(std::max(axes.eigenvalues()[0], 0.0) / static_cast<double>(poses.size()));
+    const double least = spectrum_of(normal).values[0];
+    return std::sqrt(std::max(least, 0.0) / static_cast<double>(poses.size()));
   }
 };
 
@@ -101,7 +100,7 @@ std::optional<std::string> outlying(const Equations& equations,
     whole += residuals[i].squaredNorm();
     const Matrix3d row = equations.poses[i].linear() - equations.mean_rotation;
     const Matrix3d free = (1 - 1 / n) * Matrix3d::Identity() - row * inverse * row.transpose();
-    const Vector3d apart = free.ldlt().solve(residuals[i]);  // missed by the others' tip
+    const Vector3d apart = solve_symmetric(free, residuals[i]);  // missed by the others' tip
     const double taken = residuals[i].dot(apart);
     if (taken <= most) continue;
     most = taken;

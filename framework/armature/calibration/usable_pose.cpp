@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/calibration/usable_pose.hpp"
 
-#include <Eigen/Eigenvalues>
-
+#include "armature/calibration/symmetric.hpp"
 #include "armature/robot/rotation_vector.hpp"
 
 namespace armature {
@@ -25,8 +24,7 @@ Eigen::Vector3d spread_of(std::span<const Eigen::Isometry3d> poses) {
     sum += P;
   }
   const Eigen::Matrix3d scatter = squares / n - sum * sum.transpose() / (n * n);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes{scatter, Eigen::EigenvaluesOnly};
-  return axes.eigenvalues().reverse().cwiseMax(0).cwiseSqrt();
+  return spectrum_of(scatter).values.reverse().cwiseMax(0).cwiseSqrt();
 }
 
 }  // namespace armature

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/robot/task_error.hpp"
 
+#include <Eigen/QR>
 #include <cmath>
 
 #include "armature/robot/kinematics.hpp"
@@ -71,6 +72,10 @@ TaskError task_error(const RobotModel& model, const JointVector& q, const ToolPo
     result.jacobian = jacobian;
   }
   return result;
+}
+
+JointVector TaskError::least_step() const {
+  return jacobian.completeOrthogonalDecomposition().solve(error);
 }
 
 }  // namespace armature

@@ -28,6 +28,9 @@ struct TaskError {
   bool within(double position_tolerance_m, double angle_tolerance_rad) const {
     return position_m() <= position_tolerance_m && angle_rad() <= angle_tolerance_rad;
   }
+
+  /// The least joint step that takes the error away to first order.
+  JointVector least_step() const;
 };
 /// A direction needs a robot with a pointing axis; it and a rotation must be units.
 TaskError task_error(const RobotModel& model, const JointVector& q, const ToolPose& goal);

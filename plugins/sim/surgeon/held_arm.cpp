@@ -3,8 +3,6 @@
 
 #include <fmt/core.h>
 
-#include <Eigen/QR>
-
 #include "armature/robot/task_error.hpp"
 
 namespace armature {
@@ -34,8 +32,7 @@ Expected<JointVector> joints_of_held_arm(const RobotModel& model, const ToolPose
       }
       return q;
     }
-    const JointVector step =
-        missing.jacobian.completeOrthogonalDecomposition().solve(missing.error);
+    const JointVector step = missing.least_step();
     if (!step.allFinite() || step.cwiseAbs().maxCoeff() > kLargestStep) break;
     q += step;
   }

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -29,14 +29,23 @@ constexpr double kSettledSurprise = 1.5;  // moving -> still, and
 constexpr double kSettledRates = 1.3;     // normalised square of the rates: 1 for a still target
 constexpr double kLeastSigma_m = 1e-6, kLeastSigma_rad = 1e-6;
 
-/// Transition over dt; `decay` is what is left of a rate.
-Matrix12 transition(double dt, double decay) {
-  Matrix12 f = Matrix12::Identity();
+/// Over dt, positions go on with their rates; `decay` is what is left of a rate.
+void carry_on(Vector12& mean, double dt, double decay) {
   for (const int block : {kPosition, kNormal}) {
-    f.block<3, 3>(block, block + 3).diagonal().setConstant(dt);
-    f.block<3, 3>(block + 3, block + 3).diagonal().setConstant(decay);
+    mean.segment<3>(block) += dt * mean.segment<3>(block + 3);
+    mean.segment<3>(block + 3) *= decay;
   }
-  return f;
+}
+/// The same of the covariance: F P F'.
+void carry_on(Matrix12& covariance, double dt, double decay) {
+  for (const int block : {kPosition, kNormal}) {
+    covariance.middleRows<3>(block) += dt * covariance.middleRows<3>(block + 3);
+    covariance.middleRows<3>(block + 3) *= decay;
+  }
+  for (const int block : {kPosition, kNormal}) {
+    covariance.middleCols<3>(block) += dt * covariance.middleCols<3>(block + 3);
+    covariance.middleCols<3>(block + 3) *= decay;
+  }
 }
 
 /// Variances that a rate of variance `rate` and an acceleration of variance `acceleration`, both
@@ -142,9 +151,8 @@ void ConstantVelocity::start(const TargetMeasurement& measurement, State& state)
 
 void ConstantVelocity::advance(State& state, double dt_s, bool moving) const {
   const double decay = moving ? 1.0 : std::exp(-dt_s / settings_.decay_s);
-  const Matrix12 f = transition(dt_s, decay);
-  state.mean = (f * state.mean).eval();
-  state.covariance = (f * state.covariance * f.transpose()).eval();
+  carry_on(state.mean, dt_s, decay);
+  carry_on(state.covariance, dt_s, decay);
   const auto noise = [&](int block, double still, double acceleration) {
     // What decays comes back as noise, so that a still target's rates keep their variance.
     const double rate = moving ? 0 : still * still * (1 - decay * decay);
@@ -220,7 +228,7 @@ Expected<TargetEstimate> ConstantVelocity::predict(Time when, const State& state
   }
   State later = state;
   const double decay = state.moving ? 1.0 : std::exp(-dt / settings_.decay_s);
-  later.mean = (transition(dt, decay) * state.mean).eval();
+  carry_on(later.mean, dt, decay);
   later.stamp = when;
   return estimate_of(later);
 }

@@ -97,6 +97,8 @@ int list_topics(const TopicOptions& options) {
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   const auto topics = observer->topics();
   if (topics.empty()) fmt::print(stderr, "armature: domain {} has no topics\n", options.domain);
+  std::size_t width = 40;
+  for (const auto& topic : topics) width = std::max(width, ros_topic_name(topic.name).size());
   for (const auto& topic : topics) {
     std::string types;
     for (const auto& type : topic.types) types += (types.empty() ? "" : ", ") + ros_type(type);
@@ -107,8 +109,8 @@ int list_topics(const TopicOptions& options) {
                       {"readers", topic.readers},
                       {"deployments", topic.deployments}});
     } else {
-      fmt::print("{:<40} {:<32} {}, {} in other processes{}\n", ros_topic_name(topic.name), types,
-                 counted(topic.writers, "writer"), counted(topic.readers, "reader"),
+      fmt::print("{:<{}} {:<32} {}, {} in other processes{}\n", ros_topic_name(topic.name), width,
+                 types, counted(topic.writers, "writer"), counted(topic.readers, "reader"),
                  topic.types.size() > 1 ? "   CONFLICT: two types on one topic" : "");
     }
   }

@@ -10,6 +10,7 @@
 #include <cstring>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 
 namespace armature {
 namespace {
@@ -26,7 +27,16 @@ bool write_all(int file, std::string_view text) {
 
 }  // namespace
 
-void write_atomically(const std::filesystem::path& file, std::string_view text) {
+void write_atomically(const std::filesystem::path& target, std::string_view text) {
+  // A link keeps pointing where it does; a device or a pipe must not become a file.
+  std::error_code none;
+  const auto file = std::filesystem::is_symlink(target, none)
+                        ? std::filesystem::weakly_canonical(target, none)
+                        : target;
+  if (std::filesystem::exists(file, none) && !std::filesystem::is_regular_file(file, none)) {
+    throw std::runtime_error{
+        fmt::format("cannot write '{}': it is no regular file", file.string())};
+  }
   const std::string beside = fmt::format("{}.{}", file.string(), getpid());
   const auto failed = [&](int error) {
     unlink(beside.c_str());

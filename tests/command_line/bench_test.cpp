@@ -80,6 +80,11 @@ TEST(BenchIk, NamesWhatIsWrongOnTheCommandLine) {
   const auto unknown = bench({"--plugins", "ik/numerc"});
   EXPECT_EQ(unknown.exit_code, 3);
   EXPECT_THAT(unknown.err, HasSubstr("did you mean 'ik/numeric'"));
+  const auto params = bench({"--params", "{ik/numerc: {max_restarts: 3}}"});
+  EXPECT_EQ(params.exit_code, 3);
+  EXPECT_THAT(params.err, HasSubstr("--params:1:2: "));
+  EXPECT_THAT(params.err, HasSubstr("did you mean 'ik/numeric'"));
+  EXPECT_THAT(bench({"--params", "numeric"}).err, HasSubstr("must be a map from plugins"));
   const auto baseline = bench({"--plugins", "ik/lamp_geometric", "--baseline", "ik/numeric"});
   EXPECT_EQ(baseline.exit_code, 3);
   EXPECT_THAT(baseline.err, HasSubstr("the baseline 'ik/numeric' is not one of the solvers"));

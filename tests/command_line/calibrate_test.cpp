@@ -3,6 +3,7 @@
 // a robot file. tests/data/calibration was recorded from a simulated tracker, 0.12 mm rms a sphere;
 // what it stands for is known.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
@@ -274,7 +275,28 @@ TEST_F(Calibrate, SaysWhichFileCannotBeReadOrWritten) {
   EXPECT_EQ(refusal({"tool", kTool, "-o", in_folder("gone/tool.yaml")}, 1),
             "armature: cannot write 'gone/tool.yaml': No such file or directory\n");
   EXPECT_EQ(refusal({"tool", kTool, "-o", folder_.string()}, 1),
-            "armature: cannot write '" + folder_.string() + "': Is a directory\n");
+            "armature: cannot write '" + folder_.string() + "': it is no regular file\n");
+}
+
+TEST_F(Calibrate, WritesWhereALinkPointsAndNeverOverAPipe) {
+  const std::string output = write("result.yaml", "the older one\n"), link = in_folder("link.yaml"),
+                    pipe = in_folder("pipe");
+  fs::create_symlink(output, link);
+  EXPECT_EQ(calibrate({"tool", kTool, "-o", link}).exit_code, 0);
+  EXPECT_TRUE(fs::is_symlink(link));
+  EXPECT_EQ(text_of(output).substr(0, 30), "# For a robot file: frames: {t");
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_EQ(refusal({"tool", kTool, "-o", pipe}, 1),
+            "armature: cannot write 'pipe': it is no regular file\n");
+  EXPECT_TRUE(fs::is_fifo(pipe));
+}
+
+TEST_F(Calibrate, ARecordSaidTwiceIsNoTwoMeasurements) {
+  std::vector<std::string> lines = lines_of(kTool);
+  lines.push_back(lines[4]);
+  EXPECT_EQ(refusal({"tool", write("twice.jsonl", joined(lines))}, 1),
+            "armature: twice.jsonl: poses 5 and " + std::to_string(lines.size()) +
+                " are one record, said twice\n");
 }
 
 TEST_F(Calibrate, ARobotFileWithoutItsCalibrationIsRefused) {

@@ -15,6 +15,23 @@ std::vector<std::string> plugins_of(const PluginRegistry& registry, std::string_
   return ids;
 }
 
+config::Node params_by_plugin(const std::string& text, const PluginRegistry& registry) {
+  config::Node all = config::parse_text(text, "--params");
+  if (all.kind() == config::Node::Kind::null) return all;
+  config::Problems problems;
+  if (all.kind() != config::Node::Kind::map) {
+    problems.add(all.origin(), "must be a map from plugins to their parameters");
+  } else {
+    for (const auto& entry : all.entries()) {
+      if (!registry.find(entry.key)) {
+        problems.add(entry.key_origin, registry.unknown_text(entry.key));
+      }
+    }
+  }
+  problems.throw_if_any();
+  return all;
+}
+
 Params params_for(const PluginManifest& plugin, const config::Node& all) {
   config::Problems problems;
   const bool none = all.kind() == config::Node::Kind::null;

@@ -15,6 +15,10 @@ namespace armature::bench {
 std::vector<std::string> plugins_of(const PluginRegistry& registry, std::string_view kind,
                                     const std::vector<std::string>& chosen);
 
+/// A map from plugins to their parameters, from YAML text. Throws config::ConfigError, and
+/// InvalidChoice for a plugin that is not there.
+config::Node params_by_plugin(const std::string& text, const PluginRegistry& registry);
+
 /// The parameters that `all` (a map from plugin to parameters) gives to `plugin`. Throws
 /// config::ConfigError.
 Params params_for(const PluginManifest& plugin, const config::Node& all);

@@ -26,7 +26,7 @@ using bench::Runner;
 /// not there is an error; one whose parameters are missing does not serve.
 std::vector<Runner> runners_of(const BenchOptions& options, PluginRegistry& registry,
                                const std::shared_ptr<const RobotModel>& model, Report& report) {
-  const config::Node params = config::parse_text(options.params, "--params");
+  const config::Node params = bench::params_by_plugin(options.params, registry);
   std::vector<Runner> runners;
   for (const std::string& id : bench::plugins_of(registry, IkSolver::kKind, options.plugins)) {
     const PluginManifest* plugin = registry.find(id);

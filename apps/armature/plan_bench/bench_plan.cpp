@@ -25,7 +25,7 @@ struct Field {
 
 /// A plugin that was named but is not there is an error; one whose parameters are wrong is listed.
 Field field_of(const PlanBenchOptions& options, PluginRegistry& registry, PlanReport& report) {
-  const config::Node params = config::parse_text(options.params, "--params");
+  const config::Node params = bench::params_by_plugin(options.params, registry);
   Field field;
   for (const std::string& id :
        bench::plugins_of(registry, TrajectoryPlanner::kKind, options.plugins)) {

@@ -25,6 +25,12 @@ std::optional<std::string> wrong_with_a_pose(std::span<const HandEyePose> poses)
     if (const auto wrong = wrong_with(poses[i].tracker_T_body)) {
       return fmt::format("tracker_T_body of pose {} {}", i + 1, *wrong);
     }
+    for (std::size_t k = 0; k < i; ++k) {
+      if (poses[k].base_T_flange.matrix() == poses[i].base_T_flange.matrix() &&
+          poses[k].tracker_T_body.matrix() == poses[i].tracker_T_body.matrix()) {
+        return said_twice(k, i);
+      }
+    }
   }
   return std::nullopt;
 }

@@ -280,5 +280,14 @@ TEST_F(HandEyeCalibration, RefusesPosesThatDoNotBelongTogether) {
   }
 }
 
+TEST_F(HandEyeCalibration, RefusesARecordSaidTwiceButNotAPostureMeasuredTwice) {
+  Poses poses = recorded(12, 0.1e-3);
+  poses[5].base_T_flange = poses[2].base_T_flange;
+  poses[5].tracker_T_body = poses[2].tracker_T_body;
+  EXPECT_EQ(calibrate_hand_eye(poses).error().text, "poses 3 and 6 are one record, said twice");
+  poses[5].tracker_T_body.translation().x() += 1e-5;
+  EXPECT_TRUE(calibrate_hand_eye(poses));
+}
+
 }  // namespace
 }  // namespace armature

@@ -129,6 +129,9 @@ Expected<Pivot> calibrate_pivot(std::span<const Isometry3d> fixed_T_body,
     if (const auto wrong = wrong_with(fixed_T_body[i])) {
       return refuse(fmt::format("pose {} {}", i + 1, *wrong));
     }
+    for (std::size_t k = 0; k < i; ++k) {
+      if (fixed_T_body[k].matrix() == fixed_T_body[i].matrix()) return refuse(said_twice(k, i));
+    }
   }
   const Equations equations{fixed_T_body};
   Pivot found;

@@ -165,5 +165,12 @@ TEST_F(PivotCalibration, RefusesPosesThatAreTheWrongWayRoundOrInMillimetres) {
             "round, or a unit wrong?");
 }
 
+TEST_F(PivotCalibration, RefusesARecordSaidTwice) {
+  std::vector<Isometry3d> poses(12);
+  for (Isometry3d& pose : poses) pose = tracker_.random_pose(0);
+  poses[7] = poses[2];
+  EXPECT_EQ(calibrate_pivot(poses).error().text, "poses 3 and 8 are one record, said twice");
+}
+
 }  // namespace
 }  // namespace armature

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/calibration/usable_pose.hpp"
 
+#include <fmt/core.h>
+
 #include "armature/calibration/symmetric.hpp"
 #include "armature/robot/rotation_vector.hpp"
 
@@ -11,6 +13,10 @@ std::optional<std::string> wrong_with(const Eigen::Isometry3d& pose) {
   if (!pose.matrix().allFinite()) return "is not finite";
   if (pose.linear().isUnitary(kRounding) && pose.linear().determinant() > 0) return std::nullopt;
   return "is no rotation";
+}
+
+std::string said_twice(std::size_t first, std::size_t second) {
+  return fmt::format("poses {} and {} are one record, said twice", first + 1, second + 1);
 }
 
 Eigen::Vector3d spread_of(std::span<const Eigen::Isometry3d> poses) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstddef>
 #include <numbers>
 #include <optional>
 #include <span>
@@ -17,6 +18,10 @@ constexpr double millimetres(double m) { return m * 1e3; }
 /// What makes `pose` no rotation and position, to be read behind its name ("is not finite"), or
 /// nullopt.
 std::optional<std::string> wrong_with(const Eigen::Isometry3d& pose);
+
+/// That the records of two poses, told by index, are the same to the last bit: measured twice they
+/// would differ, and counted twice they would promise too much.
+std::string said_twice(std::size_t first, std::size_t second);
 
 /// How far orientations turn about their three axes, rms about their mean [rad], largest first;
 /// from rotation vectors seen from the first pose, so that turns about one axis are exactly that.

@@ -93,7 +93,11 @@ PlanResult track(GoalPlanner& planner, const MotionGoal& goal, const JointState&
   for (double horizon = options.shortest_horizon_s; horizon <= kLongestHorizon;
        horizon *= kHorizonGrowth) {
     auto meet = meeting_point(planner, goal, from, horizon);
-    if (!meet) return tl::unexpected{meet.error()};
+    if (!meet) {
+      if (defect.empty()) return tl::unexpected{meet.error()};
+      defect += fmt::format("; {:.2g} s ahead {}", horizon, meet.error().reason);
+      break;
+    }
     Trajectory trajectory = quintic_to(from, *meet, start, horizon, goal.id);
     if (auto found = jerk_defect(trajectory, planner.model(), options.max_jerk)) {
       defect = std::move(*found);

@@ -159,5 +159,18 @@ TEST(Tracking, RefusesATargetOutOfReach) {
   EXPECT_EQ(plan.error().stage, "ik");
 }
 
+TEST(Tracking, ATargetThatTheLimitsCannotMeetBeforeItLeavesTheReachFailsByTheLimits) {
+  const Gantry gantry;
+  GoalPlanner planner = gantry.planner();
+  MotionGoal goal = goal_at(1, 1.9, 0, 0);  // 2 m is the end of the reach
+  goal.velocity = {0.5, 0, 0};
+  const auto plan = track(planner, goal, rest_at(0, 0, 0), Time{0}, kHorizon);
+  ASSERT_FALSE(plan);
+  EXPECT_EQ(plan.error().stage, "trajectory");
+  EXPECT_EQ(plan.error().reason.substr(0, 24), "tracking within limits: ");
+  EXPECT_NE(plan.error().reason.find(" s ahead the goal: out_of_reach"), std::string::npos)
+      << plan.error().reason;
+}
+
 }  // namespace
 }  // namespace armature

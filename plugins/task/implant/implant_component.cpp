@@ -25,6 +25,11 @@ namespace {
 constexpr Duration kPeriod = seconds(0.02);
 
 CalibrationSettings calibration_of(const Params& params) {
+  if (params.integer("least_poses") > params.integer("calibration_poses")) {
+    throw SetupError(fmt::format("least_poses is {}, more than the {} calibration_poses",
+                                 params.integer("least_poses"),
+                                 params.integer("calibration_poses")));
+  }
   return {.poses = static_cast<int>(params.integer("calibration_poses")),
           .least_poses = static_cast<int>(params.integer("least_poses")),
           .spread_rad = params.number("calibration_spread_deg"),

@@ -231,5 +231,18 @@ TEST_F(ImplantComponentTest, ARobotWithoutAFlangeIsRefused) {
   }
 }
 
+TEST(ImplantParams, MorePosesThanAreTakenCannotBeRequired) {
+  const ComponentBench::Options options{
+      .component = "{plugin: task/implant, params: {calibration_poses: 3, least_poses: 12}}",
+      .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/med7.yaml"),
+      .rig = {}};
+  try {
+    const ComponentBench task{plugins(), options};
+    FAIL() << "it was made";
+  } catch (const std::exception& error) {
+    EXPECT_STREQ(error.what(), "least_poses is 12, more than the 3 calibration_poses");
+  }
+}
+
 }  // namespace
 }  // namespace armature

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The laws of the kind `ik`, for every plugin of the build times every robot of configs/robots and
+// The laws of the kind `ik`, for every plugin of the build times every arm of configs/robots and
 // every URDF arm of tests/data: one test each. A robot that the plugin refuses is not served; a
 // plugin that needs parameters is left to its own test.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
+#include <string>
 
 #include "armature/config/problems.hpp"
 #include "armature/kinds/ik/contract.hpp"
@@ -23,10 +25,20 @@ PluginRegistry& registry() {
   return plugins;
 }
 
+/// Such a file is an arm that has one of its own, with another tool.
+bool includes_another(const fs::path& robot_file) {
+  std::ifstream file{robot_file};
+  for (std::string line; std::getline(file, line);) {
+    if (line.starts_with("include:")) return true;
+  }
+  return false;
+}
+
 std::vector<RobotPtr> robots() {
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator{ARMATURE_SOURCE_DIR "/configs/robots"}) {
-    if (entry.path().extension() == ".yaml") files.push_back(entry.path());
+    if (entry.path().extension() != ".yaml" || includes_another(entry.path())) continue;
+    files.push_back(entry.path());
   }
   std::ranges::sort(files);
   std::vector<RobotPtr> list;

@@ -35,7 +35,7 @@ target_include_directories(armature_abi INTERFACE $<BUILD_INTERFACE:${CMAKE_SOUR
                                                   $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 target_link_libraries(armature_abi INTERFACE tl::expected)
 
-# The compiler collects its garbage too often for a machine that has memory: a tenth of its time.
+# The compiler collects its garbage too often for a machine that has memory.
 add_compile_options($<$<COMPILE_LANG_AND_ID:CXX,GNU>:--param=ggc-min-heapsize=1000000>
                     $<$<COMPILE_LANG_AND_ID:CXX,GNU>:--param=ggc-min-expand=200>)
 
@@ -84,10 +84,9 @@ function(armature_compile_together target)
 endfunction()
 
 # armature_add_library(robot SOURCES a.cpp ... LINK Eigen3::Eigen ... PRIVATE yaml-cpp ...)
-# A shared library libarmature_<name> with the alias armature::<name>. SEPARATELY: its files use the
-# same names for other things.
+# A shared library libarmature_<name> with the alias armature::<name>.
 function(armature_add_library name)
-  cmake_parse_arguments(arg "SEPARATELY" "" "SOURCES;LINK;PRIVATE" ${ARGN})
+  cmake_parse_arguments(arg "" "" "SOURCES;LINK;PRIVATE" ${ARGN})
   add_library(armature_${name} SHARED ${arg_SOURCES})
   add_library(armature::${name} ALIAS armature_${name})
   set_target_properties(armature_${name} PROPERTIES EXPORT_NAME ${name} VERSION ${PROJECT_VERSION}
@@ -95,9 +94,7 @@ function(armature_add_library name)
   target_link_libraries(armature_${name} PUBLIC armature::abi ${arg_LINK}
                                          PRIVATE $<BUILD_INTERFACE:armature_warnings> ${arg_PRIVATE})
   armature_precompile(armature_${name} code)
-  if(NOT arg_SEPARATELY)
-    armature_compile_together(armature_${name})
-  endif()
+  armature_compile_together(armature_${name})
   install(TARGETS armature_${name} EXPORT ArmatureTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 endfunction()
 

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <optional>
 #include <random>
 
 #include "armature/robot/orientation_curve.hpp"

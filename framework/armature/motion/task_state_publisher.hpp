@@ -16,6 +16,9 @@ struct TaskReport {
   std::string state;
   std::size_t step = 0, steps = 0;
   std::string detail = {};
+
+  /// What the operator reads: "refused: the markers lie nearly on one line".
+  std::string line() const { return detail.empty() ? state : state + ": " + detail; }
 };
 
 /// The output `state` of a task: every change, and five times a second.

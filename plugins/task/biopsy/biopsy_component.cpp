@@ -107,10 +107,8 @@ class BiopsyComponent final : public Component {
   }
 
   void publish_state(Time now) {
-    std::string line = to_string(task_.phase());
-    if (!task_.trouble().empty()) line += ": " + task_.trouble();
     const TaskReport report{.state = to_string(task_.phase()), .detail = task_.trouble()};
-    if (state_.publish(now, report, line)) say(line);
+    if (state_.publish(now, report, report.line())) say(report.line());
   }
 
   RobotModel robot_;

@@ -208,13 +208,11 @@ class ImplantComponent final : public Component {
 
   void publish_state(Time now) {
     const bool calibrating = task_.phase() == Implant::Phase::calibrating;
-    std::string line = to_string(task_.phase());
-    if (!task_.trouble().empty()) line += ": " + task_.trouble();
     const TaskReport report{.state = to_string(task_.phase()),
                             .step = calibrating ? task_.calibration_pose() : 0,
                             .steps = calibrating ? task_.calibration_poses() : 0,
                             .detail = task_.trouble()};
-    if (state_.publish(now, report, line)) say(line);
+    if (state_.publish(now, report, report.line())) say(report.line());
   }
 
   RobotModel robot_;

@@ -12,13 +12,11 @@ namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Matrix3d;
-using Eigen::MatrixXd;
 using Eigen::Vector3d;
-using Eigen::VectorXd;
 
 /// 6 x 12. Rows: the shift and the turn of a residual. Columns: shift and turn of flange_T_body
 /// along the flange's axes, shift and turn of base_T_tracker along those of the base.
-using Rows = MatrixXd;
+using Rows = SmallMatrix;
 
 Isometry3d predicted(const RobotWorld& estimate, const HandEyePose& pose) {
   return estimate.base_T_tracker.inverse(Eigen::Isometry) * pose.base_T_flange *
@@ -53,6 +51,12 @@ Rows slope_at(const RobotWorld& estimate, const HandEyePose& pose, const PoseRes
   return rows;
 }
 
+/// The covariance of `rows` times a vector that has `covariance`.
+SmallMatrix covariance_through(const Rows& rows, const SmallMatrix& covariance) {
+  const SmallMatrix half = rows.lazyProduct(covariance);
+  return half.lazyProduct(rows.transpose());
+}
+
 Isometry3d moved(const Isometry3d& pose, const Vector3d& shift, const Vector3d& turn) {
   Isometry3d result = pose;
   result.linear() = (rotation_of(turn) * Eigen::Quaterniond{pose.linear()}).normalized().matrix();
@@ -60,7 +64,7 @@ Isometry3d moved(const Isometry3d& pose, const Vector3d& shift, const Vector3d& 
   return result;
 }
 
-RobotWorld moved(const RobotWorld& estimate, const VectorXd& step) {
+RobotWorld moved(const RobotWorld& estimate, const SmallVector& step) {
   return {moved(estimate.flange_T_body, step.segment<3>(0), step.segment<3>(3)),
           moved(estimate.base_T_tracker, step.segment<3>(6), step.segment<3>(9))};
 }
@@ -79,16 +83,16 @@ class Fit {
 
   /// The normal equations at `estimate`.
   struct Normal {
-    MatrixXd matrix = MatrixXd::Zero(12, 12);
-    VectorXd gradient = VectorXd::Zero(12);
+    SmallMatrix matrix = SmallMatrix::Zero(12, 12);
+    SmallVector gradient = SmallVector::Zero(12);
   };
   Normal normal(const RobotWorld& estimate) const {
     Normal normal;
     for (const HandEyePose& pose : poses_) {
       const PoseResidual residual = residual_of(estimate, pose);
       const Rows rows = weighed(slope_at(estimate, pose, residual));
-      normal.matrix += rows.transpose() * rows;
-      normal.gradient += rows.transpose() * weighed(residual);
+      normal.matrix += rows.transpose().lazyProduct(rows);
+      normal.gradient += rows.transpose().lazyProduct(weighed(residual));
     }
     return normal;
   }
@@ -101,7 +105,7 @@ class Fit {
     for (int i = 0; i < kSteps; ++i) {
       Normal here = normal(estimate);
       here.matrix.diagonal() *= 1 + damping;
-      const VectorXd step = -solve_symmetric(here.matrix, here.gradient);
+      const SmallVector step = -solve_symmetric(here.matrix, here.gradient);
       if (!step.allFinite()) return refuse("the poses determine nothing: no step is finite");
       const RobotWorld next = moved(estimate, step);
       const double reached = cost(next);
@@ -117,8 +121,8 @@ class Fit {
     return estimate;
   }
 
-  VectorXd weighed(const PoseResidual& residual) const {
-    VectorXd result(6);
+  SmallVector weighed(const PoseResidual& residual) const {
+    SmallVector result(6);
     result << residual.shift / noise_.position_m, residual.turn / noise_.rotation_rad;
     return result;
   }
@@ -140,17 +144,17 @@ HandEyeFit told(std::span<const HandEyePose> poses, const RobotWorld& found,
   HandEyeFit result;
   result.found = found;
   result.noise = noise;
-  result.covariance = solve_symmetric(fit.normal(found).matrix, MatrixXd::Identity(12, 12));
+  result.covariance = solve_symmetric(fit.normal(found).matrix, SmallMatrix::Identity(12, 12));
   double most = -1;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const PoseResidual residual = residual_of(found, poses[i]);
     const Rows rows = fit.weighed(slope_at(found, poses[i], residual));
-    const MatrixXd leverage = rows * result.covariance * rows.transpose();
+    const SmallMatrix leverage = covariance_through(rows, result.covariance);
     result.residuals.push_back(residual);
     result.shift_freedom += 3 - leverage.diagonal().head<3>().sum();
     result.turn_freedom += 3 - leverage.diagonal().tail<3>().sum();
-    const VectorXd apart =
-        solve_symmetric(MatrixXd::Identity(6, 6) - leverage, fit.weighed(residual));
+    const SmallVector apart =
+        solve_symmetric(SmallMatrix::Identity(6, 6) - leverage, fit.weighed(residual));
     const double taken = fit.weighed(residual).dot(apart);
     if (taken <= most) continue;
     most = taken;
@@ -202,7 +206,7 @@ Expected<HandEyeFit> fit_hand_eye(std::span<const HandEyePose> poses,
 Misfit misfit_of(const HandEyePose& pose, const HandEyeFit& fit) {
   Misfit misfit{residual_of(fit.found, pose), 0, 0};
   const Rows rows = slope_at(fit.found, pose, misfit.residual);
-  MatrixXd expected = rows * fit.covariance * rows.transpose();
+  SmallMatrix expected = covariance_through(rows, fit.covariance);
   expected.diagonal().head<3>().array() += fit.noise.position_m * fit.noise.position_m;
   expected.diagonal().tail<3>().array() += fit.noise.rotation_rad * fit.noise.rotation_rad;
   const auto mean_square = [](const Vector3d& off, const Matrix3d& covariance) {

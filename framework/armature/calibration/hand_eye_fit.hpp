@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "armature/calibration/robot_world.hpp"
+#include "armature/robot/singular_values.hpp"
 
 namespace armature {
 
@@ -22,7 +23,7 @@ struct HandEyeFit {
   PoseNoise noise;
   std::vector<PoseResidual> residuals;  // of each pose
   /// Of flange_T_body, then of base_T_tracker, as in PoseCovariance.
-  Eigen::Matrix<double, 12, 12> covariance;
+  SmallMatrix covariance;
   /// Redundancy: how many equations are left over for the shifts and for the turns.
   double shift_freedom = 0, turn_freedom = 0;
   /// The index of the pose without which the sum of squares would be least, to first order.

@@ -46,8 +46,7 @@ struct Equations {
   /// By which the body turns, seen from the axis it is seen worst from: turns by w move the tip by
   /// w x tip, so the least eigenvalue is the mean square of the turns about the two other axes.
   double spread() const {
-    const double least = spectrum_of(normal).values[0];
-    return std::sqrt(std::max(least, 0.0) / static_cast<double>(poses.size()));
+    return std::sqrt(smallest_singular_value(normal) / static_cast<double>(poses.size()));
   }
 };
 

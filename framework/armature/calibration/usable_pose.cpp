@@ -3,8 +3,8 @@
 
 #include <fmt/core.h>
 
-#include "armature/calibration/symmetric.hpp"
 #include "armature/robot/rotation_vector.hpp"
+#include "armature/robot/singular_values.hpp"
 
 namespace armature {
 
@@ -30,7 +30,7 @@ Eigen::Vector3d spread_of(std::span<const Eigen::Isometry3d> poses) {
     sum += P;
   }
   const Eigen::Matrix3d scatter = squares / n - sum * sum.transpose() / (n * n);
-  return spectrum_of(scatter).values.reverse().cwiseMax(0).cwiseSqrt();
+  return SingularValues{scatter}.values.cwiseSqrt();
 }
 
 }  // namespace armature

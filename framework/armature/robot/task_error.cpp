@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/robot/task_error.hpp"
 
-#include <Eigen/QR>
 #include <cmath>
 
 #include "armature/robot/kinematics.hpp"
+#include "armature/robot/singular_values.hpp"
 
 namespace armature {
 namespace {
@@ -74,8 +74,6 @@ TaskError task_error(const RobotModel& model, const JointVector& q, const ToolPo
   return result;
 }
 
-JointVector TaskError::least_step() const {
-  return jacobian.completeOrthogonalDecomposition().solve(error);
-}
+JointVector TaskError::least_step() const { return shortest_solution(jacobian, error); }
 
 }  // namespace armature

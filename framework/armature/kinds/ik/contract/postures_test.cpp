@@ -56,7 +56,7 @@ TEST_F(Postures, SingularOnesAreFoundAlongEveryJointThatCanMakeThem) {
   for (const auto& [q, joint] : postures) {
     joints.insert(joint);
     EXPECT_TRUE(model.within_limits(q)) << q.transpose();
-    EXPECT_LE(smallest_singular_value(model, q), 1e-9) << q.transpose();
+    EXPECT_LE(smallest_singular_value_at(model, q), 1e-9) << q.transpose();
     EXPECT_TRUE(joint != 4 || q[4] == 0) << q[4];  // the wrist, exactly
   }
   EXPECT_EQ(joints, (std::set<int>{1, 2, 4}));

@@ -9,9 +9,9 @@
 #include <numbers>
 #include <utility>
 
-#include "armature/kinds/ik/contract/singular_value.hpp"
 #include "armature/kinds/ik/lines/asking.hpp"
 #include "armature/robot/kinematics.hpp"
+#include "armature/robot/singular_values.hpp"
 #include "armature/robot/task_error.hpp"
 
 namespace armature::ik_contract {
@@ -135,7 +135,7 @@ void expect_true_residuals(Probe& probe) {
 namespace {
 
 void expect_true_singular(Probe& probe, const IkBranch& branch) {
-  const double smallest = smallest_singular_value(probe.model(), branch.q);
+  const double smallest = smallest_singular_value_at(probe.model(), branch.q);
   const double volume = manipulability(probe.model(), branch.q);
   const bool wide = probe.model().dof() >= task_rows(probe.model());
   if (!branch.singular && (wide ? volume <= kSingularVolume : smallest <= kSingularVolume)) {
@@ -204,7 +204,7 @@ void expect_true_flags(Probe& probe) {
 
 int task_rows(const RobotModel& model) { return model.pointing_axis() ? 5 : 6; }
 
-double smallest_singular_value(const RobotModel& model, const JointVector& q) {
+double smallest_singular_value_at(const RobotModel& model, const JointVector& q) {
   return smallest_singular_value(task_jacobian(model, q));
 }
 

@@ -74,6 +74,6 @@ void expect_true_flags(Probe& probe);
 int task_rows(const RobotModel& model);
 
 /// How near to singular `q` is: the smallest singular value of the rows that the task uses.
-double smallest_singular_value(const RobotModel& model, const JointVector& q);
+double smallest_singular_value_at(const RobotModel& model, const JointVector& q);
 
 }  // namespace armature::ik_contract

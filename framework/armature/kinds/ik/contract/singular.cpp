@@ -30,7 +30,7 @@ double nicest(double value, Range range, Function f) {
 std::vector<double> singular_values_of(const RobotModel& model, JointVector q, int k) {
   const auto at = [&](double value) {
     q[k] = value;
-    return smallest_singular_value(model, q);
+    return smallest_singular_value_at(model, q);
   };
   const Range range = range_of(model, k);
   const double step = (range.upper - range.lower) / (kSamples - 1);

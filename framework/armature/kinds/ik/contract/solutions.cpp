@@ -11,8 +11,8 @@
 
 #include "armature/kinds/ik/contract/laws.hpp"
 #include "armature/kinds/ik/contract/search.hpp"
-#include "armature/kinds/ik/contract/singular_value.hpp"
 #include "armature/robot/kinematics.hpp"
+#include "armature/robot/singular_values.hpp"
 #include "armature/robot/task_error.hpp"
 
 namespace armature::ik_contract {
@@ -110,8 +110,8 @@ void flags_are_true(Probe& probe) {
 namespace {
 
 /// The rows of the task, and the redundancy that the solver keeps.
-Eigen::MatrixXd rows_that_are_kept(const Probe& probe, const JointVector& q) {
-  Eigen::MatrixXd rows = task_jacobian(probe.model(), q);
+SmallMatrix rows_that_are_kept(const Probe& probe, const JointVector& q) {
+  SmallMatrix rows = task_jacobian(probe.model(), q);
   const auto redundancy = probe.solver().redundancy_of(q);
   if (!probe.redundant() || !redundancy) return rows;
   constexpr double kStep = 1e-6;
@@ -129,7 +129,7 @@ Eigen::MatrixXd rows_that_are_kept(const Probe& probe, const JointVector& q) {
 bool regular(const Probe& probe, const JointVector& q) {
   const bool wide = probe.model().dof() >= task_rows(probe.model());
   if (wide && manipulability(probe.model(), q) <= 0.02) return false;
-  const Eigen::MatrixXd rows = rows_that_are_kept(probe, q);
+  const SmallMatrix rows = rows_that_are_kept(probe, q);
   return smallest_singular_value(rows) > 0.05;
 }
 

@@ -22,6 +22,12 @@ if(CCACHE_PROGRAM)
   set(CMAKE_C_COMPILER_LAUNCHER "${CCACHE_PROGRAM}")
 endif()
 
+# A build links some hundred programs and plugins; binutils brings a faster linker than its usual one.
+find_program(GOLD_LINKER ld.gold)
+if(GOLD_LINKER AND NOT ARMATURE_SANITIZE)
+  add_link_options(-fuse-ld=gold)
+endif()
+
 # What must be the same in every library that shares Eigen objects or plugins (see docs/decisions).
 add_library(armature_abi INTERFACE)
 add_library(armature::abi ALIAS armature_abi)
@@ -77,9 +83,10 @@ function(armature_precompile target purpose)
 endfunction()
 
 # A target's files are compiled a few at a time, which makes templates once for them.
-function(armature_compile_together target)
+#   armature_compile_together(robot 8)
+function(armature_compile_together target files)
   if(ARMATURE_TOGETHER)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${files})
   endif()
 endfunction()
 
@@ -94,7 +101,7 @@ function(armature_add_library name)
   target_link_libraries(armature_${name} PUBLIC armature::abi ${arg_LINK}
                                          PRIVATE $<BUILD_INTERFACE:armature_warnings> ${arg_PRIVATE})
   armature_precompile(armature_${name} code)
-  armature_compile_together(armature_${name})
+  armature_compile_together(armature_${name} 8)
   install(TARGETS armature_${name} EXPORT ArmatureTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 endfunction()
 
@@ -116,8 +123,37 @@ function(armature_test_main)
   if(ARMATURE_PRECOMPILE)
     target_precompile_headers(armature_test_main PRIVATE
                               "${CMAKE_SOURCE_DIR}/tests/precompiled.hpp")
+    target_include_directories(armature_test_main SYSTEM PRIVATE
+                               "${ARMATURE_GENERATED_DIR}" "${ARMATURE_GENERATED_DIR}/armature_messages")
+    add_dependencies(armature_test_main armature_idl)
   endif()
   set_target_properties(armature_test_main PROPERTIES POSITION_INDEPENDENT_CODE OFF)
+endfunction()
+
+# How the files of a test are compiled, of a program or of what programs share.
+function(armature_compile_as_test target)
+  armature_test_main()
+  target_link_libraries(${target} PUBLIC armature_test_main PRIVATE armature_warnings)
+  target_include_directories(${target} PRIVATE "${CMAKE_SOURCE_DIR}")  # "tests/dds_domain.hpp"
+  target_compile_definitions(${target} PRIVATE
+    ARMATURE_SOURCE_DIR="${CMAKE_SOURCE_DIR}" ARMATURE_BINARY_DIR="${CMAKE_BINARY_DIR}"
+    ARMATURE_PLUGIN_BUILD_DIR="${ARMATURE_PLUGIN_BUILD_DIR}")
+  if(ARMATURE_PRECOMPILE)
+    target_precompile_headers(${target} REUSE_FROM armature_test_main)
+  endif()
+  # -fPIC (library) and -fPIE (program) cannot share a precompiled header: the compiler's default can.
+  set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE OFF)
+endfunction()
+
+# armature_add_test_library(command SOURCES command.cpp LINK ...): armature_test_command, what several
+# test programs share.
+function(armature_add_test_library name)
+  cmake_parse_arguments(arg "" "" "SOURCES;LINK" ${ARGN})
+  add_library(armature_test_${name} STATIC ${arg_SOURCES})
+  target_include_directories(armature_test_${name} PUBLIC "${CMAKE_CURRENT_SOURCE_DIR}")
+  target_link_libraries(armature_test_${name} PUBLIC ${arg_LINK})
+  armature_compile_as_test(armature_test_${name})
+  armature_compile_together(armature_test_${name} 8)
 endfunction()
 
 # armature_add_test(robot_test SOURCES a_test.cpp ... LINK armature::robot ... [DEPENDS plugin...])
@@ -135,22 +171,13 @@ function(armature_add_test name)
   if(ARMATURE_SANITIZE)  # which slows everything down
     math(EXPR arg_TIMEOUT "${arg_TIMEOUT} * 5")
   endif()
-  armature_test_main()
   add_executable(${name} ${arg_SOURCES})
-  target_link_libraries(${name} PRIVATE armature_test_main armature_warnings ${arg_LINK})
-  target_include_directories(${name} PRIVATE "${CMAKE_SOURCE_DIR}")  # "tests/dds_domain.hpp"
-  if(ARMATURE_PRECOMPILE)
-    target_precompile_headers(${name} REUSE_FROM armature_test_main)
-  endif()
+  armature_compile_as_test(${name})
+  target_link_libraries(${name} PRIVATE ${arg_LINK})
   if(NOT arg_SEPARATELY)
-    armature_compile_together(${name})
+    armature_compile_together(${name} 16)
   endif()
-  target_compile_definitions(${name} PRIVATE
-    ARMATURE_SOURCE_DIR="${CMAKE_SOURCE_DIR}" ARMATURE_BINARY_DIR="${CMAKE_BINARY_DIR}"
-    ARMATURE_PLUGIN_BUILD_DIR="${ARMATURE_PLUGIN_BUILD_DIR}")
-  # -fPIC (library) and -fPIE (program) cannot share a precompiled header: the compiler's default can.
-  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/tests"
-                                           POSITION_INDEPENDENT_CODE OFF)
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/tests")
   if(arg_DEPENDS)
     add_dependencies(${name} ${arg_DEPENDS})
   endif()
@@ -166,13 +193,9 @@ function(armature_add_contract kind)
     return()
   endif()
   cmake_parse_arguments(arg "" "" "LINK" ${ARGN})
-  armature_test_main()
   set(name armature_${kind}_contract)
   add_library(${name} OBJECT contract.cpp)
   add_library(armature::${kind}_contract ALIAS ${name})
-  target_link_libraries(${name} PRIVATE armature_test_main armature_warnings ${arg_LINK})
-  if(ARMATURE_PRECOMPILE)
-    target_precompile_headers(${name} REUSE_FROM armature_test_main)
-  endif()
-  set_target_properties(${name} PROPERTIES POSITION_INDEPENDENT_CODE OFF)
+  armature_compile_as_test(${name})
+  target_link_libraries(${name} PRIVATE ${arg_LINK})
 endfunction()

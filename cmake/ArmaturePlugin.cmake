@@ -33,6 +33,7 @@ function(armature_add_plugin id)
     target_link_libraries(${target} PRIVATE armature_warnings)
     set_target_properties(${target} PROPERTIES
       LIBRARY_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/tests/plugins")
+    armature_precompile(${target} plugins)
   elseif(TARGET armature_warnings)  # in the framework's own tree
     target_link_libraries(${target} PRIVATE armature_warnings)
     set_target_properties(${target} PROPERTIES
@@ -40,7 +41,7 @@ function(armature_add_plugin id)
     install(TARGETS ${target} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/armature/plugins)
     set_property(GLOBAL APPEND PROPERTY ARMATURE_PLUGINS ${target})
     armature_precompile(${target} plugins)
-    armature_compile_together(${target})
+    armature_compile_together(${target} 8)
     if(arg_TESTS)
       string(REGEX REPLACE "/.*" "" kind "${id}")
       if(TARGET armature::${kind}_contract)  # the laws of its kind

@@ -20,3 +20,11 @@
 #include <string_view>
 #include <variant>
 #include <vector>
+
+#include "armature/kinds/ik/ik.hpp"
+#include "armature/messages/armature_msgs.hpp"
+#include "armature/messages/geometry_msgs.hpp"
+#include "armature/messages/sensor_msgs.hpp"
+#include "armature/robot/kinematics.hpp"
+#include "armature/runtime/component_bench.hpp"
+#include "armature/runtime/plugin_registry.hpp"

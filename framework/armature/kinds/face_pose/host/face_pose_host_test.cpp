@@ -12,7 +12,7 @@
 #include "armature/messages/header.hpp"
 #include "armature/runtime/component_bench.hpp"
 
-namespace armature {
+namespace armature::face_pose_host {
 namespace {
 
 using Eigen::Vector3d;
@@ -79,7 +79,7 @@ msg::CameraInfo info() {
   return message;
 }
 
-class FacePoseHostTest : public testing::Test {
+class FacePoseHostTest : public ::testing::Test {
  protected:
   msg::FacePose see(const msg::Image& left, const msg::Image& right,
                     const msg::FaceLandmarks& found) {
@@ -219,4 +219,4 @@ TEST_F(FacePoseHostTest, AnExceptionOfTheEstimatorIsAReasonAndTheNextPicturesAre
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::face_pose_host

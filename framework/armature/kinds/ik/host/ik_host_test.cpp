@@ -13,7 +13,7 @@
 #include "armature/robot/test_robots.hpp"
 #include "armature/runtime/component_bench.hpp"
 
-namespace armature {
+namespace armature::ik_host {
 namespace {
 
 using testing::joint_vector;
@@ -236,4 +236,4 @@ TEST_F(IkHostTest, AnExceptionOfTheSolverIsAReasonAndTheNextRequestIsAnswered) {
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::ik_host

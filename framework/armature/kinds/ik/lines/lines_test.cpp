@@ -15,7 +15,7 @@ namespace armature {
 namespace {
 
 using Code = IkStatus::Code;
-using nlohmann::json;
+using json = nlohmann::ordered_json;
 
 const RobotModel& lamp() {
   static const RobotModel model =

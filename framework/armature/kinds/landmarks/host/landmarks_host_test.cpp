@@ -10,7 +10,7 @@
 #include "armature/messages/header.hpp"
 #include "armature/runtime/component_bench.hpp"
 
-namespace armature {
+namespace armature::landmarks_host {
 namespace {
 
 /// A face wherever the first pixel is 200, its box as wide as the pictures it was seen in before.
@@ -62,7 +62,7 @@ msg::Image image(double stamp_s, std::uint8_t first) {
   return message;
 }
 
-class LandmarksHostTest : public testing::Test {
+class LandmarksHostTest : public ::testing::Test {
  protected:
   msg::FaceLandmarks see(const msg::Image& left, const msg::Image& right) {
     host_.send("left_image", left);
@@ -169,4 +169,4 @@ TEST_F(LandmarksHostTest, AnExceptionOfTheFinderIsAReasonAndItStartsColdAgain) {
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::landmarks_host

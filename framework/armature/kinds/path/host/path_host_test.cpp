@@ -12,7 +12,7 @@
 #include "armature/messages/header.hpp"
 #include "armature/runtime/component_bench.hpp"
 
-namespace armature {
+namespace armature::path_host {
 namespace {
 
 /// To the focus, passing it, and on to the goal in 2.5 s.
@@ -61,7 +61,7 @@ msg::PathRequest request(std::uint64_t id) {
   return message;
 }
 
-class PathHostTest : public testing::Test {
+class PathHostTest : public ::testing::Test {
  protected:
   msg::PathResponse ask(const msg::PathRequest& message) {
     host_.send("request", message);
@@ -190,4 +190,4 @@ TEST_F(PathHostTest, AnExceptionOfThePluginIsAReasonAndTheNextRequestIsAnswered)
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::path_host

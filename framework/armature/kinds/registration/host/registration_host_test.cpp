@@ -14,7 +14,7 @@
 #include "armature/messages/header.hpp"
 #include "armature/runtime/component_bench.hpp"
 
-namespace armature {
+namespace armature::registration_host {
 namespace {
 
 /// Moves the first marker onto the first.
@@ -69,7 +69,7 @@ msg::RegistrationRequest request(std::uint64_t id) {
   return message;
 }
 
-class RegistrationHostTest : public testing::Test {
+class RegistrationHostTest : public ::testing::Test {
  protected:
   msg::RegistrationResponse ask(const msg::RegistrationRequest& message) {
     host_.send("request", message);
@@ -152,4 +152,4 @@ TEST_F(RegistrationHostTest, AnExceptionOfThePluginIsAReasonAndTheNextRequestIsA
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::registration_host

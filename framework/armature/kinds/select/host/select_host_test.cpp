@@ -12,7 +12,7 @@
 #include "armature/robot/test_robots.hpp"
 #include "armature/runtime/component_bench.hpp"
 
-namespace armature {
+namespace armature::select_host {
 namespace {
 
 using testing::joint_vector;
@@ -192,4 +192,4 @@ TEST_F(SelectHostTest, AnExceptionOfThePluginIsAReasonAndTheNextRequestIsAnswere
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::select_host

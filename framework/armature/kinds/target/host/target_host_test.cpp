@@ -13,7 +13,7 @@
 #include "armature/robot/test_robots.hpp"
 #include "armature/runtime/component_bench.hpp"
 
-namespace armature {
+namespace armature::target_host {
 namespace {
 
 using Eigen::Vector3d;
@@ -255,4 +255,4 @@ TEST_F(TargetHostTest, AnExceptionOfTheFilterIsAReasonAndItStartsColdAgain) {
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::target_host

@@ -12,7 +12,7 @@
 #include "armature/robot/test_robots.hpp"
 #include "armature/runtime/component_bench.hpp"
 
-namespace armature {
+namespace armature::trajectory_host {
 namespace {
 
 using testing::joint_vector;
@@ -229,4 +229,4 @@ TEST_F(TrajectoryHostTest, AnExceptionOfThePluginIsAReasonAndTheNextRequestIsAns
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::trajectory_host

@@ -121,7 +121,7 @@ void ComponentReader::read_params(MapReader& map, const PluginManifest& named,
                                   ComponentConfig& component) const {
   const Node* given = map.optional_node("params");
   if (component.manifest == &named) {
-    component.params = Params::read(named.params, given, named.id, problems_);
+    component.params = Params::read(named.params, given, named.id, problems_, component.origin);
     return;
   }
   std::vector<Node::Entry> of_host, of_plugin;
@@ -175,12 +175,12 @@ void ComponentReader::read_slot(const SlotSpec& spec, const Node& node,
                               plugin->kind, spec.name, spec.kind));
     return;
   }
-  component.slots.push_back(
-      {.name = spec.name,
-       .plugin_id = plugin->id,
-       .origin = plugin_node->origin(),
-       .manifest = plugin,
-       .params = Params::read(plugin->params, params, plugin->id, problems_)});
+  component.slots.push_back({.name = spec.name,
+                             .plugin_id = plugin->id,
+                             .origin = plugin_node->origin(),
+                             .manifest = plugin,
+                             .params = Params::read(plugin->params, params, plugin->id, problems_,
+                                                    plugin_node->origin())});
 }
 
 /// `robot: left` binds an entry of `robots:`; with a single entry nothing needs to be said.

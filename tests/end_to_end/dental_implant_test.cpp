@@ -172,12 +172,13 @@ TEST(DentalImplant, SitesWithWrongNumbersAreFoundBeforeAnythingStarts) {
     EXPECT_EQ(run.command.exit_code, 3) << run.text();
     return run.command.err;
   };
-  EXPECT_NE(problem("sites_mm=[10, -5]").find("sites_mm has 2 numbers; three for each of"),
+  EXPECT_NE(problem("sites_mm=[10, -5]").find("'sites_mm' has 2 numbers; three for each of"),
             std::string::npos);
-  EXPECT_NE(problem("sites_rpy_deg=[1, 2, 3]").find("sites_mm has 3 sites, sites_rpy_deg has 1"),
-            std::string::npos);
+  EXPECT_NE(
+      problem("sites_rpy_deg=[1, 2, 3]").find("'sites_mm' has 3 sites, 'sites_rpy_deg' has 1"),
+      std::string::npos);
   EXPECT_NE(problem("sites_mm=[10, -5, north]").find("north"), std::string::npos);
-  EXPECT_NE(problem("jaw_hidden_s=[5, 4]").find("jaw_hidden_s: from 5 s until 4 s is no time"),
+  EXPECT_NE(problem("jaw_hidden_s=[5, 4]").find("'jaw_hidden_s': from 5 s until 4 s is no time"),
             std::string::npos);
 }
 

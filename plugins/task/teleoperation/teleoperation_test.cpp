@@ -115,9 +115,44 @@ TEST_F(TeleoperationTest, IsNotAlignedAsLongAsItCannotBeJudged) {
   view_.slave_T_master.reset();
   see(2000);
   EXPECT_EQ(task_.phase(), Phase::aligning);
+  EXPECT_EQ(task_.trouble(), "where the console stands is not known");
   view_.slave_T_master = console_;
   see();
   EXPECT_EQ(task_.phase(), Phase::aligned);
+}
+
+TEST_F(TeleoperationTest, WhoNeverTellsAnythingIsNamedAfterASecond) {
+  see(900);
+  EXPECT_EQ(task_.trouble(), "") << "it may begin a moment later";
+  see(200);
+  EXPECT_EQ(task_.phase(), Phase::waiting);
+  EXPECT_EQ(task_.trouble(), "where the console stands is not known");
+  view_.slave_T_master = console_;
+  see();
+  EXPECT_EQ(task_.trouble(), "the master tells nothing");
+  show_console();
+  see();
+  EXPECT_EQ(task_.phase(), Phase::aligning);
+  EXPECT_EQ(task_.trouble(), "");
+}
+
+TEST_F(TeleoperationTest, AHandThatIsSilentBeforeTheFirstClosingIsNamed) {
+  align();
+  hear_master(Report::executing);
+  see(900);
+  EXPECT_EQ(task_.trouble(), "");
+  see(200);
+  EXPECT_EQ(task_.phase(), Phase::aligned);
+  EXPECT_EQ(task_.trouble(), "the clutch tells nothing");
+  view_.clutch_closed = false;
+  see();
+  EXPECT_EQ(task_.trouble(), "");
+  view_.clutch_closed.reset();
+  see(900);
+  EXPECT_EQ(task_.trouble(), "") << "counted anew";
+  view_.clutch_closed = true;
+  see();
+  EXPECT_EQ(task_.phase(), Phase::teleoperating);
 }
 
 TEST_F(TeleoperationTest, AnInstrumentOutOfTheMastersReachIsRefusedWithTheReason) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "armature/config/conversion.hpp"
 #include "armature/runtime/component.hpp"
 
 namespace armature {
@@ -232,11 +233,24 @@ void ComponentReader::bind_ports(const Node* renames, std::string_view direction
                                  const std::vector<PortSpec>& specs,
                                  const ComponentConfig& component,
                                  std::vector<PortBinding>& bindings) const {
+  const bool says_nothing =
+      renames && renames->kind() == Node::Kind::null && renames->text().empty();
+  if (renames && !says_nothing && renames->kind() != Node::Kind::map) {
+    problems_.add(
+        renames->origin(),
+        fmt::format("the {}s of component '{}' must be a map from ports to topics, not {}",
+                    direction, component.name, renames->describe()));
+  }
   for (const PortSpec& spec : specs) {
     PortBinding binding{
         .spec = spec, .topic = spec.topic, .origin = component.origin, .renamed = false};
     if (const Node* rename = renames ? renames->find(spec.name) : nullptr) {
-      binding.topic = config::as_text(*rename, problems_).value_or(spec.topic);
+      const auto topic = config::to_text(*rename);
+      if (!topic) {
+        problems_.add(topic.error().origin, fmt::format("the topic of {} '{}' {}", direction,
+                                                        spec.name, topic.error().message));
+      }
+      binding.topic = topic.value_or(spec.topic);
       binding.origin = rename->origin();
       binding.renamed = true;
     }

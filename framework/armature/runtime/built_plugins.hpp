@@ -11,4 +11,15 @@ inline PluginRegistry& built_plugins() {
   return registry;
 }
 
+/// And one that a test brings along, by the text of its plugin.yaml.
+template <class Plugin>
+PluginRegistry& built_plugins_with(const char* plugin_yaml) {
+  static PluginRegistry registry = [&] {
+    PluginRegistry made{{ARMATURE_PLUGIN_BUILD_DIR}};
+    made.add<Plugin>(plugin_yaml);
+    return made;
+  }();
+  return registry;
+}
+
 }  // namespace armature

@@ -11,6 +11,7 @@
 #include "armature/messages/geometry.hpp"
 #include "armature/messages/header.hpp"
 #include "armature/robot/test_robots.hpp"
+#include "armature/runtime/built_plugins.hpp"
 #include "armature/runtime/component_bench.hpp"
 
 namespace armature {
@@ -48,12 +49,7 @@ class EchoIk final : public IkSolver {
 };
 
 PluginRegistry& plugins() {
-  static PluginRegistry registry = [] {
-    PluginRegistry made{{ARMATURE_PLUGIN_BUILD_DIR}};
-    made.add<EchoIk>("{armature_plugin: 1, id: ik/echo, kind: ik}");
-    return made;
-  }();
-  return registry;
+  return built_plugins_with<EchoIk>("{armature_plugin: 1, id: ik/echo, kind: ik}");
 }
 
 msg::IkRequest request(std::uint64_t id) {

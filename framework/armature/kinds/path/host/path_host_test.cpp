@@ -10,6 +10,7 @@
 #include "armature/kinds/tool_pose_messages.hpp"
 #include "armature/kinds/zone_messages.hpp"
 #include "armature/messages/header.hpp"
+#include "armature/runtime/built_plugins.hpp"
 #include "armature/runtime/component_bench.hpp"
 
 namespace armature {
@@ -41,12 +42,8 @@ class OverTheFocus final : public PathPlanner {
 };
 
 PluginRegistry& plugins() {
-  static PluginRegistry registry = [] {
-    PluginRegistry made{{ARMATURE_PLUGIN_BUILD_DIR}};
-    made.add<OverTheFocus>("{armature_plugin: 1, id: path/over_the_focus, kind: path}");
-    return made;
-  }();
-  return registry;
+  return built_plugins_with<OverTheFocus>(
+      "{armature_plugin: 1, id: path/over_the_focus, kind: path}");
 }
 
 msg::PathRequest request(std::uint64_t id) {

@@ -12,6 +12,7 @@
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/geometry.hpp"
 #include "armature/messages/header.hpp"
+#include "armature/runtime/built_plugins.hpp"
 #include "armature/runtime/component_bench.hpp"
 
 namespace armature {
@@ -36,13 +37,8 @@ class FirstMarker final : public Registrar {
 };
 
 PluginRegistry& plugins() {
-  static PluginRegistry registry = [] {
-    PluginRegistry made{{ARMATURE_PLUGIN_BUILD_DIR}};
-    made.add<FirstMarker>(
-        "{armature_plugin: 1, id: registration/first_marker, kind: registration}");
-    return made;
-  }();
-  return registry;
+  return built_plugins_with<FirstMarker>(
+      "{armature_plugin: 1, id: registration/first_marker, kind: registration}");
 }
 
 const std::array<Eigen::Vector3d, 4> kMarkers{

@@ -10,6 +10,7 @@
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/header.hpp"
 #include "armature/robot/test_robots.hpp"
+#include "armature/runtime/built_plugins.hpp"
 #include "armature/runtime/component_bench.hpp"
 
 namespace armature {
@@ -44,12 +45,7 @@ class LastBranch final : public BranchSelector {
 };
 
 PluginRegistry& plugins() {
-  static PluginRegistry registry = [] {
-    PluginRegistry made{{ARMATURE_PLUGIN_BUILD_DIR}};
-    made.add<LastBranch>("{armature_plugin: 1, id: select/last, kind: select}");
-    return made;
-  }();
-  return registry;
+  return built_plugins_with<LastBranch>("{armature_plugin: 1, id: select/last, kind: select}");
 }
 
 msg::IkSolution solution(const std::string& label, std::vector<double> joints) {

@@ -10,6 +10,7 @@
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/header.hpp"
 #include "armature/robot/test_robots.hpp"
+#include "armature/runtime/built_plugins.hpp"
 #include "armature/runtime/component_bench.hpp"
 
 namespace armature {
@@ -44,12 +45,8 @@ class TwoSeconds final : public TrajectoryPlanner {
 };
 
 PluginRegistry& plugins() {
-  static PluginRegistry registry = [] {
-    PluginRegistry made{{ARMATURE_PLUGIN_BUILD_DIR}};
-    made.add<TwoSeconds>("{armature_plugin: 1, id: trajectory/two_seconds, kind: trajectory}");
-    return made;
-  }();
-  return registry;
+  return built_plugins_with<TwoSeconds>(
+      "{armature_plugin: 1, id: trajectory/two_seconds, kind: trajectory}");
 }
 
 msg::JointPosition at(std::vector<double> joints) {

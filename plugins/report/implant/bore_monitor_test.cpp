@@ -59,6 +59,15 @@ TEST_F(BoreMonitorTest, TheDeeperBoreOfANeighbourIsNotThisOne) {
   EXPECT_NEAR(bore(1).error->norm(), 0, 1e-12);
 }
 
+TEST_F(BoreMonitorTest, OfTwoBoresThatAreBothNearItIsInTheNearer) {
+  monitor_ = BoreMonitor{sites_, {.depth_m = 0.012, .near_m = 0.01}};
+  see(0, 0);
+  see(0.005, 0.003);
+  EXPECT_NEAR(bore(0).error->norm(), 0, 1e-12);
+  EXPECT_NEAR(bore(0).line_deviation_m, 0, 1e-12);
+  EXPECT_NEAR(bore(1).error->norm(), 0, 1e-12);
+}
+
 TEST_F(BoreMonitorTest, ADrillThatMissesByFarIsStillAtTheSiteThatItDrills) {
   estimate_.patient_T_image = Eigen::Affine3d{Eigen::Translation3d{0, 0.015, 1}};
   see(0, 0);

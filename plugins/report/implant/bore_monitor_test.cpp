@@ -55,6 +55,7 @@ TEST_F(BoreMonitorTest, ADrillThatPassesBesideIsNotThere) {
 TEST_F(BoreMonitorTest, TheDeeperBoreOfANeighbourIsNotThisOne) {
   see(0, 0);
   see(0.005, 0.003);
+  ASSERT_TRUE(bore(0).error && bore(1).error);
   EXPECT_NEAR(bore(0).error->norm(), 0, 1e-12);
   EXPECT_NEAR(bore(1).error->norm(), 0, 1e-12);
 }
@@ -63,6 +64,7 @@ TEST_F(BoreMonitorTest, OfTwoBoresThatAreBothNearItIsInTheNearer) {
   monitor_ = BoreMonitor{sites_, {.depth_m = 0.012, .near_m = 0.01}};
   see(0, 0);
   see(0.005, 0.003);
+  ASSERT_TRUE(bore(0).error && bore(1).error);
   EXPECT_NEAR(bore(0).error->norm(), 0, 1e-12);
   EXPECT_NEAR(bore(0).line_deviation_m, 0, 1e-12);
   EXPECT_NEAR(bore(1).error->norm(), 0, 1e-12);

@@ -1,20 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // The command line. The only file that includes CLI11.
 #include <CLI/CLI.hpp>
-#include <charconv>
-#include <cmath>
-#include <cstdint>
 #include <fstream>
 #include <functional>
 #include <iostream>
-#include <string>
-#include <system_error>
 
 #include "calculator.hpp"
 #include "calibrate.hpp"
 #include "exit_code.hpp"
 #include "ik_bench/bench.hpp"
 #include "inspect.hpp"
+#include "option_checks.hpp"
 #include "plan_bench/bench_plan.hpp"
 #include "plugins.hpp"
 #include "run.hpp"
@@ -26,26 +22,6 @@ namespace {
 
 /// What the chosen verb will do, once the whole line has been understood.
 using Action = std::function<int()>;
-
-/// CLI11 takes -1 for the largest number there is, and a number beyond that, too.
-const CLI::Validator kSeed{[](std::string& text) -> std::string {
-                             std::uint64_t seed = 0;
-                             const char* const end = text.data() + text.size();
-                             const auto read = std::from_chars(text.data(), end, seed);
-                             if (read.ec == std::errc{} && read.ptr == end) return "";
-                             return "must be a whole number from 0 to 18446744073709551615, not '" +
-                                    text + "'";
-                           },
-                           ""};
-
-/// Comparisons let NaN through.
-const CLI::Validator kFinite{[](std::string& text) -> std::string {
-                               double value = 0;
-                               const bool read = CLI::detail::lexical_cast(text, value);
-                               if (read && std::isfinite(value)) return "";
-                               return "must be a finite number, not '" + text + "'";
-                             },
-                             ""};
 
 void add_source(CLI::App& verb, DeploymentSource& source) {
   verb.add_option("files", source.files, "deployment file, then overlays that change it")
@@ -107,12 +83,12 @@ void add_verify(CLI::App& plugin, Action& action) {
       ->check(CLI::Range(1, 1000000));
   verify->add_option("--seed", options->seed, "of the random numbers")
       ->capture_default_str()
-      ->check(kSeed);
+      ->check(wrong_seed);
   verify
       ->add_option("--patience", options->patience_s,
                    "seconds that a law may take; a solver that hangs breaks it")
       ->capture_default_str()
-      ->check(kFinite)
+      ->check(wrong_number)
       ->check(CLI::Range(0.1, 1e6));
   verify->add_flag("--json", options->json, "as JSON");
   verify->callback([options, &action] { action = [options] { return verify_plugin(*options); }; });
@@ -149,7 +125,7 @@ void add_topic_verbs(CLI::App& app, Action& action) {
   const auto add_common = [&](CLI::App* verb) {
     verb->add_option("--domain", options->domain, "DDS domain")->check(CLI::Range(0, 232));
     verb->add_option("--timeout", options->timeout_s, "give up after this many seconds")
-        ->check(kFinite);
+        ->check(wrong_number);
     verb->add_flag("--json", options->json, "as JSON");
   };
   CLI::App* list = topic->add_subcommand("list", "Topics, types, and how many write and read them");
@@ -225,7 +201,7 @@ void add_bench_plan(CLI::App* bench, Action& action) {
       ->check(CLI::Range(2, 1000));
   plan->add_option("--seed", options->seed, "of the random numbers")
       ->capture_default_str()
-      ->check(kSeed);
+      ->check(wrong_seed);
   plan->add_option("--repetitions", options->repetitions, "of every plan")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000));
@@ -250,14 +226,14 @@ void add_bench(CLI::App& app, Action& action) {
       ->check(CLI::Range(1, 10000000));
   ik->add_option("--seed", options->seed, "of the random numbers")
       ->capture_default_str()
-      ->check(kSeed);
+      ->check(wrong_seed);
   ik->add_flag("--near", options->near_only, "only seeds within 5 degrees of a solution");
   ik->add_option("--repetitions", options->repetitions, "of every solve")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000));
   ik->add_option("--tolerance", options->tolerance, "of a residual, m and rad")
       ->capture_default_str()
-      ->check(kFinite)
+      ->check(wrong_number)
       ->check(CLI::PositiveNumber);
   ik->add_option("--baseline", options->baseline,
                  "what the others are compared with (ik/kdl if it is among them, else the first)");

@@ -31,6 +31,7 @@ int answer_lines(std::istream& in, std::ostream& out, const auto& answer) {
     if (progress) progress->count(++answered);
   }
   out.flush();
+  if (answered == 0) fmt::print(stderr, "armature: the input has no lines to answer\n");
   return kOk;
 }
 

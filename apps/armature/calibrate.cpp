@@ -4,12 +4,17 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <cstddef>
 #include <ctime>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <optional>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "armature/calibration/hand_eye.hpp"
 #include "armature/calibration/pivot.hpp"
@@ -147,11 +152,44 @@ Json hand_eye_json(const HandEye& found, const std::vector<HandEyePose>& poses,
 }
 
 void check(const CalibrationOptions& options) {
+  constexpr double kFarthest_m = 1000, kMostNoise = 1000;
   for (const double coordinate : options.at_m) {
-    if (!std::isfinite(coordinate)) throw InvalidChoice("--at must be finite");
+    if (std::abs(coordinate) <= kFarthest_m) continue;  // false for NaN
+    throw InvalidChoice(
+        fmt::format("--at is a point in metres, at most {:g} from the base; {:g} "
+                    "is none",
+                    kFarthest_m, coordinate));
   }
   for (const double noise : options.noise) {
-    if (!(noise > 0 && std::isfinite(noise))) throw InvalidChoice("--noise must be positive");
+    if (noise > 0 && noise <= kMostNoise) continue;
+    throw InvalidChoice(
+        fmt::format("--noise must be positive, at most {:g}; {:g} is not", kMostNoise, noise));
+  }
+}
+
+/// A name becomes part of keys of a YAML file and names a frame of a robot file.
+struct FrameName {
+  const char* option;
+  std::string name;
+};
+
+void check(const std::vector<FrameName>& frames) {
+  const auto in_a_name = [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.' || c == '/';
+  };
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const auto& [option, name] = frames[i];
+    if (name.empty() || !std::ranges::all_of(name, in_a_name)) {
+      throw InvalidChoice(
+          fmt::format("{} is a frame's name of letters, digits, '_', '-', '.' and "
+                      "'/'; {} is none",
+                      option, config::in_quotes(name)));
+    }
+    for (std::size_t k = 0; k < i; ++k) {
+      if (frames[k].name != name) continue;
+      throw InvalidChoice(fmt::format("{} and {} are both called '{}'; a frame's name is its own",
+                                      frames[k].option, option, name));
+    }
   }
 }
 
@@ -159,6 +197,10 @@ void check(const CalibrationOptions& options) {
 
 int run_hand_eye_calibration(const CalibrationOptions& options) {
   check(options);
+  check({{"the robot's base", "base"},
+         {"--tip", flange_name(options)},
+         {"--body", options.body},
+         {"--tracker", options.tracker}});
   const auto robot = load_flange(options);
   const auto poses = read_hand_eye_poses(options.poses, robot ? &*robot : nullptr);
   HandEyeOptions how;
@@ -175,6 +217,12 @@ int run_hand_eye_calibration(const CalibrationOptions& options) {
 int run_tool_calibration(const CalibrationOptions& options) {
   const auto robot = load_flange(options);
   const ToolPoses poses = read_tool_poses(options.poses, robot ? &*robot : nullptr);
+  if (poses.is_tracked) {
+    check({{"--tracker", options.tracker}, {"--body", options.body}, {"--tool", options.tool}});
+  } else {
+    check(
+        {{"the robot's base", "base"}, {"--tip", flange_name(options)}, {"--tool", options.tool}});
+  }
   const auto found = calibrate_pivot(poses.fixed_T_body);
   if (!found) refuse_poses(options, found.error());
   const std::string parent = poses.is_tracked ? options.body : flange_name(options);

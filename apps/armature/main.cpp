@@ -10,6 +10,7 @@
 #include "exit_code.hpp"
 #include "ik_bench/bench.hpp"
 #include "inspect.hpp"
+#include "option_checks.hpp"
 #include "plan_bench/bench_plan.hpp"
 #include "plugins.hpp"
 #include "run.hpp"
@@ -80,11 +81,14 @@ void add_verify(CLI::App& plugin, Action& action) {
   verify->add_option("--poses", options->poses, "of every set")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000000));
-  verify->add_option("--seed", options->seed, "of the random numbers")->capture_default_str();
+  verify->add_option("--seed", options->seed, "of the random numbers")
+      ->capture_default_str()
+      ->check(wrong_seed);
   verify
       ->add_option("--patience", options->patience_s,
                    "seconds that a law may take; a solver that hangs breaks it")
       ->capture_default_str()
+      ->check(wrong_number)
       ->check(CLI::Range(0.1, 1e6));
   verify->add_flag("--json", options->json, "as JSON");
   verify->callback([options, &action] { action = [options] { return verify_plugin(*options); }; });
@@ -120,7 +124,8 @@ void add_topic_verbs(CLI::App& app, Action& action) {
   auto options = std::make_shared<TopicOptions>();
   const auto add_common = [&](CLI::App* verb) {
     verb->add_option("--domain", options->domain, "DDS domain")->check(CLI::Range(0, 232));
-    verb->add_option("--timeout", options->timeout_s, "give up after this many seconds");
+    verb->add_option("--timeout", options->timeout_s, "give up after this many seconds")
+        ->check(wrong_number);
     verb->add_flag("--json", options->json, "as JSON");
   };
   CLI::App* list = topic->add_subcommand("list", "Topics, types, and how many write and read them");
@@ -194,7 +199,9 @@ void add_bench_plan(CLI::App* bench, Action& action) {
   plan->add_option("--keys", options->keys, "of an orientation curve")
       ->capture_default_str()
       ->check(CLI::Range(2, 1000));
-  plan->add_option("--seed", options->seed, "of the random numbers")->capture_default_str();
+  plan->add_option("--seed", options->seed, "of the random numbers")
+      ->capture_default_str()
+      ->check(wrong_seed);
   plan->add_option("--repetitions", options->repetitions, "of every plan")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000));
@@ -217,13 +224,16 @@ void add_bench(CLI::App& app, Action& action) {
   ik->add_option("--poses", options->poses, "goals")
       ->capture_default_str()
       ->check(CLI::Range(1, 10000000));
-  ik->add_option("--seed", options->seed, "of the random numbers")->capture_default_str();
+  ik->add_option("--seed", options->seed, "of the random numbers")
+      ->capture_default_str()
+      ->check(wrong_seed);
   ik->add_flag("--near", options->near_only, "only seeds within 5 degrees of a solution");
   ik->add_option("--repetitions", options->repetitions, "of every solve")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000));
   ik->add_option("--tolerance", options->tolerance, "of a residual, m and rad")
       ->capture_default_str()
+      ->check(wrong_number)
       ->check(CLI::PositiveNumber);
   ik->add_option("--baseline", options->baseline,
                  "what the others are compared with (ik/kdl if it is among them, else the first)");

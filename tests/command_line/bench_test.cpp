@@ -90,5 +90,17 @@ TEST(BenchIk, NamesWhatIsWrongOnTheCommandLine) {
   EXPECT_THAT(baseline.err, HasSubstr("the baseline 'ik/numeric' is not one of the solvers"));
 }
 
+TEST(BenchIk, ASeedOrAToleranceThatIsNoneIsRefused) {
+  for (const std::string seed : {"-1", "1.5", "18446744073709551616", "0x10"}) {
+    const auto result = bench({"--seed=" + seed});
+    EXPECT_EQ(result.exit_code, 2) << seed;
+    EXPECT_THAT(result.err, HasSubstr("--seed: must be a whole number from 0 to "
+                                      "18446744073709551615, not '" +
+                                      seed + "'"));
+  }
+  EXPECT_THAT(bench({"--tolerance", "nan"}).err,
+              HasSubstr("--tolerance: must be a finite number, not 'nan'"));
+}
+
 }  // namespace
 }  // namespace armature::test

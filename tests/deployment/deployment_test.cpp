@@ -19,6 +19,7 @@ struct Told {
   std::vector<std::string> reasons;
   std::map<std::string, double> metrics;
   std::map<std::string, std::string> texts;
+  std::string json, table;
 };
 
 class DeploymentTest : public testing::Test {
@@ -43,12 +44,16 @@ class DeploymentTest : public testing::Test {
                           {.process = "main", .on_line = {}, .on_note = {}}};
     deployment.run([] { return false; });
     const RunReport report{deployment, {}};
-    Told told{.status = report.status(), .reasons = report.reasons(), .metrics = {}, .texts = {}};
+    Told told{.status = report.status(),
+              .reasons = report.reasons(),
+              .metrics = {},
+              .texts = {},
+              .json = to_json(report),
+              .table = to_table(report)};
     for (const auto& figure : report.figures()) {
-      if (const double* value = std::get_if<double>(&figure.value)) {
-        told.metrics[figure.key] = *value;
-      } else {
-        told.texts[figure.key] = std::get<std::string>(figure.value);
+      if (const auto* value = std::get_if<double>(&figure.value)) told.metrics[figure.key] = *value;
+      if (const auto* text = std::get_if<std::string>(&figure.value)) {
+        told.texts[figure.key] = *text;
       }
     }
     return told;
@@ -83,6 +88,34 @@ TEST_F(DeploymentTest, AGoalIsMetMissedOrWasNeverMeasured) {
   const Told deaf = run(", sim_latency_s: 1", "", "goals: {delay_s: 0.001}\n");
   EXPECT_EQ(deaf.status, "goals_missed");
   EXPECT_EQ(deaf.reasons, (std::vector<std::string>{"delay_s was never measured"}));
+}
+
+TEST_F(DeploymentTest, SeveralNumbersAreAnArrayInJsonAndAListInTheTable) {
+  const Told told = run(", sim_latency_s: 0.004, params: {beats: 2}", "");
+  EXPECT_NE(told.json.find(R"("delays_s":[0.004,0.004])"), std::string::npos) << told.json;
+  EXPECT_NE(told.table.find("delay of each beat [s]               0.004, 0.004\n"),
+            std::string::npos)
+      << told.table;
+}
+
+TEST_F(DeploymentTest, WhatCannotBeMeasuredSaysWhyAndDoesNotMeetItsGoal) {
+  const Told deaf =
+      run(", sim_latency_s: 1", ", params: {minds_silence: true}", "goals: {delay_s: 0.001}\n");
+  EXPECT_EQ(deaf.reasons,
+            (std::vector<std::string>{"delay_s was not measured: no beat was heard"}));
+  EXPECT_NE(deaf.json.find(R"("not_measured":{"delay_s":"no beat was heard"})"), std::string::npos)
+      << deaf.json;
+  EXPECT_NE(deaf.table.find("-   goal 0.001  MISSED   not measured: no beat was heard\n"),
+            std::string::npos)
+      << deaf.table;
+}
+
+TEST_F(DeploymentTest, AStoryThatFailedTellsItsReason) {
+  const Told deaf = run(", sim_latency_s: 1", ", params: {minds_silence: true}");
+  EXPECT_TRUE(deaf.json.starts_with(R"({"status":"deaf","reason":"beat tells nothing",)"))
+      << deaf.json;
+  EXPECT_NE(deaf.table.find("deaf\n    beat tells nothing\n"), std::string::npos) << deaf.table;
+  EXPECT_EQ(run("", "").json.find("reason"), std::string::npos);
 }
 
 TEST_F(DeploymentTest, AMetricThatItsPluginDoesNotDeclareIsAFaultThatNamesIt) {

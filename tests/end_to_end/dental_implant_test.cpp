@@ -139,6 +139,33 @@ TEST(DentalImplant, AJawThatMovesStopsTheArm) {
                  "the jaw has moved by 2.0");
 }
 
+TEST(DentalImplant, AJawThatMovesWhileItsPlaceIsAveragedIsNotDrilled) {
+  expect_refused({kTracker + "jaw_shift_mm=[0, 2, 0]", kTracker + "jaw_shift_at_s=33.5"},
+                 " mm while its place was averaged, 1 mm are allowed");
+}
+
+TEST(DentalImplant, OfOneSiteTheErrorIsToldAndWhyNoTurnIs) {
+  const DeploymentRun run =
+      implant({kTracker + "sites_mm=[10, -5, 12]", kTracker + "sites_rpy_deg=[3, 11, 18]"});
+  SCOPED_TRACE(run.text());
+  EXPECT_EQ(run.status(), "goals_missed");
+  EXPECT_LE(run.figure("site_error_mm"), 0.8);
+  EXPECT_NE(run.report.find(R"("site_errors_mm":[)"), std::string::npos);
+  EXPECT_NE(run.report.find(R"("reasons":["acceleration_jump_of_peak was not measured: the drill )"
+                            R"(turned by 0.00)"),
+            std::string::npos);
+}
+
+/// Along a limit the joints turn as sharply as the way there and on; a curve through that swings
+/// out, and an arm needs its time.
+TEST(DentalImplant, ASolverThatGoesAlongALimitNeedsAMargin) {
+  const std::string along = kMotion + "ik.params.objective=continuity";
+  expect_refused({along},
+                 "no sample of its path does: give the curve between them room with "
+                 "limit_margin_deg (or _mm)");
+  expect_drilled(implant({along, kMotion + "params.limit_margin_deg=0.1", "run.time_limit_s=400"}));
+}
+
 TEST(DentalImplant, ASiteOutOfReachIsRefused) {
   const std::string near_is_seen = kTracker + "nearest_mm=100";
   expect_refused({near_is_seen, kTracker + "jaw_mm=[-1100, -50, 650]"},
@@ -172,12 +199,15 @@ TEST(DentalImplant, SitesWithWrongNumbersAreFoundBeforeAnythingStarts) {
     EXPECT_EQ(run.command.exit_code, 3) << run.text();
     return run.command.err;
   };
-  EXPECT_NE(problem("sites_mm=[10, -5]").find("sites_mm has 2 numbers; three for each of"),
+  EXPECT_NE(problem("sites_mm=[10, -5]").find("'sites_mm' has 2 numbers; three for each of"),
             std::string::npos);
-  EXPECT_NE(problem("sites_rpy_deg=[1, 2, 3]").find("sites_mm has 3 sites, sites_rpy_deg has 1"),
-            std::string::npos);
+  EXPECT_NE(
+      problem("sites_rpy_deg=[1, 2, 3]").find("'sites_mm' has 3 sites, 'sites_rpy_deg' has 1"),
+      std::string::npos);
   EXPECT_NE(problem("sites_mm=[10, -5, north]").find("north"), std::string::npos);
-  EXPECT_NE(problem("jaw_hidden_s=[5, 4]").find("jaw_hidden_s: from 5 s until 4 s is no time"),
+  EXPECT_NE(problem("nearest_mm=3000").find("'nearest_mm' is 3000 and 'farthest_mm' is 2400"),
+            std::string::npos);
+  EXPECT_NE(problem("jaw_hidden_s=[5, 4]").find("'jaw_hidden_s': from 5 s until 4 s is no time"),
             std::string::npos);
 }
 

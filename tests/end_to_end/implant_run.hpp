@@ -27,6 +27,7 @@ inline void expect_refused(const std::vector<std::string>& settings, const std::
   EXPECT_EQ(run.command.exit_code, 1);
   EXPECT_EQ(run.status(), "refused");
   EXPECT_NE(run.command.err.find("refused: "), std::string::npos);
+  EXPECT_NE(run.word("reason").find(reason), std::string::npos);
   EXPECT_NE(run.command.err.find(reason), std::string::npos);
   EXPECT_FALSE(run.tells("site_error_mm"));
   EXPECT_LE(run.figure("final_speed_rad_s"), 1e-9);

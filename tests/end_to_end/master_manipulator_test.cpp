@@ -107,6 +107,21 @@ TEST(MasterManipulator, AHandThatFallsSilentHoldsTheSlave) {
   EXPECT_LE(run.figure("stopping_mm"), 1);
 }
 
+TEST(MasterManipulator, AHandThatIsSilentBeforeItClosesTheClutchIsNamedAndEndsTheRun) {
+  const DeploymentRun run = teleoperation({kSurgeon + "silent_after_s=0.1"});
+  EXPECT_EQ(run.status(), "held") << run.text();
+  EXPECT_EQ(run.word("reason"), "the clutch tells nothing");
+  EXPECT_NE(run.command.err.find("aligned: the clutch tells nothing"), std::string::npos);
+}
+
+TEST(MasterManipulator, OfAHandThatDoesNotTrembleNoRatioIsTold) {
+  const DeploymentRun run = teleoperation({kSurgeon + "tremor_mm=0"});
+  EXPECT_EQ(run.status(), "goals_missed") << run.text();
+  EXPECT_NE(run.report.find(R"("reasons":["tremor_db was not measured: the hand trembles by 0.0)"),
+            std::string::npos)
+      << run.text();
+}
+
 TEST(MasterManipulator, TwoArmsNeedTopicsOfTheirOwn) {
   const DeploymentRun run = teleoperation({"components.master.out=null"});
   EXPECT_EQ(run.command.exit_code, 3);

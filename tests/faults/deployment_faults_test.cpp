@@ -113,8 +113,9 @@ const Fault kFaults[] = {
      "deployment.yaml:21:3: component 'monitor': two frames would be called 'tool'\n"},
     {"BasePlacedInNoWorld", "executor: control}",
      "executor: control}\n  monitor: {plugin: monitor/rviz, params: {base_position_m: [1, 0, 0]}}",
-     "deployment.yaml:21:3: component 'monitor': base_position_m and base_rpy_deg place base in "
-     "world_frame: name one\n"},
+     "deployment.yaml:21:61: 'base_position_m' and 'base_rpy_deg' place base in 'world_frame': "
+     "name "
+     "one\n"},
     {"NameOfTheRuntimesOwn", "  arm: {", "  runtime: {",
      "deployment.yaml:20:3: 'runtime' is a component of the runtime; choose another name\n"},
     {"RobotFileMissing", "robots/dental_lamp.yaml", "robots/dental_lmap.yaml",
@@ -197,6 +198,16 @@ const Fault kFaults[] = {
      "deployment.yaml:3:10: cannot read 'nowhere.yaml': No such file or directory\n"},
     {"ParameterWithoutAValue", "photo: generated",
      "photo: ", "deployment.yaml:8:45: 'photo' must be a text, not nothing\n"},
+    {"PortWithoutATopic", "{plugin: face_pose/three_point}",
+     "{plugin: face_pose/three_point, in: {landmarks: null}}",
+     "deployment.yaml:10:57: the topic of input 'landmarks' must be a text, not nothing\n"},
+    {"PortsThatAreNoMap", "{plugin: face_pose/three_point}",
+     "{plugin: face_pose/three_point, in: [landmarks]}",
+     "deployment.yaml:10:45: the inputs of component 'face' must be a map from ports to topics, "
+     "not "
+     "a list\n"},
+    {"GoalOfNothing", "distance_error_mm: 1.5", "distance_error_mm: null",
+     "deployment.yaml:22:28: 'distance_error_mm' must be a number, not nothing\n"},
     {"ListForMap", "goals: {distance_error_mm: 1.5}", "goals: [distance_error_mm]",
      "deployment.yaml:22:8: goals must be a map, not a list\n"},
     {"ComponentIsText", "  face: {plugin: face_pose/three_point}", "  face: face_pose/three_point",

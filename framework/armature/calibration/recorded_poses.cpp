@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -52,6 +54,21 @@ Node on_line(const Node& node, int line) {
   return Node::map(std::move(entries), there(node.origin()));
 }
 
+bool says_nothing(std::string_view line) {
+  const std::size_t first = line.find_first_not_of(" \t\r");
+  return first == std::string_view::npos || line[first] == '#';
+}
+
+/// The first line that is more than a comment; empty: there is none.
+std::string_view first_line(std::string_view text) {
+  while (!text.empty()) {
+    const std::string_view line = text.substr(0, text.find('\n'));
+    if (!says_nothing(line)) return line.substr(line.find_first_not_of(" \t\r"));
+    text.remove_prefix(std::min(line.size() + 1, text.size()));
+  }
+  return "";
+}
+
 /// JSON is YAML: each line by itself, so that a bad one does not hide the others.
 std::vector<Node> records_of_lines(std::string_view text, const std::string& name,
                                    Problems& problems) {
@@ -59,7 +76,7 @@ std::vector<Node> records_of_lines(std::string_view text, const std::string& nam
   for (int number = 1; !text.empty(); ++number) {
     const std::string_view line = text.substr(0, text.find('\n'));
     text.remove_prefix(std::min(line.size() + 1, text.size()));
-    if (line.find_first_not_of(" \t\r") == std::string_view::npos) continue;
+    if (says_nothing(line)) continue;
     try {
       records.push_back(on_line(config::parse_yaml(std::string{line}, name), number));
     } catch (const config::ConfigError& error) {
@@ -85,10 +102,20 @@ std::vector<Node> records_of_document(const Node& document, Problems& problems) 
 }
 
 std::vector<Node> records_in(const std::filesystem::path& file, Problems& problems) {
-  const std::string text = config::read_source(file, Origin{}), name = file.string();
-  const std::size_t first = text.find_first_not_of(" \t\r\n");
-  const bool is_lines = first != std::string::npos && text[first] == '{';
-  std::vector<Node> records = is_lines
+  std::string text = config::read_source(file, Origin{});
+  const std::string name = file.string();
+  if (constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+      text.starts_with(kByteOrderMark)) {
+    text.erase(0, kByteOrderMark.size());
+  }
+  const std::string_view first = first_line(text);
+  if (first.empty()) {
+    problems.add({name, 1, 1},
+                 "no poses; write a JSON object with 'joints', 'base_T_flange' or "
+                 "'tracker_T_body' on each line, or YAML with 'armature_poses: 1' and 'poses:'");
+    return {};
+  }
+  std::vector<Node> records = first.front() == '{'
                                   ? records_of_lines(text, name, problems)
                                   : records_of_document(config::parse_yaml(text, name), problems);
   std::erase_if(records, [&](const Node& record) {

@@ -16,6 +16,7 @@ namespace armature {
 namespace {
 
 using ::testing::ElementsAre;
+using ::testing::StartsWith;
 
 class RecordedPoses : public ::testing::Test {
  protected:
@@ -132,6 +133,23 @@ TEST_F(RecordedPoses, TellEverythingThatIsWrongInJsonLinesWithItsPlace) {
           "closed"));
 }
 
+TEST_F(RecordedPoses, MayHaveCommentsAndAByteOrderMarkThatShiftNoPlace) {
+  const std::string pose = "{" + kFlange + "," + kBody + "}";
+  EXPECT_EQ(read_hand_eye_poses(file("# two\n" + pose + "\n  # and\n" + pose), nullptr).size(), 2u);
+  EXPECT_EQ(read_hand_eye_poses(file("\xEF\xBB\xBF" + pose + "\n" + pose), nullptr).size(), 2u);
+  EXPECT_THAT(problems_of_hand_eye("\xEF\xBB\xBF# one\n{" + kFlange + "}"),
+              ElementsAre("2:1: a pose for hand-eye needs 'tracker_T_body'"));
+  EXPECT_THAT(problems_of_hand_eye("\xEF\xBB\xBF{\"poze\":1," + kFlange + "," + kBody + "}"),
+              ElementsAre(StartsWith("1:2: unknown key 'poze' in pose")));
+}
+
+TEST_F(RecordedPoses, OfAnEmptyFileAreNoneAndItSaysWhatToWrite) {
+  for (const char* text : {"", " \n\n", "# nothing yet\n", "\xEF\xBB\xBF"}) {
+    EXPECT_THAT(problems_of_hand_eye(text),
+                ElementsAre(StartsWith("1:1: no poses; write a JSON object with 'joints'")));
+  }
+}
+
 TEST_F(RecordedPoses, OfJointsNeedTheirRobot) {
   EXPECT_THAT(problems_of_hand_eye("{\"joints\":[0,0,0,0,0,0,0]," + kBody + "}"),
               ElementsAre("1:11: 'joints' are those of a robot; name its file with --robot"));
@@ -152,8 +170,6 @@ TEST_F(RecordedPoses, TellWhatIsWrongInYaml) {
                           "2:12: a pose for hand-eye needs 'tracker_T_body'"));
   EXPECT_THAT(problems_of_hand_eye("[]\n"),
               ElementsAre("1:1: file of poses must be a map, not a list"));
-  EXPECT_THAT(problems_of_hand_eye(""),
-              ElementsAre("1:1: file of poses must be a map, not nothing"));
 }
 
 }  // namespace

@@ -138,10 +138,11 @@ Params Params::read(const std::vector<ParamSpec>& specs, const Node* given,
                         problems};
   Params params;
   params.plugin_id_ = plugin_id;
+  params.place_ = nothing.origin();
   for (const ParamSpec& spec : specs) {
     const Node* written = spec.fallback ? map.optional_node(spec.name) : map.node(spec.name);
     const Node* node = written ? written : spec.fallback ? &*spec.fallback : nullptr;
-    Value value{spec.type, zero(spec.type), node ? node->origin() : place};
+    Value value{spec.type, zero(spec.type), node ? node->origin() : place, written != nullptr};
     if (node) {
       auto read = read_value(spec, *node, written ? config::folder_of(node->origin()) : "");
       if (read) {
@@ -207,5 +208,13 @@ std::string Params::file(std::string_view name) const {
 }
 
 const Origin& Params::origin(std::string_view name) const { return find(name).origin; }
+
+void Params::refuse(std::initializer_list<std::string_view> names,
+                    const std::string& message) const {
+  const auto written =
+      std::ranges::find_if(names, [&](const std::string_view name) { return find(name).written; });
+  const Origin& place = written == names.end() ? place_ : find(*written).origin;
+  throw config::ConfigError{{{place, message}}};
+}
 
 }  // namespace armature

@@ -61,6 +61,11 @@ class Params {
   /// Where the value came from (the plugin's table for a default).
   const config::Origin& origin(std::string_view name) const;
 
+  /// For values that are right each by itself but not together: throws config::ConfigError with
+  /// `message`, at the place of the first of `names` that was written, else of the parameters.
+  [[noreturn]] void refuse(std::initializer_list<std::string_view> names,
+                           const std::string& message) const;
+
  private:
   struct Value {
     ParamSpec::Type type;
@@ -68,12 +73,14 @@ class Params {
                  std::vector<std::string>>
         value;
     config::Origin origin;
+    bool written = false;
   };
   const Value& find(std::string_view name) const;
   const Value& get(std::string_view name, std::initializer_list<ParamSpec::Type> types) const;
 
   std::map<std::string, Value, std::less<>> values_;
   std::string plugin_id_;
+  config::Origin place_;
 };
 
 }  // namespace armature

@@ -114,6 +114,25 @@ TEST(Parameters, FallBackToTheTable) {
   EXPECT_EQ(params.origin("seed").text(), "deployments/lamp.yaml:1:7");
 }
 
+TEST(Parameters, ThatContradictEachOtherAreRefusedWhereTheFirstOfThemIsWritten) {
+  Problems problems;
+  const auto refusal = [](const Params& params) -> std::string {
+    try {
+      params.refuse({"rate_hz", "tries"}, "'rate_hz' is below 'tries'");
+    } catch (const config::ConfigError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(refusal(read("{seed: 7, tries: 20}", problems)),
+            "deployments/lamp.yaml:1:18: 'rate_hz' is below 'tries'");
+  EXPECT_EQ(refusal(read("{tries: 20, seed: 7, rate_hz: 5}", problems)),
+            "deployments/lamp.yaml:1:31: 'rate_hz' is below 'tries'");
+  EXPECT_EQ(refusal(read("{seed: 7}", problems)),
+            "deployments/lamp.yaml:1:1: 'rate_hz' is below 'tries'")
+      << "at the parameters, of which none was written";
+}
+
 TEST(Parameters, ArriveInSiUnits) {
   Problems problems;
   const Params params = read("{seed: 7, tilt_deg: 180, mouth_mm: [1000, -500, 0]}", problems);

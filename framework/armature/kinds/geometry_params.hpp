@@ -9,7 +9,6 @@
 
 #include "armature/config/params.hpp"
 #include "armature/robot/rotation.hpp"
-#include "armature/runtime/setup.hpp"
 
 namespace armature {
 
@@ -30,14 +29,14 @@ inline Eigen::Isometry3d pose_of(const Params& params, std::string_view position
   return pose;
 }
 
-/// x, y, z of each. Throws SetupError for numbers left over and for fewer than `least`, at least
+/// x, y, z of each. Refuses numbers left over and for fewer than `least`, at least
 /// how many of `what` there must be: "at least three markers".
 inline std::vector<Eigen::Vector3d> points_of(const Params& params, std::string_view name,
                                               std::size_t least, std::string_view what) {
   const auto values = params.numbers(name);
   if (values.size() < 3 * least || values.size() % 3 != 0) {
-    throw SetupError(std::string{name} + " has " + std::to_string(values.size()) +
-                     " numbers; three for each of " + std::string{what} + " are needed");
+    params.refuse({name}, "'" + std::string{name} + "' has " + std::to_string(values.size()) +
+                              " numbers; three for each of " + std::string{what} + " are needed");
   }
   std::vector<Eigen::Vector3d> points;
   for (std::size_t i = 0; i < values.size(); i += 3) {

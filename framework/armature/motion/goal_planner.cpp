@@ -79,6 +79,32 @@ Expected<IkStatus> solved(const IkSolver& solver, const IkGoal& goal, const Join
   });
 }
 
+bool leaves_limits(const Trajectory& trajectory, const RobotModel& model) {
+  const auto dof = static_cast<std::size_t>(trajectory.dof);
+  for (std::size_t i = 0; i < trajectory.pieces.size(); ++i) {
+    const std::size_t k = i / dof;
+    const auto joint = static_cast<Eigen::Index>(i % dof);
+    const QuinticRange q =
+        range(trajectory.pieces[i], trajectory.knots[k + 1] - trajectory.knots[k]);
+    if (q.lowest < model.lower()[joint] || q.highest > model.upper()[joint]) return true;
+  }
+  return false;
+}
+
+/// `defect`, and the way out where the curve between samples that are within the limits swings out
+/// of them: a solver that goes along a limit turns there as sharply as it comes.
+std::string with_way_out(std::string defect, const Plan& plan, const RobotModel& model) {
+  for (const JointSegment& segment : plan.joint_path) {
+    for (const JointVector& q : segment.q) {
+      if (!model.within_limits(q)) return defect;
+    }
+  }
+  if (!leaves_limits(plan.trajectory, model)) return defect;
+  return defect +
+         "; no sample of its path does: give the curve between them room with limit_margin_deg (or "
+         "_mm)";
+}
+
 bool reaches(const IkStatus& status) {
   return status.code == IkStatus::Code::ok || status.code == IkStatus::Code::singular;
 }
@@ -166,7 +192,7 @@ PlanResult GoalPlanner::attempt(const MotionGoal& goal, const JointState& from, 
   plan.trajectory = std::move(*trajectory);
   plan.trajectory.goal_id = goal.id;
   if (auto defect = trajectory_defect(plan.trajectory, model_, limits_, from, start)) {
-    return fail("trajectory", *defect);
+    return fail("trajectory", with_way_out(*defect, plan, model_));
   }
   return plan;
 }

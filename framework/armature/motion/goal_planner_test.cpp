@@ -209,6 +209,40 @@ TEST(GoalPlanner, StopsFirstWhenTheTrajectoryCannotBeSpliced) {
   }
 }
 
+/// Three seconds to 2.02 m, and three to the end: not where the path says.
+class SwingingTrajectory final : public TrajectoryPlanner {
+ public:
+  Expected<Trajectory> plan(const TrajectoryRequest& request) const override {
+    const JointVector& end = request.segments.back().q.back();
+    Trajectory trajectory{.goal_id = request.goal_id,
+                          .dof = static_cast<int>(end.size()),
+                          .start = request.start,
+                          .knots = {0, 3, 6},
+                          .pieces = {}};
+    for (const bool out : {true, false}) {
+      for (int i = 0; i < trajectory.dof; ++i) {
+        const double turn = i == 0 ? 2.02 : end[i];
+        trajectory.pieces.push_back(Quintic::between({out ? request.from.q[i] : turn, 0, 0},
+                                                     {out ? turn : end[i], 0, 0}, 3));
+      }
+    }
+    return trajectory;
+  }
+};
+
+TEST(GoalPlanner, NamesTheWayOutWhereTheCurveLeavesTheLimitsBetweenSamplesThatDoNot) {
+  Gantry gantry;
+  const SwingingTrajectory swings;
+  GoalPlanner planner{
+      gantry.model, {gantry.path, gantry.ik, gantry.select, swings}, gantry.limits, true};
+  const auto plan = planner.plan(goal_at(1, 0, 0, 1.95), rest_at(1.9, 0, 0), kStart);
+  ASSERT_FALSE(plan);
+  EXPECT_EQ(plan.error().reason,
+            "joint z would reach 2.0200 m between 0.00 and 3.00 s, its limits are -2.0000 and "
+            "2.0000 m; no sample of its path does: give the curve between them room with "
+            "limit_margin_deg (or _mm)");
+}
+
 TEST(GoalPlanner, NamesTheStageWhosePluginThrewAndPlansTheNextGoal) {
   Gantry gantry;
   GoalPlanner planner = gantry.planner();

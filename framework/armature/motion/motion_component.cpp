@@ -8,6 +8,7 @@
 #include "armature/kinds/joint_messages.hpp"
 #include "armature/kinds/setup_robot.hpp"
 #include "armature/kinds/trajectory/trajectory_messages.hpp"
+#include "armature/motion/limit_margin.hpp"
 #include "armature/motion/motion_messages.hpp"
 #include "armature/runtime/component.hpp"
 #include "armature/runtime/plugin.hpp"
@@ -53,6 +54,14 @@ MotionLimits limits_of(const Setup& setup, const RobotModel& model) {
                       model, model.max_acceleration())};
 }
 
+/// The robot as the solver has it.
+RobotModel solver_model_of(const Params& params, const RobotModel& model) {
+  auto narrow = narrowed(model, {.turning_rad = params.number("limit_margin_deg"),
+                                 .sliding_m = params.number("limit_margin_mm")});
+  if (!narrow) params.refuse({"limit_margin_deg", "limit_margin_mm"}, narrow.error().text);
+  return std::move(*narrow);
+}
+
 /// Empty when neither kind of joint has a limit.
 JointVector max_jerk_of(const Params& params, const RobotModel& model) {
   const double turning = params.number("max_jerk_rad_s3"), sliding = params.number("max_jerk_m_s3");
@@ -80,8 +89,9 @@ class Motion : public Component {
   explicit Motion(Setup& setup)
       : Component(setup),
         model_{robot_of(setup)},
+        solver_model_{solver_model_of(setup.params(), model_)},
         path_{setup.slot<PathPlanner>("path")},
-        ik_{setup.slot<IkSolver>("ik", model_)},
+        ik_{setup.slot<IkSolver>("ik", solver_model_)},
         select_{setup.slot<BranchSelector>("select", model_)},
         trajectory_{setup.slot<TrajectoryPlanner>("trajectory")},
         goals_{setup.input<msg::MotionGoal>("goal")},
@@ -183,7 +193,7 @@ class Motion : public Component {
     }
   }
 
-  RobotModel model_;
+  RobotModel model_, solver_model_;
   PluginPtr<PathPlanner> path_;
   PluginPtr<IkSolver> ik_;
   PluginPtr<BranchSelector> select_;

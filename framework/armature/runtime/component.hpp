@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "armature/values/time.hpp"
 
@@ -64,9 +65,14 @@ class Summary {
   virtual ~Summary() = default;
   /// `key` ends in its unit ("distance_error_mm"); `title` is for the table.
   virtual void metric(std::string key, std::string title, double value) = 0;
+  /// The same of several, such as every site: an array in JSON.
+  virtual void series(std::string key, std::string title, std::vector<double> values) = 0;
   virtual void text(std::string key, std::string title, std::string value) = 0;
-  /// Why the story did not come to its end ("face_not_found"); overrides ok and goals_missed.
-  virtual void failed(std::string status) = 0;
+  /// That a metric cannot be told, and why: "the hand does not tremble". A goal on it is not met.
+  virtual void not_measured(std::string key, std::string title, std::string why) = 0;
+  /// Why the story did not come to its end: its status ("refused"), which overrides ok and
+  /// goals_missed, and the reason for people ("the jaw has moved by 2 mm").
+  virtual void failed(std::string status, std::string reason) = 0;
 };
 
 }  // namespace armature

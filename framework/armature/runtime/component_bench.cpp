@@ -74,4 +74,13 @@ Topic& ComponentBench::topic_of(const std::vector<PortBinding>& ports, std::stri
   throw std::invalid_argument("there is no port '" + std::string{name} + "'");
 }
 
+std::string refusal_of(PluginRegistry& plugins, const ComponentBench::Options& options) {
+  try {
+    const ComponentBench made{plugins, options};
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  return "";
+}
+
 }  // namespace armature

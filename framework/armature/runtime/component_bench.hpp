@@ -14,6 +14,7 @@
 #include "armature/config/document.hpp"
 #include "armature/runtime/component_config.hpp"
 #include "armature/runtime/component_setup.hpp"
+#include "armature/runtime/figures.hpp"
 
 namespace armature {
 
@@ -67,6 +68,8 @@ class ComponentBench final : private Delivery {
   const std::vector<std::string>& lines() const { return lines_; }
   const std::optional<Duration>& period() const { return unit_->period(); }
   Component& component() { return unit_->component(); }
+  /// What it tells of the run so far.
+  Figures figures() { return figures_of(component()); }
 
  private:
   struct Tap final : Subscriber {
@@ -89,5 +92,8 @@ class ComponentBench final : private Delivery {
   std::map<std::string, Tap> taps_;                       // by output
   std::unique_ptr<Unit> unit_;
 };
+
+/// Why such a component cannot be made, or "".
+std::string refusal_of(PluginRegistry& plugins, const ComponentBench::Options& options);
 
 }  // namespace armature

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "armature/config/conversion.hpp"
 #include "armature/runtime/component.hpp"
 
 namespace armature {
@@ -121,7 +122,7 @@ void ComponentReader::read_params(MapReader& map, const PluginManifest& named,
                                   ComponentConfig& component) const {
   const Node* given = map.optional_node("params");
   if (component.manifest == &named) {
-    component.params = Params::read(named.params, given, named.id, problems_);
+    component.params = Params::read(named.params, given, named.id, problems_, component.origin);
     return;
   }
   std::vector<Node::Entry> of_host, of_plugin;
@@ -175,12 +176,12 @@ void ComponentReader::read_slot(const SlotSpec& spec, const Node& node,
                               plugin->kind, spec.name, spec.kind));
     return;
   }
-  component.slots.push_back(
-      {.name = spec.name,
-       .plugin_id = plugin->id,
-       .origin = plugin_node->origin(),
-       .manifest = plugin,
-       .params = Params::read(plugin->params, params, plugin->id, problems_)});
+  component.slots.push_back({.name = spec.name,
+                             .plugin_id = plugin->id,
+                             .origin = plugin_node->origin(),
+                             .manifest = plugin,
+                             .params = Params::read(plugin->params, params, plugin->id, problems_,
+                                                    plugin_node->origin())});
 }
 
 /// `robot: left` binds an entry of `robots:`; with a single entry nothing needs to be said.
@@ -232,11 +233,24 @@ void ComponentReader::bind_ports(const Node* renames, std::string_view direction
                                  const std::vector<PortSpec>& specs,
                                  const ComponentConfig& component,
                                  std::vector<PortBinding>& bindings) const {
+  const bool says_nothing =
+      renames && renames->kind() == Node::Kind::null && renames->text().empty();
+  if (renames && !says_nothing && renames->kind() != Node::Kind::map) {
+    problems_.add(
+        renames->origin(),
+        fmt::format("the {}s of component '{}' must be a map from ports to topics, not {}",
+                    direction, component.name, renames->describe()));
+  }
   for (const PortSpec& spec : specs) {
     PortBinding binding{
         .spec = spec, .topic = spec.topic, .origin = component.origin, .renamed = false};
     if (const Node* rename = renames ? renames->find(spec.name) : nullptr) {
-      binding.topic = config::as_text(*rename, problems_).value_or(spec.topic);
+      const auto topic = config::to_text(*rename);
+      if (!topic) {
+        problems_.add(topic.error().origin, fmt::format("the topic of {} '{}' {}", direction,
+                                                        spec.name, topic.error().message));
+      }
+      binding.topic = topic.value_or(spec.topic);
       binding.origin = rename->origin();
       binding.renamed = true;
     }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <utility>
@@ -20,39 +21,58 @@ RunReport::RunReport(const Deployment& deployment, const Ending& ending) {
   judge(deployment, ending);
 }
 
-void RunReport::metric(std::string key, std::string title, double value) {
+void RunReport::expect_declared(const std::string& key) {
   const auto& declared = speaker_->manifest->measures;
-  if (std::ranges::find(declared, key, &MetricSpec::name) == declared.end()) {
-    defect_ = fmt::format(
-        "{}: plugin '{}' reports the metric '{}', which its plugin.yaml does not "
-        "declare under 'measures:'",
-        speaker_->name, speaker_->manifest->id, key);
-  }
+  if (std::ranges::find(declared, key, &MetricSpec::name) != declared.end()) return;
+  defect_ = fmt::format(
+      "{}: plugin '{}' reports the metric '{}', which its plugin.yaml does not declare under "
+      "'measures:'",
+      speaker_->name, speaker_->manifest->id, key);
+}
+
+void RunReport::metric(std::string key, std::string title, double value) {
+  expect_declared(key);
   figures_.push_back({std::move(key), std::move(title), value});
+}
+void RunReport::series(std::string key, std::string title, std::vector<double> values) {
+  figures_.push_back({std::move(key), std::move(title), std::move(values)});
 }
 void RunReport::text(std::string key, std::string title, std::string value) {
   figures_.push_back({std::move(key), std::move(title), std::move(value)});
 }
-void RunReport::failed(std::string status) { story_status_ = std::move(status); }
+void RunReport::not_measured(std::string key, std::string title, std::string why) {
+  expect_declared(key);
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  figures_.push_back({std::move(key), std::move(title), kNone, std::move(why)});
+}
+void RunReport::failed(std::string status, std::string reason) {
+  story_status_ = std::move(status);
+  story_reason_ = std::move(reason);
+}
+
+void RunReport::judge_goal(const Goal& goal) {
+  bool found = false;
+  for (Figure& figure : figures_) {
+    const double* value = std::get_if<double>(&figure.value);
+    if (figure.key != goal.metric || !value) continue;
+    found = true;
+    figure.goal = &goal;
+    figure.met = *value <= goal.limit;  // false for NaN: nothing was measured
+    if (figure.met) continue;
+    if (!figure.unmeasured.empty()) {
+      reasons_.push_back(fmt::format("{} was not measured: {}", goal.metric, figure.unmeasured));
+    } else if (std::isnan(*value)) {
+      reasons_.push_back(fmt::format("{} was never measured", goal.metric));
+    } else {
+      reasons_.push_back(
+          fmt::format("{} is {:.3f}, the goal is at most {:g}", goal.metric, *value, goal.limit));
+    }
+  }
+  if (!found) reasons_.push_back(fmt::format("{} was never measured", goal.metric));
+}
 
 void RunReport::judge(const Deployment& deployment, const Ending& ending) {
-  for (const Goal& goal : deployment.config().goals) {
-    bool found = false;
-    for (Figure& figure : figures_) {
-      const double* value = std::get_if<double>(&figure.value);
-      if (figure.key != goal.metric || !value) continue;
-      found = true;
-      figure.goal = &goal;
-      figure.met = *value <= goal.limit;  // false for NaN: nothing was measured
-      if (!figure.met) {
-        reasons_.push_back(std::isnan(*value)
-                               ? fmt::format("{} was never measured", goal.metric)
-                               : fmt::format("{} is {:.3f}, the goal is at most {:g}", goal.metric,
-                                             *value, goal.limit));
-      }
-    }
-    if (!found) reasons_.push_back(fmt::format("{} was never measured", goal.metric));
-  }
+  for (const Goal& goal : deployment.config().goals) judge_goal(goal);
   if (deployment.timed_out() && !deployment.config().goals.empty()) {
     reasons_.push_back(fmt::format("the time limit of {:g} s was over before the end of the story",
                                    deployment.config().time_limit_s));
@@ -77,48 +97,67 @@ void RunReport::judge(const Deployment& deployment, const Ending& ending) {
   }
 }
 
-std::string to_json(const RunReport& report) {
-  nlohmann::ordered_json json;
-  json["status"] = report.status();
-  for (const auto& figure : report.figures()) {
-    if (const double* value = std::get_if<double>(&figure.value)) {
-      json[figure.key] = std::isfinite(*value) ? nlohmann::ordered_json(*value) : nullptr;
-    } else {
-      json[figure.key] = std::get<std::string>(figure.value);
-    }
-  }
-  if (!report.reasons().empty()) json["reasons"] = report.reasons();
-  return json.dump();
-}
-
 namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+Json to_json(const std::string& value) { return value; }
+Json to_json(const std::vector<double>& values) {
+  Json list = Json::array();
+  for (const double value : values) list.push_back(to_json(value));
+  return list;
+}
 
 /// Counts without decimals, measures with three, or where these would all be 0 by their power of
 /// ten; nothing measured is a dash.
-std::string number_text(double value) {
+std::string shown(double value) {
   constexpr double kShownAsZero = 0.0005;
   if (std::isnan(value)) return "         -";
   if (value != 0 && std::abs(value) < kShownAsZero) return fmt::format("{:10.0e}", value);
   return value == std::floor(value) ? fmt::format("{:10.0f}", value)
                                     : fmt::format("{:10.3f}", value);
 }
+std::string shown(const std::string& value) { return value; }
+std::string shown(const std::vector<double>& values) {
+  std::string text;
+  for (const double value : values) {
+    const std::string number = shown(value);
+    text += (text.empty() ? "" : ", ") + number.substr(number.find_first_not_of(' '));
+  }
+  return text;
+}
 
 }  // namespace
+
+std::string to_json(const RunReport& report) {
+  Json json, unmeasured;
+  json["status"] = report.status();
+  if (!report.story_reason().empty()) json["reason"] = report.story_reason();
+  for (const auto& figure : report.figures()) {
+    json[figure.key] = std::visit([](const auto& value) { return to_json(value); }, figure.value);
+    if (!figure.unmeasured.empty()) unmeasured[figure.key] = figure.unmeasured;
+  }
+  if (!unmeasured.empty()) json["not_measured"] = unmeasured;
+  if (!report.reasons().empty()) json["reasons"] = report.reasons();
+  return json.dump();
+}
 
 std::string to_table(const RunReport& report) {
   std::size_t width = 0;
   for (const auto& figure : report.figures()) width = std::max(width, figure.title.size());
   std::string table;
   for (const auto& figure : report.figures()) {
-    const double* value = std::get_if<double>(&figure.value);
-    std::string shown = value ? number_text(*value) : std::get<std::string>(figure.value);
-    table += fmt::format("  {:<{}}  {}", figure.title, width, shown);
+    table += fmt::format("  {:<{}}  {}", figure.title, width,
+                         std::visit([](const auto& value) { return shown(value); }, figure.value));
     if (figure.goal) {
       table += fmt::format("   goal {:g}  {}", figure.goal->limit, figure.met ? "met" : "MISSED");
     }
+    if (!figure.unmeasured.empty()) table += "   not measured: " + figure.unmeasured;
     table += '\n';
   }
   table += fmt::format("  {:<{}}  {}\n", "status", width, report.status());
+  if (!report.story_reason().empty()) table += fmt::format("    {}\n", report.story_reason());
   for (const auto& reason : report.reasons()) table += fmt::format("    {}\n", reason);
   return table;
 }

@@ -17,8 +17,9 @@ class RunReport final : public Summary {
  public:
   struct Figure {
     std::string key, title;
-    std::variant<double, std::string> value;
-    const Goal* goal = nullptr;  // of a metric that the deployment set a limit for
+    std::variant<double, std::vector<double>, std::string> value;
+    std::string unmeasured = {};  // why the value is none, or ""
+    const Goal* goal = nullptr;   // of a metric that the deployment set a limit for
     bool met = true;
   };
 
@@ -32,28 +33,35 @@ class RunReport final : public Summary {
   RunReport(const Deployment& deployment, const Ending& ending);
 
   void metric(std::string key, std::string title, double value) override;
+  void series(std::string key, std::string title, std::vector<double> values) override;
   void text(std::string key, std::string title, std::string value) override;
-  void failed(std::string status) override;
+  void not_measured(std::string key, std::string title, std::string why) override;
+  void failed(std::string status, std::string reason) override;
 
   /// "ok", "goals_missed", "fault", or what a component gave for the story's failure
   /// ("face_not_found").
   const std::string& status() const { return status_; }
-  /// Why, when it is not ok: a line per cause.
+  /// Why the story did not come to its end, as the component says that followed it, or "".
+  const std::string& story_reason() const { return story_reason_; }
+  /// What else is not ok: a line per goal, fault or lost process.
   const std::vector<std::string>& reasons() const { return reasons_; }
   const std::vector<Figure>& figures() const { return figures_; }
 
  private:
+  void expect_declared(const std::string& key);
+  void judge_goal(const Goal& goal);
   void judge(const Deployment& deployment, const Ending& ending);
 
   const ComponentConfig* speaker_ = nullptr;  // the component that is being asked
   std::string defect_;                        // of a plugin that reports what it does not declare
   std::vector<Figure> figures_;
-  std::string story_status_;
+  std::string story_status_, story_reason_;
   std::string status_ = "ok";
   std::vector<std::string> reasons_;
 };
 
-/// One JSON object, `status` first, figures in order; numbers as the shortest text that reads back
+/// One JSON object: `status` first, `reason` of a story that failed, figures in order, why any of
+/// them is null under `not_measured`, and `reasons`; numbers as the shortest text that reads back
 /// the same.
 std::string to_json(const RunReport& report);
 /// The closing table for people.

@@ -8,6 +8,7 @@
 #include "armature/messages/header.hpp"
 #include "armature/messages/std_msgs.hpp"
 #include "armature/robot/kinematics.hpp"
+#include "armature/runtime/built_plugins.hpp"
 #include "armature/runtime/component_bench.hpp"
 
 namespace armature {
@@ -15,11 +16,6 @@ namespace {
 
 constexpr double kPeriod_s = 0.001;
 const std::string kLamp = ARMATURE_SOURCE_DIR "/configs/robots/dental_lamp.yaml";
-
-PluginRegistry& plugins() {
-  static PluginRegistry registry{{ARMATURE_PLUGIN_BUILD_DIR}};
-  return registry;
-}
 
 class SimulatedArmComponentTest : public testing::Test {
  protected:
@@ -42,7 +38,8 @@ class SimulatedArmComponentTest : public testing::Test {
   const RobotModel lamp_ = load_robot_model(kLamp);
   const JointVector home_ = resting_position(lamp_), still_ = JointVector::Zero(5);
   ComponentBench arm_{
-      plugins(), {.component = "{plugin: arm/simulated}", .robot = config::load(kLamp), .rig = {}}};
+      built_plugins(),
+      {.component = "{plugin: arm/simulated}", .robot = config::load(kLamp), .rig = {}}};
   double now_s_ = 5;
   msg::JointState measured_;
   std::string state_;
@@ -50,7 +47,7 @@ class SimulatedArmComponentTest : public testing::Test {
 
 TEST_F(SimulatedArmComponentTest, RunsAtItsRate) {
   EXPECT_EQ(arm_.period(), seconds(0.001));
-  const ComponentBench slow{plugins(),
+  const ComponentBench slow{built_plugins(),
                             {.component = "{plugin: arm/simulated, params: {rate_hz: 250}}",
                              .robot = config::load(kLamp),
                              .rig = {}}};
@@ -249,13 +246,9 @@ TEST(SimulatedArmComponent, DoesNotStartWithARobotThatNamesNoHome) {
       "{armature_robot: 1, name: one, joints: [{name: j1, a_m: 1, limits_deg: [-90, 90], "
       "velocity_rad_s: 1, acceleration_rad_s2: 1}], frames: {tool: {parent: j1}}}",
       "one.yaml");
-  try {
-    ComponentBench arm{plugins(),
-                       {.component = "{plugin: arm/simulated}", .robot = robot, .rig = {}}};
-    ADD_FAILURE() << "it was made";
-  } catch (const SetupError& error) {
-    EXPECT_STREQ(error.what(), "robot one names no home_deg to start from");
-  }
+  EXPECT_EQ(refusal_of(built_plugins(),
+                       {.component = "{plugin: arm/simulated}", .robot = robot, .rig = {}}),
+            "robot one names no home_deg to start from");
 }
 
 }  // namespace

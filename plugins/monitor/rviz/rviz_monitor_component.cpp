@@ -25,7 +25,8 @@ FrameTree tree_of(const Params& params, const RobotModel& model,
                              .world = params.text("world_frame")};
   options.world_T_base = pose_of(params, "base_position_m", "base_rpy_deg");
   if (options.world.empty() && !options.world_T_base.isApprox(Eigen::Isometry3d::Identity())) {
-    throw SetupError("base_position_m and base_rpy_deg place base in world_frame: name one");
+    params.refuse({"base_position_m", "base_rpy_deg"},
+                  "'base_position_m' and 'base_rpy_deg' place base in 'world_frame': name one");
   }
   auto tree = FrameTree::make(model, rig, std::move(options));
   if (!tree) throw SetupError(tree.error().text);

@@ -31,6 +31,9 @@ class NeedlePaths : public PathLaws {
   Vector3d along_, entry_;
 };
 INSTANTIATE_TEST_SUITE_P(Needle, NeedlePaths, testing::Values(PathSubject{"needle", needle()}));
+INSTANTIATE_TEST_SUITE_P(Needle, PathLaws,
+                         testing::Values(PathSubject{
+                             .name = "needle", .planner = needle(), .along_a_line = true}));
 
 TEST_P(NeedlePaths, GoToTheStandOffStopAtTheEntryAndEndAtTheTargetOnOneLine) {
   SCOPED_TRACE("seed 17");
@@ -136,6 +139,8 @@ TEST_P(NeedlePaths, WhatWouldHurtIsRefused) {
       refusal([&](auto& r) { r.start.position = entry_ + 0.02 * along_ + 0.01 * side; }),
       "the tip is 20.0 mm past the entry and 10.0 mm beside the line: it has to be drawn back "
       "first");
+  EXPECT_EQ(refusal([&](auto& r) { r.goal.position = entry_ + 60 * along_; }),
+            "the way along the line is 60.05 m, more than 50000 steps of 1 mm (step_mm)");
   EXPECT_EQ(refusal([](auto& r) { r.goal.position.x() = NAN; }),
             "the goal's position is not finite");
   EXPECT_EQ(refusal([](auto& r) {

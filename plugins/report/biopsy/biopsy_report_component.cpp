@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
 #include <numbers>
 #include <optional>
 #include <string>
 
+#include "armature/kinds/registration_dialogue.hpp"
 #include "armature/kinds/setup_robot.hpp"
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/geometry.hpp"
@@ -31,7 +34,7 @@ class BiopsyReport final : public Component {
         still_for_{seconds(setup.params().number("still_for_s"))},
         plan_{setup.input<msg::NeedlePlan>("plan")},
         truth_{setup.input<msg::TransformStamped>("truth")},
-        registration_{setup.input<msg::RegistrationResponse>("registration")},
+        registration_{setup},
         measured_js_{setup.input<msg::JointState>("measured_js")},
         task_state_{setup.input<msg::TaskState>("task_state")} {
     setup.activate_every(kPeriod);
@@ -39,7 +42,7 @@ class BiopsyReport final : public Component {
 
   void step(Time now) override {
     if (!start_) start_ = now;
-    for (std::size_t i = 0; i < registration_.size(); ++i) read(registration_[i]);
+    registration_.listen([&](const msg::RegistrationResponse& response) { read(response); });
     for (std::size_t i = 0; i < measured_js_.size(); ++i) read(measured_js_[i]);
     for (std::size_t i = 0; i < task_state_.size(); ++i) read(task_state_[i], now);
     finished_ = refused_ || (at_target_since_ && now - *at_target_since_ >= still_for_);
@@ -48,7 +51,7 @@ class BiopsyReport final : public Component {
   bool finished() const override { return finished_; }
 
   void summarize(Summary& summary) const override {
-    if (refused_) summary.failed("refused");
+    if (refused_) summary.failed("refused", trouble_);
     const auto metric = [&](const char* key, const char* title, std::optional<double> value,
                             double unit = 1) {
       if (value) summary.metric(key, title, *value * unit);
@@ -59,9 +62,7 @@ class BiopsyReport final : public Component {
     if (const auto& needle = monitor_.needle()) {
       metric("predicted_target_error_rms_mm", "its expected rms [mm]", needle->error_rms_m, 1e3);
       metric("predicted_target_error_95_mm", "95 of 100 are below [mm]", needle->error_95_m, 1e3);
-      if (error && needle->error_95_m > 0) {
-        metric("target_error_of_bound", "error as a part of that", *error / needle->error_95_m);
-      }
+      if (error) tell_part(summary, *error, needle->error_95_m);
       metric("fiducial_error_mm", "the markers' fit, rms [mm]", needle->fiducial_error_m, 1e3);
     }
     metric("line_deviation_mm", "farthest off the line inside [mm]", monitor_.line_deviation_m(),
@@ -72,6 +73,17 @@ class BiopsyReport final : public Component {
   }
 
  private:
+  /// A bound of rounding errors makes no ratio.
+  static void tell_part(Summary& summary, double error_m, double bound_m) {
+    constexpr const char *kKey = "target_error_of_bound", *kTitle = "error as a part of that";
+    constexpr double kLeastBound_m = 1e-6;
+    if (bound_m >= kLeastBound_m) return summary.metric(kKey, kTitle, error_m / bound_m);
+    summary.not_measured(kKey, kTitle,
+                         fmt::format("the registration expects an error of {:.1g} mm, which is "
+                                     "none",
+                                     1e3 * bound_m));
+  }
+
   /// None until the task said that the needle is there.
   std::optional<double> target_error_m() const {
     if (!time_to_target_s_ || !plan_.latest() || !truth_.latest() || !monitor_.tip()) return {};
@@ -80,7 +92,7 @@ class BiopsyReport final : public Component {
   }
 
   void read(const msg::RegistrationResponse& response) {
-    if (!response.valid_() || response.targets_().size() < 2) return;
+    if (response.targets_().size() < 2) return;
     const msg::RegisteredTarget& target = response.targets_()[0];
     monitor_.see_registration({.entry = to_eigen(response.targets_()[1].position_()),
                                .target = to_eigen(target.position_()),
@@ -109,6 +121,7 @@ class BiopsyReport final : public Component {
 
   void read(const msg::TaskState& state, Time now) {
     refused_ = state.state_() == "refused";
+    trouble_ = state.detail_();
     if (state.state_() != "at target") {
       at_target_since_.reset();
       return;
@@ -123,10 +136,11 @@ class BiopsyReport final : public Component {
   InsertionMonitor monitor_;
   std::optional<Time> start_, at_target_since_;
   std::optional<double> time_to_target_s_;
+  std::string trouble_;
   bool refused_ = false, finished_ = false;
   Input<msg::NeedlePlan> plan_;
   Input<msg::TransformStamped> truth_;
-  Input<msg::RegistrationResponse> registration_;
+  OverheardRegistration registration_;
   Input<msg::JointState> measured_js_;
   Input<msg::TaskState> task_state_;
 };

@@ -1,33 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// The report of a biopsy on its topics: 1. the figures, 2. when the story ends, 3. bad samples.
+// The report of a biopsy on its topics: 1. the figures, of the task's registration, 2. when the
+// story ends, 3. bad samples.
 #include <gtest/gtest.h>
 
-#include <map>
+#include <cstdint>
 
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/geometry.hpp"
 #include "armature/messages/header.hpp"
 #include "armature/messages/sensor_msgs.hpp"
 #include "armature/robot/kinematics.hpp"
+#include "armature/runtime/built_plugins.hpp"
 #include "armature/runtime/component_bench.hpp"
 
 namespace armature {
 namespace {
-
-PluginRegistry& plugins() {
-  static PluginRegistry registry{{ARMATURE_PLUGIN_BUILD_DIR}};
-  return registry;
-}
-
-class Figures final : public Summary {
- public:
-  void metric(std::string key, std::string, double value) override { metrics[key] = value; }
-  void text(std::string, std::string, std::string) override {}
-  void failed(std::string why) override { status = why; }
-
-  std::map<std::string, double> metrics;
-  std::string status;
-};
 
 class BiopsyReportTest : public testing::Test {
  protected:
@@ -40,14 +27,22 @@ class BiopsyReportTest : public testing::Test {
     robot_T_image.translation() = tip_ - Eigen::Vector3d{0.0004, 0, -0.03};  // 0.4 mm beside
     assign(truth.transform_(), robot_T_image);
     report_.send("truth", truth);
+    msg::RegistrationRequest request;
+    request.request_id_(7);
+    report_.send("request", request);
+    answer(7);
+    answer(8, 10);  // to somebody else
+  }
+  void answer(std::uint64_t id, double times = 1) {
     msg::RegistrationResponse response;
+    response.request_id_(id);
     response.valid_(true);
-    response.fre_(0.0003);
+    response.fre_(times * 0.0003);
     response.targets_().resize(2);
     assign(response.targets_()[0].position_(), tip_);
     assign(response.targets_()[1].position_(), tip_ - 0.08 * down_);
-    response.targets_()[0].error_rms_(0.0005);
-    response.targets_()[0].error_95_(0.0008);
+    response.targets_()[0].error_rms_(times * 0.0005);
+    response.targets_()[0].error_95_(times * 0.0008);
     report_.send("registration", response);
   }
   void move_arm() { send_arm(resting_position(robot_)); }
@@ -57,22 +52,18 @@ class BiopsyReportTest : public testing::Test {
     state.position_().assign(all.begin(), all.end());
     report_.send("measured_js", state);
   }
-  void tell(const std::string& state) {
+  void tell(const std::string& state, const std::string& detail = "") {
     msg::TaskState message;
     message.state_() = state;
+    message.detail_() = detail;
     report_.send("task_state", message);
-  }
-  Figures figures() {
-    Figures figures;
-    report_.component().summarize(figures);
-    return figures;
   }
 
   const RobotModel robot_ = load_robot_model(ARMATURE_SOURCE_DIR "/configs/robots/sr1_needle.yaml");
   const Eigen::Isometry3d home_ = forward_kinematics(robot_, resting_position(robot_));
   const Eigen::Vector3d tip_ = home_.translation(), down_ = home_.linear().col(2);
   ComponentBench report_{
-      plugins(),
+      built_plugins(),
       {.component = "{plugin: report/biopsy}",
        .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/sr1_needle.yaml"),
        .rig = {}}};
@@ -83,13 +74,13 @@ TEST_F(BiopsyReportTest, TellsTheErrorsAgainstTruthAndExpectation) {
   move_arm();
   tell("inserting");
   report_.step(1);
-  EXPECT_FALSE(figures().metrics.contains("target_error_mm")) << "it is not there yet";
+  EXPECT_FALSE(report_.figures().metrics.contains("target_error_mm")) << "it is not there yet";
   tell("at target");
   report_.step(5);
   EXPECT_FALSE(report_.component().finished());
   report_.step(5.5);
   EXPECT_TRUE(report_.component().finished());
-  auto told = figures();
+  auto told = report_.figures();
   EXPECT_EQ(told.status, "");
   EXPECT_NEAR(told.metrics.at("time_to_target_s"), 4, 1e-9);
   EXPECT_NEAR(told.metrics.at("target_error_mm"), 0.4, 1e-9);
@@ -100,6 +91,17 @@ TEST_F(BiopsyReportTest, TellsTheErrorsAgainstTruthAndExpectation) {
   EXPECT_FALSE(told.metrics.contains("line_deviation_mm")) << "it did not come by the entry";
 }
 
+TEST_F(BiopsyReportTest, OfAnErrorThatNobodyExpectsNothingIsAPart) {
+  show_head();
+  answer(7, 0);
+  move_arm();
+  tell("at target");
+  report_.step(1);
+  EXPECT_FALSE(report_.figures().metrics.contains("target_error_of_bound"));
+  EXPECT_EQ(report_.figures().unmeasured.at("target_error_of_bound"),
+            "the registration expects an error of 0 mm, which is none");
+}
+
 TEST_F(BiopsyReportTest, TellsHowStraightTheNeedleWentIn) {
   show_head();
   for (const double depth : {0.0, 0.03, 0.08}) {  // the needle's joint alone moves
@@ -108,18 +110,19 @@ TEST_F(BiopsyReportTest, TellsHowStraightTheNeedleWentIn) {
     send_arm(q);
   }
   report_.step(1);
-  auto told = figures();
+  auto told = report_.figures();
   EXPECT_NEAR(told.metrics.at("line_deviation_mm"), 0, 1e-9);
   EXPECT_NEAR(told.metrics.at("line_tilt_deg"), 0, 1e-9);
   EXPECT_EQ(told.metrics.at("other_joints_deg"), 0);
 }
 
 TEST_F(BiopsyReportTest, ARefusedBiopsyEndsTheRun) {
-  tell("refused");
+  tell("refused", "the markers lie nearly on one line");
   report_.step(1);
   EXPECT_TRUE(report_.component().finished());
-  EXPECT_EQ(figures().status, "refused");
-  EXPECT_FALSE(figures().metrics.contains("target_error_mm"));
+  EXPECT_EQ(report_.figures().status, "refused");
+  EXPECT_EQ(report_.figures().reason, "the markers lie nearly on one line");
+  EXPECT_FALSE(report_.figures().metrics.contains("target_error_mm"));
 }
 
 TEST_F(BiopsyReportTest, ASampleThatIsNoPositionIsSaid) {

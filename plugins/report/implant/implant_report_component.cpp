@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "armature/kinds/chain_messages.hpp"
+#include "armature/kinds/registration_dialogue.hpp"
 #include "armature/kinds/registration_messages.hpp"
 #include "armature/kinds/setup_flange.hpp"
 #include "armature/kinds/setup_robot.hpp"
@@ -44,12 +47,14 @@ class ImplantReport final : public Component {
       : Component{setup},
         robot_{robot_of(setup)},
         flange_{flange_of(robot_).frame},
-        depth_m_{setup.params().number("depth_mm")},
+        bore_settings_{.depth_m = setup.params().number("depth_mm"),
+                       .near_m = setup.params().number("near_mm")},
+        least_turn_rad_{setup.params().number("least_turn_deg")},
         still_for_{seconds(setup.params().number("still_for_s"))},
         plan_{setup.input<msg::ImplantPlan>("plan")},
         truth_{setup.input<msg::TFMessage>("truth")},
         estimate_{setup.input<msg::TFMessage>("estimate")},
-        registration_{setup.input<msg::RegistrationResponse>("registration")},
+        registration_{setup},
         measured_js_{setup.input<msg::JointState>("measured_js")},
         task_state_{setup.input<msg::TaskState>("task_state")} {
     setup.activate_every(kPeriod);
@@ -57,9 +62,9 @@ class ImplantReport final : public Component {
 
   void step(Time now) override {
     if (!start_) start_ = now;
-    for (std::size_t i = 0; i < registration_.size(); ++i) {
-      if (registration_[i].valid_()) jaw_T_image_ = robot_T_image_of(registration_[i]);
-    }
+    registration_.listen([&](const msg::RegistrationResponse& response) {
+      jaw_T_image_ = robot_T_image_of(response);
+    });
     read_chains();
     for (std::size_t i = 0; i < task_state_.size(); ++i) read(task_state_[i], now);
     for (std::size_t i = 0; i < measured_js_.size(); ++i) read(measured_js_[i]);
@@ -69,7 +74,7 @@ class ImplantReport final : public Component {
   bool finished() const override { return finished_; }
 
   void summarize(Summary& summary) const override {
-    if (state_ == "refused") summary.failed("refused");
+    if (state_ == "refused") summary.failed("refused", trouble_);
     if (state_ == "drilled") tell_drilling(summary);
     summary.metric("final_speed_rad_s", "speed of the fastest joint at the end [rad/s]", speed_);
   }
@@ -78,8 +83,24 @@ class ImplantReport final : public Component {
   void tell_drilling(Summary& summary) const {
     summary.metric("time_to_drilled_s", "time until all sites are drilled [s]",
                    to_seconds(*ended_at_ - *start_));
-    tell_errors(summary);
+    if (const auto missed = site_without_bore()) {
+      summary.not_measured(
+          "site_error_mm", "error of the tip at the worst site [mm]",
+          fmt::format("the drill was never within {:g} mm of the axis of site {}, 'near_mm'",
+                      kMillimetres * bore_settings_.near_m, *missed));
+    } else if (bores_) {
+      tell_errors(summary);
+    }
     tell_smoothness(summary);
+  }
+
+  /// From 1.
+  std::optional<std::size_t> site_without_bore() const {
+    if (!bores_) return std::nullopt;
+    const auto& bores = bores_->bores();
+    const auto missed = std::ranges::find_if(bores, [](const Bore& bore) { return !bore.error; });
+    if (missed == bores.end()) return std::nullopt;
+    return missed - bores.begin() + 1;
   }
 
   void read_chains() {
@@ -90,14 +111,15 @@ class ImplantReport final : public Component {
     true_chain_ = *truth;
     chain_ = *estimate;
     chain_->patient_T_image = *jaw_T_image_;
-    if (!bores_.empty()) return;
-    for (const msg::Pose& site : plan_.latest()->sites_()) {
-      bores_.emplace_back(to_eigen(site), depth_m_);
-    }
+    if (bores_) return;
+    std::vector<Eigen::Isometry3d> sites;
+    for (const msg::Pose& site : plan_.latest()->sites_()) sites.push_back(to_eigen(site));
+    bores_.emplace(sites, bore_settings_);
   }
 
   void read(const msg::TaskState& state, Time now) {
     state_ = state.state_();
+    trouble_ = state.detail_();
     const bool ended = state_ == "drilled" || state_ == "refused";
     if (ended && !ended_at_) ended_at_ = now;
   }
@@ -108,38 +130,37 @@ class ImplantReport final : public Component {
     if (!q || !v) return degraded("measured_js: " + (q ? v : q).error().text);
     healthy();
     speed_ = v->cwiseAbs().maxCoeff();
-    if (!chain_) return;
+    if (!bores_) return;
     const PoseAndJacobian flange = forward_kinematics_with_jacobian(robot_, *q, flange_);
-    for (BoreMonitor& bore : bores_) bore.see(flange.base_T_frame, *chain_, true_chain_);
+    bores_->see(flange.base_T_frame, *chain_, true_chain_);
     if (state_ != "drilling") return;
     const Eigen::VectorXd twist = flange.jacobian * *v;
     smoothness_.see(stamp_of(state.header_().stamp_()), twist.tail<3>());
   }
 
   void tell_errors(Summary& summary) const {
-    std::string each;
+    std::vector<double> each_mm;
     std::vector<Vector3d> errors, registration, hand_eye, tool, tracker;
-    double worst = 0, angle = 0, unexplained = 0, off = 0, tilt = 0;
-    for (const BoreMonitor& bore : bores_) {
-      if (!bore.error()) return;
-      const ErrorBudget budget = error_budget(*chain_, true_chain_, bore.image_T_site());
-      errors.push_back(*bore.error());
+    double angle = 0, unexplained = 0, off = 0, tilt = 0;
+    for (const Bore& bore : bores_->bores()) {
+      const ErrorBudget budget = error_budget(*chain_, true_chain_, bore.image_T_site);
+      errors.push_back(*bore.error);
       registration.push_back(budget.registration);
       hand_eye.push_back(budget.hand_eye);
       tool.push_back(budget.tool);
       tracker.push_back(budget.tracker);
-      each += fmt::format("{}{:.3f}", each.empty() ? "" : ", ", 1e3 * errors.back().norm());
-      worst = std::max(worst, errors.back().norm());
-      angle = std::max(angle, bore.axis_error_rad());
-      unexplained = std::max(unexplained, (errors.back() - budget.sum()).norm());
-      off = std::max(off, bore.line_deviation_m());
-      tilt = std::max(tilt, bore.line_tilt_rad());
+      each_mm.push_back(kMillimetres * bore.error->norm());
+      angle = std::max(angle, bore.axis_error_rad);
+      unexplained = std::max(unexplained, (*bore.error - budget.sum()).norm());
+      off = std::max(off, bore.line_deviation_m);
+      tilt = std::max(tilt, bore.line_tilt_rad);
     }
     const auto millimetres = [&](const char* key, const char* title, double metres) {
       summary.metric(key, title, kMillimetres * metres);
     };
-    summary.text("site_errors_mm", "error of the tip at each site [mm]", each);
-    millimetres("site_error_mm", "  at the worst [mm]", worst);
+    const double worst_mm = std::ranges::max(each_mm);
+    summary.series("site_errors_mm", "error of the tip at each site [mm]", std::move(each_mm));
+    summary.metric("site_error_mm", "  at the worst [mm]", worst_mm);
     millimetres("site_error_rms_mm", "  rms over the sites [mm]", rms(errors));
     summary.metric("site_angle_deg", "  angle of the drill at the worst [deg]", kDegrees * angle);
     millimetres("registration_error_mm", "  by the registration, rms [mm]", rms(registration));
@@ -161,26 +182,35 @@ class ImplantReport final : public Component {
             smoothness_.peak_velocity());
     degrees("peak_angular_acceleration_deg_s2", "peak angular acceleration [deg/s2]",
             smoothness_.peak_acceleration());
-    summary.metric("acceleration_jump_of_peak", "its largest step as a part of that",
-                   smoothness_.acceleration_jump_of_peak());
+    constexpr const char *kJump = "acceleration_jump_of_peak",
+                         *kTitle = "its largest step as a part of that";
+    if (smoothness_.total_rad() >= least_turn_rad_) {
+      return summary.metric(kJump, kTitle, smoothness_.acceleration_jump_of_peak());
+    }
+    summary.not_measured(
+        kJump, kTitle,
+        fmt::format("the drill turned by {:.2g} degrees in all, 'least_turn_deg' "
+                    "is {:g}",
+                    kDegrees * smoothness_.total_rad(), kDegrees * least_turn_rad_));
   }
 
   RobotModel robot_;
   FrameId flange_;
-  double depth_m_;
+  BoreSettings bore_settings_;
+  double least_turn_rad_;
   Duration still_for_;
   std::optional<Time> start_, ended_at_;
   std::optional<Eigen::Affine3d> jaw_T_image_;
   GuidedChain true_chain_;
   std::optional<GuidedChain> chain_;
-  std::vector<BoreMonitor> bores_;
+  std::optional<BoreMonitor> bores_;
   Smoothness smoothness_;
-  std::string state_;
+  std::string state_, trouble_;
   double speed_ = 0;
   bool finished_ = false;
   Input<msg::ImplantPlan> plan_;
   Input<msg::TFMessage> truth_, estimate_;
-  Input<msg::RegistrationResponse> registration_;
+  OverheardRegistration registration_;
   Input<msg::JointState> measured_js_;
   Input<msg::TaskState> task_state_;
 };

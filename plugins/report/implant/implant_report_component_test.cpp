@@ -3,13 +3,14 @@
 // drilling, 4. nothing before its time.
 #include <gtest/gtest.h>
 
-#include <map>
+#include <cstdint>
 
 #include "armature/kinds/chain_messages.hpp"
 #include "armature/kinds/setup_flange.hpp"
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/sensor_msgs.hpp"
 #include "armature/robot/kinematics.hpp"
+#include "armature/runtime/built_plugins.hpp"
 #include "armature/runtime/component_bench.hpp"
 
 namespace armature {
@@ -17,22 +18,6 @@ namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
-
-PluginRegistry& plugins() {
-  static PluginRegistry registry{{ARMATURE_PLUGIN_BUILD_DIR}};
-  return registry;
-}
-
-class Figures final : public Summary {
- public:
-  void metric(std::string key, std::string, double value) override { metrics[key] = value; }
-  void text(std::string key, std::string, std::string value) override { texts[key] = value; }
-  void failed(std::string why) override { status = why; }
-
-  std::map<std::string, double> metrics;
-  std::map<std::string, std::string> texts;
-  std::string status;
-};
 
 /// A true drill that is 0.3 mm longer than it was found, at a site where it comes to when the arm
 /// is at home.
@@ -54,9 +39,17 @@ class ImplantReportTest : public testing::Test {
     write_chain(estimate_, Time{}, estimate);
     report_.send("truth", truth);
     report_.send("estimate", estimate);
+    msg::RegistrationRequest request;
+    request.request_id_(7);
+    report_.send("request", request);
+    answer(7, 0);
+    answer(8, 0.005);  // to somebody else
+  }
+  void answer(std::uint64_t id, double x_m) {
     msg::RegistrationResponse response;
+    response.request_id_(id);
     response.valid_(true);
-    response.robot_t_image_({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0});
+    response.robot_t_image_({1, 0, 0, x_m, 0, 1, 0, 0, 0, 0, 1, 0});
     report_.send("registration", response);
   }
   void move_arm(double t_s, const JointVector& v) {
@@ -66,22 +59,18 @@ class ImplantReportTest : public testing::Test {
     state.velocity_().assign(v.begin(), v.end());
     report_.send("measured_js", state);
   }
-  void tell(const std::string& state) {
+  void tell(const std::string& state, const std::string& detail = "") {
     msg::TaskState message;
     message.state_() = state;
+    message.detail_() = detail;
     report_.send("task_state", message);
-  }
-  Figures figures() {
-    Figures figures;
-    report_.component().summarize(figures);
-    return figures;
   }
 
   const RobotModel robot_ = load_robot_model(ARMATURE_SOURCE_DIR "/configs/robots/med7.yaml");
   const JointVector home_ = resting_position(robot_), rest_ = JointVector::Zero(7);
   const Flange mount_ = flange_of(robot_);
   GuidedChain truth_, estimate_;
-  ComponentBench report_{plugins(),
+  ComponentBench report_{built_plugins(),
                          {.component = "{plugin: report/implant}",
                           .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/med7.yaml"),
                           .rig = {}}};
@@ -93,15 +82,16 @@ TEST_F(ImplantReportTest, TellsTheErrorAtTheSitesAndWhereItIsFrom) {
   report_.step(1);
   move_arm(1.1, rest_);
   report_.step(2);
-  EXPECT_TRUE(figures().texts.empty()) << "it is not done yet";
+  EXPECT_TRUE(report_.figures().lists.empty()) << "it is not done yet";
   tell("drilled");
   report_.step(5);
   EXPECT_FALSE(report_.component().finished());
   report_.step(5.5);
   EXPECT_TRUE(report_.component().finished());
-  auto told = figures();
+  auto told = report_.figures();
   EXPECT_EQ(told.status, "");
-  EXPECT_EQ(told.texts.at("site_errors_mm"), "0.300");
+  ASSERT_EQ(told.lists.at("site_errors_mm").size(), 1u);
+  EXPECT_NEAR(told.lists.at("site_errors_mm")[0], 0.3, 1e-9);
   EXPECT_NEAR(told.metrics.at("time_to_drilled_s"), 4, 1e-9);
   EXPECT_NEAR(told.metrics.at("site_error_mm"), 0.3, 1e-9);
   EXPECT_NEAR(told.metrics.at("site_error_rms_mm"), 0.3, 1e-9);
@@ -128,7 +118,7 @@ TEST_F(ImplantReportTest, TellsHowTheDrillTurnedOnItsWayThroughTheSites) {
   report_.step(2);
   tell("drilled");
   report_.step(5);
-  auto told = figures().metrics;
+  auto told = report_.figures().metrics;
   EXPECT_NEAR(told.at("total_rotation_deg"), 0.2 * 180 / M_PI, 1e-9);
   EXPECT_NEAR(told.at("peak_angular_velocity_deg_s"), 180 / M_PI, 1e-9);
   EXPECT_NEAR(told.at("peak_angular_acceleration_deg_s2"), 10 * 180 / M_PI, 1e-6);
@@ -139,14 +129,15 @@ TEST_F(ImplantReportTest, TellsHowTheDrillTurnedOnItsWayThroughTheSites) {
 TEST_F(ImplantReportTest, ARefusedDrillingEndsTheRunOnceTheArmHadTimeToHold) {
   show_room();
   move_arm(0.9, rest_);
-  tell("refused");
+  tell("refused", "the jaw has moved by 2 mm");
   report_.step(1);
   EXPECT_FALSE(report_.component().finished());
   report_.step(1.5);
   EXPECT_TRUE(report_.component().finished());
-  EXPECT_EQ(figures().status, "refused");
-  EXPECT_FALSE(figures().metrics.contains("site_error_mm"));
-  EXPECT_EQ(figures().metrics.at("final_speed_rad_s"), 0);
+  EXPECT_EQ(report_.figures().status, "refused");
+  EXPECT_EQ(report_.figures().reason, "the jaw has moved by 2 mm");
+  EXPECT_FALSE(report_.figures().metrics.contains("site_error_mm"));
+  EXPECT_EQ(report_.figures().metrics.at("final_speed_rad_s"), 0);
 }
 
 TEST_F(ImplantReportTest, ASiteThatTheDrillNeverCameToHasNoError) {
@@ -154,7 +145,25 @@ TEST_F(ImplantReportTest, ASiteThatTheDrillNeverCameToHasNoError) {
   tell("drilled");
   report_.step(1);
   report_.step(2);
-  EXPECT_FALSE(figures().metrics.contains("site_error_mm"));
+  EXPECT_FALSE(report_.figures().metrics.contains("site_error_mm"));
+  EXPECT_EQ(report_.figures().unmeasured.at("site_error_mm"),
+            "the drill was never within 2 mm of the axis of site 1, 'near_mm'");
+}
+
+TEST_F(ImplantReportTest, OfADrillThatHardlyTurnsNoStepIsToldOfItsAcceleration) {
+  show_room();
+  tell("drilling");
+  report_.step(1);
+  JointVector wobble = rest_;
+  for (int i = 0; i < 10; ++i) {
+    wobble[6] = i % 2 ? 1e-9 : -1e-9;
+    move_arm(1 + 0.001 * i, wobble);
+  }
+  tell("drilled");
+  report_.step(2);
+  EXPECT_FALSE(report_.figures().metrics.contains("acceleration_jump_of_peak"));
+  const std::string why = report_.figures().unmeasured.at("acceleration_jump_of_peak");
+  EXPECT_NE(why.find("degrees in all, 'least_turn_deg' is 1"), std::string::npos) << why;
 }
 
 TEST_F(ImplantReportTest, ASampleThatIsNoPositionAndAChainThatIsNoneAreSaid) {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
 #include <numbers>
 #include <optional>
 #include <string>
@@ -80,7 +82,10 @@ class LampReport : public Component {
   bool finished() const override { return monitor_.finished(); }
 
   void summarize(Summary& summary) const override {
-    if (monitor_.face_not_found()) summary.failed("face_not_found");
+    if (monitor_.face_not_found()) {
+      summary.failed("face_not_found",
+                     fmt::format("no face was seen for {:g} s", goals_.search_timeout_s));
+    }
     const auto metric = [&](const char* key, const char* title, std::optional<double> value) {
       if (value) summary.metric(key, title, *value);
     };

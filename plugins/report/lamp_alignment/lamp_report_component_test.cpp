@@ -9,6 +9,7 @@
 #include "armature/kinds/target/target_messages.hpp"
 #include "armature/messages/sensor_msgs.hpp"
 #include "armature/robot/kinematics.hpp"
+#include "armature/runtime/built_plugins.hpp"
 #include "armature/runtime/component_bench.hpp"
 
 namespace armature {
@@ -18,22 +19,6 @@ using Eigen::Vector3d;
 
 constexpr double kPeriod_s = 0.02;
 const std::string kLamp = ARMATURE_SOURCE_DIR "/configs/robots/dental_lamp.yaml";
-
-PluginRegistry& plugins() {
-  static PluginRegistry registry{{ARMATURE_PLUGIN_BUILD_DIR}};
-  return registry;
-}
-
-class Figures final : public Summary {
- public:
-  std::map<std::string, double> metrics;
-  std::map<std::string, std::string> texts;
-  std::string status = "ok";
-
-  void metric(std::string key, std::string, double value) override { metrics[key] = value; }
-  void text(std::string key, std::string, std::string value) override { texts[key] = value; }
-  void failed(std::string text) override { status = text; }
-};
 
 /// The lamp stands at `q_`, exactly 50 cm in front of a face that looks back at it.
 class LampReportTest : public ::testing::Test {
@@ -68,13 +53,8 @@ class LampReportTest : public ::testing::Test {
     goal.has_focus_(true);
     report_.send("goal", goal);
   }
-  Figures figures() {
-    Figures told;
-    report_.component().summarize(told);
-    return told;
-  }
   static ComponentBench report_with(const std::string& params) {
-    return {plugins(),
+    return {built_plugins(),
             {.component = "{plugin: report/lamp_alignment, params: {" + params + "}}",
              .robot = config::load(kLamp),
              .rig = {}}};
@@ -98,8 +78,8 @@ TEST_F(LampReportTest, TellsTheFiguresOfALampThatIsAligned) {
   EXPECT_FALSE(report_.component().finished());
   run(0.6);
   EXPECT_TRUE(report_.component().finished());
-  const Figures told = figures();
-  EXPECT_EQ(told.status, "ok");
+  const Figures told = report_.figures();
+  EXPECT_EQ(told.status, "");
   EXPECT_NEAR(told.metrics.at("time_to_find_s"), 0.08, 1e-9);
   EXPECT_NEAR(told.metrics.at("time_to_align_s"), 1.02, 0.1);
   EXPECT_NEAR(told.metrics.at("mouth_position_error_mm"), 1, 1e-6);
@@ -114,22 +94,22 @@ TEST_F(LampReportTest, TellsTheFiguresOfALampThatIsAligned) {
 
 TEST_F(LampReportTest, HoldsTheDistanceAgainstTheNewestGoalForAFace) {
   tick();
-  EXPECT_NEAR(figures().metrics.at("distance_error_mm"), 0, 1e-6);
+  EXPECT_NEAR(report_.figures().metrics.at("distance_error_mm"), 0, 1e-6);
   ask_for(truth_ + 0.45 * normal_, truth_);
   tick();
-  EXPECT_NEAR(figures().metrics.at("distance_error_mm"), 50, 1e-6);
+  EXPECT_NEAR(report_.figures().metrics.at("distance_error_mm"), 50, 1e-6);
   ask_for({NAN, 0, 0}, truth_);
   msg::MotionGoal search;  // looks at nothing
   report_.send("goal", search);
   tick();
-  EXPECT_NEAR(figures().metrics.at("distance_error_mm"), 50, 1e-6);
+  EXPECT_NEAR(report_.figures().metrics.at("distance_error_mm"), 50, 1e-6);
 }
 
 TEST_F(LampReportTest, WithoutAGoalItKnowsNoDistanceError) {
   ticks_ = 1;
   tick();
-  EXPECT_EQ(figures().metrics.count("distance_mm"), 1U);
-  EXPECT_EQ(figures().metrics.count("distance_error_mm"), 0U);
+  EXPECT_EQ(report_.figures().metrics.count("distance_mm"), 1U);
+  EXPECT_EQ(report_.figures().metrics.count("distance_error_mm"), 0U);
 }
 
 TEST_F(LampReportTest, EndsWithoutAFace) {
@@ -138,7 +118,8 @@ TEST_F(LampReportTest, EndsWithoutAFace) {
   EXPECT_FALSE(report_.component().finished());
   run(0.3);
   EXPECT_TRUE(report_.component().finished());
-  EXPECT_EQ(figures().status, "face_not_found");
+  EXPECT_EQ(report_.figures().status, "face_not_found");
+  EXPECT_EQ(report_.figures().reason, "no face was seen for 4 s");
 }
 
 TEST_F(LampReportTest, CountsNoEstimateThatIsNone) {
@@ -152,7 +133,7 @@ TEST_F(LampReportTest, CountsNoEstimateThatIsNone) {
     tick();
   }
   EXPECT_FALSE(report_.component().finished());
-  EXPECT_EQ(figures().metrics.count("time_to_find_s"), 0u);
+  EXPECT_EQ(report_.figures().metrics.count("time_to_find_s"), 0u);
 }
 
 TEST_F(LampReportTest, CountsAcceptedGoalsAfterTheFirstAlignment) {
@@ -167,7 +148,7 @@ TEST_F(LampReportTest, CountsAcceptedGoalsAfterTheFirstAlignment) {
   accepted(0);
   accepted(1);
   accepted(0);
-  EXPECT_EQ(figures().metrics.at("replans"), 2);
+  EXPECT_EQ(report_.figures().metrics.at("replans"), 2);
 }
 
 TEST_F(LampReportTest, HashesEverySampleOfTheArm) {
@@ -181,12 +162,11 @@ TEST_F(LampReportTest, HashesEverySampleOfTheArm) {
     for (int i = 0; i < 3; ++i) bench->send("measured_js", arm_at(i));
     bench->step(3);
   }
-  Figures told;
-  other.component().summarize(told);
-  EXPECT_EQ(figures().texts, told.texts);
+  const Figures told = other.figures();
+  EXPECT_EQ(report_.figures().texts, told.texts);
   report_.send("measured_js", arm_at(4));
   report_.step(4);
-  EXPECT_NE(figures().texts, told.texts);
+  EXPECT_NE(report_.figures().texts, told.texts);
 }
 
 TEST_F(LampReportTest, IsDegradedByAJointStateThatIsNoneUntilAGoodOneComes) {

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
+#include <algorithm>
 #include <numbers>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "alignment_monitor.hpp"
 #include "armature/kinds/pose_in_base.hpp"
@@ -23,6 +27,24 @@ FollowSettings settings_of(const Params& params) {
   return {.scale = params.number("scale"), .lag_s = 1e-3 * params.number("lag_ms")};
 }
 
+std::vector<double> peak_speeds_of(const Params& params, const RobotModel& robot) {
+  auto speeds = params.numbers("peak_speeds");
+  if (speeds.empty()) return speeds;
+  if (static_cast<int>(speeds.size()) != robot.dof()) {
+    params.refuse({"peak_speeds"}, fmt::format("'peak_speeds' has {} numbers; robot {} has {} "
+                                               "joints",
+                                               speeds.size(), robot.name(), robot.dof()));
+  }
+  const auto zero = std::ranges::find(speeds, 0.0);
+  if (zero != speeds.end()) {
+    params.refuse({"peak_speeds"},
+                  fmt::format("'peak_speeds' item {} is 0, of which nothing can be a part; it "
+                              "must be more",
+                              zero - speeds.begin() + 1));
+  }
+  return speeds;
+}
+
 }  // namespace
 
 class TeleoperationReport final : public Component {
@@ -30,9 +52,10 @@ class TeleoperationReport final : public Component {
   explicit TeleoperationReport(Setup& setup)
       : Component{setup},
         master_{robot_of(setup)},
-        peak_speeds_{setup.params().numbers("peak_speeds")},
+        peak_speeds_{peak_speeds_of(setup.params(), master_)},
         watch_for_{seconds(setup.params().number("watch_s"))},
         held_for_{seconds(setup.params().number("held_for_s"))},
+        least_tremor_m_{setup.params().number("least_tremor_mm")},
         follow_{settings_of(setup.params())},
         console_{setup.input<msg::TransformStamped>("console")},
         master_js_{setup.input<msg::JointState>("master_js")},
@@ -41,11 +64,6 @@ class TeleoperationReport final : public Component {
         intended_cp_{setup.input<msg::PoseStamped>("intended_cp")},
         task_state_{setup.input<msg::TaskState>("task_state")} {
     setup.activate_every(kPeriod);
-    if (!peak_speeds_.empty() && static_cast<int>(peak_speeds_.size()) != master_.dof()) {
-      throw SetupError("peak_speeds has " + std::to_string(peak_speeds_.size()) +
-                       " numbers; robot " + master_.name() + " has " +
-                       std::to_string(master_.dof()) + " joints");
-    }
   }
 
   void step(Time now) override {
@@ -68,8 +86,8 @@ class TeleoperationReport final : public Component {
   bool finished() const override { return finished_; }
 
   void summarize(Summary& summary) const override {
-    if (refused_) summary.failed("refused");
-    if (held_) summary.failed("held");
+    if (refused_) summary.failed("refused", trouble_);
+    if (held_) summary.failed("held", trouble_);
     const auto metric = [&](const char* key, const char* title, std::optional<double> value,
                             double unit = 1) {
       if (value) summary.metric(key, title, *value * unit);
@@ -91,7 +109,7 @@ class TeleoperationReport final : public Component {
     if (const auto tremor = follow_.tremor()) {
       metric("hand_tremor_mm", "tremor of the hand, rms [mm]", tremor->hand_m, 1e3);
       metric("slave_tremor_mm", "tremor of the slave's tip, rms [mm]", tremor->slave_m, 1e3);
-      metric("tremor_db", "what is left of it, scaled [dB]", tremor->left_db);
+      tell_tremor_left(summary, *tremor);
     }
     metric("tip_speed_mm_s", "top speed of the slave's tip [mm/s]", follow_.top_speed_m_s(), 1e3);
     metric("stopping_mm", "stops after the clutch opens within [mm]", follow_.stopping_m(), 1e3);
@@ -100,6 +118,16 @@ class TeleoperationReport final : public Component {
   }
 
  private:
+  /// Of a hand that does not tremble, what the slave has of it would be a ratio of noise.
+  void tell_tremor_left(Summary& summary, const FollowMonitor::Tremor& tremor) const {
+    constexpr const char *kKey = "tremor_db", *kTitle = "what is left of it, scaled [dB]";
+    if (tremor.hand_m >= least_tremor_m_) return summary.metric(kKey, kTitle, tremor.left_db);
+    summary.not_measured(kKey, kTitle,
+                         fmt::format("the hand trembles by {:.2g} mm only, 'least_tremor_mm' is "
+                                     "{:g}",
+                                     1e3 * tremor.hand_m, 1e3 * least_tremor_m_));
+  }
+
   void complain(const std::string& what) { complaint_ = what; }
   void show_health() {
     if (complaint_.empty()) {
@@ -124,8 +152,9 @@ class TeleoperationReport final : public Component {
     follow_.see_clutch(closed, since_start(state.header_()));
     if (phase == "aligned" && !aligned_at_) aligned_at_ = at;
     if (closed && !closed_at_) closed_at_ = at;
-    if (phase != "held") held_since_.reset();
-    if (phase == "held" && !held_since_) held_since_ = at;
+    trouble_ = state.detail_();
+    if (trouble_.empty()) held_since_.reset();
+    if (!trouble_.empty() && !held_since_) held_since_ = at;
     refused_ = phase == "refused";
   }
 
@@ -169,12 +198,13 @@ class TeleoperationReport final : public Component {
   RobotModel master_;
   std::vector<double> peak_speeds_;
   Duration watch_for_, held_for_;
+  double least_tremor_m_;
   AlignmentMonitor alignment_;
   FollowMonitor follow_;
   std::optional<PoseResidual> alignment_error_;
   std::optional<Eigen::Isometry3d> slave_T_master_;
   std::optional<Time> start_, aligned_at_, closed_at_, held_since_;
-  std::string complaint_;
+  std::string complaint_, trouble_;
   bool refused_ = false, held_ = false, finished_ = false;
   Input<msg::TransformStamped> console_;
   Input<msg::JointState> master_js_;

@@ -4,12 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <map>
 
 #include "armature/kinds/joint_messages.hpp"
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/geometry.hpp"
 #include "armature/messages/header.hpp"
+#include "armature/runtime/built_plugins.hpp"
 #include "armature/runtime/component_bench.hpp"
 
 namespace armature {
@@ -18,21 +18,6 @@ namespace {
 using Eigen::Vector3d;
 
 const std::string kMasterFile = ARMATURE_SOURCE_DIR "/configs/robots/master.yaml";
-
-PluginRegistry& plugins() {
-  static PluginRegistry registry{{ARMATURE_PLUGIN_BUILD_DIR}};
-  return registry;
-}
-
-class Figures final : public Summary {
- public:
-  void metric(std::string key, std::string, double value) override { metrics[key] = value; }
-  void text(std::string, std::string, std::string) override {}
-  void failed(std::string why) override { status = why; }
-
-  std::map<std::string, double> metrics;
-  std::string status;
-};
 
 ComponentBench::Options report_with(const std::string& params) {
   return {.component = "{plugin: report/teleoperation, params: {" + params + "}}",
@@ -67,10 +52,11 @@ class TeleoperationReportTest : public testing::Test {
     report_.send("master_js", joints);
     if (sample_ % 20 == 0) report_.step(0.001 * sample_);
   }
-  void tell(const std::string& state) {
+  void tell(const std::string& state, const std::string& detail = "") {
     msg::TaskState message;
     write_header(message.header_(), Time{} + sample_ * seconds(0.001));
     message.state_() = state;
+    message.detail_() = detail;
     report_.send("task_state", message);
   }
   static Vector3d hand_at(double t) { return {0.02 * std::sin(2 * t), 0, 0.01 * std::cos(2 * t)}; }
@@ -80,27 +66,23 @@ class TeleoperationReportTest : public testing::Test {
       sample(hand_at(t), hand_at(t), 0.5 * hand_at(t - 0.04));
     }
   }
-  Figures figures() {
-    Figures figures;
-    report_.component().summarize(figures);
-    return figures;
-  }
 
   const RobotModel master_ = load_robot_model(kMasterFile);
   // A pure move, so that the rotations of hand and tool, which stay, are equal.
   const Eigen::Isometry3d slave_T_master_{Eigen::Translation3d{0.6, -0.1, 0.1}};
-  ComponentBench report_{plugins(), report_with("peak_speeds: [0.1, 0.1, 0.1, 0.1, 0.1, 0.08], "
-                                                "lag_ms: 40, watch_s: 3")};
+  ComponentBench report_{built_plugins(),
+                         report_with("peak_speeds: [0.1, 0.1, 0.1, 0.1, 0.1, 0.08], "
+                                     "lag_ms: 40, watch_s: 3")};
   int sample_ = 0;
 };
 
 TEST_F(TeleoperationReportTest, TellsTheAlignmentAtTheTasksWord) {
   tell("aligning");
   for (int i = 0; i < 40; ++i) sample({0.1, 0, 0}, {0, 0, 0}, {0.1002, 0, 0});
-  EXPECT_FALSE(figures().metrics.contains("alignment_error_mm")) << "it is not there yet";
+  EXPECT_FALSE(report_.figures().metrics.contains("alignment_error_mm")) << "it is not there yet";
   tell("aligned");
   for (int i = 0; i < 40; ++i) sample({0.2, 0, 0}, {0, 0, 0}, {0.1, 0, 0});  // in the hand
-  auto told = figures().metrics;
+  auto told = report_.figures().metrics;
   EXPECT_NEAR(told.at("time_to_align_s"), 0.02, 1e-9);
   EXPECT_NEAR(told.at("alignment_error_mm"), 0.2, 1e-9);
   EXPECT_NEAR(told.at("alignment_error_deg"), 0, 1e-9);
@@ -117,7 +99,7 @@ TEST_F(TeleoperationReportTest, TellsHowTheSlaveFollowsAndEnds) {
   EXPECT_FALSE(report_.component().finished());
   teleoperate(200);
   EXPECT_TRUE(report_.component().finished());
-  auto told = figures();
+  auto told = report_.figures();
   EXPECT_EQ(told.status, "");
   EXPECT_LT(told.metrics.at("tracking_error_mm"), 1e-4);
   EXPECT_NEAR(told.metrics.at("measured_lag_ms"), 40, 1e-3);
@@ -126,30 +108,50 @@ TEST_F(TeleoperationReportTest, TellsHowTheSlaveFollowsAndEnds) {
   EXPECT_FALSE(told.metrics.contains("clutch_motion_mm")) << "it was not opened";
 }
 
+TEST_F(TeleoperationReportTest, AHandThatNeverBeginsEndsTheRunToo) {
+  tell("aligned", "the clutch tells nothing");
+  teleoperate(1040);
+  EXPECT_TRUE(report_.component().finished());
+  EXPECT_EQ(report_.figures().status, "held");
+}
+
+TEST_F(TeleoperationReportTest, WithoutATremorNothingIsToldOfWhatIsLeftOfIt) {
+  tell("teleoperating");
+  teleoperate(2000);
+  const auto told = report_.figures();
+  EXPECT_LT(told.metrics.at("hand_tremor_mm"), 0.01);
+  EXPECT_FALSE(told.metrics.contains("tremor_db"));
+  EXPECT_NE(told.unmeasured.at("tremor_db").find("mm only, 'least_tremor_mm' is 0.01"),
+            std::string::npos)
+      << told.unmeasured.at("tremor_db");
+}
+
 TEST_F(TeleoperationReportTest, TellsWhatHappensWithTheClutchOpen) {
   tell("teleoperating");
   teleoperate(1000);
   tell("clutch open");
   for (int i = 0; i < 500; ++i) sample({0, 0, 0}, {0, 0, 0}, {i < 300 ? 0.0 : 0.004, 0, 0});
-  EXPECT_NEAR(figures().metrics.at("clutch_motion_mm"), 4, 1e-9);
+  EXPECT_NEAR(report_.figures().metrics.at("clutch_motion_mm"), 4, 1e-9);
 }
 
 TEST_F(TeleoperationReportTest, ASlaveThatIsHeldForLongOrARefusalEndsTheRun) {
   tell("teleoperating");
   teleoperate(500);
-  tell("held");
+  tell("held", "the clutch tells nothing");
   teleoperate(980);
   EXPECT_FALSE(report_.component().finished());
   tell("teleoperating");
   teleoperate(20);
-  tell("held");
+  tell("held", "the clutch tells nothing");
   teleoperate(1040);
   EXPECT_TRUE(report_.component().finished());
-  EXPECT_EQ(figures().status, "held");
+  EXPECT_EQ(report_.figures().status, "held");
+  EXPECT_EQ(report_.figures().reason, "the clutch tells nothing");
 
-  tell("refused");
+  tell("refused", "the master stands 2 mm off");
   teleoperate(20);
   EXPECT_TRUE(report_.component().finished());
+  EXPECT_EQ(report_.figures().reason, "the master stands 2 mm off");
 }
 
 TEST_F(TeleoperationReportTest, ASampleThatIsNoneIsSaid) {
@@ -163,13 +165,15 @@ TEST_F(TeleoperationReportTest, ASampleThatIsNoneIsSaid) {
   EXPECT_EQ(report_.status().reason, "the slave's tool is stated in frame '', not in 'base'");
 }
 
-TEST(TeleoperationReport, RefusesSpeedsThatAreNotTheRobots) {
-  try {
-    ComponentBench report{plugins(), report_with("peak_speeds: [1, 2]")};
-    ADD_FAILURE() << "it was made";
-  } catch (const SetupError& error) {
-    EXPECT_STREQ(error.what(), "peak_speeds has 2 numbers; robot master has 6 joints");
-  }
+TEST(TeleoperationReport, RefusesSpeedsThatAreNotTheRobotsOrNone) {
+  const auto refusal = [](const std::string& params) {
+    return refusal_of(built_plugins(), report_with(params));
+  };
+  EXPECT_EQ(refusal("peak_speeds: [1, 2]"),
+            "bench:1:61: 'peak_speeds' has 2 numbers; robot master has 6 joints");
+  EXPECT_EQ(refusal("peak_speeds: [1, 1, 0, 1, 1, 1]"),
+            "bench:1:61: 'peak_speeds' item 3 is 0, of which nothing can be a part; it must be "
+            "more");
 }
 
 }  // namespace

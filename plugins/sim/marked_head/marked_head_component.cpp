@@ -20,15 +20,18 @@ constexpr const char* kImageFrame = "image";
 std::vector<ForbiddenZone> vessels_of(const Params& params) {
   const auto values = params.numbers("vessels_mm");
   if (values.size() % 7 != 0) {
-    throw SetupError("vessels_mm has " + std::to_string(values.size()) +
-                     " numbers; seven for each vessel are needed: from, to, radius");
+    params.refuse({"vessels_mm"},
+                  "'vessels_mm' has " + std::to_string(values.size()) +
+                      " numbers; seven for each vessel are needed: from, to, radius");
   }
   std::vector<ForbiddenZone> vessels;
   for (std::size_t i = 0; i < values.size(); i += 7) {
     const double* v = values.data() + i;
     vessels.push_back(
         {"vessel " + std::to_string(i / 7 + 1), {v[0], v[1], v[2]}, {v[3], v[4], v[5]}, v[6]});
-    if (const auto wrong = defect(vessels.back())) throw SetupError("vessels_mm: " + *wrong);
+    if (const auto wrong = defect(vessels.back())) {
+      params.refuse({"vessels_mm"}, "'vessels_mm': " + *wrong);
+    }
   }
   return vessels;
 }

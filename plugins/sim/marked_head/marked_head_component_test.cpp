@@ -4,15 +4,11 @@
 
 #include "armature/kinds/zone_messages.hpp"
 #include "armature/messages/geometry_msgs.hpp"
+#include "armature/runtime/built_plugins.hpp"
 #include "armature/runtime/component_bench.hpp"
 
 namespace armature {
 namespace {
-
-PluginRegistry& plugins() {
-  static PluginRegistry registry{{ARMATURE_PLUGIN_BUILD_DIR}};
-  return registry;
-}
 
 ComponentBench::Options head_with(const std::string& params) {
   return {
@@ -20,17 +16,13 @@ ComponentBench::Options head_with(const std::string& params) {
 }
 
 std::string refusal(const std::string& params) {
-  try {
-    ComponentBench head{plugins(), head_with(params)};
-  } catch (const std::exception& error) {
-    return error.what();
-  }
-  return "";
+  return refusal_of(built_plugins(), head_with(params));
 }
 
 TEST(MarkedHeadComponentTest, TellsPlanMarkersAndTruthOnce) {
-  ComponentBench head{plugins(), head_with("head_mm: [100, 200, 300], head_rpy_deg: [0, 0, 90], "
-                                           "marker_error_mm: 0, spurious_points: 0")};
+  ComponentBench head{built_plugins(),
+                      head_with("head_mm: [100, 200, 300], head_rpy_deg: [0, 0, 90], "
+                                "marker_error_mm: 0, spurious_points: 0")};
   head.step(0.1);
   const auto plans = head.take<msg::NeedlePlan>("plan");
   ASSERT_EQ(plans.size(), 1u);
@@ -55,13 +47,13 @@ TEST(MarkedHeadComponentTest, TellsPlanMarkersAndTruthOnce) {
 
 TEST(MarkedHeadComponentTest, RefusesListsThatDoNotComeOut) {
   EXPECT_NE(refusal("markers_mm: [1, 2, 3, 4]")
-                .find("markers_mm has 4 numbers; three for each of "
+                .find("'markers_mm' has 4 numbers; three for each of "
                       "at least three markers are needed"),
             std::string::npos);
-  EXPECT_NE(refusal("vessels_mm: [1, 2, 3]").find("vessels_mm has 3 numbers; seven for each"),
+  EXPECT_NE(refusal("vessels_mm: [1, 2, 3]").find("'vessels_mm' has 3 numbers; seven for each"),
             std::string::npos);
   EXPECT_NE(refusal("vessels_mm: [1, 2, 3, 4, 5, 6, -1]")
-                .find("vessels_mm: forbidden zone 'vessel 1' has the radius -0.001 m"),
+                .find("'vessels_mm': forbidden zone 'vessel 1' has the radius -0.001 m"),
             std::string::npos);
 }
 

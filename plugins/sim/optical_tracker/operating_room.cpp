@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "operating_room.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <cstddef>
-#include <string>
 
 #include "armature/kinds/geometry_params.hpp"
 
@@ -17,8 +18,9 @@ std::vector<Isometry3d> sites_of(const Params& params) {
   const auto positions = points_of(params, "sites_mm", 1, "at least one site");
   const auto angles = points_of(params, "sites_rpy_deg", 1, "at least one site");
   if (positions.size() != angles.size()) {
-    throw SetupError("sites_mm has " + std::to_string(positions.size()) +
-                     " sites, sites_rpy_deg has " + std::to_string(angles.size()));
+    params.refuse({"sites_mm", "sites_rpy_deg"},
+                  fmt::format("'sites_mm' has {} sites, 'sites_rpy_deg' has {}", positions.size(),
+                              angles.size()));
   }
   std::vector<Isometry3d> sites;
   for (std::size_t i = 0; i < positions.size(); ++i) {

@@ -8,7 +8,6 @@
 #include <cmath>
 
 #include "armature/kinds/declared_params.hpp"
-#include "armature/runtime/setup.hpp"
 
 namespace armature {
 namespace {
@@ -51,18 +50,20 @@ TEST(OperatingRoom, ListsThatDoNotComeOutAreRefused) {
   const auto refusal = [](const std::string& params) -> std::string {
     try {
       room(params);
-    } catch (const SetupError& error) {
+    } catch (const config::ConfigError& error) {
       return error.what();
     }
     return "";
   };
   EXPECT_EQ(refusal("sites_mm: [1, 2]"),
-            "sites_mm has 2 numbers; three for each of at least one site are needed");
+            "given:1:12: 'sites_mm' has 2 numbers; three for each of at least one site are needed");
   EXPECT_EQ(refusal("sites_mm: []"),
-            "sites_mm has 0 numbers; three for each of at least one site are needed");
-  EXPECT_EQ(refusal("sites_rpy_deg: [1, 2, 3]"), "sites_mm has 3 sites, sites_rpy_deg has 1");
+            "given:1:12: 'sites_mm' has 0 numbers; three for each of at least one site are needed");
+  EXPECT_EQ(refusal("sites_rpy_deg: [1, 2, 3]"),
+            "given:1:17: 'sites_mm' has 3 sites, 'sites_rpy_deg' has 1");
   EXPECT_EQ(refusal("markers_mm: [0, 0, 0, 1, 1, 1]"),
-            "markers_mm has 6 numbers; three for each of at least three markers are needed");
+            "given:1:14: 'markers_mm' has 6 numbers; three for each of at least three markers are "
+            "needed");
 }
 
 TEST(OperatingRoom, TheDrillTurnsAboutItsTipWithinTheConeAndAboutManyAxes) {

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <optional>
 #include <random>
 #include <string>
+#include <vector>
 
 #include "armature/kinds/chain_messages.hpp"
 #include "armature/kinds/geometry_params.hpp"
+#include "armature/kinds/registration/registration.hpp"
 #include "armature/kinds/setup_flange.hpp"
 #include "armature/kinds/setup_robot.hpp"
 #include "armature/messages/armature_msgs.hpp"
@@ -30,9 +34,28 @@ LineOfSight sight_of(const Params& params, const char* hidden) {
                     .farthest_m = params.number("farthest_mm"),
                     .hidden_s = params.numbers(hidden)};
   if (const auto wrong = defect(sight.hidden_s)) {
-    throw SetupError(std::string{hidden} + ": " + *wrong);
+    params.refuse({hidden}, fmt::format("'{}': {}", hidden, *wrong));
+  }
+  if (sight.nearest_m >= sight.farthest_m) {
+    params.refuse({"nearest_mm", "farthest_mm"},
+                  fmt::format("'nearest_mm' is {:g} and 'farthest_mm' is {:g}: no body would be "
+                              "seen",
+                              1e3 * sight.nearest_m, 1e3 * sight.farthest_m));
   }
   return sight;
+}
+
+std::vector<Eigen::Vector3d> spheres_of(const Params& params) {
+  const auto spheres = points_of(params, "spheres_mm", 3, "at least three spheres");
+  constexpr double kNearlyOneLine = 20;  // as of the markers of a registration
+  const double condition = condition_of_line(spheres);
+  if (condition > kNearlyOneLine) {
+    params.refuse({"spheres_mm"},
+                  fmt::format("'spheres_mm' lie nearly on one line, about which nobody could see "
+                              "the body turn: condition {:.4g}, at most {:g} is allowed",
+                              condition, kNearlyOneLine));
+  }
+  return spheres;
 }
 
 }  // namespace
@@ -45,7 +68,7 @@ class OpticalTracker final : public Component {
         mount_{flange_of(robot_)},
         room_{operating_room(setup.params(), mount_.flange_T_tool)},
         history_{robot_, kHistory},
-        spheres_{points_of(setup.params(), "spheres_mm", 3, "at least three spheres")},
+        spheres_{spheres_of(setup.params())},
         sphere_error_m_{setup.params().number("sphere_error_mm")},
         marker_error_m_{setup.params().number("marker_error_mm")},
         flange_sight_{sight_of(setup.params(), "flange_hidden_s")},

@@ -9,6 +9,7 @@
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/sensor_msgs.hpp"
 #include "armature/robot/kinematics.hpp"
+#include "armature/runtime/built_plugins.hpp"
 #include "armature/runtime/component_bench.hpp"
 
 namespace armature {
@@ -17,21 +18,18 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-PluginRegistry& plugins() {
-  static PluginRegistry registry{{ARMATURE_PLUGIN_BUILD_DIR}};
-  return registry;
-}
-
 config::Node med7_file() { return config::load(ARMATURE_SOURCE_DIR "/configs/robots/med7.yaml"); }
+
+ComponentBench::Options tracker_with(const std::string& params) {
+  return {.component = "{plugin: sim/optical_tracker, params: {" + params + "}}",
+          .robot = med7_file(),
+          .rig = {}};
+}
 
 class OpticalTrackerTest : public testing::Test {
  protected:
   void make(const std::string& params) {
-    room_ = std::make_unique<ComponentBench>(
-        plugins(), ComponentBench::Options{
-                       .component = "{plugin: sim/optical_tracker, params: {" + params + "}}",
-                       .robot = med7_file(),
-                       .rig = {}});
+    room_ = std::make_unique<ComponentBench>(built_plugins(), tracker_with(params));
     sent_s_ = 0;
   }
   /// Made, and the tracker's clock begins.
@@ -160,17 +158,21 @@ TEST_F(OpticalTrackerTest, AJawThatMovesIsToldAnewInItsOwnFrame) {
 }
 
 TEST_F(OpticalTrackerTest, WhatIsNoRoomIsRefused) {
-  const auto refusal = [&](const std::string& params) -> std::string {
-    try {
-      make(params);
-    } catch (const std::exception& error) {
-      return error.what();
-    }
-    return "";
+  const auto refusal = [](const std::string& params) {
+    return refusal_of(built_plugins(), tracker_with(params));
   };
-  EXPECT_NE(refusal("jaw_hidden_s: [4, 3]").find("jaw_hidden_s: from 4 s until 3 s is no time"),
-            std::string::npos);
-  EXPECT_NE(refusal("spheres_mm: [1, 2, 3]").find("spheres_mm has 3 numbers"), std::string::npos);
+  EXPECT_EQ(refusal("jaw_hidden_s: [4, 3]"),
+            "bench:1:61: 'jaw_hidden_s': from 4 s until 3 s is no time");
+  EXPECT_EQ(refusal("spheres_mm: [1, 2, 3]"),
+            "bench:1:59: 'spheres_mm' has 3 numbers; three for each of at least three spheres are "
+            "needed");
+  EXPECT_EQ(refusal("nearest_mm: 2500"),
+            "bench:1:59: 'nearest_mm' is 2500 and 'farthest_mm' is 2400: no body would be seen");
+  EXPECT_EQ(refusal("spheres_mm: [0, 0, 0, 10, 10, 0, 30, 30, 0]"),
+            "bench:1:59: 'spheres_mm' lie nearly on one line, about which nobody could see the "
+            "body turn: condition inf, at most 20 is allowed");
+  EXPECT_EQ(refusal("sites_mm: [1, 2, 3]"),
+            "bench:1:57: 'sites_mm' has 1 sites, 'sites_rpy_deg' has 3");
 }
 
 TEST_F(OpticalTrackerTest, ASampleThatIsNoPositionIsSaid) {

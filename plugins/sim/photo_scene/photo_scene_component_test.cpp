@@ -8,6 +8,7 @@
 #include "armature/kinds/joint_messages.hpp"
 #include "armature/kinds/target/target_messages.hpp"
 #include "armature/messages/sensor_msgs.hpp"
+#include "armature/runtime/built_plugins.hpp"
 #include "armature/runtime/component_bench.hpp"
 
 namespace armature {
@@ -16,11 +17,6 @@ namespace {
 using Eigen::Vector3d;
 
 const std::string kLamp = ARMATURE_SOURCE_DIR "/configs/robots/dental_lamp.yaml";
-
-PluginRegistry& plugins() {
-  static PluginRegistry registry{{ARMATURE_PLUGIN_BUILD_DIR}};
-  return registry;
-}
 
 /// Small cameras: quick to draw.
 config::Node small_rig(const std::string& mount = "tool") {
@@ -61,13 +57,13 @@ class PhotoSceneComponentTest : public testing::Test {
   }
 
   const RobotModel lamp_ = load_robot_model(kLamp);
-  ComponentBench scene_{plugins(), scene_with("noise: 0, move_at_s: 1, move_duration_s: 2, "
-                                              "move_mm: [0, 100, 0]")};
+  ComponentBench scene_{built_plugins(), scene_with("noise: 0, move_at_s: 1, move_duration_s: 2, "
+                                                    "move_mm: [0, 100, 0]")};
 };
 
 TEST_F(PhotoSceneComponentTest, RunsAtItsRate) {
   EXPECT_EQ(scene_.period(), seconds(0.1));
-  const ComponentBench fast{plugins(), scene_with("rate_hz: 25")};
+  const ComponentBench fast{built_plugins(), scene_with("rate_hz: 25")};
   EXPECT_EQ(fast.period(), seconds(0.04));
 }
 
@@ -168,13 +164,8 @@ TEST_F(PhotoSceneComponentTest, IsDegradedByAJointStateThatIsNoneUntilAGoodOneCo
 }
 
 TEST(PhotoSceneComponent, DoesNotStartWithAFrameOrAPhotoThatIsNotThere) {
-  const auto refusal = [](const ComponentBench::Options& options) -> std::string {
-    try {
-      ComponentBench scene{plugins(), options};
-    } catch (const SetupError& error) {
-      return error.what();
-    }
-    return "it was made";
+  const auto refusal = [](const ComponentBench::Options& options) {
+    return refusal_of(built_plugins(), options);
   };
   ComponentBench::Options lost = scene_with("");
   lost.rig = small_rig("elbow");

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <optional>
 
+#include "armature/kinds/geometry_params.hpp"
 #include "armature/kinds/joint_messages.hpp"
 #include "armature/kinds/setup_robot.hpp"
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/geometry.hpp"
 #include "armature/messages/header.hpp"
 #include "armature/robot/kinematics.hpp"
-#include "armature/robot/rotation.hpp"
 #include "armature/runtime/component.hpp"
 #include "armature/runtime/plugin.hpp"
 #include "armature/runtime/setup.hpp"
@@ -17,31 +19,27 @@
 namespace armature {
 namespace {
 
-using Eigen::Vector3d;
-
 constexpr Duration kPeriod = seconds(0.001);
 constexpr const char* kMasterFrame = "master_base";
 
-Vector3d vector_of(const Params& params, const char* name) {
-  const auto values = params.numbers(name);
-  return {values[0], values[1], values[2]};
-}
-
 HandMotionSettings settings_of(const Params& params) {
+  const double closes_s = params.number("clutch_closes_s"),
+               opens_s = params.number("clutch_opens_s");
+  if (opens_s <= closes_s) {
+    params.refuse({"clutch_opens_s", "clutch_closes_s"},
+                  fmt::format("'clutch_opens_s' is {:g}, before the clutch was closed at "
+                              "'clutch_closes_s' = {:g}",
+                              opens_s, closes_s));
+  }
   return {.curve = vector_of(params, "curve_mm"),
           .curve_hz = params.number("curve_hz"),
           .turn = params.number("turn_deg"),
           .tremor = params.number("tremor_mm"),
           .ease_s = params.number("ease_s"),
-          .clutch_closes_s = params.number("clutch_closes_s"),
-          .clutch_opens_s = params.number("clutch_opens_s"),
+          .clutch_closes_s = closes_s,
+          .clutch_opens_s = opens_s,
           .clutch_open_for_s = params.number("clutch_open_for_s"),
           .shift = vector_of(params, "shift_mm")};
-}
-
-Eigen::Isometry3d console_of(const Params& params) {
-  return Eigen::Translation3d{vector_of(params, "console_mm")} *
-         Eigen::Isometry3d{rotation_from_rpy(vector_of(params, "console_rpy_deg"))};
 }
 
 }  // namespace
@@ -52,7 +50,7 @@ class Surgeon final : public Component {
       : Component{setup},
         robot_{robot_of(setup)},
         hand_{settings_of(setup.params()), setup.seed()},
-        slave_T_master_{console_of(setup.params())},
+        slave_T_master_{pose_of(setup.params(), "console_mm", "console_rpy_deg")},
         silent_after_s_{setup.params().number("silent_after_s")},
         task_state_{setup.input<msg::TaskState>("task_state")},
         measured_js_{setup.input<msg::JointState>("measured_js")},

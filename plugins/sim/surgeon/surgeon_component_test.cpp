@@ -8,6 +8,7 @@
 #include "armature/messages/geometry.hpp"
 #include "armature/messages/header.hpp"
 #include "armature/robot/kinematics.hpp"
+#include "armature/runtime/built_plugins.hpp"
 #include "armature/runtime/component_bench.hpp"
 
 namespace armature {
@@ -15,19 +16,15 @@ namespace {
 
 const std::string kMaster = ARMATURE_SOURCE_DIR "/configs/robots/master.yaml";
 
-PluginRegistry& plugins() {
-  static PluginRegistry registry{{ARMATURE_PLUGIN_BUILD_DIR}};
-  return registry;
+ComponentBench::Options surgeon_with(const std::string& params) {
+  return {.component = "{plugin: sim/surgeon, params: {" + params + "}}",
+          .robot = config::load(kMaster),
+          .rig = {}};
 }
 
 class SurgeonTest : public testing::Test {
  protected:
-  void make(const std::string& params) {
-    bench_.emplace(plugins(), ComponentBench::Options{
-                                  .component = "{plugin: sim/surgeon, params: {" + params + "}}",
-                                  .robot = config::load(kMaster),
-                                  .rig = {}});
-  }
+  void make(const std::string& params) { bench_.emplace(built_plugins(), surgeon_with(params)); }
   void align() {
     msg::JointState state;
     write_all_joints(master_, q_, JointVector::Zero(6), Time{}, state);
@@ -134,6 +131,12 @@ TEST_F(SurgeonTest, AMasterStateThatIsNoneIsSaid) {
   steps(1);
   EXPECT_EQ(bench_->status().reason, "measured_js: 2 joint values; master has 6 joints");
   EXPECT_TRUE(bench_->take<msg::JointState>("hand_js").empty());
+}
+
+TEST(SurgeonParams, AClutchThatOpensBeforeItClosesIsRefused) {
+  EXPECT_EQ(refusal_of(built_plugins(), surgeon_with("clutch_opens_s: 1, clutch_closes_s: 2")),
+            "bench:1:55: 'clutch_opens_s' is 1, before the clutch was closed at 'clutch_closes_s' "
+            "= 2");
 }
 
 }  // namespace

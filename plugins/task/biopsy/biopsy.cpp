@@ -10,8 +10,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr Duration kAnswerWithin = seconds(1.0);
-
 /// The rotation with `z` along, and x as near to `x` as that leaves it.
 Eigen::Quaterniond rotation_along(const Vector3d& z, const Vector3d& x) {
   constexpr double kAlong = 1e-6;
@@ -45,12 +43,6 @@ void Biopsy::see_head(const NeedleLine& plan) {
   if (phase_ != Phase::waiting) return;
   plan_ = plan;
   phase_ = Phase::registering;
-}
-
-bool Biopsy::should_ask(Time now) {
-  if (phase_ != Phase::registering || (asked_at_ && now - *asked_at_ < kAnswerWithin)) return false;
-  asked_at_ = now;
-  return true;
 }
 
 void Biopsy::see_registration(const RegisteredHead& head) {

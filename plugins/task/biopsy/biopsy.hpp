@@ -51,8 +51,8 @@ class Biopsy {
   void see_refused_registration(const std::string& reason) { refuse(reason); }
   void hear(const GoalReport& report, Time now);
 
-  /// True once in a while as long as the registration has not answered.
-  bool should_ask(Time now);
+  /// True from the plan until the registration has answered.
+  bool wants_registration() const { return phase_ == Phase::registering; }
   std::optional<MotionGoal> outgoing_goal(Time now) { return goal_.outgoing(now); }
 
   Phase phase() const { return phase_; }
@@ -67,7 +67,6 @@ class Biopsy {
   NeedleLine plan_;
   PursuedGoal goal_;
   Phase phase_ = Phase::waiting;
-  std::optional<Time> asked_at_;
   std::string trouble_;
 };
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <string>
 
+#include "armature/kinds/registration_dialogue.hpp"
 #include "armature/kinds/registration_messages.hpp"
 #include "armature/kinds/setup_robot.hpp"
 #include "armature/motion/goal_messages.hpp"
@@ -43,13 +44,10 @@ class BiopsyComponent final : public Component {
       : Component{setup},
         robot_{robot_of(setup)},
         task_{settings_of(setup.params()), robot_},
-        marker_error_m_{setup.params().number("marker_error_mm")},
-        match_tolerance_m_{setup.params().number("match_tolerance_mm")},
         plan_{setup.input<msg::NeedlePlan>("plan")},
         markers_{setup.input<msg::MeasuredMarkers>("markers")},
-        registration_{setup.input<msg::RegistrationResponse>("registration")},
+        registration_{setup},
         motion_status_{setup.input<msg::MotionStatus>("motion_status")},
-        request_{setup.output<msg::RegistrationRequest>("request")},
         goal_{setup.output<msg::MotionGoal>("goal")},
         state_{setup} {
     setup.activate_every(kPeriod);
@@ -57,7 +55,7 @@ class BiopsyComponent final : public Component {
 
   void step(Time now) override {
     read(now);
-    if (task_.should_ask(now)) ask(now);
+    if (task_.wants_registration() && registration_.due(now)) ask(now);
     if (const auto goal = task_.outgoing_goal(now)) {
       auto loan = goal_.loan();
       write_goal(*goal, now, *loan);
@@ -69,16 +67,14 @@ class BiopsyComponent final : public Component {
  private:
   void read(Time now) {
     if (plan_.latest() && markers_.latest()) task_.see_head(line_of(*plan_.latest()));
-    for (std::size_t i = 0; i < registration_.size(); ++i) {
-      const msg::RegistrationResponse& response = registration_[i];
-      if (response.request_id_() != asked_) continue;  // somebody else's
+    registration_.listen([&](const msg::RegistrationResponse& response) {
       if (!response.valid_()) {
         task_.see_refused_registration(response.reason_());
       } else if (!response.targets_().empty()) {
         tell(response);
         task_.see_registration(head_of(response));
       }
-    }
+    });
     for (std::size_t i = 0; i < motion_status_.size(); ++i) {
       task_.hear(report_of(motion_status_[i]), now);
     }
@@ -91,19 +87,13 @@ class BiopsyComponent final : public Component {
                     1e3 * response.targets_().front().error_95_()));
   }
 
-  /// A number that nobody else's question on this topic has, as far as one can tell.
   void ask(Time now) {
-    asked_ = static_cast<std::uint64_t>(now.ns);
-    auto loan = request_.loan();
-    write_header(loan->header_(), now, kBaseFrame);
-    loan->request_id_(asked_);
-    loan->image_markers_() = plan_.latest()->markers_();
-    loan->robot_markers_() = markers_.latest()->points_();
-    loan->ordered_(false);
-    loan->match_tolerance_(match_tolerance_m_);
-    loan->marker_error_(marker_error_m_);
-    loan->targets_() = {plan_.latest()->target_(), plan_.latest()->entry_()};
-    loan.publish();
+    const msg::NeedlePlan& plan = *plan_.latest();
+    registration_.ask({.robot_frame = std::string{kBaseFrame},
+                       .image_markers = plan.markers_(),
+                       .robot_markers = markers_.latest()->points_(),
+                       .targets = {plan.target_(), plan.entry_()}},
+                      now);
   }
 
   void publish_state(Time now) {
@@ -113,13 +103,10 @@ class BiopsyComponent final : public Component {
 
   RobotModel robot_;
   Biopsy task_;
-  double marker_error_m_, match_tolerance_m_;
-  std::uint64_t asked_ = 0;
   Input<msg::NeedlePlan> plan_;
   Input<msg::MeasuredMarkers> markers_;
-  Input<msg::RegistrationResponse> registration_;
+  RegistrationDialogue registration_;
   Input<msg::MotionStatus> motion_status_;
-  Output<msg::RegistrationRequest> request_;
   Output<msg::MotionGoal> goal_;
   TaskStatePublisher state_;
 };

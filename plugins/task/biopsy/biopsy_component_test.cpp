@@ -5,15 +5,11 @@
 
 #include "armature/kinds/zone_messages.hpp"
 #include "armature/messages/header.hpp"
+#include "armature/runtime/built_plugins.hpp"
 #include "armature/runtime/component_bench.hpp"
 
 namespace armature {
 namespace {
-
-PluginRegistry& plugins() {
-  static PluginRegistry registry{{ARMATURE_PLUGIN_BUILD_DIR}};
-  return registry;
-}
 
 class BiopsyComponentTest : public testing::Test {
  protected:
@@ -49,7 +45,7 @@ class BiopsyComponentTest : public testing::Test {
   }
 
   ComponentBench task_{
-      plugins(),
+      built_plugins(),
       {.component = "{plugin: task/biopsy}",
        .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/sr1_needle.yaml"),
        .rig = {}}};

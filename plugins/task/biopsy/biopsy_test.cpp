@@ -35,12 +35,12 @@ class BiopsyTest : public testing::Test {
 };
 
 TEST_F(BiopsyTest, GoesFromThePlanToTheTarget) {
-  EXPECT_FALSE(task_.should_ask(at(0)));
+  EXPECT_FALSE(task_.wants_registration());
   task_.see_head(kPlan);
   EXPECT_EQ(task_.phase(), Phase::registering);
-  EXPECT_TRUE(task_.should_ask(at(0)));
-  EXPECT_FALSE(task_.should_ask(at(0.5)));
+  EXPECT_TRUE(task_.wants_registration());
   task_.see_registration(good());
+  EXPECT_FALSE(task_.wants_registration());
   EXPECT_EQ(task_.phase(), Phase::inserting);
   const auto goal = task_.outgoing_goal(at(0.6));
   ASSERT_TRUE(goal);
@@ -54,12 +54,6 @@ TEST_F(BiopsyTest, GoesFromThePlanToTheTarget) {
   EXPECT_EQ(task_.phase(), Phase::inserting);
   task_.hear({.goal_id = goal->id, .state = Report::done}, at(5));
   EXPECT_EQ(task_.phase(), Phase::at_target);
-}
-
-TEST_F(BiopsyTest, AsksAgainWhenNobodyAnswers) {
-  task_.see_head(kPlan);
-  EXPECT_TRUE(task_.should_ask(at(0)));
-  EXPECT_TRUE(task_.should_ask(at(1.1)));
 }
 
 TEST_F(BiopsyTest, DoesNotTrustMarkersThatFitBadly) {

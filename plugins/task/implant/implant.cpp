@@ -11,7 +11,6 @@ namespace {
 
 using Eigen::Isometry3d;
 
-constexpr Duration kAnswerWithin = seconds(1.0);
 constexpr int kJawSamples = 10;  // one by itself errs too much far from the body
 
 }  // namespace
@@ -63,16 +62,35 @@ void Implant::see_flange(const Sighting& sighting) {
 void Implant::see_jaw(const Sighting& sighting) {
   jaw_watch_.see(sighting);
   if (!sighting.tracker_T_body) return;
-  if (phase_ == Phase::locating) jaw_.add(*sighting.tracker_T_body);
+  if (phase_ == Phase::locating) locate_jaw(*sighting.tracker_T_body);
   if (phase_ != Phase::approaching && phase_ != Phase::drilling) return;
   jaw_now_.add(*sighting.tracker_T_body);
   if (jaw_now_.count() == kJawSamples) guard_jaw();
 }
 
+int Implant::jaw_block() const { return std::clamp(settings_.jaw_samples / 2, 1, kJawSamples); }
+
+Eigen::Vector3d Implant::seen_site(const Isometry3d& tracker_T_jaw) const {
+  return tracker_T_jaw * (chain_.patient_T_image * sites_.front().translation());
+}
+
+/// A jaw that moves meanwhile is no noise, which a mean would take down.
+void Implant::locate_jaw(const Isometry3d& tracker_T_jaw) {
+  jaw_.add(tracker_T_jaw);
+  jaw_now_.add(tracker_T_jaw);
+  if (jaw_now_.count() < jaw_block()) return;
+  const Isometry3d now = jaw_now_.mean();
+  jaw_now_.clear();
+  if (!jaw_first_) jaw_first_ = now;
+  const double moved_m = (seen_site(now) - seen_site(*jaw_first_)).norm();
+  if (moved_m <= settings_.most_jaw_motion_m) return;
+  refuse(fmt::format("the jaw moved by {:.2f} mm while its place was averaged, {:g} mm are allowed",
+                     1e3 * moved_m, 1e3 * settings_.most_jaw_motion_m));
+}
+
 /// Against where the jaw was when the way was worked out.
 void Implant::guard_jaw() {
-  const Eigen::Vector3d site = chain_.patient_T_image * sites_.front().translation();
-  const double moved_m = (jaw_now_.mean() * site - chain_.tracker_T_patient * site).norm();
+  const double moved_m = (seen_site(jaw_now_.mean()) - seen_site(chain_.tracker_T_patient)).norm();
   jaw_now_.clear();
   if (moved_m <= settings_.most_jaw_motion_m) return;
   refuse(fmt::format("the jaw has moved by {:.2f} mm, {:g} mm are allowed", 1e3 * moved_m,
@@ -167,13 +185,6 @@ void Implant::finish_calibration(Time now) {
   enter(Phase::registering, now);
 }
 
-bool Implant::should_ask(Time now) {
-  if (phase_ != Phase::registering || sites_.empty()) return false;
-  if (asked_at_ && now - *asked_at_ < kAnswerWithin) return false;
-  asked_at_ = now;
-  return true;
-}
-
 void Implant::see_registration(const RegisteredJaw& jaw, Time now) {
   if (phase_ != Phase::registering) return;
   if (jaw.sites.size() != sites_.size()) {
@@ -193,6 +204,7 @@ void Implant::see_registration(const RegisteredJaw& jaw, Time now) {
 
 void Implant::finish_locating(Time now) {
   chain_.tracker_T_patient = jaw_.mean();
+  jaw_now_.clear();
   double worst_m = 0;
   for (std::size_t i = 0; i < sites_.size(); ++i) {
     const ErrorForecast& forecast = forecasts_.emplace_back(

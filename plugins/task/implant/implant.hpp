@@ -24,7 +24,8 @@ struct ImplantSettings {
   Duration dwell = seconds(0.5);  // at a bottom where the drill stops
   double most_pivot_residual_m = 0.0005, most_hand_eye_residual_m = 0.0005;
   double most_fiducial_error_m = 0.0015, most_site_error_m = 0.0015;
-  double most_jaw_motion_m = 0.001;  // of the mean of some samples
+  /// Of the mean of some samples, while the jaw's place is averaged and from then on.
+  double most_jaw_motion_m = 0.001;
 };
 
 /// What a registration answered.
@@ -67,8 +68,8 @@ class Implant {
   void hear(const GoalReport& report, Time now);
   void update(Time now);
 
-  /// True once in a while as long as the registration has not answered.
-  bool should_ask(Time now);
+  /// True as long as there is a plan to register and no answer.
+  bool wants_registration() const { return phase_ == Phase::registering && !sites_.empty(); }
   std::optional<MotionGoal> outgoing_goal(Time now) { return goal_.outgoing(now); }
 
   Phase phase() const { return phase_; }
@@ -91,7 +92,12 @@ class Implant {
   void finish_calibration(Time now);
   void finish_locating(Time now);
   void go_on_drilling(Time now);
+  /// How many samples are averaged before they are held against `most_jaw_motion_m`.
+  int jaw_block() const;
+  void locate_jaw(const Eigen::Isometry3d& tracker_T_jaw);
   void guard_jaw();
+  /// A site, by where the jaw is.
+  Eigen::Vector3d seen_site(const Eigen::Isometry3d& tracker_T_jaw) const;
   /// For good; an arm that is on its way holds.
   void refuse(const std::string& why);
 
@@ -105,10 +111,11 @@ class Implant {
   std::vector<Eigen::Isometry3d> sites_;
   std::optional<Eigen::Isometry3d> base_T_flange_;
   std::vector<Eigen::Isometry3d> pivot_poses_;
-  std::optional<Time> pivot_since_, asked_at_;
+  std::optional<Time> pivot_since_;
   Pivot pivot_;
   HandEye hand_eye_;
   PoseAverage jaw_, jaw_now_;
+  std::optional<Eigen::Isometry3d> jaw_first_;  // the mean of the first samples of jaw_
   RegisteredJaw registered_;
   GuidedChain chain_;
   DrillingWay way_;

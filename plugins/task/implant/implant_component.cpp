@@ -7,6 +7,7 @@
 
 #include "armature/calibration/usable_pose.hpp"
 #include "armature/kinds/chain_messages.hpp"
+#include "armature/kinds/registration_dialogue.hpp"
 #include "armature/kinds/registration_messages.hpp"
 #include "armature/kinds/setup_flange.hpp"
 #include "armature/kinds/setup_robot.hpp"
@@ -26,9 +27,9 @@ constexpr Duration kPeriod = seconds(0.02);
 
 CalibrationSettings calibration_of(const Params& params) {
   if (params.integer("least_poses") > params.integer("calibration_poses")) {
-    throw SetupError(fmt::format("least_poses is {}, more than the {} calibration_poses",
-                                 params.integer("least_poses"),
-                                 params.integer("calibration_poses")));
+    params.refuse({"least_poses", "calibration_poses"},
+                  fmt::format("'least_poses' is {}, more than the {} 'calibration_poses'",
+                              params.integer("least_poses"), params.integer("calibration_poses")));
   }
   return {.poses = static_cast<int>(params.integer("calibration_poses")),
           .least_poses = static_cast<int>(params.integer("least_poses")),
@@ -37,13 +38,25 @@ CalibrationSettings calibration_of(const Params& params) {
           .patience = seconds(params.number("patience_s"))};
 }
 
+/// A path's blends reach half-way to the next key pose: what is left of the stand-off is straight.
+DrillingSettings drilling_of(const Params& params) {
+  const double stand_off_m = params.number("stand_off_mm"), depth_m = params.number("depth_mm");
+  if (stand_off_m < 2 * depth_m) {
+    params.refuse({"stand_off_mm", "depth_mm"},
+                  fmt::format("'stand_off_mm' is {:g}, but the drill goes straight only along the "
+                              "last half of it, and the bone is 'depth_mm' = {:g} deep there; make "
+                              "it at least {:g}",
+                              1e3 * stand_off_m, 1e3 * depth_m, 2e3 * depth_m));
+  }
+  return {.stand_off_m = stand_off_m, .stop_at_sites = params.flag("stop_at_sites")};
+}
+
 ImplantSettings settings_of(const Params& params) {
   return {.pivot = seconds(params.number("pivot_s")),
           .calibration = calibration_of(params),
           .jaw_samples = static_cast<int>(params.integer("jaw_samples")),
           .patience = seconds(params.number("patience_s")),
-          .drilling = {.stand_off_m = params.number("stand_off_mm"),
-                       .stop_at_sites = params.flag("stop_at_sites")},
+          .drilling = drilling_of(params),
           .dwell = seconds(params.number("dwell_s")),
           .most_pivot_residual_m = params.number("most_pivot_residual_mm"),
           .most_hand_eye_residual_m = params.number("most_hand_eye_residual_mm"),
@@ -100,17 +113,14 @@ class ImplantComponent final : public Component {
         robot_{robot_of(setup)},
         mount_{flange_of(robot_)},
         task_{settings_of(setup.params()), robot_, mount_.flange_T_tool},
-        marker_error_m_{setup.params().number("marker_error_mm")},
-        match_tolerance_m_{setup.params().number("match_tolerance_mm")},
         flange_{setup.input<msg::TrackedBody>("flange")},
         jaw_{setup.input<msg::TrackedBody>("jaw")},
         pivot_{setup.input<msg::TrackedBody>("pivot")},
         measured_js_{setup.input<msg::JointState>("measured_js")},
         plan_{setup.input<msg::ImplantPlan>("plan")},
         markers_{setup.input<msg::MeasuredMarkers>("markers")},
-        registration_{setup.input<msg::RegistrationResponse>("registration")},
+        registration_{setup},
         motion_status_{setup.input<msg::MotionStatus>("motion_status")},
-        request_{setup.output<msg::RegistrationRequest>("request")},
         goal_{setup.output<msg::MotionGoal>("goal")},
         estimate_{setup.output<msg::TFMessage>("estimate")},
         state_{setup} {
@@ -123,7 +133,7 @@ class ImplantComponent final : public Component {
     read_arm();
     read(now);
     task_.update(now);
-    if (markers_.latest() && task_.should_ask(now)) ask(now);
+    if (markers_.latest() && task_.wants_registration() && registration_.due(now)) ask(now);
     if (const auto goal = task_.outgoing_goal(now)) {
       auto loan = goal_.loan();
       write_goal(*goal, now, *loan);
@@ -169,33 +179,23 @@ class ImplantComponent final : public Component {
     for (std::size_t i = 0; i < pivot_.size(); ++i) task_.see_pivot(sighting_of(pivot_[i]));
     for (std::size_t i = 0; i < flange_.size(); ++i) task_.see_flange(sighting_of(flange_[i]));
     for (std::size_t i = 0; i < jaw_.size(); ++i) task_.see_jaw(sighting_of(jaw_[i]));
-    for (std::size_t i = 0; i < registration_.size(); ++i) {
-      const msg::RegistrationResponse& response = registration_[i];
-      if (response.request_id_() != asked_) continue;  // somebody else's
+    registration_.listen([&](const msg::RegistrationResponse& response) {
       if (response.valid_()) {
         task_.see_registration(jaw_of(response), now);
       } else {
         task_.see_refused_registration(response.reason_());
       }
-    }
+    });
   }
 
-  /// A number that nobody else's question on this topic has, as far as one can tell.
   void ask(Time now) {
-    asked_ = static_cast<std::uint64_t>(now.ns);
-    auto loan = request_.loan();
-    write_header(loan->header_(), now, markers_.latest()->header_().frame_id_());
-    loan->request_id_(asked_);
-    loan->image_markers_() = plan_.latest()->markers_();
-    loan->robot_markers_() = markers_.latest()->points_();
-    loan->ordered_(false);
-    loan->match_tolerance_(match_tolerance_m_);
-    loan->marker_error_(marker_error_m_);
-    loan->targets_().clear();
-    for (const msg::Pose& site : plan_.latest()->sites_()) {
-      loan->targets_().push_back(site.position_());
-    }
-    loan.publish();
+    std::vector<msg::Point> sites;
+    for (const msg::Pose& site : plan_.latest()->sites_()) sites.push_back(site.position_());
+    registration_.ask({.robot_frame = markers_.latest()->header_().frame_id_(),
+                       .image_markers = plan_.latest()->markers_(),
+                       .robot_markers = markers_.latest()->points_(),
+                       .targets = sites},
+                      now);
   }
 
   void publish_estimate(Time now) {
@@ -218,16 +218,13 @@ class ImplantComponent final : public Component {
   RobotModel robot_;
   Flange mount_;
   Implant task_;
-  double marker_error_m_, match_tolerance_m_;
-  std::uint64_t asked_ = 0;
   bool begun_ = false, told_ = false;
   Input<msg::TrackedBody> flange_, jaw_, pivot_;
   Input<msg::JointState> measured_js_;
   Input<msg::ImplantPlan> plan_;
   Input<msg::MeasuredMarkers> markers_;
-  Input<msg::RegistrationResponse> registration_;
+  RegistrationDialogue registration_;
   Input<msg::MotionStatus> motion_status_;
-  Output<msg::RegistrationRequest> request_;
   Output<msg::MotionGoal> goal_;
   Output<msg::TFMessage> estimate_;
   TaskStatePublisher state_;

@@ -13,6 +13,7 @@
 #include "armature/messages/header.hpp"
 #include "armature/messages/sensor_msgs.hpp"
 #include "armature/robot/kinematics.hpp"
+#include "armature/runtime/built_plugins.hpp"
 #include "armature/runtime/component_bench.hpp"
 #include "calibration_poses.hpp"
 
@@ -21,11 +22,6 @@ namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
-
-PluginRegistry& plugins() {
-  static PluginRegistry registry{{ARMATURE_PLUGIN_BUILD_DIR}};
-  return registry;
-}
 
 class ImplantComponentTest : public testing::Test {
  protected:
@@ -113,7 +109,7 @@ class ImplantComponentTest : public testing::Test {
   std::size_t at_ = 0;  // of poses_, from 1
   std::vector<msg::MotionGoal> goals_;
   msg::TaskState state_;
-  ComponentBench task_{plugins(), task("med7.yaml")};
+  ComponentBench task_{built_plugins(), task("med7.yaml")};
 };
 
 TEST_F(ImplantComponentTest, FindsTheTipAndThenSendsTheArmToThePosesOfItsCalibration) {
@@ -221,27 +217,28 @@ TEST_F(ImplantComponentTest, AnArmThatTellsNoPositionIsSaid) {
 }
 
 TEST_F(ImplantComponentTest, ARobotWithoutAFlangeIsRefused) {
-  try {
-    ComponentBench{plugins(), task("master.yaml")};
-    FAIL() << "it was made";
-  } catch (const std::exception& error) {
-    EXPECT_NE(std::string{error.what()}.find("the robot 'master' has no frame 'flange'"),
-              std::string::npos)
-        << error.what();
-  }
+  EXPECT_EQ(refusal_of(built_plugins(), task("master.yaml")),
+            "the robot 'master' has no frame 'flange'");
 }
 
-TEST(ImplantParams, MorePosesThanAreTakenCannotBeRequired) {
-  const ComponentBench::Options options{
-      .component = "{plugin: task/implant, params: {calibration_poses: 3, least_poses: 12}}",
-      .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/med7.yaml"),
-      .rig = {}};
-  try {
-    const ComponentBench task{plugins(), options};
-    FAIL() << "it was made";
-  } catch (const std::exception& error) {
-    EXPECT_STREQ(error.what(), "least_poses is 12, more than the 3 calibration_poses");
-  }
+TEST(ImplantParams, ThatContradictEachOtherAreRefused) {
+  const auto refusal = [](const std::string& params) {
+    return refusal_of(built_plugins(),
+                      {.component = "{plugin: task/implant, params: {" + params + "}}",
+                       .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/med7.yaml"),
+                       .rig = {}});
+  };
+  EXPECT_EQ(refusal("calibration_poses: 3, least_poses: 12"),
+            "bench:1:75: 'least_poses' is 12, more than the 3 'calibration_poses'");
+  EXPECT_EQ(refusal("least_poses: 12, calibration_poses: 3"),
+            "bench:1:53: 'least_poses' is 12, more than the 3 'calibration_poses'");
+  const std::string inside =
+      "'stand_off_mm' is 20, but the drill goes straight only along the last half of it, and the "
+      "bone is 'depth_mm' = 12 deep there; make it at least 24";
+  EXPECT_EQ(refusal("stand_off_mm: 20"), "bench:1:54: " + inside);
+  EXPECT_EQ(refusal("stand_off_mm: 24"), "");
+  EXPECT_EQ(refusal("depth_mm: 8, stand_off_mm: 16"), "");
+  EXPECT_EQ(refusal("depth_mm: 20").substr(0, 37), "bench:1:50: 'stand_off_mm' is 30, but");
 }
 
 }  // namespace

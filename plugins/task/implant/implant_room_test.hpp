@@ -96,7 +96,7 @@ class ImplantTest : public testing::Test {
     for (int i = 0; i < 500 && task_.phase() != phase; ++i) {
       step();
       if (task_.phase() == phase) break;
-      if (task_.should_ask(now())) task_.see_registration(registered(), now());
+      if (task_.wants_registration()) task_.see_registration(registered(), now());
     }
     ASSERT_EQ(task_.phase(), phase) << to_string(task_.phase()) << ": " << task_.trouble();
   }

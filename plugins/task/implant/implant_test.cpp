@@ -53,20 +53,12 @@ TEST_F(ImplantTest, StaysForAWhileAtEveryBottomWhereItStops) {
   EXPECT_EQ(goals_.size(), first + 2) << "and out again";
 }
 
-TEST_F(ImplantTest, AsksAgainWhenNobodyRegisters) {
-  begin();
-  while (task_.phase() != Phase::registering) step();
-  EXPECT_TRUE(task_.should_ask(now()));
-  EXPECT_FALSE(task_.should_ask(now() + seconds(0.5)));
-  EXPECT_TRUE(task_.should_ask(now() + seconds(1.1)));
-}
-
 TEST_F(ImplantTest, DoesNotAskForARegistrationBeforeThereIsAPlan) {
   task_.begin(now());
   while (task_.phase() != Phase::registering) step();
-  EXPECT_FALSE(task_.should_ask(now()));
+  EXPECT_FALSE(task_.wants_registration());
   task_.see_plan(sites_);
-  EXPECT_TRUE(task_.should_ask(now()));
+  EXPECT_TRUE(task_.wants_registration());
 }
 
 TEST_F(ImplantTest, ASitesNumbersAreChecked) {
@@ -188,6 +180,38 @@ TEST_F(ImplantTest, AJawThatMovesStopsTheArm) {
   EXPECT_EQ(task_.phase(), Phase::refused);
   EXPECT_EQ(task_.trouble().substr(0, 21), "the jaw has moved by ");
   EXPECT_EQ(goals_.back().mode, MotionMode::hold);
+}
+
+TEST_F(ImplantTest, AJawThatMovesWhileItsPlaceIsAveragedIsNotDrilled) {
+  ImplantSettings settings = quick();
+  settings.jaw_samples = 60;
+  const auto locate = [&](double step_m) {
+    task_ = Implant{settings, med7(), file_tool_};
+    done_ = 0;
+    begin();
+    go_to(Phase::locating);
+    for (int i = 0; i < 70 && task_.phase() == Phase::locating; ++i) {
+      chain_.tracker_T_patient.translate(Vector3d{0, step_m, 0});
+      step();
+    }
+    return task_.trouble();
+  };
+  EXPECT_EQ(locate(0.015e-3), "") << "0.9 mm in all";
+  const std::string trouble = locate(0.03e-3);
+  EXPECT_EQ(trouble.substr(0, 17), "the jaw moved by ") << trouble;
+  EXPECT_NE(trouble.find(" mm while its place was averaged, 1 mm are allowed"), std::string::npos);
+  EXPECT_EQ(task_.phase(), Phase::refused);
+}
+
+TEST_F(ImplantTest, AJawThatJumpsBetweenFewSamplesIsFoundToo) {
+  begin();
+  go_to(Phase::locating);
+  for (int i = 0; i < 5 && task_.phase() == Phase::locating; ++i) {
+    if (i == 2) chain_.tracker_T_patient.translate(Vector3d{0, 0.002, 0});
+    step();
+  }
+  EXPECT_EQ(task_.trouble(),
+            "the jaw moved by 2.00 mm while its place was averaged, 1 mm are allowed");
 }
 
 TEST_F(ImplantTest, StopsWithTheReasonWhenTheMotionRefuses) {

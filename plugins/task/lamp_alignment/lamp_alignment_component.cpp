@@ -24,7 +24,8 @@ SearchSettings search_settings(const Params& params, const RobotModel& model) {
                         .yaw = params.numbers("search_yaw_deg"),
                         .pitch = params.numbers("search_pitch_deg")};
   if (search.yaw.empty() || search.pitch.empty()) {
-    throw SetupError("search_yaw_deg and search_pitch_deg need at least one angle each");
+    params.refuse({"search_yaw_deg", "search_pitch_deg"},
+                  "'search_yaw_deg' and 'search_pitch_deg' need at least one angle each");
   }
   return search;
 }

@@ -6,6 +6,7 @@
 
 #include "armature/kinds/target/target_messages.hpp"
 #include "armature/robot/robot_model.hpp"
+#include "armature/runtime/built_plugins.hpp"
 #include "armature/runtime/component_bench.hpp"
 
 namespace armature {
@@ -14,11 +15,6 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kPeriod_s = 0.02;
-
-PluginRegistry& plugins() {
-  static PluginRegistry registry{{ARMATURE_PLUGIN_BUILD_DIR}};
-  return registry;
-}
 
 ComponentBench::Options task_with(const std::string& params) {
   return {.component = "{plugin: task/lamp_alignment, params: {" + params + "}}",
@@ -64,7 +60,7 @@ class LampAlignmentComponentTest : public testing::Test {
     task_.send("motion_status", message);
   }
 
-  ComponentBench task_{plugins(), task_with("")};
+  ComponentBench task_{built_plugins(), task_with("")};
   double now_s_ = 100;
   std::vector<msg::MotionGoal> goals_;
   std::vector<msg::LightLevel> levels_;
@@ -190,12 +186,8 @@ TEST_F(LampAlignmentComponentTest, CountsItsGoalsFromWhereTheMotionIs) {
 }
 
 TEST(LampAlignmentComponent, DoesNotStartWithoutAnAngleToSearchAt) {
-  try {
-    ComponentBench task{plugins(), task_with("search_pitch_deg: []")};
-    ADD_FAILURE() << "it was made";
-  } catch (const SetupError& error) {
-    EXPECT_STREQ(error.what(), "search_yaw_deg and search_pitch_deg need at least one angle each");
-  }
+  EXPECT_EQ(refusal_of(built_plugins(), task_with("search_pitch_deg: []")),
+            "bench:1:65: 'search_yaw_deg' and 'search_pitch_deg' need at least one angle each");
 }
 
 }  // namespace

@@ -12,6 +12,7 @@ namespace armature {
 namespace {
 
 constexpr Duration kSettlesWithin = seconds(1.0);  // an arm that lags behind its reference
+constexpr Duration kTellsWithin = seconds(1.0);    // who has not told anything yet
 constexpr double kLongestGap_s = 0.1;              // between two poses of the hand
 constexpr int kBroken = -1;                        // the gap is longer, or time went back
 constexpr double kDegrees = 180 / std::numbers::pi;
@@ -26,17 +27,27 @@ ToolPose tool_pose_of(const Eigen::Isometry3d& base_T_tool) {
 void Teleoperation::see(const ConsoleView& view, Time now) {
   switch (phase_) {
     case Phase::waiting:
-      return align(view);
+      return align(view, now);
     case Phase::aligning:
       return judge_alignment(view, now);
     case Phase::refused:
       return;
     default:
-      return follow_hand(view, filter_hand(view));
+      return follow_hand(view, filter_hand(view), now);
   }
 }
 
-void Teleoperation::align(const ConsoleView& view) {
+void Teleoperation::name_missing(const std::string& what, Time now) {
+  if (what.empty()) {
+    missing_since_.reset();
+    return trouble_.clear();
+  }
+  if (!missing_since_) missing_since_ = now;
+  if (now - *missing_since_ > kTellsWithin) trouble_ = what;
+}
+
+void Teleoperation::align(const ConsoleView& view, Time now) {
+  name_missing(silent(view), now);
   if (!view.is_whole()) return;
   const Eigen::Isometry3d master_T_instrument =
       view.slave_T_master->inverse(Eigen::Isometry) * *view.slave_T_tool;
@@ -46,6 +57,7 @@ void Teleoperation::align(const ConsoleView& view) {
 
 void Teleoperation::judge_alignment(const ConsoleView& view, Time now) {
   using State = PursuedGoal::State;
+  name_missing(silent(view), now);
   if (master_goal_.state() == State::failed) {
     return refuse("the master cannot come to the instrument: " + master_goal_.reason());
   }
@@ -80,10 +92,15 @@ int Teleoperation::filter_hand(const ConsoleView& view) {
   return periods;
 }
 
-std::string Teleoperation::missing(const ConsoleView& view) const {
+std::string Teleoperation::silent(const ConsoleView& view) {
   if (!view.slave_T_master) return "where the console stands is not known";
   if (!view.master_T_hand) return "the master tells nothing";
   if (!view.slave_T_tool) return "the slave tells nothing";
+  return "";
+}
+
+std::string Teleoperation::missing(const ConsoleView& view) const {
+  if (std::string silent = this->silent(view); !silent.empty()) return silent;
   if (master_goal_.state() != PursuedGoal::State::moving) {
     const std::string& why = master_goal_.reason();
     return "the master is not free for the hand" + (why.empty() ? "" : ": " + why);
@@ -92,32 +109,34 @@ std::string Teleoperation::missing(const ConsoleView& view) const {
   return "";
 }
 
-void Teleoperation::follow_hand(const ConsoleView& view, int periods) {
+void Teleoperation::follow_hand(const ConsoleView& view, int periods, Time now) {
   const std::string missing = this->missing(view);
-  const bool closed = view.clutch_closed.value_or(false);
-  if (phase_ == Phase::teleoperating) {
-    if (!missing.empty()) return stop_slave(Phase::held, missing);
-    if (!closed) return stop_slave(Phase::clutch_open, "");
-    if (periods == kBroken) return stop_slave(Phase::held, "the master's stamps jump");
-    if (periods == 0) return;
-    const SlaveTarget target = motion_.follow(*hand_, periods);
-    slave_goal_ = MotionGoal{.mode = MotionMode::tracking,
-                             .pose = tool_pose_of(target.pose),
-                             .velocity = target.velocity,
-                             .angular_velocity = target.angular_velocity};
-    return;
-  }
+  if (phase_ != Phase::teleoperating) return await_clutch(view, missing, now);
+  if (!missing.empty()) return stop_slave(Phase::held, missing);
+  if (!*view.clutch_closed) return stop_slave(Phase::clutch_open, "");
+  if (periods == kBroken) return stop_slave(Phase::held, "the master's stamps jump");
+  if (periods == 0) return;
+  const SlaveTarget target = motion_.follow(*hand_, periods);
+  slave_goal_ = MotionGoal{.mode = MotionMode::tracking,
+                           .pose = tool_pose_of(target.pose),
+                           .velocity = target.velocity,
+                           .angular_velocity = target.angular_velocity};
+}
+
+void Teleoperation::await_clutch(const ConsoleView& view, const std::string& missing, Time now) {
+  if (phase_ != Phase::held) name_missing(missing, now);
   if (!missing.empty()) return;
   if (phase_ == Phase::held) {
-    if (closed) return;
+    if (*view.clutch_closed) return;
     phase_ = Phase::clutch_open;
     trouble_.clear();
   }
-  if (closed) engage(view);
+  if (*view.clutch_closed) engage(view);
 }
 
 void Teleoperation::engage(const ConsoleView& view) {
   motion_.engage(*view.slave_T_tool, *hand_, view.slave_T_master->linear());
+  missing_since_.reset();
   first_engaged_id_ = last_slave_id_ + 1;
   phase_ = Phase::teleoperating;
 }

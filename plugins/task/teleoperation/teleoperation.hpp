@@ -59,14 +59,20 @@ class Teleoperation {
   const TremorFilter& filter() const { return filter_; }
 
  private:
-  void align(const ConsoleView& view);
+  void align(const ConsoleView& view, Time now);
   void judge_alignment(const ConsoleView& view, Time now);
-  void follow_hand(const ConsoleView& view, int periods);
+  void follow_hand(const ConsoleView& view, int periods, Time now);
+  /// What of the console and the arms is silent, or "".
+  static std::string silent(const ConsoleView& view);
   /// What is missing for the slave to follow, or "".
   std::string missing(const ConsoleView& view) const;
+  /// Of a slave that does not follow yet: nothing is wrong with what begins a moment later.
+  void name_missing(const std::string& what, Time now);
   /// For how many periods the hand has moved on: 0 when nothing new is told of it, -1 when it
   /// cannot be said.
   int filter_hand(const ConsoleView& view);
+  /// Not following: until the clutch is closed.
+  void await_clutch(const ConsoleView& view, const std::string& missing, Time now);
   void engage(const ConsoleView& view);
   void stop_slave(Phase phase, std::string trouble);
   void refuse(std::string why);
@@ -80,6 +86,7 @@ class Teleoperation {
   std::optional<MotionGoal> slave_goal_;
   std::uint64_t last_slave_id_ = 0, first_engaged_id_ = 0;
   Phase phase_ = Phase::waiting;
+  std::optional<Time> missing_since_;
   std::string trouble_;
 };
 

@@ -6,17 +6,13 @@
 #include "armature/messages/geometry.hpp"
 #include "armature/messages/header.hpp"
 #include "armature/motion/pursued_goal.hpp"
+#include "armature/runtime/built_plugins.hpp"
 #include "armature/runtime/component_bench.hpp"
 
 namespace armature {
 namespace {
 
 using Eigen::Vector3d;
-
-PluginRegistry& plugins() {
-  static PluginRegistry registry{{ARMATURE_PLUGIN_BUILD_DIR}};
-  return registry;
-}
 
 class TeleoperationComponentTest : public testing::Test {
  protected:
@@ -65,7 +61,7 @@ class TeleoperationComponentTest : public testing::Test {
     step();
   }
 
-  ComponentBench task_{plugins(),
+  ComponentBench task_{built_plugins(),
                        {.component = "{plugin: task/teleoperation}", .robot = {}, .rig = {}}};
   const Eigen::Isometry3d slave_T_master_ =
       Eigen::Translation3d{0.6, 0, 0} * Eigen::AngleAxisd{M_PI / 2, Vector3d::UnitZ()};

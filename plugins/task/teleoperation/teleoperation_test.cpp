@@ -1,73 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The story of a master-slave robot, without topics: 1. the master comes to the instrument, 2. the
-// slave follows while the clutch is closed, 3. when it must not go on.
-#include "teleoperation.hpp"
-
-#include <gtest/gtest.h>
+// slave follows while the clutch is closed.
+#include "console_test.hpp"
 
 namespace armature {
 namespace {
-
-using Eigen::Vector3d;
-using Phase = Teleoperation::Phase;
-using Report = GoalReport::State;
-
-Eigen::Isometry3d pose_of(const Vector3d& position, double angle = 0) {
-  return Eigen::Translation3d{position} * Eigen::AngleAxisd{angle, Vector3d::UnitY()};
-}
-
-class TeleoperationTest : public testing::Test {
- protected:
-  /// One millisecond on.
-  void see() {
-    now_ = now_ + seconds(0.001);
-    view_.hand_stamp = now_ - hand_is_late_;
-    task_.see(view_, now_);
-    if (const auto goal = task_.outgoing_master_goal(now_)) master_goal_ = goal;
-    slave_goal_ = task_.outgoing_slave_goal();
-  }
-  void see(int count) {
-    for (int i = 0; i < count; ++i) see();
-  }
-  void hear_master(Report state, const std::string& stage = "", const std::string& reason = "") {
-    task_.hear_master(
-        {.goal_id = master_goal_->id, .state = state, .stage = stage, .reason = reason}, now_);
-  }
-  void show_console() {
-    view_.slave_T_master = console_;
-    view_.master_T_hand = pose_of({0, 0, 0.1});
-    view_.slave_T_tool = instrument_;
-  }
-  /// The master stands on the instrument, and the motion says so.
-  void align() {
-    show_console();
-    see();
-    hear_master(Report::executing);
-    hear_master(Report::done);
-    view_.master_T_hand = console_.inverse() * instrument_;
-    see();
-  }
-  void give_to_hand() {
-    align();
-    hear_master(Report::executing);
-    view_.clutch_closed = false;
-    see();
-  }
-  void close_clutch() {
-    give_to_hand();
-    view_.clutch_closed = true;
-    see();
-  }
-  void move_hand(double mm) { view_.master_T_hand->translation().x() += 1e-3 * mm; }
-
-  const Eigen::Isometry3d console_ = pose_of({0.6, -0.1, 0.1}, 0.5);
-  const Eigen::Isometry3d instrument_ = pose_of({0.5, 0, 0.2}, 2);
-  Teleoperation task_{{}};
-  ConsoleView view_;
-  Time now_;
-  Duration hand_is_late_ = seconds(0.001);
-  std::optional<MotionGoal> master_goal_, slave_goal_;
-};
 
 TEST_F(TeleoperationTest, SendsTheMasterToTheInstrumentAndTheInstrumentNowhere) {
   see();
@@ -115,6 +52,7 @@ TEST_F(TeleoperationTest, IsNotAlignedAsLongAsItCannotBeJudged) {
   view_.slave_T_master.reset();
   see(2000);
   EXPECT_EQ(task_.phase(), Phase::aligning);
+  EXPECT_EQ(task_.trouble(), "where the console stands is not known");
   view_.slave_T_master = console_;
   see();
   EXPECT_EQ(task_.phase(), Phase::aligned);
@@ -159,22 +97,6 @@ TEST_F(TeleoperationTest, WhereNothingNewIsToldOfTheHandTheSlaveIsToldNothing) {
   see();
   ASSERT_TRUE(slave_goal_);
   EXPECT_LT(slave_goal_->velocity.norm(), 0.025);
-}
-
-TEST_F(TeleoperationTest, StampsThatJumpHoldTheSlave) {
-  close_clutch();
-  see(100);
-  for (const Duration jump : {seconds(1000), -seconds(2000)}) {
-    hand_is_late_ += jump;
-    see();
-    EXPECT_EQ(task_.phase(), Phase::held);
-    EXPECT_EQ(task_.trouble(), "the master's stamps jump");
-    view_.clutch_closed = false;
-    see();
-    view_.clutch_closed = true;
-    see(2);
-    EXPECT_EQ(task_.phase(), Phase::teleoperating);
-  }
 }
 
 TEST_F(TeleoperationTest, GoalsOfTheSlaveAscendFromWhereItsMotionIs) {
@@ -223,64 +145,6 @@ TEST_F(TeleoperationTest, AClosedClutchMovesNothingBeforeTheMasterIsGivenToTheHa
   hear_master(Report::executing);
   see();
   EXPECT_EQ(task_.phase(), Phase::teleoperating);
-}
-
-TEST_F(TeleoperationTest, WhatFallsSilentHoldsTheSlaveUntilTheClutchWasOpen) {
-  const auto held = [&](auto silence, const std::string& reason) {
-    SCOPED_TRACE(reason);
-    const ConsoleView before = view_;
-    silence();
-    see();
-    EXPECT_EQ(task_.phase(), Phase::held);
-    EXPECT_EQ(task_.trouble(), reason);
-    ASSERT_TRUE(slave_goal_);
-    EXPECT_EQ(slave_goal_->mode, MotionMode::hold);
-    view_ = before;
-    see(10);
-    EXPECT_EQ(task_.phase(), Phase::held) << "a closed clutch does not go on by itself";
-    view_.clutch_closed = false;
-    see();
-    EXPECT_EQ(task_.phase(), Phase::clutch_open);
-    EXPECT_EQ(task_.trouble(), "");
-    view_.clutch_closed = true;
-    see();
-    EXPECT_EQ(task_.phase(), Phase::teleoperating);
-  };
-  close_clutch();
-  held([&] { view_.clutch_closed.reset(); }, "the clutch tells nothing");
-  held([&] { view_.master_T_hand.reset(); }, "the master tells nothing");
-  held([&] { view_.slave_T_tool.reset(); }, "the slave tells nothing");
-  held([&] { view_.slave_T_master.reset(); }, "where the console stands is not known");
-}
-
-TEST_F(TeleoperationTest, ASlaveThatCannotFollowIsHeldWithItsReason) {
-  close_clutch();
-  see(5);
-  const std::uint64_t id = slave_goal_->id;
-  task_.hear_slave(
-      {.goal_id = id, .state = Report::failed, .stage = "ik", .reason = "out_of_reach"});
-  EXPECT_EQ(task_.phase(), Phase::held);
-  EXPECT_EQ(task_.trouble(), "the slave cannot follow: ik: out_of_reach");
-  view_.clutch_closed = false;
-  see();
-  view_.clutch_closed = true;
-  see(2);
-  task_.hear_slave({.goal_id = id, .state = Report::failed, .stage = "ik", .reason = "late news"});
-  EXPECT_EQ(task_.phase(), Phase::teleoperating);
-}
-
-TEST_F(TeleoperationTest, AMasterThatIsTakenFromTheHandHoldsTheSlave) {
-  close_clutch();
-  hear_master(Report::failed, "execution", "no joint state of the arm");
-  see();
-  EXPECT_EQ(task_.phase(), Phase::held);
-  EXPECT_EQ(task_.trouble(), "the master is not free for the hand: no joint state of the arm");
-  see(300);
-  EXPECT_EQ(master_goal_->mode, MotionMode::guided) << "it is given to the hand again";
-  hear_master(Report::executing);
-  view_.clutch_closed = false;
-  see();
-  EXPECT_EQ(task_.phase(), Phase::clutch_open);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/stamp.hpp"
@@ -18,6 +19,7 @@ class Ear final : public Component {
       : Component{setup},
         listens_{seconds(setup.params().number("listens_s"))},
         undeclared_{setup.params().flag("undeclared")},
+        minds_silence_{setup.params().flag("minds_silence")},
         beat_{setup.input<msg::Capture>("beat")},
         young_{setup.input<msg::Capture>("young")},
         states_{setup.input<msg::ComponentState>("states")} {
@@ -27,7 +29,7 @@ class Ear final : public Component {
   void step(Time now) override {
     if (!start_) start_ = now;
     finished_ = now - *start_ >= listens_;
-    if (beat_.fresh()) delay_s_ = age_s(beat_, now);
+    if (beat_.fresh()) delays_s_.push_back(age_s(beat_, now));
     if (beat_.latest()) oldest_s_ = std::max(oldest_s_, age_s(beat_, now));
     if (young_.latest()) oldest_young_s_ = std::max(oldest_young_s_, age_s(young_, now));
     for (std::size_t i = 0; i < states_.size(); ++i) told_of_.insert(states_[i].component_());
@@ -36,7 +38,12 @@ class Ear final : public Component {
   bool finished() const override { return finished_; }
 
   void summarize(Summary& summary) const override {
-    if (delay_s_) summary.metric("delay_s", "delay [s]", *delay_s_);
+    if (!delays_s_.empty()) summary.metric("delay_s", "delay [s]", delays_s_.back());
+    summary.series("delays_s", "delay of each beat [s]", delays_s_);
+    if (delays_s_.empty() && minds_silence_) {
+      summary.not_measured("delay_s", "delay [s]", "no beat was heard");
+      summary.failed("deaf", "beat tells nothing");
+    }
     summary.metric("oldest_s", "oldest beat [s]", oldest_s_);
     summary.metric("oldest_young_s", "oldest young beat [s]", oldest_young_s_);
     if (undeclared_) summary.metric("surprise_s", "surprise [s]", 1);
@@ -51,12 +58,12 @@ class Ear final : public Component {
   }
 
   Duration listens_;
-  bool undeclared_;
+  bool undeclared_, minds_silence_;
   Input<msg::Capture> beat_, young_;
   Input<msg::ComponentState> states_;
   std::optional<Time> start_;
   bool finished_ = false;
-  std::optional<double> delay_s_;
+  std::vector<double> delays_s_;
   double oldest_s_ = 0, oldest_young_s_ = 0;
   std::set<std::string> told_of_;
 };

@@ -18,6 +18,9 @@ namespace armature {
 struct PathSubject {
   std::string name;
   std::shared_ptr<const PathPlanner> planner;
+  /// A goal's axis is a line through the point to look at, and the way along it from before that
+  /// point: it is asked for nothing else.
+  bool along_a_line = false;
 
   friend void PrintTo(const PathSubject& subject, std::ostream* out) { *out << subject.name; }
 };
@@ -40,6 +43,10 @@ class PathLaws : public testing::TestWithParam<PathSubject> {
   static void expect_passes_key_poses(const Path& path, const PathRequest& request);
   static void expect_sound(const Path& path, const PathRequest& request);
   void expect_planned(const PathRequest& request);
+  /// `usual`, or 0 where a goal has to look at its focus exactly.
+  double miss(double usual) const { return GetParam().along_a_line ? 0 : usual; }
+  /// Towards the focus; along a line from before it.
+  PathRequest towards_focus(ToolPose start, const ToolPose& goal) const;
 
   const Eigen::Vector3d kFocus{1.55, 0, 0.45};
   std::mt19937_64 random_{17};

@@ -10,6 +10,7 @@
 #include "armature/kinds/landmarks/landmark_messages.hpp"
 #include "armature/messages/geometry.hpp"
 #include "armature/messages/header.hpp"
+#include "armature/runtime/built_plugins.hpp"
 #include "armature/runtime/component_bench.hpp"
 
 namespace armature::face_pose_host {
@@ -38,12 +39,8 @@ class FirstLandmark final : public FacePoseEstimator {
 };
 
 PluginRegistry& plugins() {
-  static PluginRegistry registry = [] {
-    PluginRegistry made{{ARMATURE_PLUGIN_BUILD_DIR}};
-    made.add<FirstLandmark>("{armature_plugin: 1, id: face_pose/first, kind: face_pose}");
-    return made;
-  }();
-  return registry;
+  return built_plugins_with<FirstLandmark>(
+      "{armature_plugin: 1, id: face_pose/first, kind: face_pose}");
 }
 
 msg::Image image(double stamp_s) {

@@ -7,11 +7,12 @@
 #include <stdexcept>
 
 #include "armature/kinds/ik/ik.hpp"
+#include "armature/kinds/request_host_test.hpp"
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/geometry.hpp"
 #include "armature/messages/header.hpp"
 #include "armature/robot/test_robots.hpp"
-#include "armature/runtime/component_bench.hpp"
+#include "armature/runtime/built_plugins.hpp"
 
 namespace armature::ik_host {
 namespace {
@@ -48,12 +49,7 @@ class EchoIk final : public IkSolver {
 };
 
 PluginRegistry& plugins() {
-  static PluginRegistry registry = [] {
-    PluginRegistry made{{ARMATURE_PLUGIN_BUILD_DIR}};
-    made.add<EchoIk>("{armature_plugin: 1, id: ik/echo, kind: ik}");
-    return made;
-  }();
-  return registry;
+  return built_plugins_with<EchoIk>("{armature_plugin: 1, id: ik/echo, kind: ik}");
 }
 
 msg::IkRequest request(std::uint64_t id) {
@@ -66,39 +62,21 @@ msg::IkRequest request(std::uint64_t id) {
   return message;
 }
 
-class IkHostTest : public ::testing::Test {
+class IkHostTest : public RequestHostTest<msg::IkRequest, msg::IkResponse> {
  protected:
-  IkHostTest() {
+  IkHostTest()
+      : RequestHostTest{
+            plugins(),
+            {.component = "{plugin: ik/echo}",
+             .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/dental_lamp.yaml"),
+             .rig = {}}} {
     EchoIk::answer = {};
     EchoIk::throws = false;
   }
-  msg::IkResponse ask(const msg::IkRequest& message) {
-    host_.send("request", message);
-    host_.step(0.1);
-    const auto answers = host_.take<msg::IkResponse>("response");
-    EXPECT_EQ(answers.size(), 1u);
-    return answers.empty() ? msg::IkResponse{} : answers.front();
-  }
-  ComponentBench host_{
-      plugins(),
-      {.component = "{plugin: ik/echo}",
-       .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/dental_lamp.yaml"),
-       .rig = {}}};
 };
 
 TEST_F(IkHostTest, AnswersEveryRequestOnceInOrderUnderItsHeaderAndId) {
-  for (const std::uint64_t id : {7u, 3u, 3u, 9u}) host_.send("request", request(id));
-  EXPECT_TRUE(host_.triggered());
-  host_.step(0.1);
-  const auto answers = host_.take<msg::IkResponse>("response");
-  ASSERT_EQ(answers.size(), 4u);
-  for (std::size_t i = 0; i < answers.size(); ++i) {
-    const std::uint64_t id = std::array{7u, 3u, 3u, 9u}[i];
-    EXPECT_EQ(answers[i].request_id_(), id);
-    EXPECT_EQ(answers[i].header_(), request(id).header_());
-  }
-  host_.step(0.2);
-  EXPECT_TRUE(host_.take<msg::IkResponse>("response").empty());
+  expect_answered_in_order({request(7), request(3), request(3), request(9)});
 }
 
 TEST_F(IkHostTest, AsksForThePoseOfTheRequest) {

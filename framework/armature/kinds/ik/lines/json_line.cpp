@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstddef>
 #include <set>
 #include <string>
 
@@ -26,6 +27,10 @@ Json::parser_callback_t without_duplicates() {
 }  // namespace
 
 Json parse_object(std::string_view line) {
+  const std::size_t first = line.find_first_not_of(" \t");
+  if (first != std::string_view::npos && line[first] == '#') {
+    throw InvalidLine("a comment, which JSON lines do not have");
+  }
   Json json = Json::parse(line, without_duplicates(), false);
   if (json.is_discarded()) throw InvalidLine("not JSON");
   if (!json.is_object()) throw InvalidLine("not a JSON object");

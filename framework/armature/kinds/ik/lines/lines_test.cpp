@@ -229,6 +229,12 @@ TEST(IkLines, AnIdComesBackWhateverBecameOfTheQuestion) {
             "'id' must be a number or a text");
 }
 
+TEST(IkLines, ACommentIsNamedAndAByteOrderMarkIsNoHarm) {
+  const auto fk = [](const std::string& line) { return json::parse(answer_fk(lamp(), line)); };
+  EXPECT_EQ(fk(" # all joints at home")["reason"], "a comment, which JSON lines do not have");
+  EXPECT_TRUE(fk("\xEF\xBB\xBF{\"joints\":[0,0,0,0,0,0]}").contains("position_m"));
+}
+
 std::string refusal(const std::string& answer) {
   const IkQuestion question{.goal = {}, .seed = {}, .id = 7};
   const auto told = read_answer(lamp(), question, answer);

@@ -8,6 +8,7 @@
 
 #include "armature/kinds/landmarks/landmark_messages.hpp"
 #include "armature/messages/header.hpp"
+#include "armature/runtime/built_plugins.hpp"
 #include "armature/runtime/component_bench.hpp"
 
 namespace armature::landmarks_host {
@@ -42,12 +43,8 @@ class FirstPixel final : public LandmarkFinder {
 };
 
 PluginRegistry& plugins() {
-  static PluginRegistry registry = [] {
-    PluginRegistry made{{ARMATURE_PLUGIN_BUILD_DIR}};
-    made.add<FirstPixel>("{armature_plugin: 1, id: landmarks/first_pixel, kind: landmarks}");
-    return made;
-  }();
-  return registry;
+  return built_plugins_with<FirstPixel>(
+      "{armature_plugin: 1, id: landmarks/first_pixel, kind: landmarks}");
 }
 
 /// 4 x 2 pixels in rows of 6 bytes, of which two count for nothing.

@@ -7,10 +7,11 @@
 #include <stdexcept>
 
 #include "armature/kinds/path/path.hpp"
+#include "armature/kinds/request_host_test.hpp"
 #include "armature/kinds/tool_pose_messages.hpp"
 #include "armature/kinds/zone_messages.hpp"
 #include "armature/messages/header.hpp"
-#include "armature/runtime/component_bench.hpp"
+#include "armature/runtime/built_plugins.hpp"
 
 namespace armature::path_host {
 namespace {
@@ -41,12 +42,8 @@ class OverTheFocus final : public PathPlanner {
 };
 
 PluginRegistry& plugins() {
-  static PluginRegistry registry = [] {
-    PluginRegistry made{{ARMATURE_PLUGIN_BUILD_DIR}};
-    made.add<OverTheFocus>("{armature_plugin: 1, id: path/over_the_focus, kind: path}");
-    return made;
-  }();
-  return registry;
+  return built_plugins_with<OverTheFocus>(
+      "{armature_plugin: 1, id: path/over_the_focus, kind: path}");
 }
 
 msg::PathRequest request(std::uint64_t id) {
@@ -61,37 +58,17 @@ msg::PathRequest request(std::uint64_t id) {
   return message;
 }
 
-class PathHostTest : public ::testing::Test {
+class PathHostTest : public RequestHostTest<msg::PathRequest, msg::PathResponse> {
  protected:
-  msg::PathResponse ask(const msg::PathRequest& message) {
-    host_.send("request", message);
-    host_.step(0.1);
-    const auto answers = host_.take<msg::PathResponse>("response");
-    EXPECT_EQ(answers.size(), 1u);
-    return answers.empty() ? msg::PathResponse{} : answers.front();
-  }
-  ComponentBench host_{plugins(),
-                       {.component = "{plugin: path/over_the_focus}", .robot = {}, .rig = {}}};
+  PathHostTest()
+      : RequestHostTest{plugins(),
+                        {.component = "{plugin: path/over_the_focus}", .robot = {}, .rig = {}}} {}
 };
 
 TEST_F(PathHostTest, AnswersEveryRequestOnceInOrderUnderItsHeaderAndId) {
   msg::PathRequest bad = request(3);
   bad.has_focus_(false);
-  host_.send("request", request(7));
-  host_.send("request", bad);
-  host_.send("request", request(9));
-  EXPECT_TRUE(host_.triggered());
-  host_.step(0.1);
-  const auto answers = host_.take<msg::PathResponse>("response");
-  ASSERT_EQ(answers.size(), 3u);
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::uint64_t id = std::array{7u, 3u, 9u}[i];
-    EXPECT_EQ(answers[i].request_id_(), id);
-    EXPECT_EQ(answers[i].header_(), request(id).header_());
-    EXPECT_EQ(answers[i].valid_(), id != 3);
-  }
-  host_.step(0.2);
-  EXPECT_TRUE(host_.take<msg::PathResponse>("response").empty());
+  expect_bad_one_refused_between(request(7), bad, request(9));
 }
 
 TEST_F(PathHostTest, AsksForThePathOfTheRequest) {

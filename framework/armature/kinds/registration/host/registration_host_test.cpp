@@ -9,10 +9,11 @@
 #include <stdexcept>
 
 #include "armature/kinds/registration/registration.hpp"
+#include "armature/kinds/request_host_test.hpp"
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/geometry.hpp"
 #include "armature/messages/header.hpp"
-#include "armature/runtime/component_bench.hpp"
+#include "armature/runtime/built_plugins.hpp"
 
 namespace armature::registration_host {
 namespace {
@@ -36,13 +37,8 @@ class FirstMarker final : public Registrar {
 };
 
 PluginRegistry& plugins() {
-  static PluginRegistry registry = [] {
-    PluginRegistry made{{ARMATURE_PLUGIN_BUILD_DIR}};
-    made.add<FirstMarker>(
-        "{armature_plugin: 1, id: registration/first_marker, kind: registration}");
-    return made;
-  }();
-  return registry;
+  return built_plugins_with<FirstMarker>(
+      "{armature_plugin: 1, id: registration/first_marker, kind: registration}");
 }
 
 const std::array<Eigen::Vector3d, 4> kMarkers{
@@ -69,17 +65,13 @@ msg::RegistrationRequest request(std::uint64_t id) {
   return message;
 }
 
-class RegistrationHostTest : public ::testing::Test {
+class RegistrationHostTest
+    : public RequestHostTest<msg::RegistrationRequest, msg::RegistrationResponse> {
  protected:
-  msg::RegistrationResponse ask(const msg::RegistrationRequest& message) {
-    host_.send("request", message);
-    host_.step(0.1);
-    const auto answers = host_.take<msg::RegistrationResponse>("response");
-    EXPECT_EQ(answers.size(), 1u);
-    return answers.empty() ? msg::RegistrationResponse{} : answers.front();
-  }
-  ComponentBench host_{
-      plugins(), {.component = "{plugin: registration/first_marker}", .robot = {}, .rig = {}}};
+  RegistrationHostTest()
+      : RequestHostTest{
+            plugins(),
+            {.component = "{plugin: registration/first_marker}", .robot = {}, .rig = {}}} {}
 };
 
 TEST_F(RegistrationHostTest, TellsTheMapItsMarkersAndTheTargets) {

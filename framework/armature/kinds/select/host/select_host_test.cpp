@@ -6,11 +6,12 @@
 
 #include <stdexcept>
 
+#include "armature/kinds/request_host_test.hpp"
 #include "armature/kinds/select/select.hpp"
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/header.hpp"
 #include "armature/robot/test_robots.hpp"
-#include "armature/runtime/component_bench.hpp"
+#include "armature/runtime/built_plugins.hpp"
 
 namespace armature::select_host {
 namespace {
@@ -44,12 +45,7 @@ class LastBranch final : public BranchSelector {
 };
 
 PluginRegistry& plugins() {
-  static PluginRegistry registry = [] {
-    PluginRegistry made{{ARMATURE_PLUGIN_BUILD_DIR}};
-    made.add<LastBranch>("{armature_plugin: 1, id: select/last, kind: select}");
-    return made;
-  }();
-  return registry;
+  return built_plugins_with<LastBranch>("{armature_plugin: 1, id: select/last, kind: select}");
 }
 
 msg::IkSolution solution(const std::string& label, std::vector<double> joints) {
@@ -76,40 +72,20 @@ msg::SelectRequest request(std::uint64_t id) {
   return message;
 }
 
-class SelectHostTest : public ::testing::Test {
+class SelectHostTest : public RequestHostTest<msg::SelectRequest, msg::SelectResponse> {
  protected:
-  msg::SelectResponse ask(const msg::SelectRequest& message) {
-    host_.send("request", message);
-    host_.step(0.1);
-    const auto answers = host_.take<msg::SelectResponse>("response");
-    EXPECT_EQ(answers.size(), 1u);
-    return answers.empty() ? msg::SelectResponse{} : answers.front();
-  }
-  ComponentBench host_{
-      plugins(),
-      {.component = "{plugin: select/last}",
-       .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/dental_lamp.yaml"),
-       .rig = {}}};
+  SelectHostTest()
+      : RequestHostTest{
+            plugins(),
+            {.component = "{plugin: select/last}",
+             .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/dental_lamp.yaml"),
+             .rig = {}}} {}
 };
 
 TEST_F(SelectHostTest, AnswersEveryRequestOnceInOrderUnderItsHeaderAndId) {
   msg::SelectRequest bad = request(3);
   bad.waypoints_()[1].solutions_().clear();
-  host_.send("request", request(7));
-  host_.send("request", bad);
-  host_.send("request", request(9));
-  EXPECT_TRUE(host_.triggered());
-  host_.step(0.1);
-  const auto answers = host_.take<msg::SelectResponse>("response");
-  ASSERT_EQ(answers.size(), 3u);
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::uint64_t id = std::array{7u, 3u, 9u}[i];
-    EXPECT_EQ(answers[i].request_id_(), id);
-    EXPECT_EQ(answers[i].header_(), request(id).header_());
-    EXPECT_EQ(answers[i].valid_(), id != 3);
-  }
-  host_.step(0.2);
-  EXPECT_TRUE(host_.take<msg::SelectResponse>("response").empty());
+  expect_bad_one_refused_between(request(7), bad, request(9));
 }
 
 TEST_F(SelectHostTest, AsksWithTheIndependentJointsOfEverySolution) {

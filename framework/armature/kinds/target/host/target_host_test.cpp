@@ -11,6 +11,7 @@
 #include "armature/robot/kinematics.hpp"
 #include "armature/robot/stereo_rig.hpp"
 #include "armature/robot/test_robots.hpp"
+#include "armature/runtime/built_plugins.hpp"
 #include "armature/runtime/component_bench.hpp"
 
 namespace armature::target_host {
@@ -54,12 +55,7 @@ class LastLook final : public TargetFilter {
 };
 
 PluginRegistry& plugins() {
-  static PluginRegistry registry = [] {
-    PluginRegistry made{{ARMATURE_PLUGIN_BUILD_DIR}};
-    made.add<LastLook>("{armature_plugin: 1, id: target/last_look, kind: target}");
-    return made;
-  }();
-  return registry;
+  return built_plugins_with<LastLook>("{armature_plugin: 1, id: target/last_look, kind: target}");
 }
 
 const std::string kRig = ARMATURE_SOURCE_DIR "/configs/rigs/default.yaml";

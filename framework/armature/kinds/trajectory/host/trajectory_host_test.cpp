@@ -6,11 +6,12 @@
 
 #include <stdexcept>
 
+#include "armature/kinds/request_host_test.hpp"
 #include "armature/kinds/trajectory/trajectory_planner.hpp"
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/header.hpp"
 #include "armature/robot/test_robots.hpp"
-#include "armature/runtime/component_bench.hpp"
+#include "armature/runtime/built_plugins.hpp"
 
 namespace armature::trajectory_host {
 namespace {
@@ -44,12 +45,8 @@ class TwoSeconds final : public TrajectoryPlanner {
 };
 
 PluginRegistry& plugins() {
-  static PluginRegistry registry = [] {
-    PluginRegistry made{{ARMATURE_PLUGIN_BUILD_DIR}};
-    made.add<TwoSeconds>("{armature_plugin: 1, id: trajectory/two_seconds, kind: trajectory}");
-    return made;
-  }();
-  return registry;
+  return built_plugins_with<TwoSeconds>(
+      "{armature_plugin: 1, id: trajectory/two_seconds, kind: trajectory}");
 }
 
 msg::JointPosition at(std::vector<double> joints) {
@@ -76,40 +73,20 @@ msg::TrajectoryRequest request(std::uint64_t id) {
   return message;
 }
 
-class TrajectoryHostTest : public ::testing::Test {
+class TrajectoryHostTest : public RequestHostTest<msg::TrajectoryRequest, msg::TrajectoryResponse> {
  protected:
-  msg::TrajectoryResponse ask(const msg::TrajectoryRequest& message) {
-    host_.send("request", message);
-    host_.step(0.1);
-    const auto answers = host_.take<msg::TrajectoryResponse>("response");
-    EXPECT_EQ(answers.size(), 1u);
-    return answers.empty() ? msg::TrajectoryResponse{} : answers.front();
-  }
-  ComponentBench host_{
-      plugins(),
-      {.component = "{plugin: trajectory/two_seconds}",
-       .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/dental_lamp.yaml"),
-       .rig = {}}};
+  TrajectoryHostTest()
+      : RequestHostTest{
+            plugins(),
+            {.component = "{plugin: trajectory/two_seconds}",
+             .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/dental_lamp.yaml"),
+             .rig = {}}} {}
 };
 
 TEST_F(TrajectoryHostTest, AnswersEveryRequestOnceInOrderUnderItsHeaderAndId) {
   msg::TrajectoryRequest bad = request(3);
   bad.segments_().clear();
-  host_.send("request", request(7));
-  host_.send("request", bad);
-  host_.send("request", request(9));
-  EXPECT_TRUE(host_.triggered());
-  host_.step(0.1);
-  const auto answers = host_.take<msg::TrajectoryResponse>("response");
-  ASSERT_EQ(answers.size(), 3u);
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::uint64_t id = std::array{7u, 3u, 9u}[i];
-    EXPECT_EQ(answers[i].request_id_(), id);
-    EXPECT_EQ(answers[i].header_(), request(id).header_());
-    EXPECT_EQ(answers[i].valid_(), id != 3);
-  }
-  host_.step(0.2);
-  EXPECT_TRUE(host_.take<msg::TrajectoryResponse>("response").empty());
+  expect_bad_one_refused_between(request(7), bad, request(9));
 }
 
 TEST_F(TrajectoryHostTest, AsksForTheSegmentsInIndependentJointsFromRestWithTheRobotsLimits) {

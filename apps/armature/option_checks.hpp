@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+namespace armature {
+
+// What is wrong with the text of an option, or "": where the parser of the command line would take
+// it for something else.
+
+/// Not a whole number from 0 to 2^64 - 1: -1 would be the largest one.
+std::string wrong_seed(const std::string& text);
+/// Not a finite number: NaN is within any range.
+std::string wrong_number(const std::string& text);
+
+}  // namespace armature

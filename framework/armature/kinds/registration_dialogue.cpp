@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/kinds/registration_dialogue.hpp"
+
+#include "armature/messages/header.hpp"
+
+namespace armature {
+
+RegistrationDialogue::RegistrationDialogue(Setup& setup)
+    : marker_error_m_{setup.params().number("marker_error_mm")},
+      match_tolerance_m_{setup.params().number("match_tolerance_mm")},
+      answers_{setup.input<msg::RegistrationResponse>("registration")},
+      requests_{setup.output<msg::RegistrationRequest>("request")} {}
+
+bool RegistrationDialogue::due(Time now) const {
+  constexpr Duration kAnswerWithin = seconds(1.0);
+  return !asked_ || now - asked_at_ >= kAnswerWithin;
+}
+
+void RegistrationDialogue::ask(const Question& question, Time now) {
+  asked_at_ = now;
+  // A number that nobody else's question on this topic has, as far as one can tell.
+  asked_ = static_cast<std::uint64_t>(now.ns);
+  auto loan = requests_.loan();
+  write_header(loan->header_(), now, question.robot_frame);
+  loan->request_id_(*asked_);
+  loan->image_markers_() = question.image_markers;
+  loan->robot_markers_() = question.robot_markers;
+  loan->ordered_(false);
+  loan->match_tolerance_(match_tolerance_m_);
+  loan->marker_error_(marker_error_m_);
+  loan->targets_() = question.targets;
+  loan.publish();
+}
+
+}  // namespace armature

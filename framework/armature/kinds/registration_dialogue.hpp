@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "armature/messages/armature_msgs.hpp"
+#include "armature/messages/geometry_msgs.hpp"
+#include "armature/runtime/setup.hpp"
+
+namespace armature {
+
+/// How the markers of an image lie before a robot: a task's question to a registration, and the
+/// answers to it. Claims the output `request` and the input `registration`; reads `marker_error_mm`
+/// and `match_tolerance_mm`.
+class RegistrationDialogue {
+ public:
+  struct Question {
+    std::string robot_frame;  // of robot_markers
+    std::vector<msg::Point> image_markers, robot_markers, targets;
+  };
+
+  explicit RegistrationDialogue(Setup& setup);
+
+  /// True when it has not been asked yet, or not been answered in time.
+  bool due(Time now) const;
+  void ask(const Question& question, Time now);
+  /// Calls `hear` with every answer to the last question; those to somebody else's are none.
+  template <class Hear>
+  void listen(const Hear& hear) const {
+    for (std::size_t i = 0; i < answers_.size(); ++i) {
+      if (asked_ && answers_[i].request_id_() == *asked_) hear(answers_[i]);
+    }
+  }
+
+ private:
+  double marker_error_m_, match_tolerance_m_;
+  std::optional<std::uint64_t> asked_;
+  Time asked_at_;
+  Input<msg::RegistrationResponse> answers_;
+  Output<msg::RegistrationRequest> requests_;
+};
+
+/// The same dialogue for who only watches it. Claims the inputs `request` and `registration`.
+class OverheardRegistration {
+ public:
+  explicit OverheardRegistration(Setup& setup)
+      : requests_{setup.input<msg::RegistrationRequest>("request")},
+        answers_{setup.input<msg::RegistrationResponse>("registration")} {}
+
+  /// Calls `hear` with every answer to the task's last question that tells a registration.
+  template <class Hear>
+  void listen(const Hear& hear) {
+    if (requests_.latest()) asked_ = requests_.latest()->request_id_();
+    for (std::size_t i = 0; i < answers_.size(); ++i) {
+      const bool is_answer = asked_ && answers_[i].request_id_() == *asked_;
+      if (is_answer && answers_[i].valid_()) hear(answers_[i]);
+    }
+  }
+
+ private:
+  std::optional<std::uint64_t> asked_;
+  Input<msg::RegistrationRequest> requests_;
+  Input<msg::RegistrationResponse> answers_;
+};
+
+}  // namespace armature

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+// A task's dialogue with a registration: 1. asked again in time, 2. whose answers count, for the
+// task and for who watches it.
+#include "armature/kinds/registration_dialogue.hpp"
+
+#include <gtest/gtest.h>
+
+#include "armature/messages/geometry_msgs.hpp"
+#include "armature/runtime/component_bench.hpp"
+
+namespace armature {
+namespace {
+
+constexpr const char* kAsks = R"(
+armature_plugin: 1
+id: test/asks
+kind: component
+params:
+  marker_error_mm: {type: number, default: 0.5}
+  match_tolerance_mm: {type: number, default: 3}
+in:
+  registration: {type: armature_msgs/RegistrationResponse, reads: queue(16), doc: "Answers"}
+out:
+  request: {type: armature_msgs/RegistrationRequest, doc: "Questions"}
+)";
+constexpr const char* kWatches = R"(
+armature_plugin: 1
+id: test/watches
+kind: component
+in:
+  request: {type: armature_msgs/RegistrationRequest, reads: latest, doc: "Questions"}
+  registration: {type: armature_msgs/RegistrationResponse, reads: queue(16), doc: "Answers"}
+)";
+
+class Asks final : public Component {
+ public:
+  explicit Asks(Setup& setup) : Component{setup}, dialogue_{setup} {}
+  void step(Time now) override {
+    if (dialogue_.due(now)) dialogue_.ask({.robot_frame = "jaw", .targets = {{}, {}}}, now);
+    dialogue_.listen([&](const msg::RegistrationResponse& answer) {
+      say(answer.valid_() ? "registered" : answer.reason_());
+    });
+  }
+
+ private:
+  RegistrationDialogue dialogue_;
+};
+
+class Watches final : public Component {
+ public:
+  explicit Watches(Setup& setup) : Component{setup}, overheard_{setup} {}
+  void step(Time) override {
+    overheard_.listen([&](const msg::RegistrationResponse&) { say("registered"); });
+  }
+
+ private:
+  OverheardRegistration overheard_;
+};
+
+PluginRegistry with_both() {
+  PluginRegistry plugins{std::vector<std::filesystem::path>{}};
+  plugins.add<Asks>(kAsks);
+  plugins.add<Watches>(kWatches);
+  return plugins;
+}
+
+msg::RegistrationResponse answer(std::uint64_t id, bool valid = true) {
+  msg::RegistrationResponse response;
+  response.request_id_(id);
+  response.valid_(valid);
+  response.reason_() = "too few";
+  return response;
+}
+
+class RegistrationDialogueTest : public ::testing::Test {
+ protected:
+  std::vector<msg::RegistrationRequest> asked_at(double now_s) {
+    task_.step(now_s);
+    return task_.take<msg::RegistrationRequest>("request");
+  }
+
+  PluginRegistry plugins_ = with_both();
+  ComponentBench task_{plugins_, {.component = "{plugin: test/asks}", .robot = {}, .rig = {}}};
+  ComponentBench watcher_{plugins_,
+                          {.component = "{plugin: test/watches}", .robot = {}, .rig = {}}};
+};
+
+TEST_F(RegistrationDialogueTest, AsksAgainUnderANewNumberWhenNobodyAnswersWithinASecond) {
+  const auto first = asked_at(10);
+  ASSERT_EQ(first.size(), 1u);
+  EXPECT_EQ(first[0].header_().frame_id_(), "jaw");
+  EXPECT_FALSE(first[0].ordered_());
+  EXPECT_DOUBLE_EQ(first[0].marker_error_(), 0.0005);
+  EXPECT_DOUBLE_EQ(first[0].match_tolerance_(), 0.003);
+  EXPECT_EQ(first[0].targets_().size(), 2u);
+  EXPECT_TRUE(asked_at(10.9).empty());
+  const auto second = asked_at(11);
+  ASSERT_EQ(second.size(), 1u);
+  EXPECT_NE(second[0].request_id_(), first[0].request_id_());
+}
+
+TEST_F(RegistrationDialogueTest, HearsOnlyTheAnswerToItsLastQuestion) {
+  task_.send("registration", answer(0));
+  const std::uint64_t old = asked_at(10)[0].request_id_();
+  const std::uint64_t last = asked_at(11)[0].request_id_();
+  task_.send("registration", answer(old));
+  task_.send("registration", answer(last + 1));
+  task_.step(11.1);
+  EXPECT_TRUE(task_.lines().empty());
+  task_.send("registration", answer(last, false));
+  task_.step(11.2);
+  task_.send("registration", answer(last));
+  task_.step(11.3);
+  EXPECT_EQ(task_.lines(), (std::vector<std::string>{"too few", "registered"}));
+}
+
+TEST_F(RegistrationDialogueTest, WhoWatchesHearsWhatTheTaskWasTold) {
+  watcher_.send("registration", answer(0));
+  watcher_.step(9);
+  watcher_.send("request", asked_at(10)[0]);
+  const msg::RegistrationRequest last = asked_at(11)[0];
+  watcher_.send("request", last);
+  watcher_.send("registration", answer(last.request_id_() + 1));
+  watcher_.send("registration", answer(last.request_id_(), false));
+  watcher_.step(11);
+  EXPECT_TRUE(watcher_.lines().empty());
+  watcher_.send("registration", answer(last.request_id_()));
+  watcher_.step(12);
+  EXPECT_EQ(watcher_.lines(), (std::vector<std::string>{"registered"}));
+}
+
+}  // namespace
+}  // namespace armature

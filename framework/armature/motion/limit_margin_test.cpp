@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a solver keeps free to the limits.
+#include "armature/motion/limit_margin.hpp"
+
+#include <gtest/gtest.h>
+
+namespace armature {
+namespace {
+
+const RobotModel& needle_arm() {
+  static const RobotModel model =
+      load_robot_model(ARMATURE_SOURCE_DIR "/configs/robots/sr1_needle.yaml");
+  return model;
+}
+
+TEST(LimitMargin, NarrowsEveryJointAtBothEndsAndChangesNothingElse) {
+  const auto narrow = narrowed(needle_arm(), {.turning_rad = 0.02, .sliding_m = 0.003});
+  ASSERT_TRUE(narrow) << narrow.error().text;
+  for (int i = 0; i < needle_arm().dof(); ++i) {
+    const double margin = needle_arm().is_revolute(i) ? 0.02 : 0.003;
+    EXPECT_NEAR(narrow->lower()[i], needle_arm().lower()[i] + margin, 1e-15);
+    EXPECT_NEAR(narrow->upper()[i], needle_arm().upper()[i] - margin, 1e-15);
+  }
+  EXPECT_EQ(narrow->max_velocity(), needle_arm().max_velocity());
+  EXPECT_EQ(narrow->home(), needle_arm().home());
+  EXPECT_EQ(narrow->frames().size(), needle_arm().frames().size());
+  EXPECT_EQ(narrow->tool(), needle_arm().tool());
+}
+
+TEST(LimitMargin, OfNothingIsTheSame) {
+  const auto same = narrowed(needle_arm(), {});
+  ASSERT_TRUE(same);
+  EXPECT_EQ(same->lower(), needle_arm().lower());
+  EXPECT_EQ(same->upper(), needle_arm().upper());
+}
+
+TEST(LimitMargin, ThatLeavesNothingIsRefusedWithTheJoint) {
+  const auto none = narrowed(needle_arm(), {.sliding_m = 5});
+  ASSERT_FALSE(none);
+  EXPECT_NE(none.error().text.find("of which a margin of 5 leaves nothing"), std::string::npos)
+      << none.error().text;
+}
+
+}  // namespace
+}  // namespace armature

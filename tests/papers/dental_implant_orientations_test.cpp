@@ -11,6 +11,7 @@
 #include "armature/robot/corner_blend.hpp"
 #include "armature/robot/orientation_curve.hpp"
 #include "armature/robot/orientation_probe_test.hpp"
+#include "armature/robot/rotation_at.hpp"
 #include "armature/robot/rotation_vector.hpp"
 #include "reference_file.hpp"
 

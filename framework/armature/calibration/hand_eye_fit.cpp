@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "armature/calibration/symmetric.hpp"
+#include "armature/robot/rotation_at.hpp"
 #include "armature/robot/rotation_vector.hpp"
 
 namespace armature {

@@ -5,7 +5,7 @@
 
 #include "armature/robot/corner_blend.hpp"
 #include "armature/robot/orientation_state.hpp"
-#include "armature/robot/rotation_vector.hpp"
+#include "armature/robot/rotation_at.hpp"
 
 namespace armature {
 

@@ -9,6 +9,8 @@
 #include <cstddef>
 #include <utility>
 
+#include "armature/robot/rotation_vector.hpp"
+
 namespace armature {
 namespace {
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <random>
 
+#include "armature/robot/rotation_at.hpp"
+
 namespace armature {
 namespace {
 

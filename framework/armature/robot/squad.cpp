@@ -1,43 +1,59 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/robot/squad.hpp"
 
+#include <cmath>
+
+#include "armature/robot/rotation_at.hpp"
 #include "armature/robot/rotation_vector.hpp"
 
 namespace armature {
 
-SquadPiece::SquadPiece(const Eigen::Quaterniond& key, const Eigen::Quaterniond& inner,
-                       const Eigen::Quaterniond& next_inner, const Eigen::Quaterniond& next_key,
-                       double duration)
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+
+SquadPiece::Slerp::Slerp(const Quaterniond& from, const Quaterniond& to)
+    : turn{double_logarithm(from.conjugate() * to)},
+      axis{turn.stableNormalized()},
+      half_angle{0.5 * turn.stableNorm()} {}
+
+Quaterniond SquadPiece::Slerp::at(double x) const {
+  const double cosine = std::cos(x * half_angle), sine = std::sin(x * half_angle);
+  return {cosine, sine * axis.x(), sine * axis.y(), sine * axis.z()};
+}
+
+SquadPiece::SquadPiece(const Quaterniond& key, const Quaterniond& inner,
+                       const Quaterniond& next_inner, const Quaterniond& next_key, double duration)
     : key_{key},
-      inner_{inner},
-      turn_{double_logarithm(key.conjugate() * next_key)},
-      inner_turn_{double_logarithm(inner.conjugate() * next_inner)},
+      key_R_inner_{key.conjugate() * inner},
+      keys_{key, next_key},
+      inners_{inner, next_inner},
       duration_{duration} {}
 
 OrientationState SquadPiece::at(double x) const {
   // a and b are the two slerps, delta the rotation vector from a to b, k = 2 x (1 - x) the part of
   // it that is taken: r = a exp(k delta). Rates are by x until the end.
-  const Eigen::Quaterniond a = key_ * rotation_of(x * turn_);
-  const Eigen::Quaterniond b = inner_ * rotation_of(x * inner_turn_);
-  const Eigen::Quaterniond a_R_b = a.conjugate() * b;
-  const Eigen::Vector3d delta = double_logarithm(a_R_b);
+  const Quaterniond key_R_a = keys_.at(x);
+  const Quaterniond a_R_b = key_R_a.conjugate() * (key_R_inner_ * inners_.at(x));
+  const RotationAt at_delta = RotationAt::of(a_R_b);
+  const Vector3d& delta = at_delta.vector();
   const double k = 2 * x * (1 - x), dk = 2 - 4 * x, ddk = -4;
 
   // How delta changes, from the turning of b in a's frame: J_l(delta) ddelta/dx = w.
-  const Eigen::Vector3d b_rate = a_R_b * inner_turn_;
-  const Eigen::Vector3d w = b_rate - turn_;
-  const RotationAt at_delta{delta, a_R_b};
-  const Eigen::Vector3d delta1 = at_delta.rate_of(w);
-  const Eigen::Vector3d dw = -turn_.cross(b_rate);
-  const Eigen::Vector3d no_change = Eigen::Vector3d::Zero();
-  const Eigen::Vector3d delta2 = at_delta.rate_of(dw - at_delta.acceleration(delta1, no_change));
+  const Vector3d b_rate = a_R_b * inners_.turn;
+  const Vector3d delta1 = at_delta.rate_of(b_rate - keys_.turn);
+  const Vector3d dw = -keys_.turn.cross(b_rate);
+  const Vector3d delta2 = at_delta.rate_of(dw - at_delta.acceleration(delta1, Vector3d::Zero()));
 
-  const RotationAt part{k * delta};
-  const Eigen::Vector3d part1 = dk * delta + k * delta1;
-  const Eigen::Vector3d part2 = ddk * delta + 2 * dk * delta1 + k * delta2;
-  const Eigen::Vector3d own = part.velocity(part1);
-  return {a * part.rotation(), a * (turn_ + own) / duration_,
-          a * (turn_.cross(own) + part.acceleration(part1, part2)) / (duration_ * duration_)};
+  const RotationAt part = at_delta.part(k);
+  const Vector3d part1 = dk * delta + k * delta1;
+  const Vector3d part2 = ddk * delta + 2 * dk * delta1 + k * delta2;
+  const Vector3d own = part.velocity(part1);
+  const Quaterniond a = key_ * key_R_a;
+  const Eigen::Matrix3d base_R_a = a.toRotationMatrix();
+  const double by_time = 1 / duration_;
+  return {
+      a * part.rotation(), by_time * (base_R_a * (keys_.turn + own)),
+      by_time * by_time * (base_R_a * (keys_.turn.cross(own) + part.acceleration(part1, part2)))};
 }
 
 }  // namespace armature

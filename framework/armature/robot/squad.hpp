@@ -21,8 +21,17 @@ class SquadPiece {
   OrientationState at(double x) const;
 
  private:
-  Eigen::Quaterniond key_, inner_;
-  Eigen::Vector3d turn_, inner_turn_;  // rotation vectors of both slerps
+  /// A turn about an axis that stands still.
+  struct Slerp {
+    Eigen::Vector3d turn, axis;  // the rotation vector; of length 1, or 0 without a turn
+    double half_angle;
+
+    Slerp(const Eigen::Quaterniond& from, const Eigen::Quaterniond& to);
+    Eigen::Quaterniond at(double x) const;
+  };
+
+  Eigen::Quaterniond key_, key_R_inner_;
+  Slerp keys_, inners_;
   double duration_;
 };
 

@@ -8,8 +8,8 @@
 #include "armature/messages/header.hpp"
 #include "armature/messages/std_msgs.hpp"
 #include "armature/robot/kinematics.hpp"
-#include "armature/runtime/built_plugins.hpp"
 #include "armature/runtime/component_bench.hpp"
+#include "armature/runtime/test_plugins.hpp"
 
 namespace armature {
 namespace {

@@ -11,8 +11,8 @@
 #include "armature/messages/visualization_msgs.hpp"
 #include "armature/robot/kinematics.hpp"
 #include "armature/robot/stereo_rig.hpp"
-#include "armature/runtime/built_plugins.hpp"
 #include "armature/runtime/component_bench.hpp"
+#include "armature/runtime/test_plugins.hpp"
 #include "tf_listener_test.hpp"
 
 namespace armature {

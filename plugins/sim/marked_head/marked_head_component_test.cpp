@@ -4,8 +4,8 @@
 
 #include "armature/kinds/zone_messages.hpp"
 #include "armature/messages/geometry_msgs.hpp"
-#include "armature/runtime/built_plugins.hpp"
 #include "armature/runtime/component_bench.hpp"
+#include "armature/runtime/test_plugins.hpp"
 
 namespace armature {
 namespace {

@@ -9,8 +9,8 @@
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/sensor_msgs.hpp"
 #include "armature/robot/kinematics.hpp"
-#include "armature/runtime/built_plugins.hpp"
 #include "armature/runtime/component_bench.hpp"
+#include "armature/runtime/test_plugins.hpp"
 
 namespace armature {
 namespace {

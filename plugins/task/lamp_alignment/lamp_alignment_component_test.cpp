@@ -6,8 +6,8 @@
 
 #include "armature/kinds/target/target_messages.hpp"
 #include "armature/robot/robot_model.hpp"
-#include "armature/runtime/built_plugins.hpp"
 #include "armature/runtime/component_bench.hpp"
+#include "armature/runtime/test_plugins.hpp"
 
 namespace armature {
 namespace {

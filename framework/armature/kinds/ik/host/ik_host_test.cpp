@@ -12,7 +12,7 @@
 #include "armature/messages/geometry.hpp"
 #include "armature/messages/header.hpp"
 #include "armature/robot/test_robots.hpp"
-#include "armature/runtime/built_plugins.hpp"
+#include "armature/runtime/test_plugins.hpp"
 
 namespace armature::ik_host {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "armature/kinds/landmarks/landmark_messages.hpp"
 #include "armature/messages/header.hpp"
-#include "armature/runtime/built_plugins.hpp"
 #include "armature/runtime/component_bench.hpp"
+#include "armature/runtime/test_plugins.hpp"
 
 namespace armature::landmarks_host {
 namespace {

@@ -11,8 +11,8 @@
 #include "armature/robot/kinematics.hpp"
 #include "armature/robot/stereo_rig.hpp"
 #include "armature/robot/test_robots.hpp"
-#include "armature/runtime/built_plugins.hpp"
 #include "armature/runtime/component_bench.hpp"
+#include "armature/runtime/test_plugins.hpp"
 
 namespace armature::target_host {
 namespace {

@@ -11,7 +11,7 @@
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/header.hpp"
 #include "armature/robot/test_robots.hpp"
-#include "armature/runtime/built_plugins.hpp"
+#include "armature/runtime/test_plugins.hpp"
 
 namespace armature::trajectory_host {
 namespace {

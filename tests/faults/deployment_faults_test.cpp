@@ -201,6 +201,22 @@ const Fault kFaults[] = {
     {"PortWithoutATopic", "{plugin: face_pose/three_point}",
      "{plugin: face_pose/three_point, in: {landmarks: null}}",
      "deployment.yaml:10:57: the topic of input 'landmarks' must be a text, not nothing\n"},
+    {"TopicThatIsNone", "{plugin: face_pose/three_point}",
+     "{plugin: face_pose/three_point, in: {landmarks: left image}}",
+     "deployment.yaml:10:57: the topic of input 'landmarks': 'left image' names no topic: words of "
+     "letters, digits and _, not beginning with a digit, with / between them\n"},
+    {"TopicsUnderNoTopic", "{plugin: face_pose/three_point}",
+     "{plugin: face_pose/three_point, topics: left/}",
+     "deployment.yaml:10:49: 'topics': 'left/' names no topic: words of letters, digits and _, not "
+     "beginning with a digit, with / between them\n"},
+    {"TopicsUnderAnotherName", "{plugin: face_pose/three_point}",
+     "{plugin: face_pose/three_point, topics: left}",
+     "deployment.yaml:10:3: face.landmarks reads topic '/faulty/left/landmarks', which nobody "
+     "writes; did you mean '/faulty/landmarks'?\n"
+     "deployment.yaml:11:3: target.face reads topic '/faulty/face', which nobody writes; did you "
+     "mean '/faulty/left/face'?\n"
+     "deployment.yaml:21:3: report.face reads topic '/faulty/face', which nobody writes; did you "
+     "mean '/faulty/left/face'?\n"},
     {"PortsThatAreNoMap", "{plugin: face_pose/three_point}",
      "{plugin: face_pose/three_point, in: [landmarks]}",
      "deployment.yaml:10:45: the inputs of component 'face' must be a map from ports to topics, "

@@ -7,6 +7,7 @@
 
 #include "armature/config/conversion.hpp"
 #include "armature/runtime/component.hpp"
+#include "armature/runtime/topic_name.hpp"
 
 namespace armature {
 namespace {
@@ -109,6 +110,10 @@ std::optional<ComponentConfig> ComponentReader::read(const Node::Entry& entry) c
   read_params(map, *named, component);
   if (!pure) read_slots(map, component);
   bind_documents(map, component);
+  if (const Node* topics = map.optional_node("topics")) {
+    const std::string prefix = topic_named(*topics, "'topics'", {});
+    if (!prefix.empty()) component.topics = prefix + '/';
+  }
   bind_ports(map.optional_node("in"), "input", component.manifest->inputs, component,
              component.inputs);
   bind_ports(map.optional_node("out"), "output", component.manifest->outputs, component,
@@ -229,6 +234,21 @@ void ComponentReader::bind_document(const DocumentUse& use, const Node* named,
   }
 }
 
+/// A topic's name as it is written, or `otherwise` and a problem.
+std::string ComponentReader::topic_named(const Node& node, std::string_view what,
+                                         const std::string& otherwise) const {
+  const auto name = config::to_text(node);
+  if (!name) {
+    problems_.add(name.error().origin, fmt::format("{} {}", what, name.error().message));
+    return otherwise;
+  }
+  if (const auto defect = topic_name_defect(*name)) {
+    problems_.add(node.origin(), fmt::format("{}: {}", what, *defect));
+    return otherwise;
+  }
+  return *name;
+}
+
 void ComponentReader::bind_ports(const Node* renames, std::string_view direction,
                                  const std::vector<PortSpec>& specs,
                                  const ComponentConfig& component,
@@ -242,15 +262,14 @@ void ComponentReader::bind_ports(const Node* renames, std::string_view direction
                     direction, component.name, renames->describe()));
   }
   for (const PortSpec& spec : specs) {
-    PortBinding binding{
-        .spec = spec, .topic = spec.topic, .origin = component.origin, .renamed = false};
+    const bool absolute = spec.topic.starts_with('/');
+    PortBinding binding{.spec = spec,
+                        .topic = absolute ? spec.topic : component.topics + spec.topic,
+                        .origin = component.origin,
+                        .renamed = false};
     if (const Node* rename = renames ? renames->find(spec.name) : nullptr) {
-      const auto topic = config::to_text(*rename);
-      if (!topic) {
-        problems_.add(topic.error().origin, fmt::format("the topic of {} '{}' {}", direction,
-                                                        spec.name, topic.error().message));
-      }
-      binding.topic = topic.value_or(spec.topic);
+      binding.topic = topic_named(
+          *rename, fmt::format("the topic of {} '{}'", direction, spec.name), binding.topic);
       binding.origin = rename->origin();
       binding.renamed = true;
     }

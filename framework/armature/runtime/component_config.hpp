@@ -48,6 +48,8 @@ class ComponentReader {
   void bind_ports(const config::Node* renames, std::string_view direction,
                   const std::vector<PortSpec>& specs, const ComponentConfig& component,
                   std::vector<PortBinding>& bindings) const;
+  std::string topic_named(const config::Node& node, std::string_view what,
+                          const std::string& otherwise) const;
 
   const DeploymentConfig& deployment_;
   const PluginRegistry& plugins_;

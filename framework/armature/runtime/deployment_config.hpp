@@ -38,6 +38,7 @@ struct ComponentConfig {
   config::Origin origin;
   std::string plugin_id;                     // as the user wrote it
   const PluginManifest* manifest = nullptr;  // of the component that runs (a host, for pure kinds)
+  std::string topics;  // "left/" before the usual names of its topics; empty: nothing
   Params params;
   std::vector<SlotConfig> slots;
   std::vector<PortBinding> inputs, outputs;

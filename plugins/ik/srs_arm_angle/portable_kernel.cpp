@@ -2,6 +2,7 @@
 #include "branches_body.hpp"
 #include "minima_body.hpp"
 #include "pieces_body.hpp"
+#include "table_body.hpp"
 
 namespace armature {
 

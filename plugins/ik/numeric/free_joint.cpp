@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "free_joint.hpp"
 
+#include <cmath>
+
 #include "armature/robot/kinematics.hpp"
 
 namespace armature {

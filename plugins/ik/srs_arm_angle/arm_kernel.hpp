@@ -85,8 +85,7 @@ struct Aim {
 };
 
 /// Lanes are shoulders and wrists of both elbows, places, or branches: four at once. The same
-/// source is compiled for each kind of processor; AVX-512 is taken for its registers and masks, not
-/// for its width. Real-time safe.
+/// source is compiled for each kind of processor. Real-time safe.
 struct SrsKernel {
   /// Of four sines and cosines, and back.
   void (*angles)(const double (&sine)[4], const double (&cosine)[4], double (&angle)[4]);
@@ -106,10 +105,9 @@ struct SrsKernel {
 };
 const SrsKernel& portable_srs_kernel();
 const SrsKernel& avx2_srs_kernel();
-const SrsKernel& avx512_srs_kernel();
 /// Those that this processor can run, the fastest last.
 struct SrsKernels {
-  const SrsKernel* kernel[3];
+  const SrsKernel* kernel[2];
   int count;
 };
 SrsKernels srs_kernels();

@@ -184,9 +184,8 @@ std::vector<KernelSubject> kernel_subjects() {
                                     std::pair{std::string{"uneven_arm"}, uneven_arm()}}) {
     const SrsKernels kernels = srs_kernels();
     for (int i = 0; i < kernels.count; ++i) {
-      list.push_back(
-          {name + std::array{"_portable", "_avx2", "_avx512"}[static_cast<std::size_t>(i)],
-           kernels.kernel[i], model});
+      list.push_back({name + std::array{"_portable", "_avx2"}[static_cast<std::size_t>(i)],
+                      kernels.kernel[i], model});
     }
   }
   return list;

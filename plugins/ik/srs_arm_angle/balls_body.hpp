@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The spherical triangles of shoulders and wrists, four at once; compiled once for each kind of
-// processor (portable_kernel.cpp, avx2_kernel.cpp, avx512_kernel.cpp), everything unnamed so that
-// they never mix.
+// processor (portable_kernel.cpp, avx2_kernel.cpp), everything unnamed so that they never mix.
 #pragma once
 
 #include <cstring>

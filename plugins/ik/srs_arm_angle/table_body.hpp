@@ -108,18 +108,23 @@ void set_eight_costs(const ArmNumbers& numbers, const SrsGoal& goal, const Aim& 
 
 /// Between two places there is a minimum when the left one falls and the right one rises or is
 /// higher by more than rounding, or when the right one rises and the left one is higher.
+/// A bit for each of eight.
+unsigned valleys_behind(const float* value, const float* slope) {
+  const Eights left = load(value), right = load(value + 1);
+  const Eights fall = load(slope), rise = load(slope + 1);
+  const Eights climb = right - left, noise = every<Eights>(1e-6) * magnitude(left);
+  return bits_of(((fall < 0) & ((rise >= 0) | (climb > noise))) |
+                 ((rise > 0) & ((fall <= 0) | (-climb > noise))));
+}
 void mark_valleys(CostTable& table) {
-  const Eights rounding = every<Eights>(1e-6);
   for (int branch = 0; branch < 8; ++branch) {
-    float *value = table.value[branch], *slope = table.slope[branch];
-    for (int i = 0; i < table.count; i += 64) table.valley[branch][i / 64] = 0;
-    for (int i = 0; i < table.count; i += 8) {
-      const Eights left = load(value + i), right = load(value + i + 1);
-      const Eights fall = load(slope + i), rise = load(slope + i + 1);
-      const Eights climb = right - left, noise = rounding * magnitude(left);
-      const EightMasks valley = ((fall < 0) & ((rise >= 0) | (climb > noise))) |
-                                ((rise > 0) & ((fall <= 0) | (-climb > noise)));
-      table.valley[branch][i / 64] |= std::uint64_t{bits_of(valley)} << (i % 64);
+    const float *value = table.value[branch], *slope = table.slope[branch];
+    for (int word = 0; 64 * word < table.count; ++word) {
+      std::uint64_t bits = 0;
+      for (int i = 64 * word; i < table.count && i < 64 * (word + 1); i += 8) {
+        bits |= std::uint64_t{valleys_behind(value + i, slope + i)} << (i % 64);
+      }
+      table.valley[branch][word] = bits;
     }
   }
 }

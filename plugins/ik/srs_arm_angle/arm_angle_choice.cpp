@@ -57,9 +57,10 @@ void ArmAngleChoice::add_stretch(std::size_t branch, const Span& span) {
   stretch.span = span;
   stretch.branch = branch;
   stretch.lower = stretch.upper = kNone;
+  // A place at an end, where the turn is cut at pi, is left to that end's double precision.
   stretch.first = place_from(table_, span.lower);
+  stretch.first += table_.place[stretch.first] == span.lower ? 1 : 0;
   stretch.end = place_from(table_, span.upper);
-  stretch.end += table_.place[stretch.end] == span.upper ? 1 : 0;
   if (stretch.end - stretch.first >= kFew) return;
   stretch.first = stretch.end = table_.count;
   const double width = span.upper - span.lower;

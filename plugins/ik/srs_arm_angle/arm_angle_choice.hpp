@@ -30,8 +30,9 @@ class ArmAngleChoice {
   struct Node {
     double at, value, slope;
   };
-  /// A span of a branch: its places in the table are first, ..., end - 1. Its ends are nodes where
-  /// it goes down to them, otherwise kNone; of a point the lower one is.
+  /// A span of a branch: its places in the table, but for ones at its ends, are first, ..., end
+  /// - 1. Its ends are nodes where it goes down to them, otherwise kNone; of a point the lower one
+  /// is.
   struct Stretch {
     Span span;
     std::size_t branch;

@@ -21,7 +21,7 @@ inline Nodes either_of(const Masks& which, const Nodes& a, const Nodes& b) {
 /// not a number where it has none. Of nodes so near that rounding would make up the difference of
 /// their values, where the line through their slopes is zero.
 Lanes minimum_of_cubic(const Nodes& p, const Nodes& q) {
-  constexpr double kNear = 1e-6;
+  constexpr double kNear = 1e-5;
   const Lanes width = q.at - p.at;
   const Lanes d = p.slope + q.slope - 3 * (q.value - p.value) / width;
   const Lanes r = root(d * d - p.slope * q.slope);

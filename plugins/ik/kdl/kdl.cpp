@@ -43,6 +43,8 @@ struct Kdl final : IkSolver {
     out.clear();
     if (const char* wrong = invalid_input(model, goal, seed))
       return {IkStatus::Code::invalid_input, 0, wrong};
+    if (goal.redundancy)
+      return {IkStatus::Code::invalid_input, 0, "KDL holds no redundancy; leave it out"};
     const auto [position_m, angle_rad] = goal.tolerance;
     const auto R = std::get<Eigen::Quaterniond>(goal.pose.orientation).normalized();
     const KDL::Frame pose = frame_of(Eigen::Translation3d{goal.pose.position} * R);

@@ -70,6 +70,21 @@ TEST(KdlRefuses, CoupledJointsDirectionsAndJointsBehindTheTool) {
   EXPECT_EQ(refusal(short_of), "its tool must hang on the last joint");
 }
 
+TEST(Kdl, RefusesARedundancyThatItWouldNotHold) {
+  const ModelPtr model = robot("med7");
+  const IkSubject made = kdl(model, "lma").value();
+  const Eigen::Isometry3d pose = forward_kinematics(*model, *model->home());
+  IkGoal goal;
+  goal.pose = {pose.translation(), Eigen::Quaterniond{pose.linear()}};
+  IkBranches found;
+  IkState state;
+  EXPECT_EQ(made.solver->solve(goal, *model->home(), found, state).code, IkStatus::Code::ok);
+  goal.redundancy = 0.3;
+  const IkStatus status = made.solver->solve(goal, *model->home(), found, state);
+  EXPECT_EQ(describe(status), "invalid_input: KDL holds no redundancy; leave it out");
+  EXPECT_EQ(found.count, 0);
+}
+
 TEST(Kdl, SolvesForEveryToleranceThatIsAskedFor) {
   const ModelPtr model = skew_puma();
   std::mt19937 random{3};

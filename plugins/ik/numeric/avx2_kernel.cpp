@@ -9,6 +9,7 @@
 #if defined(__x86_64__)
 #pragma GCC push_options
 #pragma GCC target("avx2,fma")
+#define ARMATURE_AVX
 #include "descent_body.hpp"
 
 namespace armature::descent {

@@ -6,17 +6,19 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 
 #include "armature/runtime/plugin.hpp"
 
 namespace armature {
 namespace {
 
-constexpr double kSame = 1e-6;      // [rad] or [m]: two solutions are one
-constexpr double kSingular = 1e-6;  // manipulability
-constexpr int kUnbounded = 6;       // restarts of an arm without spare joints
-constexpr int kAnywhere = 8;        // every so manieth start may end beyond all limits
-constexpr int kJumps = 2;           // over gaps between limits, in one start
+constexpr double kSame = 1e-6;            // [rad] or [m]: two solutions are one
+constexpr double kSingular = 1e-6;        // manipulability
+constexpr double kLimitTolerance = 1e-9;  // [rad] or [m] that of the kind
+constexpr int kUnbounded = 6;             // restarts of an arm without spare joints
+constexpr int kAnywhere = 8;              // every so manieth start may end beyond all limits
+constexpr int kJumps = 2;                 // over gaps between limits, in one start
 
 /// The i-th number of the van der Corput sequence in `base`: in (0, 1), evenly spread.
 double radical_inverse(int i, int base) {
@@ -64,6 +66,7 @@ Numeric::Numeric(const RobotModel& model, int max_restarts, int candidates)
       candidates_{candidates},
       chain_{descent::chain_of(model)},
       reach_{model, chain_},
+      free_joint_{free_joint_of(model)},
       kernel_{descent::kernel()},
       resting_{resting_position(model)} {
   for (int i = 0; i < model.dof(); ++i) {
@@ -83,18 +86,56 @@ const JointVector& Numeric::best_sample(const descent::Goal& goal, int restart) 
   return *best;
 }
 
-int Numeric::spare(const descent::Goal& goal) const {
-  return model_->dof() - (goal.pointing ? 5 : 6);
+std::optional<double> Numeric::redundancy_of(const JointVector& q) const {
+  if (!free_joint_) return std::nullopt;
+  const double value = q[free_joint_->index];
+  return turning_ >> free_joint_->index & 1 ? wrap_angle(value) : value;
 }
 
-descent::JointSet Numeric::bounded(const descent::Goal& goal, int start) const {
+const char* Numeric::unheld_redundancy(const IkGoal& goal) const {
+  if (!goal.redundancy) return nullptr;
+  if (!std::isfinite(*goal.redundancy)) return "the redundancy is not finite";
+  const bool pointing = std::holds_alternative<Direction>(goal.pose.orientation);
+  if (model_->dof() <= (pointing ? 5 : 6)) return "the goal leaves this arm nothing redundant";
+  if (pointing && free_joint_) return nullptr;
+  return "ik/numeric holds no arm angle, only a last joint along the pointing axis; leave the "
+         "redundancy out or take a solver for this arm (S-R-S: ik/srs_arm_angle)";
+}
+
+bool Numeric::is_within_limits(double value) const {
+  const double lower = model_->lower()[free_joint_->index];
+  const double upper = model_->upper()[free_joint_->index];
+  if (!std::isfinite(upper - lower)) return value >= lower && value <= upper;
+  const double from_middle = value - std::midpoint(lower, upper);
+  const bool turns = turning_ >> free_joint_->index & 1;
+  return std::abs(turns ? wrap_angle(from_middle) : from_middle) <=
+         0.5 * (upper - lower) + kLimitTolerance;
+}
+
+Numeric::Task Numeric::task_of(const IkGoal& goal) const {
+  Task task{.goal = descent::goal_of(goal), .free_value = goal.redundancy};
+  if (goal.redundancy) task.locked = descent::JointSet{1} << free_joint_->index;
+  task.spare = model_->dof() - (task.goal.pointing ? 5 : 6) - (goal.redundancy ? 1 : 0);
+  return task;
+}
+
+descent::End Numeric::started(const Task& task, int start, const JointVector& from) const {
+  descent::End end;
+  std::copy(from.begin(), from.end(), end.q.begin());
+  if (task.free_value) end.q[static_cast<std::size_t>(free_joint_->index)] = *task.free_value;
+  end.locked = task.locked;
+  end.bounded = bounded(task, start);
+  return end;
+}
+
+descent::JointSet Numeric::bounded(const Task& task, int start) const {
   if (start % kAnywhere == 0) return 0;
-  if (spare(goal) > 0 || (start > kUnbounded && start % 2 == 1)) return descent::kAllJoints;
+  if (task.spare > 0 || (start > kUnbounded && start % 2 == 1)) return descent::kAllJoints;
   return ~turning_;
 }
 
 bool Numeric::jump(descent::End& end) const {
-  const descent::JointSet pressing = end.pressing & turning_;
+  const descent::JointSet pressing = end.pressing & turning_ & ~end.locked;
   for (int i = 0; i < model_->dof(); ++i) {
     const double lower = model_->lower()[i], upper = model_->upper()[i];
     const bool gap = std::isfinite(upper - lower) && upper - lower > std::numbers::pi;
@@ -112,16 +153,17 @@ int Numeric::worst_joint(const JointVector& q) const {
   return static_cast<int>(worst);
 }
 
-void Numeric::bring_inside(const descent::Goal& goal, int& budget, descent::End& end) const {
+void Numeric::bring_inside(const Task& task, int& budget, descent::End& end) const {
   descent::End tried = end;
-  for (int i = 0; i < spare(goal) && budget > 0; ++i) {
+  for (int i = 0; i < task.spare && budget > 0; ++i) {
     JointVector q = Eigen::Map<const Eigen::VectorXd>(tried.q.data(), model_->dof());
     if (unwind(*model_, resting_, q)) return;
     const int worst = worst_joint(q);
+    if (task.locked >> worst & 1) return;
     q[worst] = std::clamp(q[worst], model_->lower()[worst], model_->upper()[worst]);
     std::copy(q.begin(), q.end(), tried.q.begin());
     tried.locked |= 1U << worst;
-    kernel_.descend(chain_, goal, budget, tried);
+    kernel_.descend(chain_, task.goal, budget, tried);
     if (!tried.reached) return;
     q = Eigen::Map<const Eigen::VectorXd>(tried.q.data(), model_->dof());
     if (unwind(*model_, resting_, q)) end = tried;
@@ -140,7 +182,7 @@ bool Numeric::add_branch(const descent::End& end, std::string_view label, IkBran
   IkBranch& branch = out.add();
   branch.label = label;
   branch.q = q;
-  branch.redundancy = 0;
+  branch.redundancy = redundancy_of(q).value_or(0);
   branch.within_limits = inside;
   branch.singular = !(end.gram >= kSingular * kSingular);
   branch.residual = {end.position_m, end.angle_rad};
@@ -153,26 +195,27 @@ IkStatus Numeric::solve(const IkGoal& goal, const JointVector& seed, IkBranches&
   if (const char* why = invalid_input(*model_, goal, seed)) {
     return {IkStatus::Code::invalid_input, 0, why};
   }
+  if (const char* why = unheld_redundancy(goal)) return {IkStatus::Code::invalid_input, 0, why};
   if (const auto miss = reach_.miss_of(goal)) {
     return {IkStatus::Code::out_of_reach, miss->by, miss->why};
   }
-  const descent::Goal target = descent::goal_of(goal);
+  if (goal.redundancy && !is_within_limits(*goal.redundancy)) {
+    return {IkStatus::Code::joint_limit, 0,
+            "the redundancy asked for is beyond the limits of the last joint"};
+  }
+  const Task task = task_of(goal);
   int budget = goal.max_iterations;
   double least = std::numeric_limits<double>::infinity();
-  descent::End end;
   for (int start = 0; start <= max_restarts_ && budget > 0; ++start) {
-    const JointVector& from = start == 0 ? seed : best_sample(target, start - 1);
-    std::copy(from.begin(), from.end(), end.q.begin());
-    end.locked = 0;
-    end.bounded = bounded(target, start);
-    kernel_.descend(chain_, target, budget, end);
+    descent::End end = started(task, start, start == 0 ? seed : best_sample(task.goal, start - 1));
+    kernel_.descend(chain_, task.goal, budget, end);
     for (int i = 0; i < kJumps && !end.reached && jump(end); ++i) {
       least = std::min(least, end.error);
-      kernel_.descend(chain_, target, budget, end);
+      kernel_.descend(chain_, task.goal, budget, end);
     }
     least = std::min(least, end.error);
     if (!end.reached) continue;
-    bring_inside(target, budget, end);
+    bring_inside(task, budget, end);
     if (add_branch(end, start == 0 ? "from_seed" : "restart", out)) return {};
   }
   if (out.count > 0) {

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <vector>
 
 #include "armature/kinds/ik/ik.hpp"
 #include "descent.hpp"
+#include "free_joint.hpp"
 #include "reach.hpp"
 
 namespace armature {
@@ -19,20 +21,34 @@ class Numeric final : public IkSolver {
 
   IkStatus solve(const IkGoal& goal, const JointVector& seed, IkBranches& out,
                  IkState& state) const override;
+  std::optional<double> redundancy_of(const JointVector& q) const override;
+  bool redundancy_is_length() const override { return free_joint_ && free_joint_->slides; }
 
  private:
+  /// What is asked for: a pose, and of some goals the value of the joint that it leaves free.
+  struct Task {
+    descent::Goal goal;
+    std::optional<double> free_value;
+    descent::JointSet locked = 0;
+    int spare = 0;  // joints more than are needed
+  };
+
   Numeric(const RobotModel& model, int max_restarts, int candidates);
   const JointVector& best_sample(const descent::Goal& goal, int restart) const;
-  /// How many joints more than `goal` needs.
-  int spare(const descent::Goal& goal) const;
+  /// nullptr, or why the redundancy that is asked for cannot be held.
+  const char* unheld_redundancy(const IkGoal& goal) const;
+  /// Whether the joint that the goal leaves free can have `value`, or the same turned.
+  bool is_within_limits(double value) const;
+  Task task_of(const IkGoal& goal) const;
+  descent::End started(const Task& task, int start, const JointVector& from) const;
   /// The joints that keep their limits all the way from a start.
-  descent::JointSet bounded(const descent::Goal& goal, int start) const;
+  descent::JointSet bounded(const Task& task, int start) const;
   /// Where a descent got stuck with a joint at a limit: that joint jumps over the gap between its
   /// limits, to the other one. False when there is none.
   bool jump(descent::End& end) const;
   /// A redundant arm beyond its limits: locks the joint that is farthest beyond at its limit and
   /// goes down again, once for every spare joint. `end` changes only when that keeps the limits.
-  void bring_inside(const descent::Goal& goal, int& budget, descent::End& end) const;
+  void bring_inside(const Task& task, int& budget, descent::End& end) const;
   int worst_joint(const JointVector& q) const;
   /// Adds where a start ended; true when it keeps the limits.
   bool add_branch(const descent::End& end, std::string_view label, IkBranches& out) const;
@@ -41,6 +57,7 @@ class Numeric final : public IkSolver {
   int max_restarts_, candidates_;
   descent::Chain chain_;
   Reach reach_;
+  std::optional<FreeJoint> free_joint_;
   const descent::Kernel& kernel_;
   JointVector resting_;
   descent::JointSet turning_ = 0;     // joints for which a whole turn changes nothing

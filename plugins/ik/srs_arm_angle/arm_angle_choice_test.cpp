@@ -210,6 +210,44 @@ TEST(ArmAngleChoice, SlopesAreThoseOfTheCosts) {
   EXPECT_GT(checked, 1000);
 }
 
+/// Though the table that leads there is of single precision.
+TEST(ArmAngleChoice, IsTheMinimumToATenMillionthOfARadian) {
+  SCOPED_TRACE("seed 911");
+  std::mt19937_64 random{911};
+  const ModelPtr model = med7();
+  const SrsArm arm = srs_arm(*model).value();
+  const ArmNumbers numbers = numbers_of(arm);
+  const Aim aim{.objective = Objective::limits};
+  int checked = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const JointVector q =
+        i % 2 == 0 ? joints_at_limits(*model, random) : random_joints(*model, random);
+    const SrsGoal goal = srs_goal(arm, goal_at(*model, q), q);
+    const FeasibleAngles feasible{numbers, goal, srs_kernel()};
+    std::array<Spans, 8> spans;
+    for (std::size_t k = 0; k < 8; ++k) spans[k] = feasible.of_elbow0(kBranches[k]);
+    std::array<double, 8> chosen;
+    ArmAngleChoice{numbers, goal, srs_kernel(), aim, 0.1}.choose(spans, chosen);
+    for (std::size_t k = 0; k < 8; ++k) {
+      const int branch = static_cast<int>(k);
+      if (spans[k].count == 0) continue;
+      // Next to a limit rounding makes up the cost.
+      const Cost here = cost_at(numbers, goal, aim, branch, chosen[k]);
+      if (!(here.value < 1000)) continue;
+      const Cost before = cost_at(numbers, goal, aim, branch, chosen[k] - 1e-7);
+      const Cost behind = cost_at(numbers, goal, aim, branch, chosen[k] + 1e-7);
+      // Where the turn is cut an end stands for a minimum that costs no less than 1e-10 of it less.
+      const double at = wrap_angle(chosen[k] - half_turns(kBranches[k].elbow));
+      const bool cut = std::abs(at) > M_PI - 1e-12;
+      const double slack = cut ? 1e-3 * here.value : 0;
+      EXPECT_LE(before.slope, slack) << q.transpose();
+      EXPECT_GE(behind.slope, -slack) << q.transpose();
+      ++checked;
+    }
+  }
+  EXPECT_GT(checked, 50000);
+}
+
 TEST(ArmAngleChoice, TheLastArmAngleIsKeptBeforeTheSeeds) {
   const auto solver = solver_for(*med7(), "continuity");
   JointVector q(7), seed(7);

@@ -40,34 +40,38 @@ struct FourBranches {
   unsigned within_limits, singular, in_line;
 };
 
-/// Where the shoulder of elbow 0, that of elbow 1, and the two wrists keep their limits, each as
-/// found and flipped: in the lane's arm angles from -pi to pi, between two of which nothing
-/// changes.
+/// Where shoulder and wrist keep their limits, of either elbow, as found and flipped: in arm angles
+/// of elbow 0 from -pi to pi, between two of which nothing changes; those of elbow 1 are half a
+/// turn further.
 struct LimitPieces {
   static constexpr int kEvents = 16;
-  double event[kEvents][4];  // rising; the last ones may be equal
-  /// Bit 2 i: the limits are kept at event i; bit 2 i + 1: between it and the next.
-  std::int64_t kept[2][4];
+  double event[2][kEvents];  // of shoulder and wrist; rising, the last ones may be equal
+  /// By ball, elbow and flip. Bit 2 i: the limits are kept at event i; bit 2 i + 1: between it and
+  /// the next.
+  std::uint32_t kept[2][2][2];
 };
 
-/// Costs all round: places are arm angles of elbow 0, for elbow 1 half a turn further.
+/// Costs all round, in single precision: places are arm angles of elbow 0.
 struct CostTable {
-  static constexpr int kMost = 256, kWords = kMost / 64;
-  // [rad], rising from -pi; `count` is a multiple of four, and behind it they are beyond pi
-  double place[kMost + 4];
-  int count = 0, regular = 0;                       // of them, in equal steps from -pi
-  double value[8][kMost + 4], slope[8][kMost + 4];  // by branch; the first follows the last
+  static constexpr int kMost = 704, kWords = kMost / 64;
+  /// [rad] The first `sorted` rise from -pi to pi, of which `regular` and the last are in equal
+  /// steps; behind them are those of narrow spans. `count` is a multiple of eight.
+  double place[kMost];
+  int regular = 0, sorted = 0, count = 0;
+  float value[8][kMost + 8], slope[8][kMost + 8];  // by branch
   /// A bit for every place: between it and the next there is a minimum.
   std::uint64_t valley[8][kWords];
 };
 
-/// Places of four branches and what they cost; two of each with a minimum between them; and that.
+/// Places of four branches and what they cost; two of each with a minimum between them, or beyond
+/// them but not beyond `lower` and `upper`; and that.
 struct FourNodes {
   double at[4], value[4], slope[4];
 };
 struct Valleys {
   int branch[4];
   FourNodes left, right;
+  double lower[4], upper[4];
 };
 struct Minima {
   double at[4], value[4];
@@ -81,8 +85,7 @@ struct Aim {
 };
 
 /// Lanes are shoulders and wrists of both elbows, places, or branches: four at once. The same
-/// source is compiled for each kind of processor; AVX-512 is taken for its registers and masks, not
-/// for its width. Real-time safe.
+/// source is compiled for each kind of processor. Real-time safe.
 struct SrsKernel {
   /// Of four sines and cosines, and back.
   void (*angles)(const double (&sine)[4], const double (&cosine)[4], double (&angle)[4]);
@@ -102,10 +105,9 @@ struct SrsKernel {
 };
 const SrsKernel& portable_srs_kernel();
 const SrsKernel& avx2_srs_kernel();
-const SrsKernel& avx512_srs_kernel();
 /// Those that this processor can run, the fastest last.
 struct SrsKernels {
-  const SrsKernel* kernel[3];
+  const SrsKernel* kernel[2];
   int count;
 };
 SrsKernels srs_kernels();

@@ -110,7 +110,8 @@ TEST_P(SrsKernelTest, TellsWhatIsInLine) {
   }
 }
 
-/// Elbow 1 at an arm angle is elbow 0 half a turn on: one table has both.
+/// Elbow 1 at an arm angle is elbow 0 half a turn on: one table has both. In single
+/// precision: where joints are fast or near limits its rounding counts for more.
 TEST_P(SrsKernelTest, CostsAllRoundAreThoseOfTheBranches) {
   SCOPED_TRACE("seed 31");
   for (int i = 0; i < 500 && !HasFailure(); ++i) {
@@ -128,8 +129,10 @@ TEST_P(SrsKernelTest, CostsAllRoundAreThoseOfTheBranches) {
         double value[4], slope[4];
         kernel().cost_at(numbers_, goal, aim, places, value, slope);
         if (value[0] > 1e4) continue;  // beyond the limits
-        EXPECT_NEAR(table.value[branch][k], value[0], 1e-9 * (1 + std::abs(value[0])));
-        EXPECT_NEAR(table.slope[branch][k], slope[0], 1e-7 * (1 + std::abs(slope[0])));
+        // A joint at 1e-6 rad less or more costs so much more where limits are near.
+        const double steep = 1 + std::pow(value[0], 2);
+        EXPECT_NEAR(table.value[branch][k], value[0], 1e-6 * steep);
+        EXPECT_NEAR(table.slope[branch][k], slope[0], 1e-6 * steep * (1 + std::abs(slope[0])));
       }
     }
   }
@@ -150,6 +153,8 @@ TEST_P(SrsKernelTest, MinimaAreWhereTheSlopeChangesItsSign) {
     std::copy_n(from.branch, 4, valleys.branch);
     std::copy_n(from.arm_angle, 4, valleys.left.at);
     std::copy_n(to.arm_angle, 4, valleys.right.at);
+    std::copy_n(from.arm_angle, 4, valleys.lower);
+    std::copy_n(to.arm_angle, 4, valleys.upper);
     Minima found;
     kernel().find_minima(numbers_, goal, aim, &valleys, 1, &found);
     FourPlaces before = from, behind = from;
@@ -179,9 +184,8 @@ std::vector<KernelSubject> kernel_subjects() {
                                     std::pair{std::string{"uneven_arm"}, uneven_arm()}}) {
     const SrsKernels kernels = srs_kernels();
     for (int i = 0; i < kernels.count; ++i) {
-      list.push_back(
-          {name + std::array{"_portable", "_avx2", "_avx512"}[static_cast<std::size_t>(i)],
-           kernels.kernel[i], model});
+      list.push_back({name + std::array{"_portable", "_avx2"}[static_cast<std::size_t>(i)],
+                      kernels.kernel[i], model});
     }
   }
   return list;
@@ -203,7 +207,7 @@ void expect_same(const SrsKernel& first, const SrsKernel& second) {
     for (std::size_t build = 0; build < 2; ++build) {
       const SrsKernel& kernel = build == 0 ? first : second;
       const FeasibleAngles feasible{numbers, goal, kernel};
-      for (std::size_t k = 0; k < 8; ++k) spans[build][k] = feasible.of(kBranches[k]);
+      for (std::size_t k = 0; k < 8; ++k) spans[build][k] = feasible.of_elbow0(kBranches[k]);
       ArmAngleChoice{numbers, goal, kernel, aim, 0.1}.choose(spans[build], arm_angle[build]);
     }
     for (std::size_t k = 0; k < 8; ++k) {

@@ -13,9 +13,11 @@
 #if defined(__x86_64__)
 #pragma GCC push_options
 #pragma GCC target("avx2,fma")
+#define ARMATURE_AVX
 #include "branches_body.hpp"
 #include "minima_body.hpp"
 #include "pieces_body.hpp"
+#include "table_body.hpp"
 
 namespace armature {
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The spherical triangles of shoulders and wrists, four at once; compiled once for each kind of
-// processor (portable_kernel.cpp, avx2_kernel.cpp, avx512_kernel.cpp), everything unnamed so that
-// they never mix.
+// processor (portable_kernel.cpp, avx2_kernel.cpp), everything unnamed so that they never mix.
 #pragma once
 
 #include <cstring>
@@ -79,6 +78,7 @@ Balls balls_of(const SrsGoal& goal) {
 struct LaneAngles {
   LaneSinCos a, b, c;
   Masks free;
+  Lanes inverse_sine;  // of b; 1 where that is free
 };
 
 [[gnu::always_inline]] inline LaneAngles angles_at(const Balls& balls, const LaneSinCos& x,
@@ -88,6 +88,7 @@ struct LaneAngles {
   angles.b = {root(m13 * m13 + m23 * m23), balls.cos_cos - balls.sin_sin * x.cos};
   angles.free = angles.b.sin < in_line;
   const Lanes inverse = 1 / (angles.free ? all(1) : angles.b.sin);
+  angles.inverse_sine = inverse;
   angles.a = {m23 * inverse, m13 * inverse};
   if (any(angles.free)) {
     angles.a.sin = angles.free ? balls.kept_sin : angles.a.sin;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <numbers>
 #include <string_view>
 
 namespace armature {
@@ -28,5 +29,8 @@ inline constexpr std::array<Branch, 8> kBranches{{{"shoulder0/elbow0/wrist0", 0,
                                                   {"shoulder1/elbow0/wrist1", 0, {1, 1}},
                                                   {"shoulder1/elbow1/wrist0", 1, {1, 0}},
                                                   {"shoulder1/elbow1/wrist1", 1, {1, 1}}}};
+
+/// An arm of elbow 1 at an arm angle stands where that of elbow 0 does, less this [rad].
+inline double half_turns(std::size_t elbow) { return elbow == 0 ? 0 : std::numbers::pi; }
 
 }  // namespace armature

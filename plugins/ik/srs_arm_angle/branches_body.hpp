@@ -104,7 +104,7 @@ Lanes fourth_joint(const SrsArm& arm, double t4, const Masks& elbow, Masks& with
                  : __builtin_shufflevector(v, v, 0, 1, 0, 1);
   };
   const auto both = [&](const LaneSinCos& v) { return LaneSinCos{half(v.sin), half(v.cos)}; };
-  return {both(angles.a), both(angles.b), both(angles.c), Masks{}};
+  return {both(angles.a), both(angles.b), both(angles.c), Masks{}, Lanes{}};
 }
 
 /// Lanes: shoulder of elbow 0 and of elbow 1, wrist of elbow 0 and of elbow 1.

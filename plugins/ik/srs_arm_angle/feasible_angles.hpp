@@ -40,15 +40,18 @@ class FeasibleAngles {
   /// Where shoulder and wrist of a branch both do. Spans that miss each other by rounding have the
   /// points in common at which both keep their limits.
   Spans of(const Branch& branch) const;
+  /// The same in arm angles of elbow 0: those of elbow 1 less half a turn.
+  Spans of_elbow0(const Branch& branch) const;
 
  private:
-  /// By ball: shoulder of elbow 0 and of elbow 1, wrist of elbow 0 and of elbow 1.
-  using Kept = std::array<std::array<Spans, 2>, 4>;
-  ArmBall ball(std::size_t which) const;
-  std::array<bool, 2> keep_at(std::size_t which, double arm_angle) const;
-  bool in_line_everywhere(std::size_t which) const;
-  void add_points_in_line(std::size_t which, LimitPieces& pieces) const;
-  std::array<Spans, 2> spans_in_line(std::size_t which) const;
+  /// By ball, 0 the shoulder and 1 the wrist, elbow and flip; in arm angles of elbow 0.
+  using Kept = std::array<std::array<std::array<Spans, 2>, 2>, 2>;
+  ArmBall ball(std::size_t which, std::size_t elbow) const;
+  std::array<bool, 2> keep_at(std::size_t which, std::size_t elbow, double arm_angle) const;
+  bool in_line_everywhere(std::size_t which, std::size_t elbow) const;
+  void add_points_in_line(std::size_t which, std::size_t elbow, LimitPieces& pieces) const;
+  Spans spans_in_line(std::size_t which, std::size_t elbow) const;
+  bool both_keep_at(const Branch& branch, double at) const;
 
   const SrsArm& arm_;
   const SrsGoal& goal_;

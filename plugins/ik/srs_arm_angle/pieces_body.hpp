@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where shoulders and wrists keep their limits; see balls_body.hpp. Lanes: shoulder of elbow 0 and
-// of elbow 1, wrist of elbow 0 and of elbow 1; but of roots, the shoulder's lower and upper limit
-// and the wrist's.
+// Where shoulders and wrists keep their limits; see balls_body.hpp. Lanes: of roots, the shoulder's
+// lower and upper limit and the wrist's; of events, the shoulder's, twice, and the wrist's; of
+// places, two of the shoulder's and two of the wrist's.
 #pragma once
 
 #include <array>
@@ -73,7 +73,7 @@ Roots roots_of(const Lanes& a, const Lanes& b, const Lanes& c) {
   return {some ? middle - away : nothing, some ? middle + away : nothing};
 }
 
-/// What both elbows have a and c turned by, apart from half turns.
+/// What a and c are turned by, apart from half turns.
 struct ShiftTurns {
   LaneSinCos a, c;
 };
@@ -99,15 +99,14 @@ void set_events(const ArmNumbers& numbers, const SrsGoal& goal, const Balls& bal
       roots_of(all(0), -balls.sin_sin, balls.cos_cos - b.cos),
       roots_of(balls.p_sin * c.cos, -balls.sin_cos * c.sin, -balls.cos_sin * c.sin)};
   const Lanes whole = either<Which::both>(0, goal.alpha_rad);  // arm angle = whole +- x
-  const Lanes elbow{0, kPi, 0, kPi};
   Lanes* next = events;
   *next++ = whole;
   *next++ = whole + kPi;
   for (const Roots& pair : roots) {
     for (const Lanes& x : {pair.first, pair.second}) {
       const Lanes at = whole + balls.direction * x;
-      *next++ = __builtin_shufflevector(at, at, 0, 0, 2, 2) + elbow;
-      *next++ = __builtin_shufflevector(at, at, 1, 1, 3, 3) + elbow;
+      *next++ = __builtin_shufflevector(at, at, 0, 0, 2, 2);
+      *next++ = __builtin_shufflevector(at, at, 1, 1, 3, 3);
     }
   }
   for (int i = 0; i < kSorted; ++i) {
@@ -129,40 +128,50 @@ struct LaneRange {
     flipped &= across <= -along;
   }
 };
-LaneRange range_of(const TurnNumbers& numbers, const LaneSinCos& shift, const Lanes& half_turns) {
-  LaneRange range{difference({load(numbers.middle_sin), load(numbers.middle_cos)}, shift),
-                  load(numbers.half_sin), load(numbers.half_cos)};
-  range.middle.sin *= half_turns;
-  range.middle.cos *= half_turns;
-  return range;
+LaneRange range_of(const TurnNumbers& numbers, const LaneSinCos& shift) {
+  return {difference({load(numbers.middle_sin), load(numbers.middle_cos)}, shift),
+          load(numbers.half_sin), load(numbers.half_cos)};
 }
+
+/// Of elbow 0 and elbow 1, as found and flipped.
+struct Kept {
+  Masks by[2][2]{};
+
+  void note(const Kept& other, const Masks& bits) {
+    for (int elbow = 0; elbow < 2; ++elbow) {
+      for (int flip = 0; flip < 2; ++flip) by[elbow][flip] |= other.by[elbow][flip] & bits;
+    }
+  }
+};
 
 class LimitedBalls {
  public:
   LimitedBalls(const ArmNumbers& numbers, const Balls& balls, const ShiftTurns& shift)
       : balls_{balls},
-        a_{range_of(numbers.turn[0], shift.a, Lanes{1, 1, 1, -1})},
-        b_{range_of(numbers.turn[1], {all(0), all(1)}, all(1))},
-        c_{range_of(numbers.turn[2], shift.c, Lanes{1, -1, 1, 1})} {}
+        a_{range_of(numbers.turn[0], shift.a)},
+        b_{range_of(numbers.turn[1], {all(0), all(1)})},
+        c_{range_of(numbers.turn[2], shift.c)} {}
 
-  struct Kept {
-    Masks found, flipped;
-  };
   Kept at(const Lanes& arm_angle) const {
-    const Lanes back{1, -1, 1, -1};
     const LaneSinCos x = balls_.at(sine_and_cosine(arm_angle));
-    const Lanes sin_x = back * x.sin, cos_x = back * x.cos;
-    const Lanes m13 = balls_.cos_sin * cos_x + balls_.sin_cos, m23 = balls_.q_sin * sin_x;
-    const Lanes minus_m31 = balls_.sin_cos * cos_x + balls_.cos_sin, m32 = balls_.p_sin * sin_x;
-    const Lanes m33 = balls_.cos_cos - balls_.sin_sin * cos_x;
+    const Lanes m13 = balls_.cos_sin * x.cos + balls_.sin_cos, m23 = balls_.q_sin * x.sin;
+    const Lanes minus_m31 = balls_.sin_cos * x.cos + balls_.cos_sin, m32 = balls_.p_sin * x.sin;
+    const Lanes m33 = balls_.cos_cos - balls_.sin_sin * x.cos;
     const Lanes sin_b = root(m13 * m13 + m23 * m23);
-    Kept kept{Masks{-1, -1, -1, -1}, Masks{-1, -1, -1, -1}};
-    a_.hold(m23, m13, kept.found, kept.flipped);
-    c_.hold(m32, minus_m31, kept.found, kept.flipped);
-    Masks either_way{-1, -1, -1, -1};
-    b_.hold(sin_b, m33, kept.found, either_way);
-    b_.hold(-sin_b, m33, kept.flipped, either_way);
-    return kept;
+    const Masks yes{-1, -1, -1, -1};
+    Masks a[2]{yes, yes}, b[2]{yes, yes}, c[2]{yes, yes}, either_way = yes;
+    a_.hold(m23, m13, a[0], a[1]);
+    c_.hold(m32, minus_m31, c[0], c[1]);
+    b_.hold(sin_b, m33, b[0], either_way);
+    b_.hold(-sin_b, m33, b[1], either_way);
+    // Elbow 1 has the shoulder's c and the wrist's a half a turn on: as flipped.
+    const Masks wrist{0, 0, -1, -1};
+    Kept found;
+    for (int flip = 0; flip < 2; ++flip) {
+      found.by[0][flip] = a[flip] & b[flip] & c[flip];
+      found.by[1][flip] = b[flip] & (wrist ? a[1 - flip] & c[flip] : a[flip] & c[1 - flip]);
+    }
+    return found;
   }
 
  private:
@@ -171,38 +180,48 @@ class LimitedBalls {
 };
 
 void find_pieces(const ArmNumbers& numbers, const SrsGoal& goal, LimitPieces& out) {
-  constexpr int kLast = LimitPieces::kEvents - 1;
+  constexpr int kEvents = LimitPieces::kEvents, kHalf = kEvents / 2;
   constexpr double kClose = 1e-6;  // nearer than this two limits may meet in one point
   const Balls balls = balls_of<Which::both>(goal);
   const ShiftTurns shift = shift_turns_of(goal);
-  Lanes events[LimitPieces::kEvents];
+  Lanes events[kEvents], middles[kEvents];
   events[0] = all(-kPi);
   set_events(numbers, goal, balls, shift, events + 1);
-  events[kLast] = all(kPi);
+  events[kEvents - 1] = middles[kEvents - 1] = all(kPi);
   sort(events + 1);
-
-  const LimitedBalls limited{numbers, balls, shift};
-  Masks found{}, flipped{}, close{};
-  const auto note = [&](const Lanes& arm_angle, int bit) {
-    const LimitedBalls::Kept kept = limited.at(arm_angle);
-    found |= kept.found & (std::int64_t{1} << bit);
-    flipped |= kept.flipped & (std::int64_t{1} << bit);
-  };
-  for (int i = 0; i < kLast; ++i) {
+  Masks close{};
+  for (int i = 0; i + 1 < kEvents; ++i) {
     const Lanes gap = events[i + 1] - events[i];
     close |= (gap > 0) & (gap < kClose);
-    note(events[i] + 0.5 * gap, 2 * i + 1);
+    middles[i] = events[i] + 0.5 * gap;
   }
+
+  const LimitedBalls limited{numbers, balls, shift};
+  Kept kept;
+  const auto note = [&](const Lanes* at, int first_bit) {
+    for (int i = 0; i < kHalf; ++i) {
+      const std::int64_t bit = std::int64_t{1} << (2 * i + first_bit), later = bit << kEvents;
+      kept.note(limited.at(__builtin_shufflevector(at[i], at[i + kHalf], 0, 4, 2, 6)),
+                Masks{bit, later, bit, later});
+    }
+  };
+  note(middles, 1);
   // A point between two pieces belongs to both; one by itself can only be where limits meet.
-  if (any(close)) {
-    for (int i = 0; i <= kLast; ++i) note(events[i], 2 * i);
+  if (any(close)) note(events, 0);
+  for (int elbow = 0; elbow < 2; ++elbow) {
+    for (int flip = 0; flip < 2; ++flip) {
+      const Masks& by = kept.by[elbow][flip];
+      for (int ball = 0; ball < 2; ++ball) {
+        const auto bits = static_cast<std::uint32_t>(by[2 * ball] | by[2 * ball + 1]);
+        const std::uint32_t pieces = bits & 0x2AAAAAAA;
+        out.kept[ball][elbow][flip] = (bits & 0x55555555) | pieces | pieces << 1 | pieces >> 1;
+      }
+    }
   }
-  const std::int64_t pieces = 0xAAAAAAAA;
-  found |= ((found & pieces) << 1) | ((found & pieces) >> 1);
-  flipped |= ((flipped & pieces) << 1) | ((flipped & pieces) >> 1);
-  for (int i = 0; i < LimitPieces::kEvents; ++i) store(events[i], out.event[i]);
-  std::memcpy(out.kept[0], &found, sizeof found);
-  std::memcpy(out.kept[1], &flipped, sizeof flipped);
+  for (int i = 0; i < kEvents; ++i) {
+    out.event[0][i] = events[i][0];
+    out.event[1][i] = events[i][2];
+  }
 }
 
 }  // namespace

@@ -11,13 +11,13 @@ namespace {
 
 class Places {
  public:
-  /// `count` regular ones, a multiple of four.
+  /// `count` regular ones.
   Places(CostTable& table, int count) : table_{table}, step_{2 * std::numbers::pi / count} {
-    table_.count = table_.regular = count;
+    table_.sorted = table_.regular = count;
     for (int i = 0; i < count; ++i) table_.place[i] = -std::numbers::pi + step_ * i;
   }
   void add(double at) {
-    if (table_.count < CostTable::kMost - 3) table_.place[table_.count++] = wrap_angle(at);
+    if (table_.sorted < kMostSorted) table_.place[table_.sorted++] = wrap_angle(at);
   }
   /// Where the hinge is nearest to in line, x = 0 and x = pi, its outer turns go like
   /// arctan(x / width): places at twice and twice the distance, from a quarter of the width.
@@ -35,14 +35,13 @@ class Places {
     }
   }
   void finish() {
-    for (int i = 0; table_.count % 4 != 0; ++i) {
-      table_.place[table_.count++] = -std::numbers::pi + step_ * (i + 0.5);
-    }
-    if (table_.count > table_.regular) std::sort(table_.place, table_.place + table_.count);
-    for (int i = 0; i < 4; ++i) table_.place[table_.count + i] = 2 * std::numbers::pi;
+    if (table_.sorted > table_.regular) std::sort(table_.place, table_.place + table_.sorted);
+    table_.place[table_.sorted++] = std::numbers::pi;
+    table_.count = table_.sorted;
   }
 
  private:
+  static constexpr int kMostSorted = 216;
   CostTable& table_;
   double step_;
 };
@@ -63,18 +62,6 @@ void set_places(const SrsGoal& goal, const Aim& aim, CostTable& table) {
     }
   }
   places.finish();
-}
-
-int place_from(const CostTable& table, double at) {
-  // Among regular places alone it is this or one of the next two; behind the last there are more.
-  int i = std::max(
-      static_cast<int>((at + std::numbers::pi) * (0.5 / std::numbers::pi * table.regular) - 0.5),
-      0);
-  i += table.place[i] < at ? 1 : 0;
-  i += table.place[i] < at ? 1 : 0;
-  if (table.count == table.regular) return i;
-  while (table.place[i] < at) ++i;
-  return i;
 }
 
 }  // namespace armature

@@ -2,6 +2,7 @@
 #include "branches_body.hpp"
 #include "minima_body.hpp"
 #include "pieces_body.hpp"
+#include "table_body.hpp"
 
 namespace armature {
 
@@ -16,10 +17,6 @@ SrsKernels srs_kernels() {
 #if defined(__x86_64__)
   if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) return list;
   list.kernel[list.count++] = &avx2_srs_kernel();
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
-      __builtin_cpu_supports("avx512dq")) {
-    list.kernel[list.count++] = &avx512_srs_kernel();
-  }
 #endif
   return list;
 }

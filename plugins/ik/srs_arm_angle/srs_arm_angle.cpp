@@ -54,8 +54,8 @@ Expected<std::unique_ptr<IkSolver>> SrsArmAngle::make(const RobotModel& model,
 }
 
 std::optional<double> SrsArmAngle::redundancy_of(const JointVector& q) const {
-  std::array<double, 7> t;
-  for (std::size_t i = 0; i < 7; ++i) t[i] = numbers_.arm.canonical(i, q.data()[i]);
+  std::array<double, 7> t{};
+  for (std::size_t i = 0; i < 4; ++i) t[i] = numbers_.arm.canonical(i, q.data()[i]);
   return arm_angle_of(numbers_.arm, t);
 }
 
@@ -85,7 +85,7 @@ void SrsArmAngle::add_best_branches(const SrsGoal& goal, const JointVector& seed
   const SrsKernel& kernel = srs_kernel();
   const FeasibleAngles feasible{numbers_, goal, kernel};
   std::array<Spans, 8> spans;
-  for (std::size_t i = 0; i < 8; ++i) spans[i] = feasible.of(kBranches[i]);
+  for (std::size_t i = 0; i < 8; ++i) spans[i] = feasible.of_elbow0(kBranches[i]);
   const Aim aim{objective_, last.has_value(), last.value_or(0)};
   std::array<double, 8> arm_angle;
   ArmAngleChoice{numbers_, goal, kernel, aim, wanted}.choose(spans, arm_angle);
@@ -103,7 +103,8 @@ void SrsArmAngle::add_best_branches(const SrsGoal& goal, const JointVector& seed
       if (inside && (found.in_line >> k & 1) == 0) {
         set_branch(found, k, wrap_angle(arm_angle[i]), kBranches[i].label, out.add());
       } else {
-        out.add() = branch_inside(numbers_.arm, goal, kBranches[i], spans[i], arm_angle[i]);
+        out.add() = branch_inside(numbers_.arm, goal, kBranches[i], feasible.of(kBranches[i]),
+                                  arm_angle[i]);
       }
     }
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Four doubles at once, for solvers whose arithmetic is compiled once for each kind of processor.
-// Everything is unnamed: each processor's copy is its own.
+// Everything is unnamed: each processor's copy is its own. Whose copy is for processors with AVX
+// defines ARMATURE_AVX before this: the pragma that chooses a processor defines no macro.
 #pragma once
 
 #include <bit>
@@ -28,7 +29,7 @@ constexpr std::int64_t kSignBit = INT64_MIN;
 inline Lanes all(double x) { return Lanes{x, x, x, x}; }
 /// A bit for every lane of what comes out of a comparison.
 inline unsigned bits_of(const Masks& m) {
-#if defined(__AVX__)
+#if defined(ARMATURE_AVX)
   return static_cast<unsigned>(_mm256_movemask_pd(std::bit_cast<__m256d>(m)));
 #else
   return static_cast<unsigned>((m[0] & 1) | (m[1] & 2) | (m[2] & 4) | (m[3] & 8));
@@ -46,7 +47,7 @@ inline Lanes with_sign(const Lanes& x, const Lanes& s) {
 }
 
 inline Lanes root(const Lanes& x) {
-#if defined(__AVX__)
+#if defined(ARMATURE_AVX)
   return std::bit_cast<Lanes>(_mm256_sqrt_pd(std::bit_cast<__m256d>(x)));
 #elif defined(__SSE2__)
   const __m128d low = _mm_sqrt_pd(_mm_set_pd(x[1], x[0]));

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "armature/robot/robot_model.hpp"
+
+namespace armature {
+
+/// The last joint, if it slides the tool along the pointing axis or turns it about that: what a
+/// pointing goal leaves free is its value, as ik/puma_algebraic has it.
+struct FreeJoint {
+  int index;
+  bool slides;
+};
+std::optional<FreeJoint> free_joint_of(const RobotModel& model);
+
+}  // namespace armature

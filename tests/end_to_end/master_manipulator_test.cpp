@@ -123,7 +123,7 @@ TEST(MasterManipulator, OfAHandThatDoesNotTrembleNoRatioIsTold) {
 }
 
 TEST(MasterManipulator, TwoArmsNeedTopicsOfTheirOwn) {
-  const DeploymentRun run = teleoperation({"components.master.out=null"});
+  const DeploymentRun run = teleoperation({"components.master.topics=null"});
   EXPECT_EQ(run.command.exit_code, 3);
   EXPECT_NE(run.command.err.find("both write topic '/master_manipulator/arm/measured_js'"),
             std::string::npos)

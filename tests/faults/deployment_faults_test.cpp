@@ -91,7 +91,8 @@ const Fault kFaults[] = {
     {"TwoWritersOfOneTopic", "{plugin: face_pose/three_point}",
      "{plugin: face_pose/three_point, out: {face: landmarks}}",
      "deployment.yaml:10:53: landmarks.landmarks and face.face both write topic "
-     "'/faulty/landmarks'; rename one with 'out:'\n"
+     "'/faulty/landmarks'; give one of them others "
+     "with 'topics:' or 'out:'\n"
      "deployment.yaml:11:3: target.face reads topic '/faulty/face', which nobody writes; did you "
      "mean '/faulty/target'?\n"
      "deployment.yaml:21:3: report.face reads topic '/faulty/face', which nobody writes; did you "
@@ -103,8 +104,8 @@ const Fault kFaults[] = {
      "you mean '/faulty/arm/servo_jp'?\n"},
     {"SharedTopicWithAWriterThatDoesNotShareIt", "executor: control}",
      "executor: control}\n  monitor: {plugin: monitor/rviz, out: {tool_pose: /tf}}",
-     "deployment.yaml:21:52: monitor.tf and monitor.tool_pose both write topic '/tf'; rename one "
-     "with 'out:'\n"},
+     "deployment.yaml:21:52: monitor.tf and monitor.tool_pose both write topic '/tf'; give one of "
+     "them others with 'topics:' or 'out:'\n"},
     {"UnknownRigWhereNoneIsNeeded", "executor: control}",
      "executor: control}\n  monitor: {plugin: monitor/rviz, rig: lft}",
      "deployment.yaml:21:40: unknown rig 'lft'; known: head\n"},
@@ -209,14 +210,16 @@ const Fault kFaults[] = {
      "{plugin: face_pose/three_point, topics: left/}",
      "deployment.yaml:10:49: 'topics': 'left/' names no topic: words of letters, digits and _, not "
      "beginning with a digit, with / between them\n"},
-    {"TopicsUnderAnotherName", "{plugin: face_pose/three_point}",
-     "{plugin: face_pose/three_point, topics: left}",
-     "deployment.yaml:10:3: face.landmarks reads topic '/faulty/left/landmarks', which nobody "
-     "writes; did you mean '/faulty/landmarks'?\n"
-     "deployment.yaml:11:3: target.face reads topic '/faulty/face', which nobody writes; did you "
-     "mean '/faulty/left/face'?\n"
-     "deployment.yaml:21:3: report.face reads topic '/faulty/face', which nobody writes; did you "
-     "mean '/faulty/left/face'?\n"},
+    {"TopicsUnderAnotherName", "  target: {plugin: target/constant_velocity}",
+     "  target: {plugin: target/constant_velocity, topics: left}",
+     "deployment.yaml:11:3: target.face reads topic '/faulty/left/face', which nobody writes; did "
+     "you mean '/faulty/face'?\n"
+     "deployment.yaml:11:3: target.measured_js reads topic '/faulty/left/arm/measured_js', which "
+     "nobody writes; did you mean '/faulty/arm/measured_js'?\n"
+     "deployment.yaml:12:3: task.target reads topic '/faulty/target', which nobody writes; did you "
+     "mean '/faulty/left/target'?\n"
+     "deployment.yaml:21:3: report.target reads topic '/faulty/target', which nobody writes; did "
+     "you mean '/faulty/left/target'?\n"},
     {"PortsThatAreNoMap", "{plugin: face_pose/three_point}",
      "{plugin: face_pose/three_point, in: [landmarks]}",
      "deployment.yaml:10:45: the inputs of component 'face' must be a map from ports to topics, "

@@ -44,10 +44,12 @@ Writers find_writers(const DeploymentConfig& deployment, config::Problems& probl
         continue;
       }
       const Writer& first = there.front();
-      problems.add(port.origin,
-                   fmt::format("{} and {} both write topic '{}'{}; rename one with 'out:'",
-                               port_name(deployment.components[first.component], *first.port),
-                               port_name(component, port), port.topic, *refused));
+      problems.add(
+          port.origin,
+          fmt::format(
+              "{} and {} both write topic '{}'{}; give one of them others with 'topics:' or 'out:'",
+              port_name(deployment.components[first.component], *first.port),
+              port_name(component, port), port.topic, *refused));
     }
   }
   return writers;
@@ -75,6 +77,23 @@ void check_match(const ComponentConfig& reader, const PortBinding& input,
   }
 }
 
+/// The topic that may have been meant: the same one of another arm, else the nearest in spelling.
+std::string meant(const std::string& topic, const std::vector<std::string>& written,
+                  const std::string& deployment) {
+  const auto under_deployment = [&](const std::string& name) {
+    const std::string space = '/' + deployment;
+    return name.starts_with(space + '/') ? name.substr(space.size()) : name;
+  };
+  const std::string asked = under_deployment(topic);
+  for (const std::string& there : written) {
+    const std::string name = under_deployment(there);
+    if (name.ends_with(asked) || asked.ends_with(name)) {
+      return fmt::format("; did you mean '{}'?", there);
+    }
+  }
+  return config::did_you_mean(topic, written);
+}
+
 void check_inputs(const DeploymentConfig& deployment, const Writers& writers,
                   config::Problems& problems) {
   std::vector<std::string> topics;
@@ -90,7 +109,7 @@ void check_inputs(const DeploymentConfig& deployment, const Writers& writers,
       } else if (!input.spec.outside && (!input.spec.optional || input.renamed)) {
         problems.add(input.origin, fmt::format("{} reads topic '{}', which nobody writes{}",
                                                port_name(component, input), input.topic,
-                                               config::did_you_mean(input.topic, topics)));
+                                               meant(input.topic, topics, deployment.name)));
       }
     }
   }

@@ -47,8 +47,10 @@ using Messages = std::vector<std::string>;
 
 TEST(Graph, ATopicHasOneWriter) {
   std::vector components{writer("a", port("x", "/t", false)), writer("b", port("y", "/t", false))};
-  EXPECT_EQ(check(components),
-            Messages{"a.x and b.y both write topic '/t'; rename one with 'out:'"});
+  EXPECT_EQ(
+      check(components),
+      Messages{
+          "a.x and b.y both write topic '/t'; give one of them others with 'topics:' or 'out:'"});
 }
 
 TEST(Graph, ATopicThatItsWritersShareHasSeveral) {
@@ -60,8 +62,10 @@ TEST(Graph, ATopicThatItsWritersShareHasSeveral) {
 
 TEST(Graph, AWriterThatDoesNotShareATopicIsNotTakenIn) {
   std::vector components{writer("a", port("x", "/tf", true)), writer("b", port("y", "/tf", false))};
-  EXPECT_EQ(check(components),
-            Messages{"a.x and b.y both write topic '/tf'; rename one with 'out:'"});
+  EXPECT_EQ(
+      check(components),
+      Messages{
+          "a.x and b.y both write topic '/tf'; give one of them others with 'topics:' or 'out:'"});
 }
 
 TEST(Graph, WritersThatShareATopicWriteOneType) {
@@ -69,7 +73,7 @@ TEST(Graph, WritersThatShareATopicWriteOneType) {
                          writer("b", port("y", "/tf", true, "std_msgs/String"))};
   EXPECT_EQ(check(components),
             Messages{"a.x and b.y both write topic '/tf', as 'tf2_msgs/TFMessage' and as "
-                     "'std_msgs/String'; rename one with 'out:'"});
+                     "'std_msgs/String'; give one of them others with 'topics:' or 'out:'"});
 }
 
 TEST(Graph, AnOptionalInputNeedsAWriterOnlyWhenTheFileSaysWhich) {

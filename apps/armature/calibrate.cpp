@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <ctime>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <optional>
@@ -94,6 +95,11 @@ int deliver(const Json& json, const CalibrationOptions& options, const std::stri
   const std::string yaml = fmt::format("# For a robot file: frames: {{{}}}\n{}", hint,
                                        config::to_yaml(to_node(json), false));
   if (!options.output.empty()) {
+    std::error_code none;
+    if (std::filesystem::equivalent(options.output, options.poses, none)) {
+      throw InvalidChoice(fmt::format("-o {}: that is the recording; give the result another name",
+                                      options.output));
+    }
     write_atomically(options.output, yaml);
     fmt::print(stderr, "{}: {} poses, {} mm rms remain\n", options.output, json["poses"].get<int>(),
                json["residual"]["rms_mm"].get<double>());

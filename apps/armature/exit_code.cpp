@@ -1,17 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "exit_code.hpp"
 
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <exception>
+#include <iostream>
 
 #include "armature/config/problems.hpp"
 #include "armature/runtime/plugin_registry.hpp"
 
 namespace armature {
 
+namespace {
+
+/// What was printed and never arrived was not done: a full disk behind `>`.
+int printed(int code) {
+  errno = 0;
+  std::cout.flush();
+  const bool lost = std::fflush(stdout) != 0 || std::ferror(stdout) != 0 || !std::cout;
+  if (!lost) return code;
+  std::fprintf(stderr, "armature: standard output cannot be written%s%s\n", errno ? ": " : "",
+               errno ? std::strerror(errno) : "");
+  return kFailed;
+}
+
+}  // namespace
+
 int exit_code_of(const std::function<int()>& action) {
   try {
-    return action();
+    return printed(action());
   } catch (const config::ConfigError& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return kInvalidConfig;

@@ -37,6 +37,13 @@ void end_before_start(int signal) {
   _exit(kFailed);
 }
 
+/// What ends a run in order: Ctrl-C, `kill`, and a terminal that is closed (but under nohup).
+void on_end_signals(void (*handler)(int)) {
+  std::signal(SIGINT, handler);
+  std::signal(SIGTERM, handler);
+  if (std::signal(SIGHUP, SIG_IGN) != SIG_IGN) std::signal(SIGHUP, handler);
+}
+
 /// Lines for the operator, with the deployment's time; from any thread.
 class Console {
  public:
@@ -100,8 +107,7 @@ int conclude(const RunOptions& options, const Deployment& deployment,
 int run_deployment(const RunOptions& options) {
   const bool is_child = !options.process.empty();
   if (!is_child) {  // another process of a deployment just ends: its main process tells
-    std::signal(SIGINT, end_before_start);
-    std::signal(SIGTERM, end_before_start);
+    on_end_signals(end_before_start);
   }
   // A folder that cannot be written is told before the run, not after it.
   if (options.report) std::filesystem::create_directories(*options.report);
@@ -135,8 +141,7 @@ int run_deployment(const RunOptions& options) {
       {.process = process,
        .on_line = [&](const auto& who, const auto& text) { console.line(who, text); },
        .on_note = [&](const auto& text) { console.line("runtime", text); }}};
-  std::signal(SIGINT, on_signal);
-  std::signal(SIGTERM, on_signal);
+  on_end_signals(on_signal);
   // Before any thread: a child is forked from a process that has only this one.
   ChildProcesses children;
   if (!is_child) {

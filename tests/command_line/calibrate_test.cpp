@@ -310,6 +310,20 @@ TEST_F(Calibrate, SaysWhichFileCannotBeReadOrWritten) {
             "armature: cannot write '" + folder_.string() + "': it is no regular file\n");
 }
 
+TEST_F(Calibrate, NeverWritesOverTheRecording) {
+  const std::string poses = write("mine.jsonl", text_of(kTool));
+  EXPECT_EQ(refusal({"tool", poses, "-o", poses}, 3),
+            "armature: -o mine.jsonl: that is the recording; give the result another name\n");
+  EXPECT_EQ(text_of(poses), text_of(kTool));
+}
+
+TEST_F(Calibrate, WhatCannotBePrintedWasNotDone) {
+  const CommandResult result =
+      run_command({"sh", "-c", armature() + " calibrate tool " + kTool + " > /dev/full"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.err, "armature: standard output cannot be written: No space left on device\n");
+}
+
 TEST_F(Calibrate, WritesWhereALinkPointsAndNeverOverAPipe) {
   const std::string output = write("result.yaml", "the older one\n"), link = in_folder("link.yaml"),
                     pipe = in_folder("pipe");

@@ -144,8 +144,8 @@ const Fault kFaults[] = {
     {"WrongVersion", "armature: 1", "armature: 2",
      "deployment.yaml:1:11: 'armature' is the version of the file format and must be 1\n"},
     {"NameWithSlash", "name: faulty", "name: lamp/one",
-     "deployment.yaml:2:7: 'lamp/one' must consist of letters, digits and '_': it is the namespace "
-     "of the topics\n"},
+     "deployment.yaml:2:7: 'lamp/one' must consist of letters, digits and '_', and begin with no "
+     "digit: it is the namespace of the topics\n"},
     {"TabForIndentation", "    executor: control", "	executor: control",
      "deployment.yaml:14:2: cannot be read as YAML: end of map not found; indent with spaces, not "
      "tabs\n"},

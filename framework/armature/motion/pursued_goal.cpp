@@ -9,12 +9,8 @@ namespace {
 
 constexpr Duration kRetryAfter = seconds(0.25);
 constexpr Duration kAnswerWithin = seconds(1.0);
+constexpr int kMostBreakdowns = 10;
 constexpr Time kAtOnce{std::numeric_limits<std::int64_t>::min()};
-
-/// The motion component was not able to execute anything at that moment.
-bool not_ready(const GoalReport& report) {
-  return report.stage == "accept" || report.stage == "execution";
-}
 
 }  // namespace
 
@@ -22,6 +18,7 @@ void PursuedGoal::set(const MotionGoal& goal) {
   goal_ = goal;
   state_ = State::waiting;
   send_at_ = kAtOnce;
+  breakdowns_ = 0;
   reason_.clear();
 }
 
@@ -43,7 +40,7 @@ void PursuedGoal::hear(const GoalReport& report, Time now) {
     case GoalReport::State::superseded:  // by a goal that is not ours
     case GoalReport::State::failed:
       reason_ = report.reason;
-      if (report.state == GoalReport::State::superseded || not_ready(report)) {
+      if (report.state == GoalReport::State::superseded || worth_another_try(report)) {
         state_ = State::waiting;
         send_at_ = now + kRetryAfter;
       } else {
@@ -52,6 +49,13 @@ void PursuedGoal::hear(const GoalReport& report, Time now) {
       }
       break;
   }
+}
+
+/// The motion was not able to execute anything at that moment; or the arm did not follow it, which
+/// an arm that cannot never will.
+bool PursuedGoal::worth_another_try(const GoalReport& report) {
+  if (report.stage == "accept") return true;
+  return report.stage == "execution" && ++breakdowns_ < kMostBreakdowns;
 }
 
 std::optional<MotionGoal> PursuedGoal::outgoing(Time now) {

@@ -19,7 +19,8 @@ struct GoalReport {
 };
 
 /// The one goal that a task has the arm on its way to. Goals that were refused because the motion
-/// was not ready, and goals that nobody answered, are given again.
+/// was not ready, and goals that nobody answered, are given again; goals that break down on their
+/// way ten times have failed.
 class PursuedGoal {
  public:
   enum class State { none, waiting, moving, done, failed };
@@ -36,13 +37,15 @@ class PursuedGoal {
   int sent() const { return sent_; }
 
  private:
+  bool worth_another_try(const GoalReport& report);
+
   MotionGoal goal_;
   State state_ = State::none;
   std::uint64_t last_id_ = 0;
   std::optional<Time> send_at_;  // not sent yet: at once or later
   Time sent_at_, done_at_;
   std::string reason_;
-  int sent_ = 0;
+  int sent_ = 0, breakdowns_ = 0;
 };
 
 }  // namespace armature

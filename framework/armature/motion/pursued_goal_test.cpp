@@ -51,6 +51,26 @@ TEST(PursuedGoal, GivesAGoalAgainThatTheMotionWasNotReadyFor) {
   EXPECT_EQ(goals.outgoing(at(0.4))->id, 2u);
 }
 
+TEST(PursuedGoal, GivesAGoalUpThatAnArmNeverFollows) {
+  PursuedGoal goals;
+  goals.set({});
+  const auto broken = [](std::uint64_t id) {
+    return GoalReport{.goal_id = id, .state = Report::failed, .stage = "execution", .reason = "x"};
+  };
+  for (int i = 1; i < 10; ++i) {
+    const auto goal = goals.outgoing(at(i));
+    ASSERT_TRUE(goal) << i;
+    goals.hear(broken(goal->id), at(i));
+    ASSERT_EQ(goals.state(), PursuedGoal::State::waiting) << i;
+  }
+  goals.hear(broken(goals.outgoing(at(10))->id), at(10));
+  EXPECT_EQ(goals.state(), PursuedGoal::State::failed);
+  EXPECT_EQ(goals.reason(), "execution: x");
+  goals.set({});
+  goals.hear(broken(goals.outgoing(at(11))->id), at(11));
+  EXPECT_EQ(goals.state(), PursuedGoal::State::waiting) << "another goal";
+}
+
 TEST(PursuedGoal, GivesAGoalAgainThatNobodyAnswered) {
   PursuedGoal goals;
   goals.set({});

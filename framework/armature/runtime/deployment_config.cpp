@@ -28,8 +28,10 @@ using config::Problems;
 constexpr double kShortestPeriod_s = 1e-4;
 
 bool is_name(std::string_view text) {
-  return !text.empty() && std::all_of(text.begin(), text.end(),
-                                      [](unsigned char c) { return std::isalnum(c) || c == '_'; });
+  const bool digit = !text.empty() && std::isdigit(static_cast<unsigned char>(text.front()));
+  return !text.empty() && !digit && std::all_of(text.begin(), text.end(), [](unsigned char c) {
+    return std::isalnum(c) || c == '_';
+  });
 }
 
 /// The entries of a section that must be a map; none when it is missing or wrong.
@@ -130,8 +132,8 @@ DeploymentConfig read_deployment(const Node& root, const PluginRegistry& plugins
   }
   deployment.name = map.text("name");
   if (!deployment.name.empty() && !is_name(deployment.name)) {
-    map.problem("name", fmt::format("'{}' must consist of letters, digits and '_': it is the "
-                                    "namespace of the topics",
+    map.problem("name", fmt::format("'{}' must consist of letters, digits and '_', and begin "
+                                    "with no digit: it is the namespace of the topics",
                                     deployment.name));
   }
   deployment.simulated = map.choice("clock", {"system", "simulated"}, "system") == "simulated";

@@ -20,8 +20,12 @@ struct Time {
   friend constexpr Duration operator-(Time a, Time b) { return Duration{a.ns - b.ns}; }
 };
 
-/// Seconds as a Duration, rounded to the nearest nanosecond.
+/// Seconds as a Duration, rounded to the nearest nanosecond; what is longer than a century is a
+/// century, which an instant of either clock can be moved by.
 constexpr Duration seconds(double s) {
+  constexpr double kCentury_s = 100 * 365.25 * 86400;
+  if (s > kCentury_s) s = kCentury_s;
+  if (s < -kCentury_s) s = -kCentury_s;
   return Duration{static_cast<std::int64_t>(s * 1e9 + (s < 0 ? -0.5 : 0.5))};
 }
 

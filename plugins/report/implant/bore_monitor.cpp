@@ -31,17 +31,22 @@ BoreMonitor::BoreMonitor(const std::vector<Isometry3d>& image_T_sites, const Bor
 
 void BoreMonitor::see(const Isometry3d& base_T_flange, const GuidedChain& estimate,
                       const GuidedChain& truth) {
-  Bore* bore = nullptr;
-  AtSite believed{};
-  for (Bore& each : bores_) {
-    const AtSite there = at_site(estimate.base_T_site(each.image_T_site).inverse() * base_T_flange *
-                                 estimate.flange_T_tool());
-    if (there.off_m > settings_.near_m || there.depth_m < -settings_.depth_m) continue;
-    if (bore && there.off_m >= believed.off_m) continue;  // of crossing bores the nearer axis
-    bore = &each;
-    believed = there;
+  const auto believed_at = [&](std::size_t i) {
+    return at_site(estimate.base_T_site(bores_[i].image_T_site).inverse() * base_T_flange *
+                   estimate.flange_T_tool());
+  };
+  const auto is_in = [&](const AtSite& there) { return there.depth_m >= -settings_.depth_m; };
+  std::optional<std::size_t> nearest;  // of crossing bores
+  for (std::size_t i = 0; i < bores_.size(); ++i) {
+    const AtSite there = believed_at(i);
+    if (!is_in(there) || there.off_m > settings_.near_m) continue;
+    if (!nearest || there.off_m < believed_at(*nearest).off_m) nearest = i;
   }
-  if (!bore) return;
+  if (!nearest && inside_ && is_in(believed_at(*inside_))) nearest = inside_;
+  inside_ = nearest;
+  if (!inside_) return;
+  Bore* bore = &bores_[*inside_];
+  const AtSite believed = believed_at(*inside_);
   const Isometry3d base_T_site = truth.base_T_site(bore->image_T_site);
   const Isometry3d site_T_drill = base_T_site.inverse() * base_T_flange * truth.flange_T_tool();
   const AtSite is = at_site(site_T_drill);

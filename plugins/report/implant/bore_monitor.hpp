@@ -23,11 +23,12 @@ struct Bore {
 
 struct BoreSettings {
   double depth_m = 0.012;  // above a bottom the drill is in
-  double near_m = 0.002;   // off a site's axis; farther off the drill is on its way elsewhere
+  double near_m = 0.002;   // off a site's axis; a drill that comes in farther off is elsewhere
 };
 
 /// Watches a drill at all sites of a plan. Where it is in is judged as the arm believes: however
-/// wrong its chain is, it knows which site it drills.
+/// wrong its chain is, it knows which site it drills. Once in, it is in until it is out above or
+/// near another site, however far it goes off the axis.
 class BoreMonitor {
  public:
   BoreMonitor(const std::vector<Eigen::Isometry3d>& image_T_sites, const BoreSettings& settings);
@@ -40,6 +41,7 @@ class BoreMonitor {
  private:
   BoreSettings settings_;
   std::vector<Bore> bores_;
+  std::optional<std::size_t> inside_;  // of bores_: where the drill was last
 };
 
 }  // namespace armature

@@ -52,6 +52,15 @@ TEST_F(BoreMonitorTest, ADrillThatPassesBesideIsNotThere) {
   EXPECT_EQ(bore(0).line_deviation_m, 0);
 }
 
+TEST_F(BoreMonitorTest, ADrillThatLeavesItsBoreSidewaysIsToldHowFarItWent) {
+  see(0, -0.001);
+  see(-0.004, -0.001);
+  EXPECT_NEAR(bore(0).line_deviation_m, 0.004, 1e-12) << "twice what is near";
+  see(-0.004, -0.02);
+  see(-0.006, -0.001);
+  EXPECT_NEAR(bore(0).line_deviation_m, 0.004, 1e-12) << "out above, and elsewhere";
+}
+
 TEST_F(BoreMonitorTest, TheDeeperBoreOfANeighbourIsNotThisOne) {
   see(0, 0);
   see(0.005, 0.003);

@@ -79,7 +79,7 @@ class TeleoperationReport final : public Component {
     }
     show_health();
     const bool watched = closed_at_ && now - *closed_at_ >= watch_for_;
-    held_ = held_since_ && now - *held_since_ >= held_for_;
+    held_ = held_since_ && (watched || now - *held_since_ >= held_for_);
     finished_ = refused_ || held_ || watched;
   }
 

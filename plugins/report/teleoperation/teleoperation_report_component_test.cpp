@@ -115,6 +115,16 @@ TEST_F(TeleoperationReportTest, AHandThatNeverBeginsEndsTheRunToo) {
   EXPECT_EQ(report_.figures().status, "held");
 }
 
+TEST_F(TeleoperationReportTest, AStoryThatEndsWhileTheSlaveIsHeldDidNotGoWell) {
+  tell("teleoperating");
+  teleoperate(2500);
+  tell("held", "the clutch tells nothing");
+  teleoperate(600);
+  EXPECT_TRUE(report_.component().finished());
+  EXPECT_EQ(report_.figures().status, "held");
+  EXPECT_EQ(report_.figures().reason, "the clutch tells nothing");
+}
+
 TEST_F(TeleoperationReportTest, WithoutATremorNothingIsToldOfWhatIsLeftOfIt) {
   tell("teleoperating");
   teleoperate(2000);

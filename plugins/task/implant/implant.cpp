@@ -70,8 +70,16 @@ void Implant::see_jaw(const Sighting& sighting) {
 
 int Implant::jaw_block() const { return std::clamp(settings_.jaw_samples / 2, 1, kJawSamples); }
 
-Eigen::Vector3d Implant::seen_site(const Isometry3d& tracker_T_jaw) const {
-  return tracker_T_jaw * (chain_.patient_T_image * sites_.front().translation());
+double Implant::most_moved(const Isometry3d& tracker_T_jaw, const Isometry3d& from) const {
+  double most_m = 0;
+  for (const Isometry3d& site : sites_) {
+    for (const double above_m : {0.0, settings_.stand_off_m}) {
+      const Eigen::Vector3d point =
+          chain_.patient_T_image * (site * Eigen::Vector3d{0, 0, -above_m});
+      most_m = std::max(most_m, (tracker_T_jaw * point - from * point).norm());
+    }
+  }
+  return most_m;
 }
 
 /// A jaw that moves meanwhile is no noise, which a mean would take down.
@@ -82,7 +90,7 @@ void Implant::locate_jaw(const Isometry3d& tracker_T_jaw) {
   const Isometry3d now = jaw_now_.mean();
   jaw_now_.clear();
   if (!jaw_first_) jaw_first_ = now;
-  const double moved_m = (seen_site(now) - seen_site(*jaw_first_)).norm();
+  const double moved_m = most_moved(now, *jaw_first_);
   if (moved_m <= settings_.most_jaw_motion_m) return;
   refuse(fmt::format("the jaw moved by {:.2f} mm while its place was averaged, {:g} mm are allowed",
                      1e3 * moved_m, 1e3 * settings_.most_jaw_motion_m));
@@ -90,7 +98,7 @@ void Implant::locate_jaw(const Isometry3d& tracker_T_jaw) {
 
 /// Against where the jaw was when the way was worked out.
 void Implant::guard_jaw() {
-  const double moved_m = (seen_site(jaw_now_.mean()) - seen_site(chain_.tracker_T_patient)).norm();
+  const double moved_m = most_moved(jaw_now_.mean(), chain_.tracker_T_patient);
   jaw_now_.clear();
   if (moved_m <= settings_.most_jaw_motion_m) return;
   refuse(fmt::format("the jaw has moved by {:.2f} mm, {:g} mm are allowed", 1e3 * moved_m,

@@ -96,8 +96,8 @@ class Implant {
   int jaw_block() const;
   void locate_jaw(const Eigen::Isometry3d& tracker_T_jaw);
   void guard_jaw();
-  /// A site, by where the jaw is.
-  Eigen::Vector3d seen_site(const Eigen::Isometry3d& tracker_T_jaw) const;
+  /// By how much a jaw has moved [m]: at the site, or above it, where that is most.
+  double most_moved(const Eigen::Isometry3d& tracker_T_jaw, const Eigen::Isometry3d& from) const;
   /// For good; an arm that is on its way holds.
   void refuse(const std::string& why);
 

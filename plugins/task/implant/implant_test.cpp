@@ -182,6 +182,19 @@ TEST_F(ImplantTest, AJawThatMovesStopsTheArm) {
   EXPECT_EQ(goals_.back().mode, MotionMode::hold);
 }
 
+TEST_F(ImplantTest, AJawThatTurnsAboutTheFirstSiteStopsTheArmToo) {
+  begin();
+  go_to(Phase::drilling);
+  done_ = 0;
+  const Vector3d site = task_.chain().patient_T_image * sites_[0].position;
+  chain_.tracker_T_patient = chain_.tracker_T_patient * Eigen::Translation3d{site} *
+                             Eigen::AngleAxisd{10 * M_PI / 180, Vector3d::UnitZ()} *
+                             Eigen::Translation3d{-site};
+  wait(0.5);
+  EXPECT_EQ(task_.phase(), Phase::refused);
+  EXPECT_EQ(task_.trouble().substr(0, 21), "the jaw has moved by ");
+}
+
 TEST_F(ImplantTest, AJawThatMovesWhileItsPlaceIsAveragedIsNotDrilled) {
   ImplantSettings settings = quick();
   settings.jaw_samples = 60;

@@ -187,10 +187,11 @@ Json ik_json(const RobotModel& robot, const IkSolver& solver, const JointVector&
     answer[ik_lines::last_redundancy_key(is_length)] = *state.last_redundancy;
   }
   answer["solutions"] = Json::array();
-  const bool redundant = robot.dof() > 6 || goal.redundancy;
+  const bool redundant = robot.dof() > 6;
   for (const IkBranch& branch : branches) {
+    const bool has_one = goal.redundancy || (redundant && solver.redundancy_of(branch.q));
     answer["solutions"].push_back(
-        solution_json(robot, branch, redundant ? ik_lines::redundancy_key(is_length) : ""));
+        solution_json(robot, branch, has_one ? ik_lines::redundancy_key(is_length) : ""));
   }
   add_intervals(solver, goal, seed, answer["solutions"]);
   return answer;

@@ -319,7 +319,7 @@ TEST_F(Calibrate, NeverWritesOverTheRecording) {
 
 TEST_F(Calibrate, WhatCannotBePrintedWasNotDone) {
   const CommandResult result =
-      run_command({"sh", "-c", armature() + " calibrate tool " + kTool + " > /dev/full"});
+      run_command({"/bin/sh", "-c", armature() + " calibrate tool " + kTool + " > /dev/full"});
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_EQ(result.err, "armature: standard output cannot be written: No space left on device\n");
 }

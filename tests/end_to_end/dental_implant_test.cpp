@@ -166,6 +166,21 @@ TEST(DentalImplant, ASolverThatGoesAlongALimitNeedsAMargin) {
   expect_drilled(implant({along, kMotion + "params.limit_margin_deg=0.1", "run.time_limit_s=400"}));
 }
 
+TEST(DentalImplant, APathThatKnowsNoKeyPosesIsRefusedBeforeAnythingMoves) {
+  const DeploymentRun run =
+      implant({kMotion + "path.plugin=path/needle", kMotion + "params.path_only=true"});
+  EXPECT_EQ(run.command.exit_code, 3);
+  EXPECT_NE(run.command.err.find("'task' needs 'key_poses', and no component offers it; offered by "
+                                 "path/orientations\n"),
+            std::string::npos)
+      << run.text();
+}
+
+TEST(DentalImplant, AnArmThatLagsIsWaitedForBeforeTheDrillGoesIn) {
+  const DeploymentRun run = implant({"components.arm.params.lag_s=0.1"});
+  EXPECT_LE(run.figure("line_deviation_mm"), 0.05) << run.text();
+}
+
 TEST(DentalImplant, ASiteOutOfReachIsRefused) {
   const std::string near_is_seen = kTracker + "nearest_mm=100";
   expect_refused({near_is_seen, kTracker + "jaw_mm=[-1100, -50, 650]"},

@@ -19,6 +19,7 @@ constexpr double kHorizonGrowth = 1.25;
 constexpr double kLongestHorizon = 20.0;    // [s]
 constexpr double kLongestPrediction = 1.0;  // [s] a velocity is not trusted longer
 constexpr double kVelocityStep = 1e-3;      // [s] for the difference quotient
+constexpr double kSpeedStep = 2e-3;         // [s] between two looks at the tool's speed
 
 ToolPose after(const MotionGoal& goal, double time_s) {
   ToolPose pose = goal.pose;
@@ -95,10 +96,10 @@ double tool_speed(const RobotModel& model, const JointState& state) {
 std::optional<std::string> speed_defect(const Trajectory& way, const RobotModel& model,
                                         double max_speed) {
   if (std::isinf(max_speed)) return std::nullopt;
-  constexpr int kSamples = 16;  // a millisecond of a way is executed before the next one is planned
+  const int samples = std::clamp(static_cast<int>(way.duration_s() / kSpeedStep), 16, 500);
   const double allowed = std::max(max_speed, tool_speed(model, way.at(way.start))) * (1 + 1e-9);
-  for (int i = 1; i <= kSamples; ++i) {
-    const Time time = way.start + seconds(way.duration_s() * i / kSamples);
+  for (int i = 1; i <= samples; ++i) {
+    const Time time = way.start + seconds(way.duration_s() * i / samples);
     const double speed = tool_speed(model, way.at(time));
     if (speed <= allowed) continue;
     return fmt::format("the tool would need {:.4g} m/s, its limit is {:.4g} m/s", speed, max_speed);

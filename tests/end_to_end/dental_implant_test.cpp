@@ -134,6 +134,12 @@ TEST(DentalImplant, ATrackerThatIsBlindForAWhileDuringTheCalibrationCostsPoses) 
                  "pivot: the tracker has not seen the drill in the hand for 0.50 s");
 }
 
+TEST(DentalImplant, AnotherBodyOnTheJawsTopicIsNotTheJaw) {
+  expect_refused({"components.task.in.jaw=tracker/flange"},
+                 "the tracker has not seen the jaw for 0.52 s: its topic tells of the body "
+                 "'flange', not of 'jaw'");
+}
+
 TEST(DentalImplant, AJawThatMovesStopsTheArm) {
   expect_refused({kTracker + "jaw_shift_mm=[0, 2, 0]", kTracker + "jaw_shift_at_s=42"},
                  "the jaw has moved by 2.0");

@@ -33,6 +33,11 @@ void GoalExecution::fail_active(const std::string& reason) {
   active_.reset();
 }
 
+void GoalExecution::begin_late(Time now) {
+  const Time start = reference_.last().start;
+  if (now > start && at_rest(reference_.last().at(start))) reference_.postpone_last(now);
+}
+
 void GoalExecution::arrive(Time now, const JointVector& q) {
   const Time end = reference_.last().end();
   const auto stray =
@@ -67,6 +72,7 @@ void GoalExecution::update(Time now, const std::optional<MeasuredJoints>& measur
     trouble_.clear();
     return;
   }
+  if (std::exchange(spliced_, false)) begin_late(now);
   if (silent(now, measured)) {
     reference_.advance(now);
     return;
@@ -122,6 +128,7 @@ void GoalExecution::take(const Expected<MotionGoal>& goal, std::uint64_t goal_id
     return;
   }
   reference_.splice(planned->trajectory);
+  spliced_ = true;
   new_plan_ = std::move(*planned);
   execute(*goal, now);
 }

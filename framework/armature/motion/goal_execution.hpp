@@ -75,6 +75,9 @@ class GoalExecution {
               std::string reason = {});
   void fail_active(const std::string& reason);
   void finish_active(GoalStatus::State state);
+  /// A plan that took longer than its budget, or came between two slow steps, begins late and not
+  /// in its midst, if it begins at rest.
+  void begin_late(Time now);
   /// The reference has come to the goal's end: the arm as well?
   void arrive(Time now, const JointVector& q);
   bool silent(Time now, const std::optional<MeasuredJoints>& measured);
@@ -90,6 +93,7 @@ class GoalExecution {
   std::optional<GoalStatus> last_;
   std::vector<GoalStatus> statuses_;
   std::optional<Plan> new_plan_;
+  bool spliced_ = false;  // since the last update
   std::string trouble_ = "no joint state of the arm yet";
 };
 

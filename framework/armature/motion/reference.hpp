@@ -22,6 +22,9 @@ class Reference {
   /// Whoever made `next` took care that it leaves at(next.start).
   void splice(Trajectory next);
 
+  /// Lets the trajectory spliced last, which starts at rest, take over later than it was made for.
+  void postpone_last(Time start) { plan_.back().start = start; }
+
   /// Forgets trajectories that `now` has left behind.
   void advance(Time now);
 

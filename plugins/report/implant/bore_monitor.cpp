@@ -24,17 +24,18 @@ AtSite at_site(const Isometry3d& site_T_drill) {
 
 }  // namespace
 
-BoreMonitor::BoreMonitor(const std::vector<Isometry3d>& image_T_sites, const BoreSettings& settings)
-    : settings_{settings} {
-  for (const Isometry3d& site : image_T_sites) bores_.push_back({.image_T_site = site});
+BoreMonitor::BoreMonitor(const std::vector<Isometry3d>& image_T_sites, const GuidedChain& estimate,
+                         const BoreSettings& settings)
+    : settings_{settings}, flange_T_tool_{estimate.flange_T_tool()} {
+  for (const Isometry3d& site : image_T_sites) {
+    bores_.push_back({.image_T_site = site});
+    site_T_base_.push_back(estimate.base_T_site(site).inverse());
+  }
 }
 
-void BoreMonitor::see(const Isometry3d& base_T_flange, const GuidedChain& estimate,
-                      const GuidedChain& truth) {
-  const auto believed_at = [&](std::size_t i) {
-    return at_site(estimate.base_T_site(bores_[i].image_T_site).inverse() * base_T_flange *
-                   estimate.flange_T_tool());
-  };
+void BoreMonitor::see(const Isometry3d& base_T_flange, const GuidedChain& truth) {
+  const Isometry3d base_T_drill = base_T_flange * flange_T_tool_;
+  const auto believed_at = [&](std::size_t i) { return at_site(site_T_base_[i] * base_T_drill); };
   const auto is_in = [&](const AtSite& there) { return there.depth_m >= -settings_.depth_m; };
   std::optional<std::size_t> nearest;  // of crossing bores
   for (std::size_t i = 0; i < bores_.size(); ++i) {

@@ -31,17 +31,20 @@ struct BoreSettings {
 /// near another site, however far it goes off the axis.
 class BoreMonitor {
  public:
-  BoreMonitor(const std::vector<Eigen::Isometry3d>& image_T_sites, const BoreSettings& settings);
+  /// `estimate`: what the arm believes.
+  BoreMonitor(const std::vector<Eigen::Isometry3d>& image_T_sites, const GuidedChain& estimate,
+              const BoreSettings& settings);
 
-  void see(const Eigen::Isometry3d& base_T_flange, const GuidedChain& estimate,
-           const GuidedChain& truth);
+  void see(const Eigen::Isometry3d& base_T_flange, const GuidedChain& truth);
 
   const std::vector<Bore>& bores() const { return bores_; }
 
  private:
   BoreSettings settings_;
   std::vector<Bore> bores_;
-  std::optional<std::size_t> inside_;  // of bores_: where the drill was last
+  std::vector<Eigen::Isometry3d> site_T_base_;  // of bores_, as the arm believes
+  Eigen::Isometry3d flange_T_tool_;             // the same
+  std::optional<std::size_t> inside_;           // of bores_: where the drill was last
 };
 
 }  // namespace armature

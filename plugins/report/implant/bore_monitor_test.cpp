@@ -17,12 +17,16 @@ class BoreMonitorTest : public testing::Test {
   BoreMonitorTest() {
     truth_.patient_T_image = Eigen::Affine3d{Eigen::Translation3d{0, 0, 1}};
     estimate_ = truth_;
+    watch();
+  }
+  void watch(double near_m = 0.002) {
+    monitor_ = BoreMonitor{sites_, estimate_, {.depth_m = 0.012, .near_m = near_m}};
   }
   /// The drill, as the arm believes, at `x`, `z` of the first site, z from its bottom [m].
   void see(double x, double z, double tilt = 0) {
     const Isometry3d drill = estimate_.base_T_site(sites_[0]) * Eigen::Translation3d{x, 0, z} *
                              Eigen::AngleAxisd{tilt, Vector3d::UnitY()};
-    monitor_.see(drill * estimate_.flange_T_tool().inverse(), estimate_, truth_);
+    monitor_.see(drill * estimate_.flange_T_tool().inverse(), truth_);
   }
   const Bore& bore(std::size_t i) const { return monitor_.bores()[i]; }
 
@@ -30,7 +34,7 @@ class BoreMonitorTest : public testing::Test {
       Eigen::Translation3d{0.02, 0, 0} * Eigen::AngleAxisd{M_PI, Vector3d::UnitX()},
       Eigen::Translation3d{0.025, 0, -0.003} * Eigen::AngleAxisd{M_PI, Vector3d::UnitX()}};
   GuidedChain truth_, estimate_;
-  BoreMonitor monitor_{sites_, {.depth_m = 0.012, .near_m = 0.002}};
+  BoreMonitor monitor_{{}, {}, {}};
 };
 
 TEST_F(BoreMonitorTest, TellsTheErrorWhereTheDrillWasDeepest) {
@@ -70,7 +74,7 @@ TEST_F(BoreMonitorTest, TheDeeperBoreOfANeighbourIsNotThisOne) {
 }
 
 TEST_F(BoreMonitorTest, OfTwoBoresThatAreBothNearItIsInTheNearer) {
-  monitor_ = BoreMonitor{sites_, {.depth_m = 0.012, .near_m = 0.01}};
+  watch(0.01);
   see(0, 0);
   see(0.005, 0.003);
   ASSERT_TRUE(bore(0).error && bore(1).error);
@@ -81,6 +85,7 @@ TEST_F(BoreMonitorTest, OfTwoBoresThatAreBothNearItIsInTheNearer) {
 
 TEST_F(BoreMonitorTest, ADrillThatMissesByFarIsStillAtTheSiteThatItDrills) {
   estimate_.patient_T_image = Eigen::Affine3d{Eigen::Translation3d{0, 0.015, 1}};
+  watch();
   see(0, 0);
   ASSERT_TRUE(bore(0).error);
   EXPECT_NEAR(bore(0).error->norm(), 0.015, 1e-12);
@@ -89,6 +94,7 @@ TEST_F(BoreMonitorTest, ADrillThatMissesByFarIsStillAtTheSiteThatItDrills) {
 
 TEST_F(BoreMonitorTest, StraightIsAlongTheAxisAsItWasRegistered) {
   estimate_.patient_T_image = Eigen::Affine3d{Eigen::Translation3d{0.0005, 0, 1}};
+  watch();
   see(0, -0.01, 0.01);
   see(0.0001, -0.005);
   EXPECT_NEAR(bore(0).line_deviation_m, 0.0001, 1e-12);

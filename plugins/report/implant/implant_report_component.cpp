@@ -114,7 +114,7 @@ class ImplantReport final : public Component {
     if (bores_) return;
     std::vector<Eigen::Isometry3d> sites;
     for (const msg::Pose& site : plan_.latest()->sites_()) sites.push_back(to_eigen(site));
-    bores_.emplace(sites, bore_settings_);
+    bores_.emplace(sites, *chain_, bore_settings_);
   }
 
   void read(const msg::TaskState& state, Time now) {
@@ -132,7 +132,7 @@ class ImplantReport final : public Component {
     speed_ = v->cwiseAbs().maxCoeff();
     if (!bores_) return;
     const PoseAndJacobian flange = forward_kinematics_with_jacobian(robot_, *q, flange_);
-    bores_->see(flange.base_T_frame, *chain_, true_chain_);
+    bores_->see(flange.base_T_frame, true_chain_);
     if (state_ != "drilling") return;
     const Eigen::VectorXd twist = flange.jacobian * *v;
     smoothness_.see(stamp_of(state.header_().stamp_()), twist.tail<3>());

@@ -31,7 +31,8 @@ Eigen::Quaterniond any_rotation(std::mt19937_64& random) {
 }
 
 struct Figures {
-  std::vector<double> build_s, sample_s, turn, peak, velocity_jump, acceleration_jump;
+  std::vector<double> build_s, sample_s, with_acceleration_s, turn, peak, velocity_jump,
+      acceleration_jump;
 };
 
 double turn_of(const OrientationCurve& curve) {
@@ -65,27 +66,33 @@ void add_jumps(const OrientationCurve& curve, Figures& figures) {
   figures.acceleration_jump.push_back(acceleration);
 }
 
+/// [s] of one sample of many.
+double sample_time(const OrientationCurve& curve, Rates rates, double clock_s) {
+  volatile double kept = 0;  // so that no sample can be left out
+  const auto start = Clock::now();
+  double sum = 0;
+  for (int i = 0; i < kSamplesOfACurve; ++i) {
+    const OrientationState state = curve.at(static_cast<double>(i) / kSamplesOfACurve, rates);
+    sum += state.rotation.w() + state.velocity.x() + state.acceleration.y();
+  }
+  kept = sum;
+  static_cast<void>(kept);
+  return std::max(0.0, seconds_between(start, Clock::now()) - clock_s) / kSamplesOfACurve;
+}
+
 void add_times(const Keys& keys, OrientationInterpolator kind, int repetitions, double clock_s,
                Figures& figures) {
-  double build = std::numeric_limits<double>::infinity(), sample = build;
-  volatile double kept = 0;  // so that no sample can be left out
+  double build = std::numeric_limits<double>::infinity(), sample = build, accelerated = build;
   for (int repetition = 0; repetition < repetitions; ++repetition) {
     const auto start = Clock::now();
     const auto curve = OrientationCurve::through(keys, kind);
-    const auto built = Clock::now();
-    double sum = 0;
-    for (int i = 0; i < kSamplesOfACurve; ++i) {
-      const OrientationState state = curve->at(static_cast<double>(i) / kSamplesOfACurve);
-      sum += state.rotation.w() + state.velocity.x() + state.acceleration.y();
-    }
-    kept = sum;
-    const auto sampled = Clock::now();
-    build = std::min(build, seconds_between(start, built) - clock_s);
-    sample = std::min(sample, (seconds_between(built, sampled) - clock_s) / kSamplesOfACurve);
+    build = std::min(build, seconds_between(start, Clock::now()) - clock_s);
+    sample = std::min(sample, sample_time(*curve, Rates::velocity, clock_s));
+    accelerated = std::min(accelerated, sample_time(*curve, Rates::acceleration, clock_s));
   }
-  static_cast<void>(kept);
   figures.build_s.push_back(std::max(0.0, build));
-  figures.sample_s.push_back(std::max(0.0, sample));
+  figures.sample_s.push_back(sample);
+  figures.with_acceleration_s.push_back(accelerated);
 }
 
 }  // namespace
@@ -117,6 +124,7 @@ std::vector<InterpolatorRow> measure_interpolators(int curves, int keys, std::ui
     rows.push_back({.name = kNames[k],
                     .build_s = quantile(all.build_s, 0.5),
                     .sample_s = quantile(all.sample_s, 0.5),
+                    .with_acceleration_s = quantile(all.with_acceleration_s, 0.5),
                     .turn = quantile(all.turn, 0.5),
                     .peak_acceleration = quantile(all.peak, 0.5),
                     .velocity_jump = quantile(all.velocity_jump, 0.5),

@@ -12,7 +12,8 @@ namespace armature::bench {
 struct InterpolatorRow {
   std::string name;
   double build_s = 0;
-  double sample_s = 0;           // rotation, angular velocity and acceleration
+  double sample_s = 0;           // rotation and angular velocity
+  double with_acceleration_s = 0;
   double turn = 0;               // the way, as a multiple of that of the great arcs
   double peak_acceleration = 0;  // [rad]
   double velocity_jump = 0;      // [rad] the largest at a place where pieces meet

@@ -20,9 +20,10 @@ std::string text_of(const PlanRow& row, bool counts_allocations) {
 }
 
 std::string text_of(const InterpolatorRow& row) {
-  return fmt::format("{:<26}  {:>9.3f}  {:>9.1f}  {:>7.4f}  {:>8.1f}  {:>9.1e}  {:>9.1e}\n",
-                     row.name, 1e6 * row.build_s, 1e9 * row.sample_s, row.turn,
-                     row.peak_acceleration, row.velocity_jump, row.acceleration_jump);
+  return fmt::format(
+      "{:<26}  {:>9.3f}  {:>9.1f}  {:>9.1f}  {:>7.4f}  {:>8.1f}  {:>9.1e}  {:>9.1e}\n", row.name,
+      1e6 * row.build_s, 1e9 * row.sample_s, 1e9 * row.with_acceleration_s, row.turn,
+      row.peak_acceleration, row.velocity_jump, row.acceleration_jump);
 }
 
 }  // namespace
@@ -35,15 +36,18 @@ std::string table(const PlanReport& report) {
   for (const auto& [plugin, reason] : report.refused) {
     text += fmt::format("{:<26}  not served: {}\n", plugin, reason);
   }
-  text += fmt::format("\n{:<26}  {:>9}  {:>9}  {:>7}  {:>8}  {:>9}  {:>9}\n", "interpolator",
-                      "build us", "sample ns", "turn", "peak acc", "vel jump", "acc jump");
+  text +=
+      fmt::format("\n{:<26}  {:>9}  {:>9}  {:>9}  {:>7}  {:>8}  {:>9}  {:>9}\n", "interpolator",
+                  "build us", "sample ns", "with acc", "turn", "peak acc", "vel jump", "acc jump");
   for (const InterpolatorRow& row : report.interpolators) text += text_of(row);
   return text +
          fmt::format(
              "\n{} motions of robot '{}' from rest to rest, seed {}; a sample is q, v and a of all "
              "joints\ntime/least: the motion's duration over the least that velocity and "
              "acceleration limits allow, median\ninterpolators: {} random keys, parameter 0 to 1; "
-             "turn as a multiple of the great arcs', rates in rad\ntimes: the least of {} "
+             "a sample is the rotation and its angular velocity, with acc\nits angular "
+             "acceleration "
+             "too; turn as a multiple of the great arcs', rates in rad\ntimes: the least of {} "
              "repetitions; medians\n{}\n",
              report.motions, report.robot, report.seed, report.keys, report.repetitions,
              to_text(report.machine));
@@ -76,6 +80,7 @@ std::string to_json(const PlanReport& report) {
     json["interpolators"].push_back({{"interpolator", row.name},
                                      {"build_s", row.build_s},
                                      {"sample_s", row.sample_s},
+                                     {"with_acceleration_s", row.with_acceleration_s},
                                      {"turn", row.turn},
                                      {"peak_acceleration", row.peak_acceleration},
                                      {"velocity_jump", row.velocity_jump},

@@ -15,9 +15,15 @@ struct ChartPiece {
   VectorCubic cubic;
 
   /// Real-time safe.
+  template <Rates rates>
   OrientationState at(double x) const {
-    const Eigen::Vector3d dP = cubic.first(x), ddP = cubic.second(x);
     const RotationAt P{cubic.value(x)};
+    if constexpr (rates == Rates::none) return {.rotation = anchor * P.rotation()};
+    const Eigen::Vector3d dP = cubic.first(x);
+    if constexpr (rates == Rates::velocity) {
+      return {.rotation = anchor * P.rotation(), .velocity = anchor * P.velocity(dP)};
+    }
+    const Eigen::Vector3d ddP = cubic.second(x);
     return {anchor * P.rotation(), anchor * P.velocity(dP), anchor * P.acceleration(dP, ddP)};
   }
 };

@@ -216,15 +216,28 @@ Expected<OrientationCurve> OrientationCurve::through(std::span<const Eigen::Quat
 OrientationCurve::OrientationCurve(std::vector<double> u, std::vector<double> starts, Pieces pieces)
     : u_{std::move(u)}, starts_{std::move(starts)}, pieces_{std::move(pieces)} {}
 
-OrientationState OrientationCurve::at(double u) const {
+template <Rates rates>
+OrientationState OrientationCurve::sample(double u) const {
   u = std::clamp(u, u_.front(), u_.back());
   const std::size_t i = piece_at(starts_, u);
   const double x = u - starts_[i];
   if (const auto* charts = std::get_if<std::vector<ChartPiece>>(&pieces_)) {
-    return (*charts)[i].at(x);
+    return (*charts)[i].at<rates>(x);
   }
   const double end = i + 1 < starts_.size() ? starts_[i + 1] : u_.back();
-  return std::get<std::vector<SquadPiece>>(pieces_)[i].at(x / (end - starts_[i]));
+  return std::get<std::vector<SquadPiece>>(pieces_)[i].at<rates>(x / (end - starts_[i]));
+}
+
+OrientationState OrientationCurve::at(double u, Rates rates) const {
+  switch (rates) {
+    case Rates::none:
+      return sample<Rates::none>(u);
+    case Rates::velocity:
+      return sample<Rates::velocity>(u);
+    case Rates::acceleration:
+      break;
+  }
+  return sample<Rates::acceleration>(u);
 }
 
 }  // namespace armature

@@ -42,7 +42,7 @@ class OrientationCurve {
 
   /// Real-time safe: no allocation, O(log pieces). The end rotations are held beyond the ends, with
   /// the rates that the curve has there; where pieces meet, those of the later one.
-  OrientationState at(double u) const;
+  OrientationState at(double u, Rates rates = Rates::acceleration) const;
 
   /// The parameter of each key.
   const std::vector<double>& key_parameters() const { return u_; }
@@ -52,6 +52,8 @@ class OrientationCurve {
  private:
   using Pieces = std::variant<std::vector<ChartPiece>, std::vector<SquadPiece>>;
   OrientationCurve(std::vector<double> u, std::vector<double> starts, Pieces pieces);
+  template <Rates rates>
+  OrientationState sample(double u) const;
 
   std::vector<double> u_, starts_;
   Pieces pieces_;

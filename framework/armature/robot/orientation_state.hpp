@@ -5,6 +5,9 @@
 
 namespace armature {
 
+/// Which of its rates a sample of an orientation is worked out with; the others stay zero.
+enum class Rates { none, velocity, acceleration };
+
 /// A rotation base_R_tool and how it changes with a parameter u; both rates in the base frame.
 struct OrientationState {
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();

@@ -57,16 +57,7 @@ inline double sum(const Terms& c, double t2) {
 class RotationAt {
  public:
   explicit RotationAt(const Eigen::Vector3d& P) : RotationAt{P, P.norm()} {}
-  /// Where exp(P) is known, without a sine: P = double_logarithm(rotation).
-  static RotationAt of(const Eigen::Quaterniond& rotation) {
-    const double sine = rotation.vec().norm();
-    const double t = 2 * std::atan2(sine, rotation.w());
-    return {(sine > 0 ? t / sine : 2) * rotation.vec(), t, rotation.w(), sine};
-  }
-  /// At k P, k >= 0.
-  RotationAt part(double k) const { return {k * P_, k * t_}; }
 
-  const Eigen::Vector3d& vector() const { return P_; }
   /// rotation_of(P).
   Eigen::Quaterniond rotation() const {
     const Eigen::Vector3d vector = half_sinc_ * P_;

@@ -18,20 +18,26 @@ class SquadPiece {
              double duration);
 
   /// `x` from 0 to 1; derivatives are by `duration` times x. Real-time safe.
+  template <Rates rates>
   OrientationState at(double x) const;
 
  private:
-  /// A turn about an axis that stands still.
-  struct Slerp {
-    Eigen::Vector3d turn, axis;  // the rotation vector; of length 1, or 0 without a turn
+  /// A great arc of S^3, cos(x h) from + sin(x h) across: a turn about an axis that stands still.
+  /// Quaternions as vectors x, y, z, w.
+  struct Arc {
+    Eigen::Vector4d from, across;
     double half_angle;
 
-    Slerp(const Eigen::Quaterniond& from, const Eigen::Quaterniond& to);
-    Eigen::Quaterniond at(double x) const;
+    Arc(const Eigen::Quaterniond& first, const Eigen::Quaterniond& last);
+  };
+  /// A point of an arc and how it moves with x.
+  struct Point {
+    Eigen::Vector4d q, rate;
+
+    Point(const Arc& arc, double x);
   };
 
-  Eigen::Quaterniond key_, key_R_inner_;
-  Slerp keys_, inners_;
+  Arc keys_, inners_;
   double duration_;
 };
 

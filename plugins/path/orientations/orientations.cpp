@@ -24,7 +24,8 @@ struct Curves {
 
   /// The larger of turn and way from u to v, in steps.
   double steps(double u, double v, double step_rad, double step_m) const {
-    const double turn = orientation.at(u).rotation.angularDistance(orientation.at(v).rotation);
+    const double turn = orientation.at(u, Rates::none)
+                            .rotation.angularDistance(orientation.at(v, Rates::none).rotation);
     return std::max(turn / step_rad, (position.at(v) - position.at(u)).norm() / step_m);
   }
 };
@@ -74,7 +75,8 @@ Expected<PathSegment> Orientations::along(const KeyPoses& keys,
     }
     for (double k = 1; k < parts; ++k) {
       const double s = std::lerp(u[i - 1], u[i], k / parts);
-      segment.samples.push_back({s, {curves.position.at(s), keys.told(curve.at(s).rotation)}});
+      segment.samples.push_back(
+          {s, {curves.position.at(s), keys.told(curve.at(s, Rates::none).rotation)}});
     }
     segment.samples.push_back({u[i], keys.poses[i]});
   }

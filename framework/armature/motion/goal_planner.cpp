@@ -59,12 +59,17 @@ Path straight_to(const ToolPose& pose) {
                       .duration_s = std::nullopt}};
 }
 
-/// A redundancy is that of an arm which has a freedom more than the pose takes.
-IkGoal ik_goal(const RobotModel& model, const PathSample& sample) {
+/// A needle's depth is the redundancy of an arm which has a freedom more than the pose takes.
+Expected<IkGoal> ik_goal(const RobotModel& model, const IkSolver& solver,
+                         const PathSample& sample) {
   const int taken = std::holds_alternative<Direction>(sample.pose.orientation) ? 5 : 6;
   IkGoal goal;
   goal.pose = sample.pose;
-  if (model.dof() > taken) goal.redundancy = sample.redundancy;
+  if (model.dof() <= taken || !sample.needle_depth_m) return goal;
+  if (!solver.redundancy_is_length()) {
+    return refuse("the path states how deep the needle is, which the solver does not hold");
+  }
+  goal.redundancy = sample.needle_depth_m;
   return goal;
 }
 
@@ -215,7 +220,9 @@ tl::expected<void, PlanFailure> GoalPlanner::solve_samples(const Path& path,
     for (std::size_t i = 0; i < samples.size(); ++i) {
       if (is_known(path[k], i)) continue;
       IkBranches& branches = waypoints_.emplace_back();
-      const auto status = solved(stages_.ik, ik_goal(model_, samples[i]), seed, branches, state);
+      const auto goal = ik_goal(model_, stages_.ik, samples[i]);
+      if (!goal) return fail("ik", goal.error().text);
+      const auto status = solved(stages_.ik, *goal, seed, branches, state);
       const IkBranch* next = status && reaches(*status) ? nearest(branches, seed, model_) : nullptr;
       if (!next) {
         return fail("ik", fmt::format("sample {} of {} of segment {}: {}", i + 1, samples.size(),

@@ -158,7 +158,7 @@ TEST(GoalPlanner, HandsForbiddenZonesToThePath) {
   EXPECT_EQ(gantry.path.last_request.forbidden[0].name, "artery");
 }
 
-/// A path that asks for a redundancy, and a solver that keeps the last one it was asked for.
+/// A path that states a needle's depth, and a solver that keeps the last one it was asked for.
 class DeepPath final : public PathPlanner {
  public:
   Expected<Path> plan(const PathRequest& request) const override {
@@ -168,7 +168,9 @@ class DeepPath final : public PathPlanner {
 class AlwaysHome final : public IkSolver {
  public:
   mutable std::optional<double> asked;
+  bool slides = true;
 
+  bool redundancy_is_length() const override { return slides; }
   IkStatus solve(const IkGoal& goal, const JointVector& seed, IkBranches& out,
                  IkState&) const override {
     asked = goal.redundancy;
@@ -180,11 +182,10 @@ class AlwaysHome final : public IkSolver {
   }
 };
 
-TEST(GoalPlanner, AsksForARedundancyOnlyWhereTheArmHasAFreedomMoreThanThePoseTakes) {
-  const auto asked = [](const RobotModel& model, const Orientation& orientation) {
+TEST(GoalPlanner, AsksForANeedlesDepthOnlyWhereTheArmHasAFreedomMoreThanThePoseTakes) {
+  const auto planned = [](const RobotModel& model, const Orientation& orientation, AlwaysHome& ik) {
     const Gantry stages;
     const DeepPath path;
-    const AlwaysHome ik;
     GoalPlanner planner{model,
                         {path, ik, stages.select, stages.trajectory},
                         {model.max_velocity(), model.max_acceleration()},
@@ -192,7 +193,11 @@ TEST(GoalPlanner, AsksForARedundancyOnlyWhereTheArmHasAFreedomMoreThanThePoseTak
     MotionGoal goal = goal_at(1, 1, 0, 0);
     goal.pose.orientation = orientation;
     const JointVector zero = JointVector::Zero(model.dof());
-    static_cast<void>(planner.plan(goal, {resting_position(model), zero, zero}, kStart));
+    return planner.plan(goal, {resting_position(model), zero, zero}, kStart);
+  };
+  const auto asked = [&](const RobotModel& model, const Orientation& orientation) {
+    AlwaysHome ik;
+    static_cast<void>(planned(model, orientation, ik));
     return ik.asked;
   };
   const Orientation direction = Direction{Eigen::Vector3d::UnitX()};
@@ -203,7 +208,13 @@ TEST(GoalPlanner, AsksForARedundancyOnlyWhereTheArmHasAFreedomMoreThanThePoseTak
   EXPECT_EQ(asked(test::gantry(), direction), std::nullopt);
   EXPECT_EQ(asked(robot("sr1_needle.yaml"), direction), 0.25);
   EXPECT_EQ(asked(robot("sr1.yaml"), rotation), std::nullopt);
-  EXPECT_EQ(asked(robot("med7.yaml"), rotation), 0.25);
+
+  AlwaysHome turning;  // a solver of arm angles
+  turning.slides = false;
+  const auto refused = planned(robot("med7.yaml"), rotation, turning);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().reason,
+            "the path states how deep the needle is, which the solver does not hold");
 }
 
 TEST(GoalPlanner, StopsFirstWhenTheTrajectoryCannotBeSpliced) {

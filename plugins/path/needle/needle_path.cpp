@@ -88,7 +88,7 @@ std::optional<std::string> NeedlePath::obstacle(const Line& line, double from, d
 PathSample NeedlePath::sample(const Line& line, double at, double s, const ToolPose& goal) const {
   PathSample sample{.s = s, .pose = goal};
   sample.pose.position = line.point(at);
-  if (needle_at_entry_m_ > 0) sample.redundancy = needle_at_entry_m_ + at;
+  if (needle_at_entry_m_ > 0) sample.needle_depth_m = needle_at_entry_m_ + at;
   return sample;
 }
 

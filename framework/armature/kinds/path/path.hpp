@@ -16,9 +16,9 @@ namespace armature {
 struct PathSample {
   double s = 0;
   ToolPose pose;
-  /// Arm angle [rad] or needle depth [m], for an arm that has a freedom more than the pose takes;
-  /// others do not look at it.
-  std::optional<double> redundancy = std::nullopt;
+  /// [m], of an arm with a needle that slides, which has a freedom more than the pose takes; others
+  /// do not look at it.
+  std::optional<double> needle_depth_m = std::nullopt;
 };
 
 /// A piece of a path. The first sample of a cartesian segment is where it starts (s = 0), the last

@@ -31,8 +31,8 @@ msg::PathSegment message_of(const PathSegment& segment) {
     auto& written = message.samples_().emplace_back();
     written.s_(sample.s);
     write_tool_pose(sample.pose, written.pose_());
-    written.has_redundancy_(sample.redundancy.has_value());
-    written.redundancy_(sample.redundancy.value_or(0));
+    written.has_redundancy_(sample.needle_depth_m.has_value());
+    written.redundancy_(sample.needle_depth_m.value_or(0));
   }
   message.stop_at_end_(segment.stop_at_end);
   message.has_duration_(segment.duration_s.has_value());

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "arm_choice.hpp"
+#include "armature/runtime/plugin_registry.hpp"
 #include "exit_code.hpp"
 #include "plugins.hpp"
 
@@ -179,6 +180,11 @@ int new_plugin(const std::string& id, const fs::path& directory) {
   if (!valid || slash == std::string::npos) {
     throw InvalidChoice(
         fmt::format("'{}' must be 'ik/name', the name in lower case letters, digits and '_'", id));
+  }
+  const PluginRegistry plugins;
+  if (const PluginManifest* there = plugins.find(id)) {
+    throw InvalidChoice(fmt::format("there is a plugin '{}' already, '{}'; choose another name", id,
+                                    there->file.string()));
   }
   if (fs::exists(directory) && !fs::is_empty(directory)) {
     throw InvalidChoice(fmt::format("'{}' is there already and not empty", directory.string()));

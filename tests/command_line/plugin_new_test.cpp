@@ -77,6 +77,15 @@ TEST_F(NewPlugin, RefusesANameThatIsNoName) {
       "'_'\n");
 }
 
+TEST_F(NewPlugin, RefusesAnIdThatIsTakenAndTellsByWhat) {
+  const auto result = write("ik/kdl");
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_TRUE(result.err.starts_with("armature: there is a plugin 'ik/kdl' already, '"))
+      << result.err;
+  EXPECT_TRUE(result.err.ends_with("/ik_kdl.so'; choose another name\n")) << result.err;
+  EXPECT_FALSE(fs::exists(folder));
+}
+
 TEST_F(NewPlugin, OfAKindWithoutATemplateNamesTheKindsThatHaveOne) {
   const auto result = write("path/mine");
   EXPECT_EQ(result.exit_code, 3);

@@ -126,8 +126,7 @@ void add_topic_verbs(CLI::App& app, Action& action) {
   const auto add_common = [&](CLI::App* verb) {
     verb->add_option("--domain", options->domain, "DDS domain")->check(CLI::Range(0, 232));
     verb->add_option("--timeout", options->timeout_s, "give up after this many seconds")
-        ->check(wrong_number)
-        ->check(CLI::PositiveNumber);
+        ->check(not_positive);
     verb->add_flag("--json", options->json, "as JSON");
   };
   CLI::App* list = topic->add_subcommand("list", "Topics, types, and how many write and read them");
@@ -220,8 +219,7 @@ void add_bench(CLI::App& app, Action& action) {
       ->check(CLI::Range(1, 1000));
   ik->add_option("--tolerance", options->tolerance, "of a residual, m and rad")
       ->capture_default_str()
-      ->check(wrong_number)
-      ->check(CLI::PositiveNumber);
+      ->check(not_positive);
   ik->add_option("--baseline", options->baseline,
                  "what the others are compared with (ik/kdl if it is among them, else the first)");
   ik->add_option("--out", options->out, "folder for solves.csv, cumulative.svg, summary.json");

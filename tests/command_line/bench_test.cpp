@@ -153,8 +153,10 @@ TEST(BenchIk, ASeedOrAToleranceThatIsNoneIsRefused) {
                                       "18446744073709551615, not '" +
                                       seed + "'"));
   }
-  EXPECT_THAT(bench({"--tolerance", "nan"}).err,
-              HasSubstr("--tolerance: must be a finite number, not 'nan'"));
+  for (const std::string tolerance : {"nan", "0", "-1", "inf", "1e-6 m"}) {
+    EXPECT_THAT(bench({"--tolerance=" + tolerance}).err,
+                HasSubstr("--tolerance: must be a positive number, not '" + tolerance + "'"));
+  }
 }
 
 }  // namespace

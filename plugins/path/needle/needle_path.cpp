@@ -113,9 +113,9 @@ Expected<Path> NeedlePath::plan(const PathRequest& request) const {
   const double begin = on_line ? here : -stand_off_m_;
   if (std::abs(goal - begin) > kMostSteps * step_m_) {
     return refuse(
-        fmt::format("the way along the line is {:.6g} mm, more than {:g} steps of {:g} mm "
+        fmt::format("the way along the line is {:.4g} m, more than {:g} steps of {:g} mm "
                     "(step_mm)",
-                    1e3 * std::abs(goal - begin), kMostSteps, 1e3 * step_m_));
+                    std::abs(goal - begin), kMostSteps, 1e3 * step_m_));
   }
   if (auto wrong = obstacle(*line, std::min(begin, goal), std::max(begin, goal), *valid)) {
     return refuse(std::move(*wrong));

@@ -70,7 +70,7 @@ const Fault kFaults[] = {
      "deployment.yaml:8:76: 'tilt_up_deg' is 120, must be at most 90\n"},
     {"AThresholdThatNothingMeets", "{plugin: task/lamp_alignment, params: {distance_m: 0.5}}",
      "{plugin: task/lamp_alignment, params: {settled_position_mm: 0}}",
-     "deployment.yaml:12:62: 'settled_position_mm' is 0, must be at least 0.001\n"},
+     "deployment.yaml:12:69: 'settled_position_mm' is 0, must be at least 0.001\n"},
     {"ParameterUnknownChoice", "photo: generated", "photo: astronout",
      "deployment.yaml:8:52: 'photo' cannot be 'astronout'; did you mean 'astronaut'?\n"},
     {"ParameterNaN", "distance_m: 0.5", "distance_m: .nan",

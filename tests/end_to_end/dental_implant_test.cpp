@@ -134,6 +134,12 @@ TEST(DentalImplant, ATrackerThatIsBlindForAWhileDuringTheCalibrationCostsPoses) 
                  "pivot: the tracker has not seen the drill in the hand for 0.50 s");
 }
 
+TEST(DentalImplant, AnotherBodyOnTheJawsTopicIsNotTheJaw) {
+  expect_refused({"components.task.in.jaw=tracker/flange"},
+                 "the tracker has not seen the jaw for 0.52 s: its topic tells of the body "
+                 "'flange', not of 'jaw'");
+}
+
 TEST(DentalImplant, AJawThatMovesStopsTheArm) {
   expect_refused({kTracker + "jaw_shift_mm=[0, 2, 0]", kTracker + "jaw_shift_at_s=42"},
                  "the jaw has moved by 2.0");
@@ -164,6 +170,21 @@ TEST(DentalImplant, ASolverThatGoesAlongALimitNeedsAMargin) {
                  "no sample of its path does: give the curve between them room with "
                  "limit_margin_deg (or _mm)");
   expect_drilled(implant({along, kMotion + "params.limit_margin_deg=0.1", "run.time_limit_s=400"}));
+}
+
+TEST(DentalImplant, APathThatKnowsNoKeyPosesIsRefusedBeforeAnythingMoves) {
+  const DeploymentRun run =
+      implant({kMotion + "path.plugin=path/needle", kMotion + "params.path_only=true"});
+  EXPECT_EQ(run.command.exit_code, 3);
+  EXPECT_NE(run.command.err.find("'task' needs 'key_poses', and no component offers it; offered by "
+                                 "path/orientations\n"),
+            std::string::npos)
+      << run.text();
+}
+
+TEST(DentalImplant, AnArmThatLagsIsWaitedForBeforeTheDrillGoesIn) {
+  const DeploymentRun run = implant({"components.arm.params.lag_s=0.1"});
+  EXPECT_LE(run.figure("line_deviation_mm"), 0.05) << run.text();
 }
 
 TEST(DentalImplant, ASiteOutOfReachIsRefused) {

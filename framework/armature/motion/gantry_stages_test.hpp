@@ -47,6 +47,7 @@ struct Moody {
 class GantryIk : public IkSolver, public Moody {
  public:
   mutable std::vector<std::optional<double>> told;
+  IkStatus::Code beyond = IkStatus::Code::out_of_reach;
 
   std::optional<double> redundancy_of(const JointVector& q) const override { return q.sum(); }
   IkStatus solve(const IkGoal& goal, const JointVector&, IkBranches& out,
@@ -60,9 +61,7 @@ class GantryIk : public IkSolver, public Moody {
     branch.q = Eigen::Vector3d{p.z(), p.y(), p.x()};
     branch.within_limits = p.cwiseAbs().maxCoeff() <= 2;
     if (branch.within_limits) return {};
-    return {.code = IkStatus::Code::out_of_reach,
-            .shortfall = p.cwiseAbs().maxCoeff() - 2,
-            .detail = "gantry"};
+    return {.code = beyond, .shortfall = p.cwiseAbs().maxCoeff() - 2, .detail = "gantry"};
   }
 };
 
@@ -142,8 +141,8 @@ struct Gantry {
   OneQuintic trajectory;
   MotionLimits limits{JointVector::Constant(3, 1.0), JointVector::Constant(3, 2.5)};
 
-  GoalPlanner planner(bool path_only = false) const {
-    return {model, {path, ik, select, trajectory}, limits, path_only};
+  GoalPlanner planner(const PlanningOptions& options = {}) const {
+    return {model, {path, ik, select, trajectory}, limits, options};
   }
 };
 

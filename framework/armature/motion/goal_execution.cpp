@@ -4,7 +4,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace armature {
@@ -34,16 +33,14 @@ void GoalExecution::fail_active(const std::string& reason) {
   active_.reset();
 }
 
-std::optional<std::string> GoalExecution::deviation(const MeasuredJoints& measured) const {
-  const JointVector difference = reference_.at(measured.stamp).q - measured.q;
-  Eigen::Index worst = 0;
-  const double largest = difference.cwiseAbs().maxCoeff(&worst);
-  if (largest <= options_.max_deviation) return std::nullopt;
-  const RobotModel& model = planner_.model();
-  const int joint = model.independent_joint(static_cast<int>(worst));
-  return fmt::format("joint {} of the arm is {:.3f} away from the reference (at most {:.3f})",
-                     model.joints()[static_cast<std::size_t>(joint)].name, largest,
-                     options_.max_deviation);
+void GoalExecution::arrive(Time now, const JointVector& q) {
+  const Time end = reference_.last().end();
+  const auto stray =
+      strayed(planner_.model(), q, reference_.at(end).q, options_.goal_tolerance, "the goal");
+  if (!stray) return finish_active(State::done);
+  if (now - end < options_.goal_time) return;
+  fail_active(
+      fmt::format("{}, {:g} s after it should be there", *stray, to_seconds(options_.goal_time)));
 }
 
 bool GoalExecution::silent(Time now, const std::optional<MeasuredJoints>& measured) {
@@ -79,12 +76,13 @@ void GoalExecution::update(Time now, const std::optional<MeasuredJoints>& measur
     reference_.start(measured->q, now);
     return;
   }
-  if (auto reason = deviation(*measured)) {
-    fail_active(*reason);
+  if (auto stray = strayed(planner_.model(), measured->q, reference_.at(measured->stamp).q,
+                           options_.max_deviation, "the reference")) {
+    fail_active(*stray);
     reference_.start(measured->q, now);
   }
   reference_.advance(now);
-  if (active_ && now >= reference_.last().end()) finish_active(State::done);
+  if (active_ && now >= reference_.last().end()) arrive(now, measured->q);
 }
 
 std::optional<std::string> GoalExecution::refusal(const Expected<MotionGoal>& goal,
@@ -118,16 +116,27 @@ void GoalExecution::take(const Expected<MotionGoal>& goal, std::uint64_t goal_id
   last_goal_id_ = goal_id;
   report(goal_id, State::accepted);
   PlanResult planned = plan(*goal, now + options_.plan_budget);
+  if (!planned && goes_on(*goal, planned.error(), now)) return execute(*goal, now);
   if (!planned) {
     report(goal_id, State::failed, planned.error().stage, planned.error().reason);
     return;
   }
-  finish_active(State::superseded);
-  active_ = goal_id;
-  active_mode_ = goal->mode;
   reference_.splice(planned->trajectory);
   new_plan_ = std::move(*planned);
-  report(goal_id, State::executing);
+  execute(*goal, now);
+}
+
+bool GoalExecution::goes_on(const MotionGoal& goal, const PlanFailure& failure, Time now) const {
+  const bool tracked = active_ && active_mode_ == MotionMode::tracking;
+  return tracked && goal.mode == MotionMode::tracking && failure.stage == "trajectory" &&
+         !at_rest(reference_.at(now + options_.plan_budget));
+}
+
+void GoalExecution::execute(const MotionGoal& goal, Time now) {
+  finish_active(State::superseded);
+  active_ = goal.id;
+  active_mode_ = goal.mode;
+  report(goal.id, State::executing);
   statuses_.back().remaining_s = current(now)->remaining_s;
 }
 

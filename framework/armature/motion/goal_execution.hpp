@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "armature/motion/goal_planner.hpp"
+#include "armature/motion/joint_bound.hpp"
 #include "armature/motion/reference.hpp"
 #include "armature/motion/tracking.hpp"
 
@@ -29,14 +30,20 @@ struct MeasuredJoints {
 
 struct ExecutionOptions {
   Duration plan_budget = seconds(0.005);  // from the decision to the splice
-  double max_deviation = 0.1;             // [rad] of the arm from the reference
+  JointBound max_deviation{0.1, 0.05};    // of the arm from the reference
+  /// A goal is done when the reference has come to its end and the arm is so near; an arm that is
+  /// not within `goal_time` fails it.
+  JointBound goal_tolerance{0.002, 0.0005};
+  Duration goal_time = seconds(1.0);
   Duration measured_max_age = seconds(0.5);
   TrackingOptions tracking = {};
 };
 
 /// Goals in, one commanded reference out. Every new goal is spliced into the motion at
 /// now + plan_budget from the reference's own (q, v, a), never from what the arm measures. A goal
-/// that fails leaves the motion before it as it is.
+/// that fails leaves the motion before it as it is. A target that is tracked and cannot be met
+/// within limits from where the arm is and how it moves has not failed as long as the arm moves:
+/// the motion towards where it was goes on, and ends in a stop.
 class GoalExecution {
  public:
   GoalExecution(GoalPlanner planner, const ExecutionOptions& options);
@@ -61,11 +68,15 @@ class GoalExecution {
  private:
   std::optional<std::string> refusal(const Expected<MotionGoal>& goal, std::uint64_t goal_id) const;
   PlanResult plan(const MotionGoal& goal, Time start);
+  /// Whether the motion towards where a target was before is the answer to `goal`, too.
+  bool goes_on(const MotionGoal& goal, const PlanFailure& failure, Time now) const;
+  void execute(const MotionGoal& goal, Time now);
   void report(std::uint64_t goal_id, GoalStatus::State state, std::string stage = {},
               std::string reason = {});
   void fail_active(const std::string& reason);
   void finish_active(GoalStatus::State state);
-  std::optional<std::string> deviation(const MeasuredJoints& measured) const;
+  /// The reference has come to the goal's end: the arm as well?
+  void arrive(Time now, const JointVector& q);
   bool silent(Time now, const std::optional<MeasuredJoints>& measured);
   /// True while a hand moves the arm; it does not before the arm has stopped.
   bool guided(Time now) const;

@@ -22,6 +22,8 @@ MotionGoal guided(std::uint64_t id) {
 /// An arm that is where the reference is, stepped at 1 kHz.
 class GoalExecutionTest : public testing::Test {
  protected:
+  explicit GoalExecutionTest(const ExecutionOptions& options = {})
+      : execution_{gantry_.planner(), options} {}
   void step_to(double time_s) {
     while (now_ < Time{} + seconds(time_s)) step();
   }
@@ -51,7 +53,7 @@ class GoalExecutionTest : public testing::Test {
   }
 
   Gantry gantry_;
-  GoalExecution execution_{gantry_.planner(), {}};
+  GoalExecution execution_;
   JointVector home_ = Eigen::Vector3d{0.1, 0.2, 0.3};
   Time now_;
   JointState before_;
@@ -82,6 +84,43 @@ TEST_F(GoalExecutionTest, TellsTheWholeStoryOfAGoal) {
   step_to(3);
   EXPECT_EQ(story().back(), (std::pair<std::uint64_t, State>{1, State::done}));
   EXPECT_NEAR((execution_.reference().at(now_).q - Eigen::Vector3d::Constant(0.5)).norm(), 0, 1e-9);
+}
+
+TEST_F(GoalExecutionTest, AGoalIsDoneWhenTheArmIsThereNotWhenTheReferenceIs) {
+  step_to(0.1);
+  give(goal_at(1, 0.5, 0.5, 0.5));
+  step_to(0.2);
+  const Time end = execution_.reference().last().end();
+  const JointVector goal = execution_.reference().at(end).q;
+  const auto late_by = [&](double x_m, double time_s) {
+    now_ = end + seconds(time_s);
+    execution_.update(now_, MeasuredJoints{now_, goal - JointVector{Eigen::Vector3d{0, 0, x_m}}});
+    collect();
+    return statuses_.back().state;
+  };
+  EXPECT_EQ(late_by(0.003, 0), State::executing);
+  EXPECT_EQ(execution_.current(now_)->state, State::executing);
+  EXPECT_EQ(late_by(0.0006, 0.1), State::executing);
+  EXPECT_EQ(late_by(0.0004, 0.2), State::done);
+}
+
+TEST_F(GoalExecutionTest, AnArmThatStopsShortOfTheGoalFailsIt) {
+  step_to(0.1);
+  give(goal_at(1, 0.5, 0.5, 0.5));
+  step_to(0.2);
+  const Time end = execution_.reference().last().end();
+  const JointVector goal = execution_.reference().at(end).q;
+  for (const double time_s : {0.0, 0.5, 0.99, 1.0}) {
+    now_ = end + seconds(time_s);
+    execution_.update(now_, MeasuredJoints{now_, goal - JointVector{Eigen::Vector3d{0, 0.002, 0}}});
+    collect();
+    EXPECT_EQ(statuses_.back().state, time_s < 1 ? State::executing : State::failed) << time_s;
+  }
+  EXPECT_EQ(statuses_.back().stage, "execution");
+  EXPECT_EQ(statuses_.back().reason,
+            "joint y of the arm is 0.002 m away from the goal (at most 0.0005 m), 1 s after it "
+            "should be there");
+  EXPECT_EQ(execution_.reference().at(now_).q, goal) << "the reference stays";
 }
 
 TEST_F(GoalExecutionTest, SplicesANewGoalIntoTheMotionWithoutAJump) {
@@ -246,6 +285,34 @@ TEST_F(GoalExecutionTest, TracksATargetAndStopsWhenItsGoalsCease) {
   step_to(5);
   EXPECT_TRUE(at_rest(execution_.reference().at(now_)));
   EXPECT_EQ(statuses_.back().state, State::done);
+}
+
+class SlowToolTest : public GoalExecutionTest {
+ protected:
+  SlowToolTest() : GoalExecutionTest{{.tracking = {.max_tool_speed = 0.05}}} {}
+};
+
+TEST_F(SlowToolTest, ATargetThatCannotBeMetWithinLimitsNowLeavesTheMotionBeforeItToItsEnd) {
+  const auto target = [](std::uint64_t id, double speed_m_s) {
+    MotionGoal goal = goal_at(id, 0.33, 0.2, 0.1);
+    goal.mode = MotionMode::tracking;
+    goal.velocity = {speed_m_s, 0, 0};
+    return goal;
+  };
+  step_to(0.1);
+  give(target(1, 0));
+  step_to(0.3);
+  ASSERT_FALSE(at_rest(execution_.reference().at(now_)));
+  const Time end = execution_.reference().last().end();
+  give(target(2, 0.5));  // ten times as fast as the tool may be
+  EXPECT_EQ(story().back(), (std::pair<std::uint64_t, State>{2, State::executing}));
+  EXPECT_EQ(execution_.reference().last().end(), end);
+  step_to(to_seconds(end - Time{}) + 0.1);
+  EXPECT_EQ(story().back(), (std::pair<std::uint64_t, State>{2, State::done}));
+  EXPECT_NEAR(execution_.reference().at(now_).q[2], 0.33, 1e-9) << "where the target was";
+  give(target(3, 0.5));
+  EXPECT_EQ(statuses_.back().state, State::failed) << "it does not move any more";
+  EXPECT_EQ(statuses_.back().stage, "trajectory");
 }
 
 }  // namespace

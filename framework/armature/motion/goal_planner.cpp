@@ -112,16 +112,24 @@ bool reaches(const IkStatus& status) {
 }  // namespace
 
 GoalPlanner::GoalPlanner(const RobotModel& model, const PlanStages& stages,
-                         const MotionLimits& limits, bool path_only)
-    : model_{model}, stages_{stages}, limits_{limits}, path_only_{path_only} {}
+                         const MotionLimits& limits, const PlanningOptions& options)
+    : model_{model}, stages_{stages}, limits_{limits}, options_{options} {}
+
+/// Why a solver did not reach a pose.
+std::string GoalPlanner::reason_of(const Expected<IkStatus>& status) const {
+  if (!status) return status.error().text;
+  const bool by_limits =
+      status->code == IkStatus::Code::joint_limit || status->code == IkStatus::Code::no_convergence;
+  if (!options_.narrow_solver || !by_limits) return describe(*status);
+  return describe(*status) + "; limit_margin_deg or _mm narrows its limits";
+}
 
 tl::expected<JointVector, PlanFailure> GoalPlanner::solve(const ToolPose& pose,
                                                           const JointVector& near) {
   waypoints_.resize(1);
   IkState state;
   const auto status = solved(stages_.ik, IkGoal{.pose = pose}, near, waypoints_[0], state);
-  if (!status) return fail("ik", "the goal: " + status.error().text);
-  if (!reaches(*status)) return fail("ik", "the goal: " + describe(*status));
+  if (!status || !reaches(*status)) return fail("ik", "the goal: " + reason_of(status));
   auto chosen = guarded([&] { return stages_.select.choose(near, waypoints_); });
   if (!chosen) return fail("select", chosen.error().text);
   if (chosen->size() != 1) return fail("select", "the plugin did not answer for the waypoint");
@@ -139,7 +147,7 @@ PlanResult GoalPlanner::plan(const MotionGoal& goal, const JointState& from, Tim
   if (moving) {
     if (PlanResult stopped = after_stop(goal, from, start, false)) return stopped;
   }
-  if (path_only_) return first;
+  if (options_.path_only) return first;
   PlanResult straight =
       moving ? after_stop(goal, from, start, true) : attempt(goal, from, start, true);
   return straight ? std::move(straight) : std::move(first);
@@ -211,7 +219,7 @@ tl::expected<void, PlanFailure> GoalPlanner::solve_samples(const Path& path,
       const IkBranch* next = status && reaches(*status) ? nearest(branches, seed, model_) : nullptr;
       if (!next) {
         return fail("ik", fmt::format("sample {} of {} of segment {}: {}", i + 1, samples.size(),
-                                      k + 1, status ? describe(*status) : status.error().text));
+                                      k + 1, reason_of(status)));
       }
       seed = next->q;
     }

@@ -18,14 +18,18 @@ struct PlanStages {
   const TrajectoryPlanner& trajectory;
 };
 
+struct PlanningOptions {
+  bool path_only = false;      // a goal that the path plugin's path does not reach is refused
+  bool narrow_solver = false;  // the solver was made for narrower limits, which its reasons tell
+};
+
 /// From a goal to a trajectory: path, inverse kinematics at every sample, one branch per sample for
 /// the whole path, time. All stages in one go, so that when one refuses another answer is tried.
 class GoalPlanner {
  public:
   /// Keeps references to everything.
-  /// `path_only`: a goal that the path plugin's path does not reach is refused.
   GoalPlanner(const RobotModel& model, const PlanStages& stages, const MotionLimits& limits,
-              bool path_only = false);
+              const PlanningOptions& options = {});
 
   /// A plan for `goal` that leaves `from` at `start` without a jump in q, v, a and ends at rest at
   /// the goal. Tried in this order: the path plugin's path, spliced while moving; the same after a
@@ -44,12 +48,13 @@ class GoalPlanner {
   PlanResult after_stop(const MotionGoal& goal, const JointState& from, Time start, bool straight);
   tl::expected<std::vector<JointSegment>, PlanFailure> joint_path(const Path& path,
                                                                   const JointVector& start);
+  std::string reason_of(const Expected<IkStatus>& status) const;
   tl::expected<void, PlanFailure> solve_samples(const Path& path, const JointVector& start);
 
   const RobotModel& model_;
   PlanStages stages_;
   MotionLimits limits_;
-  bool path_only_;
+  PlanningOptions options_;
   std::vector<IkBranches> waypoints_;  // of one plan; kept for its memory
 };
 

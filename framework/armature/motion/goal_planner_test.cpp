@@ -123,15 +123,30 @@ TEST(GoalPlanner, GoesStraightInJointSpaceWhenThePathRefuses) {
 
 TEST(GoalPlanner, GoesNowhereElseWhenOnlyThePathWillDo) {
   Gantry gantry;
-  const auto refused = gantry.planner(true).plan(goal_at(1, 1.75, 0, 0), rest_at(0, 0, 0), kStart);
+  const auto refused =
+      gantry.planner({.path_only = true}).plan(goal_at(1, 1.75, 0, 0), rest_at(0, 0, 0), kStart);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().stage, "path");
   EXPECT_EQ(refused.error().reason, "x beyond 1.5 m");
   gantry.path.throws = true;
-  EXPECT_FALSE(gantry.planner(true).plan(goal_at(1, 1, 0, 0), rest_at(0, 0, 0), kStart));
+  EXPECT_FALSE(
+      gantry.planner({.path_only = true}).plan(goal_at(1, 1, 0, 0), rest_at(0, 0, 0), kStart));
   JointState moving = rest_at(0, 0, 0);
   moving.v = Eigen::Vector3d{0.2, 0, 0};
-  EXPECT_FALSE(gantry.planner(true).plan(goal_at(1, 1, 0, 0), moving, kStart));
+  EXPECT_FALSE(gantry.planner({.path_only = true}).plan(goal_at(1, 1, 0, 0), moving, kStart));
+}
+
+TEST(GoalPlanner, TellsThatTheSolversLimitsAreNarrowerWhenLimitsAreWhyAPoseIsNotReached) {
+  Gantry gantry;
+  const auto reason = [&](bool narrow) {
+    return gantry.planner({.narrow_solver = narrow})
+        .plan(goal_at(1, 0, 2.25, 0), rest_at(0, 0, 0), kStart)
+        .error()
+        .reason;
+  };
+  EXPECT_EQ(reason(true), reason(false)) << "no limit would bring it there";
+  gantry.ik.beyond = IkStatus::Code::joint_limit;
+  EXPECT_EQ(reason(true), reason(false) + "; limit_margin_deg or _mm narrows its limits");
 }
 
 TEST(GoalPlanner, HandsForbiddenZonesToThePath) {
@@ -173,7 +188,7 @@ TEST(GoalPlanner, AsksForARedundancyOnlyWhereTheArmHasAFreedomMoreThanThePoseTak
     GoalPlanner planner{model,
                         {path, ik, stages.select, stages.trajectory},
                         {model.max_velocity(), model.max_acceleration()},
-                        true};
+                        {.path_only = true}};
     MotionGoal goal = goal_at(1, 1, 0, 0);
     goal.pose.orientation = orientation;
     const JointVector zero = JointVector::Zero(model.dof());
@@ -233,8 +248,10 @@ class SwingingTrajectory final : public TrajectoryPlanner {
 TEST(GoalPlanner, NamesTheWayOutWhereTheCurveLeavesTheLimitsBetweenSamplesThatDoNot) {
   Gantry gantry;
   const SwingingTrajectory swings;
-  GoalPlanner planner{
-      gantry.model, {gantry.path, gantry.ik, gantry.select, swings}, gantry.limits, true};
+  GoalPlanner planner{gantry.model,
+                      {gantry.path, gantry.ik, gantry.select, swings},
+                      gantry.limits,
+                      {.path_only = true}};
   const auto plan = planner.plan(goal_at(1, 0, 0, 1.95), rest_at(1.9, 0, 0), kStart);
   ASSERT_FALSE(plan);
   EXPECT_EQ(plan.error().reason,

@@ -3,26 +3,67 @@
 
 #include <fmt/core.h>
 
+#include <numbers>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace armature {
+namespace {
 
-Expected<RobotModel> narrowed(const RobotModel& model, const LimitMargin& margin) {
+bool turns(const Joint& joint) { return joint.type == Joint::Type::revolute; }
+
+/// In the unit in which a margin is stated.
+std::string in_words(const Joint& joint, double amount) {
+  return turns(joint) ? fmt::format("{:.4g} deg", amount * 180 / std::numbers::pi)
+                      : fmt::format("{:.4g} mm", amount * 1e3);
+}
+
+/// nullopt, or which joint the limits do not let be where it is at home.
+std::optional<std::string> home_outside(const RobotModel& narrow) {
+  if (!narrow.home()) return std::nullopt;
+  const auto home = narrow.contract(*narrow.home());
+  if (!home) return home.error().text;
+  for (int i = 0; i < narrow.dof(); ++i) {
+    const double q = (*home)[i], lower = narrow.lower()[i], upper = narrow.upper()[i];
+    if (q >= lower && q <= upper) continue;
+    const Joint& joint = narrow.joints()[static_cast<std::size_t>(narrow.independent_joint(i))];
+    return fmt::format("at home joint {} of robot {} is at {}, and the margin leaves {} to {}",
+                       joint.name, narrow.name(), in_words(joint, q), in_words(joint, lower),
+                       in_words(joint, upper));
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Expected<RobotModel> narrowed(const RobotModel& model, const JointBound& margin) {
   std::vector<Joint> joints = model.joints();
+  bool any_turns = false, any_slides = false;
   for (Joint& joint : joints) {
-    const bool turns = joint.type == Joint::Type::revolute;
-    const double each = turns ? margin.turning_rad : margin.sliding_m;
+    (turns(joint) ? any_turns : any_slides) = true;
+    const double range = joint.upper - joint.lower;
+    const double each = turns(joint) ? margin.turning_rad : margin.sliding_m;
     joint.lower += each;
     joint.upper -= each;
     if (joint.lower < joint.upper) continue;
-    return refuse(fmt::format(
-        "joint {} of robot {} has a range of {:.4g} {}, of which a margin of "
-        "{:.4g} leaves nothing",
-        joint.name, model.name(), joint.upper - joint.lower + 2 * each, turns ? "rad" : "m", each));
+    return refuse(
+        fmt::format("joint {} of robot {} has a range of {}, of which a margin of {} at "
+                    "either end leaves nothing",
+                    joint.name, model.name(), in_words(joint, range), in_words(joint, each)));
   }
-  return RobotModel{model.name(), model.convention(),    joints,      model.frames(),
+  if (margin.turning_rad > 0 && !any_turns) {
+    return refuse(
+        fmt::format("a margin for joints that turn, and robot {} has none", model.name()));
+  }
+  if (margin.sliding_m > 0 && !any_slides) {
+    return refuse(
+        fmt::format("a margin for joints that slide, and robot {} has none", model.name()));
+  }
+  RobotModel narrow{model.name(), model.convention(),    joints,      model.frames(),
                     model.tool(), model.pointing_axis(), model.home()};
+  if (auto defect = home_outside(narrow)) return refuse(*defect);
+  return narrow;
 }
 
 }  // namespace armature

@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "armature/robot/robot_model.hpp"
+#include "armature/motion/joint_bound.hpp"
 
 namespace armature {
 
-/// What a solver keeps free to a joint's limits, so that the curve between its answers, which
-/// swings out where they turn along a limit, has room.
-struct LimitMargin {
-  double turning_rad = 0, sliding_m = 0;
-};
-
-/// `model` with limits that are `margin` narrower at both ends; a reason when nothing is left of a
-/// joint's range.
-Expected<RobotModel> narrowed(const RobotModel& model, const LimitMargin& margin);
+/// `model` with limits that are `margin` narrower at both ends: what a solver keeps free to a
+/// joint's limits, so that the curve between its answers, which swings out where they turn along a
+/// limit, has room. A reason when nothing is left of a joint's range, when the robot's home lies
+/// outside of what is left, or when no joint is of the kind that a margin is for.
+Expected<RobotModel> narrowed(const RobotModel& model, const JointBound& margin);
 
 }  // namespace armature

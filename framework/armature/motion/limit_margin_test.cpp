@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 namespace armature {
 namespace {
 
@@ -37,8 +39,26 @@ TEST(LimitMargin, OfNothingIsTheSame) {
 TEST(LimitMargin, ThatLeavesNothingIsRefusedWithTheJoint) {
   const auto none = narrowed(needle_arm(), {.sliding_m = 5});
   ASSERT_FALSE(none);
-  EXPECT_NE(none.error().text.find("of which a margin of 5 leaves nothing"), std::string::npos)
+  EXPECT_NE(none.error().text.find("of which a margin of 5000 mm at either end leaves nothing"),
+            std::string::npos)
       << none.error().text;
+}
+
+TEST(LimitMargin, ThatPutsHomeOutsideIsRefusedWithTheJoint) {
+  const RobotModel lamp = load_robot_model(ARMATURE_SOURCE_DIR "/configs/robots/dental_lamp.yaml");
+  const auto none = narrowed(lamp, {.turning_rad = std::numbers::pi / 4});
+  ASSERT_FALSE(none);
+  EXPECT_EQ(
+      none.error().text,
+      "at home joint j2 of robot dental_lamp is at -120 deg, and the margin leaves -115 deg to "
+      "115 deg");
+}
+
+TEST(LimitMargin, ForJointsThatTheRobotDoesNotHaveIsRefused) {
+  const RobotModel lamp = load_robot_model(ARMATURE_SOURCE_DIR "/configs/robots/dental_lamp.yaml");
+  const auto none = narrowed(lamp, {.sliding_m = 0.001});
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().text, "a margin for joints that slide, and robot dental_lamp has none");
 }
 
 }  // namespace

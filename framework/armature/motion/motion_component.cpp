@@ -66,20 +66,32 @@ RobotModel solver_model_of(const Params& params, const RobotModel& model) {
 JointVector max_jerk_of(const Params& params, const RobotModel& model) {
   const double turning = params.number("max_jerk_rad_s3"), sliding = params.number("max_jerk_m_s3");
   if (turning == 0 && sliding == 0) return {};
-  JointVector limits(model.dof());
-  for (int i = 0; i < model.dof(); ++i) {
-    const double limit = model.is_revolute(i) ? turning : sliding;
-    limits[i] = limit > 0 ? limit : std::numeric_limits<double>::infinity();
-  }
-  return limits;
+  constexpr double kAny = std::numeric_limits<double>::infinity();
+  return each({turning > 0 ? turning : kAny, sliding > 0 ? sliding : kAny}, model);
+}
+
+PlanningOptions planning_of(const Params& params) {
+  return {.path_only = params.flag("path_only"),
+          .narrow_solver =
+              params.number("limit_margin_deg") > 0 || params.number("limit_margin_mm") > 0};
+}
+
+/// 0 stands for any.
+double max_tool_speed_of(const Params& params) {
+  const double speed = params.number("max_tool_velocity_m_s");
+  return speed > 0 ? speed : std::numeric_limits<double>::infinity();
 }
 
 ExecutionOptions options_of(const Params& params, const RobotModel& model) {
-  return {.plan_budget = seconds(params.number("plan_budget_s")),
-          .max_deviation = params.number("max_deviation_rad"),
-          .measured_max_age = seconds(params.number("measured_max_age_s")),
-          .tracking = {.shortest_horizon_s = params.number("tracking_horizon_s"),
-                       .max_jerk = max_jerk_of(params, model)}};
+  return {
+      .plan_budget = seconds(params.number("plan_budget_s")),
+      .max_deviation = {params.number("max_deviation_rad"), params.number("max_deviation_m")},
+      .goal_tolerance = {params.number("goal_tolerance_rad"), params.number("goal_tolerance_m")},
+      .goal_time = seconds(params.number("goal_time_s")),
+      .measured_max_age = seconds(params.number("measured_max_age_s")),
+      .tracking = {.shortest_horizon_s = params.number("tracking_horizon_s"),
+                   .max_jerk = max_jerk_of(params, model),
+                   .max_tool_speed = max_tool_speed_of(params)}};
 }
 
 }  // namespace
@@ -106,7 +118,7 @@ class Motion : public Component {
         execution_{GoalPlanner{model_,
                                {*path_, *ik_, *select_, *trajectory_},
                                limits_of(setup, model_),
-                               setup.params().flag("path_only")},
+                               planning_of(setup.params())},
                    options_of(setup.params(), model_)} {}
 
   void step(Time now) override {

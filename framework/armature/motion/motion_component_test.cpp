@@ -269,7 +269,7 @@ TEST_F(MotionComponentTest, AnArmThatIsElsewhereFailsTheGoalAndTheReferenceHolds
   collect();
   EXPECT_EQ(story().back(), "1 failed");
   EXPECT_EQ(statuses_.back().reason_(),
-            "joint y of the arm is 0.200 away from the reference (at most 0.100)");
+            "joint y of the arm is 0.2001 m away from the reference (at most 0.05 m)");
   const auto told = motion_.take<msg::JointState>("servo_jp");
   EXPECT_EQ(told.back().position_(), (std::vector<double>{arm_[0], arm_[1], arm_[2]}));
   EXPECT_EQ(told.back().velocity_(), (std::vector<double>{0, 0, 0}));
@@ -306,7 +306,8 @@ TEST_F(MotionComponentTest, DoesNotStartWithMoreThanTheRobotCan) {
   EXPECT_EQ(refusal_of(plugins(), motion_with("max_acceleration_m_s2: 3")),
             "max_acceleration_m_s2 is 3, above the 2.5 m/s2 of joint z of robot gantry");
   EXPECT_EQ(refusal_of(plugins(), motion_with("limit_margin_mm: 1000")), "");
-  EXPECT_EQ(refusal_of(plugins(), motion_with("limit_margin_deg: 1")), "") << "no joint turns";
+  EXPECT_EQ(refusal_of(plugins(), motion_with("limit_margin_deg: 1")),
+            "bench:1:52: a margin for joints that turn, and robot gantry has none");
 }
 
 }  // namespace

@@ -19,7 +19,13 @@ void PursuedGoal::set(const MotionGoal& goal) {
   state_ = State::waiting;
   send_at_ = kAtOnce;
   breakdowns_ = 0;
+  once_ = begun_ = false;
   reason_.clear();
+}
+
+void PursuedGoal::set_once(const MotionGoal& goal) {
+  set(goal);
+  once_ = true;
 }
 
 void PursuedGoal::hear(const GoalReport& report, Time now) {
@@ -31,6 +37,7 @@ void PursuedGoal::hear(const GoalReport& report, Time now) {
     case GoalReport::State::accepted:
       break;
     case GoalReport::State::executing:
+      begun_ = true;
       if (state_ == State::waiting) state_ = State::moving;
       break;
     case GoalReport::State::done:
@@ -39,22 +46,28 @@ void PursuedGoal::hear(const GoalReport& report, Time now) {
       break;
     case GoalReport::State::superseded:  // by a goal that is not ours
     case GoalReport::State::failed:
-      reason_ = report.reason;
-      if (report.state == GoalReport::State::superseded || worth_another_try(report)) {
-        state_ = State::waiting;
-        send_at_ = now + kRetryAfter;
-      } else {
-        state_ = State::failed;
-        reason_ = report.stage + ": " + report.reason;
-      }
+      give_up_or_try_again(report, now);
       break;
   }
+}
+
+void PursuedGoal::give_up_or_try_again(const GoalReport& report, Time now) {
+  if (worth_another_try(report)) {
+    reason_ = report.reason;
+    state_ = State::waiting;
+    send_at_ = now + kRetryAfter;
+    return;
+  }
+  state_ = State::failed;
+  reason_ = report.state == GoalReport::State::superseded ? "execution: another goal took its place"
+                                                          : report.stage + ": " + report.reason;
 }
 
 /// The motion was not able to execute anything at that moment; or the arm did not follow it, which
 /// an arm that cannot never will.
 bool PursuedGoal::worth_another_try(const GoalReport& report) {
-  if (report.stage == "accept") return true;
+  if (once_ && begun_) return false;
+  if (report.state == GoalReport::State::superseded || report.stage == "accept") return true;
   return report.stage == "execution" && ++breakdowns_ < kMostBreakdowns;
 }
 

@@ -27,6 +27,9 @@ class PursuedGoal {
 
   /// Makes `goal` the current one; it is sent with the next `outgoing`.
   void set(const MotionGoal& goal);
+  /// The same of a goal that must not be begun a second time, as where the arm then stands is not
+  /// where its way begins (a needle in tissue): it has failed when it breaks down on its way.
+  void set_once(const MotionGoal& goal);
   void hear(const GoalReport& report, Time now);
   /// The goal to send now, with its id, if any.
   std::optional<MotionGoal> outgoing(Time now);
@@ -37,6 +40,7 @@ class PursuedGoal {
   int sent() const { return sent_; }
 
  private:
+  void give_up_or_try_again(const GoalReport& report, Time now);
   bool worth_another_try(const GoalReport& report);
 
   MotionGoal goal_;
@@ -46,6 +50,7 @@ class PursuedGoal {
   Time sent_at_, done_at_;
   std::string reason_;
   int sent_ = 0, breakdowns_ = 0;
+  bool once_ = false, begun_ = false;
 };
 
 }  // namespace armature

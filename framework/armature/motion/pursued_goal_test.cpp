@@ -86,6 +86,33 @@ TEST(PursuedGoal, CountsOnFromGoalsOfAnEarlierLife) {
   EXPECT_EQ(goals.outgoing(at(0))->id, 42u);
 }
 
+TEST(PursuedGoal, AGoalThatMustNotBeBegunTwiceHasFailedWhenItBreaksDown) {
+  PursuedGoal goals;
+  goals.set_once({});
+  goals.outgoing(at(0));
+  goals.hear({.goal_id = 1, .state = Report::failed, .stage = "accept", .reason = "not ready"},
+             at(0.1));
+  EXPECT_EQ(goals.state(), PursuedGoal::State::waiting) << "it was not begun";
+  goals.outgoing(at(0.5));
+  goals.hear({.goal_id = 2, .state = Report::executing}, at(0.6));
+  PursuedGoal lost = goals;
+  goals.hear({.goal_id = 2, .state = Report::failed, .stage = "execution", .reason = "it strayed"},
+             at(1));
+  EXPECT_EQ(goals.state(), PursuedGoal::State::failed);
+  EXPECT_EQ(goals.reason(), "execution: it strayed");
+  EXPECT_FALSE(goals.outgoing(at(5)));
+
+  lost.hear({.goal_id = 2, .state = Report::superseded}, at(1));
+  EXPECT_EQ(lost.state(), PursuedGoal::State::failed);
+  EXPECT_EQ(lost.reason(), "execution: another goal took its place");
+
+  lost.set({});
+  EXPECT_TRUE(lost.outgoing(at(5))) << "another goal is another one";
+  lost.hear({.goal_id = 3, .state = Report::executing}, at(5));
+  lost.hear({.goal_id = 3, .state = Report::superseded}, at(6));
+  EXPECT_EQ(lost.state(), PursuedGoal::State::waiting);
+}
+
 TEST(PursuedGoal, KeepsTheReasonOfAGoalThatCannotBeReached) {
   PursuedGoal goals;
   goals.set({});

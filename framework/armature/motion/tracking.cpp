@@ -9,6 +9,7 @@
 #include <utility>
 #include <variant>
 
+#include "armature/robot/kinematics.hpp"
 #include "armature/robot/rotation_vector.hpp"
 
 namespace armature {
@@ -18,6 +19,7 @@ constexpr double kHorizonGrowth = 1.25;
 constexpr double kLongestHorizon = 20.0;    // [s]
 constexpr double kLongestPrediction = 1.0;  // [s] a velocity is not trusted longer
 constexpr double kVelocityStep = 1e-3;      // [s] for the difference quotient
+constexpr double kSpeedStep = 2e-3;         // [s] between two looks at the tool's speed
 
 ToolPose after(const MotionGoal& goal, double time_s) {
   ToolPose pose = goal.pose;
@@ -84,6 +86,27 @@ std::optional<std::string> jerk_defect(const Trajectory& way, const RobotModel& 
   return std::nullopt;
 }
 
+/// [m/s] of the tool's origin.
+double tool_speed(const RobotModel& model, const JointState& state) {
+  const auto now = forward_kinematics_with_jacobian(model, state.q, model.tool());
+  return (now.jacobian.topRows<3>() * state.v).norm();
+}
+
+/// nullopt, or how fast the tool would become on the way to the meeting point.
+std::optional<std::string> speed_defect(const Trajectory& way, const RobotModel& model,
+                                        double max_speed) {
+  if (std::isinf(max_speed)) return std::nullopt;
+  const int samples = std::clamp(static_cast<int>(way.duration_s() / kSpeedStep), 16, 500);
+  const double allowed = std::max(max_speed, tool_speed(model, way.at(way.start))) * (1 + 1e-9);
+  for (int i = 1; i <= samples; ++i) {
+    const Time time = way.start + seconds(way.duration_s() * i / samples);
+    const double speed = tool_speed(model, way.at(time));
+    if (speed <= allowed) continue;
+    return fmt::format("the tool would need {:.4g} m/s, its limit is {:.4g} m/s", speed, max_speed);
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 PlanResult track(GoalPlanner& planner, const MotionGoal& goal, const JointState& from, Time start,
@@ -100,6 +123,10 @@ PlanResult track(GoalPlanner& planner, const MotionGoal& goal, const JointState&
     }
     Trajectory trajectory = quintic_to(from, *meet, start, horizon, goal.id);
     if (auto found = jerk_defect(trajectory, planner.model(), options.max_jerk)) {
+      defect = std::move(*found);
+      continue;
+    }
+    if (auto found = speed_defect(trajectory, planner.model(), options.max_tool_speed)) {
       defect = std::move(*found);
       continue;
     }

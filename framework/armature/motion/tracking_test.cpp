@@ -151,6 +151,47 @@ TEST(Tracking, AJerkLimitThatNoHorizonKeepsIsToldWithItsNumber) {
             "tracking within limits: joint x would need a jerk of 0.0012");
 }
 
+TEST(Tracking, ATargetThatIsTooFastIsFollowedBehindAndMetWhenItWaits) {
+  const Gantry gantry;
+  GoalPlanner planner = gantry.planner();
+  const TrackingOptions slow{.shortest_horizon_s = 0.01, .max_tool_speed = 0.05};
+  Trajectory current = hold_at(Eigen::Vector3d{0, 0, 0}, Time{0}, 0);
+  double fastest = 0, farthest_behind = 0;
+  int refused = 0;
+  for (int k = 1; k < 4000; ++k) {
+    const Time now = Time{} + k * seconds(0.001);
+    const double t = std::min(0.001 * k, 1.0);  // it goes 0.08 m in the plane, then stays
+    MotionGoal goal = goal_at(static_cast<std::uint64_t>(k), 0.064 * t, 0.048 * t, 0);
+    if (k <= 1000) goal.velocity = {0.064, 0.048, 0};
+    const auto plan = track(planner, goal, current.at(now), now, slow);
+    if (plan) current = plan->trajectory;
+    refused += !plan;
+    const JointState state = current.at(now);
+    fastest = std::max(fastest, state.v.norm());
+    const Eigen::Vector3d tool{state.q[2], state.q[1], state.q[0]};
+    farthest_behind = std::max(farthest_behind, (tool - goal.pose.position).norm());
+  }
+  EXPECT_LE(fastest, 0.05 * (1 + 1e-6));
+  EXPECT_GT(fastest, 0.049) << "it need not be slower";
+  EXPECT_GT(farthest_behind, 0.02);
+  EXPECT_EQ(refused, 0);
+  const JointState end = current.at(Time{} + seconds(4.0));
+  EXPECT_LT((end.q - Eigen::Vector3d{0, 0.048, 0.064}).norm(), 1e-6);
+}
+
+TEST(Tracking, AToolThatIsTooFastAlreadyDoesNotBecomeFaster) {
+  const Gantry gantry;
+  GoalPlanner planner = gantry.planner();
+  JointState from = rest_at(0, 0, 0);
+  from.v = Eigen::Vector3d{0, 0, 0.2};
+  const auto plan = track(planner, goal_at(1, 0.1, 0, 0), from, Time{0},
+                          {.shortest_horizon_s = 0.01, .max_tool_speed = 0.05});
+  ASSERT_TRUE(plan) << plan.error().reason;
+  for (double t = 0; t < plan->trajectory.knots[1]; t += 1e-3) {
+    EXPECT_LE(plan->trajectory.at(Time{} + seconds(t)).v.norm(), 0.2 * (1 + 1e-6)) << t;
+  }
+}
+
 TEST(Tracking, RefusesATargetOutOfReach) {
   const Gantry gantry;
   GoalPlanner planner = gantry.planner();

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -39,23 +41,28 @@ const Trait* find_trait(const std::vector<Trait>& traits, std::string_view word)
 }
 
 /// Who could offer `word`: one of the parties whose offer is switched off, else the plugins on the
-/// search path that `fits` lets in; a word that nobody knows is a typo.
-std::string way_out(std::string_view word, const std::vector<Party>& parties,
-                    const PluginRegistry& plugins,
-                    const std::function<bool(const PluginManifest&)>& fits) {
+/// search path that `fits` lets in; a word that nobody knows is a typo. nullopt when plugins offer
+/// it that have no place here: who they work for may run in another process.
+std::optional<std::string> way_out(std::string_view word, const std::vector<Party>& parties,
+                                   const PluginRegistry& plugins,
+                                   const std::function<bool(const PluginManifest&)>& fits) {
   for (const Party& party : parties) {
     if (const Trait* offer = find_trait(party.manifest->offers, word)) {
       return fmt::format("'{}' does {}", party.name, unless_text(*offer, party.manifest->params));
     }
   }
   std::vector<std::string> ids, words;
+  bool elsewhere = false;
   for (const PluginManifest& plugin : plugins.plugins()) {
     for (const Trait& offer : plugin.offers) {
       words.push_back(offer.word);
-      if (offer.word == word && fits(plugin)) ids.push_back(plugin.id);
+      if (offer.word != word) continue;
+      if (fits(plugin)) ids.push_back(plugin.id);
+      elsewhere = true;
     }
   }
   if (!ids.empty()) return fmt::format("offered by {}", fmt::join(ids, ", "));
+  if (elsewhere) return std::nullopt;
   return "no plugin on the search path does" + config::did_you_mean(word, words);
 }
 
@@ -73,14 +80,22 @@ void check_parties(const std::vector<Party>& parties, const std::vector<Party>& 
         const Trait* offer = find_trait(party.manifest->offers, need.word);
         return offer && holds(*offer, party);
       });
-      if (met) continue;
+      const auto who_could = way_out(need.word, offering, plugins, fits);
+      if (met || !who_could) continue;
       const std::string unless = unless_text(need, needy.manifest->params);
       problems.add(needy.origin,
                    fmt::format("'{}' needs '{}'{}{}, and {} offers it; {}", needy.name, need.word,
-                               unless.empty() ? "" : " ", unless, nobody,
-                               way_out(need.word, offering, plugins, fits)));
+                               unless.empty() ? "" : " ", unless, nobody, *who_could));
     }
   }
+}
+
+std::vector<Party> slots_of(const ComponentConfig& component) {
+  std::vector<Party> parties;
+  for (const SlotConfig& slot : component.slots) {
+    parties.push_back({slot.plugin_id, slot.manifest, &slot.params, slot.origin});
+  }
+  return parties;
 }
 
 }  // namespace
@@ -91,10 +106,7 @@ void check_slot_needs(const ComponentConfig& component, const PluginRegistry& pl
   if (!component.manifest->hosts.empty()) return;
   // With a slot missing, what its plugin would offer is missing too, and that slot is a problem.
   if (component.slots.size() != component.manifest->slots.size()) return;
-  std::vector<Party> parties;
-  for (const SlotConfig& slot : component.slots) {
-    parties.push_back({slot.plugin_id, slot.manifest, &slot.params, slot.origin});
-  }
+  const std::vector<Party> parties = slots_of(component);
   const auto fits_a_slot = [&](const PluginManifest& plugin) {
     const auto& slots = component.manifest->slots;
     return std::ranges::find(slots, plugin.kind, &SlotSpec::kind) != slots.end();
@@ -106,12 +118,17 @@ void check_slot_needs(const ComponentConfig& component, const PluginRegistry& pl
 
 void check_component_needs(const DeploymentConfig& deployment, const PluginRegistry& plugins,
                            config::Problems& problems) {
-  std::vector<Party> parties;
+  std::vector<Party> parties, in_slots;
+  std::vector<std::string_view> kinds{"component"};
   for (const ComponentConfig& component : deployment.components) {
     parties.push_back({component.name, component.manifest, &component.params, component.origin});
+    std::ranges::copy(slots_of(component), std::back_inserter(in_slots));
+    for (const SlotSpec& slot : component.manifest->slots) kinds.push_back(slot.kind);
   }
-  const auto is_component = [](const PluginManifest& plugin) { return plugin.kind == "component"; };
-  check_parties(parties, {}, "no component", plugins, is_component, problems);
+  const auto fits = [&](const PluginManifest& plugin) {
+    return std::ranges::find(kinds, plugin.kind) != kinds.end();
+  };
+  check_parties(parties, in_slots, "no component", plugins, fits, problems);
 }
 
 }  // namespace armature

@@ -5,15 +5,12 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
-#include "armature/robot/kinematics.hpp"
+#include "armature/kinds/ik/lanes.hpp"
 #include "armature/runtime/plugin.hpp"
 
 namespace armature {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // Tilt 0: cos(q6) >= 0. Balance 0: cos(q3) >= 0. Elbow 0: q2 <= 0, the paper's.
 constexpr std::array<std::string_view, 8> kLabels{"tilt0/balance0/elbow0", "tilt0/balance0/elbow1",
@@ -29,27 +26,12 @@ constexpr double kSingular = 1e-6;
 // Pointing up or down: below this the heading of a unit direction says nothing.
 constexpr double kVertical = 1e-12;
 
-/// wrap_angle for what is within one turn already.
+/// wrap_angle for what is at most 3 pi from zero.
 double wrapped(double angle) {
-  if (angle >= kPi) return angle - 2 * kPi;
-  return angle < -kPi ? angle + 2 * kPi : angle;
+  if (angle < -kPi) angle += 2 * kPi;
+  if (angle >= kPi) angle -= 2 * kPi;
+  return angle >= kPi ? -kPi : angle;
 }
-
-/// One goal on its way through the solver.
-struct Problem {
-  const RobotModel& model;
-  const LampLengths& arm;
-  const IkGoal& goal;
-  Eigen::Vector3d direction;  // unit
-  const JointVector& seed;
-  IkBranches& out;
-  double shortfall = std::numeric_limits<double>::infinity();  // smallest of all (tilt, balance)
-  std::string_view detail{};
-
-  void out_of_reach(double by, std::string_view why) {
-    if (by < shortfall) shortfall = by, detail = why;
-  }
-};
 
 /// Step 1 of a tilt: where the lamp points.
 struct Tilt {
@@ -63,30 +45,88 @@ struct Balance {
   double q3, sin_q3, cos_q3, l;
 };
 
-/// Position and direction error of forward kinematics at `q` in closed form.
-PoseResidual residual_at(const Problem& p, const Tilt& tilt, const Balance& balance,
-                         const JointVector& q) {
-  const double heading = q[0] + q[1] + q[3];
-  const double sin_psi = std::sin(heading), cos_psi = std::cos(heading);
-  const double r = p.arm.a5 + p.arm.a6 * tilt.cos_q6;
-  const Eigen::Vector3d position{
-      p.arm.a1 * std::cos(q[0]) + balance.l * std::cos(q[0] + q[1]) + r * cos_psi,
-      p.arm.a1 * std::sin(q[0]) + balance.l * std::sin(q[0] + q[1]) + r * sin_psi,
-      p.arm.d + p.arm.a3 * balance.sin_q3 + p.arm.a6 * tilt.sin_q6};
-  const Eigen::Vector3d x{tilt.cos_q6 * cos_psi, tilt.cos_q6 * sin_psi, tilt.sin_q6};
-  PoseResidual residual;
-  residual.position_m = (position - p.goal.pose.position).norm();
-  if (const auto* rotation = std::get_if<Eigen::Quaterniond>(&p.goal.pose.orientation)) {
-    Eigen::Matrix3d base_R_tool;
-    base_R_tool.col(0) = x;
-    base_R_tool.col(2) = Eigen::Vector3d{sin_psi, -cos_psi, 0};
-    base_R_tool.col(1) = base_R_tool.col(2).cross(x);
-    residual.angle_rad = Eigen::Quaterniond{base_R_tool}.angularDistance(rotation->normalized());
-  } else {
-    const double sine = x.cross(p.direction).norm(), cosine = x.dot(p.direction);
-    residual.angle_rad = cosine > 0 && sine < 1e-6 ? sine : std::atan2(sine, cosine);
+/// One goal on its way through the solver.
+struct Problem {
+  const RobotModel& model;
+  const LampLengths& arm;
+  const IkGoal& goal;
+  Eigen::Vector3d direction;  // unit
+  const JointVector& seed;
+  IkBranches& out;
+  /// What the residuals of the branches in `out` need, each at its own place.
+  struct Posture {
+    double l, height, sin_q6, cos_q6;
+  };
+  std::array<Posture, 8> posture;
+  double shortfall = std::numeric_limits<double>::infinity();  // smallest of all (tilt, balance)
+  std::string_view detail{};
+
+  void out_of_reach(double by, std::string_view why) {
+    if (by < shortfall) shortfall = by, detail = why;
   }
-  return residual;
+};
+
+/// The angle between the tool and the goal's rotation.
+double rotation_error(const Problem& p, const Eigen::Vector3d& x, double sin_psi, double cos_psi) {
+  Eigen::Matrix3d base_R_tool;
+  base_R_tool.col(0) = x;
+  base_R_tool.col(2) = Eigen::Vector3d{sin_psi, -cos_psi, 0};
+  base_R_tool.col(1) = base_R_tool.col(2).cross(x);
+  return Eigen::Quaterniond{base_R_tool}.angularDistance(
+      std::get<Eigen::Quaterniond>(p.goal.pose.orientation).normalized());
+}
+
+/// The angle between the pointing axis and the goal's direction, from both of its measures.
+double direction_error(double sine, double cosine) {
+  return cosine > 0 && sine < 1e-6 ? sine : std::atan2(sine, cosine);
+}
+
+/// Position and direction errors of forward kinematics, in closed form, at the joints of four
+/// branches from `first` on.
+void measure_four(Problem& p, int first) {
+  const int count = std::min(p.out.count - first, 4);
+  Lanes q1, q12, heading, l, height, sin_q6, cos_q6;
+  for (int i = 0; i < 4; ++i) {
+    const auto k = static_cast<std::size_t>(first + std::min(i, count - 1));
+    const JointVector& q = p.out.branch[k].q;
+    const Problem::Posture& posture = p.posture[k];
+    q1[i] = q[0], q12[i] = q[0] + q[1], heading[i] = q[0] + q[1] + q[3];
+    l[i] = posture.l, height[i] = posture.height;
+    sin_q6[i] = posture.sin_q6, cos_q6[i] = posture.cos_q6;
+  }
+  const LaneSinCos first_link = sine_and_cosine(q1), forearm = sine_and_cosine(q12),
+                   yoke = sine_and_cosine(heading);
+  const Lanes r = p.arm.a5 + p.arm.a6 * cos_q6;
+  const Eigen::Vector3d& wanted = p.goal.pose.position;
+  const LaneTriple off{p.arm.a1 * first_link.cos + l * forearm.cos + r * yoke.cos - wanted.x(),
+                       p.arm.a1 * first_link.sin + l * forearm.sin + r * yoke.sin - wanted.y(),
+                       height - wanted.z()};
+  const LaneTriple x{cos_q6 * yoke.cos, cos_q6 * yoke.sin, sin_q6};
+  const LaneTriple u{all(p.direction.x()), all(p.direction.y()), all(p.direction.z())};
+  const Lanes away = norm(off), sine = norm(cross(x, u)),
+              cosine = x.x * u.x + x.y * u.y + x.z * u.z;
+  const bool rotation = std::holds_alternative<Eigen::Quaterniond>(p.goal.pose.orientation);
+  for (int i = 0; i < count; ++i) {
+    PoseResidual& residual = p.out.branch[static_cast<std::size_t>(first + i)].residual;
+    residual.position_m = away[i];
+    residual.angle_rad = rotation
+                             ? rotation_error(p, {x.x[i], x.y[i], x.z[i]}, yoke.sin[i], yoke.cos[i])
+                             : direction_error(sine[i], cosine[i]);
+  }
+}
+
+/// Leaves out branches that would need a roll: the lamp cannot turn about its pointing axis, but
+/// the other tilt may have it.
+void drop_rolled(Problem& p) {
+  if (std::holds_alternative<Direction>(p.goal.pose.orientation)) return;
+  const double most = std::max(p.goal.tolerance.angle_rad, 1e-7);
+  int kept = 0;
+  for (int i = 0; i < p.out.count; ++i) {
+    const IkBranch& branch = p.out.branch[static_cast<std::size_t>(i)];
+    if (branch.residual.angle_rad <= most) p.out.branch[static_cast<std::size_t>(kept++)] = branch;
+  }
+  if (kept < p.out.count) p.out_of_reach(0, "the lamp cannot roll about its pointing axis");
+  p.out.count = kept;
 }
 
 /// What `unwind` answers, without turning: every joint of the lamp turns freely.
@@ -103,22 +143,18 @@ bool keeps_limits(const RobotModel& model, const JointVector& q) {
 
 void add_branch(Problem& p, const Tilt& tilt, const Balance& balance, int elbow, double q1,
                 double q2, double sin_q2) {
+  p.posture[static_cast<std::size_t>(p.out.count)] = {
+      balance.l, p.arm.d + p.arm.a3 * balance.sin_q3 + p.arm.a6 * tilt.sin_q6, tilt.sin_q6,
+      tilt.cos_q6};
   IkBranch& branch = p.out.add();
   branch.label = kLabels[static_cast<std::size_t>(4 * tilt.index + 2 * balance.index + elbow)];
   branch.redundancy = 0;
   branch.q.resize(5);
-  branch.q << wrap_angle(q1), wrapped(q2), balance.q3, wrap_angle(tilt.psi - q1 - q2), tilt.q6;
-  branch.residual = residual_at(p, tilt, balance, branch.q);
+  const double shoulder = wrapped(q1), forearm = wrapped(q2);
+  branch.q << shoulder, forearm, balance.q3, wrapped(tilt.psi - shoulder - forearm), tilt.q6;
   branch.singular = std::abs(sin_q2) < kSingular || std::abs(balance.cos_q3) < kSingular ||
                     std::abs(tilt.cos_q6) < kSingular ||
                     std::abs(balance.l) < kSingular * (p.arm.a3 + std::abs(p.arm.a4));
-  const bool rolled = std::holds_alternative<Eigen::Quaterniond>(p.goal.pose.orientation) &&
-                      branch.residual.angle_rad > std::max(p.goal.tolerance.angle_rad, 1e-7);
-  if (rolled) {
-    --p.out.count;  // the lamp cannot turn about its pointing axis; the other tilt may
-    p.out_of_reach(0, "the lamp cannot roll about its pointing axis");
-    return;
-  }
   branch.within_limits = keeps_limits(p.model, branch.q);
 }
 
@@ -138,7 +174,8 @@ void solve_elbows(Problem& p, const Tilt& tilt, const Balance& balance) {
   if (outside < kOnRim * rim) outside = 0;
   if (inside < kOnRim * rim) inside = 0;
 
-  const double bearing = D < kBeyondRim * far ? p.seed[0] : std::atan2(wy, wx);  // D = 0: q1 free
+  const double bearing =
+      D < kBeyondRim * far ? wrap_angle(p.seed[0]) : std::atan2(wy, wx);  // D = 0: q1 free
   if (std::abs(l) < kBeyondRim * far) {  // the forearm points nowhere: q2 free
     const double q2 = wrap_angle(p.seed[1]);
     return add_branch(p, tilt, balance, q2 <= 0 ? 0 : 1, bearing, q2, 0);
@@ -156,7 +193,7 @@ void solve_elbows(Problem& p, const Tilt& tilt, const Balance& balance) {
 
 /// Pointing straight up or down leaves psi free: the seed's, or the nearest to it that reaches.
 double free_heading(const Problem& p, const Balance& balance) {
-  const double wanted = p.seed[0] + p.seed[1] + p.seed[3];
+  const double wanted = wrap_angle(p.seed[0] + p.seed[1] + p.seed[3]);
   const double x = p.goal.pose.position.x(), y = p.goal.pose.position.y();
   const double P = std::hypot(x, y), r = p.arm.a5;
   if (!(P * std::abs(r) > 0)) return wanted;
@@ -203,7 +240,7 @@ void solve_tilt(Problem& p, Tilt tilt, bool vertical) {
 
 void solve_all(Problem& p) {
   const auto& u = p.direction;
-  const double h = std::hypot(u.x(), u.y());
+  const double h = std::sqrt(u.x() * u.x() + u.y() * u.y());
   if (h < kVertical) {  // both tilts are one
     const double up = u.z() > 0 ? 1 : -1;
     return solve_tilt(p, {0, up * kPi / 2, up, 0, 0, 0, 1}, true);
@@ -237,6 +274,8 @@ IkStatus LampGeometric::solve(const IkGoal& goal, const JointVector& seed, IkBra
                                  Eigen::Vector3d::UnitX()};
   Problem problem{*model_, lengths_, goal, direction, seed, out};
   solve_all(problem);
+  for (int first = 0; first < out.count; first += 4) measure_four(problem, first);
+  drop_rolled(problem);
   if (out.count == 0) {
     return {IkStatus::Code::out_of_reach, problem.shortfall, problem.detail};
   }

@@ -57,7 +57,7 @@ void Biopsy::see_registration(const RegisteredHead& head) {
   }
   const NeedleLine line = moved(plan_, head.robot_T_image);
   if (!((line.target - line.entry).norm() > 0)) return refuse("entry and target are one point");
-  goal_.set(
+  goal_.set_once(
       {.pose = pose_at_target(line, robot_), .focus = line.entry, .forbidden = line.forbidden});
   phase_ = Phase::inserting;
 }

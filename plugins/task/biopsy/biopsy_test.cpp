@@ -90,6 +90,18 @@ TEST_F(BiopsyTest, StopsWithTheReasonWhenTheMotionRefuses) {
   EXPECT_FALSE(task_.outgoing_goal(at(5)));
 }
 
+TEST_F(BiopsyTest, DoesNotBeginAgainWhenTheNeedleMayBeInTissue) {
+  task_.see_head(kPlan);
+  task_.see_registration(good());
+  const auto goal = task_.outgoing_goal(at(0));
+  task_.hear({.goal_id = goal->id, .state = Report::executing}, at(0.1));
+  task_.hear({.goal_id = goal->id, .state = Report::failed, .stage = "execution", .reason = "stuck"},
+             at(3));
+  EXPECT_EQ(task_.phase(), Phase::refused);
+  EXPECT_EQ(task_.trouble(), "execution: stuck");
+  EXPECT_FALSE(task_.outgoing_goal(at(9)));
+}
+
 TEST_F(BiopsyTest, ARobotWithoutAPointingAxisIsGivenTheRotationNearestToHome) {
   const RobotModel six = load_robot_model(ARMATURE_SOURCE_DIR "/configs/robots/sr1.yaml");
   const NeedleLine line = moved(kPlan, good().robot_T_image);

@@ -119,7 +119,7 @@ void Implant::hear(const GoalReport& report, Time now) {
     return refuse((above ? "above site 1" : way_.bores[bore_].name) + ": " + goal_.reason());
   }
   if (!there || phase_ == Phase::drilling) return;
-  goal_.set(way_.bores.front().goal);
+  goal_.set_once(way_.bores.front().goal);
   enter(Phase::drilling, now);
 }
 
@@ -234,7 +234,7 @@ void Implant::go_on_drilling(Time now) {
   if (goal_.state() != PursuedGoal::State::done) return;
   if (way_.bores[bore_].ends_at_bottom && now - goal_.done_at() < settings_.dwell) return;
   if (++bore_ == way_.bores.size()) return enter(Phase::drilled, now);
-  goal_.set(way_.bores[bore_].goal);
+  goal_.set_once(way_.bores[bore_].goal);
 }
 
 void Implant::refuse(const std::string& why) {

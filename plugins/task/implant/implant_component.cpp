@@ -5,7 +5,6 @@
 #include <cmath>
 #include <string>
 
-#include "armature/calibration/usable_pose.hpp"
 #include "armature/kinds/chain_messages.hpp"
 #include "armature/kinds/registration_dialogue.hpp"
 #include "armature/kinds/registration_messages.hpp"
@@ -18,6 +17,7 @@
 #include "armature/runtime/component.hpp"
 #include "armature/runtime/plugin.hpp"
 #include "armature/runtime/setup.hpp"
+#include "body_input.hpp"
 #include "implant.hpp"
 
 namespace armature {
@@ -65,21 +65,6 @@ ImplantSettings settings_of(const Params& params) {
           .most_jaw_motion_m = params.number("most_jaw_motion_mm")};
 }
 
-Sighting sighting_of(const msg::TrackedBody& body) {
-  Sighting sighting{.stamp = stamp_of(body.header_().stamp_()), .tracker_T_body = {}};
-  if (!body.valid_()) {
-    sighting.reason = body.reason_();
-    return sighting;
-  }
-  const Eigen::Isometry3d pose = to_eigen(body.pose_());
-  if (const auto wrong = wrong_with(pose)) {
-    sighting.reason = "its pose " + *wrong;
-  } else {
-    sighting.tracker_T_body = pose;
-  }
-  return sighting;
-}
-
 std::vector<ToolPose> sites_of(const msg::ImplantPlan& plan) {
   std::vector<ToolPose> sites;
   for (const msg::Pose& site : plan.sites_()) {
@@ -113,9 +98,9 @@ class ImplantComponent final : public Component {
         robot_{robot_of(setup)},
         mount_{flange_of(robot_)},
         task_{settings_of(setup.params()), robot_, mount_.flange_T_tool},
-        flange_{setup.input<msg::TrackedBody>("flange")},
-        jaw_{setup.input<msg::TrackedBody>("jaw")},
-        pivot_{setup.input<msg::TrackedBody>("pivot")},
+        flange_{setup, "flange"},
+        jaw_{setup, "jaw"},
+        pivot_{setup, "pivot"},
         measured_js_{setup.input<msg::JointState>("measured_js")},
         plan_{setup.input<msg::ImplantPlan>("plan")},
         markers_{setup.input<msg::MeasuredMarkers>("markers")},
@@ -176,9 +161,9 @@ class ImplantComponent final : public Component {
     for (std::size_t i = 0; i < motion_status_.size(); ++i) {
       task_.hear(report_of(motion_status_[i]), now);
     }
-    for (std::size_t i = 0; i < pivot_.size(); ++i) task_.see_pivot(sighting_of(pivot_[i]));
-    for (std::size_t i = 0; i < flange_.size(); ++i) task_.see_flange(sighting_of(flange_[i]));
-    for (std::size_t i = 0; i < jaw_.size(); ++i) task_.see_jaw(sighting_of(jaw_[i]));
+    for (std::size_t i = 0; i < pivot_.size(); ++i) task_.see_pivot(pivot_[i]);
+    for (std::size_t i = 0; i < flange_.size(); ++i) task_.see_flange(flange_[i]);
+    for (std::size_t i = 0; i < jaw_.size(); ++i) task_.see_jaw(jaw_[i]);
     registration_.listen([&](const msg::RegistrationResponse& response) {
       if (response.valid_()) {
         task_.see_registration(jaw_of(response), now);
@@ -219,7 +204,7 @@ class ImplantComponent final : public Component {
   Flange mount_;
   Implant task_;
   bool begun_ = false, told_ = false;
-  Input<msg::TrackedBody> flange_, jaw_, pivot_;
+  BodyInput flange_, jaw_, pivot_;
   Input<msg::JointState> measured_js_;
   Input<msg::ImplantPlan> plan_;
   Input<msg::MeasuredMarkers> markers_;

@@ -202,6 +202,17 @@ TEST_F(ImplantComponentTest, ATrackerThatTellsNoPoseIsAsGoodAsBlind) {
             "finite");
 }
 
+TEST_F(ImplantComponentTest, AnotherBodyOnATopicDoesNotCountAsSeen) {
+  task_.step(now_s_);
+  msg::TrackedBody wrong = body(Isometry3d::Identity());
+  wrong.body_("flange");
+  task_.send("pivot", wrong);
+  task_.step(now_s_ += 0.6);
+  EXPECT_EQ(task_.take<msg::TaskState>("state").back().detail_(),
+            "pivot: the tracker has not seen the drill in the hand for 0.60 s: its topic tells of "
+            "the body 'flange', not of 'drill'");
+}
+
 TEST_F(ImplantComponentTest, APlanWithoutSitesIsRefused) {
   task_.send("plan", msg::ImplantPlan{});
   task_.step(now_s_);

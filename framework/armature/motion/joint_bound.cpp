@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/motion/joint_bound.hpp"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <cstddef>
+
+namespace armature {
+
+JointVector each(const JointBound& bound, const RobotModel& model) {
+  JointVector values(model.dof());
+  for (int i = 0; i < model.dof(); ++i) {
+    values[i] = model.is_revolute(i) ? bound.turning_rad : bound.sliding_m;
+  }
+  return values;
+}
+
+std::optional<std::string> strayed(const RobotModel& model, const JointVector& q,
+                                   const JointVector& wanted, const JointBound& bound,
+                                   std::string_view where) {
+  for (int i = 0; i < model.dof(); ++i) {
+    const bool turns = model.is_revolute(i);
+    const double most = turns ? bound.turning_rad : bound.sliding_m;
+    const double away = std::abs(q[i] - wanted[i]);
+    if (away <= most) continue;
+    const char* unit = turns ? "rad" : "m";
+    const auto joint = static_cast<std::size_t>(model.independent_joint(i));
+    return fmt::format("joint {} of the arm is {:.4g} {} away from {} (at most {:g} {})",
+                       model.joints()[joint].name, away, unit, where, most, unit);
+  }
+  return std::nullopt;
+}
+
+}  // namespace armature

@@ -157,7 +157,7 @@ int conclude_child(const RunOptions& options, const Deployment& deployment) {
 
 int run(const RunOptions& options) {
   const bool is_child = !options.process.empty();
-  // Another process of a deployment just ends, and its main process, which asks for no JSON, tells.
+  // Another process of a deployment just ends: its main process tells, and asks it for no JSON.
   if (!is_child || options.json) on_end_signals(end_before_start);
   if (options.report) prepare_output_folder(*options.report);
   PluginRegistry plugins;

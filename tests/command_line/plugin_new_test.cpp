@@ -95,6 +95,12 @@ TEST_F(NewPlugin, OfAKindWithoutATemplateNamesTheKindsThatHaveOne) {
   EXPECT_FALSE(fs::exists(folder));
 }
 
+TEST_F(NewPlugin, SaysWhyItsFolderCannotBeMade) {
+  const auto result = run_command({armature(), "plugin", "new", "ik/mine", "-o", "/dev/null/mine"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.err, "armature: cannot make the folder '/dev/null/mine': Not a directory\n");
+}
+
 TEST_F(NewPlugin, RefusesAFolderThatIsNotEmpty) {
   ASSERT_EQ(write("ik/mine").exit_code, 0);
   const auto result = write("ik/mine");

@@ -27,6 +27,7 @@ namespace {
 
 std::atomic<int> g_signal{0};
 std::atomic<bool> g_json{false};
+std::atomic<pid_t> g_process{0};
 
 void on_signal(int signal) {
   g_signal = signal;
@@ -36,6 +37,8 @@ void on_signal(int signal) {
 /// Before the components run there is nothing to end in order, and constructing them (a landmark
 /// model is read) cannot be told to stop: the process ends at once.
 void end_before_start(int signal) {
+  // Ctrl-C reaches the fork in which a library is tried, too; it has nothing to say.
+  if (getpid() != g_process) _exit(kFailed);
   const auto write_out = [](int file, std::string_view text) {
     [[maybe_unused]] const auto written = ::write(file, text.data(), text.size());
   };
@@ -205,6 +208,7 @@ int run(const RunOptions& options) {
 
 int run_deployment(const RunOptions& options) {
   g_json = options.json;
+  g_process = getpid();
   try {
     return run(options);
   } catch (const std::exception& error) {

@@ -4,9 +4,15 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <istream>
+#include <cerrno>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
 #include <optional>
-#include <ostream>
+#include <stdexcept>
+#include <system_error>
 
 #include "armature/kinds/ik/lines/answering.hpp"
 #include "armature/robot/robot_model.hpp"
@@ -17,32 +23,56 @@
 namespace armature {
 namespace {
 
+/// What lines are read from.
+class Input {
+ public:
+  explicit Input(const std::string& file) : in_{file.empty() || file == "-" ? std::cin : file_} {
+    if (&in_ == &std::cin) return;
+    file_.open(file);
+    int error = errno;
+    std::error_code none;
+    if (std::filesystem::is_directory(file, none)) error = EISDIR;  // which could be opened
+    if (file_ && error != EISDIR) return;
+    throw InvalidChoice(fmt::format("cannot read '{}': {}", file, std::strerror(error)));
+  }
+  std::istream& stream() { return in_; }
+
+ private:
+  std::ifstream file_;
+  std::istream& in_;
+};
+
 /// One answer per line, whatever the line holds, each out before the next line is waited for. Empty
 /// lines are skipped.
-int answer_lines(std::istream& in, std::ostream& out, const auto& answer) {
+int answer_lines(std::istream& in, const auto& answer) {
   std::optional<Progress> progress;
   if (isatty(STDOUT_FILENO) == 0) progress.emplace("lines");  // else the answers show it
-  in.tie(&out);
+  in.tie(&std::cout);
   std::uint64_t answered = 0;
   for (std::string line; std::getline(in, line);) {
     if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
-    out << answer(line) << '\n';
-    if (!out) return kFailed;
-    if (progress) progress->count(++answered);
+    std::cout << answer(line) << '\n';
+    if (!std::cout) return kFailed;
+    ++answered;
+    if (progress) progress->count(answered);
   }
-  out.flush();
+  std::cout.flush();
+  if (in.bad()) throw std::runtime_error("the input cannot be read to its end");
   if (answered == 0) fmt::print(stderr, "armature: the input has no lines to answer\n");
   return kOk;
 }
 
 }  // namespace
 
-int run_fk(const ArmChoice& arm, std::istream& in, std::ostream& out) {
+int run_fk(const ArmChoice& arm, const std::string& input) {
+  Input lines{input};
   const RobotModel robot = load_arm(arm);
-  return answer_lines(in, out, [&](const std::string& line) { return answer_fk(robot, line); });
+  return answer_lines(lines.stream(),
+                      [&](const std::string& line) { return answer_fk(robot, line); });
 }
 
-int run_ik(const ArmChoice& arm, const SolverChoice& choice, std::istream& in, std::ostream& out) {
+int run_ik(const ArmChoice& arm, const SolverChoice& choice, const std::string& input) {
+  Input lines{input};
   const RobotModel robot = load_arm(arm);
   PluginRegistry plugins;
   const PluginManifest* plugin = plugins.find(choice.plugin);
@@ -54,8 +84,9 @@ int run_ik(const ArmChoice& arm, const SolverChoice& choice, std::istream& in, s
         fmt::format("{} refuses robot '{}': {}", choice.plugin, robot.name(), solver.error().text));
   }
   const JointVector home = resting_position(robot);
-  return answer_lines(
-      in, out, [&](const std::string& line) { return answer_ik(robot, **solver, home, line); });
+  return answer_lines(lines.stream(), [&](const std::string& line) {
+    return answer_ik(robot, **solver, home, line);
+  });
 }
 
 }  // namespace armature

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <iosfwd>
 #include <string>
 
 #include "arm_choice.hpp"
@@ -16,8 +15,9 @@ struct SolverChoice {
 
 /// `armature fk` and `armature ik`: JSON lines in, one JSON line out for each, in order. A bad line
 /// is answered with a reason and the next one goes on; memory stays bounded. They use the robot
-/// model and a solver plugin, nothing else: no DDS, no OpenCV.
-int run_fk(const ArmChoice& arm, std::istream& in, std::ostream& out);
-int run_ik(const ArmChoice& arm, const SolverChoice& solver, std::istream& in, std::ostream& out);
+/// model and a solver plugin, nothing else: no DDS, no OpenCV. `input` is a file; empty, or "-":
+/// standard input.
+int run_fk(const ArmChoice& arm, const std::string& input);
+int run_ik(const ArmChoice& arm, const SolverChoice& solver, const std::string& input);
 
 }  // namespace armature

@@ -21,9 +21,9 @@
 #include "armature/calibration/pivot.hpp"
 #include "armature/calibration/recorded_poses.hpp"
 #include "armature/config/document.hpp"
+#include "armature/runtime/write_atomically.hpp"
 #include "exit_code.hpp"
 #include "readable_json.hpp"
-#include "write_atomically.hpp"
 
 namespace armature {
 namespace {
@@ -90,29 +90,38 @@ Json head(const char* kind, const char* method, const CalibrationOptions& option
   throw std::runtime_error{fmt::format("{}: {}", options.poses, reason.text)};
 }
 
+/// The file to write; empty: the result goes to standard output.
+std::string file_of(const CalibrationOptions& options) {
+  return options.output == "-" ? "" : options.output;
+}
+
 /// `hint`: how a robot file takes it.
 int deliver(const Json& json, const CalibrationOptions& options, const std::string& hint) {
+  if (options.json && options.output == "-") {
+    throw InvalidChoice("--json and '-o -' both print on standard output; leave one out");
+  }
   const std::string yaml = fmt::format("# For a robot file: frames: {{{}}}\n{}", hint,
                                        config::to_yaml(to_node(json), false));
-  if (!options.output.empty()) {
+  const std::string file = file_of(options);
+  if (!file.empty()) {
     std::error_code none;
-    if (std::filesystem::equivalent(options.output, options.poses, none)) {
-      throw InvalidChoice(fmt::format("-o {}: that is the recording; give the result another name",
-                                      options.output));
+    if (std::filesystem::equivalent(file, options.poses, none)) {
+      throw InvalidChoice(
+          fmt::format("-o {}: that is the recording; give the result another name", file));
     }
-    write_atomically(options.output, yaml);
-    fmt::print(stderr, "{}: {} poses, {} mm rms remain\n", options.output, json["poses"].get<int>(),
+    write_atomically(file, yaml);
+    fmt::print(stderr, "{}: {} poses, {} mm rms remain\n", file, json["poses"].get<int>(),
                json["residual"]["rms_mm"].get<double>());
   }
   if (options.json) fmt::print("{}\n", readable(json));
-  if (options.output.empty() && !options.json) fmt::print("{}", yaml);
+  if (file.empty() && !options.json) fmt::print("{}", yaml);
   return kOk;
 }
 
 std::string calibrated(const std::string& frame, const std::string& parent,
                        const CalibrationOptions& options) {
   return fmt::format("{}: {{parent: {}, calibrated: {}}}", frame, parent,
-                     options.output.empty() ? "THIS FILE" : options.output);
+                     file_of(options).empty() ? "THIS FILE" : file_of(options));
 }
 
 /// Where the error is told: a stated point, or the middle of the recorded bodies.

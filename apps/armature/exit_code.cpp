@@ -4,7 +4,6 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <exception>
 #include <iostream>
 
 #include "armature/config/problems.hpp"
@@ -27,21 +26,21 @@ int printed(int code) {
 
 }  // namespace
 
+int exit_code_of(const std::exception& error) {
+  const bool wrong_file = dynamic_cast<const config::ConfigError*>(&error) != nullptr;
+  if (wrong_file || dynamic_cast<const InvalidChoice*>(&error)) return kInvalidConfig;
+  return dynamic_cast<const PluginError*>(&error) ? kUnusablePlugin : kFailed;
+}
+
 int exit_code_of(const std::function<int()>& action) {
   try {
     return printed(action());
-  } catch (const config::ConfigError& error) {
+  } catch (const config::ConfigError& error) {  // whose lines begin with their place
     std::fprintf(stderr, "%s\n", error.what());
-    return kInvalidConfig;
-  } catch (const InvalidChoice& error) {
-    std::fprintf(stderr, "armature: %s\n", error.what());
-    return kInvalidConfig;
-  } catch (const PluginError& error) {
-    std::fprintf(stderr, "armature: %s\n", error.what());
-    return kUnusablePlugin;
+    return exit_code_of(error);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "armature: %s\n", error.what());
-    return kFailed;
+    return exit_code_of(error);
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <exception>
 #include <functional>
 #include <stdexcept>
 
@@ -20,6 +21,8 @@ class InvalidChoice : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// What a command ends with that ended with `error`.
+int exit_code_of(const std::exception& error);
 /// What `action` ends with; an exception is told on standard error and has its own code.
 int exit_code_of(const std::function<int()>& action);
 

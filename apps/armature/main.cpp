@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The command line. The only file that includes CLI11.
 #include <CLI/CLI.hpp>
-#include <fstream>
 #include <functional>
 #include <iostream>
+#include <limits>
 
 #include "calculator.hpp"
 #include "calibrate.hpp"
@@ -119,13 +119,14 @@ void add_plugin_verbs(CLI::App& app, Action& action) {
 }
 
 void add_topic_verbs(CLI::App& app, Action& action) {
+  constexpr int kMostSamples = std::numeric_limits<int>::max();
   CLI::App* topic = app.add_subcommand("topic", "Watch a running deployment over DDS");
   topic->require_subcommand(1);
   auto options = std::make_shared<TopicOptions>();
   const auto add_common = [&](CLI::App* verb) {
     verb->add_option("--domain", options->domain, "DDS domain")->check(CLI::Range(0, 232));
     verb->add_option("--timeout", options->timeout_s, "give up after this many seconds")
-        ->check(wrong_number);
+        ->check(not_positive);
     verb->add_flag("--json", options->json, "as JSON");
   };
   CLI::App* list = topic->add_subcommand("list", "Topics, types, and how many write and read them");
@@ -134,24 +135,18 @@ void add_topic_verbs(CLI::App& app, Action& action) {
 
   CLI::App* echo = topic->add_subcommand("echo", "Print the samples of a topic");
   echo->add_option("topic", options->topic, "e.g. /dental_lamp/arm/measured_js")->required();
-  echo->add_option("-n,--count", options->count, "end after this many samples");
+  echo->add_option("-n,--count", options->count, "end after this many samples")
+      ->check(CLI::Range(1, kMostSamples));
   echo->add_flag("--full", options->full, "long byte arrays in full");
   add_common(echo);
   echo->callback([=, &action] { action = [=] { return echo_topic(*options); }; });
 
   CLI::App* hz = topic->add_subcommand("hz", "How often a topic is written");
   hz->add_option("topic", options->topic, "e.g. /dental_lamp/arm/measured_js")->required();
-  hz->add_option("-n,--count", options->count, "end after this many samples");
+  hz->add_option("-n,--count", options->count, "end after this many samples, at least 2")
+      ->check(CLI::Range(2, kMostSamples));
   add_common(hz);
   hz->callback([=, &action] { action = [=] { return topic_rate(*options); }; });
-}
-
-/// JSON lines come from a file or from standard input.
-int with_input(const std::string& file, const std::function<int(std::istream&)>& calculate) {
-  if (file.empty() || file == "-") return calculate(std::cin);
-  std::ifstream stream{file};
-  if (!stream) throw InvalidChoice("cannot read '" + file + "'");
-  return calculate(stream);
 }
 
 void add_calculators(CLI::App& app, Action& action) {
@@ -163,11 +158,7 @@ void add_calculators(CLI::App& app, Action& action) {
   add_arm(fk, *arm);
   fk->get_option("--robot")->required();
   fk->add_option("input", *input, "file of JSON lines (standard input)");
-  fk->callback([=, &action] {
-    action = [=] {
-      return with_input(*input, [&](std::istream& in) { return run_fk(*arm, in, std::cout); });
-    };
-  });
+  fk->callback([=, &action] { action = [=] { return run_fk(*arm, *input); }; });
 
   CLI::App* ik = app.add_subcommand("ik", "Inverse kinematics: JSON lines in, JSON lines out");
   add_arm(ik, *arm);
@@ -175,12 +166,7 @@ void add_calculators(CLI::App& app, Action& action) {
   ik->add_option("--plugin", solver->plugin, "solver")->capture_default_str();
   ik->add_option("--params", solver->params, "its parameters, a YAML map: '{max_restarts: 3}'");
   ik->add_option("input", *input, "file of JSON lines (standard input)");
-  ik->callback([=, &action] {
-    action = [=] {
-      return with_input(*input,
-                        [&](std::istream& in) { return run_ik(*arm, *solver, in, std::cout); });
-    };
-  });
+  ik->callback([=, &action] { action = [=] { return run_ik(*arm, *solver, *input); }; });
 }
 
 void add_bench_plan(CLI::App* bench, Action& action) {
@@ -233,8 +219,7 @@ void add_bench(CLI::App& app, Action& action) {
       ->check(CLI::Range(1, 1000));
   ik->add_option("--tolerance", options->tolerance, "of a residual, m and rad")
       ->capture_default_str()
-      ->check(wrong_number)
-      ->check(CLI::PositiveNumber);
+      ->check(not_positive);
   ik->add_option("--baseline", options->baseline,
                  "what the others are compared with (ik/kdl if it is among them, else the first)");
   ik->add_option("--out", options->out, "folder for solves.csv, cumulative.svg, summary.json");
@@ -253,7 +238,7 @@ void add_calibrations(CLI::App& app, Action& action) {
         ->required();
     add_arm(verb, options->arm);
     verb->get_option("--tip")->description("frame that is the flange (flange)");
-    verb->add_option("-o,--output", options->output, "YAML file to write (standard output)");
+    verb->add_option("-o,--output", options->output, "YAML file to write (-, standard output)");
     verb->add_option("--tracker", options->tracker, "name of its frame")->capture_default_str();
     verb->add_option("--body", options->body, "name of its frame")->capture_default_str();
     verb->add_flag("--json", options->json, "as JSON");

@@ -31,4 +31,10 @@ std::string wrong_number(const std::string& text) {
   return "must be a finite number, not '" + text + "'";
 }
 
+std::string not_positive(const std::string& text) {
+  double number = 0;
+  if (reads_as(text, number) && std::isfinite(number) && number > 0) return "";
+  return "must be a positive number, not '" + text + "'";
+}
+
 }  // namespace armature

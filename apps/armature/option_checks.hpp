@@ -12,5 +12,7 @@ namespace armature {
 std::string wrong_seed(const std::string& text);
 /// Not a finite number: NaN is within any range.
 std::string wrong_number(const std::string& text);
+/// Not a finite number above 0.
+std::string not_positive(const std::string& text);
 
 }  // namespace armature

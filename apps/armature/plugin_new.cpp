@@ -4,11 +4,12 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <fstream>
-#include <stdexcept>
 #include <string_view>
 
 #include "arm_choice.hpp"
+#include "armature/runtime/output_folder.hpp"
+#include "armature/runtime/plugin_registry.hpp"
+#include "armature/runtime/write_atomically.hpp"
 #include "exit_code.hpp"
 #include "plugins.hpp"
 
@@ -153,13 +154,6 @@ fs::path package_folder() {
                                                      : prefix / "lib" / "cmake" / "Armature";
 }
 
-void write(const fs::path& file, std::string text) {
-  std::ofstream stream{file};
-  stream << text;
-  stream.close();
-  if (!stream) throw std::runtime_error("cannot write " + file.string());
-}
-
 }  // namespace
 
 int new_plugin(const std::string& id, const fs::path& directory) {
@@ -180,10 +174,15 @@ int new_plugin(const std::string& id, const fs::path& directory) {
     throw InvalidChoice(
         fmt::format("'{}' must be 'ik/name', the name in lower case letters, digits and '_'", id));
   }
+  const PluginRegistry plugins;
+  if (const PluginManifest* there = plugins.find(id)) {
+    throw InvalidChoice(fmt::format("there is a plugin '{}' already, '{}'; choose another name", id,
+                                    there->file.string()));
+  }
   if (fs::exists(directory) && !fs::is_empty(directory)) {
     throw InvalidChoice(fmt::format("'{}' is there already and not empty", directory.string()));
   }
-  fs::create_directories(directory);
+  prepare_output_folder(directory);
   const auto fill = [&](std::string_view text) {
     std::string filled{text};
     replace_all(filled, "@ID@", id);
@@ -194,12 +193,12 @@ int new_plugin(const std::string& id, const fs::path& directory) {
     replace_all(filled, "@CONFIGS@", shipped_robot_folder().parent_path().string());
     return filled;
   };
-  write(directory / "CMakeLists.txt", fill(kCMake));
-  write(directory / "plugin.yaml", fill(kManifest));
-  write(directory / (name + ".cpp"), fill(kSource));
-  write(directory / (name + "_test.cpp"), fill(kTest));
+  write_atomically(directory / "CMakeLists.txt", fill(kCMake));
+  write_atomically(directory / "plugin.yaml", fill(kManifest));
+  write_atomically(directory / (name + ".cpp"), fill(kSource));
+  write_atomically(directory / (name + "_test.cpp"), fill(kTest));
   fs::copy_file(shipped_robot_folder() / "arm.urdf", directory / "arm.urdf");
-  write(directory / "README.md", fill(kReadme));
+  write_atomically(directory / "README.md", fill(kReadme));
   fmt::print("wrote {}: see {}\n", id, (directory / "README.md").string());
   return kOk;
 }

@@ -23,6 +23,7 @@ Json param_json(const ParamSpec& spec) {
   if (spec.min) json["min"] = *spec.min;
   if (spec.max) json["max"] = *spec.max;
   if (!spec.choices.empty()) json["choices"] = spec.choices;
+  if (!spec.same_as.empty()) json["same_as"] = spec.same_as;
   return json;
 }
 
@@ -72,6 +73,7 @@ std::string range_text(const ParamSpec& spec) {
   }
   if (spec.min) text += fmt::format(" >= {:g}", *spec.min);
   if (spec.max) text += fmt::format(" <= {:g}", *spec.max);
+  if (!spec.same_as.empty()) text += fmt::format(" (that of {})", spec.same_as);
   return text;
 }
 

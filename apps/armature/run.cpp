@@ -8,13 +8,17 @@
 #include <atomic>
 #include <csignal>
 #include <cstdio>
+#include <exception>
 #include <mutex>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <string_view>
 
 #include "armature/config/document.hpp"
 #include "armature/runtime/child_processes.hpp"
 #include "armature/runtime/deployment.hpp"
 #include "armature/runtime/instance_lock.hpp"
+#include "armature/runtime/output_folder.hpp"
 #include "armature/runtime/run_report.hpp"
 #include "exit_code.hpp"
 
@@ -22,6 +26,8 @@ namespace armature {
 namespace {
 
 std::atomic<int> g_signal{0};
+std::atomic<bool> g_json{false};
+std::atomic<pid_t> g_process{0};
 
 void on_signal(int signal) {
   g_signal = signal;
@@ -31,9 +37,21 @@ void on_signal(int signal) {
 /// Before the components run there is nothing to end in order, and constructing them (a landmark
 /// model is read) cannot be told to stop: the process ends at once.
 void end_before_start(int signal) {
-  const std::string_view text = signal == SIGINT ? "armature: interrupted before the start\n"
-                                                 : "armature: terminated before the start\n";
-  [[maybe_unused]] const auto written = ::write(STDERR_FILENO, text.data(), text.size());
+  // Ctrl-C reaches the fork in which a library is tried, too; it has nothing to say.
+  if (getpid() != g_process) _exit(kFailed);
+  const auto write_out = [](int file, std::string_view text) {
+    [[maybe_unused]] const auto written = ::write(file, text.data(), text.size());
+  };
+  const bool interrupted = signal == SIGINT;
+  if (g_json) {
+    write_out(STDOUT_FILENO,
+              interrupted ? R"({"status":"not_started","reason":"interrupted before the start"})"
+                            "\n"
+                          : R"({"status":"not_started","reason":"terminated before the start"})"
+                            "\n");
+  }
+  write_out(STDERR_FILENO, interrupted ? "armature: interrupted before the start\n"
+                                       : "armature: terminated before the start\n");
   _exit(kFailed);
 }
 
@@ -85,6 +103,37 @@ std::optional<std::string> run_to_end(Deployment& deployment, ChildProcesses& ch
   return lost;
 }
 
+/// As JSON, what there is to say of a run without figures.
+void print_ending(std::string_view status, const std::string& reason) {
+  nlohmann::ordered_json json{{"status", status}};
+  if (!reason.empty()) json["reason"] = reason;
+  // What is wrong may quote a file that is no UTF-8.
+  fmt::print("{}\n", json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+}
+
+/// Of a run that did not begin.
+std::string_view status_of(const std::exception& error) {
+  switch (exit_code_of(error)) {
+    case kInvalidConfig:
+      return "invalid_config";
+    case kUnusablePlugin:
+      return "unusable_plugin";
+    default:
+      return "not_started";
+  }
+}
+
+bool report_written(const RunReport& report, const Deployment& deployment,
+                    const std::filesystem::path& folder) {
+  try {
+    write_report(report, deployment, folder);
+    return true;
+  } catch (const std::runtime_error& error) {
+    fmt::print(stderr, "armature: {}\n", error.what());
+    return false;
+  }
+}
+
 int conclude(const RunOptions& options, const Deployment& deployment,
              const std::optional<std::string>& lost) {
   std::optional<std::string> stopped;
@@ -96,21 +145,24 @@ int conclude(const RunOptions& options, const Deployment& deployment,
     fmt::print("{}", to_table(report));
   }
   std::fflush(stdout);
-  if (options.report) write_report(report, deployment, *options.report);
   if (lost) fmt::print(stderr, "armature: {}\n", *lost);
   if (stopped) fmt::print(stderr, "armature: {}\n", *stopped);
+  if (options.report && !report_written(report, deployment, *options.report)) return kFailed;
   return report.status() == "ok" ? kOk : kFailed;
 }
 
-}  // namespace
+/// Of a process that does not judge the deployment's goals.
+int conclude_child(const RunOptions& options, const Deployment& deployment) {
+  const std::string fault = deployment.fault();
+  if (options.json) print_ending(fault.empty() ? "ok" : "fault", fault);
+  return fault.empty() ? kOk : kFailed;
+}
 
-int run_deployment(const RunOptions& options) {
+int run(const RunOptions& options) {
   const bool is_child = !options.process.empty();
-  if (!is_child) {  // another process of a deployment just ends: its main process tells
-    on_end_signals(end_before_start);
-  }
-  // A folder that cannot be written is told before the run, not after it.
-  if (options.report) std::filesystem::create_directories(*options.report);
+  // Another process of a deployment just ends: its main process tells, and asks it for no JSON.
+  if (!is_child || options.json) on_end_signals(end_before_start);
+  if (options.report) prepare_output_folder(*options.report);
   PluginRegistry plugins;
   config::Problems problems;
   DeploymentConfig config =
@@ -128,10 +180,7 @@ int run_deployment(const RunOptions& options) {
   std::optional<InstanceLock> lock;
   if (!is_child) {
     auto taken = InstanceLock::take(config.name, domain);
-    if (!taken) {
-      fmt::print(stderr, "armature: {}\n", taken.error().text);
-      return kFailed;
-    }
+    if (!taken) throw std::runtime_error{taken.error().text};
     lock.emplace(std::move(*taken));
   }
   Console console;
@@ -152,8 +201,20 @@ int run_deployment(const RunOptions& options) {
   console.start(deployment.clock());
   deployment.connect(plugins, domain);
   const auto lost = run_to_end(deployment, children);
-  if (is_child) return deployment.fault().empty() ? kOk : kFailed;
-  return conclude(options, deployment, lost);
+  return is_child ? conclude_child(options, deployment) : conclude(options, deployment, lost);
+}
+
+}  // namespace
+
+int run_deployment(const RunOptions& options) {
+  g_json = options.json;
+  g_process = getpid();
+  try {
+    return run(options);
+  } catch (const std::exception& error) {
+    if (options.json) print_ending(status_of(error), error.what());
+    throw;
+  }
 }
 
 }  // namespace armature

@@ -24,20 +24,22 @@ namespace armature {
 namespace {
 
 constexpr Duration kDiscovery = seconds(1.5);
+constexpr int kLeastForARate = 2;
 
 std::atomic<bool> g_interrupted{false};
 
 /// Ends a watch: enough samples, the time is over, or the operator wants it.
 class Finish {
  public:
-  explicit Finish(const TopicOptions& options) : options_{options} {
+  /// `least`: how many samples are of use when the options ask for no number.
+  Finish(const TopicOptions& options, std::uint64_t least) : options_{options}, least_{least} {
     std::signal(SIGINT, [](int) { g_interrupted = true; });
     std::signal(SIGTERM, [](int) { g_interrupted = true; });
   }
   /// Counts a sample; true when it was the last one wanted.
   bool count() { return ++seen_ == options_.count; }
   std::uint64_t seen() const { return seen_; }
-  /// kTimedOut when fewer samples than wanted came in the time given.
+  /// kTimedOut, and a line that says so, when fewer samples than wanted came in the time given.
   int wait(const std::function<void()>& every_second = [] {}) {
     const auto start = std::chrono::steady_clock::now();
     auto tick = start;
@@ -48,7 +50,7 @@ class Finish {
       }
       const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
       if (options_.timeout_s > 0 && elapsed.count() > options_.timeout_s) {
-        return options_.count > 0 || seen_ == 0 ? kTimedOut : kOk;
+        return options_.count > 0 || seen_ < least_ ? timed_out() : kOk;
       }
       std::this_thread::sleep_for(std::chrono::milliseconds{20});
     }
@@ -56,7 +58,17 @@ class Finish {
   }
 
  private:
+  int timed_out() const {
+    const std::uint64_t wanted = options_.count > 0 ? options_.count : least_;
+    const std::string came =
+        seen_ == 0 ? "no sample" : fmt::format("{} of {} samples", seen_.load(), wanted);
+    fmt::print(stderr, "armature: {} of '{}' came within {:g} s\n", came, options_.topic,
+               options_.timeout_s);
+    return kTimedOut;
+  }
+
   TopicOptions options_;
+  std::uint64_t least_;
   std::atomic<std::uint64_t> seen_{0};
 };
 
@@ -120,7 +132,7 @@ int list_topics(const TopicOptions& options) {
 
 int echo_topic(const TopicOptions& options) {
   PluginRegistry plugins;
-  Finish finish{options};
+  Finish finish{options, 1};
   auto observer = observe(plugins, options.domain);  // goes before what its callback uses
   watch(*observer, options, [&](const ObservedSample& sample) {
     if (options.count > 0 && finish.seen() >= options.count) return;
@@ -167,7 +179,7 @@ void print_rate(const Rate& rate, const char* over, bool json) {
 
 int topic_rate(const TopicOptions& options) {
   PluginRegistry plugins;
-  Finish finish{options};
+  Finish finish{options, kLeastForARate};
   std::mutex mutex;
   RateMeter meter;
   auto observer = observe(plugins, options.domain);  // goes before what its callback uses
@@ -182,7 +194,11 @@ int topic_rate(const TopicOptions& options) {
     if (meter.all().samples > 0) print_rate(meter.take_recent(), "second", options.json);
   });
   const std::scoped_lock lock{mutex};
-  if (meter.all().intervals == 0) throw std::runtime_error("fewer than two samples came");
+  if (meter.all().intervals == 0) {
+    if (code != kOk) return code;
+    throw std::runtime_error(
+        fmt::format("interrupted before two samples of '{}' came", options.topic));
+  }
   print_rate(meter.all(), "all", options.json);
   return code;
 }

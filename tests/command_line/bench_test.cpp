@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
+#include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "tests/command_line/lamp_robot.hpp"
@@ -68,26 +70,79 @@ TEST(BenchIk, WritesTheSolvesThePlotAndTheSummary) {
   fs::remove_all(folder);
 }
 
+class BenchIkFiles : public testing::Test {
+ protected:
+  BenchIkFiles() { fs::create_directories(folder_); }
+  ~BenchIkFiles() override { fs::remove_all(folder_); }
+
+  const fs::path folder_ =
+      fs::temp_directory_path() / ("armature-bench-files-" + std::to_string(getpid()));
+};
+
+TEST_F(BenchIkFiles, AFolderThatCannotBeMadeIsToldBeforeAnythingIsMeasured) {
+  const fs::path file = folder_ / "file";
+  std::ofstream{file} << "mine";
+  // So many goals take hours.
+  const auto result = run_command({armature(), "bench", "ik", "--robot", kLamp, "--poses",
+                                   "10000000", "--out", file / "bench"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.out, "");
+  EXPECT_EQ(result.err, "armature: cannot make the folder '" + (file / "bench").string() +
+                            "': Not a directory\n");
+}
+
+TEST_F(BenchIkFiles, TheTableIsPrintedAlsoWhenAFileCannotBeWritten) {
+  fs::create_directories(folder_ / "summary.json");
+  const auto result = bench({"--plugins", "ik/lamp_geometric", "--out", folder_});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.out, HasSubstr("200 goals of robot 'dental_lamp' (tool), seed 3"));
+  EXPECT_EQ(result.err, "armature: cannot write '" + (folder_ / "summary.json").string() +
+                            "': it is no regular file\n");
+}
+
 TEST(BenchIk, ListsASolverThatDoesNotServeTheRobotWithItsReason) {
-  const auto result = bench({"--plugins", "ik/lamp_geometric,ik/numeric", "--params",
-                             "{ik/numeric: {max_restarts: -1}}"});
+  const auto result = bench({"--plugins", "ik/lamp_geometric,ik/rrp_zyz,ik/process"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(result.out, ContainsRegex("ik/numeric +not served: "));
-  EXPECT_THAT(result.out, HasSubstr("max_restarts"));
+  EXPECT_THAT(result.out, ContainsRegex("ik/rrp_zyz +not served: "));
+  EXPECT_THAT(result.out,
+              ContainsRegex("ik/process +not served: missing key 'command' in params of"));
 }
 
 TEST(BenchIk, NamesWhatIsWrongOnTheCommandLine) {
   const auto unknown = bench({"--plugins", "ik/numerc"});
   EXPECT_EQ(unknown.exit_code, 3);
   EXPECT_THAT(unknown.err, HasSubstr("did you mean 'ik/numeric'"));
-  const auto params = bench({"--params", "{ik/numerc: {max_restarts: 3}}"});
-  EXPECT_EQ(params.exit_code, 3);
-  EXPECT_THAT(params.err, HasSubstr("--params:1:2: "));
-  EXPECT_THAT(params.err, HasSubstr("did you mean 'ik/numeric'"));
-  EXPECT_THAT(bench({"--params", "numeric"}).err, HasSubstr("must be a map from plugins"));
+  const auto other = bench({"--plugins", "trajectory/quintic"});
+  EXPECT_EQ(other.exit_code, 3);
+  EXPECT_EQ(other.err,
+            "armature: 'trajectory/quintic' is of kind 'trajectory', this is a bench of kind "
+            "'ik'\n");
   const auto baseline = bench({"--plugins", "ik/lamp_geometric", "--baseline", "ik/numeric"});
   EXPECT_EQ(baseline.exit_code, 3);
   EXPECT_THAT(baseline.err, HasSubstr("the baseline 'ik/numeric' is not one of the solvers"));
+}
+
+TEST(BenchIk, ReadsParametersAsStrictlyAsADeployment) {
+  const auto refusal = [](const std::string& params) {
+    const auto result = bench({"--plugins", "ik/lamp_geometric,ik/numeric", "--params", params});
+    EXPECT_EQ(result.exit_code, 3) << params;
+    EXPECT_EQ(result.out, "") << params;
+    return result.err;
+  };
+  EXPECT_EQ(refusal("{ik/numeric: {max_restarts: -1, candidates: many}}"),
+            "--params:1:29: 'max_restarts' is -1, must be at least 0\n"
+            "--params:1:45: 'candidates' must be a whole number, not 'many'\n");
+  EXPECT_EQ(refusal("{ik/numeric: {max_restart: 3}}"),
+            "--params:1:15: unknown key 'max_restart' in params of 'ik/numeric'; did you mean "
+            "'max_restarts'?\n");
+  EXPECT_EQ(refusal("{ik/numerc: {max_restarts: 3}}"),
+            "--params:1:2: 'ik/numerc' is not measured here; did you mean 'ik/numeric'?\n");
+  EXPECT_EQ(refusal("{ik/kdl: {method: lma}}"),
+            "--params:1:2: 'ik/kdl' is not measured here; known: ik/lamp_geometric, ik/numeric\n");
+  EXPECT_EQ(refusal("{ik/lamp_geometric: [1]}"),
+            "--params:1:21: params of 'ik/lamp_geometric' must be a map, not a list\n");
+  EXPECT_EQ(refusal("numeric"), "--params:1:1: must be a map from plugins to their parameters\n");
+  EXPECT_THAT(refusal("{ik/numeric: {max_restarts: 3}"), HasSubstr("--params:1:"));
 }
 
 TEST(BenchIk, ASeedOrAToleranceThatIsNoneIsRefused) {
@@ -98,8 +153,10 @@ TEST(BenchIk, ASeedOrAToleranceThatIsNoneIsRefused) {
                                       "18446744073709551615, not '" +
                                       seed + "'"));
   }
-  EXPECT_THAT(bench({"--tolerance", "nan"}).err,
-              HasSubstr("--tolerance: must be a finite number, not 'nan'"));
+  for (const std::string tolerance : {"nan", "0", "-1", "inf", "1e-6 m"}) {
+    EXPECT_THAT(bench({"--tolerance=" + tolerance}).err,
+                HasSubstr("--tolerance: must be a positive number, not '" + tolerance + "'"));
+  }
 }
 
 }  // namespace

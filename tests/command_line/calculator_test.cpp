@@ -206,6 +206,33 @@ TEST(Calculator, SaysWhichLinkIsMissingAndWhatABaseIsFor) {
                 "' stands is written in it\n");
 }
 
+TEST(Calculator, RefusesAnInputThatHasNoLines) {
+  const auto asked = [](const std::string& input) {
+    return run_command({armature(), "ik", "--robot", kLamp, input});
+  };
+  const CommandResult folder = asked("/tmp"), gone = asked("/tmp/gone.jsonl"),
+                      nothing = asked("/dev/null");
+  EXPECT_EQ(folder.exit_code, 3);
+  EXPECT_EQ(folder.err, "armature: cannot read '/tmp': Is a directory\n");
+  EXPECT_EQ(gone.exit_code, 3);
+  EXPECT_EQ(gone.err, "armature: cannot read '/tmp/gone.jsonl': No such file or directory\n");
+  EXPECT_EQ(nothing.exit_code, 0) << "nothing was asked, and nothing answered";
+  EXPECT_EQ(nothing.err, "armature: the input has no lines to answer\n");
+  const auto piped =
+      run_command({"/bin/sh", "-c", armature() + " fk --robot " + kLamp + " < /tmp"});
+  EXPECT_EQ(piped.exit_code, 1);
+  EXPECT_EQ(piped.err, "armature: the input cannot be read to its end\n");
+}
+
+TEST(IkCalculator, RefusesAQuaternionOrADirectionThatIsNoUnit) {
+  const auto reason = [](const std::string& orientation) {
+    return ik("{\"position_m\":[1.3,0.321,0.504]," + orientation + "}\n")[0]["reason"];
+  };
+  EXPECT_EQ(reason(R"("quaternion_xyzw":[0,0,0,2])"), "the goal's quaternion has length 2, not 1");
+  EXPECT_EQ(reason(R"("direction":[0,-3,4])"), "the goal's direction has length 5, not 1");
+  EXPECT_EQ(reason(R"("direction":[0,0,0])"), "the goal's direction has length 0, not 1");
+}
+
 TEST(Calculator, LoadsNeitherDdsNorOpenCvNorDlib) {
   const auto result =
       run_command({armature(), "ik", "--robot", kLamp, "--plugin", "ik/lamp_geometric"},

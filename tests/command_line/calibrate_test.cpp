@@ -317,6 +317,16 @@ TEST_F(Calibrate, NeverWritesOverTheRecording) {
   EXPECT_EQ(text_of(poses), text_of(kTool));
 }
 
+TEST_F(Calibrate, ADashIsStandardOutputAndNoFile) {
+  const CommandResult dash = calibrate({"tool", kTool, "-o", "-"});
+  EXPECT_EQ(dash.exit_code, 0) << dash.err;
+  EXPECT_EQ(dash.out.substr(0, 66),
+            "# For a robot file: frames: {tool: {parent: body, calibrated: THIS");
+  EXPECT_FALSE(fs::exists("-"));
+  EXPECT_EQ(refusal({"tool", kTool, "-o", "-", "--json"}, 3),
+            "armature: --json and '-o -' both print on standard output; leave one out\n");
+}
+
 TEST_F(Calibrate, WhatCannotBePrintedWasNotDone) {
   const CommandResult result =
       run_command({"/bin/sh", "-c", armature() + " calibrate tool " + kTool + " > /dev/full"});

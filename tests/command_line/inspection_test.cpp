@@ -78,6 +78,7 @@ TEST(PluginInfo, ShowsWhatAPluginNeedsOffersAndMeasures) {
               testing::HasSubstr("needs:\n  time_law                   Each of the moves lasts "
                                  "segment_s (unless 'segment_s' is 0)\n"));
   EXPECT_THAT(info("trajectory/quintic"), testing::HasSubstr("offers:\n  time_law   "));
+  EXPECT_THAT(info("report/implant"), testing::HasSubstr(" (that of task/implant)\n"));
   EXPECT_THAT(info("report/lamp_alignment"), testing::HasSubstr("measures:\n  time_to_find_s   "));
 
   const auto result =

@@ -87,5 +87,11 @@ TEST(BenchPlanChoices, APlannerThatIsNotThereIsNamed) {
   EXPECT_THAT(unknown.err, testing::HasSubstr("did you mean 'trajectory/quintic'"));
 }
 
+TEST(BenchPlanChoices, AParameterThatIsNoneIsNamedWithItsPlace) {
+  const auto result = bench_plan({"--params", "{trajectory/cubic_spline: {optimum_tries: few}}"});
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_EQ(result.err, "--params:1:43: 'optimum_tries' must be a whole number, not 'few'\n");
+}
+
 }  // namespace
 }  // namespace armature::test

@@ -77,6 +77,15 @@ TEST_F(NewPlugin, RefusesANameThatIsNoName) {
       "'_'\n");
 }
 
+TEST_F(NewPlugin, RefusesAnIdThatIsTakenAndTellsByWhat) {
+  const auto result = write("ik/kdl");
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_TRUE(result.err.starts_with("armature: there is a plugin 'ik/kdl' already, '"))
+      << result.err;
+  EXPECT_TRUE(result.err.ends_with("/ik_kdl.so'; choose another name\n")) << result.err;
+  EXPECT_FALSE(fs::exists(folder));
+}
+
 TEST_F(NewPlugin, OfAKindWithoutATemplateNamesTheKindsThatHaveOne) {
   const auto result = write("path/mine");
   EXPECT_EQ(result.exit_code, 3);
@@ -84,6 +93,12 @@ TEST_F(NewPlugin, OfAKindWithoutATemplateNamesTheKindsThatHaveOne) {
             "armature: there is no template for a plugin of kind 'path', only for 'ik'; begin with "
             "a copy of a plugin of that kind, see plugins/ in the sources\n");
   EXPECT_FALSE(fs::exists(folder));
+}
+
+TEST_F(NewPlugin, SaysWhyItsFolderCannotBeMade) {
+  const auto result = run_command({armature(), "plugin", "new", "ik/mine", "-o", "/dev/null/mine"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.err, "armature: cannot make the folder '/dev/null/mine': Not a directory\n");
 }
 
 TEST_F(NewPlugin, RefusesAFolderThatIsNotEmpty) {

@@ -128,6 +128,28 @@ TEST_F(DeploymentTest, AMetricThatItsPluginDoesNotDeclareIsAFaultThatNamesIt) {
           "not declare under 'measures:'"}));
 }
 
+TEST_F(DeploymentTest, AParameterThatMustBeAnothersIsTakenFromItOrTheSame) {
+  const auto beats_of_ear = [&](const std::string& components) {
+    try {
+      const auto config = read("armature: 1\nname: pulse\ncomponents:\n" + components);
+      return std::to_string(config.components.back().params.integer("beats"));
+    } catch (const config::ConfigError& error) {
+      return std::string{error.what()};
+    }
+  };
+  const std::string beat = "  beat: {plugin: test/beat, params: {beats: 3}}\n";
+  EXPECT_EQ(beats_of_ear(beat + "  ear: {plugin: test/ear}\n"), "3");
+  EXPECT_EQ(beats_of_ear(beat + "  ear: {plugin: test/ear, params: {beats: 3}}\n"), "3");
+  EXPECT_EQ(beats_of_ear("  beat: {plugin: test/beat}\n"
+                         "  ear: {plugin: test/ear, params: {beats: 3}}\n"),
+            "test.yaml:5:43: 'beats' of component 'ear' must be the same as that of component "
+            "'beat', and is not; leave one of them out, or make them equal");
+  EXPECT_EQ(beats_of_ear(beat + "  late: {plugin: test/beat, topics: late, params: {beats: 4}}\n"
+                                "  ear: {plugin: test/ear}\n"),
+            "test.yaml:4:45: 'beats' of component 'ear' must be the same as that of component "
+            "'late', and is not; leave one of them out, or make them equal");
+}
+
 TEST_F(DeploymentTest, AnExecutorIsReadWithItsPeriodPriorityAndCpu) {
   const auto config = read(
       "armature: 1\nname: pulse\nexecutors: {control: {period_s: 0.002, priority: 20, cpu: 0}}\n"

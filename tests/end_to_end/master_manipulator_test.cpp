@@ -13,7 +13,8 @@ DeploymentRun teleoperation(std::vector<std::string> settings = {}) {
       {.files = {source_file("configs/master_manipulator.yaml")}, .settings = std::move(settings)});
 }
 
-const std::string kSurgeon = "components.surgeon.params.", kTask = "components.task.params.";
+const std::string kSurgeon = "components.surgeon.params.", kTask = "components.task.params.",
+                  kReport = "components.report.params.";
 
 void expect_teleoperated(const DeploymentRun& run) {
   SCOPED_TRACE(run.text());
@@ -61,6 +62,16 @@ TEST(MasterManipulator, AnyHandsTremorIsTakenOut) {
     SCOPED_TRACE(seed);
     expect_teleoperated(teleoperation({seed}));
   }
+}
+
+TEST(MasterManipulator, TheSlaveIsJudgedByTheScaleThatItWasGiven) {
+  expect_teleoperated(teleoperation({kTask + "scale=0.25"}));
+  const DeploymentRun two = teleoperation({kTask + "scale=0.25", kReport + "scale=0.5"});
+  EXPECT_EQ(two.command.exit_code, 3);
+  EXPECT_NE(two.command.err.find("'scale' of component 'report' must be the same as that of "
+                                 "component 'task'"),
+            std::string::npos)
+      << two.text();
 }
 
 TEST(MasterManipulator, OfAHandThatIsTooFastTheSlaveKeepsItsTopSpeed) {

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <filesystem>
 #include <fstream>
 
 #include "deployment_run.hpp"
@@ -38,7 +39,7 @@ TEST(ProcessLife, AnInterruptedRunEndsAtOnceAndSaysSo) {
   EXPECT_FALSE(result.timed_out) << result.err;
   EXPECT_EQ(result.exit_code, 1) << result.err;
   EXPECT_THAT(result.err, HasSubstr("armature: interrupted"));
-  EXPECT_THAT(result.out, HasSubstr(R"("status":"goals_missed")"));
+  EXPECT_THAT(result.out, HasSubstr(R"("status":"goals_missed","reason":)"));
 }
 
 TEST(ProcessLife, ARunThatIsInterruptedBeforeItStartsEndsAtOnce) {
@@ -46,7 +47,7 @@ TEST(ProcessLife, ARunThatIsInterruptedBeforeItStartsEndsAtOnce) {
                     ("armature-slow-start-" + std::to_string(getpid()) + ".yaml");
   std::ofstream{file} << "armature: 1\nname: slow_start\ncomponents:\n"
                          "  beat: {plugin: test/beat, params: {construction_s: 100}}\n";
-  Command run{{armature(), "run", file, "--domain", std::to_string(unique_dds_domain())},
+  Command run{{armature(), "run", file, "--json", "--domain", std::to_string(unique_dds_domain())},
               {.environment = {{"ARMATURE_PLUGIN_PATH", TEST_PLUGINS}}, .input = {}}};
   ASSERT_TRUE(run.wait_for_err("being constructed", kStartsWithin)) << run.err();
   run.signal(SIGINT);
@@ -55,6 +56,8 @@ TEST(ProcessLife, ARunThatIsInterruptedBeforeItStartsEndsAtOnce) {
   EXPECT_FALSE(result.timed_out) << result.err;
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.err, HasSubstr("armature: interrupted before the start\n"));
+  EXPECT_EQ(result.out,
+            "{\"status\":\"not_started\",\"reason\":\"interrupted before the start\"}\n");
 }
 
 TEST(ProcessLife, AKilledRunTakesItsOtherProcessAlongAndTheNextOneWorksAndEndsClean) {
@@ -98,10 +101,11 @@ TEST(ProcessLife, ASecondStartNamesTheFirst) {
   const CommandResult second = run_command(deployment_command(endless(domain)), {}, seconds{3});
   EXPECT_FALSE(second.timed_out);
   EXPECT_EQ(second.exit_code, 1);
-  EXPECT_EQ(second.out, "");
-  EXPECT_EQ(second.err, "armature: deployment 'dental_lamp' already runs as pid " +
-                            std::to_string(lamp.pid()) + " on domain " + std::to_string(domain) +
-                            "; stop it, or use another domain with --domain\n");
+  const std::string reason = "deployment 'dental_lamp' already runs as pid " +
+                             std::to_string(lamp.pid()) + " on domain " + std::to_string(domain) +
+                             "; stop it, or use another domain with --domain";
+  EXPECT_EQ(second.out, R"({"status":"not_started","reason":")" + reason + "\"}\n");
+  EXPECT_EQ(second.err, "armature: " + reason + "\n");
 }
 
 TEST(ProcessLife, WithoutRoomInSharedMemoryItSaysSoAndWorksOverUdp) {

@@ -132,6 +132,31 @@ TEST_F(Watched, TopicHzPrintsALineEverySecondAndOneInAll) {
   EXPECT_GE(lines.back()["samples"], sum);
 }
 
+TEST_F(Watched, WhatDidNotComeInTimeIsSaid) {
+  // Its answers have a writer, and nobody asks.
+  const Command run = start("arm_watched.yaml", {"--set", "components.path.plugin=path/joint_move",
+                                                 "--set", "clock=system"});
+  wait_for_frames();
+  const std::string silent = "/watched/path/response";
+  for (const std::string verb : {"echo", "hz"}) {
+    const auto result = run_command(topic({verb, silent, "--timeout", "3"}));
+    EXPECT_EQ(result.exit_code, 5) << verb;
+    EXPECT_EQ(result.out, "") << verb;
+    EXPECT_EQ(result.err, "armature: no sample of '" + silent + "' came within 3 s\n");
+  }
+  // Latched, and written once.
+  const auto once = run_command(topic({"echo", "/tf_static", "-n", "2", "--timeout", "3"}));
+  EXPECT_EQ(once.exit_code, 5);
+  EXPECT_EQ(once.err, "armature: 1 of 2 samples of '/tf_static' came within 3 s\n");
+}
+
+TEST(TopicHz, RefusesANumberOfSamplesThatHasNoRate) {
+  const auto result = run_command({armature(), "topic", "hz", "/tf", "-n", "1"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err.find("--count: Value 1 not in range 2 to "), std::string::npos)
+      << result.err;
+}
+
 TEST_F(Watched, TopicEchoOfATopicThatNobodyWritesNamesItAsRosDoes) {
   const auto result = run_command(topic({"echo", "/lamp/trget", "--timeout", "0.5"}));
   EXPECT_EQ(result.exit_code, 1);

@@ -2,7 +2,9 @@
 // A crashing, a hanging, a foreign and an outdated library in the plugin path: each gives a clear
 // message, and stops nothing else.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
@@ -28,13 +30,34 @@ TEST(FaultyLibrary, OneThatCrashesIsNamedAndTheProgramLives) {
                         "/crashing.so: it crashes when it is loaded (Aborted)\n");
 }
 
-TEST(FaultyLibrary, OneThatHangsWhileItIsTriedGoesWithTheProgram) {
-  Command ik{{armature(), "ik", "--robot", kLamp, "--plugin", "ik/hanging"}, kFaultyPath};
+/// The process in which a library is tried.
+pid_t trial_of(const Command& command) {
   pid_t trial = 0;
   for (int i = 0; i < 3000 && trial == 0; ++i) {
-    trial = ik.child();
+    trial = command.child();
     std::this_thread::sleep_for(std::chrono::milliseconds{10});
   }
+  return trial;
+}
+
+TEST(FaultyLibrary, OneThatIsTriedWhenTheRunIsInterruptedSaysNothing) {
+  const auto deployment = std::filesystem::temp_directory_path() /
+                          ("armature-hanging-" + std::to_string(getpid()) + ".yaml");
+  std::ofstream{deployment} << "armature: 1\nname: hanging\nrobots: {arm: " << kLamp
+                            << "}\ncomponents: {ik: {plugin: ik/hanging}}\n";
+  Command run{{armature(), "run", deployment, "--json"}, kFaultyPath};
+  const pid_t trial = trial_of(run);
+  ASSERT_GT(trial, 0) << run.err();
+  kill(trial, SIGINT);  // as Ctrl-C does
+  run.signal(SIGINT);
+  const CommandResult result = run.finish(std::chrono::seconds{10});
+  std::filesystem::remove(deployment);
+  EXPECT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), 1) << result.out;
+}
+
+TEST(FaultyLibrary, OneThatHangsWhileItIsTriedGoesWithTheProgram) {
+  Command ik{{armature(), "ik", "--robot", kLamp, "--plugin", "ik/hanging"}, kFaultyPath};
+  const pid_t trial = trial_of(ik);
   ASSERT_GT(trial, 0);
   ik.signal(SIGKILL);
   ik.finish(std::chrono::seconds{10});

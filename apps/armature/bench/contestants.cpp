@@ -1,44 +1,77 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/contestants.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "armature/config/document.hpp"
 #include "armature/config/problems.hpp"
+#include "exit_code.hpp"
 
 namespace armature::bench {
+namespace {
 
-std::vector<std::string> plugins_of(const PluginRegistry& registry, std::string_view kind,
-                                    const std::vector<std::string>& chosen) {
-  if (!chosen.empty()) return chosen;
-  std::vector<std::string> ids;
-  for (const PluginManifest& plugin : registry.plugins()) {
-    if (plugin.kind == kind) ids.push_back(plugin.id);
+std::vector<const PluginManifest*> chosen_plugins(const PluginRegistry& registry,
+                                                  std::string_view kind,
+                                                  const std::vector<std::string>& chosen) {
+  std::vector<const PluginManifest*> plugins;
+  for (const std::string& id : chosen) {
+    const PluginManifest* plugin = registry.find(id);
+    if (!plugin) throw InvalidChoice(registry.unknown_text(id));
+    if (plugin->kind != kind) {
+      throw InvalidChoice(fmt::format("'{}' is of kind '{}', this is a bench of kind '{}'", id,
+                                      plugin->kind, kind));
+    }
+    plugins.push_back(plugin);
   }
-  return ids;
+  if (!chosen.empty()) return plugins;
+  for (const PluginManifest& plugin : registry.plugins()) {
+    if (plugin.kind == kind) plugins.push_back(&plugin);
+  }
+  return plugins;
 }
 
-config::Node params_by_plugin(const std::string& text, const PluginRegistry& registry) {
+/// A map from the ids of `plugins`, or null: nothing is given.
+config::Node read_map(const std::string& text, const std::vector<const PluginManifest*>& plugins,
+                      config::Problems& problems) {
   config::Node all = config::parse_text(text, "--params");
-  if (all.kind() == config::Node::Kind::null) return all;
-  config::Problems problems;
+  if (all.kind() == config::Node::Kind::null && all.text().empty()) return all;
   if (all.kind() != config::Node::Kind::map) {
     problems.add(all.origin(), "must be a map from plugins to their parameters");
-  } else {
-    for (const auto& entry : all.entries()) {
-      if (!registry.find(entry.key)) {
-        problems.add(entry.key_origin, registry.unknown_text(entry.key));
-      }
-    }
   }
-  problems.throw_if_any();
+  std::vector<std::string> ids;
+  for (const PluginManifest* plugin : plugins) ids.push_back(plugin->id);
+  for (const auto& entry : all.entries()) {
+    if (std::ranges::find(ids, entry.key) != ids.end()) continue;
+    problems.add(entry.key_origin,
+                 fmt::format("{} is not measured here{}", config::in_quotes(entry.key),
+                             config::did_you_mean(entry.key, ids)));
+  }
   return all;
 }
 
-Params params_for(const PluginManifest& plugin, const config::Node& all) {
+}  // namespace
+
+std::vector<Contestant> contestants(const PluginRegistry& registry, std::string_view kind,
+                                    const std::vector<std::string>& chosen,
+                                    const std::string& params) {
+  const auto plugins = chosen_plugins(registry, kind, chosen);
   config::Problems problems;
-  const bool none = all.kind() == config::Node::Kind::null;
-  const config::Node* own = none ? nullptr : all.find(plugin.id);
-  Params params = Params::read(plugin.params, own, plugin.id, problems);
+  const config::Node all = read_map(params, plugins, problems);
+  std::vector<Contestant> contestants;
+  for (const PluginManifest* plugin : plugins) {
+    const config::Node* own = all.find(plugin->id);
+    config::Problems missing;
+    Contestant contestant{.plugin = plugin, .params = {}, .lacks = {}};
+    contestant.params = Params::read(plugin->params, own, plugin->id, own ? problems : missing);
+    for (const config::Problem& problem : missing.sorted()) {
+      contestant.lacks += (contestant.lacks.empty() ? "" : "; ") + problem.message;
+    }
+    contestants.push_back(std::move(contestant));
+  }
   problems.throw_if_any();
-  return params;
+  return contestants;
 }
 
 }  // namespace armature::bench

@@ -5,22 +5,23 @@
 #include <string_view>
 #include <vector>
 
-#include "armature/config/document.hpp"
 #include "armature/config/params.hpp"
 #include "armature/runtime/plugin_registry.hpp"
 
 namespace armature::bench {
 
-/// The chosen plugins, or when none is chosen every one of the kind.
-std::vector<std::string> plugins_of(const PluginRegistry& registry, std::string_view kind,
-                                    const std::vector<std::string>& chosen);
+/// A plugin that takes part in a bench, with its parameters.
+struct Contestant {
+  const PluginManifest* plugin = nullptr;
+  Params params;
+  std::string lacks;  // which of them it cannot do without and nobody gave; empty: none
+};
 
-/// A map from plugins to their parameters, from YAML text. Throws config::ConfigError, and
-/// InvalidChoice for a plugin that is not there.
-config::Node params_by_plugin(const std::string& text, const PluginRegistry& registry);
-
-/// The parameters that `all` (a map from plugin to parameters) gives to `plugin`. Throws
-/// config::ConfigError.
-Params params_for(const PluginManifest& plugin, const config::Node& all);
+/// The chosen plugins, or when none is chosen every one of the kind; `params` is YAML text, a map
+/// from their ids to parameters. Throws InvalidChoice for a plugin that is not there or of another
+/// kind, config::ConfigError for everything that is wrong in `params`.
+std::vector<Contestant> contestants(const PluginRegistry& registry, std::string_view kind,
+                                    const std::vector<std::string>& chosen,
+                                    const std::string& params);
 
 }  // namespace armature::bench

@@ -4,13 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "armature/config/document.hpp"
-#include "armature/config/problems.hpp"
 #include "armature/kinds/ik/verify/plugin_subject.hpp"
+#include "armature/runtime/output_folder.hpp"
+#include "armature/runtime/write_atomically.hpp"
 #include "bench/contestants.hpp"
 #include "exit_code.hpp"
 #include "ik_bench/report.hpp"
@@ -22,24 +22,22 @@ namespace {
 using bench::Report;
 using bench::Runner;
 
-/// The solvers that serve the robot; the others go to the report. A plugin that was named but is
-/// not there is an error; one whose parameters are missing does not serve.
+/// The solvers that serve the robot; the others go to the report.
 std::vector<Runner> runners_of(const BenchOptions& options, PluginRegistry& registry,
                                const std::shared_ptr<const RobotModel>& model, Report& report) {
-  const config::Node params = bench::params_by_plugin(options.params, registry);
   std::vector<Runner> runners;
-  for (const std::string& id : bench::plugins_of(registry, IkSolver::kKind, options.plugins)) {
-    const PluginManifest* plugin = registry.find(id);
-    if (!plugin) throw InvalidChoice(registry.unknown_text(id));
-    try {
-      auto subject = plugin_subject(registry, *plugin, model, bench::params_for(*plugin, params));
-      if (subject) {
-        runners.push_back({id, subject->solver});
-      } else {
-        report.refused.push_back({id, subject.error().text});
-      }
-    } catch (const config::ConfigError& error) {
-      report.refused.push_back({id, error.what()});
+  for (const bench::Contestant& one :
+       bench::contestants(registry, IkSolver::kKind, options.plugins, options.params)) {
+    const std::string& id = one.plugin->id;
+    if (!one.lacks.empty()) {
+      report.refused.push_back({id, one.lacks});
+      continue;
+    }
+    const auto subject = plugin_subject(registry, *one.plugin, model, one.params);
+    if (subject) {
+      runners.push_back({id, subject->solver});
+    } else {
+      report.refused.push_back({id, subject.error().text});
     }
   }
   return runners;
@@ -58,18 +56,15 @@ std::string baseline_of(const BenchOptions& options, const std::vector<Runner>& 
 
 void write_files(const std::filesystem::path& folder, const Report& report,
                  const std::vector<bench::Series>& series) {
-  std::filesystem::create_directories(folder);
-  bench::write_csv(folder / "solves.csv", series);
-  bench::write_plot(folder / "cumulative.svg", report, series);
-  std::ofstream summary{folder / "summary.json"};
-  summary << to_json(report).dump(2) << '\n';
-  summary.close();
-  if (!summary) throw std::runtime_error("cannot write " + (folder / "summary.json").string());
+  write_atomically(folder / "solves.csv", bench::csv_of(series));
+  write_atomically(folder / "cumulative.svg", bench::plot_of(report, series));
+  write_atomically(folder / "summary.json", to_json(report).dump(2) + '\n');
 }
 
 }  // namespace
 
 int bench_ik(const BenchOptions& options) {
+  if (!options.out.empty()) prepare_output_folder(options.out);
   const auto model = std::make_shared<const RobotModel>(load_arm(options.arm));
   PluginRegistry registry;
   Report report;
@@ -95,8 +90,9 @@ int bench_ik(const BenchOptions& options) {
     series = bench::measure(*model, runners, poses, how);
     report.rows = bench::rows_of(series, report.baseline, options.seed);
   }
-  if (!options.out.empty() && !series.empty()) write_files(options.out, report, series);
   fmt::print("{}", options.json ? to_json(report).dump() + "\n" : table(report));
+  std::fflush(stdout);  // also when the files cannot be written
+  if (!options.out.empty() && !series.empty()) write_files(options.out, report, series);
   if (runners.empty()) fmt::print(stderr, "armature: no solver serves this robot\n");
   return runners.empty() ? kFailed : kOk;
 }

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
-#include <stdexcept>
 
 #include "ik_bench/report.hpp"
 
@@ -84,8 +82,7 @@ std::string legend_of(const Series& series, const std::string& colour, int row) 
 
 }  // namespace
 
-void write_plot(const std::filesystem::path& file, const Report& report,
-                const std::vector<Series>& series) {
+std::string plot_of(const Report& report, const std::vector<Series>& series) {
   const TimeAxis axis = axis_of(series);
   std::string svg = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" "
@@ -110,10 +107,7 @@ void write_plot(const std::filesystem::path& file, const Report& report,
     svg += line_of(series[i], axis, colour);
     svg += legend_of(series[i], colour, static_cast<int>(i));
   }
-  std::ofstream out{file};
-  out << svg << "</svg>\n";
-  out.close();
-  if (!out) throw std::runtime_error("cannot write " + file.string());
+  return svg + "</svg>\n";
 }
 
 }  // namespace armature::bench

@@ -4,9 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 
 namespace armature::bench {
 namespace {
@@ -99,19 +97,18 @@ nlohmann::ordered_json to_json(const Report& report) {
   return json;
 }
 
-void write_csv(const std::filesystem::path& file, const std::vector<Series>& series) {
-  std::ofstream out{file};
-  out << "pose,plugin,seeds,seconds,reached,wrong,residual_m,residual_rad,branches,allocations\n";
+std::string csv_of(const std::vector<Series>& series) {
+  std::string csv =
+      "pose,plugin,seeds,seconds,reached,wrong,residual_m,residual_rad,branches,allocations\n";
   for (const Series& one : series) {
     for (std::size_t i = 0; i < one.solves.size(); ++i) {
       const Solve& solve = one.solves[i];
-      out << fmt::format("{},{},{},{:.4g},{:d},{:d},{:.4g},{:.4g},{},{}\n", i, one.plugin,
+      csv += fmt::format("{},{},{},{:.4g},{:d},{:d},{:.4g},{:.4g},{},{}\n", i, one.plugin,
                          to_string(one.seeds), solve.seconds, solve.reached, solve.wrong,
                          solve.position_m, solve.angle_rad, solve.branches, solve.allocations);
     }
   }
-  out.close();
-  if (!out) throw std::runtime_error("cannot write " + file.string());
+  return csv;
 }
 
 }  // namespace armature::bench

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -50,10 +49,9 @@ std::string table(const Report& report);
 nlohmann::ordered_json to_json(const Report& report);
 
 /// One line per solve: pose, plugin, seeds, seconds, reached, residuals, branches, allocations.
-void write_csv(const std::filesystem::path& file, const std::vector<Series>& series);
+std::string csv_of(const std::vector<Series>& series);
 
-/// Which part of the solves took how long: log x, one line per series, near seeds dashed.
-void write_plot(const std::filesystem::path& file, const Report& report,
-                const std::vector<Series>& series);
+/// Which part of the solves took how long, as SVG: log x, one line per series, near seeds dashed.
+std::string plot_of(const Report& report, const std::vector<Series>& series);
 
 }  // namespace armature::bench

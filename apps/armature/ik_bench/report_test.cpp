@@ -3,11 +3,9 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <fstream>
+#include <algorithm>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 namespace armature::bench {
 namespace {
@@ -31,16 +29,6 @@ class ReportTest : public testing::Test {
     report.counts_allocations = true;
     report.rows = rows_of(series, report.baseline, 1);
     report.refused = {{"ik/other", "not a lamp arm"}};
-  }
-  template <class Write>
-  static std::string written(const Write& write) {
-    const auto file = std::filesystem::temp_directory_path() /
-                      ("armature-bench-" + std::to_string(getpid()) + ".out");
-    write(file);
-    std::ostringstream text;
-    text << std::ifstream{file}.rdbuf();
-    std::filesystem::remove(file);
-    return text.str();
   }
 
   std::vector<Series> series{steps("ik/slow", Seeds::random, 1e-5),
@@ -74,13 +62,13 @@ TEST_F(ReportTest, AsJsonItIsTheSame) {
 }
 
 TEST_F(ReportTest, TheCsvHasALinePerSolve) {
-  const std::string csv = written([&](const auto& file) { write_csv(file, series); });
+  const std::string csv = csv_of(series);
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 301);
   EXPECT_THAT(csv, HasSubstr("\n0,ik/fast,near,5e-07,1,0,"));
 }
 
 TEST_F(ReportTest, ThePlotHasALinePerSeriesNearSeedsDashed) {
-  const std::string svg = written([&](const auto& file) { write_plot(file, report, series); });
+  const std::string svg = plot_of(report, series);
   EXPECT_THAT(svg, HasSubstr("ik/slow, random seeds"));
   EXPECT_THAT(svg, HasSubstr("ik/fast, near seeds"));
   EXPECT_THAT(svg, HasSubstr("stroke-dasharray"));

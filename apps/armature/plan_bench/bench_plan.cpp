@@ -22,15 +22,17 @@ struct Field {
   std::vector<NamedPlanner> planners;
 };
 
-/// A plugin that was named but is not there is an error; one whose parameters are wrong is listed.
+/// The planners that can be made; the others go to the report.
 Field field_of(const PlanBenchOptions& options, PluginRegistry& registry, PlanReport& report) {
-  const config::Node params = bench::params_by_plugin(options.params, registry);
   Field field;
-  for (const std::string& id :
-       bench::plugins_of(registry, TrajectoryPlanner::kKind, options.plugins)) {
-    const PluginManifest* plugin = registry.find(id);
-    if (!plugin) throw InvalidChoice(registry.unknown_text(id));
-    auto made = registry.make<TrajectoryPlanner>(id, bench::params_for(*plugin, params));
+  for (const bench::Contestant& one :
+       bench::contestants(registry, TrajectoryPlanner::kKind, options.plugins, options.params)) {
+    const std::string& id = one.plugin->id;
+    if (!one.lacks.empty()) {
+      report.refused.push_back({id, one.lacks});
+      continue;
+    }
+    auto made = registry.make<TrajectoryPlanner>(id, one.params);
     if (!made) {
       report.refused.push_back({id, made.error().text});
       continue;

@@ -85,6 +85,7 @@ ParamSpec read_param_spec(const Node::Entry& entry, Problems& problems) {
   const std::string type = map.choice("type", types, "number");
   spec.type = static_cast<Type>(std::ranges::find(types, type) - types.begin());
   spec.doc = map.text("doc", "");
+  spec.same_as = map.text("same_as", "");
   if (const Node* fallback = map.optional_node("default")) spec.fallback = *fallback;
   read_choices(spec, map, problems);
   read_range(spec, map);

@@ -207,6 +207,15 @@ std::string Params::file(std::string_view name) const {
   return std::get<std::string>(get(name, {Type::file}).value);
 }
 
+bool Params::agree(std::string_view name, const Params& others) {
+  Value& own = values_.find(name)->second;
+  const Value& there = others.get(name, {own.type});
+  if (own.written) return own.value == there.value;
+  own = there;
+  own.written = true;
+  return true;
+}
+
 const Origin& Params::origin(std::string_view name) const { return find(name).origin; }
 
 void Params::refuse(std::initializer_list<std::string_view> names,

@@ -26,6 +26,7 @@ struct ParamSpec {
   std::optional<double> min, max;        // of every number, in the user's unit, inclusive
   std::vector<std::string> choices;
   std::optional<std::size_t> count;  // of numbers; none: any
+  std::string same_as;  // a plugin whose parameter of this name says the same; empty: none
 };
 
 /// The names of ParamSpec::Type as written in `plugin.yaml`: number, integer, flag, text, choice,
@@ -60,6 +61,10 @@ class Params {
   std::string file(std::string_view name) const;
   /// Where the value came from (the plugin's table for a default).
   const config::Origin& origin(std::string_view name) const;
+
+  /// Takes `name`, unless it was written, from `others`, which have it too. False, and nothing is
+  /// taken, when it was written, or taken from elsewhere before, and is not the same there.
+  bool agree(std::string_view name, const Params& others);
 
   /// For values that are right each by itself but not together: throws config::ConfigError with
   /// `message`, at the place of the first of `names` that was written, else of the parameters.

@@ -85,7 +85,7 @@ k: {type: texts, default: [x, [y]]}
             "p:3:4: missing key 'type' in parameter 'b'\n"
             "p:4:28: 'c' must be a number, not 'fast'\n"
             "p:4:34: unknown key 'minimum' in parameter 'c'; known: choices, count, default, doc, "
-            "max, min, type\n"
+            "max, min, same_as, type\n"
             "p:5:28: 'd' is 5, must be at most 3\n"
             "p:6:32: 'max' is 2, below 'min', which is 3\n"
             "p:7:4: a choice needs 'choices: [...]'\n"
@@ -198,6 +198,19 @@ TEST(Parameters, ThatThePluginDoesNotDeclareAreItsDefect) {
   EXPECT_EQ(defect([&] { params.integer("rate_hz"); }),
             "'sim/scene' asks for the parameter 'rate_hz' as integer, but its plugin.yaml declares "
             "type number");
+}
+
+TEST(Parameters, AgreeWithOthersByTakingWhatWasNotWritten) {
+  Problems problems;
+  Params unwritten = read("seed: 1", problems), same = read("{seed: 1, tilt_deg: 5}", problems),
+         other = read("{seed: 1, tilt_deg: 6}", problems);
+  const Params five = read("{seed: 1, tilt_deg: 5}", problems);
+  EXPECT_TRUE(unwritten.agree("tilt_deg", five));
+  EXPECT_EQ(unwritten.number("tilt_deg"), five.number("tilt_deg"));
+  EXPECT_EQ(unwritten.origin("tilt_deg").column, five.origin("tilt_deg").column);
+  EXPECT_TRUE(same.agree("tilt_deg", five));
+  EXPECT_FALSE(other.agree("tilt_deg", five));
+  EXPECT_FALSE(unwritten.agree("tilt_deg", other)) << "it has agreed with another";
 }
 
 }  // namespace

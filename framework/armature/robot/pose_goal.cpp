@@ -9,6 +9,7 @@ namespace armature {
 namespace {
 
 constexpr double kLengthTolerance = 0.01;
+constexpr double kRounding = 1e-15;  // of a length that is 1: dividing by it would only cost digits
 
 }  // namespace
 
@@ -22,6 +23,7 @@ Expected<ToolPose> checked(ToolPose pose, std::string_view whose) {
     return refuse(fmt::format("{} {} has length {:.6g}, not 1", whose,
                               direction ? "direction" : "quaternion", length));
   }
+  if (std::abs(length - 1) <= kRounding) return pose;
   if (direction) {
     direction->unit /= length;
   } else {

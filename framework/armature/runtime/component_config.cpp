@@ -15,13 +15,19 @@ namespace {
 using config::MapReader;
 using config::Node;
 
-// `rig: none`: this component uses no rig although there is one.
-constexpr std::string_view kNoDocument = "none";
-
 std::vector<std::string> names_of(const auto& items) {
   std::vector<std::string> names;
   for (const auto& item : items) names.push_back(item.name);
   return names;
+}
+
+/// What `plugin:` says; none, and a problem, when that is no id.
+std::optional<std::string> plugin_id(const Node& node, config::Problems& problems) {
+  const auto id = config::to_text(node);
+  if (id && !id->empty()) return *id;
+  problems.add(node.origin(), "'plugin' must be the id of a plugin, family/name, not " +
+                                  (node.quoted() ? "an empty text" : node.describe()));
+  return std::nullopt;
 }
 
 }  // namespace
@@ -70,7 +76,9 @@ std::optional<ComponentConfig> ComponentReader::read(const Node::Entry& entry) c
   }
   const Node* plugin_node = map.optional_node("plugin");
   // A component without `plugin:` is the framework's own of that name: `motion:`.
-  component.plugin_id = plugin_node ? plugin_node->text() : entry.key;
+  const auto id = plugin_node ? plugin_id(*plugin_node, problems_) : entry.key;
+  if (!id) return std::nullopt;
+  component.plugin_id = *id;
   if (!plugin_node && !plugins_.find(entry.key)) {
     report_missing_plugin(entry);
     return std::nullopt;
@@ -172,8 +180,9 @@ void ComponentReader::read_slot(const SlotSpec& spec, const Node& node,
   const Node* plugin_node = map.node("plugin");
   const Node* params = map.optional_node("params");
   map.finish();
-  if (!plugin_node) return;
-  const PluginManifest* plugin = find_plugin(plugin_node->text(), plugin_node->origin());
+  const auto id = plugin_node ? plugin_id(*plugin_node, problems_) : std::nullopt;
+  if (!id) return;
+  const PluginManifest* plugin = find_plugin(*id, plugin_node->origin());
   if (!plugin) return;
   if (plugin->kind != spec.kind) {
     problems_.add(plugin_node->origin(),
@@ -187,51 +196,6 @@ void ComponentReader::read_slot(const SlotSpec& spec, const Node& node,
                              .manifest = plugin,
                              .params = Params::read(plugin->params, params, plugin->id, problems_,
                                                     plugin_node->origin())});
-}
-
-/// `robot: left` binds an entry of `robots:`; with a single entry nothing needs to be said.
-void ComponentReader::bind_documents(MapReader& map, ComponentConfig& component) const {
-  const auto lists = [](const std::vector<std::string>& words, std::string_view word) {
-    return std::find(words.begin(), words.end(), word) != words.end();
-  };
-  for (const auto& [section, word] : kDocumentSections) {
-    const bool needed = lists(component.manifest->uses, word);
-    const Node* named = map.optional_node(word);
-    if (needed || lists(component.manifest->may_use, word)) {
-      bind_document({section, word, needed}, named, component);
-    } else if (named) {
-      problems_.add(named->origin(),
-                    fmt::format("component '{}' uses no {}", component.name, word));
-    }
-  }
-}
-
-void ComponentReader::bind_document(const DocumentUse& use, const Node* named,
-                                    ComponentConfig& component) const {
-  const std::string section{use.section};
-  std::vector<std::string> names;
-  for (const auto& [name, document] : deployment_.documents.at(section)) names.push_back(name);
-  const bool named_none = !use.needed && named && named->text() == kNoDocument;
-  if (named_none || (!named && !use.needed && names.empty())) return;
-  if (named) {
-    if (std::find(names.begin(), names.end(), named->text()) != names.end()) {
-      component.documents[section] = named->text();
-    } else {
-      problems_.add(named->origin(), fmt::format("unknown {} '{}'{}", use.word, named->text(),
-                                                 config::did_you_mean(named->text(), names)));
-    }
-  } else if (names.size() == 1) {
-    component.documents[section] = names.front();
-  } else if (names.empty()) {
-    problems_.add(component.origin, fmt::format("component '{}' needs a {}: add '{}: {{name: "
-                                                "file.yaml}}'",
-                                                component.name, use.word, use.section));
-  } else {
-    problems_.add(
-        component.origin,
-        fmt::format("component '{}' must say which {}: '{}: ...'{}", component.name, use.word,
-                    use.word, use.needed ? "" : fmt::format(", or '{}: none'", use.word)));
-  }
 }
 
 /// A topic's name as it is written, or `otherwise` and a problem.

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "armature/config/problems.hpp"
@@ -23,6 +24,22 @@ constexpr std::size_t kPreallocatedSamples = 8;
 std::string writer_key(const ComponentConfig& component, const PortBinding& output) {
   if (!output.spec.shared) return output.topic;
   return output.topic + " of " + component.name + "." + output.spec.name;
+}
+
+/// An executor's period is for all of its components: one that a component has itself would be
+/// ignored, with the parameter that says it (`rate_hz`).
+void check_period(const ComponentConfig& component, const Unit& unit,
+                  const std::vector<ExecutorSpec>& executors, config::Problems& problems) {
+  constexpr double kSame = 1e-3;  // a rate in Hz is seldom a round period
+  const auto executor = std::ranges::find(executors, component.executor, &ExecutorSpec::name);
+  if (!unit.period() || executor == executors.end() || !executor->period) return;
+  const double own = to_seconds(*unit.period()), given = to_seconds(*executor->period);
+  if (std::abs(own - given) <= kSame * given) return;
+  problems.add(
+      component.origin,
+      fmt::format("component '{}' steps every {:g} s by itself, but its executor '{}' steps "
+                  "every {:g} s; make both the same, or name an executor without a period",
+                  component.name, own, component.executor, given));
 }
 
 }  // namespace
@@ -75,6 +92,7 @@ void Deployment::make_unit(const ComponentConfig& component, PluginRegistry& plu
     auto object = make(setup);
     setup.check_all_claimed();
     unit->install({library, std::move(object)});
+    check_period(component, *unit, config_.executors, problems);
     units_.push_back(std::move(unit));
   } catch (const SetupError& error) {
     problems.add(component.origin, fmt::format("component '{}': {}", component.name, error.what()));

@@ -13,6 +13,7 @@
 
 #include "armature/config/document.hpp"
 #include "armature/config/reader.hpp"
+#include "armature/runtime/agreement.hpp"
 #include "armature/runtime/component_config.hpp"
 #include "armature/runtime/goals.hpp"
 #include "armature/runtime/graph.hpp"
@@ -172,6 +173,7 @@ DeploymentConfig read_deployment(const Node& root, const PluginRegistry& plugins
     if (deployment.components.size() == components->entries().size()) {
       check_graph(deployment, problems);
       check_component_needs(deployment, plugins, problems);
+      agree_on_params(deployment, problems);
       check_goals(deployment, plugins, problems);
     }
   }

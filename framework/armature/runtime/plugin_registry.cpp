@@ -115,6 +115,7 @@ const PluginManifest* PluginRegistry::host_of(std::string_view kind) const {
 }
 
 std::string PluginRegistry::unknown_text(std::string_view id) const {
+  if (id.empty()) return "a plugin is named by its id, family/name, and not by an empty text";
   std::vector<std::string> ids, folders;
   for (const auto& plugin : plugins_) ids.push_back(plugin.id);
   for (const auto& folder : search_path_) folders.push_back(folder.string());

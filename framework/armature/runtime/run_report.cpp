@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <utility>
+
+#include "armature/runtime/output_folder.hpp"
+#include "armature/runtime/write_atomically.hpp"
 
 namespace armature {
 
@@ -128,12 +130,18 @@ std::string shown(const std::vector<double>& values) {
   return text;
 }
 
+/// Of a run that is not ok, in one place, whatever ended it.
+std::string first_reason(const RunReport& report) {
+  if (!report.story_reason().empty()) return report.story_reason();
+  return report.reasons().empty() ? "" : report.reasons().front();
+}
+
 }  // namespace
 
 std::string to_json(const RunReport& report) {
   Json json, unmeasured;
   json["status"] = report.status();
-  if (!report.story_reason().empty()) json["reason"] = report.story_reason();
+  if (const std::string reason = first_reason(report); !reason.empty()) json["reason"] = reason;
   for (const auto& figure : report.figures()) {
     json[figure.key] = std::visit([](const auto& value) { return to_json(value); }, figure.value);
     if (!figure.unmeasured.empty()) unmeasured[figure.key] = figure.unmeasured;
@@ -164,13 +172,20 @@ std::string to_table(const RunReport& report) {
 
 void write_report(const RunReport& report, const Deployment& deployment,
                   const std::filesystem::path& directory) {
-  std::filesystem::create_directories(directory);
-  for (const auto& unit : deployment.units()) unit->component().write_files(directory);
-  const auto file = directory / "report.json";
-  std::ofstream stream{file};
-  stream << to_json(report) << '\n';
-  stream.close();
-  if (!stream) throw std::runtime_error("cannot write " + file.string());
+  prepare_output_folder(directory);
+  std::string failed;
+  const auto attempt = [&](const auto& write) {
+    try {
+      write();
+    } catch (const std::exception& error) {
+      failed += (failed.empty() ? "" : "; ") + std::string{error.what()};
+    }
+  };
+  attempt([&] { write_atomically(directory / "report.json", to_json(report) + '\n'); });
+  for (const auto& unit : deployment.units()) {
+    attempt([&] { unit->component().write_files(directory); });
+  }
+  if (!failed.empty()) throw std::runtime_error{failed};
 }
 
 }  // namespace armature

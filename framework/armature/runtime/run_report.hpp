@@ -60,14 +60,15 @@ class RunReport final : public Summary {
   std::vector<std::string> reasons_;
 };
 
-/// One JSON object: `status` first, `reason` of a story that failed, figures in order, why any of
-/// them is null under `not_measured`, and `reasons`; numbers as the shortest text that reads back
-/// the same.
+/// One JSON object: `status` first, `reason` when that is not ok, figures in order, why any of them
+/// is null under `not_measured`, and `reasons`; numbers as the shortest text that reads back the
+/// same.
 std::string to_json(const RunReport& report);
 /// The closing table for people.
 std::string to_table(const RunReport& report);
-/// Lets every component write its files, and report.json beside them. Throws
-/// std::filesystem::filesystem_error or std::runtime_error naming the file.
+/// Writes report.json and lets every component write its files beside it. Throws
+/// std::runtime_error that names each file that could not be written, and why; the others are
+/// there.
 void write_report(const RunReport& report, const Deployment& deployment,
                   const std::filesystem::path& directory);
 

@@ -37,10 +37,14 @@ JointVector home_of(const RobotModel& model) {
 
 std::string describe(const LimitExcess& excess, const RobotModel& model, const char* who) {
   static constexpr const char* kQuantity[] = {"position", "velocity", "acceleration"};
-  const auto joint = static_cast<std::size_t>(model.independent_joint(excess.joint));
-  return fmt::format("the {} asks joint {} for {} {:.3f}, limit {:.3f}", who,
-                     model.joints()[joint].name, kQuantity[static_cast<int>(excess.quantity)],
-                     excess.wanted, excess.limit);
+  static constexpr const char* kPerTime[] = {"", "/s", "/s2"};
+  const auto quantity = static_cast<std::size_t>(excess.quantity);
+  const Joint& joint =
+      model.joints()[static_cast<std::size_t>(model.independent_joint(excess.joint))];
+  return fmt::format("the {} asks joint {} for {} {:.3f} {}{}, limit {:.3f}", who, joint.name,
+                     kQuantity[quantity], excess.wanted,
+                     joint.type == Joint::Type::prismatic ? "m" : "rad", kPerTime[quantity],
+                     excess.limit);
 }
 
 }  // namespace

@@ -115,7 +115,8 @@ TEST_F(SimulatedArmComponentTest, SaysWhatACommandAsksBeyondTheLimits) {
   arm_.send("servo_jp", command(q, still_));
   step();
   EXPECT_EQ(arm_.status().state, Voice::State::degraded);
-  EXPECT_EQ(arm_.status().reason, "the command asks joint j1 for velocity 500.000, limit 2.500");
+  EXPECT_EQ(arm_.status().reason,
+            "the command asks joint j1 for velocity 500.000 rad/s, limit 2.500");
   EXPECT_LT(std::abs(measured()[0] - home_[0]), 1e-4);
   const auto told = arm_.lines().size();
   for (int i = 0; i < 1000; ++i) {
@@ -168,7 +169,8 @@ TEST_F(SimulatedArmComponentTest, ARefusedCommandIsTheTroubleThatIsToldFirst) {
   q[0] += 0.5;
   arm_.send("servo_jp", command(q, still_));
   step();
-  ASSERT_EQ(arm_.status().reason, "the command asks joint j1 for velocity 500.000, limit 2.500");
+  ASSERT_EQ(arm_.status().reason,
+            "the command asks joint j1 for velocity 500.000 rad/s, limit 2.500");
   msg::JointState bad = command(q, still_);
   bad.velocity_().pop_back();
   arm_.send("servo_jp", bad);

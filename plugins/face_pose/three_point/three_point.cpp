@@ -39,8 +39,16 @@ Expected<std::unique_ptr<FacePoseEstimator>> ThreePoint::make(const Params& para
                           .least_eye_distance_m = params.number("least_eye_distance_mm"),
                           .most_eye_distance_m = params.number("most_eye_distance_mm")};
   if (settings.nearest_m >= settings.farthest_m) {
-    return refuse(fmt::format("nearest_m ({} m) must be less than farthest_m ({} m)",
+    params.refuse({"nearest_m", "farthest_m"},
+                  fmt::format("'nearest_m' is {:g} and 'farthest_m' is {:g}: no face would be seen",
                               settings.nearest_m, settings.farthest_m));
+  }
+  if (settings.least_eye_distance_m >= settings.most_eye_distance_m) {
+    params.refuse(
+        {"least_eye_distance_mm", "most_eye_distance_mm"},
+        fmt::format("'least_eye_distance_mm' is {:g} and 'most_eye_distance_mm' is {:g}: "
+                    "no eyes would do",
+                    1e3 * settings.least_eye_distance_m, 1e3 * settings.most_eye_distance_m));
   }
   return std::make_unique<ThreePoint>(settings);
 }

@@ -10,6 +10,8 @@
 #include <cmath>
 #include <random>
 
+#include "armature/config/problems.hpp"
+#include "armature/kinds/declared_params.hpp"
 #include "armature/kinds/face_pose/contract.hpp"
 
 namespace armature {
@@ -162,6 +164,25 @@ INSTANTIATE_TEST_SUITE_P(
                           },
                           "the face would be seen from 180 degrees aside, or from behind"}),
     [](const auto& test) { return test.param.name; });
+
+TEST(ThreePointParams, RefuseLimitsThatExcludeEachOther) {
+  const auto refusal = [](const char* given) {
+    try {
+      ThreePoint::make(
+          declared_params(ARMATURE_SOURCE_DIR "/plugins/face_pose/three_point/plugin.yaml", given))
+          .value();
+    } catch (const config::ConfigError& error) {
+      return std::string{error.what()};
+    }
+    return std::string{};
+  };
+  EXPECT_EQ(refusal("{nearest_m: 0.3, farthest_m: 0.5}"), "");
+  EXPECT_EQ(refusal("nearest_m: 3"),
+            "given:1:12: 'nearest_m' is 3 and 'farthest_m' is 2: no face would be seen");
+  EXPECT_EQ(refusal("most_eye_distance_mm: 20"),
+            "given:1:23: 'least_eye_distance_mm' is 30 and 'most_eye_distance_mm' is 20: no eyes "
+            "would do");
+}
 
 }  // namespace
 }  // namespace armature

@@ -9,8 +9,10 @@
 #include <numbers>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-#include <stdexcept>
 #include <string>
+#include <vector>
+
+#include "armature/runtime/write_atomically.hpp"
 
 namespace armature {
 namespace {
@@ -20,9 +22,9 @@ const cv::Scalar kGreen{60, 220, 60}, kRed{40, 40, 255}, kBlue{255, 120, 40};
 constexpr double kAxisLength = 0.05;  // [m]
 
 void save(const cv::Mat& image, const std::filesystem::path& file) {
-  if (!cv::imwrite(file.string(), image)) {
-    throw std::runtime_error("cannot write " + file.string());
-  }
+  std::vector<unsigned char> png;
+  cv::imencode(".png", image, png);
+  write_atomically(file, {reinterpret_cast<const char*>(png.data()), png.size()});
 }
 
 void text(cv::Mat& image, const std::string& words, cv::Point at, double scale = 0.45) {

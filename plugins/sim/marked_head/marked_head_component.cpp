@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
 #include <string>
 
 #include "armature/kinds/geometry_params.hpp"
@@ -29,8 +31,10 @@ std::vector<ForbiddenZone> vessels_of(const Params& params) {
     const double* v = values.data() + i;
     vessels.push_back(
         {"vessel " + std::to_string(i / 7 + 1), {v[0], v[1], v[2]}, {v[3], v[4], v[5]}, v[6]});
-    if (const auto wrong = defect(vessels.back())) {
-      params.refuse({"vessels_mm"}, "'vessels_mm': " + *wrong);
+    if (v[6] < 0) {
+      params.refuse({"vessels_mm"},
+                    fmt::format("'vessels_mm' item {} is {:g}, but a vessel's radius is at least 0",
+                                i + 7, 1e3 * v[6]));
     }
   }
   return vessels;

@@ -53,7 +53,7 @@ TEST(MarkedHeadComponentTest, RefusesListsThatDoNotComeOut) {
   EXPECT_NE(refusal("vessels_mm: [1, 2, 3]").find("'vessels_mm' has 3 numbers; seven for each"),
             std::string::npos);
   EXPECT_NE(refusal("vessels_mm: [1, 2, 3, 4, 5, 6, -1]")
-                .find("'vessels_mm': forbidden zone 'vessel 1' has the radius -0.001 m"),
+                .find("'vessels_mm' item 7 is -1, but a vessel's radius is at least 0"),
             std::string::npos);
 }
 

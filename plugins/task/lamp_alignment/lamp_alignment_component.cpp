@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "armature/config/reader.hpp"
 #include "armature/kinds/setup_robot.hpp"
 #include "armature/kinds/target/target_messages.hpp"
 #include "armature/motion/goal_messages.hpp"
@@ -30,7 +31,27 @@ SearchSettings search_settings(const Params& params, const RobotModel& model) {
   return search;
 }
 
+/// A parameter that must be below another one, in words of the file.
+void check_below(const Params& params, const std::string& lower, const std::string& upper,
+                 const char* else_what) {
+  const double unit = config::si_factor(lower);
+  if (params.number(lower) < params.number(upper)) return;
+  params.refuse({lower, upper}, fmt::format("'{}' is {:g}, not below '{}', which is {:g}: {}",
+                                            lower, params.number(lower) / unit, upper,
+                                            params.number(upper) / unit, else_what));
+}
+
+/// What is a hysteresis must leave something between its ends.
+void check_hystereses(const Params& params) {
+  for (const std::string of : {"position_mm", "angle_deg"}) {
+    check_below(params, "settled_" + of, "replan_" + of, "what is aligned would be aligned again");
+    check_below(params, "replan_" + of, "moved_" + of, "noise would be a patient that moves");
+  }
+  check_below(params, "dark", "bright", "the lamp would never stop changing its light");
+}
+
 AlignmentSettings settings_of(const Params& params, const RobotModel& model) {
+  check_hystereses(params);
   return {.distance_m = params.number("distance_m"),
           .search = search_settings(params, model),
           .frames_per_view = static_cast<int>(params.integer("frames_per_view")),

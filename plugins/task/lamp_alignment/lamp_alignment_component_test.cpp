@@ -190,5 +190,18 @@ TEST(LampAlignmentComponent, DoesNotStartWithoutAnAngleToSearchAt) {
             "bench:1:65: 'search_yaw_deg' and 'search_pitch_deg' need at least one angle each");
 }
 
+TEST(LampAlignmentComponent, RefusesHysteresesThatAreNone) {
+  EXPECT_EQ(refusal_of(built_plugins(), task_with("replan_position_mm: 1")),
+            "bench:1:67: 'settled_position_mm' is 1, not below 'replan_position_mm', which is 1: "
+            "what is aligned would be aligned again");
+  EXPECT_EQ(refusal_of(built_plugins(), task_with("moved_angle_deg: 2")),
+            "bench:1:64: 'replan_angle_deg' is 2.5, not below 'moved_angle_deg', which is 2: noise "
+            "would be a patient that moves");
+  EXPECT_EQ(
+      refusal_of(built_plugins(), task_with("dark: 201")),
+      "bench:1:53: 'dark' is 201, not below 'bright', which is 200: the lamp would never stop "
+      "changing its light");
+}
+
 }  // namespace
 }  // namespace armature

@@ -98,9 +98,9 @@ std::string Search::exchanged() const {
 Expected<Choice> Search::answer() const {
   if (steps_ > kMostSteps) {
     return refuse(
-        fmt::format("too many ways to match {} markers with {} points within {} m: "
+        fmt::format("too many ways to match {} markers with {} points within {:.6g} mm: "
                     "lower the tolerance",
-                    planned_.size(), measured_.size(), tolerance_m_));
+                    planned_.size(), measured_.size(), 1e3 * tolerance_m_));
   }
   if (best_.choice.empty()) {
     if (best_mirrored_m_ <= tolerance_m_) {
@@ -110,16 +110,16 @@ Expected<Choice> Search::answer() const {
     }
     return refuse(
         fmt::format("no choice of measured points keeps the distances of marker {} to "
-                    "those before it within {} m",
-                    std::min(deepest_ + 1, planned_.size()), tolerance_m_));
+                    "those before it within {:.6g} mm",
+                    std::min(deepest_ + 1, planned_.size()), 1e3 * tolerance_m_));
   }
   // Half the tolerance is three times the error of a marker: a wrong choice that fits as well.
   constexpr double kAlike = 2, kNoise = 0.1;
   if (second_.rms_m < kAlike * best_.rms_m + kNoise * tolerance_m_) {
     return refuse(
-        fmt::format("ambiguous: markers {} may be exchanged (fits to {:.6f} m, or "
-                    "exchanged to {:.6f} m)",
-                    exchanged(), best_.rms_m, second_.rms_m));
+        fmt::format("ambiguous: markers {} may be exchanged (fits to {:.3f} mm, or "
+                    "exchanged to {:.3f} mm)",
+                    exchanged(), 1e3 * best_.rms_m, 1e3 * second_.rms_m));
   }
   return best_.choice;
 }

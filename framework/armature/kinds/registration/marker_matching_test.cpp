@@ -101,7 +101,7 @@ TEST_F(MarkerMatching, SaysWhichMarkerHasNoPlace) {
   ASSERT_FALSE(match);
   EXPECT_EQ(match.error().text,
             "no choice of measured points keeps the distances of marker 4 to those before it "
-            "within 0.003 m");
+            "within 3 mm");
 }
 
 TEST_F(MarkerMatching, RefusesWhatCannotBeMatched) {
@@ -124,7 +124,7 @@ TEST_F(MarkerMatching, EndsAlsoWhereEverythingLooksAlike) {
   const auto match = match_markers(cloud, cloud, kTolerance);
   ASSERT_FALSE(match);
   EXPECT_EQ(match.error().text,
-            "too many ways to match 12 markers with 12 points within 0.003 m: lower the tolerance");
+            "too many ways to match 12 markers with 12 points within 3 mm: lower the tolerance");
 }
 
 }  // namespace

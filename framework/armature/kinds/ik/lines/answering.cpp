@@ -53,18 +53,6 @@ Eigen::Vector3d vector3(const Json& json, const char* key) {
   return {v[0], v[1], v[2]};
 }
 
-/// Neither vanishing nor overflowing when it is made a unit.
-bool usable_length(double length) { return length > 1e-9 && std::isfinite(length); }
-
-/// `coefficients` over their length; bit for bit as they are when that is 1 already.
-template <class Coefficients>
-Coefficients unit(const Coefficients& coefficients, const char* key) {
-  const double length = coefficients.norm();
-  if (!usable_length(length)) throw InvalidLine(fmt::format("'{}' has no usable length", key));
-  constexpr double kRounding = 1e-15;
-  return std::abs(length - 1) <= kRounding ? coefficients : Coefficients(coefficients / length);
-}
-
 /// A positive number of the line, or `usual`.
 double positive(const Json& json, const char* key, double usual) {
   if (!json.contains(key)) return usual;
@@ -81,10 +69,10 @@ Orientation read_orientation(const RobotModel& robot, const Json& question) {
     if (!robot.pointing_axis()) {
       throw InvalidLine("the robot file names no 'pointing_axis'; give 'quaternion_xyzw'");
     }
-    return Direction{unit(vector3(question, "direction"), "direction")};
+    return Direction{vector3(question, "direction")};
   }
   const auto q = numbers(question, "quaternion_xyzw", 4);
-  return Eigen::Quaterniond{unit(Eigen::Vector4d{q[0], q[1], q[2], q[3]}, "quaternion_xyzw")};
+  return Eigen::Quaterniond{q[3], q[0], q[1], q[2]};
 }
 
 /// The number that `key_of` names in the solver's unit; it is refused in the other one.
@@ -103,18 +91,20 @@ int read_iterations(const Json& question, int usual) {
   if (!question.contains("max_iterations")) return usual;
   const Json& value = question["max_iterations"];
   const bool whole =
-      value.is_number_integer() && value >= 0 && value <= std::numeric_limits<int>::max();
+      value.is_number_integer() && value >= 1 && value <= std::numeric_limits<int>::max();
   if (!whole) {
-    throw InvalidLine("'max_iterations' must be a whole number from 0 to 2147483647");
+    throw InvalidLine("'max_iterations' must be a whole number from 1 to 2147483647");
   }
   return value.get<int>();
 }
 
 IkGoal read_goal(const RobotModel& robot, const IkSolver& solver, const Json& question) {
   if (!question.contains("position_m")) throw InvalidLine("'position_m' is missing");
+  const ToolPose written{vector3(question, "position_m"), read_orientation(robot, question)};
+  const auto pose = checked(written, "the goal's");
+  if (!pose) throw InvalidLine(pose.error().text);
   IkGoal goal;
-  goal.pose.position = vector3(question, "position_m");
-  goal.pose.orientation = read_orientation(robot, question);
+  goal.pose = *pose;
   goal.redundancy = read_redundancy(solver, question, ik_lines::redundancy_key);
   goal.tolerance.position_m = positive(question, "tolerance_m", goal.tolerance.position_m);
   goal.tolerance.angle_rad = positive(question, "tolerance_rad", goal.tolerance.angle_rad);

@@ -99,7 +99,7 @@ IkQuestion random_question(Numbers& random) {
   question.redundancy_is_length = random.below(2) == 0;
   if (random.below(2) == 0) question.goal.redundancy = random.any();
   if (random.below(2) == 0) question.state.last_redundancy = random.any();
-  if (random.below(2) == 0) question.goal.max_iterations = random.below(1 << 30);
+  if (random.below(2) == 0) question.goal.max_iterations = 1 + random.below(1 << 30);
   if (random.below(2) == 0) question.goal.tolerance.position_m = std::abs(random.any()) + 1e-15;
   if (random.below(2) == 0) question.goal.tolerance.angle_rad = std::abs(random.any()) + 1e-15;
   return question;
@@ -195,8 +195,9 @@ TEST(IkLines, AnUnknownUnitOrANumberThatIsNoneIsRefused) {
         json::parse(answer_ik(lamp(), solver, JointVector::Zero(lamp().dof()), line));
     return answer["status"] == "ok" ? "" : answer["reason"].get<std::string>();
   };
-  const std::string wrong = "'max_iterations' must be a whole number from 0 to 2147483647";
-  EXPECT_EQ(refusal_of(R"("max_iterations":0)"), "");
+  const std::string wrong = "'max_iterations' must be a whole number from 1 to 2147483647";
+  EXPECT_EQ(refusal_of(R"("max_iterations":0)"), wrong);
+  EXPECT_EQ(refusal_of(R"("max_iterations":1)"), "");
   EXPECT_EQ(refusal_of(R"("max_iterations":2147483647)"), "");
   EXPECT_EQ(refusal_of(R"("max_iterations":2147483648)"), wrong);
   EXPECT_EQ(refusal_of(R"("max_iterations":18446744073709551615)"), wrong);

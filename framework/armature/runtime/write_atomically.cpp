@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "write_atomically.hpp"
+#include "armature/runtime/write_atomically.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>

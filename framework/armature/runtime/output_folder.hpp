@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+
+namespace armature {
+
+/// Makes `folder`, with what is above it, and tries to write into it: before what takes long, so
+/// that its result is not lost. Throws std::runtime_error with the reason.
+void prepare_output_folder(const std::filesystem::path& folder);
+
+}  // namespace armature

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// `armature run` for a script: one JSON object whatever happens, and every file or a reason.
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "command.hpp"
+#include "tests/dds_domain.hpp"
+
+namespace armature::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class RunForAScript : public testing::Test {
+ protected:
+  RunForAScript() { fs::create_directories(folder_); }
+  ~RunForAScript() override { fs::remove_all(folder_); }
+
+  /// The biopsy, on the simulated clock.
+  CommandResult run(const std::vector<std::string>& more) const {
+    std::vector<std::string> command{armature(), "run",      source_file("configs/sr1_biopsy.yaml"),
+                                     "--json",   "--domain", std::to_string(domain_)};
+    command.insert(command.end(), more.begin(), more.end());
+    return run_command(command);
+  }
+
+  const fs::path folder_ = fs::temp_directory_path() / ("armature-run-" + std::to_string(getpid()));
+  const int domain_ = unique_dds_domain();
+};
+
+TEST_F(RunForAScript, AFaultyDeploymentIsOneObjectToo) {
+  const auto result = run({"--set", "components.motion.ik.plugin=ik/numerc"});
+  EXPECT_EQ(result.exit_code, 3);
+  const auto told = nlohmann::json::parse(result.out);
+  EXPECT_EQ(told["status"], "invalid_config");
+  EXPECT_EQ(told["reason"].get<std::string>() + "\n", result.err);
+}
+
+TEST_F(RunForAScript, AReportFolderThatCannotBeMadeIsToldBeforeTheRun) {
+  const fs::path file = folder_ / "file";
+  std::ofstream{file} << "mine";
+  const auto result = run({"--report", file});
+  EXPECT_EQ(result.exit_code, 1);
+  const std::string reason = "cannot make the folder '" + file.string() + "': Not a directory";
+  EXPECT_EQ(result.out, R"({"status":"not_started","reason":")" + reason + "\"}\n");
+  EXPECT_EQ(result.err, "armature: " + reason + "\n");
+}
+
+TEST_F(RunForAScript, AReportThatCannotBeWrittenFailsTheRunAndTheFiguresArePrinted) {
+  fs::create_directories(folder_ / "report.json");
+  const auto result = run({"--report", folder_});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(nlohmann::json::parse(result.out)["status"], "ok");
+  EXPECT_THAT(result.err,
+              testing::EndsWith("armature: cannot write '" + (folder_ / "report.json").string() +
+                                "': it is no regular file\n"));
+}
+
+TEST_F(RunForAScript, TheReportIsWhatIsPrinted) {
+  const auto result = run({"--report", folder_});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  std::ifstream report{folder_ / "report.json"};
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>{report}, {}), result.out);
+}
+
+}  // namespace
+}  // namespace armature::test

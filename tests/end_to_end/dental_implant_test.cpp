@@ -182,11 +182,6 @@ TEST(DentalImplant, APathThatKnowsNoKeyPosesIsRefusedBeforeAnythingMoves) {
       << run.text();
 }
 
-TEST(DentalImplant, AnArmThatLagsIsWaitedForBeforeTheDrillGoesIn) {
-  const DeploymentRun run = implant({"components.arm.params.lag_s=0.1"});
-  EXPECT_LE(run.figure("line_deviation_mm"), 0.05) << run.text();
-}
-
 TEST(DentalImplant, ASiteOutOfReachIsRefused) {
   const std::string near_is_seen = kTracker + "nearest_mm=100";
   expect_refused({near_is_seen, kTracker + "jaw_mm=[-1100, -50, 650]"},

@@ -12,8 +12,8 @@ std::optional<std::string> LineOfSight::obstacle(double elapsed_s, double distan
     if (elapsed_s >= hidden_s[i] && elapsed_s < hidden_s[i + 1]) return "its spheres are hidden";
   }
   if (distance_m < nearest_m || distance_m > farthest_m) {
-    return fmt::format("it is {:.3f} m away, the tracker sees from {:g} to {:g} m", distance_m,
-                       nearest_m, farthest_m);
+    return fmt::format("it is {:.0f} mm away, the tracker sees from {:g} to {:g} mm",
+                       1e3 * distance_m, 1e3 * nearest_m, 1e3 * farthest_m);
   }
   return std::nullopt;
 }

@@ -17,8 +17,8 @@ TEST(LineOfSight, IsFreeBetweenTheTimesAndWithinTheRange) {
   }
   EXPECT_FALSE(sight.obstacle(0, 0.95));
   EXPECT_FALSE(sight.obstacle(0, 2.4));
-  EXPECT_EQ(sight.obstacle(0, 0.9), "it is 0.900 m away, the tracker sees from 0.95 to 2.4 m");
-  EXPECT_EQ(sight.obstacle(0, 2.5), "it is 2.500 m away, the tracker sees from 0.95 to 2.4 m");
+  EXPECT_EQ(sight.obstacle(0, 0.9), "it is 900 mm away, the tracker sees from 950 to 2400 mm");
+  EXPECT_EQ(sight.obstacle(0, 2.5), "it is 2500 mm away, the tracker sees from 950 to 2400 mm");
 }
 
 TEST(LineOfSight, TimesComeInPairsThatAscend) {

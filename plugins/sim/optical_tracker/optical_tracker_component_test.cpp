@@ -139,7 +139,7 @@ TEST_F(OpticalTrackerTest, SaysWhyABodyIsNotSeen) {
   make("pivot_s: 0, farthest_mm: 1000, nearest_mm: 500");
   room_->step(0);
   room_->step(0.6);
-  EXPECT_NE(last("jaw").reason_().find("m away, the tracker sees from 0.5 to 1 m"),
+  EXPECT_NE(last("jaw").reason_().find("mm away, the tracker sees from 500 to 1000 mm"),
             std::string::npos);
   EXPECT_EQ(last("flange").reason_(), "no joint positions have arrived yet");
 }

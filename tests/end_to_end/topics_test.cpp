@@ -138,16 +138,20 @@ TEST_F(Watched, WhatDidNotComeInTimeIsSaid) {
                                                  "--set", "clock=system"});
   wait_for_frames();
   const std::string silent = "/watched/path/response";
-  for (const std::string verb : {"echo", "hz"}) {
-    const auto result = run_command(topic({verb, silent, "--timeout", "3"}));
-    EXPECT_EQ(result.exit_code, 5) << verb;
-    EXPECT_EQ(result.out, "") << verb;
+  constexpr std::chrono::seconds kPatience{60};
+  Command echo{topic({"echo", silent, "--timeout", "3"})},
+      hz{topic({"hz", silent, "--timeout", "3"})};
+  Command once{
+      topic({"echo", "/tf_static", "-n", "2", "--timeout", "3"})};  // latched, written once
+  for (Command* command : {&echo, &hz}) {
+    const auto result = command->finish(kPatience);
+    EXPECT_EQ(result.exit_code, 5);
+    EXPECT_EQ(result.out, "");
     EXPECT_EQ(result.err, "armature: no sample of '" + silent + "' came within 3 s\n");
   }
-  // Latched, and written once.
-  const auto once = run_command(topic({"echo", "/tf_static", "-n", "2", "--timeout", "3"}));
-  EXPECT_EQ(once.exit_code, 5);
-  EXPECT_EQ(once.err, "armature: 1 of 2 samples of '/tf_static' came within 3 s\n");
+  const auto result = once.finish(kPatience);
+  EXPECT_EQ(result.exit_code, 5);
+  EXPECT_EQ(result.err, "armature: 1 of 2 samples of '/tf_static' came within 3 s\n");
 }
 
 TEST(TopicHz, RefusesANumberOfSamplesThatHasNoRate) {

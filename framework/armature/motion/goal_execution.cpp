@@ -40,12 +40,13 @@ void GoalExecution::begin_late(Time now) {
 
 void GoalExecution::arrive(Time now, const JointVector& q) {
   const Time end = reference_.last().end();
+  const JointVector goal = reference_.at(end).q;
   const auto stray =
-      strayed(planner_.model(), q, reference_.at(end).q, options_.goal_tolerance, "the goal");
+      strayed(planner_.model(), q, {goal, "the goal", "goal_tolerance"}, options_.goal_tolerance);
   if (!stray) return finish_active(State::done);
   if (now - end < options_.goal_time) return;
-  fail_active(
-      fmt::format("{}, {:g} s after it should be there", *stray, to_seconds(options_.goal_time)));
+  fail_active(fmt::format("{}, {:g} s after it should be there (goal_time_s)", *stray,
+                          to_seconds(options_.goal_time)));
 }
 
 bool GoalExecution::silent(Time now, const std::optional<MeasuredJoints>& measured) {
@@ -82,8 +83,9 @@ void GoalExecution::update(Time now, const std::optional<MeasuredJoints>& measur
     reference_.start(measured->q, now);
     return;
   }
-  if (auto stray = strayed(planner_.model(), measured->q, reference_.at(measured->stamp).q,
-                           options_.max_deviation, "the reference")) {
+  const JointVector wanted = reference_.at(measured->stamp).q;
+  if (auto stray = strayed(planner_.model(), measured->q,
+                           {wanted, "the reference", "max_deviation"}, options_.max_deviation)) {
     fail_active(*stray);
     reference_.start(measured->q, now);
   }

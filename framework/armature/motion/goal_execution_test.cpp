@@ -118,8 +118,8 @@ TEST_F(GoalExecutionTest, AnArmThatStopsShortOfTheGoalFailsIt) {
   }
   EXPECT_EQ(statuses_.back().stage, "execution");
   EXPECT_EQ(statuses_.back().reason,
-            "joint y of the arm is 0.002 m away from the goal (at most 0.0005 m), 1 s after it "
-            "should be there");
+            "joint y of the arm is 0.002 m away from the goal (goal_tolerance_m is 0.0005), 1 s "
+            "after it should be there (goal_time_s)");
   EXPECT_EQ(execution_.reference().at(now_).q, goal) << "the reference stays";
 }
 

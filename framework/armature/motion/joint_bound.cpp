@@ -17,17 +17,17 @@ JointVector each(const JointBound& bound, const RobotModel& model) {
 }
 
 std::optional<std::string> strayed(const RobotModel& model, const JointVector& q,
-                                   const JointVector& wanted, const JointBound& bound,
-                                   std::string_view where) {
+                                   const JointTarget& target, const JointBound& bound) {
   for (int i = 0; i < model.dof(); ++i) {
     const bool turns = model.is_revolute(i);
     const double most = turns ? bound.turning_rad : bound.sliding_m;
-    const double away = std::abs(q[i] - wanted[i]);
+    const double away = std::abs(q[i] - target.q[i]);
     if (away <= most) continue;
     const char* unit = turns ? "rad" : "m";
     const auto joint = static_cast<std::size_t>(model.independent_joint(i));
-    return fmt::format("joint {} of the arm is {:.4g} {} away from {} (at most {:g} {})",
-                       model.joints()[joint].name, away, unit, where, most, unit);
+    return fmt::format("joint {} of the arm is {:.4g} {} away from {} ({}_{} is {:g})",
+                       model.joints()[joint].name, away, unit, target.name, target.bound_name, unit,
+                       most);
   }
   return std::nullopt;
 }

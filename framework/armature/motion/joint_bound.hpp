@@ -17,10 +17,15 @@ struct JointBound {
 /// Of each independent joint.
 JointVector each(const JointBound& bound, const RobotModel& model);
 
-/// nullopt, or which joint of an arm at `q` is how far from `wanted`, which has the name `where`:
-/// "joint 3 of the arm is 0.2 rad away from the reference (at most 0.1 rad)". Allocates only then.
+/// Where an arm should be, and the parameter, less its _rad or _m, that says how near.
+struct JointTarget {
+  const JointVector& q;
+  std::string_view name, bound_name;
+};
+
+/// nullopt, or which joint of an arm at `q` is how far off: "joint 3 of the arm is 0.2 rad away
+/// from the reference (max_deviation_rad is 0.1)". Allocates only then.
 std::optional<std::string> strayed(const RobotModel& model, const JointVector& q,
-                                   const JointVector& wanted, const JointBound& bound,
-                                   std::string_view where);
+                                   const JointTarget& target, const JointBound& bound);
 
 }  // namespace armature

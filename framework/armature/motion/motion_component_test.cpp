@@ -269,7 +269,7 @@ TEST_F(MotionComponentTest, AnArmThatIsElsewhereFailsTheGoalAndTheReferenceHolds
   collect();
   EXPECT_EQ(story().back(), "1 failed");
   EXPECT_EQ(statuses_.back().reason_(),
-            "joint y of the arm is 0.2001 m away from the reference (at most 0.05 m)");
+            "joint y of the arm is 0.2001 m away from the reference (max_deviation_m is 0.05)");
   const auto told = motion_.take<msg::JointState>("servo_jp");
   EXPECT_EQ(told.back().position_(), (std::vector<double>{arm_[0], arm_[1], arm_[2]}));
   EXPECT_EQ(told.back().velocity_(), (std::vector<double>{0, 0, 0}));

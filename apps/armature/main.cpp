@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The command line. The only file that includes CLI11.
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <functional>
 #include <iostream>
@@ -288,7 +291,18 @@ int run_command_line(int argc, char** argv) {
 }  // namespace
 }  // namespace armature
 
+/// Standard streams that the caller has closed: else the next files that are opened would be them.
+/// What is written to one of them then fails.
+void hold_standard_streams() {
+  int file = 0;
+  do {
+    file = open("/dev/null", O_RDONLY);
+  } while (file >= 0 && file <= STDERR_FILENO);
+  if (file > STDERR_FILENO) close(file);
+}
+
 int main(int argc, char** argv) {
+  hold_standard_streams();
   std::ios::sync_with_stdio(false);
   return armature::run_command_line(argc, argv);
 }

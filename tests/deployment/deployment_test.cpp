@@ -146,8 +146,8 @@ TEST_F(DeploymentTest, AParameterThatMustBeAnothersIsTakenFromItOrTheSame) {
             "'beat', and is not; leave one of them out, or make them equal");
   EXPECT_EQ(beats_of_ear(beat + "  late: {plugin: test/beat, topics: late, params: {beats: 4}}\n"
                                 "  ear: {plugin: test/ear}\n"),
-            "test.yaml:4:45: 'beats' of component 'ear' must be the same as that of component "
-            "'late', and is not; leave one of them out, or make them equal");
+            "3")
+      << "the one that it hears";
 }
 
 TEST_F(DeploymentTest, AnExecutorIsReadWithItsPeriodPriorityAndCpu) {

@@ -78,6 +78,7 @@ TEST(DentalImplant, TurnsFromSiteToSiteByAnyInterpolator) {
 /// On a C2 curve the acceleration's step from sample to sample shrinks with the samples.
 TEST(DentalImplant, TheTurnThatWasExecutedHasAContinuousAcceleration) {
   const DeploymentRun coarse = implant(), fine = implant({"executors.control.period_s=0.0005",
+                                                          kMotion + "params.rate_hz=2000",
                                                           "components.arm.params.rate_hz=2000"});
   expect_drilled(fine);
   EXPECT_LE(coarse.figure("acceleration_jump_of_peak"), 0.02);
@@ -174,10 +175,11 @@ TEST(DentalImplant, ASolverThatGoesAlongALimitNeedsAMargin) {
 
 TEST(DentalImplant, APathThatKnowsNoKeyPosesIsRefusedBeforeAnythingMoves) {
   const DeploymentRun run =
-      implant({kMotion + "path.plugin=path/needle", kMotion + "params.path_only=true"});
+      implant({kMotion + "path.plugin=path/needle", kMotion + "params.path_only=true",
+               "components.alone={plugin: path/orientations}"});
   EXPECT_EQ(run.command.exit_code, 3);
-  EXPECT_NE(run.command.err.find("'task' needs 'key_poses', and no component offers it; offered by "
-                                 "path/orientations\n"),
+  EXPECT_NE(run.command.err.find("'task' needs 'key_poses', and no component on its topics offers "
+                                 "it; offered by path/orientations\n"),
             std::string::npos)
       << run.text();
 }

@@ -107,7 +107,7 @@ TEST(MasterManipulator, AMoveThatTheMastersLimitsForbidInThePapersTimeIsRefused)
 
 TEST(MasterManipulator, ASlaveThatCannotFollowIsHeld) {
   const DeploymentRun run = teleoperation({kTask + "scale=10", kTask + "max_tip_speed_m_s=1",
-                                           "components.motion.params.max_tool_velocity_m_s=1"});
+                                           "components.motion.params.max_tracking_velocity_m_s=1"});
   expect_ended(run, "held", "the slave cannot follow: ik: the goal: joint_limit");
 }
 
@@ -123,6 +123,22 @@ TEST(MasterManipulator, AHandThatIsSilentBeforeItClosesTheClutchIsNamedAndEndsTh
   EXPECT_EQ(run.status(), "held") << run.text();
   EXPECT_EQ(run.word("reason"), "the clutch tells nothing");
   EXPECT_NE(run.command.err.find("aligned: the clutch tells nothing"), std::string::npos);
+}
+
+TEST(MasterManipulator, AMisspeltWordBeforeTheTopicsOfAnArmIsTold) {
+  const DeploymentRun run = teleoperation({"components.master.topics=mastr"});
+  EXPECT_EQ(run.command.exit_code, 3);
+  EXPECT_NE(
+      run.command.err.find("surgeon.measured_js reads topic "
+                           "'/master_manipulator/master/arm/measured_js', which nobody writes; "
+                           "did you mean '/master_manipulator/mastr/arm/measured_js'?\n"),
+      std::string::npos)
+      << run.text();
+}
+
+TEST(MasterManipulator, MotionsWithoutAnExecutorsPeriodHaveTheirOwn) {
+  expect_teleoperated(
+      teleoperation({"components.motion.executor=main", "components.master_motion.executor=main"}));
 }
 
 TEST(MasterManipulator, OfAHandThatDoesNotTrembleNoRatioIsTold) {

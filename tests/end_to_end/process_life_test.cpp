@@ -39,7 +39,16 @@ TEST(ProcessLife, AnInterruptedRunEndsAtOnceAndSaysSo) {
   EXPECT_FALSE(result.timed_out) << result.err;
   EXPECT_EQ(result.exit_code, 1) << result.err;
   EXPECT_THAT(result.err, HasSubstr("armature: interrupted"));
-  EXPECT_THAT(result.out, HasSubstr(R"("status":"goals_missed","reason":)"));
+  EXPECT_THAT(result.out, HasSubstr(R"("status":"goals_missed","reason":"interrupted before)"));
+}
+
+TEST(ProcessLife, AStandardOutputThatIsClosedIsNotTheNextFileThatIsOpened) {
+  const CommandResult result =
+      run_command({"/bin/sh", "-c",
+                   armature() + " run " + source_file("configs/sr1_biopsy.yaml") +
+                       " --json --domain " + std::to_string(unique_dds_domain()) + " >&-"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr("armature: standard output cannot be written"));
 }
 
 TEST(ProcessLife, ARunThatIsInterruptedBeforeItStartsEndsAtOnce) {

@@ -90,6 +90,13 @@ TEST(Sr1Biopsy, AMarkerThatMovedOrATargetKnownTooBadlyIsRefused) {
                  "the markers fit to 0.54 mm rms, 0.3 mm are allowed");
 }
 
+TEST(Sr1Biopsy, AStoryThatIsNotHeardToItsEndTellsThatFirst) {
+  const DeploymentRun run = biopsy({"run.time_limit_s=3"});
+  EXPECT_EQ(run.command.exit_code, 1);
+  EXPECT_EQ(run.word("reason"), "the time limit of 3 s was over before the end of the story")
+      << run.text();
+}
+
 TEST(Sr1Biopsy, AHeadOutOfReachIsRefused) {
   expect_refused({kHead + "head_mm=[1450, -120, 260]"}, "ik: the goal: out_of_reach");
 }

@@ -110,10 +110,8 @@ const Fault kFaults[] = {
      "deployment.yaml:10:53: landmarks.landmarks and face.face both write topic "
      "'/faulty/landmarks'; give one of them others "
      "with 'topics:' or 'out:'\n"
-     "deployment.yaml:11:3: target.face reads topic '/faulty/face', which nobody writes; did you "
-     "mean '/faulty/target'?\n"
-     "deployment.yaml:21:3: report.face reads topic '/faulty/face', which nobody writes; did you "
-     "mean '/faulty/target'?\n"},
+     "deployment.yaml:11:3: target.face reads topic '/faulty/face', which nobody writes\n"
+     "deployment.yaml:21:3: report.face reads topic '/faulty/face', which nobody writes\n"},
     {"OptionalInputRenamedToWhatNobodyWrites", "executor: control}",
      "executor: control, in: {servo_jp: arm/servo}}",
      "deployment.yaml:20:66: arm.servo_jp reads topic '/faulty/arm/servo', which nobody writes; "
@@ -283,7 +281,7 @@ const Fault kFaults[] = {
     {"MoveThatNeverComes", "{plugin: report/lamp_alignment}",
      "{plugin: report/lamp_alignment, params: {expect_move: true}}",
      "deployment.yaml:21:3: 'report' needs 'patient_moves' unless 'expect_move' is false, and no "
-     "component offers it; 'scene' does unless 'move_duration_s' is 0\n"},
+     "component on its topics offers it; 'scene' does unless 'move_duration_s' is 0\n"},
     {"MoveOfNothing", "tilt_up_deg: 0", "move_duration_s: 2",
      "deployment.yaml:8:3: component 'scene': move_duration_s is set but nothing moves; set "
      "move_mm, move_tilt_up_deg or move_tilt_side_deg, or move_duration_s to 0\n"},

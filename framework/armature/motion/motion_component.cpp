@@ -78,7 +78,7 @@ PlanningOptions planning_of(const Params& params) {
 
 /// 0 stands for any.
 double max_tool_speed_of(const Params& params) {
-  const double speed = params.number("max_tool_velocity_m_s");
+  const double speed = params.number("max_tracking_velocity_m_s");
   return speed > 0 ? speed : std::numeric_limits<double>::infinity();
 }
 
@@ -119,7 +119,9 @@ class Motion : public Component {
                                {*path_, *ik_, *select_, *trajectory_},
                                limits_of(setup, model_),
                                planning_of(setup.params())},
-                   options_of(setup.params(), model_)} {}
+                   options_of(setup.params(), model_)} {
+    setup.activate_every(seconds(1 / setup.params().number("rate_hz")));
+  }
 
   void step(Time now) override {
     const auto measured = read_measured();

@@ -3,13 +3,15 @@
 
 #include <fmt/format.h>
 
+#include "armature/runtime/graph.hpp"
+
 namespace armature {
 
 void agree_on_params(DeploymentConfig& deployment, config::Problems& problems) {
   for (ComponentConfig& component : deployment.components) {
     for (const ParamSpec& spec : component.manifest->params) {
       for (const ComponentConfig& other : deployment.components) {
-        if (spec.same_as != other.plugin_id) continue;
+        if (spec.same_as != other.plugin_id || !exchange_topics(component, other)) continue;
         if (component.params.agree(spec.name, other.params)) continue;
         problems.add(component.params.origin(spec.name),
                      fmt::format("'{}' of component '{}' must be the same as that of component "

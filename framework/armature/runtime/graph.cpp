@@ -4,9 +4,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <array>
 #include <map>
 #include <optional>
 #include <set>
+#include <sstream>
 #include <vector>
 
 #include "armature/config/problems.hpp"
@@ -77,9 +80,35 @@ void check_match(const ComponentConfig& reader, const PortBinding& input,
   }
 }
 
-/// The topic that may have been meant: the same one of another arm, else the nearest in spelling.
+std::vector<std::string> words_of(const std::string& topic) {
+  std::vector<std::string> words;
+  std::istringstream text{topic};
+  for (std::string word; std::getline(text, word, '/');) words.push_back(word);
+  return words;
+}
+
+/// Whether one word of `there` is `asked` misspelt, and all others are the same.
+bool is_misspelt(const std::string& asked, const std::string& there) {
+  const auto wanted = words_of(asked), written = words_of(there);
+  if (wanted.size() != written.size()) return false;
+  int wrong = 0;
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    if (wanted[i] == written[i]) continue;
+    const std::array known{written[i]};
+    const bool near =
+        config::did_you_mean(wanted[i], known).find("did you mean") != std::string::npos;
+    wrong += near ? 1 : 2;
+  }
+  return wrong == 1;
+}
+
+/// The topic of that type that may have been meant: one word misspelt, the same one of another arm,
+/// or the nearest in spelling.
 std::string meant(const std::string& topic, const std::vector<std::string>& written,
                   const std::string& deployment) {
+  for (const std::string& there : written) {
+    if (is_misspelt(topic, there)) return fmt::format("; did you mean '{}'?", there);
+  }
   const auto under_deployment = [&](const std::string& name) {
     const std::string space = '/' + deployment;
     return name.starts_with(space + '/') ? name.substr(space.size()) : name;
@@ -96,8 +125,13 @@ std::string meant(const std::string& topic, const std::vector<std::string>& writ
 
 void check_inputs(const DeploymentConfig& deployment, const Writers& writers,
                   config::Problems& problems) {
-  std::vector<std::string> topics;
-  for (const auto& [topic, there] : writers) topics.push_back(topic);
+  const auto topics_of = [&](const std::string& type) {
+    std::vector<std::string> topics;
+    for (const auto& [topic, there] : writers) {
+      if (there.front().port->spec.type == type) topics.push_back(topic);
+    }
+    return topics;
+  };
   for (const ComponentConfig& component : deployment.components) {
     for (const PortBinding& input : component.inputs) {
       const auto there = writers.find(input.topic);
@@ -107,9 +141,10 @@ void check_inputs(const DeploymentConfig& deployment, const Writers& writers,
                       problems);
         }
       } else if (!input.spec.outside && (!input.spec.optional || input.renamed)) {
-        problems.add(input.origin, fmt::format("{} reads topic '{}', which nobody writes{}",
-                                               port_name(component, input), input.topic,
-                                               meant(input.topic, topics, deployment.name)));
+        problems.add(input.origin,
+                     fmt::format("{} reads topic '{}', which nobody writes{}",
+                                 port_name(component, input), input.topic,
+                                 meant(input.topic, topics_of(input.spec.type), deployment.name)));
       }
     }
   }
@@ -160,6 +195,16 @@ void check_graph(DeploymentConfig& deployment, config::Problems& problems) {
   const Writers writers = find_writers(deployment, problems);
   check_inputs(deployment, writers, problems);
   place_components(deployment, writers, problems);
+}
+
+bool exchange_topics(const ComponentConfig& a, const ComponentConfig& b) {
+  const auto reads = [](const ComponentConfig& reader, const ComponentConfig& writer) {
+    return std::ranges::any_of(writer.outputs, [&](const PortBinding& output) {
+      return std::ranges::find(reader.inputs, output.topic, &PortBinding::topic) !=
+             reader.inputs.end();
+    });
+  };
+  return reads(a, b) || reads(b, a);
 }
 
 }  // namespace armature

@@ -11,4 +11,7 @@ namespace armature {
 /// cycle in which no input is declared as feedback.
 void check_graph(DeploymentConfig& deployment, config::Problems& problems);
 
+/// Whether one of them reads what the other one writes.
+bool exchange_topics(const ComponentConfig& a, const ComponentConfig& b);
+
 }  // namespace armature

@@ -11,6 +11,8 @@
 #include <string_view>
 #include <vector>
 
+#include "armature/runtime/graph.hpp"
+
 namespace armature {
 namespace {
 
@@ -66,28 +68,28 @@ std::optional<std::string> way_out(std::string_view word, const std::vector<Part
   return "no plugin on the search path does" + config::did_you_mean(word, words);
 }
 
-/// `parties` need, and they and `more` offer.
-void check_parties(const std::vector<Party>& parties, const std::vector<Party>& more,
-                   std::string_view nobody, const PluginRegistry& plugins,
-                   const std::function<bool(const PluginManifest&)>& fits,
-                   config::Problems& problems) {
-  std::vector<Party> offering = parties;
-  offering.insert(offering.end(), more.begin(), more.end());
-  for (const Party& needy : parties) {
-    for (const Trait& need : needy.manifest->needs) {
-      if (!holds(need, needy)) continue;
-      const bool met = std::ranges::any_of(offering, [&](const Party& party) {
-        const Trait* offer = find_trait(party.manifest->offers, need.word);
-        return offer && holds(*offer, party);
-      });
-      const auto who_could = way_out(need.word, offering, plugins, fits);
-      if (met || !who_could) continue;
-      const std::string unless = unless_text(need, needy.manifest->params);
-      problems.add(needy.origin,
-                   fmt::format("'{}' needs '{}'{}{}, and {} offers it; {}", needy.name, need.word,
-                               unless.empty() ? "" : " ", unless, nobody, *who_could));
-    }
+/// `needy` needs, and `offering` may offer.
+void check_needs(const Party& needy, const std::vector<Party>& offering, std::string_view nobody,
+                 const PluginRegistry& plugins,
+                 const std::function<bool(const PluginManifest&)>& fits,
+                 config::Problems& problems) {
+  for (const Trait& need : needy.manifest->needs) {
+    if (!holds(need, needy)) continue;
+    const bool met = std::ranges::any_of(offering, [&](const Party& party) {
+      const Trait* offer = find_trait(party.manifest->offers, need.word);
+      return offer && holds(*offer, party);
+    });
+    const auto who_could = way_out(need.word, offering, plugins, fits);
+    if (met || !who_could) continue;
+    const std::string unless = unless_text(need, needy.manifest->params);
+    problems.add(needy.origin,
+                 fmt::format("'{}' needs '{}'{}{}, and {} offers it; {}", needy.name, need.word,
+                             unless.empty() ? "" : " ", unless, nobody, *who_could));
   }
+}
+
+Party party_of(const ComponentConfig& component) {
+  return {component.name, component.manifest, &component.params, component.origin};
 }
 
 std::vector<Party> slots_of(const ComponentConfig& component) {
@@ -111,24 +113,30 @@ void check_slot_needs(const ComponentConfig& component, const PluginRegistry& pl
     const auto& slots = component.manifest->slots;
     return std::ranges::find(slots, plugin.kind, &SlotSpec::kind) != slots.end();
   };
-  const Party itself{component.name, component.manifest, &component.params, component.origin};
-  check_parties(parties, {itself}, fmt::format("nothing in component '{}'", component.name),
-                plugins, fits_a_slot, problems);
+  std::vector<Party> offering = parties;
+  offering.push_back(party_of(component));
+  const std::string nobody = fmt::format("nothing in component '{}'", component.name);
+  for (const Party& needy : parties) {
+    check_needs(needy, offering, nobody, plugins, fits_a_slot, problems);
+  }
 }
 
 void check_component_needs(const DeploymentConfig& deployment, const PluginRegistry& plugins,
                            config::Problems& problems) {
-  std::vector<Party> parties, in_slots;
-  std::vector<std::string_view> kinds{"component"};
-  for (const ComponentConfig& component : deployment.components) {
-    parties.push_back({component.name, component.manifest, &component.params, component.origin});
-    std::ranges::copy(slots_of(component), std::back_inserter(in_slots));
-    for (const SlotSpec& slot : component.manifest->slots) kinds.push_back(slot.kind);
+  for (const ComponentConfig& needy : deployment.components) {
+    std::vector<Party> offering;
+    std::vector<std::string_view> kinds{"component"};
+    for (const ComponentConfig& component : deployment.components) {
+      if (!exchange_topics(needy, component)) continue;
+      offering.push_back(party_of(component));
+      std::ranges::copy(slots_of(component), std::back_inserter(offering));
+      for (const SlotSpec& slot : component.manifest->slots) kinds.push_back(slot.kind);
+    }
+    const auto fits = [&](const PluginManifest& plugin) {
+      return std::ranges::find(kinds, plugin.kind) != kinds.end();
+    };
+    check_needs(party_of(needy), offering, "no component on its topics", plugins, fits, problems);
   }
-  const auto fits = [&](const PluginManifest& plugin) {
-    return std::ranges::find(kinds, plugin.kind) != kinds.end();
-  };
-  check_parties(parties, in_slots, "no component", plugins, fits, problems);
 }
 
 }  // namespace armature

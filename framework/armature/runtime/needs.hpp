@@ -13,8 +13,8 @@ namespace armature {
 void check_slot_needs(const ComponentConfig& component, const PluginRegistry& plugins,
                       config::Problems& problems);
 
-/// A need of a component that no component of the deployment offers, nor a plugin in a slot of one, is
-/// a problem at the component; not so when only plugins offer it that no slot here could take.
+/// A need of a component that no component with which it exchanges topics offers, nor a plugin in a
+/// slot of one, is a problem at the component; not so when only plugins offer it that no slot here could take.
 void check_component_needs(const DeploymentConfig& deployment, const PluginRegistry& plugins,
                            config::Problems& problems);
 

@@ -76,12 +76,13 @@ void RunReport::judge_goal(const Goal& goal) {
 void RunReport::judge(const Deployment& deployment, const Ending& ending) {
   for (const Goal& goal : deployment.config().goals) judge_goal(goal);
   if (deployment.timed_out() && !deployment.config().goals.empty()) {
-    reasons_.push_back(fmt::format("the time limit of {:g} s was over before the end of the story",
-                                   deployment.config().time_limit_s));
+    reasons_.insert(reasons_.begin(),
+                    fmt::format("the time limit of {:g} s was over before the end of the story",
+                                deployment.config().time_limit_s));
   }
   // A deployment with goals tells a story, and this one was not heard to its end.
   if (ending.stopped && !deployment.config().goals.empty()) {
-    reasons_.push_back(*ending.stopped + " before the end of the story");
+    reasons_.insert(reasons_.begin(), *ending.stopped + " before the end of the story");
   }
   if (!reasons_.empty()) status_ = "goals_missed";
   if (!story_status_.empty()) status_ = story_status_;

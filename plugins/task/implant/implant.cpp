@@ -73,7 +73,7 @@ int Implant::jaw_block() const { return std::clamp(settings_.jaw_samples / 2, 1,
 double Implant::most_moved(const Isometry3d& tracker_T_jaw, const Isometry3d& from) const {
   double most_m = 0;
   for (const Isometry3d& site : sites_) {
-    for (const double above_m : {0.0, settings_.drilling.stand_off_m}) {
+    for (const double above_m : {0.0, settings_.depth_m}) {
       const Eigen::Vector3d point =
           chain_.patient_T_image * (site * Eigen::Vector3d{0, 0, -above_m});
       most_m = std::max(most_m, (tracker_T_jaw * point - from * point).norm());

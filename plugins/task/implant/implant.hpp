@@ -21,6 +21,7 @@ struct ImplantSettings {
   int jaw_samples = 60;              // averaged before the way is worked out
   Duration patience = seconds(0.5);  // without a body being seen that is needed
   DrillingSettings drilling;
+  double depth_m = 0.012;  // of a bore
   Duration dwell = seconds(0.5);  // at a bottom where the drill stops
   double most_pivot_residual_m = 0.0005, most_hand_eye_residual_m = 0.0005;
   double most_fiducial_error_m = 0.0015, most_site_error_m = 0.0015;
@@ -96,7 +97,7 @@ class Implant {
   int jaw_block() const;
   void locate_jaw(const Eigen::Isometry3d& tracker_T_jaw);
   void guard_jaw();
-  /// By how much a jaw has moved [m]: at the site, or above it, where that is most.
+  /// By how much a jaw has moved [m] at the ends of the bores, where that is most.
   double most_moved(const Eigen::Isometry3d& tracker_T_jaw, const Eigen::Isometry3d& from) const;
   /// For good; an arm that is on its way holds.
   void refuse(const std::string& why);

@@ -57,6 +57,7 @@ ImplantSettings settings_of(const Params& params) {
           .jaw_samples = static_cast<int>(params.integer("jaw_samples")),
           .patience = seconds(params.number("patience_s")),
           .drilling = drilling_of(params),
+          .depth_m = params.number("depth_mm"),
           .dwell = seconds(params.number("dwell_s")),
           .most_pivot_residual_m = params.number("most_pivot_residual_mm"),
           .most_hand_eye_residual_m = params.number("most_hand_eye_residual_mm"),

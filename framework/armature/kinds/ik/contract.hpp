@@ -14,18 +14,23 @@
 #include "armature/kinds/ik/contract/law.hpp"
 #include "armature/robot/kinematics.hpp"
 
-// The laws of the kind `ik` as tests. In the plugin's test, in one source file:
+// The laws of the kind `ik` as tests. In the plugin's test, in one source file of the program:
 //
 //   INSTANTIATE_TEST_SUITE_P(Lamp, IkLaws, testing::Values(IkSubject{.name = "lamp", ...}));
 namespace armature {
 
-/// Checks a law and fails with the first answers that break it.
-inline void expect_kept(const IkLaw& law, const IkSubject& subject) {
+/// Tools that count allocations, where no sanitizer brings its own.
+inline IkLawTools counting_tools() {
   IkLawTools tools;
 #ifdef ARMATURE_COUNTS_ALLOCATIONS
   tools.allocations = [] { return allocation_count; };
 #endif
-  const IkLawReport report = check_law(law, subject, tools);
+  return tools;
+}
+
+/// Checks a law and fails with the first answers that break it.
+inline void expect_kept(const IkLaw& law, const IkSubject& subject) {
+  const IkLawReport report = check_law(law, subject, counting_tools());
   if (!report.skipped.empty()) GTEST_SKIP() << report.skipped;
   EXPECT_EQ(report.failed, 0) << "of " << report.goals << " questions, seed " << subject.seed;
   for (const auto& [what, question] : report.violations) ADD_FAILURE() << what << "\n" << question;

@@ -175,12 +175,8 @@ void PrintTo(const Case& one, std::ostream* out) { *out << one.name; }
 class FaultySolver : public testing::TestWithParam<Case> {};
 
 IkLawReport report_of(std::string_view name, const IkSubject& of) {
-  IkLawTools tools;
-#ifdef ARMATURE_COUNTS_ALLOCATIONS
-  tools.allocations = [] { return allocation_count; };
-#endif
   for (const IkLaw& law : ik_laws()) {
-    if (law.name == name) return check_law(law, of, tools);
+    if (law.name == name) return check_law(law, of, counting_tools());
   }
   throw std::logic_error("no law " + std::string{name});
 }

@@ -202,12 +202,8 @@ INSTANTIATE_TEST_SUITE_P(PointingGantry, IkLaws,
 constexpr std::string_view kLaw = "ABranchKeepsItsLimitsAtTheRedundanciesThatAreToldAndNoOthers";
 
 IkLawReport report_of(const IkSubject& of, std::string_view name = kLaw) {
-  IkLawTools tools;
-#ifdef ARMATURE_COUNTS_ALLOCATIONS
-  tools.allocations = [] { return allocation_count; };
-#endif
   for (const IkLaw& law : ik_laws()) {
-    if (law.name == name) return check_law(law, of, tools);
+    if (law.name == name) return check_law(law, of, counting_tools());
   }
   throw std::logic_error("no such law");
 }

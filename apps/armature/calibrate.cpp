@@ -90,9 +90,9 @@ Json head(const char* kind, const char* method, const CalibrationOptions& option
   throw std::runtime_error{fmt::format("{}: {}", options.poses, reason.text)};
 }
 
-/// The file to write; empty: the result goes to standard output.
-std::string file_of(const CalibrationOptions& options) {
-  return options.output == "-" ? "" : options.output;
+/// The file to write; none: the result goes to standard output.
+std::optional<std::string> file_of(const CalibrationOptions& options) {
+  return options.output == "-" ? std::nullopt : options.output;
 }
 
 /// `hint`: how a robot file takes it.
@@ -102,26 +102,26 @@ int deliver(const Json& json, const CalibrationOptions& options, const std::stri
   }
   const std::string yaml = fmt::format("# For a robot file: frames: {{{}}}\n{}", hint,
                                        config::to_yaml(to_node(json), false));
-  const std::string file = file_of(options);
-  if (!file.empty()) {
+  const std::optional<std::string> file = file_of(options);
+  if (file) {
     std::error_code none;
-    if (std::filesystem::equivalent(file, options.poses, none)) {
+    if (std::filesystem::equivalent(*file, options.poses, none)) {
       throw InvalidChoice(
-          fmt::format("-o {}: that is the recording; give the result another name", file));
+          fmt::format("-o {}: that is the recording; give the result another name", *file));
     }
-    write_atomically(file, yaml);
-    fmt::print(stderr, "{}: {} poses, {} mm rms remain\n", file, json["poses"].get<int>(),
+    write_atomically(*file, yaml);
+    fmt::print(stderr, "{}: {} poses, {} mm rms remain\n", *file, json["poses"].get<int>(),
                json["residual"]["rms_mm"].get<double>());
   }
   if (options.json) fmt::print("{}\n", readable(json));
-  if (file.empty() && !options.json) fmt::print("{}", yaml);
+  if (!file && !options.json) fmt::print("{}", yaml);
   return kOk;
 }
 
 std::string calibrated(const std::string& frame, const std::string& parent,
                        const CalibrationOptions& options) {
   return fmt::format("{}: {{parent: {}, calibrated: {}}}", frame, parent,
-                     file_of(options).empty() ? "THIS FILE" : file_of(options));
+                     file_of(options).value_or("THIS FILE"));
 }
 
 /// Where the error is told: a stated point, or the middle of the recorded bodies.
@@ -188,23 +188,35 @@ struct FrameName {
   std::string name;
 };
 
-void check(const std::vector<FrameName>& frames) {
+void expect_name(const FrameName& frame) {
   const auto in_a_name = [](unsigned char c) {
     return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.' || c == '/';
   };
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    const auto& [option, name] = frames[i];
-    if (name.empty() || !std::ranges::all_of(name, in_a_name)) {
-      throw InvalidChoice(
-          fmt::format("{} is a frame's name of letters, digits, '_', '-', '.' and "
-                      "'/'; {} is none",
-                      option, config::in_quotes(name)));
-    }
-    for (std::size_t k = 0; k < i; ++k) {
-      if (frames[k].name != name) continue;
+  if (!frame.name.empty() && std::ranges::all_of(frame.name, in_a_name)) return;
+  throw InvalidChoice(
+      fmt::format("{} is a frame's name of letters, digits, '_', '-', '.' and "
+                  "'/'; {} is none",
+                  frame.option, config::in_quotes(frame.name)));
+}
+
+/// `named` will stand in a robot file beside its base, its flange and, where it is known, its
+/// joints.
+void check(const CalibrationOptions& options, const std::optional<RobotModel>& robot,
+           const std::vector<FrameName>& named) {
+  std::vector<FrameName> taken{{"the robot's base", "base"}, {"--tip", flange_name(options)}};
+  expect_name(taken.back());
+  if (robot) {
+    for (const Joint& joint : robot->joints())
+      taken.push_back({"a joint of the robot", joint.name});
+  }
+  for (const FrameName& frame : named) {
+    expect_name(frame);
+    const auto other = std::ranges::find(taken, frame.name, &FrameName::name);
+    if (other != taken.end()) {
       throw InvalidChoice(fmt::format("{} and {} are both called '{}'; a frame's name is its own",
-                                      frames[k].option, option, name));
+                                      other->option, frame.option, frame.name));
     }
+    taken.push_back(frame);
   }
 }
 
@@ -212,11 +224,8 @@ void check(const std::vector<FrameName>& frames) {
 
 int run_hand_eye_calibration(const CalibrationOptions& options) {
   check(options);
-  check({{"the robot's base", "base"},
-         {"--tip", flange_name(options)},
-         {"--body", options.body},
-         {"--tracker", options.tracker}});
   const auto robot = load_flange(options);
+  check(options, robot, {{"--body", options.body}, {"--tracker", options.tracker}});
   const auto poses = read_hand_eye_poses(options.poses, robot ? &*robot : nullptr);
   HandEyeOptions how;
   if (!options.noise.empty()) {
@@ -232,12 +241,11 @@ int run_hand_eye_calibration(const CalibrationOptions& options) {
 int run_tool_calibration(const CalibrationOptions& options) {
   const auto robot = load_flange(options);
   const ToolPoses poses = read_tool_poses(options.poses, robot ? &*robot : nullptr);
+  std::vector<FrameName> named{{"--tool", options.tool}};
   if (poses.is_tracked) {
-    check({{"--tracker", options.tracker}, {"--body", options.body}, {"--tool", options.tool}});
-  } else {
-    check(
-        {{"the robot's base", "base"}, {"--tip", flange_name(options)}, {"--tool", options.tool}});
+    named = {{"--tracker", options.tracker}, {"--body", options.body}, {"--tool", options.tool}};
   }
+  check(options, robot, named);
   const auto found = calibrate_pivot(poses.fixed_T_body);
   if (!found) refuse_poses(options, found.error());
   const std::string parent = poses.is_tracked ? options.body : flange_name(options);

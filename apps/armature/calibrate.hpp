@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,9 +10,9 @@
 namespace armature {
 
 struct CalibrationOptions {
-  std::string poses;          // file of recorded poses
-  ArmChoice arm;              // whose `joints` they are; its tip is the flange
-  std::string output;         // YAML file; empty: to standard output
+  std::string poses;                  // file of recorded poses
+  ArmChoice arm;                      // whose `joints` they are; its tip is the flange
+  std::optional<std::string> output;  // YAML file; none or "-": to standard output
   std::vector<double> noise;  // stated, mm and deg along and about each axis; empty: measured
   std::vector<double> at_m;   // point of the base; empty: the middle of the recorded bodies
   std::string tracker = "tracker", body = "body", tool = "tool";  // names of frames

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -20,6 +21,7 @@
 #include "armature/runtime/instance_lock.hpp"
 #include "armature/runtime/output_folder.hpp"
 #include "armature/runtime/run_report.hpp"
+#include "armature/runtime/write_atomically.hpp"
 #include "exit_code.hpp"
 
 namespace armature {
@@ -28,6 +30,8 @@ namespace {
 std::atomic<int> g_signal{0};
 std::atomic<bool> g_json{false};
 std::atomic<pid_t> g_process{0};
+std::string g_report_file;           // report.json; set before any handler
+std::atomic<bool> g_reports{false};  // from when that can be written
 
 void on_signal(int signal) {
   g_signal = signal;
@@ -43,12 +47,17 @@ void end_before_start(int signal) {
     [[maybe_unused]] const auto written = ::write(file, text.data(), text.size());
   };
   const bool interrupted = signal == SIGINT;
-  if (g_json) {
-    write_out(STDOUT_FILENO,
-              interrupted ? R"({"status":"not_started","reason":"interrupted before the start"})"
-                            "\n"
-                          : R"({"status":"not_started","reason":"terminated before the start"})"
-                            "\n");
+  const std::string_view ending =
+      interrupted ? R"({"status":"not_started","reason":"interrupted before the start"})"
+                    "\n"
+                  : R"({"status":"not_started","reason":"terminated before the start"})"
+                    "\n";
+  if (g_json) write_out(STDOUT_FILENO, ending);
+  if (g_reports) {
+    // A signal handler may open and write, and little else; not wait for a pipe's reader either.
+    const int report =
+        ::open(g_report_file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NONBLOCK | O_CLOEXEC, 0666);
+    if (report >= 0) write_out(report, ending);
   }
   write_out(STDERR_FILENO, interrupted ? "armature: interrupted before the start\n"
                                        : "armature: terminated before the start\n");
@@ -104,11 +113,30 @@ std::optional<std::string> run_to_end(Deployment& deployment, ChildProcesses& ch
 }
 
 /// As JSON, what there is to say of a run without figures.
-void print_ending(std::string_view status, const std::string& reason) {
+std::string ending(std::string_view status, const std::string& reason) {
   nlohmann::ordered_json json{{"status", status}};
   if (!reason.empty()) json["reason"] = reason;
   // What is wrong may quote a file that is no UTF-8.
-  fmt::print("{}\n", json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';
+}
+
+/// Makes the folder of the report. What an older run left there is not this one's, however this one
+/// ends.
+void begin_report(const std::filesystem::path& folder) {
+  prepare_output_folder(folder);
+  std::error_code none;
+  const auto older = std::filesystem::symlink_status(g_report_file, none);
+  if (std::filesystem::is_regular_file(older)) std::filesystem::remove(g_report_file, none);
+  g_reports = true;
+}
+
+/// What a run that did not begin says, where its report would be.
+void write_ending(const std::string& ending) {
+  try {
+    write_atomically(g_report_file, ending);
+  } catch (const std::runtime_error& error) {
+    fmt::print(stderr, "armature: {}\n", error.what());
+  }
 }
 
 /// Of a run that did not begin.
@@ -154,7 +182,7 @@ int conclude(const RunOptions& options, const Deployment& deployment,
 /// Of a process that does not judge the deployment's goals.
 int conclude_child(const RunOptions& options, const Deployment& deployment) {
   const std::string fault = deployment.fault();
-  if (options.json) print_ending(fault.empty() ? "ok" : "fault", fault);
+  if (options.json) fmt::print("{}", ending(fault.empty() ? "ok" : "fault", fault));
   return fault.empty() ? kOk : kFailed;
 }
 
@@ -162,7 +190,7 @@ int run(const RunOptions& options) {
   const bool is_child = !options.process.empty();
   // Another process of a deployment just ends: its main process tells, and asks it for no JSON.
   if (!is_child || options.json) on_end_signals(end_before_start);
-  if (options.report) prepare_output_folder(*options.report);
+  if (options.report && !is_child) begin_report(*options.report);
   PluginRegistry plugins;
   config::Problems problems;
   DeploymentConfig config =
@@ -209,10 +237,13 @@ int run(const RunOptions& options) {
 int run_deployment(const RunOptions& options) {
   g_json = options.json;
   g_process = getpid();
+  if (options.report) g_report_file = *options.report / "report.json";
   try {
     return run(options);
   } catch (const std::exception& error) {
-    if (options.json) print_ending(status_of(error), error.what());
+    const std::string told = ending(status_of(error), error.what());
+    if (options.json) fmt::print("{}", told);
+    if (g_reports) write_ending(told);
     throw;
   }
 }

@@ -78,12 +78,26 @@ PluginPtr<DdsObserver> observe(PluginRegistry& plugins, int domain) {
   return std::move(*observer);
 }
 
-/// Watches a topic; a topic that nobody writes is answered with those that are there.
-void watch(DdsObserver& observer, const TopicOptions& options,
-           std::function<void(const ObservedSample&)> on_sample) {
+/// kTimedOut, and a line that says so, when nothing was found in less time than discovery takes:
+/// that says nothing of the domain. Else kOk.
+int too_short(DdsObserver& observer, const TopicOptions& options) {
+  const bool enough = options.timeout_s <= 0 || seconds(options.timeout_s) >= kDiscovery;
+  if (enough || !observer.topics().empty()) return kOk;
+  fmt::print(stderr,
+             "armature: no topic of domain {} was found within {:g} s, which is too short to find "
+             "out; give it {:g} s\n",
+             options.domain, options.timeout_s, to_seconds(kDiscovery));
+  return kTimedOut;
+}
+
+/// Watches a topic; a topic that nobody writes is answered with those that are there. kOk, or
+/// kTimedOut when the time was too short to find out.
+int watch(DdsObserver& observer, const TopicOptions& options,
+          std::function<void(const ObservedSample&)> on_sample) {
   const Duration patience = options.timeout_s > 0 ? seconds(options.timeout_s) : seconds(5.0);
   const auto watching = observer.watch(options.topic, patience, std::move(on_sample));
-  if (watching) return;
+  if (watching) return kOk;
+  if (const int code = too_short(observer, options); code != kOk) return code;
   std::string there;
   for (const auto& topic : observer.topics()) there += "\n  " + ros_topic_name(topic.name);
   throw std::runtime_error(watching.error().text +
@@ -107,6 +121,7 @@ int list_topics(const TopicOptions& options) {
   const auto observer = observe(plugins, options.domain);
   std::this_thread::sleep_for(options.timeout_s > 0 ? seconds(options.timeout_s) : kDiscovery);
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  if (const int code = too_short(*observer, options); code != kOk) return code;
   const auto topics = observer->topics();
   if (topics.empty()) fmt::print(stderr, "armature: domain {} has no topics\n", options.domain);
   std::size_t width = 40;
@@ -134,7 +149,7 @@ int echo_topic(const TopicOptions& options) {
   PluginRegistry plugins;
   Finish finish{options, 1};
   auto observer = observe(plugins, options.domain);  // goes before what its callback uses
-  watch(*observer, options, [&](const ObservedSample& sample) {
+  const int watching = watch(*observer, options, [&](const ObservedSample& sample) {
     if (options.count > 0 && finish.seen() >= options.count) return;
     const TypeDescription* type = describe_type(sample.type);
     if (!type) {
@@ -151,7 +166,7 @@ int echo_topic(const TopicOptions& options) {
     std::fflush(stdout);
     finish.count();
   });
-  return finish.wait();
+  return watching == kOk ? finish.wait() : watching;
 }
 
 namespace {
@@ -183,12 +198,13 @@ int topic_rate(const TopicOptions& options) {
   std::mutex mutex;
   RateMeter meter;
   auto observer = observe(plugins, options.domain);  // goes before what its callback uses
-  watch(*observer, options, [&](const ObservedSample& sample) {
+  const int watching = watch(*observer, options, [&](const ObservedSample& sample) {
     if (options.count > 0 && finish.seen() >= options.count) return;
     const std::scoped_lock lock{mutex};
     meter.add(sample.source);
     finish.count();
   });
+  if (watching != kOk) return watching;
   const int code = finish.wait([&] {
     const std::scoped_lock lock{mutex};
     if (meter.all().samples > 0) print_rate(meter.take_recent(), "second", options.json);

@@ -89,6 +89,10 @@ TEST_F(BenchIkFiles, AFolderThatCannotBeMadeIsToldBeforeAnythingIsMeasured) {
   EXPECT_EQ(result.out, "");
   EXPECT_EQ(result.err, "armature: cannot make the folder '" + (file / "bench").string() +
                             "': Not a directory\n");
+  const auto nameless = run_command(
+      {armature(), "bench", "ik", "--robot", kLamp, "--poses", "10000000", "--out", ""});
+  EXPECT_EQ(nameless.exit_code, 1);
+  EXPECT_EQ(nameless.err, "armature: cannot make the folder '': Invalid argument\n");
 }
 
 TEST_F(BenchIkFiles, TheTableIsPrintedAlsoWhenAFileCannotBeWritten) {

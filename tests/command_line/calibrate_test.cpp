@@ -271,6 +271,22 @@ const BadPoses kBadPoses[] = {
      3,
      "armature: the robot's base and --tracker are both called 'base'; a frame's name is its "
      "own\n"},
+    {"TheNameOfTheBaseForTheBodyOfATool",
+     {"tool", "--body", "base"},
+     R"({"tracker_T_body":{"position_m":[0,0,1],"quaternion_xyzw":[0,0,0,1]}})",
+     3,
+     "armature: the robot's base and --body are both called 'base'; a frame's name is its own\n"},
+    {"TheNameOfTheFlangeForTheTool",
+     {"tool", "--tool", "flange"},
+     R"({"tracker_T_body":{"position_m":[0,0,1],"quaternion_xyzw":[0,0,0,1]}})",
+     3,
+     "armature: --tip and --tool are both called 'flange'; a frame's name is its own\n"},
+    {"TheNameOfAJoint",
+     {"hand-eye", "--robot", kMed7, "--tracker", "j3"},
+     "{}",
+     3,
+     "armature: a joint of the robot and --tracker are both called 'j3'; a frame's name is its "
+     "own\n"},
     {"ANameWithALineEnd",
      {"hand-eye", "--body", "a\nb"},
      "{}",
@@ -308,6 +324,8 @@ TEST_F(Calibrate, SaysWhichFileCannotBeReadOrWritten) {
             "armature: cannot write 'gone/tool.yaml': No such file or directory\n");
   EXPECT_EQ(refusal({"tool", kTool, "-o", folder_.string()}, 1),
             "armature: cannot write '" + folder_.string() + "': it is no regular file\n");
+  EXPECT_EQ(refusal({"tool", kTool, "-o", ""}, 1),
+            "armature: cannot write '': No such file or directory\n");
 }
 
 TEST_F(Calibrate, NeverWritesOverTheRecording) {

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // `armature check`, `show`, `graph` and `plugin` tell what a deployment and a plugin are.
 #include <gmock/gmock.h>
+#include <unistd.h>
 
+#include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "command.hpp"
 
@@ -15,6 +19,27 @@ TEST(Check, CountsWhatItFoundSound) {
   const auto result = run_command({armature(), "check", kLampDeployment});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(result.out.rfind("dental_lamp: ok, 9 components, ", 0), 0U) << result.out;
+}
+
+TEST(Check, FindsTheExampleOfTheDocumentationSound) {
+  std::ostringstream page;
+  page << std::ifstream{source_file("docs/deployment_file.md")}.rdbuf();
+  const std::string text = page.str(), fence = "```yaml\n";
+  const auto from = text.find(fence);
+  ASSERT_NE(from, std::string::npos);
+  const auto example =
+      text.substr(from + fence.size(), text.find("```", from + fence.size()) - from - fence.size());
+  const auto folder =
+      std::filesystem::temp_directory_path() / ("armature-example-" + std::to_string(getpid()));
+  std::filesystem::create_directories(folder);
+  for (const char* beside : {"robots", "rigs"}) {
+    std::filesystem::create_symlink(source_file(std::string{"configs/"} + beside), folder / beside);
+  }
+  std::ofstream{folder / "example.yaml"} << example;
+  const auto result = run_command({armature(), "check", folder / "example.yaml"});
+  std::filesystem::remove_all(folder);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.err, "");
 }
 
 TEST(Check, LetsAComponentThatMayUseARigUseNone) {

@@ -29,6 +29,13 @@ class RunForAScript : public testing::Test {
     return run_command(command);
   }
 
+  /// An older report in the folder; and what is there now.
+  void leave_report() const { std::ofstream{folder_ / "report.json"} << "{\"status\":\"ok\"}\n"; }
+  std::string report() const {
+    std::ifstream file{folder_ / "report.json"};
+    return {std::istreambuf_iterator<char>{file}, {}};
+  }
+
   const fs::path folder_ = fs::temp_directory_path() / ("armature-run-" + std::to_string(getpid()));
   const int domain_ = unique_dds_domain();
 };
@@ -39,6 +46,14 @@ TEST_F(RunForAScript, AFaultyDeploymentIsOneObjectToo) {
   const auto told = nlohmann::json::parse(result.out);
   EXPECT_EQ(told["status"], "invalid_config");
   EXPECT_EQ(told["reason"].get<std::string>() + "\n", result.err);
+}
+
+TEST_F(RunForAScript, OfARunThatIsRefusedTheReportIsWhatIsPrinted) {
+  leave_report();
+  const auto unknown = run({"--report", folder_, "--set", "components.motion.ik.plugin=ik/numerc"});
+  EXPECT_EQ(unknown.exit_code, 3);
+  EXPECT_EQ(nlohmann::json::parse(report())["status"], "invalid_config");
+  EXPECT_EQ(report(), unknown.out);
 }
 
 TEST_F(RunForAScript, AReportFolderThatCannotBeMadeIsToldBeforeTheRun) {
@@ -64,8 +79,7 @@ TEST_F(RunForAScript, AReportThatCannotBeWrittenFailsTheRunAndTheFiguresArePrint
 TEST_F(RunForAScript, TheReportIsWhatIsPrinted) {
   const auto result = run({"--report", folder_});
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  std::ifstream report{folder_ / "report.json"};
-  EXPECT_EQ(std::string(std::istreambuf_iterator<char>{report}, {}), result.out);
+  EXPECT_EQ(report(), result.out);
 }
 
 }  // namespace

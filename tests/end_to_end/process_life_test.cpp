@@ -7,6 +7,7 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 
 #include "deployment_run.hpp"
 #include "tests/dds_domain.hpp"
@@ -56,17 +57,25 @@ TEST(ProcessLife, ARunThatIsInterruptedBeforeItStartsEndsAtOnce) {
                     ("armature-slow-start-" + std::to_string(getpid()) + ".yaml");
   std::ofstream{file} << "armature: 1\nname: slow_start\ncomponents:\n"
                          "  beat: {plugin: test/beat, params: {construction_s: 100}}\n";
-  Command run{{armature(), "run", file, "--json", "--domain", std::to_string(unique_dds_domain())},
+  const auto folder = std::filesystem::path{file}.replace_extension();
+  std::filesystem::create_directories(folder);
+  std::ofstream{folder / "report.json"} << R"({"status":"ok"})";
+  Command run{{armature(), "run", file, "--json", "--report", folder, "--domain",
+               std::to_string(unique_dds_domain())},
               {.environment = {{"ARMATURE_PLUGIN_PATH", TEST_PLUGINS}}, .input = {}}};
   ASSERT_TRUE(run.wait_for_err("being constructed", kStartsWithin)) << run.err();
   run.signal(SIGINT);
   const CommandResult result = run.finish(seconds{1});
+  std::ifstream report{folder / "report.json"};
+  const std::string reported{std::istreambuf_iterator<char>{report}, {}};
   std::filesystem::remove(file);
+  std::filesystem::remove_all(folder);
   EXPECT_FALSE(result.timed_out) << result.err;
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.err, HasSubstr("armature: interrupted before the start\n"));
   EXPECT_EQ(result.out,
             "{\"status\":\"not_started\",\"reason\":\"interrupted before the start\"}\n");
+  EXPECT_EQ(reported, result.out);
 }
 
 TEST(ProcessLife, AKilledRunTakesItsOtherProcessAlongAndTheNextOneWorksAndEndsClean) {

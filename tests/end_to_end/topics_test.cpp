@@ -162,10 +162,24 @@ TEST(TopicHz, RefusesANumberOfSamplesThatHasNoRate) {
 }
 
 TEST_F(Watched, TopicEchoOfATopicThatNobodyWritesNamesItAsRosDoes) {
-  const auto result = run_command(topic({"echo", "/lamp/trget", "--timeout", "0.5"}));
+  const auto result = run_command(topic({"echo", "/lamp/trget", "--timeout", "2"}));
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_EQ(result.err, "armature: nobody writes '/lamp/trget'; domain " + std::to_string(domain_) +
                             " has no topics\n");
+}
+
+TEST_F(Watched, ATimeTooShortToFindOutSaysNothingOfTheDomain) {
+  for (const auto& verb : std::vector<std::vector<std::string>>{
+           {"echo", "/lamp/target"}, {"hz", "/lamp/target"}, {"list", "--json"}}) {
+    auto arguments = verb;
+    arguments.insert(arguments.end(), {"--timeout", "0.1"});
+    const auto result = run_command(topic(arguments));
+    EXPECT_EQ(result.exit_code, 5) << verb.front();
+    EXPECT_EQ(result.out, "");
+    EXPECT_EQ(result.err, "armature: no topic of domain " + std::to_string(domain_) +
+                              " was found within 0.1 s, which is too short to find out; give it "
+                              "1.5 s\n");
+  }
 }
 
 }  // namespace

@@ -64,7 +64,7 @@ void write_files(const std::filesystem::path& folder, const Report& report,
 }  // namespace
 
 int bench_ik(const BenchOptions& options) {
-  if (!options.out.empty()) prepare_output_folder(options.out);
+  if (options.out) prepare_output_folder(*options.out);
   const auto model = std::make_shared<const RobotModel>(load_arm(options.arm));
   PluginRegistry registry;
   Report report;
@@ -92,7 +92,7 @@ int bench_ik(const BenchOptions& options) {
   }
   fmt::print("{}", options.json ? to_json(report).dump() + "\n" : table(report));
   std::fflush(stdout);  // also when the files cannot be written
-  if (!options.out.empty() && !series.empty()) write_files(options.out, report, series);
+  if (options.out && !series.empty()) write_files(*options.out, report, series);
   if (runners.empty()) fmt::print(stderr, "armature: no solver serves this robot\n");
   return runners.empty() ? kFailed : kOk;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,9 +18,9 @@ struct BenchOptions {
   std::uint64_t seed = 1;
   bool near_only = false;
   int repetitions = 5;
-  double tolerance = 1e-6;  // [m] and [rad]
-  std::string baseline;     // empty: ik/kdl if it is one of them, else the first
-  std::string out;          // folder; empty: no files
+  double tolerance = 1e-6;         // [m] and [rad]
+  std::string baseline;            // empty: ik/kdl if it is one of them, else the first
+  std::optional<std::string> out;  // folder; none: no files
   bool json = false;
 };
 

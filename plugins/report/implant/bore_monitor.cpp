@@ -31,6 +31,18 @@ BoreMonitor::BoreMonitor(const std::vector<Isometry3d>& image_T_sites, const Gui
     bores_.push_back({.image_T_site = site});
     site_T_base_.push_back(estimate.base_T_site(site).inverse());
   }
+  for (std::size_t i = 0; i < bores_.size(); ++i) {
+    bores_[i].near_m = settings.near_m;
+    for (std::size_t k = 0; k < bores_.size(); ++k) {
+      if (k != i) bores_[i].near_m = std::min(bores_[i].near_m, entry_to_axis(i, k) / 2);
+    }
+  }
+}
+
+double BoreMonitor::entry_to_axis(std::size_t i, std::size_t other) const {
+  const Isometry3d base_T_site = site_T_base_[i].inverse();
+  const Eigen::Translation3d entry{0, 0, -settings_.depth_m};
+  return at_site(site_T_base_[other] * base_T_site * entry).off_m;
 }
 
 void BoreMonitor::see(const Isometry3d& base_T_flange, const GuidedChain& truth) {
@@ -40,7 +52,7 @@ void BoreMonitor::see(const Isometry3d& base_T_flange, const GuidedChain& truth)
   std::optional<std::size_t> nearest;  // of crossing bores
   for (std::size_t i = 0; i < bores_.size(); ++i) {
     const AtSite there = believed_at(i);
-    if (!is_in(there) || there.off_m > settings_.near_m) continue;
+    if (!is_in(there) || there.off_m > bores_[i].near_m) continue;
     if (!nearest || there.off_m < believed_at(*nearest).off_m) nearest = i;
   }
   if (!nearest && inside_ && is_in(believed_at(*inside_))) nearest = inside_;
@@ -58,6 +70,16 @@ void BoreMonitor::see(const Isometry3d& base_T_flange, const GuidedChain& truth)
   }
   bore->line_deviation_m = std::max(bore->line_deviation_m, believed.off_m);
   bore->line_tilt_rad = std::max(bore->line_tilt_rad, believed.tilt_rad);
+}
+
+std::optional<OneAxis> BoreMonitor::one_axis() const {
+  constexpr double kSame_m = 1e-6;
+  for (std::size_t i = 0; i < bores_.size(); ++i) {
+    for (std::size_t k = i + 1; k < bores_.size(); ++k) {
+      if (entry_to_axis(i, k) < kSame_m) return OneAxis{i, k};
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace armature

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -19,11 +20,18 @@ struct Bore {
   /// As the arm believed, the farthest off the site's axis and the most tilted against it inside.
   double line_deviation_m = 0, line_tilt_rad = 0;
   double deepest_m = 0;  // from the true bottom
+  /// Off its axis as the arm believes; a drill that comes in farther off is elsewhere.
+  double near_m = 0;
 };
 
 struct BoreSettings {
   double depth_m = 0.012;  // above a bottom the drill is in
-  double near_m = 0.002;   // off a site's axis; a drill that comes in farther off is elsewhere
+  double near_m = 0.002;   // at most; no more than half the way to the next site's axis
+};
+
+/// Two sites, from 0, that one bore would serve: which of them a drill is at is not told.
+struct OneAxis {
+  std::size_t first, second;
 };
 
 /// Watches a drill at all sites of a plan. Where it is in is judged as the arm believes: however
@@ -38,8 +46,13 @@ class BoreMonitor {
   void see(const Eigen::Isometry3d& base_T_flange, const GuidedChain& truth);
 
   const std::vector<Bore>& bores() const { return bores_; }
+  /// The first two whose bores begin on one axis.
+  std::optional<OneAxis> one_axis() const;
 
  private:
+  /// As the arm believes, from where bore `i` begins, depth_m above its bottom, to another's axis.
+  double entry_to_axis(std::size_t i, std::size_t other) const;
+
   BoreSettings settings_;
   std::vector<Bore> bores_;
   std::vector<Eigen::Isometry3d> site_T_base_;  // of bores_, as the arm believes

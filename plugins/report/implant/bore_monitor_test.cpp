@@ -83,6 +83,27 @@ TEST_F(BoreMonitorTest, OfTwoBoresThatAreBothNearItIsInTheNearer) {
   EXPECT_NEAR(bore(1).error->norm(), 0, 1e-12);
 }
 
+TEST_F(BoreMonitorTest, ADrillInOneBoreIsNotAtItsNeighbourHoweverMuchIsCalledNear) {
+  watch(0.02);
+  see(0.005, 0.003);
+  see(0.005, -0.01);   // on its way out of the second bore
+  see(0.005, -0.011);  // out of it, above the bottom of the first by less than its depth
+  EXPECT_FALSE(bore(0).error);
+  EXPECT_NEAR(bore(1).near_m, 0.0025, 1e-12);
+  see(0.0024, -0.001);
+  EXPECT_TRUE(bore(0).error);
+}
+
+TEST_F(BoreMonitorTest, TellsOfSitesOnOneAxis) {
+  EXPECT_FALSE(monitor_.one_axis());
+  const std::vector<Isometry3d> sites{sites_[0], sites_[1],
+                                      sites_[0] * Eigen::Translation3d{0, 0, 0.004}};
+  const auto both = BoreMonitor{sites, estimate_, {}}.one_axis();
+  ASSERT_TRUE(both);
+  EXPECT_EQ(both->first, 0U);
+  EXPECT_EQ(both->second, 2U);
+}
+
 TEST_F(BoreMonitorTest, ADrillThatMissesByFarIsStillAtTheSiteThatItDrills) {
   estimate_.patient_T_image = Eigen::Affine3d{Eigen::Translation3d{0, 0.015, 1}};
   watch();

@@ -83,24 +83,28 @@ class ImplantReport final : public Component {
   void tell_drilling(Summary& summary) const {
     summary.metric("time_to_drilled_s", "time until all sites are drilled [s]",
                    to_seconds(*ended_at_ - *start_));
-    if (const auto missed = site_without_bore()) {
-      summary.not_measured(
-          "site_error_mm", "error of the tip at the worst site [mm]",
-          fmt::format("the drill was never within {:g} mm of the axis of site {}, 'near_mm'",
-                      kMillimetres * bore_settings_.near_m, *missed));
+    if (const std::string why = without_errors(); !why.empty()) {
+      summary.not_measured("site_error_mm", "error of the tip at the worst site [mm]", why);
     } else if (bores_) {
       tell_errors(summary);
     }
     tell_smoothness(summary);
   }
 
-  /// From 1.
-  std::optional<std::size_t> site_without_bore() const {
-    if (!bores_) return std::nullopt;
+  /// Why the errors at the sites cannot be told, or "".
+  std::string without_errors() const {
+    if (!bores_) return "";
+    if (const auto both = bores_->one_axis()) {
+      return fmt::format("sites {} and {} have one axis, so at which the drill is cannot be told",
+                         both->first + 1, both->second + 1);
+    }
     const auto& bores = bores_->bores();
     const auto missed = std::ranges::find_if(bores, [](const Bore& bore) { return !bore.error; });
-    if (missed == bores.end()) return std::nullopt;
-    return missed - bores.begin() + 1;
+    if (missed == bores.end()) return "";
+    const bool as_set = missed->near_m == bore_settings_.near_m;
+    return fmt::format("the drill was never within {:.4g} mm of the axis of site {}, {}",
+                       kMillimetres * missed->near_m, missed - bores.begin() + 1,
+                       as_set ? "'near_mm'" : "half of what it is from the next site's");
   }
 
   void read_chains() {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <vector>
 
 #include "armature/kinds/chain_messages.hpp"
 #include "armature/kinds/setup_flange.hpp"
@@ -30,9 +31,13 @@ class ImplantReportTest : public testing::Test {
     estimate_ = truth_;
     estimate_.tip = mount_.flange_T_tool.translation();
   }
-  void show_room() {
+  /// With the sites so far along the first one's axis and beside it [m].
+  void show_room(const std::vector<Vector3d>& sites = {Vector3d::Zero()}) {
     msg::ImplantPlan plan;
-    assign(plan.sites_().emplace_back(), forward_kinematics(robot_, home_));
+    for (const Vector3d& site : sites) {
+      assign(plan.sites_().emplace_back(),
+             forward_kinematics(robot_, home_) * Eigen::Translation3d{site});
+    }
     report_.send("plan", plan);
     msg::TFMessage truth, estimate;
     write_chain(truth_, Time{}, truth);
@@ -148,6 +153,30 @@ TEST_F(ImplantReportTest, ASiteThatTheDrillNeverCameToHasNoError) {
   EXPECT_FALSE(report_.figures().metrics.contains("site_error_mm"));
   EXPECT_EQ(report_.figures().unmeasured.at("site_error_mm"),
             "the drill was never within 2 mm of the axis of site 1, 'near_mm'");
+}
+
+TEST_F(ImplantReportTest, OfSitesOnOneAxisNoErrorIsTold) {
+  show_room({{0, 0, 0}, {0.01, 0, 0}, {0, 0, 0}});
+  tell("drilling");
+  report_.step(1);
+  move_arm(1.1, rest_);
+  tell("drilled");
+  report_.step(2);
+  EXPECT_FALSE(report_.figures().metrics.contains("site_error_mm"));
+  EXPECT_EQ(report_.figures().unmeasured.at("site_error_mm"),
+            "sites 1 and 3 have one axis, so at which the drill is cannot be told");
+}
+
+TEST_F(ImplantReportTest, OfSitesSideBySideTheDrillIsAtItsOwnOnly) {
+  show_room({{0, 0, 0}, {0.002, 0, -0.001}});
+  tell("drilling");
+  report_.step(1);
+  move_arm(1.1, rest_);
+  tell("drilled");
+  report_.step(2);
+  EXPECT_EQ(report_.figures().unmeasured.at("site_error_mm"),
+            "the drill was never within 1 mm of the axis of site 2, half of what it is from the "
+            "next site's");
 }
 
 TEST_F(ImplantReportTest, OfADrillThatHardlyTurnsNoStepIsToldOfItsAcceleration) {

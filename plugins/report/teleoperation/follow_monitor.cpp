@@ -62,35 +62,79 @@ std::vector<FollowMonitor::Stretch> FollowMonitor::stretches(bool closed) const 
   return found;
 }
 
-std::optional<FollowMonitor::Following> FollowMonitor::following() const {
-  constexpr double kStep = 1e-3;  // [s] of the difference quotient
-  double squares = 0, along = 0, rates = 0, count = 0;
-  Following result;
+FollowMonitor::Comparison FollowMonitor::compare(double lag_s, const Sample& sample) const {
+  constexpr double kHalfStep = 5e-4;  // [s] of the difference quotient
+  Comparison result;
   for (const Stretch& stretch : stretches(true)) {
+    const auto points = between(slave_, std::max(stretch.from + settings_.settles_s, sample.from),
+                                std::min(stretch.to, sample.to));
     std::vector<Vector3d> off, rate;
-    for (const TrackPoint& point :
-         between(slave_, stretch.from + settings_.settles_s, stretch.to)) {
-      const double t = point.t - settings_.lag_s;
-      const auto meant = position_at(intended_, t), next = position_at(intended_, t + kStep);
-      if (!meant || !next) continue;
-      off.push_back(point.position - settings_.scale * *meant);
-      rate.push_back(settings_.scale * (*next - *meant) / kStep);
+    for (std::size_t i = 0; i < points.size(); i += sample.every) {
+      const double t = points[i].t - lag_s;
+      const auto meant = position_at(intended_, t), last = position_at(intended_, t - kHalfStep),
+                 next = position_at(intended_, t + kHalfStep);
+      if (!meant || !last || !next) continue;
+      off.push_back(points[i].position - settings_.scale * *meant);
+      rate.push_back(settings_.scale * (*next - *last) / (2 * kHalfStep));
     }
     subtract_mean(off);
     subtract_mean(rate);
     for (std::size_t i = 0; i < off.size(); ++i) {
-      squares += off[i].squaredNorm();
-      along += off[i].dot(rate[i]);
-      rates += rate[i].squaredNorm();
+      result.squares += off[i].squaredNorm();
+      result.along += off[i].dot(rate[i]);
+      result.rates += rate[i].squaredNorm();
       result.worst_m = std::max(result.worst_m, off[i].norm());
     }
-    count += static_cast<double>(off.size());
+    result.count += static_cast<double>(off.size());
   }
-  if (count == 0) return std::nullopt;
-  result.rms_m = std::sqrt(squares / count);
-  // off grows by rate for every second that the way is taken later: least squares in that.
-  result.lag_s = settings_.lag_s - (rates > 0 ? along / rates : 0);
   return result;
+}
+
+std::optional<double> FollowMonitor::coarse_lag() const {
+  constexpr std::size_t kEnough = 2000;  // points, however long the run was
+  if (intended_.empty()) return std::nullopt;
+  // The same points at every lag: else the lag that leaves out the worst of them would be best.
+  const Sample sample{.from = intended_.front().t + kMostLag_s + kLagStep_s,
+                      .to = intended_.back().t + kLeastLag_s - kLagStep_s,
+                      .every = 1 + slave_.size() / kEnough};
+  const int last = static_cast<int>(std::lround((kMostLag_s - kLeastLag_s) / kLagStep_s));
+  int best = 0;
+  double least = compare(kLeastLag_s, sample).squares;
+  for (int i = 1; i <= last; ++i) {
+    const double squares = compare(kLeastLag_s + i * kLagStep_s, sample).squares;
+    if (squares >= least) continue;
+    least = squares;
+    best = i;
+  }
+  if (best == 0 || best == last) return std::nullopt;
+  return kLeastLag_s + best * kLagStep_s;
+}
+
+std::optional<double> FollowMonitor::best_lag() const {
+  constexpr int kMostSteps = 20;
+  constexpr double kExact_s = 1e-9;
+  const auto coarse = coarse_lag();
+  if (!coarse) return std::nullopt;
+  double lag = *coarse;
+  for (int i = 0; i < kMostSteps; ++i) {
+    const Comparison here = compare(lag, {});
+    if (!(here.rates > 0)) break;
+    // off grows by rate for every second that the way is taken later: least squares in that.
+    const double next =
+        std::clamp(lag - here.along / here.rates, *coarse - kLagStep_s, *coarse + kLagStep_s);
+    const double step = std::abs(next - lag);
+    lag = next;
+    if (step < kExact_s) break;
+  }
+  return lag;
+}
+
+std::optional<FollowMonitor::Following> FollowMonitor::following() const {
+  const Comparison stated = compare(settings_.lag_s, {});
+  if (stated.count == 0) return std::nullopt;
+  return Following{.rms_m = std::sqrt(stated.squares / stated.count),
+                   .worst_m = stated.worst_m,
+                   .lag_s = best_lag()};
 }
 
 std::optional<FollowMonitor::Tremor> FollowMonitor::tremor() const {

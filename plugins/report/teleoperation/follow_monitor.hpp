@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -33,8 +35,10 @@ class FollowMonitor {
   /// (the clutch), so the mean of each stretch is taken off.
   struct Following {
     double rms_m = 0, worst_m = 0;
-    double lag_s = 0;  // with which the rms would be least
+    /// With which the rms would be least; none when that is not between the two below.
+    std::optional<double> lag_s;
   };
+  static constexpr double kLeastLag_s = -0.1, kMostLag_s = 1.1;
   std::optional<Following> following() const;
 
   /// What the hand's tremor is, and what the slave has of it; rms [m].
@@ -58,6 +62,22 @@ class FollowMonitor {
   };
   /// With the clutch closed, or open after it was closed, up to the last point of the slave.
   std::vector<Stretch> stretches(bool closed) const;
+
+  /// Which of the slave's points are compared: every so many in that time.
+  struct Sample {
+    double from = -std::numeric_limits<double>::infinity();
+    double to = std::numeric_limits<double>::infinity();
+    std::size_t every = 1;
+  };
+  /// Sums over these points: how far they are off, along how it changes with the lag.
+  struct Comparison {
+    double squares = 0, along = 0, rates = 0, count = 0;
+    double worst_m = 0;
+  };
+  Comparison compare(double lag_s, const Sample& sample) const;
+  /// The least rms of all lags may be one of several minima: a search first, then steps.
+  std::optional<double> coarse_lag() const, best_lag() const;
+  static constexpr double kLagStep_s = 0.01;
 
   FollowSettings settings_;
   Track intended_, hand_, slave_;

@@ -53,7 +53,7 @@ TEST(FollowMonitor, ASlaveThatFollowsAsStatedIsNowhereOffWhereverItBegan) {
   });
   EXPECT_LT(monitor.following()->rms_m, 1e-8);
   EXPECT_LT(monitor.following()->worst_m, 1e-8);
-  EXPECT_NEAR(monitor.following()->lag_s, 0.05, 1e-6);
+  EXPECT_NEAR(*monitor.following()->lag_s, 0.05, 1e-6);
 }
 
 TEST(FollowMonitor, TellsHowFarOffItIs) {
@@ -64,11 +64,25 @@ TEST(FollowMonitor, TellsHowFarOffItIs) {
   EXPECT_NEAR(monitor.following()->worst_m, 1.414e-4, 2e-6);
 }
 
-TEST(FollowMonitor, TellsHowLateItComesInTruth) {
-  const auto monitor =
-      watched(curve, curve, [](double t) { return Vector3d{0.5 * curve(t - 0.053)}; });
-  EXPECT_NEAR(monitor.following()->lag_s, 0.053, 1e-5);
-  EXPECT_GT(monitor.following()->rms_m, 3e-5);
+TEST(FollowMonitor, TellsHowLateItComesInTruthWhateverLagIsStated) {
+  for (const double truth_s : {0.0, 0.053, 0.6, 1.0}) {
+    for (const double stated_s : {0.0, 0.05, 0.2, 1.0}) {
+      const auto monitor =
+          watched(curve, curve, [&](double t) { return Vector3d{0.5 * curve(t - truth_s)}; }, 11,
+                  {.scale = 0.5, .lag_s = stated_s});
+      ASSERT_TRUE(monitor.following()->lag_s) << truth_s << ", stated " << stated_s;
+      EXPECT_NEAR(*monitor.following()->lag_s, truth_s, 1e-6) << "stated " << stated_s;
+      EXPECT_GE(monitor.following()->rms_m, 0.002 * std::abs(truth_s - stated_s));
+    }
+  }
+}
+
+TEST(FollowMonitor, TellsNoLagOfASlaveThatDoesNotFollowInTime) {
+  const auto late = watched(curve, curve, [](double t) { return Vector3d{0.5 * curve(t - 1.5)}; });
+  EXPECT_FALSE(late.following()->lag_s);
+  const Way standing = [](double) { return Vector3d{0, 0, 0}; };
+  EXPECT_FALSE(watched(standing, standing, standing).following()->lag_s);
+  EXPECT_FALSE(watched(curve, curve, curve, 1.6).following()->lag_s) << "too short a run";
 }
 
 TEST(FollowMonitor, ComparesTheTremorOfBothScaled) {

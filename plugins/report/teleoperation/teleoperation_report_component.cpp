@@ -104,7 +104,7 @@ class TeleoperationReport final : public Component {
     if (const auto following = follow_.following()) {
       metric("tracking_error_mm", "slave off the hand, later, rms [mm]", following->rms_m, 1e3);
       metric("tracking_worst_mm", "the largest [mm]", following->worst_m, 1e3);
-      metric("measured_lag_ms", "best lag [ms]", following->lag_s, 1e3);
+      tell_lag(summary, following->lag_s);
     }
     if (const auto tremor = follow_.tremor()) {
       metric("hand_tremor_mm", "tremor of the hand, rms [mm]", tremor->hand_m, 1e3);
@@ -126,6 +126,15 @@ class TeleoperationReport final : public Component {
                          fmt::format("the hand trembles by {:.2g} mm only, 'least_tremor_mm' is "
                                      "{:g}",
                                      1e3 * tremor.hand_m, 1e3 * least_tremor_m_));
+  }
+
+  static void tell_lag(Summary& summary, std::optional<double> lag_s) {
+    constexpr const char *kKey = "measured_lag_ms", *kTitle = "best lag [ms]";
+    if (lag_s) return summary.metric(kKey, kTitle, 1e3 * *lag_s);
+    summary.not_measured(
+        kKey, kTitle,
+        fmt::format("no lag between {:g} and {:g} ms fits best", 1e3 * FollowMonitor::kLeastLag_s,
+                    1e3 * FollowMonitor::kMostLag_s));
   }
 
   void complain(const std::string& what) { complaint_ = what; }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "armature/kinds/ik/farthest.hpp"
 #include "armature/robot/kinematics.hpp"
 
 namespace armature {
@@ -44,9 +45,8 @@ std::string describe(const IkStatus& status) {
 }
 
 const char* invalid_input(const RobotModel& model, const IkGoal& goal, const JointVector& seed) {
-  constexpr double kFarthest_m = 1e100;
   if (!goal.pose.position.allFinite()) return "the position is not finite";
-  if (goal.pose.position.cwiseAbs().maxCoeff() > kFarthest_m) {
+  if (goal.pose.position.cwiseAbs().maxCoeff() > kFarthest) {
     return "the position is more than 1e100 m away";
   }
   if (const auto* direction = std::get_if<Direction>(&goal.pose.orientation)) {

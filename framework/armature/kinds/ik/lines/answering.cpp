@@ -9,6 +9,7 @@
 #include <initializer_list>
 #include <limits>
 
+#include "armature/kinds/ik/farthest.hpp"
 #include "armature/kinds/ik/lines/json_line.hpp"
 #include "armature/kinds/ik/lines/reason.hpp"
 #include "armature/robot/kinematics.hpp"
@@ -84,7 +85,9 @@ std::optional<double> read_redundancy(const IkSolver& solver, const Json& questi
     throw InvalidLine(fmt::format("'{}' is '{}' for this solver", other, key));
   }
   if (!question.contains(key)) return std::nullopt;
-  return number(question, key);
+  const double value = number(question, key);
+  if (std::abs(value) > kFarthest) throw InvalidLine(fmt::format("'{}' is more than 1e100", key));
+  return value;
 }
 
 int read_iterations(const Json& question, int usual) {

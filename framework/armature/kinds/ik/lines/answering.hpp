@@ -8,7 +8,8 @@
 
 // A line in, a line out: what `armature fk` and `armature ik` are made of. Whatever the line holds,
 // there is an answer; a bad one is answered with status "invalid_input" and a reason. An `id`, any
-// number or text, is repeated in the answer. Not real-time safe.
+// number or text, is repeated in the answer. A position, a joint or a redundancy beyond 1e100 is
+// none (kFarthest). Not real-time safe.
 namespace armature {
 
 /// `line`: {"joints": every joint}. Answer: position, quaternion and, where the robot has a

@@ -8,17 +8,21 @@
 #include <set>
 #include <string>
 
+#include "armature/kinds/ik/farthest.hpp"
+
 namespace armature::ik_lines {
 namespace {
 
-Json::parser_callback_t without_duplicates() {
-  return [keys = std::vector<std::set<std::string>>{}](int, Json::parse_event_t event,
-                                                       Json& parsed) mutable {
+/// Remembers in `last_key` where it is.
+Json::parser_callback_t without_duplicates(std::string& last_key) {
+  return [keys = std::vector<std::set<std::string>>{}, &last_key](int, Json::parse_event_t event,
+                                                                  Json& parsed) mutable {
     if (event == Json::parse_event_t::object_start) keys.emplace_back();
     if (event == Json::parse_event_t::object_end) keys.pop_back();
-    if (event == Json::parse_event_t::key &&
-        !keys.back().insert(parsed.get<std::string>()).second) {
-      throw InvalidLine(fmt::format("'{}' is given twice", parsed.get<std::string>()));
+    if (event != Json::parse_event_t::key) return true;
+    last_key = parsed.get<std::string>();
+    if (!keys.back().insert(last_key).second) {
+      throw InvalidLine(fmt::format("'{}' is given twice", last_key));
     }
     return true;
   };
@@ -31,10 +35,16 @@ Json parse_object(std::string_view line) {
   if (first != std::string_view::npos && line[first] == '#') {
     throw InvalidLine("a comment, which JSON lines do not have");
   }
-  Json json = Json::parse(line, without_duplicates(), false);
-  if (json.is_discarded()) throw InvalidLine("not JSON");
-  if (!json.is_object()) throw InvalidLine("not a JSON object");
-  return json;
+  std::string last_key;
+  try {
+    Json json = Json::parse(line, without_duplicates(last_key));
+    if (!json.is_object()) throw InvalidLine("not a JSON object");
+    return json;
+  } catch (const Json::out_of_range&) {  // the only one that reading can meet: of 1e400
+    throw InvalidLine(fmt::format("'{}' has a number that a double cannot hold", last_key));
+  } catch (const Json::parse_error&) {
+    throw InvalidLine("not JSON");
+  }
 }
 
 std::vector<double> numbers(const Json& json, const char* key, std::size_t count) {
@@ -62,6 +72,9 @@ double number(const Json& json, const char* key) {
 
 JointVector joints(const RobotModel& robot, const Json& json, const char* key) {
   const auto values = numbers(json, key, static_cast<std::size_t>(robot.joint_count()));
+  for (const double value : values) {
+    if (std::abs(value) > kFarthest) throw InvalidLine(fmt::format("'{}' is more than 1e100", key));
+  }
   const auto independent = robot.contract(values);
   if (!independent) throw InvalidLine(independent.error().text);
   return *independent;

@@ -236,6 +236,27 @@ TEST(IkLines, ACommentIsNamedAndAByteOrderMarkIsNoHarm) {
   EXPECT_TRUE(fk("\xEF\xBB\xBF{\"joints\":[0,0,0,0,0,0]}").contains("position_m"));
 }
 
+TEST(IkLines, ANumberBeyondAllMeasureIsRefusedByItsPlace) {
+  const auto fk = [](const std::string& line) {
+    return json::parse(answer_fk(lamp(), line))["reason"].get<std::string>();
+  };
+  const auto ik = [](const std::string& line) {
+    const Parrot solver;
+    const JointVector home = JointVector::Zero(lamp().dof());
+    return json::parse(answer_ik(lamp(), solver, home, line))["reason"].get<std::string>();
+  };
+  const std::string goal = R"({"position_m":[1,0,0.5],"direction":[1,0,0],)";
+  EXPECT_EQ(fk(R"({"joints":[0,0,0,0,0,1e400]})"),
+            "'joints' has a number that a double cannot hold");
+  EXPECT_EQ(ik(R"({"direction":[1,0,0],"position_m":[-1e400,0,0.5]})"),
+            "'position_m' has a number that a double cannot hold");
+  EXPECT_EQ(fk(R"({"joints":[1e300,0,0,0,0,0]})"), "'joints' is more than 1e100");
+  EXPECT_EQ(ik(goal + R"("seed":[-1e300,0,0,0,0,0]})"), "'seed' is more than 1e100");
+  EXPECT_EQ(ik(goal + R"("redundancy_rad":1e300})"), "'redundancy_rad' is more than 1e100");
+  EXPECT_EQ(ik(goal + R"("last_redundancy_rad":-1e300})"),
+            "'last_redundancy_rad' is more than 1e100");
+}
+
 std::string refusal(const std::string& answer) {
   const IkQuestion question{.goal = {}, .seed = {}, .id = 7};
   const auto told = read_answer(lamp(), question, answer);

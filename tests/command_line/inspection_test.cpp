@@ -48,6 +48,18 @@ TEST(Check, LetsAComponentThatMayUseARigUseNone) {
   EXPECT_EQ(result.exit_code, 0) << result.err;
 }
 
+TEST(Check, FindsAnArmThatIsBoundToTheOtherRobot) {
+  const auto result =
+      run_command({armature(), "check", source_file("configs/master_manipulator.yaml"), "--set",
+                   "components.arm.robot=master"});
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_NE(result.err.find("arm.servo_jp reads values of robot 'master' from topic "
+                            "'/master_manipulator/arm/servo_jp', but motion.servo_jp writes values "
+                            "of robot 'slave'"),
+            std::string::npos)
+      << result.err;
+}
+
 TEST(Check, AsksWhichOfTwoRigsOrNone) {
   const auto result =
       run_command({armature(), "check", kLampDeployment, "--set",

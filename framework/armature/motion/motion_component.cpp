@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <limits>
 #include <memory>
 #include <utility>
@@ -47,7 +48,19 @@ JointVector limits_from(const Setup& setup, const LimitParams& params, const Rob
   return limits;
 }
 
+/// A limit for joints that slide would limit nothing where none does, as if the tool were meant.
+void refuse_idle_limits(const Params& params, const RobotModel& model) {
+  const auto slides = [](const Joint& joint) { return joint.type == Joint::Type::prismatic; };
+  if (std::ranges::any_of(model.joints(), slides)) return;
+  for (const char* name : {"max_velocity_m_s", "max_acceleration_m_s2", "max_jerk_m_s3"}) {
+    if (params.number(name) == 0) continue;
+    params.refuse({name}, fmt::format("{} is for joints that slide, and robot {} has none", name,
+                                      model.name()));
+  }
+}
+
 MotionLimits limits_of(const Setup& setup, const RobotModel& model) {
+  refuse_idle_limits(setup.params(), model);
   return {limits_from(setup, {"max_velocity_rad_s", "max_velocity_m_s", "rad/s", "m/s"}, model,
                       model.max_velocity()),
           limits_from(setup, {"max_acceleration_rad_s2", "max_acceleration_m_s2", "rad/s2", "m/s2"},

@@ -310,5 +310,16 @@ TEST_F(MotionComponentTest, DoesNotStartWithMoreThanTheRobotCan) {
             "bench:1:52: a margin for joints that turn, and robot gantry has none");
 }
 
+TEST_F(MotionComponentTest, DoesNotStartWithALimitForJointsThatSlideWhereNoneDoes) {
+  auto turning = motion_with("max_velocity_m_s: 0.5");
+  turning.robot = config::parse_text(
+      "armature_robot: 1\nname: wheel\njoints:\n"
+      "  - {name: axle, limits_deg: [-90, 90], velocity_rad_s: 1, acceleration_rad_s2: 1}\n"
+      "frames: {tool: {parent: axle}}\n",
+      "wheel.yaml");
+  EXPECT_EQ(refusal_of(plugins(), turning),
+            "bench:1:52: max_velocity_m_s is for joints that slide, and robot wheel has none");
+}
+
 }  // namespace
 }  // namespace armature

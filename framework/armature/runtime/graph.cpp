@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "armature/config/problems.hpp"
+#include "armature/runtime/component_config.hpp"
 
 namespace armature {
 namespace {
@@ -58,6 +59,15 @@ Writers find_writers(const DeploymentConfig& deployment, config::Problems& probl
   return writers;
 }
 
+/// The entry of `robots:` that the component is bound to, for "robot"; nullptr: none.
+const std::string* bound(const ComponentConfig& component, const std::string& word) {
+  const auto section = std::ranges::find(kDocumentSections, std::string_view{word},
+                                         [](const auto& one) { return one.second; });
+  if (section == kDocumentSections.end()) return nullptr;
+  const auto there = component.documents.find(std::string{section->first});
+  return there == component.documents.end() ? nullptr : &there->second;
+}
+
 /// Does `input` understand what `output` writes?
 void check_match(const ComponentConfig& reader, const PortBinding& input,
                  const ComponentConfig& writer, const PortBinding& output,
@@ -74,6 +84,11 @@ void check_match(const ComponentConfig& reader, const PortBinding& input,
   if (!input.spec.frame.empty() && !output.spec.frame.empty() &&
       input.spec.frame != output.spec.frame) {
     mismatch("poses in frame", input.spec.frame, output.spec.frame);
+  }
+  const std::string *read_of = bound(reader, input.spec.of),
+                    *written_of = bound(writer, output.spec.of);
+  if (input.spec.of == output.spec.of && read_of && written_of && *read_of != *written_of) {
+    mismatch("values of " + input.spec.of, *read_of, *written_of);
   }
   if (settings(input.spec.qos).transient_local && !settings(output.spec.qos).transient_local) {
     mismatch("QoS", to_string(input.spec.qos), to_string(output.spec.qos));

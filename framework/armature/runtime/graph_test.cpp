@@ -76,6 +76,23 @@ TEST(Graph, WritersThatShareATopicWriteOneType) {
                      "'std_msgs/String'; give one of them others with 'topics:' or 'out:'"});
 }
 
+TEST(Graph, WhatIsOfOneRobotIsNotReadAsAnothers) {
+  PortBinding joints = port("js", "/js", false);
+  joints.spec.of = "robot";
+  std::vector components{writer("arm", joints), reader("motion", joints)};
+  components[0].documents["robots"] = "left";
+  EXPECT_EQ(check(components), Messages{}) << "the reader may take any robot's";
+  components[1].documents["robots"] = "right";
+  EXPECT_EQ(check(components),
+            Messages{"motion.js reads values of robot 'right' from topic '/js', but arm.js writes "
+                     "values of robot 'left'"});
+  components[1].documents["robots"] = "left";
+  EXPECT_EQ(check(components), Messages{});
+  components[1].documents["robots"] = "right";
+  components[1].inputs[0].spec.of = "";
+  EXPECT_EQ(check(components), Messages{}) << "not of the reader's own robot";
+}
+
 TEST(Graph, AnOptionalInputNeedsAWriterOnlyWhenTheFileSaysWhich) {
   PortBinding input = port("in", "/nowhere", false);
   input.spec.optional = true;

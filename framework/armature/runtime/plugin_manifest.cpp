@@ -56,6 +56,7 @@ std::vector<PortSpec> read_ports(const Node* table, bool inputs, Problems& probl
     port.type = map.text("type");
     port.topic = map.text("topic", key);
     port.frame = map.text("frame", "");
+    port.of = map.text("of", "");
     port.doc = map.text("doc", "");
     const auto qos = find_qos_profile(
         map.choice("qos", {"sensor", "state", "command", "reply", "latched"}, "state"));
@@ -122,6 +123,20 @@ std::vector<MetricSpec> read_metrics(const Node* table, Problems& problems) {
   return metrics;
 }
 
+/// What a port is `of` must be a document that the component is bound to.
+void check_of(const PluginManifest& manifest, Problems& problems) {
+  std::vector<std::string> bound = manifest.uses;
+  bound.insert(bound.end(), manifest.may_use.begin(), manifest.may_use.end());
+  for (const auto* ports : {&manifest.inputs, &manifest.outputs}) {
+    for (const PortSpec& port : *ports) {
+      if (port.of.empty() || std::ranges::find(bound, port.of) != bound.end()) continue;
+      problems.add(port.origin, fmt::format("port '{}' is of a {}, and 'uses' and 'may_use' name "
+                                            "none",
+                                            port.name, port.of));
+    }
+  }
+}
+
 /// The map under `key`; nullptr when there is none. Anything else than a map is a problem.
 const Node* read_table(MapReader& map, const char* key) {
   const Node* table = map.optional_node(key);
@@ -166,6 +181,7 @@ PluginManifest parse_manifest(std::string_view yaml, std::string_view name, Prob
   manifest.measures = read_metrics(read_table(map, "measures"), problems);
   manifest.inputs = read_ports(read_table(map, "in"), true, problems);
   manifest.outputs = read_ports(read_table(map, "out"), false, problems);
+  check_of(manifest, problems);
   map.finish();
   return manifest;
 }

@@ -19,6 +19,7 @@ struct PortSpec {
   std::string type;   // ROS name: "sensor_msgs/JointState"
   std::string topic;  // default, relative to the deployment's name
   std::string frame;  // the frame its poses are in; empty: none
+  std::string of;     // "robot": its joints and its base are those of its component's robot
   std::string doc;
   QosProfile qos = QosProfile::state;
   config::Origin origin;

@@ -67,6 +67,14 @@ TEST(PluginManifest, AListWhereAMapBelongsIsAProblem) {
   EXPECT_EQ(problem("needs:\n"), "nothing");
 }
 
+TEST(PluginManifest, APortIsOfADocumentThatThePluginUses) {
+  const std::string port = "in: {js: {type: sensor_msgs/JointState, of: robot}}\n";
+  EXPECT_EQ(problem(port),
+            "plugin.yaml:4:6: port 'js' is of a robot, and 'uses' and 'may_use' name none");
+  EXPECT_EQ(problem("uses: [robot]\n" + port), "nothing");
+  EXPECT_EQ(problem("may_use: [robot]\n" + port), "nothing");
+}
+
 TEST(PluginManifest, AnAgeThatIsNoneIsAProblem) {
   EXPECT_EQ(problem("in: {face: {type: armature_msgs/Target, max_age_s: 0}}\n"),
             "plugin.yaml:4:52: 'max_age_s' must be positive");

@@ -114,7 +114,7 @@ void add_plugin_verbs(CLI::App& app, Action& action) {
   info->callback([=, &action] { action = [=] { return show_plugin(*id, *json); }; });
 
   CLI::App* fresh = plugin->add_subcommand("new", "Write a complete small plugin to start from");
-  fresh->add_option("id", *id, "e.g. ik/mine")->required();
+  fresh->add_option("id", *id, "ik/mine: a solver; arm/mine: the driver of an arm")->required();
   fresh->add_option("-o,--output", *directory, "folder to write it into")->required();
   fresh->callback([=, &action] { action = [=] { return new_plugin(*id, *directory); }; });
 

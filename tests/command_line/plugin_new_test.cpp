@@ -68,13 +68,23 @@ TEST_F(NewPlugin, IsAShortSolverAndThreeLinesOfCMakeBesidesItsVersion) {
   EXPECT_EQ(lines_of("CMakeLists.txt"), 4);
 }
 
+TEST_F(NewPlugin, OfAnArmComesWithADeploymentThatIsSoundButForTheArmItself) {
+  ASSERT_EQ(write("arm/mine").exit_code, 0);
+  const auto check = run_command({armature(), "check", folder / "tour.yaml"});
+  EXPECT_EQ(check.exit_code, 3);
+  EXPECT_NE(check.err.find("unknown plugin 'arm/mine'"), std::string::npos) << check.err;
+  const auto other = run_command(
+      {armature(), "check", folder / "tour.yaml", "--set", "components.arm.plugin=arm/simulated"});
+  EXPECT_EQ(other.exit_code, 0) << other.err;
+}
+
 TEST_F(NewPlugin, RefusesANameThatIsNoName) {
   const auto result = write("ik/My Solver");
   EXPECT_EQ(result.exit_code, 3);
   EXPECT_EQ(
       result.err,
-      "armature: 'ik/My Solver' must be 'ik/name', the name in lower case letters, digits and "
-      "'_'\n");
+      "armature: 'ik/My Solver' must be 'ik/name' or 'arm/name', the name in lower case letters, "
+      "digits and '_'\n");
 }
 
 TEST_F(NewPlugin, RefusesAnIdThatIsTakenAndTellsByWhat) {
@@ -86,12 +96,12 @@ TEST_F(NewPlugin, RefusesAnIdThatIsTakenAndTellsByWhat) {
   EXPECT_FALSE(fs::exists(folder));
 }
 
-TEST_F(NewPlugin, OfAKindWithoutATemplateNamesTheKindsThatHaveOne) {
+TEST_F(NewPlugin, OfAFamilyWithoutATemplateNamesThoseThatHaveOne) {
   const auto result = write("path/mine");
   EXPECT_EQ(result.exit_code, 3);
   EXPECT_EQ(result.err,
-            "armature: there is no template for a plugin of kind 'path', only for 'ik'; begin with "
-            "a copy of a plugin of that kind, see plugins/ in the sources\n");
+            "armature: there is no template for 'path/...', only for 'arm/...' and 'ik/...'; begin "
+            "with a copy of such a plugin, see plugins/ in the sources\n");
   EXPECT_FALSE(fs::exists(folder));
 }
 

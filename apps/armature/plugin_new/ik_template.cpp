@@ -1,34 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cctype>
-#include <filesystem>
-#include <string_view>
-
-#include "arm_choice.hpp"
-#include "armature/runtime/output_folder.hpp"
-#include "armature/runtime/plugin_registry.hpp"
-#include "armature/runtime/write_atomically.hpp"
-#include "exit_code.hpp"
-#include "plugins.hpp"
+// What `armature plugin new ik/mine` writes: a solver.
+#include "plugin_template.hpp"
 
 namespace armature {
 namespace {
 
-namespace fs = std::filesystem;
-
-constexpr std::string_view kKind = "ik";  // of which there is a template
-
-// The files of a new plugin; @ID@, @NAME@, @CLASS@, @TARGET@, @PACKAGE@ and @CONFIGS@ are
-// filled in.
-constexpr std::string_view kCMake = R"(cmake_minimum_required(VERSION 3.25)
+constexpr std::string_view kIkCMake = R"(cmake_minimum_required(VERSION 3.25)
 project(@TARGET@ LANGUAGES CXX)
 find_package(Armature REQUIRED HINTS "@PACKAGE@")
 armature_add_plugin(@ID@ SOURCES @NAME@.cpp LINK armature::ik TESTS @NAME@_test.cpp)
 )";
 
-constexpr std::string_view kManifest = R"(armature_plugin: 1
+constexpr std::string_view kIkManifest = R"(armature_plugin: 1
 id: @ID@
 kind: ik
 doc: Damped least squares from the seed, one branch.
@@ -40,7 +23,7 @@ params:
 #   all_branches: {doc: "Every joint position that reaches the goal is found."}
 )";
 
-constexpr std::string_view kSource = R"(#include <Eigen/Cholesky>
+constexpr std::string_view kIkSource = R"(#include <Eigen/Cholesky>
 
 #include "armature/kinds/ik/ik.hpp"
 #include "armature/robot/task_error.hpp"
@@ -81,7 +64,7 @@ class @CLASS@ final : public IkSolver {
 ARMATURE_PLUGIN(@CLASS@);
 )";
 
-constexpr std::string_view kTest = R"(// Every law of the kind, on the arm in arm.urdf.
+constexpr std::string_view kIkTest = R"(// Every law of the kind, on the arm in arm.urdf.
 #include <cstdio>
 
 #include "armature/config/problems.hpp"
@@ -111,7 +94,7 @@ int main(int, char** argv) {
 }
 )";
 
-constexpr std::string_view kReadme = R"(# @ID@
+constexpr std::string_view kIkReadme = R"(# @ID@
 
 An inverse kinematics solver for Armature: damped least squares from the seed, dq = J^T (J J^T + lambda e^2 I)^-1 e.
 
@@ -129,78 +112,17 @@ An inverse kinematics solver for Armature: damped least squares from the seed, d
 | `arm.urdf` | an arm to try it with: put your own here |
 )";
 
-void replace_all(std::string& text, std::string_view mark, std::string_view value) {
-  for (auto at = text.find(mark); at != std::string::npos;
-       at = text.find(mark, at + value.size())) {
-    text.replace(at, mark.size(), value);
-  }
-}
-
-std::string class_name(std::string_view name) {
-  std::string result;
-  bool upper = true;
-  for (const char c : name) {
-    if (c != '_') result += upper ? static_cast<char>(std::toupper(c)) : c;
-    upper = c == '_';
-  }
-  return result;
-}
-
-/// lib/cmake/Armature of the installation, or the build folder, that this program belongs to.
-fs::path package_folder() {
-  const fs::path program = fs::canonical("/proc/self/exe");
-  const fs::path prefix = program.parent_path().parent_path();
-  return fs::exists(prefix / "ArmatureConfig.cmake") ? prefix
-                                                     : prefix / "lib" / "cmake" / "Armature";
-}
+constexpr TemplateFile kIkFiles[] = {{"CMakeLists.txt", kIkCMake},
+                                     {"plugin.yaml", kIkManifest},
+                                     {"@NAME@.cpp", kIkSource},
+                                     {"@NAME@_test.cpp", kIkTest},
+                                     {"README.md", kIkReadme}};
 
 }  // namespace
 
-int new_plugin(const std::string& id, const fs::path& directory) {
-  const auto slash = id.find('/');
-  const std::string name = slash == std::string::npos ? "" : id.substr(slash + 1);
-  const bool valid = !name.empty() && std::islower(static_cast<unsigned char>(name.front())) &&
-                     std::all_of(name.begin(), name.end(), [](unsigned char c) {
-                       return std::islower(c) || std::isdigit(c) || c == '_';
-                     });
-  const std::string kind = id.substr(0, slash);
-  if (slash != std::string::npos && kind != "ik") {
-    throw InvalidChoice(fmt::format(
-        "there is no template for a plugin of kind '{}', only for 'ik'; begin with a copy "
-        "of a plugin of that kind, see plugins/ in the sources",
-        kind));
-  }
-  if (!valid || slash == std::string::npos) {
-    throw InvalidChoice(
-        fmt::format("'{}' must be 'ik/name', the name in lower case letters, digits and '_'", id));
-  }
-  const PluginRegistry plugins;
-  if (const PluginManifest* there = plugins.find(id)) {
-    throw InvalidChoice(fmt::format("there is a plugin '{}' already, '{}'; choose another name", id,
-                                    there->file.string()));
-  }
-  if (fs::exists(directory) && !fs::is_empty(directory)) {
-    throw InvalidChoice(fmt::format("'{}' is there already and not empty", directory.string()));
-  }
-  prepare_output_folder(directory);
-  const auto fill = [&](std::string_view text) {
-    std::string filled{text};
-    replace_all(filled, "@ID@", id);
-    replace_all(filled, "@NAME@", name);
-    replace_all(filled, "@CLASS@", class_name(name));
-    replace_all(filled, "@TARGET@", "ik_" + name);
-    replace_all(filled, "@PACKAGE@", package_folder().string());
-    replace_all(filled, "@CONFIGS@", shipped_robot_folder().parent_path().string());
-    return filled;
-  };
-  write_atomically(directory / "CMakeLists.txt", fill(kCMake));
-  write_atomically(directory / "plugin.yaml", fill(kManifest));
-  write_atomically(directory / (name + ".cpp"), fill(kSource));
-  write_atomically(directory / (name + "_test.cpp"), fill(kTest));
-  fs::copy_file(shipped_robot_folder() / "arm.urdf", directory / "arm.urdf");
-  write_atomically(directory / "README.md", fill(kReadme));
-  fmt::print("wrote {}: see {}\n", id, (directory / "README.md").string());
-  return kOk;
+const PluginTemplate& ik_template() {
+  static constexpr PluginTemplate ik{"ik", "", kIkFiles};
+  return ik;
 }
 
 }  // namespace armature

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: Apache-2.0
+// What `armature plugin new arm/mine` writes: the driver of an arm, a component.
+#include "plugin_template.hpp"
+
+namespace armature {
+namespace {
+
+constexpr std::string_view kArmCMake = R"(cmake_minimum_required(VERSION 3.25)
+project(@TARGET@ LANGUAGES CXX)
+find_package(Armature REQUIRED HINTS "@PACKAGE@")
+armature_add_plugin(@ID@ SOURCES @NAME@.cpp LINK armature::kinds TESTS @NAME@_test.cpp)
+)";
+
+constexpr std::string_view kArmManifest = R"(armature_plugin: 1
+id: @ID@
+kind: component
+doc: An arm that is at once where it is asked to be, until you put your own in its place.
+# pure: false   # once a device answers: the simulated clock then refuses it by name
+uses: [robot]
+params:
+  rate_hz: {type: number, default: 1000, min: 1, max: 10000, doc: "How often it talks to the arm; that of its executor"}
+in:
+  servo_jp: {type: sensor_msgs/JointState, topic: arm/servo_jp, of: robot, reads: latest, max_age_s: 0.1, qos: command, doc: "Position and velocity of all joints: where the arm shall be now"}
+out:
+  measured_js: {type: sensor_msgs/JointState, topic: arm/measured_js, of: robot, qos: state, frame: base, doc: "Where it is: all joints"}
+)";
+
+constexpr std::string_view kArmSource = R"(#include "armature/kinds/joint_messages.hpp"
+#include "armature/kinds/setup_robot.hpp"
+#include "armature/runtime/component.hpp"
+#include "armature/runtime/plugin.hpp"
+#include "armature/runtime/setup.hpp"
+using namespace armature;
+
+namespace {
+
+/// Put your arm here: its maker's library, or the bus that it hangs on. No function may wait for
+/// the arm: where one would, let a thread of your own talk to it and keep its last word here.
+class Device {
+ public:
+  explicit Device(const JointVector& q) : q_{q}, v_{JointVector::Zero(q.size())} {}
+  void move(const JointVector& q, const JointVector& v) { q_ = q, v_ = v; }
+  void hold() { v_.setZero(); }
+  const JointVector& position() const { return q_; }
+  const JointVector& velocity() const { return v_; }
+
+ private:
+  JointVector q_, v_;  // of the independent joints [rad or m], and their rates
+};
+
+}  // namespace
+
+/// Hands commands to the arm, and tells where it is.
+class @CLASS@ final : public Component {
+ public:
+  explicit @CLASS@(Setup& setup)
+      : Component{setup},
+        robot_{robot_of(setup)},
+        device_{resting_position(robot_)},
+        servo_jp_{setup.input<msg::JointState>("servo_jp")},
+        measured_js_{setup.output<msg::JointState>("measured_js")} {
+    setup.activate_every(seconds(1 / setup.params().number("rate_hz")));
+  }
+
+  void step(Time now) override {
+    if (!servo_jp_.latest()) {
+      device_.hold();  // nobody has commanded it for max_age_s (plugin.yaml)
+    } else if (servo_jp_.fresh()) {
+      follow(*servo_jp_.latest());
+    }
+    auto measured = measured_js_.loan();
+    write_all_joints(robot_, device_.position(), device_.velocity(), now, *measured);
+    measured.publish();
+  }
+
+ private:
+  /// A command that has another length, is not finite or leaves the limits is none.
+  void follow(const msg::JointState& command) {
+    const auto q = robot_.contract(command.position_());
+    const auto v = robot_.contract_rates(command.velocity_());
+    if (!q || !v) return refuse((q ? v : q).error().text);
+    if (!robot_.within_limits(*q)) return refuse("it leaves the joint limits");
+    healthy();
+    device_.move(*q, *v);
+  }
+  void refuse(const std::string& why) {
+    device_.hold();
+    degraded("refused a command: " + why);
+  }
+
+  RobotModel robot_;
+  Device device_;
+  Input<msg::JointState> servo_jp_;
+  Output<msg::JointState> measured_js_;
+};
+ARMATURE_PLUGIN(@CLASS@);
+)";
+
+constexpr std::string_view kArmTest = R"(// The arm on a bench: what it is sent, and what it tells.
+#include <cstdio>
+#include <limits>
+
+#include "armature/kinds/joint_messages.hpp"
+#include "armature/runtime/component_bench.hpp"
+
+using namespace armature;
+
+namespace {
+
+int failures = 0;
+void expect(bool holds, const char* what) {
+  std::printf("%s  %s\n", holds ? "pass" : "FAIL", what);
+  failures += holds ? 0 : 1;
+}
+
+}  // namespace
+
+int main() {
+  PluginRegistry plugins;  // ctest sets ARMATURE_PLUGIN_PATH to where the plugin was built
+  const RobotModel robot = load_robot_model("arm.yaml");
+  ComponentBench arm{plugins, {.component = "{plugin: @ID@}", .robot = config::load("arm.yaml"), .rig = {}}};
+  const auto is_at = [&](const JointVector& q) {
+    const auto told = arm.take<msg::JointState>("measured_js");
+    return told.size() == 1 && robot.contract(told.front().position_())->isApprox(q, 1e-12);
+  };
+  const JointVector home = resting_position(robot), still = JointVector::Zero(robot.dof());
+  const JointVector goal = home + JointVector::Constant(robot.dof(), 0.01);
+  msg::JointState command;
+
+  arm.step(0.001);
+  expect(is_at(home), "it begins where the robot rests");
+
+  write_all_joints(robot, goal, still, Time{} + seconds(0.002), command);
+  arm.send("servo_jp", command);
+  arm.step(0.002);
+  expect(is_at(goal), "it goes where it is asked to");
+
+  for (const double none : {std::numeric_limits<double>::quiet_NaN(), 100.0}) {
+    command.position_()[0] = none;
+    arm.send("servo_jp", command);
+    arm.step(0.003);
+    expect(is_at(goal), "it stays where it is when a command is none");
+    expect(arm.status().state == Voice::State::degraded, "and says so");
+  }
+  return failures == 0 ? 0 : 1;
+}
+)";
+
+constexpr std::string_view kArmRobot =
+    R"(# Where your arm's numbers go: a URDF file, or rows of Denavit and Hartenberg.
+armature_robot: 1
+name: @NAME@
+urdf: arm.urdf
+tip: tool0
+home_deg: [0, 0, 0, 0, 90, 0]
+)";
+
+constexpr std::string_view kArmTour =
+    R"(# The arm of arm.yaml goes round a square, driven by @ID@: armature run tour.yaml
+armature: 1
+name: @NAME@_tour
+robots: {arm: arm.yaml}
+executors: {control: {period_s: 0.001}, monitor: {}}
+components:
+  task:      {plugin: task/waypoints, params: {positions_mm: [250, -100, 350, 350, -100, 350, 350, 100, 350, 250, 100, 350]}}
+  motion:
+    executor: control
+    params: {max_velocity_rad_s: 1.0, max_acceleration_rad_s2: 2.5}
+    path:       {plugin: path/joint_move}
+    ik:         {plugin: ik/numeric}
+    select:     {plugin: select/nearest}
+    trajectory: {plugin: trajectory/quintic}
+  arm:       {plugin: @ID@, executor: control}
+  monitor:   {plugin: monitor/rviz, executor: monitor}   # for RViz, Foxglove, armature topic echo
+goals:                             # at most, at every waypoint
+  tool_error_mm: 0.5
+  tool_error_deg: 0.1
+)";
+
+constexpr std::string_view kArmReadme = R"(# @ID@
+
+The driver of an arm, for Armature: takes where the arm shall be from `arm/servo_jp`, tells where it is on `arm/measured_js`.
+
+    cmake -B build -DCMAKE_BUILD_TYPE=Release && cmake --build build && ctest --test-dir build
+    export ARMATURE_PLUGIN_PATH=$PWD/build
+    armature run tour.yaml
+    armature run @CONFIGS@/dental_lamp.yaml --set components.arm.plugin=@ID@ --set clock=simulated
+
+| file | what |
+|---|---|
+| `@NAME@.cpp` | the component; `Device` is what you replace by your arm |
+| `plugin.yaml` | id, parameters, and the topics that it reads and writes |
+| `@NAME@_test.cpp` | the component alone: commands in, joint states out |
+| `arm.yaml`, `arm.urdf` | a robot to try it with: put your own here |
+| `tour.yaml` | a deployment: this robot goes round a square |
+)";
+
+constexpr TemplateFile kArmFiles[] = {{"CMakeLists.txt", kArmCMake}, {"plugin.yaml", kArmManifest},
+                                      {"@NAME@.cpp", kArmSource},    {"@NAME@_test.cpp", kArmTest},
+                                      {"arm.yaml", kArmRobot},       {"tour.yaml", kArmTour},
+                                      {"README.md", kArmReadme}};
+
+}  // namespace
+
+const PluginTemplate& arm_template() {
+  static constexpr PluginTemplate arm{"arm", "Arm", kArmFiles};
+  return arm;
+}
+
+}  // namespace armature

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "arm_choice.hpp"
+#include "armature/runtime/output_folder.hpp"
+#include "armature/runtime/plugin_registry.hpp"
+#include "armature/runtime/write_atomically.hpp"
+#include "exit_code.hpp"
+#include "plugin_template.hpp"
+#include "plugins.hpp"
+
+namespace armature {
+namespace {
+
+namespace fs = std::filesystem;
+
+void replace_all(std::string& text, std::string_view mark, std::string_view value) {
+  for (auto at = text.find(mark); at != std::string::npos;
+       at = text.find(mark, at + value.size())) {
+    text.replace(at, mark.size(), value);
+  }
+}
+
+std::string class_name(std::string_view name) {
+  std::string result;
+  bool upper = true;
+  for (const char c : name) {
+    if (c != '_') result += upper ? static_cast<char>(std::toupper(c)) : c;
+    upper = c == '_';
+  }
+  return result;
+}
+
+/// lib/cmake/Armature of the installation, or the build folder, that this program belongs to.
+fs::path package_folder() {
+  const fs::path program = fs::canonical("/proc/self/exe");
+  const fs::path prefix = program.parent_path().parent_path();
+  return fs::exists(prefix / "ArmatureConfig.cmake") ? prefix
+                                                     : prefix / "lib" / "cmake" / "Armature";
+}
+
+const PluginTemplate& template_for(std::string_view family) {
+  const auto templates = {&arm_template(), &ik_template()};
+  const auto found = std::ranges::find(templates, family, &PluginTemplate::family);
+  if (found != templates.end()) return **found;
+  throw InvalidChoice(
+      fmt::format("there is no template for '{}/...', only for 'arm/...' and 'ik/...'; begin with "
+                  "a copy of such a plugin, see plugins/ in the sources",
+                  family));
+}
+
+struct PluginId {
+  std::string text, family, name;  // "ik/mine", "ik", "mine"
+};
+
+PluginId id_from(const std::string& text) {
+  const auto slash = std::min(text.find('/'), text.size());
+  PluginId id{text, text.substr(0, slash), text.substr(std::min(slash + 1, text.size()))};
+  const auto in_a_name = [](unsigned char c) {
+    return std::islower(c) || std::isdigit(c) || c == '_';
+  };
+  if (!id.name.empty() && std::islower(static_cast<unsigned char>(id.name.front())) &&
+      std::ranges::all_of(id.name, in_a_name)) {
+    return id;
+  }
+  throw InvalidChoice(fmt::format(
+      "'{}' must be 'ik/name' or 'arm/name', the name in lower case letters, digits and '_'",
+      text));
+}
+
+}  // namespace
+
+int new_plugin(const std::string& text, const fs::path& directory) {
+  const PluginId id = id_from(text);
+  const PluginTemplate& from = template_for(id.family);
+  const PluginRegistry plugins;
+  if (const PluginManifest* there = plugins.find(id.text)) {
+    throw InvalidChoice(fmt::format("there is a plugin '{}' already, '{}'; choose another name",
+                                    id.text, there->file.string()));
+  }
+  if (fs::exists(directory) && !fs::is_empty(directory)) {
+    throw InvalidChoice(fmt::format("'{}' is there already and not empty", directory.string()));
+  }
+  prepare_output_folder(directory);
+  const auto fill = [&](std::string_view unfilled) {
+    std::string filled{unfilled};
+    replace_all(filled, "@ID@", id.text);
+    replace_all(filled, "@NAME@", id.name);
+    replace_all(filled, "@CLASS@", class_name(id.name) + std::string{from.class_ending});
+    replace_all(filled, "@TARGET@", id.family + '_' + id.name);
+    replace_all(filled, "@PACKAGE@", package_folder().string());
+    replace_all(filled, "@CONFIGS@", shipped_robot_folder().parent_path().string());
+    return filled;
+  };
+  for (const TemplateFile& file : from.files) {
+    write_atomically(directory / fill(file.name), fill(file.text));
+  }
+  fs::copy_file(shipped_robot_folder() / "arm.urdf", directory / "arm.urdf");
+  fmt::print("wrote {}: see {}\n", id.text, (directory / "README.md").string());
+  return kOk;
+}
+
+}  // namespace armature

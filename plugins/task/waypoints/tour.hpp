@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "armature/motion/pursued_goal.hpp"
+#include "armature/robot/pose_goal.hpp"
+
+namespace armature {
+
+struct TourSettings {
+  std::vector<ToolPose> waypoints;  // one at least
+  Duration rest = seconds(0.5);     // at each
+  int rounds = 1;                   // 0: without end
+};
+
+/// From waypoint to waypoint, with a rest at each. Everything it knows comes in through the `see`
+/// and `hear` calls.
+class Tour {
+ public:
+  enum class Phase { waiting, moving, resting, done, refused };
+
+  explicit Tour(const TourSettings& settings);
+
+  void hear(const GoalReport& report, Time now);
+  /// How far the tool is from `waypoint` now. Until the arm is seen there is no goal.
+  void see(const PoseResidual& off);
+  /// The goal to send now, if any; ends a rest that is over.
+  std::optional<MotionGoal> outgoing_goal(Time now);
+
+  Phase phase() const { return phase_; }
+  std::size_t number() const { return number_; }  // of the waypoint, from 0
+  std::size_t count() const { return settings_.waypoints.size(); }
+  const ToolPose& waypoint() const { return settings_.waypoints[number_]; }
+  /// The largest at the end of a rest; none before the first.
+  const std::optional<PoseResidual>& worst() const { return worst_; }
+  std::optional<Time> done_at() const { return done_at_; }
+  /// Why it does not go on, or "".
+  const std::string& trouble() const { return trouble_; }
+
+ private:
+  void leave(Time now);
+
+  TourSettings settings_;
+  PursuedGoal goal_;
+  Phase phase_ = Phase::waiting;
+  std::size_t number_ = 0;
+  int round_ = 0;
+  std::optional<PoseResidual> off_, worst_;
+  std::optional<Time> done_at_;
+  std::string trouble_;
+};
+
+/// "waiting", "moving", "resting", "done", "refused".
+const char* to_string(Tour::Phase phase);
+
+}  // namespace armature

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// A tour: 1. where it goes and how long it rests, 2. what it measures, 3. what it refuses.
+#include "tour.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace armature {
+namespace {
+
+ToolPose at_x(double x) { return {{x, 0, 0}, Direction{}}; }
+
+class TourTest : public testing::Test {
+ protected:
+  /// The goals that it sends in so many seconds, each done half a second after it was sent, by an
+  /// arm that ends `miss_m` beside it.
+  std::vector<double> follow(Tour& tour, double duration_s, double miss_m = 0) {
+    std::vector<double> sent;
+    const Time end = now_ + seconds(duration_s);
+    for (; now_ < end; now_ = now_ + seconds(0.1)) {
+      if (done_at_ && now_ >= *done_at_) {
+        tour.hear({.goal_id = id_, .state = GoalReport::State::done}, now_);
+        done_at_.reset();
+      }
+      tour.see({miss_m * static_cast<double>(1 + tour.number()), 0});
+      if (const auto goal = tour.outgoing_goal(now_)) {
+        sent.push_back(goal->pose.position.x());
+        id_ = goal->id;
+        tour.hear({.goal_id = id_, .state = GoalReport::State::executing}, now_);
+        done_at_ = now_ + seconds(0.5);
+      }
+    }
+    return sent;
+  }
+
+  Time now_ = Time{} + seconds(100);
+  std::uint64_t id_ = 0;
+  std::optional<Time> done_at_;
+};
+
+TEST_F(TourTest, GoesFromWaypointToWaypointAndEndsAfterTheLastRest) {
+  Tour tour{{.waypoints = {at_x(1), at_x(2), at_x(3)}, .rest = seconds(1), .rounds = 2}};
+  EXPECT_EQ(follow(tour, 1.35), std::vector<double>{1});
+  EXPECT_EQ(tour.phase(), Tour::Phase::resting);
+  EXPECT_EQ(follow(tour, 7.5), (std::vector<double>{2, 3, 1, 2, 3}));
+  EXPECT_EQ(tour.phase(), Tour::Phase::resting);
+  EXPECT_FALSE(tour.done_at());
+  EXPECT_EQ(follow(tour, 2), std::vector<double>{});
+  EXPECT_EQ(tour.phase(), Tour::Phase::done);
+  EXPECT_EQ(*tour.done_at() - (Time{} + seconds(100)), seconds(9)) << "6 x (0.5 + 1) s";
+}
+
+TEST_F(TourTest, WithoutEndItBeginsAgain) {
+  Tour tour{{.waypoints = {at_x(1), at_x(2)}, .rest = seconds(0), .rounds = 0}};
+  EXPECT_GE(follow(tour, 60).size(), 100U);
+  EXPECT_EQ(tour.phase(), Tour::Phase::moving);
+}
+
+TEST_F(TourTest, TellsTheLargestErrorAtTheEndOfARest) {
+  Tour tour{{.waypoints = {at_x(1), at_x(2)}, .rest = seconds(0.2), .rounds = 1}};
+  follow(tour, 0.6, 0.5);
+  EXPECT_FALSE(tour.worst()) << "no rest is over";
+  follow(tour, 5, 0.001);
+  ASSERT_TRUE(tour.worst());
+  EXPECT_NEAR(tour.worst()->position_m, 0.002, 1e-15);
+}
+
+TEST_F(TourTest, WaitsForTheArm) {
+  Tour tour{{.waypoints = {at_x(1)}}};
+  EXPECT_FALSE(tour.outgoing_goal(now_));
+  EXPECT_EQ(tour.phase(), Tour::Phase::waiting);
+  tour.see({});
+  EXPECT_TRUE(tour.outgoing_goal(now_));
+}
+
+TEST_F(TourTest, AWaypointThatCannotBeReachedIsNamed) {
+  Tour tour{{.waypoints = {at_x(1), at_x(2)}, .rest = seconds(0), .rounds = 0}};
+  follow(tour, 0.8);
+  ASSERT_EQ(tour.number(), 1U);
+  tour.hear(
+      {.goal_id = id_, .state = GoalReport::State::failed, .stage = "ik", .reason = "too far"},
+      now_);
+  EXPECT_EQ(tour.phase(), Tour::Phase::refused);
+  EXPECT_EQ(tour.trouble(), "waypoint 2: ik: too far");
+  EXPECT_FALSE(tour.outgoing_goal(now_ + seconds(10)));
+}
+
+}  // namespace
+}  // namespace armature

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "armature/kinds/geometry_params.hpp"
+#include "armature/kinds/setup_robot.hpp"
+#include "armature/messages/sensor_msgs.hpp"
+#include "armature/motion/goal_messages.hpp"
+#include "armature/motion/task_state_publisher.hpp"
+#include "armature/robot/kinematics.hpp"
+#include "armature/runtime/component.hpp"
+#include "armature/runtime/plugin.hpp"
+#include "armature/runtime/setup.hpp"
+#include "tour.hpp"
+
+namespace armature {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr Duration kPeriod = seconds(0.01);
+
+/// A robot with a pointing axis is told where that shall point, one without the whole rotation.
+Orientation orientation_of(const RobotModel& robot, const Eigen::Matrix3d& base_R_tool) {
+  if (const auto& axis = robot.pointing_axis()) return Direction{base_R_tool * *axis};
+  return Eigen::Quaterniond{base_R_tool};
+}
+
+std::vector<ToolPose> waypoints_of(const Params& params, const RobotModel& robot) {
+  const auto positions = points_of(params, "positions_mm", 1, "one waypoint or more");
+  const auto rpy = points_of(params, "rpy_deg", 0, "the waypoints");
+  if (!rpy.empty() && rpy.size() != positions.size()) {
+    params.refuse({"rpy_deg", "positions_mm"}, "'rpy_deg' turns " + std::to_string(rpy.size()) +
+                                                   " waypoints, and 'positions_mm' has " +
+                                                   std::to_string(positions.size()));
+  }
+  const Eigen::Matrix3d at_home = forward_kinematics(robot, resting_position(robot)).linear();
+  std::vector<ToolPose> waypoints;
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    const Eigen::Matrix3d base_R_tool = rpy.empty() ? at_home : rotation_from_rpy(rpy[i]);
+    waypoints.push_back({positions[i], orientation_of(robot, base_R_tool)});
+  }
+  return waypoints;
+}
+
+TourSettings settings_of(const Params& params, const RobotModel& robot) {
+  return {.waypoints = waypoints_of(params, robot),
+          .rest = seconds(params.number("rest_s")),
+          .rounds = static_cast<int>(params.integer("rounds"))};
+}
+
+}  // namespace
+
+class WaypointsComponent final : public Component {
+ public:
+  explicit WaypointsComponent(Setup& setup)
+      : Component{setup},
+        robot_{robot_of(setup)},
+        tour_{settings_of(setup.params(), robot_)},
+        motion_status_{setup.input<msg::MotionStatus>("motion_status")},
+        measured_js_{setup.input<msg::JointState>("measured_js")},
+        goal_{setup.output<msg::MotionGoal>("goal")},
+        state_{setup} {
+    setup.activate_every(kPeriod);
+  }
+
+  void step(Time now) override {
+    if (!start_) start_ = now;
+    for (std::size_t i = 0; i < motion_status_.size(); ++i) {
+      tour_.hear(report_of(motion_status_[i]), now);
+    }
+    see_arm();
+    if (const auto goal = tour_.outgoing_goal(now)) {
+      auto loan = goal_.loan();
+      write_goal(*goal, now, *loan);
+      loan.publish();
+    }
+    publish_state(now);
+  }
+
+  bool finished() const override {
+    return tour_.phase() == Tour::Phase::done || tour_.phase() == Tour::Phase::refused;
+  }
+
+  void summarize(Summary& summary) const override {
+    if (tour_.done_at()) {
+      summary.metric("time_to_done_s", "time until the last rest is over [s]",
+                     to_seconds(*tour_.done_at() - *start_));
+    }
+    if (const auto& worst = tour_.worst()) {
+      summary.metric("tool_error_mm", "most that the tool was off a waypoint [mm]",
+                     1e3 * worst->position_m);
+      summary.metric("tool_error_deg", "the same of its rotation [deg]",
+                     worst->angle_rad * 180 / std::numbers::pi);
+    }
+    if (!tour_.trouble().empty()) summary.failed("refused", tour_.trouble());
+  }
+
+ private:
+  void see_arm() {
+    if (!measured_js_.fresh()) return;
+    const auto q = robot_.contract(measured_js_.latest()->position_());
+    if (!q) return degraded("measured_js: " + q.error().text);
+    healthy();
+    const Vector3d axis = robot_.pointing_axis().value_or(Vector3d::UnitZ());
+    tour_.see(residual(forward_kinematics(robot_, *q), axis, tour_.waypoint()));
+  }
+
+  void publish_state(Time now) {
+    const TaskReport report{.state = to_string(tour_.phase()),
+                            .step = tour_.number() + 1,
+                            .steps = tour_.count(),
+                            .detail = tour_.trouble()};
+    const bool under_way =
+        tour_.phase() == Tour::Phase::moving || tour_.phase() == Tour::Phase::resting;
+    const std::string line = under_way
+                                 ? fmt::format("{} {}/{}", report.state, report.step, report.steps)
+                                 : report.line();
+    if (state_.publish(now, report, line)) say(line);
+  }
+
+  RobotModel robot_;
+  Tour tour_;
+  Input<msg::MotionStatus> motion_status_;
+  Input<msg::JointState> measured_js_;
+  Output<msg::MotionGoal> goal_;
+  TaskStatePublisher state_;
+  std::optional<Time> start_;
+};
+
+}  // namespace armature
+
+ARMATURE_PLUGIN(armature::WaypointsComponent);

@@ -70,9 +70,16 @@ TEST_F(NewPlugin, IsAShortSolverAndThreeLinesOfCMakeBesidesItsVersion) {
 
 TEST_F(NewPlugin, OfAnArmComesWithADeploymentThatIsSoundButForTheArmItself) {
   ASSERT_EQ(write("arm/mine").exit_code, 0);
-  const auto check = run_command({armature(), "check", folder / "tour.yaml"});
-  EXPECT_EQ(check.exit_code, 3);
-  EXPECT_NE(check.err.find("unknown plugin 'arm/mine'"), std::string::npos) << check.err;
+  const auto check_with = [&](const char* path) {
+    const auto check = run_command({armature(), "check", folder / "tour.yaml"},
+                                   {.environment = {{"ARMATURE_PLUGIN_PATH", path}}, .input = {}});
+    EXPECT_EQ(check.exit_code, 3);
+    EXPECT_NE(check.err.find("unknown plugin 'arm/mine'"), std::string::npos) << check.err;
+    return check.err;
+  };
+  EXPECT_NE(check_with("").find("; ARMATURE_PLUGIN_PATH adds folders of your own"),
+            std::string::npos);
+  EXPECT_NE(check_with("/gone").find("; searched /gone (no such folder), "), std::string::npos);
   const auto other = run_command(
       {armature(), "check", folder / "tour.yaml", "--set", "components.arm.plugin=arm/simulated"});
   EXPECT_EQ(other.exit_code, 0) << other.err;

@@ -118,9 +118,16 @@ std::string PluginRegistry::unknown_text(std::string_view id) const {
   if (id.empty()) return "a plugin is named by its id, family/name, and not by an empty text";
   std::vector<std::string> ids, folders;
   for (const auto& plugin : plugins_) ids.push_back(plugin.id);
-  for (const auto& folder : search_path_) folders.push_back(folder.string());
-  std::string text = fmt::format("unknown plugin '{}'{}; searched {}", id,
-                                 config::did_you_mean(id, ids), fmt::join(folders, ", "));
+  for (const auto& folder : search_path_) {
+    const bool there = std::filesystem::is_directory(folder);
+    folders.push_back(folder.string() + (there ? "" : " (no such folder)"));
+  }
+  const std::string meant = config::did_you_mean(id, ids);
+  std::string text =
+      fmt::format("unknown plugin '{}'{}; searched {}", id, meant, fmt::join(folders, ", "));
+  if (search_path_.size() == 1 && meant.find("did you mean") == std::string::npos) {
+    text += "; ARMATURE_PLUGIN_PATH adds folders of your own";
+  }
   for (const auto& [file, reason] : unusable_) {
     text += fmt::format("; {} cannot be used: {}", file.string(), reason);
   }

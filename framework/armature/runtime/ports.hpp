@@ -9,7 +9,7 @@
 
 namespace armature {
 
-class InputPort;   // runtime/input_port.hpp: mailbox and reading rule
+class InputPort;   // runtime/inbox.hpp: mailbox and reading rule
 class OutputPort;  // runtime/output_port.hpp: topic and clock
 
 namespace detail {

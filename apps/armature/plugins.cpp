@@ -28,11 +28,14 @@ Json param_json(const ParamSpec& spec) {
 }
 
 Json port_json(const PortSpec& port) {
-  return {{"name", port.name},
-          {"type", port.type},
-          {"topic", port.topic},
-          {"qos", to_string(port.qos)},
-          {"doc", port.doc}};
+  Json json{{"name", port.name},
+            {"type", port.type},
+            {"topic", port.topic},
+            {"qos", to_string(port.qos)},
+            {"doc", port.doc}};
+  if (!port.frame.empty()) json["frame"] = port.frame;
+  if (!port.of.empty()) json["of"] = port.of;
+  return json;
 }
 
 Json traits_json(const std::vector<Trait>& traits) {

@@ -101,15 +101,17 @@ std::vector<std::string> child_arguments(const RunOptions& options, int domain,
   return arguments;
 }
 
-/// Runs the deployment to its end; a line when one of its other processes ended before.
+/// Runs the deployment to its end, which may be told in another process; a line when one of them
+/// was lost.
 std::optional<std::string> run_to_end(Deployment& deployment, ChildProcesses& children) {
-  std::optional<std::string> lost;
+  std::optional<ChildProcesses::Ending> ended;
   deployment.run([&] {
-    if (!lost) lost = children.ended();
-    return lost || g_signal != 0;
+    if (!ended) ended = children.ended();
+    return ended || g_signal != 0;
   });
   children.stop();
-  return lost;
+  if (!ended || ended->well) return std::nullopt;
+  return ended->text;
 }
 
 /// As JSON, what there is to say of a run without figures.
@@ -179,11 +181,12 @@ int conclude(const RunOptions& options, const Deployment& deployment,
   return report.status() == "ok" ? kOk : kFailed;
 }
 
-/// Of a process that does not judge the deployment's goals.
+/// Of a process that does not judge the deployment's goals. To the main one, which waits for it, 0
+/// says that the story has been told.
 int conclude_child(const RunOptions& options, const Deployment& deployment) {
   const std::string fault = deployment.fault();
   if (options.json) fmt::print("{}", ending(fault.empty() ? "ok" : "fault", fault));
-  return fault.empty() ? kOk : kFailed;
+  return fault.empty() && g_signal == 0 ? kOk : kFailed;
 }
 
 int run(const RunOptions& options) {

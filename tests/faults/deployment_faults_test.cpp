@@ -408,14 +408,14 @@ TEST_F(SplitDeployment, AnIkProgramThatDoesNotKnowTheRobotIsRefusedWithItsAnswer
       << result.err;
 }
 
-TEST_F(SplitDeployment, AGoalThatIsMeasuredInAnotherProcessIsRefused) {
+TEST_F(SplitDeployment, FiguresThatNobodyWouldShowAreRefused) {
   const auto result = check(
       {{"clock: simulated", "clock: system"},
        {"{plugin: report/lamp_alignment}", "{plugin: report/lamp_alignment, process: aside}"}});
   EXPECT_EQ(result.exit_code, 3);
   EXPECT_EQ(result.err,
-            "deployment.yaml:22:9: goal 'distance_error_mm' is measured by 'report' in process "
-            "'aside', but goals are judged in process 'main'; remove 'process' from 'report'\n");
+            "deployment.yaml:20:60: 'report/lamp_alignment' tells figures of the run, which only "
+            "the process 'main' shows; remove 'process' from 'report'\n");
 }
 
 }  // namespace

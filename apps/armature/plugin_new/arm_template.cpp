@@ -76,8 +76,8 @@ class @CLASS@ final : public Component {
  private:
   /// A command that has another length, is not finite or leaves the limits is none.
   void follow(const msg::JointState& command) {
-    const auto q = robot_.contract(command.position_());
-    const auto v = robot_.contract_rates(command.velocity_());
+    const auto q = joints_of(robot_, command);
+    const auto v = joint_rates_of(robot_, command);
     if (!q || !v) return refuse((q ? v : q).error().text);
     if (!robot_.within_limits(*q)) return refuse("it leaves the joint limits");
     healthy();

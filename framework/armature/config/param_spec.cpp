@@ -87,6 +87,10 @@ ParamSpec read_param_spec(const Node::Entry& entry, Problems& problems) {
   spec.doc = map.text("doc", "");
   spec.same_as = map.text("same_as", "");
   if (const Node* fallback = map.optional_node("default")) spec.fallback = *fallback;
+  if (!spec.same_as.empty() && !spec.fallback) {
+    map.problem("same_as", fmt::format("'same_as' needs a default, for deployments without '{}'",
+                                       spec.same_as));
+  }
   read_choices(spec, map, problems);
   read_range(spec, map);
   read_count(spec, map);

@@ -77,6 +77,7 @@ Bad-Name: {type: flag}
 i: {type: numbers, count: 2, default: [1]}
 j: 5
 k: {type: texts, default: [x, [y]]}
+l: {type: number, same_as: task/mine}
 )",
                               "p"),
                    problems);
@@ -95,7 +96,8 @@ k: {type: texts, default: [x, [y]]}
             "p:10:1: parameter 'Bad-Name' must be named in snake_case\n"
             "p:11:39: 'i' must be a list of 2 numbers, not of 1\n"
             "p:12:4: parameter 'j' must be a map, not '5'\n"
-            "p:13:31: 'k' must be a list of texts; item 2 must be a text, not a list\n");
+            "p:13:31: 'k' must be a list of texts; item 2 must be a text, not a list\n"
+            "p:14:28: 'same_as' needs a default, for deployments without 'task/mine'\n");
 }
 
 TEST(ParamSpecs, OfAnEmptyTableAreNone) { EXPECT_TRUE(specs_of("").empty()); }

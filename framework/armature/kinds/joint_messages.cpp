@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/kinds/joint_messages.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include "armature/messages/header.hpp"
 
@@ -14,6 +19,51 @@ Expected<JointVector> joints_or_home(const RobotModel& model, std::span<const do
   auto joints = model.contract(all);
   if (!joints) return refuse(std::string{what} + ": " + joints.error().text);
   return joints;
+}
+
+namespace {
+
+/// Whether the names are those of the robot's joints in their order; so they mostly are.
+bool in_order(const RobotModel& model, const std::vector<std::string>& names) {
+  return std::ranges::equal(names, model.joints(), {}, {}, &Joint::name);
+}
+
+/// A value of every joint, in the robot's order.
+Expected<JointVector> by_name(const RobotModel& model, const std::vector<std::string>& names,
+                              const std::vector<double>& values) {
+  if (values.size() != names.size()) {
+    return refuse(fmt::format("{} values for {} names", values.size(), names.size()));
+  }
+  const auto& joints = model.joints();
+  JointVector all(static_cast<Eigen::Index>(joints.size()));
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    const auto found = std::ranges::find(names, joints[j].name);
+    if (found == names.end()) {
+      return refuse(fmt::format("joint '{}' of {} is not among the names {}", joints[j].name,
+                                model.name(), fmt::join(names, ", ")));
+    }
+    all[static_cast<Eigen::Index>(j)] = values[static_cast<std::size_t>(found - names.begin())];
+  }
+  return all;
+}
+
+}  // namespace
+
+Expected<JointVector> joints_of(const RobotModel& model, const msg::JointState& message) {
+  if (message.name_().empty() || in_order(model, message.name_())) {
+    return model.contract(message.position_());
+  }
+  const auto all = by_name(model, message.name_(), message.position_());
+  return all ? model.contract(*all) : all;
+}
+
+Expected<JointVector> joint_rates_of(const RobotModel& model, const msg::JointState& message) {
+  if (message.name_().empty() || in_order(model, message.name_())) {
+    return model.contract_rates(message.velocity_());
+  }
+  const auto all = by_name(model, message.name_(), message.velocity_());
+  if (!all) return all;
+  return model.contract_rates({all->data(), static_cast<std::size_t>(all->size())});
 }
 
 void write_all_joints(const RobotModel& model, const JointVector& q, const JointVector& v,

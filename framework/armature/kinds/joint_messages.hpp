@@ -18,6 +18,14 @@ namespace armature {
 Expected<JointVector> joints_or_home(const RobotModel& model, std::span<const double> all,
                                      std::string_view what);
 
+/// The independent joints of a message: by its names, which may stand in any order among others, as
+/// ROS drivers write them; by their order where it has no names. Or why they are none: a joint that
+/// is not among the names, and what RobotModel::contract refuses. Real-time safe but for the
+/// reason.
+Expected<JointVector> joints_of(const RobotModel& model, const msg::JointState& message);
+/// The same of its velocities.
+Expected<JointVector> joint_rates_of(const RobotModel& model, const msg::JointState& message);
+
 /// Position and velocity of all joints from those of the independent ones; effort empty. Real-time
 /// safe once the message has had the robot's size.
 void write_all_joints(const RobotModel& model, const JointVector& q, const JointVector& v,

@@ -28,6 +28,45 @@ TEST(JointMessages, CoupledJointsFollowTheirLeaders) {
   EXPECT_EQ(robot.contract_rates(message.velocity_()).value(), v);
 }
 
+class NamedJoints : public ::testing::Test {
+ protected:
+  /// Of a lamp at (1, 2, 0.5, -0.5, 4, 5), its velocities a tenth of that.
+  static msg::JointState lamp_with(const std::vector<std::string>& names,
+                                   const std::vector<double>& position) {
+    msg::JointState message;
+    message.name_(names);
+    message.position_(position);
+    for (const double value : position) message.velocity_().push_back(0.1 * value);
+    return message;
+  }
+  static std::string refusal(const msg::JointState& message) {
+    return joints_of(testing::dental_lamp(), message).error().text;
+  }
+  const RobotModel lamp_ = testing::dental_lamp();
+  const JointVector q_ = joint_vector({1, 2, 0.5, 4, 5});
+};
+
+TEST_F(NamedJoints, MayStandInAnyOrderAmongOthers) {
+  const auto message =
+      lamp_with({"gripper", "j6", "j5", "j4", "j3", "j2", "j1"}, {7, 5, 4, -0.5, 0.5, 2, 1});
+  EXPECT_EQ(joints_of(lamp_, message).value(), q_);
+  EXPECT_EQ(joint_rates_of(lamp_, message).value(), 0.1 * q_);
+}
+
+TEST_F(NamedJoints, AreThoseOfTheRobotInItsOrderWhereNamesAreMissing) {
+  const auto message = lamp_with({}, {1, 2, 0.5, -0.5, 4, 5});
+  EXPECT_EQ(joints_of(lamp_, message).value(), q_);
+  EXPECT_EQ(joint_rates_of(lamp_, message).value(), 0.1 * q_);
+}
+
+TEST_F(NamedJoints, OfAnotherRobotAreRefused) {
+  EXPECT_EQ(refusal(lamp_with({"a1", "a2"}, {1, 2})),
+            "joint 'j1' of dental_lamp is not among the names a1, a2");
+  EXPECT_EQ(refusal(lamp_with({"j6", "j5"}, {1, 2, 3})), "3 values for 2 names");
+  const auto untrue = lamp_with({"j6", "j5", "j4", "j3", "j2", "j1"}, {5, 4, 0.5, 0.5, 2, 1});
+  EXPECT_NE(refusal(untrue).find("j4"), std::string::npos) << "it is coupled to j3";
+}
+
 TEST(JointMessages, AnEmptyListOfJointsStandsForHome) {
   const RobotModel lamp = testing::dental_lamp();
   EXPECT_EQ(joints_or_home(lamp, {}, "the seed").value(), lamp.contract(*lamp.home()).value());

@@ -152,7 +152,7 @@ class Motion : public Component {
   std::optional<MeasuredJoints> read_measured() {
     const msg::JointState* message = measured_js_.latest();
     if (!message) return std::nullopt;
-    const auto q = model_.contract(message->position_());
+    const auto q = joints_of(model_, *message);
     if (!q) {
       bad_measurement_ = "measured_js: " + q.error().text;
       return std::nullopt;

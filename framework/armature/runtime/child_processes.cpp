@@ -43,13 +43,15 @@ void ChildProcesses::start(const std::string& name, const std::vector<std::strin
   children_.push_back({name, child});
 }
 
-std::optional<std::string> ChildProcesses::ended() {
+std::optional<ChildProcesses::Ending> ChildProcesses::ended() {
   for (auto child = children_.begin(); child != children_.end(); ++child) {
     int status = 0;
     if (waitpid(child->pid, &status, WNOHANG) != child->pid) continue;
-    auto text = fmt::format("process '{}' (pid {}) {}", child->name, child->pid, describe(status));
+    Ending ending{
+        .well = WIFEXITED(status) && WEXITSTATUS(status) == 0,
+        .text = fmt::format("process '{}' (pid {}) {}", child->name, child->pid, describe(status))};
     children_.erase(child);
-    return text;
+    return ending;
   }
   return std::nullopt;
 }

@@ -20,8 +20,13 @@ class ChildProcesses {
 
   /// Runs this executable again with `arguments`. Throws std::system_error.
   void start(const std::string& name, const std::vector<std::string>& arguments);
-  /// "process 'vision' (pid 123) ended with signal 9", once one has ended by itself.
-  std::optional<std::string> ended();
+  /// How one of them ended before it was asked to.
+  struct Ending {
+    bool well = false;  // with exit code 0: its part of the story has been told
+    std::string text;   // "process 'vision' (pid 123) was killed (Killed)"
+  };
+  /// Once one has ended by itself.
+  std::optional<Ending> ended();
   /// Asks all to end, and makes them after 3 s.
   void stop();
 

@@ -111,6 +111,11 @@ std::optional<ComponentConfig> ComponentReader::read(const Node::Entry& entry) c
     map.problem("process",
                 "the simulated clock runs one process; remove 'process' or set "
                 "'clock: system'");
+  } else if (component.process != kMainProcess && !named->measures.empty()) {
+    map.problem("process",
+                fmt::format("'{}' tells figures of the run, which only the process '{}' shows; "
+                            "remove 'process' from '{}'",
+                            named->id, kMainProcess, component.name));
   }
   const double sim_latency = map.number("sim_latency_s", 0.0);
   if (sim_latency < 0) map.problem("sim_latency_s", "'sim_latency_s' must not be negative");

@@ -4,11 +4,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <set>
+#include <thread>
 #include <utility>
 
 #include "armature/config/problems.hpp"
 #include "armature/runtime/clock_publisher.hpp"
+#include "armature/runtime/exception_text.hpp"
 #include "armature/runtime/lockstep_scheduler.hpp"
 #include "armature/runtime/state_publisher.hpp"
 #include "armature/runtime/threaded_scheduler.hpp"
@@ -94,10 +98,13 @@ void Deployment::make_unit(const ComponentConfig& component, PluginRegistry& plu
     unit->install({library, std::move(object)});
     check_period(component, *unit, config_.executors, problems);
     units_.push_back(std::move(unit));
-  } catch (const SetupError& error) {
-    problems.add(component.origin, fmt::format("component '{}': {}", component.name, error.what()));
   } catch (const config::ConfigError& error) {
     for (const auto& problem : error.problems()) problems.add(problem.origin, problem.message);
+  } catch (const PluginError&) {
+    throw;  // of a slot's library
+  } catch (...) {
+    problems.add(component.origin,
+                 fmt::format("component '{}': {}", component.name, current_exception_text()));
   }
 }
 
@@ -185,14 +192,16 @@ void Deployment::assign_units() {
   }
 }
 
-bool Deployment::written_elsewhere(const std::string& topic) const {
+int Deployment::processes_elsewhere(const std::string& topic, Ports ports) const {
+  std::set<std::string> processes;
   for (const ComponentConfig& component : config_.components) {
     if (component.process == options_.process) continue;
-    for (const PortBinding& output : component.outputs) {
-      if (output.topic == topic) return true;
+    const auto& bound = component.*ports;
+    if (std::ranges::find(bound, topic, &PortBinding::topic) != bound.end()) {
+      processes.insert(component.process);
     }
   }
-  return false;
+  return static_cast<int>(processes.size());
 }
 
 void Deployment::connect(PluginRegistry& plugins, int domain) {
@@ -219,11 +228,16 @@ void Deployment::advertise(const ComponentConfig& component, const PortBinding& 
   spec.qos = output.spec.qos;
   auto writer = transport_->advertise(spec);
   if (!writer) throw PluginError("cannot write " + output.topic + ": " + writer.error().text);
+  if (const int readers = processes_elsewhere(output.topic, &ComponentConfig::inputs)) {
+    links_.push_back(
+        {output.topic, [own = writer->get(), readers] { return own->watchers() >= readers; }});
+  }
   topic.attach(std::move(*writer));
 }
 
 void Deployment::subscribe(const PortBinding& input) {
-  const bool elsewhere = written_elsewhere(input.topic);
+  const int writers = processes_elsewhere(input.topic, &ComponentConfig::outputs);
+  const bool elsewhere = writers > 0;
   if ((!elsewhere && !input.spec.outside) || readers_.contains(input.topic)) return;
   Topic& topic = *topics_.at(input.topic);
   TopicSpec spec = topic.spec();
@@ -232,10 +246,34 @@ void Deployment::subscribe(const PortBinding& input) {
   auto reader = transport_->subscribe(spec, same_deployment_only,
                                       [&topic](SampleRef sample) { topic.deliver(sample); });
   if (!reader) throw PluginError("cannot read " + input.topic + ": " + reader.error().text);
+  if (elsewhere) {
+    links_.push_back(
+        {input.topic, [own = reader->get(), writers] { return own->writers() >= writers; }});
+  }
   readers_[input.topic] = std::move(*reader);
 }
 
+void Deployment::await_processes(const std::function<bool()>& done) {
+  using SteadyClock = std::chrono::steady_clock;
+  constexpr std::chrono::seconds kPatience{5};
+  constexpr std::chrono::milliseconds kPause{5};
+  const auto until = SteadyClock::now() + kPatience;
+  const auto missing = [this] {
+    return std::ranges::find_if_not(links_, [](const Link& link) { return link.joined(); });
+  };
+  for (auto link = missing(); link != links_.end() && !done(); link = missing()) {
+    if (SteadyClock::now() > until) {
+      options_.on_note(fmt::format(
+          "topic '{}' has found no other process of the deployment for {} s; going on without it",
+          link->topic, kPatience.count()));
+      return;
+    }
+    std::this_thread::sleep_for(kPause);
+  }
+}
+
 void Deployment::run(const std::function<bool()>& done) {
+  await_processes(done);
   const Time start = clock_->now();
   scheduler_->run([&] {
     if (any_finished() || !fault().empty() || done()) return true;

@@ -45,8 +45,9 @@ class Deployment {
   /// feeds. Throws PluginError with the transport's reason.
   void connect(PluginRegistry& plugins, int domain);
 
-  /// Runs until `done`, or a component is finished, or the time limit; then stops everything,
-  /// sources first.
+  /// Waits until the other processes have joined, so that what is sent once is not lost: at most
+  /// five seconds, and then says which topic has nobody. Then runs until `done`, or a component is
+  /// finished, or the time limit; then stops everything, sources first.
   void run(const std::function<bool()>& done);
 
   bool any_finished() const;
@@ -67,7 +68,10 @@ class Deployment {
   Topic& topic_for(const ComponentConfig& component, const PortBinding& port,
                    const MessageType& type);
   Topic& topic_at(const std::string& key, const PortBinding& port, const MessageType& type);
-  bool written_elsewhere(const std::string& topic) const;
+  using Ports = std::vector<PortBinding> ComponentConfig::*;
+  /// How many other processes have `topic` among their inputs or outputs.
+  int processes_elsewhere(const std::string& topic, Ports ports) const;
+  void await_processes(const std::function<bool()>& done);
   void advertise(const ComponentConfig& component, const PortBinding& output);
   void subscribe(const PortBinding& input);
   void assign_units();
@@ -82,6 +86,12 @@ class Deployment {
   bool timed_out_ = false;
   PluginPtr<Transport> transport_;
   std::map<std::string, std::unique_ptr<OutsideReader>> readers_;  // by topic
+  /// A topic that another process reads or writes, and whether it has joined.
+  struct Link {
+    std::string topic;
+    std::function<bool()> joined;
+  };
+  std::vector<Link> links_;
 };
 
 }  // namespace armature

@@ -46,25 +46,13 @@ std::vector<Goal> read_goals(const config::Node* section, config::Problems& prob
 void check_goals(const DeploymentConfig& deployment, const PluginRegistry& plugins,
                  config::Problems& problems) {
   for (const Goal& goal : deployment.goals) {
-    const ComponentConfig* elsewhere = nullptr;
-    bool measured = false;
-    for (const ComponentConfig& component : deployment.components) {
-      if (!measures(*component.manifest, goal.metric)) continue;
-      if (component.process == kMainProcess) measured = true;
-      elsewhere = &component;
-    }
+    const bool measured =
+        std::ranges::any_of(deployment.components, [&](const ComponentConfig& component) {
+          return measures(*component.manifest, goal.metric);
+        });
     if (measured) continue;
-    if (elsewhere) {
-      problems.add(
-          goal.origin,
-          fmt::format("goal '{}' is measured by '{}' in process '{}', but goals are judged "
-                      "in process '{}'; remove 'process' from '{}'",
-                      goal.metric, elsewhere->name, elsewhere->process, kMainProcess,
-                      elsewhere->name));
-    } else {
-      problems.add(goal.origin, fmt::format("no component measures '{}'{}", goal.metric,
-                                            way_out(goal.metric, deployment, plugins)));
-    }
+    problems.add(goal.origin, fmt::format("no component measures '{}'{}", goal.metric,
+                                          way_out(goal.metric, deployment, plugins)));
   }
 }
 

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "armature/runtime/exception_text.hpp"
 #include "armature/runtime/output_folder.hpp"
 #include "armature/runtime/write_atomically.hpp"
 
@@ -18,7 +19,7 @@ namespace armature {
 RunReport::RunReport(const Deployment& deployment, const Ending& ending) {
   for (const auto& unit : deployment.units()) {
     speaker_ = &deployment.config_of(*unit);
-    unit->component().summarize(*this);
+    unit->summarize(*this);
   }
   judge(deployment, ending);
 }
@@ -178,8 +179,8 @@ void write_report(const RunReport& report, const Deployment& deployment,
   const auto attempt = [&](const auto& write) {
     try {
       write();
-    } catch (const std::exception& error) {
-      failed += (failed.empty() ? "" : "; ") + std::string{error.what()};
+    } catch (...) {
+      failed += (failed.empty() ? "" : "; ") + current_exception_text();
     }
   };
   attempt([&] { write_atomically(directory / "report.json", to_json(report) + '\n'); });

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/runtime/state_publisher.hpp"
 
+#include <fmt/format.h>
+
+#include <cstddef>
 #include <string>
 #include <utility>
 
@@ -42,8 +45,24 @@ StatePublisher::StatePublisher(Setup& setup, const std::vector<std::unique_ptr<U
   setup.activate_every(seconds(0.5));
 }
 
-void StatePublisher::publish_state(const Unit& unit, Time now) {
-  const Voice::Status status = unit.status();
+Voice::Status StatePublisher::status_of(const Unit& unit, Counted& counted) {
+  constexpr int kLate = 2;  // times: once may be while everything starts
+  const auto kept = unit.activations() - std::exchange(counted.activations, unit.activations());
+  const auto missed = unit.overruns() - std::exchange(counted.overruns, unit.overruns());
+  counted.late = missed > kept ? counted.late + 1 : 0;
+  Voice::Status status = unit.status();
+  if (counted.late < kLate) return status;
+  if (counted.late == kLate) {
+    say(fmt::format("'{}' misses more periods than it keeps: {} of {}", unit.name(), missed,
+                    kept + missed));
+  }
+  if (status.state == Voice::State::ok) {
+    status = {Voice::State::degraded, fmt::format("keeps {} of {} periods", kept, kept + missed)};
+  }
+  return status;
+}
+
+void StatePublisher::publish_state(const Unit& unit, const Voice::Status& status, Time now) {
   auto message = state_.loan();
   set_stamp(message->header_().stamp_(), now);
   message->header_().frame_id_().clear();
@@ -62,9 +81,11 @@ void StatePublisher::step(Time now) {
   set_stamp(array->header_().stamp_(), now);
   array->header_().frame_id_().clear();
   array->status_().clear();
-  for (const auto& unit : units_) {
-    publish_state(*unit, now);
-    const Voice::Status status = unit->status();
+  counted_.resize(units_.size());
+  for (std::size_t i = 0; i < units_.size(); ++i) {
+    const auto& unit = units_[i];
+    const Voice::Status status = status_of(*unit, counted_[i]);
+    publish_state(*unit, status, now);
     msg::DiagnosticStatus diagnostic;
     diagnostic.level_(static_cast<std::uint8_t>(status.state));  // OK 0, WARN 1, ERROR 2
     diagnostic.name_(unit->name());

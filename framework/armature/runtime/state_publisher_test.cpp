@@ -40,7 +40,9 @@ class StatePublisherTest : public testing::Test {
 
   SamplePool pool_{message_type<msg::ComponentState>(), 4};
   std::vector<std::unique_ptr<Unit>> units_;
-  Unit own_{"runtime", "runtime/state_publisher", 3, {}};
+  std::vector<std::string> lines_;
+  Unit own_{"runtime", "runtime/state_publisher", 3,
+            [this](const std::string&, const std::string& line) { lines_.push_back(line); }};
   FakeSetup setup_{own_};
   StatePublisher publisher_{setup_, units_};
   Collector<msg::ComponentState> states_;
@@ -99,6 +101,23 @@ TEST_F(StatePublisherTest, AComponentThatIsWellAgainHasNoReasonAnyMore) {
   EXPECT_EQ(states_.messages[4].component_(), "camera");
   EXPECT_EQ(states_.messages[4].state_(), 0);
   EXPECT_EQ(states_.messages[4].reason_(), "");
+}
+
+TEST_F(StatePublisherTest, AComponentThatMissesMostOfItsPeriodsForASecondIsDegraded) {
+  using Told = std::pair<int, std::string>;
+  const auto arm_after = [&](std::uint64_t missed, int kept) {
+    units_[0]->count_overruns(missed);
+    for (int i = 0; i < kept; ++i) units_[0]->activate({});
+    publisher_.step({});
+    const msg::ComponentState& arm = states_.messages[states_.messages.size() - 3];
+    return Told{arm.state_(), arm.reason_()};
+  };
+  EXPECT_EQ(arm_after(490, 10), (Told{0, ""})) << "once may be while everything starts";
+  EXPECT_EQ(arm_after(490, 10), (Told{1, "keeps 10 of 500 periods"}));
+  EXPECT_EQ(arm_after(491, 9), (Told{1, "keeps 9 of 500 periods"}));
+  EXPECT_EQ(lines_,
+            std::vector<std::string>{"'arm' misses more periods than it keeps: 490 of 500"});
+  EXPECT_EQ(arm_after(200, 300), (Told{0, ""})) << "a busy machine";
 }
 
 TEST_F(StatePublisherTest, TellsTwiceASecondOnTheTopicsThatRosToolsKnow) {

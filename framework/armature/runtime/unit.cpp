@@ -5,6 +5,8 @@
 
 #include <utility>
 
+#include "armature/runtime/exception_text.hpp"
+
 namespace armature {
 
 Unit::Unit(std::string name, std::string plugin_id, int place, Voice::Sink sink)
@@ -23,10 +25,8 @@ void Unit::activate(Time now) {
   try {
     component_->step(now);
     if (component_->finished()) finished_.store(true, std::memory_order_release);
-  } catch (const std::exception& error) {
-    fault(error.what());
   } catch (...) {
-    fault("an exception that is no std::exception");
+    fault("step", current_exception_text());
   }
 }
 
@@ -34,13 +34,21 @@ void Unit::stop(Time now) {
   if (!component_ || faulted()) return;
   try {
     component_->stop(now);
-  } catch (const std::exception& error) {
-    fault(error.what());
+  } catch (...) {
+    fault("stop", current_exception_text());
   }
 }
 
-void Unit::fault(const std::string& what) {
-  voice_->set(Voice::State::fault, fmt::format("step failed: {}", what));
+void Unit::summarize(Summary& summary) {
+  try {
+    component_->summarize(summary);
+  } catch (...) {
+    fault("summarize", current_exception_text());
+  }
+}
+
+void Unit::fault(std::string_view when, const std::string& what) {
+  voice_->set(Voice::State::fault, fmt::format("{} failed: {}", when, what));
   faulted_.store(true, std::memory_order_release);
 }
 

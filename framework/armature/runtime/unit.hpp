@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "armature/runtime/component.hpp"
 #include "armature/runtime/inbox.hpp"
@@ -45,6 +46,8 @@ class Unit {
   void activate(Time now);
   void count_overruns(std::uint64_t periods) { overruns_ += periods; }
   void stop(Time now);
+  /// Asks the component for its figures, once it has stopped; an exception is its fault.
+  void summarize(Summary& summary);
 
   bool faulted() const { return faulted_.load(std::memory_order_acquire); }
   bool finished() const { return finished_.load(std::memory_order_acquire); }
@@ -52,7 +55,7 @@ class Unit {
   std::uint64_t overruns() const { return overruns_.load(std::memory_order_relaxed); }
 
  private:
-  void fault(const std::string& what);
+  void fault(std::string_view when, const std::string& what);
 
   std::string name_, plugin_id_;
   int place_;

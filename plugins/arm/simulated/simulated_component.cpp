@@ -94,8 +94,8 @@ class SimulatedArmComponent : public Component {
   void read(Source& source) {
     if (!source.input.fresh()) return;
     const msg::JointState& message = *source.input.latest();
-    const auto q = model_.contract(message.position_());
-    const auto v = model_.contract_rates(message.velocity_());
+    const auto q = joints_of(model_, message);
+    const auto v = joint_rates_of(model_, message);
     if (!q || !v) {
       source.fault = fmt::format("refused {}: {}", source.what,
                                  q ? "velocity: " + v.error().text : "position: " + q.error().text);

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "armature/kinds/geometry_params.hpp"
+#include "armature/kinds/joint_messages.hpp"
 #include "armature/kinds/setup_robot.hpp"
 #include "armature/messages/geometry.hpp"
 #include "armature/messages/header.hpp"
@@ -67,7 +68,7 @@ class RvizMonitor final : public Component {
     if (!beat_.due(now)) return;
     const msg::JointState* arm = measured_js_.latest();
     if (!arm) return;
-    const auto q = model_.contract(arm->position_());
+    const auto q = joints_of(model_, *arm);
     if (!q) return degraded("measured_js: " + q.error().text);
     healthy();
     const Time stamp = stamp_of(arm->header_().stamp_());

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "armature/kinds/joint_messages.hpp"
 #include "armature/kinds/registration_dialogue.hpp"
 #include "armature/kinds/setup_robot.hpp"
 #include "armature/messages/armature_msgs.hpp"
@@ -102,7 +103,7 @@ class BiopsyReport final : public Component {
   }
 
   void read(const msg::JointState& state) {
-    const auto q = robot_.contract(state.position_());
+    const auto q = joints_of(robot_, state);
     if (!q) return degraded("measured_js: " + q.error().text);
     healthy();
     const Eigen::Isometry3d base_T_tool = forward_kinematics(robot_, *q);

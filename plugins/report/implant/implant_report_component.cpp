@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "armature/kinds/chain_messages.hpp"
+#include "armature/kinds/joint_messages.hpp"
 #include "armature/kinds/registration_dialogue.hpp"
 #include "armature/kinds/registration_messages.hpp"
 #include "armature/kinds/setup_flange.hpp"
@@ -129,8 +130,8 @@ class ImplantReport final : public Component {
   }
 
   void read(const msg::JointState& state) {
-    const auto q = robot_.contract(state.position_());
-    const auto v = robot_.contract_rates(state.velocity_());
+    const auto q = joints_of(robot_, state);
+    const auto v = joint_rates_of(robot_, state);
     if (!q || !v) return degraded("measured_js: " + (q ? v : q).error().text);
     healthy();
     speed_ = v->cwiseAbs().maxCoeff();

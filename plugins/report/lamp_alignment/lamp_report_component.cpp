@@ -6,6 +6,7 @@
 #include <string>
 
 #include "alignment_monitor.hpp"
+#include "armature/kinds/joint_messages.hpp"
 #include "armature/kinds/setup_robot.hpp"
 #include "armature/kinds/target/target_messages.hpp"
 #include "armature/messages/geometry.hpp"
@@ -133,9 +134,9 @@ class LampReport : public Component {
   void read_arm(Time now) {
     bool at_rest = true, heard = false;
     for (std::size_t i = 0; i < measured_js_.size(); ++i) {
-      const auto& position = measured_js_[i].position_();
-      hash_.add(stamp_of(measured_js_[i].header_().stamp_()), position);
-      const auto q = model_.contract(position);
+      const msg::JointState& measured = measured_js_[i];
+      hash_.add(stamp_of(measured.header_().stamp_()), measured.position_());
+      const auto q = joints_of(model_, measured);
       if (!q) {
         degraded("measured_js: " + q.error().text);
         continue;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "alignment_monitor.hpp"
+#include "armature/kinds/joint_messages.hpp"
 #include "armature/kinds/pose_in_base.hpp"
 #include "armature/kinds/setup_robot.hpp"
 #include "armature/messages/armature_msgs.hpp"
@@ -175,7 +176,7 @@ class TeleoperationReport final : public Component {
 
   void read_rates(const msg::JointState& state) {
     if (!is_aligning(state.header_())) return;
-    const auto v = master_.contract_rates(state.velocity_());
+    const auto v = joint_rates_of(master_, state);
     if (!v) return complain("master_js: " + v.error().text);
     alignment_.see_rates(*v);
   }

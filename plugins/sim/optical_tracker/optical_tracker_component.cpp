@@ -8,6 +8,7 @@
 
 #include "armature/kinds/chain_messages.hpp"
 #include "armature/kinds/geometry_params.hpp"
+#include "armature/kinds/joint_messages.hpp"
 #include "armature/kinds/registration/registration.hpp"
 #include "armature/kinds/setup_flange.hpp"
 #include "armature/kinds/setup_robot.hpp"
@@ -110,7 +111,7 @@ class OpticalTracker final : public Component {
 
  private:
   void remember(const msg::JointState& state) {
-    const auto q = robot_.contract(state.position_());
+    const auto q = joints_of(robot_, state);
     if (!q) return degraded("measured_js: " + q.error().text);
     healthy();
     history_.add(stamp_of(state.header_().stamp_()), *q);

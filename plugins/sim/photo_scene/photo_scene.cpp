@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "armature/kinds/joint_messages.hpp"
 #include "armature/kinds/setup_robot.hpp"
 #include "armature/kinds/target/target_messages.hpp"
 #include "armature/messages/sensor_msgs.hpp"
@@ -135,7 +136,7 @@ void PhotoScene::step(Time now) {
   if (!arm) return;
   const Time stamp = stamp_of(arm->header_().stamp_());
   if (last_picture_ && stamp <= *last_picture_) return;
-  const auto q = robot_.contract(arm->position_());
+  const auto q = joints_of(robot_, *arm);
   if (!q) return degraded("measured_js: " + q.error().text);
   healthy();
   if (!last_picture_) publish_info(stamp);

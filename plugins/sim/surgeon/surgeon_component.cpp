@@ -90,7 +90,7 @@ class Surgeon final : public Component {
   void take_hold(Time now) {
     if (!task_state_.latest() || task_state_.latest()->state_() != "aligned") return;
     if (!measured_js_.latest()) return;
-    const auto q = robot_.contract(measured_js_.latest()->position_());
+    const auto q = joints_of(robot_, *measured_js_.latest());
     if (!q) return degraded("measured_js: " + q.error().text);
     q_ = *q;
     start_ = forward_kinematics(robot_, q_);

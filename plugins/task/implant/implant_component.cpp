@@ -6,6 +6,7 @@
 #include <string>
 
 #include "armature/kinds/chain_messages.hpp"
+#include "armature/kinds/joint_messages.hpp"
 #include "armature/kinds/registration_dialogue.hpp"
 #include "armature/kinds/registration_messages.hpp"
 #include "armature/kinds/setup_flange.hpp"
@@ -151,7 +152,7 @@ class ImplantComponent final : public Component {
  private:
   void read_arm() {
     if (!measured_js_.latest()) return;
-    const auto q = robot_.contract(measured_js_.latest()->position_());
+    const auto q = joints_of(robot_, *measured_js_.latest());
     if (!q) return degraded("measured_js: " + q.error().text);
     healthy();
     task_.see_arm(forward_kinematics(robot_, *q, mount_.frame));

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "armature/kinds/geometry_params.hpp"
+#include "armature/kinds/joint_messages.hpp"
 #include "armature/kinds/setup_robot.hpp"
 #include "armature/messages/sensor_msgs.hpp"
 #include "armature/motion/goal_messages.hpp"
@@ -102,7 +103,7 @@ class WaypointsComponent final : public Component {
  private:
   void see_arm() {
     if (!measured_js_.fresh()) return;
-    const auto q = robot_.contract(measured_js_.latest()->position_());
+    const auto q = joints_of(robot_, *measured_js_.latest());
     if (!q) return degraded("measured_js: " + q.error().text);
     healthy();
     const Vector3d axis = robot_.pointing_axis().value_or(Vector3d::UnitZ());

@@ -10,15 +10,14 @@ void Discovery::participant_found(const GuidPrefix& participant, const std::stri
 
 void Discovery::participant_gone(const GuidPrefix& participant, bool lost) {
   std::string name;
-  std::size_t endpoints = 0;
   {
     const std::scoped_lock lock{mutex_};
     name = name_of(participant);
     participants_.erase(participant);
-    endpoints = std::erase_if(
-        endpoints_, [&](const auto& entry) { return entry.first.participant == participant; });
+    std::erase_if(endpoints_,
+                  [&](const auto& entry) { return entry.first.participant == participant; });
   }
-  if (lost && watcher_.participant_lost) watcher_.participant_lost(name, endpoints);
+  if (lost && watcher_.participant_lost) watcher_.participant_lost(name);
 }
 
 void Discovery::endpoint_found(Endpoint endpoint) {

@@ -41,8 +41,8 @@ class Discovery {
   /// Called on a DDS thread after the change was noted; must only enqueue.
   struct Watcher {
     std::function<void(const Endpoint&, const Discovery&)> endpoint_found;
-    /// A participant that fell silent (not one that said goodbye), and how many endpoints it had.
-    std::function<void(const std::string& owner, std::size_t endpoints)> participant_lost;
+    /// A participant that fell silent, not one that said goodbye.
+    std::function<void(const std::string& owner)> participant_lost;
   };
 
   explicit Discovery(Watcher watcher) : watcher_{std::move(watcher)} {}

@@ -25,11 +25,9 @@ Discovery::Watcher watch(const std::shared_ptr<FastDdsLink>& link) {
                 raw->conflicts.endpoint_found(other, discovery);
               },
           .participant_lost =
-              [raw](const std::string& owner, std::size_t endpoints) {
-                raw->conflicts.report_always(
-                    {TransportEvent::Kind::peer_lost, "",
-                     owner + " fell silent, with " + std::to_string(endpoints) +
-                         " writers and readers: its process died or hangs"});
+              [raw](const std::string& owner) {
+                raw->conflicts.report_always({TransportEvent::Kind::peer_lost, "",
+                                              owner + " fell silent: its process died or hangs"});
               }};
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "armature/kinds/joint_messages.hpp"
 #include "armature/kinds/setup_robot.hpp"
 #include "armature/kinds/target/target_messages.hpp"
 #include "armature/messages/sensor_msgs.hpp"
@@ -54,7 +55,7 @@ void TargetHost::step(Time) {
 }
 
 void TargetHost::remember(const msg::JointState& arm) {
-  const auto q = robot_.contract(arm.position_());
+  const auto q = joints_of(robot_, arm);
   if (!q) return degraded("measured_js: " + q.error().text);
   healthy();
   history_.add(stamp_of(arm.header_().stamp_()), *q);

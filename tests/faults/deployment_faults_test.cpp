@@ -414,7 +414,7 @@ TEST_F(SplitDeployment, FiguresThatNobodyWouldShowAreRefused) {
        {"{plugin: report/lamp_alignment}", "{plugin: report/lamp_alignment, process: aside}"}});
   EXPECT_EQ(result.exit_code, 3);
   EXPECT_EQ(result.err,
-            "deployment.yaml:20:60: 'report/lamp_alignment' tells figures of the run, which only "
+            "deployment.yaml:21:52: 'report/lamp_alignment' tells figures of the run, which only "
             "the process 'main' shows; remove 'process' from 'report'\n");
 }
 

@@ -113,9 +113,7 @@ void check_names(const std::vector<ReadJoint>& joints, Problems& problems) {
     if (!it->name) continue;
     const std::string& name = it->joint.name;
     const auto same = [&](const ReadJoint& other) { return other.joint.name == name; };
-    if (name == "base")
-      problems.add(it->name->origin(),
-                   "a joint cannot be called 'base', which is the robot's foot");
+    check_joint_name(name, it->name->origin(), problems);
     if (std::any_of(joints.begin(), it, same))
       problems.add(it->name->origin(), fmt::format("there is a joint '{}' already", name));
   }
@@ -172,6 +170,11 @@ std::vector<Joint> read_joints(const Node& list, Problems& problems) {
 void read_other_limits(const Node& list, std::vector<Joint>& joints, Problems& problems) {
   if (!is_list(list, problems)) return;
   for (const Node& item : list.items()) read_limits_of(item, joints, problems);
+}
+
+void check_joint_name(const std::string& name, const config::Origin& at, Problems& problems) {
+  if (name == "base")
+    problems.add(at, "a joint cannot be called 'base', which is the robot's foot");
 }
 
 double usual_acceleration(double max_velocity) { return max_velocity / 0.25; }

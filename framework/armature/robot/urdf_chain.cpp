@@ -125,6 +125,7 @@ class ChainReader {
   }
 
   void add_moving(const urdf::Joint& joint) {
+    check_joint_name(joint.name, document_.joint(joint.name), problems_);
     Vector3d axis{joint.axis.x, joint.axis.y, joint.axis.z};
     const double length = axis.norm();
     if (!(length > 1e-9 && std::isfinite(length))) {

@@ -150,6 +150,16 @@ TEST_F(UrdfFile, OfAFloatingOrPlanarJointIsRefused) {
                           "base behind it"));
 }
 
+TEST_F(UrdfFile, MayNotCallAMovingJointAsTheRobotsFoot) {
+  std::string text = arm("continuous", "");
+  text.replace(text.find("'j2'"), 4, "'base'");
+  EXPECT_THAT(
+      problems_of(text),
+      ElementsAre("arm.urdf:3:1: a joint cannot be called 'base', which is the robot's foot"));
+  text.replace(text.find("continuous"), 10, "fixed");
+  EXPECT_THAT(problems_of(text), ElementsAre());
+}
+
 TEST_F(UrdfFile, SaysWhichJointHasNoUsableLimits) {
   EXPECT_THAT(problems_of(arm("revolute", "")),
               ElementsAre(HasSubstr("arm.urdf:3:1: not a robot description that urdfdom reads: ")));

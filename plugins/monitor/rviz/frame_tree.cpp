@@ -51,9 +51,16 @@ Expected<void> FrameTree::check_names() const {
     }
   }
   std::set<std::string> taken{options_.world.empty() ? name(kBaseFrame) : options_.world};
-  const auto take = [&taken](const std::string& child) -> Expected<void> {
+  const bool link_called_base = model_->find_frame(kBaseFrame).has_value();
+  const auto take = [&](const std::string& child) -> Expected<void> {
     if (taken.insert(child).second) return {};
-    return refuse("two frames would be called '" + child + "'");
+    std::string why = "two frames would be called '" + child + "'";
+    if (link_called_base && child == name(kBaseFrame)) {
+      why +=
+          ": the robot's foot and its link 'base'; with 'base: base' in the robot file the arm "
+          "stands on that link, and they are one";
+    }
+    return refuse(std::move(why));
   };
   for (int joint = 0; joint < model_->joint_count(); ++joint) {
     if (const auto taking = take(joint_frame(joint)); !taking) return taking;
@@ -65,8 +72,10 @@ Expected<void> FrameTree::check_names() const {
 }
 
 std::string FrameTree::joint_frame(int joint) const {
-  return name(joint < 0 ? kBaseFrame
-                        : std::string_view{model_->joints()[static_cast<std::size_t>(joint)].name});
+  if (joint < 0) return name(kBaseFrame);
+  // URDF has names of joints and names of links: the frame that both would have is the link's.
+  const std::string& own = model_->joints()[static_cast<std::size_t>(joint)].name;
+  return name(model_->find_frame(own) ? own + "_axis" : own);
 }
 
 void FrameTree::write_moving(const JointVector& q, Time stamp, msg::TFMessage& message) const {

@@ -31,7 +31,8 @@ class FrameTree {
 
   /// How tf calls a frame of the robot: "base" -> "left/base".
   std::string name(std::string_view frame) const { return options_.prefix + std::string{frame}; }
-  /// The frame of a joint; -1: base.
+  /// The frame of a joint; -1: base. Called as the joint, with "_axis" behind it when a named frame
+  /// (a link of a URDF file) is called so.
   std::string joint_frame(int joint) const;
 
   /// The frames of all joints at the independent joint values `q`.

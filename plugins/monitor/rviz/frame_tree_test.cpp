@@ -89,6 +89,44 @@ TEST(FrameTree, HangsTheCamerasOnTheFrameThatTheRigIsMountedOn) {
   EXPECT_TRUE(tool_T("right_camera_optical").isApprox(Eigen::Vector3d{0, 0, 0.06}, kSamePose));
 }
 
+/// Two joints; links as a URDF file may call them: as the joint that moves them, or as another.
+RobotModel robot_with_links(const std::vector<NamedFrame>& links) {
+  std::vector<Joint> joints(2);
+  joints[0].name = "link1", joints[0].a = 0.3;
+  joints[1].name = "wrist", joints[1].a = 0.2;
+  return {"urdf", Convention::modified, joints, links, FrameId{0}, std::nullopt, std::nullopt};
+}
+
+TEST(FrameTree, LeavesALinkThatIsCalledAsAJointItsName) {
+  Eigen::Isometry3d row_T_link{Eigen::AngleAxisd{1, Eigen::Vector3d::UnitX()}};
+  row_T_link.translation() = Eigen::Vector3d{0.1, 0.2, 0.3};
+  const RobotModel robot = robot_with_links(
+      {{"hand", 1, row_T_link}, {"link1", 0, row_T_link}, {"wrist", 0, row_T_link}});
+  const FrameTree tree = tree_of(robot, {}, {.prefix = "left/"});
+  const JointVector q = Eigen::Vector2d{0.4, -0.7};
+  const TfListener tf = heard(tree, q);
+  EXPECT_EQ(tree.joint_frame(0), "left/link1_axis");
+  EXPECT_EQ(tf.parent("left/link1"), "left/link1_axis");
+  EXPECT_EQ(tf.parent("left/wrist_axis"), "left/link1_axis");
+  for (int i = 0; i < 3; ++i) {
+    const std::string& link = robot.frames()[static_cast<std::size_t>(i)].name;
+    EXPECT_TRUE(tf.transform("left/base", "left/" + link)
+                    .isApprox(forward_kinematics(robot, q, FrameId{i}), kSamePose))
+        << link;
+  }
+}
+
+TEST(FrameTree, TellsTheWayOutOfALinkThatIsCalledAsTheFoot) {
+  const auto tree = FrameTree::make(
+      robot_with_links({{"tool", 1, Eigen::Isometry3d::Identity()},
+                        {"base", -1, Eigen::Isometry3d{Eigen::Translation3d{0, 0, 1}}}}),
+      std::nullopt, {});
+  ASSERT_FALSE(tree);
+  EXPECT_EQ(tree.error().text,
+            "two frames would be called 'base': the robot's foot and its link 'base'; with 'base: "
+            "base' in the robot file the arm stands on that link, and they are one");
+}
+
 TEST(FrameTree, StampsEveryFrameWithTheSample) {
   const RobotModel lamp = testing::dental_lamp();
   msg::TFMessage message;

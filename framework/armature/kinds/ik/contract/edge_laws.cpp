@@ -133,9 +133,12 @@ void upright_goals(Probe& probe) {
 
 namespace {
 
-/// Some joint slides: a solver may answer with a slide beyond its limits.
-bool slides(const RobotModel& model) {
-  return std::ranges::any_of(model.chain(), &ChainLink::prismatic);
+/// Some joint slides, or is never as before however far it turns: the reach ball keeps its limits,
+/// and a solver may answer beyond them.
+bool limits_bound_the_reach(const RobotModel& model) {
+  return std::ranges::any_of(model.chain(), [&](const ChainLink& link) {
+    return turns_until_same(model, link.independent) == 0;
+  });
 }
 
 /// The answer to a goal that is `beyond` further away than anything the tool reaches.
@@ -143,7 +146,7 @@ void expect_refused(Probe& probe, double beyond, bool far) {
   using Code = IkStatus::Code;
   const IkStatus& status = probe.status();
   const bool surely = probe.subject().closed_form || (far && probe.subject().any_seed);
-  if (slides(probe.model()) && status.code == Code::joint_limit) {
+  if (limits_bound_the_reach(probe.model()) && status.code == Code::joint_limit) {
     expect_true_residuals(probe);
     return expect_true_flags(probe);
   }
@@ -183,8 +186,8 @@ void expect_refused_at_rim(Probe& probe, const ReachBall& ball, double beyond) {
 
 void out_of_reach(Probe& probe) {
   const ReachBall ball = reach_ball(probe.model(), probe.subject().edge_poses, probe.random());
-  // A slide may go beyond its limits by 1e-9 m and is within them: that is the kind's tolerance.
-  expect_refused_at_rim(probe, ball, slides(probe.model()) ? 1e-7 : 1e-9);
+  // A joint may go beyond its limits by 1e-9 and is within them: that is the kind's tolerance.
+  expect_refused_at_rim(probe, ball, limits_bound_the_reach(probe.model()) ? 1e-7 : 1e-9);
   expect_refused_at_rim(probe, ball, 0.1 * ball.radius);
   std::normal_distribution<double> normal;
   for (int i = 0; i < probe.subject().edge_poses / 10; ++i) {

@@ -4,7 +4,6 @@
 
 #include "armature/kinds/ik/contract/postures.hpp"
 #include "armature/kinds/ik/contract/search.hpp"
-#include "armature/kinds/ik/ik.hpp"
 #include "armature/robot/kinematics.hpp"
 
 namespace armature::ik_contract {
@@ -12,7 +11,7 @@ namespace {
 
 constexpr int kStarts = 24;
 constexpr int kSweeps = 400;
-constexpr int kSteps = 16;       // along a joint
+constexpr int kSteps = 16;       // along a turn of a joint
 constexpr double kAsFar = 1e-9;  // [m]
 
 /// The best posture that turning one joint after the other leads to from `q`.
@@ -28,14 +27,16 @@ double descend(const RobotModel& model, bool free, JointVector& q, Cost cost) {
         return cost(moved);
       };
       const auto [lower, upper] = range_of(model, k, free);
-      const double step = (upper - lower) / (kSteps - 1);
+      const int turns = free ? turns_until_same(model, k) : 0;
+      const int steps = kSteps * std::max(turns, 1);
+      const double step = (upper - lower) / (steps - 1);
       double centre = q[k], least = best;
-      for (int i = 0; i < kSteps; ++i) {
+      for (int i = 0; i < steps; ++i) {
         if (const double f = along(lower + i * step); f < least)
           least = f, centre = lower + i * step;
       }
       // A joint that turns all the way round may pass its end.
-      const bool round = free && turns_freely(model, k);
+      const bool round = turns > 0;
       const double from = round ? centre - step : std::max(centre - step, lower);
       const double to = round ? centre + step : std::min(centre + step, upper);
       const double value = golden_section(from, to, along);

@@ -31,7 +31,8 @@ struct BaseAxis {
 BaseAxis base_axis(const RobotModel& model);
 
 /// A ball that the tool cannot leave and whose surface it reaches: around a point of the base axis.
-/// Limits of joints that turn are not looked at, those of slides are.
+/// Limits of joints that turn are not looked at, those of slides are, and of joints that no whole
+/// turn brings back to the same.
 struct ReachBall {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   double radius = 0;                // [m]

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <set>
@@ -70,6 +71,37 @@ TEST_F(Postures, TheReachBallTouchesTheStretchedArm) {
     EXPECT_NEAR((tip(model, q) - ball.centre).norm(), ball.radius, 1e-9);
   }
   EXPECT_GT((ball.at_rim[0] - ball.at_rim[1]).norm(), 0.01);  // they are not all one posture
+}
+
+/// Three links in a plane. The last joint turns by `ratio` of the middle one, so that it is
+/// straight together with that one when the middle one has turned once, not at its zero.
+RobotModel arm_with_a_coupled_wrist(double ratio) {
+  std::vector<Joint> joints(3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    joints[i].name = "j" + std::to_string(i + 1);
+    joints[i].a = std::array{kUpper, kFore, kTool}[i];
+    joints[i].lower = -2, joints[i].upper = 2;
+  }
+  joints[2].coupling = Joint::Coupling{.to = 1, .ratio = ratio, .offset = -2 * kPi * ratio};
+  return {"coupled",  RobotModel::Convention::standard,
+          joints,     {{"tool", 2, Eigen::Isometry3d::Identity()}},
+          FrameId{0}, {},
+          {}};
+}
+
+TEST_F(Postures, TheReachBallIsAsWideAsACoupledArmGetsInAsManyTurnsAsMakeItTheSame) {
+  for (const double ratio : {-0.5, 1.0 / 3, 1.25}) {
+    SCOPED_TRACE(ratio);
+    EXPECT_NEAR(reach_ball(arm_with_a_coupled_wrist(ratio), 1, random).radius,
+                kUpper + kFore + kTool, 1e-12);
+  }
+}
+
+TEST_F(Postures, TheReachBallKeepsTheLimitsOfAJointThatNoTurnBringsBackToTheSame) {
+  const RobotModel coupled = arm_with_a_coupled_wrist(-std::numbers::sqrt2 / 4);
+  const ReachBall ball = reach_ball(coupled, 20, random);
+  EXPECT_LT(ball.radius, kUpper + kFore + kTool - 1e-3);
+  for (const JointVector& q : ball.at_rim) EXPECT_LE(std::abs(q[1]), 2) << q.transpose();
 }
 
 TEST_F(Postures, FarthestOnesAreStretchedWithinLimits) {

@@ -12,7 +12,12 @@ namespace armature::ik_contract {
 struct Range {
   double lower = 0, upper = 0;
 };
-/// The limits of independent joint `i`, at most one turn of them; all of a turn when `free`.
+/// After how many turns of independent joint `i` the arm is as before: two, when half of what it
+/// does is coupled to it. 0: it slides or moves what slides, or a dozen turns are not enough.
+int turns_until_same(const RobotModel& model, int i);
+
+/// The limits of independent joint `i`, at most one turn of them; when `free`, all the turns after
+/// which the arm is as before, of a joint that has such.
 Range range_of(const RobotModel& model, int i, bool free = false);
 
 /// Uniform within `range_of` every joint.

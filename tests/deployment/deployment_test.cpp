@@ -128,6 +128,33 @@ TEST_F(DeploymentTest, AMetricThatItsPluginDoesNotDeclareIsAFaultThatNamesIt) {
           "not declare under 'measures:'"}));
 }
 
+TEST_F(DeploymentTest, WhatAComponentThrowsIsAFaultThatNamesItAndTheOthersFiguresAreKept) {
+  for (const std::string place : {"step", "stop", "summarize"}) {
+    const Told told = run(", params: {throws_in: " + place + "}", "");
+    EXPECT_EQ(told.status, "fault");
+    EXPECT_EQ(told.reasons,
+              (std::vector<std::string>{"beat: " + place + " failed: out of breath"}));
+    EXPECT_EQ(told.metrics.count("oldest_s"), 1U) << place;
+  }
+  EXPECT_EQ(
+      run(", params: {throws_in: step, throws_number: true}", "").reasons,
+      (std::vector<std::string>{"beat: step failed: an exception that is no std::exception"}));
+}
+
+TEST_F(DeploymentTest, AComponentThatFailsInItsConstructorIsNamedWithItsPlaceInTheFile) {
+  const auto refusal = [this](const std::string& params) -> std::string {
+    try {
+      run(", params: {throws_in: construction" + params + "}", "");
+    } catch (const config::ConfigError& error) {
+      return error.what();
+    }
+    return "nothing";
+  };
+  EXPECT_EQ(refusal(""), "test.yaml:5:3: component 'beat': out of breath");
+  EXPECT_EQ(refusal(", throws_number: true"),
+            "test.yaml:5:3: component 'beat': an exception that is no std::exception");
+}
+
 TEST_F(DeploymentTest, AParameterThatMustBeAnothersIsTakenFromItOrTheSame) {
   const auto beats_of_ear = [&](const std::string& components) {
     try {

@@ -2,6 +2,10 @@
 // The same file in two processes, over DDS.
 #include <gtest/gtest.h>
 
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "deployment_run.hpp"
 
 namespace armature::test {
@@ -11,6 +15,39 @@ TEST(TwoProcesses, MeetTheSameGoalsOverDds) {
   DeploymentStart start{.settings = kVisionApart};
   start.settings.push_back("run.time_limit_s=150");  // on the system clock of a busy machine
   expect_aligned(run_deployment(start));
+}
+
+DeploymentRun run_pulse(std::vector<std::string> settings) {
+  return run_deployment(
+      {.files = {source_file("tests/end_to_end/pulse.yaml")},
+       .settings = std::move(settings),
+       .options = {.environment = {{"ARMATURE_PLUGIN_PATH", TEST_PLUGINS}}, .input = {}}});
+}
+
+TEST(TwoProcesses, WhatOneSendsOnlyOnceAtItsStartReachesTheOther) {
+  const auto run =
+      run_pulse({"components.beat.params.beats=1", "components.ear.params.listens_s=1"});
+  EXPECT_EQ(run.command.exit_code, 0) << run.text();
+  EXPECT_TRUE(run.tells("delay_s")) << run.text();
+  EXPECT_EQ(run.word("told_of"), "beat ear runtime ") << "of both processes' components";
+}
+
+TEST(TwoProcesses, AStoryThatEndsInTheOtherOneEndsTheRun) {
+  const auto run = run_pulse({"components.beat.params.beats=5", "components.beat.params.ends=true",
+                              "components.ear.params.listens_s=1000"});
+  EXPECT_EQ(run.command.exit_code, 0) << run.text();
+  EXPECT_EQ(run.status(), "ok");
+  EXPECT_TRUE(run.tells("delay_s")) << run.text();
+}
+
+TEST(TwoProcesses, AComponentThatFailsInTheOtherOneEndsTheRunWithItsFault) {
+  for (const std::string place : {"construction", "step"}) {
+    const auto run = run_pulse(
+        {"components.beat.params.throws_in=" + place, "components.ear.params.listens_s=1000"});
+    EXPECT_NE(run.command.exit_code, 0) << run.text();
+    EXPECT_NE(run.command.err.find("out of breath"), std::string::npos) << run.text();
+    EXPECT_FALSE(run.command.timed_out);
+  }
 }
 
 }  // namespace

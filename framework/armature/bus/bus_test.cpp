@@ -68,6 +68,7 @@ TEST_F(TopicTest, KnowsWhetherASampleWouldReachSomebody) {
     explicit Outside(const int& count) : count_{count} {}
     void offer(const SampleRef&) override {}
     int watchers() const override { return count_; }
+    int peers() const override { return 0; }
     std::uint64_t dropped() const override { return 0; }
     const int& count_;
   };

@@ -29,6 +29,8 @@ class OutsideWriter {
   /// encodes, drops the oldest waiting sample when the queue is full (and counts it).
   virtual void offer(const SampleRef& sample) = 0;
   virtual int watchers() const = 0;
+  /// How many readers of the deployment's other processes it has met so far.
+  virtual int peers() const = 0;
   virtual std::uint64_t dropped() const = 0;
 };
 
@@ -37,6 +39,8 @@ class OutsideReader {
  public:
   virtual ~OutsideReader() = default;
   virtual int writers() const = 0;
+  /// How many writers of the deployment's other processes it has met so far.
+  virtual int peers() const = 0;
 };
 
 /// What may happen on the network that an operator must know: a second type on a topic, another

@@ -108,6 +108,22 @@ void Deployment::make_unit(const ComponentConfig& component, PluginRegistry& plu
   }
 }
 
+ComponentConfig Deployment::own_config(std::string_view name, const PluginManifest& manifest,
+                                       int place, const std::string& process) const {
+  ComponentConfig component{.name = std::string{name},
+                            .plugin_id = manifest.id,
+                            .manifest = &manifest,
+                            .executor = std::string{kMainExecutor},
+                            .process = process,
+                            .place = place};
+  for (const PortSpec& spec : manifest.outputs) {
+    const bool absolute = spec.topic.starts_with('/');
+    component.outputs.push_back(
+        {.spec = spec, .topic = absolute ? spec.topic : "/" + config_.name + "/" + spec.topic});
+  }
+  return component;
+}
+
 void Deployment::make_own_units(PluginRegistry& plugins) {
   // The time is told before anything happens in it, how all are when all has happened.
   if (config_.simulated) {
@@ -117,6 +133,12 @@ void Deployment::make_own_units(PluginRegistry& plugins) {
   const int last = static_cast<int>(config_.components.size());
   make_own_unit(kStateComponent, StatePublisher::manifest(), last, plugins,
                 [this](Setup& setup) { return std::make_unique<StatePublisher>(setup, units_); });
+  // The other processes tell how their components are, too: a component that reads it hears all.
+  for (const std::string& process : config_.processes()) {
+    if (process == options_.process || options_.process.empty()) continue;
+    config_.components.push_back(
+        own_config(kStateComponent, StatePublisher::manifest(), last, process));
+  }
   std::sort(units_.begin(), units_.end(),
             [](const auto& a, const auto& b) { return a->place() < b->place(); });
 }
@@ -124,18 +146,7 @@ void Deployment::make_own_units(PluginRegistry& plugins) {
 void Deployment::make_own_unit(std::string_view name, const PluginManifest& manifest, int place,
                                PluginRegistry& plugins,
                                const std::function<std::unique_ptr<Component>(Setup&)>& make) {
-  ComponentConfig component{.name = std::string{name},
-                            .plugin_id = manifest.id,
-                            .manifest = &manifest,
-                            .executor = std::string{kMainExecutor},
-                            .process = options_.process,
-                            .place = place};
-  for (const PortSpec& spec : manifest.outputs) {
-    const bool absolute = spec.topic.starts_with('/');
-    component.outputs.push_back(
-        {.spec = spec, .topic = absolute ? spec.topic : "/" + config_.name + "/" + spec.topic});
-  }
-  config_.components.push_back(std::move(component));
+  config_.components.push_back(own_config(name, manifest, place, options_.process));
   const ComponentConfig& config = config_.components.back();
   auto unit = std::make_unique<Unit>(config.name, manifest.id, place, options_.on_line);
   ComponentSetup setup = setup_of(config, plugins, *unit);
@@ -192,16 +203,23 @@ void Deployment::assign_units() {
   }
 }
 
-int Deployment::processes_elsewhere(const std::string& topic, Ports ports) const {
+int Deployment::readers_elsewhere(const std::string& topic) const {
   std::set<std::string> processes;
   for (const ComponentConfig& component : config_.components) {
     if (component.process == options_.process) continue;
-    const auto& bound = component.*ports;
-    if (std::ranges::find(bound, topic, &PortBinding::topic) != bound.end()) {
+    if (std::ranges::find(component.inputs, topic, &PortBinding::topic) != component.inputs.end())
       processes.insert(component.process);
-    }
   }
   return static_cast<int>(processes.size());
+}
+
+int Deployment::writers_elsewhere(const std::string& topic) const {
+  std::ptrdiff_t writers = 0;
+  for (const ComponentConfig& component : config_.components) {
+    if (component.process == options_.process) continue;
+    writers += std::ranges::count(component.outputs, topic, &PortBinding::topic);
+  }
+  return static_cast<int>(writers);
 }
 
 void Deployment::connect(PluginRegistry& plugins, int domain) {
@@ -228,15 +246,15 @@ void Deployment::advertise(const ComponentConfig& component, const PortBinding& 
   spec.qos = output.spec.qos;
   auto writer = transport_->advertise(spec);
   if (!writer) throw PluginError("cannot write " + output.topic + ": " + writer.error().text);
-  if (const int readers = processes_elsewhere(output.topic, &ComponentConfig::inputs)) {
+  if (const int readers = readers_elsewhere(output.topic)) {
     links_.push_back(
-        {output.topic, [own = writer->get(), readers] { return own->watchers() >= readers; }});
+        {output.topic, [own = writer->get(), readers] { return own->peers() >= readers; }});
   }
   topic.attach(std::move(*writer));
 }
 
 void Deployment::subscribe(const PortBinding& input) {
-  const int writers = processes_elsewhere(input.topic, &ComponentConfig::outputs);
+  const int writers = writers_elsewhere(input.topic);
   const bool elsewhere = writers > 0;
   if ((!elsewhere && !input.spec.outside) || readers_.contains(input.topic)) return;
   Topic& topic = *topics_.at(input.topic);
@@ -248,7 +266,7 @@ void Deployment::subscribe(const PortBinding& input) {
   if (!reader) throw PluginError("cannot read " + input.topic + ": " + reader.error().text);
   if (elsewhere) {
     links_.push_back(
-        {input.topic, [own = reader->get(), writers] { return own->writers() >= writers; }});
+        {input.topic, [own = reader->get(), writers] { return own->peers() >= writers; }});
   }
   readers_[input.topic] = std::move(*reader);
 }

@@ -64,13 +64,17 @@ class Deployment {
   void make_own_unit(std::string_view name, const PluginManifest& manifest, int place,
                      PluginRegistry& plugins,
                      const std::function<std::unique_ptr<Component>(Setup&)>& make);
+  /// The entry of what the runtime itself adds to `process`.
+  ComponentConfig own_config(std::string_view name, const PluginManifest& manifest, int place,
+                             const std::string& process) const;
   ComponentSetup setup_of(const ComponentConfig& component, PluginRegistry& plugins, Unit& unit);
   Topic& topic_for(const ComponentConfig& component, const PortBinding& port,
                    const MessageType& type);
   Topic& topic_at(const std::string& key, const PortBinding& port, const MessageType& type);
-  using Ports = std::vector<PortBinding> ComponentConfig::*;
-  /// How many other processes have `topic` among their inputs or outputs.
-  int processes_elsewhere(const std::string& topic, Ports ports) const;
+  /// How many other processes read `topic`: a process does it once for all of its components.
+  int readers_elsewhere(const std::string& topic) const;
+  /// How many components of other processes write `topic`.
+  int writers_elsewhere(const std::string& topic) const;
   void await_processes(const std::function<bool()>& done);
   void advertise(const ComponentConfig& component, const PortBinding& output);
   void subscribe(const PortBinding& input);

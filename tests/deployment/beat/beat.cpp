@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <chrono>
+#include <stdexcept>
+#include <string>
 #include <thread>
 
 #include "armature/messages/armature_msgs.hpp"
@@ -15,15 +17,20 @@ class Beat final : public Component {
   explicit Beat(Setup& setup)
       : Component{setup},
         beats_{setup.params().integer("beats")},
+        ends_{setup.params().flag("ends")},
+        throws_in_{setup.params().text("throws_in")},
+        throws_number_{setup.params().flag("throws_number")},
         beat_{setup.output<msg::Capture>("beat")} {
     setup.activate_every(seconds(0.01));
     const double construction_s = setup.params().number("construction_s");
+    throw_in("construction");
     if (construction_s == 0) return;
     say("being constructed");
     std::this_thread::sleep_for(std::chrono::duration<double>{construction_s});
   }
 
   void step(Time now) override {
+    throw_in("step");
     if (beats_ > 0 && sent_ == beats_) return;
     ++sent_;
     auto loan = beat_.loan();
@@ -33,8 +40,21 @@ class Beat final : public Component {
     loan.publish();
   }
 
+  void stop(Time) override { throw_in("stop"); }
+  bool finished() const override { return ends_ && sent_ == beats_; }
+  void summarize(Summary&) const override { throw_in("summarize"); }
+
  private:
+  void throw_in(const char* place) const {
+    if (throws_in_ != place) return;
+    if (throws_number_) throw 42;
+    throw std::runtime_error{"out of breath"};
+  }
+
   std::int64_t beats_, sent_ = 0;
+  bool ends_;
+  std::string throws_in_;
+  bool throws_number_;
   Output<msg::Capture> beat_;
 };
 

@@ -39,8 +39,7 @@ void Conflicts::endpoint_found(const Endpoint& other, const Discovery& discovery
 
 bool Conflicts::refuses(const Endpoint& writer, const OwnEndpoint& reader) const {
   if (has_other_layout(writer, reader)) return true;
-  return reader.same_deployment_only &&
-         (!writer.tag.ours || writer.tag.fingerprint != own_.fingerprint);
+  return reader.same_deployment_only && !same_deployment(writer.tag, own_);
 }
 
 void Conflicts::compare(const OwnEndpoint& own, const Endpoint& other, const Discovery& discovery) {

@@ -16,6 +16,10 @@ struct EndpointTag {
   std::string fingerprint;
   std::uint64_t layout = 0;
 };
+/// Both belong to processes of one deployment, started from one configuration.
+inline bool same_deployment(const EndpointTag& a, const EndpointTag& b) {
+  return a.ours && b.ours && a.fingerprint == b.fingerprint;
+}
 
 std::string to_user_data(const EndpointTag& tag);
 /// Never fails: unknown keys are passed over, anything else is an endpoint that is not ours.

@@ -31,6 +31,18 @@ TEST_F(FastDds, TwoProcessesExchangeSamples) {
   EXPECT_TRUE(events_.empty()) << events_.front().text;
 }
 
+TEST_F(FastDds, WhoOnlyWatchesIsNoPeer) {
+  const auto transport = make_transport();
+  const auto writer = transport->advertise(to_peer_).value();
+  const auto reader = transport->subscribe(from_peer_, false, collect()).value();
+  Peer stranger{domain_, "lamp", "beef", "echo"};  // the same name, but started from another file
+  ASSERT_TRUE(eventually([&] { return writer->watchers() == 1 && reader->writers() == 1; }));
+  EXPECT_EQ(writer->peers(), 0);
+  EXPECT_EQ(reader->peers(), 0);
+  Peer peer{domain_, "lamp", "f00d", "echo"};
+  EXPECT_TRUE(eventually([&] { return writer->peers() == 1 && reader->peers() == 1; }));
+}
+
 TEST_F(FastDds, OwnSamplesDoNotComeBack) {
   Peer peer{domain_, "lamp", "f00d", "echo"};
   const auto transport = make_transport();

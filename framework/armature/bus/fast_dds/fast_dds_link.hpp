@@ -32,6 +32,11 @@ struct FastDdsLink {
     made.layout = type.layout;
     return made;
   }
+  /// Whether the endpoint is one of the deployment's other processes.
+  bool is_peer(const Guid& guid) const {
+    const auto endpoint = participant->discovery().find(guid);
+    return endpoint && same_deployment(endpoint->tag, tag);
+  }
 };
 
 Expected<std::unique_ptr<OutsideWriter>> make_fast_dds_writer(std::shared_ptr<FastDdsLink> link,

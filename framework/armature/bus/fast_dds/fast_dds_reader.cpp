@@ -11,6 +11,7 @@
 
 #include "armature/bus/fast_dds/endpoint_qos.hpp"
 #include "armature/bus/fast_dds/fast_dds_link.hpp"
+#include "armature/bus/fast_dds/guid_of.hpp"
 #include "armature/bus/fast_dds/raw_cdr_type.hpp"
 #include "armature/bus/topic_name.hpp"
 
@@ -19,14 +20,6 @@ namespace {
 
 namespace dds = eprosima::fastdds::dds;
 namespace rtps = eprosima::fastrtps::rtps;
-
-Guid to_guid(const rtps::GUID_t& guid) {
-  Guid copy;
-  std::copy(std::begin(guid.guidPrefix.value), std::end(guid.guidPrefix.value),
-            copy.participant.begin());
-  std::copy(std::begin(guid.entityId.value), std::end(guid.entityId.value), copy.entity.begin());
-  return copy;
-}
 
 class FastDdsReader final : public OutsideReader, private dds::DataReaderListener {
  public:
@@ -70,6 +63,7 @@ class FastDdsReader final : public OutsideReader, private dds::DataReaderListene
   }
 
   int writers() const override { return writers_.load(std::memory_order_relaxed); }
+  int peers() const override { return peers_.load(std::memory_order_relaxed); }
 
  private:
   void on_data_available(dds::DataReader* reader) override {
@@ -77,7 +71,7 @@ class FastDdsReader final : public OutsideReader, private dds::DataReaderListene
     dds::SampleInfo info;
     while (reader->take_next_sample(&cdr_, &info) == ReturnCode_t::RETCODE_OK) {
       if (closed_ || !info.valid_data) continue;
-      const Guid writer = to_guid(info.sample_identity.writer_guid());
+      const Guid writer = guid_of(info.sample_identity.writer_guid());
       if (writer.participant == link_->participant->guid_prefix() || is_refused(writer)) continue;
       SampleRef sample = pool_->loan();
       if (!own_.topic.type->decode(cdr_.bytes, sample.mutable_message())) {
@@ -110,16 +104,17 @@ class FastDdsReader final : public OutsideReader, private dds::DataReaderListene
 
   void on_subscription_matched(dds::DataReader*,
                                const dds::SubscriptionMatchedStatus& status) override {
-    const Guid writer = to_guid(rtps::iHandle2GUID(status.last_publication_handle));
+    const Guid writer = guid_of(rtps::iHandle2GUID(status.last_publication_handle));
     if (writer.participant == link_->participant->guid_prefix()) return;
     writers_.fetch_add(status.current_count_change, std::memory_order_relaxed);
+    if (status.current_count_change > 0 && link_->is_peer(writer)) ++peers_;
   }
 
   void on_liveliness_changed(dds::DataReader*,
                              const dds::LivelinessChangedStatus& status) override {
     if (status.not_alive_count_change <= 0) return;
     const auto endpoint = link_->participant->discovery().find(
-        to_guid(rtps::iHandle2GUID(status.last_publication_handle)));
+        guid_of(rtps::iHandle2GUID(status.last_publication_handle)));
     link_->conflicts.report_always(
         {TransportEvent::Kind::peer_lost, own_.topic.name,
          "the writer on '" + ros_topic_name(own_.topic.name) + "'" +
@@ -143,7 +138,7 @@ class FastDdsReader final : public OutsideReader, private dds::DataReaderListene
   std::function<void(SampleRef)> deliver_;
   SamplePool* pool_ = nullptr;
   dds::DataReader* reader_ = nullptr;
-  std::atomic<int> writers_{0};
+  std::atomic<int> writers_{0}, peers_{0};
   std::mutex mutex_;  // guards what follows
   bool closed_ = false;
   RawCdr cdr_;

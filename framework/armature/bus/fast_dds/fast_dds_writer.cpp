@@ -9,6 +9,7 @@
 
 #include "armature/bus/fast_dds/endpoint_qos.hpp"
 #include "armature/bus/fast_dds/fast_dds_link.hpp"
+#include "armature/bus/fast_dds/guid_of.hpp"
 #include "armature/bus/fast_dds/raw_cdr_type.hpp"
 #include "armature/bus/topic_name.hpp"
 
@@ -51,6 +52,7 @@ class FastDdsWriter final : public OutsideWriter, private dds::DataWriterListene
     if (watchers() > 0 || settings_.transient_local) queue_->offer(sample);
   }
   int watchers() const override { return watchers_.load(std::memory_order_relaxed); }
+  int peers() const override { return peers_.load(std::memory_order_relaxed); }
   std::uint64_t dropped() const override { return queue_->dropped(); }
 
  private:
@@ -73,11 +75,10 @@ class FastDdsWriter final : public OutsideWriter, private dds::DataWriterListene
   void on_publication_matched(dds::DataWriter*,
                               const dds::PublicationMatchedStatus& status) override {
     // The process' own readers match too and get their samples by pointer.
-    const rtps::GUID_t reader = rtps::iHandle2GUID(status.last_subscription_handle);
-    const GuidPrefix& own = link_->participant->guid_prefix();
-    if (!std::equal(own.begin(), own.end(), std::begin(reader.guidPrefix.value))) {
-      watchers_.fetch_add(status.current_count_change, std::memory_order_relaxed);
-    }
+    const Guid reader = guid_of(rtps::iHandle2GUID(status.last_subscription_handle));
+    if (reader.participant == link_->participant->guid_prefix()) return;
+    watchers_.fetch_add(status.current_count_change, std::memory_order_relaxed);
+    if (status.current_count_change > 0 && link_->is_peer(reader)) ++peers_;
   }
 
   void on_offered_incompatible_qos(dds::DataWriter*,
@@ -95,7 +96,7 @@ class FastDdsWriter final : public OutsideWriter, private dds::DataWriterListene
   TopicSpec topic_;
   QosSettings settings_;
   dds::DataWriter* writer_ = nullptr;
-  std::atomic<int> watchers_{0};
+  std::atomic<int> watchers_{0}, peers_{0};
   RawCdr cdr_;  // of the egress thread
   std::unique_ptr<Egress::Queue> queue_;
 };

@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "armature/bus/fast_dds/dds_log.hpp"
+#include "armature/bus/fast_dds/guid_of.hpp"
 #include "armature/bus/fast_dds/raw_cdr_type.hpp"
 #include "armature/bus/topic_name.hpp"
 
@@ -34,18 +35,6 @@ constexpr std::uint32_t kSegmentBytes = 16U << 20;
 constexpr std::uint32_t kGreatestMessageBytes = 4U << 20;
 constexpr std::uint64_t kNeededBytes = kSegmentBytes + (2U << 20);  // and the ports
 constexpr int kGreatestDomain = 232;  // beyond it, RTPS port numbers pass 65535
-
-GuidPrefix to_prefix(const rtps::GuidPrefix_t& prefix) {
-  GuidPrefix copy{};
-  std::copy(std::begin(prefix.value), std::end(prefix.value), copy.begin());
-  return copy;
-}
-
-Guid to_guid(const rtps::GUID_t& guid) {
-  Guid copy{.participant = to_prefix(guid.guidPrefix), .entity = {}};
-  std::copy(std::begin(guid.entityId.value), std::end(guid.entityId.value), copy.entity.begin());
-  return copy;
-}
 
 /// Threads that are started meanwhile leave the process' signals to the program's own threads.
 class SignalsBlocked {
@@ -105,7 +94,7 @@ class Participant::Listener final : public dds::DomainParticipantListener {
   void on_participant_discovery(dds::DomainParticipant*,
                                 rtps::ParticipantDiscoveryInfo&& found) override {
     using Info = rtps::ParticipantDiscoveryInfo;
-    const GuidPrefix prefix = to_prefix(found.info.m_guid.guidPrefix);
+    const GuidPrefix prefix = prefix_of(found.info.m_guid.guidPrefix);
     if (found.status == Info::DISCOVERED_PARTICIPANT) {
       discovery().participant_found(prefix, found.info.m_participantName.to_string());
     } else if (found.status != Info::CHANGED_QOS_PARTICIPANT) {
@@ -116,7 +105,7 @@ class Participant::Listener final : public dds::DomainParticipantListener {
   void on_publisher_discovery(dds::DomainParticipant*, rtps::WriterDiscoveryInfo&& found) override {
     using Info = rtps::WriterDiscoveryInfo;
     if (found.status == Info::REMOVED_WRITER)
-      return discovery().endpoint_gone(to_guid(found.info.guid()));
+      return discovery().endpoint_gone(guid_of(found.info.guid()));
     note(found.info, true);
   }
 
@@ -124,7 +113,7 @@ class Participant::Listener final : public dds::DomainParticipantListener {
                                rtps::ReaderDiscoveryInfo&& found) override {
     using Info = rtps::ReaderDiscoveryInfo;
     if (found.status == Info::REMOVED_READER)
-      return discovery().endpoint_gone(to_guid(found.info.guid()));
+      return discovery().endpoint_gone(guid_of(found.info.guid()));
     note(found.info, false);
   }
 
@@ -134,7 +123,7 @@ class Participant::Listener final : public dds::DomainParticipantListener {
   template <class ProxyData>
   void note(const ProxyData& data, bool writes) {
     Endpoint endpoint;
-    endpoint.guid = to_guid(data.guid());
+    endpoint.guid = guid_of(data.guid());
     if (endpoint.guid.participant == participant_.guid_prefix_) return;
     endpoint.writes = writes;
     endpoint.topic = data.topicName().to_string();
@@ -182,7 +171,7 @@ Expected<void> Participant::open(const ParticipantSettings& settings) {
   factory_qos.entity_factory().autoenable_created_entities = true;
   factory->set_qos(factory_qos);
   if (!participant_) return refused("participant");
-  guid_prefix_ = to_prefix(participant_->guid().guidPrefix);
+  guid_prefix_ = prefix_of(participant_->guid().guidPrefix);
   if (participant_->enable() != ReturnCode_t::RETCODE_OK) return refused("participant");
   publisher_ = participant_->create_publisher(dds::PublisherQos{});
   subscriber_ = participant_->create_subscriber(dds::SubscriberQos{});

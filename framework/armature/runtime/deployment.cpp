@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <set>
 #include <thread>
 #include <utility>
 
@@ -68,7 +67,7 @@ Deployment::Deployment(DeploymentConfig config, PluginRegistry& plugins, Options
 
 Deployment::~Deployment() {
   scheduler_->stop();
-  readers_.clear();  // deliveries end before their inboxes go
+  if (outside_) outside_->stop_reading();  // deliveries end before their inboxes go
   units_.clear();
   topics_.clear();  // outside writers go before the transport
 }
@@ -203,25 +202,6 @@ void Deployment::assign_units() {
   }
 }
 
-int Deployment::readers_elsewhere(const std::string& topic) const {
-  std::set<std::string> processes;
-  for (const ComponentConfig& component : config_.components) {
-    if (component.process == options_.process) continue;
-    if (std::ranges::find(component.inputs, topic, &PortBinding::topic) != component.inputs.end())
-      processes.insert(component.process);
-  }
-  return static_cast<int>(processes.size());
-}
-
-int Deployment::writers_elsewhere(const std::string& topic) const {
-  std::ptrdiff_t writers = 0;
-  for (const ComponentConfig& component : config_.components) {
-    if (component.process == options_.process) continue;
-    writers += std::ranges::count(component.outputs, topic, &PortBinding::topic);
-  }
-  return static_cast<int>(writers);
-}
-
 void Deployment::connect(PluginRegistry& plugins, int domain) {
   const TransportOptions options{
       .domain = domain,
@@ -231,44 +211,16 @@ void Deployment::connect(PluginRegistry& plugins, int domain) {
       .now = [this] { return clock_->now(); }};
   auto transport = plugins.make<Transport>("transport/fast_dds", options);
   if (!transport) throw PluginError("cannot join DDS: " + transport.error().text);
-  transport_ = std::move(*transport);
-
+  outside_.emplace(std::move(*transport), config_, options_.process);
   for (const ComponentConfig& component : config_.components) {
     if (component.process != options_.process) continue;
-    for (const PortBinding& output : component.outputs) advertise(component, output);
-    for (const PortBinding& input : component.inputs) subscribe(input);
+    for (const PortBinding& output : component.outputs) {
+      outside_->advertise(output, *topics_.at(writer_key(component, output)));
+    }
+    for (const PortBinding& input : component.inputs) {
+      outside_->subscribe(input, *topics_.at(input.topic));
+    }
   }
-}
-
-void Deployment::advertise(const ComponentConfig& component, const PortBinding& output) {
-  Topic& topic = *topics_.at(writer_key(component, output));
-  TopicSpec spec = topic.spec();
-  spec.qos = output.spec.qos;
-  auto writer = transport_->advertise(spec);
-  if (!writer) throw PluginError("cannot write " + output.topic + ": " + writer.error().text);
-  if (const int readers = readers_elsewhere(output.topic)) {
-    links_.push_back(
-        {output.topic, [own = writer->get(), readers] { return own->peers() >= readers; }});
-  }
-  topic.attach(std::move(*writer));
-}
-
-void Deployment::subscribe(const PortBinding& input) {
-  const int writers = writers_elsewhere(input.topic);
-  const bool elsewhere = writers > 0;
-  if ((!elsewhere && !input.spec.outside) || readers_.contains(input.topic)) return;
-  Topic& topic = *topics_.at(input.topic);
-  TopicSpec spec = topic.spec();
-  spec.qos = input.spec.qos;
-  const bool same_deployment_only = elsewhere && input.spec.qos == QosProfile::command;
-  auto reader = transport_->subscribe(spec, same_deployment_only,
-                                      [&topic](SampleRef sample) { topic.deliver(sample); });
-  if (!reader) throw PluginError("cannot read " + input.topic + ": " + reader.error().text);
-  if (elsewhere) {
-    links_.push_back(
-        {input.topic, [own = reader->get(), writers] { return own->peers() >= writers; }});
-  }
-  readers_[input.topic] = std::move(*reader);
 }
 
 void Deployment::await_processes(const std::function<bool()>& done) {
@@ -276,14 +228,13 @@ void Deployment::await_processes(const std::function<bool()>& done) {
   constexpr std::chrono::seconds kPatience{5};
   constexpr std::chrono::milliseconds kPause{5};
   const auto until = SteadyClock::now() + kPatience;
-  const auto missing = [this] {
-    return std::ranges::find_if_not(links_, [](const Link& link) { return link.joined(); });
-  };
-  for (auto link = missing(); link != links_.end() && !done(); link = missing()) {
+  while (outside_ && !done()) {
+    const auto topic = outside_->waiting();
+    if (!topic) return;
     if (SteadyClock::now() > until) {
       options_.on_note(fmt::format(
           "topic '{}' has found no other process of the deployment for {} s; going on without it",
-          link->topic, kPatience.count()));
+          *topic, kPatience.count()));
       return;
     }
     std::this_thread::sleep_for(kPause);

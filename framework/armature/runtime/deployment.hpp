@@ -5,13 +5,14 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "armature/bus/transport.hpp"
 #include "armature/runtime/clock.hpp"
 #include "armature/runtime/component_setup.hpp"
 #include "armature/runtime/deployment_config.hpp"
+#include "armature/runtime/outside.hpp"
 #include "armature/runtime/scheduler.hpp"
 #include "armature/runtime/unit.hpp"
 
@@ -71,13 +72,7 @@ class Deployment {
   Topic& topic_for(const ComponentConfig& component, const PortBinding& port,
                    const MessageType& type);
   Topic& topic_at(const std::string& key, const PortBinding& port, const MessageType& type);
-  /// How many other processes read `topic`: a process does it once for all of its components.
-  int readers_elsewhere(const std::string& topic) const;
-  /// How many components of other processes write `topic`.
-  int writers_elsewhere(const std::string& topic) const;
   void await_processes(const std::function<bool()>& done);
-  void advertise(const ComponentConfig& component, const PortBinding& output);
-  void subscribe(const PortBinding& input);
   void assign_units();
   void stop();
 
@@ -88,14 +83,7 @@ class Deployment {
   std::unique_ptr<Scheduler> scheduler_;
   std::vector<std::unique_ptr<Unit>> units_;  // in the order of the graph
   bool timed_out_ = false;
-  PluginPtr<Transport> transport_;
-  std::map<std::string, std::unique_ptr<OutsideReader>> readers_;  // by topic
-  /// A topic that another process reads or writes, and whether it has joined.
-  struct Link {
-    std::string topic;
-    std::function<bool()> joined;
-  };
-  std::vector<Link> links_;
+  std::optional<Outside> outside_;  // the topics that it has writers of go first
 };
 
 }  // namespace armature

@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "armature/runtime/plugin.hpp"
+#include "fold.hpp"
 
 namespace armature {
 namespace {
@@ -19,6 +20,9 @@ constexpr double kLimitTolerance = 1e-9;  // [rad] or [m] that of the kind
 constexpr int kUnbounded = 6;             // restarts of an arm without spare joints
 constexpr int kAnywhere = 8;              // every so manieth start may end beyond all limits
 constexpr int kJumps = 2;                 // over gaps between limits, in one start
+constexpr int kFolds = 12;                // steps to a fold, in one start
+constexpr double kNearly = 1e-3;          // [m], [rad]: an error from which folds are looked for
+constexpr double kSettling = 0.7;         // to this part each of them must lower the error
 
 /// The i-th number of the van der Corput sequence in `base`: in (0, 1), evenly spread.
 double radical_inverse(int i, int base) {
@@ -147,6 +151,23 @@ bool Numeric::jump(descent::End& end) const {
   return false;
 }
 
+void Numeric::settle(const IkGoal& goal, const Task& task, int& budget, descent::End& end) const {
+  for (int i = 0; i < kFolds && !end.reached && end.error < kNearly && budget > 0; ++i, --budget) {
+    JointVector q = Eigen::Map<const Eigen::VectorXd>(end.q.data(), model_->dof());
+    const auto step = fold_step(*model_, goal, end.locked | end.pressing, q);
+    if (!step) return;
+    descent::End tried = end;
+    q += *step;
+    for (int j = 0; j < model_->dof(); ++j) {
+      if (end.bounded >> j & 1) q[j] = std::clamp(q[j], model_->lower()[j], model_->upper()[j]);
+    }
+    std::copy(q.begin(), q.end(), tried.q.begin());
+    kernel_.descend(chain_, task.goal, budget, tried);
+    if (!tried.reached && !(tried.error < kSettling * end.error)) return;
+    end = tried;
+  }
+}
+
 int Numeric::worst_joint(const JointVector& q) const {
   Eigen::Index worst = 0;
   (model_->lower() - q).cwiseMax(q - model_->upper()).maxCoeff(&worst);
@@ -213,6 +234,7 @@ IkStatus Numeric::solve(const IkGoal& goal, const JointVector& seed, IkBranches&
       least = std::min(least, end.error);
       kernel_.descend(chain_, task.goal, budget, end);
     }
+    settle(goal, task, budget, end);
     least = std::min(least, end.error);
     if (!end.reached) continue;
     bring_inside(task, budget, end);

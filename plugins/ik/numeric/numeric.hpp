@@ -49,6 +49,9 @@ class Numeric final : public IkSolver {
   /// A redundant arm beyond its limits: locks the joint that is farthest beyond at its limit and
   /// goes down again, once for every spare joint. `end` changes only when that keeps the limits.
   void bring_inside(const Task& task, int& budget, descent::End& end) const;
+  /// Where a descent got stuck nearly there: goes on to the fold of the arm that keeps it from the
+  /// goal, and down again, as long as that pays.
+  void settle(const IkGoal& goal, const Task& task, int& budget, descent::End& end) const;
   int worst_joint(const JointVector& q) const;
   /// Adds where a start ended; true when it keeps the limits.
   bool add_branch(const descent::End& end, std::string_view label, IkBranches& out) const;

@@ -72,6 +72,40 @@ RobotModel gantry() {
           FrameId{0}, Eigen::Vector3d{0, 0.6, 0.8},
           {}};
 }
+/// Seven joints, two of them elbows: stretched, the rim hardly bends along the turn of the nearly
+/// straight wrist within itself.
+RobotModel two_elbows() {
+  return arm("two_elbows",
+             {{0.3, 0, 0, 170},
+              {0, 0.05, -90, 150},
+              {0, 0.35, 0, 120},
+              {0, 0.1, 0, 150},
+              {0.3, 0, -90, 170},
+              {0, 0, 90, 120},
+              {0.08, 0, -90, 170}},
+             RobotModel::Convention::modified);
+}
+/// Six joints, and a pointing axis that is askew to the last: the rim bends far more along one
+/// motion of the stretched arm than along another.
+RobotModel askew() {
+  const RobotModel base = arm("askew",
+                              {{0.4, 0, 0, 166},
+                               {0, 0.1, -90, 180},
+                               {0, 0.4, 0, 143},
+                               {0.35, 0.05, -90, 180},
+                               {0, 0, 90, 115},
+                               {0.1, 0, -90, 180}},
+                              RobotModel::Convention::modified);
+  const Eigen::Isometry3d tool =
+      Eigen::Translation3d{0, -0.01, 0.15} * Eigen::AngleAxisd{0.3, Eigen::Vector3d::UnitX()};
+  return {"askew",
+          base.convention(),
+          base.joints(),
+          {{"tool", 5, tool}},
+          FrameId{0},
+          Eigen::Vector3d::UnitZ(),
+          {}};
+}
 RobotModel lamp() {
   return load_robot_model(ARMATURE_SOURCE_DIR "/configs/robots/dental_lamp.yaml");
 }
@@ -88,7 +122,8 @@ IkSubject subject(RobotModel model) {
 
 INSTANTIATE_TEST_SUITE_P(Numeric, IkLaws,
                          testing::Values(subject(lamp()), subject(puma()), subject(seven()),
-                                         subject(gantry())),
+                                         subject(gantry()), subject(two_elbows()),
+                                         subject(askew())),
                          testing::PrintToStringParamName());
 
 IkGoal goal_at(const RobotModel& model, const JointVector& q) {

@@ -43,11 +43,13 @@ void EdgeSet::ask(const IkGoal& goal, const JointVector& q) {
 }
 
 void EdgeSet::ask_from_anywhere(const IkGoal& goal) {
-  probe_.solve(goal, probe_.random_joints());
+  const JointVector seed = probe_.random_joints();
+  probe_.solve(goal, seed);
   expect_true_residuals(probe_);
   expect_true_flags(probe_);
   const bool ok = probe_.status().code == IkStatus::Code::ok;
   if (ok) ++reached_;
+  if (!ok && !missed_) missed_ = {goal, seed};
   if (!ok && probe_.subject().closed_form) {
     probe_.violated(fmt::format("{}: {}", name_, describe(probe_.status())));
   }
@@ -90,7 +92,8 @@ void EdgeSet::close() {
     note += fmt::format("{}{} {:.1f} %", note.empty() ? "reached: " : ", ", name_, 100 * part);
   }
   if (probe_.subject().any_seed_at_edges && part < kPromised) {
-    probe_.violated(
+    probe_.violated_by(
+        missed_->first, missed_->second,
         fmt::format("{}: {} of {} reached from random seeds, `any_seed_at_edges` promises {} %",
                     name_, reached_, asked_, 100 * kPromised));
   }

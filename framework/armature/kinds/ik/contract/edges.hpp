@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "armature/kinds/ik/contract/probe.hpp"
 
@@ -27,6 +29,7 @@ class EdgeSet {
   Probe& probe_;
   std::string name_;
   int asked_ = 0, reached_ = 0;
+  std::optional<std::pair<IkGoal, JointVector>> missed_;  // the first, and its seed
 };
 
 }  // namespace armature::ik_contract

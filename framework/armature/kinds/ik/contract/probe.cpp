@@ -97,6 +97,10 @@ double Probe::nearest(const JointVector& q) const {
 }
 
 void Probe::violated(std::string what) { note(std::move(what), true); }
+void Probe::violated_by(const IkGoal& goal, const JointVector& seed, std::string what) {
+  goal_ = goal, seed_ = seed, counted_ = false;
+  note(std::move(what), true);
+}
 void Probe::violated_without_line(std::string what) { note(std::move(what), false); }
 
 void Probe::note(std::string what, bool with_question) {

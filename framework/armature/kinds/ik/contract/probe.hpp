@@ -44,6 +44,8 @@ class Probe {
 
   /// The last answer breaks the law; counts once per question.
   void violated(std::string what);
+  /// The answers to a set of questions break the law together; this one is an example.
+  void violated_by(const IkGoal& goal, const JointVector& seed, std::string what);
   /// A violation that no line for `armature ik` can show.
   void violated_without_line(std::string what);
 

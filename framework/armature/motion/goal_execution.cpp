@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "armature/kinds/trajectory/point_to_point.hpp"
+
 namespace armature {
 
 using State = GoalStatus::State;
@@ -56,10 +58,42 @@ bool GoalExecution::silent(Time now, const std::optional<MeasuredJoints>& measur
                                     to_seconds(now - measured->stamp))
                       : std::string{"no joint state of the arm"};
   fail_active(trouble_);
+  stop(now);
+  return true;
+}
+
+void GoalExecution::stop(Time now) {
   const MotionLimits& limits = planner_.limits();
   reference_.splice(stop_from(reference_.at(now), limits.max_velocity, limits.max_acceleration, now,
                               last_goal_id_));
-  return true;
+}
+
+void GoalExecution::come_to(const JointVector& q, Time now) {
+  const JointState from = reference_.at(now);
+  const MotionLimits& limits = planner_.limits();
+  const JointVector within =
+      q.cwiseMax(planner_.model().lower()).cwiseMin(planner_.model().upper());
+  auto way = point_to_point({.goal_id = last_goal_id_,
+                             .start = now,
+                             .from = from,
+                             .segments = {{.s = {0, 1}, .q = {from.q, within}, .duration_s = {}}},
+                             .max_velocity = limits.max_velocity,
+                             .max_acceleration = limits.max_acceleration});
+  if (way) reference_.splice(std::move(*way));
+}
+
+void GoalExecution::watch(Time now, const MeasuredJoints& measured) {
+  const JointVector wanted = reference_.at(measured.stamp).q;
+  const auto stray = strayed(planner_.model(), measured.q,
+                             {wanted, "the reference", "max_deviation"}, options_.max_deviation);
+  const bool was_astray = std::exchange(astray_, stray.has_value());
+  if (!stray) return trouble_.clear();
+  if (!was_astray) {
+    trouble_ = *stray;
+    fail_active(*stray);
+    return stop(now);
+  }
+  if (now >= reference_.last().end()) come_to(measured.q, now);
 }
 
 bool GoalExecution::guided(Time now) const {
@@ -78,17 +112,12 @@ void GoalExecution::update(Time now, const std::optional<MeasuredJoints>& measur
     reference_.advance(now);
     return;
   }
-  trouble_.clear();
   if (guided(now)) {
+    trouble_.clear();
     reference_.start(measured->q, now);
     return;
   }
-  const JointVector wanted = reference_.at(measured->stamp).q;
-  if (auto stray = strayed(planner_.model(), measured->q,
-                           {wanted, "the reference", "max_deviation"}, options_.max_deviation)) {
-    fail_active(*stray);
-    reference_.start(measured->q, now);
-  }
+  watch(now, *measured);
   reference_.advance(now);
   if (active_ && now >= reference_.last().end()) arrive(now, measured->q);
 }

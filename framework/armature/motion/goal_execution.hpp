@@ -49,7 +49,8 @@ class GoalExecution {
   GoalExecution(GoalPlanner planner, const ExecutionOptions& options);
 
   /// Once per activation, before goals: starts the reference at the first measurement, ends what is
-  /// done, holds when the arm does not follow or falls silent, and follows the arm that is guided.
+  /// done, stops within limits when the arm does not follow or falls silent, comes back within
+  /// limits to an arm that has not followed when it rests, and follows the arm that is guided.
   void update(Time now, const std::optional<MeasuredJoints>& measured);
 
   /// Plans and splices `goal`; the statuses say what came of it, `new_plan` what was decided.
@@ -81,6 +82,11 @@ class GoalExecution {
   /// The reference has come to the goal's end: the arm as well?
   void arrive(Time now, const JointVector& q);
   bool silent(Time now, const std::optional<MeasuredJoints>& measured);
+  void stop(Time now);
+  /// From rest.
+  void come_to(const JointVector& q, Time now);
+  /// Whether the arm follows the reference, and what to do when it does not.
+  void watch(Time now, const MeasuredJoints& measured);
   /// True while a hand moves the arm; it does not before the arm has stopped.
   bool guided(Time now) const;
 
@@ -94,6 +100,7 @@ class GoalExecution {
   std::vector<GoalStatus> statuses_;
   std::optional<Plan> new_plan_;
   bool spliced_ = false;  // since the last update
+  bool astray_ = false;   // the arm is not where the reference is
   std::string trouble_ = "no joint state of the arm yet";
 };
 

@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 #include "armature/motion/gantry_stages_test.hpp"
 
 namespace armature {
@@ -30,7 +32,14 @@ class GoalExecutionTest : public testing::Test {
   void step() {
     now_ = now_ + seconds(0.001);
     const bool started = execution_.reference().started();
-    const JointVector q = started ? execution_.reference().at(now_).q : home_;
+    measured(started ? execution_.reference().at(now_).q : home_, started);
+  }
+  /// An arm that is at `q`.
+  void step_with(const JointVector& q) {
+    now_ = now_ + seconds(0.001);
+    measured(q, true);
+  }
+  void measured(const JointVector& q, bool started) {
     execution_.update(now_, MeasuredJoints{now_, q});
     collect();
     const JointState state = execution_.reference().at(now_);
@@ -230,16 +239,47 @@ TEST_F(GoalExecutionTest, AGoalThatFailsLeavesAGuidedArmGuided) {
   EXPECT_EQ(execution_.current(now_)->goal_id, 1u);
 }
 
-TEST_F(GoalExecutionTest, FailsTheGoalAndHoldsWhereTheArmIsWhenItDoesNotFollow) {
+TEST_F(GoalExecutionTest, FailsTheGoalAndStopsWithoutAJumpWhenTheArmDoesNotFollow) {
   step_to(0.1);
   give(goal_at(1, 1, 1, 1));
-  step_to(1.2);
-  execution_.update(now_, MeasuredJoints{now_, home_});
-  collect();
+  step_to(0.9);
+  ASSERT_GT(before_.v.norm(), 0.1);
+  step_with(home_);
   EXPECT_EQ(statuses_.back().state, State::failed);
   EXPECT_EQ(statuses_.back().stage, "execution");
   EXPECT_THAT(statuses_.back().reason, testing::StartsWith("joint z of the arm is "));
-  EXPECT_EQ(execution_.reference().at(now_).q, home_);
+  EXPECT_EQ(execution_.trouble(), statuses_.back().reason);
+  give(goal_at(2, 0, 0, 0));
+  EXPECT_EQ(statuses_.back().stage, "accept");
+  EXPECT_EQ(statuses_.back().reason, execution_.trouble());
+}
+
+TEST_F(GoalExecutionTest, ComesBackWithoutAJumpToAnArmThatIsHeldFast) {
+  step_to(0.1);
+  give(goal_at(1, 1, 1, 1));
+  step_to(0.9);
+  double farthest = 0;
+  for (int k = 0; k < 5000; ++k) {
+    step_with(home_);
+    farthest = std::max(farthest, (before_.q - home_).norm());
+  }
+  EXPECT_LT(farthest, 1.2) << "it stops on the way to the goal, which is 1.5 m away";
+  EXPECT_TRUE(execution_.reference().at(now_).q.isApprox(home_, 1e-12));
+  EXPECT_TRUE(execution_.trouble().empty());
+  EXPECT_EQ(statuses_.size(), 3u) << "it fails once";
+  give(goal_at(2, 1, 1, 1));
+  EXPECT_EQ(statuses_.back().state, State::executing);
+}
+
+TEST_F(GoalExecutionTest, WaitsWhereItHasStoppedForAnArmThatComesLate) {
+  step_to(0.1);
+  give(goal_at(1, 1, 1, 1));
+  step_to(0.9);
+  step_with(home_);
+  const JointVector stopped =
+      execution_.reference().last().at(execution_.reference().last().end()).q;
+  step_to(3);
+  EXPECT_EQ(execution_.reference().at(now_).q, stopped);
   EXPECT_TRUE(execution_.trouble().empty());
 }
 

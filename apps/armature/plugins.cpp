@@ -27,6 +27,12 @@ Json param_json(const ParamSpec& spec) {
   return json;
 }
 
+Json params_json(const std::vector<ParamSpec>& specs) {
+  Json list = Json::array();
+  for (const auto& spec : specs) list.push_back(param_json(spec));
+  return list;
+}
+
 Json port_json(const PortSpec& port) {
   Json json{{"name", port.name},
             {"type", port.type},
@@ -36,6 +42,12 @@ Json port_json(const PortSpec& port) {
   if (!port.frame.empty()) json["frame"] = port.frame;
   if (!port.of.empty()) json["of"] = port.of;
   return json;
+}
+
+Json ports_json(const std::vector<PortSpec>& ports) {
+  Json list = Json::array();
+  for (const auto& port : ports) list.push_back(port_json(port));
+  return list;
 }
 
 Json traits_json(const std::vector<Trait>& traits) {
@@ -53,19 +65,23 @@ Json manifest_json(const PluginManifest& plugin) {
             {"doc", plugin.doc},  {"file", plugin.file.string()},
             {"abi", plugin.abi},  {"allocates", plugin.allocates},
             {"pure", plugin.pure}};
-  json["params"] = Json::array();
-  for (const auto& spec : plugin.params) json["params"].push_back(param_json(spec));
+  json["params"] = params_json(plugin.params);
   json["slots"] = Json::object();
   for (const auto& slot : plugin.slots) json["slots"][slot.name] = slot.kind;
   json["needs"] = traits_json(plugin.needs);
   json["offers"] = traits_json(plugin.offers);
   json["measures"] = Json::object();
   for (const auto& metric : plugin.measures) json["measures"][metric.name] = metric.doc;
-  json["in"] = Json::array();
-  for (const auto& port : plugin.inputs) json["in"].push_back(port_json(port));
-  json["out"] = Json::array();
-  for (const auto& port : plugin.outputs) json["out"].push_back(port_json(port));
+  json["in"] = ports_json(plugin.inputs);
+  json["out"] = ports_json(plugin.outputs);
   return json;
+}
+
+/// What a pure plugin has besides when it runs alone, as a component.
+Json host_json(const PluginManifest& host) {
+  return {{"params", params_json(host.params)},
+          {"in", ports_json(host.inputs)},
+          {"out", ports_json(host.outputs)}};
 }
 
 std::string range_text(const ParamSpec& spec) {
@@ -86,6 +102,14 @@ std::string default_text(const ParamSpec& spec) {
   std::string text;
   for (const auto& item : spec.fallback->items()) text += (text.empty() ? "" : ", ") + item.text();
   return "[" + text + "]";
+}
+
+void print_params(const std::vector<ParamSpec>& specs) {
+  if (!specs.empty()) fmt::print("params:\n");
+  for (const auto& spec : specs) {
+    fmt::print("  {:<26} {:<8} {:<12} {}{}\n", spec.name, to_string(spec.type), default_text(spec),
+               spec.doc, range_text(spec));
+  }
 }
 
 void print_ports(const char* title, const std::vector<PortSpec>& ports) {
@@ -133,17 +157,16 @@ int show_plugin(const std::string& id, bool json) {
   const PluginRegistry plugins;
   const PluginManifest* plugin = plugins.find(id);
   if (!plugin) throw InvalidChoice(plugins.unknown_text(id));
+  const PluginManifest* host = plugins.host_of(plugin->kind);
   if (json) {
-    fmt::print("{}\n", manifest_json(*plugin).dump());
+    Json json = manifest_json(*plugin);
+    if (host) json["alone"] = host_json(*host);
+    fmt::print("{}\n", json.dump());
     return kOk;
   }
   fmt::print("{} ({})\n  {}\n  {}\n", plugin->id, plugin->kind, plugin->doc, plugin->file.string());
   if (!plugin->pure) fmt::print("  not pure: only on the system clock\n");
-  if (!plugin->params.empty()) fmt::print("params:\n");
-  for (const auto& spec : plugin->params) {
-    fmt::print("  {:<26} {:<8} {:<12} {}{}\n", spec.name, to_string(spec.type), default_text(spec),
-               spec.doc, range_text(spec));
-  }
+  print_params(plugin->params);
   if (!plugin->slots.empty()) fmt::print("slots:\n");
   for (const auto& slot : plugin->slots) {
     fmt::print("  {:<16} {:<12} {}\n", slot.name, slot.kind, slot.doc);
@@ -156,6 +179,11 @@ int show_plugin(const std::string& id, bool json) {
   }
   print_ports("in", plugin->inputs);
   print_ports("out", plugin->outputs);
+  if (!host) return kOk;
+  fmt::print("alone, directly under components:, it also has\n");
+  print_params(host->params);
+  print_ports("in", host->inputs);
+  print_ports("out", host->outputs);
   return kOk;
 }
 

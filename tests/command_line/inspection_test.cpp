@@ -126,6 +126,19 @@ TEST(PluginInfo, ShowsWhatAPluginNeedsOffersAndMeasures) {
   EXPECT_TRUE(told["measures"].contains("distance_error_mm"));
 }
 
+TEST(PluginInfo, OfAPurePluginShowsWhatItHasWhenItRunsAlone) {
+  const auto info = [](std::vector<std::string> more) {
+    std::vector<std::string> command{armature(), "plugin", "info", "target/constant_velocity"};
+    command.insert(command.end(), more.begin(), more.end());
+    return run_command(command).out;
+  };
+  EXPECT_THAT(info({}), testing::HasSubstr("\nalone, directly under components:, it also has\n"
+                                           "params:\n  history_s "));
+  const auto told = nlohmann::json::parse(info({"--json"}));
+  EXPECT_EQ(told["alone"]["params"][0]["name"], "history_s");
+  EXPECT_EQ(told["alone"]["out"][0]["name"], "target");
+}
+
 TEST(PluginInfo, OfAnUnknownOneNamesTheNearest) {
   const auto result = run_command({armature(), "plugin", "info", "ik/numerc"});
   EXPECT_EQ(result.exit_code, 3);

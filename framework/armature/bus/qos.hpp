@@ -9,7 +9,7 @@
 namespace armature {
 
 /// The named QoS profiles; every field is stated, nothing is left to a middleware's default.
-///   sensor   best effort reader, reliable writer, volatile, newest only
+///   sensor   best effort reader, reliable writer, volatile, the newest two
 ///   state    reliable, volatile, a short history
 ///   command  reliable, volatile, short history, samples expire: yesterday's goal is never executed
 ///   reply    reliable, transient local, samples expire: whoever asked gets the answer also when

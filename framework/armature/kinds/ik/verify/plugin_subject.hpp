@@ -24,7 +24,7 @@ std::string wrong_offers(const PluginManifest& plugin);
 /// more than 60 s), the process is as it was.
 struct IkLoadingLaw {
   static constexpr std::string_view kName = "LoadingAndUnloadingLeavesNothingBehind";
-  static constexpr std::string_view kSays = "loaded and unloaded 1000 times";
+  static constexpr std::string_view kSays = "loading leaves nothing behind";
 };
 IkLawReport check_loading(const std::vector<std::filesystem::path>& search_path,
                           std::string_view plugin_id, const RobotModel& model,

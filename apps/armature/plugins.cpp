@@ -159,9 +159,9 @@ int show_plugin(const std::string& id, bool json) {
   if (!plugin) throw InvalidChoice(plugins.unknown_text(id));
   const PluginManifest* host = plugins.host_of(plugin->kind);
   if (json) {
-    Json json = manifest_json(*plugin);
-    if (host) json["alone"] = host_json(*host);
-    fmt::print("{}\n", json.dump());
+    Json told = manifest_json(*plugin);
+    if (host) told["alone"] = host_json(*host);
+    fmt::print("{}\n", told.dump());
     return kOk;
   }
   fmt::print("{} ({})\n  {}\n  {}\n", plugin->id, plugin->kind, plugin->doc, plugin->file.string());

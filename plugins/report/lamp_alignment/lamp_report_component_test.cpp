@@ -119,7 +119,34 @@ TEST_F(LampReportTest, EndsWithoutAFace) {
   run(0.3);
   EXPECT_TRUE(report_.component().finished());
   EXPECT_EQ(report_.figures().status, "face_not_found");
-  EXPECT_EQ(report_.figures().reason, "no face was seen for 4 s");
+  EXPECT_EQ(report_.figures().reason,
+            "no face was found for 4 s; the task had been holding for 4.2 s");
+}
+
+TEST_F(LampReportTest, TellsWhyTheLastFaceThatWasSeenWasRefusedAndWhatTheTaskWasAt) {
+  msg::FaceLandmarks landmarks;
+  msg::Target refused;
+  const auto see = [&](double stamp_s, bool face, const char* why) {
+    write_header(landmarks.header_(), Time{} + seconds(stamp_s), "left_camera_optical");
+    landmarks.valid_(face);
+    report_.send("landmarks", landmarks);
+    write_no_estimate(Time{} + seconds(stamp_s), Reason{why}, refused);
+    report_.send("target", refused);
+  };
+  see(100, true, "the eyes would be 198.3 mm apart");
+  see(100.1, false, "no face in the left image");
+  msg::TaskState task;
+  task.state_("searching");
+  task.step_(2);
+  task.steps_(9);
+  task.detail_("search pose: out_of_reach");
+  report_.send("task_state", task);
+  report_.step(100);
+  report_.step(104.1);
+  EXPECT_EQ(report_.figures().status, "face_not_found");
+  EXPECT_EQ(report_.figures().reason,
+            "no face was found for 4 s; the last that was seen was refused: the eyes would be "
+            "198.3 mm apart; the task had been searching 2/9 for 4.1 s: search pose: out_of_reach");
 }
 
 TEST_F(LampReportTest, CountsNoEstimateThatIsNone) {

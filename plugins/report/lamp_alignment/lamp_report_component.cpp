@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <numbers>
 #include <optional>
@@ -108,6 +108,11 @@ class LampReport : public Component {
     }
     metric("replans", "goals after the first alignment", monitor_.replans());
     summary.text("trajectory_sha256", "SHA-256 of the arm's trajectory", hash_.hex());
+    if (!monitor_.finished()) {
+      summary.text(
+          "missing", "what was missing at the end",
+          fmt::format("{}{}", fmt::join(monitor_.missing(), "; "), unfinished_.told(now_)));
+    }
   }
 
   void write_files(const std::filesystem::path& directory) const override {

@@ -76,6 +76,9 @@ TEST_F(LampReportTest, TellsTheFiguresOfALampThatIsAligned) {
   EXPECT_EQ(report_.period(), seconds(kPeriod_s));
   run(0.9);
   EXPECT_FALSE(report_.component().finished());
+  EXPECT_EQ(report_.figures().texts.at("missing"),
+            "mouth_position_error_mm was not measured; face_normal_error_deg was not measured; the "
+            "task had been holding for 0.9 s");
   run(0.6);
   EXPECT_TRUE(report_.component().finished());
   const Figures told = report_.figures();
@@ -89,6 +92,7 @@ TEST_F(LampReportTest, TellsTheFiguresOfALampThatIsAligned) {
   EXPECT_NEAR(told.metrics.at("direction_error_deg"), 0, 1e-5);
   EXPECT_EQ(told.metrics.at("replans"), 0);
   EXPECT_EQ(told.metrics.count("time_to_realign_s"), 0u);
+  EXPECT_EQ(told.texts.count("missing"), 0u) << "the story was told to its end";
   EXPECT_EQ(told.texts.at("trajectory_sha256").size(), 64u);
 }
 

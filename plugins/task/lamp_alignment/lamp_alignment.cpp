@@ -8,7 +8,7 @@ namespace {
 
 /// A face in the picture but no estimate yet: so many more pictures to wait for one.
 constexpr int kPicturesForEstimate = 10;
-/// A search pose that fails when all before it did is followed by the next one after so long.
+/// When every search pose failed, the next one is tried after so long.
 constexpr double kNextTry_s = 1;
 
 MotionGoal face_goal(const FaceEstimate& face, double distance_m) {

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "alignment_monitor.hpp"
 
+#include <fmt/core.h>
+
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace armature {
 namespace {
 
 constexpr double kStillPosition = 1e-6;  // [m] a truth that differs by less has not moved
 constexpr double kStillAngle = 1e-6;     // [rad]
+constexpr double kMillimetre = 1e-3, kDegree = std::numbers::pi / 180;
 
 double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
@@ -60,25 +65,60 @@ std::optional<EstimateError> AlignmentMonitor::estimate_error() const {
                        .normal_rad = angle_between(sum_.normal, truth_->normal)};
 }
 
-bool AlignmentMonitor::estimates_good() const {
-  const auto error = estimate_error();
-  return error && error->mouth_m <= goals_.mouth_error_m &&
-         error->normal_rad <= goals_.normal_error_rad;
+std::array<AlignmentCheck, 2> AlignmentMonitor::estimate_checks() const {
+  std::array<AlignmentCheck, 2> checks{{
+      {.name = "mouth_position_error_mm", .limit = goals_.mouth_error_m, .unit = kMillimetre},
+      {.name = "face_normal_error_deg", .limit = goals_.normal_error_rad, .unit = kDegree},
+  }};
+  if (const auto error = estimate_error()) {
+    checks[0].value = error->mouth_m;
+    checks[1].value = error->normal_rad;
+  }
+  return checks;
+}
+
+std::array<AlignmentCheck, 2> AlignmentMonitor::lamp_checks() const {
+  std::array<AlignmentCheck, 2> checks{{
+      {.name = "distance_error_mm", .limit = goals_.distance_error_m, .unit = kMillimetre},
+      {.name = "direction_error_deg", .limit = goals_.direction_error_rad, .unit = kDegree},
+  }};
+  if (!lamp_errors_.empty()) {
+    checks[0].value = lamp_errors_.back().distance_error_m;
+    checks[1].value = lamp_errors_.back().direction_error_rad;
+  }
+  return checks;
+}
+
+std::vector<std::string> AlignmentMonitor::missing() const {
+  if (!found_s_) return {"no face was found"};
+  if (goals_.expect_move && first_aligned_s_ && !moved_at_) return {"the patient has not moved"};
+  std::vector<std::string> missing;
+  const auto tell = [&](const AlignmentCheck& check) {
+    if (check.met()) return;
+    missing.push_back(check.value ? fmt::format("{} is {:.3f}, the report asks for at most {:g}",
+                                                check.name, *check.value / check.unit,
+                                                check.limit / check.unit)
+                                  : fmt::format("{} was not measured", check.name));
+  };
+  std::ranges::for_each(lamp_checks(), tell);
+  std::ranges::for_each(estimate_checks(), tell);
+  if (missing.empty()) {
+    missing.push_back(
+        fmt::format("it was not aligned and holding for {:g} s", goals_.aligned_for_s));
+  }
+  return missing;
 }
 
 void AlignmentMonitor::step(Time now) {
   if (!start_) start_ = now;
   if (!found_s_ && since_start(now) > goals_.search_timeout_s) not_found_ = true;
   if (lamp_errors_.empty()) return;
-  const LampError& error = lamp_errors_.back();
-  const bool good = error.distance_error_m && *error.distance_error_m <= goals_.distance_error_m &&
-                    error.direction_error_rad <= goals_.direction_error_rad;
-  if (!good) {
+  if (!std::ranges::all_of(lamp_checks(), &AlignmentCheck::met)) {
     good_since_.reset();
     return;
   }
   if (!good_since_) good_since_ = now;
-  const bool aligned = holding_ && estimates_good() &&
+  const bool aligned = holding_ && std::ranges::all_of(estimate_checks(), &AlignmentCheck::met) &&
                        to_seconds(now - *good_since_) >= goals_.aligned_for_s &&
                        (!moved_at_ || to_seconds(now - *moved_at_) >= goals_.aligned_for_s);
   if (!aligned) return;

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "armature/values/time.hpp"
@@ -37,6 +39,16 @@ struct EstimateError {
   double mouth_m = 0, normal_rad = 0;
 };
 
+/// One of the limits of `AlignmentGoals` and what was measured against it.
+struct AlignmentCheck {
+  const char* name;  // of the report's parameter
+  std::optional<double> value;
+  double limit = 0;
+  double unit = 1;  // of the parameter, in SI
+
+  bool met() const { return value && *value <= limit; }
+};
+
 /// Holds the lamp against the truth. Time counts from the first `step`.
 class AlignmentMonitor {
  public:
@@ -59,6 +71,8 @@ class AlignmentMonitor {
   /// Told to the end: aligned (and again after the move), or no face found in time.
   bool finished() const;
   bool face_not_found() const { return not_found_; }
+  /// What a story that has not ended still waits for.
+  std::vector<std::string> missing() const;
 
   std::optional<double> time_to_find_s() const { return found_s_; }
   std::optional<double> time_to_align_s() const { return first_aligned_s_; }
@@ -72,7 +86,8 @@ class AlignmentMonitor {
  private:
   double since_start(Time time) const { return to_seconds(time - *start_); }
   void restart_average(Time now);
-  bool estimates_good() const;
+  std::array<AlignmentCheck, 2> lamp_checks() const;
+  std::array<AlignmentCheck, 2> estimate_checks() const;
 
   AlignmentGoals goals_;
   std::optional<Time> start_;

@@ -106,6 +106,30 @@ TEST_F(AlignmentMonitorTest, IsNotAlignedWhileTheEstimateIsBad) {
   EXPECT_FALSE(monitor_.finished());
 }
 
+TEST_F(AlignmentMonitorTest, TellsWhatTheStoryWaitsFor) {
+  using Lines = std::vector<std::string>;
+  seen_ = false;
+  run(0.2);
+  EXPECT_EQ(monitor_.missing(), Lines{"no face was found"});
+  seen_ = true;
+  run(0.2);
+  EXPECT_EQ(monitor_.missing()[0], "distance_error_mm was not measured");
+  align();
+  light_ = Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitZ()) * light_;
+  estimate_.mouth.z() += 0.003;
+  run(3);
+  EXPECT_EQ(monitor_.missing(),
+            (Lines{"direction_error_deg is 5.730, the report asks for at most 2.4981",
+                   "mouth_position_error_mm is 3.000, the report asks for at most 2.5"}));
+  align();
+  run(0.9);
+  EXPECT_EQ(monitor_.missing(), (Lines{"mouth_position_error_mm was not measured",
+                                       "face_normal_error_deg was not measured"}));
+  run(0.1);
+  EXPECT_FALSE(monitor_.finished());
+  EXPECT_EQ(monitor_.missing(), Lines{"it was not aligned and holding for 1 s"});
+}
+
 TEST(AlignmentMonitor, WaitsForThePatientToMoveWhenTheStorySaysSo) {
   AlignmentMonitor monitor{{.expect_move = true}};
   Face truth{.mouth = {1.5, 0, 0.5}, .normal = {-1, 0, 0}};
@@ -123,6 +147,7 @@ TEST(AlignmentMonitor, WaitsForThePatientToMoveWhenTheStorySaysSo) {
     monitor.see_task(true);
     monitor.step(now);
     if (k == 199) {
+      EXPECT_EQ(monitor.missing(), std::vector<std::string>{"the patient has not moved"});
       EXPECT_TRUE(monitor.time_to_align_s());
       EXPECT_FALSE(monitor.finished());
       replans_at_first = monitor.replans();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <numbers>
 #include <optional>
@@ -17,6 +17,7 @@
 #include "armature/runtime/setup.hpp"
 #include "report_pictures.hpp"
 #include "trajectory_hash.hpp"
+#include "unfinished_story.hpp"
 
 namespace armature {
 namespace {
@@ -67,17 +68,15 @@ class LampReport : public Component {
     see_truth(now);
     see_goals();
     read_arm(now);
-    for (std::size_t i = 0; i < target_.size(); ++i) {
-      const auto estimate = estimate_of(target_[i]);
-      if (estimate) monitor_.see_estimate(face_of(*estimate), estimate->stamp, now);
-    }
-    if (task_state_.latest()) monitor_.see_task(task_state_.latest()->state_() == "holding");
+    see_faces(now);
+    if (task_state_.latest()) see_task(*task_state_.latest(), now);
     for (std::size_t i = 0; i < motion_status_.size(); ++i) {
       constexpr std::uint8_t kAccepted = 0;
       if (motion_status_[i].state_() == kAccepted) monitor_.see_new_goal();
     }
     keep_picture();
     monitor_.step(now);
+    now_ = now;
   }
 
   bool finished() const override { return monitor_.finished(); }
@@ -85,7 +84,8 @@ class LampReport : public Component {
   void summarize(Summary& summary) const override {
     if (monitor_.face_not_found()) {
       summary.failed("face_not_found",
-                     fmt::format("no face was seen for {:g} s", goals_.search_timeout_s));
+                     fmt::format("no face was found for {:g} s{}", goals_.search_timeout_s,
+                                 unfinished_.told(now_)));
     }
     const auto metric = [&](const char* key, const char* title, std::optional<double> value) {
       if (value) summary.metric(key, title, *value);
@@ -108,6 +108,11 @@ class LampReport : public Component {
     }
     metric("replans", "goals after the first alignment", monitor_.replans());
     summary.text("trajectory_sha256", "SHA-256 of the arm's trajectory", hash_.hex());
+    if (!monitor_.finished()) {
+      summary.text(
+          "missing", "what was missing at the end",
+          fmt::format("{}{}", fmt::join(monitor_.missing(), "; "), unfinished_.told(now_)));
+    }
   }
 
   void write_files(const std::filesystem::path& directory) const override {
@@ -120,6 +125,28 @@ class LampReport : public Component {
     if (!truth_.latest()) return;
     const auto truth = estimate_of(*truth_.latest());
     if (truth) monitor_.see_truth(face_of(*truth), now);
+  }
+
+  void see_faces(Time now) {
+    for (std::size_t i = 0; i < landmarks_.size(); ++i) {
+      if (landmarks_[i].valid_()) unfinished_.see_face(stamp_of(landmarks_[i].header_().stamp_()));
+    }
+    for (std::size_t i = 0; i < target_.size(); ++i) {
+      const auto estimate = estimate_of(target_[i]);
+      if (estimate) {
+        monitor_.see_estimate(face_of(*estimate), estimate->stamp, now);
+        unfinished_.see_estimate();
+      } else {
+        unfinished_.see_refusal(stamp_of(target_[i].header_().stamp_()), estimate.error().text);
+      }
+    }
+  }
+
+  void see_task(const msg::TaskState& task, Time now) {
+    monitor_.see_task(task.state_() == "holding");
+    const std::string part =
+        task.steps_() == 0 ? "" : fmt::format(" {}/{}", task.step_(), task.steps_());
+    unfinished_.see_task(task.state_() + part, task.detail_(), now);
   }
 
   void see_goals() {
@@ -156,7 +183,7 @@ class LampReport : public Component {
     const msg::Image* image = left_image_.latest();
     const msg::FaceLandmarks* landmarks = landmarks_.latest();
     const msg::CameraInfo* info = left_info_.latest();
-    if (!image || !landmarks || !info || !landmarks_.fresh()) return;
+    if (!image || !landmarks || !info) return;
     if (stamp_of(image->header_().stamp_()) != stamp_of(landmarks->header_().stamp_())) return;
     if (image->data_().size() != std::size_t{image->width_()} * image->height_()) return;
     picture_.width = static_cast<int>(image->width_());
@@ -187,6 +214,8 @@ class LampReport : public Component {
   Eigen::Vector3d light_axis_;
   AlignmentGoals goals_;
   AlignmentMonitor monitor_;
+  UnfinishedStory unfinished_;
+  Time now_;
   TrajectoryHash hash_;
   CameraPicture picture_;
   std::optional<JointVector> last_q_;  // of the arm

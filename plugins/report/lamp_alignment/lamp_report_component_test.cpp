@@ -76,6 +76,9 @@ TEST_F(LampReportTest, TellsTheFiguresOfALampThatIsAligned) {
   EXPECT_EQ(report_.period(), seconds(kPeriod_s));
   run(0.9);
   EXPECT_FALSE(report_.component().finished());
+  EXPECT_EQ(report_.figures().texts.at("missing"),
+            "mouth_position_error_mm was not measured; face_normal_error_deg was not measured; the "
+            "task had been holding for 0.9 s");
   run(0.6);
   EXPECT_TRUE(report_.component().finished());
   const Figures told = report_.figures();
@@ -89,6 +92,7 @@ TEST_F(LampReportTest, TellsTheFiguresOfALampThatIsAligned) {
   EXPECT_NEAR(told.metrics.at("direction_error_deg"), 0, 1e-5);
   EXPECT_EQ(told.metrics.at("replans"), 0);
   EXPECT_EQ(told.metrics.count("time_to_realign_s"), 0u);
+  EXPECT_EQ(told.texts.count("missing"), 0u) << "the story was told to its end";
   EXPECT_EQ(told.texts.at("trajectory_sha256").size(), 64u);
 }
 
@@ -119,7 +123,34 @@ TEST_F(LampReportTest, EndsWithoutAFace) {
   run(0.3);
   EXPECT_TRUE(report_.component().finished());
   EXPECT_EQ(report_.figures().status, "face_not_found");
-  EXPECT_EQ(report_.figures().reason, "no face was seen for 4 s");
+  EXPECT_EQ(report_.figures().reason,
+            "no face was found for 4 s; the task had been holding for 4.2 s");
+}
+
+TEST_F(LampReportTest, TellsWhyTheLastFaceThatWasSeenWasRefusedAndWhatTheTaskWasAt) {
+  msg::FaceLandmarks landmarks;
+  msg::Target refused;
+  const auto see = [&](double stamp_s, bool face, const char* why) {
+    write_header(landmarks.header_(), Time{} + seconds(stamp_s), "left_camera_optical");
+    landmarks.valid_(face);
+    report_.send("landmarks", landmarks);
+    write_no_estimate(Time{} + seconds(stamp_s), Reason{why}, refused);
+    report_.send("target", refused);
+  };
+  see(100, true, "the eyes would be 198.3 mm apart");
+  see(100.1, false, "no face in the left image");
+  msg::TaskState task;
+  task.state_("searching");
+  task.step_(2);
+  task.steps_(9);
+  task.detail_("search pose: out_of_reach");
+  report_.send("task_state", task);
+  report_.step(100);
+  report_.step(104.1);
+  EXPECT_EQ(report_.figures().status, "face_not_found");
+  EXPECT_EQ(report_.figures().reason,
+            "no face was found for 4 s; the last that was seen was refused: the eyes would be "
+            "198.3 mm apart; the task had been searching 2/9 for 4.1 s: search pose: out_of_reach");
 }
 
 TEST_F(LampReportTest, CountsNoEstimateThatIsNone) {

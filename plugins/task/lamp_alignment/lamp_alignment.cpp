@@ -8,6 +8,8 @@ namespace {
 
 /// A face in the picture but no estimate yet: so many more pictures to wait for one.
 constexpr int kPicturesForEstimate = 10;
+/// When every search pose failed, the next one is tried after so long.
+constexpr double kNextTry_s = 1;
 
 MotionGoal face_goal(const FaceEstimate& face, double distance_m) {
   MotionGoal goal;
@@ -35,6 +37,7 @@ const char* to_string(LampAlignment::Phase phase) {
       return "holding";
     case LampAlignment::Phase::following:
       return "following";
+    case LampAlignment::Phase::no_view:
     case LampAlignment::Phase::unreachable:
       return "unreachable";
   }
@@ -63,6 +66,7 @@ void LampAlignment::see(const Picture& picture, Time now) {
 
 void LampAlignment::see(const FaceEstimate& estimate) {
   latest_ = estimate;
+  no_estimate_.clear();
   ++fresh_;
   if (goals_.state() == GoalState::done && estimate.stamp >= goals_.done_at()) {
     at_rest_.add(estimate);
@@ -76,6 +80,9 @@ void LampAlignment::step(Time now) {
       break;
     case Phase::searching:
       search(now);
+      break;
+    case Phase::no_view:
+      wait_for_a_view(now);
       break;
     case Phase::aligning:
     case Phase::following:
@@ -93,12 +100,17 @@ void LampAlignment::step(Time now) {
 void LampAlignment::start_search(Time now) {
   phase_ = Phase::searching;
   trouble_.clear();
-  views_looked_at_ = 0;
+  views_looked_at_ = failed_views_ = 0;
   pose_ = 0;
   if (goal_estimate_) pose_ = nearest_pose(poses_, -goal_estimate_->normal);
   pose_ = (pose_ + poses_.size() - 1) % poses_.size();
   looking_since_ = now;
   next_view();
+}
+
+void LampAlignment::search_for_lost_face(Time now) {
+  start_search(now);
+  if (!no_estimate_.empty()) trouble_ = "the face was lost: " + no_estimate_;
 }
 
 void LampAlignment::next_view() {
@@ -114,10 +126,10 @@ void LampAlignment::next_view() {
 void LampAlignment::search(Time now) {
   if (!looking_) {
     if (goals_.state() == GoalState::failed) {
-      trouble_ = "search pose: " + goals_.reason();
-      next_view();
+      leave_failed_view(now);
     } else if (goals_.state() == GoalState::done) {
       trouble_.clear();
+      failed_views_ = 0;
       looking_ = capture_ = true;
       looking_since_ = now;
       pictures_ = 0;
@@ -131,6 +143,33 @@ void LampAlignment::search(Time now) {
   }
   const int enough = settings_.frames_per_view + (face_in_picture_ ? kPicturesForEstimate : 0);
   if (pictures_ >= enough) next_view();
+}
+
+void LampAlignment::leave_failed_view(Time now) {
+  if (++failed_views_ < poses_.size()) {
+    trouble_ = "search pose: " + goals_.reason();
+    next_view();
+    return;
+  }
+  phase_ = Phase::no_view;
+  trouble_ = "every search pose failed, the last one: " + goals_.reason();
+  capture_ = true;
+  looking_since_ = goal_set_at_ = now;
+}
+
+void LampAlignment::wait_for_a_view(Time now) {
+  if (face_since(looking_since_)) {
+    align_with(*latest_, Phase::aligning, now);
+  } else if (goals_.state() == GoalState::moving || goals_.state() == GoalState::done) {
+    phase_ = Phase::searching;
+    trouble_.clear();
+    failed_views_ = 0;
+    capture_ = false;
+  } else if (goals_.state() == GoalState::failed && to_seconds(now - goal_set_at_) >= kNextTry_s) {
+    next_view();
+    capture_ = true;
+    goal_set_at_ = now;
+  }
 }
 
 void LampAlignment::align_with(const FaceEstimate& estimate, Phase phase, Time now) {
@@ -167,7 +206,7 @@ void LampAlignment::come_to_rest(Time now) {
     return;
   }
   if (lost(now)) {
-    start_search(now);
+    search_for_lost_face(now);
     return;
   }
   const auto frames = static_cast<std::size_t>(settings_.settle_frames);
@@ -187,7 +226,7 @@ void LampAlignment::come_to_rest(Time now) {
 
 void LampAlignment::hold(Time now) {
   if (lost(now)) {
-    start_search(now);
+    search_for_lost_face(now);
     return;
   }
   const auto few = static_cast<std::size_t>(settings_.moved_frames);
@@ -209,7 +248,7 @@ void LampAlignment::wait_for_another_face_position(Time now) {
     return;
   }
   if (latest_ && to_seconds(now - latest_->stamp) > settings_.lost_s) {
-    start_search(now);
+    search_for_lost_face(now);
     return;
   }
   if (to_seconds(now - goal_set_at_) < settings_.replan_interval_s) return;

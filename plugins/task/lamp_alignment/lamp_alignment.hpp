@@ -37,12 +37,22 @@ struct Picture {
 /// Everything it knows comes in through the `see` and `hear` calls; `step` decides.
 class LampAlignment {
  public:
-  enum class Phase { checking_light, searching, aligning, holding, following, unreachable };
+  enum class Phase {
+    checking_light,
+    searching,
+    no_view,  // every search pose failed: looks from where it is
+    aligning,
+    holding,
+    following,
+    unreachable
+  };
 
   explicit LampAlignment(const AlignmentSettings& settings);
 
   void see(const Picture& picture, Time now);
   void see(const FaceEstimate& estimate);
+  /// Why a picture gave no estimate.
+  void see_no_estimate(const std::string& why) { no_estimate_ = why; }
   void hear(const GoalReport& report, Time now) { goals_.hear(report, now); }
   void step(Time now);
 
@@ -60,8 +70,11 @@ class LampAlignment {
   using GoalState = PursuedGoal::State;
 
   void start_search(Time now);
+  void search_for_lost_face(Time now);
   void next_view();
   void search(Time now);
+  void leave_failed_view(Time now);
+  void wait_for_a_view(Time now);
   void align_with(const FaceEstimate& estimate, Phase phase, Time now);
   void come_to_rest(Time now);
   void hold(Time now);
@@ -80,12 +93,13 @@ class LampAlignment {
   Phase phase_ = Phase::checking_light;
   bool capture_ = true;
   std::size_t pose_ = 0, views_looked_at_ = 0;
+  std::size_t failed_views_ = 0;  // one after the other
   bool looking_ = false;
   Time looking_since_, goal_set_at_;
   int pictures_ = 0;  // in this view
   bool face_in_picture_ = false;
   std::optional<double> new_level_;
-  std::string trouble_;
+  std::string trouble_, no_estimate_;
 };
 
 /// "checking light", "searching", ...

@@ -108,7 +108,10 @@ class LampAlignmentComponent : public Component {
     }
     for (std::size_t i = 0; i < target_.size(); ++i) {
       const auto face = estimate_of(target_[i]);
-      if (!face) continue;
+      if (!face) {
+        task_.see_no_estimate(face.error().text);
+        continue;
+      }
       task_.see({.stamp = face->stamp, .mouth = face->position, .normal = face->normal});
     }
   }

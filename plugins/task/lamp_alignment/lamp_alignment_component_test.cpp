@@ -176,6 +176,22 @@ TEST_F(LampAlignmentComponentTest, SaysWhyAFaceCannotBeReached) {
   EXPECT_EQ(task_.lines().back(), "unreachable: ik: the goal: out_of_reach: 0.2 m beyond reach");
 }
 
+TEST_F(LampAlignmentComponentTest, SaysWhyItLostAFace) {
+  step();
+  task_.send("target", face());
+  step();
+  report(1, 1);
+  report(1, 2);
+  msg::Target refused = face();
+  refused.valid_(false);
+  refused.reason_("the mouth would be 0.150 m away, outside 0.2 to 3 m");
+  task_.send("target", refused);
+  steps(105);
+  EXPECT_EQ(
+      task_.lines().back(),
+      "searching 1/9: the face was lost: the mouth would be 0.150 m away, outside 0.2 to 3 m");
+}
+
 TEST_F(LampAlignmentComponentTest, CountsItsGoalsFromWhereTheMotionIs) {
   step();
   report(41, 2);

@@ -177,6 +177,52 @@ TEST_F(LampAlignmentTest, StaysUnreachableWhileItTriesAgain) {
   EXPECT_GT(goals_.size(), goals + 5);
 }
 
+TEST_F(LampAlignmentTest, IsUnreachableWhenEverySearchPoseFailsAndTriesOneEachSecond) {
+  reach_m_ = 0.1;
+  ASSERT_TRUE(run_until(Phase::no_view, 1));
+  EXPECT_EQ(goals_.size(), 9u);
+  EXPECT_STREQ(to_string(task_.phase()), "unreachable");
+  EXPECT_EQ(task_.trouble(), "every search pose failed, the last one: ik: out_of_reach");
+  EXPECT_TRUE(task_.capture());
+  for (int k = 0; k < 500; ++k) {
+    tick();
+    ASSERT_EQ(task_.phase(), Phase::no_view) << "after " << 0.02 * k << " s";
+    ASSERT_EQ(task_.trouble(), "every search pose failed, the last one: ik: out_of_reach");
+    ASSERT_TRUE(task_.capture());
+  }
+  EXPECT_EQ(goals_.size(), 9u + 10);
+  reach_m_ = 10;
+  ASSERT_TRUE(run_until(Phase::searching, 2));
+  EXPECT_EQ(task_.trouble(), "");
+  EXPECT_FALSE(task_.capture());
+  EXPECT_TRUE(run_until(Phase::holding, 30));
+}
+
+TEST_F(LampAlignmentTest, AlignsWithAFaceThatComesBeforeItThoughNoSearchPoseIsInReach) {
+  present_ = false;
+  reach_m_ = 0.1;
+  ASSERT_TRUE(run_until(Phase::no_view, 1));
+  reach_m_ = 10;
+  lamp_.orientation = Direction{Eigen::Vector3d::UnitX()};
+  present_ = true;
+  ASSERT_TRUE(run_until(Phase::aligning, 0.2));
+  EXPECT_EQ(task_.trouble(), "");
+  EXPECT_TRUE(run_until(Phase::holding, 10));
+}
+
+TEST_F(LampAlignmentTest, TellsWhyTheFaceWasLost) {
+  ASSERT_TRUE(run_until(Phase::holding, 15));
+  present_ = false;
+  task_.see_no_estimate("the mouth would be 0.150 m away");
+  ASSERT_TRUE(run_until(Phase::searching, 3));
+  EXPECT_EQ(task_.trouble(), "the face was lost: the mouth would be 0.150 m away");
+  present_ = true;
+  ASSERT_TRUE(run_until(Phase::holding, 30));
+  present_ = false;
+  ASSERT_TRUE(run_until(Phase::searching, 3));
+  EXPECT_EQ(task_.trouble(), "") << "a reason from before the newest estimate is none";
+}
+
 TEST_F(LampAlignmentTest, RaisesTheLightInADarkRoomBeforeItSearches) {
   gain_ = 0.3;
   ASSERT_TRUE(run_until(Phase::searching, 5));

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <string>
+
 #include "armature/kinds/joint_messages.hpp"
 #include "armature/kinds/setup_robot.hpp"
 #include "armature/kinds/target/target_messages.hpp"
@@ -19,7 +21,9 @@ class TargetHost final : public Component {
 
  private:
   void remember(const msg::JointState& arm);
-  Expected<TargetMeasurement> measurement(const msg::FacePose& face) const;
+  void tell_trouble();
+  Expected<Eigen::Isometry3d> base_T_mount(Time stamp);
+  Expected<TargetMeasurement> measurement(const msg::FacePose& face);
   Expected<TargetEstimate> updated(const msg::FacePose& face);
   void publish(Time stamp, const Expected<TargetEstimate>& estimate);
 
@@ -29,6 +33,7 @@ class TargetHost final : public Component {
   FrameBuffer history_;
   PluginPtr<TargetFilter> filter_;
   TargetFilter::State state_;
+  std::string arm_trouble_, history_trouble_;
   Input<msg::FacePose> face_;
   Input<msg::JointState> measured_js_;
   Output<msg::Target> target_;
@@ -52,20 +57,40 @@ void TargetHost::step(Time) {
   for (std::size_t i = 0; i < face_.size(); ++i) {
     publish(stamp_of(face_[i].header_().stamp_()), updated(face_[i]));
   }
+  tell_trouble();
 }
 
 void TargetHost::remember(const msg::JointState& arm) {
   const auto q = joints_of(robot_, arm);
-  if (!q) return degraded("measured_js: " + q.error().text);
-  healthy();
+  arm_trouble_ = q ? "" : "measured_js: " + q.error().text;
+  if (!q) return;
+  if (history_.empty()) history_trouble_.clear();
   history_.add(stamp_of(arm.header_().stamp_()), *q);
 }
 
-Expected<TargetMeasurement> TargetHost::measurement(const msg::FacePose& face) const {
+void TargetHost::tell_trouble() {
+  const std::string& trouble = arm_trouble_.empty() ? history_trouble_ : arm_trouble_;
+  if (trouble.empty()) return healthy();
+  degraded(trouble);
+}
+
+/// Where the cameras hung when a picture was taken. While the history does not reach there, its
+/// first refusal is the component's trouble: the numbers of the next ones only differ.
+Expected<Eigen::Isometry3d> TargetHost::base_T_mount(Time stamp) {
+  auto pose = history_.base_T(mount_, stamp);
+  if (pose) {
+    history_trouble_.clear();
+  } else if (history_trouble_.empty()) {
+    history_trouble_ = pose.error().text;
+  }
+  return pose;
+}
+
+Expected<TargetMeasurement> TargetHost::measurement(const msg::FacePose& face) {
   if (!face.valid_()) return refuse(face.reason_());
   const Time stamp = stamp_of(face.header_().stamp_());
-  return history_.base_T(mount_, stamp).map([&](const Eigen::Isometry3d& base_T_mount) {
-    const Eigen::Isometry3d base_T_camera = base_T_mount * rig_.mount_T_left;
+  return base_T_mount(stamp).map([&](const Eigen::Isometry3d& pose) {
+    const Eigen::Isometry3d base_T_camera = pose * rig_.mount_T_left;
     return TargetMeasurement{.stamp = stamp,
                              .position = base_T_camera * to_eigen(face.mouth_()),
                              .normal = base_T_camera.linear() * to_eigen(face.normal_()),

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The host of the target filters: 1. a face pose goes through where the arm was when the picture
 // was taken, 2. one answer for each face, stamped as its picture, 3. the filter predicts over a
-// gap, then what is missing is told, 4. a bad joint state is told as the component's own trouble.
+// gap, then what is missing is told, 4. a bad joint state, or a history that does not reach to the
+// pictures, is told as the component's own trouble.
 #include <gtest/gtest.h>
 
 #include <stdexcept>
@@ -218,6 +219,27 @@ TEST_F(TargetHostTest, IsDegradedByABadJointStateUntilAGoodOneComes) {
   host_.send("measured_js", arm_at(1, kHome));
   host_.step(1.3);
   EXPECT_EQ(host_.status().state, Voice::State::ok);
+}
+
+TEST_F(TargetHostTest, IsDegradedWhileItsHistoryDoesNotReachToThePictures) {
+  ComponentBench host = bench("history_s: 2, arm_rate_hz: 1");  // two samples and one
+  const auto see_at = [&](double stamp_s) {
+    host.send("face", face(stamp_s));
+    host.step(stamp_s + 0.2);
+    return host.status();
+  };
+  EXPECT_EQ(see_at(0.3).reason, "no joint positions have arrived yet");
+  for (int i = 0; i < 20; ++i) host.send("measured_js", arm_at(0.5 + 0.1 * i, kHome));
+  host.step(2.5);
+  EXPECT_EQ(host.status().state, Voice::State::ok);
+  EXPECT_EQ(see_at(2.0).state, Voice::State::degraded);
+  EXPECT_EQ(host.status().reason, "t = 2.000 s is 200.0 ms older than the history");
+  EXPECT_EQ(see_at(2.1).reason, "t = 2.000 s is 200.0 ms older than the history")
+      << "told once, not for each picture";
+  host.send("measured_js", arm_at(2.5, kHome));
+  host.step(2.5);
+  EXPECT_EQ(host.status().state, Voice::State::degraded) << "the arm's part was never the trouble";
+  EXPECT_EQ(see_at(2.35).state, Voice::State::ok);
 }
 
 TEST_F(TargetHostTest, DoesNotStartWithARigThatHangsOnNoFrameOfTheRobot) {

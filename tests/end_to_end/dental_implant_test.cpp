@@ -211,6 +211,11 @@ TEST(DentalImplant, CalibrationsMarkersAndSitesThatAreKnownTooBadlyAreRefused) {
                  "site 1 is known to 0.39 mm (95 %), 0.3 mm are required");
 }
 
+TEST(DentalImplant, AMarkersErrorThatDoesNotExplainTheFitIsNotBelieved) {
+  expect_refused({kTask + "marker_error_mm=0.1", kTracker + "marker_error_mm=0.9"},
+                 "the markers fit to 0.68 mm, which an error of 0.1 mm a marker does not explain");
+}
+
 TEST(DentalImplant, SitesWithWrongNumbersAreFoundBeforeAnythingStarts) {
   const auto problem = [](const std::string& setting) {
     const DeploymentRun run = implant({kTracker + setting});

@@ -106,9 +106,13 @@ TEST(DentalImplant, OtherRegistrationsDoWhereTheMarkersAreGoodEnough) {
   }
 }
 
-TEST(DentalImplant, AnArmThatLagsComesToTheBottomWhenItStopsThere) {
+TEST(DentalImplant, AnArmThatLagsHasNotDrilledUnlessItStopsAtTheBottoms) {
   const std::string lag = "components.arm.params.lag_s=0.05";
-  EXPECT_GT(implant({lag}).figure("unexplained_error_mm"), 0.5);
+  const DeploymentRun short_of_it = implant({lag});
+  EXPECT_EQ(short_of_it.command.exit_code, 1) << short_of_it.text();
+  EXPECT_EQ(short_of_it.status(), "refused");
+  EXPECT_NE(short_of_it.word("reason").find("the drill came no nearer than "), std::string::npos)
+      << short_of_it.text();
   expect_drilled(implant({lag, kTask + "stop_at_sites=true"}));
 }
 
@@ -209,6 +213,11 @@ TEST(DentalImplant, CalibrationsMarkersAndSitesThatAreKnownTooBadlyAreRefused) {
                  "the markers lie nearly on one line");
   expect_refused({kTask + "most_site_error_mm=0.3"},
                  "site 1 is known to 0.39 mm (95 %), 0.3 mm are required");
+}
+
+TEST(DentalImplant, AMarkersErrorThatDoesNotExplainTheFitIsNotBelieved) {
+  expect_refused({kTask + "marker_error_mm=0.1", kTracker + "marker_error_mm=0.9"},
+                 "the markers fit to 0.68 mm, which an error of 0.1 mm a marker does not explain");
 }
 
 TEST(DentalImplant, SitesWithWrongNumbersAreFoundBeforeAnythingStarts) {

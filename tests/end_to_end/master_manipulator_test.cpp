@@ -149,6 +149,13 @@ TEST(MasterManipulator, OfAHandThatDoesNotTrembleNoRatioIsTold) {
       << run.text();
 }
 
+TEST(MasterManipulator, OfAHandThatRestsNoLagIsTold) {
+  const DeploymentRun run = teleoperation({kSurgeon + "curve_hz=0"});
+  EXPECT_EQ(run.status(), "ok") << run.text();
+  EXPECT_NE(run.report.find(R"("measured_lag_ms":"the motion does not tell: )"), std::string::npos)
+      << run.text();
+}
+
 TEST(MasterManipulator, TwoArmsNeedTopicsOfTheirOwn) {
   const DeploymentRun run = teleoperation({"components.master.topics=null"});
   EXPECT_EQ(run.command.exit_code, 3);

@@ -90,6 +90,11 @@ TEST(Sr1Biopsy, AMarkerThatMovedOrATargetKnownTooBadlyIsRefused) {
                  "the markers fit to 0.54 mm rms, 0.3 mm are allowed");
 }
 
+TEST(Sr1Biopsy, AMarkersErrorThatDoesNotExplainTheFitIsNotBelieved) {
+  expect_refused({"components.task.params.marker_error_mm=0.02"},
+                 "the markers fit to 0.54 mm, which an error of 0.02 mm a marker does not explain");
+}
+
 TEST(Sr1Biopsy, AStoryThatIsNotHeardToItsEndTellsThatFirst) {
   const DeploymentRun run = biopsy({"run.time_limit_s=3"});
   EXPECT_EQ(run.command.exit_code, 1);

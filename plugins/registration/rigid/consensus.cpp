@@ -40,16 +40,6 @@ Set gathered(const MarkerPairs& markers, Set set, double outlier_m) {
 
 }  // namespace
 
-MarkerPairs only(const MarkerPairs& markers, const std::vector<bool>& used) {
-  MarkerPairs some;
-  for (std::size_t i = 0; i < used.size(); ++i) {
-    if (!used[i]) continue;
-    some.image.push_back(markers.image[i]);
-    some.robot.push_back(markers.robot[i]);
-  }
-  return some;
-}
-
 Expected<std::vector<bool>> agreeing_markers(const MarkerPairs& markers, double outlier_m) {
   const std::size_t n = markers.image.size();
   const Set all(n, true);

@@ -13,7 +13,4 @@ namespace armature {
 /// as large. Allocates.
 Expected<std::vector<bool>> agreeing_markers(const MarkerPairs& markers, double outlier_m);
 
-/// Those of `markers` that are `used`.
-MarkerPairs only(const MarkerPairs& markers, const std::vector<bool>& used);
-
 }  // namespace armature

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "follow_monitor.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -110,11 +112,25 @@ std::optional<double> FollowMonitor::coarse_lag() const {
   return kLeastLag_s + best * kLagStep_s;
 }
 
-std::optional<double> FollowMonitor::best_lag() const {
+bool FollowMonitor::stands_out(double lag_s) const {
+  const auto mean_square = [&](double lag) {
+    const Comparison there = compare(lag, {});
+    return there.squares / there.count;
+  };
+  constexpr double kMore = 1.2;  // a tenth more rms: far above what noise makes of it
+  const double clearly = kMore * mean_square(lag_s);
+  return mean_square(lag_s - kTellsApart_s) > clearly &&
+         mean_square(lag_s + kTellsApart_s) > clearly;
+}
+
+Expected<double> FollowMonitor::best_lag() const {
   constexpr int kMostSteps = 20;
   constexpr double kExact_s = 1e-9;
   const auto coarse = coarse_lag();
-  if (!coarse) return std::nullopt;
+  if (!coarse) {
+    return refuse(fmt::format("no lag between {:g} and {:g} ms fits best", 1e3 * kLeastLag_s,
+                              1e3 * kMostLag_s));
+  }
   double lag = *coarse;
   for (int i = 0; i < kMostSteps; ++i) {
     const Comparison here = compare(lag, {});
@@ -125,6 +141,12 @@ std::optional<double> FollowMonitor::best_lag() const {
     const double step = std::abs(next - lag);
     lag = next;
     if (step < kExact_s) break;
+  }
+  if (!stands_out(lag)) {
+    return refuse(
+        fmt::format("the motion does not tell: a lag {:g} ms longer or shorter than the "
+                    "one that fits best fits nearly as well",
+                    1e3 * kTellsApart_s));
   }
   return lag;
 }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "armature/values/expected.hpp"
 #include "track.hpp"
 
 namespace armature {
@@ -35,8 +36,9 @@ class FollowMonitor {
   /// (the clutch), so the mean of each stretch is taken off.
   struct Following {
     double rms_m = 0, worst_m = 0;
-    /// With which the rms would be least; none when that is not between the two below.
-    std::optional<double> lag_s;
+    /// With which the rms would be least, or why nobody can say: that is not between the two below,
+    /// or the rms is hardly another one with another lag.
+    Expected<double> lag_s;
   };
   static constexpr double kLeastLag_s = -0.1, kMostLag_s = 1.1;
   std::optional<Following> following() const;
@@ -76,8 +78,11 @@ class FollowMonitor {
   };
   Comparison compare(double lag_s, const Sample& sample) const;
   /// The least rms of all lags may be one of several minima: a search first, then steps.
-  std::optional<double> coarse_lag() const, best_lag() const;
-  static constexpr double kLagStep_s = 0.01;
+  std::optional<double> coarse_lag() const;
+  Expected<double> best_lag() const;
+  /// Whether the rms is least there by enough to be told from its neighbours'.
+  bool stands_out(double lag_s) const;
+  static constexpr double kLagStep_s = 0.01, kTellsApart_s = 0.1;
 
   FollowSettings settings_;
   Track intended_, hand_, slave_;

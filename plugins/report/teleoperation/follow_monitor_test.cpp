@@ -85,6 +85,34 @@ TEST(FollowMonitor, TellsNoLagOfASlaveThatDoesNotFollowInTime) {
   EXPECT_FALSE(watched(curve, curve, curve, 1.6).following()->lag_s) << "too short a run";
 }
 
+TEST(FollowMonitor, TellsNoLagThatTheMotionDoesNotDetermine) {
+  const auto slave_of = [](const Way& hand) -> Way {
+    return [hand](double t) {
+      return Vector3d{0.5 * hand(t - 0.05) + shaking(t, 5e-6) + shaking(1.3 * t, 3e-6)};
+    };
+  };
+  const auto lag_of = [&](double of_curve) {
+    const Way hand = [=](double t) { return Vector3d{of_curve * curve(t)}; };
+    return watched(hand, hand, slave_of(hand)).following()->lag_s;
+  };
+  ASSERT_TRUE(lag_of(1));
+  EXPECT_NEAR(*lag_of(1), 0.05, 1e-4);
+  ASSERT_TRUE(lag_of(0.01)) << "0.2 mm are enough";
+  EXPECT_NEAR(*lag_of(0.01), 0.05, 5e-3);
+  ASSERT_FALSE(lag_of(1e-4));
+  EXPECT_EQ(lag_of(1e-4).error().text,
+            "the motion does not tell: a lag 100 ms longer or shorter than the one that fits best "
+            "fits nearly as well");
+  EXPECT_FALSE(lag_of(0));
+}
+
+TEST(FollowMonitor, TellsTheLagOfASlaveThatIsFartherOffThanItsLagMakesIt) {
+  const auto too_short =
+      watched(curve, curve, [](double t) { return Vector3d{0.35 * curve(t - 0.05)}; });
+  ASSERT_TRUE(too_short.following()->lag_s) << too_short.following()->lag_s.error().text;
+  EXPECT_NEAR(*too_short.following()->lag_s, 0.05, 5e-3);
+}
+
 TEST(FollowMonitor, ComparesTheTremorOfBothScaled) {
   const auto monitor = watched(
       curve, [](double t) { return Vector3d{curve(t) + shaking(t, 2e-4)}; },

@@ -129,13 +129,10 @@ class TeleoperationReport final : public Component {
                                      1e3 * tremor.hand_m, 1e3 * least_tremor_m_));
   }
 
-  static void tell_lag(Summary& summary, std::optional<double> lag_s) {
+  static void tell_lag(Summary& summary, const Expected<double>& lag_s) {
     constexpr const char *kKey = "measured_lag_ms", *kTitle = "best lag [ms]";
     if (lag_s) return summary.metric(kKey, kTitle, 1e3 * *lag_s);
-    summary.not_measured(
-        kKey, kTitle,
-        fmt::format("no lag between {:g} and {:g} ms fits best", 1e3 * FollowMonitor::kLeastLag_s,
-                    1e3 * FollowMonitor::kMostLag_s));
+    summary.not_measured(kKey, kTitle, lag_s.error().text);
   }
 
   void complain(const std::string& what) { complaint_ = what; }

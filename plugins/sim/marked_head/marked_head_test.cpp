@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "armature/config/document.hpp"
+#include "armature/kinds/registration/explained_fit.hpp"
 #include "armature/kinds/registration/marker_matching.hpp"
 #include "armature/kinds/registration/registration.hpp"
 #include "armature/kinds/registration/target_error.hpp"
@@ -79,6 +80,7 @@ TEST(MarkedHeads, ATargetIsOffByAsMuchAsPredicted) {
           (found->robot_T_image * marked.target - marked.robot_T_image * marked.target).norm();
       sum += off * off;
       if (off > predicted->bound95_m) ++beyond;
+      EXPECT_FALSE(unexplained_fit(markers, *found, kMarkerError)) << "seed " << seed;
     }
     EXPECT_NEAR(std::sqrt(sum / kSeeds) / predicted->rms_m, 1, 0.1) << count << " markers";
     EXPECT_NEAR(static_cast<double>(beyond) / kSeeds, 0.05, 0.02) << count << " markers";

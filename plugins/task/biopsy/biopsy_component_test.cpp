@@ -113,5 +113,14 @@ TEST_F(BiopsyComponentTest, SaysWhyItDoesNotGoOn) {
   EXPECT_EQ(task_.lines().back(), "refused: the markers lie nearly on one line");
 }
 
+TEST(BiopsyParams, MarkersWithoutAnErrorAreNoStatement) {
+  const std::string refused =
+      refusal_of(built_plugins(),
+                 {.component = "{plugin: task/biopsy, params: {marker_error_mm: 0}}",
+                  .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/sr1_needle.yaml"),
+                  .rig = {}});
+  EXPECT_NE(refused.find("marker_error_mm"), std::string::npos) << refused;
+}
+
 }  // namespace
 }  // namespace armature

@@ -17,7 +17,7 @@ struct SitePoses {
 };
 
 std::vector<Bore> in_one_motion(const std::vector<SitePoses>& sites) {
-  Bore bore;
+  Bore bore{.goal = {}, .sites = sites.size()};
   auto& through = bore.goal.through;
   for (const SitePoses& site : sites) {
     if (!through.empty()) through.push_back(site.above);
@@ -33,12 +33,13 @@ std::vector<Bore> in_one_motion(const std::vector<SitePoses>& sites) {
 std::vector<Bore> site_by_site(const std::vector<SitePoses>& sites) {
   std::vector<Bore> bores;
   for (std::size_t i = 0; i < sites.size(); ++i) {
-    Bore bore{.goal = {}, .ends_at_bottom = true, .name = fmt::format("site {}", i + 1)};
+    Bore bore{
+        .goal = {}, .ends_at_bottom = true, .sites = i + 1, .name = fmt::format("site {}", i + 1)};
     if (i > 0) bore.goal.through = {sites[i - 1].above, sites[i].above};
     bore.goal.pose = sites[i].bottom;
     bores.push_back(bore);
   }
-  Bore out{.goal = {}, .name = "out of " + bores.back().name};
+  Bore out{.goal = {}, .sites = sites.size(), .name = "out of " + bores.back().name};
   out.goal.pose = sites.back().above;
   bores.push_back(out);
   return bores;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@ namespace armature {
 struct Bore {
   MotionGoal goal;
   bool ends_at_bottom = false;  // of a site, where the drill stays for a while
+  std::size_t sites = 0;        // so many have been drilled to their bottoms at its end
   std::string name = {};        // "sites 1 to 3", "site 2", "out of site 3"
 };
 

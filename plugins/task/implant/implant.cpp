@@ -46,6 +46,11 @@ void Implant::see_plan(const std::vector<ToolPose>& sites) {
   }
 }
 
+void Implant::see_arm(const Isometry3d& base_T_flange) {
+  base_T_flange_ = base_T_flange;
+  if (phase_ == Phase::drilling) bottoms_.see(base_T_flange);
+}
+
 void Implant::see_pivot(const Sighting& sighting) {
   if (phase_ != Phase::pivoting) return;
   drill_watch_.see(sighting);
@@ -226,6 +231,7 @@ void Implant::finish_locating(Time now) {
   news_.push_back(fmt::format("the worst of {} sites is known to {:.2f} mm (95 %)", sites_.size(),
                               1e3 * worst_m));
   way_ = drilling_way(chain_, flange_T_file_tool_, sites_, settings_.drilling);
+  bottoms_ = BottomWatch{chain_, sites_};
   goal_.set({.pose = way_.approach, .focus = {}});
   enter(Phase::approaching, now);
 }
@@ -233,6 +239,8 @@ void Implant::finish_locating(Time now) {
 void Implant::go_on_drilling(Time now) {
   if (goal_.state() != PursuedGoal::State::done) return;
   if (way_.bores[bore_].ends_at_bottom && now - goal_.done_at() < settings_.dwell) return;
+  const auto missed = bottoms_.missed(way_.bores[bore_].sites, settings_.most_bottom_error_m);
+  if (missed) return refuse(*missed);
   if (++bore_ == way_.bores.size()) return enter(Phase::drilled, now);
   goal_.set_once(way_.bores[bore_].goal);
 }

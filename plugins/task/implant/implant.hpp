@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "armature/motion/pursued_goal.hpp"
+#include "bottom_watch.hpp"
 #include "calibration_run.hpp"
 #include "drilling.hpp"
 #include "error_forecast.hpp"
@@ -21,10 +22,11 @@ struct ImplantSettings {
   int jaw_samples = 60;              // averaged before the way is worked out
   Duration patience = seconds(0.5);  // without a body being seen that is needed
   DrillingSettings drilling;
-  double depth_m = 0.012;  // of a bore
+  double depth_m = 0.012;         // of a bore
   Duration dwell = seconds(0.5);  // at a bottom where the drill stops
   double most_pivot_residual_m = 0.0005, most_hand_eye_residual_m = 0.0005;
   double most_fiducial_error_m = 0.0015, most_site_error_m = 0.0015;
+  double most_bottom_error_m = 0.0003;  // of the drill from a site's bottom, as the arm measures
   /// Of the mean of some samples, while the jaw's place is averaged and from then on.
   double most_jaw_motion_m = 0.001;
 };
@@ -60,7 +62,8 @@ class Implant {
   void begin(Time now);
   /// The sites of the plan: of the drill, in the image.
   void see_plan(const std::vector<ToolPose>& sites);
-  void see_arm(const Eigen::Isometry3d& base_T_flange) { base_T_flange_ = base_T_flange; }
+  /// Every sample of the arm.
+  void see_arm(const Eigen::Isometry3d& base_T_flange);
   void see_pivot(const Sighting& sighting);
   void see_flange(const Sighting& sighting);
   void see_jaw(const Sighting& sighting);
@@ -121,6 +124,7 @@ class Implant {
   GuidedChain chain_;
   DrillingWay way_;
   std::size_t bore_ = 0;  // of way_
+  BottomWatch bottoms_;
   std::vector<ErrorForecast> forecasts_;
   std::vector<std::string> news_;
   std::string trouble_;

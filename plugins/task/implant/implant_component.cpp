@@ -64,6 +64,7 @@ ImplantSettings settings_of(const Params& params) {
           .most_hand_eye_residual_m = params.number("most_hand_eye_residual_mm"),
           .most_fiducial_error_m = params.number("most_fiducial_error_mm"),
           .most_site_error_m = params.number("most_site_error_mm"),
+          .most_bottom_error_m = params.number("most_bottom_error_mm"),
           .most_jaw_motion_m = params.number("most_jaw_motion_mm")};
 }
 
@@ -151,11 +152,12 @@ class ImplantComponent final : public Component {
 
  private:
   void read_arm() {
-    if (!measured_js_.latest()) return;
-    const auto q = joints_of(robot_, *measured_js_.latest());
-    if (!q) return degraded("measured_js: " + q.error().text);
-    healthy();
-    task_.see_arm(forward_kinematics(robot_, *q, mount_.frame));
+    for (std::size_t i = 0; i < measured_js_.size(); ++i) {
+      const auto q = joints_of(robot_, measured_js_[i]);
+      if (!q) return degraded("measured_js: " + q.error().text);
+      healthy();
+      task_.see_arm(forward_kinematics(robot_, *q, mount_.frame));
+    }
   }
 
   void read(Time now) {

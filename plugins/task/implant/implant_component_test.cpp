@@ -249,6 +249,7 @@ TEST(ImplantParams, ThatContradictEachOtherAreRefused) {
   EXPECT_EQ(refusal("stand_off_mm: 20"), "bench:1:54: " + inside);
   EXPECT_EQ(refusal("stand_off_mm: 24"), "");
   EXPECT_EQ(refusal("depth_mm: 8, stand_off_mm: 16"), "");
+  EXPECT_NE(refusal("marker_error_mm: 0").find("marker_error_mm"), std::string::npos);
   EXPECT_EQ(refusal("depth_mm: 20").substr(0, 37), "bench:1:50: 'stand_off_mm' is 30, but");
 }
 

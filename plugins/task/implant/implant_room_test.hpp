@@ -84,12 +84,18 @@ class ImplantTest : public testing::Test {
     goals_.push_back(goal);
     task_.hear({.goal_id = goal.id, .state = Report::executing}, now());
     if (goal.mode == MotionMode::hold) return;
-    base_T_flange_ = flange_at(goal.pose);
+    for (const ToolPose& key : goal.through) task_.see_arm(cut_short(flange_at(key)));
+    base_T_flange_ = cut_short(flange_at(goal.pose));
     done_ = goal.id;
   }
   Isometry3d flange_at(const ToolPose& tool) const {
     return Eigen::Translation3d{tool.position} * std::get<Eigen::Quaterniond>(tool.orientation) *
            file_tool_.inverse();
+  }
+  /// Where an arm is that comes `short_m_` short of the bottoms.
+  Isometry3d cut_short(const Isometry3d& base_T_flange) const {
+    return base_T_flange * chain_.flange_T_tool() * Eigen::Translation3d{0, 0, -short_m_} *
+           chain_.flange_T_tool().inverse();
   }
   /// Until `phase`, or for ten seconds.
   void go_to(Phase phase) {
@@ -118,7 +124,7 @@ class ImplantTest : public testing::Test {
   const Isometry3d file_tool_ = pose(0, 0.02, 0.15, 0.5, {0, 1, 0});
   GuidedChain chain_;
   std::vector<ToolPose> sites_;
-  double now_s_ = 100, jitter_m_ = 0;
+  double now_s_ = 100, jitter_m_ = 0, short_m_ = 0;
   std::mt19937 random_{5};
   bool see_drill_ = true, see_flange_ = true, see_jaw_ = true;
   Isometry3d base_T_flange_ = Isometry3d::Identity();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The story of a drilling, without topics: 1. from the pivot to the last site, 2. what it does not
-// trust, 3. bodies that are not seen, 4. a jaw that moves, 5. a motion that is refused.
+// trust, its arm included, 3. bodies that are not seen, 4. a jaw that moves, 5. a motion that is
+// refused.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -51,6 +52,22 @@ TEST_F(ImplantTest, StaysForAWhileAtEveryBottomWhereItStops) {
   expect_tip_at(goals_.back().pose, 1);
   go_to(Phase::drilled);
   EXPECT_EQ(goals_.size(), first + 2) << "and out again";
+}
+
+TEST_F(ImplantTest, ADrillThatWasNotAtEveryBottomHasNotDrilled) {
+  for (const bool stop_at_sites : {false, true}) {
+    task_ = Implant{quick(stop_at_sites), med7(), file_tool_};
+    done_ = 0;
+    goals_.clear();
+    short_m_ = 0;
+    begin();
+    go_to(Phase::approaching);
+    short_m_ = 0.0009;
+    go_to(Phase::refused);
+    EXPECT_EQ(task_.trouble(),
+              "the drill came no nearer than 0.90 mm to the bottom of site 1, 0.3 mm are allowed");
+    EXPECT_EQ(goals_.size(), 10u) << "it does not go on to site 2 where it stops";
+  }
 }
 
 TEST_F(ImplantTest, DoesNotAskForARegistrationBeforeThereIsAPlan) {

@@ -33,6 +33,16 @@ std::optional<std::string> invalid_input(const MarkerPairs& markers, std::size_t
   return first_not_finite(markers.robot, "robot");
 }
 
+MarkerPairs only(const MarkerPairs& markers, const std::vector<bool>& used) {
+  MarkerPairs some;
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    if (!used[i]) continue;
+    some.image.push_back(markers.image[i]);
+    some.robot.push_back(markers.robot[i]);
+  }
+  return some;
+}
+
 void measure_residuals(const MarkerPairs& markers, Registration& found) {
   found.residual_m.resize(markers.image.size());
   double sum = 0;

@@ -49,6 +49,9 @@ class Registrar {
 /// frames, fewer than `least`, a number that is not finite. The first line of every registrar.
 std::optional<std::string> invalid_input(const MarkerPairs& markers, std::size_t least);
 
+/// Those of `markers` that are `used`.
+MarkerPairs only(const MarkerPairs& markers, const std::vector<bool>& used);
+
 /// Of a found map with its `used` markers: their residuals and the fiducial registration error.
 void measure_residuals(const MarkerPairs& markers, Registration& found);
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "armature/kinds/registration/explained_fit.hpp"
 #include "armature/kinds/registration/marker_matching.hpp"
 #include "armature/kinds/registration/registration.hpp"
 #include "armature/kinds/registration/target_error.hpp"
@@ -53,6 +54,9 @@ Expected<Answer> answer_to(const Registrar& registrar, const msg::RegistrationRe
     if (!error) return tl::unexpected{error.error()};
     answer.errors.push_back(*error);
   }
+  if (answer.errors.empty()) return answer;
+  auto unexplained = unexplained_fit(markers, answer.found, request.marker_error_());
+  if (unexplained) return refuse(std::move(*unexplained));
   return answer;
 }
 

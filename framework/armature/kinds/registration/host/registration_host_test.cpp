@@ -21,14 +21,14 @@ namespace {
 /// Moves the first marker onto the first.
 class FirstMarker final : public Registrar {
  public:
-  static inline bool throws = false;
+  static inline bool throws = false, uses_all = false;
 
   Expected<Registration> find(const MarkerPairs& markers) const override {
     if (throws) throw std::runtime_error{"the matrix is singular"};
     if (auto wrong = invalid_input(markers, 1)) return refuse(std::move(*wrong));
     Registration found;
     found.robot_T_image.translation() = markers.robot[0] - markers.image[0];
-    found.used.assign(markers.image.size(), false);
+    found.used.assign(markers.image.size(), uses_all);
     found.used[0] = true;
     found.condition = 2.5;
     measure_residuals(markers, found);
@@ -123,7 +123,27 @@ TEST_F(RegistrationHostTest, AnswersABadRequestWithItsReasonAndTheNextOneAsIfNot
             "4 markers are planned, 3 points measured");
   EXPECT_EQ(refusal([](auto& r) { r.match_tolerance_(0); }), "the tolerance is 0 m");
   EXPECT_EQ(refusal([](auto& r) { r.marker_error_(NAN); }), "a marker's error is nan m");
+  EXPECT_EQ(refusal([](auto& r) { r.marker_error_(-1); }), "a marker's error is -1 m");
   EXPECT_EQ(refusal([](auto& r) { r.targets_()[0].z_(INFINITY); }), "the target is not finite");
+}
+
+TEST_F(RegistrationHostTest, DoesNotPredictFromAnErrorThatDoesNotExplainTheFit) {
+  msg::RegistrationRequest stretched = request(5);
+  for (auto& marker : stretched.robot_markers_()) marker.x_(marker.x_() * 1.02);
+  stretched.marker_error_(0.0003);
+  FirstMarker::uses_all = true;
+  const std::string refused = ask(stretched).reason_();
+  stretched.marker_error_(0.002);
+  const bool explained = ask(stretched).valid_();
+  stretched.marker_error_(0.0001);
+  stretched.targets_().clear();
+  const bool without_targets = ask(stretched).valid_();
+  FirstMarker::uses_all = false;
+  EXPECT_NE(refused.find("which an error of 0.3 mm a marker does not explain (at most"),
+            std::string::npos)
+      << refused;
+  EXPECT_TRUE(explained);
+  EXPECT_TRUE(without_targets) << "nothing is predicted from it";
 }
 
 TEST_F(RegistrationHostTest, MarkersMayBeToldInAnyFrameAndTheAnswerIsInTheSame) {

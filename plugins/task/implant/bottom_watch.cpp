@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bottom_watch.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace armature {
+
+BottomWatch::BottomWatch(const GuidedChain& chain,
+                         const std::vector<Eigen::Isometry3d>& image_T_sites)
+    : flange_tip_{chain.flange_T_tool().translation()} {
+  for (const Eigen::Isometry3d& site : image_T_sites) {
+    bottoms_.push_back(
+        {chain.base_T_site(site).translation(), std::numeric_limits<double>::infinity()});
+  }
+}
+
+void BottomWatch::see(const Eigen::Isometry3d& base_T_flange) {
+  const Eigen::Vector3d tip = base_T_flange * flange_tip_;
+  for (Bottom& bottom : bottoms_) {
+    bottom.nearest_m = std::min(bottom.nearest_m, (tip - bottom.point).norm());
+  }
+}
+
+std::optional<std::string> BottomWatch::missed(std::size_t sites, double most_m) const {
+  const auto last = bottoms_.begin() + static_cast<std::ptrdiff_t>(sites);
+  const auto worst = std::ranges::max_element(bottoms_.begin(), last, {}, &Bottom::nearest_m);
+  if (worst == last || worst->nearest_m <= most_m) return std::nullopt;
+  return fmt::format(
+      "the drill came no nearer than {:.2f} mm to the bottom of site {}, {:g} mm are allowed",
+      1e3 * worst->nearest_m, worst - bottoms_.begin() + 1, 1e3 * most_m);
+}
+
+}  // namespace armature

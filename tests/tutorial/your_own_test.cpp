@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "command.hpp"
+#include "tests/dds_domain.hpp"
 
 namespace armature::test {
 namespace {
@@ -41,6 +42,9 @@ class YourOwn : public testing::Test {
     EXPECT_GE(commands.size(), 9U);
     std::string script = "set -e\ncd " + folder_.string() + "\n";
     script += "export PATH=" + fs::path{armature()}.parent_path().string() + ":$PATH\n";
+    // A reader is alone on his machine; tests are not.
+    script += "armature() { local more=; [ \"$1\" = run ] && more='--domain " +
+              std::to_string(unique_dds_domain()) + "'; command armature \"$@\" $more; }\n";
     for (const std::string& command : commands) {
       script += "echo '$ " + command + "'\n" + command + "\n";
     }

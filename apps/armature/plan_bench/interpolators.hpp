@@ -12,7 +12,7 @@ namespace armature::bench {
 struct InterpolatorRow {
   std::string name;
   double build_s = 0;
-  double sample_s = 0;           // rotation and angular velocity
+  double sample_s = 0;  // rotation and angular velocity
   double with_acceleration_s = 0;
   double turn = 0;               // the way, as a multiple of that of the great arcs
   double peak_acceleration = 0;  // [rad]

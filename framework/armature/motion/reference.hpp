@@ -15,7 +15,7 @@ class Reference {
  public:
   bool started() const { return !plan_.empty(); }
 
-  /// Holds at `q` from `now` on and forgets everything else: the only call that may jump: for an
+  /// Holds at `q` from `now` on and forgets everything else. The only call that may jump, for an
   /// arm of which nothing was known, or that a hand moves.
   void start(const JointVector& q, Time now);
 

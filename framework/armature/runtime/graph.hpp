@@ -7,8 +7,8 @@ namespace armature {
 
 /// Checks how the components of a deployment are wired and sets every component's place in the
 /// graph (sources first; file order among equals). Problems: a topic with two writers that do not
-/// both share it, two types, frames, robots or unmatchable QoS on one topic, an input nobody writes, a
-/// cycle in which no input is declared as feedback.
+/// both share it, two types, frames, robots or unmatchable QoS on one topic, an input nobody
+/// writes, a cycle in which no input is declared as feedback.
 void check_graph(DeploymentConfig& deployment, config::Problems& problems);
 
 /// Whether one of them reads what the other one writes.

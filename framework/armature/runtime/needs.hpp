@@ -14,7 +14,8 @@ void check_slot_needs(const ComponentConfig& component, const PluginRegistry& pl
                       config::Problems& problems);
 
 /// A need of a component that no component with which it exchanges topics offers, nor a plugin in a
-/// slot of one, is a problem at the component; not so when only plugins offer it that no slot here could take.
+/// slot of one, is a problem at the component; not so when only plugins offer it that no slot here
+/// could take.
 void check_component_needs(const DeploymentConfig& deployment, const PluginRegistry& plugins,
                            config::Problems& problems);
 

@@ -95,8 +95,9 @@ TEST_F(BiopsyTest, DoesNotBeginAgainWhenTheNeedleMayBeInTissue) {
   task_.see_registration(good());
   const auto goal = task_.outgoing_goal(at(0));
   task_.hear({.goal_id = goal->id, .state = Report::executing}, at(0.1));
-  task_.hear({.goal_id = goal->id, .state = Report::failed, .stage = "execution", .reason = "stuck"},
-             at(3));
+  task_.hear(
+      {.goal_id = goal->id, .state = Report::failed, .stage = "execution", .reason = "stuck"},
+      at(3));
   EXPECT_EQ(task_.phase(), Phase::refused);
   EXPECT_EQ(task_.trouble(), "execution: stuck");
   EXPECT_FALSE(task_.outgoing_goal(at(9)));

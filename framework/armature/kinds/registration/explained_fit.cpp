@@ -28,10 +28,9 @@ std::optional<std::string> unexplained_fit(const MarkerPairs& markers, const Reg
   const double fit_m = std::min(found.fre_m, best_m);
   if (fit_m <= limit_m) return std::nullopt;
   return fmt::format(
-      "the markers fit to {:.2g} mm, which an error of {:.2g} mm a marker does not explain (at "
-      "most "
-      "{:.2g} mm, 99.9999 %): state the error that they have (marker_error), or look for a marker "
-      "that has moved",
+      "the markers fit to {:.2g} mm, which an error of {:.2g} mm a marker does not explain "
+      "(at most {:.2g} mm, 99.9999 %): state the error that they have (marker_error), or look for "
+      "a marker that has moved",
       1e3 * fit_m, 1e3 * marker_error_m, 1e3 * limit_m);
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "places.hpp"
 
@@ -18,18 +19,20 @@ double between(double a, double b) {
   return std::min(way, 2 * std::numbers::pi - way);
 }
 
-/// What a minimum between a falling and a rising slope is not below: twice as deep as where their
-/// tangents meet, for one that is steeper within than at its rims. Where the chord is steeper than
-/// one of them, the valley is not convex and they tell nothing.
+/// A minimum between a falling and a rising slope is not below where their tangents meet. Where the
+/// chord is steeper than one of them, the valley is not convex and they tell nothing.
 template <class Node>
 inline bool may_fall_below(double least, const Node& left, const Node& right) {
   const double fall = left.slope, rise = right.slope, width = right.at - left.at;
   const double climb = right.value - left.value, bend = rise - fall;
   // The tangents meet at left.value + fall (rise width - climb) / bend.
-  const double room = (least + std::min(left.value, right.value) - 2 * left.value) * bend;
+  const double room = (least - left.value) * bend;
   const bool convex = (climb > fall * width) & (climb < rise * width);
-  return !convex | (2 * fall * (rise * width - climb) <= room);
+  return !convex | (fall * (rise * width - climb) <= room);
 }
+
+/// By the rounding of the table, which is of single precision.
+inline double raised(double cost) { return cost + 1e-5 * std::abs(cost); }
 
 }  // namespace
 
@@ -45,30 +48,16 @@ double nearest_in(const Spans& spans, double wanted) {
   return best;
 }
 
-double ArmAngleChoice::nearest_to_wanted(std::size_t branch, const Spans& spans) const {
-  if (spans.count == 0) return wanted_;
-  const double turned = wrap_angle(wanted_ - half_turns(kBranches[branch].elbow)),
-               at = nearest_in(spans, turned);
-  return at == turned ? wanted_ : wrap_angle(at + half_turns(kBranches[branch].elbow));
+double ArmAngleChoice::wanted() {
+  if (!wanted_) wanted_ = arm_angle_of(numbers_.arm, canonical(numbers_.arm, seed_));
+  return *wanted_;
 }
 
-void ArmAngleChoice::add_stretch(std::size_t branch, const Span& span) {
-  Stretch& stretch = stretch_[stretches_++];
-  stretch.span = span;
-  stretch.branch = branch;
-  stretch.lower = stretch.upper = kNone;
-  // A place at an end, where the turn is cut at pi, is left to that end's double precision.
-  stretch.first = place_from(table_, span.lower);
-  stretch.first += table_.place[stretch.first] == span.lower ? 1 : 0;
-  stretch.end = place_from(table_, span.upper);
-  if (stretch.end - stretch.first >= kFew) return;
-  stretch.first = stretch.end = table_.count;
-  const double width = span.upper - span.lower;
-  if (width == 0) return;
-  for (int i = 1; i <= kInner; ++i) {
-    table_.place[table_.count++] = span.lower + width * i / (kInner + 1);
-  }
-  stretch.end = table_.count;
+double ArmAngleChoice::nearest_to_wanted(std::size_t branch, const Spans& spans) {
+  if (spans.count == 0) return wanted();
+  const double turned = wrap_angle(wanted() - half_turns(kBranches[branch].elbow)),
+               at = nearest_in(spans, turned);
+  return at == turned ? wanted() : wrap_angle(at + half_turns(kBranches[branch].elbow));
 }
 
 ArmAngleChoice::Node ArmAngleChoice::node_of(std::size_t branch, int place) const {
@@ -76,75 +65,83 @@ ArmAngleChoice::Node ArmAngleChoice::node_of(std::size_t branch, int place) cons
           table_.slope[branch][place]};
 }
 
-std::size_t ArmAngleChoice::add_end(std::size_t branch, double at) {
-  at_[ends_] = at + half_turns(kBranches[branch].elbow);
-  branch_of_end_[ends_] = static_cast<int>(branch);
-  return ends_++;
+void ArmAngleChoice::add_end(const Stretch& stretch, bool upper) {
+  const double at = upper ? stretch.span.upper : stretch.span.lower;
+  end_[ends_++] = {&stretch, upper, {at + half_turns(kBranches[stretch.branch].elbow), 0, 0}};
 }
 
-/// Where the stretch goes down to them.
-void ArmAngleChoice::add_ends(Stretch& stretch) {
-  const std::size_t branch = stretch.branch;
+/// Where the stretch goes down to them; of a point the lower one.
+void ArmAngleChoice::add_ends(const Stretch& stretch) {
+  const float* slope = table_.slope[stretch.branch];
   const bool point = stretch.first == stretch.end;
-  if (point || table_.slope[branch][stretch.first] > 0) {
-    stretch.lower = add_end(branch, stretch.span.lower);
-  }
-  if (!point && table_.slope[branch][stretch.end - 1] < 0) {
-    stretch.upper = add_end(branch, stretch.span.upper);
-  }
+  if (point || (!stretch.cut_below && slope[stretch.first] > 0)) add_end(stretch, false);
+  if (!point && !stretch.cut_above && slope[stretch.end - 1] < 0) add_end(stretch, true);
 }
 
 void ArmAngleChoice::set_costs_of_ends() {
-  for (std::size_t i = 0; i < ends_; i += 4) {
-    FourPlaces at;
-    double value[4], slope[4];
-    for (std::size_t k = 0; k < 4; ++k) {
-      const std::size_t end = std::min(i + k, ends_ - 1);
-      at.arm_angle[k] = at_[end];
-      at.branch[k] = branch_of_end_[end];
+  for (std::size_t i = 0; i < ends_; i += 8) {
+    EightPlaces at;
+    for (std::size_t k = 0; k < 8; ++k) {
+      const End& end = end_[std::min(i + k, ends_ - 1)];
+      at.arm_angle[k] = end.node.at;
+      at.branch[k] = static_cast<int>(end.stretch->branch);
     }
-    kernel_.cost_at(numbers_, goal_, aim_, at, value, slope);
-    std::copy_n(value, 4, value_.begin() + static_cast<std::ptrdiff_t>(i));
-    std::copy_n(slope, 4, slope_.begin() + static_cast<std::ptrdiff_t>(i));
+    const std::size_t count = std::min<std::size_t>(8, ends_ - i);
+    double value[8], slope[8];
+    kernel_.cost_at(numbers_, goal_, aim_, at, static_cast<int>(count), value, slope);
+    for (std::size_t k = 0; k < count; ++k) {
+      end_[i + k].node.value = value[k];
+      end_[i + k].node.slope = slope[k];
+    }
   }
 }
 
 /// Among equals the nearest to what is wanted is the best.
-void ArmAngleChoice::consider(const Best& another, Best& best) const {
+void ArmAngleChoice::consider(const Best& another, Best& best) {
   const double equal = 1e-10 * std::abs(another.value);  // what minima are predicted to
   if (another.value > best.value + equal) return;
   if (another.value >= best.value - equal &&
-      std::abs(wrap_angle(another.at - wanted_)) >= std::abs(wrap_angle(best.at - wanted_))) {
+      std::abs(wrap_angle(another.at - wanted())) >= std::abs(wrap_angle(best.at - wanted()))) {
     return;
   }
   best = another;
 }
 
+/// Of a valley behind a place, the next one outside on the nearer side, otherwise on the other.
+ArmAngleChoice::Node ArmAngleChoice::outer_node(const Stretch& stretch, int place,
+                                                bool left_is_nearer) const {
+  const bool before = place > stretch.first, behind = place + 2 < stretch.end;
+  if (before && (left_is_nearer || !behind)) return node_of(stretch.branch, place - 1);
+  return behind ? node_of(stretch.branch, place + 2) : kNoNode;
+}
+
 /// Where the table says that a valley begins or ends it may do so a little beyond.
-void ArmAngleChoice::add_valley(const Stretch& stretch, const Node& left, const Node& right) {
+void ArmAngleChoice::add_valley(const Stretch& stretch, const Node& left, const Node& right,
+                                const Node& outer) {
   if (valleys_ == kValleys) return;
   const double turn = half_turns(kBranches[stretch.branch].elbow);
   const double beyond = 1e-3 * (right.at - left.at);
-  valley_[valleys_++] = {stretch.branch, left, right,
+  valley_[valleys_++] = {stretch.branch,
+                         left,
+                         right,
+                         outer,
                          std::max(left.at - beyond, stretch.span.lower + turn),
                          std::min(right.at + beyond, stretch.span.upper + turn)};
 }
 
-/// Considers the ends of a stretch, and notes valleys between them and the places next to them.
-void ArmAngleChoice::look_at_ends(const Stretch& stretch, Best& best) {
-  if (stretch.lower != kNone) {
-    const Node end = end_node(stretch.lower);
-    consider({end.at, end.value}, best);
-    if (stretch.first == stretch.end) return;
-    const Node first = node_of(stretch.branch, stretch.first);
-    const bool valley = end.slope < 0 || end.value >= first.value;
-    if (valley && first.at > end.at) add_valley(stretch, end, first);
-  }
-  if (stretch.upper != kNone) {
-    const Node end = end_node(stretch.upper), last = node_of(stretch.branch, stretch.end - 1);
-    consider({end.at, end.value}, best);
-    const bool valley = end.slope > 0 || end.value >= last.value;
-    if (valley && last.at < end.at) add_valley(stretch, last, end);
+/// Considers an end, and notes the valley between it and the place next to it.
+void ArmAngleChoice::look_at_end(const End& end, Best& best) {
+  const auto& [stretch, upper, node] = end;
+  consider({node.at, node.value}, best);
+  if (stretch->first == stretch->end) return;
+  const Node next = node_of(stretch->branch, upper ? stretch->end - 1 : stretch->first);
+  if (next.at == node.at) return;
+  const bool rises = upper ? node.slope > 0 : node.slope < 0;  // on the way out
+  if (!rises && node.value < next.value) return;
+  if (upper) {
+    add_valley(*stretch, next, node, kNoNode);
+  } else {
+    add_valley(*stretch, node, next, kNoNode);
   }
 }
 
@@ -170,15 +167,17 @@ void ArmAngleChoice::look_along(const Stretch* first, const Stretch* end, Best& 
   const std::size_t from = valleys_;
   float lowest = std::numeric_limits<float>::infinity();
   count_listed_ = 0;
+  for (; looked_at_ < ends_ && end_[looked_at_].stretch < end; ++looked_at_) {
+    look_at_end(end_[looked_at_], best);
+  }
   for (const Stretch* stretch = first; stretch != end; ++stretch) {
-    look_at_ends(*stretch, best);
     lowest = list_valleys(*stretch, lowest);
   }
   double least = std::min(best.value, static_cast<double>(lowest));
   for (std::size_t i = from; i < valleys_; ++i) {
     least = std::min({least, valley_[i].left.value, valley_[i].right.value});
   }
-  least += 1e-5 * std::abs(least);  // the table is of single precision
+  least = raised(least);
   std::size_t kept = from;
   for (std::size_t i = from; i < valleys_; ++i) {
     if (may_fall_below(least, valley_[i].left, valley_[i].right)) valley_[kept++] = valley_[i];
@@ -187,65 +186,83 @@ void ArmAngleChoice::look_along(const Stretch* first, const Stretch* end, Best& 
   for (std::size_t i = 0; i < count_listed_; ++i) {
     const auto& [stretch, place] = listed_[i];
     const Node left = node_of(stretch->branch, place), right = node_of(stretch->branch, place + 1);
-    if (may_fall_below(least, left, right)) add_valley(*stretch, left, right);
+    if (!may_fall_below(least, left, right)) continue;
+    add_valley(*stretch, left, right, outer_node(*stretch, place, left.value < right.value));
   }
 }
 
+/// First into the most promising valley of each branch, then into those that may still fall below
+/// what was found there.
 void ArmAngleChoice::go_down(std::array<Best, 8>& best) {
-  constexpr std::size_t kTogether = 4;  // a few times four
-  for (std::size_t from = 0; from < valleys_; from += 4 * kTogether) {
-    std::array<Valleys, kTogether> valleys;
-    std::array<Minima, kTogether> minima;
-    const std::size_t count = std::min((valleys_ - from + 3) / 4, kTogether);
-    for (std::size_t i = 0; i < 4 * count; ++i) {
-      const Valley& valley = valley_[std::min(from + i, valleys_ - 1)];
-      Valleys& four = valleys[i / 4];
-      const std::size_t k = i % 4;
-      four.branch[k] = static_cast<int>(valley.branch);
-      four.left.at[k] = valley.left.at, four.right.at[k] = valley.right.at;
-      four.left.value[k] = valley.left.value, four.right.value[k] = valley.right.value;
-      four.left.slope[k] = valley.left.slope, four.right.slope[k] = valley.right.slope;
-      four.lower[k] = valley.lower, four.upper[k] = valley.upper;
+  std::size_t rest = 0;
+  chosen_ = 0;
+  for (std::size_t i = 0; i < valleys_; ++i) {
+    if (i == 0 || valley_[i - 1].branch != valley_[i].branch) {
+      choice_[chosen_++] = i;
+      continue;
     }
-    kernel_.find_minima(numbers_, goal_, aim_, valleys.data(), static_cast<int>(count),
-                        minima.data());
-    for (std::size_t i = 0; i < 4 * count; ++i) {
-      const Minima& found = minima[i / 4];
-      const auto branch = static_cast<std::size_t>(valleys[i / 4].branch[i % 4]);
-      consider({found.at[i % 4], found.value[i % 4]}, best[branch]);
+    std::size_t& promising = choice_[chosen_ - 1];
+    const bool better = valley_[i].lowest() < valley_[promising].lowest();
+    rest_[rest++] = better ? std::exchange(promising, i) : i;
+  }
+  go_down_chosen(best);
+  chosen_ = 0;
+  for (std::size_t i = 0; i < rest; ++i) {
+    const Valley& valley = valley_[rest_[i]];
+    const double least = raised(best[valley.branch].value);
+    if (may_fall_below(least, valley.left, valley.right)) choice_[chosen_++] = rest_[i];
+  }
+  go_down_chosen(best);
+}
+
+void ArmAngleChoice::go_down_chosen(std::array<Best, 8>& best) {
+  for (std::size_t from = 0; from < chosen_; from += 8) {
+    EightValleys valleys;
+    for (std::size_t k = 0; k < 8; ++k) {
+      const Valley& valley = valley_[choice_[std::min(from + k, chosen_ - 1)]];
+      const auto put = [&](const Node& node, EightNodes& nodes) {
+        nodes.at[k] = node.at, nodes.value[k] = node.value, nodes.slope[k] = node.slope;
+      };
+      valleys.branch[k] = static_cast<int>(valley.branch);
+      put(valley.left, valleys.left);
+      put(valley.right, valleys.right);
+      put(valley.outer, valleys.outer);
+      valleys.lower[k] = valley.lower, valleys.upper[k] = valley.upper;
+    }
+    const std::size_t count = std::min<std::size_t>(chosen_ - from, 8);
+    EightMinima minima;
+    kernel_.find_minima(numbers_, goal_, aim_, valleys, static_cast<int>(count), minima);
+    for (std::size_t k = 0; k < count; ++k) {
+      consider({minima.at[k], minima.value[k]}, best[valley_[choice_[from + k]].branch]);
     }
   }
 }
 
 void ArmAngleChoice::choose(const std::array<Spans, 8>& spans, std::array<double, 8>& arm_angle) {
+  constexpr double kNothing = std::numeric_limits<double>::infinity();
   std::array<Best, 8> best;
-  best.fill({wanted_, std::numeric_limits<double>::infinity()});
+  best.fill({0, kNothing});
   if (aim_.objective != Objective::continuity) {
     set_places(goal_, aim_, table_);
-    ends_ = stretches_ = valleys_ = 0;
-    for (std::size_t branch = 0; branch < 8; ++branch) {
-      for (const Span& span : spans[branch]) add_stretch(branch, span);
-    }
-    if (stretches_ > 0) find_best(best);
+    for (std::size_t branch = 0; branch < 8; ++branch) stretches_.add(branch, spans[branch]);
+    if (stretches_.begin() != stretches_.end()) find_best(best);
   }
   constexpr double kSame = 1e-8;  // [rad] as exactly as minima are found
   for (std::size_t branch = 0; branch < 8; ++branch) {
     const double at = wrap_angle(best[branch].at);
-    const bool found = best[branch].value < std::numeric_limits<double>::infinity();
-    arm_angle[branch] =
-        found && between(at, wanted_) > kSame ? at : nearest_to_wanted(branch, spans[branch]);
+    const bool found = best[branch].value < kNothing;
+    const bool kept = aim_.remembers && between(at, aim_.last) <= kSame;
+    arm_angle[branch] = found && !kept ? at : nearest_to_wanted(branch, spans[branch]);
   }
 }
 
 void ArmAngleChoice::find_best(std::array<Best, 8>& best) {
-  while (table_.count % 8 != 0) table_.place[table_.count++] = std::numbers::pi;
   kernel_.cost_all_round(numbers_, goal_, aim_, table_);
-  for (std::size_t i = 0; i < stretches_; ++i) add_ends(stretch_[i]);
+  for (const Stretch& stretch : stretches_) add_ends(stretch);
   set_costs_of_ends();
-  const Stretch* const end = stretch_.data() + stretches_;
-  for (const Stretch* first = stretch_.data(); first != end;) {
+  for (const Stretch* first = stretches_.begin(); first != stretches_.end();) {
     const Stretch* after = first + 1;
-    while (after != end && after->branch == first->branch) ++after;
+    while (after != stretches_.end() && after->branch == first->branch) ++after;
     look_along(first, after, best[first->branch]);
     first = after;
   }

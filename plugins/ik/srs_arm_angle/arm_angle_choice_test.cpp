@@ -171,10 +171,9 @@ struct Cost {
 };
 Cost cost_at(const ArmNumbers& numbers, const SrsGoal& goal, const Aim& aim, int branch,
              double arm_angle) {
-  const FourPlaces at{.arm_angle = {arm_angle, arm_angle, arm_angle, arm_angle},
-                      .branch = {branch, branch, branch, branch}};
-  double value[4], slope[4];
-  srs_kernel().cost_at(numbers, goal, aim, at, value, slope);
+  const EightPlaces at{.arm_angle = {arm_angle}, .branch = {branch}};
+  double value[8], slope[8];
+  srs_kernel().cost_at(numbers, goal, aim, at, 1, value, slope);
   return {value[0], slope[0]};
 }
 
@@ -225,9 +224,9 @@ TEST(ArmAngleChoice, IsTheMinimumToATenMillionthOfARadian) {
     const SrsGoal goal = srs_goal(arm, goal_at(*model, q), q);
     const FeasibleAngles feasible{numbers, goal, srs_kernel()};
     std::array<Spans, 8> spans;
-    for (std::size_t k = 0; k < 8; ++k) spans[k] = feasible.of_elbow0(kBranches[k]);
+    for (std::size_t k = 0; k < 8; ++k) feasible.of_elbow0(kBranches[k], spans[k]);
     std::array<double, 8> chosen;
-    ArmAngleChoice{numbers, goal, srs_kernel(), aim, 0.1}.choose(spans, chosen);
+    ArmAngleChoice{numbers, goal, srs_kernel(), aim, q}.choose(spans, chosen);
     for (std::size_t k = 0; k < 8; ++k) {
       const int branch = static_cast<int>(k);
       if (spans[k].count == 0) continue;

@@ -27,14 +27,14 @@ struct ArmNumbers {
 };
 ArmNumbers numbers_of(const SrsArm& arm);
 
-/// Four branches, each at an arm angle of its own.
-struct FourPlaces {
-  double arm_angle[4];
-  int branch[4];  // index into kBranches
+/// Eight branches at once, any of them, each at an arm angle of its own.
+struct EightPlaces {
+  double arm_angle[8];
+  int branch[8];  // index into kBranches
 };
-struct FourBranches {
-  double joint[7][4];                  // the robot's values, in [-pi, pi)
-  double position_m[4], angle_rad[4];  // by which forward kinematics miss the goal
+struct EightBranches {
+  double joint[7][8];                  // the robot's values, in [-pi, pi)
+  double position_m[8], angle_rad[8];  // by which forward kinematics miss the goal
   // A bit for each branch. Where shoulder or wrist is in line the joints are not told: solve_elbow
   // has the rules.
   unsigned within_limits, singular, in_line;
@@ -53,28 +53,29 @@ struct LimitPieces {
 
 /// Costs all round, in single precision: places are arm angles of elbow 0.
 struct CostTable {
-  static constexpr int kMost = 704, kWords = kMost / 64;
+  static constexpr int kMost = 704, kWords = kMost / 64, kMargin = 16;
   /// [rad] The first `sorted` rise from -pi to pi, of which `regular` and the last are in equal
-  /// steps; behind them are those of narrow spans. `count` is a multiple of eight.
+  /// steps; behind them are those of narrow spans.
   double place[kMost];
   int regular = 0, sorted = 0, count = 0;
-  float value[8][kMost + 8], slope[8][kMost + 8];  // by branch
+  float value[8][kMost + kMargin], slope[8][kMost + kMargin];  // by branch
   /// A bit for every place: between it and the next there is a minimum.
   std::uint64_t valley[8][kWords];
 };
 
-/// Places of four branches and what they cost; two of each with a minimum between them, or beyond
-/// them but not beyond `lower` and `upper`; and that.
-struct FourNodes {
-  double at[4], value[4], slope[4];
+/// Places of eight branches and what they cost; two of each with a minimum between them, or beyond
+/// them but not beyond `lower` and `upper`, and one more on either side, not a number where there
+/// is none; and that.
+struct EightNodes {
+  double at[8], value[8], slope[8];
 };
-struct Valleys {
-  int branch[4];
-  FourNodes left, right;
-  double lower[4], upper[4];
+struct EightValleys {
+  int branch[8];
+  EightNodes left, right, outer;
+  double lower[8], upper[8];
 };
-struct Minima {
-  double at[4], value[4];
+struct EightMinima {
+  double at[8], value[8];
 };
 
 /// What an arm angle costs; `last`: the one that is remembered, if any.
@@ -84,30 +85,33 @@ struct Aim {
   double last = 0;
 };
 
-/// Lanes are shoulders and wrists of both elbows, places, or branches: four at once. The same
-/// source is compiled for each kind of processor. Real-time safe.
+/// Lanes are shoulders and wrists of both elbows, places, or branches. The same source is compiled
+/// for each kind of processor. Real-time safe.
 struct SrsKernel {
   /// Of four sines and cosines, and back.
   void (*angles)(const double (&sine)[4], const double (&cosine)[4], double (&angle)[4]);
   void (*sines)(const double (&angle)[4], double (&sine)[4], double (&cosine)[4]);
   /// All branches at one arm angle, in the order of kBranches.
-  void (*turn_to)(const ArmNumbers& arm, const SrsGoal& goal, double arm_angle,
-                  FourBranches (&out)[2]);
-  void (*turn_each)(const ArmNumbers& arm, const SrsGoal& goal, const FourPlaces& at,
-                    FourBranches& out);
-  void (*limit_pieces)(const ArmNumbers& arm, const SrsGoal& goal, LimitPieces& out);
+  void (*turn_to)(const ArmNumbers& arm, const SrsGoal& goal, double arm_angle, EightBranches& out);
+  void (*turn_each)(const ArmNumbers& arm, const SrsGoal& goal, const EightPlaces& at,
+                    EightBranches& out);
+  /// First the events, then between which of them limits are kept.
+  void (*limit_events)(const ArmNumbers& arm, const SrsGoal& goal, LimitPieces& out);
+  void (*limits_kept)(const ArmNumbers& arm, const SrsGoal& goal, LimitPieces& out);
   void (*cost_all_round)(const ArmNumbers& arm, const SrsGoal& goal, const Aim& aim,
                          CostTable& table);
-  void (*cost_at)(const ArmNumbers& arm, const SrsGoal& goal, const Aim& aim, const FourPlaces& at,
-                  double (&value)[4], double (&slope)[4]);
+  /// Of the first `count` and perhaps more.
+  void (*cost_at)(const ArmNumbers& arm, const SrsGoal& goal, const Aim& aim, const EightPlaces& at,
+                  int count, double (&value)[8], double (&slope)[8]);
   void (*find_minima)(const ArmNumbers& arm, const SrsGoal& goal, const Aim& aim,
-                      const Valleys* valleys, int count, Minima* minima);
+                      const EightValleys& valleys, int count, EightMinima& minima);
 };
 const SrsKernel& portable_srs_kernel();
 const SrsKernel& avx2_srs_kernel();
+const SrsKernel& avx512_srs_kernel();
 /// Those that this processor can run, the fastest last.
 struct SrsKernels {
-  const SrsKernel* kernel[2];
+  const SrsKernel* kernel[3];
   int count;
 };
 SrsKernels srs_kernels();

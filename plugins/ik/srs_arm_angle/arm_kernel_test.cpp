@@ -4,12 +4,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
 #include "arm_angle_choice.hpp"
+#include "places.hpp"
 #include "srs_branch.hpp"
 #include "test_arms.hpp"
 
@@ -33,14 +36,14 @@ class SrsKernelTest : public testing::TestWithParam<KernelSubject> {
     return srs_goal(arm_, goal_at(model(), q), random_joints(model(), random_));
   }
   double any_angle() { return std::uniform_real_distribution{-M_PI, M_PI}(random_); }
-  FourPlaces any_places() {
-    FourPlaces at;
+  EightPlaces any_places() {
+    EightPlaces at;
     for (double& angle : at.arm_angle) angle = any_angle();
     for (int& branch : at.branch) branch = static_cast<int>(random_() % 8);
     return at;
   }
   /// A branch of the kernel's against the scalar form.
-  void expect_branch(const SrsGoal& goal, const FourBranches& found, std::size_t lane,
+  void expect_branch(const SrsGoal& goal, const EightBranches& found, std::size_t lane,
                      std::size_t index, double arm_angle) const {
     const Branch& branch = kBranches[index];
     const ArmCircle circle = arm_circle(goal, static_cast<int>(branch.elbow));
@@ -61,6 +64,31 @@ class SrsKernelTest : public testing::TestWithParam<KernelSubject> {
     EXPECT_NEAR(found.angle_rad[lane], wanted.residual.angle_rad, 1e-14);
   }
 
+  /// The table at `places` against the branches one by one, up to a rounding of joints that turn no
+  /// faster than `fastest`.
+  void expect_costs(const SrsGoal& goal, const Aim& aim, const std::vector<double>& places,
+                    double rounding, double fastest) const {
+    CostTable table;
+    std::ranges::copy(places, table.place);
+    table.count = static_cast<int>(places.size());
+    kernel().cost_all_round(numbers_, goal, aim, table);
+    for (int branch = 0; branch < 8; ++branch) {
+      for (std::size_t k = 0; k < places.size(); ++k) {
+        const double at = wrap_angle(places[k] + half_turns(branch / 2 % 2));
+        const EightPlaces place{.arm_angle = {at}, .branch = {branch}};
+        double value[8], slope[8];
+        kernel().cost_at(numbers_, goal, aim, place, 1, value, slope);
+        if (value[0] > 1e4) continue;  // beyond the limits
+        // A joint at a rounding less or more costs so much more where limits are near.
+        const double steep = 1 + std::pow(value[0], 2);
+        EXPECT_NEAR(table.value[branch][k], value[0], rounding * steep) << places[k];
+        EXPECT_NEAR(table.slope[branch][k], slope[0],
+                    rounding * steep * (fastest + std::abs(slope[0])))
+            << places[k];
+      }
+    }
+  }
+
   SrsArm arm_ = srs_arm(model()).value();
   ArmNumbers numbers_ = numbers_of(arm_);
   std::mt19937_64 random_{31};
@@ -71,9 +99,9 @@ TEST_P(SrsKernelTest, TurnsAllBranchesAsTheScalarFormDoes) {
   for (int i = 0; i < 3000 && !HasFailure(); ++i) {
     const SrsGoal goal = any_goal();
     const double arm_angle = any_angle();
-    FourBranches found[2];
+    EightBranches found;
     kernel().turn_to(numbers_, goal, arm_angle, found);
-    for (std::size_t k = 0; k < 8; ++k) expect_branch(goal, found[k / 4], k % 4, k, arm_angle);
+    for (std::size_t k = 0; k < 8; ++k) expect_branch(goal, found, k, k, arm_angle);
   }
 }
 
@@ -81,10 +109,10 @@ TEST_P(SrsKernelTest, TurnsEachBranchToAnArmAngleOfItsOwn) {
   SCOPED_TRACE("seed 31");
   for (int i = 0; i < 3000 && !HasFailure(); ++i) {
     const SrsGoal goal = any_goal();
-    const FourPlaces at = any_places();
-    FourBranches found;
+    const EightPlaces at = any_places();
+    EightBranches found;
     kernel().turn_each(numbers_, goal, at, found);
-    for (std::size_t k = 0; k < 4; ++k) {
+    for (std::size_t k = 0; k < 8; ++k) {
       expect_branch(goal, found, k, static_cast<std::size_t>(at.branch[k]), at.arm_angle[k]);
     }
   }
@@ -99,12 +127,12 @@ TEST_P(SrsKernelTest, TellsWhatIsInLine) {
     const SrsGoal goal = srs_goal(arm_, goal_at(model(), q), q);
     EXPECT_TRUE(i % 2 == 0 ? goal.shoulder_in_line : goal.wrist_in_line);
     const double arm_angle = arm_angle_of(arm_, t);
-    FourBranches found[2];
+    EightBranches found;
     kernel().turn_to(numbers_, goal, arm_angle, found);
     const std::size_t elbow = t[3] >= 0 ? 0 : 1;
     for (std::size_t k = 0; k < 8; ++k) {
       if (kBranches[k].elbow == elbow) {
-        EXPECT_EQ(found[k / 4].in_line >> k % 4 & 1, 1u) << k;
+        EXPECT_EQ(found.in_line >> k & 1, 1u) << k;
       }
     }
   }
@@ -118,22 +146,42 @@ TEST_P(SrsKernelTest, CostsAllRoundAreThoseOfTheBranches) {
     const SrsGoal goal = any_goal();
     const Aim aim{.objective = static_cast<Objective>(i % 4), .remembers = i % 3 == 0, .last = 0.4};
     if (aim.objective == Objective::continuity) continue;
+    std::vector<double> places(9);
+    for (std::size_t k = 0; k < places.size(); ++k) places[k] = -3 + 0.7 * static_cast<double>(k);
+    expect_costs(goal, aim, places, 1e-6, 1);
+  }
+}
+
+/// Where a ball is so near to in line that its outer joints sweep through half a turn within some
+/// 1e-4 rad of the arm angle.
+TEST_P(SrsKernelTest, CostsAllRoundSeeTheTurnNextToInLine) {
+  SCOPED_TRACE("seed 31");
+  const Aim aim{.objective = Objective::limits};
+  for (int i = 0; i < 500 && !HasFailure(); ++i) {
+    Angles t = angles_of(arm_, random_joints(model(), random_));
+    t[i % 2 == 0 ? 1 : 5] = i % 4 < 2 ? 1e-4 : -1e-4;
+    const JointVector q = joints_of(arm_, t);
+    const SrsGoal goal = srs_goal(arm_, goal_at(model(), q), q);
+    const double in_line = arm_angle_of(arm_, t) - half_turns(t[3] < 0 ? 1 : 0);
+    std::vector<double> places;
+    for (const double away : {0.0, 1e-5, 4e-5, 1e-4, 3e-4}) {
+      for (const double side : {-1.0, 1.0}) places.push_back(in_line + side * away);
+    }
+    expect_costs(goal, aim, places, 1e-6, 1e4);
+  }
+}
+
+TEST_P(SrsKernelTest, TheTableIsAtPiWhatItIsAtMinusPi) {
+  SCOPED_TRACE("seed 31");
+  for (int i = 0; i < 500; ++i) {
+    const Aim aim{.objective = i % 2 == 0 ? Objective::limits : Objective::singularity};
+    const SrsGoal goal = any_goal();
     CostTable table;
-    table.count = 8;
-    for (int k = 0; k < table.count; ++k) table.place[k] = -3 + 0.7 * k;
+    set_places(goal, aim, table);
     kernel().cost_all_round(numbers_, goal, aim, table);
     for (int branch = 0; branch < 8; ++branch) {
-      for (int k = 0; k < table.count; ++k) {
-        const double at = wrap_angle(table.place[k] + (branch / 2 % 2 == 0 ? 0 : M_PI));
-        const FourPlaces places{.arm_angle = {at, 0, 0, 0}, .branch = {branch, 0, 0, 0}};
-        double value[4], slope[4];
-        kernel().cost_at(numbers_, goal, aim, places, value, slope);
-        if (value[0] > 1e4) continue;  // beyond the limits
-        // A joint at 1e-6 rad less or more costs so much more where limits are near.
-        const double steep = 1 + std::pow(value[0], 2);
-        EXPECT_NEAR(table.value[branch][k], value[0], 1e-6 * steep);
-        EXPECT_NEAR(table.slope[branch][k], slope[0], 1e-6 * steep * (1 + std::abs(slope[0])));
-      }
+      EXPECT_EQ(table.value[branch][0], table.value[branch][table.sorted - 1]);
+      EXPECT_EQ(table.slope[branch][0], table.slope[branch][table.sorted - 1]);
     }
   }
 }
@@ -145,27 +193,32 @@ TEST_P(SrsKernelTest, MinimaAreWhereTheSlopeChangesItsSign) {
   for (int i = 0; i < 20000 && !HasFailure(); ++i) {
     const SrsGoal goal = any_goal();
     const Aim aim{.objective = i % 2 == 0 ? Objective::limits : Objective::singularity};
-    FourPlaces from = any_places(), to = from;
+    EightPlaces from = any_places(), to = from, outer = from;
     for (double& at : to.arm_angle) at += 0.2;
-    Valleys valleys;
-    kernel().cost_at(numbers_, goal, aim, from, valleys.left.value, valleys.left.slope);
-    kernel().cost_at(numbers_, goal, aim, to, valleys.right.value, valleys.right.slope);
-    std::copy_n(from.branch, 4, valleys.branch);
-    std::copy_n(from.arm_angle, 4, valleys.left.at);
-    std::copy_n(to.arm_angle, 4, valleys.right.at);
-    std::copy_n(from.arm_angle, 4, valleys.lower);
-    std::copy_n(to.arm_angle, 4, valleys.upper);
-    Minima found;
-    kernel().find_minima(numbers_, goal, aim, &valleys, 1, &found);
-    FourPlaces before = from, behind = from;
-    for (int k = 0; k < 4; ++k) {
+    for (double& at : outer.arm_angle) at += random_() % 2 == 0 ? 0.4 : -0.2;
+    EightValleys valleys;
+    const auto set_nodes = [&](const EightPlaces& at, EightNodes& nodes) {
+      kernel().cost_at(numbers_, goal, aim, at, 8, nodes.value, nodes.slope);
+      std::copy_n(at.arm_angle, 8, nodes.at);
+    };
+    set_nodes(from, valleys.left);
+    set_nodes(to, valleys.right);
+    set_nodes(outer, valleys.outer);
+    valleys.outer.at[i % 8] = std::numeric_limits<double>::quiet_NaN();
+    std::copy_n(from.branch, 8, valleys.branch);
+    std::copy_n(from.arm_angle, 8, valleys.lower);
+    std::copy_n(to.arm_angle, 8, valleys.upper);
+    EightMinima found;
+    kernel().find_minima(numbers_, goal, aim, valleys, 8, found);
+    EightPlaces before = from, behind = from;
+    for (int k = 0; k < 8; ++k) {
       before.arm_angle[k] = found.at[k] - 1e-8;
       behind.arm_angle[k] = found.at[k] + 1e-8;
     }
-    double value[4], fall[4], rise[4];
-    kernel().cost_at(numbers_, goal, aim, before, value, fall);
-    kernel().cost_at(numbers_, goal, aim, behind, value, rise);
-    for (int k = 0; k < 4; ++k) {
+    double value[8], fall[8], rise[8];
+    kernel().cost_at(numbers_, goal, aim, before, 8, value, fall);
+    kernel().cost_at(numbers_, goal, aim, behind, 8, value, rise);
+    for (int k = 0; k < 8; ++k) {
       const bool valley = valleys.left.slope[k] < 0 && valleys.right.slope[k] > 0 &&
                           valleys.left.value[k] < 100 && valleys.right.value[k] < 100;
       if (!valley) continue;
@@ -184,8 +237,9 @@ std::vector<KernelSubject> kernel_subjects() {
                                     std::pair{std::string{"uneven_arm"}, uneven_arm()}}) {
     const SrsKernels kernels = srs_kernels();
     for (int i = 0; i < kernels.count; ++i) {
-      list.push_back({name + std::array{"_portable", "_avx2"}[static_cast<std::size_t>(i)],
-                      kernels.kernel[i], model});
+      list.push_back(
+          {name + std::array{"_portable", "_avx2", "_avx512"}[static_cast<std::size_t>(i)],
+           kernels.kernel[i], model});
     }
   }
   return list;
@@ -207,8 +261,8 @@ void expect_same(const SrsKernel& first, const SrsKernel& second) {
     for (std::size_t build = 0; build < 2; ++build) {
       const SrsKernel& kernel = build == 0 ? first : second;
       const FeasibleAngles feasible{numbers, goal, kernel};
-      for (std::size_t k = 0; k < 8; ++k) spans[build][k] = feasible.of_elbow0(kBranches[k]);
-      ArmAngleChoice{numbers, goal, kernel, aim, 0.1}.choose(spans[build], arm_angle[build]);
+      for (std::size_t k = 0; k < 8; ++k) feasible.of_elbow0(kBranches[k], spans[build][k]);
+      ArmAngleChoice{numbers, goal, kernel, aim, q}.choose(spans[build], arm_angle[build]);
     }
     for (std::size_t k = 0; k < 8; ++k) {
       ASSERT_EQ(spans[0][k].count, spans[1][k].count) << q.transpose();

@@ -83,13 +83,15 @@ struct LaneResidual {
   return goal.distance * goal.elbow.sin * spread < kSingular * arm.reach();
 }
 
+/// Of the branches from `first` on.
 void store_accuracy(const LaneResidual& residual, const Masks& singular, const Masks& free,
-                    FourBranches& out) {
-  store(residual.position_m, out.position_m);
-  store(residual.angle_rad, out.angle_rad);
-  out.singular = bits_of(singular);
-  out.in_line = bits_of(free);
+                    int first, EightBranches& out) {
+  store(residual.position_m, out.position_m + first);
+  store(residual.angle_rad, out.angle_rad + first);
+  out.singular |= bits_of(singular) << first;
+  out.in_line |= bits_of(free) << first;
 }
+void clear_flags(EightBranches& out) { out.within_limits = out.singular = out.in_line = 0; }
 
 /// Joint 4 of elbow 0 where `elbow` is not set.
 Lanes fourth_joint(const SrsArm& arm, double t4, const Masks& elbow, Masks& within) {
@@ -98,73 +100,20 @@ Lanes fourth_joint(const SrsArm& arm, double t4, const Masks& elbow, Masks& with
   return wrapped(arm.sign[3] * (t - arm.offset[3]));
 }
 
-[[gnu::always_inline]] inline LaneAngles half_of(const LaneAngles& angles, bool wrist) {
-  const auto half = [wrist](const Lanes& v) {
-    return wrist ? __builtin_shufflevector(v, v, 2, 3, 2, 3)
-                 : __builtin_shufflevector(v, v, 0, 1, 0, 1);
-  };
-  const auto both = [&](const LaneSinCos& v) { return LaneSinCos{half(v.sin), half(v.cos)}; };
-  return {both(angles.a), both(angles.b), both(angles.c), Masks{}, Lanes{}};
-}
-
-/// Lanes: shoulder of elbow 0 and of elbow 1, wrist of elbow 0 and of elbow 1.
-void turn_all_to(const ArmNumbers& numbers, const SrsGoal& goal, double arm_angle,
-                 FourBranches (&out)[2]) {
-  const SrsArm& arm = numbers.arm;
-  const Balls balls = balls_of<Which::both>(goal);
-  LaneSinCos x = balls.at(sine_and_cosine(all(arm_angle)));
-  const Lanes back{1, -1, 1, -1};
-  x = {x.sin * back, x.cos * back};
-  const LaneAngles angles = angles_at(balls, x, goal.in_line);
-
-  const Shifts shift = shifts_of<Which::both>(goal);
-  const Lanes a = angle_of(angles.a) + shift.a + Lanes{0, 0, 0, kPi};
-  const Lanes b = angle_of(angles.b);
-  const Lanes c = angle_of(angles.c) + shift.c + Lanes{0, kPi, 0, 0};
-  const Lanes t[2][3]{{a, b, c}, {a - kPi, -b, c - kPi}};
-  Lanes joint[2][3];
-  Masks within[2]{Masks{-1, -1, -1, -1}, Masks{-1, -1, -1, -1}};
-  for (int flip = 0; flip < 2; ++flip) {
-    for (int i = 0; i < 3; ++i) {
-      joint[flip][i] = joint_at<Which::both>(numbers.turn[i], t[flip][i], within[flip]);
-    }
-  }
-
-  // Branches of one shoulder: {elbow 0, 0, 1, 1}, {wrist 0, 1, 0, 1}.
-  const Masks elbow{0, 0, -1, -1};
-  Masks within4;
-  const Lanes fourth = fourth_joint(arm, goal.t4, elbow, within4);
-  const Lanes rates2 = squared_rates(balls, angles);
-  const auto shoulders = [](const auto& v) { return __builtin_shufflevector(v, v, 0, 0, 1, 1); };
-  const auto wrists = [](const auto& v) { return __builtin_shufflevector(v, v, 2, 2, 3, 3); };
-  const LaneResidual two = residual_of(arm, goal, half_of(angles, false), half_of(angles, true));
-  const LaneResidual four{shoulders(two.position_m), shoulders(two.angle_rad)};
-  const Masks singular = are_singular(arm, goal, shoulders(angles.b.sin), shoulders(rates2),
-                                      wrists(angles.b.sin), wrists(rates2));
-  const Masks free = shoulders(angles.free) | wrists(angles.free);
-  const Masks wrist_within = __builtin_shufflevector(within[0], within[1], 2, 6, 3, 7);
-  for (int flip = 0; flip < 2; ++flip) {
-    for (int i = 0; i < 3; ++i) {
-      store(shoulders(joint[flip][i]), out[flip].joint[i]);
-      store(__builtin_shufflevector(joint[0][i], joint[1][i], 2, 6, 3, 7), out[flip].joint[i + 4]);
-    }
-    store(fourth, out[flip].joint[3]);
-    out[flip].within_limits = bits_of(shoulders(within[flip]) & wrist_within & within4);
-    store_accuracy(four, singular, free, out[flip]);
-  }
-}
-
-void turn_each_to(const ArmNumbers& numbers, const SrsGoal& goal, const FourPlaces& at,
-                  FourBranches& out) {
-  const BranchTurns turns = turns_of_branches(at.branch);
-  const LaneSinCos arm_angle = turned_back(load(at.arm_angle), turns);
+/// Of the branches from `first` on.
+template <Case which_case>
+void turn_some_to(const ArmNumbers& numbers, const SrsGoal& goal, const EightPlaces& at, int first,
+                  EightBranches& out) {
+  const BranchTurns turns = turns_of_branches(at.branch + first);
+  const LaneSinCos arm_angle = turned_back(load(at.arm_angle + first), turns);
   const Balls shoulders = balls_of<Which::shoulder>(goal), wrists = balls_of<Which::wrist>(goal);
-  const LaneAngles shoulder = angles_at(shoulders, shoulders.at(arm_angle), goal.in_line);
-  const LaneAngles wrist = angles_at(wrists, wrists.at(arm_angle), goal.in_line);
+  const LaneAngles shoulder = angles_at<which_case>(shoulders, arm_angle, goal.in_line);
+  const LaneAngles wrist =
+      angles_at<which_case>(wrists, x_at<Which::wrist>(goal, arm_angle), goal.in_line);
 
   const auto turned = [](const Lanes& t, const Masks& by) { return t + (by ? all(kPi) : all(0)); };
   Masks within;
-  store(fourth_joint(numbers.arm, goal.t4, turns.elbow, within), out.joint[3]);
+  store(fourth_joint(numbers.arm, goal.t4, turns.elbow, within), out.joint[3] + first);
   const Lanes t[6]{turned(angle_of(shoulder.a) + goal.azimuth_rad, turns.shoulder_a),
                    turns.shoulder_sign * angle_of(shoulder.b),
                    turned(angle_of(shoulder.c), turns.shoulder_c),
@@ -172,23 +121,21 @@ void turn_each_to(const ArmNumbers& numbers, const SrsGoal& goal, const FourPlac
                    turns.wrist_sign * angle_of(wrist.b),
                    turned(angle_of(wrist.c) + goal.beta_rad, turns.wrist_c)};
   for (int i = 0; i < 3; ++i) {
-    store(joint_at<Which::shoulder>(numbers.turn[i], t[i], within), out.joint[i]);
-    store(joint_at<Which::wrist>(numbers.turn[i], t[i + 3], within), out.joint[i + 4]);
+    store(joint_at<Which::shoulder>(numbers.turn[i], t[i], within), out.joint[i] + first);
+    store(joint_at<Which::wrist>(numbers.turn[i], t[i + 3], within), out.joint[i + 4] + first);
   }
-  out.within_limits = bits_of(within);
+  out.within_limits |= bits_of(within) << first;
   store_accuracy(residual_of(numbers.arm, goal, shoulder, wrist),
                  are_singular(numbers.arm, goal, shoulder.b.sin, squared_rates(shoulders, shoulder),
                               wrist.b.sin, squared_rates(wrists, wrist)),
-                 shoulder.free | wrist.free, out);
+                 shoulder.free | wrist.free, first, out);
 }
 
-void arctangents(const double (&sine)[4], const double (&cosine)[4], double (&angle)[4]) {
-  store(arctangent(load(sine), load(cosine)), angle);
-}
-void sines_and_cosines(const double (&angle)[4], double (&sine)[4], double (&cosine)[4]) {
-  const LaneSinCos found = sine_and_cosine(load(angle));
-  store(found.sin, sine);
-  store(found.cos, cosine);
+void turn_each_to(const ArmNumbers& numbers, const SrsGoal& goal, const EightPlaces& at,
+                  EightBranches& out) {
+  clear_flags(out);
+  const auto turn = never_in_line(goal) ? turn_some_to<Case::common> : turn_some_to<Case::any>;
+  for (int i = 0; i < 8; i += kLanes) turn(numbers, goal, at, i, out);
 }
 
 }  // namespace

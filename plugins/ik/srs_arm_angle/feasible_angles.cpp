@@ -53,7 +53,8 @@ FeasibleAngles::FeasibleAngles(const ArmNumbers& numbers, const SrsGoal& goal,
       elbow_within_limits_{within_limits(arm_, 3, goal.t4), within_limits(arm_, 3, -goal.t4)} {
   if (!elbow_within_limits_[0] && !elbow_within_limits_[1]) return;
   LimitPieces pieces;
-  kernel.limit_pieces(numbers, goal, pieces);
+  kernel.limit_events(numbers, goal, pieces);
+  kernel.limits_kept(numbers, goal, pieces);
   for (std::size_t which = 0; which < 2; ++which) {
     const bool in_line = which == 0 ? goal.shoulder_in_line : goal.wrist_in_line;
     for (std::size_t elbow = 0; elbow < 2; ++elbow) {
@@ -136,14 +137,15 @@ bool FeasibleAngles::both_keep_at(const Branch& branch, double at) const {
 }
 
 Spans FeasibleAngles::of(const Branch& branch) const {
-  const Spans spans = of_elbow0(branch);
+  Spans spans;
+  of_elbow0(branch, spans);
   return branch.elbow == 0 ? spans : half_turned(spans);
 }
 
-Spans FeasibleAngles::of_elbow0(const Branch& branch) const {
+void FeasibleAngles::of_elbow0(const Branch& branch, Spans& common) const {
   constexpr double kTouching = 1e-7;  // a root of two limits at once is known to the root of 1e-16
-  Spans common;
-  if (!elbow_within_limits_[branch.elbow]) return common;
+  common.count = 0;
+  if (!elbow_within_limits_[branch.elbow]) return;
   const Spans& shoulder = kept_[0][branch.elbow][branch.flips.shoulder];
   const Spans& wrist = kept_[1][branch.elbow][branch.flips.wrist];
   for (const Span *a = shoulder.begin(), *b = wrist.begin();
@@ -158,7 +160,6 @@ Spans FeasibleAngles::of_elbow0(const Branch& branch) const {
     }
     (a->upper < b->upper ? a : b)++;
   }
-  return common;
 }
 
 }  // namespace armature

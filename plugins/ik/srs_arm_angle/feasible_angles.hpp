@@ -31,7 +31,7 @@ struct Spans {
 
 /// Where the branches of a goal keep their limits: the ends are roots of a sin x + b cos x + c = 0,
 /// one for each limit (Shimizu et al. 2008), and between two neighbouring roots one place tells
-/// all (SrsKernel::limit_pieces). Where joints come in line turns are shared out as in turns_of.
+/// all (SrsKernel::limits_kept). Where joints come in line turns are shared out as in turns_of.
 /// Real-time safe.
 class FeasibleAngles {
  public:
@@ -41,7 +41,7 @@ class FeasibleAngles {
   /// points in common at which both keep their limits.
   Spans of(const Branch& branch) const;
   /// The same in arm angles of elbow 0: those of elbow 1 less half a turn.
-  Spans of_elbow0(const Branch& branch) const;
+  void of_elbow0(const Branch& branch, Spans& common) const;
 
  private:
   /// By ball, 0 the shoulder and 1 the wrist, elbow and flip; in arm angles of elbow 0.

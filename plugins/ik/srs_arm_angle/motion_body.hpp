@@ -3,111 +3,149 @@
 #pragma once
 
 #include "balls_body.hpp"
-#include "eights.hpp"
+#include "floats.hpp"
 
 namespace armature {
 namespace {
 
-/// Numbers that depend on the arm angle, and their slopes: four doubles or eight floats.
+/// Numbers that depend on the arm angle, and their first two derivatives: lanes or floats. Who does
+/// not look at the second does not pay for it.
 template <class Numbers>
 struct Level {
-  Numbers value, slope;
+  Numbers value, slope, bend;
 
   friend Level operator+(const Level& a, const Level& b) {
-    return {a.value + b.value, a.slope + b.slope};
+    return {a.value + b.value, a.slope + b.slope, a.bend + b.bend};
   }
-  friend Level operator*(double factor, const Level& a) {
-    return {every<Numbers>(factor) * a.value, every<Numbers>(factor) * a.slope};
+  friend Level operator-(const Level& a, const Level& b) {
+    return {a.value - b.value, a.slope - b.slope, a.bend - b.bend};
+  }
+  friend Level operator*(const Numbers& factor, const Level& a) {
+    return {factor * a.value, factor * a.slope, factor * a.bend};
   }
   friend Level operator*(const Level& a, const Level& b) {
-    return {a.value * b.value, a.value * b.slope + a.slope * b.value};
+    return {a.value * b.value, a.value * b.slope + a.slope * b.value,
+            a.value * b.bend + 2 * a.slope * b.slope + a.bend * b.value};
   }
 };
 template <class Mask, class Numbers>
 inline Level<Numbers> either_of(const Mask& which, const Level<Numbers>& a,
                                 const Level<Numbers>& b) {
-  return {which ? a.value : b.value, which ? a.slope : b.slope};
+  return {which ? a.value : b.value, which ? a.slope : b.slope, which ? a.bend : b.bend};
 }
-inline Level<Lanes> reciprocal(const Level<Lanes>& a) {
-  const Lanes inverse = 1 / a.value;
-  return {inverse, -a.slope * inverse * inverse};
+template <class Numbers>
+inline Level<Numbers> reciprocal(const Level<Numbers>& a) {
+  const Numbers inverse = 1 / a.value, fall = a.slope * inverse;
+  return {inverse, -fall * inverse, (2 * fall * fall - a.bend * inverse) * inverse};
+}
+template <class Numbers>
+Level<Numbers> constant(double value) {
+  return {every<Numbers>(value), every<Numbers>(0), every<Numbers>(0)};
+}
+
+/// How fast an angle turns with the arm angle, and how fast that changes.
+template <class Numbers>
+struct Rate {
+  Numbers slope, bend;
+};
+template <class Numbers>
+Level<Numbers> sine_of(const SinCosOf<Numbers>& angle, const Rate<Numbers>& rate) {
+  return {angle.sin, angle.cos * rate.slope,
+          angle.cos * rate.bend - angle.sin * rate.slope * rate.slope};
+}
+template <class Numbers>
+Level<Numbers> cosine_of(const SinCosOf<Numbers>& angle, const Rate<Numbers>& rate) {
+  return {angle.cos, -angle.sin * rate.slope,
+          -angle.sin * rate.bend - angle.cos * rate.slope * rate.slope};
 }
 
 /// How fast the joints of a ball turn with the arm angle: the turn about the axis of x, seen from
 /// behind Ry(q), shared out among the three axes. Finite at sin(b) = 0.
+template <class Numbers>
 struct Motion {
-  Lanes a, b, c;      // slopes
-  Lanes sine;         // of b
-  Lanes along, last;  // sine times a, sine times c
+  Rate<Numbers> a, b, c;
 };
-inline Motion motion_of(const Balls& balls, const LaneAngles& angles) {
+template <class Numbers>
+[[gnu::always_inline]] inline Motion<Numbers> motion_of(const BallsOf<Numbers>& balls,
+                                                        const AnglesOf<Numbers>& angles) {
   constexpr double kLeastSine = 1e-12;
-  const Lanes q_sin = balls.direction * balls.q_sin;
-  Motion m;
-  m.sine = larger(angles.b.sin, all(kLeastSine));
-  m.along = q_sin * angles.c.cos;
-  m.b = -(q_sin * angles.c.sin);
-  m.last = balls.direction * m.sine * balls.q_cos - angles.b.cos * m.along;
-  const Lanes most = all(1 / kLeastSine);
-  const Lanes inverse = angles.free ? most : smaller(angles.inverse_sine, most);
-  m.a = m.along * inverse;
-  m.c = m.last * inverse;
+  const Numbers sine = larger(angles.b.sin, every<Numbers>(kLeastSine));
+  const Numbers most = every<Numbers>(1 / kLeastSine);
+  const Numbers inverse = angles.free ? most : smaller(angles.inverse_sine, most);
+  const Numbers q_sin = balls.direction * balls.q_sin, q_cos = balls.direction * balls.q_cos;
+  // sin(b) a' and sin(b) c', and how they change.
+  const Numbers along = q_sin * angles.c.cos, last = sine * q_cos - angles.b.cos * along;
+  Motion<Numbers> m;
+  m.a.slope = along * inverse;
+  m.b.slope = -(q_sin * angles.c.sin);
+  m.c.slope = last * inverse;
+  const Numbers sine_slope = angles.b.cos * m.b.slope, along_slope = m.b.slope * m.c.slope;
+  const Numbers last_slope =
+      sine_slope * q_cos + sine * m.b.slope * along - angles.b.cos * along_slope;
+  m.a.bend = (along_slope - m.a.slope * sine_slope) * inverse;
+  m.b.bend = -(along * m.c.slope);
+  m.c.bend = (last_slope - m.c.slope * sine_slope) * inverse;
   return m;
 }
 
 /// What of the cost does not depend on flips, if the objective asks for it: sin(b)^2, and the
 /// square of sin(b) (a', b', c').
+template <class Numbers>
 struct Spread {
-  Level<Lanes> sine2, rates2;
+  Level<Numbers> sine2, rates2;
 };
-inline Spread spread_of(const Balls& balls, const LaneAngles& angles, const Motion& m) {
-  const LaneSinCos &b = angles.b, &c = angles.c;
-  const Lanes q_sin = balls.direction * balls.q_sin;
-  const Lanes along = -(q_sin * c.sin * m.c), across = m.sine * m.b;
-  const Lanes across_slope = -(q_sin * (b.cos * m.b * c.sin + m.sine * c.cos * m.c));
-  const Lanes last =
-      balls.direction * b.cos * m.b * balls.q_cos + m.sine * m.b * m.along - b.cos * along;
-  return {{m.sine * m.sine, 2 * m.sine * b.cos * m.b},
-          {m.along * m.along + across * across + m.last * m.last,
-           2 * (m.along * along + across * across_slope + m.last * last)}};
+template <class Numbers>
+Spread<Numbers> spread_of(const BallsOf<Numbers>& balls, const AnglesOf<Numbers>& angles,
+                          const Motion<Numbers>& m) {
+  const Numbers q_sin = balls.direction * balls.q_sin, q_cos = balls.direction * balls.q_cos;
+  const Level<Numbers> sine = sine_of<Numbers>(angles.b, m.b);
+  const Level<Numbers> along = q_sin * cosine_of<Numbers>(angles.c, m.c),
+                       across = q_sin * (sine * sine_of<Numbers>(angles.c, m.c)),
+                       last = q_cos * sine - cosine_of<Numbers>(angles.b, m.b) * along;
+  return {sine * sine, along * along + across * across + last * last};
 }
 
 /// A shoulder or wrist of elbow 0 at an arm angle, and how it moves there.
+template <class Numbers>
 struct MovingBall {
-  const Balls& balls;
-  LaneAngles angles;
-  Motion motion;
+  const BallsOf<Numbers>& balls;
+  AnglesOf<Numbers> angles;
+  Motion<Numbers> motion;
 
-  [[gnu::always_inline]] MovingBall(const SrsGoal& goal, const Balls& own,
-                                    const LaneSinCos& arm_angle)
-      : balls{own},
-        angles{angles_at(own, own.at(arm_angle), goal.in_line)},
-        motion{motion_of(own, angles)} {}
-  Spread spread() const { return spread_of(balls, angles, motion); }
+  Spread<Numbers> spread() const { return spread_of(balls, angles, motion); }
 };
+template <Case which_case, class Numbers>
+[[gnu::always_inline]] inline MovingBall<Numbers> moving_ball(const SrsGoal& goal,
+                                                              const BallsOf<Numbers>& balls,
+                                                              const SinCosOf<Numbers>& x) {
+  const AnglesOf<Numbers> angles = angles_at<which_case>(balls, x, goal.in_line);
+  return {balls, angles, motion_of(balls, angles)};
+}
 
 constexpr double kSingularWeight = 0.02, kLastWeight = 0.1, kSoft = 1e-3;
 
 /// The part of the cost that all branches share.
-inline Level<Lanes> shared_cost(const Aim& aim, const MovingBall& shoulder,
-                                const MovingBall& wrist) {
-  if (aim.objective == Objective::limits) return {all(0), all(0)};
-  const Spread s = shoulder.spread(), w = wrist.spread();
+template <class Numbers>
+Level<Numbers> shared_cost(const Aim& aim, const MovingBall<Numbers>& shoulder,
+                           const MovingBall<Numbers>& wrist) {
+  if (aim.objective == Objective::limits) return constant<Numbers>(0);
+  const Spread<Numbers> s = shoulder.spread(), w = wrist.spread();
   if (aim.objective == Objective::singularity) {
-    return -1.0 * (w.sine2 * s.rates2 + s.sine2 * w.rates2);
+    return every<Numbers>(-1) * (w.sine2 * s.rates2 + s.sine2 * w.rates2);
   }
-  const Level<Lanes> soft{all(kSoft), all(0)};
-  return kSingularWeight * (reciprocal(s.sine2 + soft) + reciprocal(w.sine2 + soft));
+  const auto soft = constant<Numbers>(kSoft);
+  return every<Numbers>(kSingularWeight) *
+         (reciprocal(s.sine2 + soft) + reciprocal(w.sine2 + soft));
 }
 /// Of the way from the last arm angle, where one is remembered and the objective asks for it.
 inline Level<Lanes> way_cost(const Aim& aim, const Lanes& arm_angle) {
-  if (aim.objective != Objective::balanced || !aim.remembers) return {all(0), all(0)};
+  if (aim.objective != Objective::balanced || !aim.remembers) return constant<Lanes>(0);
   const Lanes way = near_zero(arm_angle - aim.last);
-  return kLastWeight * Level<Lanes>{way * way, 2 * way};
+  return all(kLastWeight) * Level<Lanes>{way * way, 2 * way, all(2)};
 }
 
 /// u^2 / (1 - u^2) of the three joints of a ball, u the distance from the middle of its range over
-/// half of it, which changes at `rate`; by one division.
+/// half of it; by one division.
 template <class Numbers>
 struct LimitCosts {
   Level<Numbers> a, b, c;
@@ -123,7 +161,10 @@ template <class Numbers>
                 c_room = larger(one - c2, least);
   const Numbers a_b = a_room * b_room, inverse = one / (a_b * c_room), of_both = inverse * c_room;
   const auto cost = [](const Level<Numbers>& u, const Numbers& square, const Numbers& over) {
-    return Level<Numbers>{square * over, (u.value + u.value) * (over * over) * u.slope};
+    const Numbers over2 = over * over, first = (u.value + u.value) * over2,
+                  second = (2 + 6 * square) * (over2 * over);
+    return Level<Numbers>{square * over, first * u.slope,
+                          first * u.bend + second * (u.slope * u.slope)};
   };
   return {cost(a, a2, b_room * of_both), cost(b, b2, a_room * of_both), cost(c, c2, a_b * inverse)};
 }

@@ -2,6 +2,7 @@
 #include "places.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -9,15 +10,24 @@
 namespace armature {
 namespace {
 
+/// `count` in equal steps from -pi.
+template <int count>
+constexpr std::array<double, count> kRegular = [] {
+  std::array<double, count> places{};
+  for (int i = 0; i < count; ++i) places[i] = -std::numbers::pi + 2 * std::numbers::pi / count * i;
+  return places;
+}();
+
 class Places {
  public:
-  /// `count` regular ones.
-  Places(CostTable& table, int count) : table_{table}, step_{2 * std::numbers::pi / count} {
-    table_.sorted = table_.regular = count;
-    for (int i = 0; i < count; ++i) table_.place[i] = -std::numbers::pi + step_ * i;
+  template <std::size_t count>
+  Places(CostTable& table, const std::array<double, count>& regular)
+      : table_{table}, step_{2 * std::numbers::pi / count} {
+    table_.regular = count;
+    std::copy(regular.begin(), regular.end(), table_.place);
   }
   void add(double at) {
-    if (table_.sorted < kMostSorted) table_.place[table_.sorted++] = wrap_angle(at);
+    if (count_ < kMostMore) more_[count_++] = wrap_angle(at);
   }
   /// Where the hinge is nearest to in line, x = 0 and x = pi, its outer turns go like
   /// arctan(x / width): places at twice and twice the distance, from a quarter of the width.
@@ -34,23 +44,32 @@ class Places {
       }
     }
   }
+  /// Into their order, from behind.
   void finish() {
-    if (table_.sorted > table_.regular) std::sort(table_.place, table_.place + table_.sorted);
-    table_.place[table_.sorted++] = std::numbers::pi;
-    table_.count = table_.sorted;
+    int to = table_.regular + count_, regular = table_.regular;
+    table_.place[to] = std::numbers::pi;
+    table_.count = table_.sorted = to + 1;
+    std::sort(more_.begin(), more_.begin() + count_);
+    for (int more = count_; more > 0;) {
+      const bool take = regular == 0 || more_[more - 1] > table_.place[regular - 1];
+      table_.place[--to] = take ? more_[--more] : table_.place[--regular];
+    }
   }
 
  private:
-  static constexpr int kMostSorted = 216;
+  static constexpr int kMostMore = 168;
   CostTable& table_;
   double step_;
+  std::array<double, kMostMore> more_;
+  int count_ = 0;
 };
 
 }  // namespace
 
 void set_places(const SrsGoal& goal, const Aim& aim, CostTable& table) {
   // The manipulability has more hills than the limits have.
-  Places places{table, aim.objective == Objective::singularity ? 48 : 40};
+  const bool hilly = aim.objective == Objective::singularity;
+  Places places = hilly ? Places{table, kRegular<48>} : Places{table, kRegular<40>};
   places.add_around(goal.polar, -goal.phi, 0);
   places.add_around(goal.bend, goal.gamma, goal.alpha_rad);
   if (aim.objective == Objective::balanced && aim.remembers) {

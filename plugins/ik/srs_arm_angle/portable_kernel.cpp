@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "branches_body.hpp"
+#include "all_branches_body.hpp"
+#include "events_body.hpp"
+#include "kept_body.hpp"
 #include "minima_body.hpp"
-#include "pieces_body.hpp"
 #include "table_body.hpp"
 
 namespace armature {
 
 const SrsKernel& portable_srs_kernel() {
-  static constexpr SrsKernel kernel{arctangents, sines_and_cosines,    turn_all_to,   turn_each_to,
-                                    find_pieces, find_costs_all_round, find_costs_at, find_minima};
+  static constexpr SrsKernel kernel{arctangents,          sines_and_cosines, turn_all_to,
+                                    turn_each_to,         find_events,       find_kept,
+                                    find_costs_all_round, find_costs_at,     find_minima_of};
   return kernel;
 }
 
@@ -17,6 +19,8 @@ SrsKernels srs_kernels() {
 #if defined(__x86_64__)
   if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) return list;
   list.kernel[list.count++] = &avx2_srs_kernel();
+  if (!__builtin_cpu_supports("avx512f") || !__builtin_cpu_supports("avx512dq")) return list;
+  list.kernel[list.count++] = &avx512_srs_kernel();
 #endif
   return list;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "arm_angle_choice.hpp"
@@ -60,14 +61,14 @@ std::optional<double> SrsArmAngle::redundancy_of(const JointVector& q) const {
 }
 
 void SrsArmAngle::add_branches(const SrsGoal& goal, double arm_angle, IkBranches& out) const {
-  FourBranches found[2];
+  EightBranches found;
   srs_kernel().turn_to(numbers_, goal, arm_angle, found);
   std::array<SolvedElbow, 2> elbows;
   std::array<bool, 2> solved{};
   for (std::size_t i = 0; i < kBranches.size(); ++i) {
     const Branch& branch = kBranches[i];
-    if ((found[i / 4].in_line >> i % 4 & 1) == 0) {
-      set_branch(found[i / 4], i % 4, arm_angle, branch.label, out.add());
+    if ((found.in_line >> i & 1) == 0) {
+      set_branch(found, i, arm_angle, branch.label, out.add());
       continue;
     }
     const std::size_t elbow = branch.elbow;
@@ -81,31 +82,25 @@ void SrsArmAngle::add_branches(const SrsGoal& goal, double arm_angle, IkBranches
 
 void SrsArmAngle::add_best_branches(const SrsGoal& goal, const JointVector& seed,
                                     std::optional<double> last, IkBranches& out) const {
-  const double wanted = last ? *last : *redundancy_of(seed);
   const SrsKernel& kernel = srs_kernel();
   const FeasibleAngles feasible{numbers_, goal, kernel};
   std::array<Spans, 8> spans;
-  for (std::size_t i = 0; i < 8; ++i) spans[i] = feasible.of_elbow0(kBranches[i]);
+  for (std::size_t i = 0; i < 8; ++i) feasible.of_elbow0(kBranches[i], spans[i]);
   const Aim aim{objective_, last.has_value(), last.value_or(0)};
   std::array<double, 8> arm_angle;
-  ArmAngleChoice{numbers_, goal, kernel, aim, wanted}.choose(spans, arm_angle);
-  for (std::size_t group = 0; group < 8; group += 4) {
-    FourPlaces at;
-    FourBranches found;
-    for (std::size_t k = 0; k < 4; ++k) {
-      at.arm_angle[k] = arm_angle[group + k];
-      at.branch[k] = static_cast<int>(group + k);
-    }
-    kernel.turn_each(numbers_, goal, at, found);
-    for (std::size_t k = 0; k < 4; ++k) {
-      const std::size_t i = group + k;
-      const bool inside = (found.within_limits >> k & 1) != 0 || spans[i].count == 0;
-      if (inside && (found.in_line >> k & 1) == 0) {
-        set_branch(found, k, wrap_angle(arm_angle[i]), kBranches[i].label, out.add());
-      } else {
-        out.add() = branch_inside(numbers_.arm, goal, kBranches[i], feasible.of(kBranches[i]),
-                                  arm_angle[i]);
-      }
+  ArmAngleChoice{numbers_, goal, kernel, aim, seed}.choose(spans, arm_angle);
+  EightPlaces at;
+  std::copy(arm_angle.begin(), arm_angle.end(), at.arm_angle);
+  std::iota(at.branch, at.branch + 8, 0);
+  EightBranches found;
+  kernel.turn_each(numbers_, goal, at, found);
+  for (std::size_t i = 0; i < 8; ++i) {
+    const bool inside = (found.within_limits >> i & 1) != 0 || spans[i].count == 0;
+    if (inside && (found.in_line >> i & 1) == 0) {
+      set_branch(found, i, wrap_angle(arm_angle[i]), kBranches[i].label, out.add());
+    } else {
+      out.add() =
+          branch_inside(numbers_.arm, goal, kBranches[i], feasible.of(kBranches[i]), arm_angle[i]);
     }
   }
 }

@@ -34,7 +34,7 @@ IkBranch branch_of(const SrsArm& arm, const SolvedElbow& solved, const Flips& fl
   return branch;
 }
 
-void set_branch(const FourBranches& found, std::size_t lane, double arm_angle,
+void set_branch(const EightBranches& found, std::size_t lane, double arm_angle,
                 std::string_view label, IkBranch& branch) {
   branch.label = label;
   branch.q.resize(7);

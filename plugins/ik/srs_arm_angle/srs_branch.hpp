@@ -27,7 +27,7 @@ IkBranch branch_of(const SrsArm& arm, const SolvedElbow& solved, const Flips& fl
                    std::string_view label);
 
 /// Branch `lane` of four that the kernel found, which is not in line; `arm_angle` in [-pi, pi).
-void set_branch(const FourBranches& found, std::size_t lane, double arm_angle,
+void set_branch(const EightBranches& found, std::size_t lane, double arm_angle,
                 std::string_view label, IkBranch& branch);
 
 }  // namespace armature

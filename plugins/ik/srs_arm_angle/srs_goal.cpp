@@ -76,12 +76,6 @@ Vector3d wrist_or_direction(const SrsArm& arm, const UpperArm& upper) {
   return upper.rotation * Vector3d{phi.sin, 0, phi.cos};
 }
 
-std::array<double, 7> canonical(const SrsArm& arm, const JointVector& q) {
-  std::array<double, 7> t;
-  for (std::size_t i = 0; i < 7; ++i) t[i] = arm.canonical(i, q.data()[i]);
-  return t;
-}
-
 void set_reach(const SrsArm& arm, const IkGoal::Tolerance& tolerance, SrsGoal& goal) {
   const double far = arm.reach(), near = std::abs(arm.upper - arm.fore), rho = goal.distance;
   const double slack = std::clamp(tolerance.position_m, kRounding * far, kSlack * far);
@@ -150,6 +144,12 @@ void set_free_joints(const SrsArm& arm, const JointVector& seed, SrsGoal& goal) 
 }
 
 }  // namespace
+
+std::array<double, 7> canonical(const SrsArm& arm, const JointVector& q) {
+  std::array<double, 7> t;
+  for (std::size_t i = 0; i < 7; ++i) t[i] = arm.canonical(i, q.data()[i]);
+  return t;
+}
 
 double nearest_within_limits(const SrsArm& arm, std::size_t i, double t) {
   const double offset = wrap_angle(t - arm.middle[i]);

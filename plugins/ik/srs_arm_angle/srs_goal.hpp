@@ -41,7 +41,8 @@ struct SrsGoal {
 /// brought within limits.
 SrsGoal srs_goal(const SrsArm& arm, const IkGoal& goal, const JointVector& seed);
 
-/// The arm angle at the canonical joints `t`.
+/// SrsArm's angles of the joints `q`, and the arm angle at them.
+std::array<double, 7> canonical(const SrsArm& arm, const JointVector& q);
 double arm_angle_of(const SrsArm& arm, const std::array<double, 7>& t);
 
 /// `t` of joint `i` (from 0), or the nearest value within its limits.

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Four doubles at once, for solvers whose arithmetic is compiled once for each kind of processor.
-// Everything is unnamed: each processor's copy is its own. Whose copy is for processors with AVX
-// defines ARMATURE_AVX before this: the pragma that chooses a processor defines no macro.
+// Four doubles at once, or eight, for solvers whose arithmetic is compiled once for each kind of
+// processor. Everything is unnamed: each processor's copy is its own. Whose copy is for processors
+// with AVX defines ARMATURE_AVX before this, for those with AVX-512 ARMATURE_AVX512, which makes it
+// eight: the pragma that chooses a processor defines no macro.
 #pragma once
 
 #include <bit>
@@ -20,16 +21,23 @@
 namespace armature {
 namespace {
 
-using Lanes = double __attribute__((vector_size(32)));
-using Masks = std::int64_t __attribute__((vector_size(32)));
+#if defined(ARMATURE_AVX512)
+constexpr int kLanes = 8;
+#else
+constexpr int kLanes = 4;
+#endif
+using Lanes = double __attribute__((vector_size(8 * kLanes)));
+using Masks = std::int64_t __attribute__((vector_size(8 * kLanes)));
 
 constexpr double kPi = std::numbers::pi;
 constexpr std::int64_t kSignBit = INT64_MIN;
 
-inline Lanes all(double x) { return Lanes{x, x, x, x}; }
+inline Lanes all(double x) { return x - Lanes{}; }
 /// A bit for every lane of what comes out of a comparison.
 inline unsigned bits_of(const Masks& m) {
-#if defined(ARMATURE_AVX)
+#if defined(ARMATURE_AVX512)
+  return _mm512_movepi64_mask(std::bit_cast<__m512i>(m));
+#elif defined(ARMATURE_AVX)
   return static_cast<unsigned>(_mm256_movemask_pd(std::bit_cast<__m256d>(m)));
 #else
   return static_cast<unsigned>((m[0] & 1) | (m[1] & 2) | (m[2] & 4) | (m[3] & 8));
@@ -47,7 +55,9 @@ inline Lanes with_sign(const Lanes& x, const Lanes& s) {
 }
 
 inline Lanes root(const Lanes& x) {
-#if defined(ARMATURE_AVX)
+#if defined(ARMATURE_AVX512)
+  return std::bit_cast<Lanes>(_mm512_maskz_sqrt_pd(0xFF, std::bit_cast<__m512d>(x)));
+#elif defined(ARMATURE_AVX)
   return std::bit_cast<Lanes>(_mm256_sqrt_pd(std::bit_cast<__m256d>(x)));
 #elif defined(__SSE2__)
   const __m128d low = _mm_sqrt_pd(_mm_set_pd(x[1], x[0]));

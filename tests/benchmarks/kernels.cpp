@@ -6,12 +6,14 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <random>
 #include <string>
 #include <vector>
 
 #include "armature/config/problems.hpp"
+#include "armature/kinds/ik/batch.hpp"
 #include "armature/kinds/ik/verify/plugin_subject.hpp"
 #include "armature/robot/kinematics.hpp"
 #include "armature/robot/orientation_curve.hpp"
@@ -81,6 +83,43 @@ void solve(benchmark::State& state, const IkSubject& subject, Redundancy redunda
     IkState memory;
     benchmark::DoNotOptimize(
         subject.solver->solve(goals[i % kPostures], list[(i + 1) % kPostures], found, memory));
+  }
+}
+
+/// A goal of a batch of them.
+void solve_batch(benchmark::State& state, const IkSubject& subject) {
+  constexpr std::size_t kNumbers = 7;  // x, y, z and w, x, y, z, or a direction
+  std::array<std::vector<double>, kNumbers> numbers;
+  const auto list = postures(*subject.model);
+  for (const JointVector& q : list) {
+    const IkGoal goal = goal_at(*subject.model, q);
+    Eigen::Matrix<double, kNumbers, 1> one;
+    if (const auto* direction = std::get_if<Direction>(&goal.pose.orientation)) {
+      one << goal.pose.position, direction->unit, 0;
+    } else {
+      const auto& rotation = std::get<Eigen::Quaterniond>(goal.pose.orientation);
+      one << goal.pose.position, rotation.w(), rotation.vec();
+    }
+    for (std::size_t k = 0; k < kNumbers; ++k) {
+      numbers[k].push_back(one[static_cast<Eigen::Index>(k)]);
+    }
+  }
+  IkBatch batch;
+  batch.count = kPostures;
+  batch.tolerance = {.position_m = 1e-6, .angle_rad = 1e-6};
+  const auto point = [&](auto& to, std::size_t from) {
+    for (std::size_t k = 0; k < to.size(); ++k) to[k] = numbers[from + k].data();
+  };
+  point(batch.position, 0);
+  if (subject.model->pointing_axis()) {
+    point(batch.direction, 3);
+  } else {
+    point(batch.rotation, 3);
+  }
+  IkBatchAnswers answers;
+  while (state.KeepRunningBatch(kPostures)) {
+    subject.solver->solve_batch(batch, list.front(), answers);
+    benchmark::DoNotOptimize(answers.found.data());
   }
 }
 
@@ -166,6 +205,8 @@ void add_robot(PluginRegistry& plugins, const RobotPtr& robot) {
     if (!subject) continue;  // does not serve it
     add("solve/" + plugin.id + "/" + robot->name(),
         [made = *subject](benchmark::State& state) { solve(state, made, Redundancy::chosen); });
+    add("solve_batch/" + plugin.id + "/" + robot->name(),
+        [made = *subject](benchmark::State& state) { solve_batch(state, made); });
     for (const auto& [kind, beyond] :
          {std::pair{"too_far", Beyond::too_far}, {"too_near", Beyond::too_near}}) {
       const auto goals = out_of_reach(*subject, beyond);

@@ -3,6 +3,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <numbers>
 
@@ -10,6 +11,7 @@
 #pragma GCC push_options
 #pragma GCC target("avx2,fma")
 #define ARMATURE_AVX
+#include "batch_body.hpp"
 #include "four_arms_body.hpp"
 
 namespace armature {
@@ -17,6 +19,10 @@ namespace armature {
 const ArmKernel& avx2_arm_kernel() {
   static constexpr ArmKernel kernel{solve_four_arms, roll_errors_of};
   return kernel;
+}
+
+void solve_batch_avx2(const BatchArm& arm, const PoseBatch& poses, const PoseAnswers& out) {
+  solve_all_poses(arm, poses, out);
 }
 
 }  // namespace armature

@@ -7,18 +7,10 @@
 #include <cmath>
 #include <limits>
 
-#include "armature/kinds/ik/lanes.hpp"
-#include "four_arms.hpp"
+#include "forms_body.hpp"
 
 namespace armature {
 namespace {
-
-// Relative to the arm's length: a gap to the rim of reach below kOnRim is rounding, and both roots
-// are one; a wrist nearer to the axis of joint 1 or 2 than kOnAxis leaves that joint free.
-constexpr double kOnRim = 2e-15, kOnAxis = 1e-12;
-// det J = -a2 forearm sin(elbow) (wrist to axis 1) sin(t5): an arm is singular when one of the
-// three, each relative to its largest, is below kSingular, or their product below kSingularProduct.
-constexpr double kSingular = 1e-6, kSingularProduct = 1e-10;
 
 const Lanes kElbowSide{1, -1, 1, -1};
 
@@ -85,30 +77,6 @@ void solve_shoulder(const ArmNumbers& arm, const ArmQuestion& question, const Ra
   arms.t1 = arctangent(arms.sin1, arms.cos1);
 }
 
-/// The angle psi = t3 + beta between upper arm and forearm, and the vector to the wrist that both
-/// make, seen from the upper arm.
-struct Elbows {
-  Lanes psi, cos_psi, sin_psi;
-  Lanes x, y, length;
-};
-/// (311), (312) as half angles, whose squares are factored so that nothing cancels.
-Elbows elbows_at(const ArmNumbers& arm, const Lanes& rho, double nearest, double farthest) {
-  Lanes outside = farthest - rho, inside = rho - nearest;
-  outside = outside < kOnRim * farthest ? all(0) : outside;
-  inside = inside < kOnRim * farthest ? all(0) : inside;
-  const Lanes up2 = outside * (farthest + rho), flat2 = inside * (rho + nearest);
-  const Lanes up = root(up2), flat = root(flat2);
-  const Lanes scale = 1 / (up2 + flat2);  // of 4 a2 forearm
-  Elbows elbows;
-  elbows.psi = 2 * kElbowSide * arctangent(up, flat);
-  elbows.cos_psi = (flat2 - up2) * scale;
-  elbows.sin_psi = 2 * kElbowSide * up * flat * scale;
-  elbows.x = arm.a2 + arm.forearm * elbows.cos_psi;
-  elbows.y = arm.forearm * elbows.sin_psi;
-  elbows.length = root(elbows.x * elbows.x + elbows.y * elbows.y);
-  return elbows;
-}
-
 /// (317): t2 for the wrist `px` before and -wz below the axis of joint 2.
 void solve_upper_arm(const ArmNumbers& arm, const ArmQuestion& question, const Elbows& elbows,
                      const Lanes& px, const Lanes& rho, Arms& arms) {
@@ -146,7 +114,7 @@ Arms solve_arms(const ArmNumbers& arm, const ArmQuestion& question, FourArms& ou
   solve_shoulder(arm, question, wrist, arms);
   const Lanes px = arms.from_axis - arm.a1;
   const Lanes rho = root(px * px + question.wrist.z * question.wrist.z);
-  solve_upper_arm(arm, question, elbows_at(arm, rho, nearest, farthest), px, rho, arms);
+  solve_upper_arm(arm, question, elbows_at(arm, rho, kElbowSide), px, rho, arms);
   arms.reached = (rho - farthest <= question.slack) & (nearest - rho <= question.slack);
   if (!wrist.reached) arms.reached = Masks{};
   out.kept1 = wrist.radius < kOnAxis * farthest;
@@ -170,22 +138,6 @@ struct Wrists {
   Lanes factor;     // of det J
   LaneTriple turn;  // from the wanted to the reached rotation, seen from link 3 [rad]
 };
-
-/// The wrist's axes seen from link 3.
-struct Axes {
-  LaneTriple n, o, a;
-};
-Axes axes_of(const Lanes& c4, const Lanes& s4, const Lanes& c5, const Lanes& s5, const Lanes& c6,
-             const Lanes& s6) {
-  return {{c4 * c5 * c6 - s4 * s6, s5 * c6, -(s4 * c5 * c6) - c4 * s6},
-          {-(c4 * c5 * s6) - s4 * c6, -(s5 * s6), s4 * c5 * s6 - c4 * c6},
-          {-(c4 * s5), c5, s4 * s5}};
-}
-LaneTriple turn_between(const Axes& wanted, const Axes& reached) {
-  const LaneTriple twice =
-      cross(wanted.n, reached.n) + cross(wanted.o, reached.o) + cross(wanted.a, reached.a);
-  return {0.5 * twice.x, 0.5 * twice.y, 0.5 * twice.z};
-}
 
 /// (314): t4 and t5 from a = (-c4 s5, c5, s4 s5); then t6 from n, o and t4, exact where s5 is not.
 Wrists solve_turning(const Arms& arms, const ArmQuestion& question) {

@@ -24,6 +24,10 @@ class PumaAlgebraic final : public IkSolver {
                  IkState& state) const override;
   std::optional<double> redundancy_of(const JointVector& q) const override;
   bool redundancy_is_length() const override { return arm_.needle; }
+  /// Slots are the branches in their order. Of rotations, by arms whose joints all turn, many at
+  /// once.
+  void solve_batch(const IkBatch& batch, const JointVector& seed,
+                   IkBatchAnswers& out) const override;
 
  private:
   PumaAlgebraic(const RobotModel& model, const PumaArm& arm)

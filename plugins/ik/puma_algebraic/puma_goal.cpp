@@ -19,6 +19,14 @@ Triple triple(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 }  // namespace
 
+double rim_slack(const PumaArm& arm, const IkGoal::Tolerance& tolerance) {
+  const double reach = arm.a2 + arm.forearm;
+  return std::clamp(tolerance.position_m, kRounding * reach, kSlack * reach);
+}
+double in_line_angle(const IkGoal::Tolerance& tolerance) {
+  return std::clamp(tolerance.angle_rad, kRounding, kInLine);
+}
+
 ArmNumbers numbers_of(const PumaArm& arm, const RobotModel& model) {
   ArmNumbers numbers{};
   numbers.a1 = arm.a1, numbers.d2 = arm.d2, numbers.a2 = arm.a2, numbers.forearm = arm.forearm;
@@ -63,9 +71,8 @@ PumaGoal puma_goal(const PumaArm& arm, const ArmNumbers& numbers, const IkGoal& 
   question.lever = triple(lever);
   question.wrist = triple(tool - lever);
   if (arm.needle) result.needle = triple(arm.sign[5] * axis);
-  const double reach = arm.a2 + arm.forearm;
-  question.slack = std::clamp(goal.tolerance.position_m, kRounding * reach, kSlack * reach);
-  question.in_line = std::clamp(goal.tolerance.angle_rad, kRounding, kInLine);
+  question.slack = rim_slack(arm, goal.tolerance);
+  question.in_line = in_line_angle(goal.tolerance);
   const auto kept = [&](int i) {
     return wrap_angle(
         arm.canonical(static_cast<std::size_t>(i), nearest_within_limits(numbers, i, seed[i])));

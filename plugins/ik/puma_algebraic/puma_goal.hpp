@@ -10,6 +10,10 @@ namespace armature {
 /// The arm and the limits of its joints in numbers.
 ArmNumbers numbers_of(const PumaArm& arm, const RobotModel& model);
 
+/// ArmQuestion::slack and ArmQuestion::in_line.
+double rim_slack(const PumaArm& arm, const IkGoal::Tolerance& tolerance);
+double in_line_angle(const IkGoal::Tolerance& tolerance);
+
 /// A goal in PumaArm's form, seen from the shoulder frame.
 struct PumaGoal {
   ArmQuestion at_zero;  // with the needle at 0

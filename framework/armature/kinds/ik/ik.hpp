@@ -96,12 +96,15 @@ struct IkState {
   std::optional<double> last_redundancy;
 };
 
+struct IkBatch;  // batch.hpp
+class IkBatchAnswers;
+
 /// Inverse kinematics for one robot. Made by `make`, which refuses a robot that the solver cannot
 /// serve with a reason.
 class IkSolver {
  public:
   static constexpr std::string_view kKind = "ik";
-  static constexpr int kKindVersion = 2;
+  static constexpr int kKindVersion = 3;
   using Factory = MadeForRobot<IkSolver>;
 
   virtual ~IkSolver() = default;
@@ -131,6 +134,11 @@ class IkSolver {
   }
   /// Whether the redundancy is a length [m] and not an angle [rad].
   virtual bool redundancy_is_length() const { return false; }
+  /// What `solve` answers to each goal of `batch` by itself, with `seed` and nothing remembered, up
+  /// to rounding; one by one where the solver knows no shorter way. Bad input spoils its own answer
+  /// only. Real-time safe as `solve` is, once `out` had room for as many.
+  virtual void solve_batch(const IkBatch& batch, const JointVector& seed,
+                           IkBatchAnswers& out) const;
 };
 
 /// nullptr, or why `goal` and `seed` cannot be solved for at all: not finite, further away than

@@ -94,5 +94,6 @@ IkLawReport check_law(const IkLaw& law, const IkSubject& subject, const IkLawToo
   LAW(ASmallChangeOfTheGoalIsASmallChangeOfTheJointsAwayFromSingularPoses, continuity,           \
       "a small change of the goal is one of the joints")                                         \
   LAW(EqualInputGivesEqualBitsFromAnyThread, equal_bits, "equal bits from any thread")           \
+  LAW(ABatchIsAnsweredAsItsGoalsAreOneByOne, batch_is_one_by_one, "a batch is as one by one")    \
   LAW(BadInputIsAnsweredAndNotSolved, bad_input, "bad input is answered")                        \
   LAW(SolvingDoesNotAllocate, no_allocation, "solving does not allocate")

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "armature/kinds/ik/batch.hpp"
+#include "pose_batch.hpp"
+#include "puma_structure.hpp"
+
+namespace armature {
+
+/// Rotations, by an arm whose joints all turn. What needs rules of its own (a free joint, bad
+/// input) is found as PoseAnswers::kSpecial and has no other answer. `out` has room.
+void solve_together(SolveBatch solve, const PumaArm& arm, const ArmNumbers& numbers,
+                    const IkBatch& batch, IkBatchAnswers& out);
+
+}  // namespace armature

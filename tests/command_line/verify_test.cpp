@@ -54,7 +54,7 @@ TEST(PluginVerify, PrintsALinePerLawAndEndsWithZeroWhenAllAreKept) {
   for (std::string line; std::getline(lines, line);) {
     if (line.starts_with("  pass  ") || line.starts_with("  skip  ")) ++laws;
   }
-  EXPECT_EQ(laws, 17) << result.out;
+  EXPECT_EQ(laws, 18) << result.out;
   EXPECT_THAT(result.out, HasSubstr("  pass  fk(ik(goal)) = goal"));
   EXPECT_THAT(result.out, HasSubstr("  skip  an asked arm angle is kept"));
   EXPECT_THAT(result.out, HasSubstr("  skip  told arm angles are those within limits"));

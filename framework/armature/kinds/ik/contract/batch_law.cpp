@@ -77,6 +77,12 @@ std::vector<IkGoal> goals_for_a_batch(Probe& probe) {
   return goals;
 }
 
+bool reaches(const Probe& probe, const JointVector& q) {
+  const PoseResidual residual = probe.residual_of(q, probe.goal());
+  const IkGoal::Tolerance& tolerance = probe.goal().tolerance;
+  return residual.position_m <= tolerance.position_m && residual.angle_rad <= tolerance.angle_rad;
+}
+
 /// What differs between the answer of the `i`th goal and what was found for it alone; empty:
 /// nothing.
 std::string difference(const Probe& probe, const IkBatchAnswers& answers, std::size_t i) {
@@ -93,8 +99,9 @@ std::string difference(const Probe& probe, const IkBatchAnswers& answers, std::s
     const unsigned bit = 1U << slot;
     if ((answers.found[i] & bit) == 0) continue;
     for (int k = 0; k < q.size(); ++k) q[k] = answers.joint(slot, k)[i];
+    // Of a singular posture the pose tells the joints less exactly than that.
     const double away = probe.distance(q, branch->q);
-    if (!(away < kOnePosture)) {
+    if (!(away < kOnePosture) && !(branch->singular && reaches(probe, q))) {
       return fmt::format("branch {} stands {:.3g} rad or m elsewhere", branch->label, away);
     }
     if (((answers.within_limits[i] & bit) != 0) != branch->within_limits ||

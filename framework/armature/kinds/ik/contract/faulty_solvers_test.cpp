@@ -2,6 +2,7 @@
 // The laws see every fault: a solver that keeps them all, and one that breaks each.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <limits>
@@ -9,6 +10,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "armature/kinds/ik/batch.hpp"
 #include "armature/kinds/ik/contract.hpp"
 
 namespace armature {
@@ -60,6 +62,11 @@ enum class Fault {
   remembers,
   bad_input_solved,
   allocates,
+  batch_elsewhere,
+  batch_loses_a_branch,
+  batch_flags_wrong,
+  batch_misses_goal,
+  batch_solves_bad_input,
   throws
 };
 
@@ -94,6 +101,20 @@ class Gantry : public IkSolver {
       return {IkStatus::Code::out_of_reach, fault_ == Fault::shortfall_of_zero ? 0 : far, "slides"};
     }
     return solve_turns(goal, seed, out);
+  }
+
+  void solve_batch(const IkBatch& batch, const JointVector& seed,
+                   IkBatchAnswers& out) const override {
+    IkSolver::solve_batch(batch, seed, out);
+    const auto first = static_cast<std::size_t>(
+        std::ranges::find_if(out.found, [](unsigned bits) { return bits != 0; }) -
+        out.found.begin());
+    if (fault_ == Fault::batch_elsewhere) out.joint(1, 3)[first] += 1e-3;
+    if (fault_ == Fault::batch_loses_a_branch) out.found[first] = 1;
+    if (fault_ == Fault::batch_flags_wrong) out.singular[first] ^= 1;
+    if (fault_ == Fault::batch_misses_goal) out.angle_rad[first] = 1e-6;
+    if (fault_ != Fault::batch_solves_bad_input) return;
+    std::ranges::replace(out.code, IkStatus::Code::invalid_input, IkStatus::Code::ok);
   }
 
  private:
@@ -226,6 +247,16 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"bad_input_solved", Fault::bad_input_solved, "BadInputIsAnsweredAndNotSolved",
              "a position that is no number is answered with 'ok'"},
         Case{"allocates", Fault::allocates, "SolvingDoesNotAllocate", "1 allocations in one solve"},
+        Case{"batch_elsewhere", Fault::batch_elsewhere, "ABatchIsAnsweredAsItsGoalsAreOneByOne",
+             "branch back stands 0.001 rad or m elsewhere"},
+        Case{"batch_loses_a_branch", Fault::batch_loses_a_branch,
+             "ABatchIsAnsweredAsItsGoalsAreOneByOne", "1 branches instead of 2"},
+        Case{"batch_flags_wrong", Fault::batch_flags_wrong, "ABatchIsAnsweredAsItsGoalsAreOneByOne",
+             "branch front has other flags"},
+        Case{"batch_misses_goal", Fault::batch_misses_goal, "ABatchIsAnsweredAsItsGoalsAreOneByOne",
+             "a residual of 0 m and 1e-06 rad"},
+        Case{"batch_solves_bad_input", Fault::batch_solves_bad_input,
+             "ABatchIsAnsweredAsItsGoalsAreOneByOne", "'ok' instead of 'invalid_input'"},
         Case{"throws", Fault::throws, "AGoalWithinLimitsIsReached",
              "the solver throws: no memory left"}),
     testing::PrintToStringParamName());

@@ -109,7 +109,9 @@ class Gantry : public IkSolver {
     const auto first = static_cast<std::size_t>(
         std::ranges::find_if(out.found, [](unsigned bits) { return bits != 0; }) -
         out.found.begin());
-    if (fault_ == Fault::batch_elsewhere) out.joint(1, 3)[first] += 1e-3;
+    for (std::size_t i = 0; fault_ == Fault::batch_elsewhere && i < batch.count; ++i) {
+      out.joint(1, 3)[i] += 1e-3;
+    }
     if (fault_ == Fault::batch_loses_a_branch) out.found[first] = 1;
     if (fault_ == Fault::batch_flags_wrong) out.singular[first] ^= 1;
     if (fault_ == Fault::batch_misses_goal) out.angle_rad[first] = 1e-6;

@@ -25,7 +25,8 @@ struct Elbows {
 };
 /// (311), (312) as half angles, whose squares are factored so that nothing cancels; `side`: 1 of
 /// elbow 0, -1 of elbow 1.
-Elbows elbows_at(const ArmNumbers& arm, const Lanes& rho, const Lanes& side) {
+[[gnu::always_inline]] inline Elbows elbows_at(const ArmNumbers& arm, const Lanes& rho,
+                                               const Lanes& side) {
   const double farthest = arm.a2 + arm.forearm, nearest = std::fabs(arm.a2 - arm.forearm);
   Lanes outside = farthest - rho, inside = rho - nearest;
   outside = outside < kOnRim * farthest ? all(0) : outside;
@@ -47,13 +48,13 @@ Elbows elbows_at(const ArmNumbers& arm, const Lanes& rho, const Lanes& side) {
 struct Axes {
   LaneTriple n, o, a;
 };
-Axes axes_of(const Lanes& c4, const Lanes& s4, const Lanes& c5, const Lanes& s5, const Lanes& c6,
-             const Lanes& s6) {
+[[gnu::always_inline]] inline Axes axes_of(const Lanes& c4, const Lanes& s4, const Lanes& c5,
+                                           const Lanes& s5, const Lanes& c6, const Lanes& s6) {
   return {{c4 * c5 * c6 - s4 * s6, s5 * c6, -(s4 * c5 * c6) - c4 * s6},
           {-(c4 * c5 * s6) - s4 * c6, -(s5 * s6), s4 * c5 * s6 - c4 * c6},
           {-(c4 * s5), c5, s4 * s5}};
 }
-LaneTriple turn_between(const Axes& wanted, const Axes& reached) {
+[[gnu::always_inline]] inline LaneTriple turn_between(const Axes& wanted, const Axes& reached) {
   const LaneTriple twice =
       cross(wanted.n, reached.n) + cross(wanted.o, reached.o) + cross(wanted.a, reached.a);
   return {0.5 * twice.x, 0.5 * twice.y, 0.5 * twice.z};

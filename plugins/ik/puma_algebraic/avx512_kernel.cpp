@@ -9,7 +9,7 @@
 
 #if defined(__x86_64__)
 #pragma GCC push_options
-#pragma GCC target("avx512f,avx512dq,avx512vl,avx512bw,avx2,fma")
+#pragma GCC target("avx512f,avx512dq,avx512vl,avx2,fma")
 #define ARMATURE_AVX
 #define ARMATURE_AVX512
 #include "batch_body.hpp"

@@ -26,7 +26,9 @@ BatchSolvers batch_solvers() {
 #if defined(__x86_64__)
   if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) return list;
   list.solve[list.count++] = solve_batch_avx2;
-  if (!__builtin_cpu_supports("avx512f") || !__builtin_cpu_supports("avx512dq")) return list;
+  const bool wide = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+                    __builtin_cpu_supports("avx512vl");
+  if (!wide) return list;
   list.solve[list.count++] = solve_batch_avx512;
 #endif
   return list;

@@ -19,7 +19,9 @@ SrsKernels srs_kernels() {
 #if defined(__x86_64__)
   if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) return list;
   list.kernel[list.count++] = &avx2_srs_kernel();
-  if (!__builtin_cpu_supports("avx512f") || !__builtin_cpu_supports("avx512dq")) return list;
+  const bool wide = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+                    __builtin_cpu_supports("avx512vl");
+  if (!wide) return list;
   list.kernel[list.count++] = &avx512_srs_kernel();
 #endif
   return list;

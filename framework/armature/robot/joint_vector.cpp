@@ -13,10 +13,10 @@ bool at_rest(const JointState& state) {
 double wrap_angle(double angle) {
   constexpr double kPi = std::numbers::pi;
   if (angle >= -kPi && angle < kPi) return angle;  // already there: not a bit is changed
-  // Less than a turn away the difference is exact, as the remainder is.
+  // A turn less or more is exact there.
   const bool near = std::abs(angle) < 3 * kPi;
-  const double wrapped = near ? angle - std::copysign(2 * kPi, angle)
-                              : std::remainder(angle, 2 * kPi);
+  const double wrapped =
+      near ? angle - std::copysign(2 * kPi, angle) : std::remainder(angle, 2 * kPi);
   return wrapped >= kPi ? -kPi : wrapped;
 }
 

@@ -21,6 +21,8 @@ TEST(WrapAngle, LandsInTheHalfOpenTurnAndDiffersByWholeTurns) {
     const double wrapped = wrap_angle(angle);
     ASSERT_GE(wrapped, -kPi);
     ASSERT_LT(wrapped, kPi);
+    const double remainder = std::remainder(angle, 2 * kPi);
+    ASSERT_EQ(wrapped, remainder >= kPi ? -kPi : remainder);
     ASSERT_NEAR(std::sin(wrapped), std::sin(angle), 1e-14);
     ASSERT_NEAR(std::cos(wrapped), std::cos(angle), 1e-14);
   }

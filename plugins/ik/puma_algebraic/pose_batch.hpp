@@ -28,7 +28,8 @@ struct PoseBatch {
 
 /// The answers in slots of four_arms.hpp's order, wrist by wrist; as in IkBatchAnswers.
 struct PoseAnswers {
-  /// Found: a joint is free or the goal is bad, and nothing else of the answer is right.
+  /// What `found` is of a pose that leaves a joint free, or that is bad: all else of its answer is
+  /// undefined.
   static constexpr std::uint16_t kSpecial = 0xFFFF;
 
   double* joint[8][6];

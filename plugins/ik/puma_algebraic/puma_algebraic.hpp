@@ -24,8 +24,7 @@ class PumaAlgebraic final : public IkSolver {
                  IkState& state) const override;
   std::optional<double> redundancy_of(const JointVector& q) const override;
   bool redundancy_is_length() const override { return arm_.needle; }
-  /// Slots are the branches in their order. Of rotations, by arms whose joints all turn, many at
-  /// once.
+  /// Rotations, by arms whose joints all turn, many at once, with a slot for each branch.
   void solve_batch(const IkBatch& batch, const JointVector& seed,
                    IkBatchAnswers& out) const override;
 

@@ -61,10 +61,11 @@ void PumaAlgebraic::solve_batch(const IkBatch& batch, const JointVector& seed,
                                 IkBatchAnswers& out) const {
   static const BatchSolvers solvers = batch_solvers();
   const bool together = !arm_.needle && batch.rotation[0] != nullptr &&
-                        batch.tolerance.position_m > 0 && batch.tolerance.angle_rad > 0 &&
-                        seed.size() == kJoints && seed.allFinite();
+                        batch.direction[0] == nullptr && batch.tolerance.position_m > 0 &&
+                        batch.tolerance.angle_rad > 0 && seed.size() == kJoints && seed.allFinite();
   if (!together) return IkSolver::solve_batch(batch, seed, out);
   out.resize(batch.count, kJoints, kSlots);
+  std::ranges::copy(kLabels, out.label.begin());
   solve_together(solvers.solve[solvers.count - 1], arm_, numbers_, batch, out);
   IkBranches branches;
   for (std::size_t i = 0; i < batch.count; ++i) {

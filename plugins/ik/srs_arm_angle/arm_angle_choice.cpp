@@ -31,10 +31,16 @@ inline bool may_fall_below(double least, const Node& left, const Node& right) {
   return !convex | (fall * (rise * width - climb) <= room);
 }
 
-/// By the rounding of the table, which is of single precision.
-inline double raised(double cost) { return cost + 1e-5 * std::abs(cost); }
+/// By the rounding of the table, which is of single precision: next to limits a joint's counts for
+/// more.
+inline double raised(double cost) {
+  const double size = std::abs(cost);
+  return cost + (1e-5 + 1e-6 * size) * size;
+}
 
 }  // namespace
+
+static_assert(sizeof(ArmAngleChoice) < 256 * 1024);
 
 double nearest_in(const Spans& spans, double wanted) {
   double best = spans.begin()->lower, least = std::numeric_limits<double>::infinity();
@@ -70,12 +76,12 @@ void ArmAngleChoice::add_end(const Stretch& stretch, bool upper) {
   end_[ends_++] = {&stretch, upper, {at + half_turns(kBranches[stretch.branch].elbow), 0, 0}};
 }
 
-/// Where the stretch goes down to them; of a point the lower one.
+/// Where the stretch goes down to them, or has no place; of a point the lower one.
 void ArmAngleChoice::add_ends(const Stretch& stretch) {
   const float* slope = table_.slope[stretch.branch];
-  const bool point = stretch.first == stretch.end;
-  if (point || (!stretch.cut_below && slope[stretch.first] > 0)) add_end(stretch, false);
-  if (!point && !stretch.cut_above && slope[stretch.end - 1] < 0) add_end(stretch, true);
+  const bool empty = stretch.first == stretch.end, point = stretch.span.lower == stretch.span.upper;
+  if (empty || (!stretch.cut_below && slope[stretch.first] > 0)) add_end(stretch, false);
+  if (empty ? !point : !stretch.cut_above && slope[stretch.end - 1] < 0) add_end(stretch, true);
 }
 
 void ArmAngleChoice::set_costs_of_ends() {
@@ -99,7 +105,7 @@ void ArmAngleChoice::set_costs_of_ends() {
 /// Among equals the nearest to what is wanted is the best.
 void ArmAngleChoice::consider(const Best& another, Best& best) {
   const double equal = 1e-10 * std::abs(another.value);  // what minima are predicted to
-  if (another.value > best.value + equal) return;
+  if (!(another.value <= best.value + equal)) return;
   if (another.value >= best.value - equal &&
       std::abs(wrap_angle(another.at - wanted())) >= std::abs(wrap_angle(best.at - wanted()))) {
     return;
@@ -129,12 +135,14 @@ void ArmAngleChoice::add_valley(const Stretch& stretch, const Node& left, const 
                          std::min(right.at + beyond, stretch.span.upper + turn)};
 }
 
-/// Considers an end, and notes the valley between it and the place next to it.
+/// Considers an end, and notes the valley between it and the place next to it, or the other end.
 void ArmAngleChoice::look_at_end(const End& end, Best& best) {
   const auto& [stretch, upper, node] = end;
   consider({node.at, node.value}, best);
-  if (stretch->first == stretch->end) return;
-  const Node next = node_of(stretch->branch, upper ? stretch->end - 1 : stretch->first);
+  const bool empty = stretch->first == stretch->end;
+  if (empty && !upper) return;  // the upper one looks at both, if there is one
+  const Node next = empty ? (&end - 1)->node
+                          : node_of(stretch->branch, upper ? stretch->end - 1 : stretch->first);
   if (next.at == node.at) return;
   const bool rises = upper ? node.slope > 0 : node.slope < 0;  // on the way out
   if (!rises && node.value < next.value) return;

@@ -18,7 +18,7 @@ namespace armature {
 /// is next to in line and its outer joints therefore sweep through half a turn, at as many more as
 /// that takes; at a span's end where it goes down to it. Wherever two neighbours have a minimum
 /// between them it is found in double precision to 1e-8 rad, unless their tangents leave it no room
-/// below what is known. Answers once. No allocation.
+/// below what is known. Answers once. No allocation; less than 256 KiB, for the stack.
 class ArmAngleChoice {
  public:
   /// The arm angle that is remembered, or the seed's, is what continuity keeps to, and what decides
@@ -28,6 +28,9 @@ class ArmAngleChoice {
       : numbers_{numbers}, goal_{goal}, kernel_{kernel}, aim_{aim}, seed_{seed} {
     if (aim.remembers) wanted_ = aim.last;
   }
+
+  ArmAngleChoice(const ArmAngleChoice&) = delete;
+  ArmAngleChoice& operator=(const ArmAngleChoice&) = delete;
 
   /// By branch, from its spans in arm angles of elbow 0; what is wanted where it has none.
   void choose(const std::array<Spans, 8>& spans, std::array<double, 8>& arm_angle);

@@ -53,7 +53,10 @@ struct LimitPieces {
 
 /// Costs all round, in single precision: places are arm angles of elbow 0.
 struct CostTable {
-  static constexpr int kMost = 704, kWords = kMost / 64, kMargin = 16;
+  static constexpr int kMostRegular = 48, kMostMore = 168, kMostNarrow = 480;
+  static constexpr int kMost = 704, kWords = kMost / 64;
+  static_assert(kMostRegular + kMostMore + 1 + kMostNarrow <= kMost);
+  static constexpr int kMargin = 16;  // a place has a neighbour, which may be anything
   /// [rad] The first `sorted` rise from -pi to pi, of which `regular` and the last are in equal
   /// steps; behind them are those of narrow spans.
   double place[kMost];
@@ -63,17 +66,18 @@ struct CostTable {
   std::uint64_t valley[8][kWords];
 };
 
-/// Places of eight branches and what they cost; two of each with a minimum between them, or beyond
-/// them but not beyond `lower` and `upper`, and one more on either side, not a number where there
-/// is none; and that.
+/// Places of eight branches, any of them, and what they cost.
 struct EightNodes {
   double at[8], value[8], slope[8];
 };
+/// Nodes with a minimum between them, or a little beyond them, but not beyond `lower` and `upper`;
+/// `outer` is one more on either side, with an `at` that is not a number where there is none.
 struct EightValleys {
   int branch[8];
   EightNodes left, right, outer;
   double lower[8], upper[8];
 };
+/// The minima of valleys, and what they cost.
 struct EightMinima {
   double at[8], value[8];
 };

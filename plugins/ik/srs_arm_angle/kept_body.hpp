@@ -4,8 +4,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
-#include <cstddef>
 
 #include "turns_body.hpp"
 
@@ -129,7 +127,8 @@ void find_kept(const ArmNumbers& numbers, const SrsGoal& goal, LimitPieces& out)
           all_bits |= kept.by[elbow][flip][ball * kHalfLanes + i];
         const auto bits = static_cast<std::uint32_t>(all_bits);
         const std::uint32_t pieces = bits & 0x2AAAAAAA;
-        out.kept[ball][elbow][flip] = (bits & 0x55555555) | pieces | pieces << 1 | pieces >> 1;
+        // -pi stands for a point by itself at pi, the last event.
+        out.kept[ball][elbow][flip] = (bits & 0x15555555) | pieces | pieces << 1 | pieces >> 1;
       }
     }
   }

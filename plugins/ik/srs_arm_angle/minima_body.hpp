@@ -96,12 +96,14 @@ class Descent {
     right_ = either_of(to_left, right_, found);
     gets_on_ = (magnitude(found.slope) < 0.5 * magnitude(slope_)) | ~gets_on_;
     slope_ = found.slope;
-    const Step step = step_from(found, seen_bend(level, found));
+    const Lanes bend = seen_bend(level, found);
+    const Step step = step_from(found, bend);
     const Lanes next = found.at + step.by;
     const Masks inside = (next > left_.at) & (next < right_.at) & gets_on_;
     // Where a turn is quicker than the nodes can tell, the last step tells how much is missed.
     const Lanes size = magnitude(step.by);
-    const Masks exact = inside & ~done_ & (step.bent < kTrusted) &
+    const Masks exact = inside & ~done_ & (bend > 0) & (step.bent < kTrusted) &
+                        (found.value + step.fall <= best_.value) &
                         (magnitude(step.fall) < 1e-7 * magnitude(found.value)) &
                         (step.even | (size * size * size < kTrusted * (last_size_ * last_size_)));
     last_size_ = inside ? size : all(0);

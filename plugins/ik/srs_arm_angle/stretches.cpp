@@ -11,7 +11,13 @@ void Stretches::add(std::size_t branch, const Spans& spans) {
   const Span *first = spans.begin(), *end = spans.end();
   if (first == end) return;
   const bool round = first->lower == -std::numbers::pi && (end - 1)->upper == std::numbers::pi;
-  if (round) add_across_cut(branch, *--end, *first++);
+  if (round && end - first > 1 && first->upper == first->lower) {
+    ++first;  // pi stands for it
+  } else if (round && end - first > 1 && (end - 1)->upper == (end - 1)->lower) {
+    --end;  // -pi stands for it
+  } else if (round) {
+    add_across_cut(branch, *--end, *first++);
+  }
   for (; first < end; ++first) add_stretch(branch, *first);
 }
 
@@ -36,10 +42,11 @@ void Stretches::add_stretch(std::size_t branch, const Span& span) {
   put({span, branch, first, end, false, false});
 }
 
+static_assert(Stretches::kMost * Stretches::kInner <= CostTable::kMostNarrow);
 void Stretches::add_narrow(std::size_t branch, const Span& span) {
   const int first = table_.count;
   const double width = span.upper - span.lower;
-  for (int i = 1; i <= kInner && width > 0; ++i) {
+  for (int i = 1; i <= kInner && width > kTiny; ++i) {
     table_.place[table_.count++] = span.lower + width * i / (kInner + 1);
   }
   put({span, branch, first, table_.count, false, false});

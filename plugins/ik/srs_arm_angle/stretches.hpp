@@ -11,7 +11,7 @@ namespace armature {
 
 /// A span of a branch, in arm angles of elbow 0: its places in the table, but for ones at its ends,
 /// are first, ..., end - 1. A span across the cut at pi is two stretches that both know its ends,
-/// with a place at the cut.
+/// with a place at the cut. Of a tiny one or a point there are the ends alone.
 struct Stretch {
   Span span;
   std::size_t branch;
@@ -19,10 +19,13 @@ struct Stretch {
   bool cut_below, cut_above;
 };
 
-/// Those of all branches. Spans with less than two places get three more, behind the sorted ones.
+/// Those of all branches. Spans with less than two places get three more, behind the sorted ones,
+/// but for those in which single precision would not tell places apart.
 class Stretches {
  public:
   static constexpr std::size_t kMost = 8 * Spans::kCapacity;
+  static constexpr int kFew = 2, kInner = 3;
+  static constexpr double kTiny = 1e-3;  // [rad]
 
   /// The sorted places of `table` must be set before the first span comes.
   explicit Stretches(CostTable& table) : table_{table} {}
@@ -33,8 +36,6 @@ class Stretches {
   const Stretch* end() const { return stretch_.data() + count_; }
 
  private:
-  static constexpr int kFew = 2, kInner = 3;
-
   void add_across_cut(std::size_t branch, const Span& before, const Span& behind);
   void add_stretch(std::size_t branch, const Span& span);
   void add_narrow(std::size_t branch, const Span& span);

@@ -2,6 +2,7 @@
 #include "armature/kinds/ik/batch.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 namespace armature {
 
@@ -11,6 +12,8 @@ IkGoal IkBatch::goal(std::size_t i) const {
   goal.pose.position = {position[0][i], position[1][i], position[2][i]};
   if (direction[0] != nullptr) {
     goal.pose.orientation = Direction{{direction[0][i], direction[1][i], direction[2][i]}};
+  } else if (rotation[0] == nullptr) {
+    goal.pose.orientation = Eigen::Quaterniond{0, 0, 0, 0};
   } else {
     goal.pose.orientation =
         Eigen::Quaterniond{rotation[0][i], rotation[1][i], rotation[2][i], rotation[3][i]};
@@ -19,6 +22,8 @@ IkGoal IkBatch::goal(std::size_t i) const {
 }
 
 void IkBatchAnswers::resize(std::size_t goals, int dof, int slots) {
+  assert(slots <= kMostSlots);
+  label.fill({});
   dof_ = dof;
   slots_ = slots;
   code.resize(goals);

@@ -52,11 +52,13 @@ const char* invalid_input(const RobotModel& model, const IkGoal& goal, const Joi
   if (const auto* direction = std::get_if<Direction>(&goal.pose.orientation)) {
     if (!direction->unit.allFinite()) return "the direction is not finite";
     if (!(direction->unit.norm() > 1e-9)) return "the direction is zero";
+    if (!std::isfinite(direction->unit.norm())) return "the direction is longer than numbers go";
     if (!model.pointing_axis()) return "the robot has no pointing axis, so it needs a rotation";
   } else {
     const auto& rotation = std::get<Eigen::Quaterniond>(goal.pose.orientation);
     if (!rotation.coeffs().allFinite()) return "the rotation is not finite";
     if (!(rotation.norm() > 1e-9)) return "the rotation is a zero quaternion";
+    if (!std::isfinite(rotation.norm())) return "the quaternion is longer than numbers go";
   }
   if (goal.redundancy && !std::isfinite(*goal.redundancy)) return "the redundancy is not finite";
   if (!(goal.tolerance.position_m > 0) || !(goal.tolerance.angle_rad > 0)) {

@@ -2,6 +2,7 @@
 // The law of many goals in one call.
 #include <fmt/format.h>
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -10,6 +11,7 @@
 #include "armature/kinds/ik/batch.hpp"
 #include "armature/kinds/ik/contract/laws.hpp"
 #include "armature/kinds/ik/contract/postures.hpp"
+#include "armature/robot/kinematics.hpp"
 
 namespace armature::ik_contract {
 namespace {
@@ -53,22 +55,30 @@ struct Arrays {
 };
 
 /// Reachable goals, singular ones, goals out of reach and bad ones, none by itself.
-std::vector<IkGoal> goals_for_a_batch(Probe& probe) {
+/// All with the rotation of the posture that made them, or all as the robot's goals are.
+enum class Asked { task, rotation };
+std::vector<IkGoal> goals_for_a_batch(Probe& probe, Asked asked) {
   constexpr int kEach = 50;
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   std::vector<IkGoal> goals;
+  const auto goal_at = [&](const JointVector& q) {
+    IkGoal goal = probe.goal_at(q);
+    if (asked == Asked::task) return goal;
+    goal.pose.orientation = Eigen::Quaterniond{forward_kinematics(probe.model(), q).linear()};
+    return goal;
+  };
   const auto singular = singular_postures(probe.model(), kEach, probe.random());
   for (int i = 0; i < kEach; ++i) {
-    const IkGoal goal = probe.goal_at(probe.random_joints());
+    const IkGoal goal = goal_at(probe.random_joints());
     goals.insert(goals.end(), 5, goal);
     IkGoal* const last = &goals.back();
     last[-1].pose.position *= i % 2 == 0 ? 2 : 100;
     last[-2].pose.position[i % 3] = kNan;
     if (!singular.empty()) {
-      last[-3] = probe.goal_at(singular[static_cast<std::size_t>(i) % singular.size()].q);
+      last[-3] = goal_at(singular[static_cast<std::size_t>(i) % singular.size()].q);
     }
     if (i % 7 != 0) continue;
-    if (probe.model().pointing_axis()) {
+    if (std::holds_alternative<Direction>(goal.pose.orientation)) {
       last[-4].pose.orientation = Direction{Eigen::Vector3d::Zero()};
     } else {
       last[-4].pose.orientation = Eigen::Quaterniond{0, 0, 0, 0};
@@ -108,6 +118,10 @@ std::string difference(const Probe& probe, const IkBatchAnswers& answers, std::s
         ((answers.singular[i] & bit) != 0) != branch->singular) {
       return fmt::format("branch {} has other flags", branch->label);
     }
+    const std::string_view label = answers.label[static_cast<std::size_t>(slot)];
+    if (!label.empty() && label != branch->label) {
+      return fmt::format("branch {} stands in the slot of {}", branch->label, label);
+    }
     ++branch;
   }
   const IkGoal& goal = probe.goal();
@@ -120,10 +134,8 @@ std::string difference(const Probe& probe, const IkBatchAnswers& answers, std::s
   return {};
 }
 
-}  // namespace
-
-void batch_is_one_by_one(Probe& probe) {
-  const std::vector<IkGoal> goals = goals_for_a_batch(probe);
+void ask_batch(Probe& probe, Asked asked) {
+  const std::vector<IkGoal> goals = goals_for_a_batch(probe, asked);
   const Arrays arrays{goals};
   const JointVector seed = probe.random_joints();
   IkBatch batch = arrays.batch();
@@ -142,6 +154,13 @@ void batch_is_one_by_one(Probe& probe) {
   if (made > 0) {
     probe.violated_without_line(fmt::format("{} allocations in a batch that had room", made));
   }
+}
+
+}  // namespace
+
+void batch_is_one_by_one(Probe& probe) {
+  ask_batch(probe, Asked::task);
+  if (probe.model().pointing_axis()) ask_batch(probe, Asked::rotation);
 }
 
 }  // namespace armature::ik_contract

@@ -150,6 +150,9 @@ void bad_input(Probe& probe) {
   refuse("a zero quaternion", [&](auto& g) {
     g.pose.orientation = Eigen::Quaterniond{0, 0, 0, 0};
   });
+  refuse("a quaternion whose square is no number", [&](auto& g) {
+    g.pose.orientation = Eigen::Quaterniond{0, 1e200, 0, 0};
+  });
   refuse("a tolerance of zero", [&](auto& g) { g.tolerance.position_m = 0; });
   refuse("a tolerance that is no number", [&](auto& g) { g.tolerance.angle_rad = kNan; });
   refuse("an arm angle that is no number", [&](auto& g) { g.redundancy = kNan; });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The closed form for four arms at once; compiled once for each kind of processor
-// (portable_kernel.cpp, avx2_kernel.cpp), everything unnamed so that the two never mix.
+// The closed form for the four arms of one pose, by four lanes; compiled once for each kind of
+// processor (portable_kernel.cpp, avx2_kernel.cpp), everything unnamed so that the two never mix.
 #pragma once
 
 #include <algorithm>

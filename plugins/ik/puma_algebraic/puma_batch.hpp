@@ -7,8 +7,8 @@
 
 namespace armature {
 
-/// Rotations, by an arm whose joints all turn. What needs rules of its own (a free joint, bad
-/// input) is found as PoseAnswers::kSpecial and has no other answer. `out` has room.
+/// Rotations, by an arm whose joints all turn; PoseAnswers::kSpecial where rules of their own are
+/// needed. `out` has room.
 void solve_together(SolveBatch solve, const PumaArm& arm, const ArmNumbers& numbers,
                     const IkBatch& batch, IkBatchAnswers& out);
 

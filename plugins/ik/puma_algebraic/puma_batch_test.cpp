@@ -7,6 +7,7 @@
 
 #include <array>
 #include <bit>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -120,6 +121,37 @@ TEST_P(PumaBatch, TellsWhatNeedsRulesOfItsOwn) {
   for (const std::size_t i : {2U, 3U, 4U, 5U, 8U}) {
     EXPECT_EQ(answers.found[i], PoseAnswers::kSpecial) << i;
   }
+}
+
+TEST(PumaBatchOf, NothingOrWithABadSeedIsAnswered) {
+  const ModelPtr model = sr1();
+  const auto solver = solver_for(*model);
+  const std::array<double, 2> half{0.5, 0.5}, zero{0, 0};
+  IkBatch batch;
+  batch.position = {half.data(), half.data(), half.data()};
+  batch.rotation = {half.data(), half.data(), half.data(), half.data()};
+  IkBatchAnswers answers;
+  solver->solve_batch(batch, JointVector::Zero(6), answers);
+  EXPECT_EQ(answers.goals(), 0U);
+  const auto expect_refused = [&](const IkBatch& asked, const JointVector& seed) {
+    solver->solve_batch(asked, seed, answers);
+    for (std::size_t i = 0; i < 2; ++i) {
+      EXPECT_EQ(answers.code[i], IkStatus::Code::invalid_input);
+      EXPECT_EQ(answers.found[i], 0U);
+    }
+  };
+  batch.count = 2;
+  expect_refused(batch, JointVector::Zero(5));
+  expect_refused(batch, JointVector::Constant(6, std::numeric_limits<double>::quiet_NaN()));
+  IkBatch impatient = batch;
+  impatient.tolerance.position_m = 0;
+  expect_refused(impatient, JointVector::Zero(6));
+  IkBatch nowhere = batch;
+  nowhere.rotation = {};
+  expect_refused(nowhere, JointVector::Zero(6));
+  IkBatch both = batch;  // this tool does not point, and a direction goes first
+  both.direction = {zero.data(), zero.data(), half.data()};
+  expect_refused(both, JointVector::Zero(6));
 }
 
 std::vector<BatchSubject> subjects() {

@@ -228,7 +228,7 @@ TEST_P(SrsKernelTest, MinimaAreWhereTheSlopeChangesItsSign) {
       ++checked;
     }
   }
-  EXPECT_GT(checked, 100);
+  EXPECT_GT(checked, 1000);
 }
 
 std::vector<KernelSubject> kernel_subjects() {

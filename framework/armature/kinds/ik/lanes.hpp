@@ -95,7 +95,7 @@ struct LaneSinCos {
 };
 constexpr double kRounder = 6755399441055744.0;  // 1.5 * 2^52: adding it rounds to an integer
 
-/// Sine and cosine of four angles of at most 1e5 rad, wrong by less than 2 units in the last place:
+/// Sines and cosines of angles of at most 1e5 rad, wrong by less than 2 units in the last place:
 /// reduced by quarter turns (three parts of pi/2), then the polynomials of W. J. Cody and W. Waite,
 /// "Software Manual for the Elementary Functions", 1980, with the coefficients of Sun's fdlibm.
 inline LaneSinCos sine_and_cosine(const Lanes& x) {

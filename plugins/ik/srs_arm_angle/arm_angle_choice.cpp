@@ -71,17 +71,34 @@ ArmAngleChoice::Node ArmAngleChoice::node_of(std::size_t branch, int place) cons
           table_.slope[branch][place]};
 }
 
-void ArmAngleChoice::add_end(const Stretch& stretch, bool upper) {
-  const double at = upper ? stretch.span.upper : stretch.span.lower;
-  end_[ends_++] = {&stretch, upper, {at + half_turns(kBranches[stretch.branch].elbow), 0, 0}};
+void ArmAngleChoice::add_end(const Stretch& stretch, End::Kind kind, double at) {
+  end_[ends_++] = {&stretch, kind, {at + half_turns(kBranches[stretch.branch].elbow), 0, 0}};
 }
 
 /// Where the stretch goes down to them, or has no place; of a point the lower one.
 void ArmAngleChoice::add_ends(const Stretch& stretch) {
+  const auto& [lower, upper] = stretch.span;
   const float* slope = table_.slope[stretch.branch];
-  const bool empty = stretch.first == stretch.end, point = stretch.span.lower == stretch.span.upper;
-  if (empty || (!stretch.cut_below && slope[stretch.first] > 0)) add_end(stretch, false);
-  if (empty ? !point : !stretch.cut_above && slope[stretch.end - 1] < 0) add_end(stretch, true);
+  const bool empty = stretch.first == stretch.end, point = lower == upper;
+  const bool to_lower = empty || (!stretch.cut_below && slope[stretch.first] > 0);
+  const bool to_upper = empty ? !point : !stretch.cut_above && slope[stretch.end - 1] < 0;
+  if (to_lower) add_end(stretch, End::Kind::lower, lower);
+  if (to_upper) add_end(stretch, End::Kind::upper, upper);
+}
+
+void ArmAngleChoice::add_places_in_line(const Stretch& stretch) {
+  const auto add = [&](const SinCos& p, const SinCos& q, double whole) {
+    for (const auto& [x, sine] :
+         {std::pair{0.0, (p + q).sin}, std::pair{std::numbers::pi, (p - q).sin}}) {
+      if (std::abs(sine) >= 2 * goal_.in_line) continue;
+      const double at = wrap_angle(whole - x);
+      if (at >= stretch.span.lower && at <= stretch.span.upper) {
+        add_end(stretch, End::Kind::in_line, at);
+      }
+    }
+  };
+  if (goal_.shoulder_in_line) add(goal_.polar, -goal_.phi, 0);
+  if (goal_.wrist_in_line) add(goal_.bend, goal_.gamma, goal_.alpha_rad);
 }
 
 void ArmAngleChoice::set_costs_of_ends() {
@@ -137,8 +154,10 @@ void ArmAngleChoice::add_valley(const Stretch& stretch, const Node& left, const 
 
 /// Considers an end, and notes the valley between it and the place next to it, or the other end.
 void ArmAngleChoice::look_at_end(const End& end, Best& best) {
-  const auto& [stretch, upper, node] = end;
+  const auto& [stretch, kind, node] = end;
   consider({node.at, node.value}, best);
+  if (kind == End::Kind::in_line) return;
+  const bool upper = kind == End::Kind::upper;
   const bool empty = stretch->first == stretch->end;
   if (empty && !upper) return;  // the upper one looks at both, if there is one
   const Node next = empty ? (&end - 1)->node
@@ -266,7 +285,11 @@ void ArmAngleChoice::choose(const std::array<Spans, 8>& spans, std::array<double
 
 void ArmAngleChoice::find_best(std::array<Best, 8>& best) {
   kernel_.cost_all_round(numbers_, goal_, aim_, table_);
-  for (const Stretch& stretch : stretches_) add_ends(stretch);
+  const bool in_line = goal_.shoulder_in_line || goal_.wrist_in_line;
+  for (const Stretch& stretch : stretches_) {
+    add_ends(stretch);
+    if (in_line) add_places_in_line(stretch);
+  }
   set_costs_of_ends();
   for (const Stretch* first = stretches_.begin(); first != stretches_.end();) {
     const Stretch* after = first + 1;

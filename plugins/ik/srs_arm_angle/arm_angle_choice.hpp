@@ -41,9 +41,12 @@ class ArmAngleChoice {
     double at, value, slope;
   };
   static constexpr Node kNoNode{std::numeric_limits<double>::quiet_NaN(), 0, 0};
+  /// An end of a stretch, or a place within it where a ball is in line: its turns are shared out
+  /// there, so that it may cost less than all around it.
   struct End {
+    enum class Kind { lower, upper, in_line };
     const Stretch* stretch;
-    bool upper;
+    Kind kind;
     Node node;
   };
   /// Between two nodes, or a little beyond them; `outer` is another one on either side, if any.
@@ -56,12 +59,13 @@ class ArmAngleChoice {
   struct Best {
     double at, value;
   };
-  static constexpr std::size_t kEnds = 2 * Stretches::kMost, kValleys = 1024;
+  static constexpr std::size_t kEnds = 6 * Stretches::kMost, kValleys = 1024;
 
   void find_best(std::array<Best, 8>& best);
   double wanted();
   void add_ends(const Stretch& stretch);
-  void add_end(const Stretch& stretch, bool upper);
+  void add_end(const Stretch& stretch, End::Kind kind, double at);
+  void add_places_in_line(const Stretch& stretch);
   void set_costs_of_ends();
   Node node_of(std::size_t branch, int place) const;
   void add_valley(const Stretch& stretch, const Node& left, const Node& right, const Node& outer);

@@ -90,6 +90,9 @@ class Gantry : public IkSolver {
       if (fault_ == Fault::bad_input_solved) return {};
       return {IkStatus::Code::invalid_input, 0, why};
     }
+    if (!std::holds_alternative<Direction>(goal.pose.orientation)) {
+      return {IkStatus::Code::invalid_input, 0, "five joints take a direction"};
+    }
     if (fault_ == Fault::throws) throw std::runtime_error("no memory left");
     if (fault_ == Fault::allocates) {
       kept_ = new double{seed[0]};  // kept for a moment, or the compiler leaves it out

@@ -9,15 +9,13 @@
 namespace armature {
 namespace {
 
-constexpr double kPi = M_PI;
-
 class StretchesTest : public testing::Test {
  protected:
   /// Forty regular places and pi.
   StretchesTest() {
     table_->regular = 40;
     table_->sorted = table_->count = 41;
-    for (int i = 0; i <= 40; ++i) table_->place[i] = -kPi + kPi / 20 * i;
+    for (int i = 0; i <= 40; ++i) table_->place[i] = -M_PI + M_PI / 20 * i;
   }
   void add(std::initializer_list<Span> list) {
     Spans spans;
@@ -46,22 +44,22 @@ TEST_F(StretchesTest, ASpanHasThePlacesWithinIt) {
 }
 
 TEST_F(StretchesTest, ASpanAcrossPiIsTwoStretchesThatKnowAllOfIt) {
-  add({{-kPi, -2}, {-1, 1}, {2, kPi}});
+  add({{-M_PI, -2}, {-1, 1}, {2, M_PI}});
   ASSERT_EQ(count(), 3U);
   EXPECT_EQ(at(0).first, 0);
   EXPECT_TRUE(at(0).cut_below);
   EXPECT_FALSE(at(0).cut_above);
-  EXPECT_EQ(at(0).span.lower, 2 - 2 * kPi);
+  EXPECT_EQ(at(0).span.lower, 2 - 2 * M_PI);
   EXPECT_EQ(at(0).span.upper, -2);
   EXPECT_EQ(at(1).end, 41);
   EXPECT_TRUE(at(1).cut_above);
   EXPECT_FALSE(at(1).cut_below);
   EXPECT_EQ(at(1).span.lower, 2);
-  EXPECT_EQ(at(1).span.upper, -2 + 2 * kPi);
+  EXPECT_EQ(at(1).span.upper, -2 + 2 * M_PI);
 }
 
 TEST_F(StretchesTest, TheWholeTurnHasNoEnds) {
-  add({{-kPi, kPi}});
+  add({{-M_PI, M_PI}});
   ASSERT_EQ(count(), 1U);
   EXPECT_TRUE(at(0).cut_below && at(0).cut_above);
   EXPECT_EQ(at(0).first, 0);
@@ -72,14 +70,14 @@ TEST_F(StretchesTest, APointAtOneSideOfPiIsThatAtTheOther) {
   for (const bool below : {true, false}) {
     stretches_ = std::make_unique<Stretches>(*table_);
     if (below) {
-      add({{-kPi, -kPi}, {2, kPi}});
+      add({{-M_PI, -M_PI}, {2, M_PI}});
     } else {
-      add({{-kPi, -2}, {kPi, kPi}});
+      add({{-M_PI, -2}, {M_PI, M_PI}});
     }
     ASSERT_EQ(count(), 1U);
     EXPECT_FALSE(at(0).cut_below || at(0).cut_above);
-    EXPECT_EQ(at(0).span.lower, below ? 2 : -kPi);
-    EXPECT_EQ(at(0).span.upper, below ? kPi : -2);
+    EXPECT_EQ(at(0).span.lower, below ? 2 : -M_PI);
+    EXPECT_EQ(at(0).span.upper, below ? M_PI : -2);
   }
 }
 
@@ -92,9 +90,9 @@ TEST_F(StretchesTest, ANarrowSpanGetsPlacesOfItsOwn) {
 }
 
 TEST_F(StretchesTest, ANarrowSpanAcrossPiIsOne) {
-  add({{-kPi, -3.13}, {3.13, kPi}});
+  add({{-M_PI, -3.13}, {3.13, M_PI}});
   ASSERT_EQ(count(), 1U);
-  EXPECT_NEAR(table_->place[42], kPi, 1e-15);
+  EXPECT_NEAR(table_->place[42], M_PI, 1e-15);
 }
 
 TEST_F(StretchesTest, ATinySpanAndAPointHaveTheirEndsAlone) {

@@ -89,6 +89,9 @@ class PointingGantry final : public IkSolver {
     if (const char* why = invalid_input(model_, goal, seed)) {
       return {IkStatus::Code::invalid_input, 0, why};
     }
+    if (!std::holds_alternative<Direction>(goal.pose.orientation)) {
+      return {IkStatus::Code::invalid_input, 0, "this arm takes a direction"};
+    }
     if (const double beyond = beyond_reach(goal); beyond > 1e-9) {
       return {IkStatus::Code::out_of_reach, beyond, "slides"};
     }

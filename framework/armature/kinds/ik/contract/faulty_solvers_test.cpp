@@ -115,6 +115,7 @@ class Gantry : public IkSolver {
     for (std::size_t i = 0; fault_ == Fault::batch_elsewhere && i < batch.count; ++i) {
       out.joint(1, 3)[i] += 1e-3;
     }
+    if (first == batch.count) return;
     if (fault_ == Fault::batch_loses_a_branch) out.found[first] = 1;
     if (fault_ == Fault::batch_flags_wrong) out.singular[first] ^= 1;
     if (fault_ == Fault::batch_misses_goal) out.angle_rad[first] = 1e-6;

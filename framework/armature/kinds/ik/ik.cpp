@@ -100,8 +100,10 @@ bool unwind(const RobotModel& model, const JointVector& near, JointVector& q) {
   bool inside = true;
   for (int i = 0; i < model.dof(); ++i) {
     const double lower = model.lower()[i] - kTolerance, upper = model.upper()[i] + kTolerance;
+    const bool within = q[i] >= lower && q[i] <= upper;
+    if (within && std::abs(near[i] - q[i]) < std::numbers::pi) continue;  // as near as it gets
     if (!turns_freely(model, i)) {
-      inside = inside && q[i] >= lower && q[i] <= upper;
+      inside = inside && within;
       continue;
     }
     const double wanted = q[i] + kTurn * std::round((near[i] - q[i]) / kTurn);

@@ -239,7 +239,6 @@ void solve_window(const BatchArm& arm, const PoseBatch& poses, const Window& win
   const Lanes scale = 1 / (radius * root(along * along + offset * offset));
   Masks special = goals.bad | (radius < kOnAxis * farthest);
   Answers answers{numbers, window, out};
-
   for (int side = 0; side < 2; ++side) {
     const Shoulder shoulder = shoulder_at(numbers, wrist, side == 0 ? along : -along, scale);
     const LaneTriple seen_wrist = shoulder.seen(wrist), lever = shoulder.seen(goals.lever);

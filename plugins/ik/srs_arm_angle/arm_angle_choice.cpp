@@ -285,10 +285,9 @@ void ArmAngleChoice::choose(const std::array<Spans, 8>& spans, std::array<double
 
 void ArmAngleChoice::find_best(std::array<Best, 8>& best) {
   kernel_.cost_all_round(numbers_, goal_, aim_, table_);
-  const bool in_line = goal_.shoulder_in_line || goal_.wrist_in_line;
   for (const Stretch& stretch : stretches_) {
     add_ends(stretch);
-    if (in_line) add_places_in_line(stretch);
+    add_places_in_line(stretch);
   }
   set_costs_of_ends();
   for (const Stretch* first = stretches_.begin(); first != stretches_.end();) {

@@ -54,9 +54,9 @@ struct Arrays {
   }
 };
 
-/// Reachable goals, singular ones, goals out of reach and bad ones, none by itself.
-/// All with the rotation of the posture that made them, or all as the robot's goals are.
+/// As the robot's goals are, or with the rotation of the posture that made them.
 enum class Asked { task, rotation };
+/// Reachable goals, singular ones, goals out of reach and bad ones, none by itself.
 std::vector<IkGoal> goals_for_a_batch(Probe& probe, Asked asked) {
   constexpr int kEach = 50;
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();

@@ -113,7 +113,7 @@ function(armature_test_main)
   file(WRITE "${CMAKE_BINARY_DIR}/test_main.cpp" "#include <gtest/gtest.h>\n")
   add_library(armature_test_main STATIC "${CMAKE_BINARY_DIR}/test_main.cpp")
   target_link_libraries(armature_test_main PUBLIC GTest::gmock GTest::gtest GTest::gtest_main)
-  target_link_libraries(armature_test_main PUBLIC armature::abi Eigen3::Eigen
+  target_link_libraries(armature_test_main PUBLIC armature::abi Eigen3::Eigen fmt::fmt
                                            PRIVATE armature_warnings)
   # What takes time when tests run is the libraries; what takes time to compile is the tests.
   # There GCC 12 falsely warns of the small buffer inside of std::string.

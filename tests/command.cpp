@@ -85,12 +85,20 @@ void Command::signal(int number) const { kill(pid_, number); }
 std::string Command::out() const { return read_all(folder_ + "/out"); }
 std::string Command::err() const { return read_all(folder_ + "/err"); }
 
-bool Command::wait_for_err(const std::string& text, std::chrono::seconds patience) const {
+bool Command::wait_for(const std::string& file, const std::string& text,
+                       std::chrono::seconds patience) const {
   for (const auto end = end_of(patience); steady_clock::now() < end;) {
-    if (err().find(text) != std::string::npos) return true;
+    if (read_all(folder_ + file).find(text) != std::string::npos) return true;
     std::this_thread::sleep_for(std::chrono::milliseconds{20});
   }
   return false;
+}
+
+bool Command::wait_for_err(const std::string& text, std::chrono::seconds patience) const {
+  return wait_for("/err", text, patience);
+}
+bool Command::wait_for_out(const std::string& text, std::chrono::seconds patience) const {
+  return wait_for("/out", text, patience);
 }
 
 CommandResult Command::finish(std::chrono::seconds patience) {

@@ -39,10 +39,15 @@ class Command {
   std::string err() const;
   /// True once `text` has been printed on standard error.
   bool wait_for_err(const std::string& text, std::chrono::seconds patience) const;
+  /// The same of standard output.
+  bool wait_for_out(const std::string& text, std::chrono::seconds patience) const;
   /// Waits for the end; a program that takes longer is killed.
   CommandResult finish(std::chrono::seconds patience);
 
  private:
+  bool wait_for(const std::string& file, const std::string& text,
+                std::chrono::seconds patience) const;
+
   std::string folder_;
   pid_t pid_ = -1;
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "allocations.hpp"
 
-#include "armature/kinds/ik/allocation_count.hpp"
+#include "armature/values/allocation_count.hpp"
 
 namespace armature {
 

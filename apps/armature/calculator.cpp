@@ -18,6 +18,7 @@
 #include "armature/robot/robot_model.hpp"
 #include "armature/runtime/plugin_registry.hpp"
 #include "exit_code.hpp"
+#include "plugins.hpp"
 #include "progress.hpp"
 
 namespace armature {
@@ -75,6 +76,7 @@ int run_ik(const ArmChoice& arm, const SolverChoice& choice, const std::string& 
   Input lines{input};
   const RobotModel robot = load_arm(arm);
   PluginRegistry plugins;
+  tell_warnings(plugins);
   const PluginManifest* plugin = plugins.find(choice.plugin);
   if (!plugin) throw InvalidChoice(plugins.unknown_text(choice.plugin));
   const Params params = params_of(*plugin, choice.params);

@@ -109,7 +109,7 @@ int deliver(const Json& json, const CalibrationOptions& options, const std::stri
       throw InvalidChoice(
           fmt::format("-o {}: that is the recording; give the result another name", *file));
     }
-    write_atomically(*file, yaml);
+    write_atomically(*file, yaml, FileUse::named_by_user);
     fmt::print(stderr, "{}: {} poses, {} mm rms remain\n", *file, json["poses"].get<int>(),
                json["residual"]["rms_mm"].get<double>());
   }

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -10,7 +11,9 @@
 
 #include "armature/config/document.hpp"
 #include "armature/runtime/deployment.hpp"
+#include "armature/runtime/on_fault.hpp"
 #include "exit_code.hpp"
+#include "plugins.hpp"
 
 namespace armature {
 namespace {
@@ -28,6 +31,26 @@ struct Edge {
   std::vector<std::string> writers, readers;
 };
 
+/// The plugin of the component, or of one of its slots, that starts a program which a parameter
+/// names; nullptr: none does.
+const PluginManifest* runs_programs(const ComponentConfig& component) {
+  if (component.manifest->runs_programs) return component.manifest;
+  const auto slot = std::ranges::find_if(
+      component.slots, [](const SlotConfig& one) { return one.manifest->runs_programs; });
+  return slot == component.slots.end() ? nullptr : slot->manifest;
+}
+
+/// Checking a file must not run what the file names.
+void leave_out_programs(DeploymentConfig& deployment) {
+  std::erase_if(deployment.components, [](const ComponentConfig& component) {
+    const PluginManifest* plugin = runs_programs(component);
+    if (plugin) {
+      fmt::print("not tried: component '{}', as {} runs a program\n", component.name, plugin->id);
+    }
+    return plugin != nullptr;
+  });
+}
+
 std::map<std::string, Edge> edges_of(const DeploymentConfig& deployment) {
   std::map<std::string, Edge> edges;
   for (const auto& component : deployment.components) {
@@ -41,6 +64,17 @@ std::map<std::string, Edge> edges_of(const DeploymentConfig& deployment) {
     }
   }
   return edges;
+}
+
+/// What a fault of each component does, as a comment of YAML.
+std::string on_fault_comment(const DeploymentConfig& deployment) {
+  std::string stop, isolate;
+  for (const auto& component : deployment.components) {
+    (stops_run(component) ? stop : isolate) += " " + component.name;
+  }
+  std::string text = fmt::format("# a fault of these ends the run:{}\n", stop);
+  if (!isolate.empty()) text += fmt::format("# of these it stays where it is:{}\n", isolate);
+  return text;
 }
 
 void print_dot(const DeploymentConfig& deployment, const std::map<std::string, Edge>& edges) {
@@ -80,23 +114,39 @@ void print_text(const std::map<std::string, Edge>& edges) {
   }
 }
 
+/// A component that is several units counts once, as it does in the file.
+auto count_components(const DeploymentConfig& deployment) {
+  return std::ranges::count(deployment.components, kMainUnit, &ComponentConfig::unit);
+}
+
 }  // namespace
 
 int check_deployment(const DeploymentSource& source) {
   PluginRegistry plugins;
+  tell_warnings(plugins);
   DeploymentConfig config = read(source, plugins);
   const std::string text = fmt::format("{}: ok, {} components, {} topics\n", config.name,
-                                       config.components.size(), edges_of(config).size());
+                                       count_components(config), edges_of(config).size());
+  leave_out_programs(config);
   // Constructing the components is how a solver gets to refuse its robot.
   const Deployment constructed{
       std::move(config), plugins, {.process = "", .on_line = {}, .on_note = {}}};
+  for (const std::string& warning : executor_warnings(constructed.config())) {
+    fmt::print(stderr, "warning: {}\n", warning);
+  }
   fmt::print("{}", text);
   return kOk;
 }
 
 int show_deployment(const DeploymentSource& source) {
-  fmt::print("{}",
-             config::to_yaml(config::load_with_overlays(source.files, source.assignments), true));
+  const config::Node root = config::load_with_overlays(source.files, source.assignments);
+  config::Problems problems;
+  check_is_deployment(root, problems);
+  problems.throw_if_any();
+  fmt::print("{}", config::to_yaml(root, true));
+  const PluginRegistry plugins;
+  const DeploymentConfig deployment = read_deployment(root, plugins, problems);
+  if (problems.empty()) fmt::print("{}", on_fault_comment(deployment));
   return kOk;
 }
 

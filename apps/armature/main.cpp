@@ -10,13 +10,16 @@
 
 #include "calculator.hpp"
 #include "calibrate.hpp"
+#include "drill/drill.hpp"
 #include "exit_code.hpp"
 #include "ik_bench/bench.hpp"
 #include "inspect.hpp"
+#include "loop_bench/bench_loop.hpp"
 #include "option_checks.hpp"
 #include "plan_bench/bench_plan.hpp"
 #include "plugins.hpp"
 #include "run.hpp"
+#include "stop.hpp"
 #include "topics.hpp"
 #include "verify.hpp"
 
@@ -34,6 +37,23 @@ void add_source(CLI::App& verb, DeploymentSource& source) {
       ->allow_extra_args(false);
 }
 
+/// What the main process of a deployment tells the others that it starts, and a drill the run that
+/// it drills; nobody types it.
+void add_handed_over(CLI::App& verb, RunOptions& options) {
+  const auto origin = [&options]() -> RunOptions::Origin& {
+    if (!options.origin) options.origin.emplace();
+    return *options.origin;
+  };
+  verb.add_option("--control", options.control)->group("");
+  verb.add_option("--inject", options.inject)->group("");
+  verb.add_option_function<std::int64_t>(
+          "--clock-offset-ns", [origin](std::int64_t ns) { origin().clock_offset = Duration{ns}; })
+      ->group("");
+  verb.add_option_function<std::int64_t>("--clock-start-ns",
+                                         [origin](std::int64_t ns) { origin().start = Time{ns}; })
+      ->group("");
+}
+
 void add_run(CLI::App& app, Action& action) {
   auto options = std::make_shared<RunOptions>();
   CLI::App* verb =
@@ -43,8 +63,46 @@ void add_run(CLI::App& app, Action& action) {
       ->check(CLI::Range(0, 232));
   verb->add_option("--process", options->process, "run only this process of the deployment");
   verb->add_flag("--json", options->json, "print the result as one JSON object");
+  verb->add_flag("--timing", options->timing, "tell how late and how long every step was");
   verb->add_option("--report", options->report, "write report.json and pictures into this folder");
+  add_handed_over(*verb, *options);
   verb->callback([options, &action] { action = [options] { return run_deployment(*options); }; });
+}
+
+void add_drill(CLI::App& app, Action& action) {
+  auto options = std::make_shared<DrillOptions>();
+  CLI::App* verb = app.add_subcommand(
+      "drill", "Pull the plugs of a deployment whose arms are simulated, while they move");
+  add_source(*verb, options->source);
+  verb->add_option("--moments", options->moments, "at which each fault is fired")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1000));
+  verb->add_option("--seed", options->seed, "of the moments (another one every time)")
+      ->check(wrong_seed);
+  verb->add_option("--faults", options->faults, "only these, 'interrupt,motion_killed' (all)")
+      ->delimiter(',');
+  verb->add_option("--jobs", options->jobs, "runs at the same time")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 16));
+  verb->add_option("--domain", options->domain,
+                   "DDS domain of all runs, which are then one at a time (any that is free)")
+      ->check(CLI::Range(0, 232));
+  verb->add_flag("--short", options->brief, "a random choice of faults, half a minute");
+  verb->add_flag("--json", options->json, "as JSON");
+  verb->callback([options, &action] { action = [options] { return run_drill(*options); }; });
+}
+
+void add_stop(CLI::App& app, Action& action) {
+  auto options = std::make_shared<StopOptions>();
+  CLI::App* verb = app.add_subcommand(
+      "stop", "Stop every arm of a DDS domain: they stay stopped until they are rearmed");
+  verb->add_option("--domain", options->domain, "DDS domain")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 232));
+  verb->add_option("--timeout", options->timeout_s, "seconds for somebody to be found")
+      ->capture_default_str()
+      ->check(not_positive);
+  verb->callback([options, &action] { action = [options] { return stop_arms(*options); }; });
 }
 
 void add_inspection(CLI::App& app, Action& action) {
@@ -198,10 +256,38 @@ void add_bench_plan(CLI::App* bench, Action& action) {
   plan->callback([options, &action] { action = [options] { return bench_plan(*options); }; });
 }
 
+void add_bench_loop(CLI::App* bench, Action& action) {
+  auto options = std::make_shared<LoopBenchOptions>();
+  CLI::App* loop = bench->add_subcommand(
+      "loop", "How late an executor's steps begin, beside a bare thread: armature bench loop");
+  loop->add_option("--readers", options->readers, "other processes that read, in further rounds")
+      ->check(CLI::Range(0, 32));
+  loop->add_option("--rounds", options->rounds, "of each comparison")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1000));
+  loop->add_option("--seconds", options->seconds, "of a round")
+      ->capture_default_str()
+      ->check(wrong_number)
+      ->check(CLI::Range(0.1, 3600.0));
+  loop->add_option("--period", options->period_s, "of the loops [s]")
+      ->capture_default_str()
+      ->check(wrong_number)
+      ->check(CLI::Range(1e-4, 1.0));
+  loop->add_option("--priority", options->priority, "of the loops, SCHED_FIFO; 0: normal")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 99));
+  loop->add_option("--domain", options->domain, "DDS domain")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 232));
+  loop->add_flag("--json", options->json, "as JSON");
+  loop->callback([options, &action] { action = [options] { return bench_loop(*options); }; });
+}
+
 void add_bench(CLI::App& app, Action& action) {
   CLI::App* bench = app.add_subcommand("bench", "Measure plugins side by side");
   bench->require_subcommand(1);
   add_bench_plan(bench, action);
+  add_bench_loop(bench, action);
   auto options = std::make_shared<BenchOptions>();
   CLI::App* ik = bench->add_subcommand(
       "ik", "Solvers on the same goals: armature bench ik --robot configs/robots/dental_lamp.yaml");
@@ -274,6 +360,8 @@ int run_command_line(int argc, char** argv) {
   app.require_subcommand(1);
   Action action;
   add_run(app, action);
+  add_drill(app, action);
+  add_stop(app, action);
   add_inspection(app, action);
   add_plugin_verbs(app, action);
   add_topic_verbs(app, action);

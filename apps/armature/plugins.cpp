@@ -61,10 +61,10 @@ Json traits_json(const std::vector<Trait>& traits) {
 }
 
 Json manifest_json(const PluginManifest& plugin) {
-  Json json{{"id", plugin.id},    {"kind", plugin.kind},
-            {"doc", plugin.doc},  {"file", plugin.file.string()},
-            {"abi", plugin.abi},  {"allocates", plugin.allocates},
-            {"pure", plugin.pure}};
+  Json json{{"id", plugin.id},     {"kind", plugin.kind},
+            {"doc", plugin.doc},   {"file", plugin.file.string()},
+            {"abi", plugin.abi},   {"allocates", plugin.allocates},
+            {"pure", plugin.pure}, {"runs_programs", plugin.runs_programs}};
   json["params"] = params_json(plugin.params);
   json["slots"] = Json::object();
   for (const auto& slot : plugin.slots) json["slots"][slot.name] = slot.kind;
@@ -133,10 +133,17 @@ void print_traits(const char* title, const std::vector<Trait>& traits,
 
 }  // namespace
 
+void tell_warnings(const PluginRegistry& plugins) {
+  for (const std::string& warning : plugins.warnings()) {
+    fmt::print(stderr, "armature: {}\n", warning);
+  }
+}
+
 int list_plugins(bool json) {
   const PluginRegistry plugins;
   if (json) {
-    Json all{{"plugins", Json::array()}, {"unusable", Json::array()}};
+    Json all{
+        {"plugins", Json::array()}, {"unusable", Json::array()}, {"warnings", plugins.warnings()}};
     for (const auto& plugin : plugins.plugins()) all["plugins"].push_back(manifest_json(plugin));
     for (const auto& [file, reason] : plugins.unusable()) {
       all["unusable"].push_back({{"file", file.string()}, {"reason", reason}});
@@ -150,6 +157,7 @@ int list_plugins(bool json) {
   for (const auto& [file, reason] : plugins.unusable()) {
     fmt::print(stderr, "armature: {} cannot be used: {}\n", file.string(), reason);
   }
+  tell_warnings(plugins);
   return kOk;
 }
 
@@ -157,6 +165,7 @@ int show_plugin(const std::string& id, bool json) {
   const PluginRegistry plugins;
   const PluginManifest* plugin = plugins.find(id);
   if (!plugin) throw InvalidChoice(plugins.unknown_text(id));
+  tell_warnings(plugins);
   const PluginManifest* host = plugins.host_of(plugin->kind);
   if (json) {
     Json told = manifest_json(*plugin);
@@ -166,6 +175,7 @@ int show_plugin(const std::string& id, bool json) {
   }
   fmt::print("{} ({})\n  {}\n  {}\n", plugin->id, plugin->kind, plugin->doc, plugin->file.string());
   if (!plugin->pure) fmt::print("  not pure: only on the system clock\n");
+  if (plugin->runs_programs) fmt::print("  runs a program that its parameters name\n");
   print_params(plugin->params);
   if (!plugin->slots.empty()) fmt::print("slots:\n");
   for (const auto& slot : plugin->slots) {

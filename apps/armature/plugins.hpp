@@ -6,6 +6,10 @@
 
 namespace armature {
 
+class PluginRegistry;
+
+/// Prints on standard error what whoever runs these plugins must know of them.
+void tell_warnings(const PluginRegistry& plugins);
 /// `armature plugin list`: every plugin of the search path, and every library that cannot be used
 /// with the reason.
 int list_plugins(bool json);

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "armature/values/time.hpp"
+
 namespace armature {
 
 /// A deployment as named on the command line: files, overlays and assignments.
@@ -18,8 +20,17 @@ struct RunOptions {
   DeploymentSource source;
   std::optional<int> domain;  // instead of the file's
   std::string process;  // only this one of the deployment; empty: main, and it starts the rest
+  /// What the main process hands to the others that it starts.
+  struct Origin {
+    Duration clock_offset;  // of its SystemClock
+    Time start;             // which the operator's lines count from
+  };
+  std::optional<Origin> origin;  // none: this process' own
+  int control = -1;              // descriptor of the way to the main process, if that started it
   bool json = false;
+  bool timing = false;  // tells how late and how long the steps were
   std::optional<std::filesystem::path> report;
+  std::optional<std::string> inject;  // a drill's fault, "motion:throw", struck at SIGUSR1
 };
 
 /// `armature run`: exit code 0 only when the deployment's goals are met.

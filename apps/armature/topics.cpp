@@ -17,6 +17,7 @@
 #include "armature/messages/cdr_to_json.hpp"
 #include "armature/runtime/plugin_registry.hpp"
 #include "exit_code.hpp"
+#include "plugins.hpp"
 #include "rate_meter.hpp"
 #include "readable_json.hpp"
 
@@ -73,6 +74,7 @@ class Finish {
 };
 
 PluginPtr<DdsObserver> observe(PluginRegistry& plugins, int domain) {
+  tell_warnings(plugins);
   auto observer = plugins.make<DdsObserver>("observer/fast_dds", domain);
   if (!observer) throw PluginError(observer.error().text);
   return std::move(*observer);

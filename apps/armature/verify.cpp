@@ -19,6 +19,7 @@
 #include "armature/runtime/plugin_registry.hpp"
 #include "exit_code.hpp"
 #include "isolated.hpp"
+#include "plugins.hpp"
 
 namespace armature {
 namespace {
@@ -245,6 +246,7 @@ std::vector<ArmChoice> arms_of(const VerifyOptions& options) {
 int verify_plugin(const VerifyOptions& options) {
   const Choice choice = choose(options.plugin);
   const PluginRegistry plugins{choice.search_path};
+  tell_warnings(plugins);
   const PluginManifest* plugin = plugins.find(choice.id);
   if (!plugin) throw InvalidChoice(plugins.unknown_text(choice.id));
   if (plugin->kind != IkSolver::kKind) {

@@ -42,6 +42,20 @@ TEST(Check, FindsTheExampleOfTheDocumentationSound) {
   EXPECT_EQ(result.err, "");
 }
 
+TEST(Check, SaysNothingOfAFileThatIsNoDeployment) {
+  const auto file =
+      std::filesystem::temp_directory_path() / ("armature-other-" + std::to_string(getpid()));
+  for (const std::string text : {"root:$y$secret:19000:0:99999:7:::\n", "secret: {secret: 1}\n"}) {
+    std::ofstream{file} << text;
+    for (const char* verb : {"check", "show", "graph", "run"}) {
+      const auto result = run_command({armature(), verb, file});
+      EXPECT_EQ(result.exit_code, 3) << verb;
+      EXPECT_THAT(result.out + result.err, testing::Not(testing::HasSubstr("secret"))) << verb;
+    }
+  }
+  std::filesystem::remove(file);
+}
+
 TEST(Check, LetsAComponentThatMayUseARigUseNone) {
   const auto result =
       run_command({armature(), "check", kLampDeployment, "--set", "components.monitor.rig=none"});

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "armature/config/document.hpp"
 #include "armature/runtime/run_report.hpp"
@@ -32,7 +33,8 @@ class DeploymentTest : public testing::Test {
   }
 
   /// `beat` and `ear` are added to what is said of the two components.
-  Told run(const std::string& beat, const std::string& ear, const std::string& more = "") {
+  Told run(const std::string& beat, const std::string& ear, const std::string& more = "",
+           const RunReport::Ending& ending = {}) {
     Deployment deployment{read("armature: 1\nname: pulse\nclock: simulated\n" + more +
                                "components:\n"
                                "  beat: {plugin: test/beat" +
@@ -42,8 +44,9 @@ class DeploymentTest : public testing::Test {
                                ear + "}\n"),
                           plugins_,
                           {.process = "main", .on_line = {}, .on_note = {}}};
-    deployment.run([] { return false; });
-    const RunReport report{deployment, {}};
+    RunWatch alone;
+    deployment.run(alone);
+    const RunReport report{deployment, ending};
     Told told{.status = report.status(),
               .reasons = report.reasons(),
               .metrics = {},
@@ -77,6 +80,20 @@ TEST_F(DeploymentTest, ASampleThatIsTooOldForAPortIsNotShownThere) {
 
 TEST_F(DeploymentTest, TheRuntimeTellsOfEveryComponentAndOfItself) {
   EXPECT_EQ(run("", "").texts.at("told_of"), "beat ear runtime runtime_clock ");
+}
+
+TEST_F(DeploymentTest, HowLateAndHowLongStepsWereIsToldWhenAskedFor) {
+  const Told told = run("", "", "", {.tells_timing = true});
+  const auto timing = nlohmann::json::parse(told.json)["timing"];
+  EXPECT_TRUE(timing["executors"].empty()) << "there are none in lockstep";
+  const auto& beat = timing["components"]["beat"];
+  EXPECT_GT(beat["step"]["count"], 10);
+  EXPECT_EQ(beat["step"]["count"], beat["lateness"]["count"]);
+  EXPECT_EQ(beat["lateness"]["max_s"], 0) << "in lockstep nothing is late";
+  EXPECT_GT(beat["step"]["p99_s"], 0);
+  EXPECT_LE(beat["step"]["p99_s"], beat["step"]["max_s"]);
+  EXPECT_NE(told.table.find("  component [us] "), std::string::npos) << told.table;
+  EXPECT_EQ(run("", "").json.find("timing"), std::string::npos) << "no two runs would be alike";
 }
 
 TEST_F(DeploymentTest, AGoalIsMetMissedOrWasNeverMeasured) {
@@ -177,16 +194,20 @@ TEST_F(DeploymentTest, AParameterThatMustBeAnothersIsTakenFromItOrTheSame) {
       << "the one that it hears";
 }
 
-TEST_F(DeploymentTest, AnExecutorIsReadWithItsPeriodPriorityAndCpu) {
+TEST_F(DeploymentTest, AnExecutorIsReadWithWhatItAsksOfTheSystem) {
   const auto config = read(
-      "armature: 1\nname: pulse\nexecutors: {control: {period_s: 0.002, priority: 20, cpu: 0}}\n"
+      "armature: 1\nname: pulse\nexecutors: {control: {period_s: 0.002, priority: 20, cpu: 0, "
+      "lock_memory: "
+      "true}}\n"
       "components: {beat: {plugin: test/beat, executor: control}}\n");
   ASSERT_EQ(config.executors.size(), 2U);
   EXPECT_EQ(config.executors[0].name, "control");
   EXPECT_EQ(config.executors[0].period, seconds(0.002));
   EXPECT_EQ(config.executors[0].priority, 20);
   EXPECT_EQ(config.executors[0].cpu, 0);
+  EXPECT_TRUE(config.executors[0].lock_memory);
   EXPECT_EQ(config.executors[1].name, "main");
+  EXPECT_FALSE(config.executors[1].lock_memory);
   EXPECT_FALSE(config.executors[1].cpu);
 }
 

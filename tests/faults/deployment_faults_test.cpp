@@ -78,6 +78,8 @@ const Fault kFaults[] = {
     {"ParameterOctal", "distance_m: 0.5", "distance_m: 010",
      "deployment.yaml:12:60: 'distance_m' must be a number, and '010' is octal to some readers; "
      "write 10\n"},
+    {"UnknownWordForAFault", "executor: control}", "executor: control, on_fault: ignore}",
+     "deployment.yaml:20:61: 'on_fault' cannot be 'ignore'; known: stop, isolate\n"},
     {"UnknownExecutor", "executor: control}", "executor: contrl}",
      "deployment.yaml:20:42: unknown executor 'contrl'; did you mean 'control'?\n"},
     {"PeriodOfZero", "period_s: 0.001", "period_s: 0",
@@ -197,7 +199,9 @@ const Fault kFaults[] = {
      "deployment.yaml:17:48: 'command' must be a list of texts, not 'solver'\n"},
     {"VelocityAboveTheRobots", "max_velocity_rad_s: 1.0", "max_velocity_rad_s: 9.0",
      "deployment.yaml:13:3: component 'motion': max_velocity_rad_s is 9, above the 2.5 rad/s of "
-     "joint j1 of robot dental_lamp\n"},
+     "joint j1 of robot dental_lamp\n"
+     "deployment.yaml:13:3: component 'motion.planner': max_velocity_rad_s is 9, above the 2.5 "
+     "rad/s of joint j1 of robot dental_lamp\n"},
     {"GoalNotANumber", "distance_error_mm: 1.5", "distance_error_mm: small",
      "deployment.yaml:22:28: 'distance_error_mm' must be a number, not 'small'\n"},
     {"ComponentsMissing", "components:", "component:",
@@ -207,7 +211,7 @@ const Fault kFaults[] = {
     {"Cycle", "  face: {plugin: face_pose/three_point}",
      "  face: {plugin: face_pose/three_point, in: {landmarks: face}}",
      "deployment.yaml:10:3: a cycle without a declared delay among face, target, task, motion, "
-     "arm, report: one input in it must be 'feedback: true' in its plugin.yaml\n"
+     "motion.planner, arm, report: one input in it must be 'feedback: true' in its plugin.yaml\n"
      "deployment.yaml:10:57: face.landmarks reads type 'armature_msgs/FaceLandmarks' from topic "
      "'/faulty/face', but face.face writes type 'armature_msgs/FacePose'\n"},
     {"IncludeMissing", "clock: simulated", "include: nowhere.yaml",
@@ -260,6 +264,14 @@ const Fault kFaults[] = {
      "deployment.yaml:6:45: 'cpu' must be a whole number, not 'all'\n"},
     {"PriorityOutOfRange", "period_s: 0.001", "period_s: 0.001, priority: 100",
      "deployment.yaml:6:50: 'priority' must be from 0 (normal) to 99\n"},
+    {"OpenedInputThatIsMistyped", "executors:", "open: [report.measurd_js]\nexecutors:",
+     "deployment.yaml:6:8: no component has the input 'report.measurd_js'; did you mean "
+     "'report.measured_js'?\n"},
+    {"OpenedCommands", "executors:", "open: [motion.goal]\nexecutors:",
+     "deployment.yaml:6:8: 'motion.goal' takes commands, which come from the deployment itself "
+     "only; open an input of a component that decides, and let that one command\n"},
+    {"OpenThatIsNoList", "executors:", "open: motion.goal\nexecutors:",
+     "deployment.yaml:6:7: 'open' must be a list of inputs, [task.target], not 'motion.goal'\n"},
     {"NegativeLatency", "{plugin: face_pose/three_point}",
      "{plugin: face_pose/three_point, sim_latency_s: -0.1}",
      "deployment.yaml:10:56: 'sim_latency_s' must not be negative\n"},
@@ -314,7 +326,8 @@ class FaultyDeployment : public testing::TestWithParam<Fault> {
   FaultyDeployment() { fs::create_directories(folder_); }
   ~FaultyDeployment() override { fs::remove_all(folder_); }
 
-  CommandResult check(const std::vector<Change>& changes) const {
+  /// What `verb` says of the base with these changes.
+  CommandResult check(const std::vector<Change>& changes, const char* verb = "check") const {
     std::ostringstream base;
     base << std::ifstream{source_file("tests/faults/base.yaml")}.rdbuf();
     std::string text = base.str();
@@ -325,7 +338,7 @@ class FaultyDeployment : public testing::TestWithParam<Fault> {
     const fs::path file = folder_ / "deployment.yaml";
     std::ofstream{file} << text;
     CommandResult result =
-        run_command({armature(), "check", file.string()},
+        run_command({armature(), verb, file.string()},
                     {.environment = {{"ARMATURE_PLUGIN_PATH", FAULT_PLUGINS}}, .input = {}});
     result.err = without(without(result.err, folder_.string() + "/"), source_file("configs/"));
     result.err = without(result.err, "; searched " FAULT_PLUGINS ", " ARMATURE_PLUGIN_BUILD_DIR);
@@ -382,13 +395,18 @@ TEST_F(SoundDeployment, AMoveThatComesPassesTheCheck) {
 
 const FaultyDeployment::Change kSystemClock{"clock: simulated", "clock: system"};
 
-TEST_F(SoundDeployment, AnIkProgramOnTheSystemClockPassesTheCheck) {
-  const std::string command = armature() + ", ik, --robot, @CONFIGS@/robots/dental_lamp.yaml";
+TEST_F(SoundDeployment, AProgramThatAParameterNamesIsNotRunByTheCheck) {
+  const fs::path trace =
+      fs::temp_directory_path() / ("armature-program-ran-" + std::to_string(getpid()));
   const auto result =
       check({kSystemClock,
-             {"plugin: ik/lamp_geometric", "plugin: ik/process, params: {command: [" + command +
-                                               ", --plugin, ik/lamp_geometric]}"}});
+             {"plugin: ik/lamp_geometric",
+              "plugin: ik/process, params: {command: [touch, " + trace.string() + "]}"}});
   EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_TRUE(
+      result.out.starts_with("not tried: component 'motion', as ik/process runs a program\n"))
+      << result.out;
+  EXPECT_FALSE(fs::remove(trace)) << "it ran";
 }
 
 using SplitDeployment = FaultyDeployment;
@@ -397,10 +415,11 @@ TEST_F(SplitDeployment, AnIkProgramThatDoesNotKnowTheRobotIsRefusedWithItsAnswer
   const std::string command = armature() + ", ik, --robot, @CONFIGS@/robots/sr1.yaml";
   const auto result = check(
       {kSystemClock,
-       {"plugin: ik/lamp_geometric", "plugin: ik/process, params: {command: [" + command + "]}"}});
+       {"plugin: ik/lamp_geometric", "plugin: ik/process, params: {command: [" + command + "]}"}},
+      "run");
   EXPECT_EQ(result.exit_code, 3);
   EXPECT_TRUE(result.err.starts_with(
-      "deployment.yaml:13:3: component 'motion': ik/process refuses: the program '"))
+      "deployment.yaml:13:3: component 'motion.planner': ik/process refuses: the program '"))
       << result.err;
   EXPECT_TRUE(
       result.err.ends_with("' does not accept the robot's resting position as a goal: the "

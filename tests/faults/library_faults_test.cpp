@@ -40,6 +40,37 @@ pid_t trial_of(const Command& command) {
   return trial;
 }
 
+TEST(FaultyLibrary, OneThatHangsIsNamedAndTheProgramLives) {
+  const auto result = ik_with("ik/hanging");
+  EXPECT_EQ(result.exit_code, 4);
+  EXPECT_EQ(result.err, "armature: plugin 'ik/hanging' cannot be used: " FAULTY_LIBRARIES
+                        "/hanging.so: it is not loaded after 5 s\n");
+}
+
+/// `id` as the solver of the lamp, which `check` constructs.
+CommandResult check_with(const std::string& id) {
+  return run_command({armature(), "check", source_file("configs/dental_lamp.yaml"), "--set",
+                      "components.motion.ik.plugin=" + id},
+                     {.environment = {{"ARMATURE_PLUGIN_PATH", FAULT_PLUGINS}}, .input = {}});
+}
+
+TEST(FaultyLibrary, WhatASlotsPluginThrowsIsToldAndDoesNotOutliveIt) {
+  const auto result = check_with("ik/throwing");
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_NE(result.err.find("component 'motion': ik/throwing: an exception of its own type\n"),
+            std::string::npos)
+      << result.err;
+}
+
+TEST(FaultyLibrary, WhatASolverThrowsInTheCalculatorIsTold) {
+  const auto result =
+      run_command({armature(), "ik", "--robot", kLamp, "--plugin", "ik/throwing"},
+                  {.environment = {{"ARMATURE_PLUGIN_PATH", FAULT_PLUGINS}}, .input = {}});
+  EXPECT_LT(result.exit_code, 128);
+  EXPECT_NE(result.err.find("ik/throwing: an exception of its own type"), std::string::npos)
+      << result.err;
+}
+
 TEST(FaultyLibrary, OneThatIsTriedWhenTheRunIsInterruptedSaysNothing) {
   const auto deployment = std::filesystem::temp_directory_path() /
                           ("armature-hanging-" + std::to_string(getpid()) + ".yaml");

@@ -8,6 +8,7 @@
 #include "armature/config/document.hpp"
 #include "armature/config/problems.hpp"
 #include "exit_code.hpp"
+#include "plugins.hpp"
 
 namespace armature::bench {
 namespace {
@@ -56,6 +57,7 @@ config::Node read_map(const std::string& text, const std::vector<const PluginMan
 std::vector<Contestant> contestants(const PluginRegistry& registry, std::string_view kind,
                                     const std::vector<std::string>& chosen,
                                     const std::string& params) {
+  tell_warnings(registry);
   const auto plugins = chosen_plugins(registry, kind, chosen);
   config::Problems problems;
   const config::Node all = read_map(params, plugins, problems);

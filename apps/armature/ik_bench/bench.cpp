@@ -56,9 +56,10 @@ std::string baseline_of(const BenchOptions& options, const std::vector<Runner>& 
 
 void write_files(const std::filesystem::path& folder, const Report& report,
                  const std::vector<bench::Series>& series) {
-  write_atomically(folder / "solves.csv", bench::csv_of(series));
-  write_atomically(folder / "cumulative.svg", bench::plot_of(report, series));
-  write_atomically(folder / "summary.json", to_json(report).dump(2) + '\n');
+  constexpr FileUse kUse = FileUse::named_by_user;
+  write_atomically(folder / "solves.csv", bench::csv_of(series), kUse);
+  write_atomically(folder / "cumulative.svg", bench::plot_of(report, series), kUse);
+  write_atomically(folder / "summary.json", to_json(report).dump(2) + '\n', kUse);
 }
 
 }  // namespace

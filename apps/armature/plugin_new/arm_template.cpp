@@ -17,16 +17,23 @@ kind: component
 doc: An arm that is at once where it is asked to be, until you put your own in its place.
 # pure: false   # once a device answers: the simulated clock then refuses it by name
 uses: [robot]
+driver: {simulated: true}   # once it moves metal: {device: PARAMETER}, the one that names its port or address
 params:
   rate_hz: {type: number, default: 1000, min: 1, max: 10000, doc: "How often it talks to the arm; that of its executor"}
+  command_timeout_s: {type: number, default: 0.1, min: 0.001, max: 10, doc: "An arm that hears no command for so long ramps down within its limits by itself"}
 in:
-  servo_jp: {type: sensor_msgs/JointState, topic: arm/servo_jp, of: robot, reads: latest, max_age_s: 0.1, qos: command, doc: "Position and velocity of all joints: where the arm shall be now"}
+  servo_jp: {type: sensor_msgs/JointState, topic: arm/servo_jp, of: robot, reads: latest, qos: command, doc: "Position and velocity of all joints: where the arm shall be now"}
 out:
   measured_js: {type: sensor_msgs/JointState, topic: arm/measured_js, of: robot, qos: state, frame: base, doc: "Where it is: all joints"}
 )";
 
-constexpr std::string_view kArmSource = R"(#include "armature/kinds/joint_messages.hpp"
+constexpr std::string_view kArmSource = R"(#include <optional>
+
+#include "armature/kinds/command_watch.hpp"
+#include "armature/kinds/joint_messages.hpp"
 #include "armature/kinds/setup_robot.hpp"
+#include "armature/messages/stamp.hpp"
+#include "armature/robot/short_trajectory.hpp"
 #include "armature/runtime/component.hpp"
 #include "armature/runtime/plugin.hpp"
 #include "armature/runtime/setup.hpp"
@@ -40,7 +47,6 @@ class Device {
  public:
   explicit Device(const JointVector& q) : q_{q}, v_{JointVector::Zero(q.size())} {}
   void move(const JointVector& q, const JointVector& v) { q_ = q, v_ = v; }
-  void hold() { v_.setZero(); }
   const JointVector& position() const { return q_; }
   const JointVector& velocity() const { return v_; }
 
@@ -50,48 +56,75 @@ class Device {
 
 }  // namespace
 
-/// Hands commands to the arm, and tells where it is.
+/// Hands commands to the arm, and tells where it is. When they cease it ramps down by itself.
 class @CLASS@ final : public Component {
  public:
   explicit @CLASS@(Setup& setup)
       : Component{setup},
         robot_{robot_of(setup)},
         device_{resting_position(robot_)},
+        watch_{seconds(setup.params().number("command_timeout_s")),
+               seconds(1 / setup.params().number("rate_hz"))},
         servo_jp_{setup.input<msg::JointState>("servo_jp")},
         measured_js_{setup.output<msg::JointState>("measured_js")} {
     setup.activate_every(seconds(1 / setup.params().number("rate_hz")));
   }
 
   void step(Time now) override {
-    if (!servo_jp_.latest()) {
-      device_.hold();  // nobody has commanded it for max_age_s (plugin.yaml)
-    } else if (servo_jp_.fresh()) {
-      follow(*servo_jp_.latest());
+    if (servo_jp_.fresh()) read(*servo_jp_.latest());
+    if (!watch_.ceased(now, stamp_)) {
+      ramp_.reset();
+      if (servo_jp_.fresh() && refusal_.empty()) device_.move(q_, v_);
+    } else if (stamp_) {
+      ramp_down(now);
     }
     auto measured = measured_js_.loan();
     write_all_joints(robot_, device_.position(), device_.velocity(), now, *measured);
     measured.publish();
+    const ReasonText& trouble = refusal_.empty() ? watch_.why() : refusal_;
+    if (trouble.empty()) {
+      healthy();
+    } else {
+      degraded(trouble);
+    }
   }
 
+  /// The run ends only when the arm rests.
+  bool stopped() const override { return device_.velocity().isZero(1e-3); }
+
  private:
-  /// A command that has another length, is not finite or leaves the limits is none.
-  void follow(const msg::JointState& command) {
-    const auto q = joints_of(robot_, command);
-    const auto v = joint_rates_of(robot_, command);
-    if (!q || !v) return refuse((q ? v : q).error().text);
-    if (!robot_.within_limits(*q)) return refuse("it leaves the joint limits");
-    healthy();
-    device_.move(*q, *v);
+  /// A command that has another length, is not finite or leaves the limits is none: the one before
+  /// grows old.
+  void read(const msg::JointState& command) {
+    JointVector q, v;
+    refusal_ = read_joints(robot_, command, q);
+    if (refusal_.empty()) refusal_ = read_joint_rates(robot_, command, v);
+    if (refusal_.empty() && !robot_.within_limits(q)) refusal_ = "it leaves the joint limits";
+    if (!refusal_.empty()) {
+      refusal_ = ReasonText::format("refused a command: {}", refusal_.view());
+      return;
+    }
+    q_ = q, v_ = v;
+    stamp_ = stamp_of(command.header_().stamp_());
   }
-  void refuse(const std::string& why) {
-    device_.hold();
-    degraded("refused a command: " + why);
+  void ramp_down(Time now) {
+    if (!ramp_) {
+      const JointState from{device_.position(), device_.velocity(), 0 * device_.velocity()};
+      ramp_ = short_stop_from(from, robot_.max_velocity(), robot_.max_acceleration(), now, 0);
+    }
+    const JointState at = ramp_->view().at(now);
+    device_.move(at.q, at.v);
   }
 
   RobotModel robot_;
   Device device_;
+  CommandWatch watch_;
   Input<msg::JointState> servo_jp_;
   Output<msg::JointState> measured_js_;
+  JointVector q_, v_;          // of the last good command,
+  std::optional<Time> stamp_;  // and when it was made
+  std::optional<ShortTrajectory> ramp_;
+  ReasonText refusal_;
 };
 ARMATURE_PLUGIN(@CLASS@);
 )";
@@ -135,10 +168,15 @@ int main() {
   arm.step(0.002);
   expect(is_at(goal), "it goes where it is asked to");
 
+  for (int k = 0; k < 500; ++k) arm.step(0.003 + 0.001 * k);
+  arm.take<msg::JointState>("measured_js");
+  expect(arm.component().stopped(), "it comes to rest by itself when commands cease");
+  expect(arm.status().state == Voice::State::degraded, "and says so");
+
   for (const double none : {std::numeric_limits<double>::quiet_NaN(), 100.0}) {
     command.position_()[0] = none;
     arm.send("servo_jp", command);
-    arm.step(0.003);
+    arm.step(0.6);
     expect(is_at(goal), "it stays where it is when a command is none");
     expect(arm.status().state == Voice::State::degraded, "and says so");
   }

@@ -99,7 +99,7 @@ int new_plugin(const std::string& text, const fs::path& directory) {
     return filled;
   };
   for (const TemplateFile& file : from.files) {
-    write_atomically(directory / fill(file.name), fill(file.text));
+    write_atomically(directory / fill(file.name), fill(file.text), FileUse::named_by_user);
   }
   fs::copy_file(shipped_robot_folder() / "arm.urdf", directory / "arm.urdf");
   fmt::print("wrote {}: see {}\n", id.text, (directory / "README.md").string());

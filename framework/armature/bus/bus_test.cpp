@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <set>
+#include <vector>
+
 #include "armature/bus/topic.hpp"
 
 namespace armature {
@@ -47,6 +50,18 @@ TEST_F(TopicTest, HandsOneSampleByPointerToEverySubscriber) {
   ASSERT_EQ(first.samples.size(), 1U);
   EXPECT_EQ(first.samples[0].message(), second.samples[0].message());
   EXPECT_EQ(*static_cast<const int*>(first.samples[0].message()), 7);
+}
+
+TEST_F(TopicTest, HandsASampleOfAnotherProcessOnlyToTheSubscribersItWasReadFor) {
+  Keeper own, open;
+  topic.connect(own);
+  topic.connect(open, Sources::any);
+  topic.deliver(topic.loan(), Sources::any);
+  EXPECT_EQ(own.samples.size(), 0U);
+  EXPECT_EQ(open.samples.size(), 1U);
+  topic.deliver(topic.loan(), Sources::deployment);
+  EXPECT_EQ(own.samples.size(), 1U);
+  EXPECT_EQ(open.samples.size(), 1U);
 }
 
 TEST_F(TopicTest, PassesOnToTheSubscribersOfTheTopicThatItIsAPartOf) {
@@ -123,6 +138,21 @@ TEST(SamplePool, DestroysEveryMessageItMade) {
     EXPECT_EQ(one.message(), copy.message());
   }
   EXPECT_EQ(g_created, 0);
+}
+
+TEST(SamplePool, UsesItsBlocksInTurnSoThatEachHasTheMemoryItNeeds) {
+  const MessageType type = number_type();
+  SamplePool pool{type, 3};
+  std::set<const void*> used;
+  for (int i = 0; i < 3; ++i) used.insert(pool.loan().message());
+  EXPECT_EQ(used.size(), 3U);
+  {
+    std::vector<SampleRef> out;
+    for (int i = 0; i < 4; ++i) out.push_back(pool.loan());
+  }
+  for (int i = 0; i < 4; ++i) used.insert(pool.loan().message());
+  EXPECT_EQ(used.size(), 4U) << "with the one that was allocated meanwhile";
+  EXPECT_EQ(pool.grown(), 1U);
 }
 
 TEST(QosProfiles, HaveANameThatFindsThemAgain) {

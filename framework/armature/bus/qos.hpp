@@ -25,8 +25,11 @@ struct QosSettings {
   bool writer_reliable = true;
   bool reader_reliable = true;
   bool transient_local = false;
-  int depth = 1;                    // KEEP_LAST
-  Duration lifespan = Duration{0};  // 0: infinite
+  int depth = 1;  // KEEP_LAST
+  /// Samples that are older when they arrive are dropped; 0: none. By the deployment's clock
+  /// between its own processes, which a step of the system clock does not change. DDS itself only
+  /// judges, by the system clock, what it keeps for those who come later.
+  Duration lifespan = Duration{0};
   Duration liveliness_lease = seconds(0.5);
 };
 QosSettings settings(QosProfile profile);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/bus/sample.hpp"
 
+#include <mutex>
+
 namespace armature {
 
 SampleRef::~SampleRef() {
@@ -13,8 +15,7 @@ SampleRef::~SampleRef() {
 SamplePool::SamplePool(const MessageType& type, std::size_t preallocated)
     : type_{&type}, preallocated_{preallocated} {
   for (std::size_t i = 0; i < preallocated; ++i) {
-    SampleBlock* block = allocate();
-    block->next_free = std::exchange(free_, block);
+    put_last(allocate());
   }
 }
 
@@ -26,24 +27,43 @@ SampleBlock* SamplePool::allocate() {
   auto block = std::make_unique<SampleBlock>();
   block->pool = this;
   block->message = type_->create();
+  if (!prototype_.empty()) type_->decode(prototype_, block->message);
   blocks_.push_back(std::move(block));
   return blocks_.back().get();
 }
 
 SampleRef SamplePool::loan() {
   const std::scoped_lock lock{mutex_};
-  SampleBlock* block = free_;
-  if (block) {
-    free_ = block->next_free;
-  } else {
-    block = allocate();
-  }
+  if (!first_free_) return SampleRef{allocate()};
+  SampleBlock* block = std::exchange(first_free_, first_free_->next_free);
+  if (!first_free_) last_free_ = nullptr;
   return SampleRef{block};
+}
+
+void SamplePool::put_last(SampleBlock* block) {
+  block->next_free = nullptr;
+  SampleBlock* before = std::exchange(last_free_, block);
+  (before ? before->next_free : first_free_) = block;
 }
 
 void SamplePool::give_back(SampleBlock* block) {
   const std::scoped_lock lock{mutex_};
-  block->next_free = std::exchange(free_, block);
+  put_last(block);
+}
+
+void SamplePool::prepare(const void* message) {
+  const std::scoped_lock lock{mutex_};
+  prototype_.clear();
+  type_->encode(message, prototype_);
+  for (SampleBlock* block = first_free_; block; block = block->next_free) {
+    type_->decode(prototype_, block->message);
+  }
+}
+
+void SamplePool::reserve(std::size_t more) {
+  const std::scoped_lock lock{mutex_};
+  for (std::size_t i = 0; i < more; ++i) put_last(allocate());
+  preallocated_ += more;
 }
 
 std::size_t SamplePool::grown() const {

@@ -5,18 +5,19 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <mutex>
 #include <utility>
 #include <vector>
 
 #include "armature/bus/message_type.hpp"
+#include "armature/values/real_time_mutex.hpp"
 #include "armature/values/time.hpp"
 
 namespace armature {
 
 /// What travels beside a message.
 struct SampleInfo {
-  Time published;              // deployment clock of the writer's process
+  /// Deployment clock; of a writer that is not the deployment's own, when it arrived.
+  Time published;
   std::uint64_t sequence = 0;  // counts from 1 per writer
 };
 
@@ -59,7 +60,9 @@ class SampleRef {
 };
 
 /// Preallocated messages of one type. When all are out it allocates another and counts that, so a
-/// slow watcher costs memory, never data. Must outlive its samples: held by shared_ptr in the bus.
+/// slow watcher costs memory, never data. They are used in turn: after one round each has the
+/// memory that its sequences need, so that a control thread which suddenly needs more of them
+/// allocates nothing. Must outlive its samples: held by shared_ptr in the bus.
 class SamplePool {
  public:
   SamplePool(const MessageType& type, std::size_t preallocated);
@@ -71,6 +74,11 @@ class SamplePool {
   /// A block with whatever content its last use left: overwrite every field. Real-time safe as
   /// long as a preallocated block is free.
   SampleRef loan();
+  /// Copies `message` into every block that is not out, and into every one that is allocated later,
+  /// so that its sequences and texts have their memory. Not real-time safe.
+  void prepare(const void* message);
+  /// Preallocates `more` blocks. Not real-time safe.
+  void reserve(std::size_t more);
   /// Blocks allocated beyond the preallocated ones.
   std::size_t grown() const;
 
@@ -78,12 +86,15 @@ class SamplePool {
   friend class SampleRef;
   void give_back(SampleBlock* block);
   SampleBlock* allocate();
+  void put_last(SampleBlock* block);
 
   const MessageType* type_;
-  mutable std::mutex mutex_;
-  SampleBlock* free_ = nullptr;
+  mutable RealTimeMutex mutex_;
+  SampleBlock* first_free_ = nullptr;
+  SampleBlock* last_free_ = nullptr;
   std::vector<std::unique_ptr<SampleBlock>> blocks_;
   std::size_t preallocated_;
+  std::vector<std::byte> prototype_;  // encoded; empty: none
 };
 
 }  // namespace armature

@@ -16,7 +16,13 @@ void Topic::publish(SampleRef sample, Time now) {
 }
 
 void Topic::deliver(const SampleRef& sample) {
-  for (Subscriber* subscriber : subscribers_) subscriber->deliver(sample);
+  for (const auto& [subscriber, sources] : subscribers_) subscriber->deliver(sample);
+}
+
+void Topic::deliver(const SampleRef& sample, Sources sources) {
+  for (const Connection& connection : subscribers_) {
+    if (connection.sources == sources) connection.subscriber->deliver(sample);
+  }
 }
 
 bool Topic::has_readers() const {

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "armature/bus/sample.hpp"
@@ -18,7 +19,13 @@ class Subscriber {
   virtual ~Subscriber() = default;
   /// Called on the publisher's thread: enqueue and return. Real-time safe.
   virtual void deliver(const SampleRef& sample) = 0;
+  /// How many samples it may hold at a time; so many more are kept ready.
+  virtual std::size_t max_held() const { return 0; }
 };
+
+/// Whose samples a subscriber takes when they come from other processes: of the deployment's own
+/// ones, or of any program that writes the topic.
+enum class Sources { deployment, any };
 
 /// One topic inside this process: by pointer to every subscriber, and to the outside writer when
 /// there is one. Wired before the deployment starts and constant while it runs. One component
@@ -29,7 +36,10 @@ class Topic {
   Topic(TopicSpec spec, std::size_t preallocated);
 
   const TopicSpec& spec() const { return spec_; }
-  void connect(Subscriber& subscriber) { subscribers_.push_back(&subscriber); }
+  void connect(Subscriber& subscriber, Sources sources = Sources::deployment) {
+    subscribers_.push_back({&subscriber, sources});
+    pool_.reserve(subscriber.max_held());
+  }
   void attach(std::unique_ptr<OutsideWriter> writer) { outside_ = std::move(writer); }
   const OutsideWriter* outside() const { return outside_.get(); }
   /// Samples also go to the subscribers of `hub`, which outlives this topic's publishing.
@@ -38,10 +48,15 @@ class Topic {
   bool has_readers() const;
 
   SampleRef loan() { return pool_.loan(); }
+  /// Copies `message` into every sample that is kept ready, now or later.
+  void prepare(const void* message) { pool_.prepare(message); }
   /// Stamps the sample with `now` and the next sequence number and hands it to everybody.
   void publish(SampleRef sample, Time now);
-  /// Hands a sample of another writer to the subscribers (its info is kept). Any thread.
+  /// Hands a sample of another writer of this process to all subscribers (its info is kept).
   void deliver(const SampleRef& sample);
+  /// Hands a sample of another process to the subscribers with these `sources`, for which it was
+  /// read. Any thread.
+  void deliver(const SampleRef& sample, Sources sources);
 
   std::uint64_t published() const { return sequence_; }
   std::size_t pool_growth() const { return pool_.grown(); }
@@ -49,7 +64,11 @@ class Topic {
  private:
   TopicSpec spec_;
   SamplePool pool_;
-  std::vector<Subscriber*> subscribers_;
+  struct Connection {
+    Subscriber* subscriber;
+    Sources sources;
+  };
+  std::vector<Connection> subscribers_;
   Topic* hub_ = nullptr;
   std::unique_ptr<OutsideWriter> outside_;
   std::uint64_t sequence_ = 0;

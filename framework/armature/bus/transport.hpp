@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "armature/bus/message_type.hpp"
 #include "armature/bus/qos.hpp"
@@ -34,6 +35,12 @@ class OutsideWriter {
   virtual std::uint64_t dropped() const = 0;
 };
 
+/// Samples of one writer that is no part of the deployment.
+struct RefusedSamples {
+  std::string writer;  // "participant 'talker' (pid 123 on theatre-2)"
+  std::uint64_t count = 0;
+};
+
 /// Our end of a topic that another process feeds; destroying it stops the deliveries.
 class OutsideReader {
  public:
@@ -41,6 +48,8 @@ class OutsideReader {
   virtual int writers() const = 0;
   /// How many writers of the deployment's other processes it has met so far.
   virtual int peers() const = 0;
+  /// What was refused so far, by writer. Any thread.
+  virtual std::vector<RefusedSamples> refused() const = 0;
 };
 
 /// What may happen on the network that an operator must know: a second type on a topic, another
@@ -51,14 +60,18 @@ struct TransportEvent {
   Kind kind;
   std::string topic;
   std::string text;
+  bool of_peer = false;  // it is about one of the deployment's other processes
 };
 
 struct TransportOptions {
   int domain = 0;
   std::string deployment;                               // its name, and
   std::string fingerprint;                              // the hash of its resolved configuration
+  std::string process = {};                             // which of its processes this is
   std::function<void(const TransportEvent&)> on_event;  // any thread; must only enqueue
-  std::function<Time()> now;                            // deployment clock
+  /// The deployment's clock, the same in all of its processes. None: the system clock.
+  std::function<Time()> now;
+  bool simulated = false;  // that clock has nothing to do with anybody else's
 };
 
 /// The way to other processes. Plugins of kind `transport`; the runtime loads `transport/fast_dds`.
@@ -73,7 +86,7 @@ class Transport {
   virtual Expected<std::unique_ptr<OutsideWriter>> advertise(const TopicSpec& topic) = 0;
   /// `deliver` is called on a transport thread and must only enqueue. Samples of this process'
   /// own writers are never delivered. `same_deployment_only`: writers with another fingerprint are
-  /// refused and reported (command inputs).
+  /// refused, reported once by name, and counted.
   virtual Expected<std::unique_ptr<OutsideReader>> subscribe(
       const TopicSpec& topic, bool same_deployment_only,
       std::function<void(SampleRef)> deliver) = 0;

@@ -115,9 +115,9 @@ std::vector<Node> records_in(const std::filesystem::path& file, Problems& proble
                  "'tracker_T_body' on each line, or YAML with 'armature_poses: 1' and 'poses:'");
     return {};
   }
-  std::vector<Node> records = first.front() == '{'
-                                  ? records_of_lines(text, name, problems)
-                                  : records_of_document(config::parse_yaml(text, name), problems);
+  std::vector<Node> records =
+      first.front() == '{' ? records_of_lines(text, name, problems)
+                           : records_of_document(config::parse_document(text, name), problems);
   std::erase_if(records, [&](const Node& record) {
     if (record.kind() == Node::Kind::map) return false;
     problems.add(record.origin(), fmt::format("a pose must be a map, not {}", record.describe()));

@@ -34,7 +34,7 @@ class Loader {
     if (++files_read_ > kMostFiles) {
       fail(asked_by, fmt::format("more than {} files are included", kMostFiles));
     }
-    Node own = parse_yaml(read_source(file, asked_by), file.string());
+    Node own = parse_document(read_source(file, asked_by), file.string());
     const bool empty = own.kind() == Node::Kind::null && own.text().empty();
     if (own.kind() != Node::Kind::map && !empty) {
       fail(own.origin(), "a configuration file must be a map, not " + own.describe());
@@ -98,7 +98,7 @@ class Loader {
 }  // namespace
 
 Node parse_file(const fs::path& file) {
-  return parse_yaml(read_source(file, Origin{}), file.string());
+  return parse_document(read_source(file, Origin{}), file.string());
 }
 
 Node parse_text(std::string_view text, std::string_view name) {

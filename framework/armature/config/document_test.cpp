@@ -2,10 +2,12 @@
 #include "armature/config/document.hpp"
 
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 #include <fstream>
 #include <random>
+#include <thread>
 
 #include "armature/config/params.hpp"
 #include "armature/config/reader.hpp"
@@ -14,6 +16,8 @@ namespace armature::config {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::Not;
 
 /// An empty folder of the test's own, in which it stands.
 class Documents : public testing::Test {
@@ -53,6 +57,36 @@ TEST_F(Documents, SayWhyAFileCannotBeRead) {
             "a.yaml:2:10: cannot read 'sub/missing.yaml': No such file or directory");
   write("list.yaml", "[1]\n");
   EXPECT_EQ(merged({"list.yaml"}), "list.yaml:1:1: a configuration file must be a map, not a list");
+}
+
+TEST_F(Documents, AreNoDevices) {
+  EXPECT_EQ(merged({"/dev/zero"}), "cannot read '/dev/zero': it is a device, not a file");
+  write("a.yaml", "include: /dev/tty\n");
+  EXPECT_EQ(merged({"a.yaml"}), "a.yaml:1:10: cannot read '/dev/tty': it is a device, not a file");
+}
+
+TEST_F(Documents, AreReadFromAPipeThatEndsAndNotFromOneThatDoesNot) {
+  ASSERT_EQ(mkfifo("pipe", 0600), 0);
+  std::thread writer{[] { write("pipe", "x: 1\n"); }};
+  EXPECT_EQ(merged({"pipe"}), "x: 1\n");
+  writer.join();
+  EXPECT_EQ(merged({"pipe"}),
+            "cannot read 'pipe': it is a pipe that nobody has written to its end within 2 s");
+}
+
+TEST_F(Documents, ThatAreNoneAreNotShown) {
+  write("shadow", "root:$y$j9T$secret:19000:0:99999:7:::\nuser:$y$secret:19000:0:99999:7:::\n");
+  const std::string refusal =
+      "shadow:1:1: this is no key of a configuration file (and is not shown here)";
+  EXPECT_EQ(merged({"shadow"}), refusal);
+  write("a.yaml", "include: shadow\n");
+  EXPECT_EQ(merged({"a.yaml"}), refusal);
+  write("passwd", "root:x:0:0:root:/root:/bin/bash\n");
+  EXPECT_EQ(merged({"passwd"}), "passwd:1:1: a configuration file must be a map, not a text");
+  for (const std::string text : {"secret: [\n", "secret\t: {}: x\n", "- secret\nsecret\n"}) {
+    write("other", text);
+    EXPECT_THAT(merged({"other"}), Not(HasSubstr("secret"))) << text;
+  }
 }
 
 TEST_F(Documents, IncludeRelativeToTheIncludingFileAndOverride) {

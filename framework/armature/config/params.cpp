@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 
 #include "armature/config/conversion.hpp"
@@ -75,12 +76,24 @@ Converted<AnyValue> read_choice(const ParamSpec& spec, const Node& node) {
                                           config::did_you_mean(*text, spec.choices))}};
 }
 
+/// Whether reading `file` might do something, or never end.
+bool is_device_or_pipe(const std::filesystem::path& file) {
+  std::error_code none;
+  const auto status = std::filesystem::status(file, none);
+  return std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) &&
+         !std::filesystem::is_directory(status);
+}
+
 /// `folder` is where a relative path starts.
 Converted<AnyValue> read_file(const Node& node, const std::filesystem::path& folder) {
   const auto text = config::to_text(node);
   if (!text) return tl::unexpected{text.error()};
-  if (text->empty() || folder.empty()) return AnyValue{*text};
-  return AnyValue{(folder / *text).lexically_normal().string()};
+  const bool as_written = text->empty() || folder.empty();
+  const std::string file = as_written ? *text : (folder / *text).lexically_normal().string();
+  if (!is_device_or_pipe(file)) return AnyValue{file};
+  return tl::unexpected{Mismatch{
+      node.origin(), fmt::format("names {}, which is a device or a pipe; name a file or a folder",
+                                 config::in_quotes(file))}};
 }
 
 Converted<AnyValue> read_value(const ParamSpec& spec, const Node& node,

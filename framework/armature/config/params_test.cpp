@@ -152,6 +152,14 @@ TEST(Parameters, OfTypeFileStartAtTheFolderOfTheFileThatSaysThem) {
   EXPECT_EQ(Params::read(specs_of(kTable), &option, "x", problems).file("model"), "m.dat");
 }
 
+TEST(Parameters, OfTypeFileNameNoDevice) {
+  Problems problems;
+  read("{seed: 7, model: /dev/zero}", problems);
+  ASSERT_EQ(problems.sorted().size(), 1U);
+  EXPECT_EQ(problems.sorted().front().message,
+            "'model' names '/dev/zero', which is a device or a pipe; name a file or a folder");
+}
+
 TEST(Parameters, ThatAreWrongAreAllTold) {
   Problems problems;
   const Params params = read(

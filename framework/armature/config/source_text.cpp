@@ -5,9 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstdio>
-#include <memory>
 #include <string_view>
 #include <utility>
 
@@ -15,8 +12,6 @@
 
 namespace armature::config {
 namespace {
-
-constexpr std::size_t kLargestFile = 16U << 20U;
 
 std::uint32_t byte_at(std::string_view text, std::size_t at) {
   return at < text.size() ? static_cast<unsigned char>(text[at]) : 0U;
@@ -57,24 +52,6 @@ std::string fault_at(std::string_view text, std::size_t at) {
 }
 
 }  // namespace
-
-std::string read_source(const std::filesystem::path& file, const Origin& asked_by) {
-  const auto fail = [&](int error) {
-    throw ConfigError{{{asked_by, fmt::format("cannot read '{}': {}", file.string(),
-                                              std::generic_category().message(error))}}};
-  };
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream{std::fopen(file.c_str(), "rb"),
-                                                               &std::fclose};
-  if (!stream) fail(errno);
-  std::string text;
-  std::array<char, 1U << 16U> chunk;
-  while (const std::size_t count = std::fread(chunk.data(), 1, chunk.size(), stream.get())) {
-    text.append(chunk.data(), count);
-    if (text.size() > kLargestFile) fail(EFBIG);
-  }
-  if (std::ferror(stream.get())) fail(errno);
-  return text;
-}
 
 SourceText::SourceText(std::string text, std::string name)
     : text_{std::move(text)}, name_{std::move(name)}, line_starts_{0} {

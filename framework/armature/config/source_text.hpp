@@ -11,7 +11,8 @@
 namespace armature::config {
 
 /// The bytes of a YAML file. Throws ConfigError at `asked_by` (the place of an `include:`, or
-/// nothing) when it cannot be read or is larger than 16 MB.
+/// nothing) when it cannot be read, is a device or larger than 16 MiB, or is a pipe that is not
+/// written to its end within 2 s.
 std::string read_source(const std::filesystem::path& file, const Origin& asked_by);
 
 /// Text that is known to be UTF-8 without control characters, and the places in it.

@@ -8,6 +8,7 @@
 #include <yaml-cpp/parser.h>
 
 #include <algorithm>
+#include <cctype>
 #include <sstream>
 #include <utility>
 #include <vector>
@@ -216,6 +217,25 @@ Node parse_yaml(std::string text, std::string_view name, const std::optional<Ori
   }
   problems.throw_if_any();
   return events.root(events.place(0));
+}
+
+Node parse_document(std::string text, std::string_view name) {
+  Node document = parse_yaml(std::move(text), name);
+  if (document.kind() == Node::Kind::scalar) {
+    throw ConfigError{{{document.origin(), "a configuration file must be a map, not a text"}}};
+  }
+  const auto is_name = [](std::string_view key) {
+    return std::ranges::all_of(key, [](unsigned char c) {
+      return std::isalnum(c) || c >= 0x80 ||
+             std::string_view{"_-./ "}.find(static_cast<char>(c)) != std::string_view::npos;
+    });
+  };
+  for (const Node::Entry& entry : document.entries()) {
+    if (is_name(entry.key)) continue;
+    throw ConfigError{
+        {{entry.key_origin, "this is no key of a configuration file (and is not shown here)"}}};
+  }
+  return document;
 }
 
 }  // namespace armature::config

@@ -15,4 +15,9 @@ namespace armature::config {
 Node parse_yaml(std::string text, std::string_view name,
                 const std::optional<Origin>& origin = std::nullopt);
 
+/// The same for the text of a file, which may be any file that the user named by mistake: what is
+/// plain text, or a map whose keys are no names (/etc/shadow is one), is refused without being
+/// shown.
+Node parse_document(std::string text, std::string_view name);
+
 }  // namespace armature::config

@@ -28,42 +28,64 @@ bool in_order(const RobotModel& model, const std::vector<std::string>& names) {
   return std::ranges::equal(names, model.joints(), {}, {}, &Joint::name);
 }
 
-/// A value of every joint, in the robot's order.
-Expected<JointVector> by_name(const RobotModel& model, const std::vector<std::string>& names,
-                              const std::vector<double>& values) {
+/// A value of every joint, in the robot's order: empty, or why not.
+ReasonText by_name(const RobotModel& model, const std::vector<std::string>& names,
+                   const std::vector<double>& values, JointVector& all) {
   if (values.size() != names.size()) {
-    return refuse(fmt::format("{} values for {} names", values.size(), names.size()));
+    return ReasonText::format("{} values for {} names", values.size(), names.size());
   }
   const auto& joints = model.joints();
-  JointVector all(static_cast<Eigen::Index>(joints.size()));
+  all.resize(static_cast<Eigen::Index>(joints.size()));
   for (std::size_t j = 0; j < joints.size(); ++j) {
     const auto found = std::ranges::find(names, joints[j].name);
     if (found == names.end()) {
-      return refuse(fmt::format("joint '{}' of {} is not among the names {}", joints[j].name,
-                                model.name(), fmt::join(names, ", ")));
+      return ReasonText::format("joint '{}' of {} is not among the names {}", joints[j].name,
+                                model.name(), fmt::join(names, ", "));
     }
     all[static_cast<Eigen::Index>(j)] = values[static_cast<std::size_t>(found - names.begin())];
   }
-  return all;
+  return {};
+}
+
+Expected<JointVector> expected(const ReasonText& wrong, const JointVector& joints) {
+  if (wrong.empty()) return joints;
+  return refuse(std::string{wrong.view()});
 }
 
 }  // namespace
 
-Expected<JointVector> joints_of(const RobotModel& model, const msg::JointState& message) {
+ReasonText read_joints(const RobotModel& model, const msg::JointState& message,
+                       JointVector& joints) {
   if (message.name_().empty() || in_order(model, message.name_())) {
-    return model.contract(message.position_());
+    return model.contract(message.position_(), joints);
   }
-  const auto all = by_name(model, message.name_(), message.position_());
-  return all ? model.contract(*all) : all;
+  JointVector all;
+  const ReasonText wrong = by_name(model, message.name_(), message.position_(), all);
+  if (!wrong.empty()) return wrong;
+  return model.contract({all.data(), static_cast<std::size_t>(all.size())}, joints);
+}
+
+ReasonText read_joint_rates(const RobotModel& model, const msg::JointState& message,
+                            JointVector& rates) {
+  if (message.name_().empty() || in_order(model, message.name_())) {
+    return model.contract_rates(message.velocity_(), rates);
+  }
+  JointVector all;
+  const ReasonText wrong = by_name(model, message.name_(), message.velocity_(), all);
+  if (!wrong.empty()) return wrong;
+  return model.contract_rates({all.data(), static_cast<std::size_t>(all.size())}, rates);
+}
+
+Expected<JointVector> joints_of(const RobotModel& model, const msg::JointState& message) {
+  JointVector joints;
+  const ReasonText wrong = read_joints(model, message, joints);
+  return expected(wrong, joints);
 }
 
 Expected<JointVector> joint_rates_of(const RobotModel& model, const msg::JointState& message) {
-  if (message.name_().empty() || in_order(model, message.name_())) {
-    return model.contract_rates(message.velocity_());
-  }
-  const auto all = by_name(model, message.name_(), message.velocity_());
-  if (!all) return all;
-  return model.contract_rates({all->data(), static_cast<std::size_t>(all->size())});
+  JointVector rates;
+  const ReasonText wrong = read_joint_rates(model, message, rates);
+  return expected(wrong, rates);
 }
 
 void write_all_joints(const RobotModel& model, const JointVector& q, const JointVector& v,

@@ -25,6 +25,11 @@ Expected<JointVector> joints_or_home(const RobotModel& model, std::span<const do
 Expected<JointVector> joints_of(const RobotModel& model, const msg::JointState& message);
 /// The same of its velocities.
 Expected<JointVector> joint_rates_of(const RobotModel& model, const msg::JointState& message);
+/// The same into `joints`, for a control thread: empty, or the reason. Real-time safe.
+ReasonText read_joints(const RobotModel& model, const msg::JointState& message,
+                       JointVector& joints);
+ReasonText read_joint_rates(const RobotModel& model, const msg::JointState& message,
+                            JointVector& rates);
 
 /// Position and velocity of all joints from those of the independent ones; effort empty. Real-time
 /// safe once the message has had the robot's size.

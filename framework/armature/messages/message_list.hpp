@@ -61,6 +61,8 @@
   X(armature_msgs, MotionStatus)           \
   X(armature_msgs, ToolPath)               \
   X(armature_msgs, QuinticTrajectory)      \
+  X(armature_msgs, MotionPlanRequest)      \
+  X(armature_msgs, MotionPlan)             \
   X(armature_msgs, IkRequest)              \
   X(armature_msgs, IkSolution)             \
   X(armature_msgs, IkResponse)             \
@@ -86,6 +88,7 @@
   X(armature_msgs, LightLevel)             \
   X(armature_msgs, Capture)                \
   X(armature_msgs, TaskState)              \
+  X(armature_msgs, StepTiming)             \
   X(armature_msgs, ComponentState)
 
 #define ARMATURE_MESSAGES(X)              \

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "armature/motion/goal_planner.hpp"
+#include "armature/motion/tracking.hpp"
 
 namespace armature::test {
 
@@ -144,6 +145,7 @@ struct Gantry {
   GoalPlanner planner(const PlanningOptions& options = {}) const {
     return {model, {path, ik, select, trajectory}, limits, options};
   }
+  Tracker tracker(const TrackingOptions& options) const { return {model, limits, ik, options}; }
 };
 
 inline MotionGoal goal_at(std::uint64_t id, double x, double y, double z) {

@@ -7,13 +7,19 @@
 
 namespace armature {
 
+ReasonText defect(const MotionGoal& goal) {
+  if (goal.mode == MotionMode::hold || goal.mode == MotionMode::guided) return {};
+  if (!goal.velocity.allFinite()) return "the goal's velocity is not finite";
+  if (!goal.angular_velocity.allFinite()) return "the goal's angular velocity is not finite";
+  if (goal.focus && !goal.focus->allFinite()) return "the goal's focus is not finite";
+  return defect(goal.pose, "the goal's");
+}
+
 Expected<MotionGoal> checked(MotionGoal goal) {
   if (goal.mode == MotionMode::hold || goal.mode == MotionMode::guided) return goal;
-  if (!goal.velocity.allFinite()) return refuse("the goal's velocity is not finite");
-  if (!goal.angular_velocity.allFinite()) {
-    return refuse("the goal's angular velocity is not finite");
+  if (const ReasonText wrong = defect(goal); !wrong.empty()) {
+    return refuse(std::string{wrong.view()});
   }
-  if (goal.focus && !goal.focus->allFinite()) return refuse("the goal's focus is not finite");
   for (const ForbiddenZone& zone : goal.forbidden) {
     if (auto wrong = defect(zone)) return refuse("the goal's " + *wrong);
   }

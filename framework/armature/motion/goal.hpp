@@ -9,6 +9,7 @@
 #include "armature/robot/forbidden_zone.hpp"
 #include "armature/robot/pose_goal.hpp"
 #include "armature/values/expected.hpp"
+#include "armature/values/inline_text.hpp"
 
 namespace armature {
 
@@ -32,6 +33,14 @@ struct MotionGoal {
       Eigen::Vector3d::Zero();         // [rad/s] in the base frame, the same
   std::vector<ToolPose> through = {};  // key poses on the way, in order; planned only
 };
+
+/// Whether `id` is that of a newer goal than `last`. Numbers up to a thousand behind are old; one
+/// farther away is where somebody else began to count, so that no jump locks anybody out.
+inline bool is_newer(std::uint64_t id, std::uint64_t last) { return last - id >= 1000; }
+
+/// What is wrong with `goal`, its key poses and forbidden zones aside, or empty: a number that is
+/// not finite, a direction or quaternion whose length is not 1 within 1 %. Real-time safe.
+ReasonText defect(const MotionGoal& goal);
 
 /// `goal` with a unit direction or quaternion, or why it cannot be used: a number that is not
 /// finite, a direction or quaternion whose length is not 1 within 1 %, key poses or forbidden zones

@@ -1,28 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/motion/goal_execution.hpp"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <utility>
 
-#include "armature/kinds/trajectory/point_to_point.hpp"
-
 namespace armature {
+namespace {
 
 using State = GoalStatus::State;
 
-GoalExecution::GoalExecution(GoalPlanner planner, const ExecutionOptions& options)
-    : planner_{std::move(planner)}, options_{options} {}
+constexpr int kMaxAttempts = 3;  // to plan while the arm moves
 
-void GoalExecution::report(std::uint64_t goal_id, State state, std::string stage,
-                           std::string reason) {
-  last_ = GoalStatus{.goal_id = goal_id,
-                     .state = state,
-                     .stage = std::move(stage),
-                     .reason = std::move(reason),
-                     .remaining_s = 0};
-  statuses_.push_back(*last_);
+}  // namespace
+
+GoalExecution::GoalExecution(const RobotModel& model, const MotionLimits& limits,
+                             const ExecutionOptions& options, Tracker* tracker,
+                             std::string_view no_tracker)
+    : model_{model},
+      limits_{limits},
+      options_{options},
+      tracker_{tracker},
+      no_tracker_{no_tracker} {}
+
+GoalStatus& GoalExecution::report(std::uint64_t goal_id, State state, std::string_view stage,
+                                  const ReasonText& reason) {
+  last_ = GoalStatus{
+      .goal_id = goal_id, .state = state, .stage = stage, .reason = reason, .remaining_s = 0};
+  if (status_count_ == statuses_.size()) --status_count_;
+  return statuses_[status_count_++] = *last_;
 }
 
 void GoalExecution::finish_active(State state) {
@@ -30,79 +35,95 @@ void GoalExecution::finish_active(State state) {
   active_.reset();
 }
 
-void GoalExecution::fail_active(const std::string& reason) {
+void GoalExecution::supersede_pending() {
+  if (pending_) report(pending_->goal_id, State::superseded);
+  pending_.reset();
+  request_.reset();
+}
+
+void GoalExecution::fail_all(const ReasonText& reason) {
   if (active_) report(*active_, State::failed, "execution", reason);
+  if (pending_) report(pending_->goal_id, State::failed, "execution", reason);
   active_.reset();
+  pending_.reset();
+  request_.reset();
 }
 
 void GoalExecution::begin_late(Time now) {
-  const Time start = reference_.last().start;
-  if (now > start && at_rest(reference_.last().at(start))) reference_.postpone_last(now);
+  const TrajectoryView last = reference_.last();
+  if (now > last.start && armature::at_rest(last.at(last.start))) reference_.postpone_last(now);
 }
 
 void GoalExecution::arrive(Time now, const JointVector& q) {
   const Time end = reference_.last().end();
   const JointVector goal = reference_.at(end).q;
-  const auto stray =
-      strayed(planner_.model(), q, {goal, "the goal", "goal_tolerance"}, options_.goal_tolerance);
-  if (!stray) return finish_active(State::done);
+  const ReasonText stray =
+      tolerance_violation(model_, q, {goal, "the goal", "goal_tolerance"}, options_.goal_tolerance);
+  if (stray.empty()) return finish_active(State::done);
   if (now - end < options_.goal_time) return;
-  fail_active(fmt::format("{}, {:g} s after it should be there (goal_time_s)", *stray,
-                          to_seconds(options_.goal_time)));
+  report(*active_, State::failed, "execution",
+         ReasonText::format("{}, {:g} s after it should be there (goal_time_s)", stray.view(),
+                            to_seconds(options_.goal_time)));
+  active_.reset();
+}
+
+ReasonText GoalExecution::silence(Time now, const std::optional<MeasuredJoints>& measured) const {
+  if (!measured) return "no joint state of the arm";
+  const Duration age = now - measured->stamp;
+  if (age > options_.measured_max_age) {
+    return ReasonText::format("no joint state of the arm for {:.2f} s", to_seconds(age));
+  }
+  return {};
 }
 
 bool GoalExecution::silent(Time now, const std::optional<MeasuredJoints>& measured) {
-  if (measured && now - measured->stamp <= options_.measured_max_age) return false;
-  if (!trouble_.empty()) return true;
-  trouble_ = measured ? fmt::format("no joint state of the arm for {:.2f} s",
-                                    to_seconds(now - measured->stamp))
-                      : std::string{"no joint state of the arm"};
-  fail_active(trouble_);
+  const ReasonText wrong = silence(now, measured);
+  if (wrong.empty()) {
+    measured_ = measured;
+    rest_.see(measured->q, measured->stamp);
+    return false;
+  }
+  if (!std::exchange(measured_, std::nullopt) && !trouble_.empty()) return true;
+  trouble_ = wrong;
+  fail_all(trouble_);
   stop(now);
   return true;
 }
 
 void GoalExecution::stop(Time now) {
-  const MotionLimits& limits = planner_.limits();
-  reference_.splice(stop_from(reference_.at(now), limits.max_velocity, limits.max_acceleration, now,
-                              last_goal_id_));
+  reference_.splice(short_stop_from(reference_.at(now), limits_.max_velocity,
+                                    limits_.max_acceleration, now, last_goal_id_));
 }
 
 void GoalExecution::come_to(const JointVector& q, Time now) {
-  const JointState from = reference_.at(now);
-  const MotionLimits& limits = planner_.limits();
-  const JointVector within =
-      q.cwiseMax(planner_.model().lower()).cwiseMin(planner_.model().upper());
-  auto way = point_to_point({.goal_id = last_goal_id_,
-                             .start = now,
-                             .from = from,
-                             .segments = {{.s = {0, 1}, .q = {from.q, within}, .duration_s = {}}},
-                             .max_velocity = limits.max_velocity,
-                             .max_acceleration = limits.max_acceleration});
-  if (way) reference_.splice(std::move(*way));
+  const JointVector within = q.cwiseMax(model_.lower()).cwiseMin(model_.upper());
+  reference_.splice(short_move(reference_.at(now).q, within, limits_.max_velocity,
+                               limits_.max_acceleration, now, last_goal_id_));
 }
 
 void GoalExecution::watch(Time now, const MeasuredJoints& measured) {
   const JointVector wanted = reference_.at(measured.stamp).q;
-  const auto stray = strayed(planner_.model(), measured.q,
-                             {wanted, "the reference", "max_deviation"}, options_.max_deviation);
-  const bool was_astray = std::exchange(astray_, stray.has_value());
-  if (!stray) return trouble_.clear();
+  const ReasonText stray = tolerance_violation(
+      model_, measured.q, {wanted, "the reference", "max_deviation"}, options_.max_deviation);
+  const bool was_astray = std::exchange(astray_, !stray.empty());
+  if (stray.empty()) return trouble_.clear();
   if (!was_astray) {
-    trouble_ = *stray;
-    fail_active(*stray);
+    trouble_ = stray;
+    fail_all(stray);
     return stop(now);
   }
-  if (now >= reference_.last().end()) come_to(measured.q, now);
+  if (!halted() && now >= reference_.last().end()) come_to(measured.q, now);
 }
 
 bool GoalExecution::guided(Time now) const {
-  return active_ && active_mode_ == MotionMode::guided && now >= reference_.last().end();
+  const bool given = active_ && active_mode_ == MotionMode::guided;
+  return given && !(pending_ && pending_->standing) && now >= reference_.last().end();
 }
 
 void GoalExecution::update(Time now, const std::optional<MeasuredJoints>& measured) {
   if (!reference_.started()) {
-    if (!measured) return;
+    if (!silence(now, measured).empty()) return;
+    measured_ = measured;
     reference_.start(measured->q, now);
     trouble_.clear();
     return;
@@ -122,60 +143,136 @@ void GoalExecution::update(Time now, const std::optional<MeasuredJoints>& measur
   if (active_ && now >= reference_.last().end()) arrive(now, measured->q);
 }
 
-std::optional<std::string> GoalExecution::refusal(const Expected<MotionGoal>& goal,
-                                                  std::uint64_t goal_id) const {
-  if (!goal) return goal.error().text;
-  if (!trouble_.empty()) return trouble_;
-  if (goal_id <= last_goal_id_) {
-    return fmt::format("goal {} is not newer than goal {}", goal_id, last_goal_id_);
+ReasonText GoalExecution::refusal(const MotionGoal& goal, const ReasonText& wrong) const {
+  if (!wrong.empty()) return wrong;
+  if (!trouble().empty()) return trouble();
+  if (!is_newer(goal.id, last_goal_id_)) {
+    return ReasonText::format("goal {} is not newer than goal {}", goal.id, last_goal_id_);
   }
-  return std::nullopt;
+  if (goal.mode == MotionMode::tracking && !tracker_) return no_tracker_;
+  return {};
 }
 
-PlanResult GoalExecution::plan(const MotionGoal& goal, Time start) {
-  const JointState from = reference_.at(start);
-  if (goal.mode == MotionMode::tracking) {
-    return track(planner_, goal, from, start, options_.tracking);
+void GoalExecution::take(const MotionGoal& goal, const ReasonText& wrong, Time now) {
+  if (const ReasonText reason = refusal(goal, wrong); !reason.empty()) {
+    report(goal.id, State::failed, "accept", reason);
+    return;
   }
-  if (goal.mode == MotionMode::planned) return planner_.plan(goal, from, start);
-  const MotionLimits& limits = planner_.limits();
-  return Plan{
-      .path = {},
-      .joint_path = {},
-      .trajectory = stop_from(from, limits.max_velocity, limits.max_acceleration, start, goal.id)};
+  last_goal_id_ = goal.id;
+  report(goal.id, State::accepted);
+  supersede_pending();
+  switch (goal.mode) {
+    case MotionMode::planned:
+      return ask_for_plan({.goal_id = goal.id, .budget = options_.plan_budget}, now);
+    case MotionMode::tracking:
+      return track(goal, now);
+    case MotionMode::hold:
+    case MotionMode::guided:
+      stop(now);
+      return execute(goal.id, goal.mode, now);
+  }
 }
 
-void GoalExecution::take(const Expected<MotionGoal>& goal, std::uint64_t goal_id, Time now) {
-  if (auto reason = refusal(goal, goal_id)) {
-    report(goal_id, State::failed, "accept", *reason);
-    return;
+void GoalExecution::ask_for_plan(Pending pending, Time now) {
+  pending.start = std::max(pending.start, now + pending.budget);
+  pending.continues = reference_.serial();
+  request_ = PlanRequest{.goal_id = pending.goal_id,
+                         .continues = pending.continues,
+                         .start = pending.start,
+                         .from = reference_.at(pending.start)};
+  pending_ = pending;
+}
+
+void GoalExecution::ask_again(Time now) {
+  Pending next = *pending_;
+  next.budget *= 2;
+  if (++next.attempt > kMaxAttempts && !next.standing) {
+    next.standing = true;
+    stop(now);
+    next.start = reference_.last().end();
   }
-  last_goal_id_ = goal_id;
-  report(goal_id, State::accepted);
-  PlanResult planned = plan(*goal, now + options_.plan_budget);
-  if (!planned && goes_on(*goal, planned.error(), now)) return execute(*goal, now);
-  if (!planned) {
-    report(goal_id, State::failed, planned.error().stage, planned.error().reason);
-    return;
+  ask_for_plan(next, now);
+}
+
+std::optional<PlanRequest> GoalExecution::take_request() {
+  return std::exchange(request_, std::nullopt);
+}
+
+/// Whether the reference is at the plan's start what it was when the plan was asked for, and there
+/// is time, or none is needed.
+bool GoalExecution::still_holds(const PlanAnswer& answer, Time now) {
+  if (reference_.serial() != pending_->continues) return false;
+  return now <= answer.start || armature::at_rest(answer.trajectory.at(answer.start));
+}
+
+bool GoalExecution::take(const PlanAnswer& answer, Time now) {
+  const bool waited_for = pending_ && answer.goal_id == pending_->goal_id &&
+                          answer.continues == pending_->continues &&
+                          answer.start == pending_->start;
+  if (!waited_for) return false;
+  if (!answer.reason.empty()) {
+    pending_.reset();
+    report(answer.goal_id, State::failed, answer.stage, answer.reason);
+    return false;
   }
-  reference_.splice(planned->trajectory);
+  if (!still_holds(answer, now)) {
+    ask_again(now);
+    return false;
+  }
+  pending_.reset();
+  reference_.splice(answer.trajectory, answer.sample);
+  begin_late(now);
   spliced_ = true;
-  new_plan_ = std::move(*planned);
-  execute(*goal, now);
+  execute(answer.goal_id, MotionMode::planned, now);
+  return true;
 }
 
-bool GoalExecution::goes_on(const MotionGoal& goal, const PlanFailure& failure, Time now) const {
+void GoalExecution::track(const MotionGoal& goal, Time now) {
+  const Time start = now + options_.period;
+  const TrackingFailure failure = tracker_->track(goal, reference_.at(start), start, way_);
+  if (failure.stage.empty()) {
+    reference_.splice(way_);
+    return execute(goal.id, goal.mode, now);
+  }
+  if (goes_on(failure, start)) return execute(goal.id, goal.mode, now);
+  report(goal.id, State::failed, failure.stage, failure.reason);
+}
+
+bool GoalExecution::goes_on(const TrackingFailure& failure, Time start) const {
   const bool tracked = active_ && active_mode_ == MotionMode::tracking;
-  return tracked && goal.mode == MotionMode::tracking && failure.stage == "trajectory" &&
-         !at_rest(reference_.at(now + options_.plan_budget));
+  return tracked && failure.stage == "trajectory" && !armature::at_rest(reference_.at(start));
 }
 
-void GoalExecution::execute(const MotionGoal& goal, Time now) {
+void GoalExecution::execute(std::uint64_t goal_id, MotionMode mode, Time now) {
   finish_active(State::superseded);
-  active_ = goal.id;
-  active_mode_ = goal.mode;
-  report(goal.id, State::executing);
-  statuses_.back().remaining_s = current(now)->remaining_s;
+  active_ = goal_id;
+  active_mode_ = mode;
+  report(goal_id, State::executing).remaining_s = current(now)->remaining_s;
+}
+
+void GoalExecution::halt(const ReasonText& why, Time now) {
+  if (halted()) return;
+  in_hand_ = guided(now);
+  halted_ = why;
+  fail_all(why);
+  if (reference_.started()) stop(now);
+}
+
+bool GoalExecution::rearm(Time now) {
+  if (!halted()) return true;
+  if (!measured_ || !at_rest(now)) return false;
+  halted_.clear();
+  in_hand_ = false;
+  trouble_.clear();
+  astray_ = false;
+  reference_.start(measured_->q, now);
+  return true;
+}
+
+bool GoalExecution::at_rest(Time now) const {
+  if (!reference_.started()) return true;
+  return armature::at_rest(reference_.at(now)) && now >= reference_.last().end() &&
+         (!measured_ || in_hand_ || rest_.rests());
 }
 
 std::optional<GoalStatus> GoalExecution::current(Time now) const {
@@ -187,8 +284,8 @@ std::optional<GoalStatus> GoalExecution::current(Time now) const {
                     .remaining_s = std::max(0.0, to_seconds(reference_.last().end() - now))};
 }
 
-std::vector<GoalStatus> GoalExecution::take_statuses() { return std::exchange(statuses_, {}); }
-
-std::optional<Plan> GoalExecution::take_plan() { return std::exchange(new_plan_, std::nullopt); }
+std::span<const GoalStatus> GoalExecution::take_statuses() {
+  return {statuses_.data(), std::exchange(status_count_, 0)};
+}
 
 }  // namespace armature

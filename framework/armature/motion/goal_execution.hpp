@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <optional>
-#include <string>
-#include <vector>
+#include <span>
+#include <string_view>
 
-#include "armature/motion/goal_planner.hpp"
 #include "armature/motion/joint_bound.hpp"
+#include "armature/motion/plan_exchange.hpp"
 #include "armature/motion/reference.hpp"
+#include "armature/motion/rest_watch.hpp"
 #include "armature/motion/tracking.hpp"
 
 namespace armature {
@@ -17,8 +19,9 @@ struct GoalStatus {
   enum class State : std::uint8_t { accepted = 0, executing, done, superseded, failed };
   std::uint64_t goal_id = 0;
   State state = State::accepted;
-  std::string stage;       // path, ik, select, trajectory, execution; accept: it was refused
-  std::string reason;      // why it failed
+  /// path, ik, select, trajectory, execution; accept: it was refused
+  InlineText<16> stage;
+  ReasonText reason;       // why it failed
   double remaining_s = 0;  // until the goal's trajectory ends
 };
 
@@ -29,6 +32,7 @@ struct MeasuredJoints {
 };
 
 struct ExecutionOptions {
+  Duration period = seconds(0.001);       // of `update`: when a tracked target takes over
   Duration plan_budget = seconds(0.005);  // from the decision to the splice
   JointBound max_deviation{0.1, 0.05};    // of the arm from the reference
   /// A goal is done when the reference has come to its end and the arm is so near; an arm that is
@@ -36,51 +40,86 @@ struct ExecutionOptions {
   JointBound goal_tolerance{0.002, 0.0005};
   Duration goal_time = seconds(1.0);
   Duration measured_max_age = seconds(0.5);
-  TrackingOptions tracking = {};
 };
 
-/// Goals in, one commanded reference out. Every new goal is spliced into the motion at
-/// now + plan_budget from the reference's own (q, v, a), never from what the arm measures. A goal
-/// that fails leaves the motion before it as it is. A target that is tracked and cannot be met
-/// within limits from where the arm is and how it moves has not failed as long as the arm moves:
-/// the motion towards where it was goes on, and ends in a stop.
+/// Goals in, one commanded reference out. A planned goal is a request for a plan, which somebody
+/// else makes, from the reference's own (q, v, a) at now + plan_budget, never from what the arm
+/// measures. The plan is taken when the reference that it continues still holds at its start; late
+/// only when it begins at rest; else it is asked for again with twice the budget, and after three
+/// times the arm stops and it is planned from rest. A newer goal takes the place of one that is
+/// being planned. A goal that fails leaves the motion before it as it is. A target that is tracked
+/// and cannot be met within limits from where the arm is and how it moves has not failed as long as
+/// the arm moves: the motion towards where it was goes on, and ends in a stop. Real-time safe.
 class GoalExecution {
  public:
-  GoalExecution(GoalPlanner planner, const ExecutionOptions& options);
+  /// Keeps references to `model` and `tracker`. Without a tracker goals that are tracked are
+  /// refused with `no_tracker`.
+  GoalExecution(const RobotModel& model, const MotionLimits& limits,
+                const ExecutionOptions& options, Tracker* tracker, std::string_view no_tracker);
 
   /// Once per activation, before goals: starts the reference at the first measurement, ends what is
   /// done, stops within limits when the arm does not follow or falls silent, comes back within
   /// limits to an arm that has not followed when it rests, and follows the arm that is guided.
   void update(Time now, const std::optional<MeasuredJoints>& measured);
 
-  /// Plans and splices `goal`; the statuses say what came of it, `new_plan` what was decided.
-  void take(const Expected<MotionGoal>& goal, std::uint64_t goal_id, Time now);
+  /// `wrong`: what is wrong with the goal, or empty; the statuses say what came of it. Key poses
+  /// and forbidden zones are not looked at.
+  void take(const MotionGoal& goal, const ReasonText& wrong, Time now);
+  /// The plan that is wanted now, once.
+  std::optional<PlanRequest> take_request();
+  /// What became of a request; true when its trajectory takes over. One that is not waited for any
+  /// more is passed over.
+  bool take(const PlanAnswer& answer, Time now);
+
+  /// Stops within limits, drops every goal, and refuses those that come, with `why`, until
+  /// `rearm`. What is told first stays.
+  void halt(const ReasonText& why, Time now);
+  bool halted() const { return !halted_.empty(); }
+  /// Begins again from where the arm measures itself, once arm and reference rest; false before.
+  bool rearm(Time now);
+  /// Whether the reference stands, and the arm by its own samples as well. An arm that is silent
+  /// cannot say so, and one that was in a hand when it was halted is the hand's: both count as
+  /// resting.
+  bool at_rest(Time now) const;
 
   const Reference& reference() const { return reference_; }
-  /// Statuses since the last call, in order.
-  std::vector<GoalStatus> take_statuses();
-  /// The plan that was spliced since the last call.
-  std::optional<Plan> take_plan();
+  /// Statuses since the last call, in order; there until the next change.
+  std::span<const GoalStatus> take_statuses();
   /// The goal that is being executed, or was last.
   std::optional<GoalStatus> current(Time now) const;
-  /// Why the arm is not driven, or "".
-  const std::string& trouble() const { return trouble_; }
+  /// Why the arm is not driven, or empty.
+  const ReasonText& trouble() const { return halted() ? halted_ : trouble_; }
 
  private:
-  std::optional<std::string> refusal(const Expected<MotionGoal>& goal, std::uint64_t goal_id) const;
-  PlanResult plan(const MotionGoal& goal, Time start);
-  /// Whether the motion towards where a target was before is the answer to `goal`, too.
-  bool goes_on(const MotionGoal& goal, const PlanFailure& failure, Time now) const;
-  void execute(const MotionGoal& goal, Time now);
-  void report(std::uint64_t goal_id, GoalStatus::State state, std::string stage = {},
-              std::string reason = {});
-  void fail_active(const std::string& reason);
+  /// A goal that waits for its plan.
+  struct Pending {
+    std::uint64_t goal_id = 0, continues = 0;
+    Time start;
+    Duration budget{};
+    int attempt = 1;
+    bool standing = false;  // the arm has been stopped for it
+  };
+  ReasonText refusal(const MotionGoal& goal, const ReasonText& wrong) const;
+  void ask_for_plan(Pending pending, Time now);
+  void ask_again(Time now);
+  bool still_holds(const PlanAnswer& answer, Time now);
+  void track(const MotionGoal& goal, Time now);
+  /// Whether the motion towards where a target was before is the answer to the next one, too.
+  bool goes_on(const TrackingFailure& failure, Time start) const;
+  void execute(std::uint64_t goal_id, MotionMode mode, Time now);
+  GoalStatus& report(std::uint64_t goal_id, GoalStatus::State state, std::string_view stage = {},
+                     const ReasonText& reason = {});
+  /// Of the goal that is being executed and the one that is being planned.
+  void fail_all(const ReasonText& reason);
+  void supersede_pending();
   void finish_active(GoalStatus::State state);
-  /// A plan that took longer than its budget, or came between two slow steps, begins late and not
-  /// in its midst, if it begins at rest.
+  /// A plan that came between two slow steps begins late and not in its midst, if it begins at
+  /// rest.
   void begin_late(Time now);
   /// The reference has come to the goal's end: the arm as well?
   void arrive(Time now, const JointVector& q);
+  /// Why the arm is not heard, or empty.
+  ReasonText silence(Time now, const std::optional<MeasuredJoints>& measured) const;
   bool silent(Time now, const std::optional<MeasuredJoints>& measured);
   void stop(Time now);
   /// From rest.
@@ -90,18 +129,28 @@ class GoalExecution {
   /// True while a hand moves the arm; it does not before the arm has stopped.
   bool guided(Time now) const;
 
-  GoalPlanner planner_;
+  const RobotModel& model_;
+  MotionLimits limits_;
   ExecutionOptions options_;
+  Tracker* tracker_;
+  std::string_view no_tracker_;
   Reference reference_;
+  RestWatch rest_;
+  std::optional<MeasuredJoints> measured_;  // the last one, while the arm is heard
   std::uint64_t last_goal_id_ = 0;
   std::optional<std::uint64_t> active_;
   MotionMode active_mode_ = MotionMode::planned;
+  std::optional<Pending> pending_;
+  std::optional<PlanRequest> request_;
   std::optional<GoalStatus> last_;
-  std::vector<GoalStatus> statuses_;
-  std::optional<Plan> new_plan_;
+  std::array<GoalStatus, 40> statuses_;  // more than eight goals and an update can tell
+  std::size_t status_count_ = 0;
+  ShortTrajectory way_;   // of a target that is tracked
   bool spliced_ = false;  // since the last update
   bool astray_ = false;   // the arm is not where the reference is
-  std::string trouble_ = "no joint state of the arm yet";
+  bool in_hand_ = false;  // it was halted while a hand moved it
+  ReasonText trouble_ = "no joint state of the arm yet";
+  ReasonText halted_;
 };
 
 }  // namespace armature

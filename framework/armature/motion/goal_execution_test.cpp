@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <deque>
 
 #include "armature/motion/gantry_stages_test.hpp"
 
@@ -24,8 +25,9 @@ MotionGoal guided(std::uint64_t id) {
 /// An arm that is where the reference is, stepped at 1 kHz.
 class GoalExecutionTest : public testing::Test {
  protected:
-  explicit GoalExecutionTest(const ExecutionOptions& options = {})
-      : execution_{gantry_.planner(), options} {}
+  explicit GoalExecutionTest(const TrackingOptions& tracking = {})
+      : tracker_{gantry_.tracker(tracking)},
+        execution_{gantry_.model, gantry_.limits, {}, &tracker_, "no tracker"} {}
   void step_to(double time_s) {
     while (now_ < Time{} + seconds(time_s)) step();
   }
@@ -48,12 +50,39 @@ class GoalExecutionTest : public testing::Test {
     }
     before_ = state;
   }
+  /// Hands the goal over; the plan that is asked for comes at once.
   void give(const MotionGoal& goal) {
-    execution_.take(goal, goal.id, now_);
+    ask(goal);
+    answer();
+  }
+  void ask(const MotionGoal& goal) {
+    goals_.push_back(goal);
+    execution_.take(goal, {}, now_);
     collect();
   }
+  /// What the planner makes of the request; true when it takes over.
+  bool answer() {
+    const auto request = execution_.take_request();
+    const bool taken = request && execution_.take(planned(*request), now_);
+    collect();
+    return taken;
+  }
+  PlanAnswer planned(const PlanRequest& request) {
+    const auto goal = std::ranges::find(goals_, request.goal_id, &MotionGoal::id);
+    auto planner = gantry_.planner();
+    auto& plan = plans_.emplace_back(planner.plan(*goal, request.from, request.start));
+    PlanAnswer answer{
+        .goal_id = request.goal_id, .continues = request.continues, .start = request.start};
+    if (plan) {
+      answer.trajectory = plan->trajectory.view();
+    } else {
+      answer.stage = plan.error().stage;
+      answer.reason = plan.error().reason;
+    }
+    return answer;
+  }
   void collect() {
-    for (GoalStatus& status : execution_.take_statuses()) statuses_.push_back(std::move(status));
+    for (const GoalStatus& status : execution_.take_statuses()) statuses_.push_back(status);
   }
   std::vector<std::pair<std::uint64_t, State>> story() const {
     std::vector<std::pair<std::uint64_t, State>> told;
@@ -62,7 +91,10 @@ class GoalExecutionTest : public testing::Test {
   }
 
   Gantry gantry_;
+  Tracker tracker_;
   GoalExecution execution_;
+  std::deque<MotionGoal> goals_;
+  std::deque<PlanResult> plans_;  // outlive the reference that is in them
   JointVector home_ = Eigen::Vector3d{0.1, 0.2, 0.3};
   Time now_;
   JointState before_;
@@ -88,8 +120,6 @@ TEST_F(GoalExecutionTest, TellsTheWholeStoryOfAGoal) {
   give(goal_at(1, 0.5, 0.5, 0.5));
   EXPECT_EQ(story(), (Story{{1, State::accepted}, {1, State::executing}}));
   EXPECT_GT(statuses_.back().remaining_s, 0.1);
-  EXPECT_TRUE(execution_.take_plan());
-  EXPECT_FALSE(execution_.take_plan());
   step_to(3);
   EXPECT_EQ(story().back(), (std::pair<std::uint64_t, State>{1, State::done}));
   EXPECT_NEAR((execution_.reference().at(now_).q - Eigen::Vector3d::Constant(0.5)).norm(), 0, 1e-9);
@@ -247,7 +277,8 @@ TEST_F(GoalExecutionTest, FailsTheGoalAndStopsWithoutAJumpWhenTheArmDoesNotFollo
   step_with(home_);
   EXPECT_EQ(statuses_.back().state, State::failed);
   EXPECT_EQ(statuses_.back().stage, "execution");
-  EXPECT_THAT(statuses_.back().reason, testing::StartsWith("joint z of the arm is "));
+  EXPECT_THAT(std::string{statuses_.back().reason.view()},
+              testing::StartsWith("joint z of the arm is "));
   EXPECT_EQ(execution_.trouble(), statuses_.back().reason);
   give(goal_at(2, 0, 0, 0));
   EXPECT_EQ(statuses_.back().stage, "accept");
@@ -294,7 +325,8 @@ TEST_F(GoalExecutionTest, StopsWhenTheArmFallsSilentAndGoesOnWhenItIsBack) {
   }
   collect();
   EXPECT_EQ(statuses_.back().state, State::failed);
-  EXPECT_THAT(execution_.trouble(), testing::StartsWith("no joint state of the arm for 0.5"));
+  EXPECT_THAT(std::string{execution_.trouble().view()},
+              testing::StartsWith("no joint state of the arm for 0.5"));
   give(goal_at(2, 0, 0, 0));
   EXPECT_EQ(statuses_.back().stage, "accept");
   before_ = execution_.reference().at(now_);
@@ -306,7 +338,7 @@ TEST_F(GoalExecutionTest, StopsWhenTheArmFallsSilentAndGoesOnWhenItIsBack) {
 
 TEST_F(GoalExecutionTest, ReportsABadGoalWithItsReason) {
   step_to(0.1);
-  execution_.take(refuse("the goal's position is not finite"), 9, now_);
+  execution_.take(goal_at(9, 0, 0, 0), "the goal's position is not finite", now_);
   collect();
   EXPECT_EQ(statuses_.back().goal_id, 9u);
   EXPECT_EQ(statuses_.back().reason, "the goal's position is not finite");
@@ -340,9 +372,160 @@ TEST_F(GoalExecutionTest, APlanThatTookLongerThanItsBudgetBeginsLateAndNotInItsM
   EXPECT_NEAR((execution_.reference().at(now_).q - Eigen::Vector3d::Constant(0.5)).norm(), 0, 1e-9);
 }
 
+TEST_F(GoalExecutionTest, ANewerGoalTakesThePlaceOfOneThatIsBeingPlanned) {
+  step_to(0.1);
+  give(goal_at(1, 1, 1, 1));
+  step_to(0.3);
+  ask(goal_at(2, 0, 0, 0));
+  const auto old = execution_.take_request();
+  ASSERT_TRUE(old);
+  EXPECT_EQ(execution_.current(now_)->goal_id, 1u) << "the arm goes on meanwhile";
+  ask(goal_at(3, 0.5, 0, 0));
+  EXPECT_FALSE(execution_.take(planned(*old), now_)) << "nobody waits for it any more";
+  EXPECT_TRUE(answer());
+  EXPECT_EQ(story(), (Story{{1, State::accepted},
+                            {1, State::executing},
+                            {2, State::accepted},
+                            {3, State::accepted},
+                            {2, State::superseded},
+                            {1, State::superseded},
+                            {3, State::executing}}));
+}
+
+TEST_F(GoalExecutionTest, APlanThatComesLateIsMadeAgainWithTwiceTheTimeWhileTheArmMoves) {
+  step_to(0.1);
+  give(goal_at(1, 1, 1, 1));
+  step_to(0.5);
+  ask(goal_at(2, 0, 0, 0));
+  const auto first = execution_.take_request();
+  EXPECT_EQ(first->start - now_, seconds(0.005));
+  step_to(0.52);
+  EXPECT_FALSE(execution_.take(planned(*first), now_));
+  const auto second = execution_.take_request();
+  ASSERT_TRUE(second);
+  EXPECT_EQ(second->start - now_, seconds(0.010));
+  step_to(0.525);
+  EXPECT_TRUE(execution_.take(planned(*second), now_));
+  collect();
+  step_to(4);
+  EXPECT_EQ(story().back(), (std::pair<std::uint64_t, State>{2, State::done}));
+}
+
+TEST_F(GoalExecutionTest, AfterThreePlansThatCameLateTheArmStopsAndIsPlannedForFromRest) {
+  step_to(0.1);
+  give(goal_at(1, 2, -2, 2));
+  step_to(0.5);
+  ask(goal_at(2, 0, 0, 0));
+  std::optional<PlanRequest> request = execution_.take_request();
+  for (int attempt = 1; attempt <= 3; ++attempt) {
+    ASSERT_TRUE(request) << attempt;
+    EXPECT_FALSE(at_rest(request->from)) << attempt;
+    step_to(to_seconds(now_ - Time{}) + 0.1);  // longer than any of the budgets
+    EXPECT_FALSE(execution_.take(planned(*request), now_));
+    request = execution_.take_request();
+  }
+  ASSERT_TRUE(request);
+  EXPECT_TRUE(at_rest(request->from));
+  step_to(to_seconds(now_ - Time{}) + 3);
+  EXPECT_TRUE(at_rest(before_)) << "it waits where it has stopped";
+  EXPECT_TRUE(execution_.take(planned(*request), now_)) << "however long that took";
+  collect();
+  step_to(to_seconds(now_ - Time{}) + 4);
+  EXPECT_EQ(story().back(), (std::pair<std::uint64_t, State>{2, State::done}));
+}
+
+TEST_F(GoalExecutionTest, APlanForAReferenceThatHasChangedIsNotTaken) {
+  step_to(0.1);
+  give(guided(1));
+  step_to(0.5);
+  ask(goal_at(2, 0, 0, 0));
+  const auto request = execution_.take_request();
+  const JointVector moved = home_ + JointVector{Eigen::Vector3d{0, 0.001, 0}};
+  execution_.update(now_, MeasuredJoints{now_, moved});  // the hand goes on
+  EXPECT_FALSE(execution_.take(planned(*request), now_));
+  EXPECT_TRUE(execution_.take_request()) << "it is planned again";
+}
+
+TEST_F(GoalExecutionTest, AnArmThatDoesNotFollowFailsTheGoalThatIsBeingPlannedToo) {
+  step_to(0.1);
+  give(goal_at(1, 1, 1, 1));
+  step_to(0.9);
+  ask(goal_at(2, 0, 0, 0));
+  const auto request = execution_.take_request();
+  step_with(home_);
+  EXPECT_EQ(story().back(), (std::pair<std::uint64_t, State>{2, State::failed}));
+  EXPECT_FALSE(execution_.take(planned(*request), now_));
+}
+
+TEST_F(GoalExecutionTest, StoppedStaysStoppedUntilItIsRearmedWhereTheArmIs) {
+  step_to(0.1);
+  give(goal_at(1, 2, -2, 2));
+  step_to(0.8);
+  ask(goal_at(2, 0, 0, 0));
+  execution_.halt("somebody pressed the button", now_);
+  collect();
+  EXPECT_EQ(story()[story().size() - 2], (std::pair<std::uint64_t, State>{1, State::failed}));
+  EXPECT_EQ(story().back(), (std::pair<std::uint64_t, State>{2, State::failed}));
+  EXPECT_EQ(statuses_.back().reason, "somebody pressed the button");
+  EXPECT_FALSE(execution_.rearm(now_)) << "not while it moves";
+  step_to(2);
+  EXPECT_TRUE(execution_.at_rest(now_));
+  give(goal_at(3, 0, 0, 0));
+  EXPECT_EQ(statuses_.back().reason, "somebody pressed the button");
+  const JointVector stands = before_.q;
+  const JointVector pushed = stands + JointVector{Eigen::Vector3d{0, 0.2, 0}};
+  for (int k = 0; k < 1000; ++k) {
+    step_with(pushed);
+    ASSERT_EQ(before_.q, stands) << "nothing is commanded, wherever the arm is pushed";
+  }
+  EXPECT_TRUE(execution_.rearm(now_));
+  EXPECT_EQ(execution_.reference().at(now_).q, pushed);
+  before_ = execution_.reference().at(now_);
+  EXPECT_TRUE(at_rest(before_));
+  for (int k = 0; k < 500; ++k) step_with(pushed);
+  EXPECT_EQ(before_.q, pushed) << "nothing that was wanted before begins again";
+  give(goal_at(4, 0, 0, 0));
+  EXPECT_EQ(statuses_.back().state, State::executing);
+}
+
+TEST_F(GoalExecutionTest, IsNotAtRestBeforeTheArmsOwnSamplesAre) {
+  step_to(0.1);
+  give(goal_at(1, 0.5, 0.5, 0.5));
+  step_to(0.3);
+  execution_.halt("the end", now_);
+  const JointVector stands = execution_.reference().at(now_ + seconds(5)).q;
+  now_ = now_ + seconds(2);
+  double x = 0;
+  for (int k = 0; k < 100; ++k) {  // an arm that comes there late
+    now_ = now_ + seconds(0.001);
+    execution_.update(now_,
+                      MeasuredJoints{now_, stands + JointVector{Eigen::Vector3d{0, 0, x += 1e-4}}});
+    ASSERT_FALSE(execution_.at_rest(now_)) << k;
+  }
+  for (int k = 0; k < 100; ++k) {
+    now_ = now_ + seconds(0.001);
+    execution_.update(now_, MeasuredJoints{now_, stands});
+  }
+  EXPECT_TRUE(execution_.at_rest(now_));
+}
+
+TEST_F(GoalExecutionTest, AnArmInAHandIsNotWaitedFor) {
+  step_to(0.1);
+  give(guided(1));
+  step_to(0.5);
+  execution_.halt("the end", now_);
+  for (int k = 1; k < 100; ++k) {
+    now_ = now_ + seconds(0.001);
+    const JointVector moved = home_ + JointVector{Eigen::Vector3d{0, 0, 1e-3 * k}};
+    execution_.update(now_, MeasuredJoints{now_, moved});
+    ASSERT_TRUE(execution_.at_rest(now_)) << k;
+    ASSERT_EQ(execution_.reference().at(now_).q, home_) << "nor followed any more";
+  }
+}
+
 class SlowToolTest : public GoalExecutionTest {
  protected:
-  SlowToolTest() : GoalExecutionTest{{.tracking = {.max_tool_speed = 0.05}}} {}
+  SlowToolTest() : GoalExecutionTest{{.max_tool_speed = 0.05}} {}
 };
 
 TEST_F(SlowToolTest, ATargetThatCannotBeMetWithinLimitsNowLeavesTheMotionBeforeItToItsEnd) {

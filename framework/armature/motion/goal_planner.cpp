@@ -29,23 +29,6 @@ ToolPose pose_at(const RobotModel& model, const JointVector& q, const ToolPose& 
   return pose;
 }
 
-/// The branch within limits that is nearest to `near`, or nullptr.
-const IkBranch* nearest(const IkBranches& branches, const JointVector& near,
-                        const RobotModel& model) {
-  const IkBranch* best = nullptr;
-  double best_distance = 0;
-  for (const IkBranch& branch : branches) {
-    JointVector q = branch.q;
-    if (!branch.within_limits || !unwind(model, near, q)) continue;
-    const double distance = (q - near).squaredNorm();
-    if (!best || distance < best_distance) {
-      best = &branch;
-      best_distance = distance;
-    }
-  }
-  return best;
-}
-
 /// A cartesian segment starts where the one before ended; that point needs no solution of its own.
 bool is_known(const PathSegment& segment, std::size_t sample) {
   return segment.space == PathSegment::Space::cartesian && sample == 0 &&
@@ -110,10 +93,6 @@ std::string with_way_out(std::string defect, const Plan& plan, const RobotModel&
          "_mm)";
 }
 
-bool reaches(const IkStatus& status) {
-  return status.code == IkStatus::Code::ok || status.code == IkStatus::Code::singular;
-}
-
 }  // namespace
 
 GoalPlanner::GoalPlanner(const RobotModel& model, const PlanStages& stages,
@@ -168,9 +147,8 @@ PlanResult GoalPlanner::after_stop(const MotionGoal& goal, const JointState& fro
   PlanResult plan = attempt(goal, rest, stop.end(), straight);
   if (!plan) return plan;
   plan->trajectory = joined(stop, plan->trajectory);
-  if (auto defect = trajectory_defect(plan->trajectory, model_, limits_, from, start)) {
-    return fail("trajectory", *defect);
-  }
+  const ReasonText wrong = trajectory_defect(plan->trajectory.view(), model_, limits_, from, start);
+  if (!wrong.empty()) return fail("trajectory", std::string{wrong.view()});
   return plan;
 }
 
@@ -204,8 +182,9 @@ PlanResult GoalPlanner::attempt(const MotionGoal& goal, const JointState& from, 
   if (!trajectory) return fail("trajectory", trajectory.error().text);
   plan.trajectory = std::move(*trajectory);
   plan.trajectory.goal_id = goal.id;
-  if (auto defect = trajectory_defect(plan.trajectory, model_, limits_, from, start)) {
-    return fail("trajectory", with_way_out(*defect, plan, model_));
+  const ReasonText wrong = trajectory_defect(plan.trajectory.view(), model_, limits_, from, start);
+  if (!wrong.empty()) {
+    return fail("trajectory", with_way_out(std::string{wrong.view()}, plan, model_));
   }
   return plan;
 }
@@ -223,7 +202,8 @@ tl::expected<void, PlanFailure> GoalPlanner::solve_samples(const Path& path,
       const auto goal = ik_goal(model_, stages_.ik, samples[i]);
       if (!goal) return fail("ik", goal.error().text);
       const auto status = solved(stages_.ik, *goal, seed, branches, state);
-      const IkBranch* next = status && reaches(*status) ? nearest(branches, seed, model_) : nullptr;
+      const IkBranch* next =
+          status && reaches(*status) ? nearest_branch(branches, seed, model_) : nullptr;
       if (!next) {
         return fail("ik", fmt::format("sample {} of {} of segment {}: {}", i + 1, samples.size(),
                                       k + 1, reason_of(status)));

@@ -87,5 +87,15 @@ TEST(Goal, ToHoldNeedsNoPose) {
   EXPECT_TRUE(checked(goal));
 }
 
+TEST(MotionGoal, NumbersThatAscendAreNewerAndAJumpLocksNobodyOut) {
+  EXPECT_TRUE(is_newer(1, 0));
+  EXPECT_FALSE(is_newer(7, 7));
+  EXPECT_FALSE(is_newer(5, 7)) << "it comes late";
+  constexpr std::uint64_t kGreatest = ~std::uint64_t{0};
+  EXPECT_TRUE(is_newer(kGreatest / 2, 7)) << "a jump";
+  EXPECT_TRUE(is_newer(8, kGreatest / 2)) << "and back to where everybody else counts";
+  EXPECT_TRUE(is_newer(0, kGreatest)) << "behind the greatest one";
+}
+
 }  // namespace
 }  // namespace armature

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/motion/joint_bound.hpp"
 
-#include <fmt/core.h>
-
 #include <cmath>
 #include <cstddef>
 
@@ -16,8 +14,8 @@ JointVector each(const JointBound& bound, const RobotModel& model) {
   return values;
 }
 
-std::optional<std::string> strayed(const RobotModel& model, const JointVector& q,
-                                   const JointTarget& target, const JointBound& bound) {
+ReasonText tolerance_violation(const RobotModel& model, const JointVector& q,
+                               const JointTarget& target, const JointBound& bound) {
   for (int i = 0; i < model.dof(); ++i) {
     const bool turns = model.is_revolute(i);
     const double most = turns ? bound.turning_rad : bound.sliding_m;
@@ -25,11 +23,11 @@ std::optional<std::string> strayed(const RobotModel& model, const JointVector& q
     if (away <= most) continue;
     const char* unit = turns ? "rad" : "m";
     const auto joint = static_cast<std::size_t>(model.independent_joint(i));
-    return fmt::format("joint {} of the arm is {:.4g} {} away from {} ({}_{} is {:g})",
-                       model.joints()[joint].name, away, unit, target.name, target.bound_name, unit,
-                       most);
+    return ReasonText::format("joint {} of the arm is {:.4g} {} away from {} ({}_{} is {:g})",
+                              model.joints()[joint].name, away, unit, target.name,
+                              target.bound_name, unit, most);
   }
-  return std::nullopt;
+  return {};
 }
 
 }  // namespace armature

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <optional>
-#include <string>
 #include <string_view>
 
 #include "armature/robot/robot_model.hpp"
+#include "armature/values/inline_text.hpp"
 
 namespace armature {
 
@@ -23,9 +22,9 @@ struct JointTarget {
   std::string_view name, bound_name;
 };
 
-/// nullopt, or which joint of an arm at `q` is how far off: "joint 3 of the arm is 0.2 rad away
-/// from the reference (max_deviation_rad is 0.1)". Allocates only then.
-std::optional<std::string> strayed(const RobotModel& model, const JointVector& q,
-                                   const JointTarget& target, const JointBound& bound);
+/// Empty, or which joint of an arm at `q` is how far off: "joint 3 of the arm is 0.2 rad away
+/// from the reference (max_deviation_rad is 0.1)". Real-time safe.
+ReasonText tolerance_violation(const RobotModel& model, const JointVector& q,
+                               const JointTarget& target, const JointBound& bound);
 
 }  // namespace armature

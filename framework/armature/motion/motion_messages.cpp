@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <cstddef>
+#include <utility>
 
 #include "armature/kinds/tool_pose_messages.hpp"
 #include "armature/kinds/zone_messages.hpp"
@@ -22,23 +23,100 @@ std::vector<double> to_vector(const JointVector& values) {
 
 }  // namespace
 
-Expected<MotionGoal> read_goal(const msg::MotionGoal& message) {
-  if (const auto wrong = not_in_base(message.header_(), "the goal")) return refuse(*wrong);
-  if (message.mode_() > static_cast<int>(MotionMode::guided)) {
-    return refuse(fmt::format("the goal has the unknown mode {}", message.mode_()));
+ReasonText read_goal_head(const msg::MotionGoal& message, MotionGoal& goal) {
+  goal = MotionGoal{.id = message.goal_id_()};
+  if (message.header_().frame_id_() != kBaseFrame) {
+    return ReasonText::format("the goal is stated in frame '{}', not in '{}'",
+                              message.header_().frame_id_(), kBaseFrame);
   }
-  MotionGoal goal;
-  goal.id = message.goal_id_();
+  if (message.mode_() > static_cast<int>(MotionMode::guided)) {
+    return ReasonText::format("the goal has the unknown mode {}", message.mode_());
+  }
   goal.mode = static_cast<MotionMode>(message.mode_());
   goal.pose = tool_pose_of(message);
   if (message.has_focus_()) goal.focus = to_eigen(message.focus_());
-  goal.forbidden = zones_of(message.forbidden_());
   if (goal.mode == MotionMode::tracking) {
     goal.velocity = to_eigen(message.velocity_());
     goal.angular_velocity = to_eigen(message.angular_velocity_());
+    if (!message.forbidden_().empty()) {
+      return "the goal has forbidden zones, which tracking does not keep away from";
+    }
+    if (!message.through_().empty()) return "a goal that is tracked has no key poses";
   }
+  if (ReasonText wrong = defect(goal); !wrong.empty()) return wrong;
+  const bool has_pose = goal.mode == MotionMode::planned || goal.mode == MotionMode::tracking;
+  if (has_pose) goal.pose = *checked(goal.pose, "the goal's");  // made a unit
+  return {};
+}
+
+Expected<MotionGoal> read_goal(const msg::MotionGoal& message) {
+  MotionGoal goal;
+  if (const ReasonText wrong = read_goal_head(message, goal); !wrong.empty()) {
+    return refuse(std::string{wrong.view()});
+  }
+  goal.forbidden = zones_of(message.forbidden_());
   for (const msg::ToolPose& key : message.through_()) goal.through.push_back(tool_pose_of(key));
   return checked(goal);
+}
+
+namespace {
+
+void write_values(const JointVector& values, std::vector<double>& to) {
+  to.assign(values.data(), values.data() + values.size());
+}
+
+JointVector values_of(const std::vector<double>& values) {
+  return Eigen::Map<const Eigen::VectorXd>{values.data(), static_cast<Eigen::Index>(values.size())};
+}
+
+}  // namespace
+
+void write_request(const PlanRequest& request, msg::MotionPlanRequest& message) {
+  write_header(message.header_(), request.start, kBaseFrame);
+  message.goal_id_(request.goal_id);
+  message.continues_(request.continues);
+  write_values(request.from.q, message.position_());
+  write_values(request.from.v, message.velocity_());
+  write_values(request.from.a, message.acceleration_());
+}
+
+PlanRequest read_request(const msg::MotionPlanRequest& message) {
+  return {.goal_id = message.goal_id_(),
+          .continues = message.continues_(),
+          .start = stamp_of(message.header_().stamp_()),
+          .from = {.q = values_of(message.position_()),
+                   .v = values_of(message.velocity_()),
+                   .a = values_of(message.acceleration_())}};
+}
+
+void write_answer(const PlanRequest& request, const PlanResult& result, msg::MotionPlan& message) {
+  write_header(message.header_(), request.start, kBaseFrame);
+  message.goal_id_(request.goal_id);
+  message.continues_(request.continues);
+  message.stage_() = result ? "" : result.error().stage;
+  message.reason_() = result ? "" : result.error().reason;
+  message.knots_().clear();
+  message.coefficients_().clear();
+  if (!result) return;
+  message.knots_() = result->trajectory.knots;
+  for (const Quintic& piece : result->trajectory.pieces) {
+    message.coefficients_().insert(message.coefficients_().end(), piece.c.begin(), piece.c.end());
+  }
+}
+
+PlanAnswer read_answer(const RobotModel& model, const msg::MotionPlan& message, SampleRef sample) {
+  const Time start = stamp_of(message.header_().stamp_());
+  return {.goal_id = message.goal_id_(),
+          .continues = message.continues_(),
+          .start = start,
+          .trajectory = {.goal_id = message.goal_id_(),
+                         .dof = model.dof(),
+                         .start = start,
+                         .knots = message.knots_(),
+                         .coefficients = message.coefficients_().data()},
+          .sample = std::move(sample),
+          .stage = message.stage_(),
+          .reason = message.reason_()};
 }
 
 void write_independent_joints(const RobotModel& model, const JointState& state, Time stamp,
@@ -62,8 +140,8 @@ void write_status(const GoalStatus& status, Time stamp, msg::MotionStatus& messa
   write_header(message.header_(), stamp, kBaseFrame);
   message.goal_id_(status.goal_id);
   message.state_(static_cast<std::uint8_t>(status.state));
-  message.stage_() = status.stage;
-  message.reason_() = status.reason;
+  message.stage_().assign(status.stage);
+  message.reason_().assign(status.reason.view());
   message.remaining_(status.remaining_s);
 }
 

@@ -5,6 +5,7 @@
 #include "armature/messages/sensor_msgs.hpp"
 #include "armature/messages/trajectory_msgs.hpp"
 #include "armature/motion/goal_execution.hpp"
+#include "armature/motion/plan.hpp"
 
 namespace armature {
 
@@ -13,6 +14,16 @@ namespace armature {
 
 /// The goal of a message, checked; refuses a frame other than "base" and an unknown mode.
 Expected<MotionGoal> read_goal(const msg::MotionGoal& message);
+/// The same without key poses and forbidden zones, for a control thread: empty, or what is wrong.
+/// Real-time safe.
+ReasonText read_goal_head(const msg::MotionGoal& message, MotionGoal& goal);
+
+/// A request for a plan, there and back; that it is none is a defect of the deployment.
+void write_request(const PlanRequest& request, msg::MotionPlanRequest& message);
+PlanRequest read_request(const msg::MotionPlanRequest& message);
+/// The answer to it. What is read points into the sample's message.
+void write_answer(const PlanRequest& request, const PlanResult& result, msg::MotionPlan& message);
+PlanAnswer read_answer(const RobotModel& model, const msg::MotionPlan& message, SampleRef sample);
 
 /// The independent joints; effort carries the acceleration [rad/s2].
 void write_independent_joints(const RobotModel& model, const JointState& state, Time stamp,

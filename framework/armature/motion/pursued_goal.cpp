@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/motion/pursued_goal.hpp"
 
-#include <algorithm>
 #include <limits>
 
 namespace armature {
@@ -30,11 +29,12 @@ void PursuedGoal::set_once(const MotionGoal& goal) {
 
 void PursuedGoal::hear(const GoalReport& report, Time now) {
   // A task that starts late, or again, goes on counting where the goals are.
-  last_id_ = std::max(last_id_, report.goal_id);
+  if (is_newer(report.goal_id, last_id_)) last_id_ = report.goal_id;
   const bool mine = report.goal_id == goal_.id && sent_ > 0 && !send_at_;
   if (!mine || state_ == State::none || state_ == State::failed) return;
   switch (report.state) {
     case GoalReport::State::accepted:
+      accepted_ = true;  // a plan may take its time
       break;
     case GoalReport::State::executing:
       begun_ = true;
@@ -72,10 +72,12 @@ bool PursuedGoal::worth_another_try(const GoalReport& report) {
 }
 
 std::optional<MotionGoal> PursuedGoal::outgoing(Time now) {
-  const bool unanswered = state_ == State::waiting && !send_at_ && now - sent_at_ > kAnswerWithin;
+  const bool silent = !send_at_ && !accepted_ && now - sent_at_ > kAnswerWithin;
+  const bool unanswered = state_ == State::waiting && silent;
   const bool due = send_at_ && now >= *send_at_;
   if (!due && !unanswered) return std::nullopt;
   send_at_.reset();
+  accepted_ = false;
   sent_at_ = now;
   ++sent_;
   goal_.id = ++last_id_;

@@ -50,7 +50,7 @@ class PursuedGoal {
   Time sent_at_, done_at_;
   std::string reason_;
   int sent_ = 0, breakdowns_ = 0;
-  bool once_ = false, begun_ = false;
+  bool once_ = false, begun_ = false, accepted_ = false;
 };
 
 }  // namespace armature

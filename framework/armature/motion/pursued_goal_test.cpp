@@ -79,6 +79,24 @@ TEST(PursuedGoal, GivesAGoalAgainThatNobodyAnswered) {
   EXPECT_EQ(goals.outgoing(at(1.1))->id, 2u);
 }
 
+TEST(PursuedGoal, WaitsForThePlanOfAGoalThatWasAccepted) {
+  PursuedGoal goals;
+  goals.set({});
+  goals.outgoing(at(0));
+  goals.hear({.goal_id = 1, .state = Report::accepted}, at(0.01));
+  EXPECT_FALSE(goals.outgoing(at(60))) << "a solver may be slow";
+  goals.hear({.goal_id = 1, .state = Report::executing}, at(60));
+  EXPECT_EQ(goals.state(), PursuedGoal::State::moving);
+}
+
+TEST(PursuedGoal, IsNotLockedOutByAJumpOfTheNumbers) {
+  PursuedGoal goals;
+  goals.hear({.goal_id = ~std::uint64_t{0}, .state = Report::done}, at(0));
+  goals.set({});
+  const auto goal = goals.outgoing(at(0));
+  EXPECT_TRUE(is_newer(goal->id, ~std::uint64_t{0})) << goal->id;
+}
+
 TEST(PursuedGoal, CountsOnFromGoalsOfAnEarlierLife) {
   PursuedGoal goals;
   goals.hear({.goal_id = 41, .state = Report::done}, at(0));

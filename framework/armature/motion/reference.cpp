@@ -2,29 +2,61 @@
 #include "armature/motion/reference.hpp"
 
 #include <algorithm>
-#include <iterator>
 #include <utility>
 
 namespace armature {
 
 void Reference::start(const JointVector& q, Time now) {
-  plan_.clear();
-  plan_.push_back(hold_at(q, now, 0));
+  if (count_ == 1) {
+    const JointState holds = at(now);
+    if (holds.q == q && at_rest(holds)) return;
+  }
+  count_ = 0;
+  splice(short_hold_at(q, now, 0));
 }
 
-void Reference::splice(Trajectory next) {
-  std::erase_if(plan_, [&](const Trajectory& t) { return t.start >= next.start; });
-  plan_.push_back(std::move(next));
+Reference::Entry& Reference::make_room(Time start) {
+  ++serial_;
+  while (count_ > 0 && entries_[count_ - 1].start() >= start) {
+    entries_[--count_].sample = {};
+  }
+  // Between two calls of `advance` at most three are spliced at instants that differ.
+  if (count_ == entries_.size()) --count_;
+  return entries_[count_++];
+}
+
+void Reference::splice(const ShortTrajectory& next) {
+  Entry& entry = make_room(next.start);
+  entry.own = next;
+  entry.sample = {};
+  entry.is_own = true;
+}
+
+void Reference::splice(const TrajectoryView& next, SampleRef sample) {
+  Entry& entry = make_room(next.start);
+  entry.elsewhere = next;
+  entry.sample = std::move(sample);
+  entry.is_own = false;
+}
+
+void Reference::postpone_last(Time start) {
+  Entry& last = entries_[count_ - 1];
+  (last.is_own ? last.own.start : last.elsewhere.start) = start;
 }
 
 void Reference::advance(Time now) {
-  while (plan_.size() > 1 && plan_[1].start <= now) plan_.erase(plan_.begin());
+  std::size_t past = 0;
+  while (past + 1 < count_ && entries_[past + 1].start() <= now) ++past;
+  if (past == 0) return;
+  for (std::size_t i = past; i < count_; ++i) std::swap(entries_[i - past], entries_[i]);
+  count_ -= past;
+  for (std::size_t i = count_; i < entries_.size(); ++i) entries_[i].sample = {};
 }
 
-const Trajectory& Reference::trajectory_at(Time time) const {
-  const auto later = std::find_if(plan_.begin() + 1, plan_.end(),
-                                  [&](const Trajectory& t) { return t.start > time; });
-  return *std::prev(later);
+TrajectoryView Reference::trajectory_at(Time time) const {
+  std::size_t holds = 0;
+  while (holds + 1 < count_ && entries_[holds + 1].start() <= time) ++holds;
+  return entries_[holds].view();
 }
 
 }  // namespace armature

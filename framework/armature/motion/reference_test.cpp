@@ -10,15 +10,12 @@
 namespace armature {
 namespace {
 
-Trajectory move(const JointState& from, const JointVector& to, Time start, double duration_s) {
-  Trajectory made{.goal_id = 1,
-                  .dof = static_cast<int>(to.size()),
-                  .start = start,
-                  .knots = {0, duration_s},
-                  .pieces = {}};
+ShortTrajectory move(const JointState& from, const JointVector& to, Time start, double duration_s) {
+  ShortTrajectory made{.goal_id = 1, .dof = static_cast<int>(to.size()), .start = start};
+  made.add_piece(duration_s);
   for (int i = 0; i < made.dof; ++i) {
-    made.pieces.push_back(
-        Quintic::between({from.q[i], from.v[i], from.a[i]}, {to[i], 0, 0}, duration_s));
+    made.piece(0, i) =
+        Quintic::between({from.q[i], from.v[i], from.a[i]}, {to[i], 0, 0}, duration_s);
   }
   return made;
 }
@@ -70,9 +67,36 @@ TEST(Reference, DropsWhatWouldHaveTakenOverLater) {
   Reference reference;
   reference.start(Eigen::Vector3d::Zero(), Time{0});
   reference.splice(move(reference.at(Time{500}), kThere, Time{500}, 1));
-  reference.splice(hold_at(Eigen::Vector3d::Zero(), Time{400}, 7));
+  reference.splice(short_hold_at(Eigen::Vector3d::Zero(), Time{400}, 7));
   EXPECT_EQ(reference.last().goal_id, 7u);
   EXPECT_EQ(reference.at(Time{2'000'000'000}).q, Eigen::Vector3d::Zero());
+}
+
+TEST(Reference, HoldsTheSampleOfATrajectoryAsLongAsItIsNeeded) {
+  static const MessageType kNumber{.create = [] { return static_cast<void*>(new int{}); },
+                                   .destroy = [](void* n) { delete static_cast<int*>(n); }};
+  SamplePool pool{kNumber, 1};
+  Reference reference;
+  reference.start(Eigen::Vector3d::Zero(), Time{0});
+  const ShortTrajectory elsewhere = move(reference.at(Time{0}), kThere, Time{500}, 1);
+  reference.splice(elsewhere.view(), pool.loan());
+  reference.advance(Time{600});
+  EXPECT_EQ(reference.last().goal_id, 1u);
+  pool.loan();
+  EXPECT_EQ(pool.grown(), 1u) << "the first sample is held";
+  reference.start(kThere, Time{700});
+  const SampleRef one = pool.loan(), two = pool.loan();
+  EXPECT_EQ(pool.grown(), 1u) << "and given back";
+}
+
+TEST(Reference, CountsWhatTakesOverSoThatAPlanCanSayWhatItContinues) {
+  Reference reference;
+  reference.start(kThere, Time{0});
+  const std::uint64_t first = reference.serial();
+  reference.start(kThere, Time{500});
+  EXPECT_EQ(reference.serial(), first) << "it stays where it was";
+  reference.start(-kThere, Time{500});
+  EXPECT_GT(reference.serial(), first);
 }
 
 }  // namespace

@@ -17,39 +17,52 @@ using test::rest_at;
 
 const TrackingOptions kHorizon{.shortest_horizon_s = 0.1};
 
+/// A way as it was made, or the failure.
+struct Tracked {
+  ShortTrajectory way;
+  TrackingFailure failure;
+
+  explicit operator bool() const { return failure.stage.empty(); }
+  JointState at(Time time) const { return way.view().at(time); }
+  double horizon_s() const { return way.knots[1]; }
+};
+
+Tracked track(Tracker tracker, const MotionGoal& goal, const JointState& from, Time start) {
+  Tracked tracked;
+  tracked.failure = tracker.track(goal, from, start, tracked.way);
+  return tracked;
+}
+
 TEST(Tracking, MeetsATargetThatMovesWithItsVelocity) {
   const Gantry gantry;
-  GoalPlanner planner = gantry.planner();
   MotionGoal goal = goal_at(1, 0.02, 0, 0);
   goal.mode = MotionMode::tracking;
   goal.velocity = {0.1, 0, 0};
-  auto plan = track(planner, goal, rest_at(0, 0, 0), Time{0}, kHorizon);
-  ASSERT_TRUE(plan) << plan.error().reason;
-  const double horizon = plan->trajectory.knots[1];
-  const JointState meet = plan->trajectory.at(Time{} + seconds(horizon));
+  auto plan = track(gantry.tracker(kHorizon), goal, rest_at(0, 0, 0), Time{0});
+  ASSERT_TRUE(plan) << plan.failure.reason.view();
+  const double horizon = plan.horizon_s();
+  const JointState meet = plan.at(Time{} + seconds(horizon));
   EXPECT_NEAR(meet.q[2], 0.02 + 0.1 * horizon, 1e-9);
   EXPECT_NEAR(meet.v[2], 0.1, 1e-6);
-  EXPECT_NEAR(plan->trajectory.at(plan->trajectory.end()).v.norm(), 0, 1e-9);
+  EXPECT_NEAR(plan.at(plan.way.view().end()).v.norm(), 0, 1e-9);
 }
 
 TEST(Tracking, TakesLongerInsteadOfBreakingLimits) {
   const Gantry gantry;
-  GoalPlanner planner = gantry.planner();
   MotionGoal goal = goal_at(1, 1.2, -1, 0.4);
-  auto plan = track(planner, goal, rest_at(0, 0, 0), Time{0}, kHorizon);
-  ASSERT_TRUE(plan) << plan.error().reason;
-  const LimitUse use =
-      limit_use(plan->trajectory, gantry.limits.max_velocity, gantry.limits.max_acceleration);
+  auto plan = track(gantry.tracker(kHorizon), goal, rest_at(0, 0, 0), Time{0});
+  ASSERT_TRUE(plan) << plan.failure.reason.view();
+  const LimitUse use = limit_use(to_trajectory(plan.way.view()), gantry.limits.max_velocity,
+                                 gantry.limits.max_acceleration);
   EXPECT_LE(use.velocity, 1.001);
   EXPECT_LE(use.acceleration, 1.001);
-  EXPECT_GT(plan->trajectory.knots[1], 1.2);
+  EXPECT_GT(plan.horizon_s(), 1.2);
 }
 
 TEST(Tracking, FollowsACircleWithoutAJumpAndWithinLimits) {
   const Gantry gantry;
-  GoalPlanner planner = gantry.planner();
-  Trajectory current = hold_at(Eigen::Vector3d{0, 0, 0.3}, Time{0}, 0);
-  JointState before = current.at(Time{0});
+  ShortTrajectory current = short_hold_at(Eigen::Vector3d{0, 0, 0.3}, Time{0}, 0);
+  JointState before = current.view().at(Time{0});
   double worst_lag_m = 0;
   for (int k = 1; k < 6000; ++k) {
     const Time now = Time{} + k * seconds(0.001);
@@ -58,11 +71,11 @@ TEST(Tracking, FollowsACircleWithoutAJumpAndWithinLimits) {
     if (k % 33 == 0) {
       MotionGoal goal = goal_at(static_cast<std::uint64_t>(k), target.x(), target.y(), 0);
       goal.velocity = {-0.3 * std::sin(t), 0.3 * std::cos(t), 0};
-      auto plan = track(planner, goal, current.at(now), now, kHorizon);
-      ASSERT_TRUE(plan) << plan.error().reason;
-      current = plan->trajectory;
+      auto plan = track(gantry.tracker(kHorizon), goal, current.view().at(now), now);
+      ASSERT_TRUE(plan) << plan.failure.reason.view();
+      current = plan.way;
     }
-    const JointState state = current.at(now);
+    const JointState state = current.view().at(now);
     ASSERT_TRUE(test::no_jump(before, state, 0.001)) << "at step " << k;
     ASSERT_LE(state.v.cwiseAbs().maxCoeff(), 1.001);
     ASSERT_LE(state.a.cwiseAbs().maxCoeff(), 2.501);
@@ -99,39 +112,37 @@ TEST(Tracking, MeetsATargetThatTurnsWithItsAngularVelocity) {
                              {joint},     {{.name = "tool", .parent_joint = 0}},
                              FrameId{0},  Eigen::Vector3d::UnitX(),
                              std::nullopt};
-  const Gantry other;
   const TurntableIk ik;
-  GoalPlanner planner{turntable,
-                      {other.path, ik, other.select, other.trajectory},
-                      {turntable.max_velocity(), turntable.max_acceleration()}};
+  const Tracker tracker{
+      turntable, {turntable.max_velocity(), turntable.max_acceleration()}, ik, kHorizon};
   MotionGoal goal = goal_at(1, 0, 0, 0);
   goal.mode = MotionMode::tracking;
   goal.pose.orientation = Direction{{1, 0, 0}};
   goal.angular_velocity = {0, 0, 0.4};
   const JointVector zero = JointVector::Zero(1);
-  auto plan = track(planner, goal, {zero, zero, zero}, Time{0}, kHorizon);
-  ASSERT_TRUE(plan) << plan.error().reason;
-  const double horizon = plan->trajectory.knots[1];
-  const JointState meet = plan->trajectory.at(Time{} + seconds(horizon));
+  auto plan = track(tracker, goal, {zero, zero, zero}, Time{0});
+  ASSERT_TRUE(plan) << plan.failure.reason.view();
+  const double horizon = plan.horizon_s();
+  const JointState meet = plan.at(Time{} + seconds(horizon));
   EXPECT_NEAR(meet.q[0], 0.4 * horizon, 1e-9);
   EXPECT_NEAR(meet.v[0], 0.4, 1e-6);
 }
 
 TEST(Tracking, TakesLongerInsteadOfBreakingTheJerkLimit) {
   const Gantry gantry;
-  GoalPlanner planner = gantry.planner();
   const MotionGoal goal = goal_at(1, 0.1, -0.05, 0.02);
   const JointState from{.q = Eigen::Vector3d{0, 0, 0},
                         .v = Eigen::Vector3d{0.1, 0, -0.2},
                         .a = Eigen::Vector3d{0, 0.5, 1}};
   const auto highest_jerk = [&](const JointVector& limit) {
     const auto plan =
-        track(planner, goal, from, Time{0}, {.shortest_horizon_s = 0.05, .max_jerk = limit});
-    EXPECT_TRUE(plan) << plan.error().reason;
+        track(gantry.tracker({.shortest_horizon_s = 0.05, .max_jerk = limit}), goal, from, Time{0});
+    EXPECT_TRUE(plan) << plan.failure.reason.view();
     double highest = 0;
-    for (double t = 0; t < plan->trajectory.knots[1]; t += 1e-4) {
-      highest =
-          std::max(highest, plan->trajectory.jerk_at(Time{} + seconds(t)).cwiseAbs().maxCoeff());
+    for (double t = 0; t < plan.horizon_s(); t += 1e-4) {
+      highest = std::max(
+          highest,
+          to_trajectory(plan.way.view()).jerk_at(Time{} + seconds(t)).cwiseAbs().maxCoeff());
     }
     return highest;
   };
@@ -142,20 +153,19 @@ TEST(Tracking, TakesLongerInsteadOfBreakingTheJerkLimit) {
 
 TEST(Tracking, AJerkLimitThatNoHorizonKeepsIsToldWithItsNumber) {
   const Gantry gantry;
-  GoalPlanner planner = gantry.planner();
-  const auto plan = track(planner, goal_at(1, 0.1, 0, 0), rest_at(0, 0, 0), Time{0},
-                          {.shortest_horizon_s = 0.1, .max_jerk = JointVector::Constant(3, 1e-6)});
+  const auto plan =
+      track(gantry.tracker({.shortest_horizon_s = 0.1, .max_jerk = JointVector::Constant(3, 1e-6)}),
+            goal_at(1, 0.1, 0, 0), rest_at(0, 0, 0), Time{0});
   ASSERT_FALSE(plan);
-  EXPECT_EQ(plan.error().stage, "trajectory");
-  EXPECT_EQ(plan.error().reason.substr(0, 59),
+  EXPECT_EQ(plan.failure.stage, "trajectory");
+  EXPECT_EQ(plan.failure.reason.view().substr(0, 59),
             "tracking within limits: joint x would need a jerk of 0.0012");
 }
 
 TEST(Tracking, ATargetThatIsTooFastIsFollowedBehindAndMetWhenItWaits) {
   const Gantry gantry;
-  GoalPlanner planner = gantry.planner();
   const TrackingOptions slow{.shortest_horizon_s = 0.01, .max_tool_speed = 0.05};
-  Trajectory current = hold_at(Eigen::Vector3d{0, 0, 0}, Time{0}, 0);
+  ShortTrajectory current = short_hold_at(Eigen::Vector3d{0, 0, 0}, Time{0}, 0);
   double fastest = 0, farthest_behind = 0;
   int refused = 0;
   for (int k = 1; k < 4000; ++k) {
@@ -163,10 +173,10 @@ TEST(Tracking, ATargetThatIsTooFastIsFollowedBehindAndMetWhenItWaits) {
     const double t = std::min(0.001 * k, 1.0);  // it goes 0.08 m in the plane, then stays
     MotionGoal goal = goal_at(static_cast<std::uint64_t>(k), 0.064 * t, 0.048 * t, 0);
     if (k <= 1000) goal.velocity = {0.064, 0.048, 0};
-    const auto plan = track(planner, goal, current.at(now), now, slow);
-    if (plan) current = plan->trajectory;
+    const auto plan = track(gantry.tracker(slow), goal, current.view().at(now), now);
+    if (plan) current = plan.way;
     refused += !plan;
-    const JointState state = current.at(now);
+    const JointState state = current.view().at(now);
     fastest = std::max(fastest, state.v.norm());
     const Eigen::Vector3d tool{state.q[2], state.q[1], state.q[0]};
     farthest_behind = std::max(farthest_behind, (tool - goal.pose.position).norm());
@@ -175,42 +185,39 @@ TEST(Tracking, ATargetThatIsTooFastIsFollowedBehindAndMetWhenItWaits) {
   EXPECT_GT(fastest, 0.049) << "it need not be slower";
   EXPECT_GT(farthest_behind, 0.02);
   EXPECT_EQ(refused, 0);
-  const JointState end = current.at(Time{} + seconds(4.0));
+  const JointState end = current.view().at(Time{} + seconds(4.0));
   EXPECT_LT((end.q - Eigen::Vector3d{0, 0.048, 0.064}).norm(), 1e-6);
 }
 
 TEST(Tracking, AToolThatIsTooFastAlreadyDoesNotBecomeFaster) {
   const Gantry gantry;
-  GoalPlanner planner = gantry.planner();
   JointState from = rest_at(0, 0, 0);
   from.v = Eigen::Vector3d{0, 0, 0.2};
-  const auto plan = track(planner, goal_at(1, 0.1, 0, 0), from, Time{0},
-                          {.shortest_horizon_s = 0.01, .max_tool_speed = 0.05});
-  ASSERT_TRUE(plan) << plan.error().reason;
-  for (double t = 0; t < plan->trajectory.knots[1]; t += 1e-3) {
-    EXPECT_LE(plan->trajectory.at(Time{} + seconds(t)).v.norm(), 0.2 * (1 + 1e-6)) << t;
+  const auto plan = track(gantry.tracker({.shortest_horizon_s = 0.01, .max_tool_speed = 0.05}),
+                          goal_at(1, 0.1, 0, 0), from, Time{0});
+  ASSERT_TRUE(plan) << plan.failure.reason.view();
+  for (double t = 0; t < plan.horizon_s(); t += 1e-3) {
+    EXPECT_LE(plan.at(Time{} + seconds(t)).v.norm(), 0.2 * (1 + 1e-6)) << t;
   }
 }
 
 TEST(Tracking, RefusesATargetOutOfReach) {
   const Gantry gantry;
-  GoalPlanner planner = gantry.planner();
-  auto plan = track(planner, goal_at(1, 3, 0, 0), rest_at(0, 0, 0), Time{0}, kHorizon);
+  auto plan = track(gantry.tracker(kHorizon), goal_at(1, 3, 0, 0), rest_at(0, 0, 0), Time{0});
   ASSERT_FALSE(plan);
-  EXPECT_EQ(plan.error().stage, "ik");
+  EXPECT_EQ(plan.failure.stage, "ik");
 }
 
 TEST(Tracking, ATargetThatTheLimitsCannotMeetBeforeItLeavesTheReachFailsByTheLimits) {
   const Gantry gantry;
-  GoalPlanner planner = gantry.planner();
   MotionGoal goal = goal_at(1, 1.9, 0, 0);  // 2 m is the end of the reach
   goal.velocity = {0.5, 0, 0};
-  const auto plan = track(planner, goal, rest_at(0, 0, 0), Time{0}, kHorizon);
+  const auto plan = track(gantry.tracker(kHorizon), goal, rest_at(0, 0, 0), Time{0});
   ASSERT_FALSE(plan);
-  EXPECT_EQ(plan.error().stage, "trajectory");
-  EXPECT_EQ(plan.error().reason.substr(0, 24), "tracking within limits: ");
-  EXPECT_NE(plan.error().reason.find(" s ahead the goal: out_of_reach"), std::string::npos)
-      << plan.error().reason;
+  EXPECT_EQ(plan.failure.stage, "trajectory");
+  EXPECT_EQ(plan.failure.reason.view().substr(0, 24), "tracking within limits: ");
+  EXPECT_NE(plan.failure.reason.view().find(" s ahead the goal: out_of_reach"), std::string::npos)
+      << plan.failure.reason.view();
 }
 
 }  // namespace

@@ -66,7 +66,7 @@ std::optional<CalibratedFrame> read_calibrated_frame(const Node& path, std::stri
   try {
     const auto file = (config::folder_of(path.origin()) / path.text()).lexically_normal();
     const Node document =
-        config::parse_yaml(config::read_source(file, path.origin()), file.string());
+        config::parse_document(config::read_source(file, path.origin()), file.string());
     return find_transform(document, fmt::format("{}_T_{}", parent, frame), path, problems);
   } catch (const config::ConfigError& error) {
     for (const config::Problem& problem : error.problems()) {

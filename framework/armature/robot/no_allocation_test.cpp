@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
+#include <cstddef>
+#include <random>
+#include <vector>
 
 #include "armature/robot/corner_blend.hpp"
 #include "armature/robot/frame_buffer.hpp"
@@ -10,45 +11,21 @@
 #include "armature/robot/orientation_probe_test.hpp"
 #include "armature/robot/test_robots.hpp"
 #include "armature/robot/trajectory.hpp"
-
-// Eigen allocates with malloc, everything else through operator new, which calls malloc: counting
-// malloc sees both, also inside the library under test. A sanitizer brings its own malloc.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define ARMATURE_COUNTS_MALLOC 0
-#else
-#define ARMATURE_COUNTS_MALLOC 1
-#endif
-
-namespace {
-std::atomic<long> allocations{0};
-}
-
-#if ARMATURE_COUNTS_MALLOC
-extern "C" void* __libc_malloc(std::size_t size);
-extern "C" void* malloc(std::size_t size) noexcept {
-  ++allocations;
-  return __libc_malloc(size);
-}
-#endif
+#include "armature/values/allocation_count.hpp"
 
 namespace armature {
 namespace {
 
-template <class Work>
-long allocations_of(Work work) {
-  const long before = allocations;
-  work();
-  return allocations - before;
-}
-
 class NoAllocation : public ::testing::Test {
  protected:
   void SetUp() override {
-    if (!ARMATURE_COUNTS_MALLOC) GTEST_SKIP() << "the sanitizer's malloc cannot be counted";
+#ifndef ARMATURE_COUNTS_ALLOCATIONS
+    GTEST_SKIP() << "the sanitizer's malloc cannot be counted";
+#endif
     // The counter must see both ways of allocating, or it proves nothing.
-    ASSERT_GT(allocations_of([] { ::operator delete(::operator new(8)); }), 0);
+    ASSERT_GT(allocations_of([] { ::operator delete(::operator new(8)); }), 0U);
     Eigen::VectorXd vector;
-    ASSERT_GT(allocations_of([&] { vector.resize(100); }), 0);
+    ASSERT_GT(allocations_of([&] { vector.resize(100); }), 0U);
   }
 
   const RobotModel lamp = testing::dental_lamp();
@@ -64,7 +41,7 @@ TEST_F(NoAllocation, InKinematics) {
               sum += lamp.expand(q).sum() + lamp.contract(*lamp.home())->sum();
               sum += lamp.within_limits(q) ? 1 : 0;
             }),
-            0);
+            0U);
 }
 
 TEST_F(NoAllocation, InEvaluatingATrajectory) {
@@ -78,7 +55,7 @@ TEST_F(NoAllocation, InEvaluatingATrajectory) {
               }
               sum += limit_use(trajectory, lamp.max_velocity(), lamp.max_acceleration()).velocity;
             }),
-            0);
+            0U);
 }
 
 TEST_F(NoAllocation, InEvaluatingAnOrientationCurveOrABlendedPolyline) {
@@ -95,7 +72,7 @@ TEST_F(NoAllocation, InEvaluatingAnOrientationCurveOrABlendedPolyline) {
                   sum += curve.at(u).acceleration.sum() + line.at(u).sum();
                 }
               }),
-              0);
+              0U);
   }
 }
 
@@ -107,7 +84,7 @@ TEST_F(NoAllocation, InTheFrameBuffer) {
                 sum += buffer.base_T(lamp.tool(), buffer.newest())->translation().x();
               }
             }),
-            0);
+            0U);
 }
 
 }  // namespace

@@ -11,23 +11,34 @@ namespace {
 constexpr double kLengthTolerance = 0.01;
 constexpr double kRounding = 1e-15;  // of a length that is 1: dividing by it would only cost digits
 
+double length_of(const Orientation& orientation) {
+  const auto* direction = std::get_if<Direction>(&orientation);
+  return direction ? direction->unit.norm() : std::get<Eigen::Quaterniond>(orientation).norm();
+}
+
 }  // namespace
 
-Expected<ToolPose> checked(ToolPose pose, std::string_view whose) {
-  if (!pose.position.allFinite()) return refuse(fmt::format("{} position is not finite", whose));
-  auto* direction = std::get_if<Direction>(&pose.orientation);
-  auto* rotation = std::get_if<Eigen::Quaterniond>(&pose.orientation);
-  const double length = direction ? direction->unit.norm() : rotation->norm();
+ReasonText defect(const ToolPose& pose, std::string_view whose) {
+  if (!pose.position.allFinite()) return ReasonText::format("{} position is not finite", whose);
+  const double length = length_of(pose.orientation);
   // A comparison that is false for NaN as well.
-  if (!(std::abs(length - 1) <= kLengthTolerance)) {
-    return refuse(fmt::format("{} {} has length {:.6g}, not 1", whose,
-                              direction ? "direction" : "quaternion", length));
+  if (std::abs(length - 1) <= kLengthTolerance) return {};
+  const bool pointing = std::holds_alternative<Direction>(pose.orientation);
+  return ReasonText::format("{} {} has length {:.6g}, not 1", whose,
+                            pointing ? "direction" : "quaternion", length);
+}
+
+Expected<ToolPose> checked(ToolPose pose, std::string_view whose) {
+  if (const ReasonText wrong = defect(pose, whose); !wrong.empty()) {
+    return refuse(std::string{wrong.view()});
   }
+  auto* direction = std::get_if<Direction>(&pose.orientation);
+  const double length = length_of(pose.orientation);
   if (std::abs(length - 1) <= kRounding) return pose;
   if (direction) {
     direction->unit /= length;
   } else {
-    rotation->normalize();
+    std::get<Eigen::Quaterniond>(pose.orientation).normalize();
   }
   return pose;
 }

@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "armature/values/expected.hpp"
+#include "armature/values/inline_text.hpp"
 
 namespace armature {
 
@@ -24,9 +25,11 @@ struct ToolPose {
   Orientation orientation = Direction{};
 };
 
-/// `pose` with its direction or quaternion made a unit; or what is wrong with it: a position that
-/// is not finite, a direction or quaternion whose length is not 1 within 1 %. `whose` begins the
-/// reason: "the goal's".
+/// What is wrong with `pose`, or empty: a position that is not finite, a direction or quaternion
+/// whose length is not 1 within 1 %. `whose` begins the reason: "the goal's". Real-time safe.
+ReasonText defect(const ToolPose& pose, std::string_view whose);
+
+/// `pose` with its direction or quaternion made a unit, or its defect.
 Expected<ToolPose> checked(ToolPose pose, std::string_view whose);
 
 /// How far base_T_tool is from `goal`: [m] and [rad] (of the rotation, or between the pointing axis

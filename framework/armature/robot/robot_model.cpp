@@ -129,27 +129,48 @@ JointVector RobotModel::expand(const JointVector& independent) const {
   return all;
 }
 
+namespace {
+
+Expected<JointVector> expected(const ReasonText& wrong, const JointVector& independent) {
+  if (wrong.empty()) return independent;
+  return refuse(std::string{wrong.view()});
+}
+
+}  // namespace
+
 Expected<JointVector> RobotModel::contract(const JointVector& all) const {
-  return contracted({all.data(), static_cast<std::size_t>(all.size())}, 1);
+  return contract(std::span<const double>{all.data(), static_cast<std::size_t>(all.size())});
 }
 
 Expected<JointVector> RobotModel::contract(std::span<const double> all) const {
-  return contracted(all, 1);
+  JointVector independent;
+  const ReasonText wrong = contract(all, independent);
+  return expected(wrong, independent);
 }
 
 Expected<JointVector> RobotModel::contract_rates(std::span<const double> all) const {
-  return contracted(all, 0);
+  JointVector independent;
+  const ReasonText wrong = contract_rates(all, independent);
+  return expected(wrong, independent);
 }
 
-Expected<JointVector> RobotModel::contracted(std::span<const double> all,
-                                             double offset_factor) const {
+ReasonText RobotModel::contract(std::span<const double> all, JointVector& independent) const {
+  return contracted(all, 1, independent);
+}
+
+ReasonText RobotModel::contract_rates(std::span<const double> all, JointVector& independent) const {
+  return contracted(all, 0, independent);
+}
+
+ReasonText RobotModel::contracted(std::span<const double> all, double offset_factor,
+                                  JointVector& independent) const {
   if (all.size() != joints_.size())
-    return refuse(
-        fmt::format("{} joint values; {} has {} joints", all.size(), name_, joint_count()));
+    return ReasonText::format("{} joint values; {} has {} joints", all.size(), name_,
+                              joint_count());
   for (std::size_t i = 0; i < all.size(); ++i)
     if (!std::isfinite(all[i]))
-      return refuse(fmt::format("{} = {} is not a number", joints_[i].name, all[i]));
-  JointVector independent(dof());
+      return ReasonText::format("{} = {} is not a number", joints_[i].name, all[i]);
+  independent.resize(dof());
   for (int i = 0; i < dof(); ++i) {
     independent[i] = all[static_cast<std::size_t>(independent_joint(i))];
   }
@@ -157,11 +178,11 @@ Expected<JointVector> RobotModel::contracted(std::span<const double> all,
     const ChainLink& link = chain_[i];
     const double follows = link.ratio * independent[link.independent] + offset_factor * link.offset;
     if (std::abs(all[i] - follows) > kCouplingTolerance)
-      return refuse(fmt::format(
+      return ReasonText::format(
           "{} = {:.6g} contradicts its coupling to {}, which makes it {:.6g}", joints_[i].name,
-          all[i], joints_[static_cast<std::size_t>(joints_[i].coupling->to)].name, follows));
+          all[i], joints_[static_cast<std::size_t>(joints_[i].coupling->to)].name, follows);
   }
-  return independent;
+  return {};
 }
 
 bool RobotModel::within_limits(const JointVector& independent, double tolerance) const {

@@ -12,6 +12,7 @@
 
 #include "armature/robot/joint_vector.hpp"
 #include "armature/values/expected.hpp"
+#include "armature/values/inline_text.hpp"
 
 namespace armature::config {
 class Node;
@@ -114,6 +115,9 @@ class RobotModel {
   Expected<JointVector> contract(std::span<const double> all) const;
   /// The same of velocities or accelerations: a coupling's offset does not count.
   Expected<JointVector> contract_rates(std::span<const double> all) const;
+  /// The same into `independent`: empty, or the reason. Real-time safe.
+  ReasonText contract(std::span<const double> all, JointVector& independent) const;
+  ReasonText contract_rates(std::span<const double> all, JointVector& independent) const;
 
   /// One entry per joint, in order: what the kinematics functions walk along.
   const std::vector<ChainLink>& chain() const { return chain_; }
@@ -132,7 +136,8 @@ class RobotModel {
  private:
   void number_joints();
   void fold_limits();
-  Expected<JointVector> contracted(std::span<const double> all, double offset_factor) const;
+  ReasonText contracted(std::span<const double> all, double offset_factor,
+                        JointVector& independent) const;
 
   std::string name_;
   Convention convention_;

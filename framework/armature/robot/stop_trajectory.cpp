@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 
-#include "armature/robot/trajectory.hpp"
+#include "armature/robot/short_trajectory.hpp"
 
 namespace armature {
 namespace {
@@ -35,18 +37,20 @@ struct Stop {
 
 }  // namespace
 
-Trajectory stop_from(const JointState& from, const JointVector& max_velocity,
-                     const JointVector& max_acceleration, Time start, std::uint64_t goal_id) {
+ShortTrajectory short_stop_from(const JointState& from, const JointVector& max_velocity,
+                                const JointVector& max_acceleration, Time start,
+                                std::uint64_t goal_id) {
   const int dof = static_cast<int>(from.q.size());
   const auto end_of = [&](int j) { return Quintic::End{from.q[j], from.v[j], from.a[j]}; };
-  if (from.v.isZero(0) && from.a.isZero(0)) return hold_at(from.q, start, goal_id);
+  if (from.v.isZero(0) && from.a.isZero(0)) return short_hold_at(from.q, start, goal_id);
 
   double slowest = 0;
   for (int j = 0; j < dof; ++j)
     slowest = std::max(slowest, shortest_stop(end_of(j), max_acceleration[j]));
 
-  Trajectory trajectory{.goal_id = goal_id, .dof = dof, .start = start, .knots = {0}, .pieces = {}};
-  std::vector<Stop> stops;
+  ShortTrajectory trajectory{.goal_id = goal_id, .dof = dof, .start = start};
+  std::array<Stop, kMaxJoints> stops;
+  const auto first = trajectory.knots.begin();
   for (int j = 0; j < dof; ++j) {
     Stop stop{stop_quartic(end_of(j), slowest), slowest};
     const double allowed = std::max(max_velocity[j], std::abs(from.v[j])) * (1 + 1e-9);
@@ -54,20 +58,28 @@ Trajectory stop_from(const JointState& from, const JointVector& max_velocity,
       stop.duration = shortest_stop(end_of(j), max_acceleration[j]);
       stop.quartic = stop_quartic(end_of(j), stop.duration);
     }
-    stops.push_back(stop);
-    trajectory.knots.push_back(stop.duration);
+    stops[static_cast<std::size_t>(j)] = stop;
+    *(first + j + 1) = stop.duration;
   }
-  std::ranges::sort(trajectory.knots);
-  const auto same = std::ranges::unique(trajectory.knots);
-  trajectory.knots.erase(same.begin(), same.end());
+  std::sort(first, first + dof + 1);
+  trajectory.pieces = static_cast<int>(std::unique(first, first + dof + 1) - first) - 1;
 
-  for (std::size_t k = 0; k + 1 < trajectory.knots.size(); ++k)
-    for (const Stop& stop : stops) {
-      const bool moving = trajectory.knots[k] < stop.duration;
-      trajectory.pieces.push_back(moving ? stop.quartic.shifted(trajectory.knots[k])
-                                         : Quintic{{stop.quartic.position(stop.duration)}});
+  for (int k = 0; k < trajectory.pieces; ++k) {
+    const double knot = trajectory.knots[static_cast<std::size_t>(k)];
+    for (int j = 0; j < dof; ++j) {
+      const Stop& stop = stops[static_cast<std::size_t>(j)];
+      trajectory.piece(k, j) = knot < stop.duration
+                                   ? stop.quartic.shifted(knot)
+                                   : Quintic{{stop.quartic.position(stop.duration)}};
     }
+  }
   return trajectory;
+}
+
+Trajectory stop_from(const JointState& from, const JointVector& max_velocity,
+                     const JointVector& max_acceleration, Time start, std::uint64_t goal_id) {
+  return to_trajectory(
+      short_stop_from(from, max_velocity, max_acceleration, start, goal_id).view());
 }
 
 }  // namespace armature

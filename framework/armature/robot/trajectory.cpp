@@ -16,9 +16,10 @@ struct Place {
   double t = 0;
 };
 
+static_assert(sizeof(Quintic) == 6 * sizeof(double), "pieces are read as rows of coefficients");
+
 /// Where `t` (from the trajectory's start) falls; clamped to the ends. Needs a piece.
-Place place_of(const Trajectory& trajectory, double t) {
-  const auto& knots = trajectory.knots;
+Place place_of(std::span<const double> knots, double t) {
   const double inside = std::clamp(t, 0.0, knots.back());
   const auto next = std::upper_bound(knots.begin() + 1, knots.end() - 1, inside);
   const int piece = static_cast<int>(next - knots.begin()) - 1;
@@ -42,17 +43,18 @@ struct Powers {
   }
 };
 
-JointState state_at(const Trajectory& trajectory, double t) {
+JointState state_at(const TrajectoryView& trajectory, double t) {
   JointState state{JointVector(trajectory.dof), JointVector(trajectory.dof),
                    JointVector(trajectory.dof)};
   if (trajectory.piece_count() == 0) {
     for (JointVector* values : {&state.q, &state.v, &state.a}) values->setZero();
     return state;
   }
-  const Place place = place_of(trajectory, t);
+  const Place place = place_of(trajectory.knots, t);
   const Powers at{place.t};
   for (int j = 0; j < trajectory.dof; ++j) {
-    const Eigen::Map<const Powers::Row> c{piece_of(trajectory, place.piece, j).c.data()};
+    const Eigen::Map<const Powers::Row> c{trajectory.coefficients +
+                                          6 * (place.piece * trajectory.dof + j)};
     state.q[j] = at.value.dot(c);
     state.v[j] = at.first.dot(c);
     state.a[j] = at.second.dot(c);
@@ -85,18 +87,45 @@ Trajectory with_knot_at(Trajectory trajectory, double t) {
 
 }  // namespace
 
-JointState Trajectory::at(Time time) const {
+JointState TrajectoryView::at(Time time) const {
   // end() is rounded to nanoseconds; from there on it is the end itself, not half a one before it.
   return state_at(*this, time >= end() ? duration_s() : to_seconds(time - start));
 }
+
+Quintic TrajectoryView::piece(int k, int joint) const {
+  Quintic quintic;
+  std::copy_n(coefficients + 6 * (k * dof + joint), quintic.c.size(), quintic.c.begin());
+  return quintic;
+}
+
+TrajectoryView Trajectory::view() const {
+  const bool whole =
+      !pieces.empty() && pieces.size() == static_cast<std::size_t>(piece_count() * dof);
+  return {goal_id, dof, start, whole ? std::span<const double>{knots} : std::span<const double>{},
+          whole ? pieces.front().c.data() : nullptr};
+}
+
+JointState Trajectory::at(Time time) const { return view().at(time); }
 
 JointVector Trajectory::jerk_at(Time time) const {
   JointVector jerk = JointVector::Zero(dof);
   const double t = to_seconds(time - start);
   if (piece_count() == 0 || t < 0 || t > duration_s()) return jerk;
-  const Place place = place_of(*this, t);
+  const Place place = place_of(knots, t);
   for (int j = 0; j < dof; ++j) jerk[j] = piece_of(*this, place.piece, j).jerk(place.t);
   return jerk;
+}
+
+Trajectory to_trajectory(const TrajectoryView& view) {
+  Trajectory copy{.goal_id = view.goal_id,
+                  .dof = view.dof,
+                  .start = view.start,
+                  .knots = {view.knots.begin(), view.knots.end()},
+                  .pieces = {}};
+  for (int k = 0; k < view.piece_count(); ++k) {
+    for (int j = 0; j < view.dof; ++j) copy.pieces.push_back(view.piece(k, j));
+  }
+  return copy;
 }
 
 Trajectory hold_at(const JointVector& q, Time start, std::uint64_t goal_id) {
@@ -142,7 +171,7 @@ Trajectory spliced(const Trajectory& trajectory, const JointState& from, double 
   for (const double knot : trajectory.knots)
     if (std::abs(knot - blend) < kSameKnot_s) blend = knot;
 
-  const JointState planned = state_at(trajectory, 0);
+  const JointState planned = state_at(trajectory.view(), 0);
   Trajectory result = with_knot_at(trajectory, blend);
   for (int j = 0; j < result.dof; ++j) {
     const Quintic difference = Quintic::between(

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "armature/robot/joint_vector.hpp"
@@ -9,6 +10,24 @@
 #include "armature/values/time.hpp"
 
 namespace armature {
+
+/// A trajectory that somebody else holds, in memory of any kind: a Trajectory, a ShortTrajectory, a
+/// message. Piece k of joint j has the coefficients c0 to c5 at `coefficients[(k * dof + j) * 6]`.
+struct TrajectoryView {
+  std::uint64_t goal_id = 0;
+  int dof = 0;
+  Time start;                     // the time of knots.front()
+  std::span<const double> knots;  // [s] from `start`, ascending, one more than there are pieces
+  const double* coefficients = nullptr;
+
+  int piece_count() const { return knots.empty() ? 0 : static_cast<int>(knots.size()) - 1; }
+  double duration_s() const { return knots.empty() ? 0 : knots.back(); }
+  Time end() const { return start + seconds(duration_s()); }
+  Quintic piece(int k, int joint) const;
+
+  /// As Trajectory::at. Real-time safe.
+  JointState at(Time time) const;
+};
 
 /// Piecewise quintics of all independent joints with absolute times: data, evaluated anywhere for
 /// q, v, a and jerk, sent as it is. Piece k holds from `knots[k]` to `knots[k+1]`.
@@ -22,6 +41,8 @@ struct Trajectory {
   int piece_count() const { return knots.empty() ? 0 : static_cast<int>(knots.size()) - 1; }
   double duration_s() const { return knots.empty() ? 0 : knots.back(); }
   Time end() const { return start + seconds(duration_s()); }
+  /// Of no pieces where there are fewer than its knots say.
+  TrajectoryView view() const;
 
   /// q, v, a at `time`; before the start the start, after the end the end, both at rest there only
   /// if the trajectory is (to rounding). Zeros when there is no piece. Real-time safe: no
@@ -29,6 +50,9 @@ struct Trajectory {
   JointState at(Time time) const;
   JointVector jerk_at(Time time) const;
 };
+
+/// A copy that holds its own numbers.
+Trajectory to_trajectory(const TrajectoryView& view);
 
 /// A trajectory that stays at `q`: one piece of no duration.
 Trajectory hold_at(const JointVector& q, Time start, std::uint64_t goal_id);

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <optional>
-#include <string>
-
 #include "armature/robot/robot_model.hpp"
 #include "armature/robot/trajectory.hpp"
 
@@ -14,13 +11,12 @@ struct MotionLimits {
   JointVector max_velocity, max_acceleration;  // per independent joint
 };
 
-/// nullopt, or what is wrong with a trajectory that shall take over at `start` from `from`: a jump
+/// Empty, or what is wrong with a trajectory that shall take over at `start` from `from`: a jump
 /// in q, v or a, a motion that goes on at its end, a limit that it breaks anywhere (extrema, not
 /// samples). The text names joint, time, value and limit. Limits may be exceeded by what rounding
 /// adds: 1e-6 rad or m, 0.1 % of velocities and accelerations. A joint that stands beyond a limit
-/// may come back, but go no further.
-std::optional<std::string> trajectory_defect(const Trajectory& trajectory, const RobotModel& model,
-                                             const MotionLimits& limits, const JointState& from,
-                                             Time start);
+/// may come back, but go no further. Real-time safe.
+ReasonText trajectory_defect(const TrajectoryView& trajectory, const RobotModel& model,
+                             const MotionLimits& limits, const JointState& from, Time start);
 
 }  // namespace armature

@@ -52,7 +52,7 @@ class TrajectoryCheck : public ::testing::Test {
  protected:
   std::string defect(const Trajectory& trajectory, const JointState& from,
                      Time start = kTakeOver) const {
-    return trajectory_defect(trajectory, model_, limits_, from, start).value_or("");
+    return std::string{trajectory_defect(trajectory.view(), model_, limits_, from, start).view()};
   }
   const RobotModel model_ = hinge_and_slide();
   MotionLimits limits_{model_.max_velocity(), model_.max_acceleration()};
@@ -117,11 +117,11 @@ TEST_F(TrajectoryCheck, ASpikeThatNoCoarseSamplingSeesIsFound) {
   joints[0].upper = highest - 2e-6;
   const RobotModel tight{"tight",    model_.convention(), joints,      model_.frames(),
                          FrameId{0}, std::nullopt,        std::nullopt};
-  EXPECT_TRUE(trajectory_defect(trajectory, tight, limits_, from, kTakeOver));
+  EXPECT_FALSE(trajectory_defect(trajectory.view(), tight, limits_, from, kTakeOver).empty());
   joints[0].upper = highest;
   const RobotModel wide{"wide",     model_.convention(), joints,      model_.frames(),
                         FrameId{0}, std::nullopt,        std::nullopt};
-  EXPECT_FALSE(trajectory_defect(trajectory, wide, limits_, from, kTakeOver));
+  EXPECT_TRUE(trajectory_defect(trajectory.view(), wide, limits_, from, kTakeOver).empty());
 }
 
 TEST_F(TrajectoryCheck, AJointThatStandsBeyondALimitMayComeBackButGoNoFurther) {

@@ -7,25 +7,17 @@
 #include <tinyxml2.h>
 #include <urdf_parser/urdf_parser.h>
 
-#include <fstream>
-#include <iterator>
 #include <mutex>
 #include <vector>
 
 #include "armature/config/problems.hpp"
+#include "armature/config/source_text.hpp"
 
 namespace armature {
 namespace {
 
 using config::ConfigError;
 using config::Origin;
-
-std::string text_of(const std::string& file) {
-  std::ifstream stream{file};
-  std::string text{std::istreambuf_iterator<char>{stream}, {}};
-  if (!stream) throw ConfigError{{{Origin{file, 0, 0}, "cannot be read"}}};
-  return text;
-}
 
 /// Keeps what urdfdom has to complain about, which else goes to the terminal.
 class Complaints final : public console_bridge::OutputHandler {
@@ -76,7 +68,7 @@ UrdfDocument::Places UrdfDocument::places_in(const std::string& text, const std:
 UrdfDocument UrdfDocument::load(const std::filesystem::path& file) {
   UrdfDocument document;
   document.file_ = file.string();
-  const std::string text = text_of(document.file_);
+  const std::string text = config::read_source(file, Origin{});
   document.places_ = places_in(text, document.file_);
 
   Complaints complaints;

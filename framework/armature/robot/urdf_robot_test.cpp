@@ -205,7 +205,7 @@ TEST_F(UrdfFile, ThatIsNoneIsRefusedWithItsLine) {
   EXPECT_THAT(problems_when([&] {
                 load_urdf_robot(folder_ / "none.urdf", {}, {"hand", {}});
               }),
-              ElementsAre("none.urdf: cannot be read"));
+              ElementsAre(HasSubstr("none.urdf': No such file or directory")));
 }
 
 TEST_F(UrdfFile, InARobotFileBringsJointsAndLinksToWhichTheFileAdds) {

@@ -2,70 +2,198 @@
 #include "armature/runtime/child_processes.hpp"
 
 #include <fmt/format.h>
-#include <sys/prctl.h>
+#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
-#include <chrono>
 #include <csignal>
 #include <cstring>
 #include <system_error>
 #include <thread>
+#include <utility>
+
+#include "armature/bus/qos.hpp"
+#include "armature/values/sanitizer.hpp"
 
 namespace armature {
 namespace {
 
-std::string describe(int status) {
-  if (WIFSIGNALED(status)) return fmt::format("was killed ({})", strsignal(WTERMSIG(status)));
+/// What is moving in a process that has not said so yet.
+const std::string kNotSaid = "?";
+
+std::string text_of_status(int status) {
+  if (WIFSIGNALED(status)) {
+    return fmt::format("was killed by signal {} ({})", WTERMSIG(status),
+                       strsignal(WTERMSIG(status)));
+  }
   return fmt::format("ended with exit code {}", WEXITSTATUS(status));
 }
 
+/// What a process inherits beside its standard streams: the control channel, no signal's handling,
+/// and a process group of its own: Ctrl-C reaches the main process, which ends the others in order.
+class SpawnSettings {
+ public:
+  SpawnSettings(int control, int as) {
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_adddup2(&actions, control, as);
+    posix_spawnattr_init(&attributes);
+    sigset_t none;
+    sigemptyset(&none);
+    posix_spawnattr_setsigmask(&attributes, &none);
+    posix_spawnattr_setpgroup(&attributes, 0);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK);
+  }
+  ~SpawnSettings() {
+    posix_spawn_file_actions_destroy(&actions);
+    posix_spawnattr_destroy(&attributes);
+  }
+  SpawnSettings(const SpawnSettings&) = delete;
+  SpawnSettings& operator=(const SpawnSettings&) = delete;
+
+  posix_spawn_file_actions_t actions;
+  posix_spawnattr_t attributes;
+};
+
 }  // namespace
 
-void ChildProcesses::start(const std::string& name, const std::vector<std::string>& arguments) {
-  std::vector<char*> argv;
-  std::string program = "/proc/self/exe";
-  argv.push_back(program.data());
-  std::vector<std::string> copies = arguments;
-  for (std::string& argument : copies) argv.push_back(argument.data());
-  argv.push_back(nullptr);
-  const pid_t parent = getpid();
-  const pid_t child = fork();
-  if (child < 0) throw std::system_error(errno, std::generic_category(), "cannot start " + name);
-  if (child == 0) {
-    prctl(PR_SET_PDEATHSIG, SIGTERM);
-    setpgid(0, 0);  // Ctrl-C reaches the main process, which ends the others in order
-    if (getppid() != parent) _exit(1);
-    execv(program.c_str(), argv.data());
-    _exit(127);
-  }
-  children_.push_back({name, child});
+ChildProcesses::~ChildProcesses() {
+  end([](const std::string&) { return true; });
 }
 
-std::optional<ChildProcesses::Ending> ChildProcesses::ended() {
-  for (auto child = children_.begin(); child != children_.end(); ++child) {
-    int status = 0;
-    if (waitpid(child->pid, &status, WNOHANG) != child->pid) continue;
-    Ending ending{
-        .well = WIFEXITED(status) && WEXITSTATUS(status) == 0,
-        .text = fmt::format("process '{}' (pid {}) {}", child->name, child->pid, describe(status))};
-    children_.erase(child);
-    return ending;
+void ChildProcesses::start(const std::string& name, std::vector<std::string> arguments) {
+  constexpr int kControlFile = STDERR_FILENO + 1;
+  auto [ours, theirs] = ControlChannel::make();
+  const SpawnSettings settings{theirs.file(), kControlFile};
+  std::string program = "/proc/self/exe";
+  arguments.insert(arguments.begin(), program);
+  arguments.insert(arguments.end(), {std::string{kControlOption}, std::to_string(kControlFile)});
+  std::vector<char*> argv;
+  for (std::string& argument : arguments) argv.push_back(argument.data());
+  argv.push_back(nullptr);
+  pid_t pid = 0;
+  // Not fork: afterwards a thread of this process would pay for every page that it touches.
+  if (const int error = posix_spawn(&pid, program.c_str(), &settings.actions, &settings.attributes,
+                                    argv.data(), environ)) {
+    throw std::system_error(error, std::generic_category(), "cannot start " + name);
+  }
+  children_.push_back({.name = name, .pid = pid, .control = std::move(ours)});
+}
+
+void ChildProcesses::update() {
+  for (Child& child : children_) {
+    hear(child);
+    watch(child);
+  }
+}
+
+void ChildProcesses::hear(Child& child) {
+  while (const auto line = child.control.receive()) {
+    const std::size_t space = line->find(' ');
+    const std::string word = line->substr(0, space);
+    const std::string text = space == std::string::npos ? "" : line->substr(space + 1);
+    if (word == "joined") child.joined = true;
+    if (word == "waiting") child.waiting = text;
+    if (word == "ready") child.ready = true;
+    if (word == "stop") {
+      child.stop_cause = fmt::format("process '{}': {}", child.name, text);
+      child.moving = kNotSaid;
+    }
+    if (word == "moving") child.moving = text;
+    if (word == "fault") faults_.push_back(fmt::format("process '{}': {}", child.name, text));
+  }
+}
+
+void ChildProcesses::watch(Child& child) {
+  int status = 0;
+  while (!child.ended &&
+         waitpid(child.pid, &status, WNOHANG | WUNTRACED | WCONTINUED) == child.pid) {
+    if (WIFSTOPPED(status)) {
+      child.halted_at = SteadyClock::now();
+    } else if (WIFCONTINUED(status)) {
+      on_continued(child);
+    } else {
+      on_ended(child, status);
+    }
+  }
+}
+
+void ChildProcesses::on_continued(Child& child) {
+  if (!child.halted_at) return;
+  const Duration halted = SteadyClock::now() - *std::exchange(child.halted_at, std::nullopt);
+  if (halted <= settings(QosProfile::command).liveliness_lease) return;
+  faults_.push_back(fmt::format("process '{}' (pid {}) fell silent: it was stopped for {:.1f} s",
+                                child.name, child.pid, to_seconds(halted)));
+}
+
+void ChildProcesses::on_ended(Child& child, int status) {
+  hear(child);  // what it said before
+  child.ended = true;
+  child.moving.clear();
+  const bool well = WIFEXITED(status) && WEXITSTATUS(status) == 0;
+  if (child.told_end && (well || WIFEXITED(status))) return;  // its faults it has told
+  child.stop_cause =
+      fmt::format("process '{}' (pid {}) {}", child.name, child.pid, text_of_status(status));
+  faults_.push_back(child.stop_cause);
+}
+
+void ChildProcesses::send(std::string_view line) {
+  for (Child& child : children_) {
+    child.control.send(line);
+    const bool stops_by_itself = child.ended || !child.stop_cause.empty();
+    if (line.starts_with("stop") && !stops_by_itself) child.moving = kNotSaid;
+  }
+}
+
+std::optional<std::string> ChildProcesses::not_joined() const {
+  const auto late = std::ranges::find(children_, false, &Child::joined);
+  return late == children_.end() ? std::nullopt : std::optional{late->name};
+}
+
+std::optional<std::string> ChildProcesses::waiting() const {
+  const auto late = std::ranges::find(children_, false, &Child::ready);
+  if (late == children_.end()) return std::nullopt;
+  if (!late->waiting.empty()) return late->waiting;
+  return fmt::format("process '{}' has not said that it is ready", late->name);
+}
+
+std::optional<std::string> ChildProcesses::stop_cause() const {
+  for (const Child& child : children_) {
+    if (!child.stop_cause.empty()) return child.stop_cause;
   }
   return std::nullopt;
 }
 
-void ChildProcesses::stop() {
-  for (const Child& child : children_) kill(child.pid, SIGTERM);
-  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds{3};
+std::vector<std::string> ChildProcesses::moving() const {
+  std::vector<std::string> moving;
   for (const Child& child : children_) {
-    while (waitpid(child.pid, nullptr, WNOHANG) == 0) {
-      if (std::chrono::steady_clock::now() > deadline) kill(child.pid, SIGKILL);
-      std::this_thread::sleep_for(std::chrono::milliseconds{5});
-    }
+    if (child.moving.empty()) continue;
+    moving.push_back(child.moving == kNotSaid
+                         ? fmt::format("process '{}'", child.name)
+                         : fmt::format("'{}' in process '{}'", child.moving, child.name));
   }
-  children_.clear();
+  return moving;
+}
+
+void ChildProcesses::end(const std::function<bool(const std::string& name)>& which) {
+  constexpr std::chrono::seconds kPatience{kSanitized ? 15 : 3};
+  const auto is_meant = [&](const Child& child) { return !child.ended && which(child.name); };
+  for (Child& child : children_) {
+    if (!is_meant(child)) continue;
+    child.told_end = true;
+    child.control.send("end");
+  }
+  const auto deadline = SteadyClock::now() + kPatience;
+  while (std::ranges::any_of(children_, is_meant)) {
+    update();
+    if (SteadyClock::now() > deadline) {
+      for (const Child& child : children_) {
+        if (is_meant(child)) kill(child.pid, SIGKILL);
+      }
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds{5});
+  }
 }
 
 }  // namespace armature

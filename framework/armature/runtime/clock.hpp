@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <optional>
 
 #include "armature/values/time.hpp"
 
@@ -14,14 +15,35 @@ class Clock {
   virtual Time now() const = 0;
 };
 
-/// Unix time at construction, then the monotonic clock: never jumps, never runs backwards.
+/// Unix time at construction, then the monotonic clock: never jumps, never runs backwards. The
+/// processes of a deployment share one offset, so that they agree whatever becomes of the system
+/// clock meanwhile.
 class SystemClock final : public Clock {
  public:
   SystemClock();
+  /// With another process' offset.
+  explicit SystemClock(Duration unix_minus_monotonic)
+      : unix_minus_monotonic_{unix_minus_monotonic} {}
   Time now() const override;
+  Duration unix_minus_monotonic() const { return unix_minus_monotonic_; }
 
  private:
   Duration unix_minus_monotonic_;
+};
+
+/// Sees when somebody sets the system clock, which the deployment's clock does not follow. Not for
+/// several threads.
+class ClockSteps {
+ public:
+  /// By how much the system clock has been stepped since the last call; none below 0.1 s, which a
+  /// clock that is being adjusted slowly does not reach between two calls within a minute.
+  std::optional<Duration> next();
+  /// True once there has been one.
+  bool any() const { return any_; }
+
+ private:
+  std::optional<Duration> offset_;
+  bool any_ = false;
 };
 
 /// Stands still until it is set; starts at zero.

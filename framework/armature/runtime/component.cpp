@@ -10,10 +10,8 @@ SetupError::~SetupError() = default;
 
 Component::Component(Setup& setup) : voice_{setup.voice()} {}
 
-void Component::say(std::string text) { voice_->say(std::move(text)); }
-void Component::degraded(std::string reason) {
-  voice_->set(Voice::State::degraded, std::move(reason));
-}
+void Component::say(std::string_view text) { voice_->say(text); }
+void Component::degraded(std::string_view reason) { voice_->set(Voice::State::degraded, reason); }
 void Component::healthy() { voice_->set(Voice::State::ok, {}); }
 
 }  // namespace armature

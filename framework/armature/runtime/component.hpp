@@ -34,11 +34,23 @@ class Component {
   /// not called again and the run ends with status "fault".
   virtual void step(Time now) = 0;
 
+  /// Once, on the executor's thread between two steps, when the run is stopping: an operator's
+  /// signal, the end of the story, a fault, a lost process. What moves comes to rest from here on,
+  /// within its limits, and nothing is begun any more; `step` is called as before meanwhile. The
+  /// same rules as for `step`: it must not block, and an exception is a fault. `now` is the
+  /// deployment's clock. The default does nothing.
+  virtual void begin_stop(Time now) { static_cast<void>(now); }
+  /// True when what this component moves is at rest, so that the run may end. Asked after
+  /// `begin_stop` and after every step from then on, on the executor's thread; the last answer
+  /// counts, and a run waits for it for at most `run: {stop_within_s}`. Real-time safe. The default
+  /// is for a component that moves nothing.
+  virtual bool stopped() const { return true; }
+
   /// Once, after the last step, on the thread that stops the deployment.
   virtual void stop(Time now) { static_cast<void>(now); }
 
-  /// True when the story this component watches has been told; the run then ends. Asked after
-  /// every step.
+  /// True when the story this component watches has been told; the run then stops. Asked after
+  /// every step; once it is true there is no further step, so its figures stay what they are.
   virtual bool finished() const { return false; }
   /// Adds figures to the run's summary, after the last step.
   virtual void summarize(Summary& summary) const { static_cast<void>(summary); }
@@ -48,10 +60,11 @@ class Component {
   }
 
  protected:
-  /// A line for the operator ("searching 4/9"); printed when it differs from the one before.
-  void say(std::string text);
+  /// A line for the operator ("searching 4/9"); printed when it differs from the one before. All
+  /// three are real-time safe; very long text is cut.
+  void say(std::string_view text);
   /// Published as the component's state until `healthy` is called: what is missing and why.
-  void degraded(std::string reason);
+  void degraded(std::string_view reason);
   void healthy();
 
  private:

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/runtime/component_bench.hpp"
 
+#include <algorithm>
+
+#include "armature/runtime/component_units.hpp"
+
 namespace armature {
 
 ComponentBench::ComponentBench(PluginRegistry& plugins, const Options& options) {
   read(plugins, options);
   unit_ = std::make_unique<Unit>(
       config_.name, config_.plugin_id, 0,
-      [this](const std::string&, const std::string& line) { lines_.push_back(line); });
+      [this](std::string_view, std::string_view line) { lines_.emplace_back(line); });
   unit_->on_triggered([this] { triggered_ = true; });
   ComponentSetup setup{config_,
                        deployment_,
@@ -42,13 +46,30 @@ void ComponentBench::read(const PluginRegistry& plugins, const Options& options)
   config::Problems problems;
   auto read = ComponentReader{deployment_, plugins, problems}.read(file.entries().front());
   problems.throw_if_any();
-  config_ = std::move(*read);
+  std::vector<ComponentConfig> units = units_of(*read);
+  const auto unit = std::ranges::find(units, options.unit, &ComponentConfig::unit);
+  if (unit == units.end()) throw std::invalid_argument("there is no unit '" + options.unit + "'");
+  config_ = std::move(*unit);
+  ComponentConfig others;
+  for (const PortBinding& input : config_.inputs) {
+    const auto& written = options.written;
+    if (std::ranges::find(written, input.spec.name) != written.end())
+      others.outputs.push_back(input);
+  }
+  deployment_.components.push_back(std::move(others));
 }
 
 void ComponentBench::step(double now_s) {
   now_ = Time{} + seconds(now_s);
   triggered_ = false;
-  unit_->activate(now_);
+  unit_->step(now_);
+  if (unit_->faulted()) throw std::runtime_error(unit_->status().reason);
+}
+
+void ComponentBench::begin_stop(double now_s) {
+  now_ = Time{} + seconds(now_s);
+  unit_->request_stop();
+  unit_->answer_stop_request(now_);
   if (unit_->faulted()) throw std::runtime_error(unit_->status().reason);
 }
 

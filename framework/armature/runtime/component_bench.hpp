@@ -30,6 +30,8 @@ class ComponentBench final : private Delivery {
   struct Options {
     std::string component;  // its entry in a deployment: "{plugin: ik/numeric, params: {...}}"
     std::optional<config::Node> robot, rig;  // the documents it is bound to
+    std::string unit{kMainUnit};             // which one, of a component that is several
+    std::vector<std::string> written = {};   // optional inputs that some other component writes
   };
 
   /// Throws config::ConfigError, PluginError, or what the component's own constructor throws;
@@ -52,6 +54,10 @@ class ComponentBench final : private Delivery {
   bool triggered() const { return triggered_; }
   /// One activation at `now_s`; an exception out of the component is thrown on as runtime_error.
   void step(double now_s);
+  /// Tells the component at `now_s` that the run is stopping; steps go on. An exception as above.
+  void begin_stop(double now_s);
+  /// What the component answered last to whether it is at rest; false before `begin_stop`.
+  bool stopped() const { return unit_->stopped(); }
   /// Everything the output published since the last call, oldest first.
   template <class Message>
   std::vector<Message> take(std::string_view output) {

@@ -120,6 +120,10 @@ std::optional<ComponentConfig> ComponentReader::read(const Node::Entry& entry) c
   const double sim_latency = map.number("sim_latency_s", 0.0);
   if (sim_latency < 0) map.problem("sim_latency_s", "'sim_latency_s' must not be negative");
   component.sim_latency = seconds(sim_latency);
+  if (map.optional_node("on_fault")) {
+    const bool stops = map.choice("on_fault", {"stop", "isolate"}, "stop") == "stop";
+    component.on_fault = stops ? OnFault::stop : OnFault::isolate;
+  }
   read_params(map, *named, component);
   if (!pure) read_slots(map, component);
   bind_documents(map, component);

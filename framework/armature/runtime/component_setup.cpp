@@ -70,7 +70,8 @@ const PortBinding& ComponentSetup::declared(const std::vector<PortBinding>& port
 const InputPort& ComponentSetup::claim_input(std::string_view port, const MessageType& type) {
   const PortBinding& binding = declared(config_.inputs, "input", port, type);
   InputPort& input = unit_.inbox().add(binding.spec, type);
-  find_topic_(binding, type).connect(input);
+  find_topic_(binding, type)
+      .connect(input, binding.spec.outside ? Sources::any : Sources::deployment);
   return input;
 }
 
@@ -79,17 +80,35 @@ OutputPort& ComponentSetup::claim_output(std::string_view port, const MessageTyp
   return unit_.outputs().emplace_back(binding.spec, find_topic_(binding, type), delivery_);
 }
 
-ComponentSetup::SlotPlugin ComponentSetup::slot_plugin(std::string_view slot, std::string_view kind,
-                                                       int version) {
-  const auto found = std::find_if(config_.slots.begin(), config_.slots.end(),
-                                  [&](const SlotConfig& s) { return s.name == slot; });
+bool ComponentSetup::is_written(std::string_view input) const {
+  const auto port =
+      std::ranges::find(config_.inputs, input, [](const PortBinding& p) { return p.spec.name; });
+  if (port == config_.inputs.end()) return false;
+  return std::ranges::any_of(deployment_.components, [&](const ComponentConfig& component) {
+    return std::ranges::find(component.outputs, port->topic, &PortBinding::topic) !=
+           component.outputs.end();
+  });
+}
+
+const SlotConfig& ComponentSetup::slot_config(std::string_view slot) const {
+  const auto found = std::ranges::find(config_.slots, slot, &SlotConfig::name);
   if (found == config_.slots.end()) {
     throw std::logic_error(
         fmt::format("plugin '{}' uses the slot '{}', which its plugin.yaml does "
                     "not declare",
                     config_.manifest->id, slot));
   }
-  return {found->plugin_id, plugins_.load(*found->manifest, kind, version), &found->params};
+  return *found;
+}
+
+const PluginManifest& ComponentSetup::slot_manifest(std::string_view slot) const {
+  return *slot_config(slot).manifest;
+}
+
+ComponentSetup::SlotPlugin ComponentSetup::slot_plugin(std::string_view slot, std::string_view kind,
+                                                       int version) {
+  const SlotConfig& config = slot_config(slot);
+  return {config.plugin_id, plugins_.load(*config.manifest, kind, version), &config.params};
 }
 
 void ComponentSetup::check_all_claimed() const {

@@ -21,11 +21,15 @@ class ComponentSetup final : public Setup {
                  PluginRegistry& plugins, Unit& unit, Delivery& delivery, FindTopic find_topic);
 
   const std::string& name() const override { return config_.name; }
+  std::string_view unit() const override { return config_.unit; }
   const Params& params() const override { return config_.params; }
   std::uint64_t seed() const override;
   const config::Node& document(std::string_view section) override;
   bool has_document(std::string_view section) const override;
   void activate_every(Duration period) override;
+  void deliver_after(Duration latency) override { unit_.set_latency(latency); }
+  bool is_written(std::string_view input) const override;
+  const PluginManifest& slot_manifest(std::string_view slot_name) const override;
   std::shared_ptr<Voice> voice() override { return unit_.voice(); }
 
   /// Throws std::logic_error when a declared port was never claimed.
@@ -37,6 +41,7 @@ class ComponentSetup final : public Setup {
   SlotPlugin slot_plugin(std::string_view slot, std::string_view kind, int version) override;
 
  private:
+  const SlotConfig& slot_config(std::string_view slot_name) const;
   const PortBinding& declared(const std::vector<PortBinding>& ports, std::string_view direction,
                               std::string_view name, const MessageType& type);
 

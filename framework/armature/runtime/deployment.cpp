@@ -12,15 +12,21 @@
 #include "armature/config/problems.hpp"
 #include "armature/runtime/clock_publisher.hpp"
 #include "armature/runtime/exception_text.hpp"
+#include "armature/runtime/injected_fault.hpp"
 #include "armature/runtime/lockstep_scheduler.hpp"
+#include "armature/runtime/on_fault.hpp"
 #include "armature/runtime/state_publisher.hpp"
 #include "armature/runtime/threaded_scheduler.hpp"
 
 namespace armature {
 namespace {
 
-// Samples that a topic keeps ready: what its readers hold, what is in flight, and one to fill.
-constexpr std::size_t kPreallocatedSamples = 8;
+/// Samples that a topic keeps ready beside those that its readers may hold: what waits to be sent
+/// to other processes, what is in flight there, one to fill, and one that a component keeps.
+std::size_t preallocated_samples(QosProfile qos) {
+  constexpr std::size_t kInside = 3;
+  return kInside + static_cast<std::size_t>(settings(qos).depth);
+}
 
 /// Where the samples of one output are: the topic itself, or of a shared one the writer's own part,
 /// with a DDS writer of its own.
@@ -49,6 +55,7 @@ void check_period(const ComponentConfig& component, const Unit& unit,
 
 Deployment::Deployment(DeploymentConfig config, PluginRegistry& plugins, Options options)
     : config_{std::move(config)}, options_{std::move(options)} {
+  if (!options_.on_note) options_.on_note = [](const std::string&) {};
   make_scheduler();
   std::vector<const ComponentConfig*> order;
   for (const ComponentConfig& component : config_.components) {
@@ -62,11 +69,16 @@ Deployment::Deployment(DeploymentConfig config, PluginRegistry& plugins, Options
   for (const ComponentConfig* component : order) make_unit(*component, plugins, problems);
   problems.throw_if_any();
   make_own_units(plugins);
+  if (std::ranges::find(config_.executors, kRuntimeExecutor, &ExecutorSpec::name) ==
+      config_.executors.end()) {
+    config_.executors.push_back({.name = std::string{kRuntimeExecutor}, .period = {}, .cpu = {}});
+  }
   assign_units();
 }
 
 Deployment::~Deployment() {
-  scheduler_->stop();
+  watchdog_.reset();
+  scheduler_->stop(kStepPatience);
   if (outside_) outside_->stop_reading();  // deliveries end before their inboxes go
   units_.clear();
   topics_.clear();  // outside writers go before the transport
@@ -78,7 +90,8 @@ void Deployment::make_scheduler() {
     scheduler_ = std::make_unique<LockstepScheduler>(*clock);
     clock_ = std::move(clock);
   } else {
-    clock_ = std::make_unique<SystemClock>();
+    clock_ = options_.clock_offset ? std::make_unique<SystemClock>(*options_.clock_offset)
+                                   : std::make_unique<SystemClock>();
     scheduler_ = std::make_unique<ThreadedScheduler>(*clock_, options_.on_note);
   }
 }
@@ -112,7 +125,7 @@ ComponentConfig Deployment::own_config(std::string_view name, const PluginManife
   ComponentConfig component{.name = std::string{name},
                             .plugin_id = manifest.id,
                             .manifest = &manifest,
-                            .executor = std::string{kMainExecutor},
+                            .executor = std::string{kRuntimeExecutor},
                             .process = process,
                             .place = place};
   for (const PortSpec& spec : manifest.outputs) {
@@ -153,6 +166,19 @@ void Deployment::make_own_unit(std::string_view name, const PluginManifest& mani
   units_.push_back(std::move(unit));
 }
 
+void Deployment::on_event(const TransportEvent& event) {
+  options_.on_note(event.text);
+  // While the run is stopping others may end before this process does.
+  if (event.kind != TransportEvent::Kind::peer_lost || !event.of_peer || stopping_) return;
+  const std::scoped_lock lock{silent_mutex_};
+  silent_.push_back(event.text);
+}
+
+std::vector<std::string> Deployment::silent() const {
+  const std::scoped_lock lock{silent_mutex_};
+  return silent_;
+}
+
 ComponentSetup Deployment::setup_of(const ComponentConfig& component, PluginRegistry& plugins,
                                     Unit& unit) {
   return {component,
@@ -180,7 +206,7 @@ Topic& Deployment::topic_at(const std::string& key, const PortBinding& port,
   if (!topic) {
     topic = std::make_unique<Topic>(
         TopicSpec{.name = "rt" + port.topic, .type = &type, .qos = port.spec.qos},
-        kPreallocatedSamples);
+        preallocated_samples(port.spec.qos));
   }
   return *topic;
 }
@@ -190,6 +216,12 @@ const ComponentConfig& Deployment::config_of(const Unit& unit) const {
                        [&](const ComponentConfig& c) { return c.name == unit.name(); });
 }
 
+void Deployment::inject(const InjectedFault& fault) {
+  for (const auto& unit : units_) {
+    if (unit->name() == fault.component()) unit->inject(fault);
+  }
+}
+
 void Deployment::assign_units() {
   for (const ExecutorSpec& spec : config_.executors) {
     std::vector<Unit*> assigned;
@@ -197,8 +229,9 @@ void Deployment::assign_units() {
       if (config_of(*unit).executor == spec.name) assigned.push_back(unit.get());
     }
     if (!assigned.empty())
-      scheduler_->assign(spec, assigned,
-                         [this](const Unit& unit) { return config_of(unit).sim_latency; });
+      scheduler_->assign(spec, assigned, [this](const Unit& unit) {
+        return std::max(config_of(unit).sim_latency, unit.latency());
+      });
   }
 }
 
@@ -207,8 +240,10 @@ void Deployment::connect(PluginRegistry& plugins, int domain) {
       .domain = domain,
       .deployment = config_.name,
       .fingerprint = config_.fingerprint,
-      .on_event = [note = options_.on_note](const TransportEvent& event) { note(event.text); },
-      .now = [this] { return clock_->now(); }};
+      .process = options_.process,
+      .on_event = [this](const TransportEvent& event) { on_event(event); },
+      .now = [this] { return clock_->now(); },
+      .simulated = config_.simulated};
   auto transport = plugins.make<Transport>("transport/fast_dds", options);
   if (!transport) throw PluginError("cannot join DDS: " + transport.error().text);
   outside_.emplace(std::move(*transport), config_, options_.process);
@@ -221,52 +256,6 @@ void Deployment::connect(PluginRegistry& plugins, int domain) {
       outside_->subscribe(input, *topics_.at(input.topic));
     }
   }
-}
-
-void Deployment::await_processes(const std::function<bool()>& done) {
-  using SteadyClock = std::chrono::steady_clock;
-  constexpr std::chrono::seconds kPatience{5};
-  constexpr std::chrono::milliseconds kPause{5};
-  const auto until = SteadyClock::now() + kPatience;
-  while (outside_ && !done()) {
-    const auto topic = outside_->waiting();
-    if (!topic) return;
-    if (SteadyClock::now() > until) {
-      options_.on_note(fmt::format(
-          "topic '{}' has found no other process of the deployment for {} s; going on without it",
-          *topic, kPatience.count()));
-      return;
-    }
-    std::this_thread::sleep_for(kPause);
-  }
-}
-
-void Deployment::run(const std::function<bool()>& done) {
-  await_processes(done);
-  const Time start = clock_->now();
-  scheduler_->run([&] {
-    if (any_finished() || !fault().empty() || done()) return true;
-    timed_out_ = config_.time_limit_s > 0 && clock_->now() - start > seconds(config_.time_limit_s);
-    return timed_out_;
-  });
-  stop();
-}
-
-void Deployment::stop() {
-  scheduler_->stop();
-  for (const auto& unit : units_) unit->stop(clock_->now());
-}
-
-bool Deployment::any_finished() const {
-  return std::any_of(units_.begin(), units_.end(),
-                     [](const auto& unit) { return unit->finished(); });
-}
-
-std::string Deployment::fault() const {
-  for (const auto& unit : units_) {
-    if (unit->faulted()) return unit->name() + ": " + unit->status().reason;
-  }
-  return {};
 }
 
 }  // namespace armature

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <deque>
 #include <functional>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,8 +15,11 @@
 #include "armature/runtime/component_setup.hpp"
 #include "armature/runtime/deployment_config.hpp"
 #include "armature/runtime/outside.hpp"
+#include "armature/runtime/run_watch.hpp"
 #include "armature/runtime/scheduler.hpp"
 #include "armature/runtime/unit.hpp"
+#include "armature/runtime/watchdog.hpp"
+#include "armature/values/sanitizer.hpp"
 
 namespace armature {
 
@@ -27,6 +32,8 @@ class Deployment {
     std::string process{kMainProcess};  // constructs only its components; empty: all of them
     Voice::Sink on_line;                // what components tell the operator
     std::function<void(const std::string&)> on_note;  // what the runtime tells the operator
+    std::optional<Duration> clock_offset =
+        {};  // of the main process' SystemClock; none: an own one
   };
 
   /// Loads the plugins and constructs the components. Throws config::ConfigError (a plugin refuses
@@ -42,20 +49,39 @@ class Deployment {
   /// The entry of the deployment that `unit` was made from.
   const ComponentConfig& config_of(const Unit& unit) const;
 
+  /// Puts a drill's fault, which outlives the deployment, into its component, if that is here.
+  void inject(const InjectedFault& fault);
+
   /// Joins the DDS domain: writers for every output, readers only for inputs that another process
   /// feeds. Throws PluginError with the transport's reason.
   void connect(PluginRegistry& plugins, int domain);
 
-  /// Waits until the other processes have joined, so that what is sent once is not lost: at most
-  /// five seconds, and then says which topic has nobody. Then runs until `done`, or a component is
-  /// finished, or the time limit; then stops everything, sources first.
-  void run(const std::function<bool()>& done);
+  /// Waits until the topics between this and the other processes have met, so that what is sent
+  /// once is not lost, and until `watch` lets it begin. Then runs until a component is finished or
+  /// has failed, the time limit is over, or `watch` says so: from then on it is stopping.
+  /// Everything goes on being activated until what moves is at rest, for at most `stop_within_s`;
+  /// then it ends, sources first. Throws what `watch` throws.
+  void run(RunWatch& watch);
 
   bool any_finished() const;
   /// True when the run ended because its time limit was over.
   bool timed_out() const { return timed_out_; }
-  /// The first fault, or empty.
+  /// The first fault that ends the run, or the first step that hangs on the way to a driver; or
+  /// empty.
   std::string fault() const;
+  /// The faults that stayed where they were.
+  std::vector<std::string> isolated_faults() const;
+  /// What fell silent of the deployment's other processes while it ran.
+  std::vector<std::string> silent() const;
+  /// Components that were not at rest when the run ended.
+  const std::vector<std::string>& moving() const { return moving_; }
+  /// Components whose step has not returned; nothing of them may be called any more, and the
+  /// process has to be left without destroying the deployment.
+  const std::vector<const Unit*>& hung() const { return hung_; }
+  bool is_hung(const Unit& unit) const;
+
+  /// How long the end of a run waits for a step to return.
+  static constexpr Duration kStepPatience = seconds(kSanitized ? 10 : 2);
 
  private:
   void make_scheduler();
@@ -72,9 +98,16 @@ class Deployment {
   Topic& topic_for(const ComponentConfig& component, const PortBinding& port,
                    const MessageType& type);
   Topic& topic_at(const std::string& key, const PortBinding& port, const MessageType& type);
-  void await_processes(const std::function<bool()>& done);
+  void start_watchdog();
   void assign_units();
-  void stop();
+  void on_event(const TransportEvent& event);
+  bool await_start(RunWatch& watch);
+  /// Returns why it is to stop.
+  std::string run_until_stop(RunWatch& watch);
+  std::optional<std::string> stop_cause(RunWatch& watch, Time start);
+  void come_to_rest(RunWatch& watch);
+  std::vector<std::string> find_moving() const;
+  void end();
 
   DeploymentConfig config_;
   Options options_;
@@ -82,7 +115,13 @@ class Deployment {
   std::map<std::string, std::unique_ptr<Topic>> topics_;  // by name, of shared ones also by writer
   std::unique_ptr<Scheduler> scheduler_;
   std::vector<std::unique_ptr<Unit>> units_;  // in the order of the graph
+  std::optional<Watchdog> watchdog_;
   bool timed_out_ = false;
+  std::atomic<bool> stopping_{false};
+  mutable std::mutex silent_mutex_;
+  std::vector<std::string> silent_;
+  std::vector<std::string> moving_;
+  std::vector<const Unit*> hung_;
   std::optional<Outside> outside_;  // the topics that it has writers of go first
 };
 

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <functional>
+#include <iterator>
 #include <set>
 #include <span>
 
@@ -15,9 +15,13 @@
 #include "armature/config/reader.hpp"
 #include "armature/runtime/agreement.hpp"
 #include "armature/runtime/component_config.hpp"
+#include "armature/runtime/component_units.hpp"
+#include "armature/runtime/fingerprint.hpp"
 #include "armature/runtime/goals.hpp"
 #include "armature/runtime/graph.hpp"
 #include "armature/runtime/needs.hpp"
+#include "armature/runtime/on_fault.hpp"
+#include "armature/runtime/open_inputs.hpp"
 
 namespace armature {
 namespace {
@@ -94,6 +98,7 @@ std::vector<ExecutorSpec> read_executors(std::span<const Node::Entry> section, P
       map.problem("priority", "'priority' must be from 0 (normal) to 99");
     }
     if (map.optional_node("cpu")) spec.cpu = read_cpu(map);
+    spec.lock_memory = map.flag("lock_memory", false);
     map.finish();
     executors.push_back(std::move(spec));
   }
@@ -103,11 +108,6 @@ std::vector<ExecutorSpec> read_executors(std::span<const Node::Entry> section, P
         {.name = std::string{kMainExecutor}, .period = {}, .priority = 0, .cpu = {}});
   }
   return executors;
-}
-
-std::string fingerprint_of(const Node& root) {
-  const std::string text = config::to_yaml(root, false);
-  return fmt::format("{:016x}", std::hash<std::string>{}(text));
 }
 
 }  // namespace
@@ -122,13 +122,18 @@ std::vector<std::string> DeploymentConfig::processes() const {
   return all;
 }
 
+bool check_is_deployment(const Node& root, Problems& problems) {
+  if (root.find("armature")) return true;
+  problems.add(root.origin(), "not a deployment: it must begin with 'armature: 1'");
+  return false;
+}
+
 DeploymentConfig read_deployment(const Node& root, const PluginRegistry& plugins,
                                  Problems& problems) {
   DeploymentConfig deployment;
   MapReader map{root, "the deployment", problems};
-  if (!root.find("armature")) {
-    problems.add(root.origin(), "not a deployment: it must begin with 'armature: 1'");
-  } else if (map.integer("armature", 1) != 1) {
+  if (!check_is_deployment(root, problems)) return deployment;
+  if (map.integer("armature", 1) != 1) {
     map.problem("armature", "'armature' is the version of the file format and must be 1");
   }
   deployment.name = map.text("name");
@@ -152,6 +157,11 @@ DeploymentConfig read_deployment(const Node& root, const PluginRegistry& plugins
     if (deployment.time_limit_s < 0) {
       run_map.problem("time_limit_s", "'time_limit_s' must be positive, or 0 for none");
     }
+    deployment.stop_within_s = run_map.number("stop_within_s", deployment.stop_within_s);
+    if (!(deployment.stop_within_s >= 0)) {
+      run_map.problem("stop_within_s",
+                      "'stop_within_s' must be positive, or 0 to wait for nothing");
+    }
     run_map.finish();
   }
   deployment.executors =
@@ -161,24 +171,30 @@ DeploymentConfig read_deployment(const Node& root, const PluginRegistry& plugins
         read_documents(entries_of(map.optional_node(section), section, problems), problems);
   }
   deployment.goals = read_goals(map.optional_node("goals"), problems);
+  const Node* open = map.optional_node("open");
   if (const Node* components = map.node("components")) {
     const ComponentReader reader{deployment, plugins, problems};
+    std::size_t known = 0;
     for (const auto& entry : entries_of(components, "components", problems)) {
-      if (auto component = reader.read(entry)) {
+      if (const auto component = reader.read(entry)) {
         check_slot_needs(*component, plugins, problems);
-        deployment.components.push_back(std::move(*component));
+        std::ranges::move(units_of(*component), std::back_inserter(deployment.components));
+        ++known;
       }
     }
+    add_unit_executors(deployment);
     // With a component missing, whoever waits for it would look wrong too.
-    if (deployment.components.size() == components->entries().size()) {
+    if (known == components->entries().size()) {
+      open_inputs(open, deployment, problems);
       check_graph(deployment, problems);
+      decide_on_faults(deployment);
       check_component_needs(deployment, plugins, problems);
       agree_on_params(deployment, problems);
       check_goals(deployment, plugins, problems);
     }
   }
   map.finish();
-  deployment.fingerprint = fingerprint_of(root);
+  deployment.fingerprint = fingerprint_of(root, deployment);
   return deployment;
 }
 

@@ -32,9 +32,14 @@ struct PortBinding {
   bool renamed = false;   // the file says which topic
 };
 
-/// One entry of `components:`, resolved.
+/// What a fault of a component does: it ends the run, or it stays where it is, and only that
+/// component is not activated any more.
+enum class OnFault { stop, isolate };
+
+/// One entry of `components:`, resolved, or one of the units that it is at run time.
 struct ComponentConfig {
   std::string name;
+  std::string unit{kMainUnit};  // of the component, when it is several
   config::Origin origin;
   std::string plugin_id;                     // as the user wrote it
   const PluginManifest* manifest = nullptr;  // of the component that runs (a host, for pure kinds)
@@ -46,7 +51,8 @@ struct ComponentConfig {
   std::string executor;
   std::string process;
   Duration sim_latency{0};
-  int place = 0;  // in the graph, sources first
+  std::optional<OnFault> on_fault;  // as the file says, else as the graph does (on_fault.hpp)
+  int place = 0;                    // in the graph, sources first
 };
 
 /// `goals:`: a metric of the summary that must not exceed its limit.
@@ -62,21 +68,27 @@ struct DeploymentConfig {
   bool simulated = false;
   int domain = 0;
   std::uint64_t seed = 0;
-  double time_limit_s = 0;  // 0: none
+  double time_limit_s = 0;   // 0: none
+  double stop_within_s = 3;  // how long the end of a run waits for what moves to come to rest
   std::vector<ExecutorSpec> executors;
   std::map<std::string, std::map<std::string, config::Node>> documents;  // section -> name -> file
   std::vector<ComponentConfig> components;                               // in file order
   std::vector<Goal> goals;
-  std::string fingerprint;  // of the resolved file
+  std::string fingerprint;  // SHA-256 of the resolved file and of all documents
 
   std::vector<std::string> processes() const;  // "main" first
 };
 
 inline constexpr std::string_view kMainProcess = "main";
 inline constexpr std::string_view kMainExecutor = "main";
+inline constexpr std::string_view kRuntimeExecutor = "runtime";  // of the runtime's own components
 // The runtime's own components, which every process has (the clock: on the simulated clock).
 inline constexpr std::string_view kStateComponent = "runtime";
 inline constexpr std::string_view kClockComponent = "runtime_clock";
+
+/// False, and a problem, when `root` is another file. What that one says must not be told: it may
+/// be any file that the user named by mistake.
+bool check_is_deployment(const config::Node& root, config::Problems& problems);
 
 /// Reads `root` (a merged document). Every mistake that can be known without loading a library is
 /// added to `problems`; the result is usable only when there is none.

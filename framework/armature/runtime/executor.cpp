@@ -2,11 +2,13 @@
 #include "armature/runtime/executor.hpp"
 
 #include <fmt/format.h>
-#include <pthread.h>
-#include <sched.h>
 
 #include <algorithm>
-#include <cstring>
+#include <chrono>
+#include <utility>
+
+#include "armature/runtime/real_time_thread.hpp"
+#include "armature/runtime/running_component.hpp"
 
 namespace armature {
 
@@ -19,59 +21,70 @@ Executor::~Executor() {
 }
 
 void Executor::assign(Unit& unit) {
-  flags_.push_back(std::make_unique<std::atomic<bool>>(false));
-  std::atomic<bool>* triggered = flags_.back().get();
+  triggers_.push_back(std::make_unique<std::atomic<std::int64_t>>(kNever));
+  std::atomic<std::int64_t>* triggered_ns = triggers_.back().get();
   entries_.push_back({.unit = &unit,
                       .period = spec_.period ? spec_.period : unit.period(),
                       .next_release = {},
-                      .triggered = triggered});
+                      .triggered_ns = triggered_ns});
   std::sort(entries_.begin(), entries_.end(),
             [](const Entry& a, const Entry& b) { return a.unit->place() < b.unit->place(); });
-  unit.on_triggered([this, triggered] {
-    triggered->store(true, std::memory_order_release);
-    {
-      const std::scoped_lock lock{mutex_};
-      woken_ = true;
-    }
-    wake_.notify_one();
+  unit.set_executor(spec_.name, times_);
+  unit.on_triggered([this, triggered_ns] {
+    std::int64_t never = kNever;
+    triggered_ns->compare_exchange_strong(never, clock_->now().ns, std::memory_order_acq_rel);
+    wake_.notify();
   });
 }
 
 int Executor::first_place() const { return entries_.empty() ? 0 : entries_.front().unit->place(); }
 
+bool Executor::has_period() const {
+  return std::ranges::any_of(entries_, [](const Entry& entry) { return entry.period.has_value(); });
+}
+
 void Executor::start(const std::function<void(const std::string&)>& note) {
-  for (Entry& entry : entries_) entry.next_release = clock_->now();
-  thread_ = std::thread{[this] { loop(); }};
-  pthread_setname_np(thread_.native_handle(), spec_.name.substr(0, 15).c_str());
-  if (spec_.priority > 0) {
-    const sched_param parameters{.sched_priority = spec_.priority};
-    if (const int error = pthread_setschedparam(thread_.native_handle(), SCHED_FIFO, &parameters)) {
-      note(fmt::format("executor '{}' runs without priority {}: {}", spec_.name, spec_.priority,
-                       std::strerror(error)));
+  if (spec_.lock_memory) {
+    if (const std::string refusal = lock_process_memory(); !refusal.empty()) {
+      note(fmt::format("executor '{}' runs without locked memory: {}", spec_.name, refusal));
     }
   }
-  if (spec_.cpu) {
-    cpu_set_t set;
-    CPU_ZERO(&set);
-    CPU_SET(static_cast<std::size_t>(*spec_.cpu), &set);
-    if (const int error = pthread_setaffinity_np(thread_.native_handle(), sizeof set, &set)) {
-      note(fmt::format("executor '{}' is not pinned to cpu {}: {}", spec_.name, *spec_.cpu,
-                       std::strerror(error)));
-    }
+  std::promise<std::vector<std::string>> prepared;
+  std::future<std::vector<std::string>> notes = prepared.get_future();
+  thread_ = std::thread{[this, prepared = std::move(prepared)]() mutable {
+    const CrashStack crash_stack;
+    prepared.set_value(prepare_thread({.name = spec_.name,
+                                       .priority = spec_.priority,
+                                       .cpu = spec_.cpu,
+                                       .has_period = has_period()}));
+    for (Entry& entry : entries_) entry.next_release = clock_->now();
+    loop();
+    end_.set_value();
+  }};
+  for (const std::string& refusal : notes.get()) {
+    note(fmt::format("executor '{}' {}", spec_.name, refusal));
   }
+}
+
+void Executor::begin_stop() {
+  for (const Entry& entry : entries_) entry.unit->request_stop();
+  wake_.notify();
 }
 
 void Executor::request_stop() {
   stopping_ = true;
-  {
-    const std::scoped_lock lock{mutex_};
-    woken_ = true;
-  }
-  wake_.notify_one();
+  wake_.notify();
 }
 
 void Executor::join() {
   if (thread_.joinable()) thread_.join();
+}
+
+bool Executor::join_for(Duration patience) {
+  if (!thread_.joinable()) return true;
+  if (ended_.wait_for(patience) != std::future_status::ready) return false;
+  thread_.join();
+  return true;
 }
 
 std::optional<Time> Executor::next_release() const {
@@ -82,33 +95,48 @@ std::optional<Time> Executor::next_release() const {
   return next;
 }
 
-void Executor::activate_due() {
-  for (Entry& entry : entries_) {
-    if (stopping_) return;
-    const Time now = clock_->now();
-    bool due = entry.triggered->exchange(false, std::memory_order_acq_rel);
-    if (entry.period && now >= entry.next_release) {
-      due = true;
-      const auto missed = (now - entry.next_release) / *entry.period;
-      entry.unit->count_overruns(static_cast<std::uint64_t>(missed));
-      entry.next_release = entry.next_release + *entry.period * (missed + 1);
-    }
-    if (due) entry.unit->activate(now);
+/// When `entry` should have been activated, if that is not in the future.
+std::optional<Time> Executor::take_release(Entry& entry, Time now) {
+  std::optional<Time> release;
+  const std::int64_t triggered = entry.triggered_ns->exchange(kNever, std::memory_order_acq_rel);
+  if (triggered != kNever) release = Time{triggered};
+  if (entry.period && now >= entry.next_release) {
+    if (!release || entry.next_release < *release) release = entry.next_release;
+    const auto missed = (now - entry.next_release) / *entry.period;
+    entry.unit->count_overruns(static_cast<std::uint64_t>(missed));
+    entry.next_release = entry.next_release + *entry.period * (missed + 1);
   }
+  return release;
+}
+
+void Executor::activate_due() {
+  std::optional<Time> begin;
+  for (Entry& entry : entries_) {
+    if (stopping_) break;
+    const Time now = clock_->now();
+    running_.store(entry.unit, std::memory_order_release);
+    entry.unit->answer_stop_request(now);
+    if (const auto release = take_release(entry, now)) {
+      if (!begin) {
+        begin = now;
+        times_.lateness.add(now - *release);
+      }
+      entry.unit->activate(now, now - *release);
+    }
+    running_.store(nullptr, std::memory_order_release);
+  }
+  if (begin) times_.duration.add(clock_->now() - *begin);
 }
 
 void Executor::loop() {
   while (!stopping_) {
     activate_due();
-    std::unique_lock lock{mutex_};
-    const auto woken = [this] { return woken_; };
     if (const auto next = next_release()) {
-      const auto wait = std::max(Duration{0}, *next - clock_->now());
-      wake_.wait_until(lock, std::chrono::steady_clock::now() + wait, woken);
+      const auto from = std::chrono::steady_clock::now();  // before the other clock: never too late
+      wake_.wait_until(from + std::max(Duration{0}, *next - clock_->now()));
     } else {
-      wake_.wait(lock, woken);
+      wake_.wait();
     }
-    woken_ = false;
   }
 }
 

@@ -19,6 +19,7 @@ class FakeSetup final : public Setup, public Delivery {
   explicit FakeSetup(Unit& unit) : unit_{unit} {}
 
   const std::string& name() const override { return unit_.name(); }
+  std::string_view unit() const override { return kMainUnit; }
   const Params& params() const override { return params_; }
   std::uint64_t seed() const override { return 1; }
   const config::Node& document(std::string_view) override {
@@ -26,6 +27,11 @@ class FakeSetup final : public Setup, public Delivery {
   }
   bool has_document(std::string_view) const override { return false; }
   void activate_every(Duration period) override { unit_.set_period(period); }
+  void deliver_after(Duration latency) override { unit_.set_latency(latency); }
+  bool is_written(std::string_view) const override { return true; }
+  const PluginManifest& slot_manifest(std::string_view) const override {
+    throw std::logic_error("no slots");
+  }
   std::shared_ptr<Voice> voice() override { return unit_.voice(); }
   void publish(Topic& topic, SampleRef sample) override { topic.publish(std::move(sample), {}); }
 

@@ -2,18 +2,12 @@
 #include "armature/runtime/inbox.hpp"
 
 #include <algorithm>
+#include <mutex>
 #include <utility>
 
 #include "armature/runtime/ports.hpp"
 
 namespace armature {
-namespace {
-
-// Joined inputs wait for their partners this many samples long.
-constexpr std::size_t kJoinDepth = 4;
-
-}  // namespace
-
 InputPort::InputPort(PortSpec spec, const MessageType& type, Inbox& inbox)
     : spec_{std::move(spec)},
       type_{&type},
@@ -21,6 +15,7 @@ InputPort::InputPort(PortSpec spec, const MessageType& type, Inbox& inbox)
       capacity_{static_cast<std::size_t>(spec_.queue.value_or(1))} {
   waiting_.reserve(capacity_);
   shown_.reserve(capacity_);
+  if (spec_.join) unmatched_.reserve(kJoinDepth);
 }
 
 void InputPort::deliver(const SampleRef& sample) { inbox_->arrived(*this, sample); }
@@ -43,16 +38,25 @@ void InputPort::show(Time now) {
     std::swap(shown_, waiting_);
     waiting_.clear();
   }
-  if (spec_.max_age) {
-    std::erase_if(shown_,
-                  [&](const SampleRef& sample) { return now - stamp_of(sample) > *spec_.max_age; });
-    fresh_ = fresh_ && !shown_.empty();
-  }
+  std::erase_if(shown_, [&](const SampleRef& sample) {
+    return is_too_far_ahead(sample, now) ||
+           (spec_.max_age && now - judged_time(sample) > *spec_.max_age);
+  });
+  fresh_ = fresh_ && !shown_.empty();
+}
+
+bool InputPort::is_too_far_ahead(const SampleRef& sample, Time now) {
+  const Duration ahead = judged_time(sample) - now;
+  if (ahead <= spec_.max_ahead) return false;
+  inbox_->ahead_ = {.samples = inbox_->ahead_.samples + 1, .port = this, .by = ahead};
+  return true;
 }
 
 InputPort& Inbox::add(PortSpec spec, const MessageType& type) {
   ports_.push_back(std::make_unique<InputPort>(std::move(spec), type, *this));
-  return *ports_.back();
+  InputPort& port = *ports_.back();
+  if (port.spec_.join) joined_.push_back(&port);
+  return port;
 }
 
 void Inbox::arrived(InputPort& port, const SampleRef& sample) {
@@ -60,8 +64,9 @@ void Inbox::arrived(InputPort& port, const SampleRef& sample) {
   {
     const std::scoped_lock lock{mutex_};
     if (port.spec_.join) {
+      if (port.unmatched_.size() == InputPort::kJoinDepth)
+        port.unmatched_.erase(port.unmatched_.begin());
       port.unmatched_.push_back(sample);
-      if (port.unmatched_.size() > kJoinDepth) port.unmatched_.pop_front();
       triggered = match_joined();
     } else {
       port.keep(sample);
@@ -73,23 +78,19 @@ void Inbox::arrived(InputPort& port, const SampleRef& sample) {
 
 /// Moves the newest set of equal stamps to the waiting samples of its ports.
 bool Inbox::match_joined() {
-  std::vector<InputPort*> joined;
-  for (const auto& port : ports_) {
-    if (port->spec_.join) joined.push_back(port.get());
-  }
   const auto find = [](InputPort& port, Time stamp) {
     return std::find_if(port.unmatched_.begin(), port.unmatched_.end(),
                         [&](const SampleRef& sample) { return port.stamp_of(sample) == stamp; });
   };
-  const auto& first = joined.front()->unmatched_;
+  const auto& first = joined_.front()->unmatched_;
   for (auto newest = first.rbegin(); newest != first.rend(); ++newest) {
-    const Time stamp = joined.front()->stamp_of(*newest);
-    if (!std::all_of(joined.begin(), joined.end(), [&](InputPort* port) {
+    const Time stamp = joined_.front()->stamp_of(*newest);
+    if (!std::all_of(joined_.begin(), joined_.end(), [&](InputPort* port) {
           return find(*port, stamp) != port->unmatched_.end();
         })) {
       continue;
     }
-    for (InputPort* port : joined) {
+    for (InputPort* port : joined_) {
       const auto match = find(*port, stamp);
       port->keep(*match);
       port->unmatched_.erase(port->unmatched_.begin(), std::next(match));
@@ -107,6 +108,11 @@ void Inbox::show(Time now) {
 std::uint64_t Inbox::dropped() const {
   const std::scoped_lock lock{mutex_};
   return dropped_;
+}
+
+Inbox::Ahead Inbox::ahead() const {
+  const std::scoped_lock lock{mutex_};
+  return ahead_;
 }
 
 namespace detail {

@@ -2,14 +2,13 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <vector>
 
 #include "armature/bus/topic.hpp"
 #include "armature/runtime/plugin_manifest.hpp"
+#include "armature/values/real_time_mutex.hpp"
 
 namespace armature {
 
@@ -21,6 +20,8 @@ class InputPort final : public Subscriber {
   InputPort(PortSpec spec, const MessageType& type, Inbox& inbox);
 
   void deliver(const SampleRef& sample) override;
+  /// What waits and what the running activation is shown.
+  std::size_t max_held() const override { return 2 * capacity_ + (spec_.join ? kJoinDepth : 0); }
 
   const PortSpec& spec() const { return spec_; }
   const MessageType& type() const { return *type_; }
@@ -29,22 +30,31 @@ class InputPort final : public Subscriber {
 
  private:
   friend class Inbox;
+  // Joined inputs wait for their partners this many samples long.
+  static constexpr std::size_t kJoinDepth = 4;
   void keep(const SampleRef& sample);
   void show(Time now);
   Time stamp_of(const SampleRef& sample) const;
+  /// What a sample's age goes by. Programs that are not part of the deployment have their own
+  /// clock.
+  Time judged_time(const SampleRef& sample) const {
+    return spec_.outside ? sample.info().published : stamp_of(sample);
+  }
+  bool is_too_far_ahead(const SampleRef& sample, Time now);
 
   PortSpec spec_;
   const MessageType* type_;
   Inbox* inbox_;
-  std::vector<SampleRef> waiting_;  // a ring of at most capacity_, oldest at first_
+  // Oldest first, with memory for as many as there ever are.
+  std::vector<SampleRef> waiting_;
   std::size_t capacity_;
-  std::deque<SampleRef> unmatched_;  // of a joined input: waits for its partners
+  std::vector<SampleRef> unmatched_;  // of a joined input: waits for its partners
   std::vector<SampleRef> shown_;
   bool fresh_ = false;
 };
 
 /// All inputs of one component behind one lock: samples arrive from any thread, and are shown to an
-/// activation all at once.
+/// activation all at once. Once its ports are there, nothing allocates.
 class Inbox {
  public:
   /// `on_trigger` is called on the publisher's thread when the component should be activated.
@@ -57,6 +67,14 @@ class Inbox {
   void show(Time now);
   /// Samples that full queues have lost.
   std::uint64_t dropped() const;
+  /// Samples that were not shown because they are stamped too far ahead of now: how many, which
+  /// input the last one was for, and how far. Any thread.
+  struct Ahead {
+    std::uint64_t samples = 0;
+    const InputPort* port = nullptr;
+    Duration by{0};
+  };
+  Ahead ahead() const;
 
  private:
   friend class InputPort;
@@ -64,9 +82,11 @@ class Inbox {
   bool match_joined();
 
   std::function<void()> on_trigger_;
-  mutable std::mutex mutex_;
+  mutable RealTimeMutex mutex_;
   std::vector<std::unique_ptr<InputPort>> ports_;
+  std::vector<InputPort*> joined_;  // those of them that are shown only together
   std::uint64_t dropped_ = 0;
+  Ahead ahead_;
 };
 
 }  // namespace armature

@@ -127,5 +127,33 @@ TEST_F(InboxTest, OfAQueueOnlyTheSamplesThatAreTooOldAreNotShown) {
   EXPECT_TRUE(port.fresh());
 }
 
+TEST_F(InboxTest, ASampleThatIsStampedTooFarAheadIsNotShownAndIsCounted) {
+  InputPort& port = add({.name = "in"});
+  const Time now = Time{} + seconds(10);
+  send(port, 1, now + seconds(0.09));
+  inbox.show(now);
+  EXPECT_EQ(shown(port), std::vector<int>{1}) << "clocks differ a little";
+  EXPECT_EQ(inbox.ahead().samples, 0U);
+  send(port, 2, now + seconds(3600));
+  inbox.show(now);
+  EXPECT_EQ(shown(port), std::vector<int>{});
+  EXPECT_FALSE(port.fresh());
+  EXPECT_EQ(inbox.ahead().samples, 1U);
+  EXPECT_EQ(inbox.ahead().port, &port);
+  EXPECT_EQ(inbox.ahead().by, seconds(3600));
+}
+
+TEST_F(InboxTest, WhatComesFromOutsideOfTheDeploymentIsJudgedByWhenItArrived) {
+  InputPort& port = add({.name = "in", .outside = true, .max_age = seconds(0.1)});
+  SampleRef sample = pool.loan();
+  *static_cast<Stamped*>(sample.mutable_message()) = {Time{} + seconds(3600), 1};
+  sample.mutable_info().published = Time{} + seconds(10);
+  port.deliver(sample);
+  inbox.show(Time{} + seconds(10.05));
+  EXPECT_EQ(shown(port), std::vector<int>{1});
+  inbox.show(Time{} + seconds(10.2));
+  EXPECT_EQ(shown(port), std::vector<int>{});
+}
+
 }  // namespace
 }  // namespace armature

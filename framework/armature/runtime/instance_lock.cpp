@@ -1,67 +1,87 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/runtime/instance_lock.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
+#include <sys/socket.h>
+#include <sys/un.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
-#include <cstdlib>
+#include <chrono>
+#include <cstddef>
 #include <cstring>
-#include <filesystem>
-#include <utility>
+#include <optional>
+#include <string_view>
+#include <thread>
+
+#include "armature/runtime/sha256.hpp"
 
 namespace armature {
 namespace {
 
-std::filesystem::path lock_folder() {
-  if (const char* runtime = std::getenv("XDG_RUNTIME_DIR")) {
-    return std::filesystem::path{runtime} / "armature";
+/// An address in the abstract namespace: it begins with a zero byte, and no file stands for it.
+struct Address {
+  explicit Address(const std::string& name) {
+    std::string path = "armature/" + name;
+    if (path.size() >= sizeof address.sun_path) path = "armature/" + sha256(name);
+    path.copy(address.sun_path + 1, path.size());
+    size = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + path.size());
   }
-  return std::filesystem::temp_directory_path() / fmt::format("armature-{}", getuid());
-}
+  const sockaddr* get() const { return reinterpret_cast<const sockaddr*>(&address); }
 
-std::string holder_of(int file) {
-  std::array<char, 64> text{};
-  const auto size = pread(file, text.data(), text.size() - 1, 0);
-  return size > 0 ? std::string{text.data()} : "?";
+  sockaddr_un address{.sun_family = AF_UNIX, .sun_path = {}};
+  socklen_t size;
+};
+
+int open_socket() { return socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0); }
+
+/// Who listens there, as the kernel saw it; nothing: nobody does.
+std::optional<std::string> holder_of(const Address& address) {
+  const int own = open_socket();
+  ucred holder{};
+  socklen_t size = sizeof holder;
+  std::optional<std::string> told;
+  if (connect(own, address.get(), address.size) == 0) {
+    const bool known =
+        getsockopt(own, SOL_SOCKET, SO_PEERCRED, &holder, &size) == 0 && holder.pid > 0;
+    told = known ? fmt::format("pid {}", holder.pid) : "a process of another container";
+  } else if (errno == EAGAIN) {
+    told = "a process that thousands have asked for already";
+  }
+  close(own);
+  return told;
 }
 
 }  // namespace
 
-Expected<InstanceLock> InstanceLock::take(const std::string& deployment, int domain) {
-  const auto folder = lock_folder();
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  const auto path = folder / fmt::format("{}-domain{}.lock", deployment, domain);
-  // Close-on-exec: a child process must not keep the lock of a parent that was killed.
-  const int file = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
-  if (file < 0) {
-    return refuse(fmt::format("cannot open {}: {}", path.string(), std::strerror(errno)));
+Expected<InstanceLock> InstanceLock::take(const std::string& name) {
+  // A holder that just ended, or has not yet begun to listen, is neither there nor gone.
+  constexpr int kAttempts = 100;
+  constexpr std::chrono::milliseconds kPause{2};
+  const Address address{name};
+  const int own = open_socket();
+  if (own < 0) return refuse(fmt::format("nobody knows: no Unix socket: {}", std::strerror(errno)));
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    if (bind(own, address.get(), address.size) == 0 && listen(own, SOMAXCONN) == 0) {
+      return InstanceLock{own};
+    }
+    if (const auto holder = holder_of(address)) {
+      close(own);
+      return refuse(*holder);
+    }
+    std::this_thread::sleep_for(kPause);
   }
-  if (flock(file, LOCK_EX | LOCK_NB) != 0) {
-    const std::string holder = holder_of(file);
-    close(file);
-    return refuse(
-        fmt::format("deployment '{}' already runs as pid {} on domain {}; stop it, or use "
-                    "another domain with --domain",
-                    deployment, holder, domain));
-  }
-  const std::string pid = std::to_string(getpid());
-  if (ftruncate(file, 0) != 0 || pwrite(file, pid.data(), pid.size(), 0) < 0) {
-    const std::string reason = std::strerror(errno);
-    close(file);
-    return refuse(fmt::format("cannot write {}: {}", path.string(), reason));
-  }
-  return InstanceLock{file};
+  close(own);
+  return refuse("a process that does not say who it is");
 }
 
-InstanceLock::InstanceLock(InstanceLock&& other) noexcept : file_{std::exchange(other.file_, -1)} {}
+Expected<void> InstanceLock::check(const std::string& name) {
+  if (const auto holder = holder_of(Address{name})) return refuse(*holder);
+  return {};
+}
 
 InstanceLock::~InstanceLock() {
-  if (file_ >= 0) close(file_);
+  if (socket_ >= 0) close(socket_);
 }
 
 }  // namespace armature

@@ -2,25 +2,29 @@
 #pragma once
 
 #include <string>
+#include <utility>
 
 #include "armature/values/expected.hpp"
 
 namespace armature {
 
-/// Held while a deployment runs, so that a second start of the same one on the same domain is told
-/// who runs it instead of two of them commanding one arm. Released by the kernel however the
-/// process ends.
+/// Held by one process of this machine at a time, whatever user and environment it has: an abstract
+/// Unix socket, which is no file, and which the kernel releases however the process ends. A process
+/// in another network namespace (a container with a network of its own) does not see it.
 class InstanceLock {
  public:
-  /// The reason names the pid and domain of the holder.
-  static Expected<InstanceLock> take(const std::string& deployment, int domain);
-  InstanceLock(InstanceLock&& other) noexcept;
+  /// Takes the lock of that name. The reason, when somebody holds it, is the holder: "pid 123".
+  static Expected<InstanceLock> take(const std::string& name);
+  /// The holder, without taking the lock; a reason as above, or nothing when nobody holds it.
+  static Expected<void> check(const std::string& name);
+
+  InstanceLock(InstanceLock&& other) noexcept : socket_{std::exchange(other.socket_, -1)} {}
   InstanceLock& operator=(InstanceLock&&) = delete;
   ~InstanceLock();
 
  private:
-  explicit InstanceLock(int file) : file_{file} {}
-  int file_;
+  explicit InstanceLock(int socket) : socket_{socket} {}
+  int socket_;
 };
 
 }  // namespace armature

@@ -70,4 +70,12 @@ void LockstepScheduler::run(const std::function<bool()>& done) {
   }
 }
 
+/// At once, between two activations: when everything rests already, not one more happens.
+void LockstepScheduler::begin_stop() {
+  for (Entry& entry : entries_) {
+    entry.unit->request_stop();
+    entry.unit->answer_stop_request(clock_->now());
+  }
+}
+
 }  // namespace armature

@@ -22,8 +22,12 @@ class LockstepScheduler final : public Scheduler {
   void assign(const ExecutorSpec& executor, const std::vector<Unit*>& units,
               const std::function<Duration(const Unit&)>& latency) override;
   void run(const std::function<bool()>& done) override;
+  void begin_stop() override;
   /// Drops what is on its way too: its samples belong to topics, which go before the scheduler.
-  void stop() override { events_ = {}; }
+  std::vector<const Unit*> stop(Duration) override {
+    events_ = {};
+    return {};
+  }
   void publish(Topic& topic, SampleRef sample) override;
 
  private:

@@ -124,6 +124,7 @@ void check_slot_needs(const ComponentConfig& component, const PluginRegistry& pl
 void check_component_needs(const DeploymentConfig& deployment, const PluginRegistry& plugins,
                            config::Problems& problems) {
   for (const ComponentConfig& needy : deployment.components) {
+    if (needy.unit != kMainUnit) continue;  // what its component needs is asked once
     std::vector<Party> offering;
     std::vector<std::string_view> kinds{"component"};
     for (const ComponentConfig& component : deployment.components) {

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
+#include <utility>
+
 #include "armature/bus/topic.hpp"
 #include "armature/runtime/plugin_manifest.hpp"
 #include "armature/values/time.hpp"
@@ -22,13 +25,22 @@ class OutputPort {
 
   const PortSpec& spec() const { return spec_; }
   Topic& topic() { return *topic_; }
-  bool wanted() const { return settings(spec_.qos).transient_local || topic_->has_readers(); }
-  void publish(SampleRef sample) { delivery_->publish(*topic_, std::move(sample)); }
+  bool wanted() const {
+    return !closed() && (settings(spec_.qos).transient_local || topic_->has_readers());
+  }
+  void publish(SampleRef sample) {
+    if (!closed()) delivery_->publish(*topic_, std::move(sample));
+  }
+  /// Nothing is published from now on, whichever thread of the component tries. Any thread.
+  void close() { closed_.store(true, std::memory_order_release); }
 
  private:
+  bool closed() const { return closed_.load(std::memory_order_acquire); }
+
   PortSpec spec_;
   Topic* topic_;
   Delivery* delivery_;
+  std::atomic<bool> closed_{false};
 };
 
 }  // namespace armature

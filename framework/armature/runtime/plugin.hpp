@@ -38,7 +38,13 @@ struct PluginFactory<Plugin, Expected<std::unique_ptr<Kind>> (*)(Args...)> {
 
 template <class Plugin, class Kind, class Arg>
 struct PluginFactory<Plugin, std::unique_ptr<Kind> (*)(Arg&)> {
-  static std::unique_ptr<Kind> call(Arg& arg) { return std::make_unique<Plugin>(arg); }
+  static std::unique_ptr<Kind> call(Arg& arg) {
+    if constexpr (requires { Plugin::make(arg); }) {
+      return Plugin::make(arg);
+    } else {
+      return std::make_unique<Plugin>(arg);
+    }
+  }
 };
 
 template <class Plugin>

@@ -39,13 +39,56 @@ void read_input_rules(MapReader& map, PortSpec& port) {
   port.optional = map.flag("optional", false);
   port.outside = map.flag("outside", false);
   port.feedback = map.flag("feedback", false);
+  // What is told to late joiners is stamped with when it begins.
+  if (port.qos == QosProfile::latched) port.max_ahead = seconds(1e9);
+  if (map.optional_node("max_ahead_s")) {
+    port.max_ahead = seconds(map.number("max_ahead_s"));
+    if (port.max_ahead < Duration{0}) {
+      map.problem("max_ahead_s", "'max_ahead_s' must not be negative");
+    }
+  }
   if (map.optional_node("max_age_s")) {
     port.max_age = seconds(map.number("max_age_s"));
     if (port.max_age <= Duration{0}) map.problem("max_age_s", "'max_age_s' must be positive");
   }
 }
 
-std::vector<PortSpec> read_ports(const Node* table, bool inputs, Problems& problems) {
+std::optional<Duration> read_max_step(MapReader& map) {
+  if (!map.optional_node("max_step_s")) return std::nullopt;
+  const Duration max_step = seconds(map.number("max_step_s"));
+  if (max_step <= Duration{0}) map.problem("max_step_s", "'max_step_s' must be positive");
+  return max_step;
+}
+
+std::vector<UnitSpec> read_units(const Node* table, Problems& problems) {
+  std::vector<UnitSpec> units;
+  if (!table) return units;
+  for (const auto& [key, key_origin, value] : table->entries()) {
+    MapReader map{value, fmt::format("unit '{}'", key), problems};
+    units.push_back({.name = key, .max_step = read_max_step(map), .doc = map.text("doc", "")});
+    map.finish();
+  }
+  return units;
+}
+
+/// Which units have a port or a slot; the main one unless it says otherwise.
+std::vector<std::string> read_units_of(MapReader& map, const std::vector<UnitSpec>& units) {
+  const Node* given = map.optional_node("units");
+  if (!given) return {std::string{kMainUnit}};
+  std::vector<std::string> known{std::string{kMainUnit}}, named;
+  for (const UnitSpec& unit : units) known.push_back(unit.name);
+  for (const Node& item : given->items()) {
+    named.push_back(item.text());
+    if (std::ranges::find(known, named.back()) != known.end()) continue;
+    map.problem("units", fmt::format("'{}' is no unit of the component{}", named.back(),
+                                     config::did_you_mean(named.back(), known)));
+  }
+  if (named.empty()) map.problem("units", "'units' must be a list of units: [main, planner]");
+  return named;
+}
+
+std::vector<PortSpec> read_ports(const Node* table, const std::vector<UnitSpec>& units, bool inputs,
+                                 Problems& problems) {
   std::vector<PortSpec> ports;
   if (!table) return ports;
   for (const auto& [key, key_origin, value] : table->entries()) {
@@ -58,6 +101,7 @@ std::vector<PortSpec> read_ports(const Node* table, bool inputs, Problems& probl
     port.frame = map.text("frame", "");
     port.of = map.text("of", "");
     port.doc = map.text("doc", "");
+    port.units = read_units_of(map, units);
     const auto qos = find_qos_profile(
         map.choice("qos", {"sensor", "state", "command", "reply", "latched"}, "state"));
     port.qos = qos.value_or(QosProfile::state);
@@ -72,12 +116,16 @@ std::vector<PortSpec> read_ports(const Node* table, bool inputs, Problems& probl
   return ports;
 }
 
-std::vector<SlotSpec> read_slots(const Node* table, Problems& problems) {
+std::vector<SlotSpec> read_slots(const Node* table, const std::vector<UnitSpec>& units,
+                                 Problems& problems) {
   std::vector<SlotSpec> slots;
   if (!table) return slots;
   for (const auto& [key, key_origin, value] : table->entries()) {
     MapReader map{value, fmt::format("slot '{}'", key), problems};
-    slots.push_back({.name = key, .kind = map.text("kind"), .doc = map.text("doc", "")});
+    slots.push_back({.name = key,
+                     .kind = map.text("kind"),
+                     .doc = map.text("doc", ""),
+                     .units = read_units_of(map, units)});
     map.finish();
   }
   return slots;
@@ -123,6 +171,23 @@ std::vector<MetricSpec> read_metrics(const Node* table, Problems& problems) {
   return metrics;
 }
 
+std::optional<DriverSpec> read_driver(const Node* table, const std::vector<ParamSpec>& params,
+                                      Problems& problems) {
+  if (!table) return std::nullopt;
+  MapReader map{*table, "'driver'", problems};
+  DriverSpec driver{.simulated = map.flag("simulated", false), .device = map.text("device", "")};
+  map.finish();
+  if (driver.device.empty()) return driver;
+  const auto named = std::ranges::find(params, driver.device, &ParamSpec::name);
+  if (named == params.end()) {
+    std::vector<std::string> names;
+    for (const ParamSpec& param : params) names.push_back(param.name);
+    map.problem("device", fmt::format("'device' names '{}', which is no parameter of the plugin{}",
+                                      driver.device, config::did_you_mean(driver.device, names)));
+  }
+  return driver;
+}
+
 /// What a port is `of` must be a document that the component is bound to.
 void check_of(const PluginManifest& manifest, Problems& problems) {
   std::vector<std::string> bound = manifest.uses;
@@ -166,6 +231,7 @@ PluginManifest parse_manifest(std::string_view yaml, std::string_view name, Prob
   manifest.doc = map.text("doc", "");
   manifest.allocates = map.flag("allocates", false);
   manifest.pure = map.flag("pure", true);
+  manifest.runs_programs = map.flag("runs_programs", false);
   if (const Node* uses = map.optional_node("uses")) {
     for (const Node& item : uses->items()) manifest.uses.push_back(item.text());
   }
@@ -175,12 +241,15 @@ PluginManifest parse_manifest(std::string_view yaml, std::string_view name, Prob
   if (const Node* params = map.optional_node("params")) {
     manifest.params = read_param_specs(*params, problems);
   }
-  manifest.slots = read_slots(read_table(map, "slots"), problems);
+  manifest.units = read_units(read_table(map, "units"), problems);
+  manifest.slots = read_slots(read_table(map, "slots"), manifest.units, problems);
   manifest.needs = read_traits(read_table(map, "needs"), manifest.params, problems);
   manifest.offers = read_traits(read_table(map, "offers"), manifest.params, problems);
   manifest.measures = read_metrics(read_table(map, "measures"), problems);
-  manifest.inputs = read_ports(read_table(map, "in"), true, problems);
-  manifest.outputs = read_ports(read_table(map, "out"), false, problems);
+  manifest.driver = read_driver(read_table(map, "driver"), manifest.params, problems);
+  manifest.max_step = read_max_step(map);
+  manifest.inputs = read_ports(read_table(map, "in"), manifest.units, true, problems);
+  manifest.outputs = read_ports(read_table(map, "out"), manifest.units, false, problems);
   check_of(manifest, problems);
   map.finish();
   return manifest;

@@ -13,6 +13,20 @@
 
 namespace armature {
 
+/// What two clocks that are meant to be the same may differ by.
+inline constexpr Duration kMaxAhead = seconds(0.1);
+
+/// The unit of a component that its ports and slots belong to unless they say otherwise.
+inline constexpr std::string_view kMainUnit = "main";
+
+/// A component may be several units at run time, each with ports, slots, an inbox and a thread of
+/// its own: one for what must never wait, another for what takes its time.
+struct UnitSpec {
+  std::string name;                  // "planner": of the component `motion` it is `motion.planner`
+  std::optional<Duration> max_step;  // as PluginManifest::max_step
+  std::string doc;
+};
+
 /// An input or output as plugin.yaml declares it.
 struct PortSpec {
   std::string name;
@@ -21,6 +35,7 @@ struct PortSpec {
   std::string frame;  // the frame its poses are in; empty: none
   std::string of;     // "robot": its joints and its base are those of its component's robot
   std::string doc;
+  std::vector<std::string> units{std::string{kMainUnit}};  // that have it
   QosProfile qos = QosProfile::state;
   config::Origin origin;
 
@@ -29,9 +44,10 @@ struct PortSpec {
   bool trigger = false;             // a new sample activates the component
   bool join = false;                // shown only together, with equal header.stamp
   bool optional = false;            // nobody needs to write it
-  bool outside = false;             // fed by programs that are not part of the deployment
+  bool outside = false;             // other programs may write it; or so says `open:`
   bool feedback = false;            // an arrow against the flow, read a cycle late
   std::optional<Duration> max_age;  // older samples are not shown
+  Duration max_ahead = kMaxAhead;   // nor those that are stamped farther ahead of now
 
   // Outputs only.
   bool shared = false;  // other components may write the topic too, as ROS does with /tf
@@ -42,6 +58,7 @@ struct SlotSpec {
   std::string name;
   std::string kind;
   std::string doc;
+  std::vector<std::string> units{std::string{kMainUnit}};  // each has an instance of its own
 };
 
 /// A word that one plugin needs and another one offers, "time_law". The words mean something to
@@ -61,6 +78,13 @@ struct MetricSpec {
   std::string doc;
 };
 
+/// What a component that moves an arm says of what it moves: the one that everything else stops
+/// for.
+struct DriverSpec {
+  bool simulated = false;  // it moves no metal
+  std::string device;  // the parameter that names the device; empty: there is one in a deployment
+};
+
 /// Everything that can be known of a plugin without running its code: its plugin.yaml.
 struct PluginManifest {
   std::string id;
@@ -69,12 +93,16 @@ struct PluginManifest {
   std::string doc;
   bool allocates = false;
   bool pure = true;  // false: equal input may give other output, so no place on the simulated clock
+  bool runs_programs = false;        // starts a program that a parameter names
   std::vector<std::string> uses;     // "robot", "rig"
   std::vector<std::string> may_use;  // the same, where the deployment has one
   std::vector<ParamSpec> params;
+  std::vector<UnitSpec> units;  // beside the main one
   std::vector<SlotSpec> slots;
   std::vector<Trait> needs, offers;
   std::vector<MetricSpec> measures;
+  std::optional<DriverSpec> driver;  // of a component that moves an arm
+  std::optional<Duration> max_step;  // of a component: a step that takes longer hangs
   std::vector<PortSpec> inputs, outputs;
 
   std::filesystem::path file;  // the library

@@ -47,6 +47,20 @@ TEST(PluginManifest, ReadsWhatAPluginNeedsOffersAndMeasures) {
   EXPECT_EQ(manifest.measures[0].doc, "Of the path");
 }
 
+TEST(PluginManifest, ADriverSaysWhatItMoves) {
+  EXPECT_FALSE(parse("").driver);
+  const auto simulated = parse("driver: {simulated: true}\n").driver;
+  ASSERT_TRUE(simulated);
+  EXPECT_TRUE(simulated->simulated);
+  const auto real = parse("params: {port: {type: text}}\ndriver: {device: port}\n").driver;
+  ASSERT_TRUE(real);
+  EXPECT_FALSE(real->simulated);
+  EXPECT_EQ(real->device, "port");
+  EXPECT_EQ(problem("params: {port: {type: text}}\ndriver: {device: prot}\n"),
+            "plugin.yaml:5:18: 'device' names 'prot', which is no parameter of the plugin; did you "
+            "mean 'port'?");
+}
+
 TEST(PluginManifest, AConditionMustBeAParameterThatCanBeOff) {
   const std::string params =
       "params: {segment_s: {type: number, default: 1}, how: {type: text, default: x}}\n";
@@ -75,11 +89,24 @@ TEST(PluginManifest, APortIsOfADocumentThatThePluginUses) {
   EXPECT_EQ(problem("may_use: [robot]\n" + port), "nothing");
 }
 
+TEST(PluginManifest, AStepMayTakeATimeThatIsPositive) {
+  EXPECT_EQ(problem("max_step_s: 0\n"), "plugin.yaml:4:13: 'max_step_s' must be positive");
+  EXPECT_EQ(parse("max_step_s: 0.25\n").max_step, seconds(0.25));
+  EXPECT_FALSE(parse("").max_step);
+}
+
 TEST(PluginManifest, AnAgeThatIsNoneIsAProblem) {
   EXPECT_EQ(problem("in: {face: {type: armature_msgs/Target, max_age_s: 0}}\n"),
             "plugin.yaml:4:52: 'max_age_s' must be positive");
   const auto manifest = parse("in: {face: {type: armature_msgs/Target, max_age_s: 0.25}}\n");
   EXPECT_EQ(manifest.inputs[0].max_age, seconds(0.25));
+  EXPECT_EQ(manifest.inputs[0].max_ahead, seconds(0.1));
+  EXPECT_EQ(parse("in: {way: {type: armature_msgs/Target, max_ahead_s: 5}}\n").inputs[0].max_ahead,
+            seconds(5));
+  EXPECT_GT(parse("in: {way: {type: armature_msgs/Target, qos: latched}}\n").inputs[0].max_ahead,
+            seconds(3600));
+  EXPECT_EQ(problem("in: {face: {type: armature_msgs/Target, max_ahead_s: -1}}\n"),
+            "plugin.yaml:4:54: 'max_ahead_s' must not be negative");
 }
 
 }  // namespace

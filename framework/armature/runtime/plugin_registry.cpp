@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/runtime/plugin_registry.hpp"
 
-#include <dlfcn.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -11,20 +11,10 @@
 
 #include "armature/config/problems.hpp"
 #include "armature/runtime/elf_section.hpp"
+#include "armature/runtime/library_folder.hpp"
+#include "armature/runtime/plugin_folder.hpp"
 
 namespace armature {
-namespace {
-
-/// lib/armature/plugins beside the library that this code lives in: the same in a build tree and
-/// after installation.
-std::filesystem::path own_plugin_folder() {
-  Dl_info info{};
-  if (dladdr(reinterpret_cast<void*>(&PluginRegistry::default_search_path), &info) == 0) return {};
-  return std::filesystem::canonical(info.dli_fname).parent_path() / "armature" / "plugins";
-}
-
-}  // namespace
-
 std::vector<std::filesystem::path> PluginRegistry::default_search_path() {
   std::vector<std::filesystem::path> path;
   if (const char* variable = std::getenv("ARMATURE_PLUGIN_PATH")) {
@@ -33,7 +23,7 @@ std::vector<std::filesystem::path> PluginRegistry::default_search_path() {
       if (!folder.empty()) path.emplace_back(folder);
     }
   }
-  path.push_back(own_plugin_folder());
+  path.push_back(library_folder() / "armature" / "plugins");
   return path;
 }
 
@@ -60,11 +50,25 @@ void PluginRegistry::add(std::string_view plugin_yaml, const PluginEntry& entry)
   sort();
 }
 
+bool PluginRegistry::may_load_from(const std::filesystem::path& folder) {
+  const auto danger = danger_of_folder(folder);
+  if (!danger) return true;
+  const bool refused = geteuid() == 0;
+  warnings_.push_back(fmt::format(
+      "plugin folder {}: {}; {}", folder.string(), *danger,
+      refused ? "root loads nothing from it: make it root's own, and writable by root only"
+              : "whoever that is decides what runs here: make it your own, with 'chmod go-w'"));
+  return !refused;
+}
+
 void PluginRegistry::scan(const std::filesystem::path& folder) {
+  if (!may_load_from(folder)) return;
   std::error_code error;
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator{folder, error}) {
-    if (entry.path().extension() == ".so") files.push_back(entry.path());
+    if (entry.path().extension() == ".so" && entry.is_regular_file(error)) {
+      files.push_back(entry.path());
+    }
   }
   std::sort(files.begin(), files.end());  // the directory's own order is not reproducible
   for (const auto& file : files) add(file);
@@ -91,9 +95,12 @@ void PluginRegistry::add(const std::filesystem::path& file) {
       manifest.abi = abi->second;
     }
     if (const PluginManifest* first = find(manifest.id)) {
-      unusable_.push_back({file, fmt::format("'{}' is already provided by {}, which comes earlier "
-                                             "in the search path",
-                                             manifest.id, first->file.string())});
+      std::error_code error;
+      if (std::filesystem::equivalent(first->file, file, error)) return;  // a folder named twice
+      warnings_.push_back(
+          fmt::format("plugin {} is not used: '{}' is already provided by {}, which comes earlier "
+                      "in the search path",
+                      file.string(), manifest.id, first->file.string()));
       return;
     }
     plugins_.push_back(std::move(manifest));
@@ -131,6 +138,7 @@ std::string PluginRegistry::unknown_text(std::string_view id) const {
   for (const auto& [file, reason] : unusable_) {
     text += fmt::format("; {} cannot be used: {}", file.string(), reason);
   }
+  for (const std::string& warning : warnings_) text += "; " + warning;
   return text;
 }
 

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "armature/runtime/exception_text.hpp"
 #include "armature/runtime/plugin_library.hpp"
 #include "armature/runtime/plugin_manifest.hpp"
 
@@ -47,6 +48,9 @@ class PluginRegistry {
   /// Sorted by id.
   const std::vector<PluginManifest>& plugins() const { return plugins_; }
   const std::vector<Unusable>& unusable() const { return unusable_; }
+  /// What whoever runs these plugins must know: folders that others may write, and ids that are
+  /// there twice, with both paths. One sentence each.
+  const std::vector<std::string>& warnings() const { return warnings_; }
 
   /// The plugin, or nullptr.
   const PluginManifest* find(std::string_view id) const;
@@ -61,20 +65,27 @@ class PluginRegistry {
                                       int kind_version);
 
   /// Loads `id` and makes an object of it; throws PluginError when the library cannot be used, and
-  /// hands on the plugin's own refusal as a reason.
+  /// hands on the plugin's own refusal, or what it throws, as a reason.
   template <class Kind, class... Args>
   Expected<PluginPtr<Kind>> make(std::string_view id, const Args&... args) {
     const PluginManifest* plugin = find(id);
     if (!plugin) return refuse(unknown_text(id));
     auto library = load(*plugin, Kind::kKind, Kind::kKindVersion);
     auto factory = reinterpret_cast<typename Kind::Factory>(library->factory());
-    auto made = factory(args...);
-    if (!made) return tl::unexpected{made.error()};
-    return PluginPtr<Kind>{std::move(library), std::move(*made)};
+    // While the library is held: an exception of the plugin's own type ends in here.
+    try {
+      auto made = factory(args...);
+      if (!made) return tl::unexpected{made.error()};
+      return PluginPtr<Kind>{std::move(library), std::move(*made)};
+    } catch (...) {
+      return refuse(plugin->id + ": " + current_exception_text());
+    }
   }
 
  private:
   void scan(const std::filesystem::path& folder);
+  /// False when the folder's plugins must not be loaded; either way its danger is noted.
+  bool may_load_from(const std::filesystem::path& folder);
   void add(const std::filesystem::path& file);
   void add(std::string_view plugin_yaml, const PluginEntry& entry);
   void sort();
@@ -82,6 +93,7 @@ class PluginRegistry {
   std::vector<std::filesystem::path> search_path_;
   std::vector<PluginManifest> plugins_;
   std::vector<Unusable> unusable_;
+  std::vector<std::string> warnings_;
   std::map<std::string, PluginEntry, std::less<>> of_this_program_;
   std::map<std::string, std::weak_ptr<PluginLibrary>> loaded_;
 };

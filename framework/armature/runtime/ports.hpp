@@ -17,6 +17,7 @@ std::size_t input_size(const InputPort& port);
 const SampleRef& input_sample(const InputPort& port, std::size_t index);
 bool input_fresh(const InputPort& port);
 SampleRef output_loan(OutputPort& port);
+void output_prepare(OutputPort& port, const void* message);
 void output_publish(OutputPort& port, SampleRef sample);
 bool output_wanted(const OutputPort& port);
 }  // namespace detail
@@ -43,6 +44,8 @@ class Input {
   std::size_t size() const { return detail::input_size(*port_); }
   const Message& operator[](std::size_t i) const { return get(i); }
   const SampleInfo& info(std::size_t i) const { return detail::input_sample(*port_, i).info(); }
+  /// The sample itself: held, its message stays as it is after this activation too.
+  SampleRef sample(std::size_t i) const { return detail::input_sample(*port_, i); }
 
  private:
   const Message& get(std::size_t i) const {
@@ -78,6 +81,9 @@ class Output {
   /// A sample with the content of an earlier one (so that its sequences keep their memory): write
   /// every field. Real-time safe in the steady state.
   Loan<Message> loan() { return {*port_, detail::output_loan(*port_)}; }
+  /// Copies `message` into every sample that is kept ready, so that its sequences and texts have
+  /// their memory before the first step. While the component is constructed; not real-time safe.
+  void prepare(const Message& message) { detail::output_prepare(*port_, &message); }
   /// Copies `message` into a loan and publishes it.
   void publish(const Message& message) {
     auto loaned = loan();

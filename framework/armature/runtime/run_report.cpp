@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -18,10 +19,12 @@ namespace armature {
 
 RunReport::RunReport(const Deployment& deployment, const Ending& ending) {
   for (const auto& unit : deployment.units()) {
+    if (deployment.is_hung(*unit)) continue;
     speaker_ = &deployment.config_of(*unit);
     unit->summarize(*this);
   }
   judge(deployment, ending);
+  if (ending.tells_timing) timing_ = timing_of(deployment);
 }
 
 void RunReport::expect_declared(const std::string& key) {
@@ -74,6 +77,24 @@ void RunReport::judge_goal(const Goal& goal) {
   if (!found) reasons_.push_back(fmt::format("{} was never measured", goal.metric));
 }
 
+namespace {
+
+/// What did not come to rest, or not back at all, when the run was over.
+std::vector<std::string> faults_of_the_end(const Deployment& deployment) {
+  std::vector<std::string> faults;
+  for (const std::string& name : deployment.moving()) {
+    faults.push_back(fmt::format("'{}' was not at rest {:g} s after it was to stop", name,
+                                 deployment.config().stop_within_s));
+  }
+  for (const Unit* unit : deployment.hung()) {
+    faults.push_back(fmt::format("'{}' hangs: its step has not returned for {:g} s", unit->name(),
+                                 to_seconds(Deployment::kStepPatience)));
+  }
+  return faults;
+}
+
+}  // namespace
+
 void RunReport::judge(const Deployment& deployment, const Ending& ending) {
   for (const Goal& goal : deployment.config().goals) judge_goal(goal);
   if (deployment.timed_out() && !deployment.config().goals.empty()) {
@@ -87,18 +108,14 @@ void RunReport::judge(const Deployment& deployment, const Ending& ending) {
   }
   if (!reasons_.empty()) status_ = "goals_missed";
   if (!story_status_.empty()) status_ = story_status_;
-  if (const std::string fault = deployment.fault(); !fault.empty()) {
-    status_ = "fault";
-    reasons_.insert(reasons_.begin(), fault);
-  }
-  if (!defect_.empty()) {
-    status_ = "fault";
-    reasons_.insert(reasons_.begin(), defect_);
-  }
-  if (ending.lost_process) {
-    status_ = "fault";
-    reasons_.insert(reasons_.begin(), *ending.lost_process);
-  }
+  std::vector<std::string> faults = ending.faults;
+  if (!defect_.empty()) faults.push_back(defect_);
+  if (std::string fault = deployment.fault(); !fault.empty()) faults.push_back(std::move(fault));
+  std::ranges::move(deployment.isolated_faults(), std::back_inserter(faults));
+  std::ranges::move(deployment.silent(), std::back_inserter(faults));
+  std::ranges::move(faults_of_the_end(deployment), std::back_inserter(faults));
+  if (!faults.empty()) status_ = "fault";
+  reasons_.insert(reasons_.begin(), faults.begin(), faults.end());
 }
 
 namespace {
@@ -150,6 +167,7 @@ std::string to_json(const RunReport& report) {
   }
   if (!unmeasured.empty()) json["not_measured"] = unmeasured;
   if (!report.reasons().empty()) json["reasons"] = report.reasons();
+  if (report.timing()) json["timing"] = to_json(*report.timing());
   return json.dump();
 }
 
@@ -169,6 +187,7 @@ std::string to_table(const RunReport& report) {
   table += fmt::format("  {:<{}}  {}\n", "status", width, report.status());
   if (!report.story_reason().empty()) table += fmt::format("    {}\n", report.story_reason());
   for (const auto& reason : report.reasons()) table += fmt::format("    {}\n", reason);
+  if (report.timing()) table += to_table(*report.timing());
   return table;
 }
 
@@ -185,6 +204,7 @@ void write_report(const RunReport& report, const Deployment& deployment,
   };
   attempt([&] { write_atomically(directory / "report.json", to_json(report) + '\n'); });
   for (const auto& unit : deployment.units()) {
+    if (deployment.is_hung(*unit)) continue;
     attempt([&] { unit->component().write_files(directory); });
   }
   if (!failed.empty()) throw std::runtime_error{failed};

@@ -9,6 +9,7 @@
 
 #include "armature/runtime/component.hpp"
 #include "armature/runtime/deployment.hpp"
+#include "armature/runtime/run_timing.hpp"
 
 namespace armature {
 
@@ -25,8 +26,9 @@ class RunReport final : public Summary {
 
   /// What ended the run from outside of the deployment's components.
   struct Ending {
-    std::optional<std::string> lost_process;  // which other process ended before, and how
-    std::optional<std::string> stopped;       // "interrupted", "terminated": by the operator
+    std::vector<std::string> faults;     // of other processes: ended before, fell silent
+    std::optional<std::string> stopped;  // "interrupted", "terminated": by the operator
+    bool tells_timing = false;           // how late and how long the steps were
   };
 
   /// Asks every component of a deployment that has stopped.
@@ -46,6 +48,8 @@ class RunReport final : public Summary {
   /// What else is not ok: a line per goal, fault or lost process.
   const std::vector<std::string>& reasons() const { return reasons_; }
   const std::vector<Figure>& figures() const { return figures_; }
+  /// Nothing unless it was asked for: these figures differ from run to run, also in lockstep.
+  const std::optional<RunTiming>& timing() const { return timing_; }
 
  private:
   void expect_declared(const std::string& key);
@@ -58,6 +62,7 @@ class RunReport final : public Summary {
   std::string story_status_, story_reason_;
   std::string status_ = "ok";
   std::vector<std::string> reasons_;
+  std::optional<RunTiming> timing_;
 };
 
 /// One JSON object: `status` first, `reason` when that is not ok, figures in order, why any of them

@@ -65,7 +65,7 @@ TEST(LockstepScheduler, WhenItStopsNothingIsOnItsWayAnyMore) {
   scheduler.assign({.name = "a", .period = Duration{100}, .cpu = {}}, {source.get()},
                    [](const Unit&) { return Duration{7}; });
   scheduler.run([&] { return source->activations() == 1; });
-  scheduler.stop();
+  scheduler.stop(seconds(60));
   topic.loan();
   EXPECT_EQ(topic.pool_growth(), 0U);  // the one sample is back
 }
@@ -90,6 +90,88 @@ TEST(Unit, AnExceptionBecomesItsFaultAndItIsNotCalledAgain) {
   EXPECT_EQ(unit->voice()->status().reason, "step failed: joint 3 is gone");
 }
 
+TEST(Unit, AFaultEndsItsOutputsWhicheverOfItsThreadsStillPublishes) {
+  SimulatedClock clock;
+  LockstepScheduler scheduler{clock};
+  const MessageType type = number_type();
+  Topic topic{{.name = "rt/n", .type = &type}, 2};
+  const auto unit = make_unit("camera", 0, [](Time) { throw std::runtime_error("no light"); });
+  OutputPort& output = unit->outputs().emplace_back(PortSpec{.name = "n"}, topic, scheduler);
+  output.publish(topic.loan());
+  EXPECT_EQ(topic.published(), 1U);
+  unit->activate({});
+  output.publish(topic.loan());
+  EXPECT_EQ(topic.published(), 1U);
+  EXPECT_FALSE(output.wanted());
+}
+
+/// Something that moves and needs steps to come to rest.
+class Mover final : public Component {
+ public:
+  Mover(Setup& setup, int steps_to_rest) : Component{setup}, steps_to_rest_{steps_to_rest} {}
+  void step(Time) override {
+    log.push_back("step");
+    if (stopping_ && steps_to_rest_ > 0) --steps_to_rest_;
+  }
+  void begin_stop(Time now) override {
+    log.push_back("begin_stop@" + std::to_string(now.ns));
+    stopping_ = true;
+  }
+  bool stopped() const override { return steps_to_rest_ == 0; }
+  bool finished() const override { return told; }
+
+  std::vector<std::string> log;
+  bool told = false;
+
+ private:
+  int steps_to_rest_;
+  bool stopping_ = false;
+};
+
+class StoppingUnit : public testing::Test {
+ protected:
+  void make(int steps_to_rest) {
+    FakeSetup setup{unit_};
+    auto mover = std::make_unique<Mover>(setup, steps_to_rest);
+    mover_ = mover.get();
+    unit_.install({nullptr, std::move(mover)});
+  }
+  Unit unit_{"mover", "test/mover", 0, Voice::Sink{}};
+  Mover* mover_ = nullptr;
+};
+
+TEST_F(StoppingUnit, IsToldOnceBeforeItsNextStepAndStepsUntilItIsAtRest) {
+  make(2);
+  unit_.activate(Time{1});
+  EXPECT_FALSE(unit_.stopped()) << "nobody has asked it to";
+  unit_.request_stop();
+  unit_.activate(Time{2});
+  EXPECT_FALSE(unit_.stopped());
+  unit_.activate(Time{3});
+  EXPECT_TRUE(unit_.stopped());
+  EXPECT_EQ(mover_->log, (std::vector<std::string>{"step", "begin_stop@2", "step", "step"}));
+}
+
+TEST_F(StoppingUnit, ThatRestsAlreadyNeedsNoStep) {
+  make(0);
+  unit_.request_stop();
+  unit_.answer_stop_request(Time{5});
+  unit_.answer_stop_request(Time{6});
+  EXPECT_TRUE(unit_.stopped());
+  EXPECT_EQ(mover_->log, std::vector<std::string>{"begin_stop@5"});
+}
+
+TEST_F(StoppingUnit, ThatHasFinishedIsNotSteppedAnyMoreButToldThatTheRunStops) {
+  make(0);
+  mover_->told = true;
+  unit_.activate(Time{1});
+  unit_.activate(Time{2});
+  unit_.request_stop();
+  unit_.activate(Time{3});
+  EXPECT_EQ(mover_->log, (std::vector<std::string>{"step", "begin_stop@3"}));
+  EXPECT_TRUE(unit_.stopped());
+}
+
 TEST(ThreadedScheduler, ActivatesPeriodicallyAndOnTriggersAndStops) {
   const SystemClock clock;
   ThreadedScheduler scheduler{clock, [](const std::string&) {}};
@@ -108,7 +190,7 @@ TEST(ThreadedScheduler, ActivatesPeriodicallyAndOnTriggersAndStops) {
                    kNoLatency);
   scheduler.assign({.name = "triggered", .period = {}, .cpu = {}}, {sink.get()}, kNoLatency);
   scheduler.run([&] { return sent >= 20 && received >= 1; });
-  scheduler.stop();
+  scheduler.stop(seconds(60));
   const int after_stop = received;
   std::this_thread::sleep_for(std::chrono::milliseconds{20});
   EXPECT_EQ(received, after_stop);
@@ -125,7 +207,7 @@ TEST(ThreadedScheduler, CountsMissedPeriodsInsteadOfCatchingUp) {
   scheduler.assign({.name = "control", .period = seconds(0.005), .cpu = {}}, {slow.get()},
                    kNoLatency);
   scheduler.run([&] { return calls >= 3; });
-  scheduler.stop();
+  scheduler.stop(seconds(60));
   EXPECT_GE(slow->overruns(), 8U);
 }
 

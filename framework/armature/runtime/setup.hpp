@@ -10,7 +10,9 @@
 
 #include "armature/config/node.hpp"
 #include "armature/config/params.hpp"
+#include "armature/runtime/exception_text.hpp"
 #include "armature/runtime/plugin_library.hpp"
+#include "armature/runtime/plugin_manifest.hpp"
 #include "armature/runtime/ports.hpp"
 #include "armature/values/time.hpp"
 
@@ -30,6 +32,8 @@ class Setup {
 
   /// Name of the component in the deployment.
   virtual const std::string& name() const = 0;
+  /// Which of the component's units this is: "main", or one that plugin.yaml lists under `units:`.
+  virtual std::string_view unit() const = 0;
   /// The component's own checked parameters.
   virtual const Params& params() const = 0;
   /// A number that differs between components and follows the deployment's `seed:`.
@@ -41,6 +45,12 @@ class Setup {
   virtual bool has_document(std::string_view section) const = 0;
   /// Also activate it every `period`, counted from the start.
   virtual void activate_every(Duration period) = 0;
+  /// On the simulated clock, what it publishes reaches its readers so much later.
+  virtual void deliver_after(Duration latency) = 0;
+  /// Whether a component of the deployment writes the topic of this input.
+  virtual bool is_written(std::string_view input) const = 0;
+  /// What the plugin in slot `slot_name` says of itself.
+  virtual const PluginManifest& slot_manifest(std::string_view slot_name) const = 0;
 
   template <class Message>
   Input<Message> input(std::string_view port) {
@@ -52,12 +62,19 @@ class Setup {
   }
 
   /// The plugin that sits in slot `slot_name`, made with `args` (after which come its parameters).
-  /// Throws SetupError with the plugin's own reason when it refuses.
+  /// Throws SetupError with the plugin's own reason when it refuses, or throws itself.
   template <class Kind, class... Args>
   PluginPtr<Kind> slot(std::string_view slot_name, const Args&... args) {
     const SlotPlugin plugin = slot_plugin(slot_name, Kind::kKind, Kind::kKindVersion);
     auto make = reinterpret_cast<typename Kind::Factory>(plugin.library->factory());
-    auto made = make(args..., *plugin.params);
+    // While `plugin` holds the library: an exception of the plugin's own type ends in here.
+    auto made = [&] {
+      try {
+        return make(args..., *plugin.params);
+      } catch (...) {
+        throw_as_own(plugin.id);
+      }
+    }();
     if (!made) throw SetupError(plugin.id + " refuses: " + made.error().text);
     return {plugin.library, std::move(*made)};
   }

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/runtime/state_publisher.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
 
 #include "armature/messages/stamp.hpp"
 #include "armature/runtime/fake_setup.hpp"
@@ -42,7 +46,7 @@ class StatePublisherTest : public testing::Test {
   std::vector<std::unique_ptr<Unit>> units_;
   std::vector<std::string> lines_;
   Unit own_{"runtime", "runtime/state_publisher", 3,
-            [this](const std::string&, const std::string& line) { lines_.push_back(line); }};
+            [this](std::string_view, std::string_view line) { lines_.emplace_back(line); }};
   FakeSetup setup_{own_};
   StatePublisher publisher_{setup_, units_};
   Collector<msg::ComponentState> states_;
@@ -88,11 +92,66 @@ TEST_F(StatePublisherTest, TellsRosToolsTheSameOnDiagnostics) {
     for (const auto& value : diagnostic.values_()) {
       values.push_back(value.key_() + "=" + value.value_());
     }
-    EXPECT_EQ(values,
+    ASSERT_EQ(values.size(), 15U);
+    const std::vector<std::string> counts{values.begin(), values.begin() + 3};
+    EXPECT_EQ(counts,
               (std::vector<std::string>{"activations=" + std::to_string(state.activations_()),
                                         "overruns=" + std::to_string(state.overruns_()),
                                         "dropped=" + std::to_string(state.dropped_())}));
+    EXPECT_EQ(values[10], fmt::format("step_max_us={:.3f}", 1e6 * state.step_().max_()));
   }
+}
+
+/// A histogram as a message tells of it.
+std::vector<double> told_us(const msg::StepTiming& times) {
+  std::vector<double> us;
+  for (const double s : {times.last_(), times.mean_(), times.p99_(), times.max_()}) {
+    us.push_back(std::round(1e6 * s));
+  }
+  return us;
+}
+
+TEST_F(StatePublisherTest, TellsHowLateAndHowLongTheStepsSinceTheLastTimeWere) {
+  EXPECT_EQ(told_us(states_.messages[1].step_()), (std::vector<double>{0, 0, 0, 0}))
+      << "the camera was not activated";
+  EXPECT_GT(states_.messages[0].step_().max_(), 0);
+  EXPECT_LE(states_.messages[0].step_().p99_(), states_.messages[0].step_().max_());
+  for (int i = 0; i < 100; ++i) units_[0]->activate({}, std::chrono::microseconds{i < 50 ? 8 : 16});
+  publisher_.step({});
+  EXPECT_EQ(told_us(states_.messages[3].lateness_()), (std::vector<double>{16, 12, 16, 16}));
+  publisher_.step({});
+  EXPECT_EQ(told_us(states_.messages[6].lateness_()), (std::vector<double>{0, 0, 0, 0}));
+}
+
+TEST_F(StatePublisherTest, TellsTheSameOfEveryExecutorOnce) {
+  const std::string name = "control";
+  CycleTimes times;
+  for (int i = 0; i < 2; ++i) units_[static_cast<std::size_t>(i)]->set_executor(name, times);
+  times.lateness.add(std::chrono::microseconds{30});
+  times.duration.add(std::chrono::microseconds{200});
+  publisher_.step({});
+  for (const std::size_t i : {3U, 4U}) {
+    EXPECT_EQ(states_.messages[i].executor_(), "control");
+    EXPECT_EQ(told_us(states_.messages[i].executor_lateness_())[1], 30);
+    EXPECT_EQ(told_us(states_.messages[i].executor_cycle_())[1], 200);
+  }
+  EXPECT_EQ(states_.messages[5].executor_(), "");
+  const msg::DiagnosticArray& array = diagnostics_.messages[1];
+  ASSERT_EQ(array.status_().size(), 4U);
+  EXPECT_EQ(array.status_()[3].name_(), "executor control");
+  EXPECT_EQ(array.status_()[3].values_()[5].key_(), "cycle_mean_us");
+  EXPECT_EQ(array.status_()[3].values_()[5].value_(), "200.000");
+}
+
+TEST_F(StatePublisherTest, AStepThatHangsIsStalledForAsLongAsItDoes) {
+  units_[1]->set_stalled(seconds(3.25));
+  publisher_.step({});
+  EXPECT_EQ(states_.messages[4].state_(), 3);
+  EXPECT_EQ(states_.messages[4].reason_(), "its step has not returned for 3.2 s");
+  EXPECT_EQ(diagnostics_.messages[1].status_()[1].level_(), 3) << "STALE";
+  units_[1]->set_stalled({});
+  publisher_.step({});
+  EXPECT_EQ(states_.messages[7].reason_(), "no light") << "as before";
 }
 
 TEST_F(StatePublisherTest, AComponentThatIsWellAgainHasNoReasonAnyMore) {
@@ -118,6 +177,24 @@ TEST_F(StatePublisherTest, AComponentThatMissesMostOfItsPeriodsForASecondIsDegra
   EXPECT_EQ(lines_,
             std::vector<std::string>{"'arm' misses more periods than it keeps: 490 of 500"});
   EXPECT_EQ(arm_after(200, 300), (Told{0, ""})) << "a busy machine";
+}
+
+TEST_F(StatePublisherTest, AnInputThatIsStampedAheadOfNowIsAReasonWhileItComes) {
+  const auto of_arm = [&] { return states_.messages[states_.messages.size() - 3]; };
+  InputPort& port = units_[0]->inbox().add({.name = "measured_js"}, pool_.type());
+  SampleRef sample = pool_.loan();
+  set_stamp(static_cast<msg::ComponentState*>(sample.mutable_message())->header_().stamp_(),
+            Time{} + seconds(3600));
+  port.deliver(sample);
+  units_[0]->activate({});
+  publisher_.step(Time{} + seconds(2));
+  const std::string reason =
+      "input 'measured_js' is stamped 3.6e+03 s ahead of now, so it is not shown";
+  EXPECT_EQ(of_arm().reason_(), reason);
+  EXPECT_EQ(of_arm().state_(), 1);
+  EXPECT_EQ(lines_, std::vector<std::string>{"'arm': " + reason});
+  publisher_.step(Time{} + seconds(2.5));
+  EXPECT_EQ(of_arm().state_(), 0) << "it has stopped";
 }
 
 TEST_F(StatePublisherTest, TellsTwiceASecondOnTheTopicsThatRosToolsKnow) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace armature {
@@ -15,19 +16,32 @@ void ThreadedScheduler::assign(const ExecutorSpec& executor, const std::vector<U
 }
 
 void ThreadedScheduler::run(const std::function<bool()>& done) {
-  for (Executor& executor : executors_) executor.start(note_);
+  if (!std::exchange(started_, true)) {
+    for (Executor& executor : executors_) executor.start(note_);
+  }
   while (!done()) std::this_thread::sleep_for(std::chrono::milliseconds{10});
 }
 
-void ThreadedScheduler::stop() {
+void ThreadedScheduler::begin_stop() {
+  for (Executor& executor : executors_) executor.begin_stop();
+}
+
+std::vector<const Unit*> ThreadedScheduler::stop(Duration patience) {
   std::vector<Executor*> order;
   for (Executor& executor : executors_) order.push_back(&executor);
   std::sort(order.begin(), order.end(),
             [](const auto* a, const auto* b) { return a->first_place() < b->first_place(); });
+  std::vector<const Unit*> hung;
   for (Executor* executor : order) {
     executor->request_stop();
-    executor->join();
+    if (executor->join_for(patience)) continue;
+    if (const Unit* unit = executor->running()) {
+      hung.push_back(unit);
+    } else {
+      executor->join();  // between two steps: it only has to get its turn
+    }
   }
+  return hung;
 }
 
 }  // namespace armature

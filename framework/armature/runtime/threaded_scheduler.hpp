@@ -20,7 +20,8 @@ class ThreadedScheduler final : public Scheduler {
   void assign(const ExecutorSpec& executor, const std::vector<Unit*>& units,
               const std::function<Duration(const Unit&)>& latency) override;
   void run(const std::function<bool()>& done) override;
-  void stop() override;
+  void begin_stop() override;
+  std::vector<const Unit*> stop(Duration patience) override;
   void publish(Topic& topic, SampleRef sample) override {
     topic.publish(std::move(sample), clock_->now());
   }
@@ -29,6 +30,7 @@ class ThreadedScheduler final : public Scheduler {
   const Clock* clock_;
   std::function<void(const std::string&)> note_;
   std::deque<Executor> executors_;
+  bool started_ = false;
 };
 
 }  // namespace armature

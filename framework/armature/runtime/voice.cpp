@@ -1,29 +1,52 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/runtime/voice.hpp"
 
-namespace armature {
+#include <mutex>
+#include <utility>
 
-void Voice::say(std::string text) {
+#include "armature/values/inline_text.hpp"
+
+namespace armature {
+namespace {
+
+using Line = InlineText<Voice::kMaxText>;
+
+Line line_of(Voice::State state, std::string_view reason) {
+  if (state == Voice::State::ok) return "ok again";
+  if (state == Voice::State::fault) return Line::format("FAULT: {}", reason);
+  return reason;
+}
+
+}  // namespace
+
+Voice::Voice(std::string component, Sink sink)
+    : component_{std::move(component)}, sink_{std::move(sink)} {
+  last_line_.reserve(kMaxText);
+  status_.reason.reserve(kMaxText);
+}
+
+void Voice::say(std::string_view text) {
+  text = text.substr(0, kMaxText);
   {
     const std::scoped_lock lock{mutex_};
     if (text == last_line_) return;
-    last_line_ = text;
+    last_line_.assign(text);
   }
   if (sink_) sink_(component_, text);
 }
 
-void Voice::set(State state, std::string reason) {
-  std::string line;
+void Voice::set(State state, std::string_view reason) {
+  reason = reason.substr(0, kMaxText);
   {
     const std::scoped_lock lock{mutex_};
     if (status_.state == State::fault) return;  // a fault is final
     if (status_.state == state && status_.reason == reason) return;
     const bool was_quiet = status_.state == State::ok && state == State::ok;
-    status_ = {state, reason};
+    status_.state = state;
+    status_.reason.assign(reason);
     if (was_quiet) return;
-    line = state == State::ok ? "ok again" : (state == State::fault ? "FAULT: " : "") + reason;
   }
-  if (sink_) sink_(component_, line);
+  if (sink_) sink_(component_, line_of(state, reason));
 }
 
 Voice::Status Voice::status() const {

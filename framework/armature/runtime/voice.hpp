@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <functional>
-#include <mutex>
 #include <string>
-#include <utility>
+#include <string_view>
+
+#include "armature/values/real_time_mutex.hpp"
 
 namespace armature {
 
@@ -12,24 +14,27 @@ namespace armature {
 /// thread.
 class Voice {
  public:
-  enum class State { ok, degraded, fault };
+  enum class State { ok, degraded, fault, stalled };
   struct Status {
     State state = State::ok;
     std::string reason;
   };
-  using Sink = std::function<void(const std::string& component, const std::string& line)>;
+  /// As real-time safe as the components that speak.
+  using Sink = std::function<void(std::string_view component, std::string_view line)>;
 
-  Voice(std::string component, Sink sink)
-      : component_{std::move(component)}, sink_{std::move(sink)} {}
+  Voice(std::string component, Sink sink);
 
-  void say(std::string text);
-  void set(State state, std::string reason);
+  /// Both are real-time safe; what is longer than `kMaxText` is cut.
+  void say(std::string_view text);
+  void set(State state, std::string_view reason);
   Status status() const;
+
+  static constexpr std::size_t kMaxText = 900;
 
  private:
   std::string component_;
   Sink sink_;
-  mutable std::mutex mutex_;
+  mutable RealTimeMutex mutex_;
   std::string last_line_;
   Status status_;
 };

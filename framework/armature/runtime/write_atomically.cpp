@@ -27,12 +27,13 @@ bool write_all(int file, std::string_view text) {
 
 }  // namespace
 
-void write_atomically(const std::filesystem::path& target, std::string_view text) {
-  // A link keeps pointing where it does; a device or a pipe must not become a file.
+void write_atomically(const std::filesystem::path& target, std::string_view text, FileUse use) {
+  const bool is_report = use == FileUse::report;
   std::error_code none;
-  const auto file = std::filesystem::is_symlink(target, none)
+  const auto file = !is_report && std::filesystem::is_symlink(target, none)
                         ? std::filesystem::weakly_canonical(target, none)
                         : target;
+  // A device or a pipe must not become a file, not even one that a link points to.
   if (std::filesystem::exists(file, none) && !std::filesystem::is_regular_file(file, none)) {
     throw std::runtime_error{
         fmt::format("cannot write '{}': it is no regular file", file.string())};
@@ -43,7 +44,8 @@ void write_atomically(const std::filesystem::path& target, std::string_view text
     return std::runtime_error{
         fmt::format("cannot write '{}': {}", file.string(), std::strerror(error))};
   };
-  const int descriptor = open(beside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  const int descriptor =
+      open(beside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, is_report ? 0600 : 0666);
   if (descriptor < 0) throw failed(errno);
   const bool written = write_all(descriptor, text);
   const int error = errno;

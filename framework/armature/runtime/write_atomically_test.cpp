@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -52,6 +53,27 @@ TEST_F(WriteAtomically, ReplacesWhatWasThere) {
   write_atomically(file_, "older and longer");
   write_atomically(file_, "newer");
   EXPECT_EQ(content_of(file_), "newer");
+}
+
+TEST_F(WriteAtomically, IsReadByItsOwnerOnlyUnlessTheUserSaysOtherwise) {
+  constexpr auto kOthers = fs::perms::group_all | fs::perms::others_all;
+  write_atomically(file_, "a patient's");
+  EXPECT_EQ(fs::status(file_).permissions() & kOthers, fs::perms::none);
+  const mode_t before = umask(022);
+  write_atomically(file_, "a plugin's", FileUse::named_by_user);
+  umask(before);
+  EXPECT_EQ(fs::status(file_).permissions() & kOthers,
+            fs::perms::group_read | fs::perms::others_read);
+}
+
+TEST_F(WriteAtomically, DoesNotFollowALink) {
+  const fs::path other = folder_ / "of_somebody_else";
+  std::ofstream{other} << "theirs";
+  fs::create_symlink(other, file_);
+  write_atomically(file_, "ours");
+  EXPECT_EQ(content_of(other), "theirs");
+  EXPECT_FALSE(fs::is_symlink(file_));
+  EXPECT_EQ(content_of(file_), "ours");
 }
 
 TEST_F(WriteAtomically, OnAFullDiskTellsWhyAndLeavesTheFolderAsItWas) {

@@ -43,7 +43,7 @@ double SimulatedArm::elapsed(Time now) {
 void SimulatedArm::step(Time now, const std::optional<ServoCommand>& command) {
   const double dt = elapsed(now);
   if (dt == 0) return;
-  following_ = command && to_seconds(now - command->stamp) <= options_.stale_s;
+  following_ = command.has_value();
   if (following_) {
     follow(*command, now, dt);
     last_command_ = command;
@@ -73,7 +73,7 @@ void SimulatedArm::guide(Time now, const JointVector& q) {
 
 void SimulatedArm::follow(const ServoCommand& command, Time now, double dt) {
   // Two clocks may tick on their own: what was commanded a moment ago is carried on to now.
-  const double age_s = std::max(0.0, to_seconds(now - command.stamp));
+  const double age_s = std::clamp(to_seconds(now - command.stamp), 0.0, options_.command_timeout_s);
   for (int i = 0; i < model_.dof(); ++i) {
     const auto joint = static_cast<std::size_t>(i);
     const Step wanted{.q = command.q[i] + command.v[i] * age_s,

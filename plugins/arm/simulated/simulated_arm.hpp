@@ -32,13 +32,14 @@ class SimulatedArm {
   struct Options {
     double period_s = 0.001;
     double lag_s = 0;
-    double stale_s = 0.1;
+    double command_timeout_s = 0.1;  // a command is carried on to now for so long at most
   };
 
   /// Starts at rest at `q`. The model outlives the arm.
   SimulatedArm(const RobotModel& model, const Options& options, const JointVector& q);
 
-  /// Moves on to `now`; `command` is the newest one, if any.
+  /// Moves on to `now`; `command` is the newest one. Without one it ramps down within its limits
+  /// and holds.
   void step(Time now, const std::optional<ServoCommand>& command);
   /// Moves on to `now` in a hand that has it at `q`. The hand is as strong as it likes: it is held
   /// back by the limits of position and velocity only.
@@ -48,7 +49,7 @@ class SimulatedArm {
   const JointVector& setpoint_velocity() const { return v_; }
   const JointVector& measured() const { return measured_; }
   const JointVector& measured_velocity() const { return measured_v_; }
-  /// False while there is no fresh command.
+  /// False while there is no command.
   bool following() const { return following_; }
   /// The worst that the last step had to hold back.
   const std::optional<LimitExcess>& excess() const { return excess_; }

@@ -96,20 +96,28 @@ TEST_F(SimulatedArmTest, NeverExceedsLimitsWhateverIsCommanded) {
   }
 }
 
-TEST_F(SimulatedArmTest, DeceleratesAndHoldsWhenTheCommandIsStale) {
+TEST_F(SimulatedArmTest, RampsDownAndHoldsWhenThereIsNoCommandAnyMore) {
   const Quintic move = Quintic::between({0, 0, 0}, {0.8, 0, 0}, 1.2);
-  ServoCommand last = command(0);
   for (int k = 1; k <= 400; ++k) {
-    last = command(move.position(0.001 * k), move.velocity(0.001 * k));
-    step(last);
+    step(command(move.position(0.001 * k), move.velocity(0.001 * k)));
   }
   EXPECT_GT(arm_.setpoint_velocity()[0], 0.5);
-  for (int k = 0; k < 500; ++k) step(last);
+  for (int k = 0; k < 500; ++k) step(std::nullopt);
   EXPECT_FALSE(arm_.following());
   EXPECT_EQ(arm_.setpoint_velocity()[0], 0);
   const double held = arm_.measured()[0];
-  for (int k = 0; k < 100; ++k) step(last);
+  for (int k = 0; k < 100; ++k) step(std::nullopt);
   EXPECT_EQ(arm_.measured()[0], held);
+}
+
+TEST(SimulatedArm, CarriesACommandOnForNoLongerThanItsTimeout) {
+  const RobotModel model = one_joint();
+  SimulatedArm arm{model, {.command_timeout_s = 0.1}, value(0)};
+  const auto at = [](double t) { return Time{} + seconds(t); };
+  arm.step(at(0.001), ServoCommand{at(0.001), value(0), value(0)});
+  arm.step(at(0.101), ServoCommand{at(0.101), value(0.02), value(0.4)});
+  arm.step(at(0.901), ServoCommand{at(0.101), value(0.02), value(0.4)});  // paused itself
+  EXPECT_LE(arm.measured()[0], 0.02 + 0.4 * 0.1 + 1e-9);
 }
 
 TEST(SimulatedArm, YieldsToAHandWithinItsLimitsOfPositionAndVelocity) {

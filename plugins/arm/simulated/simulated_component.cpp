@@ -3,8 +3,8 @@
 
 #include <cstddef>
 #include <string>
-#include <utility>
 
+#include "armature/kinds/command_watch.hpp"
 #include "armature/kinds/joint_messages.hpp"
 #include "armature/kinds/setup_robot.hpp"
 #include "armature/messages/geometry.hpp"
@@ -25,7 +25,7 @@ constexpr Duration kCalm = seconds(0.1);  // without trouble: it is over
 SimulatedArm::Options options_of(const Params& params) {
   return {.period_s = 1 / params.number("rate_hz"),
           .lag_s = params.number("lag_s"),
-          .stale_s = params.number("stale_s")};
+          .command_timeout_s = params.number("command_timeout_s")};
 }
 
 JointVector home_of(const RobotModel& model) {
@@ -35,16 +35,16 @@ JointVector home_of(const RobotModel& model) {
   return *home;
 }
 
-std::string describe(const LimitExcess& excess, const RobotModel& model, const char* who) {
+ReasonText describe(const LimitExcess& excess, const RobotModel& model, const char* who) {
   static constexpr const char* kQuantity[] = {"position", "velocity", "acceleration"};
   static constexpr const char* kPerTime[] = {"", "/s", "/s2"};
   const auto quantity = static_cast<std::size_t>(excess.quantity);
   const Joint& joint =
       model.joints()[static_cast<std::size_t>(model.independent_joint(excess.joint))];
-  return fmt::format("the {} asks joint {} for {} {:.3f} {}{}, limit {:.3f}", who, joint.name,
-                     kQuantity[quantity], excess.wanted,
-                     joint.type == Joint::Type::prismatic ? "m" : "rad", kPerTime[quantity],
-                     excess.limit);
+  return ReasonText::format("the {} asks joint {} for {} {:.3f} {}{}, limit {:.3f}", who,
+                            joint.name, kQuantity[quantity], excess.wanted,
+                            joint.type == Joint::Type::prismatic ? "m" : "rad", kPerTime[quantity],
+                            excess.limit);
 }
 
 }  // namespace
@@ -55,13 +55,18 @@ class SimulatedArmComponent : public Component {
       : Component(setup),
         model_{robot_of(setup)},
         arm_{model_, options_of(setup.params()), home_of(model_)},
-        hand_lets_go_{seconds(setup.params().number("stale_s"))},
+        timeout_{seconds(setup.params().number("command_timeout_s"))},
+        watch_{timeout_, seconds(1 / setup.params().number("rate_hz"))},
         servo_{.input = setup.input<msg::JointState>("servo_jp"), .what = "a command"},
         hand_{.input = setup.input<msg::JointState>("hand_js"), .what = "a hand"},
         measured_cp_{setup.output<msg::PoseStamped>("measured_cp")},
         measured_js_{setup.output<msg::JointState>("measured_js")},
         setpoint_js_{setup.output<msg::JointState>("setpoint_js")},
         operating_state_{setup.output<msg::String>("operating_state")} {
+    msg::JointState message;
+    write_all_joints(model_, arm_.measured(), arm_.measured_velocity(), {}, message);
+    measured_js_.prepare(message);
+    setpoint_js_.prepare(message);
     setup.activate_every(seconds(1 / setup.params().number("rate_hz")));
   }
 
@@ -69,11 +74,13 @@ class SimulatedArmComponent : public Component {
     read(servo_);
     read(hand_);
     if (!hand_.input.fresh()) hand_.fault.clear();  // it has let go, which is no trouble
-    guided_ = hand_.command && now - hand_.command->stamp <= hand_lets_go_;
+    guided_ = hand_.command && now - hand_.command->stamp <= timeout_;
+    const auto stamp = servo_.command ? std::optional{servo_.command->stamp} : std::nullopt;
+    const bool ceased = watch_.ceased(now, stamp);
     if (guided_) {
       arm_.guide(now, hand_.command->q);
     } else {
-      arm_.step(now, servo_.command);
+      arm_.step(now, ceased ? std::nullopt : servo_.command);
     }
     publish_pose(now);
     publish(measured_js_, arm_.measured(), arm_.measured_velocity(), now);
@@ -82,29 +89,39 @@ class SimulatedArmComponent : public Component {
     publish_operating_state(now);
   }
 
+  bool stopped() const override {
+    constexpr double kStill = 1e-3;  // [rad/s] or [m/s]
+    return guided_ ||
+           (arm_.setpoint_velocity().isZero(kStill) && arm_.measured_velocity().isZero(kStill));
+  }
+
  private:
   /// Somebody who says where the arm shall be.
   struct Source {
     Input<msg::JointState> input;
     const char* what;
     std::optional<ServoCommand> command = {};
-    std::string fault = {};
+    ReasonText fault = {};
   };
 
   void read(Source& source) {
     if (!source.input.fresh()) return;
     const msg::JointState& message = *source.input.latest();
-    const auto q = joints_of(model_, message);
-    const auto v = joint_rates_of(model_, message);
-    if (!q || !v) {
-      source.fault = fmt::format("refused {}: {}", source.what,
-                                 q ? "velocity: " + v.error().text : "position: " + q.error().text);
+    ServoCommand command{.stamp = stamp_of(message.header_().stamp_()), .q = {}, .v = {}};
+    const char* which = "position";
+    ReasonText wrong = read_joints(model_, message, command.q);
+    if (wrong.empty()) {
+      which = "velocity";
+      wrong = read_joint_rates(model_, message, command.v);
+    }
+    if (!wrong.empty()) {
+      source.fault = ReasonText::format("refused {}: {}: {}", source.what, which, wrong.view());
       return;
     }
     source.fault.clear();
-    source.command = ServoCommand{stamp_of(message.header_().stamp_()), *q, *v};
+    source.command = command;
   }
-  const std::string& fault() const { return servo_.fault.empty() ? hand_.fault : servo_.fault; }
+  const ReasonText& fault() const { return servo_.fault.empty() ? hand_.fault : servo_.fault; }
 
   void publish_pose(Time now) {
     if (!measured_cp_.wanted()) return;
@@ -124,23 +141,22 @@ class SimulatedArmComponent : public Component {
   /// A text is only made when the trouble is another one: every step tells how it is. Trouble that
   /// comes and goes from step to step is told as one.
   void show_health(Time now) {
-    const Trouble trouble = !fault().empty() ? Trouble::refused_command
-                            : arm_.excess()  ? Trouble::held_back
-                                             : Trouble::none;
+    const Trouble trouble = !fault().empty()        ? Trouble::refused_command
+                            : !watch_.why().empty() ? Trouble::no_command
+                            : arm_.excess()         ? Trouble::held_back
+                                                    : Trouble::none;
     if (trouble != Trouble::none) {
       last_trouble_ = now;
     } else if (now - last_trouble_ < kCalm) {
       return;
     }
-    if (trouble == shown_trouble_ && fault() == shown_fault_) return;
+    const ReasonText& why = fault().empty() ? watch_.why() : fault();
+    if (trouble == shown_trouble_ && why == shown_why_) return;
     shown_trouble_ = trouble;
-    shown_fault_ = fault();
-    if (trouble == Trouble::none) {
-      healthy();
-    } else {
-      const char* who = guided_ ? "hand" : "command";
-      degraded(fault().empty() ? describe(*arm_.excess(), model_, who) : fault());
-    }
+    shown_why_ = why;
+    if (trouble == Trouble::none) return healthy();
+    if (!why.empty()) return degraded(why);
+    degraded(describe(*arm_.excess(), model_, guided_ ? "hand" : "command"));
   }
 
   void publish_operating_state(Time now) {
@@ -153,14 +169,16 @@ class SimulatedArmComponent : public Component {
 
   RobotModel model_;
   SimulatedArm arm_;
-  Duration hand_lets_go_;
+  Duration timeout_;  // a hand that is silent for so long has let go
+  CommandWatch watch_;
   Source servo_, hand_;
   Output<msg::PoseStamped> measured_cp_;
   Output<msg::JointState> measured_js_, setpoint_js_;
   Output<msg::String> operating_state_;
   bool guided_ = false;
-  enum class Trouble { none, held_back, refused_command } shown_trouble_ = Trouble::none;
-  std::string shown_fault_;
+  enum class Trouble { none, held_back, no_command, refused_command };
+  Trouble shown_trouble_ = Trouble::none;
+  ReasonText shown_why_;
   Time last_trouble_;
   Time last_state_;
 };

@@ -93,9 +93,21 @@ TEST_F(SimulatedArmComponentTest, FollowsFreshCommandsExactlyAndHoldsWhenTheyCea
   }
   EXPECT_EQ(state_, "ENABLED");
   EXPECT_EQ(arm_.status().state, Voice::State::ok);
+  EXPECT_FALSE(arm_.component().stopped());
   steps(400);
   EXPECT_EQ(state_, "HOLDING");
   EXPECT_EQ(measured_.velocity_(), std::vector<double>(6, 0.0));
+  EXPECT_TRUE(arm_.component().stopped());
+  EXPECT_EQ(
+      arm_.status().reason,
+      "no command for 0.101 s (command_timeout_s is 0.1); the driver itself was 0.000 s late; "
+      "stop number 1");
+  for (int i = 0; i < 150; ++i) {
+    arm_.send("servo_jp", command(measured(), still_));
+    step();
+  }
+  EXPECT_EQ(state_, "ENABLED") << "it follows again";
+  EXPECT_EQ(arm_.status().state, Voice::State::ok);
 }
 
 TEST_F(SimulatedArmComponentTest, TheJointThatFollowsMovesWithItsLeader) {

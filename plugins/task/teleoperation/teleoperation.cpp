@@ -143,8 +143,9 @@ void Teleoperation::engage(const ConsoleView& view) {
 
 void Teleoperation::hear_slave(const GoalReport& report) {
   // A task that starts late, or again, goes on counting where the goals are.
-  last_slave_id_ = std::max(last_slave_id_, report.goal_id);
-  if (report.state != GoalReport::State::failed || report.goal_id < first_engaged_id_) return;
+  if (is_newer(report.goal_id, last_slave_id_)) last_slave_id_ = report.goal_id;
+  const bool mine = is_newer(report.goal_id, first_engaged_id_ - 1);
+  if (report.state != GoalReport::State::failed || !mine) return;
   if (phase_ == Phase::teleoperating) {
     stop_slave(Phase::held, "the slave cannot follow: " + report.stage + ": " + report.reason);
   }

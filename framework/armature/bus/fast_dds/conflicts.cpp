@@ -61,10 +61,13 @@ void Conflicts::compare(const OwnEndpoint& own, const Endpoint& other, const Dis
   if (other.writes && !own.writes && refuses(other, own)) {
     const std::string theirs =
         other.tag.ours ? " (configuration " + other.tag.fingerprint.substr(0, 12) + ")" : "";
+    const bool commands = own.topic.qos == QosProfile::command;
     report({TransportEvent::Kind::foreign_writer, other.topic,
             who + theirs + " was refused on '" + ros_topic_name(other.topic) +
-                "': commands are taken only from deployment '" + own_.deployment +
-                "' (configuration " + own_.fingerprint.substr(0, 12) + ")"});
+                "': " + (commands ? "commands are taken" : "this input takes samples") +
+                " only from deployment '" + own_.deployment + "' (configuration " +
+                own_.fingerprint.substr(0, 12) + ")" +
+                (commands ? "" : "; 'open:' in its file opens an input to all")});
   }
 }
 

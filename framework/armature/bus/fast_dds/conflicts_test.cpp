@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Commands of another deployment are refused; whatever cannot meet is reported by name.
+// Samples of strangers are refused where the deployment itself writes; whatever cannot meet is
+// reported by name.
+#include <gmock/gmock.h>
+
 #include "armature/bus/fast_dds/fast_dds_test.hpp"
 
 namespace armature {
 namespace {
 
 using namespace std::chrono_literals;
+using testing::HasSubstr;
+using testing::MatchesRegex;
+
+const std::string kPlace = R"( \(pid [0-9]+ on [^)]+\))";
 
 TEST_F(FastDds, CommandsOfTheSameDeploymentAreTaken) {
   Peer peer{domain_, "lamp", "f00d", "talk"};
@@ -19,10 +26,10 @@ TEST_F(FastDds, CommandsOfAnotherDeploymentAreRefusedAndReported) {
   Peer stranger{domain_, "other", "beef", "talk"};
   const auto transport = make_transport();
   const auto reader = transport->subscribe(command_, true, collect()).value();
-  EXPECT_EQ(event(Kind::foreign_writer),
-            "a writer of deployment 'other' (configuration beef) was refused on "
-            "'/test/from_peer': commands are taken only from deployment 'lamp' (configuration "
-            "f00d)");
+  EXPECT_THAT(event(Kind::foreign_writer),
+              MatchesRegex("a writer of deployment 'other'" + kPlace +
+                           R"( \(configuration beef\) was refused on '/test/from_peer': commands )"
+                           R"(are taken only from deployment 'lamp' \(configuration f00d\))"));
   // A writer that is known to send: one of the right deployment gets through, the other never.
   Peer friend_{domain_, "lamp", "f00d", "talk"};
   ASSERT_TRUE(eventually([&] { return received() > 0; }));
@@ -34,14 +41,34 @@ TEST_F(FastDds, CommandsOfAnotherDeploymentAreRefusedAndReported) {
   EXPECT_EQ(events(Kind::foreign_writer), 1);
 }
 
+TEST_F(FastDds, SamplesOfStrangersAreRefusedNamedOnceAndCounted) {
+  Peer stranger{domain_, "other", "beef", "talk"};
+  const auto transport = make_transport();
+  const auto reader = transport->subscribe(from_peer_, true, collect()).value();
+  ASSERT_TRUE(eventually([&] {
+    const auto refused = reader->refused();
+    return !refused.empty() && refused.front().count > 3;
+  }));
+  EXPECT_EQ(received(), 0U);
+  EXPECT_EQ(reader->refused().size(), 1U);
+  EXPECT_THAT(
+      reader->refused().front().writer,
+      MatchesRegex("deployment 'other' \\(pid " + std::to_string(stranger.pid()) + " on [^)]+\\)"));
+  EXPECT_THAT(event(Kind::foreign_writer),
+              HasSubstr("was refused on '/test/from_peer': this input takes samples only from "
+                        "deployment 'lamp' (configuration f00d); 'open:' in its file opens an "
+                        "input to all"));
+  EXPECT_EQ(events(Kind::foreign_writer), 1);
+}
+
 TEST_F(FastDds, ASecondTypeOnATopicIsReported) {
   const auto transport = make_transport();
   const auto reader = transport->subscribe(from_peer_, false, collect()).value();
   Peer peer{domain_, "other", "beef", "talk_text"};
-  EXPECT_EQ(event(Kind::type_conflict),
-            "a writer of deployment 'other' uses the type std_msgs::msg::dds_::String_ on "
-            "'/test/from_peer', our reader uses sensor_msgs::msg::dds_::JointState_: they never "
-            "meet");
+  EXPECT_THAT(event(Kind::type_conflict),
+              MatchesRegex("a writer of deployment 'other'" + kPlace +
+                           " uses the type std_msgs::msg::dds_::String_ on '/test/from_peer', our "
+                           "reader uses sensor_msgs::msg::dds_::JointState_: they never meet"));
 }
 
 TEST_F(FastDds, ASecondTypeInTheSameProcessIsRefused) {
@@ -59,10 +86,10 @@ TEST_F(FastDds, AnotherLayoutUnderTheSameNameIsReportedAndNotDecoded) {
   const auto transport = make_transport();
   const auto reader = transport->subscribe(from_peer_, false, collect()).value();
   Peer peer{domain_, "lamp", "f00d", "talk_other_layout"};
-  EXPECT_EQ(event(Kind::layout_conflict),
-            "a writer of deployment 'lamp' has another layout of "
-            "sensor_msgs::msg::dds_::JointState_ on '/test/from_peer' than this process: build "
-            "both from the same idl/");
+  EXPECT_THAT(event(Kind::layout_conflict),
+              MatchesRegex("a writer of deployment 'lamp'" + kPlace +
+                           " has another layout of sensor_msgs::msg::dds_::JointState_ on "
+                           "'/test/from_peer' than this process: build both from the same idl/"));
   ASSERT_TRUE(eventually([&] { return reader->writers() == 1; }));
   std::this_thread::sleep_for(100ms);
   EXPECT_EQ(received(), 0U);
@@ -72,9 +99,10 @@ TEST_F(FastDds, QosThatCannotMeetIsReported) {
   const auto transport = make_transport();
   const auto writer = transport->advertise(to_peer_).value();
   Peer peer{domain_, "other", "beef", "latched_reader"};
-  EXPECT_EQ(event(Kind::qos_conflict),
-            "a reader on '/test/to_peer' asks for more than our writer's profile 'state' offers: "
-            "durability (readers there: deployment 'other')");
+  EXPECT_THAT(event(Kind::qos_conflict),
+              MatchesRegex("a reader on '/test/to_peer' asks for more than our writer's profile "
+                           "'state' offers: durability \\(readers there: deployment 'other'" +
+                           kPlace + "\\)"));
 }
 
 }  // namespace

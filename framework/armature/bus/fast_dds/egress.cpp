@@ -4,6 +4,7 @@
 #include <pthread.h>
 
 #include <algorithm>
+#include <mutex>
 #include <utility>
 
 namespace armature {
@@ -15,7 +16,7 @@ Egress::~Egress() {
     const std::scoped_lock lock{mutex_};
     stop_ = true;
   }
-  work_.notify_one();
+  work_.notify();
   thread_.join();
 }
 
@@ -44,7 +45,9 @@ void Egress::run() {
   while (!stop_) {
     Queue* queue = next_waiting();
     if (!queue) {
-      work_.wait(lock);
+      lock.unlock();
+      work_.wait();
+      lock.lock();
       continue;
     }
     sending_ = queue;
@@ -54,7 +57,7 @@ void Egress::run() {
     sample = SampleRef{};
     lock.lock();
     sending_ = nullptr;
-    idle_.notify_all();
+    if (leaving_ > 0) idle_.notify_all();
   }
 }
 
@@ -64,7 +67,9 @@ Egress::Queue::Queue(Egress& egress, std::size_t depth, std::function<void(const
 Egress::Queue::~Queue() {
   std::unique_lock lock{egress_.mutex_};
   std::erase(egress_.queues_, this);
+  ++egress_.leaving_;
   egress_.idle_.wait(lock, [this] { return egress_.sending_ != this; });
+  --egress_.leaving_;
   lock.unlock();
   while (size_ > 0) send_(pop());  // nobody else knows this queue any more
 }
@@ -80,7 +85,7 @@ void Egress::Queue::offer(const SampleRef& sample) {
     ring_[(first_ + size_) % ring_.size()] = sample;
     ++size_;
   }
-  egress_.work_.notify_one();
+  egress_.work_.notify();
 }
 
 std::uint64_t Egress::Queue::dropped() const {

@@ -5,11 +5,12 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <thread>
 #include <vector>
 
 #include "armature/bus/sample.hpp"
+#include "armature/values/real_time_mutex.hpp"
+#include "armature/values/wake_up.hpp"
 
 namespace armature {
 
@@ -32,9 +33,10 @@ class Egress {
   void run();
   Queue* next_waiting();
 
-  std::mutex mutex_;
-  std::condition_variable work_;  // something waits, or the end
-  std::condition_variable idle_;  // a sample was sent
+  RealTimeMutex mutex_;
+  WakeUp work_;                       // something waits, or the end
+  std::condition_variable_any idle_;  // a sample was sent, while a queue leaves
+  int leaving_ = 0;                   // queues that wait for that
   std::vector<Queue*> queues_;
   std::size_t turn_ = 0;
   Queue* sending_ = nullptr;

@@ -32,9 +32,10 @@ void state_common(Qos& qos, const QosSettings& settings, bool reliable,
   qos.resource_limits().max_samples_per_instance = 2 * settings.depth + 8;
   qos.resource_limits().allocated_samples = settings.depth;
   qos.resource_limits().extra_samples = 1;
-  // Readers of Fast DDS go by their own lifespan, so both ends state it.
-  qos.lifespan().duration =
-      settings.lifespan > Duration{0} ? dds_duration(settings.lifespan) : c_TimeInfinite;
+  // Readers of Fast DDS go by their own lifespan, so both ends state it. It is judged by the system
+  // clock, at whose step all commands would end for good: those the reader judges itself.
+  const bool kept = settings.transient_local && settings.lifespan > Duration{0};
+  qos.lifespan().duration = kept ? dds_duration(settings.lifespan) : c_TimeInfinite;
   qos.deadline().period = c_TimeInfinite;
   qos.latency_budget().duration = Duration_t{0, 0};
   qos.ownership().kind = SHARED_OWNERSHIP_QOS;

@@ -125,5 +125,31 @@ TEST_F(FastDds, MessagesLargerThanADatagramCross) {
   }
 }
 
+TEST_F(FastDds, ACommandThatIsTooOldWhenItArrivesIsNotHandedOver) {
+  const auto tasks = make_transport(), arm = make_transport();
+  const auto writer = tasks->advertise(command_).value();
+  const auto reader = arm->subscribe(command_, true, collect()).value();
+  ASSERT_TRUE(eventually([&] { return writer->peers() == 1 && reader->peers() == 1; }));
+  SampleRef old = sample(1);
+  old.mutable_info().published = system_now() - seconds(1);
+  writer->offer(old);
+  ASSERT_TRUE(eventually([&] {
+    writer->offer(sample(2));
+    std::this_thread::sleep_for(10ms);
+    return received() > 0;
+  }));
+  const std::scoped_lock lock{mutex_};
+  EXPECT_EQ(received_[0].position_()[0], 2);
+}
+
+TEST_F(FastDds, AStrangersSampleIsAsOldAsItsWayFromWhenItArrived) {
+  Peer stranger{domain_, "other", "beef", "talk"};
+  const auto transport = make_transport([] { return Time{} + seconds(77); });
+  const auto reader = transport->subscribe(from_peer_, false, collect()).value();
+  ASSERT_TRUE(eventually([&] { return received() > 0; }));
+  const std::scoped_lock lock{mutex_};
+  EXPECT_EQ(infos_[0].published, Time{} + seconds(77)) << "by our clock, not by the stranger's";
+}
+
 }  // namespace
 }  // namespace armature

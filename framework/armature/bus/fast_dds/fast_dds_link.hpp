@@ -20,8 +20,9 @@ struct FastDdsLink {
 
   EndpointTag tag;
   Conflicts conflicts;
-  /// Whether the deployment's clock is the system clock: then DDS carries its time stamps.
-  bool system_clock = true;
+  /// Whether DDS carries the stamps of the deployment's clock, for its other processes.
+  bool shared_clock = true;
+  std::function<Time()> now;
   std::mutex pools_mutex;
   std::vector<std::unique_ptr<SamplePool>> pools;  // of the readers; may outlive them
   std::unique_ptr<Participant> participant;        // goes first: its threads use the rest

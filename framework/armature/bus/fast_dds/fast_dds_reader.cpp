@@ -42,7 +42,9 @@ class FastDdsReader final : public OutsideReader, private dds::DataReaderListene
     // Commands come from writers of ours, which promise to be heard every 0.5 s; elsewhere a writer
     // of ROS 2 promises nothing and must match all the same.
     std::optional<Duration> lease;
-    if (own_.same_deployment_only) lease = settings.liveliness_lease;
+    if (own_.same_deployment_only && own_.topic.qos == QosProfile::command) {
+      lease = settings.liveliness_lease;
+    }
     reader_ = participant.subscriber().create_datareader(
         *topic, reader_qos(settings, lease, to_user_data(link_->tag_for(type))), this);
     if (!reader_)
@@ -64,6 +66,10 @@ class FastDdsReader final : public OutsideReader, private dds::DataReaderListene
 
   int writers() const override { return writers_.load(std::memory_order_relaxed); }
   int peers() const override { return peers_.load(std::memory_order_relaxed); }
+  std::vector<RefusedSamples> refused() const override {
+    const std::scoped_lock lock{mutex_};
+    return refused_;
+  }
 
  private:
   void on_data_available(dds::DataReader* reader) override {
@@ -72,24 +78,65 @@ class FastDdsReader final : public OutsideReader, private dds::DataReaderListene
     while (reader->take_next_sample(&cdr_, &info) == ReturnCode_t::RETCODE_OK) {
       if (closed_ || !info.valid_data) continue;
       const Guid writer = guid_of(info.sample_identity.writer_guid());
-      if (writer.participant == link_->participant->guid_prefix() || is_refused(writer)) continue;
+      if (writer.participant == link_->participant->guid_prefix()) continue;
+      if (const auto stranger = stranger_of(writer)) {
+        count_refused(*stranger);
+        continue;
+      }
+      const Time published = published_at(writer, Time{info.source_timestamp.to_ns()});
+      if (is_expired(published)) continue;
       SampleRef sample = pool_->loan();
       if (!own_.topic.type->decode(cdr_.bytes, sample.mutable_message())) {
         report_undecodable(writer);
         continue;
       }
-      sample.mutable_info() = {.published = Time{info.source_timestamp.to_ns()},
+      sample.mutable_info() = {.published = published,
                                .sequence = info.sample_identity.sequence_number().to64long()};
       deliver_(std::move(sample));
     }
   }
 
-  /// A writer that is not discovered (yet) is nobody's; it may not command.
-  bool is_refused(const Guid& writer) {
-    if (const auto known = verdicts_.find(writer); known != verdicts_.end()) return known->second;
-    const auto endpoint = link_->participant->discovery().find(writer);
-    if (!endpoint) return own_.same_deployment_only;
-    return verdicts_[writer] = link_->conflicts.refuses(*endpoint, own_);
+  /// Whose samples of that writer are refused; nothing when they are taken. A writer that is not
+  /// discovered (yet) is nobody's.
+  std::optional<std::string> stranger_of(const Guid& writer) {
+    if (const auto known = strangers_.find(writer); known != strangers_.end()) return known->second;
+    const Discovery& discovery = link_->participant->discovery();
+    const auto endpoint = discovery.find(writer);
+    if (discovery.is_ignored(writer.participant)) return discovery.who(writer.participant);
+    if (!endpoint) {
+      return own_.same_deployment_only ? std::optional<std::string>{"an unknown writer"}
+                                       : std::nullopt;
+    }
+    std::optional<std::string> stranger;
+    if (link_->conflicts.refuses(*endpoint, own_)) stranger = discovery.owner(*endpoint);
+    return strangers_[writer] = stranger;
+  }
+
+  void count_refused(const std::string& writer) {
+    auto known = std::ranges::find(refused_, writer, &RefusedSamples::writer);
+    if (known == refused_.end()) known = refused_.insert(known, {.writer = writer, .count = 0});
+    ++known->count;
+  }
+
+  /// Only the deployment's own processes share our clock. Whoever else writes is judged by when his
+  /// samples arrive.
+  Time published_at(const Guid& writer, Time stamp) {
+    const QosSettings settings = armature::settings(own_.topic.qos);
+    const bool stamped_by_dds = settings.transient_local && settings.lifespan > Duration{0};
+    if (!link_->shared_clock || stamped_by_dds || !is_peer(writer)) return link_->now();
+    return stamp;
+  }
+
+  bool is_peer(const Guid& writer) {
+    const auto known = peer_writers_.find(writer);
+    if (known != peer_writers_.end()) return known->second;
+    if (!link_->participant->discovery().find(writer)) return false;
+    return peer_writers_[writer] = link_->is_peer(writer);
+  }
+
+  bool is_expired(Time published) const {
+    const Duration lifespan = armature::settings(own_.topic.qos).lifespan;
+    return lifespan > Duration{0} && link_->now() - published > lifespan;
   }
 
   void report_undecodable(const Guid& writer) {
@@ -119,7 +166,8 @@ class FastDdsReader final : public OutsideReader, private dds::DataReaderListene
         {TransportEvent::Kind::peer_lost, own_.topic.name,
          "the writer on '" + ros_topic_name(own_.topic.name) + "'" +
              (endpoint ? " of " + link_->participant->discovery().owner(*endpoint) : "") +
-             " fell silent: its process died or hangs"});
+             " fell silent: its process died or hangs",
+         endpoint && same_deployment(endpoint->tag, link_->tag)});
   }
 
   void on_requested_incompatible_qos(dds::DataReader*,
@@ -139,10 +187,12 @@ class FastDdsReader final : public OutsideReader, private dds::DataReaderListene
   SamplePool* pool_ = nullptr;
   dds::DataReader* reader_ = nullptr;
   std::atomic<int> writers_{0}, peers_{0};
-  std::mutex mutex_;  // guards what follows
+  mutable std::mutex mutex_;  // guards what follows
   bool closed_ = false;
   RawCdr cdr_;
-  std::map<Guid, bool> verdicts_;
+  std::map<Guid, std::optional<std::string>> strangers_;  // nothing: a writer that is heard
+  std::map<Guid, bool> peer_writers_;
+  std::vector<RefusedSamples> refused_;
 };
 
 }  // namespace

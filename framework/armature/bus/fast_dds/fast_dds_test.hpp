@@ -52,6 +52,7 @@ class Peer {
   Peer(const Peer&) = delete;
   Peer& operator=(const Peer&) = delete;
 
+  pid_t pid() const { return pid_; }
   void kill_now() {
     kill(pid_, SIGKILL);
     end();
@@ -92,11 +93,15 @@ class FastDds : public testing::Test {
   using Kind = TransportEvent::Kind;
 
   std::unique_ptr<Transport> make_transport(const SharedMemory& shared_memory = {}) {
+    return make_transport(system_now, shared_memory);
+  }
+  std::unique_ptr<Transport> make_transport(std::function<Time()> now,
+                                            const SharedMemory& shared_memory = {}) {
     TransportOptions options;
     options.domain = domain_;
     options.deployment = "lamp";
     options.fingerprint = "f00d";
-    options.now = system_now;
+    options.now = std::move(now);
     options.on_event = [this](const TransportEvent& event) {
       const std::scoped_lock lock{mutex_};
       events_.push_back(event);

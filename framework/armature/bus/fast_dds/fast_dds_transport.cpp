@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/bus/fast_dds/fast_dds_transport.hpp"
 
+#include <unistd.h>
+
 #include <chrono>
 #include <cstdlib>
 #include <set>
@@ -11,10 +13,19 @@
 namespace armature {
 namespace {
 
-bool is_system_time(Time now) {
-  const auto system = std::chrono::system_clock::now().time_since_epoch();
-  return std::chrono::abs(Duration{now.ns} - std::chrono::duration_cast<Duration>(system)) <
-         seconds(1);
+Time system_now() {
+  return Time{
+      std::chrono::duration_cast<Duration>(std::chrono::system_clock::now().time_since_epoch())
+          .count()};
+}
+
+/// What others call this process by: "armature lamp, process 'vision'".
+std::string participant_name(const TransportOptions& options) {
+  std::string name = "armature " + options.deployment;
+  if (!options.process.empty()) {
+    name += ", process '" + options.process + "'";
+  }
+  return name;
 }
 
 Discovery::Watcher watch(const std::shared_ptr<FastDdsLink>& link) {
@@ -24,10 +35,12 @@ Discovery::Watcher watch(const std::shared_ptr<FastDdsLink>& link) {
               [raw](const Endpoint& other, const Discovery& discovery) {
                 raw->conflicts.endpoint_found(other, discovery);
               },
+          .is_peer = [raw](const EndpointTag& tag) { return same_deployment(tag, raw->tag); },
           .participant_lost =
-              [raw](const std::string& owner) {
+              [raw](const std::string& owner, bool of_peer) {
                 raw->conflicts.report_always({TransportEvent::Kind::peer_lost, "",
-                                              owner + " fell silent: its process died or hangs"});
+                                              owner + " fell silent: its process died or hangs",
+                                              of_peer});
               }};
 }
 
@@ -44,12 +57,13 @@ Expected<std::unique_ptr<Transport>> FastDdsTransport::make(const TransportOptio
                         .fingerprint = options.fingerprint,
                         .layout = 0};
   auto link = std::make_shared<FastDdsLink>(tag, options.on_event);
-  link->system_clock = !options.now || is_system_time(options.now());
+  link->shared_clock = !options.simulated;
+  link->now = options.now ? options.now : system_now;
   const auto note = [raw = link.get()](const std::string& text) {
     raw->conflicts.report({TransportEvent::Kind::note, "", text});
   };
   auto participant = Participant::make({.domain = options.domain,
-                                        .name = "armature " + options.deployment,
+                                        .name = participant_name(options),
                                         .watcher = watch(link),
                                         .on_note = note,
                                         .shared_memory = shared_memory});

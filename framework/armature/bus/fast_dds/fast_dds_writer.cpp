@@ -56,11 +56,16 @@ class FastDdsWriter final : public OutsideWriter, private dds::DataWriterListene
   std::uint64_t dropped() const override { return queue_->dropped(); }
 
  private:
+  /// What DDS keeps for a time it must stamp itself: it judges the time by the system clock.
+  bool keeps_lifespan() const {
+    return settings_.transient_local && settings_.lifespan > Duration{0};
+  }
+
   void send(const SampleRef& sample) {
     cdr_.bytes.clear();
     topic_.type->encode(sample.message(), cdr_.bytes);
     rtps::WriteParams params;
-    if (link_->system_clock) {
+    if (link_->shared_clock && !keeps_lifespan()) {
       rtps::Time_t stamp;
       stamp.from_ns(sample.info().published.ns);
       params.source_timestamp(stamp);

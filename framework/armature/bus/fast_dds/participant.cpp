@@ -3,9 +3,11 @@
 
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 #include <fastdds/rtps/transport/shared_mem/SharedMemTransportDescriptor.h>
+#include <fastrtps/utils/IPLocator.h>
 
 #include <algorithm>
 #include <csignal>
+#include <fastdds/dds/core/policy/ParameterTypes.hpp>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 #include <fastdds/dds/domain/DomainParticipantListener.hpp>
@@ -17,6 +19,7 @@
 
 #include "armature/bus/fast_dds/dds_log.hpp"
 #include "armature/bus/fast_dds/guid_of.hpp"
+#include "armature/bus/fast_dds/local_address.hpp"
 #include "armature/bus/fast_dds/raw_cdr_type.hpp"
 #include "armature/bus/topic_name.hpp"
 
@@ -84,19 +87,65 @@ dds::DomainParticipantQos participant_qos(const ParticipantSettings& settings) {
   return qos;
 }
 
+/// What a stranger says may stand in a message: one line, and not a long one.
+std::string printable(std::string text) {
+  constexpr std::size_t kLongest = 200;
+  if (text.size() > kLongest) text.resize(kLongest);
+  std::ranges::replace_if(
+      text, [](unsigned char c) { return c < 0x20 || c >= 0x7F; }, '?');
+  return text;
+}
+
+/// Fast DDS and Cyclone DDS tell host and process under names of their own. Cyclone's participants
+/// have no name, but their program has.
+ParticipantIdentity identity_of(const rtps::ParticipantProxyData& participant) {
+  const auto told = [&](const std::vector<std::string_view>& names) -> std::string {
+    for (const auto& property : participant.m_properties) {
+      if (std::ranges::find(names, property.first()) != names.end()) return property.second();
+    }
+    return {};
+  };
+  std::string name = participant.m_participantName.to_string();
+  if (name.empty()) name = told({"__ProcessName"});
+  std::string host = told({dds::parameter_policy_physical_data_host, "__Hostname"});
+  host.resize(std::min(host.find(':'), host.size()));  // Fast DDS adds a number to it
+  return {.name = printable(name),
+          .host = printable(host),
+          .pid = printable(told({dds::parameter_policy_physical_data_process, "__Pid"}))};
+}
+
+/// Where a participant can be reached that is on another machine; nothing for one of this machine.
+/// Multicast brings such announcements as soon as any program of this machine has joined the group
+/// on another interface.
+std::optional<std::string> address_elsewhere(const rtps::ParticipantProxyData& participant) {
+  std::optional<std::string> elsewhere;
+  for (const auto* locators : {&participant.metatraffic_locators, &participant.default_locators}) {
+    for (const rtps::Locator_t& locator : locators->unicast) {
+      if (locator.kind == LOCATOR_KIND_SHM) return std::nullopt;
+      if (locator.kind != LOCATOR_KIND_UDPv4) continue;
+      const auto* bytes = rtps::IPLocator::getIPv4(locator);
+      if (is_local_address({bytes[0], bytes[1], bytes[2], bytes[3]})) return std::nullopt;
+      elsewhere = rtps::IPLocator::toIPv4string(locator);
+    }
+  }
+  return elsewhere;
+}
+
 }  // namespace
 
 /// Feeds the discovery.
 class Participant::Listener final : public dds::DomainParticipantListener {
  public:
-  Listener(Participant& participant) : participant_{participant} {}
+  Listener(Participant& participant, std::function<void(const std::string&)> on_note)
+      : participant_{participant}, on_note_{std::move(on_note)} {}
 
   void on_participant_discovery(dds::DomainParticipant*,
                                 rtps::ParticipantDiscoveryInfo&& found) override {
     using Info = rtps::ParticipantDiscoveryInfo;
     const GuidPrefix prefix = prefix_of(found.info.m_guid.guidPrefix);
     if (found.status == Info::DISCOVERED_PARTICIPANT) {
-      discovery().participant_found(prefix, found.info.m_participantName.to_string());
+      discovery().participant_found(prefix, identity_of(found.info));
+      ignore_if_elsewhere(prefix, found.info);
     } else if (found.status != Info::CHANGED_QOS_PARTICIPANT) {
       discovery().participant_gone(prefix, found.status == Info::DROPPED_PARTICIPANT);
     }
@@ -120,6 +169,13 @@ class Participant::Listener final : public dds::DomainParticipantListener {
  private:
   Discovery& discovery() { return participant_.discovery_; }
 
+  void ignore_if_elsewhere(const GuidPrefix& prefix, const rtps::ParticipantProxyData& found) {
+    const auto address = address_elsewhere(found);
+    if (!address || !discovery().ignore(prefix)) return;
+    on_note_(discovery().who(prefix) + " is ignored: it is not on this machine (it answers at " +
+             *address + "), and only the loopback interface is joined");
+  }
+
   template <class ProxyData>
   void note(const ProxyData& data, bool writes) {
     Endpoint endpoint;
@@ -127,14 +183,16 @@ class Participant::Listener final : public dds::DomainParticipantListener {
     if (endpoint.guid.participant == participant_.guid_prefix_) return;
     endpoint.writes = writes;
     endpoint.topic = data.topicName().to_string();
-    endpoint.type = data.typeName().to_string();
+    endpoint.type = printable(data.typeName().to_string());
     endpoint.reliable = data.m_qos.m_reliability.kind == dds::RELIABLE_RELIABILITY_QOS;
     endpoint.transient_local = data.m_qos.m_durability.kind != dds::VOLATILE_DURABILITY_QOS;
     endpoint.tag = parse_endpoint_tag(data.m_qos.m_userData.data_vec());
+    endpoint.tag.deployment = printable(endpoint.tag.deployment);
     discovery().endpoint_found(std::move(endpoint));
   }
 
   Participant& participant_;
+  std::function<void(const std::string&)> on_note_;
 };
 
 Expected<std::unique_ptr<Participant>> Participant::make(ParticipantSettings settings) {
@@ -151,7 +209,7 @@ Expected<std::unique_ptr<Participant>> Participant::make(ParticipantSettings set
 Participant::Participant(ParticipantSettings& settings)
     : discovery_{std::move(settings.watcher)},
       log_{std::make_unique<DdsLog>(settings.on_note)},
-      listener_{std::make_unique<Listener>(*this)} {}
+      listener_{std::make_unique<Listener>(*this, settings.on_note)} {}
 
 Expected<void> Participant::open(const ParticipantSettings& settings) {
   const SignalsBlocked signals_blocked;
@@ -171,8 +229,10 @@ Expected<void> Participant::open(const ParticipantSettings& settings) {
   factory_qos.entity_factory().autoenable_created_entities = true;
   factory->set_qos(factory_qos);
   if (!participant_) return refused("participant");
+  make_shared_memory_private(settings.shared_memory.folder);
   guid_prefix_ = prefix_of(participant_->guid().guidPrefix);
   if (participant_->enable() != ReturnCode_t::RETCODE_OK) return refused("participant");
+  make_shared_memory_private(settings.shared_memory.folder);
   publisher_ = participant_->create_publisher(dds::PublisherQos{});
   subscriber_ = participant_->create_subscriber(dds::SubscriberQos{});
   if (!publisher_ || !subscriber_) return refused("publisher and subscriber");

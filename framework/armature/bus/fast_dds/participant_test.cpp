@@ -3,7 +3,12 @@
 #include <dlfcn.h>
 #include <gmock/gmock.h>
 
+#include <filesystem>
+#include <fstream>
+
 #include "armature/bus/fast_dds/fast_dds_test.hpp"
+#include "armature/bus/fast_dds/observer.hpp"
+#include "armature/bus/fast_dds/spdp_announcement_test.hpp"
 #include "armature/runtime/plugin.hpp"
 
 namespace armature {
@@ -29,6 +34,43 @@ TEST_F(FastDds, WithoutSharedMemoryTopicsGoOverUdp) {
     writer->offer(sample(1));
     return received() > 0;
   }));
+}
+
+TEST_F(FastDds, AParticipantOfAnotherMachineIsIgnoredAndNamed) {
+  const auto transport = make_transport();
+  const auto elsewhere = spdp_announcement("stranger", {203, 0, 113, 7});
+  ASSERT_TRUE(announce(domain_, elsewhere));
+  EXPECT_EQ(event(Kind::note),
+            "participant 'stranger' is ignored: it is not on this machine (it answers at "
+            "203.0.113.7), and only the loopback interface is joined");
+  ASSERT_TRUE(announce(domain_, elsewhere));
+  const auto observer = DdsObserver::make(domain_).value();
+  EXPECT_EQ(events(Kind::note), 1);
+}
+
+TEST_F(FastDds, AParticipantOfThisMachineIsNot) {
+  const auto transport = make_transport();
+  ASSERT_TRUE(announce(domain_, spdp_announcement("neighbour", {127, 0, 0, 1})));
+  ASSERT_TRUE(announce(domain_, spdp_announcement("stranger", {203, 0, 113, 7}, 8)));
+  EXPECT_EQ(event(Kind::note).substr(0, 22), "participant 'stranger'");
+  EXPECT_EQ(events(Kind::note), 1);
+}
+
+TEST_F(FastDds, SharedMemoryIsItsUsersOnly) {
+  const auto transport = make_transport();
+  const auto writer = transport->advertise(to_peer_).value();
+  std::ifstream maps{"/proc/self/maps"};
+  int files = 0;
+  for (std::string line; std::getline(maps, line);) {
+    const auto path = line.find("/dev/shm/");
+    if (path == std::string::npos || line.ends_with("(deleted)")) continue;
+    ++files;
+    const auto others = std::filesystem::perms::group_all | std::filesystem::perms::others_all;
+    EXPECT_EQ(std::filesystem::status(line.substr(path)).permissions() & others,
+              std::filesystem::perms::none)
+        << line;
+  }
+  EXPECT_GT(files, 0);
 }
 
 TEST_F(FastDds, SharedMemoryThatIsNearlyFullIsNotUsedAndSaidSo) {

@@ -11,7 +11,6 @@
 #include <cerrno>
 #include <charconv>
 #include <cstring>
-#include <ctime>
 #include <fstream>
 #include <set>
 #include <string>
@@ -26,7 +25,8 @@ namespace fs = std::filesystem;
 /// A file whose advisory lock we got: nobody else holds it while this lives.
 class FreeLock {
  public:
-  explicit FreeLock(const fs::path& file) : fd_{open(file.c_str(), O_RDWR | O_CLOEXEC)} {
+  explicit FreeLock(const fs::path& file)
+      : fd_{open(file.c_str(), O_RDWR | O_NOFOLLOW | O_CLOEXEC)} {
     free_ = fd_ >= 0 && flock(fd_, LOCK_EX | LOCK_NB) == 0;
   }
   ~FreeLock() {
@@ -41,24 +41,24 @@ class FreeLock {
   bool free_ = false;
 };
 
-bool is_old_and_mine(const fs::path& file, double least_age_s) {
+bool is_mine(const fs::path& file) {
   struct stat status {};
-  if (lstat(file.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return false;
-  return status.st_uid == geteuid() &&
-         std::difftime(std::time(nullptr), status.st_ctim.tv_sec) >= least_age_s;
+  return lstat(file.c_str(), &status) == 0 && S_ISREG(status.st_mode) && status.st_uid == geteuid();
 }
 
 int remove_file(const fs::path& file) { return unlink(file.c_str()) == 0 ? 1 : 0; }
 
-/// A segment or port "fastrtps_x", its locks (one owner, several readers) and its mutex: all of it,
-/// or nothing when any sign of life is found.
-int clean_group(const fs::path& folder, const std::string& name, const std::set<fs::path>& mapped,
-                double least_age_s) {
-  const std::array<fs::path, 4> group{folder / name, folder / (name + "_el"),
-                                      folder / (name + "_sl"), folder / ("sem." + name + "_mutex")};
+/// A segment or port "fastrtps_x", its locks (one owner, several readers) and its mutex.
+std::array<fs::path, 4> group_of(const fs::path& folder, const std::string& name) {
+  return {folder / name, folder / (name + "_el"), folder / (name + "_sl"),
+          folder / ("sem." + name + "_mutex")};
+}
+
+/// Removes all of a group, or nothing when any sign of life is found.
+int clean_group(const fs::path& folder, const std::string& name, const std::set<fs::path>& in_use) {
+  const auto group = group_of(folder, name);
   for (const fs::path& file : group) {
-    if (fs::exists(file) && (mapped.contains(file) || !is_old_and_mine(file, least_age_s)))
-      return 0;
+    if (fs::exists(file) && (in_use.contains(file) || !is_mine(file))) return 0;
   }
   const FreeLock exclusive{group[1]};
   const FreeLock shared{group[2]};
@@ -78,19 +78,43 @@ std::string group_name(std::string name) {
   return name.starts_with("fastrtps_") ? name : "";
 }
 
-/// The files of `folder` that some process has mapped (of those whose maps may be read: this
-/// user's, and nobody else may write the files).
-std::set<fs::path> mapped_files(const fs::path& folder) {
+/// The files of `folder` that the process of `proc_folder` has mapped.
+void add_mapped_files(const fs::path& proc_folder, const fs::path& folder,
+                      std::set<fs::path>& files) {
+  std::ifstream maps{proc_folder / "maps"};
+  for (std::string line; std::getline(maps, line);) {
+    const std::size_t path = line.find(folder.string() + "/");
+    if (path != std::string::npos) files.insert(line.substr(path));
+  }
+}
+
+/// The files of `folder` that some process has open or mapped (of those processes that may be
+/// looked at: this user's, and nobody else may write the files). Whoever makes a file has it open
+/// at once, and mapped before he closes it: so what is open is looked at first, and a file that was
+/// there before this call is found while it lives, however young it is.
+std::set<fs::path> files_in_use(const fs::path& folder) {
+  const std::string inside = folder.string() + "/";
   std::set<fs::path> files;
   std::error_code error;
   for (const auto& process : fs::directory_iterator{"/proc", error}) {
-    std::ifstream maps{process.path() / "maps"};
-    for (std::string line; std::getline(maps, line);) {
-      const std::size_t path = line.find(folder.string() + "/");
-      if (path != std::string::npos) files.insert(line.substr(path));
+    for (const auto& open : fs::directory_iterator{process.path() / "fd", error}) {
+      const fs::path file = fs::read_symlink(open.path(), error);
+      if (file.string().starts_with(inside)) files.insert(file);
     }
+    add_mapped_files(process.path(), folder, files);
   }
   return files;
+}
+
+/// Of a file of this user; a link is left alone.
+void make_private(const fs::path& file) {
+  const int descriptor = open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC);
+  if (descriptor < 0) return;
+  struct stat status {};
+  if (fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode) && status.st_uid == geteuid()) {
+    fchmod(descriptor, 0600);
+  }
+  close(descriptor);
 }
 
 /// The low 16 bits of every running process' id.
@@ -148,7 +172,17 @@ Expected<void> check_shared_memory(const SharedMemory& memory, std::uint64_t byt
   return {};
 }
 
-int clean_shared_memory(const fs::path& folder, double least_age_s) {
+void make_shared_memory_private(const fs::path& folder) {
+  std::set<fs::path> mapped;
+  add_mapped_files("/proc/self", folder, mapped);
+  for (const fs::path& file : mapped) {
+    const std::string name = group_name(file.filename());
+    if (name.empty()) continue;
+    for (const fs::path& member : group_of(folder, name)) make_private(member);
+  }
+}
+
+int clean_shared_memory(const fs::path& folder) {
   constexpr std::string_view kDataSharing = "fast_datasharing_";
   std::set<std::string> groups;
   std::vector<std::string> data_sharing;
@@ -160,13 +194,13 @@ int clean_shared_memory(const fs::path& folder, double least_age_s) {
   }
   if (groups.empty() && data_sharing.empty()) return 0;
 
-  const std::set<fs::path> mapped = mapped_files(folder);
+  const std::set<fs::path> in_use = files_in_use(folder);
   const std::set<unsigned> running = running_processes();
   int removed = 0;
-  for (const std::string& name : groups) removed += clean_group(folder, name, mapped, least_age_s);
+  for (const std::string& name : groups) removed += clean_group(folder, name, in_use);
   for (const std::string& name : data_sharing) {
     const fs::path file = folder / name;
-    if (is_old_and_mine(file, least_age_s) && !mapped.contains(file) &&
+    if (is_mine(file) && !in_use.contains(file) &&
         is_process_gone(std::string_view{name}.substr(kDataSharing.size()), running)) {
       removed += remove_file(file);
     }

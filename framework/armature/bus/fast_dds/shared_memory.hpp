@@ -22,9 +22,14 @@ struct SharedMemory {
 /// SIGBUS in the middle of a write.
 Expected<void> check_shared_memory(const SharedMemory& memory, std::uint64_t bytes);
 
+/// Makes what Fast DDS has made for this process in `folder` its user's only: it gives its files to
+/// all users to read, whatever the umask, and samples lie there. A program that opened one before
+/// keeps it, so this is called at once.
+void make_shared_memory_private(const std::filesystem::path& folder);
+
 /// Removes what killed processes of this user left in `folder`: Fast DDS segments and ports that
-/// nobody has locked or mapped, and data sharing files whose process is gone. Files younger than
-/// `least_age_s` are left alone: their owner may be about to lock them. Returns how many went.
-int clean_shared_memory(const std::filesystem::path& folder, double least_age_s = 10);
+/// nobody has locked, open or mapped, and data sharing files whose process is gone. Returns how
+/// many went.
+int clean_shared_memory(const std::filesystem::path& folder);
 
 }  // namespace armature

@@ -81,7 +81,7 @@ TEST_F(SharedMemoryTest, WhatNobodyLocksIsRemoved) {
                            "fastrtps_port7410_el", "sem.fastrtps_port7410_mutex"}) {
     touch(name);
   }
-  EXPECT_EQ(clean_shared_memory(folder_, 0), 5);
+  EXPECT_EQ(clean_shared_memory(folder_), 5);
   EXPECT_TRUE(files().empty());
 }
 
@@ -94,7 +94,7 @@ TEST_F(SharedMemoryTest, WhatSomebodyLocksStays) {
     locks.push_back(open((folder_ / name).c_str(), O_RDWR | O_CLOEXEC));
     ASSERT_EQ(flock(locks.back(), LOCK_SH), 0);
   }
-  EXPECT_EQ(clean_shared_memory(folder_, 0), 0);
+  EXPECT_EQ(clean_shared_memory(folder_), 0);
   EXPECT_EQ(files(), names);
   for (const int lock : locks) close(lock);
 }
@@ -104,19 +104,25 @@ TEST_F(SharedMemoryTest, WhatIsMappedStays) {
   const int file = open((folder_ / "fastrtps_port7412").c_str(), O_RDWR | O_CLOEXEC);
   void* mapped = mmap(nullptr, 1, PROT_READ, MAP_SHARED, file, 0);
   ASSERT_NE(mapped, MAP_FAILED);
-  EXPECT_EQ(clean_shared_memory(folder_, 0), 0);
+  EXPECT_EQ(clean_shared_memory(folder_), 0);
   munmap(mapped, 1);
   close(file);
-  EXPECT_EQ(clean_shared_memory(folder_, 0), 1);
+  EXPECT_EQ(clean_shared_memory(folder_), 1);
 }
 
-TEST_F(SharedMemoryTest, WhatIsYoungOrOfOtherProgramsStays) {
+TEST_F(SharedMemoryTest, WhatSomebodyIsAboutToLockOrMapStays) {
   touch("fastrtps_00cc");
-  EXPECT_EQ(clean_shared_memory(folder_, 3600), 0);
-  fs::remove(folder_ / "fastrtps_00cc");
+  touch("fastrtps_00cc_el");
+  const int lock = open((folder_ / "fastrtps_00cc_el").c_str(), O_RDWR | O_CLOEXEC);
+  EXPECT_EQ(clean_shared_memory(folder_), 0);
+  close(lock);
+  EXPECT_EQ(clean_shared_memory(folder_), 2);
+}
+
+TEST_F(SharedMemoryTest, WhatIsOfOtherProgramsStays) {
   touch("other_program");
   touch("sem.other");
-  EXPECT_EQ(clean_shared_memory(folder_, 0), 0);
+  EXPECT_EQ(clean_shared_memory(folder_), 0);
   EXPECT_EQ(files().size(), 2U);
 }
 
@@ -127,9 +133,9 @@ TEST_F(SharedMemoryTest, DataSharingGoesWithItsProcess) {
   touch(data_sharing_of(ended));
   touch(data_sharing_of(getpid()));
   touch("fast_datasharing_nonsense");
-  EXPECT_EQ(clean_shared_memory(folder_, 0), 0);
+  EXPECT_EQ(clean_shared_memory(folder_), 0);
   waitpid(ended, nullptr, 0);
-  EXPECT_EQ(clean_shared_memory(folder_, 0), 1);
+  EXPECT_EQ(clean_shared_memory(folder_), 1);
   EXPECT_EQ(files(),
             (std::set<std::string>{data_sharing_of(getpid()), "fast_datasharing_nonsense"}));
 }

@@ -10,9 +10,9 @@
 #include <random>
 #include <string>
 
-#include "armature/kinds/ik/allocation_count.hpp"
 #include "armature/kinds/ik/contract/law.hpp"
 #include "armature/robot/kinematics.hpp"
+#include "armature/values/allocation_count.hpp"
 
 // The laws of the kind `ik` as tests. In the plugin's test, in one source file of the program:
 //

@@ -30,18 +30,30 @@ std::string_view to_string(IkStatus::Code code) {
   return "invalid_input";
 }
 
-std::string describe(const IkStatus& status) {
-  std::string text{to_string(status.code)};
+namespace {
+
+template <class Text>
+Text text_of(const IkStatus& status) {
+  const std::string_view code = to_string(status.code);
   if (status.code == IkStatus::Code::out_of_reach && status.shortfall > 0) {
-    text += fmt::format(": {:.3g} m beyond reach", status.shortfall);
-    if (!status.detail.empty()) text += fmt::format(" ({})", status.detail);
-    return text;
+    if (status.detail.empty()) {
+      return Text::format("{}: {:.3g} m beyond reach", code, status.shortfall);
+    }
+    return Text::format("{}: {:.3g} m beyond reach ({})", code, status.shortfall, status.detail);
   }
-  if (!status.detail.empty()) text += fmt::format(": {}", status.detail);
+  const char* const colon = status.detail.empty() ? "" : ": ";
   if (status.code == IkStatus::Code::no_convergence && status.shortfall > 0) {
-    text += fmt::format(" (residual {:.3g})", status.shortfall);
+    return Text::format("{}{}{} (residual {:.3g})", code, colon, status.detail, status.shortfall);
   }
-  return text;
+  return Text::format("{}{}{}", code, colon, status.detail);
+}
+
+}  // namespace
+
+ReasonText reason_of(const IkStatus& status) { return text_of<ReasonText>(status); }
+
+std::string describe(const IkStatus& status) {
+  return std::string{text_of<InlineText<4000>>(status).view()};
 }
 
 const char* invalid_input(const RobotModel& model, const IkGoal& goal, const JointVector& seed) {
@@ -84,6 +96,22 @@ IkBranch branch_at(const RobotModel& model, const IkGoal& goal, const JointVecto
   const Eigen::Vector3d axis = model.pointing_axis().value_or(Eigen::Vector3d::UnitX());
   branch.residual = residual(forward_kinematics(model, branch.q), axis, goal.pose);
   return branch;
+}
+
+const IkBranch* nearest_branch(const IkBranches& branches, const JointVector& near,
+                               const RobotModel& model) {
+  const IkBranch* best = nullptr;
+  double best_distance = 0;
+  for (const IkBranch& branch : branches) {
+    JointVector q = branch.q;
+    if (!branch.within_limits || !unwind(model, near, q)) continue;
+    const double distance = (q - near).squaredNorm();
+    if (!best || distance < best_distance) {
+      best = &branch;
+      best_distance = distance;
+    }
+  }
+  return best;
 }
 
 bool turns_freely(const RobotModel& model, int i) {

@@ -11,6 +11,7 @@
 #include "armature/robot/joint_vector.hpp"
 #include "armature/robot/pose_goal.hpp"
 #include "armature/robot/robot_model.hpp"
+#include "armature/values/inline_text.hpp"
 
 namespace armature {
 
@@ -87,6 +88,12 @@ struct IkStatus {
 std::string_view to_string(IkStatus::Code code);
 /// "out_of_reach: 0.0341 m beyond reach (horizontal distance)".
 std::string describe(const IkStatus& status);
+/// The same, real-time safe.
+ReasonText reason_of(const IkStatus& status);
+/// Whether some branch reaches the goal, within limits or not.
+inline bool reaches(const IkStatus& status) {
+  return status.code == IkStatus::Code::ok || status.code == IkStatus::Code::singular;
+}
 
 /// What is remembered between calls; the caller owns it (start: value-initialised). A solver
 /// answers every branch and is not told which one is taken.
@@ -150,6 +157,11 @@ const char* invalid_input(const RobotModel& model, const IkGoal& goal, const Joi
 /// Real-time safe.
 IkBranch branch_at(const RobotModel& model, const IkGoal& goal, const JointVector& q,
                    std::string_view label);
+
+/// The branch within limits, whole turns included, that is nearest to `near`; nullptr: none is.
+/// Real-time safe.
+const IkBranch* nearest_branch(const IkBranches& branches, const JointVector& near,
+                               const RobotModel& model);
 
 /// True when a whole turn of independent joint `i` changes nothing: it is revolute, and so is what
 /// is coupled to it, with whole ratios.

@@ -3,28 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "armature/kinds/trajectory/legs.hpp"
 #include "armature/kinds/trajectory/timing.hpp"
+#include "armature/robot/short_trajectory.hpp"
 
 namespace armature {
 namespace {
 
-constexpr double kPeakVelocity = 15.0 / 8;
-constexpr double kPeakAcceleration = 10 * std::numbers::inv_sqrt3;
-
 /// What the slowest joint needs; 0 where nothing moves.
 double needed_s(const TrajectoryRequest& request, const JointVector& way) {
-  double longest = 0, by_velocity = 0, by_acceleration = 0;
-  for (Eigen::Index i = 0; i < way.size(); ++i) {
-    const double length = std::abs(way[i]);
-    longest = std::max(longest, length);
-    by_velocity = std::max(by_velocity, length / request.max_velocity[i]);
-    by_acceleration = std::max(by_acceleration, length / request.max_acceleration[i]);
-  }
-  if (longest <= kStillWay) return 0;
-  return std::max(kPeakVelocity * by_velocity, std::sqrt(kPeakAcceleration * by_acceleration));
+  if (way.cwiseAbs().maxCoeff() <= kStillWay) return 0;
+  return shortest_move_s(way, request.max_velocity, request.max_acceleration);
 }
 
 }  // namespace

@@ -84,7 +84,7 @@ class FacePoseHostTest : public ::testing::Test {
     host_.send("right_image", right);
     host_.send("landmarks", found);
     EXPECT_TRUE(host_.triggered());
-    host_.step(1);
+    host_.step(to_seconds(stamp_of(left.header_().stamp_()) - Time{}));
     const auto answers = host_.take<msg::FacePose>("face");
     EXPECT_EQ(answers.size(), 1u);
     return answers.empty() ? msg::FacePose{} : answers.front();

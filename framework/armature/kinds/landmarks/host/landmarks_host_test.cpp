@@ -65,7 +65,7 @@ class LandmarksHostTest : public ::testing::Test {
     host_.send("left_image", left);
     host_.send("right_image", right);
     EXPECT_TRUE(host_.triggered());
-    host_.step(1);
+    host_.step(to_seconds(stamp_of(left.header_().stamp_()) - Time{}));
     const auto answers = host_.take<msg::FaceLandmarks>("landmarks");
     EXPECT_EQ(answers.size(), 1u);
     return answers.empty() ? msg::FaceLandmarks{} : answers.front();

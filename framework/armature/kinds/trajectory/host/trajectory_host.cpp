@@ -119,9 +119,9 @@ class TrajectoryHost final : public RequestHost<msg::TrajectoryRequest, msg::Tra
     auto planned = guarded([&] { return planner_->plan(asked); });
     if (!planned) return planned;
     const MotionLimits limits{asked.max_velocity, asked.max_acceleration};
-    if (const auto defect = trajectory_defect(*planned, robot_, limits, asked.from, asked.start)) {
-      return refuse(*defect);
-    }
+    const ReasonText wrong =
+        trajectory_defect(planned->view(), robot_, limits, asked.from, asked.start);
+    if (!wrong.empty()) return refuse(std::string{wrong.view()});
     return planned;
   }
 

@@ -11,7 +11,22 @@
 
 namespace armature {
 inline thread_local std::size_t allocation_count = 0;
+/// Called on every one, where it is set: for who counts otherwise than by thread.
+inline void (*on_allocation)() = nullptr;
+
+inline void count_allocation() {
+  ++allocation_count;
+  if (on_allocation) on_allocation();
 }
+
+/// How often `work` asks for memory.
+template <class Work>
+std::size_t allocations_of(Work work) {
+  const std::size_t before = allocation_count;
+  work();
+  return allocation_count - before;
+}
+}  // namespace armature
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define ARMATURE_COUNTS_ALLOCATIONS 1
@@ -23,19 +38,19 @@ void* __libc_realloc(void* memory, std::size_t size);
 void* __libc_memalign(std::size_t alignment, std::size_t size);
 
 void* malloc(std::size_t size) {
-  ++armature::allocation_count;
+  armature::count_allocation();
   return __libc_malloc(size);
 }
 void* calloc(std::size_t count, std::size_t size) {
-  ++armature::allocation_count;
+  armature::count_allocation();
   return __libc_calloc(count, size);
 }
 void* realloc(void* memory, std::size_t size) {
-  ++armature::allocation_count;
+  armature::count_allocation();
   return __libc_realloc(memory, size);
 }
 void* memalign(std::size_t alignment, std::size_t size) {
-  ++armature::allocation_count;
+  armature::count_allocation();
   return __libc_memalign(alignment, size);
 }
 void* aligned_alloc(std::size_t alignment, std::size_t size) { return memalign(alignment, size); }

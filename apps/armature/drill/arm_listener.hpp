@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <mutex>
+#include <vector>
+
+#include "armature/bus/fast_dds/observer.hpp"
+#include "armature/runtime/plugin_registry.hpp"
+#include "drill/arm_record.hpp"
+#include "drill/drilled_deployment.hpp"
+
+namespace armature::drill {
+
+/// Hears the samples of all arms of a deployment from outside of its processes.
+class ArmListener {
+ public:
+  /// Throws PluginError when the domain cannot be joined. `deployment` outlives this.
+  ArmListener(PluginRegistry& plugins, const DrilledDeployment& deployment, int domain);
+
+  /// Waits until every arm has begun to tell where it is, as long as `goes_on()`; false when it
+  /// ended before.
+  bool find_arms(const std::function<bool()>& goes_on);
+  /// Whether an arm moves, by its newest sample.
+  bool any_moves() const;
+  /// The samples that were heard so far, arm by arm in the order of the deployment's arms.
+  std::vector<ArmRecord> records() const;
+
+ private:
+  struct Heard {
+    ArmRecord record;
+    mutable std::mutex mutex{};
+  };
+  static void add(Heard& heard, const ObservedSample& sample);
+
+  const DrilledDeployment& deployment_;
+  std::deque<Heard> heard_;
+  PluginPtr<DdsObserver> observer_;  // goes first: it calls what adds to heard_
+};
+
+}  // namespace armature::drill

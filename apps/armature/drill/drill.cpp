@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "drill/drill.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <exception>
+#include <mutex>
+#include <random>
+#include <thread>
+
+#include "armature/config/problems.hpp"
+#include "armature/runtime/instance_lock.hpp"
+#include "drill/drill_report.hpp"
+#include "drill/trial.hpp"
+#include "exit_code.hpp"
+
+namespace armature {
+namespace drill {
+namespace {
+
+/// One fault to be fired.
+struct Planned {
+  Fault fault;
+  Form form;
+  double moment_s;
+};
+
+/// A DDS domain that no other drill uses; in the option's domain it is not asked for.
+struct OwnDomain {
+  int number;
+  std::optional<InstanceLock> lock;
+};
+
+OwnDomain own_domain(const std::optional<int>& wanted) {
+  if (wanted) return {.number = *wanted, .lock = {}};
+  constexpr int kDomains = 100;  // beyond them UDP ports lie where the kernel hands out its own
+  std::random_device random;
+  const int first = std::uniform_int_distribution{0, kDomains - 1}(random);
+  for (int i = 0; i < kDomains; ++i) {
+    const int domain = 1 + (first + i) % kDomains;
+    auto lock = InstanceLock::take(fmt::format("drill domain {}", domain));
+    if (lock) return {.number = domain, .lock = std::move(*lock)};
+  }
+  throw std::runtime_error("drills use every domain; name one with --domain");
+}
+
+void check_names(const std::vector<std::string>& wanted) {
+  const std::vector<std::string> known = fault_names();
+  for (const std::string& name : wanted) {
+    if (std::ranges::find(known, name) != known.end()) continue;
+    throw InvalidChoice(fmt::format("no fault '{}'{}", name, config::did_you_mean(name, known)));
+  }
+}
+
+std::vector<Planned> plan(const DrilledDeployment& deployment, const DrillOptions& options,
+                          std::uint64_t seed) {
+  constexpr double kLatest_s = 2;
+  std::mt19937_64 random{seed};
+  std::uniform_real_distribution<double> moment{0, kLatest_s};
+  std::vector<Planned> planned;
+  for (const Form form : {Form::single, Form::split}) {
+    for (const Fault& fault : faults_of(deployment, form)) {
+      const bool wanted = options.faults.empty() ||
+                          std::ranges::find(options.faults, fault.name) != options.faults.end();
+      for (int i = 0; wanted && i < options.moments; ++i) {
+        planned.push_back({fault, form, moment(random)});
+      }
+    }
+  }
+  if (options.brief) std::ranges::shuffle(planned, random);
+  return planned;
+}
+
+/// Fires what is planned, some at a time, and shows each result as it comes.
+class Drill {
+ public:
+  Drill(const DrillOptions& options, const DrilledDeployment& deployment,
+        std::vector<Planned> planned)
+      : options_{&options}, deployment_{&deployment}, planned_{std::move(planned)} {}
+
+  std::vector<TrialResult> run() {
+    const int jobs = options_->domain ? 1 : options_->jobs;
+    {
+      std::vector<std::jthread> workers;
+      for (int i = 0; i < jobs; ++i) workers.emplace_back([this] { work(); });
+    }
+    if (error_) std::rethrow_exception(error_);
+    return std::move(results_);
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void work() {
+    try {
+      PluginRegistry plugins;
+      const OwnDomain domain = own_domain(options_->domain);
+      while (const Planned* planned = next()) {
+        const auto start = Clock::now();
+        const TrialResult result = try_fault({.source = options_->source,
+                                              .deployment = *deployment_,
+                                              .plugins = plugins,
+                                              .domain = domain.number},
+                                             planned->fault, planned->form, planned->moment_s);
+        keep(result, Clock::now() - start);
+      }
+    } catch (...) {
+      const std::scoped_lock lock{mutex_};
+      error_ = std::current_exception();
+    }
+  }
+
+  /// In the short form: until there is no time for another one like the longest so far.
+  const Planned* next() {
+    const std::scoped_lock lock{mutex_};
+    const bool too_late = options_->brief && Clock::now() - start_ + longest_ > kBrief;
+    if (too_late || error_ || next_ == planned_.size()) return nullptr;
+    return &planned_[next_++];
+  }
+
+  void keep(const TrialResult& result, Clock::duration took) {
+    const std::scoped_lock lock{mutex_};
+    longest_ = std::max(longest_, took);
+    results_.push_back(result);
+    if (options_->json) return;
+    fmt::print("{}\n", table_row(result));
+    std::fflush(stdout);
+  }
+
+  static constexpr std::chrono::seconds kBrief{30};
+  const DrillOptions* options_;
+  const DrilledDeployment* deployment_;
+  const std::vector<Planned> planned_;
+  const Clock::time_point start_ = Clock::now();
+  std::mutex mutex_;
+  std::size_t next_ = 0;
+  Clock::duration longest_{0};
+  std::vector<TrialResult> results_;
+  std::exception_ptr error_;
+};
+
+}  // namespace
+}  // namespace drill
+
+int run_drill(const DrillOptions& options) {
+  drill::check_names(options.faults);
+  const PluginRegistry plugins;
+  const drill::DrilledDeployment deployment = drill::read_drilled(options.source, plugins);
+  const std::uint64_t seed = options.seed.value_or(std::random_device{}());
+  if (!options.json) fmt::print("{}: --seed {}\n{}\n", deployment.name, seed, drill::table_head());
+  std::fflush(stdout);
+  drill::Drill drill{options, deployment, drill::plan(deployment, options, seed)};
+  const auto results = drill.run();
+  fmt::print("{}\n", options.json ? to_json(deployment.name, seed, results) : counts(results));
+  return std::ranges::all_of(results, &drill::TrialResult::passed) ? kOk : kFailed;
+}
+
+}  // namespace armature

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "drill/trial.hpp"
+
+namespace armature::drill {
+
+/// The table of a drill, line by line.
+std::string table_head();
+std::string table_row(const TrialResult& result);
+/// "12 passed, 1 failed".
+std::string counts(const std::vector<TrialResult>& results);
+/// The same as one JSON object.
+std::string to_json(const std::string& deployment, std::uint64_t seed,
+                    const std::vector<TrialResult>& results);
+
+}  // namespace armature::drill

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "drill/drilled_deployment.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "armature/config/document.hpp"
+#include "armature/robot/robot_model.hpp"
+#include "armature/runtime/deployment_config.hpp"
+#include "armature/runtime/on_fault.hpp"
+#include "exit_code.hpp"
+
+namespace armature::drill {
+namespace {
+
+constexpr std::string_view kMeasured = "measured_js";
+
+bool is_driver(const ComponentConfig& component) { return component.manifest->driver.has_value(); }
+
+/// An entry of the file, and not one of the further units that it is at run time.
+bool is_entry(const ComponentConfig& component) { return component.unit == kMainUnit; }
+
+const PortBinding& measured_of(const ComponentConfig& driver) {
+  for (const PortBinding& output : driver.outputs) {
+    if (output.spec.name == kMeasured && output.spec.type == "sensor_msgs/JointState") {
+      return output;
+    }
+  }
+  throw InvalidChoice(
+      fmt::format("'{}' ({}) has no output {} of type sensor_msgs/JointState; a drill judges an "
+                  "arm by its own samples",
+                  driver.name, driver.manifest->id, kMeasured));
+}
+
+void check_simulated(const DeploymentConfig& deployment) {
+  bool any = false;
+  for (const ComponentConfig& component : deployment.components) {
+    if (!is_driver(component)) continue;
+    any = true;
+    if (component.manifest->driver->simulated) continue;
+    throw InvalidChoice(
+        fmt::format("'{}' ({}) moves metal, and a drill kills a moving machine; only deployments "
+                    "whose drivers are all 'simulated: true' in plugin.yaml are drilled",
+                    component.name, component.manifest->id));
+  }
+  if (any) return;
+  throw InvalidChoice(fmt::format(
+      "deployment '{}' has no component with 'driver:' in its plugin.yaml: there is no arm to stop",
+      deployment.name));
+}
+
+std::vector<JointLimit> limits_of(const ComponentConfig& driver,
+                                  const DeploymentConfig& deployment) {
+  const auto bound = driver.documents.find("robots");
+  if (bound == driver.documents.end()) {
+    throw InvalidChoice(
+        fmt::format("'{}' ({}) moves an arm and is bound to no robot, whose limits "
+                    "a drill judges it by: 'uses: [robot]' in plugin.yaml",
+                    driver.name, driver.manifest->id));
+  }
+  const RobotModel model = read_robot_model(deployment.documents.at("robots").at(bound->second));
+  std::vector<JointLimit> limits;
+  for (const Joint& joint : model.joints()) limits.push_back({joint.name, joint.max_velocity});
+  return limits;
+}
+
+/// Whether a driver takes commands from it.
+bool commands(const ComponentConfig& writer, const DeploymentConfig& deployment) {
+  return std::ranges::any_of(deployment.components, [&](const ComponentConfig& driver) {
+    return is_driver(driver) && std::ranges::any_of(driver.inputs, [&](const PortBinding& input) {
+             return input.spec.qos == QosProfile::command &&
+                    std::ranges::find(writer.outputs, input.topic, &PortBinding::topic) !=
+                        writer.outputs.end();
+           });
+  });
+}
+
+/// The inputs that somebody of the deployment writes and nobody else may.
+std::vector<TopicSpec> inputs_of(const DeploymentConfig& deployment,
+                                 const std::vector<DrilledArm>& arms) {
+  std::set<std::string> written, taken;
+  for (const ComponentConfig& component : deployment.components) {
+    for (const PortBinding& output : component.outputs) written.insert(output.topic);
+  }
+  for (const DrilledArm& arm : arms) taken.insert(arm.measured_topic);
+  std::vector<TopicSpec> inputs;
+  for (const ComponentConfig& component : deployment.components) {
+    for (const PortBinding& input : component.inputs) {
+      const MessageType* type = find_message_type(input.spec.type);
+      const bool own = written.contains(input.topic) && !input.spec.outside;
+      if (!own || !type || !taken.insert(input.topic).second) continue;
+      inputs.push_back({.name = "rt" + input.topic, .type = type, .qos = input.spec.qos});
+    }
+  }
+  return inputs;
+}
+
+/// Puts entries of the file into processes of their own.
+class Splitter {
+ public:
+  explicit Splitter(DrilledDeployment& drilled) : drilled_{&drilled} {}
+
+  /// Components that tell figures of the run (`measures:`) stay in the main process.
+  std::string put(const ComponentConfig& component, const std::string& process) {
+    if (!component.manifest->measures.empty()) return std::string{kMainProcess};
+    drilled_->apart.push_back(fmt::format("components.{}.process={}", component.name, process));
+    if (std::ranges::find(drilled_->processes, process) == drilled_->processes.end()) {
+      drilled_->processes.push_back(process);
+    }
+    return process;
+  }
+
+ private:
+  DrilledDeployment* drilled_;
+};
+
+DeploymentConfig read(const DeploymentSource& source, const PluginRegistry& plugins) {
+  config::Problems problems;
+  DeploymentConfig deployment = read_deployment(
+      config::load_with_overlays(source.files, source.assignments), plugins, problems);
+  problems.throw_if_any();
+  return deployment;
+}
+
+}  // namespace
+
+std::string_view to_string(Form form) { return form == Form::single ? "single" : "split"; }
+
+DrilledDeployment read_drilled(const DeploymentSource& source, const PluginRegistry& plugins) {
+  const DeploymentConfig deployment = read(source, plugins);
+  check_simulated(deployment);
+  DrilledDeployment drilled{.name = deployment.name, .stop_within_s = deployment.stop_within_s};
+  Splitter splitter{drilled};
+  std::set<std::string> arm_executors;
+  for (const ComponentConfig& component : deployment.components) {
+    if (is_driver(component)) arm_executors.insert(component.executor);
+  }
+  const auto keep = [&](DrilledComponent& as, const ComponentConfig& component,
+                        const std::string& process) {
+    if (as.name.empty()) {
+      as = {.name = component.name,
+            .process = process,
+            .shares_arm_thread = arm_executors.contains(component.executor)};
+    }
+  };
+  for (const ComponentConfig& component : deployment.components) {
+    if (!is_entry(component)) continue;
+    if (is_driver(component)) {
+      drilled.arms.push_back({.component = component.name,
+                              .process = splitter.put(component, "drill_" + component.name),
+                              .measured_topic = measured_of(component).topic,
+                              .limits = limits_of(component, deployment)});
+    } else if (commands(component, deployment)) {
+      const std::string process = splitter.put(component, "drill_" + component.name);
+      if (!component.slots.empty()) keep(drilled.commander, component, process);
+    } else if (!component.manifest->hosts.empty()) {
+      keep(drilled.perception, component, splitter.put(component, "drill_perception"));
+    } else if (!stops_run(component)) {
+      keep(drilled.monitor, component, splitter.put(component, "drill_monitor"));
+    }
+  }
+  drilled.inputs = inputs_of(deployment, drilled.arms);
+  return drilled;
+}
+
+}  // namespace armature::drill

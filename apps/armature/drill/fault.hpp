@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "drill/arm_listener.hpp"
+#include "drill/drilled_deployment.hpp"
+#include "drill/run_under_test.hpp"
+
+namespace armature::drill {
+
+/// What a fault has at hand when it is fired.
+struct Scene {
+  RunUnderTest& run;
+  const ArmListener& listener;
+  const DrilledDeployment& deployment;
+  PluginRegistry& plugins;
+  int domain;
+  std::vector<std::string> arguments;  // that the run was started with, behind `armature`
+};
+
+/// What must come of a fault.
+enum class Outcome {
+  stops,    // the run comes to rest and ends
+  goes_on,  // the run goes on, and comes to rest when it is interrupted later
+  holds,    // its arms come to rest and do not move again; the run goes on or its task gives up
+};
+
+/// One row of the table, for one deployment and form.
+struct Fault {
+  std::string name;  // "motion_killed"
+  Outcome outcome = Outcome::stops;
+  std::string shown;     // part of the line by which the run names it; empty: it need not
+  std::string inject{};  // --inject of the run; empty: none
+  std::string lost{};    // the arm whose own driver the fault takes away; no software can stop it
+  /// Fires it. Returns what was wrong with it, or nothing.
+  std::function<std::string(Scene&)> fire;
+};
+
+/// All faults that this deployment can meet in this form, in the order of the table.
+std::vector<Fault> faults_of(const DrilledDeployment& deployment, Form form);
+
+/// What `--faults` may name: the faults of any deployment.
+std::vector<std::string> fault_names();
+
+}  // namespace armature::drill

@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: Apache-2.0
+// The faults of a drill: adding one is adding a function and its line in the table at the end.
+#include <fmt/format.h>
+
+#include <array>
+#include <chrono>
+#include <csignal>
+#include <optional>
+#include <thread>
+
+#include "drill/fault.hpp"
+#include "drill/stranger.hpp"
+
+namespace armature::drill {
+namespace {
+
+using std::chrono::milliseconds;
+
+/// The fault for this deployment and form; nothing where it makes no sense.
+using MakeFault = std::optional<Fault> (*)(const DrilledDeployment&, Form);
+
+std::string send(Scene& scene, const std::string& process, int signal) {
+  if (scene.run.signal(process, signal)) return {};
+  return fmt::format("there was no process '{}'", process);
+}
+
+Fault signalled(int signal, std::string shown) {
+  return {.name = {}, .shown = std::move(shown), .fire = [signal](Scene& scene) {
+            return send(scene, "main", signal);
+          }};
+}
+
+// What an operator does to the program.
+
+std::optional<Fault> interrupt(const DrilledDeployment&, Form) {
+  return signalled(SIGINT, "stopping: interrupted");
+}
+std::optional<Fault> terminate(const DrilledDeployment&, Form) {
+  return signalled(SIGTERM, "stopping: terminated");
+}
+std::optional<Fault> hang_up(const DrilledDeployment&, Form) {
+  return signalled(SIGHUP, "stopping: terminated");
+}
+
+std::optional<Fault> two_signals(const DrilledDeployment&, Form) {
+  return Fault{.name = {}, .shown = "stopping", .fire = [](Scene& scene) {
+                 scene.run.signal(SIGINT);
+                 std::this_thread::sleep_for(milliseconds{50});
+                 scene.run.signal(SIGINT);
+                 return std::string{};
+               }};
+}
+
+std::optional<Fault> closed_terminal(const DrilledDeployment&, Form) {
+  return Fault{.name = {},
+               .shown = {},  // nobody is there to read it
+               .fire = [](Scene& scene) {
+                 scene.run.close_terminal();
+                 return std::string{};
+               }};
+}
+
+std::optional<Fault> unread_terminal(const DrilledDeployment&, Form) {
+  return Fault{.name = {}, .shown = {}, .fire = [](Scene& scene) {
+                 scene.run.fill_terminal();
+                 return send(scene, "main", SIGINT);
+               }};
+}
+
+// What happens to processes.
+
+std::optional<Fault> killed(const std::string& process) {
+  if (process.empty() || process == "main") return std::nullopt;
+  return Fault{.name = {},
+               .shown = fmt::format("stopping: process '{}'", process),
+               .fire = [process](Scene& scene) { return send(scene, process, SIGKILL); }};
+}
+
+std::optional<Fault> driver_killed(const DrilledDeployment& deployment, Form form) {
+  if (form == Form::single) return std::nullopt;
+  auto fault = killed(deployment.arms.front().process);
+  if (fault) fault->lost = deployment.arms.front().component;
+  return fault;
+}
+std::optional<Fault> motion_killed(const DrilledDeployment& deployment, Form form) {
+  return form == Form::single ? std::nullopt : killed(deployment.commander.process);
+}
+std::optional<Fault> perception_killed(const DrilledDeployment& deployment, Form form) {
+  return form == Form::single ? std::nullopt : killed(deployment.perception.process);
+}
+
+std::optional<Fault> driver_halted(const DrilledDeployment& deployment, Form form) {
+  if (form == Form::single || deployment.arms.front().process == "main") return std::nullopt;
+  return Fault{.name = {},
+               .outcome = Outcome::goes_on,
+               .shown = {},
+               .fire = [process = deployment.arms.front().process](Scene& scene) {
+                 std::string wrong = send(scene, process, SIGSTOP);
+                 std::this_thread::sleep_for(milliseconds{300});
+                 if (wrong.empty()) wrong = send(scene, process, SIGCONT);
+                 return wrong;
+               }};
+}
+
+std::optional<Fault> main_killed(const DrilledDeployment& deployment, Form form) {
+  if (form == Form::single || deployment.processes.empty()) return std::nullopt;
+  return Fault{.name = {}, .shown = "stopping: the main process is gone", .fire = [](Scene& scene) {
+                 return send(scene, "main", SIGKILL);
+               }};
+}
+
+// What a component does wrong.
+
+std::optional<Fault> injected(const DrilledComponent& component, Form form, const char* what,
+                              Fault fault) {
+  if (component.name.empty()) return std::nullopt;
+  fault.inject = fmt::format("{}:{}", component.name, what);
+  fault.fire = [process = form == Form::single ? "main" : component.process](Scene& scene) {
+    return send(scene, process, SIGUSR1);
+  };
+  return fault;
+}
+
+std::optional<Fault> motion_throws(const DrilledDeployment& deployment, Form form) {
+  return injected(deployment.commander, form, "throw",
+                  {.name = {}, .shown = "step failed: a drill's fault", .fire = {}});
+}
+std::optional<Fault> motion_hangs(const DrilledDeployment& deployment, Form form) {
+  // A driver whose thread does not return from another component's step is halted with it.
+  if (form == Form::single && deployment.commander.shares_arm_thread) return std::nullopt;
+  return injected(
+      deployment.commander, form, "hang",
+      {.name = {},
+       .shown = fmt::format("the step of '{}' has not returned", deployment.commander.name),
+       .fire = {}});
+}
+std::optional<Fault> motion_crashes(const DrilledDeployment& deployment, Form form) {
+  if (form == Form::single) return std::nullopt;  // a crash takes its process along
+  return injected(deployment.commander, form, "crash",
+                  {.name = {},
+                   .shown = fmt::format("component '{}' crashed", deployment.commander.name),
+                   .fire = {}});
+}
+std::optional<Fault> monitor_throws(const DrilledDeployment& deployment, Form form) {
+  return injected(deployment.monitor, form, "throw",
+                  {.name = {},
+                   .outcome = Outcome::goes_on,
+                   .shown = "step failed: a drill's fault",
+                   .fire = {}});
+}
+std::optional<Fault> monitor_hangs(const DrilledDeployment& deployment, Form form) {
+  if (form == Form::single && deployment.monitor.shares_arm_thread) return std::nullopt;
+  return injected(
+      deployment.monitor, form, "hang",
+      {.name = {},
+       .outcome = Outcome::goes_on,
+       .shown = fmt::format("the step of '{}' has not returned", deployment.monitor.name),
+       .fire = {}});
+}
+std::optional<Fault> monitor_crashes(const DrilledDeployment& deployment, Form form) {
+  if (form == Form::single) return std::nullopt;
+  return injected(deployment.monitor, form, "crash",
+                  {.name = {},
+                   .shown = fmt::format("component '{}' crashed", deployment.monitor.name),
+                   .fire = {}});
+}
+
+// What others on the machine do.
+
+std::optional<Fault> stranger(const DrilledDeployment&, Form form) {
+  return Fault{.name = {},
+               .outcome = Outcome::goes_on,
+               // In one process nothing listens to others, so that there is nobody to refuse.
+               .shown = form == Form::single ? "" : "was refused on",
+               .fire = [](Scene& scene) {
+                 write_as_stranger(scene.plugins, scene.deployment, scene.domain,
+                                   scene.listener.records(), seconds(1));
+                 return std::string{};
+               }};
+}
+
+std::optional<Fault> second_start(const DrilledDeployment&, Form) {
+  return Fault{.name = {}, .outcome = Outcome::goes_on, .shown = {}, .fire = [](Scene& scene) {
+                 RunUnderTest second{scene.arguments};
+                 if (!second.ends_within(std::chrono::seconds{20})) {
+                   return std::string{"a second start was not refused"};
+                 }
+                 if (second.exit_code() != 0 && second.line_with("already runs")) {
+                   return std::string{};
+                 }
+                 return "a second start ended with: " + second.last_line();
+               }};
+}
+
+std::optional<Fault> emergency_stop(const DrilledDeployment& deployment, Form) {
+  if (deployment.commander.name.empty()) return std::nullopt;
+  return Fault{.name = {},
+               .outcome = Outcome::holds,
+               .shown = "stopped until it is rearmed",
+               .fire = [](Scene& scene) {
+                 RunUnderTest stop{{"stop", "--domain", std::to_string(scene.domain)}};
+                 const bool done = stop.ends_within(std::chrono::seconds{10});
+                 if (done && stop.exit_code() == 0) return std::string{};
+                 return "armature stop: " + stop.last_line();
+               }};
+}
+
+struct Row {
+  const char* name;
+  MakeFault make;
+};
+
+constexpr std::array kFaults{
+    Row{"interrupt", interrupt},
+    Row{"terminate", terminate},
+    Row{"hang_up", hang_up},
+    Row{"two_signals", two_signals},
+    Row{"closed_terminal", closed_terminal},
+    Row{"unread_terminal", unread_terminal},
+    Row{"driver_killed", driver_killed},
+    Row{"motion_killed", motion_killed},
+    Row{"perception_killed", perception_killed},
+    Row{"driver_halted", driver_halted},
+    Row{"main_killed", main_killed},
+    Row{"motion_throws", motion_throws},
+    Row{"motion_hangs", motion_hangs},
+    Row{"motion_crashes", motion_crashes},
+    Row{"monitor_throws", monitor_throws},
+    Row{"monitor_hangs", monitor_hangs},
+    Row{"monitor_crashes", monitor_crashes},
+    Row{"emergency_stop", emergency_stop},
+    Row{"stranger", stranger},
+    Row{"second_start", second_start},
+};
+
+}  // namespace
+
+std::vector<Fault> faults_of(const DrilledDeployment& deployment, Form form) {
+  std::vector<Fault> faults;
+  for (const Row& row : kFaults) {
+    auto fault = row.make(deployment, form);
+    if (!fault) continue;
+    fault->name = row.name;
+    faults.push_back(std::move(*fault));
+  }
+  return faults;
+}
+
+std::vector<std::string> fault_names() {
+  std::vector<std::string> names;
+  for (const Row& row : kFaults) names.emplace_back(row.name);
+  return names;
+}
+
+}  // namespace armature::drill

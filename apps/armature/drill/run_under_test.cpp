@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "drill/run_under_test.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <string_view>
+#include <system_error>
+
+namespace armature::drill {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+
+constexpr milliseconds kPause{5};
+
+/// A process group of its own, so that Ctrl-C reaches the drill alone; no standard input or output,
+/// and standard error into `terminal`.
+class SpawnSettings {
+ public:
+  explicit SpawnSettings(int terminal) {
+    posix_spawn_file_actions_init(&files);
+    posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    posix_spawn_file_actions_adddup2(&files, terminal, STDERR_FILENO);
+    posix_spawnattr_init(&attributes);
+    posix_spawnattr_setpgroup(&attributes, 0);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+  }
+  ~SpawnSettings() {
+    posix_spawn_file_actions_destroy(&files);
+    posix_spawnattr_destroy(&attributes);
+  }
+  SpawnSettings(const SpawnSettings&) = delete;
+  SpawnSettings& operator=(const SpawnSettings&) = delete;
+
+  posix_spawn_file_actions_t files;
+  posix_spawnattr_t attributes;
+};
+
+/// What stands behind --process on the command line of that process; empty: nothing.
+std::string process_name(pid_t pid) {
+  std::ifstream file{"/proc/" + std::to_string(pid) + "/cmdline"};
+  for (std::string word; std::getline(file, word, '\0');) {
+    if (word == "--process" && std::getline(file, word, '\0')) return word;
+  }
+  return {};
+}
+
+bool is_there(pid_t pid) {
+  std::ifstream file{"/proc/" + std::to_string(pid) + "/stat"};
+  std::string number, name, state;
+  return file >> number >> name >> state && state != "Z";
+}
+
+}  // namespace
+
+RunUnderTest::RunUnderTest(std::vector<std::string> arguments) {
+  std::array<int, 2> ends{};
+  if (pipe2(ends.data(), O_CLOEXEC) != 0) {
+    throw std::system_error(errno, std::generic_category(), "cannot make a pipe");
+  }
+  terminal_ = ends[0];
+  std::string program = "/proc/self/exe";
+  arguments.insert(arguments.begin(), "armature");
+  std::vector<char*> argv;
+  for (std::string& argument : arguments) argv.push_back(argument.data());
+  argv.push_back(nullptr);
+  const SpawnSettings settings{ends[1]};
+  const int error = posix_spawn(&pid_, program.c_str(), &settings.files, &settings.attributes,
+                                argv.data(), environ);
+  close(ends[1]);
+  if (error != 0) {
+    close(terminal_);
+    throw std::system_error(error, std::generic_category(), "cannot start a run");
+  }
+  processes_["main"] = pid_;
+  reader_ = std::jthread{[this](std::stop_token stop) { read_lines(stop); }};
+}
+
+RunUnderTest::~RunUnderTest() {
+  if (!all_ended()) {
+    find_processes();
+    for (const auto& [name, pid] : processes_) {
+      if (is_there(pid)) kill(pid, SIGKILL);
+    }
+    if (!exit_code_) waitpid(pid_, nullptr, 0);
+  }
+  reader_.request_stop();
+  reader_.join();
+  if (terminal_ >= 0) close(terminal_);
+}
+
+void RunUnderTest::find_processes() {
+  if (!runs()) return;
+  const std::string main = std::to_string(pid_);
+  std::ifstream children{"/proc/" + main + "/task/" + main + "/children"};
+  for (pid_t pid = 0; children >> pid;) {
+    if (const std::string name = process_name(pid); !name.empty()) processes_[name] = pid;
+  }
+}
+
+bool RunUnderTest::signal(const std::string& process, int number) {
+  const auto found = processes_.find(process);
+  return found != processes_.end() && is_there(found->second) && kill(found->second, number) == 0;
+}
+
+bool RunUnderTest::runs() {
+  int status = 0;
+  if (!exit_code_ && waitpid(pid_, &status, WNOHANG) == pid_) {
+    exit_code_ = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
+  }
+  return !exit_code_;
+}
+
+bool RunUnderTest::all_ended() {
+  return !runs() && std::ranges::none_of(processes_, [](const auto& process) {
+    return process.first != "main" && is_there(process.second);
+  });
+}
+
+bool RunUnderTest::ends_within(milliseconds patience) {
+  for (const auto end = steady_clock::now() + patience; !all_ended();) {
+    if (steady_clock::now() > end) return false;
+    std::this_thread::sleep_for(kPause);
+  }
+  // What it said at last is still on its way.
+  for (const auto end = steady_clock::now() + milliseconds{200}; steady_clock::now() < end;) {
+    const std::scoped_lock lock{mutex_};
+    if (read_to_end_ || reading_ != Reading::on) break;
+  }
+  return true;
+}
+
+void RunUnderTest::read_lines(std::stop_token stop) {
+  std::array<char, 4096> buffer;
+  while (!stop.stop_requested()) {
+    {
+      const std::scoped_lock lock{mutex_};
+      if (reading_ == Reading::closed || read_to_end_) return;
+      pollfd ready{terminal_, POLLIN, 0};
+      if (reading_ == Reading::on && poll(&ready, 1, 0) > 0) {
+        const ssize_t size = ::read(terminal_, buffer.data(), buffer.size());
+        read_to_end_ = size == 0;
+        if (size > 0) {
+          take({buffer.data(), static_cast<std::size_t>(size)});
+          continue;
+        }
+      }
+    }
+    std::this_thread::sleep_for(kPause);
+  }
+}
+
+void RunUnderTest::take(std::string_view text) {
+  unfinished_ += text;
+  for (std::size_t end; (end = unfinished_.find('\n')) != std::string::npos;) {
+    lines_.push_back(unfinished_.substr(0, end));
+    unfinished_.erase(0, end + 1);
+  }
+}
+
+std::optional<std::string> RunUnderTest::line_with(const std::string& text) const {
+  const std::scoped_lock lock{mutex_};
+  for (const std::string& line : lines_) {
+    if (line.find(text) != std::string::npos) return line;
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> RunUnderTest::wait_for_line(const std::string& text,
+                                                       milliseconds patience) {
+  for (const auto end = steady_clock::now() + patience;;) {
+    if (auto line = line_with(text)) return line;
+    if (steady_clock::now() > end || !runs()) return line_with(text);
+    std::this_thread::sleep_for(kPause);
+  }
+}
+
+std::string RunUnderTest::last_line() const {
+  const std::scoped_lock lock{mutex_};
+  return lines_.empty() ? "nothing" : lines_.back();
+}
+
+void RunUnderTest::close_terminal() {
+  const std::scoped_lock lock{mutex_};
+  reading_ = Reading::closed;
+  close(std::exchange(terminal_, -1));
+}
+
+void RunUnderTest::fill_terminal() {
+  {
+    const std::scoped_lock lock{mutex_};
+    reading_ = Reading::paused;
+  }
+  // Another description of the pipe: that the run writes to must go on waiting for room.
+  const std::string pipe = "/proc/self/fd/" + std::to_string(terminal_);
+  const int writes = open(pipe.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
+  const std::string filler(4096, '.');
+  while (::write(writes, filler.data(), filler.size()) > 0) {
+  }
+  while (::write(writes, "\n", 1) > 0) {
+  }
+  close(writes);
+}
+
+}  // namespace armature::drill

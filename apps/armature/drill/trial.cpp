@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "drill/trial.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <csignal>
+#include <thread>
+
+#include "drill/arm_listener.hpp"
+#include "drill/run_under_test.hpp"
+#include "drill/verdict.hpp"
+
+namespace armature::drill {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+
+constexpr milliseconds kLook{2};
+constexpr milliseconds kStartWithin{60000};
+constexpr milliseconds kMoveWithin{60000};
+constexpr milliseconds kMoveAgainWithin{1000};
+constexpr milliseconds kShownWithin{8000};
+/// How long a run is watched that is to go on.
+constexpr milliseconds kGoesOnFor{500};
+/// How long arms are watched that are to stay where they are.
+constexpr milliseconds kHoldsFor{2500};
+
+std::vector<std::string> arguments_of(const TrialOptions& options, const Fault& fault, Form form) {
+  std::vector<std::string> words{"run"};
+  for (const auto& file : options.source.files) words.push_back(file.string());
+  const auto set = [&](const std::string& setting) {
+    words.insert(words.end(), {"--set", setting});
+  };
+  for (const std::string& setting : options.source.assignments) set(setting);
+  set("clock=system");
+  set("run.time_limit_s=120");  // whatever happens
+  if (form == Form::split) {
+    for (const std::string& setting : options.deployment.apart) set(setting);
+  }
+  words.insert(words.end(), {"--domain", std::to_string(options.domain)});
+  if (!fault.inject.empty()) words.insert(words.end(), {"--inject", fault.inject});
+  return words;
+}
+
+bool wait_for(milliseconds patience, const std::function<bool()>& condition) {
+  for (const auto end = steady_clock::now() + patience; !condition();) {
+    if (steady_clock::now() > end) return false;
+    std::this_thread::sleep_for(kLook);
+  }
+  return true;
+}
+
+class Trial {
+ public:
+  Trial(const TrialOptions& options, const Fault& fault, Form form)
+      : options_{options},
+        fault_{fault},
+        arguments_{arguments_of(options, fault, form)},
+        listener_{options.plugins, options.deployment, options.domain},
+        run_{arguments_} {}
+
+  TrialResult run(Form form, double moment_s) {
+    result_ = {.fault = fault_.name, .form = form, .moment_s = moment_s};
+    if (reach_moment() && fire() && end()) judge_arms();
+    return result_;
+  }
+
+ private:
+  /// False, with what was wrong, when the arm never moved.
+  bool reach_moment() {
+    const auto start = steady_clock::now();
+    const auto starts = [&] { return run_.runs() && steady_clock::now() - start < kStartWithin; };
+    if (!listener_.find_arms(starts)) return fail("it did not start: " + run_.last_line());
+    if (!wait_for(kMoveWithin, [&] { return !run_.runs() || listener_.any_moves(); }) ||
+        !run_.runs()) {
+      return fail("no arm moved: " + run_.last_line());
+    }
+    run_.find_processes();
+    std::this_thread::sleep_for(std::chrono::duration<double>{result_.moment_s});
+    wait_for(kMoveAgainWithin, [&] { return !run_.runs() || listener_.any_moves(); });
+    if (run_.runs()) return true;
+    return fail("it had ended before the fault: " + run_.last_line());
+  }
+
+  bool fire() {
+    stop_at_ = steady_clock::now();
+    Scene scene{.run = run_,
+                .listener = listener_,
+                .deployment = options_.deployment,
+                .plugins = options_.plugins,
+                .domain = options_.domain,
+                .arguments = arguments_};
+    if (const std::string wrong = fault_.fire(scene); !wrong.empty()) return fail(wrong);
+    return fault_.outcome == Outcome::stops || go_on();
+  }
+
+  /// Watches a run that is to go on, then interrupts it.
+  bool go_on() {
+    const bool holds = fault_.outcome == Outcome::holds;
+    wait_for(holds ? kHoldsFor : kGoesOnFor, [&] { return !run_.runs(); });
+    find_shown();
+    // A task may give up when its arm is held.
+    if (holds && run_.line_with("stopping: the story has been told")) return true;
+    if (const auto ended = run_.line_with("stopping:")) return fail("the run ended: " + *ended);
+    if (!run_.runs()) return fail("the run ended: " + run_.last_line());
+    // An arm that is held is judged from the stop on that holds it.
+    if (!holds) stop_at_ = steady_clock::now();
+    run_.signal(SIGINT);
+    return true;
+  }
+
+  void find_shown() {
+    if (fault_.shown.empty()) return;
+    result_.shown = run_.wait_for_line(fault_.shown, kShownWithin).value_or("");
+  }
+
+  bool end() {
+    // Beside coming to rest: steps that hang are waited for, and so are processes that do not end.
+    const milliseconds patience{static_cast<int>(1000 * options_.deployment.stop_within_s) + 10000};
+    if (!run_.ends_within(patience)) {
+      return fail(fmt::format("it had not ended after {} s", patience.count() / 1000));
+    }
+    find_shown();
+    if (!fault_.shown.empty() && result_.shown.empty()) {
+      return fail(fmt::format("it did not say '{}'", fault_.shown));
+    }
+    return true;
+  }
+
+  void judge_arms() {
+    const Verdict verdict =
+        judge(options_.deployment.arms, listener_.records(), stop_at_, fault_.lost);
+    result_.wrong = verdict.wrong;
+    result_.rest_s = verdict.rest_s;
+    const bool holds = fault_.outcome == Outcome::holds;
+    if (result_.passed() && holds && verdict.rest_s > to_seconds(kHoldsFor)) {
+      fail("it moved until it was interrupted");
+      return;
+    }
+    result_.arm = verdict.arm;
+    if (!verdict.wrong.empty()) return;
+    if (fault_.outcome == Outcome::goes_on) result_.arm = "went on, then " + verdict.arm;
+    if (holds) result_.arm += " and stayed there";
+  }
+
+  bool fail(std::string wrong) {
+    result_.wrong = std::move(wrong);
+    result_.arm = result_.wrong;
+    return false;
+  }
+
+  const TrialOptions& options_;
+  const Fault& fault_;
+  std::vector<std::string> arguments_;
+  ArmListener listener_;
+  RunUnderTest run_;
+  TrialResult result_{};
+  Arrival stop_at_{};
+};
+
+}  // namespace
+
+TrialResult try_fault(const TrialOptions& options, const Fault& fault, Form form, double moment_s) {
+  return Trial{options, fault, form}.run(form, moment_s);
+}
+
+}  // namespace armature::drill

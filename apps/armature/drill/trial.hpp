@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "drill/drilled_deployment.hpp"
+#include "drill/fault.hpp"
+
+namespace armature::drill {
+
+/// What came of one fault at one moment.
+struct TrialResult {
+  std::string fault;
+  Form form;
+  double moment_s = 0;           // after the arm was first seen to move
+  std::string arm;               // what it did: "ramped to rest", "went on"
+  std::optional<double> rest_s;  // from the fault, or from the interruption after it, until rest
+  std::string shown;             // the line of the run that names it
+  std::string wrong;             // why it is not passed; empty: it is
+
+  bool passed() const { return wrong.empty(); }
+};
+
+/// What every trial of a drill has in common.
+struct TrialOptions {
+  const DeploymentSource& source;
+  const DrilledDeployment& deployment;
+  PluginRegistry& plugins;
+  int domain;
+};
+
+/// Starts the deployment in this form, fires the fault `moment_s` after an arm was first seen to
+/// move, in motion if it moves again within a second, and judges by the arms' own samples.
+TrialResult try_fault(const TrialOptions& options, const Fault& fault, Form form, double moment_s);
+
+}  // namespace armature::drill

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a drill's judge says of a run that is over.
+#include "drill/verdict.hpp"
+
+#include <gtest/gtest.h>
+
+namespace armature::drill {
+namespace {
+
+constexpr double kStep_s = 0.001;
+
+Arrival at(double t_s) { return Arrival{} + seconds(t_s); }
+
+/// Moves with `speed` until `rests_s`, then rests until a second is over.
+ArmRecord record(double rests_s, double speed = 0.5) {
+  ArmRecord record{{{"j1", 1.0}}};
+  double q = 0;
+  for (double t_s = 0; t_s < 1; t_s += kStep_s) {
+    const double v = t_s < rests_s ? speed : 0;
+    q += v * kStep_s;
+    record.add({.stamp = Time{} + seconds(t_s), .arrival = at(t_s), .q = {q}, .v = {v}});
+  }
+  return record;
+}
+
+const std::vector<DrilledArm> kArms{{.component = "left"}, {.component = "right"}};
+
+TEST(Verdict, AllArmsCameToRestAndTheLastOneCounts) {
+  const Verdict verdict = judge(kArms, {record(0.6), record(0.8)}, at(0.5), "");
+  EXPECT_EQ(verdict.wrong, "");
+  EXPECT_EQ(verdict.arm, "ramped to rest in 0.30 s");
+}
+
+TEST(Verdict, ArmsThatWereAtRestAlreadyAreSaidToBe) {
+  EXPECT_EQ(judge(kArms, {record(0.1), record(0.2)}, at(0.5), "").arm, "was at rest");
+}
+
+TEST(Verdict, AnArmThatEndsMovingIsNamed) {
+  const Verdict verdict = judge(kArms, {record(0.6), record(2)}, at(0.5), "");
+  EXPECT_EQ(verdict.wrong, "'right' was still moving at its end: joint j1 at 0.5 /s");
+}
+
+TEST(Verdict, AnArmWhoseDriverWasTakenAwayMayEndMovingAndTheOtherMayNot) {
+  EXPECT_EQ(judge(kArms, {record(2), record(0.6)}, at(0.5), "left").wrong, "");
+  EXPECT_NE(judge(kArms, {record(2), record(2)}, at(0.5), "left").wrong, "");
+}
+
+TEST(Verdict, ALimitCountsForEveryArm) {
+  EXPECT_EQ(judge(kArms, {record(0.1, 1.2), record(0.1)}, at(0.5), "left").wrong,
+            "'left' was beyond its limits: joint j1 at 1.20 /s");
+}
+
+TEST(Verdict, AnArmThatWasNotHeardFails) {
+  EXPECT_EQ(judge(kArms, {record(0.1), ArmRecord{{{"j1", 1}}}}, at(0.5), "").wrong,
+            "'right' was not heard");
+}
+
+}  // namespace
+}  // namespace armature::drill

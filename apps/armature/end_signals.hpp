@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace armature {
+
+/// How Ctrl-C, `kill` and a terminal that is closed (but under nohup) end a run.
+namespace end_signals {
+
+/// What the handlers say when they end the process themselves. Before any of them is set.
+struct Words {
+  bool json = false;                    // an object on standard output
+  std::filesystem::path report_file{};  // report.json, or empty
+};
+void say(const Words& words);
+/// From when on the report's file can be written.
+void allow_report();
+bool report_allowed();
+
+/// Nothing runs yet, and constructing components (a landmark model is read) cannot be told to stop:
+/// the process ends at once, and says so.
+void end_before_start();
+/// The first one stops the run in order, the third ends the process at once, and says so. A pipe
+/// whose reader is gone does not end it.
+void stop_in_order();
+
+/// "interrupted" or "terminated", once there has been a signal.
+std::optional<std::string> cause();
+/// How many there have been.
+int count();
+
+}  // namespace end_signals
+}  // namespace armature

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "loop_bench/bench_loop.hpp"
+
+#include <fmt/format.h>
+#include <sched.h>
+
+#include <chrono>
+#include <functional>
+#include <optional>
+#include <set>
+#include <stdexcept>
+#include <thread>
+
+#include "bench/statistics.hpp"
+#include "exit_code.hpp"
+#include "loop_bench/loop_report.hpp"
+#include "loop_bench/measured_loop.hpp"
+#include "loop_bench/readers.hpp"
+#include "progress.hpp"
+
+namespace armature {
+namespace {
+
+using bench::LoopReport;
+using bench::LoopSide;
+using bench::MeasuredLoop;
+
+/// Two processors that this process may use.
+std::pair<int, int> two_cpus() {
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  sched_getaffinity(0, sizeof set, &set);
+  std::vector<int> cpus;
+  for (int cpu = 0; cpu < CPU_SETSIZE && cpus.size() < 2; ++cpu) {
+    if (CPU_ISSET(static_cast<std::size_t>(cpu), &set)) cpus.push_back(cpu);
+  }
+  if (cpus.size() < 2) {
+    throw std::runtime_error{
+        "two processors are needed, one for each of the loops that are "
+        "compared; this process may use one"};
+  }
+  return {cpus[0], cpus[1]};
+}
+
+void wait_for(double seconds) {
+  std::this_thread::sleep_for(std::chrono::duration<double>{seconds});
+}
+
+/// What a contestant had counted when a round began.
+struct Begin {
+  TimingHistogram::Counts lateness;
+  bench::ThreadCounts thread;
+};
+
+Begin begin_of(MeasuredLoop& contestant) {
+  Begin begin;
+  if (!contestant.requests().ask(begin.thread)) throw std::runtime_error{"a loop stands still"};
+  begin.lateness = contestant.lateness().counts();
+  return begin;
+}
+
+LoopSide side_since(MeasuredLoop& contestant, const Begin& begin) {
+  const TimingFigures lateness = contestant.lateness().counts().figures_since(begin.lateness);
+  const Begin end = begin_of(contestant);
+  return {.lateness = lateness,
+          .page_faults = end.thread.page_faults - begin.thread.page_faults,
+          .allocations = end.thread.allocations - begin.thread.allocations};
+}
+
+/// Both at the same time, half of it on each other's processor.
+bench::LoopRound round_of(MeasuredLoop& a, MeasuredLoop& b, std::pair<int, int> cpus,
+                          double seconds) {
+  constexpr double kSettle_s = 0.3;
+  a.requests().move(cpus.first);
+  b.requests().move(cpus.second);
+  wait_for(kSettle_s);
+  const Begin begin_a = begin_of(a), begin_b = begin_of(b);
+  wait_for(seconds / 2);
+  a.requests().move(cpus.second);
+  b.requests().move(cpus.first);
+  wait_for(seconds / 2);
+  return {.a = side_since(a, begin_a), .b = side_since(b, begin_b)};
+}
+
+void await_readers(const bench::OurLoop& loop, int count) {
+  constexpr int kPatience_ms = 20000;
+  for (int i = 0; loop.readers() < count; ++i) {
+    if (i == kPatience_ms) {
+      throw std::runtime_error{
+          fmt::format("only {} of {} readers have come", loop.readers(), count)};
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds{1});
+  }
+}
+
+}  // namespace
+
+int bench_loop(const LoopBenchOptions& options) {
+  const auto cpus = two_cpus();
+  const bench::LoopSettings settings{
+      .period_s = options.period_s, .priority = options.priority, .domain = options.domain};
+  LoopReport report{.options = options,
+                    .machine = bench::this_machine(),
+                    .notes = {},
+                    .noise = {},
+                    .watched = {}};
+  std::vector<int> reader_counts{0};
+  if (options.readers > 0) reader_counts.push_back(options.readers);
+  Progress progress{"rounds"};
+  const double work = options.rounds * static_cast<double>(1 + reader_counts.size());
+  double done = 0;
+  for (const int count : reader_counts) report.watched.push_back({.readers = count, .rounds = {}});
+  for (int round = 0; round < options.rounds; ++round) {
+    {
+      bench::Twin a{settings}, b{settings};
+      report.noise.push_back(round_of(a, b, cpus, options.seconds));
+      progress.part(++done / work);
+    }
+    for (auto& watched : report.watched) {
+      const bench::Readers readers{watched.readers, options.domain};
+      bench::OurLoop ours{settings, [&](const std::string& note) { report.notes.insert(note); }};
+      bench::Twin twin{settings};
+      await_readers(ours, watched.readers);
+      watched.rounds.push_back(round_of(ours, twin, cpus, options.seconds));
+      progress.part(++done / work);
+    }
+  }
+  fmt::print("{}", options.json ? bench::to_json(report) + "\n" : bench::table(report));
+  return bench::is_met(report) ? kOk : kFailed;
+}
+
+}  // namespace armature

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <string>
+#include <system_error>
+
+#include "armature/config/problems.hpp"
+#include "armature/config/source_text.hpp"
+
+namespace armature::config {
+namespace {
+
+using SteadyClock = std::chrono::steady_clock;
+
+constexpr std::size_t kLargestFile = 16U << 20U;
+constexpr std::chrono::seconds kPatience{2};
+
+/// An open file, and the place that asked for it.
+class Source {
+ public:
+  Source(const std::filesystem::path& file, const Origin& asked_by)
+      : file_{file}, asked_by_{asked_by} {
+    // Opening a device may already do something.
+    struct stat status {};
+    if (stat(file.c_str(), &status) == 0) refuse_device(status.st_mode);
+    descriptor_ = open(file.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+    if (descriptor_ < 0 || fstat(descriptor_, &status) != 0) fail(errno);
+    refuse_device(status.st_mode);
+    is_pipe_ = S_ISFIFO(status.st_mode);
+  }
+  ~Source() {
+    if (descriptor_ >= 0) close(descriptor_);
+  }
+  Source(const Source&) = delete;
+  Source& operator=(const Source&) = delete;
+
+  std::string read_all() const {
+    std::string text;
+    std::array<char, 1U << 16U> chunk;
+    for (const auto end = SteadyClock::now() + kPatience;;) {
+      if (is_pipe_) wait_until(end);
+      const ssize_t count = read(descriptor_, chunk.data(), chunk.size());
+      if (count == 0) return text;
+      if (count < 0 && errno != EAGAIN && errno != EINTR) fail(errno);
+      if (count > 0) text.append(chunk.data(), static_cast<std::size_t>(count));
+      if (text.size() > kLargestFile) fail(EFBIG);
+    }
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& reason) const {
+    throw ConfigError{{{asked_by_, fmt::format("cannot read '{}': {}", file_.string(), reason)}}};
+  }
+  [[noreturn]] void fail(int error) const { fail(std::generic_category().message(error)); }
+
+  void refuse_device(mode_t mode) const {
+    if (S_ISCHR(mode) || S_ISBLK(mode)) fail("it is a device, not a file");
+  }
+
+  /// Returns when there is something to read, or the end; a pipe may have neither for ever.
+  void wait_until(SteadyClock::time_point end) const {
+    const auto left =
+        std::chrono::duration_cast<std::chrono::milliseconds>(end - SteadyClock::now());
+    pollfd ready{.fd = descriptor_, .events = POLLIN, .revents = 0};
+    if (left.count() > 0 && poll(&ready, 1, static_cast<int>(left.count())) != 0) return;
+    fail(fmt::format("it is a pipe that nobody has written to its end within {} s",
+                     kPatience.count()));
+  }
+
+  const std::filesystem::path& file_;
+  const Origin& asked_by_;
+  int descriptor_ = -1;
+  bool is_pipe_ = false;
+};
+
+}  // namespace
+
+std::string read_source(const std::filesystem::path& file, const Origin& asked_by) {
+  return Source{file, asked_by}.read_all();
+}
+
+}  // namespace armature::config

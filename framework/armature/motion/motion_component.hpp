@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "armature/messages/armature_msgs.hpp"
+#include "armature/messages/sensor_msgs.hpp"
+#include "armature/motion/goal_execution.hpp"
+#include "armature/motion/stop_inputs.hpp"
+#include "armature/runtime/component.hpp"
+#include "armature/runtime/setup.hpp"
+
+namespace armature {
+
+/// The unit that owns the reference of an arm: evaluates it, tracks, watches the arm, stops. A step
+/// takes microseconds whatever is asked of the arm: goals are planned by another unit, and nothing
+/// here allocates or waits.
+class Motion final : public Component {
+ public:
+  explicit Motion(Setup& setup);
+  void step(Time now) override;
+  void begin_stop(Time now) override;
+  bool stopped() const override { return stopped_; }
+
+ private:
+  std::optional<MeasuredJoints> read_measured();
+  void heed_stops(Time now);
+  void read_goals(Time now);
+  void publish_request();
+  void publish_statuses(Time now);
+  void publish_status(const GoalStatus& status, Time now);
+  void publish_reference(Time now);
+  void show_health(Time now);
+
+  RobotModel model_, solver_model_;
+  std::string no_tracker_;  // why targets cannot be tracked
+  PluginPtr<IkSolver> ik_;  // for tracking only
+  Input<msg::MotionGoal> goals_;
+  Input<msg::MotionPlan> plans_;
+  Input<msg::JointState> measured_js_;
+  StopInputs stops_;
+  Output<msg::MotionPlanRequest> plan_request_;
+  Output<msg::JointState> servo_jp_, reference_js_;
+  Output<msg::MotionStatus> status_;
+  std::optional<Tracker> tracker_;
+  GoalExecution execution_;
+  MotionGoal goal_;  // kept for its memory
+  Time last_status_;
+  std::optional<Time> first_step_;
+  ReasonText bad_measurement_, shown_trouble_;
+  bool stopping_ = false, stopped_ = false;  // with the run, for good
+};
+
+}  // namespace armature

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <deque>
+#include <optional>
+
+#include "armature/messages/armature_msgs.hpp"
+#include "armature/messages/trajectory_msgs.hpp"
+#include "armature/motion/goal_planner.hpp"
+#include "armature/motion/plan_exchange.hpp"
+#include "armature/runtime/component.hpp"
+#include "armature/runtime/setup.hpp"
+
+namespace armature {
+
+/// The unit `motion.planner`: keeps the goals, and when the unit that owns the reference asks for
+/// one, calls the slots and answers with a plan or with the stage that refused. A solver may take
+/// its time here: nothing that moves waits for it.
+class MotionPlanner final : public Component {
+ public:
+  explicit MotionPlanner(Setup& setup);
+  void step(Time now) override;
+
+ private:
+  const msg::MotionGoal* find(std::uint64_t goal_id) const;
+  void answer(const PlanRequest& request, const msg::MotionGoal& goal);
+  void publish_stages(const Plan& plan);
+
+  RobotModel model_, solver_model_;
+  PluginPtr<PathPlanner> path_;
+  PluginPtr<IkSolver> ik_;
+  PluginPtr<BranchSelector> select_;
+  PluginPtr<TrajectoryPlanner> trajectory_;
+  Input<msg::MotionGoal> goals_;
+  Input<msg::MotionPlanRequest> requests_;
+  Output<msg::MotionPlan> plan_;
+  Output<msg::ToolPath> path_out_;
+  Output<msg::JointTrajectory> joint_path_out_, joint_trajectory_out_;
+  Output<msg::QuinticTrajectory> trajectory_out_;
+  GoalPlanner planner_;
+  std::deque<msg::MotionGoal> known_;  // newest last
+  std::optional<PlanRequest> wanted_;  // whose goal has not come yet
+};
+
+}  // namespace armature

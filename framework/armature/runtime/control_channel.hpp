@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace armature {
+
+/// One end of the way by which the main process of a deployment and another one talk: lines of text
+/// in both directions, each whole. Nothing waits. An end that is closed tells the other one, also
+/// when its process was killed.
+class ControlChannel {
+ public:
+  /// An end that was inherited, by its number. -1: none; what is sent there goes nowhere.
+  explicit ControlChannel(int file = -1);
+  ControlChannel(ControlChannel&& other) noexcept : file_{std::exchange(other.file_, -1)} {}
+  ControlChannel& operator=(ControlChannel&&) = delete;
+  ~ControlChannel();
+
+  /// Two ends; neither is inherited by a program that is started unless it is handed over. Throws
+  /// std::system_error.
+  static std::pair<ControlChannel, ControlChannel> make();
+
+  int file() const { return file_; }
+  /// A line of which the other end has no room for is lost; so is the end of one that is longer
+  /// than 4,000 bytes.
+  void send(std::string_view line);
+  /// The next line, if there is one.
+  std::optional<std::string> receive();
+  /// True once the other end is gone and every line of it has been received.
+  bool lost() const { return lost_; }
+
+ private:
+  int file_;
+  bool lost_ = false;
+};
+
+}  // namespace armature

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "armature/runtime/deployment_config.hpp"
+
+namespace armature {
+
+/// Decides of every component that the file says nothing of what its fault does. It ends the run
+/// when a path over topics leads from the component to a driver, when it measures what the run is
+/// judged by, and where there is no driver at all; else it is isolated.
+void decide_on_faults(DeploymentConfig& deployment);
+
+/// Whether a fault of the component ends the run. What the runtime itself adds does.
+bool stops_run(const ComponentConfig& component);
+
+/// For every driver that shares its executor with components that have no business there, a line
+/// for the operator: those that lead to no driver, and where the executor has no period all but
+/// those that a driver reads from.
+std::vector<std::string> executor_warnings(const DeploymentConfig& deployment);
+
+}  // namespace armature

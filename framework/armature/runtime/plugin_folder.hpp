@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace armature {
+
+/// Who besides the user could change what lies in `folder`, and with it what this process runs:
+/// "others may write it (mode 0777)", "it belongs to user 1000". Nothing when the folder (and every
+/// folder above it) belongs to the user, to root or to the owner of this framework's own library,
+/// and nobody else may write there.
+std::optional<std::string> danger_of_folder(const std::filesystem::path& folder);
+
+}  // namespace armature

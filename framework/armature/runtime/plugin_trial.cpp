@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/runtime/plugin_trial.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+#include "armature/runtime/library_folder.hpp"
+#include "armature/values/sanitizer.hpp"
+
+namespace armature {
+namespace {
+
+/// The environment of this process, in which our own libraries are found besides: the program that
+/// tries a plugin has not loaded them as this one has.
+std::vector<std::string> environment_of_trial() {
+  constexpr std::string_view kPath = "LD_LIBRARY_PATH=";
+  std::string path = std::string{kPath} + library_folder().string();
+  std::vector<std::string> variables;
+  for (char** variable = environ; *variable; ++variable) {
+    const std::string_view text{*variable};
+    if (text.starts_with(kPath)) {
+      path += fmt::format(":{}", text.substr(kPath.size()));
+    } else {
+      variables.emplace_back(text);
+    }
+  }
+  variables.push_back(path);
+  return variables;
+}
+
+std::vector<char*> pointers_to(std::vector<std::string>& texts) {
+  std::vector<char*> pointers;
+  for (std::string& text : texts) pointers.push_back(text.data());
+  pointers.push_back(nullptr);
+  return pointers;
+}
+
+/// Starts `words` in a process group of its own, which Ctrl-C does not reach, without our signal
+/// mask and handlers, and with nothing to read and nowhere to print. The error, or 0.
+int spawn(std::vector<std::string> words, pid_t& child) {
+  posix_spawn_file_actions_t files;
+  posix_spawn_file_actions_init(&files);
+  posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  posix_spawn_file_actions_addopen(&files, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  sigset_t none, all;
+  sigemptyset(&none);
+  sigfillset(&all);
+  posix_spawnattr_setsigmask(&attributes, &none);
+  posix_spawnattr_setsigdefault(&attributes, &all);
+  posix_spawnattr_setflags(&attributes,
+                           POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+  std::vector<std::string> environment = environment_of_trial();
+  const int error = posix_spawn(&child, words.front().c_str(), &files, &attributes,
+                                pointers_to(words).data(), pointers_to(environment).data());
+  posix_spawnattr_destroy(&attributes);
+  posix_spawn_file_actions_destroy(&files);
+  return error;
+}
+
+/// How the child ended; nothing when it took too long and was killed.
+std::optional<int> ending_of(pid_t child, std::chrono::milliseconds limit) {
+  constexpr std::chrono::milliseconds kPause{1};
+  const auto end = std::chrono::steady_clock::now() + limit * (kSanitized ? 5 : 1);
+  int status = 0;
+  while (waitpid(child, &status, WNOHANG) == 0) {
+    if (std::chrono::steady_clock::now() > end) {
+      kill(child, SIGKILL);
+      waitpid(child, nullptr, 0);
+      return std::nullopt;
+    }
+    std::this_thread::sleep_for(kPause);
+  }
+  return status;
+}
+
+}  // namespace
+
+Expected<void> try_plugin(const std::filesystem::path& file, std::chrono::milliseconds limit) {
+  const std::string program = library_folder() / "armature" / "load_plugin";
+  pid_t child = -1;
+  if (const int error = spawn({program, std::to_string(getpid()), file.string()}, child)) {
+    return refuse(fmt::format("cannot start {} to try it: {}", program, std::strerror(error)));
+  }
+  const auto status = ending_of(child, limit);
+  if (!status) {
+    return refuse(
+        fmt::format("it is not loaded after {:g} s", std::chrono::duration<double>{limit}.count()));
+  }
+  if (WIFSIGNALED(*status)) {
+    return refuse(fmt::format("it crashes when it is loaded ({})", strsignal(WTERMSIG(*status))));
+  }
+  if (WEXITSTATUS(*status) != kPluginTried) {
+    return refuse(
+        fmt::format("it ends the process when it is loaded (exit code {})", WEXITSTATUS(*status)));
+  }
+  return {};
+}
+
+}  // namespace armature

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+// A component that throws, hangs or crashes: on the way to the arm it ends the run, elsewhere the
+// run goes on without it, and whoever it was is named. The deployment is a source that an arm
+// obeys, and a monitor whose notes nobody reads.
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "armature/values/sanitizer.hpp"
+#include "command.hpp"
+#include "tests/dds_domain.hpp"
+
+namespace armature::test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr double kTimeLimit_s = 3;
+
+class ComponentFaults : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::ofstream{file_}
+        << "armature: 1\n"
+           "name: broken\n"
+           "executors: {control: {}, monitor: {}}\n"
+           "components:\n"
+           "  source: {plugin: test/breaker}\n"
+           "  arm: {plugin: test/driver, executor: control}\n"
+           "  monitor: {plugin: test/breaker, topics: monitor, executor: monitor}\n";
+  }
+  void TearDown() override { fs::remove(file_); }
+
+  std::vector<std::string> command(const std::vector<std::string>& settings) const {
+    std::vector<std::string> words{
+        armature(),     "run",
+        file_.string(), "--json",
+        "--domain",     std::to_string(domain_),
+        "--set",        "run.time_limit_s=" + std::to_string(kTimeLimit_s)};
+    for (const auto& setting : settings) words.insert(words.end(), {"--set", setting});
+    return words;
+  }
+  CommandResult run(const std::vector<std::string>& settings) const {
+    return run_command(command(settings), options_);
+  }
+
+  fs::path file_ =
+      fs::temp_directory_path() / ("armature-broken-" + std::to_string(getpid()) + ".yaml");
+  int domain_ = unique_dds_domain();
+  Command::Options options_{.environment = {{"ARMATURE_PLUGIN_PATH", FAULT_PLUGINS}}, .input = {}};
+};
+
+TEST_F(ComponentFaults, WhenNothingBreaksTheRunIsOk) {
+  const CommandResult result = run({"run.time_limit_s=0.3"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(json::parse(result.out)["status"], "ok");
+}
+
+TEST_F(ComponentFaults, AMonitorThatThrowsIsIsolatedAndTheRunSaysSoAtItsEnd) {
+  const CommandResult result = run({"components.monitor.params.breaks=throws"});
+  EXPECT_EQ(result.exit_code, 1);
+  const json told = json::parse(result.out);
+  EXPECT_EQ(told["status"], "fault");
+  EXPECT_EQ(told["reason"],
+            "monitor: step failed: a marker has no colour (the run went on without it)");
+  EXPECT_GT(told["last_note_s"], 0.5 * kTimeLimit_s) << "the arm was told on";
+  EXPECT_THAT(result.err, HasSubstr("FAULT: step failed: a marker has no colour"));
+}
+
+TEST_F(ComponentFaults, AMonitorThatThrowsInAnotherProcessIsToldByTheMainOne) {
+  const CommandResult result =
+      run({"components.monitor.params.breaks=throws", "components.monitor.process=aside"});
+  EXPECT_EQ(result.exit_code, 1);
+  const json told = json::parse(result.out);
+  EXPECT_EQ(told["status"], "fault");
+  EXPECT_THAT(
+      told["reason"].get<std::string>(),
+      HasSubstr("monitor: step failed: a marker has no colour (the run went on without it)"));
+  EXPECT_GT(told["last_note_s"], 0.5 * kTimeLimit_s);
+}
+
+TEST_F(ComponentFaults, ASourceThatThrowsEndsTheRun) {
+  const CommandResult result = run({"components.source.params.breaks=throws"});
+  EXPECT_EQ(result.exit_code, 1);
+  const json told = json::parse(result.out);
+  EXPECT_EQ(told["reason"], "source: step failed: a marker has no colour");
+  EXPECT_LT(told["last_note_s"], 0.5 * kTimeLimit_s);
+}
+
+TEST_F(ComponentFaults, TheFileMaySayWhatAFaultDoes) {
+  const json went_on = json::parse(
+      run({"components.source.params.breaks=throws", "components.source.on_fault=isolate"}).out);
+  EXPECT_EQ(went_on["reason"],
+            "source: step failed: a marker has no colour (the run went on without it)");
+  const json ended = json::parse(
+      run({"components.monitor.params.breaks=throws", "components.monitor.on_fault=stop"}).out);
+  EXPECT_EQ(ended["reason"], "monitor: step failed: a marker has no colour");
+}
+
+TEST_F(ComponentFaults, AMonitorThatHangsIsNamedAndShownAndTheRunGoesOn) {
+  const std::vector<std::string> settings{"components.monitor.params.breaks=hangs",
+                                          "components.monitor.params.hangs_s=6",
+                                          "run.time_limit_s=9"};
+  Command broken{command(settings), options_};
+  ASSERT_TRUE(
+      broken.wait_for_err("the step of 'monitor' has not returned for ", std::chrono::seconds{30}))
+      << broken.err();
+  const CommandResult states =
+      run_command({armature(), "topic", "echo", "/broken/component_state", "-n", "16", "--json",
+                   "--domain", std::to_string(domain_)});
+  EXPECT_EQ(states.exit_code, 0) << states.err;
+  EXPECT_THAT(states.out, HasSubstr(R"("state":3,"reason":"its step has not returned for )"));
+  const CommandResult result = broken.finish(std::chrono::seconds{30});
+  EXPECT_THAT(result.err, HasSubstr("the step of 'monitor' has returned"));
+  EXPECT_EQ(json::parse(result.out)["status"], "ok") << result.out;
+  EXPECT_EQ(result.exit_code, 0);
+}
+
+TEST_F(ComponentFaults, ASourceThatHangsEndsTheRun) {
+  const CommandResult result =
+      run({"components.source.params.breaks=hangs",
+           "components.source.params.hangs_s=" + std::to_string(kSanitized ? 5 : 2)});
+  EXPECT_EQ(result.exit_code, 1);
+  const json told = json::parse(result.out);
+  EXPECT_EQ(told["status"], "fault");
+  EXPECT_THAT(told["reason"].get<std::string>(),
+              HasSubstr("the step of 'source' has not returned for "));
+}
+
+TEST_F(ComponentFaults, ACrashNamesTheComponentWhoseStepRan) {
+  if (kSanitized) GTEST_SKIP() << "a sanitizer tells of a crash by itself";
+  const CommandResult result = run({"components.monitor.params.breaks=crashes"});
+  EXPECT_EQ(result.exit_code, 128 + SIGSEGV);
+  EXPECT_THAT(result.err,
+              HasSubstr("armature: component 'monitor' crashed in its step: SIGSEGV\n"));
+}
+
+TEST_F(ComponentFaults, WithoutAnArmEveryFaultEndsTheRun) {
+  const CommandResult result =
+      run({"components.monitor.params.breaks=throws", "components.arm=null"});
+  EXPECT_THAT(result.err, Not(HasSubstr("armature:"))) << result.err;
+  EXPECT_EQ(json::parse(result.out)["reason"], "monitor: step failed: a marker has no colour");
+}
+
+TEST_F(ComponentFaults, CheckTellsWhoSharesTheArmsExecutorWithoutNeedAndShowWhoseFaultsEndTheRun) {
+  const auto command = [&](const char* verb, const char* setting) {
+    return run_command({armature(), verb, file_.string(), "--set", setting}, options_);
+  };
+  EXPECT_EQ(command("check", "clock=system").err, "");
+  EXPECT_EQ(command("check", "components.monitor.executor=control").err,
+            "warning: component 'arm' moves an arm and shares the executor 'control' with monitor: "
+            "when a step of theirs is long or hangs, the arm waits; name another executor for "
+            "them\n");
+  EXPECT_THAT(command("show", "clock=system").out,
+              HasSubstr("# a fault of these ends the run: source arm\n"
+                        "# of these it stays where it is: monitor\n"));
+}
+
+TEST_F(ComponentFaults, AMonitorThatThrowsDoesNotEndTheWorkOfTheLamp) {
+  const CommandResult result = run_command(
+      {armature(), "run", source_file("configs/dental_lamp.yaml"), "--json", "--domain",
+       std::to_string(domain_), "--set", "clock=simulated", "--set",
+       "components.colours={plugin: test/breaker, params: {breaks: throws}, executor: monitor}"},
+      options_, std::chrono::seconds{120});
+  EXPECT_EQ(result.exit_code, 1);
+  const json told = json::parse(result.out);
+  EXPECT_EQ(told["reasons"], (json{"colours: step failed: a marker has no colour (the run went on "
+                                   "without it)"}))
+      << "all goals are met";
+}
+
+}  // namespace
+}  // namespace armature::test

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// A transport/fast_dds on which nobody ever meets anybody. In a folder of its own, which a test
+// puts before the framework's with ARMATURE_PLUGIN_PATH: the first of an id wins.
+#include "armature/bus/transport.hpp"
+#include "armature/runtime/abi.hpp"
+#include "armature/runtime/plugin.hpp"
+
+static const char manifest[] __attribute__((section(".armature.manifest"), used, retain)) =
+    "armature_plugin: 1\nid: transport/fast_dds\nkind: transport\ndoc: Meets nobody.\n";
+
+static const char abi[] __attribute__((section(".armature.abi"), used, retain)) = ARMATURE_ABI_TAG;
+
+namespace armature {
+
+class DeafWriter final : public OutsideWriter {
+ public:
+  void offer(const SampleRef&) override {}
+  int watchers() const override { return 0; }
+  int peers() const override { return 0; }
+  std::uint64_t dropped() const override { return 0; }
+};
+
+class DeafReader final : public OutsideReader {
+ public:
+  int writers() const override { return 0; }
+  int peers() const override { return 0; }
+  std::vector<RefusedSamples> refused() const override { return {}; }
+};
+
+class DeafTransport final : public Transport {
+ public:
+  static Expected<std::unique_ptr<Transport>> make(const TransportOptions&) {
+    return std::make_unique<DeafTransport>();
+  }
+  Expected<std::unique_ptr<OutsideWriter>> advertise(const TopicSpec&) override {
+    return std::make_unique<DeafWriter>();
+  }
+  Expected<std::unique_ptr<OutsideReader>> subscribe(const TopicSpec&, bool,
+                                                     std::function<void(SampleRef)>) override {
+    return std::make_unique<DeafReader>();
+  }
+};
+
+}  // namespace armature
+
+ARMATURE_PLUGIN(armature::DeafTransport);

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// A drill passes what stops, fails what does not, and is not begun where metal would move.
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "command.hpp"
+#include "tests/dds_domain.hpp"
+
+namespace armature::test {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+constexpr std::chrono::seconds kWithin{180};
+
+const Command::Options kWithFaultPlugins{.environment = {{"ARMATURE_PLUGIN_PATH", FAULT_PLUGINS}},
+                                         .input = {}};
+
+std::vector<std::string> drill(const std::string& file, std::vector<std::string> options) {
+  std::vector<std::string> words{armature(), "drill", source_file(file), "--domain",
+                                 std::to_string(unique_dds_domain())};
+  words.insert(words.end(), options.begin(), options.end());
+  return words;
+}
+
+/// What became of the runaway arm when it was interrupted in its one process.
+json interrupted_runaway(const std::string& setting) {
+  const CommandResult result = run_command(
+      drill("tests/faults/runaway.yaml", {"--faults", "interrupt", "--json", "--set", setting}),
+      kWithFaultPlugins, kWithin);
+  EXPECT_EQ(result.exit_code, 1) << result.err;
+  const json told = json::parse(result.out, nullptr, false);
+  EXPECT_TRUE(told.is_object()) << result.out;
+  EXPECT_EQ(told.value("passed", -1), 0) << result.out;
+  return told.value("faults", json::array({json::object()}))[0];
+}
+
+TEST(Drill, TheBiopsyPassesWhenItIsInterruptedStoppedAndBroken) {
+  const CommandResult result = run_command(
+      drill("configs/sr1_biopsy.yaml",
+            {"--seed", "1", "--faults", "interrupt,closed_terminal,motion_throws,emergency_stop"}),
+      {}, kWithin);
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+  EXPECT_THAT(result.out, HasSubstr("sr1_biopsy: --seed 1\n"));
+  EXPECT_THAT(result.out, HasSubstr("\n8 passed, 0 failed\n"));
+}
+
+TEST(Drill, AnArmThatDoesNotStopFailsItWithItsJointAndItsSpeed) {
+  const json row = interrupted_runaway("components.arm.params.jumps=false");
+  EXPECT_EQ(row["form"], "single");
+  EXPECT_EQ(row["passed"], false);
+  EXPECT_THAT(row["arm"].get<std::string>(),
+              HasSubstr("'arm' was still moving at its end: joint j"));
+  EXPECT_THAT(row["shown"].get<std::string>(), HasSubstr("stopping: interrupted"));
+}
+
+TEST(Drill, AnArmThatJumpsToItsRestFailsIt) {
+  const json row = interrupted_runaway("components.arm.params.jumps=true");
+  EXPECT_THAT(row["arm"].get<std::string>(), HasSubstr("'arm' was beyond its limits: joint j1 at"));
+}
+
+TEST(Drill, IsRefusedWhereMetalMoves) {
+  const CommandResult result =
+      run_command(drill("tests/faults/runaway.yaml", {"--set", "components.arm.plugin=test/metal"}),
+                  kWithFaultPlugins, kWithin);
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_EQ(result.out, "");
+  EXPECT_EQ(result.err,
+            "armature: 'arm' (test/metal) moves metal, and a drill kills a moving machine; only "
+            "deployments whose drivers are all 'simulated: true' in plugin.yaml are drilled\n");
+}
+
+TEST(Drill, IsRefusedWhereThereIsNoArm) {
+  const CommandResult result = run_command(
+      drill("tests/faults/runaway.yaml", {"--set", "components.arm.plugin=test/breaker"}),
+      kWithFaultPlugins, kWithin);
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_THAT(result.err, HasSubstr("deployment 'runaway' has no component with 'driver:'"));
+}
+
+TEST(Drill, AFaultThatIsNoneIsNamed) {
+  const CommandResult result =
+      run_command(drill("configs/sr1_biopsy.yaml", {"--faults", "interupt"}));
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_EQ(result.err, "armature: no fault 'interupt'; did you mean 'interrupt'?\n");
+}
+
+}  // namespace
+}  // namespace armature::test

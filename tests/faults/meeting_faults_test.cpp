@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// Nothing is activated before a deployment's processes have met: a run that does not begin names
+// what it waited for.
+#include <gmock/gmock.h>
+
+#include <csignal>
+#include <fstream>
+#include <iterator>
+
+#include "command.hpp"
+#include "tests/dds_domain.hpp"
+
+namespace armature::test {
+namespace {
+
+using std::chrono::seconds;
+using testing::HasSubstr;
+
+class Meeting : public testing::Test {
+ protected:
+  std::vector<std::string> command() const {
+    return {armature(), "run",      source_file("tests/end_to_end/pulse.yaml"),
+            "--json",   "--domain", std::to_string(domain_)};
+  }
+  const int domain_ = unique_dds_domain();
+};
+
+TEST_F(Meeting, ThatDoesNotComeAboutEndsTheRunBeforeItsStartAndNamesTopicAndProcess) {
+  const std::string path = std::string{DEAF_TRANSPORT} + ":" + TEST_PLUGINS;
+  const CommandResult result = run_command(
+      command(), {.environment = {{"ARMATURE_PLUGIN_PATH", path}}, .input = {}}, seconds{30});
+  EXPECT_EQ(result.exit_code, 1);
+  const std::string reason =
+      "not started: topic '/pulse/beat' of process 'main' has not met process 'aside' within ";
+  EXPECT_THAT(result.out, HasSubstr(R"({"status":"not_started","reason":")" + reason));
+  EXPECT_THAT(result.err, HasSubstr("armature: " + reason));
+}
+
+TEST_F(Meeting, WithoutALoopbackInterfaceSaysSo) {
+  const std::vector<std::string> alone{"/usr/bin/unshare", "-rn"};
+  auto probe = alone;
+  probe.push_back("/bin/true");
+  if (run_command(probe).exit_code != 0) GTEST_SKIP() << "no network namespace may be made here";
+  auto words = alone;
+  for (const auto& word : command()) words.push_back(word);
+  const CommandResult result = run_command(
+      words, {.environment = {{"ARMATURE_PLUGIN_PATH", TEST_PLUGINS}}, .input = {}}, seconds{30});
+  EXPECT_EQ(result.exit_code, 1) << result.out;
+  EXPECT_THAT(result.err, HasSubstr("loopback interface")) << result.err;
+}
+
+bool is_process_of_a_deployment(pid_t pid) {
+  std::ifstream words{"/proc/" + std::to_string(pid) + "/cmdline"};
+  const std::string line{std::istreambuf_iterator<char>{words}, {}};
+  return line.find("--process") != std::string::npos;
+}
+
+TEST_F(Meeting, AProcessThatIsKilledBeforeItEndsTheRunBeforeItsStart) {
+  const std::string path = std::string{DEAF_TRANSPORT} + ":" + TEST_PLUGINS;
+  Command run{command(), {.environment = {{"ARMATURE_PLUGIN_PATH", path}}, .input = {}}};
+  // Plugins are tried in processes of their own before.
+  pid_t aside = 0;
+  while (!is_process_of_a_deployment(aside = run.child())) {
+  }
+  kill(aside, SIGKILL);
+  const CommandResult result = run.finish(seconds{30});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr("armature: process 'aside' (pid " + std::to_string(aside) +
+                                    ") was killed by signal 9 (Killed) before the start"));
+}
+
+}  // namespace
+}  // namespace armature::test

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: Apache-2.0
+// Plugs that are pulled while something moves: it is at rest before its process ends, whoever else
+// has gone already, and who reads what is printed does not matter.
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <thread>
+
+#include "command.hpp"
+#include "tests/dds_domain.hpp"
+
+namespace armature::test {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using testing::ContainsRegex;
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr seconds kWithin{30};
+const std::string kApart = "components.arm.process=aside";
+
+class PulledPlug : public testing::Test {
+ protected:
+  PulledPlug() {
+    std::string pattern =
+        (std::filesystem::temp_directory_path() / "armature-halt-XXXXXX").string();
+    folder_ = mkdtemp(pattern.data());
+  }
+  ~PulledPlug() override {
+    // Of a run behind a shell, which is not there any more when the test has failed.
+    const std::string pid = file("pid");
+    std::ifstream line{"/proc/" + pid.substr(0, pid.find('\n')) + "/cmdline"};
+    const std::string words{std::istreambuf_iterator<char>{line}, {}};
+    if (words.find(folder_) != std::string::npos) kill(std::stoi(pid), SIGKILL);
+    std::filesystem::remove_all(folder_);
+  }
+
+  std::vector<std::string> command(const std::vector<std::string>& settings = {}) {
+    std::vector<std::string> words{armature(),
+                                   "run",
+                                   source_file("tests/faults/halt.yaml"),
+                                   "--json",
+                                   "--report",
+                                   folder_,
+                                   "--domain",
+                                   std::to_string(domain_)};
+    for (const auto& setting : settings) words.insert(words.end(), {"--set", setting});
+    return words;
+  }
+  /// As a line for the shell, in which the process id is told in a file.
+  std::string line(const std::vector<std::string>& settings = {}) {
+    std::string text = "echo $BASHPID > " + folder_ + "/pid; exec";
+    for (const auto& word : command(settings)) text += " '" + word + "'";
+    return text;
+  }
+  std::string file(const std::string& name) const {
+    std::ifstream stream{std::filesystem::path{folder_} / name};
+    return {std::istreambuf_iterator<char>{stream}, {}};
+  }
+  std::string report() const { return file("report.json"); }
+
+  const Command::Options options_{.environment = {{"ARMATURE_PLUGIN_PATH", TEST_PLUGINS}},
+                                  .input = {}};
+  std::string folder_;
+  const int domain_ = unique_dds_domain();
+};
+
+const std::string kEndedAtRest = "arm       ended at rest";
+
+TEST_F(PulledPlug, AnInterruptedArmComesToRestInEitherProcess) {
+  for (const std::string process : {"main", "aside"}) {
+    Command run{command({"components.arm.process=" + process}), options_};
+    ASSERT_TRUE(run.wait_for_err("arm       moves", kWithin)) << run.err();
+    run.signal(SIGINT);
+    const CommandResult result = run.finish(kWithin);
+    EXPECT_THAT(result.err, ContainsRegex("runtime   stopping: interrupted\n(.|\n)*at rest\n"));
+    EXPECT_THAT(result.err, HasSubstr(kEndedAtRest));
+    EXPECT_THAT(result.err, HasSubstr("armature: interrupted\n"));
+    EXPECT_THAT(result.out, HasSubstr(R"({"status":"ok")")) << "there is no goal to miss";
+  }
+}
+
+TEST_F(PulledPlug, AnArmWhoseMainProcessIsKilledComesToRestByItselfAndEnds) {
+  Command run{command({kApart}), options_};
+  ASSERT_TRUE(run.wait_for_err("arm       moves", kWithin)) << run.err();
+  const pid_t aside = run.child();
+  run.signal(SIGKILL);
+  EXPECT_TRUE(run.wait_for_err("runtime   stopping: the main process is gone", kWithin));
+  EXPECT_TRUE(run.wait_for_err(kEndedAtRest, kWithin)) << run.err();
+  EXPECT_TRUE(ends_within(aside, kWithin));
+}
+
+TEST_F(PulledPlug, AnArmWhoseOtherProcessIsKilledComesToRestAndTheSignalIsTold) {
+  Command run{command({"components.beat.process=aside"}), options_};
+  ASSERT_TRUE(run.wait_for_err("arm       moves", kWithin)) << run.err();
+  const pid_t aside = run.child();
+  kill(aside, SIGSEGV);
+  const CommandResult result = run.finish(kWithin);
+  const std::string lost = "process 'aside' (pid " + std::to_string(aside) +
+                           ") was killed by signal 11 (Segmentation fault)";
+  EXPECT_THAT(result.err, HasSubstr("stopping: " + lost));
+  EXPECT_THAT(result.err, HasSubstr(kEndedAtRest));
+  EXPECT_THAT(result.out, HasSubstr(R"({"status":"fault","reason":")" + lost));
+  EXPECT_EQ(result.exit_code, 1);
+}
+
+TEST_F(PulledPlug, AProcessThatWasStoppedForLongerThanItsLeaseMakesTheStatusNotOk) {
+  Command run{command({kApart}), options_};
+  ASSERT_TRUE(run.wait_for_err("arm       moves", kWithin)) << run.err();
+  const pid_t aside = run.child();
+  kill(aside, SIGSTOP);
+  std::this_thread::sleep_for(milliseconds{1200});
+  kill(aside, SIGCONT);
+  std::this_thread::sleep_for(milliseconds{200});
+  run.signal(SIGINT);
+  const CommandResult result = run.finish(kWithin);
+  EXPECT_THAT(result.out,
+              HasSubstr(R"({"status":"fault","reason":"process 'aside' (pid )" +
+                        std::to_string(aside) + ") fell silent: it was stopped for 1."));
+  EXPECT_THAT(result.err, HasSubstr(kEndedAtRest));
+}
+
+TEST_F(PulledPlug, AReaderThatGoesAwayEndsTheRunInOrder) {
+  const CommandResult result = run_command(
+      {"/bin/bash", "-c", "(" + line() + ") 2>&1 >" + folder_ + "/out | grep -m1 moves"}, options_,
+      kWithin);
+  EXPECT_THAT(result.out, HasSubstr("arm       moves"));
+  ASSERT_TRUE(ends_within(std::stoi(file("pid")), kWithin));
+  EXPECT_THAT(report(), Not(HasSubstr(R"("steps_to_rest":"0")")));
+  EXPECT_THAT(report(), HasSubstr(R"("steps_to_rest":)"));
+}
+
+TEST_F(PulledPlug, LinesThatNobodyReadsDelayNeitherTheArmNorItsEnd) {
+  // The reader keeps the pipe open and takes nothing until the run is over.
+  Command run{{"/bin/bash", "-c",
+               "(" + line({"components.arm.params.talks=true"}) + ") 2>&1 >" + folder_ +
+                   "/out | (while [ ! -e " + folder_ + "/read ]; do sleep 0.1; done; cat)"},
+              options_};
+  // A pipe takes 64 KiB, the queue 256 lines: both are full after four seconds.
+  std::this_thread::sleep_for(seconds{5});
+  const pid_t pid = std::stoi(file("pid"));
+  kill(pid, SIGINT);
+  EXPECT_TRUE(ends_within(pid, kWithin));
+  EXPECT_THAT(report(), ContainsRegex(R"("steps_to_rest":"[1-9])"));
+  std::ofstream{folder_ + "/read"};
+  run.finish(kWithin);
+}
+
+TEST_F(PulledPlug, LinesThatWereDroppedAreCountedAsSoonAsSomebodyReads) {
+  Command run{{"/bin/bash", "-c",
+               "(" + line({"components.arm.params.talks=true"}) + ") 2>&1 >" + folder_ +
+                   "/out | (sleep 5; cat)"},
+              options_};
+  EXPECT_TRUE(run.wait_for_out(" lines are missing here, nobody read them in time\n", kWithin));
+  kill(std::stoi(file("pid")), SIGINT);
+  EXPECT_TRUE(run.finish(kWithin).out.ends_with("armature: interrupted\n"));
+}
+
+TEST_F(PulledPlug, ASecondSignalIsToldHowLongItTakesAndTheThirdEndsAtOnce) {
+  Command run{command({"components.arm.params.rest_after_s=1000", "run.stop_within_s=100"}),
+              options_};
+  ASSERT_TRUE(run.wait_for_err("arm       moves", kWithin)) << run.err();
+  run.signal(SIGINT);
+  ASSERT_TRUE(run.wait_for_err("stopping: interrupted", kWithin)) << run.err();
+  run.signal(SIGINT);
+  ASSERT_TRUE(run.wait_for_err("stopping, at most ", kWithin)) << run.err();
+  EXPECT_THAT(run.err(),
+              ContainsRegex("stopping, at most [0-9.]+ s more; a third signal ends at once\n"));
+  run.signal(SIGINT);
+  const CommandResult result = run.finish(seconds{5});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr("ended at once by a third signal, before everything was at"));
+  EXPECT_THAT(result.out, HasSubstr(R"({"status":"fault","reason":"ended at once by a third)"));
+  EXPECT_EQ(report(), result.out);
+}
+
+TEST_F(PulledPlug, AnArmThatDoesNotComeToRestIsNamedWithItsProcess) {
+  for (const std::string process : {"main", "aside"}) {
+    Command run{command({"components.arm.process=" + process,
+                         "components.arm.params.rest_after_s=1000", "run.stop_within_s=0.3"}),
+                options_};
+    ASSERT_TRUE(run.wait_for_err("arm       moves", kWithin)) << run.err();
+    run.signal(SIGTERM);
+    const CommandResult result = run.finish(kWithin);
+    const std::string where = process == "main" ? "" : " in process 'aside'";
+    EXPECT_THAT(result.out, HasSubstr(R"({"status":"fault","reason":"'arm')" + where +
+                                      " was not at rest 0.3 s after it was to stop"));
+    EXPECT_EQ(result.exit_code, 1);
+  }
+}
+
+TEST_F(PulledPlug, AStepThatDoesNotReturnIsNamedAndTheProcessLeavesAllTheSame) {
+  Command run{command({"components.beat.process=aside", "components.arm.params.hangs_after_s=0.2",
+                       "run.stop_within_s=0.3"}),
+              options_};
+  ASSERT_TRUE(run.wait_for_err("arm       moves", kWithin)) << run.err();
+  std::this_thread::sleep_for(milliseconds{500});
+  const pid_t aside = run.child();
+  run.signal(SIGINT);
+  const CommandResult result = run.finish(kWithin);
+  EXPECT_FALSE(result.timed_out);
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.out,
+              HasSubstr(R"({"status":"fault","reason":"the step of 'arm' has not returned for)"));
+  EXPECT_THAT(result.out, HasSubstr("'arm' hangs: its step has not returned"));
+  EXPECT_EQ(report(), result.out);
+  EXPECT_TRUE(ends_within(aside, seconds{1}));
+}
+
+/// The files in shared memory that a process has mapped.
+std::set<std::string> shared_memory_of(pid_t pid) {
+  std::set<std::string> files;
+  std::ifstream maps{"/proc/" + std::to_string(pid) + "/maps"};
+  for (std::string line; std::getline(maps, line);) {
+    const std::size_t path = line.find("/dev/shm/fastrtps_");
+    if (path != std::string::npos) files.insert(line.substr(path));
+  }
+  return files;
+}
+
+TEST_F(PulledPlug, SharedMemoryOfKilledProcessesIsGoneAtTheNextStart) {
+  std::set<std::string> left;
+  {
+    Command run{command({kApart}), options_};
+    ASSERT_TRUE(run.wait_for_err("arm       moves", kWithin)) << run.err();
+    const pid_t aside = run.child();
+    left = shared_memory_of(run.pid());
+    left.merge(shared_memory_of(aside));
+    kill(aside, SIGSTOP);  // so that neither tidies up
+    run.signal(SIGKILL);
+    kill(aside, SIGKILL);
+    run.finish(kWithin);
+    ASSERT_TRUE(ends_within(aside, kWithin));
+  }
+  ASSERT_FALSE(left.empty());
+  Command next{command(), options_};
+  ASSERT_TRUE(next.wait_for_err("arm       moves", kWithin)) << next.err();
+  // Ports are of a domain, and it is the same one.
+  std::erase_if(left, [](const auto& file) { return file.find("_port") != std::string::npos; });
+  for (const std::string& file : left) EXPECT_FALSE(std::filesystem::exists(file)) << file;
+  next.signal(SIGINT);
+  next.finish(kWithin);
+}
+
+}  // namespace
+}  // namespace armature::test

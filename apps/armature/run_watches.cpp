@@ -52,9 +52,7 @@ MainWatch::MainWatch(Console& console, ChildProcesses& children, const Deploymen
 
 bool MainWatch::may_start(const std::optional<std::string>& waiting) {
   children_->update();
-  if (const auto lost = children_->stop_cause()) {
-    throw std::runtime_error{*lost + " before the start"};
-  }
+  if (children_->stop_cause()) return false;
   const auto now = SteadyClock::now();
   if (const auto late = children_->not_joined()) {
     if (!told_of_late_ && now - asked_first_ > kMeetWithin) {
@@ -70,6 +68,7 @@ bool MainWatch::may_start(const std::optional<std::string>& waiting) {
   }
   if (there) return false;
   children_->send("start");
+  started_ = true;
   return true;
 }
 
@@ -94,7 +93,9 @@ std::optional<std::string> MainWatch::stop_cause() {
   tell_clock_step();
   children_->update();
   if (auto cause = interruption_now()) return cause;
-  return children_->stop_cause();
+  auto lost = children_->stop_cause();
+  if (lost && !started_) throw std::runtime_error{*lost + " before the start"};
+  return lost;
 }
 
 void MainWatch::stopping(const std::string& cause) {

@@ -64,7 +64,7 @@ class MainWatch final : public ProcessWatch {
   double stop_within_s_;
   SteadyClock::time_point asked_first_ = SteadyClock::now();
   std::optional<SteadyClock::time_point> joined_;
-  bool told_of_late_ = false;
+  bool started_ = false, told_of_late_ = false;
   int told_signals_ = 1;
   std::vector<std::string> moving_;  // in other processes, when the time was over
 };

@@ -37,7 +37,8 @@ class PulledPlug : public testing::Test {
     // Of a run behind a shell, which is not there any more when the test has failed.
     const std::string pid = file("pid");
     std::ifstream line{"/proc/" + pid.substr(0, pid.find('\n')) + "/cmdline"};
-    const std::string words{std::istreambuf_iterator<char>{line}, {}};
+    std::string words;
+    std::getline(line, words);
     if (words.find(folder_) != std::string::npos) kill(std::stoi(pid), SIGKILL);
     std::filesystem::remove_all(folder_);
   }

@@ -31,21 +31,36 @@ Roots quadratic_roots(double k0, double k1, double k2, double end) {
   return roots;
 }
 
-/// The root of `f` between a and b, where it has opposite signs. Bisection down to neighbouring
-/// doubles at worst; what `f` is the derivative of is exact there to rounding (it is flat).
-template <class Function>
-double root_between(double a, double b, Function f) {
+/// The root of `f` between a and b, where it has opposite signs: Newton's steps, halves of what is
+/// left where one leaves it or is no shorter than half of the last. What `f` is the derivative of
+/// is exact there to rounding (it is flat).
+template <class Function, class Slope>
+double root_between(double a, double b, Function f, Slope slope) {
   const bool rising = f(a) < 0;
-  for (int i = 0; i < 64; ++i) {
-    const double middle = 0.5 * (a + b);
-    if (middle <= a || middle >= b) break;
-    ((f(middle) < 0) == rising ? a : b) = middle;
+  const double enough = 1e-10 * (b - a);  // the next step would be as short as rounding
+  double t = 0.5 * (a + b), last_step = b - a;
+  for (int i = 0; i < 64 && std::abs(last_step) > enough; ++i) {
+    const double value = f(t);
+    ((value < 0) == rising ? a : b) = t;
+    double next = t - value / slope(t);
+    const bool converges = next > a && next < b && std::abs(next - t) < 0.5 * std::abs(last_step);
+    if (!converges) next = 0.5 * (a + b);
+    last_step = next - t;
+    t = next;
   }
-  return 0.5 * (a + b);
+  return t;
 }
 
 double acceleration_root(const Quintic& quintic, double a, double b) {
-  return root_between(a, b, [&](double t) { return quintic.acceleration(t); });
+  return root_between(
+      a, b, [&](double t) { return quintic.acceleration(t); },
+      [&](double t) { return quintic.jerk(t); });
+}
+
+double velocity_root(const Quintic& quintic, double a, double b) {
+  return root_between(
+      a, b, [&](double t) { return quintic.velocity(t); },
+      [&](double t) { return quintic.acceleration(t); });
 }
 
 }  // namespace
@@ -110,7 +125,6 @@ QuinticPeaks peaks(const Quintic& quintic, double duration_s) {
 
 QuinticRange range(const Quintic& quintic, double duration_s) {
   const double T = duration_s;
-  const auto velocity = [&](double t) { return quintic.velocity(t); };
   QuinticRange result{quintic.position(0), quintic.position(0)};
   const auto pass = [&](double t) {
     const double q = quintic.position(t);
@@ -120,7 +134,7 @@ QuinticRange range(const Quintic& quintic, double duration_s) {
   double from = 0;
   const auto piece_to = [&](double to) {
     if ((quintic.velocity(from) < 0) != (quintic.velocity(to) < 0)) {
-      pass(root_between(from, to, velocity));
+      pass(velocity_root(quintic, from, to));
     }
     pass(to);
     from = to;

@@ -21,7 +21,8 @@ class RunWatch {
   /// topic has not met which process yet. May throw std::runtime_error, which ends the run before
   /// it began.
   virtual bool may_start(const std::optional<std::string>& waiting) { return !waiting; }
-  /// Why the run is to stop, once something outside of its components says so.
+  /// Why the run is to stop, once something outside of its components says so. Asked before the
+  /// start, too, and may throw there as may_start does.
   virtual std::optional<std::string> stop_cause() { return std::nullopt; }
   /// Once: the run is stopping.
   virtual void stopping(const std::string& cause) { static_cast<void>(cause); }

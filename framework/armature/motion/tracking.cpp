@@ -145,10 +145,15 @@ Tracker::Outcome Tracker::attempt(const MotionGoal& goal, const JointState& from
 TrackingFailure Tracker::track(const MotionGoal& goal, const JointState& from, Time start,
                                ShortTrajectory& out) {
   ReasonText by_limits;
-  for (double horizon = options_.shortest_horizon_s; horizon <= kLongestHorizon;
-       horizon *= kHorizonGrowth) {
+  const int begin = start < under_way_until_ ? std::max(grown_ - 1, 0) : 0;
+  double horizon = options_.shortest_horizon_s;
+  for (grown_ = 0; horizon <= kLongestHorizon; ++grown_, horizon *= kHorizonGrowth) {
+    if (grown_ < begin) continue;
     const Outcome outcome = attempt(goal, from, start, horizon, out);
-    if (outcome == Outcome::met) return {};
+    if (outcome == Outcome::met) {
+      under_way_until_ = start + seconds(horizon);
+      return {};
+    }
     if (outcome == Outcome::out_of_reach && by_limits.empty()) return {"ik", defect_};
     if (outcome == Outcome::out_of_reach) {
       by_limits =

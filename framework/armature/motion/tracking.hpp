@@ -27,9 +27,10 @@ struct TrackingFailure {
 /// Makes trajectories towards a target that moves and turns, as often as the arm is told where to
 /// be: one quintic per joint from `from` to where the target will be after the horizon, with the
 /// target's joint velocity there and no acceleration, and then to rest, so that an arm whose target
-/// falls silent stops by itself. The horizon is the shortest one from `shortest_horizon_s` on with
-/// which the limits on velocity, acceleration and, until the target is met, jerk and the tool's
-/// speed hold; a tool that is faster already does not become faster. Real-time safe.
+/// falls silent stops by itself. The horizon is the shortest one with which the limits on velocity,
+/// acceleration and, until the target is met, jerk and the tool's speed hold; a tool that is faster
+/// already does not become faster. It is searched upwards: from `shortest_horizon_s` on, or, while
+/// the last target is not met yet, from a fifth below the last one. Real-time safe.
 class Tracker {
  public:
   /// Keeps references to `model` and `ik`, which allocates nothing.
@@ -54,8 +55,10 @@ class Tracker {
   MotionLimits limits_;
   const IkSolver& ik_;
   TrackingOptions options_;
-  IkBranches branches_;  // kept for their memory
-  ReasonText defect_;    // of the last attempt
+  IkBranches branches_;   // kept for their memory
+  ReasonText defect_;     // of the last attempt
+  int grown_ = 0;         // how often the last horizon was made longer
+  Time under_way_until_;  // when the last target is met
 };
 
 }  // namespace armature

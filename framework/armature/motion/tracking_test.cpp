@@ -59,6 +59,41 @@ TEST(Tracking, TakesLongerInsteadOfBreakingLimits) {
   EXPECT_GT(plan.horizon_s(), 1.2);
 }
 
+/// Counts how often it is asked.
+class CountingIk : public IkSolver {
+ public:
+  explicit CountingIk(const IkSolver& ik) : ik_{ik} {}
+  IkStatus solve(const IkGoal& goal, const JointVector& near, IkBranches& out,
+                 IkState& state) const override {
+    ++asked;
+    return ik_.solve(goal, near, out, state);
+  }
+  mutable int asked = 0;
+
+ private:
+  const IkSolver& ik_;
+};
+
+TEST(Tracking, OnTheWayFindsTheSameHorizonsAsFromTheShortestOnInThreeAttempts) {
+  const Gantry gantry;
+  const CountingIk ik{gantry.ik};
+  Tracker tracker{gantry.model, gantry.limits, ik, kHorizon};
+  ShortTrajectory current;
+  JointState from = rest_at(0, 0, 0);
+  for (int k = 0; k < 3000; ++k) {
+    const Time now = Time{} + k * seconds(0.001);
+    MotionGoal goal = goal_at(static_cast<std::uint64_t>(k + 1), 1.2 + 2e-4 * k, -1, 0.4);
+    goal.velocity = {0.2, 0, 0};
+    const Tracked anew = track(gantry.tracker(kHorizon), goal, from, now);
+    ASSERT_TRUE(anew) << anew.failure.reason.view();
+    const int asked_before = ik.asked;
+    ASSERT_EQ(tracker.track(goal, from, now, current).stage, "");
+    ASSERT_EQ(current.knots[1], anew.horizon_s()) << "at step " << k;
+    if (k > 0) ASSERT_LE(ik.asked - asked_before, 3 * 2) << "at step " << k;
+    from = current.view().at(now + seconds(0.001));
+  }
+}
+
 TEST(Tracking, FollowsACircleWithoutAJumpAndWithinLimits) {
   const Gantry gantry;
   ShortTrajectory current = short_hold_at(Eigen::Vector3d{0, 0, 0.3}, Time{0}, 0);

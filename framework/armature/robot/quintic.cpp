@@ -37,10 +37,11 @@ Roots quadratic_roots(double k0, double k1, double k2, double end) {
 template <class Function, class Slope>
 double root_between(double a, double b, Function f, Slope slope) {
   const bool rising = f(a) < 0;
-  const double enough = 1e-10 * (b - a);  // the next step would be as short as rounding
+  const double enough = 1e-7 * (b - a);  // what is flat is wrong by the square of that
   double t = 0.5 * (a + b), last_step = b - a;
   for (int i = 0; i < 64 && std::abs(last_step) > enough; ++i) {
     const double value = f(t);
+    if (value == 0) return t;
     ((value < 0) == rising ? a : b) = t;
     double next = t - value / slope(t);
     const bool converges = next > a && next < b && std::abs(next - t) < 0.5 * std::abs(last_step);

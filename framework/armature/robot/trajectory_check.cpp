@@ -46,6 +46,13 @@ struct Stretch {
   Quintic quintic;
 };
 
+/// What the joint cannot leave with that velocity: it has half of the time to go away and back.
+QuinticRange farthest(const Quintic& quintic, double duration_s, double max_velocity) {
+  const double from = quintic.position(0), to = quintic.position(duration_s);
+  const double way = 0.5 * duration_s * max_velocity;
+  return {std::min(from, to) - way, std::max(from, to) + way};
+}
+
 ReasonText broken_limit(const Stretch& stretch, const RobotModel& model,
                         const MotionLimits& limits) {
   const int i = stretch.joint;
@@ -58,16 +65,22 @@ ReasonText broken_limit(const Stretch& stretch, const RobotModel& model,
   const auto beyond = [](const ReasonText& what, double limit) {
     return ReasonText::format("{}, its limit is {:.4f}", what.view(), limit);
   };
-  const QuinticRange q = range(stretch.quintic, stretch.to - stretch.from);
+  const double duration_s = stretch.to - stretch.from;
+  const QuinticPeaks peak = peaks(stretch.quintic, duration_s);
   const double lower = std::min(model.lower()[i], stretch.stood) - kPositionSlack;
   const double upper = std::max(model.upper()[i], stretch.stood) + kPositionSlack;
-  if (!(q.lowest >= lower && q.highest <= upper)) {
+  const auto within = [&](const QuinticRange& q) {
+    return q.lowest >= lower && q.highest <= upper;
+  };
+  // Mostly the limits are farther away than the joint can go.
+  QuinticRange q = farthest(stretch.quintic, duration_s, peak.velocity);
+  if (!within(q)) q = range(stretch.quintic, duration_s);
+  if (!within(q)) {
     const double far = q.highest > upper ? q.highest : q.lowest;
     return ReasonText::format("{}, its limits are {:.4f} and {:.4f} {}",
                               would("reach", far, "").view(), model.lower()[i], model.upper()[i],
                               unit(model, i));
   }
-  const QuinticPeaks peak = peaks(stretch.quintic, stretch.to - stretch.from);
   if (!(peak.velocity <= limits.max_velocity[i] * (1 + kRateSlack))) {
     return beyond(would("need", peak.velocity, "/s"), limits.max_velocity[i]);
   }

@@ -141,9 +141,7 @@ std::string fault_of(const Deployment& deployment, const ChildWatch& watch) {
 int conclude_child(const RunOptions& options, const Deployment& deployment, ChildWatch& watch) {
   const std::string fault = fault_of(deployment, watch);
   watch.tell_fault(fault);
-  if (options.timing) {
-    fmt::print(stderr, "process {}:\n{}", options.process, to_table(timing_of(deployment)));
-  }
+  if (options.timing) watch.tell_timing(timing_of(deployment));
   if (options.json) fmt::print("{}", ending(fault.empty() ? "ok" : "fault", fault));
   return fault.empty() ? kOk : kFailed;
 }
@@ -173,10 +171,12 @@ int run_main(const RunOptions& options, const Process& process, Deployment& depl
   deployment.connect(plugins, process.domain);
   MainWatch watch{console, children, deployment.config()};
   deployment.run(watch);
-  const int code = conclude(
-      options, deployment,
-      {.faults = watch.end_all(), .stopped = watch.interruption(), .tells_timing = options.timing},
-      console);
+  RunReport::Ending ending{.faults = watch.end_all(), .stopped = watch.interruption()};
+  if (options.timing) {
+    ending.timing = timing_of(deployment);
+    children.add_timing(*ending.timing);
+  }
+  const int code = conclude(options, deployment, ending, console);
   console.flush();
   leave_if_necessary(deployment, watch, code);
   return code;

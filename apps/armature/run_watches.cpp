@@ -185,6 +185,11 @@ bool ChildWatch::may_end(const std::vector<std::string>& moving, Duration left) 
   return (alone() || control_.lost()) && RunWatch::may_end(moving, left);
 }
 
+void ChildWatch::tell_timing(const RunTiming& timing) {
+  if (alone()) fmt::print(stderr, "{}", to_table(timing));
+  for (const std::string& line : to_lines(timing)) control_.send("timing " + line);
+}
+
 void ChildWatch::tell_fault(const std::string& fault) {
   if (!fault.empty()) control_.send("fault " + fault);
 }

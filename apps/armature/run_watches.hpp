@@ -83,6 +83,8 @@ class ChildWatch final : public ProcessWatch {
 
   /// Tells the main process what failed here, "" for nothing.
   void tell_fault(const std::string& fault);
+  /// Tells the main process, or without one the operator, who was late.
+  void tell_timing(const RunTiming& timing);
 
  private:
   bool alone() const { return control_.file() < 0; }

@@ -34,7 +34,7 @@ class DeploymentTest : public testing::Test {
 
   /// `beat` and `ear` are added to what is said of the two components.
   Told run(const std::string& beat, const std::string& ear, const std::string& more = "",
-           const RunReport::Ending& ending = {}) {
+           bool tells_timing = false) {
     Deployment deployment{read("armature: 1\nname: pulse\nclock: simulated\n" + more +
                                "components:\n"
                                "  beat: {plugin: test/beat" +
@@ -46,6 +46,8 @@ class DeploymentTest : public testing::Test {
                           {.process = "main", .on_line = {}, .on_note = {}}};
     RunWatch alone;
     deployment.run(alone);
+    RunReport::Ending ending;
+    if (tells_timing) ending.timing = timing_of(deployment);
     const RunReport report{deployment, ending};
     Told told{.status = report.status(),
               .reasons = report.reasons(),
@@ -83,7 +85,7 @@ TEST_F(DeploymentTest, TheRuntimeTellsOfEveryComponentAndOfItself) {
 }
 
 TEST_F(DeploymentTest, HowLateAndHowLongStepsWereIsToldWhenAskedFor) {
-  const Told told = run("", "", "", {.tells_timing = true});
+  const Told told = run("", "", "", true);
   const auto timing = nlohmann::json::parse(told.json)["timing"];
   EXPECT_TRUE(timing["executors"].empty()) << "there are none in lockstep";
   const auto& beat = timing["components"]["beat"];

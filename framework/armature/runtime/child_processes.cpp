@@ -101,6 +101,7 @@ void ChildProcesses::hear(Child& child) {
       child.moving = kNotSaid;
     }
     if (word == "moving") child.moving = text;
+    if (word == "timing") child.timing.push_back(text);
     if (word == "fault") faults_.push_back(fmt::format("process '{}': {}", child.name, text));
   }
 }
@@ -174,6 +175,12 @@ std::vector<std::string> ChildProcesses::moving() const {
                          : fmt::format("'{}' in process '{}'", child.moving, child.name));
   }
   return moving;
+}
+
+void ChildProcesses::add_timing(RunTiming& timing) const {
+  for (const Child& child : children_) {
+    for (const std::string& line : child.timing) add_line(timing, child.name, line);
+  }
 }
 
 void ChildProcesses::end(const std::function<bool(const std::string& name)>& which) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "armature/runtime/control_channel.hpp"
+#include "armature/runtime/run_timing.hpp"
 
 namespace armature {
 
@@ -23,6 +24,7 @@ namespace armature {
 ///   stop TEXT         it is stopping, and why
 ///   moving TEXT       while it is stopping: what is not at rest; nothing when all is
 ///   fault TEXT        what failed in it
+///   timing TEXT       how late and how long an executor or a component of it was (run_timing.hpp)
 /// and the main one: start, stop TEXT, end. A process whose main one is gone comes to rest by
 /// itself and ends.
 class ChildProcesses {
@@ -55,6 +57,9 @@ class ChildProcesses {
   /// What went wrong with them: ended by themselves, failed, were stopped for too long.
   const std::vector<std::string>& faults() const { return faults_; }
 
+  /// Adds what they have told of their timing.
+  void add_timing(RunTiming& timing) const;
+
   /// Ends those processes that `which` names and waits for them; one that takes longer than 3 s is
   /// killed, which is a fault.
   void end(const std::function<bool(const std::string& name)>& which);
@@ -69,6 +74,7 @@ class ChildProcesses {
     std::string waiting = {}, stop_cause = {};
     std::string moving = {};  // of one that has been told to stop
     std::optional<SteadyClock::time_point> halted_at = {};
+    std::vector<std::string> timing = {};
   };
   void hear(Child& child);
   void watch(Child& child);

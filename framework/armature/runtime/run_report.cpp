@@ -24,7 +24,7 @@ RunReport::RunReport(const Deployment& deployment, const Ending& ending) {
     unit->summarize(*this);
   }
   judge(deployment, ending);
-  if (ending.tells_timing) timing_ = timing_of(deployment);
+  timing_ = ending.timing;
 }
 
 void RunReport::expect_declared(const std::string& key) {

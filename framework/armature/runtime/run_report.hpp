@@ -28,7 +28,7 @@ class RunReport final : public Summary {
   struct Ending {
     std::vector<std::string> faults;     // of other processes: ended before, fell silent
     std::optional<std::string> stopped;  // "interrupted", "terminated": by the operator
-    bool tells_timing = false;           // how late and how long the steps were
+    std::optional<RunTiming> timing;     // of all processes, where it shall be told
   };
 
   /// Asks every component of a deployment that has stopped.

@@ -19,6 +19,32 @@ Json to_json(const TimingFigures& figures) {
           {"p99_s", figures.p99_s}, {"p999_s", figures.p999_s}, {"max_s", figures.max_s}};
 }
 
+TimingFigures figures_from(const Json& json) {
+  return {.count = json.at("count"),
+          .last_s = json.at("last_s"),
+          .mean_s = json.at("mean_s"),
+          .p99_s = json.at("p99_s"),
+          .p999_s = json.at("p999_s"),
+          .max_s = json.at("max_s")};
+}
+
+Json to_json(const RunTiming::Executor& executor) {
+  return {{"lateness", to_json(executor.lateness)}, {"cycle", to_json(executor.cycle)}};
+}
+
+Json to_json(const RunTiming::Component& component) {
+  return {{"lateness", to_json(component.lateness)},
+          {"step", to_json(component.step)},
+          {"processor", to_json(component.processor)}};
+}
+
+template <class Entry>
+std::string own_name(const std::vector<Entry>& entries, const std::string& name,
+                     const std::string& process) {
+  const bool taken = std::ranges::find(entries, name, &Entry::name) != entries.end();
+  return taken ? fmt::format("{}@{}", name, process) : name;
+}
+
 std::string columns(const TimingFigures& figures) {
   return fmt::format(" {:>10.1f} {:>9.1f} {:>9.1f} {:>9.1f}", 1e6 * figures.mean_s,
                      1e6 * figures.p99_s, 1e6 * figures.p999_s, 1e6 * figures.max_s);
@@ -53,15 +79,40 @@ RunTiming timing_of(const Deployment& deployment) {
 
 Json to_json(const RunTiming& timing) {
   Json json{{"executors", Json::object()}, {"components", Json::object()}};
-  for (const auto& [name, lateness, cycle] : timing.executors) {
-    json["executors"][name] = {{"lateness", to_json(lateness)}, {"cycle", to_json(cycle)}};
+  for (const auto& executor : timing.executors) {
+    json["executors"][executor.name] = to_json(executor);
   }
-  for (const auto& [name, lateness, step, processor] : timing.components) {
-    json["components"][name] = {{"lateness", to_json(lateness)},
-                                {"step", to_json(step)},
-                                {"processor", to_json(processor)}};
+  for (const auto& component : timing.components) {
+    json["components"][component.name] = to_json(component);
   }
   return json;
+}
+
+std::vector<std::string> to_lines(const RunTiming& timing) {
+  std::vector<std::string> lines;
+  for (const auto& executor : timing.executors) {
+    lines.push_back(Json{{"executor", executor.name}, {"times", to_json(executor)}}.dump());
+  }
+  for (const auto& component : timing.components) {
+    lines.push_back(Json{{"component", component.name}, {"times", to_json(component)}}.dump());
+  }
+  return lines;
+}
+
+void add_line(RunTiming& timing, const std::string& process, std::string_view line) {
+  const Json told = Json::parse(line);
+  const Json& times = told.at("times");
+  const auto figures = [&](const char* what) { return figures_from(times.at(what)); };
+  if (told.contains("executor")) {
+    timing.executors.push_back({.name = own_name(timing.executors, told.at("executor"), process),
+                                .lateness = figures("lateness"),
+                                .cycle = figures("cycle")});
+  } else {
+    timing.components.push_back({.name = own_name(timing.components, told.at("component"), process),
+                                 .lateness = figures("lateness"),
+                                 .step = figures("step"),
+                                 .processor = figures("processor")});
+  }
 }
 
 std::string to_table(const RunTiming& timing) {

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "armature/robot/forbidden_zone.hpp"
@@ -33,6 +34,11 @@ struct MotionGoal {
       Eigen::Vector3d::Zero();         // [rad/s] in the base frame, the same
   std::vector<ToolPose> through = {};  // key poses on the way, in order; planned only
 };
+
+/// Stage of a goal that has failed because the arm was stopped until it is rearmed: a stop drops
+/// the goals that there are, and those that come while it lasts. Before the first goal was taken
+/// nothing has been stopped; goals then fail in stage accept.
+inline constexpr std::string_view kStopStage = "stop";
 
 /// Whether `id` is that of a newer goal than `last`. Numbers up to a thousand behind are old; one
 /// farther away is where somebody else began to count, so that no jump locks anybody out.

@@ -41,9 +41,9 @@ void GoalExecution::supersede_pending() {
   request_.reset();
 }
 
-void GoalExecution::fail_all(const ReasonText& reason) {
-  if (active_) report(*active_, State::failed, "execution", reason);
-  if (pending_) report(pending_->goal_id, State::failed, "execution", reason);
+void GoalExecution::fail_all(std::string_view stage, const ReasonText& reason) {
+  if (active_) report(*active_, State::failed, stage, reason);
+  if (pending_) report(pending_->goal_id, State::failed, stage, reason);
   active_.reset();
   pending_.reset();
   request_.reset();
@@ -85,7 +85,7 @@ bool GoalExecution::silent(Time now, const std::optional<MeasuredJoints>& measur
   }
   if (!std::exchange(measured_, std::nullopt) && !trouble_.empty()) return true;
   trouble_ = wrong;
-  fail_all(trouble_);
+  fail_all("execution", trouble_);
   stop(now);
   return true;
 }
@@ -109,7 +109,7 @@ void GoalExecution::watch(Time now, const MeasuredJoints& measured) {
   if (stray.empty()) return trouble_.clear();
   if (!was_astray) {
     trouble_ = stray;
-    fail_all(stray);
+    fail_all("execution", stray);
     return stop(now);
   }
   if (!halted() && now >= reference_.last().end()) come_to(measured.q, now);
@@ -155,9 +155,10 @@ ReasonText GoalExecution::refusal(const MotionGoal& goal, const ReasonText& wron
 
 void GoalExecution::take(const MotionGoal& goal, const ReasonText& wrong, Time now) {
   if (const ReasonText reason = refusal(goal, wrong); !reason.empty()) {
-    report(goal.id, State::failed, "accept", reason);
+    report(goal.id, State::failed, halted() && took_any_ ? kStopStage : "accept", reason);
     return;
   }
+  took_any_ = true;
   last_goal_id_ = goal.id;
   report(goal.id, State::accepted);
   supersede_pending();
@@ -254,7 +255,7 @@ void GoalExecution::halt(const ReasonText& why, Time now) {
   if (halted()) return;
   in_hand_ = guided(now);
   halted_ = why;
-  fail_all(why);
+  fail_all(kStopStage, why);
   if (reference_.started()) stop(now);
 }
 

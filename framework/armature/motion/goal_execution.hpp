@@ -110,7 +110,7 @@ class GoalExecution {
   GoalStatus& report(std::uint64_t goal_id, GoalStatus::State state, std::string_view stage = {},
                      const ReasonText& reason = {});
   /// Of the goal that is being executed and the one that is being planned.
-  void fail_all(const ReasonText& reason);
+  void fail_all(std::string_view stage, const ReasonText& reason);
   void supersede_pending();
   void finish_active(GoalStatus::State state);
   /// A plan that came between two slow steps begins late and not in its midst, if it begins at
@@ -138,6 +138,7 @@ class GoalExecution {
   RestWatch rest_;
   std::optional<MeasuredJoints> measured_;  // the last one, while the arm is heard
   std::uint64_t last_goal_id_ = 0;
+  bool took_any_ = false;  // goals: before the first one nothing was stopped
   std::optional<std::uint64_t> active_;
   MotionMode active_mode_ = MotionMode::planned;
   std::optional<Pending> pending_;

@@ -136,6 +136,8 @@ class MotionBench {
     }
     return told;
   }
+  /// Which stage refused or dropped the last goal.
+  std::string last_stage() const { return statuses_.back().stage_(); }
 
  protected:
   void send_hold() {

@@ -39,6 +39,7 @@ class MotionStops : public ::testing::Test {
     bench_.run(bench_.now_s() + 2);
     EXPECT_LT(bench_.speed(), 1e-9);
     EXPECT_EQ(bench_.story().back(), "1 failed");
+    EXPECT_EQ(bench_.last_stage(), "stop");
   }
   std::string reason() { return bench_.motion().status().reason; }
 
@@ -56,6 +57,7 @@ TEST_F(MotionStops, AStopFromAnybodyDropsTheGoalAndStaysUntilItIsRearmed) {
   bench_.give(test::goal_message(2, {0, 0, 0}));
   bench_.run(bench_.now_s() + 1);
   EXPECT_EQ(bench_.story().back(), "2 failed");
+  EXPECT_EQ(bench_.last_stage(), "stop");
   EXPECT_LT(bench_.speed(), 1e-9) << "false releases nothing";
 
   bench_.motion().send("rearm", flag(true));
@@ -124,6 +126,7 @@ TEST_F(MotionWithAnOperator, BeginsStoppedSinceNobodyHasPressedYet) {
   bench_.give(test::goal_message(1, {1.5, 0.4, 0.3}));
   bench_.run(101);
   EXPECT_EQ(bench_.story().back(), "1 failed");
+  EXPECT_EQ(bench_.last_stage(), "accept") << "nothing was stopped: who gave it may give it again";
   EXPECT_LT(bench_.speed(), 1e-9);
 }
 

@@ -59,6 +59,7 @@ void PursuedGoal::give_up_or_try_again(const GoalReport& report, Time now) {
     return;
   }
   state_ = State::failed;
+  stopped_ = report.stage == kStopStage;
   reason_ = report.state == GoalReport::State::superseded ? "execution: another goal took its place"
                                                           : report.stage + ": " + report.reason;
 }
@@ -67,6 +68,7 @@ void PursuedGoal::give_up_or_try_again(const GoalReport& report, Time now) {
 /// an arm that cannot never will.
 bool PursuedGoal::worth_another_try(const GoalReport& report) {
   if (once_ && begun_) return false;
+  if (report.stage == kStopStage) return goal_.mode == MotionMode::guided;
   if (report.state == GoalReport::State::superseded || report.stage == "accept") return true;
   return report.stage == "execution" && ++breakdowns_ < kMostBreakdowns;
 }

@@ -20,7 +20,9 @@ struct GoalReport {
 
 /// The one goal that a task has the arm on its way to. Goals that were refused because the motion
 /// was not ready, and goals that nobody answered, are given again; goals that break down on their
-/// way ten times have failed.
+/// way ten times have failed. A goal that was stopped until a rearm has failed: nothing moves
+/// because of the rearm. One that lets a hand move the arm moves nothing by itself, and is given
+/// again.
 class PursuedGoal {
  public:
   enum class State { none, waiting, moving, done, failed };
@@ -35,6 +37,8 @@ class PursuedGoal {
   std::optional<MotionGoal> outgoing(Time now);
 
   State state() const { return state_; }
+  /// It has failed because the arm was stopped.
+  bool stopped() const { return state_ == State::failed && stopped_; }
   Time done_at() const { return done_at_; }
   const std::string& reason() const { return reason_; }
   int sent() const { return sent_; }
@@ -50,7 +54,7 @@ class PursuedGoal {
   Time sent_at_, done_at_;
   std::string reason_;
   int sent_ = 0, breakdowns_ = 0;
-  bool once_ = false, begun_ = false, accepted_ = false;
+  bool once_ = false, begun_ = false, accepted_ = false, stopped_ = false;
 };
 
 }  // namespace armature

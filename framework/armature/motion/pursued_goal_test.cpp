@@ -131,6 +131,30 @@ TEST(PursuedGoal, AGoalThatMustNotBeBegunTwiceHasFailedWhenItBreaksDown) {
   EXPECT_EQ(lost.state(), PursuedGoal::State::waiting);
 }
 
+TEST(PursuedGoal, ThatWasStoppedHasFailedAndIsNotGivenAgain) {
+  PursuedGoal goals;
+  goals.set({});
+  goals.outgoing(at(0));
+  goals.hear({.goal_id = 1, .state = Report::executing}, at(0.1));
+  goals.hear({.goal_id = 1, .state = Report::failed, .stage = "stop", .reason = "stopped"}, at(1));
+  EXPECT_EQ(goals.state(), PursuedGoal::State::failed);
+  EXPECT_TRUE(goals.stopped());
+  EXPECT_EQ(goals.reason(), "stop: stopped");
+  EXPECT_FALSE(goals.outgoing(at(9)));
+  goals.set({});
+  EXPECT_FALSE(goals.stopped()) << "another goal is another one";
+}
+
+TEST(PursuedGoal, ThatLetsAHandMoveTheArmIsGivenAgainAfterAStop) {
+  PursuedGoal goals;
+  goals.set({.mode = MotionMode::guided, .pose = {}});
+  goals.outgoing(at(0));
+  goals.hear({.goal_id = 1, .state = Report::executing}, at(0.1));
+  goals.hear({.goal_id = 1, .state = Report::failed, .stage = "stop", .reason = "stopped"}, at(1));
+  EXPECT_EQ(goals.state(), PursuedGoal::State::waiting);
+  EXPECT_EQ(goals.outgoing(at(2))->id, 2u);
+}
+
 TEST(PursuedGoal, KeepsTheReasonOfAGoalThatCannotBeReached) {
   PursuedGoal goals;
   goals.set({});

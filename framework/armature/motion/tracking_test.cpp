@@ -89,7 +89,7 @@ TEST(Tracking, OnTheWayFindsTheSameHorizonsAsFromTheShortestOnInThreeAttempts) {
     const int asked_before = ik.asked;
     ASSERT_EQ(tracker.track(goal, from, now, current).stage, "");
     ASSERT_EQ(current.knots[1], anew.horizon_s()) << "at step " << k;
-    if (k > 0) ASSERT_LE(ik.asked - asked_before, 3 * 2) << "at step " << k;
+    ASSERT_LE(ik.asked - asked_before, k == 0 ? 100 : 3 * 2) << "at step " << k;
     from = current.view().at(now + seconds(0.001));
   }
 }

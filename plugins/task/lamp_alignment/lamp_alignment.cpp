@@ -146,13 +146,14 @@ void LampAlignment::search(Time now) {
 }
 
 void LampAlignment::leave_failed_view(Time now) {
-  if (++failed_views_ < poses_.size()) {
+  if (++failed_views_ < poses_.size() && !goals_.stopped()) {
     trouble_ = "search pose: " + goals_.reason();
     next_view();
     return;
   }
   phase_ = Phase::no_view;
-  trouble_ = "every search pose failed, the last one: " + goals_.reason();
+  trouble_ = goals_.stopped() ? goals_.reason()
+                              : "every search pose failed, the last one: " + goals_.reason();
   capture_ = true;
   looking_since_ = goal_set_at_ = now;
 }
@@ -165,7 +166,8 @@ void LampAlignment::wait_for_a_view(Time now) {
     trouble_.clear();
     failed_views_ = 0;
     capture_ = false;
-  } else if (goals_.state() == GoalState::failed && to_seconds(now - goal_set_at_) >= kNextTry_s) {
+  } else if (goals_.state() == GoalState::failed && !goals_.stopped() &&
+             to_seconds(now - goal_set_at_) >= kNextTry_s) {
     next_view();
     capture_ = true;
     goal_set_at_ = now;
@@ -247,12 +249,14 @@ void LampAlignment::wait_for_another_face_position(Time now) {
     trouble_.clear();
     return;
   }
-  if (latest_ && to_seconds(now - latest_->stamp) > settings_.lost_s) {
+  const bool lost = latest_ && to_seconds(now - latest_->stamp) > settings_.lost_s;
+  if (lost && !goals_.stopped()) {
     search_for_lost_face(now);
     return;
   }
   if (to_seconds(now - goal_set_at_) < settings_.replan_interval_s) return;
-  if (settings_.settled.left_by(*latest_, *goal_estimate_)) {
+  const auto& elsewhere = goals_.stopped() ? settings_.moved : settings_.settled;
+  if (elsewhere.left_by(*latest_, *goal_estimate_)) {
     const std::string why = trouble_;
     align_with(*latest_, Phase::unreachable, now);
     trouble_ = why;  // until a goal is accepted

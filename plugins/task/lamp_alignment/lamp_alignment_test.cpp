@@ -50,6 +50,7 @@ class LampAlignmentTest : public testing::Test {
 
   void receive(const MotionGoal& goal) {
     goals_.push_back(goal);
+    if (stopped_) return drop(goal);
     if (goal.pose.position.norm() > reach_m_) {
       task_.hear({.goal_id = goal.id,
                   .state = GoalReport::State::failed,
@@ -62,6 +63,20 @@ class LampAlignmentTest : public testing::Test {
     arrival_ = now_ + seconds(1);
     task_.hear({.goal_id = goal.id, .state = GoalReport::State::executing}, now_);
   }
+
+  void drop(const MotionGoal& goal) {
+    task_.hear({.goal_id = goal.id,
+                .state = GoalReport::State::failed,
+                .stage = "stop",
+                .reason = "stopped until it is rearmed"},
+               now_);
+  }
+  void stop() {
+    stopped_ = true;
+    if (goal_) drop(*goal_);
+    goal_.reset();
+  }
+  void rearm() { stopped_ = false; }
 
   void take_picture() {
     const Eigen::Vector3d looks_along = std::get<Direction>(lamp_.orientation).unit;
@@ -84,7 +99,7 @@ class LampAlignmentTest : public testing::Test {
   Time arrival_;
   ToolPose lamp_{.position = {0.6, 0, 0.5}, .orientation = Direction{Eigen::Vector3d::UnitY()}};
   std::vector<MotionGoal> goals_;
-  bool present_ = true;
+  bool present_ = true, stopped_ = false;
   double reach_m_ = 10, gain_ = 1, light_ = 0;
   double noise_m_ = 0.0005, noise_rad_ = 0.01;
   Eigen::Vector3d mouth_{1.55, 0, 0.45}, normal_{-1, 0, 0};
@@ -196,6 +211,39 @@ TEST_F(LampAlignmentTest, IsUnreachableWhenEverySearchPoseFailsAndTriesOneEachSe
   EXPECT_EQ(task_.trouble(), "");
   EXPECT_FALSE(task_.capture());
   EXPECT_TRUE(run_until(Phase::holding, 30));
+}
+
+TEST_F(LampAlignmentTest, AStopOnTheWayToTheFaceIsFollowedByNothingUntilThePatientMoves) {
+  ASSERT_TRUE(run_until(Phase::aligning, 10));
+  tick();
+  stop();
+  run(1);
+  EXPECT_EQ(task_.phase(), Phase::unreachable);
+  EXPECT_EQ(task_.trouble(), "stop: stopped until it is rearmed");
+  rearm();
+  const std::size_t goals = goals_.size();
+  run(20);
+  EXPECT_EQ(goals_.size(), goals) << "nothing moves because of the rearm";
+  lamp_.orientation = Direction{Eigen::Vector3d::UnitX()};
+  mouth_.y() += 0.02;
+  EXPECT_TRUE(run_until(Phase::holding, 10));
+}
+
+TEST_F(LampAlignmentTest, AStopInTheSearchEndsItUntilAFaceIsSeen) {
+  present_ = false;
+  ASSERT_TRUE(run_until(Phase::searching, 1));
+  run(0.5);
+  stop();
+  run(5);
+  EXPECT_EQ(task_.phase(), Phase::no_view);
+  EXPECT_EQ(task_.trouble(), "stop: stopped until it is rearmed");
+  rearm();
+  const std::size_t goals = goals_.size();
+  run(20);
+  EXPECT_EQ(goals_.size(), goals) << "nothing moves because of the rearm";
+  lamp_.orientation = Direction{Eigen::Vector3d::UnitX()};
+  present_ = true;
+  EXPECT_TRUE(run_until(Phase::holding, 10));
 }
 
 TEST_F(LampAlignmentTest, AlignsWithAFaceThatComesBeforeItThoughNoSearchPoseIsInReach) {

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buttons.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <linux/input.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+
+namespace armature {
+namespace {
+
+constexpr int kGoesDown = 1, kGoesUp = 0;  // 2: it repeats by itself
+
+const char* way_out(int error) {
+  switch (error) {
+    case EACCES:
+      return "; its user must be in the group 'input'";
+    case ENOENT:
+    case ENODEV:
+      return "; is it plugged in?";
+    default:
+      return "";
+  }
+}
+
+}  // namespace
+
+std::string Buttons::update() {
+  pressed_.reset();
+  if (std::string why = open(); !why.empty()) return why;
+  std::array<input_event, 64> events{};
+  const ssize_t size = ::read(file_, events.data(), sizeof events);
+  if (size == 0) return give_up(ENODEV);
+  if (size < 0) return errno == EAGAIN || errno == EINTR ? std::string{} : give_up(errno);
+  const auto count = static_cast<std::size_t>(size) / sizeof(input_event);
+  for (std::size_t i = 0; i < count; ++i) {
+    const input_event& event = events[i];
+    if (event.type == EV_SYN && event.code == SYN_DROPPED) held_.reset();
+    if (event.type != EV_KEY || event.code >= kCodes) continue;
+    if (event.value == kGoesUp) held_.reset(event.code);
+    if (event.value != kGoesDown) continue;
+    held_.set(event.code);
+    pressed_.set(event.code);
+  }
+  return {};
+}
+
+std::string Buttons::open() {
+  if (file_ >= 0) return {};
+  file_ = ::open(device_.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  return file_ >= 0 ? std::string{} : give_up(errno);
+}
+
+std::string Buttons::give_up(int error) {
+  close();
+  return fmt::format("cannot read {}: {}{}", device_, std::strerror(error), way_out(error));
+}
+
+void Buttons::close() {
+  if (file_ >= 0) ::close(file_);
+  file_ = -1;
+  held_.reset();
+  pressed_.reset();
+}
+
+}  // namespace armature

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <bitset>
+#include <string>
+
+namespace armature {
+
+/// The buttons of an input device of Linux (evdev). A button counts as held from the moment on when
+/// it is seen to go down: one that was down already when the device was opened, or that may have
+/// been let go unseen, is not held until it goes down again.
+class Buttons {
+ public:
+  static constexpr int kCodes = 768;  // KEY_CNT
+
+  explicit Buttons(std::string device) : device_{std::move(device)} {}
+  ~Buttons() { close(); }
+  Buttons(const Buttons&) = delete;
+  Buttons& operator=(const Buttons&) = delete;
+
+  /// Reads what has happened since the last call, and opens the device when it is not open. Empty,
+  /// or why nothing can be read; then no button is held. Never waits for an event.
+  std::string update();
+  bool is_open() const { return file_ >= 0; }
+
+  /// `code`: of the button, 0 to kCodes - 1.
+  bool held(int code) const { return held_[static_cast<std::size_t>(code)]; }
+  /// It went down since the update before.
+  bool pressed(int code) const { return pressed_[static_cast<std::size_t>(code)]; }
+
+ private:
+  std::string open();
+  std::string give_up(int error);
+  void close();
+
+  std::string device_;
+  int file_ = -1;
+  std::bitset<kCodes> held_, pressed_;
+};
+
+}  // namespace armature

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <fcntl.h>
+#include <linux/input.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+
+namespace armature::test {
+
+/// A named pipe in the place of an input device.
+class EventPipe {
+ public:
+  EventPipe() {
+    std::string pattern =
+        (std::filesystem::temp_directory_path() / "armature-pendant-XXXXXX").string();
+    if (!mkdtemp(pattern.data())) throw std::runtime_error("cannot make " + pattern);
+    folder_ = pattern;
+    plug_in();
+  }
+  ~EventPipe() {
+    unplug();
+    std::filesystem::remove_all(folder_);
+  }
+  EventPipe(const EventPipe&) = delete;
+  EventPipe& operator=(const EventPipe&) = delete;
+
+  std::string path() const { return folder_ + "/events"; }
+  void plug_in() {
+    if (mkfifo(path().c_str(), 0600) != 0) throw std::runtime_error("cannot make " + path());
+    file_ = open(path().c_str(), O_RDWR | O_CLOEXEC);
+  }
+  void unplug() {
+    if (file_ >= 0) close(file_);
+    file_ = -1;
+    std::filesystem::remove(path());
+  }
+  /// `value`: 1 goes down, 0 goes up, 2 repeats.
+  void send(int type, int code, int value) {
+    input_event event{};
+    event.type = static_cast<decltype(event.type)>(type);
+    event.code = static_cast<decltype(event.code)>(code);
+    event.value = value;
+    if (write(file_, &event, sizeof event) != sizeof event) throw std::runtime_error("short write");
+  }
+  void press(int button) { send(EV_KEY, button, 1); }
+  void release(int button) { send(EV_KEY, button, 0); }
+
+ private:
+  std::string folder_;
+  int file_ = -1;
+};
+
+}  // namespace armature::test

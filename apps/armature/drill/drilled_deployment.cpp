@@ -77,6 +77,30 @@ bool commands(const ComponentConfig& writer, const DeploymentConfig& deployment)
   });
 }
 
+const PortBinding* find_input(const ComponentConfig& component, std::string_view name) {
+  const auto found = std::ranges::find_if(
+      component.inputs, [&](const PortBinding& input) { return input.spec.name == name; });
+  return found == component.inputs.end() ? nullptr : &*found;
+}
+
+std::vector<HeedsPendant> heed_pendants(const DeploymentConfig& deployment) {
+  const auto is_written = [&](const std::string& topic) {
+    return std::ranges::any_of(deployment.components, [&](const ComponentConfig& component) {
+      return std::ranges::find(component.outputs, topic, &PortBinding::topic) !=
+             component.outputs.end();
+    });
+  };
+  std::vector<HeedsPendant> heed;
+  for (const ComponentConfig& component : deployment.components) {
+    const PortBinding* hold = find_input(component, "hold_to_run");
+    const PortBinding* rearm = find_input(component, "rearm");
+    if (!hold || !rearm || is_written(hold->topic) || is_written(rearm->topic)) continue;
+    heed.push_back(
+        {.name = component.name, .hold_topic = hold->topic, .rearm_topic = rearm->topic});
+  }
+  return heed;
+}
+
 /// The inputs that somebody of the deployment writes and nobody else may.
 std::vector<TopicSpec> inputs_of(const DeploymentConfig& deployment,
                                  const std::vector<DrilledArm>& arms) {
@@ -161,6 +185,7 @@ DrilledDeployment read_drilled(const DeploymentSource& source, const PluginRegis
       keep(drilled.monitor, component, splitter.put(component, "drill_monitor"));
     }
   }
+  drilled.heed_pendants = heed_pendants(deployment);
   drilled.inputs = inputs_of(deployment, drilled.arms);
   return drilled;
 }

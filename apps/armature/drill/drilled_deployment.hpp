@@ -29,14 +29,22 @@ struct DrilledComponent {
   bool shares_arm_thread = false;  // in the single form: a step that hangs halts the arm's, too
 };
 
+/// A component that heeds an operator's buttons where somebody writes them, as motion does. Here
+/// nobody does.
+struct HeedsPendant {
+  std::string name;
+  std::string hold_topic, rearm_topic;
+};
+
 /// What a drill knows of the deployment that it drills.
 struct DrilledDeployment {
   std::string name;
   double stop_within_s = 0;
   std::vector<DrilledArm> arms;
-  DrilledComponent commander;      // that arms take commands from: motion
-  DrilledComponent perception;     // a pure plugin that runs alone: what is seen
-  DrilledComponent monitor;        // whose fault does not end the run
+  DrilledComponent commander;   // that arms take commands from: motion
+  DrilledComponent perception;  // a pure plugin that runs alone: what is seen
+  DrilledComponent monitor;     // whose fault does not end the run
+  std::vector<HeedsPendant> heed_pendants;
   std::vector<TopicSpec> inputs;   // that the deployment itself feeds, but for the arms' samples
   std::vector<std::string> apart;  // --set: the split form
   std::vector<std::string> processes;  // of the split form, beside main

@@ -8,6 +8,7 @@
 
 #include "drill/arm_listener.hpp"
 #include "drill/drilled_deployment.hpp"
+#include "drill/pendant.hpp"
 #include "drill/run_under_test.hpp"
 
 namespace armature::drill {
@@ -19,6 +20,7 @@ struct Scene {
   const DrilledDeployment& deployment;
   PluginRegistry& plugins;
   int domain;
+  Pendant* pendant;                    // of a fault that has one
   std::vector<std::string> arguments;  // that the run was started with, behind `armature`
 };
 
@@ -33,9 +35,10 @@ enum class Outcome {
 struct Fault {
   std::string name;  // "motion_killed"
   Outcome outcome = Outcome::stops;
-  std::string shown;     // part of the line by which the run names it; empty: it need not
-  std::string inject{};  // --inject of the run; empty: none
-  std::string lost{};    // the arm whose own driver the fault takes away; no software can stop it
+  std::string shown;         // part of the line by which the run names it; empty: it need not
+  std::string inject{};      // --inject of the run; empty: none
+  bool has_pendant = false;  // the run is given one; the operator holds it and has rearmed
+  std::string lost{};  // the arm whose own driver the fault takes away; no software can stop it
   /// Fires it. Returns what was wrong with it, or nothing.
   std::function<std::string(Scene&)> fire;
 };

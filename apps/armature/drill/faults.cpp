@@ -192,17 +192,71 @@ std::optional<Fault> second_start(const DrilledDeployment&, Form) {
                }};
 }
 
+// What an operator does to the arms.
+
+std::string stop_all(Scene& scene) {
+  RunUnderTest stop{{"stop", "--domain", std::to_string(scene.domain)}};
+  const bool done = stop.ends_within(std::chrono::seconds{10});
+  if (done && stop.exit_code() == 0) return {};
+  return "armature stop: " + stop.last_line();
+}
+
 std::optional<Fault> emergency_stop(const DrilledDeployment& deployment, Form) {
   if (deployment.commander.name.empty()) return std::nullopt;
   return Fault{.name = {},
                .outcome = Outcome::holds,
                .shown = "stopped until it is rearmed",
-               .fire = [](Scene& scene) {
-                 RunUnderTest stop{{"stop", "--domain", std::to_string(scene.domain)}};
-                 const bool done = stop.ends_within(std::chrono::seconds{10});
-                 if (done && stop.exit_code() == 0) return std::string{};
-                 return "armature stop: " + stop.last_line();
-               }};
+               .fire = stop_all};
+}
+
+/// A fault of a run whose operator has a pendant.
+std::optional<Fault> with_pendant(const DrilledDeployment& deployment, std::string shown,
+                                  std::function<std::string(Scene&)> fire) {
+  if (deployment.heed_pendants.empty()) return std::nullopt;
+  return Fault{.name = {},
+               .outcome = Outcome::holds,
+               .shown = std::move(shown),
+               .has_pendant = true,
+               .fire = std::move(fire)};
+}
+
+/// Until arms that come to rest have rested for a while.
+void wait_for_rest(const Scene& scene) {
+  constexpr milliseconds kRests{300};
+  const auto now = [] { return std::chrono::steady_clock::now(); };
+  const auto end = now() + std::chrono::seconds{5};
+  for (auto moved = now(); now() - moved < kRests && now() < end;) {
+    if (scene.listener.any_moves()) moved = now();
+    std::this_thread::sleep_for(milliseconds{5});
+  }
+}
+
+std::optional<Fault> rearm(const DrilledDeployment& deployment, Form) {
+  return with_pendant(deployment, "stopped until it is rearmed", [](Scene& scene) -> std::string {
+    constexpr const char* kRearmed = "ok again";
+    if (std::string wrong = stop_all(scene); !wrong.empty()) return wrong;
+    wait_for_rest(scene);
+    const auto before = scene.run.count_lines(kRearmed);
+    scene.pendant->rearm();
+    std::this_thread::sleep_for(milliseconds{500});
+    const bool ended = !scene.run.runs() || scene.run.line_with("stopping:");  // the task gave up
+    const bool rearmed = scene.run.count_lines(kRearmed) > before;
+    return ended || rearmed ? "" : "the pendant did not rearm it";
+  });
+}
+std::optional<Fault> hold_released(const DrilledDeployment& deployment, Form) {
+  return with_pendant(deployment, "hold_to_run was released", [](Scene& scene) -> std::string {
+    scene.pendant->hold(false);
+    wait_for_rest(scene);
+    scene.pendant->hold(true);  // is no rearm
+    return {};
+  });
+}
+std::optional<Fault> pendant_unplugged(const DrilledDeployment& deployment, Form) {
+  return with_pendant(deployment, "hold_to_run was released", [](Scene& scene) -> std::string {
+    scene.pendant->unplug();
+    return {};
+  });
 }
 
 struct Row {
@@ -229,6 +283,9 @@ constexpr std::array kFaults{
     Row{"monitor_hangs", monitor_hangs},
     Row{"monitor_crashes", monitor_crashes},
     Row{"emergency_stop", emergency_stop},
+    Row{"rearm", rearm},
+    Row{"hold_released", hold_released},
+    Row{"pendant_unplugged", pendant_unplugged},
     Row{"stranger", stranger},
     Row{"second_start", second_start},
 };

@@ -179,6 +179,12 @@ std::optional<std::string> RunUnderTest::line_with(const std::string& text) cons
   return std::nullopt;
 }
 
+std::ptrdiff_t RunUnderTest::count_lines(const std::string& text) const {
+  const std::scoped_lock lock{mutex_};
+  return std::ranges::count_if(
+      lines_, [&](const std::string& line) { return line.find(text) != std::string::npos; });
+}
+
 std::optional<std::string> RunUnderTest::wait_for_line(const std::string& text,
                                                        milliseconds patience) {
   for (const auto end = steady_clock::now() + patience;;) {

@@ -41,6 +41,7 @@ class RunUnderTest {
   std::optional<std::string> wait_for_line(const std::string& text,
                                            std::chrono::milliseconds patience);
   std::optional<std::string> line_with(const std::string& text) const;
+  std::ptrdiff_t count_lines(const std::string& text) const;
   /// The last thing it said.
   std::string last_line() const;
 

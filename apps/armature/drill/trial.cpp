@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <memory>
 #include <thread>
 
 #include "drill/arm_listener.hpp"
@@ -20,6 +21,7 @@ using std::chrono::steady_clock;
 constexpr milliseconds kLook{2};
 constexpr milliseconds kStartWithin{60000};
 constexpr milliseconds kMoveWithin{60000};
+constexpr milliseconds kNextPress{250};
 constexpr milliseconds kMoveAgainWithin{1000};
 constexpr milliseconds kShownWithin{8000};
 /// How long a run is watched that is to go on.
@@ -27,7 +29,8 @@ constexpr milliseconds kGoesOnFor{500};
 /// How long arms are watched that are to stay where they are.
 constexpr milliseconds kHoldsFor{2500};
 
-std::vector<std::string> arguments_of(const TrialOptions& options, const Fault& fault, Form form) {
+std::vector<std::string> arguments_of(const TrialOptions& options, const Fault& fault, Form form,
+                                      const Pendant* pendant) {
   std::vector<std::string> words{"run"};
   for (const auto& file : options.source.files) words.push_back(file.string());
   const auto set = [&](const std::string& setting) {
@@ -38,6 +41,9 @@ std::vector<std::string> arguments_of(const TrialOptions& options, const Fault& 
   set("run.time_limit_s=120");  // whatever happens
   if (form == Form::split) {
     for (const std::string& setting : options.deployment.apart) set(setting);
+  }
+  if (pendant) {
+    for (const std::string& setting : pendant->settings()) set(setting);
   }
   words.insert(words.end(), {"--domain", std::to_string(options.domain)});
   if (!fault.inject.empty()) words.insert(words.end(), {"--inject", fault.inject});
@@ -57,7 +63,9 @@ class Trial {
   Trial(const TrialOptions& options, const Fault& fault, Form form)
       : options_{options},
         fault_{fault},
-        arguments_{arguments_of(options, fault, form)},
+        pendant_{fault.has_pendant ? std::make_unique<Pendant>(options.deployment.heed_pendants)
+                                   : nullptr},
+        arguments_{arguments_of(options, fault, form, pendant_.get())},
         listener_{options.plugins, options.deployment, options.domain},
         run_{arguments_} {}
 
@@ -73,7 +81,8 @@ class Trial {
     const auto start = steady_clock::now();
     const auto starts = [&] { return run_.runs() && steady_clock::now() - start < kStartWithin; };
     if (!listener_.find_arms(starts)) return fail("it did not start: " + run_.last_line());
-    if (!wait_for(kMoveWithin, [&] { return !run_.runs() || listener_.any_moves(); }) ||
+    if (pendant_) pendant_->hold(true);
+    if (!wait_for(kMoveWithin, [&] { return !run_.runs() || moves_when_rearmed(); }) ||
         !run_.runs()) {
       return fail("no arm moved: " + run_.last_line());
     }
@@ -84,6 +93,16 @@ class Trial {
     return fail("it had ended before the fault: " + run_.last_line());
   }
 
+  /// An operator presses until something moves: arms with a pendant begin stopped.
+  bool moves_when_rearmed() {
+    if (listener_.any_moves()) return true;
+    if (pendant_ && steady_clock::now() > next_press_) {
+      pendant_->rearm();
+      next_press_ = steady_clock::now() + kNextPress;
+    }
+    return false;
+  }
+
   bool fire() {
     stop_at_ = steady_clock::now();
     Scene scene{.run = run_,
@@ -91,6 +110,7 @@ class Trial {
                 .deployment = options_.deployment,
                 .plugins = options_.plugins,
                 .domain = options_.domain,
+                .pendant = pendant_.get(),
                 .arguments = arguments_};
     if (const std::string wrong = fault_.fire(scene); !wrong.empty()) return fail(wrong);
     return fault_.outcome == Outcome::stops || go_on();
@@ -153,11 +173,12 @@ class Trial {
 
   const TrialOptions& options_;
   const Fault& fault_;
+  std::unique_ptr<Pendant> pendant_;
   std::vector<std::string> arguments_;
   ArmListener listener_;
   RunUnderTest run_;
   TrialResult result_{};
-  Arrival stop_at_{};
+  Arrival stop_at_{}, next_press_{};
 };
 
 }  // namespace

@@ -144,8 +144,16 @@ Tracker::Outcome Tracker::attempt(const MotionGoal& goal, const JointState& from
 
 TrackingFailure Tracker::track(const MotionGoal& goal, const JointState& from, Time start,
                                ShortTrajectory& out) {
+  const bool under_way = start < under_way_until_ && grown_ > 1;
+  if (under_way && search(goal, from, start, grown_ - 1, out).stage.empty()) return {};
+  // Where the target leaves the reach soon only a short horizon may do.
+  return search(goal, from, start, 0, out);
+}
+
+/// From the horizon on that was made longer `begin` times.
+TrackingFailure Tracker::search(const MotionGoal& goal, const JointState& from, Time start,
+                                int begin, ShortTrajectory& out) {
   ReasonText by_limits;
-  const int begin = start < under_way_until_ ? std::max(grown_ - 1, 0) : 0;
   double horizon = options_.shortest_horizon_s;
   for (grown_ = 0; horizon <= kLongestHorizon; ++grown_, horizon *= kHorizonGrowth) {
     if (grown_ < begin) continue;

@@ -29,8 +29,9 @@ struct TrackingFailure {
 /// target's joint velocity there and no acceleration, and then to rest, so that an arm whose target
 /// falls silent stops by itself. The horizon is the shortest one with which the limits on velocity,
 /// acceleration and, until the target is met, jerk and the tool's speed hold; a tool that is faster
-/// already does not become faster. It is searched upwards: from `shortest_horizon_s` on, or, while
-/// the last target is not met yet, from a fifth below the last one. Real-time safe.
+/// already does not become faster. It is searched upwards: while the last target is not met yet
+/// from a fifth below the last one on, and where that finds none from `shortest_horizon_s` on.
+/// Real-time safe.
 class Tracker {
  public:
   /// Keeps references to `model` and `ik`, which allocates nothing.
@@ -42,6 +43,8 @@ class Tracker {
                         ShortTrajectory& out);
 
  private:
+  TrackingFailure search(const MotionGoal& goal, const JointState& from, Time start, int begin,
+                         ShortTrajectory& out);
   enum class Outcome { met, try_longer, out_of_reach };
   Outcome attempt(const MotionGoal& goal, const JointState& from, Time start, double horizon_s,
                   ShortTrajectory& out);

@@ -13,6 +13,7 @@
 #include "armature/runtime/deployment.hpp"
 #include "armature/runtime/on_fault.hpp"
 #include "exit_code.hpp"
+#include "leases.hpp"
 #include "plugins.hpp"
 
 namespace armature {
@@ -146,7 +147,9 @@ int show_deployment(const DeploymentSource& source) {
   fmt::print("{}", config::to_yaml(root, true));
   const PluginRegistry plugins;
   const DeploymentConfig deployment = read_deployment(root, plugins, problems);
-  if (problems.empty()) fmt::print("{}", on_fault_comment(deployment));
+  if (problems.empty()) {
+    fmt::print("{}{}", on_fault_comment(deployment), leases_comment(deployment));
+  }
   return kOk;
 }
 

@@ -9,7 +9,8 @@ namespace armature {
 
 /// `armature check`: everything that `run` would do before it starts.
 int check_deployment(const DeploymentSource& source);
-/// `armature show`: the resolved file, every value with its origin.
+/// `armature show`: the resolved file, every value with its origin, and as comments whose faults
+/// end the run and who waits for whom.
 int show_deployment(const DeploymentSource& source);
 /// `armature graph`: who writes and who reads every topic; Graphviz with `dot`.
 int graph_deployment(const DeploymentSource& source, bool dot, bool json);

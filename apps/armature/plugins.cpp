@@ -33,6 +33,11 @@ Json params_json(const std::vector<ParamSpec>& specs) {
   return list;
 }
 
+/// The name of a parameter, or seconds.
+Json after_json(const LeaseSpec& lease) {
+  return lease.param.empty() ? Json(to_seconds(lease.after)) : Json(lease.param);
+}
+
 Json port_json(const PortSpec& port) {
   Json json{{"name", port.name},
             {"type", port.type},
@@ -41,6 +46,9 @@ Json port_json(const PortSpec& port) {
             {"doc", port.doc}};
   if (!port.frame.empty()) json["frame"] = port.frame;
   if (!port.of.empty()) json["of"] = port.of;
+  if (port.lease) {
+    json["lease"] = {{"after", after_json(*port.lease)}, {"then", port.lease->then}};
+  }
   return json;
 }
 
@@ -112,11 +120,21 @@ void print_params(const std::vector<ParamSpec>& specs) {
   }
 }
 
+/// " (silent for 0.1 s: what happens)"; empty without a lease.
+std::string lease_text(const PortSpec& port) {
+  if (!port.lease) return "";
+  const LeaseSpec& lease = *port.lease;
+  const std::string after =
+      lease.param.empty() ? fmt::format("{:g} s", to_seconds(lease.after)) : lease.param;
+  return fmt::format(" (silent for {}: {})", after, lease.then);
+}
+
 void print_ports(const char* title, const std::vector<PortSpec>& ports) {
   if (ports.empty()) return;
   fmt::print("{}:\n", title);
   for (const auto& port : ports) {
-    fmt::print("  {:<16} {:<28} {:<24} {}\n", port.name, port.type, port.topic, port.doc);
+    fmt::print("  {:<16} {:<28} {:<24} {}{}\n", port.name, port.type, port.topic, port.doc,
+               lease_text(port));
   }
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // `armature check`, `show`, `graph` and `plugin` tell what a deployment and a plugin are.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <unistd.h>
 
@@ -8,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "armature/values/sanitizer.hpp"
 #include "command.hpp"
 
 namespace armature::test {
@@ -21,6 +23,17 @@ TEST(Check, CountsWhatItFoundSound) {
   EXPECT_EQ(result.out.rfind("dental_lamp: ok, 9 components, ", 0), 0U) << result.out;
 }
 
+/// A new folder for a deployment, where the robots and rigs of `configs/` are.
+std::filesystem::path folder_beside_robots() {
+  const auto folder =
+      std::filesystem::temp_directory_path() / ("armature-example-" + std::to_string(getpid()));
+  std::filesystem::create_directories(folder);
+  for (const char* beside : {"robots", "rigs"}) {
+    std::filesystem::create_symlink(source_file(std::string{"configs/"} + beside), folder / beside);
+  }
+  return folder;
+}
+
 TEST(Check, FindsTheExampleOfTheDocumentationSound) {
   std::ostringstream page;
   page << std::ifstream{source_file("docs/deployment_file.md")}.rdbuf();
@@ -29,12 +42,7 @@ TEST(Check, FindsTheExampleOfTheDocumentationSound) {
   ASSERT_NE(from, std::string::npos);
   const auto example =
       text.substr(from + fence.size(), text.find("```", from + fence.size()) - from - fence.size());
-  const auto folder =
-      std::filesystem::temp_directory_path() / ("armature-example-" + std::to_string(getpid()));
-  std::filesystem::create_directories(folder);
-  for (const char* beside : {"robots", "rigs"}) {
-    std::filesystem::create_symlink(source_file(std::string{"configs/"} + beside), folder / beside);
-  }
+  const auto folder = folder_beside_robots();
   std::ofstream{folder / "example.yaml"} << example;
   const auto result = run_command({armature(), "check", folder / "example.yaml"});
   std::filesystem::remove_all(folder);
@@ -94,6 +102,105 @@ TEST(Show, GivesEveryValueItsOrigin) {
   EXPECT_NE(result.out.find("dental_lamp.yaml:"), std::string::npos);
 }
 
+const std::string kBiopsyDeployment = source_file("configs/sr1_biopsy.yaml");
+
+using Row = std::vector<std::string>;
+
+/// The lines of the table that `armature show` ends with, each as its cells; the first is its head.
+std::vector<Row> leases_of(const std::string& file, const std::vector<std::string>& settings) {
+  std::vector<std::string> command{armature(), "show", file};
+  for (const std::string& setting : settings) command.insert(command.end(), {"--set", setting});
+  const CommandResult result = run_command(command);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const auto begin = result.out.find("# who waits ");
+  std::istringstream lines{begin == std::string::npos ? "" : result.out.substr(begin)};
+  std::vector<Row> rows;
+  std::vector<std::size_t> columns;
+  for (std::string line; std::getline(lines, line);) {
+    if (columns.empty()) {
+      for (const char* head : {"who waits", "for whom", "at most", "and then"}) {
+        columns.push_back(line.find(head));
+      }
+    }
+    Row& row = rows.emplace_back();
+    EXPECT_EQ(line.rfind("# ", 0), 0U) << line;
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      const bool last = i + 1 == columns.size();
+      std::string cell =
+          line.substr(columns[i], last ? std::string::npos : columns[i + 1] - columns[i]);
+      cell.erase(cell.find_last_not_of(' ') + 1);
+      row.push_back(cell);
+    }
+  }
+  return rows;
+}
+
+const std::string kRampsToRest =
+    "the arm ramps to rest by itself, and follows again when a command comes";
+
+TEST(Show, TellsWhoWaitsForWhomHowLongAndWhatHappensThen) {
+  const auto rows = leases_of(kBiopsyDeployment, {"components.arm.params.command_timeout_s=0.25"});
+  EXPECT_THAT(
+      rows, testing::IsSupersetOf({
+                Row{"who waits", "for whom", "at most", "and then"},
+                Row{"motion", "arm measured_js", "0.5 s", "the goals fail and the reference stops"},
+                Row{"arm", "motion servo_jp", "0.25 s", kRampsToRest},
+            }));
+  const auto waits_at = [](const char* what) {
+    return testing::Contains(
+        testing::ElementsAre(testing::_, testing::HasSubstr(what), testing::_, testing::_));
+  };
+  EXPECT_THAT(rows, testing::Not(waits_at("hold_to_run"))) << "which nobody writes";
+  EXPECT_THAT(rows, testing::Not(waits_at("of process"))) << "there is one only";
+}
+
+TEST(Show, TellsWhatFollowsWhenSamplesAreTooOld) {
+  const std::string held = "the slave stops, until the clutch is opened and closed again";
+  const auto rows =
+      leases_of(source_file("configs/master_manipulator.yaml"), {"open=[task.slave_cp]"});
+  EXPECT_THAT(rows, testing::IsSupersetOf({
+                        Row{"task", "master measured_cp", "0.1 s", held},
+                        Row{"task", "arm measured_cp, programs outside", "0.1 s", held},
+                        Row{"task", "surgeon clutch", "0.1 s", held},
+                        Row{"master", "surgeon hand_js", "0.1 s",
+                            "the hand has let go, and servo_jp counts again"},
+                    }));
+}
+
+TEST(Show, TellsWhatTheRuntimeWaitsFor) {
+  const std::string goes_on = "it is shown as stalled, and the run goes on";
+  const std::string waits = "it is told, and the run waits for the step";
+  const auto in_seconds = [](double s) { return fmt::format("{:g} s", kSanitized ? 5 * s : s); };
+  EXPECT_THAT(
+      leases_of(kBiopsyDeployment, {"clock=system", "components.arm.process=driver"}),
+      testing::IsSupersetOf({
+          Row{"arm", "motion servo_jp", "0.1 s", kRampsToRest},
+          Row{"arm", "motion servo_jp of process main", "0.5 s",
+              "it is told, and the run counts as failed: status fault"},
+          Row{"watchdog", "a step of motion", in_seconds(0.5), "the run stops"},
+          Row{"watchdog", "a step of motion.planner", in_seconds(60), "the run stops"},
+          Row{"watchdog", "a step of task", in_seconds(2) + " or 3 periods", "the run stops"},
+          Row{"watchdog", "a step of monitor", in_seconds(2) + " or 3 periods", goes_on},
+      }));
+  EXPECT_THAT(leases_of(kBiopsyDeployment, {}),
+              testing::IsSupersetOf({
+                  Row{"watchdog", "a step of motion", in_seconds(20), waits},
+                  Row{"watchdog", "a step of motion.planner", in_seconds(600), waits},
+              }))
+      << "in lockstep how fast time goes is the machine's affair";
+}
+
+TEST(Show, PrintsAFileThatIsTheSameDeployment) {
+  const auto shown = run_command({armature(), "show", kBiopsyDeployment});
+  ASSERT_THAT(shown.out, testing::HasSubstr("# who waits"));
+  const auto folder = folder_beside_robots();
+  std::ofstream{folder / "shown.yaml"} << shown.out;
+  const auto again = run_command({armature(), "check", folder / "shown.yaml"});
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_EQ(leases_of(folder / "shown.yaml", {}), leases_of(kBiopsyDeployment, {}));
+  std::filesystem::remove_all(folder);
+}
+
 TEST(Graph, NamesTheWriterAndTheReadersOfATopic) {
   const auto result = run_command({armature(), "graph", kLampDeployment, "--json"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
@@ -138,6 +245,19 @@ TEST(PluginInfo, ShowsWhatAPluginNeedsOffersAndMeasures) {
   EXPECT_EQ(told["needs"][0]["name"], "patient_moves");
   EXPECT_EQ(told["needs"][0]["when"], "expect_move");
   EXPECT_TRUE(told["measures"].contains("distance_error_mm"));
+}
+
+TEST(PluginInfo, ShowsForHowLongAnInputMayBeSilent) {
+  EXPECT_THAT(run_command({armature(), "plugin", "info", "arm/simulated"}).out,
+              testing::HasSubstr(" (silent for command_timeout_s: " + kRampsToRest + ")\n"));
+  const auto ports_of = [](const char* id) {
+    return nlohmann::json::parse(
+        run_command({armature(), "plugin", "info", id, "--json"}).out)["in"];
+  };
+  EXPECT_EQ(ports_of("arm/simulated")[1]["lease"]["after"], "command_timeout_s");
+  const auto console = ports_of("task/teleoperation");
+  EXPECT_FALSE(console[0].contains("lease"));
+  EXPECT_EQ(console[1]["lease"]["after"], 0.1);
 }
 
 TEST(PluginInfo, OfAPurePluginShowsWhatItHasWhenItRunsAlone) {

@@ -22,7 +22,7 @@ params:
   rate_hz: {type: number, default: 1000, min: 1, max: 10000, doc: "How often it talks to the arm; that of its executor"}
   command_timeout_s: {type: number, default: 0.1, min: 0.001, max: 10, doc: "An arm that hears no command for so long ramps down within its limits by itself"}
 in:
-  servo_jp: {type: sensor_msgs/JointState, topic: arm/servo_jp, of: robot, reads: latest, qos: command, doc: "Position and velocity of all joints: where the arm shall be now"}
+  servo_jp: {type: sensor_msgs/JointState, topic: arm/servo_jp, of: robot, reads: latest, qos: command, lease: {after: command_timeout_s, then: "the arm ramps to rest by itself, and follows again when a command comes"}, doc: "Position and velocity of all joints: where the arm shall be now"}
 out:
   measured_js: {type: sensor_msgs/JointState, topic: arm/measured_js, of: robot, qos: state, frame: base, doc: "Where it is: all joints"}
 )";

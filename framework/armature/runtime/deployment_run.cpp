@@ -14,13 +14,6 @@ namespace {
 
 std::string fault_text(const Unit& unit) { return unit.name() + ": " + unit.status().reason; }
 
-/// How long a step of `component` may take: as plugin.yaml says for its unit, or for all.
-std::optional<Duration> max_step_given(const ComponentConfig& component) {
-  const auto& units = component.manifest->units;
-  const auto unit = std::ranges::find(units, component.unit, &UnitSpec::name);
-  return unit == units.end() ? component.manifest->max_step : unit->max_step;
-}
-
 }  // namespace
 
 void Deployment::run(RunWatch& watch) {
@@ -44,23 +37,17 @@ bool Deployment::await_start(RunWatch& watch) {
 }
 
 void Deployment::start_watchdog() {
-  // In lockstep a hung step is told, and not before something must be wrong: how fast time goes
-  // there is the machine's affair, and must not change what happens.
-  constexpr int kLockstepPatience = 10;
   std::vector<Watchdog::Watched> watched;
   int priority = 0;
   for (const auto& unit : units_) {
     const ComponentConfig& config = config_of(*unit);
     const auto executor =
         std::ranges::find(config_.executors, config.executor, &ExecutorSpec::name);
-    const auto period = executor->period ? executor->period : unit->period();
     priority = std::max(priority, executor->priority);
-    const Duration max_step = config_.simulated
-                                  ? kLockstepPatience * max_step_of(max_step_given(config), {})
-                                  : max_step_of(max_step_given(config), period);
+    const auto declared = declared_max_step(config, config_);
     watched.push_back({.unit = unit.get(),
-                       .max_step = max_step,
-                       .stops_run = !config_.simulated && stops_run(config)});
+                       .max_step = declared.value_or(max_step_of({}, unit->period())),
+                       .stops_run = hang_stops_run(config, config_)});
   }
   constexpr int kHighest = 99;
   watchdog_.emplace(std::move(watched), priority > 0 ? std::min(priority + 1, kHighest) : 0,

@@ -83,6 +83,10 @@ bool stops_run(const ComponentConfig& component) {
   return component.on_fault.value_or(OnFault::stop) == OnFault::stop;
 }
 
+bool hang_stops_run(const ComponentConfig& component, const DeploymentConfig& deployment) {
+  return !deployment.simulated && stops_run(component);
+}
+
 std::vector<std::string> executor_warnings(const DeploymentConfig& deployment) {
   std::vector<std::string> warnings;
   if (deployment.simulated) return warnings;  // there are no executors in lockstep

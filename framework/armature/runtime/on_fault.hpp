@@ -16,6 +16,10 @@ void decide_on_faults(DeploymentConfig& deployment);
 /// Whether a fault of the component ends the run. What the runtime itself adds does.
 bool stops_run(const ComponentConfig& component);
 
+/// Whether a step of the component that does not return ends the run. In lockstep it is only told:
+/// how fast time goes there is the machine's affair, and must not change what happens.
+bool hang_stops_run(const ComponentConfig& component, const DeploymentConfig& deployment);
+
 /// For every driver that shares its executor with components that have no business there, a line
 /// for the operator: those that lead to no driver, and where the executor has no period all but
 /// those that a driver reads from.

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <charconv>
 
 #include "armature/config/document.hpp"
@@ -30,7 +32,56 @@ std::optional<int> parse_reads(const std::string& text, bool& valid) {
   return std::nullopt;
 }
 
-void read_input_rules(MapReader& map, PortSpec& port) {
+/// A duration by its unit; "max_velocity_m_s" is none.
+bool is_in_seconds(const ParamSpec& param) {
+  constexpr std::array<std::string_view, 4> kRates{"_m_s", "_mm_s", "_rad_s", "_deg_s"};
+  return param.type == ParamSpec::Type::number && param.name.ends_with("_s") &&
+         std::ranges::none_of(kRates, [&](auto rate) { return param.name.ends_with(rate); });
+}
+
+/// `after`: seconds, or the name of a parameter that tells them.
+void read_lease_time(MapReader& map, const std::vector<ParamSpec>& params, LeaseSpec& lease) {
+  if (!map.node("after")) return;
+  const std::string after = map.text("after");
+  if (after.empty() || std::isalpha(static_cast<unsigned char>(after.front())) == 0) {
+    lease.after = seconds(map.number("after", 1));  // what is no number is told once
+    if (lease.after <= Duration{0}) map.problem("after", "'after' must be positive");
+    return;
+  }
+  lease.param = after;
+  std::vector<std::string> names;
+  for (const ParamSpec& param : params) {
+    if (is_in_seconds(param)) names.push_back(param.name);
+  }
+  if (std::ranges::find(names, after) != names.end()) return;
+  map.problem("after", fmt::format("'after' names '{}', which is no number in seconds (..._s) "
+                                   "among the plugin's parameters{}",
+                                   after, config::did_you_mean(after, names)));
+}
+
+/// What is not shown any more after `max_age` has a lease of that time, said or not.
+std::optional<LeaseSpec> read_lease(const Node* node, const std::optional<Duration>& max_age,
+                                    const std::vector<ParamSpec>& params, Problems& problems) {
+  LeaseSpec lease{.after = max_age.value_or(Duration{0}),
+                  .param = {},
+                  .then = "not shown to the component any more"};
+  if (!node) return max_age ? std::optional{lease} : std::nullopt;
+  MapReader map{*node, "'lease'", problems};
+  if (!max_age) {
+    read_lease_time(map, params, lease);
+  } else if (map.optional_node("after")) {
+    map.problem("after", "'after' beside 'max_age_s', which is the lease's time already");
+  }
+  lease.then = map.text("then");
+  // It stands in a comment of `armature show`.
+  const auto breaks = [](char c) { return std::iscntrl(static_cast<unsigned char>(c)) != 0; };
+  if (std::ranges::any_of(lease.then, breaks)) map.problem("then", "'then' must be one line");
+  map.finish();
+  return lease;
+}
+
+void read_input_rules(MapReader& map, const std::vector<ParamSpec>& params, PortSpec& port,
+                      Problems& problems) {
   bool valid = true;
   port.queue = parse_reads(map.text("reads", "latest"), valid);
   if (!valid) map.problem("reads", "'reads' must be 'latest' or 'queue(n)'");
@@ -51,6 +102,7 @@ void read_input_rules(MapReader& map, PortSpec& port) {
     port.max_age = seconds(map.number("max_age_s"));
     if (port.max_age <= Duration{0}) map.problem("max_age_s", "'max_age_s' must be positive");
   }
+  port.lease = read_lease(map.optional_node("lease"), port.max_age, params, problems);
 }
 
 std::optional<Duration> read_max_step(MapReader& map) {
@@ -87,7 +139,8 @@ std::vector<std::string> read_units_of(MapReader& map, const std::vector<UnitSpe
   return named;
 }
 
-std::vector<PortSpec> read_ports(const Node* table, const std::vector<UnitSpec>& units, bool inputs,
+/// `manifest` has its parameters and units.
+std::vector<PortSpec> read_ports(const Node* table, const PluginManifest& manifest, bool inputs,
                                  Problems& problems) {
   std::vector<PortSpec> ports;
   if (!table) return ports;
@@ -101,12 +154,12 @@ std::vector<PortSpec> read_ports(const Node* table, const std::vector<UnitSpec>&
     port.frame = map.text("frame", "");
     port.of = map.text("of", "");
     port.doc = map.text("doc", "");
-    port.units = read_units_of(map, units);
+    port.units = read_units_of(map, manifest.units);
     const auto qos = find_qos_profile(
         map.choice("qos", {"sensor", "state", "command", "reply", "latched"}, "state"));
     port.qos = qos.value_or(QosProfile::state);
     if (inputs) {
-      read_input_rules(map, port);
+      read_input_rules(map, manifest.params, port, problems);
     } else {
       port.shared = map.flag("shared", false);
     }
@@ -248,8 +301,8 @@ PluginManifest parse_manifest(std::string_view yaml, std::string_view name, Prob
   manifest.measures = read_metrics(read_table(map, "measures"), problems);
   manifest.driver = read_driver(read_table(map, "driver"), manifest.params, problems);
   manifest.max_step = read_max_step(map);
-  manifest.inputs = read_ports(read_table(map, "in"), manifest.units, true, problems);
-  manifest.outputs = read_ports(read_table(map, "out"), manifest.units, false, problems);
+  manifest.inputs = read_ports(read_table(map, "in"), manifest, true, problems);
+  manifest.outputs = read_ports(read_table(map, "out"), manifest, false, problems);
   check_of(manifest, problems);
   map.finish();
   return manifest;

@@ -27,6 +27,13 @@ struct UnitSpec {
   std::string doc;
 };
 
+/// What follows when nothing is heard on an input for a time.
+struct LeaseSpec {
+  Duration after{0};
+  std::string param;  // the plugin's parameter that tells how long instead; empty: `after` does
+  std::string then;   // what happens then
+};
+
 /// An input or output as plugin.yaml declares it.
 struct PortSpec {
   std::string name;
@@ -48,6 +55,7 @@ struct PortSpec {
   bool feedback = false;            // an arrow against the flow, read a cycle late
   std::optional<Duration> max_age;  // older samples are not shown
   Duration max_ahead = kMaxAhead;   // nor those that are stamped farther ahead of now
+  std::optional<LeaseSpec> lease;   // with max_age there is one always
 
   // Outputs only.
   bool shared = false;  // other components may write the topic too, as ROS does with /tf

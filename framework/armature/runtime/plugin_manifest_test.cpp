@@ -109,5 +109,68 @@ TEST(PluginManifest, AnAgeThatIsNoneIsAProblem) {
             "plugin.yaml:4:54: 'max_ahead_s' must not be negative");
 }
 
+/// A plugin.yaml with an input that says this besides, and three parameters, one of them a time.
+std::string with_input(const std::string& says) {
+  return "params: {silence_s: {type: number, default: 1}, speed_m_s: {type: number, default: 1}, "
+         "scale: {type: number, default: 1}}\n"
+         "in: {face: {type: armature_msgs/Target, " +
+         says + "}}\n";
+}
+
+TEST(PluginManifest, AnInputSaysHowLongItMayBeSilentAndWhatHappensThen) {
+  const auto lease_of = [](const std::string& says) {
+    return parse(with_input(says)).inputs[0].lease;
+  };
+  const auto named = lease_of("lease: {after: silence_s, then: it looks away}");
+  ASSERT_TRUE(named);
+  EXPECT_EQ(named->param, "silence_s");
+  EXPECT_EQ(named->then, "it looks away");
+  const auto fixed = lease_of("lease: {after: 0.25, then: it looks away}");
+  ASSERT_TRUE(fixed);
+  EXPECT_EQ(fixed->param, "");
+  EXPECT_EQ(fixed->after, seconds(0.25));
+  EXPECT_FALSE(lease_of("doc: The face"));
+}
+
+TEST(PluginManifest, AnInputThatMayGrowTooOldHasALeaseOfThatTime) {
+  const auto lease_of = [](const std::string& says) {
+    return parse(with_input(says)).inputs[0].lease.value();
+  };
+  EXPECT_EQ(lease_of("max_age_s: 0.1").after, seconds(0.1));
+  EXPECT_EQ(lease_of("max_age_s: 0.1").then, "not shown to the component any more");
+  EXPECT_EQ(lease_of("max_age_s: 0.1, lease: {then: it looks away}").after, seconds(0.1));
+  EXPECT_EQ(lease_of("max_age_s: 0.1, lease: {then: it looks away}").then, "it looks away");
+  EXPECT_EQ(problem(with_input("max_age_s: 0.1, lease: {after: 0.1, then: it looks away}")),
+            "plugin.yaml:5:72: 'after' beside 'max_age_s', which is the lease's time already");
+}
+
+TEST(PluginManifest, ALeaseNamesATimeThatIsThere) {
+  const auto problem_of = [](const std::string& lease) {
+    return problem(with_input("lease: " + lease));
+  };
+  EXPECT_EQ(
+      problem_of("{after: silence, then: it looks away}"),
+      "plugin.yaml:5:56: 'after' names 'silence', which is no number in seconds (..._s) among "
+      "the plugin's parameters; did you mean 'silence_s'?");
+  EXPECT_EQ(problem_of("{after: speed_m_s, then: it looks away}"),
+            "plugin.yaml:5:56: 'after' names 'speed_m_s', which is no number in seconds (..._s) "
+            "among the plugin's parameters; known: silence_s");
+  EXPECT_EQ(problem_of("{after: scale, then: it looks away}"),
+            "plugin.yaml:5:56: 'after' names 'scale', which is no number in seconds (..._s) "
+            "among the plugin's parameters; known: silence_s");
+  EXPECT_EQ(problem_of("{after: 0, then: it looks away}"),
+            "plugin.yaml:5:56: 'after' must be positive");
+  EXPECT_EQ(problem_of("{after: -1, then: it looks away}"),
+            "plugin.yaml:5:56: 'after' must be positive");
+  EXPECT_EQ(problem_of("{after: '', then: it looks away}"),
+            "plugin.yaml:5:56: 'after' must be a number, not ''");
+  EXPECT_EQ(problem_of("{then: it looks away}"),
+            "plugin.yaml:5:48: missing key 'after' in 'lease'");
+  EXPECT_EQ(problem_of("{after: 1}"), "plugin.yaml:5:48: missing key 'then' in 'lease'");
+  EXPECT_EQ(problem_of("{after: 1, then: \"it\\nlooks\"}"),
+            "plugin.yaml:5:65: 'then' must be one line");
+  EXPECT_EQ(problem_of("silence_s"), "plugin.yaml:5:48: 'lease' must be a map, not 'silence_s'");
+}
+
 }  // namespace
 }  // namespace armature

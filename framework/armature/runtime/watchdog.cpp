@@ -8,6 +8,7 @@
 #include <mutex>
 #include <utility>
 
+#include "armature/runtime/deployment_config.hpp"
 #include "armature/runtime/real_time_thread.hpp"
 #include "armature/values/sanitizer.hpp"
 
@@ -29,6 +30,19 @@ Duration max_step_of(const std::optional<Duration>& given, const std::optional<D
   constexpr Duration kLeast = std::chrono::milliseconds{500}, kTriggered = std::chrono::seconds{2};
   if (given) return *given * kSlowdown;
   return (period ? std::max(3 * *period, kLeast) : kTriggered) * kSlowdown;
+}
+
+std::optional<Duration> declared_max_step(const ComponentConfig& component,
+                                          const DeploymentConfig& deployment) {
+  constexpr int kLockstepPatience = 10;
+  const auto& units = component.manifest->units;
+  const auto unit = std::ranges::find(units, component.unit, &UnitSpec::name);
+  const auto& given = unit == units.end() ? component.manifest->max_step : unit->max_step;
+  if (deployment.simulated) return kLockstepPatience * max_step_of(given, std::nullopt);
+  const auto executor =
+      std::ranges::find(deployment.executors, component.executor, &ExecutorSpec::name);
+  if (!given && !executor->period) return std::nullopt;
+  return max_step_of(given, executor->period);
 }
 
 Watchdog::Watchdog(std::vector<Watched> watched, int priority,

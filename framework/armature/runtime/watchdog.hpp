@@ -13,6 +13,9 @@
 
 namespace armature {
 
+struct ComponentConfig;
+struct DeploymentConfig;
+
 /// A thread that sees steps that do not return. It reads when the running step of each unit began
 /// and counts for how long it has seen it; time in which it did not run itself (a machine that
 /// stood still) is not counted. What hangs is marked in its unit (`stalled`), and told once.
@@ -60,5 +63,11 @@ class Watchdog {
 /// least half a second, which an ordinary thread may have to wait for a processor on a busy machine
 /// (a driver that hears nothing has long stopped its arm by then), or without a period 2 s.
 Duration max_step_of(const std::optional<Duration>& given, const std::optional<Duration>& period);
+
+/// The same of a component, as far as its plugin.yaml, its executor and the clock tell it: in
+/// lockstep how fast time goes is the machine's affair, and it is ten times as long, whatever the
+/// period. Nothing: the period that it asks for when it is constructed does.
+std::optional<Duration> declared_max_step(const ComponentConfig& component,
+                                          const DeploymentConfig& deployment);
 
 }  // namespace armature

@@ -232,7 +232,7 @@ void wait_for_rest(const Scene& scene) {
 }
 
 std::optional<Fault> rearm(const DrilledDeployment& deployment, Form) {
-  return with_pendant(deployment, "stopped until it is rearmed", [](Scene& scene) -> std::string {
+  return with_pendant(deployment, "a stop was asked for", [](Scene& scene) -> std::string {
     constexpr const char* kRearmed = "ok again";
     if (std::string wrong = stop_all(scene); !wrong.empty()) return wrong;
     wait_for_rest(scene);

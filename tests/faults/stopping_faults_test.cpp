@@ -24,6 +24,8 @@ using testing::HasSubstr;
 using testing::Not;
 
 constexpr seconds kWithin{30};
+constexpr milliseconds kLeaseIsOver{1200};  // of liveliness, with time to spare
+constexpr double kRounded_s = 0.0005;       // the time of a line
 const std::string kApart = "components.arm.process=aside";
 
 class PulledPlug : public testing::Test {
@@ -99,7 +101,8 @@ TEST_F(PulledPlug, AnArmWhoseMainProcessIsKilledComesToRestByItselfAndEnds) {
 }
 
 TEST_F(PulledPlug, AnArmWhoseOtherProcessIsKilledComesToRestAndTheSignalIsTold) {
-  Command run{command({"components.beat.process=aside"}), options_};
+  Command run{command({"components.beat.process=aside", "components.beat.on_fault=stop"}),
+              options_};
   ASSERT_TRUE(run.wait_for_err("arm       moves", kWithin)) << run.err();
   const pid_t aside = run.child();
   kill(aside, SIGSEGV);
@@ -112,12 +115,32 @@ TEST_F(PulledPlug, AnArmWhoseOtherProcessIsKilledComesToRestAndTheSignalIsTold) 
   EXPECT_EQ(result.exit_code, 1);
 }
 
+TEST_F(PulledPlug, AKilledProcessWhoseComponentsAreIsolatedLeavesTheArmMoving) {
+  Command run{command({"components.beat.process=aside"}), options_};
+  ASSERT_TRUE(run.wait_for_err("arm       moves", kWithin)) << run.err();
+  const pid_t aside = run.child();
+  kill(aside, SIGKILL);
+  const std::string lost =
+      "process 'aside' (pid " + std::to_string(aside) + ") was killed by signal 9 (Killed)";
+  ASSERT_TRUE(run.wait_for_err(lost + ", isolated: the run goes on without it\n", kWithin))
+      << run.err();
+  std::this_thread::sleep_for(kLeaseIsOver);
+  EXPECT_THAT(run.err(), Not(HasSubstr("stopping:")));
+  run.signal(SIGINT);
+  const CommandResult result = run.finish(kWithin);
+  EXPECT_THAT(result.err, HasSubstr("runtime   stopping: interrupted\n"));
+  EXPECT_THAT(result.err, HasSubstr(kEndedAtRest));
+  EXPECT_THAT(result.out, HasSubstr(R"({"status":"fault","reason":")" + lost +
+                                    " (the run went on without it)"));
+  EXPECT_EQ(result.exit_code, 1);
+}
+
 TEST_F(PulledPlug, AProcessThatWasStoppedForLongerThanItsLeaseMakesTheStatusNotOk) {
   Command run{command({kApart}), options_};
   ASSERT_TRUE(run.wait_for_err("arm       moves", kWithin)) << run.err();
   const pid_t aside = run.child();
   kill(aside, SIGSTOP);
-  std::this_thread::sleep_for(milliseconds{1200});
+  std::this_thread::sleep_for(kLeaseIsOver);
   kill(aside, SIGCONT);
   std::this_thread::sleep_for(milliseconds{200});
   run.signal(SIGINT);

@@ -83,6 +83,12 @@ bool stops_run(const ComponentConfig& component) {
   return component.on_fault.value_or(OnFault::stop) == OnFault::stop;
 }
 
+bool stops_run(const std::string& process, const DeploymentConfig& deployment) {
+  return std::ranges::any_of(deployment.components, [&](const ComponentConfig& component) {
+    return component.process == process && component.on_fault == OnFault::stop;
+  });
+}
+
 std::vector<std::string> executor_warnings(const DeploymentConfig& deployment) {
   std::vector<std::string> warnings;
   if (deployment.simulated) return warnings;  // there are no executors in lockstep

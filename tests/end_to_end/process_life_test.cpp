@@ -52,7 +52,14 @@ TEST(ProcessLife, AStandardOutputThatIsClosedIsNotTheNextFileThatIsOpened) {
   EXPECT_THAT(result.err, HasSubstr("armature: standard output cannot be written"));
 }
 
-TEST(ProcessLife, ARunThatIsInterruptedBeforeItStartsEndsAtOnce) {
+struct EndBeforeStart {
+  int signal;
+  std::string words;
+};
+class ProcessLifeBeforeStart : public testing::TestWithParam<EndBeforeStart> {};
+
+TEST_P(ProcessLifeBeforeStart, ASignalEndsTheRunAtOnceAndIsToldInItsOwnWords) {
+  std::signal(SIGHUP, SIG_DFL);  // a run goes on ignoring what its starter ignores, as under nohup
   const auto file = std::filesystem::temp_directory_path() /
                     ("armature-slow-start-" + std::to_string(getpid()) + ".yaml");
   std::ofstream{file} << "armature: 1\nname: slow_start\ncomponents:\n"
@@ -64,7 +71,7 @@ TEST(ProcessLife, ARunThatIsInterruptedBeforeItStartsEndsAtOnce) {
                std::to_string(unique_dds_domain())},
               {.environment = {{"ARMATURE_PLUGIN_PATH", TEST_PLUGINS}}, .input = {}}};
   ASSERT_TRUE(run.wait_for_err("being constructed", kStartsWithin)) << run.err();
-  run.signal(SIGINT);
+  run.signal(GetParam().signal);
   const CommandResult result = run.finish(seconds{1});
   std::ifstream report{folder / "report.json"};
   const std::string reported{std::istreambuf_iterator<char>{report}, {}};
@@ -72,11 +79,16 @@ TEST(ProcessLife, ARunThatIsInterruptedBeforeItStartsEndsAtOnce) {
   std::filesystem::remove_all(folder);
   EXPECT_FALSE(result.timed_out) << result.err;
   EXPECT_EQ(result.exit_code, 1);
-  EXPECT_THAT(result.err, HasSubstr("armature: interrupted before the start\n"));
-  EXPECT_EQ(result.out,
-            "{\"status\":\"not_started\",\"reason\":\"interrupted before the start\"}\n");
+  const std::string told = GetParam().words + " before the start";
+  EXPECT_THAT(result.err, HasSubstr("armature: " + told + "\n"));
+  EXPECT_EQ(result.out, R"({"status":"not_started","reason":")" + told + "\"}\n");
   EXPECT_EQ(reported, result.out);
 }
+
+INSTANTIATE_TEST_SUITE_P(Signals, ProcessLifeBeforeStart,
+                         testing::Values(EndBeforeStart{SIGINT, "interrupted"},
+                                         EndBeforeStart{SIGTERM, "terminated"},
+                                         EndBeforeStart{SIGHUP, "the terminal was closed"}));
 
 TEST(ProcessLife, AKilledRunTakesItsOtherProcessAlongAndTheNextOneWorksAndEndsClean) {
   const int domain = unique_dds_domain();

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <set>
 #include <thread>
 
@@ -87,6 +88,20 @@ TEST_F(PulledPlug, AnInterruptedArmComesToRestInEitherProcess) {
     EXPECT_THAT(result.err, HasSubstr(kEndedAtRest));
     EXPECT_THAT(result.err, HasSubstr("armature: interrupted\n"));
     EXPECT_THAT(result.out, HasSubstr(R"({"status":"ok")")) << "there is no goal to miss";
+  }
+}
+
+TEST_F(PulledPlug, EverySignalThatEndsARunIsToldInItsOwnWords) {
+  std::signal(SIGHUP, SIG_DFL);  // a run goes on ignoring what its starter ignores, as under nohup
+  for (const auto& [signal, words] :
+       std::map<int, std::string>{{SIGTERM, "terminated"}, {SIGHUP, "the terminal was closed"}}) {
+    Command run{command(), options_};
+    ASSERT_TRUE(run.wait_for_err("arm       moves", kWithin)) << run.err();
+    run.signal(signal);
+    const CommandResult result = run.finish(kWithin);
+    EXPECT_THAT(result.err, HasSubstr("runtime   stopping: " + words + "\n"));
+    EXPECT_THAT(result.err, HasSubstr(kEndedAtRest));
+    EXPECT_TRUE(result.err.ends_with("armature: " + words + "\n")) << result.err;
   }
 }
 

@@ -39,7 +39,7 @@ std::optional<Fault> terminate(const DrilledDeployment&, Form) {
   return signalled(SIGTERM, "stopping: terminated");
 }
 std::optional<Fault> hang_up(const DrilledDeployment&, Form) {
-  return signalled(SIGHUP, "stopping: terminated");
+  return signalled(SIGHUP, "stopping: the terminal was closed");
 }
 
 std::optional<Fault> two_signals(const DrilledDeployment&, Form) {

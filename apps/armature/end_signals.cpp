@@ -43,6 +43,10 @@ void on_signal_before_start(int signal) {
     leave("{\"status\":\"not_started\",\"reason\":\"interrupted before the start\"}\n",
           "armature: interrupted before the start\n");
   }
+  if (signal == SIGHUP) {
+    leave("{\"status\":\"not_started\",\"reason\":\"the terminal was closed before the start\"}\n",
+          "armature: the terminal was closed before the start\n");
+  }
   leave("{\"status\":\"not_started\",\"reason\":\"terminated before the start\"}\n",
         "armature: terminated before the start\n");
 }
@@ -83,8 +87,16 @@ void stop_in_order() {
 }
 
 std::optional<std::string> cause() {
-  if (g_signal == 0) return std::nullopt;
-  return g_signal == SIGINT ? "interrupted" : "terminated";
+  switch (g_signal) {
+    case 0:
+      return std::nullopt;
+    case SIGINT:
+      return "interrupted";
+    case SIGHUP:
+      return "the terminal was closed";
+    default:
+      return "terminated";
+  }
 }
 int count() { return g_count; }
 

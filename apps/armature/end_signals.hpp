@@ -27,7 +27,7 @@ void end_before_start();
 /// whose reader is gone does not end it.
 void stop_in_order();
 
-/// "interrupted" or "terminated", once there has been a signal.
+/// "interrupted", "terminated" or "the terminal was closed", once there has been a signal.
 std::optional<std::string> cause();
 /// How many there have been.
 int count();

@@ -19,6 +19,7 @@
 #include "armature/runtime/child_processes.hpp"
 #include "armature/runtime/deployment.hpp"
 #include "armature/runtime/injected_fault.hpp"
+#include "armature/runtime/on_fault.hpp"
 #include "armature/runtime/output_folder.hpp"
 #include "armature/runtime/run_report.hpp"
 #include "armature/runtime/running_component.hpp"
@@ -166,7 +167,8 @@ int run_main(const RunOptions& options, const Process& process, Deployment& depl
   ChildProcesses children;
   for (const auto& other : deployment.config().processes()) {
     if (other == process.name) continue;
-    children.start(other, child_arguments(options, process.domain, other, process.origin));
+    children.start(other, child_arguments(options, process.domain, other, process.origin),
+                   stops_run(other, deployment.config()) ? OnFault::stop : OnFault::isolate);
   }
   deployment.connect(plugins, process.domain);
   MainWatch watch{console, children, deployment.config()};

@@ -67,7 +67,7 @@ bool MainWatch::may_start(const std::optional<std::string>& waiting) {
     refuse_to_start(*there);
   }
   if (there) return false;
-  children_->send("start");
+  children_->begin();
   started_ = true;
   return true;
 }
@@ -92,6 +92,7 @@ void MainWatch::tell_clock_step() {
 std::optional<std::string> MainWatch::stop_cause() {
   tell_clock_step();
   children_->update();
+  while (const auto lost = children_->next_isolated()) console().line("runtime", *lost);
   if (auto cause = interruption_now()) return cause;
   auto lost = children_->stop_cause();
   if (lost && !started_) throw std::runtime_error{*lost + " before the start"};

@@ -18,6 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -139,6 +140,50 @@ TEST_F(ComponentFaults, ACrashNamesTheComponentWhoseStepRan) {
   EXPECT_EQ(result.exit_code, 128 + SIGSEGV);
   EXPECT_THAT(result.err,
               HasSubstr("armature: component 'monitor' crashed in its step: SIGSEGV\n"));
+}
+
+TEST_F(ComponentFaults, AProcessOfMonitorsThatCrashesIsSaidAtOnceAndTheRunGoesOn) {
+  if (kSanitized) GTEST_SKIP() << "a sanitizer tells of a crash by itself";
+  const CommandResult result =
+      run({"components.monitor.params.breaks=crashes", "components.monitor.process=aside"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr("armature: component 'monitor' crashed in its step: SIGSEGV"));
+  EXPECT_THAT(
+      result.err,
+      ContainsRegex("runtime   process 'aside' \\(pid [0-9]+\\) was killed by signal 11 "
+                    "\\(Segmentation fault\\), isolated: the run goes on without it\n(.|\n)*"
+                    "runtime   stopping: the time limit of 3 s is over\n"));
+  const json told = json::parse(result.out);
+  EXPECT_EQ(told["status"], "fault");
+  EXPECT_THAT(told["reason"].get<std::string>(),
+              ContainsRegex("^process 'aside' \\(pid [0-9]+\\) was killed by signal 11 "
+                            "\\(Segmentation fault\\) \\(the run went on without it\\)$"));
+  EXPECT_GT(told["last_note_s"], 0.5 * kTimeLimit_s) << "the arm was told on";
+}
+
+TEST_F(ComponentFaults, AnIsolatedProcessThatTheArmReadsFromFallsSilentAndTheRunGoesOn) {
+  const CommandResult result =
+      run({"components.source.params.breaks=crashes", "components.source.process=aside",
+           "components.source.on_fault=isolate"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr(", isolated: the run goes on without it\n"));
+  EXPECT_THAT(result.err, HasSubstr("fell silent: its process died or hangs\n"));
+  EXPECT_THAT(result.err, HasSubstr("runtime   stopping: the time limit of 3 s is over\n"));
+  const json told = json::parse(result.out);
+  EXPECT_EQ(told["status"], "fault");
+  EXPECT_THAT(told["reason"].get<std::string>(), HasSubstr("(the run went on without it)"));
+  EXPECT_GT(told["last_note_s"], 0);
+  EXPECT_LT(told["last_note_s"], 0.5 * kTimeLimit_s) << "its output ended with it";
+}
+
+TEST_F(ComponentFaults, AProcessThatHoldsMoreThanMonitorsEndsTheRunWhenAMonitorCrashesIt) {
+  const CommandResult result =
+      run({"components.monitor.params.breaks=crashes", "components.monitor.process=aside",
+           "components.source.process=aside"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr("runtime   stopping: process 'aside' (pid "));
+  EXPECT_THAT(result.err, Not(HasSubstr("isolated")));
+  EXPECT_LT(json::parse(result.out)["last_note_s"], 0.5 * kTimeLimit_s);
 }
 
 TEST_F(ComponentFaults, WithoutAnArmEveryFaultEndsTheRun) {

@@ -40,13 +40,14 @@ json interrupted_runaway(const std::string& setting) {
 }
 
 TEST(Drill, TheBiopsyPassesWhenItIsInterruptedStoppedAndBroken) {
-  const CommandResult result = run_command(
-      drill("configs/sr1_biopsy.yaml",
-            {"--seed", "1", "--faults", "interrupt,closed_terminal,motion_throws,emergency_stop"}),
-      {}, kWithin);
+  const CommandResult result =
+      run_command(drill("configs/sr1_biopsy.yaml",
+                        {"--seed", "1", "--faults",
+                         "interrupt,closed_terminal,motion_throws,monitor_crashes,emergency_stop"}),
+                  {}, kWithin);
   EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
   EXPECT_THAT(result.out, HasSubstr("sr1_biopsy: --seed 1\n"));
-  EXPECT_THAT(result.out, HasSubstr("\n8 passed, 0 failed\n"));
+  EXPECT_THAT(result.out, HasSubstr("\n9 passed, 0 failed\n"));
 }
 
 TEST(Drill, AnArmThatDoesNotStopFailsItWithItsJointAndItsSpeed) {

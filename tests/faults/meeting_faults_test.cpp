@@ -58,18 +58,22 @@ bool is_process_of_a_deployment(pid_t pid) {
   return false;
 }
 
-TEST_F(Meeting, AProcessThatIsKilledBeforeItEndsTheRunBeforeItsStart) {
+TEST_F(Meeting, AProcessThatIsKilledBeforeItEndsTheRunBeforeItsStartIsolatedOrNot) {
   const std::string path = std::string{DEAF_TRANSPORT} + ":" + TEST_PLUGINS;
-  Command run{command(), {.environment = {{"ARMATURE_PLUGIN_PATH", path}}, .input = {}}};
-  // Plugins are tried in processes of their own before.
-  pid_t aside = 0;
-  while (!is_process_of_a_deployment(aside = run.child())) {
+  for (const std::string on_fault : {"stop", "isolate"}) {
+    auto words = command();
+    words.insert(words.end(), {"--set", "components.beat.on_fault=" + on_fault});
+    Command run{words, {.environment = {{"ARMATURE_PLUGIN_PATH", path}}, .input = {}}};
+    // Plugins are tried in processes of their own before.
+    pid_t aside = 0;
+    while (!is_process_of_a_deployment(aside = run.child())) {
+    }
+    kill(aside, SIGKILL);
+    const CommandResult result = run.finish(seconds{30});
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_THAT(result.err, HasSubstr("armature: process 'aside' (pid " + std::to_string(aside) +
+                                      ") was killed by signal 9 (Killed) before the start"));
   }
-  kill(aside, SIGKILL);
-  const CommandResult result = run.finish(seconds{30});
-  EXPECT_EQ(result.exit_code, 1);
-  EXPECT_THAT(result.err, HasSubstr("armature: process 'aside' (pid " + std::to_string(aside) +
-                                    ") was killed by signal 9 (Killed) before the start"));
 }
 
 }  // namespace

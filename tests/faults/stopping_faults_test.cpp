@@ -4,10 +4,13 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
+#include <chrono>
+#include <cmath>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <set>
 #include <thread>
 
@@ -24,6 +27,8 @@ using testing::HasSubstr;
 using testing::Not;
 
 constexpr seconds kWithin{30};
+constexpr milliseconds kLeaseIsOver{1200};  // of liveliness, with time to spare
+constexpr double kRounded_s = 0.0005;       // the time of a line
 const std::string kApart = "components.arm.process=aside";
 
 class PulledPlug : public testing::Test {
@@ -88,6 +93,58 @@ TEST_F(PulledPlug, AnInterruptedArmComesToRestInEitherProcess) {
   }
 }
 
+TEST_F(PulledPlug, EverySignalThatEndsARunIsToldInItsOwnWords) {
+  std::signal(SIGHUP, SIG_DFL);  // a run goes on ignoring what its starter ignores, as under nohup
+  for (const auto& [signal, words] :
+       std::map<int, std::string>{{SIGTERM, "terminated"}, {SIGHUP, "the terminal was closed"}}) {
+    Command run{command(), options_};
+    ASSERT_TRUE(run.wait_for_err("arm       moves", kWithin)) << run.err();
+    run.signal(signal);
+    const CommandResult result = run.finish(kWithin);
+    EXPECT_THAT(result.err, HasSubstr("runtime   stopping: " + words + "\n"));
+    EXPECT_THAT(result.err, HasSubstr(kEndedAtRest));
+    EXPECT_TRUE(result.err.ends_with("armature: " + words + "\n")) << result.err;
+  }
+}
+
+/// The time of the run's own line that says `text`; NaN without one.
+double said_at_s(const std::string& text, const std::string& lines) {
+  const std::size_t at = lines.find(text);
+  if (at == std::string::npos) return std::nan("");
+  return std::stod(lines.substr(lines.rfind('[', at) + 1));
+}
+
+TEST_F(PulledPlug, StoppingIsSaidWithinAFifthOfASecondAfterTheSignal) {
+  for (const std::string signalled : {"main", "aside"}) {
+    // The lines of the run count from here, by the clock that both processes share.
+    const auto start = std::chrono::steady_clock::now();
+    auto words = command({kApart});
+    words.insert(words.end(), {"--clock-offset-ns", "0", "--clock-start-ns",
+                               std::to_string(start.time_since_epoch().count())});
+    Command run{words, options_};
+    ASSERT_TRUE(run.wait_for_err("arm       moves", kWithin)) << run.err();
+    const pid_t pid = signalled == "main" ? run.pid() : run.child();
+    const std::chrono::duration<double> now = std::chrono::steady_clock::now() - start;
+    kill(pid, SIGINT);
+    const CommandResult result = run.finish(kWithin);
+    const std::string by = signalled == "main" ? "" : "process 'aside': ";
+    const double said_s = said_at_s("runtime   stopping: " + by + "interrupted\n", result.err);
+    EXPECT_GE(said_s, now.count() - kRounded_s) << result.err;
+    EXPECT_LE(said_s, now.count() + 0.2) << result.err;
+  }
+}
+
+TEST_F(PulledPlug, AProcessWithADriverEndsAfterAllOthersHaveEnded) {
+  Command run{command({kApart, "components.beat.process=other", "components.beat.params.stop_s=0.3",
+                       "components.last={plugin: test/beat, topics: last, params: {stop_s: 0.3}}"}),
+              options_};
+  ASSERT_TRUE(run.wait_for_err("arm       moves", kWithin)) << run.err();
+  run.signal(SIGINT);
+  const CommandResult result = run.finish(kWithin);
+  EXPECT_THAT(result.err, ContainsRegex("arm       at rest\n(.|\n)*beat      ended\n(.|\n)*"
+                                        "last      ended\n(.|\n)*arm       ended at rest\n"));
+}
+
 TEST_F(PulledPlug, AnArmWhoseMainProcessIsKilledComesToRestByItselfAndEnds) {
   Command run{command({kApart}), options_};
   ASSERT_TRUE(run.wait_for_err("arm       moves", kWithin)) << run.err();
@@ -99,7 +156,8 @@ TEST_F(PulledPlug, AnArmWhoseMainProcessIsKilledComesToRestByItselfAndEnds) {
 }
 
 TEST_F(PulledPlug, AnArmWhoseOtherProcessIsKilledComesToRestAndTheSignalIsTold) {
-  Command run{command({"components.beat.process=aside"}), options_};
+  Command run{command({"components.beat.process=aside", "components.beat.on_fault=stop"}),
+              options_};
   ASSERT_TRUE(run.wait_for_err("arm       moves", kWithin)) << run.err();
   const pid_t aside = run.child();
   kill(aside, SIGSEGV);
@@ -112,12 +170,32 @@ TEST_F(PulledPlug, AnArmWhoseOtherProcessIsKilledComesToRestAndTheSignalIsTold) 
   EXPECT_EQ(result.exit_code, 1);
 }
 
+TEST_F(PulledPlug, AKilledProcessWhoseComponentsAreIsolatedLeavesTheArmMoving) {
+  Command run{command({"components.beat.process=aside"}), options_};
+  ASSERT_TRUE(run.wait_for_err("arm       moves", kWithin)) << run.err();
+  const pid_t aside = run.child();
+  kill(aside, SIGKILL);
+  const std::string lost =
+      "process 'aside' (pid " + std::to_string(aside) + ") was killed by signal 9 (Killed)";
+  ASSERT_TRUE(run.wait_for_err(lost + ", isolated: the run goes on without it\n", kWithin))
+      << run.err();
+  std::this_thread::sleep_for(kLeaseIsOver);
+  EXPECT_THAT(run.err(), Not(HasSubstr("stopping:")));
+  run.signal(SIGINT);
+  const CommandResult result = run.finish(kWithin);
+  EXPECT_THAT(result.err, HasSubstr("runtime   stopping: interrupted\n"));
+  EXPECT_THAT(result.err, HasSubstr(kEndedAtRest));
+  EXPECT_THAT(result.out, HasSubstr(R"({"status":"fault","reason":")" + lost +
+                                    " (the run went on without it)"));
+  EXPECT_EQ(result.exit_code, 1);
+}
+
 TEST_F(PulledPlug, AProcessThatWasStoppedForLongerThanItsLeaseMakesTheStatusNotOk) {
   Command run{command({kApart}), options_};
   ASSERT_TRUE(run.wait_for_err("arm       moves", kWithin)) << run.err();
   const pid_t aside = run.child();
   kill(aside, SIGSTOP);
-  std::this_thread::sleep_for(milliseconds{1200});
+  std::this_thread::sleep_for(kLeaseIsOver);
   kill(aside, SIGCONT);
   std::this_thread::sleep_for(milliseconds{200});
   run.signal(SIGINT);

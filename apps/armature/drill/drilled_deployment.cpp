@@ -133,6 +133,7 @@ class Splitter {
     if (std::ranges::find(drilled_->processes, process) == drilled_->processes.end()) {
       drilled_->processes.push_back(process);
     }
+    if (stops_run(component)) drilled_->ending.insert(process);
     return process;
   }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,7 @@ struct DrilledDeployment {
   std::vector<TopicSpec> inputs;   // that the deployment itself feeds, but for the arms' samples
   std::vector<std::string> apart;  // --set: the split form
   std::vector<std::string> processes;  // of the split form, beside main
+  std::set<std::string> ending;        // of these, whose loss ends the run
 };
 
 /// Reads the deployment. Throws config::ConfigError, or InvalidChoice when one of its drivers moves

@@ -39,7 +39,7 @@ std::optional<Fault> terminate(const DrilledDeployment&, Form) {
   return signalled(SIGTERM, "stopping: terminated");
 }
 std::optional<Fault> hang_up(const DrilledDeployment&, Form) {
-  return signalled(SIGHUP, "stopping: terminated");
+  return signalled(SIGHUP, "stopping: the terminal was closed");
 }
 
 std::optional<Fault> two_signals(const DrilledDeployment&, Form) {
@@ -69,24 +69,32 @@ std::optional<Fault> unread_terminal(const DrilledDeployment&, Form) {
 
 // What happens to processes.
 
-std::optional<Fault> killed(const std::string& process) {
+/// What main says of a lost process without which the run goes on.
+const std::string kIsolated = ", isolated: the run goes on without it";
+
+std::optional<Fault> killed(const std::string& process, const DrilledDeployment& deployment) {
   if (process.empty() || process == "main") return std::nullopt;
+  const bool ends = deployment.ending.contains(process);
   return Fault{.name = {},
-               .shown = fmt::format("stopping: process '{}'", process),
+               .outcome = ends ? Outcome::stops : Outcome::goes_on,
+               .shown = ends ? fmt::format("stopping: process '{}'", process) : kIsolated,
                .fire = [process](Scene& scene) { return send(scene, process, SIGKILL); }};
 }
 
 std::optional<Fault> driver_killed(const DrilledDeployment& deployment, Form form) {
   if (form == Form::single) return std::nullopt;
-  auto fault = killed(deployment.arms.front().process);
+  auto fault = killed(deployment.arms.front().process, deployment);
   if (fault) fault->lost = deployment.arms.front().component;
   return fault;
 }
 std::optional<Fault> motion_killed(const DrilledDeployment& deployment, Form form) {
-  return form == Form::single ? std::nullopt : killed(deployment.commander.process);
+  return form == Form::single ? std::nullopt : killed(deployment.commander.process, deployment);
 }
 std::optional<Fault> perception_killed(const DrilledDeployment& deployment, Form form) {
-  return form == Form::single ? std::nullopt : killed(deployment.perception.process);
+  return form == Form::single ? std::nullopt : killed(deployment.perception.process, deployment);
+}
+std::optional<Fault> monitor_killed(const DrilledDeployment& deployment, Form form) {
+  return form == Form::single ? std::nullopt : killed(deployment.monitor.process, deployment);
 }
 
 std::optional<Fault> driver_halted(const DrilledDeployment& deployment, Form form) {
@@ -158,11 +166,9 @@ std::optional<Fault> monitor_hangs(const DrilledDeployment& deployment, Form for
        .fire = {}});
 }
 std::optional<Fault> monitor_crashes(const DrilledDeployment& deployment, Form form) {
-  if (form == Form::single) return std::nullopt;
+  if (form == Form::single || deployment.monitor.process == "main") return std::nullopt;
   return injected(deployment.monitor, form, "crash",
-                  {.name = {},
-                   .shown = fmt::format("component '{}' crashed", deployment.monitor.name),
-                   .fire = {}});
+                  {.name = {}, .outcome = Outcome::goes_on, .shown = kIsolated, .fire = {}});
 }
 
 // What others on the machine do.
@@ -274,6 +280,7 @@ constexpr std::array kFaults{
     Row{"driver_killed", driver_killed},
     Row{"motion_killed", motion_killed},
     Row{"perception_killed", perception_killed},
+    Row{"monitor_killed", monitor_killed},
     Row{"driver_halted", driver_halted},
     Row{"main_killed", main_killed},
     Row{"motion_throws", motion_throws},

@@ -62,7 +62,8 @@ ChildProcesses::~ChildProcesses() {
   end([](const std::string&) { return true; });
 }
 
-void ChildProcesses::start(const std::string& name, std::vector<std::string> arguments) {
+void ChildProcesses::start(const std::string& name, std::vector<std::string> arguments,
+                           OnFault on_loss) {
   constexpr int kControlFile = STDERR_FILENO + 1;
   auto [ours, theirs] = ControlChannel::make();
   const SpawnSettings settings{theirs.file(), kControlFile};
@@ -78,7 +79,7 @@ void ChildProcesses::start(const std::string& name, std::vector<std::string> arg
                                     argv.data(), environ)) {
     throw std::system_error(error, std::generic_category(), "cannot start " + name);
   }
-  children_.push_back({.name = name, .pid = pid, .control = std::move(ours)});
+  children_.push_back({.name = name, .pid = pid, .on_loss = on_loss, .control = std::move(ours)});
 }
 
 void ChildProcesses::update() {
@@ -134,9 +135,20 @@ void ChildProcesses::on_ended(Child& child, int status) {
   child.moving.clear();
   const bool well = WIFEXITED(status) && WEXITSTATUS(status) == 0;
   if (child.told_end && (well || WIFEXITED(status))) return;  // its faults it has told
-  child.stop_cause =
+  const std::string lost =
       fmt::format("process '{}' (pid {}) {}", child.name, child.pid, text_of_status(status));
-  faults_.push_back(child.stop_cause);
+  if (begun_ && !child.told_end && child.on_loss == OnFault::isolate) {
+    isolated_.push_back(lost + ", isolated: the run goes on without it");
+    faults_.push_back(lost + " (the run went on without it)");
+    return;
+  }
+  child.stop_cause = lost;
+  faults_.push_back(lost);
+}
+
+void ChildProcesses::begin() {
+  send("start");
+  begun_ = true;
 }
 
 void ChildProcesses::send(std::string_view line) {
@@ -164,6 +176,13 @@ std::optional<std::string> ChildProcesses::stop_cause() const {
     if (!child.stop_cause.empty()) return child.stop_cause;
   }
   return std::nullopt;
+}
+
+std::optional<std::string> ChildProcesses::next_isolated() {
+  if (isolated_.empty()) return std::nullopt;
+  std::string lost = std::move(isolated_.front());
+  isolated_.pop_front();
+  return lost;
 }
 
 std::vector<std::string> ChildProcesses::moving() const {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "armature/runtime/control_channel.hpp"
+#include "armature/runtime/deployment_config.hpp"
 #include "armature/runtime/run_timing.hpp"
 
 namespace armature {
@@ -38,20 +39,25 @@ class ChildProcesses {
   /// The option by which a process is told the descriptor of its control channel.
   static constexpr std::string_view kControlOption = "--control";
 
-  /// Runs this executable again with `arguments` and the control option. Throws std::system_error.
-  void start(const std::string& name, std::vector<std::string> arguments);
+  /// Runs this executable again with `arguments` and the control option. `on_loss` says what it
+  /// does when the process ends by itself after begin(). Throws std::system_error.
+  void start(const std::string& name, std::vector<std::string> arguments, OnFault on_loss);
   bool empty() const { return children_.empty(); }
 
   /// Hears what they have said, and sees who has ended or was stopped.
   void update();
+  /// Tells all to start. One that is lost before always stops the run.
+  void begin();
   void send(std::string_view line);
 
   /// One that has not said `joined`, if any.
   std::optional<std::string> not_joined() const;
   /// Which topic of one of them waits for which other process, or that one is not ready.
   std::optional<std::string> waiting() const;
-  /// Why the run is to stop: one is stopping, or has ended by itself.
+  /// Why the run is to stop: one is stopping, or has ended by itself and is not isolated.
   std::optional<std::string> stop_cause() const;
+  /// How the next one was lost without which the run goes on; each is told once.
+  std::optional<std::string> next_isolated();
   /// What is not at rest, by process; one that has ended is.
   std::vector<std::string> moving() const;
   /// What went wrong with them: ended by themselves, failed, were stopped for too long.
@@ -69,6 +75,7 @@ class ChildProcesses {
   struct Child {
     std::string name;
     pid_t pid;
+    OnFault on_loss;
     ControlChannel control;
     bool joined = false, ready = false, told_end = false, ended = false;
     std::string waiting = {}, stop_cause = {};
@@ -82,6 +89,8 @@ class ChildProcesses {
   void on_continued(Child& child);
 
   std::deque<Child> children_;
+  bool begun_ = false;
+  std::deque<std::string> isolated_;  // lost, and not told yet
   std::vector<std::string> faults_;
 };
 

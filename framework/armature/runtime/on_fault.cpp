@@ -87,6 +87,12 @@ bool hang_stops_run(const ComponentConfig& component, const DeploymentConfig& de
   return !deployment.simulated && stops_run(component);
 }
 
+bool stops_run(const std::string& process, const DeploymentConfig& deployment) {
+  return std::ranges::any_of(deployment.components, [&](const ComponentConfig& component) {
+    return component.process == process && component.on_fault == OnFault::stop;
+  });
+}
+
 std::vector<std::string> executor_warnings(const DeploymentConfig& deployment) {
   std::vector<std::string> warnings;
   if (deployment.simulated) return warnings;  // there are no executors in lockstep

@@ -20,6 +20,10 @@ bool stops_run(const ComponentConfig& component);
 /// how fast time goes there is the machine's affair, and must not change what happens.
 bool hang_stops_run(const ComponentConfig& component, const DeploymentConfig& deployment);
 
+/// Whether the loss of a process ends the run: it holds a component of the file whose fault does.
+/// What the runtime itself adds to every process does not count.
+bool stops_run(const std::string& process, const DeploymentConfig& deployment);
+
 /// For every driver that shares its executor with components that have no business there, a line
 /// for the operator: those that lead to no driver, and where the executor has no period all but
 /// those that a driver reads from.

@@ -65,6 +65,19 @@ TEST_F(OnFaultTest, WhatTheFileSaysHolds) {
   EXPECT_EQ(isolated(), "camera recorder ");
 }
 
+TEST_F(OnFaultTest, TheLossOfAProcessStopsTheRunWhenAFaultOfOneOfItsComponentsDoes) {
+  for (ComponentConfig& one : deployment_.components) one.process = "main";
+  component("monitor").process = component("recorder").process = "aside";
+  decide_on_faults(deployment_);
+  // The runtime adds it to every process once that is constructed.
+  add("runtime", plain_, {}, {});
+  deployment_.components.back().process = "aside";
+  EXPECT_FALSE(stops_run("aside", deployment_));
+  EXPECT_TRUE(stops_run("main", deployment_));
+  component("camera").process = "aside";
+  EXPECT_TRUE(stops_run("aside", deployment_));
+}
+
 TEST_F(OnFaultTest, WhoSharesTheDriversExecutorWithoutNeedIsTold) {
   EXPECT_EQ(executor_warnings(deployment_),
             std::vector<std::string>{

@@ -27,7 +27,7 @@ class RunReport final : public Summary {
   /// What ended the run from outside of the deployment's components.
   struct Ending {
     std::vector<std::string> faults;     // of other processes: ended before, fell silent
-    std::optional<std::string> stopped;  // "interrupted", "terminated": by the operator
+    std::optional<std::string> stopped;  // "interrupted": by the operator
     std::optional<RunTiming> timing;     // of all processes, where it shall be told
   };
 

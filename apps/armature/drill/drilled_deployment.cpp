@@ -179,7 +179,9 @@ DrilledDeployment read_drilled(const DeploymentSource& source, const PluginRegis
                               .limits = limits_of(component, deployment)});
     } else if (commands(component, deployment)) {
       const std::string process = splitter.put(component, "drill_" + component.name);
-      if (!component.slots.empty()) keep(drilled.commander, component, process);
+      if (component.slots.empty()) continue;
+      keep(drilled.commander, component, process);
+      drilled.commanders.push_back(component.name);
     } else if (!component.manifest->hosts.empty()) {
       keep(drilled.perception, component, splitter.put(component, "drill_perception"));
     } else if (!stops_run(component)) {

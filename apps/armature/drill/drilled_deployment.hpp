@@ -42,9 +42,10 @@ struct DrilledDeployment {
   std::string name;
   double stop_within_s = 0;
   std::vector<DrilledArm> arms;
-  DrilledComponent commander;   // that arms take commands from: motion
-  DrilledComponent perception;  // a pure plugin that runs alone: what is seen
-  DrilledComponent monitor;     // whose fault does not end the run
+  DrilledComponent commander;           // that arms take commands from: motion
+  std::vector<std::string> commanders;  // all of them
+  DrilledComponent perception;          // a pure plugin that runs alone: what is seen
+  DrilledComponent monitor;             // whose fault does not end the run
   std::vector<HeedsPendant> heed_pendants;
   std::vector<TopicSpec> inputs;   // that the deployment itself feeds, but for the arms' samples
   std::vector<std::string> apart;  // --set: the split form

@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <spawn.h>
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -25,14 +26,14 @@ using std::chrono::steady_clock;
 
 constexpr milliseconds kPause{5};
 
-/// A process group of its own, so that Ctrl-C reaches the drill alone; no standard input or output,
-/// and standard error into `terminal`.
+/// A process group of its own, so that Ctrl-C reaches the drill alone; no standard input, standard
+/// output into `output` and standard error into `terminal`.
 class SpawnSettings {
  public:
-  explicit SpawnSettings(int terminal) {
+  SpawnSettings(int output, int terminal) {
     posix_spawn_file_actions_init(&files);
     posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    posix_spawn_file_actions_adddup2(&files, output, STDOUT_FILENO);
     posix_spawn_file_actions_adddup2(&files, terminal, STDERR_FILENO);
     posix_spawnattr_init(&attributes);
     posix_spawnattr_setpgroup(&attributes, 0);
@@ -77,12 +78,14 @@ RunUnderTest::RunUnderTest(std::vector<std::string> arguments) {
   std::vector<char*> argv;
   for (std::string& argument : arguments) argv.push_back(argument.data());
   argv.push_back(nullptr);
-  const SpawnSettings settings{ends[1]};
+  output_ = memfd_create("armature run", MFD_CLOEXEC);
+  const SpawnSettings settings{output_, ends[1]};
   const int error = posix_spawn(&pid_, program.c_str(), &settings.files, &settings.attributes,
                                 argv.data(), environ);
   close(ends[1]);
   if (error != 0) {
     close(terminal_);
+    close(output_);
     throw std::system_error(error, std::generic_category(), "cannot start a run");
   }
   processes_["main"] = pid_;
@@ -100,6 +103,7 @@ RunUnderTest::~RunUnderTest() {
   reader_.request_stop();
   reader_.join();
   if (terminal_ >= 0) close(terminal_);
+  close(output_);
 }
 
 void RunUnderTest::find_processes() {
@@ -192,6 +196,16 @@ std::optional<std::string> RunUnderTest::wait_for_line(const std::string& text,
     if (steady_clock::now() > end || !runs()) return line_with(text);
     std::this_thread::sleep_for(kPause);
   }
+}
+
+std::string RunUnderTest::output() const {
+  std::string text;
+  std::array<char, 4096> block;
+  for (ssize_t size;
+       (size = pread(output_, block.data(), block.size(), static_cast<off_t>(text.size()))) > 0;) {
+    text.append(block.data(), static_cast<std::size_t>(size));
+  }
+  return text;
 }
 
 std::string RunUnderTest::last_line() const {

@@ -42,6 +42,8 @@ class RunUnderTest {
                                            std::chrono::milliseconds patience);
   std::optional<std::string> line_with(const std::string& text) const;
   std::ptrdiff_t count_lines(const std::string& text) const;
+  /// What it has written on standard output.
+  std::string output() const;
   /// The last thing it said.
   std::string last_line() const;
 
@@ -59,6 +61,7 @@ class RunUnderTest {
   pid_t pid_ = -1;
   std::map<std::string, pid_t> processes_;
   std::optional<int> exit_code_;
+  int output_ = -1;    // a file in memory: its standard output
   int terminal_ = -1;  // our end of its standard error
   mutable std::mutex mutex_;
   Reading reading_ = Reading::on;

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <csignal>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "drill/arm_listener.hpp"
@@ -45,7 +46,7 @@ std::vector<std::string> arguments_of(const TrialOptions& options, const Fault& 
   if (pendant) {
     for (const std::string& setting : pendant->settings()) set(setting);
   }
-  words.insert(words.end(), {"--domain", std::to_string(options.domain)});
+  words.insert(words.end(), {"--domain", std::to_string(options.domain), "--json", "--timing"});
   if (!fault.inject.empty()) words.insert(words.end(), {"--inject", fault.inject});
   return words;
 }
@@ -153,6 +154,7 @@ class Trial {
     const Verdict verdict =
         judge(options_.deployment.arms, listener_.records(), stop_at_, fault_.lost);
     result_.wrong = verdict.wrong;
+    result_.step_s = commanders_step_s();
     result_.rest_s = verdict.rest_s;
     const bool holds = fault_.outcome == Outcome::holds;
     if (result_.passed() && holds && verdict.rest_s > to_seconds(kHoldsFor)) {
@@ -163,6 +165,17 @@ class Trial {
     if (!verdict.wrong.empty()) return;
     if (fault_.outcome == Outcome::goes_on) result_.arm = "went on, then " + verdict.arm;
     if (holds) result_.arm += " and stayed there";
+  }
+
+  /// As the run tells at its end; nothing when it was killed.
+  std::optional<double> commanders_step_s() const {
+    const auto told = nlohmann::json::parse(run_.output(), nullptr, false);
+    std::optional<double> longest;
+    for (const std::string& name : options_.deployment.commanders) {
+      const nlohmann::json::json_pointer p999{"/timing/components/" + name + "/processor/p999_s"};
+      if (told.contains(p999)) longest = std::max(longest.value_or(0), told[p999].get<double>());
+    }
+    return longest;
   }
 
   bool fail(std::string wrong) {

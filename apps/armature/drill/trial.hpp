@@ -17,6 +17,7 @@ struct TrialResult {
   double moment_s = 0;           // after the arm was first seen to move
   std::string arm;               // what it did: "ramped to rest", "went on"
   std::optional<double> rest_s;  // from the fault, or from the interruption after it, until rest
+  std::optional<double> step_s;  // p99.9 of the processor time of a step of what commands an arm
   std::string shown;             // the line of the run that names it
   std::string wrong;             // why it is not passed; empty: it is
 

@@ -57,9 +57,8 @@ void check_names(const std::vector<std::string>& wanted) {
 
 std::vector<Planned> plan(const DrilledDeployment& deployment, const DrillOptions& options,
                           std::uint64_t seed) {
-  constexpr double kLatest_s = 2;
   std::mt19937_64 random{seed};
-  std::uniform_real_distribution<double> moment{0, kLatest_s};
+  std::uniform_real_distribution<double> moment{0, options.within_s};
   std::vector<Planned> planned;
   for (const Form form : {Form::single, Form::split}) {
     for (const Fault& fault : faults_of(deployment, form)) {

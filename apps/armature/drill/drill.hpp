@@ -13,6 +13,7 @@ namespace armature {
 struct DrillOptions {
   DeploymentSource source;
   int moments = 1;                    // at which each fault is fired, in each form
+  double within_s = 2;                // they lie so long after an arm was first seen to move
   std::optional<std::uint64_t> seed;  // of the moments; none: another one every time
   std::vector<std::string> faults;    // only these; empty: all
   std::optional<int> domain;  // of the runs, one at a time; none: some that no other drill uses

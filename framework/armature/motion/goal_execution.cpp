@@ -133,7 +133,8 @@ void GoalExecution::update(Time now, const std::optional<MeasuredJoints>& measur
     reference_.advance(now);
     return;
   }
-  if (guided(now)) {
+  in_hand_ = in_hand_ && !rest_.rests();
+  if (guided(now) || in_hand_) {
     trouble_.clear();
     reference_.start(measured->q, now);
     return;
@@ -273,7 +274,7 @@ bool GoalExecution::rearm(Time now) {
 bool GoalExecution::at_rest(Time now) const {
   if (!reference_.started()) return true;
   return armature::at_rest(reference_.at(now)) && now >= reference_.last().end() &&
-         (!measured_ || in_hand_ || rest_.rests());
+         (!measured_ || rest_.rests());
 }
 
 std::optional<GoalStatus> GoalExecution::current(Time now) const {

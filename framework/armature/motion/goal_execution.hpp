@@ -149,7 +149,7 @@ class GoalExecution {
   ShortTrajectory way_;   // of a target that is tracked
   bool spliced_ = false;  // since the last update
   bool astray_ = false;   // the arm is not where the reference is
-  bool in_hand_ = false;  // it was halted while a hand moved it
+  bool in_hand_ = false;  // it was halted while a hand moved it, which still does
   ReasonText trouble_ = "no joint state of the arm yet";
   ReasonText halted_;
 };

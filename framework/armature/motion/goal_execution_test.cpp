@@ -509,18 +509,29 @@ TEST_F(GoalExecutionTest, IsNotAtRestBeforeTheArmsOwnSamplesAre) {
   EXPECT_TRUE(execution_.at_rest(now_));
 }
 
-TEST_F(GoalExecutionTest, AnArmInAHandIsNotWaitedFor) {
+TEST_F(GoalExecutionTest, AnArmInAHandIsHaltedWhereTheHandComesToRest) {
   step_to(0.1);
   give(guided(1));
   step_to(0.5);
   execution_.halt("the end", now_);
-  for (int k = 1; k < 100; ++k) {
+  JointVector moved = home_;
+  const auto step = [&] {
     now_ = now_ + seconds(0.001);
-    const JointVector moved = home_ + JointVector{Eigen::Vector3d{0, 0, 1e-3 * k}};
     execution_.update(now_, MeasuredJoints{now_, moved});
-    ASSERT_TRUE(execution_.at_rest(now_)) << k;
-    ASSERT_EQ(execution_.reference().at(now_).q, home_) << "nor followed any more";
+  };
+  for (int k = 1; k < 100; ++k) {
+    moved = home_ + JointVector{Eigen::Vector3d{0, 0, 1e-3 * k}};
+    step();
+    ASSERT_FALSE(execution_.at_rest(now_)) << k;
+    ASSERT_EQ(execution_.reference().at(now_).q, moved)
+        << "else it would go back when it is let go";
   }
+  for (int k = 0; k < 100; ++k) step();
+  EXPECT_TRUE(execution_.at_rest(now_));
+  const JointVector rested = moved;
+  moved[1] += 0.01;
+  step();
+  EXPECT_EQ(execution_.reference().at(now_).q, rested) << "it is held there from then on";
 }
 
 class SlowToolTest : public GoalExecutionTest {

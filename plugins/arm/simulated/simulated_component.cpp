@@ -91,8 +91,7 @@ class SimulatedArmComponent : public Component {
 
   bool stopped() const override {
     constexpr double kStill = 1e-3;  // [rad/s] or [m/s]
-    return guided_ ||
-           (arm_.setpoint_velocity().isZero(kStill) && arm_.measured_velocity().isZero(kStill));
+    return arm_.setpoint_velocity().isZero(kStill) && arm_.measured_velocity().isZero(kStill);
   }
 
  private:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 
 #include "armature/kinds/geometry_params.hpp"
@@ -20,6 +21,7 @@ namespace armature {
 namespace {
 
 constexpr Duration kPeriod = seconds(0.001);
+constexpr double kComesToRestIn_s = 0.3;
 constexpr const char* kMasterFrame = "master_base";
 
 HandMotionSettings settings_of(const Params& params) {
@@ -66,18 +68,33 @@ class Surgeon final : public Component {
     if (!taken_at_) take_hold(now);
     if (!taken_at_) return;
     const double t = to_seconds(now - *taken_at_);
-    if (silent_after_s_ > 0 && t >= silent_after_s_) return;
-    move(t, now);
+    silent_ = silent_after_s_ > 0 && t >= silent_after_s_;
+    if (silent_) return;
+    pause(now);
+    const double hand_t = t - paused_s_;
+    move(hand_t, now);
     auto clutch = clutch_.loan();
     clutch->data_(hand_.clutch_closed(t));
     clutch.publish();
     auto intended = intended_cp_.loan();
     write_header(intended->header_(), now, kBaseFrame);
-    assign(intended->pose_(), hand_.intended(t, start_));
+    assign(intended->pose_(), hand_.intended(hand_t, start_));
     intended.publish();
   }
 
+  void begin_stop(Time) override { stopping_ = true; }
+  bool stopped() const override { return !taken_at_ || silent_ || pace_ == 0; }
+
  private:
+  /// Nobody goes on moving a master that is held, or a console that stops.
+  void pause(Time now) {
+    const bool held = task_state_.latest() && task_state_.latest()->state_() == "held";
+    const double passed_s = to_seconds(now - moved_at_);
+    const double change = passed_s / kComesToRestIn_s;
+    pace_ = std::clamp(held || stopping_ ? pace_ - change : pace_ + change, 0.0, 1.0);
+    paused_s_ += (1 - pace_) * passed_s;
+  }
+
   void tell_console(Time now) {
     console_told_ = true;
     auto loan = console_.loan();
@@ -123,6 +140,8 @@ class Surgeon final : public Component {
   bool console_told_ = false;
   std::optional<Time> taken_at_;
   Time moved_at_;
+  bool stopping_ = false, silent_ = false;
+  double pace_ = 1, paused_s_ = 0;                           // of the hand's own time
   Eigen::Isometry3d start_ = Eigen::Isometry3d::Identity();  // master_T_hand when it took hold
   JointVector q_;
   Input<msg::TaskState> task_state_;

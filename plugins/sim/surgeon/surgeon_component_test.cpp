@@ -29,8 +29,11 @@ class SurgeonTest : public testing::Test {
     msg::JointState state;
     write_all_joints(master_, q_, JointVector::Zero(6), Time{}, state);
     bench_->send("measured_js", state);
+    tell("aligned");
+  }
+  void tell(const char* phase) {
     msg::TaskState task;
-    task.state_("aligned");
+    task.state_(phase);
     bench_->send("task_state", task);
   }
   void steps(int count) {
@@ -110,6 +113,46 @@ TEST_F(SurgeonTest, AHandThatTheMasterCannotFollowStops) {
     ASSERT_TRUE(master_.within_limits(master_.contract(state.position_()).value()));
   }
   EXPECT_EQ(hand.back().velocity_(), std::vector<double>(6, 0.0));
+}
+
+TEST_F(SurgeonTest, TheHandRestsWhileTheTaskIsHeldAndGoesOnWhereItWas) {
+  make("");
+  align();
+  steps(2000);
+  bench_->take<msg::JointState>("hand_js");
+  tell("held");
+  steps(300);
+  const auto slower = bench_->take<msg::JointState>("hand_js");
+  steps(100);
+  const auto resting = bench_->take<msg::JointState>("hand_js");
+  for (const double v : resting.back().velocity_()) EXPECT_NEAR(v, 0, 1e-12);
+  EXPECT_EQ(resting.front().position_(), resting.back().position_());
+  tell("teleoperating");
+  steps(300);
+  const auto faster = bench_->take<msg::JointState>("hand_js");
+  EXPECT_NE(faster.back().position_(), resting.back().position_());
+  for (const auto& messages : {slower, faster}) {
+    for (std::size_t i = 1; i < messages.size(); ++i) {
+      EXPECT_LT(
+          (hand_at(messages[i]).translation() - hand_at(messages[i - 1]).translation()).norm(),
+          1e-4)
+          << "it does not jump";
+    }
+  }
+}
+
+TEST_F(SurgeonTest, TheHandComesToRestWhenTheRunStops) {
+  make("");
+  align();
+  steps(2000);
+  bench_->begin_stop(now_s_);
+  EXPECT_FALSE(bench_->stopped());
+  steps(301);
+  EXPECT_TRUE(bench_->stopped());
+  bench_->take<msg::JointState>("hand_js");
+  steps(1);
+  const auto told = bench_->take<msg::JointState>("hand_js");
+  for (const double v : told.back().velocity_()) EXPECT_NEAR(v, 0, 1e-12);
 }
 
 TEST_F(SurgeonTest, FallsSilentWhenTold) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Interrupted, killed, started twice, started without room for shared memory: a clear message, no
-// hang, and nothing left behind that breaks the next run.
+// hang, nothing left behind that breaks the next run, and an arm whose last samples are at rest.
 #include <gmock/gmock.h>
 #include <unistd.h>
 
@@ -8,14 +8,17 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <thread>
 
 #include "deployment_run.hpp"
+#include "drill/arm_listener.hpp"
 #include "tests/dds_domain.hpp"
 
 namespace armature::test {
 namespace {
 
 using std::chrono::seconds;
+using std::chrono::steady_clock;
 using testing::HasSubstr;
 
 // The arm moves and, with two processes, pictures have crossed to the other one and back.
@@ -32,11 +35,54 @@ DeploymentStart endless(int domain, std::vector<std::string> settings = {}) {
   return {.settings = std::move(settings), .domain = domain};
 }
 
+/// The lamp's arm, heard from outside of the processes that run it.
+class HeardArm {
+ public:
+  explicit HeardArm(int domain) : listener_{plugins_, deployment_, domain} {}
+
+  /// Waits until the lamp, which has been started, moves it so fast that a stop takes its time.
+  bool wait_until_it_moves() {
+    const auto end = steady_clock::now() + kStartsWithin;
+    const auto in_time = [end] { return steady_clock::now() < end; };
+    if (!listener_.find_arms(in_time)) return false;
+    while (record().speed_now() < kFast && in_time()) std::this_thread::sleep_for(kPause);
+    return in_time();
+  }
+
+  /// The run is over. Its last samples may still be on their way.
+  void expect_rest() const {
+    const auto end = steady_clock::now() + seconds{1};
+    while (!drill::rests(end_speed().speed) && steady_clock::now() < end) {
+      std::this_thread::sleep_for(kPause);
+    }
+    EXPECT_TRUE(drill::rests(end_speed().speed)) << "joint " << end_speed().joint << " moves at "
+                                                 << end_speed().speed << " rad/s at its end";
+  }
+
+ private:
+  static constexpr std::chrono::milliseconds kPause{5};
+  static constexpr double kFast = 0.5;  // [rad/s], of 1.0 that it is allowed
+
+  drill::ArmRecord record() const { return listener_.records().front(); }
+  drill::JointSpeed end_speed() const {
+    return record().speed_at_end().value_or(drill::JointSpeed{});
+  }
+
+  PluginRegistry plugins_;
+  drill::DrilledDeployment deployment_ = drill::read_drilled(
+      {.files = {source_file("configs/dental_lamp.yaml")}, .assignments = {}}, plugins_);
+  drill::ArmListener listener_;
+};
+
 TEST(ProcessLife, AnInterruptedRunEndsAtOnceAndSaysSo) {
-  Command lamp{deployment_command(endless(unique_dds_domain()))};
+  const int domain = unique_dds_domain();
+  HeardArm arm{domain};
+  Command lamp{deployment_command(endless(domain))};
   ASSERT_TRUE(lamp.wait_for_err(kRuns, kStartsWithin)) << lamp.err();
+  ASSERT_TRUE(arm.wait_until_it_moves());
   lamp.signal(SIGINT);
   const CommandResult result = lamp.finish(seconds{3});
+  arm.expect_rest();
   EXPECT_FALSE(result.timed_out) << result.err;
   EXPECT_EQ(result.exit_code, 1) << result.err;
   EXPECT_THAT(result.err, HasSubstr("armature: interrupted"));
@@ -93,6 +139,7 @@ INSTANTIATE_TEST_SUITE_P(Signals, ProcessLifeBeforeStart,
 TEST(ProcessLife, AKilledRunTakesItsOtherProcessAlongAndTheNextOneWorksAndEndsClean) {
   const int domain = unique_dds_domain();
   {
+    // Of an arm whose own process is killed nothing can be asked.
     Command lamp{deployment_command(endless(domain, kVisionApart))};
     ASSERT_TRUE(lamp.wait_for_err(kRuns, kStartsWithin)) << lamp.err();
     const pid_t vision = lamp.child();
@@ -101,23 +148,53 @@ TEST(ProcessLife, AKilledRunTakesItsOtherProcessAlongAndTheNextOneWorksAndEndsCl
     EXPECT_EQ(lamp.finish(seconds{10}).exit_code, 128 + SIGKILL);
     EXPECT_TRUE(ends_within(vision, seconds{10}));
   }
+  HeardArm arm{domain};
   Command next{deployment_command(endless(domain, kVisionApart))};
   EXPECT_TRUE(next.wait_for_err(kRuns, kStartsWithin)) << next.err();
   const pid_t vision = next.child();
+  ASSERT_TRUE(arm.wait_until_it_moves());
   next.signal(SIGINT);
   const CommandResult result = next.finish(seconds{6});
+  arm.expect_rest();
   EXPECT_FALSE(result.timed_out) << result.err;
   EXPECT_EQ(result.exit_code, 1) << result.err;
   EXPECT_TRUE(ends_within(vision, seconds{0}));
 }
 
+/// Without shared memory: where a process is killed that uses it, now and then nothing is heard of
+/// the others for a second or more.
+DeploymentStart over_udp(DeploymentStart start) {
+  start.options.environment["ARMATURE_PLUGIN_PATH"] = FULL_SHARED_MEMORY;
+  return start;
+}
+
+TEST(ProcessLife, AnArmWhoseMainProcessIsKilledIsAtRestWhenItsOwnProcessEnds) {
+  const int domain = unique_dds_domain();
+  HeardArm arm{domain};
+  const DeploymentStart start = over_udp(endless(domain, {"components.arm.process=aside"}));
+  Command lamp{deployment_command(start), start.options};
+  ASSERT_TRUE(lamp.wait_for_err(kRuns, kStartsWithin)) << lamp.err();
+  const pid_t aside = lamp.child();
+  ASSERT_GT(aside, 0);
+  ASSERT_TRUE(arm.wait_until_it_moves());
+  lamp.signal(SIGKILL);
+  EXPECT_EQ(lamp.finish(seconds{10}).exit_code, 128 + SIGKILL);
+  EXPECT_TRUE(ends_within(aside, seconds{10}));
+  arm.expect_rest();
+}
+
 TEST(ProcessLife, ARunWhoseOtherProcessIsKilledSaysSoAndEnds) {
-  Command lamp{deployment_command(endless(unique_dds_domain(), kVisionApart))};
+  const int domain = unique_dds_domain();
+  HeardArm arm{domain};
+  const DeploymentStart start = over_udp(endless(domain, kVisionApart));
+  Command lamp{deployment_command(start), start.options};
   ASSERT_TRUE(lamp.wait_for_err(kRuns, kStartsWithin)) << lamp.err();
   const pid_t vision = lamp.child();
   ASSERT_GT(vision, 0);
+  ASSERT_TRUE(arm.wait_until_it_moves());
   kill(vision, SIGKILL);
   const CommandResult result = lamp.finish(seconds{10});
+  arm.expect_rest();
   EXPECT_FALSE(result.timed_out) << result.err;
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.err, HasSubstr("armature: process 'vision' (pid " + std::to_string(vision) +
@@ -126,6 +203,7 @@ TEST(ProcessLife, ARunWhoseOtherProcessIsKilledSaysSoAndEnds) {
 
 TEST(ProcessLife, ASecondStartNamesTheFirst) {
   const int domain = unique_dds_domain();
+  HeardArm arm{domain};
   Command lamp{deployment_command(endless(domain))};
   ASSERT_TRUE(lamp.wait_for_err(kRuns, kStartsWithin)) << lamp.err();
   // Whatever the environment of the second one is.
@@ -140,15 +218,22 @@ TEST(ProcessLife, ASecondStartNamesTheFirst) {
                              "; stop it, or use another domain with --domain";
   EXPECT_EQ(second.out, R"({"status":"not_started","reason":")" + reason + "\"}\n");
   EXPECT_EQ(second.err, "armature: " + reason + "\n");
+  ASSERT_TRUE(arm.wait_until_it_moves()) << "the first goes on";
+  lamp.signal(SIGTERM);
+  EXPECT_FALSE(lamp.finish(seconds{10}).timed_out);
+  arm.expect_rest();
 }
 
 TEST(ProcessLife, WithoutRoomInSharedMemoryItSaysSoAndWorksOverUdp) {
-  DeploymentStart start = endless(unique_dds_domain(), kVisionApart);
-  start.options.environment["ARMATURE_PLUGIN_PATH"] = FULL_SHARED_MEMORY;
+  const int domain = unique_dds_domain();
+  HeardArm arm{domain};
+  const DeploymentStart start = over_udp(endless(domain, kVisionApart));
   Command lamp{deployment_command(start), start.options};
   ASSERT_TRUE(lamp.wait_for_err(kRuns, kStartsWithin)) << lamp.err();
+  ASSERT_TRUE(arm.wait_until_it_moves());
   lamp.signal(SIGINT);
   const CommandResult result = lamp.finish(seconds{10});
+  arm.expect_rest();
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.err, HasSubstr("no shared memory, topics go over UDP: "));
   EXPECT_THAT(result.err, HasSubstr(" has 1 MiB free, 18 MiB are needed"));

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
+#include <chrono>
+#include <cmath>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
@@ -103,6 +105,44 @@ TEST_F(PulledPlug, EverySignalThatEndsARunIsToldInItsOwnWords) {
     EXPECT_THAT(result.err, HasSubstr(kEndedAtRest));
     EXPECT_TRUE(result.err.ends_with("armature: " + words + "\n")) << result.err;
   }
+}
+
+/// The time of the run's own line that says `text`; NaN without one.
+double said_at_s(const std::string& text, const std::string& lines) {
+  const std::size_t at = lines.find(text);
+  if (at == std::string::npos) return std::nan("");
+  return std::stod(lines.substr(lines.rfind('[', at) + 1));
+}
+
+TEST_F(PulledPlug, StoppingIsSaidWithinAFifthOfASecondAfterTheSignal) {
+  for (const std::string signalled : {"main", "aside"}) {
+    // The lines of the run count from here, by the clock that both processes share.
+    const auto start = std::chrono::steady_clock::now();
+    auto words = command({kApart});
+    words.insert(words.end(), {"--clock-offset-ns", "0", "--clock-start-ns",
+                               std::to_string(start.time_since_epoch().count())});
+    Command run{words, options_};
+    ASSERT_TRUE(run.wait_for_err("arm       moves", kWithin)) << run.err();
+    const pid_t pid = signalled == "main" ? run.pid() : run.child();
+    const std::chrono::duration<double> now = std::chrono::steady_clock::now() - start;
+    kill(pid, SIGINT);
+    const CommandResult result = run.finish(kWithin);
+    const std::string by = signalled == "main" ? "" : "process 'aside': ";
+    const double said_s = said_at_s("runtime   stopping: " + by + "interrupted\n", result.err);
+    EXPECT_GE(said_s, now.count() - kRounded_s) << result.err;
+    EXPECT_LE(said_s, now.count() + 0.2) << result.err;
+  }
+}
+
+TEST_F(PulledPlug, AProcessWithADriverEndsAfterAllOthersHaveEnded) {
+  Command run{command({kApart, "components.beat.process=other", "components.beat.params.stop_s=0.3",
+                       "components.last={plugin: test/beat, topics: last, params: {stop_s: 0.3}}"}),
+              options_};
+  ASSERT_TRUE(run.wait_for_err("arm       moves", kWithin)) << run.err();
+  run.signal(SIGINT);
+  const CommandResult result = run.finish(kWithin);
+  EXPECT_THAT(result.err, ContainsRegex("arm       at rest\n(.|\n)*beat      ended\n(.|\n)*"
+                                        "last      ended\n(.|\n)*arm       ended at rest\n"));
 }
 
 TEST_F(PulledPlug, AnArmWhoseMainProcessIsKilledComesToRestByItselfAndEnds) {

@@ -18,6 +18,7 @@ class Beat final : public Component {
       : Component{setup},
         beats_{setup.params().integer("beats")},
         ends_{setup.params().flag("ends")},
+        stop_s_{setup.params().number("stop_s")},
         throws_in_{setup.params().text("throws_in")},
         throws_number_{setup.params().flag("throws_number")},
         beat_{setup.output<msg::Capture>("beat")} {
@@ -40,7 +41,12 @@ class Beat final : public Component {
     loan.publish();
   }
 
-  void stop(Time) override { throw_in("stop"); }
+  void stop(Time) override {
+    throw_in("stop");
+    if (stop_s_ == 0) return;
+    std::this_thread::sleep_for(std::chrono::duration<double>{stop_s_});
+    say("ended");
+  }
   bool finished() const override { return ends_ && sent_ == beats_; }
   void summarize(Summary&) const override { throw_in("summarize"); }
 
@@ -53,6 +59,7 @@ class Beat final : public Component {
 
   std::int64_t beats_, sent_ = 0;
   bool ends_;
+  double stop_s_;
   std::string throws_in_;
   bool throws_number_;
   Output<msg::Capture> beat_;

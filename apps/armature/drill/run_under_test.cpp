@@ -3,7 +3,6 @@
 
 #include <fcntl.h>
 #include <poll.h>
-#include <spawn.h>
 #include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -18,6 +17,8 @@
 #include <string_view>
 #include <system_error>
 
+#include "armature/values/spawn_plan.hpp"
+
 namespace armature::drill {
 namespace {
 
@@ -25,30 +26,6 @@ using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
 constexpr milliseconds kPause{5};
-
-/// A process group of its own, so that Ctrl-C reaches the drill alone; no standard input, standard
-/// output into `output` and standard error into `terminal`.
-class SpawnSettings {
- public:
-  SpawnSettings(int output, int terminal) {
-    posix_spawn_file_actions_init(&files);
-    posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_adddup2(&files, output, STDOUT_FILENO);
-    posix_spawn_file_actions_adddup2(&files, terminal, STDERR_FILENO);
-    posix_spawnattr_init(&attributes);
-    posix_spawnattr_setpgroup(&attributes, 0);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
-  }
-  ~SpawnSettings() {
-    posix_spawn_file_actions_destroy(&files);
-    posix_spawnattr_destroy(&attributes);
-  }
-  SpawnSettings(const SpawnSettings&) = delete;
-  SpawnSettings& operator=(const SpawnSettings&) = delete;
-
-  posix_spawn_file_actions_t files;
-  posix_spawnattr_t attributes;
-};
 
 /// What stands behind --process on the command line of that process; empty: nothing.
 std::string process_name(pid_t pid) {
@@ -73,15 +50,14 @@ RunUnderTest::RunUnderTest(std::vector<std::string> arguments) {
     throw std::system_error(errno, std::generic_category(), "cannot make a pipe");
   }
   terminal_ = ends[0];
-  std::string program = "/proc/self/exe";
   arguments.insert(arguments.begin(), "armature");
-  std::vector<char*> argv;
-  for (std::string& argument : arguments) argv.push_back(argument.data());
-  argv.push_back(nullptr);
   output_ = memfd_create("armature run", MFD_CLOEXEC);
-  const SpawnSettings settings{output_, ends[1]};
-  const int error = posix_spawn(&pid_, program.c_str(), &settings.files, &settings.attributes,
-                                argv.data(), environ);
+  SpawnPlan plan;
+  plan.give_nothing(STDIN_FILENO);
+  plan.hand_over(output_, STDOUT_FILENO).hand_over(ends[1], STDERR_FILENO);
+  // Ctrl-C reaches the drill alone, and a run hears the signals that the drill ignores.
+  plan.own_group().default_signals();
+  const int error = plan.start("/proc/self/exe", arguments, pid_);
   close(ends[1]);
   if (error != 0) {
     close(terminal_);

@@ -2,7 +2,6 @@
 #include "armature/runtime/child_processes.hpp"
 
 #include <fmt/format.h>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -16,6 +15,7 @@
 
 #include "armature/bus/qos.hpp"
 #include "armature/values/sanitizer.hpp"
+#include "armature/values/spawn_plan.hpp"
 
 namespace armature {
 namespace {
@@ -31,31 +31,6 @@ std::string text_of_status(int status) {
   return fmt::format("ended with exit code {}", WEXITSTATUS(status));
 }
 
-/// What a process inherits beside its standard streams: the control channel, no signal's handling,
-/// and a process group of its own: Ctrl-C reaches the main process, which ends the others in order.
-class SpawnSettings {
- public:
-  SpawnSettings(int control, int as) {
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_adddup2(&actions, control, as);
-    posix_spawnattr_init(&attributes);
-    sigset_t none;
-    sigemptyset(&none);
-    posix_spawnattr_setsigmask(&attributes, &none);
-    posix_spawnattr_setpgroup(&attributes, 0);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK);
-  }
-  ~SpawnSettings() {
-    posix_spawn_file_actions_destroy(&actions);
-    posix_spawnattr_destroy(&attributes);
-  }
-  SpawnSettings(const SpawnSettings&) = delete;
-  SpawnSettings& operator=(const SpawnSettings&) = delete;
-
-  posix_spawn_file_actions_t actions;
-  posix_spawnattr_t attributes;
-};
-
 }  // namespace
 
 ChildProcesses::~ChildProcesses() {
@@ -66,17 +41,15 @@ void ChildProcesses::start(const std::string& name, std::vector<std::string> arg
                            OnFault on_loss) {
   constexpr int kControlFile = STDERR_FILENO + 1;
   auto [ours, theirs] = ControlChannel::make();
-  const SpawnSettings settings{theirs.file(), kControlFile};
-  std::string program = "/proc/self/exe";
+  const std::string program = "/proc/self/exe";
   arguments.insert(arguments.begin(), program);
   arguments.insert(arguments.end(), {std::string{kControlOption}, std::to_string(kControlFile)});
-  std::vector<char*> argv;
-  for (std::string& argument : arguments) argv.push_back(argument.data());
-  argv.push_back(nullptr);
+  // Ctrl-C reaches the main process, which ends the others in order. Not fork: afterwards a thread
+  // of this process would pay for every page that it touches.
+  SpawnPlan plan;
+  plan.hand_over(theirs.file(), kControlFile).own_group().unblock_signals();
   pid_t pid = 0;
-  // Not fork: afterwards a thread of this process would pay for every page that it touches.
-  if (const int error = posix_spawn(&pid, program.c_str(), &settings.actions, &settings.attributes,
-                                    argv.data(), environ)) {
+  if (const int error = plan.start(program, arguments, pid)) {
     throw std::system_error(error, std::generic_category(), "cannot start " + name);
   }
   children_.push_back({.name = name, .pid = pid, .on_loss = on_loss, .control = std::move(ours)});

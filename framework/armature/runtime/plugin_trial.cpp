@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/runtime/plugin_trial.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -18,6 +16,7 @@
 
 #include "armature/runtime/library_folder.hpp"
 #include "armature/values/sanitizer.hpp"
+#include "armature/values/spawn_plan.hpp"
 
 namespace armature {
 namespace {
@@ -40,38 +39,6 @@ std::vector<std::string> environment_of_trial() {
   return variables;
 }
 
-std::vector<char*> pointers_to(std::vector<std::string>& texts) {
-  std::vector<char*> pointers;
-  for (std::string& text : texts) pointers.push_back(text.data());
-  pointers.push_back(nullptr);
-  return pointers;
-}
-
-/// Starts `words` in a process group of its own, which Ctrl-C does not reach, without our signal
-/// mask and handlers, and with nothing to read and nowhere to print. The error, or 0.
-int spawn(std::vector<std::string> words, pid_t& child) {
-  posix_spawn_file_actions_t files;
-  posix_spawn_file_actions_init(&files);
-  posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_addopen(&files, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawnattr_t attributes;
-  posix_spawnattr_init(&attributes);
-  sigset_t none, all;
-  sigemptyset(&none);
-  sigfillset(&all);
-  posix_spawnattr_setsigmask(&attributes, &none);
-  posix_spawnattr_setsigdefault(&attributes, &all);
-  posix_spawnattr_setflags(&attributes,
-                           POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
-  std::vector<std::string> environment = environment_of_trial();
-  const int error = posix_spawn(&child, words.front().c_str(), &files, &attributes,
-                                pointers_to(words).data(), pointers_to(environment).data());
-  posix_spawnattr_destroy(&attributes);
-  posix_spawn_file_actions_destroy(&files);
-  return error;
-}
-
 /// How the child ended; nothing when it took too long and was killed.
 std::optional<int> ending_of(pid_t child, std::chrono::milliseconds limit) {
   constexpr std::chrono::milliseconds kPause{1};
@@ -92,8 +59,12 @@ std::optional<int> ending_of(pid_t child, std::chrono::milliseconds limit) {
 
 Expected<void> try_plugin(const std::filesystem::path& file, std::chrono::milliseconds limit) {
   const std::string program = library_folder() / "armature" / "load_plugin";
+  SpawnPlan plan;
+  plan.give_nothing(STDIN_FILENO).give_nothing(STDOUT_FILENO).give_nothing(STDERR_FILENO);
+  plan.own_group().unblock_signals().default_signals();
   pid_t child = -1;
-  if (const int error = spawn({program, std::to_string(getpid()), file.string()}, child)) {
+  if (const int error = plan.start(program, {program, std::to_string(getpid()), file.string()},
+                                   child, environment_of_trial())) {
     return refuse(fmt::format("cannot start {} to try it: {}", program, std::strerror(error)));
   }
   const auto status = ending_of(child, limit);

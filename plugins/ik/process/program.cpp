@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <sched.h>
-#include <spawn.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 
@@ -17,6 +16,8 @@
 #include <thread>
 #include <utility>
 #include <vector>
+
+#include "armature/values/spawn_plan.hpp"
 
 namespace armature::process {
 namespace {
@@ -52,53 +53,10 @@ Ends output_ends() {
   return ends;
 }
 
-/// How a program is started: with which files, and free of what its starter is to the system.
-class SpawnPlan {
- public:
-  SpawnPlan(const Ends& in, const Ends& out, const Ends& err, const std::string& folder) {
-    posix_spawn_file_actions_init(&files_);
-    posix_spawn_file_actions_adddup2(&files_, in.theirs.get(), STDIN_FILENO);
-    posix_spawn_file_actions_adddup2(&files_, out.theirs.get(), STDOUT_FILENO);
-    posix_spawn_file_actions_adddup2(&files_, err.theirs.get(), STDERR_FILENO);
-    if (!folder.empty()) posix_spawn_file_actions_addchdir_np(&files_, folder.c_str());
-    posix_spawnattr_init(&attributes_);
-    sigset_t none, all;
-    sigemptyset(&none);
-    sigfillset(&all);
-    posix_spawnattr_setsigmask(&attributes_, &none);
-    posix_spawnattr_setsigdefault(&attributes_, &all);
-    posix_spawnattr_setpgroup(&attributes_, 0);
-    short flags = POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP;
-    const int policy = sched_getscheduler(0);
-    if (policy == SCHED_FIFO || policy == SCHED_RR) {
-      const sched_param normal{};
-      posix_spawnattr_setschedpolicy(&attributes_, SCHED_OTHER);
-      posix_spawnattr_setschedparam(&attributes_, &normal);
-      flags |= POSIX_SPAWN_SETSCHEDULER;
-    }
-    posix_spawnattr_setflags(&attributes_, flags);
-  }
-  SpawnPlan(const SpawnPlan&) = delete;
-  SpawnPlan& operator=(const SpawnPlan&) = delete;
-  ~SpawnPlan() {
-    posix_spawnattr_destroy(&attributes_);
-    posix_spawn_file_actions_destroy(&files_);
-  }
-
-  /// 0, or why not.
-  int start(const Command& command, pid_t& pid) const {
-    std::vector<std::string> words = command.words;
-    std::vector<char*> arguments;
-    for (std::string& word : words) arguments.push_back(word.data());
-    arguments.push_back(nullptr);
-    return posix_spawn(&pid, command.file.c_str(), &files_, &attributes_, arguments.data(),
-                       environ);
-  }
-
- private:
-  posix_spawn_file_actions_t files_;
-  posix_spawnattr_t attributes_;
-};
+bool has_real_time_priority() {
+  const int policy = sched_getscheduler(0);
+  return policy == SCHED_FIFO || policy == SCHED_RR;
+}
 
 }  // namespace
 
@@ -108,8 +66,14 @@ Expected<std::unique_ptr<Program>> Program::start(const Command& command) {
     return refuse(fmt::format("cannot be started: {}", std::strerror(errno)));
   }
   pid_t pid = -1;
-  const SpawnPlan plan{in, out, err, command.folder};
-  if (const int why = plan.start(command, pid); why != 0) {
+  SpawnPlan plan;
+  plan.hand_over(in.theirs.get(), STDIN_FILENO)
+      .hand_over(out.theirs.get(), STDOUT_FILENO)
+      .hand_over(err.theirs.get(), STDERR_FILENO);
+  plan.own_group().unblock_signals().default_signals();
+  if (!command.folder.empty()) plan.in_folder(command.folder);
+  if (has_real_time_priority()) plan.normal_priority();
+  if (const int why = plan.start(command.file, command.words, pid); why != 0) {
     return refuse(fmt::format("cannot be started: {}", std::strerror(why)));
   }
   ErrorRelay errors{std::move(err.ours), "ik/process (" + command.text() + ")"};

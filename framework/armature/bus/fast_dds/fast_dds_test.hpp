@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 #include <signal.h>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -22,6 +21,7 @@
 #include "armature/bus/fast_dds/fast_dds_transport.hpp"
 #include "armature/messages/sensor_msgs.hpp"
 #include "armature/messages/stamp.hpp"
+#include "armature/values/spawn_plan.hpp"
 #include "tests/dds_domain.hpp"
 
 namespace armature {
@@ -34,16 +34,12 @@ class Peer {
     int pipe_ends[2];
     EXPECT_EQ(pipe2(pipe_ends, O_CLOEXEC), 0);
     input_ = pipe_ends[1];
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_adddup2(&actions, pipe_ends[0], STDIN_FILENO);
-    std::vector<std::string> words{FAST_DDS_PEER, std::to_string(domain), deployment, fingerprint,
-                                   task};
-    std::vector<char*> arguments;
-    for (std::string& word : words) arguments.push_back(word.data());
-    arguments.push_back(nullptr);
-    EXPECT_EQ(posix_spawn(&pid_, FAST_DDS_PEER, &actions, nullptr, arguments.data(), environ), 0);
-    posix_spawn_file_actions_destroy(&actions);
+    SpawnPlan plan;
+    plan.hand_over(pipe_ends[0], STDIN_FILENO);
+    EXPECT_EQ(
+        plan.start(FAST_DDS_PEER,
+                   {FAST_DDS_PEER, std::to_string(domain), deployment, fingerprint, task}, pid_),
+        0);
     close(pipe_ends[0]);
   }
   ~Peer() {

@@ -157,8 +157,10 @@ class Trial {
     result_.step_s = commanders_step_s();
     result_.rest_s = verdict.rest_s;
     const bool holds = fault_.outcome == Outcome::holds;
-    if (result_.passed() && holds && verdict.rest_s > to_seconds(kHoldsFor)) {
-      fail("it moved until it was interrupted");
+    const double allowed_s = holds ? to_seconds(kHoldsFor) : options_.deployment.stop_within_s;
+    if (result_.passed() && verdict.rest_s > allowed_s) {
+      fail(fmt::format("it moved for {:.2f} s more, and {:g} s are allowed", verdict.rest_s,
+                       allowed_s));
       return;
     }
     result_.arm = verdict.arm;

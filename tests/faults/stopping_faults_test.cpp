@@ -170,10 +170,23 @@ TEST_F(PulledPlug, AnArmWhoseOtherProcessIsKilledComesToRestAndTheSignalIsTold) 
   EXPECT_EQ(result.exit_code, 1);
 }
 
+/// The files in shared memory that a process has mapped.
+std::set<std::string> shared_memory_of(pid_t pid) {
+  std::set<std::string> files;
+  std::ifstream maps{"/proc/" + std::to_string(pid) + "/maps"};
+  for (std::string line; std::getline(maps, line);) {
+    const std::size_t path = line.find("/dev/shm/fastrtps_");
+    if (path != std::string::npos) files.insert(line.substr(path));
+  }
+  return files;
+}
+
 TEST_F(PulledPlug, AKilledProcessWhoseComponentsAreIsolatedLeavesTheArmMoving) {
   Command run{command({"components.beat.process=aside"}), options_};
   ASSERT_TRUE(run.wait_for_err("arm       moves", kWithin)) << run.err();
   const pid_t aside = run.child();
+  EXPECT_TRUE(shared_memory_of(aside).empty()) << "a lock there would outlive it";
+  EXPECT_FALSE(shared_memory_of(run.pid()).empty());
   kill(aside, SIGKILL);
   const std::string lost =
       "process 'aside' (pid " + std::to_string(aside) + ") was killed by signal 9 (Killed)";
@@ -291,17 +304,6 @@ TEST_F(PulledPlug, AStepThatDoesNotReturnIsNamedAndTheProcessLeavesAllTheSame) {
   EXPECT_THAT(result.out, HasSubstr("'arm' hangs: its step has not returned"));
   EXPECT_EQ(report(), result.out);
   EXPECT_TRUE(ends_within(aside, seconds{1}));
-}
-
-/// The files in shared memory that a process has mapped.
-std::set<std::string> shared_memory_of(pid_t pid) {
-  std::set<std::string> files;
-  std::ifstream maps{"/proc/" + std::to_string(pid) + "/maps"};
-  for (std::string line; std::getline(maps, line);) {
-    const std::size_t path = line.find("/dev/shm/fastrtps_");
-    if (path != std::string::npos) files.insert(line.substr(path));
-  }
-  return files;
 }
 
 TEST_F(PulledPlug, SharedMemoryOfKilledProcessesIsGoneAtTheNextStart) {

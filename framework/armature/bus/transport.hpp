@@ -72,6 +72,9 @@ struct TransportOptions {
   /// The deployment's clock, the same in all of its processes. None: the system clock.
   std::function<Time()> now;
   bool simulated = false;  // that clock has nothing to do with anybody else's
+  /// False: over UDP only. Whoever is lost while it uses shared memory may hold a lock there, for
+  /// which all that send to it wait a second or more.
+  bool shared_memory = true;
 };
 
 /// The way to other processes. Plugins of kind `transport`; the runtime loads `transport/fast_dds`.

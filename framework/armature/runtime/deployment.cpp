@@ -236,6 +236,8 @@ void Deployment::assign_units() {
 }
 
 void Deployment::connect(PluginRegistry& plugins, int domain) {
+  // A process that the others go on without must leave nothing behind that they wait for.
+  const bool isolated = options_.process != kMainProcess && !stops_run(options_.process, config_);
   const TransportOptions options{
       .domain = domain,
       .deployment = config_.name,
@@ -243,7 +245,8 @@ void Deployment::connect(PluginRegistry& plugins, int domain) {
       .process = options_.process,
       .on_event = [this](const TransportEvent& event) { on_event(event); },
       .now = [this] { return clock_->now(); },
-      .simulated = config_.simulated};
+      .simulated = config_.simulated,
+      .shared_memory = !isolated};
   auto transport = plugins.make<Transport>("transport/fast_dds", options);
   if (!transport) throw PluginError("cannot join DDS: " + transport.error().text);
   outside_.emplace(std::move(*transport), config_, options_.process);

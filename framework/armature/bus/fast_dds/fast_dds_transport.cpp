@@ -66,7 +66,8 @@ Expected<std::unique_ptr<Transport>> FastDdsTransport::make(const TransportOptio
                                         .name = participant_name(options),
                                         .watcher = watch(link),
                                         .on_note = note,
-                                        .shared_memory = shared_memory});
+                                        .shared_memory = shared_memory,
+                                        .uses_shared_memory = options.shared_memory});
   if (!participant) return tl::unexpected{participant.error()};
   link->participant = std::move(*participant);
   link->egress = std::make_unique<Egress>();

@@ -60,6 +60,7 @@ void use_transports(dds::DomainParticipantQos& qos, const ParticipantSettings& s
   auto udp = std::make_shared<UDPv4TransportDescriptor>();
   udp->interfaceWhiteList = {"127.0.0.1"};
   qos.transport().user_transports.push_back(udp);
+  if (!settings.uses_shared_memory) return;
 
   clean_shared_memory(settings.shared_memory.folder);
   if (const auto usable = check_shared_memory(settings.shared_memory, kNeededBytes); !usable) {

@@ -28,6 +28,7 @@ struct ParticipantSettings {
   Discovery::Watcher watcher;
   std::function<void(const std::string&)> on_note;  // any thread; must only enqueue
   SharedMemory shared_memory;                       // looked at before Fast DDS uses it
+  bool uses_shared_memory = true;
 };
 
 /// The one DDS participant of the process: shared memory and UDP on the loopback interface only,

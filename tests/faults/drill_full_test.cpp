@@ -13,6 +13,8 @@ namespace {
 struct Drilled {
   const char* name;
   const char* within_s;
+
+  friend void PrintTo(const Drilled& drilled, std::ostream* out) { *out << drilled.name; }
 };
 
 class FullDrill : public testing::TestWithParam<Drilled> {

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+// How an execution is halted, comes to rest, and is rearmed.
+#include "armature/motion/goal_execution_test.hpp"
+
+namespace armature::test {
+namespace {
+
+TEST_F(GoalExecutionTest, StoppedStaysStoppedUntilItIsRearmedWhereTheArmIs) {
+  step_to(0.1);
+  give(goal_at(1, 2, -2, 2));
+  step_to(0.8);
+  ask(goal_at(2, 0, 0, 0));
+  execution_.halt("somebody pressed the button", now_);
+  collect();
+  EXPECT_EQ(story()[story().size() - 2], (std::pair<std::uint64_t, State>{1, State::failed}));
+  EXPECT_EQ(story().back(), (std::pair<std::uint64_t, State>{2, State::failed}));
+  EXPECT_EQ(statuses_.back().reason, "somebody pressed the button");
+  EXPECT_FALSE(execution_.rearm(now_)) << "not while it moves";
+  step_to(2);
+  EXPECT_TRUE(execution_.at_rest(now_));
+  give(goal_at(3, 0, 0, 0));
+  EXPECT_EQ(statuses_.back().reason, "somebody pressed the button");
+  const JointVector stands = before_.q;
+  const JointVector pushed = stands + JointVector{Eigen::Vector3d{0, 0.2, 0}};
+  for (int k = 0; k < 1000; ++k) {
+    step_with(pushed);
+    ASSERT_EQ(before_.q, stands) << "nothing is commanded, wherever the arm is pushed";
+  }
+  EXPECT_TRUE(execution_.rearm(now_));
+  EXPECT_EQ(execution_.reference().at(now_).q, pushed);
+  before_ = execution_.reference().at(now_);
+  EXPECT_TRUE(at_rest(before_));
+  for (int k = 0; k < 500; ++k) step_with(pushed);
+  EXPECT_EQ(before_.q, pushed) << "nothing that was wanted before begins again";
+  give(goal_at(4, 0, 0, 0));
+  EXPECT_EQ(statuses_.back().state, State::executing);
+}
+
+TEST_F(GoalExecutionTest, IsNotAtRestBeforeTheArmsOwnSamplesAre) {
+  step_to(0.1);
+  give(goal_at(1, 0.5, 0.5, 0.5));
+  step_to(0.3);
+  execution_.halt("the end", now_);
+  const JointVector stands = execution_.reference().at(now_ + seconds(5)).q;
+  now_ = now_ + seconds(2);
+  double x = 0;
+  for (int k = 0; k < 100; ++k) {  // an arm that comes there late
+    now_ = now_ + seconds(0.001);
+    execution_.update(now_,
+                      MeasuredJoints{now_, stands + JointVector{Eigen::Vector3d{0, 0, x += 1e-4}}});
+    ASSERT_FALSE(execution_.at_rest(now_)) << k;
+  }
+  for (int k = 0; k < 100; ++k) {
+    now_ = now_ + seconds(0.001);
+    execution_.update(now_, MeasuredJoints{now_, stands});
+  }
+  EXPECT_TRUE(execution_.at_rest(now_));
+}
+
+TEST_F(GoalExecutionTest, AnArmInAHandIsHaltedWhereTheHandComesToRest) {
+  step_to(0.1);
+  give(guided(1));
+  step_to(0.5);
+  execution_.halt("the end", now_);
+  JointVector moved = home_;
+  const auto step = [&] {
+    now_ = now_ + seconds(0.001);
+    execution_.update(now_, MeasuredJoints{now_, moved});
+  };
+  for (int k = 1; k < 100; ++k) {
+    moved = home_ + JointVector{Eigen::Vector3d{0, 0, 1e-3 * k}};
+    step();
+    ASSERT_FALSE(execution_.at_rest(now_)) << k;
+    ASSERT_EQ(execution_.reference().at(now_).q, moved)
+        << "else it would go back when it is let go";
+  }
+  for (int k = 0; k < 100; ++k) step();
+  EXPECT_TRUE(execution_.at_rest(now_));
+  const JointVector rested = moved;
+  moved[1] += 0.01;
+  step();
+  EXPECT_EQ(execution_.reference().at(now_).q, rested) << "it is held there from then on";
+}
+
+}  // namespace
+}  // namespace armature::test

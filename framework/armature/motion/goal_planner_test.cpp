@@ -230,7 +230,7 @@ TEST(GoalPlanner, StopsFirstWhenTheTrajectoryCannotBeSpliced) {
   JointState before = plan->trajectory.at(kStart);
   for (Time t = kStart; t < plan->trajectory.end(); t = t + seconds(0.001)) {
     const JointState state = plan->trajectory.at(t);
-    ASSERT_TRUE(t == kStart || no_jump(before, state, 0.001));
+    ASSERT_TRUE(t == kStart || test::no_jump(before, state, 0.001));
     before = state;
   }
 }

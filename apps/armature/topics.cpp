@@ -2,11 +2,14 @@
 #include "topics.hpp"
 
 #include <fmt/format.h>
+#include <stdio_ext.h>
 
 #include <algorithm>
 #include <atomic>
+#include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstdio>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -29,13 +32,25 @@ constexpr int kLeastForARate = 2;
 
 std::atomic<bool> g_interrupted{false};
 
+/// Prints a line. When nobody reads it any more, as behind `| head -n 1`, the watch ends in order:
+/// a process that is killed in the midst of DDS makes those wait that send to it.
+void tell(const std::string& line) {
+  const bool written = std::fputs((line + '\n').c_str(), stdout) >= 0;
+  if (written && std::fflush(stdout) == 0) return;
+  g_interrupted = true;
+  if (errno != EPIPE) return;  // a full disk is told at the end
+  __fpurge(stdout);
+  std::clearerr(stdout);
+}
+
 /// Ends a watch: enough samples, the time is over, or the operator wants it.
 class Finish {
  public:
   /// `least`: how many samples are of use when the options ask for no number.
   Finish(const TopicOptions& options, std::uint64_t least) : options_{options}, least_{least} {
-    std::signal(SIGINT, [](int) { g_interrupted = true; });
-    std::signal(SIGTERM, [](int) { g_interrupted = true; });
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) {
+      std::signal(signal, [](int) { g_interrupted = true; });
+    }
   }
   /// Counts a sample; true when it was the last one wanted.
   bool count() { return ++seen_ == options_.count; }
@@ -155,17 +170,16 @@ int echo_topic(const TopicOptions& options) {
     if (options.count > 0 && finish.seen() >= options.count) return;
     const TypeDescription* type = describe_type(sample.type);
     if (!type) {
-      fmt::print("{} bytes of {}, which is not in idl/\n", sample.cdr.size(), sample.type);
+      tell(fmt::format("{} bytes of {}, which is not in idl/", sample.cdr.size(), sample.type));
     } else {
       const auto json = cdr_to_json(*type, sample.cdr,
                                     options.full ? OctetArrays::whole : OctetArrays::shortened);
       if (!json) {
         fmt::print(stderr, "armature: not a {}: {}\n", type->ros_name, json.error().text);
       } else {
-        fmt::print("{}\n", options.json ? json->dump() : readable(*json) + "\n---");
+        tell(options.json ? json->dump() : readable(*json) + "\n---");
       }
     }
-    std::fflush(stdout);
     finish.count();
   });
   return watching == kOk ? finish.wait() : watching;
@@ -181,15 +195,14 @@ void print_rate(const Rate& rate, const char* over, bool json) {
       line["shortest_s"] = to_seconds(rate.shortest);
       line["longest_s"] = to_seconds(rate.longest);
     }
-    fmt::print("{}\n", line.dump());
+    tell(line.dump());
   } else if (rate.intervals == 0) {
-    fmt::print("no samples\n");
+    tell("no samples");
   } else {
-    fmt::print("{:.1f} Hz over {} samples{}, intervals from {:.2f} to {:.2f} ms\n", rate.hz(),
-               rate.samples, std::string_view{over} == "all" ? " in all" : "",
-               to_seconds(rate.shortest) * 1e3, to_seconds(rate.longest) * 1e3);
+    tell(fmt::format("{:.1f} Hz over {} samples{}, intervals from {:.2f} to {:.2f} ms", rate.hz(),
+                     rate.samples, std::string_view{over} == "all" ? " in all" : "",
+                     to_seconds(rate.shortest) * 1e3, to_seconds(rate.longest) * 1e3));
   }
-  std::fflush(stdout);
 }
 
 }  // namespace

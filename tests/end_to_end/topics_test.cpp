@@ -115,6 +115,18 @@ TEST_F(Watched, TwoArmsShareOneTreeOfFrames) {
   EXPECT_EQ(parents.size(), 2U * (1 + 6 + 1)) << "base, six joints and the tool of each arm";
 }
 
+TEST_F(Watched, TopicEchoWhoseReaderGoesAwayEndsInOrder) {
+  const Command run = start("arm_watched.yaml", {"--set", "clock=system"});
+  std::string line = "set -o pipefail;";
+  for (const std::string& word : topic({"echo", "/tf", "--json", "--timeout", "30"})) {
+    line += " '" + word + "'";
+  }
+  const CommandResult result =
+      run_command({"/bin/bash", "-c", line + " | head -n 1"}, {}, std::chrono::seconds{40});
+  EXPECT_EQ(result.exit_code, 0) << "killed by SIGPIPE: 141" << result.err << run.err();
+  EXPECT_EQ(lines_of(result).size(), 1U);
+}
+
 TEST_F(Watched, TopicHzPrintsALineEverySecondAndOneInAll) {
   const Command run = start("arm_watched.yaml", {"--set", "clock=system"});
   wait_for_frames();

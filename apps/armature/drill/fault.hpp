@@ -21,6 +21,7 @@ struct Scene {
   PluginRegistry& plugins;
   int domain;
   Pendant* pendant;                    // of a fault that has one
+  Arrival& fired_at;                   // where it takes effect later than it is begun
   std::vector<std::string> arguments;  // that the run was started with, behind `armature`
 };
 

@@ -112,6 +112,7 @@ class Trial {
                 .plugins = options_.plugins,
                 .domain = options_.domain,
                 .pendant = pendant_.get(),
+                .fired_at = stop_at_,
                 .arguments = arguments_};
     if (const std::string wrong = fault_.fire(scene); !wrong.empty()) return fail(wrong);
     return fault_.outcome == Outcome::stops || go_on();

@@ -86,9 +86,10 @@ class Surgeon final : public Component {
   bool stopped() const override { return !taken_at_ || silent_ || pace_ == 0; }
 
  private:
-  /// Nobody goes on moving a master that is held, or a console that stops.
+  /// Nobody goes on moving a master while the console is held, tells trouble, or stops.
   void pause(Time now) {
-    const bool held = task_state_.latest() && task_state_.latest()->state_() == "held";
+    const msg::TaskState* task = task_state_.latest();
+    const bool held = task && (task->state_() == "held" || !task->detail_().empty());
     const double passed_s = to_seconds(now - moved_at_);
     const double change = passed_s / kComesToRestIn_s;
     pace_ = std::clamp(held || stopping_ ? pace_ - change : pace_ + change, 0.0, 1.0);

@@ -31,9 +31,10 @@ class SurgeonTest : public testing::Test {
     bench_->send("measured_js", state);
     tell("aligned");
   }
-  void tell(const char* phase) {
+  void tell(const char* phase, const char* trouble = "") {
     msg::TaskState task;
     task.state_(phase);
+    task.detail_(trouble);
     bench_->send("task_state", task);
   }
   void steps(int count) {
@@ -120,12 +121,16 @@ TEST_F(SurgeonTest, TheHandRestsWhileTheTaskIsHeldAndGoesOnWhereItWas) {
   align();
   steps(2000);
   bench_->take<msg::JointState>("hand_js");
-  tell("held");
+  tell("clutch open", "the master is not free for the hand");
   steps(300);
   const auto slower = bench_->take<msg::JointState>("hand_js");
   steps(100);
   const auto resting = bench_->take<msg::JointState>("hand_js");
   for (const double v : resting.back().velocity_()) EXPECT_NEAR(v, 0, 1e-12);
+  tell("held");
+  steps(100);
+  EXPECT_EQ(bench_->take<msg::JointState>("hand_js").back().position_(),
+            resting.back().position_());
   EXPECT_EQ(resting.front().position_(), resting.back().position_());
   tell("teleoperating");
   steps(300);

@@ -200,21 +200,21 @@ std::optional<Fault> second_start(const DrilledDeployment&, Form) {
 
 // What an operator does to the arms.
 
+constexpr const char* kStopHeard = "a stop was asked for";
+
 std::string stop_all(Scene& scene) {
   RunUnderTest stop{{"stop", "--domain", std::to_string(scene.domain)}};
-  const bool done = stop.ends_within(std::chrono::seconds{10});
   // Until it has found them the arms go on with their task: they may rest, and move again.
+  scene.run.wait_for_line(kStopHeard, milliseconds{10000});
   scene.fired_at = std::chrono::steady_clock::now();
+  const bool done = stop.ends_within(std::chrono::seconds{10});
   if (done && stop.exit_code() == 0) return {};
   return "armature stop: " + stop.last_line();
 }
 
 std::optional<Fault> emergency_stop(const DrilledDeployment& deployment, Form) {
   if (deployment.commander.name.empty()) return std::nullopt;
-  return Fault{.name = {},
-               .outcome = Outcome::holds,
-               .shown = "stopped until it is rearmed",
-               .fire = stop_all};
+  return Fault{.name = {}, .outcome = Outcome::holds, .shown = kStopHeard, .fire = stop_all};
 }
 
 /// A fault of a run whose operator has a pendant.
@@ -240,7 +240,7 @@ void wait_for_rest(const Scene& scene) {
 }
 
 std::optional<Fault> rearm(const DrilledDeployment& deployment, Form) {
-  return with_pendant(deployment, "a stop was asked for", [](Scene& scene) -> std::string {
+  return with_pendant(deployment, kStopHeard, [](Scene& scene) -> std::string {
     constexpr const char* kRearmed = "ok again";
     if (std::string wrong = stop_all(scene); !wrong.empty()) return wrong;
     wait_for_rest(scene);

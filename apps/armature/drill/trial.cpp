@@ -91,7 +91,7 @@ class Trial {
     std::this_thread::sleep_for(std::chrono::duration<double>{result_.moment_s});
     wait_for(kMoveAgainWithin, [&] { return !run_.runs() || listener_.any_moves(); });
     if (run_.runs()) return true;
-    return fail("it had ended before the fault: " + run_.last_line());
+    return fail("it had ended before the fault: " + how_it_ended());
   }
 
   /// An operator presses until something moves: arms with a pendant begin stopped.
@@ -126,7 +126,7 @@ class Trial {
     // A task may give up when its arm is held.
     if (holds && run_.line_with("stopping: the story has been told")) return true;
     if (const auto ended = run_.line_with("stopping:")) return fail("the run ended: " + *ended);
-    if (!run_.runs()) return fail("the run ended: " + run_.last_line());
+    if (!run_.runs()) return fail("the run ended: " + how_it_ended());
     // An arm that is held is judged from the stop on that holds it.
     if (!holds) stop_at_ = steady_clock::now();
     run_.signal(SIGINT);
@@ -170,9 +170,21 @@ class Trial {
     if (holds) result_.arm += " and stayed there";
   }
 
-  /// As the run tells at its end; nothing when it was killed.
+  /// What the run told at its end; no object when it was killed.
+  nlohmann::json closing() const { return nlohmann::json::parse(run_.output(), nullptr, false); }
+
+  std::string how_it_ended() {
+    run_.ends_within(kShownWithin);
+    const auto told = closing();
+    if (!told.contains("status")) return run_.last_line();
+    const std::string reason = told.value("reason", "");
+    return fmt::format("status {}{}{}", told.value("status", ""), reason.empty() ? "" : ": ",
+                       reason);
+  }
+
+  /// Nothing when the run was killed.
   std::optional<double> commanders_step_s() const {
-    const auto told = nlohmann::json::parse(run_.output(), nullptr, false);
+    const auto told = closing();
     std::optional<double> longest;
     for (const std::string& name : options_.deployment.commanders) {
       const nlohmann::json::json_pointer p999{"/timing/components/" + name + "/processor/p999_s"};

@@ -80,6 +80,7 @@ void add_drill(CLI::App& app, Action& action) {
   verb->add_option("--within", options->within_s,
                    "the moments lie in so many seconds after an arm was first seen to move")
       ->capture_default_str()
+      ->check(wrong_number)
       ->check(CLI::Range(0.0, 100.0));
   verb->add_option("--seed", options->seed, "of the moments (another one every time)")
       ->check(wrong_seed);

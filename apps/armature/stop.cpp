@@ -64,8 +64,11 @@ int stop_arms(const StopOptions& options) {
     (*writer)->offer(sample);
     std::this_thread::sleep_for(kPause);
   }
-  fmt::print("stopped: {} {} of domain {} heard it; the arms stay stopped until they are rearmed\n",
-             heard_by, heard_by == 1 ? "process" : "processes", options.domain);
+  // Who listens there may be a recorder: whether an arm stopped is told by its own deployment.
+  fmt::print(
+      "sent: {} {} of domain {} {} /stop; arms among them stay stopped until they are rearmed\n",
+      heard_by, heard_by == 1 ? "process" : "processes", options.domain,
+      heard_by == 1 ? "reads" : "read");
   return kOk;
 }
 

@@ -264,6 +264,10 @@ const Fault kFaults[] = {
      "deployment.yaml:6:45: 'cpu' must be a whole number, not 'all'\n"},
     {"PriorityOutOfRange", "period_s: 0.001", "period_s: 0.001, priority: 100",
      "deployment.yaml:6:50: 'priority' must be from 0 (normal) to 99\n"},
+    {"PriorityBeyond32Bits", "period_s: 0.001", "period_s: 0.001, priority: 4294967346",
+     "deployment.yaml:6:50: 'priority' must be from 0 (normal) to 99\n"},
+    {"DomainBeyond32Bits", "executors:", "domain: 4294967296\nexecutors:",
+     "deployment.yaml:6:9: 'domain' must be from 0 to 232\n"},
     {"OpenedInputThatIsMistyped", "executors:", "open: [report.measurd_js]\nexecutors:",
      "deployment.yaml:6:8: no component has the input 'report.measurd_js'; did you mean "
      "'report.measured_js'?\n"},

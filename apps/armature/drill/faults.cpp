@@ -104,7 +104,8 @@ std::optional<Fault> driver_halted(const DrilledDeployment& deployment, Form for
                .shown = {},
                .fire = [process = deployment.arms.front().process](Scene& scene) {
                  std::string wrong = send(scene, process, SIGSTOP);
-                 std::this_thread::sleep_for(milliseconds{300});
+                 // Shorter than a reference takes to go farther ahead than max_deviation.
+                 std::this_thread::sleep_for(milliseconds{150});
                  if (wrong.empty()) wrong = send(scene, process, SIGCONT);
                  return wrong;
                }};

@@ -120,9 +120,22 @@ bool GoalExecution::guided(Time now) const {
   return given && !(pending_ && pending_->standing) && now >= reference_.last().end();
 }
 
+void GoalExecution::forget_if_late(Time now) {
+  const Duration late = updated_at_ ? now - *updated_at_ - options_.period : Duration{0};
+  updated_at_ = now;
+  if (late <= options_.max_lateness || !reference_.started()) return;
+  trouble_ = ReasonText::format("motion itself came {:.2f} s late (max_lateness_s is {:g})",
+                                to_seconds(late), to_seconds(options_.max_lateness));
+  fail_all("execution", trouble_);
+  reference_.forget();
+  begin_after_ = now;
+  spliced_ = astray_ = in_hand_ = false;
+}
+
 void GoalExecution::update(Time now, const std::optional<MeasuredJoints>& measured) {
+  forget_if_late(now);
   if (!reference_.started()) {
-    if (!silence(now, measured).empty()) return;
+    if (!silence(now, measured).empty() || measured->stamp < begin_after_) return;
     measured_ = measured;
     reference_.start(measured->q, now);
     trouble_.clear();

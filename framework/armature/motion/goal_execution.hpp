@@ -40,6 +40,7 @@ struct ExecutionOptions {
   JointBound goal_tolerance{0.002, 0.0005};
   Duration goal_time = seconds(1.0);
   Duration measured_max_age = seconds(0.5);
+  Duration max_lateness = seconds(0.1);  // of `update`; later the driver has stopped the arm
 };
 
 /// Goals in, one commanded reference out. A planned goal is a request for a plan, which somebody
@@ -122,6 +123,9 @@ class GoalExecution {
   ReasonText silence(Time now, const std::optional<MeasuredJoints>& measured) const;
   bool silent(Time now, const std::optional<MeasuredJoints>& measured);
   void stop(Time now);
+  /// After a standstill of this unit or of the whole machine the reference must not be where it
+  /// would have come to meanwhile: the arm has not gone there.
+  void forget_if_late(Time now);
   /// From rest.
   void come_to(const JointVector& q, Time now);
   /// Whether the arm follows the reference, and what to do when it does not.
@@ -137,6 +141,8 @@ class GoalExecution {
   Reference reference_;
   RestWatch rest_;
   std::optional<MeasuredJoints> measured_;  // the last one, while the arm is heard
+  std::optional<Time> updated_at_;
+  Time begin_after_;  // a reference begins from a sample of the arm that is not older
   std::uint64_t last_goal_id_ = 0;
   bool took_any_ = false;  // goals: before the first one nothing was stopped
   std::optional<std::uint64_t> active_;

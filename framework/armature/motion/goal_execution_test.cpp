@@ -32,11 +32,8 @@ TEST_F(GoalExecutionTest, AGoalIsDoneWhenTheArmIsThereNotWhenTheReferenceIs) {
   give(goal_at(1, 0.5, 0.5, 0.5));
   step_to(0.2);
   const Time end = execution_.reference().last().end();
-  const JointVector goal = execution_.reference().at(end).q;
   const auto late_by = [&](double x_m, double time_s) {
-    now_ = end + seconds(time_s);
-    execution_.update(now_, MeasuredJoints{now_, goal - JointVector{Eigen::Vector3d{0, 0, x_m}}});
-    collect();
+    step_behind(Eigen::Vector3d{0, 0, x_m}, end + seconds(time_s));
     return statuses_.back().state;
   };
   EXPECT_EQ(late_by(0.003, 0), State::executing);
@@ -52,9 +49,7 @@ TEST_F(GoalExecutionTest, AnArmThatStopsShortOfTheGoalFailsIt) {
   const Time end = execution_.reference().last().end();
   const JointVector goal = execution_.reference().at(end).q;
   for (const double time_s : {0.0, 0.5, 0.99, 1.0}) {
-    now_ = end + seconds(time_s);
-    execution_.update(now_, MeasuredJoints{now_, goal - JointVector{Eigen::Vector3d{0, 0.002, 0}}});
-    collect();
+    step_behind(Eigen::Vector3d{0, 0.002, 0}, end + seconds(time_s));
     EXPECT_EQ(statuses_.back().state, time_s < 1 ? State::executing : State::failed) << time_s;
   }
   EXPECT_EQ(statuses_.back().stage, "execution");

@@ -35,6 +35,13 @@ class GoalExecutionTest : public testing::Test {
     const bool started = execution_.reference().started();
     measured(started ? execution_.reference().at(now_).q : home_, started);
   }
+  /// An arm that is behind the reference by `offset`.
+  void step_behind(const JointVector& offset, Time until) {
+    while (now_ < until) {
+      now_ = now_ + seconds(0.001);
+      measured(execution_.reference().at(now_).q - offset, true);
+    }
+  }
   /// An arm that is at `q`.
   void step_with(const JointVector& q) {
     now_ = now_ + seconds(0.001);

@@ -82,5 +82,45 @@ TEST_F(GoalExecutionTest, AnArmInAHandIsHaltedWhereTheHandComesToRest) {
   EXPECT_EQ(execution_.reference().at(now_).q, rested) << "it is held there from then on";
 }
 
+TEST_F(GoalExecutionTest, AfterAStandstillOfItsOwnTheReferenceBeginsWhereTheArmIs) {
+  step_to(0.1);
+  give(goal_at(1, 1, 1, 1));
+  step_to(0.5);
+  ASSERT_FALSE(at_rest(before_));
+  const JointVector stands = before_.q + JointVector{Eigen::Vector3d{0.01, 0.01, 0.01}};
+  const Time last = now_;
+  now_ = now_ + seconds(0.4);  // the driver has stopped the arm by then
+  execution_.update(now_, MeasuredJoints{last, before_.q});
+  collect();
+  EXPECT_FALSE(execution_.reference().started()) << "that sample is older than the standstill";
+  EXPECT_EQ(story().back(), (std::pair<std::uint64_t, State>{1, State::failed}));
+  EXPECT_EQ(statuses_.back().reason, "motion itself came 0.40 s late (max_lateness_s is 0.1)");
+  now_ = now_ + seconds(0.001);
+  execution_.update(now_, MeasuredJoints{now_, stands});
+  EXPECT_EQ(execution_.reference().at(now_).q, stands);
+  EXPECT_TRUE(at_rest(execution_.reference().at(now_)));
+  before_ = execution_.reference().at(now_);
+  give(goal_at(2, 0, 0, 0));
+  step_to(to_seconds(now_ - Time{}) + 4);
+  EXPECT_EQ(story().back(), (std::pair<std::uint64_t, State>{2, State::done}));
+}
+
+TEST_F(GoalExecutionTest, AfterAStandstillAHaltedArmStaysWhereItIs) {
+  step_to(0.1);
+  give(goal_at(1, 1, 1, 1));
+  step_to(0.5);
+  execution_.halt("the run is stopping", now_);
+  const JointVector stands = before_.q + JointVector{Eigen::Vector3d{0.01, 0.01, 0.01}};
+  now_ = now_ + seconds(5);
+  for (int k = 0; k < 200; ++k) {
+    now_ = now_ + seconds(0.001);
+    execution_.update(now_, MeasuredJoints{now_, stands});
+    if (!execution_.reference().started()) continue;
+    ASSERT_EQ(execution_.reference().at(now_).q, stands);
+  }
+  EXPECT_TRUE(execution_.reference().started());
+  EXPECT_TRUE(execution_.halted());
+}
+
 }  // namespace
 }  // namespace armature::test

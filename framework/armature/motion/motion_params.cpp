@@ -97,7 +97,8 @@ ExecutionOptions execution_of(const Params& params) {
       .max_deviation = {params.number("max_deviation_rad"), params.number("max_deviation_m")},
       .goal_tolerance = {params.number("goal_tolerance_rad"), params.number("goal_tolerance_m")},
       .goal_time = seconds(params.number("goal_time_s")),
-      .measured_max_age = seconds(params.number("measured_max_age_s"))};
+      .measured_max_age = seconds(params.number("measured_max_age_s")),
+      .max_lateness = seconds(params.number("max_lateness_s"))};
 }
 
 }  // namespace armature

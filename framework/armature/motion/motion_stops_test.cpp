@@ -69,6 +69,24 @@ TEST_F(MotionStops, AStopFromAnybodyDropsTheGoalAndStaysUntilItIsRearmed) {
   EXPECT_EQ(bench_.story().back(), "3 done");
 }
 
+TEST_F(MotionStops, AStopIsNotPushedOutByWhatMeansNothing) {
+  begin_moving();
+  bench_.motion().send("stop", flag(true));
+  for (int i = 0; i < 100; ++i) bench_.motion().send("stop", flag(false));
+  bench_.run(bench_.now_s() + 0.02);
+  EXPECT_EQ(reason(), "stopped until it is rearmed: a stop was asked for on the topic /stop");
+  expect_rest();
+}
+
+TEST_F(MotionStops, AWordOfTheArmThatIsOverAtOnceIsAStopHoweverItIsWritten) {
+  begin_moving();
+  bench_.motion().send("operating_state", word("EMERGENCY_STOP"));
+  bench_.motion().send("operating_state", word("ENABLED"));
+  bench_.run(bench_.now_s() + 0.02);
+  EXPECT_EQ(reason(), "stopped until it is rearmed: the arm says emergency_stop");
+  expect_rest();
+}
+
 TEST_F(MotionStops, AnArmThatMovesIsNotRearmed) {
   begin_moving();
   bench_.motion().send("stop", flag(true));
@@ -140,6 +158,14 @@ TEST_F(MotionWithAnOperator, AButtonThatIsReleasedIsAStopThatStays) {
   bench_.run(bench_.now_s() + 1);
   EXPECT_EQ(bench_.motion().status().state, Voice::State::degraded) << "pressing it is no rearm";
   EXPECT_LT(bench_.speed(), 1e-9);
+}
+
+TEST_F(MotionWithAnOperator, AButtonThatIsReleasedForAMomentIsAStop) {
+  begin_moving();
+  bench_.motion().send("hold_to_run", flag(false));
+  bench_.run(bench_.now_s() + 0.02);  // and is held again
+  EXPECT_EQ(reason(), "stopped until it is rearmed: hold_to_run was released");
+  expect_rest();
 }
 
 TEST_F(MotionWithAnOperator, AButtonThatIsSilentIsAStop) {

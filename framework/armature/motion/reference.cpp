@@ -15,6 +15,11 @@ void Reference::start(const JointVector& q, Time now) {
   splice(short_hold_at(q, now, 0));
 }
 
+void Reference::forget() {
+  while (count_ > 0) entries_[--count_].sample = {};
+  ++serial_;
+}
+
 Reference::Entry& Reference::make_room(Time start) {
   ++serial_;
   while (count_ > 0 && entries_[count_ - 1].start() >= start) {

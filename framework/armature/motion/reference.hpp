@@ -23,6 +23,9 @@ class Reference {
   /// arm of which nothing was known, or that a hand moves.
   void start(const JointVector& q, Time now);
 
+  /// It has not started any more.
+  void forget();
+
   /// Lets `next` take over at its start; what would have taken over later or then is dropped.
   /// Whoever made `next` took care that it leaves at(next.start).
   void splice(const ShortTrajectory& next);

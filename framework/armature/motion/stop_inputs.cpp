@@ -3,25 +3,34 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 
 namespace armature {
 namespace {
 
-bool any_true(const Input<msg::Bool>& input) {
-  for (std::size_t i = 0; i < input.size(); ++i) {
-    if (input[i].data_()) return true;
-  }
-  return false;
-}
+bool is_true(const msg::Bool& message) { return message.data_(); }
 
 // Words of CRTK's operating_state that are a stop.
 constexpr std::array<std::string_view, 3> kStops{"protective_stop", "emergency_stop", "override"};
 
+/// Drivers write such words small or large.
+bool is_same_word(std::string_view a, std::string_view b) {
+  return std::ranges::equal(
+      a, b, [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
+}
+
+/// The one of kStops that it is, or empty.
+std::string_view stop_word(std::string_view state) {
+  const auto found = std::ranges::find_if(
+      kStops, [&](std::string_view stop) { return is_same_word(stop, state); });
+  return found == kStops.end() ? std::string_view{} : *found;
+}
+
 }  // namespace
 
 StopInputs::StopInputs(Setup& setup)
-    : stop_{setup.input<msg::Bool>("stop")},
-      rearm_{setup.input<msg::Bool>("rearm")},
+    : stop_{setup.input_if<msg::Bool, is_true>("stop")},
+      rearm_{setup.input_if<msg::Bool, is_true>("rearm")},
       hold_to_run_{setup.input<msg::Bool>("hold_to_run"), setup.is_written("hold_to_run"),
                    "hold_to_run", "hold_to_run was released"},
       operator_present_{setup.input<msg::Bool>("operator_present"),
@@ -30,28 +39,45 @@ StopInputs::StopInputs(Setup& setup)
       operating_state_{setup.input<msg::String>("operating_state")},
       timeout_{seconds(setup.params().number("operator_timeout_s"))} {}
 
+void StopInputs::hear(Enable& enable) {
+  if (enable.input.size() == 0) return;
+  enable.holds = true;
+  for (std::size_t i = 0; i < enable.input.size(); ++i) {
+    enable.holds = enable.holds && enable.input[i].data_();
+    enable.told_at = enable.input.info(i).published;
+  }
+}
+
 ReasonText StopInputs::missing(const Enable& enable, Time now) const {
   if (!enable.is_written) return {};
-  const msg::Bool* told = enable.input.latest();
-  if (!told) return ReasonText::format("{} has not been told yet", enable.name);
-  const Duration age = now - enable.input.info(0).published;
+  if (!enable.told_at) return ReasonText::format("{} has not been told yet", enable.name);
+  const Duration age = now - *enable.told_at;
   if (age > timeout_) {
     return ReasonText::format("{} is silent for {:.2f} s (operator_timeout_s is {:g})", enable.name,
                               to_seconds(age), to_seconds(timeout_));
   }
-  return told->data_() ? ReasonText{} : ReasonText{enable.released};
+  return enable.holds ? ReasonText{} : ReasonText{enable.released};
 }
 
-ReasonText StopInputs::cause(Time now) const {
-  if (any_true(stop_)) return "a stop was asked for on the topic /stop";
-  if (const msg::String* state = operating_state_.latest()) {
-    const auto found = std::ranges::find(kStops, std::string_view{state->data_()});
-    if (found != kStops.end()) return ReasonText::format("the arm says {}", *found);
+std::string_view StopInputs::hear_arm() {
+  std::string_view said = stop_word_;
+  for (std::size_t i = 0; i < operating_state_.size(); ++i) {
+    stop_word_ = stop_word(operating_state_[i].data_());
+    if (said.empty()) said = stop_word_;
   }
+  return operating_state_.size() == 0 ? stop_word_ : said;
+}
+
+ReasonText StopInputs::cause(Time now) {
+  hear(hold_to_run_);
+  hear(operator_present_);
+  const std::string_view arm = hear_arm();
+  if (stop_.size() > 0) return "a stop was asked for on the topic /stop";
+  if (!arm.empty()) return ReasonText::format("the arm says {}", arm);
   if (ReasonText why = missing(hold_to_run_, now); !why.empty()) return why;
   return missing(operator_present_, now);
 }
 
-bool StopInputs::rearmed() const { return any_true(rearm_); }
+bool StopInputs::rearmed() const { return rearm_.size() > 0; }
 
 }  // namespace armature

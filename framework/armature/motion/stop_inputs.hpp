@@ -16,8 +16,9 @@ class StopInputs {
  public:
   explicit StopInputs(Setup& setup);
 
-  /// Once per activation: why the arm must stop now, or empty.
-  ReasonText cause(Time now) const;
+  /// Once per activation: why the arm must stop now, or empty. Of everything that was told since
+  /// the one before: a stop that was over at once is one.
+  ReasonText cause(Time now);
   /// Whether this activation brought a rearm. It counts only when there is no cause to stop.
   bool rearmed() const;
 
@@ -27,12 +28,18 @@ class StopInputs {
     Input<msg::Bool> input;
     bool is_written;
     std::string_view name, released;
+    std::optional<Time> told_at = {};
+    bool holds = false;
   };
+  static void hear(Enable& enable);
   ReasonText missing(const Enable& enable, Time now) const;
+  /// The arm's word for a stop, or empty.
+  std::string_view hear_arm();
 
   Input<msg::Bool> stop_, rearm_;
   Enable hold_to_run_, operator_present_;
   Input<msg::String> operating_state_;
+  std::string_view stop_word_;  // that the arm said last, if it was one for a stop
   Duration timeout_;
 };
 

@@ -67,7 +67,7 @@ const PortBinding& ComponentSetup::declared(const std::vector<PortBinding>& port
   return *port;
 }
 
-const InputPort& ComponentSetup::claim_input(std::string_view port, const MessageType& type) {
+InputPort& ComponentSetup::claim_input(std::string_view port, const MessageType& type) {
   const PortBinding& binding = declared(config_.inputs, "input", port, type);
   InputPort& input = unit_.inbox().add(binding.spec, type);
   find_topic_(binding, type)

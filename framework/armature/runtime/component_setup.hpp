@@ -36,7 +36,7 @@ class ComponentSetup final : public Setup {
   void check_all_claimed() const;
 
  protected:
-  const InputPort& claim_input(std::string_view port, const MessageType& type) override;
+  InputPort& claim_input(std::string_view port, const MessageType& type) override;
   OutputPort& claim_output(std::string_view port, const MessageType& type) override;
   SlotPlugin slot_plugin(std::string_view slot, std::string_view kind, int version) override;
 

@@ -93,10 +93,11 @@ std::vector<ExecutorSpec> read_executors(std::span<const Node::Entry> section, P
                                             kShortestPeriod_s));
       }
     }
-    spec.priority = static_cast<int>(map.integer("priority", 0));
-    if (spec.priority < 0 || spec.priority > 99) {
+    const std::int64_t priority = map.integer("priority", 0);
+    if (priority < 0 || priority > 99) {
       map.problem("priority", "'priority' must be from 0 (normal) to 99");
     }
+    spec.priority = static_cast<int>(priority);
     if (map.optional_node("cpu")) spec.cpu = read_cpu(map);
     spec.lock_memory = map.flag("lock_memory", false);
     map.finish();
@@ -143,10 +144,9 @@ DeploymentConfig read_deployment(const Node& root, const PluginRegistry& plugins
                                     deployment.name));
   }
   deployment.simulated = map.choice("clock", {"system", "simulated"}, "system") == "simulated";
-  deployment.domain = static_cast<int>(map.integer("domain", 0));
-  if (deployment.domain < 0 || deployment.domain > 232) {
-    map.problem("domain", "'domain' must be from 0 to 232");
-  }
+  const std::int64_t domain = map.integer("domain", 0);
+  if (domain < 0 || domain > 232) map.problem("domain", "'domain' must be from 0 to 232");
+  deployment.domain = static_cast<int>(domain);
   const std::int64_t seed = map.integer("seed", 1);
   if (seed < 0) map.problem("seed", "'seed' must not be negative");
   deployment.seed = static_cast<std::uint64_t>(seed);

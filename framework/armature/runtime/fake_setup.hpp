@@ -39,7 +39,7 @@ class FakeSetup final : public Setup, public Delivery {
   Topic& topic(const std::string& port) { return *topics_.at(port); }
 
  protected:
-  const InputPort& claim_input(std::string_view port, const MessageType& type) override {
+  InputPort& claim_input(std::string_view port, const MessageType& type) override {
     InputPort& input = unit_.inbox().add({.name = std::string{port}}, type);
     make_topic(port, type).connect(input);
     return input;

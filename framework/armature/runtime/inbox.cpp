@@ -18,7 +18,9 @@ InputPort::InputPort(PortSpec spec, const MessageType& type, Inbox& inbox)
   if (spec_.join) unmatched_.reserve(kJoinDepth);
 }
 
-void InputPort::deliver(const SampleRef& sample) { inbox_->arrived(*this, sample); }
+void InputPort::deliver(const SampleRef& sample) {
+  if (!heeds_ || heeds_(sample.message())) inbox_->arrived(*this, sample);
+}
 
 void InputPort::keep(const SampleRef& sample) {
   if (waiting_.size() == capacity_) {
@@ -121,6 +123,8 @@ std::size_t input_size(const InputPort& port) { return port.shown().size(); }
 const SampleRef& input_sample(const InputPort& port, std::size_t index) {
   return port.shown()[index];
 }
+void input_heeds(InputPort& port, bool (*heeds)(const void* message)) { port.heed_only(heeds); }
+
 bool input_fresh(const InputPort& port) { return port.fresh(); }
 
 }  // namespace detail

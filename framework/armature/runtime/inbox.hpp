@@ -27,6 +27,8 @@ class InputPort final : public Subscriber {
   const MessageType& type() const { return *type_; }
   const std::vector<SampleRef>& shown() const { return shown_; }
   bool fresh() const { return fresh_; }
+  /// Before the first sample arrives; see Setup::input_if.
+  void heed_only(bool (*heeds)(const void* message)) { heeds_ = heeds; }
 
  private:
   friend class Inbox;
@@ -45,6 +47,7 @@ class InputPort final : public Subscriber {
   PortSpec spec_;
   const MessageType* type_;
   Inbox* inbox_;
+  bool (*heeds_)(const void* message) = nullptr;  // none: every sample
   // Oldest first, with memory for as many as there ever are.
   std::vector<SampleRef> waiting_;
   std::size_t capacity_;

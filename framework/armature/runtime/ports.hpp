@@ -16,6 +16,7 @@ namespace detail {
 std::size_t input_size(const InputPort& port);
 const SampleRef& input_sample(const InputPort& port, std::size_t index);
 bool input_fresh(const InputPort& port);
+void input_heeds(InputPort& port, bool (*heeds)(const void* message));
 SampleRef output_loan(OutputPort& port);
 void output_prepare(OutputPort& port, const void* message);
 void output_publish(OutputPort& port, SampleRef sample);

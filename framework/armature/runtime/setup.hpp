@@ -56,6 +56,16 @@ class Setup {
   Input<Message> input(std::string_view port) {
     return Input<Message>{claim_input(port, message_type<Message>())};
   }
+  /// An input to which only samples arrive for which `Heeds` is true, so that what means nothing
+  /// cannot push out of a queue what does. `Heeds` is called on the writer's thread; real-time
+  /// safe.
+  template <class Message, bool (*Heeds)(const Message&)>
+  Input<Message> input_if(std::string_view port) {
+    InputPort& claimed = claim_input(port, message_type<Message>());
+    detail::input_heeds(
+        claimed, [](const void* message) { return Heeds(*static_cast<const Message*>(message)); });
+    return Input<Message>{claimed};
+  }
   template <class Message>
   Output<Message> output(std::string_view port) {
     return Output<Message>{claim_output(port, message_type<Message>())};
@@ -87,7 +97,7 @@ class Setup {
     std::shared_ptr<PluginLibrary> library;
     const Params* params;
   };
-  virtual const InputPort& claim_input(std::string_view port, const MessageType& type) = 0;
+  virtual InputPort& claim_input(std::string_view port, const MessageType& type) = 0;
   virtual OutputPort& claim_output(std::string_view port, const MessageType& type) = 0;
   virtual SlotPlugin slot_plugin(std::string_view slot, std::string_view kind, int version) = 0;
 };

@@ -31,6 +31,7 @@ const char* way_out(int error) {
 
 std::string Buttons::update() {
   pressed_.reset();
+  released_.reset();
   if (std::string why = open(); !why.empty()) return why;
   std::array<input_event, 64> events{};
   const ssize_t size = ::read(file_, events.data(), sizeof events);
@@ -39,9 +40,15 @@ std::string Buttons::update() {
   const auto count = static_cast<std::size_t>(size) / sizeof(input_event);
   for (std::size_t i = 0; i < count; ++i) {
     const input_event& event = events[i];
-    if (event.type == EV_SYN && event.code == SYN_DROPPED) held_.reset();
+    if (event.type == EV_SYN && event.code == SYN_DROPPED) {
+      held_.reset();
+      released_.set();
+    }
     if (event.type != EV_KEY || event.code >= kCodes) continue;
-    if (event.value == kGoesUp) held_.reset(event.code);
+    if (event.value == kGoesUp) {
+      held_.reset(event.code);
+      released_.set(event.code);
+    }
     if (event.value != kGoesDown) continue;
     held_.set(event.code);
     pressed_.set(event.code);

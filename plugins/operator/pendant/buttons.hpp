@@ -23,8 +23,12 @@ class Buttons {
   std::string update();
   bool is_open() const { return file_ >= 0; }
 
-  /// `code`: of the button, 0 to kCodes - 1.
-  bool held(int code) const { return held_[static_cast<std::size_t>(code)]; }
+  /// `code`: of the button, 0 to kCodes - 1. False, too, when it was let go since the update before
+  /// and is down again.
+  bool held(int code) const {
+    const auto button = static_cast<std::size_t>(code);
+    return held_[button] && !released_[button];
+  }
   /// It went down since the update before.
   bool pressed(int code) const { return pressed_[static_cast<std::size_t>(code)]; }
 
@@ -35,7 +39,7 @@ class Buttons {
 
   std::string device_;
   int file_ = -1;
-  std::bitset<kCodes> held_, pressed_;
+  std::bitset<kCodes> held_, pressed_, released_;
 };
 
 }  // namespace armature

@@ -39,6 +39,17 @@ TEST_F(ButtonsTest, ButtonsThatGoDownAndUpBetweenTwoLooksWerePressed) {
   EXPECT_FALSE(buttons_.held(kThumb));
 }
 
+TEST_F(ButtonsTest, AButtonThatWasLetGoForAMomentIsNotHeldForOneLook) {
+  device_.press(kTrigger);
+  ASSERT_EQ(buttons_.update(), "");
+  device_.release(kTrigger);
+  device_.press(kTrigger);
+  ASSERT_EQ(buttons_.update(), "");
+  EXPECT_FALSE(buttons_.held(kTrigger));
+  ASSERT_EQ(buttons_.update(), "");
+  EXPECT_TRUE(buttons_.held(kTrigger));
+}
+
 TEST_F(ButtonsTest, AButtonThatWasDownBeforeAnybodyLookedIsNotHeld) {
   device_.send(EV_KEY, kTrigger, 2);  // it repeats by itself
   ASSERT_EQ(buttons_.update(), "");

@@ -77,10 +77,11 @@ class SimulatedArmComponent : public Component {
     guided_ = hand_.command && now - hand_.command->stamp <= timeout_;
     const auto stamp = servo_.command ? std::optional{servo_.command->stamp} : std::nullopt;
     const bool ceased = watch_.ceased(now, stamp);
+    waits_ = !guided_ && (ceased || (waits_ && watch_.stops() > 0 && is_far(servo_.command->q)));
     if (guided_) {
       arm_.guide(now, hand_.command->q);
     } else {
-      arm_.step(now, ceased ? std::nullopt : servo_.command);
+      arm_.step(now, waits_ ? std::nullopt : servo_.command);
     }
     publish_pose(now);
     publish(measured_js_, arm_.measured(), arm_.measured_velocity(), now);
@@ -120,6 +121,15 @@ class SimulatedArmComponent : public Component {
     source.fault.clear();
     source.command = command;
   }
+  /// A reference that went on while the arm had stopped must come back to it first.
+  bool is_far(const JointVector& q) const {
+    constexpr double kFar_rad = 0.1, kFar_m = 0.05;  // as motion's max_deviation is by default
+    const JointVector off = (q - arm_.setpoint()).cwiseAbs();
+    for (int i = 0; i < model_.dof(); ++i) {
+      if (off[i] > (model_.is_revolute(i) ? kFar_rad : kFar_m)) return true;
+    }
+    return false;
+  }
   const ReasonText& fault() const { return servo_.fault.empty() ? hand_.fault : servo_.fault; }
 
   void publish_pose(Time now) {
@@ -140,10 +150,11 @@ class SimulatedArmComponent : public Component {
   /// A text is only made when the trouble is another one: every step tells how it is. Trouble that
   /// comes and goes from step to step is told as one.
   void show_health(Time now) {
-    const Trouble trouble = !fault().empty()        ? Trouble::refused_command
-                            : !watch_.why().empty() ? Trouble::no_command
-                            : arm_.excess()         ? Trouble::held_back
-                                                    : Trouble::none;
+    const Trouble trouble = !fault().empty()           ? Trouble::refused_command
+                            : !watch_.why().empty()    ? Trouble::no_command
+                            : waits_ && servo_.command ? Trouble::far_command
+                            : arm_.excess()            ? Trouble::held_back
+                                                       : Trouble::none;
     if (trouble != Trouble::none) {
       last_trouble_ = now;
     } else if (now - last_trouble_ < kCalm) {
@@ -155,6 +166,9 @@ class SimulatedArmComponent : public Component {
     shown_why_ = why;
     if (trouble == Trouble::none) return healthy();
     if (!why.empty()) return degraded(why);
+    if (trouble == Trouble::far_command) {
+      return degraded("the command is far from where the arm has stopped; it must come back first");
+    }
     degraded(describe(*arm_.excess(), model_, guided_ ? "hand" : "command"));
   }
 
@@ -175,7 +189,8 @@ class SimulatedArmComponent : public Component {
   Output<msg::JointState> measured_js_, setpoint_js_;
   Output<msg::String> operating_state_;
   bool guided_ = false;
-  enum class Trouble { none, held_back, no_command, refused_command };
+  bool waits_ = true;  // where it stands, for commands, or for one that is near
+  enum class Trouble { none, held_back, far_command, no_command, refused_command };
   Trouble shown_trouble_ = Trouble::none;
   ReasonText shown_why_;
   Time last_trouble_;

@@ -194,6 +194,30 @@ TEST_F(SimulatedArmComponentTest, ARefusedCommandIsTheTroubleThatIsToldFirst) {
   EXPECT_EQ(arm_.status().reason.substr(0, 30), "the command asks joint j1 for ");
 }
 
+TEST_F(SimulatedArmComponentTest, AfterAStopOfItsOwnItWaitsForAReferenceThatComesBackToIt) {
+  arm_.send("servo_jp", command(home_, still_));
+  steps(200);  // no command for longer than command_timeout_s
+  const JointVector far = home_ + JointVector::Constant(5, 0.2);
+  for (int i = 0; i < 100; ++i) {
+    arm_.send("servo_jp", command(far, still_));
+    step();
+    ASSERT_EQ(measured(), home_) << i;
+  }
+  EXPECT_EQ(arm_.status().reason,
+            "the command is far from where the arm has stopped; it must come back first");
+  const JointVector near = home_ + JointVector::Constant(5, 0.05);
+  for (int i = 0; i < 1000; ++i) {
+    arm_.send("servo_jp", command(near, still_));
+    step();
+  }
+  EXPECT_LT((measured() - near).norm(), 1e-9);
+  for (int i = 0; i < 2000; ++i) {
+    arm_.send("servo_jp", command(far, still_));
+    step();
+  }
+  EXPECT_LT((measured() - far).norm(), 1e-9) << "it follows again";
+}
+
 TEST_F(SimulatedArmComponentTest, YieldsToAHandAndFollowsCommandsAgainWhenItLetsGo) {
   JointVector q = home_;
   for (int i = 0; i < 100; ++i) {

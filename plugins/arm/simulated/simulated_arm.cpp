@@ -73,7 +73,9 @@ void SimulatedArm::guide(Time now, const JointVector& q) {
 
 void SimulatedArm::follow(const ServoCommand& command, Time now, double dt) {
   // Two clocks may tick on their own: what was commanded a moment ago is carried on to now.
-  const double age_s = std::clamp(to_seconds(now - command.stamp), 0.0, options_.command_timeout_s);
+  const double old_s = to_seconds(now - command.stamp);
+  const double age_s = std::clamp(old_s, 0.0, options_.command_timeout_s);
+  const bool carried_to_now = old_s <= options_.command_timeout_s;
   for (int i = 0; i < model_.dof(); ++i) {
     const auto joint = static_cast<std::size_t>(i);
     const Step wanted{.q = command.q[i] + command.v[i] * age_s,
@@ -86,7 +88,7 @@ void SimulatedArm::follow(const ServoCommand& command, Time now, double dt) {
                              command.stamp >= last_command_->stamp;
       found = streaming ? jump_in_stream(i, command) : jump(i, wanted);
     }
-    on_stream_[joint] = !found;
+    on_stream_[joint] = !found && carried_to_now;  // else the arm is behind the stream
     if (!found) {
       executed_v_[i] = wanted.in_step ? (wanted.q - q_[i]) / dt : wanted.v;
       q_[i] = wanted.q;

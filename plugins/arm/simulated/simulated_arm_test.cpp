@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
+#include <utility>
 
 #include "armature/robot/quintic.hpp"
 
@@ -53,6 +55,27 @@ TEST_F(SimulatedArmTest, HoldsAtHomeWithoutACommand) {
   for (int k = 0; k < 10; ++k) step(std::nullopt);
   EXPECT_EQ(arm_.measured(), value(0));
   EXPECT_FALSE(arm_.following());
+}
+
+TEST_F(SimulatedArmTest, AfterAStandstillOfItsOwnItCatchesUpWithinItsLimits) {
+  constexpr double kSpeed = 0.3;
+  const auto on_the_way = [&] {
+    return ServoCommand{now_, value(kSpeed * to_seconds(now_ - Time{})), value(kSpeed)};
+  };
+  double q = 0;
+  const auto next = [&](double passed_s, const ServoCommand& command) {
+    now_ = now_ + seconds(passed_s);
+    arm_.step(now_, command);
+    return std::exchange(q, arm_.setpoint()[0]);
+  };
+  for (int k = 0; k < 1000; ++k) next(0.001, on_the_way());
+  const ServoCommand last = on_the_way();
+  next(0.15, last);
+  for (int k = 0; k < 1000; ++k) {
+    const double before = next(0.001, on_the_way());
+    ASSERT_LE(std::abs(q - before) / 0.001, 2.5 + 1e-6) << k;
+  }
+  EXPECT_NEAR(q, on_the_way().q[0], 1e-3) << "it is with the commands again";
 }
 
 TEST_F(SimulatedArmTest, ExecutesAReachableReferenceExactly) {

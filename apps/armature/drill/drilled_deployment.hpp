@@ -37,7 +37,7 @@ struct HeedsPendant {
   std::string hold_topic, rearm_topic;
 };
 
-/// What a drill knows of the deployment that it drills.
+/// A deployment, as far as its drill needs to know it.
 struct DrilledDeployment {
   std::string name;
   double stop_within_s = 0;

@@ -13,7 +13,7 @@
 
 namespace armature::drill {
 
-/// What a fault has at hand when it is fired.
+/// The run and its surroundings, for a fault that is fired.
 struct Scene {
   RunUnderTest& run;
   const ArmListener& listener;
@@ -25,7 +25,7 @@ struct Scene {
   std::vector<std::string> arguments;  // that the run was started with, behind `armature`
 };
 
-/// What must come of a fault.
+/// The outcome with which a fault is passed.
 enum class Outcome {
   stops,    // the run comes to rest and ends
   goes_on,  // the run goes on, and comes to rest when it is interrupted later
@@ -47,7 +47,7 @@ struct Fault {
 /// All faults that this deployment can meet in this form, in the order of the table.
 std::vector<Fault> faults_of(const DrilledDeployment& deployment, Form form);
 
-/// What `--faults` may name: the faults of any deployment.
+/// The names that `--faults` takes: the faults of any deployment.
 std::vector<std::string> fault_names();
 
 }  // namespace armature::drill

@@ -30,7 +30,7 @@ Fault signalled(int signal, std::string shown) {
           }};
 }
 
-// What an operator does to the program.
+// Signals and the terminal, by an operator.
 
 std::optional<Fault> interrupt(const DrilledDeployment&, Form) {
   return signalled(SIGINT, "stopping: interrupted");
@@ -67,7 +67,7 @@ std::optional<Fault> unread_terminal(const DrilledDeployment&, Form) {
                }};
 }
 
-// What happens to processes.
+// Processes that are killed or halted.
 
 /// What main says of a lost process without which the run goes on.
 const std::string kIsolated = ", isolated: the run goes on without it";
@@ -118,7 +118,7 @@ std::optional<Fault> main_killed(const DrilledDeployment& deployment, Form form)
                }};
 }
 
-// What a component does wrong.
+// Components that throw, hang or crash.
 
 std::optional<Fault> injected(const DrilledComponent& component, Form form, const char* what,
                               Fault fault) {
@@ -172,7 +172,7 @@ std::optional<Fault> monitor_crashes(const DrilledDeployment& deployment, Form f
                   {.name = {}, .outcome = Outcome::goes_on, .shown = kIsolated, .fire = {}});
 }
 
-// What others on the machine do.
+// Other programs on the machine.
 
 std::optional<Fault> stranger(const DrilledDeployment&, Form form) {
   return Fault{.name = {},
@@ -199,7 +199,7 @@ std::optional<Fault> second_start(const DrilledDeployment&, Form) {
                }};
 }
 
-// What an operator does to the arms.
+// Stops and rearms, by an operator.
 
 constexpr const char* kStopHeard = "a stop was asked for";
 

@@ -73,7 +73,7 @@ struct TransportOptions {
   std::function<Time()> now;
   bool simulated = false;  // that clock has nothing to do with anybody else's
   /// False: over UDP only. Whoever is lost while it uses shared memory may hold a lock there, for
-  /// which all that send to it wait a second or more.
+  /// which all that send to it wait.
   bool shared_memory = true;
 };
 

@@ -128,6 +128,7 @@ void GoalExecution::forget_if_late(Time now) {
                                 to_seconds(late), to_seconds(options_.max_lateness));
   fail_all("execution", trouble_);
   reference_.forget();
+  measured_.reset();  // nor may a rearm begin from where the arm was
   begin_after_ = now;
   spliced_ = astray_ = in_hand_ = false;
 }

@@ -111,7 +111,10 @@ TEST_F(GoalExecutionTest, AfterAStandstillAHaltedArmStaysWhereItIs) {
   step_to(0.5);
   execution_.halt("the run is stopping", now_);
   const JointVector stands = before_.q + JointVector{Eigen::Vector3d{0.01, 0.01, 0.01}};
+  const Time last = now_;
   now_ = now_ + seconds(5);
+  execution_.update(now_, MeasuredJoints{last, before_.q});
+  EXPECT_FALSE(execution_.rearm(now_)) << "where the arm is now is not known";
   for (int k = 0; k < 200; ++k) {
     now_ = now_ + seconds(0.001);
     execution_.update(now_, MeasuredJoints{now_, stands});

@@ -32,7 +32,6 @@ constexpr std::string_view kArmSource = R"(#include <optional>
 #include "armature/kinds/command_watch.hpp"
 #include "armature/kinds/joint_messages.hpp"
 #include "armature/kinds/setup_robot.hpp"
-#include "armature/messages/stamp.hpp"
 #include "armature/robot/short_trajectory.hpp"
 #include "armature/runtime/component.hpp"
 #include "armature/runtime/plugin.hpp"
@@ -56,14 +55,15 @@ class Device {
 
 }  // namespace
 
-/// Hands commands to the arm, and tells where it is. When they cease it ramps down by itself.
+/// Hands commands to the arm, and tells where it is. When they cease it ramps down by itself, and
+/// waits for one that comes back to where it stands.
 class @CLASS@ final : public Component {
  public:
   explicit @CLASS@(Setup& setup)
       : Component{setup},
         robot_{robot_of(setup)},
         device_{resting_position(robot_)},
-        watch_{seconds(setup.params().number("command_timeout_s")),
+        watch_{robot_, seconds(setup.params().number("command_timeout_s")),
                seconds(1 / setup.params().number("rate_hz"))},
         servo_jp_{setup.input<msg::JointState>("servo_jp")},
         measured_js_{setup.output<msg::JointState>("measured_js")} {
@@ -72,10 +72,10 @@ class @CLASS@ final : public Component {
 
   void step(Time now) override {
     if (servo_jp_.fresh()) read(*servo_jp_.latest());
-    if (!watch_.ceased(now, stamp_)) {
+    if (watch_.follows(now, command_, device_.position())) {
       ramp_.reset();
-      if (servo_jp_.fresh() && refusal_.empty()) device_.move(q_, v_);
-    } else if (stamp_) {
+      if (servo_jp_.fresh() && refusal_.empty()) device_.move(command_->q, command_->v);
+    } else if (command_) {
       ramp_down(now);
     }
     auto measured = measured_js_.loan();
@@ -89,23 +89,24 @@ class @CLASS@ final : public Component {
     }
   }
 
+  void begin_stop(Time) override { watch_.begin_stop(); }
   /// The run ends only when the arm rests.
   bool stopped() const override { return device_.velocity().isZero(1e-3); }
 
  private:
   /// A command that has another length, is not finite or leaves the limits is none: the one before
   /// grows old.
-  void read(const msg::JointState& command) {
-    JointVector q, v;
-    refusal_ = read_joints(robot_, command, q);
-    if (refusal_.empty()) refusal_ = read_joint_rates(robot_, command, v);
-    if (refusal_.empty() && !robot_.within_limits(q)) refusal_ = "it leaves the joint limits";
-    if (!refusal_.empty()) {
-      refusal_ = ReasonText::format("refused a command: {}", refusal_.view());
-      return;
+  void read(const msg::JointState& message) {
+    ServoCommand command;
+    refusal_ = read_servo_command(robot_, message, command);
+    if (refusal_.empty() && !robot_.within_limits(command.q)) {
+      refusal_ = "it leaves the joint limits";
     }
-    q_ = q, v_ = v;
-    stamp_ = stamp_of(command.header_().stamp_());
+    if (refusal_.empty()) {
+      command_ = command;
+    } else {
+      refusal_ = ReasonText::format("refused a command: {}", refusal_.view());
+    }
   }
   void ramp_down(Time now) {
     if (!ramp_) {
@@ -121,8 +122,7 @@ class @CLASS@ final : public Component {
   CommandWatch watch_;
   Input<msg::JointState> servo_jp_;
   Output<msg::JointState> measured_js_;
-  JointVector q_, v_;          // of the last good command,
-  std::optional<Time> stamp_;  // and when it was made
+  std::optional<ServoCommand> command_;  // the last good one
   std::optional<ShortTrajectory> ramp_;
   ReasonText refusal_;
 };
@@ -172,6 +172,11 @@ int main() {
   arm.take<msg::JointState>("measured_js");
   expect(arm.component().stopped(), "it comes to rest by itself when commands cease");
   expect(arm.status().state == Voice::State::degraded, "and says so");
+
+  write_all_joints(robot, goal + JointVector::Constant(robot.dof(), 0.2), still, Time{} + seconds(0.55), command);
+  arm.send("servo_jp", command);
+  arm.step(0.55);
+  expect(is_at(goal), "it does not jump to a command that went on meanwhile");
 
   for (const double none : {std::numeric_limits<double>::quiet_NaN(), 100.0}) {
     command.position_()[0] = none;

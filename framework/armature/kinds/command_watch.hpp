@@ -1,53 +1,54 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <optional>
 
+#include "armature/kinds/servo_command.hpp"
+#include "armature/robot/robot_model.hpp"
 #include "armature/values/inline_text.hpp"
 #include "armature/values/time.hpp"
 
 namespace armature {
 
-/// Tells the driver of an arm when the reference has ceased, so that it brings the arm to rest by
-/// itself: no command for `timeout` (one that is stamped ahead of now does not get here). A driver
-/// that was late itself judges one period later, since the command that it misses may lie there
-/// unread. Counts such stops. Real-time safe.
+/// Tells the driver of an arm whether to follow its newest command, or to bring the arm to rest by
+/// itself. Real-time safe.
+/// A command has ceased when it is older than `timeout` (one that is stamped ahead of now does not
+/// get here). A driver that was late itself judges one period later, since the command that it
+/// misses may lie there unread.
+/// After such a stop the arm follows again when a command comes that is near to it, within
+/// `kNear_rad` or `kNear_m`: a reference that went on must come back first.
 class CommandWatch {
  public:
-  /// `period`: how often `ceased` is asked.
-  CommandWatch(Duration timeout, Duration period) : timeout_{timeout}, period_{period} {}
+  static constexpr double kNear_rad = 0.1, kNear_m = 0.05;  // as motion's max_deviation is
 
-  /// Once per step; `stamp`: of the newest command, if there was one.
-  bool ceased(Time now, const std::optional<Time>& stamp) {
-    const Duration own = last_ ? now - *last_ - period_ : Duration{0};
-    last_ = now;
-    if (!stamp) return true;
-    const Duration age = now - *stamp;
-    const bool too_old = age > timeout_;
-    const bool late_itself = own > period_ / 2 && !ceased_ && age - own <= timeout_;
-    if (too_old && late_itself) return false;
-    if (too_old && !ceased_) {
-      ++stops_;
-      why_ = ReasonText::format(
-          "no command for {:.3f} s (command_timeout_s is {:g}); the driver itself was {:.3f} s "
-          "late; stop number {}",
-          to_seconds(age), to_seconds(timeout_), to_seconds(std::max(own, Duration{0})), stops_);
-    }
-    ceased_ = too_old;
-    if (!too_old) why_.clear();
-    return too_old;
-  }
+  /// `period`: how often `follows` is asked. The model outlives the watch.
+  CommandWatch(const RobotModel& model, Duration timeout, Duration period)
+      : model_{model}, timeout_{timeout}, period_{period} {}
 
-  /// Why the arm was stopped, with the lateness of both sides; empty while commands come.
+  /// Once per step; `command`: the newest one, if there was one; `q`: where the arm is set to.
+  bool follows(Time now, const std::optional<ServoCommand>& command, const JointVector& q);
+  /// The run ends (Component::begin_stop): commands that cease at rest are no trouble any more.
+  void begin_stop() { stopping_ = true; }
+
+  /// Why the arm does not follow, for people; empty while it does, and before the first command.
   const ReasonText& why() const { return why_; }
+  /// How often commands have ceased.
   std::uint64_t stops() const { return stops_; }
 
  private:
+  enum class State { uncommanded, following, ceased, far };
+  State judge(Time now, const std::optional<ServoCommand>& command, const JointVector& q) const;
+  std::optional<int> far_joint(const JointVector& command, const JointVector& q) const;
+  void tell_ceased(Duration age);
+  void tell_far(const JointVector& command, const JointVector& q);
+
+  const RobotModel& model_;
   Duration timeout_, period_;
   std::optional<Time> last_;
-  bool ceased_ = false;
+  Duration late_{0}, late_before_{0};  // of the driver itself, in this step and in the last one
+  State state_ = State::uncommanded;
+  bool stopping_ = false;
   std::uint64_t stops_ = 0;
   ReasonText why_;
 };

@@ -5,16 +5,11 @@
 #include <cstddef>
 #include <optional>
 
+#include "armature/kinds/servo_command.hpp"
 #include "armature/robot/robot_model.hpp"
 #include "armature/values/time.hpp"
 
 namespace armature {
-
-/// A set point from outside: independent joints.
-struct ServoCommand {
-  Time stamp;
-  JointVector q, v;
-};
 
 /// What a command asked for beyond the limits of a joint.
 struct LimitExcess {

@@ -56,7 +56,7 @@ class SimulatedArmComponent : public Component {
         model_{robot_of(setup)},
         arm_{model_, options_of(setup.params()), home_of(model_)},
         timeout_{seconds(setup.params().number("command_timeout_s"))},
-        watch_{timeout_, seconds(1 / setup.params().number("rate_hz"))},
+        watch_{model_, timeout_, seconds(1 / setup.params().number("rate_hz"))},
         servo_{.input = setup.input<msg::JointState>("servo_jp"), .what = "a command"},
         hand_{.input = setup.input<msg::JointState>("hand_js"), .what = "a hand"},
         measured_cp_{setup.output<msg::PoseStamped>("measured_cp")},
@@ -75,13 +75,11 @@ class SimulatedArmComponent : public Component {
     read(hand_);
     if (!hand_.input.fresh()) hand_.fault.clear();  // it has let go, which is no trouble
     guided_ = hand_.command && now - hand_.command->stamp <= timeout_;
-    const auto stamp = servo_.command ? std::optional{servo_.command->stamp} : std::nullopt;
-    const bool ceased = watch_.ceased(now, stamp);
-    waits_ = !guided_ && (ceased || (waits_ && watch_.stops() > 0 && is_far(servo_.command->q)));
+    const bool follows = watch_.follows(now, servo_.command, arm_.setpoint());
     if (guided_) {
       arm_.guide(now, hand_.command->q);
     } else {
-      arm_.step(now, waits_ ? std::nullopt : servo_.command);
+      arm_.step(now, follows ? servo_.command : std::nullopt);
     }
     publish_pose(now);
     publish(measured_js_, arm_.measured(), arm_.measured_velocity(), now);
@@ -90,6 +88,7 @@ class SimulatedArmComponent : public Component {
     publish_operating_state(now);
   }
 
+  void begin_stop(Time) override { watch_.begin_stop(); }
   bool stopped() const override {
     constexpr double kStill = 1e-3;  // [rad/s] or [m/s]
     return arm_.setpoint_velocity().isZero(kStill) && arm_.measured_velocity().isZero(kStill);
@@ -106,29 +105,14 @@ class SimulatedArmComponent : public Component {
 
   void read(Source& source) {
     if (!source.input.fresh()) return;
-    const msg::JointState& message = *source.input.latest();
-    ServoCommand command{.stamp = stamp_of(message.header_().stamp_()), .q = {}, .v = {}};
-    const char* which = "position";
-    ReasonText wrong = read_joints(model_, message, command.q);
-    if (wrong.empty()) {
-      which = "velocity";
-      wrong = read_joint_rates(model_, message, command.v);
-    }
+    ServoCommand command;
+    const ReasonText wrong = read_servo_command(model_, *source.input.latest(), command);
     if (!wrong.empty()) {
-      source.fault = ReasonText::format("refused {}: {}: {}", source.what, which, wrong.view());
+      source.fault = ReasonText::format("refused {}: {}", source.what, wrong.view());
       return;
     }
     source.fault.clear();
     source.command = command;
-  }
-  /// A reference that went on while the arm had stopped must come back to it first.
-  bool is_far(const JointVector& q) const {
-    constexpr double kFar_rad = 0.1, kFar_m = 0.05;  // as motion's max_deviation is by default
-    const JointVector off = (q - arm_.setpoint()).cwiseAbs();
-    for (int i = 0; i < model_.dof(); ++i) {
-      if (off[i] > (model_.is_revolute(i) ? kFar_rad : kFar_m)) return true;
-    }
-    return false;
   }
   const ReasonText& fault() const { return servo_.fault.empty() ? hand_.fault : servo_.fault; }
 
@@ -150,11 +134,10 @@ class SimulatedArmComponent : public Component {
   /// A text is only made when the trouble is another one: every step tells how it is. Trouble that
   /// comes and goes from step to step is told as one.
   void show_health(Time now) {
-    const Trouble trouble = !fault().empty()           ? Trouble::refused_command
-                            : !watch_.why().empty()    ? Trouble::no_command
-                            : waits_ && servo_.command ? Trouble::far_command
-                            : arm_.excess()            ? Trouble::held_back
-                                                       : Trouble::none;
+    const Trouble trouble = !fault().empty()        ? Trouble::refused_command
+                            : !watch_.why().empty() ? Trouble::no_command
+                            : arm_.excess()         ? Trouble::held_back
+                                                    : Trouble::none;
     if (trouble != Trouble::none) {
       last_trouble_ = now;
     } else if (now - last_trouble_ < kCalm) {
@@ -166,9 +149,6 @@ class SimulatedArmComponent : public Component {
     shown_why_ = why;
     if (trouble == Trouble::none) return healthy();
     if (!why.empty()) return degraded(why);
-    if (trouble == Trouble::far_command) {
-      return degraded("the command is far from where the arm has stopped; it must come back first");
-    }
     degraded(describe(*arm_.excess(), model_, guided_ ? "hand" : "command"));
   }
 
@@ -189,8 +169,7 @@ class SimulatedArmComponent : public Component {
   Output<msg::JointState> measured_js_, setpoint_js_;
   Output<msg::String> operating_state_;
   bool guided_ = false;
-  bool waits_ = true;  // where it stands, for commands, or for one that is near
-  enum class Trouble { none, held_back, far_command, no_command, refused_command };
+  enum class Trouble { none, held_back, no_command, refused_command };
   Trouble shown_trouble_ = Trouble::none;
   ReasonText shown_why_;
   Time last_trouble_;

@@ -203,8 +203,10 @@ TEST_F(SimulatedArmComponentTest, AfterAStopOfItsOwnItWaitsForAReferenceThatCome
     step();
     ASSERT_EQ(measured(), home_) << i;
   }
-  EXPECT_EQ(arm_.status().reason,
-            "the command is far from where the arm has stopped; it must come back first");
+  EXPECT_EQ(
+      arm_.status().reason,
+      "the command for joint j1 is 0.2 rad away from where the arm stopped by itself; it must "
+      "come back to 0.1");
   const JointVector near = home_ + JointVector::Constant(5, 0.05);
   for (int i = 0; i < 1000; ++i) {
     arm_.send("servo_jp", command(near, still_));

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "armature/messages/sensor_msgs.hpp"
+#include "armature/robot/robot_model.hpp"
+#include "armature/values/inline_text.hpp"
+#include "armature/values/time.hpp"
+
+namespace armature {
+
+/// Where an arm shall be: independent joints [rad or m] and their rates, for the instant `stamp`.
+struct ServoCommand {
+  Time stamp;
+  JointVector q, v;
+};
+
+/// Reads `message` into `command`, or tells why it is none ("velocity: j1 = inf is not a number")
+/// and leaves `command` as it was. Real-time safe.
+ReasonText read_servo_command(const RobotModel& model, const msg::JointState& message,
+                              ServoCommand& command);
+
+}  // namespace armature

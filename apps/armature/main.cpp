@@ -104,7 +104,7 @@ void add_stop(CLI::App& app, Action& action) {
   verb->add_option("--domain", options->domain, "DDS domain")
       ->capture_default_str()
       ->check(CLI::Range(0, 232));
-  verb->add_option("--timeout", options->timeout_s, "seconds for somebody to be found")
+  verb->add_option("--timeout", options->timeout_s, "seconds for a deployment to be found, and to take it")
       ->capture_default_str()
       ->check(not_positive);
   verb->callback([options, &action] { action = [options] { return stop_arms(*options); }; });

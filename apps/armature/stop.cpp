@@ -3,7 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <atomic>
 #include <chrono>
+#include <map>
+#include <string>
 #include <thread>
 
 #include "armature/messages/std_msgs.hpp"
@@ -18,7 +22,49 @@ using Steady = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
 constexpr milliseconds kPause{10};
-constexpr milliseconds kInsists{300};  // readers that are still being discovered hear it, too
+constexpr milliseconds kInsists{500};  // deployments that are still being discovered hear it, too
+
+/// Writes the stop until who reads it has been found, and says who has taken it.
+class Stopping {
+ public:
+  Stopping(const StopOptions& options, OutsideWriter& writer, SamplePool& pool)
+      : options_{options}, writer_{writer}, pool_{pool} {}
+
+  /// Whether somebody was found within the options' time, of a deployment.
+  bool reach_all() {
+    auto until = give_up_;
+    while (Steady::now() < until) {
+      for (const Watcher& found : writer_.who_watches()) {
+        const bool is_new = heard_by_.emplace(found.owner, found.of_deployment).second;
+        if (is_new && found.of_deployment) until = Steady::now() + kInsists;
+      }
+      SampleRef sample = pool_.loan();
+      static_cast<msg::Bool*>(sample.mutable_message())->data_(true);
+      sample.mutable_info().published = clock_.now();
+      writer_.offer(sample);
+      std::this_thread::sleep_for(kPause);
+    }
+    return std::ranges::any_of(heard_by_, [](const auto& heard) { return heard.second; });
+  }
+
+  bool acknowledged() {
+    const auto left = std::max(give_up_ - Steady::now(), Steady::duration{kInsists});
+    return writer_.acknowledged(std::chrono::duration_cast<Duration>(left));
+  }
+
+  /// Name of a process, and whether it is one of a deployment.
+  const std::map<std::string, bool>& heard_by() const { return heard_by_; }
+
+ private:
+  const StopOptions& options_;
+  OutsideWriter& writer_;
+  SamplePool& pool_;
+  SystemClock clock_;
+  Steady::time_point give_up_ =
+      Steady::now() + std::chrono::duration_cast<Steady::duration>(
+                          std::chrono::duration<double>{options_.timeout_s});
+  std::map<std::string, bool> heard_by_;
+};
 
 }  // namespace
 
@@ -27,13 +73,17 @@ int stop_arms(const StopOptions& options) {
   const SystemClock clock;
   SamplePool pool{message_type<msg::Bool>(),
                   64};  // outlives the writer, which may still be sending
-  const TransportOptions transport_options{
-      .domain = options.domain,
-      .deployment = "armature stop",
-      .fingerprint = {},
-      .on_event =
-          [](const TransportEvent& event) { fmt::print(stderr, "armature: {}\n", event.text); },
-      .now = [&] { return clock.now(); }};
+  std::atomic<bool> one_fell_silent = false;
+  const TransportOptions transport_options{.domain = options.domain,
+                                           .deployment = "armature stop",
+                                           .fingerprint = {},
+                                           .on_event =
+                                               [&](const TransportEvent& event) {
+                                                 if (event.kind == TransportEvent::Kind::peer_lost)
+                                                   one_fell_silent = true;
+                                                 fmt::print(stderr, "armature: {}\n", event.text);
+                                               },
+                                           .now = [&] { return clock.now(); }};
   auto transport = plugins.make<Transport>("transport/fast_dds", transport_options);
   if (!transport) throw PluginError("cannot join DDS: " + transport.error().text);
   auto writer =
@@ -42,33 +92,30 @@ int stop_arms(const StopOptions& options) {
               {.name = "rt/stop", .type = &message_type<msg::Bool>(), .qos = QosProfile::command});
   if (!writer) throw PluginError("cannot write /stop: " + writer.error().text);
 
-  int heard_by = 0;
-  const auto give_up = Steady::now() + std::chrono::duration<double>{options.timeout_s};
-  auto until = Steady::time_point::max();
-  while (Steady::now() < until) {
-    if ((*writer)->watchers() > heard_by) {
-      heard_by = (*writer)->watchers();
-      until = Steady::now() + kInsists;
-    }
-    if (heard_by == 0 && Steady::now() > give_up) {
-      fmt::print(
-          stderr,
-          "armature: nobody in domain {} heard the stop within {:g} s; a deployment says its "
-          "domain with `domain:` or --domain\n",
-          options.domain, options.timeout_s);
-      return kTimedOut;
-    }
-    SampleRef sample = pool.loan();
-    static_cast<msg::Bool*>(sample.mutable_message())->data_(true);
-    sample.mutable_info().published = clock.now();
-    (*writer)->offer(sample);
-    std::this_thread::sleep_for(kPause);
+  Stopping stopping{options, **writer, pool};
+  const bool found = stopping.reach_all();
+  for (const auto& [who, of_deployment] : stopping.heard_by()) {
+    if (!of_deployment) fmt::print(stderr, "armature: {} reads /stop, and is no deployment\n", who);
   }
-  // Who listens there may be a recorder: whether an arm stopped is told by its own deployment.
-  fmt::print(
-      "sent: {} {} of domain {} {} /stop; arms among them stay stopped until they are rearmed\n",
-      heard_by, heard_by == 1 ? "process" : "processes", options.domain,
-      heard_by == 1 ? "reads" : "read");
+  if (!found) {
+    fmt::print(stderr,
+               "armature: no deployment in domain {} heard the stop within {:g} s; a deployment "
+               "says its domain with `domain:` or --domain\n",
+               options.domain, options.timeout_s);
+    return kTimedOut;
+  }
+  const bool taken = stopping.acknowledged() && !one_fell_silent;
+  for (const auto& [who, of_deployment] : stopping.heard_by()) {
+    if (of_deployment) fmt::print("{} {}\n", taken ? "stopped:" : "sent to", who);
+  }
+  if (!taken) {
+    fmt::print(stderr,
+               "armature: not every process has taken the stop within {:g} s: one may be halted. "
+               "Use the arm's own emergency stop\n",
+               options.timeout_s);
+    return kTimedOut;
+  }
+  fmt::print("They stay stopped until they are rearmed\n");
   return kOk;
 }
 

@@ -5,11 +5,11 @@ namespace armature {
 
 struct StopOptions {
   int domain = 0;
-  double timeout_s = 3;  // for somebody to be found who can be stopped
+  double timeout_s = 3;  // for a deployment to be found, and to take it
 };
 
 /// `armature stop`: every arm of the domain stops and stays stopped, whoever runs it. Exit code 0
-/// when somebody heard it, 5 when nobody was there.
+/// when every deployment that was found has taken it, 5 when there was none or one did not.
 int stop_arms(const StopOptions& options);
 
 }  // namespace armature

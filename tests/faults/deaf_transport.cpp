@@ -18,6 +18,8 @@ class DeafWriter final : public OutsideWriter {
   int watchers() const override { return 0; }
   int peers() const override { return 0; }
   std::uint64_t dropped() const override { return 0; }
+  std::vector<Watcher> who_watches() const override { return {}; }
+  bool acknowledged(Duration) override { return true; }
 };
 
 class DeafReader final : public OutsideReader {

@@ -85,6 +85,8 @@ TEST_F(TopicTest, KnowsWhetherASampleWouldReachSomebody) {
     int watchers() const override { return count_; }
     int peers() const override { return 0; }
     std::uint64_t dropped() const override { return 0; }
+    std::vector<Watcher> who_watches() const override { return {}; }
+    bool acknowledged(Duration) override { return true; }
     const int& count_;
   };
   int watching = 0;

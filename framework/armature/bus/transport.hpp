@@ -22,6 +22,12 @@ struct TopicSpec {
   QosProfile qos = QosProfile::state;
 };
 
+/// A reader in another process, for people.
+struct Watcher {
+  std::string owner;           // "deployment 'lamp', process 'main' (pid 123 on theatre-2)"
+  bool of_deployment = false;  // of one of ours, whichever; not a recorder or another program
+};
+
 /// Our end of a topic that others may read.
 class OutsideWriter {
  public:
@@ -33,6 +39,11 @@ class OutsideWriter {
   /// How many readers of the deployment's other processes it has met so far.
   virtual int peers() const = 0;
   virtual std::uint64_t dropped() const = 0;
+  /// Who has matched so far. Any thread.
+  virtual std::vector<Watcher> who_watches() const = 0;
+  /// Waits until every reliable reader has acknowledged what DDS was handed so far, at most for
+  /// `patience`; false then.
+  virtual bool acknowledged(Duration patience) = 0;
 };
 
 /// Samples of one writer that is no part of the deployment.

@@ -54,6 +54,19 @@ class FastDdsWriter final : public OutsideWriter, private dds::DataWriterListene
   int watchers() const override { return watchers_.load(std::memory_order_relaxed); }
   int peers() const override { return peers_.load(std::memory_order_relaxed); }
   std::uint64_t dropped() const override { return queue_->dropped(); }
+  std::vector<Watcher> who_watches() const override {
+    const Discovery& discovery = link_->participant->discovery();
+    std::vector<Watcher> watchers;
+    for (const Endpoint& endpoint : discovery.endpoints()) {
+      if (endpoint.writes || endpoint.topic != topic_.name) continue;
+      watchers.push_back({.owner = discovery.owner(endpoint), .of_deployment = endpoint.tag.ours});
+    }
+    return watchers;
+  }
+  bool acknowledged(Duration patience) override {
+    return writer_->wait_for_acknowledgments(eprosima::fastrtps::Duration_t{
+               static_cast<long double>(to_seconds(patience))}) == ReturnCode_t::RETCODE_OK;
+  }
 
  private:
   /// What DDS keeps for a time it must stamp itself: it judges the time by the system clock.

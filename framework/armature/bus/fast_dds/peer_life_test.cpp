@@ -31,5 +31,24 @@ TEST_F(FastDds, AProcessThatEndsProperlyIsNotMissed) {
   EXPECT_EQ(events(Kind::peer_lost), 0);
 }
 
+TEST_F(FastDds, AReaderThatIsHaltedIsKnownByNameAndAcknowledgesNothingUntilItGoesOn) {
+  const Peer peer{domain_, "lamp", "f00d", "echo"};
+  const auto transport = make_transport();
+  const auto writer = transport->advertise(to_peer_).value();
+  ASSERT_TRUE(eventually([&] { return writer->watchers() == 1; }));
+  writer->offer(sample(1));
+  EXPECT_TRUE(writer->acknowledged(seconds(10)));
+  ASSERT_EQ(writer->who_watches().size(), 1u);
+  const Watcher watcher = writer->who_watches().front();
+  EXPECT_TRUE(watcher.of_deployment);
+  EXPECT_THAT(watcher.owner,
+              testing::StartsWith("deployment 'lamp' (pid " + std::to_string(peer.pid()) + " on "));
+  kill(peer.pid(), SIGSTOP);
+  writer->offer(sample(2));
+  EXPECT_FALSE(writer->acknowledged(seconds(0.3)));
+  kill(peer.pid(), SIGCONT);
+  EXPECT_TRUE(writer->acknowledged(seconds(10)));
+}
+
 }  // namespace
 }  // namespace armature

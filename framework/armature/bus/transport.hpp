@@ -41,8 +41,8 @@ class OutsideWriter {
   virtual std::uint64_t dropped() const = 0;
   /// Who has matched so far. Any thread.
   virtual std::vector<Watcher> who_watches() const = 0;
-  /// Waits until every reliable reader has acknowledged what DDS was handed so far, at most for
-  /// `patience`; false then.
+  /// Waits until every reliable reader has acknowledged what was offered; false when one has not
+  /// within `patience`.
   virtual bool acknowledged(Duration patience) = 0;
 };
 

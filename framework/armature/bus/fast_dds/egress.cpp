@@ -57,7 +57,7 @@ void Egress::run() {
     sample = SampleRef{};
     lock.lock();
     sending_ = nullptr;
-    if (leaving_ > 0) idle_.notify_all();
+    if (waiting_ > 0) sent_.notify_all();
   }
 }
 
@@ -67,9 +67,9 @@ Egress::Queue::Queue(Egress& egress, std::size_t depth, std::function<void(const
 Egress::Queue::~Queue() {
   std::unique_lock lock{egress_.mutex_};
   std::erase(egress_.queues_, this);
-  ++egress_.leaving_;
-  egress_.idle_.wait(lock, [this] { return egress_.sending_ != this; });
-  --egress_.leaving_;
+  ++egress_.waiting_;
+  egress_.sent_.wait(lock, [this] { return egress_.sending_ != this; });
+  --egress_.waiting_;
   lock.unlock();
   while (size_ > 0) send_(pop());  // nobody else knows this queue any more
 }
@@ -91,6 +91,15 @@ void Egress::Queue::offer(const SampleRef& sample) {
 std::uint64_t Egress::Queue::dropped() const {
   const std::scoped_lock lock{egress_.mutex_};
   return dropped_;
+}
+
+bool Egress::Queue::drained(Duration patience) {
+  std::unique_lock lock{egress_.mutex_};
+  ++egress_.waiting_;
+  const bool all_sent = egress_.sent_.wait_for(
+      lock, patience, [this] { return size_ == 0 && egress_.sending_ != this; });
+  --egress_.waiting_;
+  return all_sent;
 }
 
 SampleRef Egress::Queue::pop() {

@@ -10,6 +10,7 @@
 
 #include "armature/bus/sample.hpp"
 #include "armature/values/real_time_mutex.hpp"
+#include "armature/values/time.hpp"
 #include "armature/values/wake_up.hpp"
 
 namespace armature {
@@ -35,8 +36,8 @@ class Egress {
 
   RealTimeMutex mutex_;
   WakeUp work_;                       // something waits, or the end
-  std::condition_variable_any idle_;  // a sample was sent, while a queue leaves
-  int leaving_ = 0;                   // queues that wait for that
+  std::condition_variable_any sent_;  // a sample, while somebody waits for that
+  int waiting_ = 0;                   // who does
   std::vector<Queue*> queues_;
   std::size_t turn_ = 0;
   Queue* sending_ = nullptr;
@@ -57,6 +58,8 @@ class Egress::Queue {
   /// one holds while sending.
   void offer(const SampleRef& sample);
   std::uint64_t dropped() const;
+  /// Waits until all that was offered is sent, at most for `patience`; false then.
+  bool drained(Duration patience);
 
  private:
   friend class Egress;

@@ -64,7 +64,8 @@ class FastDdsWriter final : public OutsideWriter, private dds::DataWriterListene
     return watchers;
   }
   bool acknowledged(Duration patience) override {
-    return writer_->wait_for_acknowledgments(eprosima::fastrtps::Duration_t{
+    return queue_->drained(patience) &&
+           writer_->wait_for_acknowledgments(eprosima::fastrtps::Duration_t{
                static_cast<long double>(to_seconds(patience))}) == ReturnCode_t::RETCODE_OK;
   }
 

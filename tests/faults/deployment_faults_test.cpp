@@ -87,7 +87,14 @@ const Fault kFaults[] = {
     {"NegativeTimeLimit", "clock: simulated", "run: {time_limit_s: -1}",
      "deployment.yaml:3:21: 'time_limit_s' must be positive, or 0 for none\n"},
     {"NegativeSeed", "clock: simulated", "seed: -1",
-     "deployment.yaml:3:7: 'seed' must not be negative\n"},
+     "deployment.yaml:3:7: 'seed' must be a whole number from 0 to 18446744073709551615, not "
+     "'-1'\n"},
+    {"SeedBeyond64Bits", "clock: simulated", "seed: 18446744073709551616",
+     "deployment.yaml:3:7: 'seed' must be a whole number from 0 to 18446744073709551615, not "
+     "'18446744073709551616'\n"},
+    {"SeedThatIsNotWhole", "clock: simulated", "seed: 1.5",
+     "deployment.yaml:3:7: 'seed' must be a whole number from 0 to 18446744073709551615, not "
+     "'1.5'\n"},
     {"NegativePeriod", "period_s: 0.001", "period_s: -0.001",
      "deployment.yaml:6:33: 'period_s' is -0.001, must be at least 0.0001\n"},
     {"UnknownClock", "clock: simulated", "clock: simulatd",
@@ -389,6 +396,13 @@ TEST_F(SoundDeployment, APathThatRunsAloneNeedsNobody) {
       check({{"components:\n", "components:\n  alone: {plugin: path/mouth_points}\n"}});
   EXPECT_EQ(result.exit_code, 0) << result.err;
 }
+TEST_F(SoundDeployment, EverySeedOf64BitsPassesTheCheck) {
+  for (const std::string seed : {"0", "9223372036854775808", "18446744073709551615"}) {
+    const auto result = check({{"clock: simulated", "seed: " + seed}});
+    EXPECT_EQ(result.exit_code, 0) << seed << ": " << result.err;
+  }
+}
+
 
 TEST_F(SoundDeployment, AMoveThatComesPassesTheCheck) {
   const auto result = check({{"{plugin: report/lamp_alignment}",

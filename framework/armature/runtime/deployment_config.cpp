@@ -147,9 +147,7 @@ DeploymentConfig read_deployment(const Node& root, const PluginRegistry& plugins
   const std::int64_t domain = map.integer("domain", 0);
   if (domain < 0 || domain > 232) map.problem("domain", "'domain' must be from 0 to 232");
   deployment.domain = static_cast<int>(domain);
-  const std::int64_t seed = map.integer("seed", 1);
-  if (seed < 0) map.problem("seed", "'seed' must not be negative");
-  deployment.seed = static_cast<std::uint64_t>(seed);
+  deployment.seed = map.natural("seed", 1);
   deployment.time_limit_s = 0;
   if (const Node* run = map.optional_node("run")) {
     MapReader run_map{*run, "run", problems};

@@ -90,6 +90,12 @@ const Fault kFaults[] = {
      "deployment.yaml:3:7: 'seed' must be a whole number from 0 to 18446744073709551615, not "
      "'-1'\n"},
     {"SeedBeyond64Bits", "clock: simulated", "seed: 18446744073709551616",
+    {"NoTimeToStop", "clock: simulated", "run: {stop_within_s: 0}",
+     "deployment.yaml:3:22: 'stop_within_s' is 0, must be from 0.1 to 3600: what moves comes to "
+     "rest before anything ends\n"},
+    {"EndlessTimeToStop", "clock: simulated", "run: {stop_within_s: 1e300}",
+     "deployment.yaml:3:22: 'stop_within_s' is 1e+300, must be from 0.1 to 3600: what moves comes "
+     "to rest before anything ends\n"},
      "deployment.yaml:3:7: 'seed' must be a whole number from 0 to 18446744073709551615, not "
      "'18446744073709551616'\n"},
     {"SeedThatIsNotWhole", "clock: simulated", "seed: 1.5",

@@ -31,6 +31,8 @@ using config::Node;
 using config::Problems;
 
 constexpr double kShortestPeriod_s = 1e-4;
+/// Processes tell each other in this time that they are at rest. With less no run would end well.
+constexpr double kShortestStop_s = 0.1;
 
 bool is_name(std::string_view text) {
   const bool digit = !text.empty() && std::isdigit(static_cast<unsigned char>(text.front()));
@@ -156,9 +158,11 @@ DeploymentConfig read_deployment(const Node& root, const PluginRegistry& plugins
       run_map.problem("time_limit_s", "'time_limit_s' must be positive, or 0 for none");
     }
     deployment.stop_within_s = run_map.number("stop_within_s", deployment.stop_within_s);
-    if (!(deployment.stop_within_s >= 0)) {
+    if (deployment.stop_within_s < kShortestStop_s || deployment.stop_within_s > kLongestWait_s) {
       run_map.problem("stop_within_s",
-                      "'stop_within_s' must be positive, or 0 to wait for nothing");
+                      fmt::format("'stop_within_s' is {:g}, must be from {:g} to {:g}: what moves "
+                                  "comes to rest before anything ends",
+                                  deployment.stop_within_s, kShortestStop_s, kLongestWait_s));
     }
     run_map.finish();
   }

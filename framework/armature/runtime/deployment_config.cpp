@@ -88,11 +88,11 @@ std::vector<ExecutorSpec> read_executors(std::span<const Node::Entry> section, P
     MapReader map{value, fmt::format("executor '{}'", name), problems};
     ExecutorSpec spec{.name = name, .period = {}, .priority = 0, .cpu = {}};
     if (map.optional_node("period_s")) {
-      const double period = map.number("period_s");
+      const double period = map.number("period_s", kShortestPeriod_s);
       spec.period = seconds(period);
-      if (!(period >= kShortestPeriod_s)) {
-        map.problem("period_s", fmt::format("'period_s' is {:g}, must be at least {:g}", period,
-                                            kShortestPeriod_s));
+      if (period < kShortestPeriod_s || period > kLongestWait_s) {
+        map.problem("period_s", fmt::format("'period_s' is {:g}, must be from {:g} to {:g}", period,
+                                            kShortestPeriod_s, kLongestWait_s));
       }
     }
     const std::int64_t priority = map.integer("priority", 0);

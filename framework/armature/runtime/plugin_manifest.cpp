@@ -93,13 +93,13 @@ void read_input_rules(MapReader& map, const std::vector<ParamSpec>& params, Port
   // What is told to late joiners is stamped with when it begins.
   if (port.qos == QosProfile::latched) port.max_ahead = seconds(1e9);
   if (map.optional_node("max_ahead_s")) {
-    port.max_ahead = seconds(map.number("max_ahead_s"));
+    port.max_ahead = seconds(map.number("max_ahead_s", 1));
     if (port.max_ahead < Duration{0}) {
       map.problem("max_ahead_s", "'max_ahead_s' must not be negative");
     }
   }
   if (map.optional_node("max_age_s")) {
-    port.max_age = seconds(map.number("max_age_s"));
+    port.max_age = seconds(map.number("max_age_s", 1));
     if (port.max_age <= Duration{0}) map.problem("max_age_s", "'max_age_s' must be positive");
   }
   port.lease = read_lease(map.optional_node("lease"), port.max_age, params, problems);
@@ -107,7 +107,7 @@ void read_input_rules(MapReader& map, const std::vector<ParamSpec>& params, Port
 
 std::optional<Duration> read_max_step(MapReader& map) {
   if (!map.optional_node("max_step_s")) return std::nullopt;
-  const Duration max_step = seconds(map.number("max_step_s"));
+  const Duration max_step = seconds(map.number("max_step_s", 1));
   if (max_step <= Duration{0}) map.problem("max_step_s", "'max_step_s' must be positive");
   return max_step;
 }

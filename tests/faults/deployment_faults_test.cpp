@@ -90,16 +90,16 @@ const Fault kFaults[] = {
      "deployment.yaml:6:33: 'period_s' is 1e+300, must be from 0.0001 to 3600\n"},
     {"NegativeTimeLimit", "clock: simulated", "run: {time_limit_s: -1}",
      "deployment.yaml:3:21: 'time_limit_s' must be positive, or 0 for none\n"},
-    {"NegativeSeed", "clock: simulated", "seed: -1",
-     "deployment.yaml:3:7: 'seed' must be a whole number from 0 to 18446744073709551615, not "
-     "'-1'\n"},
-    {"SeedBeyond64Bits", "clock: simulated", "seed: 18446744073709551616",
     {"NoTimeToStop", "clock: simulated", "run: {stop_within_s: 0}",
      "deployment.yaml:3:22: 'stop_within_s' is 0, must be from 0.1 to 3600: what moves comes to "
      "rest before anything ends\n"},
     {"EndlessTimeToStop", "clock: simulated", "run: {stop_within_s: 1e300}",
      "deployment.yaml:3:22: 'stop_within_s' is 1e+300, must be from 0.1 to 3600: what moves comes "
      "to rest before anything ends\n"},
+    {"NegativeSeed", "clock: simulated", "seed: -1",
+     "deployment.yaml:3:7: 'seed' must be a whole number from 0 to 18446744073709551615, not "
+     "'-1'\n"},
+    {"SeedBeyond64Bits", "clock: simulated", "seed: 18446744073709551616",
      "deployment.yaml:3:7: 'seed' must be a whole number from 0 to 18446744073709551615, not "
      "'18446744073709551616'\n"},
     {"SeedThatIsNotWhole", "clock: simulated", "seed: 1.5",
@@ -295,7 +295,10 @@ const Fault kFaults[] = {
      "deployment.yaml:6:7: 'open' must be a list of inputs, [task.target], not 'motion.goal'\n"},
     {"NegativeLatency", "{plugin: face_pose/three_point}",
      "{plugin: face_pose/three_point, sim_latency_s: -0.1}",
-     "deployment.yaml:10:56: 'sim_latency_s' must not be negative\n"},
+     "deployment.yaml:10:56: 'sim_latency_s' is -0.1, must be from 0 to 3600\n"},
+    {"EndlessLatency", "{plugin: face_pose/three_point}",
+     "{plugin: face_pose/three_point, sim_latency_s: 1e300}",
+     "deployment.yaml:10:56: 'sim_latency_s' is 1e+300, must be from 0 to 3600\n"},
     {"TimeLawThatNobodyKeeps",
      "path: {plugin: path/mouth_arc}\n"
      "    ik: {plugin: ik/lamp_geometric}\n"
@@ -318,6 +321,8 @@ const Fault kFaults[] = {
     {"MoveOfNothing", "tilt_up_deg: 0", "move_duration_s: 2",
      "deployment.yaml:8:3: component 'scene': move_duration_s is set but nothing moves; set "
      "move_mm, move_tilt_up_deg or move_tilt_side_deg, or move_duration_s to 0\n"},
+    {"GoalThatNothingMeets", "distance_error_mm: 1.5", "distance_error_mm: -1",
+     "deployment.yaml:22:28: the goal -1 cannot be met: 'distance_error_mm' is never below 0\n"},
     {"GoalForAMetricThatIsMistyped", "distance_error_mm: 1.5", "distance_eror_mm: 1.5",
      "deployment.yaml:22:9: no component measures 'distance_eror_mm'; did you mean "
      "'distance_error_mm'?\n"},
@@ -391,6 +396,13 @@ TEST_F(SoundDeployment, PassesTheCheck) {
   EXPECT_EQ(result.exit_code, 0) << result.err;
 }
 
+TEST_F(SoundDeployment, EverySeedOf64BitsPassesTheCheck) {
+  for (const std::string seed : {"0", "9223372036854775808", "18446744073709551615"}) {
+    const auto result = check({{"clock: simulated", "seed: " + seed}});
+    EXPECT_EQ(result.exit_code, 0) << seed << ": " << result.err;
+  }
+}
+
 TEST_F(SoundDeployment, ATimeLawThatIsKeptOrNotUsedPassesTheCheck) {
   const Change points{"path/mouth_arc}", "path/mouth_points}"};
   const Change idle_points{"path/mouth_arc}", "path/mouth_points, params: {segment_s: 0}}"};
@@ -406,13 +418,6 @@ TEST_F(SoundDeployment, APathThatRunsAloneNeedsNobody) {
       check({{"components:\n", "components:\n  alone: {plugin: path/mouth_points}\n"}});
   EXPECT_EQ(result.exit_code, 0) << result.err;
 }
-TEST_F(SoundDeployment, EverySeedOf64BitsPassesTheCheck) {
-  for (const std::string seed : {"0", "9223372036854775808", "18446744073709551615"}) {
-    const auto result = check({{"clock: simulated", "seed: " + seed}});
-    EXPECT_EQ(result.exit_code, 0) << seed << ": " << result.err;
-  }
-}
-
 
 TEST_F(SoundDeployment, AMoveThatComesPassesTheCheck) {
   const auto result = check({{"{plugin: report/lamp_alignment}",

@@ -59,7 +59,7 @@ struct ComponentConfig {
 struct Goal {
   std::string metric;
   double limit;
-  config::Origin origin;
+  config::Origin origin, limit_origin;
 };
 
 /// A deployment file, read, checked and resolved against the plugins that are there.

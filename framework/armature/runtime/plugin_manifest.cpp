@@ -219,7 +219,16 @@ std::vector<MetricSpec> read_metrics(const Node* table, Problems& problems) {
   std::vector<MetricSpec> metrics;
   if (!table) return metrics;
   for (const auto& [key, key_origin, value] : table->entries()) {
-    metrics.push_back({.name = key, .doc = config::as_text(value, problems).value_or("")});
+    MetricSpec metric{.name = key};
+    if (value.kind() == Node::Kind::map) {
+      MapReader map{value, fmt::format("metric '{}'", key), problems};
+      metric.doc = map.text("doc", "");
+      metric.may_be_negative = map.flag("signed", false);
+      map.finish();
+    } else {
+      metric.doc = config::as_text(value, problems).value_or("");
+    }
+    metrics.push_back(std::move(metric));
   }
   return metrics;
 }

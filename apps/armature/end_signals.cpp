@@ -5,14 +5,22 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <csignal>
+#include <cstring>
 #include <string_view>
+#include <vector>
 
+#include "armature/values/inline_text.hpp"
 #include "exit_code.hpp"
 
 namespace armature::end_signals {
 namespace {
+
+/// Of an operator, who may lose patience: several of them end the process at once.
+constexpr std::array kOfOperator{SIGINT, SIGTERM, SIGQUIT};
 
 std::atomic<int> g_signal{0}, g_count{0};
 std::atomic<bool> g_json{false}, g_reports{false};
@@ -23,6 +31,38 @@ void write_out(int file, std::string_view text) {
   pollfd writable{.fd = file, .events = POLLOUT, .revents = 0};
   if (poll(&writable, 1, 0) <= 0) return;
   [[maybe_unused]] const auto written = ::write(file, text.data(), text.size());
+}
+
+bool is_of_operator(int signal) {
+  return std::ranges::find(kOfOperator, signal) != kOfOperator.end();
+}
+
+/// Every signal that ends a process which does not handle it, but those of a crash, those that
+/// cannot be handled, and SIGPIPE.
+std::vector<int> all_end_signals() {
+  std::vector<int> all{kOfOperator.begin(), kOfOperator.end()};
+  all.insert(all.end(), {SIGHUP, SIGUSR1, SIGUSR2, SIGALRM, SIGVTALRM, SIGPROF, SIGIO, SIGPWR,
+                         SIGSTKFLT, SIGXCPU, SIGXFSZ});
+  for (int signal = SIGRTMIN; signal <= SIGRTMAX; ++signal) all.push_back(signal);
+  return all;
+}
+
+using Text = InlineText<160>;
+
+/// In a signal handler, too: without memory of its own.
+Text text_of(int signal) {
+  switch (signal) {
+    case SIGINT:
+      return "interrupted";
+    case SIGTERM:
+      return "terminated";
+    case SIGHUP:
+      return "the terminal was closed";
+    default:
+      break;
+  }
+  if (const char* name = sigabbrev_np(signal)) return Text::format("ended by SIG{}", name);
+  return Text::format("ended by signal {}", signal);
 }
 
 /// In a signal handler, which may open and write, and little else.
@@ -39,21 +79,16 @@ void write_out(int file, std::string_view text) {
 }
 
 void on_signal_before_start(int signal) {
-  if (signal == SIGINT) {
-    leave("{\"status\":\"not_started\",\"reason\":\"interrupted before the start\"}\n",
-          "armature: interrupted before the start\n");
-  }
-  if (signal == SIGHUP) {
-    leave("{\"status\":\"not_started\",\"reason\":\"the terminal was closed before the start\"}\n",
-          "armature: the terminal was closed before the start\n");
-  }
-  leave("{\"status\":\"not_started\",\"reason\":\"terminated before the start\"}\n",
-        "armature: terminated before the start\n");
+  const Text text = text_of(signal);
+  leave(Text::format("{{\"status\":\"not_started\",\"reason\":\"{} before the start\"}}\n",
+                     text.view())
+            .view(),
+        Text::format("armature: {} before the start\n", text.view()).view());
 }
 
 void on_signal(int signal) {
-  // A terminal that is closed may say so several times.
-  if (signal == SIGHUP && g_count > 0) return;
+  // A terminal that is closed may say so several times, and so may a timer, and a limit.
+  if (!is_of_operator(signal) && g_count > 0) return;
   const int count = ++g_count;
   if (count == 1) g_signal = signal;
   if (count < 3) return;
@@ -64,9 +99,14 @@ void on_signal(int signal) {
 }
 
 void handle(void (*handler)(int)) {
-  std::signal(SIGINT, handler);
-  std::signal(SIGTERM, handler);
-  if (std::signal(SIGHUP, SIG_IGN) != SIG_IGN) std::signal(SIGHUP, handler);
+  for (const int signal : all_end_signals()) {
+    struct sigaction now {};
+    sigaction(signal, nullptr, &now);
+    const auto set = now.sa_handler;
+    // Else somebody ignores it, as under nohup, or uses it, as a profiler or a drill does.
+    const bool is_free = set == SIG_DFL || set == on_signal_before_start || is_of_operator(signal);
+    if (is_free) std::signal(signal, handler);
+  }
 }
 
 }  // namespace
@@ -87,16 +127,9 @@ void stop_in_order() {
 }
 
 std::optional<std::string> cause() {
-  switch (g_signal) {
-    case 0:
-      return std::nullopt;
-    case SIGINT:
-      return "interrupted";
-    case SIGHUP:
-      return "the terminal was closed";
-    default:
-      return "terminated";
-  }
+  const int signal = g_signal;
+  if (signal == 0) return std::nullopt;
+  return std::string{text_of(signal).view()};
 }
 int count() { return g_count; }
 

@@ -7,7 +7,8 @@
 
 namespace armature {
 
-/// How Ctrl-C, `kill` and a terminal that is closed (but under nohup) end a run.
+/// How Ctrl-C, Ctrl-\, `kill` and a terminal that is closed (but under nohup) end a run: every
+/// signal that would end the process and is no crash, so that no arm is left while it moves.
 namespace end_signals {
 
 /// What the handlers say when they end the process themselves. Before any of them is set.
@@ -23,11 +24,12 @@ bool report_allowed();
 /// Nothing runs yet, and constructing components (a landmark model is read) cannot be told to stop:
 /// the process ends at once, and says so.
 void end_before_start();
-/// The first one stops the run in order, the third ends the process at once, and says so. A pipe
-/// whose reader is gone does not end it.
+/// The first one stops the run in order. The third of SIGINT, SIGTERM and SIGQUIT, which people
+/// send, ends the process at once, and says so. A pipe whose reader is gone does not end it.
 void stop_in_order();
 
-/// "interrupted", "terminated" or "the terminal was closed", once there has been a signal.
+/// "interrupted", "terminated", "the terminal was closed" or "ended by SIGQUIT", once there has
+/// been a signal.
 std::optional<std::string> cause();
 /// How many there have been.
 int count();

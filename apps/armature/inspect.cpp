@@ -4,12 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <utility>
 #include <vector>
 
 #include "armature/config/document.hpp"
+#include "armature/runtime/component_config.hpp"
 #include "armature/runtime/deployment.hpp"
 #include "armature/runtime/on_fault.hpp"
 #include "exit_code.hpp"
@@ -78,6 +80,46 @@ std::string on_fault_comment(const DeploymentConfig& deployment) {
   return text;
 }
 
+void make_absolute(config::Node& file) {
+  if (file.kind() != config::Node::Kind::scalar || file.text().empty()) return;
+  const auto path = config::folder_of(file.origin()) / file.text();
+  file.set_text(std::filesystem::absolute(path).lexically_normal().string());
+}
+
+/// The parameters of type file in a component, or in a slot, and in the slots in it. `name`: of the
+/// component.
+void make_params_absolute(config::Node& component, const std::string& name,
+                          const PluginRegistry& plugins) {
+  const config::Node* id = component.find("plugin");
+  const PluginManifest* plugin = plugins.find(id ? id->text() : name);
+  for (auto& entry : component.mutable_entries()) {
+    if (entry.key != "params") {
+      if (entry.value.find("plugin")) make_params_absolute(entry.value, entry.key, plugins);
+      continue;
+    }
+    for (auto& param : entry.value.mutable_entries()) {
+      const auto is_file = [&](const ParamSpec& spec) {
+        return spec.name == param.key && spec.type == ParamSpec::Type::file;
+      };
+      if (plugin && std::ranges::any_of(plugin->params, is_file)) make_absolute(param.value);
+    }
+  }
+}
+
+/// The deployment as it can be run from any folder: what it names by a path that is relative to one
+/// of its files it names by the whole path.
+config::Node with_absolute_files(config::Node root, const PluginRegistry& plugins) {
+  for (auto& section : root.mutable_entries()) {
+    const auto names_section = [&](const auto& known) { return known.first == section.key; };
+    const bool of_files = std::ranges::any_of(kDocumentSections, names_section);
+    for (auto& entry : section.value.mutable_entries()) {
+      if (of_files) make_absolute(entry.value);
+      if (section.key == "components") make_params_absolute(entry.value, entry.key, plugins);
+    }
+  }
+  return root;
+}
+
 void print_dot(const DeploymentConfig& deployment, const std::map<std::string, Edge>& edges) {
   fmt::print("digraph {} {{\n  rankdir=LR;\n  node [shape=box];\n", deployment.name);
   for (const auto& component : deployment.components) {
@@ -144,8 +186,8 @@ int show_deployment(const DeploymentSource& source) {
   config::Problems problems;
   check_is_deployment(root, problems);
   problems.throw_if_any();
-  fmt::print("{}", config::to_yaml(root, true));
   const PluginRegistry plugins;
+  fmt::print("{}", config::to_yaml(with_absolute_files(root, plugins), true));
   const DeploymentConfig deployment = read_deployment(root, plugins, problems);
   if (problems.empty()) {
     fmt::print("{}{}", on_fault_comment(deployment), leases_comment(deployment));

@@ -270,14 +270,14 @@ void add_bench_loop(CLI::App* bench, Action& action) {
   loop->add_option("--rounds", options->rounds, "of each comparison")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000));
-  loop->add_option("--seconds", options->seconds, "of a round")
+  loop->add_option("--seconds", options->seconds, "of a round: at least 1000 periods")
       ->capture_default_str()
       ->check(wrong_number)
       ->check(CLI::Range(0.1, 3600.0));
   loop->add_option("--period", options->period_s, "of the loops [s]")
       ->capture_default_str()
       ->check(wrong_number)
-      ->check(CLI::Range(1e-4, 1.0));
+      ->check(CLI::Range(1e-4, 0.1));
   loop->add_option("--priority", options->priority, "of the loops, SCHED_FIFO; 0: normal")
       ->capture_default_str()
       ->check(CLI::Range(0, 99));
@@ -285,7 +285,12 @@ void add_bench_loop(CLI::App* bench, Action& action) {
       ->capture_default_str()
       ->check(CLI::Range(0, 232));
   loop->add_flag("--json", options->json, "as JSON");
-  loop->callback([options, &action] { action = [options] { return bench_loop(*options); }; });
+  loop->callback([options, &action] {
+    if (std::string wrong = wrong_round(*options); !wrong.empty()) {
+      throw CLI::ValidationError("--seconds", wrong);
+    }
+    action = [options] { return bench_loop(*options); };
+  });
 }
 
 void add_bench(CLI::App& app, Action& action) {

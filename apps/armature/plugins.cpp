@@ -203,7 +203,8 @@ int show_plugin(const std::string& id, bool json) {
   print_traits("offers", plugin->offers, plugin->params);
   if (!plugin->measures.empty()) fmt::print("measures:\n");
   for (const auto& metric : plugin->measures) {
-    fmt::print("  {:<26} {}\n", metric.name, metric.doc);
+    fmt::print("  {:<26} {}{}\n", metric.name, metric.doc,
+               metric.may_be_negative ? " (may be below 0)" : "");
   }
   print_ports("in", plugin->inputs);
   print_ports("out", plugin->outputs);

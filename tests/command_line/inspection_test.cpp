@@ -190,15 +190,48 @@ TEST(Show, TellsWhatTheRuntimeWaitsFor) {
       << "in lockstep how fast time goes is the machine's affair";
 }
 
+/// A file with this text where no robots and rigs are.
+std::string file_elsewhere(const std::string& text) {
+  const auto file = std::filesystem::temp_directory_path() /
+                    ("armature-shown-" + std::to_string(getpid()) + ".yaml");
+  std::ofstream{file} << text;
+  return file;
+}
+
 TEST(Show, PrintsAFileThatIsTheSameDeployment) {
   const auto shown = run_command({armature(), "show", kBiopsyDeployment});
   ASSERT_THAT(shown.out, testing::HasSubstr("# who waits"));
-  const auto folder = folder_beside_robots();
-  std::ofstream{folder / "shown.yaml"} << shown.out;
-  const auto again = run_command({armature(), "check", folder / "shown.yaml"});
+  const auto file = file_elsewhere(shown.out);
+  const auto again = run_command({armature(), "check", file});
   EXPECT_EQ(again.exit_code, 0) << again.err;
-  EXPECT_EQ(leases_of(folder / "shown.yaml", {}), leases_of(kBiopsyDeployment, {}));
-  std::filesystem::remove_all(folder);
+  EXPECT_EQ(leases_of(file, {}), leases_of(kBiopsyDeployment, {}));
+  std::filesystem::remove(file);
+}
+
+TEST(Show, NamesFilesSuchThatTheDeploymentCanBeRunFromAnyFolder) {
+  const auto from_here = [](const std::string& file) {
+    return std::filesystem::relative(source_file(file)).string();
+  };
+  // Of the file itself, of the command line, and of parameters of a component and of a slot.
+  const auto shown = run_command(
+      {armature(), "show", from_here("configs/dental_lamp.yaml"), "--set",
+       "rigs.head=" + from_here("configs/rigs/default.yaml"), "--set",
+       "components.landmarks.params.model=model.dat", "--set",
+       "components.motion.ik={plugin: ik/process, params: {command: [solver], folder: there}}"});
+  EXPECT_EQ(shown.exit_code, 0) << shown.err;
+  const std::string here = std::filesystem::current_path().string();
+  EXPECT_THAT(shown.out, testing::HasSubstr(" arm: " + source_file("configs/robots/")));
+  EXPECT_THAT(shown.out, testing::HasSubstr(" head: " + source_file("configs/rigs/default.yaml")));
+  EXPECT_THAT(shown.out, testing::HasSubstr(" model: " + here + "/model.dat "));
+  EXPECT_THAT(shown.out, testing::HasSubstr(" folder: " + here + "/there "));
+  EXPECT_THAT(shown.out, testing::HasSubstr("[solver]")) << "which is no file";
+}
+
+TEST(Show, WhatItPrintedRunsInAnotherFolder) {
+  const auto file = file_elsewhere(run_command({armature(), "show", kBiopsyDeployment}).out);
+  const auto result = run_command({armature(), "run", file, "--json"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  std::filesystem::remove(file);
 }
 
 TEST(Graph, NamesTheWriterAndTheReadersOfATopic) {

@@ -32,5 +32,14 @@ TEST(BenchLoop, AnExecutorNeitherAllocatesNorMeetsPageFaultsAlsoWhenOthersRead) 
   EXPECT_EQ(report["executor"][1]["readers"], 1);
 }
 
+TEST(BenchLoop, RefusesRoundsThatAreTooShortForTheirFigures) {
+  const CommandResult result = run_command({armature(), "bench", "loop", "--seconds", "0.1"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_EQ(result.out, "");
+  EXPECT_THAT(result.err,
+              testing::HasSubstr("--seconds: a round of 0.1 s has 100 steps of 0.001 s, and p99.9 "
+                                 "needs 1000: at least 1 s"));
+}
+
 }  // namespace
 }  // namespace armature::test

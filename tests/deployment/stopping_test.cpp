@@ -166,7 +166,8 @@ TEST(StoppingConfig, ATimeToStopThatIsNegativeIsRefused) {
                   plugins, problems);
   ASSERT_FALSE(problems.empty());
   EXPECT_EQ(problems.sorted().front().message,
-            "'stop_within_s' must be positive, or 0 to wait for nothing");
+            "'stop_within_s' is -1, must be from 0.1 to 3600: what moves comes to rest before "
+            "anything ends");
 }
 
 }  // namespace

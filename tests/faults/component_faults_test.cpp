@@ -176,6 +176,16 @@ TEST_F(ComponentFaults, AnIsolatedProcessThatTheArmReadsFromFallsSilentAndTheRun
   EXPECT_LT(told["last_note_s"], 0.5 * kTimeLimit_s) << "its output ended with it";
 }
 
+TEST_F(ComponentFaults, ThatAProcessFellSilentIsToldOnceHoweverManyHearIt) {
+  const CommandResult result =
+      run({"components.source.params.breaks=crashes", "components.source.process=aside",
+           "components.source.on_fault=isolate", "components.monitor.process=second"});
+  const std::string fell_silent = "fell silent: its process died or hangs\n";
+  const std::size_t first = result.err.find(fell_silent);
+  EXPECT_NE(first, std::string::npos) << result.err;
+  EXPECT_EQ(result.err.find(fell_silent, first + 1), std::string::npos) << result.err;
+}
+
 TEST_F(ComponentFaults, AProcessThatHoldsMoreThanMonitorsEndsTheRunWhenAMonitorCrashesIt) {
   const CommandResult result =
       run({"components.monitor.params.breaks=crashes", "components.monitor.process=aside",

@@ -83,13 +83,30 @@ const Fault kFaults[] = {
     {"UnknownExecutor", "executor: control}", "executor: contrl}",
      "deployment.yaml:20:42: unknown executor 'contrl'; did you mean 'control'?\n"},
     {"PeriodOfZero", "period_s: 0.001", "period_s: 0",
-     "deployment.yaml:6:33: 'period_s' is 0, must be at least 0.0001\n"},
+     "deployment.yaml:6:33: 'period_s' is 0, must be from 0.0001 to 3600\n"},
+    {"PeriodThatIsNoNumber", "period_s: 0.001", "period_s: abc",
+     "deployment.yaml:6:33: 'period_s' must be a number, not 'abc'\n"},
+    {"PeriodThatNobodyWaitsFor", "period_s: 0.001", "period_s: 1e300",
+     "deployment.yaml:6:33: 'period_s' is 1e+300, must be from 0.0001 to 3600\n"},
     {"NegativeTimeLimit", "clock: simulated", "run: {time_limit_s: -1}",
      "deployment.yaml:3:21: 'time_limit_s' must be positive, or 0 for none\n"},
+    {"NoTimeToStop", "clock: simulated", "run: {stop_within_s: 0}",
+     "deployment.yaml:3:22: 'stop_within_s' is 0, must be from 0.1 to 3600: what moves comes to "
+     "rest before anything ends\n"},
+    {"EndlessTimeToStop", "clock: simulated", "run: {stop_within_s: 1e300}",
+     "deployment.yaml:3:22: 'stop_within_s' is 1e+300, must be from 0.1 to 3600: what moves comes "
+     "to rest before anything ends\n"},
     {"NegativeSeed", "clock: simulated", "seed: -1",
-     "deployment.yaml:3:7: 'seed' must not be negative\n"},
+     "deployment.yaml:3:7: 'seed' must be a whole number from 0 to 18446744073709551615, not "
+     "'-1'\n"},
+    {"SeedBeyond64Bits", "clock: simulated", "seed: 18446744073709551616",
+     "deployment.yaml:3:7: 'seed' must be a whole number from 0 to 18446744073709551615, not "
+     "'18446744073709551616'\n"},
+    {"SeedThatIsNotWhole", "clock: simulated", "seed: 1.5",
+     "deployment.yaml:3:7: 'seed' must be a whole number from 0 to 18446744073709551615, not "
+     "'1.5'\n"},
     {"NegativePeriod", "period_s: 0.001", "period_s: -0.001",
-     "deployment.yaml:6:33: 'period_s' is -0.001, must be at least 0.0001\n"},
+     "deployment.yaml:6:33: 'period_s' is -0.001, must be from 0.0001 to 3600\n"},
     {"UnknownClock", "clock: simulated", "clock: simulatd",
      "deployment.yaml:3:8: 'clock' cannot be 'simulatd'; did you mean 'simulated'?\n"},
     {"RenameOfNoInput", "{plugin: face_pose/three_point}",
@@ -278,7 +295,10 @@ const Fault kFaults[] = {
      "deployment.yaml:6:7: 'open' must be a list of inputs, [task.target], not 'motion.goal'\n"},
     {"NegativeLatency", "{plugin: face_pose/three_point}",
      "{plugin: face_pose/three_point, sim_latency_s: -0.1}",
-     "deployment.yaml:10:56: 'sim_latency_s' must not be negative\n"},
+     "deployment.yaml:10:56: 'sim_latency_s' is -0.1, must be from 0 to 3600\n"},
+    {"EndlessLatency", "{plugin: face_pose/three_point}",
+     "{plugin: face_pose/three_point, sim_latency_s: 1e300}",
+     "deployment.yaml:10:56: 'sim_latency_s' is 1e+300, must be from 0 to 3600\n"},
     {"TimeLawThatNobodyKeeps",
      "path: {plugin: path/mouth_arc}\n"
      "    ik: {plugin: ik/lamp_geometric}\n"
@@ -301,6 +321,8 @@ const Fault kFaults[] = {
     {"MoveOfNothing", "tilt_up_deg: 0", "move_duration_s: 2",
      "deployment.yaml:8:3: component 'scene': move_duration_s is set but nothing moves; set "
      "move_mm, move_tilt_up_deg or move_tilt_side_deg, or move_duration_s to 0\n"},
+    {"GoalThatNothingMeets", "distance_error_mm: 1.5", "distance_error_mm: -1",
+     "deployment.yaml:22:28: the goal -1 cannot be met: 'distance_error_mm' is never below 0\n"},
     {"GoalForAMetricThatIsMistyped", "distance_error_mm: 1.5", "distance_eror_mm: 1.5",
      "deployment.yaml:22:9: no component measures 'distance_eror_mm'; did you mean "
      "'distance_error_mm'?\n"},
@@ -372,6 +394,13 @@ using SoundDeployment = FaultyDeployment;
 TEST_F(SoundDeployment, PassesTheCheck) {
   const auto result = check({{"name: faulty", "name: sound"}});
   EXPECT_EQ(result.exit_code, 0) << result.err;
+}
+
+TEST_F(SoundDeployment, EverySeedOf64BitsPassesTheCheck) {
+  for (const std::string seed : {"0", "9223372036854775808", "18446744073709551615"}) {
+    const auto result = check({{"clock: simulated", "seed: " + seed}});
+    EXPECT_EQ(result.exit_code, 0) << seed << ": " << result.err;
+  }
 }
 
 TEST_F(SoundDeployment, ATimeLawThatIsKeptOrNotUsedPassesTheCheck) {

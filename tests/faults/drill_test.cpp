@@ -2,9 +2,12 @@
 // A drill passes what stops, fails what does not, and is not begun where metal would move.
 #include <gmock/gmock.h>
 
+#include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "command.hpp"
 #include "tests/dds_domain.hpp"
@@ -61,6 +64,49 @@ TEST(Drill, AnArmThatJumpsToItsRestFailsIt) {
   const json row = interrupted_runaway("components.arm.params.jumps=true");
   EXPECT_THAT(row["arm"].get<std::string>(), HasSubstr("'arm' was beyond its limits: joint j1 at"));
 }
+
+/// The run that a drill has started, whichever of its threads did; 0: none yet.
+pid_t run_of(pid_t drill) {
+  std::error_code none;
+  const std::filesystem::path tasks = "/proc/" + std::to_string(drill) + "/task";
+  for (const auto& task : std::filesystem::directory_iterator{tasks, none}) {
+    std::ifstream children{task.path() / "children"};
+    for (pid_t child = 0; children >> child;) {
+      std::ifstream line{"/proc/" + std::to_string(child) + "/cmdline"};
+      std::string program, verb;
+      std::getline(line, program, '\0');
+      if (std::getline(line, verb, '\0') && verb == "run") return child;
+    }
+  }
+  return 0;
+}
+
+class InterruptedDrill : public testing::TestWithParam<int> {};
+
+TEST_P(InterruptedDrill, EndsTheRunThatItHasStartedBeforeItEndsItself) {
+  Command drilled{drill("configs/sr1_biopsy.yaml",
+                        {"--faults", "interrupt", "--within", "0", "--moments", "9", "--json"})};
+  const auto end = std::chrono::steady_clock::now() + kWithin;
+  while (run_of(drilled.pid()) == 0 && std::chrono::steady_clock::now() < end) {
+    std::this_thread::sleep_for(std::chrono::milliseconds{1});
+  }
+  std::this_thread::sleep_for(std::chrono::milliseconds{GetParam()});
+  const pid_t run = run_of(drilled.pid());
+  drilled.signal(SIGINT);
+  const CommandResult result = drilled.finish(std::chrono::seconds{15});
+  EXPECT_FALSE(result.timed_out);
+  if (run != 0) {
+    EXPECT_TRUE(ends_within(run, std::chrono::seconds{0}));
+  }
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.err, "armature: interrupted; runs that were started come to rest first\n");
+  const json told = json::parse(result.out, nullptr, false);
+  EXPECT_EQ(told.value("stopped", ""), "interrupted") << result.out;
+  EXPECT_EQ(told.value("failed", -1), 0) << "a trial that was interrupted has not failed";
+}
+
+INSTANTIATE_TEST_SUITE_P(BeforeItsStartAndWhileItMoves, InterruptedDrill, testing::Values(0, 1500),
+                         [](const auto& ms) { return std::to_string(ms.param) + "ms"; });
 
 TEST(Drill, IsRefusedWhereMetalMoves) {
   const CommandResult result =

@@ -95,8 +95,12 @@ TEST_F(PulledPlug, AnInterruptedArmComesToRestInEitherProcess) {
 
 TEST_F(PulledPlug, EverySignalThatEndsARunIsToldInItsOwnWords) {
   std::signal(SIGHUP, SIG_DFL);  // a run goes on ignoring what its starter ignores, as under nohup
-  for (const auto& [signal, words] :
-       std::map<int, std::string>{{SIGTERM, "terminated"}, {SIGHUP, "the terminal was closed"}}) {
+  for (const auto& [signal, words] : std::map<int, std::string>{
+           {SIGTERM, "terminated"},
+           {SIGHUP, "the terminal was closed"},
+           {SIGQUIT, "ended by SIGQUIT"},
+           {SIGUSR1, "ended by SIGUSR1"},
+           {SIGRTMIN + 1, "ended by signal " + std::to_string(SIGRTMIN + 1)}}) {
     Command run{command(), options_};
     ASSERT_TRUE(run.wait_for_err("arm       moves", kWithin)) << run.err();
     run.signal(signal);
@@ -105,6 +109,48 @@ TEST_F(PulledPlug, EverySignalThatEndsARunIsToldInItsOwnWords) {
     EXPECT_THAT(result.err, HasSubstr(kEndedAtRest));
     EXPECT_TRUE(result.err.ends_with("armature: " + words + "\n")) << result.err;
   }
+}
+
+/// The signals that a process handles.
+std::set<int> handled_by(pid_t pid) {
+  std::ifstream status{"/proc/" + std::to_string(pid) + "/status"};
+  std::set<int> handled;
+  for (std::string line; std::getline(status, line);) {
+    if (!line.starts_with("SigCgt:")) continue;
+    const auto mask = std::stoull(line.substr(line.find('\t')), nullptr, 16);
+    for (int signal = 1; signal <= 64; ++signal) {
+      if (mask >> (signal - 1) & 1) handled.insert(signal);
+    }
+  }
+  return handled;
+}
+
+TEST_F(PulledPlug, NoSignalButThatOfACrashEndsAProcessWhoseArmMoves) {
+  std::signal(SIGHUP, SIG_DFL);
+  Command run{command({kApart}), options_};
+  ASSERT_TRUE(run.wait_for_err("arm       moves", kWithin)) << run.err();
+  std::set<int> end_it{SIGHUP,    SIGINT,  SIGQUIT, SIGUSR1, SIGUSR2,   SIGPIPE, SIGALRM, SIGTERM,
+                       SIGSTKFLT, SIGXCPU, SIGXFSZ, SIGPROF, SIGVTALRM, SIGPOLL, SIGPWR};
+  for (int signal = SIGRTMIN; signal <= SIGRTMAX; ++signal) end_it.insert(signal);
+  for (const pid_t pid : {run.pid(), run.child()}) {
+    EXPECT_THAT(handled_by(pid), testing::IsSupersetOf(end_it)) << run.err();
+  }
+  run.signal(SIGINT);
+  run.finish(kWithin);
+}
+
+TEST_F(PulledPlug, ASignalThatIsNoOperatorsDoesNotEndAtOnceHoweverOftenItComes) {
+  Command run{command({"components.arm.params.rest_after_s=1000", "run.stop_within_s=1.5"}),
+              options_};
+  ASSERT_TRUE(run.wait_for_err("arm       moves", kWithin)) << run.err();
+  for (int i = 0; i < 5; ++i) {
+    run.signal(SIGALRM);
+    std::this_thread::sleep_for(milliseconds{50});
+  }
+  const CommandResult result = run.finish(kWithin);
+  EXPECT_THAT(result.err, HasSubstr("runtime   stopping: ended by SIGALRM\n"));
+  EXPECT_THAT(result.err, Not(HasSubstr("third signal")));
+  EXPECT_THAT(result.out, HasSubstr("'arm' was not at rest 1.5 s after it was to stop"));
 }
 
 /// The time of the run's own line that says `text`; NaN without one.

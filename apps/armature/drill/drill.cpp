@@ -4,17 +4,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <exception>
 #include <mutex>
+#include <optional>
 #include <random>
+#include <stop_token>
 #include <thread>
 
 #include "armature/config/problems.hpp"
 #include "armature/runtime/instance_lock.hpp"
 #include "drill/drill_report.hpp"
 #include "drill/trial.hpp"
+#include "end_signals.hpp"
 #include "exit_code.hpp"
 
 namespace armature {
@@ -73,7 +77,8 @@ std::vector<Planned> plan(const DrilledDeployment& deployment, const DrillOption
   return planned;
 }
 
-/// Fires what is planned, some at a time, and shows each result as it comes.
+/// Fires what is planned, some at a time, and shows each result as it comes. A signal interrupts
+/// the runs; the drill is over when they have ended.
 class Drill {
  public:
   Drill(const DrillOptions& options, const DrilledDeployment& deployment,
@@ -83,15 +88,32 @@ class Drill {
   std::vector<TrialResult> run() {
     const int jobs = options_->domain ? 1 : options_->jobs;
     {
+      std::atomic<int> working{jobs};
       std::vector<std::jthread> workers;
-      for (int i = 0; i < jobs; ++i) workers.emplace_back([this] { work(); });
+      for (int i = 0; i < jobs; ++i) {
+        workers.emplace_back([this, &working] {
+          work();
+          --working;
+        });
+      }
+      for (; working > 0; std::this_thread::sleep_for(kLook)) look_for_signal();
     }
     if (error_) std::rethrow_exception(error_);
     return std::move(results_);
   }
+  /// What has interrupted it.
+  const std::optional<std::string>& stopped() const { return stopped_; }
 
  private:
   using Clock = std::chrono::steady_clock;
+
+  void look_for_signal() {
+    if (stopped_) return;
+    stopped_ = end_signals::cause();
+    if (!stopped_) return;
+    fmt::print(stderr, "armature: {}; runs that were started come to rest first\n", *stopped_);
+    stop_.request_stop();
+  }
 
   void work() {
     try {
@@ -102,8 +124,10 @@ class Drill {
         const TrialResult result = try_fault({.source = options_->source,
                                               .deployment = *deployment_,
                                               .plugins = plugins,
-                                              .domain = domain.number},
+                                              .domain = domain.number,
+                                              .stop = stop_.get_token()},
                                              planned->fault, planned->form, planned->moment_s);
+        if (stop_.stop_requested()) return;
         keep(result, Clock::now() - start);
       }
     } catch (...) {
@@ -116,7 +140,7 @@ class Drill {
   const Planned* next() {
     const std::scoped_lock lock{mutex_};
     const bool too_late = options_->brief && Clock::now() - start_ + longest_ > kBrief;
-    if (too_late || error_ || next_ == planned_.size()) return nullptr;
+    if (too_late || error_ || stop_.stop_requested() || next_ == planned_.size()) return nullptr;
     return &planned_[next_++];
   }
 
@@ -130,6 +154,7 @@ class Drill {
   }
 
   static constexpr std::chrono::seconds kBrief{30};
+  static constexpr std::chrono::milliseconds kLook{10};
   const DrillOptions* options_;
   const DrilledDeployment* deployment_;
   const std::vector<Planned> planned_;
@@ -139,6 +164,8 @@ class Drill {
   Clock::duration longest_{0};
   std::vector<TrialResult> results_;
   std::exception_ptr error_;
+  std::stop_source stop_;
+  std::optional<std::string> stopped_;
 };
 
 }  // namespace
@@ -152,8 +179,12 @@ int run_drill(const DrillOptions& options) {
   if (!options.json) fmt::print("{}: --seed {}\n{}\n", deployment.name, seed, drill::table_head());
   std::fflush(stdout);
   drill::Drill drill{options, deployment, drill::plan(deployment, options, seed)};
+  end_signals::say({.json = options.json});
+  end_signals::stop_in_order();
   const auto results = drill.run();
-  fmt::print("{}\n", options.json ? to_json(deployment.name, seed, results) : counts(results));
+  fmt::print("{}\n", options.json ? to_json(deployment.name, seed, results, drill.stopped())
+                                  : counts(results));
+  if (drill.stopped()) return kFailed;
   return std::ranges::all_of(results, &drill::TrialResult::passed) ? kOk : kFailed;
 }
 

@@ -44,7 +44,8 @@ std::string counts(const std::vector<TrialResult>& results) {
 }
 
 std::string to_json(const std::string& deployment, std::uint64_t seed,
-                    const std::vector<TrialResult>& results) {
+                    const std::vector<TrialResult>& results,
+                    const std::optional<std::string>& stopped) {
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
   for (const TrialResult& result : results) {
     rows.push_back({{"fault", result.fault},
@@ -57,11 +58,12 @@ std::string to_json(const std::string& deployment, std::uint64_t seed,
                     {"passed", result.passed()}});
   }
   const auto well = passed(results);
-  const nlohmann::ordered_json json{{"deployment", deployment},
-                                    {"seed", seed},
-                                    {"faults", rows},
-                                    {"passed", well},
-                                    {"failed", std::ssize(results) - well}};
+  nlohmann::ordered_json json{{"deployment", deployment},
+                              {"seed", seed},
+                              {"faults", rows},
+                              {"passed", well},
+                              {"failed", std::ssize(results) - well}};
+  if (stopped) json["stopped"] = *stopped;
   return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,8 +15,9 @@ std::string table_head();
 std::string table_row(const TrialResult& result);
 /// "12 passed, 1 failed".
 std::string counts(const std::vector<TrialResult>& results);
-/// The same as one JSON object.
+/// The same as one JSON object. `stopped`: what has interrupted the drill.
 std::string to_json(const std::string& deployment, std::uint64_t seed,
-                    const std::vector<TrialResult>& results);
+                    const std::vector<TrialResult>& results,
+                    const std::optional<std::string>& stopped);
 
 }  // namespace armature::drill

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,6 +24,7 @@ struct Scene {
   Pendant* pendant;                    // of a fault that has one
   Arrival& fired_at;                   // where it takes effect later than it is begun
   std::vector<std::string> arguments;  // that the run was started with, behind `armature`
+  std::stop_token stop;                // requested when the drill is interrupted
 };
 
 /// The outcome with which a fault is passed.

@@ -188,7 +188,7 @@ std::optional<Fault> stranger(const DrilledDeployment&, Form form) {
 
 std::optional<Fault> second_start(const DrilledDeployment&, Form) {
   return Fault{.name = {}, .outcome = Outcome::goes_on, .shown = {}, .fire = [](Scene& scene) {
-                 RunUnderTest second{scene.arguments};
+                 RunUnderTest second{scene.arguments, scene.stop};
                  if (!second.ends_within(std::chrono::seconds{20})) {
                    return std::string{"a second start was not refused"};
                  }
@@ -204,7 +204,7 @@ std::optional<Fault> second_start(const DrilledDeployment&, Form) {
 constexpr const char* kStopHeard = "a stop was asked for";
 
 std::string stop_all(Scene& scene) {
-  RunUnderTest stop{{"stop", "--domain", std::to_string(scene.domain)}};
+  RunUnderTest stop{{"stop", "--domain", std::to_string(scene.domain)}, scene.stop};
   // Until it has found them the arms go on with their task: they may rest, and move again.
   scene.run.wait_for_line(kStopHeard, milliseconds{10000});
   scene.fired_at = std::chrono::steady_clock::now();

@@ -44,7 +44,7 @@ bool is_there(pid_t pid) {
 
 }  // namespace
 
-RunUnderTest::RunUnderTest(std::vector<std::string> arguments) {
+RunUnderTest::RunUnderTest(std::vector<std::string> arguments, const std::stop_token& stop) {
   std::array<int, 2> ends{};
   if (pipe2(ends.data(), O_CLOEXEC) != 0) {
     throw std::system_error(errno, std::generic_category(), "cannot make a pipe");
@@ -65,10 +65,12 @@ RunUnderTest::RunUnderTest(std::vector<std::string> arguments) {
     throw std::system_error(error, std::generic_category(), "cannot start a run");
   }
   processes_["main"] = pid_;
-  reader_ = std::jthread{[this](std::stop_token stop) { read_lines(stop); }};
+  reader_ = std::jthread{[this](std::stop_token end) { read_lines(end); }};
+  on_stop_.emplace(stop, [this] { interrupt(); });
 }
 
 RunUnderTest::~RunUnderTest() {
+  on_stop_.reset();
   if (!all_ended()) {
     find_processes();
     for (const auto& [name, pid] : processes_) {
@@ -96,7 +98,13 @@ bool RunUnderTest::signal(const std::string& process, int number) {
   return found != processes_.end() && is_there(found->second) && kill(found->second, number) == 0;
 }
 
+void RunUnderTest::interrupt() {
+  const std::scoped_lock lock{process_mutex_};
+  if (!exit_code_) kill(pid_, SIGINT);
+}
+
 bool RunUnderTest::runs() {
+  const std::scoped_lock lock{process_mutex_};
   int status = 0;
   if (!exit_code_ && waitpid(pid_, &status, WNOHANG) == pid_) {
     exit_code_ = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);

@@ -4,9 +4,11 @@
 #include <sys/types.h>
 
 #include <chrono>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <thread>
 #include <vector>
@@ -17,8 +19,9 @@ namespace armature::drill {
 /// operator. It is killed, with the processes that it has started, when this goes.
 class RunUnderTest {
  public:
-  /// `arguments`: those behind `armature`. Throws std::system_error when it cannot be started.
-  explicit RunUnderTest(std::vector<std::string> arguments);
+  /// `arguments`: those behind `armature`. It is interrupted once, from any thread, when `stop` is
+  /// requested. Throws std::system_error when it cannot be started.
+  RunUnderTest(std::vector<std::string> arguments, const std::stop_token& stop);
   ~RunUnderTest();
   RunUnderTest(const RunUnderTest&) = delete;
   RunUnderTest& operator=(const RunUnderTest&) = delete;
@@ -57,9 +60,11 @@ class RunUnderTest {
   void read_lines(std::stop_token stop);
   void take(std::string_view text);
   bool all_ended();
+  void interrupt();
 
   pid_t pid_ = -1;
   std::map<std::string, pid_t> processes_;
+  std::mutex process_mutex_;  // so that no process is interrupted that has been waited for
   std::optional<int> exit_code_;
   int output_ = -1;    // a file in memory: its standard output
   int terminal_ = -1;  // our end of its standard error
@@ -69,6 +74,7 @@ class RunUnderTest {
   std::string unfinished_;
   std::vector<std::string> lines_;
   std::jthread reader_;
+  std::optional<std::stop_callback<std::function<void()>>> on_stop_;
 };
 
 }  // namespace armature::drill

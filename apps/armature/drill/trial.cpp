@@ -68,11 +68,12 @@ class Trial {
                                    : nullptr},
         arguments_{arguments_of(options, fault, form, pendant_.get())},
         listener_{options.plugins, options.deployment, options.domain},
-        run_{arguments_} {}
+        run_{arguments_, options.stop} {}
 
   TrialResult run(Form form, double moment_s) {
     result_ = {.fault = fault_.name, .form = form, .moment_s = moment_s};
     if (reach_moment() && fire() && end()) judge_arms();
+    if (options_.stop.stop_requested()) run_.ends_within(end_patience());
     return result_;
   }
 
@@ -88,7 +89,9 @@ class Trial {
       return fail("no arm moved: " + run_.last_line());
     }
     run_.find_processes();
-    std::this_thread::sleep_for(std::chrono::duration<double>{result_.moment_s});
+    wait_for(
+        std::chrono::duration_cast<milliseconds>(std::chrono::duration<double>{result_.moment_s}),
+        [&] { return !run_.runs(); });
     wait_for(kMoveAgainWithin, [&] { return !run_.runs() || listener_.any_moves(); });
     if (run_.runs()) return true;
     return fail("it had ended before the fault: " + how_it_ended());
@@ -113,7 +116,8 @@ class Trial {
                 .domain = options_.domain,
                 .pendant = pendant_.get(),
                 .fired_at = stop_at_,
-                .arguments = arguments_};
+                .arguments = arguments_,
+                .stop = options_.stop};
     if (const std::string wrong = fault_.fire(scene); !wrong.empty()) return fail(wrong);
     return fault_.outcome == Outcome::stops || go_on();
   }
@@ -138,9 +142,13 @@ class Trial {
     result_.shown = run_.wait_for_line(fault_.shown, kShownWithin).value_or("");
   }
 
-  bool end() {
+  milliseconds end_patience() const {
     // Beside coming to rest: steps that hang are waited for, and so are processes that do not end.
-    const milliseconds patience{static_cast<int>(1000 * options_.deployment.stop_within_s) + 10000};
+    return milliseconds{static_cast<int>(1000 * options_.deployment.stop_within_s) + 10000};
+  }
+
+  bool end() {
+    const milliseconds patience = end_patience();
     if (!run_.ends_within(patience)) {
       return fail(fmt::format("it had not ended after {} s", patience.count() / 1000));
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -30,10 +31,13 @@ struct TrialOptions {
   const DrilledDeployment& deployment;
   PluginRegistry& plugins;
   int domain;
+  std::stop_token stop;  // when it is requested, runs are interrupted
 };
 
 /// Starts the deployment in this form, fires the fault `moment_s` after an arm was first seen to
-/// move, in motion if it moves again within a second, and judges by the arms' own samples.
+/// move, in motion if it moves again within a second, and judges by the arms' own samples. Returns
+/// when the run and its processes have ended, or were killed because they took too long. The
+/// result of a trial that was interrupted means nothing.
 TrialResult try_fault(const TrialOptions& options, const Fault& fault, Form form, double moment_s);
 
 }  // namespace armature::drill

@@ -67,13 +67,25 @@ LoopSide side_since(MeasuredLoop& contestant, const Begin& begin) {
           .allocations = end.thread.allocations - begin.thread.allocations};
 }
 
+/// Until it has made the steps that fill queues and touch memory for the first time. How long it
+/// takes to begin at all is not measured.
+void settle(MeasuredLoop& contestant) {
+  constexpr std::uint64_t kSteps = 300;
+  constexpr auto kPatience = std::chrono::seconds{60};
+  const auto end = std::chrono::steady_clock::now() + kPatience;
+  while (contestant.lateness().counts().figures().count < kSteps) {
+    if (std::chrono::steady_clock::now() > end) throw std::runtime_error{"a loop stands still"};
+    wait_for(0.01);
+  }
+}
+
 /// Both at the same time, half of it on each other's processor.
 bench::LoopRound round_of(MeasuredLoop& a, MeasuredLoop& b, std::pair<int, int> cpus,
                           double seconds) {
-  constexpr double kSettle_s = 0.3;
   a.requests().move(cpus.first);
   b.requests().move(cpus.second);
-  wait_for(kSettle_s);
+  settle(a);
+  settle(b);
   const Begin begin_a = begin_of(a), begin_b = begin_of(b);
   wait_for(seconds / 2);
   a.requests().move(cpus.second);
@@ -94,6 +106,15 @@ void await_readers(const bench::OurLoop& loop, int count) {
 }
 
 }  // namespace
+
+std::string wrong_round(const LoopBenchOptions& options) {
+  constexpr double kSteps = 1000;
+  const double steps = options.seconds / options.period_s;
+  if (steps > kSteps - 0.5) return "";
+  return fmt::format(
+      "a round of {:g} s has {:.0f} steps of {:g} s, and p99.9 needs {:g}: at least {:g} s",
+      options.seconds, steps, options.period_s, kSteps, kSteps * options.period_s);
+}
 
 int bench_loop(const LoopBenchOptions& options) {
   const auto cpus = two_cpus();

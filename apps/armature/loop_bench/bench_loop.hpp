@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
+
 namespace armature {
 
 struct LoopBenchOptions {
@@ -12,6 +14,10 @@ struct LoopBenchOptions {
   int domain = 100;   // DDS
   bool json = false;
 };
+
+/// What is wrong with the length of a round, or "": of a thousand steps one may be later than p99.9
+/// says, and with fewer that is the latest one.
+std::string wrong_round(const LoopBenchOptions& options);
 
 /// `armature bench loop`: how late an executor's steps begin beside those of a bare thread that
 /// sleeps to the same instants, on the same machine in the same seconds, without and with other

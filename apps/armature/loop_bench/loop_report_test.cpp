@@ -38,6 +38,16 @@ TEST_F(LoopReportTest, ComparesTheMedianOfItsRatiosWithThatOfTwoTwins) {
   EXPECT_FALSE(is_met(report_));
 }
 
+TEST(LoopRoundTest, HasAtLeastAThousandSteps) {
+  EXPECT_EQ(wrong_round({}), "");
+  EXPECT_EQ(wrong_round({.seconds = 1, .period_s = 0.001}), "");
+  EXPECT_EQ(wrong_round({.seconds = 0.3, .period_s = 0.0003}), "");
+  EXPECT_EQ(wrong_round({.seconds = 0.1, .period_s = 0.001}),
+            "a round of 0.1 s has 100 steps of 0.001 s, and p99.9 needs 1000: at least 1 s");
+  EXPECT_EQ(wrong_round({.seconds = 4, .period_s = 0.1}),
+            "a round of 4 s has 40 steps of 0.1 s, and p99.9 needs 1000: at least 100 s");
+}
+
 TEST_F(LoopReportTest, NeedNotBeBetterThanATwin) {
   report_.noise = {round(5e-6, 10e-6)};
   EXPECT_EQ(noise_of(report_), 1);

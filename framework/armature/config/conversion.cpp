@@ -7,6 +7,7 @@
 #include <array>
 #include <cctype>
 #include <charconv>
+#include <limits>
 #include <string_view>
 
 #include "armature/config/problems.hpp"
@@ -157,6 +158,19 @@ Converted<std::int64_t> to_integer(const Node& node) {
   }
   if (error != std::errc{}) {
     return mismatch(node, fmt::format("is {}, which 64 bits cannot hold", node.describe()));
+  }
+  return value;
+}
+
+Converted<std::uint64_t> to_natural(const Node& node) {
+  const std::string wanted =
+      fmt::format("a whole number from 0 to {}", std::numeric_limits<std::uint64_t>::max());
+  const auto digits = decimal_text(node, wanted);
+  if (!digits) return tl::unexpected{digits.error()};
+  std::uint64_t value = 0;
+  const auto [end, error] = std::from_chars(digits->data(), digits->data() + digits->size(), value);
+  if (error != std::errc{} || end != digits->data() + digits->size()) {
+    return mismatch(node, fmt::format("must be {}, not {}", wanted, node.describe()));
   }
   return value;
 }

@@ -23,6 +23,8 @@ using Converted = tl::expected<T, Mismatch>;
 
 Converted<double> to_number(const Node& node);
 Converted<std::int64_t> to_integer(const Node& node);
+/// A whole number from 0 to 2^64 - 1.
+Converted<std::uint64_t> to_natural(const Node& node);
 Converted<bool> to_flag(const Node& node);
 Converted<std::string> to_text(const Node& node);
 /// A list of `count` numbers; without a count, of any length.

@@ -97,6 +97,11 @@ std::int64_t MapReader::integer(std::string_view key, std::int64_t fallback) {
   return value ? noted(to_integer(*value), problems_, named(key)).value_or(fallback) : fallback;
 }
 
+std::uint64_t MapReader::natural(std::string_view key, std::uint64_t fallback) {
+  const Node* value = look(key);
+  return value ? noted(to_natural(*value), problems_, named(key)).value_or(fallback) : fallback;
+}
+
 bool MapReader::flag(std::string_view key, bool fallback) {
   const Node* value = look(key);
   return value ? noted(to_flag(*value), problems_, named(key)).value_or(fallback) : fallback;

@@ -47,6 +47,8 @@ class MapReader {
   /// Optional values.
   double number(std::string_view key, double fallback);
   std::int64_t integer(std::string_view key, std::int64_t fallback);
+  /// From 0 to 2^64 - 1.
+  std::uint64_t natural(std::string_view key, std::uint64_t fallback);
   bool flag(std::string_view key, bool fallback);
   std::string text(std::string_view key, std::string fallback);
   /// One of `allowed`, or a problem with the nearest of them.

@@ -81,6 +81,24 @@ TEST(Integers, AreWhole) {
             "f:1:1: is '9223372036854775808', which 64 bits cannot hold\n");
 }
 
+TEST(Naturals, AreWholeFrom0ToAllOf64Bits) {
+  const auto natural = [](const std::string& text, Problems& problems) {
+    const Node node = parse_text("seed: " + text, "f");
+    return MapReader{node, "the map", problems}.natural("seed", 7);
+  };
+  Problems problems;
+  EXPECT_EQ(natural("0", problems), 0U);
+  EXPECT_EQ(natural("18446744073709551615", problems), std::numeric_limits<std::uint64_t>::max());
+  EXPECT_TRUE(problems.empty());
+  EXPECT_EQ(natural("-1", problems), 7U);
+  EXPECT_EQ(natural("18446744073709551616", problems), 7U);
+  EXPECT_EQ(natural("1e3", problems), 7U);
+  const std::string must =
+      "f:1:7: 'seed' must be a whole number from 0 to 18446744073709551615, not ";
+  EXPECT_EQ(text_of(problems),
+            must + "'-1'\n" + must + "'18446744073709551616'\n" + must + "'1e3'\n");
+}
+
 TEST(Flags, AreTrueOrFalseOnly) {
   Problems problems;
   EXPECT_EQ(as_flag(parse_text("true", "f"), problems), true);

@@ -63,7 +63,9 @@ class Component {
   /// A line for the operator ("searching 4/9"); printed when it differs from the one before. All
   /// three are real-time safe; very long text is cut.
   void say(std::string_view text);
-  /// Published as the component's state until `healthy` is called: what is missing and why.
+  /// Published as the component's state until `healthy` is called: what is missing and why. It is
+  /// printed, too, but not while the run is stopping and the component rests: what it hears from
+  /// ends then.
   void degraded(std::string_view reason);
   void healthy();
 

@@ -118,7 +118,10 @@ std::optional<ComponentConfig> ComponentReader::read(const Node::Entry& entry) c
                             named->id, kMainProcess, component.name));
   }
   const double sim_latency = map.number("sim_latency_s", 0.0);
-  if (sim_latency < 0) map.problem("sim_latency_s", "'sim_latency_s' must not be negative");
+  if (sim_latency < 0 || sim_latency > kLongestWait_s) {
+    map.problem("sim_latency_s", fmt::format("'sim_latency_s' is {:g}, must be from 0 to {:g}",
+                                             sim_latency, kLongestWait_s));
+  }
   component.sim_latency = seconds(sim_latency);
   if (map.optional_node("on_fault")) {
     const bool stops = map.choice("on_fault", {"stop", "isolate"}, "stop") == "stop";

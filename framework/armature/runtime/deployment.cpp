@@ -54,7 +54,9 @@ void check_period(const ComponentConfig& component, const Unit& unit,
 }  // namespace
 
 Deployment::Deployment(DeploymentConfig config, PluginRegistry& plugins, Options options)
-    : config_{std::move(config)}, options_{std::move(options)} {
+    : config_{std::move(config)},
+      options_{std::move(options)},
+      lost_peers_{config_.name, config_.processes(), options_.process} {
   if (!options_.on_note) options_.on_note = [](const std::string&) {};
   make_scheduler();
   std::vector<const ComponentConfig*> order;
@@ -167,11 +169,15 @@ void Deployment::make_own_unit(std::string_view name, const PluginManifest& mani
 }
 
 void Deployment::on_event(const TransportEvent& event) {
-  options_.on_note(event.text);
-  // While the run is stopping others may end before this process does.
-  if (event.kind != TransportEvent::Kind::peer_lost || !event.of_peer || stopping_) return;
-  const std::scoped_lock lock{silent_mutex_};
-  silent_.push_back(event.text);
+  if (event.kind != TransportEvent::Kind::peer_lost) return options_.on_note(event.text);
+  bool is_told = false;
+  {
+    const std::scoped_lock lock{silent_mutex_};
+    is_told = lost_peers_.is_told_here(event.text);
+    // While the run is stopping others may end before this process does.
+    if (event.of_peer && !stopping_) silent_.push_back(event.text);
+  }
+  if (is_told) options_.on_note(event.text);
 }
 
 std::vector<std::string> Deployment::silent() const {

@@ -14,6 +14,7 @@
 #include "armature/runtime/clock.hpp"
 #include "armature/runtime/component_setup.hpp"
 #include "armature/runtime/deployment_config.hpp"
+#include "armature/runtime/lost_peers.hpp"
 #include "armature/runtime/outside.hpp"
 #include "armature/runtime/run_watch.hpp"
 #include "armature/runtime/scheduler.hpp"
@@ -120,6 +121,7 @@ class Deployment {
   std::atomic<bool> stopping_{false};
   mutable std::mutex silent_mutex_;
   std::vector<std::string> silent_;
+  LostPeers lost_peers_;
   std::vector<std::string> moving_;
   std::vector<const Unit*> hung_;
   std::optional<Outside> outside_;  // the topics that it has writers of go first

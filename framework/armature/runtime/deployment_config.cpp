@@ -31,6 +31,8 @@ using config::Node;
 using config::Problems;
 
 constexpr double kShortestPeriod_s = 1e-4;
+/// Processes tell each other in this time that they are at rest. With less no run would end well.
+constexpr double kShortestStop_s = 0.1;
 
 bool is_name(std::string_view text) {
   const bool digit = !text.empty() && std::isdigit(static_cast<unsigned char>(text.front()));
@@ -86,11 +88,11 @@ std::vector<ExecutorSpec> read_executors(std::span<const Node::Entry> section, P
     MapReader map{value, fmt::format("executor '{}'", name), problems};
     ExecutorSpec spec{.name = name, .period = {}, .priority = 0, .cpu = {}};
     if (map.optional_node("period_s")) {
-      const double period = map.number("period_s");
+      const double period = map.number("period_s", kShortestPeriod_s);
       spec.period = seconds(period);
-      if (!(period >= kShortestPeriod_s)) {
-        map.problem("period_s", fmt::format("'period_s' is {:g}, must be at least {:g}", period,
-                                            kShortestPeriod_s));
+      if (period < kShortestPeriod_s || period > kLongestWait_s) {
+        map.problem("period_s", fmt::format("'period_s' is {:g}, must be from {:g} to {:g}", period,
+                                            kShortestPeriod_s, kLongestWait_s));
       }
     }
     const std::int64_t priority = map.integer("priority", 0);
@@ -147,9 +149,7 @@ DeploymentConfig read_deployment(const Node& root, const PluginRegistry& plugins
   const std::int64_t domain = map.integer("domain", 0);
   if (domain < 0 || domain > 232) map.problem("domain", "'domain' must be from 0 to 232");
   deployment.domain = static_cast<int>(domain);
-  const std::int64_t seed = map.integer("seed", 1);
-  if (seed < 0) map.problem("seed", "'seed' must not be negative");
-  deployment.seed = static_cast<std::uint64_t>(seed);
+  deployment.seed = map.natural("seed", 1);
   deployment.time_limit_s = 0;
   if (const Node* run = map.optional_node("run")) {
     MapReader run_map{*run, "run", problems};
@@ -158,9 +158,11 @@ DeploymentConfig read_deployment(const Node& root, const PluginRegistry& plugins
       run_map.problem("time_limit_s", "'time_limit_s' must be positive, or 0 for none");
     }
     deployment.stop_within_s = run_map.number("stop_within_s", deployment.stop_within_s);
-    if (!(deployment.stop_within_s >= 0)) {
+    if (deployment.stop_within_s < kShortestStop_s || deployment.stop_within_s > kLongestWait_s) {
       run_map.problem("stop_within_s",
-                      "'stop_within_s' must be positive, or 0 to wait for nothing");
+                      fmt::format("'stop_within_s' is {:g}, must be from {:g} to {:g}: what moves "
+                                  "comes to rest before anything ends",
+                                  deployment.stop_within_s, kShortestStop_s, kLongestWait_s));
     }
     run_map.finish();
   }

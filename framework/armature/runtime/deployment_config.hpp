@@ -59,7 +59,7 @@ struct ComponentConfig {
 struct Goal {
   std::string metric;
   double limit;
-  config::Origin origin;
+  config::Origin origin, limit_origin;
 };
 
 /// A deployment file, read, checked and resolved against the plugins that are there.
@@ -79,6 +79,8 @@ struct DeploymentConfig {
   std::vector<std::string> processes() const;  // "main" first
 };
 
+/// What a file may let anything wait for: a longer time is a slip of the pen.
+inline constexpr double kLongestWait_s = 3600;
 inline constexpr std::string_view kMainProcess = "main";
 inline constexpr std::string_view kMainExecutor = "main";
 inline constexpr std::string_view kRuntimeExecutor = "runtime";  // of the runtime's own components

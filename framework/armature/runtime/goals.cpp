@@ -12,8 +12,10 @@
 namespace armature {
 namespace {
 
-bool measures(const PluginManifest& plugin, const std::string& metric) {
-  return std::ranges::find(plugin.measures, metric, &MetricSpec::name) != plugin.measures.end();
+/// What the plugin says of a metric; nullptr when it does not measure it.
+const MetricSpec* find_metric(const PluginManifest& plugin, const std::string& metric) {
+  const auto found = std::ranges::find(plugin.measures, metric, &MetricSpec::name);
+  return found == plugin.measures.end() ? nullptr : &*found;
 }
 
 /// The plugins that measure it, or else the metrics that it may have been meant to be.
@@ -21,7 +23,7 @@ std::string way_out(const std::string& metric, const DeploymentConfig& deploymen
                     const PluginRegistry& plugins) {
   std::vector<std::string> ids, known, known_here;
   for (const PluginManifest& plugin : plugins.plugins()) {
-    if (measures(plugin, metric)) ids.push_back(plugin.id);
+    if (find_metric(plugin, metric)) ids.push_back(plugin.id);
     for (const MetricSpec& spec : plugin.measures) known.push_back(spec.name);
   }
   for (const ComponentConfig& component : deployment.components) {
@@ -38,7 +40,7 @@ std::vector<Goal> read_goals(const config::Node* section, config::Problems& prob
   if (!section) return goals;
   config::MapReader map{*section, "goals", problems};
   for (const auto& entry : section->entries()) {
-    goals.push_back({entry.key, map.number(entry.key), entry.key_origin});
+    goals.push_back({entry.key, map.number(entry.key), entry.key_origin, entry.value.origin()});
   }
   return goals;
 }
@@ -46,11 +48,18 @@ std::vector<Goal> read_goals(const config::Node* section, config::Problems& prob
 void check_goals(const DeploymentConfig& deployment, const PluginRegistry& plugins,
                  config::Problems& problems) {
   for (const Goal& goal : deployment.goals) {
-    const bool measured =
-        std::ranges::any_of(deployment.components, [&](const ComponentConfig& component) {
-          return measures(*component.manifest, goal.metric);
-        });
-    if (measured) continue;
+    const MetricSpec* metric = nullptr;
+    for (const ComponentConfig& component : deployment.components) {
+      if (!metric) metric = find_metric(*component.manifest, goal.metric);
+    }
+    if (metric) {
+      if (goal.limit < 0 && !metric->may_be_negative) {
+        problems.add(goal.limit_origin,
+                     fmt::format("the goal {:g} cannot be met: '{}' is never below 0", goal.limit,
+                                 goal.metric));
+      }
+      continue;
+    }
     problems.add(goal.origin, fmt::format("no component measures '{}'{}", goal.metric,
                                           way_out(goal.metric, deployment, plugins)));
   }

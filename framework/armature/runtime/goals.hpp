@@ -10,8 +10,9 @@ namespace armature {
 /// Reads `goals:`, a map from metrics to their limits; null: none.
 std::vector<Goal> read_goals(const config::Node* section, config::Problems& problems);
 
-/// A goal for a metric that no component measures would never be met: a problem at the goal, with
-/// the metrics that are measured, or the plugins that would measure it.
+/// A goal that would never be met is a problem: for a metric that no component measures, with the
+/// metrics that are measured, or the plugins that would measure it; and below 0 for a metric that
+/// is never negative.
 void check_goals(const DeploymentConfig& deployment, const PluginRegistry& plugins,
                  config::Problems& problems);
 

@@ -93,13 +93,13 @@ void read_input_rules(MapReader& map, const std::vector<ParamSpec>& params, Port
   // What is told to late joiners is stamped with when it begins.
   if (port.qos == QosProfile::latched) port.max_ahead = seconds(1e9);
   if (map.optional_node("max_ahead_s")) {
-    port.max_ahead = seconds(map.number("max_ahead_s"));
+    port.max_ahead = seconds(map.number("max_ahead_s", 1));
     if (port.max_ahead < Duration{0}) {
       map.problem("max_ahead_s", "'max_ahead_s' must not be negative");
     }
   }
   if (map.optional_node("max_age_s")) {
-    port.max_age = seconds(map.number("max_age_s"));
+    port.max_age = seconds(map.number("max_age_s", 1));
     if (port.max_age <= Duration{0}) map.problem("max_age_s", "'max_age_s' must be positive");
   }
   port.lease = read_lease(map.optional_node("lease"), port.max_age, params, problems);
@@ -107,7 +107,7 @@ void read_input_rules(MapReader& map, const std::vector<ParamSpec>& params, Port
 
 std::optional<Duration> read_max_step(MapReader& map) {
   if (!map.optional_node("max_step_s")) return std::nullopt;
-  const Duration max_step = seconds(map.number("max_step_s"));
+  const Duration max_step = seconds(map.number("max_step_s", 1));
   if (max_step <= Duration{0}) map.problem("max_step_s", "'max_step_s' must be positive");
   return max_step;
 }
@@ -219,7 +219,16 @@ std::vector<MetricSpec> read_metrics(const Node* table, Problems& problems) {
   std::vector<MetricSpec> metrics;
   if (!table) return metrics;
   for (const auto& [key, key_origin, value] : table->entries()) {
-    metrics.push_back({.name = key, .doc = config::as_text(value, problems).value_or("")});
+    MetricSpec metric{.name = key};
+    if (value.kind() == Node::Kind::map) {
+      MapReader map{value, fmt::format("metric '{}'", key), problems};
+      metric.doc = map.text("doc", "");
+      metric.may_be_negative = map.flag("signed", false);
+      map.finish();
+    } else {
+      metric.doc = config::as_text(value, problems).value_or("");
+    }
+    metrics.push_back(std::move(metric));
   }
   return metrics;
 }

@@ -84,6 +84,7 @@ std::string unless_text(const Trait& trait, const std::vector<ParamSpec>& params
 struct MetricSpec {
   std::string name;  // ends in its unit: "distance_error_mm"
   std::string doc;
+  bool may_be_negative = false;  // a ratio in dB, a signed lag; a goal for any other is not below 0
 };
 
 /// What a component that moves an arm says of what it moves: the one that everything else stops

@@ -47,6 +47,23 @@ TEST(PluginManifest, ReadsWhatAPluginNeedsOffersAndMeasures) {
   EXPECT_EQ(manifest.measures[0].doc, "Of the path");
 }
 
+TEST(PluginManifest, AMetricThatMayBeBelowZeroSaysSo) {
+  const auto measures = parse("measures: {tremor_db: {signed: true, doc: Of the tip}}\n").measures;
+  ASSERT_EQ(measures.size(), 1U);
+  EXPECT_EQ(measures[0].doc, "Of the tip");
+  EXPECT_TRUE(measures[0].may_be_negative);
+  EXPECT_FALSE(parse("measures: {length_m: Of the path}\n").measures[0].may_be_negative);
+  EXPECT_EQ(problem("measures: {tremor_db: {sign: true, doc: Of the tip}}\n"),
+            "plugin.yaml:4:24: unknown key 'sign' in metric 'tremor_db'; did you mean 'signed'?");
+}
+
+TEST(PluginManifest, ATimeThatIsNoNumberIsOneProblem) {
+  EXPECT_EQ(problem("max_step_s: abc\n"),
+            "plugin.yaml:4:13: 'max_step_s' must be a number, not 'abc'");
+  EXPECT_EQ(problem("in: {a: {type: std_msgs/Bool, max_age_s: abc}}\n"),
+            "plugin.yaml:4:42: 'max_age_s' must be a number, not 'abc'");
+}
+
 TEST(PluginManifest, ADriverSaysWhatItMoves) {
   EXPECT_FALSE(parse("").driver);
   const auto simulated = parse("driver: {simulated: true}\n").driver;

@@ -111,6 +111,8 @@ class Mover final : public Component {
   Mover(Setup& setup, int steps_to_rest) : Component{setup}, steps_to_rest_{steps_to_rest} {}
   void step(Time) override {
     log.push_back("step");
+    if (!missed.empty()) degraded(missed);
+    if (broken) throw std::runtime_error{"a joint is blocked"};
     if (stopping_ && steps_to_rest_ > 0) --steps_to_rest_;
   }
   void begin_stop(Time now) override {
@@ -121,7 +123,8 @@ class Mover final : public Component {
   bool finished() const override { return told; }
 
   std::vector<std::string> log;
-  bool told = false;
+  std::string missed;  // what it misses
+  bool told = false, broken = false;
 
  private:
   int steps_to_rest_;
@@ -136,7 +139,9 @@ class StoppingUnit : public testing::Test {
     mover_ = mover.get();
     unit_.install({nullptr, std::move(mover)});
   }
-  Unit unit_{"mover", "test/mover", 0, Voice::Sink{}};
+  std::vector<std::string> lines_;
+  Unit unit_{"mover", "test/mover", 0,
+             [this](std::string_view, std::string_view line) { lines_.emplace_back(line); }};
   Mover* mover_ = nullptr;
 };
 
@@ -159,6 +164,28 @@ TEST_F(StoppingUnit, ThatRestsAlreadyNeedsNoStep) {
   unit_.answer_stop_request(Time{6});
   EXPECT_TRUE(unit_.stopped());
   EXPECT_EQ(mover_->log, std::vector<std::string>{"begin_stop@5"});
+}
+
+TEST_F(StoppingUnit, ThatRestsDoesNotTellWhatItMissesOfThoseWhoEndBeforeIt) {
+  make(1);
+  unit_.activate(Time{1});
+  unit_.request_stop();
+  mover_->missed = "no command for 0.1 s";
+  unit_.activate(Time{2});
+  EXPECT_EQ(lines_, std::vector<std::string>{mover_->missed}) << "it moved still";
+  mover_->missed = "no command for 0.2 s";
+  unit_.activate(Time{3});
+  EXPECT_EQ(lines_.size(), 1U);
+  EXPECT_EQ(unit_.status().reason, mover_->missed) << "it is kept for those who ask";
+}
+
+TEST_F(StoppingUnit, ThatRestsTellsItsFaults) {
+  make(0);
+  unit_.request_stop();
+  unit_.activate(Time{1});
+  mover_->broken = true;
+  unit_.activate(Time{2});
+  EXPECT_EQ(lines_, std::vector<std::string>{"FAULT: step failed: a joint is blocked"});
 }
 
 TEST_F(StoppingUnit, ThatHasFinishedIsNotSteppedAnyMoreButToldThatTheRunStops) {

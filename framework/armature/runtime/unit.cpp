@@ -85,7 +85,12 @@ void Unit::answer_stop_request(Time now) {
   }
 }
 
-void Unit::ask_stopped() { stopped_.store(component_->stopped(), std::memory_order_release); }
+void Unit::ask_stopped() {
+  const bool stopped = component_->stopped();
+  stopped_.store(stopped, std::memory_order_release);
+  // Others end before it does, and that it hears nothing of them then is no trouble.
+  voice_->keep_to_itself(stopped);
+}
 
 void Unit::stop(Time now) {
   if (!component_ || faulted()) return;

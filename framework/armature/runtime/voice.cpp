@@ -44,9 +44,14 @@ void Voice::set(State state, std::string_view reason) {
     const bool was_quiet = status_.state == State::ok && state == State::ok;
     status_.state = state;
     status_.reason.assign(reason);
-    if (was_quiet) return;
+    if (was_quiet || (quiet_ && state != State::fault)) return;
   }
   if (sink_) sink_(component_, line_of(state, reason));
+}
+
+void Voice::keep_to_itself(bool quiet) {
+  const std::scoped_lock lock{mutex_};
+  quiet_ = quiet;
 }
 
 Voice::Status Voice::status() const {

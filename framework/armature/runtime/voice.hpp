@@ -27,6 +27,9 @@ class Voice {
   /// Both are real-time safe; what is longer than `kMaxText` is cut.
   void say(std::string_view text);
   void set(State state, std::string_view reason);
+  /// From now on what is set is kept, and no line tells of it: of a component that rests in a run
+  /// that is stopping. A fault is told all the same. False: as before. Real-time safe.
+  void keep_to_itself(bool quiet);
   Status status() const;
 
   static constexpr std::size_t kMaxText = 900;
@@ -37,6 +40,7 @@ class Voice {
   mutable RealTimeMutex mutex_;
   std::string last_line_;
   Status status_;
+  bool quiet_ = false;
 };
 
 }  // namespace armature

@@ -89,7 +89,6 @@ class @CLASS@ final : public Component {
     }
   }
 
-  void begin_stop(Time) override { watch_.begin_stop(); }
   /// The run ends only when the arm rests.
   bool stopped() const override { return device_.velocity().isZero(1e-3); }
 

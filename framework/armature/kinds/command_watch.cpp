@@ -16,9 +16,7 @@ bool CommandWatch::follows(Time now, const std::optional<ServoCommand>& command,
   const State before = std::exchange(state_, judge(now, command, q));
   if (state_ != before) {
     why_.clear();
-    if (state_ == State::ceased && !(stopping_ && command->v.isZero())) {
-      tell_ceased(now - command->stamp);
-    }
+    if (state_ == State::ceased) tell_ceased(now - command->stamp);
     if (state_ == State::far) tell_far(command->q, q);
   }
   return state_ == State::following;

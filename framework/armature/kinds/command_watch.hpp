@@ -28,8 +28,6 @@ class CommandWatch {
 
   /// Once per step; `command`: the newest one, if there was one; `q`: where the arm is set to.
   bool follows(Time now, const std::optional<ServoCommand>& command, const JointVector& q);
-  /// The run ends (Component::begin_stop): commands that cease at rest are no trouble any more.
-  void begin_stop() { stopping_ = true; }
 
   /// Why the arm does not follow, for people; empty while it does, and before the first command.
   const ReasonText& why() const { return why_; }
@@ -48,7 +46,6 @@ class CommandWatch {
   std::optional<Time> last_;
   Duration late_{0}, late_before_{0};  // of the driver itself, in this step and in the last one
   State state_ = State::uncommanded;
-  bool stopping_ = false;
   std::uint64_t stops_ = 0;
   ReasonText why_;
 };

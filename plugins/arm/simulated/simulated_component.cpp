@@ -88,7 +88,6 @@ class SimulatedArmComponent : public Component {
     publish_operating_state(now);
   }
 
-  void begin_stop(Time) override { watch_.begin_stop(); }
   bool stopped() const override {
     constexpr double kStill = 1e-3;  // [rad/s] or [m/s]
     return arm_.setpoint_velocity().isZero(kStill) && arm_.measured_velocity().isZero(kStill);

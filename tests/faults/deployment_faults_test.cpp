@@ -321,6 +321,13 @@ const Fault kFaults[] = {
     {"MoveOfNothing", "tilt_up_deg: 0", "move_duration_s: 2",
      "deployment.yaml:8:3: component 'scene': move_duration_s is set but nothing moves; set "
      "move_mm, move_tilt_up_deg or move_tilt_side_deg, or move_duration_s to 0\n"},
+    {"StandstillThatTheDriverDoesNotWaitFor", "arm/simulated, executor: control",
+     "arm/simulated, executor: control, params: {command_timeout_s: 0.05}",
+     "deployment.yaml:20:80: 'max_lateness_s' of component 'motion' is 0.1, above "
+     "'command_timeout_s' of component 'arm', which is 0.05; lower the first or raise the second\n"},
+    {"StandstillThatIsTooLong", "max_velocity_rad_s: 1.0", "max_lateness_s: 0.2",
+     "deployment.yaml:15:30: 'max_lateness_s' of component 'motion' is 0.2, above "
+     "'command_timeout_s' of component 'arm', which is 0.1; lower the first or raise the second\n"},
     {"GoalThatNothingMeets", "distance_error_mm: 1.5", "distance_error_mm: -1",
      "deployment.yaml:22:28: the goal -1 cannot be met: 'distance_error_mm' is never below 0\n"},
     {"GoalForAMetricThatIsMistyped", "distance_error_mm: 1.5", "distance_eror_mm: 1.5",

@@ -25,6 +25,7 @@ in:
   servo_jp: {type: sensor_msgs/JointState, topic: arm/servo_jp, of: robot, reads: latest, qos: command, lease: {after: command_timeout_s, then: "the arm ramps to rest by itself, and follows again when a command comes"}, doc: "Position and velocity of all joints: where the arm shall be now"}
 out:
   measured_js: {type: sensor_msgs/JointState, topic: arm/measured_js, of: robot, qos: state, frame: base, doc: "Where it is: all joints"}
+  operating_state: {type: std_msgs/String, topic: arm/operating_state, qos: state, doc: "How it is, in the words of CRTK"}
 )";
 
 constexpr std::string_view kArmSource = R"(#include <optional>
@@ -32,6 +33,7 @@ constexpr std::string_view kArmSource = R"(#include <optional>
 #include "armature/kinds/command_watch.hpp"
 #include "armature/kinds/joint_messages.hpp"
 #include "armature/kinds/setup_robot.hpp"
+#include "armature/messages/std_msgs.hpp"
 #include "armature/robot/short_trajectory.hpp"
 #include "armature/runtime/component.hpp"
 #include "armature/runtime/plugin.hpp"
@@ -48,6 +50,10 @@ class Device {
   void move(const JointVector& q, const JointVector& v) { q_ = q, v_ = v; }
   const JointVector& position() const { return q_; }
   const JointVector& velocity() const { return v_; }
+  /// How the arm's own controller is: ENABLED while it follows. Say DISABLED, PAUSED, FAULT,
+  /// protective_stop or emergency_stop as soon as it does not: `motion` stops then, and nothing
+  /// moves until somebody rearms it. An arm that stops and does not say so is asked to go on.
+  const char* operating_state() const { return "ENABLED"; }
 
  private:
   JointVector q_, v_;  // of the independent joints [rad or m], and their rates
@@ -66,7 +72,8 @@ class @CLASS@ final : public Component {
         watch_{robot_, seconds(setup.params().number("command_timeout_s")),
                seconds(1 / setup.params().number("rate_hz"))},
         servo_jp_{setup.input<msg::JointState>("servo_jp")},
-        measured_js_{setup.output<msg::JointState>("measured_js")} {
+        measured_js_{setup.output<msg::JointState>("measured_js")},
+        operating_state_{setup.output<msg::String>("operating_state")} {
     setup.activate_every(seconds(1 / setup.params().number("rate_hz")));
   }
 
@@ -81,6 +88,9 @@ class @CLASS@ final : public Component {
     auto measured = measured_js_.loan();
     write_all_joints(robot_, device_.position(), device_.velocity(), now, *measured);
     measured.publish();
+    auto state = operating_state_.loan();
+    state->data_() = device_.operating_state();
+    state.publish();
     const ReasonText& trouble = refusal_.empty() ? watch_.why() : refusal_;
     if (trouble.empty()) {
       healthy();
@@ -121,6 +131,7 @@ class @CLASS@ final : public Component {
   CommandWatch watch_;
   Input<msg::JointState> servo_jp_;
   Output<msg::JointState> measured_js_;
+  Output<msg::String> operating_state_;
   std::optional<ServoCommand> command_;  // the last good one
   std::optional<ShortTrajectory> ramp_;
   ReasonText refusal_;
@@ -133,6 +144,7 @@ constexpr std::string_view kArmTest = R"(// The arm on a bench: what it is sent,
 #include <limits>
 
 #include "armature/kinds/joint_messages.hpp"
+#include "armature/messages/std_msgs.hpp"
 #include "armature/runtime/component_bench.hpp"
 
 using namespace armature;
@@ -161,6 +173,7 @@ int main() {
 
   arm.step(0.001);
   expect(is_at(home), "it begins where the robot rests");
+  expect(arm.take<msg::String>("operating_state").front().data_() == "ENABLED", "and is enabled");
 
   write_all_joints(robot, goal, still, Time{} + seconds(0.002), command);
   arm.send("servo_jp", command);

@@ -86,10 +86,14 @@ ParamSpec read_param_spec(const Node::Entry& entry, Problems& problems) {
   spec.type = static_cast<Type>(std::ranges::find(types, type) - types.begin());
   spec.doc = map.text("doc", "");
   spec.same_as = map.text("same_as", "");
+  spec.at_most = map.text("at_most", "");
   if (const Node* fallback = map.optional_node("default")) spec.fallback = *fallback;
   if (!spec.same_as.empty() && !spec.fallback) {
     map.problem("same_as", fmt::format("'same_as' needs a default, for deployments without '{}'",
                                        spec.same_as));
+  }
+  if (!spec.at_most.empty() && spec.type != Type::number) {
+    map.problem("at_most", "'at_most' belongs to a number");
   }
   read_choices(spec, map, problems);
   read_range(spec, map);

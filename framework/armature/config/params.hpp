@@ -27,6 +27,9 @@ struct ParamSpec {
   std::vector<std::string> choices;
   std::optional<std::size_t> count;  // of numbers; none: any
   std::string same_as;  // a plugin whose parameter of this name says the same; empty: none
+  /// "servo_jp.timeout_s": a number that is not above that parameter of any component which reads
+  /// this output. Empty: any.
+  std::string at_most;
 };
 
 /// The names of ParamSpec::Type as written in `plugin.yaml`: number, integer, flag, text, choice,
@@ -61,6 +64,9 @@ class Params {
   std::string file(std::string_view name) const;
   /// Where the value came from (the plugin's table for a default).
   const config::Origin& origin(std::string_view name) const;
+
+  /// Whether the user wrote it; else it is a default.
+  bool is_written(std::string_view name) const { return find(name).written; }
 
   /// Takes `name`, unless it was written, from `others`, which have it too. False, and nothing is
   /// taken, when it was written, or taken from elsewhere before, and is not the same there.

@@ -78,6 +78,7 @@ i: {type: numbers, count: 2, default: [1]}
 j: 5
 k: {type: texts, default: [x, [y]]}
 l: {type: number, same_as: task/mine}
+m: {type: text, at_most: out.limit}
 )",
                               "p"),
                    problems);
@@ -85,8 +86,8 @@ l: {type: number, same_as: task/mine}
             "p:2:11: 'type' cannot be 'numbr'; did you mean 'number'?\n"
             "p:3:4: missing key 'type' in parameter 'b'\n"
             "p:4:28: 'c' must be a number, not 'fast'\n"
-            "p:4:34: unknown key 'minimum' in parameter 'c'; known: choices, count, default, doc, "
-            "max, min, same_as, type\n"
+            "p:4:34: unknown key 'minimum' in parameter 'c'; known: at_most, choices, count, "
+            "default, doc, max, min, same_as, type\n"
             "p:5:28: 'd' is 5, must be at most 3\n"
             "p:6:32: 'max' is 2, below 'min', which is 3\n"
             "p:7:4: a choice needs 'choices: [...]'\n"
@@ -97,7 +98,8 @@ l: {type: number, same_as: task/mine}
             "p:11:39: 'i' must be a list of 2 numbers, not of 1\n"
             "p:12:4: parameter 'j' must be a map, not '5'\n"
             "p:13:31: 'k' must be a list of texts; item 2 must be a text, not a list\n"
-            "p:14:28: 'same_as' needs a default, for deployments without 'task/mine'\n");
+            "p:14:28: 'same_as' needs a default, for deployments without 'task/mine'\n"
+            "p:15:26: 'at_most' belongs to a number\n");
 }
 
 TEST(ParamSpecs, OfAnEmptyTableAreNone) { EXPECT_TRUE(specs_of("").empty()); }

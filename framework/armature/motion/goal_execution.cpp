@@ -10,6 +10,7 @@ namespace {
 using State = GoalStatus::State;
 
 constexpr int kMaxAttempts = 3;  // to plan while the arm moves
+constexpr double kStill = 1e-3;  // [rad/s] or [m/s] that an arm tells of itself
 
 }  // namespace
 
@@ -20,7 +21,8 @@ GoalExecution::GoalExecution(const RobotModel& model, const MotionLimits& limits
       limits_{limits},
       options_{options},
       tracker_{tracker},
-      no_tracker_{no_tracker} {}
+      no_tracker_{no_tracker},
+      rest_{each(options.rest_tolerance, model)} {}
 
 GoalStatus& GoalExecution::report(std::uint64_t goal_id, State state, std::string_view stage,
                                   const ReasonText& reason) {
@@ -129,19 +131,37 @@ void GoalExecution::forget_if_late(Time now) {
   fail_all("execution", trouble_);
   reference_.forget();
   measured_.reset();  // nor may a rearm begin from where the arm was
+  rest_.forget();
   begin_after_ = now;
   spliced_ = astray_ = in_hand_ = false;
 }
 
-void GoalExecution::update(Time now, const std::optional<MeasuredJoints>& measured) {
-  forget_if_late(now);
-  if (!reference_.started()) {
-    if (!silence(now, measured).empty() || measured->stamp < begin_after_) return;
-    measured_ = measured;
-    reference_.start(measured->q, now);
-    trouble_.clear();
+void GoalExecution::begin(Time now, const std::optional<MeasuredJoints>& measured) {
+  if (!silence(now, measured).empty() || measured->stamp < begin_after_) return;
+  measured_ = measured;
+  rest_.see(measured->q, measured->stamp);
+  const bool is_first = begin_after_ == Time{};
+  if (!rest_.rests() && !(is_first && measured->v.isZero(kStill))) {
+    if (is_first) trouble_ = "the arm moves already; motion begins where it rests";
     return;
   }
+  reference_.start(measured->q, now);
+  trouble_.clear();
+}
+
+void GoalExecution::stay_with(const MeasuredJoints& measured, Time now) {
+  if (now < reference_.last().end()) return;
+  const JointVector stands = reference_.at(now).q;
+  const auto is_within = [&](const JointBound& bound) {
+    return is_near(model_, measured.q, stands, bound);
+  };
+  if (is_within(options_.goal_tolerance)) return;
+  if (rest_.rests() || !is_within(options_.max_deviation)) reference_.start(measured.q, now);
+}
+
+void GoalExecution::update(Time now, const std::optional<MeasuredJoints>& measured) {
+  forget_if_late(now);
+  if (!reference_.started()) return begin(now, measured);
   if (std::exchange(spliced_, false)) begin_late(now);
   if (silent(now, measured)) {
     reference_.advance(now);
@@ -153,6 +173,7 @@ void GoalExecution::update(Time now, const std::optional<MeasuredJoints>& measur
     reference_.start(measured->q, now);
     return;
   }
+  if (halted()) stay_with(*measured, now);
   watch(now, *measured);
   reference_.advance(now);
   if (active_ && now >= reference_.last().end()) arrive(now, measured->q);
@@ -170,7 +191,8 @@ ReasonText GoalExecution::refusal(const MotionGoal& goal, const ReasonText& wron
 
 void GoalExecution::take(const MotionGoal& goal, const ReasonText& wrong, Time now) {
   if (const ReasonText reason = refusal(goal, wrong); !reason.empty()) {
-    report(goal.id, State::failed, halted() && took_any_ ? kStopStage : "accept", reason);
+    report(goal.id, State::failed, halted() && (took_any_ || was_stopped_) ? kStopStage : "accept",
+           reason);
     return;
   }
   took_any_ = true;
@@ -267,6 +289,13 @@ void GoalExecution::execute(std::uint64_t goal_id, MotionMode mode, Time now) {
 }
 
 void GoalExecution::halt(const ReasonText& why, Time now) {
+  was_stopped_ = true;
+  begin_halt(why, now);
+}
+
+void GoalExecution::halt_before_operator(const ReasonText& why, Time now) { begin_halt(why, now); }
+
+void GoalExecution::begin_halt(const ReasonText& why, Time now) {
   if (halted()) return;
   in_hand_ = guided(now);
   halted_ = why;
@@ -278,7 +307,7 @@ bool GoalExecution::rearm(Time now) {
   if (!halted()) return true;
   if (!measured_ || !at_rest(now)) return false;
   halted_.clear();
-  in_hand_ = false;
+  was_stopped_ = in_hand_ = false;
   trouble_.clear();
   astray_ = false;
   reference_.start(measured_->q, now);
@@ -286,7 +315,10 @@ bool GoalExecution::rearm(Time now) {
 }
 
 bool GoalExecution::at_rest(Time now) const {
-  if (!reference_.started()) return true;
+  if (!reference_.started()) {
+    const bool silent = !measured_ && now - begin_after_ > options_.measured_max_age;
+    return silent || rest_.rests();
+  }
   return armature::at_rest(reference_.at(now)) && now >= reference_.last().end() &&
          (!measured_ || rest_.rests());
 }

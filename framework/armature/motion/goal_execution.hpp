@@ -28,7 +28,8 @@ struct GoalStatus {
 /// The joint positions that the arm reports.
 struct MeasuredJoints {
   Time stamp;
-  JointVector q;  // independent joints
+  JointVector q;       // independent joints
+  JointVector v = {};  // as the arm tells it; empty where it does not
 };
 
 struct ExecutionOptions {
@@ -38,6 +39,7 @@ struct ExecutionOptions {
   /// A goal is done when the reference has come to its end and the arm is so near; an arm that is
   /// not within `goal_time` fails it.
   JointBound goal_tolerance{0.002, 0.0005};
+  JointBound rest_tolerance{0.0001, 0.0001};  // of an arm that rests, around one place
   Duration goal_time = seconds(1.0);
   Duration measured_max_age = seconds(0.5);
   Duration max_lateness = seconds(0.1);  // of `update`; later the driver has stopped the arm
@@ -58,9 +60,11 @@ class GoalExecution {
   GoalExecution(const RobotModel& model, const MotionLimits& limits,
                 const ExecutionOptions& options, Tracker* tracker, std::string_view no_tracker);
 
-  /// Once per activation, before goals: starts the reference at the first measurement, ends what is
+  /// Once per activation, before goals: starts the reference where the arm rests, ends what is
   /// done, stops within limits when the arm does not follow or falls silent, comes back within
-  /// limits to an arm that has not followed when it rests, and follows the arm that is guided.
+  /// limits to an arm that has not followed when it rests, and follows the arm that is guided. Of
+  /// an arm that is halted nothing is wanted: where it rests elsewhere, or is pushed to, is where
+  /// the reference is.
   void update(Time now, const std::optional<MeasuredJoints>& measured);
 
   /// `wrong`: what is wrong with the goal, or empty; the statuses say what came of it. Key poses
@@ -75,6 +79,9 @@ class GoalExecution {
   /// Stops within limits, drops every goal, and refuses those that come, with `why`, until
   /// `rearm`. What is told first stays.
   void halt(const ReasonText& why, Time now);
+  /// The same until an operator has enabled the arm. Before the first goal was taken nothing is
+  /// stopped by that: goals are refused in stage `accept`, and may be given again.
+  void halt_before_operator(const ReasonText& why, Time now);
   bool halted() const { return !halted_.empty(); }
   /// Begins again from where the arm measures itself, once arm and reference rest; false before.
   bool rearm(Time now);
@@ -100,6 +107,7 @@ class GoalExecution {
     int attempt = 1;
     bool standing = false;  // the arm has been stopped for it
   };
+  void begin_halt(const ReasonText& why, Time now);
   ReasonText refusal(const MotionGoal& goal, const ReasonText& wrong) const;
   void ask_for_plan(Pending pending, Time now);
   void ask_again(Time now);
@@ -123,6 +131,10 @@ class GoalExecution {
   ReasonText silence(Time now, const std::optional<MeasuredJoints>& measured) const;
   bool silent(Time now, const std::optional<MeasuredJoints>& measured);
   void stop(Time now);
+  /// At rest where the arm is, and not where it is just passing.
+  void begin(Time now, const std::optional<MeasuredJoints>& measured);
+  /// Once the reference of an arm that is halted rests.
+  void stay_with(const MeasuredJoints& measured, Time now);
   /// After a standstill of this unit or of the whole machine the reference must not be where it
   /// would have come to meanwhile: the arm has not gone there.
   void forget_if_late(Time now);
@@ -144,7 +156,8 @@ class GoalExecution {
   std::optional<Time> updated_at_;
   Time begin_after_;  // a reference begins from a sample of the arm that is not older
   std::uint64_t last_goal_id_ = 0;
-  bool took_any_ = false;  // goals: before the first one nothing was stopped
+  bool took_any_ = false;     // goals
+  bool was_stopped_ = false;  // since the last rearm, and not for want of an operator
   std::optional<std::uint64_t> active_;
   MotionMode active_mode_ = MotionMode::planned;
   std::optional<Pending> pending_;

@@ -47,6 +47,11 @@ class GoalExecutionTest : public testing::Test {
     now_ = now_ + seconds(0.001);
     measured(q, true);
   }
+  /// The same of an arm that somebody else moves: the reference may jump to it.
+  void put(const JointVector& q) {
+    now_ = now_ + seconds(0.001);
+    measured(q, false);
+  }
   void measured(const JointVector& q, bool started) {
     execution_.update(now_, MeasuredJoints{now_, q});
     collect();

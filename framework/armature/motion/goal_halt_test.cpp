@@ -23,17 +23,61 @@ TEST_F(GoalExecutionTest, StoppedStaysStoppedUntilItIsRearmedWhereTheArmIs) {
   const JointVector stands = before_.q;
   const JointVector pushed = stands + JointVector{Eigen::Vector3d{0, 0.2, 0}};
   for (int k = 0; k < 1000; ++k) {
-    step_with(pushed);
-    ASSERT_EQ(before_.q, stands) << "nothing is commanded, wherever the arm is pushed";
+    put(pushed);
+    ASSERT_EQ(before_.q, pushed) << "else it would go back when it is let go";
   }
+  EXPECT_TRUE(execution_.halted());
   EXPECT_TRUE(execution_.rearm(now_));
   EXPECT_EQ(execution_.reference().at(now_).q, pushed);
-  before_ = execution_.reference().at(now_);
   EXPECT_TRUE(at_rest(before_));
   for (int k = 0; k < 500; ++k) step_with(pushed);
   EXPECT_EQ(before_.q, pushed) << "nothing that was wanted before begins again";
   give(goal_at(4, 0, 0, 0));
   EXPECT_EQ(statuses_.back().state, State::executing);
+}
+
+TEST_F(GoalExecutionTest, AHaltedArmThatRestsElsewhereIsNotAskedToComeToWhereItWasToStop) {
+  step_to(0.1);
+  give(goal_at(1, 2, -2, 2));
+  step_to(0.8);
+  const JointVector lost_power = before_.q;
+  execution_.halt("the arm says emergency_stop", now_);
+  for (int k = 0; k < 1000; ++k) put(lost_power);
+  EXPECT_EQ(before_.q, lost_power) << "its own stop was shorter than the reference's";
+  EXPECT_TRUE(execution_.halted());
+}
+
+TEST_F(GoalExecutionTest, AHaltedArmThatLagsComesToWhereItWasToStop) {
+  step_to(0.1);
+  give(goal_at(1, 2, -2, 2));
+  step_to(0.8);
+  execution_.halt("somebody pressed the button", now_);
+  const JointVector stands = execution_.reference().last().at(now_ + seconds(5)).q;
+  JointVector arm = before_.q;
+  for (int k = 0; k < 2000; ++k) {  // a lag of 50 ms
+    arm += (execution_.reference().at(now_).q - arm) * (0.001 / 0.05);
+    put(arm);
+  }
+  EXPECT_EQ(before_.q, stands);
+  EXPECT_LT((arm - stands).norm(), 1e-6);
+}
+
+TEST_F(GoalExecutionTest, AnArmWithNoisyEncodersRestsWithinItsTolerance) {
+  const auto rests = [&](double tolerance_m) {
+    GoalExecution noisy{gantry_.model,
+                        gantry_.limits,
+                        {.rest_tolerance = {0.0001, tolerance_m}},
+                        nullptr,
+                        "no tracker"};
+    for (int k = 1; k <= 1000; ++k) {
+      const double count_m = k % 3 == 0 ? 0.0004 : 0;
+      const Time now = Time{} + seconds(0.001 * k);
+      noisy.update(now, MeasuredJoints{now, home_ + JointVector::Constant(3, count_m)});
+    }
+    return noisy.at_rest(Time{} + seconds(1));
+  };
+  EXPECT_FALSE(rests(0.0001));
+  EXPECT_TRUE(rests(0.0005));
 }
 
 TEST_F(GoalExecutionTest, IsNotAtRestBeforeTheArmsOwnSamplesAre) {
@@ -77,8 +121,8 @@ TEST_F(GoalExecutionTest, AnArmInAHandIsHaltedWhereTheHandComesToRest) {
   for (int k = 0; k < 100; ++k) step();
   EXPECT_TRUE(execution_.at_rest(now_));
   const JointVector rested = moved;
-  moved[1] += 0.01;
-  step();
+  moved[1] += 0.0004;
+  for (int k = 0; k < 100; ++k) step();
   EXPECT_EQ(execution_.reference().at(now_).q, rested) << "it is held there from then on";
 }
 
@@ -95,8 +139,17 @@ TEST_F(GoalExecutionTest, AfterAStandstillOfItsOwnTheReferenceBeginsWhereTheArmI
   EXPECT_FALSE(execution_.reference().started()) << "that sample is older than the standstill";
   EXPECT_EQ(story().back(), (std::pair<std::uint64_t, State>{1, State::failed}));
   EXPECT_EQ(statuses_.back().reason, "motion itself came 0.40 s late (max_lateness_s is 0.1)");
-  now_ = now_ + seconds(0.001);
-  execution_.update(now_, MeasuredJoints{now_, stands});
+  JointVector ramps = before_.q;  // the driver goes on braking it
+  for (int k = 0; k < 50; ++k) {
+    now_ = now_ + seconds(0.001);
+    ramps += (stands - before_.q) / 50;
+    execution_.update(now_, MeasuredJoints{now_, ramps});
+    ASSERT_FALSE(execution_.reference().started()) << "it is only passing here";
+  }
+  for (int k = 0; k < 60; ++k) {
+    now_ = now_ + seconds(0.001);
+    execution_.update(now_, MeasuredJoints{now_, stands});
+  }
   EXPECT_EQ(execution_.reference().at(now_).q, stands);
   EXPECT_TRUE(at_rest(execution_.reference().at(now_)));
   before_ = execution_.reference().at(now_);
@@ -123,6 +176,34 @@ TEST_F(GoalExecutionTest, AfterAStandstillAHaltedArmStaysWhereItIs) {
   }
   EXPECT_TRUE(execution_.reference().started());
   EXPECT_TRUE(execution_.halted());
+}
+
+TEST_F(GoalExecutionTest, BeginsWithAnArmThatMovesAlreadyOnlyWhenThatRests) {
+  JointVector q = home_;
+  const JointVector speed = Eigen::Vector3d{0, 0.3, 0};
+  for (int k = 0; k < 100; ++k) {
+    now_ = now_ + seconds(0.001);
+    q += 0.001 * speed;
+    execution_.update(now_, MeasuredJoints{now_, q, speed});
+    ASSERT_FALSE(execution_.reference().started());
+  }
+  EXPECT_EQ(execution_.trouble().view(), "the arm moves already; motion begins where it rests");
+  for (int k = 0; k < 60; ++k) {
+    now_ = now_ + seconds(0.001);
+    execution_.update(now_, MeasuredJoints{now_, q, {}});
+  }
+  EXPECT_EQ(execution_.reference().at(now_).q, q);
+  EXPECT_TRUE(execution_.trouble().empty());
+}
+
+TEST_F(GoalExecutionTest, AStopBeforeTheFirstGoalIsAStop) {
+  step_to(0.1);
+  execution_.halt_before_operator("hold_to_run has not been told yet", now_);
+  give(goal_at(1, 1, 1, 1));
+  EXPECT_EQ(statuses_.back().stage, "accept") << "nothing was stopped";
+  execution_.halt("a stop was asked for", now_);
+  give(goal_at(2, 1, 1, 1));
+  EXPECT_EQ(statuses_.back().stage, "stop") << "nor is it given again because of the rearm";
 }
 
 }  // namespace

@@ -14,6 +14,11 @@ JointVector each(const JointBound& bound, const RobotModel& model) {
   return values;
 }
 
+bool is_near(const RobotModel& model, const JointVector& a, const JointVector& b,
+             const JointBound& bound) {
+  return ((a - b).cwiseAbs().array() <= each(bound, model).array()).all();
+}
+
 ReasonText tolerance_violation(const RobotModel& model, const JointVector& q,
                                const JointTarget& target, const JointBound& bound) {
   for (int i = 0; i < model.dof(); ++i) {

@@ -16,6 +16,10 @@ struct JointBound {
 /// Of each independent joint.
 JointVector each(const JointBound& bound, const RobotModel& model);
 
+/// Whether no joint differs by more than the bound. Real-time safe.
+bool is_near(const RobotModel& model, const JointVector& a, const JointVector& b,
+             const JointBound& bound);
+
 /// Where an arm should be, and the parameter, less its _rad or _m, that says how near.
 struct JointTarget {
   const JointVector& q;

@@ -82,13 +82,15 @@ Motion::Motion(Setup& setup)
 void Motion::step(Time now) {
   const auto measured = read_measured();
   execution_.update(now, measured);
-  heed_stops(now);
+  const bool may_rearm = heed_stops(now);
   if (plans_.fresh()) {
     execution_.take(read_answer(model_, *plans_.latest(), plans_.sample(0)), now);
   }
   // Whoever gave a goal is stopping, too: that it is dropped is no failure of his story.
   if (!stopping_) {
     read_goals(now);
+    // After them: a goal of this step was given while the arm was stopped.
+    if (may_rearm && stops_.rearmed()) execution_.rearm(now);
     publish_request();
     publish_statuses(now);
   }
@@ -103,13 +105,16 @@ void Motion::begin_stop(Time now) {
   stopped_ = execution_.at_rest(now);
 }
 
-void Motion::heed_stops(Time now) {
-  const ReasonText cause = stops_.cause(now);
-  if (!cause.empty()) {
-    execution_.halt(ReasonText::format("stopped until it is rearmed: {}", cause.view()), now);
-  } else if (stops_.rearmed() && !stopping_) {
-    execution_.rearm(now);
+bool Motion::heed_stops(Time now) {
+  const StopCause cause = stops_.cause(now);
+  if (cause.why.empty()) return true;
+  const auto why = ReasonText::format("stopped until it is rearmed: {}", cause.why.view());
+  if (cause.wants_operator) {
+    execution_.halt_before_operator(why, now);
+  } else {
+    execution_.halt(why, now);
   }
+  return false;
 }
 
 std::optional<MeasuredJoints> Motion::read_measured() {
@@ -120,6 +125,9 @@ std::optional<MeasuredJoints> Motion::read_measured() {
   bad_measurement_ =
       wrong.empty() ? ReasonText{} : ReasonText::format("measured_js: {}", wrong.view());
   if (!wrong.empty()) return std::nullopt;
+  // Only a reference that begins asks whether the arm moves; drivers need not tell.
+  const bool tells = !execution_.reference().started() && !message->velocity_().empty();
+  if (tells && !read_joint_rates(model_, *message, measured.v).empty()) measured.v.resize(0);
   return measured;
 }
 

@@ -25,7 +25,8 @@ class Motion final : public Component {
 
  private:
   std::optional<MeasuredJoints> read_measured();
-  void heed_stops(Time now);
+  /// False while there is a cause to stop.
+  bool heed_stops(Time now);
   void read_goals(Time now);
   void publish_request();
   void publish_statuses(Time now);

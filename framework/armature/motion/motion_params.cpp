@@ -96,6 +96,7 @@ ExecutionOptions execution_of(const Params& params) {
       .plan_budget = seconds(params.number("plan_budget_s")),
       .max_deviation = {params.number("max_deviation_rad"), params.number("max_deviation_m")},
       .goal_tolerance = {params.number("goal_tolerance_rad"), params.number("goal_tolerance_m")},
+      .rest_tolerance = {params.number("rest_tolerance_rad"), params.number("rest_tolerance_m")},
       .goal_time = seconds(params.number("goal_time_s")),
       .measured_max_age = seconds(params.number("measured_max_age_s")),
       .max_lateness = seconds(params.number("max_lateness_s"))};

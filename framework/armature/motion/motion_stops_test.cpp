@@ -2,6 +2,9 @@
 // Stopped stays stopped: who stops an arm, what it does then, and what begins again.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cctype>
+
 #include "armature/messages/std_msgs.hpp"
 #include "armature/motion/motion_bench_test.hpp"
 
@@ -115,6 +118,45 @@ TEST_F(MotionStops, WhatTheArmSaysOfItselfIsAStopThatOutlivesIt) {
     bench.run(101);
     EXPECT_EQ(bench.motion().status().state, Voice::State::ok);
   }
+}
+
+TEST_F(MotionStops, AnArmThatIsNotEnabledAnyMoreWasStopped) {
+  for (const std::string word_of_arm : {"DISABLED", "PAUSED", "FAULT"}) {
+    MotionBench bench;
+    bench.motion().send("operating_state", word(word_of_arm));
+    bench.run(100.1);
+    EXPECT_EQ(bench.motion().status().state, Voice::State::ok) << "it has not been enabled yet";
+    bench.motion().send("operating_state", word("ENABLED"));
+    bench.run(100.2);
+    bench.motion().send("operating_state", word(word_of_arm));
+    bench.motion().send("operating_state", word("ENABLED"));
+    bench.run(100.3);
+    std::string said = word_of_arm;
+    std::ranges::transform(said, said.begin(), [](unsigned char c) { return std::tolower(c); });
+    EXPECT_EQ(bench.motion().status().reason, "stopped until it is rearmed: the arm says " + said);
+  }
+}
+
+TEST_F(MotionStops, AGoalOfTheStepThatRearmsWasGivenWhileItWasStopped) {
+  begin_moving();
+  bench_.motion().send("stop", flag(true));
+  expect_rest();
+  bench_.give(test::goal_message(2, {0, 0, 0}));
+  bench_.motion().send("rearm", flag(true));
+  bench_.run(bench_.now_s() + 0.5);
+  EXPECT_EQ(bench_.motion().status().state, Voice::State::ok);
+  EXPECT_EQ(bench_.story().back(), "2 failed");
+  EXPECT_LT(bench_.speed(), 1e-9);
+}
+
+TEST_F(MotionStops, AStopBeforeTheFirstGoalIsAStop) {
+  bench_.run(100.1);
+  bench_.motion().send("stop", flag(true));
+  bench_.run(100.2);
+  bench_.give(test::goal_message(1, {1.5, 0.4, 0.3}));
+  bench_.run(100.5);
+  EXPECT_EQ(bench_.story().back(), "1 failed");
+  EXPECT_EQ(bench_.last_stage(), "stop");
 }
 
 TEST_F(MotionStops, WithoutAnybodyWhoWritesThemTheOperatorsInputsAskForNothing) {

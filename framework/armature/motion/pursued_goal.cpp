@@ -8,7 +8,7 @@ namespace {
 
 constexpr Duration kRetryAfter = seconds(0.25);
 constexpr Duration kAnswerWithin = seconds(1.0);
-constexpr int kMostBreakdowns = 10;
+constexpr Duration kSoon = seconds(5.0);
 constexpr Time kAtOnce{std::numeric_limits<std::int64_t>::min()};
 
 }  // namespace
@@ -17,7 +17,7 @@ void PursuedGoal::set(const MotionGoal& goal) {
   goal_ = goal;
   state_ = State::waiting;
   send_at_ = kAtOnce;
-  breakdowns_ = 0;
+  broke_down_ = {};
   once_ = begun_ = false;
   reason_.clear();
 }
@@ -52,7 +52,7 @@ void PursuedGoal::hear(const GoalReport& report, Time now) {
 }
 
 void PursuedGoal::give_up_or_try_again(const GoalReport& report, Time now) {
-  if (worth_another_try(report)) {
+  if (worth_another_try(report, now)) {
     reason_ = report.reason;
     state_ = State::waiting;
     send_at_ = now + kRetryAfter;
@@ -64,13 +64,19 @@ void PursuedGoal::give_up_or_try_again(const GoalReport& report, Time now) {
                                                           : report.stage + ": " + report.reason;
 }
 
-/// The motion was not able to execute anything at that moment; or the arm did not follow it, which
-/// an arm that cannot never will.
-bool PursuedGoal::worth_another_try(const GoalReport& report) {
+/// The motion was not able to execute anything at that moment; or the arm did not follow it.
+bool PursuedGoal::worth_another_try(const GoalReport& report, Time now) {
   if (once_ && begun_) return false;
   if (report.stage == kStopStage) return goal_.mode == MotionMode::guided;
-  if (report.state == GoalReport::State::superseded || report.stage == "accept") return true;
-  return report.stage == "execution" && ++breakdowns_ < kMostBreakdowns;
+  if (report.state == GoalReport::State::superseded) return true;
+  if (report.stage == "accept") return !broke_down_[0] || now - *broke_down_[0] <= kSoon;
+  return report.stage == "execution" && !breaks_down_for_good(now);
+}
+
+bool PursuedGoal::breaks_down_for_good(Time now) {
+  const bool third = broke_down_[1] && now - *broke_down_[1] <= kSoon;
+  broke_down_ = {now, broke_down_[0]};
+  return third;
 }
 
 std::optional<MotionGoal> PursuedGoal::outgoing(Time now) {

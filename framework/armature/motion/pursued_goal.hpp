@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -19,10 +20,12 @@ struct GoalReport {
 };
 
 /// The one goal that a task has the arm on its way to. Goals that were refused because the motion
-/// was not ready, and goals that nobody answered, are given again; goals that break down on their
-/// way ten times have failed. A goal that was stopped until a rearm has failed: nothing moves
-/// because of the rearm. One that lets a hand move the arm moves nothing by itself, and is given
-/// again.
+/// was not ready, and goals that nobody answered, are given again. A goal that breaks down on its
+/// way, since the arm does not follow, is given again, too, but not three times within 5 s, nor to
+/// an arm that is not ready within 5 s: it has failed then, since an arm whose power comes back
+/// must not move because of what was wanted before. A goal that was stopped until a rearm has
+/// failed: nothing moves because of the rearm. One that lets a hand move the arm moves nothing by
+/// itself, and is given again.
 class PursuedGoal {
  public:
   enum class State { none, waiting, moving, done, failed };
@@ -45,7 +48,8 @@ class PursuedGoal {
 
  private:
   void give_up_or_try_again(const GoalReport& report, Time now);
-  bool worth_another_try(const GoalReport& report);
+  bool worth_another_try(const GoalReport& report, Time now);
+  bool breaks_down_for_good(Time now);
 
   MotionGoal goal_;
   State state_ = State::none;
@@ -53,7 +57,8 @@ class PursuedGoal {
   std::optional<Time> send_at_;  // not sent yet: at once or later
   Time sent_at_, done_at_;
   std::string reason_;
-  int sent_ = 0, breakdowns_ = 0;
+  std::array<std::optional<Time>, 2> broke_down_;  // the last two times, the newest first
+  int sent_ = 0;
   bool once_ = false, begun_ = false, accepted_ = false, stopped_ = false;
 };
 

@@ -51,24 +51,49 @@ TEST(PursuedGoal, GivesAGoalAgainThatTheMotionWasNotReadyFor) {
   EXPECT_EQ(goals.outgoing(at(0.4))->id, 2u);
 }
 
-TEST(PursuedGoal, GivesAGoalUpThatAnArmNeverFollows) {
+GoalReport broken(std::uint64_t id) {
+  return {.goal_id = id, .state = Report::failed, .stage = "execution", .reason = "x"};
+}
+
+TEST(PursuedGoal, GivesAGoalUpThatAnArmDoesNotFollowThreeTimesInFiveSeconds) {
   PursuedGoal goals;
   goals.set({});
-  const auto broken = [](std::uint64_t id) {
-    return GoalReport{.goal_id = id, .state = Report::failed, .stage = "execution", .reason = "x"};
-  };
-  for (int i = 1; i < 10; ++i) {
-    const auto goal = goals.outgoing(at(i));
-    ASSERT_TRUE(goal) << i;
-    goals.hear(broken(goal->id), at(i));
-    ASSERT_EQ(goals.state(), PursuedGoal::State::waiting) << i;
+  for (const double time_s : {1, 3}) {
+    const auto goal = goals.outgoing(at(time_s));
+    ASSERT_TRUE(goal) << time_s;
+    goals.hear(broken(goal->id), at(time_s));
+    ASSERT_EQ(goals.state(), PursuedGoal::State::waiting) << time_s;
   }
-  goals.hear(broken(goals.outgoing(at(10))->id), at(10));
+  goals.hear(broken(goals.outgoing(at(5.9))->id), at(5.9));
   EXPECT_EQ(goals.state(), PursuedGoal::State::failed);
   EXPECT_EQ(goals.reason(), "execution: x");
   goals.set({});
-  goals.hear(broken(goals.outgoing(at(11))->id), at(11));
+  goals.hear(broken(goals.outgoing(at(6))->id), at(6));
   EXPECT_EQ(goals.state(), PursuedGoal::State::waiting) << "another goal";
+}
+
+TEST(PursuedGoal, GoesOnWhenAnArmDoesNotFollowEveryNowAndThen) {
+  PursuedGoal goals;
+  goals.set({});
+  for (int i = 0; i < 20; ++i) {
+    goals.hear(broken(goals.outgoing(at(2.6 * i))->id), at(2.6 * i));
+    ASSERT_EQ(goals.state(), PursuedGoal::State::waiting) << i;
+  }
+}
+
+TEST(PursuedGoal, AGoalThatBrokeDownIsNotBegunAgainByAnArmThatComesBackMuchLater) {
+  PursuedGoal goals;
+  goals.set({});
+  goals.hear(broken(goals.outgoing(at(0))->id), at(0));
+  const auto refused = [](std::uint64_t id) {
+    return GoalReport{
+        .goal_id = id, .state = Report::failed, .stage = "accept", .reason = "silent"};
+  };
+  goals.hear(refused(goals.outgoing(at(1))->id), at(4.9));
+  EXPECT_EQ(goals.state(), PursuedGoal::State::waiting);
+  goals.hear(refused(goals.outgoing(at(5.2))->id), at(5.2));
+  EXPECT_EQ(goals.state(), PursuedGoal::State::failed);
+  EXPECT_EQ(goals.reason(), "accept: silent");
 }
 
 TEST(PursuedGoal, GivesAGoalAgainThatNobodyAnswered) {

@@ -2,29 +2,34 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 
 #include "armature/robot/joint_vector.hpp"
 #include "armature/values/time.hpp"
 
 namespace armature {
 
-/// Tells by an arm's own samples whether it rests: no joint was farther than 1e-4 rad (or 0.1 mm)
-/// from one place for 50 ms. Real-time safe.
+/// Tells by an arm's own samples whether it rests: no joint was farther than its tolerance from one
+/// place for 50 ms. Real-time safe.
 class RestWatch {
  public:
+  /// [rad] or [m] of each independent joint: more than the noise of its encoder.
+  explicit RestWatch(JointVector tolerance) : tolerance_{std::move(tolerance)} {}
+
   void see(const JointVector& q, Time stamp) {
-    if (since_ && (q - place_).cwiseAbs().maxCoeff() <= kStill) {
+    if (since_ && ((q - place_).cwiseAbs().array() <= tolerance_.array()).all()) {
       seen_ = stamp;
       return;
     }
     place_ = q;
     since_ = seen_ = stamp;
   }
+  /// What was seen says nothing any more.
+  void forget() { since_.reset(); }
   bool rests() const { return since_ && seen_ - *since_ >= seconds(0.05); }
 
  private:
-  static constexpr double kStill = 1e-4;
-  JointVector place_;
+  JointVector tolerance_, place_;
   std::optional<Time> since_;
   Time seen_;
 };

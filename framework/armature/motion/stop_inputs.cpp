@@ -10,8 +10,11 @@ namespace {
 
 bool is_true(const msg::Bool& message) { return message.data_(); }
 
-// Words of CRTK's operating_state that are a stop.
+// Words of an arm's operating_state that are a stop, and those of CRTK that are one when it was
+// enabled before.
 constexpr std::array<std::string_view, 3> kStops{"protective_stop", "emergency_stop", "override"};
+constexpr std::array<std::string_view, 3> kNotEnabled{"disabled", "paused", "fault"};
+constexpr std::string_view kEnabled = "enabled";
 
 /// Drivers write such words small or large.
 bool is_same_word(std::string_view a, std::string_view b) {
@@ -19,11 +22,11 @@ bool is_same_word(std::string_view a, std::string_view b) {
       a, b, [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
 }
 
-/// The one of kStops that it is, or empty.
-std::string_view stop_word(std::string_view state) {
-  const auto found = std::ranges::find_if(
-      kStops, [&](std::string_view stop) { return is_same_word(stop, state); });
-  return found == kStops.end() ? std::string_view{} : *found;
+/// The one of `words` that it is, or empty.
+std::string_view find_word(const std::array<std::string_view, 3>& words, std::string_view state) {
+  const auto found =
+      std::ranges::find_if(words, [&](std::string_view word) { return is_same_word(word, state); });
+  return found == words.end() ? std::string_view{} : *found;
 }
 
 }  // namespace
@@ -59,6 +62,12 @@ ReasonText StopInputs::missing(const Enable& enable, Time now) const {
   return enable.holds ? ReasonText{} : ReasonText{enable.released};
 }
 
+std::string_view StopInputs::stop_word(std::string_view state) {
+  was_enabled_ = was_enabled_ || is_same_word(state, kEnabled);
+  const std::string_view stop = find_word(kStops, state);
+  return stop.empty() && was_enabled_ ? find_word(kNotEnabled, state) : stop;
+}
+
 std::string_view StopInputs::hear_arm() {
   std::string_view said = stop_word_;
   for (std::size_t i = 0; i < operating_state_.size(); ++i) {
@@ -68,14 +77,15 @@ std::string_view StopInputs::hear_arm() {
   return operating_state_.size() == 0 ? stop_word_ : said;
 }
 
-ReasonText StopInputs::cause(Time now) {
+StopCause StopInputs::cause(Time now) {
   hear(hold_to_run_);
   hear(operator_present_);
   const std::string_view arm = hear_arm();
-  if (stop_.size() > 0) return "a stop was asked for on the topic /stop";
-  if (!arm.empty()) return ReasonText::format("the arm says {}", arm);
-  if (ReasonText why = missing(hold_to_run_, now); !why.empty()) return why;
-  return missing(operator_present_, now);
+  if (stop_.size() > 0) return {.why = "a stop was asked for on the topic /stop"};
+  if (!arm.empty()) return {.why = ReasonText::format("the arm says {}", arm)};
+  ReasonText why = missing(hold_to_run_, now);
+  if (why.empty()) why = missing(operator_present_, now);
+  return {.why = why, .wants_operator = !why.empty()};
 }
 
 bool StopInputs::rearmed() const { return rearm_.size() > 0; }

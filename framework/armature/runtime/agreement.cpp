@@ -3,13 +3,52 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <string_view>
+
 #include "armature/runtime/graph.hpp"
 
 namespace armature {
+namespace {
+
+bool has_param(const ComponentConfig& component, std::string_view name) {
+  return std::ranges::find(component.manifest->params, name, &ParamSpec::name) !=
+         component.manifest->params.end();
+}
+
+/// Whether `reader` reads what `writer` writes on its output of that name.
+bool reads(const ComponentConfig& reader, const ComponentConfig& writer, std::string_view output) {
+  return std::ranges::any_of(writer.outputs, [&](const PortBinding& out) {
+    return out.spec.name == output &&
+           std::ranges::find(reader.inputs, out.topic, &PortBinding::topic) != reader.inputs.end();
+  });
+}
+
+void check_at_most(const ComponentConfig& component, const ParamSpec& spec,
+                   const DeploymentConfig& deployment, config::Problems& problems) {
+  const std::string_view at_most = spec.at_most;
+  const std::size_t dot = at_most.find('.');
+  const std::string_view output = at_most.substr(0, dot), limit = at_most.substr(dot + 1);
+  for (const ComponentConfig& reader : deployment.components) {
+    if (!reads(reader, component, output) || !has_param(reader, limit)) continue;
+    const double value = component.params.number(spec.name), most = reader.params.number(limit);
+    if (value <= most) continue;
+    const bool own = component.params.is_written(spec.name);
+    problems.add(own ? component.params.origin(spec.name) : reader.params.origin(limit),
+                 fmt::format("'{}' of component '{}' is {:g}, above '{}' of component '{}', which "
+                             "is {:g}; lower the first or raise the second",
+                             spec.name, component.name, value, limit, reader.name, most));
+  }
+}
+
+}  // namespace
 
 void agree_on_params(DeploymentConfig& deployment, config::Problems& problems) {
   for (ComponentConfig& component : deployment.components) {
     for (const ParamSpec& spec : component.manifest->params) {
+      if (!spec.at_most.empty() && component.unit == kMainUnit) {
+        check_at_most(component, spec, deployment, problems);
+      }
       for (const ComponentConfig& other : deployment.components) {
         if (spec.same_as != other.plugin_id || !exchange_topics(component, other)) continue;
         if (component.params.agree(spec.name, other.params)) continue;

@@ -13,6 +13,7 @@
 namespace armature {
 namespace {
 
+constexpr int kMostReads = 100;
 constexpr int kGoesDown = 1, kGoesUp = 0;  // 2: it repeats by itself
 
 const char* way_out(int error) {
@@ -33,27 +34,31 @@ std::string Buttons::update() {
   pressed_.reset();
   released_.reset();
   if (std::string why = open(); !why.empty()) return why;
-  std::array<input_event, 64> events{};
-  const ssize_t size = ::read(file_, events.data(), sizeof events);
-  if (size == 0) return give_up(ENODEV);
-  if (size < 0) return errno == EAGAIN || errno == EINTR ? std::string{} : give_up(errno);
-  const auto count = static_cast<std::size_t>(size) / sizeof(input_event);
-  for (std::size_t i = 0; i < count; ++i) {
-    const input_event& event = events[i];
-    if (event.type == EV_SYN && event.code == SYN_DROPPED) {
-      held_.reset();
-      released_.set();
-    }
-    if (event.type != EV_KEY || event.code >= kCodes) continue;
-    if (event.value == kGoesUp) {
-      held_.reset(event.code);
-      released_.set(event.code);
-    }
-    if (event.value != kGoesDown) continue;
-    held_.set(event.code);
-    pressed_.set(event.code);
+  // A stick that moves all the time must not hide a button that was let go.
+  for (int i = 0; i < kMostReads; ++i) {
+    std::array<input_event, 64> events{};
+    const ssize_t size = ::read(file_, events.data(), sizeof events);
+    if (size == 0) return give_up(ENODEV);
+    if (size < 0) return errno == EAGAIN || errno == EINTR ? std::string{} : give_up(errno);
+    const auto count = static_cast<std::size_t>(size) / sizeof(input_event);
+    for (std::size_t k = 0; k < count; ++k) hear(events[k]);
   }
   return {};
+}
+
+void Buttons::hear(const input_event& event) {
+  if (event.type == EV_SYN && event.code == SYN_DROPPED) {
+    held_.reset();
+    released_.set();
+  }
+  if (event.type != EV_KEY || event.code >= kCodes) return;
+  if (event.value == kGoesUp) {
+    held_.reset(event.code);
+    released_.set(event.code);
+  }
+  if (event.value != kGoesDown) return;
+  held_.set(event.code);
+  pressed_.set(event.code);
 }
 
 std::string Buttons::open() {

@@ -4,6 +4,8 @@
 #include <bitset>
 #include <string>
 
+struct input_event;
+
 namespace armature {
 
 /// The buttons of an input device of Linux (evdev). A button counts as held from the moment on when
@@ -33,6 +35,7 @@ class Buttons {
   bool pressed(int code) const { return pressed_[static_cast<std::size_t>(code)]; }
 
  private:
+  void hear(const input_event& event);
   std::string open();
   std::string give_up(int error);
   void close();

@@ -50,6 +50,15 @@ TEST_F(ButtonsTest, AButtonThatWasLetGoForAMomentIsNotHeldForOneLook) {
   EXPECT_TRUE(buttons_.held(kTrigger));
 }
 
+TEST_F(ButtonsTest, AButtonThatWasLetGoIsSeenAtOnceBehindHowManyEventsItMayBe) {
+  device_.press(kTrigger);
+  ASSERT_EQ(buttons_.update(), "");
+  for (int i = 0; i < 300; ++i) device_.send(EV_ABS, 0, i);
+  device_.release(kTrigger);
+  ASSERT_EQ(buttons_.update(), "");
+  EXPECT_FALSE(buttons_.held(kTrigger));
+}
+
 TEST_F(ButtonsTest, AButtonThatWasDownBeforeAnybodyLookedIsNotHeld) {
   device_.send(EV_KEY, kTrigger, 2);  // it repeats by itself
   ASSERT_EQ(buttons_.update(), "");

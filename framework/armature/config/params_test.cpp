@@ -87,7 +87,7 @@ m: {type: text, at_most: out.limit}
             "p:3:4: missing key 'type' in parameter 'b'\n"
             "p:4:28: 'c' must be a number, not 'fast'\n"
             "p:4:34: unknown key 'minimum' in parameter 'c'; known: at_most, choices, count, "
-            "default, doc, max, min, same_as, type\n"
+            "default, doc, max, min, same_as, ...\n"
             "p:5:28: 'd' is 5, must be at most 3\n"
             "p:6:32: 'max' is 2, below 'min', which is 3\n"
             "p:7:4: a choice needs 'choices: [...]'\n"

@@ -29,6 +29,7 @@ int stop_arms(const StopOptions& options) {
                   64};  // outlives the writer, which may still be sending
   const TransportOptions transport_options{
       .domain = options.domain,
+      .interfaces = options.interfaces,
       .deployment = "armature stop",
       .fingerprint = {},
       .on_event =
@@ -54,7 +55,8 @@ int stop_arms(const StopOptions& options) {
       fmt::print(
           stderr,
           "armature: nobody in domain {} heard the stop within {:g} s; a deployment says its "
-          "domain with `domain:` or --domain\n",
+          "domain with `domain:` or --domain, and with `dds:` the interfaces to join by "
+          "--interface\n",
           options.domain, options.timeout_s);
       return kTimedOut;
     }

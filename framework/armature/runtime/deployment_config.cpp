@@ -147,6 +147,7 @@ DeploymentConfig read_deployment(const Node& root, const PluginRegistry& plugins
   const std::int64_t domain = map.integer("domain", 0);
   if (domain < 0 || domain > 232) map.problem("domain", "'domain' must be from 0 to 232");
   deployment.domain = static_cast<int>(domain);
+  deployment.dds = read_dds(map.optional_node("dds"), problems);
   const std::int64_t seed = map.integer("seed", 1);
   if (seed < 0) map.problem("seed", "'seed' must not be negative");
   deployment.seed = static_cast<std::uint64_t>(seed);

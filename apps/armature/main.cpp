@@ -37,6 +37,14 @@ void add_source(CLI::App& verb, DeploymentSource& source) {
       ->allow_extra_args(false);
 }
 
+/// Of a verb that joins DDS from outside of any deployment.
+void add_interfaces(CLI::App& verb, std::vector<std::string>& interfaces) {
+  verb.add_option("--interface", interfaces,
+                  "join this one beside loopback, by name or IPv4 address")
+      ->allow_extra_args(false)
+      ->check(no_interface);
+}
+
 /// What the main process of a deployment tells the others that it starts, and a drill the run that
 /// it drills; nobody types it.
 void add_handed_over(CLI::App& verb, RunOptions& options) {
@@ -104,7 +112,9 @@ void add_stop(CLI::App& app, Action& action) {
   verb->add_option("--domain", options->domain, "DDS domain")
       ->capture_default_str()
       ->check(CLI::Range(0, 232));
-  verb->add_option("--timeout", options->timeout_s, "seconds for a deployment to be found, and to take it")
+  add_interfaces(*verb, options->interfaces);
+  verb->add_option("--timeout", options->timeout_s,
+                   "seconds for a deployment to be found, and to take it")
       ->capture_default_str()
       ->check(not_positive);
   verb->callback([options, &action] { action = [options] { return stop_arms(*options); }; });
@@ -191,6 +201,7 @@ void add_topic_verbs(CLI::App& app, Action& action) {
   auto options = std::make_shared<TopicOptions>();
   const auto add_common = [&](CLI::App* verb) {
     verb->add_option("--domain", options->domain, "DDS domain")->check(CLI::Range(0, 232));
+    add_interfaces(*verb, options->interfaces);
     verb->add_option("--timeout", options->timeout_s, "give up after this many seconds")
         ->check(not_positive);
     verb->add_flag("--json", options->json, "as JSON");

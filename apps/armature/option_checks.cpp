@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <system_error>
 
+#include "armature/bus/network_interface.hpp"
+
 namespace armature {
 namespace {
 
@@ -35,6 +37,11 @@ std::string not_positive(const std::string& text) {
   double number = 0;
   if (reads_as(text, number) && std::isfinite(number) && number > 0) return "";
   return "must be a positive number, not '" + text + "'";
+}
+
+std::string no_interface(const std::string& text) {
+  const auto found = find_interfaces({text});
+  return found ? "" : found.error().text;
 }
 
 }  // namespace armature

@@ -14,5 +14,7 @@ std::string wrong_seed(const std::string& text);
 std::string wrong_number(const std::string& text);
 /// Not a finite number above 0.
 std::string not_positive(const std::string& text);
+/// No interface of this machine that DDS can join, by name or IPv4 address.
+std::string no_interface(const std::string& text);
 
 }  // namespace armature

@@ -159,8 +159,26 @@ void leave_if_necessary(const Deployment& deployment, const ProcessWatch& watch,
 struct Process {
   std::string name;
   int domain;
+  std::vector<NetworkInterface> joined;  // beside loopback
   RunOptions::Origin origin;
 };
+
+/// What the processes that one `armature run` has started share, and no other run on any machine;
+/// nothing when they are started by hand.
+std::string run_of(const RunOptions& options, const Process& process) {
+  const bool by_hand = !options.process.empty() && !options.origin;
+  if (by_hand) return "";
+  const auto& [clock_offset, start] = process.origin;
+  return fmt::format("{:x}-{:x}", clock_offset.count(), start.ns);
+}
+
+void tell_joined(const std::vector<NetworkInterface>& joined, Console& console) {
+  if (joined.empty()) return;
+  console.line("runtime",
+               fmt::format("DDS joins lo, {}: programs there may read every topic, and only DDS "
+                           "Security helps against one that copies the fingerprint",
+                           to_text(joined)));
+}
 
 int run_main(const RunOptions& options, const Process& process, Deployment& deployment,
              PluginRegistry& plugins, Console& console) {
@@ -170,7 +188,8 @@ int run_main(const RunOptions& options, const Process& process, Deployment& depl
     children.start(other, child_arguments(options, process.domain, other, process.origin),
                    stops_run(other, deployment.config()) ? OnFault::stop : OnFault::isolate);
   }
-  deployment.connect(plugins, process.domain);
+  deployment.connect(plugins, process.domain, run_of(options, process));
+  tell_joined(process.joined, console);
   MainWatch watch{console, children, deployment.config()};
   deployment.run(watch);
   RunReport::Ending ending{.faults = watch.end_all(), .stopped = watch.interruption()};
@@ -187,7 +206,7 @@ int run_main(const RunOptions& options, const Process& process, Deployment& depl
 int run_other(const RunOptions& options, const Process& process, Deployment& deployment,
               PluginRegistry& plugins, Console& console) {
   ChildWatch watch{console, options.control};
-  deployment.connect(plugins, process.domain);
+  deployment.connect(plugins, process.domain, run_of(options, process));
   deployment.run(watch);
   const int code = conclude_child(options, deployment, watch);
   console.flush();
@@ -217,6 +236,7 @@ int run(const RunOptions& options) {
   problems.throw_if_any();
   Process process{.name = is_child ? options.process : std::string{kMainProcess},
                   .domain = options.domain.value_or(config.domain),
+                  .joined = find_interfaces(config.dds),
                   .origin = options.origin.value_or(
                       RunOptions::Origin{SystemClock{}.unix_minus_monotonic(), Time{}})};
   check_process(config, process.name);

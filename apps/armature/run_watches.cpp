@@ -3,13 +3,12 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <ifaddrs.h>
-#include <net/if.h>
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
+#include "armature/bus/network_interface.hpp"
 #include "armature/values/sanitizer.hpp"
 #include "end_signals.hpp"
 
@@ -20,16 +19,9 @@ namespace {
 constexpr std::chrono::seconds kMeetWithin{kSanitized ? 25 : 5};
 
 bool has_loopback() {
-  ifaddrs* all = nullptr;
-  if (getifaddrs(&all) != 0) return true;  // not known
-  bool found = false;
-  for (const ifaddrs* one = all; one; one = one->ifa_next) {
-    constexpr unsigned kUp = IFF_LOOPBACK | IFF_UP;
-    found = found ||
-            ((one->ifa_flags & kUp) == kUp && one->ifa_addr && one->ifa_addr->sa_family == AF_INET);
-  }
-  freeifaddrs(all);
-  return found;
+  return std::ranges::any_of(network_interfaces(), [](const NetworkInterface& one) {
+    return one.up && std::ranges::find(one.addresses, "127.0.0.1") != one.addresses.end();
+  });
 }
 
 }  // namespace

@@ -75,6 +75,7 @@ int stop_arms(const StopOptions& options) {
                   64};  // outlives the writer, which may still be sending
   std::atomic<bool> one_fell_silent = false;
   const TransportOptions transport_options{.domain = options.domain,
+                                           .interfaces = options.interfaces,
                                            .deployment = "armature stop",
                                            .fingerprint = {},
                                            .on_event =
@@ -98,10 +99,12 @@ int stop_arms(const StopOptions& options) {
     if (!of_deployment) fmt::print(stderr, "armature: {} reads /stop, and is no deployment\n", who);
   }
   if (!found) {
-    fmt::print(stderr,
-               "armature: no deployment in domain {} heard the stop within {:g} s; a deployment "
-               "says its domain with `domain:` or --domain\n",
-               options.domain, options.timeout_s);
+    fmt::print(
+        stderr,
+        "armature: no deployment in domain {} heard the stop within {:g} s; a deployment "
+        "says its domain with `domain:` or --domain, and with `dds:` the interfaces to join by "
+        "--interface\n",
+        options.domain, options.timeout_s);
     return kTimedOut;
   }
   const bool taken = stopping.acknowledged() && !one_fell_silent;

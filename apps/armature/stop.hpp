@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
+#include <vector>
+
 namespace armature {
 
 struct StopOptions {
   int domain = 0;
-  double timeout_s = 3;  // for a deployment to be found, and to take it
+  std::vector<std::string> interfaces;  // joined beside loopback
+  double timeout_s = 3;                 // for a deployment to be found, and to take it
 };
 
 /// `armature stop`: every arm of the domain stops and stays stopped, whoever runs it. Exit code 0

@@ -88,9 +88,11 @@ class Finish {
   std::atomic<std::uint64_t> seen_{0};
 };
 
-PluginPtr<DdsObserver> observe(PluginRegistry& plugins, int domain) {
+PluginPtr<DdsObserver> observe(PluginRegistry& plugins, const TopicOptions& options) {
   tell_warnings(plugins);
-  auto observer = plugins.make<DdsObserver>("observer/fast_dds", domain);
+  const ObserverOptions observer_options{.domain = options.domain,
+                                         .interfaces = options.interfaces};
+  auto observer = plugins.make<DdsObserver>("observer/fast_dds", observer_options);
   if (!observer) throw PluginError(observer.error().text);
   return std::move(*observer);
 }
@@ -135,7 +137,7 @@ std::string counted(int count, std::string_view what) {
 
 int list_topics(const TopicOptions& options) {
   PluginRegistry plugins;
-  const auto observer = observe(plugins, options.domain);
+  const auto observer = observe(plugins, options);
   std::this_thread::sleep_for(options.timeout_s > 0 ? seconds(options.timeout_s) : kDiscovery);
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   if (const int code = too_short(*observer, options); code != kOk) return code;
@@ -165,7 +167,7 @@ int list_topics(const TopicOptions& options) {
 int echo_topic(const TopicOptions& options) {
   PluginRegistry plugins;
   Finish finish{options, 1};
-  auto observer = observe(plugins, options.domain);  // goes before what its callback uses
+  auto observer = observe(plugins, options);  // goes before what its callback uses
   const int watching = watch(*observer, options, [&](const ObservedSample& sample) {
     if (options.count > 0 && finish.seen() >= options.count) return;
     const TypeDescription* type = describe_type(sample.type);
@@ -212,7 +214,7 @@ int topic_rate(const TopicOptions& options) {
   Finish finish{options, kLeastForARate};
   std::mutex mutex;
   RateMeter meter;
-  auto observer = observe(plugins, options.domain);  // goes before what its callback uses
+  auto observer = observe(plugins, options);  // goes before what its callback uses
   const int watching = watch(*observer, options, [&](const ObservedSample& sample) {
     if (options.count > 0 && finish.seen() >= options.count) return;
     const std::scoped_lock lock{mutex};

@@ -285,6 +285,19 @@ const Fault kFaults[] = {
      "deployment.yaml:6:50: 'priority' must be from 0 (normal) to 99\n"},
     {"DomainBeyond32Bits", "executors:", "domain: 4294967296\nexecutors:",
      "deployment.yaml:6:9: 'domain' must be from 0 to 232\n"},
+    {"InterfacesThatAreNoList", "executors:", "dds: {interfaces: eth0}\nexecutors:",
+     "deployment.yaml:6:19: 'interfaces' must be a list of names or IPv4 addresses, [eth0], not "
+     "'eth0'\n"},
+    {"InterfacesThatAreNoneAnywhere",
+     "executors:", "dds: {interfaces: ['', [lo], fe80::1, 192.168.7.2/24]}\nexecutors:",
+     "deployment.yaml:6:20: an interface has a name, or an IPv4 address\n"
+     "deployment.yaml:6:24: 'interfaces' lists names or IPv4 addresses, not a list\n"
+     "deployment.yaml:6:30: 'fe80::1' is an IPv6 address, and DDS joins IPv4 only; give its "
+     "interface\n"
+     "deployment.yaml:6:39: '192.168.7.2/24' is neither the name of an interface (at most 15 "
+     "characters) nor an IPv4 address (192.168.7.2)\n"},
+    {"UnknownKeyOfDds", "executors:", "dds: {interface: [lo]}\nexecutors:",
+     "deployment.yaml:6:7: unknown key 'interface' in dds; did you mean 'interfaces'?\n"},
     {"OpenedInputThatIsMistyped", "executors:", "open: [report.measurd_js]\nexecutors:",
      "deployment.yaml:6:8: no component has the input 'report.measurd_js'; did you mean "
      "'report.measured_js'?\n"},
@@ -431,6 +444,20 @@ TEST_F(SoundDeployment, AMoveThatComesPassesTheCheck) {
                               "{plugin: report/lamp_alignment, params: {expect_move: true}}"},
                              {"tilt_up_deg: 0", "move_duration_s: 2, move_mm: [0, 10, 0]"}});
   EXPECT_EQ(result.exit_code, 0) << result.err;
+}
+
+TEST_F(SoundDeployment, AnInterfaceOfAnotherMachinePassesTheCheckAndNotTheRun) {
+  const Change elsewhere{"executors:", "dds: {interfaces: [lo, elsewhere0]}\nexecutors:"};
+  const auto checked = check({elsewhere});
+  EXPECT_EQ(checked.exit_code, 0) << checked.err;
+  const auto shown = check({elsewhere}, "show");
+  EXPECT_NE(shown.out.find("interfaces: [lo, elsewhere0]"), std::string::npos) << shown.out;
+  const auto run = check({elsewhere}, "run");
+  EXPECT_EQ(run.exit_code, 3);
+  EXPECT_TRUE(
+      run.err.starts_with("deployment.yaml:6:24: there is no interface 'elsewhere0'; this "
+                          "machine has lo (127.0.0.1)"))
+      << run.err;
 }
 
 const FaultyDeployment::Change kSystemClock{"clock: simulated", "clock: system"};

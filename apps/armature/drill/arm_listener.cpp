@@ -18,7 +18,7 @@ constexpr double kMoves = 5e-3;  // [rad/s] or [m/s]
 ArmListener::ArmListener(PluginRegistry& plugins, const DrilledDeployment& deployment, int domain)
     : deployment_{deployment} {
   for (const DrilledArm& arm : deployment.arms) heard_.emplace_back(ArmRecord{arm.limits});
-  auto observer = plugins.make<DdsObserver>("observer/fast_dds", domain);
+  auto observer = plugins.make<DdsObserver>("observer/fast_dds", ObserverOptions{.domain = domain});
   if (!observer) throw PluginError("a drill cannot listen: " + observer.error().text);
   observer_ = std::move(*observer);
 }

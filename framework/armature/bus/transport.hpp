@@ -76,9 +76,12 @@ struct TransportEvent {
 
 struct TransportOptions {
   int domain = 0;
-  std::string deployment;                               // its name, and
-  std::string fingerprint;                              // the hash of its resolved configuration
-  std::string process = {};                             // which of its processes this is
+  /// Interfaces of this machine that are joined beside loopback, by name or IPv4 address.
+  std::vector<std::string> interfaces = {};
+  std::string deployment;    // its name, and
+  std::string fingerprint;   // the hash of its resolved configuration
+  std::string run = {};      // what its processes share that were started together; nothing by hand
+  std::string process = {};  // which of its processes this is
   std::function<void(const TransportEvent&)> on_event;  // any thread; must only enqueue
   /// The deployment's clock, the same in all of its processes. None: the system clock.
   std::function<Time()> now;
@@ -92,15 +95,15 @@ struct TransportOptions {
 class Transport {
  public:
   static constexpr std::string_view kKind = "transport";
-  static constexpr int kKindVersion = 1;
+  static constexpr int kKindVersion = 2;
   /// Refuses with a reason that names the way out.
   using Factory = Expected<std::unique_ptr<Transport>> (*)(const TransportOptions&);
 
   virtual ~Transport() = default;
   virtual Expected<std::unique_ptr<OutsideWriter>> advertise(const TopicSpec& topic) = 0;
   /// `deliver` is called on a transport thread and must only enqueue. Samples of this process'
-  /// own writers are never delivered. `same_deployment_only`: writers with another fingerprint are
-  /// refused, reported once by name, and counted.
+  /// own writers are never delivered. `same_deployment_only`: writers with another fingerprint or
+  /// run are refused, reported once by name, and counted.
   virtual Expected<std::unique_ptr<OutsideReader>> subscribe(
       const TopicSpec& topic, bool same_deployment_only,
       std::function<void(SampleRef)> deliver) = 0;

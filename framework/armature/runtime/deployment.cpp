@@ -241,13 +241,15 @@ void Deployment::assign_units() {
   }
 }
 
-void Deployment::connect(PluginRegistry& plugins, int domain) {
+void Deployment::connect(PluginRegistry& plugins, int domain, const std::string& run) {
   // A process that the others go on without must leave nothing behind that they wait for.
   const bool isolated = options_.process != kMainProcess && !stops_run(options_.process, config_);
   const TransportOptions options{
       .domain = domain,
+      .interfaces = config_.dds.interface_names(),
       .deployment = config_.name,
       .fingerprint = config_.fingerprint,
+      .run = run,
       .process = options_.process,
       .on_event = [this](const TransportEvent& event) { on_event(event); },
       .now = [this] { return clock_->now(); },

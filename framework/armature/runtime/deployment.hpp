@@ -54,8 +54,9 @@ class Deployment {
   void inject(const InjectedFault& fault);
 
   /// Joins the DDS domain: writers for every output, readers only for inputs that another process
-  /// feeds. Throws PluginError with the transport's reason.
-  void connect(PluginRegistry& plugins, int domain);
+  /// feeds. Another machine may run the same file: processes with another `run` are strangers.
+  /// Throws PluginError with the transport's reason.
+  void connect(PluginRegistry& plugins, int domain, const std::string& run = {});
 
   /// Waits until the topics between this and the other processes have met, so that what is sent
   /// once is not lost, and until `watch` lets it begin. Then runs until a component is finished or

@@ -149,6 +149,7 @@ DeploymentConfig read_deployment(const Node& root, const PluginRegistry& plugins
   const std::int64_t domain = map.integer("domain", 0);
   if (domain < 0 || domain > 232) map.problem("domain", "'domain' must be from 0 to 232");
   deployment.domain = static_cast<int>(domain);
+  deployment.dds = read_dds(map.optional_node("dds"), problems);
   deployment.seed = map.natural("seed", 1);
   deployment.time_limit_s = 0;
   if (const Node* run = map.optional_node("run")) {

@@ -9,6 +9,7 @@
 
 #include "armature/config/node.hpp"
 #include "armature/config/params.hpp"
+#include "armature/runtime/dds_config.hpp"
 #include "armature/runtime/executor.hpp"
 #include "armature/runtime/plugin_manifest.hpp"
 #include "armature/runtime/plugin_registry.hpp"
@@ -67,6 +68,7 @@ struct DeploymentConfig {
   std::string name;
   bool simulated = false;
   int domain = 0;
+  DdsConfig dds;
   std::uint64_t seed = 0;
   double time_limit_s = 0;   // 0: none
   double stop_within_s = 3;  // how long the end of a run waits for what moves to come to rest

@@ -59,8 +59,12 @@ void Conflicts::compare(const OwnEndpoint& own, const Endpoint& other, const Dis
     return;
   }
   if (other.writes && !own.writes && refuses(other, own)) {
-    const std::string theirs =
-        other.tag.ours ? " (configuration " + other.tag.fingerprint.substr(0, 12) + ")" : "";
+    std::string theirs;
+    if (other.tag.ours) {
+      theirs = other.tag.fingerprint == own_.fingerprint
+                   ? " (another run of this configuration)"
+                   : " (configuration " + other.tag.fingerprint.substr(0, 12) + ")";
+    }
     const bool commands = own.topic.qos == QosProfile::command;
     report({TransportEvent::Kind::foreign_writer, other.topic,
             who + theirs + " was refused on '" + ros_topic_name(other.topic) +

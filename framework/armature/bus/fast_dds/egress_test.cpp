@@ -93,15 +93,25 @@ TEST_F(EgressTest, RunsOnANamedThread) {
 }
 
 TEST(EndpointTag, ComesBackFromUserData) {
-  const EndpointTag tag{.ours = true, .deployment = "lamp", .fingerprint = "f0", .layout = 0xab12};
+  const EndpointTag tag{
+      .ours = true, .deployment = "lamp", .fingerprint = "f0", .run = "1a", .layout = 0xab12};
   const std::string text = to_user_data(tag);
-  EXPECT_EQ(text, "armature;deployment=lamp;fingerprint=f0;layout=000000000000ab12");
+  EXPECT_EQ(text, "armature;deployment=lamp;fingerprint=f0;run=1a;layout=000000000000ab12");
   const std::vector<std::uint8_t> bytes{text.begin(), text.end()};
   const EndpointTag back = parse_endpoint_tag(bytes);
   EXPECT_TRUE(back.ours);
   EXPECT_EQ(back.deployment, "lamp");
   EXPECT_EQ(back.fingerprint, "f0");
+  EXPECT_EQ(back.run, "1a");
   EXPECT_EQ(back.layout, 0xab12U);
+}
+
+TEST(EndpointTag, IsOfOneDeploymentWithEqualFingerprintAndRun) {
+  const EndpointTag tag{.ours = true, .fingerprint = "f0", .run = "1a"};
+  EXPECT_TRUE(same_deployment(tag, tag));
+  EXPECT_FALSE(same_deployment(tag, {.ours = true, .fingerprint = "f1", .run = "1a"}));
+  EXPECT_FALSE(same_deployment(tag, {.ours = true, .fingerprint = "f0", .run = "1b"}));
+  EXPECT_FALSE(same_deployment(tag, {.ours = false, .fingerprint = "f0", .run = "1a"}));
 }
 
 TEST(EndpointTag, OfOtherProgramsIsNotOurs) {

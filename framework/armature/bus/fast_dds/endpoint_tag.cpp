@@ -21,7 +21,7 @@ std::string hex(std::uint64_t value) {
 
 std::string to_user_data(const EndpointTag& tag) {
   return std::string{kFirstWord} + ";deployment=" + tag.deployment +
-         ";fingerprint=" + tag.fingerprint + ";layout=" + hex(tag.layout);
+         ";fingerprint=" + tag.fingerprint + ";run=" + tag.run + ";layout=" + hex(tag.layout);
 }
 
 EndpointTag parse_endpoint_tag(std::span<const std::uint8_t> user_data) {
@@ -42,6 +42,7 @@ EndpointTag parse_endpoint_tag(std::span<const std::uint8_t> user_data) {
     const std::string_view value = field.substr(equals + 1);
     if (field.starts_with("deployment=")) tag.deployment = value;
     if (field.starts_with("fingerprint=")) tag.fingerprint = value;
+    if (field.starts_with("run=")) tag.run = value;
     if (field.starts_with("layout=")) {
       std::from_chars(value.data(), value.data() + value.size(), tag.layout, 16);
     }

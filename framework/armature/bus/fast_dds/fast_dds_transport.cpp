@@ -55,6 +55,7 @@ Expected<std::unique_ptr<Transport>> FastDdsTransport::make(const TransportOptio
   const EndpointTag tag{.ours = true,
                         .deployment = options.deployment,
                         .fingerprint = options.fingerprint,
+                        .run = options.run,
                         .layout = 0};
   auto link = std::make_shared<FastDdsLink>(tag, options.on_event);
   link->shared_clock = !options.simulated;
@@ -63,6 +64,7 @@ Expected<std::unique_ptr<Transport>> FastDdsTransport::make(const TransportOptio
     raw->conflicts.report({TransportEvent::Kind::note, "", text});
   };
   auto participant = Participant::make({.domain = options.domain,
+                                        .interfaces = options.interfaces,
                                         .name = participant_name(options),
                                         .watcher = watch(link),
                                         .on_note = note,

@@ -114,9 +114,12 @@ class Observer final : public DdsObserver {
 
 }  // namespace
 
-Expected<std::unique_ptr<DdsObserver>> DdsObserver::make(int domain) {
-  auto participant = Participant::make(
-      {.domain = domain, .name = "armature observer", .watcher = {}, .on_note = {}});
+Expected<std::unique_ptr<DdsObserver>> DdsObserver::make(const ObserverOptions& options) {
+  auto participant = Participant::make({.domain = options.domain,
+                                        .interfaces = options.interfaces,
+                                        .name = "armature observer",
+                                        .watcher = {},
+                                        .on_note = {}});
   if (!participant) return tl::unexpected{participant.error()};
   return std::make_unique<Observer>(std::move(*participant));
 }

@@ -29,15 +29,20 @@ struct ObservedSample {
   const std::string& type;         // DDS name
 };
 
+struct ObserverOptions {
+  int domain = 0;
+  std::vector<std::string> interfaces = {};  // as in TransportOptions
+};
+
 /// An onlooker for the tools: sees every topic of a DDS domain and can read any of them without
 /// generated code.
 class DdsObserver {
  public:
   static constexpr std::string_view kKind = "observer";
-  static constexpr int kKindVersion = 1;
-  using Factory = Expected<std::unique_ptr<DdsObserver>> (*)(int domain);
+  static constexpr int kKindVersion = 2;
+  using Factory = Expected<std::unique_ptr<DdsObserver>> (*)(const ObserverOptions&);
 
-  static Expected<std::unique_ptr<DdsObserver>> make(int domain);
+  static Expected<std::unique_ptr<DdsObserver>> make(const ObserverOptions& options);
   virtual ~DdsObserver() = default;
 
   /// What has been discovered so far, sorted by name; complete about a second after make().

@@ -19,7 +19,6 @@
 
 #include "armature/bus/fast_dds/dds_log.hpp"
 #include "armature/bus/fast_dds/guid_of.hpp"
-#include "armature/bus/fast_dds/local_address.hpp"
 #include "armature/bus/fast_dds/raw_cdr_type.hpp"
 #include "armature/bus/topic_name.hpp"
 
@@ -55,10 +54,14 @@ class SignalsBlocked {
   sigset_t before_{};
 };
 
-void use_transports(dds::DomainParticipantQos& qos, const ParticipantSettings& settings) {
+void use_transports(dds::DomainParticipantQos& qos, const ParticipantSettings& settings,
+                    const std::vector<NetworkInterface>& joined) {
   qos.transport().use_builtin_transports = false;
   auto udp = std::make_shared<UDPv4TransportDescriptor>();
   udp->interfaceWhiteList = {"127.0.0.1"};
+  for (const NetworkInterface& interface : joined) {
+    std::ranges::copy(interface.addresses, std::back_inserter(udp->interfaceWhiteList));
+  }
   qos.transport().user_transports.push_back(udp);
   if (!settings.uses_shared_memory) return;
 
@@ -73,10 +76,11 @@ void use_transports(dds::DomainParticipantQos& qos, const ParticipantSettings& s
   qos.transport().user_transports.push_back(shared_memory);
 }
 
-dds::DomainParticipantQos participant_qos(const ParticipantSettings& settings) {
+dds::DomainParticipantQos participant_qos(const ParticipantSettings& settings,
+                                          const std::vector<NetworkInterface>& joined) {
   dds::DomainParticipantQos qos;
   qos.name(settings.name);
-  use_transports(qos, settings);
+  use_transports(qos, settings, joined);
   auto& discovery = qos.wire_protocol().builtin.discovery_config;
   discovery.leaseDuration = Duration_t{1, 0};  // a killed process is gone after this
   discovery.leaseDuration_announcementperiod = Duration_t{0.25L};
@@ -115,18 +119,17 @@ ParticipantIdentity identity_of(const rtps::ParticipantProxyData& participant) {
           .pid = printable(told({dds::parameter_policy_physical_data_process, "__Pid"}))};
 }
 
-/// Where a participant can be reached that is on another machine; nothing for one of this machine.
+/// The addresses of a participant that is on another machine; none of one of this machine.
 /// Multicast brings such announcements as soon as any program of this machine has joined the group
 /// on another interface.
-std::optional<std::string> address_elsewhere(const rtps::ParticipantProxyData& participant) {
-  std::optional<std::string> elsewhere;
+std::vector<std::string> addresses_elsewhere(const rtps::ParticipantProxyData& participant) {
+  std::vector<std::string> elsewhere;
   for (const auto* locators : {&participant.metatraffic_locators, &participant.default_locators}) {
     for (const rtps::Locator_t& locator : locators->unicast) {
-      if (locator.kind == LOCATOR_KIND_SHM) return std::nullopt;
+      if (locator.kind == LOCATOR_KIND_SHM) return {};
       if (locator.kind != LOCATOR_KIND_UDPv4) continue;
-      const auto* bytes = rtps::IPLocator::getIPv4(locator);
-      if (is_local_address({bytes[0], bytes[1], bytes[2], bytes[3]})) return std::nullopt;
-      elsewhere = rtps::IPLocator::toIPv4string(locator);
+      elsewhere.push_back(rtps::IPLocator::toIPv4string(locator));
+      if (is_own_address(elsewhere.back())) return {};
     }
   }
   return elsewhere;
@@ -171,10 +174,16 @@ class Participant::Listener final : public dds::DomainParticipantListener {
   Discovery& discovery() { return participant_.discovery_; }
 
   void ignore_if_elsewhere(const GuidPrefix& prefix, const rtps::ParticipantProxyData& found) {
-    const auto address = address_elsewhere(found);
-    if (!address || !discovery().ignore(prefix)) return;
+    const std::vector<std::string> addresses = addresses_elsewhere(found);
+    const bool heard = addresses.empty() || std::ranges::any_of(addresses, [&](const auto& one) {
+                         return participant_.reaches(one);
+                       });
+    if (heard || !discovery().ignore(prefix)) return;
+    const auto& joined = participant_.joined_;
     on_note_(discovery().who(prefix) + " is ignored: it is not on this machine (it answers at " +
-             *address + "), and only the loopback interface is joined");
+             addresses.back() + "), and " +
+             (joined.empty() ? "only the loopback interface is joined"
+                             : "no joined interface leads there: " + to_text(joined)));
   }
 
   template <class ProxyData>
@@ -201,14 +210,17 @@ Expected<std::unique_ptr<Participant>> Participant::make(ParticipantSettings set
     return refuse("DDS domain " + std::to_string(settings.domain) + " is not within 0 and " +
                   std::to_string(kGreatestDomain));
   }
+  auto joined = find_interfaces(settings.interfaces);
+  if (!joined) return tl::unexpected{joined.error()};
   if (!settings.on_note) settings.on_note = [](const std::string&) {};
-  std::unique_ptr<Participant> made{new Participant{settings}};
+  std::unique_ptr<Participant> made{new Participant{settings, std::move(*joined)}};
   if (const auto opened = made->open(settings); !opened) return tl::unexpected{opened.error()};
   return made;
 }
 
-Participant::Participant(ParticipantSettings& settings)
-    : discovery_{std::move(settings.watcher)},
+Participant::Participant(ParticipantSettings& settings, std::vector<NetworkInterface> joined)
+    : joined_{std::move(joined)},
+      discovery_{std::move(settings.watcher)},
       log_{std::make_unique<DdsLog>(settings.on_note)},
       listener_{std::make_unique<Listener>(*this, settings.on_note)} {}
 
@@ -225,7 +237,7 @@ Expected<void> Participant::open(const ParticipantSettings& settings) {
   factory_qos.entity_factory().autoenable_created_entities = false;
   factory->set_qos(factory_qos);
   participant_ = factory->create_participant(static_cast<dds::DomainId_t>(settings.domain),
-                                             participant_qos(settings), listener_.get(),
+                                             participant_qos(settings, joined_), listener_.get(),
                                              dds::StatusMask::none());
   factory_qos.entity_factory().autoenable_created_entities = true;
   factory->set_qos(factory_qos);
@@ -238,6 +250,13 @@ Expected<void> Participant::open(const ParticipantSettings& settings) {
   subscriber_ = participant_->create_subscriber(dds::SubscriberQos{});
   if (!publisher_ || !subscriber_) return refused("publisher and subscriber");
   return {};
+}
+
+bool Participant::reaches(const std::string& address) const {
+  if (joined_.empty()) return false;
+  const auto interface = interface_towards(address);
+  return interface &&
+         std::ranges::find(joined_, *interface, &NetworkInterface::name) != joined_.end();
 }
 
 Participant::~Participant() {

@@ -6,9 +6,11 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <vector>
 
 #include "armature/bus/fast_dds/discovery.hpp"
 #include "armature/bus/fast_dds/shared_memory.hpp"
+#include "armature/bus/network_interface.hpp"
 #include "armature/values/expected.hpp"
 
 namespace eprosima::fastdds::dds {
@@ -24,6 +26,7 @@ class DdsLog;
 
 struct ParticipantSettings {
   int domain = 0;
+  std::vector<std::string> interfaces = {};  // as in TransportOptions
   std::string name;
   Discovery::Watcher watcher;
   std::function<void(const std::string&)> on_note;  // any thread; must only enqueue
@@ -31,8 +34,8 @@ struct ParticipantSettings {
   bool uses_shared_memory = true;
 };
 
-/// The one DDS participant of the process: shared memory and UDP on the loopback interface only,
-/// discovery, and the topics it has. Endpoints must be deleted before it.
+/// The one DDS participant of the process: shared memory, UDP on the loopback interface and on
+/// those of the settings, discovery, and the topics it has. Endpoints must be deleted before it.
 class Participant {
  public:
   static Expected<std::unique_ptr<Participant>> make(ParticipantSettings settings);
@@ -50,9 +53,12 @@ class Participant {
 
  private:
   class Listener;
-  explicit Participant(ParticipantSettings& settings);
+  Participant(ParticipantSettings& settings, std::vector<NetworkInterface> joined);
   Expected<void> open(const ParticipantSettings& settings);
+  /// Whether the way to that address of another machine leads over a joined interface.
+  bool reaches(const std::string& address) const;
 
+  const std::vector<NetworkInterface> joined_;  // beside loopback
   Discovery discovery_;
   std::unique_ptr<DdsLog> log_;
   std::unique_ptr<Listener> listener_;

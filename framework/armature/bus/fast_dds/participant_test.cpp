@@ -23,6 +23,16 @@ TEST_F(FastDds, ADomainOutOfRangeIsRefused) {
   EXPECT_EQ(made.error().text, "DDS domain 233 is not within 0 and 232");
 }
 
+TEST_F(FastDds, AnInterfaceThatIsAbsentIsRefused) {
+  TransportOptions options;
+  options.domain = domain_;
+  options.interfaces = {"lo", "elsewhere0"};
+  const auto made = FastDdsTransport::make(options);
+  ASSERT_FALSE(made);
+  EXPECT_THAT(made.error().text,
+              testing::StartsWith("there is no interface 'elsewhere0'; this machine has lo ("));
+}
+
 TEST_F(FastDds, WithoutSharedMemoryTopicsGoOverUdp) {
   Peer peer{domain_, "lamp", "f00d", "echo"};
   const auto transport = make_transport({.folder = "/proc"});
@@ -44,7 +54,7 @@ TEST_F(FastDds, AParticipantOfAnotherMachineIsIgnoredAndNamed) {
             "participant 'stranger' is ignored: it is not on this machine (it answers at "
             "203.0.113.7), and only the loopback interface is joined");
   ASSERT_TRUE(announce(domain_, elsewhere));
-  const auto observer = DdsObserver::make(domain_).value();
+  const auto observer = DdsObserver::make({.domain = domain_}).value();
   EXPECT_EQ(events(Kind::note), 1);
 }
 

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "command.hpp"
+
+namespace armature::test {
+
+/// Two machines with a cable between them, as far as DDS can tell: network namespaces, each with
+/// a loopback interface and shared memory of its own. They are gone with this object.
+class TwoHosts {
+ public:
+  static constexpr const char* kInterface = "eth0";  // of both, at the cable
+
+  struct Host {
+    std::string address;
+    std::unique_ptr<Command> holder{};  // sleeps in the namespaces of the host
+
+    /// The command that runs `words` there.
+    std::vector<std::string> command(std::vector<std::string> words) const;
+  };
+
+  TwoHosts();
+  /// Why there are none here, or "".
+  const std::string& missing() const { return missing_; }
+  const Host& robot() const { return robot_; }
+  const Host& desk() const { return desk_; }
+
+ private:
+  std::string make();
+
+  Host robot_{.address = "10.77.0.1"};
+  Host desk_{.address = "10.77.0.2"};
+  std::string missing_;
+};
+
+}  // namespace armature::test

@@ -119,7 +119,10 @@ Expected<std::unique_ptr<DdsObserver>> DdsObserver::make(const ObserverOptions& 
                                         .interfaces = options.interfaces,
                                         .name = "armature observer",
                                         .watcher = {},
-                                        .on_note = {}});
+                                        .on_note = {},
+                                        // One that is killed must leave no lock behind for which
+                                        // those that it watched wait.
+                                        .uses_shared_memory = false});
   if (!participant) return tl::unexpected{participant.error()};
   return std::make_unique<Observer>(std::move(*participant));
 }

@@ -145,6 +145,23 @@ TEST_F(PulledPlug, AProcessWithADriverEndsAfterAllOthersHaveEnded) {
                                         "last      ended\n(.|\n)*arm       ended at rest\n"));
 }
 
+TEST_F(PulledPlug, ASecondProcessOfTheSameNameIsRefusedAndTheFirstGoesOn) {
+  // What it commands would be taken: it is the same deployment.
+  Command run{command({kApart}), options_};
+  ASSERT_TRUE(run.wait_for_err("arm       moves", kWithin)) << run.err();
+  const pid_t first = run.child();
+  auto words = command({kApart});
+  words.insert(words.end(), {"--process", "aside"});
+  const CommandResult second = run_command(words, options_, kWithin);
+  EXPECT_EQ(second.exit_code, 1);
+  EXPECT_EQ(second.err, "armature: process 'aside' of deployment 'halt' already runs as pid " +
+                            std::to_string(first) + " on domain " + std::to_string(domain_) +
+                            "; stop it, or use another domain with --domain\n");
+  EXPECT_THAT(run.err(), Not(HasSubstr("stopping:")));
+  run.signal(SIGINT);
+  EXPECT_THAT(run.finish(kWithin).err, HasSubstr(kEndedAtRest));
+}
+
 TEST_F(PulledPlug, AnArmWhoseMainProcessIsKilledComesToRestByItselfAndEnds) {
   Command run{command({kApart}), options_};
   ASSERT_TRUE(run.wait_for_err("arm       moves", kWithin)) << run.err();

@@ -323,6 +323,66 @@ TEST_F(PulledPlug, AStepThatDoesNotReturnIsNamedAndTheProcessLeavesAllTheSame) {
   EXPECT_TRUE(ends_within(aside, seconds{1}));
 }
 
+TEST_F(PulledPlug, AComponentThatDoesNotEndIsNamedAndTheProcessLeavesAllTheSame) {
+  for (const auto& [function, phase] : std::map<std::string, std::string>{
+           {"stop", "stop"}, {"summarize", "summary"}, {"destructor", "destructor"}}) {
+    Command run{command({"components.beat.params.hangs_in=" + function}), options_};
+    ASSERT_TRUE(run.wait_for_err("arm       moves", kWithin)) << run.err();
+    run.signal(SIGINT);
+    const CommandResult result = run.finish(kWithin);
+    EXPECT_FALSE(result.timed_out) << function;
+    EXPECT_EQ(result.exit_code, 1);
+    const std::string hangs = "the " + phase + " of 'beat' has not returned for ";
+    EXPECT_THAT(result.err, HasSubstr("arm       at rest\n"));
+    EXPECT_THAT(result.err, HasSubstr("armature: " + hangs));
+    if (function == "destructor") {
+      EXPECT_THAT(result.out, HasSubstr(R"({"status":"ok")")) << "it was told before";
+    } else {
+      EXPECT_THAT(result.out, HasSubstr(R"({"status":"fault","reason":")" + hangs));
+    }
+    EXPECT_EQ(report(), result.out) << "one object, the same in both places";
+  }
+}
+
+TEST_F(PulledPlug, FilesThatAreNeverWrittenAreNamedAndTheProcessLeavesAllTheSame) {
+  Command run{command({"components.beat.params.hangs_in=write_files"}), options_};
+  ASSERT_TRUE(run.wait_for_err("arm       moves", kWithin)) << run.err();
+  run.signal(SIGINT);
+  const CommandResult result = run.finish(kWithin);
+  EXPECT_FALSE(result.timed_out);
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr("armature: the report of 'beat' has not returned for "));
+  EXPECT_EQ(report(), result.out) << "what was measured is there";
+}
+
+TEST_F(PulledPlug, AComponentOfAnotherProcessThatDoesNotEndIsNamedByTheMainOne) {
+  Command run{command({"components.beat.process=aside", "components.beat.params.hangs_in=stop"}),
+              options_};
+  ASSERT_TRUE(run.wait_for_err("arm       moves", kWithin)) << run.err();
+  const pid_t aside = run.child();
+  run.signal(SIGINT);
+  const CommandResult result = run.finish(kWithin);
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr(kEndedAtRest));
+  EXPECT_THAT(result.out, HasSubstr(R"({"status":"fault","reason":"process 'aside': the stop of )"
+                                    "'beat' has not returned for "));
+  EXPECT_TRUE(ends_within(aside, seconds{1}));
+}
+
+TEST_F(PulledPlug, ATransportThatDoesNotEndIsNamedAndTheProcessLeavesAllTheSame) {
+  Command run{
+      command(),
+      {.environment = {{"ARMATURE_PLUGIN_PATH", std::string{DEAF_TRANSPORT} + ":" + TEST_PLUGINS},
+                       {"DEAF_TRANSPORT_HANGS", "1"}},
+       .input = {}}};
+  ASSERT_TRUE(run.wait_for_err("arm       moves", kWithin)) << run.err();
+  run.signal(SIGINT);
+  const CommandResult result = run.finish(kWithin);
+  EXPECT_FALSE(result.timed_out);
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr("armature: the end of the transport has not returned for "));
+}
+
 TEST_F(PulledPlug, SharedMemoryOfKilledProcessesIsGoneAtTheNextStart) {
   std::set<std::string> left;
   {

@@ -132,8 +132,9 @@ int check_deployment(const DeploymentSource& source) {
   // Constructing the components is how a solver gets to refuse its robot.
   const Deployment constructed{
       std::move(config), plugins, {.process = "", .on_line = {}, .on_note = {}}};
-  for (const std::string& warning : executor_warnings(constructed.config())) {
-    fmt::print(stderr, "warning: {}\n", warning);
+  for (const auto& warnings :
+       {executor_warnings(constructed.config()), isolation_warnings(constructed.config())}) {
+    for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
   }
   fmt::print("{}", text);
   return kOk;

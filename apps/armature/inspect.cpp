@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "armature/config/document.hpp"
+#include "armature/config/source_text.hpp"
 #include "armature/runtime/deployment.hpp"
 #include "armature/runtime/on_fault.hpp"
 #include "exit_code.hpp"
@@ -20,6 +21,7 @@ namespace armature {
 namespace {
 
 DeploymentConfig read(const DeploymentSource& source, const PluginRegistry& plugins) {
+  const config::PipePatience one_for_all;
   config::Problems problems;
   auto config = read_deployment(config::load_with_overlays(source.files, source.assignments),
                                 plugins, problems);
@@ -141,6 +143,7 @@ int check_deployment(const DeploymentSource& source) {
 }
 
 int show_deployment(const DeploymentSource& source) {
+  const config::PipePatience one_for_all;
   const config::Node root = config::load_with_overlays(source.files, source.assignments);
   config::Problems problems;
   check_is_deployment(root, problems);

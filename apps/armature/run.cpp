@@ -17,6 +17,7 @@
 #include <string_view>
 
 #include "armature/config/document.hpp"
+#include "armature/config/source_text.hpp"
 #include "armature/runtime/arm_ownership.hpp"
 #include "armature/runtime/child_processes.hpp"
 #include "armature/runtime/deployment.hpp"
@@ -252,6 +253,15 @@ void check_process(const DeploymentConfig& config, const std::string& process) {
                                   config::did_you_mean(process, processes)));
 }
 
+DeploymentConfig read(const DeploymentSource& source, PluginRegistry& plugins) {
+  const config::PipePatience one_for_all;
+  config::Problems problems;
+  DeploymentConfig config = read_deployment(
+      config::load_with_overlays(source.files, source.assignments), plugins, problems);
+  problems.throw_if_any();
+  return config;
+}
+
 int run(const RunOptions& options) {
   const bool is_child = !options.process.empty();
   // Another process of a deployment just ends: its main process tells, and asks it for no JSON.
@@ -260,11 +270,7 @@ int run(const RunOptions& options) {
   if (options.report && !is_child) begin_report(*options.report);
   PluginRegistry plugins;
   if (!is_child) tell_warnings(plugins);
-  config::Problems problems;
-  DeploymentConfig config =
-      read_deployment(config::load_with_overlays(options.source.files, options.source.assignments),
-                      plugins, problems);
-  problems.throw_if_any();
+  DeploymentConfig config = read(options.source, plugins);
   Process process{.name = is_child ? options.process : std::string{kMainProcess},
                   .domain = options.domain.value_or(config.domain),
                   .origin = options.origin.value_or(

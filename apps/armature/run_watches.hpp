@@ -89,13 +89,19 @@ class ChildWatch final : public ProcessWatch {
   void tell_timing(const RunTiming& timing);
 
  private:
+  using SteadyClock = std::chrono::steady_clock;
   void hear();
+  /// True once the main process has let a stop of this one unanswered for too long; told once.
+  bool main_is_silent();
   /// Sends a line unless it is the last one of its kind again.
   void say(std::string& last, std::string line);
 
   ControlChannel control_;
   bool started_ = false, told_end_ = false;
   std::string stop_;      // as the main process said
+  std::string own_stop_;  // which it is to answer
+  SteadyClock::time_point asked_;
+  bool told_silent_ = false;
   std::string said_joined_, said_waiting_, said_moving_;
 };
 

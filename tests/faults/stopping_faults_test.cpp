@@ -383,6 +383,21 @@ TEST_F(PulledPlug, ATransportThatDoesNotEndIsNamedAndTheProcessLeavesAllTheSame)
   EXPECT_THAT(result.err, HasSubstr("armature: the end of the transport has not returned for "));
 }
 
+TEST_F(PulledPlug, AProcessThatIsInterruptedWhileTheMainOneIsHaltedStopsByItself) {
+  Command run{command({kApart}), options_};
+  ASSERT_TRUE(run.wait_for_err("arm       moves", kWithin)) << run.err();
+  const pid_t aside = run.child();
+  run.signal(SIGSTOP);
+  kill(aside, SIGINT);
+  EXPECT_TRUE(run.wait_for_err(
+      "runtime   stopping: interrupted; the main process does not answer, and this one ends by "
+      "itself\n",
+      kWithin))
+      << run.err();
+  EXPECT_TRUE(run.wait_for_err(kEndedAtRest, kWithin)) << run.err();
+  EXPECT_TRUE(ends_within(aside, kWithin));
+}
+
 TEST_F(PulledPlug, SharedMemoryOfKilledProcessesIsGoneAtTheNextStart) {
   std::set<std::string> left;
   {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "armature/config/document.hpp"
+#include "armature/config/source_text.hpp"
 #include "armature/runtime/component_config.hpp"
 #include "armature/runtime/deployment.hpp"
 #include "armature/runtime/on_fault.hpp"
@@ -22,6 +23,7 @@ namespace armature {
 namespace {
 
 DeploymentConfig read(const DeploymentSource& source, const PluginRegistry& plugins) {
+  const config::PipePatience one_for_all;
   config::Problems problems;
   auto config = read_deployment(config::load_with_overlays(source.files, source.assignments),
                                 plugins, problems);
@@ -174,14 +176,16 @@ int check_deployment(const DeploymentSource& source) {
   // Constructing the components is how a solver gets to refuse its robot.
   const Deployment constructed{
       std::move(config), plugins, {.process = "", .on_line = {}, .on_note = {}}};
-  for (const std::string& warning : executor_warnings(constructed.config())) {
-    fmt::print(stderr, "warning: {}\n", warning);
+  for (const auto& warnings :
+       {executor_warnings(constructed.config()), isolation_warnings(constructed.config())}) {
+    for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
   }
   fmt::print("{}", text);
   return kOk;
 }
 
 int show_deployment(const DeploymentSource& source) {
+  const config::PipePatience one_for_all;
   const config::Node root = config::load_with_overlays(source.files, source.assignments);
   config::Problems problems;
   check_is_deployment(root, problems);

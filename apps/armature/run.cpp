@@ -2,11 +2,13 @@
 #include "run.hpp"
 
 #include <fmt/format.h>
+#include <poll.h>
 #include <sys/prctl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -15,15 +17,18 @@
 #include <string_view>
 
 #include "armature/config/document.hpp"
+#include "armature/config/source_text.hpp"
 #include "armature/runtime/arm_ownership.hpp"
 #include "armature/runtime/child_processes.hpp"
 #include "armature/runtime/deployment.hpp"
+#include "armature/runtime/end_watch.hpp"
 #include "armature/runtime/injected_fault.hpp"
 #include "armature/runtime/on_fault.hpp"
 #include "armature/runtime/output_folder.hpp"
 #include "armature/runtime/run_report.hpp"
 #include "armature/runtime/running_component.hpp"
 #include "armature/runtime/write_atomically.hpp"
+#include "armature/values/sanitizer.hpp"
 #include "console.hpp"
 #include "end_signals.hpp"
 #include "exit_code.hpp"
@@ -86,6 +91,50 @@ void write_ending(const std::filesystem::path& folder, const std::string& ending
   }
 }
 
+/// How a process leaves whose end hangs: it says what does not return, and puts that where its
+/// result would be unless the result has been told. The thread that ends may hold the lock of a
+/// standard stream.
+class LastWord {
+ public:
+  /// `child` is nullptr in the main process.
+  LastWord(const RunOptions& options, Console& console, ChildWatch* child)
+      : options_{&options}, console_{&console}, child_{child} {}
+
+  /// How long each part of the end may take; the main process kills another one after 3 s.
+  Duration patience() const {
+    const bool is_awaited = child_ && !child_->alone();
+    return seconds((is_awaited ? 2 : 10) * (kSanitized ? 5 : 1));
+  }
+  void result_told() { result_told_ = true; }
+
+  [[noreturn]] void leave(const std::string& hung) const {
+    constexpr unsigned kFileWithin_s = 2;
+    if (child_) child_->tell_fault(hung);
+    if (!child_ || child_->alone()) console_->tell(hung);
+    const std::string told = ending("fault", hung);
+    if (options_->json && !result_told_) write_out(told);
+    console_->flush();
+    if (options_->report && !child_ && !result_told_) {
+      alarm(kFileWithin_s);  // the report's disk may be what hangs
+      write_ending(*options_->report, told);
+    }
+    _exit(kFailed);
+  }
+
+ private:
+  /// Never waits for a reader.
+  static void write_out(std::string_view text) {
+    pollfd writable{.fd = STDOUT_FILENO, .events = POLLOUT, .revents = 0};
+    if (poll(&writable, 1, 0) <= 0) return;
+    [[maybe_unused]] const auto written = ::write(STDOUT_FILENO, text.data(), text.size());
+  }
+
+  const RunOptions* options_;
+  Console* console_;
+  ChildWatch* child_;
+  std::atomic<bool> result_told_{false};
+};
+
 /// Of a run that did not begin.
 std::string_view status_of(const std::exception& error) {
   switch (exit_code_of(error)) {
@@ -110,7 +159,7 @@ bool report_written(const RunReport& report, const Deployment& deployment,
 }
 
 int conclude(const RunOptions& options, const Deployment& deployment,
-             const RunReport::Ending& ending, Console& console) {
+             const RunReport::Ending& ending, Console& console, LastWord& last_word) {
   const RunReport report{deployment, ending};
   if (options.json) {
     fmt::print("{}\n", to_json(report));
@@ -118,6 +167,7 @@ int conclude(const RunOptions& options, const Deployment& deployment,
     fmt::print("{}", to_table(report));
   }
   std::fflush(stdout);
+  last_word.result_told();
   for (const std::string& fault : ending.faults) console.tell(fault);
   if (ending.stopped) console.tell(*ending.stopped);
   if (options.report && !report_written(report, deployment, *options.report, console)) {
@@ -139,11 +189,13 @@ std::string fault_of(const Deployment& deployment, const ChildWatch& watch) {
   return watch.interruption().value_or("");
 }
 
-int conclude_child(const RunOptions& options, const Deployment& deployment, ChildWatch& watch) {
+int conclude_child(const RunOptions& options, const Deployment& deployment, ChildWatch& watch,
+                   LastWord& last_word) {
   const std::string fault = fault_of(deployment, watch);
   watch.tell_fault(fault);
   if (options.timing) watch.tell_timing(timing_of(deployment));
   if (options.json) fmt::print("{}", ending(fault.empty() ? "ok" : "fault", fault));
+  last_word.result_told();
   return fault.empty() ? kOk : kFailed;
 }
 
@@ -181,7 +233,7 @@ void tell_joined(const std::vector<NetworkInterface>& joined, Console& console) 
 }
 
 int run_main(const RunOptions& options, const Process& process, Deployment& deployment,
-             PluginRegistry& plugins, Console& console) {
+             PluginRegistry& plugins, Console& console, LastWord& last_word) {
   ChildProcesses children;
   for (const auto& other : deployment.config().processes()) {
     if (other == process.name) continue;
@@ -197,18 +249,17 @@ int run_main(const RunOptions& options, const Process& process, Deployment& depl
     ending.timing = timing_of(deployment);
     children.add_timing(*ending.timing);
   }
-  const int code = conclude(options, deployment, ending, console);
+  const int code = conclude(options, deployment, ending, console, last_word);
   console.flush();
   leave_if_necessary(deployment, watch, code);
   return code;
 }
 
 int run_other(const RunOptions& options, const Process& process, Deployment& deployment,
-              PluginRegistry& plugins, Console& console) {
-  ChildWatch watch{console, options.control};
+              PluginRegistry& plugins, Console& console, ChildWatch& watch, LastWord& last_word) {
   deployment.connect(plugins, process.domain, run_of(options, process));
   deployment.run(watch);
-  const int code = conclude_child(options, deployment, watch);
+  const int code = conclude_child(options, deployment, watch, last_word);
   console.flush();
   leave_if_necessary(deployment, watch, code);
   return code;
@@ -221,6 +272,15 @@ void check_process(const DeploymentConfig& config, const std::string& process) {
                                   config::did_you_mean(process, processes)));
 }
 
+DeploymentConfig read(const DeploymentSource& source, PluginRegistry& plugins) {
+  const config::PipePatience one_for_all;
+  config::Problems problems;
+  DeploymentConfig config = read_deployment(
+      config::load_with_overlays(source.files, source.assignments), plugins, problems);
+  problems.throw_if_any();
+  return config;
+}
+
 int run(const RunOptions& options) {
   const bool is_child = !options.process.empty();
   // Another process of a deployment just ends: its main process tells, and asks it for no JSON.
@@ -229,11 +289,7 @@ int run(const RunOptions& options) {
   if (options.report && !is_child) begin_report(*options.report);
   PluginRegistry plugins;
   if (!is_child) tell_warnings(plugins);
-  config::Problems problems;
-  DeploymentConfig config =
-      read_deployment(config::load_with_overlays(options.source.files, options.source.assignments),
-                      plugins, problems);
-  problems.throw_if_any();
+  DeploymentConfig config = read(options.source, plugins);
   Process process{.name = is_child ? options.process : std::string{kMainProcess},
                   .domain = options.domain.value_or(config.domain),
                   .joined = find_interfaces(config.dds),
@@ -248,21 +304,27 @@ int run(const RunOptions& options) {
   }
   const std::vector<InstanceLock> locks = own_arms(config, process.name, process.domain);
   Console console;
+  std::optional<ChildWatch> child_watch;
+  if (is_child) child_watch.emplace(console, options.control);
+  LastWord last_word{options, console, is_child ? &*child_watch : nullptr};
+  EndWatch end_watch{last_word.patience(), [&](const auto& hung) { last_word.leave(hung); }};
   Deployment deployment{
       std::move(config),
       plugins,
       {.process = process.name,
        .on_line = [&](const auto& who, const auto& text) { console.line(who, text); },
        .on_note = [&](const auto& text) { console.line("runtime", text); },
-       .clock_offset = process.origin.clock_offset}};
+       .clock_offset = process.origin.clock_offset,
+       .on_ending = [&](const auto& what) { end_watch.begin(what); }}};
   if (injected) deployment.inject(*injected);
   end_signals::stop_in_order();
   name_crashing_components();
   if (is_child && options.control >= 0) prctl(PR_SET_PDEATHSIG, 0);
   if (!options.origin) process.origin.start = deployment.clock().now();
   console.start(deployment.clock(), process.origin.start);
-  return is_child ? run_other(options, process, deployment, plugins, console)
-                  : run_main(options, process, deployment, plugins, console);
+  return is_child
+             ? run_other(options, process, deployment, plugins, console, *child_watch, last_word)
+             : run_main(options, process, deployment, plugins, console, last_word);
 }
 
 }  // namespace

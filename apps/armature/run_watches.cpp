@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "armature/bus/network_interface.hpp"
 #include "armature/values/sanitizer.hpp"
@@ -17,6 +18,8 @@ namespace {
 
 /// How long processes that have joined may take to meet.
 constexpr std::chrono::seconds kMeetWithin{kSanitized ? 25 : 5};
+/// How long the main process, which looks every 20 ms, may take to answer that another one stops.
+constexpr std::chrono::seconds kAnswersWithin{kSanitized ? 5 : 1};
 
 bool has_loopback() {
   return std::ranges::any_of(network_interfaces(), [](const NetworkInterface& one) {
@@ -162,7 +165,11 @@ std::optional<std::string> ChildWatch::stop_cause() {
 }
 
 void ChildWatch::stopping(const std::string& cause) {
-  if (stop_.empty()) control_.send("stop " + cause);
+  if (stop_.empty()) {
+    control_.send("stop " + cause);
+    own_stop_ = cause;
+    asked_ = SteadyClock::now();
+  }
   if (alone() || control_.lost()) console().line("runtime", "stopping: " + cause);
 }
 
@@ -175,7 +182,18 @@ bool ChildWatch::may_end(const std::vector<std::string>& moving, Duration left) 
     say(said_moving_, fmt::format("moving {}", fmt::join(moving, "', '")));
   }
   if (told_end_) return true;
-  return (alone() || control_.lost()) && RunWatch::may_end(moving, left);
+  return (alone() || control_.lost() || main_is_silent()) && RunWatch::may_end(moving, left);
+}
+
+bool ChildWatch::main_is_silent() {
+  if (own_stop_.empty() || !stop_.empty()) return false;
+  if (SteadyClock::now() - asked_ < kAnswersWithin) return false;
+  if (!std::exchange(told_silent_, true)) {
+    console().line("runtime", fmt::format("stopping: {}; the main process does not answer, and "
+                                          "this one ends by itself",
+                                          own_stop_));
+  }
+  return true;
 }
 
 void ChildWatch::tell_timing(const RunTiming& timing) {

@@ -81,20 +81,27 @@ class ChildWatch final : public ProcessWatch {
   void stopping(const std::string& cause) override;
   bool may_end(const std::vector<std::string>& moving, Duration left) override;
 
+  /// True without a main process.
+  bool alone() const { return control_.file() < 0; }
   /// Tells the main process what failed here, "" for nothing.
   void tell_fault(const std::string& fault);
   /// Tells the main process, or without one the operator, who was late.
   void tell_timing(const RunTiming& timing);
 
  private:
-  bool alone() const { return control_.file() < 0; }
+  using SteadyClock = std::chrono::steady_clock;
   void hear();
+  /// True once the main process has let a stop of this one unanswered for too long; told once.
+  bool main_is_silent();
   /// Sends a line unless it is the last one of its kind again.
   void say(std::string& last, std::string line);
 
   ControlChannel control_;
   bool started_ = false, told_end_ = false;
-  std::string stop_;  // as the main process said
+  std::string stop_;      // as the main process said
+  std::string own_stop_;  // which it is to answer
+  SteadyClock::time_point asked_;
+  bool told_silent_ = false;
   std::string said_joined_, said_waiting_, said_moving_;
 };
 

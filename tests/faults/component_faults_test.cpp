@@ -104,6 +104,24 @@ TEST_F(ComponentFaults, TheFileMaySayWhatAFaultDoes) {
   EXPECT_EQ(ended["reason"], "monitor: step failed: a marker has no colour");
 }
 
+TEST_F(ComponentFaults, AFileThatIsolatesWhatMovesAnArmIsRefused) {
+  const std::string reason =
+      "component 'arm' moves an arm, and 'on_fault: isolate' would let the run go on when it "
+      "fails; leave 'on_fault' out, and its fault stops the run\n";
+  for (const char* verb : {"check", "run"}) {
+    const CommandResult result = run_command(
+        {armature(), verb, file_.string(), "--set", "components.arm.on_fault=isolate"}, options_);
+    EXPECT_EQ(result.exit_code, 3);
+    EXPECT_THAT(result.err, HasSubstr(reason));
+  }
+  const CommandResult told = run_command(
+      {armature(), "check", file_.string(), "--set", "components.source.on_fault=isolate"},
+      options_);
+  EXPECT_EQ(told.exit_code, 0);
+  EXPECT_THAT(told.err, HasSubstr("warning: component 'source' leads to what moves an arm, and is "
+                                  "isolated: "));
+}
+
 TEST_F(ComponentFaults, AMonitorThatHangsIsNamedAndShownAndTheRunGoesOn) {
   const std::vector<std::string> settings{"components.monitor.params.breaks=hangs",
                                           "components.monitor.params.hangs_s=6",

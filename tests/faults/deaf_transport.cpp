@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // A transport/fast_dds on which nobody ever meets anybody. In a folder of its own, which a test
-// puts before the framework's with ARMATURE_PLUGIN_PATH: the first of an id wins.
+// puts before the framework's with ARMATURE_PLUGIN_PATH: the first of an id wins. With
+// DEAF_TRANSPORT_HANGS in the environment its end does not return.
+#include <chrono>
+#include <cstdlib>
+#include <thread>
+
 #include "armature/bus/transport.hpp"
 #include "armature/runtime/abi.hpp"
 #include "armature/runtime/plugin.hpp"
@@ -31,6 +36,10 @@ class DeafReader final : public OutsideReader {
 
 class DeafTransport final : public Transport {
  public:
+  ~DeafTransport() override {
+    while (std::getenv("DEAF_TRANSPORT_HANGS"))
+      std::this_thread::sleep_for(std::chrono::seconds{1});
+  }
   static Expected<std::unique_ptr<Transport>> make(const TransportOptions&) {
     return std::make_unique<DeafTransport>();
   }

@@ -191,6 +191,23 @@ TEST_F(PulledPlug, AProcessWithADriverEndsAfterAllOthersHaveEnded) {
                                         "last      ended\n(.|\n)*arm       ended at rest\n"));
 }
 
+TEST_F(PulledPlug, ASecondProcessOfTheSameNameIsRefusedAndTheFirstGoesOn) {
+  // What it commands would be taken: it is the same deployment.
+  Command run{command({kApart}), options_};
+  ASSERT_TRUE(run.wait_for_err("arm       moves", kWithin)) << run.err();
+  const pid_t first = run.child();
+  auto words = command({kApart});
+  words.insert(words.end(), {"--process", "aside"});
+  const CommandResult second = run_command(words, options_, kWithin);
+  EXPECT_EQ(second.exit_code, 1);
+  EXPECT_EQ(second.err, "armature: process 'aside' of deployment 'halt' already runs as pid " +
+                            std::to_string(first) + " on domain " + std::to_string(domain_) +
+                            "; stop it, or use another domain with --domain\n");
+  EXPECT_THAT(run.err(), Not(HasSubstr("stopping:")));
+  run.signal(SIGINT);
+  EXPECT_THAT(run.finish(kWithin).err, HasSubstr(kEndedAtRest));
+}
+
 TEST_F(PulledPlug, AnArmWhoseMainProcessIsKilledComesToRestByItselfAndEnds) {
   Command run{command({kApart}), options_};
   ASSERT_TRUE(run.wait_for_err("arm       moves", kWithin)) << run.err();
@@ -350,6 +367,81 @@ TEST_F(PulledPlug, AStepThatDoesNotReturnIsNamedAndTheProcessLeavesAllTheSame) {
   EXPECT_THAT(result.out, HasSubstr("'arm' hangs: its step has not returned"));
   EXPECT_EQ(report(), result.out);
   EXPECT_TRUE(ends_within(aside, seconds{1}));
+}
+
+TEST_F(PulledPlug, AComponentThatDoesNotEndIsNamedAndTheProcessLeavesAllTheSame) {
+  for (const auto& [function, phase] : std::map<std::string, std::string>{
+           {"stop", "stop"}, {"summarize", "summary"}, {"destructor", "destructor"}}) {
+    Command run{command({"components.beat.params.hangs_in=" + function}), options_};
+    ASSERT_TRUE(run.wait_for_err("arm       moves", kWithin)) << run.err();
+    run.signal(SIGINT);
+    const CommandResult result = run.finish(kWithin);
+    EXPECT_FALSE(result.timed_out) << function;
+    EXPECT_EQ(result.exit_code, 1);
+    const std::string hangs = "the " + phase + " of 'beat' has not returned for ";
+    EXPECT_THAT(result.err, HasSubstr("arm       at rest\n"));
+    EXPECT_THAT(result.err, HasSubstr("armature: " + hangs));
+    if (function == "destructor") {
+      EXPECT_THAT(result.out, HasSubstr(R"({"status":"ok")")) << "it was told before";
+    } else {
+      EXPECT_THAT(result.out, HasSubstr(R"({"status":"fault","reason":")" + hangs));
+    }
+    EXPECT_EQ(report(), result.out) << "one object, the same in both places";
+  }
+}
+
+TEST_F(PulledPlug, FilesThatAreNeverWrittenAreNamedAndTheProcessLeavesAllTheSame) {
+  Command run{command({"components.beat.params.hangs_in=write_files"}), options_};
+  ASSERT_TRUE(run.wait_for_err("arm       moves", kWithin)) << run.err();
+  run.signal(SIGINT);
+  const CommandResult result = run.finish(kWithin);
+  EXPECT_FALSE(result.timed_out);
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr("armature: the report of 'beat' has not returned for "));
+  EXPECT_EQ(report(), result.out) << "what was measured is there";
+}
+
+TEST_F(PulledPlug, AComponentOfAnotherProcessThatDoesNotEndIsNamedByTheMainOne) {
+  Command run{command({"components.beat.process=aside", "components.beat.params.hangs_in=stop"}),
+              options_};
+  ASSERT_TRUE(run.wait_for_err("arm       moves", kWithin)) << run.err();
+  const pid_t aside = run.child();
+  run.signal(SIGINT);
+  const CommandResult result = run.finish(kWithin);
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr(kEndedAtRest));
+  EXPECT_THAT(result.out, HasSubstr(R"({"status":"fault","reason":"process 'aside': the stop of )"
+                                    "'beat' has not returned for "));
+  EXPECT_TRUE(ends_within(aside, seconds{1}));
+}
+
+TEST_F(PulledPlug, ATransportThatDoesNotEndIsNamedAndTheProcessLeavesAllTheSame) {
+  Command run{
+      command(),
+      {.environment = {{"ARMATURE_PLUGIN_PATH", std::string{DEAF_TRANSPORT} + ":" + TEST_PLUGINS},
+                       {"DEAF_TRANSPORT_HANGS", "1"}},
+       .input = {}}};
+  ASSERT_TRUE(run.wait_for_err("arm       moves", kWithin)) << run.err();
+  run.signal(SIGINT);
+  const CommandResult result = run.finish(kWithin);
+  EXPECT_FALSE(result.timed_out);
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr("armature: the end of the transport has not returned for "));
+}
+
+TEST_F(PulledPlug, AProcessThatIsInterruptedWhileTheMainOneIsHaltedStopsByItself) {
+  Command run{command({kApart}), options_};
+  ASSERT_TRUE(run.wait_for_err("arm       moves", kWithin)) << run.err();
+  const pid_t aside = run.child();
+  run.signal(SIGSTOP);
+  kill(aside, SIGINT);
+  EXPECT_TRUE(run.wait_for_err(
+      "runtime   stopping: interrupted; the main process does not answer, and this one ends by "
+      "itself\n",
+      kWithin))
+      << run.err();
+  EXPECT_TRUE(run.wait_for_err(kEndedAtRest, kWithin)) << run.err();
+  EXPECT_TRUE(ends_within(aside, kWithin));
 }
 
 TEST_F(PulledPlug, SharedMemoryOfKilledProcessesIsGoneAtTheNextStart) {

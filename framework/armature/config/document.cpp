@@ -105,7 +105,10 @@ Node parse_text(std::string_view text, std::string_view name) {
   return parse_yaml(std::string{text}, name);
 }
 
-Node load(const fs::path& file) { return Loader{}.load(file, Origin{}); }
+Node load(const fs::path& file) {
+  const PipePatience one_for_all;
+  return Loader{}.load(file, Origin{});
+}
 
 std::filesystem::path folder_of(const Origin& origin) {
   return origin.line == 0 ? std::filesystem::path{}

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/config/document.hpp"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
+#include <atomic>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <random>
@@ -11,6 +15,7 @@
 
 #include "armature/config/params.hpp"
 #include "armature/config/reader.hpp"
+#include "armature/config/source_text.hpp"
 
 namespace armature::config {
 namespace {
@@ -72,6 +77,34 @@ TEST_F(Documents, AreReadFromAPipeThatEndsAndNotFromOneThatDoesNot) {
   writer.join();
   EXPECT_EQ(merged({"pipe"}),
             "cannot read 'pipe': it is a pipe that nobody has written to its end within 2 s");
+}
+
+TEST_F(Documents, OfOneLoadHaveTwoSecondsForAllTheirPipes) {
+  ASSERT_EQ(mkfifo("a", 0600), 0);
+  ASSERT_EQ(mkfifo("b", 0600), 0);
+  using Clock = std::chrono::steady_clock;
+  const auto start = Clock::now();
+  {
+    const PipePatience one_for_all;
+    for (const char* pipe : {"a", "b"}) EXPECT_THAT(merged({pipe}), HasSubstr("within 2 s"));
+  }
+  EXPECT_LT(Clock::now() - start, std::chrono::seconds{3});
+  // Each of these is open, and says nothing for 0.7 s.
+  write("main.yaml", "include: [a, a, a, a]\n");
+  std::atomic<bool> ended{false};
+  std::thread writer{[&] {
+    while (!ended) {
+      const int pipe = ::open("a", O_RDWR | O_CLOEXEC);
+      std::this_thread::sleep_for(std::chrono::milliseconds{700});
+      ::close(pipe);
+      std::this_thread::sleep_for(std::chrono::milliseconds{50});
+    }
+  }};
+  const auto again = Clock::now();
+  EXPECT_THAT(merged({"main.yaml"}), HasSubstr("within 2 s"));
+  EXPECT_LT(Clock::now() - again, std::chrono::milliseconds{2500});
+  ended = true;
+  writer.join();
 }
 
 TEST_F(Documents, ThatAreNoneAreNotShown) {

@@ -8,6 +8,7 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
+#include <optional>
 #include <string>
 #include <system_error>
 
@@ -21,6 +22,9 @@ using SteadyClock = std::chrono::steady_clock;
 
 constexpr std::size_t kLargestFile = 16U << 20U;
 constexpr std::chrono::seconds kPatience{2};
+
+/// How long pipes may still be waited for; nothing: each by itself.
+thread_local std::optional<SteadyClock::duration> t_left;
 
 /// An open file, and the place that asked for it.
 class Source {
@@ -44,8 +48,9 @@ class Source {
   std::string read_all() const {
     std::string text;
     std::array<char, 1U << 16U> chunk;
-    for (const auto end = SteadyClock::now() + kPatience;;) {
-      if (is_pipe_) wait_until(end);
+    SteadyClock::duration own = kPatience;
+    for (auto& left = t_left ? *t_left : own;;) {
+      if (is_pipe_) wait_at_most(left);
       const ssize_t count = read(descriptor_, chunk.data(), chunk.size());
       if (count == 0) return text;
       if (count < 0 && errno != EAGAIN && errno != EINTR) fail(errno);
@@ -64,12 +69,15 @@ class Source {
     if (S_ISCHR(mode) || S_ISBLK(mode)) fail("it is a device, not a file");
   }
 
-  /// Returns when there is something to read, or the end; a pipe may have neither for ever.
-  void wait_until(SteadyClock::time_point end) const {
-    const auto left =
-        std::chrono::duration_cast<std::chrono::milliseconds>(end - SteadyClock::now());
+  /// Returns when there is something to read, or the end; a pipe may have neither for ever. Takes
+  /// from `left` what it took.
+  void wait_at_most(SteadyClock::duration& left) const {
+    const auto start = SteadyClock::now();
+    const auto limit = std::chrono::ceil<std::chrono::milliseconds>(left);
     pollfd ready{.fd = descriptor_, .events = POLLIN, .revents = 0};
-    if (left.count() > 0 && poll(&ready, 1, static_cast<int>(left.count())) != 0) return;
+    const bool in_time = left.count() > 0 && poll(&ready, 1, static_cast<int>(limit.count())) != 0;
+    left -= SteadyClock::now() - start;
+    if (in_time) return;
     fail(fmt::format("it is a pipe that nobody has written to its end within {} s",
                      kPatience.count()));
   }
@@ -81,6 +89,13 @@ class Source {
 };
 
 }  // namespace
+
+PipePatience::PipePatience() : is_outermost_{!t_left} {
+  if (is_outermost_) t_left = kPatience;
+}
+PipePatience::~PipePatience() {
+  if (is_outermost_) t_left.reset();
+}
 
 std::string read_source(const std::filesystem::path& file, const Origin& asked_by) {
   return Source{file, asked_by}.read_all();

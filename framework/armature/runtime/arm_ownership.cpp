@@ -60,13 +60,18 @@ std::vector<Arm> arms_of_metal(const DeploymentConfig& deployment) {
   return arms;
 }
 
-InstanceLock own_deployment(const DeploymentConfig& deployment, int domain) {
-  auto taken = InstanceLock::take(fmt::format("deployment {} domain {}", deployment.name, domain));
+/// A second one would be taken for the first: its samples carry the deployment's fingerprint.
+InstanceLock own_process(const DeploymentConfig& deployment, const std::string& process,
+                         int domain) {
+  const bool is_main = process == kMainProcess;
+  auto taken = InstanceLock::take(
+      fmt::format("deployment {} domain {} process {}", deployment.name, domain, process));
   if (taken) return std::move(*taken);
   throw std::runtime_error{
-      fmt::format("deployment '{}' already runs as {} on domain {}; stop it, or use another domain "
-                  "with --domain",
-                  deployment.name, taken.error().text, domain)};
+      fmt::format("{}deployment '{}' already runs as {} on domain {}; stop it, or use another "
+                  "domain with --domain",
+                  is_main ? "" : fmt::format("process '{}' of ", process), deployment.name,
+                  taken.error().text, domain)};
 }
 
 }  // namespace
@@ -75,7 +80,7 @@ std::vector<InstanceLock> own_arms(const DeploymentConfig& deployment, const std
                                    int domain) {
   const bool is_main = process == kMainProcess;
   std::vector<InstanceLock> locks;
-  if (is_main) locks.push_back(own_deployment(deployment, domain));
+  locks.push_back(own_process(deployment, process, domain));
   std::set<std::string> known;  // what one process has taken already
   for (const Arm& arm : arms_of_metal(deployment)) {
     if (!known.insert(arm.lock).second) {

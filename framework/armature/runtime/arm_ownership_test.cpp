@@ -88,9 +88,20 @@ TEST_F(ArmOwnership, TheProcessThatDrivesOwnsAndTheMainOneLooksFirst) {
   const auto split = driving(metal_, port_, "aside");
   const auto main_locks = own_arms(split, "main", 1);
   const auto owned = own_arms(split, "aside", 1);
-  EXPECT_EQ(owned.size(), 1U);
+  EXPECT_EQ(owned.size(), 2U) << "its name in the deployment, and the device";
   EXPECT_EQ(refusal(driving(metal_, port_, "aside")),
             "the arm at '" + port_ + "' is driven by " + kOwner + " already; stop it first");
+}
+
+TEST_F(ArmOwnership, EveryProcessOfADeploymentIsThereOnceOnADomain) {
+  const auto split = driving(simulated_, port_, "aside");
+  const auto main_locks = own_arms(split, "main", 1);
+  const auto owned = own_arms(split, "aside", 1);
+  EXPECT_EQ(refusal(split, 1, "aside"),
+            "process 'aside' of deployment '" + split.name + "' already runs as " + kOwner +
+                " on domain 1; stop it, or use another domain with --domain");
+  EXPECT_EQ(refusal(split, 2, "aside"), "");
+  EXPECT_EQ(refusal(split, 1, "control"), "");
 }
 
 TEST_F(ArmOwnership, TwoComponentsOfADeploymentDoNotDriveOneDevice) {

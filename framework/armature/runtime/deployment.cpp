@@ -58,6 +58,7 @@ Deployment::Deployment(DeploymentConfig config, PluginRegistry& plugins, Options
       options_{std::move(options)},
       lost_peers_{config_.name, config_.processes(), options_.process} {
   if (!options_.on_note) options_.on_note = [](const std::string&) {};
+  if (!options_.on_ending) options_.on_ending = [](const std::string&) {};
   make_scheduler();
   std::vector<const ComponentConfig*> order;
   for (const ComponentConfig& component : config_.components) {
@@ -81,9 +82,18 @@ Deployment::Deployment(DeploymentConfig config, PluginRegistry& plugins, Options
 Deployment::~Deployment() {
   watchdog_.reset();
   scheduler_->stop(kStepPatience);
-  if (outside_) outside_->stop_reading();  // deliveries end before their inboxes go
-  units_.clear();
+  constexpr const char* kTransport = "the end of the transport";
+  if (outside_) {
+    options_.on_ending(kTransport);
+    outside_->stop_reading();  // deliveries end before their inboxes go
+  }
+  for (auto& unit : units_) {
+    tell_ending("destructor", *unit);
+    unit.reset();
+  }
+  options_.on_ending(kTransport);
   topics_.clear();  // outside writers go before the transport
+  outside_.reset();
 }
 
 void Deployment::make_scheduler() {

@@ -9,6 +9,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "armature/runtime/clock.hpp"
@@ -35,6 +36,8 @@ class Deployment {
     std::function<void(const std::string&)> on_note;  // what the runtime tells the operator
     std::optional<Duration> clock_offset =
         {};  // of the main process' SystemClock; none: an own one
+    /// Before each call at the end of the run that might not return: "the stop of 'arm'".
+    std::function<void(const std::string& what)> on_ending = {};
   };
 
   /// Loads the plugins and constructs the components. Throws config::ConfigError (a plugin refuses
@@ -81,6 +84,9 @@ class Deployment {
   /// process has to be left without destroying the deployment.
   const std::vector<const Unit*>& hung() const { return hung_; }
   bool is_hung(const Unit& unit) const;
+
+  /// Says that the "stop" (or another `function`) of a component is called next (on_ending).
+  void tell_ending(std::string_view function, const Unit& unit) const;
 
   /// How long the end of a run waits for a step to return.
   static constexpr Duration kStepPatience = seconds(kSanitized ? 10 : 2);

@@ -190,6 +190,7 @@ DeploymentConfig read_deployment(const Node& root, const PluginRegistry& plugins
     if (known == components->entries().size()) {
       open_inputs(open, deployment, problems);
       check_graph(deployment, problems);
+      check_isolation(deployment, problems);
       decide_on_faults(deployment);
       check_component_needs(deployment, plugins, problems);
       agree_on_params(deployment, problems);

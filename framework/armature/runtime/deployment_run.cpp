@@ -110,10 +110,17 @@ void Deployment::end() {
                                  to_seconds(kStepPatience)));
   }
   for (const auto& unit : units_) {
-    if (!is_hung(*unit)) unit->stop(clock_->now());
+    if (is_hung(*unit)) continue;
+    tell_ending("stop", *unit);
+    unit->stop(clock_->now());
   }
+  options_.on_ending("the end of the run");
   if (!outside_) return;
   for (const std::string& refusal : outside_->refusals()) options_.on_note(refusal);
+}
+
+void Deployment::tell_ending(std::string_view function, const Unit& unit) const {
+  options_.on_ending(fmt::format("the {} of '{}'", function, unit.name()));
 }
 
 bool Deployment::is_hung(const Unit& unit) const {

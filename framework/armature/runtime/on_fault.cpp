@@ -50,6 +50,21 @@ Components path_to_drivers(const DeploymentConfig& deployment) {
   return path;
 }
 
+bool is_isolated(const ComponentConfig& component) {
+  return component.on_fault == OnFault::isolate;
+}
+
+/// Whether the component writes an input of a driver that takes commands.
+bool commands_driver(const ComponentConfig& component, const DeploymentConfig& deployment) {
+  return std::ranges::any_of(deployment.components, [&](const ComponentConfig& driver) {
+    return is_driver(driver) && std::ranges::any_of(driver.inputs, [&](const PortBinding& input) {
+             return input.spec.qos == QosProfile::command &&
+                    std::ranges::find(component.outputs, input.topic, &PortBinding::topic) !=
+                        component.outputs.end();
+           });
+  });
+}
+
 /// Who shares the driver's executor and may delay it without need.
 std::vector<std::string> strangers_beside(const ComponentConfig& driver,
                                           const DeploymentConfig& deployment) {
@@ -77,6 +92,31 @@ void decide_on_faults(DeploymentConfig& deployment) {
         path.empty() || path.contains(&component) || !component.manifest->measures.empty();
     component.on_fault = stops ? OnFault::stop : OnFault::isolate;
   }
+}
+
+void check_isolation(const DeploymentConfig& deployment, config::Problems& problems) {
+  for (const ComponentConfig& component : deployment.components) {
+    const bool commands = commands_driver(component, deployment);
+    if (!is_isolated(component) || (!is_driver(component) && !commands)) continue;
+    problems.add(component.origin,
+                 fmt::format("component '{}' {}, and 'on_fault: isolate' would let the run go on "
+                             "when it fails; leave 'on_fault' out, and its fault stops the run",
+                             component.name,
+                             is_driver(component) ? "moves an arm" : "commands what moves an arm"));
+  }
+}
+
+std::vector<std::string> isolation_warnings(const DeploymentConfig& deployment) {
+  std::vector<std::string> warnings;
+  const Components path = path_to_drivers(deployment);
+  for (const ComponentConfig& component : deployment.components) {
+    if (!is_isolated(component) || !path.contains(&component)) continue;
+    warnings.push_back(
+        fmt::format("component '{}' leads to what moves an arm, and is isolated: when it fails, "
+                    "the run goes on without it; leave 'on_fault' out, and its fault stops the run",
+                    component.name));
+  }
+  return warnings;
 }
 
 bool stops_run(const ComponentConfig& component) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "armature/config/problems.hpp"
 #include "armature/runtime/deployment_config.hpp"
 
 namespace armature {
@@ -12,6 +13,13 @@ namespace armature {
 /// when a path over topics leads from the component to a driver, when it measures what the run is
 /// judged by, and where there is no driver at all; else it is isolated.
 void decide_on_faults(DeploymentConfig& deployment);
+
+/// Refuses `on_fault: isolate` of a driver and of what writes commands to one: the run would go on
+/// without it, and only the driver's lease, or nothing, would stop the arm.
+void check_isolation(const DeploymentConfig& deployment, config::Problems& problems);
+
+/// A line for the operator for everything else that leads to a driver and is isolated.
+std::vector<std::string> isolation_warnings(const DeploymentConfig& deployment);
 
 /// Whether a fault of the component ends the run. What the runtime itself adds does.
 bool stops_run(const ComponentConfig& component);

@@ -17,6 +17,7 @@ class OnFaultTest : public testing::Test {
     add("task", plain_, {"image"}, {"goal"});
     add("motion", plain_, {"goal", "measured"}, {"command"});
     add("arm", arm_, {"command"}, {"measured"});
+    component("arm").inputs.front().spec.qos = QosProfile::command;
     add("monitor", plain_, {"image", "goal", "measured"}, {"markers"});
     add("recorder", plain_, {"markers"}, {});
     add("report", report_, {"measured"}, {});
@@ -41,6 +42,14 @@ class OnFaultTest : public testing::Test {
     return names;
   }
 
+  std::string refusals() {
+    config::Problems problems;
+    check_isolation(deployment_, problems);
+    std::string text;
+    for (const auto& problem : problems.sorted()) text += problem.message + "\n";
+    return text;
+  }
+
   PluginManifest plain_, arm_, report_;
   DeploymentConfig deployment_;
 };
@@ -63,6 +72,26 @@ TEST_F(OnFaultTest, WhatTheFileSaysHolds) {
   component("camera").on_fault = OnFault::isolate;
   component("monitor").on_fault = OnFault::stop;
   EXPECT_EQ(isolated(), "camera recorder ");
+}
+
+TEST_F(OnFaultTest, WhatMovesAnArmOrCommandsItIsNotIsolated) {
+  EXPECT_EQ(refusals(), "");
+  for (const char* name : {"camera", "task", "motion", "arm", "monitor"}) {
+    component(name).on_fault = OnFault::isolate;
+  }
+  EXPECT_EQ(refusals(),
+            "component 'motion' commands what moves an arm, and 'on_fault: isolate' would let the "
+            "run go on when it fails; leave 'on_fault' out, and its fault stops the run\n"
+            "component 'arm' moves an arm, and 'on_fault: isolate' would let the run go on when it "
+            "fails; leave 'on_fault' out, and its fault stops the run\n");
+}
+
+TEST_F(OnFaultTest, WhatLeadsToAnArmAndIsIsolatedIsTold) {
+  component("camera").on_fault = component("monitor").on_fault = OnFault::isolate;
+  EXPECT_EQ(isolation_warnings(deployment_),
+            std::vector<std::string>{
+                "component 'camera' leads to what moves an arm, and is isolated: when it fails, "
+                "the run goes on without it; leave 'on_fault' out, and its fault stops the run"});
 }
 
 TEST_F(OnFaultTest, TheLossOfAProcessStopsTheRunWhenAFaultOfOneOfItsComponentsDoes) {

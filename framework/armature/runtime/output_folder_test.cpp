@@ -45,6 +45,20 @@ TEST_F(OutputFolder, ThatIsAFileIsRefusedByName) {
             "cannot make the folder '" + (file / "below").string() + "': Not a directory");
 }
 
+TEST_F(OutputFolder, BehindALinkOfSomebodyElseIsRefusedByName) {
+  const fs::path link = root_ / "link";
+  fs::create_directories(root_ / "target");
+  fs::create_directory_symlink(root_ / "target", link);
+  EXPECT_EQ(refusal(link), "") << "a link of one's own";
+  if (lchown(link.c_str(), 12345, 12345) != 0) GTEST_SKIP() << "only root gives links away";
+  const std::string told = "cannot write into '" + link.string() +
+                           "': it is a link of user 12345; name the folder that it leads to";
+  EXPECT_EQ(refusal(link), told);
+  EXPECT_EQ(refusal(link / ""), told);
+  EXPECT_EQ(refusal(link / "below"), told);
+  EXPECT_TRUE(fs::is_empty(root_ / "target"));
+}
+
 TEST_F(OutputFolder, ThatTakesNoFilesIsRefusedByName) {
   // Also for root, whom permissions do not hold back.
   EXPECT_EQ(refusal("/proc/self"), "cannot write into '/proc/self': No such file or directory");

@@ -28,12 +28,12 @@ bool holds_this_library(const fs::path& folder) {
   return std::ranges::mismatch(folder, own).in1 == folder.end();
 }
 
-/// What is wrong with one folder. `leads_there`: it is one above, where a sticky bit (as /tmp has)
-/// keeps others from replacing what they do not own.
-std::optional<std::string> danger_of(const fs::path& folder, bool leads_there) {
+/// What is wrong with one folder or file. `leads_there`: it is one above, where a sticky bit (as
+/// /tmp has) keeps others from replacing what they do not own.
+std::optional<std::string> danger_of(const fs::path& path, bool leads_there) {
   struct stat status {};
-  if (stat(folder.c_str(), &status) != 0) return std::nullopt;
-  const std::string which = leads_there ? fmt::format("'{}' above it", folder.string()) : "it";
+  if (stat(path.c_str(), &status) != 0) return std::nullopt;
+  const std::string which = leads_there ? fmt::format("'{}' above it", path.string()) : "it";
   if (!is_trusted(status.st_uid)) return fmt::format("{} belongs to user {}", which, status.st_uid);
   const bool sticky = leads_there && (status.st_mode & S_ISVTX);
   if ((status.st_mode & (S_IWGRP | S_IWOTH)) == 0 || sticky) return std::nullopt;
@@ -42,10 +42,10 @@ std::optional<std::string> danger_of(const fs::path& folder, bool leads_there) {
 
 }  // namespace
 
-std::optional<std::string> danger_of_folder(const fs::path& folder) {
+std::optional<std::string> danger_of_place(const fs::path& path) {
   std::error_code error;
-  fs::path place = fs::canonical(folder, error);
-  if (error) return std::nullopt;  // no plugin lies in a folder that is not there
+  fs::path place = fs::canonical(path, error);
+  if (error) return std::nullopt;  // no plugin lies where nothing is
   if (const auto danger = danger_of(place, false)) return danger;
   while (place.has_relative_path()) {
     place = place.parent_path();

@@ -38,28 +38,28 @@ class PluginFolder : public testing::Test {
 };
 
 TEST_F(PluginFolder, OfTheUserAloneIsNoDanger) {
-  EXPECT_EQ(danger_of_folder(folder_), std::nullopt);
-  EXPECT_EQ(danger_of_folder(folder_ / "none"), std::nullopt);
+  EXPECT_EQ(danger_of_place(folder_), std::nullopt);
+  EXPECT_EQ(danger_of_place(folder_ / "none"), std::nullopt);
 }
 
 TEST_F(PluginFolder, ThatOthersMayWriteIsOne) {
   set_mode(folder_, 0775);
-  EXPECT_EQ(danger_of_folder(folder_), "others may write it (mode 0775)");
+  EXPECT_EQ(danger_of_place(folder_), "others may write it (mode 0775)");
   set_mode(folder_, 0757);
-  EXPECT_EQ(danger_of_folder(folder_), "others may write it (mode 0757)");
+  EXPECT_EQ(danger_of_place(folder_), "others may write it (mode 0757)");
 }
 
 TEST_F(PluginFolder, ThatOthersMayReplaceIsOne) {
   set_mode(above_, 0777);
-  EXPECT_EQ(danger_of_folder(folder_),
+  EXPECT_EQ(danger_of_place(folder_),
             "others may write '" + above_.string() + "' above it (mode 0777)");
   set_mode(above_, 01777);  // sticky, as /tmp is
-  EXPECT_EQ(danger_of_folder(folder_), std::nullopt);
+  EXPECT_EQ(danger_of_place(folder_), std::nullopt);
 }
 
 TEST_F(PluginFolder, ThatBelongsToSomebodyElseIsOne) {
   if (chown(folder_.c_str(), 12345, 12345) != 0) GTEST_SKIP() << "only root gives folders away";
-  EXPECT_EQ(danger_of_folder(folder_), "it belongs to user 12345");
+  EXPECT_EQ(danger_of_place(folder_), "it belongs to user 12345");
 }
 
 TEST_F(PluginFolder, ThatOthersMayWriteIsToldAndNotReadByRoot) {
@@ -70,6 +70,46 @@ TEST_F(PluginFolder, ThatOthersMayWriteIsToldAndNotReadByRoot) {
                                                         ": others may write it (mode 0777); ")));
   EXPECT_THAT(plugins.unusable(), SizeIs(root ? 0 : 1));
   EXPECT_THAT(plugins.unknown_text("ik/none"), HasSubstr(plugins.warnings().front()));
+}
+
+TEST_F(PluginFolder, WithAFileThatOthersMayWriteIsReadWithoutItByRoot) {
+  fs::copy_file(fs::path{ARMATURE_PLUGIN_BUILD_DIR} / "transport_fast_dds.so", folder_ / "own.so");
+  set_mode(folder_ / "text.so", 0666);
+  const PluginRegistry plugins{{folder_}};
+  EXPECT_THAT(plugins.warnings(), ElementsAre(HasSubstr("plugin " + (folder_ / "text.so").string() +
+                                                        ": others may write it (mode 0666); ")));
+  EXPECT_THAT(plugins.unusable(), SizeIs(geteuid() == 0 ? 0 : 1));
+  EXPECT_NE(plugins.find("transport/fast_dds"), nullptr) << "the others are";
+}
+
+TEST_F(PluginFolder, WithAFileOfSomebodyElseIsReadWithoutItByRoot) {
+  const fs::path file = folder_ / "text.so";
+  if (chown(file.c_str(), 12345, 12345) != 0) GTEST_SKIP() << "only root gives files away";
+  const PluginRegistry plugins{{folder_}};
+  EXPECT_THAT(plugins.warnings(),
+              ElementsAre("plugin " + file.string() +
+                          ": it belongs to user 12345; root does not load it: make it root's own, "
+                          "and writable by root only"));
+  EXPECT_THAT(plugins.unusable(), IsEmpty());
+}
+
+TEST_F(PluginFolder, WithALinkIsAsGoodAsWhatItLeadsTo) {
+  const fs::path elsewhere = above_ / "elsewhere";
+  fs::create_directories(elsewhere);
+  fs::rename(folder_ / "text.so", elsewhere / "text.so");
+  fs::create_symlink(elsewhere / "text.so", folder_ / "link.so");
+  set_mode(elsewhere, 0755);
+  EXPECT_THAT(PluginRegistry({folder_}).warnings(), IsEmpty());
+  set_mode(elsewhere, 0777);
+  const std::string link = "plugin " + (folder_ / "link.so").string() + ", a link to " +
+                           (elsewhere / "text.so").string() + ": ";
+  EXPECT_THAT(PluginRegistry({folder_}).warnings(),
+              ElementsAre(HasSubstr(link + "others may write '" + elsewhere.string() +
+                                    "' above it (mode 0777); ")));
+  set_mode(elsewhere, 0755);
+  set_mode(elsewhere / "text.so", 0646);
+  EXPECT_THAT(PluginRegistry({folder_}).warnings(),
+              ElementsAre(HasSubstr(link + "others may write it (mode 0646); ")));
 }
 
 TEST_F(PluginFolder, ThatIsNamedTwiceShadowsNothing) {

@@ -51,12 +51,27 @@ void PluginRegistry::add(std::string_view plugin_yaml, const PluginEntry& entry)
 }
 
 bool PluginRegistry::may_load_from(const std::filesystem::path& folder) {
-  const auto danger = danger_of_folder(folder);
+  const auto danger = danger_of_place(folder);
   if (!danger) return true;
   const bool refused = geteuid() == 0;
   warnings_.push_back(fmt::format(
       "plugin folder {}: {}; {}", folder.string(), *danger,
       refused ? "root loads nothing from it: make it root's own, and writable by root only"
+              : "whoever that is decides what runs here: make it your own, with 'chmod go-w'"));
+  return !refused;
+}
+
+bool PluginRegistry::may_load(const std::filesystem::path& file) {
+  const auto danger = danger_of_place(file);
+  if (!danger) return true;
+  const bool refused = geteuid() == 0;
+  std::error_code none;
+  const std::string target = std::filesystem::is_symlink(file, none)
+                                 ? ", a link to " + std::filesystem::canonical(file, none).string()
+                                 : "";
+  warnings_.push_back(fmt::format(
+      "plugin {}{}: {}; {}", file.string(), target, *danger,
+      refused ? "root does not load it: make it root's own, and writable by root only"
               : "whoever that is decides what runs here: make it your own, with 'chmod go-w'"));
   return !refused;
 }
@@ -71,7 +86,9 @@ void PluginRegistry::scan(const std::filesystem::path& folder) {
     }
   }
   std::sort(files.begin(), files.end());  // the directory's own order is not reproducible
-  for (const auto& file : files) add(file);
+  for (const auto& file : files) {
+    if (may_load(file)) add(file);
+  }
 }
 
 void PluginRegistry::add(const std::filesystem::path& file) {

@@ -48,8 +48,8 @@ class PluginRegistry {
   /// Sorted by id.
   const std::vector<PluginManifest>& plugins() const { return plugins_; }
   const std::vector<Unusable>& unusable() const { return unusable_; }
-  /// What whoever runs these plugins must know: folders that others may write, and ids that are
-  /// there twice, with both paths. One sentence each.
+  /// What whoever runs these plugins must know: folders and files that others may write, and
+  /// ids that are there twice, with both paths. One sentence each.
   const std::vector<std::string>& warnings() const { return warnings_; }
 
   /// The plugin, or nullptr.
@@ -86,6 +86,8 @@ class PluginRegistry {
   void scan(const std::filesystem::path& folder);
   /// False when the folder's plugins must not be loaded; either way its danger is noted.
   bool may_load_from(const std::filesystem::path& folder);
+  /// The same of one library, or of what a link leads to.
+  bool may_load(const std::filesystem::path& file);
   void add(const std::filesystem::path& file);
   void add(std::string_view plugin_yaml, const PluginEntry& entry);
   void sort();

@@ -21,6 +21,7 @@ RunReport::RunReport(const Deployment& deployment, const Ending& ending) {
   for (const auto& unit : deployment.units()) {
     if (deployment.is_hung(*unit)) continue;
     speaker_ = &deployment.config_of(*unit);
+    deployment.tell_ending("summary", *unit);
     unit->summarize(*this);
   }
   judge(deployment, ending);
@@ -205,6 +206,7 @@ void write_report(const RunReport& report, const Deployment& deployment,
   attempt([&] { write_atomically(directory / "report.json", to_json(report) + '\n'); });
   for (const auto& unit : deployment.units()) {
     if (deployment.is_hung(*unit)) continue;
+    deployment.tell_ending("report", *unit);
     attempt([&] { unit->component().write_files(directory); });
   }
   if (!failed.empty()) throw std::runtime_error{failed};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <chrono>
+#include <filesystem>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -20,6 +21,7 @@ class Beat final : public Component {
         ends_{setup.params().flag("ends")},
         stop_s_{setup.params().number("stop_s")},
         throws_in_{setup.params().text("throws_in")},
+        hangs_in_{setup.params().text("hangs_in")},
         throws_number_{setup.params().flag("throws_number")},
         beat_{setup.output<msg::Capture>("beat")} {
     setup.activate_every(seconds(0.01));
@@ -29,6 +31,8 @@ class Beat final : public Component {
     say("being constructed");
     std::this_thread::sleep_for(std::chrono::duration<double>{construction_s});
   }
+
+  ~Beat() override { hang_in("destructor"); }
 
   void step(Time now) override {
     throw_in("step");
@@ -43,12 +47,17 @@ class Beat final : public Component {
 
   void stop(Time) override {
     throw_in("stop");
+    hang_in("stop");
     if (stop_s_ == 0) return;
     std::this_thread::sleep_for(std::chrono::duration<double>{stop_s_});
     say("ended");
   }
   bool finished() const override { return ends_ && sent_ == beats_; }
-  void summarize(Summary&) const override { throw_in("summarize"); }
+  void summarize(Summary&) const override {
+    throw_in("summarize");
+    hang_in("summarize");
+  }
+  void write_files(const std::filesystem::path&) const override { hang_in("write_files"); }
 
  private:
   void throw_in(const char* place) const {
@@ -57,10 +66,14 @@ class Beat final : public Component {
     throw std::runtime_error{"out of breath"};
   }
 
+  void hang_in(const char* place) const {
+    while (hangs_in_ == place) std::this_thread::sleep_for(std::chrono::seconds{1});
+  }
+
   std::int64_t beats_, sent_ = 0;
   bool ends_;
   double stop_s_;
-  std::string throws_in_;
+  std::string throws_in_, hangs_in_;
   bool throws_number_;
   Output<msg::Capture> beat_;
 };

@@ -73,11 +73,19 @@ TEST(Strangers, AnInputThatTheFileOpensTakesThem) {
 TEST(Strangers, WhereOneProcessWritesAndReadsNobodyElseIsHeard) {
   const DeploymentStart start{
       .files = {source_file("tests/end_to_end/pulse.yaml")},
-      .settings = {"components.beat.process=main"},
+      .settings = {"components.beat.process=main", "components.ear.params.listens_s=1000"},
       .domain = unique_dds_domain(),
       .options = {.environment = {{"ARMATURE_PLUGIN_PATH", TEST_PLUGINS}}, .input = {}}};
+  Command pulse{deployment_command(start), start.options};
   Command talker{{CYCLONE_TALKER, std::to_string(start.domain), "rt/pulse/beat"}};
-  const auto run = run_deployment(start);
+  EXPECT_TRUE(pulse.wait_for_err(
+      "a writer of participant 'cyclone_talker' (pid " + std::to_string(talker.pid()), seconds{60}))
+      << pulse.err();
+  pulse.signal(SIGINT);
+  DeploymentRun run{.command = pulse.finish(seconds{20}), .report = {}};
+  run.report = run.command.out;
+  EXPECT_THAT(run.command.err, testing::HasSubstr("writes '/pulse/beat', too, which is this "
+                                                  "deployment's own: nobody here hears it\n"));
   EXPECT_LT(run.figure("oldest_s"), kYears_s) << run.text();
 }
 

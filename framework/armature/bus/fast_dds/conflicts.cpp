@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/bus/fast_dds/conflicts.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "armature/bus/topic_name.hpp"
@@ -35,6 +36,20 @@ void Conflicts::endpoint_found(const Endpoint& other, const Discovery& discovery
     }
   }
   for (const OwnEndpoint& own : same_topic) compare(own, other, discovery);
+  tell_second_writer(same_topic, other, discovery);
+}
+
+/// Where writer and reader are in one process nobody else is heard, and nobody is refused. That
+/// somebody tries is worth a line, on the topics that are the deployment's own.
+void Conflicts::tell_second_writer(const std::vector<OwnEndpoint>& own, const Endpoint& other,
+                                   const Discovery& discovery) {
+  const auto writes = [](const OwnEndpoint& endpoint) { return endpoint.writes; };
+  if (own.empty() || !other.writes || !std::ranges::all_of(own, writes)) return;
+  if (!other.topic.starts_with("rt/" + own_.deployment + "/")) return;
+  if (same_deployment(other.tag, own_)) return;
+  report({TransportEvent::Kind::foreign_writer, other.topic,
+          "a writer of " + discovery.owner(other) + " writes '" + ros_topic_name(other.topic) +
+              "', too, which is this deployment's own: nobody here hears it"});
 }
 
 bool Conflicts::refuses(const Endpoint& writer, const OwnEndpoint& reader) const {

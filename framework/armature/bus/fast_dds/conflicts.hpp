@@ -40,6 +40,8 @@ class Conflicts {
   void report_always(const TransportEvent& event) const;
 
  private:
+  void tell_second_writer(const std::vector<OwnEndpoint>& own, const Endpoint& other,
+                          const Discovery& discovery);
   void compare(const OwnEndpoint& own, const Endpoint& other, const Discovery& discovery);
 
   EndpointTag own_;

@@ -224,12 +224,12 @@ TrackingFailure Tracker::track(const MotionGoal& goal, const JointState& from, T
   if (std::isfinite(allowed_speed_)) {
     allowed_speed_ = std::max(allowed_speed_, tool_speed(model_, from)) * (1 + 1e-9);
   }
-  const bool under_way = start < under_way_until_;
-  max_attempts_ = under_way ? kMaxAttempts : kMaxAttemptsAnew;
+  under_way_ = start < under_way_until_;
+  max_attempts_ = under_way_ ? kMaxAttempts : kMaxAttemptsAnew;
   // One that is not caught up with is followed to where it is, not to where it will have gone.
   const bool too_fast = goal.velocity.norm() > kMeetingUse * options_.max_tool_speed;
-  trusted_s_ = under_way && too_fast ? kFollowing : kLongestPrediction;
-  const int begin = under_way ? next_begin_ : 0;
+  trusted_s_ = under_way_ && too_fast ? kFollowing : kLongestPrediction;
+  const int begin = under_way_ ? next_begin_ : 0;
   const TrackingFailure failure = search(goal, from, start, {begin, horizons_}, out);
   if (failure.stage.empty() || begin == 0 || attempts_ == max_attempts_) return failure;
   // Where the target leaves the reach soon only a short horizon may do.
@@ -246,7 +246,7 @@ TrackingFailure Tracker::search(const MotionGoal& goal, const JointState& from, 
   ReasonText by_limits, by_reach;
   while (left.begin < left.end && attempts_ < max_attempts_) {
     const double horizon_s = options_.shortest_horizon_s * std::pow(kHorizonGrowth, next);
-    const Attempt tried = attempt(goal, from, start, horizon_s, way_);
+    const Attempt tried = attempt(goal, from, start, horizon_s, found ? way_ : out);
     switch (tried.outcome) {
       case too_short:
         by_limits = defect_;
@@ -257,14 +257,15 @@ TrackingFailure Tracker::search(const MotionGoal& goal, const JointState& from, 
         left.end = next;
         break;
       case met:
-        out = way_;
+        if (found) out = way_;
         under_way_until_ = start + seconds(horizon_s);
         left.end = next;
         found = next;
     }
     const bool bounded = left.end < last;  // by one that is met or out of reach
-    next = bounded ? (left.begin + left.end) / 2
-                   : std::min(next + growths_for(tried.longer), last - 1);
+    // The last horizon, one above the first that is tried, mostly does still: no leap over it.
+    const int leap = under_way_ && attempts_ == 1 ? 1 : growths_for(tried.longer);
+    next = bounded ? (left.begin + left.end) / 2 : std::min(next + leap, last - 1);
     // Better a slow way than none.
     if (!found && !bounded && attempts_ + 1 == kMaxAttemptsAnew) next = last - 1;
   }

@@ -86,9 +86,10 @@ class Tracker {
   double allowed_speed_ = 0;  // [m/s] of the tool's origin, in the last call
   int horizons_ = 0;          // how many there are
   IkBranches branches_;       // kept for their memory
-  ShortTrajectory way_;       // of the last attempt
+  ShortTrajectory way_;       // of an attempt at a shorter one than was found
   ReasonText defect_;         // of the last attempt
   int attempts_ = 0;          // of the last call
+  bool under_way_ = false;    // a target, in the last call
   int max_attempts_ = 0;      // of the last call
   int next_begin_ = 0;        // of the search, while a target is under way
   Time under_way_until_;      // when the last target is met

@@ -132,8 +132,17 @@ std::optional<MeasuredJoints> Motion::read_measured() {
 }
 
 void Motion::read_goals(Time now) {
+  // Of the targets of one step only the newest is worth a search.
+  std::optional<std::uint64_t> newest;
+  for (std::size_t i = goals_.size(); tracker_ && !newest && i-- > 0;) {
+    const bool usable = read_goal_head(goals_[i], goal_).empty();
+    if (usable && goal_.mode == MotionMode::tracking) newest = goal_.id;
+  }
   for (std::size_t i = 0; i < goals_.size(); ++i) {
     const ReasonText wrong = read_goal_head(goals_[i], goal_);
+    const bool tracked = newest && wrong.empty() && goal_.mode == MotionMode::tracking;
+    // An older one is accepted and waits, as if for a plan, until it is superseded.
+    if (tracked && is_newer(*newest, goal_.id)) goal_.mode = MotionMode::planned;
     execution_.take(goal_, wrong, now);
   }
 }

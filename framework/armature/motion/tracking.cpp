@@ -2,8 +2,10 @@
 #include "armature/motion/tracking.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <variant>
 
 #include "armature/robot/kinematics.hpp"
@@ -16,8 +18,9 @@ namespace {
 constexpr double kHorizonGrowth = 1.25;
 constexpr double kLongestHorizon = 20.0;    // [s]
 constexpr double kLongestPrediction = 1.0;  // [s] a velocity is not trusted longer
+constexpr double kFollowing = 0.25;         // [s] nor that of a target that is followed behind
+constexpr double kMeetingUse = 0.9;         // of a limit: more leaves nothing to catch up with
 constexpr double kVelocityStep = 1e-3;      // [s] for the difference quotient
-constexpr double kSpeedStep = 2e-3;         // [s] between two looks at the tool's speed
 
 ToolPose after(const MotionGoal& goal, double time_s) {
   ToolPose pose = goal.pose;
@@ -56,11 +59,66 @@ double tool_speed(const RobotModel& model, const JointState& state) {
   return (now.jacobian.topRows<3>() * state.v).norm();
 }
 
+/// Where the tool's speed is looked at, in parts of the way: evenly, and closer at its beginning,
+/// which is what the arm goes before the next target comes.
+constexpr std::array kLooks{0.,     1. / 256, 1. / 64, 1. / 16, 1. / 8, 2. / 8,
+                            3. / 8, 4. / 8,   5. / 8,  6. / 8,  7. / 8, 1.};
+
+/// Where the parabola through three points has its vertex.
+double vertex(const std::array<double, 3>& x, const std::array<double, 3>& y) {
+  const double left = (y[1] - y[0]) / (x[1] - x[0]), right = (y[2] - y[1]) / (x[2] - x[1]);
+  return 0.5 * (x[0] + x[1] - left * (x[2] - x[0]) / (right - left));
+}
+
+/// [m/s] The largest speed of the tool's origin on the way to the meeting point. It is smooth:
+/// between the looks around the highest one a parabola finds the peak.
+double peak_tool_speed(const RobotModel& model, const TrajectoryView& way, double horizon_s) {
+  const auto speed_at = [&](double part) {
+    return tool_speed(model, way.at(way.start + seconds(part * horizon_s)));
+  };
+  std::array<double, kLooks.size()> speeds;
+  std::ranges::transform(kLooks, speeds.begin(), speed_at);
+  const auto highest = std::ranges::max_element(speeds);
+  const auto i = static_cast<std::size_t>(
+      std::clamp(highest, speeds.begin() + 1, speeds.end() - 2) - speeds.begin());
+  const double between =
+      vertex({kLooks[i - 1], kLooks[i], kLooks[i + 1]}, {speeds[i - 1], speeds[i], speeds[i + 1]});
+  if (!(between > kLooks[i - 1] && between < kLooks[i + 1])) return *highest;
+  return std::max(*highest, speed_at(between));
+}
+
+/// Speeds of a joint or of the tool on a way.
+struct Speeds {
+  double first, peak, last;
+};
+
+/// How much longer a way should take whose peak is beyond `limit`. What the target moves by itself
+/// does not fall with the time: its speed, and half of what it is faster than the arm now, which
+/// the arm has to make up for.
+double longer_for(const Speeds& speeds, double limit) {
+  const double ahead = std::max(0.0, speeds.last - speeds.first);
+  const double lasting = std::min(speeds.last + 0.5 * ahead, kMeetingUse * limit);
+  return (speeds.peak - lasting) / (limit - lasting);
+}
+
+/// How many growths, at least one, make a horizon `longer` times as long; less what the limits
+/// tolerate.
+int growths_for(double longer) {
+  constexpr double kTolerated = 1e-3;
+  const double growths = std::log(longer * (1 - kTolerated)) / std::log(kHorizonGrowth);
+  return static_cast<int>(std::min(std::max(1.0, std::ceil(growths)), 100.0));  // of anything
+}
+
 }  // namespace
 
 Tracker::Tracker(const RobotModel& model, const MotionLimits& limits, const IkSolver& ik,
                  const TrackingOptions& options)
-    : model_{model}, limits_{limits}, ik_{ik}, options_{options} {}
+    : model_{model},
+      limits_{limits},
+      ik_{ik},
+      options_{options},
+      horizons_{1 + static_cast<int>(std::log(kLongestHorizon / options.shortest_horizon_s) /
+                                     std::log(kHorizonGrowth))} {}
 
 /// The branch nearest to `near`; false, and the defect says why, when none is within limits.
 bool Tracker::solve(const ToolPose& pose, const JointVector& near, JointVector& q) {
@@ -83,24 +141,24 @@ bool Tracker::solve(const ToolPose& pose, const JointVector& near, JointVector& 
 /// Where the joints shall be after `horizon_s`, and how fast they move there.
 bool Tracker::meeting_point(const MotionGoal& goal, const JointState& from, double horizon_s,
                             JointState& meet) {
-  const double ahead = std::min(horizon_s, kLongestPrediction);
+  const double ahead = std::min(horizon_s, trusted_s_);
   if (!solve(after(goal, ahead), from.q, meet.q)) return false;
   meet.v = meet.a = JointVector::Zero(meet.q.size());
   const bool moves = !goal.velocity.isZero() || !goal.angular_velocity.isZero();
-  if (!moves || horizon_s > kLongestPrediction) return true;
+  if (!moves || horizon_s > trusted_s_) return true;
   JointVector next;
   // A target that leaves the reach is waited for at the border.
   if (!solve(after(goal, ahead + kVelocityStep), meet.q, next)) return true;
   meet.v = (next - meet.q) / kVelocityStep;
   const double use = meet.v.cwiseQuotient(limits_.max_velocity).cwiseAbs().maxCoeff();
-  if (use > 0.9) meet.v *= 0.9 / use;
+  if (use > kMeetingUse) meet.v *= kMeetingUse / use;
   return true;
 }
 
 /// Empty, or which joint the way to the meeting point would jerk beyond its limit.
-ReasonText Tracker::jerk_defect(const ShortTrajectory& way) const {
+ReasonText Tracker::jerk_defect(const ShortTrajectory& way, double horizon_s) const {
   for (int i = 0; i < options_.max_jerk.size(); ++i) {
-    const double peak = peak_jerk(way.view().piece(0, i), way.view().duration_s());
+    const double peak = peak_jerk(way.view().piece(0, i), horizon_s);
     if (peak <= options_.max_jerk[i]) continue;
     const auto joint = static_cast<std::size_t>(model_.independent_joint(i));
     return ReasonText::format("joint {} would need a jerk of {:.4g}, its limit is {:.4g}",
@@ -109,68 +167,114 @@ ReasonText Tracker::jerk_defect(const ShortTrajectory& way) const {
   return {};
 }
 
-/// Empty, or how fast the tool would become on the way to the meeting point.
-ReasonText Tracker::speed_defect(const ShortTrajectory& way) const {
-  const double limit = options_.max_tool_speed;
-  if (std::isinf(limit)) return {};
-  const TrajectoryView view = way.view();
-  const int samples = std::clamp(static_cast<int>(view.duration_s() / kSpeedStep), 16, 500);
-  const double allowed = std::max(limit, tool_speed(model_, view.at(view.start))) * (1 + 1e-9);
-  for (int i = 1; i <= samples; ++i) {
-    const Time time = view.start + seconds(view.duration_s() * i / samples);
-    const double speed = tool_speed(model_, view.at(time));
-    if (speed <= allowed) continue;
-    return ReasonText::format("the tool would need {:.4g} m/s, its limit is {:.4g} m/s", speed,
-                              limit);
-  }
-  return {};
+ReasonText Tracker::speed_defect(double speed) const {
+  return ReasonText::format("the tool would need {:.4g} m/s, its limit is {:.4g} m/s", speed,
+                            options_.max_tool_speed);
 }
 
-Tracker::Outcome Tracker::attempt(const MotionGoal& goal, const JointState& from, Time start,
+/// How much longer a way that breaks limits of the joints should take: its velocities fall with the
+/// time that it takes, its accelerations with the square, its jerks with the cube of that.
+double Tracker::longer_for_joints(const ShortTrajectory& way, double horizon_s) const {
+  double longer = 1;
+  for (int i = 0; i < way.dof; ++i) {
+    const Quintic quintic = way.view().piece(0, i);
+    const QuinticPeaks peak = peaks(quintic, horizon_s);
+    longer = std::max({longer,
+                       longer_for({std::abs(quintic.velocity(0)), peak.velocity,
+                                   std::abs(quintic.velocity(horizon_s))},
+                                  limits_.max_velocity[i]),
+                       std::sqrt(peak.acceleration / limits_.max_acceleration[i])});
+    if (options_.max_jerk.size() == 0) continue;
+    longer = std::max(longer, std::cbrt(peak_jerk(quintic, horizon_s) / options_.max_jerk[i]));
+  }
+  return longer;
+}
+
+/// The defect says why a target is not met. What costs least is looked at first.
+Tracker::Attempt Tracker::attempt(const MotionGoal& goal, const JointState& from, Time start,
                                   double horizon_s, ShortTrajectory& out) {
+  using enum Attempt::Outcome;
+  ++attempts_;
   JointState meet;
-  if (!meeting_point(goal, from, horizon_s, meet)) return Outcome::out_of_reach;
+  if (!meeting_point(goal, from, horizon_s, meet)) return {out_of_reach};
+  const bool limited = std::isfinite(options_.max_tool_speed);
+  if (const double speed = limited ? tool_speed(model_, meet) : 0; speed > allowed_speed_) {
+    defect_ = speed_defect(speed);
+    return {too_short, trusted_s_ / horizon_s};  // behind which it ends at rest
+  }
   out = quintic_to(from, meet, start, horizon_s, goal.id);
-  defect_ = jerk_defect(out);
-  if (defect_.empty()) defect_ = speed_defect(out);
-  if (!defect_.empty()) return Outcome::try_longer;
   if (!at_rest(meet)) {
     out.append(short_stop_from(meet, limits_.max_velocity, limits_.max_acceleration,
                                out.view().end(), goal.id));
   }
-  defect_ = trajectory_defect(out.view(), model_, limits_, from, start);
-  return defect_.empty() ? Outcome::met : Outcome::try_longer;
+  defect_ = jerk_defect(out, horizon_s);
+  if (defect_.empty()) defect_ = trajectory_defect(out.view(), model_, limits_, from, start);
+  if (!defect_.empty()) return {too_short, longer_for_joints(out, horizon_s)};
+  const double speed = limited ? peak_tool_speed(model_, out.view(), horizon_s) : 0;
+  if (speed <= allowed_speed_) return {met};
+  defect_ = speed_defect(speed);
+  return {too_short,
+          longer_for({tool_speed(model_, from), speed, tool_speed(model_, meet)}, allowed_speed_)};
 }
 
 TrackingFailure Tracker::track(const MotionGoal& goal, const JointState& from, Time start,
                                ShortTrajectory& out) {
-  const bool under_way = start < under_way_until_ && grown_ > 1;
-  if (under_way && search(goal, from, start, grown_ - 1, out).stage.empty()) return {};
+  attempts_ = 0;
+  allowed_speed_ = options_.max_tool_speed;
+  if (std::isfinite(allowed_speed_)) {
+    allowed_speed_ = std::max(allowed_speed_, tool_speed(model_, from)) * (1 + 1e-9);
+  }
+  under_way_ = start < under_way_until_;
+  max_attempts_ = under_way_ ? kMaxAttempts : kMaxAttemptsAnew;
+  // One that is not caught up with is followed to where it is, not to where it will have gone.
+  const bool too_fast = goal.velocity.norm() > kMeetingUse * options_.max_tool_speed;
+  trusted_s_ = under_way_ && too_fast ? kFollowing : kLongestPrediction;
+  const int begin = under_way_ ? next_begin_ : 0;
+  const TrackingFailure failure = search(goal, from, start, {begin, horizons_}, out);
+  if (failure.stage.empty() || begin == 0 || attempts_ == max_attempts_) return failure;
   // Where the target leaves the reach soon only a short horizon may do.
-  return search(goal, from, start, 0, out);
+  return search(goal, from, start, {0, begin}, out);
 }
 
-/// From the horizon on that was made longer `begin` times.
+/// Among the horizons that are `left`; says where the next call begins.
 TrackingFailure Tracker::search(const MotionGoal& goal, const JointState& from, Time start,
-                                int begin, ShortTrajectory& out) {
-  ReasonText by_limits;
-  double horizon = options_.shortest_horizon_s;
-  for (grown_ = 0; horizon <= kLongestHorizon; ++grown_, horizon *= kHorizonGrowth) {
-    if (grown_ < begin) continue;
-    const Outcome outcome = attempt(goal, from, start, horizon, out);
-    if (outcome == Outcome::met) {
-      under_way_until_ = start + seconds(horizon);
-      return {};
+                                Horizons left, ShortTrajectory& out) {
+  using enum Attempt::Outcome;
+  const int last = left.end;
+  int next = left.begin;
+  std::optional<int> found;
+  ReasonText by_limits, by_reach;
+  while (left.begin < left.end && attempts_ < max_attempts_) {
+    const double horizon_s = options_.shortest_horizon_s * std::pow(kHorizonGrowth, next);
+    const Attempt tried = attempt(goal, from, start, horizon_s, found ? way_ : out);
+    switch (tried.outcome) {
+      case too_short:
+        by_limits = defect_;
+        left.begin = next + 1;
+        break;
+      case out_of_reach:
+        by_reach = ReasonText::format("; {:.2g} s ahead {}", horizon_s, defect_.view());
+        left.end = next;
+        break;
+      case met:
+        if (found) out = way_;
+        under_way_until_ = start + seconds(horizon_s);
+        left.end = next;
+        found = next;
     }
-    if (outcome == Outcome::out_of_reach && by_limits.empty()) return {"ik", defect_};
-    if (outcome == Outcome::out_of_reach) {
-      by_limits =
-          ReasonText::format("{}; {:.2g} s ahead {}", by_limits.view(), horizon, defect_.view());
-      break;
-    }
-    by_limits = defect_;
+    const bool bounded = left.end < last;  // by one that is met or out of reach
+    // The last horizon, one above the first that is tried, mostly does still: no leap over it.
+    const int leap = under_way_ && attempts_ == 1 ? 1 : growths_for(tried.longer);
+    next = bounded ? (left.begin + left.end) / 2 : std::min(next + leap, last - 1);
+    // Better a slow way than none.
+    if (!found && !bounded && attempts_ + 1 == kMaxAttemptsAnew) next = last - 1;
   }
-  return {"trajectory", ReasonText::format("tracking within limits: {}", by_limits.view())};
+  const bool interrupted = left.begin < left.end;
+  next_begin_ = found ? std::max(0, *found - 1) : interrupted ? left.begin : 0;
+  if (found) return {};
+  if (by_limits.empty()) return {"ik", defect_};
+  return {"trajectory",
+          ReasonText::format("tracking within limits: {}{}", by_limits.view(), by_reach.view())};
 }
 
 }  // namespace armature

@@ -29,11 +29,23 @@ struct TrackingFailure {
 /// target's joint velocity there and no acceleration, and then to rest, so that an arm whose target
 /// falls silent stops by itself. The horizon is the shortest one with which the limits on velocity,
 /// acceleration and, until the target is met, jerk and the tool's speed hold; a tool that is faster
-/// already does not become faster. It is searched upwards: while the last target is not met yet
-/// from a fifth below the last one on, and where that finds none from `shortest_horizon_s` on.
-/// Real-time safe.
+/// already does not become faster.
+///
+/// The horizons that are tried grow by a quarter each, from `shortest_horizon_s` to 20 s. The
+/// search begins at the shortest, or, while the last target is not met yet, one below the last. It
+/// leaps up as far as the broken limits ask for, then halves what it leapt over.
+///
+/// A target under way that is nearly as fast as `max_tool_speed`, or faster, is followed behind:
+/// its velocity is trusted for a quarter of a second only.
+///
+/// Real-time safe. A call tries at most `kMaxAttemptsAnew` horizons, while a target is under way at
+/// most `kMaxAttempts`; with each it asks the solver at most twice and computes at most 16
+/// Jacobians. A call that finds none leaves the rest to the next one, while a target is under way;
+/// else its last attempt is the longest horizon.
 class Tracker {
  public:
+  static constexpr int kMaxAttempts = 3, kMaxAttemptsAnew = 8;
+
   /// Keeps references to `model` and `ik`, which allocates nothing.
   Tracker(const RobotModel& model, const MotionLimits& limits, const IkSolver& ik,
           const TrackingOptions& options);
@@ -42,26 +54,45 @@ class Tracker {
   TrackingFailure track(const MotionGoal& goal, const JointState& from, Time start,
                         ShortTrajectory& out);
 
+  /// How many horizons the last call tried.
+  int attempts() const { return attempts_; }
+
  private:
-  TrackingFailure search(const MotionGoal& goal, const JointState& from, Time start, int begin,
+  /// What came of one horizon; `longer`: how much longer the limits that it breaks ask for.
+  struct Attempt {
+    enum class Outcome { met, too_short, out_of_reach } outcome;
+    double longer = 1;
+  };
+  /// Those that are made longer `begin` to `end` - 1 times.
+  struct Horizons {
+    int begin, end;
+  };
+  TrackingFailure search(const MotionGoal& goal, const JointState& from, Time start, Horizons left,
                          ShortTrajectory& out);
-  enum class Outcome { met, try_longer, out_of_reach };
-  Outcome attempt(const MotionGoal& goal, const JointState& from, Time start, double horizon_s,
+  Attempt attempt(const MotionGoal& goal, const JointState& from, Time start, double horizon_s,
                   ShortTrajectory& out);
   bool meeting_point(const MotionGoal& goal, const JointState& from, double horizon_s,
                      JointState& meet);
   bool solve(const ToolPose& pose, const JointVector& near, JointVector& q);
-  ReasonText jerk_defect(const ShortTrajectory& way) const;
-  ReasonText speed_defect(const ShortTrajectory& way) const;
+  ReasonText jerk_defect(const ShortTrajectory& way, double horizon_s) const;
+  ReasonText speed_defect(double speed) const;
+  double longer_for_joints(const ShortTrajectory& way, double horizon_s) const;
 
   const RobotModel& model_;
   MotionLimits limits_;
   const IkSolver& ik_;
   TrackingOptions options_;
-  IkBranches branches_;   // kept for their memory
-  ReasonText defect_;     // of the last attempt
-  int grown_ = 0;         // how often the last horizon was made longer
-  Time under_way_until_;  // when the last target is met
+  double trusted_s_ = 0;      // how far ahead the target's velocity is, in the last call
+  double allowed_speed_ = 0;  // [m/s] of the tool's origin, in the last call
+  int horizons_ = 0;          // how many there are
+  IkBranches branches_;       // kept for their memory
+  ShortTrajectory way_;       // of an attempt at a shorter one than was found
+  ReasonText defect_;         // of the last attempt
+  int attempts_ = 0;          // of the last call
+  bool under_way_ = false;    // a target, in the last call
+  int max_attempts_ = 0;      // of the last call
+  int next_begin_ = 0;        // of the search, while a target is under way
+  Time under_way_until_;      // when the last target is met
 };
 
 }  // namespace armature

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 #include <variant>
 
 #include "armature/motion/gantry_stages_test.hpp"
@@ -33,6 +34,21 @@ Tracked track(Tracker tracker, const MotionGoal& goal, const JointState& from, T
   return tracked;
 }
 
+/// Counts how often it is asked.
+class CountingIk : public IkSolver {
+ public:
+  explicit CountingIk(const IkSolver& ik) : ik_{ik} {}
+  IkStatus solve(const IkGoal& goal, const JointVector& near, IkBranches& out,
+                 IkState& state) const override {
+    ++asked;
+    return ik_.solve(goal, near, out, state);
+  }
+  mutable int asked = 0;
+
+ private:
+  const IkSolver& ik_;
+};
+
 TEST(Tracking, MeetsATargetThatMovesWithItsVelocity) {
   const Gantry gantry;
   MotionGoal goal = goal_at(1, 0.02, 0, 0);
@@ -58,21 +74,6 @@ TEST(Tracking, TakesLongerInsteadOfBreakingLimits) {
   EXPECT_LE(use.acceleration, 1.001);
   EXPECT_GT(plan.horizon_s(), 1.2);
 }
-
-/// Counts how often it is asked.
-class CountingIk : public IkSolver {
- public:
-  explicit CountingIk(const IkSolver& ik) : ik_{ik} {}
-  IkStatus solve(const IkGoal& goal, const JointVector& near, IkBranches& out,
-                 IkState& state) const override {
-    ++asked;
-    return ik_.solve(goal, near, out, state);
-  }
-  mutable int asked = 0;
-
- private:
-  const IkSolver& ik_;
-};
 
 TEST(Tracking, OnTheWayFindsTheSameHorizonsAsFromTheShortestOnInThreeAttempts) {
   const Gantry gantry;
@@ -253,6 +254,120 @@ TEST(Tracking, ATargetThatTheLimitsCannotMeetBeforeItLeavesTheReachFailsByTheLim
   EXPECT_EQ(plan.failure.reason.view().substr(0, 24), "tracking within limits: ");
   EXPECT_NE(plan.failure.reason.view().find(" s ahead the goal: out_of_reach"), std::string::npos)
       << plan.failure.reason.view();
+}
+
+/// Calls a tracker, and asserts that it did no more work than it says.
+class BoundedTracker {
+ public:
+  explicit BoundedTracker(const Gantry& gantry, const TrackingOptions& options = kHorizon)
+      : ik_{gantry.ik}, tracker_{gantry.model, gantry.limits, ik_, options} {}
+
+  Tracked track(const MotionGoal& goal, const JointState& from, Time start) {
+    Tracked tracked;
+    ik_.asked = 0;
+    const int most = start < met_ ? Tracker::kMaxAttempts : Tracker::kMaxAttemptsAnew;
+    tracked.failure = tracker_.track(goal, from, start, tracked.way);
+    EXPECT_LE(tracker_.attempts(), most);
+    EXPECT_LE(ik_.asked, 2 * tracker_.attempts());
+    attempts_ += tracker_.attempts();
+    if (tracked) met_ = start + seconds(tracked.horizon_s());
+    return tracked;
+  }
+  int attempts() const { return attempts_; }  // of all calls
+
+ private:
+  CountingIk ik_;
+  Tracker tracker_;
+  int attempts_ = 0;
+  Time met_;  // the last target
+};
+
+TEST(Tracking, ATargetThatNoHorizonMeetsCostsFewAttempts) {
+  const Gantry gantry;
+  const auto attempts = [&](const MotionGoal& goal, const TrackingOptions& options) {
+    BoundedTracker tracker{gantry, options};
+    EXPECT_EQ(tracker.track(goal, rest_at(0, 0, 0), Time{0}).failure.stage, "trajectory");
+    return tracker.attempts();
+  };
+  MotionGoal leaves = goal_at(1, 1.9, 0, 0);  // 2 m is the end of the reach
+  leaves.velocity = {0.5, 0, 0};
+  EXPECT_LE(attempts(leaves, kHorizon), 8);
+  const MotionGoal stays = goal_at(1, 1, 0, 0);
+  // The first attempt tells that the longest horizon is too short.
+  EXPECT_EQ(attempts(stays, {.max_jerk = JointVector::Constant(3, 1e-6)}), 2);
+  EXPECT_LE(attempts(stays, {.max_tool_speed = 1e-3}), 3);
+}
+
+TEST(Tracking, ATargetThatIsTooFastCostsFewAttempts) {
+  const Gantry gantry;
+  BoundedTracker tracker{gantry, {.shortest_horizon_s = 0.01, .max_tool_speed = 0.05}};
+  ShortTrajectory current = short_hold_at(Eigen::Vector3d{0, 0, 0}, Time{0}, 0);
+  constexpr int kSteps = 10'000;
+  for (int k = 1; k <= kSteps; ++k) {
+    const Time now = Time{} + k * seconds(0.001);
+    const double t = 2.5e-3 * k;  // [rad] on a circle of 4 cm: 0.1 m/s
+    MotionGoal goal =
+        goal_at(static_cast<std::uint64_t>(k), 0.04 * std::sin(t), 0.04 * (1 - std::cos(t)), 0);
+    goal.velocity = 0.1 * Eigen::Vector3d{std::cos(t), std::sin(t), 0};
+    const Tracked next = tracker.track(goal, current.view().at(now), now);
+    if (next) current = next.way;
+    ASSERT_LE(current.view().at(now).v.norm(), 0.05 * (1 + 1e-6)) << "at step " << k;
+  }
+  EXPECT_LT(tracker.attempts(), 3 * kSteps);
+}
+
+/// The shortest horizon that one attempt with each of them finds; 0: none.
+double shortest_of_all(const Gantry& gantry, TrackingOptions options, const MotionGoal& goal) {
+  for (; options.shortest_horizon_s <= 20; options.shortest_horizon_s *= 1.25) {
+    const Tracked one = track(gantry.tracker(options), goal, rest_at(0, 0, 0), Time{0});
+    if (one && one.horizon_s() < 1.1 * options.shortest_horizon_s) return one.horizon_s();
+  }
+  return 0;
+}
+
+TEST(Tracking, FromRestFindsAHorizonWhereThereIsOneAndNearlyAlwaysTheShortest) {
+  const Gantry gantry;
+  const TrackingOptions options{
+      .shortest_horizon_s = 0.01, .max_jerk = JointVector::Constant(3, 50), .max_tool_speed = 0.3};
+  std::mt19937 random{1};
+  std::uniform_real_distribution<double> one{-1, 1};
+  const auto direction = [&] { return Eigen::Vector3d{one(random), one(random), one(random)}; };
+  constexpr int kTargets = 2000;
+  int longer = 0;
+  for (int k = 0; k < kTargets; ++k) {
+    const Eigen::Vector3d place = std::pow(10, 1.5 * one(random) - 1.5) * direction();
+    MotionGoal goal = goal_at(1, place.x(), place.y(), place.z());
+    goal.velocity = 0.06 * (k % 4) * direction();  // up to 0.31 m/s
+    BoundedTracker tracker{gantry, options};
+    const Tracked found = tracker.track(goal, rest_at(0, 0, 0), Time{0});
+    const double shortest = shortest_of_all(gantry, options, goal);
+    ASSERT_EQ(static_cast<bool>(found), shortest > 0) << found.failure.reason.view();
+    longer += found && found.horizon_s() > 1.001 * shortest;
+  }
+  EXPECT_LE(longer, kTargets / 100);
+}
+
+TEST(Tracking, TheToolsSpeedIsKeptBetweenThePlacesWhereItIsLookedAt) {
+  const Gantry gantry;
+  const TrackingOptions options{.shortest_horizon_s = 0.05, .max_tool_speed = 0.3};
+  std::mt19937 random{1};
+  std::uniform_real_distribution<double> one{-1, 1};
+  const auto vector = [&](double size) {
+    return Eigen::Vector3d{size * Eigen::Vector3d{one(random), one(random), one(random)}};
+  };
+  int found = 0;
+  for (int k = 0; k < 2000; ++k) {
+    const Eigen::Vector3d place = vector(0.3);
+    MotionGoal goal = goal_at(1, place.x(), place.y(), place.z());
+    goal.velocity = vector(0.15);
+    const JointState from{.q = vector(0.1), .v = vector(0.15), .a = vector(0.5)};
+    const Tracked one_way = track(gantry.tracker(options), goal, from, Time{0});
+    found += static_cast<bool>(one_way);
+    for (double t = 0; one_way && t < one_way.horizon_s(); t += 1e-3) {
+      ASSERT_LE(one_way.at(Time{} + seconds(t)).v.norm(), 0.3 * 1.001) << k << " after " << t;
+    }
+  }
+  EXPECT_GT(found, 1000);
 }
 
 }  // namespace

@@ -45,6 +45,9 @@ class ArmRecord {
   /// kept.
   void add(ArmSample sample);
 
+  /// The same record without what arrived later.
+  ArmRecord until(Arrival end) const;
+
   const std::vector<ArmSample>& samples() const { return samples_; }
   int unusable() const { return unusable_; }
 
@@ -60,6 +63,8 @@ class ArmRecord {
   Duration time_to_rest(Arrival from) const;
   /// The first movement after the arm, moving at `from` or later, had rested for 0.2 s.
   std::optional<JointSpeed> moved_again(Arrival from) const;
+  /// The first movement that arrived later than `from`.
+  std::optional<JointSpeed> moves_after(Arrival from) const;
 
  private:
   JointSpeed fastest_of(const ArmSample& sample) const;

@@ -154,7 +154,7 @@ int run_drill(const DrillOptions& options) {
   drill::Drill drill{options, deployment, drill::plan(deployment, options, seed)};
   const auto results = drill.run();
   fmt::print("{}\n", options.json ? to_json(deployment.name, seed, results) : counts(results));
-  return std::ranges::all_of(results, &drill::TrialResult::passed) ? kOk : kFailed;
+  return std::ranges::none_of(results, &drill::TrialResult::failed) ? kOk : kFailed;
 }
 
 }  // namespace armature

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,6 +23,7 @@ struct Scene {
   int domain;
   Pendant* pendant;                    // of a fault that has one
   Arrival& fired_at;                   // where it takes effect later than it is begun
+  std::optional<Arrival>& held_from;   // since when no arm may move, where that is known
   std::vector<std::string> arguments;  // that the run was started with, behind `armature`
 };
 
@@ -29,7 +31,7 @@ struct Scene {
 enum class Outcome {
   stops,    // the run comes to rest and ends
   goes_on,  // the run goes on, and comes to rest when it is interrupted later
-  holds,    // its arms come to rest and do not move again; the run goes on or its task gives up
+  holds,    // its arms come to rest and do not move again; the run, without its reports, goes on
 };
 
 /// One row of the table, for one deployment and form.

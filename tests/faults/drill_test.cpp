@@ -70,6 +70,16 @@ json told_by(const CommandResult& result, int exit_code) {
   return told.is_object() ? told : json::object();
 }
 
+TEST(Drill, AnArmThatStandsAfterAFaultThatTheRunGoesOnWithFailsIt) {
+  const json told = told_by(run_command(drill("tests/faults/runaway.yaml",
+                                              {"--faults", "stranger", "--within", "0.1", "--json",
+                                               "--set", "components.arm.params.stands_after_s=1"}),
+                                        kWithFaultPlugins, kWithin),
+                            1);
+  EXPECT_EQ(told.value("failed", -1), 2) << told;
+  EXPECT_EQ(told["faults"][0]["arm"], "'arm', which moved at the fault, did not go on within 10 s");
+}
+
 TEST(Drill, AFaultWhoseRunTheTaskEndsItselfIsNotTriedAndNotPassed) {
   const json told =
       told_by(run_command(drill("tests/faults/tour.yaml", {"--faults", "emergency_stop", "--json"}),

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <functional>
 #include <thread>
 #include <utility>
 
@@ -10,12 +11,6 @@
 #include "armature/messages/stamp.hpp"
 
 namespace armature::drill {
-namespace {
-
-/// Faster than what an arm does that holds.
-constexpr double kMoves = 5e-3;  // [rad/s] or [m/s]
-
-}  // namespace
 
 ArmListener::ArmListener(PluginRegistry& plugins, const DrilledDeployment& deployment, int domain)
     : deployment_{deployment} {
@@ -56,11 +51,23 @@ void ArmListener::add(Heard& heard, const ObservedSample& sample) {
                     .v = message.velocity_()});
 }
 
-bool ArmListener::any_moves() const {
-  return std::ranges::any_of(heard_, [](const Heard& heard) {
+bool ArmListener::any_moves() const { return std::ranges::any_of(moving(), std::identity{}); }
+
+std::vector<bool> ArmListener::moving() const {
+  return ask([](const ArmRecord& record) { return moves(record.speed_now()); });
+}
+
+std::vector<bool> ArmListener::went_on_after(Arrival from) const {
+  return ask([&](const ArmRecord& record) { return record.goes_on_after(from); });
+}
+
+std::vector<bool> ArmListener::ask(const std::function<bool(const ArmRecord&)>& question) const {
+  std::vector<bool> answers;
+  for (const Heard& heard : heard_) {
     const std::scoped_lock lock{heard.mutex};
-    return heard.record.speed_now() > kMoves;
-  });
+    answers.push_back(question(heard.record));
+  }
+  return answers;
 }
 
 std::optional<Arrival> ArmListener::hand_moved_after(Arrival from) const {

@@ -25,6 +25,10 @@ class ArmListener {
   bool find_arms(const std::function<bool()>& goes_on);
   /// Whether an arm moves, by its newest sample.
   bool any_moves() const;
+  /// Which arms do, in the order of the deployment's arms.
+  std::vector<bool> moving() const;
+  /// Which arms have moved by a sample that arrived later than `from`.
+  std::vector<bool> went_on_after(Arrival from) const;
   /// When a hand of the deployment's that moves an arm first moved after `from`; nothing: it has
   /// not.
   std::optional<Arrival> hand_moved_after(Arrival from) const;
@@ -40,6 +44,7 @@ class ArmListener {
   };
   void find_hand(const DrilledArm& arm);
   static void add(Heard& heard, const ObservedSample& sample);
+  std::vector<bool> ask(const std::function<bool(const ArmRecord&)>& question) const;
 
   const DrilledDeployment& deployment_;
   std::deque<Heard> heard_, hands_;

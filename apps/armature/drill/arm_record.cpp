@@ -124,4 +124,12 @@ std::optional<JointSpeed> ArmRecord::moves_after(Arrival from) const {
   return std::nullopt;
 }
 
+bool ArmRecord::goes_on_after(Arrival from) const {
+  for (auto sample = samples_.rbegin(); sample != samples_.rend(); ++sample) {
+    if (sample->arrival <= from) break;
+    if (moves(fastest_of(*sample).speed)) return true;
+  }
+  return false;
+}
+
 }  // namespace armature::drill

@@ -35,6 +35,9 @@ struct JointSpeed {
 /// Whether an arm that has this speed rests, in rad/s or m/s.
 constexpr bool rests(double speed) { return speed < 1e-3; }
 
+/// Whether an arm that has this speed goes somewhere, in rad/s or m/s: faster than one that holds.
+constexpr bool moves(double speed) { return speed > 5e-3; }
+
 /// All that was heard of an arm, and what can be said of it: only what the samples themselves show,
 /// by their own velocities and by their differences.
 class ArmRecord {
@@ -65,6 +68,8 @@ class ArmRecord {
   std::optional<JointSpeed> moved_again(Arrival from) const;
   /// The first movement that arrived later than `from`.
   std::optional<JointSpeed> moves_after(Arrival from) const;
+  /// Whether a sample arrived later than `from` that moves faster than what an arm does that holds.
+  bool goes_on_after(Arrival from) const;
 
  private:
   JointSpeed fastest_of(const ArmSample& sample) const;

@@ -128,6 +128,15 @@ TEST_F(ArmRecordTest, AMovementAfterAnInstantIsSeenHoweverTheArmWasBefore) {
   EXPECT_FALSE(record_.moved_again(at(held_s))) << "it was at rest before that one movement";
 }
 
+TEST_F(ArmRecordTest, WhatAHoldingArmDoesIsNoMovementToGoOnWith) {
+  go_on(0.1, 0.004);
+  EXPECT_TRUE(record_.moves_after(at(0)));
+  EXPECT_FALSE(record_.goes_on_after(at(0)));
+  go_on(0.01, 0.02);
+  EXPECT_TRUE(record_.goes_on_after(at(0)));
+  EXPECT_FALSE(record_.goes_on_after(at(t_s_)));
+}
+
 TEST_F(ArmRecordTest, AVelocityThatIsNoNumberIsNoRest) {
   go_on(0.1, 0);
   add(std::numeric_limits<double>::quiet_NaN());

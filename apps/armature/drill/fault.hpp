@@ -30,7 +30,7 @@ struct Scene {
 /// The outcome with which a fault is passed.
 enum class Outcome {
   stops,    // the run comes to rest and ends
-  goes_on,  // the run goes on, and comes to rest when it is interrupted later
+  goes_on,  // the run goes on and its arms do, and they come to rest when it is interrupted later
   holds,    // its arms come to rest and do not move again; the run, without its reports, goes on
 };
 
@@ -41,6 +41,7 @@ struct Fault {
   std::string shown;         // part of the line by which the run names it; empty: it need not
   std::string inject{};      // --inject of the run; empty: none
   bool has_pendant = false;  // the run is given one; the operator holds it and has rearmed
+  bool may_give_up = false;  // goes_on: a task may need more than the fault leaves, and says so
   std::string lost{};  // the arm whose own driver the fault takes away; no software can stop it
   /// Fires it. Returns what was wrong with it, or nothing.
   std::function<std::string(Scene&)> fire;

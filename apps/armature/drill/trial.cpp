@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <memory>
@@ -26,8 +27,10 @@ constexpr milliseconds kMoveWithin{60000};
 constexpr milliseconds kNextPress{250};
 constexpr milliseconds kMoveAgainWithin{1000};
 constexpr milliseconds kShownWithin{8000};
-/// How long a run is watched that is to go on.
-constexpr milliseconds kGoesOnFor{500};
+/// A movement is none to go on with as long after a fault: an arm may ramp down.
+constexpr milliseconds kRampsFor{1000};
+/// Within which time after that a run that is to go on has moved again.
+constexpr milliseconds kGoesOnWithin{9000};
 /// How long arms are watched that are to stay where they are.
 constexpr milliseconds kHoldsFor{2500};
 
@@ -129,25 +132,52 @@ class Trial {
                 .fired_at = stop_at_,
                 .held_from = held_from_,
                 .arguments = arguments_};
+    const std::vector<bool> moved = listener_.moving();
     if (const std::string wrong = fault_.fire(scene); !wrong.empty()) return fail(wrong);
     switch (fault_.outcome) {
       case Outcome::stops:
         return true;
       case Outcome::goes_on:
-        return go_on();
+        return go_on(moved);
       case Outcome::holds:
         return hold();
     }
     return true;
   }
 
-  /// Watches a run that is to go on, then interrupts it.
-  bool go_on() {
-    wait_for(kGoesOnFor, [&] { return !run_.runs(); });
+  /// Watches a run until it has gone on, then interrupts it.
+  bool go_on(const std::vector<bool>& moved) {
+    const Arrival from = steady_clock::now() + kRampsFor;
+    const bool went = wait_for(kRampsFor + kGoesOnWithin, [&] {
+      return !run_.runs() || went_on(moved, listener_.went_on_after(from));
+    });
     find_shown();
+    if (run_.line_with(kStoryTold)) return end_story();
     if (!still_runs()) return false;
+    if (!went) {
+      const double watched_s = to_seconds(kRampsFor + kGoesOnWithin);
+      return fail(fmt::format(
+          "{} within {:g} s",
+          stood_still(options_.deployment.arms, moved, listener_.went_on_after(from)), watched_s));
+    }
     stop_at_ = steady_clock::now();
     run_.signal(SIGINT);
+    return true;
+  }
+
+  /// A run may come to the end of its story after a fault; one whose task gave up has not, and
+  /// passes where the fault leaves a task no choice.
+  bool end_story() {
+    stop_at_ = steady_clock::now();
+    const std::string how = how_it_ended();
+    const auto told = closing();
+    if (!told.contains("status")) return fail("the run ended: " + how);
+    const auto reasons = told.value("reasons", nlohmann::json::array());
+    // What a component says of its story is told before all others, and is none of them.
+    const bool gave_up =
+        told.contains("reason") && std::ranges::find(reasons, told["reason"]) == reasons.end();
+    if (gave_up && !fault_.may_give_up) return fail("the run ended: " + how);
+    story_end_ = gave_up ? "its task gave up: " + how : "went on to the end of its story";
     return true;
   }
 
@@ -209,7 +239,11 @@ class Trial {
     }
     result_.arm = verdict.arm;
     if (!verdict.wrong.empty()) return;
-    if (fault_.outcome == Outcome::goes_on) result_.arm = "went on, then " + verdict.arm;
+    if (!story_end_.empty()) {
+      result_.arm = story_end_;
+    } else if (fault_.outcome == Outcome::goes_on) {
+      result_.arm = "went on, then " + verdict.arm;
+    }
     if (holds) result_.arm += " and stayed there";
     if (hand) {
       result_.arm +=
@@ -255,6 +289,7 @@ class Trial {
   TrialResult result_{};
   Arrival stop_at_{}, next_press_{};
   std::optional<Arrival> held_from_;  // of arms that are to stay where they are
+  std::string story_end_;             // of a run that was to go on, where it ended by itself
 };
 
 }  // namespace

@@ -64,4 +64,24 @@ Verdict judge(const std::vector<DrilledArm>& arms, const std::vector<ArmRecord>&
   return verdict;
 }
 
+bool went_on(const std::vector<bool>& moved_at_fault, const std::vector<bool>& moved_after) {
+  const auto any = [](const std::vector<bool>& arms) {
+    return std::ranges::find(arms, true) != arms.end();
+  };
+  if (!any(moved_at_fault)) return any(moved_after);
+  return std::ranges::equal(moved_at_fault, moved_after,
+                            [](bool before, bool after) { return !before || after; });
+}
+
+std::string stood_still(const std::vector<DrilledArm>& arms,
+                        const std::vector<bool>& moved_at_fault,
+                        const std::vector<bool>& moved_after) {
+  for (std::size_t i = 0; i < arms.size(); ++i) {
+    if (moved_at_fault[i] && !moved_after[i]) {
+      return fmt::format("'{}', which moved at the fault, did not go on", arms[i].component);
+    }
+  }
+  return "no arm moved after the fault";
+}
+
 }  // namespace armature::drill

@@ -29,4 +29,12 @@ struct Asked {
 Verdict judge(const std::vector<DrilledArm>& arms, const std::vector<ArmRecord>& records,
               const Asked& asked);
 
+/// Whether a run has gone on after a fault, arm by arm: every arm that moved when it was fired
+/// moves again; where none did, any does.
+bool went_on(const std::vector<bool>& moved_at_fault, const std::vector<bool>& moved_after);
+/// Which arms did not, for people.
+std::string stood_still(const std::vector<DrilledArm>& arms,
+                        const std::vector<bool>& moved_at_fault,
+                        const std::vector<bool>& moved_after);
+
 }  // namespace armature::drill

@@ -79,6 +79,20 @@ TEST(Verdict, WhatAHandDoesWithAnArmIsNotTheArmsButItKeepsItsLimitsAndEndsAtRest
   EXPECT_NE(judge(kArms, {record(0.3), record(2)}, until_a_hand).wrong, "") << "moves at its end";
 }
 
+TEST(Verdict, ARunHasGoneOnWhenEveryArmThatMovedMovesAgain) {
+  EXPECT_TRUE(went_on({true, false}, {true, false}));
+  EXPECT_FALSE(went_on({true, true}, {true, false}));
+  EXPECT_FALSE(went_on({true, false}, {false, true})) << "another arm is not this one";
+  EXPECT_EQ(stood_still(kArms, {true, true}, {true, false}),
+            "'right', which moved at the fault, did not go on");
+}
+
+TEST(Verdict, WhereAllRestedAtTheFaultAnyMovementIsGoingOn) {
+  EXPECT_TRUE(went_on({false, false}, {false, true}));
+  EXPECT_FALSE(went_on({false, false}, {false, false}));
+  EXPECT_EQ(stood_still(kArms, {false, false}, {false, false}), "no arm moved after the fault");
+}
+
 TEST(Verdict, AnArmThatWasNotHeardFails) {
   EXPECT_EQ(judge(kArms, {record(0.1), ArmRecord{{{"j1", 1}}}}, {.stop = at(0.5)}).wrong,
             "'right' was not heard");

@@ -156,6 +156,14 @@ std::string hand_of(const ComponentConfig& driver, const DeploymentConfig& deplo
   return is_told && is_written(hand->topic, deployment) ? hand->topic : std::string{};
 }
 
+/// Where its power is switched; empty where it has no such input or the deployment switches it.
+std::string power_of(const ComponentConfig& driver, const DeploymentConfig& deployment) {
+  const PortBinding* power = find_input(driver, "power");
+  const bool takes_switch = power && power->spec.outside && power->spec.type == "std_msgs/Bool" &&
+                            power->spec.qos == QosProfile::latched;
+  return takes_switch && !is_written(power->topic, deployment) ? power->topic : std::string{};
+}
+
 /// Puts entries of the file into processes of their own.
 class Splitter {
  public:
@@ -212,6 +220,7 @@ DrilledDeployment read_drilled(const DeploymentSource& source, const PluginRegis
                               .process = splitter.put(component, "drill_" + component.name),
                               .measured_topic = measured_of(component).topic,
                               .hand_topic = hand_of(component, deployment),
+                              .power_topic = power_of(component, deployment),
                               .limits = limits_of(component, deployment)});
     } else if (commands(component, deployment)) {
       const std::string process = splitter.put(component, "drill_" + component.name);

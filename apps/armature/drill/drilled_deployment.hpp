@@ -21,6 +21,7 @@ struct DrilledArm {
   std::string process;         // its own, in the split form
   std::string measured_topic;  // where it tells where it is: sensor_msgs/JointState
   std::string hand_topic;      // where a hand of the deployment says where it moves it; or empty
+  std::string power_topic;     // where its drives' power is switched: std_msgs/Bool; empty: nowhere
   std::vector<JointLimit> limits;
 };
 

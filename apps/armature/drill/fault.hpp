@@ -10,6 +10,7 @@
 #include "drill/arm_listener.hpp"
 #include "drill/drilled_deployment.hpp"
 #include "drill/pendant.hpp"
+#include "drill/power_switch.hpp"
 #include "drill/run_under_test.hpp"
 
 namespace armature::drill {
@@ -22,6 +23,7 @@ struct Scene {
   PluginRegistry& plugins;
   int domain;
   Pendant* pendant;                    // of a fault that has one
+  PowerSwitch* power;                  // of a fault that has one
   Arrival& fired_at;                   // where it takes effect later than it is begun
   std::optional<Arrival>& held_from;   // since when no arm may move, where that is known
   std::vector<std::string> arguments;  // that the run was started with, behind `armature`
@@ -41,6 +43,7 @@ struct Fault {
   std::string shown;         // part of the line by which the run names it; empty: it need not
   std::string inject{};      // --inject of the run; empty: none
   bool has_pendant = false;  // the run is given one; the operator holds it and has rearmed
+  bool has_power_switch = false;
   bool may_give_up = false;  // goes_on: a task may need more than the fault leaves, and says so
   std::string lost{};  // the arm whose own driver the fault takes away; no software can stop it
   /// Fires it. Returns what was wrong with it, or nothing.

@@ -283,6 +283,26 @@ std::optional<Fault> pendant_unplugged(const DrilledDeployment& deployment, Form
   });
 }
 
+// The arms' own power.
+
+std::optional<Fault> power_lost(const DrilledDeployment& deployment, Form) {
+  const bool switched = std::ranges::none_of(
+      deployment.arms, [](const DrilledArm& arm) { return arm.power_topic.empty(); });
+  if (!switched || deployment.commander.name.empty()) return std::nullopt;
+  return Fault{.name = {},
+               .outcome = Outcome::holds,
+               .shown = "the arm says emergency_stop",
+               .has_power_switch = true,
+               .fire = [](Scene& scene) {
+                 constexpr std::chrono::seconds kWithoutPower{2};
+                 scene.power->turn(false);
+                 std::this_thread::sleep_for(kWithoutPower);
+                 come_to_rest(scene);
+                 scene.power->turn(true);
+                 return std::string{};
+               }};
+}
+
 struct Row {
   const char* name;
   MakeFault make;
@@ -311,6 +331,7 @@ constexpr std::array kFaults{
     Row{"rearm", rearm},
     Row{"hold_released", hold_released},
     Row{"pendant_unplugged", pendant_unplugged},
+    Row{"power_lost", power_lost},
     Row{"stranger", stranger},
     Row{"second_start", second_start},
 };

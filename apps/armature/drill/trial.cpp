@@ -75,6 +75,10 @@ class Trial {
                                    : nullptr},
         arguments_{arguments_of(options, fault, form, pendant_.get())},
         listener_{options.plugins, options.deployment, options.domain},
+        power_{fault.has_power_switch
+                   ? std::make_unique<PowerSwitch>(options.plugins, options.deployment.arms,
+                                                   options.domain)
+                   : nullptr},
         run_{arguments_} {}
 
   TrialResult run(Form form, double moment_s) {
@@ -129,6 +133,7 @@ class Trial {
                 .plugins = options_.plugins,
                 .domain = options_.domain,
                 .pendant = pendant_.get(),
+                .power = power_.get(),
                 .fired_at = stop_at_,
                 .held_from = held_from_,
                 .arguments = arguments_};
@@ -285,6 +290,7 @@ class Trial {
   std::unique_ptr<Pendant> pendant_;
   std::vector<std::string> arguments_;
   ArmListener listener_;
+  std::unique_ptr<PowerSwitch> power_;
   RunUnderTest run_;
   TrialResult result_{};
   Arrival stop_at_{}, next_press_{};

@@ -108,6 +108,43 @@ TEST_P(InterruptedDrill, EndsTheRunThatItHasStartedBeforeItEndsItself) {
 INSTANTIATE_TEST_SUITE_P(BeforeItsStartAndWhileItMoves, InterruptedDrill, testing::Values(0, 1500),
                          [](const auto& ms) { return std::to_string(ms.param) + "ms"; });
 
+/// What became of the faults of a drill that is over, with its exit code.
+json told_by(const CommandResult& result, int exit_code) {
+  EXPECT_EQ(result.exit_code, exit_code) << result.out << result.err;
+  json told = json::parse(result.out, nullptr, false);
+  EXPECT_TRUE(told.is_object()) << result.out;
+  return told.is_object() ? told : json::object();
+}
+
+TEST(Drill, AnArmThatStandsAfterAFaultThatTheRunGoesOnWithFailsIt) {
+  const json told = told_by(run_command(drill("tests/faults/runaway.yaml",
+                                              {"--faults", "stranger", "--within", "0.1", "--json",
+                                               "--set", "components.arm.params.stands_after_s=1"}),
+                                        kWithFaultPlugins, kWithin),
+                            1);
+  EXPECT_EQ(told.value("failed", -1), 2) << told;
+  EXPECT_EQ(told["faults"][0]["arm"], "'arm', which moved at the fault, did not go on within 10 s");
+}
+
+TEST(Drill, AFaultWhoseRunTheTaskEndsItselfIsNotTriedAndNotPassed) {
+  const json told =
+      told_by(run_command(drill("tests/faults/tour.yaml", {"--faults", "emergency_stop", "--json"}),
+                          {}, kWithin),
+              0);
+  EXPECT_EQ(told.value("passed", -1), 0) << told;
+  EXPECT_EQ(told.value("failed", -1), 0) << told;
+  EXPECT_EQ(told.value("not_tried", -1), 2) << told;
+  EXPECT_EQ(told["faults"][0]["not_tried"], "the task gave up");
+  EXPECT_EQ(told["faults"][0]["passed"], false);
+}
+
+TEST(Drill, ARunWhoseTaskGivesUpAtAStopIsRearmedAllTheSame) {
+  const CommandResult result =
+      run_command(drill("configs/sr1_biopsy.yaml", {"--faults", "rearm"}), {}, kWithin);
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+  EXPECT_THAT(result.out, HasSubstr("\n2 passed, 0 failed\n"));
+}
+
 TEST(Drill, IsRefusedWhereMetalMoves) {
   const CommandResult result =
       run_command(drill("tests/faults/runaway.yaml", {"--set", "components.arm.plugin=test/metal"}),

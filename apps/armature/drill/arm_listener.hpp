@@ -4,6 +4,7 @@
 #include <deque>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <vector>
 
 #include "armature/bus/fast_dds/observer.hpp"
@@ -24,6 +25,15 @@ class ArmListener {
   bool find_arms(const std::function<bool()>& goes_on);
   /// Whether an arm moves, by its newest sample.
   bool any_moves() const;
+  /// Which arms do, in the order of the deployment's arms.
+  std::vector<bool> moving() const;
+  /// Which arms have moved by a sample that arrived later than `from`.
+  std::vector<bool> went_on_after(Arrival from) const;
+  /// When a hand of the deployment's that moves an arm first moved after `from`; nothing: it has
+  /// not.
+  std::optional<Arrival> hand_moved_after(Arrival from) const;
+  /// Until no arm has moved for 0.3 s; arms that do not come to rest are waited for for 5 s.
+  void wait_for_rest() const;
   /// The samples that were heard so far, arm by arm in the order of the deployment's arms.
   std::vector<ArmRecord> records() const;
 
@@ -32,11 +42,13 @@ class ArmListener {
     ArmRecord record;
     mutable std::mutex mutex{};
   };
+  void find_hand(const DrilledArm& arm);
   static void add(Heard& heard, const ObservedSample& sample);
+  std::vector<bool> ask(const std::function<bool(const ArmRecord&)>& question) const;
 
   const DrilledDeployment& deployment_;
-  std::deque<Heard> heard_;
-  PluginPtr<DdsObserver> observer_;  // goes first: it calls what adds to heard_
+  std::deque<Heard> heard_, hands_;
+  PluginPtr<DdsObserver> observer_;  // goes first: it calls what adds to those
 };
 
 }  // namespace armature::drill

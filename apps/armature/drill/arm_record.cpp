@@ -29,6 +29,12 @@ void ArmRecord::add(ArmSample sample) {
   }
 }
 
+ArmRecord ArmRecord::until(Arrival end) const {
+  ArmRecord record = *this;
+  std::erase_if(record.samples_, [&](const ArmSample& sample) { return sample.arrival > end; });
+  return record;
+}
+
 JointSpeed ArmRecord::fastest_of(const ArmSample& sample) const {
   JointSpeed fastest{.joint = {}, .speed = 0, .arrival = sample.arrival};
   for (std::size_t i = 0; i < limits_.size(); ++i) {
@@ -108,6 +114,22 @@ std::optional<JointSpeed> ArmRecord::moved_again(Arrival from) const {
     moved = true;
   }
   return std::nullopt;
+}
+
+std::optional<JointSpeed> ArmRecord::moves_after(Arrival from) const {
+  for (const ArmSample& sample : samples_) {
+    if (sample.arrival <= from) continue;
+    if (const JointSpeed fastest = fastest_of(sample); !rests(fastest.speed)) return fastest;
+  }
+  return std::nullopt;
+}
+
+bool ArmRecord::goes_on_after(Arrival from) const {
+  for (auto sample = samples_.rbegin(); sample != samples_.rend(); ++sample) {
+    if (sample->arrival <= from) break;
+    if (moves(fastest_of(*sample).speed)) return true;
+  }
+  return false;
 }
 
 }  // namespace armature::drill

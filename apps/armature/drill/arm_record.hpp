@@ -35,6 +35,9 @@ struct JointSpeed {
 /// Whether an arm that has this speed rests, in rad/s or m/s.
 constexpr bool rests(double speed) { return speed < 1e-3; }
 
+/// Whether an arm that has this speed goes somewhere, in rad/s or m/s: faster than one that holds.
+constexpr bool moves(double speed) { return speed > 5e-3; }
+
 /// All that was heard of an arm, and what can be said of it: only what the samples themselves show,
 /// by their own velocities and by their differences.
 class ArmRecord {
@@ -44,6 +47,9 @@ class ArmRecord {
   /// A sample with another number of joints, or with a stamp that is not newer, is counted and not
   /// kept.
   void add(ArmSample sample);
+
+  /// The same record without what arrived later.
+  ArmRecord until(Arrival end) const;
 
   const std::vector<ArmSample>& samples() const { return samples_; }
   int unusable() const { return unusable_; }
@@ -60,6 +66,10 @@ class ArmRecord {
   Duration time_to_rest(Arrival from) const;
   /// The first movement after the arm, moving at `from` or later, had rested for 0.2 s.
   std::optional<JointSpeed> moved_again(Arrival from) const;
+  /// The first movement that arrived later than `from`.
+  std::optional<JointSpeed> moves_after(Arrival from) const;
+  /// Whether a sample arrived later than `from` that moves faster than what an arm does that holds.
+  bool goes_on_after(Arrival from) const;
 
  private:
   JointSpeed fastest_of(const ArmSample& sample) const;

@@ -115,6 +115,28 @@ TEST_F(ArmRecordTest, ARestBeforeTheFaultAndAShortOneAreNone) {
   EXPECT_FALSE(record_.moved_again(at(fault_s)));
 }
 
+TEST_F(ArmRecordTest, AMovementAfterAnInstantIsSeenHoweverTheArmWasBefore) {
+  go_on(0.3, 0);
+  const double held_s = t_s_;
+  go_on(0.3, 0);
+  EXPECT_FALSE(record_.moves_after(at(held_s)));
+  go_on(0.1, 0.5);
+  go_on(0.3, 0);
+  ASSERT_TRUE(record_.moves_after(at(held_s)));
+  EXPECT_EQ(record_.moves_after(at(held_s))->joint, "j2");
+  EXPECT_FALSE(record_.moves_after(at(t_s_ - 0.2)));
+  EXPECT_FALSE(record_.moved_again(at(held_s))) << "it was at rest before that one movement";
+}
+
+TEST_F(ArmRecordTest, WhatAHoldingArmDoesIsNoMovementToGoOnWith) {
+  go_on(0.1, 0.004);
+  EXPECT_TRUE(record_.moves_after(at(0)));
+  EXPECT_FALSE(record_.goes_on_after(at(0)));
+  go_on(0.01, 0.02);
+  EXPECT_TRUE(record_.goes_on_after(at(0)));
+  EXPECT_FALSE(record_.goes_on_after(at(t_s_)));
+}
+
 TEST_F(ArmRecordTest, AVelocityThatIsNoNumberIsNoRest) {
   go_on(0.1, 0);
   add(std::numeric_limits<double>::quiet_NaN());

@@ -185,7 +185,7 @@ int run_drill(const DrillOptions& options) {
   fmt::print("{}\n", options.json ? to_json(deployment.name, seed, results, drill.stopped())
                                   : counts(results));
   if (drill.stopped()) return kFailed;
-  return std::ranges::all_of(results, &drill::TrialResult::passed) ? kOk : kFailed;
+  return std::ranges::none_of(results, &drill::TrialResult::failed) ? kOk : kFailed;
 }
 
 }  // namespace armature

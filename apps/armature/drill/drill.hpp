@@ -23,7 +23,7 @@ struct DrillOptions {
 };
 
 /// `armature drill`: fires faults at a deployment whose arms are simulated, while they move, and
-/// judges by what the arms tell. Exit code 0 when every fault passed.
+/// judges by what the arms tell. Exit code 0 when no fault failed.
 int run_drill(const DrillOptions& options);
 
 }  // namespace armature

@@ -13,7 +13,7 @@ namespace armature::drill {
 /// The table of a drill, line by line.
 std::string table_head();
 std::string table_row(const TrialResult& result);
-/// "12 passed, 1 failed".
+/// "12 passed, 1 failed", and ", 2 not tried" where there are any.
 std::string counts(const std::vector<TrialResult>& results);
 /// The same as one JSON object. `stopped`: what has interrupted the drill.
 std::string to_json(const std::string& deployment, std::uint64_t seed,

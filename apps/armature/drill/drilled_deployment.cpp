@@ -83,18 +83,22 @@ const PortBinding* find_input(const ComponentConfig& component, std::string_view
   return found == component.inputs.end() ? nullptr : &*found;
 }
 
+bool is_written(const std::string& topic, const DeploymentConfig& deployment) {
+  return std::ranges::any_of(deployment.components, [&](const ComponentConfig& component) {
+    return std::ranges::find(component.outputs, topic, &PortBinding::topic) !=
+           component.outputs.end();
+  });
+}
+
 std::vector<HeedsPendant> heed_pendants(const DeploymentConfig& deployment) {
-  const auto is_written = [&](const std::string& topic) {
-    return std::ranges::any_of(deployment.components, [&](const ComponentConfig& component) {
-      return std::ranges::find(component.outputs, topic, &PortBinding::topic) !=
-             component.outputs.end();
-    });
-  };
   std::vector<HeedsPendant> heed;
   for (const ComponentConfig& component : deployment.components) {
     const PortBinding* hold = find_input(component, "hold_to_run");
     const PortBinding* rearm = find_input(component, "rearm");
-    if (!hold || !rearm || is_written(hold->topic) || is_written(rearm->topic)) continue;
+    if (!hold || !rearm || is_written(hold->topic, deployment) ||
+        is_written(rearm->topic, deployment)) {
+      continue;
+    }
     heed.push_back(
         {.name = component.name, .hold_topic = hold->topic, .rearm_topic = rearm->topic});
   }
@@ -119,6 +123,45 @@ std::vector<TopicSpec> inputs_of(const DeploymentConfig& deployment,
     }
   }
   return inputs;
+}
+
+bool reads_any_of(const ComponentConfig& reader, const ComponentConfig& writer) {
+  return std::ranges::any_of(reader.inputs, [&](const PortBinding& input) {
+    return std::ranges::find(writer.outputs, input.topic, &PortBinding::topic) !=
+           writer.outputs.end();
+  });
+}
+
+/// What only measures how a story went ends the run when its task gives up. Nothing else is changed
+/// by leaving it out where nobody reads what it writes.
+std::vector<std::string> without_reports(const DeploymentConfig& deployment) {
+  std::vector<std::string> settings;
+  for (const ComponentConfig& report : deployment.components) {
+    const bool is_read =
+        std::ranges::any_of(deployment.components, [&](const ComponentConfig& component) {
+          return component.name != report.name && reads_any_of(component, report);
+        });
+    const bool only_measures = !report.manifest->measures.empty() && !is_driver(report) && !is_read;
+    if (!is_entry(report) || !only_measures) continue;
+    settings.push_back(fmt::format("components.{}=null", report.name));
+  }
+  if (!settings.empty() && !deployment.goals.empty()) settings.emplace_back("goals=null");
+  return settings;
+}
+
+/// Where somebody of the deployment moves it by hand; empty where nobody does.
+std::string hand_of(const ComponentConfig& driver, const DeploymentConfig& deployment) {
+  const PortBinding* hand = find_input(driver, "hand_js");
+  const bool is_told = hand && hand->spec.type == "sensor_msgs/JointState";
+  return is_told && is_written(hand->topic, deployment) ? hand->topic : std::string{};
+}
+
+/// Where its power is switched; empty where it has no such input or the deployment switches it.
+std::string power_of(const ComponentConfig& driver, const DeploymentConfig& deployment) {
+  const PortBinding* power = find_input(driver, "power");
+  const bool takes_switch = power && power->spec.outside && power->spec.type == "std_msgs/Bool" &&
+                            power->spec.qos == QosProfile::latched;
+  return takes_switch && !is_written(power->topic, deployment) ? power->topic : std::string{};
 }
 
 /// Puts entries of the file into processes of their own.
@@ -176,6 +219,8 @@ DrilledDeployment read_drilled(const DeploymentSource& source, const PluginRegis
       drilled.arms.push_back({.component = component.name,
                               .process = splitter.put(component, "drill_" + component.name),
                               .measured_topic = measured_of(component).topic,
+                              .hand_topic = hand_of(component, deployment),
+                              .power_topic = power_of(component, deployment),
                               .limits = limits_of(component, deployment)});
     } else if (commands(component, deployment)) {
       const std::string process = splitter.put(component, "drill_" + component.name);
@@ -189,6 +234,7 @@ DrilledDeployment read_drilled(const DeploymentSource& source, const PluginRegis
     }
   }
   drilled.heed_pendants = heed_pendants(deployment);
+  drilled.unreported = without_reports(deployment);
   drilled.inputs = inputs_of(deployment, drilled.arms);
   return drilled;
 }

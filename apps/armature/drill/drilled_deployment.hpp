@@ -20,6 +20,8 @@ struct DrilledArm {
   std::string component;
   std::string process;         // its own, in the split form
   std::string measured_topic;  // where it tells where it is: sensor_msgs/JointState
+  std::string hand_topic;      // where a hand of the deployment says where it moves it; or empty
+  std::string power_topic;     // where its drives' power is switched: std_msgs/Bool; empty: nowhere
   std::vector<JointLimit> limits;
 };
 
@@ -49,8 +51,9 @@ struct DrilledDeployment {
   std::vector<HeedsPendant> heed_pendants;
   std::vector<TopicSpec> inputs;   // that the deployment itself feeds, but for the arms' samples
   std::vector<std::string> apart;  // --set: the split form
-  std::vector<std::string> processes;  // of the split form, beside main
-  std::set<std::string> ending;        // of these, whose loss ends the run
+  std::vector<std::string> unreported;  // --set: without reports, which end a run
+  std::vector<std::string> processes;   // of the split form, beside main
+  std::set<std::string> ending;         // of these, whose loss ends the run
 };
 
 /// Reads the deployment. Throws config::ConfigError, or InvalidChoice when one of its drivers moves

@@ -2,9 +2,11 @@
 // The faults of a drill: adding one is adding a function and its line in the table at the end.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <csignal>
+#include <functional>
 #include <optional>
 #include <thread>
 
@@ -102,6 +104,7 @@ std::optional<Fault> driver_halted(const DrilledDeployment& deployment, Form for
   return Fault{.name = {},
                .outcome = Outcome::goes_on,
                .shown = {},
+               .may_give_up = true,  // teleoperation holds when its master was silent for 0.1 s
                .fire = [process = deployment.arms.front().process](Scene& scene) {
                  std::string wrong = send(scene, process, SIGSTOP);
                  // Shorter than a reference takes to go farther ahead than max_deviation.
@@ -229,34 +232,46 @@ std::optional<Fault> with_pendant(const DrilledDeployment& deployment, std::stri
                .fire = std::move(fire)};
 }
 
-/// Until arms that come to rest have rested for a while.
-void wait_for_rest(const Scene& scene) {
-  constexpr milliseconds kRests{300};
-  const auto now = [] { return std::chrono::steady_clock::now(); };
-  const auto end = now() + std::chrono::seconds{5};
-  for (auto moved = now(); now() - moved < kRests && now() < end;) {
-    if (scene.listener.any_moves()) moved = now();
-    std::this_thread::sleep_for(milliseconds{5});
+/// From here on, when all rest, no arm may move.
+void come_to_rest(Scene& scene) {
+  scene.listener.wait_for_rest();
+  scene.held_from = std::chrono::steady_clock::now();
+}
+
+/// How often each component that heeds the pendant has said `text`.
+std::vector<std::ptrdiff_t> count_lines(const Scene& scene, const std::string& text) {
+  std::vector<std::ptrdiff_t> counts;
+  for (const HeedsPendant& component : scene.deployment.heed_pendants) {
+    counts.push_back(scene.run.count_lines(component.name, text));
   }
+  return counts;
+}
+
+/// The operator presses until all are rearmed. A run that has ended by itself cannot be.
+std::string press_rearm(Scene& scene) {
+  constexpr const char* kRearmed = "ok again";
+  constexpr milliseconds kNextPress{500};
+  const auto before = count_lines(scene, kRearmed);
+  for (int presses = 0; presses < 6; ++presses) {
+    if (!scene.run.runs() || scene.run.line_with("stopping:")) return {};
+    scene.pendant->rearm();
+    std::this_thread::sleep_for(kNextPress);
+    if (std::ranges::equal(before, count_lines(scene, kRearmed), std::less{})) return {};
+  }
+  return "the pendant did not rearm it: " + scene.run.last_line();
 }
 
 std::optional<Fault> rearm(const DrilledDeployment& deployment, Form) {
   return with_pendant(deployment, kStopHeard, [](Scene& scene) -> std::string {
-    constexpr const char* kRearmed = "ok again";
     if (std::string wrong = stop_all(scene); !wrong.empty()) return wrong;
-    wait_for_rest(scene);
-    const auto before = scene.run.count_lines(kRearmed);
-    scene.pendant->rearm();
-    std::this_thread::sleep_for(milliseconds{500});
-    const bool ended = !scene.run.runs() || scene.run.line_with("stopping:");  // the task gave up
-    const bool rearmed = scene.run.count_lines(kRearmed) > before;
-    return ended || rearmed ? "" : "the pendant did not rearm it";
+    come_to_rest(scene);
+    return press_rearm(scene);
   });
 }
 std::optional<Fault> hold_released(const DrilledDeployment& deployment, Form) {
   return with_pendant(deployment, "hold_to_run was released", [](Scene& scene) -> std::string {
     scene.pendant->hold(false);
-    wait_for_rest(scene);
+    come_to_rest(scene);
     scene.pendant->hold(true);  // is no rearm
     return {};
   });
@@ -266,6 +281,26 @@ std::optional<Fault> pendant_unplugged(const DrilledDeployment& deployment, Form
     scene.pendant->unplug();
     return {};
   });
+}
+
+// The arms' own power.
+
+std::optional<Fault> power_lost(const DrilledDeployment& deployment, Form) {
+  const bool switched = std::ranges::none_of(
+      deployment.arms, [](const DrilledArm& arm) { return arm.power_topic.empty(); });
+  if (!switched || deployment.commander.name.empty()) return std::nullopt;
+  return Fault{.name = {},
+               .outcome = Outcome::holds,
+               .shown = "the arm says emergency_stop",
+               .has_power_switch = true,
+               .fire = [](Scene& scene) {
+                 constexpr std::chrono::seconds kWithoutPower{2};
+                 scene.power->turn(false);
+                 std::this_thread::sleep_for(kWithoutPower);
+                 come_to_rest(scene);
+                 scene.power->turn(true);
+                 return std::string{};
+               }};
 }
 
 struct Row {
@@ -296,6 +331,7 @@ constexpr std::array kFaults{
     Row{"rearm", rearm},
     Row{"hold_released", hold_released},
     Row{"pendant_unplugged", pendant_unplugged},
+    Row{"power_lost", power_lost},
     Row{"stranger", stranger},
     Row{"second_start", second_start},
 };

@@ -167,10 +167,13 @@ std::optional<std::string> RunUnderTest::line_with(const std::string& text) cons
   return std::nullopt;
 }
 
-std::ptrdiff_t RunUnderTest::count_lines(const std::string& text) const {
+std::ptrdiff_t RunUnderTest::count_lines(const std::string& component,
+                                         const std::string& text) const {
+  const std::string said_by = "] " + component + ' ';
   const std::scoped_lock lock{mutex_};
-  return std::ranges::count_if(
-      lines_, [&](const std::string& line) { return line.find(text) != std::string::npos; });
+  return std::ranges::count_if(lines_, [&](const std::string& line) {
+    return line.find(said_by) != std::string::npos && line.find(text) != std::string::npos;
+  });
 }
 
 std::optional<std::string> RunUnderTest::wait_for_line(const std::string& text,

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <memory>
@@ -20,13 +21,16 @@ using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
 constexpr milliseconds kLook{2};
+constexpr const char* kStoryTold = "stopping: the story has been told";
 constexpr milliseconds kStartWithin{60000};
 constexpr milliseconds kMoveWithin{60000};
 constexpr milliseconds kNextPress{250};
 constexpr milliseconds kMoveAgainWithin{1000};
 constexpr milliseconds kShownWithin{8000};
-/// How long a run is watched that is to go on.
-constexpr milliseconds kGoesOnFor{500};
+/// A movement is none to go on with as long after a fault: an arm may ramp down.
+constexpr milliseconds kRampsFor{1000};
+/// Within which time after that a run that is to go on has moved again.
+constexpr milliseconds kGoesOnWithin{9000};
 /// How long arms are watched that are to stay where they are.
 constexpr milliseconds kHoldsFor{2500};
 
@@ -46,6 +50,9 @@ std::vector<std::string> arguments_of(const TrialOptions& options, const Fault& 
   }
   if (pendant) {
     for (const std::string& setting : pendant->settings()) set(setting);
+  }
+  if (fault.outcome == Outcome::holds) {
+    for (const std::string& setting : options.deployment.unreported) set(setting);
   }
   words.insert(words.end(), {"--domain", std::to_string(options.domain), "--json", "--timing"});
   if (!fault.inject.empty()) words.insert(words.end(), {"--inject", fault.inject});
@@ -69,6 +76,10 @@ class Trial {
                                    : nullptr},
         arguments_{arguments_of(options, fault, form, pendant_.get())},
         listener_{options.plugins, options.deployment, options.domain},
+        power_{fault.has_power_switch
+                   ? std::make_unique<PowerSwitch>(options.plugins, options.deployment.arms,
+                                                   options.domain)
+                   : nullptr},
         run_{arguments_, options.stop} {}
 
   TrialResult run(Form form, double moment_s) {
@@ -89,13 +100,23 @@ class Trial {
         !run_.runs()) {
       return fail("no arm moved: " + run_.last_line());
     }
+    const std::ptrdiff_t stops = count_stops();
     run_.find_processes();
     wait_for(
         std::chrono::duration_cast<milliseconds>(std::chrono::duration<double>{result_.moment_s}),
         [&] { return !run_.runs(); });
     wait_for(kMoveAgainWithin, [&] { return !run_.runs() || listener_.any_moves(); });
-    if (run_.runs()) return true;
-    return fail("it had ended before the fault: " + how_it_ended());
+    if (!run_.runs()) return fail("it had ended before the fault: " + how_it_ended());
+    return count_stops() == stops || fail("it had stopped before the fault: " + run_.last_line());
+  }
+
+  /// How often what heeds the operator's pendant has stopped by now.
+  std::ptrdiff_t count_stops() const {
+    std::ptrdiff_t stops = 0;
+    for (const HeedsPendant& component : options_.deployment.heed_pendants) {
+      stops += run_.count_lines(component.name, "stopped until it is rearmed");
+    }
+    return stops;
   }
 
   /// An operator presses until something moves: arms with a pendant begin stopped.
@@ -116,26 +137,81 @@ class Trial {
                 .plugins = options_.plugins,
                 .domain = options_.domain,
                 .pendant = pendant_.get(),
+                .power = power_.get(),
                 .fired_at = stop_at_,
+                .held_from = held_from_,
                 .arguments = arguments_,
                 .stop = options_.stop};
+    const std::vector<bool> moved = listener_.moving();
     if (const std::string wrong = fault_.fire(scene); !wrong.empty()) return fail(wrong);
-    return fault_.outcome == Outcome::stops || go_on();
+    switch (fault_.outcome) {
+      case Outcome::stops:
+        return true;
+      case Outcome::goes_on:
+        return go_on(moved);
+      case Outcome::holds:
+        return hold();
+    }
+    return true;
   }
 
-  /// Watches a run that is to go on, then interrupts it.
-  bool go_on() {
-    const bool holds = fault_.outcome == Outcome::holds;
-    wait_for(holds ? kHoldsFor : kGoesOnFor, [&] { return !run_.runs(); });
+  /// Watches a run until it has gone on, then interrupts it.
+  bool go_on(const std::vector<bool>& moved) {
+    const Arrival from = steady_clock::now() + kRampsFor;
+    const bool went = wait_for(kRampsFor + kGoesOnWithin, [&] {
+      return !run_.runs() || went_on(moved, listener_.went_on_after(from));
+    });
     find_shown();
-    // A task may give up when its arm is held.
-    if (holds && run_.line_with("stopping: the story has been told")) return true;
-    if (const auto ended = run_.line_with("stopping:")) return fail("the run ended: " + *ended);
-    if (!run_.runs()) return fail("the run ended: " + how_it_ended());
-    // An arm that is held is judged from the stop on that holds it.
-    if (!holds) stop_at_ = steady_clock::now();
+    if (run_.line_with(kStoryTold)) return end_story();
+    if (!still_runs()) return false;
+    if (!went) {
+      const double watched_s = to_seconds(kRampsFor + kGoesOnWithin);
+      return fail(fmt::format(
+          "{} within {:g} s",
+          stood_still(options_.deployment.arms, moved, listener_.went_on_after(from)), watched_s));
+    }
+    stop_at_ = steady_clock::now();
     run_.signal(SIGINT);
     return true;
+  }
+
+  /// A run may come to the end of its story after a fault; one whose task gave up has not, and
+  /// passes where the fault leaves a task no choice.
+  bool end_story() {
+    stop_at_ = steady_clock::now();
+    const std::string how = how_it_ended();
+    const auto told = closing();
+    if (!told.contains("status")) return fail("the run ended: " + how);
+    const auto reasons = told.value("reasons", nlohmann::json::array());
+    // What a component says of its story is told before all others, and is none of them.
+    const bool gave_up =
+        told.contains("reason") && std::ranges::find(reasons, told["reason"]) == reasons.end();
+    if (gave_up && !fault_.may_give_up) return fail("the run ended: " + how);
+    story_end_ = gave_up ? "its task gave up: " + how : "went on to the end of its story";
+    return true;
+  }
+
+  /// Watches arms that are to stay where they are, then interrupts the run.
+  bool hold() {
+    if (!held_from_) {
+      listener_.wait_for_rest();
+      held_from_ = steady_clock::now();
+    }
+    wait_for(kHoldsFor, [&] { return !run_.runs(); });
+    find_shown();
+    if (run_.line_with(kStoryTold)) {
+      result_.untried = "the task gave up";
+      return true;
+    }
+    if (!still_runs()) return false;
+    run_.signal(SIGINT);
+    return true;
+  }
+
+  /// False, with how it ended, when the run has ended or is about to.
+  bool still_runs() {
+    if (const auto ended = run_.line_with("stopping:")) return fail("the run ended: " + *ended);
+    return run_.runs() || fail("the run ended: " + how_it_ended());
   }
 
   void find_shown() {
@@ -161,22 +237,32 @@ class Trial {
   }
 
   void judge_arms() {
+    const auto hand = held_from_ ? listener_.hand_moved_after(*held_from_) : std::nullopt;
     const Verdict verdict =
-        judge(options_.deployment.arms, listener_.records(), stop_at_, fault_.lost);
+        judge(options_.deployment.arms, listener_.records(),
+              {.stop = stop_at_, .held_from = held_from_, .held_until = hand, .lost = fault_.lost});
     result_.wrong = verdict.wrong;
     result_.step_s = commanders_step_s();
     result_.rest_s = verdict.rest_s;
     const bool holds = fault_.outcome == Outcome::holds;
     const double allowed_s = holds ? to_seconds(kHoldsFor) : options_.deployment.stop_within_s;
-    if (result_.passed() && verdict.rest_s > allowed_s) {
+    if (!result_.failed() && verdict.rest_s > allowed_s) {
       fail(fmt::format("it moved for {:.2f} s more, and {:g} s are allowed", verdict.rest_s,
                        allowed_s));
       return;
     }
     result_.arm = verdict.arm;
     if (!verdict.wrong.empty()) return;
-    if (fault_.outcome == Outcome::goes_on) result_.arm = "went on, then " + verdict.arm;
+    if (!story_end_.empty()) {
+      result_.arm = story_end_;
+    } else if (fault_.outcome == Outcome::goes_on) {
+      result_.arm = "went on, then " + verdict.arm;
+    }
     if (holds) result_.arm += " and stayed there";
+    if (hand) {
+      result_.arm +=
+          fmt::format(" until a hand went on {:.2f} s later", to_seconds(*hand - *held_from_));
+    }
   }
 
   /// What the run told at its end; no object when it was killed.
@@ -213,9 +299,12 @@ class Trial {
   std::unique_ptr<Pendant> pendant_;
   std::vector<std::string> arguments_;
   ArmListener listener_;
+  std::unique_ptr<PowerSwitch> power_;
   RunUnderTest run_;
   TrialResult result_{};
   Arrival stop_at_{}, next_press_{};
+  std::optional<Arrival> held_from_;  // of arms that are to stay where they are
+  std::string story_end_;             // of a run that was to go on, where it ended by itself
 };
 
 }  // namespace

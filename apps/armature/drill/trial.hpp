@@ -20,9 +20,11 @@ struct TrialResult {
   std::optional<double> rest_s;  // from the fault, or from the interruption after it, until rest
   std::optional<double> step_s;  // p99.9 of the processor time of a step of what commands an arm
   std::string shown;             // the line of the run that names it
-  std::string wrong;             // why it is not passed; empty: it is
+  std::string wrong;             // what must not be; empty: nothing
+  std::string untried;           // why it could not be tried to its end; empty: it was
 
-  bool passed() const { return wrong.empty(); }
+  bool failed() const { return !wrong.empty(); }
+  bool passed() const { return wrong.empty() && untried.empty(); }
 };
 
 /// What every trial of a drill has in common.

@@ -17,9 +17,24 @@ struct Verdict {
   std::string wrong;  // the first thing that must not be, with arm, joint and value; empty: nothing
 };
 
-/// Judges the arms of a run that was to come to rest from `stop` on. `lost` is an arm whose driver
-/// was taken away, which says nothing of how it ends.
+/// What was asked of the arms.
+struct Asked {
+  Arrival stop;                            // from when on they were to come to rest
+  std::optional<Arrival> held_from = {};   // from when on none may move; nothing: none was held
+  std::optional<Arrival> held_until = {};  // when a hand of the deployment's took one, if it did
+  std::string lost = {};                   // the arm whose driver was taken away, if one was
+};
+
+/// Judges the arms of a run that is over. An arm that lost its driver says nothing of how it ends.
 Verdict judge(const std::vector<DrilledArm>& arms, const std::vector<ArmRecord>& records,
-              Arrival stop, const std::string& lost);
+              const Asked& asked);
+
+/// Whether a run has gone on after a fault, arm by arm: every arm that moved when it was fired
+/// moves again; where none did, any does.
+bool went_on(const std::vector<bool>& moved_at_fault, const std::vector<bool>& moved_after);
+/// Which arms did not, for people.
+std::string stood_still(const std::vector<DrilledArm>& arms,
+                        const std::vector<bool>& moved_at_fault,
+                        const std::vector<bool>& moved_after);
 
 }  // namespace armature::drill

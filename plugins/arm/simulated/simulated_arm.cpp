@@ -71,6 +71,18 @@ void SimulatedArm::guide(Time now, const JointVector& q) {
   measure(dt);
 }
 
+void SimulatedArm::brake(Time now) {
+  const double dt = elapsed(now);
+  if (dt == 0) return;
+  following_ = false;
+  last_command_.reset();
+  q_ = measured_;
+  executed_v_ = measured_v_;
+  stop(dt);
+  measured_ = q_;
+  measured_v_ = v_;
+}
+
 void SimulatedArm::follow(const ServoCommand& command, Time now, double dt) {
   // Two clocks may tick on their own: what was commanded a moment ago is carried on to now.
   const double old_s = to_seconds(now - command.stamp);

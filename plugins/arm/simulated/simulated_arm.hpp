@@ -39,6 +39,9 @@ class SimulatedArm {
   /// Moves on to `now` in a hand that has it at `q`. The hand is as strong as it likes: it is held
   /// back by the limits of position and velocity only.
   void guide(Time now, const JointVector& q);
+  /// Moves on to `now` without power: what moves is braked within its limits, and the set point is
+  /// where the arm is.
+  void brake(Time now);
 
   const JointVector& setpoint() const { return q_; }
   const JointVector& setpoint_velocity() const { return v_; }

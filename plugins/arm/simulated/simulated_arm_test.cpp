@@ -133,6 +133,37 @@ TEST_F(SimulatedArmTest, RampsDownAndHoldsWhenThereIsNoCommandAnyMore) {
   EXPECT_EQ(arm_.measured()[0], held);
 }
 
+TEST_F(SimulatedArmTest, BrakesWithinItsLimitsWithTheSetPointWhereItIs) {
+  const Quintic move = Quintic::between({0, 0, 0}, {0.8, 0, 0}, 1.2);
+  for (int k = 1; k <= 400; ++k) {
+    step(command(move.position(0.001 * k), move.velocity(0.001 * k)));
+  }
+  ASSERT_GT(arm_.measured_velocity()[0], 0.5);
+  for (int k = 0; k < 500; ++k) {
+    const double v = arm_.measured_velocity()[0];
+    arm_.brake(now_ = now_ + seconds(0.001));
+    ASSERT_LE(v - arm_.measured_velocity()[0], 8 * 0.001 + 1e-9);
+    ASSERT_EQ(arm_.setpoint(), arm_.measured());
+  }
+  EXPECT_FALSE(arm_.following());
+  EXPECT_EQ(arm_.measured_velocity()[0], 0);
+}
+
+TEST(SimulatedArm, BrakesFromWhereItIsAndNotFromItsSetPointWhereItLags) {
+  const RobotModel model = one_joint();
+  SimulatedArm arm{model, {.lag_s = 0.02}, value(0)};
+  Time now;
+  for (int k = 1; k <= 600; ++k) {
+    now = now + seconds(0.001);
+    arm.step(now, ServoCommand{now, value(0.0005 * k), value(0.5)});
+  }
+  const double q = arm.measured()[0];
+  arm.brake(now + seconds(0.001));
+  EXPECT_GT(arm.measured()[0], q);
+  EXPECT_LT(arm.measured()[0], q + 0.0005);
+  EXPECT_EQ(arm.setpoint(), arm.measured());
+}
+
 TEST(SimulatedArm, CarriesACommandOnForNoLongerThanItsTimeout) {
   const RobotModel model = one_joint();
   SimulatedArm arm{model, {.command_timeout_s = 0.1}, value(0)};

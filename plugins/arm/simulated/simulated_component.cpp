@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <string>
+#include <utility>
 
 #include "armature/kinds/command_watch.hpp"
 #include "armature/kinds/joint_messages.hpp"
@@ -21,6 +22,7 @@ namespace {
 
 constexpr Duration kStatePeriod = seconds(0.1);
 constexpr Duration kCalm = seconds(0.1);  // without trouble: it is over
+const ReasonText kNoPower{"its drives have no power"};
 
 SimulatedArm::Options options_of(const Params& params) {
   return {.period_s = 1 / params.number("rate_hz"),
@@ -59,6 +61,7 @@ class SimulatedArmComponent : public Component {
         watch_{model_, timeout_, seconds(1 / setup.params().number("rate_hz"))},
         servo_{.input = setup.input<msg::JointState>("servo_jp"), .what = "a command"},
         hand_{.input = setup.input<msg::JointState>("hand_js"), .what = "a hand"},
+        power_{setup.input<msg::Bool>("power")},
         measured_cp_{setup.output<msg::PoseStamped>("measured_cp")},
         measured_js_{setup.output<msg::JointState>("measured_js")},
         setpoint_js_{setup.output<msg::JointState>("setpoint_js")},
@@ -78,6 +81,8 @@ class SimulatedArmComponent : public Component {
     const bool follows = watch_.follows(now, servo_.command, arm_.setpoint());
     if (guided_) {
       arm_.guide(now, hand_.command->q);
+    } else if (!has_power()) {
+      arm_.brake(now);
     } else {
       arm_.step(now, follows ? servo_.command : std::nullopt);
     }
@@ -113,6 +118,8 @@ class SimulatedArmComponent : public Component {
     source.fault.clear();
     source.command = command;
   }
+  /// Nobody need say that it has.
+  bool has_power() const { return !power_.latest() || power_.latest()->data_(); }
   const ReasonText& fault() const { return servo_.fault.empty() ? hand_.fault : servo_.fault; }
 
   void publish_pose(Time now) {
@@ -134,6 +141,7 @@ class SimulatedArmComponent : public Component {
   /// comes and goes from step to step is told as one.
   void show_health(Time now) {
     const Trouble trouble = !fault().empty()        ? Trouble::refused_command
+                            : !has_power()          ? Trouble::no_power
                             : !watch_.why().empty() ? Trouble::no_command
                             : arm_.excess()         ? Trouble::held_back
                                                     : Trouble::none;
@@ -142,7 +150,9 @@ class SimulatedArmComponent : public Component {
     } else if (now - last_trouble_ < kCalm) {
       return;
     }
-    const ReasonText& why = fault().empty() ? watch_.why() : fault();
+    const ReasonText& why = trouble == Trouble::no_power ? kNoPower
+                            : fault().empty()            ? watch_.why()
+                                                         : fault();
     if (trouble == shown_trouble_ && why == shown_why_) return;
     shown_trouble_ = trouble;
     shown_why_ = why;
@@ -151,11 +161,19 @@ class SimulatedArmComponent : public Component {
     degraded(describe(*arm_.excess(), model_, guided_ ? "hand" : "command"));
   }
 
+  const char* operating_state() const {
+    if (!has_power()) return "EMERGENCY_STOP";
+    if (!fault().empty()) return "FAULT";
+    return arm_.following() ? "ENABLED" : "HOLDING";
+  }
+
+  /// The loss of power, and its return, at once.
   void publish_operating_state(Time now) {
-    if (now - last_state_ < kStatePeriod) return;
+    const bool switched = std::exchange(told_power_, has_power()) != has_power();
+    if (!switched && now - last_state_ < kStatePeriod) return;
     last_state_ = now;
     auto loan = operating_state_.loan();
-    loan->data_() = !fault().empty() ? "FAULT" : arm_.following() ? "ENABLED" : "HOLDING";
+    loan->data_() = operating_state();
     loan.publish();
   }
 
@@ -164,11 +182,13 @@ class SimulatedArmComponent : public Component {
   Duration timeout_;  // a hand that is silent for so long has let go
   CommandWatch watch_;
   Source servo_, hand_;
+  Input<msg::Bool> power_;
   Output<msg::PoseStamped> measured_cp_;
   Output<msg::JointState> measured_js_, setpoint_js_;
   Output<msg::String> operating_state_;
   bool guided_ = false;
-  enum class Trouble { none, held_back, no_command, refused_command };
+  bool told_power_ = true;
+  enum class Trouble { none, held_back, no_command, no_power, refused_command };
   Trouble shown_trouble_ = Trouble::none;
   ReasonText shown_why_;
   Time last_trouble_;

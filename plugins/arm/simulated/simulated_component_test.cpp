@@ -23,9 +23,16 @@ class SimulatedArmComponentTest : public testing::Test {
     arm_.step(now_s_ += kPeriod_s);
     for (const auto& told : arm_.take<msg::String>("operating_state")) state_ = told.data_();
     measured_ = arm_.take<msg::JointState>("measured_js").back();
+    setpoint_ = arm_.take<msg::JointState>("setpoint_js").back();
   }
   void steps(int count) {
     for (int i = 0; i < count; ++i) step();
+  }
+  /// Switches the drives' power for the next step.
+  void power(bool on) {
+    msg::Bool message;
+    message.data_(on);
+    arm_.send("power", message);
   }
   /// A command for the next step.
   msg::JointState command(const JointVector& q, const JointVector& v) const {
@@ -41,7 +48,7 @@ class SimulatedArmComponentTest : public testing::Test {
       built_plugins(),
       {.component = "{plugin: arm/simulated}", .robot = config::load(kLamp), .rig = {}}};
   double now_s_ = 5;
-  msg::JointState measured_;
+  msg::JointState measured_, setpoint_;
   std::string state_;
 };
 
@@ -234,6 +241,63 @@ TEST_F(SimulatedArmComponentTest, YieldsToAHandAndFollowsCommandsAgainWhenItLets
     step();
   }
   EXPECT_EQ(measured(), home_);
+}
+
+TEST_F(SimulatedArmComponentTest, WithoutPowerItBrakesWithinItsLimitsAndFollowsNothing) {
+  JointVector q = home_, v = still_;
+  v[1] = 0.5;
+  for (int i = 0; i < 500; ++i) {
+    q[1] += 0.5 * kPeriod_s;
+    arm_.send("servo_jp", command(q, v));
+    step();
+  }
+  power(false);
+  double speed = measured_.velocity_()[1];
+  for (int i = 0; i < 1000; ++i) {
+    q[1] += 0.5 * kPeriod_s;
+    arm_.send("servo_jp", command(q, v));
+    step();
+    ASSERT_LE(std::abs(measured_.velocity_()[1] - speed),
+              lamp_.max_acceleration()[1] * kPeriod_s * (1 + 1e-9));
+    ASSERT_EQ(setpoint_.position_(), measured_.position_()) << "the set point is where the arm is";
+    speed = measured_.velocity_()[1];
+    ASSERT_EQ(state_, "EMERGENCY_STOP") << "is told at once";
+  }
+  EXPECT_EQ(speed, 0);
+  EXPECT_EQ(arm_.status().reason, "its drives have no power");
+}
+
+TEST_F(SimulatedArmComponentTest, WithPowerAgainItFollowsFromWhereItIs) {
+  arm_.send("servo_jp", command(home_, still_));
+  step();
+  power(false);
+  JointVector near = home_;
+  near[0] += 0.05;
+  for (int i = 0; i < 100; ++i) {
+    arm_.send("servo_jp", command(near, still_));
+    step();
+  }
+  EXPECT_EQ(measured(), home_);
+  power(true);
+  for (int i = 0; i < 1000; ++i) {
+    arm_.send("servo_jp", command(near, still_));
+    step();
+    ASSERT_EQ(state_, "ENABLED");
+    ASSERT_LE(std::abs(measured_.velocity_()[0]), lamp_.max_velocity()[0]);
+  }
+  EXPECT_EQ(measured(), near);
+  EXPECT_EQ(arm_.status().state, Voice::State::ok);
+}
+
+TEST_F(SimulatedArmComponentTest, AnArmWithoutPowerYieldsToAHandStill) {
+  power(false);
+  JointVector q = home_;
+  for (int i = 0; i < 100; ++i) {
+    q[1] += 0.0005;
+    arm_.send("hand_js", command(q, still_));
+    step();
+    ASSERT_EQ(measured(), q);
+  }
 }
 
 TEST_F(SimulatedArmComponentTest, AHandMovesItWithinItsLimitsOnly) {

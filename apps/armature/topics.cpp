@@ -109,6 +109,13 @@ int too_short(DdsObserver& observer, const TopicOptions& options) {
   return kTimedOut;
 }
 
+std::string no_topics(const TopicOptions& options) {
+  const char* elsewhere = options.interfaces.empty()
+                              ? " on loopback; a deployment with `dds:` is heard by --interface"
+                              : "";
+  return fmt::format("domain {} has no topics{}", options.domain, elsewhere);
+}
+
 /// Watches a topic; a topic that nobody writes is answered with those that are there. kOk, or
 /// kTimedOut when the time was too short to find out.
 int watch(DdsObserver& observer, const TopicOptions& options,
@@ -119,9 +126,9 @@ int watch(DdsObserver& observer, const TopicOptions& options,
   if (const int code = too_short(observer, options); code != kOk) return code;
   std::string there;
   for (const auto& topic : observer.topics()) there += "\n  " + ros_topic_name(topic.name);
-  throw std::runtime_error(watching.error().text +
-                           (there.empty() ? fmt::format("; domain {} has no topics", options.domain)
-                                          : "; topics that are there:" + there));
+  throw std::runtime_error(watching.error().text + (there.empty()
+                                                        ? "; " + no_topics(options)
+                                                        : "; topics that are there:" + there));
 }
 
 std::string ros_type(const std::string& dds_name) {
@@ -142,7 +149,7 @@ int list_topics(const TopicOptions& options) {
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   if (const int code = too_short(*observer, options); code != kOk) return code;
   const auto topics = observer->topics();
-  if (topics.empty()) fmt::print(stderr, "armature: domain {} has no topics\n", options.domain);
+  if (topics.empty()) fmt::print(stderr, "armature: {}\n", no_topics(options));
   std::size_t width = 40;
   for (const auto& topic : topics) width = std::max(width, ros_topic_name(topic.name).size());
   for (const auto& topic : topics) {

@@ -66,7 +66,7 @@ TEST_F(Interfaces, ThatADeploymentJoinsCarryItsTopicsToAnotherMachine) {
   by_name.insert(by_name.end(), {"--interface", "eth0"});
   by_address.insert(by_address.end(), {"--interface", desk_.address});
   Command there{armature_on(desk_, by_name)}, beside{armature_on(desk_, by_address)},
-      here{armature_on(robot_, hz)};  // over loopback
+      here{armature_on(robot_, by_name)};
   for (Command* watch : {&there, &beside, &here}) {
     const auto result = watch->finish(kPatience);
     EXPECT_EQ(result.exit_code, 0) << result.err << pulse->err();
@@ -140,12 +140,16 @@ TEST_F(Interfaces, CarryNothingIntoAnInputThatTheDeploymentFeedsItself) {
 }
 
 TEST_F(Interfaces, CarryAStopToAnotherMachine) {
-  Command hears{armature_on(
-      robot_, {"topic", "echo", "/stop", "-n", "1", "--timeout", "8", "--interface", "eth0"})};
+  Command run{robot_.command(deployment_command({.files = {source_file("configs/sr1_biopsy.yaml")},
+                                                 .settings = {kJoined, "clock=system"},
+                                                 .domain = domain_,
+                                                 .options = {}}))};
+  ASSERT_TRUE(run.wait_for_err("task      inserting", kPatience)) << run.err();
   const auto stop =
       run_command(armature_on(desk_, {"stop", "--timeout", "8", "--interface", "eth0"}));
   EXPECT_EQ(stop.exit_code, 0) << stop.err;
-  EXPECT_EQ(hears.finish(kPatience).out, "{\"data\": true}\n---\n");
+  EXPECT_THAT(stop.out, HasSubstr("stopped: deployment 'sr1_biopsy', process 'main' (pid "));
+  EXPECT_TRUE(run.wait_for_err("a stop was asked for on the topic /stop", kPatience)) << run.err();
 }
 
 }  // namespace

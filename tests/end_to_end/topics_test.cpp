@@ -177,7 +177,8 @@ TEST_F(Watched, TopicEchoOfATopicThatNobodyWritesNamesItAsRosDoes) {
   const auto result = run_command(topic({"echo", "/lamp/trget", "--timeout", "2"}));
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_EQ(result.err, "armature: nobody writes '/lamp/trget'; domain " + std::to_string(domain_) +
-                            " has no topics\n");
+                            " has no topics on loopback; a deployment with `dds:` is heard by "
+                            "--interface\n");
 }
 
 TEST_F(Watched, ATimeTooShortToFindOutSaysNothingOfTheDomain) {

@@ -181,7 +181,7 @@ std::optional<Fault> stranger(const DrilledDeployment&, Form form) {
   return Fault{.name = {},
                .outcome = Outcome::goes_on,
                // In one process nothing listens to others, so that there is nobody to refuse.
-               .shown = form == Form::single ? "" : "was refused on",
+               .shown = form == Form::single ? "nobody here hears it" : "was refused on",
                .fire = [](Scene& scene) {
                  write_as_stranger(scene.plugins, scene.deployment, scene.domain,
                                    scene.listener.records(), seconds(1));

@@ -121,8 +121,10 @@ Expected<std::unique_ptr<DdsObserver>> DdsObserver::make(const ObserverOptions& 
                                         .watcher = {},
                                         .on_note = {},
                                         // One that is killed must leave no lock behind for which
-                                        // those that it watched wait.
-                                        .uses_shared_memory = false});
+                                        // those that it watched wait. With other interfaces joined
+                                        // Fast DDS does not tell its loopback address, and
+                                        // programs that know no other meet it there only.
+                                        .uses_shared_memory = !options.interfaces.empty()});
   if (!participant) return tl::unexpected{participant.error()};
   return std::make_unique<Observer>(std::move(*participant));
 }

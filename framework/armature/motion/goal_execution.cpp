@@ -155,7 +155,8 @@ void GoalExecution::stay_with(const MeasuredJoints& measured, Time now) {
   const auto is_within = [&](const JointBound& bound) {
     return is_near(model_, measured.q, stands, bound);
   };
-  if (is_within(options_.goal_tolerance)) return;
+  // An arm that follows, and sags a little, would sink if the reference came to it.
+  if (follows_ && is_within(options_.goal_tolerance)) return;
   if (rest_.rests() || !is_within(options_.max_deviation)) reference_.start(measured.q, now);
 }
 

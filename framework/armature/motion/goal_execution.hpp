@@ -83,6 +83,9 @@ class GoalExecution {
   /// stopped by that: goals are refused in stage `accept`, and may be given again.
   void halt_before_operator(const ReasonText& why, Time now);
   bool halted() const { return !halted_.empty(); }
+  /// Whether the arm follows at all, by its own word; true until told otherwise. To an arm that is
+  /// halted and does not the reference comes however near it is.
+  void set_follows(bool follows) { follows_ = follows; }
   /// Begins again from where the arm measures itself, once arm and reference rest; false before.
   bool rearm(Time now);
   /// Whether the reference stands, and the arm by its own samples as well. An arm that is silent
@@ -168,6 +171,7 @@ class GoalExecution {
   ShortTrajectory way_;   // of a target that is tracked
   bool spliced_ = false;  // since the last update
   bool astray_ = false;   // the arm is not where the reference is
+  bool follows_ = true;
   bool in_hand_ = false;  // it was halted while a hand moved it, which still does
   ReasonText trouble_ = "no joint state of the arm yet";
   ReasonText halted_;

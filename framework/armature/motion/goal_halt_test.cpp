@@ -47,6 +47,17 @@ TEST_F(GoalExecutionTest, AHaltedArmThatRestsElsewhereIsNotAskedToComeToWhereItW
   EXPECT_TRUE(execution_.halted());
 }
 
+TEST_F(GoalExecutionTest, ToAnArmThatSaysThatItDoesNotFollowTheReferenceComesHoweverNearItIs) {
+  step_to(0.1);
+  execution_.halt("the arm says emergency_stop", now_);
+  const JointVector near = home_ + JointVector::Constant(3, 0.0004);
+  for (int k = 0; k < 200; ++k) put(near);
+  EXPECT_EQ(before_.q, home_) << "an arm that follows may sag so far";
+  execution_.set_follows(false);
+  for (int k = 0; k < 200; ++k) put(near);
+  EXPECT_EQ(before_.q, near);
+}
+
 TEST_F(GoalExecutionTest, AHaltedArmThatLagsComesToWhereItWasToStop) {
   step_to(0.1);
   give(goal_at(1, 2, -2, 2));

@@ -81,8 +81,9 @@ StopCause StopInputs::cause(Time now) {
   hear(hold_to_run_);
   hear(operator_present_);
   const std::string_view arm = hear_arm();
-  if (stop_.size() > 0) return {.why = "a stop was asked for on the topic /stop"};
-  if (!arm.empty()) return {.why = ReasonText::format("the arm says {}", arm)};
+  const bool by_arm = !arm.empty();
+  if (stop_.size() > 0) return {.why = "a stop was asked for on the topic /stop", .by_arm = by_arm};
+  if (by_arm) return {.why = ReasonText::format("the arm says {}", arm), .by_arm = true};
   ReasonText why = missing(hold_to_run_, now);
   if (why.empty()) why = missing(operator_present_, now);
   return {.why = why, .wants_operator = !why.empty()};

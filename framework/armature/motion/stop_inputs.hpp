@@ -14,6 +14,7 @@ namespace armature {
 struct StopCause {
   ReasonText why;
   bool wants_operator = false;  // nobody stopped it, and nobody has enabled it
+  bool by_arm = false;          // which says that it does not follow
 };
 
 /// Who may stop an arm beside its own motion component, and who may let it go again. A stop stays:

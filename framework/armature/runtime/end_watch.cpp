@@ -45,17 +45,20 @@ struct EndWatch::State {
   std::condition_variable changed_;
   std::string what_;  // guarded, as all below
   Duration observed_{0};
-  bool begun_ = false, telling_ = false, over_ = false;
+  bool telling_ = false, over_ = false;
+  std::thread thread_;
 };
 
 EndWatch::EndWatch(Duration patience, std::function<void(const std::string&)> on_hung)
-    : state_{std::make_shared<State>(patience, std::move(on_hung))} {}
+    : state_{std::make_unique<State>(patience, std::move(on_hung))} {}
 
 EndWatch::~EndWatch() {
-  std::unique_lock lock{state_->mutex_};
-  state_->over_ = true;
+  {
+    const std::scoped_lock lock{state_->mutex_};
+    state_->over_ = true;
+  }
   state_->changed_.notify_all();
-  state_->changed_.wait(lock, [this] { return !state_->telling_; });
+  if (state_->thread_.joinable()) state_->thread_.join();
 }
 
 void EndWatch::begin(const std::string& what) {
@@ -63,9 +66,9 @@ void EndWatch::begin(const std::string& what) {
   state_->changed_.wait(lock, [this] { return !state_->telling_; });
   state_->what_ = what;
   state_->observed_ = Duration{0};
-  if (std::exchange(state_->begun_, true)) return;
+  if (state_->thread_.joinable()) return;
   try {
-    std::thread{[state = state_] { state->watch(); }}.detach();
+    state_->thread_ = std::thread{[this] { state_->watch(); }};
   } catch (const std::system_error&) {
     // No thread is to be had; the end itself goes on.
   }

@@ -18,7 +18,7 @@ class EndWatch {
   /// `on_hung` is called once, on a thread of the watch, with a sentence: "the stop of 'arm' has
   /// not returned for 10 s". What hangs may hold any lock, so it had better leave the process.
   EndWatch(Duration patience, std::function<void(const std::string&)> on_hung);
-  /// From here on nothing is watched.
+  /// From here on nothing is watched. Waits for `on_hung` where that was called.
   ~EndWatch();
   EndWatch(const EndWatch&) = delete;
   EndWatch& operator=(const EndWatch&) = delete;
@@ -29,7 +29,7 @@ class EndWatch {
 
  private:
   struct State;
-  std::shared_ptr<State> state_;  // shared with the thread, which nobody waits for
+  std::unique_ptr<State> state_;
 };
 
 }  // namespace armature

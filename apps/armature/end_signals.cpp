@@ -38,11 +38,11 @@ bool is_of_operator(int signal) {
 }
 
 /// Every signal that ends a process which does not handle it, but those of a crash, those that
-/// cannot be handled, and SIGPIPE.
+/// cannot be handled, and SIGPIPE; and Ctrl-Z, which would halt it with a moving arm.
 std::vector<int> all_end_signals() {
   std::vector<int> all{kOfOperator.begin(), kOfOperator.end()};
   all.insert(all.end(), {SIGHUP, SIGUSR1, SIGUSR2, SIGALRM, SIGVTALRM, SIGPROF, SIGIO, SIGPWR,
-                         SIGSTKFLT, SIGXCPU, SIGXFSZ});
+                         SIGSTKFLT, SIGXCPU, SIGXFSZ, SIGTSTP});
   for (int signal = SIGRTMIN; signal <= SIGRTMAX; ++signal) all.push_back(signal);
   return all;
 }
@@ -124,6 +124,7 @@ void stop_in_order() {
   handle(on_signal);
   // No SIG_IGN, which the programs that a plugin starts would inherit.
   std::signal(SIGPIPE, [](int) {});
+  std::signal(SIGTTOU, SIG_IGN);  // in the background it writes on, and is not halted
 }
 
 std::optional<std::string> cause() {

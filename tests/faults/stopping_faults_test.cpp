@@ -100,6 +100,7 @@ TEST_F(PulledPlug, EverySignalThatEndsARunIsToldInItsOwnWords) {
            {SIGHUP, "the terminal was closed"},
            {SIGQUIT, "ended by SIGQUIT"},
            {SIGUSR1, "ended by SIGUSR1"},
+           {SIGTSTP, "ended by SIGTSTP"},
            {SIGRTMIN + 1, "ended by signal " + std::to_string(SIGRTMIN + 1)}}) {
     Command run{command(), options_};
     ASSERT_TRUE(run.wait_for_err("arm       moves", kWithin)) << run.err();

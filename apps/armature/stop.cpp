@@ -27,10 +27,11 @@ constexpr milliseconds kInsists{500};  // deployments that are still being disco
 /// Writes the stop until who reads it has been found, and says who has taken it.
 class Stopping {
  public:
-  Stopping(const StopOptions& options, OutsideWriter& writer, SamplePool& pool)
-      : options_{options}, writer_{writer}, pool_{pool} {}
+  Stopping(const StopOptions& options, OutsideWriter& writer, SamplePool& pool,
+           const SystemClock& clock)
+      : options_{options}, writer_{writer}, pool_{pool}, clock_{clock} {}
 
-  /// Whether somebody was found within the options' time, of a deployment.
+  /// False when no deployment was found within the options' time.
   bool reach_all() {
     auto until = give_up_;
     while (Steady::now() < until) {
@@ -59,7 +60,7 @@ class Stopping {
   const StopOptions& options_;
   OutsideWriter& writer_;
   SamplePool& pool_;
-  SystemClock clock_;
+  const SystemClock& clock_;
   Steady::time_point give_up_ =
       Steady::now() + std::chrono::duration_cast<Steady::duration>(
                           std::chrono::duration<double>{options_.timeout_s});
@@ -93,7 +94,7 @@ int stop_arms(const StopOptions& options) {
               {.name = "rt/stop", .type = &message_type<msg::Bool>(), .qos = QosProfile::command});
   if (!writer) throw PluginError("cannot write /stop: " + writer.error().text);
 
-  Stopping stopping{options, **writer, pool};
+  Stopping stopping{options, **writer, pool, clock};
   const bool found = stopping.reach_all();
   for (const auto& [who, of_deployment] : stopping.heard_by()) {
     if (!of_deployment) fmt::print(stderr, "armature: {} reads /stop, and is no deployment\n", who);

@@ -337,7 +337,8 @@ const Fault kFaults[] = {
     {"StandstillThatTheDriverDoesNotWaitFor", "arm/simulated, executor: control",
      "arm/simulated, executor: control, params: {command_timeout_s: 0.05}",
      "deployment.yaml:20:79: 'max_lateness_s' of component 'motion' is 0.1, above "
-     "'command_timeout_s' of component 'arm', which is 0.05; lower the first or raise the second\n"},
+     "'command_timeout_s' of component 'arm', which is 0.05; lower the first or raise the "
+     "second\n"},
     {"StandstillThatIsTooLong", "max_velocity_rad_s: 1.0", "max_lateness_s: 0.2",
      "deployment.yaml:15:30: 'max_lateness_s' of component 'motion' is 0.2, above "
      "'command_timeout_s' of component 'arm', which is 0.1; lower the first or raise the second\n"},

@@ -101,7 +101,7 @@ class Drill {
     if (error_) std::rethrow_exception(error_);
     return std::move(results_);
   }
-  /// What has interrupted it.
+  /// The signal that interrupted the drill, in words; nothing: none did.
   const std::optional<std::string>& stopped() const { return stopped_; }
 
  private:

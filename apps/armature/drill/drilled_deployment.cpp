@@ -17,8 +17,6 @@ namespace {
 
 constexpr std::string_view kMeasured = "measured_js";
 
-bool is_driver(const ComponentConfig& component) { return component.manifest->driver.has_value(); }
-
 /// An entry of the file, and not one of the further units that it is at run time.
 bool is_entry(const ComponentConfig& component) { return component.unit == kMainUnit; }
 
@@ -64,17 +62,6 @@ std::vector<JointLimit> limits_of(const ComponentConfig& driver,
   std::vector<JointLimit> limits;
   for (const Joint& joint : model.joints()) limits.push_back({joint.name, joint.max_velocity});
   return limits;
-}
-
-/// Whether a driver takes commands from it.
-bool commands(const ComponentConfig& writer, const DeploymentConfig& deployment) {
-  return std::ranges::any_of(deployment.components, [&](const ComponentConfig& driver) {
-    return is_driver(driver) && std::ranges::any_of(driver.inputs, [&](const PortBinding& input) {
-             return input.spec.qos == QosProfile::command &&
-                    std::ranges::find(writer.outputs, input.topic, &PortBinding::topic) !=
-                        writer.outputs.end();
-           });
-  });
 }
 
 const PortBinding* find_input(const ComponentConfig& component, std::string_view name) {
@@ -132,8 +119,8 @@ bool reads_any_of(const ComponentConfig& reader, const ComponentConfig& writer) 
   });
 }
 
-/// What only measures how a story went ends the run when its task gives up. Nothing else is changed
-/// by leaving it out where nobody reads what it writes.
+/// Settings that leave out the reports: a report ends the run when the task gives up. Nothing else
+/// changes where nobody reads what the report writes.
 std::vector<std::string> without_reports(const DeploymentConfig& deployment) {
   std::vector<std::string> settings;
   for (const ComponentConfig& report : deployment.components) {
@@ -222,7 +209,7 @@ DrilledDeployment read_drilled(const DeploymentSource& source, const PluginRegis
                               .hand_topic = hand_of(component, deployment),
                               .power_topic = power_of(component, deployment),
                               .limits = limits_of(component, deployment)});
-    } else if (commands(component, deployment)) {
+    } else if (commands_driver(component, deployment)) {
       const std::string process = splitter.put(component, "drill_" + component.name);
       if (component.slots.empty()) continue;
       keep(drilled.commander, component, process);

@@ -238,7 +238,7 @@ void come_to_rest(Scene& scene) {
   scene.held_from = std::chrono::steady_clock::now();
 }
 
-/// How often each component that heeds the pendant has said `text`.
+/// Counts the lines with `text` of each component that heeds the pendant.
 std::vector<std::ptrdiff_t> count_lines(const Scene& scene, const std::string& text) {
   std::vector<std::ptrdiff_t> counts;
   for (const HeedsPendant& component : scene.deployment.heed_pendants) {

@@ -44,7 +44,7 @@ class RunUnderTest {
   std::optional<std::string> wait_for_line(const std::string& text,
                                            std::chrono::milliseconds patience);
   std::optional<std::string> line_with(const std::string& text) const;
-  /// How many lines with this text a component has said.
+  /// Counts the lines with `text` that `component` has said.
   std::ptrdiff_t count_lines(const std::string& component, const std::string& text) const;
   /// What it has written on standard output.
   std::string output() const;

@@ -110,7 +110,7 @@ class Trial {
     return count_stops() == stops || fail("it had stopped before the fault: " + run_.last_line());
   }
 
-  /// How often what heeds the operator's pendant has stopped by now.
+  /// Counts the stops so far of all components that heed the operator's pendant.
   std::ptrdiff_t count_stops() const {
     std::ptrdiff_t stops = 0;
     for (const HeedsPendant& component : options_.deployment.heed_pendants) {
@@ -183,7 +183,7 @@ class Trial {
     const auto told = closing();
     if (!told.contains("status")) return fail("the run ended: " + how);
     const auto reasons = told.value("reasons", nlohmann::json::array());
-    // What a component says of its story is told before all others, and is none of them.
+    // The story's own reason is in `reason` only; a fault's stands in `reasons`, too.
     const bool gave_up =
         told.contains("reason") && std::ranges::find(reasons, told["reason"]) == reasons.end();
     if (gave_up && !fault_.may_give_up) return fail("the run ended: " + how);

@@ -190,16 +190,25 @@ ReasonText GoalExecution::refusal(const MotionGoal& goal, const ReasonText& wron
   return {};
 }
 
-void GoalExecution::take(const MotionGoal& goal, const ReasonText& wrong, Time now) {
+bool GoalExecution::accept(const MotionGoal& goal, const ReasonText& wrong) {
   if (const ReasonText reason = refusal(goal, wrong); !reason.empty()) {
     report(goal.id, State::failed, halted() && (took_any_ || was_stopped_) ? kStopStage : "accept",
            reason);
-    return;
+    return false;
   }
   took_any_ = true;
   last_goal_id_ = goal.id;
   report(goal.id, State::accepted);
   supersede_pending();
+  return true;
+}
+
+void GoalExecution::pass_over(const MotionGoal& goal) {
+  if (accept(goal, {})) report(goal.id, State::superseded);
+}
+
+void GoalExecution::take(const MotionGoal& goal, const ReasonText& wrong, Time now) {
+  if (!accept(goal, wrong)) return;
   switch (goal.mode) {
     case MotionMode::planned:
       return ask_for_plan({.goal_id = goal.id, .budget = options_.plan_budget}, now);

@@ -70,6 +70,9 @@ class GoalExecution {
   /// `wrong`: what is wrong with the goal, or empty; the statuses say what came of it. Key poses
   /// and forbidden zones are not looked at.
   void take(const MotionGoal& goal, const ReasonText& wrong, Time now);
+  /// The same of a goal that a newer one of the same activation supersedes: it is accepted or
+  /// refused, and nothing is begun for it.
+  void pass_over(const MotionGoal& goal);
   /// The plan that is wanted now, once.
   std::optional<PlanRequest> take_request();
   /// What became of a request; true when its trajectory takes over. One that is not waited for any
@@ -110,6 +113,7 @@ class GoalExecution {
     int attempt = 1;
     bool standing = false;  // the arm has been stopped for it
   };
+  bool accept(const MotionGoal& goal, const ReasonText& wrong);
   void begin_halt(const ReasonText& why, Time now);
   ReasonText refusal(const MotionGoal& goal, const ReasonText& wrong) const;
   void ask_for_plan(Pending pending, Time now);

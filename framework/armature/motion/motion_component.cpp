@@ -142,9 +142,11 @@ void Motion::read_goals(Time now) {
   for (std::size_t i = 0; i < goals_.size(); ++i) {
     const ReasonText wrong = read_goal_head(goals_[i], goal_);
     const bool tracked = newest && wrong.empty() && goal_.mode == MotionMode::tracking;
-    // An older one is accepted and waits, as if for a plan, until it is superseded.
-    if (tracked && is_newer(*newest, goal_.id)) goal_.mode = MotionMode::planned;
-    execution_.take(goal_, wrong, now);
+    if (tracked && is_newer(*newest, goal_.id)) {
+      execution_.pass_over(goal_);
+    } else {
+      execution_.take(goal_, wrong, now);
+    }
   }
 }
 

@@ -10,8 +10,6 @@
 namespace armature {
 namespace {
 
-bool is_driver(const ComponentConfig& component) { return component.manifest->driver.has_value(); }
-
 bool feeds(const ComponentConfig& writer, const ComponentConfig& reader) {
   return std::ranges::any_of(writer.outputs, [&](const PortBinding& output) {
     return std::ranges::find(reader.inputs, output.topic, &PortBinding::topic) !=
@@ -54,17 +52,6 @@ bool is_isolated(const ComponentConfig& component) {
   return component.on_fault == OnFault::isolate;
 }
 
-/// Whether the component writes an input of a driver that takes commands.
-bool commands_driver(const ComponentConfig& component, const DeploymentConfig& deployment) {
-  return std::ranges::any_of(deployment.components, [&](const ComponentConfig& driver) {
-    return is_driver(driver) && std::ranges::any_of(driver.inputs, [&](const PortBinding& input) {
-             return input.spec.qos == QosProfile::command &&
-                    std::ranges::find(component.outputs, input.topic, &PortBinding::topic) !=
-                        component.outputs.end();
-           });
-  });
-}
-
 /// Who shares the driver's executor and may delay it without need.
 std::vector<std::string> strangers_beside(const ComponentConfig& driver,
                                           const DeploymentConfig& deployment) {
@@ -83,6 +70,18 @@ std::vector<std::string> strangers_beside(const ComponentConfig& driver,
 }
 
 }  // namespace
+
+bool is_driver(const ComponentConfig& component) { return component.manifest->driver.has_value(); }
+
+bool commands_driver(const ComponentConfig& component, const DeploymentConfig& deployment) {
+  return std::ranges::any_of(deployment.components, [&](const ComponentConfig& driver) {
+    return is_driver(driver) && std::ranges::any_of(driver.inputs, [&](const PortBinding& input) {
+             return input.spec.qos == QosProfile::command &&
+                    std::ranges::find(component.outputs, input.topic, &PortBinding::topic) !=
+                        component.outputs.end();
+           });
+  });
+}
 
 void decide_on_faults(DeploymentConfig& deployment) {
   const Components path = path_to_drivers(deployment);  // empty without a driver

@@ -14,6 +14,11 @@ namespace armature {
 /// judged by, and where there is no driver at all; else it is isolated.
 void decide_on_faults(DeploymentConfig& deployment);
 
+/// Whether the component moves an arm: `driver:` in its plugin.yaml.
+bool is_driver(const ComponentConfig& component);
+/// Whether it writes an input of a driver that takes commands.
+bool commands_driver(const ComponentConfig& component, const DeploymentConfig& deployment);
+
 /// Refuses `on_fault: isolate` of a driver and of what writes commands to one: the run would go on
 /// without it, and only the driver's lease, or nothing, would stop the arm.
 void check_isolation(const DeploymentConfig& deployment, config::Problems& problems);

@@ -277,18 +277,17 @@ bool GoalExecution::take(const PlanAnswer& answer, Time now) {
 
 void GoalExecution::track(const MotionGoal& goal, Time now) {
   const Time start = now + options_.period;
-  const TrackingFailure failure = tracker_->track(goal, reference_.at(start), start, way_);
-  if (failure.stage.empty()) {
-    reference_.splice(way_);
+  const JointState from = reference_.at(start);
+  const bool tracked = active_ && active_mode_ == MotionMode::tracking;
+  const bool under_way = tracked && !armature::at_rest(from);
+  const TrackingFailure failure = under_way ? tracker_->follow(goal, from, start, way_)
+                                            : tracker_->begin(goal, from, start, way_);
+  if (failure.stage.empty()) reference_.splice(way_);
+  // A target under way that is not met yet may be met by the next search.
+  if (failure.stage.empty() || (under_way && failure.stage == "trajectory")) {
     return execute(goal.id, goal.mode, now);
   }
-  if (goes_on(failure, start)) return execute(goal.id, goal.mode, now);
   report(goal.id, State::failed, failure.stage, failure.reason);
-}
-
-bool GoalExecution::goes_on(const TrackingFailure& failure, Time start) const {
-  const bool tracked = active_ && active_mode_ == MotionMode::tracking;
-  return tracked && failure.stage == "trajectory" && !armature::at_rest(reference_.at(start));
 }
 
 void GoalExecution::execute(std::uint64_t goal_id, MotionMode mode, Time now) {

@@ -120,8 +120,6 @@ class GoalExecution {
   void ask_again(Time now);
   bool still_holds(const PlanAnswer& answer, Time now);
   void track(const MotionGoal& goal, Time now);
-  /// Whether the motion towards where a target was before is the answer to the next one, too.
-  bool goes_on(const TrackingFailure& failure, Time start) const;
   void execute(std::uint64_t goal_id, MotionMode mode, Time now);
   GoalStatus& report(std::uint64_t goal_id, GoalStatus::State state, std::string_view stage = {},
                      const ReasonText& reason = {});

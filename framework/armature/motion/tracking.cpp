@@ -118,7 +118,9 @@ Tracker::Tracker(const RobotModel& model, const MotionLimits& limits, const IkSo
       ik_{ik},
       options_{options},
       horizons_{1 + static_cast<int>(std::log(kLongestHorizon / options.shortest_horizon_s) /
-                                     std::log(kHorizonGrowth))} {}
+                                     std::log(kHorizonGrowth))} {
+  begin_search({0, horizons_});
+}
 
 /// The branch nearest to `near`; false, and the defect says why, when none is within limits.
 bool Tracker::solve(const ToolPose& pose, const JointVector& near, JointVector& q) {
@@ -217,64 +219,88 @@ Tracker::Attempt Tracker::attempt(const MotionGoal& goal, const JointState& from
           longer_for({tool_speed(model_, from), speed, tool_speed(model_, meet)}, allowed_speed_)};
 }
 
-TrackingFailure Tracker::track(const MotionGoal& goal, const JointState& from, Time start,
-                               ShortTrajectory& out) {
+void Tracker::begin_search(Horizons among) {
+  search_.among = search_.left = among;
+  search_.next = among.begin;
+  search_.found.reset();
+  search_.by_limits.clear();
+  search_.by_reach.clear();
+}
+
+/// What holds for every horizon of a call.
+void Tracker::look_around(const MotionGoal& goal, const JointState& from) {
   attempts_ = 0;
   allowed_speed_ = options_.max_tool_speed;
   if (std::isfinite(allowed_speed_)) {
     allowed_speed_ = std::max(allowed_speed_, tool_speed(model_, from)) * (1 + 1e-9);
   }
-  under_way_ = start < under_way_until_;
-  max_attempts_ = under_way_ ? kMaxAttempts : kMaxAttemptsAnew;
   // One that is not caught up with is followed to where it is, not to where it will have gone.
   const bool too_fast = goal.velocity.norm() > kMeetingUse * options_.max_tool_speed;
   trusted_s_ = under_way_ && too_fast ? kFollowing : kLongestPrediction;
-  const int begin = under_way_ ? next_begin_ : 0;
-  const TrackingFailure failure = search(goal, from, start, {begin, horizons_}, out);
-  if (failure.stage.empty() || begin == 0 || attempts_ == max_attempts_) return failure;
-  // Where the target leaves the reach soon only a short horizon may do.
-  return search(goal, from, start, {0, begin}, out);
 }
 
-/// Among the horizons that are `left`; says where the next call begins.
-TrackingFailure Tracker::search(const MotionGoal& goal, const JointState& from, Time start,
-                                Horizons left, ShortTrajectory& out) {
+TrackingFailure Tracker::begin(const MotionGoal& goal, const JointState& from, Time start,
+                               ShortTrajectory& out) {
+  under_way_ = false;
+  look_around(goal, from);
+  begin_search({0, horizons_});
+  while (attempts_ < kMaxAttempts && !search_.left.empty()) try_next(goal, from, start, out);
+  return outcome();
+}
+
+TrackingFailure Tracker::follow(const MotionGoal& goal, const JointState& from, Time start,
+                                ShortTrajectory& out) {
+  under_way_ = true;
+  look_around(goal, from);
+  try_next(goal, from, start, out);
+  return outcome();
+}
+
+void Tracker::try_next(const MotionGoal& goal, const JointState& from, Time start,
+                       ShortTrajectory& out) {
   using enum Attempt::Outcome;
-  const int last = left.end;
-  int next = left.begin;
-  std::optional<int> found;
-  ReasonText by_limits, by_reach;
-  while (left.begin < left.end && attempts_ < max_attempts_) {
-    const double horizon_s = options_.shortest_horizon_s * std::pow(kHorizonGrowth, next);
-    const Attempt tried = attempt(goal, from, start, horizon_s, found ? way_ : out);
-    switch (tried.outcome) {
-      case too_short:
-        by_limits = defect_;
-        left.begin = next + 1;
-        break;
-      case out_of_reach:
-        by_reach = ReasonText::format("; {:.2g} s ahead {}", horizon_s, defect_.view());
-        left.end = next;
-        break;
-      case met:
-        if (found) out = way_;
-        under_way_until_ = start + seconds(horizon_s);
-        left.end = next;
-        found = next;
-    }
-    const bool bounded = left.end < last;  // by one that is met or out of reach
-    // The last horizon, one above the first that is tried, mostly does still: no leap over it.
-    const int leap = under_way_ && attempts_ == 1 ? 1 : growths_for(tried.longer);
-    next = bounded ? (left.begin + left.end) / 2 : std::min(next + leap, last - 1);
-    // Better a slow way than none.
-    if (!found && !bounded && attempts_ + 1 == kMaxAttemptsAnew) next = last - 1;
+  auto& [among, left, next, found, by_limits, by_reach] = search_;
+  const double horizon_s = options_.shortest_horizon_s * std::pow(kHorizonGrowth, next);
+  const Attempt tried = attempt(goal, from, start, horizon_s, found ? way_ : out);
+  switch (tried.outcome) {
+    case too_short:
+      by_limits = defect_;
+      left.begin = next + 1;
+      break;
+    case out_of_reach:
+      by_reach = ReasonText::format("; {:.2g} s ahead {}", horizon_s, defect_.view());
+      left.end = next;
+      break;
+    case met:
+      if (found) out = way_;
+      left.end = next;
+      found = next;
   }
-  const bool interrupted = left.begin < left.end;
-  next_begin_ = found ? std::max(0, *found - 1) : interrupted ? left.begin : 0;
-  if (found) return {};
-  if (by_limits.empty()) return {"ik", defect_};
-  return {"trajectory",
-          ReasonText::format("tracking within limits: {}{}", by_limits.view(), by_reach.view())};
+  const bool bounded = left.end < among.end;  // by one that is met or out of reach
+  // The last horizon, one above the first that is tried, mostly does still: no leap over it.
+  const int leap = under_way_ && next == among.begin ? 1 : growths_for(tried.longer);
+  next = bounded ? (left.begin + left.end) / 2 : std::min(next + leap, among.end - 1);
+  // Better a slow way than none.
+  if (!found && !bounded && attempts_ + 1 == kMaxAttempts) next = among.end - 1;
+}
+
+/// Of a call; and prepares the search of the next one.
+TrackingFailure Tracker::outcome() {
+  if (search_.found) {
+    begin_search({std::max(0, *search_.found - 1), horizons_});
+    return {};
+  }
+  const auto& [among, left, next, found, by_limits, by_reach] = search_;
+  const Horizons below{0, among.begin};
+  const bool over = left.empty() && (below.empty() || !under_way_);
+  TrackingFailure failure{"ik", defect_};
+  if (!over || !by_limits.empty()) {
+    failure = {"trajectory", ReasonText::format("tracking within limits: {}{}", by_limits.view(),
+                                                by_reach.view())};
+  }
+  // Where the target leaves the reach soon only a short horizon may do.
+  if (left.empty()) begin_search(over ? Horizons{0, horizons_} : below);
+  return failure;
 }
 
 }  // namespace armature

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string_view>
 
 #include "armature/kinds/ik/ik.hpp"
@@ -32,27 +33,32 @@ struct TrackingFailure {
 /// already does not become faster.
 ///
 /// The horizons that are tried grow by a quarter each, from `shortest_horizon_s` to 20 s. The
-/// search begins at the shortest, or, while the last target is not met yet, one below the last. It
-/// leaps up as far as the broken limits ask for, then halves what it leapt over.
+/// search leaps up as far as the broken limits ask for, then halves what it leapt over.
 ///
 /// A target under way that is nearly as fast as `max_tool_speed`, or faster, is followed behind:
 /// its velocity is trusted for a quarter of a second only.
 ///
-/// Real-time safe. A call tries at most `kMaxAttemptsAnew` horizons, while a target is under way at
-/// most `kMaxAttempts`; with each it asks the solver at most twice and computes at most 16
-/// Jacobians. A call that finds none leaves the rest to the next one, while a target is under way;
-/// else its last attempt is the longest horizon.
+/// Real-time safe. With each horizon the solver is asked at most twice and at most 16 Jacobians are
+/// computed.
 class Tracker {
  public:
-  static constexpr int kMaxAttempts = 3, kMaxAttemptsAnew = 8;
+  static constexpr int kMaxAttempts = 8;
 
   /// Keeps references to `model` and `ik`, which allocates nothing.
   Tracker(const RobotModel& model, const MotionLimits& limits, const IkSolver& ik,
           const TrackingOptions& options);
 
-  /// Fails in stage ik (out of reach) or trajectory (no horizon); `out` is then of no use.
-  TrackingFailure track(const MotionGoal& goal, const JointState& from, Time start,
+  /// A target that is new, from an arm that may rest: searches from the shortest horizon on, at
+  /// most `kMaxAttempts` of them, of which the last is the longest. Fails in stage ik (out of
+  /// reach) or trajectory (no horizon); `out` is then of no use.
+  TrackingFailure begin(const MotionGoal& goal, const JointState& from, Time start,
                         ShortTrajectory& out);
+
+  /// The next target of one that is under way: tries one horizon, the one below the last that met
+  /// its target. Where that fails the search goes on with the next call, and the arm on its last
+  /// trajectory: the stage of the failure is `trajectory` until the search is over.
+  TrackingFailure follow(const MotionGoal& goal, const JointState& from, Time start,
+                         ShortTrajectory& out);
 
   /// How many horizons the last call tried.
   int attempts() const { return attempts_; }
@@ -66,9 +72,19 @@ class Tracker {
   /// Those that are made longer `begin` to `end` - 1 times.
   struct Horizons {
     int begin, end;
+    bool empty() const { return begin >= end; }
   };
-  TrackingFailure search(const MotionGoal& goal, const JointState& from, Time start, Horizons left,
-                         ShortTrajectory& out);
+  /// Goes on from call to call while a target is under way.
+  struct Search {
+    Horizons among, left;
+    int next;
+    std::optional<int> found;
+    ReasonText by_limits, by_reach;  // why the last ones that are too short or too long do not do
+  };
+  void begin_search(Horizons among);
+  void look_around(const MotionGoal& goal, const JointState& from);
+  void try_next(const MotionGoal& goal, const JointState& from, Time start, ShortTrajectory& out);
+  TrackingFailure outcome();
   Attempt attempt(const MotionGoal& goal, const JointState& from, Time start, double horizon_s,
                   ShortTrajectory& out);
   bool meeting_point(const MotionGoal& goal, const JointState& from, double horizon_s,
@@ -88,11 +104,9 @@ class Tracker {
   IkBranches branches_;       // kept for their memory
   ShortTrajectory way_;       // of an attempt at a shorter one than was found
   ReasonText defect_;         // of the last attempt
-  int attempts_ = 0;          // of the last call
-  bool under_way_ = false;    // a target, in the last call
-  int max_attempts_ = 0;      // of the last call
-  int next_begin_ = 0;        // of the search, while a target is under way
-  Time under_way_until_;      // when the last target is met
+  Search search_;
+  int attempts_ = 0;        // of the last call
+  bool under_way_ = false;  // a target, in the last call
 };
 
 }  // namespace armature

@@ -71,7 +71,7 @@ TEST_F(TrackingSteps, OfEightTargetsOneIsSearchedForAndTheOthersAreSuperseded) {
   for (std::uint64_t id = 1; id <= 8; ++id) give(id, 0.1 + 0.01 * static_cast<double>(id));
   step();
   EXPECT_GT(asked, 0);
-  EXPECT_LE(asked, 2 * Tracker::kMaxAttemptsAnew);
+  EXPECT_LE(asked, 2 * Tracker::kMaxAttempts);
   Stories story;
   for (int id = 1; id <= 8; ++id) {
     story.push_back(std::to_string(id) + " accepted");

@@ -4,7 +4,9 @@
 #   armature_add_plugin(ik/lamp_geometric SOURCES lamp_geometric.cpp LINK armature::ik [TESTS x_test.cpp])
 #
 # The folder's plugin.yaml (id, kind, parameters, ports) is embedded as constant text, together with
-# the ABI tag of the compiler that builds it; both are read without running the library's code.
+# the ABI tag of the compiler that builds it; both are read without running the library's code. Its
+# parameters become `struct Parameters` of the namespace armature::ik::lamp_geometric, in the header
+# ik_lamp_geometric_parameters.hpp.
 # TEST_ONLY: for the framework's own tests; kept apart from the plugins and not installed.
 # TEST_OPTIONS: of armature_add_test.
 
@@ -21,8 +23,14 @@ function(armature_add_plugin id)
   configure_file("${ARMATURE_PLUGIN_TEMPLATE}" "${CMAKE_CURRENT_BINARY_DIR}/${target}_manifest.cpp"
                  @ONLY)
 
-  add_library(${target} MODULE ${arg_SOURCES}
+  set(parameters "${CMAKE_CURRENT_BINARY_DIR}/${target}_parameters.hpp")
+  add_custom_command(OUTPUT "${parameters}"
+                     COMMAND armature::parameters plugin.yaml "${parameters}"
+                     WORKING_DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}"
+                     DEPENDS plugin.yaml armature::parameters VERBATIM)
+  add_library(${target} MODULE ${arg_SOURCES} "${parameters}"
                                "${CMAKE_CURRENT_BINARY_DIR}/${target}_manifest.cpp")
+  target_include_directories(${target} PRIVATE "${CMAKE_CURRENT_BINARY_DIR}")
   target_link_libraries(${target} PRIVATE armature::abi ${arg_LINK})
   if(NOT ARMATURE_SANITIZE)  # a missing symbol is found here, not when the plugin is loaded
     target_link_options(${target} PRIVATE LINKER:-z,defs)
@@ -49,6 +57,9 @@ function(armature_add_plugin id)
       endif()
       armature_add_test(${target}_test SOURCES ${arg_TESTS} $<TARGET_OBJECTS:${target}> LINK ${arg_LINK} ${arg_TEST_LINK}
                         DEPENDS ${target} ${arg_TEST_OPTIONS})
+      if(TARGET ${target}_test)
+        target_include_directories(${target}_test PRIVATE "${CMAKE_CURRENT_BINARY_DIR}")
+      endif()
     endif()
   elseif(arg_TESTS)  # of somebody else's project: a program that ends with 0
     add_executable(${target}_test ${arg_TESTS})
@@ -58,6 +69,7 @@ function(armature_add_plugin id)
       list(APPEND arg_TEST_LINK armature::${kind}_verify)
     endif()
     target_link_libraries(${target}_test PRIVATE armature::abi ${arg_LINK} ${arg_TEST_LINK})
+    target_include_directories(${target}_test PRIVATE "${CMAKE_CURRENT_BINARY_DIR}")
     add_test(NAME ${target} COMMAND ${target}_test WORKING_DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}")
     set_tests_properties(${target} PROPERTIES
       ENVIRONMENT "ARMATURE_PLUGIN_PATH=$<TARGET_FILE_DIR:${target}>")

@@ -7,6 +7,7 @@
 
 #include "armature/config/params.hpp"
 #include "armature/config/reader.hpp"
+#include "armature/config/unit_suffix.hpp"
 
 namespace armature {
 namespace {
@@ -69,6 +70,7 @@ void check_fallback(const ParamSpec& spec, Problems& problems) {
   const Node given = Node::map({{spec.name, origin, *spec.fallback}}, origin);
   ParamSpec required = spec;
   required.fallback.reset();
+  required.below = required.at_most = "";  // which takes another one
   Params::read({required}, &given, "", problems);
 }
 
@@ -79,6 +81,10 @@ ParamSpec read_param_spec(const Node::Entry& entry, Problems& problems) {
     problems.add(entry.key_origin, fmt::format("parameter {} must be named in snake_case",
                                                config::in_quotes(spec.name)));
   }
+  if (const std::string wrong = config::unknown_unit(spec.name); !wrong.empty()) {
+    problems.add(entry.key_origin,
+                 fmt::format("parameter {}: {}", config::in_quotes(spec.name), wrong));
+  }
   MapReader map{entry.value, "parameter " + config::in_quotes(spec.name), problems};
   const std::vector<std::string> types{kTypeNames.begin(), kTypeNames.end()};
   const bool has_type = map.node("type") != nullptr;
@@ -87,13 +93,16 @@ ParamSpec read_param_spec(const Node::Entry& entry, Problems& problems) {
   spec.doc = map.text("doc", "");
   spec.same_as = map.text("same_as", "");
   spec.at_most = map.text("at_most", "");
+  spec.below = map.text("below", "");
+  spec.otherwise = map.text("else", "");
   if (const Node* fallback = map.optional_node("default")) spec.fallback = *fallback;
   if (!spec.same_as.empty() && !spec.fallback) {
     map.problem("same_as", fmt::format("'same_as' needs a default, for deployments without '{}'",
                                        spec.same_as));
   }
-  if (!spec.at_most.empty() && spec.type != Type::number) {
-    map.problem("at_most", "'at_most' belongs to a number");
+  const bool is_one = spec.type == Type::number || spec.type == Type::integer;
+  for (const auto& [key, limit] : {std::pair{"at_most", &spec.at_most}, {"below", &spec.below}}) {
+    if (!limit->empty() && !is_one) map.problem(key, fmt::format("'{}' belongs to a number", key));
   }
   read_choices(spec, map, problems);
   read_range(spec, map);
@@ -101,6 +110,31 @@ ParamSpec read_param_spec(const Node::Entry& entry, Problems& problems) {
   map.finish();
   if (has_type) check_fallback(spec, problems);
   return spec;
+}
+
+/// What is compared with one another must be of one type and one unit, and hold for the defaults.
+void check_orders(const std::vector<ParamSpec>& specs, const Node& table, Problems& problems) {
+  bool is_sound = problems.empty(), is_compared = false;
+  for (const ParamSpec& spec : specs) {
+    for (const std::string& limit : {spec.at_most, spec.below}) {
+      if (limit.empty() || limit.find('.') != std::string::npos) continue;
+      is_compared = true;
+      const auto other = std::ranges::find(specs, limit, &ParamSpec::name);
+      if (other != specs.end() && other->type == spec.type &&
+          config::si_factor(limit) == config::si_factor(spec.name)) {
+        continue;
+      }
+      is_sound = false;
+      problems.add(table.origin(),
+                   fmt::format("parameter {} is compared with {}, which must be another parameter "
+                               "of the same type and unit",
+                               config::in_quotes(spec.name), config::in_quotes(limit)));
+    }
+  }
+  const bool all_have_one =
+      std::ranges::all_of(specs, [](const ParamSpec& spec) { return spec.fallback.has_value(); });
+  if (is_sound && is_compared && all_have_one)
+    Params::read(specs, nullptr, "", problems, table.origin());
 }
 
 }  // namespace
@@ -118,6 +152,7 @@ std::vector<ParamSpec> read_param_specs(const Node& table, Problems& problems) {
   for (const Node::Entry& entry : table.entries()) {
     specs.push_back(read_param_spec(entry, problems));
   }
+  check_orders(specs, table, problems);
   return specs;
 }
 

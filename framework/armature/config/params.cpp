@@ -13,6 +13,7 @@
 #include "armature/config/conversion.hpp"
 #include "armature/config/document.hpp"
 #include "armature/config/reader.hpp"
+#include "armature/config/unit_suffix.hpp"
 
 namespace armature {
 namespace {
@@ -152,6 +153,7 @@ Params Params::read(const std::vector<ParamSpec>& specs, const Node* given,
   Params params;
   params.plugin_id_ = plugin_id;
   params.place_ = nothing.origin();
+  bool is_sound = true;
   for (const ParamSpec& spec : specs) {
     const Node* written = spec.fallback ? map.optional_node(spec.name) : map.node(spec.name);
     const Node* node = written ? written : spec.fallback ? &*spec.fallback : nullptr;
@@ -160,7 +162,13 @@ Params Params::read(const std::vector<ParamSpec>& specs, const Node* given,
       auto read = read_value(spec, *node, written ? config::folder_of(node->origin()) : "");
       if (read) {
         value.value = std::move(*read);
+        if (spec.type == Type::choice) {
+          const auto& text = std::get<std::string>(value.value);
+          value.choice = static_cast<std::size_t>(std::ranges::find(spec.choices, text) -
+                                                  spec.choices.begin());
+        }
       } else {
+        is_sound = false;
         problems.add(read.error().origin,
                      fmt::format("{} {}", config::in_quotes(spec.name), read.error().message));
       }
@@ -168,7 +176,30 @@ Params Params::read(const std::vector<ParamSpec>& specs, const Node* given,
     params.values_.emplace(spec.name, std::move(value));
   }
   map.finish();
+  for (const ParamSpec& spec : specs) {
+    if (is_sound) params.check_order(spec, problems);
+  }
   return params;
+}
+
+void Params::check_order(const ParamSpec& spec, config::Problems& problems) const {
+  const bool is_own = spec.at_most.find('.') == std::string::npos;
+  const std::string& limit = !spec.below.empty() ? spec.below : is_own ? spec.at_most : "";
+  if (limit.empty()) return;
+  const auto amount = [&](const std::string& name) {
+    const Value& found = find(name);
+    if (found.type == Type::integer)
+      return static_cast<double>(std::get<std::int64_t>(found.value));
+    return std::get<double>(found.value) / config::si_factor(name);
+  };
+  const double value = amount(spec.name), most = amount(limit);
+  if (spec.below.empty() ? value <= most : value < most) return;
+  const Origin& place = find(spec.name).written ? find(spec.name).origin
+                        : find(limit).written   ? find(limit).origin
+                                                : place_;
+  problems.add(place, fmt::format("'{}' is {:g}, {} '{}', which is {:g}{}{}", spec.name, value,
+                                  spec.below.empty() ? "above" : "not below", limit, most,
+                                  spec.otherwise.empty() ? "" : ": ", spec.otherwise));
 }
 
 const Params::Value& Params::find(std::string_view name) const {
@@ -211,6 +242,8 @@ bool Params::flag(std::string_view name) const {
 const std::string& Params::text(std::string_view name) const {
   return std::get<std::string>(get(name, {Type::text, Type::choice}).value);
 }
+
+std::size_t Params::choice(std::string_view name) const { return get(name, {Type::choice}).choice; }
 
 const std::vector<std::string>& Params::texts(std::string_view name) const {
   return std::get<std::vector<std::string>>(get(name, {Type::texts}).value);

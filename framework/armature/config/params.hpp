@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <initializer_list>
 #include <map>
@@ -19,7 +22,7 @@ namespace armature {
 /// `armature plugin info` and the JSON Schema all come from it.
 struct ParamSpec {
   enum class Type { number, integer, flag, text, choice, numbers, texts, file };
-  std::string name;  // a unit suffix (_deg, _mm, _m, _s, _hz) says what the user writes
+  std::string name;  // its end says the unit that the user writes (unit_suffix.hpp)
   Type type = Type::number;
   std::string doc;
   std::optional<config::Node> fallback;  // none: the parameter is required
@@ -28,8 +31,11 @@ struct ParamSpec {
   std::optional<std::size_t> count;  // of numbers; none: any
   std::string same_as;  // a plugin whose parameter of this name says the same; empty: none
   /// "servo_jp.timeout_s": a number that is not above that parameter of any component which reads
-  /// this output. Empty: any.
+  /// this output; "poses": one that is not above that parameter of its own. Empty: any.
   std::string at_most;
+  std::string below;  // the parameter of its own that a number is below; empty: any
+  std::string
+      otherwise;  // what would be wrong if it were not: "noise would be a patient that moves"
 };
 
 /// The names of ParamSpec::Type as written in `plugin.yaml`: number, integer, flag, text, choice,
@@ -46,7 +52,8 @@ class Params {
  public:
   Params() = default;
   /// `given` (may be null: nothing given) checked against `specs`: unknown keys with did-you-mean,
-  /// wrong types, out of range, missing. Problems of a missing `given` are noted at `place`.
+  /// wrong types, out of range, missing, above another one. Problems of a missing `given` are noted
+  /// at `place`.
   static Params read(const std::vector<ParamSpec>& specs, const config::Node* given,
                      std::string_view plugin_id, config::Problems& problems,
                      const config::Origin& place = {});
@@ -54,10 +61,20 @@ class Params {
   /// In SI units: `_deg` keys arrive in radians, `_mm` keys in metres.
   double number(std::string_view name) const;
   std::vector<double> numbers(std::string_view name) const;
+  /// Of a parameter with `count: N`.
+  template <std::size_t N>
+  std::array<double, N> numbers(std::string_view name) const {
+    const std::vector<double> all = numbers(name);
+    std::array<double, N> some{};
+    std::copy_n(all.begin(), std::min(N, all.size()), some.begin());
+    return some;
+  }
   std::int64_t integer(std::string_view name) const;
   bool flag(std::string_view name) const;
   /// A text or a choice.
   const std::string& text(std::string_view name) const;
+  /// Which one of `choices` it is, from 0 on.
+  std::size_t choice(std::string_view name) const;
   const std::vector<std::string>& texts(std::string_view name) const;
   /// A path, resolved against the folder of the YAML file that says it; a fallback and a `--set`
   /// are relative to the current directory. Empty stays empty.
@@ -85,7 +102,9 @@ class Params {
         value;
     config::Origin origin;
     bool written = false;
+    std::size_t choice = 0;
   };
+  void check_order(const ParamSpec& spec, config::Problems& problems) const;
   const Value& find(std::string_view name) const;
   const Value& get(std::string_view name, std::initializer_list<ParamSpec::Type> types) const;
 

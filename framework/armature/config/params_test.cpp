@@ -86,8 +86,8 @@ m: {type: text, at_most: out.limit}
             "p:2:11: 'type' cannot be 'numbr'; did you mean 'number'?\n"
             "p:3:4: missing key 'type' in parameter 'b'\n"
             "p:4:28: 'c' must be a number, not 'fast'\n"
-            "p:4:34: unknown key 'minimum' in parameter 'c'; known: at_most, choices, count, "
-            "default, doc, max, min, same_as, ...\n"
+            "p:4:34: unknown key 'minimum' in parameter 'c'; known: at_most, below, choices, "
+            "count, default, doc, else, max, ...\n"
             "p:5:28: 'd' is 5, must be at most 3\n"
             "p:6:32: 'max' is 2, below 'min', which is 3\n"
             "p:7:4: a choice needs 'choices: [...]'\n"
@@ -210,6 +210,65 @@ TEST(Parameters, ThatThePluginDoesNotDeclareAreItsDefect) {
   EXPECT_EQ(defect([&] { params.integer("rate_hz"); }),
             "'sim/scene' asks for the parameter 'rate_hz' as integer, but its plugin.yaml declares "
             "type number");
+}
+
+/// What is said of values of two parameters that are compared.
+std::string order_problem(const std::string& order, const std::string& given) {
+  const Node table = config::parse_text(
+      "{least: {type: integer, default: 3, " + order + "}, poses: {type: integer, default: 20}}",
+      "t");
+  Problems problems;
+  const auto specs = read_param_specs(table, problems);
+  const Node params = config::parse_text(given, "f");
+  Params::read(specs, &params, "task/x", problems);
+  try {
+    problems.throw_if_any();
+  } catch (const config::ConfigError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Parameters, MayBeComparedWithOneAnother) {
+  EXPECT_EQ(order_problem("at_most: poses", "least: 20"), "");
+  EXPECT_EQ(order_problem("at_most: poses", "least: 21"),
+            "f:1:8: 'least' is 21, above 'poses', which is 20");
+  EXPECT_EQ(order_problem("below: poses", "least: 19"), "");
+  EXPECT_EQ(order_problem("below: poses, else: none would be left", "poses: 3"),
+            "f:1:8: 'least' is 3, not below 'poses', which is 3: none would be left");
+}
+
+TEST(ParamSpecs, AreComparedWithWhatCanBeCompared) {
+  const std::string ending = "which must be another parameter of the same type and unit";
+  for (const char* const other :
+       {"{a: {type: number, below: b}}", "{a: {type: number, below: b}, b: {type: integer}}",
+        "{a_mm: {type: number, below: b}, b: {type: number}}"}) {
+    Problems problems;
+    read_param_specs(config::parse_text(other, "t"), problems);
+    ASSERT_EQ(problems.sorted().size(), 1u) << other;
+    EXPECT_TRUE(problems.sorted()[0].message.ends_with(ending)) << problems.sorted()[0].message;
+  }
+}
+
+TEST(ParamSpecs, WhoseDefaultsBreakTheirOrderAreRefused) {
+  Problems problems;
+  read_param_specs(
+      config::parse_text("{a: {type: number, default: 2, below: b}, b: {type: number, default: 1}}",
+                         "t"),
+      problems);
+  ASSERT_EQ(problems.sorted().size(), 1u);
+  EXPECT_EQ(problems.sorted()[0].text(), "t:1:1: 'a' is 2, not below 'b', which is 1");
+}
+
+TEST(ParamSpecs, StateAUnitThatIsRead) {
+  Problems problems;
+  read_param_specs(
+      config::parse_text("{rate_deg_min: {type: number}, width_cm: {type: number}}", "t"),
+      problems);
+  ASSERT_EQ(problems.sorted().size(), 2u);
+  EXPECT_EQ(problems.sorted()[0].message.substr(0, 43),
+            "parameter 'rate_deg_min': '_deg_min' is no ");
+  EXPECT_EQ(problems.sorted()[1].message.substr(0, 37), "parameter 'width_cm': '_cm' is no uni");
 }
 
 TEST(Parameters, AgreeWithOthersByTakingWhatWasNotWritten) {

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numbers>
 #include <utility>
 
 #include "armature/config/conversion.hpp"
@@ -41,12 +40,6 @@ std::optional<std::string> as_text(const Node& node, Problems& problems) {
 
 std::optional<std::vector<double>> as_numbers(const Node& node, Problems& problems) {
   return noted(to_numbers(node, std::nullopt), problems);
-}
-
-double si_factor(std::string_view key) {
-  if (key.ends_with("_deg")) return std::numbers::pi / 180;
-  if (key.ends_with("_mm")) return 1e-3;
-  return 1;
 }
 
 MapReader::MapReader(const Node& node, std::string what, Problems& problems)

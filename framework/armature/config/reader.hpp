@@ -22,9 +22,6 @@ std::optional<bool> as_flag(const Node& node, Problems& problems);
 std::optional<std::string> as_text(const Node& node, Problems& problems);
 std::optional<std::vector<double>> as_numbers(const Node& node, Problems& problems);
 
-/// The factor from a key's unit suffix to SI: `_deg` -> pi/180, `_mm` -> 1e-3, else 1.
-double si_factor(std::string_view key);
-
 /// Reads one map strictly: what is asked for is known, everything else is an unknown key. Every
 /// problem goes to `problems`; a missing or wrong value reads as the fallback so that reading can
 /// go on and find the next problem.

@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <numbers>
-
 #include "armature/config/document.hpp"
 
 namespace armature::config {
@@ -122,13 +120,6 @@ TEST(Lists, NameTheItemThatIsWrong) {
             "f:1:4: 'a' must be a list of 3 numbers, not of 2\n"
             "f:2:8: 'b' must be a list of 3 numbers; item 2 must be a number, not 'x'\n"
             "f:3:4: 'c' must be a list of 3 numbers, not '5'\n");
-}
-
-TEST(Units, AreConvertedBySuffix) {
-  EXPECT_EQ(si_factor("tilt_deg"), std::numbers::pi / 180);
-  EXPECT_EQ(si_factor("length_mm"), 1e-3);
-  EXPECT_EQ(si_factor("length_m"), 1);
-  EXPECT_EQ(si_factor("rate_hz"), 1);
 }
 
 TEST(MapReading, CollectsEveryProblemAndGoesOn) {

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "armature/config/unit_suffix.hpp"
+
 namespace armature {
 
 using config::MapReader;

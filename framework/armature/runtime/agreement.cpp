@@ -28,6 +28,7 @@ void check_at_most(const ComponentConfig& component, const ParamSpec& spec,
                    const DeploymentConfig& deployment, config::Problems& problems) {
   const std::string_view at_most = spec.at_most;
   const std::size_t dot = at_most.find('.');
+  if (dot == std::string_view::npos) return;  // of a parameter of its own, which is checked there
   const std::string_view output = at_most.substr(0, dot), limit = at_most.substr(dot + 1);
   for (const ComponentConfig& reader : deployment.components) {
     if (!reads(reader, component, output) || !has_param(reader, limit)) continue;

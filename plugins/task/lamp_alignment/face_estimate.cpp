@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace armature {
+namespace armature::task::lamp_alignment {
 
 bool FaceBand::left_by(const FaceEstimate& a, const FaceEstimate& b) const {
   if ((a.mouth - b.mouth).norm() > position_m) return true;
@@ -33,4 +33,4 @@ FaceEstimate FaceAverage::mean(std::size_t count) const {
   return mean;
 }
 
-}  // namespace armature
+}  // namespace armature::task::lamp_alignment

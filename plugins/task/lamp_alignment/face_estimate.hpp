@@ -7,7 +7,7 @@
 
 #include "armature/values/time.hpp"
 
-namespace armature {
+namespace armature::task::lamp_alignment {
 
 /// Where the mouth is and where the face looks, in the base frame.
 struct FaceEstimate {
@@ -39,4 +39,4 @@ class FaceAverage {
   std::deque<FaceEstimate> estimates_;
 };
 
-}  // namespace armature
+}  // namespace armature::task::lamp_alignment

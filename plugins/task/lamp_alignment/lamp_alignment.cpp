@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace armature {
+namespace armature::task::lamp_alignment {
 namespace {
 
 /// A face in the picture but no estimate yet: so many more pictures to wait for one.
@@ -19,8 +19,8 @@ MotionGoal face_goal(const FaceEstimate& face, double distance_m) {
   return goal;
 }
 
-std::size_t window_of(const AlignmentSettings& settings) {
-  return static_cast<std::size_t>(settings.settle_frames) * 3;
+std::size_t window_of(const Parameters& parameters) {
+  return static_cast<std::size_t>(parameters.settle_frames) * 3;
 }
 
 }  // namespace
@@ -44,11 +44,14 @@ const char* to_string(LampAlignment::Phase phase) {
   return "";
 }
 
-LampAlignment::LampAlignment(const AlignmentSettings& settings)
-    : settings_{settings},
-      poses_{search_poses(settings.search)},
-      light_{settings.light},
-      at_rest_{window_of(settings)} {}
+LampAlignment::LampAlignment(const Parameters& parameters, double joint_6_to_lamp)
+    : parameters_{parameters},
+      settled_{parameters.settled_position, parameters.settled_angle},
+      still_{parameters.replan_position, parameters.replan_angle},
+      moved_{parameters.moved_position, parameters.moved_angle},
+      poses_{search_poses(parameters, joint_6_to_lamp)},
+      light_{parameters},
+      at_rest_{window_of(parameters)} {}
 
 void LampAlignment::see(const Picture& picture, Time now) {
   if (picture.face || phase_ == Phase::checking_light) {
@@ -141,7 +144,7 @@ void LampAlignment::search(Time now) {
     align_with(*latest_, Phase::aligning, now);
     return;
   }
-  const int enough = settings_.frames_per_view + (face_in_picture_ ? kPicturesForEstimate : 0);
+  const int enough = parameters_.frames_per_view + (face_in_picture_ ? kPicturesForEstimate : 0);
   if (pictures_ >= enough) next_view();
 }
 
@@ -182,19 +185,19 @@ void LampAlignment::align_with(const FaceEstimate& estimate, Phase phase, Time n
   goal_set_at_ = now;
   fresh_ = 0;
   at_rest_.clear();
-  goals_.set(face_goal(estimate, settings_.distance_m));
+  goals_.set(face_goal(estimate, parameters_.distance));
 }
 
 bool LampAlignment::follow_if_moved(Time now) {
-  if (to_seconds(now - goal_set_at_) < settings_.replan_interval_s) return false;
-  if (!latest_ || fresh_ == 0 || !settings_.moved.left_by(*latest_, *goal_estimate_)) return false;
+  if (to_seconds(now - goal_set_at_) < parameters_.replan_interval) return false;
+  if (!latest_ || fresh_ == 0 || !moved_.left_by(*latest_, *goal_estimate_)) return false;
   align_with(*latest_, phase_, now);  // the first approach stays one
   return true;
 }
 
 bool LampAlignment::lost(Time now) const {
   const Time since = std::max(latest_->stamp, goals_.done_at());
-  return goals_.state() == GoalState::done && to_seconds(now - since) > settings_.lost_s;
+  return goals_.state() == GoalState::done && to_seconds(now - since) > parameters_.lost;
 }
 
 void LampAlignment::come_to_rest(Time now) {
@@ -211,15 +214,15 @@ void LampAlignment::come_to_rest(Time now) {
     search_for_lost_face(now);
     return;
   }
-  const auto frames = static_cast<std::size_t>(settings_.settle_frames);
-  const auto few = static_cast<std::size_t>(settings_.moved_frames);
-  if (at_rest_.count() == few && settings_.moved.left_by(at_rest_.mean(few), *goal_estimate_)) {
+  const auto frames = static_cast<std::size_t>(parameters_.settle_frames);
+  const auto few = static_cast<std::size_t>(parameters_.moved_frames);
+  if (at_rest_.count() == few && moved_.left_by(at_rest_.mean(few), *goal_estimate_)) {
     align_with(at_rest_.mean(few), phase_, now);
     return;
   }
   if (at_rest_.count() < frames) return;
   const FaceEstimate mean = at_rest_.mean(frames);
-  if (settings_.settled.left_by(mean, *goal_estimate_)) {
+  if (settled_.left_by(mean, *goal_estimate_)) {
     align_with(mean, phase_, now);
   } else {
     phase_ = Phase::holding;
@@ -231,14 +234,14 @@ void LampAlignment::hold(Time now) {
     search_for_lost_face(now);
     return;
   }
-  const auto few = static_cast<std::size_t>(settings_.moved_frames);
+  const auto few = static_cast<std::size_t>(parameters_.moved_frames);
   const FaceEstimate recent = at_rest_.mean(few);
-  if (settings_.moved.left_by(recent, *goal_estimate_)) {
+  if (moved_.left_by(recent, *goal_estimate_)) {
     align_with(*latest_, Phase::following, now);
     return;
   }
-  const FaceEstimate mean = at_rest_.mean(window_of(settings_));
-  if (at_rest_.count() >= window_of(settings_) && settings_.still.left_by(mean, *goal_estimate_)) {
+  const FaceEstimate mean = at_rest_.mean(window_of(parameters_));
+  if (at_rest_.count() >= window_of(parameters_) && still_.left_by(mean, *goal_estimate_)) {
     align_with(mean, Phase::aligning, now);
   }
 }
@@ -249,13 +252,13 @@ void LampAlignment::wait_for_another_face_position(Time now) {
     trouble_.clear();
     return;
   }
-  const bool lost = latest_ && to_seconds(now - latest_->stamp) > settings_.lost_s;
+  const bool lost = latest_ && to_seconds(now - latest_->stamp) > parameters_.lost;
   if (lost && !goals_.stopped()) {
     search_for_lost_face(now);
     return;
   }
-  if (to_seconds(now - goal_set_at_) < settings_.replan_interval_s) return;
-  const auto& elsewhere = goals_.stopped() ? settings_.moved : settings_.settled;
+  if (to_seconds(now - goal_set_at_) < parameters_.replan_interval) return;
+  const auto& elsewhere = goals_.stopped() ? moved_ : settled_;
   if (elsewhere.left_by(*latest_, *goal_estimate_)) {
     const std::string why = trouble_;
     align_with(*latest_, Phase::unreachable, now);
@@ -263,4 +266,4 @@ void LampAlignment::wait_for_another_face_position(Time now) {
   }
 }
 
-}  // namespace armature
+}  // namespace armature::task::lamp_alignment

@@ -9,22 +9,9 @@
 #include "face_estimate.hpp"
 #include "light_control.hpp"
 #include "search_poses.hpp"
+#include "task_lamp_alignment_parameters.hpp"
 
-namespace armature {
-
-struct AlignmentSettings {
-  double distance_m = 0.5;  // of the lamp from the mouth, along the face normal
-  SearchSettings search;
-  int frames_per_view = 2;          // pictures without a face before the search goes on
-  int settle_frames = 10;           // averaged at rest before an alignment is judged
-  FaceBand settled;                 // an average this near to its goal is aligned
-  FaceBand still;                   // while holding, an average within this band changes nothing
-  FaceBand moved;                   // a few frames beyond this band: the patient moved
-  int moved_frames = 3;             // so many
-  double replan_interval_s = 0.25;  // between two goals while the patient moves
-  double lost_s = 2.0;              // without a face at rest: search again
-  LightSettings light;
-};
+namespace armature::task::lamp_alignment {
 
 /// One picture, as the landmark finder saw it.
 struct Picture {
@@ -47,7 +34,8 @@ class LampAlignment {
     unreachable
   };
 
-  explicit LampAlignment(const AlignmentSettings& settings);
+  /// `joint_6_to_lamp` in m: as of search_poses.
+  LampAlignment(const Parameters& parameters, double joint_6_to_lamp);
 
   void see(const Picture& picture, Time now);
   void see(const FaceEstimate& estimate);
@@ -83,7 +71,8 @@ class LampAlignment {
   bool lost(Time now) const;
   bool face_since(Time time) const { return latest_ && latest_->stamp >= time; }
 
-  AlignmentSettings settings_;
+  Parameters parameters_;
+  FaceBand settled_, still_, moved_;
   std::vector<ToolPose> poses_;
   LightControl light_;
   PursuedGoal goals_;
@@ -105,4 +94,4 @@ class LampAlignment {
 /// "checking light", "searching", ...
 const char* to_string(LampAlignment::Phase phase);
 
-}  // namespace armature
+}  // namespace armature::task::lamp_alignment

@@ -3,7 +3,6 @@
 
 #include <string>
 
-#include "armature/config/reader.hpp"
 #include "armature/kinds/setup_robot.hpp"
 #include "armature/kinds/target/target_messages.hpp"
 #include "armature/motion/goal_messages.hpp"
@@ -13,59 +12,18 @@
 #include "armature/runtime/setup.hpp"
 #include "lamp_alignment.hpp"
 
-namespace armature {
+namespace armature::task::lamp_alignment {
 namespace {
 
 constexpr Duration kPeriod = seconds(0.02);
 
-SearchSettings search_settings(const Params& params, const RobotModel& model) {
-  const auto point = params.numbers("search_point_m");
-  SearchSettings search{.joint_6 = {point[0], point[1], point[2]},
-                        .joint_6_to_lamp_m = model.joints().back().a,
-                        .yaw = params.numbers("search_yaw_deg"),
-                        .pitch = params.numbers("search_pitch_deg")};
-  if (search.yaw.empty() || search.pitch.empty()) {
+Parameters parameters_of(const Params& params) {
+  Parameters parameters = Parameters::read(params);
+  if (parameters.search_yaw.empty() || parameters.search_pitch.empty()) {
     params.refuse({"search_yaw_deg", "search_pitch_deg"},
                   "'search_yaw_deg' and 'search_pitch_deg' need at least one angle each");
   }
-  return search;
-}
-
-/// A parameter that must be below another one, in words of the file.
-void check_below(const Params& params, const std::string& lower, const std::string& upper,
-                 const char* else_what) {
-  const double unit = config::si_factor(lower);
-  if (params.number(lower) < params.number(upper)) return;
-  params.refuse({lower, upper}, fmt::format("'{}' is {:g}, not below '{}', which is {:g}: {}",
-                                            lower, params.number(lower) / unit, upper,
-                                            params.number(upper) / unit, else_what));
-}
-
-/// What is a hysteresis must leave something between its ends.
-void check_hystereses(const Params& params) {
-  for (const std::string of : {"position_mm", "angle_deg"}) {
-    check_below(params, "settled_" + of, "replan_" + of, "what is aligned would be aligned again");
-    check_below(params, "replan_" + of, "moved_" + of, "noise would be a patient that moves");
-  }
-  check_below(params, "dark", "bright", "the lamp would never stop changing its light");
-}
-
-AlignmentSettings settings_of(const Params& params, const RobotModel& model) {
-  check_hystereses(params);
-  return {.distance_m = params.number("distance_m"),
-          .search = search_settings(params, model),
-          .frames_per_view = static_cast<int>(params.integer("frames_per_view")),
-          .settle_frames = static_cast<int>(params.integer("settle_frames")),
-          .settled = {params.number("settled_position_mm"), params.number("settled_angle_deg")},
-          .still = {params.number("replan_position_mm"), params.number("replan_angle_deg")},
-          .moved = {params.number("moved_position_mm"), params.number("moved_angle_deg")},
-          .moved_frames = static_cast<int>(params.integer("moved_frames")),
-          .replan_interval_s = params.number("replan_interval_s"),
-          .lost_s = params.number("lost_s"),
-          .light = {.dark = params.number("dark"),
-                    .bright = params.number("bright"),
-                    .step = params.number("light_step"),
-                    .level = params.number("light_level")}};
+  return parameters;
 }
 
 }  // namespace
@@ -74,7 +32,7 @@ class LampAlignmentComponent : public Component {
  public:
   explicit LampAlignmentComponent(Setup& setup)
       : Component(setup),
-        task_{settings_of(setup.params(), robot_of(setup))},
+        task_{parameters_of(setup.params()), robot_of(setup).joints().back().a},
         target_{setup.input<msg::Target>("target")},
         landmarks_{setup.input<msg::FaceLandmarks>("landmarks")},
         motion_status_{setup.input<msg::MotionStatus>("motion_status")},
@@ -163,6 +121,6 @@ class LampAlignmentComponent : public Component {
   std::optional<bool> sent_capture_;
 };
 
-}  // namespace armature
+}  // namespace armature::task::lamp_alignment
 
-ARMATURE_PLUGIN(armature::LampAlignmentComponent);
+ARMATURE_PLUGIN(armature::task::lamp_alignment::LampAlignmentComponent);

@@ -9,7 +9,7 @@
 #include "armature/runtime/component_bench.hpp"
 #include "armature/runtime/test_plugins.hpp"
 
-namespace armature {
+namespace armature::task::lamp_alignment {
 namespace {
 
 using Eigen::Vector3d;
@@ -220,4 +220,4 @@ TEST(LampAlignmentComponent, RefusesHysteresesThatAreNone) {
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::task::lamp_alignment

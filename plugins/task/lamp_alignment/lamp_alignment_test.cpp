@@ -5,20 +5,11 @@
 
 #include <random>
 
-namespace armature {
+namespace armature::task::lamp_alignment {
 namespace {
 
 using Phase = LampAlignment::Phase;
 constexpr double kDegree = std::numbers::pi / 180;
-
-AlignmentSettings settings() {
-  return {.search = {.yaw = {40 * kDegree, 0, -40 * kDegree},
-                     .pitch = {26 * kDegree, 0, -26 * kDegree}},
-          .settled = {0.001, 0.8 * kDegree},
-          .still = {0.003, 2.5 * kDegree},
-          .moved = {0.01, 7 * kDegree},
-          .light = {}};
-}
 
 /// A lamp in a world where every goal takes one second, and a patient who is seen from straight
 /// ahead only, at 10 Hz, with noise.
@@ -92,7 +83,7 @@ class LampAlignmentTest : public testing::Test {
     return {normal(random_), normal(random_), normal(random_)};
   }
 
-  LampAlignment task_{settings()};
+  LampAlignment task_{Parameters{}, 0.08};
   Time now_;
   int ticks_ = 0;
   std::optional<MotionGoal> goal_;
@@ -279,4 +270,4 @@ TEST_F(LampAlignmentTest, RaisesTheLightInADarkRoomBeforeItSearches) {
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::task::lamp_alignment

@@ -6,29 +6,24 @@
 #include <optional>
 
 #include "armature/values/time.hpp"
+#include "task_lamp_alignment_parameters.hpp"
 
-namespace armature {
-
-struct LightSettings {
-  double dark = 70, bright = 200;  // mean grey value, 0..255: the band to be in
-  double step = 0.1;               // of the full level
-  double level = 0;                // at the start
-};
+namespace armature::task::lamp_alignment {
 
 /// Brings the brightness of the picture into a band, one step of the light at a time: each picture
 /// answers for the level before it (Jiang et al. 2021, section 2.3: compensate before measuring).
 class LightControl {
  public:
-  explicit LightControl(const LightSettings& settings)
-      : settings_{settings}, level_{settings.level} {}
+  explicit LightControl(const Parameters& parameters)
+      : parameters_{parameters}, level_{parameters.light_level} {}
 
   /// The new level, or nothing to change: the picture (taken at `stamp`, mean grey `intensity`) is
   /// in the band, is older than the last change, or the light is at its end.
   std::optional<double> update(Time stamp, double intensity, Time now) {
     if (stamp <= last_change_) return std::nullopt;
-    const double wanted = intensity < settings_.dark     ? level_ + settings_.step
-                          : intensity > settings_.bright ? level_ - settings_.step
-                                                         : level_;
+    const double wanted = intensity < parameters_.dark     ? level_ + parameters_.light_step
+                          : intensity > parameters_.bright ? level_ - parameters_.light_step
+                                                           : level_;
     const double next = std::clamp(wanted, 0.0, 1.0);
     if (next == level_) return std::nullopt;
     level_ = next;
@@ -39,14 +34,14 @@ class LightControl {
   /// True when the picture tells about the present level.
   bool answers(Time stamp) const { return stamp > last_change_; }
   bool in_band(double intensity) const {
-    return intensity >= settings_.dark && intensity <= settings_.bright;
+    return intensity >= parameters_.dark && intensity <= parameters_.bright;
   }
   double level() const { return level_; }
 
  private:
-  LightSettings settings_;
+  Parameters parameters_;
   double level_;
   Time last_change_{std::numeric_limits<std::int64_t>::min()};
 };
 
-}  // namespace armature
+}  // namespace armature::task::lamp_alignment

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace armature {
+namespace armature::task::lamp_alignment {
 namespace {
 
 TEST(LightControl, LeavesABrightEnoughPictureAlone) {
@@ -13,7 +13,7 @@ TEST(LightControl, LeavesABrightEnoughPictureAlone) {
 }
 
 TEST(LightControl, RaisesTheLightStepByStepUntilThePictureIsInTheBand) {
-  LightControl light{{.step = 0.25}};
+  LightControl light{{.light_step = 0.25}};
   double level = 0;
   std::int64_t ns = 1;
   for (; ns < 100; ++ns) {
@@ -34,11 +34,11 @@ TEST(LightControl, WaitsForAPictureThatWasTakenAfterTheChange) {
 }
 
 TEST(LightControl, LowersTheLightOfAnOverexposedPictureAndStopsAtItsEnds) {
-  LightControl light{{.step = 0.5, .level = 0.6}};
+  LightControl light{{.light_level = 0.6, .light_step = 0.5}};
   EXPECT_NEAR(*light.update(Time{1}, 250, Time{1}), 0.1, 1e-12);
   EXPECT_EQ(*light.update(Time{2}, 250, Time{2}), 0);
   EXPECT_EQ(light.update(Time{3}, 250, Time{3}), std::nullopt);
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::task::lamp_alignment

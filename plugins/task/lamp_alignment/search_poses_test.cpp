@@ -3,21 +3,17 @@
 
 #include <gtest/gtest.h>
 
-namespace armature {
+namespace armature::task::lamp_alignment {
 namespace {
 
 constexpr double kDeg = std::numbers::pi / 180;
-
-SearchSettings nine() {
-  return {.yaw = {40 * kDeg, 0, -40 * kDeg}, .pitch = {26 * kDeg, 0, -26 * kDeg}};
-}
 
 Eigen::Vector3d direction(const ToolPose& pose) {
   return std::get<Direction>(pose.orientation).unit;
 }
 
 TEST(SearchPoses, AreNineAndTurnAboutJoint6) {
-  const auto poses = search_poses(nine());
+  const auto poses = search_poses({}, 0.08);
   ASSERT_EQ(poses.size(), 9u);
   for (const ToolPose& pose : poses) {
     const Eigen::Vector3d joint_6 = pose.position - 0.08 * direction(pose);
@@ -27,7 +23,7 @@ TEST(SearchPoses, AreNineAndTurnAboutJoint6) {
 }
 
 TEST(SearchPoses, StartWithTheMiddleRowAndTheFirstHeading) {
-  const auto poses = search_poses(nine());
+  const auto poses = search_poses({}, 0.08);
   EXPECT_NEAR(direction(poses[0]).y(), std::sin(40 * kDeg), 1e-12);
   EXPECT_NEAR((direction(poses[1]) - Eigen::Vector3d::UnitX()).norm(), 0, 1e-12);
   EXPECT_NEAR(direction(poses[3]).z(), std::sin(26 * kDeg), 1e-12);
@@ -35,7 +31,7 @@ TEST(SearchPoses, StartWithTheMiddleRowAndTheFirstHeading) {
 }
 
 TEST(SearchPoses, NeighboursInTheListDifferInOneAngleOrOneRow) {
-  const auto poses = search_poses(nine());
+  const auto poses = search_poses({}, 0.08);
   for (std::size_t i = 1; i < poses.size(); ++i) {
     const double turn = std::acos(direction(poses[i]).dot(direction(poses[i - 1])));
     EXPECT_LT(turn, 53 * kDeg) << "between " << i - 1 << " and " << i;
@@ -43,11 +39,11 @@ TEST(SearchPoses, NeighboursInTheListDifferInOneAngleOrOneRow) {
 }
 
 TEST(SearchPoses, TheNearestOneIsFoundByDirection) {
-  const auto poses = search_poses(nine());
+  const auto poses = search_poses({}, 0.08);
   EXPECT_EQ(nearest_pose(poses, Eigen::Vector3d::UnitX()), 1u);
   EXPECT_EQ(nearest_pose(poses, Eigen::Vector3d(1, 0.8, -0.6).normalized()),
             nearest_pose(poses, direction(poses[6])) == 6 && direction(poses[6]).y() > 0 ? 6u : 8u);
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::task::lamp_alignment

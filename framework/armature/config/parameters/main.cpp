@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// armature-parameters PLUGIN_YAML HEADER: what armature_add_plugin runs to make a plugin's
+// `struct Parameters`.
+#include <cstdio>
+#include <exception>
+#include <fstream>
+
+#include "armature/config/document.hpp"
+#include "armature/config/parameters/parameters_struct.hpp"
+
+int main(int argc, char** argv) {
+  if (argc != 3) {
+    std::fputs("usage: armature-parameters plugin.yaml header.hpp\n", stderr);
+    return 2;
+  }
+  try {
+    armature::config::Problems problems;
+    const std::string header =
+        armature::parameters_header(armature::config::parse_file(argv[1]), problems);
+    problems.throw_if_any();
+    std::ofstream file{argv[2]};
+    file << header;
+    if (file.flush()) return 0;
+    std::fprintf(stderr, "cannot write %s\n", argv[2]);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+  }
+  return 1;
+}

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "armature/config/node.hpp"
+#include "armature/config/problems.hpp"
+
+namespace armature {
+
+/// The C++ header of a plugin's `struct Parameters`, made from its plugin.yaml: one member for each
+/// parameter, typed, in SI units and named without its unit, with its `doc` and its default, and a
+/// function that reads them. The struct stands in a namespace of the plugin's id:
+/// `armature::task::lamp_alignment`.
+///
+/// Two parameters that differ in their unit only keep it: `curve_m` and `curve_hz`. A choice
+/// becomes an `enum class`. What cannot be a name in C++ is noted in `problems`.
+std::string parameters_header(const config::Node& manifest, config::Problems& problems);
+
+}  // namespace armature

@@ -88,35 +88,60 @@ void make_absolute(config::Node& file) {
   file.set_text(std::filesystem::absolute(path).lexically_normal().string());
 }
 
-/// The parameters of type file in a component, or in a slot, and in the slots in it. `name`: of the
-/// component.
-void make_params_absolute(config::Node& component, const std::string& name,
-                          const PluginRegistry& plugins) {
+config::Node with_origin(const config::Node& node, const config::Origin& origin) {
+  if (node.kind() != config::Node::Kind::sequence) {
+    return config::Node::scalar(node.text(), node.quoted(), origin);
+  }
+  std::vector<config::Node> items;
+  for (const config::Node& item : node.items()) items.push_back(with_origin(item, origin));
+  return config::Node::sequence(std::move(items), origin);
+}
+
+/// All parameters of the plugin, in its order: those that are not written by their defaults, files
+/// by their whole paths. What another component may say (`same_as`) is left to it.
+config::Node complete_params(const config::Node& written, const PluginManifest& plugin) {
+  const config::Origin by_default{.file = "default of " + plugin.id};
+  std::vector<config::Node::Entry> params;
+  for (const ParamSpec& spec : plugin.params) {
+    const config::Node* value = written.find(spec.name);
+    if (value) {
+      params.push_back({spec.name, value->origin(), *value});
+      if (spec.type == ParamSpec::Type::file) make_absolute(params.back().value);
+    } else if (spec.fallback && spec.same_as.empty()) {
+      params.push_back({spec.name, by_default, with_origin(*spec.fallback, by_default)});
+    }
+  }
+  return config::Node::map(std::move(params), written.origin());
+}
+
+/// The parameters of a component, or of a slot, and of the slots in it. `name`: of the component.
+void complete_all_params(config::Node& component, const std::string& name,
+                         const PluginRegistry& plugins) {
   const config::Node* id = component.find("plugin");
   const PluginManifest* plugin = plugins.find(id ? id->text() : name);
-  for (auto& entry : component.mutable_entries()) {
-    if (entry.key != "params") {
-      if (entry.value.find("plugin")) make_params_absolute(entry.value, entry.key, plugins);
-      continue;
-    }
-    for (auto& param : entry.value.mutable_entries()) {
-      const auto is_file = [&](const ParamSpec& spec) {
-        return spec.name == param.key && spec.type == ParamSpec::Type::file;
-      };
-      if (plugin && std::ranges::any_of(plugin->params, is_file)) make_absolute(param.value);
-    }
+  auto& entries = component.mutable_entries();
+  for (auto& entry : entries) {
+    if (entry.value.find("plugin")) complete_all_params(entry.value, entry.key, plugins);
+  }
+  if (!plugin || plugin->params.empty()) return;
+  const auto params = std::ranges::find(entries, "params", &config::Node::Entry::key);
+  if (params != entries.end()) {
+    params->value = complete_params(params->value, *plugin);
+  } else {
+    const auto none = config::Node::map({}, component.origin());
+    entries.push_back({"params", component.origin(), complete_params(none, *plugin)});
   }
 }
 
-/// The deployment as it can be run from any folder: what it names by a path that is relative to one
-/// of its files it names by the whole path.
-config::Node with_absolute_files(config::Node root, const PluginRegistry& plugins) {
+/// The deployment as it can be run from any folder, with nothing left to defaults: what it names by
+/// a path that is relative to one of its files it names by the whole path.
+config::Node completed(config::Node root, const PluginRegistry& plugins) {
   for (auto& section : root.mutable_entries()) {
     const auto names_section = [&](const auto& known) { return known.first == section.key; };
     const bool of_files = std::ranges::any_of(kDocumentSections, names_section);
     for (auto& entry : section.value.mutable_entries()) {
       if (of_files) make_absolute(entry.value);
-      if (section.key == "components") make_params_absolute(entry.value, entry.key, plugins);
+      if (section.key == "components") complete_all_params(entry.value, entry.key, plugins);
     }
   }
   return root;
@@ -191,7 +216,7 @@ int show_deployment(const DeploymentSource& source) {
   check_is_deployment(root, problems);
   problems.throw_if_any();
   const PluginRegistry plugins;
-  fmt::print("{}", config::to_yaml(with_absolute_files(root, plugins), true));
+  fmt::print("{}", config::to_yaml(completed(root, plugins), true));
   const DeploymentConfig deployment = read_deployment(root, plugins, problems);
   if (problems.empty()) {
     fmt::print("{}{}", on_fault_comment(deployment), leases_comment(deployment));

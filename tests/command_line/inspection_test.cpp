@@ -102,6 +102,17 @@ TEST(Show, GivesEveryValueItsOrigin) {
   EXPECT_NE(result.out.find("dental_lamp.yaml:"), std::string::npos);
 }
 
+TEST(Show, ListsTheDefaultsOfEveryPluginWithTheirOrigin) {
+  const auto result = run_command(
+      {armature(), "show", kLampDeployment, "--set", "components.task.params.settle_frames=7"});
+  EXPECT_THAT(result.out, testing::ContainsRegex("lost_s: 2 +# default of task/lamp_alignment\n"));
+  EXPECT_THAT(result.out,
+              testing::ContainsRegex("search_yaw_deg: \\[40, 0, -40\\] +# default of "));
+  EXPECT_THAT(result.out, testing::ContainsRegex("step_deg: 0.5 +# default of path/mouth_arc\n"))
+      << "in a slot";
+  EXPECT_THAT(result.out, testing::ContainsRegex("settle_frames: 7 +# --set "));
+}
+
 const std::string kBiopsyDeployment = source_file("configs/sr1_biopsy.yaml");
 
 using Row = std::vector<std::string>;

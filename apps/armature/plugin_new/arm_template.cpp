@@ -38,8 +38,9 @@ constexpr std::string_view kArmSource = R"(#include <optional>
 #include "armature/runtime/component.hpp"
 #include "armature/runtime/plugin.hpp"
 #include "armature/runtime/setup.hpp"
-using namespace armature;
+#include "@TARGET@_parameters.hpp"  // made from plugin.yaml
 
+namespace @NAMESPACE@ {
 namespace {
 
 /// Put your arm here: its maker's library, or the bus that it hangs on. No function may wait for
@@ -67,14 +68,14 @@ class @CLASS@ final : public Component {
  public:
   explicit @CLASS@(Setup& setup)
       : Component{setup},
+        parameters_{Parameters::read(setup.params())},
         robot_{robot_of(setup)},
         device_{resting_position(robot_)},
-        watch_{robot_, seconds(setup.params().number("command_timeout_s")),
-               seconds(1 / setup.params().number("rate_hz"))},
+        watch_{robot_, seconds(parameters_.command_timeout), seconds(1 / parameters_.rate)},
         servo_jp_{setup.input<msg::JointState>("servo_jp")},
         measured_js_{setup.output<msg::JointState>("measured_js")},
         operating_state_{setup.output<msg::String>("operating_state")} {
-    setup.activate_every(seconds(1 / setup.params().number("rate_hz")));
+    setup.activate_every(seconds(1 / parameters_.rate));
   }
 
   void step(Time now) override {
@@ -126,6 +127,7 @@ class @CLASS@ final : public Component {
     device_.move(at.q, at.v);
   }
 
+  Parameters parameters_;
   RobotModel robot_;
   Device device_;
   CommandWatch watch_;
@@ -136,7 +138,9 @@ class @CLASS@ final : public Component {
   std::optional<ShortTrajectory> ramp_;
   ReasonText refusal_;
 };
-ARMATURE_PLUGIN(@CLASS@);
+
+}  // namespace @NAMESPACE@
+ARMATURE_PLUGIN(@NAMESPACE@::@CLASS@);
 )";
 
 constexpr std::string_view kArmTest = R"(// The arm on a bench: what it is sent, and what it tells.

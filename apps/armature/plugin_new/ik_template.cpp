@@ -28,13 +28,14 @@ constexpr std::string_view kIkSource = R"(#include <Eigen/Cholesky>
 #include "armature/kinds/ik/ik.hpp"
 #include "armature/robot/task_error.hpp"
 #include "armature/runtime/plugin.hpp"
-using namespace armature;
+#include "@TARGET@_parameters.hpp"  // made from plugin.yaml
 
+namespace @NAMESPACE@ {
 /// Damped least squares from the seed (Wampler 1986; Nakamura and Hanafusa 1986).
 class @CLASS@ final : public IkSolver {
  public:
   @CLASS@(const RobotModel& robot, const Params& params)
-      : robot_{robot}, damping_{params.number("damping")} {}
+      : robot_{robot}, parameters_{Parameters::read(params)} {}
 
   IkStatus solve(const IkGoal& goal, const JointVector& seed, IkBranches& out,
                  IkState&) const override {
@@ -46,22 +47,22 @@ class @CLASS@ final : public IkSolver {
     TaskError e = task_error(robot_, q, goal.pose);
     for (int i = 0; i < goal.max_iterations && !e.within(position_m, angle_rad); ++i) {
       Eigen::Matrix<double, -1, -1, 0, 6, 6> A = e.jacobian.lazyProduct(e.jacobian.transpose());
-      A.diagonal().array() += damping_ * e.error.squaredNorm() + 1e-12;
+      A.diagonal().array() += parameters_.damping * e.error.squaredNorm() + 1e-12;
       q += e.jacobian.transpose().lazyProduct(A.llt().solve(e.error));
       e = task_error(robot_, q, goal.pose);
     }
     if (!e.within(position_m, angle_rad))
       return {IkStatus::Code::no_convergence, e.error.norm(), "the seed leads elsewhere"};
-    out.add() = branch_at(robot_, goal, q, "from_seed");
-    if (out.begin()->within_limits) return {};
-    return {IkStatus::Code::joint_limit, 0, "the solution leaves the joint limits"};
+    const IkBranch& branch = out.add() = branch_at(robot_, goal, q, "from_seed");
+    return branch.within_limits ? IkStatus{} : IkStatus{IkStatus::Code::joint_limit, 0, "leaves the limits"};
   }
 
  private:
   const RobotModel& robot_;
-  double damping_;
+  Parameters parameters_;
 };
-ARMATURE_PLUGIN(@CLASS@);
+}  // namespace @NAMESPACE@
+ARMATURE_PLUGIN(@NAMESPACE@::@CLASS@);
 )";
 
 constexpr std::string_view kIkTest = R"(// Every law of the kind, on the arm in arm.urdf.

@@ -94,6 +94,7 @@ int new_plugin(const std::string& text, const fs::path& directory) {
     replace_all(filled, "@NAME@", id.name);
     replace_all(filled, "@CLASS@", class_name(id.name) + std::string{from.class_ending});
     replace_all(filled, "@TARGET@", id.family + '_' + id.name);
+    replace_all(filled, "@NAMESPACE@", fmt::format("armature::{}::{}", id.family, id.name));
     replace_all(filled, "@PACKAGE@", package_folder().string());
     replace_all(filled, "@CONFIGS@", shipped_robot_folder().parent_path().string());
     return filled;

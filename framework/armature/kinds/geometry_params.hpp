@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -15,25 +16,24 @@ namespace armature {
 // Points and poses that a deployment states as lists of numbers.
 
 /// Of a parameter with `count: 3`.
-inline Eigen::Vector3d vector_of(const Params& params, std::string_view name) {
-  const auto values = params.numbers(name);
+inline Eigen::Vector3d vector_of(const std::array<double, 3>& values) {
   return {values[0], values[1], values[2]};
 }
 
 /// Of two parameters with `count: 3`: the position, and roll, pitch and yaw.
-inline Eigen::Isometry3d pose_of(const Params& params, std::string_view position,
-                                 std::string_view rpy) {
+inline Eigen::Isometry3d pose_of(const std::array<double, 3>& position,
+                                 const std::array<double, 3>& rpy) {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  pose.translation() = vector_of(params, position);
-  pose.linear() = rotation_from_rpy(vector_of(params, rpy));
+  pose.translation() = vector_of(position);
+  pose.linear() = rotation_from_rpy(vector_of(rpy));
   return pose;
 }
 
-/// x, y, z of each. Refuses numbers left over and for fewer than `least`, at least
-/// how many of `what` there must be: "at least three markers".
-inline std::vector<Eigen::Vector3d> points_of(const Params& params, std::string_view name,
+/// x, y, z of each. Refuses numbers left over and for fewer than `least`, at least how many of
+/// `what` there must be: "at least three markers". `name` is that of the parameter in `params`.
+inline std::vector<Eigen::Vector3d> points_of(const std::vector<double>& values,
+                                              const Params& params, std::string_view name,
                                               std::size_t least, std::string_view what) {
-  const auto values = params.numbers(name);
   if (values.size() < 3 * least || values.size() % 3 != 0) {
     params.refuse({name}, "'" + std::string{name} + "' has " + std::to_string(values.size()) +
                               " numbers; three for each of " + std::string{what} + " are needed");

@@ -5,9 +5,10 @@
 
 namespace armature {
 
-RegistrationDialogue::RegistrationDialogue(Setup& setup)
-    : marker_error_m_{setup.params().number("marker_error_mm")},
-      match_tolerance_m_{setup.params().number("match_tolerance_mm")},
+RegistrationDialogue::RegistrationDialogue(Setup& setup, double marker_error,
+                                           double match_tolerance)
+    : marker_error_{marker_error},
+      match_tolerance_{match_tolerance},
       answers_{setup.input<msg::RegistrationResponse>("registration")},
       requests_{setup.output<msg::RegistrationRequest>("request")} {}
 
@@ -26,8 +27,8 @@ void RegistrationDialogue::ask(const Question& question, Time now) {
   loan->image_markers_() = question.image_markers;
   loan->robot_markers_() = question.robot_markers;
   loan->ordered_(false);
-  loan->match_tolerance_(match_tolerance_m_);
-  loan->marker_error_(marker_error_m_);
+  loan->match_tolerance_(match_tolerance_);
+  loan->marker_error_(marker_error_);
   loan->targets_() = question.targets;
   loan.publish();
 }

@@ -23,7 +23,8 @@ class RegistrationDialogue {
     std::vector<msg::Point> image_markers, robot_markers, targets;
   };
 
-  explicit RegistrationDialogue(Setup& setup);
+  /// How well a marker is measured, and how far two distances of the same markers may differ [m].
+  RegistrationDialogue(Setup& setup, double marker_error, double match_tolerance);
 
   /// True when it has not been asked yet, or not been answered in time.
   bool due(Time now) const;
@@ -37,7 +38,7 @@ class RegistrationDialogue {
   }
 
  private:
-  double marker_error_m_, match_tolerance_m_;
+  double marker_error_, match_tolerance_;
   std::optional<std::uint64_t> asked_;
   Time asked_at_;
   Input<msg::RegistrationResponse> answers_;

@@ -15,9 +15,6 @@ constexpr const char* kAsks = R"(
 armature_plugin: 1
 id: test/asks
 kind: component
-params:
-  marker_error_mm: {type: number, default: 0.5}
-  match_tolerance_mm: {type: number, default: 3}
 in:
   registration: {type: armature_msgs/RegistrationResponse, reads: queue(16), doc: "Answers"}
 out:
@@ -34,7 +31,7 @@ in:
 
 class Asks final : public Component {
  public:
-  explicit Asks(Setup& setup) : Component{setup}, dialogue_{setup} {}
+  explicit Asks(Setup& setup) : Component{setup}, dialogue_{setup, 0.0005, 0.003} {}
   void step(Time now) override {
     if (dialogue_.due(now)) dialogue_.ask({.robot_frame = "jaw", .targets = {{}, {}}}, now);
     dialogue_.listen([&](const msg::RegistrationResponse& answer) {

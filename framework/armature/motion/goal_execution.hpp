@@ -33,16 +33,16 @@ struct MeasuredJoints {
 };
 
 struct ExecutionOptions {
-  Duration period = seconds(0.001);       // of `update`: when a tracked target takes over
-  Duration plan_budget = seconds(0.005);  // from the decision to the splice
-  JointBound max_deviation{0.1, 0.05};    // of the arm from the reference
+  Duration period;           // of `update`: when a tracked target takes over
+  Duration plan_budget;      // from the decision to the splice
+  JointBound max_deviation;  // of the arm from the reference
   /// A goal is done when the reference has come to its end and the arm is so near; an arm that is
   /// not within `goal_time` fails it.
-  JointBound goal_tolerance{0.002, 0.0005};
-  JointBound rest_tolerance{0.0001, 0.0001};  // of an arm that rests, around one place
-  Duration goal_time = seconds(1.0);
-  Duration measured_max_age = seconds(0.5);
-  Duration max_lateness = seconds(0.1);  // of `update`; later the driver has stopped the arm
+  JointBound goal_tolerance;
+  JointBound rest_tolerance;  // of an arm that rests, around one place
+  Duration goal_time;
+  Duration measured_max_age;
+  Duration max_lateness;  // of `update`; later the driver has stopped the arm
 };
 
 /// Goals in, one commanded reference out. A planned goal is a request for a plan, which somebody

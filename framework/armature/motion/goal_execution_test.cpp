@@ -258,7 +258,7 @@ TEST_F(GoalExecutionTest, TracksATargetAndStopsWhenItsGoalsCease) {
 
 class SlowToolTest : public GoalExecutionTest {
  protected:
-  SlowToolTest() : GoalExecutionTest{{.max_tool_speed = 0.05}} {}
+  SlowToolTest() : GoalExecutionTest{{.shortest_horizon_s = 0.1, .max_tool_speed = 0.05}} {}
 };
 
 TEST_F(SlowToolTest, ATargetThatCannotBeMetWithinLimitsNowLeavesTheMotionBeforeItToItsEnd) {

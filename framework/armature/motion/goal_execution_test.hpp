@@ -8,6 +8,7 @@
 
 #include "armature/motion/gantry_stages_test.hpp"
 #include "armature/motion/goal_execution.hpp"
+#include "armature/motion/motion_params.hpp"
 
 namespace armature::test {
 
@@ -24,9 +25,9 @@ inline MotionGoal guided(std::uint64_t id) {
 /// An arm that is where the reference is, stepped at 1 kHz.
 class GoalExecutionTest : public testing::Test {
  protected:
-  explicit GoalExecutionTest(const TrackingOptions& tracking = {})
+  explicit GoalExecutionTest(const TrackingOptions& tracking = {.shortest_horizon_s = 0.1})
       : tracker_{gantry_.tracker(tracking)},
-        execution_{gantry_.model, gantry_.limits, {}, &tracker_, "no tracker"} {}
+        execution_{gantry_.model, gantry_.limits, execution_of({}), &tracker_, "no tracker"} {}
   void step_to(double time_s) {
     while (now_ < Time{} + seconds(time_s)) step();
   }

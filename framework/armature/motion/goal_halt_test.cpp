@@ -75,11 +75,8 @@ TEST_F(GoalExecutionTest, AHaltedArmThatLagsComesToWhereItWasToStop) {
 
 TEST_F(GoalExecutionTest, AnArmWithNoisyEncodersRestsWithinItsTolerance) {
   const auto rests = [&](double tolerance_m) {
-    GoalExecution noisy{gantry_.model,
-                        gantry_.limits,
-                        {.rest_tolerance = {0.0001, tolerance_m}},
-                        nullptr,
-                        "no tracker"};
+    GoalExecution noisy{gantry_.model, gantry_.limits,
+                        execution_of({.rest_tolerance_m = tolerance_m}), nullptr, "no tracker"};
     for (int k = 1; k <= 1000; ++k) {
       const double count_m = k % 3 == 0 ? 0.0004 : 0;
       const Time now = Time{} + seconds(0.001 * k);

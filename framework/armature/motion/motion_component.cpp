@@ -55,6 +55,7 @@ msg::MotionPlanRequest request_of(const RobotModel& model) {
 
 Motion::Motion(Setup& setup)
     : Component(setup),
+      parameters_{motion::Parameters::read(setup.params())},
       model_{robot_of(setup)},
       solver_model_{solver_model_of(setup.params(), model_)},
       no_tracker_{unfit_to_track(setup)},
@@ -62,21 +63,22 @@ Motion::Motion(Setup& setup)
       goals_{setup.input<msg::MotionGoal>("goal")},
       plans_{setup.input<msg::MotionPlan>("plan")},
       measured_js_{setup.input<msg::JointState>("measured_js")},
-      stops_{setup},
+      stops_{setup, seconds(parameters_.operator_timeout)},
       plan_request_{setup.output<msg::MotionPlanRequest>("plan_request")},
       servo_jp_{setup.output<msg::JointState>("servo_jp")},
       reference_js_{setup.output<msg::JointState>("reference")},
       status_{setup.output<msg::MotionStatus>("status")},
-      tracker_{ik_ ? std::optional<Tracker>{std::in_place, model_, limits_of(setup, model_), *ik_,
-                                            tracking_of(setup.params(), model_)}
+      tracker_{ik_ ? std::optional<Tracker>{std::in_place, model_,
+                                            limits_of(setup.params(), model_), *ik_,
+                                            tracking_of(parameters_, model_)}
                    : std::nullopt},
-      execution_{model_, limits_of(setup, model_), execution_of(setup.params()),
+      execution_{model_, limits_of(setup.params(), model_), execution_of(parameters_),
                  tracker_ ? &*tracker_ : nullptr, no_tracker_} {
   servo_jp_.prepare(joint_state_of(model_, true));
   reference_js_.prepare(joint_state_of(model_, false));
   status_.prepare(status_with_room());
   plan_request_.prepare(request_of(model_));
-  setup.activate_every(execution_of(setup.params()).period);
+  setup.activate_every(seconds(1 / parameters_.rate));
 }
 
 void Motion::step(Time now) {

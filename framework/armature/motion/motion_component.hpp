@@ -10,6 +10,7 @@
 #include "armature/motion/stop_inputs.hpp"
 #include "armature/runtime/component.hpp"
 #include "armature/runtime/setup.hpp"
+#include "motion_parameters.hpp"
 
 namespace armature {
 
@@ -34,6 +35,7 @@ class Motion final : public Component {
   void publish_reference(Time now);
   void show_health(Time now);
 
+  motion::Parameters parameters_;
   RobotModel model_, solver_model_;
   std::string no_tracker_;  // why targets cannot be tracked
   PluginPtr<IkSolver> ik_;  // for tracking only

@@ -34,9 +34,9 @@ MotionPlanner::MotionPlanner(Setup& setup)
       trajectory_out_{setup.output<msg::QuinticTrajectory>("trajectory")},
       planner_{model_,
                {*path_, *ik_, *select_, *trajectory_},
-               limits_of(setup, model_),
-               planning_of(setup.params())} {
-  setup.deliver_after(seconds(setup.params().number("plan_budget_s") / 2));
+               limits_of(setup.params(), model_),
+               planning_of(motion::Parameters::read(setup.params()))} {
+  setup.deliver_after(seconds(motion::Parameters::read(setup.params()).plan_budget / 2));
 }
 
 void MotionPlanner::step(Time) {

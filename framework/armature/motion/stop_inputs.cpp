@@ -31,7 +31,7 @@ std::string_view find_word(const std::array<std::string_view, 3>& words, std::st
 
 }  // namespace
 
-StopInputs::StopInputs(Setup& setup)
+StopInputs::StopInputs(Setup& setup, Duration operator_timeout)
     : stop_{setup.input_if<msg::Bool, is_true>("stop")},
       rearm_{setup.input_if<msg::Bool, is_true>("rearm")},
       hold_to_run_{setup.input<msg::Bool>("hold_to_run"), setup.is_written("hold_to_run"),
@@ -40,7 +40,7 @@ StopInputs::StopInputs(Setup& setup)
                         setup.is_written("operator_present"), "operator_present",
                         "the operator is not present"},
       operating_state_{setup.input<msg::String>("operating_state")},
-      timeout_{seconds(setup.params().number("operator_timeout_s"))} {}
+      timeout_{operator_timeout} {}
 
 void StopInputs::hear(Enable& enable) {
   if (enable.input.size() == 0) return;

@@ -21,7 +21,8 @@ struct StopCause {
 /// what stopped the arm may be over, and still only an explicit rearm begins again. Real-time safe.
 class StopInputs {
  public:
-  explicit StopInputs(Setup& setup);
+  /// `operator_timeout`: what is silent for longer does not hold.
+  StopInputs(Setup& setup, Duration operator_timeout);
 
   /// Once per activation: why the arm must stop now. Of everything that was told since the one
   /// before: a stop that was over at once is one.

@@ -14,7 +14,7 @@
 namespace armature {
 
 struct TrackingOptions {
-  double shortest_horizon_s = 0.1;
+  double shortest_horizon_s;
   JointVector max_jerk = {};  // [rad/s3] or [m/s3] of each independent joint; empty: any
   double max_tool_speed = std::numeric_limits<double>::infinity();  // [m/s] of the tool's origin
 };

@@ -307,8 +307,9 @@ TEST(Tracking, ATargetThatNoHorizonMeetsCostsFewAttempts) {
   EXPECT_LE(attempts(leaves, kHorizon), 8);
   const MotionGoal stays = goal_at(1, 1, 0, 0);
   // The first attempt tells that the longest horizon is too short.
-  EXPECT_EQ(attempts(stays, {.max_jerk = JointVector::Constant(3, 1e-6)}), 2);
-  EXPECT_LE(attempts(stays, {.max_tool_speed = 1e-3}), 3);
+  EXPECT_EQ(
+      attempts(stays, {.shortest_horizon_s = 0.1, .max_jerk = JointVector::Constant(3, 1e-6)}), 2);
+  EXPECT_LE(attempts(stays, {.shortest_horizon_s = 0.1, .max_tool_speed = 1e-3}), 3);
 }
 
 TEST(Tracking, ATargetThatIsTooFastIsFollowedWithOneAttemptACall) {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace armature {
+namespace armature::arm::simulated {
 namespace {
 
 constexpr double kRounding = 1e-9;
@@ -23,9 +23,10 @@ double stopping_velocity(double distance, double a_limit, double dt) {
 
 }  // namespace
 
-SimulatedArm::SimulatedArm(const RobotModel& model, const Options& options, const JointVector& q)
+SimulatedArm::SimulatedArm(const RobotModel& model, const Parameters& parameters,
+                           const JointVector& q)
     : model_{model},
-      options_{options},
+      parameters_{parameters},
       q_{q},
       v_{JointVector::Zero(q.size())},
       executed_v_{v_},
@@ -33,7 +34,7 @@ SimulatedArm::SimulatedArm(const RobotModel& model, const Options& options, cons
       measured_v_{v_} {}
 
 double SimulatedArm::elapsed(Time now) {
-  const double dt = last_ ? to_seconds(now - *last_) : options_.period_s;
+  const double dt = last_ ? to_seconds(now - *last_) : 1 / parameters_.rate;
   if (dt <= 0) return 0;
   last_ = now;
   excess_.reset();
@@ -86,8 +87,8 @@ void SimulatedArm::brake(Time now) {
 void SimulatedArm::follow(const ServoCommand& command, Time now, double dt) {
   // Two clocks may tick on their own: what was commanded a moment ago is carried on to now.
   const double old_s = to_seconds(now - command.stamp);
-  const double age_s = std::clamp(old_s, 0.0, options_.command_timeout_s);
-  const bool carried_to_now = old_s <= options_.command_timeout_s;
+  const double age_s = std::clamp(old_s, 0.0, parameters_.command_timeout);
+  const bool carried_to_now = old_s <= parameters_.command_timeout;
   for (int i = 0; i < model_.dof(); ++i) {
     const auto joint = static_cast<std::size_t>(i);
     const Step wanted{.q = command.q[i] + command.v[i] * age_s,
@@ -131,7 +132,7 @@ double SimulatedArm::velocity(int joint, const Step& wanted) const {
 
 std::optional<LimitExcess> SimulatedArm::jump(int joint, const Step& wanted) const {
   const double v = velocity(joint, wanted);
-  const double window = wanted.in_step ? wanted.dt : wanted.dt + options_.period_s;
+  const double window = wanted.in_step ? wanted.dt : wanted.dt + 1 / parameters_.rate;
   if (auto found = sudden(joint, v - executed_v_[joint], window)) return found;
   if (wanted.in_step) return std::nullopt;
   return displaced(joint, wanted.q - q_[joint] - 0.5 * (executed_v_[joint] + v) * wanted.dt,
@@ -144,7 +145,7 @@ std::optional<LimitExcess> SimulatedArm::jump_in_stream(int joint,
   const double apart = to_seconds(command.stamp - last.stamp);
   if (apart == 0) return std::nullopt;
   const double v = command.v[joint], v_last = last.v[joint];
-  const double window = apart + options_.period_s;
+  const double window = apart + 1 / parameters_.rate;
   if (auto found = sudden(joint, v - v_last, window)) return found;
   return displaced(joint, command.q[joint] - last.q[joint] - 0.5 * (v + v_last) * apart, window);
 }
@@ -187,14 +188,14 @@ void SimulatedArm::advance(int joint, double v, double dt) {
 }
 
 void SimulatedArm::measure(double dt) {
-  if (options_.lag_s <= 0) {
+  if (parameters_.lag <= 0) {
     measured_ = q_;
     measured_v_ = v_;
     return;
   }
-  const double share = 1 - std::exp(-dt / options_.lag_s);
+  const double share = 1 - std::exp(-dt / parameters_.lag);
   measured_v_ = (q_ - measured_) * (share / dt);
   measured_ += (q_ - measured_) * share;
 }
 
-}  // namespace armature
+}  // namespace armature::arm::simulated

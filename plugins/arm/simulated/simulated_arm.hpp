@@ -5,11 +5,12 @@
 #include <cstddef>
 #include <optional>
 
+#include "arm_simulated_parameters.hpp"
 #include "armature/kinds/servo_command.hpp"
 #include "armature/robot/robot_model.hpp"
 #include "armature/values/time.hpp"
 
-namespace armature {
+namespace armature::arm::simulated {
 
 /// What a command asked for beyond the limits of a joint.
 struct LimitExcess {
@@ -24,14 +25,8 @@ struct LimitExcess {
 /// position limits. Real-time safe after construction.
 class SimulatedArm {
  public:
-  struct Options {
-    double period_s = 0.001;
-    double lag_s = 0;
-    double command_timeout_s = 0.1;  // a command is carried on to now for so long at most
-  };
-
   /// Starts at rest at `q`. The model outlives the arm.
-  SimulatedArm(const RobotModel& model, const Options& options, const JointVector& q);
+  SimulatedArm(const RobotModel& model, const Parameters& parameters, const JointVector& q);
 
   /// Moves on to `now`; `command` is the newest one. Without one it ramps down within its limits
   /// and holds.
@@ -76,7 +71,7 @@ class SimulatedArm {
   void measure(double dt);
 
   const RobotModel& model_;
-  Options options_;
+  Parameters parameters_;
   JointVector q_, v_;
   JointVector executed_v_;  // of the last step, what limits are kept against
   JointVector measured_, measured_v_;
@@ -87,4 +82,4 @@ class SimulatedArm {
   std::optional<LimitExcess> excess_;
 };
 
-}  // namespace armature
+}  // namespace armature::arm::simulated

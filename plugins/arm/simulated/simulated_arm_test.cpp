@@ -9,7 +9,7 @@
 
 #include "armature/robot/quintic.hpp"
 
-namespace armature {
+namespace armature::arm::simulated {
 namespace {
 
 RobotModel one_joint() {
@@ -151,7 +151,7 @@ TEST_F(SimulatedArmTest, BrakesWithinItsLimitsWithTheSetPointWhereItIs) {
 
 TEST(SimulatedArm, BrakesFromWhereItIsAndNotFromItsSetPointWhereItLags) {
   const RobotModel model = one_joint();
-  SimulatedArm arm{model, {.lag_s = 0.02}, value(0)};
+  SimulatedArm arm{model, {.lag = 0.02}, value(0)};
   Time now;
   for (int k = 1; k <= 600; ++k) {
     now = now + seconds(0.001);
@@ -166,7 +166,7 @@ TEST(SimulatedArm, BrakesFromWhereItIsAndNotFromItsSetPointWhereItLags) {
 
 TEST(SimulatedArm, CarriesACommandOnForNoLongerThanItsTimeout) {
   const RobotModel model = one_joint();
-  SimulatedArm arm{model, {.command_timeout_s = 0.1}, value(0)};
+  SimulatedArm arm{model, {.command_timeout = 0.1}, value(0)};
   const auto at = [](double t) { return Time{} + seconds(t); };
   arm.step(at(0.001), ServoCommand{at(0.001), value(0), value(0)});
   arm.step(at(0.101), ServoCommand{at(0.101), value(0.02), value(0.4)});
@@ -237,7 +237,7 @@ TEST(SimulatedArm, RefusesAJumpInACommandStreamThatIsSampledAtOtherInstants) {
 
 TEST(SimulatedArm, MeasuresWithAFirstOrderLag) {
   const RobotModel model = one_joint();
-  SimulatedArm arm{model, {.lag_s = 0.02}, value(0)};
+  SimulatedArm arm{model, {.lag = 0.02}, value(0)};
   Time now;
   for (int k = 1; k <= 600; ++k) {
     now = now + seconds(0.001);
@@ -248,4 +248,4 @@ TEST(SimulatedArm, MeasuresWithAFirstOrderLag) {
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::arm::simulated

@@ -17,18 +17,12 @@
 #include "armature/runtime/setup.hpp"
 #include "simulated_arm.hpp"
 
-namespace armature {
+namespace armature::arm::simulated {
 namespace {
 
 constexpr Duration kStatePeriod = seconds(0.1);
 constexpr Duration kCalm = seconds(0.1);  // without trouble: it is over
 const ReasonText kNoPower{"its drives have no power"};
-
-SimulatedArm::Options options_of(const Params& params) {
-  return {.period_s = 1 / params.number("rate_hz"),
-          .lag_s = params.number("lag_s"),
-          .command_timeout_s = params.number("command_timeout_s")};
-}
 
 JointVector home_of(const RobotModel& model) {
   if (!model.home()) throw SetupError("robot " + model.name() + " names no home_deg to start from");
@@ -56,9 +50,10 @@ class SimulatedArmComponent : public Component {
   explicit SimulatedArmComponent(Setup& setup)
       : Component(setup),
         model_{robot_of(setup)},
-        arm_{model_, options_of(setup.params()), home_of(model_)},
-        timeout_{seconds(setup.params().number("command_timeout_s"))},
-        watch_{model_, timeout_, seconds(1 / setup.params().number("rate_hz"))},
+        parameters_{Parameters::read(setup.params())},
+        arm_{model_, parameters_, home_of(model_)},
+        timeout_{seconds(parameters_.command_timeout)},
+        watch_{model_, timeout_, seconds(1 / parameters_.rate)},
         servo_{.input = setup.input<msg::JointState>("servo_jp"), .what = "a command"},
         hand_{.input = setup.input<msg::JointState>("hand_js"), .what = "a hand"},
         power_{setup.input<msg::Bool>("power")},
@@ -70,7 +65,7 @@ class SimulatedArmComponent : public Component {
     write_all_joints(model_, arm_.measured(), arm_.measured_velocity(), {}, message);
     measured_js_.prepare(message);
     setpoint_js_.prepare(message);
-    setup.activate_every(seconds(1 / setup.params().number("rate_hz")));
+    setup.activate_every(seconds(1 / parameters_.rate));
   }
 
   void step(Time now) override {
@@ -178,6 +173,7 @@ class SimulatedArmComponent : public Component {
   }
 
   RobotModel model_;
+  Parameters parameters_;
   SimulatedArm arm_;
   Duration timeout_;  // a hand that is silent for so long has let go
   CommandWatch watch_;
@@ -195,6 +191,6 @@ class SimulatedArmComponent : public Component {
   Time last_state_;
 };
 
-}  // namespace armature
+}  // namespace armature::arm::simulated
 
-ARMATURE_PLUGIN(armature::SimulatedArmComponent);
+ARMATURE_PLUGIN(armature::arm::simulated::SimulatedArmComponent);

@@ -11,7 +11,7 @@
 #include "armature/runtime/component_bench.hpp"
 #include "armature/runtime/test_plugins.hpp"
 
-namespace armature {
+namespace armature::arm::simulated {
 namespace {
 
 constexpr double kPeriod_s = 0.001;
@@ -356,4 +356,4 @@ TEST(SimulatedArmComponent, DoesNotStartWithARobotThatNamesNoHome) {
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::arm::simulated

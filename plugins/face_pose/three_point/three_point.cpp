@@ -12,7 +12,7 @@
 
 #include "armature/runtime/plugin.hpp"
 
-namespace armature {
+namespace armature::face_pose::three_point {
 namespace {
 
 // iBUG 300-W, 0-based. The paper counts from 1: 37-42, 43-48 and 61, 63, 65, 67.
@@ -32,25 +32,7 @@ Eigen::Vector2d mean(const FaceLandmarks& landmarks, std::span<const int> indice
 }  // namespace
 
 Expected<std::unique_ptr<FacePoseEstimator>> ThreePoint::make(const Params& params) {
-  const Settings settings{.landmark_sigma_px = params.number("landmark_sigma_px"),
-                          .nearest_m = params.number("nearest_m"),
-                          .farthest_m = params.number("farthest_m"),
-                          .most_row_mismatch_px = params.number("most_row_mismatch_px"),
-                          .least_eye_distance_m = params.number("least_eye_distance_mm"),
-                          .most_eye_distance_m = params.number("most_eye_distance_mm")};
-  if (settings.nearest_m >= settings.farthest_m) {
-    params.refuse({"nearest_m", "farthest_m"},
-                  fmt::format("'nearest_m' is {:g} and 'farthest_m' is {:g}: no face would be seen",
-                              settings.nearest_m, settings.farthest_m));
-  }
-  if (settings.least_eye_distance_m >= settings.most_eye_distance_m) {
-    params.refuse(
-        {"least_eye_distance_mm", "most_eye_distance_mm"},
-        fmt::format("'least_eye_distance_mm' is {:g} and 'most_eye_distance_mm' is {:g}: "
-                    "no eyes would do",
-                    1e3 * settings.least_eye_distance_m, 1e3 * settings.most_eye_distance_m));
-  }
-  return std::make_unique<ThreePoint>(settings);
+  return std::make_unique<ThreePoint>(Parameters::read(params));
 }
 
 Expected<Eigen::Vector3d> ThreePoint::triangulate(const char* feature, const StereoCamera& camera,
@@ -60,9 +42,9 @@ Expected<Eigen::Vector3d> ThreePoint::triangulate(const char* feature, const Ste
     return refuse(fmt::format("the {} has no finite pixel", feature));
   }
   const double rows = std::abs(left.y() - right.y());
-  if (rows > settings_.most_row_mismatch_px) {
+  if (rows > parameters_.most_row_mismatch) {
     return refuse(fmt::format("the {} differs by {:.1f} rows between the images, more than {:.1f}",
-                              feature, rows, settings_.most_row_mismatch_px));
+                              feature, rows, parameters_.most_row_mismatch));
   }
   const double disparity = left.x() - right.x();
   if (disparity <= 0) {
@@ -70,9 +52,9 @@ Expected<Eigen::Vector3d> ThreePoint::triangulate(const char* feature, const Ste
         fmt::format("the {} has a disparity of {:.2f} px, not a positive one", feature, disparity));
   }
   const Eigen::Vector3d point = camera.triangulate(left, right);
-  if (point.z() < settings_.nearest_m || point.z() > settings_.farthest_m) {
+  if (point.z() < parameters_.nearest || point.z() > parameters_.farthest) {
     return refuse(fmt::format("the {} would be {:.3f} m away, outside {} to {} m", feature,
-                              point.z(), settings_.nearest_m, settings_.farthest_m));
+                              point.z(), parameters_.nearest, parameters_.farthest));
   }
   return point;
 }
@@ -89,11 +71,11 @@ Expected<FacePose> ThreePoint::estimate(const FacePoseInput& input) {
   if (!mouth) return tl::unexpected{mouth.error()};
 
   const double eye_distance = (*right_eye - *left_eye).norm();
-  if (eye_distance < settings_.least_eye_distance_m ||
-      eye_distance > settings_.most_eye_distance_m) {
+  if (eye_distance < parameters_.least_eye_distance ||
+      eye_distance > parameters_.most_eye_distance) {
     return refuse(fmt::format("the eyes would be {:.1f} mm apart, outside {:.0f} to {:.0f} mm",
-                              eye_distance * 1e3, settings_.least_eye_distance_m * 1e3,
-                              settings_.most_eye_distance_m * 1e3));
+                              eye_distance * 1e3, parameters_.least_eye_distance * 1e3,
+                              parameters_.most_eye_distance * 1e3));
   }
 
   // (14) is a cross product; this order points out of the face.
@@ -108,7 +90,7 @@ Expected<FacePose> ThreePoint::estimate(const FacePoseInput& input) {
 
   // dz = z^2 / (f b) dd, and the disparity of two independent features has sqrt(2) of their sigma.
   // The normal turns by the depth error over the lever between eyes and mouth.
-  const double depth_sigma = std::numbers::sqrt2 * settings_.landmark_sigma_px * mouth->z() *
+  const double depth_sigma = std::numbers::sqrt2 * parameters_.landmark_sigma * mouth->z() *
                              mouth->z() / (input.camera.focal_px * input.camera.baseline_m);
   const double lever = double_area / eye_distance;
   return FacePose{.left_eye = *left_eye,
@@ -120,6 +102,6 @@ Expected<FacePose> ThreePoint::estimate(const FacePoseInput& input) {
                                                                std::sqrt(1.5) / lever)};
 }
 
-}  // namespace armature
+}  // namespace armature::face_pose::three_point
 
-ARMATURE_PLUGIN(armature::ThreePoint);
+ARMATURE_PLUGIN(armature::face_pose::three_point::ThreePoint);

@@ -4,21 +4,15 @@
 #include <memory>
 
 #include "armature/kinds/face_pose/face_pose.hpp"
+#include "face_pose_three_point_parameters.hpp"
 
-namespace armature {
+namespace armature::face_pose::three_point {
 
 /// Face pose from three triangulated features: both eye centres and the mouth (Jiang et al. 2021,
 /// section 2; see README).
 class ThreePoint final : public FacePoseEstimator {
  public:
-  struct Settings {
-    double landmark_sigma_px = 0.3;          // of one feature in one image
-    double nearest_m = 0.2, farthest_m = 2;  // depth that is believed
-    double most_row_mismatch_px = 6;
-    double least_eye_distance_m = 0.03, most_eye_distance_m = 0.15;
-  };
-
-  explicit ThreePoint(const Settings& settings) : settings_{settings} {}
+  explicit ThreePoint(const Parameters& parameters) : parameters_{parameters} {}
   static Expected<std::unique_ptr<FacePoseEstimator>> make(const Params& params);
 
   Expected<FacePose> estimate(const FacePoseInput& input) override;
@@ -28,7 +22,7 @@ class ThreePoint final : public FacePoseEstimator {
                                         const Eigen::Vector2d& left,
                                         const Eigen::Vector2d& right) const;
 
-  Settings settings_;
+  Parameters parameters_;
 };
 
-}  // namespace armature
+}  // namespace armature::face_pose::three_point

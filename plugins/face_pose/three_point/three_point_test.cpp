@@ -14,11 +14,11 @@
 #include "armature/kinds/declared_params.hpp"
 #include "armature/kinds/face_pose/contract.hpp"
 
-namespace armature {
+namespace armature::face_pose::three_point {
 
 INSTANTIATE_TEST_SUITE_P(ThreePoint, FacePoseLaws,
                          testing::Values(FacePoseSubject{
-                             "default", std::make_shared<ThreePoint>(ThreePoint::Settings{})}));
+                             "default", std::make_shared<ThreePoint>(Parameters{})}));
 
 namespace {
 
@@ -91,7 +91,7 @@ TEST(ThreePoint, GivesThePapersCoordinatesAndNormal) {
 
 TEST(ThreePoint, StatesTheUncertaintyThatNoiseProduces) {
   for (const StereoCamera& camera : {kDefault, kPaper}) {
-    ThreePoint estimator{{.landmark_sigma_px = 0.1}};
+    ThreePoint estimator{{.landmark_sigma = 0.1}};
     std::mt19937_64 random{99};
     std::normal_distribution<double> noise{0, 0.1};
     const auto pose = placed({0, 0, 0.5}, 0, 0);
@@ -177,12 +177,13 @@ TEST(ThreePointParams, RefuseLimitsThatExcludeEachOther) {
     return std::string{};
   };
   EXPECT_EQ(refusal("{nearest_m: 0.3, farthest_m: 0.5}"), "");
-  EXPECT_EQ(refusal("nearest_m: 3"),
-            "given:1:12: 'nearest_m' is 3 and 'farthest_m' is 2: no face would be seen");
+  EXPECT_EQ(
+      refusal("nearest_m: 3"),
+      "given:1:12: 'nearest_m' is 3, not below 'farthest_m', which is 2: no face would be seen");
   EXPECT_EQ(refusal("most_eye_distance_mm: 20"),
-            "given:1:23: 'least_eye_distance_mm' is 30 and 'most_eye_distance_mm' is 20: no eyes "
-            "would do");
+            "given:1:23: 'least_eye_distance_mm' is 30, not below 'most_eye_distance_mm', which is "
+            "20: no eyes would do");
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::face_pose::three_point

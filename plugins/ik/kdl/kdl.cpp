@@ -8,7 +8,8 @@
 #include "armature/robot/axis_steps.hpp"
 #include "armature/robot/task_error.hpp"
 #include "armature/runtime/plugin.hpp"
-using namespace armature;
+#include "ik_kdl_parameters.hpp"
+namespace armature::ik::kdl {
 
 KDL::Frame frame_of(const Eigen::Isometry3d& T) {
   const KDL::Vector x{T(0, 0), T(1, 0), T(2, 0)}, y{T(0, 1), T(1, 1), T(2, 1)};
@@ -33,10 +34,10 @@ struct Kdl final : IkSolver {
     if (model.pointing_axis()) return refuse("KDL solves for rotations, not for directions");
     if (model.frame(model.tool()).parent_joint + 1 < model.joint_count())
       return refuse("its tool must hang on the last joint");
-    return std::make_unique<Kdl>(model, params);
+    return std::make_unique<Kdl>(model, Parameters::read(params));
   }
-  Kdl(const RobotModel& robot, const Params& params)
-      : model{robot}, chain{chain_of(robot)}, lma{params.text("method") == "lma"} {}
+  Kdl(const RobotModel& robot, const Parameters& parameters)
+      : model{robot}, chain{chain_of(robot)}, lma{parameters.method == Parameters::Method::lma} {}
 
   IkStatus solve(const IkGoal& goal, const JointVector& seed, IkBranches& out,
                  IkState&) const override {
@@ -76,4 +77,5 @@ struct Kdl final : IkSolver {
   const KDL::Chain chain;
   const bool lma;
 };
-ARMATURE_PLUGIN(Kdl);
+}  // namespace armature::ik::kdl
+ARMATURE_PLUGIN(armature::ik::kdl::Kdl);

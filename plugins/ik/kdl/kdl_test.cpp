@@ -13,7 +13,7 @@
 #include "armature/robot/test_robots.hpp"
 #include "armature/robot/urdf_robot.hpp"
 
-namespace armature {
+namespace armature::ik::kdl {
 namespace {
 
 using ModelPtr = std::shared_ptr<const RobotModel>;
@@ -111,4 +111,4 @@ TEST(Kdl, SolvesForEveryToleranceThatIsAskedFor) {
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::ik::kdl

@@ -12,13 +12,13 @@
 #define ARMATURE_AVX
 #include "descent_body.hpp"
 
-namespace armature::descent {
+namespace armature::ik::numeric::descent {
 
 const Kernel& avx2_kernel() {
   static constexpr Kernel kernel{descend_any, measure_any};
   return kernel;
 }
 
-}  // namespace armature::descent
+}  // namespace armature::ik::numeric::descent
 #pragma GCC pop_options
 #endif

@@ -8,7 +8,7 @@
 
 #include "armature/robot/axis_steps.hpp"
 
-namespace armature::descent {
+namespace armature::ik::numeric::descent {
 namespace {
 
 Lanes lanes(const Eigen::Vector3d& v) { return Lanes{v.x(), v.y(), v.z(), 0}; }
@@ -72,4 +72,4 @@ const Kernel& kernel() {
   return portable_kernel();
 }
 
-}  // namespace armature::descent
+}  // namespace armature::ik::numeric::descent

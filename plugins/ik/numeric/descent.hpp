@@ -10,7 +10,7 @@
 // How vectors are passed differs between processors; here they only ever are inside one file.
 #pragma GCC diagnostic ignored "-Wpsabi"
 
-namespace armature::descent {
+namespace armature::ik::numeric::descent {
 
 /// Four doubles that the processor works on at once; vectors of space leave the last one zero.
 using Lanes = double __attribute__((vector_size(32)));
@@ -72,4 +72,4 @@ const Kernel& avx2_kernel();
 /// The one that this processor runs fastest.
 const Kernel& kernel();
 
-}  // namespace armature::descent
+}  // namespace armature::ik::numeric::descent

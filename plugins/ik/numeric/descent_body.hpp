@@ -10,7 +10,7 @@
 #include "lanes.hpp"
 #include "walk.hpp"
 
-namespace armature::descent {
+namespace armature::ik::numeric::descent {
 namespace {
 
 // Levenberg-Marquardt: the damping falls with the error, below kNear with its square, so that the
@@ -227,4 +227,4 @@ double measure_any(const Chain& chain, const Goal& goal, const double* q) {
 }
 
 }  // namespace
-}  // namespace armature::descent
+}  // namespace armature::ik::numeric::descent

@@ -7,7 +7,7 @@
 
 #include "armature/robot/kinematics.hpp"
 
-namespace armature::descent {
+namespace armature::ik::numeric::descent {
 namespace {
 
 class KernelTest : public testing::TestWithParam<const Kernel*> {
@@ -95,4 +95,4 @@ INSTANTIATE_TEST_SUITE_P(Compiled, KernelTest, testing::Values(&portable_kernel(
                          });
 
 }  // namespace
-}  // namespace armature::descent
+}  // namespace armature::ik::numeric::descent

@@ -7,7 +7,7 @@
 #include "armature/robot/kinematics.hpp"
 #include "armature/robot/singular_values.hpp"
 
-namespace armature {
+namespace armature::ik::numeric {
 namespace {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
@@ -94,4 +94,4 @@ std::optional<JointVector> fold_step(const RobotModel& model, const IkGoal& goal
   return JointVector{step / std::max(1.0, step.cwiseAbs().maxCoeff() / kLongest)};
 }
 
-}  // namespace armature
+}  // namespace armature::ik::numeric

@@ -6,7 +6,7 @@
 #include "armature/kinds/ik/ik.hpp"
 #include "descent.hpp"
 
-namespace armature {
+namespace armature::ik::numeric {
 
 /// At the rim of what an arm reaches the tool hardly moves in one direction, and the little that it
 /// does is a quadratic function of the joints that are left: a fold, which has its solution at, or
@@ -16,4 +16,4 @@ namespace armature {
 std::optional<JointVector> fold_step(const RobotModel& model, const IkGoal& goal,
                                      descent::JointSet fixed, const JointVector& q);
 
-}  // namespace armature
+}  // namespace armature::ik::numeric

@@ -10,7 +10,7 @@
 
 #include "armature/robot/kinematics.hpp"
 
-namespace armature {
+namespace armature::ik::numeric {
 namespace {
 
 /// A shoulder of three turns, an elbow and a wrist of three, as an arm has them.
@@ -89,4 +89,4 @@ TEST(FoldStep, IsNoneForAnArmWithFewerJointsThanTheGoalHasRows) {
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::ik::numeric

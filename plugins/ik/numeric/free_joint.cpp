@@ -5,7 +5,7 @@
 
 #include "armature/robot/kinematics.hpp"
 
-namespace armature {
+namespace armature::ik::numeric {
 namespace {
 
 constexpr double kAlong = 1e-9;
@@ -32,4 +32,4 @@ std::optional<FreeJoint> free_joint_of(const RobotModel& model) {
   return FreeJoint{last, slides};
 }
 
-}  // namespace armature
+}  // namespace armature::ik::numeric

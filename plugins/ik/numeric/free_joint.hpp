@@ -5,7 +5,7 @@
 
 #include "armature/robot/robot_model.hpp"
 
-namespace armature {
+namespace armature::ik::numeric {
 
 /// The last joint, if it slides the tool along the pointing axis or turns it about that: what a
 /// pointing goal leaves free is its value, as ik/puma_algebraic has it.
@@ -15,4 +15,4 @@ struct FreeJoint {
 };
 std::optional<FreeJoint> free_joint_of(const RobotModel& model);
 
-}  // namespace armature
+}  // namespace armature::ik::numeric

@@ -6,7 +6,7 @@
 #include "armature/kinds/ik/lanes.hpp"
 #include "descent.hpp"
 
-namespace armature::descent {
+namespace armature::ik::numeric::descent {
 namespace {
 
 inline double dot(const Lanes& a, const Lanes& b) {
@@ -22,4 +22,4 @@ inline Lanes cross(const Lanes& a, const Lanes& b) {
 }
 
 }  // namespace
-}  // namespace armature::descent
+}  // namespace armature::ik::numeric::descent

@@ -11,7 +11,7 @@
 #include "armature/runtime/plugin.hpp"
 #include "fold.hpp"
 
-namespace armature {
+namespace armature::ik::numeric {
 namespace {
 
 constexpr double kSame = 1e-6;            // [rad] or [m]: two solutions are one
@@ -58,16 +58,9 @@ bool is_among(const RobotModel& model, const IkBranches& known, const JointVecto
 
 }  // namespace
 
-Expected<std::unique_ptr<IkSolver>> Numeric::make(const RobotModel& model, const Params& params) {
-  return std::unique_ptr<IkSolver>{new Numeric{model,
-                                               static_cast<int>(params.integer("max_restarts")),
-                                               static_cast<int>(params.integer("candidates"))}};
-}
-
-Numeric::Numeric(const RobotModel& model, int max_restarts, int candidates)
+Numeric::Numeric(const RobotModel& model, const Parameters& parameters)
     : model_{&model},
-      max_restarts_{max_restarts},
-      candidates_{candidates},
+      parameters_{parameters},
       chain_{descent::chain_of(model)},
       reach_{model, chain_},
       free_joint_{free_joint_of(model)},
@@ -76,14 +69,15 @@ Numeric::Numeric(const RobotModel& model, int max_restarts, int candidates)
   for (int i = 0; i < model.dof(); ++i) {
     if (turns_freely(model, i)) turning_ |= descent::JointSet{1} << i;
   }
-  for (int i = 0; i < max_restarts * candidates; ++i) samples_.push_back(halton(model, i + 1));
+  const int samples = parameters.max_restarts * parameters.candidates;
+  for (int i = 1; i <= samples; ++i) samples_.push_back(halton(model, i));
 }
 
 const JointVector& Numeric::best_sample(const descent::Goal& goal, int restart) const {
   const JointVector* best = nullptr;
   double least = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < candidates_; ++i) {
-    const auto& sample = samples_[static_cast<std::size_t>(restart * candidates_ + i)];
+  for (int i = 0; i < parameters_.candidates; ++i) {
+    const auto& sample = samples_[static_cast<std::size_t>(restart * parameters_.candidates + i)];
     const double error = kernel_.measure(chain_, goal, sample.data());
     if (!best || error < least) best = &sample, least = error;
   }
@@ -227,7 +221,7 @@ IkStatus Numeric::solve(const IkGoal& goal, const JointVector& seed, IkBranches&
   const Task task = task_of(goal);
   int budget = goal.max_iterations;
   double least = std::numeric_limits<double>::infinity();
-  for (int start = 0; start <= max_restarts_ && budget > 0; ++start) {
+  for (int start = 0; start <= parameters_.max_restarts && budget > 0; ++start) {
     descent::End end = started(task, start, start == 0 ? seed : best_sample(task.goal, start - 1));
     kernel_.descend(chain_, task.goal, budget, end);
     for (int i = 0; i < kJumps && !end.reached && jump(end); ++i) {
@@ -246,6 +240,6 @@ IkStatus Numeric::solve(const IkGoal& goal, const JointVector& seed, IkBranches&
   return {IkStatus::Code::no_convergence, least, "no start led to the goal"};
 }
 
-}  // namespace armature
+}  // namespace armature::ik::numeric
 
-ARMATURE_PLUGIN(armature::Numeric);
+ARMATURE_PLUGIN(armature::ik::numeric::Numeric);

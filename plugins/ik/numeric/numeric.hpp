@@ -9,15 +9,18 @@
 #include "armature/kinds/ik/ik.hpp"
 #include "descent.hpp"
 #include "free_joint.hpp"
+#include "ik_numeric_parameters.hpp"
 #include "reach.hpp"
 
-namespace armature {
+namespace armature::ik::numeric {
 
 /// Iterative inverse kinematics of any arm: damped least squares from the seed, then from samples
 /// of the joint space.
 class Numeric final : public IkSolver {
  public:
-  static Expected<std::unique_ptr<IkSolver>> make(const RobotModel& model, const Params& params);
+  Numeric(const RobotModel& model, const Parameters& parameters);
+  Numeric(const RobotModel& model, const Params& params)
+      : Numeric{model, Parameters::read(params)} {}
 
   IkStatus solve(const IkGoal& goal, const JointVector& seed, IkBranches& out,
                  IkState& state) const override;
@@ -33,7 +36,6 @@ class Numeric final : public IkSolver {
     int spare = 0;  // joints more than are needed
   };
 
-  Numeric(const RobotModel& model, int max_restarts, int candidates);
   const JointVector& best_sample(const descent::Goal& goal, int restart) const;
   /// nullptr, or why the redundancy that is asked for cannot be held.
   const char* unheld_redundancy(const IkGoal& goal) const;
@@ -57,14 +59,14 @@ class Numeric final : public IkSolver {
   bool add_branch(const descent::End& end, std::string_view label, IkBranches& out) const;
 
   const RobotModel* model_;
-  int max_restarts_, candidates_;
+  Parameters parameters_;
   descent::Chain chain_;
   Reach reach_;
   std::optional<FreeJoint> free_joint_;
   const descent::Kernel& kernel_;
   JointVector resting_;
   descent::JointSet turning_ = 0;     // joints for which a whole turn changes nothing
-  std::vector<JointVector> samples_;  // of the joint space, `candidates_` per restart
+  std::vector<JointVector> samples_;  // of the joint space, `candidates` per restart
 };
 
-}  // namespace armature
+}  // namespace armature::ik::numeric

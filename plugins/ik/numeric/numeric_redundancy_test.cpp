@@ -9,12 +9,11 @@
 #include <string>
 #include <utility>
 
-#include "armature/kinds/declared_params.hpp"
 #include "armature/robot/kinematics.hpp"
 #include "armature/robot/robot_model.hpp"
 #include "numeric.hpp"
 
-namespace armature {
+namespace armature::ik::numeric {
 namespace {
 
 RobotModel robot(const std::string& name) {
@@ -30,10 +29,7 @@ RobotModel pointing_sr1() {
 class NumericRedundancy : public testing::Test {
  protected:
   explicit NumericRedundancy(RobotModel model = robot("sr1_needle"))
-      : model_{std::move(model)},
-        solver_{Numeric::make(
-                    model_, declared_params(ARMATURE_SOURCE_DIR "/plugins/ik/numeric/plugin.yaml"))
-                    .value()} {}
+      : model_{std::move(model)}, solver_{std::make_unique<Numeric>(model_, Parameters{})} {}
 
   JointVector random_joints() {
     std::uniform_real_distribution<double> part{0, 1};
@@ -158,4 +154,4 @@ TEST_F(SevenJointNumericRedundancy, AnArmAngleIsRefusedByName) {
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::ik::numeric

@@ -3,10 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "armature/kinds/declared_params.hpp"
 #include "armature/kinds/ik/contract.hpp"
 
-namespace armature {
+namespace armature::ik::numeric {
 namespace {
 
 using Row = std::array<double, 4>;  // d, a [m], alpha [deg], limit [deg]
@@ -110,9 +109,9 @@ RobotModel lamp() {
   return load_robot_model(ARMATURE_SOURCE_DIR "/configs/robots/dental_lamp.yaml");
 }
 
-std::shared_ptr<const IkSolver> solver_for(const RobotModel& model, std::string_view params = "") {
-  const auto given = declared_params(ARMATURE_SOURCE_DIR "/plugins/ik/numeric/plugin.yaml", params);
-  return std::move(Numeric::make(model, given).value());
+std::shared_ptr<const IkSolver> solver_for(const RobotModel& model,
+                                           const Parameters& parameters = {}) {
+  return std::make_shared<Numeric>(model, parameters);
 }
 
 IkSubject subject(RobotModel model) {
@@ -173,7 +172,7 @@ TEST(Numeric, AGoalThatOnlySolutionsBeyondTheLimitsReachIsAJointLimit) {
 
 TEST(Numeric, ARedundantArmIsBroughtInsideItsLimitsWithoutARestart) {
   const RobotModel model = seven();
-  const auto solver = solver_for(model, "max_restarts: 0");
+  const auto solver = solver_for(model, {.max_restarts = 0});
   std::mt19937_64 random{9};
   SCOPED_TRACE("seed 9");
   const auto within_limits = [&] {
@@ -210,7 +209,7 @@ TEST(Numeric, WithoutRestartsAnUnreachableGoalEndsWithItsResidual) {
   goal.pose = {{0.5, 0, 1.3}, Direction{{1, 0, 0}}};  // 0.2 m too high for the balance arm
   IkBranches found;
   IkState state;
-  const IkStatus status = solver_for(model, "max_restarts: 0")
+  const IkStatus status = solver_for(model, {.max_restarts = 0})
                               ->solve(goal, JointVector::Constant(5, 0.3), found, state);
   EXPECT_EQ(status.code, IkStatus::Code::no_convergence);
   EXPECT_GE(status.shortfall, 0.02);
@@ -228,4 +227,4 @@ TEST(Numeric, TheIterationBudgetOfTheGoalIsKept) {
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::ik::numeric

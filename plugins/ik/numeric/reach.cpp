@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace armature {
+namespace armature::ik::numeric {
 namespace {
 
 using descent::Chain;
@@ -238,4 +238,4 @@ std::optional<Reach::Miss> Reach::miss_of(const IkGoal& goal) const {
   return miss;
 }
 
-}  // namespace armature
+}  // namespace armature::ik::numeric

@@ -8,7 +8,7 @@
 #include "armature/kinds/ik/ik.hpp"
 #include "descent.hpp"
 
-namespace armature {
+namespace armature::ik::numeric {
 
 /// What an arm cannot reach, told without an iteration. A point on the axis of a joint does not
 /// move with it, so the distance of two points of the arm often depends on a single joint (shoulder
@@ -35,4 +35,4 @@ class Reach {
   std::vector<Shell> shells_;
 };
 
-}  // namespace armature
+}  // namespace armature::ik::numeric

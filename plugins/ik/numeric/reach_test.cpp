@@ -7,11 +7,10 @@
 #include <numbers>
 #include <random>
 
-#include "armature/kinds/declared_params.hpp"
 #include "armature/robot/kinematics.hpp"
 #include "numeric.hpp"
 
-namespace armature {
+namespace armature::ik::numeric {
 namespace {
 
 /// A PUMA pattern with a short forearm: the wrist stays between 0.4 m and 0.8 m from the shoulder,
@@ -67,13 +66,10 @@ IkGoal upright_goal(const Eigen::Vector3d& wrist) {
 
 /// The answer without a single iteration.
 IkStatus at_once(const RobotModel& model, IkGoal goal) {
-  const auto params = declared_params(ARMATURE_SOURCE_DIR "/plugins/ik/numeric/plugin.yaml");
   IkBranches found;
   IkState state;
   goal.max_iterations = 0;
-  return Numeric::make(model, params)
-      .value()
-      ->solve(goal, JointVector::Zero(model.dof()), found, state);
+  return Numeric{model, Parameters{}}.solve(goal, JointVector::Zero(model.dof()), found, state);
 }
 
 TEST(Reach, NothingThatAnArmReachesIsRefused) {
@@ -139,4 +135,4 @@ TEST(Reach, ASlideKeepsItsLimits) {
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::ik::numeric

@@ -9,7 +9,7 @@
 #include "descent.hpp"
 #include "lanes.hpp"
 
-namespace armature::descent {
+namespace armature::ik::numeric::descent {
 namespace {
 
 /// The tool at some joint position.
@@ -137,4 +137,4 @@ inline Error error_at(const Chain& chain, const Goal& goal, const Pose& pose) {
 }
 
 }  // namespace
-}  // namespace armature::descent
+}  // namespace armature::ik::numeric::descent

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <sstream>
 
-namespace armature::process {
+namespace armature::ik::process {
 namespace {
 
 namespace fs = std::filesystem;
@@ -56,4 +56,4 @@ Expected<Command> find_command(std::vector<std::string> words, std::string folde
       fmt::format("there is no program '{}' in PATH, which is {}", name, path ? path : "not set"));
 }
 
-}  // namespace armature::process
+}  // namespace armature::ik::process

@@ -6,7 +6,7 @@
 
 #include "armature/values/expected.hpp"
 
-namespace armature::process {
+namespace armature::ik::process {
 
 /// A program to start, with its arguments.
 struct Command {
@@ -22,4 +22,4 @@ struct Command {
 /// Refuses what is not there or cannot be executed, and tells where it was looked for.
 Expected<Command> find_command(std::vector<std::string> words, std::string folder);
 
-}  // namespace armature::process
+}  // namespace armature::ik::process

@@ -6,7 +6,7 @@
 #include <cerrno>
 #include <utility>
 
-namespace armature::process {
+namespace armature::ik::process {
 namespace {
 
 constexpr std::size_t kLongestLine = 4096;
@@ -56,4 +56,4 @@ void ErrorRelay::pass_on_line(const std::string& line) {
   if (!blank) last_words_ = std::move(words);
 }
 
-}  // namespace armature::process
+}  // namespace armature::ik::process

@@ -5,7 +5,7 @@
 
 #include "file_descriptor.hpp"
 
-namespace armature::process {
+namespace armature::ik::process {
 
 /// Passes on what a program writes to its standard error: to ours, line by line, each behind its
 /// name. It is read while the program is asked or ended, not in between; a program that says much
@@ -32,4 +32,4 @@ class ErrorRelay {
   std::string name_, begun_, last_words_;
 };
 
-}  // namespace armature::process
+}  // namespace armature::ik::process

@@ -6,7 +6,7 @@
 
 #include <utility>
 
-namespace armature::process {
+namespace armature::ik::process {
 
 /// Owns an open file, or none.
 class FileDescriptor {
@@ -37,4 +37,4 @@ class FileDescriptor {
   int fd_ = -1;
 };
 
-}  // namespace armature::process
+}  // namespace armature::ik::process

@@ -7,7 +7,7 @@
 
 #include "armature/kinds/ik/ik.hpp"
 
-namespace armature::process {
+namespace armature::ik::process {
 
 /// Three slides along z, y and x: the tool is at (q3, q2, q1), up to 2 m each way, and points along
 /// x. What faulty_program.py solves for.
@@ -39,4 +39,4 @@ inline IkGoal at(double x, double y, double z) {
   return goal;
 }
 
-}  // namespace armature::process
+}  // namespace armature::ik::process

@@ -6,7 +6,7 @@
 #include <set>
 #include <string>
 
-namespace armature::process {
+namespace armature::ik::process {
 namespace {
 
 /// Texts that stay, as long as there are few.
@@ -53,4 +53,4 @@ std::optional<std::string_view> lasting_detail(std::string_view text) {
   return details.keep(cut(text, kLongest));
 }
 
-}  // namespace armature::process
+}  // namespace armature::ik::process

@@ -11,12 +11,10 @@
 #include "armature/runtime/plugin.hpp"
 #include "lasting_text.hpp"
 
-namespace armature {
+namespace armature::ik::process {
 namespace {
 
 using Code = IkStatus::Code;
-using process::Command;
-using process::Program;
 
 /// The goal that the robot's resting position reaches.
 IkGoal resting_goal(const RobotModel& model, const JointVector& q) {
@@ -40,13 +38,10 @@ bool misses(const PoseResidual& residual, const IkGoal& goal) {
 }  // namespace
 
 Expected<std::unique_ptr<IkSolver>> Process::make(const RobotModel& model, const Params& params) {
-  auto command = process::find_command(params.texts("command"), params.file("folder"));
+  const auto parameters = Parameters::read(params);
+  auto command = find_command(parameters.command, parameters.folder);
   if (!command) return tl::unexpected{command.error()};
-  const Rules rules{.timeout_s = params.number("timeout_s"),
-                    .start_timeout_s = params.number("start_timeout_s"),
-                    .max_restarts = params.integer("max_restarts"),
-                    .redundancy_is_length = params.text("redundancy") == "length"};
-  std::unique_ptr<Process> made{new Process{model, std::move(*command), rules}};
+  std::unique_ptr<Process> made{new Process{model, std::move(*command), parameters}};
   const JointVector resting = resting_position(model);
   const auto told = made->ask_once({.goal = resting_goal(model, resting), .seed = resting});
   if (!told) return tl::unexpected{told.error()};
@@ -75,7 +70,7 @@ IkStatus Process::solve(const IkGoal& goal, const JointVector& seed, IkBranches&
 
 /// Asks, and keeps the book of what went wrong.
 Expected<ToldAnswer> Process::ask(IkQuestion question) const {
-  if (failures_ > rules_.max_restarts) return refuse(last_failure_);
+  if (failures_ > parameters_.max_restarts) return refuse(last_failure_);
   auto told = ask_once(std::move(question));
   if (told) {
     failures_ = 0;
@@ -88,7 +83,7 @@ Expected<ToldAnswer> Process::ask(IkQuestion question) const {
 }
 
 std::string Process::what_comes_next() const {
-  const auto restarts = rules_.max_restarts;
+  const auto restarts = parameters_.max_restarts;
   if (failures_ <= restarts) {
     return fmt::format("it is started again for the next goal, {} of {} times in a row", failures_,
                        restarts);
@@ -108,9 +103,9 @@ Expected<ToldAnswer> Process::ask_once(IkQuestion question) const {
     program_ = std::move(*started);
     has_answered_ = false;
   }
-  question.redundancy_is_length = rules_.redundancy_is_length;
+  question.redundancy_is_length = redundancy_is_length();
   question.id = ++questions_;
-  const double patience_s = has_answered_ ? rules_.timeout_s : rules_.start_timeout_s;
+  const double patience_s = has_answered_ ? parameters_.timeout : parameters_.start_timeout;
   const auto line = program_->ask(question_line(*model_, question), patience_s);
   if (!line) return failed(line.error().text);
   auto told = read_answer(*model_, question, *line);
@@ -124,7 +119,7 @@ IkStatus Process::believed(const IkGoal& goal, const ToldAnswer& told, IkBranche
   bool inside = false;
   for (std::size_t i = 0; i < told.solutions.size(); ++i) {
     const ToldSolution& solution = told.solutions[i];
-    const auto label = process::lasting_label(solution.label);
+    const auto label = lasting_label(solution.label);
     IkBranch branch =
         branch_at(*model_, goal, solution.q, label && !label->empty() ? *label : "solution");
     branch.redundancy = solution.redundancy;
@@ -157,11 +152,11 @@ IkStatus Process::refused(const std::string& what) const {
 }
 
 std::string_view Process::kept(const std::string& detail) const {
-  if (const auto lasting = process::lasting_detail(detail)) return *lasting;
+  if (const auto lasting = lasting_detail(detail)) return *lasting;
   fmt::print(stderr, "ik/process ({}): {}\n", command_.text(), detail);
   return "a reason behind 1024 different ones: it is printed on standard error";
 }
 
-}  // namespace armature
+}  // namespace armature::ik::process
 
-ARMATURE_PLUGIN(armature::Process);
+ARMATURE_PLUGIN(armature::ik::process::Process);

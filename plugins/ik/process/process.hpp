@@ -8,9 +8,10 @@
 
 #include "armature/kinds/ik/ik.hpp"
 #include "armature/kinds/ik/lines/asking.hpp"
+#include "ik_process_parameters.hpp"
 #include "program.hpp"
 
-namespace armature {
+namespace armature::ik::process {
 
 /// A solver in a program of its own, asked in the JSON lines of `armature ik`. What it answers is
 /// worked out again by forward kinematics; a program that is dead, slow or makes no sense is ended,
@@ -26,16 +27,13 @@ class Process final : public IkSolver {
 
   IkStatus solve(const IkGoal& goal, const JointVector& seed, IkBranches& out,
                  IkState& state) const override;
-  bool redundancy_is_length() const override { return rules_.redundancy_is_length; }
+  bool redundancy_is_length() const override {
+    return parameters_.redundancy == Parameters::Redundancy::length;
+  }
 
  private:
-  struct Rules {
-    double timeout_s, start_timeout_s;
-    std::int64_t max_restarts;
-    bool redundancy_is_length;
-  };
-  Process(const RobotModel& model, process::Command command, const Rules& rules)
-      : model_{&model}, command_{std::move(command)}, rules_{rules} {}
+  Process(const RobotModel& model, Command command, const Parameters& parameters)
+      : model_{&model}, command_{std::move(command)}, parameters_{parameters} {}
 
   Expected<ToldAnswer> ask(IkQuestion question) const;
   Expected<ToldAnswer> ask_once(IkQuestion question) const;
@@ -45,16 +43,16 @@ class Process final : public IkSolver {
   std::string_view kept(const std::string& detail) const;
 
   const RobotModel* model_;
-  process::Command command_;
-  Rules rules_;
+  Command command_;
+  Parameters parameters_;
 
   // One question at a time.
   mutable std::mutex mutex_;
-  mutable std::unique_ptr<process::Program> program_;  // none: to be started
-  mutable bool has_answered_ = false;                  // since it was started
+  mutable std::unique_ptr<Program> program_;  // none: to be started
+  mutable bool has_answered_ = false;         // since it was started
   mutable std::int64_t questions_ = 0;
-  mutable std::int64_t failures_ = 0;  // in a row
-  mutable std::string last_failure_;   // and what comes next
+  mutable std::uint64_t failures_ = 0;  // in a row
+  mutable std::string last_failure_;    // and what comes next
 };
 
-}  // namespace armature
+}  // namespace armature::ik::process

@@ -12,7 +12,7 @@
 #include "gantry_test.hpp"
 #include "process.hpp"
 
-namespace armature::process {
+namespace armature::ik::process {
 namespace {
 
 using Code = IkStatus::Code;
@@ -314,4 +314,4 @@ TEST(ManyEnds, LeaveNoProcessAndNoOpenFile) {
 }
 
 }  // namespace
-}  // namespace armature::process
+}  // namespace armature::ik::process

@@ -12,7 +12,7 @@
 #include "armature/robot/kinematics.hpp"
 #include "armature/runtime/plugin_registry.hpp"
 
-namespace armature::process {
+namespace armature::ik::process {
 namespace {
 
 std::shared_ptr<const RobotModel> robot(const std::string& name) {
@@ -193,4 +193,4 @@ TEST(Process, AnswersBadInputItself) {
 }
 
 }  // namespace
-}  // namespace armature::process
+}  // namespace armature::ik::process

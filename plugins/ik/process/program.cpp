@@ -19,7 +19,7 @@
 
 #include "armature/values/spawn_plan.hpp"
 
-namespace armature::process {
+namespace armature::ik::process {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -181,4 +181,4 @@ void Program::end(double patience_s) {
   errors_.finish();
 }
 
-}  // namespace armature::process
+}  // namespace armature::ik::process

@@ -12,7 +12,7 @@
 #include "error_relay.hpp"
 #include "file_descriptor.hpp"
 
-namespace armature::process {
+namespace armature::ik::process {
 
 /// A running program that answers lines with lines. It has a process group of its own, which ends
 /// with it; it inherits no open file but its standard ones, no signal that we ignore or block, and
@@ -56,4 +56,4 @@ class Program {
   std::string received_;
 };
 
-}  // namespace armature::process
+}  // namespace armature::ik::process

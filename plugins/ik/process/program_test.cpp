@@ -12,7 +12,7 @@
 #include <sstream>
 #include <thread>
 
-namespace armature::process {
+namespace armature::ik::process {
 namespace {
 
 constexpr double kPatience_s = 60;
@@ -120,4 +120,4 @@ TEST(Program, LivesOnWhenTheThreadThatStartedItEnds) {
 }
 
 }  // namespace
-}  // namespace armature::process
+}  // namespace armature::ik::process

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <string_view>
-
 namespace armature {
 
 /// What the arm angle shall make small.
@@ -16,7 +14,5 @@ enum class Objective {
   /// shoulder and wrist
   balanced
 };
-/// "limits", ...; `name` is one of them.
-Objective objective_from(std::string_view name);
 
 }  // namespace armature

@@ -11,10 +11,27 @@
 #include "armature/runtime/plugin.hpp"
 #include "branches.hpp"
 #include "feasible_angles.hpp"
+#include "ik_srs_arm_angle_parameters.hpp"
 #include "srs_branch.hpp"
 
 namespace armature {
 namespace {
+
+using ik::srs_arm_angle::Parameters;
+
+Objective objective_of(const Parameters& parameters) {
+  switch (parameters.objective) {
+    case Parameters::Objective::limits:
+      return Objective::limits;
+    case Parameters::Objective::singularity:
+      return Objective::singularity;
+    case Parameters::Objective::continuity:
+      return Objective::continuity;
+    case Parameters::Objective::balanced:
+      break;
+  }
+  return Objective::balanced;
+}
 
 IkStatus status_of(const IkBranches& branches) {
   const bool any =
@@ -51,7 +68,7 @@ Expected<std::unique_ptr<IkSolver>> SrsArmAngle::make(const RobotModel& model,
   auto arm = srs_arm(model);
   if (!arm) return tl::unexpected{arm.error()};
   return std::unique_ptr<IkSolver>{
-      new SrsArmAngle{model, *arm, objective_from(params.text("objective"))}};
+      new SrsArmAngle{model, *arm, objective_of(Parameters::read(params))}};
 }
 
 std::optional<double> SrsArmAngle::redundancy_of(const JointVector& q) const {

@@ -11,8 +11,9 @@
 
 #include "armature/kinds/landmarks/landmarks.hpp"
 #include "armature/runtime/plugin.hpp"
+#include "landmarks_dlib68_parameters.hpp"
 
-namespace armature {
+namespace armature::landmarks::dlib68 {
 namespace {
 
 using Image = dlib::array2d<unsigned char>;
@@ -120,6 +121,7 @@ void stretch_if_dark(Image& image, double below) {
 /// HOG frontal face detector and the 68-landmark regression trees of dlib (see README).
 class Dlib68 final : public LandmarkFinder {
  public:
+  explicit Dlib68(const Parameters& parameters) : parameters_{parameters} {}
   static Expected<std::unique_ptr<LandmarkFinder>> make(const Params& params);
 
   Expected<StereoLandmarks> find(const ImageView& left, const ImageView& right,
@@ -139,16 +141,12 @@ class Dlib68 final : public LandmarkFinder {
 
   dlib::frontal_face_detector detector_ = dlib::get_frontal_face_detector();
   dlib::shape_predictor predictor_;
-  double least_face_px_ = kNativeFace;
-  double threshold_ = 0;
-  double landmark_face_px_ = 0;
-  double stretch_below_ = 0;
-  int boxes_ = 1;
+  Parameters parameters_;
 };
 
 Expected<std::unique_ptr<LandmarkFinder>> Dlib68::make(const Params& params) {
-  auto finder = std::make_unique<Dlib68>();
-  const std::string model = params.file("model");
+  auto finder = std::make_unique<Dlib68>(Parameters::read(params));
+  const std::string& model = finder->parameters_.model;
   const std::string hint =
       "; the Debian package libdlib-data installs it as "
       "/usr/share/dlib/shape_predictor_68_face_landmarks.dat";
@@ -162,11 +160,6 @@ Expected<std::unique_ptr<LandmarkFinder>> Dlib68::make(const Params& params) {
     return refuse(model + " has " + std::to_string(finder->predictor_.num_parts()) +
                   " landmarks, not 68" + hint);
   }
-  finder->least_face_px_ = params.number("least_face_px");
-  finder->threshold_ = params.number("threshold");
-  finder->landmark_face_px_ = params.number("landmark_face_px");
-  finder->stretch_below_ = params.number("stretch_below");
-  finder->boxes_ = static_cast<int>(params.integer("boxes"));
   return finder;
 }
 
@@ -174,8 +167,8 @@ Expected<StereoLandmarks> Dlib68::find(const ImageView& left, const ImageView& r
                                        State& state) {
   if (auto wrong = invalid_input(left, right)) return refuse(*wrong);
   Image left_image = copied(left), right_image = copied(right);
-  stretch_if_dark(left_image, stretch_below_);
-  stretch_if_dark(right_image, stretch_below_);
+  stretch_if_dark(left_image, parameters_.stretch_below);
+  stretch_if_dark(right_image, parameters_.stretch_below);
 
   std::optional<Face> left_face;
   if (state.left) left_face = detect_near(left_image, *state.left);
@@ -205,7 +198,7 @@ std::optional<Dlib68::Face> Dlib68::detect_in(const Image& image, const PixelBox
   if (part.width * scale < kNativeFace || part.height * scale < kNativeFace) return {};
   const Chip chip = cut(image, part, scale);
   std::vector<dlib::rect_detection> found;
-  detector_(chip.image, found, threshold_);
+  detector_(chip.image, found, parameters_.threshold);
   if (found.empty()) return {};
   const auto& best = *std::max_element(found.begin(), found.end(), [](auto& a, auto& b) {
     return a.detection_confidence < b.detection_confidence;
@@ -223,7 +216,7 @@ std::optional<Dlib68::Face> Dlib68::detect_near(const Image& image, const PixelB
 std::optional<Dlib68::Face> Dlib68::detect_anywhere(const Image& image) {
   const PixelBox all{0, 0, static_cast<double>(image.nc() - 1),
                      static_cast<double>(image.nr() - 1)};
-  return detect_in(image, all, std::max(1.0, kNativeFace / least_face_px_));
+  return detect_in(image, all, std::max(1.0, kNativeFace / parameters_.least_face));
 }
 
 // The pair is rectified: the right image has the face in the same rows, further left.
@@ -245,7 +238,7 @@ std::optional<Dlib68::Face> Dlib68::detect_right(const Image& image, const State
 // the face is `landmark_face_px` wide that rounding is a fraction of an image pixel; the mean over
 // `boxes` shifted and scaled boxes removes most of what depends on the detector's coarse box.
 FaceLandmarks Dlib68::landmarks(const Image& image, const Face& face) const {
-  const double scale = landmark_face_px_ > 0 ? landmark_face_px_ / face.box.width : 1.0;
+  const double scale = parameters_.landmark_face / face.box.width;
   const Chip chip = cut(image, scaled(face.box, kLandmarkScale), scale);
   FaceLandmarks sum;
   sum.points.fill(Eigen::Vector2d::Zero());
@@ -253,16 +246,17 @@ FaceLandmarks Dlib68::landmarks(const Image& image, const Face& face) const {
   sum.score = face.score;
 
   constexpr double kShift = 0.04, kGolden = 2.399963229728653;  // of the box; [rad]
-  for (int i = 0; i < boxes_; ++i) {
+  const int boxes = parameters_.boxes;
+  for (int i = 0; i < boxes; ++i) {
     // Points of a sunflower disc around the box: even cover for any number of them.
-    const double radius = boxes_ == 1 ? 0 : kShift * std::sqrt((i + 0.5) / boxes_) * 1.5;
-    const double size = boxes_ == 1 ? 1 : 0.94 + 0.12 * (i * 7 % boxes_) / (boxes_ - 1.0);
+    const double radius = boxes == 1 ? 0 : kShift * std::sqrt((i + 0.5) / boxes) * 1.5;
+    const double size = boxes == 1 ? 1 : 0.94 + 0.12 * (i * 7 % boxes) / (boxes - 1.0);
     PixelBox box = scaled(face.box, size);
     box.left += radius * std::cos(i * kGolden) * box.width;
     box.top += radius * std::sin(i * kGolden) * box.height;
     add_landmarks(chip, box, sum);
   }
-  for (Eigen::Vector2d& point : sum.points) point /= boxes_;
+  for (Eigen::Vector2d& point : sum.points) point /= boxes;
   return sum;
 }
 
@@ -277,6 +271,6 @@ void Dlib68::add_landmarks(const Chip& chip, const PixelBox& box, FaceLandmarks&
   }
 }
 
-}  // namespace armature
+}  // namespace armature::landmarks::dlib68
 
-ARMATURE_PLUGIN(armature::Dlib68);
+ARMATURE_PLUGIN(armature::landmarks::dlib68::Dlib68);

@@ -16,7 +16,7 @@
 #include "armature/kinds/landmarks/contract.hpp"
 #include "armature/runtime/plugin_library.hpp"
 
-namespace armature {
+namespace armature::landmarks::dlib68 {
 namespace {
 
 const std::string kFolder = std::string{ARMATURE_SOURCE_DIR} + "/plugins/landmarks/dlib68/";
@@ -43,8 +43,9 @@ LandmarkFinder& finder() {
 
 /// The drawn face before both cameras; `camera_T_photo` of the left one.
 StereoPicture picture(const Eigen::Isometry3d& left_T_photo, double brightness = 1) {
-  static const Photo photo = generated_face(1, 0.063);
-  static PlaneRenderer renderer{photo, {.noise = 2, .blur_px = 0.5, .background = 120}, 1};
+  static const auto photo = sim::photo_scene::generated_face(1, 0.063);
+  static sim::photo_scene::PlaneRenderer renderer{
+      photo, {.noise = 2, .blur_px = 0.5, .background = 120}, 1};
   const std::vector<std::uint8_t> black(1280 * 720);
   StereoPicture pair{1280, 720, black, black};
   Eigen::Isometry3d right_T_photo = left_T_photo;
@@ -170,4 +171,4 @@ TEST(Dlib68, RefusesAFileThatIsNoModel) {
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::landmarks::dlib68

@@ -5,11 +5,12 @@
 #include <set>
 #include <utility>
 
+#include "armature/kinds/geometry_params.hpp"
 #include "armature/messages/geometry.hpp"
 #include "armature/messages/header.hpp"
 #include "armature/robot/kinematics.hpp"
 
-namespace armature {
+namespace armature::monitor::rviz {
 namespace {
 
 void write_edge(const std::string& parent, const std::string& child,
@@ -23,16 +24,17 @@ void write_edge(const std::string& parent, const std::string& child,
 }  // namespace
 
 Expected<FrameTree> FrameTree::make(const RobotModel& model, const std::optional<StereoRig>& rig,
-                                    Options options) {
-  FrameTree tree{model, std::move(options)};
+                                    const Parameters& parameters) {
+  FrameTree tree{model, parameters};
   tree.add_fixed(rig);
   if (const auto sound = tree.check_names(); !sound) return tl::unexpected{sound.error()};
   return tree;
 }
 
 void FrameTree::add_fixed(const std::optional<StereoRig>& rig) {
-  if (!options_.world.empty()) {
-    fixed_.push_back({options_.world, name(kBaseFrame), options_.world_T_base});
+  if (!parameters_.world_frame.empty()) {
+    fixed_.push_back({parameters_.world_frame, name(kBaseFrame),
+                      pose_of(parameters_.base_position, parameters_.base_rpy)});
   }
   for (const NamedFrame& frame : model_->frames()) {
     fixed_.push_back({joint_frame(frame.parent_joint), name(frame.name), frame.parent_T_frame});
@@ -45,12 +47,13 @@ void FrameTree::add_fixed(const std::optional<StereoRig>& rig) {
 }
 
 Expected<void> FrameTree::check_names() const {
-  for (const std::string& given : {options_.prefix, options_.world}) {
+  for (const std::string& given : {parameters_.frame_prefix, parameters_.world_frame}) {
     if (given.starts_with('/')) {
       return refuse("'" + given + "' begins with '/', which no tf2 frame may");
     }
   }
-  std::set<std::string> taken{options_.world.empty() ? name(kBaseFrame) : options_.world};
+  std::set<std::string> taken{parameters_.world_frame.empty() ? name(kBaseFrame)
+                                                              : parameters_.world_frame};
   const bool link_called_base = model_->find_frame(kBaseFrame).has_value();
   const auto take = [&](const std::string& child) -> Expected<void> {
     if (taken.insert(child).second) return {};
@@ -100,4 +103,4 @@ void FrameTree::write_fixed(Time stamp, msg::TFMessage& message) const {
   }
 }
 
-}  // namespace armature
+}  // namespace armature::monitor::rviz

@@ -11,26 +11,23 @@
 #include "armature/robot/robot_model.hpp"
 #include "armature/robot/stereo_rig.hpp"
 #include "armature/values/time.hpp"
+#include "monitor_rviz_parameters.hpp"
 
-namespace armature {
+namespace armature::monitor::rviz {
 
 /// The robot's frames as tf2 has them. Every joint's frame hangs on the one before it, the first on
 /// `base`; a named frame on its joint (or base); the cameras on the frame that the rig is mounted
 /// on. Names are those of the robot file, so they equal the frame_id of the other topics.
 class FrameTree {
  public:
-  struct Options {
-    std::string prefix;  // put before every name but world's
-    std::string world;   // a frame that base hangs on; empty: base is the root
-    Eigen::Isometry3d world_T_base = Eigen::Isometry3d::Identity();
-  };
-
   /// `model` must outlive it. Refuses names that tf2 does not take or that two frames would have.
   static Expected<FrameTree> make(const RobotModel& model, const std::optional<StereoRig>& rig,
-                                  Options options);
+                                  const Parameters& parameters);
 
   /// How tf calls a frame of the robot: "base" -> "left/base".
-  std::string name(std::string_view frame) const { return options_.prefix + std::string{frame}; }
+  std::string name(std::string_view frame) const {
+    return parameters_.frame_prefix + std::string{frame};
+  }
   /// The frame of a joint; -1: base. Called as the joint, with "_axis" behind it when a named frame
   /// (a link of a URDF file) is called so.
   std::string joint_frame(int joint) const;
@@ -45,14 +42,14 @@ class FrameTree {
     std::string parent, child;
     Eigen::Isometry3d parent_T_child;
   };
-  FrameTree(const RobotModel& model, Options options)
-      : model_{&model}, options_{std::move(options)} {}
+  FrameTree(const RobotModel& model, const Parameters& parameters)
+      : model_{&model}, parameters_{parameters} {}
   void add_fixed(const std::optional<StereoRig>& rig);
   Expected<void> check_names() const;
 
   const RobotModel* model_;
-  Options options_;
+  Parameters parameters_;
   std::vector<Edge> fixed_;
 };
 
-}  // namespace armature
+}  // namespace armature::monitor::rviz

@@ -13,7 +13,7 @@
 #include "every_robot_test.hpp"
 #include "tf_listener_test.hpp"
 
-namespace armature {
+namespace armature::monitor::rviz {
 namespace {
 
 using testing::TfListener;
@@ -22,8 +22,8 @@ using Convention = RobotModel::Convention;
 constexpr double kSamePose = 1e-12;
 
 FrameTree tree_of(const RobotModel& model, const std::optional<StereoRig>& rig = {},
-                  FrameTree::Options options = {}) {
-  return FrameTree::make(model, rig, std::move(options)).value();
+                  const Parameters& parameters = {}) {
+  return FrameTree::make(model, rig, parameters).value();
 }
 
 TfListener heard(const FrameTree& tree, const JointVector& q) {
@@ -102,7 +102,7 @@ TEST(FrameTree, LeavesALinkThatIsCalledAsAJointItsName) {
   row_T_link.translation() = Eigen::Vector3d{0.1, 0.2, 0.3};
   const RobotModel robot = robot_with_links(
       {{"hand", 1, row_T_link}, {"link1", 0, row_T_link}, {"wrist", 0, row_T_link}});
-  const FrameTree tree = tree_of(robot, {}, {.prefix = "left/"});
+  const FrameTree tree = tree_of(robot, {}, {.frame_prefix = "left/"});
   const JointVector q = Eigen::Vector2d{0.4, -0.7};
   const TfListener tf = heard(tree, q);
   EXPECT_EQ(tree.joint_frame(0), "left/link1_axis");
@@ -138,26 +138,27 @@ TEST(FrameTree, StampsEveryFrameWithTheSample) {
 
 TEST(FrameTree, PutsAPrefixBeforeItsOwnNamesAndAWorldAboveTheBase) {
   const RobotModel lamp = testing::dental_lamp();
-  FrameTree::Options options{.prefix = "left/", .world = "room"};
-  options.world_T_base.translation() = Eigen::Vector3d{1, 2, 3};
+  const Parameters parameters{
+      .frame_prefix = "left/", .world_frame = "room", .base_position = {1, 2, 3}};
   const JointVector q = *lamp.contract(*lamp.home());
-  const TfListener tf = heard(tree_of(lamp, lamp_rig(), options), q);
+  const TfListener tf = heard(tree_of(lamp, lamp_rig(), parameters), q);
   EXPECT_EQ(tf.parent("left/base"), "room");
   EXPECT_EQ(tf.parent("left/j1"), "left/base");
   EXPECT_EQ(tf.parent("left/left_camera_optical"), "left/tool");
-  const Eigen::Isometry3d room_T_tool = options.world_T_base * forward_kinematics(lamp, q);
+  const Eigen::Isometry3d room_T_tool = Eigen::Translation3d{1, 2, 3} * forward_kinematics(lamp, q);
   EXPECT_TRUE(tf.transform("room", "left/tool").isApprox(room_T_tool, kSamePose));
 }
 
 TEST(FrameTree, RefusesNamesThatTf2CannotTake) {
   const RobotModel lamp = testing::dental_lamp();
-  const auto reason = [&](const RobotModel& model, FrameTree::Options options) {
-    const auto tree = FrameTree::make(model, lamp_rig(), std::move(options));
+  const auto reason = [&](const RobotModel& model, const Parameters& parameters) {
+    const auto tree = FrameTree::make(model, lamp_rig(), parameters);
     return tree ? std::string{"taken"} : tree.error().text;
   };
-  EXPECT_EQ(reason(lamp, {.prefix = "/left/"}), "'/left/' begins with '/', which no tf2 frame may");
-  EXPECT_EQ(reason(lamp, {.world = "tool"}), "two frames would be called 'tool'");
-  EXPECT_EQ(reason(lamp, {.world = "base"}), "two frames would be called 'base'");
+  EXPECT_EQ(reason(lamp, {.frame_prefix = "/left/"}),
+            "'/left/' begins with '/', which no tf2 frame may");
+  EXPECT_EQ(reason(lamp, {.world_frame = "tool"}), "two frames would be called 'tool'");
+  EXPECT_EQ(reason(lamp, {.world_frame = "base"}), "two frames would be called 'base'");
   const RobotModel camera_robot{"r",
                                 Convention::standard,
                                 lamp.joints(),
@@ -170,4 +171,4 @@ TEST(FrameTree, RefusesNamesThatTf2CannotTake) {
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::monitor::rviz

@@ -9,7 +9,7 @@
 #include "armature/messages/geometry.hpp"
 #include "armature/messages/header.hpp"
 
-namespace armature {
+namespace armature::monitor::rviz {
 namespace {
 
 using Eigen::Quaterniond;
@@ -123,4 +123,4 @@ msg::Marker removal(const MarkerHead& head) {
   return begin(head, MarkerType::arrow, MarkerAction::remove, Vector3d::Ones());
 }
 
-}  // namespace armature
+}  // namespace armature::monitor::rviz

@@ -11,7 +11,7 @@
 #include "armature/values/time.hpp"
 #include "robot_shape.hpp"
 
-namespace armature {
+namespace armature::monitor::rviz {
 
 // The numbers of visualization_msgs/Marker.
 enum class MarkerType {
@@ -58,4 +58,4 @@ msg::Marker cone(const MarkerHead& head, const Segment& axis, double half_angle)
 /// Takes the marker away.
 msg::Marker removal(const MarkerHead& head);
 
-}  // namespace armature
+}  // namespace armature::monitor::rviz

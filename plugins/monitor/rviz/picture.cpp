@@ -8,7 +8,7 @@
 #include "armature/messages/header.hpp"
 #include "robot_shape.hpp"
 
-namespace armature {
+namespace armature::monitor::rviz {
 namespace {
 
 using Eigen::Vector3d;
@@ -40,8 +40,11 @@ bool GoalWatch::pursues(std::uint64_t goal_id) const {
   return *newest_ == goal_id && active_;
 }
 
-Picture::Picture(const RobotModel& model, const FrameTree& tree, Options options)
-    : model_{&model}, tree_{&tree}, options_{options}, radius_{kRadiusOfSize * robot_size(model)} {}
+Picture::Picture(const RobotModel& model, const FrameTree& tree, const Parameters& parameters)
+    : model_{&model},
+      tree_{&tree},
+      parameters_{parameters},
+      radius_{kRadiusOfSize * robot_size(model)} {}
 
 msg::MarkerArray Picture::draw(const JointVector& q, Time stamp, const Surroundings& around) const {
   msg::MarkerArray array;
@@ -77,18 +80,18 @@ void Picture::add_links(const JointVector& q, Time stamp, msg::MarkerArray& arra
 }
 
 void Picture::add_pointing(Time stamp, msg::MarkerArray& array) const {
-  if (!model_->pointing_axis() || options_.axis_length_m == 0) return;
+  if (!model_->pointing_axis() || parameters_.axis_length == 0) return;
   MarkerHead head{.ns = "pointing",
                   .frame = tree_->name(model_->frame(model_->tool()).name),
                   .stamp = stamp,
                   .rides = true,
                   .color = kPointing};
-  const Segment axis{Vector3d::Zero(), options_.axis_length_m * *model_->pointing_axis()};
+  const Segment axis{Vector3d::Zero(), parameters_.axis_length * *model_->pointing_axis()};
   array.markers_().push_back(arrow(head, axis, kShaftDiameter));
-  if (options_.cone_half_angle_rad == 0) return;
+  if (parameters_.cone_half_angle == 0) return;
   head.id = 1;
   head.color = kCone;
-  array.markers_().push_back(cone(head, axis, options_.cone_half_angle_rad));
+  array.markers_().push_back(cone(head, axis, parameters_.cone_half_angle));
 }
 
 /// At the time of the joint sample: an old estimate still stands where it was measured.
@@ -137,4 +140,4 @@ std::string Picture::frame_of(const msg::Header& header) const {
                                                 : std::string_view{header.frame_id_()});
 }
 
-}  // namespace armature
+}  // namespace armature::monitor::rviz

@@ -9,8 +9,9 @@
 #include "armature/messages/visualization_msgs.hpp"
 #include "frame_tree.hpp"
 #include "markers.hpp"
+#include "monitor_rviz_parameters.hpp"
 
-namespace armature {
+namespace armature::monitor::rviz {
 
 /// Which goal the arm is after, so that a path is shown no longer than it is followed.
 class GoalWatch {
@@ -37,13 +38,8 @@ struct Surroundings {
 /// ids that stay, all of it in every array. What is not there any more is taken away.
 class Picture {
  public:
-  struct Options {
-    double axis_length_m = 0;        // of the arrow along the pointing axis; 0: none
-    double cone_half_angle_rad = 0;  // of the cone round it; 0: none
-  };
-
   /// `model` and `tree` must outlive it.
-  Picture(const RobotModel& model, const FrameTree& tree, Options options);
+  Picture(const RobotModel& model, const FrameTree& tree, const Parameters& parameters);
 
   /// The robot at the independent joint values `q` of the joint sample `stamp`.
   msg::MarkerArray draw(const JointVector& q, Time stamp, const Surroundings& around) const;
@@ -59,8 +55,8 @@ class Picture {
 
   const RobotModel* model_;
   const FrameTree* tree_;
-  Options options_;
+  Parameters parameters_;
   double radius_;  // [m] of a link
 };
 
-}  // namespace armature
+}  // namespace armature::monitor::rviz

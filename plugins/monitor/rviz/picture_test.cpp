@@ -14,7 +14,7 @@
 #include "armature/messages/stamp.hpp"
 #include "armature/robot/test_robots.hpp"
 
-namespace armature {
+namespace armature::monitor::rviz {
 namespace {
 
 using Eigen::Vector3d;
@@ -118,7 +118,7 @@ class PictureTest : public ::testing::Test {
   }
   RobotModel lamp_ = testing::dental_lamp();
   FrameTree tree_ = FrameTree::make(lamp_, std::nullopt, {}).value();
-  Picture picture_{lamp_, tree_, {.axis_length_m = 0.5, .cone_half_angle_rad = 0.1}};
+  Picture picture_{lamp_, tree_, {.axis_length = 0.5, .cone_half_angle = 0.1}};
   JointVector q_ = *lamp_.contract(*lamp_.home());
   Time stamp_ = Time{} + seconds(100);
 };
@@ -130,8 +130,8 @@ TEST_F(PictureTest, DrawsOnlyCompleteMarkersForEveryRobotAnywhere) {
   for (const RobotModel& model :
        {lamp_, testing::synthetic_robot(RobotModel::Convention::standard, 7),
         testing::synthetic_robot(RobotModel::Convention::modified, 8)}) {
-    const FrameTree tree = FrameTree::make(model, std::nullopt, {.prefix = "left/"}).value();
-    const Picture picture{model, tree, {.axis_length_m = 0.5, .cone_half_angle_rad = 0.1}};
+    const FrameTree tree = FrameTree::make(model, std::nullopt, {.frame_prefix = "left/"}).value();
+    const Picture picture{model, tree, {.axis_length = 0.5, .cone_half_angle = 0.1}};
     const msg::Target target = target_at({1, 2, 3});
     msg::FacePose face;
     face.valid_(true);
@@ -248,4 +248,4 @@ TEST(GoalWatch, FollowsTheNewestGoalUntilItIsOver) {
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::monitor::rviz

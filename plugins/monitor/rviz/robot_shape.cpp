@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace armature {
+namespace armature::monitor::rviz {
 namespace {
 
 using Eigen::Vector3d;
@@ -89,4 +89,4 @@ double robot_size(const RobotModel& model) {
   return size;
 }
 
-}  // namespace armature
+}  // namespace armature::monitor::rviz

@@ -6,7 +6,7 @@
 
 #include "armature/robot/robot_model.hpp"
 
-namespace armature {
+namespace armature::monitor::rviz {
 
 /// A straight line from one point to another [m].
 struct Segment {
@@ -32,4 +32,4 @@ std::vector<RobotPart> robot_shape(const RobotModel& model, const JointVector& q
 /// chosen by.
 double robot_size(const RobotModel& model);
 
-}  // namespace armature
+}  // namespace armature::monitor::rviz

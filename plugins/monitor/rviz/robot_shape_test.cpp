@@ -10,7 +10,7 @@
 #include "armature/robot/kinematics.hpp"
 #include "every_robot_test.hpp"
 
-namespace armature {
+namespace armature::monitor::rviz {
 namespace {
 
 using Convention = RobotModel::Convention;
@@ -120,4 +120,4 @@ TEST(RobotShape, SizeOfTheLampIsThatOfItsTable) {
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::monitor::rviz

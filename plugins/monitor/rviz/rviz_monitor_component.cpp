@@ -16,20 +16,18 @@
 #include "frame_tree.hpp"
 #include "picture.hpp"
 
-namespace armature {
+namespace armature::monitor::rviz {
 namespace {
 
-FrameTree tree_of(const Params& params, const RobotModel& model,
+FrameTree tree_of(const Parameters& parameters, const Params& params, const RobotModel& model,
                   const std::optional<StereoRig>& rig) {
   if (rig) mount_of(*rig, model);  // or it refuses
-  FrameTree::Options options{.prefix = params.text("frame_prefix"),
-                             .world = params.text("world_frame")};
-  options.world_T_base = pose_of(params, "base_position_m", "base_rpy_deg");
-  if (options.world.empty() && !options.world_T_base.isApprox(Eigen::Isometry3d::Identity())) {
+  const Eigen::Isometry3d world_T_base = pose_of(parameters.base_position, parameters.base_rpy);
+  if (parameters.world_frame.empty() && !world_T_base.isApprox(Eigen::Isometry3d::Identity())) {
     params.refuse({"base_position_m", "base_rpy_deg"},
                   "'base_position_m' and 'base_rpy_deg' place base in 'world_frame': name one");
   }
-  auto tree = FrameTree::make(model, rig, std::move(options));
+  auto tree = FrameTree::make(model, rig, parameters);
   if (!tree) throw SetupError(tree.error().text);
   return std::move(*tree);
 }
@@ -42,13 +40,11 @@ class RvizMonitor final : public Component {
   explicit RvizMonitor(Setup& setup)
       : Component{setup},
         model_{robot_of(setup)},
-        tree_{tree_of(setup.params(), model_, optional_rig_of(setup))},
-        picture_{model_,
-                 tree_,
-                 {.axis_length_m = setup.params().number("axis_length_m"),
-                  .cone_half_angle_rad = setup.params().number("cone_half_angle_deg")}},
-        beat_{seconds(1 / setup.params().number("rate_hz"))},
-        marker_beat_{seconds(1 / setup.params().number("marker_rate_hz"))},
+        parameters_{Parameters::read(setup.params())},
+        tree_{tree_of(parameters_, setup.params(), model_, optional_rig_of(setup))},
+        picture_{model_, tree_, parameters_},
+        beat_{seconds(1 / parameters_.rate)},
+        marker_beat_{seconds(1 / parameters_.marker_rate)},
         measured_js_{setup.input<msg::JointState>("measured_js")},
         target_{setup.input<msg::Target>("target")},
         truth_{setup.input<msg::Target>("truth")},
@@ -59,7 +55,7 @@ class RvizMonitor final : public Component {
         tf_static_{setup.output<msg::TFMessage>("tf_static")},
         tool_pose_{setup.output<msg::PoseStamped>("tool_pose")},
         markers_{setup.output<msg::MarkerArray>("markers")} {
-    setup.activate_every(seconds(1 / setup.params().number("rate_hz")));
+    setup.activate_every(seconds(1 / parameters_.rate));
   }
 
   void step(Time now) override {
@@ -118,6 +114,7 @@ class RvizMonitor final : public Component {
   }
 
   RobotModel model_;
+  Parameters parameters_;
   FrameTree tree_;
   Picture picture_;
   GoalWatch goals_;
@@ -134,6 +131,6 @@ class RvizMonitor final : public Component {
   Output<msg::MarkerArray> markers_;
 };
 
-}  // namespace armature
+}  // namespace armature::monitor::rviz
 
-ARMATURE_PLUGIN(armature::RvizMonitor);
+ARMATURE_PLUGIN(armature::monitor::rviz::RvizMonitor);

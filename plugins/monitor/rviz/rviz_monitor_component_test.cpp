@@ -15,7 +15,7 @@
 #include "armature/runtime/test_plugins.hpp"
 #include "tf_listener_test.hpp"
 
-namespace armature {
+namespace armature::monitor::rviz {
 namespace {
 
 const std::string kConfigs = ARMATURE_SOURCE_DIR "/configs/";
@@ -137,4 +137,4 @@ TEST_F(RvizMonitorTest, RefusesAPrefixThatTf2DoesNotTake) {
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::monitor::rviz

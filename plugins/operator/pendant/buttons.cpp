@@ -10,7 +10,7 @@
 #include <cerrno>
 #include <cstring>
 
-namespace armature {
+namespace armature::operator_::pendant {
 namespace {
 
 constexpr int kMostReads = 100;
@@ -79,4 +79,4 @@ void Buttons::close() {
   pressed_.reset();
 }
 
-}  // namespace armature
+}  // namespace armature::operator_::pendant

@@ -6,7 +6,7 @@
 
 struct input_event;
 
-namespace armature {
+namespace armature::operator_::pendant {
 
 /// The buttons of an input device of Linux (evdev). A button counts as held from the moment on when
 /// it is seen to go down: one that was down already when the device was opened, or that may have
@@ -45,4 +45,4 @@ class Buttons {
   std::bitset<kCodes> held_, pressed_, released_;
 };
 
-}  // namespace armature
+}  // namespace armature::operator_::pendant

@@ -5,7 +5,7 @@
 
 #include "event_pipe_test.hpp"
 
-namespace armature {
+namespace armature::operator_::pendant {
 namespace {
 
 constexpr int kTrigger = BTN_TRIGGER, kThumb = BTN_THUMB;
@@ -106,4 +106,4 @@ TEST_F(ButtonsTest, SoManyEventsAtOnceAreReadOneCallAfterTheOther) {
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::operator_::pendant

@@ -6,8 +6,9 @@
 #include "armature/runtime/plugin.hpp"
 #include "armature/runtime/setup.hpp"
 #include "buttons.hpp"
+#include "operator_pendant_parameters.hpp"
 
-namespace armature {
+namespace armature::operator_::pendant {
 namespace {
 
 constexpr Duration kNextTry = seconds(1);  // to open a device that is gone
@@ -18,23 +19,22 @@ class PendantComponent : public Component {
  public:
   explicit PendantComponent(Setup& setup)
       : Component(setup),
-        buttons_{setup.params().text("device")},
-        hold_button_{static_cast<int>(setup.params().integer("hold_button"))},
-        rearm_button_{static_cast<int>(setup.params().integer("rearm_button"))},
+        parameters_{Parameters::read(setup.params())},
+        buttons_{parameters_.device},
         hold_to_run_{setup.output<msg::Bool>("hold_to_run")},
         rearm_{setup.output<msg::Bool>("rearm")} {
-    if (hold_button_ == rearm_button_) {
+    if (parameters_.hold_button == parameters_.rearm_button) {
       setup.params().refuse({"rearm_button"},
                             "the button that is held cannot rearm: letting it go "
                             "and pressing it again would do both");
     }
-    setup.activate_every(seconds(1 / setup.params().number("rate_hz")));
+    setup.activate_every(seconds(1 / parameters_.rate));
   }
 
   void step(Time now) override {
     if (buttons_.is_open() || now >= next_try_) read(now);
-    publish(hold_to_run_, buttons_.held(hold_button_));
-    if (buttons_.pressed(rearm_button_)) publish(rearm_, true);
+    publish(hold_to_run_, buttons_.held(parameters_.hold_button));
+    if (buttons_.pressed(parameters_.rearm_button)) publish(rearm_, true);
   }
 
  private:
@@ -51,12 +51,12 @@ class PendantComponent : public Component {
     loan.publish();
   }
 
+  Parameters parameters_;
   Buttons buttons_;
-  int hold_button_, rearm_button_;
   Output<msg::Bool> hold_to_run_, rearm_;
   Time next_try_;
 };
 
-}  // namespace armature
+}  // namespace armature::operator_::pendant
 
-ARMATURE_PLUGIN(armature::PendantComponent);
+ARMATURE_PLUGIN(armature::operator_::pendant::PendantComponent);

@@ -6,7 +6,7 @@
 #include "armature/runtime/test_plugins.hpp"
 #include "event_pipe_test.hpp"
 
-namespace armature {
+namespace armature::operator_::pendant {
 namespace {
 
 using testing::ElementsAre;
@@ -79,4 +79,4 @@ TEST_F(PendantTest, OneButtonForBothIsRefused) {
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::operator_::pendant

@@ -3,23 +3,18 @@
 
 #include "armature/runtime/plugin.hpp"
 
-namespace armature {
-
-Expected<std::unique_ptr<PathPlanner>> JointMove::make(const Params& params) {
-  const double duration_s = params.number("duration_s");
-  return std::unique_ptr<PathPlanner>{
-      new JointMove{duration_s > 0 ? std::optional{duration_s} : std::nullopt}};
-}
+namespace armature::path::joint_move {
 
 Expected<Path> JointMove::plan(const PathRequest& request) const {
   const auto valid = checked(request);
   if (!valid) return tl::unexpected{valid.error()};
+  const double duration_s = parameters_.duration;
   return Path{{.space = PathSegment::Space::joint,
                .samples = {{.s = 1, .pose = valid->goal}},
                .stop_at_end = true,
-               .duration_s = duration_s_}};
+               .duration_s = duration_s > 0 ? std::optional{duration_s} : std::nullopt}};
 }
 
-}  // namespace armature
+}  // namespace armature::path::joint_move
 
-ARMATURE_PLUGIN(armature::JointMove);
+ARMATURE_PLUGIN(armature::path::joint_move::JointMove);

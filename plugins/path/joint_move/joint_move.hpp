@@ -1,24 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <memory>
-#include <optional>
-
 #include "armature/kinds/path/path.hpp"
+#include "path_joint_move_parameters.hpp"
 
-namespace armature {
+namespace armature::path::joint_move {
 
 /// One joint segment, rest to rest.
 class JointMove final : public PathPlanner {
  public:
-  static Expected<std::unique_ptr<PathPlanner>> make(const Params& params);
+  explicit JointMove(const Parameters& parameters) : parameters_{parameters} {}
+  explicit JointMove(const Params& params) : JointMove{Parameters::read(params)} {}
 
   Expected<Path> plan(const PathRequest& request) const override;
 
  private:
-  explicit JointMove(std::optional<double> duration_s) : duration_s_{duration_s} {}
-
-  std::optional<double> duration_s_;
+  Parameters parameters_;
 };
 
-}  // namespace armature
+}  // namespace armature::path::joint_move

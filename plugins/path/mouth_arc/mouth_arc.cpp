@@ -7,7 +7,7 @@
 
 #include "armature/runtime/plugin.hpp"
 
-namespace armature {
+namespace armature::path::mouth_arc {
 namespace {
 
 constexpr int kFewestSteps = 8;
@@ -25,18 +25,9 @@ PathSegment joint_move(const ToolPose& end) {
 
 }  // namespace
 
-Expected<std::unique_ptr<PathPlanner>> MouthArc::make(const Params& params) {
-  return std::unique_ptr<PathPlanner>{new MouthArc{params}};
-}
-
-MouthArc::MouthArc(const Params& params)
-    : step_{params.number("step_deg")},
-      near_m_{params.number("near_mm")},
-      near_rad_{params.number("near_deg")} {}
-
 /// The swing as a cartesian segment; `turn` [rad] is the largest turn on the way.
 PathSegment MouthArc::along(const Swing& swing, const ToolPose& goal, double turn) const {
-  const int steps = std::max(kFewestSteps, static_cast<int>(std::ceil(turn / step_)));
+  const int steps = std::max(kFewestSteps, static_cast<int>(std::ceil(turn / parameters_.step)));
   PathSegment segment;
   segment.space = PathSegment::Space::cartesian;
   for (int i = 0; i <= steps; ++i) {
@@ -68,18 +59,19 @@ Expected<Path> MouthArc::plan(const PathRequest& request) const {
     return refuse("the goal looks away from the point to look at");
   }
   const View start = view_of(*focus, from.position, from_direction->unit);
-  if (std::abs(start.distance - goal.distance) <= near_m_ && start.miss_angle() <= near_rad_) {
+  if (std::abs(start.distance - goal.distance) <= parameters_.near_m &&
+      start.miss_angle() <= parameters_.near_rad) {
     const Swing swing{*focus, start, goal};  // small corrections: all at once
     const double turn = swing.angle() + start.miss_angle() + goal.miss_angle();
     return Path{along(swing, to, turn)};
   }
   const View approach{goal.distance, start.outward, Eigen::Vector3d::Zero()};  // P1, (43)
   const Swing swing{*focus, approach, goal};
-  if (swing.angle() < step_) return Path{joint_move(to)};
+  if (swing.angle() < parameters_.step) return Path{joint_move(to)};
   return Path{joint_move({swing.position(0), Direction{swing.direction(0)}}),
               along(swing, to, swing.angle() + goal.miss_angle())};
 }
 
-}  // namespace armature
+}  // namespace armature::path::mouth_arc
 
-ARMATURE_PLUGIN(armature::MouthArc);
+ARMATURE_PLUGIN(armature::path::mouth_arc::MouthArc);

@@ -1,25 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <memory>
-
 #include "armature/kinds/path/path.hpp"
+#include "path_mouth_arc_parameters.hpp"
 #include "swing.hpp"
 
-namespace armature {
+namespace armature::path::mouth_arc {
 
 /// P0 -> P1 in joint space, then P1 -> P3 on a great circle round the mouth.
 class MouthArc final : public PathPlanner {
  public:
-  static Expected<std::unique_ptr<PathPlanner>> make(const Params& params);
+  explicit MouthArc(const Parameters& parameters) : parameters_{parameters} {}
+  explicit MouthArc(const Params& params) : MouthArc{Parameters::read(params)} {}
 
   Expected<Path> plan(const PathRequest& request) const override;
 
  private:
-  explicit MouthArc(const Params& params);
   PathSegment along(const Swing& swing, const ToolPose& goal, double turn) const;
 
-  double step_, near_m_, near_rad_;
+  Parameters parameters_;
 };
 
-}  // namespace armature
+}  // namespace armature::path::mouth_arc

@@ -3,10 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "armature/kinds/declared_params.hpp"
 #include "armature/kinds/path/contract.hpp"
 
-namespace armature {
+namespace armature::path::mouth_arc {
 namespace {
 
 using Eigen::Vector3d;
@@ -17,10 +16,8 @@ ToolPose looking_at_mouth_from(const Vector3d& outward, double distance) {
 }
 
 Expected<Path> plan(const ToolPose& start, const ToolPose& goal,
-                    std::optional<Vector3d> focus = kMouth, std::string_view params = "") {
-  const auto given =
-      declared_params(ARMATURE_SOURCE_DIR "/plugins/path/mouth_arc/plugin.yaml", params);
-  return MouthArc::make(given).value()->plan({.start = start, .goal = goal, .focus = focus});
+                    std::optional<Vector3d> focus = kMouth) {
+  return MouthArc{Parameters{}}.plan({.start = start, .goal = goal, .focus = focus});
 }
 
 const Vector3d& direction(const PathSample& sample) {
@@ -32,11 +29,8 @@ double angle(const Vector3d& a, const Vector3d& b) {
 }
 
 INSTANTIATE_TEST_SUITE_P(MouthArc, PathLaws,
-                         testing::Values(PathSubject{
-                             "mouth_arc", MouthArc::make(declared_params(ARMATURE_SOURCE_DIR
-                                                                         "/plugins/path/mouth_arc/"
-                                                                         "plugin.yaml"))
-                                              .value()}),
+                         testing::Values(PathSubject{"mouth_arc",
+                                                     std::make_shared<MouthArc>(Parameters{})}),
                          testing::PrintToStringParamName());
 
 TEST(MouthArc, EverySampleOfTheArcLooksAtTheMouthFromTheSameDistance) {
@@ -149,4 +143,4 @@ TEST(MouthArc, RefusesWhatCannotBeLookedAt) {
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::path::mouth_arc

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace armature {
+namespace armature::path::mouth_arc {
 namespace {
 
 constexpr double kParallel = 1e-9;  // sine below which two unit vectors span no plane
@@ -49,4 +49,4 @@ Eigen::Vector3d Swing::direction(double s) const {
   return (miss - outward(s)).normalized();
 }
 
-}  // namespace armature
+}  // namespace armature::path::mouth_arc

@@ -3,7 +3,7 @@
 
 #include <Eigen/Geometry>
 
-namespace armature {
+namespace armature::path::mouth_arc {
 
 /// A view of a point: how far away and from which side the tool sees it, and how far its pointing
 /// axis is from looking straight at it.
@@ -36,4 +36,4 @@ class Swing {
   double angle_ = 0;
 };
 
-}  // namespace armature
+}  // namespace armature::path::mouth_arc

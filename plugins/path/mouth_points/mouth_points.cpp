@@ -5,7 +5,7 @@
 
 #include "armature/runtime/plugin.hpp"
 
-namespace armature {
+namespace armature::path::mouth_points {
 namespace {
 
 using Eigen::Vector3d;
@@ -30,17 +30,12 @@ bool same(const ToolPose& a, const ToolPose& b) {
 
 }  // namespace
 
-Expected<std::unique_ptr<PathPlanner>> MouthPoints::make(const Params& params) {
-  const double segment_s = params.number("segment_s");
-  return std::unique_ptr<PathPlanner>{
-      new MouthPoints{segment_s > 0 ? std::optional{segment_s} : std::nullopt}};
-}
-
 PathSegment MouthPoints::move_to(const ToolPose& end) const {
+  const double duration_s = parameters_.segment;
   return {.space = PathSegment::Space::joint,
           .samples = {{1, end}},
           .stop_at_end = true,
-          .duration_s = segment_s_};
+          .duration_s = duration_s > 0 ? std::optional{duration_s} : std::nullopt};
 }
 
 Expected<Path> MouthPoints::plan(const PathRequest& request) const {
@@ -79,6 +74,6 @@ Expected<Path> MouthPoints::plan(const PathRequest& request) const {
   return path;
 }
 
-}  // namespace armature
+}  // namespace armature::path::mouth_points
 
-ARMATURE_PLUGIN(armature::MouthPoints);
+ARMATURE_PLUGIN(armature::path::mouth_points::MouthPoints);

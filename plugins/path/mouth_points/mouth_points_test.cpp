@@ -3,10 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "armature/kinds/declared_params.hpp"
 #include "armature/kinds/path/contract.hpp"
 
-namespace armature {
+namespace armature::path::mouth_points {
 namespace {
 
 using Eigen::Vector3d;
@@ -17,10 +16,8 @@ const Vector3d kNormal = Vector3d{-0.8185559, 0.5517371, 0.1598514}.normalized()
 const ToolPose kGoal{kMouth + 0.5 * kNormal, Direction{-kNormal}};
 
 Expected<Path> plan(const ToolPose& start, const ToolPose& goal,
-                    std::optional<Vector3d> focus = kMouth, std::string_view params = "") {
-  const auto given =
-      declared_params(ARMATURE_SOURCE_DIR "/plugins/path/mouth_points/plugin.yaml", params);
-  return MouthPoints::make(given).value()->plan({.start = start, .goal = goal, .focus = focus});
+                    std::optional<Vector3d> focus = kMouth, const Parameters& parameters = {}) {
+  return MouthPoints{parameters}.plan({.start = start, .goal = goal, .focus = focus});
 }
 
 const ToolPose& end_of(const PathSegment& segment) { return segment.samples.back().pose; }
@@ -29,12 +26,8 @@ const Vector3d& direction_of(const ToolPose& pose) {
 }
 
 INSTANTIATE_TEST_SUITE_P(MouthPoints, PathLaws,
-                         testing::Values(PathSubject{
-                             "mouth_points",
-                             MouthPoints::make(declared_params(ARMATURE_SOURCE_DIR
-                                                               "/plugins/path/mouth_points/"
-                                                               "plugin.yaml"))
-                                 .value()}),
+                         testing::Values(PathSubject{"mouth_points",
+                                                     std::make_shared<MouthPoints>(Parameters{})}),
                          testing::PrintToStringParamName());
 
 TEST(MouthPoints, EveryPointIsAtTheGoalsDistanceAndLooksAtTheMouth) {
@@ -76,13 +69,13 @@ TEST(MouthPoints, AStartThatIsOneOfThePointsSkipsIt) {
 }
 
 TEST(MouthPoints, WithoutAPointToLookAtItIsOneMove) {
-  const auto path = plan(kStart, kGoal, std::nullopt, "segment_s: 2.5");
+  const auto path = plan(kStart, kGoal, std::nullopt, {.segment = 2.5});
   ASSERT_EQ(path->size(), 1u);
   EXPECT_EQ(path->front().duration_s, 2.5);
 }
 
 TEST(MouthPoints, AZeroSegmentTimeLeavesItToTheLimits) {
-  EXPECT_FALSE(plan(kStart, kGoal, kMouth, "segment_s: 0")->front().duration_s.has_value());
+  EXPECT_FALSE(plan(kStart, kGoal, kMouth, {.segment = 0})->front().duration_s.has_value());
 }
 
 TEST(MouthPoints, RefusesWhatItsFormulasDoNotCover) {
@@ -98,4 +91,4 @@ TEST(MouthPoints, RefusesWhatItsFormulasDoNotCover) {
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::path::mouth_points

@@ -9,7 +9,7 @@
 
 #include "armature/runtime/plugin.hpp"
 
-namespace armature {
+namespace armature::path::needle {
 namespace {
 
 using Eigen::Vector3d;
@@ -39,19 +39,6 @@ struct NeedlePath::Line {
   double off(const Vector3d& position) const { return (position - point(at(position))).norm(); }
 };
 
-Expected<std::unique_ptr<PathPlanner>> NeedlePath::make(const Params& params) {
-  return std::unique_ptr<PathPlanner>{new NeedlePath{params}};
-}
-
-NeedlePath::NeedlePath(const Params& params)
-    : stand_off_m_{params.number("stand_off_mm")},
-      step_m_{params.number("step_mm")},
-      needle_radius_m_{params.number("needle_radius_mm")},
-      margin_m_{params.number("margin_mm")},
-      on_line_m_{params.number("on_line_mm")},
-      on_line_rad_{params.number("on_line_deg")},
-      needle_at_entry_m_{params.number("needle_at_entry_m")} {}
-
 /// Through the goal along its axis; the entry must be on it.
 Expected<NeedlePath::Line> NeedlePath::line_of(const PathRequest& request) const {
   if (!request.focus) {
@@ -59,28 +46,29 @@ Expected<NeedlePath::Line> NeedlePath::line_of(const PathRequest& request) const
   }
   const Line through_goal{request.goal.position, axis_of(request.goal)};
   const double off = through_goal.off(*request.focus);
-  if (off > on_line_m_) {
+  if (off > parameters_.on_line_m) {
     return refuse(
         fmt::format("the needle's line passes the entry at {:.3f} mm, {:g} mm are allowed "
                     "(on_line_mm)",
-                    1e3 * off, 1e3 * on_line_m_));
+                    1e3 * off, 1e3 * parameters_.on_line_m));
   }
   // What is left of `off` would be a step where the straight segments meet.
   return Line{through_goal.point(through_goal.at(*request.focus)), through_goal.along};
 }
 
 bool NeedlePath::is_on(const Line& line, const ToolPose& pose) const {
-  return line.off(pose.position) <= on_line_m_ &&
-         angle_between(axis_of(pose), line.along) <= on_line_rad_;
+  return line.off(pose.position) <= parameters_.on_line_m &&
+         angle_between(axis_of(pose), line.along) <= parameters_.on_line_rad;
 }
 
 std::optional<std::string> NeedlePath::obstacle(const Line& line, double from, double to,
                                                 const PathRequest& request) const {
   for (const ForbiddenZone& zone : request.forbidden) {
-    const double left = clearance(line.point(from), line.point(to), zone) - needle_radius_m_;
-    if (left >= margin_m_) continue;
+    const double left =
+        clearance(line.point(from), line.point(to), zone) - parameters_.needle_radius;
+    if (left >= parameters_.margin) continue;
     return fmt::format("the needle leaves {:.2f} mm to '{}', {:g} mm are required (margin_mm)",
-                       1e3 * left, zone.name, 1e3 * margin_m_);
+                       1e3 * left, zone.name, 1e3 * parameters_.margin);
   }
   return std::nullopt;
 }
@@ -88,13 +76,14 @@ std::optional<std::string> NeedlePath::obstacle(const Line& line, double from, d
 PathSample NeedlePath::sample(const Line& line, double at, double s, const ToolPose& goal) const {
   PathSample sample{.s = s, .pose = goal};
   sample.pose.position = line.point(at);
-  if (needle_at_entry_m_ > 0) sample.needle_depth_m = needle_at_entry_m_ + at;
+  if (parameters_.needle_at_entry > 0) sample.needle_depth_m = parameters_.needle_at_entry + at;
   return sample;
 }
 
 PathSegment NeedlePath::straight(const Line& line, double from, double to,
                                  const ToolPose& goal) const {
-  const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(to - from) / step_m_)));
+  const int steps =
+      std::max(1, static_cast<int>(std::ceil(std::abs(to - from) / parameters_.step)));
   PathSegment segment;
   for (int i = 0; i <= steps; ++i) {
     const double s = static_cast<double>(i) / steps;
@@ -110,26 +99,27 @@ Expected<Path> NeedlePath::plan(const PathRequest& request) const {
   if (!line) return tl::unexpected{line.error()};
   const double goal = line->at(valid->goal.position), here = line->at(valid->start.position);
   const bool on_line = is_on(*line, valid->start);
-  const double begin = on_line ? here : -stand_off_m_;
-  if (std::abs(goal - begin) > kMostSteps * step_m_) {
+  const double begin = on_line ? here : -parameters_.stand_off;
+  if (std::abs(goal - begin) > kMostSteps * parameters_.step) {
     return refuse(
         fmt::format("the way along the line is {:.4g} m, more than {:g} steps of {:g} mm "
                     "(step_mm)",
-                    std::abs(goal - begin), kMostSteps, 1e3 * step_m_));
+                    std::abs(goal - begin), kMostSteps, 1e3 * parameters_.step));
   }
   if (auto wrong = obstacle(*line, std::min(begin, goal), std::max(begin, goal), *valid)) {
     return refuse(std::move(*wrong));
   }
-  if (needle_at_entry_m_ > 0 && needle_at_entry_m_ + std::min(begin, goal) < 0) {
-    return refuse(fmt::format(
-        "the needle starts {:g} mm before the entry and would have to be {:g} "
-        "mm shorter than nothing (needle_at_entry_m)",
-        -1e3 * std::min(begin, goal), -1e3 * (needle_at_entry_m_ + std::min(begin, goal))));
+  if (parameters_.needle_at_entry > 0 && parameters_.needle_at_entry + std::min(begin, goal) < 0) {
+    return refuse(
+        fmt::format("the needle starts {:g} mm before the entry and would have to be {:g} "
+                    "mm shorter than nothing (needle_at_entry_m)",
+                    -1e3 * std::min(begin, goal),
+                    -1e3 * (parameters_.needle_at_entry + std::min(begin, goal))));
   }
   Path path;
   if (!on_line) {
     const double aside = line->off(valid->start.position);
-    if (here > on_line_m_ && aside < stand_off_m_) {
+    if (here > parameters_.on_line_m && aside < parameters_.stand_off) {
       return refuse(
           fmt::format("the tip is {:.1f} mm past the entry and {:.1f} mm beside the line: "
                       "it has to be drawn back first",
@@ -141,8 +131,8 @@ Expected<Path> NeedlePath::plan(const PathRequest& request) const {
                     .duration_s = {}});
   }
   // A stop at the entry, whichever way it is passed.
-  const bool passes_entry =
-      std::min(begin, goal) < -on_line_m_ && std::max(begin, goal) > on_line_m_;
+  const bool passes_entry = std::min(begin, goal) < -parameters_.on_line_m &&
+                            std::max(begin, goal) > parameters_.on_line_m;
   if (passes_entry) path.push_back(straight(*line, begin, 0, valid->goal));
   path.push_back(straight(*line, passes_entry ? 0 : begin, goal, valid->goal));
   if (on_line) path.front().samples.front().pose = valid->start;
@@ -150,6 +140,6 @@ Expected<Path> NeedlePath::plan(const PathRequest& request) const {
   return path;
 }
 
-}  // namespace armature
+}  // namespace armature::path::needle
 
-ARMATURE_PLUGIN(armature::NeedlePath);
+ARMATURE_PLUGIN(armature::path::needle::NeedlePath);

@@ -1,23 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <memory>
-
 #include "armature/kinds/path/path.hpp"
+#include "path_needle_parameters.hpp"
 
-namespace armature {
+namespace armature::path::needle {
 
 /// The straight way of a needle, in and out. A request's goal is where the tip shall be, its focus
 /// the entry; the needle's axis is the goal's pointing direction, or the z of its rotation.
 class NeedlePath final : public PathPlanner {
  public:
-  static Expected<std::unique_ptr<PathPlanner>> make(const Params& params);
+  explicit NeedlePath(const Parameters& parameters) : parameters_{parameters} {}
+  explicit NeedlePath(const Params& params) : NeedlePath{Parameters::read(params)} {}
 
   Expected<Path> plan(const PathRequest& request) const override;
 
  private:
   struct Line;
-  explicit NeedlePath(const Params& params);
   Expected<Line> line_of(const PathRequest& request) const;
   bool is_on(const Line& line, const ToolPose& pose) const;
   std::optional<std::string> obstacle(const Line& line, double from, double to,
@@ -25,8 +24,7 @@ class NeedlePath final : public PathPlanner {
   PathSample sample(const Line& line, double at, double s, const ToolPose& goal) const;
   PathSegment straight(const Line& line, double from, double to, const ToolPose& goal) const;
 
-  double stand_off_m_, step_m_, needle_radius_m_, margin_m_, on_line_m_, on_line_rad_;
-  double needle_at_entry_m_;
+  Parameters parameters_;
 };
 
-}  // namespace armature
+}  // namespace armature::path::needle

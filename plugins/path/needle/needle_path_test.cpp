@@ -5,18 +5,12 @@
 
 #include <gtest/gtest.h>
 
-#include "armature/kinds/declared_params.hpp"
 #include "armature/kinds/path/contract.hpp"
 
-namespace armature {
+namespace armature::path::needle {
 namespace {
 
 using Eigen::Vector3d;
-
-std::unique_ptr<PathPlanner> needle(std::string_view params = {}) {
-  return *NeedlePath::make(
-      declared_params(ARMATURE_SOURCE_DIR "/plugins/path/needle/plugin.yaml", params));
-}
 
 class NeedlePaths : public PathLaws {
  protected:
@@ -30,10 +24,14 @@ class NeedlePaths : public PathLaws {
   }
   Vector3d along_, entry_;
 };
-INSTANTIATE_TEST_SUITE_P(Needle, NeedlePaths, testing::Values(PathSubject{"needle", needle()}));
+INSTANTIATE_TEST_SUITE_P(Needle, NeedlePaths,
+                         testing::Values(PathSubject{"needle",
+                                                     std::make_shared<NeedlePath>(Parameters{})}));
 INSTANTIATE_TEST_SUITE_P(Needle, PathLaws,
                          testing::Values(PathSubject{
-                             .name = "needle", .planner = needle(), .along_a_line = true}));
+                             .name = "needle",
+                             .planner = std::make_shared<NeedlePath>(Parameters{}),
+                             .along_a_line = true}));
 
 TEST_P(NeedlePaths, GoToTheStandOffStopAtTheEntryAndEndAtTheTargetOnOneLine) {
   SCOPED_TRACE("seed 17");
@@ -93,15 +91,15 @@ TEST_P(NeedlePaths, FromTheLineTheyGoNowhereElseInAndOut) {
 }
 
 TEST_P(NeedlePaths, ASlidingNeedleIsToldItsDepth) {
-  const auto sliding = needle("{needle_at_entry_m: 0.1}");
+  const NeedlePath sliding{{.needle_at_entry = 0.1}};
   const PathRequest request = insertion();
-  const auto path = sliding->plan(request);
+  const auto path = sliding.plan(request);
   ASSERT_TRUE(path) << path.error().text;
   EXPECT_NEAR(*path->front().samples.back().needle_depth_m, 0.05, 1e-12);
   for (const PathSample& sample : path->back().samples) {
     EXPECT_NEAR(*sample.needle_depth_m, 0.1 + along_.dot(sample.pose.position - entry_), 1e-12);
   }
-  EXPECT_EQ(needle("{needle_at_entry_m: 0.03}")->plan(request).error().text,
+  EXPECT_EQ(NeedlePath{{.needle_at_entry = 0.03}}.plan(request).error().text,
             "the needle starts 50 mm before the entry and would have to be 20 mm shorter than "
             "nothing (needle_at_entry_m)");
 }
@@ -115,7 +113,7 @@ TEST_P(NeedlePaths, AZoneThatIsTooNearIsNamedWithItsDistance) {
                        {"artery", {0.0065, -1, -0.04}, {0.0065, 1, -0.04}, 0.004}};
   EXPECT_EQ(planner().plan(request).error().text,
             "the needle leaves 1.50 mm to 'artery', 2 mm are required (margin_mm)");
-  EXPECT_TRUE(needle("{margin_mm: 1.4}")->plan(request));
+  EXPECT_TRUE(NeedlePath{{.margin = 0.0014}}.plan(request));
   request.forbidden[1].from.z() = request.forbidden[1].to.z() = -0.09;
   EXPECT_TRUE(planner().plan(request)) << "behind the target, 10 mm and a bit";
   request.forbidden[1].from.z() = request.forbidden[1].to.z() = 0.03;
@@ -150,4 +148,4 @@ TEST_P(NeedlePaths, WhatWouldHurtIsRefused) {
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::path::needle

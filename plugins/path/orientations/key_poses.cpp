@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <numeric>
 
-namespace armature {
+namespace armature::path::orientations {
 namespace {
 
 // [m] and [rad]: two poses are one. Keys as near as where an arm stands and where it should stand
@@ -114,4 +114,4 @@ std::vector<double> key_parameters(const KeyPoses& keys) {
   return u;
 }
 
-}  // namespace armature
+}  // namespace armature::path::orientations

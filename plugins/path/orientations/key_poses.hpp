@@ -6,7 +6,7 @@
 
 #include "armature/kinds/path/path.hpp"
 
-namespace armature {
+namespace armature::path::orientations {
 
 /// Where a path must go through: start, key poses, goal; of poses that are no farther apart than
 /// 1e-6 m and rad the first stays, of the goal the goal. A direction has become a rotation that
@@ -31,4 +31,4 @@ Expected<KeyPoses> key_poses_of(const PathRequest& request);
 /// whole way: keys on one place have one angular speed, keys of one orientation one speed.
 std::vector<double> key_parameters(const KeyPoses& keys);
 
-}  // namespace armature
+}  // namespace armature::path::orientations

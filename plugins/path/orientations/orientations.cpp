@@ -11,7 +11,7 @@
 #include "armature/robot/corner_blend.hpp"
 #include "armature/runtime/plugin.hpp"
 
-namespace armature {
+namespace armature::path::orientations {
 namespace {
 
 constexpr double kFewestParts = 8, kMostParts = 50'000;  // of a path from key to key
@@ -23,23 +23,23 @@ struct Curves {
   BlendedPolyline position;
 
   /// The larger of turn and way from u to v, in steps.
-  double steps(double u, double v, double step_rad, double step_m) const {
+  double steps(double u, double v, const Parameters& parameters) const {
     const double turn = orientation.at(u, Rates::none)
                             .rotation.angularDistance(orientation.at(v, Rates::none).rotation);
-    return std::max(turn / step_rad, (position.at(v) - position.at(u)).norm() / step_m);
+    return std::max(turn / parameters.step_rad,
+                    (position.at(v) - position.at(u)).norm() / parameters.step_m);
   }
 };
 
 /// Into how many equal parts of u the way between two keys is cut, so that none is longer than a
 /// step; more than kMostParts when it cannot be done with fewer.
-double parts_between(const Curves& curves, double from, double to, double step_rad, double step_m) {
+double parts_between(const Curves& curves, double from, double to, const Parameters& parameters) {
   double parts = kFewestParts;
   while (parts <= kMostParts) {
     double longest = 0;
     for (double k = 0; k < parts; ++k) {
-      longest =
-          std::max(longest, curves.steps(std::lerp(from, to, k / parts),
-                                         std::lerp(from, to, (k + 1) / parts), step_rad, step_m));
+      longest = std::max(longest, curves.steps(std::lerp(from, to, k / parts),
+                                               std::lerp(from, to, (k + 1) / parts), parameters));
     }
     if (longest <= 1 + kRounding) break;
     parts = std::ceil(parts * std::min(longest, kMostParts));
@@ -47,16 +47,21 @@ double parts_between(const Curves& curves, double from, double to, double step_r
   return parts;
 }
 
-}  // namespace
-
-Expected<std::unique_ptr<PathPlanner>> Orientations::make(const Params& params) {
-  return std::unique_ptr<PathPlanner>{new Orientations{params}};
+OrientationInterpolator interpolator_of(Parameters::Interpolator chosen) {
+  switch (chosen) {
+    case Parameters::Interpolator::slerp:
+      return OrientationInterpolator::slerp;
+    case Parameters::Interpolator::squad:
+      return OrientationInterpolator::squad;
+    case Parameters::Interpolator::rotvec_bspline:
+      return OrientationInterpolator::rotvec_bspline;
+    case Parameters::Interpolator::chart_bspline:
+      break;
+  }
+  return OrientationInterpolator::chart_bspline;
 }
 
-Orientations::Orientations(const Params& params)
-    : interpolator_{orientation_interpolator(params.text("interpolator")).value()},
-      step_rad_{params.number("step_deg")},
-      step_m_{params.number("step_mm")} {}
+}  // namespace
 
 Expected<PathSegment> Orientations::along(const KeyPoses& keys,
                                           const OrientationCurve& curve) const {
@@ -66,12 +71,12 @@ Expected<PathSegment> Orientations::along(const KeyPoses& keys,
   segment.space = PathSegment::Space::cartesian;
   segment.samples.push_back({0, keys.poses.front()});
   for (std::size_t i = 1; i < u.size(); ++i) {
-    const double parts = parts_between(curves, u[i - 1], u[i], step_rad_, step_m_);
+    const double parts = parts_between(curves, u[i - 1], u[i], parameters_);
     if (static_cast<double>(segment.samples.size()) + parts > kMostParts) {
       return refuse(
           fmt::format("the path would have more than {} samples of {:.3g} mm and {:.3g} "
                       "degrees",
-                      kMostParts, 1e3 * step_m_, step_rad_ * 180 / M_PI));
+                      kMostParts, 1e3 * parameters_.step_m, parameters_.step_rad * 180 / M_PI));
     }
     for (double k = 1; k < parts; ++k) {
       const double s = std::lerp(u[i - 1], u[i], k / parts);
@@ -94,8 +99,8 @@ Expected<Path> Orientations::plan(const PathRequest& request) const {
                  .stop_at_end = true,
                  .duration_s = {}}};
   }
-  const auto curve =
-      OrientationCurve::through(keys->rotations, interpolator_, key_parameters(*keys));
+  const auto curve = OrientationCurve::through(
+      keys->rotations, interpolator_of(parameters_.interpolator), key_parameters(*keys));
   if (!curve) {
     return refuse(curve.error().text + " (key 1 is the start; repeated poses are not counted)");
   }
@@ -104,6 +109,6 @@ Expected<Path> Orientations::plan(const PathRequest& request) const {
   return Path{std::move(*segment)};
 }
 
-}  // namespace armature
+}  // namespace armature::path::orientations
 
-ARMATURE_PLUGIN(armature::Orientations);
+ARMATURE_PLUGIN(armature::path::orientations::Orientations);

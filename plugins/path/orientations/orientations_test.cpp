@@ -8,29 +8,29 @@
 
 #include <cmath>
 
-#include "armature/kinds/declared_params.hpp"
 #include "armature/kinds/path/contract.hpp"
 
-namespace armature {
+namespace armature::path::orientations {
 namespace {
 
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-std::shared_ptr<const PathPlanner> planner(const std::string& params = "") {
-  return Orientations::make(declared_params(ARMATURE_SOURCE_DIR
-                                            "/plugins/path/orientations/plugin.yaml",
-                                            "{" + params + "}"))
-      .value();
+using Interpolator = Parameters::Interpolator;
+using enum Parameters::Interpolator;
+
+Expected<Path> plan(const PathRequest& request, const Parameters& parameters = {}) {
+  return Orientations{parameters}.plan(request);
 }
 
-PathSubject subject(const std::string& interpolator) {
-  return {interpolator, planner("interpolator: " + interpolator)};
+PathSubject subject(const std::string& name, Interpolator interpolator) {
+  return {name, std::make_shared<Orientations>(Parameters{.interpolator = interpolator})};
 }
 
 INSTANTIATE_TEST_SUITE_P(Orientations, PathLaws,
-                         testing::Values(subject("slerp"), subject("squad"),
-                                         subject("rotvec_bspline"), subject("chart_bspline")),
+                         testing::Values(subject("slerp", slerp), subject("squad", squad),
+                                         subject("rotvec_bspline", rotvec_bspline),
+                                         subject("chart_bspline", chart_bspline)),
                          testing::PrintToStringParamName());
 
 const Quaterniond& rotation(const PathSample& sample) {
@@ -54,9 +54,9 @@ PathRequest three_bores() {
 }
 
 TEST(Orientations, OneSegmentWithoutAStopGoesThroughEveryKeyPose) {
-  for (const char* interpolator : {"slerp", "squad", "rotvec_bspline", "chart_bspline"}) {
+  for (const auto interpolator : {slerp, squad, rotvec_bspline, chart_bspline}) {
     const PathRequest request = three_bores();
-    const auto path = planner(std::string{"interpolator: "} + interpolator)->plan(request);
+    const auto path = plan(request, {.interpolator = interpolator});
     ASSERT_TRUE(path) << path.error().text;
     ASSERT_EQ(path->size(), 1u);
     const PathSegment& segment = path->front();
@@ -75,10 +75,10 @@ TEST(Orientations, OneSegmentWithoutAStopGoesThroughEveryKeyPose) {
 }
 
 TEST(Orientations, NeighboursAreAtMostAStepApart) {
-  for (const char* interpolator : {"slerp", "squad", "rotvec_bspline", "chart_bspline"}) {
+  for (const auto interpolator : {slerp, squad, rotvec_bspline, chart_bspline}) {
     const auto path =
-        planner(std::string{"step_deg: 1.5, step_mm: 4, interpolator: "} + interpolator)
-            ->plan(three_bores());
+        plan(three_bores(),
+             {.interpolator = interpolator, .step_rad = 1.5 * M_PI / 180, .step_m = 0.004});
     const auto& samples = path->front().samples;
     double turn = 0, way = 0;
     for (std::size_t i = 1; i < samples.size(); ++i) {
@@ -94,7 +94,7 @@ TEST(Orientations, NeighboursAreAtMostAStepApart) {
 /// Second differences of all samples on both sides of the second key pose, by s.
 TEST(Orientations, BendsThroughAKeyPoseWithoutAStepInItsSecondDerivative) {
   const PathRequest request = three_bores();
-  const auto path = planner("step_deg: 0.05, step_mm: 0.1")->plan(request);
+  const auto path = plan(request, {.step_rad = 0.05 * M_PI / 180, .step_m = 0.0001});
   ASSERT_TRUE(path) << path.error().text;
   const auto& samples = path->front().samples;
   const auto key = std::ranges::find_if(samples, [&](const PathSample& sample) {
@@ -124,7 +124,7 @@ TEST(Orientations, KeysOnOnePlaceAreTurnedThroughAtOneSpeed) {
   PathRequest request = three_bores();
   for (ToolPose& key : request.through) key.position = request.start.position;
   request.goal.position = request.start.position;
-  const auto path = planner("interpolator: slerp")->plan(request);
+  const auto path = plan(request, {.interpolator = slerp});
   ASSERT_TRUE(path) << path.error().text;
   const auto& samples = path->front().samples;
   const double first = rotation(samples[1]).angularDistance(rotation(samples[0])) / samples[1].s;
@@ -136,11 +136,11 @@ TEST(Orientations, KeysOnOnePlaceAreTurnedThroughAtOneSpeed) {
 }
 
 TEST(Orientations, AcrossHalfATurnOnlyTheRotationVectorsGoTheLongWay) {
-  const auto turn = [](const std::string& interpolator) {
-    const auto path = planner("interpolator: " + interpolator)
-                          ->plan({.start = turned(3.1, {0, 0, 1}, {0, 0, 0}),
-                                  .goal = turned(3.3, {0, 0, 1}, {0.1, 0, 0}),
-                                  .focus = {}});
+  const auto turn = [](Interpolator interpolator) {
+    const auto path = plan({.start = turned(3.1, {0, 0, 1}, {0, 0, 0}),
+                            .goal = turned(3.3, {0, 0, 1}, {0.1, 0, 0}),
+                            .focus = {}},
+                           {.interpolator = interpolator});
     if (!path) return -1.0;
     double total = 0;
     const auto& samples = path->front().samples;
@@ -149,10 +149,10 @@ TEST(Orientations, AcrossHalfATurnOnlyTheRotationVectorsGoTheLongWay) {
     }
     return total;
   };
-  EXPECT_NEAR(turn("slerp"), 0.2, 1e-9);
-  EXPECT_NEAR(turn("squad"), 0.2, 1e-9);
-  EXPECT_NEAR(turn("chart_bspline"), 0.2, 1e-9);
-  EXPECT_NEAR(turn("rotvec_bspline"), 2 * M_PI - 0.2, 1e-9);
+  EXPECT_NEAR(turn(slerp), 0.2, 1e-9);
+  EXPECT_NEAR(turn(squad), 0.2, 1e-9);
+  EXPECT_NEAR(turn(chart_bspline), 0.2, 1e-9);
+  EXPECT_NEAR(turn(rotvec_bspline), 2 * M_PI - 0.2, 1e-9);
 }
 
 TEST(Orientations, DirectionsGoOnGreatCirclesBetweenTheirBlends) {
@@ -160,7 +160,7 @@ TEST(Orientations, DirectionsGoOnGreatCirclesBetweenTheirBlends) {
                             .goal = {{0, 0, 0}, Direction{{0, 0, 1}}},
                             .focus = {},
                             .through = {{{0, 0, 0}, Direction{{0, 1, 0}}}}};
-  const auto path = planner()->plan(request);
+  const auto path = plan(request);
   ASSERT_TRUE(path) << path.error().text;
   for (const PathSample& sample : path->front().samples) {
     if (sample.s <= 0.25) {
@@ -180,7 +180,7 @@ TEST(Orientations, AKeyPoseThatRepeatsTheOneBeforeChangesNothing) {
   PathRequest repeated = request;
   repeated.through = {request.start, request.through[0], request.through[0], request.through[1],
                       request.goal};
-  const auto path = planner()->plan(request), same = planner()->plan(repeated);
+  const auto path = plan(request), same = plan(repeated);
   ASSERT_TRUE(path && same);
   ASSERT_EQ(path->front().samples.size(), same->front().samples.size());
   for (std::size_t i = 0; i < path->front().samples.size(); ++i) {
@@ -190,13 +190,13 @@ TEST(Orientations, AKeyPoseThatRepeatsTheOneBeforeChangesNothing) {
 
 TEST(Orientations, AKeyPoseWhereTheArmNearlyStandsMakesNoCorner) {
   PathRequest request = three_bores();
-  const auto path = planner()->plan(request);
+  const auto path = plan(request);
   const Vector3d off{3e-7, -4e-7, 2e-7};
   request.through.insert(request.through.begin(), request.start);
   request.through.front().position += off;
   request.through.push_back(request.goal);
   request.through.back().position += off;
-  const auto same = planner()->plan(request);
+  const auto same = plan(request);
   ASSERT_TRUE(path && same);
   ASSERT_EQ(path->front().samples.size(), same->front().samples.size());
   EXPECT_EQ(same->front().samples.front().pose.position, request.start.position);
@@ -209,7 +209,7 @@ TEST(Orientations, ATurnByRoundingHasNoWeight) {
                             .goal = turned(0, {0, 0, 1}, {0.2, 0.1, 0}),
                             .focus = {},
                             .through = {turned(0, {0, 0, 1}, {0.1, 0, 0})}};
-  const auto path = planner()->plan(request);
+  const auto path = plan(request);
   ASSERT_TRUE(path) << path.error().text;
   const auto& samples = path->front().samples;
   const double to_key = 0.1 / (0.1 + std::hypot(0.1, 0.1));
@@ -221,10 +221,10 @@ TEST(Orientations, ATurnByRoundingHasNoWeight) {
 }
 
 TEST(Orientations, RefusesWhatHasNoWayOrTooManySamples) {
-  const auto refusal = [](auto change, const std::string& params = "") {
+  const auto refusal = [](auto change, const Parameters& parameters = {}) {
     PathRequest request = three_bores();
     change(request);
-    const auto path = planner(params)->plan(request);
+    const auto path = plan(request, parameters);
     return path ? "a path" : path.error().text;
   };
   EXPECT_EQ(refusal([](auto& r) { r.through[1].orientation = Direction{}; }),
@@ -245,7 +245,7 @@ TEST(Orientations, RefusesWhatHasNoWayOrTooManySamples) {
                 [](auto& r) {
                   r.goal = turned(M_PI, {0, 1, 0}, {0, 0, 0});
                 },
-                "interpolator: rotvec_bspline"),
+                {.interpolator = rotvec_bspline}),
             "key 4 is half a turn: its rotation vector has two signs (key 1 is the start; repeated "
             "poses are not counted)");
   EXPECT_EQ(refusal([](auto& r) { r.goal.position.x() = 1e6; }),
@@ -254,4 +254,4 @@ TEST(Orientations, RefusesWhatHasNoWayOrTooManySamples) {
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::path::orientations

@@ -10,7 +10,7 @@
 
 #include "armature/runtime/plugin.hpp"
 
-namespace armature {
+namespace armature::registration::affine4 {
 namespace {
 
 /// [m1 - m0, m2 - m0, m3 - m0].
@@ -37,21 +37,16 @@ double condition(const Eigen::Matrix3d& matrix) {
 
 }  // namespace
 
-Expected<std::unique_ptr<Registrar>> Affine4::make(const Params& params) {
-  return std::unique_ptr<Registrar>{
-      new Affine4{params.number("max_condition"), params.number("max_stretch")}};
-}
-
 Expected<Registration> Affine4::find(const MarkerPairs& markers) const {
   if (auto wrong = invalid_input(markers, 4)) return refuse(std::move(*wrong));
   const Eigen::Matrix3d image = edges(markers.image), robot = edges(markers.robot);
   Registration found;
   found.condition = condition(image);
-  if (!(found.condition <= max_condition_)) {
+  if (!(found.condition <= parameters_.max_condition)) {
     return refuse(
         fmt::format("markers 1 to 4 lie nearly in one plane: condition {:.4g}, at most "
                     "{:g} (max_condition)",
-                    found.condition, max_condition_));
+                    found.condition, parameters_.max_condition));
   }
   const Eigen::Matrix3d A = robot * image.inverse();
   const Eigen::Vector3d stretch = stretches(A);
@@ -61,11 +56,11 @@ Expected<Registration> Affine4::find(const MarkerPairs& markers) const {
         "the images turned round, or are two markers exchanged?");
   }
   for (const double s : {stretch[0], stretch[2]}) {
-    if (std::abs(s - 1) <= max_stretch_) continue;
+    if (std::abs(s - 1) <= parameters_.max_stretch) continue;
     return refuse(
         fmt::format("the map would stretch by {:.4f}, 1 is a head, {:g} more or less is "
                     "allowed (max_stretch): are two markers exchanged?",
-                    s, max_stretch_));
+                    s, parameters_.max_stretch));
   }
   found.robot_T_image.linear() = A;
   found.robot_T_image.translation() = markers.robot[0] - A * markers.image[0];
@@ -75,6 +70,6 @@ Expected<Registration> Affine4::find(const MarkerPairs& markers) const {
   return found;
 }
 
-}  // namespace armature
+}  // namespace armature::registration::affine4
 
-ARMATURE_PLUGIN(armature::Affine4);
+ARMATURE_PLUGIN(armature::registration::affine4::Affine4);

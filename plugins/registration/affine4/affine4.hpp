@@ -1,23 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <memory>
-
 #include "armature/kinds/registration/registration.hpp"
+#include "registration_affine4_parameters.hpp"
 
-namespace armature {
+namespace armature::registration::affine4 {
 
 class Affine4 final : public Registrar {
  public:
-  static Expected<std::unique_ptr<Registrar>> make(const Params& params);
+  explicit Affine4(const Parameters& parameters) : parameters_{parameters} {}
+  explicit Affine4(const Params& params) : Affine4{Parameters::read(params)} {}
 
   Expected<Registration> find(const MarkerPairs& markers) const override;
 
  private:
-  Affine4(double max_condition, double max_stretch)
-      : max_condition_{max_condition}, max_stretch_{max_stretch} {}
-
-  double max_condition_, max_stretch_;
+  Parameters parameters_;
 };
 
-}  // namespace armature
+}  // namespace armature::registration::affine4

@@ -7,7 +7,7 @@
 
 #include "armature/runtime/plugin.hpp"
 
-namespace armature {
+namespace armature::registration::frame3 {
 namespace {
 
 using Markers = std::vector<Eigen::Vector3d>;
@@ -26,21 +26,17 @@ double condition(const Markers& m) { return condition_of_line({m[0], m[1], m[2]}
 
 }  // namespace
 
-Expected<std::unique_ptr<Registrar>> Frame3::make(const Params& params) {
-  return std::unique_ptr<Registrar>{new Frame3{params.number("max_condition")}};
-}
-
 Expected<Registration> Frame3::find(const MarkerPairs& markers) const {
   if (auto wrong = invalid_input(markers, 3)) return refuse(std::move(*wrong));
   Registration found;
   found.condition = condition(markers.image);
   for (const auto& [value, where] : {std::pair{found.condition, "in the image"},
                                      std::pair{condition(markers.robot), "before the robot"}}) {
-    if (value <= max_condition_) continue;
+    if (value <= parameters_.max_condition) continue;
     return refuse(
         fmt::format("markers 1 to 3 lie nearly on one line {}: condition {:.4g}, at most "
                     "{:g} (max_condition)",
-                    where, value, max_condition_));
+                    where, value, parameters_.max_condition));
   }
   found.robot_T_image = frame_on(markers.robot) * frame_on(markers.image).inverse();
   found.used.assign(markers.image.size(), false);
@@ -49,6 +45,6 @@ Expected<Registration> Frame3::find(const MarkerPairs& markers) const {
   return found;
 }
 
-}  // namespace armature
+}  // namespace armature::registration::frame3
 
-ARMATURE_PLUGIN(armature::Frame3);
+ARMATURE_PLUGIN(armature::registration::frame3::Frame3);

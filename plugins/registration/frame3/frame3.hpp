@@ -1,22 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <memory>
-
 #include "armature/kinds/registration/registration.hpp"
+#include "registration_frame3_parameters.hpp"
 
-namespace armature {
+namespace armature::registration::frame3 {
 
 class Frame3 final : public Registrar {
  public:
-  static Expected<std::unique_ptr<Registrar>> make(const Params& params);
+  explicit Frame3(const Parameters& parameters) : parameters_{parameters} {}
+  explicit Frame3(const Params& params) : Frame3{Parameters::read(params)} {}
 
   Expected<Registration> find(const MarkerPairs& markers) const override;
 
  private:
-  explicit Frame3(double max_condition) : max_condition_{max_condition} {}
-
-  double max_condition_;
+  Parameters parameters_;
 };
 
-}  // namespace armature
+}  // namespace armature::registration::frame3

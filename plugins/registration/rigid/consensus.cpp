@@ -7,7 +7,7 @@
 
 #include "armature/kinds/registration/rigid_fit.hpp"
 
-namespace armature {
+namespace armature::registration::rigid {
 namespace {
 
 using Set = std::vector<bool>;
@@ -78,4 +78,4 @@ Expected<std::vector<bool>> agreeing_markers(const MarkerPairs& markers, double 
   return best;
 }
 
-}  // namespace armature
+}  // namespace armature::registration::rigid

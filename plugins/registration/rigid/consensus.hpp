@@ -5,7 +5,7 @@
 
 #include "armature/kinds/registration/registration.hpp"
 
-namespace armature {
+namespace armature::registration::rigid {
 
 /// The markers that agree with each other: no one of them is missed by more than `outlier_m` by the
 /// motion that fits them best. All if they do; else the largest set, at least four, that one motion
@@ -13,4 +13,4 @@ namespace armature {
 /// as large. Allocates.
 Expected<std::vector<bool>> agreeing_markers(const MarkerPairs& markers, double outlier_m);
 
-}  // namespace armature
+}  // namespace armature::registration::rigid

@@ -7,7 +7,7 @@
 #include "armature/runtime/plugin.hpp"
 #include "consensus.hpp"
 
-namespace armature {
+namespace armature::registration::rigid {
 namespace {
 
 /// A reflection fits clearly better than any motion.
@@ -19,11 +19,6 @@ bool is_mirrored(const MarkerPairs& markers) {
 
 }  // namespace
 
-Expected<std::unique_ptr<Registrar>> Rigid::make(const Params& params) {
-  return std::unique_ptr<Registrar>{
-      new Rigid{params.number("max_condition"), params.number("outlier_mm")}};
-}
-
 Expected<Registration> Rigid::find(const MarkerPairs& markers) const {
   if (auto wrong = invalid_input(markers, 3)) return refuse(std::move(*wrong));
   if (is_mirrored(markers)) {
@@ -33,24 +28,24 @@ Expected<Registration> Rigid::find(const MarkerPairs& markers) const {
   }
   Registration found;
   found.used.assign(markers.image.size(), true);
-  if (outlier_m_ > 0) {
-    auto used = agreeing_markers(markers, outlier_m_);
+  if (parameters_.outlier > 0) {
+    auto used = agreeing_markers(markers, parameters_.outlier);
     if (!used) return tl::unexpected{used.error()};
     found.used = std::move(*used);
   }
   const MarkerPairs agreeing = only(markers, found.used);
   found.condition = condition_of_line(agreeing.image);
-  if (!(found.condition <= max_condition_)) {
+  if (!(found.condition <= parameters_.max_condition)) {
     return refuse(
         fmt::format("the markers lie nearly on one line: condition {:.4g}, at most {:g} "
                     "(max_condition)",
-                    found.condition, max_condition_));
+                    found.condition, parameters_.max_condition));
   }
   found.robot_T_image = rigid_fit(agreeing.image, agreeing.robot);
   measure_residuals(markers, found);
   return found;
 }
 
-}  // namespace armature
+}  // namespace armature::registration::rigid
 
-ARMATURE_PLUGIN(armature::Rigid);
+ARMATURE_PLUGIN(armature::registration::rigid::Rigid);

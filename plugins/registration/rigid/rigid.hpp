@@ -1,23 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <memory>
-
 #include "armature/kinds/registration/registration.hpp"
+#include "registration_rigid_parameters.hpp"
 
-namespace armature {
+namespace armature::registration::rigid {
 
 class Rigid final : public Registrar {
  public:
-  static Expected<std::unique_ptr<Registrar>> make(const Params& params);
+  explicit Rigid(const Parameters& parameters) : parameters_{parameters} {}
+  explicit Rigid(const Params& params) : Rigid{Parameters::read(params)} {}
 
   Expected<Registration> find(const MarkerPairs& markers) const override;
 
  private:
-  Rigid(double max_condition, double outlier_m)
-      : max_condition_{max_condition}, outlier_m_{outlier_m} {}
-
-  double max_condition_, outlier_m_;  // outlier_m_ 0: none
+  Parameters parameters_;
 };
 
-}  // namespace armature
+}  // namespace armature::registration::rigid

@@ -3,21 +3,16 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "armature/kinds/declared_params.hpp"
 #include "armature/kinds/registration/contract.hpp"
 
-namespace armature {
+namespace armature::registration::rigid {
 namespace {
 
-std::shared_ptr<const Registrar> rigid(std::string_view params = {}) {
-  return *Rigid::make(
-      declared_params(ARMATURE_SOURCE_DIR "/plugins/registration/rigid/plugin.yaml", params));
-}
-
-INSTANTIATE_TEST_SUITE_P(Rigid, RegistrationLaws,
-                         testing::Values(RegistrationSubject{"rigid", rigid(), 3},
-                                         RegistrationSubject{"all_markers",
-                                                             rigid("{outlier_mm: 0}"), 3}));
+INSTANTIATE_TEST_SUITE_P(
+    Rigid, RegistrationLaws,
+    testing::Values(RegistrationSubject{"rigid", std::make_shared<Rigid>(Parameters{}), 3},
+                    RegistrationSubject{"all_markers",
+                                        std::make_shared<Rigid>(Parameters{.outlier = 0}), 3}));
 
 class RigidRegistration : public RegistrationLaws {
  protected:
@@ -28,7 +23,8 @@ class RigidRegistration : public RegistrationLaws {
   }
 };
 INSTANTIATE_TEST_SUITE_P(Rigid, RigidRegistration,
-                         testing::Values(RegistrationSubject{"rigid", rigid(), 3}));
+                         testing::Values(RegistrationSubject{
+                             "rigid", std::make_shared<Rigid>(Parameters{}), 3}));
 
 /// TRE^2 = FLE^2 / N (1 + 1/3 sum d_k^2 / f_k^2), k over the principal axes of the markers.
 double fitzpatrick(const std::vector<Eigen::Vector3d>& markers, const Eigen::Vector3d& target,
@@ -126,4 +122,4 @@ TEST_P(RigidRegistration, RefusesAMirrorImage) {
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::registration::rigid

@@ -17,8 +17,9 @@
 #include "armature/runtime/plugin.hpp"
 #include "armature/runtime/setup.hpp"
 #include "insertion_monitor.hpp"
+#include "report_biopsy_parameters.hpp"
 
-namespace armature {
+namespace armature::report::biopsy {
 namespace {
 
 constexpr Duration kPeriod = seconds(0.02);
@@ -30,9 +31,9 @@ class BiopsyReport final : public Component {
  public:
   explicit BiopsyReport(Setup& setup)
       : Component{setup},
+        parameters_{Parameters::read(setup.params())},
         robot_{robot_of(setup)},
         needle_axis_{robot_.pointing_axis().value_or(Eigen::Vector3d::UnitZ())},
-        still_for_{seconds(setup.params().number("still_for_s"))},
         plan_{setup.input<msg::NeedlePlan>("plan")},
         truth_{setup.input<msg::TransformStamped>("truth")},
         registration_{setup},
@@ -46,7 +47,8 @@ class BiopsyReport final : public Component {
     registration_.listen([&](const msg::RegistrationResponse& response) { read(response); });
     for (std::size_t i = 0; i < measured_js_.size(); ++i) read(measured_js_[i]);
     for (std::size_t i = 0; i < task_state_.size(); ++i) read(task_state_[i], now);
-    finished_ = refused_ || (at_target_since_ && now - *at_target_since_ >= still_for_);
+    finished_ =
+        refused_ || (at_target_since_ && now - *at_target_since_ >= seconds(parameters_.still_for));
   }
 
   bool finished() const override { return finished_; }
@@ -131,9 +133,9 @@ class BiopsyReport final : public Component {
     if (!time_to_target_s_) time_to_target_s_ = to_seconds(now - *start_);
   }
 
+  Parameters parameters_;
   RobotModel robot_;
   Eigen::Vector3d needle_axis_;
-  Duration still_for_;
   InsertionMonitor monitor_;
   std::optional<Time> start_, at_target_since_;
   std::optional<double> time_to_target_s_;
@@ -146,6 +148,6 @@ class BiopsyReport final : public Component {
   Input<msg::TaskState> task_state_;
 };
 
-}  // namespace armature
+}  // namespace armature::report::biopsy
 
-ARMATURE_PLUGIN(armature::BiopsyReport);
+ARMATURE_PLUGIN(armature::report::biopsy::BiopsyReport);

@@ -13,7 +13,7 @@
 #include "armature/runtime/component_bench.hpp"
 #include "armature/runtime/test_plugins.hpp"
 
-namespace armature {
+namespace armature::report::biopsy {
 namespace {
 
 class BiopsyReportTest : public testing::Test {
@@ -137,4 +137,4 @@ TEST_F(BiopsyReportTest, ASampleThatIsNoPositionIsSaid) {
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::report::biopsy

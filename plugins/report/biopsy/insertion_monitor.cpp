@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace armature {
+namespace armature::report::biopsy {
 
 void InsertionMonitor::see_tip(const Eigen::Vector3d& tip, const Eigen::Vector3d& axis,
                                const JointVector& turning) {
@@ -26,4 +26,4 @@ void InsertionMonitor::see_tip(const Eigen::Vector3d& tip, const Eigen::Vector3d
   keep_largest(turned_rad_, turned);
 }
 
-}  // namespace armature
+}  // namespace armature::report::biopsy

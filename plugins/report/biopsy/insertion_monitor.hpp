@@ -7,7 +7,7 @@
 #include "armature/robot/joint_vector.hpp"
 #include "armature/values/time.hpp"
 
-namespace armature {
+namespace armature::report::biopsy {
 
 /// What the registration said.
 struct RegisteredNeedle {
@@ -37,4 +37,4 @@ class InsertionMonitor {
   bool entered_ = false;
 };
 
-}  // namespace armature
+}  // namespace armature::report::biopsy

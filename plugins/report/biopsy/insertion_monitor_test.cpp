@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace armature {
+namespace armature::report::biopsy {
 namespace {
 
 using Eigen::Vector3d;
@@ -47,4 +47,4 @@ TEST(InsertionMonitor, KeepsTheWorst) {
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::report::biopsy

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace armature {
+namespace armature::report::implant {
 namespace {
 
 using Eigen::Isometry3d;
@@ -25,14 +25,14 @@ AtSite at_site(const Isometry3d& site_T_drill) {
 }  // namespace
 
 BoreMonitor::BoreMonitor(const std::vector<Isometry3d>& image_T_sites, const GuidedChain& estimate,
-                         const BoreSettings& settings)
-    : settings_{settings}, flange_T_tool_{estimate.flange_T_tool()} {
+                         const Parameters& parameters)
+    : parameters_{parameters}, flange_T_tool_{estimate.flange_T_tool()} {
   for (const Isometry3d& site : image_T_sites) {
     bores_.push_back({.image_T_site = site});
     site_T_base_.push_back(estimate.base_T_site(site).inverse());
   }
   for (std::size_t i = 0; i < bores_.size(); ++i) {
-    bores_[i].near_m = settings.near_m;
+    bores_[i].near_m = parameters.near;
     for (std::size_t k = 0; k < bores_.size(); ++k) {
       if (k != i) bores_[i].near_m = std::min(bores_[i].near_m, entry_to_axis(i, k) / 2);
     }
@@ -41,14 +41,14 @@ BoreMonitor::BoreMonitor(const std::vector<Isometry3d>& image_T_sites, const Gui
 
 double BoreMonitor::entry_to_axis(std::size_t i, std::size_t other) const {
   const Isometry3d base_T_site = site_T_base_[i].inverse();
-  const Eigen::Translation3d entry{0, 0, -settings_.depth_m};
+  const Eigen::Translation3d entry{0, 0, -parameters_.depth};
   return at_site(site_T_base_[other] * base_T_site * entry).off_m;
 }
 
 void BoreMonitor::see(const Isometry3d& base_T_flange, const GuidedChain& truth) {
   const Isometry3d base_T_drill = base_T_flange * flange_T_tool_;
   const auto believed_at = [&](std::size_t i) { return at_site(site_T_base_[i] * base_T_drill); };
-  const auto is_in = [&](const AtSite& there) { return there.depth_m >= -settings_.depth_m; };
+  const auto is_in = [&](const AtSite& there) { return there.depth_m >= -parameters_.depth; };
   std::optional<std::size_t> nearest;  // of crossing bores
   for (std::size_t i = 0; i < bores_.size(); ++i) {
     const AtSite there = believed_at(i);
@@ -82,4 +82,4 @@ std::optional<OneAxis> BoreMonitor::one_axis() const {
   return std::nullopt;
 }
 
-}  // namespace armature
+}  // namespace armature::report::implant

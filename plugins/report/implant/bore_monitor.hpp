@@ -7,8 +7,9 @@
 #include <vector>
 
 #include "armature/robot/guided_chain.hpp"
+#include "report_implant_parameters.hpp"
 
-namespace armature {
+namespace armature::report::implant {
 
 /// What came of the bore at one site.
 struct Bore {
@@ -24,11 +25,6 @@ struct Bore {
   double near_m = 0;
 };
 
-struct BoreSettings {
-  double depth_m = 0.012;  // above a bottom the drill is in
-  double near_m = 0.002;   // at most; no more than half the way to the next site's axis
-};
-
 /// Two sites, from 0, that one bore would serve: which of them a drill is at is not told.
 struct OneAxis {
   std::size_t first, second;
@@ -41,7 +37,7 @@ class BoreMonitor {
  public:
   /// `estimate`: what the arm believes.
   BoreMonitor(const std::vector<Eigen::Isometry3d>& image_T_sites, const GuidedChain& estimate,
-              const BoreSettings& settings);
+              const Parameters& parameters);
 
   void see(const Eigen::Isometry3d& base_T_flange, const GuidedChain& truth);
 
@@ -50,14 +46,14 @@ class BoreMonitor {
   std::optional<OneAxis> one_axis() const;
 
  private:
-  /// As the arm believes, from where bore `i` begins, depth_m above its bottom, to another's axis.
+  /// As the arm believes, from where bore `i` begins, `depth` above its bottom, to another's axis.
   double entry_to_axis(std::size_t i, std::size_t other) const;
 
-  BoreSettings settings_;
+  Parameters parameters_;
   std::vector<Bore> bores_;
   std::vector<Eigen::Isometry3d> site_T_base_;  // of bores_, as the arm believes
   Eigen::Isometry3d flange_T_tool_;             // the same
   std::optional<std::size_t> inside_;           // of bores_: where the drill was last
 };
 
-}  // namespace armature
+}  // namespace armature::report::implant

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace armature {
+namespace armature::report::implant {
 namespace {
 
 using Eigen::Isometry3d;
@@ -19,9 +19,7 @@ class BoreMonitorTest : public testing::Test {
     estimate_ = truth_;
     watch();
   }
-  void watch(double near_m = 0.002) {
-    monitor_ = BoreMonitor{sites_, estimate_, {.depth_m = 0.012, .near_m = near_m}};
-  }
+  void watch(double near_m = 0.002) { monitor_ = BoreMonitor{sites_, estimate_, {.near = near_m}}; }
   /// The drill, as the arm believes, at `x`, `z` of the first site, z from its bottom [m].
   void see(double x, double z, double tilt = 0) {
     const Isometry3d drill = estimate_.base_T_site(sites_[0]) * Eigen::Translation3d{x, 0, z} *
@@ -123,4 +121,4 @@ TEST_F(BoreMonitorTest, StraightIsAlongTheAxisAsItWasRegistered) {
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::report::implant

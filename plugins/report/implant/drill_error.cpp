@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "drill_error.hpp"
 
-namespace armature {
+namespace armature::report::implant {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
@@ -26,4 +26,4 @@ ErrorBudget error_budget(const GuidedChain& estimate, const GuidedChain& truth,
           .tracker = tip_error(tracker, truth, image_T_site)};
 }
 
-}  // namespace armature
+}  // namespace armature::report::implant

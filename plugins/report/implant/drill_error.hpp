@@ -5,7 +5,7 @@
 
 #include "armature/robot/guided_chain.hpp"
 
-namespace armature {
+namespace armature::report::implant {
 
 /// By which the drill's tip misses a site [m], in the base frame, when the flange is where
 /// `estimate` says that it has to be.
@@ -23,4 +23,4 @@ struct ErrorBudget {
 ErrorBudget error_budget(const GuidedChain& estimate, const GuidedChain& truth,
                          const Eigen::Isometry3d& image_T_site);
 
-}  // namespace armature
+}  // namespace armature::report::implant

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <random>
 
-namespace armature {
+namespace armature::report::implant {
 namespace {
 
 using Eigen::Isometry3d;
@@ -87,4 +87,4 @@ TEST(ErrorBudget, AddsUpToTheWholeToFirstOrder) {
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::report::implant

@@ -26,7 +26,7 @@
 #include "drill_error.hpp"
 #include "smoothness.hpp"
 
-namespace armature {
+namespace armature::report::implant {
 namespace {
 
 using Eigen::Vector3d;
@@ -46,12 +46,9 @@ class ImplantReport final : public Component {
  public:
   explicit ImplantReport(Setup& setup)
       : Component{setup},
+        parameters_{Parameters::read(setup.params())},
         robot_{robot_of(setup)},
         flange_{flange_of(robot_).frame},
-        bore_settings_{.depth_m = setup.params().number("depth_mm"),
-                       .near_m = setup.params().number("near_mm")},
-        least_turn_rad_{setup.params().number("least_turn_deg")},
-        still_for_{seconds(setup.params().number("still_for_s"))},
         plan_{setup.input<msg::ImplantPlan>("plan")},
         truth_{setup.input<msg::TFMessage>("truth")},
         estimate_{setup.input<msg::TFMessage>("estimate")},
@@ -69,7 +66,7 @@ class ImplantReport final : public Component {
     read_chains();
     for (std::size_t i = 0; i < task_state_.size(); ++i) read(task_state_[i], now);
     for (std::size_t i = 0; i < measured_js_.size(); ++i) read(measured_js_[i]);
-    finished_ = ended_at_ && now - *ended_at_ >= still_for_;
+    finished_ = ended_at_ && now - *ended_at_ >= seconds(parameters_.still_for);
   }
 
   bool finished() const override { return finished_; }
@@ -102,7 +99,7 @@ class ImplantReport final : public Component {
     const auto& bores = bores_->bores();
     const auto missed = std::ranges::find_if(bores, [](const Bore& bore) { return !bore.error; });
     if (missed == bores.end()) return "";
-    const bool as_set = missed->near_m == bore_settings_.near_m;
+    const bool as_set = missed->near_m == parameters_.near;
     return fmt::format("the drill was never within {:.4g} mm of the axis of site {}, {}",
                        kMillimetres * missed->near_m, missed - bores.begin() + 1,
                        as_set ? "'near_mm'" : "half of what it is from the next site's");
@@ -119,7 +116,7 @@ class ImplantReport final : public Component {
     if (bores_) return;
     std::vector<Eigen::Isometry3d> sites;
     for (const msg::Pose& site : plan_.latest()->sites_()) sites.push_back(to_eigen(site));
-    bores_.emplace(sites, *chain_, bore_settings_);
+    bores_.emplace(sites, *chain_, parameters_);
   }
 
   void read(const msg::TaskState& state, Time now) {
@@ -189,21 +186,19 @@ class ImplantReport final : public Component {
             smoothness_.peak_acceleration());
     constexpr const char *kJump = "acceleration_jump_of_peak",
                          *kTitle = "its largest step as a part of that";
-    if (smoothness_.total_rad() >= least_turn_rad_) {
+    if (smoothness_.total_rad() >= parameters_.least_turn) {
       return summary.metric(kJump, kTitle, smoothness_.acceleration_jump_of_peak());
     }
     summary.not_measured(
         kJump, kTitle,
         fmt::format("the drill turned by {:.2g} degrees in all, 'least_turn_deg' "
                     "is {:g}",
-                    kDegrees * smoothness_.total_rad(), kDegrees * least_turn_rad_));
+                    kDegrees * smoothness_.total_rad(), kDegrees * parameters_.least_turn));
   }
 
+  Parameters parameters_;
   RobotModel robot_;
   FrameId flange_;
-  BoreSettings bore_settings_;
-  double least_turn_rad_;
-  Duration still_for_;
   std::optional<Time> start_, ended_at_;
   std::optional<Eigen::Affine3d> jaw_T_image_;
   GuidedChain true_chain_;
@@ -220,6 +215,6 @@ class ImplantReport final : public Component {
   Input<msg::TaskState> task_state_;
 };
 
-}  // namespace armature
+}  // namespace armature::report::implant
 
-ARMATURE_PLUGIN(armature::ImplantReport);
+ARMATURE_PLUGIN(armature::report::implant::ImplantReport);

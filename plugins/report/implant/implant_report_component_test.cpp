@@ -14,7 +14,7 @@
 #include "armature/runtime/component_bench.hpp"
 #include "armature/runtime/test_plugins.hpp"
 
-namespace armature {
+namespace armature::report::implant {
 namespace {
 
 using Eigen::Isometry3d;
@@ -208,4 +208,4 @@ TEST_F(ImplantReportTest, ASampleThatIsNoPositionAndAChainThatIsNoneAreSaid) {
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::report::implant

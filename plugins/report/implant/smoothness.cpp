@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace armature {
+namespace armature::report::implant {
 
 void Smoothness::see(Time stamp, const Eigen::Vector3d& omega) {
   if (last_ && stamp <= last_->stamp) return;
@@ -23,4 +23,4 @@ double Smoothness::acceleration_jump_of_peak() const {
   return peak_acceleration_ > 0 ? peak_jump_ / peak_acceleration_ : 0;
 }
 
-}  // namespace armature
+}  // namespace armature::report::implant

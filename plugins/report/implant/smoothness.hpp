@@ -6,7 +6,7 @@
 
 #include "armature/values/time.hpp"
 
-namespace armature {
+namespace armature::report::implant {
 
 /// How smoothly a tool turns, from samples of its angular velocity.
 class Smoothness {
@@ -30,4 +30,4 @@ class Smoothness {
   double total_ = 0, peak_velocity_ = 0, peak_acceleration_ = 0, peak_jump_ = 0;
 };
 
-}  // namespace armature
+}  // namespace armature::report::implant

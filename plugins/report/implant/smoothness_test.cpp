@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace armature {
+namespace armature::report::implant {
 namespace {
 
 using Eigen::Vector3d;
@@ -52,4 +52,4 @@ TEST(Smoothness, OneSampleIsNoMotionAndTheSameAgainIsNone) {
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::report::implant

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace armature {
+namespace armature::report::lamp_alignment {
 namespace {
 
 constexpr double kStillPosition = 1e-6;  // [m] a truth that differs by less has not moved
@@ -60,15 +60,17 @@ void AlignmentMonitor::see_lamp(const Eigen::Vector3d& center, const Eigen::Vect
 }
 
 std::optional<EstimateError> AlignmentMonitor::estimate_error() const {
-  if (!truth_ || count_ < goals_.least_frames) return std::nullopt;
+  if (!truth_ || count_ < parameters_.least_frames) return std::nullopt;
   return EstimateError{.mouth_m = (sum_.mouth / count_ - truth_->mouth).norm(),
                        .normal_rad = angle_between(sum_.normal, truth_->normal)};
 }
 
 std::array<AlignmentCheck, 2> AlignmentMonitor::estimate_checks() const {
   std::array<AlignmentCheck, 2> checks{{
-      {.name = "mouth_position_error_mm", .limit = goals_.mouth_error_m, .unit = kMillimetre},
-      {.name = "face_normal_error_deg", .limit = goals_.normal_error_rad, .unit = kDegree},
+      {.name = "mouth_position_error_mm",
+       .limit = parameters_.mouth_position_error,
+       .unit = kMillimetre},
+      {.name = "face_normal_error_deg", .limit = parameters_.face_normal_error, .unit = kDegree},
   }};
   if (const auto error = estimate_error()) {
     checks[0].value = error->mouth_m;
@@ -79,8 +81,8 @@ std::array<AlignmentCheck, 2> AlignmentMonitor::estimate_checks() const {
 
 std::array<AlignmentCheck, 2> AlignmentMonitor::lamp_checks() const {
   std::array<AlignmentCheck, 2> checks{{
-      {.name = "distance_error_mm", .limit = goals_.distance_error_m, .unit = kMillimetre},
-      {.name = "direction_error_deg", .limit = goals_.direction_error_rad, .unit = kDegree},
+      {.name = "distance_error_mm", .limit = parameters_.distance_error, .unit = kMillimetre},
+      {.name = "direction_error_deg", .limit = parameters_.direction_error, .unit = kDegree},
   }};
   if (!lamp_errors_.empty()) {
     checks[0].value = lamp_errors_.back().distance_error_m;
@@ -91,7 +93,9 @@ std::array<AlignmentCheck, 2> AlignmentMonitor::lamp_checks() const {
 
 std::vector<std::string> AlignmentMonitor::missing() const {
   if (!found_s_) return {"no face was found"};
-  if (goals_.expect_move && first_aligned_s_ && !moved_at_) return {"the patient has not moved"};
+  if (parameters_.expect_move && first_aligned_s_ && !moved_at_) {
+    return {"the patient has not moved"};
+  }
   std::vector<std::string> missing;
   const auto tell = [&](const AlignmentCheck& check) {
     if (check.met()) return;
@@ -104,14 +108,14 @@ std::vector<std::string> AlignmentMonitor::missing() const {
   std::ranges::for_each(estimate_checks(), tell);
   if (missing.empty()) {
     missing.push_back(
-        fmt::format("it was not aligned and holding for {:g} s", goals_.aligned_for_s));
+        fmt::format("it was not aligned and holding for {:g} s", parameters_.aligned_for));
   }
   return missing;
 }
 
 void AlignmentMonitor::step(Time now) {
   if (!start_) start_ = now;
-  if (!found_s_ && since_start(now) > goals_.search_timeout_s) not_found_ = true;
+  if (!found_s_ && since_start(now) > parameters_.search_timeout) not_found_ = true;
   if (lamp_errors_.empty()) return;
   if (!std::ranges::all_of(lamp_checks(), &AlignmentCheck::met)) {
     good_since_.reset();
@@ -119,8 +123,8 @@ void AlignmentMonitor::step(Time now) {
   }
   if (!good_since_) good_since_ = now;
   const bool aligned = holding_ && std::ranges::all_of(estimate_checks(), &AlignmentCheck::met) &&
-                       to_seconds(now - *good_since_) >= goals_.aligned_for_s &&
-                       (!moved_at_ || to_seconds(now - *moved_at_) >= goals_.aligned_for_s);
+                       to_seconds(now - *good_since_) >= parameters_.aligned_for &&
+                       (!moved_at_ || to_seconds(now - *moved_at_) >= parameters_.aligned_for);
   if (!aligned) return;
   if (!first_aligned_s_) first_aligned_s_ = since_start(now);
   if (moved_at_ && !realigned_s_) realigned_s_ = to_seconds(now - *moved_at_);
@@ -128,7 +132,7 @@ void AlignmentMonitor::step(Time now) {
 
 bool AlignmentMonitor::finished() const {
   if (not_found_) return true;
-  return goals_.expect_move ? realigned_s_.has_value() : first_aligned_s_.has_value();
+  return parameters_.expect_move ? realigned_s_.has_value() : first_aligned_s_.has_value();
 }
 
-}  // namespace armature
+}  // namespace armature::report::lamp_alignment

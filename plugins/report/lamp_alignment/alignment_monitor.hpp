@@ -8,18 +8,9 @@
 #include <vector>
 
 #include "armature/values/time.hpp"
+#include "report_lamp_alignment_parameters.hpp"
 
-namespace armature {
-
-/// What "aligned" means.
-struct AlignmentGoals {
-  double distance_error_m = 0.0015, direction_error_rad = 0.0436;
-  double mouth_error_m = 0.0025, normal_error_rad = 0.0436;
-  int least_frames = 10;
-  double aligned_for_s = 1;
-  double search_timeout_s = 40;
-  bool expect_move = false;
-};
+namespace armature::report::lamp_alignment {
 
 /// A mouth and a face normal in the base frame.
 struct Face {
@@ -39,7 +30,7 @@ struct EstimateError {
   double mouth_m = 0, normal_rad = 0;
 };
 
-/// One of the limits of `AlignmentGoals` and what was measured against it.
+/// One of the limits of "aligned" and what was measured against it.
 struct AlignmentCheck {
   const char* name;  // of the report's parameter
   std::optional<double> value;
@@ -52,7 +43,7 @@ struct AlignmentCheck {
 /// Holds the lamp against the truth. Time counts from the first `step`.
 class AlignmentMonitor {
  public:
-  explicit AlignmentMonitor(const AlignmentGoals& goals) : goals_{goals} {}
+  explicit AlignmentMonitor(const Parameters& parameters) : parameters_{parameters} {}
 
   void see_truth(const Face& truth, Time now);
   /// An estimate of a picture taken at `stamp`.
@@ -89,7 +80,7 @@ class AlignmentMonitor {
   std::array<AlignmentCheck, 2> lamp_checks() const;
   std::array<AlignmentCheck, 2> estimate_checks() const;
 
-  AlignmentGoals goals_;
+  Parameters parameters_;
   std::optional<Time> start_;
   std::optional<Face> truth_;
   Face sum_;  // of the estimates since rest_since_
@@ -104,4 +95,4 @@ class AlignmentMonitor {
   bool not_found_ = false;
 };
 
-}  // namespace armature
+}  // namespace armature::report::lamp_alignment

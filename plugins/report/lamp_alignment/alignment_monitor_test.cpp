@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace armature {
+namespace armature::report::lamp_alignment {
 namespace {
 
 /// A lamp in front of a face, watched at 50 Hz, with an estimate at 10 Hz.
@@ -29,8 +29,7 @@ class AlignmentMonitorTest : public testing::Test {
     at_rest_ = true;
   }
 
-  AlignmentGoals goals_{.search_timeout_s = 5};
-  AlignmentMonitor monitor_{goals_};
+  AlignmentMonitor monitor_{{.search_timeout = 5}};
   Time now_;
   int ticks_ = 0;
   bool seen_ = true, at_rest_ = false;
@@ -119,7 +118,7 @@ TEST_F(AlignmentMonitorTest, TellsWhatTheStoryWaitsFor) {
   estimate_.mouth.z() += 0.003;
   run(3);
   EXPECT_EQ(monitor_.missing(),
-            (Lines{"direction_error_deg is 5.730, the report asks for at most 2.4981",
+            (Lines{"direction_error_deg is 5.730, the report asks for at most 2.5",
                    "mouth_position_error_mm is 3.000, the report asks for at most 2.5"}));
   align();
   run(0.9);
@@ -178,4 +177,4 @@ TEST(AlignmentMonitor, AMoveBeforeTheFirstAlignmentIsTheMoveThatTheStoryWaitsFor
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::report::lamp_alignment

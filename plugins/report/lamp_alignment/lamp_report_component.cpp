@@ -19,23 +19,12 @@
 #include "trajectory_hash.hpp"
 #include "unfinished_story.hpp"
 
-namespace armature {
+namespace armature::report::lamp_alignment {
 namespace {
 
 constexpr Duration kPeriod = seconds(0.02);
 constexpr double kAtRest = 1e-7;  // [rad] between two samples of the arm
 constexpr double kDegrees = 180 / std::numbers::pi;
-
-AlignmentGoals goals_of(const Params& params) {
-  return {.distance_error_m = params.number("distance_error_mm"),
-          .direction_error_rad = params.number("direction_error_deg"),
-          .mouth_error_m = params.number("mouth_position_error_mm"),
-          .normal_error_rad = params.number("face_normal_error_deg"),
-          .least_frames = static_cast<int>(params.integer("least_frames")),
-          .aligned_for_s = params.number("aligned_for_s"),
-          .search_timeout_s = params.number("search_timeout_s"),
-          .expect_move = params.flag("expect_move")};
-}
 
 Face face_of(const TargetEstimate& target) {
   return {.mouth = target.position, .normal = target.normal};
@@ -49,8 +38,8 @@ class LampReport : public Component {
       : Component(setup),
         model_{robot_of(setup)},
         light_axis_{model_.pointing_axis().value_or(Eigen::Vector3d::UnitX())},
-        goals_{goals_of(setup.params())},
-        monitor_{goals_},
+        parameters_{Parameters::read(setup.params())},
+        monitor_{parameters_},
         truth_{setup.input<msg::Target>("truth")},
         target_{setup.input<msg::Target>("target")},
         measured_js_{setup.input<msg::JointState>("measured_js")},
@@ -84,7 +73,7 @@ class LampReport : public Component {
   void summarize(Summary& summary) const override {
     if (monitor_.face_not_found()) {
       summary.failed("face_not_found",
-                     fmt::format("no face was found for {:g} s{}", goals_.search_timeout_s,
+                     fmt::format("no face was found for {:g} s{}", parameters_.search_timeout,
                                  unfinished_.told(now_)));
     }
     const auto metric = [&](const char* key, const char* title, std::optional<double> value) {
@@ -117,7 +106,7 @@ class LampReport : public Component {
 
   void write_files(const std::filesystem::path& directory) const override {
     if (!picture_.gray.empty()) write_camera_picture(picture_, directory / "left_camera.png");
-    write_error_plot(monitor_.lamp_errors(), goals_, directory / "errors.png");
+    write_error_plot(monitor_.lamp_errors(), parameters_, directory / "errors.png");
   }
 
  private:
@@ -212,7 +201,7 @@ class LampReport : public Component {
 
   RobotModel model_;
   Eigen::Vector3d light_axis_;
-  AlignmentGoals goals_;
+  Parameters parameters_;
   AlignmentMonitor monitor_;
   UnfinishedStory unfinished_;
   Time now_;
@@ -230,6 +219,6 @@ class LampReport : public Component {
   Input<msg::FacePose> face_;
 };
 
-}  // namespace armature
+}  // namespace armature::report::lamp_alignment
 
-ARMATURE_PLUGIN(armature::LampReport);
+ARMATURE_PLUGIN(armature::report::lamp_alignment::LampReport);

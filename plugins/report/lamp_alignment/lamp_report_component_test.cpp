@@ -12,7 +12,7 @@
 #include "armature/runtime/component_bench.hpp"
 #include "armature/runtime/test_plugins.hpp"
 
-namespace armature {
+namespace armature::report::lamp_alignment {
 namespace {
 
 using Eigen::Vector3d;
@@ -247,4 +247,4 @@ TEST_F(LampReportTest, WritesWhatTheCameraSawAndHowTheErrorsWentDown) {
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::report::lamp_alignment

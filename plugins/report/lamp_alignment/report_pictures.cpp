@@ -14,7 +14,7 @@
 
 #include "armature/runtime/write_atomically.hpp"
 
-namespace armature {
+namespace armature::report::lamp_alignment {
 namespace {
 
 const cv::Scalar kBlack{0, 0, 0}, kGrid{225, 225, 225}, kCurve{180, 90, 20}, kGoal{60, 60, 220};
@@ -131,7 +131,7 @@ void write_camera_picture(const CameraPicture& picture, const std::filesystem::p
   save(image, file);
 }
 
-void write_error_plot(std::span<const LampError> errors, const AlignmentGoals& goals,
+void write_error_plot(std::span<const LampError> errors, const Parameters& parameters,
                       const std::filesystem::path& file) {
   constexpr double kDegrees = 180 / std::numbers::pi;
   cv::Mat image(760, 1000, CV_8UC3, cv::Scalar{255, 255, 255});
@@ -146,13 +146,13 @@ void write_error_plot(std::span<const LampError> errors, const AlignmentGoals& g
   const Panel distance{{70, 40, 900, 280},
                        "distance error [mm]; red: goal",
                        duration_s,
-                       1000 * goals.distance_error_m,
+                       1000 * parameters.distance_error,
                        errors,
                        distance_mm};
   const Panel direction{{70, 415, 900, 280},
                         "direction error [deg]; red: goal",
                         duration_s,
-                        kDegrees * goals.direction_error_rad,
+                        kDegrees * parameters.direction_error,
                         errors,
                         direction_deg};
   distance.draw_axes(image);
@@ -162,4 +162,4 @@ void write_error_plot(std::span<const LampError> errors, const AlignmentGoals& g
   save(image, file);
 }
 
-}  // namespace armature
+}  // namespace armature::report::lamp_alignment

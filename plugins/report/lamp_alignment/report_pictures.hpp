@@ -10,7 +10,7 @@
 
 #include "alignment_monitor.hpp"
 
-namespace armature {
+namespace armature::report::lamp_alignment {
 
 /// What a camera saw, and what was found in it.
 struct CameraPicture {
@@ -29,8 +29,8 @@ struct CameraPicture {
 /// std::runtime_error when the file cannot be written.
 void write_camera_picture(const CameraPicture& picture, const std::filesystem::path& file);
 
-/// Distance error [mm] and direction error [deg] over time, with the goals as lines.
-void write_error_plot(std::span<const LampError> errors, const AlignmentGoals& goals,
+/// Distance error [mm] and direction error [deg] over time, with the limits as lines.
+void write_error_plot(std::span<const LampError> errors, const Parameters& parameters,
                       const std::filesystem::path& file);
 
-}  // namespace armature
+}  // namespace armature::report::lamp_alignment

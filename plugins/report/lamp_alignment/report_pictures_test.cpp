@@ -5,7 +5,7 @@
 
 #include <opencv2/imgcodecs.hpp>
 
-namespace armature {
+namespace armature::report::lamp_alignment {
 namespace {
 
 class ReportPicturesTest : public testing::Test {
@@ -83,4 +83,4 @@ TEST_F(ReportPicturesTest, AFolderThatIsNotThereIsNamed) {
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::report::lamp_alignment

@@ -8,7 +8,7 @@
 #include <bit>
 #include <stdexcept>
 
-namespace armature {
+namespace armature::report::lamp_alignment {
 
 static_assert(std::endian::native == std::endian::little, "samples are hashed as they are stored");
 
@@ -42,4 +42,4 @@ std::string TrajectoryHash::hex() const {
   return text;
 }
 
-}  // namespace armature
+}  // namespace armature::report::lamp_alignment

@@ -7,7 +7,7 @@
 
 #include "armature/values/time.hpp"
 
-namespace armature {
+namespace armature::report::lamp_alignment {
 
 /// SHA-256 over joint samples: int64 nanoseconds, then the joints as doubles, all little-endian.
 /// Two runs that moved alike to the last bit have the same one.
@@ -27,4 +27,4 @@ class TrajectoryHash {
   std::unique_ptr<Digest> digest_;
 };
 
-}  // namespace armature
+}  // namespace armature::report::lamp_alignment

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace armature {
+namespace armature::report::lamp_alignment {
 namespace {
 
 TEST(TrajectoryHash, OfNothingIsThatOfTheEmptyText) {
@@ -28,4 +28,4 @@ TEST(TrajectoryHash, ChangesWithTheLastBitOfOneSample) {
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::report::lamp_alignment

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace armature {
+namespace armature::report::lamp_alignment {
 namespace {
 
 /// Of so many pictures it is remembered that there was a face: more than are ever under way.
@@ -37,4 +37,4 @@ std::string UnfinishedStory::told(Time now) const {
   return why_.empty() ? text : text + ": " + why_;
 }
 
-}  // namespace armature
+}  // namespace armature::report::lamp_alignment

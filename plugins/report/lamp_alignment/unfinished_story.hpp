@@ -7,7 +7,7 @@
 
 #include "armature/values/time.hpp"
 
-namespace armature {
+namespace armature::report::lamp_alignment {
 
 /// What there is to tell about a story that did not come to its end: what became of the last face
 /// that was seen, and what the task was at.
@@ -30,4 +30,4 @@ class UnfinishedStory {
   Time doing_since_;
 };
 
-}  // namespace armature
+}  // namespace armature::report::lamp_alignment

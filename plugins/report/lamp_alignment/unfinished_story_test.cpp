@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace armature {
+namespace armature::report::lamp_alignment {
 namespace {
 
 constexpr Time at(double t_s) { return Time{} + seconds(t_s); }
@@ -44,4 +44,4 @@ TEST(UnfinishedStory, TellsWhatTheTaskWasAtAndForHowLong) {
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::report::lamp_alignment

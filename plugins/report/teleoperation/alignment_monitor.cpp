@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace armature {
+namespace armature::report::teleoperation {
 
 std::optional<PoseResidual> AlignmentMonitor::error(const Eigen::Isometry3d& slave_T_master,
                                                     const Eigen::Isometry3d& slave_T_tool) const {
@@ -26,4 +26,4 @@ std::optional<double> AlignmentMonitor::peak_speed_error(
   return worst;
 }
 
-}  // namespace armature
+}  // namespace armature::report::teleoperation

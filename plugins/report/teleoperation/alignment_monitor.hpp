@@ -8,7 +8,7 @@
 #include "armature/robot/joint_vector.hpp"
 #include "armature/robot/pose_goal.hpp"
 
-namespace armature {
+namespace armature::report::teleoperation {
 
 /// Watches the master on its way to the instrument.
 class AlignmentMonitor {
@@ -30,4 +30,4 @@ class AlignmentMonitor {
   std::optional<Eigen::Isometry3d> master_T_hand_;
 };
 
-}  // namespace armature
+}  // namespace armature::report::teleoperation

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace armature {
+namespace armature::report::teleoperation {
 namespace {
 
 using Eigen::Vector3d;
@@ -41,4 +41,4 @@ TEST(AlignmentMonitor, HoldsEveryJointsPeakSpeedAgainstTheReference) {
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::report::teleoperation

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-namespace armature {
+namespace armature::report::teleoperation {
 namespace {
 
 /// The time that a point stands for, as a part of the whole: points may come unevenly.
@@ -48,4 +48,4 @@ double band_power(std::span<const TrackPoint> track, double from_hz, double to_h
   return 16.0 / 3.0 * sum;
 }
 
-}  // namespace armature
+}  // namespace armature::report::teleoperation

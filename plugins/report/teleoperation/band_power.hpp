@@ -5,11 +5,11 @@
 
 #include "track.hpp"
 
-namespace armature {
+namespace armature::report::teleoperation {
 
 /// Mean square distance [m^2] of the part of a motion whose frequencies lie between `from_hz` and
 /// `to_hz`: its Fourier sum at their multiples of 1 / duration, under a Hann window, so that a slow
 /// motion beside it does not leak in. 0 for fewer than three points.
 double band_power(std::span<const TrackPoint> track, double from_hz, double to_hz);
 
-}  // namespace armature
+}  // namespace armature::report::teleoperation

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <functional>
 
-namespace armature {
+namespace armature::report::teleoperation {
 namespace {
 
 Track track_of(double duration, const std::function<Eigen::Vector3d(double)>& at) {
@@ -55,4 +55,4 @@ TEST(BandPower, OfNothingIsNothing) {
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::report::teleoperation

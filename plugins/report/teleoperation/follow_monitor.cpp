@@ -10,12 +10,15 @@
 
 #include "band_power.hpp"
 
-namespace armature {
+namespace armature::report::teleoperation {
 namespace {
 
 using Eigen::Vector3d;
 
 constexpr double kTremorFrom_hz = 8, kTremorTo_hz = 12;
+constexpr double kSettles_s = 0.5;  // after the clutch has closed, before the following is judged
+constexpr double kStops_s = 0.1;    // after the clutch has opened, until the slave must stand
+constexpr double kCloses_s = 0.05;  // after it has closed: no jump in this time
 
 bool before(const TrackPoint& point, double t) { return point.t < t; }
 
@@ -68,7 +71,7 @@ FollowMonitor::Comparison FollowMonitor::compare(double lag_s, const Sample& sam
   constexpr double kHalfStep = 5e-4;  // [s] of the difference quotient
   Comparison result;
   for (const Stretch& stretch : stretches(true)) {
-    const auto points = between(slave_, std::max(stretch.from + settings_.settles_s, sample.from),
+    const auto points = between(slave_, std::max(stretch.from + kSettles_s, sample.from),
                                 std::min(stretch.to, sample.to));
     std::vector<Vector3d> off, rate;
     for (std::size_t i = 0; i < points.size(); i += sample.every) {
@@ -76,8 +79,8 @@ FollowMonitor::Comparison FollowMonitor::compare(double lag_s, const Sample& sam
       const auto meant = position_at(intended_, t), last = position_at(intended_, t - kHalfStep),
                  next = position_at(intended_, t + kHalfStep);
       if (!meant || !last || !next) continue;
-      off.push_back(points[i].position - settings_.scale * *meant);
-      rate.push_back(settings_.scale * (*next - *last) / (2 * kHalfStep));
+      off.push_back(points[i].position - parameters_.scale * *meant);
+      rate.push_back(parameters_.scale * (*next - *last) / (2 * kHalfStep));
     }
     subtract_mean(off);
     subtract_mean(rate);
@@ -152,7 +155,7 @@ Expected<double> FollowMonitor::best_lag() const {
 }
 
 std::optional<FollowMonitor::Following> FollowMonitor::following() const {
-  const Comparison stated = compare(settings_.lag_s, {});
+  const Comparison stated = compare(parameters_.lag, {});
   if (stated.count == 0) return std::nullopt;
   return Following{.rms_m = std::sqrt(stated.squares / stated.count),
                    .worst_m = stated.worst_m,
@@ -162,7 +165,7 @@ std::optional<FollowMonitor::Following> FollowMonitor::following() const {
 std::optional<FollowMonitor::Tremor> FollowMonitor::tremor() const {
   double hand = 0, slave = 0, duration = 0;
   for (const Stretch& stretch : stretches(true)) {
-    const double from = stretch.from + settings_.settles_s, lasts = stretch.to - from;
+    const double from = stretch.from + kSettles_s, lasts = stretch.to - from;
     if (lasts <= 0) continue;
     hand += lasts * band_power(between(hand_, from, stretch.to), kTremorFrom_hz, kTremorTo_hz);
     slave += lasts * band_power(between(slave_, from, stretch.to), kTremorFrom_hz, kTremorTo_hz);
@@ -171,13 +174,13 @@ std::optional<FollowMonitor::Tremor> FollowMonitor::tremor() const {
   if (!(hand > 0)) return std::nullopt;
   return Tremor{.hand_m = std::sqrt(hand / duration),
                 .slave_m = std::sqrt(slave / duration),
-                .left_db = 10 * std::log10(slave / (settings_.scale * settings_.scale * hand))};
+                .left_db = 10 * std::log10(slave / (parameters_.scale * parameters_.scale * hand))};
 }
 
 std::optional<double> FollowMonitor::open_motion_m() const {
   std::optional<double> farthest;
   for (const Stretch& stretch : stretches(false)) {
-    const auto stands = between(slave_, stretch.from + settings_.stops_s, stretch.to);
+    const auto stands = between(slave_, stretch.from + kStops_s, stretch.to);
     for (const TrackPoint& point : stands) {
       keep_largest(farthest, (point.position - stands.front().position).norm());
     }
@@ -188,7 +191,7 @@ std::optional<double> FollowMonitor::open_motion_m() const {
 std::optional<double> FollowMonitor::stopping_m() const {
   std::optional<double> farthest;
   for (const Stretch& stretch : stretches(false)) {
-    const double stands = std::min(stretch.from + settings_.stops_s, stretch.to);
+    const double stands = std::min(stretch.from + kStops_s, stretch.to);
     const auto stopping = between(slave_, stretch.from, stands);
     if (stopping.empty()) continue;
     keep_largest(farthest, (stopping.back().position - stopping.front().position).norm());
@@ -199,7 +202,7 @@ std::optional<double> FollowMonitor::stopping_m() const {
 std::optional<double> FollowMonitor::closing_step_m() const {
   std::optional<double> longest;
   for (const Stretch& stretch : stretches(true)) {
-    const auto closing = between(slave_, stretch.from, stretch.from + settings_.closes_s);
+    const auto closing = between(slave_, stretch.from, stretch.from + kCloses_s);
     for (std::size_t i = 1; i < closing.size(); ++i) {
       keep_largest(longest, (closing[i].position - closing[i - 1].position).norm());
     }
@@ -216,4 +219,4 @@ std::optional<double> FollowMonitor::top_speed_m_s() const {
   return fastest;
 }
 
-}  // namespace armature
+}  // namespace armature::report::teleoperation

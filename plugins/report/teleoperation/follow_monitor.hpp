@@ -7,23 +7,16 @@
 #include <vector>
 
 #include "armature/values/expected.hpp"
+#include "report_teleoperation_parameters.hpp"
 #include "track.hpp"
 
-namespace armature {
-
-struct FollowSettings {
-  double scale = 0.5;      // of the hand's way
-  double lag_s = 0;        // by which the slave shall come later
-  double settles_s = 0.5;  // after the clutch has closed, before the following is judged
-  double stops_s = 0.1;    // after the clutch has opened, until the slave must stand
-  double closes_s = 0.05;  // after it has closed: no jump in this time
-};
+namespace armature::report::teleoperation {
 
 /// Watches a slave that follows a hand; the slave's points are told along the master's axes, from
 /// any origin. Times in [s].
 class FollowMonitor {
  public:
-  explicit FollowMonitor(const FollowSettings& settings) : settings_{settings} {}
+  explicit FollowMonitor(const Parameters& parameters) : parameters_{parameters} {}
 
   /// Where the hand means to be, where it is, and where the slave's tip is.
   void see_intended(const TrackPoint& point) { intended_.push_back(point); }
@@ -84,7 +77,7 @@ class FollowMonitor {
   bool stands_out(double lag_s) const;
   static constexpr double kLagStep_s = 0.01, kTellsApart_s = 0.1;
 
-  FollowSettings settings_;
+  Parameters parameters_;
   Track intended_, hand_, slave_;
   struct ClutchChange {
     bool closed;
@@ -93,4 +86,4 @@ class FollowMonitor {
   std::vector<ClutchChange> clutch_;
 };
 
-}  // namespace armature
+}  // namespace armature::report::teleoperation

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <functional>
 
-namespace armature {
+namespace armature::report::teleoperation {
 namespace {
 
 using Eigen::Vector3d;
@@ -24,8 +24,8 @@ Vector3d shaking(double t, double amplitude) {
 
 /// From 0 to `end` s, the clutch closed from 1 s to 5 s and from 7 s on.
 FollowMonitor watched(const Way& intended, const Way& hand, const Way& slave, double end = 11,
-                      const FollowSettings& settings = {.scale = 0.5, .lag_s = 0.05}) {
-  FollowMonitor monitor{settings};
+                      const Parameters& parameters = {.scale = 0.5, .lag = 0.05}) {
+  FollowMonitor monitor{parameters};
   for (int k = 0; k * kSample < end; ++k) {
     const double t = k * kSample;
     monitor.see_intended({t, intended(t)});
@@ -69,7 +69,7 @@ TEST(FollowMonitor, TellsHowLateItComesInTruthWhateverLagIsStated) {
     for (const double stated_s : {0.0, 0.05, 0.2, 1.0}) {
       const auto monitor =
           watched(curve, curve, [&](double t) { return Vector3d{0.5 * curve(t - truth_s)}; }, 11,
-                  {.scale = 0.5, .lag_s = stated_s});
+                  {.scale = 0.5, .lag = stated_s});
       ASSERT_TRUE(monitor.following()->lag_s) << truth_s << ", stated " << stated_s;
       EXPECT_NEAR(*monitor.following()->lag_s, truth_s, 1e-6) << "stated " << stated_s;
       EXPECT_GE(monitor.following()->rms_m, 0.002 * std::abs(truth_s - stated_s));
@@ -154,4 +154,4 @@ TEST(FollowMonitor, TellsTheTopSpeedOfTheWholeRun) {
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::report::teleoperation

@@ -18,19 +18,16 @@
 #include "armature/runtime/setup.hpp"
 #include "follow_monitor.hpp"
 
-namespace armature {
+namespace armature::report::teleoperation {
 namespace {
 
 constexpr Duration kPeriod = seconds(0.02);
 constexpr double kDegrees = 180 / std::numbers::pi;
 
-FollowSettings settings_of(const Params& params) {
-  return {.scale = params.number("scale"), .lag_s = 1e-3 * params.number("lag_ms")};
-}
-
-std::vector<double> peak_speeds_of(const Params& params, const RobotModel& robot) {
-  auto speeds = params.numbers("peak_speeds");
-  if (speeds.empty()) return speeds;
+Parameters parameters_of(const Params& params, const RobotModel& robot) {
+  const Parameters parameters = Parameters::read(params);
+  const std::vector<double>& speeds = parameters.peak_speeds;
+  if (speeds.empty()) return parameters;
   if (static_cast<int>(speeds.size()) != robot.dof()) {
     params.refuse({"peak_speeds"}, fmt::format("'peak_speeds' has {} numbers; robot {} has {} "
                                                "joints",
@@ -43,7 +40,7 @@ std::vector<double> peak_speeds_of(const Params& params, const RobotModel& robot
                               "must be more",
                               zero - speeds.begin() + 1));
   }
-  return speeds;
+  return parameters;
 }
 
 }  // namespace
@@ -53,11 +50,8 @@ class TeleoperationReport final : public Component {
   explicit TeleoperationReport(Setup& setup)
       : Component{setup},
         master_{robot_of(setup)},
-        peak_speeds_{peak_speeds_of(setup.params(), master_)},
-        watch_for_{seconds(setup.params().number("watch_s"))},
-        held_for_{seconds(setup.params().number("held_for_s"))},
-        least_tremor_m_{setup.params().number("least_tremor_mm")},
-        follow_{settings_of(setup.params())},
+        parameters_{parameters_of(setup.params(), master_)},
+        follow_{parameters_},
         console_{setup.input<msg::TransformStamped>("console")},
         master_js_{setup.input<msg::JointState>("master_js")},
         master_cp_{setup.input<msg::PoseStamped>("master_cp")},
@@ -79,8 +73,8 @@ class TeleoperationReport final : public Component {
       read_intended(intended_cp_[i]);
     }
     show_health();
-    const bool watched = closed_at_ && now - *closed_at_ >= watch_for_;
-    held_ = held_since_ && (watched || now - *held_since_ >= held_for_);
+    const bool watched = closed_at_ && now - *closed_at_ >= seconds(parameters_.watch);
+    held_ = held_since_ && (watched || now - *held_since_ >= seconds(parameters_.held_for));
     finished_ = refused_ || held_ || watched;
   }
 
@@ -100,7 +94,7 @@ class TeleoperationReport final : public Component {
         metric("alignment_error_deg", "its rotation [deg]", off->angle_rad, kDegrees);
       }
       metric("peak_speed_error_percent", "peak joint speeds off the reference [%]",
-             alignment_.peak_speed_error(peak_speeds_), 100);
+             alignment_.peak_speed_error(parameters_.peak_speeds), 100);
     }
     if (const auto following = follow_.following()) {
       metric("tracking_error_mm", "slave off the hand, later, rms [mm]", following->rms_m, 1e3);
@@ -122,11 +116,13 @@ class TeleoperationReport final : public Component {
   /// Of a hand that does not tremble, what the slave has of it would be a ratio of noise.
   void tell_tremor_left(Summary& summary, const FollowMonitor::Tremor& tremor) const {
     constexpr const char *kKey = "tremor_db", *kTitle = "what is left of it, scaled [dB]";
-    if (tremor.hand_m >= least_tremor_m_) return summary.metric(kKey, kTitle, tremor.left_db);
+    if (tremor.hand_m >= parameters_.least_tremor) {
+      return summary.metric(kKey, kTitle, tremor.left_db);
+    }
     summary.not_measured(kKey, kTitle,
                          fmt::format("the hand trembles by {:.2g} mm only, 'least_tremor_mm' is "
                                      "{:g}",
-                                     1e3 * tremor.hand_m, 1e3 * least_tremor_m_));
+                                     1e3 * tremor.hand_m, 1e3 * parameters_.least_tremor));
   }
 
   static void tell_lag(Summary& summary, const Expected<double>& lag_s) {
@@ -203,9 +199,7 @@ class TeleoperationReport final : public Component {
   }
 
   RobotModel master_;
-  std::vector<double> peak_speeds_;
-  Duration watch_for_, held_for_;
-  double least_tremor_m_;
+  Parameters parameters_;
   AlignmentMonitor alignment_;
   FollowMonitor follow_;
   std::optional<PoseResidual> alignment_error_;
@@ -219,6 +213,6 @@ class TeleoperationReport final : public Component {
   Input<msg::TaskState> task_state_;
 };
 
-}  // namespace armature
+}  // namespace armature::report::teleoperation
 
-ARMATURE_PLUGIN(armature::TeleoperationReport);
+ARMATURE_PLUGIN(armature::report::teleoperation::TeleoperationReport);

@@ -12,7 +12,7 @@
 #include "armature/runtime/component_bench.hpp"
 #include "armature/runtime/test_plugins.hpp"
 
-namespace armature {
+namespace armature::report::teleoperation {
 namespace {
 
 using Eigen::Vector3d;
@@ -187,4 +187,4 @@ TEST(TeleoperationReport, RefusesSpeedsThatAreNotTheRobotsOrNone) {
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::report::teleoperation

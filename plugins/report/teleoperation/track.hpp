@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace armature {
+namespace armature::report::teleoperation {
 
 /// Where a point was at a time.
 struct TrackPoint {
@@ -14,4 +14,4 @@ struct TrackPoint {
 /// In the order of time.
 using Track = std::vector<TrackPoint>;
 
-}  // namespace armature
+}  // namespace armature::report::teleoperation

@@ -10,7 +10,7 @@
 #include "least_path.hpp"
 #include "test_robots.hpp"
 
-namespace armature::minmax {
+namespace armature::select::minmax {
 namespace {
 
 constexpr std::array<std::string_view, 4> kLabels{"a", "b", "c", "d"};
@@ -25,7 +25,7 @@ struct Choice {
 /// Start, branches and rules at random.
 struct Case {
   RobotModel model;
-  Rules rules;
+  Parameters rules;
   JointVector start;
   std::vector<IkBranches> solutions;
 
@@ -46,7 +46,7 @@ class Cases {
   Case next() {
     Case made{
         .model = below(2) == 0 ? crane() : winder(), .rules = {}, .start = {}, .solutions = {}};
-    made.rules.first_move_counts = below(3) > 0;
+    if (below(3) == 0) made.rules.first_move = Parameters::FirstMove::free;
     made.rules.one_branch = below(4) == 0;
     if (below(4) == 0) made.rules.jump_limit = between(1, 5);
     made.start = posture(made.model);
@@ -90,7 +90,7 @@ std::optional<Choice> followed(const Case& given, std::vector<std::size_t> branc
     const IkBranch& to = given.solutions[k].branch[choice.branch[k]];
     JointVector next = to.q;
     unwind(given.model, q, next);
-    const bool counts = k > 0 || given.rules.first_move_counts;
+    const bool counts = k > 0 || given.rules.first_move == Parameters::FirstMove::counts;
     double time_s = 0;
     for (int i = 0; i < q.size(); ++i) {
       const double way = std::abs(next[i] - q[i]);
@@ -218,4 +218,4 @@ TEST(MinMaxExactness, ALongPathAwayFromLimitsLeavesNoMorePlacesThanBranches) {
 }
 
 }  // namespace
-}  // namespace armature::minmax
+}  // namespace armature::select::minmax

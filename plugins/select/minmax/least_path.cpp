@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace armature::minmax {
+namespace armature::select::minmax {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
@@ -131,4 +131,4 @@ std::vector<JointVector> LeastPath::first_of(const Layers& layers) const {
   return path;
 }
 
-}  // namespace armature::minmax
+}  // namespace armature::select::minmax

@@ -6,7 +6,7 @@
 
 #include "moves.hpp"
 
-namespace armature::minmax {
+namespace armature::select::minmax {
 
 /// The branches of every waypoint that can stand, in the solver's order.
 using Waypoints = std::vector<std::vector<const IkBranch*>>;
@@ -73,4 +73,4 @@ class LeastPath {
   double most_s_;
 };
 
-}  // namespace armature::minmax
+}  // namespace armature::select::minmax

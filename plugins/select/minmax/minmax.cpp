@@ -7,22 +7,10 @@
 
 #include "armature/runtime/plugin.hpp"
 
-namespace armature {
+namespace armature::select::minmax {
 
-using minmax::kEqual_s;
-using minmax::LeastPath;
-using minmax::Measure;
-
-Expected<std::unique_ptr<BranchSelector>> MinMax::make(const RobotModel& model,
-                                                       const Params& params) {
-  const minmax::Rules rules{.first_move_counts = params.text("first_move") == "counts",
-                            .one_branch = params.flag("one_branch"),
-                            .jump_limit = params.number("jump_limit_deg")};
-  return std::unique_ptr<BranchSelector>{new MinMax{model, rules}};
-}
-
-Expected<minmax::Waypoints> MinMax::that_can_stand(std::span<const IkBranches> waypoints) const {
-  minmax::Waypoints standing(waypoints.size());
+Expected<Waypoints> MinMax::that_can_stand(std::span<const IkBranches> waypoints) const {
+  Waypoints standing(waypoints.size());
   for (std::size_t k = 0; k < waypoints.size(); ++k) {
     for (const IkBranch& branch : waypoints[k]) {
       if (moves_.can_stand(branch)) standing[k].push_back(&branch);
@@ -38,15 +26,14 @@ Expected<minmax::Waypoints> MinMax::that_can_stand(std::span<const IkBranches> w
 }
 
 /// Only rules can bar the way: without them every branch that can stand is reached from anywhere.
-std::string MinMax::blocked(const minmax::Layers& layers,
-                            const minmax::Waypoints& waypoints) const {
+std::string MinMax::blocked(const Layers& layers, const Waypoints& waypoints) const {
   const std::size_t place = layers.of.size();
   const std::string before = place == 1 ? "the start" : fmt::format("waypoint {}", place - 1);
   std::string rules;
-  if (rules_.one_branch && place > 1) rules += " in one branch";
-  if (rules_.jump_limit > 0) {
-    rules +=
-        fmt::format(" by turns of at most {:.6g} deg", rules_.jump_limit * 180 / std::numbers::pi);
+  if (parameters_.one_branch && place > 1) rules += " in one branch";
+  if (parameters_.jump_limit > 0) {
+    rules += fmt::format(" by turns of at most {:.6g} deg",
+                         parameters_.jump_limit * 180 / std::numbers::pi);
   }
   const std::size_t count = waypoints[place - 1].size();
   return fmt::format("waypoint {} of {}: {} {} within limits, not to be reached from {}{}", place,
@@ -65,6 +52,6 @@ Expected<std::vector<JointVector>> MinMax::choose(const JointVector& start,
   return shortest.first_of(shortest.from(start));
 }
 
-}  // namespace armature
+}  // namespace armature::select::minmax
 
-ARMATURE_PLUGIN(armature::MinMax);
+ARMATURE_PLUGIN(armature::select::minmax::MinMax);

@@ -3,40 +3,38 @@
 
 #include <gtest/gtest.h>
 
-#include "armature/kinds/declared_params.hpp"
+#include <numbers>
+
 #include "armature/kinds/select/contract.hpp"
 #include "test_robots.hpp"
 
-namespace armature::minmax {
+namespace armature::select::minmax {
 namespace {
 
-std::unique_ptr<BranchSelector> made(const RobotModel& model, std::string_view params) {
-  const auto given =
-      declared_params(ARMATURE_SOURCE_DIR "/plugins/select/minmax/plugin.yaml", params);
-  return MinMax::make(model, given).value();
-}
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr auto kFree = Parameters::FirstMove::free;
 
 Expected<std::vector<JointVector>> choose(const JointVector& start,
                                           const std::vector<IkBranches>& waypoints,
-                                          std::string_view params = "") {
+                                          const Parameters& parameters = {}) {
   const RobotModel model = crane();
-  return made(model, params)->choose(start, waypoints);
+  return MinMax{model, parameters}.choose(start, waypoints);
 }
 
-SelectSubject subject(const std::string& name, const RobotModel& model, std::string_view params) {
+SelectSubject subject(const std::string& name, const RobotModel& model,
+                      const Parameters& parameters = {}) {
   const auto shared = std::make_shared<const RobotModel>(model);
-  return {name, shared, made(*shared, params)};
+  return {name, shared, std::make_shared<MinMax>(*shared, parameters)};
 }
 
 INSTANTIATE_TEST_SUITE_P(
     MinMax, SelectLaws,
     testing::Values(
-        subject("crane", crane(), ""), subject("crane_from_anywhere", crane(), "first_move: free"),
-        subject("crane_in_one_branch", crane(), "one_branch: true"),
-        subject("crane_without_jumps", crane(), "jump_limit_deg: 360"),
-        subject("winder", winder(), ""),
-        subject("lamp", load_robot_model(ARMATURE_SOURCE_DIR "/configs/robots/dental_lamp.yaml"),
-                "")),
+        subject("crane", crane()), subject("crane_from_anywhere", crane(), {.first_move = kFree}),
+        subject("crane_in_one_branch", crane(), {.one_branch = true}),
+        subject("crane_without_jumps", crane(), {.jump_limit = 360 * kDegree}),
+        subject("winder", winder()),
+        subject("lamp", load_robot_model(ARMATURE_SOURCE_DIR "/configs/robots/dental_lamp.yaml"))),
     testing::PrintToStringParamName());
 
 IkBranches labelled(const std::vector<std::pair<const char*, JointVector>>& all) {
@@ -98,7 +96,7 @@ TEST(MinMax, AFreeFirstMoveMayBeTheGreatest) {
   const std::vector<IkBranches> waypoints{branches({joints(0.1, 0, 0), joints(3, 0, 0)}),
                                           branches({joints(1.1, 0, 0), joints(3.1, 0, 0)})};
   EXPECT_EQ(choose(joints(0, 0, 0), waypoints)->front(), joints(0.1, 0, 0));
-  EXPECT_EQ(choose(joints(0, 0, 0), waypoints, "first_move: free")->front(), joints(3, 0, 0));
+  EXPECT_EQ(choose(joints(0, 0, 0), waypoints, {.first_move = kFree})->front(), joints(3, 0, 0));
 }
 
 TEST(MinMax, StaysInOneBranchWhenToldTo) {
@@ -107,13 +105,13 @@ TEST(MinMax, StaysInOneBranchWhenToldTo) {
       labelled({{"up", joints(3, 0, 0)}, {"down", joints(0.6, 0, 0)}}),
       labelled({{"up", joints(0.7, 0, 0)}, {"down", joints(2, 0, 0)}})};
   EXPECT_EQ(choose(joints(0, 0, 0), waypoints)->back(), joints(0.7, 0, 0));
-  EXPECT_EQ(choose(joints(0, 0, 0), waypoints, "one_branch: true")->back(), joints(2, 0, 0));
+  EXPECT_EQ(choose(joints(0, 0, 0), waypoints, {.one_branch = true})->back(), joints(2, 0, 0));
 }
 
 TEST(MinMax, NamesTheWaypointAtWhichEveryBranchEnds) {
   const auto both = labelled({{"up", joints(0, 0, 0)}, {"down", joints(0.5, 0, 0)}});
   const auto down = labelled({{"down", joints(0, 0, 0)}}), up = labelled({{"up", joints(0, 0, 0)}});
-  EXPECT_EQ(choose(joints(0, 0, 0), {both, down, up, both}, "one_branch: true").error().text,
+  EXPECT_EQ(choose(joints(0, 0, 0), {both, down, up, both}, {.one_branch = true}).error().text,
             "waypoint 3 of 4: 1 branch within limits, not to be reached from waypoint 2 in one "
             "branch");
 }
@@ -121,14 +119,14 @@ TEST(MinMax, NamesTheWaypointAtWhichEveryBranchEnds) {
 TEST(MinMax, NamesTheWaypointThatOnlyAJumpReaches) {
   const auto near = branches({joints(0, 0, 0)});
   const auto far = branches({joints(1, 0, 0), joints(0, -2, 0)});
-  EXPECT_EQ(choose(joints(0, 0, 0), {near, far, near}, "jump_limit_deg: 30").error().text,
+  EXPECT_EQ(choose(joints(0, 0, 0), {near, far, near}, {.jump_limit = 30 * kDegree}).error().text,
             "waypoint 2 of 3: 2 branches within limits, not to be reached from waypoint 1 by turns "
             "of at most 30 deg");
-  EXPECT_EQ(choose(joints(0, 0, 0), {far, near}, "jump_limit_deg: 30").error().text,
+  EXPECT_EQ(choose(joints(0, 0, 0), {far, near}, {.jump_limit = 30 * kDegree}).error().text,
             "waypoint 1 of 2: 2 branches within limits, not to be reached from the start by turns "
             "of at most 30 deg");
-  EXPECT_TRUE(choose(joints(0, 0, 0), {far}, "{jump_limit_deg: 30, first_move: free}"));
-  EXPECT_TRUE(choose(joints(0, 0, 0), {branches({joints(0, 0, 9)})}, "jump_limit_deg: 30"))
+  EXPECT_TRUE(choose(joints(0, 0, 0), {far}, {.first_move = kFree, .jump_limit = 30 * kDegree}));
+  EXPECT_TRUE(choose(joints(0, 0, 0), {branches({joints(0, 0, 9)})}, {.jump_limit = 30 * kDegree}))
       << "a slide does not turn";
 }
 
@@ -137,7 +135,7 @@ TEST(MinMax, AWholeTurnThatTheLimitsForceIsAJump) {
   const std::vector<IkBranches> waypoints{branches({joints(3.9 - 2 * M_PI, 0, 0)}),
                                           branches({joints(4.1 - 2 * M_PI, 0, 0)})};
   EXPECT_NEAR(choose(joints(3.8, 0, 0), waypoints)->back()[0], 4.1 - 2 * M_PI, 1e-12);
-  EXPECT_EQ(choose(joints(3.8, 0, 0), waypoints, "jump_limit_deg: 90").error().text,
+  EXPECT_EQ(choose(joints(3.8, 0, 0), waypoints, {.jump_limit = 90 * kDegree}).error().text,
             "waypoint 2 of 2: 1 branch within limits, not to be reached from waypoint 1 by turns "
             "of at most 90 deg");
 }
@@ -152,4 +150,4 @@ TEST(MinMax, NamesTheWaypointWithoutABranchWithinLimits) {
 }
 
 }  // namespace
-}  // namespace armature::minmax
+}  // namespace armature::select::minmax

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-namespace armature::minmax {
+namespace armature::select::minmax {
 
 bool Moves::can_stand(const IkBranch& branch) const {
   JointVector q = branch.q;
@@ -19,7 +19,7 @@ std::optional<Move> Moves::between(const Origin& from, const IkBranch& branch) c
   unwind(*model_, from.q, move.q);
   const JointVector way = move.q - from.q;
   move.time_s = time_of(way);
-  move.counts = from.branch || rules_.first_move_counts;
+  move.counts = from.branch || parameters_.first_move == Parameters::FirstMove::counts;
   if (move.counts && jumps(way)) return std::nullopt;
   return move;
 }
@@ -36,9 +36,10 @@ double Moves::least_time(const IkBranch& from, const IkBranch& branch) const {
 
 bool Moves::jumps(const JointVector& way) const {
   constexpr double kRounding = 1e-9;
-  if (rules_.jump_limit == 0) return false;
+  const double limit = parameters_.jump_limit;
+  if (limit == 0) return false;
   for (int i = 0; i < way.size(); ++i) {
-    if (model_->is_revolute(i) && std::abs(way[i]) > rules_.jump_limit + kRounding) return true;
+    if (model_->is_revolute(i) && std::abs(way[i]) > limit + kRounding) return true;
   }
   return false;
 }
@@ -47,4 +48,4 @@ double Moves::time_of(const JointVector& way) const {
   return way.cwiseAbs().cwiseQuotient(model_->max_velocity()).maxCoeff();
 }
 
-}  // namespace armature::minmax
+}  // namespace armature::select::minmax

@@ -4,15 +4,9 @@
 #include <optional>
 
 #include "armature/kinds/ik/ik.hpp"
+#include "select_minmax_parameters.hpp"
 
-namespace armature::minmax {
-
-/// Which moves a path may be made of.
-struct Rules {
-  bool first_move_counts = true;
-  bool one_branch = false;
-  double jump_limit = 0;  // [rad] 0: none
-};
+namespace armature::select::minmax {
 
 /// From the start, or from a branch of the waypoint before.
 struct Origin {
@@ -30,12 +24,13 @@ struct Move {
 /// What moves there are and how long they take.
 class Moves {
  public:
-  Moves(const RobotModel& model, const Rules& rules) : model_{&model}, rules_{rules} {}
+  Moves(const RobotModel& model, const Parameters& parameters)
+      : model_{&model}, parameters_{parameters} {}
 
   /// True when `branch` keeps the limits at some turn.
   bool can_stand(const IkBranch& branch) const;
   /// The move from `from` to `branch`, turning the near way where limits allow it and the far way
-  /// where they do not; none when the rules forbid it. The branch can stand.
+  /// where they do not; none when the parameters forbid it. The branch can stand.
   std::optional<Move> between(const Origin& from, const IkBranch& branch) const;
   /// A bound from below of what `between` says for any turns of `from`: the near way always [s];
   /// infinite where no turn makes the move allowed.
@@ -43,13 +38,13 @@ class Moves {
 
  private:
   bool same_branch(const IkBranch& a, const IkBranch& b) const {
-    return !rules_.one_branch || a.label == b.label;
+    return !parameters_.one_branch || a.label == b.label;
   }
   bool jumps(const JointVector& way) const;
   double time_of(const JointVector& way) const;
 
   const RobotModel* model_;
-  Rules rules_;
+  Parameters parameters_;
 };
 
-}  // namespace armature::minmax
+}  // namespace armature::select::minmax

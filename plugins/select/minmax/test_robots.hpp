@@ -7,7 +7,7 @@
 
 #include "armature/kinds/ik/ik.hpp"
 
-namespace armature::minmax {
+namespace armature::select::minmax {
 
 inline Joint joint(std::string name, Joint::Type type, double limit, double velocity) {
   return {.name = std::move(name),
@@ -54,4 +54,4 @@ inline IkBranches branches(const std::vector<JointVector>& qs) {
   return result;
 }
 
-}  // namespace armature::minmax
+}  // namespace armature::select::minmax

@@ -7,18 +7,11 @@
 
 #include "armature/runtime/plugin.hpp"
 
-namespace armature {
-
-Expected<std::unique_ptr<BranchSelector>> Nearest::make(const RobotModel& model,
-                                                        const Params& params) {
-  const bool sum = params.text("nearness") == "sum";
-  return std::unique_ptr<BranchSelector>{
-      new Nearest{model, sum ? Nearness::sum : Nearness::slowest_joint}};
-}
+namespace armature::select::nearest {
 
 double Nearest::travel_time(const JointVector& from, const JointVector& to) const {
   const auto times = (to - from).cwiseAbs().cwiseQuotient(model_->max_velocity());
-  return nearness_ == Nearness::sum ? times.sum() : times.maxCoeff();
+  return parameters_.nearness == Parameters::Nearness::sum ? times.sum() : times.maxCoeff();
 }
 
 Expected<std::vector<JointVector>> Nearest::choose(const JointVector& start,
@@ -51,6 +44,6 @@ Expected<std::vector<JointVector>> Nearest::choose(const JointVector& start,
   return chosen;
 }
 
-}  // namespace armature
+}  // namespace armature::select::nearest
 
-ARMATURE_PLUGIN(armature::Nearest);
+ARMATURE_PLUGIN(armature::select::nearest::Nearest);

@@ -3,10 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "armature/kinds/declared_params.hpp"
 #include "armature/kinds/select/contract.hpp"
 
-namespace armature {
+namespace armature::select::nearest {
 namespace {
 
 /// Two revolute joints and a slide; the second joint is four times faster than the first.
@@ -42,27 +41,24 @@ IkBranches branches(const std::vector<JointVector>& qs) {
 
 Expected<std::vector<JointVector>> choose(const JointVector& start,
                                           const std::vector<IkBranches>& waypoints,
-                                          std::string_view params = "") {
+                                          const Parameters& parameters = {}) {
   const RobotModel model = robot();
-  const auto given =
-      declared_params(ARMATURE_SOURCE_DIR "/plugins/select/nearest/plugin.yaml", params);
-  return Nearest::make(model, given).value()->choose(start, waypoints);
+  return Nearest{model, parameters}.choose(start, waypoints);
 }
 
-SelectSubject subject(const std::string& name, const RobotModel& model, std::string_view params) {
+constexpr Parameters kSum{.nearness = Parameters::Nearness::sum};
+
+SelectSubject subject(const std::string& name, const RobotModel& model,
+                      const Parameters& parameters = {}) {
   const auto shared = std::make_shared<const RobotModel>(model);
-  const auto given =
-      declared_params(ARMATURE_SOURCE_DIR "/plugins/select/nearest/plugin.yaml", params);
-  return {name, shared, Nearest::make(*shared, given).value()};
+  return {name, shared, std::make_shared<Nearest>(*shared, parameters)};
 }
 
 INSTANTIATE_TEST_SUITE_P(
     Nearest, SelectLaws,
     testing::Values(
-        subject("crane_by_slowest_joint", robot(), ""),
-        subject("crane_by_sum", robot(), "nearness: sum"),
-        subject("lamp", load_robot_model(ARMATURE_SOURCE_DIR "/configs/robots/dental_lamp.yaml"),
-                "")),
+        subject("crane_by_slowest_joint", robot()), subject("crane_by_sum", robot(), kSum),
+        subject("lamp", load_robot_model(ARMATURE_SOURCE_DIR "/configs/robots/dental_lamp.yaml"))),
     testing::PrintToStringParamName());
 
 TEST(Nearest, TakesTheBranchNearestToTheOneBefore) {
@@ -81,7 +77,7 @@ TEST(Nearest, ATieGoesToTheFirstBranch) {
 TEST(Nearest, NearIsCountedInTimeOfTheSlowestJointOrInTheSumOfAllTimes) {
   const std::vector<IkBranches> two{branches({joints(0.5, 0, 0), joints(0.4, 1.6, 0.4)})};
   EXPECT_EQ(choose(joints(0, 0, 0), two)->front(), joints(0.4, 1.6, 0.4));
-  EXPECT_EQ(choose(joints(0, 0, 0), two, "nearness: sum")->front(), joints(0.5, 0, 0));
+  EXPECT_EQ(choose(joints(0, 0, 0), two, kSum)->front(), joints(0.5, 0, 0));
 }
 
 TEST(Nearest, JointsAreUnwoundTowardsTheirNeighbourWithinLimits) {
@@ -105,4 +101,4 @@ TEST(Nearest, NamesTheWaypointWithoutABranchWithinLimits) {
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::select::nearest

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <random>
 
-namespace armature {
+namespace armature::sim::marked_head {
 
-std::vector<Eigen::Vector3d> measured_points(const MarkedHead& head, const Measurement& measurement,
+std::vector<Eigen::Vector3d> measured_points(const MarkedHead& head, const Parameters& parameters,
                                              std::uint64_t seed) {
   constexpr double kHeadSize = 0.1;  // [m], one sigma
   std::mt19937_64 random{seed};
@@ -19,13 +19,13 @@ std::vector<Eigen::Vector3d> measured_points(const MarkedHead& head, const Measu
   std::vector<Eigen::Vector3d> points;
   for (const Eigen::Vector3d& marker : head.markers) {
     points.push_back(head.robot_T_image * marker +
-                     scatter(measurement.marker_error_m / std::sqrt(3.0)));
+                     scatter(parameters.marker_error / std::sqrt(3.0)));
   }
-  for (int i = 0; i < measurement.spurious_points; ++i) {
+  for (int i = 0; i < parameters.spurious_points; ++i) {
     points.push_back(head.robot_T_image * scatter(kHeadSize));
   }
   std::shuffle(points.begin(), points.end(), random);
   return points;
 }
 
-}  // namespace armature
+}  // namespace armature::sim::marked_head

@@ -6,8 +6,9 @@
 #include <vector>
 
 #include "armature/robot/forbidden_zone.hpp"
+#include "sim_marked_head_parameters.hpp"
 
-namespace armature {
+namespace armature::sim::marked_head {
 
 /// A head in its image's frame [m], and where it is.
 struct MarkedHead {
@@ -17,14 +18,9 @@ struct MarkedHead {
   Eigen::Isometry3d robot_T_image = Eigen::Isometry3d::Identity();
 };
 
-struct Measurement {
-  double marker_error_m = 0;  // rms distance, the same in all directions
-  int spurious_points = 0;    // within the head's size of its middle
-};
-
 /// What a pointer or a tracker finds: the markers and other points in the base frame, in an order
 /// that the seed decides, as everything random here.
-std::vector<Eigen::Vector3d> measured_points(const MarkedHead& head, const Measurement& measurement,
+std::vector<Eigen::Vector3d> measured_points(const MarkedHead& head, const Parameters& parameters,
                                              std::uint64_t seed);
 
-}  // namespace armature
+}  // namespace armature::sim::marked_head

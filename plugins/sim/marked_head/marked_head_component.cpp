@@ -12,15 +12,14 @@
 #include "armature/runtime/setup.hpp"
 #include "marked_head.hpp"
 
-namespace armature {
+namespace armature::sim::marked_head {
 namespace {
 
 using Eigen::Vector3d;
 
 constexpr const char* kImageFrame = "image";
 
-std::vector<ForbiddenZone> vessels_of(const Params& params) {
-  const auto values = params.numbers("vessels_mm");
+std::vector<ForbiddenZone> vessels_of(const std::vector<double>& values, const Params& params) {
   if (values.size() % 7 != 0) {
     params.refuse({"vessels_mm"},
                   "'vessels_mm' has " + std::to_string(values.size()) +
@@ -51,13 +50,13 @@ class MarkedHeadComponent final : public Component {
  public:
   explicit MarkedHeadComponent(Setup& setup)
       : Component{setup},
-        head_{.markers = points_of(setup.params(), "markers_mm", 3, "at least three markers"),
-              .entry = vector_of(setup.params(), "entry_mm"),
-              .target = vector_of(setup.params(), "target_mm"),
-              .vessels = vessels_of(setup.params()),
-              .robot_T_image = pose_of(setup.params(), "head_mm", "head_rpy_deg")},
-        measurement_{setup.params().number("marker_error_mm"),
-                     static_cast<int>(setup.params().integer("spurious_points"))},
+        parameters_{Parameters::read(setup.params())},
+        head_{.markers = points_of(parameters_.markers, setup.params(), "markers_mm", 3,
+                                   "at least three markers"),
+              .entry = vector_of(parameters_.entry),
+              .target = vector_of(parameters_.target),
+              .vessels = vessels_of(parameters_.vessels, setup.params()),
+              .robot_T_image = pose_of(parameters_.head, parameters_.head_rpy)},
         seed_{setup.seed()},
         plan_{setup.output<msg::NeedlePlan>("plan")},
         markers_{setup.output<msg::MeasuredMarkers>("markers")},
@@ -77,7 +76,7 @@ class MarkedHeadComponent final : public Component {
     plan_.publish(plan);
     msg::MeasuredMarkers markers;
     write_header(markers.header_(), now, kBaseFrame);
-    add_points(measured_points(head_, measurement_, seed_), markers.points_());
+    add_points(measured_points(head_, parameters_, seed_), markers.points_());
     markers_.publish(markers);
     msg::TransformStamped truth;
     write_header(truth.header_(), now, kBaseFrame);
@@ -87,8 +86,8 @@ class MarkedHeadComponent final : public Component {
   }
 
  private:
+  Parameters parameters_;
   MarkedHead head_;
-  Measurement measurement_;
   std::uint64_t seed_;
   bool told_ = false;
   Output<msg::NeedlePlan> plan_;
@@ -96,6 +95,6 @@ class MarkedHeadComponent final : public Component {
   Output<msg::TransformStamped> truth_;
 };
 
-}  // namespace armature
+}  // namespace armature::sim::marked_head
 
-ARMATURE_PLUGIN(armature::MarkedHeadComponent);
+ARMATURE_PLUGIN(armature::sim::marked_head::MarkedHeadComponent);

@@ -7,7 +7,7 @@
 #include "armature/runtime/component_bench.hpp"
 #include "armature/runtime/test_plugins.hpp"
 
-namespace armature {
+namespace armature::sim::marked_head {
 namespace {
 
 ComponentBench::Options head_with(const std::string& params) {
@@ -58,4 +58,4 @@ TEST(MarkedHeadComponentTest, RefusesListsThatDoNotComeOut) {
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::sim::marked_head

@@ -13,7 +13,7 @@
 #include "armature/kinds/registration/target_error.hpp"
 #include "armature/runtime/plugin_registry.hpp"
 
-namespace armature {
+namespace armature::sim::marked_head {
 namespace {
 
 MarkedHead head() {
@@ -40,10 +40,10 @@ PluginPtr<Registrar> rigid() {
 }
 
 TEST(MarkedHeads, AreFoundInAnOrderThatTheSeedDecides) {
-  const auto first = measured_points(head(), {.spurious_points = 2}, 1);
+  const auto first = measured_points(head(), {.marker_error = 0, .spurious_points = 2}, 1);
   EXPECT_EQ(first.size(), 8u);
-  EXPECT_EQ(first, measured_points(head(), {.spurious_points = 2}, 1));
-  EXPECT_NE(first, measured_points(head(), {.spurious_points = 2}, 2));
+  EXPECT_EQ(first, measured_points(head(), {.marker_error = 0, .spurious_points = 2}, 1));
+  EXPECT_NE(first, measured_points(head(), {.marker_error = 0, .spurious_points = 2}, 2));
   for (const Eigen::Vector3d& marker : head().markers) {
     double nearest = 1;
     for (const Eigen::Vector3d& point : first) {
@@ -68,7 +68,7 @@ TEST(MarkedHeads, ATargetIsOffByAsMuchAsPredicted) {
     int beyond = 0;
     for (int seed = 1; seed <= kSeeds; ++seed) {
       const auto points =
-          measured_points(marked, {.marker_error_m = kMarkerError, .spurious_points = 2},
+          measured_points(marked, {.marker_error = kMarkerError, .spurious_points = 2},
                           static_cast<std::uint64_t>(seed));
       const auto match = match_markers(marked.markers, points, 0.003);
       ASSERT_TRUE(match) << "seed " << seed << ": " << match.error().text;
@@ -88,4 +88,4 @@ TEST(MarkedHeads, ATargetIsOffByAsMuchAsPredicted) {
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::sim::marked_head

@@ -5,7 +5,7 @@
 
 #include <cstddef>
 
-namespace armature {
+namespace armature::sim::optical_tracker {
 
 std::optional<std::string> LineOfSight::obstacle(double elapsed_s, double distance_m) const {
   for (std::size_t i = 0; i < hidden_s.size(); i += 2) {
@@ -30,4 +30,4 @@ std::optional<std::string> defect(const std::vector<double>& hidden_s) {
   return std::nullopt;
 }
 
-}  // namespace armature
+}  // namespace armature::sim::optical_tracker

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace armature {
+namespace armature::sim::optical_tracker {
 
 /// What keeps a tracker from seeing a body.
 struct LineOfSight {
@@ -19,4 +19,4 @@ struct LineOfSight {
 /// What is wrong with hidden_s, or nullopt.
 std::optional<std::string> defect(const std::vector<double>& hidden_s);
 
-}  // namespace armature
+}  // namespace armature::sim::optical_tracker

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace armature {
+namespace armature::sim::optical_tracker {
 namespace {
 
 TEST(LineOfSight, IsFreeBetweenTheTimesAndWithinTheRange) {
@@ -29,4 +29,4 @@ TEST(LineOfSight, TimesComeInPairsThatAscend) {
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::sim::optical_tracker

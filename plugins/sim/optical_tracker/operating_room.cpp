@@ -8,15 +8,16 @@
 
 #include "armature/kinds/geometry_params.hpp"
 
-namespace armature {
+namespace armature::sim::optical_tracker {
 namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-std::vector<Isometry3d> sites_of(const Params& params) {
-  const auto positions = points_of(params, "sites_mm", 1, "at least one site");
-  const auto angles = points_of(params, "sites_rpy_deg", 1, "at least one site");
+std::vector<Isometry3d> sites_of(const Parameters& parameters, const Params& params) {
+  const auto positions = points_of(parameters.sites, params, "sites_mm", 1, "at least one site");
+  const auto angles =
+      points_of(parameters.sites_rpy, params, "sites_rpy_deg", 1, "at least one site");
   if (positions.size() != angles.size()) {
     params.refuse({"sites_mm", "sites_rpy_deg"},
                   fmt::format("'sites_mm' has {} sites, 'sites_rpy_deg' has {}", positions.size(),
@@ -32,19 +33,20 @@ std::vector<Isometry3d> sites_of(const Params& params) {
 
 }  // namespace
 
-OperatingRoom operating_room(const Params& params, const Isometry3d& flange_T_file_tool) {
+OperatingRoom operating_room(const Parameters& parameters, const Params& params,
+                             const Isometry3d& flange_T_file_tool) {
   const Isometry3d flange_T_drill =
-      flange_T_file_tool * Eigen::Translation3d{vector_of(params, "drill_offset_mm")};
+      flange_T_file_tool * Eigen::Translation3d{vector_of(parameters.drill_offset)};
   OperatingRoom room;
-  room.chain.base_T_tracker = pose_of(params, "tracker_mm", "tracker_rpy_deg");
-  room.chain.flange_T_body = pose_of(params, "body_mm", "body_rpy_deg");
+  room.chain.base_T_tracker = pose_of(parameters.tracker, parameters.tracker_rpy);
+  room.chain.flange_T_body = pose_of(parameters.body, parameters.body_rpy);
   room.chain.tip = room.chain.flange_T_body.inverse() * flange_T_drill.translation();
   room.chain.flange_R_tool = flange_T_drill.linear();
   room.chain.tracker_T_patient =
-      room.chain.base_T_tracker.inverse() * pose_of(params, "jaw_mm", "jaw_rpy_deg");
-  room.chain.patient_T_image = pose_of(params, "image_mm", "image_rpy_deg");
-  room.markers = points_of(params, "markers_mm", 3, "at least three markers");
-  room.sites = sites_of(params);
+      room.chain.base_T_tracker.inverse() * pose_of(parameters.jaw, parameters.jaw_rpy);
+  room.chain.patient_T_image = pose_of(parameters.image, parameters.image_rpy);
+  room.markers = points_of(parameters.markers, params, "markers_mm", 3, "at least three markers");
+  room.sites = sites_of(parameters, params);
   return room;
 }
 
@@ -61,4 +63,4 @@ Isometry3d turned_about_tip(const Vector3d& tip, const Vector3d& tracker_divot, 
   return Eigen::Translation3d{tracker_divot} * rotation * Eigen::Translation3d{-tip};
 }
 
-}  // namespace armature
+}  // namespace armature::sim::optical_tracker

@@ -4,10 +4,10 @@
 #include <Eigen/Geometry>
 #include <vector>
 
-#include "armature/config/params.hpp"
 #include "armature/robot/guided_chain.hpp"
+#include "sim_optical_tracker_parameters.hpp"
 
-namespace armature {
+namespace armature::sim::optical_tracker {
 
 /// Where everything is in truth [m]: nobody in the deployment but the report is told.
 struct OperatingRoom {
@@ -16,13 +16,14 @@ struct OperatingRoom {
   std::vector<Eigen::Isometry3d> sites;  // of the drill with its tip at the bottom, in the image
 };
 
-/// Of the plugin's parameters and the robot file's drill. Throws SetupError for lists that do not
-/// come out.
-OperatingRoom operating_room(const Params& params, const Eigen::Isometry3d& flange_T_file_tool);
+/// Of the plugin's parameters and the robot file's drill. `params` refuses lists that do not come
+/// out.
+OperatingRoom operating_room(const Parameters& parameters, const Params& params,
+                             const Eigen::Isometry3d& flange_T_file_tool);
 
 /// While its tip stands in a divot at `tracker_divot` the body is turned by hand: tilted up to
 /// `cone_rad` in changing directions, twisted a little; where it is after `elapsed_s`.
 Eigen::Isometry3d turned_about_tip(const Eigen::Vector3d& tip, const Eigen::Vector3d& tracker_divot,
                                    double cone_rad, double elapsed_s);
 
-}  // namespace armature
+}  // namespace armature::sim::optical_tracker

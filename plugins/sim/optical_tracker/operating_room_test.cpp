@@ -9,7 +9,7 @@
 
 #include "armature/kinds/declared_params.hpp"
 
-namespace armature {
+namespace armature::sim::optical_tracker {
 namespace {
 
 using Eigen::Isometry3d;
@@ -19,11 +19,10 @@ Isometry3d file_tool() {
   return Eigen::Translation3d{0, 0.02, 0.15} * Eigen::AngleAxisd{0.5, Vector3d::UnitY()};
 }
 
-OperatingRoom room(const std::string& params = "") {
-  return operating_room(
-      declared_params(ARMATURE_SOURCE_DIR "/plugins/sim/optical_tracker/plugin.yaml",
-                      "{" + params + "}"),
-      file_tool());
+OperatingRoom room(const std::string& given = "") {
+  const Params params = declared_params(
+      ARMATURE_SOURCE_DIR "/plugins/sim/optical_tracker/plugin.yaml", "{" + given + "}");
+  return operating_room(Parameters::read(params), params, file_tool());
 }
 
 TEST(OperatingRoom, TheDrillsTipIsOffItsPlaceInTheFileAlongTheToolsAxes) {
@@ -84,4 +83,4 @@ TEST(OperatingRoom, TheDrillTurnsAboutItsTipWithinTheConeAndAboutManyAxes) {
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::sim::optical_tracker

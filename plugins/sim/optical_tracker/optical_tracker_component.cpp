@@ -22,7 +22,7 @@
 #include "operating_room.hpp"
 #include "sphere_body.hpp"
 
-namespace armature {
+namespace armature::sim::optical_tracker {
 namespace {
 
 using Eigen::Isometry3d;
@@ -30,24 +30,17 @@ using Eigen::Isometry3d;
 constexpr std::size_t kHistory = 512;  // samples of the arm: half a second at 1 kHz
 constexpr const char* kTrackerFrame = "tracker";
 
-LineOfSight sight_of(const Params& params, const char* hidden) {
-  LineOfSight sight{.nearest_m = params.number("nearest_mm"),
-                    .farthest_m = params.number("farthest_mm"),
-                    .hidden_s = params.numbers(hidden)};
-  if (const auto wrong = defect(sight.hidden_s)) {
-    params.refuse({hidden}, fmt::format("'{}': {}", hidden, *wrong));
+LineOfSight sight_of(const Parameters& parameters, const std::vector<double>& hidden_s,
+                     const Params& params, const char* name) {
+  if (const auto wrong = defect(hidden_s)) {
+    params.refuse({name}, fmt::format("'{}': {}", name, *wrong));
   }
-  if (sight.nearest_m >= sight.farthest_m) {
-    params.refuse({"nearest_mm", "farthest_mm"},
-                  fmt::format("'nearest_mm' is {:g} and 'farthest_mm' is {:g}: no body would be "
-                              "seen",
-                              1e3 * sight.nearest_m, 1e3 * sight.farthest_m));
-  }
-  return sight;
+  return {.nearest_m = parameters.nearest, .farthest_m = parameters.farthest, .hidden_s = hidden_s};
 }
 
-std::vector<Eigen::Vector3d> spheres_of(const Params& params) {
-  const auto spheres = points_of(params, "spheres_mm", 3, "at least three spheres");
+std::vector<Eigen::Vector3d> spheres_of(const Parameters& parameters, const Params& params) {
+  const auto spheres =
+      points_of(parameters.spheres, params, "spheres_mm", 3, "at least three spheres");
   constexpr double kNearlyOneLine = 20;  // as of the markers of a registration
   const double condition = condition_of_line(spheres);
   if (condition > kNearlyOneLine) {
@@ -67,18 +60,14 @@ class OpticalTracker final : public Component {
       : Component{setup},
         robot_{robot_of(setup)},
         mount_{flange_of(robot_)},
-        room_{operating_room(setup.params(), mount_.flange_T_tool)},
+        parameters_{Parameters::read(setup.params())},
+        room_{operating_room(parameters_, setup.params(), mount_.flange_T_tool)},
         history_{robot_, kHistory},
-        spheres_{spheres_of(setup.params())},
-        sphere_error_m_{setup.params().number("sphere_error_mm")},
-        marker_error_m_{setup.params().number("marker_error_mm")},
-        flange_sight_{sight_of(setup.params(), "flange_hidden_s")},
-        jaw_sight_{sight_of(setup.params(), "jaw_hidden_s")},
-        latency_{seconds(setup.params().number("latency_s"))},
-        pivot_s_{setup.params().number("pivot_s")},
-        pivot_cone_rad_{setup.params().number("pivot_cone_deg")},
-        jaw_shift_{vector_of(setup.params(), "jaw_shift_mm")},
-        jaw_shift_at_s_{setup.params().number("jaw_shift_at_s")},
+        spheres_{spheres_of(parameters_, setup.params())},
+        flange_sight_{
+            sight_of(parameters_, parameters_.flange_hidden, setup.params(), "flange_hidden_s")},
+        jaw_sight_{sight_of(parameters_, parameters_.jaw_hidden, setup.params(), "jaw_hidden_s")},
+        jaw_shift_{vector_of(parameters_.jaw_shift)},
         random_{setup.seed()},
         measured_js_{setup.input<msg::JointState>("measured_js")},
         flange_{setup.output<msg::TrackedBody>("flange")},
@@ -87,7 +76,7 @@ class OpticalTracker final : public Component {
         plan_{setup.output<msg::ImplantPlan>("plan")},
         markers_{setup.output<msg::MeasuredMarkers>("markers")},
         truth_{setup.output<msg::TFMessage>("truth")} {
-    setup.activate_every(seconds(1 / setup.params().number("rate_hz")));
+    setup.activate_every(seconds(1 / parameters_.rate));
   }
 
   void step(Time now) override {
@@ -97,12 +86,14 @@ class OpticalTracker final : public Component {
       tell_plan(now);
       tell_truth(now);
     }
-    const Time light = now - latency_;
+    const Time light = now - seconds(parameters_.latency);
     const double elapsed_s = to_seconds(light - *start_);
     if (elapsed_s < 0) return;  // the shutter had not been open yet
-    if (jaw_shift_ != Eigen::Vector3d::Zero() && elapsed_s >= jaw_shift_at_s_) shift_jaw(now);
+    if (jaw_shift_ != Eigen::Vector3d::Zero() && elapsed_s >= parameters_.jaw_shift_at) {
+      shift_jaw(now);
+    }
     look(jaw_, "jaw", room_.chain.tracker_T_patient, jaw_sight_, elapsed_s, light);
-    if (elapsed_s < pivot_s_) {
+    if (elapsed_s < parameters_.pivot) {
       look(pivot_, "drill", in_hand(elapsed_s), flange_sight_, elapsed_s, light);
     } else {
       look_at_flange(elapsed_s, light);
@@ -125,7 +116,7 @@ class OpticalTracker final : public Component {
     for (const Eigen::Vector3d& marker : room_.markers) {
       assign(plan.markers_().emplace_back(), marker);
       assign(markers.points_().emplace_back(),
-             scattered(room_.chain.patient_T_image * marker, marker_error_m_, random_));
+             scattered(room_.chain.patient_T_image * marker, parameters_.marker_error, random_));
     }
     for (const Isometry3d& site : room_.sites) assign(plan.sites_().emplace_back(), site);
     plan_.publish(plan);
@@ -146,7 +137,7 @@ class OpticalTracker final : public Component {
 
   Isometry3d in_hand(double elapsed_s) const {
     return turned_about_tip(room_.chain.tip, room_.chain.tracker_T_patient.translation(),
-                            pivot_cone_rad_, elapsed_s);
+                            parameters_.pivot_cone, elapsed_s);
   }
 
   void look_at_flange(double elapsed_s, Time light) {
@@ -165,7 +156,7 @@ class OpticalTracker final : public Component {
     if (const auto obstacle = sight.obstacle(elapsed_s, distance_m)) {
       return blind(output, body, *obstacle, light);
     }
-    const SeenBody seen = seen_body(spheres_, tracker_T_body, sphere_error_m_, random_);
+    const SeenBody seen = seen_body(spheres_, tracker_T_body, parameters_.sphere_error, random_);
     publish(output, body, {}, seen, light);
   }
 
@@ -188,15 +179,12 @@ class OpticalTracker final : public Component {
 
   RobotModel robot_;
   Flange mount_;
+  Parameters parameters_;
   OperatingRoom room_;
   FrameBuffer history_;
   std::vector<Eigen::Vector3d> spheres_;
-  double sphere_error_m_, marker_error_m_;
   LineOfSight flange_sight_, jaw_sight_;
-  Duration latency_;
-  double pivot_s_, pivot_cone_rad_;
   Eigen::Vector3d jaw_shift_;  // still to come
-  double jaw_shift_at_s_;
   std::mt19937_64 random_;
   std::optional<Time> start_;
   Input<msg::JointState> measured_js_;
@@ -206,6 +194,6 @@ class OpticalTracker final : public Component {
   Output<msg::TFMessage> truth_;
 };
 
-}  // namespace armature
+}  // namespace armature::sim::optical_tracker
 
-ARMATURE_PLUGIN(armature::OpticalTracker);
+ARMATURE_PLUGIN(armature::sim::optical_tracker::OpticalTracker);

@@ -12,7 +12,7 @@
 #include "armature/runtime/component_bench.hpp"
 #include "armature/runtime/test_plugins.hpp"
 
-namespace armature {
+namespace armature::sim::optical_tracker {
 namespace {
 
 using Eigen::Isometry3d;
@@ -167,7 +167,8 @@ TEST_F(OpticalTrackerTest, WhatIsNoRoomIsRefused) {
             "bench:1:59: 'spheres_mm' has 3 numbers; three for each of at least three spheres are "
             "needed");
   EXPECT_EQ(refusal("nearest_mm: 2500"),
-            "bench:1:59: 'nearest_mm' is 2500 and 'farthest_mm' is 2400: no body would be seen");
+            "bench:1:59: 'nearest_mm' is 2500, not below 'farthest_mm', which is 2400: no body "
+            "would be seen");
   EXPECT_EQ(refusal("spheres_mm: [0, 0, 0, 10, 10, 0, 30, 30, 0]"),
             "bench:1:59: 'spheres_mm' lie nearly on one line, about which nobody could see the "
             "body turn: condition inf, at most 20 is allowed");
@@ -185,4 +186,4 @@ TEST_F(OpticalTrackerTest, ASampleThatIsNoPositionIsSaid) {
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::sim::optical_tracker

@@ -5,7 +5,7 @@
 
 #include "armature/kinds/registration/rigid_fit.hpp"
 
-namespace armature {
+namespace armature::sim::optical_tracker {
 
 Eigen::Vector3d scattered(const Eigen::Vector3d& point, double rms_m, std::mt19937_64& random) {
   std::normal_distribution<double> normal{0, 1};
@@ -25,4 +25,4 @@ SeenBody seen_body(const std::vector<Eigen::Vector3d>& spheres,
   return seen;
 }
 
-}  // namespace armature
+}  // namespace armature::sim::optical_tracker

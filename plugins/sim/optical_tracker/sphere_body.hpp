@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-namespace armature {
+namespace armature::sim::optical_tracker {
 
 /// A point off its place by a normal error of `rms_m` in all, the same in all directions.
 Eigen::Vector3d scattered(const Eigen::Vector3d& point, double rms_m, std::mt19937_64& random);
@@ -21,4 +21,4 @@ SeenBody seen_body(const std::vector<Eigen::Vector3d>& spheres,
                    const Eigen::Isometry3d& tracker_T_body, double sphere_error_m,
                    std::mt19937_64& random);
 
-}  // namespace armature
+}  // namespace armature::sim::optical_tracker

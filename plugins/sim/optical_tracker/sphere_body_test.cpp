@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace armature {
+namespace armature::sim::optical_tracker {
 namespace {
 
 using Eigen::Vector3d;
@@ -57,4 +57,4 @@ TEST(SphereBody, AScatteredPointIsOffByTheSameInAllDirections) {
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::sim::optical_tracker

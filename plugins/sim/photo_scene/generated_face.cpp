@@ -6,7 +6,7 @@
 
 #include "photo.hpp"
 
-namespace armature {
+namespace armature::sim::photo_scene {
 namespace {
 
 // The face is drawn in millimetres for eyes 63 mm apart: x to the right, y down, origin between the
@@ -179,4 +179,4 @@ Photo generated_face(std::uint64_t seed, double eye_distance_m) {
   return photo;
 }
 
-}  // namespace armature
+}  // namespace armature::sim::photo_scene

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-namespace armature {
+#include "armature/kinds/geometry_params.hpp"
+
+namespace armature::sim::photo_scene {
 
 Eigen::Vector3d face_normal(const HeadPose& pose) {
   const double cu = std::cos(pose.tilt_up), su = std::sin(pose.tilt_up);
@@ -25,22 +27,24 @@ Eigen::Isometry3d base_T_photo(const HeadPose& pose) {
   return result;
 }
 
-MovingHead at(const HeadMotion& motion, double t_s) {
-  const bool moves = motion.duration_s > 0;
-  const double s = moves ? std::clamp((t_s - motion.begin_s) / motion.duration_s, 0.0, 1.0) : 0.0;
+MovingHead at(const Parameters& parameters, double t_s) {
+  const double duration = parameters.move_duration;
+  const double s = duration > 0 ? std::clamp((t_s - parameters.move_at) / duration, 0.0, 1.0) : 0.0;
   const double share = s * s * s * (10 + s * (-15 + 6 * s));
-  const double rate = moves ? 30 * s * s * (1 - s) * (1 - s) / motion.duration_s : 0.0;
+  const double rate = duration > 0 ? 30 * s * s * (1 - s) * (1 - s) / duration : 0.0;
+  const double turn_up = parameters.move_tilt_up, turn_side = parameters.move_tilt_side;
+  const Eigen::Vector3d shift = vector_of(parameters.move);
 
   MovingHead head;
-  head.pose = {.mouth = motion.from.mouth + share * motion.shift,
-               .tilt_up = motion.from.tilt_up + share * motion.turn_up,
-               .tilt_side = motion.from.tilt_side + share * motion.turn_side};
-  head.velocity = rate * motion.shift;
+  head.pose = {.mouth = vector_of(parameters.mouth) + share * shift,
+               .tilt_up = parameters.tilt_up + share * turn_up,
+               .tilt_side = parameters.tilt_side + share * turn_side};
+  head.velocity = rate * shift;
   const double cu = std::cos(head.pose.tilt_up), su = std::sin(head.pose.tilt_up);
   const double cs = std::cos(head.pose.tilt_side), ss = std::sin(head.pose.tilt_side);
-  head.normal_rate = rate * (motion.turn_up * Eigen::Vector3d{su * cs, -su * ss, cu} +
-                             motion.turn_side * Eigen::Vector3d{cu * ss, cu * cs, 0});
+  head.normal_rate = rate * (turn_up * Eigen::Vector3d{su * cs, -su * ss, cu} +
+                             turn_side * Eigen::Vector3d{cu * ss, cu * cs, 0});
   return head;
 }
 
-}  // namespace armature
+}  // namespace armature::sim::photo_scene

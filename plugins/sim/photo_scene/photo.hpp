@@ -9,7 +9,7 @@
 
 #include "armature/values/expected.hpp"
 
-namespace armature {
+namespace armature::sim::photo_scene {
 
 /// A mono8 image without padding.
 struct GrayImage {
@@ -38,4 +38,4 @@ Expected<Photo> read_photo(const std::string& file, const Eigen::Vector2d& left_
 /// Draws a face with fine skin texture from `seed`; eyes and mouth are where they were drawn.
 Photo generated_face(std::uint64_t seed, double eye_distance_m);
 
-}  // namespace armature
+}  // namespace armature::sim::photo_scene

@@ -7,7 +7,7 @@
 
 #include "photo.hpp"
 
-namespace armature {
+namespace armature::sim::photo_scene {
 namespace {
 
 constexpr std::size_t kSignature = 8;    // bytes in front of a PNG's first chunk
@@ -55,4 +55,4 @@ Expected<Photo> read_photo(const std::string& file, const Eigen::Vector2d& left_
   return photo;
 }
 
-}  // namespace armature
+}  // namespace armature::sim::photo_scene

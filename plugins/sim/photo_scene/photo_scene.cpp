@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "armature/kinds/geometry_params.hpp"
 #include "armature/kinds/joint_messages.hpp"
 #include "armature/kinds/setup_robot.hpp"
 #include "armature/kinds/target/target_messages.hpp"
@@ -16,19 +17,18 @@
 #include "photo.hpp"
 #include "plane_renderer.hpp"
 
-namespace armature {
+namespace armature::sim::photo_scene {
 namespace {
 
 constexpr const char* kCameraFrame = kLeftCameraFrame;  // of both: the pair is rectified
 
-Photo photo_of(const Params& params) {
-  const double eye_distance = params.number("eye_distance_mm");
-  if (params.text("photo") == "generated") {
-    return generated_face(static_cast<std::uint64_t>(params.integer("face_seed")), eye_distance);
+Photo photo_of(const Parameters& parameters) {
+  if (parameters.photo == Parameters::Photo::generated) {
+    return generated_face(parameters.face_seed, parameters.eye_distance);
   }
   // Eyes and mouth of NASA's portrait of Eileen Collins, in its pixels.
-  auto photo = read_photo(params.file("astronaut_file"), {203.6, 101.8}, {246.9, 104.0},
-                          {223.1, 144.4}, eye_distance);
+  auto photo = read_photo(parameters.astronaut_file, {203.6, 101.8}, {246.9, 104.0}, {223.1, 144.4},
+                          parameters.eye_distance);
   if (!photo) {
     throw SetupError(photo.error().text +
                      "; install the Debian package python3-imageio, or set photo: generated");
@@ -36,23 +36,16 @@ Photo photo_of(const Params& params) {
   return std::move(*photo);
 }
 
-HeadMotion motion_of(const Params& params) {
-  const auto mouth = params.numbers("mouth_m"), shift = params.numbers("move_mm");
-  const HeadMotion motion{.from = {.mouth = {mouth[0], mouth[1], mouth[2]},
-                                   .tilt_up = params.number("tilt_up_deg"),
-                                   .tilt_side = params.number("tilt_side_deg")},
-                          .shift = {shift[0], shift[1], shift[2]},
-                          .turn_up = params.number("move_tilt_up_deg"),
-                          .turn_side = params.number("move_tilt_side_deg"),
-                          .begin_s = params.number("move_at_s"),
-                          .duration_s = params.number("move_duration_s")};
-  if (motion.duration_s > 0 && motion.shift.isZero(0) && motion.turn_up == 0 &&
-      motion.turn_side == 0) {
+Parameters parameters_of(const Params& params) {
+  const Parameters parameters = Parameters::read(params);
+  const bool moves = !vector_of(parameters.move).isZero(0) || parameters.move_tilt_up != 0 ||
+                     parameters.move_tilt_side != 0;
+  if (parameters.move_duration > 0 && !moves) {
     throw SetupError(
         "move_duration_s is set but nothing moves; set move_mm, move_tilt_up_deg or "
         "move_tilt_side_deg, or move_duration_s to 0");
   }
-  return motion;
+  return parameters;
 }
 
 msg::CameraInfo camera_info(const StereoCamera& camera, double offset_m) {
@@ -85,8 +78,7 @@ class PhotoScene final : public Component {
   RobotModel robot_;
   StereoRig rig_;
   FrameId mount_;
-  HeadMotion motion_;
-  double gain_, light_response_;
+  Parameters parameters_;
   PlaneRenderer renderer_;
   Input<msg::JointState> measured_js_;
   Input<msg::LightLevel> light_level_;
@@ -103,13 +95,11 @@ PhotoScene::PhotoScene(Setup& setup)
       robot_{robot_of(setup)},
       rig_{rig_of(setup)},
       mount_{mount_of(rig_, robot_)},
-      motion_{motion_of(setup.params())},
-      gain_{setup.params().number("gain")},
-      light_response_{setup.params().number("light_response")},
-      renderer_{photo_of(setup.params()),
-                {.noise = setup.params().number("noise"),
-                 .blur_px = setup.params().number("blur_px"),
-                 .background = setup.params().number("background")},
+      parameters_{parameters_of(setup.params())},
+      renderer_{photo_of(parameters_),
+                {.noise = parameters_.noise,
+                 .blur_px = parameters_.blur,
+                 .background = parameters_.background},
                 setup.seed()},
       measured_js_{setup.input<msg::JointState>("measured_js")},
       light_level_{setup.input<msg::LightLevel>("light_level")},
@@ -124,12 +114,12 @@ PhotoScene::PhotoScene(Setup& setup)
                      " px wide; the scene draws at most " +
                      std::to_string(PlaneRenderer::kWidestImage));
   }
-  setup.activate_every(seconds(1.0 / setup.params().number("rate_hz")));
+  setup.activate_every(seconds(1.0 / parameters_.rate));
 }
 
 void PhotoScene::step(Time now) {
   if (!start_) start_ = now;
-  publish_truth(now, at(motion_, to_seconds(now - *start_)));
+  publish_truth(now, at(parameters_, to_seconds(now - *start_)));
 
   if (capture_.latest() && !capture_.latest()->on_()) return;
   const msg::JointState* arm = measured_js_.latest();
@@ -141,7 +131,7 @@ void PhotoScene::step(Time now) {
   healthy();
   if (!last_picture_) publish_info(stamp);
   last_picture_ = stamp;
-  take_pictures(stamp, *q, at(motion_, to_seconds(stamp - *start_)).pose);
+  take_pictures(stamp, *q, at(parameters_, to_seconds(stamp - *start_)).pose);
 }
 
 void PhotoScene::publish_truth(Time now, const MovingHead& head) {
@@ -167,7 +157,8 @@ void PhotoScene::publish_info(Time stamp) {
 
 void PhotoScene::take_pictures(Time stamp, const JointVector& q, const HeadPose& head) {
   const double light = light_level_.latest() ? light_level_.latest()->level_() : 0.0;
-  const double brightness = gain_ * (1 + light_response_ * std::clamp(light, 0.0, 1.0));
+  const double brightness =
+      parameters_.gain * (1 + parameters_.light_response * std::clamp(light, 0.0, 1.0));
   const Eigen::Isometry3d base_T_left = forward_kinematics(robot_, q, mount_) * rig_.mount_T_left;
   Eigen::Isometry3d camera_T_photo = base_T_left.inverse() * base_T_photo(head);
   for (auto* output : {&left_image_, &right_image_}) {
@@ -185,6 +176,6 @@ void PhotoScene::take_pictures(Time stamp, const JointVector& q, const HeadPose&
   }
 }
 
-}  // namespace armature
+}  // namespace armature::sim::photo_scene
 
-ARMATURE_PLUGIN(armature::PhotoScene);
+ARMATURE_PLUGIN(armature::sim::photo_scene::PhotoScene);

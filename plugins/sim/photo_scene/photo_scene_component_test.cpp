@@ -11,7 +11,7 @@
 #include "armature/runtime/component_bench.hpp"
 #include "armature/runtime/test_plugins.hpp"
 
-namespace armature {
+namespace armature::sim::photo_scene {
 namespace {
 
 using Eigen::Vector3d;
@@ -177,4 +177,4 @@ TEST(PhotoSceneComponent, DoesNotStartWithAFrameOrAPhotoThatIsNotThere) {
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::sim::photo_scene

@@ -19,7 +19,7 @@
 #include "photo.hpp"
 #include "plane_renderer.hpp"
 
-namespace armature {
+namespace armature::sim::photo_scene {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
@@ -207,19 +207,22 @@ TEST(Patient, KeepsThePhotoUprightAtEveryTilt) {
 }
 
 TEST(Patient, MovesWithTheVelocityThatItTellsAndStopsWhereItWasTold) {
-  const HeadMotion motion{.from = {.mouth = {1.5, 0, 0.4}, .tilt_up = 0.1, .tilt_side = -0.2},
-                          .shift = {0.03, 0.04, 0},
-                          .turn_up = 0.1,
-                          .turn_side = 0.15,
-                          .begin_s = 2,
-                          .duration_s = 1};
-  EXPECT_TRUE(at(motion, 1.9).pose.mouth.isApprox(motion.from.mouth));
-  EXPECT_TRUE(at(motion, 99).pose.mouth.isApprox(motion.from.mouth + motion.shift));
-  EXPECT_DOUBLE_EQ(at(motion, 99).pose.tilt_side, -0.05);
-  EXPECT_TRUE(at(motion, 99).velocity.isZero());
+  const Parameters parameters{.mouth = {1.5, 0, 0.4},
+                              .tilt_up = 0.1,
+                              .tilt_side = -0.2,
+                              .move_at = 2,
+                              .move_duration = 1,
+                              .move = {0.03, 0.04, 0},
+                              .move_tilt_up = 0.1,
+                              .move_tilt_side = 0.15};
+  EXPECT_TRUE(at(parameters, 1.9).pose.mouth.isApprox(Eigen::Vector3d{1.5, 0, 0.4}));
+  EXPECT_TRUE(at(parameters, 99).pose.mouth.isApprox(Eigen::Vector3d{1.53, 0.04, 0.4}));
+  EXPECT_DOUBLE_EQ(at(parameters, 99).pose.tilt_side, -0.05);
+  EXPECT_TRUE(at(parameters, 99).velocity.isZero());
   constexpr double h = 1e-6;
   for (double t = 2.05; t < 3; t += 0.1) {
-    const MovingHead before = at(motion, t - h), now = at(motion, t), after = at(motion, t + h);
+    const MovingHead before = at(parameters, t - h), now = at(parameters, t),
+                     after = at(parameters, t + h);
     EXPECT_TRUE(now.velocity.isApprox((after.pose.mouth - before.pose.mouth) / (2 * h), 1e-6));
     EXPECT_TRUE(now.normal_rate.isApprox(
         (face_normal(after.pose) - face_normal(before.pose)) / (2 * h), 1e-6));
@@ -268,4 +271,4 @@ TEST(Photo, ThatCannotBeReadIsRefusedByName) {
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::sim::photo_scene

@@ -7,7 +7,7 @@
 #include <opencv2/imgproc.hpp>
 #include <random>
 
-namespace armature {
+namespace armature::sim::photo_scene {
 namespace {
 
 constexpr std::size_t kNoiseLength = std::size_t{1} << 16;
@@ -180,4 +180,4 @@ void PlaneRenderer::quantise(std::uint64_t picture, std::span<std::uint8_t> out)
   }
 }
 
-}  // namespace armature
+}  // namespace armature::sim::photo_scene

@@ -9,13 +9,13 @@
 #include "armature/robot/stereo_camera.hpp"
 #include "photo.hpp"
 
-namespace armature {
+namespace armature::sim::photo_scene {
 
 /// What lies between the printed plane and the picture of it.
 struct ImagingSettings {
-  double noise = 0;         // standard deviation, in grey values
-  double blur_px = 0;       // sigma of the lens' Gaussian blur
-  double background = 120;  // grey value of everything that is not the photo
+  double noise;       // standard deviation, in grey values
+  double blur_px;     // sigma of the lens' Gaussian blur
+  double background;  // grey value of everything that is not the photo
 };
 
 /// Renders a flat photo into a pinhole camera. A plane is seen through a homography, so the picture
@@ -62,4 +62,4 @@ class PlaneRenderer {
   std::vector<float> canvas_;
 };
 
-}  // namespace armature
+}  // namespace armature::sim::photo_scene

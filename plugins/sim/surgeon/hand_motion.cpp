@@ -6,9 +6,10 @@
 #include <numbers>
 #include <random>
 
+#include "armature/kinds/geometry_params.hpp"
 #include "armature/robot/quintic.hpp"
 
-namespace armature {
+namespace armature::sim::surgeon {
 namespace {
 
 using Eigen::Vector3d;
@@ -28,12 +29,11 @@ double eased_integral(double s) {
 
 }  // namespace
 
-HandMotion::HandMotion(const HandMotionSettings& settings, std::uint64_t seed)
-    : settings_{settings} {
+HandMotion::HandMotion(const Parameters& parameters, std::uint64_t seed) : parameters_{parameters} {
   std::mt19937_64 random{seed};
   std::uniform_real_distribution<double> frequency{kLowest_hz, kHighest_hz}, phase{0, kTurn};
   // The mean square of a sine is half of its amplitude's square.
-  const double amplitude = settings.tremor * std::sqrt(2.0 / (3 * kTonesPerAxis));
+  const double amplitude = parameters.tremor * std::sqrt(2.0 / (3 * kTonesPerAxis));
   for (int axis = 0; axis < 3; ++axis) {
     for (int i = 0; i < kTonesPerAxis; ++i) {
       const double hz = frequency(random);
@@ -43,25 +43,25 @@ HandMotion::HandMotion(const HandMotionSettings& settings, std::uint64_t seed)
 }
 
 double HandMotion::phase(double t) const {
-  const double ease = settings_.ease_s;
-  return kTurn * settings_.curve_hz * (ease > 0 ? ease * eased_integral(t / ease) : t);
+  const double ease = parameters_.ease;
+  return kTurn * parameters_.curve_hz * (ease > 0 ? ease * eased_integral(t / ease) : t);
 }
 
 Eigen::Isometry3d HandMotion::intended(double t, const Eigen::Isometry3d& start) const {
   const double u = phase(t);
-  const Vector3d& a = settings_.curve;
+  const Vector3d a = vector_of(parameters_.curve_m);
   const Vector3d curve{a.x() * (1 - std::cos(u)), a.y() * std::sin(u), a.z() * std::sin(2 * u)};
-  const double moved_on = eased((t - settings_.clutch_opens_s) / settings_.clutch_open_for_s);
-  const Eigen::AngleAxisd turn{settings_.turn * std::sin(u), Vector3d{0.6, 0, 0.8}};
+  const double moved_on = eased((t - parameters_.clutch_opens) / parameters_.clutch_open_for);
+  const Eigen::AngleAxisd turn{parameters_.turn * std::sin(u), Vector3d{0.6, 0, 0.8}};
   Eigen::Isometry3d pose = start;
-  pose.translation() += curve + moved_on * settings_.shift;
+  pose.translation() += curve + moved_on * vector_of(parameters_.shift);
   pose.linear() = turn * start.linear();
   return pose;
 }
 
 Eigen::Isometry3d HandMotion::actual(double t, const Eigen::Isometry3d& start) const {
   Eigen::Isometry3d pose = intended(t, start);
-  const double grip = settings_.ease_s > 0 ? eased(t / settings_.ease_s) : 1;
+  const double grip = parameters_.ease > 0 ? eased(t / parameters_.ease) : 1;
   for (const Tone& tone : tremor_) {
     pose.translation() += grip * std::sin(tone.omega * t + tone.phase) * tone.amplitude;
   }
@@ -69,9 +69,9 @@ Eigen::Isometry3d HandMotion::actual(double t, const Eigen::Isometry3d& start) c
 }
 
 bool HandMotion::clutch_closed(double t) const {
-  if (t < settings_.clutch_closes_s) return false;
-  return t < settings_.clutch_opens_s ||
-         t >= settings_.clutch_opens_s + settings_.clutch_open_for_s;
+  if (t < parameters_.clutch_closes) return false;
+  return t < parameters_.clutch_opens ||
+         t >= parameters_.clutch_opens + parameters_.clutch_open_for;
 }
 
-}  // namespace armature
+}  // namespace armature::sim::surgeon

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace armature {
+namespace armature::sim::surgeon {
 namespace {
 
 using Eigen::Vector3d;
@@ -35,7 +35,7 @@ TEST(HandMotion, StartsFromRestWithoutAJumpInSpeed) {
 }
 
 TEST(HandMotion, ComesRoundAndTurnsWithTheCurve) {
-  const HandMotion hand{{.curve_hz = 0.5, .turn = 0.2, .ease_s = 0, .clutch_opens_s = 100}, 1};
+  const HandMotion hand{{.curve_hz = 0.5, .turn = 0.2, .ease = 0, .clutch_opens = 100}, 1};
   for (const double t : {0.0, 0.3, 1.7}) {
     EXPECT_TRUE(hand.intended(t + 2, kStart).isApprox(hand.intended(t, kStart), 1e-12)) << t;
   }
@@ -49,7 +49,7 @@ TEST(HandMotion, ComesRoundAndTurnsWithTheCurve) {
 TEST(HandMotion, TremblesAsMuchAsToldBetween8And12Hz) {
   for (const std::uint64_t seed : {1u, 2u, 3u}) {
     SCOPED_TRACE("seed " + std::to_string(seed));
-    const HandMotion hand{{.tremor = 2e-4, .ease_s = 0}, seed};
+    const HandMotion hand{{.tremor = 2e-4, .ease = 0}, seed};
     const auto tremor = [&](double t) {
       return Vector3d{hand.actual(t, kStart).translation() -
                       hand.intended(t, kStart).translation()};
@@ -75,11 +75,11 @@ TEST(HandMotion, IsTheSameForASeedAndAnotherForAnother) {
 }
 
 TEST(HandMotion, OpensTheClutchOnceAndMovesOnMeanwhile) {
-  const HandMotion hand{{.curve = {0, 0, 0},
+  const HandMotion hand{{.curve_m = {0, 0, 0},
                          .turn = 0,
-                         .clutch_closes_s = 1,
-                         .clutch_opens_s = 3,
-                         .clutch_open_for_s = 2,
+                         .clutch_closes = 1,
+                         .clutch_opens = 3,
+                         .clutch_open_for = 2,
                          .shift = {0.01, 0, 0}},
                         1};
   EXPECT_FALSE(hand.clutch_closed(0.9));
@@ -92,4 +92,4 @@ TEST(HandMotion, OpensTheClutchOnceAndMovesOnMeanwhile) {
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::sim::surgeon

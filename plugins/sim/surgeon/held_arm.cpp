@@ -5,7 +5,7 @@
 
 #include "armature/robot/task_error.hpp"
 
-namespace armature {
+namespace armature::sim::surgeon {
 namespace {
 
 // A hand moves by less than a millimetre in a step: Newton is there after three.
@@ -39,4 +39,4 @@ Expected<JointVector> joints_of_held_arm(const RobotModel& model, const ToolPose
   return refuse("the arm cannot go along");
 }
 
-}  // namespace armature
+}  // namespace armature::sim::surgeon

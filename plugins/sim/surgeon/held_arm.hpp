@@ -5,7 +5,7 @@
 #include "armature/robot/robot_model.hpp"
 #include "armature/values/expected.hpp"
 
-namespace armature {
+namespace armature::sim::surgeon {
 
 /// The joints that an arm comes to when a hand takes its tool from where it is at `near` a little
 /// way to `pose`: Newton steps on forward kinematics. Refuses where the arm cannot go along: a
@@ -13,4 +13,4 @@ namespace armature {
 Expected<JointVector> joints_of_held_arm(const RobotModel& model, const ToolPose& pose,
                                          const JointVector& near);
 
-}  // namespace armature
+}  // namespace armature::sim::surgeon

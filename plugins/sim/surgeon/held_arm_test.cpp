@@ -6,7 +6,7 @@
 
 #include "armature/robot/kinematics.hpp"
 
-namespace armature {
+namespace armature::sim::surgeon {
 namespace {
 
 const RobotModel& master_arm() {
@@ -60,4 +60,4 @@ TEST(HeldArm, DoesNotLeap) {
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::sim::surgeon

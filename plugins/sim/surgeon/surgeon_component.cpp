@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <optional>
 
@@ -17,32 +15,12 @@
 #include "hand_motion.hpp"
 #include "held_arm.hpp"
 
-namespace armature {
+namespace armature::sim::surgeon {
 namespace {
 
 constexpr Duration kPeriod = seconds(0.001);
 constexpr double kComesToRestIn_s = 0.3;
 constexpr const char* kMasterFrame = "master_base";
-
-HandMotionSettings settings_of(const Params& params) {
-  const double closes_s = params.number("clutch_closes_s"),
-               opens_s = params.number("clutch_opens_s");
-  if (opens_s <= closes_s) {
-    params.refuse({"clutch_opens_s", "clutch_closes_s"},
-                  fmt::format("'clutch_opens_s' is {:g}, before the clutch was closed at "
-                              "'clutch_closes_s' = {:g}",
-                              opens_s, closes_s));
-  }
-  return {.curve = vector_of(params, "curve_mm"),
-          .curve_hz = params.number("curve_hz"),
-          .turn = params.number("turn_deg"),
-          .tremor = params.number("tremor_mm"),
-          .ease_s = params.number("ease_s"),
-          .clutch_closes_s = closes_s,
-          .clutch_opens_s = opens_s,
-          .clutch_open_for_s = params.number("clutch_open_for_s"),
-          .shift = vector_of(params, "shift_mm")};
-}
 
 }  // namespace
 
@@ -51,9 +29,8 @@ class Surgeon final : public Component {
   explicit Surgeon(Setup& setup)
       : Component{setup},
         robot_{robot_of(setup)},
-        hand_{settings_of(setup.params()), setup.seed()},
-        slave_T_master_{pose_of(setup.params(), "console_mm", "console_rpy_deg")},
-        silent_after_s_{setup.params().number("silent_after_s")},
+        parameters_{Parameters::read(setup.params())},
+        hand_{parameters_, setup.seed()},
         task_state_{setup.input<msg::TaskState>("task_state")},
         measured_js_{setup.input<msg::JointState>("measured_js")},
         console_{setup.output<msg::TransformStamped>("console")},
@@ -68,7 +45,7 @@ class Surgeon final : public Component {
     if (!taken_at_) take_hold(now);
     if (!taken_at_) return;
     const double t = to_seconds(now - *taken_at_);
-    silent_ = silent_after_s_ > 0 && t >= silent_after_s_;
+    silent_ = parameters_.silent_after > 0 && t >= parameters_.silent_after;
     if (silent_) return;
     pause(now);
     const double hand_t = t - paused_s_;
@@ -101,7 +78,7 @@ class Surgeon final : public Component {
     auto loan = console_.loan();
     write_header(loan->header_(), now, kBaseFrame);
     loan->child_frame_id_(kMasterFrame);
-    assign(loan->transform_(), slave_T_master_);
+    assign(loan->transform_(), pose_of(parameters_.console, parameters_.console_rpy));
     loan.publish();
   }
 
@@ -135,9 +112,8 @@ class Surgeon final : public Component {
   }
 
   RobotModel robot_;
+  Parameters parameters_;
   HandMotion hand_;
-  Eigen::Isometry3d slave_T_master_;
-  double silent_after_s_;
   bool console_told_ = false;
   std::optional<Time> taken_at_;
   Time moved_at_;
@@ -153,6 +129,6 @@ class Surgeon final : public Component {
   Output<msg::PoseStamped> intended_cp_;
 };
 
-}  // namespace armature
+}  // namespace armature::sim::surgeon
 
-ARMATURE_PLUGIN(armature::Surgeon);
+ARMATURE_PLUGIN(armature::sim::surgeon::Surgeon);

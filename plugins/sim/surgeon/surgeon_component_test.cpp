@@ -11,7 +11,7 @@
 #include "armature/runtime/component_bench.hpp"
 #include "armature/runtime/test_plugins.hpp"
 
-namespace armature {
+namespace armature::sim::surgeon {
 namespace {
 
 const std::string kMaster = ARMATURE_SOURCE_DIR "/configs/robots/master.yaml";
@@ -182,10 +182,11 @@ TEST_F(SurgeonTest, AMasterStateThatIsNoneIsSaid) {
 }
 
 TEST(SurgeonParams, AClutchThatOpensBeforeItClosesIsRefused) {
-  EXPECT_EQ(refusal_of(built_plugins(), surgeon_with("clutch_opens_s: 1, clutch_closes_s: 2")),
-            "bench:1:55: 'clutch_opens_s' is 1, before the clutch was closed at 'clutch_closes_s' "
-            "= 2");
+  EXPECT_EQ(
+      refusal_of(built_plugins(), surgeon_with("clutch_opens_s: 1, clutch_closes_s: 2")),
+      "bench:1:75: 'clutch_closes_s' is 2, not below 'clutch_opens_s', which is 1: the clutch "
+      "would open before it is closed");
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::sim::surgeon

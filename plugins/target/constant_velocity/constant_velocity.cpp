@@ -8,10 +8,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "armature/config/params.hpp"
 #include "armature/runtime/plugin.hpp"
 
-namespace armature {
+namespace armature::target::constant_velocity {
 namespace {
 
 // The state: position, velocity, normal, rate of the normal; three numbers each.
@@ -122,17 +121,7 @@ TargetEstimate estimate_of(const TargetFilter::State& state) {
 }  // namespace
 
 Expected<std::unique_ptr<TargetFilter>> ConstantVelocity::make(const Params& params) {
-  return std::make_unique<ConstantVelocity>(
-      Settings{.still_speed_m_s = params.number("still_speed_m_s"),
-               .still_turn_rad_s = params.number("still_turn_rad_s"),
-               .acceleration_m_s2 = params.number("acceleration_m_s2"),
-               .turn_acceleration_rad_s2 = params.number("turn_acceleration_rad_s2"),
-               .decay_s = params.number("decay_s"),
-               .surprise = params.number("surprise"),
-               .outlier_position_m = params.number("outlier_position_mm"),
-               .outlier_angle_rad = params.number("outlier_angle_deg"),
-               .restart_after = static_cast<int>(params.integer("restart_after")),
-               .max_gap_s = params.number("max_gap_s")});
+  return std::make_unique<ConstantVelocity>(Parameters::read(params));
 }
 
 void ConstantVelocity::start(const TargetMeasurement& measurement, State& state) const {
@@ -145,12 +134,12 @@ void ConstantVelocity::start(const TargetMeasurement& measurement, State& state)
   const Matrix6 r = measurement_noise(measurement);
   const auto squared = [](double x) { return x * x; };
   state.covariance.diagonal() << r.diagonal().head<3>(),
-      Eigen::Vector3d::Constant(squared(settings_.still_speed_m_s)), r.diagonal().tail<3>(),
-      Eigen::Vector3d::Constant(squared(settings_.still_turn_rad_s));
+      Eigen::Vector3d::Constant(squared(parameters_.still_speed)), r.diagonal().tail<3>(),
+      Eigen::Vector3d::Constant(squared(parameters_.still_turn));
 }
 
 void ConstantVelocity::advance(State& state, double dt_s, bool moving) const {
-  const double decay = moving ? 1.0 : std::exp(-dt_s / settings_.decay_s);
+  const double decay = moving ? 1.0 : std::exp(-dt_s / parameters_.decay);
   carry_on(state.mean, dt_s, decay);
   carry_on(state.covariance, dt_s, decay);
   const auto noise = [&](int block, double still, double acceleration) {
@@ -159,8 +148,8 @@ void ConstantVelocity::advance(State& state, double dt_s, bool moving) const {
     add_process_noise(state.covariance, block, dt_s, rate,
                       moving ? acceleration * acceleration : 0);
   };
-  noise(kPosition, settings_.still_speed_m_s, settings_.acceleration_m_s2);
-  noise(kNormal, settings_.still_turn_rad_s, settings_.turn_acceleration_rad_s2);
+  noise(kPosition, parameters_.still_speed, parameters_.acceleration);
+  noise(kNormal, parameters_.still_turn, parameters_.turn_acceleration);
   state.stamp = state.stamp + seconds(dt_s);
 }
 
@@ -172,7 +161,7 @@ Expected<TargetEstimate> ConstantVelocity::update(const TargetMeasurement& measu
     return refuse("the measurement is not finite, or its normal is no unit vector");
   }
   const double dt = to_seconds(measurement.stamp - state.stamp);
-  if (!state.started || dt > settings_.max_gap_s) {
+  if (!state.started || dt > parameters_.max_gap) {
     start(measurement, state);
     return estimate_of(state);
   }
@@ -186,13 +175,13 @@ Expected<TargetEstimate> ConstantVelocity::update(const TargetMeasurement& measu
   const Vector6 off = innovation(measurement, moving).value;
   const double distance = off.head<3>().norm();
   const double angle = 2 * std::asin(std::min(0.5 * off.tail<3>().norm(), 1.0));
-  if (distance > settings_.outlier_position_m || angle > settings_.outlier_angle_rad) {
-    if (++state.rejected < settings_.restart_after) {
+  if (distance > parameters_.outlier_position || angle > parameters_.outlier_angle) {
+    if (++state.rejected < parameters_.restart_after) {
       return refuse(
           fmt::format("outlier: {:.0f} mm and {:.0f} degrees from where the target "
                       "should be, more than {:.0f} mm or {:.0f} degrees",
-                      distance * 1e3, angle * kDegreesPerRadian, settings_.outlier_position_m * 1e3,
-                      settings_.outlier_angle_rad * kDegreesPerRadian));
+                      distance * 1e3, angle * kDegreesPerRadian, parameters_.outlier_position * 1e3,
+                      parameters_.outlier_angle * kDegreesPerRadian));
     }
     start(measurement, state);
     return estimate_of(state);
@@ -201,7 +190,7 @@ Expected<TargetEstimate> ConstantVelocity::update(const TargetMeasurement& measu
   const double surprise = innovation(measurement, still).normalised / kDegreesOfFreedom;
   const double smoothed = state.surprise + kSmoothing * (surprise - state.surprise);
   const bool is_moving = state.moving ? smoothed > kSettledSurprise || has_rates(state)
-                                      : smoothed > settings_.surprise;
+                                      : smoothed > parameters_.surprise;
 
   State next = is_moving ? moving : still;
   const Innovation i = innovation(measurement, next);
@@ -222,17 +211,17 @@ Expected<TargetEstimate> ConstantVelocity::update(const TargetMeasurement& measu
 Expected<TargetEstimate> ConstantVelocity::predict(Time when, const State& state) const {
   if (!state.started) return refuse("no measurement yet");
   const double dt = to_seconds(when - state.stamp);
-  if (dt > settings_.max_gap_s) {
+  if (dt > parameters_.max_gap) {
     return refuse(
-        fmt::format("{:.2f} s without a measurement, more than {:.2f} s", dt, settings_.max_gap_s));
+        fmt::format("{:.2f} s without a measurement, more than {:.2f} s", dt, parameters_.max_gap));
   }
   State later = state;
-  const double decay = state.moving ? 1.0 : std::exp(-dt / settings_.decay_s);
+  const double decay = state.moving ? 1.0 : std::exp(-dt / parameters_.decay);
   carry_on(later.mean, dt, decay);
   later.stamp = when;
   return estimate_of(later);
 }
 
-}  // namespace armature
+}  // namespace armature::target::constant_velocity
 
-ARMATURE_PLUGIN(armature::ConstantVelocity);
+ARMATURE_PLUGIN(armature::target::constant_velocity::ConstantVelocity);

@@ -14,12 +14,11 @@
 
 #include "armature/kinds/target/contract.hpp"
 
-namespace armature {
+namespace armature::target::constant_velocity {
 
 INSTANTIATE_TEST_SUITE_P(ConstantVelocity, TargetLaws,
                          testing::Values(TargetSubject{
-                             "default",
-                             std::make_shared<ConstantVelocity>(ConstantVelocity::Settings{})}));
+                             "default", std::make_shared<ConstantVelocity>(Parameters{})}));
 
 namespace {
 
@@ -221,4 +220,4 @@ TEST(ConstantVelocity, SaysWhatIsWrongWithAMeasurement) {
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::target::constant_velocity

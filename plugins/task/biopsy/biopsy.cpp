@@ -5,7 +5,7 @@
 
 #include "armature/robot/kinematics.hpp"
 
-namespace armature {
+namespace armature::task::biopsy {
 namespace {
 
 using Eigen::Vector3d;
@@ -47,13 +47,13 @@ void Biopsy::see_head(const NeedleLine& plan) {
 
 void Biopsy::see_registration(const RegisteredHead& head) {
   if (phase_ != Phase::registering) return;
-  if (head.fiducial_error_m > settings_.most_fiducial_error_m) {
+  if (head.fiducial_error_m > parameters_.most_fiducial_error) {
     return refuse(fmt::format("the markers fit to {:.2f} mm rms, {:g} mm are allowed",
-                              1e3 * head.fiducial_error_m, 1e3 * settings_.most_fiducial_error_m));
+                              1e3 * head.fiducial_error_m, 1e3 * parameters_.most_fiducial_error));
   }
-  if (!(head.target_error95_m <= settings_.most_target_error_m)) {
+  if (!(head.target_error95_m <= parameters_.most_target_error)) {
     return refuse(fmt::format("the target is known to {:.2f} mm (95 %), {:g} mm are required",
-                              1e3 * head.target_error95_m, 1e3 * settings_.most_target_error_m));
+                              1e3 * head.target_error95_m, 1e3 * parameters_.most_target_error));
   }
   const NeedleLine line = moved(plan_, head.robot_T_image);
   if (!((line.target - line.entry).norm() > 0)) return refuse("entry and target are one point");
@@ -91,4 +91,4 @@ const char* to_string(Biopsy::Phase phase) {
   return "";
 }
 
-}  // namespace armature
+}  // namespace armature::task::biopsy

@@ -9,12 +9,9 @@
 #include "armature/motion/pursued_goal.hpp"
 #include "armature/robot/forbidden_zone.hpp"
 #include "armature/robot/robot_model.hpp"
+#include "task_biopsy_parameters.hpp"
 
-namespace armature {
-
-struct BiopsySettings {
-  double most_fiducial_error_m = 0.001, most_target_error_m = 0.001;
-};
+namespace armature::task::biopsy {
 
 /// The plan, in one frame.
 struct NeedleLine {
@@ -42,8 +39,8 @@ class Biopsy {
  public:
   enum class Phase { waiting, registering, inserting, at_target, refused };
 
-  Biopsy(const BiopsySettings& settings, const RobotModel& robot)
-      : settings_{settings}, robot_{robot} {}
+  Biopsy(const Parameters& parameters, const RobotModel& robot)
+      : parameters_{parameters}, robot_{robot} {}
 
   /// The plan on the image and where points were found before the robot are there.
   void see_head(const NeedleLine& plan);
@@ -62,7 +59,7 @@ class Biopsy {
  private:
   void refuse(const std::string& why);
 
-  BiopsySettings settings_;
+  Parameters parameters_;
   const RobotModel& robot_;
   NeedleLine plan_;
   PursuedGoal goal_;
@@ -73,4 +70,4 @@ class Biopsy {
 /// "waiting", "registering", "inserting", "at target", "refused".
 const char* to_string(Biopsy::Phase phase);
 
-}  // namespace armature
+}  // namespace armature::task::biopsy

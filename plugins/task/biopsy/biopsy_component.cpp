@@ -14,15 +14,10 @@
 #include "armature/runtime/setup.hpp"
 #include "biopsy.hpp"
 
-namespace armature {
+namespace armature::task::biopsy {
 namespace {
 
 constexpr Duration kPeriod = seconds(0.02);
-
-BiopsySettings settings_of(const Params& params) {
-  return {.most_fiducial_error_m = params.number("most_fiducial_error_mm"),
-          .most_target_error_m = params.number("most_target_error_mm")};
-}
 
 NeedleLine line_of(const msg::NeedlePlan& plan) {
   return {to_eigen(plan.entry_()), to_eigen(plan.target_()), zones_of(plan.forbidden_())};
@@ -42,11 +37,12 @@ class BiopsyComponent final : public Component {
  public:
   explicit BiopsyComponent(Setup& setup)
       : Component{setup},
+        parameters_{Parameters::read(setup.params())},
         robot_{robot_of(setup)},
-        task_{settings_of(setup.params()), robot_},
+        task_{parameters_, robot_},
         plan_{setup.input<msg::NeedlePlan>("plan")},
         markers_{setup.input<msg::MeasuredMarkers>("markers")},
-        registration_{setup},
+        registration_{setup, parameters_.marker_error, parameters_.match_tolerance},
         motion_status_{setup.input<msg::MotionStatus>("motion_status")},
         goal_{setup.output<msg::MotionGoal>("goal")},
         state_{setup} {
@@ -101,6 +97,7 @@ class BiopsyComponent final : public Component {
     if (state_.publish(now, report, report.line())) say(report.line());
   }
 
+  Parameters parameters_;
   RobotModel robot_;
   Biopsy task_;
   Input<msg::NeedlePlan> plan_;
@@ -111,6 +108,6 @@ class BiopsyComponent final : public Component {
   TaskStatePublisher state_;
 };
 
-}  // namespace armature
+}  // namespace armature::task::biopsy
 
-ARMATURE_PLUGIN(armature::BiopsyComponent);
+ARMATURE_PLUGIN(armature::task::biopsy::BiopsyComponent);

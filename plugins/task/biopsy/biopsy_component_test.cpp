@@ -8,7 +8,7 @@
 #include "armature/runtime/component_bench.hpp"
 #include "armature/runtime/test_plugins.hpp"
 
-namespace armature {
+namespace armature::task::biopsy {
 namespace {
 
 class BiopsyComponentTest : public testing::Test {
@@ -123,4 +123,4 @@ TEST(BiopsyParams, MarkersWithoutAnErrorAreNoStatement) {
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::task::biopsy

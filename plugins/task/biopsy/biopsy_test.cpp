@@ -6,7 +6,7 @@
 
 #include "armature/robot/kinematics.hpp"
 
-namespace armature {
+namespace armature::task::biopsy {
 namespace {
 
 using Eigen::Vector3d;
@@ -118,4 +118,4 @@ TEST_F(BiopsyTest, ARobotWithoutAPointingAxisIsGivenTheRotationNearestToHome) {
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::task::biopsy

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <string>
+#include <utility>
 
 #include "armature/calibration/usable_pose.hpp"
 #include "armature/messages/armature_msgs.hpp"
@@ -14,14 +15,13 @@
 #include "armature/runtime/setup.hpp"
 #include "sighting.hpp"
 
-namespace armature {
+namespace armature::task::implant {
 
 /// The topic of one body. A body without a name is taken for it; another one is not.
 class BodyInput {
  public:
-  BodyInput(Setup& setup, const std::string& port)
-      : bodies_{setup.input<msg::TrackedBody>(port)},
-        expected_{setup.params().text(port + "_body")} {}
+  BodyInput(Setup& setup, const std::string& port, std::string body)
+      : bodies_{setup.input<msg::TrackedBody>(port)}, expected_{std::move(body)} {}
 
   std::size_t size() const { return bodies_.size(); }
   Sighting operator[](std::size_t i) const {
@@ -50,4 +50,4 @@ class BodyInput {
   std::string expected_;
 };
 
-}  // namespace armature
+}  // namespace armature::task::implant

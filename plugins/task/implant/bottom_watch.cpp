@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace armature {
+namespace armature::task::implant {
 
 BottomWatch::BottomWatch(const GuidedChain& chain,
                          const std::vector<Eigen::Isometry3d>& image_T_sites)
@@ -33,4 +33,4 @@ std::optional<std::string> BottomWatch::missed(std::size_t sites, double most_m)
       1e3 * worst->nearest_m, worst - bottoms_.begin() + 1, 1e3 * most_m);
 }
 
-}  // namespace armature
+}  // namespace armature::task::implant

@@ -9,7 +9,7 @@
 
 #include "armature/robot/guided_chain.hpp"
 
-namespace armature {
+namespace armature::task::implant {
 
 /// How near the drill's tip has come to the bottom of every site, by where the arm says that it is:
 /// a motion that has come to its end has not been everywhere on its way when the arm lags.
@@ -32,4 +32,4 @@ class BottomWatch {
   std::vector<Bottom> bottoms_;
 };
 
-}  // namespace armature
+}  // namespace armature::task::implant

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace armature {
+namespace armature::task::implant {
 namespace {
 
 using Eigen::Isometry3d;
@@ -66,4 +66,4 @@ TEST_F(BottomWatchTest, AnArmThatWasNeverSeenWasNowhere) {
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::task::implant

@@ -5,7 +5,7 @@
 #include <array>
 #include <cstddef>
 
-namespace armature {
+namespace armature::task::implant {
 namespace {
 
 /// The digits of `index` in base `prime`, mirrored at the point: from 0 to 1.
@@ -34,4 +34,4 @@ std::vector<JointVector> calibration_poses(const RobotModel& robot, int count, d
   return poses;
 }
 
-}  // namespace armature
+}  // namespace armature::task::implant

@@ -5,7 +5,7 @@
 
 #include "armature/robot/robot_model.hpp"
 
-namespace armature {
+namespace armature::task::implant {
 
 /// `count` joint positions about where the arm rests, every joint up to `spread_rad` away (a joint
 /// that slides not at all) and within its limits, spread evenly: Halton's sequence, so that any
@@ -13,4 +13,4 @@ namespace armature {
 /// on.
 std::vector<JointVector> calibration_poses(const RobotModel& robot, int count, double spread_rad);
 
-}  // namespace armature
+}  // namespace armature::task::implant

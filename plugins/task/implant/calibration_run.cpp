@@ -6,7 +6,7 @@
 #include "armature/robot/kinematics.hpp"
 #include "calibration_poses.hpp"
 
-namespace armature {
+namespace armature::task::implant {
 namespace {
 
 // [m], [rad]: an arm that moved by less from the first sample to the last stood still.
@@ -19,9 +19,10 @@ bool moved(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to) {
 
 }  // namespace
 
-CalibrationRun::CalibrationRun(const CalibrationSettings& settings, const RobotModel& robot)
-    : settings_{settings}, watch_{"the flange", settings.patience} {
-  for (const JointVector& q : calibration_poses(robot, settings.poses, settings.spread_rad)) {
+CalibrationRun::CalibrationRun(const Parameters& parameters, const RobotModel& robot)
+    : parameters_{parameters}, watch_{"the flange", seconds(parameters.patience)} {
+  for (const JointVector& q :
+       calibration_poses(robot, parameters.calibration_poses, parameters.calibration_spread)) {
     const Eigen::Isometry3d base_T_tool = forward_kinematics(robot, q);
     goals_.push_back({base_T_tool.translation(), Eigen::Quaterniond{base_T_tool.linear()}});
   }
@@ -47,7 +48,7 @@ void CalibrationRun::see(const Sighting& sighting, const Eigen::Isometry3d& base
     base_T_flange_ = base_T_flange;
   }
   average_.add(*sighting.tracker_T_body);
-  if (average_.count() < settings_.samples) return;
+  if (average_.count() < parameters_.samples_per_pose) return;
   poses_.push_back({base_T_flange, average_.mean()});
   next();
 }
@@ -61,9 +62,9 @@ void CalibrationRun::leave_out(const std::string& why) {
   left_out_ = fmt::format("pose {}: {}", number(), why);
   next();
   const int most = static_cast<int>(poses_.size()) + count() - at_;
-  if (most < settings_.least_poses) {
+  if (most < parameters_.least_poses) {
     trouble_ = fmt::format("{} of {} poses at most, {} are needed; {}", most, count(),
-                           settings_.least_poses, left_out_);
+                           parameters_.least_poses, left_out_);
   }
 }
 
@@ -73,4 +74,4 @@ void CalibrationRun::next() {
   ++at_;
 }
 
-}  // namespace armature
+}  // namespace armature::task::implant

@@ -10,21 +10,15 @@
 #include "armature/robot/robot_model.hpp"
 #include "pose_average.hpp"
 #include "sighting.hpp"
+#include "task_implant_parameters.hpp"
 
-namespace armature {
-
-struct CalibrationSettings {
-  int poses = 20, least_poses = 12;
-  double spread_rad = 0.45;
-  int samples = 10;                  // of the tracker, averaged at each pose
-  Duration patience = seconds(0.5);  // without the body being seen
-};
+namespace armature::task::implant {
 
 /// The arm goes from pose to pose; at each the tracker's samples of the body on its flange are
 /// averaged. A pose that the arm cannot reach, or at which the body is not seen, is left out.
 class CalibrationRun {
  public:
-  CalibrationRun(const CalibrationSettings& settings, const RobotModel& robot);
+  CalibrationRun(const Parameters& parameters, const RobotModel& robot);
 
   /// The pose to go to, of the tool as the robot file has it; none when all are done.
   std::optional<ToolPose> destination() const;
@@ -48,7 +42,7 @@ class CalibrationRun {
  private:
   void next();
 
-  CalibrationSettings settings_;
+  Parameters parameters_;
   std::vector<ToolPose> goals_;
   int at_ = 0;
   std::optional<Time> arrived_;
@@ -59,4 +53,4 @@ class CalibrationRun {
   std::string left_out_, trouble_;
 };
 
-}  // namespace armature
+}  // namespace armature::task::implant

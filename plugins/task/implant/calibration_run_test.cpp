@@ -9,7 +9,7 @@
 #include "armature/robot/kinematics.hpp"
 #include "calibration_poses.hpp"
 
-namespace armature {
+namespace armature::task::implant {
 namespace {
 
 using Eigen::Isometry3d;
@@ -49,7 +49,7 @@ class CalibrationRunTest : public testing::Test {
   void wait(double for_s) { run_.update(calibration_time(now_s_ += for_s)); }
 
   double now_s_ = 1;
-  CalibrationRun run_{{.poses = 4, .least_poses = 3, .samples = 2}, arm()};
+  CalibrationRun run_{{.calibration_poses = 4, .least_poses = 3, .samples_per_pose = 2}, arm()};
 };
 
 TEST_F(CalibrationRunTest, AveragesTheSamplesAtEveryPose) {
@@ -104,4 +104,4 @@ TEST_F(CalibrationRunTest, LeavesOutAPoseAtWhichNothingIsSeenOrThatCannotBeReach
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::task::implant

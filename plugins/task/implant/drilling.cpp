@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <string>
 
-namespace armature {
+namespace armature::task::implant {
 namespace {
 
 using Eigen::Isometry3d;
@@ -49,15 +49,16 @@ std::vector<Bore> site_by_site(const std::vector<SitePoses>& sites) {
 
 DrillingWay drilling_way(const GuidedChain& chain, const Isometry3d& flange_T_file_tool,
                          const std::vector<Isometry3d>& image_T_sites,
-                         const DrillingSettings& settings) {
+                         const Parameters& parameters) {
   const auto pose_at = [&](const Isometry3d& image_T_site) -> ToolPose {
     const Isometry3d pose = chain.base_T_flange(image_T_site) * flange_T_file_tool;
     return {pose.translation(), Eigen::Quaterniond{pose.linear()}.normalized()};
   };
-  const Eigen::Translation3d up{0, 0, -settings.stand_off_m};
+  const Eigen::Translation3d up{0, 0, -parameters.stand_off};
   std::vector<SitePoses> sites;
   for (const Isometry3d& site : image_T_sites) sites.push_back({pose_at(site * up), pose_at(site)});
-  return {sites.front().above, settings.stop_at_sites ? site_by_site(sites) : in_one_motion(sites)};
+  return {sites.front().above,
+          parameters.stop_at_sites ? site_by_site(sites) : in_one_motion(sites)};
 }
 
-}  // namespace armature
+}  // namespace armature::task::implant

@@ -8,8 +8,9 @@
 
 #include "armature/motion/goal.hpp"
 #include "armature/robot/guided_chain.hpp"
+#include "task_implant_parameters.hpp"
 
-namespace armature {
+namespace armature::task::implant {
 
 /// One motion of the drill.
 struct Bore {
@@ -25,18 +26,12 @@ struct DrillingWay {
   std::vector<Bore> bores;
 };
 
-struct DrillingSettings {
-  double stand_off_m = 0.03;  // from where above a bottom the drill goes in, along its z axis
-  /// A goal for every site, with its end at the bottom; else one through all of them.
-  bool stop_at_sites = false;
-};
-
 /// From the approach into every site and back out, over to the next, and above the last at the
 /// end. `flange_T_file_tool` is the frame that motion goals are stated for, wherever the true drill
 /// is. A line that comes back on itself has no speed at its turn, so that the drill turns round at
 /// every bottom also in the midst of a motion. At least one site.
 DrillingWay drilling_way(const GuidedChain& chain, const Eigen::Isometry3d& flange_T_file_tool,
                          const std::vector<Eigen::Isometry3d>& image_T_sites,
-                         const DrillingSettings& settings);
+                         const Parameters& parameters);
 
-}  // namespace armature
+}  // namespace armature::task::implant

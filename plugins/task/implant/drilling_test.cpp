@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace armature {
+namespace armature::task::implant {
 namespace {
 
 using Eigen::Isometry3d;
@@ -45,7 +45,7 @@ class DrillingWayTest : public testing::Test {
 };
 
 TEST_F(DrillingWayTest, GoesThroughAllSitesInOneMotion) {
-  const DrillingWay way = drilling_way(chain_, file_tool_, sites_, {.stand_off_m = 0.03});
+  const DrillingWay way = drilling_way(chain_, file_tool_, sites_, {});
   expect_at(way.approach, 0, 0.03);
   ASSERT_EQ(way.bores.size(), 1u);
   EXPECT_FALSE(way.bores[0].ends_at_bottom);
@@ -64,7 +64,7 @@ TEST_F(DrillingWayTest, GoesThroughAllSitesInOneMotion) {
 
 TEST_F(DrillingWayTest, OrEndsAMotionAtEveryBottom) {
   const DrillingWay way =
-      drilling_way(chain_, file_tool_, sites_, {.stand_off_m = 0.02, .stop_at_sites = true});
+      drilling_way(chain_, file_tool_, sites_, {.stand_off = 0.02, .stop_at_sites = true});
   ASSERT_EQ(way.bores.size(), 4u);
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_TRUE(way.bores[i].ends_at_bottom);
@@ -92,4 +92,4 @@ TEST_F(DrillingWayTest, OneSiteIsEnough) {
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::task::implant

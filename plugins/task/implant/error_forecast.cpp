@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace armature {
+namespace armature::task::implant {
 
 double ErrorForecast::rms_m() const {
   return std::hypot(std::hypot(registration.rms_m, hand_eye.rms_m),
@@ -29,4 +29,4 @@ ErrorForecast forecast_at(const Eigen::Isometry3d& image_T_site, const GuidedCha
   return forecast;
 }
 
-}  // namespace armature
+}  // namespace armature::task::implant

@@ -8,7 +8,7 @@
 #include "armature/robot/guided_chain.hpp"
 #include "pose_average.hpp"
 
-namespace armature {
+namespace armature::task::implant {
 
 /// What the registration said of a site.
 struct RegisteredSite {
@@ -29,4 +29,4 @@ ErrorForecast forecast_at(const Eigen::Isometry3d& image_T_site, const GuidedCha
                           const Pivot& pivot, const HandEye& hand_eye, const PoseAverage& jaw,
                           const RegisteredSite& registered);
 
-}  // namespace armature
+}  // namespace armature::task::implant

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace armature {
+namespace armature::task::implant {
 namespace {
 
 using Eigen::Isometry3d;
@@ -15,14 +15,14 @@ constexpr int kJawSamples = 10;  // one by itself errs too much far from the bod
 
 }  // namespace
 
-Implant::Implant(const ImplantSettings& settings, const RobotModel& robot,
+Implant::Implant(const Parameters& parameters, const RobotModel& robot,
                  const Isometry3d& flange_T_file_tool)
-    : settings_{settings},
+    : parameters_{parameters},
       flange_T_file_tool_{flange_T_file_tool},
-      calibration_{settings.calibration, robot},
-      drill_watch_{"the drill in the hand", settings.patience},
-      flange_watch_{"the flange", settings.patience},
-      jaw_watch_{"the jaw", settings.patience} {
+      calibration_{parameters, robot},
+      drill_watch_{"the drill in the hand", seconds(parameters.patience)},
+      flange_watch_{"the flange", seconds(parameters.patience)},
+      jaw_watch_{"the jaw", seconds(parameters.patience)} {
   chain_.flange_R_tool = flange_T_file_tool.linear();
 }
 
@@ -73,12 +73,12 @@ void Implant::see_jaw(const Sighting& sighting) {
   if (jaw_now_.count() == kJawSamples) guard_jaw();
 }
 
-int Implant::jaw_block() const { return std::clamp(settings_.jaw_samples / 2, 1, kJawSamples); }
+int Implant::jaw_block() const { return std::clamp(parameters_.jaw_samples / 2, 1, kJawSamples); }
 
 double Implant::most_moved(const Isometry3d& tracker_T_jaw, const Isometry3d& from) const {
   double most_m = 0;
   for (const Isometry3d& site : sites_) {
-    for (const double above_m : {0.0, settings_.depth_m}) {
+    for (const double above_m : {0.0, parameters_.depth}) {
       const Eigen::Vector3d point =
           chain_.patient_T_image * (site * Eigen::Vector3d{0, 0, -above_m});
       most_m = std::max(most_m, (tracker_T_jaw * point - from * point).norm());
@@ -96,18 +96,18 @@ void Implant::locate_jaw(const Isometry3d& tracker_T_jaw) {
   jaw_now_.clear();
   if (!jaw_first_) jaw_first_ = now;
   const double moved_m = most_moved(now, *jaw_first_);
-  if (moved_m <= settings_.most_jaw_motion_m) return;
+  if (moved_m <= parameters_.most_jaw_motion) return;
   refuse(fmt::format("the jaw moved by {:.2f} mm while its place was averaged, {:g} mm are allowed",
-                     1e3 * moved_m, 1e3 * settings_.most_jaw_motion_m));
+                     1e3 * moved_m, 1e3 * parameters_.most_jaw_motion));
 }
 
 /// Against where the jaw was when the way was worked out.
 void Implant::guard_jaw() {
   const double moved_m = most_moved(jaw_now_.mean(), chain_.tracker_T_patient);
   jaw_now_.clear();
-  if (moved_m <= settings_.most_jaw_motion_m) return;
+  if (moved_m <= parameters_.most_jaw_motion) return;
   refuse(fmt::format("the jaw has moved by {:.2f} mm, {:g} mm are allowed", 1e3 * moved_m,
-                     1e3 * settings_.most_jaw_motion_m));
+                     1e3 * parameters_.most_jaw_motion));
 }
 
 void Implant::hear(const GoalReport& report, Time now) {
@@ -131,7 +131,9 @@ void Implant::hear(const GoalReport& report, Time now) {
 void Implant::update(Time now) {
   switch (phase_) {
     case Phase::pivoting:
-      if (pivot_since_ && now - *pivot_since_ >= settings_.pivot) return finish_pivot(now);
+      if (pivot_since_ && now - *pivot_since_ >= seconds(parameters_.pivot)) {
+        return finish_pivot(now);
+      }
       if (const auto blind = drill_watch_.blind(now)) refuse("pivot: " + *blind);
       break;
     case Phase::calibrating:
@@ -141,7 +143,7 @@ void Implant::update(Time now) {
       go_on_calibrating();
       break;
     case Phase::locating:
-      if (jaw_.count() >= settings_.jaw_samples) return finish_locating(now);
+      if (jaw_.count() >= parameters_.jaw_samples) return finish_locating(now);
       if (const auto blind = jaw_watch_.blind(now)) refuse(*blind);
       break;
     case Phase::approaching:
@@ -160,9 +162,9 @@ void Implant::update(Time now) {
 void Implant::finish_pivot(Time now) {
   const auto pivot = calibrate_pivot(pivot_poses_);
   if (!pivot) return refuse("pivot: " + pivot.error().text);
-  if (pivot->residual_rms_m > settings_.most_pivot_residual_m) {
+  if (pivot->residual_rms_m > parameters_.most_pivot_residual) {
     return refuse(fmt::format("pivot: the tip stood still to {:.2f} mm rms, {:g} mm are allowed",
-                              1e3 * pivot->residual_rms_m, 1e3 * settings_.most_pivot_residual_m));
+                              1e3 * pivot->residual_rms_m, 1e3 * parameters_.most_pivot_residual));
   }
   pivot_ = *pivot;
   chain_.tip = pivot_.tip;
@@ -182,10 +184,10 @@ void Implant::go_on_calibrating() {
 void Implant::finish_calibration(Time now) {
   const auto found = calibrate_hand_eye(calibration_.poses());
   if (!found) return refuse("hand-eye: " + found.error().text);
-  if (found->residual_rms_m > settings_.most_hand_eye_residual_m) {
+  if (found->residual_rms_m > parameters_.most_hand_eye_residual) {
     return refuse(fmt::format("hand-eye: the poses fit to {:.2f} mm rms, {:g} mm are allowed",
                               1e3 * found->residual_rms_m,
-                              1e3 * settings_.most_hand_eye_residual_m));
+                              1e3 * parameters_.most_hand_eye_residual));
   }
   hand_eye_ = *found;
   chain_.flange_T_body = hand_eye_.flange_T_body;
@@ -204,9 +206,9 @@ void Implant::see_registration(const RegisteredJaw& jaw, Time now) {
     return refuse(fmt::format("the registration tells the error of {} sites, the plan has {}",
                               jaw.sites.size(), sites_.size()));
   }
-  if (!(jaw.fiducial_error_m <= settings_.most_fiducial_error_m)) {
+  if (!(jaw.fiducial_error_m <= parameters_.most_fiducial_error)) {
     return refuse(fmt::format("the markers fit to {:.2f} mm rms, {:g} mm are allowed",
-                              1e3 * jaw.fiducial_error_m, 1e3 * settings_.most_fiducial_error_m));
+                              1e3 * jaw.fiducial_error_m, 1e3 * parameters_.most_fiducial_error));
   }
   news_.push_back(
       fmt::format("registration: the markers fit to {:.2f} mm", 1e3 * jaw.fiducial_error_m));
@@ -223,14 +225,14 @@ void Implant::finish_locating(Time now) {
     const ErrorForecast& forecast = forecasts_.emplace_back(
         forecast_at(sites_[i], chain_, pivot_, hand_eye_, jaw_, registered_.sites[i]));
     worst_m = std::max(worst_m, forecast.bound95_m());
-    if (!(forecast.bound95_m() <= settings_.most_site_error_m)) {
+    if (!(forecast.bound95_m() <= parameters_.most_site_error)) {
       return refuse(fmt::format("site {} is known to {:.2f} mm (95 %), {:g} mm are required", i + 1,
-                                1e3 * forecast.bound95_m(), 1e3 * settings_.most_site_error_m));
+                                1e3 * forecast.bound95_m(), 1e3 * parameters_.most_site_error));
     }
   }
   news_.push_back(fmt::format("the worst of {} sites is known to {:.2f} mm (95 %)", sites_.size(),
                               1e3 * worst_m));
-  way_ = drilling_way(chain_, flange_T_file_tool_, sites_, settings_.drilling);
+  way_ = drilling_way(chain_, flange_T_file_tool_, sites_, parameters_);
   bottoms_ = BottomWatch{chain_, sites_};
   goal_.set({.pose = way_.approach, .focus = {}});
   enter(Phase::approaching, now);
@@ -238,8 +240,10 @@ void Implant::finish_locating(Time now) {
 
 void Implant::go_on_drilling(Time now) {
   if (goal_.state() != PursuedGoal::State::done) return;
-  if (way_.bores[bore_].ends_at_bottom && now - goal_.done_at() < settings_.dwell) return;
-  const auto missed = bottoms_.missed(way_.bores[bore_].sites, settings_.most_bottom_error_m);
+  if (way_.bores[bore_].ends_at_bottom && now - goal_.done_at() < seconds(parameters_.dwell)) {
+    return;
+  }
+  const auto missed = bottoms_.missed(way_.bores[bore_].sites, parameters_.most_bottom_error);
   if (missed) return refuse(*missed);
   if (++bore_ == way_.bores.size()) return enter(Phase::drilled, now);
   goal_.set_once(way_.bores[bore_].goal);
@@ -278,4 +282,4 @@ const char* to_string(Implant::Phase phase) {
   return "";
 }
 
-}  // namespace armature
+}  // namespace armature::task::implant

@@ -13,23 +13,9 @@
 #include "drilling.hpp"
 #include "error_forecast.hpp"
 #include "sighting.hpp"
+#include "task_implant_parameters.hpp"
 
-namespace armature {
-
-struct ImplantSettings {
-  Duration pivot = seconds(2.0);  // of samples with the tip in the divot
-  CalibrationSettings calibration;
-  int jaw_samples = 60;              // averaged before the way is worked out
-  Duration patience = seconds(0.5);  // without a body being seen that is needed
-  DrillingSettings drilling;
-  double depth_m = 0.012;         // of a bore
-  Duration dwell = seconds(0.5);  // at a bottom where the drill stops
-  double most_pivot_residual_m = 0.0005, most_hand_eye_residual_m = 0.0005;
-  double most_fiducial_error_m = 0.0015, most_site_error_m = 0.0015;
-  double most_bottom_error_m = 0.0003;  // of the drill from a site's bottom, as the arm measures
-  /// Of the mean of some samples, while the jaw's place is averaged and from then on.
-  double most_jaw_motion_m = 0.001;
-};
+namespace armature::task::implant {
 
 /// What a registration answered.
 struct RegisteredJaw {
@@ -56,7 +42,7 @@ class Implant {
   };
 
   /// `flange_T_file_tool`: the drill as the robot file has it.
-  Implant(const ImplantSettings& settings, const RobotModel& robot,
+  Implant(const Parameters& parameters, const RobotModel& robot,
           const Eigen::Isometry3d& flange_T_file_tool);
 
   void begin(Time now);
@@ -105,7 +91,7 @@ class Implant {
   /// For good; an arm that is on its way holds.
   void refuse(const std::string& why);
 
-  ImplantSettings settings_;
+  Parameters parameters_;
   Eigen::Isometry3d flange_T_file_tool_;
   CalibrationRun calibration_;
   BodyWatch drill_watch_, flange_watch_, jaw_watch_;
@@ -134,4 +120,4 @@ class Implant {
 /// "refused".
 const char* to_string(Implant::Phase phase);
 
-}  // namespace armature
+}  // namespace armature::task::implant

@@ -21,51 +21,23 @@
 #include "body_input.hpp"
 #include "implant.hpp"
 
-namespace armature {
+namespace armature::task::implant {
 namespace {
 
 constexpr Duration kPeriod = seconds(0.02);
 
-CalibrationSettings calibration_of(const Params& params) {
-  if (params.integer("least_poses") > params.integer("calibration_poses")) {
-    params.refuse({"least_poses", "calibration_poses"},
-                  fmt::format("'least_poses' is {}, more than the {} 'calibration_poses'",
-                              params.integer("least_poses"), params.integer("calibration_poses")));
-  }
-  return {.poses = static_cast<int>(params.integer("calibration_poses")),
-          .least_poses = static_cast<int>(params.integer("least_poses")),
-          .spread_rad = params.number("calibration_spread_deg"),
-          .samples = static_cast<int>(params.integer("samples_per_pose")),
-          .patience = seconds(params.number("patience_s"))};
-}
-
 /// A path's blends reach half-way to the next key pose: what is left of the stand-off is straight.
-DrillingSettings drilling_of(const Params& params) {
-  const double stand_off_m = params.number("stand_off_mm"), depth_m = params.number("depth_mm");
-  if (stand_off_m < 2 * depth_m) {
+Parameters parameters_of(const Params& params) {
+  const Parameters parameters = Parameters::read(params);
+  const double stand_off = parameters.stand_off, depth = parameters.depth;
+  if (stand_off < 2 * depth) {
     params.refuse({"stand_off_mm", "depth_mm"},
                   fmt::format("'stand_off_mm' is {:g}, but the drill goes straight only along the "
                               "last half of it, and the bone is 'depth_mm' = {:g} deep there; make "
                               "it at least {:g}",
-                              1e3 * stand_off_m, 1e3 * depth_m, 2e3 * depth_m));
+                              1e3 * stand_off, 1e3 * depth, 2e3 * depth));
   }
-  return {.stand_off_m = stand_off_m, .stop_at_sites = params.flag("stop_at_sites")};
-}
-
-ImplantSettings settings_of(const Params& params) {
-  return {.pivot = seconds(params.number("pivot_s")),
-          .calibration = calibration_of(params),
-          .jaw_samples = static_cast<int>(params.integer("jaw_samples")),
-          .patience = seconds(params.number("patience_s")),
-          .drilling = drilling_of(params),
-          .depth_m = params.number("depth_mm"),
-          .dwell = seconds(params.number("dwell_s")),
-          .most_pivot_residual_m = params.number("most_pivot_residual_mm"),
-          .most_hand_eye_residual_m = params.number("most_hand_eye_residual_mm"),
-          .most_fiducial_error_m = params.number("most_fiducial_error_mm"),
-          .most_site_error_m = params.number("most_site_error_mm"),
-          .most_bottom_error_m = params.number("most_bottom_error_mm"),
-          .most_jaw_motion_m = params.number("most_jaw_motion_mm")};
+  return parameters;
 }
 
 std::vector<ToolPose> sites_of(const msg::ImplantPlan& plan) {
@@ -98,16 +70,17 @@ class ImplantComponent final : public Component {
  public:
   explicit ImplantComponent(Setup& setup)
       : Component{setup},
+        parameters_{parameters_of(setup.params())},
         robot_{robot_of(setup)},
         mount_{flange_of(robot_)},
-        task_{settings_of(setup.params()), robot_, mount_.flange_T_tool},
-        flange_{setup, "flange"},
-        jaw_{setup, "jaw"},
-        pivot_{setup, "pivot"},
+        task_{parameters_, robot_, mount_.flange_T_tool},
+        flange_{setup, "flange", parameters_.flange_body},
+        jaw_{setup, "jaw", parameters_.jaw_body},
+        pivot_{setup, "pivot", parameters_.pivot_body},
         measured_js_{setup.input<msg::JointState>("measured_js")},
         plan_{setup.input<msg::ImplantPlan>("plan")},
         markers_{setup.input<msg::MeasuredMarkers>("markers")},
-        registration_{setup},
+        registration_{setup, parameters_.marker_error, parameters_.match_tolerance},
         motion_status_{setup.input<msg::MotionStatus>("motion_status")},
         goal_{setup.output<msg::MotionGoal>("goal")},
         estimate_{setup.output<msg::TFMessage>("estimate")},
@@ -204,6 +177,7 @@ class ImplantComponent final : public Component {
     if (state_.publish(now, report, report.line())) say(report.line());
   }
 
+  Parameters parameters_;
   RobotModel robot_;
   Flange mount_;
   Implant task_;
@@ -219,6 +193,6 @@ class ImplantComponent final : public Component {
   TaskStatePublisher state_;
 };
 
-}  // namespace armature
+}  // namespace armature::task::implant
 
-ARMATURE_PLUGIN(armature::ImplantComponent);
+ARMATURE_PLUGIN(armature::task::implant::ImplantComponent);

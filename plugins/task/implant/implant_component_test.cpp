@@ -17,7 +17,7 @@
 #include "armature/runtime/test_plugins.hpp"
 #include "calibration_poses.hpp"
 
-namespace armature {
+namespace armature::task::implant {
 namespace {
 
 using Eigen::Isometry3d;
@@ -240,9 +240,9 @@ TEST(ImplantParams, ThatContradictEachOtherAreRefused) {
                        .rig = {}});
   };
   EXPECT_EQ(refusal("calibration_poses: 3, least_poses: 12"),
-            "bench:1:75: 'least_poses' is 12, more than the 3 'calibration_poses'");
+            "bench:1:75: 'least_poses' is 12, above 'calibration_poses', which is 3");
   EXPECT_EQ(refusal("least_poses: 12, calibration_poses: 3"),
-            "bench:1:53: 'least_poses' is 12, more than the 3 'calibration_poses'");
+            "bench:1:53: 'least_poses' is 12, above 'calibration_poses', which is 3");
   const std::string inside =
       "'stand_off_mm' is 20, but the drill goes straight only along the last half of it, and the "
       "bone is 'depth_mm' = 12 deep there; make it at least 24";
@@ -254,4 +254,4 @@ TEST(ImplantParams, ThatContradictEachOtherAreRefused) {
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::task::implant

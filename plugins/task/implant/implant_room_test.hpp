@@ -10,7 +10,7 @@
 
 #include "implant.hpp"
 
-namespace armature {
+namespace armature::task::implant {
 
 inline const RobotModel& med7() {
   static const RobotModel model = load_robot_model(ARMATURE_SOURCE_DIR "/configs/robots/med7.yaml");
@@ -22,11 +22,14 @@ inline Eigen::Isometry3d pose(double x, double y, double z, double angle,
   return Eigen::Translation3d{x, y, z} * Eigen::AngleAxisd{angle, axis.normalized()};
 }
 
-inline ImplantSettings quick(bool stop_at_sites = false) {
-  return {.pivot = seconds(0.5),
-          .calibration = {.poses = 8, .least_poses = 6, .samples = 2},
+inline Parameters quick(bool stop_at_sites = false) {
+  return {.pivot = 0.5,
+          .calibration_poses = 8,
+          .least_poses = 6,
+          .calibration_spread = 0.45,
+          .samples_per_pose = 2,
           .jaw_samples = 5,
-          .drilling = {.stop_at_sites = stop_at_sites}};
+          .stop_at_sites = stop_at_sites};
 }
 
 /// An operating room without any error, and an arm that is where it shall go at once.
@@ -133,4 +136,4 @@ class ImplantTest : public testing::Test {
   Implant task_{quick(), med7(), file_tool_};
 };
 
-}  // namespace armature
+}  // namespace armature::task::implant

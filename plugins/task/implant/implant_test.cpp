@@ -9,7 +9,7 @@
 
 #include "implant_room_test.hpp"
 
-namespace armature {
+namespace armature::task::implant {
 namespace {
 
 TEST_F(ImplantTest, GoesFromThePivotThroughAllSites) {
@@ -213,10 +213,10 @@ TEST_F(ImplantTest, AJawThatTurnsAboutTheFirstSiteStopsTheArmToo) {
 }
 
 TEST_F(ImplantTest, AJawThatMovesWhileItsPlaceIsAveragedIsNotDrilled) {
-  ImplantSettings settings = quick();
-  settings.jaw_samples = 60;
+  Parameters parameters = quick();
+  parameters.jaw_samples = 60;
   const auto locate = [&](double step_m) {
-    task_ = Implant{settings, med7(), file_tool_};
+    task_ = Implant{parameters, med7(), file_tool_};
     done_ = 0;
     begin();
     go_to(Phase::locating);
@@ -283,4 +283,4 @@ TEST_F(ImplantTest, ACalibrationPoseThatCannotBeReachedIsLeftOut) {
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::task::implant

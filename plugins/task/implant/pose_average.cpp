@@ -3,7 +3,7 @@
 
 #include <Eigen/SVD>
 
-namespace armature {
+namespace armature::task::implant {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
@@ -33,4 +33,4 @@ PointError PoseAverage::error_at(const Vector3d& point) const {
   return point_error(scatter / (count() - 1) / count());
 }
 
-}  // namespace armature
+}  // namespace armature::task::implant

@@ -6,7 +6,7 @@
 
 #include "armature/robot/point_error.hpp"
 
-namespace armature {
+namespace armature::task::implant {
 
 /// Of a body that stands still, seen many times.
 class PoseAverage {
@@ -25,4 +25,4 @@ class PoseAverage {
   std::vector<Eigen::Isometry3d> poses_;
 };
 
-}  // namespace armature
+}  // namespace armature::task::implant

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-namespace armature {
+namespace armature::task::implant {
 namespace {
 
 using Eigen::Isometry3d;
@@ -56,4 +56,4 @@ TEST(PoseAverage, KnowsHowFarAPointIsOff) {
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::task::implant

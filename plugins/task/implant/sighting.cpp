@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace armature {
+namespace armature::task::implant {
 namespace {
 
 constexpr const char* kSilent = "it sends nothing";
@@ -32,4 +32,4 @@ std::optional<std::string> BodyWatch::blind(Time now) const {
                      reason_);
 }
 
-}  // namespace armature
+}  // namespace armature::task::implant

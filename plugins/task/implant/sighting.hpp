@@ -7,7 +7,7 @@
 
 #include "armature/values/time.hpp"
 
-namespace armature {
+namespace armature::task::implant {
 
 /// What the tracker said of a body.
 struct Sighting {
@@ -35,4 +35,4 @@ class BodyWatch {
   std::string reason_;
 };
 
-}  // namespace armature
+}  // namespace armature::task::implant

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace armature {
+namespace armature::task::implant {
 namespace {
 
 constexpr Time after(double s) { return Time{} + seconds(s); }
@@ -44,4 +44,4 @@ TEST(BodyWatch, BeginsAnew) {
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::task::implant

@@ -6,7 +6,7 @@
 
 #include "teleoperation.hpp"
 
-namespace armature {
+namespace armature::task::teleoperation {
 
 inline Eigen::Isometry3d pose_of(const Eigen::Vector3d& position, double angle = 0) {
   return Eigen::Translation3d{position} * Eigen::AngleAxisd{angle, Eigen::Vector3d::UnitY()};
@@ -69,4 +69,4 @@ class TeleoperationTest : public testing::Test {
   std::optional<MotionGoal> master_goal_, slave_goal_;
 };
 
-}  // namespace armature
+}  // namespace armature::task::teleoperation

@@ -5,8 +5,9 @@
 
 #include "armature/robot/quintic.hpp"
 #include "armature/robot/rotation_vector.hpp"
+#include "hand_period.hpp"
 
-namespace armature {
+namespace armature::task::teleoperation {
 namespace {
 
 /// `speed` up to four fifths of `limit`, from there on smoothly less and never more than it: a
@@ -31,16 +32,16 @@ void ScaledMotion::engage(const Eigen::Isometry3d& slave_T_tool,
 }
 
 SlaveTarget ScaledMotion::follow(const Eigen::Isometry3d& master_T_hand, int periods) {
-  const double dt = periods * settings_.period_s;
+  const double dt = periods * kHandPeriod_s;
   engaged_s_ += dt;
-  const double engage = settings_.engage_s;
+  const double engage = parameters_.engage;
   const double grip =
       engaged_s_ < engage ? Quintic::between({0, 0, 0}, {1, 0, 0}, engage).position(engaged_s_) : 1;
 
   const Eigen::Vector3d moved = master_T_hand.translation() - hand_.translation();
-  Eigen::Vector3d velocity = grip * settings_.scale / dt * (slave_R_master_ * moved);
+  Eigen::Vector3d velocity = grip * parameters_.scale / dt * (slave_R_master_ * moved);
   const double speed = velocity.norm();
-  if (speed > 0) velocity *= gently_limited(speed, settings_.max_speed) / speed;
+  if (speed > 0) velocity *= gently_limited(speed, parameters_.max_tip_speed) / speed;
   position_ += velocity * dt;
 
   const Eigen::Quaterniond turned{master_T_hand.linear() * hand_.linear().transpose()};
@@ -53,4 +54,4 @@ SlaveTarget ScaledMotion::follow(const Eigen::Isometry3d& master_T_hand, int per
           .angular_velocity = turn / dt};
 }
 
-}  // namespace armature
+}  // namespace armature::task::teleoperation

@@ -3,14 +3,9 @@
 
 #include <Eigen/Geometry>
 
-namespace armature {
+#include "task_teleoperation_parameters.hpp"
 
-struct ScaledMotionSettings {
-  double scale = 0.5;       // the slave's way as a part of the hand's
-  double engage_s = 0.3;    // from the clutch's closing to the full scale
-  double max_speed = 0.05;  // [m/s] of the slave's tip
-  double period_s = 0.001;  // between two poses of the hand
-};
+namespace armature::task::teleoperation {
 
 /// Where the slave's tool shall be, and how fast it moves [m/s] and turns [rad/s] there, in the
 /// slave's base frame.
@@ -27,7 +22,7 @@ struct SlaveTarget {
 /// clutch: the slave never goes on when the hand stops. Real-time safe.
 class ScaledMotion {
  public:
-  explicit ScaledMotion(const ScaledMotionSettings& settings) : settings_{settings} {}
+  explicit ScaledMotion(const Parameters& parameters) : parameters_{parameters} {}
 
   /// The clutch closes with the slave and the hand there; `slave_R_master` turns what is told in
   /// the master's base frame into the slave's.
@@ -37,7 +32,7 @@ class ScaledMotion {
   SlaveTarget follow(const Eigen::Isometry3d& master_T_hand, int periods = 1);
 
  private:
-  ScaledMotionSettings settings_;
+  Parameters parameters_;
   Eigen::Matrix3d slave_R_master_ = Eigen::Matrix3d::Identity();
   Eigen::Isometry3d hand_ = Eigen::Isometry3d::Identity();
   Eigen::Vector3d position_ = Eigen::Vector3d::Zero();
@@ -45,4 +40,4 @@ class ScaledMotion {
   double engaged_s_ = 0;
 };
 
-}  // namespace armature
+}  // namespace armature::task::teleoperation

@@ -8,12 +8,12 @@
 #include <algorithm>
 #include <functional>
 
-namespace armature {
+#include "hand_period.hpp"
+
+namespace armature::task::teleoperation {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr double kStep_s = 0.001;
 
 Eigen::Isometry3d turned_pose(const Vector3d& position, double angle, const Vector3d& axis) {
   return Eigen::Translation3d{position} * Eigen::AngleAxisd{angle, axis.normalized()};
@@ -26,18 +26,19 @@ class ScaledMotionTest : public testing::Test {
  protected:
   /// Engages at hand(0) and follows it for `duration`; every step is looked at.
   SlaveTarget follow(const std::function<Eigen::Isometry3d(double)>& hand, double duration,
-                     ScaledMotionSettings settings = {.scale = 0.5, .engage_s = 0}) {
-    ScaledMotion motion{settings};
+                     Parameters parameters = {.scale = 0.5, .engage = 0}) {
+    ScaledMotion motion{parameters};
     motion.engage(slave_, hand(0), turn_);
     SlaveTarget last{.pose = slave_};
-    for (int k = 1; k * kStep_s < duration + kStep_s / 2; ++k) {
-      const SlaveTarget target = motion.follow(hand(k * kStep_s));
+    for (int k = 1; k * kHandPeriod_s < duration + kHandPeriod_s / 2; ++k) {
+      const SlaveTarget target = motion.follow(hand(k * kHandPeriod_s));
       const Vector3d step = target.pose.translation() - last.pose.translation();
-      EXPECT_LT((step - kStep_s * target.velocity).norm(), 1e-15) << k;
+      EXPECT_LT((step - kHandPeriod_s * target.velocity).norm(), 1e-15) << k;
       const Eigen::AngleAxisd turned{target.pose.linear() * last.pose.linear().transpose()};
-      EXPECT_LT((turned.angle() * turned.axis() - kStep_s * target.angular_velocity).norm(), 1e-9);
+      EXPECT_LT((turned.angle() * turned.axis() - kHandPeriod_s * target.angular_velocity).norm(),
+                1e-9);
       fastest_ = std::max(fastest_, target.velocity.norm());
-      hardest_ = std::max(hardest_, (target.velocity - last.velocity).norm() / kStep_s);
+      hardest_ = std::max(hardest_, (target.velocity - last.velocity).norm() / kHandPeriod_s);
       last = target;
     }
     return last;
@@ -89,14 +90,14 @@ TEST_F(ScaledMotionTest, OnAMovingHandTheScaleComesUpSmoothly) {
     pose.translation().x() += 0.04 * t;
     return pose;
   };
-  const SlaveTarget target = follow(hand, 1, {.scale = 0.5, .engage_s = 0.3});
+  const SlaveTarget target = follow(hand, 1, {.scale = 0.5, .engage = 0.3});
   EXPECT_NEAR(target.velocity.norm(), 0.02, 1e-9);
   EXPECT_LT(hardest_, 1.9 * 0.02 / 0.3) << "the quintic's steepest slope is 1.875";
   EXPECT_NEAR((target.pose.translation() - slave_.translation()).norm(), 0.02 * 0.85, 2e-5);
 }
 
 TEST_F(ScaledMotionTest, MissedPosesOfTheHandMakeItNoFaster) {
-  ScaledMotion motion{{.scale = 0.5, .engage_s = 0, .max_speed = 0.05}};
+  ScaledMotion motion{{.scale = 0.5, .engage = 0, .max_tip_speed = 0.05}};
   motion.engage(slave_, hand_, turn_);
   Eigen::Isometry3d hand = hand_;
   hand.translation().x() += 0.0004;
@@ -113,7 +114,7 @@ TEST_F(ScaledMotionTest, ItsSpeedKeepsItsLimitAndItStopsWithTheHand) {
     pose.translation().x() += 0.2 * std::min(t, 0.5);  // 200 mm/s, then at rest
     return pose;
   };
-  const SlaveTarget target = follow(hand, 1, {.scale = 0.5, .engage_s = 0, .max_speed = 0.05});
+  const SlaveTarget target = follow(hand, 1, {.scale = 0.5, .engage = 0, .max_tip_speed = 0.05});
   EXPECT_LE(fastest_, 0.05);
   EXPECT_GT(fastest_, 0.049);
   EXPECT_EQ(target.velocity.norm(), 0) << "what was lost is not made up for";
@@ -126,9 +127,9 @@ TEST_F(ScaledMotionTest, UpToFourFifthsOfTheLimitNothingIsLost) {
     pose.translation().z() += 0.0799 * t;
     return pose;
   };
-  const SlaveTarget target = follow(hand, 1, {.scale = 0.5, .engage_s = 0, .max_speed = 0.05});
+  const SlaveTarget target = follow(hand, 1, {.scale = 0.5, .engage = 0, .max_tip_speed = 0.05});
   EXPECT_NEAR(target.velocity.z(), 0.03995, 1e-9);
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::task::teleoperation

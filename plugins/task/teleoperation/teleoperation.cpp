@@ -8,7 +8,9 @@
 #include <numbers>
 #include <utility>
 
-namespace armature {
+#include "hand_period.hpp"
+
+namespace armature::task::teleoperation {
 namespace {
 
 constexpr Duration kSettlesWithin = seconds(1.0);  // an arm that lags behind its reference
@@ -64,7 +66,7 @@ void Teleoperation::judge_alignment(const ConsoleView& view, Time now) {
   if (master_goal_.state() != State::done || !view.is_whole()) return;
   const PoseResidual off = residual(*view.slave_T_master * *view.master_T_hand,
                                     Eigen::Vector3d::UnitX(), tool_pose_of(*view.slave_T_tool));
-  if (off.position_m <= settings_.aligned_m && off.angle_rad <= settings_.aligned_rad) {
+  if (off.position_m <= parameters_.aligned_m && off.angle_rad <= parameters_.aligned_rad) {
     master_goal_.set({.mode = MotionMode::guided, .pose = {}});
     phase_ = Phase::aligned;
   } else if (now - master_goal_.done_at() > kSettlesWithin) {
@@ -87,7 +89,7 @@ int Teleoperation::filter_hand(const ConsoleView& view) {
     hand_ = view.master_T_hand;
     return broken;
   }
-  const int periods = static_cast<int>(std::lround(passed_s / settings_.filter.period_s));
+  const int periods = static_cast<int>(std::lround(passed_s / kHandPeriod_s));
   if (periods > 0) hand_ = filter_.step(*view.master_T_hand, periods);
   return periods;
 }
@@ -187,4 +189,4 @@ const char* to_string(Teleoperation::Phase phase) {
   return "";
 }
 
-}  // namespace armature
+}  // namespace armature::task::teleoperation

@@ -7,15 +7,10 @@
 
 #include "armature/motion/pursued_goal.hpp"
 #include "scaled_motion.hpp"
+#include "task_teleoperation_parameters.hpp"
 #include "tremor_filter.hpp"
 
-namespace armature {
-
-struct TeleoperationSettings {
-  double aligned_m = 1e-4, aligned_rad = 2e-3;  // the master is on the instrument
-  TremorFilterSettings filter;
-  ScaledMotionSettings motion;
-};
+namespace armature::task::teleoperation {
 
 /// What is known at one instant; what is silent is not there.
 struct ConsoleView {
@@ -42,8 +37,8 @@ class Teleoperation {
     refused,        // the master does not come to the instrument
   };
 
-  explicit Teleoperation(const TeleoperationSettings& settings)
-      : settings_{settings}, filter_{settings.filter}, motion_{settings.motion} {}
+  explicit Teleoperation(const Parameters& parameters)
+      : parameters_{parameters}, filter_{parameters}, motion_{parameters} {}
 
   void see(const ConsoleView& view, Time now);
   void hear_master(const GoalReport& report, Time now) { master_goal_.hear(report, now); }
@@ -77,7 +72,7 @@ class Teleoperation {
   void stop_slave(Phase phase, std::string trouble);
   void refuse(std::string why);
 
-  TeleoperationSettings settings_;
+  Parameters parameters_;
   TremorFilter filter_;
   ScaledMotion motion_;
   std::optional<Eigen::Isometry3d> hand_;  // filtered
@@ -93,4 +88,4 @@ class Teleoperation {
 /// "waiting", "aligning", "aligned", "teleoperating", "clutch open", "held", "refused".
 const char* to_string(Teleoperation::Phase phase);
 
-}  // namespace armature
+}  // namespace armature::task::teleoperation

@@ -11,25 +11,13 @@
 #include "armature/runtime/component.hpp"
 #include "armature/runtime/plugin.hpp"
 #include "armature/runtime/setup.hpp"
+#include "hand_period.hpp"
 #include "teleoperation.hpp"
 
-namespace armature {
+namespace armature::task::teleoperation {
 namespace {
 
-constexpr Duration kPeriod = seconds(0.001);
-
-TeleoperationSettings settings_of(const Params& params) {
-  const double period_s = to_seconds(kPeriod);
-  return {.aligned_m = params.number("aligned_mm"),
-          .aligned_rad = params.number("aligned_deg"),
-          .filter = {.stop_hz = params.number("stop_hz"),
-                     .attenuation_db = params.number("attenuation_db"),
-                     .period_s = period_s},
-          .motion = {.scale = params.number("scale"),
-                     .engage_s = params.number("engage_s"),
-                     .max_speed = params.number("max_tip_speed_m_s"),
-                     .period_s = period_s}};
-}
+constexpr Duration kPeriod = seconds(kHandPeriod_s);
 
 }  // namespace
 
@@ -37,7 +25,7 @@ class TeleoperationComponent final : public Component {
  public:
   explicit TeleoperationComponent(Setup& setup)
       : Component{setup},
-        task_{settings_of(setup.params())},
+        task_{Parameters::read(setup.params())},
         console_{setup.input<msg::TransformStamped>("console")},
         master_cp_{setup.input<msg::PoseStamped>("master_cp")},
         slave_cp_{setup.input<msg::PoseStamped>("slave_cp")},
@@ -123,6 +111,6 @@ class TeleoperationComponent final : public Component {
   TaskStatePublisher state_;
 };
 
-}  // namespace armature
+}  // namespace armature::task::teleoperation
 
-ARMATURE_PLUGIN(armature::TeleoperationComponent);
+ARMATURE_PLUGIN(armature::task::teleoperation::TeleoperationComponent);

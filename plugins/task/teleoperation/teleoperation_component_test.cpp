@@ -9,7 +9,7 @@
 #include "armature/runtime/component_bench.hpp"
 #include "armature/runtime/test_plugins.hpp"
 
-namespace armature {
+namespace armature::task::teleoperation {
 namespace {
 
 using Eigen::Vector3d;
@@ -154,4 +154,4 @@ TEST_F(TeleoperationComponentTest, ASilentClutchOrArmHoldsTheSlaveWithinATenthOf
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::task::teleoperation

@@ -3,7 +3,7 @@
 // holds the slave.
 #include "console_test.hpp"
 
-namespace armature {
+namespace armature::task::teleoperation {
 namespace {
 
 TEST_F(TeleoperationTest, WhoNeverTellsAnythingIsNamedAfterASecond) {
@@ -115,4 +115,4 @@ TEST_F(TeleoperationTest, AMasterThatIsTakenFromTheHandHoldsTheSlave) {
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::task::teleoperation

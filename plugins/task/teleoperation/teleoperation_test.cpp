@@ -3,7 +3,7 @@
 // slave follows while the clutch is closed.
 #include "console_test.hpp"
 
-namespace armature {
+namespace armature::task::teleoperation {
 namespace {
 
 TEST_F(TeleoperationTest, SendsTheMasterToTheInstrumentAndTheInstrumentNowhere) {
@@ -148,4 +148,4 @@ TEST_F(TeleoperationTest, AClosedClutchMovesNothingBeforeTheMasterIsGivenToTheHa
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::task::teleoperation

@@ -6,7 +6,9 @@
 #include <cstddef>
 #include <numbers>
 
-namespace armature {
+#include "hand_period.hpp"
+
+namespace armature::task::teleoperation {
 namespace {
 
 using std::numbers::pi;
@@ -33,12 +35,12 @@ Pair pair_of(int k, double omega, double attenuation_db) {
 
 }  // namespace
 
-TremorFilter::TremorFilter(const TremorFilterSettings& settings) : period_s_{settings.period_s} {
-  const double half = period_s_ / 2;
+TremorFilter::TremorFilter(const Parameters& parameters) {
+  const double half = kHandPeriod_s / 2;
   // So that the stop band begins at stop_hz after the transform, which bends frequencies.
-  const double omega = std::tan(2 * pi * settings.stop_hz * half) / half;
+  const double omega = std::tan(2 * pi * parameters.stop * half) / half;
   for (int k = 1; k <= 2; ++k) {
-    const Pair pair = pair_of(k, omega, settings.attenuation_db);
+    const Pair pair = pair_of(k, omega, parameters.attenuation);
     const std::complex<double> pole = (1.0 + pair.pole * half) / (1.0 - pair.pole * half);
     const double cosine = std::cos(2 * std::atan(pair.zero * half));
     Section& section = sections_[static_cast<std::size_t>(k - 1)];
@@ -95,11 +97,11 @@ double TremorFilter::lag_s() const {
     };
     samples += centre(section.b) - centre(section.a);
   }
-  return samples * period_s_;
+  return samples * kHandPeriod_s;
 }
 
 double TremorFilter::gain(double hz) const {
-  const std::complex<double> back = std::polar(1.0, -2 * pi * hz * period_s_);  // z^-1
+  const std::complex<double> back = std::polar(1.0, -2 * pi * hz * kHandPeriod_s);  // z^-1
   double gain = 1;
   for (const Section& section : sections_) {
     const auto value = [&](const std::array<double, 3>& c) {
@@ -110,4 +112,4 @@ double TremorFilter::gain(double hz) const {
   return gain;
 }
 
-}  // namespace armature
+}  // namespace armature::task::teleoperation

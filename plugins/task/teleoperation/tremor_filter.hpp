@@ -4,13 +4,9 @@
 #include <Eigen/Geometry>
 #include <array>
 
-namespace armature {
+#include "task_teleoperation_parameters.hpp"
 
-struct TremorFilterSettings {
-  double stop_hz = 8;          // from here on up ...
-  double attenuation_db = 22;  // ... everything is down by so much at least
-  double period_s = 0.001;     // between two poses
-};
+namespace armature::task::teleoperation {
 
 /// Takes the tremor out of a hand's pose: an inverse Chebyshev (type II) low-pass of order 4 for
 /// position and rotation alike. Of the filters of its order it leaves a slow motion most as it is
@@ -18,7 +14,7 @@ struct TremorFilterSettings {
 /// of a Bessel's lag. Real-time safe.
 class TremorFilter {
  public:
-  explicit TremorFilter(const TremorFilterSettings& settings);
+  explicit TremorFilter(const Parameters& parameters);
 
   /// As if the hand had been at `pose` for ever.
   void start(const Eigen::Isometry3d& pose);
@@ -44,9 +40,8 @@ class TremorFilter {
   /// The quaternion's sign is that which is nearer to the last one's.
   Channels channels_of(const Eigen::Isometry3d& pose) const;
 
-  double period_s_;
   std::array<Section, 2> sections_;
   Channels last_ = Channels::Zero();
 };
 
-}  // namespace armature
+}  // namespace armature::task::teleoperation

@@ -10,12 +10,12 @@
 #include <cmath>
 #include <complex>
 
-namespace armature {
+#include "hand_period.hpp"
+
+namespace armature::task::teleoperation {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr double kPeriod = 0.001;
 
 double decibels(double gain) { return 20 * std::log10(gain); }
 
@@ -25,7 +25,7 @@ Eigen::Isometry3d pose_at(const Vector3d& position, double angle = 0) {
 
 TEST(TremorFilter, TakesEverythingFromTheStopBandOnDownByTheAttenuation) {
   for (const double attenuation : {20.0, 24.0, 30.0}) {
-    const TremorFilter filter{{.stop_hz = 8, .attenuation_db = attenuation}};
+    const TremorFilter filter{{.stop = 8, .attenuation = attenuation}};
     EXPECT_NEAR(decibels(filter.gain(8)), -attenuation, 1e-9);
     for (double hz = 8; hz < 450; hz += 0.05) {
       ASSERT_LE(decibels(filter.gain(hz)), -attenuation + 1e-9) << hz;
@@ -44,9 +44,9 @@ TEST(TremorFilter, LeavesASlowMotionAsItIsButForTheStatedLag) {
     filter.start(pose_at(hand(0)));
     double worst = 0;
     for (int k = 1; k < 4000; ++k) {
-      const Vector3d out = filter.step(pose_at(hand(k * kPeriod))).translation();
+      const Vector3d out = filter.step(pose_at(hand(k * kHandPeriod_s))).translation();
       if (k < 1000) continue;  // it starts with a jump in velocity
-      worst = std::max(worst, (out - hand(k * kPeriod - design.lag_s())).norm());
+      worst = std::max(worst, (out - hand(k * kHandPeriod_s - design.lag_s())).norm());
     }
     EXPECT_LT(worst, 0.1 * 0.003 * hz * hz * hz) << hz << " Hz: the phase bends with the cube";
   }
@@ -67,7 +67,7 @@ double lag_of_other(const std::array<double, 5>& denominator, double gain, doubl
 }
 
 TEST(TremorFilter, CostsLessThanHalfOfTheLagOfOthersOfItsOrder) {
-  const TremorFilter filter{{.stop_hz = 8, .attenuation_db = 22}};
+  const TremorFilter filter{{.stop = 8, .attenuation = 22}};
   const double root = std::sqrt(4 + 2 * std::sqrt(2.0));
   const double bessel = lag_of_other({1, 10, 45, 105, 105}, filter.gain(8), 8);
   const double butterworth =
@@ -82,7 +82,7 @@ TEST(TremorFilter, WhatItSaysOfASineIsWhatItDoes) {
   filter.start(pose_at({0, 0, 0}));
   double peak = 0;
   for (int k = 0; k < 4000; ++k) {
-    const double x = std::sin(2 * M_PI * 10 * k * kPeriod);
+    const double x = std::sin(2 * M_PI * 10 * k * kHandPeriod_s);
     const double y = filter.step(pose_at({0, x, 0})).translation().y();
     if (k > 2000) peak = std::max(peak, std::abs(y));
   }
@@ -96,12 +96,12 @@ TEST(TremorFilter, PosesThatWereMissedHardlyMatter) {
   some.start(hand(0));
   int missed = 0;
   for (int k = 1; k < 3000; ++k) {
-    const Eigen::Isometry3d wanted = all.step(hand(k * kPeriod));
+    const Eigen::Isometry3d wanted = all.step(hand(k * kHandPeriod_s));
     if (k % 50 < 8) {
       ++missed;
       continue;
     }
-    const Eigen::Isometry3d out = some.step(hand(k * kPeriod), missed + 1);
+    const Eigen::Isometry3d out = some.step(hand(k * kHandPeriod_s), missed + 1);
     missed = 0;
     ASSERT_LT((out.translation() - wanted.translation()).norm(), 1e-6) << k;
     ASSERT_LT((out.linear() - wanted.linear()).norm(), 1e-5) << k;
@@ -121,12 +121,12 @@ TEST(TremorFilter, TurnsAreFilteredLikeMoves) {
   const auto angle = [](double t) { return -1.7 - 0.3 * t; };
   filter.start(pose_at({0, 0, 0}, angle(0)));
   for (int k = 1; k < 3000; ++k) {
-    const Eigen::Isometry3d out = filter.step(pose_at({0, 0, 0}, angle(k * kPeriod)));
+    const Eigen::Isometry3d out = filter.step(pose_at({0, 0, 0}, angle(k * kHandPeriod_s)));
     if (k < 1000) continue;
-    const Eigen::Isometry3d wanted = pose_at({0, 0, 0}, angle(k * kPeriod - filter.lag_s()));
+    const Eigen::Isometry3d wanted = pose_at({0, 0, 0}, angle(k * kHandPeriod_s - filter.lag_s()));
     ASSERT_LT(Eigen::AngleAxisd{out.linear() * wanted.linear().transpose()}.angle(), 1e-5) << k;
   }
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::task::teleoperation

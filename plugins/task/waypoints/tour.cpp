@@ -5,9 +5,12 @@
 
 #include <algorithm>
 
-namespace armature {
+namespace armature::task::waypoints {
 
-Tour::Tour(const TourSettings& settings) : settings_{settings} { goal_.set({.pose = waypoint()}); }
+Tour::Tour(const Parameters& parameters, const std::vector<ToolPose>& waypoints)
+    : parameters_{parameters}, waypoints_{waypoints} {
+  goal_.set({.pose = waypoint()});
+}
 
 void Tour::see(const PoseResidual& off) {
   off_ = off;
@@ -26,7 +29,7 @@ void Tour::hear(const GoalReport& report, Time now) {
 }
 
 std::optional<MotionGoal> Tour::outgoing_goal(Time now) {
-  if (phase_ == Phase::resting && now - goal_.done_at() >= settings_.rest) leave(now);
+  if (phase_ == Phase::resting && now - goal_.done_at() >= seconds(parameters_.rest)) leave(now);
   const bool under_way = phase_ == Phase::moving || phase_ == Phase::resting;
   return under_way ? goal_.outgoing(now) : std::nullopt;
 }
@@ -39,7 +42,7 @@ void Tour::leave(Time now) {
     off_.reset();
   }
   const bool last = number_ + 1 == count();
-  if (last && settings_.rounds > 0 && ++round_ == settings_.rounds) {
+  if (last && parameters_.rounds > 0 && ++round_ == parameters_.rounds) {
     phase_ = Phase::done;
     done_at_ = now;
     return;
@@ -65,4 +68,4 @@ const char* to_string(Tour::Phase phase) {
   return "";
 }
 
-}  // namespace armature
+}  // namespace armature::task::waypoints

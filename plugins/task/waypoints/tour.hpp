@@ -8,14 +8,9 @@
 
 #include "armature/motion/pursued_goal.hpp"
 #include "armature/robot/pose_goal.hpp"
+#include "task_waypoints_parameters.hpp"
 
-namespace armature {
-
-struct TourSettings {
-  std::vector<ToolPose> waypoints;  // one at least
-  Duration rest = seconds(0.5);     // at each
-  int rounds = 1;                   // 0: without end
-};
+namespace armature::task::waypoints {
 
 /// From waypoint to waypoint, with a rest at each. Everything it knows comes in through the `see`
 /// and `hear` calls.
@@ -23,7 +18,8 @@ class Tour {
  public:
   enum class Phase { waiting, moving, resting, done, refused };
 
-  explicit Tour(const TourSettings& settings);
+  /// `waypoints`: one at least.
+  Tour(const Parameters& parameters, const std::vector<ToolPose>& waypoints);
 
   void hear(const GoalReport& report, Time now);
   /// How far the tool is from `waypoint` now. Until the arm is seen there is no goal.
@@ -33,8 +29,8 @@ class Tour {
 
   Phase phase() const { return phase_; }
   std::size_t number() const { return number_; }  // of the waypoint, from 0
-  std::size_t count() const { return settings_.waypoints.size(); }
-  const ToolPose& waypoint() const { return settings_.waypoints[number_]; }
+  std::size_t count() const { return waypoints_.size(); }
+  const ToolPose& waypoint() const { return waypoints_[number_]; }
   /// The largest at the end of a rest; none before the first.
   const std::optional<PoseResidual>& worst() const { return worst_; }
   std::optional<Time> done_at() const { return done_at_; }
@@ -44,7 +40,8 @@ class Tour {
  private:
   void leave(Time now);
 
-  TourSettings settings_;
+  Parameters parameters_;
+  std::vector<ToolPose> waypoints_;
   PursuedGoal goal_;
   Phase phase_ = Phase::waiting;
   std::size_t number_ = 0;
@@ -57,4 +54,4 @@ class Tour {
 /// "waiting", "moving", "resting", "done", "refused".
 const char* to_string(Tour::Phase phase);
 
-}  // namespace armature
+}  // namespace armature::task::waypoints

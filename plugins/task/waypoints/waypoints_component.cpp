@@ -17,7 +17,7 @@
 #include "armature/runtime/setup.hpp"
 #include "tour.hpp"
 
-namespace armature {
+namespace armature::task::waypoints {
 namespace {
 
 using Eigen::Vector3d;
@@ -30,9 +30,11 @@ Orientation orientation_of(const RobotModel& robot, const Eigen::Matrix3d& base_
   return Eigen::Quaterniond{base_R_tool};
 }
 
-std::vector<ToolPose> waypoints_of(const Params& params, const RobotModel& robot) {
-  const auto positions = points_of(params, "positions_mm", 1, "one waypoint or more");
-  const auto rpy = points_of(params, "rpy_deg", 0, "the waypoints");
+std::vector<ToolPose> waypoints_of(const Parameters& parameters, const Params& params,
+                                   const RobotModel& robot) {
+  const auto positions =
+      points_of(parameters.positions, params, "positions_mm", 1, "one waypoint or more");
+  const auto rpy = points_of(parameters.rpy, params, "rpy_deg", 0, "the waypoints");
   if (!rpy.empty() && rpy.size() != positions.size()) {
     params.refuse({"rpy_deg", "positions_mm"}, "'rpy_deg' turns " + std::to_string(rpy.size()) +
                                                    " waypoints, and 'positions_mm' has " +
@@ -47,10 +49,9 @@ std::vector<ToolPose> waypoints_of(const Params& params, const RobotModel& robot
   return waypoints;
 }
 
-TourSettings settings_of(const Params& params, const RobotModel& robot) {
-  return {.waypoints = waypoints_of(params, robot),
-          .rest = seconds(params.number("rest_s")),
-          .rounds = static_cast<int>(params.integer("rounds"))};
+Tour tour_of(const Params& params, const RobotModel& robot) {
+  const Parameters parameters = Parameters::read(params);
+  return {parameters, waypoints_of(parameters, params, robot)};
 }
 
 }  // namespace
@@ -60,7 +61,7 @@ class WaypointsComponent final : public Component {
   explicit WaypointsComponent(Setup& setup)
       : Component{setup},
         robot_{robot_of(setup)},
-        tour_{settings_of(setup.params(), robot_)},
+        tour_{tour_of(setup.params(), robot_)},
         motion_status_{setup.input<msg::MotionStatus>("motion_status")},
         measured_js_{setup.input<msg::JointState>("measured_js")},
         goal_{setup.output<msg::MotionGoal>("goal")},
@@ -132,6 +133,6 @@ class WaypointsComponent final : public Component {
   std::optional<Time> start_;
 };
 
-}  // namespace armature
+}  // namespace armature::task::waypoints
 
-ARMATURE_PLUGIN(armature::WaypointsComponent);
+ARMATURE_PLUGIN(armature::task::waypoints::WaypointsComponent);

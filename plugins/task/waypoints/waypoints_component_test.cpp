@@ -9,7 +9,7 @@
 #include "armature/runtime/component_bench.hpp"
 #include "armature/runtime/test_plugins.hpp"
 
-namespace armature {
+namespace armature::task::waypoints {
 namespace {
 
 using testing::HasSubstr;
@@ -122,4 +122,4 @@ TEST_F(WaypointsComponentTest, DoesNotStartWithWaypointsThatAreNone) {
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::task::waypoints

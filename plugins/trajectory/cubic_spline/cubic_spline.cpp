@@ -6,7 +6,7 @@
 #include "armature/runtime/plugin.hpp"
 #include "knot_times.hpp"
 
-namespace armature {
+namespace armature::trajectory::cubic_spline {
 namespace {
 
 JointState resting_at(const JointVector& q) {
@@ -20,7 +20,8 @@ Trajectory spline_at(const TrajectoryRequest& request, const Leg& leg,
   std::vector<double> times;
   times.reserve(share.size());
   for (const double part : share) times.push_back(part * duration_s);
-  KnottedPieces spline = cubic_spline(times, waypoints, from, resting_at(waypoints.back()));
+  KnottedPieces spline =
+      armature::cubic_spline(times, waypoints, from, resting_at(waypoints.back()));
   return {.goal_id = request.goal_id,
           .dof = leg.curve.dof(),
           .start = request.start,
@@ -54,16 +55,12 @@ class CubicLeg final : public LegShape {
 
 }  // namespace
 
-Expected<std::unique_ptr<TrajectoryPlanner>> CubicSplineTrajectory::make(const Params& params) {
-  return std::make_unique<CubicSplineTrajectory>(static_cast<int>(params.integer("optimum_tries")));
-}
-
 Expected<Trajectory> CubicSplineTrajectory::plan(const TrajectoryRequest& request) const {
   return timed(request, [this](const TrajectoryRequest& asked, const Leg& leg) {
-    return std::make_unique<CubicLeg>(asked, leg, optimum_tries_);
+    return std::make_unique<CubicLeg>(asked, leg, parameters_.optimum_tries);
   });
 }
 
-}  // namespace armature
+}  // namespace armature::trajectory::cubic_spline
 
-ARMATURE_PLUGIN(armature::CubicSplineTrajectory);
+ARMATURE_PLUGIN(armature::trajectory::cubic_spline::CubicSplineTrajectory);

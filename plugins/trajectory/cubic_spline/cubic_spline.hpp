@@ -1,23 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <memory>
-
 #include "armature/kinds/trajectory/trajectory_planner.hpp"
+#include "trajectory_cubic_spline_parameters.hpp"
 
-namespace armature {
+namespace armature::trajectory::cubic_spline {
 
 /// Cubic splines of Lin, Chang and Luh 1983 through the waypoints from stop to stop.
 class CubicSplineTrajectory final : public TrajectoryPlanner {
  public:
-  static Expected<std::unique_ptr<TrajectoryPlanner>> make(const Params& params);
-  /// `optimum_tries`: see KnotTimes.
-  explicit CubicSplineTrajectory(int optimum_tries) : optimum_tries_{optimum_tries} {}
+  explicit CubicSplineTrajectory(const Parameters& parameters) : parameters_{parameters} {}
+  explicit CubicSplineTrajectory(const Params& params)
+      : CubicSplineTrajectory{Parameters::read(params)} {}
 
   Expected<Trajectory> plan(const TrajectoryRequest& request) const override;
 
  private:
-  int optimum_tries_;
+  Parameters parameters_;
 };
 
-}  // namespace armature
+}  // namespace armature::trajectory::cubic_spline

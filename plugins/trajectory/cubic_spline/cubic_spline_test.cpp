@@ -5,24 +5,27 @@
 
 #include "armature/kinds/trajectory/contract.hpp"
 
-namespace armature {
+namespace armature::trajectory::cubic_spline {
 namespace {
 
 INSTANTIATE_TEST_SUITE_P(
     CubicSpline, TrajectoryLaws,
-    testing::Values(TrajectorySubject{"cubic_spline", std::make_shared<CubicSplineTrajectory>(0)},
-                    TrajectorySubject{"cubic_spline_optimum",
-                                      std::make_shared<CubicSplineTrajectory>(300)}),
+    testing::Values(TrajectorySubject{"cubic_spline",
+                                      std::make_shared<CubicSplineTrajectory>(Parameters{})},
+                    TrajectorySubject{
+                        "cubic_spline_optimum",
+                        std::make_shared<CubicSplineTrajectory>(Parameters{.optimum_tries = 300})}),
     testing::PrintToStringParamName());
 
 class CubicSplinePlans : public TrajectoryLaws {};
 INSTANTIATE_TEST_SUITE_P(CubicSpline, CubicSplinePlans,
                          testing::Values(TrajectorySubject{
-                             "cubic_spline", std::make_shared<CubicSplineTrajectory>(0)}),
+                             "cubic_spline",
+                             std::make_shared<CubicSplineTrajectory>(Parameters{})}),
                          testing::PrintToStringParamName());
 
 TEST_P(CubicSplinePlans, TheOptimumIsNeverSlowerAndOftenMuchFaster) {
-  const CubicSplineTrajectory optimum{5000};
+  const CubicSplineTrajectory optimum{{.optimum_tries = 5000}};
   double shorter = 0;
   constexpr int kPlans = 50;
   for (int i = 0; i < kPlans; ++i) {
@@ -41,11 +44,11 @@ TEST_P(CubicSplinePlans, AFewTriesAreNoWorseThanNone) {
   wanted.segments = {curve_from(wanted.from.q, 6, 1)};
   double before = planner().plan(wanted)->duration_s();
   for (const int tries : {1, 10, 100, 1000}) {
-    const double now = CubicSplineTrajectory{tries}.plan(wanted)->duration_s();
+    const double now = CubicSplineTrajectory{{.optimum_tries = tries}}.plan(wanted)->duration_s();
     EXPECT_LE(now, before * (1 + 1e-9)) << tries;
     before = now;
   }
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::trajectory::cubic_spline

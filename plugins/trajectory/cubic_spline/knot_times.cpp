@@ -6,7 +6,7 @@
 
 #include "armature/kinds/trajectory/time_law.hpp"
 
-namespace armature {
+namespace armature::trajectory::cubic_spline {
 namespace {
 
 /// Shares of the whole from intervals of any size, none next to nothing.
@@ -85,4 +85,4 @@ std::vector<double> best_knot_times(const Leg& leg, const TrajectoryRequest& req
   return improved(std::move(best), tries, need).share;
 }
 
-}  // namespace armature
+}  // namespace armature::trajectory::cubic_spline

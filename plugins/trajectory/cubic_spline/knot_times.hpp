@@ -6,7 +6,7 @@
 
 #include "armature/kinds/trajectory/legs.hpp"
 
-namespace armature {
+namespace armature::trajectory::cubic_spline {
 
 /// How long a motion needs with the waypoints at these shares of its time (from 0 to 1).
 using KnotTimesNeed = std::function<double(const std::vector<double>& share)>;
@@ -20,4 +20,4 @@ using KnotTimesNeed = std::function<double(const std::vector<double>& share)>;
 std::vector<double> best_knot_times(const Leg& leg, const TrajectoryRequest& request, int tries,
                                     const KnotTimesNeed& need);
 
-}  // namespace armature
+}  // namespace armature::trajectory::cubic_spline

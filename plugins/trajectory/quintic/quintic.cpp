@@ -7,7 +7,7 @@
 #include "armature/kinds/trajectory/point_to_point.hpp"
 #include "armature/runtime/plugin.hpp"
 
-namespace armature {
+namespace armature::trajectory::quintic {
 namespace {
 
 std::vector<Quintic> hermite_along(const JointCurve& curve, const TimeLaw& law,
@@ -33,6 +33,6 @@ Expected<Trajectory> QuinticTrajectory::plan(const TrajectoryRequest& request) c
   return timed(request, under_one_law(hermite_along));
 }
 
-}  // namespace armature
+}  // namespace armature::trajectory::quintic
 
-ARMATURE_PLUGIN(armature::QuinticTrajectory);
+ARMATURE_PLUGIN(armature::trajectory::quintic::QuinticTrajectory);

@@ -3,7 +3,7 @@
 
 #include "armature/kinds/trajectory/trajectory_planner.hpp"
 
-namespace armature {
+namespace armature::trajectory::quintic {
 
 /// Quintic Hermite interpolation: q, v and a at every waypoint are those of the path.
 class QuinticTrajectory final : public TrajectoryPlanner {
@@ -11,4 +11,4 @@ class QuinticTrajectory final : public TrajectoryPlanner {
   Expected<Trajectory> plan(const TrajectoryRequest& request) const override;
 };
 
-}  // namespace armature
+}  // namespace armature::trajectory::quintic

@@ -5,7 +5,7 @@
 
 #include "armature/kinds/trajectory/contract.hpp"
 
-namespace armature {
+namespace armature::trajectory::quintic {
 namespace {
 
 INSTANTIATE_TEST_SUITE_P(Quintic, TrajectoryLaws,
@@ -14,4 +14,4 @@ INSTANTIATE_TEST_SUITE_P(Quintic, TrajectoryLaws,
                          testing::PrintToStringParamName());
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::trajectory::quintic

@@ -8,7 +8,7 @@
 #include "armature/robot/quintic_spline.hpp"
 #include "armature/runtime/plugin.hpp"
 
-namespace armature {
+namespace armature::trajectory::quintic_spline {
 namespace {
 
 std::vector<Quintic> spline_along(const JointCurve& curve, const TimeLaw& law,
@@ -16,8 +16,8 @@ std::vector<Quintic> spline_along(const JointCurve& curve, const TimeLaw& law,
   std::vector<JointVector> points;
   points.reserve(knots.size());
   for (const double t : knots) points.push_back(curve.at(law.s(t)).q);
-  return quintic_spline(knots, points, state_along(curve, law, knots.front()),
-                        state_along(curve, law, knots.back()));
+  return armature::quintic_spline(knots, points, state_along(curve, law, knots.front()),
+                                  state_along(curve, law, knots.back()));
 }
 
 }  // namespace
@@ -27,6 +27,6 @@ Expected<Trajectory> QuinticSplineTrajectory::plan(const TrajectoryRequest& requ
   return timed(request, under_one_law(spline_along));
 }
 
-}  // namespace armature
+}  // namespace armature::trajectory::quintic_spline
 
-ARMATURE_PLUGIN(armature::QuinticSplineTrajectory);
+ARMATURE_PLUGIN(armature::trajectory::quintic_spline::QuinticSplineTrajectory);

@@ -3,7 +3,7 @@
 
 #include "armature/kinds/trajectory/trajectory_planner.hpp"
 
-namespace armature {
+namespace armature::trajectory::quintic_spline {
 
 /// The C4 quintic spline through the waypoints at the times that one law gives them.
 class QuinticSplineTrajectory final : public TrajectoryPlanner {
@@ -11,4 +11,4 @@ class QuinticSplineTrajectory final : public TrajectoryPlanner {
   Expected<Trajectory> plan(const TrajectoryRequest& request) const override;
 };
 
-}  // namespace armature
+}  // namespace armature::trajectory::quintic_spline

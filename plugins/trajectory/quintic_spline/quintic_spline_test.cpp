@@ -5,7 +5,7 @@
 
 #include "armature/kinds/trajectory/contract.hpp"
 
-namespace armature {
+namespace armature::trajectory::quintic_spline {
 namespace {
 
 INSTANTIATE_TEST_SUITE_P(QuinticSpline, TrajectoryLaws,
@@ -14,4 +14,4 @@ INSTANTIATE_TEST_SUITE_P(QuinticSpline, TrajectoryLaws,
                          testing::PrintToStringParamName());
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::trajectory::quintic_spline

@@ -8,7 +8,7 @@
 #include "armature/robot/quintic_spline.hpp"
 #include "armature/runtime/plugin.hpp"
 
-namespace armature {
+namespace armature::trajectory::sampled {
 namespace {
 
 class SampledLeg final : public LegShape {
@@ -25,7 +25,7 @@ class SampledLeg final : public LegShape {
                           .pieces = {}};
     for (double& knot : trajectory.knots) knot *= duration_s;
     trajectory.pieces =
-        quintic_spline(trajectory.knots, waypoints, from, {waypoints.back(), zero, zero});
+        armature::quintic_spline(trajectory.knots, waypoints, from, {waypoints.back(), zero, zero});
     return trajectory;
   }
 
@@ -43,6 +43,6 @@ Expected<Trajectory> SampledTrajectory::plan(const TrajectoryRequest& request) c
   });
 }
 
-}  // namespace armature
+}  // namespace armature::trajectory::sampled
 
-ARMATURE_PLUGIN(armature::SampledTrajectory);
+ARMATURE_PLUGIN(armature::trajectory::sampled::SampledTrajectory);

@@ -3,7 +3,7 @@
 
 #include "armature/kinds/trajectory/trajectory_planner.hpp"
 
-namespace armature {
+namespace armature::trajectory::sampled {
 
 /// Waypoints at the part of the time that their s says.
 class SampledTrajectory final : public TrajectoryPlanner {
@@ -11,4 +11,4 @@ class SampledTrajectory final : public TrajectoryPlanner {
   Expected<Trajectory> plan(const TrajectoryRequest& request) const override;
 };
 
-}  // namespace armature
+}  // namespace armature::trajectory::sampled

@@ -7,7 +7,7 @@
 
 #include "armature/kinds/trajectory/contract.hpp"
 
-namespace armature {
+namespace armature::trajectory::sampled {
 namespace {
 
 INSTANTIATE_TEST_SUITE_P(Sampled, TrajectoryLaws,
@@ -71,4 +71,4 @@ TEST(SampledTrajectory, BetweenDenseSamplesItIsTheCurveThatTheyWereTakenFrom) {
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::trajectory::sampled

@@ -3,21 +3,23 @@
 
 #include <Eigen/Cholesky>
 #include <csignal>
-#include <string>
 
 #include "armature/kinds/ik/ik.hpp"
 #include "armature/robot/task_error.hpp"
 #include "armature/runtime/plugin.hpp"
+#include "ik_faulty_parameters.hpp"
 
-namespace armature::test {
+namespace armature::ik::faulty {
+
+using Fault = Parameters::Fault;
 
 /// Damped least squares from the seed, with a fault.
 class FaultyIk final : public IkSolver {
  public:
   static Expected<std::unique_ptr<IkSolver>> make(const RobotModel& model, const Params& params) {
-    const std::string fault = params.text("fault");
-    if (fault == "refuse") return refuse("it serves no robot at all");
-    if (fault == "leak") held_ = new char[4096];
+    const Fault fault = Parameters::read(params).fault;
+    if (fault == Fault::refuse) return refuse("it serves no robot at all");
+    if (fault == Fault::leak) held_ = new char[4096];
     return std::unique_ptr<IkSolver>{new FaultyIk{model, fault}};
   }
 
@@ -27,9 +29,9 @@ class FaultyIk final : public IkSolver {
     if (const char* why = invalid_input(model_, goal, seed)) {
       return {IkStatus::Code::invalid_input, 0, why};
     }
-    if (fault_ == "crash" && goal.pose.position.x() > 0.5) std::raise(SIGSEGV);
-    if (fault_ == "crash_at_depth" && goal.redundancy) std::raise(SIGSEGV);
-    while (fault_ == "hang" && goal.pose.position.x() > 0.5) pause();
+    if (fault_ == Fault::crash && goal.pose.position.x() > 0.5) std::raise(SIGSEGV);
+    if (fault_ == Fault::crash_at_depth && goal.redundancy) std::raise(SIGSEGV);
+    while (fault_ == Fault::hang && goal.pose.position.x() > 0.5) pause();
     const auto& [position_m, angle_rad] = goal.tolerance;
     JointVector q = seed;
     TaskError e = task_error(model_, q, goal.pose);
@@ -43,7 +45,7 @@ class FaultyIk final : public IkSolver {
       return {IkStatus::Code::no_convergence, e.error.norm(), "the seed leads elsewhere"};
     }
     out.add() = branch_at(model_, goal, q, "from_seed");
-    if (fault_ == "residual") out.branch[0].residual.position_m = 0.5;
+    if (fault_ == Fault::residual) out.branch[0].residual.position_m = 0.5;
     if (out.begin()->within_limits) return {};
     return {IkStatus::Code::joint_limit, 0, "the solution leaves the joint limits"};
   }
@@ -51,19 +53,19 @@ class FaultyIk final : public IkSolver {
   bool feasible_redundancy(const IkGoal&, const JointVector&,
                            RedundancyIntervals& out) const override {
     out.clear();
-    return fault_ == "crash_at_depth" && out.add({"from_seed", 0.125, 0.25});
+    return fault_ == Fault::crash_at_depth && out.add({"from_seed", 0.125, 0.25});
   }
-  bool redundancy_is_length() const override { return fault_ == "crash_at_depth"; }
+  bool redundancy_is_length() const override { return fault_ == Fault::crash_at_depth; }
 
  private:
-  FaultyIk(const RobotModel& model, std::string fault) : model_{model}, fault_{std::move(fault)} {}
+  FaultyIk(const RobotModel& model, Fault fault) : model_{model}, fault_{fault} {}
 
   static char* held_;
   const RobotModel& model_;
-  std::string fault_;
+  Fault fault_;
 };
 char* FaultyIk::held_ = nullptr;
 
-}  // namespace armature::test
+}  // namespace armature::ik::faulty
 
-ARMATURE_PLUGIN(armature::test::FaultyIk);
+ARMATURE_PLUGIN(armature::ik::faulty::FaultyIk);

@@ -2,7 +2,6 @@
 #include <chrono>
 #include <filesystem>
 #include <stdexcept>
-#include <string>
 #include <thread>
 
 #include "armature/messages/armature_msgs.hpp"
@@ -10,33 +9,28 @@
 #include "armature/runtime/component.hpp"
 #include "armature/runtime/plugin.hpp"
 #include "armature/runtime/setup.hpp"
+#include "test_beat_parameters.hpp"
 
-namespace armature {
+namespace armature::test::beat {
 
 class Beat final : public Component {
  public:
   explicit Beat(Setup& setup)
       : Component{setup},
-        beats_{setup.params().integer("beats")},
-        ends_{setup.params().flag("ends")},
-        stop_s_{setup.params().number("stop_s")},
-        throws_in_{setup.params().text("throws_in")},
-        hangs_in_{setup.params().text("hangs_in")},
-        throws_number_{setup.params().flag("throws_number")},
+        parameters_{Parameters::read(setup.params())},
         beat_{setup.output<msg::Capture>("beat")} {
     setup.activate_every(seconds(0.01));
-    const double construction_s = setup.params().number("construction_s");
-    throw_in("construction");
-    if (construction_s == 0) return;
+    throw_in(Parameters::ThrowsIn::construction);
+    if (parameters_.construction == 0) return;
     say("being constructed");
-    std::this_thread::sleep_for(std::chrono::duration<double>{construction_s});
+    std::this_thread::sleep_for(std::chrono::duration<double>{parameters_.construction});
   }
 
-  ~Beat() override { hang_in("destructor"); }
+  ~Beat() override { hang_in(Parameters::HangsIn::destructor); }
 
   void step(Time now) override {
-    throw_in("step");
-    if (beats_ > 0 && sent_ == beats_) return;
+    throw_in(Parameters::ThrowsIn::step);
+    if (parameters_.beats > 0 && sent_ == parameters_.beats) return;
     ++sent_;
     auto loan = beat_.loan();
     set_stamp(loan->header_().stamp_(), now);
@@ -46,38 +40,37 @@ class Beat final : public Component {
   }
 
   void stop(Time) override {
-    throw_in("stop");
-    hang_in("stop");
-    if (stop_s_ == 0) return;
-    std::this_thread::sleep_for(std::chrono::duration<double>{stop_s_});
+    throw_in(Parameters::ThrowsIn::stop);
+    hang_in(Parameters::HangsIn::stop);
+    if (parameters_.stop == 0) return;
+    std::this_thread::sleep_for(std::chrono::duration<double>{parameters_.stop});
     say("ended");
   }
-  bool finished() const override { return ends_ && sent_ == beats_; }
+  bool finished() const override { return parameters_.ends && sent_ == parameters_.beats; }
   void summarize(Summary&) const override {
-    throw_in("summarize");
-    hang_in("summarize");
+    throw_in(Parameters::ThrowsIn::summarize);
+    hang_in(Parameters::HangsIn::summarize);
   }
-  void write_files(const std::filesystem::path&) const override { hang_in("write_files"); }
+  void write_files(const std::filesystem::path&) const override {
+    hang_in(Parameters::HangsIn::write_files);
+  }
 
  private:
-  void throw_in(const char* place) const {
-    if (throws_in_ != place) return;
-    if (throws_number_) throw 42;
+  void throw_in(Parameters::ThrowsIn place) const {
+    if (parameters_.throws_in != place) return;
+    if (parameters_.throws_number) throw 42;
     throw std::runtime_error{"out of breath"};
   }
 
-  void hang_in(const char* place) const {
-    while (hangs_in_ == place) std::this_thread::sleep_for(std::chrono::seconds{1});
+  void hang_in(Parameters::HangsIn place) const {
+    while (parameters_.hangs_in == place) std::this_thread::sleep_for(std::chrono::seconds{1});
   }
 
-  std::int64_t beats_, sent_ = 0;
-  bool ends_;
-  double stop_s_;
-  std::string throws_in_, hangs_in_;
-  bool throws_number_;
+  Parameters parameters_;
+  std::uint64_t sent_ = 0;
   Output<msg::Capture> beat_;
 };
 
-}  // namespace armature
+}  // namespace armature::test::beat
 
-ARMATURE_PLUGIN(armature::Beat);
+ARMATURE_PLUGIN(armature::test::beat::Beat);

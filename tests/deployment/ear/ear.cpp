@@ -10,16 +10,15 @@
 #include "armature/runtime/component.hpp"
 #include "armature/runtime/plugin.hpp"
 #include "armature/runtime/setup.hpp"
+#include "test_ear_parameters.hpp"
 
-namespace armature {
+namespace armature::test::ear {
 
 class Ear final : public Component {
  public:
   explicit Ear(Setup& setup)
       : Component{setup},
-        listens_{seconds(setup.params().number("listens_s"))},
-        undeclared_{setup.params().flag("undeclared")},
-        minds_silence_{setup.params().flag("minds_silence")},
+        parameters_{Parameters::read(setup.params())},
         beat_{setup.input<msg::Capture>("beat")},
         young_{setup.input<msg::Capture>("young")},
         states_{setup.input<msg::ComponentState>("states")} {
@@ -28,7 +27,7 @@ class Ear final : public Component {
 
   void step(Time now) override {
     if (!start_) start_ = now;
-    finished_ = now - *start_ >= listens_;
+    finished_ = now - *start_ >= seconds(parameters_.listens);
     if (beat_.fresh()) delays_s_.push_back(age_s(beat_, now));
     if (beat_.latest()) oldest_s_ = std::max(oldest_s_, age_s(beat_, now));
     if (young_.latest()) oldest_young_s_ = std::max(oldest_young_s_, age_s(young_, now));
@@ -40,13 +39,13 @@ class Ear final : public Component {
   void summarize(Summary& summary) const override {
     if (!delays_s_.empty()) summary.metric("delay_s", "delay [s]", delays_s_.back());
     summary.series("delays_s", "delay of each beat [s]", delays_s_);
-    if (delays_s_.empty() && minds_silence_) {
+    if (delays_s_.empty() && parameters_.minds_silence) {
       summary.not_measured("delay_s", "delay [s]", "no beat was heard");
       summary.failed("deaf", "beat tells nothing");
     }
     summary.metric("oldest_s", "oldest beat [s]", oldest_s_);
     summary.metric("oldest_young_s", "oldest young beat [s]", oldest_young_s_);
-    if (undeclared_) summary.metric("surprise_s", "surprise [s]", 1);
+    if (parameters_.undeclared) summary.metric("surprise_s", "surprise [s]", 1);
     std::string names;
     for (const std::string& name : told_of_) names += name + " ";
     summary.text("told_of", "components that the runtime told of", names);
@@ -57,8 +56,7 @@ class Ear final : public Component {
     return to_seconds(now - stamp_of(input.latest()->header_().stamp_()));
   }
 
-  Duration listens_;
-  bool undeclared_, minds_silence_;
+  Parameters parameters_;
   Input<msg::Capture> beat_, young_;
   Input<msg::ComponentState> states_;
   std::optional<Time> start_;
@@ -68,6 +66,6 @@ class Ear final : public Component {
   std::set<std::string> told_of_;
 };
 
-}  // namespace armature
+}  // namespace armature::test::ear
 
-ARMATURE_PLUGIN(armature::Ear);
+ARMATURE_PLUGIN(armature::test::ear::Ear);

@@ -9,17 +9,15 @@
 #include "armature/runtime/component.hpp"
 #include "armature/runtime/plugin.hpp"
 #include "armature/runtime/setup.hpp"
+#include "test_mover_parameters.hpp"
 
-namespace armature {
+namespace armature::test::mover {
 
 class Mover final : public Component {
  public:
   explicit Mover(Setup& setup)
       : Component{setup},
-        rest_after_{seconds(setup.params().number("rest_after_s"))},
-        ends_after_{seconds(setup.params().number("ends_after_s"))},
-        hangs_after_{seconds(setup.params().number("hangs_after_s"))},
-        talks_{setup.params().flag("talks")},
+        parameters_{Parameters::read(setup.params())},
         beat_{setup.output<msg::Capture>("beat")} {
     setup.activate_every(seconds(0.01));
   }
@@ -28,13 +26,14 @@ class Mover final : public Component {
     if (!start_) start_ = now;
     if (!said_) say("moves");
     said_ = true;
-    if (talks_) say(std::to_string(now.ns) + std::string(900, '.'));
-    while (is_over(hangs_after_, now)) std::this_thread::sleep_for(std::chrono::seconds{1});
+    if (parameters_.talks) say(std::to_string(now.ns) + std::string(900, '.'));
+    while (is_over(parameters_.hangs_after, now))
+      std::this_thread::sleep_for(std::chrono::seconds{1});
     if (finished_) ++steps_after_;
-    finished_ = is_over(ends_after_, now);
+    finished_ = is_over(parameters_.ends_after, now);
     if (stop_at_ && !at_rest_) {
       ++steps_to_rest_;
-      at_rest_ = now - *stop_at_ >= rest_after_;
+      at_rest_ = now - *stop_at_ >= seconds(parameters_.rest_after);
       if (at_rest_) say("at rest");
     }
     auto loan = beat_.loan();
@@ -45,7 +44,7 @@ class Mover final : public Component {
   }
   void begin_stop(Time now) override {
     stop_at_ = now;
-    at_rest_ = rest_after_ == Duration{0};
+    at_rest_ = parameters_.rest_after == 0;
     say("stops");
   }
   bool stopped() const override { return at_rest_; }
@@ -57,18 +56,17 @@ class Mover final : public Component {
   }
 
  private:
-  bool is_over(Duration after, Time now) const {
-    return after > Duration{0} && now - *start_ >= after;
+  bool is_over(double after_s, Time now) const {
+    return after_s > 0 && now - *start_ >= seconds(after_s);
   }
 
-  Duration rest_after_, ends_after_, hangs_after_;
-  bool talks_;
+  Parameters parameters_;
   Output<msg::Capture> beat_;
   std::optional<Time> start_, stop_at_;
   bool said_ = false, at_rest_ = false, finished_ = false;
   int steps_to_rest_ = 0, steps_after_ = 0;
 };
 
-}  // namespace armature
+}  // namespace armature::test::mover
 
-ARMATURE_PLUGIN(armature::Mover);
+ARMATURE_PLUGIN(armature::test::mover::Mover);

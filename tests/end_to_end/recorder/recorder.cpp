@@ -21,14 +21,15 @@
 #include "armature/runtime/component.hpp"
 #include "armature/runtime/plugin.hpp"
 #include "armature/runtime/setup.hpp"
+#include "test_recorder_parameters.hpp"
 
-namespace armature {
+namespace armature::test::recorder {
 namespace {
 
 constexpr Duration kPeriod = seconds(0.02);
 
 std::ofstream open(const Setup& setup, const char* file) {
-  const std::filesystem::path folder = setup.params().text("folder");
+  const std::filesystem::path folder = Parameters::read(setup.params()).folder;
   std::ofstream stream{folder / file};
   if (!stream) throw SetupError(fmt::format("cannot write into {}", folder.string()));
   return stream;
@@ -121,6 +122,6 @@ class Recorder : public Component {
   std::pair<std::uint64_t, int> last_story_{0, -1};
 };
 
-}  // namespace armature
+}  // namespace armature::test::recorder
 
-ARMATURE_PLUGIN(armature::Recorder);
+ARMATURE_PLUGIN(armature::test::recorder::Recorder);

@@ -3,30 +3,28 @@
 #include <csignal>
 #include <optional>
 #include <stdexcept>
-#include <string>
 #include <thread>
 
 #include "armature/messages/std_msgs.hpp"
 #include "armature/runtime/component.hpp"
 #include "armature/runtime/plugin.hpp"
 #include "armature/runtime/setup.hpp"
+#include "test_breaker_parameters.hpp"
 
-namespace armature {
+namespace armature::test::breaker {
 
 class Breaker final : public Component {
  public:
   explicit Breaker(Setup& setup)
       : Component{setup},
-        breaks_{setup.params().text("breaks")},
-        after_{seconds(setup.params().number("after_s"))},
-        hangs_s_{setup.params().number("hangs_s")},
+        parameters_{Parameters::read(setup.params())},
         note_{setup.output<msg::String>("note")} {
     setup.activate_every(seconds(0.02));
   }
 
   void step(Time now) override {
     if (!start_) start_ = now;
-    if (!broken_ && now - *start_ >= after_) {
+    if (!broken_ && now - *start_ >= seconds(parameters_.after)) {
       broken_ = true;
       break_now();
     }
@@ -37,19 +35,20 @@ class Breaker final : public Component {
 
  private:
   void break_now() const {
-    if (breaks_ == "throws") throw std::runtime_error{"a marker has no colour"};
-    if (breaks_ == "hangs") std::this_thread::sleep_for(std::chrono::duration<double>{hangs_s_});
-    if (breaks_ == "crashes") std::raise(SIGSEGV);
+    using enum Parameters::Breaks;
+    const auto breaks = parameters_.breaks;
+    if (breaks == throws) throw std::runtime_error{"a marker has no colour"};
+    if (breaks == hangs)
+      std::this_thread::sleep_for(std::chrono::duration<double>{parameters_.hangs});
+    if (breaks == crashes) std::raise(SIGSEGV);
   }
 
-  std::string breaks_;
-  Duration after_;
-  double hangs_s_;
+  Parameters parameters_;
   Output<msg::String> note_;
   std::optional<Time> start_;
   bool broken_ = false;
 };
 
-}  // namespace armature
+}  // namespace armature::test::breaker
 
-ARMATURE_PLUGIN(armature::Breaker);
+ARMATURE_PLUGIN(armature::test::breaker::Breaker);

@@ -7,16 +7,16 @@
 #include "armature/runtime/component.hpp"
 #include "armature/runtime/plugin.hpp"
 #include "armature/runtime/setup.hpp"
+#include "test_runaway_parameters.hpp"
 
-namespace armature {
+namespace armature::test::runaway {
 
 class Runaway final : public Component {
  public:
   explicit Runaway(Setup& setup)
       : Component{setup},
         robot_{robot_of(setup)},
-        jumps_{setup.params().flag("jumps")},
-        stands_after_s_{setup.params().number("stands_after_s")},
+        parameters_{Parameters::read(setup.params())},
         measured_js_{setup.output<msg::JointState>("measured_js")} {
     setup.activate_every(seconds(0.001));
   }
@@ -25,10 +25,10 @@ class Runaway final : public Component {
     if (!start_) start_ = now;
     constexpr double kSwing = 0.1;  // [rad], and [rad/s]
     const double passed_s = to_seconds(now - *start_);
-    const bool stands = stands_after_s_ > 0 && passed_s > stands_after_s_;
-    const double phase = stands ? stands_after_s_ : passed_s;
+    const bool stands = parameters_.stands_after > 0 && passed_s > parameters_.stands_after;
+    const double phase = stands ? parameters_.stands_after : passed_s;
     JointVector q = resting_position(robot_), v = JointVector::Zero(robot_.dof());
-    if (jumps_ && stopping_) {
+    if (parameters_.jumps && stopping_) {
       q[0] -= 1;
     } else {  // round a circle, so that one of the two joints always moves
       q.head<2>() += kSwing * Eigen::Vector2d{std::sin(phase), std::cos(phase)};
@@ -42,13 +42,12 @@ class Runaway final : public Component {
 
  private:
   RobotModel robot_;
-  bool jumps_;
-  double stands_after_s_;
+  Parameters parameters_;
   Output<msg::JointState> measured_js_;
   std::optional<Time> start_;
   bool stopping_ = false;
 };
 
-}  // namespace armature
+}  // namespace armature::test::runaway
 
-ARMATURE_PLUGIN(armature::Runaway);
+ARMATURE_PLUGIN(armature::test::runaway::Runaway);

@@ -209,6 +209,12 @@ std::string namespace_of(std::string_view id) {
 
 }  // namespace
 
+std::vector<std::string> parameter_members(const std::vector<ParamSpec>& specs) {
+  std::vector<std::string> members;
+  for (const ParamSpec& spec : specs) members.push_back(member_name(spec, specs));
+  return members;
+}
+
 std::string parameters_header(const config::Node& manifest, config::Problems& problems) {
   const config::Node* id_node = manifest.find("id");
   const std::string id = id_node ? config::as_text(*id_node, problems).value_or("") : "";

@@ -2,9 +2,10 @@
 #pragma once
 
 #include <string>
-#include <string_view>
+#include <vector>
 
 #include "armature/config/node.hpp"
+#include "armature/config/params.hpp"
 #include "armature/config/problems.hpp"
 
 namespace armature {
@@ -17,5 +18,8 @@ namespace armature {
 /// Two parameters that differ in their unit only keep it: `curve_m` and `curve_hz`. A choice
 /// becomes an `enum class`. What cannot be a name in C++ is noted in `problems`.
 std::string parameters_header(const config::Node& manifest, config::Problems& problems);
+
+/// The names of the struct's members, in the order of the file.
+std::vector<std::string> parameter_members(const std::vector<ParamSpec>& specs);
 
 }  // namespace armature

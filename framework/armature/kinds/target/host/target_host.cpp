@@ -10,8 +10,17 @@
 #include "armature/runtime/plugin.hpp"
 #include "armature/runtime/setup.hpp"
 #include "armature/values/guarded.hpp"
+#include "host_target_parameters.hpp"
 
-namespace armature {
+namespace armature::host::target {
+namespace {
+
+/// Of the arm, in its history.
+std::size_t samples_of(const Parameters& parameters) {
+  return static_cast<std::size_t>(parameters.history * parameters.arm_rate) + 1;
+}
+
+}  // namespace
 
 /// Face poses of a moving camera in, the filtered target in the base frame out.
 class TargetHost final : public Component {
@@ -44,9 +53,7 @@ TargetHost::TargetHost(Setup& setup)
       robot_{robot_of(setup)},
       rig_{rig_of(setup)},
       mount_{mount_of(rig_, robot_)},
-      history_{robot_, static_cast<std::size_t>(setup.params().number("history_s") *
-                                                setup.params().number("arm_rate_hz")) +
-                           1},
+      history_{robot_, samples_of(Parameters::read(setup.params()))},
       filter_{setup.slot<TargetFilter>("target")},
       face_{setup.input<msg::FacePose>("face")},
       measured_js_{setup.input<msg::JointState>("measured_js")},
@@ -121,6 +128,6 @@ void TargetHost::publish(Time stamp, const Expected<TargetEstimate>& estimate) {
   target.publish();
 }
 
-}  // namespace armature
+}  // namespace armature::host::target
 
-ARMATURE_PLUGIN(armature::TargetHost);
+ARMATURE_PLUGIN(armature::host::target::TargetHost);

@@ -15,7 +15,7 @@
 #include "armature/runtime/component_bench.hpp"
 #include "armature/runtime/test_plugins.hpp"
 
-namespace armature::target_host {
+namespace armature::host::target {
 namespace {
 
 using Eigen::Vector3d;
@@ -273,4 +273,4 @@ TEST_F(TargetHostTest, AnExceptionOfTheFilterIsAReasonAndItStartsColdAgain) {
 }
 
 }  // namespace
-}  // namespace armature::target_host
+}  // namespace armature::host::target

@@ -15,6 +15,12 @@ Lanes lanes(const Eigen::Vector3d& v) { return Lanes{v.x(), v.y(), v.z(), 0}; }
 
 }  // namespace
 
+double longest_step(const RobotModel& model, int joint) {
+  const double range = model.upper()[joint] - model.lower()[joint];
+  const bool is_long = !model.is_revolute(joint) && std::isfinite(range);
+  return is_long ? std::max(1.0, 0.25 * range) : 1.0;
+}
+
 Chain chain_of(const RobotModel& model) {
   const NamedFrame& tool = model.frame(model.tool());
   const auto steps = axis_steps(model, model.tool());
@@ -23,6 +29,9 @@ Chain chain_of(const RobotModel& model) {
   chain.dof = model.dof();
   std::copy(model.lower().begin(), model.lower().end(), chain.lower.begin());
   std::copy(model.upper().begin(), model.upper().end(), chain.upper.begin());
+  for (int j = 0; j < chain.dof; ++j) {
+    chain.longest_step[static_cast<std::size_t>(j)] = longest_step(model, j);
+  }
   for (int i = 0; i < chain.joints; ++i) {
     const ChainLink& link = model.chain()[static_cast<std::size_t>(i)];
     const Eigen::Isometry3d& step = steps[static_cast<std::size_t>(i)];

@@ -18,7 +18,6 @@ namespace {
 // least is what J J^T is rounded by, a singular value of 1e-8.
 constexpr double kDamping = 1e-2, kLeastDamping = 1e-16, kNear = 0.1;
 constexpr double kLeastPivot = 1e-17;  // below it there is only rounding
-constexpr double kLongestStep = 1.0;   // [rad] or [m], of any joint
 constexpr int kPatience = 6;           // iterations in which the error must fall ...
 constexpr double kEnoughGain = 0.7;    // ... to this part, or the start is given up
 constexpr double kPromise = 0.1;       // and so it is when a step promises less than this part
@@ -102,17 +101,17 @@ struct Task {
   }
 
   /// dq = J^T y, no joint more than a step may be.
-  void step(const double* y, int dof, double* dq) const {
+  void step(const double* y, const Chain& chain, double* dq) const {
     const Lanes linear_y{y[0], y[1], y[2], 0};
     const Lanes angular_y{y[3], y[4], Rows > 5 ? y[5] : 0, 0};
-    double longest = 0;
-    for (int j = 0; j < dof; ++j) {
+    double excess = 1;
+    for (int j = 0; j < chain.dof; ++j) {
       dq[j] = dot(linear[j] * linear_y + angular[j] * angular_y, Lanes{1, 1, 1, 0});
-      const double length = std::fabs(dq[j]);
-      longest = length > longest ? length : longest;
+      const double part = std::fabs(dq[j]) / chain.longest_step[static_cast<std::size_t>(j)];
+      excess = part > excess ? part : excess;
     }
-    const double scale = longest > kLongestStep ? kLongestStep / longest : 1;
-    for (int j = 0; j < dof; ++j) dq[j] *= scale;
+    if (excess == 1) return;
+    for (int j = 0; j < chain.dof; ++j) dq[j] /= excess;
   }
 };
 
@@ -141,7 +140,7 @@ double damped_step(const Chain& chain, const Axes& axes, const Pose& pose, const
   end.pressing = 0;
   for (;;) {
     task.solve(error, damping, y);
-    task.step(y, chain.dof, dq);
+    task.step(y, chain, dq);
     if (end.bounded == 0) break;
     const JointSet free = end.bounded & ~end.locked & ~end.pressing;
     const JointSet more = pressing(chain, q, dq, free);

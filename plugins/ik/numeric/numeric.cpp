@@ -31,16 +31,28 @@ double radical_inverse(int i, int base) {
   return result;
 }
 
+struct Range {
+  double lower, upper;
+};
+
+/// Where starts of a joint lie: within its limits, and within a few turns or metres where it has
+/// none. A joint that another one follows by half its angle is the same again after two turns.
+Range start_range(const RobotModel& model, int joint) {
+  constexpr double kTurn = 2 * std::numbers::pi;
+  double lower = model.lower()[joint], upper = model.upper()[joint];
+  if (turns_freely(model, joint)) lower = std::max(lower, upper - kTurn);
+  const double longest = turns_freely(model, joint) ? kTurn : 2 * kTurn;
+  if (!std::isfinite(lower) && !std::isfinite(upper)) return {-0.5 * longest, 0.5 * longest};
+  return {std::isfinite(lower) ? lower : upper - longest,
+          std::isfinite(upper) ? upper : lower + longest};
+}
+
 /// A Halton point of the joint space within limits.
 JointVector halton(const RobotModel& model, int i) {
   constexpr std::array<int, kMaxJoints> kPrimes{2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37};
   JointVector q(model.dof());
   for (int j = 0; j < model.dof(); ++j) {
-    double lower = model.lower()[j], upper = model.upper()[j];
-    if (turns_freely(model, j)) {  // more than a turn is the same again
-      lower = std::max(lower, upper - 2 * std::numbers::pi);
-      if (!std::isfinite(lower)) lower = -std::numbers::pi, upper = std::numbers::pi;
-    }
+    const auto [lower, upper] = start_range(model, j);
     q[j] = lower + radical_inverse(i, kPrimes[static_cast<std::size_t>(j)]) * (upper - lower);
   }
   return q;

@@ -43,20 +43,4 @@ Params params_of(const PluginManifest& plugin, const std::string& given) {
   return params;
 }
 
-std::filesystem::path shipped_robot_folder() {
-  const auto prefix = std::filesystem::canonical("/proc/self/exe").parent_path().parent_path();
-  return prefix / "share" / "armature" / "configs" / "robots";
-}
-
-std::vector<std::filesystem::path> shipped_robots() {
-  namespace fs = std::filesystem;
-  std::vector<fs::path> files;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator{shipped_robot_folder(), error}) {
-    if (entry.path().extension() == ".yaml") files.push_back(entry.path());
-  }
-  std::ranges::sort(files);
-  return files;
-}
-
 }  // namespace armature

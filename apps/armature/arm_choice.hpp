@@ -24,8 +24,4 @@ RobotModel load_arm(const ArmChoice& arm);
 /// defaults. Throws config::ConfigError.
 Params params_of(const PluginManifest& plugin, const std::string& given);
 
-/// Where the robots are that came with this program, and the robot files among them, sorted.
-std::filesystem::path shipped_robot_folder();
-std::vector<std::filesystem::path> shipped_robots();
-
 }  // namespace armature

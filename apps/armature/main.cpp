@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // The command line. The only file that includes CLI11.
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <functional>
 #include <iostream>
 #include <limits>
 
+#include "armature/config/problems.hpp"
 #include "calculator.hpp"
 #include "calibrate.hpp"
 #include "drill/drill.hpp"
@@ -19,6 +22,7 @@
 #include "plan_bench/bench_plan.hpp"
 #include "plugins.hpp"
 #include "run.hpp"
+#include "shipped_configs.hpp"
 #include "stop.hpp"
 #include "topics.hpp"
 #include "verify.hpp"
@@ -30,8 +34,15 @@ namespace {
 using Action = std::function<int()>;
 
 void add_source(CLI::App& verb, DeploymentSource& source) {
-  verb.add_option("files", source.files, "deployment file, then overlays that change it")
-      ->required();
+  const auto to_file = [](std::string& given) {
+    given = deployment_file(given);
+    return std::string{};
+  };
+  verb.add_option("files", source.files,
+                  "deployment: a file, or a name that came with armature (dental_lamp); then "
+                  "overlays that change it")
+      ->required()
+      ->transform(CLI::Validator{to_file, ""});
   verb.add_option("--set", source.assignments,
                   "change one value: --set components.motion.ik.plugin=ik/numeric")
       ->allow_extra_args(false);
@@ -372,6 +383,35 @@ void add_calibrations(CLI::App& app, Action& action) {
   tool->add_option("--tool", options->tool, "name of its frame")->capture_default_str();
 }
 
+/// What is wrong with the verbs at the beginning of the line; empty: nothing.
+std::string unknown_verb(const CLI::App& app, const std::vector<std::string>& line) {
+  const CLI::App* verb = &app;
+  for (const std::string& word : line) {
+    if (verb->get_require_subcommand_min() == 0 || word.starts_with('-')) return "";
+    const CLI::App* next = nullptr;
+    std::vector<std::string> names;
+    for (const CLI::App* known : verb->get_subcommands(nullptr)) {
+      if (known->get_name() == word) next = known;
+      names.push_back(known->get_name());
+    }
+    if (!next) {
+      return fmt::format("'{}' has no verb {}{}", verb->get_name(), config::in_quotes(word),
+                         config::did_you_mean(word, names));
+    }
+    verb = next;
+  }
+  return "";
+}
+
+/// The words of a command line, "help run" as "run --help".
+std::vector<std::string> words_of(int argc, char** argv) {
+  std::vector<std::string> words(argv + 1, argv + argc);
+  if (words.empty() || words.front() != "help") return words;
+  words.erase(words.begin());
+  words.push_back("--help");
+  return words;
+}
+
 int run_command_line(int argc, char** argv) {
   CLI::App app{
       "Config-driven robot systems over DDS.\n\n"
@@ -379,6 +419,8 @@ int run_command_line(int argc, char** argv) {
       "components.motion.ik.plugin=ik/numeric"};
   app.name("armature");
   app.require_subcommand(1);
+  app.set_version_flag("--version", "armature " ARMATURE_VERSION, "Print the version");
+  app.add_subcommand("help", "What a verb does, and its options: armature help run");
   Action action;
   add_run(app, action);
   add_drill(app, action);
@@ -389,10 +431,19 @@ int run_command_line(int argc, char** argv) {
   add_calculators(app, action);
   add_calibrations(app, action);
   add_bench(app, action);
+  std::vector<std::string> words = words_of(argc, argv);
+  if (const std::string wrong = unknown_verb(app, words); !wrong.empty()) {
+    fmt::print(stderr, "{}\n", wrong);
+    return kUsage;
+  }
+  std::ranges::reverse(words);  // as CLI11 wants them
   try {
-    app.parse(argc, argv);
+    app.parse(words);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kOk : kUsage;
+  } catch (const InvalidChoice& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return exit_code_of(error);
   }
   return exit_code_of(action);
 }

@@ -20,6 +20,7 @@
 #include "exit_code.hpp"
 #include "isolated.hpp"
 #include "plugins.hpp"
+#include "shipped_configs.hpp"
 
 namespace armature {
 namespace {

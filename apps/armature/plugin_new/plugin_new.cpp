@@ -14,6 +14,7 @@
 #include "exit_code.hpp"
 #include "plugin_template.hpp"
 #include "plugins.hpp"
+#include "shipped_configs.hpp"
 
 namespace armature {
 namespace {
@@ -96,13 +97,13 @@ int new_plugin(const std::string& text, const fs::path& directory) {
     replace_all(filled, "@TARGET@", id.family + '_' + id.name);
     replace_all(filled, "@NAMESPACE@", fmt::format("armature::{}::{}", id.family, id.name));
     replace_all(filled, "@PACKAGE@", package_folder().string());
-    replace_all(filled, "@CONFIGS@", shipped_robot_folder().parent_path().string());
+    replace_all(filled, "@CONFIGS@", shipped_config_folder().string());
     return filled;
   };
   for (const TemplateFile& file : from.files) {
     write_atomically(directory / fill(file.name), fill(file.text), FileUse::named_by_user);
   }
-  fs::copy_file(shipped_robot_folder() / "arm.urdf", directory / "arm.urdf");
+  fs::copy_file(shipped_config_folder() / "robots" / "arm.urdf", directory / "arm.urdf");
   fmt::print("wrote {}: see {}\n", id.text, (directory / "README.md").string());
   return kOk;
 }

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// What people expect of any program of the command line.
+#include <gmock/gmock.h>
+
+#include "command.hpp"
+
+namespace armature::test {
+namespace {
+
+using testing::HasSubstr;
+using testing::MatchesRegex;
+
+TEST(TheCommandLine, TellsItsVersion) {
+  const auto told = run_command({armature(), "--version"});
+  EXPECT_EQ(told.exit_code, 0);
+  EXPECT_THAT(told.out, MatchesRegex("armature [0-9]+\\.[0-9]+\\.[0-9]+\n"));
+}
+
+TEST(TheCommandLine, HelpsWithAVerb) {
+  const auto asked = run_command({armature(), "help", "run"});
+  EXPECT_EQ(asked.exit_code, 0);
+  EXPECT_EQ(asked.out, run_command({armature(), "run", "--help"}).out);
+  EXPECT_EQ(run_command({armature(), "help", "plugin", "new"}).out,
+            run_command({armature(), "plugin", "new", "--help"}).out);
+  EXPECT_EQ(run_command({armature(), "help"}).out, run_command({armature(), "--help"}).out);
+}
+
+TEST(TheCommandLine, NamesTheVerbThatAMisspelledOneIsNearestTo) {
+  const auto wrong = run_command({armature(), "rnu", "configs/dental_lamp.yaml"});
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_EQ(wrong.err, "'armature' has no verb 'rnu'; did you mean 'run'?\n");
+  const auto nested = run_command({armature(), "plugin", "lsit"});
+  EXPECT_EQ(nested.exit_code, 2);
+  EXPECT_EQ(nested.err, "'plugin' has no verb 'lsit'; did you mean 'list'?\n");
+}
+
+TEST(TheCommandLine, FindsAShippedDeploymentByItsNameFromAnyFolder) {
+  const auto found = run_command({armature(), "check", "dental_lamp"});
+  EXPECT_EQ(found.exit_code, 0) << found.err;
+  const auto wrong = run_command({armature(), "check", "dental_lmp"});
+  EXPECT_EQ(wrong.exit_code, 3);
+  EXPECT_THAT(wrong.err, HasSubstr("there is no file 'dental_lmp' here, and no deployment "
+                                   "'dental_lmp' came with armature; did you mean 'dental_lamp'"));
+}
+
+}  // namespace
+}  // namespace armature::test

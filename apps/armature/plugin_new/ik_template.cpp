@@ -53,8 +53,9 @@ class @CLASS@ final : public IkSolver {
     }
     if (!e.within(position_m, angle_rad))
       return {IkStatus::Code::no_convergence, e.error.norm(), "the seed leads elsewhere"};
-    const IkBranch& branch = out.add() = branch_at(robot_, goal, q, "from_seed");
-    return branch.within_limits ? IkStatus{} : IkStatus{IkStatus::Code::joint_limit, 0, "leaves the limits"};
+    out.add() = branch_at(robot_, goal, q, "from_seed");
+    if (out.begin()->within_limits) return {};
+    return {IkStatus::Code::joint_limit, 0, "the solution leaves the joint limits"};
   }
 
  private:

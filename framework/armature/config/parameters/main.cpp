@@ -4,9 +4,21 @@
 #include <cstdio>
 #include <exception>
 #include <fstream>
+#include <sstream>
+#include <string>
 
 #include "armature/config/document.hpp"
 #include "armature/config/parameters/parameters_struct.hpp"
+
+namespace {
+
+std::string text_of(const char* file) {
+  std::ostringstream text;
+  text << std::ifstream{file}.rdbuf();
+  return text.str();
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   if (argc != 3) {
@@ -18,6 +30,7 @@ int main(int argc, char** argv) {
     const std::string header =
         armature::parameters_header(armature::config::parse_file(argv[1]), problems);
     problems.throw_if_any();
+    if (text_of(argv[2]) == header) return 0;  // nothing is compiled again
     std::ofstream file{argv[2]};
     file << header;
     if (file.flush()) return 0;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -52,6 +53,10 @@ bool is_taken(std::string_view name) {
 
 std::string in_cpp(std::string_view name) {
   return is_taken(name) ? std::string{name} + "_" : std::string{name};
+}
+
+bool is_in_a_name(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
 }
 
 /// `name` without its unit, unless another parameter would have the same name then.
@@ -127,8 +132,8 @@ std::string literal_of(std::string_view text) {
   std::string literal = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') literal += '\\';
-    if (c == '\n') {
-      literal += "\\n";
+    if (c >= 0 && c < ' ') {
+      literal += fmt::format("\\{:03o}", static_cast<int>(c));
     } else {
       literal += c;
     }
@@ -179,16 +184,14 @@ std::string comment_of(const ParamSpec& spec) {
   const std::string in = unit ? fmt::format(" [{}]", unit->si) : "";
   std::string doc = spec.doc.empty() ? "" : " " + spec.doc;
   std::ranges::replace(doc, '\n', ' ');
+  if (doc.ends_with('\\')) doc += '.';  // or the next line would belong to the comment
   return in.empty() && doc.empty() ? "" : fmt::format("  ///{}{}\n", in, doc);
 }
 
 void check_choices(const ParamSpec& spec, const config::Origin& place, config::Problems& problems) {
   for (const std::string& choice : spec.choices) {
-    const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
-    const bool is_name =
-        !choice.empty() && is_letter(choice.front()) && std::ranges::all_of(choice, [&](char c) {
-          return is_letter(c) || (c >= '0' && c <= '9') || c == '_';
-        });
+    const bool is_name = std::ranges::all_of(choice, is_in_a_name) && !choice.empty() &&
+                         !(choice.front() >= '0' && choice.front() <= '9');
     if (is_name) continue;
     problems.add(place, fmt::format("parameter {}: the choice {} must be a name, of letters, "
                                     "digits and '_'",
@@ -201,7 +204,9 @@ std::string namespace_of(std::string_view id) {
   std::string name = "armature";
   while (!id.empty()) {
     const std::size_t slash = std::min(id.find('/'), id.size());
-    name += "::" + in_cpp(id.substr(0, slash));
+    std::string part = in_cpp(id.substr(0, slash));
+    std::ranges::replace_if(part, std::not_fn(is_in_a_name), '_');
+    name += "::" + part;
     id.remove_prefix(std::min(slash + 1, id.size()));
   }
   return name;
@@ -251,6 +256,7 @@ std::string parameters_header(const config::Node& manifest, config::Problems& pr
 #pragma once
 
 #include <array>
+#include <functional>
 #include <cstdint>
 #include <string>
 #include <vector>

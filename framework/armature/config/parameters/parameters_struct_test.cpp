@@ -103,6 +103,22 @@ TEST(TheStructOfParameters, OfAPluginWithoutParametersIsEmpty) {
             std::string::npos);
 }
 
+TEST(TheStructOfParameters, IsCppWhateverATextHolds) {
+  const std::string text = struct_of(
+      "  a: {type: text, default: \"x\\ty\\nz\", doc: 'in C:\\'}\n"
+      "  default: {type: flag, default: true}\n");
+  EXPECT_NE(text.find("in C:\\."), std::string::npos) << text;
+  EXPECT_NE(text.find(R"(std::string a{"x\011y\012z"};)"), std::string::npos) << text;
+  EXPECT_NE(text.find("bool default_{true};"), std::string::npos) << text;
+}
+
+TEST(TheStructOfParameters, StandsInANamespaceThatIsOneWhateverTheIdIs) {
+  config::Problems problems;
+  EXPECT_NE(parameters_header(config::parse_text("id: operator/my-pedal", "f"), problems)
+                .find("namespace armature::operator_::my_pedal {"),
+            std::string::npos);
+}
+
 TEST(TheStructOfParameters, IsNotMadeOfAChoiceThatIsNoName) {
   EXPECT_EQ(refusal("  photo: {type: choice, choices: [a-b], default: a-b}"),
             "plugin.yaml:3:3: parameter 'photo': the choice 'a-b' must be a name, of letters, "

@@ -192,8 +192,14 @@ ReasonText GoalExecution::refusal(const MotionGoal& goal, const ReasonText& wron
 
 bool GoalExecution::accept(const MotionGoal& goal, const ReasonText& wrong) {
   if (const ReasonText reason = refusal(goal, wrong); !reason.empty()) {
-    report(goal.id, State::failed, halted() && (took_any_ || was_stopped_) ? kStopStage : "accept",
-           reason);
+    const bool by_stop = halted() && (took_any_ || was_stopped_);
+    report(goal.id, State::failed, by_stop ? kStopStage : "accept", reason);
+    if (by_stop) untold_ = false;
+    return false;
+  }
+  if (std::exchange(untold_, false)) {
+    report(goal.id, State::failed, kStopStage,
+           "the arm was stopped and rearmed since the goal before; give it again to go on");
     return false;
   }
   took_any_ = true;
@@ -299,6 +305,7 @@ void GoalExecution::execute(std::uint64_t goal_id, MotionMode mode, Time now) {
 
 void GoalExecution::halt(const ReasonText& why, Time now) {
   was_stopped_ = true;
+  untold_ = untold_ || (took_any_ && !halted() && !active_ && !pending_);
   begin_halt(why, now);
 }
 

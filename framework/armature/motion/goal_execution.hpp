@@ -80,7 +80,8 @@ class GoalExecution {
   bool take(const PlanAnswer& answer, Time now);
 
   /// Stops within limits, drops every goal, and refuses those that come, with `why`, until
-  /// `rearm`. What is told first stays.
+  /// `rearm`. What is told first stays. A stop by which no goal has failed, because there was none,
+  /// is told to whoever gives the first one after the rearm: it fails in stage `stop`, too.
   void halt(const ReasonText& why, Time now);
   /// The same until an operator has enabled the arm. Before the first goal was taken nothing is
   /// stopped by that: goals are refused in stage `accept`, and may be given again.
@@ -163,6 +164,7 @@ class GoalExecution {
   std::uint64_t last_goal_id_ = 0;
   bool took_any_ = false;     // goals
   bool was_stopped_ = false;  // since the last rearm, and not for want of an operator
+  bool untold_ = false;       // of the last stop: no goal has failed by it
   std::optional<std::uint64_t> active_;
   MotionMode active_mode_ = MotionMode::planned;
   std::optional<Pending> pending_;

@@ -204,6 +204,22 @@ TEST_F(GoalExecutionTest, BeginsWithAnArmThatMovesAlreadyOnlyWhenThatRests) {
   EXPECT_TRUE(execution_.trouble().empty());
 }
 
+TEST_F(GoalExecutionTest, AStopBetweenTwoGoalsIsToldToTheNextOneThoughItCameAfterTheRearm) {
+  step_to(0.1);
+  give(goal_at(1, 0.1, 0.1, 0.1));
+  step_to(4);
+  ASSERT_EQ(statuses_.back().state, State::done);
+  execution_.halt("somebody pressed the button", now_);
+  step_to(4.5);
+  ASSERT_TRUE(execution_.rearm(now_));
+  give(goal_at(2, 1, 1, 1));
+  EXPECT_EQ(statuses_.back().stage, "stop") << "whoever gave it has not heard of the stop";
+  step_to(5);
+  EXPECT_TRUE(at_rest(before_));
+  give(goal_at(3, 1, 1, 1));
+  EXPECT_EQ(statuses_.back().state, State::executing);
+}
+
 TEST_F(GoalExecutionTest, AStopBeforeTheFirstGoalIsAStop) {
   step_to(0.1);
   execution_.halt_before_operator("hold_to_run has not been told yet", now_);

@@ -116,6 +116,8 @@ void Implant::hear(const GoalReport& report, Time now) {
   const bool failed = goal_.state() == PursuedGoal::State::failed;
   if (phase_ == Phase::calibrating && sent_to_ == calibration_.number()) {
     if (there) calibration_.arrive(goal_.done_at());
+    // Or it would go on with the poses that it has, and move once somebody rearms the arm.
+    if (failed && goal_.stopped()) return refuse("hand-eye: " + goal_.reason());
     if (failed) calibration_.leave_out(goal_.reason());
   }
   if (phase_ != Phase::approaching && phase_ != Phase::drilling) return;

@@ -282,5 +282,20 @@ TEST_F(ImplantTest, ACalibrationPoseThatCannotBeReachedIsLeftOut) {
   EXPECT_NE(news.back().find("left out: pose 1: ik: far"), std::string::npos);
 }
 
+TEST_F(ImplantTest, AStopWhileItCalibratesEndsItThoughThePosesThatItHasWouldDo) {
+  begin();
+  go_to(Phase::calibrating);
+  while (goals_.size() < 7) step();  // six are enough
+  task_.hear({.goal_id = goals_.back().id,
+              .state = Report::failed,
+              .stage = "stop",
+              .reason = "stopped until it is rearmed"},
+             now());
+  EXPECT_EQ(task_.phase(), Phase::refused);
+  EXPECT_EQ(task_.trouble(), "hand-eye: stop: stopped until it is rearmed");
+  wait(5);
+  EXPECT_EQ(goals_.size(), 7u) << "or the arm would move once it is rearmed";
+}
+
 }  // namespace
 }  // namespace armature::task::implant

@@ -15,7 +15,8 @@ namespace armature::drill {
 ArmListener::ArmListener(PluginRegistry& plugins, const DrilledDeployment& deployment, int domain)
     : deployment_{deployment} {
   for (const DrilledArm& arm : deployment.arms) heard_.emplace_back(ArmRecord{arm.limits});
-  auto observer = plugins.make<DdsObserver>("observer/fast_dds", ObserverOptions{.domain = domain});
+  auto observer = plugins.make<DdsObserver>("observer/fast_dds",
+                                            ObserverOptions{.domain = domain, .asks_again = false});
   if (!observer) throw PluginError("a drill cannot listen: " + observer.error().text);
   observer_ = std::move(*observer);
 }
@@ -91,6 +92,24 @@ void ArmListener::wait_for_rest() const {
   for (auto moved = now(); now() - moved < kRests && now() < end;) {
     if (any_moves()) moved = now();
     std::this_thread::sleep_for(kLook);
+  }
+}
+
+void ArmListener::hear_out() const {
+  constexpr std::chrono::milliseconds kSilence{100}, kLook{5};
+  const auto now = [] { return Arrival::clock::now(); };
+  const auto count = [this] {
+    std::size_t samples = 0;
+    for (const Heard& heard : heard_) {
+      const std::scoped_lock lock{heard.mutex};
+      samples += heard.record.samples().size();
+    }
+    return samples;
+  };
+  std::size_t heard = count();
+  for (auto silent_since = now(); now() - silent_since < kSilence;) {
+    std::this_thread::sleep_for(kLook);
+    if (const std::size_t all = count(); std::exchange(heard, all) != all) silent_since = now();
   }
 }
 

@@ -34,6 +34,8 @@ class ArmListener {
   std::optional<Arrival> hand_moved_after(Arrival from) const;
   /// Until no arm has moved for 0.3 s; arms that do not come to rest are waited for for 5 s.
   void wait_for_rest() const;
+  /// Until the last samples of a run that has ended have arrived: none has for 0.1 s.
+  void hear_out() const;
   /// The samples that were heard so far, arm by arm in the order of the deployment's arms.
   std::vector<ArmRecord> records() const;
 

@@ -237,6 +237,7 @@ class Trial {
   }
 
   void judge_arms() {
+    listener_.hear_out();
     const auto hand = held_from_ ? listener_.hand_moved_after(*held_from_) : std::nullopt;
     const Verdict verdict =
         judge(options_.deployment.arms, listener_.records(),

@@ -112,7 +112,7 @@ ParamSpec read_param_spec(const Node::Entry& entry, Problems& problems) {
   return spec;
 }
 
-/// What is compared with one another must be of one type and one unit, and hold for the defaults.
+/// Parameters that are compared must be of one type and one unit, and their defaults in order.
 void check_orders(const std::vector<ParamSpec>& specs, const Node& table, Problems& problems) {
   bool is_sound = problems.empty(), is_compared = false;
   for (const ParamSpec& spec : specs) {

@@ -61,7 +61,7 @@ class Params {
   /// In SI units: `_deg` keys arrive in radians, `_mm` keys in metres.
   double number(std::string_view name) const;
   std::vector<double> numbers(std::string_view name) const;
-  /// Of a parameter with `count: N`.
+  /// The numbers of a parameter with `count: N`.
   template <std::size_t N>
   std::array<double, N> numbers(std::string_view name) const {
     const std::vector<double> all = numbers(name);

@@ -212,7 +212,7 @@ TEST(Parameters, ThatThePluginDoesNotDeclareAreItsDefect) {
             "type number");
 }
 
-/// What is said of values of two parameters that are compared.
+/// The message for two parameters that are not in the order that the file states.
 std::string order_problem(const std::string& order, const std::string& given) {
   const Node table = config::parse_text(
       "{least: {type: integer, default: 3, " + order + "}, poses: {type: integer, default: 20}}",

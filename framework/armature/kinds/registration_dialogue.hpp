@@ -23,7 +23,8 @@ class RegistrationDialogue {
     std::vector<msg::Point> image_markers, robot_markers, targets;
   };
 
-  /// How well a marker is measured, and how far two distances of the same markers may differ [m].
+  /// `marker_error` [m]: how well a marker is measured. `match_tolerance` [m]: how far two
+  /// distances of the same markers may differ.
   RegistrationDialogue(Setup& setup, double marker_error, double match_tolerance);
 
   /// True when it has not been asked yet, or not been answered in time.

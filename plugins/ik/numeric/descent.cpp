@@ -13,13 +13,15 @@ namespace {
 
 Lanes lanes(const Eigen::Vector3d& v) { return Lanes{v.x(), v.y(), v.z(), 0}; }
 
-}  // namespace
-
+/// The longest step of an independent joint in one iteration: 1 rad or 1 m, of a long slide a
+/// quarter of its range, or it would take hundreds of them.
 double longest_step(const RobotModel& model, int joint) {
   const double range = model.upper()[joint] - model.lower()[joint];
   const bool is_long = !model.is_revolute(joint) && std::isfinite(range);
   return is_long ? std::max(1.0, 0.25 * range) : 1.0;
 }
+
+}  // namespace
 
 Chain chain_of(const RobotModel& model) {
   const NamedFrame& tool = model.frame(model.tool());
@@ -30,7 +32,7 @@ Chain chain_of(const RobotModel& model) {
   std::copy(model.lower().begin(), model.lower().end(), chain.lower.begin());
   std::copy(model.upper().begin(), model.upper().end(), chain.upper.begin());
   for (int j = 0; j < chain.dof; ++j) {
-    chain.longest_step[static_cast<std::size_t>(j)] = longest_step(model, j);
+    chain.per_longest_step[static_cast<std::size_t>(j)] = 1 / longest_step(model, j);
   }
   for (int i = 0; i < chain.joints; ++i) {
     const ChainLink& link = model.chain()[static_cast<std::size_t>(i)];

@@ -30,12 +30,9 @@ struct Chain {
   Lanes pointing_axis;  // of the tool frame
   // Of the independent joints.
   std::array<double, kMaxJoints> lower, upper;
-  std::array<double, kMaxJoints> longest_step;  // of an iteration [rad] or [m]
+  std::array<double, kMaxJoints> per_longest_step;  // one by it [1/rad] or [1/m]
 };
 Chain chain_of(const RobotModel& model);
-/// The longest step of an independent joint in one iteration: 1 rad or 1 m, of a long slide a
-/// quarter of its range, or it would take hundreds of them.
-double longest_step(const RobotModel& model, int joint);
 
 /// A goal in numbers: unit axes or a unit direction, and how near is enough.
 struct Goal {

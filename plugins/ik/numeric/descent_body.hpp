@@ -107,11 +107,11 @@ struct Task {
     double excess = 1;
     for (int j = 0; j < chain.dof; ++j) {
       dq[j] = dot(linear[j] * linear_y + angular[j] * angular_y, Lanes{1, 1, 1, 0});
-      const double part = std::fabs(dq[j]) / chain.longest_step[static_cast<std::size_t>(j)];
+      const double part = std::fabs(dq[j]) * chain.per_longest_step[static_cast<std::size_t>(j)];
       excess = part > excess ? part : excess;
     }
-    if (excess == 1) return;
-    for (int j = 0; j < chain.dof; ++j) dq[j] /= excess;
+    const double scale = 1 / excess;
+    for (int j = 0; j < chain.dof; ++j) dq[j] *= scale;
   }
 };
 

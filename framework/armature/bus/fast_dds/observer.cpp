@@ -49,8 +49,8 @@ class Watch final : public dds::DataReaderListener {
 
 class Observer final : public DdsObserver {
  public:
-  explicit Observer(std::unique_ptr<Participant> participant)
-      : participant_{std::move(participant)} {}
+  Observer(std::unique_ptr<Participant> participant, bool asks_again)
+      : participant_{std::move(participant)}, asks_again_{asks_again} {}
 
   ~Observer() override {
     for (const auto& watch : watches_) {
@@ -84,7 +84,7 @@ class Observer final : public DdsObserver {
     const auto dds_topic = participant_->topic(name, writer->type);
     if (!dds_topic) return tl::unexpected{dds_topic.error()};
     // Asks for what the writer offers and no more, so that it always matches.
-    const QosSettings settings{.reader_reliable = writer->reliable,
+    const QosSettings settings{.reader_reliable = writer->reliable && asks_again_,
                                .transient_local = writer->transient_local,
                                .depth = 10};
     auto watch = std::make_unique<Watch>(writer->type, std::move(on_sample));
@@ -109,6 +109,7 @@ class Observer final : public DdsObserver {
   }
 
   std::unique_ptr<Participant> participant_;
+  const bool asks_again_;
   std::vector<std::unique_ptr<Watch>> watches_;
 };
 
@@ -126,7 +127,7 @@ Expected<std::unique_ptr<DdsObserver>> DdsObserver::make(const ObserverOptions& 
                                         // programs that know no other meet it there only.
                                         .uses_shared_memory = !options.interfaces.empty()});
   if (!participant) return tl::unexpected{participant.error()};
-  return std::make_unique<Observer>(std::move(*participant));
+  return std::make_unique<Observer>(std::move(*participant), options.asks_again);
 }
 
 }  // namespace armature

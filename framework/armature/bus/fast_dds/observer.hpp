@@ -32,6 +32,9 @@ struct ObservedSample {
 struct ObserverOptions {
   int domain = 0;
   std::vector<std::string> interfaces = {};  // as in TransportOptions
+  /// Whether a reliable writer is asked again for a sample that was lost. Until it comes, all that
+  /// follow it are held back; when the writer is gone by then, they never come.
+  bool asks_again = true;
 };
 
 /// An onlooker for the tools: sees every topic of a DDS domain and can read any of them without
@@ -39,7 +42,7 @@ struct ObserverOptions {
 class DdsObserver {
  public:
   static constexpr std::string_view kKind = "observer";
-  static constexpr int kKindVersion = 2;
+  static constexpr int kKindVersion = 3;
   using Factory = Expected<std::unique_ptr<DdsObserver>> (*)(const ObserverOptions&);
 
   static Expected<std::unique_ptr<DdsObserver>> make(const ObserverOptions& options);

@@ -256,7 +256,6 @@ std::string parameters_header(const config::Node& manifest, config::Problems& pr
 #pragma once
 
 #include <array>
-#include <functional>
 #include <cstdint>
 #include <string>
 #include <vector>

@@ -16,7 +16,7 @@ std::string header_of(const std::string& params) {
   return header;
 }
 
-/// What the struct holds, from its first line to its last.
+/// The lines between the braces of the struct.
 std::string struct_of(const std::string& params) {
   const std::string header = header_of(params);
   const std::size_t begin = header.find("struct Parameters {\n") + 20;

@@ -15,7 +15,7 @@
 namespace armature::host::target {
 namespace {
 
-/// Of the arm, in its history.
+/// The samples of the arm that its history holds.
 std::size_t samples_of(const Parameters& parameters) {
   return static_cast<std::size_t>(parameters.history * parameters.arm_rate) + 1;
 }

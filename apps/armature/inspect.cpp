@@ -97,11 +97,11 @@ config::Node with_origin(const config::Node& node, const config::Origin& origin)
   return config::Node::sequence(std::move(items), origin);
 }
 
-/// All parameters of the plugin, in its order: those that are not written by their defaults, files
-/// by their whole paths. What another component may say (`same_as`) is left to it.
-config::Node complete_params(const config::Node& written, const PluginManifest& plugin) {
+/// Adds all parameters of the plugin, in its order: those that are not written by their defaults,
+/// files by their whole paths. What another component may say (`same_as`) is left to it.
+void add_params(const config::Node& written, const PluginManifest& plugin,
+                std::vector<config::Node::Entry>& params) {
   const config::Origin by_default{.file = "default of " + plugin.id};
-  std::vector<config::Node::Entry> params;
   for (const ParamSpec& spec : plugin.params) {
     const config::Node* value = written.find(spec.name);
     if (value) {
@@ -111,7 +111,19 @@ config::Node complete_params(const config::Node& written, const PluginManifest& 
       params.push_back({spec.name, by_default, with_origin(*spec.fallback, by_default)});
     }
   }
-  return config::Node::map(std::move(params), written.origin());
+}
+
+/// The slots that are left to the component's own choice, by the plugin that sits there then.
+void add_slots(config::Node& component, const PluginManifest& manifest) {
+  const config::Origin by_default{.file = "default of " + manifest.id};
+  for (const SlotSpec& slot : manifest.slots) {
+    if (slot.otherwise.empty() || component.find(slot.name)) continue;
+    std::vector<config::Node::Entry> plugin;
+    plugin.push_back(
+        {"plugin", by_default, config::Node::scalar(slot.otherwise, false, by_default)});
+    component.mutable_entries().push_back(
+        {slot.name, by_default, config::Node::map(std::move(plugin), by_default)});
+  }
 }
 
 /// The parameters of a component, or of a slot, and of the slots in it. `name`: of the component.
@@ -119,17 +131,27 @@ void complete_all_params(config::Node& component, const std::string& name,
                          const PluginRegistry& plugins) {
   const config::Node* id = component.find("plugin");
   const PluginManifest* plugin = plugins.find(id ? id->text() : name);
+  if (!plugin) return;
+  // A plugin that runs alone is written together with its host.
+  const PluginManifest* host = plugins.host_of(plugin->kind);
+  const bool is_alone = host && !name.empty();
+  if (!name.empty()) add_slots(component, is_alone ? *host : *plugin);
   auto& entries = component.mutable_entries();
   for (auto& entry : entries) {
-    if (entry.value.find("plugin")) complete_all_params(entry.value, entry.key, plugins);
+    if (entry.value.find("plugin")) complete_all_params(entry.value, {}, plugins);
   }
-  if (!plugin || plugin->params.empty()) return;
-  const auto params = std::ranges::find(entries, "params", &config::Node::Entry::key);
-  if (params != entries.end()) {
-    params->value = complete_params(params->value, *plugin);
+  const auto given = std::ranges::find(entries, "params", &config::Node::Entry::key);
+  const config::Node written =
+      given == entries.end() ? config::Node::map({}, component.origin()) : given->value;
+  std::vector<config::Node::Entry> params;
+  add_params(written, *plugin, params);
+  if (is_alone) add_params(written, *host, params);
+  if (params.empty()) return;
+  config::Node all = config::Node::map(std::move(params), written.origin());
+  if (given != entries.end()) {
+    given->value = std::move(all);
   } else {
-    const auto none = config::Node::map({}, component.origin());
-    entries.push_back({"params", component.origin(), complete_params(none, *plugin)});
+    entries.push_back({"params", component.origin(), std::move(all)});
   }
 }
 

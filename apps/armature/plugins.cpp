@@ -197,7 +197,9 @@ int show_plugin(const std::string& id, bool json) {
   print_params(plugin->params);
   if (!plugin->slots.empty()) fmt::print("slots:\n");
   for (const auto& slot : plugin->slots) {
-    fmt::print("  {:<16} {:<12} {}\n", slot.name, slot.kind, slot.doc);
+    const std::string otherwise =
+        slot.otherwise.empty() ? "" : fmt::format(" (default {})", slot.otherwise);
+    fmt::print("  {:<16} {:<12} {}{}\n", slot.name, slot.kind, slot.doc, otherwise);
   }
   print_traits("needs", plugin->needs, plugin->params);
   print_traits("offers", plugin->offers, plugin->params);

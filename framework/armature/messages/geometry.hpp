@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
 
 #include "armature/messages/geometry_msgs.hpp"
 
@@ -38,6 +39,14 @@ inline void assign(msg::Quaternion& to, const Eigen::Quaterniond& q) {
   to.y_(q.y());
   to.z_(q.z());
   to.w_(q.w());
+}
+
+/// A 3 x 3 matrix, row by row.
+inline Eigen::Matrix3d to_eigen(const std::array<double, 9>& rows) {
+  return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>{rows.data()};
+}
+inline void assign(std::array<double, 9>& rows, const Eigen::Matrix3d& matrix) {
+  Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>{rows.data()} = matrix;
 }
 
 void assign(msg::Pose& to, const Eigen::Isometry3d& pose);

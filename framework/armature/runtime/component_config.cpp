@@ -30,6 +30,13 @@ std::optional<std::string> plugin_id(const Node& node, config::Problems& problem
   return std::nullopt;
 }
 
+/// What a deployment would have written to name plugin `id`.
+Node plugin_node_of(const std::string& id, const config::Origin& origin) {
+  std::vector<Node::Entry> entries;
+  entries.push_back({"plugin", origin, Node::scalar(id, true, origin)});
+  return Node::map(std::move(entries), origin);
+}
+
 }  // namespace
 
 const PluginManifest* ComponentReader::find_plugin(const std::string& id,
@@ -128,7 +135,7 @@ std::optional<ComponentConfig> ComponentReader::read(const Node::Entry& entry) c
     component.on_fault = stops ? OnFault::stop : OnFault::isolate;
   }
   read_params(map, *named, component);
-  if (!pure) read_slots(map, component);
+  read_slots(map, component);
   bind_documents(map, component);
   if (const Node* topics = map.optional_node("topics")) {
     const std::string prefix = topic_named(*topics, "'topics'", {});
@@ -174,7 +181,14 @@ void ComponentReader::read_params(MapReader& map, const PluginManifest& named,
 
 void ComponentReader::read_slots(MapReader& map, ComponentConfig& component) const {
   for (const SlotSpec& spec : component.manifest->slots) {
+    const bool is_filled = std::ranges::any_of(
+        component.slots, [&](const SlotConfig& slot) { return slot.name == spec.name; });
+    if (is_filled) continue;  // a host's own kind
     const Node* node = map.optional_node(spec.name);
+    if (!node && !spec.otherwise.empty()) {
+      read_slot(spec, plugin_node_of(spec.otherwise, component.origin), component);
+      continue;
+    }
     if (!node) {
       problems_.add(component.origin,
                     fmt::format("component '{}' needs a plugin in its slot '{}': add '{}: "

@@ -177,6 +177,7 @@ std::vector<SlotSpec> read_slots(const Node* table, const std::vector<UnitSpec>&
     MapReader map{value, fmt::format("slot '{}'", key), problems};
     slots.push_back({.name = key,
                      .kind = map.text("kind"),
+                     .otherwise = map.text("default", ""),
                      .doc = map.text("doc", ""),
                      .units = read_units_of(map, units)});
     map.finish();

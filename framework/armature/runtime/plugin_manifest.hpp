@@ -65,6 +65,7 @@ struct PortSpec {
 struct SlotSpec {
   std::string name;
   std::string kind;
+  std::string otherwise;  // the plugin that sits there when a deployment names none; empty: it must
   std::string doc;
   std::vector<std::string> units{std::string{kMainUnit}};  // each has an instance of its own
 };

@@ -5,28 +5,39 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
-#include <span>
 
 #include "armature/runtime/plugin.hpp"
 
 namespace armature::face_pose::three_point {
 namespace {
 
-// iBUG 300-W, 0-based. The paper counts from 1: 37-42, 43-48 and 61, 63, 65, 67.
-constexpr std::array kLeftEye{36, 37, 38, 39, 40, 41};
-constexpr std::array kRightEye{42, 43, 44, 45, 46, 47};
-constexpr std::array kMouth{60, 62, 64, 66};
+constexpr double kMinFacing = 0.05;  // cosine between normal and line of sight
 
-constexpr double kLeastNormalFacing = 0.05;  // cosine between normal and line of sight
+const char* name_of(FaceFeature feature) {
+  if (feature == FaceFeature::left_eye) return "left eye";
+  return feature == FaceFeature::right_eye ? "right eye" : "mouth";
+}
 
-// A real number: rounding it to a pixel, as the paper does, costs 8 degrees at a 24 mm baseline.
-Eigen::Vector2d mean(const FaceLandmarks& landmarks, std::span<const int> indices) {
-  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-  for (const int i : indices) sum += landmarks.points[static_cast<std::size_t>(i)];
-  return sum / static_cast<double>(indices.size());
+/// The derivative of a triangulated point by the column in the left image, the column in the right
+/// one and the mean row: the disparity d = left column - right column divides all three
+/// coordinates, the left column and the row move x and y by b / d.
+Eigen::Matrix3d triangulation_jacobian(const Eigen::Vector3d& point, double baseline,
+                                       double disparity) {
+  const double step = baseline / disparity;
+  Eigen::Matrix3d jacobian;
+  jacobian.col(0) = -point / disparity + Eigen::Vector3d{step, 0, 0};
+  jacobian.col(1) = point / disparity;
+  jacobian.col(2) = Eigen::Vector3d{0, step, 0};
+  return jacobian;
+}
+
+/// v x ... as a matrix.
+Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
+  Eigen::Matrix3d matrix;
+  matrix << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return matrix;
 }
 
 }  // namespace
@@ -35,71 +46,82 @@ Expected<std::unique_ptr<FacePoseEstimator>> ThreePoint::make(const Params& para
   return std::make_unique<ThreePoint>(Parameters::read(params));
 }
 
-Expected<Eigen::Vector3d> ThreePoint::triangulate(const char* feature, const StereoCamera& camera,
-                                                  const Eigen::Vector2d& left,
-                                                  const Eigen::Vector2d& right) const {
-  if (!left.allFinite() || !right.allFinite()) {
-    return refuse(fmt::format("the {} has no finite pixel", feature));
+// The centres are real numbers: rounding them to pixels, as the paper does, costs 8 degrees at a
+// 24 mm baseline.
+Expected<ThreePoint::Point> ThreePoint::triangulate(FaceFeature feature,
+                                                    const FacePoseInput& input) const {
+  const StereoCamera& camera = input.camera;
+  const Landmark left = input.landmarks.left.feature(feature);
+  const Landmark right = input.landmarks.right.feature(feature);
+  if (!left.point.allFinite() || !right.point.allFinite()) {
+    return refuse(fmt::format("the {} has no finite pixel", name_of(feature)));
   }
-  const double rows = std::abs(left.y() - right.y());
-  if (rows > parameters_.most_row_mismatch) {
+  if (!std::isfinite(left.sigma) || !std::isfinite(right.sigma)) {
+    return refuse(fmt::format("the {} has no finite sigma", name_of(feature)));
+  }
+  const double rows = std::abs(left.point.y() - right.point.y());
+  if (rows > parameters_.max_epipolar_error) {
     return refuse(fmt::format("the {} differs by {:.1f} rows between the images, more than {:.1f}",
-                              feature, rows, parameters_.most_row_mismatch));
+                              name_of(feature), rows, parameters_.max_epipolar_error));
   }
-  const double disparity = left.x() - right.x();
+  const double disparity = left.point.x() - right.point.x();
   if (disparity <= 0) {
-    return refuse(
-        fmt::format("the {} has a disparity of {:.2f} px, not a positive one", feature, disparity));
+    return refuse(fmt::format("the {} has a disparity of {:.2f} px, not a positive one",
+                              name_of(feature), disparity));
   }
-  const Eigen::Vector3d point = camera.triangulate(left, right);
-  if (point.z() < parameters_.nearest || point.z() > parameters_.farthest) {
-    return refuse(fmt::format("the {} would be {:.3f} m away, outside {} to {} m", feature,
-                              point.z(), parameters_.nearest, parameters_.farthest));
+  const Eigen::Vector3d point = camera.triangulate(left.point, right.point);
+  if (point.z() < parameters_.min_depth || point.z() > parameters_.max_depth) {
+    return refuse(fmt::format("the {} would be {:.3f} m away, outside {} to {} m", name_of(feature),
+                              point.z(), parameters_.min_depth, parameters_.max_depth));
   }
-  return point;
+  const Eigen::Matrix3d jacobian = triangulation_jacobian(point, camera.baseline_m, disparity);
+  const double left_variance = left.sigma * left.sigma, right_variance = right.sigma * right.sigma;
+  const Eigen::Vector3d variances{left_variance, right_variance,
+                                  0.25 * (left_variance + right_variance)};
+  return Point{.at = point, .covariance = jacobian * variances.asDiagonal() * jacobian.transpose()};
 }
 
-Expected<FacePose> ThreePoint::estimate(const FacePoseInput& input) {
-  const FaceLandmarks &left = input.landmarks.left, &right = input.landmarks.right;
-  const auto left_eye =
-      triangulate("left eye", input.camera, mean(left, kLeftEye), mean(right, kLeftEye));
+Expected<FacePose> ThreePoint::estimate(const FacePoseInput& input, PluginState&) {
+  const auto left_eye = triangulate(FaceFeature::left_eye, input);
   if (!left_eye) return tl::unexpected{left_eye.error()};
-  const auto right_eye =
-      triangulate("right eye", input.camera, mean(left, kRightEye), mean(right, kRightEye));
+  const auto right_eye = triangulate(FaceFeature::right_eye, input);
   if (!right_eye) return tl::unexpected{right_eye.error()};
-  const auto mouth = triangulate("mouth", input.camera, mean(left, kMouth), mean(right, kMouth));
+  const auto mouth = triangulate(FaceFeature::mouth, input);
   if (!mouth) return tl::unexpected{mouth.error()};
 
-  const double eye_distance = (*right_eye - *left_eye).norm();
-  if (eye_distance < parameters_.least_eye_distance ||
-      eye_distance > parameters_.most_eye_distance) {
+  const double eye_distance = (right_eye->at - left_eye->at).norm();
+  if (eye_distance < parameters_.min_eye_distance || eye_distance > parameters_.max_eye_distance) {
     return refuse(fmt::format("the eyes would be {:.1f} mm apart, outside {:.0f} to {:.0f} mm",
-                              eye_distance * 1e3, parameters_.least_eye_distance * 1e3,
-                              parameters_.most_eye_distance * 1e3));
+                              eye_distance * 1e3, parameters_.min_eye_distance * 1e3,
+                              parameters_.max_eye_distance * 1e3));
   }
 
   // (14) is a cross product; this order points out of the face.
-  const Eigen::Vector3d across = (*right_eye - *mouth).cross(*left_eye - *mouth);
-  const double double_area = across.norm();
-  const Eigen::Vector3d normal = across / double_area;
-  const double facing = -normal.dot(mouth->normalized());
-  if (!(facing > kLeastNormalFacing)) {
+  const Eigen::Vector3d to_right = right_eye->at - mouth->at, to_left = left_eye->at - mouth->at;
+  const Eigen::Vector3d across = to_right.cross(to_left);
+  const Eigen::Vector3d normal = across.normalized();
+  const double facing = -normal.dot(mouth->at.normalized());
+  if (!(facing > kMinFacing)) {
     return refuse(fmt::format("the face would be seen from {:.0f} degrees aside, or from behind",
                               std::acos(std::clamp(facing, -1.0, 1.0)) * 180 / std::numbers::pi));
   }
 
-  // dz = z^2 / (f b) dd, and the disparity of two independent features has sqrt(2) of their sigma.
-  // The normal turns by the depth error over the lever between eyes and mouth.
-  const double depth_sigma = std::numbers::sqrt2 * parameters_.landmark_sigma * mouth->z() *
-                             mouth->z() / (input.camera.focal_px * input.camera.baseline_m);
-  const double lever = double_area / eye_distance;
-  return FacePose{.left_eye = *left_eye,
-                  .right_eye = *right_eye,
-                  .mouth = *mouth,
+  // The normal's derivative by each of the three points.
+  const Eigen::Matrix3d unit =
+      (Eigen::Matrix3d::Identity() - normal * normal.transpose()) / across.norm();
+  const Eigen::Matrix3d by_right = -unit * cross_matrix(to_left);
+  const Eigen::Matrix3d by_left = unit * cross_matrix(to_right);
+  const Eigen::Matrix3d by_mouth = -by_right - by_left;
+  return FacePose{.left_eye = left_eye->at,
+                  .right_eye = right_eye->at,
+                  .mouth = mouth->at,
                   .normal = normal,
-                  .mouth_sigma_m = depth_sigma,
-                  .normal_sigma_rad = depth_sigma * std::hypot(std::numbers::sqrt2 / eye_distance,
-                                                               std::sqrt(1.5) / lever)};
+                  .left_eye_covariance = left_eye->covariance,
+                  .right_eye_covariance = right_eye->covariance,
+                  .mouth_covariance = mouth->covariance,
+                  .normal_covariance = by_right * right_eye->covariance * by_right.transpose() +
+                                       by_left * left_eye->covariance * by_left.transpose() +
+                                       by_mouth * mouth->covariance * by_mouth.transpose()};
 }
 
 }  // namespace armature::face_pose::three_point

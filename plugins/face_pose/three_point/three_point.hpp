@@ -15,12 +15,15 @@ class ThreePoint final : public FacePoseEstimator {
   explicit ThreePoint(const Parameters& parameters) : parameters_{parameters} {}
   static Expected<std::unique_ptr<FacePoseEstimator>> make(const Params& params);
 
-  Expected<FacePose> estimate(const FacePoseInput& input) override;
+  Expected<FacePose> estimate(const FacePoseInput& input, PluginState& state) override;
 
  private:
-  Expected<Eigen::Vector3d> triangulate(const char* feature, const StereoCamera& camera,
-                                        const Eigen::Vector2d& left,
-                                        const Eigen::Vector2d& right) const;
+  /// A point of the left camera's frame [m] and its covariance [m2].
+  struct Point {
+    Eigen::Vector3d at;
+    Eigen::Matrix3d covariance;
+  };
+  Expected<Point> triangulate(FaceFeature feature, const FacePoseInput& input) const;
 
   Parameters parameters_;
 };

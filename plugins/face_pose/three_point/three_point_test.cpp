@@ -37,12 +37,12 @@ struct Features {
   Vector2d left_eye, right_eye, mouth;
 };
 
-FaceLandmarks landmarks(const Features& features) {
+FaceLandmarks landmarks(const Features& features, double sigma = 0.3) {
   FaceLandmarks face;
-  face.points.fill(Vector2d::Zero());
-  for (std::size_t i = 36; i <= 41; ++i) face.points[i] = features.left_eye;
-  for (std::size_t i = 42; i <= 47; ++i) face.points[i] = features.right_eye;
-  for (const std::size_t i : {60, 62, 64, 66}) face.points[i] = features.mouth;
+  face.points.assign(68, {.point = Vector2d::Zero(), .sigma = sigma});
+  for (std::size_t i = 36; i <= 41; ++i) face.points[i].point = features.left_eye;
+  for (std::size_t i = 42; i <= 47; ++i) face.points[i].point = features.right_eye;
+  for (const std::size_t i : {60, 62, 64, 66}) face.points[i].point = features.mouth;
   return face;
 }
 
@@ -57,9 +57,10 @@ double angle(const Vector3d& a, const Vector3d& b) {
 
 TEST(ThreePoint, AveragesLandmarksWithoutRounding) {
   ThreePoint estimator{{}};
+  PluginState state;
   FacePoseInput in = exact_face(kDefault, placed({0, 0, 0.5}, 0, 0));
-  in.landmarks.left.points[60].x() += 0.8;  // one of four
-  const auto face = estimator.estimate(in);
+  in.landmarks.left.points[60].point.x() += 0.8;  // one of four
+  const auto face = estimator.estimate(in, state);
   ASSERT_TRUE(face);
   const double disparity = 914 * 0.12 / 0.5 + 0.2;
   EXPECT_NEAR(face->mouth.z(), 914 * 0.12 / disparity, 1e-12);
@@ -69,12 +70,13 @@ TEST(ThreePoint, AveragesLandmarksWithoutRounding) {
 // origin between the cameras.
 TEST(ThreePoint, GivesThePapersCoordinatesAndNormal) {
   ThreePoint estimator{{}};
+  PluginState state;
   const FacePoseInput in{.left = {},
                          .right = {},
                          .landmarks = {landmarks({{438, 353}, {603, 351}, {523, 498}}),
                                        landmarks({{400, 353}, {565, 350}, {484, 498}})},
                          .camera = kPaper};
-  const auto face = estimator.estimate(in);
+  const auto face = estimator.estimate(in, state);
   ASSERT_TRUE(face) << face.error().text;
   const auto frame7 = [](const Vector3d& p) {
     return Vector3d{p.z(), -p.y(), p.x() - 0.5 * kPaper.baseline_m};
@@ -91,30 +93,36 @@ TEST(ThreePoint, GivesThePapersCoordinatesAndNormal) {
 
 TEST(ThreePoint, StatesTheUncertaintyThatNoiseProduces) {
   for (const StereoCamera& camera : {kDefault, kPaper}) {
-    ThreePoint estimator{{.landmark_sigma = 0.1}};
+    ThreePoint estimator{{}};
+    PluginState state;
     std::mt19937_64 random{99};
     std::normal_distribution<double> noise{0, 0.1};
-    const auto pose = placed({0, 0, 0.5}, 0, 0);
-    double mouth = 0, normal = 0;
-    FacePose last{};
+    const auto pose = placed({0.1, 0.05, 0.5}, 0.3, 0.2);
+    Eigen::Matrix3d mouth = Eigen::Matrix3d::Zero(), normal = Eigen::Matrix3d::Zero();
+    FacePoseInput still = exact_face(camera, pose);
+    for (FaceLandmarks* face : {&still.landmarks.left, &still.landmarks.right}) {
+      for (Landmark& landmark : face->points) landmark.sigma = 0.1;
+    }
+    const FacePose exact = estimator.estimate(still, state).value();
     constexpr int kRuns = 4000;
     for (int i = 0; i < kRuns; ++i) {
       const auto noisy = [&](const Vector2d& p) {
         return Vector2d{p.x() + noise(random), p.y() + noise(random)};
       };
       const auto features = [&](const FaceLandmarks& f) {
-        return landmarks({noisy(f.points[36]), noisy(f.points[42]), noisy(f.points[60])});
+        return landmarks(
+            {noisy(f.points[36].point), noisy(f.points[42].point), noisy(f.points[60].point)});
       };
       FacePoseInput in = exact_face(camera, pose);
       in.landmarks = {features(in.landmarks.left), features(in.landmarks.right)};
-      const auto face = estimator.estimate(in);
+      const auto face = estimator.estimate(in, state);
       ASSERT_TRUE(face) << face.error().text;
-      last = *face;
-      mouth += std::pow(face->mouth.z() - 0.5, 2);
-      normal += std::pow(angle(face->normal, -Vector3d::UnitZ()), 2);
+      const Vector3d mouth_error = face->mouth - exact.mouth, turn = face->normal - exact.normal;
+      mouth += mouth_error * mouth_error.transpose() / kRuns;
+      normal += turn * turn.transpose() / kRuns;
     }
-    EXPECT_NEAR(std::sqrt(mouth / kRuns) / last.mouth_sigma_m, 1, 0.1);
-    EXPECT_NEAR(std::sqrt(normal / kRuns) / last.normal_sigma_rad, 1, 0.15);
+    EXPECT_LT((mouth - exact.mouth_covariance).norm(), 0.1 * exact.mouth_covariance.norm());
+    EXPECT_LT((normal - exact.normal_covariance).norm(), 0.15 * exact.normal_covariance.norm());
   }
 }
 
@@ -128,15 +136,17 @@ class ThreePointGuards : public testing::TestWithParam<Guard> {};
 
 TEST_P(ThreePointGuards, RefuseWithTheReason) {
   ThreePoint estimator{{}};
+  PluginState state;
   FacePoseInput in = exact_face(kDefault, placed({0, 0, 0.5}, 0, 0));
   GetParam().spoil(in);
-  const auto face = estimator.estimate(in);
+  const auto face = estimator.estimate(in, state);
   ASSERT_FALSE(face);
   EXPECT_THAT(face.error().text, testing::HasSubstr(GetParam().reason));
 }
 
 void shift_mouth(FacePoseInput& in, double du, double dv) {
-  for (const std::size_t i : {60, 62, 64, 66}) in.landmarks.right.points[i] += Vector2d{du, dv};
+  for (const std::size_t i : {60, 62, 64, 66})
+    in.landmarks.right.points[i].point += Vector2d{du, dv};
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -176,12 +186,12 @@ TEST(ThreePointParams, RefuseLimitsThatExcludeEachOther) {
     }
     return std::string{};
   };
-  EXPECT_EQ(refusal("{nearest_m: 0.3, farthest_m: 0.5}"), "");
+  EXPECT_EQ(refusal("{min_depth_m: 0.3, max_depth_m: 0.5}"), "");
   EXPECT_EQ(
-      refusal("nearest_m: 3"),
-      "given:1:12: 'nearest_m' is 3, not below 'farthest_m', which is 2: no face would be seen");
-  EXPECT_EQ(refusal("most_eye_distance_mm: 20"),
-            "given:1:23: 'least_eye_distance_mm' is 30, not below 'most_eye_distance_mm', which is "
+      refusal("min_depth_m: 3"),
+      "given:1:14: 'min_depth_m' is 3, not below 'max_depth_m', which is 2: no face would be seen");
+  EXPECT_EQ(refusal("max_eye_distance_mm: 20"),
+            "given:1:22: 'min_eye_distance_mm' is 30, not below 'max_eye_distance_mm', which is "
             "20: no eyes would do");
 }
 

@@ -5,8 +5,10 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "armature/runtime/plugin.hpp"
 
@@ -26,7 +28,7 @@ constexpr double kDegreesPerRadian = 180 / std::numbers::pi;
 constexpr double kSmoothing = 0.4;        // weight of the newest innovation
 constexpr double kSettledSurprise = 1.5;  // moving -> still, and
 constexpr double kSettledRates = 1.3;     // normalised square of the rates: 1 for a still target
-constexpr double kLeastSigma_m = 1e-6, kLeastSigma_rad = 1e-6;
+constexpr double kMinVariance = 1e-12;    // [m2], [rad2]
 
 /// Over dt, positions go on with their rates; `decay` is what is left of a rate.
 void carry_on(Vector12& mean, double dt, double decay) {
@@ -58,13 +60,19 @@ void add_process_noise(Matrix12& covariance, int block, double dt, double rate,
   covariance.block<3, 3>(block + 3, block + 3).diagonal().array() += acceleration * dt2 + rate;
 }
 
+/// The covariances of position and normal. Along the normal, where a direction has none, it takes
+/// what it has across, so that the length that noise seems to give a direction is no surprise.
 Matrix6 measurement_noise(const TargetMeasurement& m) {
-  const double position = std::max(m.position_sigma_m, kLeastSigma_m);
-  const double normal = std::max(m.normal_sigma_rad, kLeastSigma_rad);
-  Matrix6 r = Matrix6::Zero();
-  r.topLeftCorner<3, 3>().diagonal().setConstant(position * position);
-  r.bottomRightCorner<3, 3>().diagonal().setConstant(normal * normal);
+  Matrix6 r = kMinVariance * Matrix6::Identity();
+  r.topLeftCorner<3, 3>() += m.position_covariance;
+  r.bottomRightCorner<3, 3>() +=
+      m.normal_covariance + 0.5 * m.normal_covariance.trace() * m.normal * m.normal.transpose();
   return r;
+}
+
+bool is_sound(const TargetMeasurement& m) {
+  return m.position.allFinite() && m.normal.allFinite() && m.position_covariance.allFinite() &&
+         m.normal_covariance.allFinite() && m.normal.norm() >= 0.5;
 }
 
 /// Rows and columns of what is measured.
@@ -86,11 +94,11 @@ struct Innovation {
   double normalised;  // value' S^-1 value
 };
 
-Innovation innovation(const TargetMeasurement& m, const TargetFilter::State& state) {
+Innovation innovation(const TargetMeasurement& m, const Vector12& mean,
+                      const Matrix12& covariance) {
   Innovation result;
-  result.value << m.position - state.mean.segment<3>(kPosition),
-      m.normal - state.mean.segment<3>(kNormal);
-  result.gain_numerator = measured_columns(state.covariance);
+  result.value << m.position - mean.segment<3>(kPosition), m.normal - mean.segment<3>(kNormal);
+  result.gain_numerator = measured_columns(covariance);
   const Matrix6 s = measured_block(result.gain_numerator) + measurement_noise(m);
   result.covariance.compute(s);
   result.normalised = result.value.dot(result.covariance.solve(result.value));
@@ -98,102 +106,158 @@ Innovation innovation(const TargetMeasurement& m, const TargetFilter::State& sta
 }
 
 /// Are the rates larger than their uncertainty explains?
-bool has_rates(const TargetFilter::State& state) {
+bool has_rates(const Vector12& mean, const Matrix12& covariance) {
   Vector6 rates;
-  rates << state.mean.segment<3>(kVelocity), state.mean.segment<3>(kNormalRate);
+  rates << mean.segment<3>(kVelocity), mean.segment<3>(kNormalRate);
   Vector6 variances;
-  variances << state.covariance.diagonal().segment<3>(kVelocity),
-      state.covariance.diagonal().segment<3>(kNormalRate);
+  variances << covariance.diagonal().segment<3>(kVelocity),
+      covariance.diagonal().segment<3>(kNormalRate);
   return rates.cwiseAbs2().cwiseQuotient(variances).mean() > kSettledRates;
 }
 
-TargetEstimate estimate_of(const TargetFilter::State& state) {
-  const Eigen::Vector3d normal = state.mean.segment<3>(kNormal).normalized();
-  const Eigen::Vector3d rate = state.mean.segment<3>(kNormalRate);
-  return {.stamp = state.stamp,
-          .position = state.mean.segment<3>(kPosition),
+TargetEstimate estimate_of(Time stamp, int measurements, const Vector12& mean) {
+  const Eigen::Vector3d normal = mean.segment<3>(kNormal).normalized();
+  const Eigen::Vector3d rate = mean.segment<3>(kNormalRate);
+  return {.stamp = stamp,
+          .position = mean.segment<3>(kPosition),
           .normal = normal,
-          .velocity = state.mean.segment<3>(kVelocity),
+          .velocity = mean.segment<3>(kVelocity),
           .normal_rate = rate - normal * normal.dot(rate),
-          .measurements = state.measurements};
+          .measurements = measurements};
 }
 
+/// What is remembered, as plain numbers.
+struct Memory {
+  static constexpr auto kLayout = layout_id("target/constant_velocity", 1);
+  Time stamp;
+  int measurements, rejected;
+  double surprise;
+  bool moving;
+  std::array<double, 12> mean;
+  std::array<double, 144> covariance;
+};
+
 }  // namespace
+
+/// What the filter believes of the target.
+struct ConstantVelocity::Belief {
+  Time stamp;
+  int measurements = 1;
+  int rejected = 0;     // in a row
+  double surprise = 1;  // smoothed normalised innovation: about 1 while the model holds
+  bool moving = false;
+  Vector12 mean = Vector12::Zero();
+  Matrix12 covariance = Matrix12::Zero();
+
+  static std::optional<Belief> in(const PluginState& state) {
+    const Memory* m = state.get<Memory>();
+    if (!m) return std::nullopt;
+    return Belief{m->stamp,
+                  m->measurements,
+                  m->rejected,
+                  m->surprise,
+                  m->moving,
+                  Eigen::Map<const Vector12>{m->mean.data()},
+                  Eigen::Map<const Matrix12>{m->covariance.data()}};
+  }
+  void keep_in(PluginState& state) const {
+    Memory m{.stamp = stamp,
+             .measurements = measurements,
+             .rejected = rejected,
+             .surprise = surprise,
+             .moving = moving,
+             .mean = {},
+             .covariance = {}};
+    Eigen::Map<Vector12>{m.mean.data()} = mean;
+    Eigen::Map<Matrix12>{m.covariance.data()} = covariance;
+    state.set(m);
+  }
+};
 
 Expected<std::unique_ptr<TargetFilter>> ConstantVelocity::make(const Params& params) {
   return std::make_unique<ConstantVelocity>(Parameters::read(params));
 }
 
-void ConstantVelocity::start(const TargetMeasurement& measurement, State& state) const {
-  state = State{};
-  state.started = true;
-  state.stamp = measurement.stamp;
-  state.measurements = 1;
-  state.mean.segment<3>(kPosition) = measurement.position;
-  state.mean.segment<3>(kNormal) = measurement.normal;
+ConstantVelocity::Belief ConstantVelocity::started_at(const TargetMeasurement& measurement) const {
+  Belief belief{.stamp = measurement.stamp};
+  belief.mean.segment<3>(kPosition) = measurement.position;
+  belief.mean.segment<3>(kNormal) = measurement.normal;
   const Matrix6 r = measurement_noise(measurement);
-  const auto squared = [](double x) { return x * x; };
-  state.covariance.diagonal() << r.diagonal().head<3>(),
-      Eigen::Vector3d::Constant(squared(parameters_.still_speed)), r.diagonal().tail<3>(),
-      Eigen::Vector3d::Constant(squared(parameters_.still_turn));
+  const auto variance = [](double x) { return x * x * Eigen::Matrix3d::Identity(); };
+  belief.covariance.block<3, 3>(kPosition, kPosition) = r.topLeftCorner<3, 3>();
+  belief.covariance.block<3, 3>(kVelocity, kVelocity) = variance(parameters_.still_speed);
+  belief.covariance.block<3, 3>(kNormal, kNormal) = r.bottomRightCorner<3, 3>();
+  belief.covariance.block<3, 3>(kNormalRate, kNormalRate) = variance(parameters_.still_turn);
+  return belief;
 }
 
-void ConstantVelocity::advance(State& state, double dt_s, bool moving) const {
+void ConstantVelocity::advance(Belief& belief, double dt_s, bool moving) const {
   const double decay = moving ? 1.0 : std::exp(-dt_s / parameters_.decay);
-  carry_on(state.mean, dt_s, decay);
-  carry_on(state.covariance, dt_s, decay);
+  carry_on(belief.mean, dt_s, decay);
+  carry_on(belief.covariance, dt_s, decay);
   const auto noise = [&](int block, double still, double acceleration) {
     // What decays comes back as noise, so that a still target's rates keep their variance.
     const double rate = moving ? 0 : still * still * (1 - decay * decay);
-    add_process_noise(state.covariance, block, dt_s, rate,
+    add_process_noise(belief.covariance, block, dt_s, rate,
                       moving ? acceleration * acceleration : 0);
   };
   noise(kPosition, parameters_.still_speed, parameters_.acceleration);
   noise(kNormal, parameters_.still_turn, parameters_.turn_acceleration);
-  state.stamp = state.stamp + seconds(dt_s);
+  belief.stamp = belief.stamp + seconds(dt_s);
 }
 
 Expected<TargetEstimate> ConstantVelocity::update(const TargetMeasurement& measurement,
-                                                  State& state) const {
-  if (!measurement.position.allFinite() || !measurement.normal.allFinite() ||
-      !std::isfinite(measurement.position_sigma_m) ||
-      !std::isfinite(measurement.normal_sigma_rad) || measurement.normal.norm() < 0.5) {
+                                                  PluginState& state) const {
+  if (!is_sound(measurement)) {
     return refuse("the measurement is not finite, or its normal is no unit vector");
   }
-  const double dt = to_seconds(measurement.stamp - state.stamp);
-  if (!state.started || dt > parameters_.max_gap) {
-    start(measurement, state);
-    return estimate_of(state);
+  std::optional<Belief> belief = Belief::in(state);
+  if (!belief || to_seconds(measurement.stamp - belief->stamp) > parameters_.max_gap) {
+    belief = started_at(measurement);
+    belief->keep_in(state);
+    return estimate_of(belief->stamp, belief->measurements, belief->mean);
   }
+  const Expected<Belief> next = updated(measurement, *belief);
+  (next ? *next : *belief).keep_in(state);
+  return next.map([](const Belief& b) { return estimate_of(b.stamp, b.measurements, b.mean); });
+}
+
+/// The next belief, or why the measurement was rejected, which `belief` counts.
+Expected<ConstantVelocity::Belief> ConstantVelocity::updated(const TargetMeasurement& measurement,
+                                                             Belief& belief) const {
+  const double dt = to_seconds(measurement.stamp - belief.stamp);
   if (dt <= 0) {
     return refuse(fmt::format("the measurement is {:.1f} ms older than the newest one", -dt * 1e3));
   }
 
-  State still = state, moving = state;
+  Belief still = belief, moving = belief;
   advance(still, dt, false);
   advance(moving, dt, true);
-  const Vector6 off = innovation(measurement, moving).value;
+  const auto innovation_of = [&](const Belief& b) {
+    return innovation(measurement, b.mean, b.covariance);
+  };
+  const Vector6 off = innovation_of(moving).value;
   const double distance = off.head<3>().norm();
   const double angle = 2 * std::asin(std::min(0.5 * off.tail<3>().norm(), 1.0));
   if (distance > parameters_.outlier_position || angle > parameters_.outlier_angle) {
-    if (++state.rejected < parameters_.restart_after) {
+    if (++belief.rejected < parameters_.restart_after) {
       return refuse(
           fmt::format("outlier: {:.0f} mm and {:.0f} degrees from where the target "
                       "should be, more than {:.0f} mm or {:.0f} degrees",
                       distance * 1e3, angle * kDegreesPerRadian, parameters_.outlier_position * 1e3,
                       parameters_.outlier_angle * kDegreesPerRadian));
     }
-    start(measurement, state);
-    return estimate_of(state);
+    return started_at(measurement);
   }
 
-  const double surprise = innovation(measurement, still).normalised / kDegreesOfFreedom;
-  const double smoothed = state.surprise + kSmoothing * (surprise - state.surprise);
-  const bool is_moving = state.moving ? smoothed > kSettledSurprise || has_rates(state)
-                                      : smoothed > parameters_.surprise;
+  const double surprise = innovation_of(still).normalised / kDegreesOfFreedom;
+  const double smoothed = belief.surprise + kSmoothing * (surprise - belief.surprise);
+  const bool is_moving =
+      belief.moving ? smoothed > kSettledSurprise || has_rates(belief.mean, belief.covariance)
+                    : smoothed > parameters_.surprise;
 
-  State next = is_moving ? moving : still;
-  const Innovation i = innovation(measurement, next);
+  Belief next = is_moving ? moving : still;
+  const Innovation i = innovation_of(next);
   const Matrix12x6 gain = i.covariance.solve(i.gain_numerator.transpose()).transpose();
   next.mean += gain * i.value;
   next.covariance -= gain * i.gain_numerator.transpose();
@@ -204,22 +268,20 @@ Expected<TargetEstimate> ConstantVelocity::update(const TargetMeasurement& measu
   next.surprise = smoothed;
   next.moving = is_moving;
   ++next.measurements;
-  state = next;
-  return estimate_of(state);
+  return next;
 }
 
-Expected<TargetEstimate> ConstantVelocity::predict(Time when, const State& state) const {
-  if (!state.started) return refuse("no measurement yet");
-  const double dt = to_seconds(when - state.stamp);
+Expected<TargetEstimate> ConstantVelocity::predict(Time when, const PluginState& state) const {
+  const std::optional<Belief> belief = Belief::in(state);
+  if (!belief) return refuse("no measurement yet");
+  const double dt = to_seconds(when - belief->stamp);
   if (dt > parameters_.max_gap) {
     return refuse(
         fmt::format("{:.2f} s without a measurement, more than {:.2f} s", dt, parameters_.max_gap));
   }
-  State later = state;
-  const double decay = state.moving ? 1.0 : std::exp(-dt / parameters_.decay);
-  carry_on(later.mean, dt, decay);
-  later.stamp = when;
-  return estimate_of(later);
+  Vector12 mean = belief->mean;
+  carry_on(mean, dt, belief->moving ? 1.0 : std::exp(-dt / parameters_.decay));
+  return estimate_of(when, belief->measurements, mean);
 }
 
 }  // namespace armature::target::constant_velocity

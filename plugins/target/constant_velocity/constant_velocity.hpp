@@ -18,12 +18,14 @@ class ConstantVelocity final : public TargetFilter {
   static Expected<std::unique_ptr<TargetFilter>> make(const Params& params);
 
   Expected<TargetEstimate> update(const TargetMeasurement& measurement,
-                                  State& state) const override;
-  Expected<TargetEstimate> predict(Time when, const State& state) const override;
+                                  PluginState& state) const override;
+  Expected<TargetEstimate> predict(Time when, const PluginState& state) const override;
 
  private:
-  void start(const TargetMeasurement& measurement, State& state) const;
-  void advance(State& state, double dt_s, bool moving) const;
+  struct Belief;
+  Belief started_at(const TargetMeasurement& measurement) const;
+  Expected<Belief> updated(const TargetMeasurement& measurement, Belief& belief) const;
+  void advance(Belief& belief, double dt_s, bool moving) const;
 
   Parameters parameters_;
 };

@@ -38,8 +38,9 @@ class Camera {
     return {.stamp = Time{} + seconds(t_s),
             .position = position + position_ * noise(),
             .normal = (normal + normal_ * noise()).normalized(),
-            .position_sigma_m = position_,
-            .normal_sigma_rad = normal_};
+            .position_covariance = position_ * position_ * Eigen::Matrix3d::Identity(),
+            .normal_covariance =
+                normal_ * normal_ * (Eigen::Matrix3d::Identity() - normal * normal.transpose())};
   }
 
  private:
@@ -59,7 +60,7 @@ TEST(ConstantVelocity, AveragesAStillTarget) {
   for (int run = 0; run < kRuns; ++run) {
     SCOPED_TRACE(run);
     Camera camera{static_cast<std::uint64_t>(run), 0.0015, 1.5 * kDegree};
-    TargetFilter::State state;
+    PluginState state;
     TargetEstimate estimate{};
     for (int i = 0; i < 20; ++i) {
       const auto updated = filter.update(camera.look(0.1 * i, kMouth, kNormal), state);
@@ -86,7 +87,7 @@ struct Follow {
 Follow follow_a_move(std::uint64_t seed, double position_sigma, double normal_sigma) {
   const ConstantVelocity filter{{}};
   Camera camera{seed, position_sigma, normal_sigma};
-  TargetFilter::State state;
+  PluginState state;
   Follow result;
   for (int i = 0; i <= 70; ++i) {
     const double t = 0.1 * i, s = std::clamp(t - 4.05, 0.0, 1.0);
@@ -139,7 +140,7 @@ TEST(ConstantVelocity, FollowsThroughThePapersNoise) {
 TEST(ConstantVelocity, RejectsOneOutlierAndSaysHowFarItIs) {
   const ConstantVelocity filter{{}};
   Camera camera{1, 0.001, 1 * kDegree};
-  TargetFilter::State state;
+  PluginState state;
   for (int i = 0; i < 10; ++i)
     ASSERT_TRUE(filter.update(camera.look(0.1 * i, kMouth, kNormal), state));
   const auto outlier =
@@ -157,7 +158,7 @@ TEST(ConstantVelocity, RejectsOneOutlierAndSaysHowFarItIs) {
 TEST(ConstantVelocity, StartsAgainWhereATargetStays) {
   const ConstantVelocity filter{{}};
   Camera camera{1, 0.001, 1 * kDegree};
-  TargetFilter::State state;
+  PluginState state;
   for (int i = 0; i < 10; ++i)
     ASSERT_TRUE(filter.update(camera.look(0.1 * i, kMouth, kNormal), state));
   const Vector3d elsewhere = kMouth + Vector3d{0, 0.4, 0};
@@ -173,7 +174,7 @@ TEST(ConstantVelocity, StartsAgainWhereATargetStays) {
 TEST(ConstantVelocity, PredictsAlongTheVelocity) {
   const ConstantVelocity filter{{}};
   Camera camera{1, 0.0002, 0.1 * kDegree};
-  TargetFilter::State state;
+  PluginState state;
   const Vector3d velocity{0.02, -0.1, 0.05};
   for (int i = 0; i < 30; ++i) {
     filter.update(camera.look(0.1 * i, kMouth + 0.1 * i * velocity, kNormal), state);
@@ -187,7 +188,7 @@ TEST(ConstantVelocity, PredictsAlongTheVelocity) {
 
 TEST(ConstantVelocity, PredictsNoFurtherThanItsGap) {
   const ConstantVelocity filter{{}};
-  TargetFilter::State state;
+  PluginState state;
   EXPECT_EQ(filter.predict(Time{}, state).error().text, "no measurement yet");
   Camera camera{1, 0.001, 1 * kDegree};
   ASSERT_TRUE(filter.update(camera.look(1, kMouth, kNormal), state));
@@ -198,7 +199,7 @@ TEST(ConstantVelocity, PredictsNoFurtherThanItsGap) {
 
 TEST(ConstantVelocity, StartsAgainAfterTheGap) {
   const ConstantVelocity filter{{}};
-  TargetFilter::State state;
+  PluginState state;
   Camera camera{1, 0.001, 1 * kDegree};
   ASSERT_TRUE(filter.update(camera.look(1, kMouth, kNormal), state));
   const auto again = filter.update(camera.look(2.5, kMouth + Vector3d{0.5, 0, 0}, kNormal), state);
@@ -209,7 +210,7 @@ TEST(ConstantVelocity, StartsAgainAfterTheGap) {
 TEST(ConstantVelocity, SaysWhatIsWrongWithAMeasurement) {
   const ConstantVelocity filter{{}};
   Camera camera{5, 0.001, 1 * kDegree};
-  TargetFilter::State state;
+  PluginState state;
   ASSERT_TRUE(filter.update(camera.look(1, kMouth, kNormal), state));
   auto bad = camera.look(1.1, kMouth, kNormal);
   bad.position.x() = NAN;

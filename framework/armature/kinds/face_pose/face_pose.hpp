@@ -8,16 +8,21 @@
 #include "armature/kinds/made_for_robot.hpp"
 #include "armature/robot/stereo_camera.hpp"
 #include "armature/values/expected.hpp"
+#include "armature/values/plugin_state.hpp"
 
 namespace armature {
 
 /// A face in the left camera's optical frame, [m]. "left" and "right" are sides of the image: the
 /// image's left eye is the subject's right one (iBUG 36-41).
 struct FacePose {
-  Eigen::Vector3d left_eye, right_eye, mouth;
-  Eigen::Vector3d normal;    // unit, out of the face, towards the camera
-  double mouth_sigma_m = 0;  // 1-sigma of the mouth position along the line of sight
-  double normal_sigma_rad = 0;
+  Eigen::Vector3d left_eye = Eigen::Vector3d::Zero();
+  Eigen::Vector3d right_eye = Eigen::Vector3d::Zero();
+  Eigen::Vector3d mouth = Eigen::Vector3d::Zero();
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  // unit, out of the face, towards the camera
+  Eigen::Matrix3d left_eye_covariance = Eigen::Matrix3d::Zero();   // [m2]
+  Eigen::Matrix3d right_eye_covariance = Eigen::Matrix3d::Zero();  // [m2]
+  Eigen::Matrix3d mouth_covariance = Eigen::Matrix3d::Zero();      // [m2]
+  Eigen::Matrix3d normal_covariance = Eigen::Matrix3d::Zero();  // [rad2] across the normal, along 0
 };
 
 struct FacePoseInput {
@@ -30,12 +35,14 @@ struct FacePoseInput {
 class FacePoseEstimator {
  public:
   static constexpr std::string_view kKind = "face_pose";
-  static constexpr int kKindVersion = 1;
+  static constexpr int kKindVersion = 2;
   using Factory = MadeFromParams<FacePoseEstimator>;
 
   virtual ~FacePoseEstimator() = default;
-  /// The pose, or why the estimate would not be trustworthy. May allocate.
-  virtual Expected<FacePose> estimate(const FacePoseInput& input) = 0;
+  /// The pose, or why the estimate would not be trustworthy. `state` is what it remembers of the
+  /// pictures before, such as where to start. Not const: it may keep scratch memory, never
+  /// knowledge. May allocate.
+  virtual Expected<FacePose> estimate(const FacePoseInput& input, PluginState& state) = 0;
 };
 
 }  // namespace armature

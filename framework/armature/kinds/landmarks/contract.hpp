@@ -3,12 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdint>
 #include <functional>
 #include <ostream>
 #include <string>
-#include <vector>
 
+#include "armature/kinds/face_picture.hpp"
 #include "armature/kinds/landmarks/landmarks.hpp"
 
 // The laws that every `landmarks` plugin keeps. In the plugin's test, in one source file:
@@ -16,46 +15,23 @@
 //   INSTANTIATE_TEST_SUITE_P(Dlib68, LandmarkLaws, testing::Values(...));
 namespace armature {
 
-/// The pixels of a stereo pair, rows one behind the other.
-struct StereoPicture {
-  int width = 0, height = 0;
-  std::vector<std::uint8_t> left, right;
-
-  ImageView left_view() const { return view(left); }
-  ImageView right_view() const { return view(right); }
-
- private:
-  ImageView view(const std::vector<std::uint8_t>& pixels) const {
-    return {.data = pixels.data(),
-            .width = width,
-            .height = height,
-            .stride = static_cast<std::size_t>(width)};
-  }
-};
-
-/// A finder (made once, when it is needed first), and a pair of pictures with a face that it finds.
+/// A finder (made once, when it is needed first), a picture with a face, and where the face is.
 struct LandmarkSubject {
   std::string name;
   std::function<LandmarkFinder&()> finder;
-  std::function<StereoPicture()> face;
+  std::function<Picture()> face;
+  PixelBox box;
 
   friend void PrintTo(const LandmarkSubject& subject, std::ostream* out) { *out << subject.name; }
 };
 
 class LandmarkLaws : public testing::TestWithParam<LandmarkSubject> {
  protected:
-  using State = LandmarkFinder::State;
   LandmarkFinder& finder() const { return GetParam().finder(); }
-  Expected<StereoLandmarks> find(const StereoPicture& picture, State& state) const;
-  static StereoPicture of_one_colour(std::uint8_t grey, int width = 320, int height = 240);
-  static StereoPicture noise(std::uint64_t seed);
-  void expect_no_face(const StereoPicture& picture) const;
-  State after_a_face() const;
-  static void expect_same(const FaceLandmarks& a, const FaceLandmarks& b);
-  static void expect_same(const std::optional<PixelBox>& a, const std::optional<PixelBox>& b);
-  void expect_in_picture(const FaceLandmarks& face) const;
+  static void expect_same(const std::vector<Landmark>& a, const std::vector<Landmark>& b);
 
-  const StereoPicture face_ = GetParam().face();
+  const Picture face_ = GetParam().face();
+  const PixelBox box_ = GetParam().box;
 };
 
 }  // namespace armature

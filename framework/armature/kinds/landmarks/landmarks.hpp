@@ -2,70 +2,72 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
+#include <cstddef>
 #include <optional>
-#include <string>
+#include <span>
 #include <string_view>
+#include <vector>
 
-#include "armature/kinds/landmarks/image_view.hpp"
+#include "armature/kinds/image_view.hpp"
 #include "armature/kinds/made_for_robot.hpp"
 #include "armature/values/expected.hpp"
 
 namespace armature {
 
-/// Axis-aligned box in pixels.
-struct PixelBox {
-  double left = 0, top = 0, width = 0, height = 0;
+/// Which points of a face a finder tells, and in what order.
+enum class LandmarkScheme {
+  ibug68,  // the 68 points of iBUG 300-W, counted from 0
+  five,    // left eye, right eye, tip of the nose, left and right corner of the mouth
 };
 
-/// The 68 landmarks of iBUG 300-W in one image, 0-based order, [px].
+/// A part of a face that several landmarks surround. "left" and "right" are sides of the image: the
+/// image's left eye is the subject's right one.
+enum class FaceFeature { left_eye, right_eye, mouth };
+
+/// How many landmarks a scheme has.
+std::size_t landmark_count(LandmarkScheme scheme);
+/// The landmarks whose mean is the centre of a feature.
+std::span<const std::size_t> landmarks_around(FaceFeature feature, LandmarkScheme scheme);
+/// "ibug68", "five".
+std::string_view to_string(LandmarkScheme scheme);
+/// Nothing for a name that no scheme has.
+std::optional<LandmarkScheme> find_landmark_scheme(std::string_view name);
+
+struct Landmark {
+  Eigen::Vector2d point = Eigen::Vector2d::Zero();  // [px]
+  double sigma = 0;  // [px] standard deviation along a row and along a column
+};
+
+/// Finds the landmarks of one face in one image.
+class LandmarkFinder {
+ public:
+  static constexpr std::string_view kKind = "landmarks";
+  static constexpr int kKindVersion = 2;
+  using Factory = MadeFromParams<LandmarkFinder>;
+
+  virtual ~LandmarkFinder() = default;
+  virtual LandmarkScheme scheme() const = 0;
+  /// The landmarks of the face in `face`, a detector's box, as many as the scheme has; or why there
+  /// are none. Whether there is a face at all is the detector's to say. Not const: a finder may
+  /// keep scratch memory, never knowledge. May allocate.
+  virtual Expected<std::vector<Landmark>> find(const ImageView& image, const PixelBox& face) = 0;
+};
+
+/// One face in one image.
 struct FaceLandmarks {
-  static constexpr int kCount = 68;
-  std::array<Eigen::Vector2d, kCount> points;
+  LandmarkScheme scheme = LandmarkScheme::ibug68;
+  std::vector<Landmark> points;  // as many as the scheme has
   PixelBox box;
   double score = 0;           // of the detector
   double mean_intensity = 0;  // of the image inside the box, 0..255
+
+  /// The centre of a feature: the mean of the landmarks around it. Its sigma is the largest of
+  /// theirs, since neighbours err together.
+  Landmark feature(FaceFeature which) const;
 };
 
 struct StereoLandmarks {
   FaceLandmarks left, right;
 };
-
-/// Finds the landmarks of one face in a rectified stereo pair.
-class LandmarkFinder {
- public:
-  static constexpr std::string_view kKind = "landmarks";
-  static constexpr int kKindVersion = 1;
-  using Factory = MadeFromParams<LandmarkFinder>;
-
-  /// Where the face was last: the caller owns it; value-initialised means "search everywhere".
-  struct State {
-    std::optional<PixelBox> left, right;
-  };
-
-  virtual ~LandmarkFinder() = default;
-  /// Landmarks in both images, or why not ("no face in the left image"). What is not found is
-  /// forgotten in the state. Not const: a detector may keep scratch memory, never knowledge. May
-  /// allocate.
-  virtual Expected<StereoLandmarks> find(const ImageView& left, const ImageView& right,
-                                         State& state) = 0;
-};
-
-/// nullopt, or why the views are no stereo pair: no pixels, rows that overlap, two sizes. The first
-/// line of every finder.
-inline std::optional<std::string> invalid_input(const ImageView& left, const ImageView& right) {
-  for (const ImageView* view : {&left, &right}) {
-    if (view->data == nullptr || view->width <= 0 || view->height <= 0) return "empty image";
-    if (view->stride < static_cast<std::size_t>(view->width)) {
-      return "an image of " + std::to_string(view->width) + " pixels in rows of " +
-             std::to_string(view->stride);
-    }
-  }
-  if (left.width == right.width && left.height == right.height) return std::nullopt;
-  const auto size = [](const ImageView& view) {
-    return std::to_string(view.width) + " x " + std::to_string(view.height);
-  };
-  return "the left image is " + size(left) + " pixels, the right one " + size(right);
-}
 
 }  // namespace armature

@@ -28,7 +28,8 @@ class TargetLaws : public testing::TestWithParam<TargetSubject> {
 
   /// A look at a still target, 1 mm and 0.02 rad of noise.
   TargetMeasurement look(double t_s);
-  TargetFilter::State started();
+  PluginState started();
+  void expect_same_prediction(const PluginState& a, const PluginState& b);
 
   const Eigen::Vector3d kMouth{1.55, 0, 0.45};
   const Eigen::Vector3d kNormal{-1, 0, 0};

@@ -6,6 +6,7 @@
 
 #include "armature/kinds/made_for_robot.hpp"
 #include "armature/values/expected.hpp"
+#include "armature/values/plugin_state.hpp"
 #include "armature/values/time.hpp"
 
 namespace armature {
@@ -13,9 +14,10 @@ namespace armature {
 /// One look at the target, in the base frame.
 struct TargetMeasurement {
   Time stamp;
-  Eigen::Vector3d position;  // [m] the mouth
-  Eigen::Vector3d normal;    // unit
-  double position_sigma_m = 0, normal_sigma_rad = 0;
+  Eigen::Vector3d position;                                       // [m] the mouth
+  Eigen::Vector3d normal;                                         // unit
+  Eigen::Matrix3d position_covariance = Eigen::Matrix3d::Zero();  // [m2]
+  Eigen::Matrix3d normal_covariance = Eigen::Matrix3d::Zero();    // [rad2] across the normal
 };
 
 /// Where the target is and how it moves, in the base frame.
@@ -32,27 +34,16 @@ struct TargetEstimate {
 class TargetFilter {
  public:
   static constexpr std::string_view kKind = "target";
-  static constexpr int kKindVersion = 1;
+  static constexpr int kKindVersion = 2;
   using Factory = MadeFromParams<TargetFilter>;
 
-  /// The filter's whole memory, owned by the caller; value-initialised means "not started".
-  struct State {
-    bool started = false;
-    Time stamp;
-    int measurements = 0;
-    int rejected = 0;     // in a row
-    double surprise = 1;  // smoothed normalised innovation: about 1 while the model holds
-    bool moving = false;
-    Eigen::Matrix<double, 12, 1> mean = Eigen::Matrix<double, 12, 1>::Zero();
-    Eigen::Matrix<double, 12, 12> covariance = Eigen::Matrix<double, 12, 12>::Zero();
-  };
-
   virtual ~TargetFilter() = default;
-  /// Takes in a measurement; a reason when it was rejected (older than the state, an outlier).
+  /// Takes in a measurement; a reason when it was rejected (older than the newest one, an outlier).
+  /// All that the filter remembers is in `state`.
   virtual Expected<TargetEstimate> update(const TargetMeasurement& measurement,
-                                          State& state) const = 0;
-  /// The estimate at `when`, or a reason (not started, too long without a measurement).
-  virtual Expected<TargetEstimate> predict(Time when, const State& state) const = 0;
+                                          PluginState& state) const = 0;
+  /// The estimate at `when`, or a reason (nothing measured yet, too long without a measurement).
+  virtual Expected<TargetEstimate> predict(Time when, const PluginState& state) const = 0;
 };
 
 }  // namespace armature

@@ -56,16 +56,17 @@ class FacePoseHost final : public Component {
   void step(Time) override;
 
  private:
-  Expected<FacePose> estimate() const;
+  Expected<FacePose> estimate();
 
   PluginPtr<FacePoseEstimator> estimator_;
+  PluginState state_;
   Input<msg::Image> left_image_, right_image_;
   Input<msg::FaceLandmarks> landmarks_;
   Input<msg::CameraInfo> right_info_;
   Output<msg::FacePose> face_;
 };
 
-Expected<FacePose> FacePoseHost::estimate() const {
+Expected<FacePose> FacePoseHost::estimate() {
   if (!landmarks_.latest()->valid_()) return refuse(landmarks_.latest()->reason_());
   if (!right_info_.latest()) return refuse("no camera_info yet");
   const auto landmarks = landmarks_of(*landmarks_.latest());
@@ -75,9 +76,9 @@ Expected<FacePose> FacePoseHost::estimate() const {
   if (!right) return refuse("right: " + right.error().text);
   const auto camera = camera_of(*right_info_.latest(), *right);
   if (!camera) return tl::unexpected{camera.error()};
-  return guarded([&] {
+  return guarded(state_, [&](PluginState& state) {
     return estimator_->estimate(
-        {.left = *left, .right = *right, .landmarks = *landmarks, .camera = *camera});
+        {.left = *left, .right = *right, .landmarks = *landmarks, .camera = *camera}, state);
   });
 }
 
@@ -87,10 +88,7 @@ void FacePoseHost::step(Time) {
     return;
   }
   const auto estimated = estimate();
-  const FacePose pose = estimated.value_or(FacePose{.left_eye = Eigen::Vector3d::Zero(),
-                                                    .right_eye = Eigen::Vector3d::Zero(),
-                                                    .mouth = Eigen::Vector3d::Zero(),
-                                                    .normal = Eigen::Vector3d::Zero()});
+  const FacePose pose = estimated.value_or(FacePose{});
   auto face = face_.loan();
   face->header_() = landmarks_.latest()->header_();
   face->valid_(estimated.has_value());
@@ -99,8 +97,10 @@ void FacePoseHost::step(Time) {
   assign(face->right_eye_(), pose.right_eye);
   assign(face->mouth_(), pose.mouth);
   assign(face->normal_(), pose.normal);
-  face->mouth_sigma_(pose.mouth_sigma_m);
-  face->normal_sigma_(pose.normal_sigma_rad);
+  assign(face->left_eye_covariance_(), pose.left_eye_covariance);
+  assign(face->right_eye_covariance_(), pose.right_eye_covariance);
+  assign(face->mouth_covariance_(), pose.mouth_covariance);
+  assign(face->normal_covariance_(), pose.normal_covariance);
   face.publish();
 }
 

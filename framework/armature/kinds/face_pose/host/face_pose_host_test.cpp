@@ -4,6 +4,7 @@
 // is answered with its exact reason.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <stdexcept>
 
 #include "armature/kinds/face_pose/face_pose.hpp"
@@ -24,18 +25,28 @@ class FirstLandmark final : public FacePoseEstimator {
   static inline FacePoseInput asked;
   static inline bool throws = false;
 
-  Expected<FacePose> estimate(const FacePoseInput& input) override {
+  Expected<FacePose> estimate(const FacePoseInput& input, PluginState& state) override {
     asked = input;
+    const Count* before = state.get<Count>();
+    state.set(Count{before ? before->calls + 1 : 1});
     if (throws) throw std::runtime_error{"the matrix is singular"};
-    const double u = input.landmarks.left.points[0].x();
+    const double u = input.landmarks.left.points[0].point.x();
     if (u < 0) return refuse("the mouth is outside the image");
-    return FacePose{.left_eye = {1, 2, 3},
-                    .right_eye = {4, 5, 6},
-                    .mouth = {u, 0, 1},
-                    .normal = {0, 0, -1},
-                    .mouth_sigma_m = 0.001,
-                    .normal_sigma_rad = 0.02};
+    return FacePose{
+        .left_eye = {1, 2, 3},
+        .right_eye = {4, 5, 6},
+        .mouth = {u, 0, 1},
+        .normal = {0, 0, -1},
+        .mouth_covariance = Vector3d{1, 2, 3}.asDiagonal(),
+        .normal_covariance = (Eigen::Matrix3d{} << 1, 2, 3, 4, 5, 6, 7, 8, 9).finished() *
+                             state.get<Count>()->calls};
   }
+
+ private:
+  struct Count {
+    static constexpr auto kLayout = layout_id("face_pose/first", 1);
+    int calls;
+  };
 };
 
 PluginRegistry& plugins() {
@@ -58,9 +69,12 @@ msg::FaceLandmarks landmarks(double stamp_s, double u) {
   msg::FaceLandmarks message;
   message.header_() = image(stamp_s).header_();
   message.valid_(true);
+  message.scheme_("ibug68");
   message.left_().assign(136, 0.5);
   message.left_()[0] = u;
   message.right_().assign(136, 0.25);
+  message.left_sigma_().assign(68, 0.3);
+  message.right_sigma_().assign(68, 0.4);
   message.left_box_(std::array<double, 4>{1, 2, 3, 4});
   message.score_(1.5);
   message.face_intensity_(80);
@@ -106,8 +120,8 @@ TEST_F(FacePoseHostTest, TellsThePoseUnderTheHeaderOfThePictures) {
   EXPECT_EQ(to_eigen(face.right_eye_()), (Vector3d{4, 5, 6}));
   EXPECT_EQ(to_eigen(face.mouth_()), (Vector3d{2, 0, 1}));
   EXPECT_EQ(to_eigen(face.normal_()), (Vector3d{0, 0, -1}));
-  EXPECT_EQ(face.mouth_sigma_(), 0.001);
-  EXPECT_EQ(face.normal_sigma_(), 0.02);
+  EXPECT_EQ(face.mouth_covariance_(), (std::array<double, 9>{1, 0, 0, 0, 2, 0, 0, 0, 3}));
+  EXPECT_EQ(face.normal_covariance_(), (std::array<double, 9>{1, 2, 3, 4, 5, 6, 7, 8, 9}));
 }
 
 TEST_F(FacePoseHostTest, AsksWithThePairItsLandmarksAndItsCamera) {
@@ -122,7 +136,8 @@ TEST_F(FacePoseHostTest, AsksWithThePairItsLandmarksAndItsCamera) {
   EXPECT_DOUBLE_EQ(asked.camera.baseline_m, 0.12);
   EXPECT_EQ(asked.left.width, 4);
   EXPECT_EQ(asked.right.height, 2);
-  EXPECT_EQ(asked.landmarks.right.points[67], (Eigen::Vector2d{0.25, 0.25}));
+  EXPECT_EQ(asked.landmarks.right.points[67].point, (Eigen::Vector2d{0.25, 0.25}));
+  EXPECT_EQ(asked.landmarks.right.points[67].sigma, 0.4);
   EXPECT_EQ(asked.landmarks.left.box.width, 3);
   EXPECT_EQ(asked.landmarks.left.score, 1.5);
   EXPECT_EQ(asked.landmarks.left.mean_intensity, 80);
@@ -152,7 +167,7 @@ TEST_F(FacePoseHostTest, SaysWhyThereIsNoPoseAndTellsNothingOfTheOneBefore) {
   EXPECT_EQ(none.reason_(), "the mouth is outside the image");
   EXPECT_EQ(to_eigen(none.mouth_()), Vector3d::Zero());
   EXPECT_EQ(to_eigen(none.normal_()), Vector3d::Zero());
-  EXPECT_EQ(none.mouth_sigma_(), 0);
+  EXPECT_EQ(none.mouth_covariance_(), (std::array<double, 9>{}));
 }
 
 TEST_F(FacePoseHostTest, AnswersBadInputWithItsReason) {
@@ -174,7 +189,11 @@ TEST_F(FacePoseHostTest, AnswersBadInputWithItsReason) {
             }),
             "no face in the right image");
   EXPECT_EQ(refusal([](auto&, auto&, auto& found) { found.right_().pop_back(); }),
-            "136 and 135 landmark coordinates, not 136");
+            "right: 135 coordinates and 68 sigmas of landmarks, and ibug68 has 136 and 68");
+  EXPECT_EQ(refusal([](auto&, auto&, auto& found) { found.left_sigma_().clear(); }),
+            "left: 136 coordinates and 0 sigmas of landmarks, and ibug68 has 136 and 68");
+  EXPECT_EQ(refusal([](auto&, auto&, auto& found) { found.scheme_("mesh9"); }),
+            "no landmark scheme is 'mesh9'");
   EXPECT_EQ(refusal([](auto& left, auto&, auto&) { left.encoding_("bgr8"); }),
             "left: the image is 'bgr8', not mono8");
   EXPECT_EQ(refusal([](auto&, auto& right, auto&) { right.data_().clear(); }),
@@ -212,7 +231,15 @@ TEST_F(FacePoseHostTest, AnExceptionOfTheEstimatorIsAReasonAndTheNextPicturesAre
   FirstLandmark::throws = false;
   EXPECT_FALSE(answer.valid_());
   EXPECT_EQ(answer.reason_(), "the plugin threw: the matrix is singular");
-  EXPECT_TRUE(see(2, 2).valid_());
+  const msg::FacePose next = see(2, 2);
+  EXPECT_TRUE(next.valid_());
+  EXPECT_EQ(next.normal_covariance_()[0], 1) << "it starts cold";
+}
+
+TEST_F(FacePoseHostTest, KeepsWhatTheEstimatorRemembers) {
+  host_.send("right_info", info());
+  EXPECT_EQ(see(1, 2).normal_covariance_()[0], 1);
+  EXPECT_EQ(see(2, 2).normal_covariance_()[0], 2);
 }
 
 }  // namespace

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <array>
 #include <cstdint>
 #include <numeric>
 
 #include "armature/kinds/landmarks/landmark_messages.hpp"
-#include "armature/kinds/landmarks/landmarks.hpp"
+#include "armature/kinds/landmarks/stereo_face_finder.hpp"
 #include "armature/runtime/component.hpp"
 #include "armature/runtime/plugin.hpp"
 #include "armature/runtime/setup.hpp"
 #include "armature/values/guarded.hpp"
+#include "host_landmarks_parameters.hpp"
 
-namespace armature {
+namespace armature::host::landmarks {
 namespace {
 
 double mean_intensity(const ImageView& image) {
@@ -22,10 +22,6 @@ double mean_intensity(const ImageView& image) {
   return static_cast<double>(sum) / (static_cast<double>(image.width) * image.height);
 }
 
-std::array<double, 4> box_of(const PixelBox& box) {
-  return {box.left, box.top, box.width, box.height};
-}
-
 }  // namespace
 
 /// Images in, landmarks out.
@@ -33,7 +29,9 @@ class LandmarksHost final : public Component {
  public:
   explicit LandmarksHost(Setup& setup)
       : Component{setup},
-        finder_{setup.slot<LandmarkFinder>("landmarks")},
+        detector_{setup.slot<FaceDetector>("detector")},
+        landmark_finder_{setup.slot<LandmarkFinder>("landmarks")},
+        finder_{*detector_, *landmark_finder_, Parameters::read(setup.params()).stretch_below},
         left_image_{setup.input<msg::Image>("left_image")},
         right_image_{setup.input<msg::Image>("right_image")},
         landmarks_{setup.output<msg::FaceLandmarks>("landmarks")} {}
@@ -41,49 +39,46 @@ class LandmarksHost final : public Component {
   void step(Time) override;
 
  private:
-  static Expected<StereoLandmarks> find(LandmarkFinder& finder, const msg::Image& left,
-                                        const msg::Image& right, LandmarkFinder::State& state);
+  Expected<StereoLandmarks> find(const msg::Image& left, const msg::Image& right);
 
-  PluginPtr<LandmarkFinder> finder_;
-  LandmarkFinder::State state_;
+  PluginPtr<FaceDetector> detector_;
+  PluginPtr<LandmarkFinder> landmark_finder_;
+  StereoFaceFinder finder_;
   Input<msg::Image> left_image_, right_image_;
   Output<msg::FaceLandmarks> landmarks_;
 };
 
-Expected<StereoLandmarks> LandmarksHost::find(LandmarkFinder& finder, const msg::Image& left,
-                                              const msg::Image& right,
-                                              LandmarkFinder::State& state) {
+Expected<StereoLandmarks> LandmarksHost::find(const msg::Image& left, const msg::Image& right) {
   const auto left_view = image_of(left), right_view = image_of(right);
   if (!left_view) return refuse("left: " + left_view.error().text);
   if (!right_view) return refuse("right: " + right_view.error().text);
-  return guarded(state,
-                 [&](LandmarkFinder::State& s) { return finder.find(*left_view, *right_view, s); });
+  bool returned = false;
+  auto found = guarded([&] {
+    auto pair = finder_.find(*left_view, *right_view);
+    returned = true;
+    return pair;
+  });
+  if (!returned) finder_.forget();
+  return found;
 }
 
 void LandmarksHost::step(Time) {
   if (!left_image_.fresh() || !left_image_.latest() || !right_image_.latest()) return;
   const msg::Image& left = *left_image_.latest();
-  const auto found = find(*finder_, left, *right_image_.latest(), state_);
+  const auto found = find(left, *right_image_.latest());
 
   auto answer = landmarks_.loan();
   answer->header_() = left.header_();
-  answer->valid_(found.has_value());
-  answer->reason_(found ? std::string{} : found.error().text);
   const auto view = image_of(left);
   answer->image_intensity_(view ? mean_intensity(*view) : 0.0);
-  answer->left_box_(box_of(found ? found->left.box : PixelBox{}));
-  answer->right_box_(box_of(found ? found->right.box : PixelBox{}));
-  answer->score_(found ? found->left.score : 0.0);
-  answer->face_intensity_(found ? found->left.mean_intensity : 0.0);
-  answer->left_().clear();
-  answer->right_().clear();
   if (found) {
-    assign(answer->left_(), found->left);
-    assign(answer->right_(), found->right);
+    write_landmarks(*found, *answer);
+  } else {
+    write_no_landmarks(found.error().text, *answer);
   }
   answer.publish();
 }
 
-}  // namespace armature
+}  // namespace armature::host::landmarks
 
-ARMATURE_PLUGIN(armature::LandmarksHost);
+ARMATURE_PLUGIN(armature::host::landmarks::LandmarksHost);

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The host of the landmark finders: 1. one answer for each pair of pictures, under the header of
-// the left one, 2. the finder's memory is kept between pictures, 3. pictures that are none are
+// the left one, 2. a face is sought where it was, 3. pictures that are none are
 // answered with their exact reason.
 #include <gtest/gtest.h>
 
 #include <stdexcept>
 
+#include "armature/kinds/detector/detector.hpp"
 #include "armature/kinds/landmarks/landmark_messages.hpp"
 #include "armature/messages/header.hpp"
 #include "armature/runtime/component_bench.hpp"
@@ -14,37 +15,39 @@
 namespace armature::landmarks_host {
 namespace {
 
-/// A face wherever the first pixel is 200, its box as wide as the pictures it was seen in before.
-class FirstPixel final : public LandmarkFinder {
+/// A face in every picture whose first pixel is 200; where it is known about, one pixel wider than
+/// it was.
+class FirstPixel final : public FaceDetector {
  public:
   static inline bool throws = false;
 
-  Expected<StereoLandmarks> find(const ImageView& left, const ImageView& right,
-                                 State& state) override {
-    if (auto wrong = invalid_input(left, right)) return refuse(*wrong);
-    if (left.data[0] != 200) {
-      state = {};
-      return refuse("no face in the left image");
-    }
-    const double width = state.left ? state.left->width + 1 : 1;
-    state.left = PixelBox{1, 2, width, 4};
+  Expected<std::vector<DetectedFace>> detect(const ImageView& image,
+                                             const SearchRegion& region) override {
     if (throws) throw std::runtime_error{"the matrix is singular"};
-    StereoLandmarks found;
-    for (std::size_t i = 0; i < FaceLandmarks::kCount; ++i) {
-      found.left.points[i] = {static_cast<double>(i), 0.5};
-      found.right.points[i] = {static_cast<double>(i) - 10, 0.25};
-    }
-    found.left.box = *state.left;
-    found.right.box = {5, 6, 7, 8};
-    found.left.score = 1.5;
-    found.left.mean_intensity = 33;
-    return found;
+    if (image.data[0] != 200) return std::vector<DetectedFace>{};
+    return std::vector{DetectedFace{{1, 0, region.face_width.value_or(0) + 1, 1}, 1.5}};
+  }
+};
+
+/// Landmarks along a row.
+class InARow final : public LandmarkFinder {
+ public:
+  LandmarkScheme scheme() const override { return LandmarkScheme::five; }
+  Expected<std::vector<Landmark>> find(const ImageView&, const PixelBox& face) override {
+    std::vector<Landmark> points;
+    for (int i = 0; i < 5; ++i) points.push_back({.point = {face.width + i, 0.5}, .sigma = 0.25});
+    return points;
   }
 };
 
 PluginRegistry& plugins() {
-  return built_plugins_with<FirstPixel>(
-      "{armature_plugin: 1, id: landmarks/first_pixel, kind: landmarks}");
+  static PluginRegistry& registry = [&]() -> PluginRegistry& {
+    PluginRegistry& built = built_plugins_with<FirstPixel>(
+        "{armature_plugin: 1, id: detector/first_pixel, kind: detector}");
+    built.add<InARow>("{armature_plugin: 1, id: landmarks/in_a_row, kind: landmarks}");
+    return built;
+  }();
+  return registry;
 }
 
 /// 4 x 2 pixels in rows of 6 bytes, of which two count for nothing.
@@ -71,7 +74,10 @@ class LandmarksHostTest : public ::testing::Test {
     return answers.empty() ? msg::FaceLandmarks{} : answers.front();
   }
   ComponentBench host_{plugins(),
-                       {.component = "{plugin: landmarks/first_pixel}", .robot = {}, .rig = {}}};
+                       {.component = "{plugin: landmarks/in_a_row, params: {stretch_below: 0}, "
+                                     "detector: {plugin: detector/first_pixel}}",
+                        .robot = {},
+                        .rig = {}}};
 };
 
 TEST_F(LandmarksHostTest, TellsWhatWasFoundUnderTheHeaderOfThePictures) {
@@ -80,15 +86,15 @@ TEST_F(LandmarksHostTest, TellsWhatWasFoundUnderTheHeaderOfThePictures) {
   EXPECT_EQ(answer.header_(), picture.header_());
   EXPECT_TRUE(answer.valid_());
   EXPECT_EQ(answer.reason_(), "");
-  ASSERT_EQ(answer.left_().size(), 136u);
-  ASSERT_EQ(answer.right_().size(), 136u);
-  EXPECT_EQ(answer.left_()[2 * 67], 67);
-  EXPECT_EQ(answer.left_()[2 * 67 + 1], 0.5);
-  EXPECT_EQ(answer.right_()[0], -10);
-  EXPECT_EQ(answer.left_box_(), (std::array<double, 4>{1, 2, 1, 4}));
-  EXPECT_EQ(answer.right_box_(), (std::array<double, 4>{5, 6, 7, 8}));
+  EXPECT_EQ(answer.scheme_(), "five");
+  EXPECT_EQ(answer.left_(), (std::vector<double>{1, 0.5, 2, 0.5, 3, 0.5, 4, 0.5, 5, 0.5}));
+  EXPECT_EQ(answer.right_(), (std::vector<double>{2, 0.5, 3, 0.5, 4, 0.5, 5, 0.5, 6, 0.5}));
+  EXPECT_EQ(answer.left_sigma_(), std::vector<double>(5, 0.25));
+  EXPECT_EQ(answer.right_sigma_(), std::vector<double>(5, 0.25));
+  EXPECT_EQ(answer.left_box_(), (std::array<double, 4>{1, 0, 1, 1}));
+  EXPECT_EQ(answer.right_box_(), (std::array<double, 4>{1, 0, 2, 1}));
   EXPECT_EQ(answer.score_(), 1.5);
-  EXPECT_EQ(answer.face_intensity_(), 33);
+  EXPECT_EQ(answer.face_intensity_(), 10);
   EXPECT_EQ(answer.image_intensity_(), (200 + 7 * 10) / 8.0);
 }
 
@@ -105,7 +111,7 @@ TEST_F(LandmarksHostTest, WaitsForBothPicturesOfAPairAndAnswersItOnce) {
   EXPECT_TRUE(host_.take<msg::FaceLandmarks>("landmarks").empty());
 }
 
-TEST_F(LandmarksHostTest, KeepsTheFindersMemoryUntilTheFaceIsLost) {
+TEST_F(LandmarksHostTest, LooksWhereTheFaceWasUntilItIsLost) {
   EXPECT_EQ(see(image(1, 200), image(1, 200)).left_box_()[2], 1);
   EXPECT_EQ(see(image(2, 200), image(2, 200)).left_box_()[2], 2);
   EXPECT_FALSE(see(image(3, 0), image(3, 0)).valid_());
@@ -124,6 +130,7 @@ TEST_F(LandmarksHostTest,
   EXPECT_EQ(none.left_box_(), (std::array<double, 4>{}));
   EXPECT_TRUE(none.left_().empty());
   EXPECT_TRUE(none.right_().empty());
+  EXPECT_TRUE(none.left_sigma_().empty());
 }
 
 TEST_F(LandmarksHostTest, AnswersPicturesThatAreNoneWithTheirReason) {
@@ -153,7 +160,7 @@ TEST_F(LandmarksHostTest, AnswersPicturesThatAreNoneWithTheirReason) {
   EXPECT_TRUE(see(image(50, 200), image(50, 200)).valid_());
 }
 
-TEST_F(LandmarksHostTest, AnExceptionOfTheFinderIsAReasonAndItStartsColdAgain) {
+TEST_F(LandmarksHostTest, AnExceptionOfADetectorIsAReasonAndItLooksEverywhereAgain) {
   const msg::Image face = image(0.5, 200);
   EXPECT_EQ(see(face, face).left_box_()[2], 1);
   EXPECT_EQ(see(face, face).left_box_()[2], 2);

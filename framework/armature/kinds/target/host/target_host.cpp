@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <array>
 #include <string>
 
 #include "armature/kinds/joint_messages.hpp"
@@ -41,7 +42,7 @@ class TargetHost final : public Component {
   FrameId mount_;
   FrameBuffer history_;
   PluginPtr<TargetFilter> filter_;
-  TargetFilter::State state_;
+  PluginState state_;
   std::string arm_trouble_, history_trouble_;
   Input<msg::FacePose> face_;
   Input<msg::JointState> measured_js_;
@@ -98,11 +99,15 @@ Expected<TargetMeasurement> TargetHost::measurement(const msg::FacePose& face) {
   const Time stamp = stamp_of(face.header_().stamp_());
   return base_T_mount(stamp).map([&](const Eigen::Isometry3d& pose) {
     const Eigen::Isometry3d base_T_camera = pose * rig_.mount_T_left;
+    const Eigen::Matrix3d turn = base_T_camera.linear();
+    const auto turned = [&](const std::array<double, 9>& covariance) -> Eigen::Matrix3d {
+      return turn * to_eigen(covariance) * turn.transpose();
+    };
     return TargetMeasurement{.stamp = stamp,
                              .position = base_T_camera * to_eigen(face.mouth_()),
-                             .normal = base_T_camera.linear() * to_eigen(face.normal_()),
-                             .position_sigma_m = face.mouth_sigma_(),
-                             .normal_sigma_rad = face.normal_sigma_()};
+                             .normal = turn * to_eigen(face.normal_()),
+                             .position_covariance = turned(face.mouth_covariance_()),
+                             .normal_covariance = turned(face.normal_covariance_())};
   });
 }
 
@@ -110,7 +115,7 @@ Expected<TargetMeasurement> TargetHost::measurement(const msg::FacePose& face) {
 /// trusts itself; then what is missing is told.
 Expected<TargetEstimate> TargetHost::updated(const msg::FacePose& face) {
   auto estimate = measurement(face).and_then([&](const TargetMeasurement& m) {
-    return guarded(state_, [&](TargetFilter::State& state) { return filter_->update(m, state); });
+    return guarded(state_, [&](PluginState& state) { return filter_->update(m, state); });
   });
   if (estimate) return estimate;
   auto predicted =

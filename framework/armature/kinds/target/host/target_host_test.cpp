@@ -5,6 +5,7 @@
 // pictures, is told as the component's own trouble.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <stdexcept>
 
 #include "armature/kinds/target/target_messages.hpp"
@@ -28,30 +29,38 @@ class LastLook final : public TargetFilter {
   static inline bool throws = false;
 
   Expected<TargetEstimate> update(const TargetMeasurement& measurement,
-                                  State& state) const override {
+                                  PluginState& state) const override {
     asked = measurement;
     if (!measurement.position.allFinite()) return refuse("the position is not finite");
-    if (state.started && measurement.stamp <= state.stamp) return refuse("an older picture");
-    state.started = true;
-    state.stamp = measurement.stamp;
-    state.mean.head<3>() = measurement.position;
+    const Look* last = state.get<Look>();
+    if (last && measurement.stamp <= last->stamp) return refuse("an older picture");
+    const Eigen::Vector3d& p = measurement.position;
+    Look look{measurement.stamp, {p.x(), p.y(), p.z()}, last ? last->count : 0};
     if (throws) throw std::runtime_error{"the matrix is singular"};
-    ++state.measurements;
-    return estimate(measurement.stamp, state);
+    ++look.count;
+    state.set(look);
+    return estimate(measurement.stamp, look);
   }
-  Expected<TargetEstimate> predict(Time when, const State& state) const override {
-    if (!state.started || when - state.stamp > seconds(0.5)) return refuse("too long ago");
-    return estimate(when, state);
+  Expected<TargetEstimate> predict(Time when, const PluginState& state) const override {
+    const Look* last = state.get<Look>();
+    if (!last || when - last->stamp > seconds(0.5)) return refuse("too long ago");
+    return estimate(when, *last);
   }
 
  private:
-  static TargetEstimate estimate(Time stamp, const State& state) {
+  struct Look {
+    static constexpr auto kLayout = layout_id("target/last_look", 1);
+    Time stamp;
+    std::array<double, 3> position;
+    int count;
+  };
+  static TargetEstimate estimate(Time stamp, const Look& look) {
     return {.stamp = stamp,
-            .position = state.mean.head<3>(),
+            .position = Vector3d{look.position.data()},
             .normal = Vector3d::UnitX(),
             .velocity = {0.1, 0.2, 0.3},
             .normal_rate = {0, 0.5, 0},
-            .measurements = state.measurements};
+            .measurements = look.count};
   }
 };
 
@@ -71,8 +80,8 @@ msg::FacePose face(double stamp_s) {
   message.valid_(true);
   assign(message.mouth_(), Vector3d{0.06, 0.02, 0.5});
   assign(message.normal_(), Vector3d{0, 0, -1});
-  message.mouth_sigma_(0.001);
-  message.normal_sigma_(0.02);
+  message.mouth_covariance_({1e-6, 0, 0, 0, 2e-6, 0, 0, 0, 9e-6});
+  message.normal_covariance_({4e-4, 0, 0, 0, 1e-4, 0, 0, 0, 0});
   return message;
 }
 
@@ -120,8 +129,15 @@ TEST_F(TargetHostTest, CarriesAFaceThroughWhereTheArmWasWhenThePictureWasTaken) 
   EXPECT_LE((LastLook::asked.position - base_T_left * Vector3d{0.06, 0.02, 0.5}).norm(), 1e-12);
   EXPECT_LE((LastLook::asked.normal + base_T_left.linear().col(2)).norm(), 1e-12);
   EXPECT_EQ(LastLook::asked.stamp, Time{} + seconds(1.05));
-  EXPECT_EQ(LastLook::asked.position_sigma_m, 0.001);
-  EXPECT_EQ(LastLook::asked.normal_sigma_rad, 0.02);
+  // The covariances turn with the camera.
+  const Eigen::Matrix3d turn = base_T_left.linear();
+  const Vector3d variances{1e-6, 2e-6, 9e-6}, of_normal{4e-4, 1e-4, 0};
+  EXPECT_LT((LastLook::asked.position_covariance - turn * variances.asDiagonal() * turn.transpose())
+                .norm(),
+            1e-15);
+  EXPECT_LT(
+      (LastLook::asked.normal_covariance - turn * of_normal.asDiagonal() * turn.transpose()).norm(),
+      1e-12);
   EXPECT_EQ(stamp_of(target.header_().stamp_()), Time{} + seconds(1.05));
   EXPECT_EQ(target.header_().frame_id_(), "base");
   EXPECT_TRUE(target.valid_());

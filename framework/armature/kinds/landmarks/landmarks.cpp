@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/kinds/landmarks/landmarks.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace armature {
+namespace {
+
+struct Scheme {
+  std::string_view name;
+  std::size_t count;
+  std::vector<std::size_t> left_eye, right_eye, mouth;
+};
+
+const Scheme& scheme_of(LandmarkScheme scheme) {
+  // Of the mouth the inner points that neither smile nor speech moves apart.
+  static const std::array<Scheme, 2> schemes{
+      Scheme{"ibug68", 68, {36, 37, 38, 39, 40, 41}, {42, 43, 44, 45, 46, 47}, {60, 62, 64, 66}},
+      Scheme{"five", 5, {0}, {1}, {3, 4}},
+  };
+  return schemes[static_cast<std::size_t>(scheme)];
+}
+
+}  // namespace
+
+std::size_t landmark_count(LandmarkScheme scheme) { return scheme_of(scheme).count; }
+
+std::span<const std::size_t> landmarks_around(FaceFeature feature, LandmarkScheme scheme) {
+  const Scheme& s = scheme_of(scheme);
+  if (feature == FaceFeature::left_eye) return s.left_eye;
+  return feature == FaceFeature::right_eye ? s.right_eye : s.mouth;
+}
+
+std::string_view to_string(LandmarkScheme scheme) { return scheme_of(scheme).name; }
+
+std::optional<LandmarkScheme> find_landmark_scheme(std::string_view name) {
+  for (const LandmarkScheme scheme : {LandmarkScheme::ibug68, LandmarkScheme::five}) {
+    if (to_string(scheme) == name) return scheme;
+  }
+  return std::nullopt;
+}
+
+Landmark FaceLandmarks::feature(FaceFeature which) const {
+  const auto around = landmarks_around(which, scheme);
+  Landmark centre;
+  for (const std::size_t i : around) {
+    centre.point += points[i].point;
+    centre.sigma = std::max(centre.sigma, points[i].sigma);
+  }
+  centre.point /= static_cast<double>(around.size());
+  return centre;
+}
+
+}  // namespace armature

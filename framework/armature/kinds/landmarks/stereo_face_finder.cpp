@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/kinds/landmarks/stereo_face_finder.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <string>
+
+namespace armature {
+namespace {
+
+constexpr double kSearchScale = 2.0;   // the last box, this much larger, is searched first
+constexpr double kStripSlack = 0.35;   // of the box height: rows searched above and below
+constexpr double kMaxDisparity = 1.6;  // of the box width: columns searched to the left
+constexpr std::size_t kGreyValues = 256;
+
+/// Why the views are no stereo pair.
+std::optional<std::string> no_pair(const ImageView& left, const ImageView& right) {
+  for (const ImageView* view : {&left, &right}) {
+    if (auto wrong = invalid_input(*view)) return wrong;
+  }
+  if (left.width == right.width && left.height == right.height) return std::nullopt;
+  const auto size = [](const ImageView& view) {
+    return std::to_string(view.width) + " x " + std::to_string(view.height);
+  };
+  return "the left image is " + size(left) + " pixels, the right one " + size(right);
+}
+
+PixelBox whole(const ImageView& image) {
+  return {0, 0, static_cast<double>(image.width - 1), static_cast<double>(image.height - 1)};
+}
+
+/// The image, or one in `pixels` in which the grey values between the 0.5 and 99.5 percentiles fill
+/// 0 to 255: detectors were trained on pictures of normal light.
+ImageView stretched_if_dark(const ImageView& image, double below,
+                            std::vector<std::uint8_t>& pixels) {
+  std::array<long, kGreyValues> count{};
+  for (int v = 0; v < image.height; ++v) {
+    const std::uint8_t* row = image.data + static_cast<std::size_t>(v) * image.stride;
+    std::for_each(row, row + image.width, [&](std::uint8_t value) { ++count[value]; });
+  }
+  const double all = static_cast<double>(image.width) * image.height;
+  const auto percentile = [&](double share) {
+    long left = static_cast<long>(share * all);
+    std::size_t value = 0;
+    while (value + 1 < kGreyValues && (left -= count[value]) >= 0) ++value;
+    return static_cast<double>(value);
+  };
+  const double low = percentile(0.005), high = percentile(0.995);
+  if (high >= below || high - low < 4) return image;
+  std::array<std::uint8_t, kGreyValues> table{};
+  for (std::size_t i = 0; i < kGreyValues; ++i) {
+    const double value = 255 * (static_cast<double>(i) - low) / (high - low);
+    table[i] = static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, 255.0)));
+  }
+  const auto width = static_cast<std::size_t>(image.width);
+  pixels.resize(width * static_cast<std::size_t>(image.height));
+  for (int v = 0; v < image.height; ++v) {
+    const std::uint8_t* row = image.data + static_cast<std::size_t>(v) * image.stride;
+    std::transform(row, row + image.width, pixels.begin() + std::ptrdiff_t{v} * image.width,
+                   [&](std::uint8_t value) { return table[value]; });
+  }
+  return {.data = pixels.data(), .width = image.width, .height = image.height, .stride = width};
+}
+
+/// Mean grey value of the image inside `box`.
+double mean_intensity(const ImageView& image, const PixelBox& box) {
+  const auto pixel = [](double at, int size) { return std::clamp(at, 0.0, size - 1.0); };
+  const auto left = static_cast<std::size_t>(pixel(std::floor(box.left), image.width));
+  const auto top = static_cast<std::size_t>(pixel(std::floor(box.top), image.height));
+  const auto right = static_cast<std::size_t>(pixel(std::ceil(box.right()), image.width));
+  const auto bottom = static_cast<std::size_t>(pixel(std::ceil(box.bottom()), image.height));
+  double sum = 0;
+  for (std::size_t v = top; v <= bottom; ++v) {
+    const std::uint8_t* row = image.data + v * image.stride;
+    sum += static_cast<double>(std::accumulate(row + left, row + right + 1, std::uint64_t{0}));
+  }
+  return sum / static_cast<double>((right - left + 1) * (bottom - top + 1));
+}
+
+/// How far one box is from another: between the centres and in width [px].
+double distance(const PixelBox& a, const PixelBox& b) {
+  const Eigen::Vector2d centres{a.left + 0.5 * a.width - b.left - 0.5 * b.width,
+                                a.top + 0.5 * a.height - b.top - 0.5 * b.height};
+  return centres.norm() + std::abs(a.width - b.width);
+}
+
+}  // namespace
+
+Expected<StereoLandmarks> StereoFaceFinder::find(const ImageView& left, const ImageView& right) {
+  if (auto wrong = no_pair(left, right)) return refuse(*wrong);
+  const ImageView left_image = stretched_if_dark(left, stretch_below_, left_pixels_);
+  const ImageView right_image = stretched_if_dark(right, stretch_below_, right_pixels_);
+
+  const Faces in_left = find_left(left_image);
+  if (!in_left || !*in_left) {
+    forget();
+    return in_left ? refuse("no face in the left image") : tl::unexpected{in_left.error()};
+  }
+  last_left_ = (*in_left)->box;
+  const Faces in_right = find_right(right_image, *last_left_);
+  last_right_.reset();
+  if (!in_right) return tl::unexpected{in_right.error()};
+  if (!*in_right) return refuse("no face in the right image");
+  last_right_ = (*in_right)->box;
+
+  auto of_left = landmarks(left, left_image, **in_left);
+  if (!of_left) return refuse("left: " + of_left.error().text);
+  auto of_right = landmarks(right, right_image, **in_right);
+  if (!of_right) return refuse("right: " + of_right.error().text);
+  return StereoLandmarks{std::move(*of_left), std::move(*of_right)};
+}
+
+StereoFaceFinder::Faces StereoFaceFinder::find_left(const ImageView& left) {
+  if (last_left_) {
+    const Faces near =
+        detect(left, {.box = last_left_->scaled(kSearchScale), .face_width = last_left_->width},
+               last_left_);
+    if (!near || *near) return near;
+  }
+  return detect(left, {.box = whole(left), .face_width = {}}, last_left_);
+}
+
+// The pair is rectified: the right picture has the face in the same rows, further left.
+StereoFaceFinder::Faces StereoFaceFinder::find_right(const ImageView& right,
+                                                     const PixelBox& in_left) {
+  if (last_right_) {
+    const Faces near =
+        detect(right, {.box = last_right_->scaled(kSearchScale), .face_width = last_right_->width},
+               last_right_);
+    if (!near || *near) return near;
+  }
+  const PixelBox strip{
+      in_left.left - kMaxDisparity * in_left.width, in_left.top - kStripSlack * in_left.height,
+      (kMaxDisparity + 1.2) * in_left.width, (1 + 2 * kStripSlack) * in_left.height};
+  const Faces in_strip = detect(right, {.box = strip, .face_width = in_left.width}, in_left);
+  if (!in_strip || *in_strip) return in_strip;
+  return detect(right, {.box = whole(right), .face_width = {}}, in_left);
+}
+
+StereoFaceFinder::Faces StereoFaceFinder::detect(const ImageView& image, const SearchRegion& region,
+                                                 const std::optional<PixelBox>& near) {
+  const auto faces = detector_.detect(image, region);
+  if (!faces) return tl::unexpected{faces.error()};
+  if (faces->empty()) return std::optional<DetectedFace>{};
+  const auto cost = [&](const DetectedFace& face) {
+    return near ? distance(face.box, *near) : -face.box.width;
+  };
+  return *std::ranges::min_element(*faces, {}, cost);
+}
+
+Expected<FaceLandmarks> StereoFaceFinder::landmarks(const ImageView& original,
+                                                    const ImageView& stretched,
+                                                    const DetectedFace& face) {
+  auto points = landmarks_.find(stretched, face.box);
+  if (!points) return tl::unexpected{points.error()};
+  if (points->size() != landmark_count(landmarks_.scheme())) {
+    return refuse(std::to_string(points->size()) + " landmarks, and " +
+                  std::string{to_string(landmarks_.scheme())} + " has " +
+                  std::to_string(landmark_count(landmarks_.scheme())));
+  }
+  return FaceLandmarks{.scheme = landmarks_.scheme(),
+                       .points = std::move(*points),
+                       .box = face.box,
+                       .score = face.score,
+                       .mean_intensity = mean_intensity(original, face.box)};
+}
+
+}  // namespace armature

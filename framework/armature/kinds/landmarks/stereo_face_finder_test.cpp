@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+// A face in a stereo pair: 1. it is sought where it was last, then everywhere, 2. of several faces
+// it keeps to the one it has, 3. the right picture is searched in the rows of the left one, 4. dark
+// pictures are stretched and their brightness is told as it was, 5. what is missing is said.
+#include "armature/kinds/landmarks/stereo_face_finder.hpp"
+
+#include <gtest/gtest.h>
+
+#include "armature/kinds/face_picture.hpp"
+
+namespace armature {
+namespace {
+
+/// Sees faces where the test has put them: wherever their centre lies in the region.
+class PlacedFaces final : public FaceDetector {
+ public:
+  Expected<std::vector<DetectedFace>> detect(const ImageView& image,
+                                             const SearchRegion& region) override {
+    searched.push_back(region);
+    brightest = *std::max_element(image.data, image.data + image.stride * 2);
+    std::vector<DetectedFace> found;
+    for (const DetectedFace& face : image.data[0] == kLeft ? left : right) {
+      const double x = face.box.left + face.box.width / 2, y = face.box.top + face.box.height / 2;
+      if (x >= region.box.left && x <= region.box.right() && y >= region.box.top &&
+          y <= region.box.bottom()) {
+        found.push_back(face);
+      }
+    }
+    return found;
+  }
+  static constexpr std::uint8_t kLeft = 0;  // the first pixel of the left picture
+  std::vector<DetectedFace> left, right;
+  std::vector<SearchRegion> searched;
+  int brightest = 0;
+};
+
+/// The corners and the middle of the box.
+class BoxCorners final : public LandmarkFinder {
+ public:
+  LandmarkScheme scheme() const override { return LandmarkScheme::five; }
+  Expected<std::vector<Landmark>> find(const ImageView&, const PixelBox& b) override {
+    std::vector<Landmark> points;
+    for (const Eigen::Vector2d& p : {Eigen::Vector2d{b.left, b.top},
+                                     {b.right(), b.top},
+                                     {b.left + b.width / 2, b.top},
+                                     {b.left, b.bottom()},
+                                     {b.right(), b.bottom()}}) {
+      points.push_back({.point = p, .sigma = 0.5});
+    }
+    if (is_short) points.pop_back();
+    return points;
+  }
+  bool is_short = false;
+};
+
+class StereoFaceFinderTest : public ::testing::Test {
+ protected:
+  /// 400 x 300 pixels of one grey; the first pixel tells the pictures apart.
+  static Picture picture(std::uint8_t first, std::uint8_t grey = 120) {
+    Picture all = Picture::of_one_grey(grey, 400, 300);
+    all.pixels[0] = first;
+    return all;
+  }
+  Expected<StereoLandmarks> find() {
+    detector_.searched.clear();
+    return finder_.find(left_.view(), right_.view());
+  }
+  static DetectedFace face(double left, double top, double width, double score = 1) {
+    return {.box = {left, top, width, width}, .score = score};
+  }
+
+  Picture left_ = picture(PlacedFaces::kLeft), right_ = picture(1);
+  PlacedFaces detector_;
+  BoxCorners corners_;
+  StereoFaceFinder finder_{detector_, corners_, 100};
+};
+
+TEST_F(StereoFaceFinderTest, TellsTheFaceOfBothPicturesWithItsLandmarks) {
+  detector_.left = {face(200, 100, 80, 1.5)};
+  detector_.right = {face(150, 101, 80)};
+  const auto found = find();
+  ASSERT_TRUE(found) << found.error().text;
+  EXPECT_EQ(found->left.scheme, LandmarkScheme::five);
+  EXPECT_EQ(found->left.box.left, 200);
+  EXPECT_EQ(found->right.box.left, 150);
+  EXPECT_EQ(found->left.score, 1.5);
+  EXPECT_EQ(found->left.mean_intensity, 120);
+  EXPECT_EQ(found->left.feature(FaceFeature::mouth).point, (Eigen::Vector2d{240, 180}));
+  EXPECT_EQ(found->right.feature(FaceFeature::left_eye).point, (Eigen::Vector2d{150, 101}));
+  EXPECT_EQ(found->right.feature(FaceFeature::left_eye).sigma, 0.5);
+}
+
+TEST_F(StereoFaceFinderTest, LooksWhereTheFaceWasAndThenEverywhere) {
+  detector_.left = {face(200, 100, 80)};
+  detector_.right = {face(150, 100, 80)};
+  ASSERT_TRUE(find());
+  EXPECT_EQ(detector_.searched[0].box.width, 399);
+  EXPECT_FALSE(detector_.searched[0].face_width);
+  ASSERT_TRUE(find());
+  ASSERT_EQ(detector_.searched.size(), 2u);
+  EXPECT_EQ(detector_.searched[0].box.left, 160);
+  EXPECT_EQ(detector_.searched[0].box.width, 160);
+  EXPECT_EQ(detector_.searched[0].face_width, 80);
+  EXPECT_EQ(detector_.searched[1].box.left, 110);
+  detector_.left = {face(20, 10, 60)};
+  detector_.right = {face(2, 10, 60)};
+  const auto found = find();
+  ASSERT_TRUE(found) << found.error().text;
+  EXPECT_EQ(found->left.box.left, 20);
+  EXPECT_EQ(detector_.searched[1].box.width, 399);
+}
+
+TEST_F(StereoFaceFinderTest, TakesTheLargestFaceAndKeepsToItWhateverTheScores) {
+  detector_.left = {face(60, 100, 50, 9), face(200, 100, 80, 1)};
+  detector_.right = {face(30, 100, 50, 9), face(150, 100, 80, 1)};
+  auto found = find();
+  ASSERT_TRUE(found) << found.error().text;
+  EXPECT_EQ(found->left.box.left, 200);
+  EXPECT_EQ(found->right.box.left, 150);
+  detector_.left = {face(205, 100, 80, 1), face(220, 120, 120, 9)};
+  detector_.right = {face(155, 100, 80, 1), face(165, 120, 120, 9)};
+  found = find();
+  ASSERT_TRUE(found) << found.error().text;
+  EXPECT_EQ(found->left.box.left, 205) << "a larger face beside it changes nothing";
+  EXPECT_EQ(found->right.box.left, 155);
+}
+
+TEST_F(StereoFaceFinderTest, SearchesTheRightPictureInTheRowsOfTheLeftOneAndThenEverywhere) {
+  detector_.left = {face(200, 100, 80)};
+  detector_.right = {face(150, 100, 80)};
+  ASSERT_TRUE(find());
+  ASSERT_EQ(detector_.searched.size(), 2u);
+  EXPECT_EQ(detector_.searched[1].box.top, 100 - 0.35 * 80);
+  EXPECT_EQ(detector_.searched[1].box.left, 200 - 1.6 * 80);
+  EXPECT_EQ(detector_.searched[1].face_width, 80);
+  finder_.forget();
+  detector_.right = {face(150, 220, 80)};
+  EXPECT_TRUE(find()) << "the pair may be badly rectified; that is for others to judge";
+  EXPECT_EQ(detector_.searched.size(), 3u);
+}
+
+TEST_F(StereoFaceFinderTest, SaysWhichPictureHasNoFaceAndForgetsIt) {
+  detector_.left = {face(200, 100, 80)};
+  detector_.right = {face(150, 100, 80)};
+  ASSERT_TRUE(find());
+  ASSERT_TRUE(finder_.last_left());
+  detector_.right.clear();
+  EXPECT_EQ(find().error().text, "no face in the right image");
+  EXPECT_TRUE(finder_.last_left());
+  detector_.left.clear();
+  EXPECT_EQ(find().error().text, "no face in the left image");
+  EXPECT_FALSE(finder_.last_left());
+}
+
+TEST_F(StereoFaceFinderTest, StretchesDarkPicturesAndTellsTheirBrightnessAsItWas) {
+  const auto brightest_of = [&](std::uint8_t bright) {
+    left_ = picture(PlacedFaces::kLeft, 20);
+    for (std::size_t i = 10; i < left_.pixels.size() / 2; ++i) left_.pixels[i] = bright;
+    detector_.left = {face(200, 200, 50)};
+    const auto found = find();
+    EXPECT_EQ(found.error().text, "no face in the right image");
+    return detector_.brightest;
+  };
+  right_ = picture(1);
+  EXPECT_EQ(brightest_of(150), 120) << "the right picture was searched last";
+  detector_.right = {face(150, 200, 50)};
+  left_ = picture(PlacedFaces::kLeft, 20);
+  right_ = picture(1, 20);
+  for (Picture* dark : {&left_, &right_}) {
+    for (std::size_t i = 10; i < dark->pixels.size() / 2; ++i) dark->pixels[i] = 60;
+  }
+  const auto found = find();
+  ASSERT_TRUE(found) << found.error().text;
+  EXPECT_EQ(detector_.brightest, 255);
+  EXPECT_EQ(found->left.mean_intensity, 20);
+}
+
+TEST_F(StereoFaceFinderTest, RefusesPicturesThatAreNoPair) {
+  const Picture lower = Picture::of_one_grey(1, 400, 299);
+  EXPECT_EQ(finder_.find({}, right_.view()).error().text, "empty image");
+  EXPECT_EQ(finder_.find(left_.view(), lower.view()).error().text,
+            "the left image is 400 x 300 pixels, the right one 400 x 299");
+}
+
+TEST_F(StereoFaceFinderTest, RefusesLandmarksThatAreNotAsManyAsTheirScheme) {
+  detector_.left = {face(200, 100, 80)};
+  detector_.right = {face(150, 100, 80)};
+  corners_.is_short = true;
+  EXPECT_EQ(find().error().text, "left: 4 landmarks, and five has 5");
+}
+
+}  // namespace
+}  // namespace armature

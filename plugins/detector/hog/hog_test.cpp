@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// The detector, loaded as the plugin that it is (dlib is compiled once): 1. the laws of every
+// detector, 2. small faces.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "../../sim/photo_scene/drawn_face.hpp"
+#include "armature/kinds/declared_params.hpp"
+#include "armature/kinds/detector/contract.hpp"
+#include "armature/runtime/plugin_library.hpp"
+
+namespace armature::detector::hog {
+namespace {
+
+using sim::photo_scene::drawn_face, sim::photo_scene::placed;
+
+PluginPtr<FaceDetector> make(std::string_view params = "") {
+  auto library =
+      PluginLibrary::load(std::filesystem::path{ARMATURE_PLUGIN_BUILD_DIR} / "detector_hog.so",
+                          FaceDetector::kKind, FaceDetector::kKindVersion);
+  if (!library) throw std::runtime_error(library.error().text);
+  const auto factory = reinterpret_cast<FaceDetector::Factory>((*library)->factory());
+  return {*library,
+          factory(declared_params(ARMATURE_SOURCE_DIR "/plugins/detector/hog/plugin.yaml", params))
+              .value()};
+}
+
+FaceDetector& detector() {
+  static const auto shared = make();
+  return *shared;
+}
+
+// The middle of the face is half-way from the mouth to the eyes.
+INSTANTIATE_TEST_SUITE_P(Hog, DetectorLaws,
+                         testing::Values(DetectorSubject{
+                             .name = "hog",
+                             .detector = &detector,
+                             .face = [] { return drawn_face(placed(0.06, 0, 0.5)).left; },
+                             .middle_x = 639.5 + 914 * 0.06 / 0.5,
+                             .middle_y = 359.5 - 914 * 0.03 / 0.5}),
+                         testing::PrintToStringParamName());
+
+TEST(Hog, EnlargesThePictureForFacesSmallerThanItsWindow) {
+  const Picture far = drawn_face(placed(0.06, 0, 2.6)).left;
+  const SearchRegion everywhere{.box = {0, 0, 1279, 719}, .face_width = {}};
+  EXPECT_TRUE(detector().detect(far.view(), everywhere)->empty());
+  const auto patient = make("min_face_px: 40");
+  const auto faces = patient->detect(far.view(), everywhere);
+  ASSERT_EQ(faces->size(), 1u);
+  EXPECT_LT(faces->front().box.width, 80);
+}
+
+}  // namespace
+}  // namespace armature::detector::hog

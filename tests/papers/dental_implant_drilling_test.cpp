@@ -52,8 +52,9 @@ class Drill : public ::testing::Test {
     return goal;
   }
   Plan planned(const std::string& interpolator) {
-    const auto path = plugins_.make<PathPlanner>(
-        "path/orientations", params_of("path/orientations", "interpolator: " + interpolator));
+    const auto path =
+        plugins_.make<PathPlanner>("path/orientations", model_,
+                                   params_of("path/orientations", "interpolator: " + interpolator));
     const PlanStages stages{**path, *ik_, *select_, *trajectory_};
     GoalPlanner planner{model_, stages, {model_.max_velocity(), model_.max_acceleration()}};
     auto plan = planner.plan(goal(), {home_, rest_, rest_}, Time{});

@@ -66,7 +66,7 @@ const RobotModel& lamp() {
 }
 
 const IkSolver& lamp_ik(std::string_view id) { return made<IkSolver>(id, lamp()); }
-const PathPlanner& lamp_path(std::string_view id) { return made<PathPlanner>(id); }
+const PathPlanner& lamp_path(std::string_view id) { return made<PathPlanner>(id, lamp()); }
 const BranchSelector& nearest() { return made<BranchSelector>("select/nearest", lamp()); }
 const TrajectoryPlanner& lamp_trajectory(std::string_view id) {
   return made<TrajectoryPlanner>(id);

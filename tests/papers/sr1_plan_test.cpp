@@ -35,8 +35,9 @@ TEST(Sr1Plan, PathNeedleRefusesTheZoneThatIsTooNearAndTakesTheOther) {
   PluginRegistry plugins{{ARMATURE_PLUGIN_BUILD_DIR}};
   config::Problems problems;
   const std::string id = "path/needle";
+  const RobotModel robot = load_robot_model(ARMATURE_SOURCE_DIR "/configs/robots/sr1_needle.yaml");
   const Params defaults = Params::read(plugins.find(id)->params, nullptr, id, problems);
-  const auto planner = *plugins.make<PathPlanner>(id, defaults);
+  const auto planner = *plugins.make<PathPlanner>(id, robot, defaults);
   const Direction along{(target - entry).normalized()};
   PathRequest request{.start = {entry - 0.2 * along.unit, Direction{{0, 0, 1}}},
                       .goal = {target, along},

@@ -42,18 +42,36 @@ Path straight_to(const ToolPose& pose) {
                       .duration_s = std::nullopt}};
 }
 
-/// A needle's depth is the redundancy of an arm which has a freedom more than the pose takes.
+/// What the path says of the redundancy counts for an arm which has a freedom more than the pose
+/// takes.
 Expected<IkGoal> ik_goal(const RobotModel& model, const IkSolver& solver,
                          const PathSample& sample) {
   const int taken = std::holds_alternative<Direction>(sample.pose.orientation) ? 5 : 6;
   IkGoal goal;
   goal.pose = sample.pose;
-  if (model.dof() <= taken || !sample.needle_depth_m) return goal;
-  if (!solver.redundancy_is_length()) {
-    return refuse("the path states how deep the needle is, which the solver does not hold");
+  if (model.dof() <= taken || !sample.redundancy) return goal;
+  if (solver.redundancy_is_length() != sample.redundancy->is_length) {
+    return refuse(
+        sample.redundancy->is_length
+            ? "the path states a length, such as a needle's depth, and the solver holds none"
+            : "the path states an arm angle, and the solver holds a length");
   }
-  goal.redundancy = sample.needle_depth_m;
+  goal.redundancy = sample.redundancy->value;
   return goal;
+}
+
+/// The one branch of a sample that names its joints, or what is wrong with them.
+std::string take_joints(const RobotModel& model, const PathSegment& segment,
+                        const PathSample& sample, IkBranches& branches) {
+  if (segment.space != PathSegment::Space::joint) return "a cartesian segment names joints";
+  if (sample.joints->size() != model.dof()) {
+    return fmt::format("{} joints, and the robot has {}", sample.joints->size(), model.dof());
+  }
+  if (!sample.joints->allFinite()) return "its joints are not finite";
+  if (!model.within_limits(*sample.joints)) return "its joints are beyond their limits";
+  branches.clear();
+  branches.add() = branch_at(model, {.pose = sample.pose}, *sample.joints, "of the path");
+  return {};
 }
 
 /// Which branch was reached, or why none. A solver answers every branch and is not told which one
@@ -163,7 +181,8 @@ PlanResult GoalPlanner::attempt(const MotionGoal& goal, const JointState& from, 
                                 .goal = goal.pose,
                                 .focus = goal.focus,
                                 .through = goal.through,
-                                .forbidden = goal.forbidden});
+                                .forbidden = goal.forbidden,
+                                .start_joints = from.q});
     });
     if (!path) return fail("path", path.error().text);
     plan.path = std::move(*path);
@@ -177,7 +196,8 @@ PlanResult GoalPlanner::attempt(const MotionGoal& goal, const JointState& from, 
                                     .from = from,
                                     .segments = plan.joint_path,
                                     .max_velocity = limits_.max_velocity,
-                                    .max_acceleration = limits_.max_acceleration});
+                                    .max_acceleration = limits_.max_acceleration,
+                                    .max_jerk = limits_.max_jerk});
   });
   if (!trajectory) return fail("trajectory", trajectory.error().text);
   plan.trajectory = std::move(*trajectory);
@@ -199,14 +219,22 @@ tl::expected<void, PlanFailure> GoalPlanner::solve_samples(const Path& path,
     for (std::size_t i = 0; i < samples.size(); ++i) {
       if (is_known(path[k], i)) continue;
       IkBranches& branches = waypoints_.emplace_back();
+      const auto name = [&] {
+        return fmt::format("sample {} of {} of segment {}", i + 1, samples.size(), k + 1);
+      };
+      if (samples[i].joints) {
+        const std::string wrong = take_joints(model_, path[k], samples[i], branches);
+        if (!wrong.empty()) return fail("path", name() + ": " + wrong);
+        seed = *samples[i].joints;
+        continue;
+      }
       const auto goal = ik_goal(model_, stages_.ik, samples[i]);
       if (!goal) return fail("ik", goal.error().text);
       const auto status = solved(stages_.ik, *goal, seed, branches, state);
       const IkBranch* next =
           status && reaches(*status) ? nearest_branch(branches, seed, model_) : nullptr;
       if (!next) {
-        return fail("ik", fmt::format("sample {} of {} of segment {}: {}", i + 1, samples.size(),
-                                      k + 1, reason_of(status)));
+        return fail("ik", name() + ": " + reason_of(status));
       }
       seed = next->q;
     }

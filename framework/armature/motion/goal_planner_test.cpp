@@ -162,7 +162,8 @@ TEST(GoalPlanner, HandsForbiddenZonesToThePath) {
 class DeepPath final : public PathPlanner {
  public:
   Expected<Path> plan(const PathRequest& request) const override {
-    return Path{{.space = PathSegment::Space::joint, .samples = {{1, request.goal, 0.25}}}};
+    return Path{{.space = PathSegment::Space::joint,
+                 .samples = {{1, request.goal, Redundancy{0.25, true}}}}};
   }
 };
 class AlwaysHome final : public IkSolver {
@@ -214,7 +215,64 @@ TEST(GoalPlanner, AsksForANeedlesDepthOnlyWhereTheArmHasAFreedomMoreThanThePoseT
   const auto refused = planned(robot("med7.yaml"), rotation, turning);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().reason,
-            "the path states how deep the needle is, which the solver does not hold");
+            "the path states a length, such as a needle's depth, and the solver holds none");
+}
+
+/// A detour by joint positions of its own.
+class JointsPath final : public PathPlanner {
+ public:
+  JointVector detour;
+  PathSegment::Space space = PathSegment::Space::joint;
+  mutable std::optional<JointVector> started_at;
+
+  Expected<Path> plan(const PathRequest& request) const override {
+    started_at = request.start_joints;
+    const PathSample by_joints{.s = 1, .pose = request.goal, .redundancy = {}, .joints = detour};
+    return Path{{.space = space, .samples = {by_joints}},
+                {.space = PathSegment::Space::joint, .samples = {{1, request.goal}}}};
+  }
+};
+
+TEST(GoalPlanner, GoesThroughTheJointsThatAPathNamesWithoutSolvingForThem) {
+  const Gantry gantry;
+  JointsPath path;
+  GoalPlanner planner{
+      gantry.model, {path, gantry.ik, gantry.select, gantry.trajectory}, gantry.limits, {}};
+  path.detour = Eigen::Vector3d{0.1, 0.2, 0.3};
+  const auto plan = planner.plan(goal_at(1, 0.5, 0, 0), rest_at(0, 0, 0.1), kStart);
+  ASSERT_TRUE(plan) << plan.error().reason;
+  ASSERT_EQ(plan->joint_path.size(), 2u);
+  EXPECT_EQ(plan->joint_path[0].q.back(), path.detour);
+  EXPECT_EQ(*path.started_at, (Eigen::Vector3d{0, 0, 0.1}));
+}
+
+TEST(GoalPlanner, SaysWhatIsWrongWithTheJointsThatAPathNames) {
+  const Gantry gantry;
+  JointsPath path;
+  GoalPlanner planner{gantry.model,
+                      {path, gantry.ik, gantry.select, gantry.trajectory},
+                      gantry.limits,
+                      {.path_only = true}};
+  const auto reason = [&](JointVector joints) {
+    path.detour = std::move(joints);
+    return planner.plan(goal_at(1, 0.5, 0, 0), rest_at(0, 0, 0), kStart).error().reason;
+  };
+  const std::string where = "sample 1 of 1 of segment 1: ";
+  EXPECT_EQ(reason(JointVector::Zero(2)), where + "2 joints, and the robot has 3");
+  EXPECT_EQ(reason(JointVector::Constant(3, NAN)), where + "its joints are not finite");
+  EXPECT_EQ(reason(JointVector::Constant(3, 1e3)), where + "its joints are beyond their limits");
+  path.space = PathSegment::Space::cartesian;
+  EXPECT_EQ(reason(JointVector::Zero(3)), where + "a cartesian segment names joints");
+}
+
+TEST(GoalPlanner, HandsTheJerkLimitToTheTrajectory) {
+  const Gantry gantry;
+  MotionLimits limits = gantry.limits;
+  limits.max_jerk = JointVector::Constant(3, 7);
+  GoalPlanner planner{
+      gantry.model, {gantry.path, gantry.ik, gantry.select, gantry.trajectory}, limits, {}};
+  ASSERT_TRUE(planner.plan(goal_at(1, 0.5, 0, 0), rest_at(0, 0, 0), kStart));
+  EXPECT_EQ(gantry.trajectory.last_request.max_jerk, limits.max_jerk);
 }
 
 TEST(GoalPlanner, StopsFirstWhenTheTrajectoryCannotBeSpliced) {

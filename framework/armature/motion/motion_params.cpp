@@ -72,7 +72,8 @@ MotionLimits limits_of(const Params& params, const RobotModel& model) {
                       model.max_velocity()),
           limits_from({parameters.max_acceleration_rad_s2, "max_acceleration_rad_s2", "rad/s2"},
                       {parameters.max_acceleration_m_s2, "max_acceleration_m_s2", "m/s2"}, model,
-                      model.max_acceleration())};
+                      model.max_acceleration()),
+          max_jerk_of(parameters, model)};
 }
 
 /// The robot as the solver has it.

@@ -21,7 +21,7 @@ MotionPlanner::MotionPlanner(Setup& setup)
     : Component(setup),
       model_{robot_of(setup)},
       solver_model_{solver_model_of(setup.params(), model_)},
-      path_{setup.slot<PathPlanner>("path")},
+      path_{setup.slot<PathPlanner>("path", model_)},
       ik_{setup.slot<IkSolver>("ik", solver_model_)},
       select_{setup.slot<BranchSelector>("select", model_)},
       trajectory_{setup.slot<TrajectoryPlanner>("trajectory")},

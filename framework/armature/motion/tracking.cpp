@@ -45,14 +45,6 @@ ShortTrajectory quintic_to(const JointState& from, const JointState& to, Time st
   return way;
 }
 
-/// Largest |jerk| of a quintic on [0, duration_s]: its jerk is a parabola.
-double peak_jerk(const Quintic& quintic, double duration_s) {
-  double peak = std::max(std::abs(quintic.jerk(0)), std::abs(quintic.jerk(duration_s)));
-  const double vertex = -24 * quintic.c[4] / (120 * quintic.c[5]);
-  if (vertex > 0 && vertex < duration_s) peak = std::max(peak, std::abs(quintic.jerk(vertex)));
-  return peak;
-}
-
 /// [m/s] of the tool's origin.
 double tool_speed(const RobotModel& model, const JointState& state) {
   const auto now = forward_kinematics_with_jacobian(model, state.q, model.tool());

@@ -124,6 +124,13 @@ QuinticPeaks peaks(const Quintic& quintic, double duration_s) {
   return result;
 }
 
+double peak_jerk(const Quintic& quintic, double duration_s) {
+  double peak = std::max(std::abs(quintic.jerk(0)), std::abs(quintic.jerk(duration_s)));
+  const double vertex = -24 * quintic.c[4] / (120 * quintic.c[5]);
+  if (vertex > 0 && vertex < duration_s) peak = std::max(peak, std::abs(quintic.jerk(vertex)));
+  return peak;
+}
+
 QuinticRange range(const Quintic& quintic, double duration_s) {
   const double T = duration_s;
   QuinticRange result{quintic.position(0), quintic.position(0)};

@@ -31,6 +31,9 @@ struct QuinticPeaks {
 };
 QuinticPeaks peaks(const Quintic& quintic, double duration_s);
 
+/// Largest |jerk| of a quintic on [0, duration_s], as exact as the peaks.
+double peak_jerk(const Quintic& quintic, double duration_s);
+
 /// Lowest and highest position of a quintic on [0, duration_s], as exact as the peaks.
 struct QuinticRange {
   double lowest = 0, highest = 0;

@@ -152,6 +152,19 @@ LimitUse limit_use(const Trajectory& trajectory, const JointVector& max_velocity
   return use;
 }
 
+double jerk_use(const Trajectory& trajectory, const JointVector& max_jerk) {
+  double use = 0;
+  if (max_jerk.size() == 0) return use;
+  for (int k = 0; k < trajectory.piece_count(); ++k) {
+    const auto knot = trajectory.knots.begin() + k;
+    for (int j = 0; j < trajectory.dof; ++j) {
+      const double peak = peak_jerk(piece_of(trajectory, k, j), *(knot + 1) - *knot);
+      use = std::max(use, peak / max_jerk[j]);
+    }
+  }
+  return use;
+}
+
 Trajectory stretched(const Trajectory& trajectory, double factor) {
   Trajectory slower = trajectory;
   for (double& knot : slower.knots) knot *= factor;

@@ -64,7 +64,11 @@ struct LimitUse {
 LimitUse limit_use(const Trajectory& trajectory, const JointVector& max_velocity,
                    const JointVector& max_acceleration);
 
-/// The same path `factor` times slower (velocities / factor, accelerations / factor^2).
+/// Largest |jerk| / limit, as exact; 0 for limits that are empty.
+double jerk_use(const Trajectory& trajectory, const JointVector& max_jerk);
+
+/// The same path `factor` times slower (velocities / factor, accelerations / factor^2,
+/// jerks / factor^3).
 Trajectory stretched(const Trajectory& trajectory, double factor);
 
 /// `trajectory` (which starts at rest at from.q) plus a quintic that carries (from.v, from.a) down

@@ -10,7 +10,7 @@ namespace armature::path::joint_move {
 class JointMove final : public PathPlanner {
  public:
   explicit JointMove(const Parameters& parameters) : parameters_{parameters} {}
-  explicit JointMove(const Params& params) : JointMove{Parameters::read(params)} {}
+  JointMove(const RobotModel&, const Params& params) : JointMove{Parameters::read(params)} {}
 
   Expected<Path> plan(const PathRequest& request) const override;
 

@@ -11,7 +11,7 @@ namespace armature::path::mouth_arc {
 class MouthArc final : public PathPlanner {
  public:
   explicit MouthArc(const Parameters& parameters) : parameters_{parameters} {}
-  explicit MouthArc(const Params& params) : MouthArc{Parameters::read(params)} {}
+  MouthArc(const RobotModel&, const Params& params) : MouthArc{Parameters::read(params)} {}
 
   Expected<Path> plan(const PathRequest& request) const override;
 

@@ -10,7 +10,7 @@ namespace armature::path::mouth_points {
 class MouthPoints final : public PathPlanner {
  public:
   explicit MouthPoints(const Parameters& parameters) : parameters_{parameters} {}
-  explicit MouthPoints(const Params& params) : MouthPoints{Parameters::read(params)} {}
+  MouthPoints(const RobotModel&, const Params& params) : MouthPoints{Parameters::read(params)} {}
 
   Expected<Path> plan(const PathRequest& request) const override;
 

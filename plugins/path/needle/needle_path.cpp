@@ -76,7 +76,9 @@ std::optional<std::string> NeedlePath::obstacle(const Line& line, double from, d
 PathSample NeedlePath::sample(const Line& line, double at, double s, const ToolPose& goal) const {
   PathSample sample{.s = s, .pose = goal};
   sample.pose.position = line.point(at);
-  if (parameters_.needle_at_entry > 0) sample.needle_depth_m = parameters_.needle_at_entry + at;
+  if (parameters_.needle_at_entry > 0) {
+    sample.redundancy = Redundancy{.value = parameters_.needle_at_entry + at, .is_length = true};
+  }
   return sample;
 }
 

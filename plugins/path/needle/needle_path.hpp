@@ -11,7 +11,7 @@ namespace armature::path::needle {
 class NeedlePath final : public PathPlanner {
  public:
   explicit NeedlePath(const Parameters& parameters) : parameters_{parameters} {}
-  explicit NeedlePath(const Params& params) : NeedlePath{Parameters::read(params)} {}
+  NeedlePath(const RobotModel&, const Params& params) : NeedlePath{Parameters::read(params)} {}
 
   Expected<Path> plan(const PathRequest& request) const override;
 

@@ -50,7 +50,7 @@ TEST_P(NeedlePaths, GoToTheStandOffStopAtTheEntryAndEndAtTheTargetOnOneLine) {
       for (std::size_t k = 0; k < segment.samples.size(); ++k) {
         const Vector3d at = segment.samples[k].pose.position;
         EXPECT_LT((at - entry_).cross(along_).norm(), 1e-12);
-        EXPECT_FALSE(segment.samples[k].needle_depth_m);
+        EXPECT_FALSE(segment.samples[k].redundancy);
         if (k == 0) continue;
         EXPECT_LE((at - segment.samples[k - 1].pose.position).norm(), 0.001 + 1e-12);
       }
@@ -95,9 +95,9 @@ TEST_P(NeedlePaths, ASlidingNeedleIsToldItsDepth) {
   const PathRequest request = insertion();
   const auto path = sliding.plan(request);
   ASSERT_TRUE(path) << path.error().text;
-  EXPECT_NEAR(*path->front().samples.back().needle_depth_m, 0.05, 1e-12);
+  EXPECT_NEAR(path->front().samples.back().redundancy->value, 0.05, 1e-12);
   for (const PathSample& sample : path->back().samples) {
-    EXPECT_NEAR(*sample.needle_depth_m, 0.1 + along_.dot(sample.pose.position - entry_), 1e-12);
+    EXPECT_NEAR(sample.redundancy->value, 0.1 + along_.dot(sample.pose.position - entry_), 1e-12);
   }
   EXPECT_EQ(NeedlePath{{.needle_at_entry = 0.03}}.plan(request).error().text,
             "the needle starts 50 mm before the entry and would have to be 20 mm shorter than "

@@ -12,7 +12,7 @@ namespace armature::path::orientations {
 class Orientations final : public PathPlanner {
  public:
   explicit Orientations(const Parameters& parameters) : parameters_{parameters} {}
-  explicit Orientations(const Params& params) : Orientations{Parameters::read(params)} {}
+  Orientations(const RobotModel&, const Params& params) : Orientations{Parameters::read(params)} {}
 
   Expected<Path> plan(const PathRequest& request) const override;
 

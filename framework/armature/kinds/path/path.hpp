@@ -8,22 +8,33 @@
 
 #include "armature/kinds/made_for_robot.hpp"
 #include "armature/robot/forbidden_zone.hpp"
+#include "armature/robot/joint_vector.hpp"
 #include "armature/robot/pose_goal.hpp"
 
 namespace armature {
+
+/// A value of the freedom that an arm has beyond the pose of its tool: an arm angle [rad], or a
+/// length [m] such as the depth of a needle.
+struct Redundancy {
+  double value = 0;
+  bool is_length = false;
+};
 
 /// A point of a path: where the tool shall be when the segment's parameter is `s` in [0, 1].
 struct PathSample {
   double s = 0;
   ToolPose pose;
-  /// [m], of an arm with a needle that slides, which has a freedom more than the pose takes; others
-  /// do not look at it.
-  std::optional<double> needle_depth_m = std::nullopt;
+  /// What the inverse kinematics shall hold there (IkGoal::redundancy). Arms without a freedom
+  /// more than the pose takes do not look at it.
+  std::optional<Redundancy> redundancy = std::nullopt;
+  /// Where the independent joints (dof() entries) shall be: nothing is solved for then, and `pose`
+  /// is where that takes the tool. Of a joint segment only.
+  std::optional<JointVector> joints = std::nullopt;
 };
 
 /// A piece of a path. The first sample of a cartesian segment is where it starts (s = 0), the last
 /// one where it ends (s = 1). A joint segment goes straight in joint space from where the segment
-/// before ended through its samples' inverse kinematics; it needs only its end.
+/// before ended through its samples' joints, or their inverse kinematics; it needs only its end.
 struct PathSegment {
   enum class Space { joint, cartesian };
   Space space = Space::cartesian;
@@ -44,6 +55,8 @@ struct PathRequest {
   std::vector<ToolPose> through = {};
   /// What the tool must keep away from, in the base frame.
   std::vector<ForbiddenZone> forbidden = {};
+  /// Where the independent joints are at the start (dof() entries); nothing: nobody knows.
+  std::optional<JointVector> start_joints = std::nullopt;
 };
 
 /// Plans where the tool goes, not when. The path starts at the request's start (a cartesian first
@@ -53,8 +66,8 @@ struct PathRequest {
 class PathPlanner {
  public:
   static constexpr std::string_view kKind = "path";
-  static constexpr int kKindVersion = 2;
-  using Factory = MadeFromParams<PathPlanner>;
+  static constexpr int kKindVersion = 3;
+  using Factory = MadeForRobot<PathPlanner>;
 
   virtual ~PathPlanner() = default;
   virtual Expected<Path> plan(const PathRequest& request) const = 0;

@@ -41,6 +41,7 @@ void TrajectoryLaws::expect_keeps_limits(const Trajectory& trajectory,
   const LimitUse use = limit_use(trajectory, request.max_velocity, request.max_acceleration);
   EXPECT_LE(use.velocity, at_start(request.from.v, request.max_velocity) + 1e-6);
   EXPECT_LE(use.acceleration, at_start(request.from.a, request.max_acceleration) + 1e-6);
+  EXPECT_LE(jerk_use(trajectory, request.max_jerk), 1 + 1e-6);
 }
 
 void TrajectoryLaws::expect_joins_start_and_goal(const Trajectory& trajectory,
@@ -98,6 +99,22 @@ TEST_P(TrajectoryLaws, FromAMovingStartItLeavesWithoutAJumpWithinTheLimits) {
     TrajectoryRequest wanted = request(0.5);
     wanted.segments = {curve_from(wanted.from.q, 1 + i % 20, i % 3 == 0 ? 1e-3 : 0.7)};
     expect_good(planner().plan(wanted), wanted);
+  }
+}
+
+TEST_P(TrajectoryLaws, KeepsAJerkLimitToo) {
+  SCOPED_TRACE("seed 11");
+  for (int i = 0; i < 100; ++i) {
+    TrajectoryRequest wanted = request(i % 2 == 0 ? 0 : 0.2);
+    wanted.max_jerk = JointVector::Constant(kDof, 5);
+    wanted.segments = {curve_from(wanted.from.q, 1 + i % 10, 0.7)};
+    const auto planned = planner().plan(wanted);
+    expect_good(planned, wanted);
+    if (i % 2 == 1) continue;
+    const LimitUse use = limit_use(*planned, wanted.max_velocity, wanted.max_acceleration);
+    const double jerk = jerk_use(*planned, wanted.max_jerk);
+    EXPECT_GT(jerk, 0.1);
+    EXPECT_GE(std::max({use.velocity, use.acceleration, jerk}), 1 - 1e-6);
   }
 }
 

@@ -96,7 +96,9 @@ std::string defect_of(const TrajectoryRequest& request) {
   const auto positive = [&](const JointVector& limit) {
     return limit.size() == dof && (limit.array() > 0).all();
   };
-  if (!positive(request.max_velocity) || !positive(request.max_acceleration)) {
+  const bool limits_jerk = request.max_jerk.size() > 0;
+  if (!positive(request.max_velocity) || !positive(request.max_acceleration) ||
+      (limits_jerk && !positive(request.max_jerk))) {
     return "the limits are not positive numbers, one per joint";
   }
   if (request.segments.empty()) return "there is no segment";

@@ -14,7 +14,11 @@ namespace {
 /// What the slowest joint needs; 0 where nothing moves.
 double needed_s(const TrajectoryRequest& request, const JointVector& way) {
   if (way.cwiseAbs().maxCoeff() <= kStillWay) return 0;
-  return shortest_move_s(way, request.max_velocity, request.max_acceleration);
+  double needed = shortest_move_s(way, request.max_velocity, request.max_acceleration);
+  for (Eigen::Index j = 0; j < request.max_jerk.size(); ++j) {
+    needed = std::max(needed, std::cbrt(60 * std::abs(way[j]) / request.max_jerk[j]));
+  }
+  return needed;
 }
 
 }  // namespace

@@ -52,7 +52,8 @@ class LegTimer {
     };
     const LimitUse use = limit_use(trajectory, request_.max_velocity, request_.max_acceleration);
     return use.velocity <= start_use(request_.from.v, request_.max_velocity) &&
-           use.acceleration <= start_use(request_.from.a, request_.max_acceleration);
+           use.acceleration <= start_use(request_.from.a, request_.max_acceleration) &&
+           jerk_use(trajectory, request_.max_jerk) <= 1 + kLimitRounding;
   }
 
   Expected<Trajectory> shortest_from_moving() const {
@@ -104,7 +105,8 @@ void append(Trajectory& trajectory, const Trajectory& next) {
 
 double needed_factor(const TrajectoryRequest& request, const Trajectory& from_rest) {
   const LimitUse use = limit_use(from_rest, request.max_velocity, request.max_acceleration);
-  return std::max(use.velocity, std::sqrt(use.acceleration));
+  return std::max({use.velocity, std::sqrt(use.acceleration),
+                   std::cbrt(jerk_use(from_rest, request.max_jerk))});
 }
 
 Expected<Trajectory> timed(const TrajectoryRequest& request, const LegShaper& shape_of) {

@@ -29,7 +29,7 @@ using LegShaper = std::function<std::unique_ptr<LegShape>(const TrajectoryReques
 Expected<Trajectory> timed(const TrajectoryRequest& request, const LegShaper& shape_of);
 
 /// By how much slower a motion from rest has to be to keep the request's limits: velocities fall
-/// with the factor, accelerations with its square.
+/// with the factor, accelerations with its square, jerks with its cube.
 double needed_factor(const TrajectoryRequest& request, const Trajectory& from_rest);
 
 }  // namespace armature

@@ -29,16 +29,18 @@ struct TrajectoryRequest {
   JointState from;  // q, v, a at `start`; q equals the first waypoint
   std::vector<JointSegment> segments;
   JointVector max_velocity, max_acceleration;  // per independent joint
+  JointVector max_jerk = {};                   // the same, [rad/s3] or [m/s3]; empty: any
 };
 
 /// Decides time and limits: from a joint path to a trajectory that leaves `from` without a jump in
-/// q, v, a, ends at rest and keeps the limits. A plugin that offers `time_law` (plugin.yaml) keeps
+/// q, v, a, ends at rest and keeps the limits. A velocity or an acceleration that is beyond its
+/// limit at the start is not exceeded further. A plugin that offers `time_law` (plugin.yaml) keeps
 /// a segment's own duration_s exactly, and refuses when the limits forbid it; one that does not
 /// refuses a segment that has one. Pure; may allocate.
 class TrajectoryPlanner {
  public:
   static constexpr std::string_view kKind = "trajectory";
-  static constexpr int kKindVersion = 1;
+  static constexpr int kKindVersion = 2;
   using Factory = MadeFromParams<TrajectoryPlanner>;
 
   virtual ~TrajectoryPlanner() = default;

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <cstdint>
 
+#include "armature/kinds/joint_messages.hpp"
 #include "armature/kinds/path/path.hpp"
 #include "armature/kinds/request_host.hpp"
+#include "armature/kinds/setup_robot.hpp"
 #include "armature/kinds/tool_pose_messages.hpp"
 #include "armature/kinds/zone_messages.hpp"
 #include "armature/runtime/plugin.hpp"
@@ -11,7 +15,7 @@
 namespace armature {
 namespace {
 
-PathRequest request_of(const msg::PathRequest& message) {
+Expected<PathRequest> request_of(const RobotModel& robot, const msg::PathRequest& message) {
   PathRequest request{.start = tool_pose_of(message.start_()),
                       .goal = tool_pose_of(message.goal_()),
                       .focus = {},
@@ -20,10 +24,14 @@ PathRequest request_of(const msg::PathRequest& message) {
   for (const msg::ToolPose& key : message.through_()) {
     request.through.push_back(tool_pose_of(key));
   }
-  return request;
+  if (message.start_joints_().empty()) return request;
+  return joints_or_home(robot, message.start_joints_(), "the start").map([&](const JointVector& q) {
+    request.start_joints = q;
+    return request;
+  });
 }
 
-msg::PathSegment message_of(const PathSegment& segment) {
+msg::PathSegment message_of(const RobotModel& robot, const PathSegment& segment) {
   msg::PathSegment message;
   message.space_(static_cast<std::uint8_t>(segment.space));
   message.samples_().reserve(segment.samples.size());
@@ -31,8 +39,13 @@ msg::PathSegment message_of(const PathSegment& segment) {
     auto& written = message.samples_().emplace_back();
     written.s_(sample.s);
     write_tool_pose(sample.pose, written.pose_());
-    written.has_redundancy_(sample.needle_depth_m.has_value());
-    written.redundancy_(sample.needle_depth_m.value_or(0));
+    const Redundancy redundancy = sample.redundancy.value_or(Redundancy{});
+    written.has_redundancy_(sample.redundancy.has_value());
+    written.redundancy_(redundancy.value);
+    written.redundancy_is_length_(redundancy.is_length);
+    if (!sample.joints) continue;
+    const JointVector all = robot.expand(*sample.joints);
+    written.joints_().assign(all.begin(), all.end());
   }
   message.stop_at_end_(segment.stop_at_end);
   message.has_duration_(segment.duration_s.has_value());
@@ -46,21 +59,39 @@ msg::PathSegment message_of(const PathSegment& segment) {
 class PathHost final : public RequestHost<msg::PathRequest, msg::PathResponse> {
  public:
   explicit PathHost(Setup& setup)
-      : RequestHost{setup}, planner_{setup.slot<PathPlanner>("planner")} {}
+      : RequestHost{setup},
+        robot_{robot_of(setup)},
+        planner_{setup.slot<PathPlanner>("planner", robot_)} {}
 
  private:
   void answer(const msg::PathRequest& request, msg::PathResponse& response) override {
     const auto wrong = in_another_frame(request);
-    const Expected<Path> path = wrong
-                                    ? Expected<Path>{refuse(*wrong)}
-                                    : guarded([&] { return planner_->plan(request_of(request)); });
+    const Expected<Path> path = wrong ? Expected<Path>{refuse(*wrong)} : planned(request);
     response.valid_(path.has_value());
     response.reason_() = path ? "" : path.error().text;
     response.segments_().clear();
     if (!path) return;
-    for (const PathSegment& segment : *path) response.segments_().push_back(message_of(segment));
+    for (const PathSegment& segment : *path) {
+      response.segments_().push_back(message_of(robot_, segment));
+    }
   }
 
+  Expected<Path> planned(const msg::PathRequest& request) const {
+    const auto read = request_of(robot_, request);
+    if (!read) return tl::unexpected{read.error()};
+    auto path = guarded([&] { return planner_->plan(*read); });
+    if (!path) return path;
+    for (const PathSegment& segment : *path) {
+      for (const PathSample& sample : segment.samples) {
+        if (!sample.joints || sample.joints->size() == robot_.dof()) continue;
+        return refuse(fmt::format("the plugin answered {} joints, and the robot has {}",
+                                  sample.joints->size(), robot_.dof()));
+      }
+    }
+    return path;
+  }
+
+  RobotModel robot_;
   PluginPtr<PathPlanner> planner_;
 };
 

@@ -31,11 +31,11 @@ class OverTheFocus final : public PathPlanner {
     ToolPose middle = good->goal;
     middle.position = *good->focus;
     return Path{{.space = PathSegment::Space::joint,
-                 .samples = {{1, middle}},
+                 .samples = {{1, middle, std::nullopt, good->start_joints}},
                  .stop_at_end = false,
                  .duration_s = {}},
                 {.space = PathSegment::Space::cartesian,
-                 .samples = {{0, middle}, {0.5, middle, 0.07}, {1, good->goal}},
+                 .samples = {{0, middle}, {0.5, middle, Redundancy{0.07, true}}, {1, good->goal}},
                  .stop_at_end = true,
                  .duration_s = 2.5}};
   }
@@ -61,8 +61,11 @@ msg::PathRequest request(std::uint64_t id) {
 class PathHostTest : public RequestHostTest<msg::PathRequest, msg::PathResponse> {
  protected:
   PathHostTest()
-      : RequestHostTest{plugins(),
-                        {.component = "{plugin: path/over_the_focus}", .robot = {}, .rig = {}}} {}
+      : RequestHostTest{
+            plugins(),
+            {.component = "{plugin: path/over_the_focus}",
+             .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/dental_lamp.yaml"),
+             .rig = {}}} {}
 };
 
 TEST_F(PathHostTest, AnswersEveryRequestOnceInOrderUnderItsHeaderAndId) {
@@ -120,9 +123,24 @@ TEST_F(PathHostTest, TellsTheSegmentsAsTheyAre) {
   EXPECT_EQ(second.samples_()[1].s_(), 0.5);
   EXPECT_TRUE(second.samples_()[1].has_redundancy_());
   EXPECT_EQ(second.samples_()[1].redundancy_(), 0.07);
+  EXPECT_TRUE(second.samples_()[1].redundancy_is_length_());
   EXPECT_FALSE(second.samples_()[2].has_redundancy_());
   EXPECT_TRUE(second.samples_()[2].pose_().pointing_());
   EXPECT_EQ(to_eigen(second.samples_()[2].pose_().direction_()), -Eigen::Vector3d::UnitZ());
+}
+
+TEST_F(PathHostTest, CarriesAllJointsOfTheStartToThePathAndThoseOfAJointSegmentBack) {
+  EXPECT_FALSE((ask(request(1)), OverTheFocus::asked.start_joints));
+  msg::PathRequest message = request(2);
+  const std::vector<double> all{0.1, 0.2, 0.3, -0.3, 0.4, 0.5};  // the fourth follows the third
+  message.start_joints_(all);
+  const msg::PathResponse answer = ask(message);
+  ASSERT_TRUE(answer.valid_()) << answer.reason_();
+  EXPECT_EQ(OverTheFocus::asked.start_joints->size(), 5);
+  EXPECT_EQ(answer.segments_()[0].samples_()[0].joints_(), all);
+  EXPECT_TRUE(answer.segments_()[1].samples_()[0].joints_().empty());
+  message.start_joints_().pop_back();
+  EXPECT_EQ(ask(message).reason_(), "the start: 5 joint values; dental_lamp has 6 joints");
 }
 
 TEST_F(PathHostTest, AnswersABadRequestWithItsReasonAndTheNextOneAsIfNothingHadBeen) {

@@ -94,13 +94,22 @@ Expected<TrajectoryRequest> request_of(const RobotModel& robot,
   const auto max_acceleration =
       limits_or(robot.max_acceleration(), robot, message.max_acceleration_(), "max_acceleration");
   if (!max_acceleration) return tl::unexpected{max_acceleration.error()};
+  JointVector max_jerk;
+  if (!message.max_jerk_().empty()) {
+    constexpr double kAny = std::numeric_limits<double>::infinity();
+    const auto limits =
+        limits_or(JointVector::Constant(robot.dof(), kAny), robot, message.max_jerk_(), "max_jerk");
+    if (!limits) return tl::unexpected{limits.error()};
+    max_jerk = *limits;
+  }
   const JointVector start = segments->front().q.front();
   return TrajectoryRequest{.goal_id = message.request_id_(),
                            .start = stamp_of(message.header_().stamp_()),
                            .from = {.q = start, .v = *v, .a = *a},
                            .segments = std::move(*segments),
                            .max_velocity = *max_velocity,
-                           .max_acceleration = *max_acceleration};
+                           .max_acceleration = *max_acceleration,
+                           .max_jerk = max_jerk};
 }
 
 }  // namespace

@@ -97,7 +97,7 @@ function(armature_add_library name)
   add_library(armature_${name} SHARED ${arg_SOURCES})
   add_library(armature::${name} ALIAS armature_${name})
   set_target_properties(armature_${name} PROPERTIES EXPORT_NAME ${name} VERSION ${PROJECT_VERSION}
-                                                    SOVERSION ${PROJECT_VERSION_MAJOR})
+                                                    SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
   target_link_libraries(armature_${name} PUBLIC armature::abi ${arg_LINK}
                                          PRIVATE $<BUILD_INTERFACE:armature_warnings> ${arg_PRIVATE})
   armature_precompile(armature_${name} code)

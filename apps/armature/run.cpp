@@ -56,6 +56,7 @@ std::vector<std::string> child_arguments(const RunOptions& options, int domain,
                                      "--clock-start-ns",
                                      std::to_string(origin.start.ns)};
   if (options.timing) arguments.push_back("--timing");
+  if (options.keep_running) arguments.push_back("--keep-running");
   if (options.inject) arguments.insert(arguments.end(), {"--inject", *options.inject});
   for (const auto& assignment : options.source.assignments) {
     arguments.insert(arguments.end(), {"--set", assignment});
@@ -245,6 +246,8 @@ int run_main(const RunOptions& options, const Process& process, Deployment& depl
   MainWatch watch{console, children, deployment.config()};
   deployment.run(watch);
   RunReport::Ending ending{.faults = watch.end_all(), .stopped = watch.interruption()};
+  // Somebody has looked at it for long enough: that is how such a run ends.
+  if (options.keep_running && deployment.any_finished()) ending.stopped.reset();
   if (options.timing) {
     ending.timing = timing_of(deployment);
     children.add_timing(*ending.timing);
@@ -296,6 +299,11 @@ int run(const RunOptions& options) {
                   .origin = options.origin.value_or(
                       RunOptions::Origin{SystemClock{}.unix_minus_monotonic(), Time{}})};
   check_process(config, process.name);
+  if (options.keep_running && config.simulated) {
+    throw InvalidChoice(
+        "--keep-running is for watching, and a run on the simulated clock is as "
+        "fast as the machine allows; add --set clock=system");
+  }
 
   std::optional<InjectedFault> injected;
   if (options.inject) {
@@ -315,6 +323,7 @@ int run(const RunOptions& options) {
        .on_line = [&](const auto& who, const auto& text) { console.line(who, text); },
        .on_note = [&](const auto& text) { console.line("runtime", text); },
        .clock_offset = process.origin.clock_offset,
+       .keeps_running = options.keep_running,
        .on_ending = [&](const auto& what) { end_watch.begin(what); }}};
   if (injected) deployment.inject(*injected);
   end_signals::stop_in_order();

@@ -17,6 +17,7 @@
 
 #include "armature/bus/fast_dds/observer.hpp"
 #include "armature/bus/topic_name.hpp"
+#include "armature/config/problems.hpp"
 #include "armature/messages/cdr_to_json.hpp"
 #include "armature/runtime/plugin_registry.hpp"
 #include "exit_code.hpp"
@@ -116,19 +117,39 @@ std::string no_topics(const TopicOptions& options) {
   return fmt::format("domain {} has no topics{}", options.domain, elsewhere);
 }
 
-/// Watches a topic; a topic that nobody writes is answered with those that are there. kOk, or
-/// kTimedOut when the time was too short to find out.
+/// "; did you mean '/lamp/target'?" or "; topics that are there: ...", or that there are none.
+std::string topics_there(DdsObserver& observer, const TopicOptions& options) {
+  std::vector<std::string> names;
+  for (const auto& topic : observer.topics()) names.push_back(ros_topic_name(topic.name));
+  if (names.empty()) return "; " + no_topics(options);
+  const std::string hint = config::did_you_mean(options.topic, names);
+  if (hint.find("did you mean") != std::string::npos) return hint;
+  std::string list;
+  for (const std::string& name : names) list += "\n  " + name;
+  return "; topics that are there:" + list;
+}
+
+/// Watches a topic, and waits for one that nobody writes yet, which is said. kOk when it is watched
+/// or was interrupted; kTimedOut, or an exception with what is there, when the time is over.
 int watch(DdsObserver& observer, const TopicOptions& options,
-          std::function<void(const ObservedSample&)> on_sample) {
-  const Duration patience = options.timeout_s > 0 ? seconds(options.timeout_s) : seconds(5.0);
-  const auto watching = observer.watch(options.topic, patience, std::move(on_sample));
-  if (watching) return kOk;
-  if (const int code = too_short(observer, options); code != kOk) return code;
-  std::string there;
-  for (const auto& topic : observer.topics()) there += "\n  " + ros_topic_name(topic.name);
-  throw std::runtime_error(watching.error().text + (there.empty()
-                                                        ? "; " + no_topics(options)
-                                                        : "; topics that are there:" + there));
+          const std::function<void(const ObservedSample&)>& on_sample) {
+  constexpr Duration kLook = seconds(0.1);  // Ctrl-C waits no longer
+  const auto start = std::chrono::steady_clock::now();
+  for (bool told = false; !g_interrupted;) {
+    const auto watching = observer.watch(options.topic, kLook, on_sample);
+    if (watching) return kOk;
+    const Duration waited = std::chrono::steady_clock::now() - start;
+    const bool over = options.timeout_s > 0 && waited > seconds(options.timeout_s);
+    if (over) {
+      if (const int code = too_short(observer, options); code != kOk) return code;
+      throw std::runtime_error(watching.error().text + topics_there(observer, options));
+    }
+    if (told || waited < kDiscovery) continue;
+    told = true;
+    fmt::print(stderr, "armature: {} yet, waiting for it{}\n", watching.error().text,
+               topics_there(observer, options));
+  }
+  return kOk;
 }
 
 std::string ros_type(const std::string& dds_name) {

@@ -181,6 +181,47 @@ TEST_F(Watched, TopicEchoOfATopicThatNobodyWritesNamesItAsRosDoes) {
                             "--interface\n");
 }
 
+TEST_F(Watched, TopicEchoWaitsForItsTopicAndSaysSo) {
+  Command echo{topic({"echo", "/watched/arm/measured_js", "-n", "1", "--json"})};
+  EXPECT_TRUE(echo.wait_for_err("nobody writes '/watched/arm/measured_js' yet, waiting for it",
+                                std::chrono::seconds{20}));
+  Command run = start("arm_watched.yaml");
+  const auto result = echo.finish(std::chrono::seconds{40});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(lines_of(result).size(), 1U);
+  run.signal(SIGINT);
+}
+
+TEST_F(Watched, CtrlCEndsAWatchThatWaits) {
+  Command echo{topic({"echo", "/watched/arm/measured_js"})};
+  ASSERT_TRUE(echo.wait_for_err("waiting for it", std::chrono::seconds{20}));
+  echo.signal(SIGINT);
+  EXPECT_TRUE(ends_within(echo.pid(), std::chrono::seconds{2}));
+}
+
+TEST_F(Watched, ARunThatKeepsRunningGoesOnAfterItsStoryUntilItIsInterrupted) {
+  Command run{{armature(), "run", source_file("tests/faults/tour.yaml"), "--domain",
+               std::to_string(domain_), "--set", "components.task.params.rounds=1",
+               "--keep-running"}};
+  ASSERT_TRUE(run.wait_for_err("the story has been told; the run goes on until Ctrl-C",
+                               std::chrono::seconds{40}));
+  EXPECT_EQ(
+      run_command(topic({"echo", "/tour/arm/measured_js", "-n", "5", "--timeout", "30"})).exit_code,
+      0);
+  run.signal(SIGINT);
+  const auto result = run.finish(std::chrono::seconds{20});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("status"), std::string::npos);
+}
+
+TEST_F(Watched, OnTheSimulatedClockNothingKeepsRunning) {
+  const auto result =
+      run_command({armature(), "run", source_file("tests/end_to_end/arm_watched.yaml"), "--domain",
+                   std::to_string(domain_), "--keep-running"});
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_NE(result.err.find("add --set clock=system"), std::string::npos) << result.err;
+}
+
 TEST_F(Watched, ATimeTooShortToFindOutSaysNothingOfTheDomain) {
   for (const auto& verb : std::vector<std::vector<std::string>>{
            {"echo", "/lamp/target"}, {"hz", "/lamp/target"}, {"list", "--json"}}) {

@@ -60,6 +60,7 @@
   X(armature_msgs, MotionGoal)             \
   X(armature_msgs, MotionStatus)           \
   X(armature_msgs, ToolPath)               \
+  X(armature_msgs, JointReference)         \
   X(armature_msgs, QuinticTrajectory)      \
   X(armature_msgs, MotionPlanRequest)      \
   X(armature_msgs, MotionPlan)             \

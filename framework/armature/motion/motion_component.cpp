@@ -26,14 +26,17 @@ std::string unfit_to_track(const Setup& setup) {
 }
 
 /// Messages of the size that they will have: what is filled later needs no memory then.
-msg::JointState joint_state_of(const RobotModel& model, bool all_joints) {
+msg::JointState joints_with_room(const RobotModel& model) {
   const JointVector zero = JointVector::Zero(model.dof());
   msg::JointState message;
-  if (all_joints) {
-    write_all_joints(model, zero, zero, {}, message);
-  } else {
-    write_independent_joints(model, {zero, zero, zero}, {}, message);
-  }
+  write_all_joints(model, zero, zero, {}, message);
+  return message;
+}
+
+msg::JointReference reference_with_room(const RobotModel& model) {
+  const JointVector zero = JointVector::Zero(model.dof());
+  msg::JointReference message;
+  write_reference(model, {zero, zero, zero}, {}, message);
   return message;
 }
 
@@ -66,7 +69,7 @@ Motion::Motion(Setup& setup)
       stops_{setup, seconds(parameters_.operator_timeout)},
       plan_request_{setup.output<msg::MotionPlanRequest>("plan_request")},
       servo_jp_{setup.output<msg::JointState>("servo_jp")},
-      reference_js_{setup.output<msg::JointState>("reference")},
+      reference_{setup.output<msg::JointReference>("reference")},
       status_{setup.output<msg::MotionStatus>("status")},
       tracker_{ik_ ? std::optional<Tracker>{std::in_place, model_,
                                             limits_of(setup.params(), model_), *ik_,
@@ -74,8 +77,8 @@ Motion::Motion(Setup& setup)
                    : std::nullopt},
       execution_{model_, limits_of(setup.params(), model_), execution_of(parameters_),
                  tracker_ ? &*tracker_ : nullptr, no_tracker_} {
-  servo_jp_.prepare(joint_state_of(model_, true));
-  reference_js_.prepare(joint_state_of(model_, false));
+  servo_jp_.prepare(joints_with_room(model_));
+  reference_.prepare(reference_with_room(model_));
   status_.prepare(status_with_room());
   plan_request_.prepare(request_of(model_));
   setup.activate_every(seconds(1 / parameters_.rate));
@@ -185,8 +188,8 @@ void Motion::publish_reference(Time now) {
   auto servo = servo_jp_.loan();
   write_all_joints(model_, state.q, state.v, now, *servo);
   servo.publish();
-  auto reference = reference_js_.loan();
-  write_independent_joints(model_, state, now, *reference);
+  auto reference = reference_.loan();
+  write_reference(model_, state, now, *reference);
   reference.publish();
 }
 

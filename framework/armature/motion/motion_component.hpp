@@ -44,7 +44,8 @@ class Motion final : public Component {
   Input<msg::JointState> measured_js_;
   StopInputs stops_;
   Output<msg::MotionPlanRequest> plan_request_;
-  Output<msg::JointState> servo_jp_, reference_js_;
+  Output<msg::JointState> servo_jp_;
+  Output<msg::JointReference> reference_;
   Output<msg::MotionStatus> status_;
   std::optional<Tracker> tracker_;
   GoalExecution execution_;

@@ -40,7 +40,7 @@ TEST_F(MotionComponentTest, SaysNothingToAnArmThatHasNotSpoken) {
   EXPECT_EQ(statuses_[0].stage_(), "accept");
   EXPECT_EQ(statuses_[0].reason_(), "no joint state of the arm yet");
   EXPECT_TRUE(motion_.take<msg::JointState>("servo_jp").empty());
-  EXPECT_TRUE(motion_.take<msg::JointState>("reference").empty());
+  EXPECT_TRUE(motion_.take<msg::JointReference>("reference").empty());
   measure(arm_, 0.8);
   motion_.step(0.8);
   EXPECT_EQ(motion_.status().state, Voice::State::ok);
@@ -54,7 +54,7 @@ TEST_F(MotionComponentTest, HoldsWhereTheArmIsAndTellsItOnEveryStep) {
   EXPECT_EQ(last.name_(), (std::vector<std::string>{"z", "y", "x"}));
   EXPECT_EQ(last.position_(), (std::vector<double>{0.1, 0.2, 0.3}));
   EXPECT_EQ(last.velocity_(), (std::vector<double>{0, 0, 0}));
-  EXPECT_EQ(motion_.take<msg::JointState>("reference").size(), 50u);
+  EXPECT_EQ(motion_.take<msg::JointReference>("reference").size(), 50u);
   EXPECT_TRUE(statuses_.empty()) << "there is no goal to tell about";
 }
 

@@ -119,20 +119,20 @@ PlanAnswer read_answer(const RobotModel& model, const msg::MotionPlan& message, 
           .reason = message.reason_()};
 }
 
-void write_independent_joints(const RobotModel& model, const JointState& state, Time stamp,
-                              msg::JointState& message) {
+void write_reference(const RobotModel& model, const JointState& state, Time stamp,
+                     msg::JointReference& message) {
   write_header(message.header_(), stamp, kBaseFrame);
   const auto dof = static_cast<std::size_t>(model.dof());
   message.name_().resize(dof);
   message.position_().resize(dof);
   message.velocity_().resize(dof);
-  message.effort_().resize(dof);
+  message.acceleration_().resize(dof);
   for (int i = 0; i < model.dof(); ++i) {
     const auto k = static_cast<std::size_t>(i);
     message.name_()[k] = independent(model, i).name;
     message.position_()[k] = state.q[i];
     message.velocity_()[k] = state.v[i];
-    message.effort_()[k] = state.a[i];
+    message.acceleration_()[k] = state.a[i];
   }
 }
 

@@ -25,9 +25,9 @@ PlanRequest read_request(const msg::MotionPlanRequest& message);
 void write_answer(const PlanRequest& request, const PlanResult& result, msg::MotionPlan& message);
 PlanAnswer read_answer(const RobotModel& model, const msg::MotionPlan& message, SampleRef sample);
 
-/// The independent joints; effort carries the acceleration [rad/s2].
-void write_independent_joints(const RobotModel& model, const JointState& state, Time stamp,
-                              msg::JointState& message);
+/// Position, velocity and acceleration of the independent joints.
+void write_reference(const RobotModel& model, const JointState& state, Time stamp,
+                     msg::JointReference& message);
 
 void write_status(const GoalStatus& status, Time stamp, msg::MotionStatus& message);
 void write_path(const Plan& plan, const RobotModel& model, msg::ToolPath& message);

@@ -87,14 +87,14 @@ TEST(MotionMessages, TheReferenceTellsPositionVelocityAndAccelerationOfTheIndepe
   const JointState state{.q = JointVector::LinSpaced(5, 1, 5),
                          .v = JointVector::LinSpaced(5, 6, 10),
                          .a = JointVector::LinSpaced(5, 11, 15)};
-  msg::JointState message;
-  write_independent_joints(lamp, state, Time{1'500'000'000}, message);
+  msg::JointReference message;
+  write_reference(lamp, state, Time{1'500'000'000}, message);
   EXPECT_EQ(message.header_().frame_id_(), "base");
   EXPECT_EQ(stamp_of(message.header_().stamp_()), Time{1'500'000'000});
   EXPECT_EQ(message.name_(), (std::vector<std::string>{"j1", "j2", "j3", "j5", "j6"}));
   EXPECT_EQ(message.position_(), (std::vector<double>{1, 2, 3, 4, 5}));
   EXPECT_EQ(message.velocity_(), (std::vector<double>{6, 7, 8, 9, 10}));
-  EXPECT_EQ(message.effort_(), (std::vector<double>{11, 12, 13, 14, 15}));
+  EXPECT_EQ(message.acceleration_(), (std::vector<double>{11, 12, 13, 14, 15}));
 }
 
 }  // namespace

@@ -36,6 +36,8 @@ class Deployment {
     std::function<void(const std::string&)> on_note;  // what the runtime tells the operator
     std::optional<Duration> clock_offset =
         {};  // of the main process' SystemClock; none: an own one
+    /// Goes on when the story has been told, and has no time limit, until it is interrupted.
+    bool keeps_running = false;
     /// Before each call at the end of the run that might not return: "the stop of 'arm'".
     std::function<void(const std::string& what)> on_ending = {};
   };
@@ -124,6 +126,7 @@ class Deployment {
   std::unique_ptr<Scheduler> scheduler_;
   std::vector<std::unique_ptr<Unit>> units_;  // in the order of the graph
   std::optional<Watchdog> watchdog_;
+  bool story_told_ = false;  // a component has finished
   bool timed_out_ = false;
   std::atomic<bool> stopping_{false};
   mutable std::mutex silent_mutex_;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <thread>
+#include <utility>
 
 #include "armature/runtime/deployment.hpp"
 #include "armature/runtime/on_fault.hpp"
@@ -67,8 +68,12 @@ std::string Deployment::run_until_stop(RunWatch& watch) {
 
 std::optional<std::string> Deployment::stop_cause(RunWatch& watch, Time start) {
   if (std::string failed = fault(); !failed.empty()) return failed;
-  if (any_finished()) return "the story has been told";
+  if (any_finished() && !std::exchange(story_told_, true) && options_.keeps_running) {
+    options_.on_note("the story has been told; the run goes on until Ctrl-C");
+  }
+  if (story_told_ && !options_.keeps_running) return "the story has been told";
   if (auto cause = watch.stop_cause()) return cause;
+  if (options_.keeps_running) return std::nullopt;
   timed_out_ = config_.time_limit_s > 0 && clock_->now() - start > seconds(config_.time_limit_s);
   if (timed_out_) return fmt::format("the time limit of {:g} s is over", config_.time_limit_s);
   return std::nullopt;

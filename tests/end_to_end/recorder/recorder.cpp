@@ -63,7 +63,7 @@ class Recorder : public Component {
  public:
   explicit Recorder(Setup& setup)
       : Component(setup),
-        reference_{setup.input<msg::JointState>("reference")},
+        reference_{setup.input<msg::JointReference>("reference")},
         status_{setup.input<msg::MotionStatus>("status")},
         path_{setup.input<msg::ToolPath>("path")},
         joint_path_{setup.input<msg::JointTrajectory>("joint_path")},
@@ -84,11 +84,11 @@ class Recorder : public Component {
   }
 
  private:
-  void write_reference(const msg::JointState& joints) {
+  void write_reference(const msg::JointReference& joints) {
     reference_file_ << fmt::format(
         "{},{:.17g},{:.17g},{:.17g}\n", stamp_of(joints.header_().stamp_()).ns,
         fmt::join(joints.position_(), ","), fmt::join(joints.velocity_(), ","),
-        fmt::join(joints.effort_(), ","));
+        fmt::join(joints.acceleration_(), ","));
   }
 
   void write_status(const msg::MotionStatus& status) {
@@ -113,7 +113,7 @@ class Recorder : public Component {
     jerk_file_ << fmt::format("{},{:.17g}\n", goal, greatest_jerk(trajectory_[i]));
   }
 
-  Input<msg::JointState> reference_;
+  Input<msg::JointReference> reference_;
   Input<msg::MotionStatus> status_;
   Input<msg::ToolPath> path_;
   Input<msg::JointTrajectory> joint_path_;

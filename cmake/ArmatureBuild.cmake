@@ -30,7 +30,7 @@ endif()
 
 # What must be the same in every library that shares Eigen objects or plugins (see docs/decisions).
 add_library(armature_abi INTERFACE)
-add_library(armature::abi ALIAS armature_abi)
+add_library(Armature::abi ALIAS armature_abi)
 set_target_properties(armature_abi PROPERTIES EXPORT_NAME abi)
 target_compile_features(armature_abi INTERFACE cxx_std_20)
 target_compile_definitions(armature_abi INTERFACE EIGEN_MAX_ALIGN_BYTES=16
@@ -71,7 +71,7 @@ function(armature_precompile target purpose)
   if(NOT TARGET ${precompiled})
     file(WRITE "${CMAKE_BINARY_DIR}/${precompiled}.cpp" "")
     add_library(${precompiled} OBJECT "${CMAKE_BINARY_DIR}/${precompiled}.cpp")
-    target_link_libraries(${precompiled} PRIVATE armature::abi armature_warnings Eigen3::Eigen fmt::fmt)
+    target_link_libraries(${precompiled} PRIVATE Armature::abi armature_warnings Eigen3::Eigen fmt::fmt)
     target_precompile_headers(${precompiled} PRIVATE "${CMAKE_SOURCE_DIR}/cmake/precompiled.hpp")
     if(purpose STREQUAL "plugins")
       set_target_properties(${precompiled} PROPERTIES CXX_VISIBILITY_PRESET hidden
@@ -91,14 +91,14 @@ function(armature_compile_together target files)
 endfunction()
 
 # armature_add_library(robot SOURCES a.cpp ... LINK Eigen3::Eigen ... PRIVATE yaml-cpp ...)
-# A shared library libarmature_<name> with the alias armature::<name>.
+# A shared library libarmature_<name> with the alias Armature::<name>.
 function(armature_add_library name)
   cmake_parse_arguments(arg "" "" "SOURCES;LINK;PRIVATE" ${ARGN})
   add_library(armature_${name} SHARED ${arg_SOURCES})
-  add_library(armature::${name} ALIAS armature_${name})
+  add_library(Armature::${name} ALIAS armature_${name})
   set_target_properties(armature_${name} PROPERTIES EXPORT_NAME ${name} VERSION ${PROJECT_VERSION}
                                                     SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
-  target_link_libraries(armature_${name} PUBLIC armature::abi ${arg_LINK}
+  target_link_libraries(armature_${name} PUBLIC Armature::abi ${arg_LINK}
                                          PRIVATE $<BUILD_INTERFACE:armature_warnings> ${arg_PRIVATE})
   armature_precompile(armature_${name} code)
   armature_compile_together(armature_${name} 8)
@@ -113,7 +113,7 @@ function(armature_test_main)
   file(WRITE "${CMAKE_BINARY_DIR}/test_main.cpp" "#include <gtest/gtest.h>\n")
   add_library(armature_test_main STATIC "${CMAKE_BINARY_DIR}/test_main.cpp")
   target_link_libraries(armature_test_main PUBLIC GTest::gmock GTest::gtest GTest::gtest_main)
-  target_link_libraries(armature_test_main PUBLIC armature::abi Eigen3::Eigen fmt::fmt
+  target_link_libraries(armature_test_main PUBLIC Armature::abi Eigen3::Eigen fmt::fmt
                                            PRIVATE armature_warnings)
   # What takes time when tests run is the libraries; what takes time to compile is the tests.
   # There GCC 12 falsely warns of the small buffer inside of std::string.
@@ -156,7 +156,7 @@ function(armature_add_test_library name)
   armature_compile_together(armature_test_${name} 8)
 endfunction()
 
-# armature_add_test(robot_test SOURCES a_test.cpp ... LINK armature::robot ... [DEPENDS plugin...])
+# armature_add_test(robot_test SOURCES a_test.cpp ... LINK Armature::robot ... [DEPENDS plugin...])
 # One GoogleTest program; every case runs alone and in any order. Its files are compiled a few at a
 # time, which reads headers and makes templates once for them; SEPARATELY: they use the same names
 # for other things.
@@ -186,7 +186,7 @@ function(armature_add_test name)
     PROPERTIES TIMEOUT ${arg_TIMEOUT} LABELS "${arg_LABELS}")
 endfunction()
 
-# armature_add_contract(path LINK armature::path): contract.cpp, the laws that the tests of all
+# armature_add_contract(path LINK Armature::path): contract.cpp, the laws that the tests of all
 # plugins of a kind instantiate, compiled once for them.
 function(armature_add_contract kind)
   if(NOT ARMATURE_BUILD_TESTS)
@@ -195,7 +195,7 @@ function(armature_add_contract kind)
   cmake_parse_arguments(arg "" "" "LINK" ${ARGN})
   set(name armature_${kind}_contract)
   add_library(${name} OBJECT contract.cpp)
-  add_library(armature::${kind}_contract ALIAS ${name})
+  add_library(Armature::${kind}_contract ALIAS ${name})
   armature_compile_as_test(${name})
   target_link_libraries(${name} PRIVATE ${arg_LINK})
 endfunction()

@@ -3,8 +3,8 @@
 include(CMakePackageConfigHelpers)
 
 install(TARGETS armature_abi EXPORT ArmatureTargets)
-install(EXPORT ArmatureTargets NAMESPACE armature:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/Armature)
-export(EXPORT ArmatureTargets NAMESPACE armature:: FILE "${CMAKE_BINARY_DIR}/ArmatureTargets.cmake")
+install(EXPORT ArmatureTargets NAMESPACE Armature:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/Armature)
+export(EXPORT ArmatureTargets NAMESPACE Armature:: FILE "${CMAKE_BINARY_DIR}/ArmatureTargets.cmake")
 file(COPY cmake/ArmaturePlugin.cmake cmake/plugin_manifest.cpp.in DESTINATION "${CMAKE_BINARY_DIR}")
 configure_package_config_file(cmake/ArmatureConfig.cmake.in "${CMAKE_BINARY_DIR}/ArmatureConfig.cmake"
                               INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/Armature)

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 # armature_add_plugin: one line makes a plugin, in this tree and after find_package(Armature).
 #
-#   armature_add_plugin(ik/lamp_geometric SOURCES lamp_geometric.cpp LINK armature::ik [TESTS x_test.cpp])
+#   armature_add_plugin(ik/lamp_geometric SOURCES lamp_geometric.cpp LINK Armature::ik [TESTS x_test.cpp])
 #
 # The folder's plugin.yaml (id, kind, parameters, ports) is embedded as constant text, together with
 # the ABI tag of the compiler that builds it; both are read without running the library's code. Its
-# parameters become `struct Parameters` of the namespace armature::ik::lamp_geometric, in the header
+# parameters become `struct Parameters` of the namespace Armature::ik::lamp_geometric, in the header
 # ik_lamp_geometric_parameters.hpp.
 # TEST_ONLY: for the framework's own tests; kept apart from the plugins and not installed.
 # TEST_OPTIONS: of armature_add_test.
@@ -25,13 +25,13 @@ function(armature_add_plugin id)
 
   set(parameters "${CMAKE_CURRENT_BINARY_DIR}/${target}_parameters.hpp")
   add_custom_command(OUTPUT "${parameters}"
-                     COMMAND armature::parameters plugin.yaml "${parameters}"
+                     COMMAND Armature::parameters plugin.yaml "${parameters}"
                      WORKING_DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}"
-                     DEPENDS plugin.yaml armature::parameters VERBATIM)
+                     DEPENDS plugin.yaml Armature::parameters VERBATIM)
   add_library(${target} MODULE ${arg_SOURCES} "${parameters}"
                                "${CMAKE_CURRENT_BINARY_DIR}/${target}_manifest.cpp")
   target_include_directories(${target} PRIVATE "${CMAKE_CURRENT_BINARY_DIR}")
-  target_link_libraries(${target} PRIVATE armature::abi ${arg_LINK})
+  target_link_libraries(${target} PRIVATE Armature::abi ${arg_LINK})
   if(NOT ARMATURE_SANITIZE)  # a missing symbol is found here, not when the plugin is loaded
     target_link_options(${target} PRIVATE LINKER:-z,defs)
   endif()
@@ -52,8 +52,8 @@ function(armature_add_plugin id)
     armature_compile_together(${target} 8)
     if(arg_TESTS)
       string(REGEX REPLACE "/.*" "" kind "${id}")
-      if(TARGET armature::${kind}_contract)  # the laws of its kind
-        list(APPEND arg_TEST_LINK armature::${kind}_contract)
+      if(TARGET Armature::${kind}_contract)  # the laws of its kind
+        list(APPEND arg_TEST_LINK Armature::${kind}_contract)
       endif()
       armature_add_test(${target}_test SOURCES ${arg_TESTS} $<TARGET_OBJECTS:${target}> LINK ${arg_LINK} ${arg_TEST_LINK}
                         DEPENDS ${target} ${arg_TEST_OPTIONS})
@@ -65,10 +65,10 @@ function(armature_add_plugin id)
     add_executable(${target}_test ${arg_TESTS})
     add_dependencies(${target}_test ${target})
     string(REGEX REPLACE "/.*" "" kind "${id}")
-    if(TARGET armature::${kind}_verify)
-      list(APPEND arg_TEST_LINK armature::${kind}_verify)
+    if(TARGET Armature::${kind}_verify)
+      list(APPEND arg_TEST_LINK Armature::${kind}_verify)
     endif()
-    target_link_libraries(${target}_test PRIVATE armature::abi ${arg_LINK} ${arg_TEST_LINK})
+    target_link_libraries(${target}_test PRIVATE Armature::abi ${arg_LINK} ${arg_TEST_LINK})
     target_include_directories(${target}_test PRIVATE "${CMAKE_CURRENT_BINARY_DIR}")
     add_test(NAME ${target} COMMAND ${target}_test WORKING_DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}")
     set_tests_properties(${target} PROPERTIES

@@ -144,7 +144,7 @@ int watch(DdsObserver& observer, const TopicOptions& options,
       if (const int code = too_short(observer, options); code != kOk) return code;
       throw std::runtime_error(watching.error().text + topics_there(observer, options));
     }
-    if (told || waited < kDiscovery) continue;
+    if (told || options.timeout_s > 0 || waited < kDiscovery) continue;
     told = true;
     fmt::print(stderr, "armature: {} yet, waiting for it{}\n", watching.error().text,
                topics_there(observer, options));

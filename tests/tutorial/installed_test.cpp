@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -72,6 +73,34 @@ TEST_F(Installed, ANewPluginIsBuiltTestedVerifiedMeasuredAndDeployedAsItsReadmeS
                             "SHA-256 of the arm's trajectory"}) {
     EXPECT_NE(result.out.find(shown), std::string::npos) << shown << "\n" << result.out;
   }
+}
+
+/// The lines between ```language and the next ``` of a page.
+std::string block_of(const std::string& page, const std::string& language) {
+  const std::string opening = "```" + language + "\n";
+  const std::size_t begin = page.find(opening) + opening.size();
+  return page.substr(begin, page.find("```", begin) - begin);
+}
+
+TEST_F(Installed, TheLibraryPageBuildsAndRuns) {
+  const std::string page = text_of(ARMATURE_SOURCE_DIR "/docs/library.md");
+  std::ofstream{folder_ / "CMakeLists.txt"} << block_of(page, "cmake");
+  std::ofstream{folder_ / "reach.cpp"} << block_of(page, "cpp");
+  const auto result = shell("set -e\ncmake -S . -B build -DCMAKE_PREFIX_PATH=" + prefix_.string() +
+                            " > cmake.log\ncmake --build build > build.log\nbuild/reach " +
+                            prefix_.string() + "/share/armature/configs/robots/dental_lamp.yaml");
+  EXPECT_EQ(result.exit_code, 0) << text_of(folder_ / "build.log") << result.err;
+  EXPECT_TRUE(result.out.starts_with("ok\n")) << result.out;
+  EXPECT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), 2) << result.out;
+}
+
+TEST_F(Installed, AComponentThatThereIsNotIsNamed) {
+  std::ofstream{folder_ / "CMakeLists.txt"}
+      << "cmake_minimum_required(VERSION 3.20)\nproject(none CXX)\n"
+         "find_package(Armature REQUIRED COMPONENTS robot teleport)\n";
+  const auto result = shell("cmake -S . -B build -DCMAKE_PREFIX_PATH=" + prefix_.string());
+  EXPECT_NE(result.exit_code, 0);
+  EXPECT_NE(result.err.find("there is no library Armature::teleport"), std::string::npos) << result.err;
 }
 
 TEST_F(Installed, NoFileNamesTheFoldersThatItWasMadeIn) {

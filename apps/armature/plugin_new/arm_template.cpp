@@ -8,7 +8,7 @@ namespace {
 constexpr std::string_view kArmCMake = R"(cmake_minimum_required(VERSION 3.25)
 project(@TARGET@ LANGUAGES CXX)
 find_package(Armature REQUIRED HINTS "@PACKAGE@")
-armature_add_plugin(@ID@ SOURCES @NAME@.cpp LINK armature::kinds TESTS @NAME@_test.cpp)
+armature_add_plugin(@ID@ SOURCES @NAME@.cpp LINK Armature::kinds TESTS @NAME@_test.cpp)
 )";
 
 constexpr std::string_view kArmManifest = R"(armature_plugin: 1

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "armature/bus/message_type.hpp"
+#include "armature/messages/message_type.hpp"
 #include "armature/values/real_time_mutex.hpp"
 #include "armature/values/time.hpp"
 

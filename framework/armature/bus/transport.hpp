@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "armature/bus/message_type.hpp"
 #include "armature/bus/qos.hpp"
 #include "armature/bus/sample.hpp"
+#include "armature/messages/message_type.hpp"
 #include "armature/values/expected.hpp"
 
 namespace armature {

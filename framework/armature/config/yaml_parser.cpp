@@ -197,10 +197,22 @@ Problem explained(const YAML::Exception& error, const EventReader& events,
   return {place, message};
 }
 
+/// Refuses XML, which is what a robot's description is handed over as by others.
+void refuse_xml(const std::string& text, const Origin& place) {
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  if (first == std::string::npos || text[first] != '<') return;
+  const bool is_xacro = text.find("xacro:") != std::string::npos;
+  throw ConfigError{{{place, is_xacro ? "a xacro file, not YAML: run 'xacro FILE > arm.urdf', and "
+                                        "name that in a robot file, 'urdf: arm.urdf'"
+                                      : "an XML file, not YAML; a URDF file is named in a robot "
+                                        "file, 'urdf: arm.urdf'"}}};
+}
+
 }  // namespace
 
 Node parse_yaml(std::string text, std::string_view name, const std::optional<Origin>& origin) {
   if (!text.ends_with('\n')) text += '\n';
+  refuse_xml(text, origin.value_or(Origin{std::string{name}, 1, 1}));
   const SourceText source{std::move(text), std::string{name}};
   const std::string masked = mask_variables(source.text());
   Problems problems;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "armature/bus/message_type.hpp"
+#include "armature/messages/message_type.hpp"
 
 // The one table of message types: X(package, name in CamelCase). Names, headers, registry, encoding
 // and tests derive from it; a type of idl/ that is missing here fails a test.

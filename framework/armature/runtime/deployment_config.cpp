@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <filesystem>
 #include <iterator>
@@ -127,7 +128,16 @@ std::vector<std::string> DeploymentConfig::processes() const {
 
 bool check_is_deployment(const Node& root, Problems& problems) {
   if (root.find("armature")) return true;
-  problems.add(root.origin(), "not a deployment: it must begin with 'armature: 1'");
+  const std::array<std::pair<std::string_view, std::string_view>, 3> others{
+      {{"armature_robot", "a robot file, which a deployment names under 'robots:'"},
+       {"armature_rig", "a rig of cameras, which a deployment names under 'rigs:'"},
+       {"armature_plugin", "what a plugin says of itself"}}};
+  std::string what;
+  for (const auto& [key, is] : others) {
+    if (root.find(key)) what = fmt::format(" but {}", is);
+  }
+  problems.add(root.origin(),
+               fmt::format("not a deployment{}: it must begin with 'armature: 1'", what));
   return false;
 }
 
@@ -189,7 +199,7 @@ DeploymentConfig read_deployment(const Node& root, const PluginRegistry& plugins
     // With a component missing, whoever waits for it would look wrong too.
     if (known == components->entries().size()) {
       open_inputs(open, deployment, problems);
-      check_graph(deployment, problems);
+      check_graph(deployment, plugins, problems);
       check_isolation(deployment, problems);
       decide_on_faults(deployment);
       check_component_needs(deployment, plugins, problems);

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "armature/config/problems.hpp"
+#include "armature/runtime/component.hpp"
 #include "armature/runtime/component_config.hpp"
 
 namespace armature {
@@ -138,8 +139,29 @@ std::string meant(const std::string& topic, const std::vector<std::string>& writ
   return config::did_you_mean(topic, written);
 }
 
+/// "; add a component that does: arm/simulated" where none of the plugins that write such a topic
+/// is in the deployment; else "".
+std::string missing(const PortBinding& input, const DeploymentConfig& deployment,
+                    const PluginRegistry& plugins) {
+  std::vector<std::string> ids;
+  for (const PluginManifest& plugin : plugins.plugins()) {
+    const bool is_component = plugin.kind == Component::kKind;
+    const PluginManifest* manifest = is_component ? &plugin : plugins.host_of(plugin.kind);
+    const bool writes = manifest && plugin.hosts.empty() &&
+                        std::ranges::any_of(manifest->outputs, [&](const PortSpec& output) {
+                          return output.topic == input.spec.topic && output.type == input.spec.type;
+                        });
+    if (writes) ids.push_back(plugin.id);
+  }
+  const bool is_there = std::ranges::any_of(deployment.components, [&](const auto& component) {
+    return std::ranges::find(ids, component.plugin_id) != ids.end();
+  });
+  if (ids.empty() || is_there) return "";
+  return fmt::format("; add a component that does: {}", fmt::join(ids, ", "));
+}
+
 void check_inputs(const DeploymentConfig& deployment, const Writers& writers,
-                  config::Problems& problems) {
+                  const PluginRegistry& plugins, config::Problems& problems) {
   const auto topics_of = [&](const std::string& type) {
     std::vector<std::string> topics;
     for (const auto& [topic, there] : writers) {
@@ -156,10 +178,12 @@ void check_inputs(const DeploymentConfig& deployment, const Writers& writers,
                       problems);
         }
       } else if (!input.spec.outside && (!input.spec.optional || input.renamed)) {
-        problems.add(input.origin,
-                     fmt::format("{} reads topic '{}', which nobody writes{}",
-                                 port_name(component, input), input.topic,
-                                 meant(input.topic, topics_of(input.spec.type), deployment.name)));
+        std::string hint = input.renamed ? "" : missing(input, deployment, plugins);
+        if (hint.empty()) {
+          hint = meant(input.topic, topics_of(input.spec.type), deployment.name);
+        }
+        problems.add(input.origin, fmt::format("{} reads topic '{}', which nobody writes{}",
+                                               port_name(component, input), input.topic, hint));
       }
     }
   }
@@ -206,9 +230,10 @@ void place_components(DeploymentConfig& deployment, const Writers& writers,
 
 }  // namespace
 
-void check_graph(DeploymentConfig& deployment, config::Problems& problems) {
+void check_graph(DeploymentConfig& deployment, const PluginRegistry& plugins,
+                 config::Problems& problems) {
   const Writers writers = find_writers(deployment, problems);
-  check_inputs(deployment, writers, problems);
+  check_inputs(deployment, writers, plugins, problems);
   place_components(deployment, writers, problems);
 }
 

@@ -36,7 +36,7 @@ std::vector<std::string> check(std::vector<ComponentConfig>& components) {
   DeploymentConfig deployment;
   deployment.components = components;
   config::Problems problems;
-  check_graph(deployment, problems);
+  check_graph(deployment, PluginRegistry{{}}, problems);
   components = deployment.components;
   std::vector<std::string> messages;
   for (const auto& problem : problems.sorted()) messages.push_back(problem.message);

@@ -77,6 +77,11 @@ bool PluginRegistry::may_load(const std::filesystem::path& file) {
 }
 
 void PluginRegistry::scan(const std::filesystem::path& folder) {
+  std::error_code none;
+  if (std::getenv("ARMATURE_PLUGIN_PATH") && !std::filesystem::is_directory(folder, none)) {
+    warnings_.push_back(fmt::format("plugin folder {}: there is no such folder", folder.string()));
+    return;
+  }
   if (!may_load_from(folder)) return;
   std::error_code error;
   std::vector<std::filesystem::path> files;

@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <utility>
 
-#include "armature/bus/message_type.hpp"
 #include "armature/bus/sample.hpp"
+#include "armature/messages/message_type.hpp"
 
 namespace armature {
 

@@ -112,6 +112,15 @@ std::string default_text(const ParamSpec& spec) {
   return "[" + text + "]";
 }
 
+void print_slots(const std::vector<SlotSpec>& slots) {
+  if (!slots.empty()) fmt::print("slots:\n");
+  for (const SlotSpec& slot : slots) {
+    const std::string otherwise =
+        slot.otherwise.empty() ? "" : fmt::format(" (default {})", slot.otherwise);
+    fmt::print("  {:<16} {:<12} {}{}\n", slot.name, slot.kind, slot.doc, otherwise);
+  }
+}
+
 void print_params(const std::vector<ParamSpec>& specs) {
   if (!specs.empty()) fmt::print("params:\n");
   for (const auto& spec : specs) {
@@ -195,12 +204,7 @@ int show_plugin(const std::string& id, bool json) {
   if (!plugin->pure) fmt::print("  not pure: only on the system clock\n");
   if (plugin->runs_programs) fmt::print("  runs a program that its parameters name\n");
   print_params(plugin->params);
-  if (!plugin->slots.empty()) fmt::print("slots:\n");
-  for (const auto& slot : plugin->slots) {
-    const std::string otherwise =
-        slot.otherwise.empty() ? "" : fmt::format(" (default {})", slot.otherwise);
-    fmt::print("  {:<16} {:<12} {}{}\n", slot.name, slot.kind, slot.doc, otherwise);
-  }
+  print_slots(plugin->slots);
   print_traits("needs", plugin->needs, plugin->params);
   print_traits("offers", plugin->offers, plugin->params);
   if (!plugin->measures.empty()) fmt::print("measures:\n");
@@ -213,6 +217,7 @@ int show_plugin(const std::string& id, bool json) {
   if (!host) return kOk;
   fmt::print("alone, directly under components:, it also has\n");
   print_params(host->params);
+  print_slots({host->slots.begin() + 1, host->slots.end()});  // the first one is its own
   print_ports("in", host->inputs);
   print_ports("out", host->outputs);
   return kOk;

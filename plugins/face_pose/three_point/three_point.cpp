@@ -82,6 +82,12 @@ Expected<ThreePoint::Point> ThreePoint::triangulate(FaceFeature feature,
 }
 
 Expected<FacePose> ThreePoint::estimate(const FacePoseInput& input, PluginState&) {
+  for (const FaceLandmarks* face : {&input.landmarks.left, &input.landmarks.right}) {
+    const std::size_t count = landmark_count(face->scheme);
+    if (face->points.size() == count) continue;
+    return refuse(fmt::format("{} landmarks, and {} has {}", face->points.size(),
+                              to_string(face->scheme), count));
+  }
   const auto left_eye = triangulate(FaceFeature::left_eye, input);
   if (!left_eye) return tl::unexpected{left_eye.error()};
   const auto right_eye = triangulate(FaceFeature::right_eye, input);

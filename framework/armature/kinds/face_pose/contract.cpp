@@ -90,7 +90,11 @@ TEST_P(FacePoseLaws, RefusesLandmarksThatAreNoFace) {
   FacePoseInput one_point = exact_face(camera_, pose);
   for (auto& landmark : one_point.landmarks.left.points) landmark.point = {700, 300};
   for (auto& landmark : one_point.landmarks.right.points) landmark.point = {500, 300};
-  for (const auto& bad : {swapped, not_finite, one_point}) {
+  FacePoseInput none = exact_face(camera_, pose);
+  none.landmarks.right.points.clear();
+  FacePoseInput too_few = exact_face(camera_, pose);
+  too_few.landmarks.left.points.pop_back();
+  for (const auto& bad : {swapped, not_finite, one_point, none, too_few}) {
     const auto refused = estimate(bad);
     ASSERT_FALSE(refused);
     EXPECT_FALSE(refused.error().text.empty());

@@ -14,7 +14,7 @@ struct Scheme {
 };
 
 const Scheme& scheme_of(LandmarkScheme scheme) {
-  // Of the mouth the inner points that neither smile nor speech moves apart.
+  // A mouth opens to both sides of the mean of its inner points.
   static const std::array<Scheme, 2> schemes{
       Scheme{"ibug68", 68, {36, 37, 38, 39, 40, 41}, {42, 43, 44, 45, 46, 47}, {60, 62, 64, 66}},
       Scheme{"five", 5, {0}, {1}, {3, 4}},

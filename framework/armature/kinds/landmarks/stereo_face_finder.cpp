@@ -79,6 +79,11 @@ double mean_intensity(const ImageView& image, const PixelBox& box) {
   return sum / static_cast<double>((right - left + 1) * (bottom - top + 1));
 }
 
+bool is_sound(const PixelBox& box) {
+  return std::isfinite(box.left) && std::isfinite(box.top) && std::isfinite(box.width) &&
+         std::isfinite(box.height) && box.width > 0 && box.height > 0;
+}
+
 /// How far one box is from another: between the centres and in width [px].
 double distance(const PixelBox& a, const PixelBox& b) {
   const Eigen::Vector2d centres{a.left + 0.5 * a.width - b.left - 0.5 * b.width,
@@ -141,8 +146,9 @@ StereoFaceFinder::Faces StereoFaceFinder::find_right(const ImageView& right,
 
 StereoFaceFinder::Faces StereoFaceFinder::detect(const ImageView& image, const SearchRegion& region,
                                                  const std::optional<PixelBox>& near) {
-  const auto faces = detector_.detect(image, region);
+  auto faces = detector_.detect(image, region);
   if (!faces) return tl::unexpected{faces.error()};
+  std::erase_if(*faces, [](const DetectedFace& face) { return !is_sound(face.box); });
   if (faces->empty()) return std::optional<DetectedFace>{};
   const auto cost = [&](const DetectedFace& face) {
     return near ? distance(face.box, *near) : -face.box.width;

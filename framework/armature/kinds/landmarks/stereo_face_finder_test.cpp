@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "armature/kinds/face_picture.hpp"
 
 namespace armature {
@@ -173,6 +175,18 @@ TEST_F(StereoFaceFinderTest, StretchesDarkPicturesAndTellsTheirBrightnessAsItWas
   ASSERT_TRUE(found) << found.error().text;
   EXPECT_EQ(detector_.brightest, 255);
   EXPECT_EQ(found->left.mean_intensity, 20);
+}
+
+TEST_F(StereoFaceFinderTest, ABoxThatIsNoneIsNoFace) {
+  detector_.left = {face(200, 100, 0), face(200, 100, -20)};
+  EXPECT_EQ(find().error().text, "no face in the left image");
+  DetectedFace endless = face(200, 100, 80);
+  endless.box.height = std::numeric_limits<double>::infinity();
+  detector_.left = {endless, face(210, 100, 60)};
+  detector_.right = {face(150, 100, 60)};
+  const auto found = find();
+  ASSERT_TRUE(found) << found.error().text;
+  EXPECT_EQ(found->left.box.left, 210);
 }
 
 TEST_F(StereoFaceFinderTest, RefusesPicturesThatAreNoPair) {

@@ -76,6 +76,10 @@ Json manifest_json(const PluginManifest& plugin) {
   json["params"] = params_json(plugin.params);
   json["slots"] = Json::object();
   for (const auto& slot : plugin.slots) json["slots"][slot.name] = slot.kind;
+  json["slot_defaults"] = Json::object();
+  for (const auto& slot : plugin.slots) {
+    if (!slot.otherwise.empty()) json["slot_defaults"][slot.name] = slot.otherwise;
+  }
   json["needs"] = traits_json(plugin.needs);
   json["offers"] = traits_json(plugin.offers);
   json["measures"] = Json::object();

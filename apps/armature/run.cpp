@@ -247,7 +247,9 @@ int run_main(const RunOptions& options, const Process& process, Deployment& depl
   deployment.run(watch);
   RunReport::Ending ending{.faults = watch.end_all(), .stopped = watch.interruption()};
   // Somebody has looked at it for long enough: that is how such a run ends.
-  if (options.keep_running && deployment.any_finished()) ending.stopped.reset();
+  if (options.keep_running && deployment.story_told() && ending.stopped == "interrupted") {
+    ending.stopped.reset();
+  }
   if (options.timing) {
     ending.timing = timing_of(deployment);
     children.add_timing(*ending.timing);

@@ -120,7 +120,9 @@ std::string no_topics(const TopicOptions& options) {
 /// "; did you mean '/lamp/target'?" or "; topics that are there: ...", or that there are none.
 std::string topics_there(DdsObserver& observer, const TopicOptions& options) {
   std::vector<std::string> names;
-  for (const auto& topic : observer.topics()) names.push_back(ros_topic_name(topic.name));
+  for (const auto& topic : observer.topics()) {
+    if (topic.writers > 0) names.push_back(ros_topic_name(topic.name));
+  }
   if (names.empty()) return "; " + no_topics(options);
   const std::string hint = config::did_you_mean(options.topic, names);
   if (hint.find("did you mean") != std::string::npos) return hint;
@@ -139,8 +141,9 @@ int watch(DdsObserver& observer, const TopicOptions& options,
     const auto watching = observer.watch(options.topic, kLook, on_sample);
     if (watching) return kOk;
     const Duration waited = std::chrono::steady_clock::now() - start;
+    const bool may_come = watching.error().text.starts_with("nobody writes");
     const bool over = options.timeout_s > 0 && waited > seconds(options.timeout_s);
-    if (over) {
+    if (over || !may_come) {
       if (const int code = too_short(observer, options); code != kOk) return code;
       throw std::runtime_error(watching.error().text + topics_there(observer, options));
     }

@@ -3,7 +3,9 @@
 
 #include <fmt/core.h>
 
+#include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <utility>
 
 #include "armature/robot/kinematics.hpp"
@@ -62,13 +64,20 @@ Expected<IkGoal> ik_goal(const RobotModel& model, const IkSolver& solver,
 
 /// The one branch of a sample that names its joints, or what is wrong with them.
 std::string take_joints(const RobotModel& model, const PathSegment& segment,
-                        const PathSample& sample, IkBranches& branches) {
+                        const PathSample& sample, const JointVector& before, IkBranches& branches) {
   if (segment.space != PathSegment::Space::joint) return "a cartesian segment names joints";
   if (sample.joints->size() != model.dof()) {
     return fmt::format("{} joints, and the robot has {}", sample.joints->size(), model.dof());
   }
   if (!sample.joints->allFinite()) return "its joints are not finite";
   if (!model.within_limits(*sample.joints)) return "its joints are beyond their limits";
+  for (int i = 0; i < model.dof(); ++i) {
+    // Whoever chooses turns joints to the nearest of their whole turns.
+    const double turn = std::abs((*sample.joints)[i] - before[i]);
+    if (model.is_revolute(i) && !(turn < std::numbers::pi)) {
+      return fmt::format("a joint turns by {:.3f} rad at once: name a sample between", turn);
+    }
+  }
   branches.clear();
   branches.add() = branch_at(model, {.pose = sample.pose}, *sample.joints, "of the path");
   return {};
@@ -223,7 +232,7 @@ tl::expected<void, PlanFailure> GoalPlanner::solve_samples(const Path& path,
         return fmt::format("sample {} of {} of segment {}", i + 1, samples.size(), k + 1);
       };
       if (samples[i].joints) {
-        const std::string wrong = take_joints(model_, path[k], samples[i], branches);
+        const std::string wrong = take_joints(model_, path[k], samples[i], seed, branches);
         if (!wrong.empty()) return fail("path", name() + ": " + wrong);
         seed = *samples[i].joints;
         continue;

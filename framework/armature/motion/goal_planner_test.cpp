@@ -265,6 +265,27 @@ TEST(GoalPlanner, SaysWhatIsWrongWithTheJointsThatAPathNames) {
   EXPECT_EQ(reason(JointVector::Zero(3)), where + "a cartesian segment names joints");
 }
 
+TEST(GoalPlanner, RefusesJointsOfAPathThatTurnByHalfATurnAtOnce) {
+  const Gantry stages;
+  const RobotModel model = load_robot_model(ARMATURE_SOURCE_DIR "/configs/robots/med7.yaml");
+  const AlwaysHome ik;
+  JointsPath path;
+  GoalPlanner planner{model,
+                      {path, ik, stages.select, stages.trajectory},
+                      {model.max_velocity(), model.max_acceleration()},
+                      {.path_only = true}};
+  const JointVector zero = JointVector::Zero(7);
+  JointVector start = *model.home();
+  start[0] = -2;
+  path.detour = start;
+  path.detour[0] = 2;
+  MotionGoal goal = goal_at(1, 1, 0, 0);
+  goal.pose.orientation = Eigen::Quaterniond::Identity();
+  EXPECT_EQ(
+      planner.plan(goal, {start, zero, zero}, kStart).error().reason,
+      "sample 1 of 1 of segment 1: a joint turns by 4.000 rad at once: name a sample between");
+}
+
 TEST(GoalPlanner, HandsTheJerkLimitToTheTrajectory) {
   const Gantry gantry;
   MotionLimits limits = gantry.limits;

@@ -69,11 +69,6 @@ UrdfDocument UrdfDocument::load(const std::filesystem::path& file) {
   UrdfDocument document;
   document.file_ = file.string();
   const std::string text = config::read_source(file, Origin{});
-  if (text.find("xacro:") != std::string::npos) {
-    throw ConfigError{
-        {{Origin{document.file_, 0, 0},
-          fmt::format("a xacro file: run 'xacro {} > arm.urdf', and name that", file.string())}}};
-  }
   document.places_ = places_in(text, document.file_);
 
   Complaints complaints;
@@ -83,6 +78,11 @@ UrdfDocument UrdfDocument::load(const std::filesystem::path& file) {
     complaints.texts.push_back(error.what());
   }
   if (document.model_) return document;
+  if (text.find("<xacro:") != std::string::npos) {
+    throw ConfigError{
+        {{Origin{document.file_, 0, 0},
+          fmt::format("a xacro file: run 'xacro {} > arm.urdf', and name that", file.string())}}};
+  }
   const std::string all = fmt::format("{}", fmt::join(complaints.texts, "; "));
   Origin place{document.file_, 0, 0};
   for (const auto& [name, origin] : document.places_) {

@@ -71,6 +71,8 @@ class Deployment {
   void run(RunWatch& watch);
 
   bool any_finished() const;
+  /// Whether a component had finished when the run began to stop.
+  bool story_told() const { return story_told_; }
   /// True when the run ended because its time limit was over.
   bool timed_out() const { return timed_out_; }
   /// The first fault that ends the run, or the first step that hangs on the way to a driver; or

@@ -306,6 +306,11 @@ PluginManifest parse_manifest(std::string_view yaml, std::string_view name, Prob
   }
   manifest.units = read_units(read_table(map, "units"), problems);
   manifest.slots = read_slots(read_table(map, "slots"), manifest.units, problems);
+  if (!manifest.hosts.empty() &&
+      (manifest.slots.empty() || manifest.slots.front().kind != manifest.hosts)) {
+    map.problem("hosts", fmt::format("the first slot of a host of '{}' must be of that kind",
+                                     manifest.hosts));
+  }
   manifest.needs = read_traits(read_table(map, "needs"), manifest.params, problems);
   manifest.offers = read_traits(read_table(map, "offers"), manifest.params, problems);
   manifest.measures = read_metrics(read_table(map, "measures"), problems);

@@ -79,7 +79,10 @@ bool PluginRegistry::may_load(const std::filesystem::path& file) {
 void PluginRegistry::scan(const std::filesystem::path& folder) {
   std::error_code none;
   if (std::getenv("ARMATURE_PLUGIN_PATH") && !std::filesystem::is_directory(folder, none)) {
-    warnings_.push_back(fmt::format("plugin folder {}: there is no such folder", folder.string()));
+    warnings_.push_back(fmt::format("plugin folder {}: {}", folder.string(),
+                                    std::filesystem::exists(folder, none)
+                                        ? "it is a file; name the folder that it is in"
+                                        : "there is no such folder"));
     return;
   }
   if (!may_load_from(folder)) return;

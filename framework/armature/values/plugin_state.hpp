@@ -24,8 +24,13 @@ constexpr std::uint64_t layout_id(std::string_view plugin, std::uint64_t version
 /// of the same plugin, and it outlives the plugin's library. What was remembered in another layout
 /// counts as nothing. Real-time safe: never allocates.
 ///
-///   struct Memory { static constexpr auto kLayout = layout_id("target/mine", 1); double mean[3];
-///   }; const Memory* memory = state.get<Memory>();   // nullptr: nothing is remembered
+///     struct Memory {
+///       static constexpr auto kLayout = layout_id("target/mine", 1);
+///       double mean[3];
+///     };
+///     const Memory* memory = state.get<Memory>();
+///
+/// where nullptr says that nothing is remembered.
 class PluginState {
  public:
   static constexpr std::size_t kCapacity = 2048;  // [bytes]

@@ -56,9 +56,6 @@ Expected<ThreePoint::Point> ThreePoint::triangulate(FaceFeature feature,
   if (!left.point.allFinite() || !right.point.allFinite()) {
     return refuse(fmt::format("the {} has no finite pixel", name_of(feature)));
   }
-  if (!std::isfinite(left.sigma) || !std::isfinite(right.sigma)) {
-    return refuse(fmt::format("the {} has no finite sigma", name_of(feature)));
-  }
   const double rows = std::abs(left.point.y() - right.point.y());
   if (rows > parameters_.max_epipolar_error) {
     return refuse(fmt::format("the {} differs by {:.1f} rows between the images, more than {:.1f}",
@@ -84,9 +81,16 @@ Expected<ThreePoint::Point> ThreePoint::triangulate(FaceFeature feature,
 Expected<FacePose> ThreePoint::estimate(const FacePoseInput& input, PluginState&) {
   for (const FaceLandmarks* face : {&input.landmarks.left, &input.landmarks.right}) {
     const std::size_t count = landmark_count(face->scheme);
-    if (face->points.size() == count) continue;
-    return refuse(fmt::format("{} landmarks, and {} has {}", face->points.size(),
-                              to_string(face->scheme), count));
+    if (face->points.size() != count) {
+      return refuse(fmt::format("{} landmarks, and {} has {}", face->points.size(),
+                                to_string(face->scheme), count));
+    }
+    const auto wrong = std::ranges::find_if(face->points, [](const Landmark& landmark) {
+      return !(landmark.sigma > 0 && std::isfinite(landmark.sigma));
+    });
+    if (wrong != face->points.end()) {
+      return refuse(fmt::format("a landmark's sigma is {} px, not a positive one", wrong->sigma));
+    }
   }
   const auto left_eye = triangulate(FaceFeature::left_eye, input);
   if (!left_eye) return tl::unexpected{left_eye.error()};

@@ -63,8 +63,11 @@ Expected<std::vector<Landmark>> Dlib68::find(const ImageView& image, const Pixel
   // Written so that what is not finite is refused, too.
   const auto is_size = [](double size) { return size >= kMinFace && size <= kMaxFace; };
   if (!is_size(face.width) || !is_size(face.height)) return refuse("the face's box has no size");
+  const double shape = face.height / face.width;
+  if (shape < 0.1 || shape > 10) return refuse("the face's box is ten times as long as wide");
   const auto is_near = [](double at) { return std::abs(at) <= kMaxFace; };
-  if (!is_near(face.left) || !is_near(face.top)) return refuse("the face's box is not in the image");
+  if (!is_near(face.left) || !is_near(face.top))
+    return refuse("the face's box is not in the image");
   const double scale = parameters_.face_width / face.width;
   const Chip chip = dlib_chip::cut(dlib_chip::copied(image), face.scaled(kChipScale), scale);
   std::vector<Landmark> sum(landmark_count(scheme()),

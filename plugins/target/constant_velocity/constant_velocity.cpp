@@ -29,6 +29,7 @@ constexpr double kSmoothing = 0.4;        // weight of the newest innovation
 constexpr double kSettledSurprise = 1.5;  // moving -> still, and
 constexpr double kSettledRates = 1.3;     // normalised square of the rates: 1 for a still target
 constexpr double kMinVariance = 1e-12;    // [m2], [rad2]
+constexpr double kMaxVariance = 1e6;      // the same: such a measurement says nothing
 
 /// Over dt, positions go on with their rates; `decay` is what is left of a rate.
 void carry_on(Vector12& mean, double dt, double decay) {
@@ -71,8 +72,9 @@ Matrix6 measurement_noise(const TargetMeasurement& m) {
 }
 
 bool is_sound(const TargetMeasurement& m) {
-  return m.position.allFinite() && m.normal.allFinite() && m.position_covariance.allFinite() &&
-         m.normal_covariance.allFinite() && m.normal.norm() >= 0.5;
+  const Matrix6 noise = measurement_noise(m);
+  return m.position.allFinite() && m.normal.allFinite() && m.normal.norm() >= 0.5 &&
+         noise.allFinite() && noise.trace() < kMaxVariance && noise.llt().info() == Eigen::Success;
 }
 
 /// Rows and columns of what is measured.
@@ -209,7 +211,8 @@ void ConstantVelocity::advance(Belief& belief, double dt_s, bool moving) const {
 Expected<TargetEstimate> ConstantVelocity::update(const TargetMeasurement& measurement,
                                                   PluginState& state) const {
   if (!is_sound(measurement)) {
-    return refuse("the measurement is not finite, or its normal is no unit vector");
+    return refuse(
+        "the measurement is not finite, its normal is no unit vector, or a covariance is none");
   }
   std::optional<Belief> belief = Belief::in(state);
   if (!belief || to_seconds(measurement.stamp - belief->stamp) > parameters_.max_gap) {
@@ -239,7 +242,7 @@ Expected<ConstantVelocity::Belief> ConstantVelocity::updated(const TargetMeasure
   const Vector6 off = innovation_of(moving).value;
   const double distance = off.head<3>().norm();
   const double angle = 2 * std::asin(std::min(0.5 * off.tail<3>().norm(), 1.0));
-  if (distance > parameters_.outlier_position || angle > parameters_.outlier_angle) {
+  if (!(distance <= parameters_.outlier_position && angle <= parameters_.outlier_angle)) {
     if (++belief.rejected < parameters_.restart_after) {
       return refuse(
           fmt::format("outlier: {:.0f} mm and {:.0f} degrees from where the target "

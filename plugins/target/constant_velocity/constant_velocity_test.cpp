@@ -215,7 +215,7 @@ TEST(ConstantVelocity, SaysWhatIsWrongWithAMeasurement) {
   auto bad = camera.look(1.1, kMouth, kNormal);
   bad.position.x() = NAN;
   EXPECT_EQ(filter.update(bad, state).error().text,
-            "the measurement is not finite, or its normal is no unit vector");
+            "the measurement is not finite, its normal is no unit vector, or a covariance is none");
   EXPECT_EQ(filter.update(camera.look(0.9, kMouth, kNormal), state).error().text,
             "the measurement is 100.0 ms older than the newest one");
 }

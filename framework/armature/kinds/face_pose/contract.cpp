@@ -94,7 +94,11 @@ TEST_P(FacePoseLaws, RefusesLandmarksThatAreNoFace) {
   none.landmarks.right.points.clear();
   FacePoseInput too_few = exact_face(camera_, pose);
   too_few.landmarks.left.points.pop_back();
-  for (const auto& bad : {swapped, not_finite, one_point, none, too_few}) {
+  FacePoseInput no_sigma = exact_face(camera_, pose);
+  for (auto& landmark : no_sigma.landmarks.left.points) landmark.sigma = std::nan("");
+  FacePoseInput certain = exact_face(camera_, pose);
+  for (auto& landmark : certain.landmarks.right.points) landmark.sigma = 0;
+  for (const auto& bad : {swapped, not_finite, one_point, none, too_few, no_sigma, certain}) {
     const auto refused = estimate(bad);
     ASSERT_FALSE(refused);
     EXPECT_FALSE(refused.error().text.empty());

@@ -28,7 +28,8 @@ struct PathSample {
   /// more than the pose takes do not look at it.
   std::optional<Redundancy> redundancy = std::nullopt;
   /// Where the independent joints (dof() entries) shall be: nothing is solved for then, and `pose`
-  /// is where that takes the tool. Of a joint segment only.
+  /// is where that takes the tool. Of a joint segment only; no joint turns by half a turn or more
+  /// from one sample to the next.
   std::optional<JointVector> joints = std::nullopt;
 };
 

@@ -96,7 +96,10 @@ TEST_P(TargetLaws, RefusesBadMeasurementsAndKeepsItsState) {
   not_finite.position.x() = std::nan("");
   no_normal.normal.setZero();
   no_sigma.position_covariance(1, 1) = std::nan("");
-  for (const auto& bad : {not_finite, no_normal, no_sigma, look(0.5)}) {
+  TargetMeasurement negative = look(1), endless = look(1);
+  negative.position_covariance(0, 0) = -1;
+  endless.normal_covariance *= 1e300;
+  for (const auto& bad : {not_finite, no_normal, no_sigma, negative, endless, look(0.5)}) {
     const auto refused = filter().update(bad, state);
     ASSERT_FALSE(refused);
     EXPECT_FALSE(refused.error().text.empty());

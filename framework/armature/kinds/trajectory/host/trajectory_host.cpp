@@ -44,6 +44,10 @@ Expected<JointVector> limits_or(const JointVector& robots_own, const RobotModel&
     const double gear = std::abs(link.ratio);
     const double own = robots_own[link.independent] * gear;
     if (!(all[j] > 0 && all[j] <= own * (1 + kRounding))) {
+      if (std::isinf(own)) {
+        return refuse(
+            fmt::format("{}: {} = {:.6g} is not above 0", what, robot.joints()[j].name, all[j]));
+      }
       return refuse(fmt::format("{}: {} = {:.6g} is not above 0 and at most the robot's {:.6g}",
                                 what, robot.joints()[j].name, all[j], own));
     }

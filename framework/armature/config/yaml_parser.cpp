@@ -200,7 +200,7 @@ Problem explained(const YAML::Exception& error, const EventReader& events,
 /// Refuses XML, which is what a robot's description is handed over as by others.
 void refuse_xml(const std::string& text, const Origin& place) {
   const std::size_t first = text.find_first_not_of(" \t\r\n");
-  if (first == std::string::npos || text[first] != '<') return;
+  if (first == std::string::npos || text[first] != '<' || text[first + 1] == '<') return;
   const bool is_xacro = text.find("xacro:") != std::string::npos;
   throw ConfigError{{{place, is_xacro ? "a xacro file, not YAML: run 'xacro FILE > arm.urdf', and "
                                         "name that in a robot file, 'urdf: arm.urdf'"

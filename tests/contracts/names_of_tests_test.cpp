@@ -4,21 +4,15 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <regex>
 #include <set>
-#include <sstream>
 
-namespace armature {
+#include "../text_of.hpp"
+
+namespace armature::test {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string text_of(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream{file}.rdbuf();
-  return text.str();
-}
 
 /// "Suite.Name" of all tests in the sources.
 std::set<std::string> names_of_tests() {
@@ -62,4 +56,4 @@ TEST(NamesOfTests, InDocumentsAreThoseOfTests) {
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::test

@@ -11,18 +11,13 @@
 #include <regex>
 #include <sstream>
 
+#include "../text_of.hpp"
 #include "command.hpp"
 
 namespace armature::test {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string text_of(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream{file}.rdbuf();
-  return text.str();
-}
 
 /// The indented lines of a README, each shown before it is run, by a shell that ends with the first
 /// that fails.
@@ -100,7 +95,8 @@ TEST_F(Installed, AComponentThatThereIsNotIsNamed) {
          "find_package(Armature REQUIRED COMPONENTS robot teleport)\n";
   const auto result = shell("cmake -S . -B build -DCMAKE_PREFIX_PATH=" + prefix_.string());
   EXPECT_NE(result.exit_code, 0);
-  EXPECT_NE(result.err.find("there is no library Armature::teleport"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("there is no library Armature::teleport"), std::string::npos)
+      << result.err;
 }
 
 TEST_F(Installed, NoFileNamesTheFoldersThatItWasMadeIn) {

@@ -44,7 +44,7 @@ Path straight_to(const ToolPose& pose) {
                       .duration_s = std::nullopt}};
 }
 
-/// What the path says of the redundancy counts for an arm which has a freedom more than the pose
+/// The goal of a sample; its redundancy counts for an arm which has a freedom more than the pose
 /// takes.
 Expected<IkGoal> ik_goal(const RobotModel& model, const IkSolver& solver,
                          const PathSample& sample) {

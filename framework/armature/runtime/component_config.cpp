@@ -30,7 +30,7 @@ std::optional<std::string> plugin_id(const Node& node, config::Problems& problem
   return std::nullopt;
 }
 
-/// What a deployment would have written to name plugin `id`.
+/// A map that names plugin `id`, as a deployment writes it.
 Node plugin_node_of(const std::string& id, const config::Origin& origin) {
   std::vector<Node::Entry> entries;
   entries.push_back({"plugin", origin, Node::scalar(id, true, origin)});

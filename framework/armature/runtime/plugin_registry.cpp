@@ -78,7 +78,7 @@ bool PluginRegistry::may_load(const std::filesystem::path& file) {
 
 void PluginRegistry::scan(const std::filesystem::path& folder) {
   std::error_code none;
-  if (std::getenv("ARMATURE_PLUGIN_PATH") && !std::filesystem::is_directory(folder, none)) {
+  if (!std::filesystem::is_directory(folder, none)) {
     warnings_.push_back(fmt::format("plugin folder {}: {}", folder.string(),
                                     std::filesystem::exists(folder, none)
                                         ? "it is a file; name the folder that it is in"

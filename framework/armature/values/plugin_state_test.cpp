@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a plugin remembers: 1. nothing at first, 2. it comes back as it was set, in copies too,
+// The state of a plugin: 1. it holds nothing at first, 2. it comes back as it was set, in copies
+// too,
 // 3. in another layout it is nothing.
 #include "armature/values/plugin_state.hpp"
 

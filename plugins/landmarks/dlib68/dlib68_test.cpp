@@ -51,9 +51,9 @@ FaceDetector& detector() {
   return **shared;
 }
 
-StereoFaceFinder face_finder() { return {detector(), landmark_finder(), 100}; }
-Expected<StereoLandmarks> find(StereoFaceFinder& finder, const DrawnPair& pair) {
-  return finder.find(pair.left.view(), pair.right.view());
+Expected<StereoLandmarks> find(StereoFaceFinder::State& state, const DrawnPair& pair) {
+  StereoFaceFinder finder{detector(), landmark_finder(), 100};
+  return finder.find(pair.left.view(), pair.right.view(), state);
 }
 
 /// Largest distance [px] of eyes and mouth in both images from where they are.
@@ -81,8 +81,8 @@ INSTANTIATE_TEST_SUITE_P(Dlib68, LandmarkLaws,
 TEST(Dlib68, FindsEyesAndMouthWhereTheyWereDrawn) {
   for (const auto& pose : {placed(0.06, 0, 0.5), placed(0, 0.03, 0.6, 0.2, 0.1),
                            placed(0.1, -0.02, 0.45, -0.25, -0.15)}) {
-    StereoFaceFinder finder = face_finder();
-    const auto found = find(finder, drawn_face(pose));
+    StereoFaceFinder::State state;
+    const auto found = find(state, drawn_face(pose));
     ASSERT_TRUE(found) << found.error().text;
     EXPECT_LT(worst_error(*found, pose), 4.0);  // of a face 260 px wide
     EXPECT_GT(found->left.mean_intensity, 100);
@@ -91,39 +91,39 @@ TEST(Dlib68, FindsEyesAndMouthWhereTheyWereDrawn) {
 }
 
 TEST(Dlib68, FindsTheSameFaceFromWhereItWasLast) {
-  StereoFaceFinder finder = face_finder();
-  ASSERT_TRUE(find(finder, drawn_face(placed(0.06, 0, 0.5))));
+  StereoFaceFinder::State state;
+  ASSERT_TRUE(find(state, drawn_face(placed(0.06, 0, 0.5))));
   for (int i = 1; i <= 5; ++i) {
     const auto pose = placed(0.06 + 0.01 * i, 0.005 * i, 0.5 + 0.01 * i);
-    const auto found = find(finder, drawn_face(pose));
+    const auto found = find(state, drawn_face(pose));
     ASSERT_TRUE(found) << found.error().text;
     EXPECT_LT(worst_error(*found, pose), 4.0);
   }
 }
 
 TEST(Dlib68, FindsAFaceThatIsNotWhereItWas) {
-  StereoFaceFinder finder = face_finder();
-  ASSERT_TRUE(find(finder, drawn_face(placed(-0.1, -0.08, 0.7))));
+  StereoFaceFinder::State state;
+  ASSERT_TRUE(find(state, drawn_face(placed(-0.1, -0.08, 0.7))));
   const auto pose = placed(0.12, 0.05, 0.5);
-  const auto found = find(finder, drawn_face(pose));
+  const auto found = find(state, drawn_face(pose));
   ASSERT_TRUE(found) << found.error().text;
   EXPECT_LT(worst_error(*found, pose), 4.0);
 }
 
 TEST(Dlib68, SaysWhichPictureHasNoFace) {
-  StereoFaceFinder finder = face_finder();
+  StereoFaceFinder::State state;
   const DrawnPair face = drawn_face(placed(0.06, 0, 0.5)), wall = drawn_face(placed(0, 0, -1));
-  ASSERT_TRUE(find(finder, face));
-  EXPECT_EQ(find(finder, wall).error().text, "no face in the left image");
-  EXPECT_EQ(find(finder, {face.left, wall.right}).error().text, "no face in the right image");
+  ASSERT_TRUE(find(state, face));
+  EXPECT_EQ(find(state, wall).error().text, "no face in the left image");
+  EXPECT_EQ(find(state, {face.left, wall.right}).error().text, "no face in the right image");
 }
 
 TEST(Dlib68, FindsAFaceInTheDark) {
   const auto pose = placed(0.06, 0, 0.5);
   for (const double brightness : {0.3, 0.15}) {
     SCOPED_TRACE(brightness);
-    StereoFaceFinder finder = face_finder();
-    const auto found = find(finder, drawn_face(pose, brightness));
+    StereoFaceFinder::State state;
+    const auto found = find(state, drawn_face(pose, brightness));
     ASSERT_TRUE(found) << found.error().text;
     EXPECT_LT(worst_error(*found, pose), 5.0);
     EXPECT_LT(found->left.mean_intensity, 160 * brightness);  // of the picture as it came

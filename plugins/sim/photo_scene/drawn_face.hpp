@@ -22,8 +22,7 @@ struct DrawnPair {
 /// mouth, which is the origin of its frame.
 inline DrawnPair drawn_face(const Eigen::Isometry3d& left_T_face, double brightness = 1) {
   static const auto photo = generated_face(1, 0.063);
-  static PlaneRenderer renderer{
-      photo, {.noise = 2, .blur_px = 0.5, .background = 120}, 1};
+  static PlaneRenderer renderer{photo, {.noise = 2, .blur_px = 0.5, .background = 120}, 1};
   const Picture black = Picture::of_one_grey(0, kDrawnCamera.width, kDrawnCamera.height);
   DrawnPair pair{black, black};
   Eigen::Isometry3d right_T_face = left_T_face;

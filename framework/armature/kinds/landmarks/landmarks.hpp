@@ -24,7 +24,7 @@ enum class LandmarkScheme {
 /// image's left eye is the subject's right one.
 enum class FaceFeature { left_eye, right_eye, mouth };
 
-/// How many landmarks a scheme has.
+/// The number of landmarks of a scheme.
 std::size_t landmark_count(LandmarkScheme scheme);
 /// The landmarks whose mean is the centre of a feature.
 std::span<const std::size_t> landmarks_around(FaceFeature feature, LandmarkScheme scheme);

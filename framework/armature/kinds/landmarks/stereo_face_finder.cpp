@@ -84,7 +84,7 @@ bool is_sound(const PixelBox& box) {
          std::isfinite(box.height) && box.width > 0 && box.height > 0;
 }
 
-/// How far one box is from another: between the centres and in width [px].
+/// The distance of two boxes: between their centres and in width [px].
 double distance(const PixelBox& a, const PixelBox& b) {
   const Eigen::Vector2d centres{a.left + 0.5 * a.width - b.left - 0.5 * b.width,
                                 a.top + 0.5 * a.height - b.top - 0.5 * b.height};
@@ -93,22 +93,23 @@ double distance(const PixelBox& a, const PixelBox& b) {
 
 }  // namespace
 
-Expected<StereoLandmarks> StereoFaceFinder::find(const ImageView& left, const ImageView& right) {
+Expected<StereoLandmarks> StereoFaceFinder::find(const ImageView& left, const ImageView& right,
+                                                 State& state) {
   if (auto wrong = no_pair(left, right)) return refuse(*wrong);
   const ImageView left_image = stretched_if_dark(left, stretch_below_, left_pixels_);
   const ImageView right_image = stretched_if_dark(right, stretch_below_, right_pixels_);
 
-  const Faces in_left = find_left(left_image);
+  const Faces in_left = find_left(left_image, state.left);
   if (!in_left || !*in_left) {
-    forget();
+    state = {};
     return in_left ? refuse("no face in the left image") : tl::unexpected{in_left.error()};
   }
-  last_left_ = (*in_left)->box;
-  const Faces in_right = find_right(right_image, *last_left_);
-  last_right_.reset();
+  state.left = (*in_left)->box;
+  const Faces in_right = find_right(right_image, state.right, *state.left);
+  state.right.reset();
   if (!in_right) return tl::unexpected{in_right.error()};
   if (!*in_right) return refuse("no face in the right image");
-  last_right_ = (*in_right)->box;
+  state.right = (*in_right)->box;
 
   auto of_left = landmarks(left, left_image, **in_left);
   if (!of_left) return refuse("left: " + of_left.error().text);
@@ -117,23 +118,23 @@ Expected<StereoLandmarks> StereoFaceFinder::find(const ImageView& left, const Im
   return StereoLandmarks{std::move(*of_left), std::move(*of_right)};
 }
 
-StereoFaceFinder::Faces StereoFaceFinder::find_left(const ImageView& left) {
-  if (last_left_) {
+StereoFaceFinder::Faces StereoFaceFinder::find_left(const ImageView& left,
+                                                    const std::optional<PixelBox>& last) {
+  if (last) {
     const Faces near =
-        detect(left, {.box = last_left_->scaled(kSearchScale), .face_width = last_left_->width},
-               last_left_);
+        detect(left, {.box = last->scaled(kSearchScale), .face_width = last->width}, last);
     if (!near || *near) return near;
   }
-  return detect(left, {.box = whole(left), .face_width = {}}, last_left_);
+  return detect(left, {.box = whole(left), .face_width = {}}, last);
 }
 
 // The pair is rectified: the right picture has the face in the same rows, further left.
 StereoFaceFinder::Faces StereoFaceFinder::find_right(const ImageView& right,
+                                                     const std::optional<PixelBox>& last,
                                                      const PixelBox& in_left) {
-  if (last_right_) {
+  if (last) {
     const Faces near =
-        detect(right, {.box = last_right_->scaled(kSearchScale), .face_width = last_right_->width},
-               last_right_);
+        detect(right, {.box = last->scaled(kSearchScale), .face_width = last->width}, last);
     if (!near || *near) return near;
   }
   const PixelBox strip{

@@ -20,6 +20,11 @@ namespace armature {
 /// picture to picture.
 class StereoFaceFinder {
  public:
+  /// Where the face was last, which the caller owns; value-initialised: it is sought everywhere.
+  struct State {
+    std::optional<PixelBox> left, right;
+  };
+
   /// Pictures whose brightest part (99.5 %) is darker than `stretch_below` are stretched to the
   /// whole range of grey values before they are searched. The plugins outlive this.
   StereoFaceFinder(FaceDetector& detector, LandmarkFinder& landmarks, double stretch_below)
@@ -27,16 +32,13 @@ class StereoFaceFinder {
 
   /// The landmarks in both pictures, or why not ("no face in the left image"). A face that is not
   /// found is forgotten. Allocates.
-  Expected<StereoLandmarks> find(const ImageView& left, const ImageView& right);
-  /// Looks everywhere next time.
-  void forget() { last_left_ = last_right_ = std::nullopt; }
-  /// Where the face was last in the left picture; nothing: it is sought everywhere next time.
-  const std::optional<PixelBox>& last_left() const { return last_left_; }
+  Expected<StereoLandmarks> find(const ImageView& left, const ImageView& right, State& state);
 
  private:
   using Faces = Expected<std::optional<DetectedFace>>;
-  Faces find_left(const ImageView& left);
-  Faces find_right(const ImageView& right, const PixelBox& in_left);
+  Faces find_left(const ImageView& left, const std::optional<PixelBox>& last);
+  Faces find_right(const ImageView& right, const std::optional<PixelBox>& last,
+                   const PixelBox& in_left);
   Faces detect(const ImageView& image, const SearchRegion& region,
                const std::optional<PixelBox>& near);
   Expected<FaceLandmarks> landmarks(const ImageView& original, const ImageView& stretched,
@@ -46,7 +48,6 @@ class StereoFaceFinder {
   LandmarkFinder& landmarks_;
   double stretch_below_;
   std::vector<std::uint8_t> left_pixels_, right_pixels_;  // of stretched pictures
-  std::optional<PixelBox> last_left_, last_right_;
 };
 
 }  // namespace armature

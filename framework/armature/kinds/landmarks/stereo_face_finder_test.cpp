@@ -65,7 +65,7 @@ class StereoFaceFinderTest : public ::testing::Test {
   }
   Expected<StereoLandmarks> find() {
     detector_.searched.clear();
-    return finder_.find(left_.view(), right_.view());
+    return finder_.find(left_.view(), right_.view(), state_);
   }
   static DetectedFace face(double left, double top, double width, double score = 1) {
     return {.box = {left, top, width, width}, .score = score};
@@ -75,6 +75,7 @@ class StereoFaceFinderTest : public ::testing::Test {
   PlacedFaces detector_;
   BoxCorners corners_;
   StereoFaceFinder finder_{detector_, corners_, 100};
+  StereoFaceFinder::State state_;
 };
 
 TEST_F(StereoFaceFinderTest, TellsTheFaceOfBothPicturesWithItsLandmarks) {
@@ -135,7 +136,7 @@ TEST_F(StereoFaceFinderTest, SearchesTheRightPictureInTheRowsOfTheLeftOneAndThen
   EXPECT_EQ(detector_.searched[1].box.top, 100 - 0.35 * 80);
   EXPECT_EQ(detector_.searched[1].box.left, 200 - 1.6 * 80);
   EXPECT_EQ(detector_.searched[1].face_width, 80);
-  finder_.forget();
+  state_ = {};
   detector_.right = {face(150, 220, 80)};
   EXPECT_TRUE(find()) << "the pair may be badly rectified; that is for others to judge";
   EXPECT_EQ(detector_.searched.size(), 3u);
@@ -145,13 +146,13 @@ TEST_F(StereoFaceFinderTest, SaysWhichPictureHasNoFaceAndForgetsIt) {
   detector_.left = {face(200, 100, 80)};
   detector_.right = {face(150, 100, 80)};
   ASSERT_TRUE(find());
-  ASSERT_TRUE(finder_.last_left());
+  ASSERT_TRUE(state_.left);
   detector_.right.clear();
   EXPECT_EQ(find().error().text, "no face in the right image");
-  EXPECT_TRUE(finder_.last_left());
+  EXPECT_TRUE(state_.left);
   detector_.left.clear();
   EXPECT_EQ(find().error().text, "no face in the left image");
-  EXPECT_FALSE(finder_.last_left());
+  EXPECT_FALSE(state_.left);
 }
 
 TEST_F(StereoFaceFinderTest, StretchesDarkPicturesAndTellsTheirBrightnessAsItWas) {
@@ -191,8 +192,8 @@ TEST_F(StereoFaceFinderTest, ABoxThatIsNoneIsNoFace) {
 
 TEST_F(StereoFaceFinderTest, RefusesPicturesThatAreNoPair) {
   const Picture lower = Picture::of_one_grey(1, 400, 299);
-  EXPECT_EQ(finder_.find({}, right_.view()).error().text, "empty image");
-  EXPECT_EQ(finder_.find(left_.view(), lower.view()).error().text,
+  EXPECT_EQ(finder_.find({}, right_.view(), state_).error().text, "empty image");
+  EXPECT_EQ(finder_.find(left_.view(), lower.view(), state_).error().text,
             "the left image is 400 x 300 pixels, the right one 400 x 299");
 }
 

@@ -24,8 +24,8 @@ struct Redundancy {
 struct PathSample {
   double s = 0;
   ToolPose pose;
-  /// What the inverse kinematics shall hold there (IkGoal::redundancy). Arms without a freedom
-  /// more than the pose takes do not look at it.
+  /// The redundancy that the inverse kinematics shall hold there (IkGoal::redundancy). Arms without
+  /// a freedom more than the pose takes do not look at it.
   std::optional<Redundancy> redundancy = std::nullopt;
   /// Where the independent joints (dof() entries) shall be: nothing is solved for then, and `pose`
   /// is where that takes the tool. Of a joint segment only; no joint turns by half a turn or more

@@ -44,6 +44,7 @@ class LandmarksHost final : public Component {
   PluginPtr<FaceDetector> detector_;
   PluginPtr<LandmarkFinder> landmark_finder_;
   StereoFaceFinder finder_;
+  StereoFaceFinder::State state_;
   Input<msg::Image> left_image_, right_image_;
   Output<msg::FaceLandmarks> landmarks_;
 };
@@ -52,14 +53,9 @@ Expected<StereoLandmarks> LandmarksHost::find(const msg::Image& left, const msg:
   const auto left_view = image_of(left), right_view = image_of(right);
   if (!left_view) return refuse("left: " + left_view.error().text);
   if (!right_view) return refuse("right: " + right_view.error().text);
-  bool returned = false;
-  auto found = guarded([&] {
-    auto pair = finder_.find(*left_view, *right_view);
-    returned = true;
-    return pair;
+  return guarded(state_, [&](StereoFaceFinder::State& state) {
+    return finder_.find(*left_view, *right_view, state);
   });
-  if (!returned) finder_.forget();
-  return found;
 }
 
 void LandmarksHost::step(Time) {

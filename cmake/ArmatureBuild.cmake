@@ -186,16 +186,9 @@ function(armature_add_test name)
     PROPERTIES TIMEOUT ${arg_TIMEOUT} LABELS "${arg_LABELS}")
 endfunction()
 
-# armature_add_contract(path LINK Armature::path): contract.cpp, the laws that the tests of all
-# plugins of a kind instantiate, compiled once for them.
+# armature_add_contract(path [SOURCES sound_path.cpp] LINK Armature::path): laws.cpp and SOURCES, what
+# every plugin of a kind keeps; for the tests of the plugins and for `armature plugin verify`.
 function(armature_add_contract kind)
-  if(NOT ARMATURE_BUILD_TESTS)
-    return()
-  endif()
-  cmake_parse_arguments(arg "" "" "LINK" ${ARGN})
-  set(name armature_${kind}_contract)
-  add_library(${name} OBJECT contract.cpp)
-  add_library(Armature::${kind}_contract ALIAS ${name})
-  armature_compile_as_test(${name})
-  target_link_libraries(${name} PRIVATE ${arg_LINK})
+  cmake_parse_arguments(arg "" "" "SOURCES;LINK;PRIVATE" ${ARGN})
+  armature_add_library(${kind}_contract SOURCES laws.cpp ${arg_SOURCES} LINK Armature::laws ${arg_LINK} PRIVATE fmt::fmt ${arg_PRIVATE})
 endfunction()

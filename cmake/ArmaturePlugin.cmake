@@ -7,6 +7,7 @@
 # the ABI tag of the compiler that builds it; both are read without running the library's code. Its
 # parameters become `struct Parameters` of the namespace Armature::ik::lamp_geometric, in the header
 # ik_lamp_geometric_parameters.hpp.
+# VERIFY [options]: in somebody else's project, a test that is `armature plugin verify` with these options.
 # TEST_ONLY: for the framework's own tests; kept apart from the plugins and not installed.
 # TEST_OPTIONS: of armature_add_test.
 
@@ -14,8 +15,9 @@ set(ARMATURE_PLUGIN_TEMPLATE "${CMAKE_CURRENT_LIST_DIR}/plugin_manifest.cpp.in")
 
 function(armature_add_plugin id)
   cmake_parse_arguments(arg "TEST_ONLY" ""
-                        "SOURCES;LINK;TESTS;TEST_LINK;TEST_OPTIONS" ${ARGN})
+                        "SOURCES;LINK;TESTS;TEST_LINK;TEST_OPTIONS;VERIFY" ${ARGN})
   string(REPLACE "/" "_" target "${id}")
+  list(FIND ARGN VERIFY verify_at)
 
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS
                                          "${CMAKE_CURRENT_SOURCE_DIR}/plugin.yaml")
@@ -73,5 +75,10 @@ function(armature_add_plugin id)
     add_test(NAME ${target} COMMAND ${target}_test WORKING_DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}")
     set_tests_properties(${target} PROPERTIES
       ENVIRONMENT "ARMATURE_PLUGIN_PATH=$<TARGET_FILE_DIR:${target}>")
+  endif()
+  if(verify_at GREATER -1)
+    add_test(NAME ${target}_laws
+             COMMAND Armature::cli plugin verify $<TARGET_FILE:${target}> ${arg_VERIFY}
+             WORKING_DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}")
   endif()
 endfunction()

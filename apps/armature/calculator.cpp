@@ -17,6 +17,7 @@
 #include "armature/kinds/ik/lines/answering.hpp"
 #include "armature/robot/robot_model.hpp"
 #include "armature/runtime/plugin_registry.hpp"
+#include "armature/runtime/running_component.hpp"
 #include "exit_code.hpp"
 #include "plugins.hpp"
 #include "progress.hpp"
@@ -80,12 +81,14 @@ int run_ik(const ArmChoice& arm, const SolverChoice& choice, const std::string& 
   const PluginManifest* plugin = plugins.find(choice.plugin);
   if (!plugin) throw InvalidChoice(plugins.unknown_text(choice.plugin));
   const Params params = params_of(*plugin, choice.params);
+  name_crashing_components();
   const auto solver = plugins.make<IkSolver>(choice.plugin, robot, params);
   if (!solver) {
     throw InvalidChoice(
         fmt::format("{} refuses robot '{}': {}", choice.plugin, robot.name(), solver.error().text));
   }
   const JointVector home = resting_position(robot);
+  const RunningComponent running{choice.plugin, "solve", "plugin"};
   return answer_lines(lines.stream(), [&](const std::string& line) {
     return answer_ik(robot, **solver, home, line);
   });

@@ -17,10 +17,12 @@
 #include "armature/runtime/on_fault.hpp"
 #include "exit_code.hpp"
 #include "leases.hpp"
-#include "plugins.hpp"
+#include "origin_json.hpp"
 
 namespace armature {
 namespace {
+
+using Json = nlohmann::ordered_json;
 
 DeploymentConfig read(const DeploymentSource& source, const PluginRegistry& plugins) {
   const config::PipePatience one_for_all;
@@ -35,26 +37,6 @@ struct Edge {
   std::string type;
   std::vector<std::string> writers, readers;
 };
-
-/// The plugin of the component, or of one of its slots, that starts a program which a parameter
-/// names; nullptr: none does.
-const PluginManifest* runs_programs(const ComponentConfig& component) {
-  if (component.manifest->runs_programs) return component.manifest;
-  const auto slot = std::ranges::find_if(
-      component.slots, [](const SlotConfig& one) { return one.manifest->runs_programs; });
-  return slot == component.slots.end() ? nullptr : slot->manifest;
-}
-
-/// Checking a file must not run what the file names.
-void leave_out_programs(DeploymentConfig& deployment) {
-  std::erase_if(deployment.components, [](const ComponentConfig& component) {
-    const PluginManifest* plugin = runs_programs(component);
-    if (plugin) {
-      fmt::print("not tried: component '{}', as {} runs a program\n", component.name, plugin->id);
-    }
-    return plugin != nullptr;
-  });
-}
 
 std::map<std::string, Edge> edges_of(const DeploymentConfig& deployment) {
   std::map<std::string, Edge> edges;
@@ -185,7 +167,7 @@ void print_dot(const DeploymentConfig& deployment, const std::map<std::string, E
 }
 
 void print_json(const std::map<std::string, Edge>& edges) {
-  nlohmann::ordered_json json;
+  Json json;
   for (const auto& [topic, edge] : edges) {
     json[topic] = {{"type", edge.type}, {"writers", edge.writers}, {"readers", edge.readers}};
   }
@@ -206,39 +188,25 @@ void print_text(const std::map<std::string, Edge>& edges) {
   }
 }
 
-/// A component that is several units counts once, as it does in the file.
-auto count_components(const DeploymentConfig& deployment) {
-  return std::ranges::count(deployment.components, kMainUnit, &ComponentConfig::unit);
+void print_tree(const config::Node& tree, bool json) {
+  if (json) {
+    fmt::print("{}\n", with_origins(tree).dump(-1, ' ', false, Json::error_handler_t::replace));
+  } else {
+    fmt::print("{}", config::to_yaml(tree, true));
+  }
 }
 
 }  // namespace
 
-int check_deployment(const DeploymentSource& source) {
-  PluginRegistry plugins;
-  tell_warnings(plugins);
-  DeploymentConfig config = read(source, plugins);
-  const std::string text = fmt::format("{}: ok, {} components, {} topics\n", config.name,
-                                       count_components(config), edges_of(config).size());
-  leave_out_programs(config);
-  // Constructing the components is how a solver gets to refuse its robot.
-  const Deployment constructed{
-      std::move(config), plugins, {.process = "", .on_line = {}, .on_note = {}}};
-  for (const auto& warnings :
-       {executor_warnings(constructed.config()), isolation_warnings(constructed.config())}) {
-    for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
-  }
-  fmt::print("{}", text);
-  return kOk;
-}
-
-int show_deployment(const DeploymentSource& source) {
+int show_deployment(const DeploymentSource& source, bool json) {
   const config::PipePatience one_for_all;
   const config::Node root = config::load_with_overlays(source.files, source.assignments);
   config::Problems problems;
   check_is_deployment(root, problems);
   problems.throw_if_any();
   const PluginRegistry plugins;
-  fmt::print("{}", config::to_yaml(completed(root, plugins), true));
+  print_tree(completed(root, plugins), json);
+  if (json) return kOk;
   const DeploymentConfig deployment = read_deployment(root, plugins, problems);
   if (problems.empty()) {
     fmt::print("{}{}", on_fault_comment(deployment), leases_comment(deployment));

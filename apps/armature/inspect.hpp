@@ -7,11 +7,9 @@
 
 namespace armature {
 
-/// `armature check`: everything that `run` would do before it starts.
-int check_deployment(const DeploymentSource& source);
 /// `armature show`: the resolved file, every value with its origin, and as comments whose faults
-/// end the run and who waits for whom.
-int show_deployment(const DeploymentSource& source);
+/// end the run and who waits for whom; with `json` the file alone, as one object.
+int show_deployment(const DeploymentSource& source, bool json);
 /// `armature graph`: who writes and who reads every topic; Graphviz with `dot`.
 int graph_deployment(const DeploymentSource& source, bool dot, bool json);
 

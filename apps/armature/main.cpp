@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The command line. The only file that includes CLI11.
+// The command line. Only this file and verb_tree.cpp include CLI11.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
@@ -13,11 +13,16 @@
 #include "armature/config/problems.hpp"
 #include "calculator.hpp"
 #include "calibrate.hpp"
+#include "check.hpp"
+#include "completion/complete.hpp"
+#include "completion/script.hpp"
+#include "doctor/doctor.hpp"
 #include "drill/drill.hpp"
 #include "exit_code.hpp"
 #include "ik_bench/bench.hpp"
 #include "inspect.hpp"
 #include "loop_bench/bench_loop.hpp"
+#include "man_page.hpp"
 #include "option_checks.hpp"
 #include "plan_bench/bench_plan.hpp"
 #include "plugins.hpp"
@@ -25,7 +30,8 @@
 #include "shipped_configs.hpp"
 #include "stop.hpp"
 #include "topics.hpp"
-#include "verify.hpp"
+#include "verb_tree.hpp"
+#include "verify/verify.hpp"
 
 namespace armature {
 namespace {
@@ -135,17 +141,19 @@ void add_stop(CLI::App& app, Action& action) {
 
 void add_inspection(CLI::App& app, Action& action) {
   auto source = std::make_shared<DeploymentSource>();
+  auto json = std::make_shared<bool>(false);
   CLI::App* check = app.add_subcommand("check", "Find everything that is wrong in a deployment");
   add_source(*check, *source);
-  check->callback([source, &action] { action = [source] { return check_deployment(*source); }; });
+  check->add_flag("--json", *json, "as JSON: what is wrong, each with its place");
+  check->callback([=, &action] { action = [=] { return check_deployment(*source, *json); }; });
 
   CLI::App* show =
       app.add_subcommand("show", "Print the resolved file with the origin of every value");
   add_source(*show, *source);
-  show->callback([source, &action] { action = [source] { return show_deployment(*source); }; });
+  show->add_flag("--json", *json, "as JSON");
+  show->callback([=, &action] { action = [=] { return show_deployment(*source, *json); }; });
 
   auto dot = std::make_shared<bool>(false);
-  auto json = std::make_shared<bool>(false);
   CLI::App* graph = app.add_subcommand("graph", "Print who writes and who reads every topic");
   add_source(*graph, *source);
   graph->add_flag("--dot", *dot, "as Graphviz");
@@ -167,7 +175,8 @@ void add_verify(CLI::App& plugin, Action& action) {
   verify->add_option("plugin", options->plugin, "its id, or a library file")->required();
   add_arm(verify, options->arm);
   verify->add_option("--params", options->params, "the plugin's parameters, a YAML map");
-  verify->add_option("--poses", options->poses, "of every set")
+  verify->add_option("--rig", options->rig, "rig file, for a component that uses one");
+  verify->add_option("--poses", options->poses, "of every set; of a component its activations")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000000));
   verify->add_option("--seed", options->seed, "of the random numbers")
@@ -385,6 +394,33 @@ void add_calibrations(CLI::App& app, Action& action) {
   tool->add_option("--tool", options->tool, "name of its frame")->capture_default_str();
 }
 
+void add_doctor(CLI::App& app, Action& action) {
+  auto json = std::make_shared<bool>(false);
+  CLI::App* doctor =
+      app.add_subcommand("doctor", "What this machine lacks for a deployment, with the way out");
+  doctor->add_flag("--json", *json, "as JSON");
+  doctor->callback([=, &action] { action = [=] { return examine_machine(*json); }; });
+}
+
+/// What shells and man(1) want to know of all the verbs.
+void add_words(CLI::App& app, Action& action) {
+  auto shell = std::make_shared<std::string>();
+  CLI::App* completion = app.add_subcommand(
+      "completion", "Print what completes a line: eval \"$(armature completion bash)\"");
+  completion->add_option("shell", *shell, "whose script")
+      ->required()
+      ->check(CLI::IsMember(std::vector<std::string>{"bash", "zsh", "fish"}));
+  completion->callback([=, &action] { action = [=] { return print_completion(*shell); }; });
+
+  CLI::App* man = app.add_subcommand("man", "Print this help as a manual page (roff)");
+  man->callback([&app, &action] {
+    action = [&app] {
+      fmt::print("{}", man_page(verb_tree(app), ARMATURE_VERSION));
+      return kOk;
+    };
+  });
+}
+
 /// What is wrong with the verbs at the beginning of the line; empty: nothing.
 std::string unknown_verb(const CLI::App& app, const std::vector<std::string>& line) {
   const CLI::App* verb = &app;
@@ -433,7 +469,14 @@ int run_command_line(int argc, char** argv) {
   add_calculators(app, action);
   add_calibrations(app, action);
   add_bench(app, action);
+  add_doctor(app, action);
+  add_words(app, action);
   std::vector<std::string> words = words_of(argc, argv);
+  if (!words.empty() && words.front() == "__complete") {
+    return exit_code_of([&] {
+      return print_candidates(verb_tree(app), {words.begin() + 1, words.end()});
+    });
+  }
   if (const std::string wrong = unknown_verb(app, words); !wrong.empty()) {
     fmt::print(stderr, "{}\n", wrong);
     return kUsage;

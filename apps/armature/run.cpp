@@ -277,11 +277,13 @@ void check_process(const DeploymentConfig& config, const std::string& process) {
                                   config::did_you_mean(process, processes)));
 }
 
-DeploymentConfig read(const DeploymentSource& source, PluginRegistry& plugins) {
+/// `notes` gets what the assignments leave out.
+DeploymentConfig read(const DeploymentSource& source, PluginRegistry& plugins,
+                      std::vector<std::string>& notes) {
   const config::PipePatience one_for_all;
   config::Problems problems;
   DeploymentConfig config = read_deployment(
-      config::load_with_overlays(source.files, source.assignments), plugins, problems);
+      config::load_with_overlays(source.files, source.assignments, &notes), plugins, problems);
   problems.throw_if_any();
   return config;
 }
@@ -294,7 +296,11 @@ int run(const RunOptions& options) {
   if (options.report && !is_child) begin_report(*options.report);
   PluginRegistry plugins;
   if (!is_child) tell_warnings(plugins);
-  DeploymentConfig config = read(options.source, plugins);
+  std::vector<std::string> notes;
+  DeploymentConfig config = read(options.source, plugins, notes);
+  if (!is_child) {
+    for (const std::string& note : notes) fmt::print(stderr, "warning: {}\n", note);
+  }
   Process process{.name = is_child ? options.process : std::string{kMainProcess},
                   .domain = options.domain.value_or(config.domain),
                   .joined = find_interfaces(config.dds),
@@ -318,6 +324,7 @@ int run(const RunOptions& options) {
   if (is_child) child_watch.emplace(console, options.control);
   LastWord last_word{options, console, is_child ? &*child_watch : nullptr};
   EndWatch end_watch{last_word.patience(), [&](const auto& hung) { last_word.leave(hung); }};
+  name_crashing_components();
   Deployment deployment{
       std::move(config),
       plugins,
@@ -329,7 +336,6 @@ int run(const RunOptions& options) {
        .on_ending = [&](const auto& what) { end_watch.begin(what); }}};
   if (injected) deployment.inject(*injected);
   end_signals::stop_in_order();
-  name_crashing_components();
   if (is_child && options.control >= 0) prctl(PR_SET_PDEATHSIG, 0);
   if (!options.origin) process.origin.start = deployment.clock().now();
   console.start(deployment.clock(), process.origin.start);

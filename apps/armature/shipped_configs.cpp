@@ -31,13 +31,15 @@ fs::path shipped_config_folder() {
   return prefix / "share" / "armature" / "configs";
 }
 
+std::vector<fs::path> shipped_deployments() { return yaml_files(shipped_config_folder()); }
+
 std::vector<fs::path> shipped_robots() { return yaml_files(shipped_config_folder() / "robots"); }
 
 std::string deployment_file(const std::string& given) {
   const bool is_name = given.find_first_of("./") == std::string::npos && !fs::exists(given);
   if (!is_name) return given;
   std::vector<std::string> names;
-  for (const fs::path& file : yaml_files(shipped_config_folder())) {
+  for (const fs::path& file : shipped_deployments()) {
     if (file.stem() == given) return file;
     names.push_back(file.stem());
   }

@@ -10,6 +10,8 @@ namespace armature {
 /// Where the deployments, robots and rigs are that came with this program.
 std::filesystem::path shipped_config_folder();
 
+/// The deployments among them, sorted.
+std::vector<std::filesystem::path> shipped_deployments();
 /// The robot files among them, sorted.
 std::vector<std::filesystem::path> shipped_robots();
 

@@ -2,8 +2,10 @@
 // `armature fk` and `armature ik`: JSON lines in, one answer per line out, whatever comes in.
 #include <gtest/gtest.h>
 
+#include <csignal>
 #include <nlohmann/json.hpp>
 
+#include "armature/values/sanitizer.hpp"
 #include "tests/command_line/lamp_robot.hpp"
 
 namespace armature::test {
@@ -46,6 +48,20 @@ TEST(IkCalculator, FindsTheSamePoseWithAnotherSolverByOneWord) {
   const auto lines = ik(kPaperGoal, "ik/numeric");
   EXPECT_EQ(lines[0]["status"], "ok");
   EXPECT_LT(lines[0]["solutions"][0]["residual_m"].get<double>(), 1e-6);
+}
+
+TEST(IkCalculator, NamesTheSolverThatCrashes) {
+  if (kSanitized) GTEST_SKIP() << "a sanitizer tells of a crash by itself";
+  const Command::Options goal{
+      .environment = {{"ARMATURE_PLUGIN_PATH", ARMATURE_BINARY_DIR "/tests/plugins"}},
+      .input = kPaperGoal};
+  const CommandResult result = run_command(
+      {armature(), "ik", "--robot", kLamp, "--plugin", "ik/faulty", "--params", "{fault: crash}"},
+      goal);
+  EXPECT_EQ(result.exit_code, 128 + SIGSEGV);
+  EXPECT_NE(result.err.find("armature: plugin 'ik/faulty' crashed in its solve: SIGSEGV\n"),
+            std::string::npos)
+      << result.err;
 }
 
 TEST(IkCalculator, AnswersEveryBadLineWithAReasonAndGoesOn) {

@@ -58,6 +58,32 @@ TEST_F(NewPlugin, BuildsOutsideTheTreePassesItsTestAndSolvesForTheLamp) {
   EXPECT_EQ(verify.exit_code, 0) << verify.out << verify.err;
 }
 
+TEST_F(NewPlugin, OfAPathBuildsKeepsItsLawsAndMovesTheLamp) {
+  ASSERT_EQ(write("path/mine").exit_code, 0);
+  const std::string build = folder / "build";
+  expect_ok({CMAKE_PROGRAM, "-S", folder, "-B", build, "-DCMAKE_BUILD_TYPE=Release"});
+  expect_ok({CMAKE_PROGRAM, "--build", build});
+  expect_ok({CTEST_PROGRAM, "--test-dir", build, "--no-tests=error", "--output-on-failure"});
+  const auto check = run_command(
+      {armature(), "check", "dental_lamp", "--set", "components.motion.path.plugin=path/mine"},
+      {.environment = {{"ARMATURE_PLUGIN_PATH", build}}, .input = {}});
+  EXPECT_EQ(check.exit_code, 0) << check.err;
+}
+
+TEST_F(NewPlugin, OfAMonitorBuildsKeepsItsLawsAndWatchesTheLamp) {
+  ASSERT_EQ(write("monitor/mine").exit_code, 0);
+  const std::string build = folder / "build";
+  expect_ok({CMAKE_PROGRAM, "-S", folder, "-B", build, "-DCMAKE_BUILD_TYPE=Release"});
+  expect_ok({CMAKE_PROGRAM, "--build", build});
+  expect_ok({CTEST_PROGRAM, "--test-dir", build, "--no-tests=error", "--output-on-failure"});
+  const auto run = run_command({armature(), "run", "dental_lamp", folder / "overlay.yaml", "--set",
+                                "clock=simulated", "--json"},
+                               {.environment = {{"ARMATURE_PLUGIN_PATH", build}}, .input = {}},
+                               std::chrono::seconds{120});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NE(run.out.find("greatest_speed_rad_s"), std::string::npos) << run.out;
+}
+
 TEST_F(NewPlugin, IsAShortSolverAndThreeLinesOfCMakeBesidesItsVersion) {
   ASSERT_EQ(write("ik/mine").exit_code, 0);
   const auto lines_of = [&](const char* file) {
@@ -88,10 +114,10 @@ TEST_F(NewPlugin, OfAnArmComesWithADeploymentThatIsSoundButForTheArmItself) {
 TEST_F(NewPlugin, RefusesANameThatIsNoName) {
   const auto result = write("ik/My Solver");
   EXPECT_EQ(result.exit_code, 3);
-  EXPECT_EQ(
-      result.err,
-      "armature: 'ik/My Solver' must be 'ik/name' or 'arm/name', the name in lower case letters, "
-      "digits and '_'\n");
+  EXPECT_EQ(result.err,
+            "armature: 'ik/My Solver' must be 'arm/name', 'ik/name', 'monitor/name', 'path/name', "
+            "the name "
+            "in lower case letters, digits and '_'\n");
 }
 
 TEST_F(NewPlugin, RefusesAnIdThatIsTakenAndTellsByWhat) {
@@ -104,11 +130,12 @@ TEST_F(NewPlugin, RefusesAnIdThatIsTakenAndTellsByWhat) {
 }
 
 TEST_F(NewPlugin, OfAFamilyWithoutATemplateNamesThoseThatHaveOne) {
-  const auto result = write("path/mine");
+  const auto result = write("target/mine");
   EXPECT_EQ(result.exit_code, 3);
   EXPECT_EQ(result.err,
-            "armature: there is no template for 'path/...', only for 'arm/...' and 'ik/...'; begin "
-            "with a copy of such a plugin, see plugins/ in the sources\n");
+            "armature: there is no template for 'target/...', only for 'arm/...', 'ik/...', "
+            "'monitor/...', 'path/...'; begin with a copy of such a plugin, see plugins/ in the "
+            "sources\n");
   EXPECT_FALSE(fs::exists(folder));
 }
 

@@ -135,13 +135,29 @@ TEST(PluginVerify, ARobotThatIsNotServedIsSaidAndNothingIsVerified) {
   EXPECT_THAT(result.err, HasSubstr("ik/faulty serves none of these robots"));
 }
 
+TEST(PluginVerify, EveryKindHasLaws) {
+  for (const std::string plugin :
+       {"path/mouth_arc", "select/nearest", "trajectory/quintic_spline", "registration/rigid",
+        "target/constant_velocity", "face_pose/three_point", "detector/hog", "landmarks/dlib68"}) {
+    const auto result = verify(plugin, {"--robot", kLamp, "--json"});
+    ASSERT_EQ(result.exit_code, 0) << plugin << "\n" << result.out << result.err;
+    const json laws = json::parse(result.out)["robots"][0]["laws"];
+    EXPECT_GE(laws.size(), 3u) << plugin;
+    for (const json& law : laws) EXPECT_NE(law["result"], "fail") << plugin << law;
+  }
+}
+
+TEST(PluginVerify, AComponentIsFedSilenceNanAndMessagesByChance) {
+  const auto result = verify("arm/simulated", {"--robot", kLamp, "--poses", "50"});
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+  EXPECT_THAT(result.out, HasSubstr("  pass  silence is no fault"));
+  EXPECT_THAT(result.out, HasSubstr("  pass  messages full of NaN are no fault"));
+}
+
 TEST(PluginVerify, NamesWhatIsWrongOnTheCommandLine) {
   const auto unknown = verify("ik/lamp_geometrc", {"--robot", kLamp});
   EXPECT_EQ(unknown.exit_code, 3);
   EXPECT_THAT(unknown.err, HasSubstr("did you mean 'ik/lamp_geometric'"));
-  const auto kind = verify("target/constant_velocity", {});
-  EXPECT_EQ(kind.exit_code, 3);
-  EXPECT_THAT(kind.err, HasSubstr("is of kind 'target'; there are laws to verify for kind 'ik'"));
   const auto tip = verify("ik/numeric", {"--robot", kLamp, "--tip", "tol"});
   EXPECT_EQ(tip.exit_code, 3);
   EXPECT_THAT(tip.err, HasSubstr("robot 'dental_lamp' has no frame 'tol'; did you mean 'tool'?"));

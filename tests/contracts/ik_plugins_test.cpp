@@ -86,7 +86,7 @@ void add_tests_of(const PluginManifest& plugin, const Params& params, const Robo
     add_test(suite, law.name, [law, subject] { expect_kept(law, subject().value()); });
   }
   add_test(suite, IkLoadingLaw::kName, [&plugin, params, robot] {
-    const IkLawReport report =
+    const LawReport report =
         check_loading({ARMATURE_PLUGIN_BUILD_DIR}, plugin.id, *robot, params);
     for (const auto& [what, question] : report.violations) ADD_FAILURE() << what;
   });

@@ -14,6 +14,22 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Adds "TargetLaws.TheSentence" for every law that stands beside `contract`, a kind's laws as
+/// tests.
+void add_names_of_laws(const fs::path& contract, std::set<std::string>& names) {
+  const std::regex suite{R"(class (\w+Laws) : public)"}, law{R"(\bLAW\((\w+),)"};
+  const std::string glue = text_of(contract);
+  std::smatch found;
+  if (!std::regex_search(glue, found, suite)) return;
+  for (const auto& entry : fs::recursive_directory_iterator{contract.parent_path()}) {
+    if (entry.path().extension() != ".hpp") continue;
+    const std::string table = text_of(entry.path());
+    for (std::sregex_iterator match{table.begin(), table.end(), law}, end; match != end; ++match) {
+      names.insert(found[1].str() + "." + (*match)[1].str());
+    }
+  }
+}
+
 /// "Suite.Name" of all tests in the sources.
 std::set<std::string> names_of_tests() {
   const std::regex definition{R"(TEST(?:_F|_P)?\(\s*(\w+),\s*(\w+)\s*\))"};
@@ -21,6 +37,7 @@ std::set<std::string> names_of_tests() {
   for (const char* room : {"framework", "plugins", "apps", "tests"}) {
     for (const auto& entry :
          fs::recursive_directory_iterator{fs::path{ARMATURE_SOURCE_DIR} / room}) {
+      if (entry.path().filename() == "contract.hpp") add_names_of_laws(entry.path(), names);
       if (entry.path().extension() != ".cpp") continue;
       const std::string text = text_of(entry.path());
       for (std::sregex_iterator match{text.begin(), text.end(), definition}, end; match != end;

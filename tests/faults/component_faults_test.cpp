@@ -160,6 +160,28 @@ TEST_F(ComponentFaults, ACrashNamesTheComponentWhoseStepRan) {
               HasSubstr("armature: component 'monitor' crashed in its step: SIGSEGV\n"));
 }
 
+TEST_F(ComponentFaults, ACrashInAConstructorIsNamedByTheRunAndByTheCheck) {
+  if (kSanitized) GTEST_SKIP() << "a sanitizer tells of a crash by itself";
+  const std::string breaks = "components.monitor.params.breaks=crashes_when_made";
+  const auto check_it = [&] {
+    return run_command({armature(), "check", file_.string(), "--set", breaks}, options_);
+  };
+  for (const CommandResult& result : {run({breaks}), check_it()}) {
+    EXPECT_EQ(result.exit_code, 128 + SIGSEGV);
+    EXPECT_THAT(result.err,
+                HasSubstr("armature: component 'monitor' crashed in its constructor: SIGSEGV\n"));
+  }
+}
+
+TEST_F(ComponentFaults, ACrashInADestructorIsNamed) {
+  if (kSanitized) GTEST_SKIP() << "a sanitizer tells of a crash by itself";
+  const CommandResult result =
+      run({"components.monitor.params.breaks=crashes_at_its_end", "run.time_limit_s=0.3"});
+  EXPECT_EQ(result.exit_code, 128 + SIGSEGV);
+  EXPECT_THAT(result.err,
+              HasSubstr("armature: component 'monitor' crashed in its destructor: SIGSEGV\n"));
+}
+
 TEST_F(ComponentFaults, AProcessOfMonitorsThatCrashesIsSaidAtOnceAndTheRunGoesOn) {
   if (kSanitized) GTEST_SKIP() << "a sanitizer tells of a crash by itself";
   const CommandResult result =

@@ -336,12 +336,13 @@ const Fault kFaults[] = {
      "move_mm, move_tilt_up_deg or move_tilt_side_deg, or move_duration_s to 0\n"},
     {"StandstillThatTheDriverDoesNotWaitFor", "arm/simulated, executor: control",
      "arm/simulated, executor: control, params: {command_timeout_s: 0.05}",
-     "deployment.yaml:20:79: 'max_lateness_s' of component 'motion' is 0.1, above "
-     "'command_timeout_s' of component 'arm', which is 0.05; lower the first or raise the "
-     "second\n"},
+     "deployment.yaml:20:79: 'max_lateness_s' of component 'motion' is 0.1 (its default), above "
+     "'command_timeout_s' of component 'arm', which is 0.05 (deployment.yaml:20:79); lower the "
+     "first or raise the second\n"},
     {"StandstillThatIsTooLong", "max_velocity_rad_s: 1.0", "max_lateness_s: 0.2",
-     "deployment.yaml:15:30: 'max_lateness_s' of component 'motion' is 0.2, above "
-     "'command_timeout_s' of component 'arm', which is 0.1; lower the first or raise the second\n"},
+     "deployment.yaml:15:30: 'max_lateness_s' of component 'motion' is 0.2 "
+     "(deployment.yaml:15:30), above 'command_timeout_s' of component 'arm', which is 0.1 (its "
+     "default); lower the first or raise the second\n"},
     {"GoalThatNothingMeets", "distance_error_mm: 1.5", "distance_error_mm: -1",
      "deployment.yaml:22:28: the goal -1 cannot be met: 'distance_error_mm' is never below 0\n"},
     {"GoalForAMetricThatIsMistyped", "distance_error_mm: 1.5", "distance_eror_mm: 1.5",
@@ -487,7 +488,7 @@ TEST_F(SplitDeployment, AnIkProgramThatDoesNotKnowTheRobotIsRefusedWithItsAnswer
       "run");
   EXPECT_EQ(result.exit_code, 3);
   EXPECT_TRUE(result.err.starts_with(
-      "deployment.yaml:13:3: component 'motion.planner': ik/process refuses: the program '"))
+      "deployment.yaml:17:18: slot 'ik' of component 'motion': ik/process refuses: the program '"))
       << result.err;
   EXPECT_TRUE(
       result.err.ends_with("' does not accept the robot's resting position as a goal: the "

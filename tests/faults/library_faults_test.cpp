@@ -57,7 +57,8 @@ CommandResult check_with(const std::string& id) {
 TEST(FaultyLibrary, WhatASlotsPluginThrowsIsToldAndDoesNotOutliveIt) {
   const auto result = check_with("ik/throwing");
   EXPECT_EQ(result.exit_code, 3);
-  EXPECT_NE(result.err.find("component 'motion': ik/throwing: an exception of its own type\n"),
+  EXPECT_NE(result.err.find(
+                "slot 'ik' of component 'motion': ik/throwing: an exception of its own type\n"),
             std::string::npos)
       << result.err;
 }

@@ -99,6 +99,14 @@ TEST_F(Installed, AComponentThatThereIsNotIsNamed) {
       << result.err;
 }
 
+TEST_F(Installed, TheManualPageAndTheCompletionsAreWhereTheyAreLookedFor) {
+  EXPECT_TRUE(text_of(prefix_ / "share/man/man1/armature.1").starts_with(".TH ARMATURE 1 "));
+  for (const char* file : {"bash-completion/completions/armature", "zsh/site-functions/_armature",
+                           "fish/vendor_completions.d/armature.fish"}) {
+    EXPECT_NE(text_of(prefix_ / "share" / file).find("__complete"), std::string::npos) << file;
+  }
+}
+
 TEST_F(Installed, NoFileNamesTheFoldersThatItWasMadeIn) {
   const auto found =
       shell("grep -rl -e '" ARMATURE_SOURCE_DIR "' -e '" ARMATURE_BINARY_DIR "' prefix");

@@ -10,6 +10,7 @@
 
 #include "armature/kinds/ik/verify/plugin_subject.hpp"
 #include "armature/runtime/output_folder.hpp"
+#include "armature/runtime/running_component.hpp"
 #include "armature/runtime/write_atomically.hpp"
 #include "bench/contestants.hpp"
 #include "exit_code.hpp"
@@ -68,6 +69,7 @@ int bench_ik(const BenchOptions& options) {
   if (options.out) prepare_output_folder(*options.out);
   const auto model = std::make_shared<const RobotModel>(load_arm(options.arm));
   PluginRegistry registry;
+  name_crashing_components();
   Report report;
   const std::vector<Runner> runners = runners_of(options, registry, model, report);
   report.robot = model->name();

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "armature/robot/kinematics.hpp"
+#include "armature/runtime/running_component.hpp"
 #include "bench/clock.hpp"
 #include "bench/turns.hpp"
 
@@ -37,6 +38,7 @@ Solve checked(const RobotModel& model, const Runner& runner, const Pose& pose, S
   IkState state;
   Solve solve;
   solve.seconds = solve.position_m = solve.angle_rad = std::numeric_limits<double>::infinity();
+  const RunningComponent running{runner.plugin, "solve", "plugin"};
   const std::size_t before = allocations ? allocations() : 0;
   runner.solver->solve(pose.goal, pose.seed(seeds), found, state);
   if (allocations) solve.allocations = allocations() - before;
@@ -48,6 +50,7 @@ Solve checked(const RobotModel& model, const Runner& runner, const Pose& pose, S
 /// Poses [from, to) with one runner, with the clock.
 void time_block(const Runner& runner, const std::vector<Pose>& poses, std::size_t from,
                 std::size_t to, double clock_s, Series& series) {
+  const RunningComponent running{runner.plugin, "solve", "plugin"};
   IkBranches found;
   for (std::size_t i = from; i < to; ++i) {
     const JointVector& seed = poses[i].seed(series.seeds);

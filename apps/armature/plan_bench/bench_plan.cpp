@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "armature/runtime/running_component.hpp"
 #include "bench/contestants.hpp"
 #include "exit_code.hpp"
 #include "plan_bench/plan_report.hpp"
@@ -49,6 +50,7 @@ Field field_of(const PlanBenchOptions& options, PluginRegistry& registry, PlanRe
 int bench_plan(const PlanBenchOptions& options) {
   const RobotModel model = load_arm(options.arm);
   PluginRegistry registry;
+  name_crashing_components();
   PlanReport report{.robot = model.name(),
                     .motions = options.motions,
                     .keys = options.keys,

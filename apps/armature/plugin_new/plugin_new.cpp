@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <string>
 #include <string_view>
+#include <vector>
 
-#include "arm_choice.hpp"
 #include "armature/runtime/output_folder.hpp"
 #include "armature/runtime/plugin_registry.hpp"
 #include "armature/runtime/write_atomically.hpp"
 #include "exit_code.hpp"
-#include "plugin_template.hpp"
 #include "plugins.hpp"
 #include "shipped_configs.hpp"
 
@@ -20,6 +22,11 @@ namespace armature {
 namespace {
 
 namespace fs = std::filesystem;
+
+std::string text_of(const fs::path& file) {
+  std::ifstream in{file, std::ios::binary};
+  return {std::istreambuf_iterator<char>{in}, {}};
+}
 
 void replace_all(std::string& text, std::string_view mark, std::string_view value) {
   for (auto at = text.find(mark); at != std::string::npos;
@@ -46,14 +53,26 @@ fs::path package_folder() {
                                                      : prefix / "lib" / "cmake" / "Armature";
 }
 
-const PluginTemplate& template_for(std::string_view family) {
-  const auto templates = {&arm_template(), &ik_template()};
-  const auto found = std::ranges::find(templates, family, &PluginTemplate::family);
-  if (found != templates.end()) return **found;
-  throw InvalidChoice(
-      fmt::format("there is no template for '{}/...', only for 'arm/...' and 'ik/...'; begin with "
-                  "a copy of such a plugin, see plugins/ in the sources",
-                  family));
+/// The folders of templates that came with this program, one per family.
+fs::path template_folder() { return shipped_config_folder().parent_path() / "templates"; }
+
+std::vector<std::string> families() {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator{template_folder()}) {
+    names.push_back(entry.path().filename());
+  }
+  std::ranges::sort(names);
+  return names;
+}
+
+/// The template for plugins of `family`.
+fs::path template_for(const std::string& family) {
+  const std::vector<std::string> known = families();
+  if (std::ranges::find(known, family) != known.end()) return template_folder() / family;
+  throw InvalidChoice(fmt::format(
+      "there is no template for '{}/...', only for '{}/...'; begin with a copy of such a plugin, "
+      "see plugins/ in the sources",
+      family, fmt::join(known, "/...', '")));
 }
 
 struct PluginId {
@@ -70,16 +89,16 @@ PluginId id_from(const std::string& text) {
       std::ranges::all_of(id.name, in_a_name)) {
     return id;
   }
-  throw InvalidChoice(fmt::format(
-      "'{}' must be 'ik/name' or 'arm/name', the name in lower case letters, digits and '_'",
-      text));
+  throw InvalidChoice(
+      fmt::format("'{}' must be '{}/name', the name in lower case letters, digits and '_'", text,
+                  fmt::join(families(), "/name', '")));
 }
 
 }  // namespace
 
 int new_plugin(const std::string& text, const fs::path& directory) {
   const PluginId id = id_from(text);
-  const PluginTemplate& from = template_for(id.family);
+  const fs::path from = template_for(id.family);
   const PluginRegistry plugins;
   if (const PluginManifest* there = plugins.find(id.text)) {
     throw InvalidChoice(fmt::format("there is a plugin '{}' already, '{}'; choose another name",
@@ -89,19 +108,19 @@ int new_plugin(const std::string& text, const fs::path& directory) {
     throw InvalidChoice(fmt::format("'{}' is there already and not empty", directory.string()));
   }
   prepare_output_folder(directory);
-  const auto fill = [&](std::string_view unfilled) {
-    std::string filled{unfilled};
+  const auto fill = [&](std::string filled) {
     replace_all(filled, "@ID@", id.text);
     replace_all(filled, "@NAME@", id.name);
-    replace_all(filled, "@CLASS@", class_name(id.name) + std::string{from.class_ending});
+    replace_all(filled, "@CLASS@", class_name(id.name));
     replace_all(filled, "@TARGET@", id.family + '_' + id.name);
     replace_all(filled, "@NAMESPACE@", fmt::format("armature::{}::{}", id.family, id.name));
     replace_all(filled, "@PACKAGE@", package_folder().string());
     replace_all(filled, "@CONFIGS@", shipped_config_folder().string());
     return filled;
   };
-  for (const TemplateFile& file : from.files) {
-    write_atomically(directory / fill(file.name), fill(file.text), FileUse::named_by_user);
+  for (const auto& entry : fs::directory_iterator{from}) {
+    const std::string name = fill(entry.path().filename());
+    write_atomically(directory / name, fill(text_of(entry.path())), FileUse::named_by_user);
   }
   fs::copy_file(shipped_config_folder() / "robots" / "arm.urdf", directory / "arm.urdf");
   fmt::print("wrote {}: see {}\n", id.text, (directory / "README.md").string());

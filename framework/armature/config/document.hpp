@@ -25,13 +25,16 @@ Node load(const std::filesystem::path& file);
 
 /// The files, each with its includes, merged in order and then the `--set path.to.key=value`
 /// assignments (`a.0.b` reaches into a list; maps that are missing on the way are made). A `--set`
-/// value is parsed as YAML; its origin is the option itself. Throws ConfigError.
+/// value is parsed as YAML; its origin is the option itself. What a `--set ...plugin=` leaves out is
+/// told in `notes`, one sentence each. Throws ConfigError.
 Node load_with_overlays(const std::vector<std::filesystem::path>& files,
-                        const std::vector<std::string>& assignments);
+                        const std::vector<std::string>& assignments,
+                        std::vector<std::string>* notes = nullptr);
 
 /// `overlay` merged over `base`: maps merge key by key, everything else replaces. An explicit null
 /// removes the key below (which must be there); a key without a value is refused where it would
-/// hide something. An empty overlay changes nothing. Throws ConfigError.
+/// hide something. Where both have a `plugin:` and not the same one, the `params:` below go, except
+/// those that the command line said. An empty overlay changes nothing. Throws ConfigError.
 Node merge(const Node& base, const Node& overlay);
 
 /// YAML text of a node, which reads back as the same node; with `origins`, every scalar (or list of

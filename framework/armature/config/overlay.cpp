@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
@@ -8,6 +9,7 @@
 #include <utility>
 
 #include "armature/config/document.hpp"
+#include "armature/config/source_text.hpp"
 #include "armature/config/yaml_parser.hpp"
 
 namespace armature::config {
@@ -31,9 +33,35 @@ void nothing_to_remove(const std::string& key, const Node& map, const Origin& or
                                    did_you_mean(key, keys_of(map))));
 }
 
-Node merged(const Node& base, const Node& overlay, Problems& problems) {
-  if (!is_map(base) || !is_map(overlay)) return overlay;
+/// Whether both say which plugin, and not the same.
+bool names_another_plugin(const Node* before, const Node* now) {
+  const auto is_id = [](const Node* node) { return node && node->kind() == Node::Kind::scalar; };
+  return is_id(before) && is_id(now) && before->text() != now->text();
+}
 
+/// Takes out the parameters of a plugin whose place another one takes: all but those that
+/// `replacement` speaks of, and those that the command line said. Their names.
+std::vector<std::string> drop_params(Node& map, const Node* replacement) {
+  std::vector<std::string> dropped;
+  auto& entries = map.mutable_entries();
+  const auto params = std::ranges::find(entries, "params", &Node::Entry::key);
+  if (params == entries.end() || !is_map(params->value)) return dropped;
+  std::erase_if(params->value.mutable_entries(), [&](const Node::Entry& entry) {
+    const bool is_said = entry.value.origin().line == 0;
+    if (is_said || (replacement && replacement->find(entry.key))) return false;
+    dropped.push_back(entry.key);
+    return true;
+  });
+  return dropped;
+}
+
+Node merged(const Node& lower, const Node& overlay, Problems& problems) {
+  if (!is_map(lower) || !is_map(overlay)) return overlay;
+
+  Node base = lower;
+  if (names_another_plugin(base.find("plugin"), overlay.find("plugin"))) {
+    drop_params(base, overlay.find("params"));
+  }
   std::unordered_map<std::string_view, const Node::Entry*> above;
   for (const Node::Entry& entry : overlay.entries()) above.emplace(entry.key, &entry);
   std::vector<Node::Entry> entries;
@@ -69,8 +97,8 @@ Node merged(const Node& base, const Node& overlay, Problems& problems) {
 /// One `--set path.to.key=value`.
 class Assignment {
  public:
-  Assignment(const std::string& option, Problems& problems)
-      : origin_{origin_of(option)}, problems_{problems} {
+  Assignment(const std::string& option, Problems& problems, std::vector<std::string>* notes)
+      : origin_{origin_of(option)}, problems_{problems}, notes_{notes} {
     const std::size_t equals = option.find('=');
     const std::string fault = equals == std::string::npos ? "must be path.to.key=value"
                                                           : read_path(option.substr(0, equals));
@@ -129,8 +157,25 @@ class Assignment {
     }
   }
 
+  /// One word puts another plugin there: what was written for the one before is told and goes.
+  void swap_plugin(Node& map, const Node& before) const {
+    const std::string was = before.text();
+    const std::vector<std::string> dropped = drop_params(map, nullptr);
+    if (dropped.empty() || !notes_) return;
+    std::string place = keys_.front();
+    for (std::size_t i = 1; i + 1 < keys_.size(); ++i) place += "." + keys_[i];
+    notes_->push_back(fmt::format(
+        "{}: left out what was written for {}: {}; give what is meant for {} as well with --set "
+        "{}.params.NAME=VALUE",
+        origin_.text(), in_quotes(was), fmt::join(dropped, ", "), in_quotes(value_.text()), place));
+  }
+
   void apply_to_map(Node& map, std::size_t depth) const {
     const std::string& key = keys_[depth];
+    if (depth > 0 && depth + 1 == keys_.size() && key == "plugin") {
+      const Node* before = map.find("plugin");
+      if (names_another_plugin(before, &value_)) swap_plugin(map, Node{*before});
+    }
     auto& entries = map.mutable_entries();
     const auto entry = std::ranges::find(entries, key, &Node::Entry::key);
     const bool last = depth + 1 == keys_.size();
@@ -173,6 +218,7 @@ class Assignment {
 
   Origin origin_;
   Problems& problems_;
+  std::vector<std::string>* notes_;
   std::vector<std::string> keys_;
   Node value_ = Node::null({});
   bool good_ = false;
@@ -189,7 +235,8 @@ Node merge(const Node& base, const Node& overlay) {
 }
 
 Node load_with_overlays(const std::vector<std::filesystem::path>& files,
-                        const std::vector<std::string>& assignments) {
+                        const std::vector<std::string>& assignments,
+                        std::vector<std::string>* notes) {
   const PipePatience one_for_all;
   Node document = Node::null({});
   for (const std::filesystem::path& file : files) {
@@ -198,7 +245,7 @@ Node load_with_overlays(const std::vector<std::filesystem::path>& files,
   Problems problems;
   for (const std::string& option : assignments) {
     try {
-      Assignment{option, problems}.apply(document);
+      Assignment{option, problems, notes}.apply(document);
     } catch (const ConfigError& error) {  // the value is not YAML
       for (const Problem& problem : error.problems()) problems.add(problem.origin, problem.message);
     }

@@ -31,7 +31,8 @@ struct ParamSpec {
   std::optional<std::size_t> count;  // of numbers; none: any
   std::string same_as;  // a plugin whose parameter of this name says the same; empty: none
   /// "servo_jp.timeout_s": a number that is not above that parameter of any component which reads
-  /// this output; "poses": one that is not above that parameter of its own. Empty: any.
+  /// this output (0 there is no limit, where `min` keeps the number itself above 0); "poses": one
+  /// that is not above that parameter of its own. Empty: any.
   std::string at_most;
   std::string below;  // the parameter of its own that a number is below; empty: any
   std::string

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string>
 #include <string_view>
 
 #include "armature/runtime/graph.hpp"
@@ -24,6 +25,11 @@ bool reads(const ComponentConfig& reader, const ComponentConfig& writer, std::st
   });
 }
 
+/// Where a number stands, or that it is a default.
+std::string place_of(const Params& params, std::string_view name) {
+  return params.is_written(name) ? params.origin(name).text() : "its default";
+}
+
 void check_at_most(const ComponentConfig& component, const ParamSpec& spec,
                    const DeploymentConfig& deployment, config::Problems& problems) {
   const std::string_view at_most = spec.at_most;
@@ -31,14 +37,22 @@ void check_at_most(const ComponentConfig& component, const ParamSpec& spec,
   if (dot == std::string_view::npos) return;  // of a parameter of its own, which is checked there
   const std::string_view output = at_most.substr(0, dot), limit = at_most.substr(dot + 1);
   for (const ComponentConfig& reader : deployment.components) {
-    if (!reads(reader, component, output) || !has_param(reader, limit)) continue;
+    if (reader.unit != kMainUnit || !reads(reader, component, output)) continue;
+    if (!has_param(reader, limit)) continue;
     const double value = component.params.number(spec.name), most = reader.params.number(limit);
-    if (value <= most) continue;
+    const bool is_none = most == 0 && spec.min.value_or(0) > 0;
+    if (value <= most || is_none) continue;
     const bool own = component.params.is_written(spec.name);
-    problems.add(own ? component.params.origin(spec.name) : reader.params.origin(limit),
-                 fmt::format("'{}' of component '{}' is {:g}, above '{}' of component '{}', which "
-                             "is {:g}; lower the first or raise the second",
-                             spec.name, component.name, value, limit, reader.name, most));
+    const bool is_other_written = reader.params.is_written(limit);
+    const config::Origin& place = own                ? component.params.origin(spec.name)
+                                  : is_other_written ? reader.params.origin(limit)
+                                                     : component.origin;
+    problems.add(
+        place, fmt::format("'{}' of component '{}' is {:g} ({}), above '{}' of component '{}', "
+                           "which is {:g} ({}){}{}; lower the first or raise the second",
+                           spec.name, component.name, value, place_of(component.params, spec.name),
+                           limit, reader.name, most, place_of(reader.params, limit),
+                           spec.otherwise.empty() ? "" : ": ", spec.otherwise));
   }
 }
 

@@ -7,6 +7,7 @@
 namespace armature {
 
 SetupError::~SetupError() = default;
+SlotError::~SlotError() = default;
 
 Component::Component(Setup& setup) : voice_{setup.voice()} {}
 

@@ -95,6 +95,19 @@ Topic& ComponentBench::topic_of(const std::vector<PortBinding>& ports, std::stri
   throw std::invalid_argument("there is no port '" + std::string{name} + "'");
 }
 
+bool ComponentBench::send_encoded(std::string_view input, std::span<const std::byte> cdr) {
+  const auto port =
+      std::ranges::find(config_.inputs, input, [](const PortBinding& p) { return p.spec.name; });
+  if (port == config_.inputs.end()) {
+    throw std::invalid_argument("there is no port '" + std::string{input} + "'");
+  }
+  Topic& topic = *topics_.at(port->topic);
+  SampleRef sample = topic.loan();
+  if (!topic.spec().type->decode(cdr, sample.mutable_message())) return false;
+  topic.publish(std::move(sample), now_);
+  return true;
+}
+
 std::string refusal_of(PluginRegistry& plugins, const ComponentBench::Options& options) {
   try {
     const ComponentBench made{plugins, options};

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <deque>
+#include <cstddef>
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -50,6 +51,9 @@ class ComponentBench final : private Delivery {
     *static_cast<Message*>(sample.mutable_message()) = message;
     topic.publish(std::move(sample), now_);
   }
+  /// The same with an encoded message of the port's type; false when `cdr` is none.
+  bool send_encoded(std::string_view input, std::span<const std::byte> cdr);
+  const std::vector<PortBinding>& inputs() const { return config_.inputs; }
   /// True when a trigger input has asked for an activation since the last one.
   bool triggered() const { return triggered_; }
   /// One activation at `now_s`; an exception out of the component is thrown on as runtime_error.

@@ -9,6 +9,19 @@
 
 namespace armature {
 
+config::Problem problem_of(const ComponentConfig& component, const SlotError& error) {
+  const auto slot = std::ranges::find(component.slots, error.slot(), &SlotConfig::name);
+  const bool has_line =
+      slot != component.slots.end() && slot->origin.text() != component.origin.text();
+  if (!has_line) {
+    return {component.origin, fmt::format("component '{}': {}", component.name, error.what())};
+  }
+  std::string name = component.name;
+  if (component.unit != kMainUnit) name.resize(name.size() - component.unit.size() - 1);
+  return {slot->origin,
+          fmt::format("slot '{}' of component '{}': {}", slot->name, name, error.what())};
+}
+
 ComponentSetup::ComponentSetup(const ComponentConfig& config, const DeploymentConfig& deployment,
                                PluginRegistry& plugins, Unit& unit, Delivery& delivery,
                                FindTopic find_topic)

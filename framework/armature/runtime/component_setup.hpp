@@ -11,6 +11,10 @@
 
 namespace armature {
 
+/// What a plugin in a slot refuses, at the slot's own line where the file has one. The units of a
+/// component say the same of it.
+config::Problem problem_of(const ComponentConfig& component, const SlotError& error);
+
 /// What the deployment hands to a component's constructor, made from its entry in the file. Checks
 /// that the class claims exactly the ports that its plugin.yaml declares.
 class ComponentSetup final : public Setup {

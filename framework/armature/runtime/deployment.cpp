@@ -15,6 +15,7 @@
 #include "armature/runtime/injected_fault.hpp"
 #include "armature/runtime/lockstep_scheduler.hpp"
 #include "armature/runtime/on_fault.hpp"
+#include "armature/runtime/running_component.hpp"
 #include "armature/runtime/state_publisher.hpp"
 #include "armature/runtime/threaded_scheduler.hpp"
 
@@ -89,6 +90,8 @@ Deployment::~Deployment() {
   }
   for (auto& unit : units_) {
     tell_ending("destructor", *unit);
+    const std::string name = unit->name();
+    const RunningComponent running{name, "destructor"};
     unit.reset();
   }
   options_.on_ending(kTransport);
@@ -110,6 +113,7 @@ void Deployment::make_scheduler() {
 
 void Deployment::make_unit(const ComponentConfig& component, PluginRegistry& plugins,
                            config::Problems& problems) {
+  const RunningComponent running{component.name, "constructor"};
   auto unit = std::make_unique<Unit>(component.name, component.plugin_id, component.place,
                                      options_.on_line);
   ComponentSetup setup = setup_of(component, plugins, *unit);
@@ -126,6 +130,9 @@ void Deployment::make_unit(const ComponentConfig& component, PluginRegistry& plu
     for (const auto& problem : error.problems()) problems.add(problem.origin, problem.message);
   } catch (const PluginError&) {
     throw;  // of a slot's library
+  } catch (const SlotError& error) {
+    const config::Problem problem = problem_of(component, error);
+    problems.add(problem.origin, problem.message);
   } catch (...) {
     problems.add(component.origin,
                  fmt::format("component '{}': {}", component.name, current_exception_text()));

@@ -19,15 +19,26 @@ std::string current_exception_text() {
   }
 }
 
-void throw_as_own(const std::string& who) {
+namespace {
+
+[[noreturn]] void throw_setup_error(const std::string& what, std::string_view slot) {
+  if (!slot.empty()) throw SlotError{std::string{slot}, what};
+  throw SetupError{what};
+}
+
+}  // namespace
+
+void throw_as_own(const std::string& who, std::string_view slot) {
   try {
     throw;
   } catch (const config::ConfigError& error) {
     throw config::ConfigError{{error.problems().begin(), error.problems().end()}};
+  } catch (const SlotError& error) {
+    throw SlotError{std::string{error.slot()}, std::string{error.what()}};
   } catch (const SetupError& error) {
-    throw SetupError{std::string{error.what()}};
+    throw_setup_error(std::string{error.what()}, slot);
   } catch (...) {
-    throw SetupError{who + ": " + current_exception_text()};
+    throw_setup_error(who + ": " + current_exception_text(), slot);
   }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 namespace armature {
 
@@ -9,8 +10,9 @@ namespace armature {
 std::string current_exception_text();
 
 /// Throws what is being handled as an exception of this library: a ConfigError or a SetupError as
-/// it is, anything else as a SetupError that begins with `who`. An exception whose type a plugin
+/// it is, anything else as a SetupError that begins with `who`; of a plugin in `slot` it is a
+/// SlotError. An exception whose type a plugin
 /// defines must not outlive the plugin's library, which holds the code that destroys it.
-[[noreturn]] void throw_as_own(const std::string& who);
+[[noreturn]] void throw_as_own(const std::string& who, std::string_view slot = {});
 
 }  // namespace armature

@@ -13,6 +13,7 @@
 #include "armature/runtime/exception_text.hpp"
 #include "armature/runtime/plugin_library.hpp"
 #include "armature/runtime/plugin_manifest.hpp"
+#include "armature/runtime/running_component.hpp"
 
 namespace armature {
 
@@ -72,6 +73,7 @@ class PluginRegistry {
     if (!plugin) return refuse(unknown_text(id));
     auto library = load(*plugin, Kind::kKind, Kind::kKindVersion);
     auto factory = reinterpret_cast<typename Kind::Factory>(library->factory());
+    const RunningComponent running{plugin->id, "constructor", "plugin"};
     // While the library is held: an exception of the plugin's own type ends in here.
     try {
       auto made = factory(args...);

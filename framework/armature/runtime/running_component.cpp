@@ -15,6 +15,7 @@ namespace {
 // Read by a signal handler: without the lazy allocation that other thread-local storage may need.
 [[gnu::tls_model("initial-exec")]] thread_local const char* t_name = nullptr;
 [[gnu::tls_model("initial-exec")]] thread_local const char* t_phase = nullptr;
+[[gnu::tls_model("initial-exec")]] thread_local const char* t_what = nullptr;
 
 constexpr std::array kCrashes{SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
 constexpr std::size_t kStackSize = 64 * 1024;
@@ -54,7 +55,8 @@ void on_crash(int signal) {
   Line line;
   line.add("armature: ");
   if (t_name) {
-    line.add("component '");
+    line.add(t_what);
+    line.add(" '");
     line.add(t_name);
     line.add("' crashed in its ");
     line.add(t_phase);
@@ -70,10 +72,11 @@ void on_crash(int signal) {
 
 }  // namespace
 
-RunningComponent::RunningComponent(const std::string& name, const char* phase)
-    : outer_name_{t_name}, outer_phase_{t_phase} {
-  t_name = name.c_str();
+RunningComponent::RunningComponent(const std::string& name, const char* phase, const char* what)
+    : outer_name_{t_name}, outer_phase_{t_phase}, outer_what_{t_what} {
+  t_what = what;
   t_phase = phase;
+  t_name = name.c_str();
 }
 
 const char* RunningComponent::name() { return t_name; }
@@ -81,6 +84,7 @@ const char* RunningComponent::name() { return t_name; }
 RunningComponent::~RunningComponent() {
   t_name = outer_name_;
   t_phase = outer_phase_;
+  t_what = outer_what_;
 }
 
 CrashStack::CrashStack()

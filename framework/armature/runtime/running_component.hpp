@@ -5,12 +5,12 @@
 
 namespace armature {
 
-/// Says, while it exists, that the calling thread runs a component's code, so that a crash there
-/// can name it. Real-time safe.
+/// Says, while it exists, that the calling thread runs a component's code, or that of another
+/// plugin, so that a crash there can name it. Real-time safe.
 class RunningComponent {
  public:
-  /// `name` outlives this; `phase` is constant text: "step".
-  RunningComponent(const std::string& name, const char* phase);
+  /// `name` outlives this; `phase` and `what` are constant text: "step", "plugin".
+  RunningComponent(const std::string& name, const char* phase, const char* what = "component");
   ~RunningComponent();
   RunningComponent(const RunningComponent&) = delete;
   RunningComponent& operator=(const RunningComponent&) = delete;
@@ -21,6 +21,7 @@ class RunningComponent {
  private:
   const char* outer_name_;
   const char* outer_phase_;
+  const char* outer_what_;
 };
 
 /// From now on a crash of this process (SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT) is first told on

@@ -25,6 +25,17 @@ class [[gnu::visibility("default")]] SetupError : public std::runtime_error {
   ~SetupError() override;  // one type in every library that throws or catches it
 };
 
+/// The plugin in a slot cannot be made; the runtime adds where the slot stands in the file.
+class [[gnu::visibility("default")]] SlotError : public SetupError {
+ public:
+  SlotError(std::string slot, const std::string& what) : SetupError{what}, slot_{std::move(slot)} {}
+  ~SlotError() override;
+  const std::string& slot() const { return slot_; }
+
+ private:
+  std::string slot_;
+};
+
 /// What a component sees while it is being constructed; not valid afterwards. Not real-time safe.
 class Setup {
  public:
@@ -72,7 +83,7 @@ class Setup {
   }
 
   /// The plugin that sits in slot `slot_name`, made with `args` (after which come its parameters).
-  /// Throws SetupError with the plugin's own reason when it refuses, or throws itself.
+  /// Throws SlotError with the plugin's own reason when it refuses, or throws itself.
   template <class Kind, class... Args>
   PluginPtr<Kind> slot(std::string_view slot_name, const Args&... args) {
     const SlotPlugin plugin = slot_plugin(slot_name, Kind::kKind, Kind::kKindVersion);
@@ -82,10 +93,12 @@ class Setup {
       try {
         return make(args..., *plugin.params);
       } catch (...) {
-        throw_as_own(plugin.id);
+        throw_as_own(plugin.id, slot_name);
       }
     }();
-    if (!made) throw SetupError(plugin.id + " refuses: " + made.error().text);
+    if (!made) {
+      throw SlotError(std::string{slot_name}, plugin.id + " refuses: " + made.error().text);
+    }
     return {plugin.library, std::move(*made)};
   }
 

@@ -46,8 +46,8 @@ void expect_laws_kept(const std::string& plugin, bool closed_form) {
   tried.edge_poses = 50;
   for (const IkLaw& law : ik_laws()) {
     SCOPED_TRACE(law.name);
-    const IkLawReport report = check_law(law, tried);
-    EXPECT_EQ(report.failed, 0) << "of " << report.goals << " questions, seed " << tried.seed;
+    const LawReport report = check_law(law, tried);
+    EXPECT_EQ(report.failed, 0) << "of " << report.questions << " questions, seed " << tried.seed;
     for (const auto& [what, question] : report.violations) {
       ADD_FAILURE() << what << "\n" << question;
     }

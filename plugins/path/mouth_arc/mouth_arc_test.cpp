@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "armature/kinds/path/contract.hpp"
 
 namespace armature::path::mouth_arc {

@@ -6,22 +6,31 @@
 #include <gtest/gtest.h>
 
 #include "armature/kinds/path/contract.hpp"
+#include "armature/kinds/path/random_poses.hpp"
 
 namespace armature::path::needle {
 namespace {
 
 using Eigen::Vector3d;
 
-class NeedlePaths : public PathLaws {
+class NeedlePaths : public testing::TestWithParam<PathSubject> {
  protected:
+  const PathPlanner& planner() const { return *GetParam().planner; }
   /// From somewhere outside to 60 mm behind the entry.
   PathRequest insertion() {
-    along_ = random_unit();
-    entry_ = random_unit();
-    return {.start = {entry_ - 0.3 * along_, Direction{random_unit()}},
+    along_ = random_.unit();
+    entry_ = random_.unit();
+    return {.start = {entry_ - 0.3 * along_, Direction{random_.unit()}},
             .goal = {entry_ + 0.06 * along_, Direction{along_}},
             .focus = entry_};
   }
+  static void expect_sound(const Path& path, const PathRequest& request) {
+    LawCheck check;
+    check_sound(path, request, check);
+    expect_kept(check.report());
+  }
+
+  RandomPoses random_{17};
   Vector3d along_, entry_;
 };
 INSTANTIATE_TEST_SUITE_P(Needle, NeedlePaths,
@@ -64,7 +73,7 @@ TEST_P(NeedlePaths, AFullRotationIsKeptAndItsZIsTheNeedle) {
   R << along_.unitOrthogonal(), along_.cross(along_.unitOrthogonal()), along_;
   const Eigen::Quaterniond rotation{R};
   request.goal.orientation = rotation;
-  request.start.orientation = random_rotation();
+  request.start.orientation = random_.rotation();
   const auto path = planner().plan(request);
   ASSERT_TRUE(path) << path.error().text;
   expect_sound(*path, request);

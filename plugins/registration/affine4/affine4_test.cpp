@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 
 #include "armature/kinds/registration/contract.hpp"
+#include "armature/kinds/registration/target_error.hpp"
 
 namespace armature::registration::affine4 {
 namespace {

@@ -4,6 +4,8 @@
 #include <Eigen/Eigenvalues>
 
 #include "armature/kinds/registration/contract.hpp"
+#include "armature/kinds/registration/moved_head.hpp"
+#include "armature/kinds/registration/target_error.hpp"
 
 namespace armature::registration::rigid {
 namespace {
@@ -14,17 +16,18 @@ INSTANTIATE_TEST_SUITE_P(
                     RegistrationSubject{"all_markers",
                                         std::make_shared<Rigid>(Parameters{.outlier = 0}), 3}));
 
-class RigidRegistration : public RegistrationLaws {
+class RigidRegistration : public testing::Test, public MovedHead {
  protected:
   static MarkerPairs first(std::size_t count, MarkerPairs markers) {
     markers.image.resize(count);
     markers.robot.resize(count);
     return markers;
   }
+  const Registrar& registrar() const { return rigid_; }
+
+ private:
+  const Rigid rigid_{Parameters{}};
 };
-INSTANTIATE_TEST_SUITE_P(Rigid, RigidRegistration,
-                         testing::Values(RegistrationSubject{
-                             "rigid", std::make_shared<Rigid>(Parameters{}), 3}));
 
 /// TRE^2 = FLE^2 / N (1 + 1/3 sum d_k^2 / f_k^2), k over the principal axes of the markers.
 double fitzpatrick(const std::vector<Eigen::Vector3d>& markers, const Eigen::Vector3d& target,
@@ -46,7 +49,7 @@ double fitzpatrick(const std::vector<Eigen::Vector3d>& markers, const Eigen::Vec
   return marker_error_m * std::sqrt((1 + sum / 3) / n);
 }
 
-TEST_P(RigidRegistration, ThePredictedErrorIsFitzpatricks) {
+TEST_F(RigidRegistration, ThePredictedErrorIsFitzpatricks) {
   for (const std::size_t count : {3u, 4u, 6u}) {
     const MarkerPairs markers = first(count, seen(random_motion()));
     for (int i = 0; i < 100; ++i) {
@@ -58,7 +61,7 @@ TEST_P(RigidRegistration, ThePredictedErrorIsFitzpatricks) {
   }
 }
 
-TEST_P(RigidRegistration, TheFiducialErrorIsWhatTheMarkersErrorMakesIt) {
+TEST_F(RigidRegistration, TheFiducialErrorIsWhatTheMarkersErrorMakesIt) {
   for (const std::size_t count : {3u, 4u, 6u}) {
     const MarkerPairs exact = first(count, seen(random_motion()));
     double sum = 0;
@@ -73,7 +76,7 @@ TEST_P(RigidRegistration, TheFiducialErrorIsWhatTheMarkersErrorMakesIt) {
   }
 }
 
-TEST_P(RigidRegistration, LeavesOutMarkersThatMoved) {
+TEST_F(RigidRegistration, LeavesOutMarkersThatMoved) {
   for (int i = 0; i < 200; ++i) {
     MarkerPairs markers = with_noise(seen(random_motion()), 0.0005);
     const std::size_t one = static_cast<std::size_t>(i) % 6;
@@ -90,7 +93,7 @@ TEST_P(RigidRegistration, LeavesOutMarkersThatMoved) {
   }
 }
 
-TEST_P(RigidRegistration, RefusesMarkersOfWhichNobodyCanSayWhichIsWrong) {
+TEST_F(RigidRegistration, RefusesMarkersOfWhichNobodyCanSayWhichIsWrong) {
   MarkerPairs markers = seen(random_motion());
   MarkerPairs three = first(3, markers), four = first(4, markers);
   three.robot[1] += Eigen::Vector3d{0.03, 0, 0};
@@ -101,7 +104,7 @@ TEST_P(RigidRegistration, RefusesMarkersOfWhichNobodyCanSayWhichIsWrong) {
             "the markers disagree: no four of 4 fit to within 3 mm (outlier_mm)");
 }
 
-TEST_P(RigidRegistration, RefusesTwoGroupsOfMarkersThatEachMovedAsOne) {
+TEST_F(RigidRegistration, RefusesTwoGroupsOfMarkersThatEachMovedAsOne) {
   MarkerPairs markers = seen(random_motion());
   for (std::size_t i = 0; i < 2; ++i) {
     markers.image.push_back(markers.image[i] + Eigen::Vector3d{0.02, 0.01, -0.03});
@@ -113,7 +116,7 @@ TEST_P(RigidRegistration, RefusesTwoGroupsOfMarkersThatEachMovedAsOne) {
             "the markers disagree: two different sets of 4 fit to within 3 mm (outlier_mm)");
 }
 
-TEST_P(RigidRegistration, RefusesAMirrorImage) {
+TEST_F(RigidRegistration, RefusesAMirrorImage) {
   MarkerPairs markers = seen(random_motion());
   for (Eigen::Vector3d& marker : markers.robot) marker.y() = -marker.y();
   EXPECT_EQ(registrar().find(markers).error().text,

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/kinds/trajectory/contract.hpp"
+#include "armature/kinds/trajectory/random_requests.hpp"
 
 namespace armature::trajectory::cubic_spline {
 namespace {
@@ -17,14 +18,15 @@ INSTANTIATE_TEST_SUITE_P(
                         std::make_shared<CubicSplineTrajectory>(Parameters{.optimum_tries = 300})}),
     testing::PrintToStringParamName());
 
-class CubicSplinePlans : public TrajectoryLaws {};
-INSTANTIATE_TEST_SUITE_P(CubicSpline, CubicSplinePlans,
-                         testing::Values(TrajectorySubject{
-                             "cubic_spline",
-                             std::make_shared<CubicSplineTrajectory>(Parameters{})}),
-                         testing::PrintToStringParamName());
+class CubicSplinePlans : public testing::Test, public RandomRequests {
+ protected:
+  const TrajectoryPlanner& planner() const { return plain_; }
 
-TEST_P(CubicSplinePlans, TheOptimumIsNeverSlowerAndOftenMuchFaster) {
+ private:
+  const CubicSplineTrajectory plain_{Parameters{}};
+};
+
+TEST_F(CubicSplinePlans, TheOptimumIsNeverSlowerAndOftenMuchFaster) {
   const CubicSplineTrajectory optimum{{.optimum_tries = 5000}};
   double shorter = 0;
   constexpr int kPlans = 50;
@@ -39,7 +41,7 @@ TEST_P(CubicSplinePlans, TheOptimumIsNeverSlowerAndOftenMuchFaster) {
   EXPECT_GT(shorter / kPlans, 0.1);
 }
 
-TEST_P(CubicSplinePlans, AFewTriesAreNoWorseThanNone) {
+TEST_F(CubicSplinePlans, AFewTriesAreNoWorseThanNone) {
   TrajectoryRequest wanted = request(0);
   wanted.segments = {curve_from(wanted.from.q, 6, 1)};
   double before = planner().plan(wanted)->duration_s();

@@ -20,7 +20,13 @@ class Breaker final : public Component {
         parameters_{Parameters::read(setup.params())},
         note_{setup.output<msg::String>("note")} {
     setup.activate_every(seconds(0.02));
+    if (parameters_.breaks == Parameters::Breaks::crashes_when_made) std::raise(SIGSEGV);
   }
+  ~Breaker() override {
+    if (parameters_.breaks == Parameters::Breaks::crashes_at_its_end) std::raise(SIGSEGV);
+  }
+  Breaker(const Breaker&) = delete;
+  Breaker& operator=(const Breaker&) = delete;
 
   void step(Time now) override {
     if (!start_) start_ = now;

@@ -31,11 +31,7 @@ using eprosima::fastdds::rtps::SharedMemTransportDescriptor;
 using eprosima::fastdds::rtps::UDPv4TransportDescriptor;
 using eprosima::fastrtps::Duration_t;
 
-// A camera image must fit several times; the default of 512 KiB makes its round trip 50 times
-// longer.
-constexpr std::uint32_t kSegmentBytes = 16U << 20;
 constexpr std::uint32_t kGreatestMessageBytes = 4U << 20;
-constexpr std::uint64_t kNeededBytes = kSegmentBytes + (2U << 20);  // and the ports
 constexpr int kGreatestDomain = 232;  // beyond it, RTPS port numbers pass 65535
 
 /// Threads that are started meanwhile leave the process' signals to the program's own threads.
@@ -66,12 +62,13 @@ void use_transports(dds::DomainParticipantQos& qos, const ParticipantSettings& s
   if (!settings.uses_shared_memory) return;
 
   clean_shared_memory(settings.shared_memory.folder);
-  if (const auto usable = check_shared_memory(settings.shared_memory, kNeededBytes); !usable) {
+  if (const auto usable = check_shared_memory(settings.shared_memory, kSharedMemoryOfProcess);
+      !usable) {
     settings.on_note("no shared memory, topics go over UDP: " + usable.error().text);
     return;
   }
   auto shared_memory = std::make_shared<SharedMemTransportDescriptor>();
-  shared_memory->segment_size(kSegmentBytes);
+  shared_memory->segment_size(kSharedMemorySegment);
   shared_memory->max_message_size(kGreatestMessageBytes);
   qos.transport().user_transports.push_back(shared_memory);
 }

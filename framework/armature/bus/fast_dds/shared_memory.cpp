@@ -46,7 +46,8 @@ bool is_mine(const fs::path& file) {
   return lstat(file.c_str(), &status) == 0 && S_ISREG(status.st_mode) && status.st_uid == geteuid();
 }
 
-int remove_file(const fs::path& file) { return unlink(file.c_str()) == 0 ? 1 : 0; }
+/// What is done with a file that a dead process left.
+using FileAction = std::function<void(const fs::path&)>;
 
 /// A segment or port "fastrtps_x", its locks (one owner, several readers) and its mutex.
 std::array<fs::path, 4> group_of(const fs::path& folder, const std::string& name) {
@@ -54,19 +55,21 @@ std::array<fs::path, 4> group_of(const fs::path& folder, const std::string& name
           folder / ("sem." + name + "_mutex")};
 }
 
-/// Removes all of a group, or nothing when any sign of life is found.
-int clean_group(const fs::path& folder, const std::string& name, const std::set<fs::path>& in_use) {
+/// Does `act` with all of a group while its locks are held, or nothing when any sign of life is
+/// found.
+void for_dead_group(const fs::path& folder, const std::string& name,
+                    const std::set<fs::path>& in_use, const FileAction& act) {
   const auto group = group_of(folder, name);
   for (const fs::path& file : group) {
-    if (fs::exists(file) && (in_use.contains(file) || !is_mine(file))) return 0;
+    if (fs::exists(file) && (in_use.contains(file) || !is_mine(file))) return;
   }
   const FreeLock exclusive{group[1]};
   const FreeLock shared{group[2]};
-  if (fs::exists(group[1]) && !exclusive.free()) return 0;
-  if (fs::exists(group[2]) && !shared.free()) return 0;
-  int removed = 0;
-  for (const fs::path& file : group) removed += remove_file(file);
-  return removed;
+  if (fs::exists(group[1]) && !exclusive.free()) return;
+  if (fs::exists(group[2]) && !shared.free()) return;
+  for (const fs::path& file : group) {
+    if (fs::exists(file)) act(file);
+  }
 }
 
 /// "fastrtps_x" of any file of its group; empty for other files.
@@ -145,6 +148,31 @@ bool is_process_gone(std::string_view guid_text, const std::set<unsigned>& runni
   return !running.empty() && !running.contains(bytes[4] | bytes[5] << 8);
 }
 
+/// Does `act` with every file that killed processes of this user left in `folder`.
+void for_left_over(const fs::path& folder, const FileAction& act) {
+  constexpr std::string_view kDataSharing = "fast_datasharing_";
+  std::set<std::string> groups;
+  std::vector<std::string> data_sharing;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator{folder, error}) {
+    const std::string name = entry.path().filename();
+    if (const std::string group = group_name(name); !group.empty()) groups.insert(group);
+    if (name.starts_with(kDataSharing)) data_sharing.push_back(name);
+  }
+  if (groups.empty() && data_sharing.empty()) return;
+
+  const std::set<fs::path> in_use = files_in_use(folder);
+  const std::set<unsigned> running = running_processes();
+  for (const std::string& name : groups) for_dead_group(folder, name, in_use, act);
+  for (const std::string& name : data_sharing) {
+    const fs::path file = folder / name;
+    if (is_mine(file) && !in_use.contains(file) &&
+        is_process_gone(std::string_view{name}.substr(kDataSharing.size()), running)) {
+      act(file);
+    }
+  }
+}
+
 }  // namespace
 
 Expected<std::uint64_t> free_bytes_of(const fs::path& folder) {
@@ -183,29 +211,15 @@ void make_shared_memory_private(const fs::path& folder) {
 }
 
 int clean_shared_memory(const fs::path& folder) {
-  constexpr std::string_view kDataSharing = "fast_datasharing_";
-  std::set<std::string> groups;
-  std::vector<std::string> data_sharing;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator{folder, error}) {
-    const std::string name = entry.path().filename();
-    if (const std::string group = group_name(name); !group.empty()) groups.insert(group);
-    if (name.starts_with(kDataSharing)) data_sharing.push_back(name);
-  }
-  if (groups.empty() && data_sharing.empty()) return 0;
-
-  const std::set<fs::path> in_use = files_in_use(folder);
-  const std::set<unsigned> running = running_processes();
   int removed = 0;
-  for (const std::string& name : groups) removed += clean_group(folder, name, in_use);
-  for (const std::string& name : data_sharing) {
-    const fs::path file = folder / name;
-    if (is_mine(file) && !in_use.contains(file) &&
-        is_process_gone(std::string_view{name}.substr(kDataSharing.size()), running)) {
-      removed += remove_file(file);
-    }
-  }
+  for_left_over(folder, [&](const fs::path& file) { removed += unlink(file.c_str()) == 0; });
   return removed;
+}
+
+std::vector<fs::path> left_in_shared_memory(const fs::path& folder) {
+  std::vector<fs::path> files;
+  for_left_over(folder, [&](const fs::path& file) { files.push_back(file); });
+  return files;
 }
 
 }  // namespace armature

@@ -4,10 +4,17 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <vector>
 
 #include "armature/values/expected.hpp"
 
 namespace armature {
+
+// A camera image must fit several times; the default of 512 KiB makes its round trip 50 times
+// longer.
+inline constexpr std::uint32_t kSharedMemorySegment = 16U << 20;
+/// What a process takes in all [B].
+inline constexpr std::uint64_t kSharedMemoryOfProcess = kSharedMemorySegment + (2U << 20);  // ports
 
 /// Bytes that the file system of `folder` has left for us, or why it cannot be known.
 Expected<std::uint64_t> free_bytes_of(const std::filesystem::path& folder);
@@ -31,5 +38,8 @@ void make_shared_memory_private(const std::filesystem::path& folder);
 /// nobody has locked, open or mapped, and data sharing files whose process is gone. Returns how
 /// many went.
 int clean_shared_memory(const std::filesystem::path& folder);
+
+/// The files that clean_shared_memory() would remove; they stay.
+std::vector<std::filesystem::path> left_in_shared_memory(const std::filesystem::path& folder);
 
 }  // namespace armature

@@ -85,6 +85,20 @@ TEST_F(SharedMemoryTest, WhatNobodyLocksIsRemoved) {
   EXPECT_TRUE(files().empty());
 }
 
+TEST_F(SharedMemoryTest, WhatIsLeftOverIsNamedAndStaysUntilItIsRemoved) {
+  for (const char* name : {"fastrtps_00aa", "fastrtps_00aa_el", "fastrtps_00cc", "fastrtps_00cc_el",
+                           "other_program"}) {
+    touch(name);
+  }
+  const int lock = open((folder_ / "fastrtps_00cc_el").c_str(), O_RDWR | O_CLOEXEC);
+  EXPECT_EQ(left_in_shared_memory(folder_),
+            (std::vector<fs::path>{folder_ / "fastrtps_00aa", folder_ / "fastrtps_00aa_el"}));
+  EXPECT_EQ(files().size(), 5U);
+  close(lock);
+  EXPECT_EQ(clean_shared_memory(folder_), 4);
+  EXPECT_TRUE(left_in_shared_memory(folder_).empty());
+}
+
 TEST_F(SharedMemoryTest, WhatSomebodyLocksStays) {
   const std::set<std::string> names{"fastrtps_00aa", "fastrtps_00aa_el", "fastrtps_port7400",
                                     "fastrtps_port7400_el", "fastrtps_port7400_sl"};

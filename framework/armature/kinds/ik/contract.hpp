@@ -1,17 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <memory>
-#include <random>
-#include <string>
-
 #include "armature/kinds/ik/contract/law.hpp"
-#include "armature/robot/kinematics.hpp"
+#include "armature/laws/googletest.hpp"
 #include "armature/values/allocation_count.hpp"
 
 // The laws of the kind `ik` as tests. In the plugin's test, in one source file of the program:
@@ -28,12 +19,8 @@ inline IkLawTools counting_tools() {
   return tools;
 }
 
-/// Checks a law and fails with the first answers that break it.
 inline void expect_kept(const IkLaw& law, const IkSubject& subject) {
-  const IkLawReport report = check_law(law, subject, counting_tools());
-  if (!report.skipped.empty()) GTEST_SKIP() << report.skipped;
-  EXPECT_EQ(report.failed, 0) << "of " << report.goals << " questions, seed " << subject.seed;
-  for (const auto& [what, question] : report.violations) ADD_FAILURE() << what << "\n" << question;
+  expect_kept(check_law(law, subject, counting_tools()));
 }
 
 class IkLaws : public testing::TestWithParam<IkSubject> {};

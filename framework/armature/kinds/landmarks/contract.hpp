@@ -1,37 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <gtest/gtest.h>
+#include "armature/kinds/landmarks/laws.hpp"
+#include "armature/laws/googletest.hpp"
 
-#include <functional>
-#include <ostream>
-#include <string>
-
-#include "armature/kinds/face_picture.hpp"
-#include "armature/kinds/landmarks/landmarks.hpp"
-
-// The laws that every `landmarks` plugin keeps. In the plugin's test, in one source file:
+// The laws of the kind `landmarks` as tests. In the plugin's test, in one source file of the
+// program:
 //
 //   INSTANTIATE_TEST_SUITE_P(Dlib68, LandmarkLaws, testing::Values(...));
 namespace armature {
 
-/// A finder (made once, when it is needed first), a picture with a face, and where the face is.
-struct LandmarkSubject {
-  std::string name;
-  std::function<LandmarkFinder&()> finder;
-  std::function<Picture()> face;
-  PixelBox box;
+class LandmarkLaws : public testing::TestWithParam<LandmarkSubject> {};
+GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(LandmarkLaws);
 
-  friend void PrintTo(const LandmarkSubject& subject, std::ostream* out) { *out << subject.name; }
-};
-
-class LandmarkLaws : public testing::TestWithParam<LandmarkSubject> {
- protected:
-  LandmarkFinder& finder() const { return GetParam().finder(); }
-  static void expect_same(const std::vector<Landmark>& a, const std::vector<Landmark>& b);
-
-  const Picture face_ = GetParam().face();
-  const PixelBox box_ = GetParam().box;
-};
+#define ARMATURE_LAW_TEST(Name, function, says) \
+  TEST_P(LandmarkLaws, Name) { expect_kept(landmark_laws(), #Name, GetParam()); }
+ARMATURE_LANDMARK_LAWS(ARMATURE_LAW_TEST)
+#undef ARMATURE_LAW_TEST
 
 }  // namespace armature

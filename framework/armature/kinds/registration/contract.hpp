@@ -1,45 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <gtest/gtest.h>
+#include "armature/kinds/registration/laws.hpp"
+#include "armature/laws/googletest.hpp"
 
-#include <memory>
-#include <ostream>
-#include <random>
-#include <string>
-#include <vector>
-
-#include "armature/kinds/registration/registration.hpp"
-#include "armature/kinds/registration/target_error.hpp"
-
-// The laws that every `registration` plugin keeps. In the plugin's test, in one source file:
+// The laws of the kind `registration` as tests. In the plugin's test, in one source file of the
+// program:
 //
 //   INSTANTIATE_TEST_SUITE_P(Rigid, RegistrationLaws, testing::Values(...));
 namespace armature {
 
-struct RegistrationSubject {
-  std::string name;
-  std::shared_ptr<const Registrar> registrar;
-  std::size_t least;  // number of markers that it needs
+class RegistrationLaws : public testing::TestWithParam<RegistrationSubject> {};
+GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(RegistrationLaws);
 
-  friend void PrintTo(const RegistrationSubject& subject, std::ostream* out) {
-    *out << subject.name;
-  }
-};
-
-class RegistrationLaws : public testing::TestWithParam<RegistrationSubject> {
- protected:
-  const Registrar& registrar() const { return *GetParam().registrar; }
-
-  /// Six markers on a head, as a surgeon places them [m]; any three span a plane, any four a body.
-  static std::vector<Eigen::Vector3d> head();
-  Eigen::Vector3d gauss(double sigma);
-  Eigen::Isometry3d random_motion();
-  static MarkerPairs seen(const Eigen::Isometry3d& robot_T_image);
-  MarkerPairs with_noise(MarkerPairs markers, double marker_error_m);
-
-  std::mt19937_64 random_{11};
-  std::normal_distribution<double> normal_;
-};
+#define ARMATURE_LAW_TEST(Name, function, says) \
+  TEST_P(RegistrationLaws, Name) { expect_kept(registration_laws(), #Name, GetParam()); }
+ARMATURE_REGISTRATION_LAWS(ARMATURE_LAW_TEST)
+#undef ARMATURE_LAW_TEST
 
 }  // namespace armature

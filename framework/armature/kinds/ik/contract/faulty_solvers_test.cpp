@@ -201,7 +201,7 @@ void PrintTo(const Case& one, std::ostream* out) { *out << one.name; }
 
 class FaultySolver : public testing::TestWithParam<Case> {};
 
-IkLawReport report_of(std::string_view name, const IkSubject& of) {
+LawReport report_of(std::string_view name, const IkSubject& of) {
   for (const IkLaw& law : ik_laws()) {
     if (law.name == name) return check_law(law, of, counting_tools());
   }
@@ -210,7 +210,7 @@ IkLawReport report_of(std::string_view name, const IkSubject& of) {
 
 TEST_P(FaultySolver, BreaksTheLawThatIsAboutIt) {
   const auto& [name, fault, law, says] = GetParam();
-  const IkLawReport report = report_of(law, subject(fault));
+  const LawReport report = report_of(law, subject(fault));
   if (!report.skipped.empty()) GTEST_SKIP() << report.skipped;
   ASSERT_FALSE(report.kept());
   EXPECT_NE(report.violations.front().what.find(says), std::string::npos)
@@ -268,7 +268,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::PrintToStringParamName());
 
 TEST(IkLaw, AViolationNamesTheQuestionAsALineForTheCalculator) {
-  const IkLawReport report =
+  const LawReport report =
       report_of("ForwardKinematicsOfEverySolutionIsTheGoal", subject(Fault::wrong_residual));
   const std::string& line = report.violations.at(0).question;
   EXPECT_EQ(line.rfind("{\"position_m\":[", 0), 0U) << line;
@@ -279,7 +279,7 @@ TEST(IkLaw, AViolationNamesTheQuestionAsALineForTheCalculator) {
 TEST(IkLaw, WithoutPromisesOnlyASeedThatIsASolutionHasToBeReached) {
   IkSubject one = subject(Fault::a_branch_missing);
   one.closed_form = one.any_seed = one.any_seed_at_edges = false;
-  const IkLawReport report = report_of("AGoalWithinLimitsIsReached", one);
+  const LawReport report = report_of("AGoalWithinLimitsIsReached", one);
   EXPECT_NE(report.note.find("`any_seed` is not offered"), std::string::npos) << report.note;
 }
 

@@ -18,7 +18,7 @@ std::span<const IkLaw> ik_laws() {
 }
 #undef ARMATURE_IK_LAW_ENTRY
 
-IkLawReport check_law(const IkLaw& law, const IkSubject& subject, const IkLawTools& tools) {
+LawReport check_law(const IkLaw& law, const IkSubject& subject, const IkLawTools& tools) {
   ik_contract::Probe probe{subject, tools};
   try {
     law.check(probe);

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "armature/kinds/ik/ik.hpp"
+#include "armature/laws/law.hpp"
 
 namespace armature {
 
@@ -42,24 +43,6 @@ struct IkLawTools {
   std::function<void(const IkGoal&, const JointVector& seed)> before_solve;
 };
 
-/// One answer that breaks a law.
-struct IkViolation {
-  std::string what;
-  /// The question as a line for `armature ik`; empty when no line can say it (a NaN).
-  std::string question;
-};
-
-/// What came of checking one law.
-struct IkLawReport {
-  std::string skipped;                  // why the law does not apply; empty: it was checked
-  std::string note;                     // what was counted on the way
-  int goals = 0;                        // how many questions were asked
-  int failed = 0;                       // how many answers broke the law
-  std::vector<IkViolation> violations;  // the first few of them
-
-  bool kept() const { return failed == 0; }
-};
-
 /// A law that every `ik` plugin keeps, for any robot that it serves.
 struct IkLaw {
   std::string_view name;  // "ForwardKinematicsOfEverySolutionIsTheGoal"
@@ -72,7 +55,7 @@ std::span<const IkLaw> ik_laws();
 
 /// Checks `law` with goals of the subject's robot; the same goals on every run. An exception out of
 /// the solver breaks the law.
-IkLawReport check_law(const IkLaw& law, const IkSubject& subject, const IkLawTools& tools = {});
+LawReport check_law(const IkLaw& law, const IkSubject& subject, const IkLawTools& tools = {});
 
 }  // namespace armature
 

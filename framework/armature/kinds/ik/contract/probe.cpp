@@ -73,7 +73,7 @@ void Probe::begin(const IkGoal& goal, const JointVector& seed) {
   goal_ = goal;
   seed_ = seed;
   counted_ = false;
-  ++report_.goals;
+  ++report_.questions;
   if (tools_.before_solve) tools_.before_solve(goal, seed);
 }
 

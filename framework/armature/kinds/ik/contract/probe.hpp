@@ -20,7 +20,7 @@ class Probe {
   const IkSolver& solver() const { return *subject_.solver; }
   const IkLawTools& tools() const { return tools_; }
   std::mt19937_64& random() { return random_; }
-  IkLawReport& report() { return report_; }
+  LawReport& report() { return report_; }
   /// The arm has more joints than the task needs.
   bool redundant() const;
 
@@ -56,7 +56,7 @@ class Probe {
   const IkSubject& subject_;
   const IkLawTools& tools_;
   std::mt19937_64 random_;
-  IkLawReport report_;
+  LawReport report_;
   IkGoal goal_;
   JointVector seed_;
   IkStatus status_;

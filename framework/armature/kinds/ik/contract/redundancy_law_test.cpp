@@ -204,7 +204,7 @@ INSTANTIATE_TEST_SUITE_P(PointingGantry, IkLaws,
 
 constexpr std::string_view kLaw = "ABranchKeepsItsLimitsAtTheRedundanciesThatAreToldAndNoOthers";
 
-IkLawReport report_of(const IkSubject& of, std::string_view name = kLaw) {
+LawReport report_of(const IkSubject& of, std::string_view name = kLaw) {
   for (const IkLaw& law : ik_laws()) {
     if (law.name == name) return check_law(law, of, counting_tools());
   }
@@ -225,7 +225,7 @@ class FaultyRedundancy : public testing::TestWithParam<Case> {};
 
 TEST_P(FaultyRedundancy, BreaksTheLawThatIsAboutIt) {
   const auto& [name, fault, free, says, law] = GetParam();
-  const IkLawReport report = report_of(subject(free, fault), law);
+  const LawReport report = report_of(subject(free, fault), law);
   if (!report.skipped.empty()) GTEST_SKIP() << report.skipped;
   ASSERT_FALSE(report.kept());
   EXPECT_NE(report.violations.front().what.find(says), std::string::npos)

@@ -63,14 +63,14 @@ std::string wrong_offers(const PluginManifest& plugin) {
   return "";
 }
 
-IkLawReport check_loading(const std::vector<std::filesystem::path>& search_path,
+LawReport check_loading(const std::vector<std::filesystem::path>& search_path,
                           std::string_view plugin_id, const RobotModel& model,
                           const Params& params) {
   constexpr int kCycles = 1000;
   constexpr double kBudget_s = 60;
   PluginRegistry plugins{search_path};
   const PluginManifest* plugin = plugins.find(plugin_id);
-  IkLawReport report;
+  LawReport report;
   if (!plugin) {
     report.skipped = plugins.unknown_text(plugin_id);
     return report;
@@ -85,7 +85,7 @@ IkLawReport check_loading(const std::vector<std::filesystem::path>& search_path,
     IkBranches found;
     IkState state;
     (*solver)->solve(goal, seed, found, state);
-    ++report.goals;
+    ++report.questions;
   });
   report.note = fmt::format("{} times{}{}", growth.cycles,
                             growth.cycles < kCycles ? ", as often as 60 s allow" : "",

@@ -26,7 +26,7 @@ struct IkLoadingLaw {
   static constexpr std::string_view kName = "LoadingAndUnloadingLeavesNothingBehind";
   static constexpr std::string_view kSays = "loading leaves nothing behind";
 };
-IkLawReport check_loading(const std::vector<std::filesystem::path>& search_path,
+LawReport check_loading(const std::vector<std::filesystem::path>& search_path,
                           std::string_view plugin_id, const RobotModel& model,
                           const Params& params);
 

@@ -1,0 +1,113 @@
+#include <optional>
+
+#include "armature/kinds/command_watch.hpp"
+#include "armature/kinds/joint_messages.hpp"
+#include "armature/kinds/setup_robot.hpp"
+#include "armature/messages/std_msgs.hpp"
+#include "armature/robot/short_trajectory.hpp"
+#include "armature/runtime/component.hpp"
+#include "armature/runtime/plugin.hpp"
+#include "armature/runtime/setup.hpp"
+#include "@TARGET@_parameters.hpp"  // made from plugin.yaml
+
+namespace @NAMESPACE@ {
+namespace {
+
+/// Put your arm here: its maker's library, or the bus that it hangs on. No function may wait for
+/// the arm: where one would, let a thread of your own talk to it and keep its last word here.
+class Device {
+ public:
+  explicit Device(const JointVector& q) : q_{q}, v_{JointVector::Zero(q.size())} {}
+  void move(const JointVector& q, const JointVector& v) { q_ = q, v_ = v; }
+  const JointVector& position() const { return q_; }
+  const JointVector& velocity() const { return v_; }
+  /// How the arm's own controller is: ENABLED while it follows. Say DISABLED, PAUSED, FAULT,
+  /// protective_stop or emergency_stop as soon as it does not: `motion` stops then, and nothing
+  /// moves until somebody rearms it. An arm that stops and does not say so is asked to go on.
+  const char* operating_state() const { return "ENABLED"; }
+
+ private:
+  JointVector q_, v_;  // of the independent joints [rad or m], and their rates
+};
+
+}  // namespace
+
+/// Hands commands to the arm, and tells where it is. When they cease it ramps down by itself, and
+/// waits for one that comes back to where it stands.
+class @CLASS@Arm final : public Component {
+ public:
+  explicit @CLASS@Arm(Setup& setup)
+      : Component{setup},
+        parameters_{Parameters::read(setup.params())},
+        robot_{robot_of(setup)},
+        device_{resting_position(robot_)},
+        watch_{robot_, seconds(parameters_.command_timeout), seconds(1 / parameters_.rate)},
+        servo_jp_{setup.input<msg::JointState>("servo_jp")},
+        measured_js_{setup.output<msg::JointState>("measured_js")},
+        operating_state_{setup.output<msg::String>("operating_state")} {
+    setup.activate_every(seconds(1 / parameters_.rate));
+  }
+
+  void step(Time now) override {
+    if (servo_jp_.fresh()) read(*servo_jp_.latest());
+    if (watch_.follows(now, command_, device_.position())) {
+      ramp_.reset();
+      if (servo_jp_.fresh() && refusal_.empty()) device_.move(command_->q, command_->v);
+    } else if (command_) {
+      ramp_down(now);
+    }
+    auto measured = measured_js_.loan();
+    write_all_joints(robot_, device_.position(), device_.velocity(), now, *measured);
+    measured.publish();
+    auto state = operating_state_.loan();
+    state->data_() = device_.operating_state();
+    state.publish();
+    const ReasonText& trouble = refusal_.empty() ? watch_.why() : refusal_;
+    if (trouble.empty()) {
+      healthy();
+    } else {
+      degraded(trouble);
+    }
+  }
+
+  /// The run ends only when the arm rests.
+  bool stopped() const override { return device_.velocity().isZero(1e-3); }
+
+ private:
+  /// A command that has another length, is not finite or leaves the limits is none: the one before
+  /// grows old.
+  void read(const msg::JointState& message) {
+    ServoCommand command;
+    refusal_ = read_servo_command(robot_, message, command);
+    if (refusal_.empty() && !robot_.within_limits(command.q)) {
+      refusal_ = "it leaves the joint limits";
+    }
+    if (refusal_.empty()) {
+      command_ = command;
+    } else {
+      refusal_ = ReasonText::format("refused a command: {}", refusal_.view());
+    }
+  }
+  void ramp_down(Time now) {
+    if (!ramp_) {
+      const JointState from{device_.position(), device_.velocity(), 0 * device_.velocity()};
+      ramp_ = short_stop_from(from, robot_.max_velocity(), robot_.max_acceleration(), now, 0);
+    }
+    const JointState at = ramp_->view().at(now);
+    device_.move(at.q, at.v);
+  }
+
+  Parameters parameters_;
+  RobotModel robot_;
+  Device device_;
+  CommandWatch watch_;
+  Input<msg::JointState> servo_jp_;
+  Output<msg::JointState> measured_js_;
+  Output<msg::String> operating_state_;
+  std::optional<ServoCommand> command_;  // the last good one
+  std::optional<ShortTrajectory> ramp_;
+  ReasonText refusal_;
+};
+
+}  // namespace @NAMESPACE@
+ARMATURE_PLUGIN(@NAMESPACE@::@CLASS@Arm);

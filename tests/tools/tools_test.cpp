@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: Apache-2.0
+// tools/: what is installed and why, how far a build is, and the verdict of the tests. Nothing is
+// installed, built or tested here: apt-get, cmake, ninja and ctest are replaced by stand-ins.
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "command.hpp"
+
+namespace armature::test {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::Not;
+
+/// A tree with the scripts, in which `ninja` and others are what a test wants them to be.
+class Tools : public testing::Test {
+ protected:
+  Tools() {
+    fs::create_directories(root_ / "stand_ins");
+    fs::copy(source_file("tools"), root_ / "tools", fs::copy_options::recursive);
+    stand_in("sudo", "exec \"$@\"");
+    stand_in("dpkg-query", "shift 3; for package; do echo \"installed $package\"; done");
+    stand_in("nproc", "echo 2");
+    stand_in("apt-get", "echo 'apt-get was called' >&2; exit 1");
+  }
+  ~Tools() override { fs::remove_all(root_); }
+
+  void stand_in(const std::string& name, const std::string& script) const {
+    const fs::path file = root_ / "stand_ins" / name;
+    std::ofstream{file} << "#!/bin/bash\n" << script << "\n";
+    fs::permissions(file, fs::perms::owner_all);
+  }
+  /// A build folder that has been configured.
+  void configured(const std::string& preset) const {
+    fs::create_directories(root_ / "build" / preset);
+    std::ofstream{root_ / "CMakePresets.json"} << "{}";
+    std::ofstream{root_ / "build" / preset / "build.ninja"} << "\n";
+    fs::last_write_time(root_ / "CMakePresets.json",
+                        fs::last_write_time(root_ / "build" / preset / "build.ninja"));
+  }
+  CommandResult run(std::vector<std::string> arguments) const {
+    arguments.front() = root_ / "tools" / arguments.front();
+    const char* path = std::getenv("PATH");
+    return run_command(
+        arguments,
+        {.environment = {{"PATH", (root_ / "stand_ins").string() + ":" + (path ? path : "")},
+                         {"TMPDIR", root_.string()}},
+         .input = {}});
+  }
+  std::string text_of(const std::string& file) const {
+    std::ostringstream text;
+    text << std::ifstream{root_ / file}.rdbuf();
+    return text.str();
+  }
+
+  const fs::path root_ = fs::temp_directory_path() / ("armature-tools-" + std::to_string(getpid()));
+};
+
+std::string last_line(const std::string& text) {
+  const std::string lines = text.substr(0, text.find_last_not_of('\n') + 1);
+  return lines.substr(lines.rfind('\n') + 1);
+}
+
+std::ptrdiff_t count_lines(const std::string& text) { return std::ranges::count(text, '\n'); }
+
+using EnsurePackages = Tools;
+
+TEST_F(EnsurePackages, SaysNothingWhenAllIsThere) {
+  const auto result = run({"ensure-packages"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.out + result.err, "");
+}
+
+constexpr const char* kNinjaIsMissing =
+    "shift 3; for package; do [ $package = ninja-build ] || echo \"installed $package\"; done";
+
+TEST_F(EnsurePackages, SaysWhatWillBeInstalledWhatForAndHowLargeItIs) {
+  stand_in("dpkg-query", kNinjaIsMissing);
+  stand_in("apt-get", R"(case "$*" in
+*update*) ;;
+*--print-uris*) echo "1 upgraded, 2 newly installed, 0 to remove and 7 not upgraded."
+  echo "Need to get 210 kB of archives."
+  echo "After this operation, 900 kB of additional disk space will be used." ;;
+*"--no-install-recommends ninja-build") echo "Setting up ninja-build (1.11.1) ..." ;;
+*) exit 1 ;;
+esac)");
+  const auto result = run({"ensure-packages"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("\n  ninja-build              builds it\n"));
+  EXPECT_THAT(result.err, HasSubstr("3 packages with what they need themselves: 210 kB to "
+                                    "download, 900 kB on disk\n"));
+  EXPECT_THAT(result.err, Not(HasSubstr("Setting up"))) << "of what succeeds the result is told";
+  EXPECT_THAT(last_line(result.err), testing::StartsWith("armature: installed 1 packages in "));
+}
+
+TEST_F(EnsurePackages, ShowsWhyAnInstallationFailed) {
+  stand_in("dpkg-query", kNinjaIsMissing);
+  stand_in("apt-get",
+           "[[ $* != *--print-uris* ]] || exit 0\n"
+           "[[ $* != *install* ]] || { echo 'E: no space left'; exit 100; }");
+  const auto result = run({"ensure-packages"});
+  EXPECT_NE(result.exit_code, 0);
+  EXPECT_THAT(result.err, HasSubstr("\nE: no space left\n"));
+}
+
+TEST_F(EnsurePackages, OfEveryPackageSaysWhatItIsFor) {
+  std::ifstream list{root_ / "tools/apt-packages.txt"};
+  for (std::string line; std::getline(list, line);) {
+    if (line.empty() || line.front() == '#') continue;
+    EXPECT_THAT(line, testing::MatchesRegex("[a-z0-9.+-]+ +# .+"));
+  }
+}
+
+using Build = Tools;
+
+TEST_F(Build, SaysNothingWhenNothingHasChanged) {
+  configured("release");
+  stand_in("ninja", "echo 'ninja: no work to do.'");
+  stand_in("cmake", "echo 'configured again' >&2; exit 1");
+  const auto result = run({"build", "release", "deployable"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.out + result.err, "");
+}
+
+TEST_F(Build, TellsALogEveryTenthPartAndNotEveryStep) {
+  configured("release");
+  stand_in("ninja",
+           "for step in {1..200}; do echo \"${NINJA_STATUS//@%f\\/%t/@$step/200}Building\"; done");
+  const auto result = run({"build", "release"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(count_lines(result.err), 11) << result.err;
+  EXPECT_THAT(result.err, testing::StartsWith("armature: building: 0 %, 1 of 200 steps\n"));
+  EXPECT_EQ(last_line(result.err).substr(0, 43), "armature: building: 100 %, 200 of 200 steps");
+}
+
+TEST_F(Build, ShowsTheErrorOfTheCompilerAndNoneOfTheStepsThatSucceeded) {
+  configured("release");
+  stand_in("ninja",
+           "echo '@1/2 Building a.o'; echo 'FAILED: b.o'\n"
+           "echo 'b.cpp:1:1: error: a word is missing'; exit 1");
+  const auto result = run({"build", "release"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err,
+              HasSubstr("\nFAILED: b.o\nb.cpp:1:1: error: a word is missing\narmature: "));
+  EXPECT_THAT(result.err, Not(HasSubstr("a.o")));
+}
+
+TEST_F(Build, ConfiguresAtFirstAndShowsAllOfItWhenThatFails) {
+  stand_in("cmake", "echo '-- found the compiler'; echo 'CMake Error: no Eigen' >&2; exit 1");
+  const auto result = run({"build", "release"});
+  EXPECT_NE(result.exit_code, 0);
+  EXPECT_EQ(result.err,
+            "armature: configuring build/release\n"
+            "CMake Error: no Eigen\n-- found the compiler\n");
+}
+
+/// What ctest prints of three tests, of which the second `ended`.
+std::string ctest_of(const std::string& ended, int exit_code) {
+  return R"(cat <<'END'
+Internal ctest changing into directory: /x
+Test project /x
+      Start 1: a_test.A.IsSound
+1/3 Test #1: a_test.A.IsSound ............   Passed    0.01 sec
+      Start 2: a_test.A.Is['odd']/x  # GetParam() = x
+2/3 Test #2: a_test.A.Is['odd']/x  # GetParam() = x ...***)" +
+         ended + R"(    0.02 sec
+Expected: 1, actual: 2
+      Start 3: a_test.A.DoesNotApply
+3/3 Test #3: a_test.A.DoesNotApply .......***Skipped   0.00 sec
+
+66% tests passed, 1 tests failed out of 3
+
+Total Test time (real) =   0.03 sec
+
+The following tests did not run:
+	  3 - a_test.A.DoesNotApply (Skipped)
+END
+exit )" + std::to_string(exit_code);
+}
+
+using RunTests = Tools;
+
+TEST_F(RunTests, EndsWithTheVerdictAndNotWithAListOfWhatDidNotApply) {
+  stand_in("ctest", ctest_of("Skipped ", 0));
+  const auto result = run({"run-tests", "release"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(last_line(result.out), testing::MatchesRegex("1 of 1 passed in [0-9]+ s, 2 skipped"));
+  EXPECT_THAT(result.out, Not(HasSubstr("did not run")));
+}
+
+TEST_F(RunTests, NamesWhatFailedShowsWhyAndHowToRunOneAgain) {
+  stand_in("ctest", ctest_of("Failed  ", 8));
+  const auto result = run({"run-tests", "asan"});
+  EXPECT_EQ(result.exit_code, 8) << "that of ctest";
+  EXPECT_THAT(result.out, testing::StartsWith("FAILED (Failed): a_test.A.Is['odd']/x\n"
+                                              "Expected: 1, actual: 2\n"));
+  EXPECT_THAT(result.out,
+              testing::ContainsRegex("\n1 of 2 FAILED in [0-9]+ s:\n  a_test.A.Is\\['odd'\\]/x\n"));
+  EXPECT_EQ(last_line(result.out),
+            R"(One again: tools/test --preset asan --only 'a_test.A.Is['\''odd'\'']/x')");
+}
+
+TEST_F(RunTests, SaysWhatToDoWhenTheMachineWasTooBusy) {
+  stand_in("ctest", ctest_of("Timeout ", 8));
+  const auto result = run({"run-tests", "release"});
+  EXPECT_EQ(result.exit_code, 8);
+  EXPECT_THAT(result.out, HasSubstr("\n1 of them ran out of time.\nThe load of this machine was "));
+  EXPECT_THAT(result.out, HasSubstr("then 'tools/test --again'.\n"));
+}
+
+TEST_F(RunTests, DoesNotCallItPassedWhenTheyDidNotAllRun) {
+  stand_in("ctest", "echo '1/3 Test #1: a_test.A.IsSound ...   Passed    0.01 sec'; exit 2");
+  const auto result = run({"run-tests", "release"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_EQ(result.out, "NOT FINISHED: 1 of 3 tests ran\n");
+}
+
+using TestScript = Tools;
+
+TEST_F(TestScript, TakesATestByItsNameWithoutReadingItAsAPattern) {
+  configured("dev");
+  stand_in("ninja", "exit 0");
+  stand_in("ctest", "printf '%s\\n' \"$@\" > \"$(dirname \"$0\")/asked\"");
+  EXPECT_EQ(run({"test", "--preset", "dev", "--only", "A.Is(odd)/x[1]"}).exit_code, 0);
+  EXPECT_THAT(text_of("stand_ins/asked"), HasSubstr("\n-R\nA\\.Is\\(odd\\)/x\\[1\\]\n"));
+}
+
+TEST_F(TestScript, RunsNoTestOfWhatCouldNotBeBuilt) {
+  configured("release");
+  stand_in("ninja", "exit 1");
+  stand_in("ctest", "echo tested");
+  const auto result = run({"test"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.out, "");
+}
+
+TEST_F(TestScript, WhatItDoesNotUnderstandIsAnsweredWithItsUsage) {
+  const auto result = run({"test", "--onyl", "x"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, testing::StartsWith("usage: tools/test "));
+}
+
+}  // namespace
+}  // namespace armature::test

@@ -27,6 +27,7 @@
 #include "plan_bench/bench_plan.hpp"
 #include "plugins.hpp"
 #include "run.hpp"
+#include "schema.hpp"
 #include "shipped_configs.hpp"
 #include "stop.hpp"
 #include "topics.hpp"
@@ -160,6 +161,12 @@ void add_inspection(CLI::App& app, Action& action) {
   graph->add_flag("--json", *json, "as JSON");
   graph->callback(
       [=, &action] { action = [=] { return graph_deployment(*source, *dot, *json); }; });
+}
+
+void add_schema(CLI::App& app, Action& action) {
+  CLI::App* schema = app.add_subcommand(
+      "schema", "JSON Schema of deployments, for editors: armature schema > armature.schema.json");
+  schema->callback([&action] { action = [] { return print_schema(); }; });
 }
 
 void add_arm(CLI::App* verb, ArmChoice& arm) {
@@ -464,6 +471,7 @@ int run_command_line(int argc, char** argv) {
   add_drill(app, action);
   add_stop(app, action);
   add_inspection(app, action);
+  add_schema(app, action);
   add_plugin_verbs(app, action);
   add_topic_verbs(app, action);
   add_calculators(app, action);

@@ -39,7 +39,7 @@ class Loader {
     if (own.kind() != Node::Kind::map && !empty) {
       fail(own.origin(), "a configuration file must be a map, not " + own.describe());
     }
-    const Node* include = own.find("include");
+    const Node* include = own.find(kInclude);
     if (!include) return own;
 
     open_.push_back({file, real});
@@ -49,7 +49,7 @@ class Loader {
       below = merge(below, load(target, path.origin()));
     }
     open_.pop_back();
-    std::erase_if(own.mutable_entries(), [](const auto& entry) { return entry.key == "include"; });
+    std::erase_if(own.mutable_entries(), [](const auto& entry) { return entry.key == kInclude; });
     return merge(below, own);
   }
 

@@ -19,14 +19,17 @@ namespace armature::config {
 Node parse_file(const std::filesystem::path& file);
 Node parse_text(std::string_view text, std::string_view name);
 
+/// The key at the top of a file that names those it stands upon.
+inline constexpr std::string_view kInclude = "include";
+
 /// `parse_file`, with the file's own `include:` (one path or a list, relative to the including
 /// file; later ones and the file itself override) resolved. A cycle of includes is an error.
 Node load(const std::filesystem::path& file);
 
 /// The files, each with its includes, merged in order and then the `--set path.to.key=value`
 /// assignments (`a.0.b` reaches into a list; maps that are missing on the way are made). A `--set`
-/// value is parsed as YAML; its origin is the option itself. What a `--set ...plugin=` leaves out is
-/// told in `notes`, one sentence each. Throws ConfigError.
+/// value is parsed as YAML; its origin is the option itself. What a `--set ...plugin=` leaves out
+/// is told in `notes`, one sentence each. Throws ConfigError.
 Node load_with_overlays(const std::vector<std::filesystem::path>& files,
                         const std::vector<std::string>& assignments,
                         std::vector<std::string>* notes = nullptr);

@@ -7,6 +7,7 @@
 
 #include "armature/config/conversion.hpp"
 #include "armature/runtime/component.hpp"
+#include "armature/runtime/deployment_keys.hpp"
 #include "armature/runtime/topic_name.hpp"
 
 namespace armature {
@@ -81,7 +82,7 @@ std::optional<ComponentConfig> ComponentReader::read(const Node::Entry& entry) c
         entry.key_origin,
         fmt::format("'{}' is a component of the runtime; choose another name", entry.key));
   }
-  const Node* plugin_node = map.optional_node("plugin");
+  const Node* plugin_node = map.optional_node(keys::kPlugin.name);
   // A component without `plugin:` is the framework's own of that name: `motion:`.
   const auto id = plugin_node ? plugin_id(*plugin_node, problems_) : entry.key;
   if (!id) return std::nullopt;
@@ -107,43 +108,46 @@ std::optional<ComponentConfig> ComponentReader::read(const Node::Entry& entry) c
     }
   }
 
-  component.executor = map.text("executor", std::string{kMainExecutor});
+  component.executor = map.text(keys::kOfExecutor.name, std::string{kMainExecutor});
   const auto executors = names_of(deployment_.executors);
   if (std::find(executors.begin(), executors.end(), component.executor) == executors.end()) {
-    map.problem("executor", fmt::format("unknown executor '{}'{}", component.executor,
-                                        config::did_you_mean(component.executor, executors)));
+    map.problem(keys::kOfExecutor.name,
+                fmt::format("unknown executor '{}'{}", component.executor,
+                            config::did_you_mean(component.executor, executors)));
   }
-  component.process = map.text("process", std::string{kMainProcess});
+  component.process = map.text(keys::kProcess.name, std::string{kMainProcess});
   if (component.process != kMainProcess && deployment_.simulated) {
-    map.problem("process",
+    map.problem(keys::kProcess.name,
                 "the simulated clock runs one process; remove 'process' or set "
                 "'clock: system'");
   } else if (component.process != kMainProcess && !named->measures.empty()) {
-    map.problem("process",
+    map.problem(keys::kProcess.name,
                 fmt::format("'{}' tells figures of the run, which only the process '{}' shows; "
                             "remove 'process' from '{}'",
                             named->id, kMainProcess, component.name));
   }
-  const double sim_latency = map.number("sim_latency_s", 0.0);
-  if (sim_latency < 0 || sim_latency > kLongestWait_s) {
-    map.problem("sim_latency_s", fmt::format("'sim_latency_s' is {:g}, must be from 0 to {:g}",
-                                             sim_latency, kLongestWait_s));
+  const double sim_latency = map.number(keys::kSimLatency.name, 0.0);
+  if (!is_within(keys::kSimLatency, sim_latency)) {
+    map.problem(keys::kSimLatency.name,
+                fmt::format("'sim_latency_s' is {:g}, must be from 0 to {:g}", sim_latency,
+                            *keys::kSimLatency.max));
   }
   component.sim_latency = seconds(sim_latency);
-  if (map.optional_node("on_fault")) {
-    const bool stops = map.choice("on_fault", {"stop", "isolate"}, "stop") == "stop";
+  if (map.optional_node(keys::kOnFault.name)) {
+    const bool stops =
+        map.choice(keys::kOnFault.name, choices_of(keys::kOnFault), "stop") == "stop";
     component.on_fault = stops ? OnFault::stop : OnFault::isolate;
   }
   read_params(map, *named, component);
   read_slots(map, component);
   bind_documents(map, component);
-  if (const Node* topics = map.optional_node("topics")) {
+  if (const Node* topics = map.optional_node(keys::kTopics.name)) {
     const std::string prefix = topic_named(*topics, "'topics'", {});
     if (!prefix.empty()) component.topics = prefix + '/';
   }
-  bind_ports(map.optional_node("in"), "input", component.manifest->inputs, component,
+  bind_ports(map.optional_node(keys::kIn.name), "input", component.manifest->inputs, component,
              component.inputs);
-  bind_ports(map.optional_node("out"), "output", component.manifest->outputs, component,
+  bind_ports(map.optional_node(keys::kOut.name), "output", component.manifest->outputs, component,
              component.outputs);
   map.finish();
   return component;
@@ -152,7 +156,7 @@ std::optional<ComponentConfig> ComponentReader::read(const Node::Entry& entry) c
 /// A host's parameters and those of the pure plugin that it runs are written together.
 void ComponentReader::read_params(MapReader& map, const PluginManifest& named,
                                   ComponentConfig& component) const {
-  const Node* given = map.optional_node("params");
+  const Node* given = map.optional_node(keys::kParams.name);
   if (component.manifest == &named) {
     component.params = Params::read(named.params, given, named.id, problems_, component.origin);
     return;
@@ -203,8 +207,8 @@ void ComponentReader::read_slots(MapReader& map, ComponentConfig& component) con
 void ComponentReader::read_slot(const SlotSpec& spec, const Node& node,
                                 ComponentConfig& component) const {
   MapReader map{node, fmt::format("slot '{}'", spec.name), problems_};
-  const Node* plugin_node = map.node("plugin");
-  const Node* params = map.optional_node("params");
+  const Node* plugin_node = map.node(keys::kPlugin.name);
+  const Node* params = map.optional_node(keys::kParams.name);
   map.finish();
   const auto id = plugin_node ? plugin_id(*plugin_node, problems_) : std::nullopt;
   if (!id) return;

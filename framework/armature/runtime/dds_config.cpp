@@ -5,6 +5,7 @@
 
 #include "armature/config/conversion.hpp"
 #include "armature/config/reader.hpp"
+#include "armature/runtime/deployment_keys.hpp"
 
 namespace armature {
 namespace {
@@ -46,7 +47,7 @@ DdsConfig read_dds(const Node* section, Problems& problems) {
   DdsConfig dds;
   if (!section) return dds;
   config::MapReader map{*section, "dds", problems};
-  if (const Node* list = map.optional_node("interfaces")) {
+  if (const Node* list = map.optional_node(keys::kInterfaces.name)) {
     dds.interfaces = read_interfaces(*list, problems);
   }
   map.finish();

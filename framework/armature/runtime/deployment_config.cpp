@@ -17,6 +17,7 @@
 #include "armature/runtime/agreement.hpp"
 #include "armature/runtime/component_config.hpp"
 #include "armature/runtime/component_units.hpp"
+#include "armature/runtime/deployment_keys.hpp"
 #include "armature/runtime/fingerprint.hpp"
 #include "armature/runtime/goals.hpp"
 #include "armature/runtime/graph.hpp"
@@ -30,10 +31,6 @@ namespace {
 using config::MapReader;
 using config::Node;
 using config::Problems;
-
-constexpr double kShortestPeriod_s = 1e-4;
-/// Processes tell each other in this time that they are at rest. With less no run would end well.
-constexpr double kShortestStop_s = 0.1;
 
 bool is_name(std::string_view text) {
   const bool digit = !text.empty() && std::isdigit(static_cast<unsigned char>(text.front()));
@@ -75,10 +72,11 @@ std::map<std::string, Node> read_documents(std::span<const Node::Entry> section,
 }
 
 int read_cpu(MapReader& map) {
-  const std::int64_t cpu = map.integer("cpu", 0);
+  const std::int64_t cpu = map.integer(keys::kCpu.name, 0);
   const std::int64_t count = sysconf(_SC_NPROCESSORS_CONF);
   if (cpu < 0 || cpu >= count) {
-    map.problem("cpu", fmt::format("'cpu' is {}, this machine has 0 to {}", cpu, count - 1));
+    map.problem(keys::kCpu.name,
+                fmt::format("'cpu' is {}, this machine has 0 to {}", cpu, count - 1));
   }
   return static_cast<int>(cpu);
 }
@@ -88,21 +86,22 @@ std::vector<ExecutorSpec> read_executors(std::span<const Node::Entry> section, P
   for (const auto& [name, name_origin, value] : section) {
     MapReader map{value, fmt::format("executor '{}'", name), problems};
     ExecutorSpec spec{.name = name, .period = {}, .priority = 0, .cpu = {}};
-    if (map.optional_node("period_s")) {
-      const double period = map.number("period_s", kShortestPeriod_s);
+    if (map.optional_node(keys::kPeriod.name)) {
+      const double period = map.number(keys::kPeriod.name, *keys::kPeriod.min);
       spec.period = seconds(period);
-      if (period < kShortestPeriod_s || period > kLongestWait_s) {
-        map.problem("period_s", fmt::format("'period_s' is {:g}, must be from {:g} to {:g}", period,
-                                            kShortestPeriod_s, kLongestWait_s));
+      if (!is_within(keys::kPeriod, period)) {
+        map.problem(keys::kPeriod.name,
+                    fmt::format("'period_s' is {:g}, must be from {:g} to {:g}", period,
+                                *keys::kPeriod.min, *keys::kPeriod.max));
       }
     }
-    const std::int64_t priority = map.integer("priority", 0);
-    if (priority < 0 || priority > 99) {
-      map.problem("priority", "'priority' must be from 0 (normal) to 99");
+    const std::int64_t priority = map.integer(keys::kPriority.name, 0);
+    if (!is_within(keys::kPriority, static_cast<double>(priority))) {
+      map.problem(keys::kPriority.name, "'priority' must be from 0 (normal) to 99");
     }
     spec.priority = static_cast<int>(priority);
-    if (map.optional_node("cpu")) spec.cpu = read_cpu(map);
-    spec.lock_memory = map.flag("lock_memory", false);
+    if (map.optional_node(keys::kCpu.name)) spec.cpu = read_cpu(map);
+    spec.lock_memory = map.flag(keys::kLockMemory.name, false);
     map.finish();
     executors.push_back(std::move(spec));
   }
@@ -127,7 +126,7 @@ std::vector<std::string> DeploymentConfig::processes() const {
 }
 
 bool check_is_deployment(const Node& root, Problems& problems) {
-  if (root.find("armature")) return true;
+  if (root.find(keys::kArmature.name)) return true;
   const std::array<std::pair<std::string_view, std::string_view>, 3> others{
       {{"armature_robot", "a robot file, which a deployment names under 'robots:'"},
        {"armature_rig", "a rig of cameras, which a deployment names under 'rigs:'"},
@@ -146,49 +145,55 @@ DeploymentConfig read_deployment(const Node& root, const PluginRegistry& plugins
   DeploymentConfig deployment;
   MapReader map{root, "the deployment", problems};
   if (!check_is_deployment(root, problems)) return deployment;
-  if (map.integer("armature", 1) != 1) {
-    map.problem("armature", "'armature' is the version of the file format and must be 1");
+  if (!is_within(keys::kArmature, static_cast<double>(map.integer(keys::kArmature.name, 1)))) {
+    map.problem(keys::kArmature.name, "'armature' is the version of the file format and must be 1");
   }
-  deployment.name = map.text("name");
+  deployment.name = map.text(keys::kName.name);
   if (!deployment.name.empty() && !is_name(deployment.name)) {
-    map.problem("name", fmt::format("'{}' must consist of letters, digits and '_', and begin "
-                                    "with no digit: it is the namespace of the topics",
-                                    deployment.name));
+    map.problem(keys::kName.name,
+                fmt::format("'{}' must consist of letters, digits and '_', and begin "
+                            "with no digit: it is the namespace of the topics",
+                            deployment.name));
   }
-  deployment.simulated = map.choice("clock", {"system", "simulated"}, "system") == "simulated";
-  const std::int64_t domain = map.integer("domain", 0);
-  if (domain < 0 || domain > 232) map.problem("domain", "'domain' must be from 0 to 232");
+  deployment.simulated =
+      map.choice(keys::kClock.name, choices_of(keys::kClock), "system") == "simulated";
+  const std::int64_t domain = map.integer(keys::kDomain.name, 0);
+  if (!is_within(keys::kDomain, static_cast<double>(domain))) {
+    map.problem(keys::kDomain.name, "'domain' must be from 0 to 232");
+  }
   deployment.domain = static_cast<int>(domain);
-  deployment.dds = read_dds(map.optional_node("dds"), problems);
-  deployment.seed = map.natural("seed", 1);
+  deployment.dds = read_dds(map.optional_node(keys::kDds.name), problems);
+  deployment.seed = map.natural(keys::kSeed.name, 1);
   deployment.time_limit_s = 0;
-  if (const Node* run = map.optional_node("run")) {
+  if (const Node* run = map.optional_node(keys::kRun.name)) {
     MapReader run_map{*run, "run", problems};
-    deployment.time_limit_s = run_map.number("time_limit_s", 0.0);
-    if (deployment.time_limit_s < 0) {
-      run_map.problem("time_limit_s", "'time_limit_s' must be positive, or 0 for none");
+    deployment.time_limit_s = run_map.number(keys::kTimeLimit.name, 0.0);
+    if (!is_within(keys::kTimeLimit, deployment.time_limit_s)) {
+      run_map.problem(keys::kTimeLimit.name, "'time_limit_s' must be positive, or 0 for none");
     }
-    deployment.stop_within_s = run_map.number("stop_within_s", deployment.stop_within_s);
-    if (deployment.stop_within_s < kShortestStop_s || deployment.stop_within_s > kLongestWait_s) {
-      run_map.problem("stop_within_s",
-                      fmt::format("'stop_within_s' is {:g}, must be from {:g} to {:g}: what moves "
-                                  "comes to rest before anything ends",
-                                  deployment.stop_within_s, kShortestStop_s, kLongestWait_s));
+    deployment.stop_within_s = run_map.number(keys::kStopWithin.name, deployment.stop_within_s);
+    if (!is_within(keys::kStopWithin, deployment.stop_within_s)) {
+      run_map.problem(
+          keys::kStopWithin.name,
+          fmt::format("'stop_within_s' is {:g}, must be from {:g} to {:g}: what moves "
+                      "comes to rest before anything ends",
+                      deployment.stop_within_s, *keys::kStopWithin.min, *keys::kStopWithin.max));
     }
     run_map.finish();
   }
-  deployment.executors =
-      read_executors(entries_of(map.optional_node("executors"), "executors", problems), problems);
+  deployment.executors = read_executors(
+      entries_of(map.optional_node(keys::kExecutors.name), keys::kExecutors.name, problems),
+      problems);
   for (const auto& [section, word] : kDocumentSections) {
     deployment.documents[std::string{section}] =
         read_documents(entries_of(map.optional_node(section), section, problems), problems);
   }
-  deployment.goals = read_goals(map.optional_node("goals"), problems);
-  const Node* open = map.optional_node("open");
-  if (const Node* components = map.node("components")) {
+  deployment.goals = read_goals(map.optional_node(keys::kGoals.name), problems);
+  const Node* open = map.optional_node(keys::kOpen.name);
+  if (const Node* components = map.node(keys::kComponents.name)) {
     const ComponentReader reader{deployment, plugins, problems};
     std::size_t known = 0;
-    for (const auto& entry : entries_of(components, "components", problems)) {
+    for (const auto& entry : entries_of(components, keys::kComponents.name, problems)) {
       if (const auto component = reader.read(entry)) {
         check_slot_needs(*component, plugins, problems);
         std::ranges::move(units_of(*component), std::back_inserter(deployment.components));

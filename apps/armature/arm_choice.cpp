@@ -7,7 +7,7 @@
 
 #include "armature/config/document.hpp"
 #include "armature/config/problems.hpp"
-#include "armature/robot/urdf_robot.hpp"
+#include "armature/robot/files/urdf_robot.hpp"
 #include "exit_code.hpp"
 
 namespace armature {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "armature/config/params.hpp"
-#include "armature/robot/robot_model.hpp"
-#include "armature/runtime/plugin_manifest.hpp"
+#include "armature/robot/model/robot_model.hpp"
+#include "armature/runtime/plugins/plugin_manifest.hpp"
 
 namespace armature {
 

@@ -15,9 +15,9 @@
 #include <system_error>
 
 #include "armature/kinds/ik/lines/answering.hpp"
-#include "armature/robot/robot_model.hpp"
-#include "armature/runtime/plugin_registry.hpp"
-#include "armature/runtime/running_component.hpp"
+#include "armature/robot/model/robot_model.hpp"
+#include "armature/runtime/plugins/plugin_registry.hpp"
+#include "armature/runtime/plugins/running_component.hpp"
 #include "exit_code.hpp"
 #include "plugins.hpp"
 #include "progress.hpp"

@@ -21,7 +21,7 @@
 #include "armature/calibration/pivot.hpp"
 #include "armature/calibration/recorded_poses.hpp"
 #include "armature/config/document.hpp"
-#include "armature/runtime/write_atomically.hpp"
+#include "armature/runtime/reporting/write_atomically.hpp"
 #include "exit_code.hpp"
 #include "readable_json.hpp"
 

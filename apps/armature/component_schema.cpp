@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "armature/runtime/component.hpp"
-#include "armature/runtime/component_config.hpp"
-#include "armature/runtime/deployment_keys.hpp"
+#include "armature/runtime/component/component.hpp"
+#include "armature/runtime/deployment_file/component_config.hpp"
+#include "armature/runtime/deployment_file/deployment_keys.hpp"
 #include "value_schema.hpp"
 
 namespace armature {

@@ -3,7 +3,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "armature/runtime/plugin_registry.hpp"
+#include "armature/runtime/plugins/plugin_registry.hpp"
 
 namespace armature {
 

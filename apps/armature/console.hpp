@@ -6,8 +6,8 @@
 #include <string>
 #include <string_view>
 
-#include "armature/runtime/clock.hpp"
-#include "armature/runtime/line_writer.hpp"
+#include "armature/runtime/execution/clock.hpp"
+#include "armature/runtime/reporting/line_writer.hpp"
 
 namespace armature {
 

@@ -7,7 +7,7 @@
 #include <iostream>
 
 #include "armature/config/problems.hpp"
-#include "armature/runtime/plugin_registry.hpp"
+#include "armature/runtime/plugins/plugin_registry.hpp"
 
 namespace armature {
 

@@ -12,9 +12,9 @@
 
 #include "armature/config/document.hpp"
 #include "armature/config/source_text.hpp"
-#include "armature/runtime/component_config.hpp"
-#include "armature/runtime/deployment.hpp"
-#include "armature/runtime/on_fault.hpp"
+#include "armature/runtime/deployment/deployment.hpp"
+#include "armature/runtime/deployment_file/component_config.hpp"
+#include "armature/runtime/deployment_file/on_fault.hpp"
 #include "exit_code.hpp"
 #include "leases.hpp"
 #include "origin_json.hpp"

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "armature/bus/qos.hpp"
-#include "armature/runtime/on_fault.hpp"
-#include "armature/runtime/watchdog.hpp"
+#include "armature/runtime/deployment_file/on_fault.hpp"
+#include "armature/runtime/execution/watchdog.hpp"
 
 namespace armature {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "armature/runtime/deployment_config.hpp"
+#include "armature/runtime/deployment_file/deployment_config.hpp"
 
 namespace armature {
 

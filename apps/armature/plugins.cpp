@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "armature/runtime/plugin_registry.hpp"
+#include "armature/runtime/plugins/plugin_registry.hpp"
 #include "exit_code.hpp"
 
 namespace armature {

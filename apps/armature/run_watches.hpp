@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "armature/runtime/child_processes.hpp"
-#include "armature/runtime/clock.hpp"
-#include "armature/runtime/control_channel.hpp"
-#include "armature/runtime/deployment_config.hpp"
-#include "armature/runtime/run_watch.hpp"
+#include "armature/runtime/deployment/run_watch.hpp"
+#include "armature/runtime/deployment_file/deployment_config.hpp"
+#include "armature/runtime/execution/clock.hpp"
+#include "armature/runtime/processes/child_processes.hpp"
+#include "armature/runtime/processes/control_channel.hpp"
 #include "console.hpp"
 
 namespace armature {

@@ -9,10 +9,10 @@
 #include <string>
 
 #include "armature/config/document.hpp"
-#include "armature/runtime/component.hpp"
-#include "armature/runtime/component_config.hpp"
-#include "armature/runtime/deployment_keys.hpp"
-#include "armature/runtime/plugin_registry.hpp"
+#include "armature/runtime/component/component.hpp"
+#include "armature/runtime/deployment_file/component_config.hpp"
+#include "armature/runtime/deployment_file/deployment_keys.hpp"
+#include "armature/runtime/plugins/plugin_registry.hpp"
 #include "component_schema.hpp"
 #include "exit_code.hpp"
 #include "plugins.hpp"

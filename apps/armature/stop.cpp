@@ -11,8 +11,8 @@
 #include <thread>
 
 #include "armature/messages/std_msgs.hpp"
-#include "armature/runtime/clock.hpp"
-#include "armature/runtime/plugin_registry.hpp"
+#include "armature/runtime/execution/clock.hpp"
+#include "armature/runtime/plugins/plugin_registry.hpp"
 #include "exit_code.hpp"
 
 namespace armature {

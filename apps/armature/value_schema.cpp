@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "armature/config/conversion.hpp"
-#include "armature/runtime/deployment_keys.hpp"
+#include "armature/runtime/deployment_file/deployment_keys.hpp"
 
 namespace armature {
 namespace {

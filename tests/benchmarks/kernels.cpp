@@ -15,8 +15,8 @@
 #include "armature/config/problems.hpp"
 #include "armature/kinds/ik/batch.hpp"
 #include "armature/kinds/ik/verify/plugin_subject.hpp"
-#include "armature/robot/kinematics.hpp"
-#include "armature/robot/orientation_curve.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
+#include "armature/robot/orientations/orientation_curve.hpp"
 
 namespace armature {
 namespace {

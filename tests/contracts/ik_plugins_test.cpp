@@ -12,7 +12,7 @@
 #include "armature/config/problems.hpp"
 #include "armature/kinds/ik/contract.hpp"
 #include "armature/kinds/ik/verify/plugin_subject.hpp"
-#include "armature/robot/urdf_robot.hpp"
+#include "armature/robot/files/urdf_robot.hpp"
 
 namespace armature {
 namespace {
@@ -86,8 +86,7 @@ void add_tests_of(const PluginManifest& plugin, const Params& params, const Robo
     add_test(suite, law.name, [law, subject] { expect_kept(law, subject().value()); });
   }
   add_test(suite, IkLoadingLaw::kName, [&plugin, params, robot] {
-    const LawReport report =
-        check_loading({ARMATURE_PLUGIN_BUILD_DIR}, plugin.id, *robot, params);
+    const LawReport report = check_loading({ARMATURE_PLUGIN_BUILD_DIR}, plugin.id, *robot, params);
     for (const auto& [what, question] : report.violations) ADD_FAILURE() << what;
   });
 }

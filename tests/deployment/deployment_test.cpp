@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a deployment file says of its components comes true when it runs: read, constructed and run
 // on the simulated clock in this process.
-#include "armature/runtime/deployment.hpp"
+#include "armature/runtime/deployment/deployment.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "armature/config/document.hpp"
-#include "armature/runtime/run_report.hpp"
+#include "armature/runtime/reporting/run_report.hpp"
 
 namespace armature {
 namespace {

@@ -7,8 +7,8 @@
 #include <mutex>
 
 #include "armature/config/document.hpp"
-#include "armature/runtime/deployment.hpp"
-#include "armature/runtime/run_report.hpp"
+#include "armature/runtime/deployment/deployment.hpp"
+#include "armature/runtime/reporting/run_report.hpp"
 
 namespace armature {
 namespace {

@@ -10,8 +10,8 @@
 #include <set>
 #include <sstream>
 
-#include "armature/robot/kinematics.hpp"
-#include "armature/robot/robot_model.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
+#include "armature/robot/model/robot_model.hpp"
 #include "deployment_run.hpp"
 #include "tests/dds_domain.hpp"
 

@@ -4,8 +4,8 @@
 #include <filesystem>
 
 #include "armature/bus/fast_dds/fast_dds_transport.hpp"
-#include "armature/runtime/abi.hpp"
-#include "armature/runtime/plugin.hpp"
+#include "armature/runtime/plugins/abi.hpp"
+#include "armature/runtime/plugins/plugin.hpp"
 
 static const char manifest[] __attribute__((section(".armature.manifest"), used, retain)) =
     "armature_plugin: 1\nid: transport/fast_dds\nkind: transport\ndoc: Finds no room.\n";

@@ -5,7 +5,7 @@
 #include <csignal>
 
 #include "armature/kinds/tool_pose_messages.hpp"
-#include "armature/robot/kinematics.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
 #include "asker.hpp"
 #include "command.hpp"
 #include "tests/dds_domain.hpp"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "armature/calibration/hand_eye.hpp"
-#include "armature/robot/kinematics.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
 #include "reference_file.hpp"
 
 namespace armature::paper {

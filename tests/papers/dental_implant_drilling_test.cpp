@@ -10,11 +10,11 @@
 #include "armature/kinds/declared_params.hpp"
 #include "armature/kinds/trajectory/time_law.hpp"
 #include "armature/motion/goal_planner.hpp"
-#include "armature/robot/corner_blend.hpp"
-#include "armature/robot/kinematics.hpp"
-#include "armature/robot/orientation_curve.hpp"
-#include "armature/robot/orientation_probe_test.hpp"
-#include "armature/runtime/plugin_registry.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
+#include "armature/robot/orientations/corner_blend.hpp"
+#include "armature/robot/orientations/orientation_curve.hpp"
+#include "armature/robot/orientations/orientation_probe_test.hpp"
+#include "armature/runtime/plugins/plugin_registry.hpp"
 
 namespace armature::paper {
 namespace {

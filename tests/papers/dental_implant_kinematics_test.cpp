@@ -12,9 +12,9 @@
 
 #include "armature/kinds/declared_params.hpp"
 #include "armature/kinds/ik/ik.hpp"
-#include "armature/robot/guided_chain.hpp"
-#include "armature/robot/kinematics.hpp"
-#include "armature/runtime/plugin_registry.hpp"
+#include "armature/robot/geometry/guided_chain.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
+#include "armature/runtime/plugins/plugin_registry.hpp"
 #include "reference_file.hpp"
 
 namespace armature::paper {

@@ -8,11 +8,11 @@
 #include <random>
 #include <vector>
 
-#include "armature/robot/corner_blend.hpp"
-#include "armature/robot/orientation_curve.hpp"
-#include "armature/robot/orientation_probe_test.hpp"
-#include "armature/robot/rotation_at.hpp"
-#include "armature/robot/rotation_vector.hpp"
+#include "armature/robot/geometry/rotation_vector.hpp"
+#include "armature/robot/orientations/corner_blend.hpp"
+#include "armature/robot/orientations/orientation_curve.hpp"
+#include "armature/robot/orientations/orientation_probe_test.hpp"
+#include "armature/robot/orientations/rotation_at.hpp"
 #include "reference_file.hpp"
 
 namespace armature::paper {

@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "armature/robot/kinematics.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
 #include "lamp_plugins.hpp"
 #include "reference_file.hpp"
 

@@ -2,7 +2,7 @@
 // Jiang et al. 2021, sections 4.3 to 4.5: path points, quintics, tables 2 and 3.
 #include <gtest/gtest.h>
 
-#include "armature/robot/kinematics.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
 #include "lamp_plugins.hpp"
 #include "reference_file.hpp"
 

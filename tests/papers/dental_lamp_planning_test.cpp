@@ -4,8 +4,8 @@
 
 #include "armature/kinds/trajectory/joint_curve.hpp"
 #include "armature/kinds/trajectory/one_law.hpp"
-#include "armature/robot/kinematics.hpp"
-#include "armature/robot/quintic_spline.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
+#include "armature/robot/trajectories/quintic_spline.hpp"
 #include "lamp_plugins.hpp"
 #include "reference_file.hpp"
 

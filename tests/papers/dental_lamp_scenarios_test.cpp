@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-#include "armature/robot/kinematics.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
 #include "lamp_plugins.hpp"
 
 namespace armature::paper {

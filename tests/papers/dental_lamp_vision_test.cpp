@@ -5,8 +5,8 @@
 
 #include <map>
 
-#include "armature/robot/kinematics.hpp"
-#include "armature/robot/stereo_camera.hpp"
+#include "armature/robot/geometry/stereo_camera.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
 #include "lamp_plugins.hpp"
 #include "reference_file.hpp"
 

@@ -9,9 +9,9 @@
 #include <string>
 
 #include "armature/kinds/declared_params.hpp"
-#include "armature/robot/kinematics.hpp"
-#include "armature/robot/trajectory_check.hpp"
-#include "armature/runtime/plugin_registry.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
+#include "armature/robot/trajectories/trajectory_check.hpp"
+#include "armature/runtime/plugins/plugin_registry.hpp"
 #include "reference_file.hpp"
 
 namespace armature::paper {

@@ -9,8 +9,8 @@
 #include "armature/kinds/path/path.hpp"
 #include "armature/kinds/select/select.hpp"
 #include "armature/kinds/trajectory/trajectory_planner.hpp"
-#include "armature/robot/robot_model.hpp"
-#include "armature/runtime/plugin_library.hpp"
+#include "armature/robot/model/robot_model.hpp"
+#include "armature/runtime/plugins/plugin_library.hpp"
 
 namespace armature::paper {
 

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "armature/runtime/plugin_registry.hpp"
+#include "armature/runtime/plugins/plugin_registry.hpp"
 
 namespace armature::paper {
 

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "armature/kinds/ik/ik.hpp"
-#include "armature/robot/robot_model.hpp"
+#include "armature/robot/model/robot_model.hpp"
 #include "reference_file.hpp"
 
 namespace armature::paper {

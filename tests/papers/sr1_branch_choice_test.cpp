@@ -9,7 +9,7 @@
 
 #include "armature/config/document.hpp"
 #include "armature/kinds/select/select.hpp"
-#include "armature/runtime/plugin_registry.hpp"
+#include "armature/runtime/plugins/plugin_registry.hpp"
 #include "sr1_arms.hpp"
 
 namespace armature::paper {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "armature/robot/cubic_spline.hpp"
+#include "armature/robot/trajectories/cubic_spline.hpp"
 #include "reference_file.hpp"
 
 namespace armature::paper {

@@ -7,7 +7,7 @@
 #include <map>
 #include <random>
 
-#include "armature/robot/kinematics.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
 #include "sr1_arms.hpp"
 
 namespace armature::paper {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "armature/robot/kinematics.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
 #include "sr1_arms.hpp"
 
 namespace armature::paper {

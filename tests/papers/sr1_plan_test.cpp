@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/kinds/path/path.hpp"
-#include "armature/runtime/plugin_registry.hpp"
+#include "armature/runtime/plugins/plugin_registry.hpp"
 #include "reference_file.hpp"
 
 namespace armature::paper {

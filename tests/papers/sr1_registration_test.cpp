@@ -10,7 +10,7 @@
 #include "armature/kinds/registration/marker_matching.hpp"
 #include "armature/kinds/registration/registration.hpp"
 #include "armature/kinds/registration/target_error.hpp"
-#include "armature/runtime/plugin_registry.hpp"
+#include "armature/runtime/plugins/plugin_registry.hpp"
 #include "reference_file.hpp"
 
 namespace armature::paper {

@@ -9,8 +9,8 @@
 
 #include "armature/config/document.hpp"
 #include "armature/messages/std_msgs.hpp"
-#include "armature/runtime/deployment.hpp"
-#include "armature/runtime/running_component.hpp"
+#include "armature/runtime/deployment/deployment.hpp"
+#include "armature/runtime/plugins/running_component.hpp"
 #include "armature/values/allocation_count.hpp"
 #include "armature/values/sanitizer.hpp"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "armature/config/params.hpp"
-#include "armature/runtime/plugin_registry.hpp"
+#include "armature/runtime/plugins/plugin_registry.hpp"
 
 namespace armature::bench {
 

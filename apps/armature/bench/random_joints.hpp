@@ -4,7 +4,7 @@
 #include <random>
 #include <utility>
 
-#include "armature/robot/robot_model.hpp"
+#include "armature/robot/model/robot_model.hpp"
 
 namespace armature::bench {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "armature/config/document.hpp"
-#include "armature/runtime/plugin_registry.hpp"
+#include "armature/runtime/plugins/plugin_registry.hpp"
 #include "shipped_configs.hpp"
 
 namespace armature {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "armature/runtime/plugin_registry.hpp"
+#include "armature/runtime/plugins/plugin_registry.hpp"
 #include "completion/assignment.hpp"
 #include "exit_code.hpp"
 #include "shipped_configs.hpp"

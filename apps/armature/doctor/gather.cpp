@@ -21,7 +21,7 @@
 #include <memory>
 
 #include "armature/bus/fast_dds/shared_memory.hpp"
-#include "armature/runtime/real_time_thread.hpp"
+#include "armature/runtime/execution/real_time_thread.hpp"
 #include "isolated.hpp"
 
 namespace armature::doctor {

@@ -15,9 +15,9 @@
 #include "armature/kinds/select/select.hpp"
 #include "armature/kinds/target/target.hpp"
 #include "armature/kinds/trajectory/trajectory_planner.hpp"
-#include "armature/runtime/component.hpp"
-#include "armature/runtime/plugin_library.hpp"
-#include "armature/runtime/plugin_registry.hpp"
+#include "armature/runtime/component/component.hpp"
+#include "armature/runtime/plugins/plugin_library.hpp"
+#include "armature/runtime/plugins/plugin_registry.hpp"
 #include "doctor/gather.hpp"
 #include "isolated.hpp"
 

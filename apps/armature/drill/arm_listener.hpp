@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "armature/bus/fast_dds/observer.hpp"
-#include "armature/runtime/plugin_registry.hpp"
+#include "armature/runtime/plugins/plugin_registry.hpp"
 #include "drill/arm_record.hpp"
 #include "drill/drilled_deployment.hpp"
 

@@ -15,7 +15,7 @@
 #include <thread>
 
 #include "armature/config/problems.hpp"
-#include "armature/runtime/instance_lock.hpp"
+#include "armature/runtime/processes/instance_lock.hpp"
 #include "drill/drill_report.hpp"
 #include "drill/trial.hpp"
 #include "end_signals.hpp"

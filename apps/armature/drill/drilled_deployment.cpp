@@ -7,9 +7,9 @@
 #include <set>
 
 #include "armature/config/document.hpp"
-#include "armature/robot/robot_model.hpp"
-#include "armature/runtime/deployment_config.hpp"
-#include "armature/runtime/on_fault.hpp"
+#include "armature/robot/model/robot_model.hpp"
+#include "armature/runtime/deployment_file/deployment_config.hpp"
+#include "armature/runtime/deployment_file/on_fault.hpp"
 #include "exit_code.hpp"
 
 namespace armature::drill {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "armature/bus/transport.hpp"
-#include "armature/runtime/plugin_registry.hpp"
+#include "armature/runtime/plugins/plugin_registry.hpp"
 #include "drill/arm_record.hpp"
 #include "run.hpp"
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "armature/bus/topic.hpp"
-#include "armature/runtime/clock.hpp"
-#include "armature/runtime/plugin_registry.hpp"
+#include "armature/runtime/execution/clock.hpp"
+#include "armature/runtime/plugins/plugin_registry.hpp"
 #include "drill/drilled_deployment.hpp"
 
 namespace armature::drill {

@@ -9,7 +9,7 @@
 #include "armature/bus/topic.hpp"
 #include "armature/messages/sensor_msgs.hpp"
 #include "armature/messages/stamp.hpp"
-#include "armature/runtime/clock.hpp"
+#include "armature/runtime/execution/clock.hpp"
 
 namespace armature::drill {
 namespace {

@@ -9,9 +9,9 @@
 #include <nlohmann/json.hpp>
 
 #include "armature/kinds/ik/verify/plugin_subject.hpp"
-#include "armature/runtime/output_folder.hpp"
-#include "armature/runtime/running_component.hpp"
-#include "armature/runtime/write_atomically.hpp"
+#include "armature/runtime/plugins/running_component.hpp"
+#include "armature/runtime/reporting/output_folder.hpp"
+#include "armature/runtime/reporting/write_atomically.hpp"
 #include "bench/contestants.hpp"
 #include "exit_code.hpp"
 #include "ik_bench/report.hpp"

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "armature/robot/kinematics.hpp"
-#include "armature/runtime/running_component.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
+#include "armature/runtime/plugins/running_component.hpp"
 #include "bench/clock.hpp"
 #include "bench/turns.hpp"
 

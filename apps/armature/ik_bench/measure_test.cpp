@@ -9,7 +9,7 @@
 #include <cmath>
 #include <thread>
 
-#include "armature/robot/kinematics.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
 
 namespace armature::bench {
 namespace {

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <random>
 
-#include "armature/robot/kinematics.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
 #include "bench/random_joints.hpp"
 
 namespace armature::bench {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "armature/runtime/timing_histogram.hpp"
+#include "armature/runtime/execution/timing_histogram.hpp"
 #include "bench/machine.hpp"
 #include "loop_bench/bench_loop.hpp"
 

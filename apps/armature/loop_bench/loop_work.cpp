@@ -11,7 +11,7 @@
 
 #include "allocations.hpp"
 #include "armature/messages/stamp.hpp"
-#include "armature/runtime/setup.hpp"
+#include "armature/runtime/component/setup.hpp"
 
 namespace armature::bench {
 

@@ -6,8 +6,8 @@
 #include <string_view>
 
 #include "armature/messages/sensor_msgs.hpp"
-#include "armature/runtime/component.hpp"
-#include "armature/runtime/ports.hpp"
+#include "armature/runtime/component/component.hpp"
+#include "armature/runtime/component/ports.hpp"
 
 namespace armature::bench {
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "armature/config/document.hpp"
-#include "armature/runtime/real_time_thread.hpp"
+#include "armature/runtime/execution/real_time_thread.hpp"
 
 namespace armature::bench {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <thread>
 
-#include "armature/runtime/deployment.hpp"
+#include "armature/runtime/deployment/deployment.hpp"
 #include "loop_bench/loop_work.hpp"
 
 namespace armature::bench {

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "armature/runtime/running_component.hpp"
+#include "armature/runtime/plugins/running_component.hpp"
 #include "bench/contestants.hpp"
 #include "exit_code.hpp"
 #include "plan_bench/plan_report.hpp"

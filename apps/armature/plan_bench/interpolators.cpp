@@ -8,7 +8,7 @@
 #include <numbers>
 #include <random>
 
-#include "armature/robot/orientation_curve.hpp"
+#include "armature/robot/orientations/orientation_curve.hpp"
 #include "bench/clock.hpp"
 #include "bench/random_joints.hpp"
 #include "bench/statistics.hpp"

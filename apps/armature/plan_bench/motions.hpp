@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "armature/kinds/trajectory/trajectory_planner.hpp"
-#include "armature/robot/robot_model.hpp"
+#include "armature/robot/model/robot_model.hpp"
 
 namespace armature::bench {
 

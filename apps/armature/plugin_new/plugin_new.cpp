@@ -11,9 +11,9 @@
 #include <string_view>
 #include <vector>
 
-#include "armature/runtime/output_folder.hpp"
-#include "armature/runtime/plugin_registry.hpp"
-#include "armature/runtime/write_atomically.hpp"
+#include "armature/runtime/plugins/plugin_registry.hpp"
+#include "armature/runtime/reporting/output_folder.hpp"
+#include "armature/runtime/reporting/write_atomically.hpp"
 #include "exit_code.hpp"
 #include "plugins.hpp"
 #include "shipped_configs.hpp"

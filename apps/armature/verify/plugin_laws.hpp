@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "armature/laws/law.hpp"
-#include "armature/runtime/plugin_registry.hpp"
+#include "armature/runtime/plugins/plugin_registry.hpp"
 #include "verify.hpp"
 
 namespace armature {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <span>
 
-#include "armature/robot/point_error.hpp"
+#include "armature/robot/geometry/point_error.hpp"
 #include "armature/values/expected.hpp"
 
 namespace armature {

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "armature/calibration/symmetric.hpp"
-#include "armature/robot/rotation_at.hpp"
-#include "armature/robot/rotation_vector.hpp"
+#include "armature/robot/geometry/rotation_vector.hpp"
+#include "armature/robot/orientations/rotation_at.hpp"
 
 namespace armature {
 namespace {

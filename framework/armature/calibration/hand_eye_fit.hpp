@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "armature/calibration/robot_world.hpp"
-#include "armature/robot/singular_values.hpp"
+#include "armature/robot/kinematics/singular_values.hpp"
 
 namespace armature {
 

@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "armature/calibration/simulated_tracker_test.hpp"
-#include "armature/robot/kinematics.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
 
 namespace armature {
 namespace {

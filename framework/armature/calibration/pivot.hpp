@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <span>
 
-#include "armature/robot/point_error.hpp"
+#include "armature/robot/geometry/point_error.hpp"
 #include "armature/values/expected.hpp"
 
 namespace armature {

@@ -12,9 +12,9 @@
 #include "armature/config/reader.hpp"
 #include "armature/config/source_text.hpp"
 #include "armature/config/yaml_parser.hpp"
-#include "armature/robot/kinematics.hpp"
-#include "armature/robot/quantity_reader.hpp"
-#include "armature/robot/written_pose.hpp"
+#include "armature/robot/files/quantity_reader.hpp"
+#include "armature/robot/files/written_pose.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
 
 namespace armature {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "armature/calibration/hand_eye.hpp"
-#include "armature/robot/robot_model.hpp"
+#include "armature/robot/model/robot_model.hpp"
 
 namespace armature {
 

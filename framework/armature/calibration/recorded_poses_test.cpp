@@ -10,7 +10,7 @@
 #include <string>
 
 #include "armature/config/problems.hpp"
-#include "armature/robot/kinematics.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
 
 namespace armature {
 namespace {

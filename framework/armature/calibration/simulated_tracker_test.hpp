@@ -8,8 +8,8 @@
 
 #include "armature/calibration/hand_eye.hpp"
 #include "armature/kinds/registration/rigid_fit.hpp"
-#include "armature/robot/rotation.hpp"
-#include "armature/robot/rotation_vector.hpp"
+#include "armature/robot/geometry/rotation.hpp"
+#include "armature/robot/geometry/rotation_vector.hpp"
 
 namespace armature::testing {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "armature/robot/singular_values.hpp"
+#include "armature/robot/kinematics/singular_values.hpp"
 
 namespace armature {
 

@@ -3,8 +3,8 @@
 
 #include <fmt/core.h>
 
-#include "armature/robot/rotation_vector.hpp"
-#include "armature/robot/singular_values.hpp"
+#include "armature/robot/geometry/rotation_vector.hpp"
+#include "armature/robot/kinematics/singular_values.hpp"
 
 namespace armature {
 

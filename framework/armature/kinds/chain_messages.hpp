@@ -6,7 +6,7 @@
 #include "armature/messages/geometry.hpp"
 #include "armature/messages/header.hpp"
 #include "armature/messages/tf2_msgs.hpp"
-#include "armature/robot/guided_chain.hpp"
+#include "armature/robot/geometry/guided_chain.hpp"
 #include "armature/values/expected.hpp"
 
 namespace armature {

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "armature/kinds/servo_command.hpp"
-#include "armature/robot/robot_model.hpp"
+#include "armature/robot/model/robot_model.hpp"
 #include "armature/values/inline_text.hpp"
 #include "armature/values/time.hpp"
 

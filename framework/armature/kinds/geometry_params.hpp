@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "armature/config/params.hpp"
-#include "armature/robot/rotation.hpp"
+#include "armature/robot/geometry/rotation.hpp"
 
 namespace armature {
 

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "armature/messages/sensor_msgs.hpp"
-#include "armature/robot/robot_model.hpp"
+#include "armature/robot/model/robot_model.hpp"
 #include "armature/values/expected.hpp"
 #include "armature/values/time.hpp"
 

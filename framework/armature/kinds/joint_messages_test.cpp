@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/messages/header.hpp"
-#include "armature/robot/test_robots.hpp"
+#include "armature/robot/model/test_robots.hpp"
 
 namespace armature {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "armature/messages/geometry.hpp"
 #include "armature/messages/header.hpp"
-#include "armature/robot/pose_goal.hpp"
+#include "armature/robot/geometry/pose_goal.hpp"
 #include "armature/values/expected.hpp"
 
 namespace armature {

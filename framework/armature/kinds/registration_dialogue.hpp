@@ -9,7 +9,7 @@
 
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/geometry_msgs.hpp"
-#include "armature/runtime/setup.hpp"
+#include "armature/runtime/component/setup.hpp"
 
 namespace armature {
 

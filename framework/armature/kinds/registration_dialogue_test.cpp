@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/messages/geometry_msgs.hpp"
-#include "armature/runtime/component_bench.hpp"
+#include "armature/runtime/testing/component_bench.hpp"
 
 namespace armature {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "armature/messages/header.hpp"
-#include "armature/runtime/component.hpp"
-#include "armature/runtime/setup.hpp"
+#include "armature/runtime/component/component.hpp"
+#include "armature/runtime/component/setup.hpp"
 
 namespace armature {
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "armature/runtime/component_bench.hpp"
+#include "armature/runtime/testing/component_bench.hpp"
 
 namespace armature {
 

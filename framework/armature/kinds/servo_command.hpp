@@ -2,7 +2,7 @@
 #pragma once
 
 #include "armature/messages/sensor_msgs.hpp"
-#include "armature/robot/robot_model.hpp"
+#include "armature/robot/model/robot_model.hpp"
 #include "armature/values/inline_text.hpp"
 #include "armature/values/time.hpp"
 

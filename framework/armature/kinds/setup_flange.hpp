@@ -3,8 +3,8 @@
 
 #include <Eigen/Geometry>
 
-#include "armature/robot/robot_model.hpp"
-#include "armature/runtime/setup.hpp"
+#include "armature/robot/model/robot_model.hpp"
+#include "armature/runtime/component/setup.hpp"
 
 namespace armature {
 

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "armature/robot/kinematics.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
 
 namespace armature {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <optional>
 
-#include "armature/robot/robot_model.hpp"
-#include "armature/robot/stereo_rig.hpp"
-#include "armature/runtime/setup.hpp"
+#include "armature/robot/files/stereo_rig.hpp"
+#include "armature/robot/model/robot_model.hpp"
+#include "armature/runtime/component/setup.hpp"
 
 namespace armature {
 

@@ -5,7 +5,7 @@
 
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/geometry.hpp"
-#include "armature/robot/pose_goal.hpp"
+#include "armature/robot/geometry/pose_goal.hpp"
 
 namespace armature {
 

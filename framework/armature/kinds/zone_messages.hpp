@@ -5,7 +5,7 @@
 
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/geometry.hpp"
-#include "armature/robot/forbidden_zone.hpp"
+#include "armature/robot/geometry/forbidden_zone.hpp"
 
 namespace armature {
 

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "armature/robot/forbidden_zone.hpp"
-#include "armature/robot/pose_goal.hpp"
+#include "armature/robot/geometry/forbidden_zone.hpp"
+#include "armature/robot/geometry/pose_goal.hpp"
 #include "armature/values/expected.hpp"
 #include "armature/values/inline_text.hpp"
 

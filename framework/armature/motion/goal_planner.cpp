@@ -8,7 +8,7 @@
 #include <numbers>
 #include <utility>
 
-#include "armature/robot/kinematics.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
 #include "armature/values/guarded.hpp"
 
 namespace armature {

@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include "armature/robot/robot_model.hpp"
+#include "armature/robot/model/robot_model.hpp"
 #include "armature/values/inline_text.hpp"
 
 namespace armature {

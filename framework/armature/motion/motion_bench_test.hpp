@@ -14,7 +14,7 @@
 #include "armature/messages/std_msgs.hpp"
 #include "armature/motion/gantry_stages_test.hpp"
 #include "armature/motion/motion_messages.hpp"
-#include "armature/runtime/component_bench.hpp"
+#include "armature/runtime/testing/component_bench.hpp"
 
 namespace armature::test {
 

@@ -9,7 +9,7 @@
 #include "armature/motion/motion_messages.hpp"
 #include "armature/motion/motion_params.hpp"
 #include "armature/motion/planner_component.hpp"
-#include "armature/runtime/plugin.hpp"
+#include "armature/runtime/plugins/plugin.hpp"
 
 namespace armature {
 namespace {

@@ -8,8 +8,8 @@
 #include "armature/messages/sensor_msgs.hpp"
 #include "armature/motion/goal_execution.hpp"
 #include "armature/motion/stop_inputs.hpp"
-#include "armature/runtime/component.hpp"
-#include "armature/runtime/setup.hpp"
+#include "armature/runtime/component/component.hpp"
+#include "armature/runtime/component/setup.hpp"
 #include "motion_parameters.hpp"
 
 namespace armature {

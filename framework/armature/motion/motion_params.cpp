@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "armature/motion/limit_margin.hpp"
-#include "armature/runtime/setup.hpp"
+#include "armature/runtime/component/setup.hpp"
 
 namespace armature {
 namespace {

@@ -7,9 +7,9 @@
 
 #include "armature/kinds/path/path.hpp"
 #include "armature/kinds/trajectory/trajectory_planner.hpp"
-#include "armature/robot/robot_model.hpp"
-#include "armature/robot/trajectory.hpp"
-#include "armature/robot/trajectory_check.hpp"
+#include "armature/robot/model/robot_model.hpp"
+#include "armature/robot/trajectories/trajectory.hpp"
+#include "armature/robot/trajectories/trajectory_check.hpp"
 
 namespace armature {
 

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "armature/bus/sample.hpp"
-#include "armature/robot/trajectory.hpp"
+#include "armature/robot/trajectories/trajectory.hpp"
 
 namespace armature {
 

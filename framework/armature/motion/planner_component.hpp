@@ -8,8 +8,8 @@
 #include "armature/messages/trajectory_msgs.hpp"
 #include "armature/motion/goal_planner.hpp"
 #include "armature/motion/plan_exchange.hpp"
-#include "armature/runtime/component.hpp"
-#include "armature/runtime/setup.hpp"
+#include "armature/runtime/component/component.hpp"
+#include "armature/runtime/component/setup.hpp"
 
 namespace armature {
 

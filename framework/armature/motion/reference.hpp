@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "armature/bus/sample.hpp"
-#include "armature/robot/short_trajectory.hpp"
+#include "armature/robot/trajectories/short_trajectory.hpp"
 #include "armature/values/time.hpp"
 
 namespace armature {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <utility>
 
-#include "armature/robot/joint_vector.hpp"
+#include "armature/robot/model/joint_vector.hpp"
 #include "armature/values/time.hpp"
 
 namespace armature {

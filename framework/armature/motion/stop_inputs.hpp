@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "armature/messages/std_msgs.hpp"
-#include "armature/runtime/setup.hpp"
+#include "armature/runtime/component/setup.hpp"
 #include "armature/values/inline_text.hpp"
 
 namespace armature {

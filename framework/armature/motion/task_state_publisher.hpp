@@ -7,7 +7,7 @@
 
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/header.hpp"
-#include "armature/runtime/setup.hpp"
+#include "armature/runtime/component/setup.hpp"
 
 namespace armature {
 

@@ -8,8 +8,8 @@
 #include <optional>
 #include <variant>
 
-#include "armature/robot/kinematics.hpp"
-#include "armature/robot/rotation_vector.hpp"
+#include "armature/robot/geometry/rotation_vector.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
 #include "armature/values/guarded.hpp"
 
 namespace armature {

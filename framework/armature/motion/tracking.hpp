@@ -7,8 +7,8 @@
 
 #include "armature/kinds/ik/ik.hpp"
 #include "armature/motion/goal.hpp"
-#include "armature/robot/short_trajectory.hpp"
-#include "armature/robot/trajectory_check.hpp"
+#include "armature/robot/trajectories/short_trajectory.hpp"
+#include "armature/robot/trajectories/trajectory_check.hpp"
 #include "armature/values/inline_text.hpp"
 
 namespace armature {

@@ -7,7 +7,7 @@
 
 #include "arm_simulated_parameters.hpp"
 #include "armature/kinds/servo_command.hpp"
-#include "armature/robot/robot_model.hpp"
+#include "armature/robot/model/robot_model.hpp"
 #include "armature/values/time.hpp"
 
 namespace armature::arm::simulated {

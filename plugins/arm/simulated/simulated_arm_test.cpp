@@ -7,7 +7,7 @@
 #include <random>
 #include <utility>
 
-#include "armature/robot/quintic.hpp"
+#include "armature/robot/trajectories/quintic.hpp"
 
 namespace armature::arm::simulated {
 namespace {

@@ -11,10 +11,10 @@
 #include "armature/messages/geometry.hpp"
 #include "armature/messages/header.hpp"
 #include "armature/messages/std_msgs.hpp"
-#include "armature/robot/kinematics.hpp"
-#include "armature/runtime/component.hpp"
-#include "armature/runtime/plugin.hpp"
-#include "armature/runtime/setup.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
+#include "armature/runtime/component/component.hpp"
+#include "armature/runtime/component/setup.hpp"
+#include "armature/runtime/plugins/plugin.hpp"
 #include "simulated_arm.hpp"
 
 namespace armature::arm::simulated {

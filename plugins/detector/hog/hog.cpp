@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "armature/kinds/detector/detector.hpp"
-#include "armature/runtime/plugin.hpp"
+#include "armature/runtime/plugins/plugin.hpp"
 #include "detector_hog_parameters.hpp"
 #include "dlib_chip.hpp"
 

@@ -8,7 +8,7 @@
 #include "../../sim/photo_scene/drawn_face.hpp"
 #include "armature/kinds/declared_params.hpp"
 #include "armature/kinds/detector/contract.hpp"
-#include "armature/runtime/plugin_library.hpp"
+#include "armature/runtime/plugins/plugin_library.hpp"
 
 namespace armature::detector::hog {
 namespace {

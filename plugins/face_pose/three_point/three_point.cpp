@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "armature/runtime/plugin.hpp"
+#include "armature/runtime/plugins/plugin.hpp"
 
 namespace armature::face_pose::three_point {
 namespace {

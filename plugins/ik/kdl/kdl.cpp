@@ -5,9 +5,9 @@
 #include <kdl/chainiksolvervel_pinv.hpp>
 
 #include "armature/kinds/ik/ik.hpp"
-#include "armature/robot/axis_steps.hpp"
-#include "armature/robot/task_error.hpp"
-#include "armature/runtime/plugin.hpp"
+#include "armature/robot/kinematics/task_error.hpp"
+#include "armature/robot/model/axis_steps.hpp"
+#include "armature/runtime/plugins/plugin.hpp"
 #include "ik_kdl_parameters.hpp"
 namespace armature::ik::kdl {
 

@@ -9,9 +9,9 @@
 #include "armature/config/problems.hpp"
 #include "armature/kinds/ik/contract.hpp"
 #include "armature/kinds/ik/verify/plugin_subject.hpp"
-#include "armature/robot/kinematics.hpp"
-#include "armature/robot/test_robots.hpp"
-#include "armature/robot/urdf_robot.hpp"
+#include "armature/robot/files/urdf_robot.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
+#include "armature/robot/model/test_robots.hpp"
 
 namespace armature::ik::kdl {
 namespace {

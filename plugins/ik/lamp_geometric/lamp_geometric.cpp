@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "armature/kinds/ik/lanes.hpp"
-#include "armature/runtime/plugin.hpp"
+#include "armature/runtime/plugins/plugin.hpp"
 
 namespace armature {
 namespace {

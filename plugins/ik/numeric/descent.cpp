@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <numbers>
 
-#include "armature/robot/axis_steps.hpp"
+#include "armature/robot/model/axis_steps.hpp"
 
 namespace armature::ik::numeric::descent {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "armature/kinds/ik/ik.hpp"
-#include "armature/robot/robot_model.hpp"
+#include "armature/robot/model/robot_model.hpp"
 
 // How vectors are passed differs between processors; here they only ever are inside one file.
 #pragma GCC diagnostic ignored "-Wpsabi"

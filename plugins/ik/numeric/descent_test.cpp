@@ -5,7 +5,7 @@
 
 #include <random>
 
-#include "armature/robot/kinematics.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
 
 namespace armature::ik::numeric::descent {
 namespace {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "armature/robot/kinematics.hpp"
-#include "armature/robot/singular_values.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
+#include "armature/robot/kinematics/singular_values.hpp"
 
 namespace armature::ik::numeric {
 namespace {

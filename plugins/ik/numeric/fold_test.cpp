@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "armature/robot/kinematics.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
 
 namespace armature::ik::numeric {
 namespace {

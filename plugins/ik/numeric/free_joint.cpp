@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "armature/robot/kinematics.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
 
 namespace armature::ik::numeric {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "armature/robot/robot_model.hpp"
+#include "armature/robot/model/robot_model.hpp"
 
 namespace armature::ik::numeric {
 

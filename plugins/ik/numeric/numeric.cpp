@@ -8,7 +8,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "armature/runtime/plugin.hpp"
+#include "armature/runtime/plugins/plugin.hpp"
 #include "fold.hpp"
 
 namespace armature::ik::numeric {

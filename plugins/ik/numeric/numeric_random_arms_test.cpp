@@ -5,8 +5,8 @@
 
 #include <random>
 
-#include "armature/robot/kinematics.hpp"
-#include "armature/robot/pose_goal.hpp"
+#include "armature/robot/geometry/pose_goal.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
 #include "numeric.hpp"
 
 namespace armature::ik::numeric {

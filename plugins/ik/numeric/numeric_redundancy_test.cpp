@@ -9,8 +9,8 @@
 #include <string>
 #include <utility>
 
-#include "armature/robot/kinematics.hpp"
-#include "armature/robot/robot_model.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
+#include "armature/robot/model/robot_model.hpp"
 #include "numeric.hpp"
 
 namespace armature::ik::numeric {

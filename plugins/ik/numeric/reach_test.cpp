@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-#include "armature/robot/kinematics.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
 #include "numeric.hpp"
 
 namespace armature::ik::numeric {

@@ -7,8 +7,8 @@
 #include <cstdio>
 #include <utility>
 
-#include "armature/robot/kinematics.hpp"
-#include "armature/runtime/plugin.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
+#include "armature/runtime/plugins/plugin.hpp"
 #include "lasting_text.hpp"
 
 namespace armature::ik::process {

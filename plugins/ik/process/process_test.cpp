@@ -9,8 +9,8 @@
 
 #include "armature/kinds/declared_params.hpp"
 #include "armature/kinds/ik/contract/law.hpp"
-#include "armature/robot/kinematics.hpp"
-#include "armature/runtime/plugin_registry.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
+#include "armature/runtime/plugins/plugin_registry.hpp"
 
 namespace armature::ik::process {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "armature/robot/joint_vector.hpp"
+#include "armature/robot/model/joint_vector.hpp"
 
 namespace armature {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "armature/robot/kinematics.hpp"
-#include "armature/runtime/plugin.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
+#include "armature/runtime/plugins/plugin.hpp"
 #include "branch_labels.hpp"
 #include "depth_choice.hpp"
 #include "free_joints.hpp"

@@ -5,7 +5,7 @@
 #include <array>
 #include <optional>
 
-#include "armature/robot/robot_model.hpp"
+#include "armature/robot/model/robot_model.hpp"
 #include "armature/values/expected.hpp"
 
 namespace armature {

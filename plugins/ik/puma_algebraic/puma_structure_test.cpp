@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "armature/robot/kinematics.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
 #include "puma_algebraic.hpp"
 #include "test_arms.hpp"
 

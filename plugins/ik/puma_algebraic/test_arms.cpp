@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "armature/robot/kinematics.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
 #include "puma_algebraic.hpp"
 
 namespace armature {

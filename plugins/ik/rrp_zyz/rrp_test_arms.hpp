@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "armature/robot/kinematics.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
 #include "rrp_zyz.hpp"
 
 namespace armature::testing {

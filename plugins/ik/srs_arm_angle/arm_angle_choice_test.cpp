@@ -12,7 +12,7 @@
 #include <optional>
 #include <string>
 
-#include "armature/robot/kinematics.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
 #include "test_arms.hpp"
 
 namespace armature {

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "arm_angle_choice.hpp"
-#include "armature/runtime/plugin.hpp"
+#include "armature/runtime/plugins/plugin.hpp"
 #include "branches.hpp"
 #include "feasible_angles.hpp"
 #include "ik_srs_arm_angle_parameters.hpp"

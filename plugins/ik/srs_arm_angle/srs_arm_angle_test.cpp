@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "armature/kinds/ik/contract.hpp"
-#include "armature/robot/kinematics.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
 #include "test_arms.hpp"
 
 namespace armature {

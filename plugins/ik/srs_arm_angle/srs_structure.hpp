@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 #include <array>
 
-#include "armature/robot/robot_model.hpp"
+#include "armature/robot/model/robot_model.hpp"
 #include "armature/values/expected.hpp"
 
 namespace armature {

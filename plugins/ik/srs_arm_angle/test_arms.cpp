@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "armature/kinds/declared_params.hpp"
-#include "armature/robot/kinematics.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
 #include "srs_arm_angle.hpp"
 
 namespace armature {

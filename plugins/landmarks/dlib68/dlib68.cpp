@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "armature/kinds/landmarks/landmarks.hpp"
-#include "armature/runtime/plugin.hpp"
+#include "armature/runtime/plugins/plugin.hpp"
 #include "dlib_chip.hpp"
 #include "landmarks_dlib68_parameters.hpp"
 

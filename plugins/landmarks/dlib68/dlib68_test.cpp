@@ -14,7 +14,7 @@
 #include "armature/kinds/declared_params.hpp"
 #include "armature/kinds/landmarks/contract.hpp"
 #include "armature/kinds/landmarks/stereo_face_finder.hpp"
-#include "armature/runtime/plugin_library.hpp"
+#include "armature/runtime/plugins/plugin_library.hpp"
 
 namespace armature::landmarks::dlib68 {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "armature/robot/test_robots.hpp"
+#include "armature/robot/model/test_robots.hpp"
 
 namespace armature::testing {
 

@@ -8,7 +8,7 @@
 #include "armature/kinds/geometry_params.hpp"
 #include "armature/messages/geometry.hpp"
 #include "armature/messages/header.hpp"
-#include "armature/robot/kinematics.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
 
 namespace armature::monitor::rviz {
 namespace {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "armature/messages/tf2_msgs.hpp"
-#include "armature/robot/robot_model.hpp"
-#include "armature/robot/stereo_rig.hpp"
+#include "armature/robot/files/stereo_rig.hpp"
+#include "armature/robot/model/robot_model.hpp"
 #include "armature/values/time.hpp"
 #include "monitor_rviz_parameters.hpp"
 

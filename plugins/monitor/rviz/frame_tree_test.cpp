@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/messages/stamp.hpp"
-#include "armature/robot/kinematics.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
 #include "every_robot_test.hpp"
 #include "tf_listener_test.hpp"
 

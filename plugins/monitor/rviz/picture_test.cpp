@@ -12,7 +12,7 @@
 
 #include "armature/messages/geometry.hpp"
 #include "armature/messages/stamp.hpp"
-#include "armature/robot/test_robots.hpp"
+#include "armature/robot/model/test_robots.hpp"
 
 namespace armature::monitor::rviz {
 namespace {

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "armature/robot/robot_model.hpp"
+#include "armature/robot/model/robot_model.hpp"
 
 namespace armature::monitor::rviz {
 

@@ -7,7 +7,7 @@
 #include <array>
 #include <map>
 
-#include "armature/robot/kinematics.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
 #include "every_robot_test.hpp"
 
 namespace armature::monitor::rviz {

@@ -9,10 +9,10 @@
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/header.hpp"
 #include "armature/messages/visualization_msgs.hpp"
-#include "armature/robot/kinematics.hpp"
-#include "armature/robot/stereo_rig.hpp"
-#include "armature/runtime/component_bench.hpp"
-#include "armature/runtime/test_plugins.hpp"
+#include "armature/robot/files/stereo_rig.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
+#include "armature/runtime/testing/component_bench.hpp"
+#include "armature/runtime/testing/test_plugins.hpp"
 #include "tf_listener_test.hpp"
 
 namespace armature::monitor::rviz {

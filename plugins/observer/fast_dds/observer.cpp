@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/bus/fast_dds/observer.hpp"
 
-#include "armature/runtime/plugin.hpp"
+#include "armature/runtime/plugins/plugin.hpp"
 
 ARMATURE_PLUGIN(armature::DdsObserver);

@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 
 #include "armature/messages/std_msgs.hpp"
-#include "armature/runtime/component_bench.hpp"
-#include "armature/runtime/test_plugins.hpp"
+#include "armature/runtime/testing/component_bench.hpp"
+#include "armature/runtime/testing/test_plugins.hpp"
 #include "event_pipe_test.hpp"
 
 namespace armature::operator_::pendant {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "joint_move.hpp"
 
-#include "armature/runtime/plugin.hpp"
+#include "armature/runtime/plugins/plugin.hpp"
 
 namespace armature::path::joint_move {
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "armature/runtime/plugin.hpp"
+#include "armature/runtime/plugins/plugin.hpp"
 
 namespace armature::path::mouth_points {
 namespace {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "armature/runtime/plugin.hpp"
+#include "armature/runtime/plugins/plugin.hpp"
 
 namespace armature::path::needle {
 namespace {

@@ -8,8 +8,8 @@
 #include <cstddef>
 #include <utility>
 
-#include "armature/robot/corner_blend.hpp"
-#include "armature/runtime/plugin.hpp"
+#include "armature/robot/orientations/corner_blend.hpp"
+#include "armature/runtime/plugins/plugin.hpp"
 
 namespace armature::path::orientations {
 namespace {

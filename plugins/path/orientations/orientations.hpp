@@ -2,7 +2,7 @@
 #pragma once
 
 #include "armature/kinds/path/path.hpp"
-#include "armature/robot/orientation_curve.hpp"
+#include "armature/robot/orientations/orientation_curve.hpp"
 #include "key_poses.hpp"
 #include "path_orientations_parameters.hpp"
 

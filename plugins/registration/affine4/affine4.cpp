@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-#include "armature/runtime/plugin.hpp"
+#include "armature/runtime/plugins/plugin.hpp"
 
 namespace armature::registration::affine4 {
 namespace {

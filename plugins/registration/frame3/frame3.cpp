@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "armature/runtime/plugin.hpp"
+#include "armature/runtime/plugins/plugin.hpp"
 
 namespace armature::registration::frame3 {
 namespace {

@@ -4,7 +4,7 @@
 #include <fmt/core.h>
 
 #include "armature/kinds/registration/rigid_fit.hpp"
-#include "armature/runtime/plugin.hpp"
+#include "armature/runtime/plugins/plugin.hpp"
 #include "consensus.hpp"
 
 namespace armature::registration::rigid {

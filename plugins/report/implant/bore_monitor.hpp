@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "armature/robot/guided_chain.hpp"
+#include "armature/robot/geometry/guided_chain.hpp"
 #include "report_implant_parameters.hpp"
 
 namespace armature::report::implant {

@@ -3,7 +3,7 @@
 
 #include <Eigen/Geometry>
 
-#include "armature/robot/guided_chain.hpp"
+#include "armature/robot/geometry/guided_chain.hpp"
 
 namespace armature::report::implant {
 

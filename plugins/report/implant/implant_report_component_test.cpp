@@ -10,9 +10,9 @@
 #include "armature/kinds/setup_flange.hpp"
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/sensor_msgs.hpp"
-#include "armature/robot/kinematics.hpp"
-#include "armature/runtime/component_bench.hpp"
-#include "armature/runtime/test_plugins.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
+#include "armature/runtime/testing/component_bench.hpp"
+#include "armature/runtime/testing/test_plugins.hpp"
 
 namespace armature::report::implant {
 namespace {

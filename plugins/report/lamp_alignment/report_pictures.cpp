@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "armature/runtime/write_atomically.hpp"
+#include "armature/runtime/reporting/write_atomically.hpp"
 
 namespace armature::report::lamp_alignment {
 namespace {

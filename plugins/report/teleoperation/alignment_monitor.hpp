@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "armature/robot/joint_vector.hpp"
-#include "armature/robot/pose_goal.hpp"
+#include "armature/robot/geometry/pose_goal.hpp"
+#include "armature/robot/model/joint_vector.hpp"
 
 namespace armature::report::teleoperation {
 

@@ -9,8 +9,8 @@
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/geometry.hpp"
 #include "armature/messages/header.hpp"
-#include "armature/runtime/component_bench.hpp"
-#include "armature/runtime/test_plugins.hpp"
+#include "armature/runtime/testing/component_bench.hpp"
+#include "armature/runtime/testing/test_plugins.hpp"
 
 namespace armature::report::teleoperation {
 namespace {

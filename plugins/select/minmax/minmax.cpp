@@ -5,7 +5,7 @@
 
 #include <numbers>
 
-#include "armature/runtime/plugin.hpp"
+#include "armature/runtime/plugins/plugin.hpp"
 
 namespace armature::select::minmax {
 

@@ -5,7 +5,7 @@
 
 #include <limits>
 
-#include "armature/runtime/plugin.hpp"
+#include "armature/runtime/plugins/plugin.hpp"
 
 namespace armature::select::nearest {
 

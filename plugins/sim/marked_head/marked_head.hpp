@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "armature/robot/forbidden_zone.hpp"
+#include "armature/robot/geometry/forbidden_zone.hpp"
 #include "sim_marked_head_parameters.hpp"
 
 namespace armature::sim::marked_head {

@@ -7,9 +7,9 @@
 #include "armature/kinds/zone_messages.hpp"
 #include "armature/messages/geometry_msgs.hpp"
 #include "armature/messages/header.hpp"
-#include "armature/runtime/component.hpp"
-#include "armature/runtime/plugin.hpp"
-#include "armature/runtime/setup.hpp"
+#include "armature/runtime/component/component.hpp"
+#include "armature/runtime/component/setup.hpp"
+#include "armature/runtime/plugins/plugin.hpp"
 #include "marked_head.hpp"
 
 namespace armature::sim::marked_head {

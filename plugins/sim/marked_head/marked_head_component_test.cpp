@@ -4,8 +4,8 @@
 
 #include "armature/kinds/zone_messages.hpp"
 #include "armature/messages/geometry_msgs.hpp"
-#include "armature/runtime/component_bench.hpp"
-#include "armature/runtime/test_plugins.hpp"
+#include "armature/runtime/testing/component_bench.hpp"
+#include "armature/runtime/testing/test_plugins.hpp"
 
 namespace armature::sim::marked_head {
 namespace {

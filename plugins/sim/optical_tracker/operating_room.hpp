@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 #include <vector>
 
-#include "armature/robot/guided_chain.hpp"
+#include "armature/robot/geometry/guided_chain.hpp"
 #include "sim_optical_tracker_parameters.hpp"
 
 namespace armature::sim::optical_tracker {

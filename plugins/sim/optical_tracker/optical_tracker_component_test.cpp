@@ -8,9 +8,9 @@
 #include "armature/kinds/chain_messages.hpp"
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/sensor_msgs.hpp"
-#include "armature/robot/kinematics.hpp"
-#include "armature/runtime/component_bench.hpp"
-#include "armature/runtime/test_plugins.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
+#include "armature/runtime/testing/component_bench.hpp"
+#include "armature/runtime/testing/test_plugins.hpp"
 
 namespace armature::sim::optical_tracker {
 namespace {

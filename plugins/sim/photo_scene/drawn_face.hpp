@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 
 #include "armature/kinds/face_picture.hpp"
-#include "armature/robot/stereo_camera.hpp"
+#include "armature/robot/geometry/stereo_camera.hpp"
 #include "photo.hpp"
 #include "plane_renderer.hpp"
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "armature/robot/stereo_camera.hpp"
+#include "armature/robot/geometry/stereo_camera.hpp"
 #include "photo.hpp"
 
 namespace armature::sim::photo_scene {

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "armature/kinds/geometry_params.hpp"
-#include "armature/robot/quintic.hpp"
+#include "armature/robot/trajectories/quintic.hpp"
 
 namespace armature::sim::surgeon {
 namespace {

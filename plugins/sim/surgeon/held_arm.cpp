@@ -3,7 +3,7 @@
 
 #include <fmt/core.h>
 
-#include "armature/robot/task_error.hpp"
+#include "armature/robot/kinematics/task_error.hpp"
 
 namespace armature::sim::surgeon {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "armature/robot/pose_goal.hpp"
-#include "armature/robot/robot_model.hpp"
+#include "armature/robot/geometry/pose_goal.hpp"
+#include "armature/robot/model/robot_model.hpp"
 #include "armature/values/expected.hpp"
 
 namespace armature::sim::surgeon {

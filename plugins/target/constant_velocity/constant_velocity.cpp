@@ -10,7 +10,7 @@
 #include <numbers>
 #include <optional>
 
-#include "armature/runtime/plugin.hpp"
+#include "armature/runtime/plugins/plugin.hpp"
 
 namespace armature::target::constant_velocity {
 namespace {

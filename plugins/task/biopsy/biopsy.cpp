@@ -3,7 +3,7 @@
 
 #include <fmt/core.h>
 
-#include "armature/robot/kinematics.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
 
 namespace armature::task::biopsy {
 namespace {

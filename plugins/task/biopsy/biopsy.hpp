@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "armature/motion/pursued_goal.hpp"
-#include "armature/robot/forbidden_zone.hpp"
-#include "armature/robot/robot_model.hpp"
+#include "armature/robot/geometry/forbidden_zone.hpp"
+#include "armature/robot/model/robot_model.hpp"
 #include "task_biopsy_parameters.hpp"
 
 namespace armature::task::biopsy {

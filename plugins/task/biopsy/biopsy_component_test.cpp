@@ -5,8 +5,8 @@
 
 #include "armature/kinds/zone_messages.hpp"
 #include "armature/messages/header.hpp"
-#include "armature/runtime/component_bench.hpp"
-#include "armature/runtime/test_plugins.hpp"
+#include "armature/runtime/testing/component_bench.hpp"
+#include "armature/runtime/testing/test_plugins.hpp"
 
 namespace armature::task::biopsy {
 namespace {

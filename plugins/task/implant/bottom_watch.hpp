@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "armature/robot/guided_chain.hpp"
+#include "armature/robot/geometry/guided_chain.hpp"
 
 namespace armature::task::implant {
 

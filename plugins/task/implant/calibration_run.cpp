@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "armature/robot/kinematics.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
 #include "calibration_poses.hpp"
 
 namespace armature::task::implant {

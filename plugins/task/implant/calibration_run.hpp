@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "armature/calibration/hand_eye.hpp"
-#include "armature/robot/pose_goal.hpp"
-#include "armature/robot/robot_model.hpp"
+#include "armature/robot/geometry/pose_goal.hpp"
+#include "armature/robot/model/robot_model.hpp"
 #include "pose_average.hpp"
 #include "sighting.hpp"
 #include "task_implant_parameters.hpp"

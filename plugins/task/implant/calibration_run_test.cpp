@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/calibration/usable_pose.hpp"
-#include "armature/robot/kinematics.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
 #include "calibration_poses.hpp"
 
 namespace armature::task::implant {

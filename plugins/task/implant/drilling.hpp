@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "armature/motion/goal.hpp"
-#include "armature/robot/guided_chain.hpp"
+#include "armature/robot/geometry/guided_chain.hpp"
 #include "task_implant_parameters.hpp"
 
 namespace armature::task::implant {

@@ -5,7 +5,7 @@
 
 #include "armature/calibration/hand_eye.hpp"
 #include "armature/calibration/pivot.hpp"
-#include "armature/robot/guided_chain.hpp"
+#include "armature/robot/geometry/guided_chain.hpp"
 #include "pose_average.hpp"
 
 namespace armature::task::implant {

@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 #include <vector>
 
-#include "armature/robot/point_error.hpp"
+#include "armature/robot/geometry/point_error.hpp"
 
 namespace armature::task::implant {
 

@@ -7,9 +7,9 @@
 #include "armature/kinds/target/target_messages.hpp"
 #include "armature/motion/goal_messages.hpp"
 #include "armature/motion/task_state_publisher.hpp"
-#include "armature/runtime/component.hpp"
-#include "armature/runtime/plugin.hpp"
-#include "armature/runtime/setup.hpp"
+#include "armature/runtime/component/component.hpp"
+#include "armature/runtime/component/setup.hpp"
+#include "armature/runtime/plugins/plugin.hpp"
 #include "lamp_alignment.hpp"
 
 namespace armature::task::lamp_alignment {

@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 
 #include "armature/kinds/target/target_messages.hpp"
-#include "armature/robot/robot_model.hpp"
-#include "armature/runtime/component_bench.hpp"
-#include "armature/runtime/test_plugins.hpp"
+#include "armature/robot/model/robot_model.hpp"
+#include "armature/runtime/testing/component_bench.hpp"
+#include "armature/runtime/testing/test_plugins.hpp"
 
 namespace armature::task::lamp_alignment {
 namespace {

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "armature/robot/pose_goal.hpp"
+#include "armature/robot/geometry/pose_goal.hpp"
 #include "task_lamp_alignment_parameters.hpp"
 
 namespace armature::task::lamp_alignment {

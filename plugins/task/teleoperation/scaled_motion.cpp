@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "armature/robot/quintic.hpp"
-#include "armature/robot/rotation_vector.hpp"
+#include "armature/robot/geometry/rotation_vector.hpp"
+#include "armature/robot/trajectories/quintic.hpp"
 #include "hand_period.hpp"
 
 namespace armature::task::teleoperation {

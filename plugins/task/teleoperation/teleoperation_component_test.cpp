@@ -6,8 +6,8 @@
 #include "armature/messages/geometry.hpp"
 #include "armature/messages/header.hpp"
 #include "armature/motion/pursued_goal.hpp"
-#include "armature/runtime/component_bench.hpp"
-#include "armature/runtime/test_plugins.hpp"
+#include "armature/runtime/testing/component_bench.hpp"
+#include "armature/runtime/testing/test_plugins.hpp"
 
 namespace armature::task::teleoperation {
 namespace {

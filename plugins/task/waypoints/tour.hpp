@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "armature/motion/pursued_goal.hpp"
-#include "armature/robot/pose_goal.hpp"
+#include "armature/robot/geometry/pose_goal.hpp"
 #include "task_waypoints_parameters.hpp"
 
 namespace armature::task::waypoints {

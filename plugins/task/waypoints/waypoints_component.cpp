@@ -11,10 +11,10 @@
 #include "armature/messages/sensor_msgs.hpp"
 #include "armature/motion/goal_messages.hpp"
 #include "armature/motion/task_state_publisher.hpp"
-#include "armature/robot/kinematics.hpp"
-#include "armature/runtime/component.hpp"
-#include "armature/runtime/plugin.hpp"
-#include "armature/runtime/setup.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
+#include "armature/runtime/component/component.hpp"
+#include "armature/runtime/component/setup.hpp"
+#include "armature/runtime/plugins/plugin.hpp"
 #include "tour.hpp"
 
 namespace armature::task::waypoints {

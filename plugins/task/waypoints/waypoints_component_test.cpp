@@ -5,9 +5,9 @@
 
 #include "armature/kinds/joint_messages.hpp"
 #include "armature/kinds/tool_pose_messages.hpp"
-#include "armature/robot/kinematics.hpp"
-#include "armature/runtime/component_bench.hpp"
-#include "armature/runtime/test_plugins.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
+#include "armature/runtime/testing/component_bench.hpp"
+#include "armature/runtime/testing/test_plugins.hpp"
 
 namespace armature::task::waypoints {
 namespace {

@@ -2,8 +2,8 @@
 #include "cubic_spline.hpp"
 
 #include "armature/kinds/trajectory/timing.hpp"
-#include "armature/robot/cubic_spline.hpp"
-#include "armature/runtime/plugin.hpp"
+#include "armature/robot/trajectories/cubic_spline.hpp"
+#include "armature/runtime/plugins/plugin.hpp"
 #include "knot_times.hpp"
 
 namespace armature::trajectory::cubic_spline {

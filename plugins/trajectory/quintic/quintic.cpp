@@ -5,7 +5,7 @@
 
 #include "armature/kinds/trajectory/one_law.hpp"
 #include "armature/kinds/trajectory/point_to_point.hpp"
-#include "armature/runtime/plugin.hpp"
+#include "armature/runtime/plugins/plugin.hpp"
 
 namespace armature::trajectory::quintic {
 namespace {

@@ -5,8 +5,8 @@
 
 #include "armature/kinds/trajectory/one_law.hpp"
 #include "armature/kinds/trajectory/point_to_point.hpp"
-#include "armature/robot/quintic_spline.hpp"
-#include "armature/runtime/plugin.hpp"
+#include "armature/robot/trajectories/quintic_spline.hpp"
+#include "armature/runtime/plugins/plugin.hpp"
 
 namespace armature::trajectory::quintic_spline {
 namespace {

@@ -5,8 +5,8 @@
 #include <csignal>
 
 #include "armature/kinds/ik/ik.hpp"
-#include "armature/robot/task_error.hpp"
-#include "armature/runtime/plugin.hpp"
+#include "armature/robot/kinematics/task_error.hpp"
+#include "armature/runtime/plugins/plugin.hpp"
 #include "ik_faulty_parameters.hpp"
 
 namespace armature::ik::faulty {

@@ -6,9 +6,9 @@
 
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/stamp.hpp"
-#include "armature/runtime/component.hpp"
-#include "armature/runtime/plugin.hpp"
-#include "armature/runtime/setup.hpp"
+#include "armature/runtime/component/component.hpp"
+#include "armature/runtime/component/setup.hpp"
+#include "armature/runtime/plugins/plugin.hpp"
 #include "test_mover_parameters.hpp"
 
 namespace armature::test::mover {

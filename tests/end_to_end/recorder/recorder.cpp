@@ -18,9 +18,9 @@
 #include "armature/messages/sensor_msgs.hpp"
 #include "armature/messages/stamp.hpp"
 #include "armature/messages/trajectory_msgs.hpp"
-#include "armature/runtime/component.hpp"
-#include "armature/runtime/plugin.hpp"
-#include "armature/runtime/setup.hpp"
+#include "armature/runtime/component/component.hpp"
+#include "armature/runtime/component/setup.hpp"
+#include "armature/runtime/plugins/plugin.hpp"
 #include "test_recorder_parameters.hpp"
 
 namespace armature::test::recorder {

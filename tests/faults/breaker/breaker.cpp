@@ -6,9 +6,9 @@
 #include <thread>
 
 #include "armature/messages/std_msgs.hpp"
-#include "armature/runtime/component.hpp"
-#include "armature/runtime/plugin.hpp"
-#include "armature/runtime/setup.hpp"
+#include "armature/runtime/component/component.hpp"
+#include "armature/runtime/component/setup.hpp"
+#include "armature/runtime/plugins/plugin.hpp"
 #include "test_breaker_parameters.hpp"
 
 namespace armature::test::breaker {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/kinds/trajectory/trajectory_planner.hpp"
-#include "armature/runtime/plugin.hpp"
+#include "armature/runtime/plugins/plugin.hpp"
 
 namespace armature {
 

@@ -2,7 +2,7 @@
 // Ends the process that loads it.
 #include <cstdlib>
 
-#include "armature/runtime/abi.hpp"
+#include "armature/runtime/plugins/abi.hpp"
 
 static const char manifest[] __attribute__((section(".armature.manifest"), used, retain)) =
     "armature_plugin: 1\nid: ik/crashing\nkind: ik\ndoc: Crashes when it is loaded.\n";

@@ -2,7 +2,7 @@
 // Takes for ever to load.
 #include <unistd.h>
 
-#include "armature/runtime/abi.hpp"
+#include "armature/runtime/plugins/abi.hpp"
 
 static const char manifest[] __attribute__((section(".armature.manifest"), used, retain)) =
     "armature_plugin: 1\nid: ik/hanging\nkind: ik\ndoc: Takes for ever to load.\n";

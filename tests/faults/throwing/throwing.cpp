@@ -2,7 +2,7 @@
 #include <exception>
 
 #include "armature/kinds/ik/ik.hpp"
-#include "armature/runtime/plugin.hpp"
+#include "armature/runtime/plugins/plugin.hpp"
 
 namespace armature {
 namespace {

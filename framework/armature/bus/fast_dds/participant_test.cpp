@@ -9,7 +9,7 @@
 #include "armature/bus/fast_dds/fast_dds_test.hpp"
 #include "armature/bus/fast_dds/observer.hpp"
 #include "armature/bus/fast_dds/spdp_announcement_test.hpp"
-#include "armature/runtime/plugin.hpp"
+#include "armature/runtime/plugins/plugin.hpp"
 
 namespace armature {
 namespace {

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "armature/laws/law.hpp"
-#include "armature/runtime/component_bench.hpp"
+#include "armature/runtime/testing/component_bench.hpp"
 
 // The laws that every component keeps, whatever it does: with its ports in memory only, activated
 // by hand, as fast as it goes.

@@ -6,7 +6,7 @@
 
 #include "armature/kinds/landmarks/landmarks.hpp"
 #include "armature/kinds/made_for_robot.hpp"
-#include "armature/robot/stereo_camera.hpp"
+#include "armature/robot/geometry/stereo_camera.hpp"
 #include "armature/values/expected.hpp"
 #include "armature/values/plugin_state.hpp"
 

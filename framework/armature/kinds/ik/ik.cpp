@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "armature/kinds/ik/farthest.hpp"
-#include "armature/robot/kinematics.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
 
 namespace armature {
 

@@ -8,9 +8,9 @@
 #include <string_view>
 
 #include "armature/kinds/made_for_robot.hpp"
-#include "armature/robot/joint_vector.hpp"
-#include "armature/robot/pose_goal.hpp"
-#include "armature/robot/robot_model.hpp"
+#include "armature/robot/geometry/pose_goal.hpp"
+#include "armature/robot/model/joint_vector.hpp"
+#include "armature/robot/model/robot_model.hpp"
 #include "armature/values/inline_text.hpp"
 
 namespace armature {

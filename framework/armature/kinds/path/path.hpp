@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "armature/kinds/made_for_robot.hpp"
-#include "armature/robot/forbidden_zone.hpp"
-#include "armature/robot/joint_vector.hpp"
-#include "armature/robot/pose_goal.hpp"
+#include "armature/robot/geometry/forbidden_zone.hpp"
+#include "armature/robot/geometry/pose_goal.hpp"
+#include "armature/robot/model/joint_vector.hpp"
 
 namespace armature {
 

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 
 #include "armature/kinds/registration/registration.hpp"
-#include "armature/robot/point_error.hpp"
+#include "armature/robot/geometry/point_error.hpp"
 
 namespace armature {
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <utility>
 
-#include "armature/robot/quintic_spline.hpp"
+#include "armature/robot/trajectories/quintic_spline.hpp"
 
 namespace armature {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "armature/robot/joint_vector.hpp"
-#include "armature/robot/quintic.hpp"
+#include "armature/robot/model/joint_vector.hpp"
+#include "armature/robot/trajectories/quintic.hpp"
 
 namespace armature {
 

@@ -10,7 +10,7 @@
 
 #include "armature/kinds/trajectory/random_requests.hpp"
 #include "armature/kinds/trajectory/sound_trajectory.hpp"
-#include "armature/robot/trajectory.hpp"
+#include "armature/robot/trajectories/trajectory.hpp"
 
 namespace armature {
 namespace {

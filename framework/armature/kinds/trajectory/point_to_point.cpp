@@ -6,7 +6,7 @@
 
 #include "armature/kinds/trajectory/legs.hpp"
 #include "armature/kinds/trajectory/timing.hpp"
-#include "armature/robot/short_trajectory.hpp"
+#include "armature/robot/trajectories/short_trajectory.hpp"
 
 namespace armature {
 namespace {

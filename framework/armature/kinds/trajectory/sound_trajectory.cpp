@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "armature/robot/trajectory.hpp"
+#include "armature/robot/trajectories/trajectory.hpp"
 
 namespace armature {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "armature/robot/quintic.hpp"
+#include "armature/robot/trajectories/quintic.hpp"
 
 namespace armature {
 

@@ -6,8 +6,8 @@
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/header.hpp"
 #include "armature/messages/trajectory_msgs.hpp"
-#include "armature/robot/robot_model.hpp"
-#include "armature/robot/trajectory.hpp"
+#include "armature/robot/model/robot_model.hpp"
+#include "armature/robot/trajectories/trajectory.hpp"
 
 namespace armature {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "armature/kinds/made_for_robot.hpp"
-#include "armature/robot/trajectory.hpp"
+#include "armature/robot/trajectories/trajectory.hpp"
 #include "armature/values/expected.hpp"
 #include "armature/values/time.hpp"
 

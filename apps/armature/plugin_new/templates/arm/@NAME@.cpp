@@ -4,10 +4,10 @@
 #include "armature/kinds/joint_messages.hpp"
 #include "armature/kinds/setup_robot.hpp"
 #include "armature/messages/std_msgs.hpp"
-#include "armature/robot/short_trajectory.hpp"
-#include "armature/runtime/component.hpp"
-#include "armature/runtime/plugin.hpp"
-#include "armature/runtime/setup.hpp"
+#include "armature/robot/trajectories/short_trajectory.hpp"
+#include "armature/runtime/component/component.hpp"
+#include "armature/runtime/plugins/plugin.hpp"
+#include "armature/runtime/component/setup.hpp"
 #include "@TARGET@_parameters.hpp"  // made from plugin.yaml
 
 namespace @NAMESPACE@ {

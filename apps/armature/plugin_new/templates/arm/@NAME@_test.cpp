@@ -4,7 +4,7 @@
 
 #include "armature/kinds/joint_messages.hpp"
 #include "armature/messages/std_msgs.hpp"
-#include "armature/runtime/component_bench.hpp"
+#include "armature/runtime/testing/component_bench.hpp"
 
 using namespace armature;
 

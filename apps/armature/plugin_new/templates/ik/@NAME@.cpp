@@ -1,8 +1,8 @@
 #include <Eigen/Cholesky>
 
 #include "armature/kinds/ik/ik.hpp"
-#include "armature/robot/task_error.hpp"
-#include "armature/runtime/plugin.hpp"
+#include "armature/robot/kinematics/task_error.hpp"
+#include "armature/runtime/plugins/plugin.hpp"
 #include "@TARGET@_parameters.hpp"  // made from plugin.yaml
 
 namespace @NAMESPACE@ {

@@ -3,7 +3,7 @@
 
 #include "armature/config/problems.hpp"
 #include "armature/kinds/ik/verify/plugin_subject.hpp"
-#include "armature/robot/urdf_robot.hpp"
+#include "armature/robot/files/urdf_robot.hpp"
 
 using namespace armature;
 

@@ -4,9 +4,9 @@
 
 #include "armature/messages/sensor_msgs.hpp"
 #include "armature/messages/std_msgs.hpp"
-#include "armature/runtime/component.hpp"
-#include "armature/runtime/plugin.hpp"
-#include "armature/runtime/setup.hpp"
+#include "armature/runtime/component/component.hpp"
+#include "armature/runtime/plugins/plugin.hpp"
+#include "armature/runtime/component/setup.hpp"
 #include "@TARGET@_parameters.hpp"  // made from plugin.yaml
 
 namespace @NAMESPACE@ {

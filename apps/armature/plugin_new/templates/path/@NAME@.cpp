@@ -4,7 +4,7 @@
 #include <variant>
 
 #include "armature/kinds/path/path.hpp"
-#include "armature/runtime/plugin.hpp"
+#include "armature/runtime/plugins/plugin.hpp"
 #include "@TARGET@_parameters.hpp"  // made from plugin.yaml
 
 namespace @NAMESPACE@ {

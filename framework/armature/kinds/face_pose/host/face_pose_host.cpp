@@ -5,9 +5,9 @@
 #include "armature/kinds/face_pose/face_pose.hpp"
 #include "armature/kinds/landmarks/landmark_messages.hpp"
 #include "armature/messages/geometry.hpp"
-#include "armature/runtime/component.hpp"
-#include "armature/runtime/plugin.hpp"
-#include "armature/runtime/setup.hpp"
+#include "armature/runtime/component/component.hpp"
+#include "armature/runtime/component/setup.hpp"
+#include "armature/runtime/plugins/plugin.hpp"
 #include "armature/values/guarded.hpp"
 
 namespace armature {

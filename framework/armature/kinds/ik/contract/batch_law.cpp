@@ -11,7 +11,7 @@
 #include "armature/kinds/ik/batch.hpp"
 #include "armature/kinds/ik/contract/laws.hpp"
 #include "armature/kinds/ik/contract/postures.hpp"
-#include "armature/robot/kinematics.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
 
 namespace armature::ik_contract {
 namespace {

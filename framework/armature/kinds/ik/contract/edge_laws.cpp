@@ -10,7 +10,7 @@
 #include "armature/kinds/ik/contract/laws.hpp"
 #include "armature/kinds/ik/contract/postures.hpp"
 #include "armature/kinds/ik/contract/search.hpp"
-#include "armature/robot/kinematics.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
 
 namespace armature::ik_contract {
 namespace {

@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "armature/robot/robot_model.hpp"
+#include "armature/robot/model/robot_model.hpp"
 
 // Postures at the edges of what an arm can do, found numerically: no word of what the arm is built
 // like is needed.

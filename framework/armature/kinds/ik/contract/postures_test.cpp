@@ -10,7 +10,7 @@
 #include <set>
 
 #include "armature/kinds/ik/contract/probe.hpp"
-#include "armature/robot/kinematics.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
 
 namespace armature::ik_contract {
 namespace {

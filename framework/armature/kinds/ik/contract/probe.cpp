@@ -10,9 +10,9 @@
 #include <utility>
 
 #include "armature/kinds/ik/lines/asking.hpp"
-#include "armature/robot/kinematics.hpp"
-#include "armature/robot/singular_values.hpp"
-#include "armature/robot/task_error.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
+#include "armature/robot/kinematics/singular_values.hpp"
+#include "armature/robot/kinematics/task_error.hpp"
 
 namespace armature::ik_contract {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <random>
 
-#include "armature/robot/joint_vector.hpp"
-#include "armature/robot/robot_model.hpp"
+#include "armature/robot/model/joint_vector.hpp"
+#include "armature/robot/model/robot_model.hpp"
 
 namespace armature::ik_contract {
 

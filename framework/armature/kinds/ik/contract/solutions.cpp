@@ -11,9 +11,9 @@
 
 #include "armature/kinds/ik/contract/laws.hpp"
 #include "armature/kinds/ik/contract/search.hpp"
-#include "armature/robot/kinematics.hpp"
-#include "armature/robot/singular_values.hpp"
-#include "armature/robot/task_error.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
+#include "armature/robot/kinematics/singular_values.hpp"
+#include "armature/robot/kinematics/task_error.hpp"
 
 namespace armature::ik_contract {
 namespace {

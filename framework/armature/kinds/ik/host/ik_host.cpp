@@ -7,7 +7,7 @@
 #include "armature/kinds/request_host.hpp"
 #include "armature/kinds/setup_robot.hpp"
 #include "armature/kinds/tool_pose_messages.hpp"
-#include "armature/runtime/plugin.hpp"
+#include "armature/runtime/plugins/plugin.hpp"
 #include "armature/values/guarded.hpp"
 
 namespace armature {

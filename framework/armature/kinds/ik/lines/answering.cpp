@@ -12,7 +12,7 @@
 #include "armature/kinds/ik/farthest.hpp"
 #include "armature/kinds/ik/lines/json_line.hpp"
 #include "armature/kinds/ik/lines/reason.hpp"
-#include "armature/robot/kinematics.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
 
 namespace armature {
 namespace {

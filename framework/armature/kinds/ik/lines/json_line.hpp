@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "armature/robot/robot_model.hpp"
+#include "armature/robot/model/robot_model.hpp"
 
 // One line of JSON, read strictly. Everything throws InvalidLine.
 namespace armature::ik_lines {

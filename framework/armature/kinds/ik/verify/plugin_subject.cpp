@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "armature/config/problems.hpp"
-#include "armature/runtime/growth.hpp"
+#include "armature/runtime/testing/growth.hpp"
 #include "armature/values/sanitizer.hpp"
 
 namespace armature {
@@ -64,8 +64,7 @@ std::string wrong_offers(const PluginManifest& plugin) {
 }
 
 LawReport check_loading(const std::vector<std::filesystem::path>& search_path,
-                          std::string_view plugin_id, const RobotModel& model,
-                          const Params& params) {
+                        std::string_view plugin_id, const RobotModel& model, const Params& params) {
   constexpr int kCycles = 1000;
   constexpr double kBudget_s = 60;
   PluginRegistry plugins{search_path};

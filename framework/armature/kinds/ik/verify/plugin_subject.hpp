@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "armature/kinds/ik/contract/law.hpp"
-#include "armature/runtime/plugin_registry.hpp"
+#include "armature/runtime/plugins/plugin_registry.hpp"
 
 // The laws of the kind for plugins that are found, not compiled in.
 namespace armature {
@@ -27,7 +27,6 @@ struct IkLoadingLaw {
   static constexpr std::string_view kSays = "loading leaves nothing behind";
 };
 LawReport check_loading(const std::vector<std::filesystem::path>& search_path,
-                          std::string_view plugin_id, const RobotModel& model,
-                          const Params& params);
+                        std::string_view plugin_id, const RobotModel& model, const Params& params);
 
 }  // namespace armature

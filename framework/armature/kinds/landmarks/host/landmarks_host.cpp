@@ -4,9 +4,9 @@
 
 #include "armature/kinds/landmarks/landmark_messages.hpp"
 #include "armature/kinds/landmarks/stereo_face_finder.hpp"
-#include "armature/runtime/component.hpp"
-#include "armature/runtime/plugin.hpp"
-#include "armature/runtime/setup.hpp"
+#include "armature/runtime/component/component.hpp"
+#include "armature/runtime/component/setup.hpp"
+#include "armature/runtime/plugins/plugin.hpp"
 #include "armature/values/guarded.hpp"
 #include "host_landmarks_parameters.hpp"
 

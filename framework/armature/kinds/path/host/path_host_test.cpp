@@ -11,7 +11,7 @@
 #include "armature/kinds/tool_pose_messages.hpp"
 #include "armature/kinds/zone_messages.hpp"
 #include "armature/messages/header.hpp"
-#include "armature/runtime/test_plugins.hpp"
+#include "armature/runtime/testing/test_plugins.hpp"
 
 namespace armature::path_host {
 namespace {

@@ -9,7 +9,7 @@
 #include "armature/kinds/request_host.hpp"
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/geometry.hpp"
-#include "armature/runtime/plugin.hpp"
+#include "armature/runtime/plugins/plugin.hpp"
 #include "armature/values/guarded.hpp"
 
 namespace armature {

@@ -13,7 +13,7 @@
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/geometry.hpp"
 #include "armature/messages/header.hpp"
-#include "armature/runtime/test_plugins.hpp"
+#include "armature/runtime/testing/test_plugins.hpp"
 
 namespace armature::registration_host {
 namespace {

@@ -9,7 +9,7 @@
 #include "armature/kinds/select/select.hpp"
 #include "armature/kinds/setup_robot.hpp"
 #include "armature/messages/armature_msgs.hpp"
-#include "armature/runtime/plugin.hpp"
+#include "armature/runtime/plugins/plugin.hpp"
 #include "armature/values/guarded.hpp"
 
 namespace armature {

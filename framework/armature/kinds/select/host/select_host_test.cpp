@@ -10,8 +10,8 @@
 #include "armature/kinds/select/select.hpp"
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/header.hpp"
-#include "armature/robot/test_robots.hpp"
-#include "armature/runtime/test_plugins.hpp"
+#include "armature/robot/model/test_robots.hpp"
+#include "armature/runtime/testing/test_plugins.hpp"
 
 namespace armature::select_host {
 namespace {

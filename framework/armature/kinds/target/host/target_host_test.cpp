@@ -10,11 +10,11 @@
 
 #include "armature/kinds/target/target_messages.hpp"
 #include "armature/messages/sensor_msgs.hpp"
-#include "armature/robot/kinematics.hpp"
-#include "armature/robot/stereo_rig.hpp"
-#include "armature/robot/test_robots.hpp"
-#include "armature/runtime/component_bench.hpp"
-#include "armature/runtime/test_plugins.hpp"
+#include "armature/robot/files/stereo_rig.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
+#include "armature/robot/model/test_robots.hpp"
+#include "armature/runtime/testing/component_bench.hpp"
+#include "armature/runtime/testing/test_plugins.hpp"
 
 namespace armature::host::target {
 namespace {

@@ -13,8 +13,8 @@
 #include "armature/kinds/setup_robot.hpp"
 #include "armature/kinds/trajectory/trajectory_messages.hpp"
 #include "armature/kinds/trajectory/trajectory_planner.hpp"
-#include "armature/robot/trajectory_check.hpp"
-#include "armature/runtime/plugin.hpp"
+#include "armature/robot/trajectories/trajectory_check.hpp"
+#include "armature/runtime/plugins/plugin.hpp"
 #include "armature/values/guarded.hpp"
 
 namespace armature {

@@ -10,8 +10,8 @@
 #include "armature/kinds/trajectory/trajectory_planner.hpp"
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/header.hpp"
-#include "armature/robot/test_robots.hpp"
-#include "armature/runtime/test_plugins.hpp"
+#include "armature/robot/model/test_robots.hpp"
+#include "armature/runtime/testing/test_plugins.hpp"
 
 namespace armature::trajectory_host {
 namespace {

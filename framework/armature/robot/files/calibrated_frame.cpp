@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/robot/files/calibrated_frame.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "armature/config/document.hpp"
+#include "armature/config/source_text.hpp"
+#include "armature/config/yaml_parser.hpp"
+#include "armature/robot/files/quantity_reader.hpp"
+#include "armature/robot/files/written_pose.hpp"
+
+namespace armature {
+namespace {
+
+using config::MapReader;
+using config::Node;
+using config::Problems;
+
+std::optional<CalibratedFrame> read_transform(const Node& node, const std::string& name,
+                                              Problems& problems) {
+  MapReader map{node, name, problems};
+  const auto translation =
+      require_quantity(map, {"translation_m", "translation_mm"}, 3, problems).vector();
+  const bool is_turned = map.optional_node("quaternion_xyzw") != nullptr;
+  const auto rotation = read_quaternion(map, "quaternion_xyzw", problems);
+  map.finish();
+  if (!translation || (is_turned && !rotation)) return std::nullopt;
+  return CalibratedFrame{*translation, rotation};
+}
+
+/// What else stands in the file is for people.
+std::optional<CalibratedFrame> find_transform(const Node& document, const std::string& wanted,
+                                              const Node& path, Problems& problems) {
+  MapReader map{document, "calibration", problems};
+  if (document.kind() != Node::Kind::map) return std::nullopt;
+  check_format(map, "armature_calibration", problems);
+  if (const Node* transform = map.optional_node(wanted)) {
+    return read_transform(*transform, wanted, problems);
+  }
+  std::vector<std::string> held;
+  for (const Node::Entry& entry : document.entries()) {
+    if (entry.key.find("_T_") != std::string::npos) held.push_back(entry.key);
+  }
+  problems.add(path.origin(),
+               fmt::format("'{}' holds {}, not {}", path.text(),
+                           held.empty() ? "no transform" : fmt::format("{}", fmt::join(held, ", ")),
+                           wanted));
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<CalibratedFrame> read_calibrated_frame(const Node& path, std::string_view parent,
+                                                     std::string_view frame, Problems& problems) {
+  if (path.kind() != Node::Kind::scalar || path.text().empty()) {
+    problems.add(path.origin(), fmt::format("'calibrated' must be the path of a file that "
+                                            "`armature calibrate` wrote, not {}",
+                                            path.describe()));
+    return std::nullopt;
+  }
+  try {
+    const auto file = (config::folder_of(path.origin()) / path.text()).lexically_normal();
+    const Node document =
+        config::parse_document(config::read_source(file, path.origin()), file.string());
+    return find_transform(document, fmt::format("{}_T_{}", parent, frame), path, problems);
+  } catch (const config::ConfigError& error) {
+    for (const config::Problem& problem : error.problems()) {
+      problems.add(problem.origin, problem.message);
+    }
+    return std::nullopt;
+  }
+}
+
+}  // namespace armature

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+
+#include "armature/config/document.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
+#include "armature/robot/model/test_robots.hpp"
+
+namespace armature {
+namespace {
+
+using ::testing::ElementsAre;
+using testing::joint_vector;
+
+RobotModel read_good(const std::string& text) {
+  return read_robot_model(config::parse_text(text, "arm.yaml"));
+}
+
+std::vector<std::string> problems_in(const std::string& text) {
+  std::vector<std::string> texts;
+  try {
+    read_robot_model(config::parse_text(text, "arm.yaml"));
+  } catch (const config::ConfigError& error) {
+    for (const auto& problem : error.problems()) texts.push_back(problem.text());
+  }
+  return texts;
+}
+
+/// Two joints, the second one as given, and what follows the joints.
+std::string with(const std::string& second, const std::string& rest) {
+  return "armature_robot: 1\n"
+         "name: two\n"
+         "joints:\n"
+         "  - {name: a, limits_deg: [-90, 90], velocity_rad_s: 1, acceleration_rad_s2: 2}\n"
+         "  - " +
+         second + "\n" + rest + "\n";
+}
+const std::string kGoodJoint =
+    "{name: b, limits_deg: [-90, 90], velocity_rad_s: 1, acceleration_rad_s2: 2}";
+const std::string kGoodFrames = "frames: {tool: {parent: b}}";
+
+TEST(RobotFile, OfTheLampIsThePapersTableWithTheParallelogram) {
+  const RobotModel lamp = testing::dental_lamp();
+  const double deg = std::numbers::pi / 180;
+  EXPECT_EQ(lamp.name(), "dental_lamp");
+  EXPECT_EQ(lamp.joint_count(), 6);
+  EXPECT_EQ(lamp.dof(), 5);
+  EXPECT_EQ(lamp.joints()[0].d, 0.45257);
+  EXPECT_EQ(lamp.joints()[1].d, 0.2515);
+  EXPECT_EQ(lamp.joints()[4].d, -0.2);
+  EXPECT_NEAR(lamp.joints()[3].alpha, -90 * deg, 1e-15);
+  EXPECT_EQ(lamp.joints()[3].coupling->to, 2);
+  EXPECT_EQ(lamp.joints()[3].coupling->ratio, -1);
+  EXPECT_TRUE(lamp.upper().isApprox(joint_vector({170, 160, 60, 170, 80}) * deg));
+  EXPECT_TRUE(lamp.lower() == -lamp.upper());
+  EXPECT_TRUE(lamp.max_velocity() == JointVector::Constant(5, 2.5));
+  EXPECT_TRUE(lamp.max_acceleration() == JointVector::Constant(5, 8));
+  EXPECT_TRUE(*lamp.pointing_axis() == Eigen::Vector3d::UnitX());
+  EXPECT_TRUE(lamp.home()->isApprox(joint_vector({60, -120, 0, 0, 150, 0}) * deg));
+  EXPECT_EQ(lamp.frame(lamp.tool()).parent_joint, 5);
+}
+
+TEST(RobotFile, MayStateMillimetresPrismaticJointsAndOffsets) {
+  const RobotModel robot = read_good(
+      "armature_robot: 1\n"
+      "name: press\n"
+      "convention: modified\n"
+      "joints:\n"
+      "  - {name: turn, theta_deg: 90, d_mm: 120, a_mm: 30, limits_deg: [-90, 90],\n"
+      "     velocity_rad_s: 1, acceleration_rad_s2: 2}\n"
+      "  - {name: slide, type: prismatic, alpha_deg: -90, limits_mm: [0, 250],\n"
+      "     velocity_m_s: 0.1, acceleration_m_s2: 0.5}\n"
+      "  - {name: twin, type: prismatic, coupled: {to: slide, ratio: 2, offset_mm: 5}}\n"
+      "frames: {tool: {parent: twin}}\n"
+      "pointing_axis: [0, 0, -2]\n"
+      "home: [0.5, 0.1, 0.205]\n");
+  EXPECT_EQ(robot.convention(), RobotModel::Convention::modified);
+  EXPECT_NEAR(robot.joints()[0].theta, std::numbers::pi / 2, 1e-15);
+  EXPECT_EQ(robot.joints()[0].d, 0.12);
+  EXPECT_EQ(robot.joints()[0].a, 0.03);
+  EXPECT_FALSE(robot.is_revolute(1));
+  EXPECT_EQ(robot.upper()[1], 0.25);
+  EXPECT_EQ(robot.joints()[2].coupling->offset, 0.005);
+  EXPECT_TRUE(*robot.pointing_axis() == -Eigen::Vector3d::UnitZ());
+  EXPECT_TRUE(*robot.home() == joint_vector({0.5, 0.1, 0.205}));
+}
+
+TEST(RobotFile, HangsFramesOnJointsTheBaseAndOtherFrames) {
+  const RobotModel robot =
+      read_good(with(kGoodJoint,
+                     "frames:\n"
+                     "  lens: {parent: tool, translation_mm: [0, 0, 10]}\n"
+                     "  tool: {parent: b, translation_m: [1, 2, 3], rpy_deg: [90, 0, 90]}\n"
+                     "  floor: {parent: base, translation_m: [0, 0, -1]}"));
+  const auto frame = [&](const char* name) { return robot.frame(*robot.find_frame(name)); };
+  EXPECT_EQ(robot.tool(), *robot.find_frame("tool"));
+  EXPECT_EQ(frame("lens").parent_joint, 1);
+  EXPECT_EQ(frame("floor").parent_joint, -1);
+  // About x by 90: z -> -y; then about z by 90: -y -> x.
+  EXPECT_TRUE((frame("tool").parent_T_frame.linear() * Eigen::Vector3d::UnitZ())
+                  .isApprox(Eigen::Vector3d::UnitX()));
+  EXPECT_TRUE(frame("lens").parent_T_frame.translation().isApprox(Eigen::Vector3d{1.01, 2, 3}));
+}
+
+TEST(RobotFile, ReportsEverythingThatIsWrongAtOnceWithItsPlace) {
+  EXPECT_THAT(
+      problems_in("armature_robot: 2\n"
+                  "name: broken\n"
+                  "convention: standart\n"
+                  "joints:\n"
+                  "  - {name: a, limits_deg: [90, -90], velocity_rad_s: 0, "
+                  "acceleration_rad_s2: 2}\n"
+                  "  - {name: b, type: prismatic, limits_deg: [0, 1], velocity_m_s: 1, "
+                  "acceleration_m_s2: 2}\n"
+                  "  - {name: c, coupled: {to: d, ratio: 0}}\n"
+                  "  - {name: e, coupled: {to: c}}\n"
+                  "  - {name: a, d_m: 1, d_mm: 1000, coupled: {to: b}}\n"
+                  "frames: {hand: {parent: f}}\n"
+                  "pointing_axis: w\n"
+                  "home_deg: [1, 2]\n"
+                  "colour: red\n"),
+      ElementsAre(
+          "arm.yaml:1:17: 'armature_robot: 2' is a format that this version does not know; it "
+          "reads 1",
+          "arm.yaml:3:13: 'convention' cannot be 'standart'; did you mean 'standard'?",
+          "arm.yaml:5:27: 'limits_deg' is [lower, upper], and 90 is not below -90",
+          "arm.yaml:5:54: 'velocity_rad_s' must be more than 0, not 0",
+          "arm.yaml:6:5: missing key 'limits_m' in joint 'b'",
+          "arm.yaml:6:32: unknown key 'limits_deg' in joint 'b'; did you mean 'limits_m' or "
+          "'limits_mm'?",
+          "arm.yaml:7:29: there is no joint 'd'; known: a, b, c, e, a",
+          "arm.yaml:7:39: 'ratio' must not be 0; a joint that does not move is a fixed angle",
+          "arm.yaml:8:29: joint 'e' cannot follow 'c', which is coupled itself; name a joint that "
+          "moves by itself",
+          "arm.yaml:9:12: there is a joint 'a' already",
+          "arm.yaml:9:29: 'd_m' and 'd_mm' state the same; keep one",
+          "arm.yaml:10:9: there is no frame 'tool', for which goals are stated; add frames: {tool: "
+          "{parent: a}}",
+          "arm.yaml:10:25: there is no joint or frame 'f'; known: base, a, b, c, e, a, hand",
+          "arm.yaml:11:16: 'pointing_axis' must be x, y, z, -x, -y, -z or a list of 3 numbers, not "
+          "'w'",
+          "arm.yaml:12:11: 'home_deg' cannot state the prismatic joint 'b'; write 'home' in "
+          "radians and metres",
+          "arm.yaml:12:11: 'home_deg' needs a value for each of the 5 joints, not 2",
+          "arm.yaml:13:1: unknown key 'colour' in robot; known: armature_robot, convention, "
+          "frames, "
+          "home, home_deg, joints, name, pointing_axis, ..."));
+}
+
+TEST(RobotFile, WithoutAToolFrameSaysHowToAddIt) {
+  EXPECT_THAT(problems_in(with(kGoodJoint, "")),
+              ElementsAre("arm.yaml:1:1: there is no frame 'tool', for which goals are stated; add "
+                          "frames: {tool: {parent: b}}"));
+}
+
+TEST(RobotFile, AsksForTheLimitsOfIndependentJointsOnly) {
+  EXPECT_THAT(problems_in(with("{name: b}", kGoodFrames)),
+              ElementsAre("arm.yaml:5:5: missing key 'limits_deg' in joint 'b'",
+                          "arm.yaml:5:5: missing key 'velocity_rad_s' in joint 'b'",
+                          "arm.yaml:5:5: missing key 'acceleration_rad_s2' in joint 'b'"));
+  EXPECT_EQ(read_good(with("{name: b, coupled: {to: a}}", kGoodFrames)).dof(), 1);
+}
+
+TEST(RobotFile, RefusesAHomeThatTheRobotCannotTake) {
+  EXPECT_THAT(problems_in(with(kGoodJoint, kGoodFrames + "\nhome_deg: [0, 91]")),
+              ElementsAre("arm.yaml:7:11: 'home_deg': b = 91 deg is outside of -90 deg to 90 deg"));
+  EXPECT_THAT(
+      problems_in(with("{name: b, coupled: {to: a}}", kGoodFrames + "\nhome: [0, 0.5]")),
+      ElementsAre("arm.yaml:7:7: 'home': b = 0.5 contradicts its coupling to a, which makes it 0"));
+}
+
+TEST(RobotFile, RefusesLimitsThatExcludeEachOther) {
+  EXPECT_THAT(
+      problems_in(with("{name: b, limits_deg: [100, 120], coupled: {to: a}}", kGoodFrames)),
+      ElementsAre("arm.yaml:4:3: joint 'a' has no room to move: its limits and those of the "
+                  "joints that follow it exclude each other"));
+}
+
+TEST(RobotFile, RefusesFramesInACircleAndNamesThatAreTaken) {
+  EXPECT_THAT(problems_in(with(kGoodJoint,
+                               "frames:\n"
+                               "  tool: {parent: grip}\n"
+                               "  grip: {parent: tool}\n"
+                               "  b: {parent: base}")),
+              ElementsAre("arm.yaml:7:18: frames in a circle: tool -> grip -> tool",
+                          "arm.yaml:8:18: frames in a circle: grip -> tool -> grip",
+                          "arm.yaml:9:3: 'b' is the name of a joint or of the base; a frame needs "
+                          "its own"));
+}
+
+TEST(RobotFile, RefusesWrongShapes) {
+  EXPECT_THAT(problems_in("3"), ElementsAre("arm.yaml:1:1: robot must be a map, not '3'"));
+  EXPECT_THAT(problems_in("{armature_robot: 1, name: r, joints: [], frames: {}}"),
+              ElementsAre("arm.yaml:1:38: 'joints' must be a list of joints, not empty"));
+  EXPECT_THAT(problems_in("{armature_robot: 1, name: r, joints: 3, frames: 4}"),
+              ElementsAre("arm.yaml:1:38: 'joints' must be a list of joints, not '3'",
+                          "arm.yaml:1:49: 'frames' must be a map of frames, not '4'"));
+  EXPECT_THAT(problems_in(with(kGoodJoint,
+                               "frames: {tool: {parent: b, rpy_deg: [1, 2]}}\n"
+                               "pointing_axis: [0, 0, 0]")),
+              ElementsAre("arm.yaml:6:37: 'rpy_deg' needs 3 numbers, not 2",
+                          "arm.yaml:7:16: 'pointing_axis' has no length"));
+}
+
+TEST(RobotFile, RefusesMoreJointsThanFit) {
+  std::string text = "armature_robot: 1\nname: snake\njoints:\n";
+  for (int i = 0; i < 13; ++i)
+    text += "  - {name: j" + std::to_string(i) +
+            ", limits_deg: [0, 1], velocity_rad_s: 1, acceleration_rad_s2: 1}\n";
+  EXPECT_THAT(problems_in(text + "frames: {tool: {parent: j12}}"),
+              ElementsAre("arm.yaml:4:3: 13 joints are too many; a robot may have 12"));
+}
+
+}  // namespace
+}  // namespace armature

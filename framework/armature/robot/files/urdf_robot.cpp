@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/robot/files/urdf_robot.hpp"
+
+#include <urdf_model/model.h>
+
+#include "armature/robot/files/urdf_chain.hpp"
+#include "armature/robot/model/denavit_hartenberg.hpp"
+
+namespace armature {
+
+UrdfArm read_urdf_arm(const std::filesystem::path& file, const LinkName& base, const LinkName& tip,
+                      config::Problems& problems) {
+  UrdfArm arm;
+  UrdfChain chain;
+  try {
+    const UrdfDocument document = UrdfDocument::load(file);
+    arm.name = document.model().getName();
+    chain = read_urdf_chain(document, base, tip, problems);
+  } catch (const config::ConfigError& error) {
+    for (const config::Problem& problem : error.problems())
+      problems.add(problem.origin, problem.message);
+  }
+  const auto row_T_axis = to_denavit_hartenberg(chain.before_T_axis, chain.joints);
+  arm.joints = std::move(chain.joints);
+  for (const auto& [name, joint, axis_T_link] : chain.links) {
+    if (name == tip.name) arm.tip = FrameId{static_cast<int>(arm.frames.size())};
+    const Eigen::Isometry3d parent_T_link =
+        joint < 0 ? axis_T_link : row_T_axis[static_cast<std::size_t>(joint)] * axis_T_link;
+    const bool is_base = &name == &chain.links.front().name && name == "base";
+    if (!is_base) arm.frames.push_back({name, joint, parent_T_link});  // that frame is there anyway
+  }
+  return arm;
+}
+
+RobotModel load_urdf_robot(const std::filesystem::path& file, const LinkName& base,
+                           const LinkName& tip) {
+  config::Problems problems;
+  UrdfArm arm = read_urdf_arm(file, base, tip, problems);
+  problems.throw_if_any();
+  return {std::move(arm.name),
+          RobotModel::Convention::modified,
+          std::move(arm.joints),
+          std::move(arm.frames),
+          arm.tip,
+          std::nullopt,
+          std::nullopt};
+}
+
+}  // namespace armature

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "armature/config/problems.hpp"
+#include "armature/robot/model/robot_model.hpp"
+
+namespace armature {
+
+/// A link of a URDF file and where the user named it.
+struct LinkName {
+  std::string name;
+  config::Origin origin;
+};
+
+/// What a URDF file tells of the arm between two of its links, as a robot model takes it: modified
+/// Denavit-Hartenberg rows (see denavit_hartenberg.hpp), and a frame for every link from the base
+/// to the tip.
+struct UrdfArm {
+  std::string name;
+  std::vector<Joint> joints;
+  std::vector<NamedFrame> frames;
+  FrameId tip{};
+};
+/// `base` without a name: the root link. Every problem goes to `problems`; with one the arm may be
+/// incomplete.
+UrdfArm read_urdf_arm(const std::filesystem::path& file, const LinkName& base, const LinkName& tip,
+                      config::Problems& problems);
+
+/// The arm as a robot by itself: its tool is the tip, its goals are rotations, and a joint whose
+/// speed the file does not limit has no such limit. Throws config::ConfigError.
+RobotModel load_urdf_robot(const std::filesystem::path& file, const LinkName& base,
+                           const LinkName& tip);
+
+}  // namespace armature

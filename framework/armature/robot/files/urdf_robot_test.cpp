@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/robot/files/urdf_robot.hpp"
+
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "armature/config/document.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
+#include "armature/robot/model/test_robots.hpp"
+
+namespace armature {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+const fs::path kData = ARMATURE_SOURCE_DIR "/tests/data/urdf";
+
+RobotModel load(const std::string& name, const std::string& base, const std::string& tip) {
+  return load_urdf_robot(kData / (name + ".urdf"), {base, {"--base", 0, 0}},
+                         {tip, {"--tip", 0, 0}});
+}
+
+/// A folder with arm.urdf, and what is said of it; its own name does not matter.
+class UrdfFile : public ::testing::Test {
+ protected:
+  UrdfFile() { fs::create_directories(folder_); }
+  ~UrdfFile() override { fs::remove_all(folder_); }
+
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream{folder_ / name} << text;
+  }
+  /// Line 1: <robot>, then three lines a joint and link; `second` is the second joint's inside.
+  static std::string arm(const std::string& type, const std::string& second) {
+    return "<robot name='arm'><link name='base_link'/>\n"
+           "<joint name='j1' type='revolute'><parent link='base_link'/><child link='l1'/>"
+           "<limit lower='-1' upper='1' effort='1' velocity='2'/></joint><link name='l1'/>\n"
+           "<joint name='j2' type='" +
+           type + "'><parent link='l1'/><child link='hand'/>" + second +
+           "</joint><link name='hand'/>\n"
+           "</robot>\n";
+  }
+  std::vector<std::string> problems_of(const std::string& text, const std::string& base = "",
+                                       const std::string& tip = "hand") const {
+    write("arm.urdf", text);
+    return problems_when([&] {
+      load_urdf_robot(folder_ / "arm.urdf", {base, {"--base", 0, 0}}, {tip, {"--tip", 0, 0}});
+    });
+  }
+  template <class Load>
+  std::vector<std::string> problems_when(Load load) const {
+    std::vector<std::string> texts;
+    try {
+      load();
+    } catch (const config::ConfigError& error) {
+      for (const auto& problem : error.problems()) texts.push_back(problem.text());
+    }
+    for (std::string& text : texts) {
+      const std::string folder = folder_.string() + "/";
+      for (auto at = text.find(folder); at != text.npos; at = text.find(folder))
+        text.erase(at, folder.size());
+    }
+    return texts;
+  }
+  RobotModel robot(const std::string& yaml) const {
+    write("arm.yaml", yaml);
+    return load_robot_model(folder_ / "arm.yaml");
+  }
+
+  const fs::path folder_ =
+      fs::temp_directory_path() / ("armature-urdf-" + std::to_string(getpid()) + "-" +
+                                   ::testing::UnitTest::GetInstance()->current_test_info()->name());
+};
+
+const std::string kLimit = "<limit lower='-1' upper='1' effort='1' velocity='2'/>";
+
+TEST(UrdfRobot, HasJointsLimitsAndAFrameForEveryLinkOnTheWay) {
+  const RobotModel arm = load("gantry", "", "gripper");
+  EXPECT_EQ(arm.name(), "gantry");
+  ASSERT_EQ(arm.joint_count(), 5);
+  EXPECT_EQ(arm.joints()[2].name, "down");
+  EXPECT_FALSE(arm.is_revolute(2));
+  EXPECT_EQ(arm.upper()[2], 0.8);
+  EXPECT_EQ(arm.max_velocity()[2], 0.5);
+  EXPECT_EQ(arm.max_acceleration()[2], 2);  // the top speed in 0.25 s
+  EXPECT_TRUE(std::isinf(arm.upper()[3]));  // continuous
+  EXPECT_EQ(arm.frame(arm.tool()).name, "gripper");
+  std::vector<std::string> names;
+  for (const NamedFrame& frame : arm.frames()) names.push_back(frame.name);
+  EXPECT_THAT(
+      names, ElementsAre("rail", "bridge", "beam", "trolley", "column", "fork", "head", "gripper"));
+  EXPECT_EQ(arm.frame(*arm.find_frame("rail")).parent_joint, -1);
+  EXPECT_EQ(arm.frame(*arm.find_frame("beam")).parent_joint, 0);
+}
+
+TEST(UrdfRobot, AMimickingJointIsCoupled) {
+  const RobotModel arm = load("seven_joints", "base_link", "hand");
+  EXPECT_EQ(arm.dof(), 6);
+  ASSERT_TRUE(arm.joints()[3].coupling);
+  EXPECT_EQ(arm.joints()[3].coupling->to, 2);
+  EXPECT_EQ(arm.joints()[3].coupling->ratio, -0.5);
+  EXPECT_EQ(arm.joints()[3].coupling->offset, 0.1);
+}
+
+TEST(UrdfRobot, RestsWithinLimitsAndUnlimitedJointsAtZero) {
+  const RobotModel arm = load("seven_joints", "base_link", "hand");
+  const JointVector q = resting_position(arm);
+  EXPECT_EQ(q[0], 0);
+  EXPECT_EQ(q[1], 0.25);
+  EXPECT_TRUE(arm.within_limits(q));
+}
+
+TEST(UrdfRobot, OnlyWhatRoundedAnglesPullApartIsPlaced) {
+  const RobotModel puma = load("skew_puma", "world", "tool0");
+  EXPECT_TRUE(puma.joints()[0].placement);  // stands askew
+  for (std::size_t i = 1; i < 6; ++i) EXPECT_FALSE(puma.joints()[i].placement) << i;
+  const RobotModel seven = load("seven_joints", "", "hand");
+  std::vector<bool> placed;
+  for (const Joint& joint : seven.joints()) placed.push_back(joint.placement.has_value());
+  EXPECT_THAT(placed, ElementsAre(false, false, true, false, false, false, false));
+}
+
+TEST_F(UrdfFile, NamesTheNearestLinks) {
+  const std::string good = arm("revolute", kLimit);
+  EXPECT_THAT(problems_of(good, "", "hnad"),
+              ElementsAre("--tip: there is no link 'hnad' in arm.urdf; did you mean 'hand'?"));
+  EXPECT_THAT(
+      problems_of(good, "base_lnk"),
+      ElementsAre("--base: there is no link 'base_lnk' in arm.urdf; did you mean 'base_link'?"));
+  EXPECT_THAT(problems_of(good, "", ""),
+              ElementsAre("--tip: the link that goals are stated for is missing; links at the ends "
+                          "of arm.urdf: hand"));
+  EXPECT_THAT(
+      problems_of(good, "hand", "l1"),
+      ElementsAre("--base: link 'hand' does not carry 'l1', which hangs on l1 < base_link"));
+  EXPECT_THAT(problems_of(good, "hand", "hand"),
+              ElementsAre("--tip: no joint of arm.urdf moves between 'hand' and 'hand'"));
+}
+
+TEST_F(UrdfFile, OfAFloatingOrPlanarJointIsRefused) {
+  EXPECT_THAT(problems_of(arm("floating", "")),
+              ElementsAre("arm.urdf:3:1: joint 'j2' is floating, which is no joint of an arm; name "
+                          "a base behind it"));
+  EXPECT_THAT(problems_of(arm("planar", "")),
+              ElementsAre("arm.urdf:3:1: joint 'j2' is planar, which is no joint of an arm; name a "
+                          "base behind it"));
+}
+
+TEST_F(UrdfFile, MayNotCallAMovingJointAsTheRobotsFoot) {
+  std::string text = arm("continuous", "");
+  text.replace(text.find("'j2'"), 4, "'base'");
+  EXPECT_THAT(
+      problems_of(text),
+      ElementsAre("arm.urdf:3:1: a joint cannot be called 'base', which is the robot's foot"));
+  text.replace(text.find("continuous"), 10, "fixed");
+  EXPECT_THAT(problems_of(text), ElementsAre());
+}
+
+TEST_F(UrdfFile, SaysWhichJointHasNoUsableLimits) {
+  EXPECT_THAT(problems_of(arm("revolute", "")),
+              ElementsAre(HasSubstr("arm.urdf:3:1: not a robot description that urdfdom reads: ")));
+  EXPECT_THAT(problems_of(arm("prismatic", "<limit effort='1' velocity='2'/>")),
+              ElementsAre("arm.urdf:3:1: joint 'j2' has no room to move: its limits are 0 to 0"));
+  EXPECT_THAT(
+      problems_of(arm("revolute", "<limit lower='-1' upper='1' effort='1' velocity='-2'/>")),
+      ElementsAre("arm.urdf:3:1: joint 'j2' has a velocity limit of -2, which is below 0"));
+}
+
+TEST_F(UrdfFile, SaysWhichAxisAndWhichNumberIsNone) {
+  EXPECT_THAT(problems_of(arm("revolute", kLimit + "<axis xyz='0 0 0'/>")),
+              ElementsAre("arm.urdf:3:1: joint 'j2' has an axis without a usable length"));
+  for (const char* number : {"nan", "inf", "1e999", "one"}) {
+    const auto problems =
+        problems_of(arm("revolute", kLimit + "<origin xyz='0 0 " + number + "' rpy='0 0 0'/>"));
+    EXPECT_THAT(problems, ElementsAre(HasSubstr("arm.urdf:3:1: not a robot description that "
+                                                "urdfdom reads: ")));
+    EXPECT_THAT(problems, ElementsAre(HasSubstr(number)));
+  }
+}
+
+TEST_F(UrdfFile, SaysWhatAMimickingJointCannotFollow) {
+  const auto mimic = [](const std::string& what) { return kLimit + "<mimic " + what + "/>"; };
+  EXPECT_THAT(problems_of(arm("revolute", mimic("joint='j1'")), "l1"),
+              ElementsAre("arm.urdf:3:1: joint 'j2' mimics 'j1', which does not move between 'l1' "
+                          "and 'hand'; take a base and a tip with both between them"));
+  EXPECT_THAT(problems_of(arm("revolute", mimic("joint='j2'"))),
+              ElementsAre("arm.urdf:3:1: joint 'j2' cannot mimic 'j2', which mimics another joint "
+                          "itself; name the one that moves by itself"));
+  EXPECT_THAT(problems_of(arm("revolute", mimic("joint='j1' multiplier='0'"))),
+              ElementsAre("arm.urdf:3:1: joint 'j2' mimics with a multiplier of 0; a joint that "
+                          "does not move is fixed"));
+}
+
+TEST_F(UrdfFile, ThatIsNoneIsRefusedWithItsLine) {
+  EXPECT_THAT(problems_of("<robot name='arm'>\n<link name='a'>\n</robot>\n"),
+              ElementsAre(HasSubstr("arm.urdf:2:1: not XML (XML_ERROR_MISMATCHED_ELEMENT)")));
+  EXPECT_THAT(problems_of(""), ElementsAre(HasSubstr("not XML (XML_ERROR_EMPTY_DOCUMENT)")));
+  EXPECT_THAT(problems_of("<sdf/>"),
+              ElementsAre(HasSubstr("arm.urdf:1:1: not a robot description")));
+  EXPECT_THAT(problems_of("<robot name='arm'/>"), ElementsAre(HasSubstr("arm.urdf: not a robot")));
+  EXPECT_THAT(problems_when([&] {
+                load_urdf_robot(folder_ / "none.urdf", {}, {"hand", {}});
+              }),
+              ElementsAre(HasSubstr("none.urdf': No such file or directory")));
+}
+
+TEST_F(UrdfFile, InARobotFileBringsJointsAndLinksToWhichTheFileAdds) {
+  write("arm.urdf", arm("continuous", ""));
+  const RobotModel made = robot(
+      "armature_robot: 1\n"
+      "name: mine\n"
+      "urdf: arm.urdf\n"
+      "tip: hand\n"
+      "joints:\n"
+      "  - {name: j1, acceleration_rad_s2: 3}\n"
+      "  - {name: j2, velocity_rad_s: 5}\n"
+      "frames: {tool: {parent: l1, translation_m: [1, 2, 3]}}\n"
+      "pointing_axis: z\n"
+      "home: [0.5, 6]\n");
+  EXPECT_EQ(made.name(), "mine");
+  EXPECT_EQ(made.max_acceleration()[0], 3);
+  EXPECT_EQ(made.max_velocity()[0], 2);
+  EXPECT_EQ(made.max_velocity()[1], 5);
+  EXPECT_EQ(made.max_acceleration()[1], 20);
+  EXPECT_EQ(made.frame(made.tool()).name, "tool");
+  EXPECT_EQ(made.frame(made.tool()).parent_joint, 0);
+  EXPECT_EQ(resting_position(made), testing::joint_vector({0.5, 6}));
+}
+
+TEST_F(UrdfFile, InARobotFileIsTheSameArmAsByItself) {
+  const std::string file = (kData / "skew_puma.urdf").string();
+  const RobotModel made =
+      robot("armature_robot: 1\nname: puma\nurdf: " + file + "\nbase: foot\ntip: tool0\n");
+  const RobotModel alone = load("skew_puma", "foot", "tool0");
+  std::mt19937 random{5};
+  for (int i = 0; i < 10; ++i) {
+    const JointVector q = testing::random_joints(made, random);
+    EXPECT_TRUE(forward_kinematics(made, q).matrix() == forward_kinematics(alone, q).matrix());
+  }
+}
+
+TEST_F(UrdfFile, InARobotFileIsHeldToWhatMotionNeedsAndToItsWords) {
+  write("arm.urdf", arm("continuous", ""));
+  const std::string head = "armature_robot: 1\nname: mine\nurdf: arm.urdf\n";
+  const auto said = [&](const std::string& rest) {
+    return problems_when([&] { robot(head + rest); });
+  };
+  EXPECT_THAT(said("tip: hand\n"),
+              ElementsAre("arm.yaml:3:7: joint 'j2' has no velocity limit; state it in the URDF "
+                          "file, or here: joints: [{name: j2, velocity_rad_s: 1}]"));
+  EXPECT_THAT(said("tip: hadn\n"), ElementsAre("arm.yaml:4:6: there is no link 'hadn' in arm.urdf; "
+                                               "did you mean 'hand'?"));
+  EXPECT_THAT(said(""), ElementsAre(HasSubstr("'tip'")));
+  EXPECT_THAT(said("tip: hand\njoints: [{name: j3, velocity_rad_s: 1}, {name: j2, velocity_rad_s: "
+                   "1}]\nframes: {hand: {parent: l1}, eye: {parent: l2}}\n"),
+              ElementsAre(HasSubstr("there is no joint 'j3'"),
+                          "arm.yaml:6:10: 'hand' is the name of a link; a frame needs its own",
+                          HasSubstr("there is no joint or frame 'l2'")));
+}
+
+}  // namespace
+}  // namespace armature

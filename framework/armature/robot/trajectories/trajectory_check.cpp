@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/robot/trajectories/trajectory_check.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace armature {
+namespace {
+
+// What rounding may add; well below what a joint can show.
+constexpr double kJumpPosition = 1e-7;      // [rad]
+constexpr double kJumpVelocity = 1e-5;      // [rad/s]
+constexpr double kJumpAcceleration = 1e-3;  // [rad/s2]
+constexpr double kPositionSlack = 1e-6;     // [rad] or [m] beyond a limit
+constexpr double kRateSlack = 1e-3;         // of a limit
+
+const std::string& joint_name(const RobotModel& model, int i) {
+  return model.joints()[static_cast<std::size_t>(model.independent_joint(i))].name;
+}
+
+const char* unit(const RobotModel& model, int i) { return model.is_revolute(i) ? "rad" : "m"; }
+
+ReasonText jump(const JointState& from, const JointState& to, const RobotModel& model) {
+  for (int i = 0; i < model.dof(); ++i) {
+    const double q = std::abs(to.q[i] - from.q[i]);
+    const double v = std::abs(to.v[i] - from.v[i]);
+    const double a = std::abs(to.a[i] - from.a[i]);
+    if (!(q <= kJumpPosition && v <= kJumpVelocity && a <= kJumpAcceleration)) {
+      return ReasonText::format(
+          "the trajectory does not leave the reference: joint {} jumps by {:.3g} in position, "
+          "{:.3g} in velocity, {:.3g} in acceleration",
+          joint_name(model, i), q, v, a);
+    }
+  }
+  return {};
+}
+
+/// One piece of one joint, and where the joint stood before.
+struct Stretch {
+  int joint;
+  double stood;
+  double from, to;  // [s] of the trajectory
+  Quintic quintic;
+};
+
+/// What the joint cannot leave with that velocity: it has half of the time to go away and back.
+QuinticRange farthest(const Quintic& quintic, double duration_s, double max_velocity) {
+  const double from = quintic.position(0), to = quintic.position(duration_s);
+  const double way = 0.5 * duration_s * max_velocity;
+  return {std::min(from, to) - way, std::max(from, to) + way};
+}
+
+ReasonText broken_limit(const Stretch& stretch, const RobotModel& model,
+                        const MotionLimits& limits) {
+  const int i = stretch.joint;
+  // "joint j3 would need 1.2 rad/s between 0.10 and 0.25 s, its limit is 1"
+  const auto would = [&](const char* verb, double value, const char* per) {
+    return ReasonText::format("joint {} would {} {:.4f} {}{} between {:.2f} and {:.2f} s",
+                              joint_name(model, i), verb, value, unit(model, i), per, stretch.from,
+                              stretch.to);
+  };
+  const auto beyond = [](const ReasonText& what, double limit) {
+    return ReasonText::format("{}, its limit is {:.4f}", what.view(), limit);
+  };
+  const double duration_s = stretch.to - stretch.from;
+  const QuinticPeaks peak = peaks(stretch.quintic, duration_s);
+  const double lower = std::min(model.lower()[i], stretch.stood) - kPositionSlack;
+  const double upper = std::max(model.upper()[i], stretch.stood) + kPositionSlack;
+  const auto within = [&](const QuinticRange& q) {
+    return q.lowest >= lower && q.highest <= upper;
+  };
+  // Mostly the limits are farther away than the joint can go.
+  QuinticRange q = farthest(stretch.quintic, duration_s, peak.velocity);
+  if (!within(q)) q = range(stretch.quintic, duration_s);
+  if (!within(q)) {
+    const double far = q.highest > upper ? q.highest : q.lowest;
+    return ReasonText::format("{}, its limits are {:.4f} and {:.4f} {}",
+                              would("reach", far, "").view(), model.lower()[i], model.upper()[i],
+                              unit(model, i));
+  }
+  if (!(peak.velocity <= limits.max_velocity[i] * (1 + kRateSlack))) {
+    return beyond(would("need", peak.velocity, "/s"), limits.max_velocity[i]);
+  }
+  if (!(peak.acceleration <= limits.max_acceleration[i] * (1 + kRateSlack))) {
+    return beyond(would("need", peak.acceleration, "/s2"), limits.max_acceleration[i]);
+  }
+  return {};
+}
+
+bool well_formed(const TrajectoryView& trajectory, const RobotModel& model) {
+  return trajectory.dof == model.dof() && trajectory.piece_count() > 0 && trajectory.coefficients;
+}
+
+}  // namespace
+
+ReasonText trajectory_defect(const TrajectoryView& trajectory, const RobotModel& model,
+                             const MotionLimits& limits, const JointState& from, Time start) {
+  if (!well_formed(trajectory, model)) return "the trajectory has no pieces or too few of them";
+  if (trajectory.start != start) return "the trajectory does not start when it was asked to";
+  if (ReasonText wrong = jump(from, trajectory.at(start), model); !wrong.empty()) return wrong;
+  const JointState end = trajectory.at(trajectory.end());
+  if (!(end.v.norm() <= kJumpVelocity && end.a.norm() <= kJumpAcceleration)) {
+    return ReasonText::format(
+        "the trajectory does not end at rest: {:.3g} rad/s, {:.3g} rad/s2 left", end.v.norm(),
+        end.a.norm());
+  }
+  for (int k = 0; k < trajectory.piece_count(); ++k) {
+    const auto knot = trajectory.knots.begin() + k;
+    for (int i = 0; i < model.dof(); ++i) {
+      const Stretch stretch{.joint = i,
+                            .stood = from.q[i],
+                            .from = *knot,
+                            .to = *(knot + 1),
+                            .quintic = trajectory.piece(k, i)};
+      if (ReasonText wrong = broken_limit(stretch, model, limits); !wrong.empty()) return wrong;
+    }
+  }
+  return {};
+}
+
+}  // namespace armature

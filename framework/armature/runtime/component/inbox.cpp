@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/runtime/component/inbox.hpp"
+
+#include <algorithm>
+#include <mutex>
+#include <utility>
+
+#include "armature/runtime/component/ports.hpp"
+
+namespace armature {
+InputPort::InputPort(PortSpec spec, const MessageType& type, Inbox& inbox)
+    : spec_{std::move(spec)},
+      type_{&type},
+      inbox_{&inbox},
+      capacity_{static_cast<std::size_t>(spec_.queue.value_or(1))} {
+  waiting_.reserve(capacity_);
+  shown_.reserve(capacity_);
+  if (spec_.join) unmatched_.reserve(kJoinDepth);
+}
+
+void InputPort::deliver(const SampleRef& sample) {
+  if (!heeds_ || heeds_(sample.message())) inbox_->arrived(*this, sample);
+}
+
+void InputPort::keep(const SampleRef& sample) {
+  if (waiting_.size() == capacity_) {
+    waiting_.erase(waiting_.begin());
+    if (spec_.queue) ++inbox_->dropped_;
+  }
+  waiting_.push_back(sample);
+}
+
+Time InputPort::stamp_of(const SampleRef& sample) const {
+  return type_->stamp ? type_->stamp(sample.message()) : sample.info().published;
+}
+
+void InputPort::show(Time now) {
+  fresh_ = !waiting_.empty();
+  if (spec_.queue || fresh_) {
+    std::swap(shown_, waiting_);
+    waiting_.clear();
+  }
+  std::erase_if(shown_, [&](const SampleRef& sample) {
+    return is_too_far_ahead(sample, now) ||
+           (spec_.max_age && now - judged_time(sample) > *spec_.max_age);
+  });
+  fresh_ = fresh_ && !shown_.empty();
+}
+
+bool InputPort::is_too_far_ahead(const SampleRef& sample, Time now) {
+  const Duration ahead = judged_time(sample) - now;
+  if (ahead <= spec_.max_ahead) return false;
+  inbox_->ahead_ = {.samples = inbox_->ahead_.samples + 1, .port = this, .by = ahead};
+  return true;
+}
+
+InputPort& Inbox::add(PortSpec spec, const MessageType& type) {
+  ports_.push_back(std::make_unique<InputPort>(std::move(spec), type, *this));
+  InputPort& port = *ports_.back();
+  if (port.spec_.join) joined_.push_back(&port);
+  return port;
+}
+
+void Inbox::arrived(InputPort& port, const SampleRef& sample) {
+  bool triggered = false;
+  {
+    const std::scoped_lock lock{mutex_};
+    if (port.spec_.join) {
+      if (port.unmatched_.size() == InputPort::kJoinDepth)
+        port.unmatched_.erase(port.unmatched_.begin());
+      port.unmatched_.push_back(sample);
+      triggered = match_joined();
+    } else {
+      port.keep(sample);
+      triggered = port.spec_.trigger;
+    }
+  }
+  if (triggered) on_trigger_();
+}
+
+/// Moves the newest set of equal stamps to the waiting samples of its ports.
+bool Inbox::match_joined() {
+  const auto find = [](InputPort& port, Time stamp) {
+    return std::find_if(port.unmatched_.begin(), port.unmatched_.end(),
+                        [&](const SampleRef& sample) { return port.stamp_of(sample) == stamp; });
+  };
+  const auto& first = joined_.front()->unmatched_;
+  for (auto newest = first.rbegin(); newest != first.rend(); ++newest) {
+    const Time stamp = joined_.front()->stamp_of(*newest);
+    if (!std::all_of(joined_.begin(), joined_.end(), [&](InputPort* port) {
+          return find(*port, stamp) != port->unmatched_.end();
+        })) {
+      continue;
+    }
+    for (InputPort* port : joined_) {
+      const auto match = find(*port, stamp);
+      port->keep(*match);
+      port->unmatched_.erase(port->unmatched_.begin(), std::next(match));
+    }
+    return true;
+  }
+  return false;
+}
+
+void Inbox::show(Time now) {
+  const std::scoped_lock lock{mutex_};
+  for (const auto& port : ports_) port->show(now);
+}
+
+std::uint64_t Inbox::dropped() const {
+  const std::scoped_lock lock{mutex_};
+  return dropped_;
+}
+
+Inbox::Ahead Inbox::ahead() const {
+  const std::scoped_lock lock{mutex_};
+  return ahead_;
+}
+
+namespace detail {
+
+std::size_t input_size(const InputPort& port) { return port.shown().size(); }
+const SampleRef& input_sample(const InputPort& port, std::size_t index) {
+  return port.shown()[index];
+}
+void input_heeds(InputPort& port, bool (*heeds)(const void* message)) { port.heed_only(heeds); }
+
+bool input_fresh(const InputPort& port) { return port.fresh(); }
+
+}  // namespace detail
+}  // namespace armature

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "armature/config/node.hpp"
+#include "armature/config/params.hpp"
+#include "armature/runtime/component/ports.hpp"
+#include "armature/runtime/plugins/plugin_library.hpp"
+#include "armature/runtime/plugins/plugin_manifest.hpp"
+#include "armature/runtime/plugins/setup_error.hpp"
+#include "armature/values/time.hpp"
+
+namespace armature {
+
+/// What a component sees while it is being constructed; not valid afterwards. Not real-time safe.
+class Setup {
+ public:
+  virtual ~Setup() = default;
+
+  /// Name of the component in the deployment.
+  virtual const std::string& name() const = 0;
+  /// Which of the component's units this is: "main", or one that plugin.yaml lists under `units:`.
+  virtual std::string_view unit() const = 0;
+  /// The component's own checked parameters.
+  virtual const Params& params() const = 0;
+  /// A number that differs between components and follows the deployment's `seed:`.
+  virtual std::uint64_t seed() const = 0;
+  /// The document of a section ("robots", "rigs") that is bound to this component; plugin.yaml
+  /// must list the section under `uses:`.
+  virtual const config::Node& document(std::string_view section) = 0;
+  /// False when the deployment binds none, which it may when plugin.yaml lists it under `may_use:`.
+  virtual bool has_document(std::string_view section) const = 0;
+  /// Also activate it every `period`, counted from the start.
+  virtual void activate_every(Duration period) = 0;
+  /// On the simulated clock, what it publishes reaches its readers so much later.
+  virtual void deliver_after(Duration latency) = 0;
+  /// Whether a component of the deployment writes the topic of this input.
+  virtual bool is_written(std::string_view input) const = 0;
+  /// What the plugin in slot `slot_name` says of itself.
+  virtual const PluginManifest& slot_manifest(std::string_view slot_name) const = 0;
+
+  template <class Message>
+  Input<Message> input(std::string_view port) {
+    return Input<Message>{claim_input(port, message_type<Message>())};
+  }
+  /// An input to which only samples arrive for which `Heeds` is true, so that what means nothing
+  /// cannot push out of a queue what does. `Heeds` is called on the writer's thread; real-time
+  /// safe.
+  template <class Message, bool (*Heeds)(const Message&)>
+  Input<Message> input_if(std::string_view port) {
+    InputPort& claimed = claim_input(port, message_type<Message>());
+    detail::input_heeds(
+        claimed, [](const void* message) { return Heeds(*static_cast<const Message*>(message)); });
+    return Input<Message>{claimed};
+  }
+  template <class Message>
+  Output<Message> output(std::string_view port) {
+    return Output<Message>{claim_output(port, message_type<Message>())};
+  }
+
+  /// The plugin that sits in slot `slot_name`, made with `args` (after which come its parameters).
+  /// Throws SlotError with the plugin's own reason when it refuses, or throws itself.
+  template <class Kind, class... Args>
+  PluginPtr<Kind> slot(std::string_view slot_name, const Args&... args) {
+    const SlotPlugin plugin = slot_plugin(slot_name, Kind::kKind, Kind::kKindVersion);
+    auto make = reinterpret_cast<typename Kind::Factory>(plugin.library->factory());
+    // While `plugin` holds the library: an exception of the plugin's own type ends in here.
+    auto made = [&] {
+      try {
+        return make(args..., *plugin.params);
+      } catch (...) {
+        throw_as_own(plugin.id, slot_name);
+      }
+    }();
+    if (!made) {
+      throw SlotError(std::string{slot_name}, plugin.id + " refuses: " + made.error().text);
+    }
+    return {plugin.library, std::move(*made)};
+  }
+
+  virtual std::shared_ptr<class Voice> voice() = 0;
+
+ protected:
+  struct SlotPlugin {
+    std::string id;
+    std::shared_ptr<PluginLibrary> library;
+    const Params* params;
+  };
+  virtual InputPort& claim_input(std::string_view port, const MessageType& type) = 0;
+  virtual OutputPort& claim_output(std::string_view port, const MessageType& type) = 0;
+  virtual SlotPlugin slot_plugin(std::string_view slot, std::string_view kind, int version) = 0;
+};
+
+}  // namespace armature

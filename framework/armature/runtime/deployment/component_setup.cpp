@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/runtime/deployment/component_setup.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <utility>
+
+namespace armature {
+
+config::Problem problem_of(const ComponentConfig& component, const SlotError& error) {
+  const auto slot = std::ranges::find(component.slots, error.slot(), &SlotConfig::name);
+  const bool has_line =
+      slot != component.slots.end() && slot->origin.text() != component.origin.text();
+  if (!has_line) {
+    return {component.origin, fmt::format("component '{}': {}", component.name, error.what())};
+  }
+  std::string name = component.name;
+  if (component.unit != kMainUnit) name.resize(name.size() - component.unit.size() - 1);
+  return {slot->origin,
+          fmt::format("slot '{}' of component '{}': {}", slot->name, name, error.what())};
+}
+
+ComponentSetup::ComponentSetup(const ComponentConfig& config, const DeploymentConfig& deployment,
+                               PluginRegistry& plugins, Unit& unit, Delivery& delivery,
+                               FindTopic find_topic)
+    : config_{config},
+      deployment_{deployment},
+      plugins_{plugins},
+      unit_{unit},
+      delivery_{delivery},
+      find_topic_{std::move(find_topic)} {}
+
+std::uint64_t ComponentSetup::seed() const {
+  // FNV-1a: the same on every machine.
+  std::uint64_t hash = 14695981039346656037ULL ^ deployment_.seed;
+  for (const unsigned char c : config_.name) hash = (hash ^ c) * 1099511628211ULL;
+  return hash;
+}
+
+const config::Node& ComponentSetup::document(std::string_view section) {
+  const auto bound = config_.documents.find(std::string{section});
+  if (bound == config_.documents.end()) {
+    throw std::logic_error(
+        fmt::format("plugin '{}' reads '{}' but its plugin.yaml does not say so "
+                    "under 'uses:'",
+                    config_.manifest->id, section));
+  }
+  return deployment_.documents.at(std::string{section}).at(bound->second);
+}
+
+bool ComponentSetup::has_document(std::string_view section) const {
+  return config_.documents.contains(std::string{section});
+}
+
+void ComponentSetup::activate_every(Duration period) {
+  if (period <= Duration{0}) throw SetupError("its period must be positive");
+  unit_.set_period(period);
+}
+
+const PortBinding& ComponentSetup::declared(const std::vector<PortBinding>& ports,
+                                            std::string_view direction, std::string_view name,
+                                            const MessageType& type) {
+  const auto port = std::find_if(ports.begin(), ports.end(),
+                                 [&](const PortBinding& p) { return p.spec.name == name; });
+  if (port == ports.end()) {
+    throw std::logic_error(
+        fmt::format("plugin '{}' claims the {} '{}', which its plugin.yaml does "
+                    "not declare",
+                    config_.manifest->id, direction, name));
+  }
+  if (port->spec.type != type.ros_name) {
+    throw std::logic_error(
+        fmt::format("plugin '{}' claims the {} '{}' as {}, its plugin.yaml says "
+                    "{}",
+                    config_.manifest->id, direction, name, type.ros_name, port->spec.type));
+  }
+  claimed_.insert(&*port);
+  return *port;
+}
+
+InputPort& ComponentSetup::claim_input(std::string_view port, const MessageType& type) {
+  const PortBinding& binding = declared(config_.inputs, "input", port, type);
+  InputPort& input = unit_.inbox().add(binding.spec, type);
+  find_topic_(binding, type)
+      .connect(input, binding.spec.outside ? Sources::any : Sources::deployment);
+  return input;
+}
+
+OutputPort& ComponentSetup::claim_output(std::string_view port, const MessageType& type) {
+  const PortBinding& binding = declared(config_.outputs, "output", port, type);
+  return unit_.outputs().emplace_back(binding.spec, find_topic_(binding, type), delivery_);
+}
+
+bool ComponentSetup::is_written(std::string_view input) const {
+  const auto port =
+      std::ranges::find(config_.inputs, input, [](const PortBinding& p) { return p.spec.name; });
+  if (port == config_.inputs.end()) return false;
+  return std::ranges::any_of(deployment_.components, [&](const ComponentConfig& component) {
+    return std::ranges::find(component.outputs, port->topic, &PortBinding::topic) !=
+           component.outputs.end();
+  });
+}
+
+const SlotConfig& ComponentSetup::slot_config(std::string_view slot) const {
+  const auto found = std::ranges::find(config_.slots, slot, &SlotConfig::name);
+  if (found == config_.slots.end()) {
+    throw std::logic_error(
+        fmt::format("plugin '{}' uses the slot '{}', which its plugin.yaml does "
+                    "not declare",
+                    config_.manifest->id, slot));
+  }
+  return *found;
+}
+
+const PluginManifest& ComponentSetup::slot_manifest(std::string_view slot) const {
+  return *slot_config(slot).manifest;
+}
+
+ComponentSetup::SlotPlugin ComponentSetup::slot_plugin(std::string_view slot, std::string_view kind,
+                                                       int version) {
+  const SlotConfig& config = slot_config(slot);
+  return {config.plugin_id, plugins_.load(*config.manifest, kind, version), &config.params};
+}
+
+void ComponentSetup::check_all_claimed() const {
+  for (const auto* ports : {&config_.inputs, &config_.outputs}) {
+    for (const PortBinding& port : *ports) {
+      if (!claimed_.contains(&port)) {
+        throw std::logic_error(fmt::format("plugin '{}' declares the port '{}' but never claims it",
+                                           config_.manifest->id, port.spec.name));
+      }
+    }
+  }
+}
+
+}  // namespace armature

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <set>
+#include <string>
+
+#include "armature/runtime/component/setup.hpp"
+#include "armature/runtime/deployment_file/deployment_config.hpp"
+#include "armature/runtime/execution/unit.hpp"
+
+namespace armature {
+
+/// What a plugin in a slot refuses, at the slot's own line where the file has one. The units of a
+/// component say the same of it.
+config::Problem problem_of(const ComponentConfig& component, const SlotError& error);
+
+/// What the deployment hands to a component's constructor, made from its entry in the file. Checks
+/// that the class claims exactly the ports that its plugin.yaml declares.
+class ComponentSetup final : public Setup {
+ public:
+  using FindTopic = std::function<Topic&(const PortBinding&, const MessageType&)>;
+
+  ComponentSetup(const ComponentConfig& config, const DeploymentConfig& deployment,
+                 PluginRegistry& plugins, Unit& unit, Delivery& delivery, FindTopic find_topic);
+
+  const std::string& name() const override { return config_.name; }
+  std::string_view unit() const override { return config_.unit; }
+  const Params& params() const override { return config_.params; }
+  std::uint64_t seed() const override;
+  const config::Node& document(std::string_view section) override;
+  bool has_document(std::string_view section) const override;
+  void activate_every(Duration period) override;
+  void deliver_after(Duration latency) override { unit_.set_latency(latency); }
+  bool is_written(std::string_view input) const override;
+  const PluginManifest& slot_manifest(std::string_view slot_name) const override;
+  std::shared_ptr<Voice> voice() override { return unit_.voice(); }
+
+  /// Throws std::logic_error when a declared port was never claimed.
+  void check_all_claimed() const;
+
+ protected:
+  InputPort& claim_input(std::string_view port, const MessageType& type) override;
+  OutputPort& claim_output(std::string_view port, const MessageType& type) override;
+  SlotPlugin slot_plugin(std::string_view slot, std::string_view kind, int version) override;
+
+ private:
+  const SlotConfig& slot_config(std::string_view slot_name) const;
+  const PortBinding& declared(const std::vector<PortBinding>& ports, std::string_view direction,
+                              std::string_view name, const MessageType& type);
+
+  const ComponentConfig& config_;
+  const DeploymentConfig& deployment_;
+  PluginRegistry& plugins_;
+  Unit& unit_;
+  Delivery& delivery_;
+  FindTopic find_topic_;
+  std::set<const PortBinding*> claimed_;
+};
+
+}  // namespace armature

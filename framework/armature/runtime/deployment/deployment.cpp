@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/runtime/deployment/deployment.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <thread>
+#include <utility>
+
+#include "armature/config/problems.hpp"
+#include "armature/runtime/deployment_file/injected_fault.hpp"
+#include "armature/runtime/deployment_file/on_fault.hpp"
+#include "armature/runtime/execution/clock_publisher.hpp"
+#include "armature/runtime/execution/lockstep_scheduler.hpp"
+#include "armature/runtime/execution/state_publisher.hpp"
+#include "armature/runtime/execution/threaded_scheduler.hpp"
+#include "armature/runtime/plugins/running_component.hpp"
+#include "armature/runtime/plugins/setup_error.hpp"
+
+namespace armature {
+namespace {
+
+/// Samples that a topic keeps ready beside those that its readers may hold: what waits to be sent
+/// to other processes, what is in flight there, one to fill, and one that a component keeps.
+std::size_t preallocated_samples(QosProfile qos) {
+  constexpr std::size_t kInside = 3;
+  return kInside + static_cast<std::size_t>(settings(qos).depth);
+}
+
+/// Where the samples of one output are: the topic itself, or of a shared one the writer's own part,
+/// with a DDS writer of its own.
+std::string writer_key(const ComponentConfig& component, const PortBinding& output) {
+  if (!output.spec.shared) return output.topic;
+  return output.topic + " of " + component.name + "." + output.spec.name;
+}
+
+/// An executor's period is for all of its components: one that a component has itself would be
+/// ignored, with the parameter that says it (`rate_hz`).
+void check_period(const ComponentConfig& component, const Unit& unit,
+                  const std::vector<ExecutorSpec>& executors, config::Problems& problems) {
+  constexpr double kSame = 1e-3;  // a rate in Hz is seldom a round period
+  const auto executor = std::ranges::find(executors, component.executor, &ExecutorSpec::name);
+  if (!unit.period() || executor == executors.end() || !executor->period) return;
+  const double own = to_seconds(*unit.period()), given = to_seconds(*executor->period);
+  if (std::abs(own - given) <= kSame * given) return;
+  problems.add(
+      component.origin,
+      fmt::format("component '{}' steps every {:g} s by itself, but its executor '{}' steps "
+                  "every {:g} s; make both the same, or name an executor without a period",
+                  component.name, own, component.executor, given));
+}
+
+}  // namespace
+
+Deployment::Deployment(DeploymentConfig config, PluginRegistry& plugins, Options options)
+    : config_{std::move(config)},
+      options_{std::move(options)},
+      lost_peers_{config_.name, config_.processes(), options_.process} {
+  if (!options_.on_note) options_.on_note = [](const std::string&) {};
+  if (!options_.on_ending) options_.on_ending = [](const std::string&) {};
+  make_scheduler();
+  std::vector<const ComponentConfig*> order;
+  for (const ComponentConfig& component : config_.components) {
+    if (options_.process.empty() || component.process == options_.process) {
+      order.push_back(&component);
+    }
+  }
+  std::sort(order.begin(), order.end(),
+            [](const auto* a, const auto* b) { return a->place < b->place; });
+  config::Problems problems;
+  for (const ComponentConfig* component : order) make_unit(*component, plugins, problems);
+  problems.throw_if_any();
+  make_own_units(plugins);
+  if (std::ranges::find(config_.executors, kRuntimeExecutor, &ExecutorSpec::name) ==
+      config_.executors.end()) {
+    config_.executors.push_back({.name = std::string{kRuntimeExecutor}, .period = {}, .cpu = {}});
+  }
+  assign_units();
+}
+
+Deployment::~Deployment() {
+  watchdog_.reset();
+  scheduler_->stop(kStepPatience);
+  constexpr const char* kTransport = "the end of the transport";
+  if (outside_) {
+    options_.on_ending(kTransport);
+    outside_->stop_reading();  // deliveries end before their inboxes go
+  }
+  for (auto& unit : units_) {
+    tell_ending("destructor", *unit);
+    const std::string name = unit->name();
+    const RunningComponent running{name, "destructor"};
+    unit.reset();
+  }
+  options_.on_ending(kTransport);
+  topics_.clear();  // outside writers go before the transport
+  outside_.reset();
+}
+
+void Deployment::make_scheduler() {
+  if (config_.simulated) {
+    auto clock = std::make_unique<SimulatedClock>();
+    scheduler_ = std::make_unique<LockstepScheduler>(*clock);
+    clock_ = std::move(clock);
+  } else {
+    clock_ = options_.clock_offset ? std::make_unique<SystemClock>(*options_.clock_offset)
+                                   : std::make_unique<SystemClock>();
+    scheduler_ = std::make_unique<ThreadedScheduler>(*clock_, options_.on_note);
+  }
+}
+
+void Deployment::make_unit(const ComponentConfig& component, PluginRegistry& plugins,
+                           config::Problems& problems) {
+  const RunningComponent running{component.name, "constructor"};
+  auto unit = std::make_unique<Unit>(component.name, component.plugin_id, component.place,
+                                     options_.on_line);
+  ComponentSetup setup = setup_of(component, plugins, *unit);
+  // Outlives the exceptions that its code throws.
+  auto library = plugins.load(*component.manifest, Component::kKind, Component::kKindVersion);
+  try {
+    const auto make = reinterpret_cast<Component::Factory>(library->factory());
+    auto object = make(setup);
+    setup.check_all_claimed();
+    unit->install({library, std::move(object)});
+    check_period(component, *unit, config_.executors, problems);
+    units_.push_back(std::move(unit));
+  } catch (const config::ConfigError& error) {
+    for (const auto& problem : error.problems()) problems.add(problem.origin, problem.message);
+  } catch (const PluginError&) {
+    throw;  // of a slot's library
+  } catch (const SlotError& error) {
+    const config::Problem problem = problem_of(component, error);
+    problems.add(problem.origin, problem.message);
+  } catch (...) {
+    problems.add(component.origin,
+                 fmt::format("component '{}': {}", component.name, current_exception_text()));
+  }
+}
+
+ComponentConfig Deployment::own_config(std::string_view name, const PluginManifest& manifest,
+                                       int place, const std::string& process) const {
+  ComponentConfig component{.name = std::string{name},
+                            .plugin_id = manifest.id,
+                            .manifest = &manifest,
+                            .executor = std::string{kRuntimeExecutor},
+                            .process = process,
+                            .place = place};
+  for (const PortSpec& spec : manifest.outputs) {
+    const bool absolute = spec.topic.starts_with('/');
+    component.outputs.push_back(
+        {.spec = spec, .topic = absolute ? spec.topic : "/" + config_.name + "/" + spec.topic});
+  }
+  return component;
+}
+
+void Deployment::make_own_units(PluginRegistry& plugins) {
+  // The time is told before anything happens in it, how all are when all has happened.
+  if (config_.simulated) {
+    make_own_unit(kClockComponent, ClockPublisher::manifest(), -1, plugins,
+                  [](Setup& setup) { return std::make_unique<ClockPublisher>(setup); });
+  }
+  const int last = static_cast<int>(config_.components.size());
+  make_own_unit(kStateComponent, StatePublisher::manifest(), last, plugins,
+                [this](Setup& setup) { return std::make_unique<StatePublisher>(setup, units_); });
+  // The other processes tell how their components are, too: a component that reads it hears all.
+  for (const std::string& process : config_.processes()) {
+    if (process == options_.process || options_.process.empty()) continue;
+    config_.components.push_back(
+        own_config(kStateComponent, StatePublisher::manifest(), last, process));
+  }
+  std::sort(units_.begin(), units_.end(),
+            [](const auto& a, const auto& b) { return a->place() < b->place(); });
+}
+
+void Deployment::make_own_unit(std::string_view name, const PluginManifest& manifest, int place,
+                               PluginRegistry& plugins,
+                               const std::function<std::unique_ptr<Component>(Setup&)>& make) {
+  config_.components.push_back(own_config(name, manifest, place, options_.process));
+  const ComponentConfig& config = config_.components.back();
+  auto unit = std::make_unique<Unit>(config.name, manifest.id, place, options_.on_line);
+  ComponentSetup setup = setup_of(config, plugins, *unit);
+  unit->install({nullptr, make(setup)});
+  units_.push_back(std::move(unit));
+}
+
+void Deployment::on_event(const TransportEvent& event) {
+  if (event.kind != TransportEvent::Kind::peer_lost) return options_.on_note(event.text);
+  bool is_told = false;
+  {
+    const std::scoped_lock lock{silent_mutex_};
+    is_told = lost_peers_.is_told_here(event.text);
+    // While the run is stopping others may end before this process does.
+    if (event.of_peer && !stopping_) silent_.push_back(event.text);
+  }
+  if (is_told) options_.on_note(event.text);
+}
+
+std::vector<std::string> Deployment::silent() const {
+  const std::scoped_lock lock{silent_mutex_};
+  return silent_;
+}
+
+ComponentSetup Deployment::setup_of(const ComponentConfig& component, PluginRegistry& plugins,
+                                    Unit& unit) {
+  return {component,
+          config_,
+          plugins,
+          unit,
+          *scheduler_,
+          [this, &component](const PortBinding& port, const MessageType& type) -> Topic& {
+            return topic_for(component, port, type);
+          }};
+}
+
+Topic& Deployment::topic_for(const ComponentConfig& component, const PortBinding& port,
+                             const MessageType& type) {
+  Topic& topic = topic_at(port.topic, port, type);
+  if (!port.spec.shared) return topic;
+  Topic& own = topic_at(writer_key(component, port), port, type);
+  own.pass_on_to(topic);
+  return own;
+}
+
+Topic& Deployment::topic_at(const std::string& key, const PortBinding& port,
+                            const MessageType& type) {
+  auto& topic = topics_[key];
+  if (!topic) {
+    topic = std::make_unique<Topic>(
+        TopicSpec{.name = "rt" + port.topic, .type = &type, .qos = port.spec.qos},
+        preallocated_samples(port.spec.qos));
+  }
+  return *topic;
+}
+
+const ComponentConfig& Deployment::config_of(const Unit& unit) const {
+  return *std::find_if(config_.components.begin(), config_.components.end(),
+                       [&](const ComponentConfig& c) { return c.name == unit.name(); });
+}
+
+void Deployment::inject(const InjectedFault& fault) {
+  for (const auto& unit : units_) {
+    if (unit->name() == fault.component()) unit->inject(fault);
+  }
+}
+
+void Deployment::assign_units() {
+  for (const ExecutorSpec& spec : config_.executors) {
+    std::vector<Unit*> assigned;
+    for (const auto& unit : units_) {
+      if (config_of(*unit).executor == spec.name) assigned.push_back(unit.get());
+    }
+    if (!assigned.empty())
+      scheduler_->assign(spec, assigned, [this](const Unit& unit) {
+        return std::max(config_of(unit).sim_latency, unit.latency());
+      });
+  }
+}
+
+void Deployment::connect(PluginRegistry& plugins, int domain, const std::string& run) {
+  // A process that the others go on without must leave nothing behind that they wait for.
+  const bool isolated = options_.process != kMainProcess && !stops_run(options_.process, config_);
+  const TransportOptions options{
+      .domain = domain,
+      .interfaces = config_.dds.interface_names(),
+      .deployment = config_.name,
+      .fingerprint = config_.fingerprint,
+      .run = run,
+      .process = options_.process,
+      .on_event = [this](const TransportEvent& event) { on_event(event); },
+      .now = [this] { return clock_->now(); },
+      .simulated = config_.simulated,
+      .shared_memory = !isolated};
+  auto transport = plugins.make<Transport>("transport/fast_dds", options);
+  if (!transport) throw PluginError("cannot join DDS: " + transport.error().text);
+  outside_.emplace(std::move(*transport), config_, options_.process);
+  for (const ComponentConfig& component : config_.components) {
+    if (component.process != options_.process) continue;
+    for (const PortBinding& output : component.outputs) {
+      outside_->advertise(output, *topics_.at(writer_key(component, output)));
+    }
+    for (const PortBinding& input : component.inputs) {
+      outside_->subscribe(input, *topics_.at(input.topic));
+    }
+  }
+}
+
+}  // namespace armature

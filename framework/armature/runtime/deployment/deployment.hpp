@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "armature/runtime/deployment/component_setup.hpp"
+#include "armature/runtime/deployment/lost_peers.hpp"
+#include "armature/runtime/deployment/outside.hpp"
+#include "armature/runtime/deployment/run_watch.hpp"
+#include "armature/runtime/deployment_file/deployment_config.hpp"
+#include "armature/runtime/execution/clock.hpp"
+#include "armature/runtime/execution/scheduler.hpp"
+#include "armature/runtime/execution/unit.hpp"
+#include "armature/runtime/execution/watchdog.hpp"
+#include "armature/values/sanitizer.hpp"
+
+namespace armature {
+
+/// A deployment in memory: topics, units, scheduler, and the way to other processes. Built in
+/// three steps, each of which throws with every problem it finds: the configuration is read
+/// (read_deployment), the components are constructed (here), the transport is joined (connect).
+class Deployment {
+ public:
+  struct Options {
+    std::string process{kMainProcess};  // constructs only its components; empty: all of them
+    Voice::Sink on_line;                // what components tell the operator
+    std::function<void(const std::string&)> on_note;  // what the runtime tells the operator
+    std::optional<Duration> clock_offset =
+        {};  // of the main process' SystemClock; none: an own one
+    /// Goes on when the story has been told, and has no time limit, until it is interrupted.
+    bool keeps_running = false;
+    /// Before each call at the end of the run that might not return: "the stop of 'arm'".
+    std::function<void(const std::string& what)> on_ending = {};
+  };
+
+  /// Loads the plugins and constructs the components. Throws config::ConfigError (a plugin refuses
+  /// its parameters or robot) or PluginError (a library cannot be used).
+  Deployment(DeploymentConfig config, PluginRegistry& plugins, Options options);
+  ~Deployment();
+  Deployment(const Deployment&) = delete;
+  Deployment& operator=(const Deployment&) = delete;
+
+  const DeploymentConfig& config() const { return config_; }
+  const Clock& clock() const { return *clock_; }
+  const std::vector<std::unique_ptr<Unit>>& units() const { return units_; }
+  /// The entry of the deployment that `unit` was made from.
+  const ComponentConfig& config_of(const Unit& unit) const;
+
+  /// Puts a drill's fault, which outlives the deployment, into its component, if that is here.
+  void inject(const InjectedFault& fault);
+
+  /// Joins the DDS domain: writers for every output, readers only for inputs that another process
+  /// feeds. Another machine may run the same file: processes with another `run` are strangers.
+  /// Throws PluginError with the transport's reason.
+  void connect(PluginRegistry& plugins, int domain, const std::string& run = {});
+
+  /// Waits until the topics between this and the other processes have met, so that what is sent
+  /// once is not lost, and until `watch` lets it begin. Then runs until a component is finished or
+  /// has failed, the time limit is over, or `watch` says so: from then on it is stopping.
+  /// Everything goes on being activated until what moves is at rest, for at most `stop_within_s`;
+  /// then it ends, sources first. Throws what `watch` throws.
+  void run(RunWatch& watch);
+
+  bool any_finished() const;
+  /// Whether a component had finished when the run began to stop.
+  bool story_told() const { return story_told_; }
+  /// True when the run ended because its time limit was over.
+  bool timed_out() const { return timed_out_; }
+  /// The first fault that ends the run, or the first step that hangs on the way to a driver; or
+  /// empty.
+  std::string fault() const;
+  /// The faults that stayed where they were.
+  std::vector<std::string> isolated_faults() const;
+  /// What fell silent of the deployment's other processes while it ran.
+  std::vector<std::string> silent() const;
+  /// Components that were not at rest when the run ended.
+  const std::vector<std::string>& moving() const { return moving_; }
+  /// Components whose step has not returned; nothing of them may be called any more, and the
+  /// process has to be left without destroying the deployment.
+  const std::vector<const Unit*>& hung() const { return hung_; }
+  bool is_hung(const Unit& unit) const;
+
+  /// Says that the "stop" (or another `function`) of a component is called next (on_ending).
+  void tell_ending(std::string_view function, const Unit& unit) const;
+
+  /// How long the end of a run waits for a step to return.
+  static constexpr Duration kStepPatience = seconds(kSanitized ? 10 : 2);
+
+ private:
+  void make_scheduler();
+  void make_unit(const ComponentConfig& component, PluginRegistry& plugins,
+                 config::Problems& problems);
+  void make_own_units(PluginRegistry& plugins);
+  void make_own_unit(std::string_view name, const PluginManifest& manifest, int place,
+                     PluginRegistry& plugins,
+                     const std::function<std::unique_ptr<Component>(Setup&)>& make);
+  /// The entry of what the runtime itself adds to `process`.
+  ComponentConfig own_config(std::string_view name, const PluginManifest& manifest, int place,
+                             const std::string& process) const;
+  ComponentSetup setup_of(const ComponentConfig& component, PluginRegistry& plugins, Unit& unit);
+  Topic& topic_for(const ComponentConfig& component, const PortBinding& port,
+                   const MessageType& type);
+  Topic& topic_at(const std::string& key, const PortBinding& port, const MessageType& type);
+  void start_watchdog();
+  void assign_units();
+  void on_event(const TransportEvent& event);
+  bool await_start(RunWatch& watch);
+  /// Returns why it is to stop.
+  std::string run_until_stop(RunWatch& watch);
+  std::optional<std::string> stop_cause(RunWatch& watch, Time start);
+  void come_to_rest(RunWatch& watch);
+  std::vector<std::string> find_moving() const;
+  void end();
+
+  DeploymentConfig config_;
+  Options options_;
+  std::unique_ptr<Clock> clock_;
+  std::map<std::string, std::unique_ptr<Topic>> topics_;  // by name, of shared ones also by writer
+  std::unique_ptr<Scheduler> scheduler_;
+  std::vector<std::unique_ptr<Unit>> units_;  // in the order of the graph
+  std::optional<Watchdog> watchdog_;
+  bool story_told_ = false;  // a component has finished
+  bool timed_out_ = false;
+  std::atomic<bool> stopping_{false};
+  mutable std::mutex silent_mutex_;
+  std::vector<std::string> silent_;
+  LostPeers lost_peers_;
+  std::vector<std::string> moving_;
+  std::vector<const Unit*> hung_;
+  std::optional<Outside> outside_;  // the topics that it has writers of go first
+};
+
+}  // namespace armature

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/runtime/deployment/outside.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+namespace armature {
+
+void Outside::advertise(const PortBinding& output, Topic& topic) {
+  TopicSpec spec = topic.spec();
+  spec.qos = output.spec.qos;
+  auto writer = transport_->advertise(spec);
+  if (!writer) throw PluginError("cannot write " + output.topic + ": " + writer.error().text);
+  if (const int readers = readers_elsewhere(output.topic)) {
+    links_.push_back({text_of(output.topic, processes_with(output.topic, &ComponentConfig::inputs)),
+                      [own = writer->get(), readers] { return own->peers() >= readers; }});
+  }
+  topic.attach(std::move(*writer));
+}
+
+void Outside::subscribe(const PortBinding& input, Topic& topic) {
+  const int writers = writers_elsewhere(input.topic);
+  const bool elsewhere = writers > 0;
+  const Sources sources = input.spec.outside ? Sources::any : Sources::deployment;
+  if ((!elsewhere && !input.spec.outside) || readers_.contains({input.topic, sources})) return;
+  TopicSpec spec = topic.spec();
+  spec.qos = input.spec.qos;
+  auto reader = transport_->subscribe(
+      spec, sources == Sources::deployment,
+      [&topic, sources](SampleRef sample) { topic.deliver(sample, sources); });
+  if (!reader) throw PluginError("cannot read " + input.topic + ": " + reader.error().text);
+  if (elsewhere) {
+    links_.push_back({text_of(input.topic, processes_with(input.topic, &ComponentConfig::outputs)),
+                      [own = reader->get(), writers] { return own->peers() >= writers; }});
+  }
+  readers_[{input.topic, sources}] = std::move(*reader);
+}
+
+std::optional<std::string> Outside::waiting() const {
+  const auto link =
+      std::ranges::find_if_not(links_, [](const Link& candidate) { return candidate.met(); });
+  return link == links_.end() ? std::nullopt : std::optional{link->text};
+}
+
+std::vector<std::string> Outside::refusals() const {
+  std::vector<std::string> told;
+  for (const auto& [key, reader] : readers_) {
+    for (const auto& [writer, count] : reader->refused()) {
+      told.push_back(
+          fmt::format("{} samples of {} on '{}' were refused", count, writer, key.first));
+    }
+  }
+  return told;
+}
+
+std::set<std::string> Outside::processes_with(
+    const std::string& topic, std::vector<PortBinding> ComponentConfig::*ports) const {
+  std::set<std::string> processes;
+  for (const ComponentConfig& component : deployment_->components) {
+    if (component.process == process_) continue;
+    const auto& bound = component.*ports;
+    if (std::ranges::find(bound, topic, &PortBinding::topic) != bound.end()) {
+      processes.insert(component.process);
+    }
+  }
+  return processes;
+}
+
+std::string Outside::text_of(const std::string& topic,
+                             const std::set<std::string>& processes) const {
+  std::string others;
+  for (const std::string& process : processes) {
+    others += (others.empty() ? "'" : ", '") + process + "'";
+  }
+  return "topic '" + topic + "' of process '" + process_ + "' has not met process " + others;
+}
+
+int Outside::readers_elsewhere(const std::string& topic) const {
+  std::set<std::pair<std::string, bool>> readers;
+  for (const ComponentConfig& component : deployment_->components) {
+    if (component.process == process_) continue;
+    for (const PortBinding& input : component.inputs) {
+      if (input.topic == topic) readers.emplace(component.process, input.spec.outside);
+    }
+  }
+  return static_cast<int>(readers.size());
+}
+
+int Outside::writers_elsewhere(const std::string& topic) const {
+  std::ptrdiff_t writers = 0;
+  for (const ComponentConfig& component : deployment_->components) {
+    if (component.process == process_) continue;
+    writers += std::ranges::count(component.outputs, topic, &PortBinding::topic);
+  }
+  return static_cast<int>(writers);
+}
+
+}  // namespace armature

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "armature/bus/topic.hpp"
+#include "armature/bus/transport.hpp"
+#include "armature/runtime/deployment_file/deployment_config.hpp"
+#include "armature/runtime/plugins/plugin_library.hpp"
+
+namespace armature {
+
+/// The topics of one process of a deployment, seen from outside: writers for its outputs, readers
+/// only for inputs that another process feeds or that are open, and whether the deployment's other
+/// processes have met them.
+class Outside {
+ public:
+  Outside(PluginPtr<Transport> transport, const DeploymentConfig& deployment, std::string process)
+      : transport_{std::move(transport)}, deployment_{&deployment}, process_{std::move(process)} {}
+
+  /// Throws PluginError with the transport's reason.
+  void advertise(const PortBinding& output, Topic& topic);
+  void subscribe(const PortBinding& input, Topic& topic);
+  /// Which topic waits for which other process, if any does: "topic '/lamp/arm/measured_js' of
+  /// process 'main' has not met process 'arm'".
+  std::optional<std::string> waiting() const;
+  /// What strangers wrote to inputs that are the deployment's own, a sentence for each.
+  std::vector<std::string> refusals() const;
+  /// No sample is delivered afterwards. Writers stay with their topics, which go before this.
+  void stop_reading() { readers_.clear(); }
+
+ private:
+  /// The other processes with a component that has `topic` among its inputs, or its outputs.
+  std::set<std::string> processes_with(const std::string& topic,
+                                       std::vector<PortBinding> ComponentConfig::*ports) const;
+  std::string text_of(const std::string& topic, const std::set<std::string>& processes) const;
+  /// How many readers other processes have for `topic`: one for all inputs of a process that take
+  /// samples of the deployment only, and one for those that are open.
+  int readers_elsewhere(const std::string& topic) const;
+  /// How many components of other processes write `topic`.
+  int writers_elsewhere(const std::string& topic) const;
+
+  PluginPtr<Transport> transport_;
+  const DeploymentConfig* deployment_;
+  std::string process_;
+  std::map<std::pair<std::string, Sources>, std::unique_ptr<OutsideReader>> readers_;
+  /// A topic that another process reads or writes.
+  struct Link {
+    std::string text;  // that it waits
+    std::function<bool()> met;
+  };
+  std::vector<Link> links_;
+};
+
+}  // namespace armature

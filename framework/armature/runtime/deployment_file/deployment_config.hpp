@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "armature/config/node.hpp"
+#include "armature/config/params.hpp"
+#include "armature/runtime/deployment_file/dds_config.hpp"
+#include "armature/runtime/deployment_file/executor_spec.hpp"
+#include "armature/runtime/plugins/plugin_manifest.hpp"
+#include "armature/runtime/plugins/plugin_registry.hpp"
+
+namespace armature {
+
+/// A plugin in a slot, resolved: known by its manifest, its parameters checked.
+struct SlotConfig {
+  std::string name;
+  std::string plugin_id;
+  config::Origin origin;
+  const PluginManifest* manifest = nullptr;
+  Params params;
+};
+
+/// A port of a component, with the topic it is bound to.
+struct PortBinding {
+  PortSpec spec;
+  std::string topic;      // absolute: "/dental_lamp/arm/measured_js"
+  config::Origin origin;  // of the rename, or of the component
+  bool renamed = false;   // the file says which topic
+};
+
+/// What a fault of a component does: it ends the run, or it stays where it is, and only that
+/// component is not activated any more.
+enum class OnFault { stop, isolate };
+
+/// One entry of `components:`, resolved, or one of the units that it is at run time.
+struct ComponentConfig {
+  std::string name;
+  std::string unit{kMainUnit};  // of the component, when it is several
+  config::Origin origin;
+  std::string plugin_id;                     // as the user wrote it
+  const PluginManifest* manifest = nullptr;  // of the component that runs (a host, for pure kinds)
+  std::string topics;  // "left/" before the usual names of its topics; empty: nothing
+  Params params;
+  std::vector<SlotConfig> slots;
+  std::vector<PortBinding> inputs, outputs;
+  std::map<std::string, std::string> documents;  // section -> the bound entry's name
+  std::string executor;
+  std::string process;
+  Duration sim_latency{0};
+  std::optional<OnFault> on_fault;  // as the file says, else as the graph does (on_fault.hpp)
+  int place = 0;                    // in the graph, sources first
+};
+
+/// `goals:`: a metric of the summary that must not exceed its limit.
+struct Goal {
+  std::string metric;
+  double limit;
+  config::Origin origin, limit_origin;
+};
+
+/// A deployment file, read, checked and resolved against the plugins that are there.
+struct DeploymentConfig {
+  std::string name;
+  bool simulated = false;
+  int domain = 0;
+  DdsConfig dds;
+  std::uint64_t seed = 0;
+  double time_limit_s = 0;   // 0: none
+  double stop_within_s = 3;  // how long the end of a run waits for what moves to come to rest
+  std::vector<ExecutorSpec> executors;
+  std::map<std::string, std::map<std::string, config::Node>> documents;  // section -> name -> file
+  std::vector<ComponentConfig> components;                               // in file order
+  std::vector<Goal> goals;
+  std::string fingerprint;  // SHA-256 of the resolved file and of all documents
+
+  std::vector<std::string> processes() const;  // "main" first
+};
+
+/// What a file may let anything wait for: a longer time is a slip of the pen.
+inline constexpr double kLongestWait_s = 3600;
+inline constexpr std::string_view kMainProcess = "main";
+inline constexpr std::string_view kMainExecutor = "main";
+inline constexpr std::string_view kRuntimeExecutor = "runtime";  // of the runtime's own components
+// The runtime's own components, which every process has (the clock: on the simulated clock).
+inline constexpr std::string_view kStateComponent = "runtime";
+inline constexpr std::string_view kClockComponent = "runtime_clock";
+
+/// False, and a problem, when `root` is another file. What that one says must not be told: it may
+/// be any file that the user named by mistake.
+bool check_is_deployment(const config::Node& root, config::Problems& problems);
+
+/// Reads `root` (a merged document). Every mistake that can be known without loading a library is
+/// added to `problems`; the result is usable only when there is none.
+DeploymentConfig read_deployment(const config::Node& root, const PluginRegistry& plugins,
+                                 config::Problems& problems);
+
+}  // namespace armature

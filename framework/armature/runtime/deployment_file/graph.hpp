@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "armature/runtime/deployment_file/deployment_config.hpp"
+
+namespace armature {
+
+/// Checks how the components of a deployment are wired and sets every component's place in the
+/// graph (sources first; file order among equals). Problems: a topic with two writers that do not
+/// both share it, two types, frames, robots or unmatchable QoS on one topic, an input nobody
+/// writes (of `plugins` those that would are named), a cycle in which no input is declared as
+/// feedback.
+void check_graph(DeploymentConfig& deployment, const PluginRegistry& plugins,
+                 config::Problems& problems);
+
+/// Whether one of them reads what the other one writes.
+bool exchange_topics(const ComponentConfig& a, const ComponentConfig& b);
+
+}  // namespace armature

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/runtime/deployment_file/injected_fault.hpp"
+
+#include <gmock/gmock.h>
+
+#include <csignal>
+
+#include "armature/config/problems.hpp"
+#include "armature/runtime/testing/fake_setup.hpp"
+
+namespace armature {
+namespace {
+
+using testing::HasSubstr;
+
+class InjectedFaultTest : public testing::Test {
+ protected:
+  InjectedFaultTest() {
+    driver_.id = "arm/simulated";
+    driver_.driver = DriverSpec{.simulated = true};
+    deployment_.components = {{.name = "arm", .manifest = &driver_},
+                              {.name = "monitor", .manifest = &monitor_}};
+  }
+  std::string refusal(std::string_view text) const {
+    try {
+      InjectedFault::read(text, deployment_);
+    } catch (const config::ConfigError& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  PluginManifest driver_, monitor_;
+  DeploymentConfig deployment_;
+};
+
+TEST_F(InjectedFaultTest, StrikesInTheNextStepOnceTheSignalHasCome) {
+  const auto fault = InjectedFault::read("monitor:throw", deployment_);
+  EXPECT_EQ(fault.component(), "monitor");
+  int steps = 0;
+  const auto unit = make_unit("monitor", 0, [&](Time) { ++steps; });
+  unit->inject(fault);
+  InjectedFault::listen();
+  unit->activate({});
+  EXPECT_FALSE(unit->faulted());
+  std::raise(SIGUSR1);
+  unit->activate({});
+  EXPECT_TRUE(unit->faulted());
+  EXPECT_EQ(unit->status().reason, "step failed: a drill's fault");
+  EXPECT_EQ(steps, 1);
+}
+
+TEST_F(InjectedFaultTest, NamesWhatIsWrongWithIt) {
+  EXPECT_EQ(refusal("monitr:throw"),
+            "--inject monitr:throw: no component 'monitr'; did you mean 'monitor'?");
+  EXPECT_EQ(refusal("monitor:trow"),
+            "--inject monitor:trow: a component cannot 'trow'; did you mean 'throw'?");
+  EXPECT_THAT(refusal("monitor"), HasSubstr("a component cannot ''"));
+}
+
+TEST_F(InjectedFaultTest, IsRefusedWhereADriverMovesMetal) {
+  driver_.driver->simulated = false;
+  EXPECT_EQ(refusal("monitor:throw"),
+            "--inject monitor:throw: 'arm' (arm/simulated) moves metal; faults are only put into a "
+            "run whose drivers are all 'simulated: true'");
+}
+
+}  // namespace
+}  // namespace armature

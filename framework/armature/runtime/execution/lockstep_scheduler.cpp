@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/runtime/execution/lockstep_scheduler.hpp"
+
+#include <utility>
+
+namespace armature {
+
+void LockstepScheduler::assign(const ExecutorSpec& executor, const std::vector<Unit*>& units,
+                               const std::function<Duration(const Unit&)>& latency) {
+  for (Unit* unit : units) {
+    add(*unit, executor.period ? executor.period : unit->period(), latency(*unit));
+  }
+}
+
+void LockstepScheduler::add(Unit& unit, std::optional<Duration> period, Duration latency) {
+  entries_.push_back({&unit, period, latency, std::nullopt});
+  Entry& entry = entries_.back();
+  unit.on_triggered([this, &entry] {
+    const Time now = clock_->now();
+    if (entry.triggered_at == now) return;
+    entry.triggered_at = now;
+    schedule({.time = now, .place = entry.unit->place(), .activate = &entry});
+  });
+  if (period) {
+    schedule({.time = {}, .place = unit.place(), .activate = &entry, .periodic = true});
+  }
+}
+
+void LockstepScheduler::schedule(Event event) {
+  event.sequence = next_sequence_++;
+  events_.push(std::move(event));
+}
+
+void LockstepScheduler::publish(Topic& topic, SampleRef sample) {
+  if (!running_ || running_->latency.count() == 0) {
+    topic.publish(std::move(sample), clock_->now());
+    return;
+  }
+  schedule({.time = clock_->now() + running_->latency,
+            .place = running_->unit->place(),
+            .topic = &topic,
+            .sample = std::move(sample)});
+}
+
+void LockstepScheduler::handle(Event& event) {
+  if (!event.activate) {
+    event.topic->publish(std::move(event.sample), event.time);
+    return;
+  }
+  Entry& entry = *event.activate;
+  if (event.periodic) {
+    schedule({.time = event.time + *entry.period,
+              .place = event.place,
+              .activate = &entry,
+              .periodic = true});
+  } else {
+    entry.triggered_at.reset();
+  }
+  running_ = &entry;
+  entry.unit->activate(event.time);
+  running_ = nullptr;
+}
+
+void LockstepScheduler::run(const std::function<bool()>& done) {
+  while (!events_.empty() && !done()) {
+    Event event = events_.top();
+    events_.pop();
+    clock_->set(event.time);
+    handle(event);
+  }
+}
+
+/// At once, between two activations: when everything rests already, not one more happens.
+void LockstepScheduler::begin_stop() {
+  for (Entry& entry : entries_) {
+    entry.unit->request_stop();
+    entry.unit->answer_stop_request(clock_->now());
+  }
+}
+
+}  // namespace armature

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <thread>
+
+#include "armature/runtime/execution/lockstep_scheduler.hpp"
+#include "armature/runtime/execution/threaded_scheduler.hpp"
+#include "armature/runtime/testing/fake_setup.hpp"
+
+namespace armature {
+namespace {
+
+MessageType number_type() {
+  MessageType type;
+  type.ros_name = "test_msgs/Number";
+  type.create = [] { return static_cast<void*>(new int{}); };
+  type.destroy = [](void* message) { delete static_cast<int*>(message); };
+  return type;
+}
+
+const std::function<Duration(const Unit&)> kNoLatency = [](const Unit&) { return Duration{0}; };
+
+TEST(LockstepScheduler, ActivatesInTheOrderOfTimeThenGraph) {
+  SimulatedClock clock;
+  LockstepScheduler scheduler{clock};
+  std::vector<std::string> log;
+  const auto record = [&](const std::string& name) {
+    return [&log, name](Time now) { log.push_back(name + "@" + std::to_string(now.ns)); };
+  };
+  const auto late = make_unit("late", 1, record("late"));
+  const auto early = make_unit("early", 0, record("early"));
+  scheduler.assign({.name = "a", .period = Duration{20}, .cpu = {}}, {late.get()}, kNoLatency);
+  scheduler.assign({.name = "b", .period = Duration{10}, .cpu = {}}, {early.get()}, kNoLatency);
+  scheduler.run([&] { return log.size() >= 5; });
+  EXPECT_EQ(log,
+            (std::vector<std::string>{"early@0", "late@0", "early@10", "early@20", "late@20"}));
+}
+
+TEST(LockstepScheduler, DeliversAtOnceWithoutLatencyAndLaterWithOne) {
+  for (const Duration latency : {Duration{0}, Duration{7}}) {
+    SimulatedClock clock;
+    LockstepScheduler scheduler{clock};
+    const MessageType type = number_type();
+    Topic topic{{.name = "rt/n", .type = &type}, 2};
+    const auto source =
+        make_unit("source", 0, [&](Time) { scheduler.publish(topic, topic.loan()); });
+    std::vector<std::int64_t> seen;
+    const auto sink = make_unit("sink", 1, [&](Time now) { seen.push_back(now.ns); });
+    topic.connect(sink->inbox().add({.name = "in", .trigger = true}, type));
+    scheduler.assign({.name = "a", .period = Duration{100}, .cpu = {}}, {source.get()},
+                     [&](const Unit&) { return latency; });
+    scheduler.assign({.name = "b", .period = {}, .cpu = {}}, {sink.get()}, kNoLatency);
+    scheduler.run([&] { return seen.size() >= 2; });
+    EXPECT_EQ(seen, (std::vector<std::int64_t>{latency.count(), 100 + latency.count()}));
+  }
+}
+
+TEST(LockstepScheduler, WhenItStopsNothingIsOnItsWayAnyMore) {
+  SimulatedClock clock;
+  LockstepScheduler scheduler{clock};
+  const MessageType type = number_type();
+  Topic topic{{.name = "rt/n", .type = &type}, 1};
+  const auto source = make_unit("source", 0, [&](Time) { scheduler.publish(topic, topic.loan()); });
+  scheduler.assign({.name = "a", .period = Duration{100}, .cpu = {}}, {source.get()},
+                   [](const Unit&) { return Duration{7}; });
+  scheduler.run([&] { return source->activations() == 1; });
+  scheduler.stop(seconds(60));
+  topic.loan();
+  EXPECT_EQ(topic.pool_growth(), 0U);  // the one sample is back
+}
+
+TEST(LockstepScheduler, EndsWhenNothingIsLeftToDo) {
+  SimulatedClock clock;
+  LockstepScheduler scheduler{clock};
+  scheduler.run([] { return false; });
+  EXPECT_EQ(clock.now().ns, 0);
+}
+
+TEST(Unit, AnExceptionBecomesItsFaultAndItIsNotCalledAgain) {
+  int calls = 0;
+  const auto unit = make_unit("arm", 0, [&](Time) {
+    ++calls;
+    throw std::runtime_error("joint 3 is gone");
+  });
+  unit->activate({});
+  unit->activate({});
+  EXPECT_EQ(calls, 1);
+  EXPECT_TRUE(unit->faulted());
+  EXPECT_EQ(unit->voice()->status().reason, "step failed: joint 3 is gone");
+}
+
+TEST(Unit, AFaultEndsItsOutputsWhicheverOfItsThreadsStillPublishes) {
+  SimulatedClock clock;
+  LockstepScheduler scheduler{clock};
+  const MessageType type = number_type();
+  Topic topic{{.name = "rt/n", .type = &type}, 2};
+  const auto unit = make_unit("camera", 0, [](Time) { throw std::runtime_error("no light"); });
+  OutputPort& output = unit->outputs().emplace_back(PortSpec{.name = "n"}, topic, scheduler);
+  output.publish(topic.loan());
+  EXPECT_EQ(topic.published(), 1U);
+  unit->activate({});
+  output.publish(topic.loan());
+  EXPECT_EQ(topic.published(), 1U);
+  EXPECT_FALSE(output.wanted());
+}
+
+/// Something that moves and needs steps to come to rest.
+class Mover final : public Component {
+ public:
+  Mover(Setup& setup, int steps_to_rest) : Component{setup}, steps_to_rest_{steps_to_rest} {}
+  void step(Time) override {
+    log.push_back("step");
+    if (!missed.empty()) degraded(missed);
+    if (broken) throw std::runtime_error{"a joint is blocked"};
+    if (stopping_ && steps_to_rest_ > 0) --steps_to_rest_;
+  }
+  void begin_stop(Time now) override {
+    log.push_back("begin_stop@" + std::to_string(now.ns));
+    stopping_ = true;
+  }
+  bool stopped() const override { return steps_to_rest_ == 0; }
+  bool finished() const override { return told; }
+
+  std::vector<std::string> log;
+  std::string missed;  // what it misses
+  bool told = false, broken = false;
+
+ private:
+  int steps_to_rest_;
+  bool stopping_ = false;
+};
+
+class StoppingUnit : public testing::Test {
+ protected:
+  void make(int steps_to_rest) {
+    FakeSetup setup{unit_};
+    auto mover = std::make_unique<Mover>(setup, steps_to_rest);
+    mover_ = mover.get();
+    unit_.install({nullptr, std::move(mover)});
+  }
+  std::vector<std::string> lines_;
+  Unit unit_{"mover", "test/mover", 0,
+             [this](std::string_view, std::string_view line) { lines_.emplace_back(line); }};
+  Mover* mover_ = nullptr;
+};
+
+TEST_F(StoppingUnit, IsToldOnceBeforeItsNextStepAndStepsUntilItIsAtRest) {
+  make(2);
+  unit_.activate(Time{1});
+  EXPECT_FALSE(unit_.stopped()) << "nobody has asked it to";
+  unit_.request_stop();
+  unit_.activate(Time{2});
+  EXPECT_FALSE(unit_.stopped());
+  unit_.activate(Time{3});
+  EXPECT_TRUE(unit_.stopped());
+  EXPECT_EQ(mover_->log, (std::vector<std::string>{"step", "begin_stop@2", "step", "step"}));
+}
+
+TEST_F(StoppingUnit, ThatRestsAlreadyNeedsNoStep) {
+  make(0);
+  unit_.request_stop();
+  unit_.answer_stop_request(Time{5});
+  unit_.answer_stop_request(Time{6});
+  EXPECT_TRUE(unit_.stopped());
+  EXPECT_EQ(mover_->log, std::vector<std::string>{"begin_stop@5"});
+}
+
+TEST_F(StoppingUnit, ThatRestsDoesNotTellWhatItMissesOfThoseWhoEndBeforeIt) {
+  make(1);
+  unit_.activate(Time{1});
+  unit_.request_stop();
+  mover_->missed = "no command for 0.1 s";
+  unit_.activate(Time{2});
+  EXPECT_EQ(lines_, std::vector<std::string>{mover_->missed}) << "it moved still";
+  mover_->missed = "no command for 0.2 s";
+  unit_.activate(Time{3});
+  EXPECT_EQ(lines_.size(), 1U);
+  EXPECT_EQ(unit_.status().reason, mover_->missed) << "it is kept for those who ask";
+}
+
+TEST_F(StoppingUnit, ThatRestsTellsItsFaults) {
+  make(0);
+  unit_.request_stop();
+  unit_.activate(Time{1});
+  mover_->broken = true;
+  unit_.activate(Time{2});
+  EXPECT_EQ(lines_, std::vector<std::string>{"FAULT: step failed: a joint is blocked"});
+}
+
+TEST_F(StoppingUnit, ThatHasFinishedIsNotSteppedAnyMoreButToldThatTheRunStops) {
+  make(0);
+  mover_->told = true;
+  unit_.activate(Time{1});
+  unit_.activate(Time{2});
+  unit_.request_stop();
+  unit_.activate(Time{3});
+  EXPECT_EQ(mover_->log, (std::vector<std::string>{"step", "begin_stop@3"}));
+  EXPECT_TRUE(unit_.stopped());
+}
+
+TEST(ThreadedScheduler, ActivatesPeriodicallyAndOnTriggersAndStops) {
+  const SystemClock clock;
+  ThreadedScheduler scheduler{clock, [](const std::string&) {}};
+  const MessageType type = number_type();
+  Topic topic{{.name = "rt/n", .type = &type}, 2};
+  std::atomic<int> sent{0}, received{0};
+  const auto source = make_unit("source", 0, [&](Time) {
+    if (sent < 20) {
+      scheduler.publish(topic, topic.loan());
+      ++sent;
+    }
+  });
+  const auto sink = make_unit("sink", 1, [&](Time) { ++received; });
+  topic.connect(sink->inbox().add({.name = "in", .queue = 32, .trigger = true}, type));
+  scheduler.assign({.name = "periodic", .period = seconds(0.001), .cpu = {}}, {source.get()},
+                   kNoLatency);
+  scheduler.assign({.name = "triggered", .period = {}, .cpu = {}}, {sink.get()}, kNoLatency);
+  scheduler.run([&] { return sent >= 20 && received >= 1; });
+  scheduler.stop(seconds(60));
+  const int after_stop = received;
+  std::this_thread::sleep_for(std::chrono::milliseconds{20});
+  EXPECT_EQ(received, after_stop);
+  EXPECT_LE(received, 20);
+}
+
+TEST(ThreadedScheduler, CountsMissedPeriodsInsteadOfCatchingUp) {
+  const SystemClock clock;
+  ThreadedScheduler scheduler{clock, [](const std::string&) {}};
+  std::atomic<int> calls{0};
+  const auto slow = make_unit("slow", 0, [&](Time) {
+    if (calls++ == 0) std::this_thread::sleep_for(std::chrono::milliseconds{50});
+  });
+  scheduler.assign({.name = "control", .period = seconds(0.005), .cpu = {}}, {slow.get()},
+                   kNoLatency);
+  scheduler.run([&] { return calls >= 3; });
+  scheduler.stop(seconds(60));
+  EXPECT_GE(slow->overruns(), 8U);
+}
+
+}  // namespace
+}  // namespace armature

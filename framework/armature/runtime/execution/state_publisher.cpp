@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/runtime/execution/state_publisher.hpp"
+
+#include <fmt/format.h>
+
+#include <cstddef>
+#include <string>
+#include <utility>
+
+#include "armature/messages/stamp.hpp"
+#include "armature/runtime/component/setup.hpp"
+
+namespace armature {
+namespace {
+
+constexpr const char* kManifest = R"(
+armature_plugin: 1
+id: runtime/state_publisher
+kind: component
+doc: Tells how every component of this process is.
+out:
+  state: {type: armature_msgs/ComponentState, topic: component_state, doc: "One message per component, twice a second."}
+  diagnostics: {type: diagnostic_msgs/DiagnosticArray, topic: /diagnostics, shared: true, doc: "The same for ROS tools."}
+)";
+
+msg::KeyValue key_value(std::string key, std::string value) {
+  msg::KeyValue pair;
+  pair.key_(std::move(key));
+  pair.value_(std::move(value));
+  return pair;
+}
+
+msg::KeyValue key_value(std::string key, std::uint64_t value) {
+  return key_value(std::move(key), std::to_string(value));
+}
+
+/// Plain numbers under names that end in their unit, so that tools plot them as they are.
+void add_times(const std::string& what, const TimingFigures& figures,
+               std::vector<msg::KeyValue>& values) {
+  const auto add = [&](const char* which, double value_s) {
+    values.push_back(
+        key_value(fmt::format("{}_{}_us", what, which), fmt::format("{:.3f}", 1e6 * value_s)));
+  };
+  add("last", figures.last_s);
+  add("mean", figures.mean_s);
+  add("p99", figures.p99_s);
+  add("max", figures.max_s);
+}
+
+void set_times(msg::StepTiming& message, const TimingFigures& figures) {
+  message.last_(figures.last_s);
+  message.mean_(figures.mean_s);
+  message.p99_(figures.p99_s);
+  message.max_(figures.max_s);
+}
+
+}  // namespace
+
+const PluginManifest& StatePublisher::manifest() {
+  static const PluginManifest manifest = parse_own_manifest(kManifest);
+  return manifest;
+}
+
+StatePublisher::StatePublisher(Setup& setup, const std::vector<std::unique_ptr<Unit>>& units)
+    : Component{setup},
+      units_{units},
+      state_{setup.output<msg::ComponentState>("state")},
+      diagnostics_{setup.output<msg::DiagnosticArray>("diagnostics")} {
+  setup.activate_every(seconds(0.5));
+}
+
+void StatePublisher::Window::move_on(const TimingHistogram& histogram) {
+  const TimingHistogram::Counts counts = histogram.counts();
+  figures = counts.figures_since(before);
+  before = counts;
+}
+
+void StatePublisher::move_on() {
+  counted_.resize(units_.size());
+  for (std::size_t i = 0; i < units_.size(); ++i) {
+    const Unit& unit = *units_[i];
+    counted_[i].lateness.move_on(unit.times().lateness);
+    counted_[i].duration.move_on(unit.times().duration);
+    counted_[i].processor.move_on(unit.times().processor);
+    if (unit.executor_times()) executors_[unit.executor_times()].name = unit.executor_name();
+  }
+  for (auto& [times, executor] : executors_) {
+    executor.lateness.move_on(times->lateness);
+    executor.duration.move_on(times->duration);
+  }
+}
+
+Voice::Status StatePublisher::status_with_stamps(const Unit& unit, Counted& counted) {
+  Voice::Status status = unit.status();
+  const Inbox::Ahead ahead = unit.inbox().ahead();
+  const bool first = counted.ahead == 0;
+  if (std::exchange(counted.ahead, ahead.samples) == ahead.samples) return status;
+  const std::string reason =
+      fmt::format("input '{}' is stamped {:.3g} s ahead of now, so it is not shown",
+                  ahead.port->spec().name, to_seconds(ahead.by));
+  if (first) say(fmt::format("'{}': {}", unit.name(), reason));
+  if (status.state == Voice::State::ok) status = {Voice::State::degraded, reason};
+  return status;
+}
+
+Voice::Status StatePublisher::status_of(const Unit& unit, Counted& counted) {
+  constexpr int kLate = 2;  // times: once may be while everything starts
+  const auto kept = unit.activations() - std::exchange(counted.activations, unit.activations());
+  const auto missed = unit.overruns() - std::exchange(counted.overruns, unit.overruns());
+  counted.late = missed > kept ? counted.late + 1 : 0;
+  if (const Duration stalled = unit.stalled(); stalled > Duration{0}) {
+    return {Voice::State::stalled,
+            fmt::format("its step has not returned for {:.1f} s", to_seconds(stalled))};
+  }
+  Voice::Status status = status_with_stamps(unit, counted);
+  if (counted.late < kLate) return status;
+  if (counted.late == kLate) {
+    say(fmt::format("'{}' misses more periods than it keeps: {} of {}", unit.name(), missed,
+                    kept + missed));
+  }
+  if (status.state == Voice::State::ok) {
+    status = {Voice::State::degraded, fmt::format("keeps {} of {} periods", kept, kept + missed)};
+  }
+  return status;
+}
+
+void StatePublisher::publish_state(const Unit& unit, const Counted& counted,
+                                   const Voice::Status& status, Time now) {
+  auto message = state_.loan();
+  set_stamp(message->header_().stamp_(), now);
+  message->header_().frame_id_().clear();
+  message->component_(unit.name());
+  message->plugin_(unit.plugin_id());
+  message->state_(static_cast<std::uint8_t>(status.state));
+  message->reason_(status.reason);
+  message->activations_(unit.activations());
+  message->overruns_(unit.overruns());
+  message->dropped_(unit.inbox().dropped());
+  set_times(message->lateness_(), counted.lateness.figures);
+  set_times(message->step_(), counted.duration.figures);
+  set_times(message->processor_(), counted.processor.figures);
+  const auto executor = executors_.find(unit.executor_times());
+  const bool threaded = executor != executors_.end();
+  message->executor_(threaded ? *executor->second.name : "");
+  set_times(message->executor_lateness_(),
+            threaded ? executor->second.lateness.figures : TimingFigures{});
+  set_times(message->executor_cycle_(),
+            threaded ? executor->second.duration.figures : TimingFigures{});
+  message.publish();
+}
+
+msg::DiagnosticStatus StatePublisher::diagnostic_of(const Unit& unit, const Counted& counted,
+                                                    const Voice::Status& status) {
+  msg::DiagnosticStatus diagnostic;
+  diagnostic.level_(static_cast<std::uint8_t>(status.state));  // OK 0, WARN 1, ERROR 2, STALE 3
+  diagnostic.name_(unit.name());
+  diagnostic.message_(status.reason);
+  diagnostic.hardware_id_(unit.plugin_id());
+  std::vector<msg::KeyValue> values{key_value("activations", unit.activations()),
+                                    key_value("overruns", unit.overruns()),
+                                    key_value("dropped", unit.inbox().dropped())};
+  add_times("lateness", counted.lateness.figures, values);
+  add_times("step", counted.duration.figures, values);
+  add_times("processor", counted.processor.figures, values);
+  diagnostic.values_(std::move(values));
+  return diagnostic;
+}
+
+msg::DiagnosticStatus StatePublisher::diagnostic_of(const CountedExecutor& executor) {
+  msg::DiagnosticStatus diagnostic;
+  diagnostic.level_(0);
+  diagnostic.name_("executor " + *executor.name);
+  std::vector<msg::KeyValue> values;
+  add_times("lateness", executor.lateness.figures, values);
+  add_times("cycle", executor.duration.figures, values);
+  diagnostic.values_(std::move(values));
+  return diagnostic;
+}
+
+void StatePublisher::step(Time now) {
+  auto array = diagnostics_.loan();
+  set_stamp(array->header_().stamp_(), now);
+  array->header_().frame_id_().clear();
+  array->status_().clear();
+  move_on();
+  for (std::size_t i = 0; i < units_.size(); ++i) {
+    const Unit& unit = *units_[i];
+    const Voice::Status status = status_of(unit, counted_[i]);
+    publish_state(unit, counted_[i], status, now);
+    array->status_().push_back(diagnostic_of(unit, counted_[i], status));
+  }
+  for (const auto& [times, executor] : executors_) {
+    array->status_().push_back(diagnostic_of(executor));
+  }
+  array.publish();
+}
+
+}  // namespace armature

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "armature/messages/armature_msgs.hpp"
+#include "armature/messages/diagnostic_msgs.hpp"
+#include "armature/runtime/component/component.hpp"
+#include "armature/runtime/component/ports.hpp"
+#include "armature/runtime/execution/unit.hpp"
+#include "armature/runtime/plugins/plugin_manifest.hpp"
+
+namespace armature {
+
+/// The runtime's own component in every process: tells twice a second how each component is, as
+/// armature_msgs/ComponentState and, for ROS tools, on /diagnostics, with the times of its steps
+/// and of its executor since the last time. One that has missed more periods than it kept for a
+/// second is degraded, and the operator is told. It runs on an executor of its own: nobody else's
+/// step can silence it.
+class StatePublisher final : public Component {
+ public:
+  /// `units` outlives it and holds the components to tell about.
+  StatePublisher(Setup& setup, const std::vector<std::unique_ptr<Unit>>& units);
+
+  static const PluginManifest& manifest();
+  void step(Time now) override;
+
+ private:
+  /// The figures of a histogram since the last time, and what it had counted by then.
+  struct Window {
+    TimingHistogram::Counts before{};
+    TimingFigures figures{};
+    void move_on(const TimingHistogram& histogram);
+  };
+  /// What was counted of a unit until the last time, and for how many times it has been late.
+  struct Counted {
+    std::uint64_t activations = 0, overruns = 0, ahead = 0;
+    int late = 0;
+    Window lateness, duration, processor;
+  };
+  struct CountedExecutor {
+    const std::string* name;
+    Window lateness, duration;
+  };
+  void move_on();
+  /// How the unit is, its periods since the last time included.
+  Voice::Status status_of(const Unit& unit, Counted& counted);
+  /// The same, without its periods: an input that is stamped too far ahead is a reason.
+  Voice::Status status_with_stamps(const Unit& unit, Counted& counted);
+  void publish_state(const Unit& unit, const Counted& counted, const Voice::Status& status,
+                     Time now);
+  static msg::DiagnosticStatus diagnostic_of(const Unit& unit, const Counted& counted,
+                                             const Voice::Status& status);
+  static msg::DiagnosticStatus diagnostic_of(const CountedExecutor& executor);
+
+  const std::vector<std::unique_ptr<Unit>>& units_;
+  std::vector<Counted> counted_;  // of units_
+  std::map<const CycleTimes*, CountedExecutor> executors_;
+  Output<msg::ComponentState> state_;
+  Output<msg::DiagnosticArray> diagnostics_;
+};
+
+}  // namespace armature

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/runtime/execution/threaded_scheduler.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace armature {
+
+void ThreadedScheduler::assign(const ExecutorSpec& executor, const std::vector<Unit*>& units,
+                               const std::function<Duration(const Unit&)>&) {
+  Executor& thread = executors_.emplace_back(executor, *clock_);
+  for (Unit* unit : units) thread.assign(*unit);
+}
+
+void ThreadedScheduler::run(const std::function<bool()>& done) {
+  if (!std::exchange(started_, true)) {
+    for (Executor& executor : executors_) executor.start(note_);
+  }
+  while (!done()) std::this_thread::sleep_for(std::chrono::milliseconds{10});
+}
+
+void ThreadedScheduler::begin_stop() {
+  for (Executor& executor : executors_) executor.begin_stop();
+}
+
+std::vector<const Unit*> ThreadedScheduler::stop(Duration patience) {
+  std::vector<Executor*> order;
+  for (Executor& executor : executors_) order.push_back(&executor);
+  std::sort(order.begin(), order.end(),
+            [](const auto* a, const auto* b) { return a->first_place() < b->first_place(); });
+  std::vector<const Unit*> hung;
+  for (Executor* executor : order) {
+    executor->request_stop();
+    if (executor->join_for(patience)) continue;
+    if (const Unit* unit = executor->running()) {
+      hung.push_back(unit);
+    } else {
+      executor->join();  // between two steps: it only has to get its turn
+    }
+  }
+  return hung;
+}
+
+}  // namespace armature

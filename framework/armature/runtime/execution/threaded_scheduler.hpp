@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <string>
+
+#include "armature/runtime/execution/executor.hpp"
+#include "armature/runtime/execution/scheduler.hpp"
+
+namespace armature {
+
+/// The system clock's scheduler: every executor is a thread, samples are handed over at once.
+class ThreadedScheduler final : public Scheduler {
+ public:
+  ThreadedScheduler(const Clock& clock, std::function<void(const std::string&)> note)
+      : clock_{&clock}, note_{std::move(note)} {}
+
+  void assign(const ExecutorSpec& executor, const std::vector<Unit*>& units,
+              const std::function<Duration(const Unit&)>& latency) override;
+  void run(const std::function<bool()>& done) override;
+  void begin_stop() override;
+  std::vector<const Unit*> stop(Duration patience) override;
+  void publish(Topic& topic, SampleRef sample) override {
+    topic.publish(std::move(sample), clock_->now());
+  }
+
+ private:
+  const Clock* clock_;
+  std::function<void(const std::string&)> note_;
+  std::deque<Executor> executors_;
+  bool started_ = false;
+};
+
+}  // namespace armature

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/runtime/execution/unit.hpp"
+
+#include <fmt/format.h>
+#include <time.h>
+
+#include <utility>
+
+#include "armature/runtime/deployment_file/injected_fault.hpp"
+#include "armature/runtime/plugins/running_component.hpp"
+#include "armature/runtime/plugins/setup_error.hpp"
+
+namespace armature {
+namespace {
+
+Duration read_clock(clockid_t clock) {
+  timespec now{};
+  clock_gettime(clock, &now);
+  return std::chrono::seconds{now.tv_sec} + Duration{now.tv_nsec};
+}
+
+}  // namespace
+
+/// Says while it exists that the component's step runs: to the watchdog, and to who reads of a
+/// crash.
+class Unit::Running {
+ public:
+  Running(Unit& unit, const char* phase)
+      : unit_{unit}, component_{unit.name_, phase}, start_{read_clock(CLOCK_MONOTONIC)} {
+    unit_.running_since_ns_.store(start_.count(), std::memory_order_relaxed);
+  }
+  ~Running() { unit_.running_since_ns_.store(0, std::memory_order_relaxed); }
+  Running(const Running&) = delete;
+  Running& operator=(const Running&) = delete;
+  Duration start() const { return start_; }
+
+ private:
+  Unit& unit_;
+  RunningComponent component_;
+  Duration start_;
+};
+
+Unit::Unit(std::string name, std::string plugin_id, int place, Voice::Sink sink)
+    : name_{std::move(name)},
+      plugin_id_{std::move(plugin_id)},
+      place_{place},
+      inbox_{[this] {
+        if (triggered_) triggered_();
+      }},
+      voice_{std::make_shared<Voice>(name_, std::move(sink))} {}
+
+void Unit::activate(Time now, Duration lateness) {
+  answer_stop_request(now);
+  if (!finished()) step(now, lateness);
+}
+
+void Unit::step(Time now, Duration lateness) {
+  if (faulted()) return;
+  inbox_.show(now);
+  activations_.fetch_add(1, std::memory_order_relaxed);
+  times_.lateness.add(lateness);
+  const Running running{*this, "step"};
+  const Duration processor = read_clock(CLOCK_THREAD_CPUTIME_ID);
+  try {
+    if (injected_) injected_->strike_if_armed();
+    component_->step(now);
+    if (component_->finished()) finished_.store(true, std::memory_order_release);
+    if (stop_begun_) ask_stopped();
+  } catch (...) {
+    fault("step", current_exception_text());
+  }
+  times_.processor.add(read_clock(CLOCK_THREAD_CPUTIME_ID) - processor);
+  times_.duration.add(read_clock(CLOCK_MONOTONIC) - running.start());
+}
+
+void Unit::answer_stop_request(Time now) {
+  if (stop_begun_ || faulted() || !stop_requested_.load(std::memory_order_acquire)) return;
+  stop_begun_ = true;
+  const Running running{*this, "begin_stop"};
+  try {
+    component_->begin_stop(now);
+    ask_stopped();
+  } catch (...) {
+    fault("begin_stop", current_exception_text());
+  }
+}
+
+void Unit::ask_stopped() {
+  const bool stopped = component_->stopped();
+  stopped_.store(stopped, std::memory_order_release);
+  // Others end before it does, and that it hears nothing of them then is no trouble.
+  voice_->keep_to_itself(stopped);
+}
+
+void Unit::stop(Time now) {
+  if (!component_ || faulted()) return;
+  const RunningComponent running{name_, "stop"};
+  try {
+    component_->stop(now);
+  } catch (...) {
+    fault("stop", current_exception_text());
+  }
+}
+
+void Unit::summarize(Summary& summary) {
+  const RunningComponent running{name_, "summarize"};
+  try {
+    component_->summarize(summary);
+  } catch (...) {
+    fault("summarize", current_exception_text());
+  }
+}
+
+void Unit::fault(std::string_view when, const std::string& what) {
+  voice_->set(Voice::State::fault, fmt::format("{} failed: {}", when, what));
+  faulted_.store(true, std::memory_order_release);
+  for (OutputPort& output : outputs_) output.close();
+}
+
+}  // namespace armature

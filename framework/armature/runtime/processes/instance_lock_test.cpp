@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/runtime/processes/instance_lock.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <csignal>
+
+namespace armature {
+namespace {
+
+const std::string kName = "lock_test_" + std::to_string(getpid());
+
+TEST(InstanceLock, ASecondOneIsToldThePidOfTheFirst) {
+  const auto first = InstanceLock::take(kName);
+  ASSERT_TRUE(first);
+  for (int asked = 0; asked < 3; ++asked) {
+    const auto second = InstanceLock::take(kName);
+    ASSERT_FALSE(second);
+    EXPECT_EQ(second.error().text, "pid " + std::to_string(getpid()));
+    EXPECT_EQ(InstanceLock::check(kName).error().text, second.error().text);
+  }
+}
+
+TEST(InstanceLock, IsFreeAgainWhenTheFirstEnds) {
+  { ASSERT_TRUE(InstanceLock::take(kName)); }
+  EXPECT_TRUE(InstanceLock::check(kName));
+  EXPECT_TRUE(InstanceLock::take(kName));
+}
+
+TEST(InstanceLock, IsFreeAgainWhenItsHolderIsKilled) {
+  std::array<int, 2> taken{};
+  ASSERT_EQ(pipe(taken.data()), 0);
+  const pid_t holder = fork();
+  if (holder == 0) {
+    const auto held = InstanceLock::take(kName);
+    if (write(taken[1], "x", 1) == 1) pause();
+    _exit(1);
+  }
+  char byte = 0;
+  ASSERT_EQ(read(taken[0], &byte, 1), 1);
+  EXPECT_EQ(InstanceLock::check(kName).error().text, "pid " + std::to_string(holder));
+  kill(holder, SIGKILL);
+  waitpid(holder, nullptr, 0);
+  EXPECT_TRUE(InstanceLock::take(kName));
+  for (const int end : taken) close(end);
+}
+
+TEST(InstanceLock, KeepsNamesApartHoweverLongTheyAre) {
+  const std::string same(200, 'x');
+  const auto first = InstanceLock::take(kName + same + "a");
+  EXPECT_TRUE(InstanceLock::take(kName + same + "b"));
+  EXPECT_FALSE(InstanceLock::take(kName + same + "a"));
+}
+
+}  // namespace
+}  // namespace armature

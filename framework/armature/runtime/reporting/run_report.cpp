@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/runtime/reporting/run_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <utility>
+
+#include "armature/runtime/plugins/setup_error.hpp"
+#include "armature/runtime/reporting/output_folder.hpp"
+#include "armature/runtime/reporting/write_atomically.hpp"
+
+namespace armature {
+
+RunReport::RunReport(const Deployment& deployment, const Ending& ending) {
+  for (const auto& unit : deployment.units()) {
+    if (deployment.is_hung(*unit)) continue;
+    speaker_ = &deployment.config_of(*unit);
+    deployment.tell_ending("summary", *unit);
+    unit->summarize(*this);
+  }
+  judge(deployment, ending);
+  timing_ = ending.timing;
+}
+
+void RunReport::expect_declared(const std::string& key) {
+  const auto& declared = speaker_->manifest->measures;
+  if (std::ranges::find(declared, key, &MetricSpec::name) != declared.end()) return;
+  defect_ = fmt::format(
+      "{}: plugin '{}' reports the metric '{}', which its plugin.yaml does not declare under "
+      "'measures:'",
+      speaker_->name, speaker_->manifest->id, key);
+}
+
+void RunReport::metric(std::string key, std::string title, double value) {
+  expect_declared(key);
+  figures_.push_back({std::move(key), std::move(title), value});
+}
+void RunReport::series(std::string key, std::string title, std::vector<double> values) {
+  figures_.push_back({std::move(key), std::move(title), std::move(values)});
+}
+void RunReport::text(std::string key, std::string title, std::string value) {
+  figures_.push_back({std::move(key), std::move(title), std::move(value)});
+}
+void RunReport::not_measured(std::string key, std::string title, std::string why) {
+  expect_declared(key);
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  figures_.push_back({std::move(key), std::move(title), kNone, std::move(why)});
+}
+void RunReport::failed(std::string status, std::string reason) {
+  story_status_ = std::move(status);
+  story_reason_ = std::move(reason);
+}
+
+void RunReport::judge_goal(const Goal& goal) {
+  bool found = false;
+  for (Figure& figure : figures_) {
+    const double* value = std::get_if<double>(&figure.value);
+    if (figure.key != goal.metric || !value) continue;
+    found = true;
+    figure.goal = &goal;
+    figure.met = *value <= goal.limit;  // false for NaN: nothing was measured
+    if (figure.met) continue;
+    if (!figure.unmeasured.empty()) {
+      reasons_.push_back(fmt::format("{} was not measured: {}", goal.metric, figure.unmeasured));
+    } else if (std::isnan(*value)) {
+      reasons_.push_back(fmt::format("{} was never measured", goal.metric));
+    } else {
+      reasons_.push_back(
+          fmt::format("{} is {:.3f}, the goal is at most {:g}", goal.metric, *value, goal.limit));
+    }
+  }
+  if (!found) reasons_.push_back(fmt::format("{} was never measured", goal.metric));
+}
+
+namespace {
+
+/// What did not come to rest, or not back at all, when the run was over.
+std::vector<std::string> faults_of_the_end(const Deployment& deployment) {
+  std::vector<std::string> faults;
+  for (const std::string& name : deployment.moving()) {
+    faults.push_back(fmt::format("'{}' was not at rest {:g} s after it was to stop", name,
+                                 deployment.config().stop_within_s));
+  }
+  for (const Unit* unit : deployment.hung()) {
+    faults.push_back(fmt::format("'{}' hangs: its step has not returned for {:g} s", unit->name(),
+                                 to_seconds(Deployment::kStepPatience)));
+  }
+  return faults;
+}
+
+}  // namespace
+
+void RunReport::judge(const Deployment& deployment, const Ending& ending) {
+  for (const Goal& goal : deployment.config().goals) judge_goal(goal);
+  if (deployment.timed_out() && !deployment.config().goals.empty()) {
+    reasons_.insert(reasons_.begin(),
+                    fmt::format("the time limit of {:g} s was over before the end of the story",
+                                deployment.config().time_limit_s));
+  }
+  // A deployment with goals tells a story, and this one was not heard to its end.
+  if (ending.stopped && !deployment.config().goals.empty()) {
+    reasons_.insert(reasons_.begin(), *ending.stopped + " before the end of the story");
+  }
+  if (!reasons_.empty()) status_ = "goals_missed";
+  if (!story_status_.empty()) status_ = story_status_;
+  std::vector<std::string> faults = ending.faults;
+  if (!defect_.empty()) faults.push_back(defect_);
+  if (std::string fault = deployment.fault(); !fault.empty()) faults.push_back(std::move(fault));
+  std::ranges::move(deployment.isolated_faults(), std::back_inserter(faults));
+  std::ranges::move(deployment.silent(), std::back_inserter(faults));
+  std::ranges::move(faults_of_the_end(deployment), std::back_inserter(faults));
+  if (!faults.empty()) status_ = "fault";
+  reasons_.insert(reasons_.begin(), faults.begin(), faults.end());
+}
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+Json to_json(const std::string& value) { return value; }
+Json to_json(const std::vector<double>& values) {
+  Json list = Json::array();
+  for (const double value : values) list.push_back(to_json(value));
+  return list;
+}
+
+/// Counts without decimals, measures with three, or where these would all be 0 by their power of
+/// ten; nothing measured is a dash.
+std::string shown(double value) {
+  constexpr double kShownAsZero = 0.0005;
+  if (std::isnan(value)) return "         -";
+  if (value != 0 && std::abs(value) < kShownAsZero) return fmt::format("{:10.0e}", value);
+  return value == std::floor(value) ? fmt::format("{:10.0f}", value)
+                                    : fmt::format("{:10.3f}", value);
+}
+std::string shown(const std::string& value) { return value; }
+std::string shown(const std::vector<double>& values) {
+  std::string text;
+  for (const double value : values) {
+    const std::string number = shown(value);
+    text += (text.empty() ? "" : ", ") + number.substr(number.find_first_not_of(' '));
+  }
+  return text;
+}
+
+/// Of a run that is not ok, in one place, whatever ended it.
+std::string first_reason(const RunReport& report) {
+  if (!report.story_reason().empty()) return report.story_reason();
+  return report.reasons().empty() ? "" : report.reasons().front();
+}
+
+}  // namespace
+
+std::string to_json(const RunReport& report) {
+  Json json, unmeasured;
+  json["status"] = report.status();
+  if (const std::string reason = first_reason(report); !reason.empty()) json["reason"] = reason;
+  for (const auto& figure : report.figures()) {
+    json[figure.key] = std::visit([](const auto& value) { return to_json(value); }, figure.value);
+    if (!figure.unmeasured.empty()) unmeasured[figure.key] = figure.unmeasured;
+  }
+  if (!unmeasured.empty()) json["not_measured"] = unmeasured;
+  if (!report.reasons().empty()) json["reasons"] = report.reasons();
+  if (report.timing()) json["timing"] = to_json(*report.timing());
+  return json.dump();
+}
+
+std::string to_table(const RunReport& report) {
+  std::size_t width = 0;
+  for (const auto& figure : report.figures()) width = std::max(width, figure.title.size());
+  std::string table;
+  for (const auto& figure : report.figures()) {
+    table += fmt::format("  {:<{}}  {}", figure.title, width,
+                         std::visit([](const auto& value) { return shown(value); }, figure.value));
+    if (figure.goal) {
+      table += fmt::format("   goal {:g}  {}", figure.goal->limit, figure.met ? "met" : "MISSED");
+    }
+    if (!figure.unmeasured.empty()) table += "   not measured: " + figure.unmeasured;
+    table += '\n';
+  }
+  table += fmt::format("  {:<{}}  {}\n", "status", width, report.status());
+  if (!report.story_reason().empty()) table += fmt::format("    {}\n", report.story_reason());
+  for (const auto& reason : report.reasons()) table += fmt::format("    {}\n", reason);
+  if (report.timing()) table += to_table(*report.timing());
+  return table;
+}
+
+void write_report(const RunReport& report, const Deployment& deployment,
+                  const std::filesystem::path& directory) {
+  prepare_output_folder(directory);
+  std::string failed;
+  const auto attempt = [&](const auto& write) {
+    try {
+      write();
+    } catch (...) {
+      failed += (failed.empty() ? "" : "; ") + current_exception_text();
+    }
+  };
+  attempt([&] { write_atomically(directory / "report.json", to_json(report) + '\n'); });
+  for (const auto& unit : deployment.units()) {
+    if (deployment.is_hung(*unit)) continue;
+    deployment.tell_ending("report", *unit);
+    attempt([&] { unit->component().write_files(directory); });
+  }
+  if (!failed.empty()) throw std::runtime_error{failed};
+}
+
+}  // namespace armature

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "armature/runtime/component/component.hpp"
+#include "armature/runtime/deployment/deployment.hpp"
+#include "armature/runtime/reporting/run_timing.hpp"
+
+namespace armature {
+
+/// The outcome of a run: what its components measured, held against the deployment's goals.
+class RunReport final : public Summary {
+ public:
+  struct Figure {
+    std::string key, title;
+    std::variant<double, std::vector<double>, std::string> value;
+    std::string unmeasured = {};  // why the value is none, or ""
+    const Goal* goal = nullptr;   // of a metric that the deployment set a limit for
+    bool met = true;
+  };
+
+  /// What ended the run from outside of the deployment's components.
+  struct Ending {
+    std::vector<std::string> faults;     // of other processes: ended before, fell silent
+    std::optional<std::string> stopped;  // "interrupted": by the operator
+    std::optional<RunTiming> timing;     // of all processes, where it shall be told
+  };
+
+  /// Asks every component of a deployment that has stopped.
+  RunReport(const Deployment& deployment, const Ending& ending);
+
+  void metric(std::string key, std::string title, double value) override;
+  void series(std::string key, std::string title, std::vector<double> values) override;
+  void text(std::string key, std::string title, std::string value) override;
+  void not_measured(std::string key, std::string title, std::string why) override;
+  void failed(std::string status, std::string reason) override;
+
+  /// "ok", "goals_missed", "fault", or what a component gave for the story's failure
+  /// ("face_not_found").
+  const std::string& status() const { return status_; }
+  /// Why the story did not come to its end, as the component says that followed it, or "".
+  const std::string& story_reason() const { return story_reason_; }
+  /// What else is not ok: a line per goal, fault or lost process.
+  const std::vector<std::string>& reasons() const { return reasons_; }
+  const std::vector<Figure>& figures() const { return figures_; }
+  /// Nothing unless it was asked for: these figures differ from run to run, also in lockstep.
+  const std::optional<RunTiming>& timing() const { return timing_; }
+
+ private:
+  void expect_declared(const std::string& key);
+  void judge_goal(const Goal& goal);
+  void judge(const Deployment& deployment, const Ending& ending);
+
+  const ComponentConfig* speaker_ = nullptr;  // the component that is being asked
+  std::string defect_;                        // of a plugin that reports what it does not declare
+  std::vector<Figure> figures_;
+  std::string story_status_, story_reason_;
+  std::string status_ = "ok";
+  std::vector<std::string> reasons_;
+  std::optional<RunTiming> timing_;
+};
+
+/// One JSON object: `status` first, `reason` when that is not ok, figures in order, why any of them
+/// is null under `not_measured`, and `reasons`; numbers as the shortest text that reads back the
+/// same.
+std::string to_json(const RunReport& report);
+/// The closing table for people.
+std::string to_table(const RunReport& report);
+/// Writes report.json and lets every component write its files beside it. Throws
+/// std::runtime_error that names each file that could not be written, and why; the others are
+/// there.
+void write_report(const RunReport& report, const Deployment& deployment,
+                  const std::filesystem::path& directory);
+
+}  // namespace armature

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/runtime/reporting/write_atomically.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+namespace armature {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// No file grows beyond `bytes` in its life, as on a full disk.
+class LittleRoom {
+ public:
+  explicit LittleRoom(rlim_t bytes) : handler_{std::signal(SIGXFSZ, SIG_IGN)} {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit little{.rlim_cur = bytes, .rlim_max = before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &little);
+  }
+  ~LittleRoom() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+
+ private:
+  rlimit before_{};
+  void (*handler_)(int);
+};
+
+std::string content_of(const fs::path& path) {
+  std::ifstream stream{path};
+  return {std::istreambuf_iterator<char>{stream}, {}};
+}
+
+class WriteAtomically : public testing::Test {
+ protected:
+  WriteAtomically() { fs::create_directories(folder_); }
+  ~WriteAtomically() override { fs::remove_all(folder_); }
+
+  const fs::path folder_ =
+      fs::temp_directory_path() / ("armature-write-atomically-" + std::to_string(getpid()));
+  const fs::path file_ = folder_ / "report.json";
+};
+
+TEST_F(WriteAtomically, ReplacesWhatWasThere) {
+  write_atomically(file_, "older and longer");
+  write_atomically(file_, "newer");
+  EXPECT_EQ(content_of(file_), "newer");
+}
+
+TEST_F(WriteAtomically, IsReadByItsOwnerOnlyUnlessTheUserSaysOtherwise) {
+  constexpr auto kOthers = fs::perms::group_all | fs::perms::others_all;
+  write_atomically(file_, "a patient's");
+  EXPECT_EQ(fs::status(file_).permissions() & kOthers, fs::perms::none);
+  const mode_t before = umask(022);
+  write_atomically(file_, "a plugin's", FileUse::named_by_user);
+  umask(before);
+  EXPECT_EQ(fs::status(file_).permissions() & kOthers,
+            fs::perms::group_read | fs::perms::others_read);
+}
+
+TEST_F(WriteAtomically, DoesNotFollowALink) {
+  const fs::path other = folder_ / "of_somebody_else";
+  std::ofstream{other} << "theirs";
+  fs::create_symlink(other, file_);
+  write_atomically(file_, "ours");
+  EXPECT_EQ(content_of(other), "theirs");
+  EXPECT_FALSE(fs::is_symlink(file_));
+  EXPECT_EQ(content_of(file_), "ours");
+}
+
+TEST_F(WriteAtomically, OnAFullDiskTellsWhyAndLeavesTheFolderAsItWas) {
+  write_atomically(file_, "older");
+  const LittleRoom room{1000};
+  try {
+    write_atomically(file_, std::string(2000, 'x'));
+    FAIL() << "2000 bytes where there is room for 1000";
+  } catch (const std::runtime_error& error) {
+    EXPECT_EQ(error.what(), "cannot write '" + file_.string() + "': File too large");
+  }
+  EXPECT_EQ(content_of(file_), "older");
+  EXPECT_EQ(std::distance(fs::directory_iterator{folder_}, {}), 1) << "half a file is left";
+}
+
+}  // namespace
+}  // namespace armature

@@ -92,7 +92,8 @@ void add_run(CLI::App& app, Action& action) {
   verb->add_flag("--timing", options->timing, "tell how late and how long every step was");
   verb->add_flag("--keep-running", options->keep_running,
                  "go on when the story has been told, until Ctrl-C: to watch it");
-  verb->add_option("--report", options->report, "write report.json and pictures into this folder");
+  verb->add_option("--report", options->report,
+                   "write report.json, tables and pictures into this folder");
   add_handed_over(*verb, *options);
   verb->callback([options, &action] { action = [options] { return run_deployment(*options); }; });
 }

@@ -32,6 +32,7 @@
 #include "console.hpp"
 #include "end_signals.hpp"
 #include "exit_code.hpp"
+#include "joint_reports.hpp"
 #include "plugins.hpp"
 #include "run_watches.hpp"
 
@@ -307,6 +308,7 @@ int run(const RunOptions& options) {
                   .origin = options.origin.value_or(
                       RunOptions::Origin{SystemClock{}.unix_minus_monotonic(), Time{}})};
   check_process(config, process.name);
+  if (options.report && !is_child) add_joint_reports(config, plugins, *options.report);
   if (options.keep_running && config.simulated) {
     throw InvalidChoice(
         "--keep-running is for watching, and a run on the simulated clock is as "

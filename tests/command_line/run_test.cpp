@@ -76,6 +76,15 @@ TEST_F(RunForAScript, AReportThatCannotBeWrittenFailsTheRunAndTheFiguresArePrint
                                 "': it is no regular file\n"));
 }
 
+TEST_F(RunForAScript, ATableOfJointsThatCannotBeMadeIsToldBeforeTheRun) {
+  const fs::path table = folder_ / "arm_joints.csv";
+  fs::create_directories(table);
+  const auto result = run({"--report", folder_});
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_THAT(result.err,
+              testing::HasSubstr("cannot write '" + table.string() + "': it is no regular file"));
+}
+
 TEST_F(RunForAScript, TheReportIsWhatIsPrinted) {
   const auto result = run({"--report", folder_});
   EXPECT_EQ(result.exit_code, 0) << result.err;

@@ -47,6 +47,9 @@ std::vector<std::string> deployment_command(const DeploymentStart& start) {
   const int domain = start.domain > 0 ? start.domain : unique_dds_domain();
   command.insert(command.end(), {"--json", "--domain", std::to_string(domain)});
   for (const auto& setting : start.settings) command.insert(command.end(), {"--set", setting});
+  if (!start.report_folder.empty()) {
+    command.insert(command.end(), {"--report", start.report_folder});
+  }
   return command;
 }
 

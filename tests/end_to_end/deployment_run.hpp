@@ -13,6 +13,7 @@ struct DeploymentStart {
   std::vector<std::string> files{source_file("configs/dental_lamp.yaml")};
   std::vector<std::string> settings;  // "components.motion.ik.plugin=ik/numeric"
   int domain = 0;                     // 0: one that no other test uses
+  std::string report_folder = {};     // --report; empty: none
   Command::Options options;
 };
 

@@ -56,7 +56,8 @@ class LawCheck {
   template <class Answer>
   bool answered(const Answer& answer, std::string_view question) {
     if (answer) return true;
-    return violated(std::string{question} + " is refused: " + answer.error().text);
+    std::string fault{question};  // appended to: GCC 12 warns of a + b without a reason
+    return violated(fault.append(" is refused: ").append(answer.error().text));
   }
   /// `answer` is an Expected that holds a reason with words.
   template <class Answer>

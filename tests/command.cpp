@@ -38,9 +38,9 @@ bool runs(pid_t pid) {
   return stat >> number >> name >> state && state != "Z";
 }
 
-/// When `patience` is over; a program with a sanitizer takes several times as long.
-steady_clock::time_point end_of(std::chrono::seconds patience) {
-  return steady_clock::now() + patience * (kSanitized ? 5 : 1);
+/// When `timeout` is over; a program with a sanitizer takes several times as long.
+steady_clock::time_point end_of(std::chrono::seconds timeout) {
+  return steady_clock::now() + timeout * (kSanitized ? 5 : 1);
 }
 
 }  // namespace
@@ -86,24 +86,24 @@ std::string Command::out() const { return read_all(folder_ + "/out"); }
 std::string Command::err() const { return read_all(folder_ + "/err"); }
 
 bool Command::wait_for(const std::string& file, const std::string& text,
-                       std::chrono::seconds patience) const {
-  for (const auto end = end_of(patience); steady_clock::now() < end;) {
+                       std::chrono::seconds timeout) const {
+  for (const auto end = end_of(timeout); steady_clock::now() < end;) {
     if (read_all(folder_ + file).find(text) != std::string::npos) return true;
     std::this_thread::sleep_for(std::chrono::milliseconds{20});
   }
   return false;
 }
 
-bool Command::wait_for_err(const std::string& text, std::chrono::seconds patience) const {
-  return wait_for("/err", text, patience);
+bool Command::wait_for_err(const std::string& text, std::chrono::seconds timeout) const {
+  return wait_for("/err", text, timeout);
 }
-bool Command::wait_for_out(const std::string& text, std::chrono::seconds patience) const {
-  return wait_for("/out", text, patience);
+bool Command::wait_for_out(const std::string& text, std::chrono::seconds timeout) const {
+  return wait_for("/out", text, timeout);
 }
 
-CommandResult Command::finish(std::chrono::seconds patience) {
+CommandResult Command::finish(std::chrono::seconds timeout) {
   CommandResult result;
-  const auto end = end_of(patience);
+  const auto end = end_of(timeout);
   int status = 0;
   while (waitpid(pid_, &status, WNOHANG) == 0) {
     if (steady_clock::now() > end && !result.timed_out) {
@@ -119,8 +119,8 @@ CommandResult Command::finish(std::chrono::seconds patience) {
   return result;
 }
 
-bool ends_within(pid_t pid, std::chrono::seconds patience) {
-  for (const auto end = end_of(patience); runs(pid);) {
+bool ends_within(pid_t pid, std::chrono::seconds timeout) {
+  for (const auto end = end_of(timeout); runs(pid);) {
     if (steady_clock::now() > end) return false;
     std::this_thread::sleep_for(std::chrono::milliseconds{20});
   }
@@ -128,8 +128,8 @@ bool ends_within(pid_t pid, std::chrono::seconds patience) {
 }
 
 CommandResult run_command(const std::vector<std::string>& arguments,
-                          const Command::Options& options, std::chrono::seconds patience) {
-  return Command{arguments, options}.finish(patience);
+                          const Command::Options& options, std::chrono::seconds timeout) {
+  return Command{arguments, options}.finish(timeout);
 }
 
 std::string armature() { return std::string{ARMATURE_BINARY_DIR} + "/bin/armature"; }

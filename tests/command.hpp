@@ -38,27 +38,27 @@ class Command {
   std::string out() const;
   std::string err() const;
   /// True once `text` has been printed on standard error.
-  bool wait_for_err(const std::string& text, std::chrono::seconds patience) const;
+  bool wait_for_err(const std::string& text, std::chrono::seconds timeout) const;
   /// The same of standard output.
-  bool wait_for_out(const std::string& text, std::chrono::seconds patience) const;
+  bool wait_for_out(const std::string& text, std::chrono::seconds timeout) const;
   /// Waits for the end; a program that takes longer is killed.
-  CommandResult finish(std::chrono::seconds patience);
+  CommandResult finish(std::chrono::seconds timeout);
 
  private:
   bool wait_for(const std::string& file, const std::string& text,
-                std::chrono::seconds patience) const;
+                std::chrono::seconds timeout) const;
 
   std::string folder_;
   pid_t pid_ = -1;
 };
 
-/// True when the process is gone, or gone before `patience` is over.
-bool ends_within(pid_t pid, std::chrono::seconds patience);
+/// True when the process is gone, or gone before `timeout` is over.
+bool ends_within(pid_t pid, std::chrono::seconds timeout);
 
 /// Runs a program to its end.
 CommandResult run_command(const std::vector<std::string>& arguments,
                           const Command::Options& options = {},
-                          std::chrono::seconds patience = std::chrono::seconds{60});
+                          std::chrono::seconds timeout = std::chrono::seconds{60});
 
 /// The `armature` of this build.
 std::string armature();

@@ -27,4 +27,4 @@
 #include "armature/messages/sensor_msgs.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
 #include "armature/runtime/plugins/plugin_registry.hpp"
-#include "armature/runtime/testing/component_bench.hpp"
+#include "armature/runtime/testing/component_harness.hpp"

@@ -167,7 +167,7 @@ Json hand_eye_json(const HandEye& found, const std::vector<HandEyePose>& poses,
 }
 
 void check(const CalibrationOptions& options) {
-  constexpr double kFarthest_m = 1000, kMostNoise = 1000;
+  constexpr double kFarthest_m = 1000, kMaxNoise = 1000;
   for (const double coordinate : options.at_m) {
     if (std::abs(coordinate) <= kFarthest_m) continue;  // false for NaN
     throw InvalidChoice(
@@ -176,9 +176,9 @@ void check(const CalibrationOptions& options) {
                     kFarthest_m, coordinate));
   }
   for (const double noise : options.noise) {
-    if (noise > 0 && noise <= kMostNoise) continue;
+    if (noise > 0 && noise <= kMaxNoise) continue;
     throw InvalidChoice(
-        fmt::format("--noise must be positive, at most {:g}; {:g} is not", kMostNoise, noise));
+        fmt::format("--noise must be positive, at most {:g}; {:g} is not", kMaxNoise, noise));
   }
 }
 

@@ -19,7 +19,7 @@
 namespace armature::end_signals {
 namespace {
 
-/// Of an operator, who may lose patience: several of them end the process at once.
+/// Of an operator, who may lose timeout: several of them end the process at once.
 constexpr std::array kOfOperator{SIGINT, SIGTERM, SIGQUIT};
 
 std::atomic<int> g_signal{0}, g_count{0};

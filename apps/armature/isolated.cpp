@@ -40,9 +40,9 @@ namespace {
 }
 
 /// Reads until the other end is closed; false when that takes too long.
-bool read_all(int from, double patience_s, std::string& text) {
+bool read_all(int from, double timeout_s, std::string& text) {
   using Clock = std::chrono::steady_clock;
-  const auto end = Clock::now() + std::chrono::duration<double>{patience_s};
+  const auto end = Clock::now() + std::chrono::duration<double>{timeout_s};
   for (std::array<char, 4096> buffer;;) {
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now());
     if (left.count() <= 0) return false;
@@ -56,7 +56,7 @@ bool read_all(int from, double patience_s, std::string& text) {
 
 }  // namespace
 
-Isolated isolated(double patience_s, const std::function<std::string()>& work) {
+Isolated isolated(double timeout_s, const std::function<std::string()>& work) {
   std::array<int, 2> ends{};
   if (pipe2(ends.data(), O_CLOEXEC) != 0) throw std::runtime_error("cannot make a pipe");
   std::fflush(nullptr);
@@ -65,14 +65,14 @@ Isolated isolated(double patience_s, const std::function<std::string()>& work) {
   if (child == 0) work_and_exit(ends[1], work);
   close(ends[1]);
   Isolated outcome;
-  const bool in_time = read_all(ends[0], patience_s, outcome.result);
+  const bool in_time = read_all(ends[0], timeout_s, outcome.result);
   close(ends[0]);
   if (!in_time) kill(child, SIGKILL);
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   if (!in_time) {
-    outcome.fault = fmt::format("not done after {:g} s", patience_s);
+    outcome.fault = fmt::format("not done after {:g} s", timeout_s);
   } else if (WIFSIGNALED(status)) {
     outcome.fault =
         fmt::format("killed by signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)));

@@ -13,8 +13,8 @@ struct Isolated {
 };
 
 /// Does `work` in a child process, which may crash or hang without taking this one with it; it is
-/// killed after `patience_s`. What it prints on standard output is lost. To be called by a process
+/// killed after `timeout_s`. What it prints on standard output is lost. To be called by a process
 /// with one thread.
-Isolated isolated(double patience_s, const std::function<std::string()>& work);
+Isolated isolated(double timeout_s, const std::function<std::string()>& work);
 
 }  // namespace armature

@@ -91,7 +91,7 @@ void add_run(CLI::App& app, Action& action) {
   verb->add_flag("--json", options->json, "print the result as one JSON object");
   verb->add_flag("--timing", options->timing, "tell how late and how long every step was");
   verb->add_flag("--keep-running", options->keep_running,
-                 "go on when the story has been told, until Ctrl-C: to watch it");
+                 "go on when the scenario is over, until Ctrl-C: to watch it");
   verb->add_option("--report", options->report,
                    "write report.json, tables and pictures into this folder");
   add_handed_over(*verb, *options);
@@ -191,7 +191,7 @@ void add_verify(CLI::App& plugin, Action& action) {
       ->capture_default_str()
       ->check(wrong_seed);
   verify
-      ->add_option("--patience", options->patience_s,
+      ->add_option("--timeout", options->timeout_s,
                    "seconds that a law may take; a solver that hangs breaks it")
       ->capture_default_str()
       ->check(wrong_number)
@@ -225,7 +225,7 @@ void add_plugin_verbs(CLI::App& app, Action& action) {
 }
 
 void add_topic_verbs(CLI::App& app, Action& action) {
-  constexpr int kMostSamples = std::numeric_limits<int>::max();
+  constexpr int kMaxSamples = std::numeric_limits<int>::max();
   CLI::App* topic = app.add_subcommand("topic", "Watch a running deployment over DDS");
   topic->require_subcommand(1);
   auto options = std::make_shared<TopicOptions>();
@@ -243,7 +243,7 @@ void add_topic_verbs(CLI::App& app, Action& action) {
   CLI::App* echo = topic->add_subcommand("echo", "Print the samples of a topic");
   echo->add_option("topic", options->topic, "e.g. /dental_lamp/arm/measured_js")->required();
   echo->add_option("-n,--count", options->count, "end after this many samples")
-      ->check(CLI::Range(1, kMostSamples));
+      ->check(CLI::Range(1, kMaxSamples));
   echo->add_flag("--full", options->full, "long byte arrays in full");
   add_common(echo);
   echo->callback([=, &action] { action = [=] { return echo_topic(*options); }; });
@@ -251,7 +251,7 @@ void add_topic_verbs(CLI::App& app, Action& action) {
   CLI::App* hz = topic->add_subcommand("hz", "How often a topic is written");
   hz->add_option("topic", options->topic, "e.g. /dental_lamp/arm/measured_js")->required();
   hz->add_option("-n,--count", options->count, "end after this many samples, at least 2")
-      ->check(CLI::Range(2, kMostSamples));
+      ->check(CLI::Range(2, kMaxSamples));
   add_common(hz);
   hz->callback([=, &action] { action = [=] { return topic_rate(*options); }; });
 }

@@ -58,11 +58,11 @@ Json ports_json(const std::vector<PortSpec>& ports) {
   return list;
 }
 
-Json traits_json(const std::vector<Trait>& traits) {
+Json capabilities_json(const std::vector<Capability>& capabilities) {
   Json list = Json::array();
-  for (const Trait& trait : traits) {
-    Json json{{"name", trait.word}, {"doc", trait.doc}};
-    if (!trait.when.empty()) json["when"] = trait.when;
+  for (const Capability& capability : capabilities) {
+    Json json{{"name", capability.word}, {"doc", capability.doc}};
+    if (!capability.when.empty()) json["when"] = capability.when;
     list.push_back(std::move(json));
   }
   return list;
@@ -80,8 +80,8 @@ Json manifest_json(const PluginManifest& plugin) {
   for (const auto& slot : plugin.slots) {
     if (!slot.otherwise.empty()) json["slot_defaults"][slot.name] = slot.otherwise;
   }
-  json["needs"] = traits_json(plugin.needs);
-  json["offers"] = traits_json(plugin.offers);
+  json["needs"] = capabilities_json(plugin.needs);
+  json["offers"] = capabilities_json(plugin.offers);
   json["measures"] = Json::object();
   for (const auto& metric : plugin.measures) json["measures"][metric.name] = metric.doc;
   json["in"] = ports_json(plugin.inputs);
@@ -151,13 +151,13 @@ void print_ports(const char* title, const std::vector<PortSpec>& ports) {
   }
 }
 
-void print_traits(const char* title, const std::vector<Trait>& traits,
-                  const std::vector<ParamSpec>& params) {
-  if (traits.empty()) return;
+void print_capabilities(const char* title, const std::vector<Capability>& capabilities,
+                        const std::vector<ParamSpec>& params) {
+  if (capabilities.empty()) return;
   fmt::print("{}:\n", title);
-  for (const auto& trait : traits) {
-    const std::string unless = unless_text(trait, params);
-    fmt::print("  {:<26} {}{}\n", trait.word, trait.doc,
+  for (const auto& capability : capabilities) {
+    const std::string unless = unless_text(capability, params);
+    fmt::print("  {:<26} {}{}\n", capability.word, capability.doc,
                unless.empty() ? "" : fmt::format(" ({})", unless));
   }
 }
@@ -209,8 +209,8 @@ int show_plugin(const std::string& id, bool json) {
   if (plugin->runs_programs) fmt::print("  runs a program that its parameters name\n");
   print_params(plugin->params);
   print_slots(plugin->slots);
-  print_traits("needs", plugin->needs, plugin->params);
-  print_traits("offers", plugin->offers, plugin->params);
+  print_capabilities("needs", plugin->needs, plugin->params);
+  print_capabilities("offers", plugin->offers, plugin->params);
   if (!plugin->measures.empty()) fmt::print("measures:\n");
   for (const auto& metric : plugin->measures) {
     fmt::print("  {:<26} {}{}\n", metric.name, metric.doc,

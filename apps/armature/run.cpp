@@ -103,7 +103,7 @@ class LastWord {
       : options_{&options}, console_{&console}, child_{child} {}
 
   /// How long each part of the end may take; the main process kills another one after 3 s.
-  Duration patience() const {
+  Duration timeout() const {
     const bool is_awaited = child_ && !child_->alone();
     return seconds((is_awaited ? 2 : 10) * (kSanitized ? 5 : 1));
   }
@@ -248,7 +248,7 @@ int run_main(const RunOptions& options, const Process& process, Deployment& depl
   deployment.run(watch);
   RunReport::Ending ending{.faults = watch.end_all(), .stopped = watch.interruption()};
   // Somebody has looked at it for long enough: that is how such a run ends.
-  if (options.keep_running && deployment.story_told() && ending.stopped == "interrupted") {
+  if (options.keep_running && deployment.scenario_over() && ending.stopped == "interrupted") {
     ending.stopped.reset();
   }
   if (options.timing) {
@@ -325,7 +325,7 @@ int run(const RunOptions& options) {
   std::optional<ChildWatch> child_watch;
   if (is_child) child_watch.emplace(console, options.control);
   LastWord last_word{options, console, is_child ? &*child_watch : nullptr};
-  EndWatch end_watch{last_word.patience(), [&](const auto& hung) { last_word.leave(hung); }};
+  EndWatch end_watch{last_word.timeout(), [&](const auto& hung) { last_word.leave(hung); }};
   name_crashing_components();
   Deployment deployment{
       std::move(config),

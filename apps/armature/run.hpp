@@ -29,7 +29,7 @@ struct RunOptions {
   int control = -1;              // descriptor of the way to the main process, if that started it
   bool json = false;
   bool timing = false;        // tells how late and how long the steps were
-  bool keep_running = false;  // when the story has been told, until Ctrl-C
+  bool keep_running = false;  // when the scenario is over, until Ctrl-C
   std::optional<std::filesystem::path> report;
   std::optional<std::string> inject;  // a drill's fault, "motion:throw", struck at SIGUSR1
 };

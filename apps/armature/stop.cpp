@@ -27,7 +27,7 @@ constexpr milliseconds kInsists{500};  // deployments that are still being disco
 /// Writes the stop until who reads it has been found, and says who has taken it.
 class Stopping {
  public:
-  Stopping(const StopOptions& options, OutsideWriter& writer, SamplePool& pool,
+  Stopping(const StopOptions& options, RemoteWriter& writer, SamplePool& pool,
            const SystemClock& clock)
       : options_{options}, writer_{writer}, pool_{pool}, clock_{clock} {}
 
@@ -58,7 +58,7 @@ class Stopping {
 
  private:
   const StopOptions& options_;
-  OutsideWriter& writer_;
+  RemoteWriter& writer_;
   SamplePool& pool_;
   const SystemClock& clock_;
   Steady::time_point give_up_ =

@@ -29,7 +29,7 @@ namespace armature {
 namespace {
 
 constexpr Duration kDiscovery = seconds(1.5);
-constexpr int kLeastForARate = 2;
+constexpr int kMinForARate = 2;
 
 std::atomic<bool> g_interrupted{false};
 
@@ -242,7 +242,7 @@ void print_rate(const Rate& rate, const char* over, bool json) {
 
 int topic_rate(const TopicOptions& options) {
   PluginRegistry plugins;
-  Finish finish{options, kLeastForARate};
+  Finish finish{options, kMinForARate};
   std::mutex mutex;
   RateMeter meter;
   auto observer = observe(plugins, options);  // goes before what its callback uses

@@ -105,7 +105,7 @@ TEST(PluginVerify, ShowsTheDepthThatANeedleCrashesAtInMetres) {
 
 TEST(PluginVerify, EndsALawThatHangsWithALineThatNamesIt) {
   const auto result = verify(
-      kFaulty, {"--robot", kLamp, "--poses", "5", "--patience", "1", "--params", "{fault: hang}"});
+      kFaulty, {"--robot", kLamp, "--poses", "5", "--timeout", "1", "--params", "{fault: hang}"});
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_FALSE(result.timed_out);
   EXPECT_THAT(result.out, testing::ContainsRegex("  FAIL  fk.ik.goal.. = goal +[0-9.]+ s"));

@@ -46,7 +46,7 @@ std::string entry_of(const PluginManifest& plugin) {
 
 /// What a component is made with, or why none of the shipped robots and rigs will do.
 struct Made {
-  std::optional<ComponentBench::Options> with;
+  std::optional<ComponentHarness::Options> with;
   std::string refusal;
 };
 
@@ -62,7 +62,7 @@ Made made(const PluginManifest& plugin) {
   Made found;
   for (const std::string& robot : robots) {
     for (const std::string& rig : rigs) {
-      ComponentBench::Options options{.component = entry_of(plugin)};
+      ComponentHarness::Options options{.component = entry_of(plugin)};
       if (!robot.empty()) options.robot = config::load(configs / "robots" / (robot + ".yaml"));
       if (!rig.empty()) options.rig = config::load(configs / "rigs" / (rig + ".yaml"));
       found.refusal = refusal_of(registry(), options);
@@ -72,12 +72,12 @@ Made made(const PluginManifest& plugin) {
   return found;
 }
 
-void expect_lawful(const PluginManifest& plugin, const ComponentBench::Options& options) {
+void expect_lawful(const PluginManifest& plugin, const ComponentHarness::Options& options) {
   for (const Law<ComponentSubject>& law : component_laws()) {
     const LawReport report = check_law(
         law, ComponentSubject{
                  .name = plugin.id,
-                 .make = [&] { return std::make_unique<ComponentBench>(registry(), options); },
+                 .make = [&] { return std::make_unique<ComponentHarness>(registry(), options); },
                  .rounds = 50});
     EXPECT_TRUE(report.kept()) << law.name;
     for (const auto& [what, question] : report.violations)

@@ -107,7 +107,7 @@ TEST_P(Stopping, SoItDoesAtTheEndOfTheStoryWhoseTellerIsNotSteppedAnyMore) {
   const Halted halted = run(
       "  arm: {plugin: test/mover}\n"
       "  teller: {plugin: test/mover, topics: t, params: {ends_after_s: 0.05, rest_after_s: 0}}\n");
-  EXPECT_THAT(halted.causes, ElementsAre("the story has been told"));
+  EXPECT_THAT(halted.causes, ElementsAre("the scenario is over"));
   EXPECT_THAT(halted.said, testing::IsSupersetOf(kAtRest));
   EXPECT_EQ(halted.texts.at("steps_after"), "0");
 }

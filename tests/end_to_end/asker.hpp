@@ -34,10 +34,10 @@ class Asker {
             {"rt" + topic + "/response", &message_type<Response>(), QosProfile::reply}, false,
             [this](const SampleRef& sample) { keep(sample); }))} {}
 
-  bool connected(std::chrono::seconds patience) const {
-    for (const auto end = std::chrono::steady_clock::now() + patience;
+  bool connected(std::chrono::seconds timeout) const {
+    for (const auto end = std::chrono::steady_clock::now() + timeout;
          std::chrono::steady_clock::now() < end;) {
-      if (writer_->watchers() > 0 && reader_->writers() > 0) return true;
+      if (writer_->matched_readers() > 0 && reader_->writers() > 0) return true;
       std::this_thread::sleep_for(std::chrono::milliseconds{20});
     }
     return false;
@@ -66,8 +66,8 @@ class Asker {
   std::condition_variable answered_;
   std::optional<Response> response_;
   SamplePool requests_;  // outlives the writer, which may still be sending
-  std::unique_ptr<OutsideWriter> writer_;
-  std::unique_ptr<OutsideReader> reader_;
+  std::unique_ptr<RemoteWriter> writer_;
+  std::unique_ptr<RemoteReader> reader_;
 };
 
 }  // namespace armature::test

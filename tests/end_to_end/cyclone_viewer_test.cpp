@@ -84,7 +84,7 @@ Comparison compare(const std::map<std::int64_t, Eigen::Isometry3d>& poses,
     const auto sample = joints.find(stamp);
     if (sample == joints.end()) continue;
     const Eigen::Isometry3d expected =
-        forward_kinematics(lamp, lamp.contract(sample->second).value());
+        forward_kinematics(lamp, lamp.to_independent(sample->second).value());
     const Eigen::Isometry3d error = expected.inverse() * base_T_tool;
     ++result.samples;
     result.worst_m = std::max(result.worst_m, error.translation().norm());

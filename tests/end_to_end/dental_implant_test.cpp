@@ -189,7 +189,7 @@ TEST(DentalImplant, APathThatKnowsNoKeyPosesIsRefusedBeforeAnythingMoves) {
 }
 
 TEST(DentalImplant, ASiteOutOfReachIsRefused) {
-  const std::string near_is_seen = kTracker + "nearest_mm=100";
+  const std::string near_is_seen = kTracker + "min_distance_mm=100";
   expect_refused({near_is_seen, kTracker + "jaw_mm=[-1100, -50, 650]"},
                  "above site 1: ik: the goal: out_of_reach");
   expect_refused({near_is_seen, kTracker + "jaw_mm=[-620, -50, 650]"},
@@ -211,7 +211,7 @@ TEST(DentalImplant, CalibrationsMarkersAndSitesThatAreKnownTooBadlyAreRefused) {
   expect_refused({kTracker + "marker_error_mm=4"}, "no choice of measured points keeps");
   expect_refused({kTracker + "markers_mm=[0, 0, 0, 30, 0, 0, 70, 0, 0]"},
                  "the markers lie nearly on one line");
-  expect_refused({kTask + "most_site_error_mm=0.3"},
+  expect_refused({kTask + "max_tre_mm=0.3"},
                  "site 1 is known to 0.39 mm (95 %), 0.3 mm are required");
 }
 
@@ -232,8 +232,8 @@ TEST(DentalImplant, SitesWithWrongNumbersAreFoundBeforeAnythingStarts) {
       problem("sites_rpy_deg=[1, 2, 3]").find("'sites_mm' has 3 sites, 'sites_rpy_deg' has 1"),
       std::string::npos);
   EXPECT_NE(problem("sites_mm=[10, -5, north]").find("north"), std::string::npos);
-  EXPECT_NE(problem("nearest_mm=3000")
-                .find("'nearest_mm' is 3000, not below 'farthest_mm', which is 2400"),
+  EXPECT_NE(problem("min_distance_mm=3000")
+                .find("'min_distance_mm' is 3000, not below 'max_distance_mm', which is 2400"),
             std::string::npos);
   EXPECT_NE(problem("jaw_hidden_s=[5, 4]").find("'jaw_hidden_s': from 5 s until 4 s is no time"),
             std::string::npos);

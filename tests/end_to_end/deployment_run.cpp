@@ -12,7 +12,7 @@ namespace armature::test {
 namespace {
 
 // Far beyond what a run takes: only a hang ends here.
-constexpr std::chrono::seconds kPatience{180};
+constexpr std::chrono::seconds kTimeout{180};
 
 /// Null when there is none of that name.
 nlohmann::json value_of(const DeploymentRun& run, const std::string& name) {
@@ -54,7 +54,7 @@ std::vector<std::string> deployment_command(const DeploymentStart& start) {
 }
 
 DeploymentRun run_deployment(const DeploymentStart& start) {
-  DeploymentRun run{.command = run_command(deployment_command(start), start.options, kPatience),
+  DeploymentRun run{.command = run_command(deployment_command(start), start.options, kTimeout),
                     .report = {}};
   if (nlohmann::json::parse(run.command.out, nullptr, false).is_object()) {
     run.report = run.command.out;

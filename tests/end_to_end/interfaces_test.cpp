@@ -18,7 +18,7 @@ using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::Not;
 
-constexpr seconds kPatience{30};
+constexpr seconds kTimeout{30};
 const std::string kJoined = "dds.interfaces=[eth0]";
 
 class Interfaces : public testing::Test {
@@ -50,7 +50,7 @@ class Interfaces : public testing::Test {
 
   static CommandResult interrupt(Command& run) {
     run.signal(SIGINT);
-    return run.finish(kPatience);
+    return run.finish(kTimeout);
   }
 
   const int domain_ = unique_dds_domain();
@@ -68,7 +68,7 @@ TEST_F(Interfaces, ThatADeploymentJoinsCarryItsTopicsToAnotherMachine) {
   Command there{armature_on(desk_, by_name)}, beside{armature_on(desk_, by_address)},
       here{armature_on(robot_, by_name)};
   for (Command* watch : {&there, &beside, &here}) {
-    const auto result = watch->finish(kPatience);
+    const auto result = watch->finish(kTimeout);
     EXPECT_EQ(result.exit_code, 0) << result.err << pulse->err();
     EXPECT_THAT(result.out, HasSubstr(" Hz over 20 samples in all"));
   }
@@ -82,7 +82,7 @@ TEST_F(Interfaces, ThatADeploymentDoesNotJoinLeaveItAlone) {
   const auto pulse = start_pulse(robot_, {});
   // It brings the group's multicast to all of its machine.
   Command member{armature_on(robot_, {"topic", "hz", "/pulse/beat", "--interface", "eth0"})};
-  ASSERT_TRUE(member.wait_for_out(" Hz over ", kPatience)) << pulse->err();
+  ASSERT_TRUE(member.wait_for_out(" Hz over ", kTimeout)) << pulse->err();
   const auto watch = run_command(
       armature_on(desk_, {"topic", "hz", "/pulse/beat", "--timeout", "2", "--interface", "eth0"}));
   EXPECT_THAT(watch.err, HasSubstr("nobody writes '/pulse/beat'")) << watch.out;
@@ -144,12 +144,12 @@ TEST_F(Interfaces, CarryAStopToAnotherMachine) {
                                                  .settings = {kJoined, "clock=system"},
                                                  .domain = domain_,
                                                  .options = {}}))};
-  ASSERT_TRUE(run.wait_for_err("task      inserting", kPatience)) << run.err();
+  ASSERT_TRUE(run.wait_for_err("task      inserting", kTimeout)) << run.err();
   const auto stop =
       run_command(armature_on(desk_, {"stop", "--timeout", "8", "--interface", "eth0"}));
   EXPECT_EQ(stop.exit_code, 0) << stop.err;
   EXPECT_THAT(stop.out, HasSubstr("stopped: deployment 'sr1_biopsy', process 'main' (pid "));
-  EXPECT_TRUE(run.wait_for_err("a stop was asked for on the topic /stop", kPatience)) << run.err();
+  EXPECT_TRUE(run.wait_for_err("a stop was asked for on the topic /stop", kTimeout)) << run.err();
 }
 
 }  // namespace

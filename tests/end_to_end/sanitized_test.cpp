@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every published deployment for the sanitizers, which see what runs: once to the end of its story,
-// and once in several processes and with all of its threads. tools/test --full runs it in their
-// builds.
+// Every published deployment for the sanitizers, which see what runs: once to the end of its
+// scenario, and once in several processes and with all of its threads. tools/test --full runs it in
+// their builds.
 #include <gmock/gmock.h>
 
 #include "deployment_run.hpp"

@@ -84,9 +84,9 @@ TEST(Sr1Biopsy, MarkersThatDecideNothingAreRefused) {
 
 TEST(Sr1Biopsy, AMarkerThatMovedOrATargetKnownTooBadlyIsRefused) {
   expect_refused({kHead + "marker_error_mm=8"}, "no choice of measured points keeps");
-  expect_refused({"components.task.params.most_target_error_mm=0.3"},
+  expect_refused({"components.task.params.max_tre_mm=0.3"},
                  "the target is known to 0.36 mm (95 %), 0.3 mm are required");
-  expect_refused({"components.task.params.most_fiducial_error_mm=0.3"},
+  expect_refused({"components.task.params.max_fre_mm=0.3"},
                  "the markers fit to 0.54 mm rms, 0.3 mm are allowed");
 }
 
@@ -98,7 +98,7 @@ TEST(Sr1Biopsy, AMarkersErrorThatDoesNotExplainTheFitIsNotBelieved) {
 TEST(Sr1Biopsy, AStoryThatIsNotHeardToItsEndTellsThatFirst) {
   const DeploymentRun run = biopsy({"run.time_limit_s=3"});
   EXPECT_EQ(run.command.exit_code, 1);
-  EXPECT_EQ(run.word("reason"), "the time limit of 3 s was over before the end of the story")
+  EXPECT_EQ(run.word("reason"), "the time limit of 3 s was over before the end of the scenario")
       << run.text();
 }
 

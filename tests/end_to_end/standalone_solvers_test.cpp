@@ -121,7 +121,7 @@ TEST_F(StandaloneSolvers, TogetherPlanAMotionForAProgramThatHasOnlyDds) {
   when.request_id_(3);
   auto next = chosen->waypoints_().begin();
   msg::JointPosition last;
-  const JointVector all = lamp.expand(home);
+  const JointVector all = lamp.to_all(home);
   last.joints_().assign(all.begin(), all.end());
   for (const msg::PathSegment& segment : path->segments_()) {
     auto& joints = when.segments_().emplace_back();

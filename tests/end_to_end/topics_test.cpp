@@ -150,18 +150,18 @@ TEST_F(Watched, WhatDidNotComeInTimeIsSaid) {
                                                  "--set", "clock=system"});
   wait_for_frames();
   const std::string silent = "/watched/path/response";
-  constexpr std::chrono::seconds kPatience{60};
+  constexpr std::chrono::seconds kTimeout{60};
   Command echo{topic({"echo", silent, "--timeout", "3"})},
       hz{topic({"hz", silent, "--timeout", "3"})};
   Command once{
       topic({"echo", "/tf_static", "-n", "2", "--timeout", "3"})};  // latched, written once
   for (Command* command : {&echo, &hz}) {
-    const auto result = command->finish(kPatience);
+    const auto result = command->finish(kTimeout);
     EXPECT_EQ(result.exit_code, 5);
     EXPECT_EQ(result.out, "");
     EXPECT_EQ(result.err, "armature: no sample of '" + silent + "' came within 3 s\n");
   }
-  const auto result = once.finish(kPatience);
+  const auto result = once.finish(kTimeout);
   EXPECT_EQ(result.exit_code, 5);
   EXPECT_EQ(result.err, "armature: 1 of 2 samples of '/tf_static' came within 3 s\n");
 }
@@ -203,7 +203,7 @@ TEST_F(Watched, ARunThatKeepsRunningGoesOnAfterItsStoryUntilItIsInterrupted) {
   Command run{{armature(), "run", source_file("tests/faults/tour.yaml"), "--domain",
                std::to_string(domain_), "--set", "components.task.params.rounds=1",
                "--keep-running"}};
-  ASSERT_TRUE(run.wait_for_err("the story has been told; the run goes on until Ctrl-C",
+  ASSERT_TRUE(run.wait_for_err("the scenario is over; the run goes on until Ctrl-C",
                                std::chrono::seconds{40}));
   EXPECT_EQ(
       run_command(topic({"echo", "/tour/arm/measured_js", "-n", "5", "--timeout", "30"})).exit_code,

@@ -17,17 +17,17 @@ static const char abi[] __attribute__((section(".armature.abi"), used, retain)) 
 
 namespace armature {
 
-class DeafWriter final : public OutsideWriter {
+class DeafWriter final : public RemoteWriter {
  public:
   void offer(const SampleRef&) override {}
-  int watchers() const override { return 0; }
+  int matched_readers() const override { return 0; }
   int peers() const override { return 0; }
   std::uint64_t dropped() const override { return 0; }
   std::vector<Watcher> who_watches() const override { return {}; }
   bool acknowledged(Duration) override { return true; }
 };
 
-class DeafReader final : public OutsideReader {
+class DeafReader final : public RemoteReader {
  public:
   int writers() const override { return 0; }
   int peers() const override { return 0; }
@@ -43,11 +43,11 @@ class DeafTransport final : public Transport {
   static Expected<std::unique_ptr<Transport>> make(const TransportOptions&) {
     return std::make_unique<DeafTransport>();
   }
-  Expected<std::unique_ptr<OutsideWriter>> advertise(const TopicSpec&) override {
+  Expected<std::unique_ptr<RemoteWriter>> advertise(const TopicSpec&) override {
     return std::make_unique<DeafWriter>();
   }
-  Expected<std::unique_ptr<OutsideReader>> subscribe(const TopicSpec&, bool,
-                                                     std::function<void(SampleRef)>) override {
+  Expected<std::unique_ptr<RemoteReader>> subscribe(const TopicSpec&, bool,
+                                                    std::function<void(SampleRef)>) override {
     return std::make_unique<DeafReader>();
   }
 };

@@ -9,7 +9,7 @@
 namespace armature::test {
 namespace {
 
-/// A deployment, and how long its story is at least [s]: the moments lie in it.
+/// A deployment, and how long its scenario is at least [s]: the moments lie in it.
 struct Drilled {
   const char* name;
   const char* within_s;
@@ -19,12 +19,12 @@ struct Drilled {
 
 class FullDrill : public testing::TestWithParam<Drilled> {
  protected:
-  static CommandResult drill(std::vector<std::string> options, std::chrono::seconds patience) {
+  static CommandResult drill(std::vector<std::string> options, std::chrono::seconds timeout) {
     std::vector<std::string> words{armature(), "drill",
                                    source_file(std::string{"configs/"} + GetParam().name + ".yaml"),
                                    "--domain", std::to_string(unique_dds_domain())};
     words.insert(words.end(), options.begin(), options.end());
-    return run_command(words, {}, patience);
+    return run_command(words, {}, timeout);
   }
 };
 

@@ -19,7 +19,7 @@ double wrapped_difference(const JointVector& a, const JointVector& b) {
   return largest;
 }
 
-JointVector contracted(const Eigen::VectorXd& all) { return lamp().contract(all).value(); }
+JointVector contracted(const Eigen::VectorXd& all) { return lamp().to_independent(all).value(); }
 
 TEST(DentalLamp, TheRobotFileHasTheLengthsOfTable1) {
   const Figures rows = dental_lamp()["dh_standard"];

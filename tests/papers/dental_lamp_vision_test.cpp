@@ -26,8 +26,8 @@ StereoCamera paper_camera() {
   return {.width = static_cast<int>(size[0]),
           .height = static_cast<int>(size[1]),
           .focal_px = 1000 / 1.27,
-          .cu = camera["cu"].number(),
-          .cv = camera["cv"].number(),
+          .cx = camera["cu"].number(),
+          .cy = camera["cv"].number(),
           .baseline_m = 1e-3 * camera["baseline_mm"].number()};
 }
 
@@ -60,7 +60,7 @@ TEST(DentalLampVision, TheFaceNormalIsTheCrossProductTowardsTheLamp) {
 
 TEST(DentalLampVision, TheSimulatedTestOfSection5Fits) {
   const Figures test = dental_lamp()["vrep_test"];
-  const JointVector start = lamp().contract(kDegree * test["start_q_deg"].numbers()).value();
+  const JointVector start = lamp().to_independent(kDegree * test["start_q_deg"].numbers()).value();
   EXPECT_LE((forward_kinematics(lamp(), start).translation() - test["start_P7"].point_m()).norm(),
             1e-9);
   const Vector3d mouth = test["small_sphere_mouth"].point_m();

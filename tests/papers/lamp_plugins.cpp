@@ -81,7 +81,7 @@ IkBranches branches_of(const Eigen::Vector3d& position_m, const Eigen::Vector3d&
   return branches;
 }
 
-JointVector all_joints(const JointVector& independent) { return lamp().expand(independent); }
+JointVector all_joints(const JointVector& independent) { return lamp().to_all(independent); }
 
 JointVector paper_joints(const Eigen::Vector3d& position_m, const Eigen::Vector3d& direction) {
   const IkBranches branches = branches_of(position_m, direction);

@@ -83,7 +83,7 @@ TEST(Sr1Needle, SixRevoluteJointsInterpolatedFromEntryToTargetLeaveTheLine) {
   };
   const IkBranches entry = branches_at(plan.entry), target = branches_at(plan.target);
   ASSERT_EQ(entry.count, 8);
-  double largest_turn = 0, least_off = 1, most_off = 0, least_tilt = 9, most_tilt = 0;
+  double largest_turn = 0, min_off = 1, max_off = 0, min_tilt = 9, max_tilt = 0;
   for (std::size_t i = 0; i < 8; i += 2) {
     JointVector turn = target.branch[i].q - entry.branch[i].q;
     for (double& angle : turn) angle = wrap_angle(angle);
@@ -96,14 +96,14 @@ TEST(Sr1Needle, SixRevoluteJointsInterpolatedFromEntryToTargetLeaveTheLine) {
       off = std::max(off, from_entry.cross(plan.along).norm());
       tilt = std::max(tilt, pose.linear().col(2).cross(plan.along).norm());
     }
-    least_off = std::min(least_off, off), most_off = std::max(most_off, off);
-    least_tilt = std::min(least_tilt, tilt), most_tilt = std::max(most_tilt, tilt);
+    min_off = std::min(min_off, off), max_off = std::max(max_off, off);
+    min_tilt = std::min(min_tilt, tilt), max_tilt = std::max(max_tilt, tilt);
   }
   EXPECT_NEAR(largest_turn / kDegree, 19, 0.5);
-  EXPECT_NEAR(1e3 * least_off, 1.6, 0.05);
-  EXPECT_NEAR(1e3 * most_off, 2.3, 0.05);
-  EXPECT_NEAR(least_tilt / kDegree, 0.2, 0.05);
-  EXPECT_NEAR(most_tilt / kDegree, 0.45, 0.05);
+  EXPECT_NEAR(1e3 * min_off, 1.6, 0.05);
+  EXPECT_NEAR(1e3 * max_off, 2.3, 0.05);
+  EXPECT_NEAR(min_tilt / kDegree, 0.2, 0.05);
+  EXPECT_NEAR(max_tilt / kDegree, 0.45, 0.05);
 }
 
 }  // namespace

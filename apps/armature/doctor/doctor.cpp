@@ -26,7 +26,7 @@ void print_json(const std::vector<Finding>& findings) {
                                {"what", finding.what},
                                {"value", finding.value},
                                {"meaning", finding.meaning},
-                               {"way_out", finding.way_out}});
+                               {"hint", finding.hint}});
   }
   // A file's name may be no UTF-8.
   fmt::print("{}\n", all.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
@@ -42,7 +42,7 @@ void print_text(const std::vector<Finding>& findings) {
   for (const Finding& finding : findings) {
     fmt::print("{:<8} {:<22} {}; {}{}\n", to_string(finding.level), finding.what,
                one_line(finding.value), finding.meaning,
-               finding.way_out.empty() ? "" : "; try: " + finding.way_out);
+               finding.hint.empty() ? "" : "; try: " + finding.hint);
   }
 }
 

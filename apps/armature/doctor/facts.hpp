@@ -45,7 +45,7 @@ struct NetworkFacts {
 struct ClockFacts {
   std::int64_t resolution_ns = 0;  // of the monotonic clock
   bool synchronised = false;       // the system clock, with a better one
-  double most_error_s = 0;         // of it, as the kernel estimates
+  double max_error_s = 0;          // of it, as the kernel estimates
 };
 
 struct UnusablePlugin {

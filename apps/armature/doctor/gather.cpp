@@ -144,7 +144,7 @@ ClockFacts clock_facts() {
   timex state{};  // modes 0: only asked
   const int answer = adjtimex(&state);
   facts.synchronised = answer >= 0 && answer != TIME_ERROR && (state.status & STA_UNSYNC) == 0;
-  facts.most_error_s = static_cast<double>(state.maxerror) * 1e-6;
+  facts.max_error_s = static_cast<double>(state.maxerror) * 1e-6;
   return facts;
 }
 

@@ -163,7 +163,7 @@ void judge_clock(const ClockFacts& clock, Findings& findings) {
                       coarse ? "cat /proc/cmdline  # boot without highres=off and nohz=off" : ""});
   findings.push_back(
       {clock.synchronised ? Level::ok : Level::warning, "system clock",
-       clock.synchronised ? fmt::format("synchronised, off by at most {:.3f} s", clock.most_error_s)
+       clock.synchronised ? fmt::format("synchronised, off by at most {:.3f} s", clock.max_error_s)
                           : "not synchronised",
        clock.synchronised ? "stamps can be compared with other machines'"
                           : "stamps of other machines may look old, or of the future",

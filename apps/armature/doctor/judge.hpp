@@ -20,7 +20,7 @@ struct Finding {
   std::string what;     // was looked at: "free shared memory"
   std::string value;    // "7900 MiB"
   std::string meaning;  // for whoever runs a deployment
-  std::string way_out;  // a command that can be copied; empty when nothing is to be done
+  std::string hint;     // a command that can be copied; empty when nothing is to be done
 };
 
 /// What the facts mean, in their order.

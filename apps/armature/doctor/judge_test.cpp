@@ -49,7 +49,7 @@ std::vector<std::string> not_ok(const Facts& facts) {
 
 TEST(Doctor, FindsNothingWrongWithAGoodMachine) {
   EXPECT_THAT(not_ok(good()), IsEmpty());
-  EXPECT_THAT(judge(good()), Each(Field(&Finding::way_out, "")));
+  EXPECT_THAT(judge(good()), Each(Field(&Finding::hint, "")));
   EXPECT_THAT(judge(good()), Each(Field(&Finding::meaning, testing::Not(IsEmpty()))));
   EXPECT_EQ(about("version", good()).value, "armature 1.2.3");
   EXPECT_EQ(about("other interfaces", good()).value, "eth0 (10.0.0.5)");
@@ -64,7 +64,7 @@ TEST(Doctor, SaysAWayOutOfEverythingThatIsNotOk) {
                   .plugins = {.warnings = {"no folder"}, .unusable = {{"/x.so", "broken"}}}};
   EXPECT_EQ(not_ok(bad).size(), 15U);
   for (const Finding& finding : judge(bad)) {
-    EXPECT_EQ(finding.level == Level::ok, finding.way_out.empty()) << finding.what;
+    EXPECT_EQ(finding.level == Level::ok, finding.hint.empty()) << finding.what;
   }
 }
 
@@ -72,7 +72,7 @@ TEST(Doctor, WarnsOfSharedMemoryThatCannotBeWrittenAndAsksNoMoreOfIt) {
   Facts facts = good();
   facts.shared_memory = {.folder = "/none", .unusable = "/none is not writable"};
   EXPECT_THAT(not_ok(facts), testing::ElementsAre("shared memory"));
-  EXPECT_THAT(about("shared memory", facts).way_out, HasSubstr("/none"));
+  EXPECT_THAT(about("shared memory", facts).hint, HasSubstr("/none"));
 }
 
 TEST(Doctor, WantsRoomForOneProcessInSharedMemory) {

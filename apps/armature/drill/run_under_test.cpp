@@ -118,8 +118,8 @@ bool RunUnderTest::all_ended() {
   });
 }
 
-bool RunUnderTest::ends_within(milliseconds patience) {
-  for (const auto end = steady_clock::now() + patience; !all_ended();) {
+bool RunUnderTest::ends_within(milliseconds timeout) {
+  for (const auto end = steady_clock::now() + timeout; !all_ended();) {
     if (steady_clock::now() > end) return false;
     std::this_thread::sleep_for(kPause);
   }
@@ -177,8 +177,8 @@ std::ptrdiff_t RunUnderTest::count_lines(const std::string& component,
 }
 
 std::optional<std::string> RunUnderTest::wait_for_line(const std::string& text,
-                                                       milliseconds patience) {
-  for (const auto end = steady_clock::now() + patience;;) {
+                                                       milliseconds timeout) {
+  for (const auto end = steady_clock::now() + timeout;;) {
     if (auto line = line_with(text)) return line;
     if (steady_clock::now() > end || !runs()) return line_with(text);
     std::this_thread::sleep_for(kPause);

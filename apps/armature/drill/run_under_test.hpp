@@ -36,13 +36,13 @@ class RunUnderTest {
   /// False when its main process has ended.
   bool runs();
   /// Waits for the end of all of its processes; false when they take longer.
-  bool ends_within(std::chrono::milliseconds patience);
+  bool ends_within(std::chrono::milliseconds timeout);
   /// The exit code of the main process, or 128 and its signal; nothing while it runs.
   std::optional<int> exit_code() const { return exit_code_; }
 
   /// The first line with this text, waited for. Without one nothing.
   std::optional<std::string> wait_for_line(const std::string& text,
-                                           std::chrono::milliseconds patience);
+                                           std::chrono::milliseconds timeout);
   std::optional<std::string> line_with(const std::string& text) const;
   /// Counts the lines with `text` that `component` has said.
   std::ptrdiff_t count_lines(const std::string& component, const std::string& text) const;

@@ -21,7 +21,7 @@ using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
 constexpr milliseconds kLook{2};
-constexpr const char* kStoryTold = "stopping: the story has been told";
+constexpr const char* kScenarioOver = "stopping: the scenario is over";
 constexpr milliseconds kStartWithin{60000};
 constexpr milliseconds kMoveWithin{60000};
 constexpr milliseconds kNextPress{250};
@@ -59,8 +59,8 @@ std::vector<std::string> arguments_of(const TrialOptions& options, const Fault& 
   return words;
 }
 
-bool wait_for(milliseconds patience, const std::function<bool()>& condition) {
-  for (const auto end = steady_clock::now() + patience; !condition();) {
+bool wait_for(milliseconds timeout, const std::function<bool()>& condition) {
+  for (const auto end = steady_clock::now() + timeout; !condition();) {
     if (steady_clock::now() > end) return false;
     std::this_thread::sleep_for(kLook);
   }
@@ -162,7 +162,7 @@ class Trial {
       return !run_.runs() || went_on(moved, listener_.went_on_after(from));
     });
     find_shown();
-    if (run_.line_with(kStoryTold)) return end_story();
+    if (run_.line_with(kScenarioOver)) return end_story();
     if (!still_runs()) return false;
     if (!went) {
       const double watched_s = to_seconds(kRampsFor + kGoesOnWithin);
@@ -175,7 +175,7 @@ class Trial {
     return true;
   }
 
-  /// A run may come to the end of its story after a fault; one whose task gave up has not, and
+  /// A run may come to the end of its scenario after a fault; one whose task gave up has not, and
   /// passes where the fault leaves a task no choice.
   bool end_story() {
     stop_at_ = steady_clock::now();
@@ -183,11 +183,11 @@ class Trial {
     const auto told = closing();
     if (!told.contains("status")) return fail("the run ended: " + how);
     const auto reasons = told.value("reasons", nlohmann::json::array());
-    // The story's own reason is in `reason` only; a fault's stands in `reasons`, too.
+    // The scenario's own reason is in `reason` only; a fault's stands in `reasons`, too.
     const bool gave_up =
         told.contains("reason") && std::ranges::find(reasons, told["reason"]) == reasons.end();
     if (gave_up && !fault_.may_give_up) return fail("the run ended: " + how);
-    story_end_ = gave_up ? "its task gave up: " + how : "went on to the end of its story";
+    scenario_end_ = gave_up ? "its task gave up: " + how : "went on to the end of its scenario";
     return true;
   }
 
@@ -199,7 +199,7 @@ class Trial {
     }
     wait_for(kHoldsFor, [&] { return !run_.runs(); });
     find_shown();
-    if (run_.line_with(kStoryTold)) {
+    if (run_.line_with(kScenarioOver)) {
       result_.untried = "the task gave up";
       return true;
     }
@@ -225,9 +225,9 @@ class Trial {
   }
 
   bool end() {
-    const milliseconds patience = end_patience();
-    if (!run_.ends_within(patience)) {
-      return fail(fmt::format("it had not ended after {} s", patience.count() / 1000));
+    const milliseconds timeout = end_patience();
+    if (!run_.ends_within(timeout)) {
+      return fail(fmt::format("it had not ended after {} s", timeout.count() / 1000));
     }
     find_shown();
     if (!fault_.shown.empty() && result_.shown.empty()) {
@@ -254,8 +254,8 @@ class Trial {
     }
     result_.arm = verdict.arm;
     if (!verdict.wrong.empty()) return;
-    if (!story_end_.empty()) {
-      result_.arm = story_end_;
+    if (!scenario_end_.empty()) {
+      result_.arm = scenario_end_;
     } else if (fault_.outcome == Outcome::goes_on) {
       result_.arm = "went on, then " + verdict.arm;
     }
@@ -305,7 +305,7 @@ class Trial {
   TrialResult result_{};
   Arrival stop_at_{}, next_press_{};
   std::optional<Arrival> held_from_;  // of arms that are to stay where they are
-  std::string story_end_;             // of a run that was to go on, where it ended by itself
+  std::string scenario_end_;          // of a run that was to go on, where it ended by itself
 };
 
 }  // namespace

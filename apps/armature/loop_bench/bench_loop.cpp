@@ -71,8 +71,8 @@ LoopSide side_since(MeasuredLoop& contestant, const Begin& begin) {
 /// takes to begin at all is not measured.
 void settle(MeasuredLoop& contestant) {
   constexpr std::uint64_t kSteps = 300;
-  constexpr auto kPatience = std::chrono::seconds{60};
-  const auto end = std::chrono::steady_clock::now() + kPatience;
+  constexpr auto kTimeout = std::chrono::seconds{60};
+  const auto end = std::chrono::steady_clock::now() + kTimeout;
   while (contestant.lateness().counts().figures().count < kSteps) {
     if (std::chrono::steady_clock::now() > end) throw std::runtime_error{"a loop stands still"};
     wait_for(0.01);

@@ -100,8 +100,8 @@ OurLoop::~OurLoop() {
 }
 
 int OurLoop::readers() const {
-  const OutsideWriter* outside = unit_->outputs().front().topic().outside();
-  return outside ? outside->watchers() : 0;
+  const RemoteWriter* remote = unit_->outputs().front().topic().remote();
+  return remote ? remote->matched_readers() : 0;
 }
 
 }  // namespace armature::bench

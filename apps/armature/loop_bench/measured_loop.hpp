@@ -61,7 +61,7 @@ class OurLoop final : public MeasuredLoop {
  private:
   PluginRegistry plugins_;
   std::unique_ptr<Deployment> deployment_;
-  Unit* unit_ = nullptr;
+  ComponentRunner* unit_ = nullptr;
   LoopComponent* component_ = nullptr;
   std::atomic<bool> end_{false};
   std::thread thread_;

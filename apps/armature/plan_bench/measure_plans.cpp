@@ -76,7 +76,7 @@ PlanRow row_of(const std::string& name, Shape shape, const std::vector<Motion>& 
     if (!all[i].planned) continue;
     plan.push_back(all[i].plan_s);
     sample.push_back(all[i].sample_s);
-    times.push_back(all[i].duration_s / motions[i].least_s);
+    times.push_back(all[i].duration_s / motions[i].min_s);
     row.allocations += static_cast<double>(all[i].allocations);
   }
   row.planned = static_cast<int>(plan.size());

@@ -38,7 +38,7 @@ std::string_view to_string(Shape shape) {
   return shape == Shape::point_to_point ? "point to point" : "curve through 20";
 }
 
-double least_time(double way, double max_velocity, double max_acceleration) {
+double min_time(double way, double max_velocity, double max_acceleration) {
   const double distance = std::abs(way);
   if (distance * max_acceleration < max_velocity * max_velocity) {
     return 2 * std::sqrt(distance / max_acceleration);
@@ -62,8 +62,8 @@ std::vector<Motion> motions(const RobotModel& model, Shape shape, int count, std
                                           ? JointSegment{.s = {0, 1}, .q = {from, to}}
                                           : curve(model, from, to, random));
     for (int i = 0; i < model.dof(); ++i) {
-      motion.least_s = std::max(motion.least_s, least_time(to[i] - from[i], model.max_velocity()[i],
-                                                           model.max_acceleration()[i]));
+      motion.min_s = std::max(motion.min_s, min_time(to[i] - from[i], model.max_velocity()[i],
+                                                     model.max_acceleration()[i]));
     }
   }
   return list;

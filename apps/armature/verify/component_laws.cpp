@@ -32,11 +32,11 @@ class ComponentLawsOfPlugin final : public PluginLaws {
 
  private:
   std::vector<LawRun> laws_of_unit(const std::string& unit, const std::string& prefix) {
-    ComponentBench::Options options = bench_;
+    ComponentHarness::Options options = bench_;
     options.unit = unit;
     const ComponentSubject subject{
         .name = plugin_.id,
-        .make = [this, options] { return std::make_unique<ComponentBench>(plugins_, options); },
+        .make = [this, options] { return std::make_unique<ComponentHarness>(plugins_, options); },
         .seed = seed_,
         .rounds = rounds_};
     std::vector<LawRun> runs;
@@ -49,7 +49,7 @@ class ComponentLawsOfPlugin final : public PluginLaws {
 
   PluginRegistry plugins_;
   const PluginManifest& plugin_;
-  ComponentBench::Options bench_;
+  ComponentHarness::Options bench_;
   std::uint64_t seed_ = 1;
   int rounds_ = 0;
 };

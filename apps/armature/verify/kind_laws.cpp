@@ -22,7 +22,7 @@ namespace armature {
 namespace {
 
 bool offers(const PluginManifest& plugin, std::string_view word) {
-  return std::ranges::find(plugin.offers, word, &Trait::word) != plugin.offers.end();
+  return std::ranges::find(plugin.offers, word, &Capability::word) != plugin.offers.end();
 }
 
 /// The laws of a kind on subjects that `make` makes.
@@ -105,7 +105,7 @@ std::unique_ptr<PluginLaws> laws_with(const VerifiedPlugin& verified,
 }
 
 /// The fewest markers that it takes.
-std::size_t least_markers(const Registrar& registrar) {
+std::size_t min_markers(const Registrar& registrar) {
   const std::array<Eigen::Vector3d, 6> places{
       Eigen::Vector3d{0.08, 0, 0.1}, {-0.08, 0.01, 0.09}, {0, 0.1, 0.12},
       {0.01, -0.09, 0.05},           {0.05, 0.05, 0.16},  {-0.04, -0.03, 0.01}};
@@ -142,7 +142,7 @@ std::unique_ptr<PluginLaws> laws_of_registration(const VerifiedPlugin& verified)
   return laws_with<Registrar>(
       verified, registration_laws(), [](const Maker& maker, auto registrar) {
         return RegistrationSubject{
-            .name = maker.plugin().id, .registrar = registrar, .least = least_markers(*registrar)};
+            .name = maker.plugin().id, .registrar = registrar, .least = min_markers(*registrar)};
       });
 }
 std::unique_ptr<PluginLaws> laws_of_target(const VerifiedPlugin& verified) {

@@ -67,7 +67,7 @@ Json report_json(const LawReport& report) {
 /// Checks the laws of one plugin, each in a process of its own.
 class Verification {
  public:
-  Verification(PluginLaws& laws, double patience_s) : laws_{laws}, patience_s_{patience_s} {}
+  Verification(PluginLaws& laws, double timeout_s) : laws_{laws}, patience_s_{timeout_s} {}
 
   /// The outcome of every law in order; `tell` is called after each.
   template <class Tell>
@@ -177,7 +177,7 @@ int verify_plugin(const VerifyOptions& options) {
       fmt::print("{}{}{}\n", plugin->id, arm.robot.empty() ? "" : " with ", arm.robot);
     }
     Json robot{{"robot", arm.robot.empty() ? "" : load_arm(arm).name()}, {"file", arm.robot}};
-    robot.update(Verification{*laws, options.patience_s}.run([&](const Json& law) {
+    robot.update(Verification{*laws, options.timeout_s}.run([&](const Json& law) {
       if (!options.json) print_law(law);
     }));
     const std::string refused = robot["refused"];

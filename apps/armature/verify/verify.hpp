@@ -15,7 +15,7 @@ struct VerifyOptions {
   std::string params;  // YAML map
   int poses = 1000;    // of every set; of a component activations
   std::uint64_t seed = 1;
-  double patience_s = 300;  // for one law
+  double timeout_s = 300;  // for one law
   bool json = false;
 };
 

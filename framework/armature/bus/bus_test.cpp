@@ -79,10 +79,10 @@ TEST_F(TopicTest, PassesOnToTheSubscribersOfTheTopicThatItIsAPartOf) {
 }
 
 TEST_F(TopicTest, KnowsWhetherASampleWouldReachSomebody) {
-  struct Outside final : OutsideWriter {
-    explicit Outside(const int& count) : count_{count} {}
+  struct Remote final : RemoteWriter {
+    explicit Remote(const int& count) : count_{count} {}
     void offer(const SampleRef&) override {}
-    int watchers() const override { return count_; }
+    int matched_readers() const override { return count_; }
     int peers() const override { return 0; }
     std::uint64_t dropped() const override { return 0; }
     std::vector<Watcher> who_watches() const override { return {}; }
@@ -90,7 +90,7 @@ TEST_F(TopicTest, KnowsWhetherASampleWouldReachSomebody) {
     const int& count_;
   };
   int watching = 0;
-  topic.attach(std::make_unique<Outside>(watching));
+  topic.attach(std::make_unique<Remote>(watching));
   EXPECT_FALSE(topic.has_readers());
   watching = 1;
   EXPECT_TRUE(topic.has_readers());

@@ -12,7 +12,7 @@ void Topic::publish(SampleRef sample, Time now) {
   sample.mutable_info() = {.published = now, .sequence = ++sequence_};
   deliver(sample);
   if (hub_) hub_->deliver(sample);
-  if (outside_) outside_->offer(sample);
+  if (remote_) remote_->offer(sample);
 }
 
 void Topic::deliver(const SampleRef& sample) {
@@ -27,7 +27,7 @@ void Topic::deliver(const SampleRef& sample, Sources sources) {
 
 bool Topic::has_readers() const {
   return !subscribers_.empty() || (hub_ && !hub_->subscribers_.empty()) ||
-         (outside_ && outside_->watchers() > 0);
+         (remote_ && remote_->matched_readers() > 0);
 }
 
 }  // namespace armature

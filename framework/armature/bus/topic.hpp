@@ -40,8 +40,8 @@ class Topic {
     subscribers_.push_back({&subscriber, sources});
     pool_.reserve(subscriber.max_held());
   }
-  void attach(std::unique_ptr<OutsideWriter> writer) { outside_ = std::move(writer); }
-  const OutsideWriter* outside() const { return outside_.get(); }
+  void attach(std::unique_ptr<RemoteWriter> writer) { remote_ = std::move(writer); }
+  const RemoteWriter* remote() const { return remote_.get(); }
   /// Samples also go to the subscribers of `hub`, which outlives this topic's publishing.
   void pass_on_to(Topic& hub) { hub_ = &hub; }
   /// True when a sample published now reaches somebody, here or outside. Real-time safe.
@@ -70,7 +70,7 @@ class Topic {
   };
   std::vector<Connection> subscribers_;
   Topic* hub_ = nullptr;
-  std::unique_ptr<OutsideWriter> outside_;
+  std::unique_ptr<RemoteWriter> remote_;
   std::uint64_t sequence_ = 0;
 };
 

@@ -29,21 +29,21 @@ struct Watcher {
 };
 
 /// Our end of a topic that others may read.
-class OutsideWriter {
+class RemoteWriter {
  public:
-  virtual ~OutsideWriter() = default;
+  virtual ~RemoteWriter() = default;
   /// Hands a sample to the egress thread if anybody outside has matched; never blocks, never
   /// encodes, drops the oldest waiting sample when the queue is full (and counts it).
   virtual void offer(const SampleRef& sample) = 0;
-  virtual int watchers() const = 0;
+  virtual int matched_readers() const = 0;
   /// How many readers of the deployment's other processes it has met so far.
   virtual int peers() const = 0;
   virtual std::uint64_t dropped() const = 0;
   /// Who has matched so far. Any thread.
   virtual std::vector<Watcher> who_watches() const = 0;
   /// Waits until every reliable reader has acknowledged what was offered; false when one has not
-  /// within `patience`.
-  virtual bool acknowledged(Duration patience) = 0;
+  /// within `timeout`.
+  virtual bool acknowledged(Duration timeout) = 0;
 };
 
 /// Samples of one writer that is no part of the deployment.
@@ -53,9 +53,9 @@ struct RefusedSamples {
 };
 
 /// Our end of a topic that another process feeds; destroying it stops the deliveries.
-class OutsideReader {
+class RemoteReader {
  public:
-  virtual ~OutsideReader() = default;
+  virtual ~RemoteReader() = default;
   virtual int writers() const = 0;
   /// How many writers of the deployment's other processes it has met so far.
   virtual int peers() const = 0;
@@ -100,11 +100,11 @@ class Transport {
   using Factory = Expected<std::unique_ptr<Transport>> (*)(const TransportOptions&);
 
   virtual ~Transport() = default;
-  virtual Expected<std::unique_ptr<OutsideWriter>> advertise(const TopicSpec& topic) = 0;
+  virtual Expected<std::unique_ptr<RemoteWriter>> advertise(const TopicSpec& topic) = 0;
   /// `deliver` is called on a transport thread and must only enqueue. Samples of this process'
   /// own writers are never delivered. `same_deployment_only`: writers with another fingerprint or
   /// run are refused, reported once by name, and counted.
-  virtual Expected<std::unique_ptr<OutsideReader>> subscribe(
+  virtual Expected<std::unique_ptr<RemoteReader>> subscribe(
       const TopicSpec& topic, bool same_deployment_only,
       std::function<void(SampleRef)> deliver) = 0;
 };

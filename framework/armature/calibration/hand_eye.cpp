@@ -14,7 +14,7 @@
 namespace armature {
 namespace {
 
-constexpr std::size_t kLeastPoses = 3;
+constexpr std::size_t kMinPoses = 3;
 constexpr double kStatedFreedom = 1e6;  // of a noise that is not estimated
 
 std::optional<std::string> wrong_with_a_pose(std::span<const HandEyePose> poses) {
@@ -87,19 +87,19 @@ std::optional<std::string> too_far_apart(const HandEyeFit& fit, const PoseNoise&
 /// The pose that the others contradict, to be read as a reason.
 std::optional<std::string> outlying(std::span<const HandEyePose> poses, const HandEyeFit& all,
                                     const HandEyeOptions& options) {
-  constexpr double kLeastMisfit = 1e-6;  // [m], [rad]; rounding is not normal
+  constexpr double kMinMisfit = 1e-6;  // [m], [rad]; rounding is not normal
   std::vector<HandEyePose> others(poses.begin(), poses.end());
   others.erase(others.begin() + static_cast<std::ptrdiff_t>(all.suspect));
-  if (others.size() < kLeastPoses || flange_spread(others)[1] < options.least_spread_rad) {
+  if (others.size() < kMinPoses || flange_spread(others)[1] < options.min_spread_rad) {
     return std::nullopt;
   }
   const auto fit = fit_hand_eye(others, options.noise);
-  if (!fit || too_far_apart(*fit, options.most_residual)) return std::nullopt;
+  if (!fit || too_far_apart(*fit, options.max_residual)) return std::nullopt;
   const Misfit misfit = misfit_of(poses[all.suspect], *fit);
   const double shift = misfit.residual.shift.norm(), turn = misfit.residual.turn.norm();
   const auto doubtful = [&](double off, double ratio, double freedom) {
     const double known = options.noise ? kStatedFreedom : freedom;
-    return off > kLeastMisfit && beyond_chance({ratio, 3, known}, 2 * poses.size());
+    return off > kMinMisfit && beyond_chance({ratio, 3, known}, 2 * poses.size());
   };
   if (!doubtful(shift, misfit.shift_ratio, fit->shift_freedom) &&
       !doubtful(turn, misfit.turn_ratio, fit->turn_freedom)) {
@@ -171,18 +171,18 @@ PointError HandEye::guided_error_at(const Eigen::Vector3d& point_in_flange,
 
 Expected<HandEye> calibrate_hand_eye(std::span<const HandEyePose> poses,
                                      const HandEyeOptions& options) {
-  if (poses.size() < kLeastPoses) {
-    return refuse(fmt::format("{} poses, at least {} are needed", poses.size(), kLeastPoses));
+  if (poses.size() < kMinPoses) {
+    return refuse(fmt::format("{} poses, at least {} are needed", poses.size(), kMinPoses));
   }
   if (auto wrong = wrong_with_a_pose(poses)) return refuse(std::move(*wrong));
   if (auto wrong = wrong_with_the_noise(options.noise)) return refuse(std::move(*wrong));
   const Eigen::Vector3d spread = flange_spread(poses);
-  if (auto narrow = too_narrow(spread, options.least_spread_rad)) return refuse(std::move(*narrow));
+  if (auto narrow = too_narrow(spread, options.min_spread_rad)) return refuse(std::move(*narrow));
 
   const auto fit = fit_hand_eye(poses, options.noise);
   if (!fit) return tl::unexpected{fit.error()};
   if (auto stranger = outlying(poses, *fit, options)) return refuse(std::move(*stranger));
-  if (auto apart = too_far_apart(*fit, options.most_residual)) return refuse(std::move(*apart));
+  if (auto apart = too_far_apart(*fit, options.max_residual)) return refuse(std::move(*apart));
   HandEye result = result_of(*fit);
   result.spread_rad = spread[1];
   return result;

@@ -27,9 +27,9 @@ struct HandEyeOptions {
   /// Of tracker_T_body against what the flange says; none: as the residuals show.
   std::optional<PoseNoise> noise;
   /// By which the orientations must turn about a second axis, rms.
-  double least_spread_rad = 0.035;
+  double min_spread_rad = 0.035;
   /// What may remain, rms: beyond, the poses do not belong together.
-  PoseNoise most_residual{0.01, 0.05};
+  PoseNoise max_residual{0.01, 0.05};
 };
 
 /// Of an estimated pose a_T_b: a small shift of its origin [m] and a small turn [rad], in this

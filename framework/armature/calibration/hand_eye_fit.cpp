@@ -173,11 +173,11 @@ PoseNoise shown_by(const HandEyeFit& fit) {
   }
   // Rounding, if nothing else, and hardly an equation left over. The lengths, which no body has,
   // keep few poses from giving all weight to one of the two.
-  constexpr double kRounding = 1e-14, kLeastFreedom = 1e-3, kShortest = 0.005,
+  constexpr double kRounding = 1e-14, kMinFreedom = 1e-3, kShortest = 0.005,
                    kLongest = 5;  // [rad], [m/rad]
   const double turn =
-      std::max(std::sqrt(turns / std::max(fit.turn_freedom, kLeastFreedom)), kRounding);
-  const double shift = std::sqrt(shifts / std::max(fit.shift_freedom, kLeastFreedom));
+      std::max(std::sqrt(turns / std::max(fit.turn_freedom, kMinFreedom)), kRounding);
+  const double shift = std::sqrt(shifts / std::max(fit.shift_freedom, kMinFreedom));
   return {std::clamp(shift, kShortest * turn, kLongest * turn), turn};
 }
 

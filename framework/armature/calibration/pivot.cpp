@@ -88,7 +88,7 @@ Matrix3d tip_covariance(const Equations& equations, const std::vector<Vector3d>&
 /// The pose that the others contradict, to be read as a reason.
 std::optional<std::string> outlying(const Equations& equations,
                                     const std::vector<Vector3d>& residuals) {
-  constexpr double kLeastMisfit = 1e-6;  // [m]; rounding is not normal
+  constexpr double kMinMisfit = 1e-6;  // [m]; rounding is not normal
   const double n = static_cast<double>(residuals.size());
   const double freedom = 3 * n - 9;  // of the others
   if (freedom < 1) return std::nullopt;
@@ -107,7 +107,7 @@ std::optional<std::string> outlying(const Equations& equations,
     suspect = i;
   }
   const double others = std::max(whole - most, 0.0);
-  if (off <= kLeastMisfit) return std::nullopt;
+  if (off <= kMinMisfit) return std::nullopt;
   if (!beyond_chance({most / 3 / (others / freedom), 3, freedom}, residuals.size())) {
     return std::nullopt;
   }
@@ -119,10 +119,10 @@ std::optional<std::string> outlying(const Equations& equations,
 
 Expected<Pivot> calibrate_pivot(std::span<const Isometry3d> fixed_T_body,
                                 const PivotOptions& options) {
-  constexpr std::size_t kLeastPoses = 3;
+  constexpr std::size_t kMinPoses = 3;
   const std::size_t n = fixed_T_body.size();
-  if (n < kLeastPoses) {
-    return refuse(fmt::format("{} poses, at least {} are needed", n, kLeastPoses));
+  if (n < kMinPoses) {
+    return refuse(fmt::format("{} poses, at least {} are needed", n, kMinPoses));
   }
   for (std::size_t i = 0; i < n; ++i) {
     if (const auto wrong = wrong_with(fixed_T_body[i])) {
@@ -135,21 +135,21 @@ Expected<Pivot> calibrate_pivot(std::span<const Isometry3d> fixed_T_body,
   const Equations equations{fixed_T_body};
   Pivot found;
   found.spread_rad = equations.spread();
-  if (!(found.spread_rad >= options.least_spread_rad)) {
+  if (!(found.spread_rad >= options.min_spread_rad)) {
     return refuse(fmt::format(
         "the body hardly turns, or about one axis only: by {:.1f} deg rms about the others, at "
         "least {:.1f} deg are needed",
-        degrees(found.spread_rad), degrees(options.least_spread_rad)));
+        degrees(found.spread_rad), degrees(options.min_spread_rad)));
   }
   found.tip = equations.tip();
   found.point = equations.mean_rotation * found.tip + equations.mean_position;
   const std::vector<Vector3d> residuals = residuals_of(fixed_T_body, found);
   measure_residuals(residuals, found);
   if (auto stranger = outlying(equations, residuals)) return refuse(std::move(*stranger));
-  if (found.residual_rms_m > options.most_residual_m) {
+  if (found.residual_rms_m > options.max_residual_m) {
     return refuse(
         fmt::format("the tip did not stand still: {:.3g} mm rms remain, at most {:.3g} mm",
-                    millimetres(found.residual_rms_m), millimetres(options.most_residual_m)));
+                    millimetres(found.residual_rms_m), millimetres(options.max_residual_m)));
   }
   if (!(found.tip.norm() <= options.longest_tool_m)) {
     return refuse(fmt::format(

@@ -12,8 +12,8 @@ namespace armature {
 
 struct PivotOptions {
   /// By which the body must turn about the axis that its turns are seen worst about, rms.
-  double least_spread_rad = 0.035;
-  double most_residual_m = 0.01;  // what may remain, rms: beyond, the tip did not stand still
+  double min_spread_rad = 0.035;
+  double max_residual_m = 0.01;  // what may remain, rms: beyond, the tip did not stand still
   /// From the body's origin: poses the wrong way round fit as well, and tell the point as the tip.
   double longest_tool_m = 1;
 };

@@ -140,7 +140,7 @@ std::optional<Isometry3d> flange_of_joints(const Node& joints, const RobotModel*
   }
   const auto all = config::as_numbers(joints, problems);
   if (!all) return std::nullopt;
-  const auto independent = robot->contract(std::span<const double>{*all});
+  const auto independent = robot->to_independent(std::span<const double>{*all});
   if (independent) return forward_kinematics(*robot, *independent);
   problems.add(joints.origin(), fmt::format("'joints': {}", independent.error().text));
   return std::nullopt;

@@ -14,8 +14,8 @@ namespace armature::config {
 namespace {
 
 constexpr std::size_t kLongestGuess = 64;
-constexpr std::size_t kMostSuggestions = 3;
-constexpr std::size_t kMostKnown = 8;
+constexpr std::size_t kMaxSuggestions = 3;
+constexpr std::size_t kMaxKnown = 8;
 
 std::string lower(std::string_view text) {
   std::string result{text};
@@ -81,7 +81,7 @@ std::vector<std::string> nearest(std::string_view wrong, std::span<const std::st
     best_distance = *distance;
     if (std::ranges::find(best, name) == best.end()) best.push_back(name);
   }
-  if (best.size() > kMostSuggestions) best.resize(kMostSuggestions);
+  if (best.size() > kMaxSuggestions) best.resize(kMaxSuggestions);
   return best;
 }
 
@@ -91,7 +91,7 @@ std::string did_you_mean(std::string_view wrong, std::span<const std::string> kn
   if (known.empty()) return "";
   const std::vector<std::string> near = nearest(wrong, known);
   if (!near.empty()) return fmt::format("; did you mean '{}'?", fmt::join(near, "' or '"));
-  const auto shown = known.first(std::min(known.size(), kMostKnown));
+  const auto shown = known.first(std::min(known.size(), kMaxKnown));
   return fmt::format("; known: {}{}", fmt::join(shown, ", "),
                      shown.size() < known.size() ? ", ..." : "");
 }

@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Includes that include twice each would otherwise read 2^n files.
-constexpr int kMostFiles = 1000;
+constexpr int kMaxFiles = 1000;
 
 [[noreturn]] void fail(const Origin& origin, std::string message) {
   throw ConfigError{{{origin, std::move(message)}}};
@@ -31,8 +31,8 @@ class Loader {
     const fs::path real = identity(file);
     const auto first = std::ranges::find(open_, real, &Open::real);
     if (first != open_.end()) refuse_cycle(first, file, asked_by);
-    if (++files_read_ > kMostFiles) {
-      fail(asked_by, fmt::format("more than {} files are included", kMostFiles));
+    if (++files_read_ > kMaxFiles) {
+      fail(asked_by, fmt::format("more than {} files are included", kMaxFiles));
     }
     Node own = parse_document(read_source(file, asked_by), file.string());
     const bool empty = own.kind() == Node::Kind::null && own.text().empty();

@@ -21,7 +21,7 @@ namespace {
 using SteadyClock = std::chrono::steady_clock;
 
 constexpr std::size_t kLargestFile = 16U << 20U;
-constexpr std::chrono::seconds kPatience{2};
+constexpr std::chrono::seconds kTimeout{2};
 
 /// How long pipes may still be waited for; nothing: each by itself.
 thread_local std::optional<SteadyClock::duration> t_left;
@@ -48,7 +48,7 @@ class Source {
   std::string read_all() const {
     std::string text;
     std::array<char, 1U << 16U> chunk;
-    SteadyClock::duration own = kPatience;
+    SteadyClock::duration own = kTimeout;
     for (auto& left = t_left ? *t_left : own;;) {
       if (is_pipe_) wait_at_most(left);
       const ssize_t count = read(descriptor_, chunk.data(), chunk.size());
@@ -79,7 +79,7 @@ class Source {
     left -= SteadyClock::now() - start;
     if (in_time) return;
     fail(fmt::format("it is a pipe that nobody has written to its end within {} s",
-                     kPatience.count()));
+                     kTimeout.count()));
   }
 
   const std::filesystem::path& file_;
@@ -91,7 +91,7 @@ class Source {
 }  // namespace
 
 PipePatience::PipePatience() : is_outermost_{!t_left} {
-  if (is_outermost_) t_left = kPatience;
+  if (is_outermost_) t_left = kTimeout;
 }
 PipePatience::~PipePatience() {
   if (is_outermost_) t_left.reset();

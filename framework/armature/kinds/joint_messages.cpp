@@ -16,7 +16,7 @@ namespace armature {
 Expected<JointVector> joints_or_home(const RobotModel& model, std::span<const double> all,
                                      std::string_view what) {
   if (all.empty()) return resting_position(model);
-  auto joints = model.contract(all);
+  auto joints = model.to_independent(all);
   if (!joints) return refuse(std::string{what} + ": " + joints.error().text);
   return joints;
 }
@@ -57,12 +57,12 @@ Expected<JointVector> expected(const ReasonText& wrong, const JointVector& joint
 ReasonText read_joints(const RobotModel& model, const msg::JointState& message,
                        JointVector& joints) {
   if (message.name_().empty() || in_order(model, message.name_())) {
-    return model.contract(message.position_(), joints);
+    return model.to_independent(message.position_(), joints);
   }
   JointVector all;
   const ReasonText wrong = by_name(model, message.name_(), message.position_(), all);
   if (!wrong.empty()) return wrong;
-  return model.contract({all.data(), static_cast<std::size_t>(all.size())}, joints);
+  return model.to_independent({all.data(), static_cast<std::size_t>(all.size())}, joints);
 }
 
 ReasonText read_joint_rates(const RobotModel& model, const msg::JointState& message,

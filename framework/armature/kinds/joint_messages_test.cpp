@@ -24,7 +24,7 @@ TEST(JointMessages, CoupledJointsFollowTheirLeaders) {
             (std::vector<double>{0.1, 0.2, 0.3, 0.4, -1.5 * 0.2 + 0.3, 0.7 * 0.3 - 0.1, 0.5}));
   EXPECT_EQ(message.velocity_(), (std::vector<double>{1, 2, 3, 4, -1.5 * 2, 0.7 * 3, 5}));
   EXPECT_TRUE(message.effort_().empty());
-  EXPECT_EQ(robot.contract(message.position_()).value(), q);
+  EXPECT_EQ(robot.to_independent(message.position_()).value(), q);
   EXPECT_EQ(robot.contract_rates(message.velocity_()).value(), v);
 }
 
@@ -69,7 +69,8 @@ TEST_F(NamedJoints, OfAnotherRobotAreRefused) {
 
 TEST(JointMessages, AnEmptyListOfJointsStandsForHome) {
   const RobotModel lamp = testing::dental_lamp();
-  EXPECT_EQ(joints_or_home(lamp, {}, "the seed").value(), lamp.contract(*lamp.home()).value());
+  EXPECT_EQ(joints_or_home(lamp, {}, "the seed").value(),
+            lamp.to_independent(*lamp.home()).value());
   const std::vector<double> all{1, 2, 0.5, -0.5, 4, 5};
   EXPECT_EQ(joints_or_home(lamp, all, "the seed").value(), joint_vector({1, 2, 0.5, 4, 5}));
   EXPECT_EQ(joints_or_home(lamp, std::vector<double>(7, 0.0), "the seed").error().text,

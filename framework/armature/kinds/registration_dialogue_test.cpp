@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/messages/geometry_msgs.hpp"
-#include "armature/runtime/testing/component_bench.hpp"
+#include "armature/runtime/testing/component_harness.hpp"
 
 namespace armature {
 namespace {
@@ -35,7 +35,7 @@ class Asks final : public Component {
   void step(Time now) override {
     if (dialogue_.due(now)) dialogue_.ask({.robot_frame = "jaw", .targets = {{}, {}}}, now);
     dialogue_.listen([&](const msg::RegistrationResponse& answer) {
-      say(answer.valid_() ? "registered" : answer.reason_());
+      log(answer.valid_() ? "registered" : answer.reason_());
     });
   }
 
@@ -47,7 +47,7 @@ class Watches final : public Component {
  public:
   explicit Watches(Setup& setup) : Component{setup}, overheard_{setup} {}
   void step(Time) override {
-    overheard_.listen([&](const msg::RegistrationResponse&) { say("registered"); });
+    overheard_.listen([&](const msg::RegistrationResponse&) { log("registered"); });
   }
 
  private:
@@ -77,9 +77,9 @@ class RegistrationDialogueTest : public ::testing::Test {
   }
 
   PluginRegistry plugins_ = with_both();
-  ComponentBench task_{plugins_, {.component = "{plugin: test/asks}", .robot = {}, .rig = {}}};
-  ComponentBench watcher_{plugins_,
-                          {.component = "{plugin: test/watches}", .robot = {}, .rig = {}}};
+  ComponentHarness task_{plugins_, {.component = "{plugin: test/asks}", .robot = {}, .rig = {}}};
+  ComponentHarness watcher_{plugins_,
+                            {.component = "{plugin: test/watches}", .robot = {}, .rig = {}}};
 };
 
 TEST_F(RegistrationDialogueTest, AsksAgainUnderANewNumberWhenNobodyAnswersWithinASecond) {

@@ -9,14 +9,14 @@
 #include <string>
 #include <vector>
 
-#include "armature/runtime/testing/component_bench.hpp"
+#include "armature/runtime/testing/component_harness.hpp"
 
 namespace armature {
 
 template <class Request, class Response>
 class RequestHostTest : public ::testing::Test {
  protected:
-  RequestHostTest(PluginRegistry& plugins, const ComponentBench::Options& options)
+  RequestHostTest(PluginRegistry& plugins, const ComponentHarness::Options& options)
       : host_{plugins, options} {}
 
   Response ask(const Request& request) {
@@ -52,7 +52,7 @@ class RequestHostTest : public ::testing::Test {
     EXPECT_TRUE(answers[2].valid_());
   }
 
-  ComponentBench host_;
+  ComponentHarness host_;
 };
 
 }  // namespace armature

@@ -20,10 +20,10 @@ TEST_F(GoalExecutionTest, HasNoReferenceBeforeTheArmSaysWhereItIs) {
 TEST_F(GoalExecutionTest, TellsTheWholeStoryOfAGoal) {
   step_to(0.1);
   give(goal_at(1, 0.5, 0.5, 0.5));
-  EXPECT_EQ(story(), (Story{{1, State::accepted}, {1, State::executing}}));
+  EXPECT_EQ(history(), (History{{1, State::accepted}, {1, State::executing}}));
   EXPECT_GT(statuses_.back().remaining_s, 0.1);
   step_to(3);
-  EXPECT_EQ(story().back(), (std::pair<std::uint64_t, State>{1, State::done}));
+  EXPECT_EQ(history().back(), (std::pair<std::uint64_t, State>{1, State::done}));
   EXPECT_NEAR((execution_.reference().at(now_).q - Eigen::Vector3d::Constant(0.5)).norm(), 0, 1e-9);
 }
 
@@ -68,15 +68,15 @@ TEST_F(GoalExecutionTest, SplicesANewGoalIntoTheMotionWithoutAJump) {
   step_to(0.802);
   give(goal_at(3, -0.5, 0.5, 0));
   step_to(6);
-  EXPECT_EQ(story(), (Story{{1, State::accepted},
-                            {1, State::executing},
-                            {2, State::accepted},
-                            {1, State::superseded},
-                            {2, State::executing},
-                            {3, State::accepted},
-                            {2, State::superseded},
-                            {3, State::executing},
-                            {3, State::done}}));
+  EXPECT_EQ(history(), (History{{1, State::accepted},
+                                {1, State::executing},
+                                {2, State::accepted},
+                                {1, State::superseded},
+                                {2, State::executing},
+                                {3, State::accepted},
+                                {2, State::superseded},
+                                {3, State::executing},
+                                {3, State::done}}));
   EXPECT_NEAR((execution_.reference().at(now_).q - Eigen::Vector3d(0, 0.5, -0.5)).norm(), 0, 1e-9);
 }
 
@@ -122,7 +122,7 @@ TEST_F(GoalExecutionTest, AGuidedArmStopsAndThenTheReferenceIsWhereAHandMovesIt)
   step_to(1.0);
   give(guided(2));
   step_to(3);
-  EXPECT_EQ(story().back(), (std::pair<std::uint64_t, State>{2, State::executing})) << "for good";
+  EXPECT_EQ(history().back(), (std::pair<std::uint64_t, State>{2, State::executing})) << "for good";
   EXPECT_TRUE(at_rest(execution_.reference().at(now_)));
 
   const JointVector moved = execution_.reference().at(now_).q + Eigen::Vector3d{0.5, 0, -0.3};
@@ -134,9 +134,10 @@ TEST_F(GoalExecutionTest, AGuidedArmStopsAndThenTheReferenceIsWhereAHandMovesIt)
   EXPECT_TRUE(at_rest(before_));
 
   give(goal_at(3, 0, 0, 0));
-  EXPECT_EQ(story()[story().size() - 2], (std::pair<std::uint64_t, State>{2, State::superseded}));
+  EXPECT_EQ(history()[history().size() - 2],
+            (std::pair<std::uint64_t, State>{2, State::superseded}));
   step_to(8);
-  EXPECT_EQ(story().back(), (std::pair<std::uint64_t, State>{3, State::done}));
+  EXPECT_EQ(history().back(), (std::pair<std::uint64_t, State>{3, State::done}));
   EXPECT_LT(execution_.reference().at(now_).q.norm(), 1e-9);
 }
 
@@ -274,10 +275,10 @@ TEST_F(SlowToolTest, ATargetThatCannotBeMetWithinLimitsNowLeavesTheMotionBeforeI
   ASSERT_FALSE(at_rest(execution_.reference().at(now_)));
   const Time end = execution_.reference().last().end();
   give(target(2, 0.5));  // ten times as fast as the tool may be
-  EXPECT_EQ(story().back(), (std::pair<std::uint64_t, State>{2, State::executing}));
+  EXPECT_EQ(history().back(), (std::pair<std::uint64_t, State>{2, State::executing}));
   EXPECT_EQ(execution_.reference().last().end(), end);
   step_to(to_seconds(end - Time{}) + 0.1);
-  EXPECT_EQ(story().back(), (std::pair<std::uint64_t, State>{2, State::done}));
+  EXPECT_EQ(history().back(), (std::pair<std::uint64_t, State>{2, State::done}));
   EXPECT_NEAR(execution_.reference().at(now_).q[2], 0.33, 1e-9) << "where the target was";
   give(target(3, 0.5));
   EXPECT_EQ(statuses_.back().state, State::failed) << "it does not move any more";

@@ -13,7 +13,7 @@
 namespace armature::test {
 
 using State = GoalStatus::State;
-using Story = std::vector<std::pair<std::uint64_t, State>>;
+using History = std::vector<std::pair<std::uint64_t, State>>;
 
 inline MotionGoal guided(std::uint64_t id) {
   MotionGoal goal;
@@ -96,7 +96,7 @@ class GoalExecutionTest : public testing::Test {
   void collect() {
     for (const GoalStatus& status : execution_.take_statuses()) statuses_.push_back(status);
   }
-  std::vector<std::pair<std::uint64_t, State>> story() const {
+  std::vector<std::pair<std::uint64_t, State>> history() const {
     std::vector<std::pair<std::uint64_t, State>> told;
     for (const GoalStatus& status : statuses_) told.emplace_back(status.goal_id, status.state);
     return told;

@@ -12,8 +12,8 @@ TEST_F(GoalExecutionTest, StoppedStaysStoppedUntilItIsRearmedWhereTheArmIs) {
   ask(goal_at(2, 0, 0, 0));
   execution_.halt("somebody pressed the button", now_);
   collect();
-  EXPECT_EQ(story()[story().size() - 2], (std::pair<std::uint64_t, State>{1, State::failed}));
-  EXPECT_EQ(story().back(), (std::pair<std::uint64_t, State>{2, State::failed}));
+  EXPECT_EQ(history()[history().size() - 2], (std::pair<std::uint64_t, State>{1, State::failed}));
+  EXPECT_EQ(history().back(), (std::pair<std::uint64_t, State>{2, State::failed}));
   EXPECT_EQ(statuses_.back().reason, "somebody pressed the button");
   EXPECT_FALSE(execution_.rearm(now_)) << "not while it moves";
   step_to(2);
@@ -145,7 +145,7 @@ TEST_F(GoalExecutionTest, AfterAStandstillOfItsOwnTheReferenceBeginsWhereTheArmI
   execution_.update(now_, MeasuredJoints{last, before_.q});
   collect();
   EXPECT_FALSE(execution_.reference().started()) << "that sample is older than the standstill";
-  EXPECT_EQ(story().back(), (std::pair<std::uint64_t, State>{1, State::failed}));
+  EXPECT_EQ(history().back(), (std::pair<std::uint64_t, State>{1, State::failed}));
   EXPECT_EQ(statuses_.back().reason, "motion itself came 0.40 s late (max_lateness_s is 0.1)");
   JointVector ramps = before_.q;  // the driver goes on braking it
   for (int k = 0; k < 50; ++k) {
@@ -163,7 +163,7 @@ TEST_F(GoalExecutionTest, AfterAStandstillOfItsOwnTheReferenceBeginsWhereTheArmI
   before_ = execution_.reference().at(now_);
   give(goal_at(2, 0, 0, 0));
   step_to(to_seconds(now_ - Time{}) + 4);
-  EXPECT_EQ(story().back(), (std::pair<std::uint64_t, State>{2, State::done}));
+  EXPECT_EQ(history().back(), (std::pair<std::uint64_t, State>{2, State::done}));
 }
 
 TEST_F(GoalExecutionTest, AfterAStandstillAHaltedArmStaysWhereItIs) {

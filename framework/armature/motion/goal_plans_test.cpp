@@ -14,7 +14,7 @@ TEST_F(GoalExecutionTest, APlanThatTookLongerThanItsBudgetBeginsLateAndNotInItsM
   EXPECT_EQ(execution_.reference().at(now_).q, home_);
   before_ = execution_.reference().at(now_);
   step_to(0.3 + lasts_s);
-  EXPECT_EQ(story().back(), (std::pair<std::uint64_t, State>{1, State::done}));
+  EXPECT_EQ(history().back(), (std::pair<std::uint64_t, State>{1, State::done}));
   EXPECT_NEAR((execution_.reference().at(now_).q - Eigen::Vector3d::Constant(0.5)).norm(), 0, 1e-9);
 }
 
@@ -29,13 +29,13 @@ TEST_F(GoalExecutionTest, ANewerGoalTakesThePlaceOfOneThatIsBeingPlanned) {
   ask(goal_at(3, 0.5, 0, 0));
   EXPECT_FALSE(execution_.take(planned(*old), now_)) << "nobody waits for it any more";
   EXPECT_TRUE(answer());
-  EXPECT_EQ(story(), (Story{{1, State::accepted},
-                            {1, State::executing},
-                            {2, State::accepted},
-                            {3, State::accepted},
-                            {2, State::superseded},
-                            {1, State::superseded},
-                            {3, State::executing}}));
+  EXPECT_EQ(history(), (History{{1, State::accepted},
+                                {1, State::executing},
+                                {2, State::accepted},
+                                {3, State::accepted},
+                                {2, State::superseded},
+                                {1, State::superseded},
+                                {3, State::executing}}));
 }
 
 TEST_F(GoalExecutionTest, APlanThatComesLateIsMadeAgainWithTwiceTheTimeWhileTheArmMoves) {
@@ -54,7 +54,7 @@ TEST_F(GoalExecutionTest, APlanThatComesLateIsMadeAgainWithTwiceTheTimeWhileTheA
   EXPECT_TRUE(execution_.take(planned(*second), now_));
   collect();
   step_to(4);
-  EXPECT_EQ(story().back(), (std::pair<std::uint64_t, State>{2, State::done}));
+  EXPECT_EQ(history().back(), (std::pair<std::uint64_t, State>{2, State::done}));
 }
 
 TEST_F(GoalExecutionTest, AfterThreePlansThatCameLateTheArmStopsAndIsPlannedForFromRest) {
@@ -77,7 +77,7 @@ TEST_F(GoalExecutionTest, AfterThreePlansThatCameLateTheArmStopsAndIsPlannedForF
   EXPECT_TRUE(execution_.take(planned(*request), now_)) << "however long that took";
   collect();
   step_to(to_seconds(now_ - Time{}) + 4);
-  EXPECT_EQ(story().back(), (std::pair<std::uint64_t, State>{2, State::done}));
+  EXPECT_EQ(history().back(), (std::pair<std::uint64_t, State>{2, State::done}));
 }
 
 TEST_F(GoalExecutionTest, APlanForAReferenceThatHasChangedIsNotTaken) {
@@ -99,7 +99,7 @@ TEST_F(GoalExecutionTest, AnArmThatDoesNotFollowFailsTheGoalThatIsBeingPlannedTo
   ask(goal_at(2, 0, 0, 0));
   const auto request = execution_.take_request();
   step_with(home_);
-  EXPECT_EQ(story().back(), (std::pair<std::uint64_t, State>{2, State::failed}));
+  EXPECT_EQ(history().back(), (std::pair<std::uint64_t, State>{2, State::failed}));
   EXPECT_FALSE(execution_.take(planned(*request), now_));
 }
 

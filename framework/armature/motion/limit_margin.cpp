@@ -22,7 +22,7 @@ std::string in_words(const Joint& joint, double amount) {
 /// nullopt, or which joint the limits do not let be where it is at home.
 std::optional<std::string> home_outside(const RobotModel& narrow) {
   if (!narrow.home()) return std::nullopt;
-  const auto home = narrow.contract(*narrow.home());
+  const auto home = narrow.to_independent(*narrow.home());
   if (!home) return home.error().text;
   for (int i = 0; i < narrow.dof(); ++i) {
     const double q = (*home)[i], lower = narrow.lower()[i], upper = narrow.upper()[i];

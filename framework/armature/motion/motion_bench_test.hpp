@@ -14,7 +14,7 @@
 #include "armature/messages/std_msgs.hpp"
 #include "armature/motion/gantry_stages_test.hpp"
 #include "armature/motion/motion_messages.hpp"
-#include "armature/runtime/testing/component_bench.hpp"
+#include "armature/runtime/testing/component_harness.hpp"
 
 namespace armature::test {
 
@@ -49,9 +49,9 @@ inline config::Node gantry_file() {
       "gantry.yaml");
 }
 
-inline ComponentBench::Options motion_with(const std::string& params,
-                                           std::string_view unit = kMainUnit,
-                                           std::vector<std::string> written = {}) {
+inline ComponentHarness::Options motion_with(const std::string& params,
+                                             std::string_view unit = kMainUnit,
+                                             std::vector<std::string> written = {}) {
   return {.component = "{plugin: motion, params: {" + params +
                        "}, path: {plugin: path/line}, ik: {plugin: ik/gantry}, "
                        "select: {plugin: select/first}, trajectory: {plugin: trajectory/one}}",
@@ -79,7 +79,7 @@ class MotionBench {
       : motion_{plugins(), motion_with("", kMainUnit, written)},
         planner_{plugins(), motion_with("", "planner")} {}
 
-  ComponentBench& motion() { return motion_; }
+  ComponentHarness& motion() { return motion_; }
   double now_s() const { return now_s_; }
   /// Of the fastest joint that is commanded.
   double speed() const {
@@ -104,7 +104,7 @@ class MotionBench {
       step();
       for (const auto& told : motion_.take<msg::JointState>("servo_jp")) {
         servo_.push_back(told);
-        arm_ = model_.contract(told.position_()).value();
+        arm_ = model_.to_independent(told.position_()).value();
       }
       collect();
     }
@@ -127,7 +127,7 @@ class MotionBench {
     for (const auto& told : motion_.take<msg::MotionStatus>("status")) statuses_.push_back(told);
   }
   /// Changes only, as "1 executing".
-  std::vector<std::string> story() const {
+  std::vector<std::string> history() const {
     const char* const kWords[] = {"accepted", "executing", "done", "superseded", "failed"};
     std::vector<std::string> told;
     for (const auto& status : statuses_) {
@@ -148,7 +148,7 @@ class MotionBench {
 
   const RobotModel model_ = gantry();
   std::optional<bool> hold_;
-  ComponentBench motion_, planner_;
+  ComponentHarness motion_, planner_;
   JointVector arm_ = Eigen::Vector3d{0.1, 0.2, 0.3};
   double now_s_ = 100;
   std::vector<msg::JointState> servo_;

@@ -15,7 +15,7 @@ namespace armature {
 namespace {
 
 constexpr Duration kStatusPeriod = seconds(0.1);
-constexpr Duration kPatience = seconds(0.5);
+constexpr Duration kTimeout = seconds(0.5);
 
 /// Why the plugin in slot `ik` must not be called on a control thread, or "".
 std::string unfit_to_track(const Setup& setup) {
@@ -168,7 +168,7 @@ void Motion::publish_statuses(Time now) {
     publish_status(status, now);
     // What is refused because the arm is stopped, as tasks ask again and again, is no news.
     if (status.state == GoalStatus::State::failed && !execution_.halted()) {
-      say(InlineText<300>::format("goal {} failed in {}: {}", status.goal_id, status.stage.view(),
+      log(InlineText<300>::format("goal {} failed in {}: {}", status.goal_id, status.stage.view(),
                                   status.reason.view()));
     }
   }
@@ -197,7 +197,7 @@ void Motion::show_health(Time now) {
   if (stopping_) return;  // of which everybody knows
   // That an arm has not spoken yet is worth a word only when it takes long.
   if (!first_step_) first_step_ = now;
-  if (!execution_.reference().started() && now - *first_step_ < kPatience) return;
+  if (!execution_.reference().started() && now - *first_step_ < kTimeout) return;
   const ReasonText& trouble = bad_measurement_.empty() ? execution_.trouble() : bad_measurement_;
   if (trouble == shown_trouble_) return;
   shown_trouble_ = trouble;

@@ -26,10 +26,10 @@ class MotionComponentTest : public ::testing::Test, protected test::MotionBench 
 TEST_F(MotionComponentTest, SaysNothingToAnArmThatHasNotSpoken) {
   for (const double t : {0.0, 0.2, 0.4}) {
     motion_.step(t);
-    EXPECT_EQ(motion_.status().state, Voice::State::ok) << "an arm may take its time";
+    EXPECT_EQ(motion_.status().state, StatusReporter::State::ok) << "an arm may take its time";
   }
   motion_.step(0.6);
-  EXPECT_EQ(motion_.status().state, Voice::State::degraded);
+  EXPECT_EQ(motion_.status().state, StatusReporter::State::degraded);
   EXPECT_EQ(motion_.status().reason, "no joint state of the arm yet");
   give(goal(1, {0, 0, 0}));
   EXPECT_TRUE(motion_.triggered());
@@ -43,7 +43,7 @@ TEST_F(MotionComponentTest, SaysNothingToAnArmThatHasNotSpoken) {
   EXPECT_TRUE(motion_.take<msg::JointReference>("reference").empty());
   measure(arm_, 0.8);
   motion_.step(0.8);
-  EXPECT_EQ(motion_.status().state, Voice::State::ok);
+  EXPECT_EQ(motion_.status().state, StatusReporter::State::ok);
 }
 
 TEST_F(MotionComponentTest, HoldsWhereTheArmIsAndTellsItOnEveryStep) {
@@ -81,7 +81,7 @@ TEST_F(MotionComponentTest, TellsTheStoryAndThePlanOfAGoal) {
   EXPECT_NEAR(points[0].points_().back().positions_()[2], 0.5, 1e-12);
   EXPECT_EQ(stamp_of(trajectory[0].header_().stamp_()), Time{} + seconds(now_s_ + 0.005));
   run(103);
-  EXPECT_EQ(story(), (std::vector<std::string>{"7 accepted", "7 executing", "7 done"}));
+  EXPECT_EQ(history(), (std::vector<std::string>{"7 accepted", "7 executing", "7 done"}));
   EXPECT_LE((arm_ - Vector3d{0.3, 0.4, 0.5}).norm(), 1e-9);
   EXPECT_TRUE(planner_.take<msg::ToolPath>("path").empty()) << "a plan is told once";
 }
@@ -128,18 +128,18 @@ TEST_F(MotionComponentTest, AGoalThatIsNoneIsRefusedWithItsReasonAndTheMotionGoe
             }),
             "the goal's focus is not finite");
   EXPECT_EQ(refusal([](auto& g) { g.goal_id_(0); }), "goal 0 is not newer than goal 0");
-  EXPECT_EQ(motion_.status().state, Voice::State::ok);
+  EXPECT_EQ(motion_.status().state, StatusReporter::State::ok);
   statuses_.clear();
   give(goal(50, {0.5, 0.4, 0.3}));
   run(now_s_ + 3);
-  EXPECT_EQ(story(), (std::vector<std::string>{"50 accepted", "50 executing", "50 done"}));
+  EXPECT_EQ(history(), (std::vector<std::string>{"50 accepted", "50 executing", "50 done"}));
 }
 
 TEST_F(MotionComponentTest, AGoalThatCannotBeReachedFailsInItsStage) {
   run(100.1);
   give(goal(1, {2.5, 0, 0}));
   run(100.11);
-  EXPECT_EQ(story(), (std::vector<std::string>{"1 accepted", "1 failed"}));
+  EXPECT_EQ(history(), (std::vector<std::string>{"1 accepted", "1 failed"}));
   EXPECT_EQ(statuses_.back().stage_(), "ik");
   EXPECT_EQ(statuses_.back().reason_(), "the goal: out_of_reach: 0.5 m beyond reach (gantry)");
 }
@@ -149,8 +149,8 @@ TEST_F(MotionComponentTest, TwoGoalsAtOnceAreTakenInOrder) {
   give(goal(1, {0.5, 0, 0}));
   give(goal(2, {0.6, 0, 0}));
   run(104);
-  EXPECT_EQ(story(), (std::vector<std::string>{"1 accepted", "2 accepted", "1 superseded",
-                                               "2 executing", "2 done"}))
+  EXPECT_EQ(history(), (std::vector<std::string>{"1 accepted", "2 accepted", "1 superseded",
+                                                 "2 executing", "2 done"}))
       << "nobody is executed that is not waited for any more";
   EXPECT_NEAR(arm_[2], 0.6, 1e-9);
 }
@@ -161,17 +161,17 @@ TEST_F(MotionComponentTest, AnArmThatFallsSilentFailsTheGoalAndIsWaitedFor) {
   run(100.3);
   for (int i = 1; i <= 60; ++i) now_s_ += 0.01, step();
   collect();
-  EXPECT_EQ(story(), (std::vector<std::string>{"1 accepted", "1 executing", "1 failed"}));
+  EXPECT_EQ(history(), (std::vector<std::string>{"1 accepted", "1 executing", "1 failed"}));
   EXPECT_EQ(statuses_.back().stage_(), "execution");
   EXPECT_EQ(statuses_.back().reason_(), "no joint state of the arm for 0.51 s");
-  EXPECT_EQ(motion_.status().state, Voice::State::degraded);
+  EXPECT_EQ(motion_.status().state, StatusReporter::State::degraded);
   EXPECT_EQ(motion_.status().reason, "no joint state of the arm for 0.51 s");
   // The reference stops and stays.
   for (int i = 1; i <= 200; ++i) now_s_ += 0.01, step();
   const auto told = motion_.take<msg::JointState>("servo_jp");
   for (const double velocity : told.back().velocity_()) EXPECT_NEAR(velocity, 0, 1e-12);
   run(now_s_ + 0.1);
-  EXPECT_EQ(motion_.status().state, Voice::State::ok);
+  EXPECT_EQ(motion_.status().state, StatusReporter::State::ok);
 }
 
 TEST_F(MotionComponentTest, AnArmThatIsElsewhereFailsTheGoalAndTheReferenceStopsAndComesThere) {
@@ -182,10 +182,10 @@ TEST_F(MotionComponentTest, AnArmThatIsElsewhereFailsTheGoalAndTheReferenceStops
   measure(arm_, now_s_ + 0.01);
   now_s_ += 0.01, step();
   collect();
-  EXPECT_EQ(story().back(), "1 failed");
+  EXPECT_EQ(history().back(), "1 failed");
   EXPECT_EQ(statuses_.back().reason_(),
             "joint y of the arm is 0.2001 m away from the reference (max_deviation_m is 0.05)");
-  EXPECT_EQ(motion_.status().state, Voice::State::degraded);
+  EXPECT_EQ(motion_.status().state, StatusReporter::State::degraded);
   for (int i = 0; i < 500; ++i) {
     measure(arm_, now_s_ + 0.01);
     now_s_ += 0.01, step();
@@ -195,7 +195,7 @@ TEST_F(MotionComponentTest, AnArmThatIsElsewhereFailsTheGoalAndTheReferenceStops
     EXPECT_NEAR(told.back().position_()[i], arm_[static_cast<int>(i)], 1e-9);
     EXPECT_NEAR(told.back().velocity_()[i], 0, 1e-12);
   }
-  EXPECT_EQ(motion_.status().state, Voice::State::ok);
+  EXPECT_EQ(motion_.status().state, StatusReporter::State::ok);
 }
 
 TEST_F(MotionComponentTest, AJointStateThatIsNoneIsTroubleUntilAGoodOneComes) {
@@ -206,7 +206,7 @@ TEST_F(MotionComponentTest, AJointStateThatIsNoneIsTroubleUntilAGoodOneComes) {
     bad.position_(position);
     motion_.send("measured_js", bad);
     now_s_ += 0.01, step();
-    EXPECT_EQ(motion_.status().state, Voice::State::degraded);
+    EXPECT_EQ(motion_.status().state, StatusReporter::State::degraded);
     return motion_.status().reason;
   };
   EXPECT_EQ(trouble({0.1, 0.2}), "measured_js: 2 joint values; gantry has 3 joints");
@@ -222,7 +222,7 @@ TEST_F(MotionComponentTest, AJointStateThatIsNoneIsTroubleUntilAGoodOneComes) {
   EXPECT_EQ(statuses_.back().stage_(), "accept");
   EXPECT_EQ(statuses_.back().reason_(), "no joint state of the arm");
   run(now_s_ + 0.02);
-  EXPECT_EQ(motion_.status().state, Voice::State::ok);
+  EXPECT_EQ(motion_.status().state, StatusReporter::State::ok);
 }
 
 TEST_F(MotionComponentTest, DoesNotStartWithMoreThanTheRobotCan) {

@@ -171,7 +171,7 @@ void write_joint_path(const Plan& plan, const RobotModel& model, msg::JointTraje
   for (const JointSegment& segment : plan.joint_path) {
     for (const JointVector& q : segment.q) {
       auto& point = message.points_().emplace_back();
-      point.positions_() = to_vector(model.expand(q));
+      point.positions_() = to_vector(model.to_all(q));
     }
   }
 }

@@ -41,7 +41,7 @@ class MotionStops : public ::testing::Test {
   void expect_rest() {
     bench_.run(bench_.now_s() + 2);
     EXPECT_LT(bench_.speed(), 1e-9);
-    EXPECT_EQ(bench_.story().back(), "1 failed");
+    EXPECT_EQ(bench_.history().back(), "1 failed");
     EXPECT_EQ(bench_.last_stage(), "stop");
   }
   std::string reason() { return bench_.motion().status().reason; }
@@ -53,23 +53,23 @@ TEST_F(MotionStops, AStopFromAnybodyDropsTheGoalAndStaysUntilItIsRearmed) {
   begin_moving();
   bench_.motion().send("stop", flag(true));
   bench_.run(bench_.now_s() + 0.02);
-  EXPECT_EQ(bench_.motion().status().state, Voice::State::degraded);
+  EXPECT_EQ(bench_.motion().status().state, StatusReporter::State::degraded);
   EXPECT_EQ(reason(), "stopped until it is rearmed: a stop was asked for on the topic /stop");
   expect_rest();
   bench_.motion().send("stop", flag(false));
   bench_.give(test::goal_message(2, {0, 0, 0}));
   bench_.run(bench_.now_s() + 1);
-  EXPECT_EQ(bench_.story().back(), "2 failed");
+  EXPECT_EQ(bench_.history().back(), "2 failed");
   EXPECT_EQ(bench_.last_stage(), "stop");
   EXPECT_LT(bench_.speed(), 1e-9) << "false releases nothing";
 
   bench_.motion().send("rearm", flag(true));
   bench_.run(bench_.now_s() + 1);
-  EXPECT_EQ(bench_.motion().status().state, Voice::State::ok);
+  EXPECT_EQ(bench_.motion().status().state, StatusReporter::State::ok);
   EXPECT_LT(bench_.speed(), 1e-9) << "nothing begins by itself";
   bench_.give(test::goal_message(3, {0, 0, 0}));
   bench_.run(bench_.now_s() + 4);
-  EXPECT_EQ(bench_.story().back(), "3 done");
+  EXPECT_EQ(bench_.history().back(), "3 done");
 }
 
 TEST_F(MotionStops, AStopIsNotPushedOutByWhatMeansNothing) {
@@ -96,7 +96,7 @@ TEST_F(MotionStops, AnArmThatMovesIsNotRearmed) {
   bench_.run(bench_.now_s() + 0.01);
   bench_.motion().send("rearm", flag(true));
   expect_rest();
-  EXPECT_EQ(bench_.motion().status().state, Voice::State::degraded);
+  EXPECT_EQ(bench_.motion().status().state, StatusReporter::State::degraded);
 }
 
 TEST_F(MotionStops, WhatTheArmSaysOfItselfIsAStopThatOutlivesIt) {
@@ -104,19 +104,20 @@ TEST_F(MotionStops, WhatTheArmSaysOfItselfIsAStopThatOutlivesIt) {
     MotionBench bench;
     bench.motion().send("operating_state", word("ENABLED"));
     bench.run(100.1);
-    EXPECT_EQ(bench.motion().status().state, Voice::State::ok);
+    EXPECT_EQ(bench.motion().status().state, StatusReporter::State::ok);
     bench.motion().send("operating_state", word(stop));
     bench.run(100.2);
     EXPECT_EQ(bench.motion().status().reason, "stopped until it is rearmed: the arm says " + stop);
     bench.motion().send("rearm", flag(true));
     bench.run(100.5);
-    EXPECT_EQ(bench.motion().status().state, Voice::State::degraded) << "the cause is still there";
+    EXPECT_EQ(bench.motion().status().state, StatusReporter::State::degraded)
+        << "the cause is still there";
     bench.motion().send("operating_state", word("ENABLED"));
     bench.run(100.8);
-    EXPECT_EQ(bench.motion().status().state, Voice::State::degraded) << "it stays";
+    EXPECT_EQ(bench.motion().status().state, StatusReporter::State::degraded) << "it stays";
     bench.motion().send("rearm", flag(true));
     bench.run(101);
-    EXPECT_EQ(bench.motion().status().state, Voice::State::ok);
+    EXPECT_EQ(bench.motion().status().state, StatusReporter::State::ok);
   }
 }
 
@@ -125,7 +126,8 @@ TEST_F(MotionStops, AnArmThatIsNotEnabledAnyMoreWasStopped) {
     MotionBench bench;
     bench.motion().send("operating_state", word(word_of_arm));
     bench.run(100.1);
-    EXPECT_EQ(bench.motion().status().state, Voice::State::ok) << "it has not been enabled yet";
+    EXPECT_EQ(bench.motion().status().state, StatusReporter::State::ok)
+        << "it has not been enabled yet";
     bench.motion().send("operating_state", word("ENABLED"));
     bench.run(100.2);
     bench.motion().send("operating_state", word(word_of_arm));
@@ -144,8 +146,8 @@ TEST_F(MotionStops, AGoalOfTheStepThatRearmsWasGivenWhileItWasStopped) {
   bench_.give(test::goal_message(2, {0, 0, 0}));
   bench_.motion().send("rearm", flag(true));
   bench_.run(bench_.now_s() + 0.5);
-  EXPECT_EQ(bench_.motion().status().state, Voice::State::ok);
-  EXPECT_EQ(bench_.story().back(), "2 failed");
+  EXPECT_EQ(bench_.motion().status().state, StatusReporter::State::ok);
+  EXPECT_EQ(bench_.history().back(), "2 failed");
   EXPECT_LT(bench_.speed(), 1e-9);
 }
 
@@ -155,14 +157,14 @@ TEST_F(MotionStops, AStopBeforeTheFirstGoalIsAStop) {
   bench_.run(100.2);
   bench_.give(test::goal_message(1, {1.5, 0.4, 0.3}));
   bench_.run(100.5);
-  EXPECT_EQ(bench_.story().back(), "1 failed");
+  EXPECT_EQ(bench_.history().back(), "1 failed");
   EXPECT_EQ(bench_.last_stage(), "stop");
 }
 
 TEST_F(MotionStops, WithoutAnybodyWhoWritesThemTheOperatorsInputsAskForNothing) {
   begin_moving();
   bench_.run(104);
-  EXPECT_EQ(bench_.story().back(), "1 done");
+  EXPECT_EQ(bench_.history().back(), "1 done");
 }
 
 TEST_F(MotionStops, WhenTheRunStopsTheArmComesToRestAndNobodyIsToldOfAFailure) {
@@ -173,7 +175,7 @@ TEST_F(MotionStops, WhenTheRunStopsTheArmComesToRestAndNobodyIsToldOfAFailure) {
   bench_.run(bench_.now_s() + 2);
   EXPECT_LT(bench_.speed(), 1e-9);
   EXPECT_TRUE(bench_.motion().stopped());
-  EXPECT_EQ(bench_.story().back(), "1 executing");
+  EXPECT_EQ(bench_.history().back(), "1 executing");
 }
 
 class MotionWithAnOperator : public MotionStops {
@@ -185,7 +187,7 @@ TEST_F(MotionWithAnOperator, BeginsStoppedSinceNobodyHasPressedYet) {
   bench_.run(100.5);
   bench_.give(test::goal_message(1, {1.5, 0.4, 0.3}));
   bench_.run(101);
-  EXPECT_EQ(bench_.story().back(), "1 failed");
+  EXPECT_EQ(bench_.history().back(), "1 failed");
   EXPECT_EQ(bench_.last_stage(), "accept") << "nothing was stopped: who gave it may give it again";
   EXPECT_LT(bench_.speed(), 1e-9);
 }
@@ -198,7 +200,8 @@ TEST_F(MotionWithAnOperator, AButtonThatIsReleasedIsAStopThatStays) {
   expect_rest();
   bench_.set_operator(true);
   bench_.run(bench_.now_s() + 1);
-  EXPECT_EQ(bench_.motion().status().state, Voice::State::degraded) << "pressing it is no rearm";
+  EXPECT_EQ(bench_.motion().status().state, StatusReporter::State::degraded)
+      << "pressing it is no rearm";
   EXPECT_LT(bench_.speed(), 1e-9);
 }
 

@@ -28,8 +28,8 @@ PluginRegistry& with_counted_ik() {
   return made;
 }
 
-ComponentBench::Options motion_with_counted_ik() {
-  ComponentBench::Options options = test::motion_with("");
+ComponentHarness::Options motion_with_counted_ik() {
+  ComponentHarness::Options options = test::motion_with("");
   options.component.replace(options.component.find("ik/gantry"), 9, "ik/counted");
   return options;
 }
@@ -63,7 +63,7 @@ class TrackingSteps : public ::testing::Test {
   }
 
   const RobotModel model_ = test::gantry();
-  ComponentBench motion_{with_counted_ik(), motion_with_counted_ik()};
+  ComponentHarness motion_{with_counted_ik(), motion_with_counted_ik()};
   double now_s_ = 100;
 };
 

@@ -26,7 +26,7 @@ const ReasonText kNoPower{"its drives have no power"};
 
 JointVector home_of(const RobotModel& model) {
   if (!model.home()) throw SetupError("robot " + model.name() + " names no home_deg to start from");
-  auto home = model.contract(*model.home());
+  auto home = model.to_independent(*model.home());
   if (!home) throw SetupError("home of robot " + model.name() + ": " + home.error().text);
   return *home;
 }
@@ -118,7 +118,7 @@ class SimulatedArmComponent : public Component {
   const ReasonText& fault() const { return servo_.fault.empty() ? hand_.fault : servo_.fault; }
 
   void publish_pose(Time now) {
-    if (!measured_cp_.wanted()) return;
+    if (!measured_cp_.has_subscribers()) return;
     auto loan = measured_cp_.loan();
     write_header(loan->header_(), now, kBaseFrame);
     assign(loan->pose_(), forward_kinematics(model_, arm_.measured()));

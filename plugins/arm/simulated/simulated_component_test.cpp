@@ -8,7 +8,7 @@
 #include "armature/messages/header.hpp"
 #include "armature/messages/std_msgs.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
-#include "armature/runtime/testing/component_bench.hpp"
+#include "armature/runtime/testing/component_harness.hpp"
 #include "armature/runtime/testing/test_plugins.hpp"
 
 namespace armature::arm::simulated {
@@ -40,11 +40,11 @@ class SimulatedArmComponentTest : public testing::Test {
     write_all_joints(lamp_, q, v, Time{} + seconds(now_s_ + kPeriod_s), message);
     return message;
   }
-  JointVector measured() const { return lamp_.contract(measured_.position_()).value(); }
+  JointVector measured() const { return lamp_.to_independent(measured_.position_()).value(); }
 
   const RobotModel lamp_ = load_robot_model(kLamp);
   const JointVector home_ = resting_position(lamp_), still_ = JointVector::Zero(5);
-  ComponentBench arm_{
+  ComponentHarness arm_{
       built_plugins(),
       {.component = "{plugin: arm/simulated}", .robot = config::load(kLamp), .rig = {}}};
   double now_s_ = 5;
@@ -54,10 +54,10 @@ class SimulatedArmComponentTest : public testing::Test {
 
 TEST_F(SimulatedArmComponentTest, RunsAtItsRate) {
   EXPECT_EQ(arm_.period(), seconds(0.001));
-  const ComponentBench slow{built_plugins(),
-                            {.component = "{plugin: arm/simulated, params: {rate_hz: 250}}",
-                             .robot = config::load(kLamp),
-                             .rig = {}}};
+  const ComponentHarness slow{built_plugins(),
+                              {.component = "{plugin: arm/simulated, params: {rate_hz: 250}}",
+                               .robot = config::load(kLamp),
+                               .rig = {}}};
   EXPECT_EQ(slow.period(), seconds(0.004));
 }
 
@@ -70,7 +70,7 @@ TEST_F(SimulatedArmComponentTest, HoldsAtHomeAndTellsAllJointsOnEveryStep) {
       EXPECT_EQ(stamp_of(told[0].header_().stamp_()), Time{} + seconds(now_s_));
       EXPECT_EQ(told[0].header_().frame_id_(), "base");
       EXPECT_EQ(told[0].name_(), (std::vector<std::string>{"j1", "j2", "j3", "j4", "j5", "j6"}));
-      EXPECT_EQ(lamp_.contract(told[0].position_()).value(), home_);
+      EXPECT_EQ(lamp_.to_independent(told[0].position_()).value(), home_);
       EXPECT_EQ(told[0].velocity_(), std::vector<double>(6, 0.0));
     }
   }
@@ -99,7 +99,7 @@ TEST_F(SimulatedArmComponentTest, FollowsFreshCommandsExactlyAndHoldsWhenTheyCea
     ASSERT_EQ(measured(), q);
   }
   EXPECT_EQ(state_, "ENABLED");
-  EXPECT_EQ(arm_.status().state, Voice::State::ok);
+  EXPECT_EQ(arm_.status().state, StatusReporter::State::ok);
   EXPECT_FALSE(arm_.component().stopped());
   steps(400);
   EXPECT_EQ(state_, "HOLDING");
@@ -114,7 +114,7 @@ TEST_F(SimulatedArmComponentTest, FollowsFreshCommandsExactlyAndHoldsWhenTheyCea
     step();
   }
   EXPECT_EQ(state_, "ENABLED") << "it follows again";
-  EXPECT_EQ(arm_.status().state, Voice::State::ok);
+  EXPECT_EQ(arm_.status().state, StatusReporter::State::ok);
 }
 
 TEST_F(SimulatedArmComponentTest, TheJointThatFollowsMovesWithItsLeader) {
@@ -133,7 +133,7 @@ TEST_F(SimulatedArmComponentTest, SaysWhatACommandAsksBeyondTheLimits) {
   q[0] += 0.5;
   arm_.send("servo_jp", command(q, still_));
   step();
-  EXPECT_EQ(arm_.status().state, Voice::State::degraded);
+  EXPECT_EQ(arm_.status().state, StatusReporter::State::degraded);
   EXPECT_EQ(arm_.status().reason,
             "the command asks joint j1 for velocity 500.000 rad/s, limit 2.500");
   EXPECT_LT(std::abs(measured()[0] - home_[0]), 1e-4);
@@ -143,7 +143,7 @@ TEST_F(SimulatedArmComponentTest, SaysWhatACommandAsksBeyondTheLimits) {
     step();
   }
   EXPECT_EQ(measured(), q);
-  EXPECT_EQ(arm_.status().state, Voice::State::ok);
+  EXPECT_EQ(arm_.status().state, StatusReporter::State::ok);
   EXPECT_EQ(arm_.lines().size(), told + 1) << "told once, and once that it is over";
 }
 
@@ -156,7 +156,7 @@ TEST_F(SimulatedArmComponentTest, RefusesACommandThatIsNoneAndStandsStill) {
     steps(150);
     EXPECT_EQ(state_, "FAULT");
     EXPECT_EQ(measured(), home_);
-    EXPECT_EQ(arm_.status().state, Voice::State::degraded);
+    EXPECT_EQ(arm_.status().state, StatusReporter::State::degraded);
     return arm_.status().reason;
   };
   EXPECT_EQ(refusal([](auto& c) { c.position_().pop_back(); }),
@@ -178,7 +178,7 @@ TEST_F(SimulatedArmComponentTest, RefusesACommandThatIsNoneAndStandsStill) {
     arm_.send("servo_jp", command(home_, still_));
     step();
   }
-  EXPECT_EQ(arm_.status().state, Voice::State::ok);
+  EXPECT_EQ(arm_.status().state, StatusReporter::State::ok);
   EXPECT_EQ(state_, "ENABLED");
 }
 
@@ -286,7 +286,7 @@ TEST_F(SimulatedArmComponentTest, WithPowerAgainItFollowsFromWhereItIs) {
     ASSERT_LE(std::abs(measured_.velocity_()[0]), lamp_.max_velocity()[0]);
   }
   EXPECT_EQ(measured(), near);
-  EXPECT_EQ(arm_.status().state, Voice::State::ok);
+  EXPECT_EQ(arm_.status().state, StatusReporter::State::ok);
 }
 
 TEST_F(SimulatedArmComponentTest, AnArmWithoutPowerYieldsToAHandStill) {

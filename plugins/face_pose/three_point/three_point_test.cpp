@@ -25,12 +25,12 @@ namespace {
 using Eigen::Vector2d, Eigen::Vector3d;
 
 const StereoCamera kDefault{
-    .width = 1280, .height = 720, .focal_px = 914, .cu = 639.5, .cv = 359.5, .baseline_m = 0.12};
+    .width = 1280, .height = 720, .focal_px = 914, .cx = 639.5, .cy = 359.5, .baseline_m = 0.12};
 const StereoCamera kPaper{.width = 1000,
                           .height = 1000,
                           .focal_px = 787.4015748,
-                          .cu = 500,
-                          .cv = 500,
+                          .cx = 500,
+                          .cy = 500,
                           .baseline_m = 0.024};
 
 struct Features {

@@ -52,7 +52,7 @@ struct Kdl final : IkSolver {
     JointVector q = ask(seed, pose, std::min(position_m, angle_rad));
     const TaskError left = task_error(model, q, goal.pose);
     // KDL takes turns of less than 1e-6 rad for none: where that is too much, one step is ours.
-    if (left.within(2e-6, 2e-6) && !left.within(position_m, angle_rad)) q += left.least_step();
+    if (left.within(2e-6, 2e-6) && !left.within(position_m, angle_rad)) q += left.min_step();
     const IkBranch end = branch_at(model, goal, q, "from_seed");
     if (!(end.residual.position_m <= position_m && end.residual.angle_rad <= angle_rad))
       return {IkStatus::Code::no_convergence, left.error.norm(), "the seed leads elsewhere"};

@@ -16,18 +16,18 @@ namespace {
 // Levenberg-Marquardt: the damping falls with the error, below kNear with its square, so that the
 // end is Newton's quadratic one. Next to a singular pose anything more keeps it from the goal: the
 // least is what J J^T is rounded by, a singular value of 1e-8.
-constexpr double kDamping = 1e-2, kLeastDamping = 1e-16, kNear = 0.1;
-constexpr double kLeastPivot = 1e-17;  // below it there is only rounding
-constexpr int kPatience = 6;           // iterations in which the error must fall ...
-constexpr double kEnoughGain = 0.7;    // ... to this part, or the start is given up
-constexpr double kPromise = 0.1;       // and so it is when a step promises less than this part
-constexpr int kMostRows = 6;
+constexpr double kDamping = 1e-2, kMinDamping = 1e-16, kNear = 0.1;
+constexpr double kMinPivot = 1e-17;  // below it there is only rounding
+constexpr int kTimeout = 6;          // iterations in which the error must fall ...
+constexpr double kEnoughGain = 0.7;  // ... to this part, or the start is given up
+constexpr double kPromise = 0.1;     // and so it is when a step promises less than this part
+constexpr int kMaxRows = 6;
 
 /// The Jacobian by columns, and the step it leads to.
 template <int Rows>
 struct Task {
   Lanes linear[kMaxJoints], angular[kMaxJoints];
-  double gram[kMostRows][kMostRows];  // J J^T, lower part
+  double gram[kMaxRows][kMaxRows];  // J J^T, lower part
 
   void fill(const Chain& chain, const Axes& axes, const Pose& pose, const Error& error,
             JointSet locked) {
@@ -74,7 +74,7 @@ struct Task {
 
   /// (J J^T + damping)^-1 e by L D L^T; the product of D is the determinant.
   double solve(const Error& error, double damping, double* y) const {
-    double L[kMostRows][kMostRows], inverse[kMostRows], determinant = 1;
+    double L[kMaxRows][kMaxRows], inverse[kMaxRows], determinant = 1;
     for (int r = 0; r < Rows; ++r) y[r] = r < 3 ? error.position[r] : error.angle[r - 3];
     for (int k = 0; k < Rows; ++k) {
       double d = gram[k][k] + damping;
@@ -83,7 +83,7 @@ struct Task {
         d -= L[k][m] * l;
         L[k][m] = l;
       }
-      const bool moved = d > kLeastPivot;  // what no joint moves is left alone
+      const bool moved = d > kMinPivot;  // what no joint moves is left alone
       inverse[k] = moved ? 1 / d : 0;
       determinant *= moved ? d : 0;
       for (int r = k + 1; r < Rows; ++r) {
@@ -135,8 +135,8 @@ template <int Rows>
 double damped_step(const Chain& chain, const Axes& axes, const Pose& pose, const Error& error,
                    Task<Rows>& task, const double* q, End& end, double* dq) {
   const double size = error.size;
-  const double damping = kDamping * size * (size < kNear ? size / kNear : 1) + kLeastDamping;
-  double y[kMostRows];
+  const double damping = kDamping * size * (size < kNear ? size / kNear : 1) + kMinDamping;
+  double y[kMaxRows];
   end.pressing = 0;
   for (;;) {
     task.solve(error, damping, y);
@@ -173,7 +173,7 @@ inline bool is_within(const Error& error, const Goal& goal) {
 
 template <int Rows>
 void descend_rows(const Chain& chain, const Goal& goal, int& budget, End& end) {
-  double q[kMaxJoints], dq[kMaxJoints], y[kMostRows];
+  double q[kMaxJoints], dq[kMaxJoints], y[kMaxRows];
   for (int j = 0; j < chain.dof; ++j) q[j] = end.q[static_cast<std::size_t>(j)];
   Axes axes;
   Task<Rows> task;
@@ -190,7 +190,7 @@ void descend_rows(const Chain& chain, const Goal& goal, int& budget, End& end) {
       least = error.size;
       keep(q, error, chain.dof, end);
     }
-    if (!within && i % kPatience == 0) {
+    if (!within && i % kTimeout == 0) {
       if (!(least < kEnoughGain * to_beat)) return;
       to_beat = least;
     }

@@ -9,7 +9,7 @@
 
 #include "armature/robot/kinematics/kinematics.hpp"
 #include "armature/runtime/plugins/plugin.hpp"
-#include "lasting_text.hpp"
+#include "interned_text.hpp"
 
 namespace armature::ik::process {
 namespace {
@@ -105,8 +105,8 @@ Expected<ToldAnswer> Process::ask_once(IkQuestion question) const {
   }
   question.redundancy_is_length = redundancy_is_length();
   question.id = ++questions_;
-  const double patience_s = has_answered_ ? parameters_.timeout : parameters_.start_timeout;
-  const auto line = program_->ask(question_line(*model_, question), patience_s);
+  const double timeout_s = has_answered_ ? parameters_.timeout : parameters_.start_timeout;
+  const auto line = program_->ask(question_line(*model_, question), timeout_s);
   if (!line) return failed(line.error().text);
   auto told = read_answer(*model_, question, *line);
   if (!told) return failed("answers " + told.error().text);

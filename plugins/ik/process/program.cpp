@@ -90,8 +90,8 @@ Program::~Program() { end(kGrace_s); }
 
 void Program::kill() { end(0); }
 
-Expected<std::string> Program::ask(std::string_view line, double patience_s) {
-  const auto end = Clock::now() + duration_of(patience_s);
+Expected<std::string> Program::ask(std::string_view line, double timeout_s) {
+  const auto end = Clock::now() + duration_of(timeout_s);
   std::string unsent = std::string{line} + "\n";
   for (;;) {
     if (auto answer = received_line()) {
@@ -102,7 +102,7 @@ Expected<std::string> Program::ask(std::string_view line, double patience_s) {
       return failed(fmt::format("answers with more than {} bytes in a line", kLongestAnswer));
     }
     const std::chrono::duration<double, std::milli> left = end - Clock::now();
-    if (left.count() <= 0) return failed(fmt::format("gave no answer within {} s", patience_s));
+    if (left.count() <= 0) return failed(fmt::format("gave no answer within {} s", timeout_s));
     std::array<pollfd, 3> files{pollfd{from_.get(), POLLIN, 0},
                                 pollfd{errors_.descriptor(), POLLIN, 0},
                                 pollfd{unsent.empty() ? -1 : to_.get(), POLLOUT, 0}};
@@ -161,19 +161,19 @@ bool Program::has_ended() const {
   return result != 0 || info.si_pid == pid_;
 }
 
-bool Program::ends_within(double patience_s) const {
-  for (const auto end = Clock::now() + duration_of(patience_s); !has_ended();) {
+bool Program::ends_within(double timeout_s) const {
+  for (const auto end = Clock::now() + duration_of(timeout_s); !has_ended();) {
     if (Clock::now() >= end) return false;
     std::this_thread::sleep_for(std::chrono::milliseconds{1});
   }
   return true;
 }
 
-void Program::end(double patience_s) {
+void Program::end(double timeout_s) {
   if (pid_ < 0) return;
   to_.reset();
   from_.reset();
-  if (patience_s > 0) ends_within(patience_s);
+  if (timeout_s > 0) ends_within(timeout_s);
   ::kill(-pid_, SIGKILL);  // and what it has started; the group is there until it is reaped
   while (waitpid(pid_, nullptr, 0) < 0 && errno == EINTR) {
   }

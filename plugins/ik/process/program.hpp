@@ -32,7 +32,7 @@ class Program {
   /// Writes `line` and returns the line that comes back; or what became of it, to be read behind
   /// the program's name: "gave no answer within 0.5 s", "ended with exit code 1; its last words:
   /// ...". After that its answers are out of step: end it.
-  Expected<std::string> ask(std::string_view line, double patience_s);
+  Expected<std::string> ask(std::string_view line, double timeout_s);
 
   pid_t pid() const { return pid_; }
   /// At once, if it still runs.
@@ -45,8 +45,8 @@ class Program {
   void send(std::string& unsent);
   bool receive();  // false: there will be no more
   bool has_ended() const;
-  bool ends_within(double patience_s) const;
-  void end(double patience_s);
+  bool ends_within(double timeout_s) const;
+  void end(double timeout_s);
   tl::unexpected<Reason> failed(std::string what);
   std::string fate();
 

@@ -64,9 +64,9 @@ class Line {
   /// Where no depth brings the wrist within reach, a miss [m] that none undercuts; else none.
   std::optional<double> surely_missed_by() const {
     const double outer = std::sqrt(square(farthest_ + a1_ + slack_) + square(offset_));
-    const double least_squared = from_shoulder_squared(wrist_at(goal_, nearest_));
-    if (least_squared > square(outer)) {
-      return std::sqrt(least_squared - square(offset_)) - a1_ - farthest_;
+    const double min_squared = from_shoulder_squared(wrist_at(goal_, nearest_));
+    if (min_squared > square(outer)) {
+      return std::sqrt(min_squared - square(offset_)) - a1_ - farthest_;
     }
     // Of the rest only what is within `outer` of the shoulder.
     const double middle = nearest_to_shoulder();

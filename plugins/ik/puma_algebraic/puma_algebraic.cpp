@@ -138,7 +138,7 @@ IkStatus PumaAlgebraic::solve_needle_rotation(const PumaGoal& goal, IkBranches& 
     }
   }
   if (out.count > 0) return status_of(out);
-  return {IkStatus::Code::no_convergence, roots.least_error,
+  return {IkStatus::Code::no_convergence, roots.min_error,
           "no depth within the needle's range was found at which the roll comes right"};
 }
 

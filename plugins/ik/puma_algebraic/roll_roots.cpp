@@ -37,7 +37,7 @@ void note(const RollErrors& errors, RollRoots& roots) {
     roots.detail = errors.detail;
   }
   for (const double error : errors.of) {
-    if (std::abs(error) < roots.least_error) roots.least_error = std::abs(error);
+    if (std::abs(error) < roots.min_error) roots.min_error = std::abs(error);
   }
 }
 
@@ -113,7 +113,7 @@ class RootsOfArm {
 
   /// Notes a root, unless it is a jump through zero.
   void add(double depth) {
-    if (found_->count == RollRoots::kMost || !(std::abs(error(depth)) <= kRoot)) return;
+    if (found_->count == RollRoots::kMax || !(std::abs(error(depth)) <= kRoot)) return;
     constexpr double kStep = 1e-6;
     const double slope = (error(depth + kStep) - error(depth - kStep)) / (2 * kStep);
     found_->root[static_cast<std::size_t>(found_->count++)] = {depth,

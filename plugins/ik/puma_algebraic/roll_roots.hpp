@@ -12,17 +12,17 @@ namespace armature {
 /// The depths at which a full rotation is reached although a needle does not turn: up to 4 for each
 /// shoulder and elbow, of[2 * shoulder + elbow], from shallow to deep.
 struct RollRoots {
-  static constexpr int kMost = 4;
+  static constexpr int kMax = 4;
   struct Root {
     double depth = 0;  // [m]
     double slope = 0;  // of the sine of the roll error [1/m]; 0 where two roots merge
   };
   struct Depths {
-    std::array<Root, kMost> root;
+    std::array<Root, kMax> root;
     int count = 0;
   };
   std::array<Depths, 4> of;
-  double least_error = 1;  // smallest sine of a roll error that was met on the way
+  double min_error = 1;  // smallest sine of a roll error that was met on the way
   double shortfall =
       std::numeric_limits<double>::infinity();  // [m] of the best depth; 0: it reaches
   std::string_view detail;

@@ -54,16 +54,16 @@ double nearest_in(const Spans& spans, double wanted) {
   return best;
 }
 
-double ArmAngleChoice::wanted() {
+double ArmAngleChoice::has_subscribers() {
   if (!wanted_) wanted_ = arm_angle_of(numbers_.arm, canonical(numbers_.arm, seed_));
   return *wanted_;
 }
 
 double ArmAngleChoice::nearest_to_wanted(std::size_t branch, const Spans& spans) {
-  if (spans.count == 0) return wanted();
-  const double turned = wrap_angle(wanted() - half_turns(kBranches[branch].elbow)),
+  if (spans.count == 0) return has_subscribers();
+  const double turned = wrap_angle(has_subscribers() - half_turns(kBranches[branch].elbow)),
                at = nearest_in(spans, turned);
-  return at == turned ? wanted() : wrap_angle(at + half_turns(kBranches[branch].elbow));
+  return at == turned ? has_subscribers() : wrap_angle(at + half_turns(kBranches[branch].elbow));
 }
 
 ArmAngleChoice::Node ArmAngleChoice::node_of(std::size_t branch, int place) const {
@@ -124,7 +124,8 @@ void ArmAngleChoice::consider(const Best& another, Best& best) {
   const double equal = 1e-10 * std::abs(another.value);  // what minima are predicted to
   if (!(another.value <= best.value + equal)) return;
   if (another.value >= best.value - equal &&
-      std::abs(wrap_angle(another.at - wanted())) >= std::abs(wrap_angle(best.at - wanted()))) {
+      std::abs(wrap_angle(another.at - has_subscribers())) >=
+          std::abs(wrap_angle(best.at - has_subscribers()))) {
     return;
   }
   best = another;

@@ -59,10 +59,10 @@ class ArmAngleChoice {
   struct Best {
     double at, value;
   };
-  static constexpr std::size_t kEnds = 6 * Stretches::kMost, kValleys = 1024;
+  static constexpr std::size_t kEnds = 6 * Stretches::kMax, kValleys = 1024;
 
   void find_best(std::array<Best, 8>& best);
-  double wanted();
+  double has_subscribers();
   void add_ends(const Stretch& stretch);
   void add_end(const Stretch& stretch, End::Kind kind, double at);
   void add_places_in_line(const Stretch& stretch);
@@ -92,7 +92,7 @@ class ArmAngleChoice {
     const Stretch* stretch;
     int place;
   };
-  std::array<Listed, CostTable::kMost> listed_;  // valleys of one branch in the table
+  std::array<Listed, CostTable::kMax> listed_;  // valleys of one branch in the table
   std::size_t count_listed_ = 0;
   std::array<Valley, kValleys> valley_;
   std::size_t valleys_ = 0;

@@ -53,15 +53,15 @@ struct LimitPieces {
 
 /// Costs all round, in single precision: places are arm angles of elbow 0.
 struct CostTable {
-  static constexpr int kMostRegular = 48, kMostMore = 168, kMostNarrow = 480;
-  static constexpr int kMost = 704, kWords = kMost / 64;
-  static_assert(kMostRegular + kMostMore + 1 + kMostNarrow <= kMost);
+  static constexpr int kMaxRegular = 48, kMaxMore = 168, kMaxNarrow = 480;
+  static constexpr int kMax = 704, kWords = kMax / 64;
+  static_assert(kMaxRegular + kMaxMore + 1 + kMaxNarrow <= kMax);
   static constexpr int kMargin = 16;  // a place has a neighbour, which may be anything
   /// [rad] The first `sorted` rise from -pi to pi, of which `regular` and the last are in equal
   /// steps; behind them are those of narrow spans.
-  double place[kMost];
+  double place[kMax];
   int regular = 0, sorted = 0, count = 0;
-  float value[8][kMost + kMargin], slope[8][kMost + kMargin];  // by branch
+  float value[8][kMax + kMargin], slope[8][kMax + kMargin];  // by branch
   /// A bit for every place: between it and the next there is a minimum.
   std::uint64_t valley[8][kWords];
 };

@@ -68,9 +68,9 @@ struct Motion {
 template <class Numbers>
 [[gnu::always_inline]] inline Motion<Numbers> motion_of(const BallsOf<Numbers>& balls,
                                                         const AnglesOf<Numbers>& angles) {
-  constexpr double kLeastSine = 1e-12;
-  const Numbers sine = larger(angles.b.sin, every<Numbers>(kLeastSine));
-  const Numbers most = every<Numbers>(1 / kLeastSine);
+  constexpr double kMinSine = 1e-12;
+  const Numbers sine = larger(angles.b.sin, every<Numbers>(kMinSine));
+  const Numbers most = every<Numbers>(1 / kMinSine);
   const Numbers inverse = angles.free ? most : smaller(angles.inverse_sine, most);
   const Numbers q_sin = balls.direction * balls.q_sin, q_cos = balls.direction * balls.q_cos;
   // sin(b) a' and sin(b) c', and how they change.

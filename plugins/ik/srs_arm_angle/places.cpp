@@ -27,7 +27,7 @@ class Places {
     std::copy(regular.begin(), regular.end(), table_.place);
   }
   void add(double at) {
-    if (count_ < CostTable::kMostMore) more_[count_++] = wrap_angle(at);
+    if (count_ < CostTable::kMaxMore) more_[count_++] = wrap_angle(at);
   }
   /// Where the hinge is nearest to in line, x = 0 and x = pi, its outer turns go like
   /// arctan(x / width): places at twice and twice the distance, from a quarter of the width.
@@ -59,7 +59,7 @@ class Places {
  private:
   CostTable& table_;
   double step_;
-  std::array<double, CostTable::kMostMore> more_;
+  std::array<double, CostTable::kMaxMore> more_;
   int count_ = 0;
 };
 
@@ -69,7 +69,7 @@ void set_places(const SrsGoal& goal, const Aim& aim, CostTable& table) {
   // The manipulability has more hills than the limits have.
   const bool hilly = aim.objective == Objective::singularity;
   Places places =
-      hilly ? Places{table, kRegular<CostTable::kMostRegular>} : Places{table, kRegular<40>};
+      hilly ? Places{table, kRegular<CostTable::kMaxRegular>} : Places{table, kRegular<40>};
   places.add_around(goal.polar, -goal.phi, 0);
   places.add_around(goal.bend, goal.gamma, goal.alpha_rad);
   if (aim.objective == Objective::balanced && aim.remembers) {

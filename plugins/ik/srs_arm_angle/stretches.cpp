@@ -42,7 +42,7 @@ void Stretches::add_stretch(std::size_t branch, const Span& span) {
   put({span, branch, first, end, false, false});
 }
 
-static_assert(Stretches::kMost * Stretches::kInner <= CostTable::kMostNarrow);
+static_assert(Stretches::kMax * Stretches::kInner <= CostTable::kMaxNarrow);
 void Stretches::add_narrow(std::size_t branch, const Span& span) {
   const int first = table_.count;
   const double width = span.upper - span.lower;

@@ -23,7 +23,7 @@ struct Stretch {
 /// but for those in which single precision would not tell places apart.
 class Stretches {
  public:
-  static constexpr std::size_t kMost = 8 * Spans::kCapacity;
+  static constexpr std::size_t kMax = 8 * Spans::kCapacity;
   static constexpr int kFew = 2, kInner = 3;
   static constexpr double kTiny = 1e-3;  // [rad]
 
@@ -42,7 +42,7 @@ class Stretches {
   void put(const Stretch& stretch) { stretch_[count_++] = stretch; }
 
   CostTable& table_;
-  std::array<Stretch, kMost> stretch_;
+  std::array<Stretch, kMax> stretch_;
   std::size_t count_ = 0;
 };
 

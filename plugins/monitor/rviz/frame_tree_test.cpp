@@ -76,7 +76,7 @@ INSTANTIATE_TEST_SUITE_P(FrameTree, FramesOfEveryRobot, testing::kEveryRobot,
 TEST(FrameTree, HangsTheCamerasOnTheFrameThatTheRigIsMountedOn) {
   const RobotModel lamp = testing::dental_lamp();
   const StereoRig rig = lamp_rig();
-  const JointVector q = *lamp.contract(*lamp.home());
+  const JointVector q = *lamp.to_independent(*lamp.home());
   const TfListener tf = heard(tree_of(lamp, rig), q);
   EXPECT_EQ(tf.parent("left_camera_optical"), "tool");
   const Eigen::Isometry3d base_T_left = forward_kinematics(lamp, q) * rig.mount_T_left;
@@ -140,7 +140,7 @@ TEST(FrameTree, PutsAPrefixBeforeItsOwnNamesAndAWorldAboveTheBase) {
   const RobotModel lamp = testing::dental_lamp();
   const Parameters parameters{
       .frame_prefix = "left/", .world_frame = "room", .base_position = {1, 2, 3}};
-  const JointVector q = *lamp.contract(*lamp.home());
+  const JointVector q = *lamp.to_independent(*lamp.home());
   const TfListener tf = heard(tree_of(lamp, lamp_rig(), parameters), q);
   EXPECT_EQ(tf.parent("left/base"), "room");
   EXPECT_EQ(tf.parent("left/j1"), "left/base");

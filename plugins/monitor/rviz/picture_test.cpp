@@ -21,7 +21,7 @@ using Eigen::Vector3d;
 
 bool in_unit_range(float value) { return value >= 0 && value <= 1; }
 
-std::size_t least_points(int type) {
+std::size_t min_points(int type) {
   switch (static_cast<MarkerType>(type)) {
     case MarkerType::arrow:
     case MarkerType::line_strip:
@@ -53,7 +53,7 @@ void expect_complete(const msg::Marker& marker) {
     EXPECT_TRUE(in_unit_range(part));
   }
   EXPECT_TRUE(in_unit_range(marker.color_().a_()) && marker.color_().a_() > 0) << "invisible";
-  EXPECT_GE(marker.points_().size(), least_points(marker.type_()));
+  EXPECT_GE(marker.points_().size(), min_points(marker.type_()));
   if (marker.type_() == static_cast<int>(MarkerType::triangle_list)) {
     EXPECT_EQ(marker.points_().size() % 3, 0U);
   }
@@ -119,7 +119,7 @@ class PictureTest : public ::testing::Test {
   RobotModel lamp_ = testing::dental_lamp();
   FrameTree tree_ = FrameTree::make(lamp_, std::nullopt, {}).value();
   Picture picture_{lamp_, tree_, {.axis_length = 0.5, .cone_half_angle = 0.1}};
-  JointVector q_ = *lamp_.contract(*lamp_.home());
+  JointVector q_ = *lamp_.to_independent(*lamp_.home());
   Time stamp_ = Time{} + seconds(100);
 };
 

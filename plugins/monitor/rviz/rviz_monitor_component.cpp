@@ -11,7 +11,7 @@
 #include "armature/robot/kinematics/kinematics.hpp"
 #include "armature/runtime/component/component.hpp"
 #include "armature/runtime/component/setup.hpp"
-#include "armature/runtime/execution/beat.hpp"
+#include "armature/runtime/execution/rate_limiter.hpp"
 #include "armature/runtime/plugins/plugin.hpp"
 #include "frame_tree.hpp"
 #include "picture.hpp"
@@ -43,8 +43,8 @@ class RvizMonitor final : public Component {
         parameters_{Parameters::read(setup.params())},
         tree_{tree_of(parameters_, setup.params(), model_, optional_rig_of(setup))},
         picture_{model_, tree_, parameters_},
-        beat_{seconds(1 / parameters_.rate)},
-        marker_beat_{seconds(1 / parameters_.marker_rate)},
+        rate_limiter_{seconds(1 / parameters_.rate)},
+        marker_rate_limiter_{seconds(1 / parameters_.marker_rate)},
         measured_js_{setup.input<msg::JointState>("measured_js")},
         target_{setup.input<msg::Target>("target")},
         truth_{setup.input<msg::Target>("truth")},
@@ -61,7 +61,7 @@ class RvizMonitor final : public Component {
   void step(Time now) override {
     for (std::size_t i = 0; i < motion_status_.size(); ++i) goals_.see(motion_status_[i]);
     publish_fixed_frames(now);
-    if (!beat_.due(now)) return;
+    if (!rate_limiter_.due(now)) return;
     const msg::JointState* arm = measured_js_.latest();
     if (!arm) return;
     const auto q = joints_of(model_, *arm);
@@ -73,7 +73,7 @@ class RvizMonitor final : public Component {
       publish_tool_pose(*q, stamp);
       told_ = stamp;
     }
-    if (marker_beat_.due(now)) publish_markers(*q, stamp);
+    if (marker_rate_limiter_.due(now)) publish_markers(*q, stamp);
   }
 
  private:
@@ -86,14 +86,14 @@ class RvizMonitor final : public Component {
   }
 
   void publish_frames(const JointVector& q, Time stamp) {
-    if (!tf_.wanted()) return;
+    if (!tf_.has_subscribers()) return;
     auto frames = tf_.loan();
     tree_.write_moving(q, stamp, *frames);
     frames.publish();
   }
 
   void publish_tool_pose(const JointVector& q, Time stamp) {
-    if (!tool_pose_.wanted()) return;
+    if (!tool_pose_.has_subscribers()) return;
     auto pose = tool_pose_.loan();
     write_header(pose->header_(), stamp, tree_.name(kBaseFrame));
     assign(pose->pose_(), forward_kinematics(model_, q));
@@ -101,7 +101,7 @@ class RvizMonitor final : public Component {
   }
 
   void publish_markers(const JointVector& q, Time stamp) {
-    if (!markers_.wanted()) return;
+    if (!markers_.has_subscribers()) return;
     const msg::ToolPath* path = path_.latest();
     auto markers = markers_.loan();
     *markers = picture_.draw(q, stamp,
@@ -118,7 +118,7 @@ class RvizMonitor final : public Component {
   FrameTree tree_;
   Picture picture_;
   GoalWatch goals_;
-  Beat beat_, marker_beat_;
+  RateLimiter rate_limiter_, marker_rate_limiter_;
   bool told_fixed_ = false;
   std::optional<Time> told_;
   Input<msg::JointState> measured_js_;

@@ -11,7 +11,7 @@
 #include "armature/messages/visualization_msgs.hpp"
 #include "armature/robot/files/stereo_rig.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
-#include "armature/runtime/testing/component_bench.hpp"
+#include "armature/runtime/testing/component_harness.hpp"
 #include "armature/runtime/testing/test_plugins.hpp"
 #include "tf_listener_test.hpp"
 
@@ -47,8 +47,8 @@ class RvizMonitorTest : public ::testing::Test {
 
   const RobotModel lamp_ = load_robot_model(kConfigs + "robots/dental_lamp.yaml");
   JointVector q_ = JointVector::Constant(lamp_.dof(), 0.1);
-  ComponentBench monitor_{built_plugins(),
-                          {.component = "{plugin: monitor/rviz}", .robot = robot(), .rig = rig()}};
+  ComponentHarness monitor_{
+      built_plugins(), {.component = "{plugin: monitor/rviz}", .robot = robot(), .rig = rig()}};
   double now_s_ = 5;
 };
 
@@ -86,15 +86,15 @@ TEST_F(RvizMonitorTest, TellsNoSampleOfTheArmTwice) {
 }
 
 TEST_F(RvizMonitorTest, NeedsNothingButJoints) {
-  ComponentBench bare{built_plugins(),
-                      {.component = "{plugin: monitor/rviz}", .robot = robot(), .rig = {}}};
+  ComponentHarness bare{built_plugins(),
+                        {.component = "{plugin: monitor/rviz}", .robot = robot(), .rig = {}}};
   bare.step(1);
   EXPECT_TRUE(bare.take<msg::TFMessage>("tf").empty()) << "no arm yet";
   const auto fixed = bare.take<msg::TFMessage>("tf_static");
   ASSERT_EQ(fixed.size(), 1U);
   ASSERT_EQ(fixed[0].transforms_().size(), 1U) << "no rig, no cameras";
   EXPECT_EQ(fixed[0].transforms_()[0].child_frame_id_(), "tool");
-  EXPECT_EQ(bare.status().state, Voice::State::ok);
+  EXPECT_EQ(bare.status().state, StatusReporter::State::ok);
 }
 
 TEST_F(RvizMonitorTest, DrawsWhatItIsTold) {
@@ -119,16 +119,16 @@ TEST_F(RvizMonitorTest, TellsNothingOfJointsThatAreNone) {
   monitor_.send("measured_js", broken);
   monitor_.step(now_s_ += 0.02);
   EXPECT_TRUE(monitor_.take<msg::TFMessage>("tf").empty());
-  EXPECT_EQ(monitor_.status().state, Voice::State::degraded);
+  EXPECT_EQ(monitor_.status().state, StatusReporter::State::degraded);
   EXPECT_EQ(monitor_.status().reason, "measured_js: 2 joint values; dental_lamp has 6 joints");
   now_s_ += 0.02;
   step();
   EXPECT_EQ(monitor_.take<msg::TFMessage>("tf").size(), 1U);
-  EXPECT_EQ(monitor_.status().state, Voice::State::ok);
+  EXPECT_EQ(monitor_.status().state, StatusReporter::State::ok);
 }
 
 TEST_F(RvizMonitorTest, RefusesAPrefixThatTf2DoesNotTake) {
-  const ComponentBench::Options options{
+  const ComponentHarness::Options options{
       .component = "{plugin: monitor/rviz, params: {frame_prefix: /left/}}",
       .robot = robot(),
       .rig = {}};

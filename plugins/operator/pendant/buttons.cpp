@@ -13,10 +13,10 @@
 namespace armature::operator_::pendant {
 namespace {
 
-constexpr int kMostReads = 100;
+constexpr int kMaxReads = 100;
 constexpr int kGoesDown = 1, kGoesUp = 0;  // 2: it repeats by itself
 
-const char* way_out(int error) {
+const char* hint(int error) {
   switch (error) {
     case EACCES:
       return "; its user must be in the group 'input'";
@@ -35,7 +35,7 @@ std::string Buttons::update() {
   released_.reset();
   if (std::string why = open(); !why.empty()) return why;
   // A stick that moves all the time must not hide a button that was let go.
-  for (int i = 0; i < kMostReads; ++i) {
+  for (int i = 0; i < kMaxReads; ++i) {
     std::array<input_event, 64> events{};
     const ssize_t size = ::read(file_, events.data(), sizeof events);
     if (size == 0) return give_up(ENODEV);
@@ -69,7 +69,7 @@ std::string Buttons::open() {
 
 std::string Buttons::give_up(int error) {
   close();
-  return fmt::format("cannot read {}: {}{}", device_, std::strerror(error), way_out(error));
+  return fmt::format("cannot read {}: {}{}", device_, std::strerror(error), hint(error));
 }
 
 void Buttons::close() {

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "armature/messages/std_msgs.hpp"
-#include "armature/runtime/testing/component_bench.hpp"
+#include "armature/runtime/testing/component_harness.hpp"
 #include "armature/runtime/testing/test_plugins.hpp"
 #include "event_pipe_test.hpp"
 
@@ -14,7 +14,7 @@ using testing::IsEmpty;
 
 class PendantTest : public testing::Test {
  protected:
-  static ComponentBench::Options pendant_with(const std::string& params) {
+  static ComponentHarness::Options pendant_with(const std::string& params) {
     return {.component = "{plugin: operator/pendant, params: {" + params + "}}",
             .robot = {},
             .rig = {}};
@@ -28,7 +28,7 @@ class PendantTest : public testing::Test {
 
   test::EventPipe device_;
   double now_s_ = 7;
-  ComponentBench bench_{built_plugins(), pendant_with("device: " + device_.path())};
+  ComponentHarness bench_{built_plugins(), pendant_with("device: " + device_.path())};
 };
 
 TEST_F(PendantTest, TellsOnEveryStepWhetherTheButtonIsHeld) {
@@ -58,14 +58,15 @@ TEST_F(PendantTest, ADeviceThatIsGoneHoldsNothingIsToldAndIsTakenAgainWhenItCome
   device_.unplug();
   step();
   EXPECT_THAT(told("hold_to_run"), ElementsAre(true, false));
-  EXPECT_EQ(bench_.status().state, Voice::State::degraded);
+  EXPECT_EQ(bench_.status().state, StatusReporter::State::degraded);
   EXPECT_EQ(bench_.status().reason,
             "cannot read " + device_.path() + ": No such device; is it plugged in?");
   device_.plug_in();
   step();
-  EXPECT_EQ(bench_.status().state, Voice::State::degraded) << "it is looked for once a second";
+  EXPECT_EQ(bench_.status().state, StatusReporter::State::degraded)
+      << "it is looked for once a second";
   bench_.step(now_s_ += 1);
-  EXPECT_EQ(bench_.status().state, Voice::State::ok);
+  EXPECT_EQ(bench_.status().state, StatusReporter::State::ok);
   device_.press(BTN_TRIGGER);
   told("hold_to_run");
   step();

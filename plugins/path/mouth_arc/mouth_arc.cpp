@@ -14,7 +14,7 @@ constexpr int kFewestSteps = 8;
 constexpr double kNothing = 1e-9;  // [m] or [rad]: no motion at all
 // [rad] between a goal's direction and the way to its focus: beyond, the miss that fades along the
 // arc would pass through no direction at all.
-constexpr double kMostMiss = std::numbers::pi / 2;
+constexpr double kMaxMiss = std::numbers::pi / 2;
 
 PathSegment joint_move(const ToolPose& end) {
   return {.space = PathSegment::Space::joint,
@@ -55,7 +55,7 @@ Expected<Path> MouthArc::plan(const PathRequest& request) const {
   if ((from.position - *focus).norm() < kNothing) return Path{joint_move(to)};
 
   const View goal = view_of(*focus, to.position, to_direction->unit);
-  if (goal.miss_angle() > kMostMiss) {
+  if (goal.miss_angle() > kMaxMiss) {
     return refuse("the goal looks away from the point to look at");
   }
   const View start = view_of(*focus, from.position, from_direction->unit);

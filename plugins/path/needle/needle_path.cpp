@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kMostSteps = 50000;  // on a line: far more than any needle's
+constexpr double kMaxSteps = 50000;  // on a line: far more than any needle's
 constexpr double kDegrees = 180 / std::numbers::pi;
 
 Vector3d axis_of(const ToolPose& pose) {
@@ -102,11 +102,11 @@ Expected<Path> NeedlePath::plan(const PathRequest& request) const {
   const double goal = line->at(valid->goal.position), here = line->at(valid->start.position);
   const bool on_line = is_on(*line, valid->start);
   const double begin = on_line ? here : -parameters_.stand_off;
-  if (std::abs(goal - begin) > kMostSteps * parameters_.step) {
+  if (std::abs(goal - begin) > kMaxSteps * parameters_.step) {
     return refuse(
         fmt::format("the way along the line is {:.4g} m, more than {:g} steps of {:g} mm "
                     "(step_mm)",
-                    std::abs(goal - begin), kMostSteps, 1e3 * parameters_.step));
+                    std::abs(goal - begin), kMaxSteps, 1e3 * parameters_.step));
   }
   if (auto wrong = obstacle(*line, std::min(begin, goal), std::max(begin, goal), *valid)) {
     return refuse(std::move(*wrong));

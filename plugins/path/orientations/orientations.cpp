@@ -14,8 +14,8 @@
 namespace armature::path::orientations {
 namespace {
 
-constexpr double kFewestParts = 8, kMostParts = 50'000;  // of a path from key to key
-constexpr double kRounding = 1e-6;                       // of a step
+constexpr double kFewestParts = 8, kMaxParts = 50'000;  // of a path from key to key
+constexpr double kRounding = 1e-6;                      // of a step
 
 /// Orientation and position, and how far they go.
 struct Curves {
@@ -32,17 +32,17 @@ struct Curves {
 };
 
 /// Into how many equal parts of u the way between two keys is cut, so that none is longer than a
-/// step; more than kMostParts when it cannot be done with fewer.
+/// step; more than kMaxParts when it cannot be done with fewer.
 double parts_between(const Curves& curves, double from, double to, const Parameters& parameters) {
   double parts = kFewestParts;
-  while (parts <= kMostParts) {
+  while (parts <= kMaxParts) {
     double longest = 0;
     for (double k = 0; k < parts; ++k) {
       longest = std::max(longest, curves.steps(std::lerp(from, to, k / parts),
                                                std::lerp(from, to, (k + 1) / parts), parameters));
     }
     if (longest <= 1 + kRounding) break;
-    parts = std::ceil(parts * std::min(longest, kMostParts));
+    parts = std::ceil(parts * std::min(longest, kMaxParts));
   }
   return parts;
 }
@@ -72,11 +72,11 @@ Expected<PathSegment> Orientations::along(const KeyPoses& keys,
   segment.samples.push_back({0, keys.poses.front()});
   for (std::size_t i = 1; i < u.size(); ++i) {
     const double parts = parts_between(curves, u[i - 1], u[i], parameters_);
-    if (static_cast<double>(segment.samples.size()) + parts > kMostParts) {
+    if (static_cast<double>(segment.samples.size()) + parts > kMaxParts) {
       return refuse(
           fmt::format("the path would have more than {} samples of {:.3g} mm and {:.3g} "
                       "degrees",
-                      kMostParts, 1e3 * parameters_.step_m, parameters_.step_rad * 180 / M_PI));
+                      kMaxParts, 1e3 * parameters_.step_m, parameters_.step_rad * 180 / M_PI));
     }
     for (double k = 1; k < parts; ++k) {
       const double s = std::lerp(u[i - 1], u[i], k / parts);

@@ -79,8 +79,8 @@ class BiopsyReport final : public Component {
   /// A bound of rounding errors makes no ratio.
   static void tell_part(Summary& summary, double error_m, double bound_m) {
     constexpr const char *kKey = "target_error_of_bound", *kTitle = "error as a part of that";
-    constexpr double kLeastBound_m = 1e-6;
-    if (bound_m >= kLeastBound_m) return summary.metric(kKey, kTitle, error_m / bound_m);
+    constexpr double kMinBound_m = 1e-6;
+    if (bound_m >= kMinBound_m) return summary.metric(kKey, kTitle, error_m / bound_m);
     summary.not_measured(kKey, kTitle,
                          fmt::format("the registration expects an error of {:.1g} mm, which is "
                                      "none",

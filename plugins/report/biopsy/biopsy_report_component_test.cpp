@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The report of a biopsy on its topics: 1. the figures, of the task's registration, 2. when the
-// story ends, 3. bad samples.
+// scenario ends, 3. bad samples.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 #include "armature/messages/header.hpp"
 #include "armature/messages/sensor_msgs.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
-#include "armature/runtime/testing/component_bench.hpp"
+#include "armature/runtime/testing/component_harness.hpp"
 #include "armature/runtime/testing/test_plugins.hpp"
 
 namespace armature::report::biopsy {
@@ -48,7 +48,7 @@ class BiopsyReportTest : public testing::Test {
   void move_arm() { send_arm(resting_position(robot_)); }
   void send_arm(const JointVector& q) {
     msg::JointState state;
-    const JointVector all = robot_.expand(q);
+    const JointVector all = robot_.to_all(q);
     state.position_().assign(all.begin(), all.end());
     report_.send("measured_js", state);
   }
@@ -62,7 +62,7 @@ class BiopsyReportTest : public testing::Test {
   const RobotModel robot_ = load_robot_model(ARMATURE_SOURCE_DIR "/configs/robots/sr1_needle.yaml");
   const Eigen::Isometry3d home_ = forward_kinematics(robot_, resting_position(robot_));
   const Eigen::Vector3d tip_ = home_.translation(), down_ = home_.linear().col(2);
-  ComponentBench report_{
+  ComponentHarness report_{
       built_plugins(),
       {.component = "{plugin: report/biopsy}",
        .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/sr1_needle.yaml"),

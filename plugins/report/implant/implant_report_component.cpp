@@ -186,14 +186,14 @@ class ImplantReport final : public Component {
             smoothness_.peak_acceleration());
     constexpr const char *kJump = "acceleration_jump_of_peak",
                          *kTitle = "its largest step as a part of that";
-    if (smoothness_.total_rad() >= parameters_.least_turn) {
+    if (smoothness_.total_rad() >= parameters_.min_turn) {
       return summary.metric(kJump, kTitle, smoothness_.acceleration_jump_of_peak());
     }
     summary.not_measured(
         kJump, kTitle,
-        fmt::format("the drill turned by {:.2g} degrees in all, 'least_turn_deg' "
+        fmt::format("the drill turned by {:.2g} degrees in all, 'min_turn_deg' "
                     "is {:g}",
-                    kDegrees * smoothness_.total_rad(), kDegrees * parameters_.least_turn));
+                    kDegrees * smoothness_.total_rad(), kDegrees * parameters_.min_turn));
   }
 
   Parameters parameters_;

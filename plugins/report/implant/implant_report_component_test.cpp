@@ -11,7 +11,7 @@
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/sensor_msgs.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
-#include "armature/runtime/testing/component_bench.hpp"
+#include "armature/runtime/testing/component_harness.hpp"
 #include "armature/runtime/testing/test_plugins.hpp"
 
 namespace armature::report::implant {
@@ -75,10 +75,10 @@ class ImplantReportTest : public testing::Test {
   const JointVector home_ = resting_position(robot_), rest_ = JointVector::Zero(7);
   const Flange mount_ = flange_of(robot_);
   GuidedChain truth_, estimate_;
-  ComponentBench report_{built_plugins(),
-                         {.component = "{plugin: report/implant}",
-                          .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/med7.yaml"),
-                          .rig = {}}};
+  ComponentHarness report_{built_plugins(),
+                           {.component = "{plugin: report/implant}",
+                            .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/med7.yaml"),
+                            .rig = {}}};
 };
 
 TEST_F(ImplantReportTest, TellsTheErrorAtTheSitesAndWhereItIsFrom) {
@@ -192,7 +192,7 @@ TEST_F(ImplantReportTest, OfADrillThatHardlyTurnsNoStepIsToldOfItsAcceleration) 
   report_.step(2);
   EXPECT_FALSE(report_.figures().metrics.contains("acceleration_jump_of_peak"));
   const std::string why = report_.figures().unmeasured.at("acceleration_jump_of_peak");
-  EXPECT_NE(why.find("degrees in all, 'least_turn_deg' is 1"), std::string::npos) << why;
+  EXPECT_NE(why.find("degrees in all, 'min_turn_deg' is 1"), std::string::npos) << why;
 }
 
 TEST_F(ImplantReportTest, ASampleThatIsNoPositionAndAChainThatIsNoneAreSaid) {

@@ -13,7 +13,7 @@ namespace {
 /// Of every joint.
 struct Quantity {
   const char *name, *per_time;
-  double least_span;  // [rad] or [m], where need be per second
+  double min_span;  // [rad] or [m], where need be per second
 };
 constexpr Quantity kQuantities[]{{"joint position", "", 1e-3},
                                  {"joint speed", "/s", 1e-3},
@@ -25,7 +25,7 @@ Panel panel_of(const Quantity& quantity, const std::string& unit, const std::vec
                std::size_t first) {
   Panel panel{.title = std::string{quantity.name} + " [" + unit + quantity.per_time + "]",
               .is_logarithmic = false,
-              .least_span = quantity.least_span,
+              .min_span = quantity.min_span,
               .curves = {}};
   for (std::size_t j = 0; j < joints.size(); ++j) {
     if (unit_of(joints[j]) == unit) panel.curves.push_back({first + j, j});
@@ -64,11 +64,11 @@ std::string JointPlot::svg() const {
     for (const char* unit : {"rad", "m"}) panels.push_back(panel_of(quantity, unit, joints, next));
     next += joints.size();
   }
-  constexpr double kLeastError = 1e-9;  // [m] or [rad]: what the table still tells
+  constexpr double kMinError = 1e-9;  // [m] or [rad]: what the table still tells
   for (const char* title : kToolErrors) {
     panels.push_back({.title = title,
                       .is_logarithmic = true,
-                      .least_span = kLeastError,
+                      .min_span = kMinError,
                       .curves = {{next++, joints.size()}}});
   }
   return to_svg("The joints of " + model_.name(), legend, panels, envelope_);

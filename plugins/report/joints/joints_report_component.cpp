@@ -120,7 +120,7 @@ class JointsReport : public Component {
     next_row_ = Time{(stamp.ns / row_period_.count() + 1) * row_period_.count()};
     JointRow row{.stamp = stamp,
                  .since_start = stamp - *start_,
-                 .position = model_.expand(q),
+                 .position = model_.to_all(q),
                  .speed = {},
                  .reference = reference_at(stamp)};
     if (read_joint_rates(model_, measured, v).empty()) row.speed = expand_rates(model_, v);
@@ -134,7 +134,7 @@ class JointsReport : public Component {
     const auto* told = references_.at(stamp);
     if (!told || stamp - told->stamp > kReferenceHolds) return {};
     const double age_s = to_seconds(stamp - told->stamp);
-    return model_.expand(told->value.q + age_s * told->value.v);
+    return model_.to_all(told->value.q + age_s * told->value.v);
   }
 
   std::optional<JointRow::Goal> goal_error(const JointVector& q, Time stamp) {

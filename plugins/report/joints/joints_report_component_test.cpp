@@ -18,7 +18,7 @@
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/header.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
-#include "armature/runtime/testing/component_bench.hpp"
+#include "armature/runtime/testing/component_harness.hpp"
 #include "armature/runtime/testing/test_plugins.hpp"
 
 namespace armature::report::joints {
@@ -72,7 +72,7 @@ class JointsReportTest : public testing::Test {
   JointsReportTest() { fs::create_directories(folder_); }
   ~JointsReportTest() override { fs::remove_all(folder_); }
 
-  ComponentBench bench(const std::string& more = "") const {
+  ComponentHarness bench(const std::string& more = "") const {
     return {built_plugins(),
             {.component = "{plugin: report/joints, params: {file: " + stem() + more + "}}",
              .robot = config::load(kRobotFile),
@@ -94,7 +94,7 @@ class JointsReportTest : public testing::Test {
   static constexpr double kLag = 0.03;
 
   /// A millisecond of reference and arm, as long as it is told.
-  void run(ComponentBench& report, int from_ms, int to_ms, bool with_reference = true) const {
+  void run(ComponentHarness& report, int from_ms, int to_ms, bool with_reference = true) const {
     for (int ms = from_ms; ms < to_ms; ++ms) {
       const double t = 0.001 * ms;
       if (with_reference) report.send("servo_jp", state(t, reference(t), rate_));
@@ -102,7 +102,7 @@ class JointsReportTest : public testing::Test {
       if (ms % 20 == 0) report.step(t);
     }
   }
-  static void tell_goal(ComponentBench& report, double t, std::uint64_t id, std::uint8_t mode,
+  static void tell_goal(ComponentHarness& report, double t, std::uint64_t id, std::uint8_t mode,
                         const ToolPose& pose, const Vector3d& velocity = Vector3d::Zero()) {
     msg::MotionGoal goal;
     write_header(goal.header_(), Time{} + seconds(t), kBaseFrame);
@@ -112,7 +112,8 @@ class JointsReportTest : public testing::Test {
     assign(goal.velocity_(), velocity);
     report.send("goal", goal);
   }
-  static void tell_status(ComponentBench& report, double t, std::uint64_t id, std::uint8_t state) {
+  static void tell_status(ComponentHarness& report, double t, std::uint64_t id,
+                          std::uint8_t state) {
     msg::MotionStatus status;
     write_header(status.header_(), Time{} + seconds(t), kBaseFrame);
     status.goal_id_(id);
@@ -121,7 +122,7 @@ class JointsReportTest : public testing::Test {
   }
 
   const RobotModel model_ = load_robot_model(kRobotFile);
-  const JointVector home_ = *model_.contract(*model_.home());
+  const JointVector home_ = *model_.to_independent(*model_.home());
   const fs::path folder_ =
       fs::temp_directory_path() / ("armature-joints-" + std::to_string(getpid()));
 };
@@ -275,11 +276,11 @@ TEST_F(JointsReportTest, ASampleThatIsNoStateOfTheArmIsToldAndLeftOut) {
   broken.position_().pop_back();
   report.send("measured_js", broken);
   report.step(0.02);
-  EXPECT_EQ(report.status().state, Voice::State::degraded);
+  EXPECT_EQ(report.status().state, StatusReporter::State::degraded);
   EXPECT_THAT(report.status().reason, HasSubstr("measured_js"));
   report.send("measured_js", state(0.03, home_, rate_));
   report.step(0.04);
-  EXPECT_EQ(report.status().state, Voice::State::ok);
+  EXPECT_EQ(report.status().state, StatusReporter::State::ok);
   EXPECT_EQ(rows_in(csv()).size(), 1u);
 }
 
@@ -301,7 +302,7 @@ TEST_F(JointsReportTest, ThePictureIsWrittenAtTheEndAndAnOlderOneGoesAtTheStart)
 }
 
 TEST_F(JointsReportTest, WithoutAFileItWritesNothingAndIsNeverActivated) {
-  ComponentBench report{
+  ComponentHarness report{
       built_plugins(),
       {.component = "{plugin: report/joints}", .robot = config::load(kRobotFile), .rig = {}}};
   EXPECT_FALSE(report.period());

@@ -87,12 +87,11 @@ Axis value_axis(const Panel& panel, const Envelope& envelope, double top) {
             .to = top,
             .is_logarithmic = panel.is_logarithmic};
   if (panel.is_logarithmic) {
-    axis.low = std::floor(std::log10(std::max(range.low, panel.least_span)));
-    axis.high =
-        std::max(std::ceil(std::log10(std::max(range.high, panel.least_span))), axis.low + 1);
+    axis.low = std::floor(std::log10(std::max(range.low, panel.min_span)));
+    axis.high = std::max(std::ceil(std::log10(std::max(range.high, panel.min_span))), axis.low + 1);
   } else {
     const double middle = (range.low + range.high) / 2;
-    const double half = std::max(range.high - range.low, panel.least_span) * 0.55;
+    const double half = std::max(range.high - range.low, panel.min_span) * 0.55;
     axis.low = middle - half;
     axis.high = middle + half;
   }
@@ -107,8 +106,8 @@ void draw_level(double y, const std::string& label, std::string& svg) {
 
 void draw_values(const Axis& axis, std::string& svg) {
   if (axis.is_logarithmic) {
-    constexpr int kMostLabels = 6;
-    const int step = 1 + static_cast<int>(axis.high - axis.low - 1) / kMostLabels;
+    constexpr int kMaxLabels = 6;
+    const int step = 1 + static_cast<int>(axis.high - axis.low - 1) / kMaxLabels;
     for (int power = static_cast<int>(axis.high); power >= axis.low; power -= step) {
       draw_level(axis.at(std::pow(10, power)),
                  fmt::format("10<tspan dy=\"-5\" font-size=\"10\">{}</tspan>", power), svg);

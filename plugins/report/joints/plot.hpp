@@ -13,7 +13,7 @@ namespace armature::report::joints {
 struct Panel {
   std::string title;    // with the unit
   bool is_logarithmic;  // of what goes down over powers of ten
-  double least_span;    // of the axis: less is noise
+  double min_span;      // of the axis: less is noise
   struct Curve {
     std::size_t in_envelope;
     std::size_t in_legend;

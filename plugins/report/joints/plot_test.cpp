@@ -21,7 +21,7 @@ constexpr double kGap = std::numeric_limits<double>::quiet_NaN();
 Panel panel(const std::string& title, std::size_t curve, bool is_logarithmic = false) {
   return {.title = title,
           .is_logarithmic = is_logarithmic,
-          .least_span = is_logarithmic ? 1e-9 : 1e-3,
+          .min_span = is_logarithmic ? 1e-9 : 1e-3,
           .curves = {{curve, curve}}};
 }
 

@@ -10,15 +10,15 @@
 
 namespace armature::report::joints {
 
-/// Values, each of which holds from its stamp until the next one's. Keeps at most `kMost`.
+/// Values, each of which holds from its stamp until the next one's. Keeps at most `kMax`.
 template <class Value>
 class Timeline {
  public:
-  static constexpr std::size_t kMost = 1024;
+  static constexpr std::size_t kMax = 1024;
 
   /// Of two values with one stamp the later one holds.
   void add(Time stamp, Value value) {
-    if (entries_.size() == kMost) entries_.pop_front();
+    if (entries_.size() == kMax) entries_.pop_front();
     const auto later =
         std::upper_bound(entries_.begin(), entries_.end(), stamp,
                          [](Time time, const Entry& entry) { return time < entry.stamp; });

@@ -33,7 +33,7 @@ TEST(ReportTimeline, TheOrderInWhichValuesComeDoesNotMatterButOfOneStampTheLastH
 
 TEST(ReportTimeline, KeepsTheNewestWhenNobodyAsks) {
   Timeline<int> line;
-  const int count = 3 * static_cast<int>(Timeline<int>::kMost);
+  const int count = 3 * static_cast<int>(Timeline<int>::kMax);
   for (int i = 0; i < count; ++i) line.add(at(i), i);
   EXPECT_EQ(line.at(at(count / 2)), nullptr) << "forgotten";
   EXPECT_EQ(line.at(at(count))->value, count - 1);

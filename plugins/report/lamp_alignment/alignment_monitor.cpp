@@ -60,7 +60,7 @@ void AlignmentMonitor::see_lamp(const Eigen::Vector3d& center, const Eigen::Vect
 }
 
 std::optional<EstimateError> AlignmentMonitor::estimate_error() const {
-  if (!truth_ || count_ < parameters_.least_frames) return std::nullopt;
+  if (!truth_ || count_ < parameters_.min_frames) return std::nullopt;
   return EstimateError{.mouth_m = (sum_.mouth / count_ - truth_->mouth).norm(),
                        .normal_rad = angle_between(sum_.normal, truth_->normal)};
 }

@@ -62,7 +62,7 @@ class AlignmentMonitor {
   /// Told to the end: aligned (and again after the move), or no face found in time.
   bool finished() const;
   bool face_not_found() const { return not_found_; }
-  /// What a story that has not ended still waits for.
+  /// What a scenario that has not ended still waits for.
   std::vector<std::string> missing() const;
 
   std::optional<double> time_to_find_s() const { return found_s_; }

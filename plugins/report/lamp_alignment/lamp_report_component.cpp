@@ -17,7 +17,7 @@
 #include "armature/runtime/plugins/plugin.hpp"
 #include "report_pictures.hpp"
 #include "trajectory_hash.hpp"
-#include "unfinished_story.hpp"
+#include "unfinished_scenario.hpp"
 
 namespace armature::report::lamp_alignment {
 namespace {
@@ -179,8 +179,8 @@ class LampReport : public Component {
     picture_.height = static_cast<int>(image->height_());
     picture_.gray = image->data_();
     picture_.focal_px = info->k_()[0];
-    picture_.cu = info->k_()[2];
-    picture_.cv = info->k_()[5];
+    picture_.cx = info->k_()[2];
+    picture_.cy = info->k_()[5];
     picture_.landmarks.clear();
     const auto& left = landmarks->left_();
     for (std::size_t i = 0; landmarks->valid_() && i + 1 < left.size(); i += 2) {
@@ -203,7 +203,7 @@ class LampReport : public Component {
   Eigen::Vector3d light_axis_;
   Parameters parameters_;
   AlignmentMonitor monitor_;
-  UnfinishedStory unfinished_;
+  UnfinishedScenario unfinished_;
   Time now_;
   TrajectoryHash hash_;
   CameraPicture picture_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The report on its topics: 1. the figures of a story that ends well, 2. a face that is never
+// The report on its topics: 1. the figures of a scenario that ends well, 2. a face that is never
 // found, 3. what is not counted, 4. the files. The judgement itself is tested beside it.
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include "armature/kinds/target/target_messages.hpp"
 #include "armature/messages/sensor_msgs.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
-#include "armature/runtime/testing/component_bench.hpp"
+#include "armature/runtime/testing/component_harness.hpp"
 #include "armature/runtime/testing/test_plugins.hpp"
 
 namespace armature::report::lamp_alignment {
@@ -53,7 +53,7 @@ class LampReportTest : public ::testing::Test {
     goal.has_focus_(true);
     report_.send("goal", goal);
   }
-  static ComponentBench report_with(const std::string& params) {
+  static ComponentHarness report_with(const std::string& params) {
     return {built_plugins(),
             {.component = "{plugin: report/lamp_alignment, params: {" + params + "}}",
              .robot = config::load(kLamp),
@@ -66,7 +66,7 @@ class LampReportTest : public ::testing::Test {
   const Vector3d normal_ = -base_T_tool_.linear().col(0);
   Vector3d truth_ = base_T_tool_.translation() - 0.5 * normal_;
   Vector3d estimate_ = truth_ + Vector3d{0, 0, 0.001};
-  ComponentBench report_ = report_with("search_timeout_s: 4");
+  ComponentHarness report_ = report_with("search_timeout_s: 4");
   double now_s_ = 100;
   int ticks_ = 0;
   bool seen_ = true;
@@ -92,7 +92,7 @@ TEST_F(LampReportTest, TellsTheFiguresOfALampThatIsAligned) {
   EXPECT_NEAR(told.metrics.at("direction_error_deg"), 0, 1e-5);
   EXPECT_EQ(told.metrics.at("replans"), 0);
   EXPECT_EQ(told.metrics.count("time_to_realign_s"), 0u);
-  EXPECT_EQ(told.texts.count("missing"), 0u) << "the story was told to its end";
+  EXPECT_EQ(told.texts.count("missing"), 0u) << "the scenario was told to its end";
   EXPECT_EQ(told.texts.at("trajectory_sha256").size(), 64u);
 }
 
@@ -183,13 +183,13 @@ TEST_F(LampReportTest, CountsAcceptedGoalsAfterTheFirstAlignment) {
 }
 
 TEST_F(LampReportTest, HashesEverySampleOfTheArm) {
-  ComponentBench other = report_with("");
+  ComponentHarness other = report_with("");
   const auto arm_at = [&](double stamp_s) {
     msg::JointState arm;
     write_all_joints(lamp_, q_, JointVector::Zero(5), Time{} + seconds(stamp_s), arm);
     return arm;
   };
-  for (ComponentBench* bench : {&report_, &other}) {
+  for (ComponentHarness* bench : {&report_, &other}) {
     for (int i = 0; i < 3; ++i) bench->send("measured_js", arm_at(i));
     bench->step(3);
   }
@@ -205,14 +205,14 @@ TEST_F(LampReportTest, IsDegradedByAJointStateThatIsNoneUntilAGoodOneComes) {
   bad.position_({1, 2, 3});
   report_.send("measured_js", bad);
   report_.step(1);
-  EXPECT_EQ(report_.status().state, Voice::State::degraded);
+  EXPECT_EQ(report_.status().state, StatusReporter::State::degraded);
   EXPECT_EQ(report_.status().reason, "measured_js: 3 joint values; dental_lamp has 6 joints");
   bad.position_().assign(50, 0.0);
   report_.send("measured_js", bad);
   report_.step(1.1);
   EXPECT_EQ(report_.status().reason, "measured_js: 50 joint values; dental_lamp has 6 joints");
   tick();
-  EXPECT_EQ(report_.status().state, Voice::State::ok);
+  EXPECT_EQ(report_.status().state, StatusReporter::State::ok);
 }
 
 TEST_F(LampReportTest, WritesWhatTheCameraSawAndHowTheErrorsWentDown) {

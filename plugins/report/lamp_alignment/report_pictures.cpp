@@ -104,8 +104,8 @@ struct Panel {
 void draw_axis(cv::Mat& image, const CameraPicture& picture, const Eigen::Vector3d& from,
                const Eigen::Vector3d& axis, const cv::Scalar& color) {
   const auto pixel = [&](const Eigen::Vector3d& p) {
-    return cv::Point{static_cast<int>(std::lround(picture.focal_px * p.x() / p.z() + picture.cu)),
-                     static_cast<int>(std::lround(picture.focal_px * p.y() / p.z() + picture.cv))};
+    return cv::Point{static_cast<int>(std::lround(picture.focal_px * p.x() / p.z() + picture.cx)),
+                     static_cast<int>(std::lround(picture.focal_px * p.y() / p.z() + picture.cy))};
   };
   const Eigen::Vector3d to = from + kAxisLength * axis;
   if (from.z() < 0.01 || to.z() < 0.01) return;

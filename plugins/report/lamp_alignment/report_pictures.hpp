@@ -22,7 +22,7 @@ struct CameraPicture {
     Eigen::Vector3d mouth, across, normal;
   };
   std::optional<FaceAxes> face;
-  double focal_px = 0, cu = 0, cv = 0;
+  double focal_px = 0, cx = 0, cy = 0;
 };
 
 /// The picture with landmarks (green) and the face's axes (normal in red). Throws

@@ -99,20 +99,20 @@ std::optional<double> FollowMonitor::coarse_lag() const {
   constexpr std::size_t kEnough = 2000;  // points, however long the run was
   if (intended_.empty()) return std::nullopt;
   // The same points at every lag: else the lag that leaves out the worst of them would be best.
-  const Sample sample{.from = intended_.front().t + kMostLag_s + kLagStep_s,
-                      .to = intended_.back().t + kLeastLag_s - kLagStep_s,
+  const Sample sample{.from = intended_.front().t + kMaxLag_s + kLagStep_s,
+                      .to = intended_.back().t + kMinLag_s - kLagStep_s,
                       .every = 1 + slave_.size() / kEnough};
-  const int last = static_cast<int>(std::lround((kMostLag_s - kLeastLag_s) / kLagStep_s));
+  const int last = static_cast<int>(std::lround((kMaxLag_s - kMinLag_s) / kLagStep_s));
   int best = 0;
-  double least = compare(kLeastLag_s, sample).squares;
+  double least = compare(kMinLag_s, sample).squares;
   for (int i = 1; i <= last; ++i) {
-    const double squares = compare(kLeastLag_s + i * kLagStep_s, sample).squares;
+    const double squares = compare(kMinLag_s + i * kLagStep_s, sample).squares;
     if (squares >= least) continue;
     least = squares;
     best = i;
   }
   if (best == 0 || best == last) return std::nullopt;
-  return kLeastLag_s + best * kLagStep_s;
+  return kMinLag_s + best * kLagStep_s;
 }
 
 bool FollowMonitor::stands_out(double lag_s) const {
@@ -127,15 +127,15 @@ bool FollowMonitor::stands_out(double lag_s) const {
 }
 
 Expected<double> FollowMonitor::best_lag() const {
-  constexpr int kMostSteps = 20;
+  constexpr int kMaxSteps = 20;
   constexpr double kExact_s = 1e-9;
   const auto coarse = coarse_lag();
   if (!coarse) {
-    return refuse(fmt::format("no lag between {:g} and {:g} ms fits best", 1e3 * kLeastLag_s,
-                              1e3 * kMostLag_s));
+    return refuse(
+        fmt::format("no lag between {:g} and {:g} ms fits best", 1e3 * kMinLag_s, 1e3 * kMaxLag_s));
   }
   double lag = *coarse;
-  for (int i = 0; i < kMostSteps; ++i) {
+  for (int i = 0; i < kMaxSteps; ++i) {
     const Comparison here = compare(lag, {});
     if (!(here.rates > 0)) break;
     // off grows by rate for every second that the way is taken later: least squares in that.

@@ -33,7 +33,7 @@ class FollowMonitor {
     /// or the rms is hardly another one with another lag.
     Expected<double> lag_s;
   };
-  static constexpr double kLeastLag_s = -0.1, kMostLag_s = 1.1;
+  static constexpr double kMinLag_s = -0.1, kMaxLag_s = 1.1;
   std::optional<Following> following() const;
 
   /// What the hand's tremor is, and what the slave has of it; rms [m].

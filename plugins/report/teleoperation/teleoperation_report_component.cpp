@@ -116,13 +116,13 @@ class TeleoperationReport final : public Component {
   /// Of a hand that does not tremble, what the slave has of it would be a ratio of noise.
   void tell_tremor_left(Summary& summary, const FollowMonitor::Tremor& tremor) const {
     constexpr const char *kKey = "tremor_db", *kTitle = "what is left of it, scaled [dB]";
-    if (tremor.hand_m >= parameters_.least_tremor) {
+    if (tremor.hand_m >= parameters_.min_tremor) {
       return summary.metric(kKey, kTitle, tremor.left_db);
     }
     summary.not_measured(kKey, kTitle,
-                         fmt::format("the hand trembles by {:.2g} mm only, 'least_tremor_mm' is "
+                         fmt::format("the hand trembles by {:.2g} mm only, 'min_tremor_mm' is "
                                      "{:g}",
-                                     1e3 * tremor.hand_m, 1e3 * parameters_.least_tremor));
+                                     1e3 * tremor.hand_m, 1e3 * parameters_.min_tremor));
   }
 
   static void tell_lag(Summary& summary, const Expected<double>& lag_s) {

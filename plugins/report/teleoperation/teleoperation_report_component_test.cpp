@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The report of a teleoperation on its topics: 1. the figures, 2. when the story ends, 3. what it
-// refuses.
+// The report of a teleoperation on its topics: 1. the figures, 2. when the scenario ends, 3. what
+// it refuses.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,7 +9,7 @@
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/geometry.hpp"
 #include "armature/messages/header.hpp"
-#include "armature/runtime/testing/component_bench.hpp"
+#include "armature/runtime/testing/component_harness.hpp"
 #include "armature/runtime/testing/test_plugins.hpp"
 
 namespace armature::report::teleoperation {
@@ -19,7 +19,7 @@ using Eigen::Vector3d;
 
 const std::string kMasterFile = ARMATURE_SOURCE_DIR "/configs/robots/master.yaml";
 
-ComponentBench::Options report_with(const std::string& params) {
+ComponentHarness::Options report_with(const std::string& params) {
   return {.component = "{plugin: report/teleoperation, params: {" + params + "}}",
           .robot = config::load(kMasterFile),
           .rig = {}};
@@ -70,9 +70,9 @@ class TeleoperationReportTest : public testing::Test {
   const RobotModel master_ = load_robot_model(kMasterFile);
   // A pure move, so that the rotations of hand and tool, which stay, are equal.
   const Eigen::Isometry3d slave_T_master_{Eigen::Translation3d{0.6, -0.1, 0.1}};
-  ComponentBench report_{built_plugins(),
-                         report_with("peak_speeds: [0.1, 0.1, 0.1, 0.1, 0.1, 0.08], "
-                                     "lag_ms: 40, watch_s: 3")};
+  ComponentHarness report_{built_plugins(),
+                           report_with("peak_speeds: [0.1, 0.1, 0.1, 0.1, 0.1, 0.08], "
+                                       "lag_ms: 40, watch_s: 3")};
   int sample_ = 0;
 };
 
@@ -131,7 +131,7 @@ TEST_F(TeleoperationReportTest, WithoutATremorNothingIsToldOfWhatIsLeftOfIt) {
   const auto told = report_.figures();
   EXPECT_LT(told.metrics.at("hand_tremor_mm"), 0.01);
   EXPECT_FALSE(told.metrics.contains("tremor_db"));
-  EXPECT_NE(told.unmeasured.at("tremor_db").find("mm only, 'least_tremor_mm' is 0.01"),
+  EXPECT_NE(told.unmeasured.at("tremor_db").find("mm only, 'min_tremor_mm' is 0.01"),
             std::string::npos)
       << told.unmeasured.at("tremor_db");
 }

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-#include "least_path.hpp"
+#include "min_path.hpp"
 #include "test_robots.hpp"
 
 namespace armature::select::minmax {

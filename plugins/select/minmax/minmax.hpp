@@ -2,7 +2,7 @@
 #pragma once
 
 #include "armature/kinds/select/select.hpp"
-#include "least_path.hpp"
+#include "min_path.hpp"
 #include "moves.hpp"
 
 namespace armature::select::minmax {

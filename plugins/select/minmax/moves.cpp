@@ -24,7 +24,7 @@ std::optional<Move> Moves::between(const Origin& from, const IkBranch& branch) c
   return move;
 }
 
-double Moves::least_time(const IkBranch& from, const IkBranch& branch) const {
+double Moves::min_time(const IkBranch& from, const IkBranch& branch) const {
   constexpr double kNever = std::numeric_limits<double>::infinity();
   if (!same_branch(from, branch)) return kNever;
   JointVector way = branch.q - from.q;

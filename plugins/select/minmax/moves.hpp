@@ -34,7 +34,7 @@ class Moves {
   std::optional<Move> between(const Origin& from, const IkBranch& branch) const;
   /// A bound from below of what `between` says for any turns of `from`: the near way always [s];
   /// infinite where no turn makes the move allowed.
-  double least_time(const IkBranch& from, const IkBranch& branch) const;
+  double min_time(const IkBranch& from, const IkBranch& branch) const;
 
  private:
   bool same_branch(const IkBranch& a, const IkBranch& b) const {

@@ -4,13 +4,13 @@
 
 #include "armature/kinds/zone_messages.hpp"
 #include "armature/messages/geometry_msgs.hpp"
-#include "armature/runtime/testing/component_bench.hpp"
+#include "armature/runtime/testing/component_harness.hpp"
 #include "armature/runtime/testing/test_plugins.hpp"
 
 namespace armature::sim::marked_head {
 namespace {
 
-ComponentBench::Options head_with(const std::string& params) {
+ComponentHarness::Options head_with(const std::string& params) {
   return {
       .component = "{plugin: sim/marked_head, params: {" + params + "}}", .robot = {}, .rig = {}};
 }
@@ -20,9 +20,9 @@ std::string refusal(const std::string& params) {
 }
 
 TEST(MarkedHeadComponentTest, TellsPlanMarkersAndTruthOnce) {
-  ComponentBench head{built_plugins(),
-                      head_with("head_mm: [100, 200, 300], head_rpy_deg: [0, 0, 90], "
-                                "marker_error_mm: 0, spurious_points: 0")};
+  ComponentHarness head{built_plugins(),
+                        head_with("head_mm: [100, 200, 300], head_rpy_deg: [0, 0, 90], "
+                                  "marker_error_mm: 0, spurious_points: 0")};
   head.step(0.1);
   const auto plans = head.take<msg::NeedlePlan>("plan");
   ASSERT_EQ(plans.size(), 1u);

@@ -11,9 +11,9 @@ std::optional<std::string> LineOfSight::obstacle(double elapsed_s, double distan
   for (std::size_t i = 0; i < hidden_s.size(); i += 2) {
     if (elapsed_s >= hidden_s[i] && elapsed_s < hidden_s[i + 1]) return "its spheres are hidden";
   }
-  if (distance_m < nearest_m || distance_m > farthest_m) {
+  if (distance_m < min_distance_m || distance_m > max_distance_m) {
     return fmt::format("it is {:.0f} mm away, the tracker sees from {:g} to {:g} mm",
-                       1e3 * distance_m, 1e3 * nearest_m, 1e3 * farthest_m);
+                       1e3 * distance_m, 1e3 * min_distance_m, 1e3 * max_distance_m);
   }
   return std::nullopt;
 }

@@ -8,7 +8,8 @@ namespace armature::sim::optical_tracker {
 namespace {
 
 TEST(LineOfSight, IsFreeBetweenTheTimesAndWithinTheRange) {
-  const LineOfSight sight{.nearest_m = 0.95, .farthest_m = 2.4, .hidden_s = {1, 2, 5, 5.5}};
+  const LineOfSight sight{
+      .min_distance_m = 0.95, .max_distance_m = 2.4, .hidden_s = {1, 2, 5, 5.5}};
   for (const double free_s : {0.0, 0.99, 2.0, 4.9, 5.5, 100.0}) {
     EXPECT_FALSE(sight.obstacle(free_s, 1.5)) << free_s;
   }

@@ -35,7 +35,9 @@ LineOfSight sight_of(const Parameters& parameters, const std::vector<double>& hi
   if (const auto wrong = defect(hidden_s)) {
     params.refuse({name}, fmt::format("'{}': {}", name, *wrong));
   }
-  return {.nearest_m = parameters.nearest, .farthest_m = parameters.farthest, .hidden_s = hidden_s};
+  return {.min_distance_m = parameters.min_distance,
+          .max_distance_m = parameters.max_distance,
+          .hidden_s = hidden_s};
 }
 
 std::vector<Eigen::Vector3d> spheres_of(const Parameters& parameters, const Params& params) {

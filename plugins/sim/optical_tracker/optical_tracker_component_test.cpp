@@ -9,7 +9,7 @@
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/sensor_msgs.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
-#include "armature/runtime/testing/component_bench.hpp"
+#include "armature/runtime/testing/component_harness.hpp"
 #include "armature/runtime/testing/test_plugins.hpp"
 
 namespace armature::sim::optical_tracker {
@@ -20,7 +20,7 @@ using Eigen::Vector3d;
 
 config::Node med7_file() { return config::load(ARMATURE_SOURCE_DIR "/configs/robots/med7.yaml"); }
 
-ComponentBench::Options tracker_with(const std::string& params) {
+ComponentHarness::Options tracker_with(const std::string& params) {
   return {.component = "{plugin: sim/optical_tracker, params: {" + params + "}}",
           .robot = med7_file(),
           .rig = {}};
@@ -29,7 +29,7 @@ ComponentBench::Options tracker_with(const std::string& params) {
 class OpticalTrackerTest : public testing::Test {
  protected:
   void make(const std::string& params) {
-    room_ = std::make_unique<ComponentBench>(built_plugins(), tracker_with(params));
+    room_ = std::make_unique<ComponentHarness>(built_plugins(), tracker_with(params));
     sent_s_ = 0;
   }
   /// Made, and the tracker's clock begins.
@@ -48,7 +48,7 @@ class OpticalTrackerTest : public testing::Test {
     for (; sent_s_ <= t_s + 1e-9; sent_s_ += 0.001) {
       msg::JointState state;
       write_header(state.header_(), Time{} + seconds(sent_s_), "base");
-      const JointVector all = robot_.expand(arm_at(sent_s_));
+      const JointVector all = robot_.to_all(arm_at(sent_s_));
       state.position_().assign(all.begin(), all.end());
       room_->send("measured_js", state);
     }
@@ -67,7 +67,7 @@ class OpticalTrackerTest : public testing::Test {
 
   const RobotModel robot_ = load_robot_model(ARMATURE_SOURCE_DIR "/configs/robots/med7.yaml");
   double sent_s_ = 0;
-  std::unique_ptr<ComponentBench> room_;
+  std::unique_ptr<ComponentHarness> room_;
 };
 
 TEST_F(OpticalTrackerTest, TellsPlanMarkersAndTruthOnce) {
@@ -125,7 +125,7 @@ TEST_F(OpticalTrackerTest, BeforeItIsMountedTheDrillIsTurnedAboutItsTip) {
 }
 
 TEST_F(OpticalTrackerTest, SaysWhyABodyIsNotSeen) {
-  start("pivot_s: 0, jaw_hidden_s: [0, 1], flange_hidden_s: [2, 3], nearest_mm: 500");
+  start("pivot_s: 0, jaw_hidden_s: [0, 1], flange_hidden_s: [2, 3], min_distance_mm: 500");
   look(0.5);
   EXPECT_TRUE(last("flange").valid_());
   EXPECT_FALSE(last("jaw").valid_());
@@ -136,7 +136,7 @@ TEST_F(OpticalTrackerTest, SaysWhyABodyIsNotSeen) {
   EXPECT_FALSE(flange.valid_());
   EXPECT_EQ(flange.reason_(), "its spheres are hidden");
   EXPECT_TRUE(last("jaw").valid_());
-  make("pivot_s: 0, farthest_mm: 1000, nearest_mm: 500");
+  make("pivot_s: 0, max_distance_mm: 1000, min_distance_mm: 500");
   room_->step(0);
   room_->step(0.6);
   EXPECT_NE(last("jaw").reason_().find("mm away, the tracker sees from 500 to 1000 mm"),
@@ -166,8 +166,8 @@ TEST_F(OpticalTrackerTest, WhatIsNoRoomIsRefused) {
   EXPECT_EQ(refusal("spheres_mm: [1, 2, 3]"),
             "bench:1:59: 'spheres_mm' has 3 numbers; three for each of at least three spheres are "
             "needed");
-  EXPECT_EQ(refusal("nearest_mm: 2500"),
-            "bench:1:59: 'nearest_mm' is 2500, not below 'farthest_mm', which is 2400: no body "
+  EXPECT_EQ(refusal("min_distance_mm: 2500"),
+            "bench:1:59: 'min_distance_mm' is 2500, not below 'max_distance_mm', which is 2400: no body "
             "would be seen");
   EXPECT_EQ(refusal("spheres_mm: [0, 0, 0, 10, 10, 0, 30, 30, 0]"),
             "bench:1:59: 'spheres_mm' lie nearly on one line, about which nobody could see the "

@@ -12,7 +12,7 @@
 namespace armature::sim::photo_scene {
 
 inline const StereoCamera kDrawnCamera{
-    .width = 1280, .height = 720, .focal_px = 914, .cu = 639.5, .cv = 359.5, .baseline_m = 0.12};
+    .width = 1280, .height = 720, .focal_px = 914, .cx = 639.5, .cy = 359.5, .baseline_m = 0.12};
 
 struct DrawnPair {
   Picture left, right;

@@ -56,9 +56,9 @@ msg::CameraInfo camera_info(const StereoCamera& camera, double offset_m) {
   info.height_(static_cast<std::uint32_t>(camera.height));
   info.distortion_model_("plumb_bob");
   info.d_().assign(5, 0.0);
-  info.k_(std::array<double, 9>{f, 0, camera.cu, 0, f, camera.cv, 0, 0, 1});
+  info.k_(std::array<double, 9>{f, 0, camera.cx, 0, f, camera.cy, 0, 0, 1});
   info.r_(std::array<double, 9>{1, 0, 0, 0, 1, 0, 0, 0, 1});
-  info.p_(std::array<double, 12>{f, 0, camera.cu, -f * offset_m, 0, f, camera.cv, 0, 0, 0, 1, 0});
+  info.p_(std::array<double, 12>{f, 0, camera.cx, -f * offset_m, 0, f, camera.cy, 0, 0, 0, 1, 0});
   return info;
 }
 

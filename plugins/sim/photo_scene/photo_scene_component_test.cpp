@@ -8,7 +8,7 @@
 #include "armature/kinds/joint_messages.hpp"
 #include "armature/kinds/target/target_messages.hpp"
 #include "armature/messages/sensor_msgs.hpp"
-#include "armature/runtime/testing/component_bench.hpp"
+#include "armature/runtime/testing/component_harness.hpp"
 #include "armature/runtime/testing/test_plugins.hpp"
 
 namespace armature::sim::photo_scene {
@@ -27,7 +27,7 @@ config::Node small_rig(const std::string& mount = "tool") {
       "rig.yaml");
 }
 
-ComponentBench::Options scene_with(const std::string& params) {
+ComponentHarness::Options scene_with(const std::string& params) {
   return {.component = "{plugin: sim/photo_scene, params: {" + params + "}}",
           .robot = config::load(kLamp),
           .rig = small_rig()};
@@ -57,13 +57,13 @@ class PhotoSceneComponentTest : public testing::Test {
   }
 
   const RobotModel lamp_ = load_robot_model(kLamp);
-  ComponentBench scene_{built_plugins(), scene_with("noise: 0, move_at_s: 1, move_duration_s: 2, "
-                                                    "move_mm: [0, 100, 0]")};
+  ComponentHarness scene_{built_plugins(), scene_with("noise: 0, move_at_s: 1, move_duration_s: 2, "
+                                                      "move_mm: [0, 100, 0]")};
 };
 
 TEST_F(PhotoSceneComponentTest, RunsAtItsRate) {
   EXPECT_EQ(scene_.period(), seconds(0.1));
-  const ComponentBench fast{built_plugins(), scene_with("rate_hz: 25")};
+  const ComponentHarness fast{built_plugins(), scene_with("rate_hz: 25")};
   EXPECT_EQ(fast.period(), seconds(0.04));
 }
 
@@ -152,7 +152,7 @@ TEST_F(PhotoSceneComponentTest, IsDegradedByAJointStateThatIsNoneUntilAGoodOneCo
     scene_.send("measured_js", bad);
     scene_.step(t_s);
     EXPECT_TRUE(pictures().empty());
-    EXPECT_EQ(scene_.status().state, Voice::State::degraded);
+    EXPECT_EQ(scene_.status().state, StatusReporter::State::degraded);
     return scene_.status().reason;
   };
   EXPECT_EQ(trouble(1, {1, 2}), "measured_js: 2 joint values; dental_lamp has 6 joints");
@@ -160,14 +160,14 @@ TEST_F(PhotoSceneComponentTest, IsDegradedByAJointStateThatIsNoneUntilAGoodOneCo
             "measured_js: 99 joint values; dental_lamp has 6 joints");
   EXPECT_EQ(trouble(3, {NAN, 0, 0, 0, 0, 0}), "measured_js: j1 = nan is not a number");
   picture(4);
-  EXPECT_EQ(scene_.status().state, Voice::State::ok);
+  EXPECT_EQ(scene_.status().state, StatusReporter::State::ok);
 }
 
 TEST(PhotoSceneComponent, DoesNotStartWithAFrameOrAPhotoThatIsNotThere) {
-  const auto refusal = [](const ComponentBench::Options& options) {
+  const auto refusal = [](const ComponentHarness::Options& options) {
     return refusal_of(built_plugins(), options);
   };
-  ComponentBench::Options lost = scene_with("");
+  ComponentHarness::Options lost = scene_with("");
   lost.rig = small_rig("elbow");
   EXPECT_EQ(refusal(lost),
             "the rig 'small' is mounted on 'elbow', which is no frame of the robot 'dental_lamp'");

@@ -26,7 +26,7 @@ constexpr double kDegree = std::numbers::pi / 180;
 constexpr const char* kAstronaut =
     "/usr/lib/python3/dist-packages/imageio/resources/images/astronaut.png";
 const StereoCamera kCamera{
-    .width = 640, .height = 480, .focal_px = 500, .cu = 319.5, .cv = 239.5, .baseline_m = 0.12};
+    .width = 640, .height = 480, .focal_px = 500, .cx = 319.5, .cy = 239.5, .baseline_m = 0.12};
 
 Photo flat_photo(std::uint8_t grey) {
   Photo photo{.image = {.width = 400, .height = 500, .pixels = {}},

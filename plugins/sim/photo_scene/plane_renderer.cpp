@@ -94,7 +94,7 @@ void PlaneRenderer::render(const Eigen::Isometry3d& camera_T_photo, const Stereo
   const bool seen_from_front = camera_T_photo.linear().col(2).dot(mouth) > 0;
   if (seen_from_front) {
     Eigen::Matrix3d intrinsics, camera_G_photo;  // camera_G_photo: pixel (u, v, 1) -> a point
-    intrinsics << camera.focal_px, 0, camera.cu, 0, camera.focal_px, camera.cv, 0, 0, 1;
+    intrinsics << camera.focal_px, 0, camera.cx, 0, camera.focal_px, camera.cy, 0, 0, 1;
     camera_G_photo << camera_T_photo.linear().leftCols<2>() * m_per_px_, mouth;
     camera_G_photo.col(2) -= camera_G_photo.leftCols<2>() * mouth_;
     const Eigen::Matrix3d image_H_photo = intrinsics * camera_G_photo;

@@ -32,7 +32,7 @@ Expected<JointVector> joints_of_held_arm(const RobotModel& model, const ToolPose
       }
       return q;
     }
-    const JointVector step = missing.least_step();
+    const JointVector step = missing.min_step();
     if (!step.allFinite() || step.cwiseAbs().maxCoeff() > kLargestStep) break;
     q += step;
   }

@@ -8,7 +8,7 @@
 #include "armature/messages/geometry.hpp"
 #include "armature/messages/header.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
-#include "armature/runtime/testing/component_bench.hpp"
+#include "armature/runtime/testing/component_harness.hpp"
 #include "armature/runtime/testing/test_plugins.hpp"
 
 namespace armature::sim::surgeon {
@@ -16,7 +16,7 @@ namespace {
 
 const std::string kMaster = ARMATURE_SOURCE_DIR "/configs/robots/master.yaml";
 
-ComponentBench::Options surgeon_with(const std::string& params) {
+ComponentHarness::Options surgeon_with(const std::string& params) {
   return {.component = "{plugin: sim/surgeon, params: {" + params + "}}",
           .robot = config::load(kMaster),
           .rig = {}};
@@ -41,7 +41,7 @@ class SurgeonTest : public testing::Test {
     for (int i = 0; i < count; ++i) bench_->step(now_s_ += 0.001);
   }
   Eigen::Isometry3d hand_at(const msg::JointState& message) const {
-    return forward_kinematics(master_, master_.contract(message.position_()).value());
+    return forward_kinematics(master_, master_.to_independent(message.position_()).value());
   }
 
   const RobotModel master_ = load_robot_model(kMaster);
@@ -50,7 +50,7 @@ class SurgeonTest : public testing::Test {
     q << 0.7898, 1.1733, 0.1666349, 0.4488, -0.3927, 0.5236;
     return q;
   }();
-  std::optional<ComponentBench> bench_;
+  std::optional<ComponentHarness> bench_;
   double now_s_ = 7;
 };
 
@@ -74,7 +74,7 @@ TEST_F(SurgeonTest, TakesTheMasterWhenItIsAlignedAndNotBefore) {
   steps(1);
   const auto hand = bench_->take<msg::JointState>("hand_js");
   ASSERT_EQ(hand.size(), 1u);
-  EXPECT_LT((master_.contract(hand[0].position_()).value() - q_).norm(), 1e-12);
+  EXPECT_LT((master_.to_independent(hand[0].position_()).value() - q_).norm(), 1e-12);
   EXPECT_EQ(stamp_of(hand[0].header_().stamp_()), Time{} + seconds(now_s_));
   EXPECT_FALSE(bench_->take<msg::Bool>("clutch").back().data_());
   steps(500);
@@ -111,7 +111,7 @@ TEST_F(SurgeonTest, AHandThatTheMasterCannotFollowStops) {
   const auto hand = bench_->take<msg::JointState>("hand_js");
   EXPECT_GT(hand.size(), 50u);
   for (const auto& state : hand) {
-    ASSERT_TRUE(master_.within_limits(master_.contract(state.position_()).value()));
+    ASSERT_TRUE(master_.within_limits(master_.to_independent(state.position_()).value()));
   }
   EXPECT_EQ(hand.back().velocity_(), std::vector<double>(6, 0.0));
 }

@@ -62,7 +62,7 @@ void add_process_noise(Matrix12& covariance, int block, double dt, double rate,
 }
 
 /// The covariances of position and normal. Along the normal, where a direction has none, it takes
-/// what it has across, so that the length that noise seems to give a direction is no surprise.
+/// what it has across, so that the length that noise seems to give a direction is no nis.
 Matrix6 measurement_noise(const TargetMeasurement& m) {
   Matrix6 r = kMinVariance * Matrix6::Identity();
   r.topLeftCorner<3, 3>() += m.position_covariance;
@@ -133,7 +133,7 @@ struct Memory {
   static constexpr auto kLayout = layout_id("target/constant_velocity", 1);
   Time stamp;
   int measurements, rejected;
-  double surprise;
+  double nis;
   bool moving;
   std::array<double, 12> mean;
   std::array<double, 144> covariance;
@@ -145,8 +145,8 @@ struct Memory {
 struct ConstantVelocity::Belief {
   Time stamp;
   int measurements = 1;
-  int rejected = 0;     // in a row
-  double surprise = 1;  // smoothed normalised innovation: about 1 while the model holds
+  int rejected = 0;  // in a row
+  double nis = 1;    // smoothed normalised innovation: about 1 while the model holds
   bool moving = false;
   Vector12 mean = Vector12::Zero();
   Matrix12 covariance = Matrix12::Zero();
@@ -157,7 +157,7 @@ struct ConstantVelocity::Belief {
     return Belief{m->stamp,
                   m->measurements,
                   m->rejected,
-                  m->surprise,
+                  m->nis,
                   m->moving,
                   Eigen::Map<const Vector12>{m->mean.data()},
                   Eigen::Map<const Matrix12>{m->covariance.data()}};
@@ -166,7 +166,7 @@ struct ConstantVelocity::Belief {
     Memory m{.stamp = stamp,
              .measurements = measurements,
              .rejected = rejected,
-             .surprise = surprise,
+             .nis = nis,
              .moving = moving,
              .mean = {},
              .covariance = {}};
@@ -253,11 +253,11 @@ Expected<ConstantVelocity::Belief> ConstantVelocity::updated(const TargetMeasure
     return started_at(measurement);
   }
 
-  const double surprise = innovation_of(still).normalised / kDegreesOfFreedom;
-  const double smoothed = belief.surprise + kSmoothing * (surprise - belief.surprise);
+  const double nis = innovation_of(still).normalised / kDegreesOfFreedom;
+  const double smoothed = belief.nis + kSmoothing * (nis - belief.nis);
   const bool is_moving =
       belief.moving ? smoothed > kSettledSurprise || has_rates(belief.mean, belief.covariance)
-                    : smoothed > parameters_.surprise;
+                    : smoothed > parameters_.max_still_nis;
 
   Belief next = is_moving ? moving : still;
   const Innovation i = innovation_of(next);
@@ -268,7 +268,7 @@ Expected<ConstantVelocity::Belief> ConstantVelocity::updated(const TargetMeasure
   next.mean.segment<3>(kNormal).normalize();
   next.stamp = measurement.stamp;
   next.rejected = 0;
-  next.surprise = smoothed;
+  next.nis = smoothed;
   next.moving = is_moving;
   ++next.measurements;
   return next;

@@ -47,13 +47,13 @@ void Biopsy::see_head(const NeedleLine& plan) {
 
 void Biopsy::see_registration(const RegisteredHead& head) {
   if (phase_ != Phase::registering) return;
-  if (head.fiducial_error_m > parameters_.most_fiducial_error) {
+  if (head.fiducial_error_m > parameters_.max_fre) {
     return refuse(fmt::format("the markers fit to {:.2f} mm rms, {:g} mm are allowed",
-                              1e3 * head.fiducial_error_m, 1e3 * parameters_.most_fiducial_error));
+                              1e3 * head.fiducial_error_m, 1e3 * parameters_.max_fre));
   }
-  if (!(head.target_error95_m <= parameters_.most_target_error)) {
+  if (!(head.target_error95_m <= parameters_.max_tre)) {
     return refuse(fmt::format("the target is known to {:.2f} mm (95 %), {:g} mm are required",
-                              1e3 * head.target_error95_m, 1e3 * parameters_.most_target_error));
+                              1e3 * head.target_error95_m, 1e3 * parameters_.max_tre));
   }
   const NeedleLine line = moved(plan_, head.robot_T_image);
   if (!((line.target - line.entry).norm() > 0)) return refuse("entry and target are one point");

@@ -34,7 +34,7 @@ NeedleLine moved(const NeedleLine& line, const Eigen::Affine3d& robot_T_image);
 /// to that of the arm at home as that leaves it.
 ToolPose pose_at_target(const NeedleLine& line, const RobotModel& robot);
 
-/// The story of one biopsy. Everything it knows comes in through the `see` and `hear` calls.
+/// The scenario of one biopsy. Everything it knows comes in through the `see` and `hear` calls.
 class Biopsy {
  public:
   enum class Phase { waiting, registering, inserting, at_target, refused };

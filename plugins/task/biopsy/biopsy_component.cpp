@@ -78,7 +78,7 @@ class BiopsyComponent final : public Component {
 
   void tell(const msg::RegistrationResponse& response) {
     const auto& used = response.used_();
-    say(fmt::format("{} of {} markers fit to {:.2f} mm, the target is known to {:.2f} mm (95 %)",
+    log(fmt::format("{} of {} markers fit to {:.2f} mm, the target is known to {:.2f} mm (95 %)",
                     std::count(used.begin(), used.end(), true), used.size(), 1e3 * response.fre_(),
                     1e3 * response.targets_().front().error_95_()));
   }
@@ -94,7 +94,7 @@ class BiopsyComponent final : public Component {
 
   void publish_state(Time now) {
     const TaskReport report{.state = to_string(task_.phase()), .detail = task_.trouble()};
-    if (state_.publish(now, report, report.line())) say(report.line());
+    if (state_.publish(now, report, report.line())) log(report.line());
   }
 
   Parameters parameters_;

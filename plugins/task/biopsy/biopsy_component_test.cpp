@@ -5,7 +5,7 @@
 
 #include "armature/kinds/zone_messages.hpp"
 #include "armature/messages/header.hpp"
-#include "armature/runtime/testing/component_bench.hpp"
+#include "armature/runtime/testing/component_harness.hpp"
 #include "armature/runtime/testing/test_plugins.hpp"
 
 namespace armature::task::biopsy {
@@ -44,7 +44,7 @@ class BiopsyComponentTest : public testing::Test {
     return response;
   }
 
-  ComponentBench task_{
+  ComponentHarness task_{
       built_plugins(),
       {.component = "{plugin: task/biopsy}",
        .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/sr1_needle.yaml"),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The story of a biopsy, without topics.
+// The scenario of a biopsy, without topics.
 #include "biopsy.hpp"
 
 #include <gtest/gtest.h>

@@ -19,15 +19,15 @@ class BottomWatch {
   BottomWatch(const GuidedChain& chain, const std::vector<Eigen::Isometry3d>& image_T_sites);
 
   void see(const Eigen::Isometry3d& base_T_flange);
-  /// Of the first `sites`, the one that was missed by most, when that is more than `most_m`: "the
+  /// Of the first `sites`, the one that was missed by most, when that is more than `max_m`: "the
   /// drill came no nearer than 3.13 mm to the bottom of site 2, 0.3 mm are allowed"; or nullopt.
-  std::optional<std::string> missed(std::size_t sites, double most_m) const;
+  std::optional<std::string> missed(std::size_t sites, double max_m) const;
 
  private:
   Eigen::Vector3d flange_tip_ = Eigen::Vector3d::Zero();
   struct Bottom {
     Eigen::Vector3d point;  // in the base frame
-    double nearest_m;
+    double min_distance_m;
   };
   std::vector<Bottom> bottoms_;
 };

@@ -20,7 +20,7 @@ bool moved(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to) {
 }  // namespace
 
 CalibrationRun::CalibrationRun(const Parameters& parameters, const RobotModel& robot)
-    : parameters_{parameters}, watch_{"the flange", seconds(parameters.patience)} {
+    : parameters_{parameters}, watch_{"the flange", seconds(parameters.timeout)} {
   for (const JointVector& q :
        calibration_poses(robot, parameters.calibration_poses, parameters.calibration_spread)) {
     const Eigen::Isometry3d base_T_tool = forward_kinematics(robot, q);
@@ -62,9 +62,9 @@ void CalibrationRun::leave_out(const std::string& why) {
   left_out_ = fmt::format("pose {}: {}", number(), why);
   next();
   const int most = static_cast<int>(poses_.size()) + count() - at_;
-  if (most < parameters_.least_poses) {
+  if (most < parameters_.min_poses) {
     trouble_ = fmt::format("{} of {} poses at most, {} are needed; {}", most, count(),
-                           parameters_.least_poses, left_out_);
+                           parameters_.min_poses, left_out_);
   }
 }
 

@@ -49,7 +49,7 @@ class CalibrationRunTest : public testing::Test {
   void wait(double for_s) { run_.update(calibration_time(now_s_ += for_s)); }
 
   double now_s_ = 1;
-  CalibrationRun run_{{.calibration_poses = 4, .least_poses = 3, .samples_per_pose = 2}, arm()};
+  CalibrationRun run_{{.calibration_poses = 4, .min_poses = 3, .samples_per_pose = 2}, arm()};
 };
 
 TEST_F(CalibrationRunTest, AveragesTheSamplesAtEveryPose) {

@@ -20,9 +20,9 @@ Implant::Implant(const Parameters& parameters, const RobotModel& robot,
     : parameters_{parameters},
       flange_T_file_tool_{flange_T_file_tool},
       calibration_{parameters, robot},
-      drill_watch_{"the drill in the hand", seconds(parameters.patience)},
-      flange_watch_{"the flange", seconds(parameters.patience)},
-      jaw_watch_{"the jaw", seconds(parameters.patience)} {
+      drill_watch_{"the drill in the hand", seconds(parameters.timeout)},
+      flange_watch_{"the flange", seconds(parameters.timeout)},
+      jaw_watch_{"the jaw", seconds(parameters.timeout)} {
   chain_.flange_R_tool = flange_T_file_tool.linear();
 }
 
@@ -75,16 +75,16 @@ void Implant::see_jaw(const Sighting& sighting) {
 
 int Implant::jaw_block() const { return std::clamp(parameters_.jaw_samples / 2, 1, kJawSamples); }
 
-double Implant::most_moved(const Isometry3d& tracker_T_jaw, const Isometry3d& from) const {
-  double most_m = 0;
+double Implant::max_moved(const Isometry3d& tracker_T_jaw, const Isometry3d& from) const {
+  double max_m = 0;
   for (const Isometry3d& site : sites_) {
     for (const double above_m : {0.0, parameters_.depth}) {
       const Eigen::Vector3d point =
           chain_.patient_T_image * (site * Eigen::Vector3d{0, 0, -above_m});
-      most_m = std::max(most_m, (tracker_T_jaw * point - from * point).norm());
+      max_m = std::max(max_m, (tracker_T_jaw * point - from * point).norm());
     }
   }
-  return most_m;
+  return max_m;
 }
 
 /// A jaw that moves meanwhile is no noise, which a mean would take down.
@@ -95,19 +95,19 @@ void Implant::locate_jaw(const Isometry3d& tracker_T_jaw) {
   const Isometry3d now = jaw_now_.mean();
   jaw_now_.clear();
   if (!jaw_first_) jaw_first_ = now;
-  const double moved_m = most_moved(now, *jaw_first_);
-  if (moved_m <= parameters_.most_jaw_motion) return;
+  const double moved_m = max_moved(now, *jaw_first_);
+  if (moved_m <= parameters_.max_jaw_motion) return;
   refuse(fmt::format("the jaw moved by {:.2f} mm while its place was averaged, {:g} mm are allowed",
-                     1e3 * moved_m, 1e3 * parameters_.most_jaw_motion));
+                     1e3 * moved_m, 1e3 * parameters_.max_jaw_motion));
 }
 
 /// Against where the jaw was when the way was worked out.
 void Implant::guard_jaw() {
-  const double moved_m = most_moved(jaw_now_.mean(), chain_.tracker_T_patient);
+  const double moved_m = max_moved(jaw_now_.mean(), chain_.tracker_T_patient);
   jaw_now_.clear();
-  if (moved_m <= parameters_.most_jaw_motion) return;
+  if (moved_m <= parameters_.max_jaw_motion) return;
   refuse(fmt::format("the jaw has moved by {:.2f} mm, {:g} mm are allowed", 1e3 * moved_m,
-                     1e3 * parameters_.most_jaw_motion));
+                     1e3 * parameters_.max_jaw_motion));
 }
 
 void Implant::hear(const GoalReport& report, Time now) {
@@ -164,9 +164,9 @@ void Implant::update(Time now) {
 void Implant::finish_pivot(Time now) {
   const auto pivot = calibrate_pivot(pivot_poses_);
   if (!pivot) return refuse("pivot: " + pivot.error().text);
-  if (pivot->residual_rms_m > parameters_.most_pivot_residual) {
+  if (pivot->residual_rms_m > parameters_.max_pivot_rms) {
     return refuse(fmt::format("pivot: the tip stood still to {:.2f} mm rms, {:g} mm are allowed",
-                              1e3 * pivot->residual_rms_m, 1e3 * parameters_.most_pivot_residual));
+                              1e3 * pivot->residual_rms_m, 1e3 * parameters_.max_pivot_rms));
   }
   pivot_ = *pivot;
   chain_.tip = pivot_.tip;
@@ -186,10 +186,9 @@ void Implant::go_on_calibrating() {
 void Implant::finish_calibration(Time now) {
   const auto found = calibrate_hand_eye(calibration_.poses());
   if (!found) return refuse("hand-eye: " + found.error().text);
-  if (found->residual_rms_m > parameters_.most_hand_eye_residual) {
+  if (found->residual_rms_m > parameters_.max_hand_eye_rms) {
     return refuse(fmt::format("hand-eye: the poses fit to {:.2f} mm rms, {:g} mm are allowed",
-                              1e3 * found->residual_rms_m,
-                              1e3 * parameters_.most_hand_eye_residual));
+                              1e3 * found->residual_rms_m, 1e3 * parameters_.max_hand_eye_rms));
   }
   hand_eye_ = *found;
   chain_.flange_T_body = hand_eye_.flange_T_body;
@@ -208,9 +207,9 @@ void Implant::see_registration(const RegisteredJaw& jaw, Time now) {
     return refuse(fmt::format("the registration tells the error of {} sites, the plan has {}",
                               jaw.sites.size(), sites_.size()));
   }
-  if (!(jaw.fiducial_error_m <= parameters_.most_fiducial_error)) {
+  if (!(jaw.fiducial_error_m <= parameters_.max_fre)) {
     return refuse(fmt::format("the markers fit to {:.2f} mm rms, {:g} mm are allowed",
-                              1e3 * jaw.fiducial_error_m, 1e3 * parameters_.most_fiducial_error));
+                              1e3 * jaw.fiducial_error_m, 1e3 * parameters_.max_fre));
   }
   news_.push_back(
       fmt::format("registration: the markers fit to {:.2f} mm", 1e3 * jaw.fiducial_error_m));
@@ -227,9 +226,9 @@ void Implant::finish_locating(Time now) {
     const ErrorForecast& forecast = forecasts_.emplace_back(
         forecast_at(sites_[i], chain_, pivot_, hand_eye_, jaw_, registered_.sites[i]));
     worst_m = std::max(worst_m, forecast.bound95_m());
-    if (!(forecast.bound95_m() <= parameters_.most_site_error)) {
+    if (!(forecast.bound95_m() <= parameters_.max_tre)) {
       return refuse(fmt::format("site {} is known to {:.2f} mm (95 %), {:g} mm are required", i + 1,
-                                1e3 * forecast.bound95_m(), 1e3 * parameters_.most_site_error));
+                                1e3 * forecast.bound95_m(), 1e3 * parameters_.max_tre));
     }
   }
   news_.push_back(fmt::format("the worst of {} sites is known to {:.2f} mm (95 %)", sites_.size(),
@@ -245,7 +244,7 @@ void Implant::go_on_drilling(Time now) {
   if (way_.bores[bore_].ends_at_bottom && now - goal_.done_at() < seconds(parameters_.dwell)) {
     return;
   }
-  const auto missed = bottoms_.missed(way_.bores[bore_].sites, parameters_.most_bottom_error);
+  const auto missed = bottoms_.missed(way_.bores[bore_].sites, parameters_.max_bottom_error);
   if (missed) return refuse(*missed);
   if (++bore_ == way_.bores.size()) return enter(Phase::drilled, now);
   goal_.set_once(way_.bores[bore_].goal);

@@ -24,7 +24,7 @@ struct RegisteredJaw {
   std::vector<RegisteredSite> sites;
 };
 
-/// The story of a drilling: the drill's tip is found (pivot), where tracker and body are
+/// The scenario of a drilling: the drill's tip is found (pivot), where tracker and body are
 /// (hand-eye), how the image lies in the jaw (registration), where the jaw is (tracker), and then
 /// the drill goes through all sites. Everything it knows comes in through the `see` and `hear`
 /// calls.
@@ -82,12 +82,12 @@ class Implant {
   void finish_calibration(Time now);
   void finish_locating(Time now);
   void go_on_drilling(Time now);
-  /// How many samples are averaged before they are held against `most_jaw_motion_m`.
+  /// How many samples are averaged before they are held against `max_jaw_motion_m`.
   int jaw_block() const;
   void locate_jaw(const Eigen::Isometry3d& tracker_T_jaw);
   void guard_jaw();
   /// By how much a jaw has moved [m] at the ends of the bores, where that is most.
-  double most_moved(const Eigen::Isometry3d& tracker_T_jaw, const Eigen::Isometry3d& from) const;
+  double max_moved(const Eigen::Isometry3d& tracker_T_jaw, const Eigen::Isometry3d& from) const;
   /// For good; an arm that is on its way holds.
   void refuse(const std::string& why);
 

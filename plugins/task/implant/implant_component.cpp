@@ -100,7 +100,7 @@ class ImplantComponent final : public Component {
       write_goal(*goal, now, *loan);
       loan.publish();
     }
-    for (const std::string& line : task_.take_news()) say(line);
+    for (const std::string& line : task_.take_news()) log(line);
     publish_estimate(now);
     publish_state(now);
   }
@@ -174,7 +174,7 @@ class ImplantComponent final : public Component {
                             .step = calibrating ? task_.calibration_pose() : 0,
                             .steps = calibrating ? task_.calibration_poses() : 0,
                             .detail = task_.trouble()};
-    if (state_.publish(now, report, report.line())) say(report.line());
+    if (state_.publish(now, report, report.line())) log(report.line());
   }
 
   Parameters parameters_;

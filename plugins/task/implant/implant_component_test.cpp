@@ -13,7 +13,7 @@
 #include "armature/messages/header.hpp"
 #include "armature/messages/sensor_msgs.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
-#include "armature/runtime/testing/component_bench.hpp"
+#include "armature/runtime/testing/component_harness.hpp"
 #include "armature/runtime/testing/test_plugins.hpp"
 #include "calibration_poses.hpp"
 
@@ -25,10 +25,10 @@ using Eigen::Vector3d;
 
 class ImplantComponentTest : public testing::Test {
  protected:
-  static ComponentBench::Options task(const std::string& robot) {
+  static ComponentHarness::Options task(const std::string& robot) {
     return {.component =
                 "{plugin: task/implant, params: {pivot_s: 0.5, calibration_poses: 6, "
-                "least_poses: 6, samples_per_pose: 1, jaw_samples: 2}}",
+                "min_poses: 6, samples_per_pose: 1, jaw_samples: 2}}",
             .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/" + robot),
             .rig = {}};
   }
@@ -109,7 +109,7 @@ class ImplantComponentTest : public testing::Test {
   std::size_t at_ = 0;  // of poses_, from 1
   std::vector<msg::MotionGoal> goals_;
   msg::TaskState state_;
-  ComponentBench task_{built_plugins(), task("med7.yaml")};
+  ComponentHarness task_{built_plugins(), task("med7.yaml")};
 };
 
 TEST_F(ImplantComponentTest, FindsTheTipAndThenSendsTheArmToThePosesOfItsCalibration) {
@@ -239,10 +239,10 @@ TEST(ImplantParams, ThatContradictEachOtherAreRefused) {
                        .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/med7.yaml"),
                        .rig = {}});
   };
-  EXPECT_EQ(refusal("calibration_poses: 3, least_poses: 12"),
-            "bench:1:75: 'least_poses' is 12, above 'calibration_poses', which is 3");
-  EXPECT_EQ(refusal("least_poses: 12, calibration_poses: 3"),
-            "bench:1:53: 'least_poses' is 12, above 'calibration_poses', which is 3");
+  EXPECT_EQ(refusal("calibration_poses: 3, min_poses: 12"),
+            "bench:1:75: 'min_poses' is 12, above 'calibration_poses', which is 3");
+  EXPECT_EQ(refusal("min_poses: 12, calibration_poses: 3"),
+            "bench:1:53: 'min_poses' is 12, above 'calibration_poses', which is 3");
   const std::string inside =
       "'stand_off_mm' is 20, but the drill goes straight only along the last half of it, and the "
       "bone is 'depth_mm' = 12 deep there; make it at least 24";

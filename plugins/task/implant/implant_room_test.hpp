@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// An operating room without any error, for tests of the story.
+// An operating room without any error, for tests of the scenario.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ inline Eigen::Isometry3d pose(double x, double y, double z, double angle,
 inline Parameters quick(bool stop_at_sites = false) {
   return {.pivot = 0.5,
           .calibration_poses = 8,
-          .least_poses = 6,
+          .min_poses = 6,
           .calibration_spread = 0.45,
           .samples_per_pose = 2,
           .jaw_samples = 5,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The story of a drilling, without topics: 1. from the pivot to the last site, 2. what it does not
-// trust, its arm included, 3. bodies that are not seen, 4. a jaw that moves, 5. a motion that is
-// refused.
+// The scenario of a drilling, without topics: 1. from the pivot to the last site, 2. what it does
+// not trust, its arm included, 3. bodies that are not seen, 4. a jaw that moves, 5. a motion that
+// is refused.
 #include <gtest/gtest.h>
 
 #include <cmath>

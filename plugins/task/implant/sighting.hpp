@@ -20,7 +20,7 @@ struct Sighting {
 class BodyWatch {
  public:
   /// `body` as in "the tracker has not seen the jaw".
-  BodyWatch(std::string body, Duration patience) : body_{std::move(body)}, patience_{patience} {}
+  BodyWatch(std::string body, Duration timeout) : body_{std::move(body)}, patience_{timeout} {}
 
   /// From now on it has to be seen.
   void begin(Time now);

@@ -88,7 +88,7 @@ class LampAlignmentComponent : public Component {
       write_header(loan->header_(), now);
       loan->level_(*level);
       loan.publish();
-      say(fmt::format("light level {:.0f} %", *level * 100));
+      log(fmt::format("light level {:.0f} %", *level * 100));
     }
     if (sent_capture_ == task_.capture()) return;
     sent_capture_ = task_.capture();
@@ -107,7 +107,7 @@ class LampAlignmentComponent : public Component {
                             .step = searching ? task_.view() : 0,
                             .steps = searching ? task_.views() : 0,
                             .detail = task_.trouble()};
-    if (state_.publish(now, report, line)) say(line);
+    if (state_.publish(now, report, line)) log(line);
   }
 
   LampAlignment task_;

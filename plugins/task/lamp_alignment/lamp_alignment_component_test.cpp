@@ -6,7 +6,7 @@
 
 #include "armature/kinds/target/target_messages.hpp"
 #include "armature/robot/model/robot_model.hpp"
-#include "armature/runtime/testing/component_bench.hpp"
+#include "armature/runtime/testing/component_harness.hpp"
 #include "armature/runtime/testing/test_plugins.hpp"
 
 namespace armature::task::lamp_alignment {
@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 
 constexpr double kPeriod_s = 0.02;
 
-ComponentBench::Options task_with(const std::string& params) {
+ComponentHarness::Options task_with(const std::string& params) {
   return {.component = "{plugin: task/lamp_alignment, params: {" + params + "}}",
           .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/dental_lamp.yaml"),
           .rig = {}};
@@ -60,7 +60,7 @@ class LampAlignmentComponentTest : public testing::Test {
     task_.send("motion_status", message);
   }
 
-  ComponentBench task_{built_plugins(), task_with("")};
+  ComponentHarness task_{built_plugins(), task_with("")};
   double now_s_ = 100;
   std::vector<msg::MotionGoal> goals_;
   std::vector<msg::LightLevel> levels_;

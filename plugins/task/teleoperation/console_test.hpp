@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A console, a master and an instrument, for tests of the story.
+// A console, a master and an instrument, for tests of the scenario.
 #pragma once
 
 #include <gtest/gtest.h>

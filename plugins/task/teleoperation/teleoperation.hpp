@@ -22,7 +22,7 @@ struct ConsoleView {
   bool is_whole() const { return slave_T_master && master_T_hand && slave_T_tool; }
 };
 
-/// The story of a master-slave robot. The master comes to the pose of the instrument by itself
+/// The scenario of a master-slave robot. The master comes to the pose of the instrument by itself
 /// (never the other way round, which would move the instrument in the body); then a hand may take
 /// it, and while the clutch is closed the slave follows. Call `see` once a period.
 class Teleoperation {

@@ -37,7 +37,7 @@ class TeleoperationComponent final : public Component {
         state_{setup} {
     setup.activate_every(kPeriod);
     const TremorFilter& filter = task_.filter();
-    say(fmt::format("the slave follows {:.1f} ms behind the hand; 10 Hz is down by {:.1f} dB",
+    log(fmt::format("the slave follows {:.1f} ms behind the hand; 10 Hz is down by {:.1f} dB",
                     1e3 * filter.lag_s(), -20 * std::log10(filter.gain(10))));
   }
 
@@ -98,7 +98,7 @@ class TeleoperationComponent final : public Component {
 
   void publish_state(Time now) {
     const TaskReport report{.state = to_string(task_.phase()), .detail = task_.trouble()};
-    if (state_.publish(now, report, report.line())) say(report.line());
+    if (state_.publish(now, report, report.line())) log(report.line());
   }
 
   Teleoperation task_;

@@ -6,7 +6,7 @@
 #include "armature/messages/geometry.hpp"
 #include "armature/messages/header.hpp"
 #include "armature/motion/pursued_goal.hpp"
-#include "armature/runtime/testing/component_bench.hpp"
+#include "armature/runtime/testing/component_harness.hpp"
 #include "armature/runtime/testing/test_plugins.hpp"
 
 namespace armature::task::teleoperation {
@@ -61,8 +61,8 @@ class TeleoperationComponentTest : public testing::Test {
     step();
   }
 
-  ComponentBench task_{built_plugins(),
-                       {.component = "{plugin: task/teleoperation}", .robot = {}, .rig = {}}};
+  ComponentHarness task_{built_plugins(),
+                         {.component = "{plugin: task/teleoperation}", .robot = {}, .rig = {}}};
   const Eigen::Isometry3d slave_T_master_ =
       Eigen::Translation3d{0.6, 0, 0} * Eigen::AngleAxisd{M_PI / 2, Vector3d::UnitZ()};
   Eigen::Isometry3d slave_T_tool_{Eigen::Translation3d{0.5, 0.1, 0.2}};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The story of a master-slave robot, without topics: 1. the master comes to the instrument, 2. the
-// slave follows while the clutch is closed.
+// The scenario of a master-slave robot, without topics: 1. the master comes to the instrument, 2.
+// the slave follows while the clutch is closed.
 #include "console_test.hpp"
 
 namespace armature::task::teleoperation {

@@ -121,7 +121,7 @@ class WaypointsComponent final : public Component {
     const std::string line = under_way
                                  ? fmt::format("{} {}/{}", report.state, report.step, report.steps)
                                  : report.line();
-    if (state_.publish(now, report, line)) say(line);
+    if (state_.publish(now, report, line)) log(line);
   }
 
   RobotModel robot_;

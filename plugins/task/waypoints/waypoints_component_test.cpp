@@ -6,7 +6,7 @@
 #include "armature/kinds/joint_messages.hpp"
 #include "armature/kinds/tool_pose_messages.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
-#include "armature/runtime/testing/component_bench.hpp"
+#include "armature/runtime/testing/component_harness.hpp"
 #include "armature/runtime/testing/test_plugins.hpp"
 
 namespace armature::task::waypoints {
@@ -16,7 +16,7 @@ using testing::HasSubstr;
 
 const std::string kRobots = ARMATURE_SOURCE_DIR "/configs/robots/";
 
-ComponentBench::Options tour_of(const std::string& robot, const std::string& params) {
+ComponentHarness::Options tour_of(const std::string& robot, const std::string& params) {
   return {.component = "{plugin: task/waypoints, params: {" + params + "}}",
           .robot = config::load(kRobots + robot),
           .rig = {}};
@@ -25,20 +25,20 @@ ComponentBench::Options tour_of(const std::string& robot, const std::string& par
 class WaypointsComponentTest : public testing::Test {
  protected:
   /// The arm of `robot` is told to be at home.
-  static void show_arm(ComponentBench& task, const std::string& robot) {
+  static void show_arm(ComponentHarness& task, const std::string& robot) {
     const RobotModel model = load_robot_model(kRobots + robot);
     msg::JointState measured;
     write_all_joints(model, resting_position(model), JointVector::Zero(model.dof()), Time{},
                      measured);
     task.send("measured_js", measured);
   }
-  msg::MotionGoal next_goal(ComponentBench& task) {
+  msg::MotionGoal next_goal(ComponentHarness& task) {
     task.step(now_s_ += 0.01);
     const auto goals = task.take<msg::MotionGoal>("goal");
     EXPECT_EQ(goals.size(), 1U);
     return goals.empty() ? msg::MotionGoal{} : goals.front();
   }
-  static void report(ComponentBench& task, const msg::MotionGoal& goal, int state,
+  static void report(ComponentHarness& task, const msg::MotionGoal& goal, int state,
                      const std::string& reason = "") {
     msg::MotionStatus status;
     status.goal_id_(goal.goal_id_());
@@ -52,9 +52,9 @@ class WaypointsComponentTest : public testing::Test {
 };
 
 TEST_F(WaypointsComponentTest, ItsGoalsAreTheWaypoints) {
-  ComponentBench task{built_plugins(), tour_of("sr1.yaml",
-                                               "positions_mm: [400, 0, 300, 500, 100, 200], "
-                                               "rpy_deg: [180, 0, 0, 180, 0, 90], rest_s: 0")};
+  ComponentHarness task{built_plugins(), tour_of("sr1.yaml",
+                                                 "positions_mm: [400, 0, 300, 500, 100, 200], "
+                                                 "rpy_deg: [180, 0, 0, 180, 0, 90], rest_s: 0")};
   task.step(now_s_);
   EXPECT_EQ(task.lines().back(), "waiting");
   show_arm(task, "sr1.yaml");
@@ -78,7 +78,8 @@ TEST_F(WaypointsComponentTest, ItsGoalsAreTheWaypoints) {
 TEST_F(WaypointsComponentTest, WithoutRotationsTheToolIsHeldAsAtHome) {
   const RobotModel lamp = load_robot_model(kRobots + "dental_lamp.yaml");
   const auto home = forward_kinematics(lamp, resting_position(lamp));
-  ComponentBench task{built_plugins(), tour_of("dental_lamp.yaml", "positions_mm: [900, 0, 400]")};
+  ComponentHarness task{built_plugins(),
+                        tour_of("dental_lamp.yaml", "positions_mm: [900, 0, 400]")};
   show_arm(task, "dental_lamp.yaml");
   const msg::MotionGoal goal = next_goal(task);
   EXPECT_TRUE(goal.pointing_()) << "the lamp has a pointing axis";
@@ -89,7 +90,7 @@ TEST_F(WaypointsComponentTest, WithoutRotationsTheToolIsHeldAsAtHome) {
 TEST_F(WaypointsComponentTest, TellsHowFarTheToolWasOffByWhatTheArmMeasured) {
   const RobotModel sr1 = load_robot_model(kRobots + "sr1.yaml");
   const Eigen::Vector3d there = 1e3 * forward_kinematics(sr1, resting_position(sr1)).translation();
-  ComponentBench task{
+  ComponentHarness task{
       built_plugins(),
       tour_of("sr1.yaml", "rest_s: 0, positions_mm: [" + std::to_string(there.x() + 0.25) + ", " +
                               std::to_string(there.y()) + ", " + std::to_string(there.z()) + "]")};
@@ -101,7 +102,7 @@ TEST_F(WaypointsComponentTest, TellsHowFarTheToolWasOffByWhatTheArmMeasured) {
 }
 
 TEST_F(WaypointsComponentTest, EndsTheRunWithTheReasonOfAWaypointOutOfReach) {
-  ComponentBench task{built_plugins(), tour_of("sr1.yaml", "positions_mm: [9000, 0, 0]")};
+  ComponentHarness task{built_plugins(), tour_of("sr1.yaml", "positions_mm: [9000, 0, 0]")};
   show_arm(task, "sr1.yaml");
   report(task, next_goal(task), 4, "the goal: out_of_reach");
   task.step(now_s_ += 0.01);

@@ -11,11 +11,11 @@ namespace {
 
 /// Shares of the whole from intervals of any size, none next to nothing.
 std::vector<double> shares(std::vector<double> interval) {
-  constexpr double kLeast = 1e-3;  // of the mean
+  constexpr double kMin = 1e-3;  // of the mean
   const double mean =
       std::accumulate(interval.begin(), interval.end(), 0.0) / static_cast<double>(interval.size());
   double total = 0;
-  for (double& h : interval) total += h = std::max(h, mean > 0 ? kLeast * mean : 1.0);
+  for (double& h : interval) total += h = std::max(h, mean > 0 ? kMin * mean : 1.0);
   std::vector<double> share{0};
   for (const double h : interval) share.push_back(share.back() + h / total);
   share.back() = 1;

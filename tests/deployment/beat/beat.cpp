@@ -22,7 +22,7 @@ class Beat final : public Component {
     setup.activate_every(seconds(0.01));
     throw_in(Parameters::ThrowsIn::construction);
     if (parameters_.construction == 0) return;
-    say("being constructed");
+    log("being constructed");
     std::this_thread::sleep_for(std::chrono::duration<double>{parameters_.construction});
   }
 
@@ -44,7 +44,7 @@ class Beat final : public Component {
     hang_in(Parameters::HangsIn::stop);
     if (parameters_.stop == 0) return;
     std::this_thread::sleep_for(std::chrono::duration<double>{parameters_.stop});
-    say("ended");
+    log("ended");
   }
   bool finished() const override { return parameters_.ends && sent_ == parameters_.beats; }
   void summarize(Summary&) const override {

@@ -24,9 +24,9 @@ class Mover final : public Component {
 
   void step(Time now) override {
     if (!start_) start_ = now;
-    if (!said_) say("moves");
+    if (!said_) log("moves");
     said_ = true;
-    if (parameters_.talks) say(std::to_string(now.ns) + std::string(900, '.'));
+    if (parameters_.talks) log(std::to_string(now.ns) + std::string(900, '.'));
     while (is_over(parameters_.hangs_after, now))
       std::this_thread::sleep_for(std::chrono::seconds{1});
     if (finished_) ++steps_after_;
@@ -34,7 +34,7 @@ class Mover final : public Component {
     if (stop_at_ && !at_rest_) {
       ++steps_to_rest_;
       at_rest_ = now - *stop_at_ >= seconds(parameters_.rest_after);
-      if (at_rest_) say("at rest");
+      if (at_rest_) log("at rest");
     }
     auto loan = beat_.loan();
     set_stamp(loan->header_().stamp_(), now);
@@ -45,10 +45,10 @@ class Mover final : public Component {
   void begin_stop(Time now) override {
     stop_at_ = now;
     at_rest_ = parameters_.rest_after == 0;
-    say("stops");
+    log("stops");
   }
   bool stopped() const override { return at_rest_; }
-  void stop(Time) override { say(at_rest_ ? "ended at rest" : "ended while it moved"); }
+  void stop(Time) override { log(at_rest_ ? "ended at rest" : "ended while it moved"); }
   bool finished() const override { return finished_; }
   void summarize(Summary& summary) const override {
     summary.text("steps_to_rest", "steps until it was at rest", std::to_string(steps_to_rest_));

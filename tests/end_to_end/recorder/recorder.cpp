@@ -92,11 +92,11 @@ class Recorder : public Component {
   }
 
   void write_status(const msg::MotionStatus& status) {
-    const std::pair story{status.goal_id_(), static_cast<int>(status.state_())};
-    if (story == last_story_) return;  // told again every now and then
-    last_story_ = story;
-    goals_file_ << fmt::format("{},{},{}\n", stamp_of(status.header_().stamp_()).ns, story.first,
-                               story.second);
+    const std::pair scenario{status.goal_id_(), static_cast<int>(status.state_())};
+    if (scenario == last_story_) return;  // told again every now and then
+    last_story_ = scenario;
+    goals_file_ << fmt::format("{},{},{}\n", stamp_of(status.header_().stamp_()).ns, scenario.first,
+                               scenario.second);
   }
 
   void write_plan(std::size_t i) {

@@ -20,8 +20,8 @@ class ErrorsOnly final : public eprosima::fastdds::dds::LogConsumer {
     if (entry.kind != Log::Error || !on_error_) return;
     const std::string text =
         "Fast DDS: " + std::string{entry.context.category} + ": " + entry.message;
-    constexpr std::size_t kMostTexts = 100;
-    if (seen_.size() < kMostTexts && seen_.insert(text).second) on_error_(text);
+    constexpr std::size_t kMaxTexts = 100;
+    if (seen_.size() < kMaxTexts && seen_.insert(text).second) on_error_(text);
   }
 
  private:

@@ -93,11 +93,11 @@ std::uint64_t Egress::Queue::dropped() const {
   return dropped_;
 }
 
-bool Egress::Queue::drained(Duration patience) {
+bool Egress::Queue::drained(Duration timeout) {
   std::unique_lock lock{egress_.mutex_};
   ++egress_.waiting_;
   const bool all_sent = egress_.sent_.wait_for(
-      lock, patience, [this] { return size_ == 0 && egress_.sending_ != this; });
+      lock, timeout, [this] { return size_ == 0 && egress_.sending_ != this; });
   --egress_.waiting_;
   return all_sent;
 }

@@ -58,8 +58,8 @@ class Egress::Queue {
   /// one holds while sending.
   void offer(const SampleRef& sample);
   std::uint64_t dropped() const;
-  /// Waits until all that was offered is sent, at most for `patience`; false then.
-  bool drained(Duration patience);
+  /// Waits until all that was offered is sent, at most for `timeout`; false then.
+  bool drained(Duration timeout);
 
  private:
   friend class Egress;

@@ -15,7 +15,7 @@ TEST_F(FastDds, TwoProcessesExchangeSamples) {
   const auto writer = transport->advertise(to_peer_).value();
   const auto reader = transport->subscribe(from_peer_, false, collect()).value();
   const Time before = system_now();
-  ASSERT_TRUE(eventually([&] { return writer->watchers() == 1 && reader->writers() == 1; }));
+  ASSERT_TRUE(eventually([&] { return writer->matched_readers() == 1 && reader->writers() == 1; }));
   ASSERT_TRUE(eventually([&] {
     writer->offer(sample(0.125));
     return received() > 0;
@@ -36,7 +36,7 @@ TEST_F(FastDds, WhoOnlyWatchesIsNoPeer) {
   const auto writer = transport->advertise(to_peer_).value();
   const auto reader = transport->subscribe(from_peer_, false, collect()).value();
   Peer stranger{domain_, "lamp", "beef", "echo"};  // the same name, but started from another file
-  ASSERT_TRUE(eventually([&] { return writer->watchers() == 1 && reader->writers() == 1; }));
+  ASSERT_TRUE(eventually([&] { return writer->matched_readers() == 1 && reader->writers() == 1; }));
   EXPECT_EQ(writer->peers(), 0);
   EXPECT_EQ(reader->peers(), 0);
   Peer peer{domain_, "lamp", "f00d", "echo"};
@@ -57,7 +57,7 @@ TEST_F(FastDds, OwnSamplesDoNotComeBack) {
   }));
   EXPECT_EQ(own, 0);
   EXPECT_EQ(own_reader->writers(), 0);
-  EXPECT_EQ(writer->watchers(), 1);
+  EXPECT_EQ(writer->matched_readers(), 1);
 }
 
 TEST_F(FastDds, NothingIsEncodedWhileNobodyWatches) {
@@ -82,7 +82,7 @@ TEST_F(FastDds, LatchedSamplesReachLateComers) {
       transport->advertise({"rt/test/to_peer", &type_, QosProfile::latched}).value();
   writer->offer(sample(7));
   Peer peer{domain_, "lamp", "f00d", "latched_reader"};
-  EXPECT_TRUE(eventually([&] { return writer->watchers() == 1; }));
+  EXPECT_TRUE(eventually([&] { return writer->matched_readers() == 1; }));
   const auto observer = DdsObserver::make({.domain = domain_}).value();
   std::atomic<int> seen{0};
   ASSERT_TRUE(

@@ -40,9 +40,9 @@ struct FastDdsLink {
   }
 };
 
-Expected<std::unique_ptr<OutsideWriter>> make_fast_dds_writer(std::shared_ptr<FastDdsLink> link,
-                                                              const TopicSpec& topic);
-Expected<std::unique_ptr<OutsideReader>> make_fast_dds_reader(
+Expected<std::unique_ptr<RemoteWriter>> make_fast_dds_writer(std::shared_ptr<FastDdsLink> link,
+                                                             const TopicSpec& topic);
+Expected<std::unique_ptr<RemoteReader>> make_fast_dds_reader(
     std::shared_ptr<FastDdsLink> link, const TopicSpec& topic, bool same_deployment_only,
     std::function<void(SampleRef)> deliver);
 

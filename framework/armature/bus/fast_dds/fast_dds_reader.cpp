@@ -21,7 +21,7 @@ namespace {
 namespace dds = eprosima::fastdds::dds;
 namespace rtps = eprosima::fastrtps::rtps;
 
-class FastDdsReader final : public OutsideReader, private dds::DataReaderListener {
+class FastDdsReader final : public RemoteReader, private dds::DataReaderListener {
  public:
   FastDdsReader(std::shared_ptr<FastDdsLink> link, OwnEndpoint own,
                 std::function<void(SampleRef)> deliver)
@@ -197,7 +197,7 @@ class FastDdsReader final : public OutsideReader, private dds::DataReaderListene
 
 }  // namespace
 
-Expected<std::unique_ptr<OutsideReader>> make_fast_dds_reader(
+Expected<std::unique_ptr<RemoteReader>> make_fast_dds_reader(
     std::shared_ptr<FastDdsLink> link, const TopicSpec& topic, bool same_deployment_only,
     std::function<void(SampleRef)> deliver) {
   auto reader = std::make_unique<FastDdsReader>(

@@ -76,11 +76,11 @@ Expected<std::unique_ptr<Transport>> FastDdsTransport::make(const TransportOptio
   return std::make_unique<FastDdsTransport>(std::move(link));
 }
 
-Expected<std::unique_ptr<OutsideWriter>> FastDdsTransport::advertise(const TopicSpec& topic) {
+Expected<std::unique_ptr<RemoteWriter>> FastDdsTransport::advertise(const TopicSpec& topic) {
   return make_fast_dds_writer(link_, topic);
 }
 
-Expected<std::unique_ptr<OutsideReader>> FastDdsTransport::subscribe(
+Expected<std::unique_ptr<RemoteReader>> FastDdsTransport::subscribe(
     const TopicSpec& topic, bool same_deployment_only, std::function<void(SampleRef)> deliver) {
   return make_fast_dds_reader(link_, topic, same_deployment_only, std::move(deliver));
 }

@@ -20,8 +20,8 @@ class FastDdsTransport final : public Transport {
                                                    const SharedMemory& shared_memory);
   explicit FastDdsTransport(std::shared_ptr<FastDdsLink> link) : link_{std::move(link)} {}
 
-  Expected<std::unique_ptr<OutsideWriter>> advertise(const TopicSpec& topic) override;
-  Expected<std::unique_ptr<OutsideReader>> subscribe(
+  Expected<std::unique_ptr<RemoteWriter>> advertise(const TopicSpec& topic) override;
+  Expected<std::unique_ptr<RemoteReader>> subscribe(
       const TopicSpec& topic, bool same_deployment_only,
       std::function<void(SampleRef)> deliver) override;
 

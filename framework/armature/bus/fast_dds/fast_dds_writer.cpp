@@ -19,7 +19,7 @@ namespace {
 namespace dds = eprosima::fastdds::dds;
 namespace rtps = eprosima::fastrtps::rtps;
 
-class FastDdsWriter final : public OutsideWriter, private dds::DataWriterListener {
+class FastDdsWriter final : public RemoteWriter, private dds::DataWriterListener {
  public:
   FastDdsWriter(std::shared_ptr<FastDdsLink> link, const TopicSpec& topic)
       : link_{std::move(link)}, topic_{topic}, settings_{settings(topic.qos)} {}
@@ -49,9 +49,9 @@ class FastDdsWriter final : public OutsideWriter, private dds::DataWriterListene
 
   void offer(const SampleRef& sample) override {
     // DDS keeps such a sample for those who come later.
-    if (watchers() > 0 || settings_.transient_local) queue_->offer(sample);
+    if (matched_readers() > 0 || settings_.transient_local) queue_->offer(sample);
   }
-  int watchers() const override { return watchers_.load(std::memory_order_relaxed); }
+  int matched_readers() const override { return watchers_.load(std::memory_order_relaxed); }
   int peers() const override { return peers_.load(std::memory_order_relaxed); }
   std::uint64_t dropped() const override { return queue_->dropped(); }
   std::vector<Watcher> who_watches() const override {
@@ -63,10 +63,10 @@ class FastDdsWriter final : public OutsideWriter, private dds::DataWriterListene
     }
     return watchers;
   }
-  bool acknowledged(Duration patience) override {
-    return queue_->drained(patience) &&
+  bool acknowledged(Duration timeout) override {
+    return queue_->drained(timeout) &&
            writer_->wait_for_acknowledgments(eprosima::fastrtps::Duration_t{
-               static_cast<long double>(to_seconds(patience))}) == ReturnCode_t::RETCODE_OK;
+               static_cast<long double>(to_seconds(timeout))}) == ReturnCode_t::RETCODE_OK;
   }
 
  private:
@@ -122,8 +122,8 @@ class FastDdsWriter final : public OutsideWriter, private dds::DataWriterListene
 
 }  // namespace
 
-Expected<std::unique_ptr<OutsideWriter>> make_fast_dds_writer(std::shared_ptr<FastDdsLink> link,
-                                                              const TopicSpec& topic) {
+Expected<std::unique_ptr<RemoteWriter>> make_fast_dds_writer(std::shared_ptr<FastDdsLink> link,
+                                                             const TopicSpec& topic) {
   auto writer = std::make_unique<FastDdsWriter>(std::move(link), topic);
   if (const auto opened = writer->open(); !opened) return tl::unexpected{opened.error()};
   return writer;

@@ -76,10 +76,10 @@ class Observer final : public DdsObserver {
     return sorted;
   }
 
-  Expected<void> watch(const std::string& topic, Duration patience,
+  Expected<void> watch(const std::string& topic, Duration timeout,
                        std::function<void(const ObservedSample&)> on_sample) override {
     const std::string name = dds_topic_name(topic);
-    const auto writer = wait_for_writer(name, patience);
+    const auto writer = wait_for_writer(name, timeout);
     if (!writer) return refuse("nobody writes '" + ros_topic_name(name) + "'");
     const auto dds_topic = participant_->topic(name, writer->type);
     if (!dds_topic) return tl::unexpected{dds_topic.error()};
@@ -97,8 +97,8 @@ class Observer final : public DdsObserver {
   }
 
  private:
-  std::optional<Endpoint> wait_for_writer(const std::string& topic, Duration patience) const {
-    const auto deadline = std::chrono::steady_clock::now() + patience;
+  std::optional<Endpoint> wait_for_writer(const std::string& topic, Duration timeout) const {
+    const auto deadline = std::chrono::steady_clock::now() + timeout;
     do {
       for (Endpoint& endpoint : participant_->discovery().endpoints()) {
         if (endpoint.topic == topic && endpoint.writes) return std::move(endpoint);

@@ -51,9 +51,9 @@ class DdsObserver {
   /// What has been discovered so far, sorted by name; complete about a second after make().
   virtual std::vector<ObservedTopic> topics() const = 0;
 
-  /// Waits until `topic` has a writer (at most `patience`), then calls `on_sample` on a DDS thread,
+  /// Waits until `topic` has a writer (at most `timeout`), then calls `on_sample` on a DDS thread,
   /// one sample at a time, until the observer is destroyed. Takes "rt/a/b" and "/a/b".
-  virtual Expected<void> watch(const std::string& topic, Duration patience,
+  virtual Expected<void> watch(const std::string& topic, Duration timeout,
                                std::function<void(const ObservedSample&)> on_sample) = 0;
 };
 

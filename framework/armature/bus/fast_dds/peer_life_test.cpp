@@ -35,7 +35,7 @@ TEST_F(FastDds, AReaderThatIsHaltedIsKnownByNameAndAcknowledgesNothingUntilItGoe
   const Peer peer{domain_, "lamp", "f00d", "echo"};
   const auto transport = make_transport();
   const auto writer = transport->advertise(to_peer_).value();
-  ASSERT_TRUE(eventually([&] { return writer->watchers() == 1; }));
+  ASSERT_TRUE(eventually([&] { return writer->matched_readers() == 1; }));
   writer->offer(sample(1));
   EXPECT_TRUE(writer->acknowledged(seconds(10)));
   ASSERT_EQ(writer->who_watches().size(), 1u);

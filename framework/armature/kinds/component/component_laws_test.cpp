@@ -62,8 +62,8 @@ std::vector<std::string> broken_by(const std::string& fault) {
   const ComponentSubject subject{
       .name = fault, .make = [&] {
         const std::string component = "{plugin: test/faulty, params: {fault: " + fault + "}}";
-        return std::make_unique<ComponentBench>(
-            plugins, ComponentBench::Options{.component = component, .robot = {}, .rig = {}});
+        return std::make_unique<ComponentHarness>(
+            plugins, ComponentHarness::Options{.component = component, .robot = {}, .rig = {}});
       }};
   std::vector<std::string> broken;
   for (const Law<ComponentSubject>& law : component_laws()) {

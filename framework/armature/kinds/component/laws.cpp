@@ -27,12 +27,12 @@ class Driven {
     now_s_ += period_s_;
     bench_->step(now_s_);
   }
-  ComponentBench& bench() { return *bench_; }
+  ComponentHarness& bench() { return *bench_; }
   double now_s() const { return now_s_; }
   double period_s() const { return period_s_; }
 
  private:
-  std::unique_ptr<ComponentBench> bench_;
+  std::unique_ptr<ComponentHarness> bench_;
   double period_s_;
   double now_s_ = 0;
 };

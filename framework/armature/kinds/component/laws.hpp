@@ -9,7 +9,7 @@
 #include <string>
 
 #include "armature/laws/law.hpp"
-#include "armature/runtime/testing/component_bench.hpp"
+#include "armature/runtime/testing/component_harness.hpp"
 
 // The laws that every component keeps, whatever it does: with its ports in memory only, activated
 // by hand, as fast as it goes.
@@ -19,7 +19,7 @@ struct ComponentSubject {
   std::string name;
   /// Makes it anew. Throws what it throws; a component that claims other ports than those of its
   /// plugin.yaml is thrown as std::logic_error.
-  std::function<std::unique_ptr<ComponentBench>()> make;
+  std::function<std::unique_ptr<ComponentHarness>()> make;
   std::uint64_t seed = 1;  // of messages made by chance
   int rounds = 300;        // activations with such messages
 

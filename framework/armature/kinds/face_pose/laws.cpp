@@ -15,7 +15,7 @@ namespace armature {
 namespace {
 
 const StereoCamera kCamera{
-    .width = 1280, .height = 720, .focal_px = 914, .cu = 639.5, .cv = 359.5, .baseline_m = 0.12};
+    .width = 1280, .height = 720, .focal_px = 914, .cx = 639.5, .cy = 359.5, .baseline_m = 0.12};
 
 /// The eyes in the face's frame [m].
 Eigen::Vector3d left_eye() { return {-0.0315, -0.065, 0}; }

@@ -22,7 +22,7 @@ IkGoal IkBatch::goal(std::size_t i) const {
 }
 
 void IkBatchAnswers::resize(std::size_t goals, int dof, int slots) {
-  assert(slots <= kMostSlots);
+  assert(slots <= kMaxSlots);
   label.fill({});
   dof_ = dof;
   slots_ = slots;

@@ -32,11 +32,11 @@ struct IkBatch {
 /// answers them: each has its own where `label` names it, otherwise they stand close together.
 class IkBatchAnswers {
  public:
-  static constexpr int kMostSlots = 16;
-  static_assert(IkBranches::kCapacity <= kMostSlots);
+  static constexpr int kMaxSlots = 16;
+  static_assert(IkBranches::kCapacity <= kMaxSlots);
 
   /// Of the branch that a slot is for, static storage; empty: for any.
-  std::array<std::string_view, kMostSlots> label;
+  std::array<std::string_view, kMaxSlots> label;
   std::vector<IkStatus::Code> code;
   /// Bit b: of the branch in slot b.
   std::vector<std::uint16_t> found, within_limits, singular;

@@ -111,9 +111,9 @@ TEST_F(ExplainedFit, AnErrorThatIsStatedTooSmallIsToldWithTheWayOut) {
   for (std::size_t i = 0; i < 6; ++i) markers.robot[i].x() += i % 2 == 0 ? 0.0007 : -0.0007;
   const Registration found = fitting_to(best_fit(markers), markers);
   const double fit_m = found.fre_m;
-  const double least_m = fit_m / largest_explained_fit(6, 1);
-  EXPECT_FALSE(unexplained_fit(markers, found, 1.001 * least_m));
-  EXPECT_TRUE(unexplained_fit(markers, found, 0.999 * least_m));
+  const double min_m = fit_m / largest_explained_fit(6, 1);
+  EXPECT_FALSE(unexplained_fit(markers, found, 1.001 * min_m));
+  EXPECT_TRUE(unexplained_fit(markers, found, 0.999 * min_m));
   EXPECT_TRUE(unexplained_fit(markers, found, 0));
   const auto why = unexplained_fit(markers, found, 0.0001);
   ASSERT_TRUE(why);

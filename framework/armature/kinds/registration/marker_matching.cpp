@@ -40,7 +40,7 @@ class Search {
   void consider();
   std::string exchanged() const;
 
-  static constexpr int kMostSteps = 1'000'000;
+  static constexpr int kMaxSteps = 1'000'000;
   std::span<const Eigen::Vector3d> planned_, measured_;
   double tolerance_m_;
   std::vector<bool> taken_;
@@ -64,7 +64,7 @@ void Search::extend() {
   deepest_ = std::max(deepest_, choice_.size());
   if (choice_.size() == planned_.size()) return consider();
   for (std::size_t candidate = 0; candidate < measured_.size(); ++candidate) {
-    if (taken_[candidate] || ++steps_ > kMostSteps || !keeps_distances(candidate)) continue;
+    if (taken_[candidate] || ++steps_ > kMaxSteps || !keeps_distances(candidate)) continue;
     taken_[candidate] = true;
     choice_.push_back(candidate);
     extend();
@@ -96,7 +96,7 @@ std::string Search::exchanged() const {
 }
 
 Expected<Choice> Search::answer() const {
-  if (steps_ > kMostSteps) {
+  if (steps_ > kMaxSteps) {
     return refuse(
         fmt::format("too many ways to match {} markers with {} points within {:.6g} mm: "
                     "lower the tolerance",

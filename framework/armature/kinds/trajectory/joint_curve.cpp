@@ -11,14 +11,14 @@
 namespace armature {
 namespace {
 
-constexpr std::size_t kMostNeighbours = 8;
+constexpr std::size_t kMaxNeighbours = 8;
 
 /// Value and first two derivatives at `s[at]` of the polynomial through all given waypoints
 /// (Newton's divided differences, then Horner for the value and both derivatives at once).
 JointState polynomial_at(std::span<const double> s, std::span<const JointVector> q,
                          std::size_t at) {
   const std::size_t n = s.size();
-  std::array<JointVector, kMostNeighbours> difference;
+  std::array<JointVector, kMaxNeighbours> difference;
   std::copy(q.begin(), q.end(), difference.begin());
   for (std::size_t order = 1; order < n; ++order) {
     for (std::size_t i = n - 1; i >= order; --i) {
@@ -40,7 +40,7 @@ JointState polynomial_at(std::span<const double> s, std::span<const JointVector>
 
 JointCurve::JointCurve(std::vector<double> s, std::vector<JointVector> q)
     : s_{std::move(s)}, q_{std::move(q)} {
-  const std::size_t near = std::min(kMostNeighbours, s_.size());
+  const std::size_t near = std::min(kMaxNeighbours, s_.size());
   const std::span<const double> all_s{s_};
   const std::span<const JointVector> all_q{q_};
   pieces_ = quintic_spline(all_s, all_q, polynomial_at(all_s.first(near), all_q.first(near), 0),

@@ -12,7 +12,7 @@ namespace {
 // A moving start is tried with longer and longer durations, from this part of what the leg needs
 // from rest or the velocity needs to vanish; 1.25^39 is 6000 times longer.
 constexpr double kFirstTry = 0.3, kGrowth = 1.25;
-constexpr int kMostTries = 40, kRefinements = 6;
+constexpr int kMaxTries = 40, kRefinements = 6;
 
 /// One leg on its own clock, and how it is allowed to use the limits.
 class LegTimer {
@@ -61,7 +61,7 @@ class LegTimer {
     const double stopping =
         request_.from.v.cwiseAbs().cwiseQuotient(request_.max_acceleration).maxCoeff();
     const double first = std::max(kFirstTry * needed, stopping);
-    for (int i = 0; i < kMostTries; ++i) {
+    for (int i = 0; i < kMaxTries; ++i) {
       const double duration = first * std::pow(kGrowth, i);
       Trajectory found = shape_.in(duration, request_.from);
       if (within_limits(found)) return i == 0 ? found : refined(duration, found);

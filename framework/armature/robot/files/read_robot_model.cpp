@@ -88,7 +88,7 @@ void check_whole(const RobotModel& model, MapReader& map, const Quantity& home) 
                       "that follow it exclude each other",
                       model.joints()[static_cast<std::size_t>(model.independent_joint(i))].name));
   if (!model.home()) return;
-  const auto independent = model.contract(*model.home());
+  const auto independent = model.to_independent(*model.home());
   if (!independent) {
     map.problem(home.key, fmt::format("'{}': {}", home.key, independent.error().text));
     return;

@@ -18,18 +18,18 @@ using config::Node;
 using config::Problems;
 using Eigen::Vector3d;
 
-constexpr double kMostPixels = 16384;   // per side
+constexpr double kMaxPixels = 16384;    // per side
 constexpr double kSquareWithin = 1e-6;  // cosine between forward and right
 
 void read_resolution(MapReader& map, StereoCamera& camera, Problems& problems) {
   const Quantity size = require_quantity(map, {"resolution"}, 2, problems);
   if (size.si.size() != 2) return;
   for (const double pixels : size.si)
-    if (!(pixels >= 1 && pixels <= kMostPixels && pixels == std::floor(pixels))) {
+    if (!(pixels >= 1 && pixels <= kMaxPixels && pixels == std::floor(pixels))) {
       map.problem("resolution",
                   fmt::format("'resolution' is [width, height] in whole pixels from 1 "
                               "to {:.0f}, not {}",
-                              kMostPixels, pixels));
+                              kMaxPixels, pixels));
       return;
     }
   camera.width = static_cast<int>(size.si[0]);
@@ -60,8 +60,8 @@ void read_focal_length(MapReader& map, StereoCamera& camera, Problems& problems)
 void read_principal_point(MapReader& map, StereoCamera& camera, Problems& problems) {
   const Quantity point = read_quantity(map, {"principal_point_px"}, 2, problems);
   const bool written = point.si.size() == 2;
-  camera.cu = written ? point.si[0] : 0.5 * (camera.width - 1);
-  camera.cv = written ? point.si[1] : 0.5 * (camera.height - 1);
+  camera.cx = written ? point.si[0] : 0.5 * (camera.width - 1);
+  camera.cy = written ? point.si[1] : 0.5 * (camera.height - 1);
 }
 
 void read_baseline(MapReader& map, StereoCamera& camera, Problems& problems) {

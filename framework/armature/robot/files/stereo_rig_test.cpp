@@ -33,8 +33,8 @@ TEST(StereoRig, DefaultSeesSeventyDegreesAcrossItsImage) {
   EXPECT_EQ(head.camera.width, 1280);
   EXPECT_EQ(head.camera.height, 720);
   EXPECT_EQ(head.camera.baseline_m, 0.12);
-  EXPECT_EQ(head.camera.cu, 639.5);
-  EXPECT_EQ(head.camera.cv, 359.5);
+  EXPECT_EQ(head.camera.cx, 639.5);
+  EXPECT_EQ(head.camera.cy, 359.5);
   EXPECT_NEAR(2 * std::atan(640 / head.camera.focal_px), 70 * M_PI / 180, 1e-12);
   EXPECT_EQ(head.mounted_on, "tool");
 }

@@ -25,7 +25,7 @@ JointVector all_joints(const Row& row) {
 }
 
 Eigen::Isometry3d pose_of(const RobotModel& lamp, const Row& all) {
-  return forward_kinematics(lamp, lamp.contract(all_joints(all)).value());
+  return forward_kinematics(lamp, lamp.to_independent(all_joints(all)).value());
 }
 
 TEST(DentalLampFigures, ForwardKinematicsGivesEveryEntryOfEveryCase) {

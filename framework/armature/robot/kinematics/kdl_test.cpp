@@ -67,7 +67,7 @@ std::vector<Arm> arms() {
 
 KDL::JntArray all_joints(const Arm& arm, const JointVector& q) {
   KDL::JntArray all(static_cast<unsigned>(arm.model.joint_count()));
-  all.data = arm.model.expand(q);
+  all.data = arm.model.to_all(q);
   return all;
 }
 

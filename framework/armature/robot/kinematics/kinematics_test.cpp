@@ -16,7 +16,7 @@ using testing::random_joints;
 /// The D-H product as a textbook writes it, with full matrices.
 Isometry3d textbook_kinematics(const RobotModel& model, const JointVector& independent,
                                FrameId frame) {
-  const JointVector all = model.expand(independent);
+  const JointVector all = model.to_all(independent);
   Isometry3d T = Isometry3d::Identity();
   for (int i = 0; i <= model.frame(frame).parent_joint; ++i) {
     const Joint& joint = model.joints()[static_cast<std::size_t>(i)];
@@ -102,7 +102,7 @@ TEST(AxisSteps, AndTheJointsBetweenThemAreForwardKinematics) {
       const FrameId frame{f};
       const auto steps = axis_steps(robot, frame);
       ASSERT_EQ(static_cast<int>(steps.size()), robot.frame(frame).parent_joint + 2);
-      const JointVector q = random_joints(robot, random), all = robot.expand(q);
+      const JointVector q = random_joints(robot, random), all = robot.to_all(q);
       Isometry3d T = steps[0];
       for (std::size_t i = 1; i < steps.size(); ++i) {
         const double value = all[static_cast<Eigen::Index>(i) - 1];

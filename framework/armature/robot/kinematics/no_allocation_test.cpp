@@ -29,7 +29,7 @@ class NoAllocation : public ::testing::Test {
   }
 
   const RobotModel lamp = testing::dental_lamp();
-  const JointVector q = *lamp.contract(*lamp.home());
+  const JointVector q = *lamp.to_independent(*lamp.home());
   double sum = 0;
 };
 
@@ -38,7 +38,7 @@ TEST_F(NoAllocation, InKinematics) {
               sum += forward_kinematics(lamp, q).translation().x();
               sum += forward_kinematics_with_jacobian(lamp, q, lamp.tool()).jacobian.sum();
               sum += manipulability(lamp, q);
-              sum += lamp.expand(q).sum() + lamp.contract(*lamp.home())->sum();
+              sum += lamp.to_all(q).sum() + lamp.to_independent(*lamp.home())->sum();
               sum += lamp.within_limits(q) ? 1 : 0;
             }),
             0U);

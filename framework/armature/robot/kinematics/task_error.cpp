@@ -74,6 +74,6 @@ TaskError task_error(const RobotModel& model, const JointVector& q, const ToolPo
   return result;
 }
 
-JointVector TaskError::least_step() const { return shortest_solution(jacobian, error); }
+JointVector TaskError::min_step() const { return shortest_solution(jacobian, error); }
 
 }  // namespace armature

@@ -30,7 +30,7 @@ struct TaskError {
   }
 
   /// The least joint step that takes the error away to first order.
-  JointVector least_step() const;
+  JointVector min_step() const;
 };
 /// A direction needs a robot with a pointing axis; it and a rotation must be units.
 TaskError task_error(const RobotModel& model, const JointVector& q, const ToolPose& goal);

@@ -26,7 +26,7 @@ class TaskErrorTest : public ::testing::Test {
   }
 
   const RobotModel lamp = testing::dental_lamp();
-  const JointVector q = *lamp.contract(*lamp.home());
+  const JointVector q = *lamp.to_independent(*lamp.home());
 };
 
 TEST_F(TaskErrorTest, IsTheJacobianTimesASmallStepOfTheJoints) {

@@ -120,7 +120,7 @@ std::optional<FrameId> RobotModel::find_frame(std::string_view name) const {
   return FrameId{static_cast<int>(found - frames_.begin())};
 }
 
-JointVector RobotModel::expand(const JointVector& independent) const {
+JointVector RobotModel::to_all(const JointVector& independent) const {
   JointVector all(joint_count());
   for (int i = 0; i < joint_count(); ++i) {
     const ChainLink& link = chain_[static_cast<std::size_t>(i)];
@@ -138,13 +138,13 @@ Expected<JointVector> expected(const ReasonText& wrong, const JointVector& indep
 
 }  // namespace
 
-Expected<JointVector> RobotModel::contract(const JointVector& all) const {
-  return contract(std::span<const double>{all.data(), static_cast<std::size_t>(all.size())});
+Expected<JointVector> RobotModel::to_independent(const JointVector& all) const {
+  return to_independent(std::span<const double>{all.data(), static_cast<std::size_t>(all.size())});
 }
 
-Expected<JointVector> RobotModel::contract(std::span<const double> all) const {
+Expected<JointVector> RobotModel::to_independent(std::span<const double> all) const {
   JointVector independent;
-  const ReasonText wrong = contract(all, independent);
+  const ReasonText wrong = to_independent(all, independent);
   return expected(wrong, independent);
 }
 
@@ -154,7 +154,7 @@ Expected<JointVector> RobotModel::contract_rates(std::span<const double> all) co
   return expected(wrong, independent);
 }
 
-ReasonText RobotModel::contract(std::span<const double> all, JointVector& independent) const {
+ReasonText RobotModel::to_independent(std::span<const double> all, JointVector& independent) const {
   return contracted(all, 1, independent);
 }
 
@@ -198,7 +198,7 @@ bool RobotModel::is_revolute(int i) const {
 
 JointVector resting_position(const RobotModel& model) {
   if (model.home()) {
-    if (auto home = model.contract(*model.home())) return *home;
+    if (auto home = model.to_independent(*model.home())) return *home;
   }
   JointVector middle = 0.5 * (model.lower() + model.upper());
   for (double& q : middle) {

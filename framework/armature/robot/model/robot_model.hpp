@@ -107,16 +107,16 @@ class RobotModel {
   const std::optional<JointVector>& home() const { return home_; }
 
   /// Independent values -> all joints, couplings applied.
-  JointVector expand(const JointVector& independent) const;
+  JointVector to_all(const JointVector& independent) const;
   /// All joints -> independent values; a reason when the length is wrong, a value is not finite or
   /// a coupled joint contradicts its coupling by more than 1e-6.
-  Expected<JointVector> contract(const JointVector& all) const;
+  Expected<JointVector> to_independent(const JointVector& all) const;
   /// The same from a list that may have any length, as it comes from outside.
-  Expected<JointVector> contract(std::span<const double> all) const;
+  Expected<JointVector> to_independent(std::span<const double> all) const;
   /// The same of velocities or accelerations: a coupling's offset does not count.
   Expected<JointVector> contract_rates(std::span<const double> all) const;
   /// The same into `independent`: empty, or the reason. Real-time safe.
-  ReasonText contract(std::span<const double> all, JointVector& independent) const;
+  ReasonText to_independent(std::span<const double> all, JointVector& independent) const;
   ReasonText contract_rates(std::span<const double> all, JointVector& independent) const;
 
   /// One entry per joint, in order: what the kinematics functions walk along.

@@ -34,31 +34,31 @@ TEST(RobotModel, ContractUndoesExpand) {
        {testing::dental_lamp(), testing::synthetic_robot(RobotModel::Convention::standard, 3)})
     for (int n = 0; n < 100; ++n) {
       const JointVector q = testing::random_joints(robot, random);
-      EXPECT_TRUE(*robot.contract(robot.expand(q)) == q) << "seed 61";
+      EXPECT_TRUE(*robot.to_independent(robot.to_all(q)) == q) << "seed 61";
     }
 }
 
 TEST(RobotModel, ExpandAppliesRatioAndOffset) {
   const RobotModel lamp = testing::dental_lamp();
-  EXPECT_TRUE(lamp.expand(joint_vector({1, 2, 0.3, 4, 5})) ==
+  EXPECT_TRUE(lamp.to_all(joint_vector({1, 2, 0.3, 4, 5})) ==
               joint_vector({1, 2, 0.3, -0.3, 4, 5}));
-  EXPECT_FALSE(std::signbit(lamp.expand(JointVector::Zero(5))[3]));
+  EXPECT_FALSE(std::signbit(lamp.to_all(JointVector::Zero(5))[3]));
   const RobotModel robot = testing::synthetic_robot(RobotModel::Convention::standard, 3);
-  const JointVector all = robot.expand(joint_vector({1, 2, 3, 4, 5}));
+  const JointVector all = robot.to_all(joint_vector({1, 2, 3, 4, 5}));
   EXPECT_NEAR(all[4], -1.5 * 2 + 0.3, 1e-15);
   EXPECT_NEAR(all[5], 0.7 * 3 - 0.1, 1e-15);
 }
 
 TEST(RobotModel, ContractSaysWhatIsWrong) {
   const RobotModel lamp = testing::dental_lamp();
-  EXPECT_EQ(lamp.contract(joint_vector({1, 2, 3, 4, 5})).error().text,
+  EXPECT_EQ(lamp.to_independent(joint_vector({1, 2, 3, 4, 5})).error().text,
             "5 joint values; dental_lamp has 6 joints");
-  EXPECT_EQ(lamp.contract(joint_vector({1, 2, NAN, 4, 5, 6})).error().text,
+  EXPECT_EQ(lamp.to_independent(joint_vector({1, 2, NAN, 4, 5, 6})).error().text,
             "j3 = nan is not a number");
-  EXPECT_EQ(lamp.contract(joint_vector({0, 0, 0.5, 0.25, 0, 0})).error().text,
+  EXPECT_EQ(lamp.to_independent(joint_vector({0, 0, 0.5, 0.25, 0, 0})).error().text,
             "j4 = 0.25 contradicts its coupling to j3, which makes it -0.5");
-  EXPECT_TRUE(lamp.contract(joint_vector({0, 0, 0.5, -0.5 + 9e-7, 0, 0})));
-  EXPECT_EQ(lamp.contract(std::vector<double>(40, 0.0)).error().text,
+  EXPECT_TRUE(lamp.to_independent(joint_vector({0, 0, 0.5, -0.5 + 9e-7, 0, 0})));
+  EXPECT_EQ(lamp.to_independent(std::vector<double>(40, 0.0)).error().text,
             "40 joint values; dental_lamp has 6 joints");
 }
 
@@ -66,7 +66,7 @@ TEST(RobotModel, ContractsRatesWithoutTheOffsetOfACoupling) {
   const RobotModel robot = testing::synthetic_robot(RobotModel::Convention::standard, 3);
   const std::vector<double> rates{1, 2, 3, 4, -1.5 * 2, 0.7 * 3, 5};
   EXPECT_EQ(robot.contract_rates(rates).value(), joint_vector({1, 2, 3, 4, 5}));
-  EXPECT_FALSE(robot.contract(rates));
+  EXPECT_FALSE(robot.to_independent(rates));
   EXPECT_EQ(robot.contract_rates(std::vector<double>{1, 2, 3, 4, 0, 0.7 * 3, 5}).error().text,
             "j5 = 0 contradicts its coupling to j2, which makes it -3");
 }

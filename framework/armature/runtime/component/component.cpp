@@ -2,14 +2,16 @@
 #include "armature/runtime/component/component.hpp"
 
 #include "armature/runtime/component/setup.hpp"
-#include "armature/runtime/component/voice.hpp"
+#include "armature/runtime/component/status_reporter.hpp"
 
 namespace armature {
 
-Component::Component(Setup& setup) : voice_{setup.voice()} {}
+Component::Component(Setup& setup) : reporter_{setup.reporter()} {}
 
-void Component::say(std::string_view text) { voice_->say(text); }
-void Component::degraded(std::string_view reason) { voice_->set(Voice::State::degraded, reason); }
-void Component::healthy() { voice_->set(Voice::State::ok, {}); }
+void Component::log(std::string_view text) { reporter_->log(text); }
+void Component::degraded(std::string_view reason) {
+  reporter_->set(StatusReporter::State::degraded, reason);
+}
+void Component::healthy() { reporter_->set(StatusReporter::State::ok, {}); }
 
 }  // namespace armature

@@ -13,7 +13,7 @@ namespace armature {
 
 class Setup;
 class Summary;
-class Voice;
+class StatusReporter;
 
 /// A running unit. Its constructor reads parameters and claims its ports and slots from `Setup`
 /// (and throws SetupError with a way out when it cannot work); after that the runtime calls `step`,
@@ -35,9 +35,9 @@ class Component {
   virtual void step(Time now) = 0;
 
   /// Once, on the executor's thread between two steps, when the run is stopping: an operator's
-  /// signal, the end of the story, a fault, a lost process. What moves comes to rest from here on,
-  /// within its limits, and nothing is begun any more; `step` is called as before meanwhile. The
-  /// same rules as for `step`: it must not block, and an exception is a fault. `now` is the
+  /// signal, the end of the scenario, a fault, a lost process. What moves comes to rest from here
+  /// on, within its limits, and nothing is begun any more; `step` is called as before meanwhile.
+  /// The same rules as for `step`: it must not block, and an exception is a fault. `now` is the
   /// deployment's clock. The default does nothing.
   virtual void begin_stop(Time now) { static_cast<void>(now); }
   /// True when what this component moves is at rest, so that the run may end. Asked after
@@ -49,7 +49,7 @@ class Component {
   /// Once, after the last step, on the thread that stops the deployment.
   virtual void stop(Time now) { static_cast<void>(now); }
 
-  /// True when the story this component watches has been told; the run then stops. Asked after
+  /// True when the scenario this component watches has been told; the run then stops. Asked after
   /// every step; once it is true there is no further step, so its figures stay what they are.
   virtual bool finished() const { return false; }
   /// Adds figures to the run's summary, after the last step.
@@ -62,7 +62,7 @@ class Component {
  protected:
   /// A line for the operator ("searching 4/9"); printed when it differs from the one before. All
   /// three are real-time safe; very long text is cut.
-  void say(std::string_view text);
+  void log(std::string_view text);
   /// Published as the component's state until `healthy` is called: what is missing and why. It is
   /// printed, too, but not while the run is stopping and the component rests: what it hears from
   /// ends then.
@@ -70,7 +70,7 @@ class Component {
   void healthy();
 
  private:
-  std::shared_ptr<Voice> voice_;
+  std::shared_ptr<StatusReporter> reporter_;
 };
 
 /// The figures of a run, in order: what the closing table and `--json` show, and what `goals:`
@@ -85,7 +85,7 @@ class Summary {
   virtual void text(std::string key, std::string title, std::string value) = 0;
   /// That a metric cannot be told, and why: "the hand does not tremble". A goal on it is not met.
   virtual void not_measured(std::string key, std::string title, std::string why) = 0;
-  /// Why the story did not come to its end: its status ("refused"), which overrides ok and
+  /// Why the scenario did not come to its end: its status ("refused"), which overrides ok and
   /// goals_missed, and the reason for people ("the jaw has moved by 2 mm").
   virtual void failed(std::string status, std::string reason) = 0;
 };

@@ -25,7 +25,7 @@ class OutputPort {
 
   const PortSpec& spec() const { return spec_; }
   Topic& topic() { return *topic_; }
-  bool wanted() const {
+  bool has_subscribers() const {
     return !closed() && (settings(spec_.qos).transient_local || topic_->has_readers());
   }
   void publish(SampleRef sample) {

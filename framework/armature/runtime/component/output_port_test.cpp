@@ -23,11 +23,11 @@ TEST(OutputPort, IsWantedWhenSomebodyReadsOrItIsLatched) {
   AtOnce delivery;
   OutputPort state{{.name = "n", .qos = QosProfile::state}, topic, delivery};
   OutputPort latched{{.name = "n", .qos = QosProfile::latched}, topic, delivery};
-  EXPECT_FALSE(Output<int>{state}.wanted());
-  EXPECT_TRUE(Output<int>{latched}.wanted()) << "for those who come later";
+  EXPECT_FALSE(Output<int>{state}.has_subscribers());
+  EXPECT_TRUE(Output<int>{latched}.has_subscribers()) << "for those who come later";
   Reader reader;
   topic.connect(reader);
-  EXPECT_TRUE(Output<int>{state}.wanted());
+  EXPECT_TRUE(Output<int>{state}.has_subscribers());
 }
 
 }  // namespace

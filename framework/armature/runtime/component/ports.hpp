@@ -78,7 +78,7 @@ class Output {
 
   /// False while nobody would get a sample: what is only for onlookers need not be computed then.
   /// Always true where late joiners get samples (profiles reply and latched). Real-time safe.
-  bool wanted() const { return detail::output_wanted(*port_); }
+  bool has_subscribers() const { return detail::output_wanted(*port_); }
   /// A sample with the content of an earlier one (so that its sequences keep their memory): write
   /// every field. Real-time safe in the steady state.
   Loan<Message> loan() { return {*port_, detail::output_loan(*port_)}; }

@@ -84,7 +84,7 @@ class Setup {
     return {plugin.library, std::move(*made)};
   }
 
-  virtual std::shared_ptr<class Voice> voice() = 0;
+  virtual std::shared_ptr<class StatusReporter> reporter() = 0;
 
  protected:
   struct SlotPlugin {

@@ -23,7 +23,7 @@ config::Problem problem_of(const ComponentConfig& component, const SlotError& er
 }
 
 ComponentSetup::ComponentSetup(const ComponentConfig& config, const DeploymentConfig& deployment,
-                               PluginRegistry& plugins, Unit& unit, Delivery& delivery,
+                               PluginRegistry& plugins, ComponentRunner& unit, Delivery& delivery,
                                FindTopic find_topic)
     : config_{config},
       deployment_{deployment},

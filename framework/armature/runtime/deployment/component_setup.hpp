@@ -7,7 +7,7 @@
 
 #include "armature/runtime/component/setup.hpp"
 #include "armature/runtime/deployment_file/deployment_config.hpp"
-#include "armature/runtime/execution/unit.hpp"
+#include "armature/runtime/execution/component_runner.hpp"
 
 namespace armature {
 
@@ -22,7 +22,8 @@ class ComponentSetup final : public Setup {
   using FindTopic = std::function<Topic&(const PortBinding&, const MessageType&)>;
 
   ComponentSetup(const ComponentConfig& config, const DeploymentConfig& deployment,
-                 PluginRegistry& plugins, Unit& unit, Delivery& delivery, FindTopic find_topic);
+                 PluginRegistry& plugins, ComponentRunner& unit, Delivery& delivery,
+                 FindTopic find_topic);
 
   const std::string& name() const override { return config_.name; }
   std::string_view unit() const override { return config_.unit; }
@@ -34,7 +35,7 @@ class ComponentSetup final : public Setup {
   void deliver_after(Duration latency) override { unit_.set_latency(latency); }
   bool is_written(std::string_view input) const override;
   const PluginManifest& slot_manifest(std::string_view slot_name) const override;
-  std::shared_ptr<Voice> voice() override { return unit_.voice(); }
+  std::shared_ptr<StatusReporter> reporter() override { return unit_.reporter(); }
 
   /// Throws std::logic_error when a declared port was never claimed.
   void check_all_claimed() const;
@@ -52,7 +53,7 @@ class ComponentSetup final : public Setup {
   const ComponentConfig& config_;
   const DeploymentConfig& deployment_;
   PluginRegistry& plugins_;
-  Unit& unit_;
+  ComponentRunner& unit_;
   Delivery& delivery_;
   FindTopic find_topic_;
   std::set<const PortBinding*> claimed_;

@@ -38,7 +38,7 @@ std::string writer_key(const ComponentConfig& component, const PortBinding& outp
 
 /// An executor's period is for all of its components: one that a component has itself would be
 /// ignored, with the parameter that says it (`rate_hz`).
-void check_period(const ComponentConfig& component, const Unit& unit,
+void check_period(const ComponentConfig& component, const ComponentRunner& unit,
                   const std::vector<ExecutorSpec>& executors, config::Problems& problems) {
   constexpr double kSame = 1e-3;  // a rate in Hz is seldom a round period
   const auto executor = std::ranges::find(executors, component.executor, &ExecutorSpec::name);
@@ -82,11 +82,11 @@ Deployment::Deployment(DeploymentConfig config, PluginRegistry& plugins, Options
 
 Deployment::~Deployment() {
   watchdog_.reset();
-  scheduler_->stop(kStepPatience);
+  scheduler_->stop(kStepTimeout);
   constexpr const char* kTransport = "the end of the transport";
-  if (outside_) {
+  if (remote_) {
     options_.on_ending(kTransport);
-    outside_->stop_reading();  // deliveries end before their inboxes go
+    remote_->stop_reading();  // deliveries end before their inboxes go
   }
   for (auto& unit : units_) {
     tell_ending("destructor", *unit);
@@ -96,7 +96,7 @@ Deployment::~Deployment() {
   }
   options_.on_ending(kTransport);
   topics_.clear();  // outside writers go before the transport
-  outside_.reset();
+  remote_.reset();
 }
 
 void Deployment::make_scheduler() {
@@ -114,8 +114,8 @@ void Deployment::make_scheduler() {
 void Deployment::make_unit(const ComponentConfig& component, PluginRegistry& plugins,
                            config::Problems& problems) {
   const RunningComponent running{component.name, "constructor"};
-  auto unit = std::make_unique<Unit>(component.name, component.plugin_id, component.place,
-                                     options_.on_line);
+  auto unit = std::make_unique<ComponentRunner>(component.name, component.plugin_id,
+                                                component.place, options_.on_line);
   ComponentSetup setup = setup_of(component, plugins, *unit);
   // Outlives the exceptions that its code throws.
   auto library = plugins.load(*component.manifest, Component::kKind, Component::kKindVersion);
@@ -179,7 +179,7 @@ void Deployment::make_own_unit(std::string_view name, const PluginManifest& mani
                                const std::function<std::unique_ptr<Component>(Setup&)>& make) {
   config_.components.push_back(own_config(name, manifest, place, options_.process));
   const ComponentConfig& config = config_.components.back();
-  auto unit = std::make_unique<Unit>(config.name, manifest.id, place, options_.on_line);
+  auto unit = std::make_unique<ComponentRunner>(config.name, manifest.id, place, options_.on_line);
   ComponentSetup setup = setup_of(config, plugins, *unit);
   unit->install({nullptr, make(setup)});
   units_.push_back(std::move(unit));
@@ -203,7 +203,7 @@ std::vector<std::string> Deployment::silent() const {
 }
 
 ComponentSetup Deployment::setup_of(const ComponentConfig& component, PluginRegistry& plugins,
-                                    Unit& unit) {
+                                    ComponentRunner& unit) {
   return {component,
           config_,
           plugins,
@@ -234,7 +234,7 @@ Topic& Deployment::topic_at(const std::string& key, const PortBinding& port,
   return *topic;
 }
 
-const ComponentConfig& Deployment::config_of(const Unit& unit) const {
+const ComponentConfig& Deployment::config_of(const ComponentRunner& unit) const {
   return *std::find_if(config_.components.begin(), config_.components.end(),
                        [&](const ComponentConfig& c) { return c.name == unit.name(); });
 }
@@ -247,12 +247,12 @@ void Deployment::inject(const InjectedFault& fault) {
 
 void Deployment::assign_units() {
   for (const ExecutorSpec& spec : config_.executors) {
-    std::vector<Unit*> assigned;
+    std::vector<ComponentRunner*> assigned;
     for (const auto& unit : units_) {
       if (config_of(*unit).executor == spec.name) assigned.push_back(unit.get());
     }
     if (!assigned.empty())
-      scheduler_->assign(spec, assigned, [this](const Unit& unit) {
+      scheduler_->assign(spec, assigned, [this](const ComponentRunner& unit) {
         return std::max(config_of(unit).sim_latency, unit.latency());
       });
   }
@@ -274,14 +274,14 @@ void Deployment::connect(PluginRegistry& plugins, int domain, const std::string&
       .shared_memory = !isolated};
   auto transport = plugins.make<Transport>("transport/fast_dds", options);
   if (!transport) throw PluginError("cannot join DDS: " + transport.error().text);
-  outside_.emplace(std::move(*transport), config_, options_.process);
+  remote_.emplace(std::move(*transport), config_, options_.process);
   for (const ComponentConfig& component : config_.components) {
     if (component.process != options_.process) continue;
     for (const PortBinding& output : component.outputs) {
-      outside_->advertise(output, *topics_.at(writer_key(component, output)));
+      remote_->advertise(output, *topics_.at(writer_key(component, output)));
     }
     for (const PortBinding& input : component.inputs) {
-      outside_->subscribe(input, *topics_.at(input.topic));
+      remote_->subscribe(input, *topics_.at(input.topic));
     }
   }
 }

@@ -14,12 +14,12 @@
 
 #include "armature/runtime/deployment/component_setup.hpp"
 #include "armature/runtime/deployment/lost_peers.hpp"
-#include "armature/runtime/deployment/outside.hpp"
+#include "armature/runtime/deployment/remote_topics.hpp"
 #include "armature/runtime/deployment/run_watch.hpp"
 #include "armature/runtime/deployment_file/deployment_config.hpp"
 #include "armature/runtime/execution/clock.hpp"
+#include "armature/runtime/execution/component_runner.hpp"
 #include "armature/runtime/execution/scheduler.hpp"
-#include "armature/runtime/execution/unit.hpp"
 #include "armature/runtime/execution/watchdog.hpp"
 #include "armature/values/sanitizer.hpp"
 
@@ -32,11 +32,11 @@ class Deployment {
  public:
   struct Options {
     std::string process{kMainProcess};  // constructs only its components; empty: all of them
-    Voice::Sink on_line;                // what components tell the operator
+    StatusReporter::Sink on_line;       // what components tell the operator
     std::function<void(const std::string&)> on_note;  // what the runtime tells the operator
     std::optional<Duration> clock_offset =
         {};  // of the main process' SystemClock; none: an own one
-    /// Goes on when the story has been told, and has no time limit, until it is interrupted.
+    /// Goes on when the scenario is over, and has no time limit, until it is interrupted.
     bool keeps_running = false;
     /// Before each call at the end of the run that might not return: "the stop of 'arm'".
     std::function<void(const std::string& what)> on_ending = {};
@@ -51,9 +51,9 @@ class Deployment {
 
   const DeploymentConfig& config() const { return config_; }
   const Clock& clock() const { return *clock_; }
-  const std::vector<std::unique_ptr<Unit>>& units() const { return units_; }
+  const std::vector<std::unique_ptr<ComponentRunner>>& units() const { return units_; }
   /// The entry of the deployment that `unit` was made from.
-  const ComponentConfig& config_of(const Unit& unit) const;
+  const ComponentConfig& config_of(const ComponentRunner& unit) const;
 
   /// Puts a drill's fault, which outlives the deployment, into its component, if that is here.
   void inject(const InjectedFault& fault);
@@ -72,7 +72,7 @@ class Deployment {
 
   bool any_finished() const;
   /// Whether a component had finished when the run began to stop.
-  bool story_told() const { return story_told_; }
+  bool scenario_over() const { return scenario_over_; }
   /// True when the run ended because its time limit was over.
   bool timed_out() const { return timed_out_; }
   /// The first fault that ends the run, or the first step that hangs on the way to a driver; or
@@ -86,14 +86,14 @@ class Deployment {
   const std::vector<std::string>& moving() const { return moving_; }
   /// Components whose step has not returned; nothing of them may be called any more, and the
   /// process has to be left without destroying the deployment.
-  const std::vector<const Unit*>& hung() const { return hung_; }
-  bool is_hung(const Unit& unit) const;
+  const std::vector<const ComponentRunner*>& hung() const { return hung_; }
+  bool is_hung(const ComponentRunner& unit) const;
 
   /// Says that the "stop" (or another `function`) of a component is called next (on_ending).
-  void tell_ending(std::string_view function, const Unit& unit) const;
+  void tell_ending(std::string_view function, const ComponentRunner& unit) const;
 
   /// How long the end of a run waits for a step to return.
-  static constexpr Duration kStepPatience = seconds(kSanitized ? 10 : 2);
+  static constexpr Duration kStepTimeout = seconds(kSanitized ? 10 : 2);
 
  private:
   void make_scheduler();
@@ -106,7 +106,8 @@ class Deployment {
   /// The entry of what the runtime itself adds to `process`.
   ComponentConfig own_config(std::string_view name, const PluginManifest& manifest, int place,
                              const std::string& process) const;
-  ComponentSetup setup_of(const ComponentConfig& component, PluginRegistry& plugins, Unit& unit);
+  ComponentSetup setup_of(const ComponentConfig& component, PluginRegistry& plugins,
+                          ComponentRunner& unit);
   Topic& topic_for(const ComponentConfig& component, const PortBinding& port,
                    const MessageType& type);
   Topic& topic_at(const std::string& key, const PortBinding& port, const MessageType& type);
@@ -126,17 +127,17 @@ class Deployment {
   std::unique_ptr<Clock> clock_;
   std::map<std::string, std::unique_ptr<Topic>> topics_;  // by name, of shared ones also by writer
   std::unique_ptr<Scheduler> scheduler_;
-  std::vector<std::unique_ptr<Unit>> units_;  // in the order of the graph
+  std::vector<std::unique_ptr<ComponentRunner>> units_;  // in the order of the graph
   std::optional<Watchdog> watchdog_;
-  bool story_told_ = false;  // a component has finished
+  bool scenario_over_ = false;  // a component has finished
   bool timed_out_ = false;
   std::atomic<bool> stopping_{false};
   mutable std::mutex silent_mutex_;
   std::vector<std::string> silent_;
   LostPeers lost_peers_;
   std::vector<std::string> moving_;
-  std::vector<const Unit*> hung_;
-  std::optional<Outside> outside_;  // the topics that it has writers of go first
+  std::vector<const ComponentRunner*> hung_;
+  std::optional<RemoteTopics> remote_;  // the topics that it has writers of go first
 };
 
 }  // namespace armature

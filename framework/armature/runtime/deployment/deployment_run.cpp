@@ -13,7 +13,9 @@
 namespace armature {
 namespace {
 
-std::string fault_text(const Unit& unit) { return unit.name() + ": " + unit.status().reason; }
+std::string fault_text(const ComponentRunner& unit) {
+  return unit.name() + ": " + unit.status().reason;
+}
 
 }  // namespace
 
@@ -30,7 +32,7 @@ void Deployment::run(RunWatch& watch) {
 
 bool Deployment::await_start(RunWatch& watch) {
   constexpr std::chrono::milliseconds kPause{5};
-  while (!watch.may_start(outside_ ? outside_->waiting() : std::nullopt)) {
+  while (!watch.may_start(remote_ ? remote_->waiting() : std::nullopt)) {
     if (watch.stop_cause()) return false;
     std::this_thread::sleep_for(kPause);
   }
@@ -68,10 +70,10 @@ std::string Deployment::run_until_stop(RunWatch& watch) {
 
 std::optional<std::string> Deployment::stop_cause(RunWatch& watch, Time start) {
   if (std::string failed = fault(); !failed.empty()) return failed;
-  if (any_finished() && !std::exchange(story_told_, true) && options_.keeps_running) {
-    options_.on_note("the story has been told; the run goes on until Ctrl-C");
+  if (any_finished() && !std::exchange(scenario_over_, true) && options_.keeps_running) {
+    options_.on_note("the scenario is over; the run goes on until Ctrl-C");
   }
-  if (story_told_ && !options_.keeps_running) return "the story has been told";
+  if (scenario_over_ && !options_.keeps_running) return "the scenario is over";
   if (auto cause = watch.stop_cause()) return cause;
   if (options_.keeps_running) return std::nullopt;
   timed_out_ = config_.time_limit_s > 0 && clock_->now() - start > seconds(config_.time_limit_s);
@@ -108,11 +110,11 @@ std::vector<std::string> Deployment::find_moving() const {
 }
 
 void Deployment::end() {
-  hung_ = scheduler_->stop(kStepPatience);
-  for (const Unit* unit : hung_) {
+  hung_ = scheduler_->stop(kStepTimeout);
+  for (const ComponentRunner* unit : hung_) {
     std::erase(moving_, unit->name());
     options_.on_note(fmt::format("'{}' hangs: its step has not returned for {:g} s", unit->name(),
-                                 to_seconds(kStepPatience)));
+                                 to_seconds(kStepTimeout)));
   }
   for (const auto& unit : units_) {
     if (is_hung(*unit)) continue;
@@ -120,15 +122,15 @@ void Deployment::end() {
     unit->stop(clock_->now());
   }
   options_.on_ending("the end of the run");
-  if (!outside_) return;
-  for (const std::string& refusal : outside_->refusals()) options_.on_note(refusal);
+  if (!remote_) return;
+  for (const std::string& refusal : remote_->refusals()) options_.on_note(refusal);
 }
 
-void Deployment::tell_ending(std::string_view function, const Unit& unit) const {
+void Deployment::tell_ending(std::string_view function, const ComponentRunner& unit) const {
   options_.on_ending(fmt::format("the {} of '{}'", function, unit.name()));
 }
 
-bool Deployment::is_hung(const Unit& unit) const {
+bool Deployment::is_hung(const ComponentRunner& unit) const {
   return std::ranges::find(hung_, &unit) != hung_.end();
 }
 

@@ -14,14 +14,14 @@
 
 #include "armature/config/document.hpp"
 #include "armature/config/reader.hpp"
-#include "armature/runtime/deployment_file/agreement.hpp"
+#include "armature/runtime/deployment_file/capabilities.hpp"
 #include "armature/runtime/deployment_file/component_config.hpp"
 #include "armature/runtime/deployment_file/component_units.hpp"
 #include "armature/runtime/deployment_file/deployment_keys.hpp"
 #include "armature/runtime/deployment_file/fingerprint.hpp"
 #include "armature/runtime/deployment_file/goals.hpp"
 #include "armature/runtime/deployment_file/graph.hpp"
-#include "armature/runtime/deployment_file/needs.hpp"
+#include "armature/runtime/deployment_file/linked_parameters.hpp"
 #include "armature/runtime/deployment_file/on_fault.hpp"
 #include "armature/runtime/deployment_file/open_inputs.hpp"
 
@@ -208,7 +208,7 @@ DeploymentConfig read_deployment(const Node& root, const PluginRegistry& plugins
       check_isolation(deployment, problems);
       decide_on_faults(deployment);
       check_component_needs(deployment, plugins, problems);
-      agree_on_params(deployment, problems);
+      link_parameters(deployment, problems);
       check_goals(deployment, plugins, problems);
     }
   }

@@ -19,8 +19,8 @@ const MetricSpec* find_metric(const PluginManifest& plugin, const std::string& m
 }
 
 /// The plugins that measure it, or else the metrics that it may have been meant to be.
-std::string way_out(const std::string& metric, const DeploymentConfig& deployment,
-                    const PluginRegistry& plugins) {
+std::string hint(const std::string& metric, const DeploymentConfig& deployment,
+                 const PluginRegistry& plugins) {
   std::vector<std::string> ids, known, known_here;
   for (const PluginManifest& plugin : plugins.plugins()) {
     if (find_metric(plugin, metric)) ids.push_back(plugin.id);
@@ -61,7 +61,7 @@ void check_goals(const DeploymentConfig& deployment, const PluginRegistry& plugi
       continue;
     }
     problems.add(goal.origin, fmt::format("no component measures '{}'{}", goal.metric,
-                                          way_out(goal.metric, deployment, plugins)));
+                                          hint(goal.metric, deployment, plugins)));
   }
 }
 

@@ -27,12 +27,12 @@ const PluginManifest& ClockPublisher::manifest() {
 }
 
 ClockPublisher::ClockPublisher(Setup& setup)
-    : Component{setup}, beat_{kPeriod}, clock_{setup.output<msg::Clock>("clock")} {
+    : Component{setup}, rate_limiter_{kPeriod}, clock_{setup.output<msg::Clock>("clock")} {
   setup.activate_every(kPeriod);
 }
 
 void ClockPublisher::step(Time now) {
-  if (!beat_.due(now) || !clock_.wanted()) return;
+  if (!rate_limiter_.due(now) || !clock_.has_subscribers()) return;
   auto message = clock_.loan();
   set_stamp(message->clock_(), now);
   message.publish();

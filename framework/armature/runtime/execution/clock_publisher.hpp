@@ -4,7 +4,7 @@
 #include "armature/messages/rosgraph_msgs.hpp"
 #include "armature/runtime/component/component.hpp"
 #include "armature/runtime/component/ports.hpp"
-#include "armature/runtime/execution/beat.hpp"
+#include "armature/runtime/execution/rate_limiter.hpp"
 #include "armature/runtime/plugins/plugin_manifest.hpp"
 
 namespace armature {
@@ -19,7 +19,7 @@ class ClockPublisher final : public Component {
   void step(Time now) override;
 
  private:
-  Beat beat_;
+  RateLimiter rate_limiter_;
   Output<msg::Clock> clock_;
 };
 

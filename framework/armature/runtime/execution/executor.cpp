@@ -20,7 +20,7 @@ Executor::~Executor() {
   join();
 }
 
-void Executor::assign(Unit& unit) {
+void Executor::assign(ComponentRunner& unit) {
   triggers_.push_back(std::make_unique<std::atomic<std::int64_t>>(kNever));
   std::atomic<std::int64_t>* triggered_ns = triggers_.back().get();
   entries_.push_back({.unit = &unit,
@@ -80,9 +80,9 @@ void Executor::join() {
   if (thread_.joinable()) thread_.join();
 }
 
-bool Executor::join_for(Duration patience) {
+bool Executor::join_for(Duration timeout) {
   if (!thread_.joinable()) return true;
-  if (ended_.wait_for(patience) != std::future_status::ready) return false;
+  if (ended_.wait_for(timeout) != std::future_status::ready) return false;
   thread_.join();
   return true;
 }

@@ -14,7 +14,7 @@
 
 #include "armature/runtime/deployment_file/executor_spec.hpp"
 #include "armature/runtime/execution/clock.hpp"
-#include "armature/runtime/execution/unit.hpp"
+#include "armature/runtime/execution/component_runner.hpp"
 #include "armature/values/wake_up.hpp"
 
 namespace armature {
@@ -27,7 +27,7 @@ class Executor {
   Executor(ExecutorSpec spec, const Clock& clock);
   ~Executor();
 
-  void assign(Unit& unit);
+  void assign(ComponentRunner& unit);
   /// Starts the thread, and returns when it is as the specification says and about to take its
   /// first step; the note says what the system did not allow.
   void start(const std::function<void(const std::string&)>& note);
@@ -36,11 +36,11 @@ class Executor {
   void begin_stop();
   void request_stop();
   void join();
-  /// Waits for the thread's end for at most `patience`; false when a step has not returned until
+  /// Waits for the thread's end for at most `timeout`; false when a step has not returned until
   /// then.
-  bool join_for(Duration patience);
+  bool join_for(Duration timeout);
   /// The unit whose step is running, or nullptr. Any thread.
-  const Unit* running() const { return running_.load(std::memory_order_acquire); }
+  const ComponentRunner* running() const { return running_.load(std::memory_order_acquire); }
   const std::string& name() const { return spec_.name; }
   int first_place() const;
   /// Of its cycles: of all the steps that were due together. Any thread.
@@ -48,7 +48,7 @@ class Executor {
 
  private:
   struct Entry {
-    Unit* unit;
+    ComponentRunner* unit;
     std::optional<Duration> period;
     Time next_release;
     std::atomic<std::int64_t>* triggered_ns;  // since when, or kNever
@@ -68,7 +68,7 @@ class Executor {
   WakeUp wake_;
   CycleTimes times_;
   std::atomic<bool> stopping_{false};
-  std::atomic<const Unit*> running_{nullptr};
+  std::atomic<const ComponentRunner*> running_{nullptr};
   std::promise<void> end_;
   std::future<void> ended_ = end_.get_future();
   std::thread thread_;

@@ -5,14 +5,16 @@
 
 namespace armature {
 
-void LockstepScheduler::assign(const ExecutorSpec& executor, const std::vector<Unit*>& units,
-                               const std::function<Duration(const Unit&)>& latency) {
-  for (Unit* unit : units) {
+void LockstepScheduler::assign(const ExecutorSpec& executor,
+                               const std::vector<ComponentRunner*>& units,
+                               const std::function<Duration(const ComponentRunner&)>& latency) {
+  for (ComponentRunner* unit : units) {
     add(*unit, executor.period ? executor.period : unit->period(), latency(*unit));
   }
 }
 
-void LockstepScheduler::add(Unit& unit, std::optional<Duration> period, Duration latency) {
+void LockstepScheduler::add(ComponentRunner& unit, std::optional<Duration> period,
+                            Duration latency) {
   entries_.push_back({&unit, period, latency, std::nullopt});
   Entry& entry = entries_.back();
   unit.on_triggered([this, &entry] {

@@ -19,12 +19,12 @@ class LockstepScheduler final : public Scheduler {
  public:
   explicit LockstepScheduler(SimulatedClock& clock) : clock_{&clock} {}
 
-  void assign(const ExecutorSpec& executor, const std::vector<Unit*>& units,
-              const std::function<Duration(const Unit&)>& latency) override;
+  void assign(const ExecutorSpec& executor, const std::vector<ComponentRunner*>& units,
+              const std::function<Duration(const ComponentRunner&)>& latency) override;
   void run(const std::function<bool()>& done) override;
   void begin_stop() override;
   /// Drops what is on its way too: its samples belong to topics, which go before the scheduler.
-  std::vector<const Unit*> stop(Duration) override {
+  std::vector<const ComponentRunner*> stop(Duration) override {
     events_ = {};
     return {};
   }
@@ -32,7 +32,7 @@ class LockstepScheduler final : public Scheduler {
 
  private:
   struct Entry {
-    Unit* unit;
+    ComponentRunner* unit;
     std::optional<Duration> period;
     Duration latency;
     std::optional<Time> triggered_at;  // an activation by trigger is already queued for then
@@ -51,7 +51,7 @@ class LockstepScheduler final : public Scheduler {
       return std::tie(a.time.ns, a.place, a.sequence) > std::tie(b.time.ns, b.place, b.sequence);
     }
   };
-  void add(Unit& unit, std::optional<Duration> period, Duration latency);
+  void add(ComponentRunner& unit, std::optional<Duration> period, Duration latency);
   void schedule(Event event);
   void handle(Event& event);
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "armature/runtime/component/output_port.hpp"
+#include "armature/runtime/execution/component_runner.hpp"
 #include "armature/runtime/execution/executor.hpp"
-#include "armature/runtime/execution/unit.hpp"
 
 namespace armature {
 
@@ -17,8 +17,8 @@ class Scheduler : public Delivery {
  public:
   /// Gives `units` (in graph order) to an executor; `latency` is how long after an activation a
   /// unit's samples reach their readers on the simulated clock. Before `run`.
-  virtual void assign(const ExecutorSpec& executor, const std::vector<Unit*>& units,
-                      const std::function<Duration(const Unit&)>& latency) = 0;
+  virtual void assign(const ExecutorSpec& executor, const std::vector<ComponentRunner*>& units,
+                      const std::function<Duration(const ComponentRunner&)>& latency) = 0;
   /// Runs until `done` (asked at least every 20 ms of the wall clock and after every activation
   /// of the simulated one) says so. Units go on being activated on the system clock when it has
   /// returned; called again it goes on where it was.
@@ -26,9 +26,9 @@ class Scheduler : public Delivery {
   /// Tells every unit to come to rest; they go on being activated.
   virtual void begin_stop() = 0;
   /// Stops activating, sources first; returns when no step runs any more. A step that has not
-  /// returned after `patience` is left behind: its unit is in the answer, and neither it nor the
+  /// returned after `timeout` is left behind: its unit is in the answer, and neither it nor the
   /// scheduler may be touched or destroyed any more.
-  virtual std::vector<const Unit*> stop(Duration patience) = 0;
+  virtual std::vector<const ComponentRunner*> stop(Duration timeout) = 0;
 };
 
 }  // namespace armature

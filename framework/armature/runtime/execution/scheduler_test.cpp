@@ -19,7 +19,9 @@ MessageType number_type() {
   return type;
 }
 
-const std::function<Duration(const Unit&)> kNoLatency = [](const Unit&) { return Duration{0}; };
+const std::function<Duration(const ComponentRunner&)> kNoLatency = [](const ComponentRunner&) {
+  return Duration{0};
+};
 
 TEST(LockstepScheduler, ActivatesInTheOrderOfTimeThenGraph) {
   SimulatedClock clock;
@@ -49,7 +51,7 @@ TEST(LockstepScheduler, DeliversAtOnceWithoutLatencyAndLaterWithOne) {
     const auto sink = make_unit("sink", 1, [&](Time now) { seen.push_back(now.ns); });
     topic.connect(sink->inbox().add({.name = "in", .trigger = true}, type));
     scheduler.assign({.name = "a", .period = Duration{100}, .cpu = {}}, {source.get()},
-                     [&](const Unit&) { return latency; });
+                     [&](const ComponentRunner&) { return latency; });
     scheduler.assign({.name = "b", .period = {}, .cpu = {}}, {sink.get()}, kNoLatency);
     scheduler.run([&] { return seen.size() >= 2; });
     EXPECT_EQ(seen, (std::vector<std::int64_t>{latency.count(), 100 + latency.count()}));
@@ -63,7 +65,7 @@ TEST(LockstepScheduler, WhenItStopsNothingIsOnItsWayAnyMore) {
   Topic topic{{.name = "rt/n", .type = &type}, 1};
   const auto source = make_unit("source", 0, [&](Time) { scheduler.publish(topic, topic.loan()); });
   scheduler.assign({.name = "a", .period = Duration{100}, .cpu = {}}, {source.get()},
-                   [](const Unit&) { return Duration{7}; });
+                   [](const ComponentRunner&) { return Duration{7}; });
   scheduler.run([&] { return source->activations() == 1; });
   scheduler.stop(seconds(60));
   topic.loan();
@@ -77,7 +79,7 @@ TEST(LockstepScheduler, EndsWhenNothingIsLeftToDo) {
   EXPECT_EQ(clock.now().ns, 0);
 }
 
-TEST(Unit, AnExceptionBecomesItsFaultAndItIsNotCalledAgain) {
+TEST(ComponentRunner, AnExceptionBecomesItsFaultAndItIsNotCalledAgain) {
   int calls = 0;
   const auto unit = make_unit("arm", 0, [&](Time) {
     ++calls;
@@ -87,10 +89,10 @@ TEST(Unit, AnExceptionBecomesItsFaultAndItIsNotCalledAgain) {
   unit->activate({});
   EXPECT_EQ(calls, 1);
   EXPECT_TRUE(unit->faulted());
-  EXPECT_EQ(unit->voice()->status().reason, "step failed: joint 3 is gone");
+  EXPECT_EQ(unit->reporter()->status().reason, "step failed: joint 3 is gone");
 }
 
-TEST(Unit, AFaultEndsItsOutputsWhicheverOfItsThreadsStillPublishes) {
+TEST(ComponentRunner, AFaultEndsItsOutputsWhicheverOfItsThreadsStillPublishes) {
   SimulatedClock clock;
   LockstepScheduler scheduler{clock};
   const MessageType type = number_type();
@@ -102,7 +104,7 @@ TEST(Unit, AFaultEndsItsOutputsWhicheverOfItsThreadsStillPublishes) {
   unit->activate({});
   output.publish(topic.loan());
   EXPECT_EQ(topic.published(), 1U);
-  EXPECT_FALSE(output.wanted());
+  EXPECT_FALSE(output.has_subscribers());
 }
 
 /// Something that moves and needs steps to come to rest.
@@ -140,8 +142,9 @@ class StoppingUnit : public testing::Test {
     unit_.install({nullptr, std::move(mover)});
   }
   std::vector<std::string> lines_;
-  Unit unit_{"mover", "test/mover", 0,
-             [this](std::string_view, std::string_view line) { lines_.emplace_back(line); }};
+  ComponentRunner unit_{"mover", "test/mover", 0, [this](std::string_view, std::string_view line) {
+                          lines_.emplace_back(line);
+                        }};
   Mover* mover_ = nullptr;
 };
 

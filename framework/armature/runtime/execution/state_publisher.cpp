@@ -61,7 +61,8 @@ const PluginManifest& StatePublisher::manifest() {
   return manifest;
 }
 
-StatePublisher::StatePublisher(Setup& setup, const std::vector<std::unique_ptr<Unit>>& units)
+StatePublisher::StatePublisher(Setup& setup,
+                               const std::vector<std::unique_ptr<ComponentRunner>>& units)
     : Component{setup},
       units_{units},
       state_{setup.output<msg::ComponentState>("state")},
@@ -78,7 +79,7 @@ void StatePublisher::Window::move_on(const TimingHistogram& histogram) {
 void StatePublisher::move_on() {
   counted_.resize(units_.size());
   for (std::size_t i = 0; i < units_.size(); ++i) {
-    const Unit& unit = *units_[i];
+    const ComponentRunner& unit = *units_[i];
     counted_[i].lateness.move_on(unit.times().lateness);
     counted_[i].duration.move_on(unit.times().duration);
     counted_[i].processor.move_on(unit.times().processor);
@@ -90,42 +91,44 @@ void StatePublisher::move_on() {
   }
 }
 
-Voice::Status StatePublisher::status_with_stamps(const Unit& unit, Counted& counted) {
-  Voice::Status status = unit.status();
+StatusReporter::Status StatePublisher::status_with_stamps(const ComponentRunner& unit,
+                                                          Counted& counted) {
+  StatusReporter::Status status = unit.status();
   const Inbox::Ahead ahead = unit.inbox().ahead();
   const bool first = counted.ahead == 0;
   if (std::exchange(counted.ahead, ahead.samples) == ahead.samples) return status;
   const std::string reason =
       fmt::format("input '{}' is stamped {:.3g} s ahead of now, so it is not shown",
                   ahead.port->spec().name, to_seconds(ahead.by));
-  if (first) say(fmt::format("'{}': {}", unit.name(), reason));
-  if (status.state == Voice::State::ok) status = {Voice::State::degraded, reason};
+  if (first) log(fmt::format("'{}': {}", unit.name(), reason));
+  if (status.state == StatusReporter::State::ok) status = {StatusReporter::State::degraded, reason};
   return status;
 }
 
-Voice::Status StatePublisher::status_of(const Unit& unit, Counted& counted) {
+StatusReporter::Status StatePublisher::status_of(const ComponentRunner& unit, Counted& counted) {
   constexpr int kLate = 2;  // times: once may be while everything starts
   const auto kept = unit.activations() - std::exchange(counted.activations, unit.activations());
   const auto missed = unit.overruns() - std::exchange(counted.overruns, unit.overruns());
   counted.late = missed > kept ? counted.late + 1 : 0;
   if (const Duration stalled = unit.stalled(); stalled > Duration{0}) {
-    return {Voice::State::stalled,
+    return {StatusReporter::State::stalled,
             fmt::format("its step has not returned for {:.1f} s", to_seconds(stalled))};
   }
-  Voice::Status status = status_with_stamps(unit, counted);
+  StatusReporter::Status status = status_with_stamps(unit, counted);
   if (counted.late < kLate) return status;
   if (counted.late == kLate) {
-    say(fmt::format("'{}' misses more periods than it keeps: {} of {}", unit.name(), missed,
+    log(fmt::format("'{}' misses more periods than it keeps: {} of {}", unit.name(), missed,
                     kept + missed));
   }
-  if (status.state == Voice::State::ok) {
-    status = {Voice::State::degraded, fmt::format("keeps {} of {} periods", kept, kept + missed)};
+  if (status.state == StatusReporter::State::ok) {
+    status = {StatusReporter::State::degraded,
+              fmt::format("keeps {} of {} periods", kept, kept + missed)};
   }
   return status;
 }
 
-void StatePublisher::publish_state(const Unit& unit, const Counted& counted,
-                                   const Voice::Status& status, Time now) {
+void StatePublisher::publish_state(const ComponentRunner& unit, const Counted& counted,
+                                   const StatusReporter::Status& status, Time now) {
   auto message = state_.loan();
   set_stamp(message->header_().stamp_(), now);
   message->header_().frame_id_().clear();
@@ -149,8 +152,9 @@ void StatePublisher::publish_state(const Unit& unit, const Counted& counted,
   message.publish();
 }
 
-msg::DiagnosticStatus StatePublisher::diagnostic_of(const Unit& unit, const Counted& counted,
-                                                    const Voice::Status& status) {
+msg::DiagnosticStatus StatePublisher::diagnostic_of(const ComponentRunner& unit,
+                                                    const Counted& counted,
+                                                    const StatusReporter::Status& status) {
   msg::DiagnosticStatus diagnostic;
   diagnostic.level_(static_cast<std::uint8_t>(status.state));  // OK 0, WARN 1, ERROR 2, STALE 3
   diagnostic.name_(unit.name());
@@ -184,8 +188,8 @@ void StatePublisher::step(Time now) {
   array->status_().clear();
   move_on();
   for (std::size_t i = 0; i < units_.size(); ++i) {
-    const Unit& unit = *units_[i];
-    const Voice::Status status = status_of(unit, counted_[i]);
+    const ComponentRunner& unit = *units_[i];
+    const StatusReporter::Status status = status_of(unit, counted_[i]);
     publish_state(unit, counted_[i], status, now);
     array->status_().push_back(diagnostic_of(unit, counted_[i], status));
   }

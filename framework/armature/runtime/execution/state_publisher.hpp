@@ -11,7 +11,7 @@
 #include "armature/messages/diagnostic_msgs.hpp"
 #include "armature/runtime/component/component.hpp"
 #include "armature/runtime/component/ports.hpp"
-#include "armature/runtime/execution/unit.hpp"
+#include "armature/runtime/execution/component_runner.hpp"
 #include "armature/runtime/plugins/plugin_manifest.hpp"
 
 namespace armature {
@@ -24,7 +24,7 @@ namespace armature {
 class StatePublisher final : public Component {
  public:
   /// `units` outlives it and holds the components to tell about.
-  StatePublisher(Setup& setup, const std::vector<std::unique_ptr<Unit>>& units);
+  StatePublisher(Setup& setup, const std::vector<std::unique_ptr<ComponentRunner>>& units);
 
   static const PluginManifest& manifest();
   void step(Time now) override;
@@ -48,16 +48,16 @@ class StatePublisher final : public Component {
   };
   void move_on();
   /// How the unit is, its periods since the last time included.
-  Voice::Status status_of(const Unit& unit, Counted& counted);
+  StatusReporter::Status status_of(const ComponentRunner& unit, Counted& counted);
   /// The same, without its periods: an input that is stamped too far ahead is a reason.
-  Voice::Status status_with_stamps(const Unit& unit, Counted& counted);
-  void publish_state(const Unit& unit, const Counted& counted, const Voice::Status& status,
-                     Time now);
-  static msg::DiagnosticStatus diagnostic_of(const Unit& unit, const Counted& counted,
-                                             const Voice::Status& status);
+  StatusReporter::Status status_with_stamps(const ComponentRunner& unit, Counted& counted);
+  void publish_state(const ComponentRunner& unit, const Counted& counted,
+                     const StatusReporter::Status& status, Time now);
+  static msg::DiagnosticStatus diagnostic_of(const ComponentRunner& unit, const Counted& counted,
+                                             const StatusReporter::Status& status);
   static msg::DiagnosticStatus diagnostic_of(const CountedExecutor& executor);
 
-  const std::vector<std::unique_ptr<Unit>>& units_;
+  const std::vector<std::unique_ptr<ComponentRunner>>& units_;
   std::vector<Counted> counted_;  // of units_
   std::map<const CycleTimes*, CountedExecutor> executors_;
   Output<msg::ComponentState> state_;

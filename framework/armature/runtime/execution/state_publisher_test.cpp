@@ -33,7 +33,7 @@ class StatePublisherTest : public testing::Test {
     InputPort& full = units_[1]->inbox().add({.name = "in", .queue = 1}, pool_.type());
     for (int i = 0; i < 4; ++i) full.deliver(pool_.loan());
     units_[1]->inbox().show({});
-    units_[1]->voice()->set(Voice::State::degraded, "no light");
+    units_[1]->reporter()->set(StatusReporter::State::degraded, "no light");
     units_[1]->count_overruns(7);
     for (int i = 0; i < 5; ++i) units_[0]->activate({});
     for (int i = 0; i < 5; ++i) units_[2]->activate({});
@@ -43,10 +43,11 @@ class StatePublisherTest : public testing::Test {
   }
 
   SamplePool pool_{message_type<msg::ComponentState>(), 4};
-  std::vector<std::unique_ptr<Unit>> units_;
+  std::vector<std::unique_ptr<ComponentRunner>> units_;
   std::vector<std::string> lines_;
-  Unit own_{"runtime", "runtime/state_publisher", 3,
-            [this](std::string_view, std::string_view line) { lines_.emplace_back(line); }};
+  ComponentRunner own_{
+      "runtime", "runtime/state_publisher", 3,
+      [this](std::string_view, std::string_view line) { lines_.emplace_back(line); }};
   FakeSetup setup_{own_};
   StatePublisher publisher_{setup_, units_};
   Collector<msg::ComponentState> states_;
@@ -155,7 +156,7 @@ TEST_F(StatePublisherTest, AStepThatHangsIsStalledForAsLongAsItDoes) {
 }
 
 TEST_F(StatePublisherTest, AComponentThatIsWellAgainHasNoReasonAnyMore) {
-  units_[1]->voice()->set(Voice::State::ok, {});
+  units_[1]->reporter()->set(StatusReporter::State::ok, {});
   publisher_.step(Time{} + seconds(2));
   EXPECT_EQ(states_.messages[4].component_(), "camera");
   EXPECT_EQ(states_.messages[4].state_(), 0);

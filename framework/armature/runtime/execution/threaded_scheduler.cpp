@@ -9,10 +9,11 @@
 
 namespace armature {
 
-void ThreadedScheduler::assign(const ExecutorSpec& executor, const std::vector<Unit*>& units,
-                               const std::function<Duration(const Unit&)>&) {
+void ThreadedScheduler::assign(const ExecutorSpec& executor,
+                               const std::vector<ComponentRunner*>& units,
+                               const std::function<Duration(const ComponentRunner&)>&) {
   Executor& thread = executors_.emplace_back(executor, *clock_);
-  for (Unit* unit : units) thread.assign(*unit);
+  for (ComponentRunner* unit : units) thread.assign(*unit);
 }
 
 void ThreadedScheduler::run(const std::function<bool()>& done) {
@@ -26,16 +27,16 @@ void ThreadedScheduler::begin_stop() {
   for (Executor& executor : executors_) executor.begin_stop();
 }
 
-std::vector<const Unit*> ThreadedScheduler::stop(Duration patience) {
+std::vector<const ComponentRunner*> ThreadedScheduler::stop(Duration timeout) {
   std::vector<Executor*> order;
   for (Executor& executor : executors_) order.push_back(&executor);
   std::sort(order.begin(), order.end(),
             [](const auto* a, const auto* b) { return a->first_place() < b->first_place(); });
-  std::vector<const Unit*> hung;
+  std::vector<const ComponentRunner*> hung;
   for (Executor* executor : order) {
     executor->request_stop();
-    if (executor->join_for(patience)) continue;
-    if (const Unit* unit = executor->running()) {
+    if (executor->join_for(timeout)) continue;
+    if (const ComponentRunner* unit = executor->running()) {
       hung.push_back(unit);
     } else {
       executor->join();  // between two steps: it only has to get its turn

@@ -17,11 +17,11 @@ class ThreadedScheduler final : public Scheduler {
   ThreadedScheduler(const Clock& clock, std::function<void(const std::string&)> note)
       : clock_{&clock}, note_{std::move(note)} {}
 
-  void assign(const ExecutorSpec& executor, const std::vector<Unit*>& units,
-              const std::function<Duration(const Unit&)>& latency) override;
+  void assign(const ExecutorSpec& executor, const std::vector<ComponentRunner*>& units,
+              const std::function<Duration(const ComponentRunner&)>& latency) override;
   void run(const std::function<bool()>& done) override;
   void begin_stop() override;
-  std::vector<const Unit*> stop(Duration patience) override;
+  std::vector<const ComponentRunner*> stop(Duration timeout) override;
   void publish(Topic& topic, SampleRef sample) override {
     topic.publish(std::move(sample), clock_->now());
   }

@@ -27,18 +27,18 @@ Duration tick_for(const std::vector<Watchdog::Watched>& watched) {
 
 Duration max_step_of(const std::optional<Duration>& given, const std::optional<Duration>& period) {
   constexpr int kSlowdown = kSanitized ? 5 : 1;
-  constexpr Duration kLeast = std::chrono::milliseconds{500}, kTriggered = std::chrono::seconds{2};
+  constexpr Duration kMin = std::chrono::milliseconds{500}, kTriggered = std::chrono::seconds{2};
   if (given) return *given * kSlowdown;
-  return (period ? std::max(3 * *period, kLeast) : kTriggered) * kSlowdown;
+  return (period ? std::max(3 * *period, kMin) : kTriggered) * kSlowdown;
 }
 
 std::optional<Duration> declared_max_step(const ComponentConfig& component,
                                           const DeploymentConfig& deployment) {
-  constexpr int kLockstepPatience = 10;
+  constexpr int kLockstepTimeout = 10;
   const auto& units = component.manifest->units;
   const auto unit = std::ranges::find(units, component.unit, &UnitSpec::name);
   const auto& given = unit == units.end() ? component.manifest->max_step : unit->max_step;
-  if (deployment.simulated) return kLockstepPatience * max_step_of(given, std::nullopt);
+  if (deployment.simulated) return kLockstepTimeout * max_step_of(given, std::nullopt);
   const auto executor =
       std::ranges::find(deployment.executors, component.executor, &ExecutorSpec::name);
   if (!given && !executor->period) return std::nullopt;

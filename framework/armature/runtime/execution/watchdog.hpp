@@ -7,7 +7,7 @@
 #include <thread>
 #include <vector>
 
-#include "armature/runtime/execution/unit.hpp"
+#include "armature/runtime/execution/component_runner.hpp"
 #include "armature/values/real_time_mutex.hpp"
 #include "armature/values/wake_up.hpp"
 
@@ -22,7 +22,7 @@ struct DeploymentConfig;
 class Watchdog {
  public:
   struct Watched {
-    Unit* unit;
+    ComponentRunner* unit;
     Duration max_step;  // a step that takes longer hangs
     bool stops_run;     // it is on the way to a driver: the run cannot go on
   };

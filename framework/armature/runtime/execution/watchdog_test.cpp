@@ -48,10 +48,10 @@ class WatchdogTest : public testing::Test {
   }
 
   std::atomic<bool> hangs_{true};
-  const std::unique_ptr<Unit> hung_ = make_unit("planner", 0, [this](Time) {
+  const std::unique_ptr<ComponentRunner> hung_ = make_unit("planner", 0, [this](Time) {
     while (hangs_) std::this_thread::sleep_for(milliseconds{1});
   });
-  const std::unique_ptr<Unit> quick_ = make_unit("arm", 1, [](Time) {});
+  const std::unique_ptr<ComponentRunner> quick_ = make_unit("arm", 1, [](Time) {});
   std::mutex mutex_;
   std::vector<std::string> notes_;
   std::optional<Watchdog> watchdog_;

@@ -185,35 +185,37 @@ std::vector<SlotSpec> read_slots(const Node* table, const std::vector<UnitSpec>&
   return slots;
 }
 
-/// The parameter that a trait hangs on must be one of the plugin's own, and one that can be off.
-void check_when(const Trait& trait, const std::vector<ParamSpec>& params, MapReader& map) {
-  if (trait.when.empty()) return;
+/// The parameter that a capability hangs on must be one of the plugin's own, and one that can be
+/// off.
+void check_when(const Capability& capability, const std::vector<ParamSpec>& params,
+                MapReader& map) {
+  if (capability.when.empty()) return;
   std::vector<std::string> names;
   for (const ParamSpec& param : params) {
     using Type = ParamSpec::Type;
     if (param.type != Type::number && param.type != Type::integer && param.type != Type::flag) {
       continue;
     }
-    if (param.name == trait.when) return;
+    if (param.name == capability.when) return;
     names.push_back(param.name);
   }
   map.problem("when",
               fmt::format("'when' names '{}', which is no number, integer or flag among the "
                           "plugin's parameters{}",
-                          trait.when, config::did_you_mean(trait.when, names)));
+                          capability.when, config::did_you_mean(capability.when, names)));
 }
 
-std::vector<Trait> read_traits(const Node* table, const std::vector<ParamSpec>& params,
-                               Problems& problems) {
-  std::vector<Trait> traits;
-  if (!table) return traits;
+std::vector<Capability> read_traits(const Node* table, const std::vector<ParamSpec>& params,
+                                    Problems& problems) {
+  std::vector<Capability> capabilities;
+  if (!table) return capabilities;
   for (const auto& [key, key_origin, value] : table->entries()) {
     MapReader map{value, fmt::format("'{}'", key), problems};
-    traits.push_back({.word = key, .when = map.text("when", ""), .doc = map.text("doc", "")});
-    check_when(traits.back(), params, map);
+    capabilities.push_back({.word = key, .when = map.text("when", ""), .doc = map.text("doc", "")});
+    check_when(capabilities.back(), params, map);
     map.finish();
   }
-  return traits;
+  return capabilities;
 }
 
 std::vector<MetricSpec> read_metrics(const Node* table, Problems& problems) {
@@ -276,10 +278,10 @@ const Node* read_table(MapReader& map, const char* key) {
 
 }  // namespace
 
-std::string unless_text(const Trait& trait, const std::vector<ParamSpec>& params) {
-  if (trait.when.empty()) return "";
-  const auto param = std::ranges::find(params, trait.when, &ParamSpec::name);
-  return fmt::format("unless '{}' is {}", trait.when,
+std::string unless_text(const Capability& capability, const std::vector<ParamSpec>& params) {
+  if (capability.when.empty()) return "";
+  const auto param = std::ranges::find(params, capability.when, &ParamSpec::name);
+  return fmt::format("unless '{}' is {}", capability.when,
                      param->type == ParamSpec::Type::flag ? "false" : "0");
 }
 

@@ -72,14 +72,14 @@ struct SlotSpec {
 
 /// A word that one plugin needs and another one offers, "time_law". The words mean something to
 /// their plugins, nothing to the runtime.
-struct Trait {
+struct Capability {
   std::string word;
   std::string when;  // only while this parameter is not 0 or false; empty: always
   std::string doc;
 };
 
-/// "unless 'segment_s' is 0"; empty for a trait that always holds.
-std::string unless_text(const Trait& trait, const std::vector<ParamSpec>& params);
+/// "unless 'segment_s' is 0"; empty for a capability that always holds.
+std::string unless_text(const Capability& capability, const std::vector<ParamSpec>& params);
 
 /// A figure that a component reports to the summary of a run.
 struct MetricSpec {
@@ -109,7 +109,7 @@ struct PluginManifest {
   std::vector<ParamSpec> params;
   std::vector<UnitSpec> units;  // beside the main one
   std::vector<SlotSpec> slots;
-  std::vector<Trait> needs, offers;
+  std::vector<Capability> needs, offers;
   std::vector<MetricSpec> measures;
   std::optional<DriverSpec> driver;  // of a component that moves an arm
   std::optional<Duration> max_step;  // of a component: a step that takes longer hangs

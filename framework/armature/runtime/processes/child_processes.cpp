@@ -176,14 +176,14 @@ void ChildProcesses::add_timing(RunTiming& timing) const {
 }
 
 void ChildProcesses::end(const std::function<bool(const std::string& name)>& which) {
-  constexpr std::chrono::seconds kPatience{kSanitized ? 15 : 3};
+  constexpr std::chrono::seconds kTimeout{kSanitized ? 15 : 3};
   const auto is_meant = [&](const Child& child) { return !child.ended && which(child.name); };
   for (Child& child : children_) {
     if (!is_meant(child)) continue;
     child.told_end = true;
     child.control.send("end");
   }
-  const auto deadline = SteadyClock::now() + kPatience;
+  const auto deadline = SteadyClock::now() + kTimeout;
   while (std::ranges::any_of(children_, is_meant)) {
     update();
     if (SteadyClock::now() > deadline) {

@@ -13,9 +13,9 @@ namespace {
 TEST(ControlChannel, LinesCrossWholeAndInOrder) {
   auto [ours, theirs] = ControlChannel::make();
   ours.send("start");
-  ours.send("stop the story has been told");
+  ours.send("stop the scenario is over");
   EXPECT_EQ(theirs.receive(), "start");
-  EXPECT_EQ(theirs.receive(), "stop the story has been told");
+  EXPECT_EQ(theirs.receive(), "stop the scenario is over");
   EXPECT_EQ(theirs.receive(), std::nullopt);
   EXPECT_FALSE(theirs.lost());
   theirs.send("ready");

@@ -14,8 +14,8 @@
 namespace armature {
 
 struct EndWatch::State {
-  State(Duration patience, std::function<void(const std::string&)> on_hung)
-      : patience_{patience}, on_hung_{std::move(on_hung)} {}
+  State(Duration timeout, std::function<void(const std::string&)> on_hung)
+      : patience_{timeout}, on_hung_{std::move(on_hung)} {}
 
   /// Of the watching thread. Returns when there is nothing to watch any more.
   void watch() {
@@ -49,8 +49,8 @@ struct EndWatch::State {
   std::thread thread_;
 };
 
-EndWatch::EndWatch(Duration patience, std::function<void(const std::string&)> on_hung)
-    : state_{std::make_unique<State>(patience, std::move(on_hung))} {}
+EndWatch::EndWatch(Duration timeout, std::function<void(const std::string&)> on_hung)
+    : state_{std::make_unique<State>(timeout, std::move(on_hung))} {}
 
 EndWatch::~EndWatch() {
   {

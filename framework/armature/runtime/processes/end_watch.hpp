@@ -17,7 +17,7 @@ class EndWatch {
  public:
   /// `on_hung` is called once, on a thread of the watch, with a sentence: "the stop of 'arm' has
   /// not returned for 10 s". What hangs may hold any lock, so it had better leave the process.
-  EndWatch(Duration patience, std::function<void(const std::string&)> on_hung);
+  EndWatch(Duration timeout, std::function<void(const std::string&)> on_hung);
   /// From here on nothing is watched. Waits for `on_hung` where that was called.
   ~EndWatch();
   EndWatch(const EndWatch&) = delete;

@@ -17,8 +17,8 @@ class EndWatchTest : public testing::Test {
  protected:
   std::promise<std::string> told_;
   std::future<std::string> hung_ = told_.get_future();
-  bool hangs_within(milliseconds patience) const {
-    return hung_.wait_for(patience) == std::future_status::ready;
+  bool hangs_within(milliseconds timeout) const {
+    return hung_.wait_for(timeout) == std::future_status::ready;
   }
 };
 

@@ -115,8 +115,8 @@ void LineWriter::put(std::string_view line) {
   queue_->wake();
 }
 
-void LineWriter::flush(Duration patience) {
-  const auto end = std::chrono::steady_clock::now() + patience;
+void LineWriter::flush(Duration timeout) {
+  const auto end = std::chrono::steady_clock::now() + timeout;
   while (!closed() && queue_->written != queue_->put && std::chrono::steady_clock::now() < end) {
     std::this_thread::sleep_for(std::chrono::milliseconds{1});
   }

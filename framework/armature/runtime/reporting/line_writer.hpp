@@ -32,8 +32,8 @@ class LineWriter {
 
   /// Takes one line, without its end. Never waits and never allocates: real-time safe, any thread.
   void put(std::string_view line);
-  /// Waits until every line has been written, or the file takes none any more; at most `patience`.
-  void flush(Duration patience);
+  /// Waits until every line has been written, or the file takes none any more; at most `timeout`.
+  void flush(Duration timeout);
   /// True when the file takes no lines any more: the terminal was closed, or the pipe's reader.
   bool closed() const;
 

@@ -87,9 +87,9 @@ std::vector<std::string> faults_of_the_end(const Deployment& deployment) {
     faults.push_back(fmt::format("'{}' was not at rest {:g} s after it was to stop", name,
                                  deployment.config().stop_within_s));
   }
-  for (const Unit* unit : deployment.hung()) {
+  for (const ComponentRunner* unit : deployment.hung()) {
     faults.push_back(fmt::format("'{}' hangs: its step has not returned for {:g} s", unit->name(),
-                                 to_seconds(Deployment::kStepPatience)));
+                                 to_seconds(Deployment::kStepTimeout)));
   }
   return faults;
 }
@@ -100,12 +100,12 @@ void RunReport::judge(const Deployment& deployment, const Ending& ending) {
   for (const Goal& goal : deployment.config().goals) judge_goal(goal);
   if (deployment.timed_out() && !deployment.config().goals.empty()) {
     reasons_.insert(reasons_.begin(),
-                    fmt::format("the time limit of {:g} s was over before the end of the story",
+                    fmt::format("the time limit of {:g} s was over before the end of the scenario",
                                 deployment.config().time_limit_s));
   }
-  // A deployment with goals tells a story, and this one was not heard to its end.
+  // A deployment with goals tells a scenario, and this one was not heard to its end.
   if (ending.stopped && !deployment.config().goals.empty()) {
-    reasons_.insert(reasons_.begin(), *ending.stopped + " before the end of the story");
+    reasons_.insert(reasons_.begin(), *ending.stopped + " before the end of the scenario");
   }
   if (!reasons_.empty()) status_ = "goals_missed";
   if (!story_status_.empty()) status_ = story_status_;

@@ -40,10 +40,10 @@ class RunReport final : public Summary {
   void not_measured(std::string key, std::string title, std::string why) override;
   void failed(std::string status, std::string reason) override;
 
-  /// "ok", "goals_missed", "fault", or what a component gave for the story's failure
+  /// "ok", "goals_missed", "fault", or what a component gave for the scenario's failure
   /// ("face_not_found").
   const std::string& status() const { return status_; }
-  /// Why the story did not come to its end, as the component says that followed it, or "".
+  /// Why the scenario did not come to its end, as the component says that followed it, or "".
   const std::string& story_reason() const { return story_reason_; }
   /// What else is not ok: a line per goal, fault or lost process.
   const std::vector<std::string>& reasons() const { return reasons_; }

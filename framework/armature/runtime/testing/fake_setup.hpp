@@ -8,7 +8,7 @@
 #include <string>
 
 #include "armature/runtime/component/setup.hpp"
-#include "armature/runtime/execution/unit.hpp"
+#include "armature/runtime/execution/component_runner.hpp"
 
 namespace armature {
 
@@ -16,7 +16,7 @@ namespace armature {
 /// component.
 class FakeSetup final : public Setup, public Delivery {
  public:
-  explicit FakeSetup(Unit& unit) : unit_{unit} {}
+  explicit FakeSetup(ComponentRunner& unit) : unit_{unit} {}
 
   const std::string& name() const override { return unit_.name(); }
   std::string_view unit() const override { return kMainUnit; }
@@ -32,7 +32,7 @@ class FakeSetup final : public Setup, public Delivery {
   const PluginManifest& slot_manifest(std::string_view) const override {
     throw std::logic_error("no slots");
   }
-  std::shared_ptr<Voice> voice() override { return unit_.voice(); }
+  std::shared_ptr<StatusReporter> reporter() override { return unit_.reporter(); }
   void publish(Topic& topic, SampleRef sample) override { topic.publish(std::move(sample), {}); }
 
   /// The topic of a port that has been claimed.
@@ -59,7 +59,7 @@ class FakeSetup final : public Setup, public Delivery {
     return *topic;
   }
 
-  Unit& unit_;
+  ComponentRunner& unit_;
   Params params_;
   std::map<std::string, std::unique_ptr<Topic>> topics_;
 };
@@ -75,9 +75,9 @@ class LambdaComponent final : public Component {
   std::function<void(Time)> step_;
 };
 
-inline std::unique_ptr<Unit> make_unit(const std::string& name, int place,
-                                       std::function<void(Time)> step) {
-  auto unit = std::make_unique<Unit>(name, "test/lambda", place, Voice::Sink{});
+inline std::unique_ptr<ComponentRunner> make_unit(const std::string& name, int place,
+                                                  std::function<void(Time)> step) {
+  auto unit = std::make_unique<ComponentRunner>(name, "test/lambda", place, StatusReporter::Sink{});
   FakeSetup setup{*unit};
   unit->install({nullptr, std::make_unique<LambdaComponent>(setup, std::move(step))});
   return unit;

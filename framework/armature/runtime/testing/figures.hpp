@@ -15,7 +15,7 @@ struct Figures final : Summary {
   std::map<std::string, double> metrics;
   std::map<std::string, std::vector<double>> lists;
   std::map<std::string, std::string> texts, unmeasured;
-  std::string status, reason;  // of a story that failed
+  std::string status, reason;  // of a scenario that failed
 
   void metric(std::string key, std::string, double value) override { metrics[key] = value; }
   void series(std::string key, std::string, std::vector<double> values) override {

@@ -4,7 +4,7 @@
 
 #include "armature/kinds/joint_messages.hpp"
 #include "armature/messages/std_msgs.hpp"
-#include "armature/runtime/testing/component_bench.hpp"
+#include "armature/runtime/testing/component_harness.hpp"
 
 using namespace armature;
 
@@ -21,10 +21,10 @@ void expect(bool holds, const char* what) {
 int main() {
   PluginRegistry plugins;  // ctest sets ARMATURE_PLUGIN_PATH to where the plugin was built
   const RobotModel robot = load_robot_model("arm.yaml");
-  ComponentBench arm{plugins, {.component = "{plugin: @ID@}", .robot = config::load("arm.yaml"), .rig = {}}};
+  ComponentHarness arm{plugins, {.component = "{plugin: @ID@}", .robot = config::load("arm.yaml"), .rig = {}}};
   const auto is_at = [&](const JointVector& q) {
     const auto told = arm.take<msg::JointState>("measured_js");
-    return told.size() == 1 && robot.contract(told.front().position_())->isApprox(q, 1e-12);
+    return told.size() == 1 && robot.to_independent(told.front().position_())->isApprox(q, 1e-12);
   };
   const JointVector home = resting_position(robot), still = JointVector::Zero(robot.dof());
   const JointVector goal = home + JointVector::Constant(robot.dof(), 0.01);
@@ -42,7 +42,7 @@ int main() {
   for (int k = 0; k < 500; ++k) arm.step(0.003 + 0.001 * k);
   arm.take<msg::JointState>("measured_js");
   expect(arm.component().stopped(), "it comes to rest by itself when commands cease");
-  expect(arm.status().state == Voice::State::degraded, "and says so");
+  expect(arm.status().state == StatusReporter::State::degraded, "and says so");
 
   write_all_joints(robot, goal + JointVector::Constant(robot.dof(), 0.2), still, Time{} + seconds(0.55), command);
   arm.send("servo_jp", command);
@@ -54,7 +54,7 @@ int main() {
     arm.send("servo_jp", command);
     arm.step(0.6);
     expect(is_at(goal), "it stays where it is when a command is none");
-    expect(arm.status().state == Voice::State::degraded, "and says so");
+    expect(arm.status().state == StatusReporter::State::degraded, "and says so");
   }
   return failures == 0 ? 0 : 1;
 }

@@ -20,7 +20,7 @@ class @CLASS@ final : public PathPlanner {
     if (!turn) return refuse("the goal is a direction where the start is a rotation, or the reverse");
     const Eigen::Vector3d way = valid->goal.position - valid->start.position;
     const double steps = std::max({1.0, way.norm() / parameters_.step_m, turn->angle() / parameters_.step_rad});
-    if (steps > kMostSamples) return refuse("more than 10000 samples: the goal is too far away");
+    if (steps > kMaxSamples) return refuse("more than 10000 samples: the goal is too far away");
     const int n = static_cast<int>(std::ceil(steps));
     PathSegment straight;
     for (int i = 0; i <= n; ++i) {
@@ -32,7 +32,7 @@ class @CLASS@ final : public PathPlanner {
   }
 
  private:
-  static constexpr double kMostSamples = 10000;
+  static constexpr double kMaxSamples = 10000;
 
   /// The shortest turn from `a` to `b`; nothing when one is a direction and the other a rotation.
   static std::optional<Eigen::AngleAxisd> turn_between(const Orientation& a, const Orientation& b) {

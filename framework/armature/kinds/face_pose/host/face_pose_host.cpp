@@ -34,8 +34,8 @@ Expected<StereoCamera> camera_of(const msg::CameraInfo& info, const ImageView& i
   return StereoCamera{.width = static_cast<int>(info.width_()),
                       .height = static_cast<int>(info.height_()),
                       .focal_px = p[0],
-                      .cu = p[2],
-                      .cv = p[6],
+                      .cx = p[2],
+                      .cy = p[6],
                       .baseline_m = -p[3] / p[0]};
 }
 

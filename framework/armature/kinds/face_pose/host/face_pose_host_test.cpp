@@ -11,7 +11,7 @@
 #include "armature/kinds/landmarks/landmark_messages.hpp"
 #include "armature/messages/geometry.hpp"
 #include "armature/messages/header.hpp"
-#include "armature/runtime/testing/component_bench.hpp"
+#include "armature/runtime/testing/component_harness.hpp"
 #include "armature/runtime/testing/test_plugins.hpp"
 
 namespace armature::face_pose_host {
@@ -106,8 +106,8 @@ class FacePoseHostTest : public ::testing::Test {
   msg::FacePose see(double stamp_s, double u) {
     return see(image(stamp_s), image(stamp_s), landmarks(stamp_s, u));
   }
-  ComponentBench host_{plugins(),
-                       {.component = "{plugin: face_pose/first}", .robot = {}, .rig = {}}};
+  ComponentHarness host_{plugins(),
+                         {.component = "{plugin: face_pose/first}", .robot = {}, .rig = {}}};
 };
 
 TEST_F(FacePoseHostTest, TellsThePoseUnderTheHeaderOfThePictures) {
@@ -131,8 +131,8 @@ TEST_F(FacePoseHostTest, AsksWithThePairItsLandmarksAndItsCamera) {
   EXPECT_EQ(asked.camera.width, 4);
   EXPECT_EQ(asked.camera.height, 2);
   EXPECT_EQ(asked.camera.focal_px, 500);
-  EXPECT_EQ(asked.camera.cu, 1.5);
-  EXPECT_EQ(asked.camera.cv, 0.5);
+  EXPECT_EQ(asked.camera.cx, 1.5);
+  EXPECT_EQ(asked.camera.cy, 0.5);
   EXPECT_DOUBLE_EQ(asked.camera.baseline_m, 0.12);
   EXPECT_EQ(asked.left.width, 4);
   EXPECT_EQ(asked.right.height, 2);

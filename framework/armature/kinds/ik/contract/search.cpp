@@ -10,9 +10,9 @@
 namespace armature::ik_contract {
 
 int turns_until_same(const RobotModel& model, int i) {
-  constexpr int kMost = 12;
+  constexpr int kMax = 12;
   constexpr double kWhole = 1e-12;
-  for (int turns = 1; turns <= kMost; ++turns) {
+  for (int turns = 1; turns <= kMax; ++turns) {
     const bool same = std::ranges::all_of(model.chain(), [&](const ChainLink& link) {
       const double way = turns * link.ratio;
       return link.independent != i ||

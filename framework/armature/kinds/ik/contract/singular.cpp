@@ -14,7 +14,7 @@ namespace {
 constexpr int kSamples = 48;          // along a joint
 constexpr double kSingular = 1e-9;    // smallest singular value
 constexpr double kNearlyNice = 1e-6;  // [rad] or [m]
-constexpr int kPatience = 20;         // postures without a singular value of a joint
+constexpr int kTimeout = 20;          // postures without a singular value of a joint
 
 /// `value`, or the multiple of 45 degrees next to it when that is at least as singular.
 template <class Function>
@@ -54,7 +54,7 @@ std::vector<double> singular_values_of(const RobotModel& model, JointVector q, i
 std::vector<SingularPosture> singular_postures(const RobotModel& model, int count, Random& random) {
   std::vector<SingularPosture> found;
   std::vector<int> failures(static_cast<std::size_t>(model.dof()), 0);
-  const auto hopeless = [](int n) { return n >= kPatience; };
+  const auto hopeless = [](int n) { return n >= kTimeout; };
   for (int k = 0; static_cast<int>(found.size()) < count; k = (k + 1) % model.dof()) {
     if (std::all_of(failures.begin(), failures.end(), hopeless)) break;
     int& failed = failures[static_cast<std::size_t>(k)];

@@ -89,7 +89,7 @@ void generator_is_found(Probe& probe) {
       distance = nearest_at_any_arm_angle(probe, goal, q);
     }
     if (!(distance <= kOnePosture)) {
-      const JointVector joints = probe.model().expand(q);
+      const JointVector joints = probe.model().to_all(q);
       probe.violated(
           fmt::format("the joints [{:.9g}] made this goal, the nearest of {} branches is "
                       "{:.3g} away",

@@ -14,7 +14,7 @@ namespace armature {
 namespace {
 
 msg::IkSolution solution_of(const RobotModel& robot, const IkBranch& branch) {
-  const JointVector all = robot.expand(branch.q);
+  const JointVector all = robot.to_all(branch.q);
   msg::IkSolution solution;
   solution.label_(std::string{branch.label});
   solution.joints_().assign(all.begin(), all.end());

@@ -114,7 +114,7 @@ TEST_F(IkHostTest, TellsEveryBranchWithAllJoints) {
 TEST_F(IkHostTest, StartsFromTheSeedOrFromHomeWithoutOne) {
   const RobotModel lamp = testing::dental_lamp();
   const auto home = ask(request(1)).solutions_()[1].joints_();
-  EXPECT_EQ(lamp.contract(home).value(), lamp.contract(*lamp.home()).value());
+  EXPECT_EQ(lamp.to_independent(home).value(), lamp.to_independent(*lamp.home()).value());
   msg::IkRequest seeded = request(2);
   seeded.seed_({0.5, -0.5, 0.25, -0.25, 1, 0.125});
   EXPECT_EQ(ask(seeded).solutions_()[1].joints_(), seeded.seed_());
@@ -195,8 +195,8 @@ TEST(IkHost, DoesNotStartWithARobotThatTheSolverRefuses) {
   PluginRegistry registry{{ARMATURE_PLUGIN_BUILD_DIR}};
   registry.add<Refusing>("{armature_plugin: 1, id: ik/refusing, kind: ik}");
   try {
-    ComponentBench host{registry,
-                        {.component = "{plugin: ik/refusing}", .robot = refused, .rig = {}}};
+    ComponentHarness host{registry,
+                          {.component = "{plugin: ik/refusing}", .robot = refused, .rig = {}}};
     ADD_FAILURE() << "it was made";
   } catch (const SetupError& error) {
     EXPECT_STREQ(error.what(), "ik/refusing refuses: one has too few joints");

@@ -129,7 +129,7 @@ Json status_json(const IkStatus& status) {
 Json solution_json(const RobotModel& robot, const IkBranch& branch, std::string_view key) {
   Json json;
   json["label"] = branch.label;
-  json["joints"] = to_json(robot.expand(branch.q));
+  json["joints"] = to_json(robot.to_all(branch.q));
   json["residual_m"] = branch.residual.position_m;
   json["residual_rad"] = branch.residual.angle_rad;
   json["within_limits"] = branch.within_limits;

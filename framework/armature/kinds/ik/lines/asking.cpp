@@ -123,7 +123,7 @@ std::string question_line(const RobotModel& robot, const IkQuestion& question) {
   }
   add_limits(goal, line);
   if (question.seed.size() == robot.dof()) {
-    line["seed"] = ik_lines::to_json(robot.expand(question.seed));
+    line["seed"] = ik_lines::to_json(robot.to_all(question.seed));
   }
   return line.dump();
 }

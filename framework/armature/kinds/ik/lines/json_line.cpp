@@ -75,7 +75,7 @@ JointVector joints(const RobotModel& robot, const Json& json, const char* key) {
   for (const double value : values) {
     if (std::abs(value) > kFarthest) throw InvalidLine(fmt::format("'{}' is more than 1e100", key));
   }
-  const auto independent = robot.contract(values);
+  const auto independent = robot.to_independent(values);
   if (!independent) throw InvalidLine(independent.error().text);
   return *independent;
 }

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "armature/config/problems.hpp"
-#include "armature/runtime/testing/growth.hpp"
+#include "armature/runtime/testing/leak_check.hpp"
 #include "armature/values/sanitizer.hpp"
 
 namespace armature {
@@ -19,7 +19,7 @@ constexpr std::string_view kAllBranches = "all_branches", kAnySeed = "any_seed",
 
 /// True when the plugin offers `word` with these parameters.
 bool offers(const PluginManifest& plugin, std::string_view word, const Params& params) {
-  const auto offer = std::ranges::find(plugin.offers, word, &Trait::word);
+  const auto offer = std::ranges::find(plugin.offers, word, &Capability::word);
   if (offer == plugin.offers.end()) return false;
   if (offer->when.empty()) return true;
   const auto param = std::ranges::find(plugin.params, offer->when, &ParamSpec::name);
@@ -55,7 +55,7 @@ Expected<IkSubject> plugin_subject(PluginRegistry& plugins, const PluginManifest
 std::string wrong_offers(const PluginManifest& plugin) {
   const std::array known{std::string{kAllBranches}, std::string{kAnySeed},
                          std::string{kAnySeedAtEdges}};
-  for (const Trait& offer : plugin.offers) {
+  for (const Capability& offer : plugin.offers) {
     if (std::ranges::find(known, offer.word) != known.end()) continue;
     return fmt::format("its plugin.yaml offers '{}', which is no promise of the kind ik{}",
                        offer.word, config::did_you_mean(offer.word, known));
@@ -78,7 +78,7 @@ LawReport check_loading(const std::vector<std::filesystem::path>& search_path,
   const JointVector seed = resting_position(model);
   goal.pose.position = {0.1, 0.2, 0.3};
   if (!model.pointing_axis()) goal.pose.orientation = Eigen::Quaterniond::Identity();
-  const Growth growth = growth_of(plugin->file, kCycles, kBudget_s, [&] {
+  const LeakCheck leaks = check_for_leaks(plugin->file, kCycles, kBudget_s, [&] {
     const auto solver = plugins.make<IkSolver>(plugin_id, model, params);
     if (!solver) return;
     IkBranches found;
@@ -86,10 +86,10 @@ LawReport check_loading(const std::vector<std::filesystem::path>& search_path,
     (*solver)->solve(goal, seed, found, state);
     ++report.questions;
   });
-  report.note = fmt::format("{} times{}{}", growth.cycles,
-                            growth.cycles < kCycles ? ", as often as 60 s allow" : "",
+  report.note = fmt::format("{} times{}{}", leaks.cycles,
+                            leaks.cycles < kCycles ? ", as often as 60 s allow" : "",
                             kSanitized ? ", memory is not counted under a sanitizer" : "");
-  if (const std::string fault = growth.fault(); !fault.empty()) {
+  if (const std::string fault = leaks.fault(); !fault.empty()) {
     report.failed = 1;
     report.violations.push_back({fault, ""});
   }

@@ -9,7 +9,7 @@
 #include "armature/kinds/detector/detector.hpp"
 #include "armature/kinds/landmarks/landmark_messages.hpp"
 #include "armature/messages/header.hpp"
-#include "armature/runtime/testing/component_bench.hpp"
+#include "armature/runtime/testing/component_harness.hpp"
 #include "armature/runtime/testing/test_plugins.hpp"
 
 namespace armature::landmarks_host {
@@ -73,11 +73,11 @@ class LandmarksHostTest : public ::testing::Test {
     EXPECT_EQ(answers.size(), 1u);
     return answers.empty() ? msg::FaceLandmarks{} : answers.front();
   }
-  ComponentBench host_{plugins(),
-                       {.component = "{plugin: landmarks/in_a_row, params: {stretch_below: 0}, "
-                                     "detector: {plugin: detector/first_pixel}}",
-                        .robot = {},
-                        .rig = {}}};
+  ComponentHarness host_{plugins(),
+                         {.component = "{plugin: landmarks/in_a_row, params: {stretch_below: 0}, "
+                                       "detector: {plugin: detector/first_pixel}}",
+                          .robot = {},
+                          .rig = {}}};
 };
 
 TEST_F(LandmarksHostTest, TellsWhatWasFoundUnderTheHeaderOfThePictures) {

@@ -44,7 +44,7 @@ msg::PathSegment message_of(const RobotModel& robot, const PathSegment& segment)
     written.redundancy_(redundancy.value);
     written.redundancy_is_length_(redundancy.is_length);
     if (!sample.joints) continue;
-    const JointVector all = robot.expand(*sample.joints);
+    const JointVector all = robot.to_all(*sample.joints);
     written.joints_().assign(all.begin(), all.end());
   }
   message.stop_at_end_(segment.stop_at_end);

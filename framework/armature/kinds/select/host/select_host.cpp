@@ -16,7 +16,7 @@ namespace armature {
 namespace {
 
 Expected<IkBranch> branch_of(const RobotModel& robot, const msg::IkSolution& solution) {
-  return robot.contract(solution.joints_()).map([&](const JointVector& q) {
+  return robot.to_independent(solution.joints_()).map([&](const JointVector& q) {
     return IkBranch{
         .label = solution.label_(),  // lives as long as the request
         .q = q,
@@ -74,7 +74,7 @@ class SelectHost final : public RequestHost<msg::SelectRequest, msg::SelectRespo
     response.waypoints_().clear();
     if (!chosen) return;
     for (const JointVector& q : *chosen) {
-      const JointVector all = robot_.expand(q);
+      const JointVector all = robot_.to_all(q);
       response.waypoints_().emplace_back().joints_().assign(all.begin(), all.end());
     }
   }

@@ -110,7 +110,7 @@ TEST_F(SelectHostTest, StartsFromHomeWhenNoStartIsGiven) {
   msg::SelectRequest from_home = request(1);
   from_home.start_().clear();
   EXPECT_TRUE(ask(from_home).valid_());
-  EXPECT_EQ(LastBranch::start, lamp.contract(*lamp.home()).value());
+  EXPECT_EQ(LastBranch::start, lamp.to_independent(*lamp.home()).value());
 }
 
 TEST_F(SelectHostTest, TellsAllJointsOfEveryChoice) {

@@ -13,7 +13,7 @@
 #include "armature/robot/files/stereo_rig.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
 #include "armature/robot/model/test_robots.hpp"
-#include "armature/runtime/testing/component_bench.hpp"
+#include "armature/runtime/testing/component_harness.hpp"
 #include "armature/runtime/testing/test_plugins.hpp"
 
 namespace armature::host::target {
@@ -88,7 +88,7 @@ msg::FacePose face(double stamp_s) {
 msg::JointState arm_at(double stamp_s, const JointVector& q) {
   msg::JointState message;
   write_header(message.header_(), Time{} + seconds(stamp_s), kBaseFrame);
-  const JointVector all = lamp().expand(q);
+  const JointVector all = lamp().to_all(q);
   message.position_().assign(all.begin(), all.end());
   return message;
 }
@@ -101,7 +101,7 @@ Eigen::Isometry3d camera_at(const JointVector& q) {
 
 class TargetHostTest : public ::testing::Test {
  protected:
-  static ComponentBench bench(const std::string& params = "") {
+  static ComponentHarness bench(const std::string& params = "") {
     return {plugins(),
             {.component = "{plugin: target/last_look, params: {" + params + "}}",
              .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/dental_lamp.yaml"),
@@ -115,9 +115,9 @@ class TargetHostTest : public ::testing::Test {
     EXPECT_EQ(targets.size(), 1u);
     return targets.empty() ? msg::Target{} : targets.front();
   }
-  const JointVector kHome = lamp().contract(*lamp().home()).value();
+  const JointVector kHome = lamp().to_independent(*lamp().home()).value();
   const JointVector kAway = kHome + joint_vector({0.2, 0.1, 0.1, -0.2, 0.1});
-  ComponentBench host_{bench()};
+  ComponentHarness host_{bench()};
 };
 
 TEST_F(TargetHostTest, CarriesAFaceThroughWhereTheArmWasWhenThePictureWasTaken) {
@@ -174,7 +174,7 @@ TEST_F(TargetHostTest, SaysWhenTheHistoryDoesNotReachToThePicture) {
 }
 
 TEST_F(TargetHostTest, RemembersTheArmForAsLongAsItsParametersSay) {
-  ComponentBench host = bench("history_s: 0.5, arm_rate_hz: 10");  // five samples and one
+  ComponentHarness host = bench("history_s: 0.5, arm_rate_hz: 10");  // five samples and one
   for (int i = 0; i < 20; ++i) host.send("measured_js", arm_at(0.1 * i, kHome));
   host.send("face", face(1.45));
   host.send("face", face(1.35));
@@ -220,7 +220,7 @@ TEST_F(TargetHostTest, IsDegradedByABadJointStateUntilAGoodOneComes) {
   bad.position_().pop_back();
   host_.send("measured_js", bad);
   host_.step(1);
-  EXPECT_EQ(host_.status().state, Voice::State::degraded);
+  EXPECT_EQ(host_.status().state, StatusReporter::State::degraded);
   EXPECT_EQ(host_.status().reason, "measured_js: 5 joint values; dental_lamp has 6 joints");
   bad.position_().assign(10'000, 0.0);
   host_.send("measured_js", bad);
@@ -234,11 +234,11 @@ TEST_F(TargetHostTest, IsDegradedByABadJointStateUntilAGoodOneComes) {
   EXPECT_EQ(see(face(1)).reason_(), "no joint positions have arrived yet");
   host_.send("measured_js", arm_at(1, kHome));
   host_.step(1.3);
-  EXPECT_EQ(host_.status().state, Voice::State::ok);
+  EXPECT_EQ(host_.status().state, StatusReporter::State::ok);
 }
 
 TEST_F(TargetHostTest, IsDegradedWhileItsHistoryDoesNotReachToThePictures) {
-  ComponentBench host = bench("history_s: 2, arm_rate_hz: 1");  // two samples and one
+  ComponentHarness host = bench("history_s: 2, arm_rate_hz: 1");  // two samples and one
   const auto see_at = [&](double stamp_s) {
     host.send("face", face(stamp_s));
     host.step(stamp_s + 0.2);
@@ -247,15 +247,16 @@ TEST_F(TargetHostTest, IsDegradedWhileItsHistoryDoesNotReachToThePictures) {
   EXPECT_EQ(see_at(0.3).reason, "no joint positions have arrived yet");
   for (int i = 0; i < 20; ++i) host.send("measured_js", arm_at(0.5 + 0.1 * i, kHome));
   host.step(2.5);
-  EXPECT_EQ(host.status().state, Voice::State::ok);
-  EXPECT_EQ(see_at(2.0).state, Voice::State::degraded);
+  EXPECT_EQ(host.status().state, StatusReporter::State::ok);
+  EXPECT_EQ(see_at(2.0).state, StatusReporter::State::degraded);
   EXPECT_EQ(host.status().reason, "t = 2.000 s is 200.0 ms older than the history");
   EXPECT_EQ(see_at(2.1).reason, "t = 2.000 s is 200.0 ms older than the history")
       << "told once, not for each picture";
   host.send("measured_js", arm_at(2.5, kHome));
   host.step(2.5);
-  EXPECT_EQ(host.status().state, Voice::State::degraded) << "the arm's part was never the trouble";
-  EXPECT_EQ(see_at(2.35).state, Voice::State::ok);
+  EXPECT_EQ(host.status().state, StatusReporter::State::degraded)
+      << "the arm's part was never the trouble";
+  EXPECT_EQ(see_at(2.35).state, StatusReporter::State::ok);
 }
 
 TEST_F(TargetHostTest, DoesNotStartWithARigThatHangsOnNoFrameOfTheRobot) {
@@ -264,7 +265,7 @@ TEST_F(TargetHostTest, DoesNotStartWithARigThatHangsOnNoFrameOfTheRobot) {
       "mount: {frame: elbow, forward: [1, 0, 0], right: [0, 0, 1]}}",
       "rig.yaml");
   try {
-    ComponentBench host{
+    ComponentHarness host{
         plugins(),
         {.component = "{plugin: target/last_look}",
          .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/dental_lamp.yaml"),

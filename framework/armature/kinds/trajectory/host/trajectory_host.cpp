@@ -61,7 +61,7 @@ Expected<JointSegment> segment_of(const RobotModel& robot, const msg::JointSegme
       .s = message.s_(), .q = {}, .stop_at_end = message.stop_at_end_(), .duration_s = {}};
   if (message.has_duration_()) segment.duration_s = message.duration_();
   for (const msg::JointPosition& waypoint : message.waypoints_()) {
-    auto q = robot.contract(waypoint.joints_());
+    auto q = robot.to_independent(waypoint.joints_());
     if (!q) {
       return refuse(fmt::format("waypoint {}: {}", segment.q.size() + 1, q.error().text));
     }

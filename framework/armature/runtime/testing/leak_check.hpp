@@ -9,7 +9,7 @@ namespace armature {
 
 /// What a process was found to hold on to after many equal cycles, beside what it held after the
 /// first few of them.
-struct Growth {
+struct LeakCheck {
   int cycles = 0;
   long mappings = 0;          // of memory, as in /proc/self/maps
   long heap_bytes = 0;        // handed out by malloc and not freed
@@ -23,7 +23,7 @@ struct Growth {
 
 /// Calls `cycle` up to `cycles` times, fewer when that takes longer than `budget_s`. `library` must
 /// be loaded by nobody before and after. Under a sanitizer only `still_mapped` is found out.
-Growth growth_of(const std::filesystem::path& library, int cycles, double budget_s,
-                 const std::function<void()>& cycle);
+LeakCheck check_for_leaks(const std::filesystem::path& library, int cycles, double budget_s,
+                          const std::function<void()>& cycle);
 
 }  // namespace armature

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/runtime/deployment/outside.hpp"
+#include "armature/runtime/deployment/remote_topics.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 
 namespace armature {
 
-void Outside::advertise(const PortBinding& output, Topic& topic) {
+void RemoteTopics::advertise(const PortBinding& output, Topic& topic) {
   TopicSpec spec = topic.spec();
   spec.qos = output.spec.qos;
   auto writer = transport_->advertise(spec);
@@ -21,7 +21,7 @@ void Outside::advertise(const PortBinding& output, Topic& topic) {
   topic.attach(std::move(*writer));
 }
 
-void Outside::subscribe(const PortBinding& input, Topic& topic) {
+void RemoteTopics::subscribe(const PortBinding& input, Topic& topic) {
   const int writers = writers_elsewhere(input.topic);
   const bool elsewhere = writers > 0;
   const Sources sources = input.spec.outside ? Sources::any : Sources::deployment;
@@ -39,13 +39,13 @@ void Outside::subscribe(const PortBinding& input, Topic& topic) {
   readers_[{input.topic, sources}] = std::move(*reader);
 }
 
-std::optional<std::string> Outside::waiting() const {
+std::optional<std::string> RemoteTopics::waiting() const {
   const auto link =
       std::ranges::find_if_not(links_, [](const Link& candidate) { return candidate.met(); });
   return link == links_.end() ? std::nullopt : std::optional{link->text};
 }
 
-std::vector<std::string> Outside::refusals() const {
+std::vector<std::string> RemoteTopics::refusals() const {
   std::vector<std::string> told;
   for (const auto& [key, reader] : readers_) {
     for (const auto& [writer, count] : reader->refused()) {
@@ -56,7 +56,7 @@ std::vector<std::string> Outside::refusals() const {
   return told;
 }
 
-std::set<std::string> Outside::processes_with(
+std::set<std::string> RemoteTopics::processes_with(
     const std::string& topic, std::vector<PortBinding> ComponentConfig::*ports) const {
   std::set<std::string> processes;
   for (const ComponentConfig& component : deployment_->components) {
@@ -69,8 +69,8 @@ std::set<std::string> Outside::processes_with(
   return processes;
 }
 
-std::string Outside::text_of(const std::string& topic,
-                             const std::set<std::string>& processes) const {
+std::string RemoteTopics::text_of(const std::string& topic,
+                                  const std::set<std::string>& processes) const {
   std::string others;
   for (const std::string& process : processes) {
     others += (others.empty() ? "'" : ", '") + process + "'";
@@ -78,7 +78,7 @@ std::string Outside::text_of(const std::string& topic,
   return "topic '" + topic + "' of process '" + process_ + "' has not met process " + others;
 }
 
-int Outside::readers_elsewhere(const std::string& topic) const {
+int RemoteTopics::readers_elsewhere(const std::string& topic) const {
   std::set<std::pair<std::string, bool>> readers;
   for (const ComponentConfig& component : deployment_->components) {
     if (component.process == process_) continue;
@@ -89,7 +89,7 @@ int Outside::readers_elsewhere(const std::string& topic) const {
   return static_cast<int>(readers.size());
 }
 
-int Outside::writers_elsewhere(const std::string& topic) const {
+int RemoteTopics::writers_elsewhere(const std::string& topic) const {
   std::ptrdiff_t writers = 0;
   for (const ComponentConfig& component : deployment_->components) {
     if (component.process == process_) continue;

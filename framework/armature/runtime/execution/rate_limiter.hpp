@@ -10,12 +10,13 @@ namespace armature {
 /// Says when something is due that happens at a rate, in a component that may be activated more
 /// often than that: by its executor's period, by triggers, or for something quicker. Real-time
 /// safe.
-class Beat {
+class RateLimiter {
  public:
-  explicit Beat(Duration period) : period_{period} {}
+  explicit RateLimiter(Duration period) : period_{period} {}
 
-  /// True once in every period; what was missed is not caught up. An activation counts for the beat
-  /// that it is up to half a period early for, so that the beats of a late one are not skipped.
+  /// True once in every period; what was missed is not caught up. An activation counts for the
+  /// limiter that it is up to half a period early for, so that the beats of a late one are not
+  /// skipped.
   bool due(Time now) {
     if (!next_) next_ = now;
     if (now < *next_ - period_ / 2) return false;

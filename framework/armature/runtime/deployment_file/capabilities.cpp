@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/runtime/deployment_file/needs.hpp"
+#include "armature/runtime/deployment_file/capabilities.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -18,45 +18,47 @@ namespace {
 
 /// One of those that may help each other: the plugins in a component's slots, or the components of
 /// a deployment.
-struct Party {
+struct Provider {
   std::string name;  // for messages: what the user calls it
   const PluginManifest* manifest;
   const Params* params;
   config::Origin origin;
 };
 
-bool holds(const Trait& trait, const Party& party) {
-  if (trait.when.empty()) return true;
-  switch (std::ranges::find(party.manifest->params, trait.when, &ParamSpec::name)->type) {
+bool holds(const Capability& capability, const Provider& provider) {
+  if (capability.when.empty()) return true;
+  switch (std::ranges::find(provider.manifest->params, capability.when, &ParamSpec::name)->type) {
     case ParamSpec::Type::flag:
-      return party.params->flag(trait.when);
+      return provider.params->flag(capability.when);
     case ParamSpec::Type::integer:
-      return party.params->integer(trait.when) != 0;
+      return provider.params->integer(capability.when) != 0;
     default:
-      return party.params->number(trait.when) != 0;
+      return provider.params->number(capability.when) != 0;
   }
 }
 
-const Trait* find_trait(const std::vector<Trait>& traits, std::string_view word) {
-  const auto found = std::ranges::find(traits, word, &Trait::word);
-  return found == traits.end() ? nullptr : &*found;
+const Capability* find_capability(const std::vector<Capability>& capabilities,
+                                  std::string_view word) {
+  const auto found = std::ranges::find(capabilities, word, &Capability::word);
+  return found == capabilities.end() ? nullptr : &*found;
 }
 
-/// Who could offer `word`: one of the parties whose offer is switched off, else the plugins on the
-/// search path that `fits` lets in; a word that nobody knows is a typo. nullopt when plugins offer
-/// it that have no place here: who they work for may run in another process.
-std::optional<std::string> way_out(std::string_view word, const std::vector<Party>& parties,
-                                   const PluginRegistry& plugins,
-                                   const std::function<bool(const PluginManifest&)>& fits) {
-  for (const Party& party : parties) {
-    if (const Trait* offer = find_trait(party.manifest->offers, word)) {
-      return fmt::format("'{}' does {}", party.name, unless_text(*offer, party.manifest->params));
+/// Who could offer `word`: one of the providers whose offer is switched off, else the plugins on
+/// the search path that `fits` lets in; a word that nobody knows is a typo. nullopt when plugins
+/// offer it that have no place here: who they work for may run in another process.
+std::optional<std::string> hint(std::string_view word, const std::vector<Provider>& providers,
+                                const PluginRegistry& plugins,
+                                const std::function<bool(const PluginManifest&)>& fits) {
+  for (const Provider& provider : providers) {
+    if (const Capability* offer = find_capability(provider.manifest->offers, word)) {
+      return fmt::format("'{}' does {}", provider.name,
+                         unless_text(*offer, provider.manifest->params));
     }
   }
   std::vector<std::string> ids, words;
   bool elsewhere = false;
   for (const PluginManifest& plugin : plugins.plugins()) {
-    for (const Trait& offer : plugin.offers) {
+    for (const Capability& offer : plugin.offers) {
       words.push_back(offer.word);
       if (offer.word != word) continue;
       if (fits(plugin)) ids.push_back(plugin.id);
@@ -69,17 +71,17 @@ std::optional<std::string> way_out(std::string_view word, const std::vector<Part
 }
 
 /// `needy` needs, and `offering` may offer.
-void check_needs(const Party& needy, const std::vector<Party>& offering, std::string_view nobody,
-                 const PluginRegistry& plugins,
+void check_needs(const Provider& needy, const std::vector<Provider>& offering,
+                 std::string_view nobody, const PluginRegistry& plugins,
                  const std::function<bool(const PluginManifest&)>& fits,
                  config::Problems& problems) {
-  for (const Trait& need : needy.manifest->needs) {
+  for (const Capability& need : needy.manifest->needs) {
     if (!holds(need, needy)) continue;
-    const bool met = std::ranges::any_of(offering, [&](const Party& party) {
-      const Trait* offer = find_trait(party.manifest->offers, need.word);
-      return offer && holds(*offer, party);
+    const bool met = std::ranges::any_of(offering, [&](const Provider& provider) {
+      const Capability* offer = find_capability(provider.manifest->offers, need.word);
+      return offer && holds(*offer, provider);
     });
-    const auto who_could = way_out(need.word, offering, plugins, fits);
+    const auto who_could = hint(need.word, offering, plugins, fits);
     if (met || !who_could) continue;
     const std::string unless = unless_text(need, needy.manifest->params);
     problems.add(needy.origin,
@@ -88,16 +90,16 @@ void check_needs(const Party& needy, const std::vector<Party>& offering, std::st
   }
 }
 
-Party party_of(const ComponentConfig& component) {
+Provider provider_of(const ComponentConfig& component) {
   return {component.name, component.manifest, &component.params, component.origin};
 }
 
-std::vector<Party> slots_of(const ComponentConfig& component) {
-  std::vector<Party> parties;
+std::vector<Provider> slots_of(const ComponentConfig& component) {
+  std::vector<Provider> providers;
   for (const SlotConfig& slot : component.slots) {
-    parties.push_back({slot.plugin_id, slot.manifest, &slot.params, slot.origin});
+    providers.push_back({slot.plugin_id, slot.manifest, &slot.params, slot.origin});
   }
-  return parties;
+  return providers;
 }
 
 }  // namespace
@@ -108,15 +110,15 @@ void check_slot_needs(const ComponentConfig& component, const PluginRegistry& pl
   if (!component.manifest->hosts.empty()) return;
   // With a slot missing, what its plugin would offer is missing too, and that slot is a problem.
   if (component.slots.size() != component.manifest->slots.size()) return;
-  const std::vector<Party> parties = slots_of(component);
+  const std::vector<Provider> providers = slots_of(component);
   const auto fits_a_slot = [&](const PluginManifest& plugin) {
     const auto& slots = component.manifest->slots;
     return std::ranges::find(slots, plugin.kind, &SlotSpec::kind) != slots.end();
   };
-  std::vector<Party> offering = parties;
-  offering.push_back(party_of(component));
+  std::vector<Provider> offering = providers;
+  offering.push_back(provider_of(component));
   const std::string nobody = fmt::format("nothing in component '{}'", component.name);
-  for (const Party& needy : parties) {
+  for (const Provider& needy : providers) {
     check_needs(needy, offering, nobody, plugins, fits_a_slot, problems);
   }
 }
@@ -125,18 +127,19 @@ void check_component_needs(const DeploymentConfig& deployment, const PluginRegis
                            config::Problems& problems) {
   for (const ComponentConfig& needy : deployment.components) {
     if (needy.unit != kMainUnit) continue;  // what its component needs is asked once
-    std::vector<Party> offering;
+    std::vector<Provider> offering;
     std::vector<std::string_view> kinds{"component"};
     for (const ComponentConfig& component : deployment.components) {
       if (!exchange_topics(needy, component)) continue;
-      offering.push_back(party_of(component));
+      offering.push_back(provider_of(component));
       std::ranges::copy(slots_of(component), std::back_inserter(offering));
       for (const SlotSpec& slot : component.manifest->slots) kinds.push_back(slot.kind);
     }
     const auto fits = [&](const PluginManifest& plugin) {
       return std::ranges::find(kinds, plugin.kind) != kinds.end();
     };
-    check_needs(party_of(needy), offering, "no component on its topics", plugins, fits, problems);
+    check_needs(provider_of(needy), offering, "no component on its topics", plugins, fits,
+                problems);
   }
 }
 

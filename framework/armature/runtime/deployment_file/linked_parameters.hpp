@@ -9,6 +9,6 @@ namespace armature {
 /// against) say so once: `same_as` in plugin.yaml, of components that exchange topics. What was not
 /// written is taken from the other one; what was written and differs is a problem at its line. So
 /// is what is above a parameter of who reads an output, where `at_most` says that it must not be.
-void agree_on_params(DeploymentConfig& deployment, config::Problems& problems);
+void link_parameters(DeploymentConfig& deployment, config::Problems& problems);
 
 }  // namespace armature

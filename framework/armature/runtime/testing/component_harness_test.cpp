@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/runtime/testing/component_bench.hpp"
+#include "armature/runtime/testing/component_harness.hpp"
 
 #include <gtest/gtest.h>
 
@@ -39,7 +39,7 @@ class Shout final : public Component {
       auto louder = said_.loan();
       louder->data_() = heard_[i].data_() + mark_;
       louder.publish();
-      say("said " + heard_[i].data_());
+      log("said " + heard_[i].data_());
     }
   }
 
@@ -72,7 +72,7 @@ msg::String text(const std::string& data) {
 class ComponentBenchTest : public testing::Test {
  protected:
   PluginRegistry plugins_ = with_shout();
-  ComponentBench bench_{plugins_, {.component = "{plugin: test/shout}", .robot = {}, .rig = {}}};
+  ComponentHarness bench_{plugins_, {.component = "{plugin: test/shout}", .robot = {}, .rig = {}}};
 };
 
 TEST_F(ComponentBenchTest, ShowsWhatWasSentAndGivesWhatWasPublishedOnce) {
@@ -97,10 +97,10 @@ TEST_F(ComponentBenchTest, KeepsTheRulesOfThePorts) {
   bench_.send("quiet", yes);
   EXPECT_FALSE(bench_.triggered());
   bench_.step(0.5);
-  EXPECT_EQ(bench_.status().state, Voice::State::degraded);
+  EXPECT_EQ(bench_.status().state, StatusReporter::State::degraded);
   EXPECT_EQ(bench_.status().reason, "quiet");
   bench_.step(1.5);  // which is too old by now
-  EXPECT_EQ(bench_.status().state, Voice::State::ok);
+  EXPECT_EQ(bench_.status().state, StatusReporter::State::ok);
   for (const char* word : {"1", "2", "3", "4", "5", "6"}) bench_.send("heard", text(word));
   bench_.step(2);
   EXPECT_EQ(bench_.take<msg::String>("said").size(), 4u) << "its queue is no longer";
@@ -123,16 +123,16 @@ TEST_F(ComponentBenchTest, KnowsThePortsAndTheirTypes) {
   EXPECT_THROW(bench_.take<msg::String>("heard"), std::invalid_argument);
 }
 
-TEST(ComponentBench, ChecksParametersAsADeploymentDoes) {
+TEST(ComponentHarness, ChecksParametersAsADeploymentDoes) {
   PluginRegistry plugins = with_shout();
-  ComponentBench loud{
+  ComponentHarness loud{
       plugins,
       {.component = "{plugin: test/shout, params: {mark: '!!!'}}", .robot = {}, .rig = {}}};
   loud.send("heard", text("one"));
   loud.step(0);
   EXPECT_EQ(loud.take<msg::String>("said").front().data_(), "one!!!");
   try {
-    ComponentBench wrong{
+    ComponentHarness wrong{
         plugins, {.component = "{plugin: test/shout, params: {mrk: '!'}}", .robot = {}, .rig = {}}};
     ADD_FAILURE() << "it was made";
   } catch (const config::ConfigError& error) {
@@ -142,11 +142,11 @@ TEST(ComponentBench, ChecksParametersAsADeploymentDoes) {
   }
 }
 
-TEST(ComponentBench, RefusesAClassThatForgetsAPortOfItsPluginYaml) {
+TEST(ComponentHarness, RefusesAClassThatForgetsAPortOfItsPluginYaml) {
   PluginRegistry plugins{std::vector<std::filesystem::path>{}};
   plugins.add<Silent>(kManifest);
   EXPECT_THROW(
-      (ComponentBench{plugins, {.component = "{plugin: test/shout}", .robot = {}, .rig = {}}}),
+      (ComponentHarness{plugins, {.component = "{plugin: test/shout}", .robot = {}, .rig = {}}}),
       std::logic_error);
 }
 

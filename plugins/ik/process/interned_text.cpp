@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lasting_text.hpp"
+#include "interned_text.hpp"
 
 #include <algorithm>
 #include <mutex>
@@ -42,14 +42,14 @@ std::string_view cut(std::string_view text, std::size_t most) {
 }  // namespace
 
 std::optional<std::string_view> lasting_label(std::string_view label) {
-  constexpr std::size_t kMost = 256, kLongest = 100;
-  static Kept labels{kMost};
+  constexpr std::size_t kMax = 256, kLongest = 100;
+  static Kept labels{kMax};
   return label.size() > kLongest ? std::nullopt : labels.keep(label);
 }
 
 std::optional<std::string_view> lasting_detail(std::string_view text) {
-  constexpr std::size_t kMost = 1024, kLongest = 500;
-  static Kept details{kMost};
+  constexpr std::size_t kMax = 1024, kLongest = 500;
+  static Kept details{kMax};
   return details.keep(cut(text, kLongest));
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/runtime/deployment_file/agreement.hpp"
+#include "armature/runtime/deployment_file/linked_parameters.hpp"
 
 #include <fmt/format.h>
 
@@ -58,7 +58,7 @@ void check_at_most(const ComponentConfig& component, const ParamSpec& spec,
 
 }  // namespace
 
-void agree_on_params(DeploymentConfig& deployment, config::Problems& problems) {
+void link_parameters(DeploymentConfig& deployment, config::Problems& problems) {
   for (ComponentConfig& component : deployment.components) {
     for (const ParamSpec& spec : component.manifest->params) {
       if (!spec.at_most.empty() && component.unit == kMainUnit) {

@@ -22,11 +22,11 @@ namespace armature {
 /// One component on a bench, for tests: made from its plugin.yaml and library as a deployment makes
 /// it, its topics in memory only, and activated by hand.
 ///
-///     ComponentBench arm{plugins, {.component = "{plugin: arm/simulated}", .robot = lamp}};
+///     ComponentHarness arm{plugins, {.component = "{plugin: arm/simulated}", .robot = lamp}};
 ///     arm.send("servo_jp", command);
 ///     arm.step(0.001);
 ///     EXPECT_EQ(arm.take<msg::JointState>("measured_js").size(), 1u);
-class ComponentBench final : private Delivery {
+class ComponentHarness final : private Delivery {
  public:
   struct Options {
     std::string component;  // its entry in a deployment: "{plugin: ik/numeric, params: {...}}"
@@ -38,10 +38,10 @@ class ComponentBench final : private Delivery {
   /// Throws config::ConfigError, PluginError, or what the component's own constructor throws;
   /// std::logic_error when it does not claim exactly the ports of its plugin.yaml. `plugins`
   /// outlives the bench.
-  ComponentBench(PluginRegistry& plugins, const Options& options);
-  ~ComponentBench() override;
-  ComponentBench(const ComponentBench&) = delete;
-  ComponentBench& operator=(const ComponentBench&) = delete;
+  ComponentHarness(PluginRegistry& plugins, const Options& options);
+  ~ComponentHarness() override;
+  ComponentHarness(const ComponentHarness&) = delete;
+  ComponentHarness& operator=(const ComponentHarness&) = delete;
 
   /// Hands `message` to the input, as if it had just been published.
   template <class Message>
@@ -73,7 +73,7 @@ class ComponentBench final : private Delivery {
     return messages;
   }
 
-  Voice::Status status() const { return unit_->status(); }
+  StatusReporter::Status status() const { return unit_->status(); }
   /// What it told the operator.
   const std::vector<std::string>& lines() const { return lines_; }
   const std::optional<Duration>& period() const { return unit_->period(); }
@@ -100,10 +100,10 @@ class ComponentBench final : private Delivery {
   std::vector<std::string> lines_;
   std::map<std::string, std::unique_ptr<Topic>> topics_;  // by name; outlive their samples
   std::map<std::string, Tap> taps_;                       // by output
-  std::unique_ptr<Unit> unit_;
+  std::unique_ptr<ComponentRunner> unit_;
 };
 
 /// Why such a component cannot be made, or "".
-std::string refusal_of(PluginRegistry& plugins, const ComponentBench::Options& options);
+std::string refusal_of(PluginRegistry& plugins, const ComponentHarness::Options& options);
 
 }  // namespace armature

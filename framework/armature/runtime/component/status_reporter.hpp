@@ -12,7 +12,7 @@ namespace armature {
 
 /// What a component tells about itself, kept for the operator and for state messages. From any
 /// thread.
-class Voice {
+class StatusReporter {
  public:
   enum class State { ok, degraded, fault, stalled };
   struct Status {
@@ -22,10 +22,10 @@ class Voice {
   /// As real-time safe as the components that speak.
   using Sink = std::function<void(std::string_view component, std::string_view line)>;
 
-  Voice(std::string component, Sink sink);
+  StatusReporter(std::string component, Sink sink);
 
   /// Both are real-time safe; what is longer than `kMaxText` is cut.
-  void say(std::string_view text);
+  void log(std::string_view text);
   void set(State state, std::string_view reason);
   /// From now on what is set is kept, and no line tells of it: of a component that rests in a run
   /// that is stopping. A fault is told all the same. False: as before. Real-time safe.

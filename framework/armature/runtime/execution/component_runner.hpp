@@ -13,7 +13,7 @@
 #include "armature/runtime/component/component.hpp"
 #include "armature/runtime/component/inbox.hpp"
 #include "armature/runtime/component/output_port.hpp"
-#include "armature/runtime/component/voice.hpp"
+#include "armature/runtime/component/status_reporter.hpp"
 #include "armature/runtime/execution/timing_histogram.hpp"
 #include "armature/runtime/plugins/plugin_library.hpp"
 
@@ -23,9 +23,9 @@ class InjectedFault;
 
 /// A component with what belongs to it: ports, period, counters, and the rule that its callbacks
 /// never run two at a time (one scheduler owns it).
-class Unit {
+class ComponentRunner {
  public:
-  Unit(std::string name, std::string plugin_id, int place, Voice::Sink sink);
+  ComponentRunner(std::string name, std::string plugin_id, int place, StatusReporter::Sink sink);
 
   const std::string& name() const { return name_; }
   const std::string& plugin_id() const { return plugin_id_; }
@@ -34,8 +34,8 @@ class Unit {
   Inbox& inbox() { return inbox_; }
   const Inbox& inbox() const { return inbox_; }
   std::deque<OutputPort>& outputs() { return outputs_; }
-  const std::shared_ptr<Voice>& voice() { return voice_; }
-  Voice::Status status() const { return voice_->status(); }
+  const std::shared_ptr<StatusReporter>& reporter() { return reporter_; }
+  StatusReporter::Status status() const { return reporter_->status(); }
   const std::optional<Duration>& period() const { return period_; }
   void set_period(Duration period) { period_ = period; }
   /// On the simulated clock, how much later its samples reach their readers.
@@ -103,7 +103,7 @@ class Unit {
   std::function<void()> triggered_;
   Inbox inbox_;
   std::deque<OutputPort> outputs_;
-  std::shared_ptr<Voice> voice_;
+  std::shared_ptr<StatusReporter> reporter_;
   std::optional<Duration> period_;
   Duration latency_{0};
   const InjectedFault* injected_ = nullptr;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/runtime/component/voice.hpp"
+#include "armature/runtime/component/status_reporter.hpp"
 
 #include <mutex>
 #include <utility>
@@ -9,23 +9,23 @@
 namespace armature {
 namespace {
 
-using Line = InlineText<Voice::kMaxText>;
+using Line = InlineText<StatusReporter::kMaxText>;
 
-Line line_of(Voice::State state, std::string_view reason) {
-  if (state == Voice::State::ok) return "ok again";
-  if (state == Voice::State::fault) return Line::format("FAULT: {}", reason);
+Line line_of(StatusReporter::State state, std::string_view reason) {
+  if (state == StatusReporter::State::ok) return "ok again";
+  if (state == StatusReporter::State::fault) return Line::format("FAULT: {}", reason);
   return reason;
 }
 
 }  // namespace
 
-Voice::Voice(std::string component, Sink sink)
+StatusReporter::StatusReporter(std::string component, Sink sink)
     : component_{std::move(component)}, sink_{std::move(sink)} {
   last_line_.reserve(kMaxText);
   status_.reason.reserve(kMaxText);
 }
 
-void Voice::say(std::string_view text) {
+void StatusReporter::log(std::string_view text) {
   text = text.substr(0, kMaxText);
   {
     const std::scoped_lock lock{mutex_};
@@ -35,7 +35,7 @@ void Voice::say(std::string_view text) {
   if (sink_) sink_(component_, text);
 }
 
-void Voice::set(State state, std::string_view reason) {
+void StatusReporter::set(State state, std::string_view reason) {
   reason = reason.substr(0, kMaxText);
   {
     const std::scoped_lock lock{mutex_};
@@ -49,12 +49,12 @@ void Voice::set(State state, std::string_view reason) {
   if (sink_) sink_(component_, line_of(state, reason));
 }
 
-void Voice::keep_to_itself(bool quiet) {
+void StatusReporter::keep_to_itself(bool quiet) {
   const std::scoped_lock lock{mutex_};
   quiet_ = quiet;
 }
 
-Voice::Status Voice::status() const {
+StatusReporter::Status StatusReporter::status() const {
   const std::scoped_lock lock{mutex_};
   return status_;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/runtime/testing/component_bench.hpp"
+#include "armature/runtime/testing/component_harness.hpp"
 
 #include <algorithm>
 
@@ -7,9 +7,9 @@
 
 namespace armature {
 
-ComponentBench::ComponentBench(PluginRegistry& plugins, const Options& options) {
+ComponentHarness::ComponentHarness(PluginRegistry& plugins, const Options& options) {
   read(plugins, options);
-  unit_ = std::make_unique<Unit>(
+  unit_ = std::make_unique<ComponentRunner>(
       config_.name, config_.plugin_id, 0,
       [this](std::string_view, std::string_view line) { lines_.emplace_back(line); });
   unit_->on_triggered([this] { triggered_ = true; });
@@ -30,9 +30,9 @@ ComponentBench::ComponentBench(PluginRegistry& plugins, const Options& options) 
   }
 }
 
-ComponentBench::~ComponentBench() = default;
+ComponentHarness::~ComponentHarness() = default;
 
-void ComponentBench::read(const PluginRegistry& plugins, const Options& options) {
+void ComponentHarness::read(const PluginRegistry& plugins, const Options& options) {
   deployment_.name = "bench";
   deployment_.seed = 1;
   deployment_.executors.push_back(
@@ -59,21 +59,21 @@ void ComponentBench::read(const PluginRegistry& plugins, const Options& options)
   deployment_.components.push_back(std::move(others));
 }
 
-void ComponentBench::step(double now_s) {
+void ComponentHarness::step(double now_s) {
   now_ = Time{} + seconds(now_s);
   triggered_ = false;
   unit_->step(now_);
   if (unit_->faulted()) throw std::runtime_error(unit_->status().reason);
 }
 
-void ComponentBench::begin_stop(double now_s) {
+void ComponentHarness::begin_stop(double now_s) {
   now_ = Time{} + seconds(now_s);
   unit_->request_stop();
   unit_->answer_stop_request(now_);
   if (unit_->faulted()) throw std::runtime_error(unit_->status().reason);
 }
 
-Topic& ComponentBench::topic_for(const PortBinding& port, const MessageType& type) {
+Topic& ComponentHarness::topic_for(const PortBinding& port, const MessageType& type) {
   auto& topic = topics_[port.topic];
   if (!topic) {
     topic = std::make_unique<Topic>(
@@ -82,8 +82,8 @@ Topic& ComponentBench::topic_for(const PortBinding& port, const MessageType& typ
   return *topic;
 }
 
-Topic& ComponentBench::topic_of(const std::vector<PortBinding>& ports, std::string_view name,
-                                const MessageType& type) {
+Topic& ComponentHarness::topic_of(const std::vector<PortBinding>& ports, std::string_view name,
+                                  const MessageType& type) {
   for (const PortBinding& port : ports) {
     if (port.spec.name != name) continue;
     if (port.spec.type != type.ros_name) {
@@ -95,7 +95,7 @@ Topic& ComponentBench::topic_of(const std::vector<PortBinding>& ports, std::stri
   throw std::invalid_argument("there is no port '" + std::string{name} + "'");
 }
 
-bool ComponentBench::send_encoded(std::string_view input, std::span<const std::byte> cdr) {
+bool ComponentHarness::send_encoded(std::string_view input, std::span<const std::byte> cdr) {
   const auto port =
       std::ranges::find(config_.inputs, input, [](const PortBinding& p) { return p.spec.name; });
   if (port == config_.inputs.end()) {
@@ -108,9 +108,9 @@ bool ComponentBench::send_encoded(std::string_view input, std::span<const std::b
   return true;
 }
 
-std::string refusal_of(PluginRegistry& plugins, const ComponentBench::Options& options) {
+std::string refusal_of(PluginRegistry& plugins, const ComponentHarness::Options& options) {
   try {
-    const ComponentBench made{plugins, options};
+    const ComponentHarness made{plugins, options};
   } catch (const std::exception& error) {
     return error.what();
   }

@@ -9,9 +9,9 @@
 
 namespace armature::report::lamp_alignment {
 
-/// What there is to tell about a story that did not come to its end: what became of the last face
-/// that was seen, and what the task was at.
-class UnfinishedStory {
+/// What there is to tell about a scenario that did not come to its end: what became of the last
+/// face that was seen, and what the task was at.
+class UnfinishedScenario {
  public:
   /// There is a face in the picture that was taken at `picture`.
   void see_face(Time picture);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/runtime/testing/growth.hpp"
+#include "armature/runtime/testing/leak_check.hpp"
 
 #include <fmt/format.h>
 #include <malloc.h>
@@ -20,7 +20,7 @@ long heap_bytes() {
   return static_cast<long>(info.uordblks + info.hblkhd);
 }
 
-/// Of memory that no file backs: pages of libraries are mapped ahead of use, and are no growth.
+/// Of memory that no file backs: pages of libraries are mapped ahead of use, and are no leaks.
 long resident_bytes() {
   std::ifstream rollup{"/proc/self/smaps_rollup"};
   for (std::string word; rollup >> word;) {
@@ -50,7 +50,7 @@ bool is_mapped(const std::filesystem::path& library) {
 
 }  // namespace
 
-std::string Growth::fault() const {
+std::string LeakCheck::fault() const {
   if (still_mapped) {
     return "the library stays loaded after the last of its objects is gone (a unique symbol, or a "
            "thread or exit handler of its own, holds it)";
@@ -65,25 +65,25 @@ std::string Growth::fault() const {
   return text.empty() ? "" : fmt::format("{} more after {} cycles", text, cycles);
 }
 
-Growth growth_of(const std::filesystem::path& library, int cycles, double budget_s,
-                 const std::function<void()>& cycle) {
+LeakCheck check_for_leaks(const std::filesystem::path& library, int cycles, double budget_s,
+                          const std::function<void()>& cycle) {
   using Steady = std::chrono::steady_clock;
   const auto end = Steady::now() + std::chrono::duration<double>{budget_s};
   for (int i = 0; i < kWarmUp; ++i) cycle();
-  Growth growth;
-  growth.mappings = -mappings();
-  growth.heap_bytes = -heap_bytes();
-  growth.resident_bytes = -resident_bytes();
-  while (growth.cycles < cycles && Steady::now() < end) {
+  LeakCheck leaks;
+  leaks.mappings = -mappings();
+  leaks.heap_bytes = -heap_bytes();
+  leaks.resident_bytes = -resident_bytes();
+  while (leaks.cycles < cycles && Steady::now() < end) {
     cycle();
-    ++growth.cycles;
+    ++leaks.cycles;
   }
-  growth.resident_bytes += resident_bytes();
-  growth.heap_bytes += heap_bytes();
-  growth.mappings += mappings();
-  if (kSanitized) growth.resident_bytes = growth.heap_bytes = growth.mappings = 0;
-  growth.still_mapped = is_mapped(library);
-  return growth;
+  leaks.resident_bytes += resident_bytes();
+  leaks.heap_bytes += heap_bytes();
+  leaks.mappings += mappings();
+  if (kSanitized) leaks.resident_bytes = leaks.heap_bytes = leaks.mappings = 0;
+  leaks.still_mapped = is_mapped(library);
+  return leaks;
 }
 
 }  // namespace armature

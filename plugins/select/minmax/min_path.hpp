@@ -45,10 +45,10 @@ struct Layers {
 /// out is left out of the search over turns (forward).
 class LeastPath {
  public:
-  /// All outlive the search. A move that counts and takes longer than `most_s` is not made.
+  /// All outlive the search. A move that counts and takes longer than `max_s` is not made.
   LeastPath(const Moves& moves, const Waypoints& waypoints, Measure measure,
-            double most_s = std::numeric_limits<double>::infinity())
-      : moves_{&moves}, waypoints_{&waypoints}, measure_{measure}, most_s_{most_s} {}
+            double max_s = std::numeric_limits<double>::infinity())
+      : moves_{&moves}, waypoints_{&waypoints}, measure_{measure}, max_s_{max_s} {}
 
   /// Without places where no path goes on: ends before the waypoint that none reaches.
   Layers from(const JointVector& start) const;
@@ -65,12 +65,12 @@ class LeastPath {
                           const Bounds& ahead, double bound) const;
 
   double joined(double so_far, double time_s, bool counts) const;
-  bool allowed(double time_s, bool counts) const { return !counts || time_s <= most_s_; }
+  bool allowed(double time_s, bool counts) const { return !counts || time_s <= max_s_; }
 
   const Moves* moves_;
   const Waypoints* waypoints_;
   Measure measure_;
-  double most_s_;
+  double max_s_;
 };
 
 }  // namespace armature::select::minmax

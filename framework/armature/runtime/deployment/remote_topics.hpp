@@ -20,9 +20,10 @@ namespace armature {
 /// The topics of one process of a deployment, seen from outside: writers for its outputs, readers
 /// only for inputs that another process feeds or that are open, and whether the deployment's other
 /// processes have met them.
-class Outside {
+class RemoteTopics {
  public:
-  Outside(PluginPtr<Transport> transport, const DeploymentConfig& deployment, std::string process)
+  RemoteTopics(PluginPtr<Transport> transport, const DeploymentConfig& deployment,
+               std::string process)
       : transport_{std::move(transport)}, deployment_{&deployment}, process_{std::move(process)} {}
 
   /// Throws PluginError with the transport's reason.
@@ -50,7 +51,7 @@ class Outside {
   PluginPtr<Transport> transport_;
   const DeploymentConfig* deployment_;
   std::string process_;
-  std::map<std::pair<std::string, Sources>, std::unique_ptr<OutsideReader>> readers_;
+  std::map<std::pair<std::string, Sources>, std::unique_ptr<RemoteReader>> readers_;
   /// A topic that another process reads or writes.
   struct Link {
     std::string text;  // that it waits

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "unfinished_story.hpp"
+#include "unfinished_scenario.hpp"
 
 #include <fmt/core.h>
 
@@ -13,22 +13,22 @@ constexpr std::size_t kPictures = 64;
 
 }  // namespace
 
-void UnfinishedStory::see_face(Time picture) {
+void UnfinishedScenario::see_face(Time picture) {
   faces_.push_back(picture);
   if (faces_.size() > kPictures) faces_.pop_front();
 }
 
-void UnfinishedStory::see_refusal(Time picture, const std::string& why) {
+void UnfinishedScenario::see_refusal(Time picture, const std::string& why) {
   if (std::ranges::find(faces_, picture) != faces_.end()) refusal_ = why;
 }
 
-void UnfinishedStory::see_task(const std::string& doing, const std::string& why, Time now) {
+void UnfinishedScenario::see_task(const std::string& doing, const std::string& why, Time now) {
   if (doing != doing_) doing_since_ = now;
   doing_ = doing;
   why_ = why;
 }
 
-std::string UnfinishedStory::told(Time now) const {
+std::string UnfinishedScenario::told(Time now) const {
   std::string text;
   if (!refusal_.empty()) text += "; the last that was seen was refused: " + refusal_;
   if (doing_.empty()) return text;

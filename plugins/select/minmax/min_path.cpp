@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "least_path.hpp"
-
 #include <algorithm>
+
+#include "min_path.hpp"
 
 namespace armature::select::minmax {
 namespace {
@@ -39,7 +39,7 @@ LeastPath::Bounds LeastPath::bounds() const {
     for (const IkBranch* branch : branches) {
       double least = kNever;
       for (std::size_t b = 0; b < nexts.size(); ++b) {
-        const double time_s = moves_->least_time(*branch, *nexts[b]);
+        const double time_s = moves_->min_time(*branch, *nexts[b]);
         if (allowed(time_s, true)) least = std::min(least, joined(ahead[k + 1][b], time_s, true));
       }
       ahead[k].push_back(least);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/runtime/execution/unit.hpp"
+#include "armature/runtime/execution/component_runner.hpp"
 
 #include <fmt/format.h>
 #include <time.h>
@@ -23,9 +23,9 @@ Duration read_clock(clockid_t clock) {
 
 /// Says while it exists that the component's step runs: to the watchdog, and to who reads of a
 /// crash.
-class Unit::Running {
+class ComponentRunner::Running {
  public:
-  Running(Unit& unit, const char* phase)
+  Running(ComponentRunner& unit, const char* phase)
       : unit_{unit}, component_{unit.name_, phase}, start_{read_clock(CLOCK_MONOTONIC)} {
     unit_.running_since_ns_.store(start_.count(), std::memory_order_relaxed);
   }
@@ -35,26 +35,27 @@ class Unit::Running {
   Duration start() const { return start_; }
 
  private:
-  Unit& unit_;
+  ComponentRunner& unit_;
   RunningComponent component_;
   Duration start_;
 };
 
-Unit::Unit(std::string name, std::string plugin_id, int place, Voice::Sink sink)
+ComponentRunner::ComponentRunner(std::string name, std::string plugin_id, int place,
+                                 StatusReporter::Sink sink)
     : name_{std::move(name)},
       plugin_id_{std::move(plugin_id)},
       place_{place},
       inbox_{[this] {
         if (triggered_) triggered_();
       }},
-      voice_{std::make_shared<Voice>(name_, std::move(sink))} {}
+      reporter_{std::make_shared<StatusReporter>(name_, std::move(sink))} {}
 
-void Unit::activate(Time now, Duration lateness) {
+void ComponentRunner::activate(Time now, Duration lateness) {
   answer_stop_request(now);
   if (!finished()) step(now, lateness);
 }
 
-void Unit::step(Time now, Duration lateness) {
+void ComponentRunner::step(Time now, Duration lateness) {
   if (faulted()) return;
   inbox_.show(now);
   activations_.fetch_add(1, std::memory_order_relaxed);
@@ -73,7 +74,7 @@ void Unit::step(Time now, Duration lateness) {
   times_.duration.add(read_clock(CLOCK_MONOTONIC) - running.start());
 }
 
-void Unit::answer_stop_request(Time now) {
+void ComponentRunner::answer_stop_request(Time now) {
   if (stop_begun_ || faulted() || !stop_requested_.load(std::memory_order_acquire)) return;
   stop_begun_ = true;
   const Running running{*this, "begin_stop"};
@@ -85,14 +86,14 @@ void Unit::answer_stop_request(Time now) {
   }
 }
 
-void Unit::ask_stopped() {
+void ComponentRunner::ask_stopped() {
   const bool stopped = component_->stopped();
   stopped_.store(stopped, std::memory_order_release);
   // Others end before it does, and that it hears nothing of them then is no trouble.
-  voice_->keep_to_itself(stopped);
+  reporter_->keep_to_itself(stopped);
 }
 
-void Unit::stop(Time now) {
+void ComponentRunner::stop(Time now) {
   if (!component_ || faulted()) return;
   const RunningComponent running{name_, "stop"};
   try {
@@ -102,7 +103,7 @@ void Unit::stop(Time now) {
   }
 }
 
-void Unit::summarize(Summary& summary) {
+void ComponentRunner::summarize(Summary& summary) {
   const RunningComponent running{name_, "summarize"};
   try {
     component_->summarize(summary);
@@ -111,8 +112,8 @@ void Unit::summarize(Summary& summary) {
   }
 }
 
-void Unit::fault(std::string_view when, const std::string& what) {
-  voice_->set(Voice::State::fault, fmt::format("{} failed: {}", when, what));
+void ComponentRunner::fault(std::string_view when, const std::string& what) {
+  reporter_->set(StatusReporter::State::fault, fmt::format("{} failed: {}", when, what));
   faulted_.store(true, std::memory_order_release);
   for (OutputPort& output : outputs_) output.close();
 }

@@ -8,7 +8,7 @@
 #include "armature/config/document.hpp"
 #include "armature/config/problems.hpp"
 #include "exit_code.hpp"
-#include "plugins.hpp"
+#include "inspect/plugins.hpp"
 
 namespace armature::bench {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "armature/config/document.hpp"
 #include "armature/runtime/plugins/plugin_registry.hpp"
-#include "shipped_configs.hpp"
+#include "verbs/shipped_configs.hpp"
 
 namespace armature {
 namespace {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "completion/candidate.hpp"
-#include "run.hpp"
+#include "run/run.hpp"
 
 namespace armature {
 

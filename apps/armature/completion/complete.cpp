@@ -9,7 +9,7 @@
 #include "armature/runtime/plugins/plugin_registry.hpp"
 #include "completion/assignment.hpp"
 #include "exit_code.hpp"
-#include "shipped_configs.hpp"
+#include "verbs/shipped_configs.hpp"
 
 namespace armature {
 namespace {

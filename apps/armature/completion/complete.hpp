@@ -2,7 +2,7 @@
 #pragma once
 
 #include "completion/candidate.hpp"
-#include "verb_tree.hpp"
+#include "verbs/verb_tree.hpp"
 
 namespace armature {
 

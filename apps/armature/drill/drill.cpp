@@ -18,8 +18,8 @@
 #include "armature/runtime/processes/instance_lock.hpp"
 #include "drill/drill_report.hpp"
 #include "drill/trial.hpp"
-#include "end_signals.hpp"
 #include "exit_code.hpp"
+#include "run/end_signals.hpp"
 
 namespace armature {
 namespace drill {

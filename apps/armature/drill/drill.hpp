@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "run.hpp"
+#include "run/run.hpp"
 
 namespace armature {
 

@@ -8,7 +8,7 @@
 #include "armature/bus/transport.hpp"
 #include "armature/runtime/plugins/plugin_registry.hpp"
 #include "drill/arm_record.hpp"
-#include "run.hpp"
+#include "run/run.hpp"
 
 namespace armature::drill {
 

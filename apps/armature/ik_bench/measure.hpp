@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "allocations.hpp"
+#include "bench/allocations.hpp"
 #include "ik_bench/poses.hpp"
 
 namespace armature::bench {

@@ -9,9 +9,9 @@
 #include <cmath>
 #include <thread>
 
-#include "allocations.hpp"
 #include "armature/messages/stamp.hpp"
 #include "armature/runtime/component/setup.hpp"
+#include "bench/allocations.hpp"
 
 namespace armature::bench {
 

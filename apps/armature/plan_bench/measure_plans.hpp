@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "allocations.hpp"
+#include "bench/allocations.hpp"
 #include "plan_bench/motions.hpp"
 #include "plan_bench/planners.hpp"
 

@@ -15,8 +15,8 @@
 #include "armature/runtime/reporting/output_folder.hpp"
 #include "armature/runtime/reporting/write_atomically.hpp"
 #include "exit_code.hpp"
-#include "plugins.hpp"
-#include "shipped_configs.hpp"
+#include "inspect/plugins.hpp"
+#include "verbs/shipped_configs.hpp"
 
 namespace armature {
 namespace {

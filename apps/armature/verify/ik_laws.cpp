@@ -5,9 +5,9 @@
 #include <new>
 #include <stdexcept>
 
-#include "allocations.hpp"
 #include "armature/kinds/ik/lines/asking.hpp"
 #include "armature/kinds/ik/verify/plugin_subject.hpp"
+#include "bench/allocations.hpp"
 #include "exit_code.hpp"
 #include "plugin_laws.hpp"
 

@@ -11,10 +11,10 @@
 
 #include "armature/runtime/plugins/plugin_registry.hpp"
 #include "exit_code.hpp"
+#include "inspect/plugins.hpp"
 #include "isolated.hpp"
 #include "plugin_laws.hpp"
-#include "plugins.hpp"
-#include "shipped_configs.hpp"
+#include "verbs/shipped_configs.hpp"
 
 namespace armature {
 namespace {

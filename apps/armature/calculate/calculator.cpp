@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "calculate/calculator.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <optional>
+#include <stdexcept>
+#include <system_error>
+
+#include "armature/kinds/ik/lines/answering.hpp"
+#include "armature/robot/model/robot_model.hpp"
+#include "armature/runtime/plugins/plugin_registry.hpp"
+#include "armature/runtime/plugins/running_component.hpp"
+#include "exit_code.hpp"
+#include "inspect/plugins.hpp"
+#include "progress.hpp"
+
+namespace armature {
+namespace {
+
+/// What lines are read from.
+class Input {
+ public:
+  explicit Input(const std::string& file) : in_{file.empty() || file == "-" ? std::cin : file_} {
+    if (&in_ == &std::cin) return;
+    file_.open(file);
+    int error = errno;
+    std::error_code none;
+    if (std::filesystem::is_directory(file, none)) error = EISDIR;  // which could be opened
+    if (file_ && error != EISDIR) return;
+    throw InvalidChoice(fmt::format("cannot read '{}': {}", file, std::strerror(error)));
+  }
+  std::istream& stream() { return in_; }
+
+ private:
+  std::ifstream file_;
+  std::istream& in_;
+};
+
+/// One answer per line, whatever the line holds, each out before the next line is waited for. Empty
+/// lines are skipped.
+int answer_lines(std::istream& in, const auto& answer) {
+  std::optional<Progress> progress;
+  if (isatty(STDOUT_FILENO) == 0) progress.emplace("lines");  // else the answers show it
+  in.tie(&std::cout);
+  std::uint64_t answered = 0;
+  for (std::string line; std::getline(in, line);) {
+    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
+    std::cout << answer(line) << '\n';
+    if (!std::cout) return kFailed;
+    ++answered;
+    if (progress) progress->count(answered);
+  }
+  std::cout.flush();
+  if (in.bad()) throw std::runtime_error("the input cannot be read to its end");
+  if (answered == 0) fmt::print(stderr, "armature: the input has no lines to answer\n");
+  return kOk;
+}
+
+}  // namespace
+
+int run_fk(const ArmChoice& arm, const std::string& input) {
+  Input lines{input};
+  const RobotModel robot = load_arm(arm);
+  return answer_lines(lines.stream(),
+                      [&](const std::string& line) { return answer_fk(robot, line); });
+}
+
+int run_ik(const ArmChoice& arm, const SolverChoice& choice, const std::string& input) {
+  Input lines{input};
+  const RobotModel robot = load_arm(arm);
+  PluginRegistry plugins;
+  tell_warnings(plugins);
+  const PluginManifest* plugin = plugins.find(choice.plugin);
+  if (!plugin) throw InvalidChoice(plugins.unknown_text(choice.plugin));
+  const Params params = params_of(*plugin, choice.params);
+  name_crashing_components();
+  const auto solver = plugins.make<IkSolver>(choice.plugin, robot, params);
+  if (!solver) {
+    throw InvalidChoice(
+        fmt::format("{} refuses robot '{}': {}", choice.plugin, robot.name(), solver.error().text));
+  }
+  const JointVector home = resting_position(robot);
+  const RunningComponent running{choice.plugin, "solve", "plugin"};
+  return answer_lines(lines.stream(), [&](const std::string& line) {
+    return answer_ik(robot, **solver, home, line);
+  });
+}
+
+}  // namespace armature

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "inspect/check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "armature/config/document.hpp"
+#include "armature/config/source_text.hpp"
+#include "armature/runtime/deployment/deployment.hpp"
+#include "armature/runtime/deployment_file/component_config.hpp"
+#include "armature/runtime/deployment_file/on_fault.hpp"
+#include "armature/runtime/plugins/running_component.hpp"
+#include "exit_code.hpp"
+#include "inspect/origin_json.hpp"
+#include "inspect/plugins.hpp"
+
+namespace armature {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// A component that was read, and not constructed.
+struct NotTried {
+  std::string component, plugin;
+};
+
+/// What a check has found so far; what was found before a problem counts beside it.
+struct Findings {
+  std::string deployment;
+  std::ptrdiff_t components = 0;
+  std::size_t topics = 0;
+  std::vector<std::string> plugin_warnings, warnings;
+  std::vector<NotTried> not_tried;
+};
+
+/// The plugin of the component, or of one of its slots, that starts a program which a parameter
+/// names; nullptr: none does.
+const PluginManifest* runs_programs(const ComponentConfig& component) {
+  if (component.manifest->runs_programs) return component.manifest;
+  const auto slot = std::ranges::find_if(
+      component.slots, [](const SlotConfig& one) { return one.manifest->runs_programs; });
+  return slot == component.slots.end() ? nullptr : slot->manifest;
+}
+
+/// Checking a file must not run what the file names.
+void leave_out_programs(DeploymentConfig& deployment, Findings& findings) {
+  std::erase_if(deployment.components, [&](const ComponentConfig& component) {
+    const PluginManifest* plugin = runs_programs(component);
+    if (plugin) findings.not_tried.push_back({component.name, plugin->id});
+    return plugin != nullptr;
+  });
+}
+
+/// A component that is several units counts once, as it does in the file.
+std::ptrdiff_t count_components(const DeploymentConfig& deployment) {
+  return std::ranges::count(deployment.components, kMainUnit, &ComponentConfig::unit);
+}
+
+std::size_t count_topics(const DeploymentConfig& deployment) {
+  std::set<std::string_view> topics;
+  for (const auto& component : deployment.components) {
+    for (const auto& port : component.outputs) topics.insert(port.topic);
+    for (const auto& port : component.inputs) topics.insert(port.topic);
+  }
+  return topics.size();
+}
+
+/// The deployment without what must not be tried. Throws the problems of its files.
+DeploymentConfig read_for_check(const DeploymentSource& source, const PluginRegistry& plugins,
+                                Findings& findings) {
+  const config::PipePatience one_for_all;
+  config::Problems problems;
+  DeploymentConfig config = read_deployment(
+      config::load_with_overlays(source.files, source.assignments, &findings.warnings), plugins,
+      problems);
+  problems.throw_if_any();
+  findings.deployment = config.name;
+  findings.components = count_components(config);
+  findings.topics = count_topics(config);
+  leave_out_programs(config, findings);
+  return config;
+}
+
+/// Constructing the components is how a solver gets to refuse its robot.
+void construct(DeploymentConfig config, PluginRegistry& plugins, Findings& findings) {
+  name_crashing_components();
+  const Deployment constructed{
+      std::move(config), plugins, {.process = "", .on_line = {}, .on_note = {}}};
+  for (const auto& warnings :
+       {executor_warnings(constructed.config()), isolation_warnings(constructed.config())}) {
+    findings.warnings.insert(findings.warnings.end(), warnings.begin(), warnings.end());
+  }
+}
+
+/// Where it is, what it is, and apart the known names that are near.
+Json problem_json(const config::Problem& problem) {
+  Json json = origin_json(problem.origin);
+  const std::string& message = problem.message;
+  const std::size_t end = std::min(message.rfind("; did you mean "), message.rfind("; known: "));
+  json["text"] = message.substr(0, end);
+  if (end != std::string::npos) json["hint"] = message.substr(end + 2);
+  return json;
+}
+
+Json problems_json(const std::exception& error) {
+  Json list = Json::array();
+  if (const auto* wrong = dynamic_cast<const config::ConfigError*>(&error)) {
+    for (const config::Problem& problem : wrong->problems()) list.push_back(problem_json(problem));
+  } else {
+    list.push_back({{"text", error.what()}});
+  }
+  return list;
+}
+
+Json findings_json(const Findings& findings, Json problems) {
+  Json json{{"ok", problems.empty()}};
+  if (problems.empty()) {
+    json["deployment"] = findings.deployment;
+    json["components"] = findings.components;
+    json["topics"] = findings.topics;
+  }
+  json["problems"] = std::move(problems);
+  std::vector<std::string> warnings = findings.plugin_warnings;
+  warnings.insert(warnings.end(), findings.warnings.begin(), findings.warnings.end());
+  json["warnings"] = std::move(warnings);
+  json["not_tried"] = Json::array();
+  for (const auto& [component, plugin] : findings.not_tried) {
+    json["not_tried"].push_back({{"component", component}, {"runs_program", plugin}});
+  }
+  return json;
+}
+
+int check_as_json(const DeploymentSource& source) {
+  Findings findings;
+  Json problems = Json::array();
+  int code = kOk;
+  try {
+    PluginRegistry plugins;
+    findings.plugin_warnings = plugins.warnings();
+    construct(read_for_check(source, plugins, findings), plugins, findings);
+  } catch (const std::exception& error) {
+    problems = problems_json(error);
+    code = exit_code_of(error);
+  }
+  const Json json = findings_json(findings, std::move(problems));
+  fmt::print("{}\n", json.dump(-1, ' ', false, Json::error_handler_t::replace));
+  return code;
+}
+
+}  // namespace
+
+int check_deployment(const DeploymentSource& source, bool json) {
+  if (json) return check_as_json(source);
+  PluginRegistry plugins;
+  tell_warnings(plugins);
+  Findings findings;
+  DeploymentConfig config = read_for_check(source, plugins, findings);
+  for (const auto& [component, plugin] : findings.not_tried) {
+    fmt::print("not tried: component '{}', as {} runs a program\n", component, plugin);
+  }
+  construct(std::move(config), plugins, findings);
+  for (const std::string& warning : findings.warnings) {
+    fmt::print(stderr, "warning: {}\n", warning);
+  }
+  fmt::print("{}: ok, {} components, {} topics\n", findings.deployment, findings.components,
+             findings.topics);
+  return kOk;
+}
+
+}  // namespace armature

@@ -1,0 +1,365 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/run.hpp"
+
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/prctl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string_view>
+
+#include "armature/config/document.hpp"
+#include "armature/config/source_text.hpp"
+#include "armature/runtime/deployment/deployment.hpp"
+#include "armature/runtime/deployment_file/injected_fault.hpp"
+#include "armature/runtime/deployment_file/on_fault.hpp"
+#include "armature/runtime/plugins/running_component.hpp"
+#include "armature/runtime/processes/arm_ownership.hpp"
+#include "armature/runtime/processes/child_processes.hpp"
+#include "armature/runtime/processes/end_watch.hpp"
+#include "armature/runtime/reporting/output_folder.hpp"
+#include "armature/runtime/reporting/run_report.hpp"
+#include "armature/runtime/reporting/write_atomically.hpp"
+#include "armature/values/sanitizer.hpp"
+#include "exit_code.hpp"
+#include "inspect/plugins.hpp"
+#include "run/console.hpp"
+#include "run/end_signals.hpp"
+#include "run/joint_reports.hpp"
+#include "run/run_watches.hpp"
+
+namespace armature {
+namespace {
+
+/// Where report.json stands once there is a folder for it.
+std::filesystem::path report_file(const std::filesystem::path& folder) {
+  return folder / "report.json";
+}
+
+std::vector<std::string> child_arguments(const RunOptions& options, int domain,
+                                         const std::string& process,
+                                         const RunOptions::Origin& origin) {
+  std::vector<std::string> arguments{"run",
+                                     "--process",
+                                     process,
+                                     "--domain",
+                                     std::to_string(domain),
+                                     "--clock-offset-ns",
+                                     std::to_string(origin.clock_offset.count()),
+                                     "--clock-start-ns",
+                                     std::to_string(origin.start.ns)};
+  if (options.timing) arguments.push_back("--timing");
+  if (options.keep_running) arguments.push_back("--keep-running");
+  if (options.inject) arguments.insert(arguments.end(), {"--inject", *options.inject});
+  for (const auto& assignment : options.source.assignments) {
+    arguments.insert(arguments.end(), {"--set", assignment});
+  }
+  for (const auto& file : options.source.files) arguments.push_back(file.string());
+  return arguments;
+}
+
+/// As JSON, what there is to say of a run without figures.
+std::string ending(std::string_view status, const std::string& reason) {
+  nlohmann::ordered_json json{{"status", status}};
+  if (!reason.empty()) json["reason"] = reason;
+  // What is wrong may quote a file that is no UTF-8.
+  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';
+}
+
+/// Makes the folder of the report. What an older run left there is not this one's, however this one
+/// ends.
+void begin_report(const std::filesystem::path& folder) {
+  prepare_output_folder(folder);
+  std::error_code none;
+  const auto older = std::filesystem::symlink_status(report_file(folder), none);
+  if (std::filesystem::is_regular_file(older)) std::filesystem::remove(report_file(folder), none);
+  end_signals::allow_report();
+}
+
+/// What a run that did not begin says, where its report would be.
+void write_ending(const std::filesystem::path& folder, const std::string& ending) {
+  try {
+    write_atomically(report_file(folder), ending);
+  } catch (const std::runtime_error& error) {
+    fmt::print(stderr, "armature: {}\n", error.what());
+  }
+}
+
+/// How a process leaves whose end hangs: it says what does not return, and puts that where its
+/// result would be unless the result has been told. The thread that ends may hold the lock of a
+/// standard stream.
+class LastWord {
+ public:
+  /// `child` is nullptr in the main process.
+  LastWord(const RunOptions& options, Console& console, ChildWatch* child)
+      : options_{&options}, console_{&console}, child_{child} {}
+
+  /// How long each part of the end may take; the main process kills another one after 3 s.
+  Duration timeout() const {
+    const bool is_awaited = child_ && !child_->alone();
+    return seconds((is_awaited ? 2 : 10) * (kSanitized ? 5 : 1));
+  }
+  void result_told() { result_told_ = true; }
+
+  [[noreturn]] void leave(const std::string& hung) const {
+    constexpr unsigned kFileWithin_s = 2;
+    if (child_) child_->tell_fault(hung);
+    if (!child_ || child_->alone()) console_->tell(hung);
+    const std::string told = ending("fault", hung);
+    if (options_->json && !result_told_) write_out(told);
+    console_->flush();
+    if (options_->report && !child_ && !result_told_) {
+      alarm(kFileWithin_s);  // the report's disk may be what hangs
+      write_ending(*options_->report, told);
+    }
+    _exit(kFailed);
+  }
+
+ private:
+  /// Never waits for a reader.
+  static void write_out(std::string_view text) {
+    pollfd writable{.fd = STDOUT_FILENO, .events = POLLOUT, .revents = 0};
+    if (poll(&writable, 1, 0) <= 0) return;
+    [[maybe_unused]] const auto written = ::write(STDOUT_FILENO, text.data(), text.size());
+  }
+
+  const RunOptions* options_;
+  Console* console_;
+  ChildWatch* child_;
+  std::atomic<bool> result_told_{false};
+};
+
+/// Of a run that did not begin.
+std::string_view status_of(const std::exception& error) {
+  switch (exit_code_of(error)) {
+    case kInvalidConfig:
+      return "invalid_config";
+    case kUnusablePlugin:
+      return "unusable_plugin";
+    default:
+      return "not_started";
+  }
+}
+
+bool report_written(const RunReport& report, const Deployment& deployment,
+                    const std::filesystem::path& folder, Console& console) {
+  try {
+    write_report(report, deployment, folder);
+    return true;
+  } catch (const std::runtime_error& error) {
+    console.tell(error.what());
+    return false;
+  }
+}
+
+int conclude(const RunOptions& options, const Deployment& deployment,
+             const RunReport::Ending& ending, Console& console, LastWord& last_word) {
+  const RunReport report{deployment, ending};
+  if (options.json) {
+    fmt::print("{}\n", to_json(report));
+  } else {
+    fmt::print("{}", to_table(report));
+  }
+  std::fflush(stdout);
+  last_word.result_told();
+  for (const std::string& fault : ending.faults) console.tell(fault);
+  if (ending.stopped) console.tell(*ending.stopped);
+  if (options.report && !report_written(report, deployment, *options.report, console)) {
+    return kFailed;
+  }
+  return report.status() == "ok" ? kOk : kFailed;
+}
+
+/// What failed in a process that does not judge the deployment's goals, or "".
+std::string fault_of(const Deployment& deployment, const ChildWatch& watch) {
+  if (std::string fault = deployment.fault(); !fault.empty()) return fault;
+  if (!deployment.hung().empty()) {
+    return fmt::format("'{}' hangs: its step has not returned", deployment.hung().front()->name());
+  }
+  if (const auto isolated = deployment.isolated_faults(); !isolated.empty()) {
+    return isolated.front();
+  }
+  if (const auto silent = deployment.silent(); !silent.empty()) return silent.front();
+  return watch.interruption().value_or("");
+}
+
+int conclude_child(const RunOptions& options, const Deployment& deployment, ChildWatch& watch,
+                   LastWord& last_word) {
+  const std::string fault = fault_of(deployment, watch);
+  watch.tell_fault(fault);
+  if (options.timing) watch.tell_timing(timing_of(deployment));
+  if (options.json) fmt::print("{}", ending(fault.empty() ? "ok" : "fault", fault));
+  last_word.result_told();
+  return fault.empty() ? kOk : kFailed;
+}
+
+/// Leaves the process where it stands when a step still runs, or when the transport might not
+/// survive its own end because the system clock was stepped. Everything else has been closed.
+void leave_if_necessary(const Deployment& deployment, const ProcessWatch& watch, int code) {
+  if (deployment.hung().empty() && !watch.clock_was_stepped()) return;
+  if (std::fflush(stdout) != 0) code = kFailed;
+  _exit(code);
+}
+
+/// What a process of a deployment is made from.
+struct Process {
+  std::string name;
+  int domain;
+  std::vector<NetworkInterface> joined;  // beside loopback
+  RunOptions::Origin origin;
+};
+
+/// What the processes that one `armature run` has started share, and no other run on any machine;
+/// nothing when they are started by hand.
+std::string run_of(const RunOptions& options, const Process& process) {
+  const bool by_hand = !options.process.empty() && !options.origin;
+  if (by_hand) return "";
+  const auto& [clock_offset, start] = process.origin;
+  return fmt::format("{:x}-{:x}", clock_offset.count(), start.ns);
+}
+
+void tell_joined(const std::vector<NetworkInterface>& joined, Console& console) {
+  if (joined.empty()) return;
+  console.line("runtime",
+               fmt::format("DDS joins lo, {}: programs there may read every topic, and only DDS "
+                           "Security helps against one that copies the fingerprint",
+                           to_text(joined)));
+}
+
+int run_main(const RunOptions& options, const Process& process, Deployment& deployment,
+             PluginRegistry& plugins, Console& console, LastWord& last_word) {
+  ChildProcesses children;
+  for (const auto& other : deployment.config().processes()) {
+    if (other == process.name) continue;
+    children.start(other, child_arguments(options, process.domain, other, process.origin),
+                   stops_run(other, deployment.config()) ? OnFault::stop : OnFault::isolate);
+  }
+  deployment.connect(plugins, process.domain, run_of(options, process));
+  tell_joined(process.joined, console);
+  MainWatch watch{console, children, deployment.config()};
+  deployment.run(watch);
+  RunReport::Ending ending{.faults = watch.end_all(), .stopped = watch.interruption()};
+  // Somebody has looked at it for long enough: that is how such a run ends.
+  if (options.keep_running && deployment.scenario_over() && ending.stopped == "interrupted") {
+    ending.stopped.reset();
+  }
+  if (options.timing) {
+    ending.timing = timing_of(deployment);
+    children.add_timing(*ending.timing);
+  }
+  const int code = conclude(options, deployment, ending, console, last_word);
+  console.flush();
+  leave_if_necessary(deployment, watch, code);
+  return code;
+}
+
+int run_other(const RunOptions& options, const Process& process, Deployment& deployment,
+              PluginRegistry& plugins, Console& console, ChildWatch& watch, LastWord& last_word) {
+  deployment.connect(plugins, process.domain, run_of(options, process));
+  deployment.run(watch);
+  const int code = conclude_child(options, deployment, watch, last_word);
+  console.flush();
+  leave_if_necessary(deployment, watch, code);
+  return code;
+}
+
+void check_process(const DeploymentConfig& config, const std::string& process) {
+  const std::vector<std::string> processes = config.processes();
+  if (std::ranges::find(processes, process) != processes.end()) return;
+  throw InvalidChoice(fmt::format("deployment '{}' has no process '{}'{}", config.name, process,
+                                  config::did_you_mean(process, processes)));
+}
+
+/// `notes` gets what the assignments leave out.
+DeploymentConfig read(const DeploymentSource& source, PluginRegistry& plugins,
+                      std::vector<std::string>& notes) {
+  const config::PipePatience one_for_all;
+  config::Problems problems;
+  DeploymentConfig config = read_deployment(
+      config::load_with_overlays(source.files, source.assignments, &notes), plugins, problems);
+  problems.throw_if_any();
+  return config;
+}
+
+int run(const RunOptions& options) {
+  const bool is_child = !options.process.empty();
+  // Another process of a deployment just ends: its main process tells, and asks it for no JSON.
+  if (!is_child || options.json) end_signals::end_before_start();
+  if (is_child && options.control >= 0) prctl(PR_SET_PDEATHSIG, SIGKILL);  // until it can listen
+  if (options.report && !is_child) begin_report(*options.report);
+  PluginRegistry plugins;
+  if (!is_child) tell_warnings(plugins);
+  std::vector<std::string> notes;
+  DeploymentConfig config = read(options.source, plugins, notes);
+  if (!is_child) {
+    for (const std::string& note : notes) fmt::print(stderr, "warning: {}\n", note);
+  }
+  Process process{.name = is_child ? options.process : std::string{kMainProcess},
+                  .domain = options.domain.value_or(config.domain),
+                  .joined = find_interfaces(config.dds),
+                  .origin = options.origin.value_or(
+                      RunOptions::Origin{SystemClock{}.unix_minus_monotonic(), Time{}})};
+  check_process(config, process.name);
+  if (options.report && !is_child) add_joint_reports(config, plugins, *options.report);
+  if (options.keep_running && config.simulated) {
+    throw InvalidChoice(
+        "--keep-running is for watching, and a run on the simulated clock is as "
+        "fast as the machine allows; add --set clock=system");
+  }
+
+  std::optional<InjectedFault> injected;
+  if (options.inject) {
+    injected = InjectedFault::read(*options.inject, config);
+    InjectedFault::listen();
+  }
+  const std::vector<InstanceLock> locks = own_arms(config, process.name, process.domain);
+  Console console;
+  std::optional<ChildWatch> child_watch;
+  if (is_child) child_watch.emplace(console, options.control);
+  LastWord last_word{options, console, is_child ? &*child_watch : nullptr};
+  EndWatch end_watch{last_word.timeout(), [&](const auto& hung) { last_word.leave(hung); }};
+  name_crashing_components();
+  Deployment deployment{
+      std::move(config),
+      plugins,
+      {.process = process.name,
+       .on_line = [&](const auto& who, const auto& text) { console.line(who, text); },
+       .on_note = [&](const auto& text) { console.line("runtime", text); },
+       .clock_offset = process.origin.clock_offset,
+       .keeps_running = options.keep_running,
+       .on_ending = [&](const auto& what) { end_watch.begin(what); }}};
+  if (injected) deployment.inject(*injected);
+  end_signals::stop_in_order();
+  if (is_child && options.control >= 0) prctl(PR_SET_PDEATHSIG, 0);
+  if (!options.origin) process.origin.start = deployment.clock().now();
+  console.start(deployment.clock(), process.origin.start);
+  return is_child
+             ? run_other(options, process, deployment, plugins, console, *child_watch, last_word)
+             : run_main(options, process, deployment, plugins, console, last_word);
+}
+
+}  // namespace
+
+int run_deployment(const RunOptions& options) {
+  umask(077);  // what a run writes is about a patient
+  end_signals::say(
+      {.json = options.json, .report_file = options.report ? report_file(*options.report) : ""});
+  try {
+    return run(options);
+  } catch (const std::exception& error) {
+    const std::string told = ending(status_of(error), error.what());
+    if (options.json) fmt::print("{}", told);
+    if (end_signals::report_allowed()) write_ending(*options.report, told);
+    throw;
+  }
+}
+
+}  // namespace armature

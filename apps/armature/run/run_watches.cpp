@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/run_watches.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "armature/bus/network_interface.hpp"
+#include "armature/values/sanitizer.hpp"
+#include "run/end_signals.hpp"
+
+namespace armature {
+namespace {
+
+/// How long processes that have joined may take to meet.
+constexpr std::chrono::seconds kMeetWithin{kSanitized ? 25 : 5};
+/// How long the main process, which looks every 20 ms, may take to answer that another one stops.
+constexpr std::chrono::seconds kAnswersWithin{kSanitized ? 5 : 1};
+
+bool has_loopback() {
+  return std::ranges::any_of(network_interfaces(), [](const NetworkInterface& one) {
+    return one.up && std::ranges::find(one.addresses, "127.0.0.1") != one.addresses.end();
+  });
+}
+
+}  // namespace
+
+std::optional<std::string> ProcessWatch::interruption_now() {
+  if (!interruption_) interruption_ = end_signals::cause();
+  if (!interruption_) interruption_ = console_->lost_reader();
+  return interruption_;
+}
+
+MainWatch::MainWatch(Console& console, ChildProcesses& children, const DeploymentConfig& deployment)
+    : ProcessWatch{console},
+      children_{&children},
+      simulated_{deployment.simulated},
+      stop_within_s_{deployment.stop_within_s} {
+  for (const ComponentConfig& component : deployment.components) {
+    if (component.manifest && component.manifest->driver) with_driver_.push_back(component.process);
+  }
+}
+
+bool MainWatch::may_start(const std::optional<std::string>& waiting) {
+  children_->update();
+  if (children_->stop_cause()) return false;
+  const auto now = SteadyClock::now();
+  if (const auto late = children_->not_joined()) {
+    if (!told_of_late_ && now - asked_first_ > kMeetWithin) {
+      told_of_late_ = true;
+      console().line("runtime", fmt::format("waiting for process '{}' to be constructed", *late));
+    }
+    return false;
+  }
+  if (!joined_) joined_ = now;
+  const auto there = waiting ? waiting : children_->waiting();
+  if (there && now - *joined_ > kMeetWithin) {
+    refuse_to_start(*there);
+  }
+  if (there) return false;
+  children_->begin();
+  started_ = true;
+  return true;
+}
+
+void MainWatch::refuse_to_start(const std::string& waiting) const {
+  throw std::runtime_error{
+      fmt::format("not started: {} within {} s{}", waiting, kMeetWithin.count(),
+                  has_loopback() ? "; is the machine very busy, or is there a firewall?"
+                                 : "; the loopback interface is down, and processes meet over it: "
+                                   "'ip link set lo up'")};
+}
+
+void MainWatch::tell_clock_step() {
+  const auto step = clock_step();
+  if (!step || simulated_) return;
+  console().line("runtime",
+                 fmt::format("the system clock stepped by {:+g} s; the deployment's clock goes on "
+                             "as before, and so do ages and leases",
+                             std::round(to_seconds(*step) * 10) / 10));
+}
+
+std::optional<std::string> MainWatch::stop_cause() {
+  tell_clock_step();
+  children_->update();
+  while (const auto lost = children_->next_isolated()) console().line("runtime", *lost);
+  if (auto cause = interruption_now()) return cause;
+  auto lost = children_->stop_cause();
+  if (lost && !started_) throw std::runtime_error{*lost + " before the start"};
+  return lost;
+}
+
+void MainWatch::stopping(const std::string& cause) {
+  console().line("runtime", "stopping: " + cause);
+  children_->send("stop " + cause);
+}
+
+bool MainWatch::may_end(const std::vector<std::string>& moving, Duration left) {
+  tell_clock_step();
+  children_->update();
+  if (end_signals::count() > told_signals_) {
+    told_signals_ = end_signals::count();
+    console().line("runtime", fmt::format("stopping, at most {:.1f} s more; a third signal ends at "
+                                          "once",
+                                          std::max(0.0, to_seconds(left))));
+  }
+  moving_ = children_->moving();
+  return (moving.empty() && moving_.empty()) || left <= Duration{0};
+}
+
+void MainWatch::ending() {
+  children_->end([this](const std::string& process) {
+    return std::ranges::find(with_driver_, process) == with_driver_.end();
+  });
+}
+
+std::vector<std::string> MainWatch::end_all() {
+  children_->end([](const std::string&) { return true; });
+  std::vector<std::string> faults = children_->faults();
+  for (const std::string& moving : moving_) {
+    faults.push_back(
+        fmt::format("{} was not at rest {:g} s after it was to stop", moving, stop_within_s_));
+  }
+  return faults;
+}
+
+void ChildWatch::say(std::string& last, std::string line) {
+  if (line == last) return;
+  last = std::move(line);
+  control_.send(last);
+}
+
+void ChildWatch::hear() {
+  while (const auto line = control_.receive()) {
+    started_ = started_ || *line == "start";
+    told_end_ = told_end_ || *line == "end";
+    if (line->starts_with("stop ")) stop_ = line->substr(5);
+  }
+}
+
+bool ChildWatch::may_start(const std::optional<std::string>& waiting) {
+  if (alone()) {
+    // Whoever starts the processes by hand takes his time.
+    if (waiting && *waiting != said_waiting_) console().line("runtime", "waiting: " + *waiting);
+    said_waiting_ = waiting.value_or("");
+    return !waiting;
+  }
+  hear();
+  say(said_joined_, "joined");
+  say(said_waiting_, waiting ? "waiting " + *waiting : "ready");
+  return started_;
+}
+
+std::optional<std::string> ChildWatch::stop_cause() {
+  clock_step();
+  hear();
+  if (control_.lost()) return "the main process is gone";
+  if (told_end_) return "the main process ends it";
+  if (!stop_.empty()) return stop_;
+  return interruption_now();
+}
+
+void ChildWatch::stopping(const std::string& cause) {
+  if (stop_.empty()) {
+    control_.send("stop " + cause);
+    own_stop_ = cause;
+    asked_ = SteadyClock::now();
+  }
+  if (alone() || control_.lost()) console().line("runtime", "stopping: " + cause);
+}
+
+bool ChildWatch::may_end(const std::vector<std::string>& moving, Duration left) {
+  clock_step();
+  hear();
+  if (moving.empty()) {
+    say(said_moving_, "moving");
+  } else {
+    say(said_moving_, fmt::format("moving {}", fmt::join(moving, "', '")));
+  }
+  if (told_end_) return true;
+  return (alone() || control_.lost() || main_is_silent()) && RunWatch::may_end(moving, left);
+}
+
+bool ChildWatch::main_is_silent() {
+  if (own_stop_.empty() || !stop_.empty()) return false;
+  if (SteadyClock::now() - asked_ < kAnswersWithin) return false;
+  if (!std::exchange(told_silent_, true)) {
+    console().line("runtime", fmt::format("stopping: {}; the main process does not answer, and "
+                                          "this one ends by itself",
+                                          own_stop_));
+  }
+  return true;
+}
+
+void ChildWatch::tell_timing(const RunTiming& timing) {
+  if (alone()) fmt::print(stderr, "{}", to_table(timing));
+  for (const std::string& line : to_lines(timing)) control_.send("timing " + line);
+}
+
+void ChildWatch::tell_fault(const std::string& fault) {
+  if (!fault.empty()) control_.send("fault " + fault);
+}
+
+}  // namespace armature

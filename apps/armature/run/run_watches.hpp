@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "armature/runtime/deployment/run_watch.hpp"
+#include "armature/runtime/deployment_file/deployment_config.hpp"
+#include "armature/runtime/execution/clock.hpp"
+#include "armature/runtime/processes/child_processes.hpp"
+#include "armature/runtime/processes/control_channel.hpp"
+#include "run/console.hpp"
+
+namespace armature {
+
+/// What every process of a deployment listens to: the operator's signals and the system clock.
+class ProcessWatch : public RunWatch {
+ public:
+  explicit ProcessWatch(Console& console) : console_{&console} {}
+
+  /// The operator's signal or closed terminal that ended the run, if one did.
+  const std::optional<std::string>& interruption() const { return interruption_; }
+  /// True when the system clock was stepped while the run lasted.
+  bool clock_was_stepped() const { return steps_.any(); }
+
+ protected:
+  Console& console() { return *console_; }
+  std::optional<std::string> interruption_now();
+  /// How far the system clock was stepped since the last call, if it was.
+  std::optional<Duration> clock_step() { return steps_.next(); }
+
+ private:
+  Console* console_;
+  ClockSteps steps_;
+  std::optional<std::string> interruption_;
+};
+
+/// Of the main process: it starts the others together, makes all of them stop together, and ends
+/// those that move something last.
+class MainWatch final : public ProcessWatch {
+ public:
+  /// `simulated`: the deployment does not go by the system clock at all.
+  MainWatch(Console& console, ChildProcesses& children, const DeploymentConfig& deployment);
+
+  bool may_start(const std::optional<std::string>& waiting) override;
+  std::optional<std::string> stop_cause() override;
+  void stopping(const std::string& cause) override;
+  bool may_end(const std::vector<std::string>& moving, Duration left) override;
+  void ending() override;
+
+  /// Ends the processes that are left. What went wrong in any of them.
+  std::vector<std::string> end_all();
+
+ private:
+  using SteadyClock = std::chrono::steady_clock;
+  void tell_clock_step();
+  [[noreturn]] void refuse_to_start(const std::string& waiting) const;
+
+  ChildProcesses* children_;
+  std::vector<std::string> with_driver_;  // processes that move something
+  bool simulated_;
+  double stop_within_s_;
+  SteadyClock::time_point asked_first_ = SteadyClock::now();
+  std::optional<SteadyClock::time_point> joined_;
+  bool started_ = false, told_of_late_ = false;
+  int told_signals_ = 1;
+  std::vector<std::string> moving_;  // in other processes, when the time was over
+};
+
+/// Of another process: the main one says when to start, to stop and to end. Without a main one (the
+/// process was started by hand) it goes by itself.
+class ChildWatch final : public ProcessWatch {
+ public:
+  /// `control`: the descriptor of the way to the main process, or -1.
+  ChildWatch(Console& console, int control) : ProcessWatch{console}, control_{control} {}
+
+  bool may_start(const std::optional<std::string>& waiting) override;
+  std::optional<std::string> stop_cause() override;
+  void stopping(const std::string& cause) override;
+  bool may_end(const std::vector<std::string>& moving, Duration left) override;
+
+  /// True without a main process.
+  bool alone() const { return control_.file() < 0; }
+  /// Tells the main process what failed here, "" for nothing.
+  void tell_fault(const std::string& fault);
+  /// Tells the main process, or without one the operator, who was late.
+  void tell_timing(const RunTiming& timing);
+
+ private:
+  using SteadyClock = std::chrono::steady_clock;
+  void hear();
+  /// True once the main process has let a stop of this one unanswered for too long; told once.
+  bool main_is_silent();
+  /// Sends a line unless it is the last one of its kind again.
+  void say(std::string& last, std::string line);
+
+  ControlChannel control_;
+  bool started_ = false, told_end_ = false;
+  std::string stop_;      // as the main process said
+  std::string own_stop_;  // which it is to answer
+  SteadyClock::time_point asked_;
+  bool told_silent_ = false;
+  std::string said_joined_, said_waiting_, said_moving_;
+};
+
+}  // namespace armature

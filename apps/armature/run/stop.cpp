@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/stop.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <map>
+#include <string>
+#include <thread>
+
+#include "armature/messages/std_msgs.hpp"
+#include "armature/runtime/execution/clock.hpp"
+#include "armature/runtime/plugins/plugin_registry.hpp"
+#include "exit_code.hpp"
+
+namespace armature {
+namespace {
+
+using Steady = std::chrono::steady_clock;
+using std::chrono::milliseconds;
+
+constexpr milliseconds kPause{10};
+constexpr milliseconds kInsists{500};  // deployments that are still being discovered hear it, too
+
+/// Writes the stop until who reads it has been found, and says who has taken it.
+class Stopping {
+ public:
+  Stopping(const StopOptions& options, RemoteWriter& writer, SamplePool& pool,
+           const SystemClock& clock)
+      : options_{options}, writer_{writer}, pool_{pool}, clock_{clock} {}
+
+  /// False when no deployment was found within the options' time.
+  bool reach_all() {
+    auto until = give_up_;
+    while (Steady::now() < until) {
+      for (const Watcher& found : writer_.who_watches()) {
+        const bool is_new = heard_by_.emplace(found.owner, found.of_deployment).second;
+        if (is_new && found.of_deployment) until = Steady::now() + kInsists;
+      }
+      SampleRef sample = pool_.loan();
+      static_cast<msg::Bool*>(sample.mutable_message())->data_(true);
+      sample.mutable_info().published = clock_.now();
+      writer_.offer(sample);
+      std::this_thread::sleep_for(kPause);
+    }
+    return std::ranges::any_of(heard_by_, [](const auto& heard) { return heard.second; });
+  }
+
+  bool acknowledged() {
+    const auto left = std::max(give_up_ - Steady::now(), Steady::duration{kInsists});
+    return writer_.acknowledged(std::chrono::duration_cast<Duration>(left));
+  }
+
+  /// Name of a process, and whether it is one of a deployment.
+  const std::map<std::string, bool>& heard_by() const { return heard_by_; }
+
+ private:
+  const StopOptions& options_;
+  RemoteWriter& writer_;
+  SamplePool& pool_;
+  const SystemClock& clock_;
+  Steady::time_point give_up_ =
+      Steady::now() + std::chrono::duration_cast<Steady::duration>(
+                          std::chrono::duration<double>{options_.timeout_s});
+  std::map<std::string, bool> heard_by_;
+};
+
+}  // namespace
+
+int stop_arms(const StopOptions& options) {
+  PluginRegistry plugins;
+  const SystemClock clock;
+  SamplePool pool{message_type<msg::Bool>(),
+                  64};  // outlives the writer, which may still be sending
+  std::atomic<bool> one_fell_silent = false;
+  const TransportOptions transport_options{.domain = options.domain,
+                                           .interfaces = options.interfaces,
+                                           .deployment = "armature stop",
+                                           .fingerprint = {},
+                                           .on_event =
+                                               [&](const TransportEvent& event) {
+                                                 if (event.kind == TransportEvent::Kind::peer_lost)
+                                                   one_fell_silent = true;
+                                                 fmt::print(stderr, "armature: {}\n", event.text);
+                                               },
+                                           .now = [&] { return clock.now(); }};
+  auto transport = plugins.make<Transport>("transport/fast_dds", transport_options);
+  if (!transport) throw PluginError("cannot join DDS: " + transport.error().text);
+  auto writer =
+      (*transport)
+          ->advertise(
+              {.name = "rt/stop", .type = &message_type<msg::Bool>(), .qos = QosProfile::command});
+  if (!writer) throw PluginError("cannot write /stop: " + writer.error().text);
+
+  Stopping stopping{options, **writer, pool, clock};
+  const bool found = stopping.reach_all();
+  for (const auto& [who, of_deployment] : stopping.heard_by()) {
+    if (!of_deployment) fmt::print(stderr, "armature: {} reads /stop, and is no deployment\n", who);
+  }
+  if (!found) {
+    fmt::print(
+        stderr,
+        "armature: no deployment in domain {} heard the stop within {:g} s; a deployment "
+        "says its domain with `domain:` or --domain, and with `dds:` the interfaces to join by "
+        "--interface\n",
+        options.domain, options.timeout_s);
+    return kTimedOut;
+  }
+  const bool taken = stopping.acknowledged() && !one_fell_silent;
+  for (const auto& [who, of_deployment] : stopping.heard_by()) {
+    if (of_deployment) fmt::print("{} {}\n", taken ? "stopped:" : "sent to", who);
+  }
+  if (!taken) {
+    fmt::print(stderr,
+               "armature: not every process has taken the stop within {:g} s: one may be halted. "
+               "Use the arm's own emergency stop\n",
+               options.timeout_s);
+    return kTimedOut;
+  }
+  fmt::print("They stay stopped until they are rearmed\n");
+  return kOk;
+}
+
+}  // namespace armature

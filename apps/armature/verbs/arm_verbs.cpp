@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+
+#include "calculate/calculator.hpp"
+#include "calculate/calibrate.hpp"
+#include "verbs/verbs.hpp"
+
+namespace armature {
+namespace {
+
+void add_calculators(CLI::App& app, Action& action) {
+  auto arm = std::make_shared<ArmChoice>();
+  auto solver = std::make_shared<SolverChoice>();
+  auto input = std::make_shared<std::string>();
+
+  CLI::App* fk = app.add_subcommand("fk", "Forward kinematics: JSON lines in, JSON lines out");
+  add_arm(fk, *arm);
+  fk->get_option("--robot")->required();
+  fk->add_option("input", *input, "file of JSON lines (standard input)");
+  fk->callback([=, &action] { action = [=] { return run_fk(*arm, *input); }; });
+
+  CLI::App* ik = app.add_subcommand("ik", "Inverse kinematics: JSON lines in, JSON lines out");
+  add_arm(ik, *arm);
+  ik->get_option("--robot")->required();
+  ik->add_option("--plugin", solver->plugin, "solver")->capture_default_str();
+  ik->add_option("--params", solver->params, "its parameters, a YAML map: '{max_restarts: 3}'");
+  ik->add_option("input", *input, "file of JSON lines (standard input)");
+  ik->callback([=, &action] { action = [=] { return run_ik(*arm, *solver, *input); }; });
+}
+
+void add_calibrations(CLI::App& app, Action& action) {
+  CLI::App* calibrate =
+      app.add_subcommand("calibrate", "Where a tool or a tracker is, from recorded poses");
+  calibrate->require_subcommand(1);
+  auto options = std::make_shared<CalibrationOptions>();
+  const auto add = [&](const char* name, const char* what, int (*run)(const CalibrationOptions&)) {
+    CLI::App* verb = calibrate->add_subcommand(name, what);
+    verb->add_option("poses", options->poses, "file of recorded poses: JSON lines, or YAML")
+        ->required();
+    add_arm(verb, options->arm);
+    verb->get_option("--tip")->description("frame that is the flange (flange)");
+    verb->add_option("-o,--output", options->output, "YAML file to write (-, standard output)");
+    verb->add_option("--tracker", options->tracker, "name of its frame")->capture_default_str();
+    verb->add_option("--body", options->body, "name of its frame")->capture_default_str();
+    verb->add_flag("--json", options->json, "as JSON");
+    verb->callback([=, &action] { action = [=] { return run(*options); }; });
+    return verb;
+  };
+  CLI::App* hand_eye = add("hand-eye",
+                           "A tracker and a body on the flange: armature calibrate hand-eye "
+                           "poses.jsonl --robot configs/robots/med7.yaml -o hand_eye.yaml",
+                           run_hand_eye_calibration);
+  hand_eye->add_option("--noise", options->noise, "of the tracker's poses, mm and deg per axis")
+      ->expected(2)
+      ->allow_extra_args(false);
+  hand_eye->add_option("--at", options->at_m, "point of the base [m] whose error is told")
+      ->expected(3)
+      ->allow_extra_args(false);
+  CLI::App* tool = add("tool",
+                       "The tip of a tool that was turned about it: armature calibrate tool "
+                       "poses.jsonl -o tool.yaml",
+                       run_tool_calibration);
+  tool->add_option("--tool", options->tool, "name of its frame")->capture_default_str();
+}
+
+}  // namespace
+
+void add_arm_verbs(CLI::App& app, Action& action) {
+  add_calculators(app, action);
+  add_calibrations(app, action);
+}
+
+}  // namespace armature

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+
+#include "ik_bench/bench.hpp"
+#include "loop_bench/bench_loop.hpp"
+#include "plan_bench/bench_plan.hpp"
+#include "verbs/option_checks.hpp"
+#include "verbs/verbs.hpp"
+
+namespace armature {
+namespace {
+
+void add_bench_plan(CLI::App* bench, Action& action) {
+  auto options = std::make_shared<PlanBenchOptions>();
+  CLI::App* plan = bench->add_subcommand(
+      "plan",
+      "Trajectories on the same motions: armature bench plan --robot configs/robots/med7.yaml");
+  add_arm(plan, options->arm);
+  plan->get_option("--robot")->required();
+  plan->add_option("--plugins", options->plugins, "planners, 'trajectory/quintic' (all)")
+      ->delimiter(',');
+  plan->add_option("--params", options->params, "YAML: '{trajectory/cubic_spline: {...}}'");
+  plan->add_option("--motions", options->motions, "of each shape")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1000000));
+  plan->add_option("--keys", options->keys, "of an orientation curve")
+      ->capture_default_str()
+      ->check(CLI::Range(2, 1000));
+  plan->add_option("--seed", options->seed, "of the random numbers")
+      ->capture_default_str()
+      ->check(wrong_seed);
+  plan->add_option("--repetitions", options->repetitions, "of every plan")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1000));
+  plan->add_flag("--json", options->json, "as JSON");
+  plan->callback([options, &action] { action = [options] { return bench_plan(*options); }; });
+}
+
+void add_bench_loop(CLI::App* bench, Action& action) {
+  auto options = std::make_shared<LoopBenchOptions>();
+  CLI::App* loop = bench->add_subcommand(
+      "loop", "How late an executor's steps begin, beside a bare thread: armature bench loop");
+  loop->add_option("--readers", options->readers, "other processes that read, in further rounds")
+      ->check(CLI::Range(0, 32));
+  loop->add_option("--rounds", options->rounds, "of each comparison")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1000));
+  loop->add_option("--seconds", options->seconds, "of a round: at least 1000 periods")
+      ->capture_default_str()
+      ->check(wrong_number)
+      ->check(CLI::Range(0.1, 3600.0));
+  loop->add_option("--period", options->period_s, "of the loops [s]")
+      ->capture_default_str()
+      ->check(wrong_number)
+      ->check(CLI::Range(1e-4, 0.1));
+  loop->add_option("--priority", options->priority, "of the loops, SCHED_FIFO; 0: normal")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 99));
+  loop->add_option("--domain", options->domain, "DDS domain")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 232));
+  loop->add_flag("--json", options->json, "as JSON");
+  loop->callback([options, &action] {
+    if (std::string wrong = wrong_round(*options); !wrong.empty()) {
+      throw CLI::ValidationError("--seconds", wrong);
+    }
+    action = [options] { return bench_loop(*options); };
+  });
+}
+
+}  // namespace
+
+void add_bench_verbs(CLI::App& app, Action& action) {
+  CLI::App* bench = app.add_subcommand("bench", "Measure plugins side by side");
+  bench->require_subcommand(1);
+  add_bench_plan(bench, action);
+  add_bench_loop(bench, action);
+  auto options = std::make_shared<BenchOptions>();
+  CLI::App* ik = bench->add_subcommand(
+      "ik", "Solvers on the same goals: armature bench ik --robot configs/robots/dental_lamp.yaml");
+  add_arm(ik, options->arm);
+  ik->get_option("--robot")->required();
+  ik->add_option("--plugins", options->plugins, "solvers, 'ik/lamp_geometric,ik/numeric' (all)")
+      ->delimiter(',');
+  ik->add_option("--params", options->params, "YAML: '{ik/numeric: {max_restarts: 3}}'");
+  ik->add_option("--poses", options->poses, "goals")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 10000000));
+  ik->add_option("--seed", options->seed, "of the random numbers")
+      ->capture_default_str()
+      ->check(wrong_seed);
+  ik->add_flag("--near", options->near_only, "only seeds within 5 degrees of a solution");
+  ik->add_option("--repetitions", options->repetitions, "of every solve")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1000));
+  ik->add_option("--tolerance", options->tolerance, "of a residual, m and rad")
+      ->capture_default_str()
+      ->check(not_positive);
+  ik->add_option("--baseline", options->baseline,
+                 "what the others are compared with (ik/kdl if it is among them, else the first)");
+  ik->add_option("--out", options->out, "folder for solves.csv, cumulative.svg, summary.json");
+  ik->add_flag("--json", options->json, "as JSON");
+  ik->callback([options, &action] { action = [options] { return bench_ik(*options); }; });
+}
+
+}  // namespace armature

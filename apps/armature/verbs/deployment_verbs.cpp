@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+
+#include "drill/drill.hpp"
+#include "inspect/check.hpp"
+#include "inspect/inspect.hpp"
+#include "run/run.hpp"
+#include "run/stop.hpp"
+#include "schema/schema.hpp"
+#include "verbs/option_checks.hpp"
+#include "verbs/shipped_configs.hpp"
+#include "verbs/verbs.hpp"
+
+namespace armature {
+namespace {
+
+void add_source(CLI::App& verb, DeploymentSource& source) {
+  const auto to_file = [](std::string& given) {
+    given = deployment_file(given);
+    return std::string{};
+  };
+  verb.add_option("files", source.files,
+                  "deployment: a file, or a name that came with armature (dental_lamp); then "
+                  "overlays that change it")
+      ->required()
+      ->transform(CLI::Validator{to_file, ""});
+  verb.add_option("--set", source.assignments,
+                  "change one value: --set components.motion.ik.plugin=ik/numeric")
+      ->allow_extra_args(false);
+}
+
+/// What the main process of a deployment tells the others that it starts, and a drill the run that
+/// it drills; nobody types it.
+void add_handed_over(CLI::App& verb, RunOptions& options) {
+  const auto origin = [&options]() -> RunOptions::Origin& {
+    if (!options.origin) options.origin.emplace();
+    return *options.origin;
+  };
+  verb.add_option("--control", options.control)->group("");
+  verb.add_option("--inject", options.inject)->group("");
+  verb.add_option_function<std::int64_t>(
+          "--clock-offset-ns", [origin](std::int64_t ns) { origin().clock_offset = Duration{ns}; })
+      ->group("");
+  verb.add_option_function<std::int64_t>("--clock-start-ns",
+                                         [origin](std::int64_t ns) { origin().start = Time{ns}; })
+      ->group("");
+}
+
+void add_run(CLI::App& app, Action& action) {
+  auto options = std::make_shared<RunOptions>();
+  CLI::App* verb =
+      app.add_subcommand("run", "Run a deployment; exit code 0 when its goals are met");
+  add_source(*verb, options->source);
+  verb->add_option("--domain", options->domain, "DDS domain, instead of the file's")
+      ->check(CLI::Range(0, 232));
+  verb->add_option("--process", options->process, "run only this process of the deployment");
+  verb->add_flag("--json", options->json, "print the result as one JSON object");
+  verb->add_flag("--timing", options->timing, "tell how late and how long every step was");
+  verb->add_flag("--keep-running", options->keep_running,
+                 "go on when the scenario is over, until Ctrl-C: to watch it");
+  verb->add_option("--report", options->report,
+                   "write report.json, tables and pictures into this folder");
+  add_handed_over(*verb, *options);
+  verb->callback([options, &action] { action = [options] { return run_deployment(*options); }; });
+}
+
+void add_drill(CLI::App& app, Action& action) {
+  auto options = std::make_shared<DrillOptions>();
+  CLI::App* verb = app.add_subcommand(
+      "drill", "Pull the plugs of a deployment whose arms are simulated, while they move");
+  add_source(*verb, options->source);
+  verb->add_option("--moments", options->moments, "at which each fault is fired")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1000));
+  verb->add_option("--within", options->within_s,
+                   "the moments lie in so many seconds after an arm was first seen to move")
+      ->capture_default_str()
+      ->check(wrong_number)
+      ->check(CLI::Range(0.0, 100.0));
+  verb->add_option("--seed", options->seed, "of the moments (another one every time)")
+      ->check(wrong_seed);
+  verb->add_option("--faults", options->faults, "only these, 'interrupt,motion_killed' (all)")
+      ->delimiter(',');
+  verb->add_option("--jobs", options->jobs, "runs at the same time")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 16));
+  verb->add_option("--domain", options->domain,
+                   "DDS domain of all runs, which are then one at a time (any that is free)")
+      ->check(CLI::Range(0, 232));
+  verb->add_flag("--short", options->brief, "a random choice of faults, half a minute");
+  verb->add_flag("--json", options->json, "as JSON");
+  verb->callback([options, &action] { action = [options] { return run_drill(*options); }; });
+}
+
+void add_stop(CLI::App& app, Action& action) {
+  auto options = std::make_shared<StopOptions>();
+  CLI::App* verb = app.add_subcommand(
+      "stop", "Stop every arm of a DDS domain: they stay stopped until they are rearmed");
+  verb->add_option("--domain", options->domain, "DDS domain")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 232));
+  add_interfaces(*verb, options->interfaces);
+  verb->add_option("--timeout", options->timeout_s,
+                   "seconds for a deployment to be found, and to take it")
+      ->capture_default_str()
+      ->check(not_positive);
+  verb->callback([options, &action] { action = [options] { return stop_arms(*options); }; });
+}
+
+void add_inspection(CLI::App& app, Action& action) {
+  auto source = std::make_shared<DeploymentSource>();
+  auto json = std::make_shared<bool>(false);
+  CLI::App* check = app.add_subcommand("check", "Find everything that is wrong in a deployment");
+  add_source(*check, *source);
+  check->add_flag("--json", *json, "as JSON: what is wrong, each with its place");
+  check->callback([=, &action] { action = [=] { return check_deployment(*source, *json); }; });
+
+  CLI::App* show =
+      app.add_subcommand("show", "Print the resolved file with the origin of every value");
+  add_source(*show, *source);
+  show->add_flag("--json", *json, "as JSON");
+  show->callback([=, &action] { action = [=] { return show_deployment(*source, *json); }; });
+
+  auto dot = std::make_shared<bool>(false);
+  CLI::App* graph = app.add_subcommand("graph", "Print who writes and who reads every topic");
+  add_source(*graph, *source);
+  graph->add_flag("--dot", *dot, "as Graphviz");
+  graph->add_flag("--json", *json, "as JSON");
+  graph->callback(
+      [=, &action] { action = [=] { return graph_deployment(*source, *dot, *json); }; });
+}
+
+void add_schema(CLI::App& app, Action& action) {
+  CLI::App* schema = app.add_subcommand(
+      "schema", "JSON Schema of deployments, for editors: armature schema > armature.schema.json");
+  schema->callback([&action] { action = [] { return print_schema(); }; });
+}
+
+}  // namespace
+
+void add_deployment_verbs(CLI::App& app, Action& action) {
+  add_run(app, action);
+  add_drill(app, action);
+  add_stop(app, action);
+  add_inspection(app, action);
+  add_schema(app, action);
+}
+
+}  // namespace armature

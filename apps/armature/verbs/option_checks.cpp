@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "verbs/option_checks.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <system_error>
+
+#include "armature/bus/network_interface.hpp"
+
+namespace armature {
+namespace {
+
+/// The number that is all of `text`.
+template <class Number>
+bool reads_as(const std::string& text, Number& number) {
+  const char* const end = text.data() + text.size();
+  const auto read = std::from_chars(text.data(), end, number);
+  return read.ec == std::errc{} && read.ptr == end;
+}
+
+}  // namespace
+
+std::string wrong_seed(const std::string& text) {
+  std::uint64_t seed = 0;
+  if (reads_as(text, seed)) return "";
+  return "must be a whole number from 0 to 18446744073709551615, not '" + text + "'";
+}
+
+std::string wrong_number(const std::string& text) {
+  double number = 0;
+  if (reads_as(text, number) && std::isfinite(number)) return "";
+  return "must be a finite number, not '" + text + "'";
+}
+
+std::string not_positive(const std::string& text) {
+  double number = 0;
+  if (reads_as(text, number) && std::isfinite(number) && number > 0) return "";
+  return "must be a positive number, not '" + text + "'";
+}
+
+std::string no_interface(const std::string& text) {
+  const auto found = find_interfaces({text});
+  return found ? "" : found.error().text;
+}
+
+}  // namespace armature

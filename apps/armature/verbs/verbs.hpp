@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "arm_choice.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace armature {
+
+/// What the chosen verb will do, once the whole line has been understood.
+using Action = std::function<int()>;
+
+/// Each adds verbs to the command line; the one that is chosen sets `action`, which outlives it.
+void add_deployment_verbs(CLI::App& app, Action& action);
+void add_plugin_verbs(CLI::App& app, Action& action);
+void add_topic_verbs(CLI::App& app, Action& action);
+void add_arm_verbs(CLI::App& app, Action& action);
+void add_bench_verbs(CLI::App& app, Action& action);
+/// Of the machine and its shells: doctor, completion, man.
+void add_machine_verbs(CLI::App& app, Action& action);
+
+/// Options that several verbs have: which arm; which interfaces a verb that joins DDS from outside
+/// of any deployment takes.
+void add_arm(CLI::App* verb, ArmChoice& arm);
+void add_interfaces(CLI::App& verb, std::vector<std::string>& interfaces);
+
+}  // namespace armature

@@ -279,15 +279,15 @@ TEST(PluginInfo, ShowsWhatAPluginNeedsOffersAndMeasures) {
   EXPECT_THAT(info("path/mouth_points"),
               testing::HasSubstr("needs:\n  time_law                   Each of the moves lasts "
                                  "segment_s (unless 'segment_s' is 0)\n"));
-  EXPECT_THAT(info("trajectory/quintic"), testing::HasSubstr("offers:\n  time_law   "));
+  EXPECT_THAT(info("trajectory/quintic"), testing::HasSubstr("provides:\n  time_law   "));
   EXPECT_THAT(info("report/implant"), testing::HasSubstr(" (that of task/implant)\n"));
   EXPECT_THAT(info("report/lamp_alignment"), testing::HasSubstr("measures:\n  time_to_find_s   "));
 
   const auto result =
       run_command({armature(), "plugin", "info", "report/lamp_alignment", "--json"});
   const auto told = nlohmann::json::parse(result.out);
-  EXPECT_EQ(told["needs"][0]["name"], "patient_moves");
-  EXPECT_EQ(told["needs"][0]["when"], "expect_move");
+  EXPECT_EQ(told["requires"][0]["name"], "patient_moves");
+  EXPECT_EQ(told["requires"][0]["when"], "expect_move");
   EXPECT_TRUE(told["measures"].contains("distance_error_mm"));
 }
 

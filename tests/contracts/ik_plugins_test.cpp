@@ -94,7 +94,7 @@ void add_tests_of(const PluginManifest& plugin, const Params& params, const Robo
 bool add_all_tests() {
   for (const PluginManifest& plugin : registry().plugins()) {
     if (plugin.kind != IkSolver::kKind) continue;
-    add_test("offers", plugin.id, [&plugin] { EXPECT_EQ(wrong_offers(plugin), ""); });
+    add_test("provides", plugin.id, [&plugin] { EXPECT_EQ(wrong_promises(plugin), ""); });
     const auto params = defaults(plugin);
     if (!params) continue;
     for (const RobotPtr& robot : robots()) add_tests_of(plugin, *params, robot);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A parameter that a plugin.yaml declares is read: the code of the plugin names its member, or what
-// the plugin needs and offers depends on it (`when`).
+// the plugin requires and provides depends on it (`when`).
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -29,9 +29,9 @@ std::string code_in(const fs::path& folder) {
   return code.str();
 }
 
-/// Whether something that the plugin needs or offers depends on the parameter.
+/// Whether something that the plugin requires or provides depends on the parameter.
 bool decides_a_trait(const config::Node& manifest, const std::string& parameter) {
-  for (const char* key : {"needs", "offers"}) {
+  for (const char* key : {"requires", "provides"}) {
     const config::Node* traits = manifest.find(key);
     if (!traits) continue;
     for (const auto& trait : traits->entries()) {

@@ -182,9 +182,10 @@ TEST(DentalImplant, APathThatKnowsNoKeyPosesIsRefusedBeforeAnythingMoves) {
       implant({kMotion + "path.plugin=path/needle", kMotion + "params.path_only=true",
                "components.alone={plugin: path/orientations}"});
   EXPECT_EQ(run.command.exit_code, 3);
-  EXPECT_NE(run.command.err.find("'task' needs 'key_poses', and no component on its topics offers "
-                                 "it; offered by path/orientations\n"),
-            std::string::npos)
+  EXPECT_NE(
+      run.command.err.find("'task' requires 'key_poses', and no component on its topics provides "
+                           "it; provided by path/orientations\n"),
+      std::string::npos)
       << run.text();
 }
 

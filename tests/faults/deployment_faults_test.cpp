@@ -321,16 +321,18 @@ const Fault kFaults[] = {
      "    ik: {plugin: ik/lamp_geometric}\n"
      "    select: {plugin: select/nearest}\n"
      "    trajectory: {plugin: trajectory/hasty}",
-     "deployment.yaml:16:20: 'path/mouth_points' needs 'time_law' unless 'segment_s' is 0, and "
-     "nothing in component 'motion' offers it; offered by trajectory/cubic_spline, "
+     "deployment.yaml:16:20: 'path/mouth_points' requires 'time_law' unless 'segment_s' is 0, and "
+     "nothing in component 'motion' provides it; provided by trajectory/cubic_spline, "
      "trajectory/quintic, trajectory/quintic_spline, trajectory/sampled\n"},
     {"NeedThatNoPluginKnows", "path: {plugin: path/mouth_arc}", "path: {plugin: path/mistyped}",
-     "deployment.yaml:16:20: 'path/mistyped' needs 'time_lwa', and nothing in component 'motion' "
-     "offers it; no plugin on the search path does; did you mean 'time_law'?\n"},
+     "deployment.yaml:16:20: 'path/mistyped' requires 'time_lwa', and nothing in component "
+     "'motion' "
+     "provides it; no plugin on the search path does; did you mean 'time_law'?\n"},
     {"MoveThatNeverComes", "{plugin: report/lamp_alignment}",
      "{plugin: report/lamp_alignment, params: {expect_move: true}}",
-     "deployment.yaml:21:3: 'report' needs 'patient_moves' unless 'expect_move' is false, and no "
-     "component on its topics offers it; 'scene' does unless 'move_duration_s' is 0\n"},
+     "deployment.yaml:21:3: 'report' requires 'patient_moves' unless 'expect_move' is false, and "
+     "no "
+     "component on its topics provides it; 'scene' does unless 'move_duration_s' is 0\n"},
     {"MoveOfNothing", "tilt_up_deg: 0", "move_duration_s: 2",
      "deployment.yaml:8:3: component 'scene': move_duration_s is set but nothing moves; set "
      "move_mm, move_tilt_up_deg or move_tilt_side_deg, or move_duration_s to 0\n"},

@@ -27,7 +27,7 @@
 namespace armature::doctor {
 namespace {
 
-constexpr double kPatience_s = 5;
+constexpr double kTimeout_s = 5;
 
 SharedMemoryFacts shared_memory_facts() {
   SharedMemoryFacts facts;
@@ -53,7 +53,7 @@ Limit limit_of(Resource resource) {
 /// What a child says of `work`, or why it did not say anything.
 template <class Work>
 std::string said_by_child(const Work& work) {
-  const Isolated tried = isolated(kPatience_s, work);
+  const Isolated tried = isolated(kTimeout_s, work);
   return tried.fault.empty() ? tried.result : tried.fault;
 }
 

@@ -24,7 +24,7 @@
 namespace armature::doctor {
 namespace {
 
-constexpr double kPluginPatience_s = 15;  // the trial in there has 5 s of its own
+constexpr double kPluginTimeout_s = 15;  // the trial in there has 5 s of its own
 
 /// The version of every kind, which a plugin must be built for.
 template <class... Kinds>
@@ -45,7 +45,7 @@ std::string reason_of(const PluginManifest& plugin) {
   if (version == kind_versions().end()) {
     return fmt::format("this armature knows no kind '{}'", plugin.kind);
   }
-  const Isolated tried = isolated(kPluginPatience_s, [&]() -> std::string {
+  const Isolated tried = isolated(kPluginTimeout_s, [&]() -> std::string {
     const auto loaded = PluginLibrary::load(plugin.file, plugin.kind, version->second);
     return loaded ? "" : loaded.error().text;
   });

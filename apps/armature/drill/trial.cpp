@@ -85,7 +85,7 @@ class Trial {
   TrialResult run(Form form, double moment_s) {
     result_ = {.fault = fault_.name, .form = form, .moment_s = moment_s};
     if (reach_moment() && fire() && end()) judge_arms();
-    if (options_.stop.stop_requested()) run_.ends_within(end_patience());
+    if (options_.stop.stop_requested()) run_.ends_within(end_timeout());
     return result_;
   }
 
@@ -219,13 +219,13 @@ class Trial {
     result_.shown = run_.wait_for_line(fault_.shown, kShownWithin).value_or("");
   }
 
-  milliseconds end_patience() const {
+  milliseconds end_timeout() const {
     // Beside coming to rest: steps that hang are waited for, and so are processes that do not end.
     return milliseconds{static_cast<int>(1000 * options_.deployment.stop_within_s) + 10000};
   }
 
   bool end() {
-    const milliseconds timeout = end_patience();
+    const milliseconds timeout = end_timeout();
     if (!run_.ends_within(timeout)) {
       return fail(fmt::format("it had not ended after {} s", timeout.count() / 1000));
     }

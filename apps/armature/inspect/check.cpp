@@ -74,7 +74,7 @@ std::size_t count_topics(const DeploymentConfig& deployment) {
 /// The deployment without what must not be tried. Throws the problems of its files.
 DeploymentConfig read_for_check(const DeploymentSource& source, const PluginRegistry& plugins,
                                 Findings& findings) {
-  const config::PipePatience one_for_all;
+  const config::PipeTimeLimit one_for_all;
   config::Problems problems;
   DeploymentConfig config = read_deployment(
       config::load_with_overlays(source.files, source.assignments, &findings.warnings), plugins,

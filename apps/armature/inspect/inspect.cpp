@@ -25,7 +25,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 DeploymentConfig read(const DeploymentSource& source, const PluginRegistry& plugins) {
-  const config::PipePatience one_for_all;
+  const config::PipeTimeLimit one_for_all;
   config::Problems problems;
   auto config = read_deployment(config::load_with_overlays(source.files, source.assignments),
                                 plugins, problems);
@@ -199,7 +199,7 @@ void print_tree(const config::Node& tree, bool json) {
 }  // namespace
 
 int show_deployment(const DeploymentSource& source, bool json) {
-  const config::PipePatience one_for_all;
+  const config::PipeTimeLimit one_for_all;
   const config::Node root = config::load_with_overlays(source.files, source.assignments);
   config::Problems problems;
   check_is_deployment(root, problems);

@@ -80,8 +80,8 @@ Json manifest_json(const PluginManifest& plugin) {
   for (const auto& slot : plugin.slots) {
     if (!slot.otherwise.empty()) json["slot_defaults"][slot.name] = slot.otherwise;
   }
-  json["needs"] = capabilities_json(plugin.needs);
-  json["offers"] = capabilities_json(plugin.offers);
+  json["requires"] = capabilities_json(plugin.required);
+  json["provides"] = capabilities_json(plugin.provided);
   json["measures"] = Json::object();
   for (const auto& metric : plugin.measures) json["measures"][metric.name] = metric.doc;
   json["in"] = ports_json(plugin.inputs);
@@ -209,8 +209,8 @@ int show_plugin(const std::string& id, bool json) {
   if (plugin->runs_programs) fmt::print("  runs a program that its parameters name\n");
   print_params(plugin->params);
   print_slots(plugin->slots);
-  print_capabilities("needs", plugin->needs, plugin->params);
-  print_capabilities("offers", plugin->offers, plugin->params);
+  print_capabilities("requires", plugin->required, plugin->params);
+  print_capabilities("provides", plugin->provided, plugin->params);
   if (!plugin->measures.empty()) fmt::print("measures:\n");
   for (const auto& metric : plugin->measures) {
     fmt::print("  {:<26} {}{}\n", metric.name, metric.doc,

@@ -95,9 +95,9 @@ bench::LoopRound round_of(MeasuredLoop& a, MeasuredLoop& b, std::pair<int, int> 
 }
 
 void await_readers(const bench::OurLoop& loop, int count) {
-  constexpr int kPatience_ms = 20000;
+  constexpr int kTimeout_ms = 20000;
   for (int i = 0; loop.readers() < count; ++i) {
-    if (i == kPatience_ms) {
+    if (i == kTimeout_ms) {
       throw std::runtime_error{
           fmt::format("only {} of {} readers have come", loop.readers(), count)};
     }

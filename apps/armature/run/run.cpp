@@ -281,7 +281,7 @@ void check_process(const DeploymentConfig& config, const std::string& process) {
 /// `notes` gets what the assignments leave out.
 DeploymentConfig read(const DeploymentSource& source, PluginRegistry& plugins,
                       std::vector<std::string>& notes) {
-  const config::PipePatience one_for_all;
+  const config::PipeTimeLimit one_for_all;
   config::Problems problems;
   DeploymentConfig config = read_deployment(
       config::load_with_overlays(source.files, source.assignments, &notes), plugins, problems);

@@ -57,7 +57,8 @@ class IkLawsOfPlugin final : public PluginLaws {
         plugins_{verified.search_path},
         plugin_{*plugins_.find(verified.id)},
         params_{params_of(plugin_, verified.options.params)} {
-    if (const std::string wrong = wrong_offers(plugin_); !wrong.empty()) throw InvalidChoice(wrong);
+    if (const std::string wrong = wrong_promises(plugin_); !wrong.empty())
+      throw InvalidChoice(wrong);
   }
 
   std::string refusal() override {

@@ -21,8 +21,8 @@
 namespace armature {
 namespace {
 
-bool offers(const PluginManifest& plugin, std::string_view word) {
-  return std::ranges::find(plugin.offers, word, &Capability::word) != plugin.offers.end();
+bool provides(const PluginManifest& plugin, std::string_view word) {
+  return std::ranges::find(plugin.provided, word, &Capability::word) != plugin.provided.end();
 }
 
 /// The laws of a kind on subjects that `make` makes.
@@ -122,7 +122,7 @@ std::unique_ptr<PluginLaws> laws_of_path(const VerifiedPlugin& verified) {
   return laws_with<PathPlanner>(verified, path_laws(), [](const Maker& maker, auto planner) {
     return PathSubject{.name = maker.plugin().id,
                        .planner = planner,
-                       .along_a_line = offers(maker.plugin(), "along_a_line")};
+                       .along_a_line = provides(maker.plugin(), "along_a_line")};
   });
 }
 std::unique_ptr<PluginLaws> laws_of_select(const VerifiedPlugin& verified) {
@@ -135,7 +135,7 @@ std::unique_ptr<PluginLaws> laws_of_trajectory(const VerifiedPlugin& verified) {
       verified, trajectory_laws(), [](const Maker& maker, auto planner) {
         return TrajectorySubject{.name = maker.plugin().id,
                                  .planner = planner,
-                                 .offers_time_law = offers(maker.plugin(), "time_law")};
+                                 .provides_time_law = provides(maker.plugin(), "time_law")};
       });
 }
 std::unique_ptr<PluginLaws> laws_of_registration(const VerifiedPlugin& verified) {

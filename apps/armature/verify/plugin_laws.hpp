@@ -50,8 +50,8 @@ class PluginLaws {
 /// True when plugins of its kind, or this component, are made for a robot.
 bool is_made_for_robot(const PluginManifest& plugin);
 
-/// Throws InvalidChoice when the plugin offers what is no promise of its kind, or when there are no
-/// laws for it; config::ConfigError when the robot or the parameters are wrong.
+/// Throws InvalidChoice when the plugin provides what is no promise of its kind, or when there are
+/// no laws for it; config::ConfigError when the robot or the parameters are wrong.
 std::unique_ptr<PluginLaws> laws_of(const VerifiedPlugin& verified);
 
 /// The same for the kind `ik`.

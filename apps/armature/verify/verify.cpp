@@ -67,7 +67,7 @@ Json report_json(const LawReport& report) {
 /// Checks the laws of one plugin, each in a process of its own.
 class Verification {
  public:
-  Verification(PluginLaws& laws, double timeout_s) : laws_{laws}, patience_s_{timeout_s} {}
+  Verification(PluginLaws& laws, double timeout_s) : laws_{laws}, timeout_s_{timeout_s} {}
 
   /// The outcome of every law in order; `tell` is called after each.
   template <class Tell>
@@ -95,7 +95,7 @@ class Verification {
     using Clock = std::chrono::steady_clock;
     laws_.forget_question();
     const auto start = Clock::now();
-    const Isolated done = isolated(patience_s_, [&] { return check().dump(); });
+    const Isolated done = isolated(timeout_s_, [&] { return check().dump(); });
     Json law{{"law", says}};
     law["result"] = "pass";
     law["violations"] = Json::array();
@@ -116,7 +116,7 @@ class Verification {
   }
 
   PluginLaws& laws_;
-  double patience_s_;
+  double timeout_s_;
 };
 
 void print_law(const Json& law) {

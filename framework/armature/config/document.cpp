@@ -106,7 +106,7 @@ Node parse_text(std::string_view text, std::string_view name) {
 }
 
 Node load(const fs::path& file) {
-  const PipePatience one_for_all;
+  const PipeTimeLimit one_for_all;
   return Loader{}.load(file, Origin{});
 }
 

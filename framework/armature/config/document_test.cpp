@@ -85,7 +85,7 @@ TEST_F(Documents, OfOneLoadHaveTwoSecondsForAllTheirPipes) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
   {
-    const PipePatience one_for_all;
+    const PipeTimeLimit one_for_all;
     for (const char* pipe : {"a", "b"}) EXPECT_THAT(merged({pipe}), HasSubstr("within 2 s"));
   }
   EXPECT_LT(Clock::now() - start, std::chrono::seconds{3});

@@ -237,7 +237,7 @@ Node merge(const Node& base, const Node& overlay) {
 Node load_with_overlays(const std::vector<std::filesystem::path>& files,
                         const std::vector<std::string>& assignments,
                         std::vector<std::string>* notes) {
-  const PipePatience one_for_all;
+  const PipeTimeLimit one_for_all;
   Node document = Node::null({});
   for (const std::filesystem::path& file : files) {
     document = document.kind() == Node::Kind::null ? load(file) : merge(document, load(file));

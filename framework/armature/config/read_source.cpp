@@ -90,10 +90,10 @@ class Source {
 
 }  // namespace
 
-PipePatience::PipePatience() : is_outermost_{!t_left} {
+PipeTimeLimit::PipeTimeLimit() : is_outermost_{!t_left} {
   if (is_outermost_) t_left = kTimeout;
 }
-PipePatience::~PipePatience() {
+PipeTimeLimit::~PipeTimeLimit() {
   if (is_outermost_) t_left.reset();
 }
 

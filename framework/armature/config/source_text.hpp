@@ -13,12 +13,12 @@ namespace armature::config {
 /// While one exists, all pipes that its thread reads together may be waited for for 2 s: what one
 /// load asks for would otherwise take as long as it names pipes. One inside another's life changes
 /// nothing.
-class PipePatience {
+class PipeTimeLimit {
  public:
-  PipePatience();
-  ~PipePatience();
-  PipePatience(const PipePatience&) = delete;
-  PipePatience& operator=(const PipePatience&) = delete;
+  PipeTimeLimit();
+  ~PipeTimeLimit();
+  PipeTimeLimit(const PipeTimeLimit&) = delete;
+  PipeTimeLimit& operator=(const PipeTimeLimit&) = delete;
 
  private:
   bool is_outermost_;
@@ -26,7 +26,7 @@ class PipePatience {
 
 /// The bytes of a YAML file. Throws ConfigError at `asked_by` (the place of an `include:`, or
 /// nothing) when it cannot be read, is a device or larger than 16 MiB, or is a pipe that is not
-/// written to its end within 2 s (see PipePatience).
+/// written to its end within 2 s (see PipeTimeLimit).
 std::string read_source(const std::filesystem::path& file, const Origin& asked_by);
 
 /// Text that is known to be UTF-8 without control characters, and the places in it.

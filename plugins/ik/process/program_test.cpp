@@ -15,7 +15,7 @@
 namespace armature::ik::process {
 namespace {
 
-constexpr double kPatience_s = 60;
+constexpr double kTimeout_s = 60;
 
 std::unique_ptr<Program> shell(const std::string& script, const std::string& folder = "") {
   const auto command = find_command({"sh", "-c", script}, folder);
@@ -37,26 +37,26 @@ bool ends(pid_t pid) {
 
 TEST(Program, AnswersEachLineWithALine) {
   const auto echo = shell("while read -r line; do echo \"$line!\"; done");
-  EXPECT_EQ(echo->ask("one", kPatience_s).value(), "one!");
-  EXPECT_EQ(echo->ask("two words", kPatience_s).value(), "two words!");
+  EXPECT_EQ(echo->ask("one", kTimeout_s).value(), "one!");
+  EXPECT_EQ(echo->ask("two words", kTimeout_s).value(), "two words!");
 }
 
 TEST(Program, AnswersAQuestionThatIsLongerThanAnyBuffer) {
   const auto count = shell("read -r line; echo ${#line}");
-  EXPECT_EQ(count->ask(std::string(300000, 'x'), kPatience_s).value(), "300000");
+  EXPECT_EQ(count->ask(std::string(300000, 'x'), kTimeout_s).value(), "300000");
 }
 
 TEST(Program, IsAskedInVainWhenItIsGoneAndWeAreNotKilledForIt) {
   const auto once = shell("read -r line; echo bye; exec 0<&-");
-  EXPECT_EQ(once->ask("one", kPatience_s).value(), "bye");
+  EXPECT_EQ(once->ask("one", kTimeout_s).value(), "bye");
   ASSERT_TRUE(ends(once->pid()));
-  EXPECT_EQ(once->ask("two", kPatience_s).error().text, "ended with exit code 0");
-  EXPECT_EQ(once->ask("three", kPatience_s).error().text, "ended with exit code 0");
+  EXPECT_EQ(once->ask("two", kTimeout_s).error().text, "ended with exit code 0");
+  EXPECT_EQ(once->ask("three", kTimeout_s).error().text, "ended with exit code 0");
 }
 
 TEST(Program, RunsInItsFolder) {
   const std::string folder = std::filesystem::canonical("/usr/bin").string();
-  EXPECT_EQ(shell("read -r line; pwd -P", folder)->ask("", kPatience_s).value(), folder);
+  EXPECT_EQ(shell("read -r line; pwd -P", folder)->ask("", kTimeout_s).value(), folder);
 }
 
 TEST(Program, IsFoundFromTheFolderWhenItsNameHasASlash) {
@@ -72,7 +72,7 @@ TEST(Program, HasNoOpenFileButItsStandardOnes) {
   }
   const auto first = shell("read -r line; echo");
   const auto second = shell("read -r line; echo /proc/self/fd/*");
-  std::istringstream files{second->ask("", kPatience_s).value()};
+  std::istringstream files{second->ask("", kTimeout_s).value()};
   const std::set<std::string> seen{std::istream_iterator<std::string>{files}, {}};
   EXPECT_TRUE(seen.contains("/proc/self/fd/0"));
   EXPECT_LE(seen.size(), 4U) << "three, and the folder that is looked at";
@@ -86,7 +86,7 @@ TEST(Program, DoesNotInheritTheSignalsThatWeBlockOrIgnore) {
   const auto handler = std::signal(SIGPIPE, SIG_IGN);
   const auto shown =
       shell("read -r line; echo $(sed -n 's/SigBlk:\\|SigIgn://p' /proc/self/status)");
-  std::istringstream masks{shown->ask("", kPatience_s).value()};
+  std::istringstream masks{shown->ask("", kTimeout_s).value()};
   std::signal(SIGPIPE, handler);
   pthread_sigmask(SIG_SETMASK, &before, nullptr);
   constexpr std::uint64_t kOfTheLibrary = 0b11ULL << 31;  // 32 and 33, which nobody may set
@@ -98,7 +98,7 @@ TEST(Program, DoesNotInheritTheSignalsThatWeBlockOrIgnore) {
 
 TEST(Program, EndsWithUsAndWithWhatItHasStarted) {
   auto parent = shell("sleep 3600 & read -r line; echo $!; wait");
-  const pid_t child = std::stoi(parent->ask("", kPatience_s).value());
+  const pid_t child = std::stoi(parent->ask("", kTimeout_s).value());
   const pid_t pid = parent->pid();
   parent.reset();
   EXPECT_TRUE(ends(child));
@@ -107,7 +107,7 @@ TEST(Program, EndsWithUsAndWithWhatItHasStarted) {
 
 TEST(Program, ThatDoesNotHeedTheEndOfItsInputIsKilled) {
   auto stubborn = shell("trap '' TERM INT HUP; read -r line; echo; while :; do sleep 1; done");
-  stubborn->ask("", kPatience_s).value();
+  stubborn->ask("", kTimeout_s).value();
   const pid_t pid = stubborn->pid();
   stubborn.reset();
   EXPECT_TRUE(ends(pid));
@@ -116,7 +116,7 @@ TEST(Program, ThatDoesNotHeedTheEndOfItsInputIsKilled) {
 TEST(Program, LivesOnWhenTheThreadThatStartedItEnds) {
   std::unique_ptr<Program> echo;
   std::jthread{[&] { echo = shell("while read -r line; do echo \"$line!\"; done"); }}.join();
-  EXPECT_EQ(echo->ask("one", kPatience_s).value(), "one!");
+  EXPECT_EQ(echo->ask("one", kTimeout_s).value(), "one!");
 }
 
 }  // namespace

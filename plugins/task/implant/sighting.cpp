@@ -27,7 +27,7 @@ void BodyWatch::see(const Sighting& sighting) {
 }
 
 std::optional<std::string> BodyWatch::blind(Time now) const {
-  if (now - last_ <= patience_) return std::nullopt;
+  if (now - last_ <= timeout_) return std::nullopt;
   return fmt::format("the tracker has not seen {} for {:.2f} s: {}", body_, to_seconds(now - last_),
                      reason_);
 }

@@ -20,7 +20,7 @@ struct Sighting {
 class BodyWatch {
  public:
   /// `body` as in "the tracker has not seen the jaw".
-  BodyWatch(std::string body, Duration timeout) : body_{std::move(body)}, patience_{timeout} {}
+  BodyWatch(std::string body, Duration timeout) : body_{std::move(body)}, timeout_{timeout} {}
 
   /// From now on it has to be seen.
   void begin(Time now);
@@ -30,7 +30,7 @@ class BodyWatch {
 
  private:
   std::string body_;
-  Duration patience_;
+  Duration timeout_;
   Time last_;
   std::string reason_;
 };

@@ -133,7 +133,7 @@ void keeps_durations(const TrajectorySubject& subject, LawCheck& check) {
   RandomRequests random;
   TrajectoryRequest wanted = with_durations(random);
   const auto planned = subject.planner->plan(wanted);
-  if (!subject.offers_time_law) {
+  if (!subject.provides_time_law) {
     check.refused(planned, "a duration of a segment's own, by a plugin without 'time_law'");
     return;
   }

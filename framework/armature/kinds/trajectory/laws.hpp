@@ -15,7 +15,7 @@ namespace armature {
 struct TrajectorySubject {
   std::string name;
   std::shared_ptr<const TrajectoryPlanner> planner;
-  bool offers_time_law = true;  // as its plugin.yaml says
+  bool provides_time_law = true;  // as its plugin.yaml says
 
   friend void PrintTo(const TrajectorySubject& subject, std::ostream* out) { *out << subject.name; }
 };

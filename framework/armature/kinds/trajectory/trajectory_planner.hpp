@@ -34,9 +34,9 @@ struct TrajectoryRequest {
 
 /// Decides time and limits: from a joint path to a trajectory that leaves `from` without a jump in
 /// q, v, a, ends at rest and keeps the limits. A velocity or an acceleration that is beyond its
-/// limit at the start is not exceeded further. A plugin that offers `time_law` (plugin.yaml) keeps
-/// a segment's own duration_s exactly, and refuses when the limits forbid it; one that does not
-/// refuses a segment that has one. Pure; may allocate.
+/// limit at the start is not exceeded further. A plugin that provides `time_law` (plugin.yaml)
+/// keeps a segment's own duration_s exactly, and refuses when the limits forbid it; one that does
+/// not refuses a segment that has one. Pure; may allocate.
 class TrajectoryPlanner {
  public:
   static constexpr std::string_view kKind = "trajectory";

@@ -43,50 +43,50 @@ const Capability* find_capability(const std::vector<Capability>& capabilities,
   return found == capabilities.end() ? nullptr : &*found;
 }
 
-/// Who could offer `word`: one of the providers whose offer is switched off, else the plugins on
+/// Who could provide `word`: one of the providers where it is switched off, else the plugins on
 /// the search path that `fits` lets in; a word that nobody knows is a typo. nullopt when plugins
-/// offer it that have no place here: who they work for may run in another process.
+/// provide it that have no place here: who they work for may run in another process.
 std::optional<std::string> hint(std::string_view word, const std::vector<Provider>& providers,
                                 const PluginRegistry& plugins,
                                 const std::function<bool(const PluginManifest&)>& fits) {
   for (const Provider& provider : providers) {
-    if (const Capability* offer = find_capability(provider.manifest->offers, word)) {
+    if (const Capability* provided = find_capability(provider.manifest->provided, word)) {
       return fmt::format("'{}' does {}", provider.name,
-                         unless_text(*offer, provider.manifest->params));
+                         unless_text(*provided, provider.manifest->params));
     }
   }
   std::vector<std::string> ids, words;
   bool elsewhere = false;
   for (const PluginManifest& plugin : plugins.plugins()) {
-    for (const Capability& offer : plugin.offers) {
-      words.push_back(offer.word);
-      if (offer.word != word) continue;
+    for (const Capability& provided : plugin.provided) {
+      words.push_back(provided.word);
+      if (provided.word != word) continue;
       if (fits(plugin)) ids.push_back(plugin.id);
       elsewhere = true;
     }
   }
-  if (!ids.empty()) return fmt::format("offered by {}", fmt::join(ids, ", "));
+  if (!ids.empty()) return fmt::format("provided by {}", fmt::join(ids, ", "));
   if (elsewhere) return std::nullopt;
   return "no plugin on the search path does" + config::did_you_mean(word, words);
 }
 
-/// `needy` needs, and `offering` may offer.
-void check_needs(const Provider& needy, const std::vector<Provider>& offering,
-                 std::string_view nobody, const PluginRegistry& plugins,
-                 const std::function<bool(const PluginManifest&)>& fits,
-                 config::Problems& problems) {
-  for (const Capability& need : needy.manifest->needs) {
+/// `needy` needs, and `others` may provide.
+void check_required(const Provider& needy, const std::vector<Provider>& others,
+                    std::string_view nobody, const PluginRegistry& plugins,
+                    const std::function<bool(const PluginManifest&)>& fits,
+                    config::Problems& problems) {
+  for (const Capability& need : needy.manifest->required) {
     if (!holds(need, needy)) continue;
-    const bool met = std::ranges::any_of(offering, [&](const Provider& provider) {
-      const Capability* offer = find_capability(provider.manifest->offers, need.word);
-      return offer && holds(*offer, provider);
+    const bool met = std::ranges::any_of(others, [&](const Provider& provider) {
+      const Capability* provided = find_capability(provider.manifest->provided, need.word);
+      return provided && holds(*provided, provider);
     });
-    const auto who_could = hint(need.word, offering, plugins, fits);
+    const auto who_could = hint(need.word, others, plugins, fits);
     if (met || !who_could) continue;
     const std::string unless = unless_text(need, needy.manifest->params);
     problems.add(needy.origin,
-                 fmt::format("'{}' needs '{}'{}{}, and {} offers it; {}", needy.name, need.word,
-                             unless.empty() ? "" : " ", unless, nobody, *who_could));
+                 fmt::format("'{}' requires '{}'{}{}, and {} provides it; {}", needy.name,
+                             need.word, unless.empty() ? "" : " ", unless, nobody, *who_could));
   }
 }
 
@@ -108,18 +108,18 @@ void check_slot_needs(const ComponentConfig& component, const PluginRegistry& pl
                       config::Problems& problems) {
   // Alone on topics: who it works with does not stand in its entry.
   if (!component.manifest->hosts.empty()) return;
-  // With a slot missing, what its plugin would offer is missing too, and that slot is a problem.
+  // With a slot missing, what its plugin would provide is missing too, and that slot is a problem.
   if (component.slots.size() != component.manifest->slots.size()) return;
   const std::vector<Provider> providers = slots_of(component);
   const auto fits_a_slot = [&](const PluginManifest& plugin) {
     const auto& slots = component.manifest->slots;
     return std::ranges::find(slots, plugin.kind, &SlotSpec::kind) != slots.end();
   };
-  std::vector<Provider> offering = providers;
-  offering.push_back(provider_of(component));
+  std::vector<Provider> others = providers;
+  others.push_back(provider_of(component));
   const std::string nobody = fmt::format("nothing in component '{}'", component.name);
   for (const Provider& needy : providers) {
-    check_needs(needy, offering, nobody, plugins, fits_a_slot, problems);
+    check_required(needy, others, nobody, plugins, fits_a_slot, problems);
   }
 }
 
@@ -127,19 +127,19 @@ void check_component_needs(const DeploymentConfig& deployment, const PluginRegis
                            config::Problems& problems) {
   for (const ComponentConfig& needy : deployment.components) {
     if (needy.unit != kMainUnit) continue;  // what its component needs is asked once
-    std::vector<Provider> offering;
+    std::vector<Provider> others;
     std::vector<std::string_view> kinds{"component"};
     for (const ComponentConfig& component : deployment.components) {
       if (!exchange_topics(needy, component)) continue;
-      offering.push_back(provider_of(component));
-      std::ranges::copy(slots_of(component), std::back_inserter(offering));
+      others.push_back(provider_of(component));
+      std::ranges::copy(slots_of(component), std::back_inserter(others));
       for (const SlotSpec& slot : component.manifest->slots) kinds.push_back(slot.kind);
     }
     const auto fits = [&](const PluginManifest& plugin) {
       return std::ranges::find(kinds, plugin.kind) != kinds.end();
     };
-    check_needs(provider_of(needy), offering, "no component on its topics", plugins, fits,
-                problems);
+    check_required(provider_of(needy), others, "no component on its topics", plugins, fits,
+                   problems);
   }
 }
 

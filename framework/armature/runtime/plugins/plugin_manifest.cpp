@@ -205,8 +205,8 @@ void check_when(const Capability& capability, const std::vector<ParamSpec>& para
                           capability.when, config::did_you_mean(capability.when, names)));
 }
 
-std::vector<Capability> read_traits(const Node* table, const std::vector<ParamSpec>& params,
-                                    Problems& problems) {
+std::vector<Capability> read_capabilities(const Node* table, const std::vector<ParamSpec>& params,
+                                          Problems& problems) {
   std::vector<Capability> capabilities;
   if (!table) return capabilities;
   for (const auto& [key, key_origin, value] : table->entries()) {
@@ -313,8 +313,8 @@ PluginManifest parse_manifest(std::string_view yaml, std::string_view name, Prob
     map.problem("hosts", fmt::format("the first slot of a host of '{}' must be of that kind",
                                      manifest.hosts));
   }
-  manifest.needs = read_traits(read_table(map, "needs"), manifest.params, problems);
-  manifest.offers = read_traits(read_table(map, "offers"), manifest.params, problems);
+  manifest.required = read_capabilities(read_table(map, "requires"), manifest.params, problems);
+  manifest.provided = read_capabilities(read_table(map, "provides"), manifest.params, problems);
   manifest.measures = read_metrics(read_table(map, "measures"), problems);
   manifest.driver = read_driver(read_table(map, "driver"), manifest.params, problems);
   manifest.max_step = read_max_step(map);

@@ -70,8 +70,8 @@ struct SlotSpec {
   std::vector<std::string> units{std::string{kMainUnit}};  // each has an instance of its own
 };
 
-/// A word that one plugin needs and another one offers, "time_law". The words mean something to
-/// their plugins, nothing to the runtime.
+/// A word that one plugin requires and another one provides, "time_law". The words mean something
+/// to their plugins, nothing to the runtime.
 struct Capability {
   std::string word;
   std::string when;  // only while this parameter is not 0 or false; empty: always
@@ -109,7 +109,7 @@ struct PluginManifest {
   std::vector<ParamSpec> params;
   std::vector<UnitSpec> units;  // beside the main one
   std::vector<SlotSpec> slots;
-  std::vector<Capability> needs, offers;
+  std::vector<Capability> required, provided;
   std::vector<MetricSpec> measures;
   std::optional<DriverSpec> driver;  // of a component that moves an arm
   std::optional<Duration> max_step;  // of a component: a step that takes longer hangs

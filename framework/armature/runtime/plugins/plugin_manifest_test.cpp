@@ -30,18 +30,18 @@ TEST(PluginManifest, ReadsWhatAPluginNeedsOffersAndMeasures) {
       "params:\n"
       "  segment_s: {type: number, default: 1}\n"
       "  exact: {type: flag, default: true}\n"
-      "needs: {time_law: {when: segment_s, doc: Its moves last segment_s}}\n"
-      "offers:\n"
+      "requires: {time_law: {when: segment_s, doc: Its moves last segment_s}}\n"
+      "provides:\n"
       "  stops: {}\n"
       "  straight: {when: exact}\n"
       "measures: {length_m: Of the path}\n");
-  ASSERT_EQ(manifest.needs.size(), 1U);
-  EXPECT_EQ(manifest.needs[0].word, "time_law");
-  EXPECT_EQ(manifest.needs[0].doc, "Its moves last segment_s");
-  EXPECT_EQ(unless_text(manifest.needs[0], manifest.params), "unless 'segment_s' is 0");
-  ASSERT_EQ(manifest.offers.size(), 2U);
-  EXPECT_EQ(unless_text(manifest.offers[0], manifest.params), "");
-  EXPECT_EQ(unless_text(manifest.offers[1], manifest.params), "unless 'exact' is false");
+  ASSERT_EQ(manifest.required.size(), 1U);
+  EXPECT_EQ(manifest.required[0].word, "time_law");
+  EXPECT_EQ(manifest.required[0].doc, "Its moves last segment_s");
+  EXPECT_EQ(unless_text(manifest.required[0], manifest.params), "unless 'segment_s' is 0");
+  ASSERT_EQ(manifest.provided.size(), 2U);
+  EXPECT_EQ(unless_text(manifest.provided[0], manifest.params), "");
+  EXPECT_EQ(unless_text(manifest.provided[1], manifest.params), "unless 'exact' is false");
   ASSERT_EQ(manifest.measures.size(), 1U);
   EXPECT_EQ(manifest.measures[0].name, "length_m");
   EXPECT_EQ(manifest.measures[0].doc, "Of the path");
@@ -81,21 +81,22 @@ TEST(PluginManifest, ADriverSaysWhatItMoves) {
 TEST(PluginManifest, AConditionMustBeAParameterThatCanBeOff) {
   const std::string params =
       "params: {segment_s: {type: number, default: 1}, how: {type: text, default: x}}\n";
-  EXPECT_EQ(problem(params + "needs: {time_law: {when: segment}}\n"),
+  EXPECT_EQ(problem(params + "requires: {time_law: {when: segment}}\n"),
             "plugin.yaml:5:26: 'when' names 'segment', which is no number, integer or flag among "
             "the plugin's parameters; did you mean 'segment_s'?");
-  EXPECT_EQ(problem(params + "needs: {time_law: {when: how}}\n"),
+  EXPECT_EQ(problem(params + "requires: {time_law: {when: how}}\n"),
             "plugin.yaml:5:26: 'when' names 'how', which is no number, integer or flag among the "
             "plugin's parameters; known: segment_s");
 }
 
 TEST(PluginManifest, AListWhereAMapBelongsIsAProblem) {
-  EXPECT_EQ(problem("needs: [time_law]\n"), "plugin.yaml:4:8: 'needs' must be a map, not a list");
+  EXPECT_EQ(problem("requires: [time_law]\n"),
+            "plugin.yaml:4:8: 'requires' must be a map, not a list");
   EXPECT_EQ(problem("measures: length_m\n"),
             "plugin.yaml:4:11: 'measures' must be a map, not 'length_m'");
-  EXPECT_EQ(problem("offers: {time_law: yes}\n"),
+  EXPECT_EQ(problem("provides: {time_law: yes}\n"),
             "plugin.yaml:4:20: 'time_law' must be a map, not 'yes'");
-  EXPECT_EQ(problem("needs:\n"), "nothing");
+  EXPECT_EQ(problem("requires:\n"), "nothing");
 }
 
 TEST(PluginManifest, APortIsOfADocumentThatThePluginUses) {

@@ -15,7 +15,7 @@ namespace armature {
 
 struct EndWatch::State {
   State(Duration timeout, std::function<void(const std::string&)> on_hung)
-      : patience_{timeout}, on_hung_{std::move(on_hung)} {}
+      : timeout_{timeout}, on_hung_{std::move(on_hung)} {}
 
   /// Of the watching thread. Returns when there is nothing to watch any more.
   void watch() {
@@ -26,9 +26,9 @@ struct EndWatch::State {
       const auto now = std::chrono::steady_clock::now();
       observed_ += std::min<Duration>(now - before, 2 * kTick);
       before = now;
-      if (observed_ < patience_) continue;
+      if (observed_ < timeout_) continue;
       const std::string text =
-          fmt::format("{} has not returned for {:g} s", what_, to_seconds(patience_));
+          fmt::format("{} has not returned for {:g} s", what_, to_seconds(timeout_));
       telling_ = true;
       lock.unlock();
       on_hung_(text);
@@ -39,7 +39,7 @@ struct EndWatch::State {
     }
   }
 
-  const Duration patience_;
+  const Duration timeout_;
   const std::function<void(const std::string&)> on_hung_;
   std::mutex mutex_;
   std::condition_variable changed_;

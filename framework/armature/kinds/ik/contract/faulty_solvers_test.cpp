@@ -280,7 +280,7 @@ TEST(IkLaw, WithoutPromisesOnlyASeedThatIsASolutionHasToBeReached) {
   IkSubject one = subject(Fault::a_branch_missing);
   one.closed_form = one.any_seed = one.any_seed_at_edges = false;
   const LawReport report = report_of("AGoalWithinLimitsIsReached", one);
-  EXPECT_NE(report.note.find("`any_seed` is not offered"), std::string::npos) << report.note;
+  EXPECT_NE(report.note.find("`any_seed` is not provided"), std::string::npos) << report.note;
 }
 
 }  // namespace

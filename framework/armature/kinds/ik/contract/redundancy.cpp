@@ -18,7 +18,7 @@ void redundancy_is_kept(Probe& probe) {
     return;
   }
   if (!probe.subject().closed_form) {
-    probe.report().skipped = "`all_branches` is not offered";
+    probe.report().skipped = "`all_branches` is not provided";
     return;
   }
   std::uniform_real_distribution<double> angle{-std::numbers::pi, std::numbers::pi};

@@ -72,7 +72,7 @@ void goals_are_reached(Probe& probe) {
   }
   if (!promised) {
     probe.report().note = fmt::format(
-        "only seeds that are solutions: `any_seed` is not offered; from random ones {:.1f} %",
+        "only seeds that are solutions: `any_seed` is not provided; from random ones {:.1f} %",
         100.0 * reached / probe.subject().poses);
   }
 }
@@ -96,7 +96,7 @@ void generator_is_found(Probe& probe) {
                       fmt::join(joints, ", "), probe.found().count, distance));
     }
   }
-  if (!all) probe.report().note = "only from the joints themselves: `all_branches` is not offered";
+  if (!all) probe.report().note = "only from the joints themselves: `all_branches` is not provided";
 }
 
 void flags_are_true(Probe& probe) {

@@ -17,20 +17,20 @@ namespace {
 constexpr std::string_view kAllBranches = "all_branches", kAnySeed = "any_seed",
                            kAnySeedAtEdges = "any_seed_at_edges";
 
-/// True when the plugin offers `word` with these parameters.
-bool offers(const PluginManifest& plugin, std::string_view word, const Params& params) {
-  const auto offer = std::ranges::find(plugin.offers, word, &Capability::word);
-  if (offer == plugin.offers.end()) return false;
-  if (offer->when.empty()) return true;
-  const auto param = std::ranges::find(plugin.params, offer->when, &ParamSpec::name);
+/// True when the plugin provides `word` with these parameters.
+bool provides(const PluginManifest& plugin, std::string_view word, const Params& params) {
+  const auto promise = std::ranges::find(plugin.provided, word, &Capability::word);
+  if (promise == plugin.provided.end()) return false;
+  if (promise->when.empty()) return true;
+  const auto param = std::ranges::find(plugin.params, promise->when, &ParamSpec::name);
   if (param == plugin.params.end()) return false;
   switch (param->type) {
     case ParamSpec::Type::flag:
-      return params.flag(offer->when);
+      return params.flag(promise->when);
     case ParamSpec::Type::integer:
-      return params.integer(offer->when) != 0;
+      return params.integer(promise->when) != 0;
     default:
-      return params.number(offer->when) != 0;
+      return params.number(promise->when) != 0;
   }
 }
 
@@ -45,20 +45,20 @@ Expected<IkSubject> plugin_subject(PluginRegistry& plugins, const PluginManifest
   subject.name = plugin.id;
   subject.model = std::move(model);
   subject.solver = std::shared_ptr<const IkSolver>{held, &**held};
-  subject.closed_form = offers(plugin, kAllBranches, params);
-  subject.any_seed = subject.closed_form || offers(plugin, kAnySeed, params);
-  subject.any_seed_at_edges = subject.closed_form || offers(plugin, kAnySeedAtEdges, params);
+  subject.closed_form = provides(plugin, kAllBranches, params);
+  subject.any_seed = subject.closed_form || provides(plugin, kAnySeed, params);
+  subject.any_seed_at_edges = subject.closed_form || provides(plugin, kAnySeedAtEdges, params);
   subject.allocates = plugin.allocates;
   return subject;
 }
 
-std::string wrong_offers(const PluginManifest& plugin) {
+std::string wrong_promises(const PluginManifest& plugin) {
   const std::array known{std::string{kAllBranches}, std::string{kAnySeed},
                          std::string{kAnySeedAtEdges}};
-  for (const Capability& offer : plugin.offers) {
-    if (std::ranges::find(known, offer.word) != known.end()) continue;
-    return fmt::format("its plugin.yaml offers '{}', which is no promise of the kind ik{}",
-                       offer.word, config::did_you_mean(offer.word, known));
+  for (const Capability& promise : plugin.provided) {
+    if (std::ranges::find(known, promise.word) != known.end()) continue;
+    return fmt::format("its plugin.yaml provides '{}', which is no promise of the kind ik{}",
+                       promise.word, config::did_you_mean(promise.word, known));
   }
   return "";
 }

@@ -11,14 +11,14 @@
 namespace armature {
 
 /// A plugin's solver for a robot as a subject of the laws, or why the plugin refuses the robot;
-/// what it promises is what its plugin.yaml offers. The library stays loaded as long as the
+/// what it promises is what its plugin.yaml provides. The library stays loaded as long as the
 /// subject's solver. Throws PluginError when the library cannot be used.
 Expected<IkSubject> plugin_subject(PluginRegistry& plugins, const PluginManifest& plugin,
                                    std::shared_ptr<const RobotModel> model, const Params& params);
 
-/// What is wrong with the words that an ik plugin offers: "'all_brnches' is no promise of the kind
-/// ik; did you mean 'all_branches'?"; empty when nothing is.
-std::string wrong_offers(const PluginManifest& plugin);
+/// What is wrong with the words that an ik plugin provides: "'all_brnches' is no promise of the
+/// kind ik; did you mean 'all_branches'?"; empty when nothing is.
+std::string wrong_promises(const PluginManifest& plugin);
 
 /// The law of the library itself: loaded, asked once and unloaded 1000 times (fewer when that takes
 /// more than 60 s), the process is as it was.

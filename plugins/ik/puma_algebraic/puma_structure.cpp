@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -106,6 +107,24 @@ std::optional<double> pointing_of(const RobotModel& model, const Eigen::Isometry
   return axis.z() > 0 ? 1.0 : -1.0;
 }
 
+void set_limits(const RobotModel& model, PumaArm& arm) {
+  for (int i = 0; i < 6; ++i) {
+    const double middle = 0.5 * (model.lower()[i] + model.upper()[i]);
+    arm.half[i] = 0.5 * (model.upper()[i] - model.lower()[i]);
+    // Without a limit on one side a joint that turns is never beyond the other.
+    arm.middle[i] = !std::isfinite(middle) ? 0 : i == 5 && arm.needle ? middle : wrap_angle(middle);
+  }
+}
+
+void set_places(PumaArm& arm) {
+  using Rows = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+  using Eigen::Map, Eigen::Vector3d;
+  Map<Rows>{arm.shoulder_R_base[0]} = arm.base_T_shoulder.linear().transpose();
+  Map<Vector3d>{arm.base_t_shoulder} = arm.base_T_shoulder.translation();
+  Map<Rows>{arm.tool_R_wrist[0]} = arm.wrist_T_tool.linear().transpose();
+  Map<Vector3d>{arm.wrist_t_tool} = arm.wrist_T_tool.translation();
+}
+
 }  // namespace
 
 Expected<PumaArm> puma_arm(const RobotModel& model) {
@@ -149,6 +168,8 @@ Expected<PumaArm> puma_arm(const RobotModel& model) {
     arm.zero[5] = 0;
   }
   arm.pointing = pointing_of(model, arm.wrist_T_tool);
+  set_limits(model, arm);
+  set_places(arm);
   return arm;
 }
 

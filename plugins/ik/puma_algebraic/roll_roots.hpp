@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
-#include <limits>
-#include <string_view>
-
-#include "needle_task.hpp"
+#include "needle_line.hpp"
 
 namespace armature {
 
@@ -23,15 +19,11 @@ struct RollRoots {
   };
   std::array<Depths, 4> of;
   double least_error = 1;  // smallest sine of a roll error that was met on the way
-  double shortfall =
-      std::numeric_limits<double>::infinity();  // [m] of the best depth; 0: it reaches
-  std::string_view detail;
 };
 
 /// Roots of ArmKernel::roll_errors over the depth: changes of sign, and minima of its magnitude
-/// that touch or cross zero, between the steps of NeedleTask and the rims of reach. Two roots that
-/// lie closer than a step without a minimum at a step between them can be missed. Bounded, no
-/// allocation.
-RollRoots roll_roots(const NeedleTask& task);
+/// that touch or cross zero, between the depths of `line`. Two roots between the same two of them
+/// without a minimum there can be missed. Bounded, no allocation.
+RollRoots roll_roots(const NeedleLine& line);
 
 }  // namespace armature

@@ -34,7 +34,7 @@ struct ArmQuestion {
   enum class Task {
     rotation,   // n, o, a: joint 6 turns
     pointing,   // a alone; joint 6 is at `sixth`
-    fixed_roll  // n, o, a with t6 = 0: only right where roll_errors are 0
+    fixed_roll  // n, o, a with t6 = 0: only right where the roll error is 0
   };
   Task task = Task::rotation;
   Triple wrist;  // [m]
@@ -56,6 +56,14 @@ struct FourArms {
   double joint[2][6][4];  // of wrist 0 and wrist 1: the robot's values, angles in [-pi, pi)
   double margin[2][4];    // of the joint that is nearest to a limit; negative beyond [rad or m]
   double position_m[4], angle_rad[4];  // by which forward kinematics miss the goal
+};
+
+/// Of a rotation, for the same arms: sine of the angle by which the axis of joint 5 at t6 = 0
+/// misses being square to the forearm; where the arm does not reach, to that of the arm that comes
+/// nearest.
+struct RollErrors {
+  double of[4];
+  bool reached[4];
 };
 
 /// Poses of the tool, as in IkBatch.
@@ -80,9 +88,7 @@ struct PoseAnswers {
 /// The same source compiled for each kind of processor. Real-time safe.
 struct ArmKernel {
   void (*solve)(const ArmNumbers& arm, const ArmQuestion& question, FourArms& out);
-  /// Of a rotation: sine of the angle by which the axis of joint 5 at t6 = 0 misses being square to
-  /// the forearm. NaN where the arm does not reach.
-  void (*roll_errors)(const ArmNumbers& arm, const ArmQuestion& question, double (&error)[4]);
+  void (*roll_errors)(const ArmNumbers& arm, const ArmQuestion& question, RollErrors& out);
   /// Rotations, by an arm whose joints all turn.
   void (*solve_poses)(const ArmNumbers& arm, const PoseBatch& poses, const PoseAnswers& out);
 };

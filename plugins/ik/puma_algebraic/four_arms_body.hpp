@@ -81,10 +81,10 @@ void solve_four_arms(const ArmNumbers& arm, const ArmQuestion& question, FourArm
   });
 }
 
-void roll_errors_of(const ArmNumbers& arm, const ArmQuestion& question, double (&error)[4]) {
+void roll_errors_of(const ArmNumbers& arm, const ArmQuestion& question, RollErrors& out) {
   const Arms arms = solve_arms(arm, question);
-  const Lanes nowhere = all(std::numeric_limits<double>::quiet_NaN());
-  store(arms.plane.reached ? arms.in_forearm(question.o).y : nowhere, error);
+  store(arms.in_forearm(question.o).y, out.of);
+  store(arms.plane.reached, out.reached);
 }
 
 }  // namespace

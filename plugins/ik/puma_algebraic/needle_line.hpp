@@ -2,59 +2,52 @@
 #pragma once
 
 #include <array>
-#include <limits>
-#include <optional>
 
 #include "puma_goal.hpp"
 
 namespace armature {
 
-/// A goal for an arm with a needle, and the depths [m], rising, between which both searches over
-/// the depth look for what they want: equal steps, the rims of reach, ever smaller steps towards
-/// these and the ends of the range, and in between where a wrist comes nearest to reach. Bounded,
-/// no allocation.
-class NeedleLine {
- public:
-  static constexpr int kSteps = 256;  // equal ones
+/// A goal for an arm with a needle, and the depths [m] that the needle can take. What is searched
+/// for over the depth is looked for between equal steps. Bounded, no allocation.
+struct NeedleLine {
+  const ArmKernel& kernel;
+  const PumaArm& arm;
+  const PumaGoal& goal;
+  double least, most;
 
-  NeedleLine(const ArmKernel& kernel, const PumaArm& arm, const PumaGoal& goal, double least,
-             double most);
-
-  const ArmKernel& kernel() const { return kernel_; }
-  const PumaArm& arm() const { return arm_; }
-  ArmQuestion at(double depth) const { return goal_.at(depth); }
-  double step(int i) const { return i == kSteps ? most_ : least_ + (most_ - least_) * i / kSteps; }
-  /// All, steps and others.
-  const double* begin() const { return depth_.data(); }
-  const double* end() const { return depth_.data() + count_; }
-  /// Where the wrist misses reach least, or is farthest within.
-  double nearest_to_reach() const { return best_; }
-  /// By how much it misses there; none when some depth is reached.
-  std::optional<Miss> miss() const;
-
- private:
-  /// Of a shoulder at every step [m], between infinities.
-  using Misses = std::array<double, kSteps + 3>;
-
-  double miss_at(double depth, double side);
-  void add(double depth);
-  /// Ever smaller steps from `inside` to `rim`.
-  void approach(double inside, double rim);
-  void add_rim(double inside, double outside, double side);
-  void look_around(int i, const Misses& miss, double side);
-
-  const ArmKernel& kernel_;
-  const PumaArm& arm_;
-  const PumaGoal& goal_;
-  double least_, most_, slack_;
-  double best_ = 0, least_miss_ = std::numeric_limits<double>::infinity();  // [m]
-  std::array<double, 512> depth_;
-  int count_ = 0;
+  static constexpr int kSteps = 256;
+  double step(int i) const { return i == kSteps ? most : least + (most - least) * i / kSteps; }
 };
 
-/// Of the steps of `line`, the one nearest to `wanted` where a branch keeps the limits; if there is
-/// none, a depth in between where one does; else the step nearest to `wanted` where a branch
-/// reaches. Some depth has to be reached.
-double choose_depth(const NeedleLine& line, double wanted);
+/// A depth where the wrist is within reach, or the one where it misses reach least.
+struct NearestDepth {
+  double depth = 0;
+  Miss miss;
+};
+NearestDepth nearest_to_reach(const NeedleLine& line);
+
+/// Of the steps, the one nearest to `wanted` where a branch keeps the limits; if there is none, a
+/// depth in between where one does; else the step nearest to `wanted` where a branch reaches, or
+/// `reached`.
+double choose_depth(const NeedleLine& line, double wanted, double reached);
+
+/// The depths at which a full rotation is reached although a needle does not turn: up to 4 for each
+/// shoulder and elbow, of[2 * shoulder + elbow], from shallow to deep.
+struct RollRoots {
+  struct Root {
+    double depth = 0;  // [m]
+    double slope = 0;  // of the sine of the roll error [1/m]; 0 where two roots merge
+  };
+  struct Roots {
+    std::array<Root, 4> root;
+    std::size_t count = 0;
+  };
+  std::array<Roots, 4> of;
+  double least_error = 1;  // smallest sine of a roll error that was met on the way
+};
+/// Changes of sign of ArmKernel::roll_errors, and minima of its magnitude that touch or cross zero.
+/// Two roots that lie closer than a step without a minimum at a step between them can be missed.
+/// `reached` is looked at as the steps are.
+RollRoots roll_roots(const NeedleLine& line, double reached);
 
 }  // namespace armature

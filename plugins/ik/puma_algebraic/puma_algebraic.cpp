@@ -13,27 +13,26 @@
 namespace armature {
 namespace {
 
-constexpr std::size_t kSlots = 8, kNameSize = 23;  // without the depth
-/// "shoulder1/elbow0/wrist1/depth2" for 16 + 4 + 2; a name ends behind the wrist where a branch has
-/// no depth of its own. Shoulder 0: the wrist lies ahead of link 1. Elbow 0: t3 + atan2(d4, a3) >=
-/// 0. Wrist 0: t5 >= 0. Depths are counted from shallow to deep.
-constexpr auto kNames = [] {
-  constexpr std::string_view kFirst = "shoulder0/elbow0/wrist0/depth0";
-  std::array<std::array<char, kFirst.size()>, 4 * kSlots> names{};
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    std::ranges::copy(kFirst, names[i].begin());
-    names[i][8] = i / 16 == 0 ? '0' : '1';
-    names[i][15] = i / 8 % 2 == 0 ? '0' : '1';
-    names[i][22] = i / 4 % 2 == 0 ? '0' : '1';
-    names[i][29] = "0123"[i % 4];
-  }
-  return names;
-}();
-constexpr std::string_view label_of(std::size_t branch) {
-  return {kNames[4 * branch].data(), kNameSize};
-}
-constexpr std::string_view label_of(std::size_t branch, std::size_t depth) {
-  return {kNames[4 * branch + depth].data(), kNames[0].size()};
+constexpr std::size_t kSlots = 8, kNoDepth = 4;
+
+/// "shoulder1/elbow0/wrist1/depth2", without the depth where a branch has none of its own. Shoulder
+/// 0: the wrist lies ahead of link 1. Elbow 0: t3 + atan2(d4, a3) >= 0. Wrist 0: t5 >= 0. Depths
+/// are counted from shallow to deep.
+std::string_view label_of(std::size_t branch, std::size_t depth = kNoDepth) {
+  constexpr std::string_view kFirst = "shoulder0/elbow0/wrist0/depth0", kDepth = "/depth0";
+  static constexpr auto kNames = [&] {
+    std::array<std::array<char, kFirst.size()>, 4 * kSlots> names{};
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      std::ranges::copy(kFirst, names[i].begin());
+      for (const auto& [place, part] : {std::pair{8, 16}, {15, 8}, {22, 4}}) {
+        names[i][static_cast<std::size_t>(place)] = "01"[i / static_cast<std::size_t>(part) % 2];
+      }
+      names[i].back() = "0123"[i % 4];
+    }
+    return names;
+  }();
+  if (depth == kNoDepth) return {kNames[4 * branch].data(), kFirst.size() - kDepth.size()};
+  return {kNames[4 * branch + depth].data(), kFirst.size()};
 }
 
 IkStatus status_of(const IkBranches& branches) {
@@ -118,47 +117,41 @@ IkStatus PumaAlgebraic::solve_at(const ArmQuestion& question, IkBranches& out) c
   return add_branches(question, arms, out);
 }
 
-NeedleLine PumaAlgebraic::needle_line(const PumaGoal& goal, double beyond) const {
-  return {kernel_, arm_, goal, model_->lower()[5] - beyond, model_->upper()[5] + beyond};
-}
-
 IkStatus PumaAlgebraic::solve_line(const PumaGoal& goal, IkBranches& out) const {
   const double wanted = goal.at_zero.sixth;
   const IkStatus status = solve_at(goal.at(wanted), out);
   if (status.code == IkStatus::Code::ok) return status;
-  const NeedleLine line = needle_line(goal, 0);
-  if (const auto miss = line.miss()) return out_of_reach(*miss);
+  const NeedleLine line{kernel_, arm_, goal, model_->lower()[5], model_->upper()[5]};
+  const NearestDepth nearest = nearest_to_reach(line);
+  if (nearest.miss.by > goal.at_zero.rims.slack) return out_of_reach(nearest.miss);
   IkBranches chosen;
-  const IkStatus other = solve_at(goal.at(choose_depth(line, wanted)), chosen);
+  const IkStatus other = solve_at(goal.at(choose_depth(line, wanted, nearest.depth)), chosen);
   if (other.code != IkStatus::Code::ok && out.count > 0) return status;
   out = chosen;
   return other;
 }
 
-void PumaAlgebraic::add_root(const PumaGoal& goal, std::size_t arm, const RollRoots::Root& root,
-                             std::array<std::size_t, 2>& found, IkBranches& out) const {
-  ArmQuestion question = goal.at(root.depth);
-  question.task = ArmQuestion::Task::fixed_roll;
-  question.wrist_factor = std::abs(root.slope) * (arm_.a2 + arm_.forearm);
-  FourArms arms;
-  kernel_.solve(arm_, question, arms);
-  if (!arms.reached[arm]) return;
-  // Which wrist it is, the sign of t5 tells.
-  const double t5 = arm_.canonical(4, arms.joint[0][4][arm]);
-  const std::size_t wrist = wrap_angle(t5) < 0 ? 1 : 0;
-  add_branch(arms, arm, 0, label_of(2 * arm + wrist, found[wrist]++), root.depth, out);
-}
-
 IkStatus PumaAlgebraic::solve_needle_rotation(const PumaGoal& goal, IkBranches& out) const {
   // A root at the very end of the range may be rounded beyond it.
   constexpr double kEnd = 1e-10;
-  const NeedleLine line = needle_line(goal, kEnd);
-  if (const auto miss = line.miss()) return out_of_reach(*miss);
-  const RollRoots roots = roll_roots(line);
+  const NeedleLine line{kernel_, arm_, goal, model_->lower()[5] - kEnd, model_->upper()[5] + kEnd};
+  const NearestDepth nearest = nearest_to_reach(line);
+  if (nearest.miss.by > goal.at_zero.rims.slack) return out_of_reach(nearest.miss);
+  const RollRoots roots = roll_roots(line, nearest.depth);
   for (std::size_t arm = 0; arm < 4; ++arm) {
     std::array<std::size_t, 2> found{};  // of each wrist
-    for (int i = 0; i < roots.of[arm].count; ++i) {
-      add_root(goal, arm, roots.of[arm].root[static_cast<std::size_t>(i)], found, out);
+    for (std::size_t i = 0; i < roots.of[arm].count; ++i) {
+      const RollRoots::Root& root = roots.of[arm].root[i];
+      ArmQuestion question = goal.at(root.depth);
+      question.task = ArmQuestion::Task::fixed_roll;
+      question.wrist_factor = std::abs(root.slope) * (arm_.a2 + arm_.forearm);
+      FourArms arms;
+      kernel_.solve(arm_, question, arms);
+      if (!arms.reached[arm]) continue;
+      // Which wrist it is, the sign of t5 tells.
+      const double t5 = wrap_angle(arm_.canonical(4, arms.joint[0][4][arm]));
+      const std::size_t wrist = t5 < 0 ? 1 : 0;
+      add_branch(arms, arm, 0, label_of(2 * arm + wrist, found[wrist]++), root.depth, out);
     }
   }
   if (out.count > 0) return status_of(out);

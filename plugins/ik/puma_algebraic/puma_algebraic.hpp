@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <memory>
 #include <optional>
 
 #include "armature/kinds/ik/ik.hpp"
-#include "puma_goal.hpp"
-#include "puma_structure.hpp"
-#include "roll_roots.hpp"
+#include "needle_line.hpp"
 
 namespace armature {
 
@@ -33,14 +30,9 @@ class PumaAlgebraic final : public IkSolver {
   /// All branches of a rotation, or of a direction with joint 6 at `question.sixth`. Where joint 1
   /// or 2 is free and keeping the seed's leads beyond the limits, other values are tried.
   IkStatus solve_at(const ArmQuestion& question, IkBranches& out) const;
-  /// With every depth of the needle, and `beyond` [m] more at both ends.
-  NeedleLine needle_line(const PumaGoal& goal, double beyond) const;
-  /// A direction, by an arm with a needle whose depth is left open.
+  /// A direction, by an arm with a needle whose depth is left open; a rotation, by the same.
   IkStatus solve_line(const PumaGoal& goal, IkBranches& out) const;
-  /// A rotation, by an arm with a needle.
   IkStatus solve_needle_rotation(const PumaGoal& goal, IkBranches& out) const;
-  void add_root(const PumaGoal& goal, std::size_t arm, const RollRoots::Root& root,
-                std::array<std::size_t, 2>& found, IkBranches& out) const;
 
   const RobotModel* model_;
   PumaArm arm_;

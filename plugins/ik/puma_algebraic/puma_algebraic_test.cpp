@@ -11,7 +11,8 @@ IkSubject subject(std::string name, const ModelPtr& model) {
           .model = model,
           .solver = solver_for(*model),
           .closed_form = true,
-          .edge_poses = 50};
+          .poses = 5000,
+          .edge_poses = 200};
 }
 
 // The two robot files are also tested with 1000 poses of every edge by tests/contracts.
@@ -30,7 +31,7 @@ TEST_F(PumaTest, ABatchOfNothingOrWithABadSeedIsAnswered) {
   good.position = {half.data(), half.data(), half.data()};
   good.rotation = {half.data(), half.data(), half.data(), half.data()};
   IkBatchAnswers answers;
-  solver_->solve_batch(good, JointVector::Zero(6), answers);
+  subject_.solver->solve_batch(good, JointVector::Zero(6), answers);
   EXPECT_EQ(answers.goals(), 0U);
   good.count = 2;
   IkBatch impatient = good, nowhere = good, both = good;
@@ -43,7 +44,7 @@ TEST_F(PumaTest, ABatchOfNothingOrWithABadSeedIsAnswered) {
                                     {impatient, seed},
                                     {nowhere, seed},
                                     {both, seed}}) {
-    solver_->solve_batch(batch, from, answers);
+    subject_.solver->solve_batch(batch, from, answers);
     for (std::size_t i = 0; i < 2; ++i) {
       EXPECT_EQ(answers.code[i], IkStatus::Code::invalid_input);
       EXPECT_EQ(answers.found[i], 0U);

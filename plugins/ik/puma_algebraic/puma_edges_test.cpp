@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // 1000 poses at and near every singular set, and on the rims of reach, where a nanometre decides.
 #include <cmath>
-#include <functional>
 
-#include "armature/robot/kinematics.hpp"
+#include "armature/kinds/ik/contract/postures.hpp"
 #include "test_arms.hpp"
 
 namespace armature {
@@ -13,87 +12,54 @@ constexpr int kPoses = 1000;
 
 class PumaEdges : public PumaTest, public testing::WithParamInterface<std::string> {
  protected:
-  using Angles = std::array<double, 6>;  // t1 to t6 of PumaArm
-  /// Brings angles near to a singular set; false where they cannot be.
-  using BringNear = std::function<bool(Angles&, double by)>;
-
-  PumaEdges() { use(without_limits(*arm())); }
-  static ModelPtr arm() {
-    return GetParam() == "sr1"              ? sr1()
-           : GetParam() == "industrial_arm" ? industrial_arm()
-                                            : standard_puma560();
+  PumaEdges() {
+    const ModelPtr arm = GetParam() == "sr1"              ? sr1()
+                         : GetParam() == "industrial_arm" ? industrial_arm()
+                                                          : standard_puma560();
+    use(without_limits(*arm));
   }
-  double reach() const { return arm_.a2 + arm_.forearm; }
-  /// Away from every singular set.
-  Angles regular_angles() {
-    while (true) {
-      Angles t;
-      for (double& angle : t) angle = any(-M_PI, M_PI);
-      const double psi = t[2] + arm_.beta;
-      const double along = arm_.a1 + arm_.a2 * std::cos(t[1]) + arm_.forearm * std::cos(t[1] + psi);
-      if (std::abs(std::sin(psi)) > 0.2 && std::abs(std::sin(t[4])) > 0.2 &&
-          std::abs(along) > 0.2 * reach())
-        return t;
-    }
+  void expect_reached(const JointVector& q) {
+    EXPECT_NE(solve(rotation_goal(q), q).code, IkStatus::Code::out_of_reach);
+    expect_right(probe_->goal().tolerance.position_m);
   }
-  /// t2 that brings the wrist `along` link 1 from the axis of joint 1; false when no t2 does.
-  bool put_wrist_over_axis(Angles& t, double along) {
-    const double psi = t[2] + arm_.beta;
-    const double x = arm_.a2 + arm_.forearm * std::cos(psi), y = arm_.forearm * std::sin(psi);
-    const double cosine = (along - arm_.a1) / std::hypot(x, y);
-    if (!(std::abs(cosine) < 1)) return false;
-    t[1] = (any(-1, 1) < 0 ? -1 : 1) * std::acos(cosine) - std::atan2(y, x);
-    return true;
-  }
-  /// At each offset from a singular set, on both sides of it: the branches are right, at least
-  /// `branches`, and those within 1e-7 are flagged. The joints that made the goal are among them,
-  /// to within the `tolerance` [rad] that the rounding of a pose leaves of them there.
-  void expect_solved(const char* what, int branches, double tolerance,
-                     const BringNear& bring_near) {
-    for (const double offset : {0.0, 1e-9, 1e-7, 1e-4}) {
-      SCOPED_TRACE(testing::Message() << what << ", offset " << offset);
-      for (int i = 0; i < kPoses && !HasFailure(); ++i) {
-        Angles t = regular_angles();
-        while (!bring_near(t, i % 2 == 0 ? offset : -offset)) t = regular_angles();
-        JointVector q(6);
-        for (int k = 0; k < 6; ++k) q[k] = wrap_angle(arm_.joint(k, t[k]));
-        const IkGoal goal = rotation_goal(model(), q);
-        EXPECT_NE(solve(goal, q).code, IkStatus::Code::out_of_reach);
-        expect_right(goal.tolerance.position_m);
-        EXPECT_GE(found_.count, branches);
-        EXPECT_EQ(found_.count % 4, 0);
-        EXPECT_LE(nearest_to(q), tolerance) << q.transpose();
-        const auto singular = [](const IkBranch& branch) { return branch.singular; };
-        const auto flagged = std::count_if(found_.begin(), found_.end(), singular);
-        EXPECT_TRUE(flagged >= 2 || offset > 1e-7) << flagged;
-      }
-    }
+  /// Every branch of the goal that `q` reaches is there and right, and two are flagged.
+  void expect_all_at(const JointVector& q, bool flagged) {
+    expect_reached(q);
+    // With a1 one shoulder may not reach.
+    EXPECT_TRUE(found_.count == 8 || (arm_.a1 != 0 && found_.count == 4)) << found_.count;
+    const auto singular = [](const IkBranch& branch) { return branch.singular; };
+    EXPECT_TRUE(!flagged || std::count_if(found_.begin(), found_.end(), singular) >= 2);
   }
 };
 
-TEST_P(PumaEdges, EveryBranchIsThereNextToASingularSet) {
-  const int all = arm_.a1 == 0 ? 8 : 4;  // of a shoulder; with a1 the other one may not reach
-  const auto elbow = [this](Angles& t, double psi) {
-    t[2] = psi - arm_.beta;
-    return true;
-  };
-  const auto fifth = [](Angles& t, double t5) {
-    t[4] = t5;
-    return true;
-  };
-  const auto over_axis = [this](Angles& t, double by) { return put_wrist_over_axis(t, by); };
-  expect_solved("the wrist in line", all, 4e-6, fifth);
-  expect_solved("the wrist folded back", all, 4e-6,
-                [&](Angles& t, double by) { return fifth(t, M_PI + by); });
-  expect_solved("the elbow stretched", all, 1e-6, elbow);
-  // Folded, SR-1's wrist is 0.5 mm from the shoulder, next to the singular set of joint 1.
-  expect_solved("the elbow folded", all, 1e-4,
-                [&](Angles& t, double by) { return elbow(t, M_PI + by); });
-  expect_solved("the wrist over the shoulder", all, 1e-6, over_axis);
-  // There the joints are not determined by the pose to any useful digit.
-  expect_solved("everything at once", 4, 10, [&](Angles& t, double by) {
-    return elbow(t, by) && fifth(t, by) && over_axis(t, by);
-  });
+// That the joints which made the goal are found there is a law of the kind.
+TEST_P(PumaEdges, EveryBranchIsThereAtAndNextToASingularSet) {
+  for (const auto& [at, joint] : ik_contract::singular_postures(model(), kPoses, random_)) {
+    for (const double offset : {0.0, 1e-9, -1e-9, 1e-7, -1e-7, 1e-4, -1e-4}) {
+      SCOPED_TRACE(testing::Message() << "joint " << joint + 1 << ", offset " << offset);
+      JointVector q = at;
+      q[joint] += offset;
+      expect_all_at(q, std::abs(offset) < 1e-6);
+    }
+  }
+}
+
+TEST_P(PumaEdges, EveryBranchIsThereWhereEverythingIsSingularAtOnce) {
+  for (int i = 0; i < kPoses; ++i) {
+    for (const double by : {0.0, 1e-9, 1e-7, 1e-4}) {
+      SCOPED_TRACE(testing::Message() << "offset " << by);
+      std::array<double, 6> t;
+      for (double& angle : t) angle = any(-M_PI, M_PI);
+      t[2] = by - arm_.beta;  // stretched
+      t[1] =
+          std::acos((by - arm_.a1) / (arm_.a2 + arm_.forearm)) - by / 2;  // to the axis of joint 1
+      t[4] = by;
+      JointVector q(6);
+      for (std::size_t k = 0; k < 6; ++k) q.data()[k] = wrap_angle(arm_.joint(k, t[k]));
+      expect_reached(q);
+      EXPECT_GE(found_.count, 4);
+    }
+  }
 }
 
 /// What the lengths alone say about a wrist point: how far it is out of reach, 0 when it is within.
@@ -137,20 +103,6 @@ TEST_P(PumaEdges, AnyPoseIsSolvedOrIsOutOfReachByWhatTheLengthsSay) {
   EXPECT_GT(reached, kPoses / 2);
 }
 
-TEST_P(PumaEdges, JointsAtTheirLimitsAreFoundWithEveryBranch) {
-  use(arm());
-  for (int i = 0; i < kPoses; ++i) {
-    JointVector q = random_joints();
-    for (int k = 0; k < 6; ++k) {
-      if (any(0, 1) < 0.5) q[k] = any(0, 1) < 0.5 ? model().lower()[k] : model().upper()[k];
-    }
-    EXPECT_EQ(solve(rotation_goal(model(), q), q).code, IkStatus::Code::ok) << q.transpose();
-    expect_right(goal_.tolerance.position_m);
-    EXPECT_TRUE(found_.count == 8 || (arm_.a1 != 0 && found_.count == 4)) << found_.count;
-    EXPECT_LE(nearest_to(q), 1e-6) << q.transpose();
-  }
-}
-
 INSTANTIATE_TEST_SUITE_P(Puma, PumaEdges,
                          testing::Values("sr1", "standard_puma560", "industrial_arm"),
                          [](const auto& arm) { return arm.param; });
@@ -162,7 +114,7 @@ class PumaRims : public PumaTest {
   /// nanometre, or `far`, on the other side none is, for the reason that is told.
   void expect_rim(const JointVector& q, const Eigen::Vector3d& inside, double far,
                   std::string_view why, double rounding = 1e-14) {
-    const IkGoal at_rim = rotation_goal(model(), q);
+    const IkGoal at_rim = rotation_goal(q);
     const auto solve_moved = [&](double by) {
       IkGoal goal = at_rim;
       goal.pose.position += by * inside;
@@ -218,7 +170,7 @@ TEST_F(PumaRims, ANanometreDecidesNearTheAxisOfJoint1) {
 }
 
 TEST_F(PumaRims, AGoalAnywhereIsOutOfReachByItsDistance) {
-  IkGoal goal = rotation_goal(model(), JointVector::Zero(6));
+  IkGoal goal = rotation_goal(JointVector::Zero(6));
   goal.pose.position.x() = 1e99;
   const IkStatus status = solve(goal, JointVector::Zero(6));
   EXPECT_EQ(status.code, IkStatus::Code::out_of_reach);

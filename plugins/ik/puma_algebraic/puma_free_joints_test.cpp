@@ -34,7 +34,7 @@ TEST_F(PumaFreeJoints, AWristInLineKeepsTheSeedsFourthJoint) {
   JointVector q = random_joints(), seed = q;
   q[4] = 0;
   seed[3] = 0.7;
-  solve(rotation_goal(model(), q), seed);
+  solve(rotation_goal(q), seed);
   int kept = 0;
   for (const IkBranch& branch : found_) {
     if (std::abs(branch.q[4]) > 1e-6) continue;
@@ -52,7 +52,7 @@ TEST_F(PumaFreeJoints, AWristInLineSharesItsRollsOutSoThatTheLimitsAreKept) {
     JointVector q = random_joints();
     q[4] = 0;
     const JointVector seed = random_joints();
-    EXPECT_EQ(solve(rotation_goal(model(), q), seed).code, IkStatus::Code::ok) << q.transpose();
+    EXPECT_EQ(solve(rotation_goal(q), seed).code, IkStatus::Code::ok) << q.transpose();
     expect_right(1e-10);  // in line is in line
     for (const IkBranch& branch : found_) {
       if (std::abs(branch.q[4]) > 1e-9 || !branch.within_limits) continue;
@@ -73,7 +73,7 @@ TEST_F(PumaFreeJoints, AWristOnTheAxisOfJoint1KeepsTheSeedsFirstJoint) {
   q[1] = arm_.joint(1, std::acos(-arm_.a1 / std::hypot(x, y)) - std::atan2(y, x));
   JointVector seed = q;
   seed[0] = -1.1;
-  solve(rotation_goal(model(), q), seed);
+  solve(rotation_goal(q), seed);
   expect_kept(0, -1.1);
   for (const IkBranch& branch : found_) EXPECT_LE(branch.residual.position_m, 1e-14);
 }
@@ -89,7 +89,7 @@ TEST_F(PumaFreeJoints, AFirstJointThatLeadsBeyondTheLimitsIsTriedElsewhere) {
   q[1] =
       -M_PI / 2 - std::atan2(arm_.forearm * std::sin(psi), arm_.a2 + arm_.forearm * std::cos(psi));
   seed << -2, 0, 0, 0, 0, 0;
-  EXPECT_EQ(solve(rotation_goal(model(), q), seed).code, IkStatus::Code::ok);
+  EXPECT_EQ(solve(rotation_goal(q), seed).code, IkStatus::Code::ok);
   for (const IkBranch& branch : found_) EXPECT_LE(branch.residual.position_m, 1e-14);
 }
 
@@ -100,7 +100,7 @@ TEST_F(PumaFreeJoints, AWristOnTheAxisOfJoint2KeepsTheSeedsSecondJoint) {
   q[2] = M_PI / 2;
   JointVector seed = q;
   seed[1] = -2.2;
-  solve(rotation_goal(model(), q), seed);
+  solve(rotation_goal(q), seed);
   expect_kept(1, -2.2);
   for (const IkBranch& branch : found_) EXPECT_LE(branch.residual.position_m, 1e-12);
 }

@@ -89,7 +89,9 @@ Miss miss_of(const ArmNumbers& arm, const Triple& wrist, double side) {
 }
 
 Miss least_miss(const ArmNumbers& arm, const Triple& wrist) {
-  const Miss miss = miss_of(arm, wrist, 1), other = miss_of(arm, wrist, -1);
+  const Miss miss = miss_of(arm, wrist, 1);
+  if (arm.a1 == 0) return miss;  // both reach the same
+  const Miss other = miss_of(arm, wrist, -1);
   return other.by < miss.by ? other : miss;
 }
 

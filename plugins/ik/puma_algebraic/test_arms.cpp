@@ -49,7 +49,6 @@ ModelPtr sr1_needle() {
   return model;
 }
 ModelPtr sr1_pointing() { return with_axis(*sr1(), Eigen::Vector3d::UnitZ()); }
-ModelPtr sr1_needle_for_rotations() { return with_axis(*sr1_needle(), std::nullopt); }
 
 ModelPtr standard_puma560() {
   auto joints = revolute_rows({{0, 0, 0, 90},
@@ -124,67 +123,34 @@ std::shared_ptr<const IkSolver> solver_for(const RobotModel& model) {
   return std::move(PumaAlgebraic::make(model, Params{}).value());
 }
 
-IkGoal rotation_goal(const RobotModel& model, const JointVector& q) {
-  const Eigen::Isometry3d pose = forward_kinematics(model, q);
+void PumaTest::use(const ModelPtr& model) {
+  static const IkLawTools kTools;
+  subject_ = {.name = "puma", .model = model, .solver = solver_for(*model), .seed = random_()};
+  arm_ = puma_arm(*model).value();
+  probe_.emplace(subject_, kTools);
+}
+
+IkGoal PumaTest::rotation_goal(const JointVector& q) const {
+  const Eigen::Isometry3d pose = forward_kinematics(model(), q);
   IkGoal goal;
   goal.pose = {pose.translation(), Eigen::Quaterniond{pose.linear()}};
   return goal;
 }
 
-IkGoal direction_goal(const RobotModel& model, const JointVector& q) {
-  const Eigen::Isometry3d pose = forward_kinematics(model, q);
-  IkGoal goal;
-  goal.pose = {pose.translation(), Direction{pose.linear() * *model.pointing_axis()}};
-  return goal;
-}
-
-JointVector random_joints(const RobotModel& model, std::mt19937_64& random) {
-  JointVector q(model.dof());
-  for (int i = 0; i < model.dof(); ++i) {
-    q[i] = std::uniform_real_distribution{model.lower()[i], model.upper()[i]}(random);
-  }
-  return q;
-}
-
-double joint_distance(const RobotModel& model, const JointVector& a, const JointVector& b) {
-  double largest = 0;
-  for (int i = 0; i < model.dof(); ++i) {
-    const double d = turns_freely(model, i) ? wrap_angle(a[i] - b[i]) : a[i] - b[i];
-    largest = std::max(largest, std::abs(d));
-  }
-  return largest;
-}
-
-void PumaTest::use(const ModelPtr& model) {
-  model_ = model;
-  arm_ = puma_arm(*model).value();
-  solver_ = solver_for(*model);
-}
-
-IkStatus PumaTest::solve(const IkGoal& goal, const JointVector& seed) {
-  goal_ = goal;
-  IkState state;
-  return solver_->solve(goal, seed, found_, state);
+const IkStatus& PumaTest::solve(const IkGoal& goal, const JointVector& seed) {
+  const IkStatus& status = probe_->solve(goal, seed);
+  found_ = probe_->found();
+  return status;
 }
 
 void PumaTest::expect_right(double tolerance) const {
   for (const IkBranch& branch : found_) {
-    const PoseResidual actual =
-        residual(forward_kinematics(model(), branch.q),
-                 model().pointing_axis().value_or(Eigen::Vector3d::UnitZ()), goal_.pose);
+    const PoseResidual actual = probe_->residual_of(branch.q, probe_->goal());
     EXPECT_LE(actual.position_m, tolerance) << branch.label;
     EXPECT_LE(actual.angle_rad, tolerance) << branch.label;
     EXPECT_NEAR(branch.residual.position_m, actual.position_m, 1e-13) << branch.label;
     EXPECT_NEAR(branch.residual.angle_rad, actual.angle_rad, 1e-13) << branch.label;
   }
-}
-
-double PumaTest::nearest_to(const JointVector& q) const {
-  double nearest = 10;
-  for (const IkBranch& branch : found_) {
-    nearest = std::min(nearest, joint_distance(model(), branch.q, q));
-  }
-  return nearest;
 }
 
 }  // namespace armature

@@ -272,12 +272,12 @@ TEST(PluginInfo, ShowsParametersAndPortsFromTheManifest) {
   EXPECT_FALSE(told["out"].empty());
 }
 
-TEST(PluginInfo, ShowsWhatAPluginNeedsOffersAndMeasures) {
+TEST(PluginInfo, ShowsWhatAPluginRequiresProvidesAndMeasures) {
   const auto info = [](const std::string& id) {
     return run_command({armature(), "plugin", "info", id}).out;
   };
   EXPECT_THAT(info("path/mouth_points"),
-              testing::HasSubstr("needs:\n  time_law                   Each of the moves lasts "
+              testing::HasSubstr("requires:\n  time_law                   Each of the moves lasts "
                                  "segment_s (unless 'segment_s' is 0)\n"));
   EXPECT_THAT(info("trajectory/quintic"), testing::HasSubstr("provides:\n  time_law   "));
   EXPECT_THAT(info("report/implant"), testing::HasSubstr(" (that of task/implant)\n"));

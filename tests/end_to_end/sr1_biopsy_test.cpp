@@ -109,7 +109,7 @@ TEST(Sr1Biopsy, AHeadOutOfReachIsRefused) {
 TEST(Sr1Biopsy, ANeedlesPathMustNotBecomeAStraightJointMove) {
   const DeploymentRun run = biopsy({"components.motion.params.path_only=false"});
   EXPECT_EQ(run.command.exit_code, 3);
-  EXPECT_NE(run.command.err.find("'path/needle' needs 'path_only', and nothing in component "
+  EXPECT_NE(run.command.err.find("'path/needle' requires 'path_only', and nothing in component "
                                  "'motion' provides it; 'motion' does unless 'path_only' is false"),
             std::string::npos)
       << run.text();

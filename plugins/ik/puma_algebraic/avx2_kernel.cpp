@@ -16,13 +16,9 @@
 
 namespace armature {
 
-const ArmKernel& avx2_arm_kernel() {
-  static constexpr ArmKernel kernel{solve_four_arms, roll_errors_of};
+const ArmKernel& avx2_kernel() {
+  static constexpr ArmKernel kernel{solve_four_arms, roll_errors_of, solve_all_poses};
   return kernel;
-}
-
-void solve_batch_avx2(const BatchArm& arm, const PoseBatch& poses, const PoseAnswers& out) {
-  solve_all_poses(arm, poses, out);
 }
 
 }  // namespace armature

@@ -16,7 +16,7 @@
 
 namespace armature {
 
-void solve_batch_avx512(const BatchArm& arm, const PoseBatch& poses, const PoseAnswers& out) {
+void solve_poses_avx512(const ArmNumbers& arm, const PoseBatch& poses, const PoseAnswers& out) {
   solve_all_poses(arm, poses, out);
 }
 

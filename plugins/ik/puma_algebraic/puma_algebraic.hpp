@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <memory>
 #include <optional>
 
 #include "armature/kinds/ik/ik.hpp"
-#include "four_arms.hpp"
-#include "needle_task.hpp"
-#include "puma_goal.hpp"
-#include "puma_structure.hpp"
-#include "roll_roots.hpp"
+#include "needle_line.hpp"
 
 namespace armature {
 
@@ -29,26 +24,24 @@ class PumaAlgebraic final : public IkSolver {
                    IkBatchAnswers& out) const override;
 
  private:
-  PumaAlgebraic(const RobotModel& model, const PumaArm& arm)
-      : model_{&model}, arm_{arm}, numbers_{numbers_of(arm, model)} {}
+  PumaAlgebraic(const RobotModel& model, const PumaArm& arm);
 
   IkStatus add_branches(const ArmQuestion& question, FourArms& arms, IkBranches& out) const;
   /// All branches of a rotation, or of a direction with joint 6 at `question.sixth`. Where joint 1
   /// or 2 is free and keeping the seed's leads beyond the limits, other values are tried.
   IkStatus solve_at(const ArmQuestion& question, IkBranches& out) const;
-  /// With every depth of the needle, and `beyond` [m] more at both ends.
-  NeedleTask needle_task(const PumaGoal& goal, double beyond) const;
-  /// A direction, by an arm with a needle whose depth is left open.
+  /// A direction, by an arm with a needle whose depth is left open; a rotation, by the same.
   IkStatus solve_line(const PumaGoal& goal, IkBranches& out) const;
-  /// A rotation, by an arm with a needle.
   IkStatus solve_needle_rotation(const PumaGoal& goal, IkBranches& out) const;
-  void add_root(const PumaGoal& goal, std::size_t arm, const RollRoots::Root& root,
-                std::array<std::size_t, 2>& found, IkBranches& out) const;
 
   const RobotModel* model_;
   PumaArm arm_;
-  ArmNumbers numbers_;
-  const ArmKernel& kernel_ = arm_kernel();
+  ArmKernel kernel_;
 };
+
+/// As solve_batch, of goals that leave nothing free; of the others PoseAnswers::kSpecial is found.
+/// `out` has room.
+void solve_together(const ArmKernel& kernel, const PumaArm& arm, const IkBatch& batch,
+                    IkBatchAnswers& out);
 
 }  // namespace armature

@@ -1,30 +1,56 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "puma_algebraic.hpp"
-
-#include <gtest/gtest.h>
-
+#include "armature/kinds/ik/batch.hpp"
 #include "armature/kinds/ik/contract.hpp"
 #include "test_arms.hpp"
 
 namespace armature {
 namespace {
 
-IkSubject subject(std::string name, ModelPtr model, int edge_poses) {
+IkSubject subject(std::string name, const ModelPtr& model) {
   return {.name = std::move(name),
           .model = model,
           .solver = solver_for(*model),
           .closed_form = true,
-          .edge_poses = edge_poses};
+          .poses = 5000,
+          .edge_poses = 200};
 }
 
 // The two robot files are also tested with 1000 poses of every edge by tests/contracts.
 INSTANTIATE_TEST_SUITE_P(Puma, IkLaws,
-                         testing::Values(subject("sr1", sr1(), 50),
-                                         subject("sr1_pointing", sr1_pointing(), 50),
-                                         subject("sr1_needle", sr1_needle(), 50),
-                                         subject("standard_puma560", standard_puma560(), 50),
-                                         subject("industrial_arm", industrial_arm(), 50)),
+                         testing::Values(subject("sr1", sr1()),
+                                         subject("sr1_pointing", sr1_pointing()),
+                                         subject("sr1_needle", sr1_needle()),
+                                         subject("standard_puma560", standard_puma560()),
+                                         subject("industrial_arm", industrial_arm())),
                          testing::PrintToStringParamName());
+
+TEST_F(PumaTest, ABatchOfNothingOrWithABadSeedIsAnswered) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  const std::array<double, 2> half{0.5, 0.5}, zero{0, 0};
+  IkBatch good;
+  good.position = {half.data(), half.data(), half.data()};
+  good.rotation = {half.data(), half.data(), half.data(), half.data()};
+  IkBatchAnswers answers;
+  subject_.solver->solve_batch(good, JointVector::Zero(6), answers);
+  EXPECT_EQ(answers.goals(), 0U);
+  good.count = 2;
+  IkBatch impatient = good, nowhere = good, both = good;
+  impatient.tolerance.position_m = 0;
+  nowhere.rotation = {};
+  both.direction = {zero.data(), zero.data(), half.data()};  // this tool does not point
+  const JointVector seed = JointVector::Zero(6);
+  for (const auto& [batch, from] : {std::pair{good, JointVector{JointVector::Zero(5)}},
+                                    {good, JointVector{JointVector::Constant(6, kNan)}},
+                                    {impatient, seed},
+                                    {nowhere, seed},
+                                    {both, seed}}) {
+    subject_.solver->solve_batch(batch, from, answers);
+    for (std::size_t i = 0; i < 2; ++i) {
+      EXPECT_EQ(answers.code[i], IkStatus::Code::invalid_input);
+      EXPECT_EQ(answers.found[i], 0U);
+    }
+  }
+}
 
 }  // namespace
 }  // namespace armature

@@ -1,182 +1,64 @@
 // SPDX-License-Identifier: Apache-2.0
-// 1000 poses at and near every singular set, at the joint limits and anywhere.
-#include <gtest/gtest.h>
-
+// 1000 poses at and near every singular set, and on the rims of reach, where a nanometre decides.
 #include <cmath>
-#include <functional>
-#include <string>
 
-#include "armature/robot/kinematics/kinematics.hpp"
+#include "armature/kinds/ik/contract/postures.hpp"
 #include "test_arms.hpp"
 
 namespace armature {
 namespace {
 
 constexpr int kPoses = 1000;
-constexpr std::array<double, 4> kOffsets{0, 1e-9, 1e-7, 1e-4};
 
-struct Subject {
-  std::string name;
-  ModelPtr model;
-  friend void PrintTo(const Subject& subject, std::ostream* out) { *out << subject.name; }
-};
-
-class PumaEdges : public testing::TestWithParam<Subject> {
+class PumaEdges : public PumaTest, public testing::WithParamInterface<std::string> {
  protected:
-  using Angles = std::array<double, 6>;  // t1 to t6 of PumaArm
-
-  double any(double lower, double upper) {
-    return std::uniform_real_distribution{lower, upper}(random_);
+  PumaEdges() {
+    const ModelPtr arm = GetParam() == "sr1"              ? sr1()
+                         : GetParam() == "industrial_arm" ? industrial_arm()
+                                                          : standard_puma560();
+    use(without_limits(*arm));
   }
-  /// Away from every singular set.
-  Angles regular_angles() {
-    while (true) {
-      Angles t;
-      for (double& angle : t) angle = any(-M_PI, M_PI);
-      const double psi = t[2] + arm_.beta;
-      const double along = arm_.a1 + arm_.a2 * std::cos(t[1]) + arm_.forearm * std::cos(t[1] + psi);
-      if (std::abs(std::sin(psi)) > 0.2 && std::abs(std::sin(t[4])) > 0.2 &&
-          std::abs(along) > 0.2 * (arm_.a2 + arm_.forearm))
-        return t;
-    }
+  void expect_reached(const JointVector& q) {
+    EXPECT_NE(solve(rotation_goal(q), q).code, IkStatus::Code::out_of_reach);
+    expect_right(probe_->goal().tolerance.position_m);
   }
-  JointVector joints(const Angles& t) const {
-    JointVector q(6);
-    for (std::size_t i = 0; i < 6; ++i) {
-      q[static_cast<Eigen::Index>(i)] = wrap_angle(arm_.joint(i, t[i]));
-    }
-    return q;
-  }
-  /// t3 at which the forearm makes the angle `psi` with the upper arm.
-  double elbow(double psi) const { return psi - arm_.beta; }
-  /// t2 that brings the wrist `along` link 1 from the axis of joint 1; false when no t2 does.
-  bool put_wrist_over_axis(Angles& t, double along) {
-    const double psi = t[2] + arm_.beta;
-    const double x = arm_.a2 + arm_.forearm * std::cos(psi), y = arm_.forearm * std::sin(psi);
-    const double cosine = (along - arm_.a1) / std::hypot(x, y);
-    if (!(std::abs(cosine) < 1)) return false;
-    t[1] = (any(-1, 1) < 0 ? -1 : 1) * std::acos(cosine) - std::atan2(y, x);
-    return true;
-  }
-  IkStatus solve(const IkGoal& goal, const JointVector& seed) {
-    IkState state;
-    return solver_->solve(goal, seed, found_, state);
-  }
-
-  /// No branch is wrong or not a number, and each tells how exact it is.
-  void expect_truth(const IkGoal& goal) const {
-    for (const IkBranch& branch : found_) {
-      ASSERT_TRUE(branch.q.allFinite()) << branch.label;
-      const PoseResidual actual =
-          residual(forward_kinematics(model(), branch.q), Eigen::Vector3d::UnitZ(), goal.pose);
-      EXPECT_LE(actual.position_m, goal.tolerance.position_m) << branch.label;
-      EXPECT_LE(actual.angle_rad, goal.tolerance.angle_rad) << branch.label;
-      EXPECT_NEAR(branch.residual.position_m, actual.position_m, 1e-13) << branch.label;
-      EXPECT_NEAR(branch.residual.angle_rad, actual.angle_rad, 1e-13) << branch.label;
-    }
-  }
-  /// Every branch is there: four of each shoulder, and the joints that made the goal.
-  void expect_whole(const JointVector& q, double tolerance) const {
+  /// Every branch of the goal that `q` reaches is there and right, and two are flagged.
+  void expect_all_at(const JointVector& q, bool flagged) {
+    expect_reached(q);
+    // With a1 one shoulder may not reach.
     EXPECT_TRUE(found_.count == 8 || (arm_.a1 != 0 && found_.count == 4)) << found_.count;
-    double nearest = 10;
-    for (const IkBranch& branch : found_) {
-      nearest = std::min(nearest, joint_distance(model(), branch.q, q));
-    }
-    EXPECT_LE(nearest, tolerance) << q.transpose();
+    const auto singular = [](const IkBranch& branch) { return branch.singular; };
+    EXPECT_TRUE(!flagged || std::count_if(found_.begin(), found_.end(), singular) >= 2);
   }
-  using BringNear = std::function<bool(Angles&, double)>;
-  /// `check` sees the branches of poses at each offset from a singular set, on both sides of it.
-  void near_singular(const BringNear& bring_near,
-                     const std::function<void(const JointVector&, double)>& check) {
-    for (const double offset : kOffsets) {
-      SCOPED_TRACE(::testing::Message() << "offset " << offset);
-      for (int i = 0; i < kPoses; ++i) {
-        const double by = i % 2 == 0 ? offset : -offset;
-        Angles t = regular_angles();
-        while (!bring_near(t, by)) t = regular_angles();
-        const JointVector q = joints(t);
-        const IkGoal goal = rotation_goal(model(), q);
-        EXPECT_NE(solve(goal, q).code, IkStatus::Code::out_of_reach);
-        expect_truth(goal);
-        check(q, offset);
-      }
-    }
-  }
-  /// All are solved; those within 1e-7 are flagged. `tolerance` [rad] is what the rounding of a
-  /// pose leaves of the joints there.
-  void expect_solved(double tolerance, const BringNear& bring_near) {
-    near_singular(bring_near, [&](const JointVector& q, double offset) {
-      expect_whole(q, tolerance);
-      if (offset > 1e-7) return;
-      const auto singular = [](const IkBranch& branch) { return branch.singular; };
-      EXPECT_GE(std::count_if(found_.begin(), found_.end(), singular), 2);
-    });
-  }
-  const RobotModel& model() const { return *model_; }
-
-  ModelPtr model_ = without_limits(*GetParam().model);
-  PumaArm arm_ = puma_arm(model()).value();
-  std::shared_ptr<const IkSolver> solver_ = solver_for(model());
-  std::mt19937_64 random_{20260116};
-  IkBranches found_;
 };
 
-TEST_P(PumaEdges, TheWristInLine) {
-  expect_solved(4e-6, [](Angles& t, double by) {
-    t[4] = by;
-    return true;
-  });
-}
-
-TEST_P(PumaEdges, TheWristFoldedBack) {
-  expect_solved(4e-6, [](Angles& t, double by) {
-    t[4] = M_PI + by;
-    return true;
-  });
-}
-
-TEST_P(PumaEdges, TheElbowStretched) {
-  expect_solved(1e-6, [this](Angles& t, double by) {
-    t[2] = elbow(by);
-    return true;
-  });
-}
-
-TEST_P(PumaEdges, TheElbowFolded) {
-  // Folded, SR-1's wrist is 0.5 mm from the shoulder, next to the singular set of joint 1.
-  expect_solved(1e-4, [this](Angles& t, double by) {
-    t[2] = elbow(M_PI + by);
-    return true;
-  });
-}
-
-TEST_P(PumaEdges, TheWristOverTheShoulder) {
-  expect_solved(1e-6, [this](Angles& t, double by) { return put_wrist_over_axis(t, by); });
-}
-
-TEST_P(PumaEdges, EverythingSingularAtOnce) {
-  // The joints are not determined by the pose to any useful digit; what is answered must be right.
-  near_singular(
-      [this](Angles& t, double by) {
-        t[2] = elbow(by);
-        t[4] = by;
-        return put_wrist_over_axis(t, by);
-      },
-      [this](const JointVector&, double) { EXPECT_GE(found_.count, 4); });
-}
-
-TEST_P(PumaEdges, EveryJointAtALimit) {
-  model_ = GetParam().model;
-  solver_ = solver_for(*model_);
-  for (int i = 0; i < kPoses; ++i) {
-    JointVector q = random_joints(model(), random_);
-    for (Eigen::Index j = 0; j < 6; ++j) {
-      if (any(0, 1) < 0.5) q[j] = any(0, 1) < 0.5 ? model().lower()[j] : model().upper()[j];
+// That the joints which made the goal are found there is a law of the kind.
+TEST_P(PumaEdges, EveryBranchIsThereAtAndNextToASingularSet) {
+  for (const auto& [at, joint] : ik_contract::singular_postures(model(), kPoses, random_)) {
+    for (const double offset : {0.0, 1e-9, -1e-9, 1e-7, -1e-7, 1e-4, -1e-4}) {
+      SCOPED_TRACE(testing::Message() << "joint " << joint + 1 << ", offset " << offset);
+      JointVector q = at;
+      q[joint] += offset;
+      expect_all_at(q, std::abs(offset) < 1e-6);
     }
-    const IkGoal goal = rotation_goal(model(), q);
-    EXPECT_EQ(solve(goal, q).code, IkStatus::Code::ok) << q.transpose();
-    expect_truth(goal);
-    expect_whole(q, 1e-6);
+  }
+}
+
+TEST_P(PumaEdges, EveryBranchIsThereWhereEverythingIsSingularAtOnce) {
+  for (int i = 0; i < kPoses; ++i) {
+    for (const double by : {0.0, 1e-9, 1e-7, 1e-4}) {
+      SCOPED_TRACE(testing::Message() << "offset " << by);
+      std::array<double, 6> t;
+      for (double& angle : t) angle = any(-M_PI, M_PI);
+      t[2] = by - arm_.beta;  // stretched
+      t[1] =
+          std::acos((by - arm_.a1) / (arm_.a2 + arm_.forearm)) - by / 2;  // to the axis of joint 1
+      t[4] = by;
+      JointVector q(6);
+      for (std::size_t k = 0; k < 6; ++k) q.data()[k] = wrap_angle(arm_.joint(k, t[k]));
+      expect_reached(q);
+      EXPECT_GE(found_.count, 4);
+    }
   }
 }
 
@@ -196,37 +78,104 @@ double shortfall_by_lengths(const PumaArm& arm, const Eigen::Vector3d& wrist) {
 }
 
 TEST_P(PumaEdges, AnyPoseIsSolvedOrIsOutOfReachByWhatTheLengthsSay) {
-  const Eigen::Isometry3d tool_T_wrist = arm_.wrist_T_tool.inverse();
   int reached = 0;
   for (int i = 0; i < 4 * kPoses; ++i) {
     IkGoal goal;
     goal.pose.position = {any(-1.2, 1.2), any(-1.2, 1.2), any(-1.2, 1.2)};
-    Eigen::Quaterniond rotation = Eigen::Quaterniond::UnitRandom();
     if (i % 4 == 1) goal.pose.position.head<2>().setZero();  // along the base axis
-    if (i % 4 > 1) {                                         // straight up or down
+    Eigen::Quaterniond rotation = Eigen::Quaterniond::UnitRandom();
+    if (i % 4 > 1) {  // straight up or down
       rotation = Eigen::AngleAxisd{any(-M_PI, M_PI), Eigen::Vector3d::UnitZ()} *
                  Eigen::AngleAxisd{i % 4 == 2 ? 0 : M_PI, Eigen::Vector3d::UnitX()};
     }
     goal.pose.orientation = rotation;
     const Eigen::Isometry3d base_T_tool = Eigen::Translation3d{goal.pose.position} * rotation;
-    const Eigen::Vector3d wrist =
-        (arm_.base_T_shoulder.inverse() * base_T_tool * tool_T_wrist).translation();
-    const double wanted = shortfall_by_lengths(arm_, wrist);
+    const double wanted = shortfall_by_lengths(
+        arm_,
+        (arm_.base_T_shoulder.inverse() * base_T_tool * arm_.wrist_T_tool.inverse()).translation());
     const IkStatus status = solve(goal, JointVector::Zero(6));
     EXPECT_EQ(status.code == IkStatus::Code::out_of_reach, wanted > 0) << describe(status);
     EXPECT_NEAR(status.shortfall, wanted, 1e-12);
     EXPECT_EQ(found_.count == 0, wanted > 0);
-    expect_truth(goal);
+    expect_right(goal.tolerance.position_m);
     reached += wanted > 0 ? 0 : 1;
   }
   EXPECT_GT(reached, kPoses / 2);
 }
 
 INSTANTIATE_TEST_SUITE_P(Puma, PumaEdges,
-                         testing::Values(Subject{"sr1", sr1()},
-                                         Subject{"standard_puma560", standard_puma560()},
-                                         Subject{"industrial_arm", industrial_arm()}),
-                         testing::PrintToStringParamName());
+                         testing::Values("sr1", "standard_puma560", "industrial_arm"),
+                         [](const auto& arm) { return arm.param; });
+
+/// SR-1 (a1 = 0) where a rim of reach goes through the wrist.
+class PumaRims : public PumaTest {
+ protected:
+  /// A nanometre on the side of `inside` (a direction, at joints `q`) all branches are there; a
+  /// nanometre, or `far`, on the other side none is, for the reason that is told.
+  void expect_rim(const JointVector& q, const Eigen::Vector3d& inside, double far,
+                  std::string_view why, double rounding = 1e-14) {
+    const IkGoal at_rim = rotation_goal(q);
+    const auto solve_moved = [&](double by) {
+      IkGoal goal = at_rim;
+      goal.pose.position += by * inside;
+      return solve(goal, q);
+    };
+    EXPECT_NE(solve_moved(1e-9).code, IkStatus::Code::out_of_reach);
+    EXPECT_EQ(found_.count, 8);
+    expect_right(1e-13);
+    for (const double by : {1e-9, far}) {
+      const IkStatus status = solve_moved(-by);
+      EXPECT_EQ(status.code, IkStatus::Code::out_of_reach);
+      EXPECT_NEAR(status.shortfall, by, rounding);
+      EXPECT_EQ(status.detail, why);
+      EXPECT_EQ(found_.count, 0);
+    }
+  }
+  /// The wrist seen from the axis of joint 2, in the arm's plane.
+  Eigen::Vector2d wrist_in_plane(double psi) const {
+    return {arm_.a2 + arm_.forearm * std::cos(psi), arm_.forearm * std::sin(psi)};
+  }
+  JointVector with_elbow(double psi) {
+    JointVector q = random_joints();
+    q[2] = psi - arm_.beta;
+    return q;
+  }
+  /// From the axis of joint 2 to the wrist.
+  Eigen::Vector3d outwards(const JointVector& q, double psi) const {
+    const Eigen::Vector2d u = Eigen::Rotation2Dd{q[1]} * wrist_in_plane(psi).normalized();
+    return {std::cos(q[0]) * u.x(), std::sin(q[0]) * u.x(), -u.y()};
+  }
+};
+
+TEST_F(PumaRims, ANanometreDecidesWhereTheArmIsStretchedOrFolded) {
+  for (int i = 0; i < kPoses && !HasFailure(); ++i) {
+    const JointVector stretched = with_elbow(0), folded = with_elbow(M_PI);
+    expect_rim(stretched, -outwards(stretched, 0), 0.1 * (arm_.a2 + arm_.forearm),
+               "the arm is stretched");
+    expect_rim(folded, outwards(folded, M_PI), 0.1 * std::abs(arm_.a2 - arm_.forearm),
+               "the arm is folded", 1e-13);  // the wrist is 0.5 mm from the shoulder
+  }
+}
+
+TEST_F(PumaRims, ANanometreDecidesNearTheAxisOfJoint1) {
+  for (int i = 0; i < kPoses && !HasFailure(); ++i) {
+    const double psi = 0.2 + 2.5 * i / kPoses;
+    JointVector q = with_elbow(psi);
+    const Eigen::Vector2d wrist = wrist_in_plane(psi);
+    q[1] = M_PI / 2 - std::atan2(wrist.y(), wrist.x());
+    // The wrist is d2 from the axis, square to link 1.
+    expect_rim(q, {-std::sin(q[0]), std::cos(q[0]), 0}, 0.1 * arm_.d2,
+               "too near the axis of joint 1");
+  }
+}
+
+TEST_F(PumaRims, AGoalAnywhereIsOutOfReachByItsDistance) {
+  IkGoal goal = rotation_goal(JointVector::Zero(6));
+  goal.pose.position.x() = 1e99;
+  const IkStatus status = solve(goal, JointVector::Zero(6));
+  EXPECT_EQ(status.code, IkStatus::Code::out_of_reach);
+  EXPECT_NEAR(status.shortfall / 1e99, 1, 1e-12);
+}
 
 }  // namespace
 }  // namespace armature

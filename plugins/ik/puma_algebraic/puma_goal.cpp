@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "free_joints.hpp"
-
 namespace armature {
 namespace {
 
@@ -17,37 +15,32 @@ constexpr double kSlack = 1e-11, kInLine = 1e-10, kRounding = 1e-14;
 
 Triple triple(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
+/// `q` of joint `i` (from 0), or the nearest value within its limits; angles in [-pi, pi).
+double nearest_within_limits(const PumaArm& arm, int i, double q) {
+  const bool slides = arm.needle && i == 5;
+  const double offset = slides ? q - arm.middle[i] : wrap_angle(q - arm.middle[i]);
+  const double nearest = arm.middle[i] + std::clamp(offset, -arm.half[i], arm.half[i]);
+  return slides ? nearest : wrap_angle(nearest);
+}
+
 }  // namespace
 
-double rim_slack(const PumaArm& arm, const IkGoal::Tolerance& tolerance) {
+Rims rims_of(const PumaArm& arm, const IkGoal::Tolerance& tolerance) {
   const double reach = arm.a2 + arm.forearm;
-  return std::clamp(tolerance.position_m, kRounding * reach, kSlack * reach);
-}
-double in_line_angle(const IkGoal::Tolerance& tolerance) {
-  return std::clamp(tolerance.angle_rad, kRounding, kInLine);
+  return {std::clamp(tolerance.position_m, kRounding * reach, kSlack * reach),
+          std::clamp(tolerance.angle_rad, kRounding, kInLine)};
 }
 
-ArmNumbers numbers_of(const PumaArm& arm, const RobotModel& model) {
-  ArmNumbers numbers{};
-  numbers.a1 = arm.a1, numbers.d2 = arm.d2, numbers.a2 = arm.a2, numbers.forearm = arm.forearm;
-  numbers.beta = arm.beta, numbers.cos_beta = arm.cos_beta, numbers.sin_beta = arm.sin_beta;
-  numbers.needle = arm.needle;
-  for (int i = 0; i < 6; ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    numbers.sign[i] = arm.sign[at];
-    numbers.zero[i] = arm.zero[at];
-    const double middle = 0.5 * (model.lower()[i] + model.upper()[i]);
-    numbers.half[i] = 0.5 * (model.upper()[i] - model.lower()[i]);
-    // Without a limit on one side a joint that turns is never beyond the other.
-    numbers.middle[i] = !std::isfinite(middle) ? 0
-                        : i == 5 && arm.needle ? middle
-                                               : wrap_angle(middle);
-  }
-  return numbers;
+ArmQuestion PumaGoal::at(double depth) const {
+  ArmQuestion question = at_zero;
+  const Triple by{depth * needle.x, depth * needle.y, depth * needle.z};
+  question.sixth = depth;
+  question.wrist = {at_zero.wrist.x - by.x, at_zero.wrist.y - by.y, at_zero.wrist.z - by.z};
+  question.lever = {at_zero.lever.x + by.x, at_zero.lever.y + by.y, at_zero.lever.z + by.z};
+  return question;
 }
 
-PumaGoal puma_goal(const PumaArm& arm, const ArmNumbers& numbers, const IkGoal& goal,
-                   const JointVector& seed) {
+PumaGoal puma_goal(const PumaArm& arm, const IkGoal& goal, const JointVector& seed) {
   const Eigen::Matrix3d shoulder_R_base = arm.base_T_shoulder.linear().transpose();
   PumaGoal result;
   ArmQuestion& question = result.at_zero;
@@ -71,17 +64,35 @@ PumaGoal puma_goal(const PumaArm& arm, const ArmNumbers& numbers, const IkGoal& 
   question.lever = triple(lever);
   question.wrist = triple(tool - lever);
   if (arm.needle) result.needle = triple(arm.sign[5] * axis);
-  question.slack = rim_slack(arm, goal.tolerance);
-  question.in_line = in_line_angle(goal.tolerance);
+  question.rims = rims_of(arm, goal.tolerance);
   const auto kept = [&](int i) {
     return wrap_angle(
-        arm.canonical(static_cast<std::size_t>(i), nearest_within_limits(numbers, i, seed[i])));
+        arm.canonical(static_cast<std::size_t>(i), nearest_within_limits(arm, i, seed[i])));
   };
-  question.t1 = kept(0);
-  question.t2 = kept(1);
-  question.t4 = kept(3);
-  question.sixth = nearest_within_limits(numbers, 5, seed[5]);
+  question.kept = {kept(0), kept(1), kept(3)};
+  question.sixth = nearest_within_limits(arm, 5, seed[5]);
   return result;
+}
+
+Miss miss_of(const ArmNumbers& arm, const Triple& wrist, double side) {
+  constexpr std::string_view kStretched = "the arm is stretched", kFolded = "the arm is folded";
+  const double radius = std::sqrt(wrist.x * wrist.x + wrist.y * wrist.y);
+  const double offset = std::abs(arm.d2), gap = radius - offset;
+  // (37) has roots only beyond d2; nearer, the wrist is missed in the arm's plane, too.
+  const double x = (gap > 0 ? side * std::sqrt(gap * (radius + offset)) : 0) - arm.a1;
+  const double rho = std::sqrt(x * x + wrist.z * wrist.z);
+  const double stretch = rho - arm.a2 - arm.forearm, fold = std::abs(arm.a2 - arm.forearm) - rho;
+  const Miss plane{std::max(stretch, fold), stretch > fold ? kStretched : kFolded};
+  if (gap >= 0) return plane;
+  const double by = std::hypot(gap, std::max(plane.by, 0.0));
+  return {by, -gap > plane.by ? "too near the axis of joint 1" : plane.why};
+}
+
+Miss min_miss(const ArmNumbers& arm, const Triple& wrist) {
+  const Miss miss = miss_of(arm, wrist, 1);
+  if (arm.a1 == 0) return miss;  // both reach the same
+  const Miss other = miss_of(arm, wrist, -1);
+  return other.by < miss.by ? other : miss;
 }
 
 }  // namespace armature

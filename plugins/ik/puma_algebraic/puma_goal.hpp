@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string_view>
+
 #include "armature/kinds/ik/ik.hpp"
-#include "four_arms.hpp"
 #include "puma_structure.hpp"
 
 namespace armature {
 
-/// The arm and the limits of its joints in numbers.
-ArmNumbers numbers_of(const PumaArm& arm, const RobotModel& model);
-
-/// ArmQuestion::slack and ArmQuestion::in_line.
-double rim_slack(const PumaArm& arm, const IkGoal::Tolerance& tolerance);
-double in_line_angle(const IkGoal::Tolerance& tolerance);
+Rims rims_of(const PumaArm& arm, const IkGoal::Tolerance& tolerance);
 
 /// A goal in PumaArm's form, seen from the shoulder frame.
 struct PumaGoal {
@@ -20,18 +16,20 @@ struct PumaGoal {
   Triple needle;        // what the lever grows by per metre of needle; 0 without one
 
   /// The same with the needle at `depth` [m].
-  ArmQuestion at(double depth) const {
-    ArmQuestion question = at_zero;
-    const Triple by{depth * needle.x, depth * needle.y, depth * needle.z};
-    question.sixth = depth;
-    question.wrist = {at_zero.wrist.x - by.x, at_zero.wrist.y - by.y, at_zero.wrist.z - by.z};
-    question.lever = {at_zero.lever.x + by.x, at_zero.lever.y + by.y, at_zero.lever.z + by.z};
-    return question;
-  }
+  ArmQuestion at(double depth) const;
 };
 /// A direction needs an arm with PumaArm::pointing. What is free is kept from `seed`, brought
 /// within limits.
-PumaGoal puma_goal(const PumaArm& arm, const ArmNumbers& numbers, const IkGoal& goal,
-                   const JointVector& seed);
+PumaGoal puma_goal(const PumaArm& arm, const IkGoal& goal, const JointVector& seed);
+
+/// How far a wrist is beyond what a shoulder reaches [m], below 0 how far within, and why. `side`:
+/// 1 of shoulder 0, -1 of shoulder 1.
+struct Miss {
+  double by = 0;
+  std::string_view why;
+};
+Miss miss_of(const ArmNumbers& arm, const Triple& wrist, double side);
+/// Of the shoulder that misses it least.
+Miss min_miss(const ArmNumbers& arm, const Triple& wrist);
 
 }  // namespace armature

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -40,45 +41,46 @@ bool is_angle(double angle, double wanted) { return std::abs(wrap_angle(angle - 
 
 /// Why link `i`, between joints i and i + 1, is not the pattern's; empty when it is.
 std::string link_mismatch(const Link& link, std::size_t i) {
-  const std::string where = fmt::format("joint '{}': ", link.row->name);
-  const double degrees = link.alpha / kDegree;
-  if (i == 2) {
-    if (!is_angle(link.alpha, 0) && !is_angle(link.alpha, kPi))
-      return where + fmt::format("alpha_deg must be 0 or 180, it is {:g}", degrees);
-    if (!(std::abs(link.a) > kSame)) return where + "a_m must not be 0";
-    return {};
-  }
-  if (!is_angle(link.alpha, kPi / 2) && !is_angle(link.alpha, -kPi / 2))
-    return where + fmt::format("alpha_deg must be 90 or -90, it is {:g}", degrees);
+  const bool parallel = i == 2;
+  const double first = parallel ? 0 : kPi / 2, second = parallel ? kPi : -kPi / 2;
+  if (!is_angle(link.alpha, first) && !is_angle(link.alpha, second))
+    return fmt::format("alpha_deg must be {}, it is {:g}", parallel ? "0 or 180" : "90 or -90",
+                       link.alpha / kDegree);
+  if (parallel && !(std::abs(link.a) > kSame)) return "a_m must not be 0";
   if (i >= 4 && std::abs(link.a) > kSame)
-    return where + fmt::format("a_m must be 0 for axes 4, 5 and 6 to meet, it is {:g}", link.a);
+    return fmt::format("a_m must be 0 for axes 4, 5 and 6 to meet, it is {:g}", link.a);
   return {};
 }
 
-/// Why joint `i` (from 0) is not the pattern's; empty when it is.
+/// Why joint `i` (from 0) is not the pattern's, as "joint 'j3'" + "..."; empty when it is.
 std::string joint_mismatch(const Joint& joint, std::size_t i) {
-  if (joint.coupling) return fmt::format("joint '{}' is coupled", joint.name);
-  if (i > 0 && joint.placement)  // the first one's is where the arm stands
-    return fmt::format("joint '{}' is placed beside its row", joint.name);
-  if (i < 5 && joint.type != Joint::Type::revolute)
-    return fmt::format("joint '{}' is not revolute", joint.name);
+  if (joint.coupling) return " is coupled";
+  // The first one's is where the arm stands.
+  if (i > 0 && joint.placement) return " is placed beside its row";
+  if (i < 5 && joint.type != Joint::Type::revolute) return " is not revolute";
   if (i == 4 && std::abs(joint.d) > kSame)
-    return fmt::format("joint '{}': d_m must be 0 for axes 4, 5 and 6 to meet, it is {:g}",
-                       joint.name, joint.d);
-  if (joint.type == Joint::Type::prismatic &&
-      !(std::isfinite(joint.lower) && std::isfinite(joint.upper)))
-    return fmt::format("the needle, joint '{}', has no limits", joint.name);
+    return fmt::format(": d_m must be 0 for axes 4, 5 and 6 to meet, it is {:g}", joint.d);
+  const bool limited = std::isfinite(joint.lower) && std::isfinite(joint.upper);
+  if (joint.type == Joint::Type::prismatic && !limited) return ", the needle, has no limits";
   return {};
 }
 
 std::string mismatch(const RobotModel& model) {
   if (model.joint_count() != 6)
     return fmt::format("6 joints needed, '{}' has {}", model.name(), model.joint_count());
-  for (std::size_t i = 0; i < 6; ++i)
-    if (auto why = joint_mismatch(model.joints()[i], i); !why.empty()) return why;
+  for (std::size_t i = 0; i < 6; ++i) {
+    const Joint& joint = model.joints()[i];
+    const std::string why = joint_mismatch(joint, i);
+    if (!why.empty()) return fmt::format("joint '{}'{}", joint.name, why);
+  }
   const auto links = links_of(model);
-  for (std::size_t i = 1; i < 6; ++i)
-    if (auto why = link_mismatch(links[i], i); !why.empty()) return why;
+  for (std::size_t i = 1; i < 6; ++i) {
+    const std::string why = link_mismatch(links[i], i);
+    if (!why.empty()) return fmt::format("joint '{}': {}", links[i].row->name, why);
+  }
+  const Joint& fourth = model.joints()[3];
+  if (!(std::hypot(links[3].a, fourth.d) > kSame))
+    return fmt::format("joint '{}': d_m must not be 0 when the length before it is 0", fourth.name);
   if (model.frame(model.tool()).parent_joint != 5)
     return fmt::format("its tool must hang on joint '{}'", model.joints()[5].name);
   return {};
@@ -106,6 +108,24 @@ std::optional<double> pointing_of(const RobotModel& model, const Eigen::Isometry
   return axis.z() > 0 ? 1.0 : -1.0;
 }
 
+void set_limits(const RobotModel& model, PumaArm& arm) {
+  for (int i = 0; i < 6; ++i) {
+    const double middle = 0.5 * (model.lower()[i] + model.upper()[i]);
+    arm.half[i] = 0.5 * (model.upper()[i] - model.lower()[i]);
+    // Without a limit on one side a joint that turns is never beyond the other.
+    arm.middle[i] = !std::isfinite(middle) ? 0 : i == 5 && arm.needle ? middle : wrap_angle(middle);
+  }
+}
+
+void set_places(PumaArm& arm) {
+  using Rows = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+  using Eigen::Map, Eigen::Vector3d;
+  Map<Rows>{arm.shoulder_R_base[0]} = arm.base_T_shoulder.linear().transpose();
+  Map<Vector3d>{arm.base_t_shoulder} = arm.base_T_shoulder.translation();
+  Map<Rows>{arm.tool_R_wrist[0]} = arm.wrist_T_tool.linear().transpose();
+  Map<Vector3d>{arm.wrist_t_tool} = arm.wrist_T_tool.translation();
+}
+
 }  // namespace
 
 Expected<PumaArm> puma_arm(const RobotModel& model) {
@@ -122,11 +142,6 @@ Expected<PumaArm> puma_arm(const RobotModel& model) {
   arm.a3 = links[3].a;
   arm.d4 = d(3);
   arm.forearm = std::hypot(arm.a3, arm.d4);
-  if (!(arm.forearm > kSame))
-    return refuse(
-        fmt::format("not a PUMA-pattern arm: joint '{}': d_m must not be 0 when the "
-                    "length before it is 0",
-                    joints[3].name));
   arm.beta = std::atan2(arm.d4, arm.a3);
   arm.cos_beta = arm.a3 / arm.forearm;
   arm.sin_beta = arm.d4 / arm.forearm;
@@ -149,6 +164,8 @@ Expected<PumaArm> puma_arm(const RobotModel& model) {
     arm.zero[5] = 0;
   }
   arm.pointing = pointing_of(model, arm.wrist_T_tool);
+  set_limits(model, arm);
+  set_places(arm);
   return arm;
 }
 

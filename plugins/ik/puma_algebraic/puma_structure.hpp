@@ -2,9 +2,9 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <array>
 #include <optional>
 
+#include "arm_kernel.hpp"
 #include "armature/robot/model/robot_model.hpp"
 #include "armature/values/expected.hpp"
 
@@ -18,14 +18,10 @@ namespace armature {
 ///   base_T_tool      = base_T_shoulder . shoulder_T_wrist . wrist_T_tool
 ///
 /// with a2 > 0. A needle (joint 6 prismatic) has t6 = 0 and moves the tool along the wrist's z.
-struct PumaArm {
-  double a1 = 0, d2 = 0, a2 = 0, a3 = 0, d4 = 0;         // [m]
-  double forearm = 0;                                    // hypot(a3, d4) [m]
-  double beta = 0, cos_beta = 1, sin_beta = 0;           // atan2(d4, a3)
-  std::array<double, 6> sign{1, 1, 1, 1, 1, 1}, zero{};  // q = sign t - zero, [rad]
+struct PumaArm : ArmNumbers {
+  double a3 = 0, d4 = 0;  // [m]; forearm and beta are their polar form
   Eigen::Isometry3d base_T_shoulder = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d wrist_T_tool = Eigen::Isometry3d::Identity();  // with the needle at 0
-  bool needle = false;
   /// Set when the tool lies on the axis of joint 6 and the pointing axis along it: 1 when it points
   /// the way of the wrist's z, -1 against it.
   std::optional<double> pointing;

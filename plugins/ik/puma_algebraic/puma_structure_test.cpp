@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "puma_structure.hpp"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 
 #include "armature/robot/kinematics/kinematics.hpp"
@@ -11,6 +9,8 @@
 
 namespace armature {
 namespace {
+
+using PumaStructure = PumaTest;
 
 /// The product of transforms that PumaArm is documented with.
 Eigen::Isometry3d canonical_pose(const PumaArm& arm, const JointVector& q) {
@@ -34,52 +34,36 @@ Eigen::Isometry3d canonical_pose(const PumaArm& arm, const JointVector& q) {
   return pose * arm.wrist_T_tool;
 }
 
-TEST(PumaStructure, EveryArmOfThePatternHasTheSameForwardKinematicsInTheOneForm) {
-  SCOPED_TRACE("seed 11");
-  std::mt19937_64 random{11};
+TEST_F(PumaStructure, EveryArmOfThePatternHasTheSameForwardKinematicsInTheOneForm) {
   for (int i = 0; i < 500; ++i) {
-    RobotModel model = random_arm(random);
+    use(random_arm(random_));
     if (i % 3 == 0) {  // joint 6 slides
-      auto joints = model.joints();
+      auto joints = model().joints();
       joints[5].type = Joint::Type::prismatic;
       joints[5].lower = -0.2, joints[5].upper = 0.4;
-      model = arm_of(model.convention(), joints, model.frame(model.tool()).parent_T_frame, {});
+      use(arm_of(model().convention(), joints, model().frame(model().tool()).parent_T_frame));
     }
-    const auto arm = puma_arm(model);
-    ASSERT_TRUE(arm) << arm.error().text;
-    EXPECT_GT(arm->a2, 0);
-    const JointVector q = random_joints(model, random);
-    EXPECT_TRUE(canonical_pose(*arm, q).isApprox(forward_kinematics(model, q), 1e-12));
+    EXPECT_GT(arm_.a2, 0);
+    const JointVector q = random_joints();
+    EXPECT_TRUE(canonical_pose(arm_, q).isApprox(forward_kinematics(model(), q), 1e-12));
   }
 }
 
-TEST(PumaStructure, EveryArmOfThePatternIsSolved) {
-  SCOPED_TRACE("seed 12");
-  std::mt19937_64 random{12};
+TEST_F(PumaStructure, EveryArmOfThePatternIsSolved) {
   for (int i = 0; i < 500; ++i) {
-    const RobotModel model = random_arm(random);
-    const auto solver = solver_for(model);
+    use(random_arm(random_));
     for (int k = 0; k < 10; ++k) {
-      const JointVector q = random_joints(model, random);
-      const IkGoal goal = rotation_goal(model, q);
-      IkBranches found;
-      IkState state;
-      ASSERT_EQ(solver->solve(goal, random_joints(model, random), found, state).code,
-                IkStatus::Code::ok);
-      double nearest = 10;
-      for (const IkBranch& branch : found) {
-        nearest = std::min(nearest, joint_distance(model, branch.q, q));
-        const auto actual = residual(forward_kinematics(model, branch.q), {}, goal.pose);
-        EXPECT_LE(std::max(actual.position_m, actual.angle_rad), 1e-13);
-      }
-      EXPECT_LE(nearest, 1e-6);
-      EXPECT_EQ(found.count % 4, 0);
+      const JointVector q = random_joints();
+      ASSERT_EQ(solve(rotation_goal(q), random_joints()).code, IkStatus::Code::ok);
+      expect_right(1e-13);
+      EXPECT_LE(probe_->nearest(q), 1e-6);
+      EXPECT_EQ(found_.count % 4, 0);
     }
   }
 }
 
-TEST(PumaStructure, Sr1IsReadAsTheThesisWritesIt) {
-  const PumaArm arm = puma_arm(*sr1()).value();
+TEST_F(PumaStructure, Sr1IsReadAsTheThesisWritesIt) {
+  const PumaArm& arm = arm_;
   EXPECT_EQ(arm.a1, 0);
   EXPECT_EQ(arm.d2, 0.15005);
   EXPECT_EQ(arm.a2, 0.4318);
@@ -102,44 +86,42 @@ template <class Change>
 std::string refusal(Change change) {
   auto joints = sr1()->joints();
   change(joints);
-  const auto made = PumaAlgebraic::make(
-      arm_of(sr1()->convention(), joints, Eigen::Isometry3d::Identity(), {}), Params{});
-  return made ? "" : made.error().text;
+  const auto made = puma_arm(*arm_of(sr1()->convention(), joints));
+  constexpr std::string_view kFirst = "not a PUMA-pattern arm: ";
+  if (made || !made.error().text.starts_with(kFirst)) return "no refusal";
+  return made.error().text.substr(kFirst.size());
 }
 
-TEST(PumaStructure, TheFirstMismatchIsNamed) {
+TEST_F(PumaStructure, TheFirstMismatchIsNamed) {
   EXPECT_EQ(refusal([](auto& rows) { rows[1].alpha = 0; }),
-            "not a PUMA-pattern arm: joint 'j2': alpha_deg must be 90 or -90, it is 0");
+            "joint 'j2': alpha_deg must be 90 or -90, it is 0");
   EXPECT_EQ(refusal([](auto& rows) { rows[2].alpha = M_PI / 2; }),
-            "not a PUMA-pattern arm: joint 'j3': alpha_deg must be 0 or 180, it is 90");
-  EXPECT_EQ(refusal([](auto& rows) { rows[2].a = 0; }),
-            "not a PUMA-pattern arm: joint 'j3': a_m must not be 0");
+            "joint 'j3': alpha_deg must be 0 or 180, it is 90");
+  EXPECT_EQ(refusal([](auto& rows) { rows[2].a = 0; }), "joint 'j3': a_m must not be 0");
   EXPECT_EQ(refusal([](auto& rows) { rows[3].a = rows[3].d = 0; }),
-            "not a PUMA-pattern arm: joint 'j4': d_m must not be 0 when the length before it is 0");
+            "joint 'j4': d_m must not be 0 when the length before it is 0");
   EXPECT_EQ(refusal([](auto& rows) { rows[4].a = 0.02; }),
-            "not a PUMA-pattern arm: joint 'j5': a_m must be 0 for axes 4, 5 and 6 to meet, it is "
-            "0.02");
+            "joint 'j5': a_m must be 0 for axes 4, 5 and 6 to meet, it is 0.02");
   EXPECT_EQ(refusal([](auto& rows) { rows[4].d = 0.1; }),
-            "not a PUMA-pattern arm: joint 'j5': d_m must be 0 for axes 4, 5 and 6 to meet, it is "
-            "0.1");
+            "joint 'j5': d_m must be 0 for axes 4, 5 and 6 to meet, it is 0.1");
   EXPECT_EQ(refusal([](auto& rows) { rows[2].type = Joint::Type::prismatic; }),
-            "not a PUMA-pattern arm: joint 'j3' is not revolute");
+            "joint 'j3' is not revolute");
   EXPECT_EQ(refusal([](auto& rows) { rows[5].coupling = Joint::Coupling{.to = 4}; }),
-            "not a PUMA-pattern arm: joint 'j6' is coupled");
-  EXPECT_EQ(refusal([](auto& rows) { rows.pop_back(); }),
-            "not a PUMA-pattern arm: 6 joints needed, 'arm' has 5");
+            "joint 'j6' is coupled");
+  EXPECT_EQ(refusal([](auto& rows) { rows.pop_back(); }), "6 joints needed, 'arm' has 5");
   EXPECT_EQ(refusal([](auto& rows) {
               rows[5].type = Joint::Type::prismatic;
               rows[5].upper = std::numeric_limits<double>::infinity();
             }),
-            "not a PUMA-pattern arm: the needle, joint 'j6', has no limits");
+            "joint 'j6', the needle, has no limits");
 }
 
-TEST(PumaStructure, AToolThatDoesNotHangOnTheLastJointIsRefused) {
+TEST_F(PumaStructure, AToolThatDoesNotHangOnTheLastJointIsRefused) {
   const RobotModel model{"arm",     sr1()->convention(), sr1()->joints(), {{"tool", 4, {}}},
                          FrameId{}, std::nullopt,        std::nullopt};
   EXPECT_EQ(puma_arm(model).error().text,
             "not a PUMA-pattern arm: its tool must hang on joint 'j6'");
+  EXPECT_FALSE(PumaAlgebraic::make(model, Params{}));
 }
 
 }  // namespace

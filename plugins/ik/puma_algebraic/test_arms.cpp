@@ -20,9 +20,9 @@ ModelPtr robot(const std::string& name) {
 }
 
 ModelPtr with_axis(const RobotModel& model, std::optional<Eigen::Vector3d> axis) {
-  return std::make_shared<const RobotModel>(RobotModel{model.name(), model.convention(),
-                                                       model.joints(), model.frames(), model.tool(),
-                                                       std::move(axis), model.home()});
+  return std::make_shared<const RobotModel>(model.name(), model.convention(), model.joints(),
+                                            model.frames(), model.tool(), std::move(axis),
+                                            model.home());
 }
 
 /// Rows {theta, d, a, alpha} in degrees and metres.
@@ -49,7 +49,6 @@ ModelPtr sr1_needle() {
   return model;
 }
 ModelPtr sr1_pointing() { return with_axis(*sr1(), Eigen::Vector3d::UnitZ()); }
-ModelPtr sr1_needle_for_rotations() { return with_axis(*sr1_needle(), std::nullopt); }
 
 ModelPtr standard_puma560() {
   auto joints = revolute_rows({{0, 0, 0, 90},
@@ -65,8 +64,7 @@ ModelPtr standard_puma560() {
     joints[i].lower = kLimits[i][0] * kDegree;
     joints[i].upper = kLimits[i][1] * kDegree;
   }
-  return std::make_shared<const RobotModel>(arm_of(RobotModel::Convention::standard, joints,
-                                                   Eigen::Isometry3d::Identity(), std::nullopt));
+  return arm_of(RobotModel::Convention::standard, joints);
 }
 
 ModelPtr industrial_arm() {
@@ -79,18 +77,17 @@ ModelPtr industrial_arm() {
                                     2.9);
   const Eigen::Isometry3d tool = Eigen::Translation3d{0.05, -0.02, 0.1} *
                                  Eigen::AngleAxisd{0.7, Eigen::Vector3d{1, 2, 3}.normalized()};
-  return std::make_shared<const RobotModel>(
-      arm_of(RobotModel::Convention::modified, joints, tool, std::nullopt));
+  return arm_of(RobotModel::Convention::modified, joints, tool);
 }
 
 ModelPtr without_limits(const RobotModel& model) {
   auto joints = model.joints();
   for (Joint& joint : joints) joint.lower = -std::numbers::pi, joint.upper = std::numbers::pi;
-  return std::make_shared<const RobotModel>(arm_of(
-      model.convention(), joints, model.frame(model.tool()).parent_T_frame, model.pointing_axis()));
+  return arm_of(model.convention(), joints, model.frame(model.tool()).parent_T_frame,
+                model.pointing_axis());
 }
 
-RobotModel random_arm(std::mt19937_64& random) {
+ModelPtr random_arm(std::mt19937_64& random) {
   std::uniform_real_distribution<double> any{-1, 1};
   const auto sign = [&] { return any(random) < 0 ? -1.0 : 1.0; };
   const auto length = [&] { return any(random) < -0.4 ? 0 : any(random); };
@@ -111,49 +108,49 @@ RobotModel random_arm(std::mt19937_64& random) {
   tool.rotate(
       Eigen::AngleAxisd{3 * any(random), Eigen::Vector3d{1, 0.5, any(random)}.normalized()});
   return arm_of(modified ? RobotModel::Convention::modified : RobotModel::Convention::standard,
-                revolute_rows(rows, std::numbers::pi), tool, std::nullopt);
+                revolute_rows(rows, std::numbers::pi), tool);
 }
 
-RobotModel arm_of(RobotModel::Convention convention, std::vector<Joint> joints,
-                  const Eigen::Isometry3d& last_T_tool, std::optional<Eigen::Vector3d> axis) {
+ModelPtr arm_of(RobotModel::Convention convention, std::vector<Joint> joints,
+                const Eigen::Isometry3d& last_T_tool, std::optional<Eigen::Vector3d> axis) {
   const int last = static_cast<int>(joints.size()) - 1;
-  return {"arm",     convention,      std::move(joints), {{"tool", last, last_T_tool}},
-          FrameId{}, std::move(axis), std::nullopt};
+  return std::make_shared<const RobotModel>("arm", convention, std::move(joints),
+                                            std::vector<NamedFrame>{{"tool", last, last_T_tool}},
+                                            FrameId{}, std::move(axis), std::nullopt);
 }
 
 std::shared_ptr<const IkSolver> solver_for(const RobotModel& model) {
   return std::move(PumaAlgebraic::make(model, Params{}).value());
 }
 
-IkGoal rotation_goal(const RobotModel& model, const JointVector& q) {
-  const Eigen::Isometry3d pose = forward_kinematics(model, q);
+void PumaTest::use(const ModelPtr& model) {
+  static const IkLawTools kTools;
+  subject_ = {.name = "puma", .model = model, .solver = solver_for(*model), .seed = random_()};
+  arm_ = puma_arm(*model).value();
+  probe_.emplace(subject_, kTools);
+}
+
+IkGoal PumaTest::rotation_goal(const JointVector& q) const {
+  const Eigen::Isometry3d pose = forward_kinematics(model(), q);
   IkGoal goal;
   goal.pose = {pose.translation(), Eigen::Quaterniond{pose.linear()}};
   return goal;
 }
 
-IkGoal direction_goal(const RobotModel& model, const JointVector& q) {
-  const Eigen::Isometry3d pose = forward_kinematics(model, q);
-  IkGoal goal;
-  goal.pose = {pose.translation(), Direction{pose.linear() * *model.pointing_axis()}};
-  return goal;
+const IkStatus& PumaTest::solve(const IkGoal& goal, const JointVector& seed) {
+  const IkStatus& status = probe_->solve(goal, seed);
+  found_ = probe_->found();
+  return status;
 }
 
-JointVector random_joints(const RobotModel& model, std::mt19937_64& random) {
-  JointVector q(model.dof());
-  for (int i = 0; i < model.dof(); ++i) {
-    q[i] = std::uniform_real_distribution{model.lower()[i], model.upper()[i]}(random);
+void PumaTest::expect_right(double tolerance) const {
+  for (const IkBranch& branch : found_) {
+    const PoseResidual actual = probe_->residual_of(branch.q, probe_->goal());
+    EXPECT_LE(actual.position_m, tolerance) << branch.label;
+    EXPECT_LE(actual.angle_rad, tolerance) << branch.label;
+    EXPECT_NEAR(branch.residual.position_m, actual.position_m, 1e-13) << branch.label;
+    EXPECT_NEAR(branch.residual.angle_rad, actual.angle_rad, 1e-13) << branch.label;
   }
-  return q;
-}
-
-double joint_distance(const RobotModel& model, const JointVector& a, const JointVector& b) {
-  double largest = 0;
-  for (int i = 0; i < model.dof(); ++i) {
-    const double d = turns_freely(model, i) ? wrap_angle(a[i] - b[i]) : a[i] - b[i];
-    largest = std::max(largest, std::abs(d));
-  }
-  return largest;
 }
 
 }  // namespace armature

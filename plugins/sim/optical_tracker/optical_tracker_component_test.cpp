@@ -166,9 +166,10 @@ TEST_F(OpticalTrackerTest, WhatIsNoRoomIsRefused) {
   EXPECT_EQ(refusal("spheres_mm: [1, 2, 3]"),
             "bench:1:59: 'spheres_mm' has 3 numbers; three for each of at least three spheres are "
             "needed");
-  EXPECT_EQ(refusal("min_distance_mm: 2500"),
-            "bench:1:59: 'min_distance_mm' is 2500, not below 'max_distance_mm', which is 2400: no body "
-            "would be seen");
+  EXPECT_EQ(
+      refusal("min_distance_mm: 2500"),
+      "bench:1:64: 'min_distance_mm' is 2500, not below 'max_distance_mm', which is 2400: no body "
+      "would be seen");
   EXPECT_EQ(refusal("spheres_mm: [0, 0, 0, 10, 10, 0, 30, 30, 0]"),
             "bench:1:59: 'spheres_mm' lie nearly on one line, about which nobody could see the "
             "body turn: condition inf, at most 20 is allowed");

@@ -240,9 +240,9 @@ TEST(ImplantParams, ThatContradictEachOtherAreRefused) {
                        .rig = {}});
   };
   EXPECT_EQ(refusal("calibration_poses: 3, min_poses: 12"),
-            "bench:1:75: 'min_poses' is 12, above 'calibration_poses', which is 3");
+            "bench:1:73: 'min_poses' is 12, above 'calibration_poses', which is 3");
   EXPECT_EQ(refusal("min_poses: 12, calibration_poses: 3"),
-            "bench:1:53: 'min_poses' is 12, above 'calibration_poses', which is 3");
+            "bench:1:51: 'min_poses' is 12, above 'calibration_poses', which is 3");
   const std::string inside =
       "'stand_off_mm' is 20, but the drill goes straight only along the last half of it, and the "
       "bone is 'depth_mm' = 12 deep there; make it at least 24";

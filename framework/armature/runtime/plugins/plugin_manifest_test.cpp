@@ -82,20 +82,20 @@ TEST(PluginManifest, AConditionMustBeAParameterThatCanBeOff) {
   const std::string params =
       "params: {segment_s: {type: number, default: 1}, how: {type: text, default: x}}\n";
   EXPECT_EQ(problem(params + "requires: {time_law: {when: segment}}\n"),
-            "plugin.yaml:5:26: 'when' names 'segment', which is no number, integer or flag among "
+            "plugin.yaml:5:29: 'when' names 'segment', which is no number, integer or flag among "
             "the plugin's parameters; did you mean 'segment_s'?");
   EXPECT_EQ(problem(params + "requires: {time_law: {when: how}}\n"),
-            "plugin.yaml:5:26: 'when' names 'how', which is no number, integer or flag among the "
+            "plugin.yaml:5:29: 'when' names 'how', which is no number, integer or flag among the "
             "plugin's parameters; known: segment_s");
 }
 
 TEST(PluginManifest, AListWhereAMapBelongsIsAProblem) {
   EXPECT_EQ(problem("requires: [time_law]\n"),
-            "plugin.yaml:4:8: 'requires' must be a map, not a list");
+            "plugin.yaml:4:11: 'requires' must be a map, not a list");
   EXPECT_EQ(problem("measures: length_m\n"),
             "plugin.yaml:4:11: 'measures' must be a map, not 'length_m'");
   EXPECT_EQ(problem("provides: {time_law: yes}\n"),
-            "plugin.yaml:4:20: 'time_law' must be a map, not 'yes'");
+            "plugin.yaml:4:22: 'time_law' must be a map, not 'yes'");
   EXPECT_EQ(problem("requires:\n"), "nothing");
 }
 

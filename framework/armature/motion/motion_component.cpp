@@ -91,7 +91,7 @@ void Motion::step(Time now) {
   if (plans_.fresh()) {
     execution_.take(read_answer(model_, *plans_.latest(), plans_.sample(0)), now);
   }
-  // Whoever gave a goal is stopping, too: that it is dropped is no failure of his story.
+  // Whoever gave a goal is stopping, too: that the goal is dropped is no failure of his.
   if (!stopping_) {
     read_goals(now);
     // After them: a goal of this step was given while the arm was stopped.

@@ -7,7 +7,7 @@
 namespace armature {
 namespace {
 
-using Stories = std::vector<std::string>;
+using Histories = std::vector<std::string>;
 
 int asked = 0;  // solvers, by anybody
 
@@ -53,9 +53,9 @@ class TrackingSteps : public ::testing::Test {
     message.mode_(static_cast<std::uint8_t>(mode));
     motion_.send("goal", message);
   }
-  Stories statuses() {
+  Histories statuses() {
     const char* const kWords[] = {"accepted", "executing", "done", "superseded", "failed"};
-    Stories told;
+    Histories told;
     for (const auto& status : motion_.take<msg::MotionStatus>("status")) {
       told.push_back(std::to_string(status.goal_id_()) + " " + kWords[status.state_()]);
     }
@@ -72,12 +72,12 @@ TEST_F(TrackingSteps, OfEightTargetsOneIsSearchedForAndTheOthersAreSuperseded) {
   step();
   EXPECT_GT(asked, 0);
   EXPECT_LE(asked, 2 * Tracker::kMaxAttempts);
-  Stories story;
+  Histories history;
   for (int id = 1; id <= 8; ++id) {
-    story.push_back(std::to_string(id) + " accepted");
-    story.push_back(std::to_string(id) + (id < 8 ? " superseded" : " executing"));
+    history.push_back(std::to_string(id) + " accepted");
+    history.push_back(std::to_string(id) + (id < 8 ? " superseded" : " executing"));
   }
-  EXPECT_EQ(statuses(), story);
+  EXPECT_EQ(statuses(), history);
   EXPECT_TRUE(motion_.take<msg::MotionPlanRequest>("plan_request").empty());
 }
 
@@ -87,7 +87,7 @@ TEST_F(TrackingSteps, ATargetBehindWhichOneComesThatIsNoneOrOldIsSearchedFor) {
   give(1, 0.2);
   step();
   EXPECT_GT(asked, 0);
-  EXPECT_EQ(statuses(), (Stories{"2 accepted", "2 executing", "3 failed", "1 failed"}));
+  EXPECT_EQ(statuses(), (Histories{"2 accepted", "2 executing", "3 failed", "1 failed"}));
 }
 
 TEST_F(TrackingSteps, WhatIsNotTrackedIsTakenInOrderBetweenTargets) {
@@ -96,8 +96,8 @@ TEST_F(TrackingSteps, WhatIsNotTrackedIsTakenInOrderBetweenTargets) {
   give(3, 0.2);
   give(4, 0.3, MotionMode::planned);
   step();
-  EXPECT_EQ(statuses(), (Stories{"1 accepted", "1 superseded", "2 accepted", "2 executing",
-                                 "3 accepted", "2 superseded", "3 executing", "4 accepted"}));
+  EXPECT_EQ(statuses(), (Histories{"1 accepted", "1 superseded", "2 accepted", "2 executing",
+                                   "3 accepted", "2 superseded", "3 executing", "4 accepted"}));
   const auto requests = motion_.take<msg::MotionPlanRequest>("plan_request");
   ASSERT_EQ(requests.size(), 1u);
   EXPECT_EQ(requests[0].goal_id_(), 4u);

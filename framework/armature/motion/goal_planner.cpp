@@ -139,9 +139,9 @@ tl::expected<JointVector, PlanFailure> GoalPlanner::solve(const ToolPose& pose,
                                                           const JointVector& near) {
   waypoints_.resize(1);
   IkState state;
-  const auto status = solved(stages_.ik, IkGoal{.pose = pose}, near, waypoints_[0], state);
+  const auto status = solved(*stages_.ik, IkGoal{.pose = pose}, near, waypoints_[0], state);
   if (!status || !reaches(*status)) return fail("ik", "the goal: " + reason_of(status));
-  auto chosen = guarded([&] { return stages_.select.choose(near, waypoints_); });
+  auto chosen = guarded([&] { return stages_.select->choose(near, waypoints_); });
   if (!chosen) return fail("select", chosen.error().text);
   if (chosen->size() != 1) return fail("select", "the plugin did not answer for the waypoint");
   return chosen->front();
@@ -186,12 +186,12 @@ PlanResult GoalPlanner::attempt(const MotionGoal& goal, const JointState& from, 
     plan.path = straight_to(goal.pose);
   } else {
     auto path = guarded([&] {
-      return stages_.path.plan({.start = pose_at(model_, from.q, goal.pose),
-                                .goal = goal.pose,
-                                .focus = goal.focus,
-                                .through = goal.through,
-                                .forbidden = goal.forbidden,
-                                .start_joints = from.q});
+      return stages_.path->plan({.start = pose_at(model_, from.q, goal.pose),
+                                 .goal = goal.pose,
+                                 .focus = goal.focus,
+                                 .through = goal.through,
+                                 .forbidden = goal.forbidden,
+                                 .start_joints = from.q});
     });
     if (!path) return fail("path", path.error().text);
     plan.path = std::move(*path);
@@ -200,13 +200,13 @@ PlanResult GoalPlanner::attempt(const MotionGoal& goal, const JointState& from, 
   if (!joint_path) return tl::unexpected{joint_path.error()};
   plan.joint_path = std::move(*joint_path);
   auto trajectory = guarded([&] {
-    return stages_.trajectory.plan({.goal_id = goal.id,
-                                    .start = start,
-                                    .from = from,
-                                    .segments = plan.joint_path,
-                                    .max_velocity = limits_.max_velocity,
-                                    .max_acceleration = limits_.max_acceleration,
-                                    .max_jerk = limits_.max_jerk});
+    return stages_.trajectory->plan({.goal_id = goal.id,
+                                     .start = start,
+                                     .from = from,
+                                     .segments = plan.joint_path,
+                                     .max_velocity = limits_.max_velocity,
+                                     .max_acceleration = limits_.max_acceleration,
+                                     .max_jerk = limits_.max_jerk});
   });
   if (!trajectory) return fail("trajectory", trajectory.error().text);
   plan.trajectory = std::move(*trajectory);
@@ -237,9 +237,9 @@ tl::expected<void, PlanFailure> GoalPlanner::solve_samples(const Path& path,
         seed = *samples[i].joints;
         continue;
       }
-      const auto goal = ik_goal(model_, stages_.ik, samples[i]);
+      const auto goal = ik_goal(model_, *stages_.ik, samples[i]);
       if (!goal) return fail("ik", goal.error().text);
-      const auto status = solved(stages_.ik, *goal, seed, branches, state);
+      const auto status = solved(*stages_.ik, *goal, seed, branches, state);
       const IkBranch* next =
           status && reaches(*status) ? nearest_branch(branches, seed, model_) : nullptr;
       if (!next) {
@@ -255,7 +255,7 @@ tl::expected<std::vector<JointSegment>, PlanFailure> GoalPlanner::joint_path(
     const Path& path, const JointVector& start) {
   if (auto solved = solve_samples(path, start); !solved) return tl::unexpected{solved.error()};
   if (waypoints_.empty()) return fail("path", "the path has no samples");
-  auto chosen = guarded([&] { return stages_.select.choose(start, waypoints_); });
+  auto chosen = guarded([&] { return stages_.select->choose(start, waypoints_); });
   if (!chosen) return fail("select", chosen.error().text);
   if (chosen->size() != waypoints_.size()) {
     return fail("select", "the plugin did not answer for every waypoint");

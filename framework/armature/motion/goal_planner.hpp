@@ -7,15 +7,16 @@
 #include "armature/kinds/select/select.hpp"
 #include "armature/motion/goal.hpp"
 #include "armature/motion/plan.hpp"
+#include "armature/runtime/component/slot.hpp"
 
 namespace armature {
 
 /// The four slots of the motion component.
 struct PlanStages {
-  const PathPlanner& path;
-  const IkSolver& ik;
-  const BranchSelector& select;
-  const TrajectoryPlanner& trajectory;
+  Slot<const PathPlanner> path;
+  Slot<const IkSolver> ik;
+  Slot<const BranchSelector> select;
+  Slot<const TrajectoryPlanner> trajectory;
 };
 
 struct PlanningOptions {
@@ -27,7 +28,7 @@ struct PlanningOptions {
 /// the whole path, time. All stages in one go, so that when one refuses another answer is tried.
 class GoalPlanner {
  public:
-  /// Keeps references to everything.
+  /// Keeps a reference to `model`.
   GoalPlanner(const RobotModel& model, const PlanStages& stages, const MotionLimits& limits,
               const PlanningOptions& options = {});
 

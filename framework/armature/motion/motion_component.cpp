@@ -17,9 +17,8 @@ namespace {
 constexpr Duration kStatusPeriod = seconds(0.1);
 constexpr Duration kTimeout = seconds(0.5);
 
-/// Why the plugin in slot `ik` must not be called on a control thread, or "".
-std::string unfit_to_track(const Setup& setup) {
-  const PluginManifest& plugin = setup.slot_manifest("ik");
+/// Why a plugin in slot `ik` must not be called on a control thread, or "".
+std::string unfit_to_track(const PluginManifest& plugin) {
   const char* says = plugin.allocates ? "allocates: true" : plugin.pure ? "" : "pure: false";
   if (*says == '\0') return "";
   return fmt::format("'{}' cannot track a target: its plugin.yaml says '{}'", plugin.id, says);
@@ -61,8 +60,8 @@ Motion::Motion(Setup& setup)
       parameters_{motion::Parameters::read(setup.params())},
       model_{robot_of(setup)},
       solver_model_{solver_model_of(setup.params(), model_)},
-      no_tracker_{unfit_to_track(setup)},
-      ik_{no_tracker_.empty() ? setup.slot<IkSolver>("ik", solver_model_) : PluginPtr<IkSolver>{}},
+      no_tracker_{unfit_to_track(setup.slot_manifest("ik"))},
+      ik_{no_tracker_.empty() ? setup.slot<IkSolver>("ik", solver_model_) : Slot<IkSolver>{}},
       goals_{setup.input<msg::MotionGoal>("goal")},
       plans_{setup.input<msg::MotionPlan>("plan")},
       measured_js_{setup.input<msg::JointState>("measured_js")},
@@ -72,11 +71,12 @@ Motion::Motion(Setup& setup)
       reference_{setup.output<msg::JointReference>("reference")},
       status_{setup.output<msg::MotionStatus>("status")},
       tracker_{ik_ ? std::optional<Tracker>{std::in_place, model_,
-                                            limits_of(setup.params(), model_), *ik_,
+                                            limits_of(setup.params(), model_), ik_,
                                             tracking_of(parameters_, model_)}
                    : std::nullopt},
       execution_{model_, limits_of(setup.params(), model_), execution_of(parameters_),
                  tracker_ ? &*tracker_ : nullptr, no_tracker_} {
+  if (ik_) ik_.object_to(unfit_to_track);
   servo_jp_.prepare(joints_with_room(model_));
   reference_.prepare(reference_with_room(model_));
   status_.prepare(status_with_room());

@@ -38,7 +38,7 @@ class Motion final : public Component {
   motion::Parameters parameters_;
   RobotModel model_, solver_model_;
   std::string no_tracker_;  // why targets cannot be tracked
-  PluginPtr<IkSolver> ik_;  // for tracking only
+  Slot<IkSolver> ik_;       // for tracking only
   Input<msg::MotionGoal> goals_;
   Input<msg::MotionPlan> plans_;
   Input<msg::JointState> measured_js_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The motion component's two units on their topics, with the gantry's stages in its slots: 1. what
 // it publishes and how often, 2. goals that are none, 3. an arm that is silent, elsewhere or tells
-// nonsense, 4. limits.
+// nonsense, 4. limits, 5. another solver in its slots while it runs.
 #include <gtest/gtest.h>
 
 #include "armature/messages/trajectory_msgs.hpp"
@@ -242,6 +242,46 @@ TEST_F(MotionComponentTest, DoesNotStartWithALimitForJointsThatSlideWhereNoneDoe
       "wheel.yaml");
   EXPECT_EQ(refusal_of(plugins(), turning),
             "bench:1:52: max_velocity_m_s is for joints that slide, and robot wheel has none");
+}
+
+/// Reaches nothing.
+class NoIk final : public IkSolver {
+ public:
+  std::optional<double> redundancy_of(const JointVector&) const override { return {}; }
+  IkStatus solve(const IkGoal&, const JointVector&, IkBranches& out, IkState&) const override {
+    out.clear();
+    return {.code = IkStatus::Code::out_of_reach, .shortfall = 1, .detail = "no solver at all"};
+  }
+};
+
+SlotPlugin solver(const PluginManifest& manifest) {
+  return {plugins().load(manifest, IkSolver::kKind, IkSolver::kKindVersion), manifest, {}};
+}
+
+TEST_F(MotionComponentTest, PlansWithWhicheverSolverSitsInItsSlot) {
+  plugins().add<NoIk>("{armature_plugin: 1, id: ik/none, kind: ik}");
+  run(100.1);
+  ASSERT_TRUE(planner_.slot("ik").offer(solver(*plugins().find("ik/none"))));
+  give(goal(1, {0.5, 0, 0}));
+  run(103);
+  EXPECT_EQ(history(), (std::vector<std::string>{"1 accepted", "1 failed"}));
+  EXPECT_EQ(last_stage(), "ik");
+  EXPECT_TRUE(planner_.slot("ik").settle());
+  ASSERT_TRUE(planner_.slot("ik").offer(solver(*plugins().find("ik/gantry"))));
+  give(goal(2, {0.5, 0, 0}));
+  run(106);
+  EXPECT_EQ(history().back(), "2 done");
+  EXPECT_NEAR(arm_[2], 0.5, 1e-9);
+}
+
+TEST_F(MotionComponentTest, TracksWithNoSolverThatAllocates) {
+  PluginManifest allocating = *plugins().find("ik/gantry");
+  allocating.allocates = true;
+  const auto offered = motion_.slot("ik").offer(solver(allocating));
+  ASSERT_FALSE(offered);
+  EXPECT_EQ(offered.error().text,
+            "'ik/gantry' cannot track a target: its plugin.yaml says 'allocates: true'");
+  EXPECT_TRUE(planner_.slot("ik").offer(solver(allocating))) << "a planner may take its time";
 }
 
 }  // namespace

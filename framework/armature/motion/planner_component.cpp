@@ -21,10 +21,6 @@ MotionPlanner::MotionPlanner(Setup& setup)
     : Component(setup),
       model_{robot_of(setup)},
       solver_model_{solver_model_of(setup.params(), model_)},
-      path_{setup.slot<PathPlanner>("path", model_)},
-      ik_{setup.slot<IkSolver>("ik", solver_model_)},
-      select_{setup.slot<BranchSelector>("select", model_)},
-      trajectory_{setup.slot<TrajectoryPlanner>("trajectory")},
       goals_{setup.input<msg::MotionGoal>("goal")},
       requests_{setup.input<msg::MotionPlanRequest>("plan_request")},
       plan_{setup.output<msg::MotionPlan>("plan")},
@@ -33,7 +29,10 @@ MotionPlanner::MotionPlanner(Setup& setup)
       joint_trajectory_out_{setup.output<msg::JointTrajectory>("joint_trajectory")},
       trajectory_out_{setup.output<msg::QuinticTrajectory>("trajectory")},
       planner_{model_,
-               {*path_, *ik_, *select_, *trajectory_},
+               {.path = setup.slot<PathPlanner>("path", model_),
+                .ik = setup.slot<IkSolver>("ik", solver_model_),
+                .select = setup.slot<BranchSelector>("select", model_),
+                .trajectory = setup.slot<TrajectoryPlanner>("trajectory")},
                limits_of(setup.params(), model_),
                planning_of(motion::Parameters::read(setup.params()))} {
   setup.deliver_after(seconds(motion::Parameters::read(setup.params()).plan_budget / 2));

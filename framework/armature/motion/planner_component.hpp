@@ -27,10 +27,6 @@ class MotionPlanner final : public Component {
   void publish_stages(const Plan& plan);
 
   RobotModel model_, solver_model_;
-  PluginPtr<PathPlanner> path_;
-  PluginPtr<IkSolver> ik_;
-  PluginPtr<BranchSelector> select_;
-  PluginPtr<TrajectoryPlanner> trajectory_;
   Input<msg::MotionGoal> goals_;
   Input<msg::MotionPlanRequest> requests_;
   Output<msg::MotionPlan> plan_;

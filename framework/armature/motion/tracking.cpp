@@ -103,7 +103,7 @@ int growths_for(double longer) {
 
 }  // namespace
 
-Tracker::Tracker(const RobotModel& model, const MotionLimits& limits, const IkSolver& ik,
+Tracker::Tracker(const RobotModel& model, const MotionLimits& limits, Slot<const IkSolver> ik,
                  const TrackingOptions& options)
     : model_{model},
       limits_{limits},
@@ -118,8 +118,8 @@ Tracker::Tracker(const RobotModel& model, const MotionLimits& limits, const IkSo
 bool Tracker::solve(const ToolPose& pose, const JointVector& near, JointVector& q) {
   const IkGoal goal{.pose = pose};
   const auto status = guarded([&] {
-    IkState state{.last_redundancy = ik_.redundancy_of(near)};
-    return ik_.solve(goal, near, branches_, state);
+    IkState state{.last_redundancy = ik_->redundancy_of(near)};
+    return ik_->solve(goal, near, branches_, state);
   });
   const bool reached = status && reaches(*status);
   if (const IkBranch* chosen = reached ? nearest_branch(branches_, near, model_) : nullptr) {

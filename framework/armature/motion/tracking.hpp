@@ -9,6 +9,7 @@
 #include "armature/motion/goal.hpp"
 #include "armature/robot/trajectories/short_trajectory.hpp"
 #include "armature/robot/trajectories/trajectory_check.hpp"
+#include "armature/runtime/component/slot.hpp"
 #include "armature/values/inline_text.hpp"
 
 namespace armature {
@@ -44,8 +45,8 @@ class Tracker {
  public:
   static constexpr int kMaxAttempts = 8;
 
-  /// Keeps references to `model` and `ik`, which allocates nothing.
-  Tracker(const RobotModel& model, const MotionLimits& limits, const IkSolver& ik,
+  /// Keeps a reference to `model`. What sits in `ik` allocates nothing.
+  Tracker(const RobotModel& model, const MotionLimits& limits, Slot<const IkSolver> ik,
           const TrackingOptions& options);
 
   /// A target that is new, from an arm that may rest: searches from the shortest horizon on, at
@@ -96,7 +97,7 @@ class Tracker {
 
   const RobotModel& model_;
   MotionLimits limits_;
-  const IkSolver& ik_;
+  Slot<const IkSolver> ik_;
   TrackingOptions options_;
   double trusted_s_ = 0;      // how far ahead the target's velocity is, in the last call
   double allowed_speed_ = 0;  // [m/s] of the tool's origin, in the last call

@@ -11,6 +11,7 @@
 #include "armature/config/node.hpp"
 #include "armature/config/params.hpp"
 #include "armature/runtime/component/ports.hpp"
+#include "armature/runtime/component/slot.hpp"
 #include "armature/runtime/plugins/plugin_library.hpp"
 #include "armature/runtime/plugins/plugin_manifest.hpp"
 #include "armature/runtime/plugins/setup_error.hpp"
@@ -64,37 +65,28 @@ class Setup {
     return Output<Message>{claim_output(port, message_type<Message>())};
   }
 
-  /// The plugin that sits in slot `slot_name`, made with `args` (after which come its parameters).
-  /// Throws SlotError with the plugin's own reason when it refuses, or throws itself.
+  /// Slot `slot_name` and the plugin that sits in it, made with `args` (after which come its
+  /// parameters), as is every plugin that takes its place. The slot keeps copies of `args`. Throws
+  /// SlotError with the plugin's own reason when it refuses, or throws itself.
   template <class Kind, class... Args>
-  PluginPtr<Kind> slot(std::string_view slot_name, const Args&... args) {
-    const SlotPlugin plugin = slot_plugin(slot_name, Kind::kKind, Kind::kKindVersion);
-    auto make = reinterpret_cast<typename Kind::Factory>(plugin.library->factory());
-    // While `plugin` holds the library: an exception of the plugin's own type ends in here.
-    auto made = [&] {
-      try {
-        return make(args..., *plugin.params);
-      } catch (...) {
-        throw_as_own(plugin.id, slot_name);
-      }
-    }();
-    if (!made) {
-      throw SlotError(std::string{slot_name}, plugin.id + " refuses: " + made.error().text);
-    }
-    return {plugin.library, std::move(*made)};
+  Slot<Kind> slot(std::string_view slot_name, const Args&... args) {
+    auto place = std::make_unique<SlotOf<Kind>>(
+        slot_name, [args...](typename Kind::Factory factory, const Params& params) {
+          return factory(args..., params);
+        });
+    place->fill(slot_plugin(slot_name, Kind::kKind, Kind::kKindVersion));
+    Slot<Kind> slot{*place};
+    keep_slot(std::move(place));
+    return slot;
   }
 
   virtual std::shared_ptr<class StatusReporter> reporter() = 0;
 
  protected:
-  struct SlotPlugin {
-    std::string id;
-    std::shared_ptr<PluginLibrary> library;
-    const Params* params;
-  };
   virtual InputPort& claim_input(std::string_view port, const MessageType& type) = 0;
   virtual OutputPort& claim_output(std::string_view port, const MessageType& type) = 0;
   virtual SlotPlugin slot_plugin(std::string_view slot, std::string_view kind, int version) = 0;
+  virtual void keep_slot(std::unique_ptr<SlotPlace> place) = 0;
 };
 
 }  // namespace armature

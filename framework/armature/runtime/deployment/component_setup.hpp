@@ -44,6 +44,9 @@ class ComponentSetup final : public Setup {
   InputPort& claim_input(std::string_view port, const MessageType& type) override;
   OutputPort& claim_output(std::string_view port, const MessageType& type) override;
   SlotPlugin slot_plugin(std::string_view slot, std::string_view kind, int version) override;
+  void keep_slot(std::unique_ptr<SlotPlace> place) override {
+    unit_.slots().push_back(std::move(place));
+  }
 
  private:
   const SlotConfig& slot_config(std::string_view slot_name) const;

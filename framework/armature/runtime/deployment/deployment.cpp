@@ -114,16 +114,16 @@ void Deployment::make_scheduler() {
 void Deployment::make_unit(const ComponentConfig& component, PluginRegistry& plugins,
                            config::Problems& problems) {
   const RunningComponent running{component.name, "constructor"};
+  // Outlives the exceptions that its code throws, and the slots that it makes.
+  const auto library = plugins.load(*component.manifest, Component::kKind, Component::kKindVersion);
   auto unit = std::make_unique<ComponentRunner>(component.name, component.plugin_id,
                                                 component.place, options_.on_line);
   ComponentSetup setup = setup_of(component, plugins, *unit);
-  // Outlives the exceptions that its code throws.
-  auto library = plugins.load(*component.manifest, Component::kKind, Component::kKindVersion);
   try {
     const auto make = reinterpret_cast<Component::Factory>(library->factory());
     auto object = make(setup);
     setup.check_all_claimed();
-    unit->install({library, std::move(object)});
+    unit->install(library, std::move(object));
     check_period(component, *unit, config_.executors, problems);
     units_.push_back(std::move(unit));
   } catch (const config::ConfigError& error) {
@@ -181,7 +181,7 @@ void Deployment::make_own_unit(std::string_view name, const PluginManifest& mani
   const ComponentConfig& config = config_.components.back();
   auto unit = std::make_unique<ComponentRunner>(config.name, manifest.id, place, options_.on_line);
   ComponentSetup setup = setup_of(config, plugins, *unit);
-  unit->install({nullptr, make(setup)});
+  unit->install(nullptr, make(setup));
   units_.push_back(std::move(unit));
 }
 

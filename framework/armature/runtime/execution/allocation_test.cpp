@@ -54,6 +54,30 @@ TEST_F(AllocationTest, NoneInAnInboxWhateverItsPortsRead) {
   EXPECT_EQ(pool_.grown(), 0U);
 }
 
+/// A kind of which there is one plugin.
+struct Idle {
+  static constexpr std::string_view kKind = "idle";
+  static constexpr int kKindVersion = 1;
+  using Factory = Expected<std::unique_ptr<Idle>> (*)(const Params&);
+};
+
+TEST_F(AllocationTest, NoneInTheExchangeOfAPlugin) {
+  const auto unit = make_unit("arm", 0, [](Time) {});
+  auto place = std::make_unique<SlotOf<Idle>>(
+      "idle", [](Idle::Factory factory, const Params& params) { return factory(params); });
+  const auto idle = [] {
+    return SlotPlugin{
+        *PluginLibrary::of_this_program(detail::plugin_entry<Idle>(), Idle::kKind, 1), {}, {}};
+  };
+  place->fill(idle());
+  SlotPlace& slot = *place;
+  unit->slots().push_back(std::move(place));
+  unit->step(Time{});
+  ASSERT_TRUE(slot.offer(idle()));
+  EXPECT_EQ(allocations_of([&] { unit->step(Time{}); }), 0U);
+  EXPECT_TRUE(slot.settle()) << "the successor sits there";
+}
+
 TEST_F(AllocationTest, NoneInAnActivationAndItsTimes) {
   int steps = 0;
   const auto unit = make_unit("arm", 0, [&](Time) { ++steps; });

@@ -57,6 +57,7 @@ void ComponentRunner::activate(Time now, Duration lateness) {
 
 void ComponentRunner::step(Time now, Duration lateness) {
   if (faulted()) return;
+  for (const auto& slot : slots_) slot->exchange();
   inbox_.show(now);
   activations_.fetch_add(1, std::memory_order_relaxed);
   times_.lateness.add(lateness);

@@ -9,10 +9,12 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "armature/runtime/component/component.hpp"
 #include "armature/runtime/component/inbox.hpp"
 #include "armature/runtime/component/output_port.hpp"
+#include "armature/runtime/component/slot.hpp"
 #include "armature/runtime/component/status_reporter.hpp"
 #include "armature/runtime/execution/timing_histogram.hpp"
 #include "armature/runtime/plugins/plugin_library.hpp"
@@ -34,6 +36,8 @@ class ComponentRunner {
   Inbox& inbox() { return inbox_; }
   const Inbox& inbox() const { return inbox_; }
   std::deque<OutputPort>& outputs() { return outputs_; }
+  /// Where its plugins sit. A successor that is offered to one sits there from the next step on.
+  std::vector<std::unique_ptr<SlotPlace>>& slots() { return slots_; }
   const std::shared_ptr<StatusReporter>& reporter() { return reporter_; }
   StatusReporter::Status status() const { return reporter_->status(); }
   const std::optional<Duration>& period() const { return period_; }
@@ -41,7 +45,11 @@ class ComponentRunner {
   /// On the simulated clock, how much later its samples reach their readers.
   Duration latency() const { return latency_; }
   void set_latency(Duration latency) { latency_ = latency; }
-  void install(PluginPtr<Component> component) { component_ = std::move(component); }
+  /// `library` holds the code of the component and of its slots; null: this program does.
+  void install(std::shared_ptr<PluginLibrary> library, std::unique_ptr<Component> component) {
+    library_ = std::move(library);
+    component_ = std::move(component);
+  }
   Component& component() { return *component_; }
 
   /// A drill's fault, which outlives the unit.
@@ -107,7 +115,10 @@ class ComponentRunner {
   std::optional<Duration> period_;
   Duration latency_{0};
   const InjectedFault* injected_ = nullptr;
-  PluginPtr<Component> component_;  // last: it goes first, its ports after it
+  // In this order: the component goes first, then its slots, then the code of both, then its ports.
+  std::shared_ptr<PluginLibrary> library_;
+  std::vector<std::unique_ptr<SlotPlace>> slots_;
+  std::unique_ptr<Component> component_;
   std::atomic<bool> faulted_{false}, finished_{false};
   std::atomic<bool> stop_requested_{false}, stopped_{false};
   bool stop_begun_ = false;  // of the executor's thread

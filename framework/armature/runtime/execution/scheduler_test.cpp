@@ -139,7 +139,7 @@ class StoppingUnit : public testing::Test {
     FakeSetup setup{unit_};
     auto mover = std::make_unique<Mover>(setup, steps_to_rest);
     mover_ = mover.get();
-    unit_.install({nullptr, std::move(mover)});
+    unit_.install(nullptr, std::move(mover));
   }
   std::vector<std::string> lines_;
   ComponentRunner unit_{"mover", "test/mover", 0, [this](std::string_view, std::string_view line) {

@@ -9,22 +9,24 @@ namespace armature {
 
 ComponentHarness::ComponentHarness(PluginRegistry& plugins, const Options& options) {
   read(plugins, options);
-  unit_ = std::make_unique<ComponentRunner>(
+  // Outlives the slots that its code makes.
+  const auto library = plugins.load(*config_.manifest, Component::kKind, Component::kKindVersion);
+  auto unit = std::make_unique<ComponentRunner>(
       config_.name, config_.plugin_id, 0,
       [this](std::string_view, std::string_view line) { lines_.emplace_back(line); });
-  unit_->on_triggered([this] { triggered_ = true; });
+  unit->on_triggered([this] { triggered_ = true; });
   ComponentSetup setup{config_,
                        deployment_,
                        plugins,
-                       *unit_,
+                       *unit,
                        *this,
                        [this](const PortBinding& port, const MessageType& type) -> Topic& {
                          return topic_for(port, type);
                        }};
-  auto library = plugins.load(*config_.manifest, Component::kKind, Component::kKindVersion);
   auto component = reinterpret_cast<Component::Factory>(library->factory())(setup);
   setup.check_all_claimed();
-  unit_->install({std::move(library), std::move(component)});
+  unit->install(library, std::move(component));
+  unit_ = std::move(unit);
   for (const PortBinding& output : config_.outputs) {
     topics_.at(output.topic)->connect(taps_[output.spec.name]);
   }
@@ -93,6 +95,13 @@ Topic& ComponentHarness::topic_of(const std::vector<PortBinding>& ports, std::st
     return *topics_.at(port.topic);
   }
   throw std::invalid_argument("there is no port '" + std::string{name} + "'");
+}
+
+SlotPlace& ComponentHarness::slot(std::string_view name) {
+  for (const auto& place : unit_->slots()) {
+    if (place->name() == name) return *place;
+  }
+  throw std::invalid_argument("there is no slot '" + std::string{name} + "'");
 }
 
 bool ComponentHarness::send_encoded(std::string_view input, std::span<const std::byte> cdr) {

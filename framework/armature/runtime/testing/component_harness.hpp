@@ -60,6 +60,8 @@ class ComponentHarness final : private Delivery {
   void step(double now_s);
   /// Tells the component at `now_s` that the run is stopping; steps go on. An exception as above.
   void begin_stop(double now_s);
+  /// Where its plugin `name` sits; a successor that is offered sits there from the next step on.
+  SlotPlace& slot(std::string_view name);
   /// What the component answered last to whether it is at rest; false before `begin_stop`.
   bool stopped() const { return unit_->stopped(); }
   /// Everything the output published since the last call, oldest first.

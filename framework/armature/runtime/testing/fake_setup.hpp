@@ -51,6 +51,9 @@ class FakeSetup final : public Setup, public Delivery {
   SlotPlugin slot_plugin(std::string_view, std::string_view, int) override {
     throw std::logic_error("no slots");
   }
+  void keep_slot(std::unique_ptr<SlotPlace> place) override {
+    unit_.slots().push_back(std::move(place));
+  }
 
  private:
   Topic& make_topic(std::string_view port, const MessageType& type) {
@@ -79,7 +82,7 @@ inline std::unique_ptr<ComponentRunner> make_unit(const std::string& name, int p
                                                   std::function<void(Time)> step) {
   auto unit = std::make_unique<ComponentRunner>(name, "test/lambda", place, StatusReporter::Sink{});
   FakeSetup setup{*unit};
-  unit->install({nullptr, std::make_unique<LambdaComponent>(setup, std::move(step))});
+  unit->install(nullptr, std::make_unique<LambdaComponent>(setup, std::move(step)));
   return unit;
 }
 

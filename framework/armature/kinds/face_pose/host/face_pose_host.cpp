@@ -58,7 +58,7 @@ class FacePoseHost final : public Component {
  private:
   Expected<FacePose> estimate();
 
-  PluginPtr<FacePoseEstimator> estimator_;
+  Slot<FacePoseEstimator> estimator_;
   PluginState state_;
   Input<msg::Image> left_image_, right_image_;
   Input<msg::FaceLandmarks> landmarks_;

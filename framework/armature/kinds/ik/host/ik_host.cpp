@@ -41,7 +41,7 @@ class IkHost final : public RequestHost<msg::IkRequest, msg::IkResponse> {
   IkStatus solve(const msg::IkRequest& request, std::string& reason);
 
   const RobotModel robot_;
-  PluginPtr<IkSolver> solver_;
+  Slot<IkSolver> solver_;
   IkState state_;
   IkBranches branches_;
 };

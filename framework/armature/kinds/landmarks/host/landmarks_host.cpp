@@ -41,8 +41,8 @@ class LandmarksHost final : public Component {
  private:
   Expected<StereoLandmarks> find(const msg::Image& left, const msg::Image& right);
 
-  PluginPtr<FaceDetector> detector_;
-  PluginPtr<LandmarkFinder> landmark_finder_;
+  Slot<FaceDetector> detector_;
+  Slot<LandmarkFinder> landmark_finder_;
   StereoFaceFinder finder_;
   StereoFaceFinder::State state_;
   Input<msg::Image> left_image_, right_image_;

@@ -92,7 +92,7 @@ class PathHost final : public RequestHost<msg::PathRequest, msg::PathResponse> {
   }
 
   RobotModel robot_;
-  PluginPtr<PathPlanner> planner_;
+  Slot<PathPlanner> planner_;
 };
 
 }  // namespace armature

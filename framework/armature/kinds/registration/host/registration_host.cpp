@@ -105,7 +105,7 @@ class RegistrationHost final
     if (found) write(*found, request.targets_(), response);
   }
 
-  PluginPtr<Registrar> registrar_;
+  Slot<Registrar> registrar_;
 };
 
 }  // namespace armature

@@ -80,7 +80,7 @@ class SelectHost final : public RequestHost<msg::SelectRequest, msg::SelectRespo
   }
 
   const RobotModel robot_;
-  PluginPtr<BranchSelector> selector_;
+  Slot<BranchSelector> selector_;
 };
 
 }  // namespace armature

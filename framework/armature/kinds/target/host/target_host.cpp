@@ -41,7 +41,7 @@ class TargetHost final : public Component {
   StereoRig rig_;
   FrameId mount_;
   FrameBuffer history_;
-  PluginPtr<TargetFilter> filter_;
+  Slot<TargetFilter> filter_;
   PluginState state_;
   std::string arm_trouble_, history_trouble_;
   Input<msg::FacePose> face_;

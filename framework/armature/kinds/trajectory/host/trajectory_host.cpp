@@ -152,7 +152,7 @@ class TrajectoryHost final : public RequestHost<msg::TrajectoryRequest, msg::Tra
   }
 
   const RobotModel robot_;
-  PluginPtr<TrajectoryPlanner> planner_;
+  Slot<TrajectoryPlanner> planner_;
 };
 
 }  // namespace armature

@@ -24,9 +24,9 @@ nlohmann::json about(const std::string& what, const nlohmann::json& told) {
 }
 
 TEST(DoctorCommand, SaysALineForEachFindingAndEndsByItsProblems) {
-  const auto json = run_command({armature(), "doctor", "--json"});
-  const auto told = nlohmann::json::parse(json.out);
-  EXPECT_EQ(json.exit_code, told.at("problems") == 0 ? 0 : 1) << json.out;
+  const auto as_json = run_command({armature(), "doctor", "--json"});
+  const auto told = nlohmann::json::parse(as_json.out);
+  EXPECT_EQ(as_json.exit_code, told.at("problems") == 0 ? 0 : 1) << as_json.out;
   const auto text = run_command({armature(), "doctor"});
   EXPECT_EQ(std::count(text.out.begin(), text.out.end(), '\n'), told.at("findings").size());
   std::istringstream lines{text.out};

@@ -51,10 +51,6 @@ Eigen::Isometry3d placed(const Vector3d& position, double yaw, double pitch) {
          (Eigen::AngleAxisd{yaw, Vector3d::UnitY()} * Eigen::AngleAxisd{pitch, Vector3d::UnitX()});
 }
 
-double angle(const Vector3d& a, const Vector3d& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b));
-}
-
 TEST(ThreePoint, AveragesLandmarksWithoutRounding) {
   ThreePoint estimator{{}};
   PluginState state;

@@ -5,15 +5,14 @@ set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
-set(CMAKE_CXX_VISIBILITY_PRESET default)
 if(NOT CMAKE_BUILD_TYPE)
   set(CMAKE_BUILD_TYPE Release)
 endif()
 string(REPLACE "-O3" "-O2" CMAKE_CXX_FLAGS_RELEASE "${CMAKE_CXX_FLAGS_RELEASE}")
 
-set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/bin")
-set(CMAKE_LIBRARY_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/lib")
-set(ARMATURE_PLUGIN_BUILD_DIR "${CMAKE_BINARY_DIR}/lib/armature/plugins")
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${Armature_BINARY_DIR}/bin")
+set(CMAKE_LIBRARY_OUTPUT_DIRECTORY "${Armature_BINARY_DIR}/lib")
+set(ARMATURE_PLUGIN_BUILD_DIR "${Armature_BINARY_DIR}/lib/armature/plugins")
 set(CMAKE_INSTALL_RPATH "$ORIGIN/../lib;$ORIGIN")
 
 find_program(CCACHE_PROGRAM ccache)
@@ -36,10 +35,12 @@ target_compile_features(armature_abi INTERFACE cxx_std_20)
 target_compile_definitions(armature_abi INTERFACE EIGEN_MAX_ALIGN_BYTES=16
                                                   EIGEN_MALLOC_ALREADY_ALIGNED=1)
 target_compile_options(armature_abi INTERFACE $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-fno-gnu-unique>)
-# Sources say #include "armature/robot/...", here and after installation.
-target_include_directories(armature_abi INTERFACE $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}/framework>
-                                                  $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+# Libraries hide what their exported headers do not declare: `namespace armature ARMATURE_EXPORT {`. For
+# all others the word means nothing, so that what they compile of a header stays their own.
+target_compile_definitions(armature_abi INTERFACE
+  "ARMATURE_EXPORT=$<$<BOOL:$<TARGET_PROPERTY:ARMATURE_EXPORTS>>:__attribute__((visibility(\"default\")))>")
 target_link_libraries(armature_abi INTERFACE tl::expected)
+target_include_directories(armature_abi INTERFACE $<BUILD_INTERFACE:${Armature_BINARY_DIR}/generated>)
 
 # The compiler collects its garbage too often for a machine that has memory.
 add_compile_options($<$<COMPILE_LANG_AND_ID:CXX,GNU>:--param=ggc-min-heapsize=1000000>
@@ -60,22 +61,24 @@ if(ARMATURE_SANITIZE)
 endif()
 
 # Most of a file's compile time is reading Eigen and the standard library: each precompiled once,
-# for libraries and commands, for plugins (which hide their symbols) and for tests. The preset `dev`
+# for libraries, for programs, for plugins and for tests. The preset `dev`
 # builds without them, so that a forgotten #include is found.
-#   armature_precompile(robot code)
+#   armature_precompile(robot libraries)
 function(armature_precompile target purpose)
   if(NOT ARMATURE_PRECOMPILE)
     return()
   endif()
   set(precompiled armature_precompiled_${purpose})
   if(NOT TARGET ${precompiled})
-    file(WRITE "${CMAKE_BINARY_DIR}/${precompiled}.cpp" "")
-    add_library(${precompiled} OBJECT "${CMAKE_BINARY_DIR}/${precompiled}.cpp")
+    file(WRITE "${Armature_BINARY_DIR}/${precompiled}.cpp" "")
+    add_library(${precompiled} OBJECT "${Armature_BINARY_DIR}/${precompiled}.cpp")
     target_link_libraries(${precompiled} PRIVATE Armature::abi armature_warnings Eigen3::Eigen fmt::fmt)
-    target_precompile_headers(${precompiled} PRIVATE "${CMAKE_SOURCE_DIR}/cmake/precompiled.hpp")
-    if(purpose STREQUAL "plugins")
-      set_target_properties(${precompiled} PROPERTIES CXX_VISIBILITY_PRESET hidden
-                                                      VISIBILITY_INLINES_HIDDEN ON)
+    target_precompile_headers(${precompiled} PRIVATE "${Armature_SOURCE_DIR}/cmake/precompiled.hpp")
+    # The flags must be those of the files that use it.
+    if(purpose STREQUAL "libraries")
+      set_target_properties(${precompiled} PROPERTIES CXX_VISIBILITY_PRESET hidden ARMATURE_EXPORTS ON)
+    elseif(purpose STREQUAL "plugins")
+      set_target_properties(${precompiled} PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
     endif()
   endif()
   target_precompile_headers(${target} REUSE_FROM ${precompiled})
@@ -90,19 +93,30 @@ function(armature_compile_together target files)
   endif()
 endfunction()
 
-# armature_add_library(robot SOURCES a.cpp ... LINK Eigen3::Eigen ... PRIVATE yaml-cpp ...)
-# A shared library libarmature_<name> with the alias Armature::<name>.
+# armature_add_library(robot SOURCES a.cpp ... HEADERS a.hpp ... LINK Eigen3::Eigen ... PRIVATE yaml-cpp ...)
+# A shared library libarmature_<name> with the alias Armature::<name>. HEADERS are those that others may
+# include: they are installed, and their tokens make the tag by which a plugin that was built with
+# others is refused. Without SOURCES: a library of headers.
 function(armature_add_library name)
-  cmake_parse_arguments(arg "" "" "SOURCES;LINK;PRIVATE" ${ARGN})
+  cmake_parse_arguments(arg "" "" "SOURCES;HEADERS;LINK;PRIVATE" ${ARGN})
+  if(NOT arg_SOURCES)
+    add_library(armature_${name} INTERFACE)
+    add_library(Armature::${name} ALIAS armature_${name})
+    set_target_properties(armature_${name} PROPERTIES EXPORT_NAME ${name})
+    target_link_libraries(armature_${name} INTERFACE Armature::abi ${arg_LINK})
+    armature_public_headers(${name} "${arg_HEADERS}" "${arg_LINK}" INTERFACE)
+    return()
+  endif()
   add_library(armature_${name} SHARED ${arg_SOURCES})
   add_library(Armature::${name} ALIAS armature_${name})
   set_target_properties(armature_${name} PROPERTIES EXPORT_NAME ${name} VERSION ${PROJECT_VERSION}
-                                                    SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+                                                    SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
+                                                    CXX_VISIBILITY_PRESET hidden ARMATURE_EXPORTS ON)
   target_link_libraries(armature_${name} PUBLIC Armature::abi ${arg_LINK}
                                          PRIVATE $<BUILD_INTERFACE:armature_warnings> ${arg_PRIVATE})
-  armature_precompile(armature_${name} code)
+  armature_precompile(armature_${name} libraries)
   armature_compile_together(armature_${name} 8)
-  install(TARGETS armature_${name} EXPORT ArmatureTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  armature_public_headers(${name} "${arg_HEADERS}" "${arg_LINK}" PUBLIC)
 endfunction()
 
 # What every test links: GoogleTest and the flags and the precompiled header of tests.
@@ -110,8 +124,8 @@ function(armature_test_main)
   if(TARGET armature_test_main)
     return()
   endif()
-  file(WRITE "${CMAKE_BINARY_DIR}/test_main.cpp" "#include <gtest/gtest.h>\n")
-  add_library(armature_test_main STATIC "${CMAKE_BINARY_DIR}/test_main.cpp")
+  file(WRITE "${Armature_BINARY_DIR}/test_main.cpp" "#include <gtest/gtest.h>\n")
+  add_library(armature_test_main STATIC "${Armature_BINARY_DIR}/test_main.cpp")
   target_link_libraries(armature_test_main PUBLIC GTest::gmock GTest::gtest GTest::gtest_main)
   target_link_libraries(armature_test_main PUBLIC Armature::abi Eigen3::Eigen fmt::fmt
                                            PRIVATE armature_warnings)
@@ -122,7 +136,7 @@ function(armature_test_main)
     -Wno-stringop-overread -Wno-restrict)
   if(ARMATURE_PRECOMPILE)
     target_precompile_headers(armature_test_main PRIVATE
-                              "${CMAKE_SOURCE_DIR}/tests/precompiled.hpp")
+                              "${Armature_SOURCE_DIR}/tests/precompiled.hpp")
     target_include_directories(armature_test_main SYSTEM PRIVATE
                                "${ARMATURE_GENERATED_DIR}" "${ARMATURE_GENERATED_DIR}/armature_messages")
     add_dependencies(armature_test_main armature_idl)
@@ -134,9 +148,9 @@ endfunction()
 function(armature_compile_as_test target)
   armature_test_main()
   target_link_libraries(${target} PUBLIC armature_test_main PRIVATE armature_warnings)
-  target_include_directories(${target} PRIVATE "${CMAKE_SOURCE_DIR}")  # "tests/dds_domain.hpp"
+  target_include_directories(${target} PRIVATE "${Armature_SOURCE_DIR}")  # "tests/dds_domain.hpp"
   target_compile_definitions(${target} PRIVATE
-    ARMATURE_SOURCE_DIR="${CMAKE_SOURCE_DIR}" ARMATURE_BINARY_DIR="${CMAKE_BINARY_DIR}"
+    ARMATURE_SOURCE_DIR="${Armature_SOURCE_DIR}" ARMATURE_BINARY_DIR="${Armature_BINARY_DIR}"
     ARMATURE_PLUGIN_BUILD_DIR="${ARMATURE_PLUGIN_BUILD_DIR}")
   if(ARMATURE_PRECOMPILE)
     target_precompile_headers(${target} REUSE_FROM armature_test_main)
@@ -165,6 +179,10 @@ function(armature_add_test name)
     return()
   endif()
   cmake_parse_arguments(arg "SEPARATELY" "TIMEOUT" "SOURCES;LINK;DEPENDS;LABELS" ${ARGN})
+  armature_left_out(left_out "${name}" ${arg_LINK})
+  if(left_out)
+    return()
+  endif()
   if(NOT arg_TIMEOUT)
     set(arg_TIMEOUT 60)
   endif()
@@ -177,7 +195,7 @@ function(armature_add_test name)
   if(NOT arg_SEPARATELY)
     armature_compile_together(${name} 16)
   endif()
-  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/tests")
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${Armature_BINARY_DIR}/tests")
   if(arg_DEPENDS)
     add_dependencies(${name} ${arg_DEPENDS})
   endif()
@@ -189,6 +207,10 @@ endfunction()
 # armature_add_contract(path [SOURCES sound_path.cpp] LINK Armature::path): laws.cpp and SOURCES, what
 # every plugin of a kind keeps; for the tests of the plugins and for `armature plugin verify`.
 function(armature_add_contract kind)
-  cmake_parse_arguments(arg "" "" "SOURCES;LINK;PRIVATE" ${ARGN})
-  armature_add_library(${kind}_contract SOURCES laws.cpp ${arg_SOURCES} LINK Armature::laws ${arg_LINK} PRIVATE fmt::fmt ${arg_PRIVATE})
+  cmake_parse_arguments(arg "" "" "SOURCES;HEADERS;LINK;PRIVATE" ${ARGN})
+  armature_add_library(${kind}_contract
+    SOURCES laws.cpp ${arg_SOURCES}
+    HEADERS contract.hpp laws.hpp ${arg_HEADERS}
+    LINK Armature::laws ${arg_LINK}
+    PRIVATE fmt::fmt ${arg_PRIVATE})
 endfunction()

@@ -11,18 +11,68 @@
 # TEST_ONLY: for the framework's own tests; kept apart from the plugins and not installed.
 # TEST_OPTIONS: of armature_add_test.
 
-set(ARMATURE_PLUGIN_TEMPLATE "${CMAKE_CURRENT_LIST_DIR}/plugin_manifest.cpp.in")
+# armature_left_out(result id Armature::runtime opencv::core ...): true, with a line that says so, when
+# one of the libraries is not built because of ARMATURE_DDS or ARMATURE_VISION.
+function(armature_left_out result id)
+  set(${result} OFF PARENT_SCOPE)
+  if(NOT DEFINED ARMATURE_DDS OR (ARMATURE_DDS AND ARMATURE_VISION))
+    return()
+  endif()
+  foreach(library ${ARGN})
+    if(library MATCHES "::" AND NOT TARGET ${library})
+      message(STATUS "${id} is left out: there is no ${library} here")
+      set(${result} ON PARENT_SCOPE)
+      return()
+    endif()
+  endforeach()
+endfunction()
+
+# armature_header_tags_of(result ik Armature::ik fmt::fmt ...): the text of C++ that appends the tags of
+# the kind's library and of the named ones to the ABI tag.
+function(armature_header_tags_of result kind)
+  set(library_of_component runtime)
+  set(library_of_transport bus)
+  set(library_of_observer dds_observer)
+  if(DEFINED library_of_${kind})
+    set(library ${library_of_${kind}})
+  else()
+    set(library ${kind})
+  endif()
+  if(NOT TARGET Armature::${library})
+    message(FATAL_ERROR "${CMAKE_CURRENT_SOURCE_DIR}/plugin.yaml: there is no kind '${kind}'")
+  endif()
+  set(text "")
+  foreach(link Armature::${library} ${ARGN})
+    string(REGEX REPLACE "^Armature::" "" name "${link}")
+    if(TARGET ${link})
+      get_target_property(tagged ${link} ARMATURE_TAGGED)
+      if(tagged)
+        string(APPEND text " \", \" ARMATURE_HEADERS_${name}")
+      endif()
+    endif()
+  endforeach()
+  set(${result} "${text}" PARENT_SCOPE)
+endfunction()
 
 function(armature_add_plugin id)
   cmake_parse_arguments(arg "TEST_ONLY" ""
                         "SOURCES;LINK;TESTS;TEST_LINK;TEST_OPTIONS;VERIFY" ${ARGN})
   string(REPLACE "/" "_" target "${id}")
   list(FIND ARGN VERIFY verify_at)
+  armature_left_out(left_out "${id}" ${arg_LINK})
+  if(left_out)
+    return()
+  endif()
 
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS
                                          "${CMAKE_CURRENT_SOURCE_DIR}/plugin.yaml")
   file(READ "${CMAKE_CURRENT_SOURCE_DIR}/plugin.yaml" ARMATURE_PLUGIN_MANIFEST)
-  configure_file("${ARMATURE_PLUGIN_TEMPLATE}" "${CMAKE_CURRENT_BINARY_DIR}/${target}_manifest.cpp"
+  if(NOT "\n${ARMATURE_PLUGIN_MANIFEST}" MATCHES "\nkind: *([a-z_]+)")
+    message(FATAL_ERROR "${CMAKE_CURRENT_SOURCE_DIR}/plugin.yaml: has no line 'kind: ...'")
+  endif()
+  set(kind "${CMAKE_MATCH_1}")
+  armature_header_tags_of(ARMATURE_PLUGIN_HEADERS "${kind}" ${arg_LINK})
+  configure_file("${CMAKE_CURRENT_FUNCTION_LIST_DIR}/plugin_manifest.cpp.in" "${CMAKE_CURRENT_BINARY_DIR}/${target}_manifest.cpp"
                  @ONLY)
 
   set(parameters "${CMAKE_CURRENT_BINARY_DIR}/${target}_parameters.hpp")
@@ -39,12 +89,17 @@ function(armature_add_plugin id)
   endif()
   set_target_properties(${target} PROPERTIES PREFIX "" CXX_VISIBILITY_PRESET hidden
                                              VISIBILITY_INLINES_HIDDEN ON)
+  set(of_the_framework OFF)
+  if(PROJECT_NAME STREQUAL "Armature")
+    set(of_the_framework ON)
+    add_dependencies(${target} armature_header_tags)
+  endif()
   if(arg_TEST_ONLY)
     target_link_libraries(${target} PRIVATE armature_warnings)
     set_target_properties(${target} PROPERTIES
-      LIBRARY_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/tests/plugins")
+      LIBRARY_OUTPUT_DIRECTORY "${Armature_BINARY_DIR}/tests/plugins")
     armature_precompile(${target} plugins)
-  elseif(TARGET armature_warnings)  # in the framework's own tree
+  elseif(of_the_framework)
     target_link_libraries(${target} PRIVATE armature_warnings)
     set_target_properties(${target} PROPERTIES
       LIBRARY_OUTPUT_DIRECTORY "${ARMATURE_PLUGIN_BUILD_DIR}" INSTALL_RPATH "$ORIGIN/../..")
@@ -53,7 +108,6 @@ function(armature_add_plugin id)
     armature_precompile(${target} plugins)
     armature_compile_together(${target} 8)
     if(arg_TESTS)
-      string(REGEX REPLACE "/.*" "" kind "${id}")
       if(TARGET Armature::${kind}_contract)  # the laws of its kind
         list(APPEND arg_TEST_LINK Armature::${kind}_contract)
       endif()
@@ -66,9 +120,10 @@ function(armature_add_plugin id)
   elseif(arg_TESTS)  # of somebody else's project: a program that ends with 0
     add_executable(${target}_test ${arg_TESTS})
     add_dependencies(${target}_test ${target})
-    string(REGEX REPLACE "/.*" "" kind "${id}")
     if(TARGET Armature::${kind}_verify)
       list(APPEND arg_TEST_LINK Armature::${kind}_verify)
+    elseif(TARGET Armature::${kind}_contract)
+      list(APPEND arg_TEST_LINK Armature::${kind}_contract)
     endif()
     target_link_libraries(${target}_test PRIVATE Armature::abi ${arg_LINK} ${arg_TEST_LINK})
     target_include_directories(${target}_test PRIVATE "${CMAKE_CURRENT_BINARY_DIR}")

@@ -8,6 +8,7 @@
 
 #include "armature/config/problems.hpp"
 #include "armature/runtime/plugins/plugin_registry.hpp"
+#include "colour.hpp"
 
 namespace armature {
 
@@ -39,7 +40,7 @@ int exit_code_of(const std::function<int()>& action) {
     std::fprintf(stderr, "%s\n", error.what());
     return exit_code_of(error);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "armature: %s\n", error.what());
+    std::fprintf(stderr, "%s %s\n", coloured("armature:", Tone::bad, stderr).c_str(), error.what());
     return exit_code_of(error);
   }
 }

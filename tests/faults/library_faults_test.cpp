@@ -10,7 +10,6 @@
 #include <fstream>
 #include <thread>
 
-#include "armature/runtime/plugins/abi.hpp"
 #include "command.hpp"
 
 namespace armature::test {
@@ -100,8 +99,7 @@ TEST(FaultyLibrary, OneThatHangsWhileItIsTriedGoesWithTheProgram) {
 TEST(FaultyLibrary, OneBuiltForAnotherFrameworkIsRefusedWithBothTags) {
   const auto result = ik_with("ik/old");
   EXPECT_EQ(result.exit_code, 4);
-  EXPECT_NE(result.err.find("built for [armature 0, compiler abi 1014], this is "
-                            "[armature " ARMATURE_ABI_TEXT(ARMATURE_FRAMEWORK_ABI) ", "),
+  EXPECT_NE(result.err.find("built for [armature 0, compiler abi 1014], this is [compiler abi "),
             std::string::npos)
       << result.err;
   EXPECT_NE(result.err.find("rebuild the plugin"), std::string::npos);

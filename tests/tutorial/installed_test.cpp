@@ -13,6 +13,7 @@
 
 #include "../text_of.hpp"
 #include "command.hpp"
+#include "page.hpp"
 
 namespace armature::test {
 namespace {
@@ -68,13 +69,6 @@ TEST_F(Installed, ANewPluginIsBuiltTestedVerifiedMeasuredAndDeployedAsItsReadmeS
                             "SHA-256 of the arm's trajectory"}) {
     EXPECT_NE(result.out.find(shown), std::string::npos) << shown << "\n" << result.out;
   }
-}
-
-/// The lines between ```language and the next ``` of a page.
-std::string block_of(const std::string& page, const std::string& language) {
-  const std::string opening = "```" + language + "\n";
-  const std::size_t begin = page.find(opening) + opening.size();
-  return page.substr(begin, page.find("```", begin) - begin);
 }
 
 TEST_F(Installed, TheLibraryPageBuildsAndRuns) {

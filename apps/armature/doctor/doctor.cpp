@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "colour.hpp"
 #include "doctor/gather.hpp"
 #include "doctor/judge.hpp"
 #include "exit_code.hpp"
@@ -38,9 +39,16 @@ std::string one_line(std::string text) {
   return text;
 }
 
+std::string level_text(Level level) {
+  const Tone tone = level == Level::problem   ? Tone::bad
+                    : level == Level::warning ? Tone::doubtful
+                                              : Tone::good;
+  return coloured(fmt::format("{:<8}", to_string(level)), tone, stdout);
+}
+
 void print_text(const std::vector<Finding>& findings) {
   for (const Finding& finding : findings) {
-    fmt::print("{:<8} {:<22} {}; {}{}\n", to_string(finding.level), finding.what,
+    fmt::print("{} {:<22} {}; {}{}\n", level_text(finding.level), finding.what,
                one_line(finding.value), finding.meaning,
                finding.hint.empty() ? "" : "; try: " + finding.hint);
   }

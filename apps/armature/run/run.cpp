@@ -29,6 +29,7 @@
 #include "armature/runtime/reporting/run_report.hpp"
 #include "armature/runtime/reporting/write_atomically.hpp"
 #include "armature/values/sanitizer.hpp"
+#include "colour.hpp"
 #include "exit_code.hpp"
 #include "inspect/plugins.hpp"
 #include "run/console.hpp"
@@ -166,7 +167,10 @@ int conclude(const RunOptions& options, const Deployment& deployment,
   if (options.json) {
     fmt::print("{}\n", to_json(report));
   } else {
-    fmt::print("{}", to_table(report));
+    const auto mark = [](std::string_view word, bool good) {
+      return coloured(word, good ? Tone::good : Tone::bad, stdout);
+    };
+    fmt::print("{}", to_table(report, mark));
   }
   std::fflush(stdout);
   last_word.result_told();
@@ -289,6 +293,11 @@ DeploymentConfig read(const DeploymentSource& source, PluginRegistry& plugins,
   return config;
 }
 
+/// What a run says first: a component may take seconds to read what it needs.
+std::string starting_text(const DeploymentConfig& config) {
+  return fmt::format("starting {}: {} components", config.name, config.components.size());
+}
+
 int run(const RunOptions& options) {
   const bool is_child = !options.process.empty();
   // Another process of a deployment just ends: its main process tells, and asks it for no JSON.
@@ -300,7 +309,8 @@ int run(const RunOptions& options) {
   std::vector<std::string> notes;
   DeploymentConfig config = read(options.source, plugins, notes);
   if (!is_child) {
-    for (const std::string& note : notes) fmt::print(stderr, "warning: {}\n", note);
+    for (const std::string& note : notes)
+      fmt::print(stderr, "{} {}\n", coloured("warning:", Tone::doubtful, stderr), note);
   }
   Process process{.name = is_child ? options.process : std::string{kMainProcess},
                   .domain = options.domain.value_or(config.domain),
@@ -327,6 +337,7 @@ int run(const RunOptions& options) {
   LastWord last_word{options, console, is_child ? &*child_watch : nullptr};
   EndWatch end_watch{last_word.timeout(), [&](const auto& hung) { last_word.leave(hung); }};
   name_crashing_components();
+  if (!is_child) console.line("runtime", starting_text(config));
   Deployment deployment{
       std::move(config),
       plugins,

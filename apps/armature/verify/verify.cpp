@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "armature/runtime/plugins/plugin_registry.hpp"
+#include "colour.hpp"
 #include "exit_code.hpp"
 #include "inspect/plugins.hpp"
 #include "isolated.hpp"
@@ -126,7 +127,9 @@ void print_law(const Json& law) {
     remark = fmt::format("{} of {} answers{}{}", law["failed"].get<int>(),
                          law["questions"].get<int>(), remark.empty() ? "" : "; ", remark);
   }
-  fmt::print("  {:<4}  {:<46} {:>6.2f} s  {}\n", result == "fail" ? "FAIL" : result,
+  const Tone tone = result == "fail" ? Tone::bad : result == "skip" ? Tone::doubtful : Tone::good;
+  fmt::print("  {}  {:<46} {:>6.2f} s  {}\n",
+             coloured(fmt::format("{:<4}", result == "fail" ? "FAIL" : result), tone, stdout),
              law["law"].get<std::string>(), law["seconds"].get<double>(), remark);
   for (const Json& violation : law["violations"]) {
     fmt::print("          {}\n", violation["what"].get<std::string>());

@@ -8,7 +8,7 @@
 
 #include "armature/values/expected.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// A network interface of this machine, as far as DDS over IPv4 needs to know it.
 struct NetworkInterface {

@@ -6,7 +6,7 @@
 
 #include "armature/values/time.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// The named QoS profiles; every field is stated, nothing is left to a middleware's default.
 ///   sensor   best effort reader, reliable writer, volatile, the newest two

@@ -12,7 +12,7 @@
 #include "armature/values/real_time_mutex.hpp"
 #include "armature/values/time.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// What travels beside a message.
 struct SampleInfo {

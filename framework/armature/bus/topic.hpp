@@ -11,7 +11,7 @@
 #include "armature/bus/sample.hpp"
 #include "armature/bus/transport.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// Where a topic's samples go inside this process.
 class Subscriber {

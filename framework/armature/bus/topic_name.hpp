@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// "/a/b" or "a/b" -> "rt/a/b", as ROS 2 names its topics in DDS; "rt/a/b" stays.
 std::string dds_topic_name(const std::string& name);

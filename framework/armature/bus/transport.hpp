@@ -13,7 +13,7 @@
 #include "armature/messages/message_type.hpp"
 #include "armature/values/expected.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// One topic as the outside sees it.
 struct TopicSpec {
@@ -95,7 +95,6 @@ struct TransportOptions {
 class Transport {
  public:
   static constexpr std::string_view kKind = "transport";
-  static constexpr int kKindVersion = 2;
   /// Refuses with a reason that names the way out.
   using Factory = Expected<std::unique_ptr<Transport>> (*)(const TransportOptions&);
 

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// Of a measurement left out of a fit: the mean square by which it is missed over `equations`, as a
 /// ratio to the mean square that remains of the others over their `freedom`.

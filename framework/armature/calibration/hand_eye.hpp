@@ -9,7 +9,7 @@
 #include "armature/robot/geometry/point_error.hpp"
 #include "armature/values/expected.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// At one moment: where the flange was, and where the tracker saw the body that is fixed to it.
 struct HandEyePose {

@@ -8,7 +8,7 @@
 #include "armature/robot/geometry/point_error.hpp"
 #include "armature/values/expected.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 struct PivotOptions {
   /// By which the body must turn about the axis that its turns are seen worst about, rms.

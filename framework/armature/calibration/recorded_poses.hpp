@@ -7,7 +7,7 @@
 #include "armature/calibration/hand_eye.hpp"
 #include "armature/robot/model/robot_model.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 // A file of recorded poses is JSON lines, one record each, or YAML:
 //

@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// What reasons are told in.
 constexpr double degrees(double rad) { return rad * 180 / std::numbers::pi; }

@@ -9,7 +9,8 @@
 
 #include "armature/config/node.hpp"
 
-namespace armature::config {
+namespace armature {
+namespace config ARMATURE_EXPORT {
 
 /// Why a node is not what it should be: "must be a number, not 'fast'", and where (an item of a
 /// list has its own place).
@@ -32,4 +33,5 @@ Converted<std::vector<double>> to_numbers(const Node& node, std::optional<std::s
 /// A list of texts, of any length.
 Converted<std::vector<std::string>> to_texts(const Node& node);
 
-}  // namespace armature::config
+}  // namespace config
+}  // namespace armature

@@ -9,7 +9,8 @@
 #include "armature/config/node.hpp"
 #include "armature/config/problems.hpp"
 
-namespace armature::config {
+namespace armature {
+namespace config ARMATURE_EXPORT {
 
 /// Reads one YAML file (or text) strictly: UTF-8, one document, no duplicate keys, nesting up to
 /// 100 levels; anchors, tags and `<<` merges are refused. `${NAME}` and `${NAME:-default}` are
@@ -48,4 +49,5 @@ std::string to_yaml(const Node& node, bool origins);
 /// without lines (`--set`, a default) the current one.
 std::filesystem::path folder_of(const Origin& origin);
 
-}  // namespace armature::config
+}  // namespace config
+}  // namespace armature

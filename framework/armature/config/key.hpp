@@ -9,7 +9,8 @@
 
 #include "armature/config/params.hpp"
 
-namespace armature::config {
+namespace armature {
+namespace config ARMATURE_EXPORT {
 
 /// One key that a file may have and that is no plugin's parameter. Reading asks for it, and the
 /// JSON Schema is made from it.
@@ -29,4 +30,5 @@ inline std::vector<std::string> choices_of(const Key& key) {
   return {key.choices.begin(), key.choices.end()};
 }
 
-}  // namespace armature::config
+}  // namespace config
+}  // namespace armature

@@ -9,7 +9,8 @@
 #include <string_view>
 #include <vector>
 
-namespace armature::config {
+namespace armature {
+namespace config ARMATURE_EXPORT {
 
 /// Where a value was written: `file:line:column`, both counted from 1; a line of 0 means that the
 /// place has no lines (`--set components.arm.plugin=...`, a default).
@@ -67,4 +68,5 @@ struct Node::Entry {
   Node value;
 };
 
-}  // namespace armature::config
+}  // namespace config
+}  // namespace armature

@@ -16,7 +16,7 @@
 #include "armature/config/node.hpp"
 #include "armature/config/problems.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// One parameter as a plugin declares it in its `plugin.yaml`; reading, checking, defaults,
 /// `armature plugin info` and the JSON Schema all come from it.

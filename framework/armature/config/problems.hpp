@@ -9,7 +9,8 @@
 
 #include "armature/config/node.hpp"
 
-namespace armature::config {
+namespace armature {
+namespace config ARMATURE_EXPORT {
 
 /// One thing that is wrong in a file, ready to print as `file:line:column: message`.
 struct Problem {
@@ -52,4 +53,5 @@ std::string in_quotes(std::string_view text);
 /// near, "; known: a, b, c" (at most eight), or "" when nothing is known.
 std::string did_you_mean(std::string_view wrong, std::span<const std::string> known);
 
-}  // namespace armature::config
+}  // namespace config
+}  // namespace armature

@@ -11,7 +11,8 @@
 #include "armature/config/node.hpp"
 #include "armature/config/problems.hpp"
 
-namespace armature::config {
+namespace armature {
+namespace config ARMATURE_EXPORT {
 
 /// A value's conversion, or a problem already noted. Numbers: decimal integers and floats that a
 /// double can hold; `.inf`, `.nan`, `1_000`, `0x10` and quoted numbers are refused, `010` as
@@ -68,4 +69,5 @@ class MapReader {
   std::set<std::string, std::less<>> asked_;
 };
 
-}  // namespace armature::config
+}  // namespace config
+}  // namespace armature

@@ -8,7 +8,8 @@
 
 #include "armature/config/node.hpp"
 
-namespace armature::config {
+namespace armature {
+namespace config ARMATURE_EXPORT {
 
 /// While one exists, all pipes that its thread reads together may be waited for for 2 s: what one
 /// load asks for would otherwise take as long as it names pipes. One inside another's life changes
@@ -47,4 +48,5 @@ class SourceText {
   std::vector<std::size_t> continuation_bytes_;  // those that start no character
 };
 
-}  // namespace armature::config
+}  // namespace config
+}  // namespace armature

@@ -4,7 +4,8 @@
 #include <string>
 #include <string_view>
 
-namespace armature::config {
+namespace armature {
+namespace config ARMATURE_EXPORT {
 
 /// The unit that the end of a key states: `tilt_deg`, `max_velocity_mm_s`.
 struct UnitSuffix {
@@ -26,4 +27,5 @@ double si_factor(std::string_view key);
 /// empty: nothing. The text begins with that end, and names what may stand there.
 std::string unknown_unit(std::string_view key);
 
-}  // namespace armature::config
+}  // namespace config
+}  // namespace armature

@@ -7,7 +7,8 @@
 
 #include "armature/config/node.hpp"
 
-namespace armature::config {
+namespace armature {
+namespace config ARMATURE_EXPORT {
 
 /// One YAML document as nodes, by the rules of `parse_text`. With `origin`, every node comes from
 /// there (a value of `--set`), else from its line and column in the text called `name`. Throws
@@ -20,4 +21,5 @@ Node parse_yaml(std::string text, std::string_view name,
 /// shown.
 Node parse_document(std::string text, std::string_view name);
 
-}  // namespace armature::config
+}  // namespace config
+}  // namespace armature

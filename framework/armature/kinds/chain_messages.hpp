@@ -9,7 +9,7 @@
 #include "armature/robot/geometry/guided_chain.hpp"
 #include "armature/values/expected.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// The links of a guided chain, as ROS tells frames. Of a map that is not rigid the rotation only.
 inline void write_chain(const GuidedChain& chain, Time stamp, msg::TFMessage& message) {

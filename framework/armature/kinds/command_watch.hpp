@@ -9,7 +9,7 @@
 #include "armature/values/inline_text.hpp"
 #include "armature/values/time.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// Tells the driver of an arm whether to follow its newest command, or to bring the arm to rest by
 /// itself. Real-time safe.

@@ -7,7 +7,7 @@
 #include "armature/config/document.hpp"
 #include "armature/config/params.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// The parameters that a `plugin.yaml` declares, with those of the YAML map `given` in place of
 /// their defaults: for tests and tools that make a plugin's class themselves. Throws

@@ -8,7 +8,7 @@
 
 #include "armature/kinds/image_view.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// The pixels of an image for tests, rows one behind the other.
 struct Picture {

@@ -11,7 +11,7 @@
 #include "armature/config/params.hpp"
 #include "armature/robot/geometry/rotation.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 // Points and poses that a deployment states as lists of numbers.
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// A mono8 image that somebody else owns; `stride` bytes from row to row.
 struct ImageView {

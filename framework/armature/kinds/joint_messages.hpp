@@ -9,7 +9,7 @@
 #include "armature/values/expected.hpp"
 #include "armature/values/time.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 // Topics show all joints, coupled ones included; RobotModel::contract and contract_rates read them.
 

@@ -6,7 +6,7 @@
 #include "armature/config/params.hpp"
 #include "armature/values/expected.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 class RobotModel;
 

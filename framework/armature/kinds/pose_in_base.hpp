@@ -10,7 +10,7 @@
 #include "armature/robot/geometry/pose_goal.hpp"
 #include "armature/values/expected.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 // What stands in a message about where something is, checked: "the master is stated in frame
 // 'camera', not in 'base'", "the master's quaternion has length 0, not 1". Real-time safe but for

@@ -11,7 +11,7 @@
 #include "armature/messages/geometry_msgs.hpp"
 #include "armature/runtime/component/setup.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// How the markers of an image lie before a robot: a task's question to a registration, and the
 /// answers to it. Claims the output `request` and the input `registration`; reads `marker_error_mm`

@@ -5,7 +5,7 @@
 
 #include "armature/messages/armature_msgs.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// The 3 x 4 numbers of a registration's answer, row by row.
 inline Eigen::Affine3d robot_T_image_of(const msg::RegistrationResponse& response) {

@@ -9,7 +9,7 @@
 #include "armature/runtime/component/component.hpp"
 #include "armature/runtime/component/setup.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// Runs a solver alone on the topics `request` and `response`: every request is answered once, in
 /// order, under its own header and id; a bad one with a reason.

@@ -6,7 +6,7 @@
 #include "armature/values/inline_text.hpp"
 #include "armature/values/time.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// Where an arm shall be: independent joints [rad or m] and their rates, for the instant `stamp`.
 struct ServoCommand {

@@ -6,7 +6,7 @@
 #include "armature/robot/model/robot_model.hpp"
 #include "armature/runtime/component/setup.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// Where a robot's tools are mounted.
 struct Flange {

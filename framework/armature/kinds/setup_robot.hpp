@@ -7,7 +7,7 @@
 #include "armature/robot/model/robot_model.hpp"
 #include "armature/runtime/component/setup.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// The robot (rig) that the deployment binds to this component; plugin.yaml says `uses: [robot]`
 /// (`[rig]`). Throws config::ConfigError with every problem of the file.

@@ -7,7 +7,7 @@
 #include "armature/messages/geometry.hpp"
 #include "armature/robot/geometry/pose_goal.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 // Every message that holds a pose of the tool (ToolPose, IkRequest, MotionGoal) tells it by the
 // same four fields: position, pointing, direction, orientation. All real-time safe.

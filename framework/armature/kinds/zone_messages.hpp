@@ -7,7 +7,7 @@
 #include "armature/messages/geometry.hpp"
 #include "armature/robot/geometry/forbidden_zone.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 inline std::vector<ForbiddenZone> zones_of(const std::vector<msg::ForbiddenZone>& messages) {
   std::vector<ForbiddenZone> zones;

@@ -8,7 +8,7 @@
 
 #include "armature/laws/law.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// A GoogleTest of one law: fails with the first answers that break it.
 inline void expect_kept(const LawReport& report) {

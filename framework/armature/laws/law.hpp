@@ -11,7 +11,7 @@
 
 // Laws that every plugin of a kind keeps, as functions without a test framework, so that one table
 // serves tests and `armature plugin verify`.
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// One answer that breaks a law.
 struct LawViolation {

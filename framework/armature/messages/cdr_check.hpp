@@ -6,7 +6,7 @@
 
 #include "armature/messages/type_description.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// Whether `cdr` (with its encapsulation header) is an encoding of `type`: every length that stands
 /// in it fits into what is there. Decoding what passed allocates no more than the bytes announce.

@@ -7,7 +7,7 @@
 
 #include "armature/messages/type_description.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// How arrays of bytes (images) are shown.
 enum class OctetArrays { shortened, whole };

@@ -6,7 +6,7 @@
 
 #include "armature/messages/geometry_msgs.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 // Between messages and Eigen, both ways; all real-time safe. A Transform or Pose in a message with
 // frame_id a and (child) frame b is a_T_b.

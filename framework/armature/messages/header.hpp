@@ -8,7 +8,7 @@
 #include "armature/messages/stamp.hpp"
 #include "armature/messages/std_msgs.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// The frame at the foot of an arm, in which its poses are told.
 inline constexpr std::string_view kBaseFrame = "base";

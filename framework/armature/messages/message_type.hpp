@@ -9,7 +9,7 @@
 
 #include "armature/values/time.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// What the bus needs to know of a message type, without knowing it: name, layout, life, encoding.
 /// One constant per type; all of them live in the shared library armature_messages.

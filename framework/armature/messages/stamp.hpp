@@ -4,7 +4,7 @@
 #include "armature/messages/builtin_interfaces.hpp"
 #include "armature/values/time.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// A message's stamp as an instant of the deployment's clock. Real-time safe.
 inline Time stamp_of(const msg::Time& stamp) {

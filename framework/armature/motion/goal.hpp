@@ -12,7 +12,7 @@
 #include "armature/values/expected.hpp"
 #include "armature/values/inline_text.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// How a goal is to be reached.
 enum class MotionMode {

@@ -12,7 +12,7 @@
 #include "armature/motion/rest_watch.hpp"
 #include "armature/motion/tracking.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// What became of a goal; the numbers are those of MotionStatus.
 struct GoalStatus {

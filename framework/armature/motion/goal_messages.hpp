@@ -7,7 +7,7 @@
 #include "armature/motion/goal.hpp"
 #include "armature/motion/pursued_goal.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 // Between a task and the motion component: a goal there, what became of it back.
 

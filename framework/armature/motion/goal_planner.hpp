@@ -9,7 +9,7 @@
 #include "armature/motion/plan.hpp"
 #include "armature/runtime/component/slot.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// The four slots of the motion component.
 struct PlanStages {

@@ -6,7 +6,7 @@
 #include "armature/robot/model/robot_model.hpp"
 #include "armature/values/inline_text.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// One number for joints that turn, one for joints that slide.
 struct JointBound {

@@ -3,7 +3,7 @@
 
 #include "armature/motion/joint_bound.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// `model` with limits that are `margin` narrower at both ends: what a solver keeps free to a
 /// joint's limits, so that the curve between its answers, which swings out where they turn along a

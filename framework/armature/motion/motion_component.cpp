@@ -213,7 +213,6 @@ namespace {
 /// The plugin `motion`: one entry in a deployment, two units at run time.
 struct MotionUnits {
   static constexpr std::string_view kKind = Component::kKind;
-  static constexpr int kKindVersion = Component::kKindVersion;
   using Factory = Component::Factory;
 
   static std::unique_ptr<Component> make(Setup& setup) {

@@ -255,7 +255,7 @@ class NoIk final : public IkSolver {
 };
 
 SlotPlugin solver(const PluginManifest& manifest) {
-  return {plugins().load(manifest, IkSolver::kKind, IkSolver::kKindVersion), manifest, {}};
+  return {plugins().load(manifest, IkSolver::kKind), manifest, {}};
 }
 
 TEST_F(MotionComponentTest, PlansWithWhicheverSolverSitsInItsSlot) {

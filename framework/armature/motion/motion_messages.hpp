@@ -7,7 +7,7 @@
 #include "armature/motion/goal_execution.hpp"
 #include "armature/motion/plan.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 // Between the motion component's values and its topics. Every writer fills every field; that of a
 // joint state is real-time safe once the message has had the robot's size.

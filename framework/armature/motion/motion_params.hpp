@@ -6,7 +6,7 @@
 #include "armature/motion/goal_planner.hpp"
 #include "motion_parameters.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 // What plugin.yaml's parameters mean, for both units of motion.
 

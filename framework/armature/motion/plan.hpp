@@ -11,7 +11,7 @@
 #include "armature/robot/trajectories/trajectory.hpp"
 #include "armature/robot/trajectories/trajectory_check.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// What the stages of one goal decided.
 struct Plan {

@@ -7,7 +7,7 @@
 #include "armature/bus/sample.hpp"
 #include "armature/robot/trajectories/trajectory.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 // What goes back and forth between the unit that owns the reference and the one that plans.
 

@@ -9,7 +9,7 @@
 #include "armature/motion/goal.hpp"
 #include "armature/values/time.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// What the motion component said about a goal.
 struct GoalReport {

@@ -8,7 +8,7 @@
 #include "armature/robot/trajectories/short_trajectory.hpp"
 #include "armature/values/time.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// The commanded reference of one arm: q, v and a of the independent joints at every instant.
 /// A sequence of trajectories; each takes over at its own start and stays at its end. Real-time

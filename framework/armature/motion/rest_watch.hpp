@@ -7,7 +7,7 @@
 #include "armature/robot/model/joint_vector.hpp"
 #include "armature/values/time.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// Tells by an arm's own samples whether it rests: no joint was farther than its tolerance from one
 /// place for 50 ms. Real-time safe.

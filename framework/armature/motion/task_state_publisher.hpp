@@ -9,7 +9,7 @@
 #include "armature/messages/header.hpp"
 #include "armature/runtime/component/setup.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// What a task is doing: "searching", 4 of 9; why it does not go on.
 struct TaskReport {

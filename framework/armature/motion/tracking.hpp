@@ -12,7 +12,7 @@
 #include "armature/runtime/component/slot.hpp"
 #include "armature/values/inline_text.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 struct TrackingOptions {
   double shortest_horizon_s;

@@ -9,7 +9,7 @@
 // allocations) and its like. Defines these functions: include it in one source file of a program.
 // A sanitizer brings its own; nothing is counted then.
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 inline thread_local std::size_t allocation_count = 0;
 /// Called on every one, where it is set: for who counts otherwise than by thread.
 inline void (*on_allocation)() = nullptr;

@@ -5,7 +5,7 @@
 #include <tl/expected.hpp>
 #include <utility>
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// Why something could not be done, for a human: what was wrong, with the value and its unit.
 struct Reason {

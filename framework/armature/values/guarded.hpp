@@ -8,7 +8,7 @@
 
 #include "armature/values/expected.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 namespace detail {
 template <class T>

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <utility>
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// Text of at most `kCapacity` bytes that lives in place: what a control thread has to say. Longer
 /// text ends in "...". Never allocates; real-time safe.

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <type_traits>
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// The number of a layout: the plugin's name and the version of what it remembers. A plugin counts
 /// the version up whenever the struct changes.

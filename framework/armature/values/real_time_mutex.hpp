@@ -3,7 +3,7 @@
 
 #include <pthread.h>
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// A mutex for what a control thread shares with others. Whoever holds it runs with the priority
 /// of the most urgent thread that waits for it (priority inheritance), so that a thread of normal

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// Built with a sanitizer that has an allocator of its own: memory that was freed is held back and
 /// what a process holds cannot be compared.

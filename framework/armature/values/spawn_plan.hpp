@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// How a program is started: which files it gets, and how free it is of its starter. It inherits
 /// whatever the plan does not change.

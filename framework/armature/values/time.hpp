@@ -4,7 +4,7 @@
 #include <chrono>
 #include <cstdint>
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// A length of time, in nanoseconds.
 using Duration = std::chrono::nanoseconds;

@@ -8,7 +8,7 @@
 #include <cerrno>
 #include <chrono>
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// Wakes one waiting thread, from any thread and without a lock: nobody who wakes a control thread
 /// can delay it, and no control thread waits for whom it wakes. (A condition variable of glibc has

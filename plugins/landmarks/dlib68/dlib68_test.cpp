@@ -26,7 +26,7 @@ template <class Kind>
 Expected<PluginPtr<Kind>> make(const std::string& name, std::string_view params = "") {
   auto library = PluginLibrary::load(std::filesystem::path{ARMATURE_PLUGIN_BUILD_DIR} /
                                          (std::string{Kind::kKind} + "_" + name + ".so"),
-                                     Kind::kKind, Kind::kKindVersion);
+                                     Kind::kKind);
   if (!library) return tl::unexpected{library.error()};
   const auto factory = reinterpret_cast<typename Kind::Factory>((*library)->factory());
   const std::string manifest = std::string{ARMATURE_SOURCE_DIR} + "/plugins/" +

@@ -13,7 +13,7 @@
 #include "armature/values/time.hpp"
 #include "armature/values/wake_up.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// The thread that encodes and writes for all topics of the process, so that no watcher ever runs
 /// on a publisher's thread. One bounded queue per topic; the topics take turns.

@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// What an endpoint of ours says of itself in its DDS user data:
 /// "armature;deployment=dental_lamp;fingerprint=4f2a...;run=18a7...;layout=00c0ffee00c0ffee".

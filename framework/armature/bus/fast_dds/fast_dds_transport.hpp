@@ -6,7 +6,7 @@
 #include "armature/bus/fast_dds/shared_memory.hpp"
 #include "armature/bus/transport.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 struct FastDdsLink;
 

@@ -12,7 +12,7 @@
 #include "armature/values/expected.hpp"
 #include "armature/values/time.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// A topic as discovery shows it.
 struct ObservedTopic {
@@ -42,7 +42,6 @@ struct ObserverOptions {
 class DdsObserver {
  public:
   static constexpr std::string_view kKind = "observer";
-  static constexpr int kKindVersion = 3;
   using Factory = Expected<std::unique_ptr<DdsObserver>> (*)(const ObserverOptions&);
 
   static Expected<std::unique_ptr<DdsObserver>> make(const ObserverOptions& options);

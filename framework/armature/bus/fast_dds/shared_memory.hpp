@@ -8,7 +8,7 @@
 
 #include "armature/values/expected.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 // A camera image must fit several times; the default of 512 KiB makes its round trip 50 times
 // longer.

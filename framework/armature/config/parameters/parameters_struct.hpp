@@ -8,7 +8,7 @@
 #include "armature/config/params.hpp"
 #include "armature/config/problems.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// The C++ header of a plugin's `struct Parameters`, made from its plugin.yaml: one member for each
 /// parameter, typed, in SI units and named without its unit, with its `doc` and its default, and a

@@ -13,7 +13,7 @@
 
 // The laws that every component keeps, whatever it does: with its ports in memory only, activated
 // by hand, as fast as it goes.
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 struct ComponentSubject {
   std::string name;

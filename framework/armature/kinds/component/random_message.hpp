@@ -7,7 +7,7 @@
 
 #include "armature/messages/type_description.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// What stands in the floating-point fields of a message that is made by chance.
 enum class RandomNumbers {

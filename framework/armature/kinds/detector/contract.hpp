@@ -8,7 +8,7 @@
 // program:
 //
 //   INSTANTIATE_TEST_SUITE_P(Hog, DetectorLaws, testing::Values(...));
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 class DetectorLaws : public testing::TestWithParam<DetectorSubject> {};
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(DetectorLaws);

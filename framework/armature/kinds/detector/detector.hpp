@@ -9,7 +9,7 @@
 #include "armature/kinds/made_for_robot.hpp"
 #include "armature/values/expected.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// A face as a detector sees it. Scores of different detectors cannot be compared.
 struct DetectedFace {
@@ -29,7 +29,6 @@ struct SearchRegion {
 class FaceDetector {
  public:
   static constexpr std::string_view kKind = "detector";
-  static constexpr int kKindVersion = 1;
   using Factory = MadeFromParams<FaceDetector>;
 
   virtual ~FaceDetector() = default;

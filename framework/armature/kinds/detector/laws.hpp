@@ -11,7 +11,7 @@
 #include "armature/laws/law.hpp"
 
 // The laws that every `detector` plugin keeps.
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// A detector (made once, when it is needed first), a picture with one face, and a point [px] in
 /// the middle of that face. Without a picture (`face` is empty) the laws about it are skipped.

@@ -8,7 +8,7 @@
 // program:
 //
 //   INSTANTIATE_TEST_SUITE_P(ThreePoint, FacePoseLaws, testing::Values(...));
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 class FacePoseLaws : public testing::TestWithParam<FacePoseSubject> {};
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(FacePoseLaws);

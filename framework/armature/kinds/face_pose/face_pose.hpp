@@ -10,7 +10,7 @@
 #include "armature/values/expected.hpp"
 #include "armature/values/plugin_state.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// A face in the left camera's optical frame, [m]. "left" and "right" are sides of the image: the
 /// image's left eye is the subject's right one (iBUG 36-41).
@@ -35,7 +35,6 @@ struct FacePoseInput {
 class FacePoseEstimator {
  public:
   static constexpr std::string_view kKind = "face_pose";
-  static constexpr int kKindVersion = 2;
   using Factory = MadeFromParams<FacePoseEstimator>;
 
   virtual ~FacePoseEstimator() = default;

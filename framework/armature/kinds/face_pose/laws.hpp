@@ -11,7 +11,7 @@
 #include "armature/laws/law.hpp"
 
 // The laws that every `face_pose` plugin that works from landmarks keeps.
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 struct FacePoseSubject {
   std::string name;

@@ -11,7 +11,7 @@
 
 // Many goals in one call: reachability maps, sampling planners, tables. Structures of arrays, so
 // that a solver can answer as many goals at once as its processor has lanes.
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// Poses of the tool frame in the base frame, number by number: goal i is at position[0][i],
 /// position[1][i], position[2][i]. With a `rotation`, or for robots with a pointing axis a

@@ -8,7 +8,7 @@
 // The laws of the kind `ik` as tests. In the plugin's test, in one source file of the program:
 //
 //   INSTANTIATE_TEST_SUITE_P(Lamp, IkLaws, testing::Values(IkSubject{.name = "lamp", ...}));
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// Tools that count allocations, where no sanitizer brings its own.
 inline IkLawTools counting_tools() {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// The largest position [m], joint or redundancy [rad or m] that is taken for one: beyond it sums
 /// of squares would soon be infinite.

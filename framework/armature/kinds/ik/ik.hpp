@@ -13,7 +13,7 @@
 #include "armature/robot/model/robot_model.hpp"
 #include "armature/values/inline_text.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// What an inverse kinematics solver is asked for: a pose of the tool frame in the base frame.
 struct IkGoal {
@@ -111,7 +111,6 @@ class IkBatchAnswers;
 class IkSolver {
  public:
   static constexpr std::string_view kKind = "ik";
-  static constexpr int kKindVersion = 3;
   using Factory = MadeForRobot<IkSolver>;
 
   virtual ~IkSolver() = default;

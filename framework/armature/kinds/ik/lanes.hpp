@@ -18,7 +18,7 @@
 // How vectors are passed differs between processors; here they only ever are inside one file.
 #pragma GCC diagnostic ignored "-Wpsabi"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 namespace {
 
 #if defined(ARMATURE_AVX512)

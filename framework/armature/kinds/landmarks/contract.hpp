@@ -8,7 +8,7 @@
 // program:
 //
 //   INSTANTIATE_TEST_SUITE_P(Dlib68, LandmarkLaws, testing::Values(...));
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 class LandmarkLaws : public testing::TestWithParam<LandmarkSubject> {};
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(LandmarkLaws);

@@ -12,7 +12,7 @@
 #include "armature/messages/sensor_msgs.hpp"
 #include "armature/values/expected.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 namespace detail {
 
 inline std::array<double, 4> box_of(const PixelBox& box) {

@@ -12,7 +12,7 @@
 #include "armature/kinds/made_for_robot.hpp"
 #include "armature/values/expected.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// Which points of a face a finder tells, and in what order.
 enum class LandmarkScheme {
@@ -42,7 +42,6 @@ struct Landmark {
 class LandmarkFinder {
  public:
   static constexpr std::string_view kKind = "landmarks";
-  static constexpr int kKindVersion = 2;
   using Factory = MadeFromParams<LandmarkFinder>;
 
   virtual ~LandmarkFinder() = default;

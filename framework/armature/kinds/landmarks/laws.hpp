@@ -11,7 +11,7 @@
 #include "armature/laws/law.hpp"
 
 // The laws that every `landmarks` plugin keeps.
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// A finder (made once, when it is needed first), a picture with a face, and where the face is.
 /// Without a picture (`face` is empty) the laws about it are skipped.

@@ -9,7 +9,7 @@
 #include "armature/kinds/landmarks/landmarks.hpp"
 #include "armature/values/expected.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// Finds the landmarks of one face in the pictures of a rectified stereo pair, one pair after the
 /// other.

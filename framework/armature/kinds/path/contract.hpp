@@ -7,7 +7,7 @@
 // The laws of the kind `path` as tests. In the plugin's test, in one source file of the program:
 //
 //   INSTANTIATE_TEST_SUITE_P(MouthArc, PathLaws, testing::Values(...));
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 class PathLaws : public testing::TestWithParam<PathSubject> {};
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(PathLaws);

@@ -11,7 +11,7 @@
 #include "armature/robot/geometry/pose_goal.hpp"
 #include "armature/robot/model/joint_vector.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// A value of the freedom that an arm has beyond the pose of its tool: an arm angle [rad], or a
 /// length [m] such as the depth of a needle.
@@ -67,7 +67,6 @@ struct PathRequest {
 class PathPlanner {
  public:
   static constexpr std::string_view kKind = "path";
-  static constexpr int kKindVersion = 3;
   using Factory = MadeForRobot<PathPlanner>;
 
   virtual ~PathPlanner() = default;

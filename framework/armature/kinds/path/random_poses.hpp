@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <random>
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// Directions, rotations and lengths by lot, the same ones for the same seed.
 class RandomPoses {

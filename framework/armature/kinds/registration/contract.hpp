@@ -8,7 +8,7 @@
 // program:
 //
 //   INSTANTIATE_TEST_SUITE_P(Rigid, RegistrationLaws, testing::Values(...));
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 class RegistrationLaws : public testing::TestWithParam<RegistrationSubject> {};
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(RegistrationLaws);

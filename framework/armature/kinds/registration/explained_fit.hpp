@@ -7,7 +7,7 @@
 
 #include "armature/kinds/registration/registration.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// How badly the best motion may fit markers of that error, rms [m]: of a million registrations at
 /// most one fits worse. `marker_error_m` as `predicted_error` has it. Over the variance of one axis

@@ -11,7 +11,7 @@
 #include "armature/laws/law.hpp"
 
 // The laws that every `registration` plugin keeps.
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 struct RegistrationSubject {
   std::string name;

@@ -8,7 +8,7 @@
 
 #include "armature/values/expected.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// Which of the measured points is which planned marker: for each planned one the index of the
 /// measured one. Points that are no marker may be among the measured. All pairs of markers keep

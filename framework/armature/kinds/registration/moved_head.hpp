@@ -9,7 +9,7 @@
 
 #include "armature/kinds/registration/registration.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// Six markers on a head, moved by chance and seen with noise.
 class MovedHead {

@@ -12,7 +12,7 @@
 #include "armature/kinds/made_for_robot.hpp"
 #include "armature/values/expected.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// The same markers in two frames: marker i of one is marker i of the other. [m]
 struct MarkerPairs {
@@ -36,7 +36,6 @@ struct Registration {
 class Registrar {
  public:
   static constexpr std::string_view kKind = "registration";
-  static constexpr int kKindVersion = 1;
   using Factory = MadeFromParams<Registrar>;
 
   virtual ~Registrar() = default;

@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 #include <span>
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// The motion that takes `from` to `to`, point by point, with the least sum of squares (S. Umeyama,
 /// IEEE Transactions on Pattern Analysis and Machine Intelligence 13(4), 1991): a rotation also

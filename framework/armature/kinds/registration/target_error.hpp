@@ -6,7 +6,7 @@
 #include "armature/kinds/registration/registration.hpp"
 #include "armature/robot/geometry/point_error.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// What errors of the markers make of a point of the image (target registration error), in the
 /// robot's base frame, to first order, whatever the method:

@@ -7,7 +7,7 @@
 // The laws of the kind `select` as tests. In the plugin's test, in one source file of the program:
 //
 //   INSTANTIATE_TEST_SUITE_P(Nearest, SelectLaws, testing::Values(...));
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 class SelectLaws : public testing::TestWithParam<SelectSubject> {};
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(SelectLaws);

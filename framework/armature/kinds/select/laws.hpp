@@ -10,7 +10,7 @@
 #include "armature/laws/law.hpp"
 
 // The laws that every `select` plugin keeps, for any robot.
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// A selector made for a robot.
 struct SelectSubject {

@@ -11,13 +11,12 @@
 #include "armature/kinds/made_for_robot.hpp"
 #include "armature/values/expected.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// Chooses one branch per waypoint of a whole path.
 class BranchSelector {
  public:
   static constexpr std::string_view kKind = "select";
-  static constexpr int kKindVersion = 1;
   using Factory = MadeForRobot<BranchSelector>;
 
   virtual ~BranchSelector() = default;

@@ -7,7 +7,7 @@
 // The laws of the kind `target` as tests. In the plugin's test, in one source file of the program:
 //
 //   INSTANTIATE_TEST_SUITE_P(ConstantVelocity, TargetLaws, testing::Values(...));
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 class TargetLaws : public testing::TestWithParam<TargetSubject> {};
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(TargetLaws);

@@ -10,7 +10,7 @@
 #include "armature/laws/law.hpp"
 
 // The laws that every `target` plugin keeps.
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 struct TargetSubject {
   std::string name;

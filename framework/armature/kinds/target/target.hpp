@@ -9,7 +9,7 @@
 #include "armature/values/plugin_state.hpp"
 #include "armature/values/time.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// One look at the target, in the base frame.
 struct TargetMeasurement {
@@ -34,7 +34,6 @@ struct TargetEstimate {
 class TargetFilter {
  public:
   static constexpr std::string_view kKind = "target";
-  static constexpr int kKindVersion = 2;
   using Factory = MadeFromParams<TargetFilter>;
 
   virtual ~TargetFilter() = default;

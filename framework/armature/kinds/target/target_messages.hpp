@@ -8,7 +8,7 @@
 #include "armature/messages/geometry.hpp"
 #include "armature/messages/header.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// The estimate of a message with its normal made a unit, or why it is none: the message's own
 /// reason, another frame, a number that is not finite, a normal without a direction.

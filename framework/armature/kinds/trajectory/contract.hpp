@@ -8,7 +8,7 @@
 // program:
 //
 //   INSTANTIATE_TEST_SUITE_P(Quintic, TrajectoryLaws, testing::Values(...));
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 class TrajectoryLaws : public testing::TestWithParam<TrajectorySubject> {};
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(TrajectoryLaws);

@@ -6,7 +6,7 @@
 #include "armature/robot/model/joint_vector.hpp"
 #include "armature/robot/trajectories/quintic.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// A curve q(s) through waypoints with continuous derivatives up to the fourth: the geometry of a
 /// joint path, without time. Two waypoints are a straight line.

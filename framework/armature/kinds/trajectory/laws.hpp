@@ -10,7 +10,7 @@
 #include "armature/laws/law.hpp"
 
 // The laws that every `trajectory` plugin keeps.
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 struct TrajectorySubject {
   std::string name;

@@ -10,7 +10,7 @@
 #include "armature/kinds/trajectory/trajectory_planner.hpp"
 #include "armature/values/expected.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 inline constexpr double kStillWay = 1e-12;  // [rad] or [m]: no motion
 

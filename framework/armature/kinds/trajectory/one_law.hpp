@@ -8,7 +8,7 @@
 #include "armature/kinds/trajectory/time_law.hpp"
 #include "armature/kinds/trajectory/timing.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// Quintics (piece-major) that follow `curve` under `law` from each of `knots` to the next; every
 /// waypoint's time is one of them.

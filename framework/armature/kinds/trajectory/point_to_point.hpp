@@ -5,7 +5,7 @@
 
 #include "armature/kinds/trajectory/trajectory_planner.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// The quintic from rest to rest on a straight line in joint space, as fast as the limits allow or
 /// exactly as long as the segment says: in closed form, what most requests are. Its peaks are

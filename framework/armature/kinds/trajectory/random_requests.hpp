@@ -6,7 +6,7 @@
 
 #include "armature/kinds/trajectory/trajectory_planner.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// Requests by chance for three joints.
 class RandomRequests {

@@ -3,7 +3,7 @@
 
 #include "armature/robot/trajectories/quintic.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// Where along a path (s from 0 to 1) the motion is at a time: one quintic that never runs
 /// backwards and ends at rest; from rest it is s = 10 x^3 - 15 x^4 + 6 x^5 with x = t / T.

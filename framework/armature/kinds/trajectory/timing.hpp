@@ -7,7 +7,7 @@
 #include "armature/kinds/trajectory/legs.hpp"
 #include "armature/kinds/trajectory/trajectory_planner.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 inline constexpr double kShortestLeg_s = 0.02;
 inline constexpr double kLimitRounding = 1e-9;  // part of a limit that is not told from rounding

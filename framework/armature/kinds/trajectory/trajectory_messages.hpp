@@ -9,7 +9,7 @@
 #include "armature/robot/model/robot_model.hpp"
 #include "armature/robot/trajectories/trajectory.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// The trajectory as it is: independent joints of `model` by name, knots, coefficients.
 inline void write_trajectory(const Trajectory& trajectory, const RobotModel& model,

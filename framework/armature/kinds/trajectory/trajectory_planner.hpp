@@ -11,7 +11,7 @@
 #include "armature/values/expected.hpp"
 #include "armature/values/time.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// A path segment after inverse kinematics: joint positions over the segment's parameter s. The
 /// first waypoint is the end of the segment before (or the start). A segment with more than two
@@ -40,7 +40,6 @@ struct TrajectoryRequest {
 class TrajectoryPlanner {
  public:
   static constexpr std::string_view kKind = "trajectory";
-  static constexpr int kKindVersion = 2;
   using Factory = MadeFromParams<TrajectoryPlanner>;
 
   virtual ~TrajectoryPlanner() = default;

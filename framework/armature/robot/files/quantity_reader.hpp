@@ -9,7 +9,7 @@
 
 #include "armature/config/reader.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// What a file says under one of several keys that differ in their unit only (d_m or d_mm).
 struct Quantity {

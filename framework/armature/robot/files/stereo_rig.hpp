@@ -11,7 +11,7 @@ namespace armature::config {
 class Node;
 }  // namespace armature::config
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// The optical frames of a stereo head, as the headers of pictures and face poses name them.
 inline constexpr const char* kLeftCameraFrame = "left_camera_optical";

@@ -8,7 +8,7 @@
 #include "armature/config/problems.hpp"
 #include "armature/robot/model/robot_model.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// A link of a URDF file and where the user named it.
 struct LinkName {

@@ -7,7 +7,7 @@
 
 #include "armature/config/reader.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// The rotation under `key`, four numbers x, y, z, w of length 1 to within 1e-3; nullopt when it is
 /// not written or wrong (the problem is noted).

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// What a tool must keep away from: everything within `radius_m` of a line (a capsule: a vessel)
 /// or, where both ends are one point, of a point (a sphere).

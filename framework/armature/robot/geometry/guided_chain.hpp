@@ -3,7 +3,7 @@
 
 #include <Eigen/Geometry>
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// The frames between an arm's flange and a place in a patient's image, as a tracker ties them
 /// together (Zhong et al. 2023: T_R_F = T_R_N T_N_M T_M_P T_P_implant T_F_D^-1). A chain of what

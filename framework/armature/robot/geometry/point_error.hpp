@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// How far a point is likely to be from where it is said to be.
 struct PointError {

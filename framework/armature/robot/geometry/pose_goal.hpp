@@ -8,7 +8,7 @@
 #include "armature/values/expected.hpp"
 #include "armature/values/inline_text.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// Where the pointing axis of the tool shall point; a unit vector in the base frame. The turn about
 /// it is free (5 degrees of freedom).

@@ -3,7 +3,7 @@
 
 #include <Eigen/Geometry>
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// Roll, pitch, yaw [rad] about fixed axes: about x by roll, then y by pitch, then z by yaw (as in
 /// URDF). Real-time safe.

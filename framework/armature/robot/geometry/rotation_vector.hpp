@@ -3,7 +3,7 @@
 
 #include <Eigen/Geometry>
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 // Rotation vectors P = angle * axis [rad] and unit quaternions (Zhong et al. 2023, equations (2)
 // and (3)). All functions are real-time safe.

@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// A rectified stereo pair: same intrinsics, rows aligned, right camera baseline_m along +x of the
 /// left optical frame (x right, y down, z forward).

@@ -9,7 +9,7 @@
 #include "armature/values/expected.hpp"
 #include "armature/values/time.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// Answers "base_T_frame at t" from a bounded history of joint positions and the robot's named
 /// frames. Joint positions are interpolated linearly between the two neighbours of t.

@@ -7,7 +7,7 @@
 #include "armature/robot/model/joint_vector.hpp"
 #include "armature/robot/model/robot_model.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 // All functions here are real-time safe: no allocation, no locks, bounded time.
 

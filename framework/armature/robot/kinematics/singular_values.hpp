@@ -3,7 +3,7 @@
 
 #include "armature/robot/model/joint_vector.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// A vector and a matrix with at most kMaxJoints rows and columns, kept without allocation.
 using SmallVector = JointVector;

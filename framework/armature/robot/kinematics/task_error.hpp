@@ -7,7 +7,7 @@
 #include "armature/robot/model/joint_vector.hpp"
 #include "armature/robot/model/robot_model.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// 6 x dof for a rotation: velocity, then angular velocity, in the base frame. 5 x dof for a
 /// direction: velocity, then how fast the pointing axis turns about two lines square to it.

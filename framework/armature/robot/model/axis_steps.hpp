@@ -6,7 +6,7 @@
 
 #include "armature/robot/model/robot_model.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// The way to `frame` without conventions, for solvers that have their own:
 ///   base_T_frame = steps[0] J_0 steps[1] J_1 ... J_n-1 steps[n]

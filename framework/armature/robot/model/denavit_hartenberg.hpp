@@ -7,7 +7,7 @@
 
 #include "armature/robot/model/robot_model.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// Modified Denavit-Hartenberg rows of any chain of joints.
 ///

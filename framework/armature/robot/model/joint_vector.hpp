@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// The most joints (coupled ones included) that a robot may have.
 inline constexpr int kMaxJoints = 12;

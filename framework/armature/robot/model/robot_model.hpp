@@ -18,7 +18,7 @@ namespace armature::config {
 class Node;
 }  // namespace armature::config
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// One Denavit-Hartenberg row and what the joint can do.
 ///   standard: T_i = Rz(theta) Tz(d) Tx(a) Rx(alpha)

@@ -9,7 +9,8 @@
 
 #include "armature/robot/model/robot_model.hpp"
 
-namespace armature::testing {
+namespace armature {
+namespace testing ARMATURE_EXPORT {
 
 /// Seven joints of random geometry, the third prismatic, two coupled (one of them follows the
 /// prismatic joint); frames `tool` (turned and shifted, on the last joint), `elbow` (on the fourth)
@@ -69,4 +70,5 @@ inline JointVector joint_vector(std::initializer_list<double> values) {
   return result;
 }
 
-}  // namespace armature::testing
+}  // namespace testing
+}  // namespace armature

@@ -7,7 +7,7 @@
 #include "armature/robot/orientations/orientation_state.hpp"
 #include "armature/robot/orientations/rotation_at.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// anchor * exp(cubic): a rotation vector that changes, told in the chart at `anchor`.
 struct ChartPiece {

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 // Straight lines in space whose corners are cubic B-splines (Zhong et al. 2023, equations (11) to
 // (15)): continuous up to the second derivative, and through every corner. The space is that of

@@ -13,7 +13,7 @@
 #include "armature/robot/orientations/squad.hpp"
 #include "armature/values/expected.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// How an orientation goes through its keys.
 enum class OrientationInterpolator {

@@ -3,7 +3,7 @@
 
 #include <Eigen/Geometry>
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// Which of its rates a sample of an orientation is worked out with; the others stay zero.
 enum class Rates { none, velocity, acceleration };

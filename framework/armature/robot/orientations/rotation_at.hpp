@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 // Differences like t - sin t lose digits when t is small: there, powers of t^2.
 namespace rotation_series {

@@ -7,7 +7,7 @@
 
 #include "armature/robot/orientations/orientation_state.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// Between two unit quaternions a and b: how far they are apart as points of the sphere S^3.
 struct SlerpAngle {

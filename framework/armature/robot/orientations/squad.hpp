@@ -5,7 +5,7 @@
 
 #include "armature/robot/orientations/orientation_state.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// Spherical quadrangle interpolation of one interval (Shoemake 1987): slerp between two slerps,
 /// from key to key and from inner point to inner point, by 2 x (1 - x).

@@ -7,7 +7,7 @@
 #include "armature/robot/model/joint_vector.hpp"
 #include "armature/robot/trajectories/quintic.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// Pieces between knots, piece-major as in Trajectory.
 struct KnottedPieces {

@@ -3,7 +3,7 @@
 
 #include <array>
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// q(t) = c0 + c1 t + ... + c5 t^5, t in [s] from the start of the piece. Real-time safe.
 struct Quintic {

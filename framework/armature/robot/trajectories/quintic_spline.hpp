@@ -8,7 +8,7 @@
 #include "armature/robot/model/joint_vector.hpp"
 #include "armature/robot/trajectories/quintic.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// The C4 quintic spline through `points` at `knots` (ascending, at least two) with given
 /// velocities and accelerations at both ends, per joint; pieces piece-major as in Trajectory.

@@ -5,7 +5,7 @@
 
 #include "armature/robot/trajectories/trajectory.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// A trajectory of few pieces that lives in place: a stop, a way to a target that moves. What a
 /// control thread may make, since nothing of it allocates; otherwise as Trajectory.

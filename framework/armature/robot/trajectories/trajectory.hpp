@@ -9,7 +9,7 @@
 #include "armature/robot/trajectories/quintic.hpp"
 #include "armature/values/time.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// A trajectory that somebody else holds, in memory of any kind: a Trajectory, a ShortTrajectory, a
 /// message. Piece k of joint j has the coefficients c0 to c5 at `coefficients[(k * dof + j) * 6]`.

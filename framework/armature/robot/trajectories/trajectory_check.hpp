@@ -4,7 +4,7 @@
 #include "armature/robot/model/robot_model.hpp"
 #include "armature/robot/trajectories/trajectory.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// How fast an arm is driven; never above the robot's own limits.
 struct MotionLimits {

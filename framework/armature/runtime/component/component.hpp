@@ -9,7 +9,7 @@
 
 #include "armature/values/time.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 class Setup;
 class Summary;
@@ -21,7 +21,6 @@ class StatusReporter;
 class Component {
  public:
   static constexpr std::string_view kKind = "component";
-  static constexpr int kKindVersion = 1;
   using Factory = std::unique_ptr<Component> (*)(Setup&);
 
   explicit Component(Setup& setup);

@@ -10,7 +10,7 @@
 #include "armature/runtime/plugins/plugin_manifest.hpp"
 #include "armature/values/real_time_mutex.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 class Inbox;
 

@@ -8,7 +8,7 @@
 #include "armature/runtime/plugins/plugin_manifest.hpp"
 #include "armature/values/time.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// When a published sample reaches its readers: at once, or later on the simulated clock.
 class Delivery {

@@ -7,7 +7,7 @@
 #include "armature/bus/sample.hpp"
 #include "armature/messages/message_type.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 class InputPort;   // runtime/component/inbox.hpp: mailbox and reading rule
 class OutputPort;  // runtime/component/output_port.hpp: topic and clock

@@ -17,7 +17,7 @@
 #include "armature/runtime/plugins/setup_error.hpp"
 #include "armature/values/time.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// What a component sees while it is being constructed; not valid afterwards. Not real-time safe.
 class Setup {
@@ -74,7 +74,7 @@ class Setup {
         slot_name, [args...](typename Kind::Factory factory, const Params& params) {
           return factory(args..., params);
         });
-    place->fill(slot_plugin(slot_name, Kind::kKind, Kind::kKindVersion));
+    place->fill(slot_plugin(slot_name, Kind::kKind));
     Slot<Kind> slot{*place};
     keep_slot(std::move(place));
     return slot;
@@ -85,7 +85,7 @@ class Setup {
  protected:
   virtual InputPort& claim_input(std::string_view port, const MessageType& type) = 0;
   virtual OutputPort& claim_output(std::string_view port, const MessageType& type) = 0;
-  virtual SlotPlugin slot_plugin(std::string_view slot, std::string_view kind, int version) = 0;
+  virtual SlotPlugin slot_plugin(std::string_view slot, std::string_view kind) = 0;
   virtual void keep_slot(std::unique_ptr<SlotPlace> place) = 0;
 };
 

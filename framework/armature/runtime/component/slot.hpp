@@ -17,7 +17,7 @@
 #include "armature/runtime/plugins/setup_error.hpp"
 #include "armature/values/expected.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// A plugin for a slot: its library, what it says of itself and its checked parameters.
 struct SlotPlugin {

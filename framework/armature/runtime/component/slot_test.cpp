@@ -19,7 +19,6 @@ using testing::HasSubstr;
 class Gauge {
  public:
   static constexpr std::string_view kKind = "gauge";
-  static constexpr int kKindVersion = 1;
   using Factory = Expected<std::unique_ptr<Gauge>> (*)(std::atomic<int>*, const Params&);
 
   explicit Gauge(std::atomic<int>* alive) : alive_{alive} { ++*alive_; }

@@ -8,7 +8,7 @@
 
 #include "armature/values/real_time_mutex.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// What a component tells about itself, kept for the operator and for state messages. From any
 /// thread.

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// Why `name` names no topic, as ROS 2 has them: words of letters, digits and underscores, none
 /// beginning with a digit, with '/' between them; a '/' in front makes it absolute.

@@ -118,9 +118,9 @@ const PluginManifest& ComponentSetup::slot_manifest(std::string_view slot) const
   return *slot_config(slot).manifest;
 }
 
-SlotPlugin ComponentSetup::slot_plugin(std::string_view slot, std::string_view kind, int version) {
+SlotPlugin ComponentSetup::slot_plugin(std::string_view slot, std::string_view kind) {
   const SlotConfig& config = slot_config(slot);
-  return {plugins_.load(*config.manifest, kind, version), *config.manifest, config.params};
+  return {plugins_.load(*config.manifest, kind), *config.manifest, config.params};
 }
 
 void ComponentSetup::check_all_claimed() const {

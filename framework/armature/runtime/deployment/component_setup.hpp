@@ -9,7 +9,7 @@
 #include "armature/runtime/deployment_file/deployment_config.hpp"
 #include "armature/runtime/execution/component_runner.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// What a plugin in a slot refuses, at the slot's own line where the file has one. The units of a
 /// component say the same of it.
@@ -43,7 +43,7 @@ class ComponentSetup final : public Setup {
  protected:
   InputPort& claim_input(std::string_view port, const MessageType& type) override;
   OutputPort& claim_output(std::string_view port, const MessageType& type) override;
-  SlotPlugin slot_plugin(std::string_view slot, std::string_view kind, int version) override;
+  SlotPlugin slot_plugin(std::string_view slot, std::string_view kind) override;
   void keep_slot(std::unique_ptr<SlotPlace> place) override {
     unit_.slots().push_back(std::move(place));
   }

@@ -115,7 +115,7 @@ void Deployment::make_unit(const ComponentConfig& component, PluginRegistry& plu
                            config::Problems& problems) {
   const RunningComponent running{component.name, "constructor"};
   // Outlives the exceptions that its code throws, and the slots that it makes.
-  const auto library = plugins.load(*component.manifest, Component::kKind, Component::kKindVersion);
+  const auto library = plugins.load(*component.manifest, Component::kKind);
   auto unit = std::make_unique<ComponentRunner>(component.name, component.plugin_id,
                                                 component.place, options_.on_line);
   ComponentSetup setup = setup_of(component, plugins, *unit);

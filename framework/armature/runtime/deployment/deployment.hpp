@@ -23,7 +23,7 @@
 #include "armature/runtime/execution/watchdog.hpp"
 #include "armature/values/sanitizer.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// A deployment in memory: topics, units, scheduler, and the way to other processes. Built in
 /// three steps, each of which throws with every problem it finds: the configuration is read

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// Which of the transport's notes that a process fell silent are told. Every process of a
 /// deployment hears that of every lost one, some of them on several topics, and all speak on one

@@ -15,7 +15,7 @@
 #include "armature/runtime/deployment_file/deployment_config.hpp"
 #include "armature/runtime/plugins/plugin_library.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// The topics of one process of a deployment, seen from outside: writers for its outputs, readers
 /// only for inputs that another process feeds or that are open, and whether the deployment's other

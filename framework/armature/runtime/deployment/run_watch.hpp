@@ -7,7 +7,7 @@
 
 #include "armature/values/time.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// What a run hears from outside of its own components while it lasts, and what it tells there: the
 /// operator's signals, and the deployment's other processes. Called on the thread that runs, at

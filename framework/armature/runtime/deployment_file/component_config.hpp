@@ -10,7 +10,7 @@
 #include "armature/config/reader.hpp"
 #include "armature/runtime/deployment_file/deployment_config.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 // The sections whose entries are files that components are bound to, and the word that a
 // component (and a plugin's `uses:`) says for one of them.

@@ -5,7 +5,7 @@
 
 #include "armature/runtime/deployment_file/deployment_config.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// The units that one entry of `components:` is at run time, the main one first: each with the
 /// ports and slots that plugin.yaml gives it, and all parameters. Another one is called

@@ -8,7 +8,7 @@
 #include "armature/config/node.hpp"
 #include "armature/config/problems.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// `dds:` of a deployment file: how its processes join DDS.
 struct DdsConfig {

@@ -14,7 +14,7 @@
 #include "armature/runtime/plugins/plugin_manifest.hpp"
 #include "armature/runtime/plugins/plugin_registry.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// A plugin in a slot, resolved: known by its manifest, its parameters checked.
 struct SlotConfig {

@@ -8,7 +8,8 @@
 #include "armature/config/key.hpp"
 #include "armature/runtime/deployment_file/deployment_config.hpp"
 
-namespace armature::keys {
+namespace armature {
+namespace keys ARMATURE_EXPORT {
 
 using config::Key;
 using Type = ParamSpec::Type;
@@ -112,4 +113,5 @@ inline constexpr Key kOut{.name = "out", .type = {}, .doc = "Topics of outputs, 
 inline constexpr std::array kComponent{kPlugin, kOfExecutor, kProcess, kSimLatency, kOnFault,
                                        kParams, kTopics,     kIn,      kOut};
 
-}  // namespace armature::keys
+}  // namespace keys
+}  // namespace armature

@@ -6,7 +6,7 @@
 
 #include "armature/values/time.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// One entry of `executors:` in a deployment.
 struct ExecutorSpec {

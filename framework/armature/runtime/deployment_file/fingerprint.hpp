@@ -6,7 +6,7 @@
 #include "armature/config/node.hpp"
 #include "armature/runtime/deployment_file/deployment_config.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// What the processes of one deployment know each other by: SHA-256 over the resolved file, the
 /// documents that `robots:` and `rigs:` name, and the files that those name in turn (a

@@ -3,7 +3,7 @@
 
 #include "armature/runtime/deployment_file/deployment_config.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// Checks how the components of a deployment are wired and sets every component's place in the
 /// graph (sources first; file order among equals). Problems: a topic with two writers that do not

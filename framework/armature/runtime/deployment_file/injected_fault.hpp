@@ -7,7 +7,7 @@
 
 #include "armature/runtime/deployment_file/deployment_config.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// A fault that a drill puts into one component of a run whose arms are simulated: once the process
 /// gets SIGUSR1, its next step throws, hangs or crashes.

@@ -7,7 +7,7 @@
 #include "armature/config/problems.hpp"
 #include "armature/runtime/deployment_file/deployment_config.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// Decides of every component that the file says nothing of what its fault does. It ends the run
 /// when a path over topics leads from the component to a driver, when it measures what the run is

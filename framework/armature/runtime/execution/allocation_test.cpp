@@ -57,7 +57,6 @@ TEST_F(AllocationTest, NoneInAnInboxWhateverItsPortsRead) {
 /// A kind of which there is one plugin.
 struct Idle {
   static constexpr std::string_view kKind = "idle";
-  static constexpr int kKindVersion = 1;
   using Factory = Expected<std::unique_ptr<Idle>> (*)(const Params&);
 };
 

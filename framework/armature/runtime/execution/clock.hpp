@@ -6,7 +6,7 @@
 
 #include "armature/values/time.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// The only source of time in a deployment. Real-time safe, from any thread.
 class Clock {

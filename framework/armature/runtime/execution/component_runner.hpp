@@ -19,7 +19,7 @@
 #include "armature/runtime/execution/timing_histogram.hpp"
 #include "armature/runtime/plugins/plugin_library.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 class InjectedFault;
 

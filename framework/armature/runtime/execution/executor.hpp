@@ -17,7 +17,7 @@
 #include "armature/runtime/execution/component_runner.hpp"
 #include "armature/values/wake_up.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// A named thread that activates the units assigned to it, in the order of the graph. A period
 /// that was missed is skipped and counted, never caught up in a burst. Once it runs it neither

@@ -11,7 +11,7 @@
 #include "armature/runtime/execution/clock.hpp"
 #include "armature/runtime/execution/scheduler.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// The simulated clock's scheduler: one thread, events in the order (time, place in the graph,
 /// sequence), as fast as the machine allows. Same file, same binary: same bytes on every run.

@@ -5,7 +5,7 @@
 
 #include "armature/values/time.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// Says when something is due that happens at a rate, in a component that may be activated more
 /// often than that: by its executor's period, by triggers, or for something quicker. Real-time

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// What a thread asks of the operating system.
 struct ThreadSettings {

@@ -9,7 +9,7 @@
 #include "armature/runtime/execution/component_runner.hpp"
 #include "armature/runtime/execution/executor.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// Decides when units are activated. Two of them: threads on the system clock, lockstep on the
 /// simulated one.

@@ -14,7 +14,7 @@
 #include "armature/runtime/execution/component_runner.hpp"
 #include "armature/runtime/plugins/plugin_manifest.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// The runtime's own component in every process: tells twice a second how each component is, as
 /// armature_msgs/ComponentState and, for ROS tools, on /diagnostics, with the times of its steps

@@ -9,7 +9,7 @@
 #include "armature/runtime/execution/executor.hpp"
 #include "armature/runtime/execution/scheduler.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// The system clock's scheduler: every executor is a thread, samples are handed over at once.
 class ThreadedScheduler final : public Scheduler {

@@ -8,7 +8,7 @@
 
 #include "armature/values/time.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// What a histogram says of the durations that it has counted [s]; all 0 of none. Quantiles are
 /// interpolated in their bucket, which is at most 6 % wide.

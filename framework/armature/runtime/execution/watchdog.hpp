@@ -11,7 +11,7 @@
 #include "armature/values/real_time_mutex.hpp"
 #include "armature/values/wake_up.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 struct ComponentConfig;
 struct DeploymentConfig;

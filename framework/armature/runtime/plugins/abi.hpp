@@ -3,14 +3,16 @@
 
 #include <bits/c++config.h>
 
+#include "armature/header_tags.hpp"
+
 // The ABI tag: what must be equal on both sides before a plugin may share objects with the
-// framework. A plugin that does not come through the exported CMake targets lacks the Eigen
-// settings, and its tag says so.
+// framework. It says how both were compiled, and of each library that the plugin includes headers
+// of, the tag of these headers (cmake/header_tags.cmake); those of Armature::abi are always among
+// them. A plugin that does not come through the exported CMake targets lacks the Eigen settings,
+// and its tag says so.
 
 #define ARMATURE_ABI_TEXT2(x) #x
 #define ARMATURE_ABI_TEXT(x) ARMATURE_ABI_TEXT2(x)
-
-#define ARMATURE_FRAMEWORK_ABI 2
 
 #ifdef EIGEN_MAX_ALIGN_BYTES
 #define ARMATURE_ABI_EIGEN_ALIGN ARMATURE_ABI_TEXT(EIGEN_MAX_ALIGN_BYTES)
@@ -22,10 +24,22 @@
 #else
 #define ARMATURE_ABI_EIGEN_MALLOC "unset"
 #endif
+#ifdef _GLIBCXX_DEBUG  // containers have other members
+#define ARMATURE_ABI_DEBUG "debug"
+#else
+#define ARMATURE_ABI_DEBUG "usual"
+#endif
+#if defined(__SANITIZE_ADDRESS__)
+#define ARMATURE_ABI_SANITIZER "address"
+#elif defined(__SANITIZE_THREAD__)
+#define ARMATURE_ABI_SANITIZER "thread"
+#else
+#define ARMATURE_ABI_SANITIZER "none"
+#endif
 
 #define ARMATURE_ABI_TAG \
-  "armature " ARMATURE_ABI_TEXT(ARMATURE_FRAMEWORK_ABI) ", compiler abi " ARMATURE_ABI_TEXT( \
-      __GXX_ABI_VERSION) ", libstdc++ " ARMATURE_ABI_TEXT(_GLIBCXX_RELEASE)           \
-      " cxx11 " ARMATURE_ABI_TEXT(_GLIBCXX_USE_CXX11_ABI) ", c++ " ARMATURE_ABI_TEXT( \
-          __cplusplus) ", eigen align " ARMATURE_ABI_EIGEN_ALIGN                      \
-                       " malloc " ARMATURE_ABI_EIGEN_MALLOC
+  "compiler abi " ARMATURE_ABI_TEXT(__GXX_ABI_VERSION) ", libstdc++ " ARMATURE_ABI_TEXT(           \
+      _GLIBCXX_RELEASE) ", c++11 strings " ARMATURE_ABI_TEXT(_GLIBCXX_USE_CXX11_ABI)               \
+      ", c++ " ARMATURE_ABI_TEXT(__cplusplus) ", containers " ARMATURE_ABI_DEBUG                   \
+      ", sanitizer " ARMATURE_ABI_SANITIZER ", eigen align " ARMATURE_ABI_EIGEN_ALIGN              \
+      ", eigen malloc " ARMATURE_ABI_EIGEN_MALLOC ", " ARMATURE_HEADERS_abi

@@ -6,13 +6,12 @@
 
 #include "armature/values/expected.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// What a plugin library exports besides its manifest: which contract its class implements and
 /// how to make one.
 struct PluginEntry {
   const char* kind;
-  int kind_version;
   void (*factory)();
 };
 
@@ -49,12 +48,12 @@ struct PluginFactory<Plugin, std::unique_ptr<Kind> (*)(Arg&)> {
 
 template <class Plugin>
 PluginEntry plugin_entry() {
-  return {Plugin::kKind.data(), Plugin::kKindVersion,
+  return {Plugin::kKind.data(),
           reinterpret_cast<void (*)()>(&PluginFactory<Plugin, typename Plugin::Factory>::call)};
 }
 
 }  // namespace detail
-}  // namespace armature
+}  // namespace ARMATURE_EXPORT
 
 /// The one registration line of a plugin: `ARMATURE_PLUGIN(armature::LampGeometric);` at global
 /// scope, once per library. Id, kind, parameters and ports stand in the plugin.yaml beside it.

@@ -9,20 +9,19 @@
 #include "armature/runtime/plugins/plugin.hpp"
 #include "armature/values/expected.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// A loaded plugin library; unloaded when the last holder is gone. Or a plugin that is part of this
 /// program, which stays.
 class PluginLibrary {
  public:
-  /// Loads `file` after its ABI tag was compared with ours; checks kind and kind version of its
+  /// Loads `file` after its ABI tag was compared with ours; checks the kind of its
   /// entry. The reason carries both tags, or the text of dlerror.
   static Expected<std::shared_ptr<PluginLibrary>> load(const std::filesystem::path& file,
-                                                       std::string_view kind, int kind_version);
+                                                       std::string_view kind);
   /// The same for a class of this program.
   static Expected<std::shared_ptr<PluginLibrary>> of_this_program(const PluginEntry& entry,
-                                                                  std::string_view kind,
-                                                                  int kind_version);
+                                                                  std::string_view kind);
   ~PluginLibrary();
   PluginLibrary(const PluginLibrary&) = delete;
   PluginLibrary& operator=(const PluginLibrary&) = delete;
@@ -64,4 +63,4 @@ class PluginPtr {
   std::unique_ptr<Kind> object_;
 };
 
-}  // namespace armature
+}  // namespace ARMATURE_EXPORT

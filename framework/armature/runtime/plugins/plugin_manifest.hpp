@@ -11,7 +11,7 @@
 #include "armature/config/params.hpp"
 #include "armature/values/time.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// What two clocks that are meant to be the same may differ by.
 inline constexpr Duration kMaxAhead = seconds(0.1);
@@ -126,4 +126,4 @@ PluginManifest parse_manifest(std::string_view yaml, std::string_view name,
 /// The manifest of a component that is part of the runtime. Throws config::ConfigError.
 PluginManifest parse_own_manifest(std::string_view yaml);
 
-}  // namespace armature
+}  // namespace ARMATURE_EXPORT

@@ -168,13 +168,12 @@ std::string PluginRegistry::unknown_text(std::string_view id) const {
 }
 
 std::shared_ptr<PluginLibrary> PluginRegistry::load(const PluginManifest& plugin,
-                                                    std::string_view kind, int kind_version) {
+                                                    std::string_view kind) {
   std::weak_ptr<PluginLibrary>& held = loaded_[plugin.id];
   if (auto library = held.lock()) return library;
   const auto own = of_this_program_.find(plugin.id);
-  auto library = own == of_this_program_.end()
-                     ? PluginLibrary::load(plugin.file, kind, kind_version)
-                     : PluginLibrary::of_this_program(own->second, kind, kind_version);
+  auto library = own == of_this_program_.end() ? PluginLibrary::load(plugin.file, kind)
+                                               : PluginLibrary::of_this_program(own->second, kind);
   if (!library) {
     throw PluginError(fmt::format("plugin '{}' cannot be used: {}: {}", plugin.id,
                                   plugin.file.empty() ? "this program" : plugin.file.string(),

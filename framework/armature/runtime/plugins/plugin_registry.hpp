@@ -15,7 +15,7 @@
 #include "armature/runtime/plugins/running_component.hpp"
 #include "armature/runtime/plugins/setup_error.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// A plugin library is there but cannot be used.
 class PluginError : public std::runtime_error {
@@ -62,8 +62,7 @@ class PluginRegistry {
   std::string unknown_text(std::string_view id) const;
 
   /// Loads (once) the library of `plugin`. Throws PluginError with file and reason.
-  std::shared_ptr<PluginLibrary> load(const PluginManifest& plugin, std::string_view kind,
-                                      int kind_version);
+  std::shared_ptr<PluginLibrary> load(const PluginManifest& plugin, std::string_view kind);
 
   /// Loads `id` and makes an object of it; throws PluginError when the library cannot be used, and
   /// hands on the plugin's own refusal, or what it throws, as a reason.
@@ -71,7 +70,7 @@ class PluginRegistry {
   Expected<PluginPtr<Kind>> make(std::string_view id, const Args&... args) {
     const PluginManifest* plugin = find(id);
     if (!plugin) return refuse(unknown_text(id));
-    auto library = load(*plugin, Kind::kKind, Kind::kKindVersion);
+    auto library = load(*plugin, Kind::kKind);
     auto factory = reinterpret_cast<typename Kind::Factory>(library->factory());
     const RunningComponent running{plugin->id, "constructor", "plugin"};
     // While the library is held: an exception of the plugin's own type ends in here.
@@ -102,4 +101,4 @@ class PluginRegistry {
   std::map<std::string, std::weak_ptr<PluginLibrary>> loaded_;
 };
 
-}  // namespace armature
+}  // namespace ARMATURE_EXPORT

@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// Says, while it exists, that the calling thread runs a component's code, or that of another
 /// plugin, so that a crash there can name it. Real-time safe.
@@ -43,4 +43,4 @@ class CrashStack {
   void* memory_;
 };
 
-}  // namespace armature
+}  // namespace ARMATURE_EXPORT

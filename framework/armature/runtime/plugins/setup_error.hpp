@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// A component cannot be set up: what is wrong and the way out. The runtime adds the place.
 class [[gnu::visibility("default")]] SetupError : public std::runtime_error {
@@ -35,4 +35,4 @@ std::string current_exception_text();
 /// holds the code that destroys it.
 [[noreturn]] void throw_as_own(const std::string& who, std::string_view slot = {});
 
-}  // namespace armature
+}  // namespace ARMATURE_EXPORT

@@ -7,7 +7,7 @@
 #include "armature/runtime/deployment_file/deployment_config.hpp"
 #include "armature/runtime/processes/instance_lock.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// Makes `process` of the deployment the owner of what it drives, for as long as the locks are
 /// held. Every process owns its name in the deployment on its domain, which is what simulated arms

@@ -15,7 +15,7 @@
 #include "armature/runtime/processes/control_channel.hpp"
 #include "armature/runtime/reporting/run_timing.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// The other processes of a deployment, started by the main one and ended by it. They talk over a
 /// control channel each. A process says:

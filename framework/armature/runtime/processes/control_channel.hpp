@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// One end of the way by which the main process of a deployment and another one talk: lines of text
 /// in both directions, each whole. Nothing waits. An end that is closed tells the other one, also

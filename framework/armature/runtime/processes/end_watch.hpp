@@ -7,7 +7,7 @@
 
 #include "armature/values/time.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// The last resort at the end of a process. Ending calls code that may wait for ever on the thread
 /// that ends: the stop of a driver whose arm is gone, the end of a transport. The watch is told

@@ -6,7 +6,7 @@
 
 #include "armature/values/expected.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// Held by one process of this machine at a time, whatever user and environment it has: an abstract
 /// Unix socket, which is no file, and which the kernel releases however the process ends. A process

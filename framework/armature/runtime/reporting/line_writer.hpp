@@ -11,7 +11,7 @@
 
 #include "armature/values/time.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// Lines on their way to a file: any thread puts them into a bounded queue, one thread of its own
 /// writes them. A reader who does not read makes that thread wait and nobody else.

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// Makes `folder`, with what is above it, and tries to write into it: before what takes long, so
 /// that its result is not lost. A link on the way there is followed when it is the user's own or

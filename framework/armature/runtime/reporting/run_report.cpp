@@ -172,7 +172,7 @@ std::string to_json(const RunReport& report) {
   return json.dump();
 }
 
-std::string to_table(const RunReport& report) {
+std::string to_table(const RunReport& report, const Mark& mark) {
   std::size_t width = 0;
   for (const auto& figure : report.figures()) width = std::max(width, figure.title.size());
   std::string table;
@@ -180,12 +180,14 @@ std::string to_table(const RunReport& report) {
     table += fmt::format("  {:<{}}  {}", figure.title, width,
                          std::visit([](const auto& value) { return shown(value); }, figure.value));
     if (figure.goal) {
-      table += fmt::format("   goal {:g}  {}", figure.goal->limit, figure.met ? "met" : "MISSED");
+      table += fmt::format("   goal {:g}  {}", figure.goal->limit,
+                           mark(figure.met ? "met" : "MISSED", figure.met));
     }
     if (!figure.unmeasured.empty()) table += "   not measured: " + figure.unmeasured;
     table += '\n';
   }
-  table += fmt::format("  {:<{}}  {}\n", "status", width, report.status());
+  table += fmt::format("  {:<{}}  {}\n", "status", width,
+                       mark(report.status(), report.status() == "ok"));
   if (!report.story_reason().empty()) table += fmt::format("    {}\n", report.story_reason());
   for (const auto& reason : report.reasons()) table += fmt::format("    {}\n", reason);
   if (report.timing()) table += to_table(*report.timing());

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -11,7 +13,7 @@
 #include "armature/runtime/deployment/deployment.hpp"
 #include "armature/runtime/reporting/run_timing.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// The outcome of a run: what its components measured, held against the deployment's goals.
 class RunReport final : public Summary {
@@ -69,12 +71,14 @@ class RunReport final : public Summary {
 /// is null under `not_measured`, and `reasons`; numbers as the shortest text that reads back the
 /// same.
 std::string to_json(const RunReport& report);
-/// The closing table for people.
-std::string to_table(const RunReport& report);
+using Mark = std::function<std::string(std::string_view word, bool good)>;
+/// The closing table for people. `mark` gets the words that judge, "met" or "MISSED" of a goal and
+/// the status, and whether they are good news; what it answers stands in their place.
+std::string to_table(const RunReport& report, const Mark& mark);
 /// Writes report.json and lets every component write its files beside it. Throws
 /// std::runtime_error that names each file that could not be written, and why; the others are
 /// there.
 void write_report(const RunReport& report, const Deployment& deployment,
                   const std::filesystem::path& directory);
 
-}  // namespace armature
+}  // namespace ARMATURE_EXPORT

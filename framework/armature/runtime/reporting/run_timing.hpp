@@ -8,7 +8,7 @@
 
 #include "armature/runtime/execution/timing_histogram.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 class Deployment;
 

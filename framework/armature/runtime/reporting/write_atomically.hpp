@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string_view>
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// What a file is for. A report is its owner's only (0600), and replaces a link that lies in its
 /// place. A file that the user names has the permissions that the user gives (umask), and a link

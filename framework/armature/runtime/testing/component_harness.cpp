@@ -10,7 +10,7 @@ namespace armature {
 ComponentHarness::ComponentHarness(PluginRegistry& plugins, const Options& options) {
   read(plugins, options);
   // Outlives the slots that its code makes.
-  const auto library = plugins.load(*config_.manifest, Component::kKind, Component::kKindVersion);
+  const auto library = plugins.load(*config_.manifest, Component::kKind);
   auto unit = std::make_unique<ComponentRunner>(
       config_.name, config_.plugin_id, 0,
       [this](std::string_view, std::string_view line) { lines_.emplace_back(line); });

@@ -17,7 +17,7 @@
 #include "armature/runtime/deployment_file/component_config.hpp"
 #include "armature/runtime/testing/figures.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// One component on a bench, for tests: made from its plugin.yaml and library as a deployment makes
 /// it, its topics in memory only, and activated by hand.

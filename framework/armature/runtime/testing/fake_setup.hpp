@@ -10,7 +10,7 @@
 #include "armature/runtime/component/setup.hpp"
 #include "armature/runtime/execution/component_runner.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// Grants every port that is asked for; what is published reaches its readers at once. Outlives the
 /// component.
@@ -48,7 +48,7 @@ class FakeSetup final : public Setup, public Delivery {
     return unit_.outputs().emplace_back(PortSpec{.name = std::string{port}}, make_topic(port, type),
                                         *this);
   }
-  SlotPlugin slot_plugin(std::string_view, std::string_view, int) override {
+  SlotPlugin slot_plugin(std::string_view, std::string_view) override {
     throw std::logic_error("no slots");
   }
   void keep_slot(std::unique_ptr<SlotPlace> place) override {

@@ -8,7 +8,7 @@
 
 #include "armature/runtime/component/component.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// What a component tells of a run, by key: for tests.
 struct Figures final : Summary {

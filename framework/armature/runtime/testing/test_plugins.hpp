@@ -3,7 +3,7 @@
 
 #include "armature/runtime/plugins/plugin_registry.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// The plugins of this build, looked for once: for the tests that `armature_add_test` makes.
 inline PluginRegistry& built_plugins() {

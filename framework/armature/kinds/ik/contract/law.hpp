@@ -13,7 +13,7 @@
 #include "armature/kinds/ik/ik.hpp"
 #include "armature/laws/law.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 namespace ik_contract {
 class Probe;

@@ -9,7 +9,8 @@
 
 // Postures at the edges of what an arm can do, found numerically: no word of what the arm is built
 // like is needed.
-namespace armature::ik_contract {
+namespace armature {
+namespace ik_contract ARMATURE_EXPORT {
 
 using Random = std::mt19937_64;
 
@@ -53,4 +54,5 @@ std::vector<JointVector> postures_on_base_axis(const RobotModel& model, int coun
 std::vector<JointVector> upright_postures(const RobotModel& model, double up, int count,
                                           Random& random);
 
-}  // namespace armature::ik_contract
+}  // namespace ik_contract
+}  // namespace armature

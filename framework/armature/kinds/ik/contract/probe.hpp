@@ -6,7 +6,8 @@
 
 #include "armature/kinds/ik/contract/law.hpp"
 
-namespace armature::ik_contract {
+namespace armature {
+namespace ik_contract ARMATURE_EXPORT {
 
 inline constexpr double kOnePosture = 1e-6;  // [rad] or [m]: two nearer than that are one
 
@@ -78,4 +79,5 @@ int task_rows(const RobotModel& model);
 /// How near to singular `q` is: the smallest singular value of the rows that the task uses.
 double smallest_singular_value_at(const RobotModel& model, const JointVector& q);
 
-}  // namespace armature::ik_contract
+}  // namespace ik_contract
+}  // namespace armature

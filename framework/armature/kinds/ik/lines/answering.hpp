@@ -10,7 +10,7 @@
 // there is an answer; a bad one is answered with status "invalid_input" and a reason. An `id`, any
 // number or text, is repeated in the answer. A position, a joint or a redundancy beyond 1e100 is
 // none (kFarthest). Not real-time safe.
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// `line`: {"joints": every joint}. Answer: position, quaternion and, where the robot has a
 /// pointing axis, the direction of the tool.

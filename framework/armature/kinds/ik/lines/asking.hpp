@@ -11,7 +11,7 @@
 
 // What a program writes to a solver that speaks the lines of `armature ik`, and reads from it. Not
 // real-time safe.
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// One question. Every number arrives bit for bit, but for the sign of a joint that is zero.
 struct IkQuestion {

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "armature/config/problems.hpp"
-#include "armature/runtime/testing/leak_check.hpp"
+#include "armature/laws/leak_check.hpp"
 #include "armature/values/sanitizer.hpp"
 
 namespace armature {

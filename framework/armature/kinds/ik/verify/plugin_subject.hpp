@@ -8,7 +8,7 @@
 #include "armature/runtime/plugins/plugin_registry.hpp"
 
 // The laws of the kind for plugins that are found, not compiled in.
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// A plugin's solver for a robot as a subject of the laws, or why the plugin refuses the robot;
 /// what it promises is what its plugin.yaml provides. The library stays loaded as long as the

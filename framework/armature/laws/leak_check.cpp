@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/runtime/testing/leak_check.hpp"
+#include "armature/laws/leak_check.hpp"
 
 #include <fmt/format.h>
 #include <malloc.h>

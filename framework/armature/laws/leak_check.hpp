@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// What a process was found to hold on to after many equal cycles, beside what it held after the
 /// first few of them.

@@ -114,6 +114,9 @@ function(armature_add_library name)
                                                     CXX_VISIBILITY_PRESET hidden ARMATURE_EXPORTS ON)
   target_link_libraries(armature_${name} PUBLIC Armature::abi ${arg_LINK}
                                          PRIVATE $<BUILD_INTERFACE:armature_warnings> ${arg_PRIVATE})
+  if(NOT ARMATURE_SANITIZE)  # a symbol that another library hides is found here, not when it is loaded
+    target_link_options(armature_${name} PRIVATE LINKER:-z,defs)
+  endif()
   armature_precompile(armature_${name} libraries)
   armature_compile_together(armature_${name} 8)
   armature_public_headers(${name} "${arg_HEADERS}" "${arg_LINK}" PUBLIC)

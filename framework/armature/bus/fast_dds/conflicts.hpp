@@ -11,7 +11,7 @@
 #include "armature/bus/fast_dds/discovery.hpp"
 #include "armature/bus/transport.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// An endpoint of this process, as far as conflicts go.
 struct OwnEndpoint {

@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// While it lives, Fast DDS writes nothing to the console; its errors go to `on_error`, each
 /// distinct text once. Fast DDS has one log per process: one of these at a time.

@@ -14,7 +14,7 @@
 
 #include "armature/bus/fast_dds/endpoint_tag.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// The identity of a DDS participant, and of one of its writers or readers.
 using GuidPrefix = std::array<std::uint8_t, 12>;

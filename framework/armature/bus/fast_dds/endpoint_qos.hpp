@@ -11,7 +11,7 @@ class DataReaderQos;
 class DataWriterQos;
 }  // namespace eprosima::fastdds::dds
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// Every QoS field stated; Fast DDS's defaults are not those of ROS 2.
 eprosima::fastdds::dds::DataWriterQos writer_qos(const QosSettings& settings,

@@ -10,7 +10,7 @@
 #include "armature/bus/fast_dds/participant.hpp"
 #include "armature/bus/transport.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// What the transport, its writers and its readers share; they hold it together, so the order in
 /// which a program lets go of them does not matter.

@@ -8,7 +8,7 @@
 
 #include "armature/bus/fast_dds/discovery.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// Fast DDS's identities as ours, which need no Fast DDS header.
 inline GuidPrefix prefix_of(const eprosima::fastrtps::rtps::GuidPrefix_t& prefix) {

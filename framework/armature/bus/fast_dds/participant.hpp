@@ -20,7 +20,7 @@ class Subscriber;
 class Topic;
 }  // namespace eprosima::fastdds::dds
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 class DdsLog;
 

@@ -9,7 +9,7 @@ namespace eprosima::fastdds::dds {
 class TypeSupport;
 }
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 
 /// The sample of every topic as Fast DDS sees it: encoded bytes with their encapsulation header.
 struct RawCdr {

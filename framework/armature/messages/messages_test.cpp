@@ -9,7 +9,6 @@
 
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <random>
 #include <set>
 
 #include "armature/messages/armature_msgs.hpp"
@@ -18,6 +17,7 @@
 #include "armature/messages/geometry.hpp"
 #include "armature/messages/sensor_msgs.hpp"
 #include "armature/messages/stamp.hpp"
+#include "armature/messages/test_messages.hpp"
 #include "armature/messages/tf2_msgs.hpp"
 #include "armature/messages/type_description.hpp"
 #include "armature/messages/visualization_msgs.hpp"
@@ -35,78 +35,6 @@ template <class Message>
 std::vector<std::byte> encoded(const Message& message) {
   return encoded(message_type<Message>(), &message);
 }
-
-/// Writes a valid encoding with random content, driven by the description alone.
-class RandomCdr {
- public:
-  explicit RandomCdr(std::uint32_t seed) : random_{seed} {}
-
-  std::vector<std::byte> of(const TypeDescription& type) {
-    cdr_ = {std::byte{0}, std::byte{1}, std::byte{0}, std::byte{0}};
-    structure(type);
-    return cdr_;
-  }
-
- private:
-  void structure(const TypeDescription& type) {
-    for (const FieldDescription& field : type.fields) {
-      std::uint32_t count = 1;
-      if (field.shape == FieldDescription::Shape::array) count = field.bound;
-      if (field.shape == FieldDescription::Shape::sequence) {
-        count = static_cast<std::uint32_t>(random_() % 4);
-        number(count);
-      }
-      for (std::uint32_t i = 0; i < count; ++i) element(field);
-    }
-  }
-  void element(const FieldDescription& field) {
-    switch (field.kind) {
-      case FieldKind::boolean:
-        return number(static_cast<std::uint8_t>(random_() % 2));
-      case FieldKind::octet:
-        return number(static_cast<std::uint8_t>(random_()));
-      case FieldKind::int16:
-      case FieldKind::uint16:
-        return number(static_cast<std::uint16_t>(random_()));
-      case FieldKind::int32:
-      case FieldKind::uint32:
-        return number(static_cast<std::uint32_t>(random_()));
-      case FieldKind::int64:
-      case FieldKind::uint64:
-        return number(std::uint64_t{random_()} << 20 | random_());
-      case FieldKind::float32:
-        return number(static_cast<float>(random_()) * 1e-3F);
-      case FieldKind::float64:
-        return number(static_cast<double>(random_()) * 1e-3);
-      case FieldKind::text:
-        return text();
-      case FieldKind::structure:
-        return structure(*field.structure);
-    }
-  }
-  void text() {
-    const std::uint32_t length = static_cast<std::uint32_t>(random_() % 7);
-    number(length + 1);
-    for (std::uint32_t i = 0; i < length; ++i) cdr_.push_back(std::byte{'a'});
-    cdr_.push_back(std::byte{0});
-  }
-  template <class Number>
-  void number(Number value) {
-    while ((cdr_.size() - 4) % sizeof value != 0) cdr_.push_back(std::byte{0});
-    const auto* bytes = reinterpret_cast<const std::byte*>(&value);
-    cdr_.insert(cdr_.end(), bytes, bytes + sizeof value);
-  }
-
-  std::mt19937 random_;
-  std::vector<std::byte> cdr_;
-};
-
-struct AnyMessage {
-  explicit AnyMessage(const MessageType& of) : type{of}, message{of.create()} {}
-  ~AnyMessage() { type.destroy(message); }
-  const MessageType& type;
-  void* message;
-};
 
 msg::JointState joint_state() {
   msg::JointState js;

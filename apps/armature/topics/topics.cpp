@@ -19,6 +19,7 @@
 #include "armature/bus/topic_name.hpp"
 #include "armature/config/problems.hpp"
 #include "armature/messages/cdr_to_json.hpp"
+#include "armature/messages/known_types.hpp"
 #include "armature/runtime/plugins/plugin_registry.hpp"
 #include "exit_code.hpp"
 #include "inspect/plugins.hpp"

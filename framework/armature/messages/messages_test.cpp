@@ -15,12 +15,14 @@
 #include "armature/messages/cdr_check.hpp"
 #include "armature/messages/cdr_to_json.hpp"
 #include "armature/messages/geometry.hpp"
+#include "armature/messages/known_types.hpp"
 #include "armature/messages/sensor_msgs.hpp"
 #include "armature/messages/stamp.hpp"
 #include "armature/messages/test_messages.hpp"
 #include "armature/messages/tf2_msgs.hpp"
 #include "armature/messages/type_description.hpp"
 #include "armature/messages/visualization_msgs.hpp"
+#include "tests/text_of.hpp"
 
 namespace armature {
 namespace {
@@ -46,9 +48,25 @@ msg::JointState joint_state() {
   return js;
 }
 
-TEST(Messages, EveryTypeOfTheIdlIsInTheTable) {
+/// Of idl/, read as a user would read it.
+const TypeDescriptions& idl_types() {
+  static const TypeDescriptions types = [] {
+    TypeDescriptions read;
+    for (const char* package : {"builtin_interfaces", "std_msgs", "geometry_msgs", "tf2_msgs",
+                                "sensor_msgs", "trajectory_msgs", "diagnostic_msgs",
+                                "rosgraph_msgs", "visualization_msgs", "armature_msgs"}) {
+      const std::string file = std::string{ARMATURE_SOURCE_DIR "/idl/"} + package + ".idl";
+      const auto added = read.add(test::text_of(file), file);
+      EXPECT_TRUE(added) << added.error().text;
+    }
+    return read;
+  }();
+  return types;
+}
+
+TEST(Messages, EveryTypeOfTheIdlIsKnown) {
   std::set<std::string> described;
-  for (const auto& type : type_descriptions().all()) described.insert(type->dds_name);
+  for (const auto& type : idl_types().all()) described.insert(type->dds_name);
   std::set<std::string> known;
   for (const MessageType* type : known_message_types()) known.insert(std::string{type->dds_name});
   EXPECT_EQ(described, known);
@@ -147,7 +165,7 @@ TEST(Messages, EveryLayoutHashIsDifferent) {
 TEST(Messages, ChangingAnythingInALayoutChangesItsHash) {
   const auto hash = [](const std::string& members) {
     TypeDescriptions types;
-    EXPECT_TRUE(types.add("@final struct X_ { " + members + " };"));
+    EXPECT_TRUE(types.add("@final struct X_ { " + members + " };", "x.idl"));
     return layout_hash(*types.find("X_"));
   };
   const std::set<std::uint64_t> hashes{hash("long a_;"),
@@ -268,15 +286,15 @@ TEST(CdrToJson, ReadsNestedSequencesAndArrays) {
 TEST(Idl, MistakesAreToldWithTheirLine) {
   const auto reason = [](std::string_view idl) {
     TypeDescriptions types;
-    const auto added = types.add(idl);
+    const auto added = types.add(idl, "a.idl");
     return added ? std::string{} : added.error().text;
   };
   EXPECT_EQ(reason("module a {\n@final struct B_ {\n  lang x_;\n};\n};"),
-            "line 3: unknown type 'lang'");
-  EXPECT_EQ(reason("@final struct B_ { long x_[0]; };"), "line 1: '0' is not a length");
-  EXPECT_EQ(reason("@final struct B_ { long x_ };"), "line 1: expected ';' before '}'");
-  EXPECT_EQ(reason("@final struct B_ { };"), "line 1: struct B_ has no members");
-  EXPECT_EQ(reason("@final struct B_ { long x_;"), "line 1: unexpected end of the file");
+            "a.idl:3: unknown type 'lang'");
+  EXPECT_EQ(reason("@final struct B_ { long x_[0]; };"), "a.idl:1: '0' is not a length");
+  EXPECT_EQ(reason("@final struct B_ { long x_ };"), "a.idl:1: expected ';' before '}'");
+  EXPECT_EQ(reason("@final struct B_ { };"), "a.idl:1: struct B_ has no members");
+  EXPECT_EQ(reason("@final struct B_ { long x_;"), "a.idl:1: unexpected end of the file");
 }
 
 TEST(Idl, UnknownTypesAreNotDescribed) { EXPECT_EQ(describe_type("a/B"), nullptr); }
@@ -301,7 +319,7 @@ std::string ros_spelling(const FieldDescription& field) {
 
 TEST(Idl, RosMessageFilesSayTheSame) {
   int compared = 0;
-  for (const auto& type : type_descriptions().all()) {
+  for (const auto& type : idl_types().all()) {
     if (!type->ros_name.starts_with("armature_msgs/")) continue;
     const std::string name = type->ros_name.substr(type->ros_name.find('/') + 1);
     std::ifstream file{ARMATURE_SOURCE_DIR "/idl/msg/" + name + ".msg"};

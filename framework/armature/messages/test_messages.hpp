@@ -39,6 +39,7 @@ class RandomCdr {
       case FieldKind::boolean:
         return number(static_cast<std::uint8_t>(random_() % 2));
       case FieldKind::octet:
+      case FieldKind::int8:
         return number(static_cast<std::uint8_t>(random_()));
       case FieldKind::int16:
       case FieldKind::uint16:

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <string>
 
+#include "armature/messages/known_types.hpp"
 #include "armature/messages/test_messages.hpp"
 
 namespace armature {

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <optional>
+#include <string>
 
 #include "armature/runtime/plugins/abi.hpp"
 #include "armature/runtime/plugins/elf_section.hpp"
@@ -23,6 +24,14 @@ std::optional<std::string> wrong_entry(const PluginEntry& entry, std::string_vie
                        entry.kind_version, kind, kind_version);
   }
   return std::nullopt;
+}
+
+/// A message's symbol names its layout (armature/messages/message_type.hpp).
+std::string reason_of_dlopen(std::string reason) {
+  if (reason.find("defined_message") != std::string::npos) {
+    reason += "; it was built for other members of this message: build it again";
+  }
+  return reason;
 }
 
 }  // namespace
@@ -48,7 +57,7 @@ Expected<std::shared_ptr<PluginLibrary>> PluginLibrary::load(const std::filesyst
   }
   if (const auto tried = try_plugin(file); !tried) return tl::unexpected{tried.error()};
   void* handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (!handle) return refuse(dlerror());
+  if (!handle) return refuse(reason_of_dlopen(dlerror()));
   const auto* entry = static_cast<const PluginEntry*>(dlsym(handle, "armature_plugin_entry"));
   const auto wrong = entry ? wrong_entry(*entry, kind, kind_version)
                            : std::optional<std::string>{"it has no ARMATURE_PLUGIN(...) line"};

@@ -140,9 +140,8 @@ function(armature_test_main)
   if(ARMATURE_PRECOMPILE)
     target_precompile_headers(armature_test_main PRIVATE
                               "${Armature_SOURCE_DIR}/tests/precompiled.hpp")
-    target_include_directories(armature_test_main SYSTEM PRIVATE
-                               "${ARMATURE_GENERATED_DIR}" "${ARMATURE_GENERATED_DIR}/armature_messages")
-    add_dependencies(armature_test_main armature_idl)
+    target_include_directories(armature_test_main PRIVATE "${ARMATURE_GENERATED_DIR}")
+    add_dependencies(armature_test_main armature_message_code)
   endif()
   set_target_properties(armature_test_main PROPERTIES POSITION_INDEPENDENT_CODE OFF)
 endfunction()

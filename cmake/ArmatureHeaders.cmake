@@ -15,12 +15,17 @@ function(armature_public_headers name headers links scope)
   install(TARGETS armature_${name} EXPORT ArmatureTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ${file_set})
   list(FILTER links INCLUDE REGEX "^Armature::")
   list(TRANSFORM links REPLACE "^Armature::" "")
-  # A library whose headers have nothing that a plugin shares needs no tag.
   set_property(GLOBAL APPEND PROPERTY ARMATURE_LIBRARIES ${name})
   set_property(GLOBAL APPEND_STRING PROPERTY ARMATURE_LIBRARY_HEADERS
                "set(${name}_headers \"${files}\")\nset(${name}_links \"${links}\")\n")
   set_property(TARGET armature_${name} PROPERTY ARMATURE_TAGGED ON)
   set_property(TARGET armature_${name} APPEND PROPERTY EXPORT_PROPERTIES ARMATURE_TAGGED)
+endfunction()
+
+# armature_tag_also(messages a.idl ...): files that headers of this library are made from.
+function(armature_tag_also name)
+  set_property(GLOBAL APPEND_STRING PROPERTY ARMATURE_LIBRARY_HEADERS
+               "list(APPEND ${name}_headers \"${ARGN}\")\n")
 endfunction()
 
 # After the last library: the header with the tags of all of them.

@@ -10,10 +10,13 @@
 #include <fstream>
 #include <regex>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "../text_of.hpp"
 #include "command.hpp"
 #include "page.hpp"
+#include "tests/dds_domain.hpp"
 
 namespace armature::test {
 namespace {
@@ -81,6 +84,66 @@ TEST_F(Installed, TheLibraryPageBuildsAndRuns) {
   EXPECT_EQ(result.exit_code, 0) << text_of(folder_ / "build.log") << result.err;
   EXPECT_TRUE(result.out.starts_with("ok\n")) << result.out;
   EXPECT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), 2) << result.out;
+}
+
+/// Writes the blocks of a page that follow a line "`FILE`:" into files below `folder`. What its
+/// "$ ..." lines say, in order.
+std::vector<std::string> write_files(const std::string& page, const fs::path& folder) {
+  std::vector<std::string> commands;
+  std::istringstream lines{page};
+  std::string name, block;
+  std::ofstream file;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("```")) {
+      block = block.empty() ? line : "";
+      file.close();
+      if (block.empty() || name.empty()) continue;
+      fs::create_directories((folder / name).parent_path());
+      file.open(folder / name);
+      name.clear();
+    } else if (file.is_open()) {
+      file << line << '\n';
+    } else if (block == "```console" && line.starts_with("$ ")) {
+      commands.push_back(line.substr(2));
+    } else if (line.starts_with('`') && line.ends_with("`:")) {
+      name = line.substr(1, line.size() - 3);
+    }
+  }
+  return commands;
+}
+
+TEST_F(Installed, TheMessagesPageBuildsAndRuns) {
+  const auto commands =
+      write_files(text_of(ARMATURE_SOURCE_DIR "/docs/your_own_messages.md"), folder_);
+  EXPECT_EQ(commands.size(), 8U);
+  std::string script = "set -e\nexport PREFIX=" + prefix_.string() + "\n";
+  // A reader is alone on his machine; tests are not.
+  script += "armature() { local more=; case $1 in run|topic) more='--domain " +
+            std::to_string(unique_dds_domain()) + "';; esac; command armature \"$@\" $more; }\n";
+  for (const std::string& command : commands) script += command + "\n";
+  const auto result = shell(script);
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+  for (const char* shown :
+       {"100% tests passed", "/weather/report", "weather_msgs/Report", "\"frame_id\": \"roof\"",
+        "\"wind\": 12.5", "\"readings\": [{\"sensor\": \"vane\", \"value\": 0.25}]"}) {
+    EXPECT_NE(result.out.find(shown), std::string::npos) << shown << "\n" << result.out;
+  }
+  EXPECT_NE(result.err.find("strong wind"), std::string::npos) << result.err;
+
+  const std::string in_path = "export ARMATURE_PLUGIN_PATH=$PWD/weather/build/plugins\n";
+  const auto listed = shell(in_path + "armature plugin list --json");
+  EXPECT_EQ(listed.out.find("libweather_msgs"), std::string::npos) << listed.out;
+
+  // A plugin that was built for other members than its library has now.
+  const auto stale =
+      shell(in_path +
+            "sed -i 's/octet sky_;/octet sky_; octet clouds_;/' weather/weather_msgs.idl\n"
+            "cmake --build weather/build --target weather_msgs > stale.log &&"
+            "armature plugin verify weather/alarm");
+  EXPECT_NE(stale.exit_code, 0);
+  EXPECT_NE(stale.out.find("it was built for other members of this message: build it again"),
+            std::string::npos)
+      << stale.out << stale.err;
 }
 
 TEST_F(Installed, AComponentThatThereIsNotIsNamed) {

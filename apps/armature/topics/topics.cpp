@@ -19,6 +19,7 @@
 #include "armature/bus/topic_name.hpp"
 #include "armature/config/problems.hpp"
 #include "armature/messages/cdr_to_json.hpp"
+#include "armature/messages/known_types.hpp"
 #include "armature/runtime/plugins/plugin_registry.hpp"
 #include "exit_code.hpp"
 #include "inspect/plugins.hpp"
@@ -89,8 +90,24 @@ class Finish {
   std::atomic<std::uint64_t> seen_{0};
 };
 
+/// Makes the types of message libraries in the plugin path known here, by the text that they hold.
+void describe_messages(const PluginRegistry& plugins) {
+  std::vector<PluginRegistry::Messages> left = plugins.messages();
+  for (std::size_t before = left.size() + 1; left.size() < before;) {  // one may nest another's
+    before = left.size();
+    std::erase_if(left, [](const auto& library) {
+      return add_descriptions(library.idl, library.file.string()).has_value();
+    });
+  }
+  for (const auto& [file, idl] : left) {
+    fmt::print(stderr, "armature: its messages cannot be shown: {}\n",
+               add_descriptions(idl, file.string()).error().text);
+  }
+}
+
 PluginPtr<DdsObserver> observe(PluginRegistry& plugins, const TopicOptions& options) {
   tell_warnings(plugins);
+  describe_messages(plugins);
   const ObserverOptions observer_options{.domain = options.domain,
                                          .interfaces = options.interfaces};
   auto observer = plugins.make<DdsObserver>("observer/fast_dds", observer_options);
@@ -203,7 +220,10 @@ int echo_topic(const TopicOptions& options) {
     if (options.count > 0 && finish.seen() >= options.count) return;
     const TypeDescription* type = describe_type(sample.type);
     if (!type) {
-      tell(fmt::format("{} bytes of {}, which is not in idl/", sample.cdr.size(), sample.type));
+      tell(
+          fmt::format("{} bytes of {}; the folder of the library that has the type belongs into "
+                      "ARMATURE_PLUGIN_PATH",
+                      sample.cdr.size(), sample.type));
     } else {
       const auto json = cdr_to_json(*type, sample.cdr,
                                     options.full ? OctetArrays::whole : OctetArrays::shortened);

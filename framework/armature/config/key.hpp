@@ -9,7 +9,7 @@
 
 #include "armature/config/params.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 namespace config ARMATURE_EXPORT {
 
 /// One key that a file may have and that is no plugin's parameter. Reading asks for it, and the

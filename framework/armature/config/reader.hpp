@@ -11,7 +11,7 @@
 #include "armature/config/node.hpp"
 #include "armature/config/problems.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 namespace config ARMATURE_EXPORT {
 
 /// A value's conversion, or a problem already noted. Numbers: decimal integers and floats that a

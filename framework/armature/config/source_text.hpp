@@ -8,7 +8,7 @@
 
 #include "armature/config/node.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 namespace config ARMATURE_EXPORT {
 
 /// While one exists, all pipes that its thread reads together may be waited for for 2 s: what one

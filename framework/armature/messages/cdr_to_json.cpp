@@ -50,6 +50,8 @@ class Converter {
         return reader_.number<std::uint8_t>() != 0;
       case FieldKind::octet:
         return reader_.number<std::uint8_t>();
+      case FieldKind::int8:
+        return reader_.number<std::int8_t>();
       case FieldKind::int16:
         return reader_.number<std::int16_t>();
       case FieldKind::uint16:

@@ -12,7 +12,7 @@
 namespace armature ARMATURE_EXPORT {
 
 /// What the bus needs to know of a message type, without knowing it: name, layout, life, encoding.
-/// One constant per type; all of them live in the shared library armature_messages.
+/// One constant per type; it lives in the shared library of the type, which stays loaded.
 struct MessageType {
   std::string_view ros_name;  // "sensor_msgs/JointState", as plugin.yaml says it
   std::string_view dds_name;  // "sensor_msgs::msg::dds_::JointState_"
@@ -27,12 +27,20 @@ struct MessageType {
   bool (*decode)(std::span<const std::byte> cdr, void* message) = nullptr;
 };
 
-/// The type's constant; specialised for every message in armature/messages/.
-template <class Message>
-const MessageType& message_type();
+/// Defined in the library of the type. The layout is part of the symbol's name: what was compiled
+/// for another layout finds no such symbol and cannot be loaded.
+template <class Message, std::uint64_t layout>
+const MessageType& defined_message();
 
-/// All known types, and one by its ROS name or DDS name (nullptr: unknown).
-std::span<const MessageType* const> known_message_types();
+/// The type's constant.
+template <class Message>
+const MessageType& message_type() {
+  return defined_message<Message, Message::kLayout>();
+}
+
+/// All types of the libraries that are loaded, and one by its ROS name or DDS name (nullptr:
+/// unknown).
+std::vector<const MessageType*> known_message_types();
 const MessageType* find_message_type(std::string_view name);
 
 }  // namespace armature

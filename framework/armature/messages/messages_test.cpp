@@ -9,18 +9,20 @@
 
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <random>
 #include <set>
 
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/cdr_check.hpp"
 #include "armature/messages/cdr_to_json.hpp"
 #include "armature/messages/geometry.hpp"
+#include "armature/messages/known_types.hpp"
 #include "armature/messages/sensor_msgs.hpp"
 #include "armature/messages/stamp.hpp"
+#include "armature/messages/test_messages.hpp"
 #include "armature/messages/tf2_msgs.hpp"
 #include "armature/messages/type_description.hpp"
 #include "armature/messages/visualization_msgs.hpp"
+#include "tests/text_of.hpp"
 
 namespace armature {
 namespace {
@@ -36,78 +38,6 @@ std::vector<std::byte> encoded(const Message& message) {
   return encoded(message_type<Message>(), &message);
 }
 
-/// Writes a valid encoding with random content, driven by the description alone.
-class RandomCdr {
- public:
-  explicit RandomCdr(std::uint32_t seed) : random_{seed} {}
-
-  std::vector<std::byte> of(const TypeDescription& type) {
-    cdr_ = {std::byte{0}, std::byte{1}, std::byte{0}, std::byte{0}};
-    structure(type);
-    return cdr_;
-  }
-
- private:
-  void structure(const TypeDescription& type) {
-    for (const FieldDescription& field : type.fields) {
-      std::uint32_t count = 1;
-      if (field.shape == FieldDescription::Shape::array) count = field.bound;
-      if (field.shape == FieldDescription::Shape::sequence) {
-        count = static_cast<std::uint32_t>(random_() % 4);
-        number(count);
-      }
-      for (std::uint32_t i = 0; i < count; ++i) element(field);
-    }
-  }
-  void element(const FieldDescription& field) {
-    switch (field.kind) {
-      case FieldKind::boolean:
-        return number(static_cast<std::uint8_t>(random_() % 2));
-      case FieldKind::octet:
-        return number(static_cast<std::uint8_t>(random_()));
-      case FieldKind::int16:
-      case FieldKind::uint16:
-        return number(static_cast<std::uint16_t>(random_()));
-      case FieldKind::int32:
-      case FieldKind::uint32:
-        return number(static_cast<std::uint32_t>(random_()));
-      case FieldKind::int64:
-      case FieldKind::uint64:
-        return number(std::uint64_t{random_()} << 20 | random_());
-      case FieldKind::float32:
-        return number(static_cast<float>(random_()) * 1e-3F);
-      case FieldKind::float64:
-        return number(static_cast<double>(random_()) * 1e-3);
-      case FieldKind::text:
-        return text();
-      case FieldKind::structure:
-        return structure(*field.structure);
-    }
-  }
-  void text() {
-    const std::uint32_t length = static_cast<std::uint32_t>(random_() % 7);
-    number(length + 1);
-    for (std::uint32_t i = 0; i < length; ++i) cdr_.push_back(std::byte{'a'});
-    cdr_.push_back(std::byte{0});
-  }
-  template <class Number>
-  void number(Number value) {
-    while ((cdr_.size() - 4) % sizeof value != 0) cdr_.push_back(std::byte{0});
-    const auto* bytes = reinterpret_cast<const std::byte*>(&value);
-    cdr_.insert(cdr_.end(), bytes, bytes + sizeof value);
-  }
-
-  std::mt19937 random_;
-  std::vector<std::byte> cdr_;
-};
-
-struct AnyMessage {
-  explicit AnyMessage(const MessageType& of) : type{of}, message{of.create()} {}
-  ~AnyMessage() { type.destroy(message); }
-  const MessageType& type;
-  void* message;
-};
-
 msg::JointState joint_state() {
   msg::JointState js;
   set_stamp(js.header_().stamp_(), Time{12'345'678'901});
@@ -118,9 +48,25 @@ msg::JointState joint_state() {
   return js;
 }
 
-TEST(Messages, EveryTypeOfTheIdlIsInTheTable) {
+/// Of idl/, read as a user would read it.
+const TypeDescriptions& idl_types() {
+  static const TypeDescriptions types = [] {
+    TypeDescriptions read;
+    for (const char* package : {"builtin_interfaces", "std_msgs", "geometry_msgs", "tf2_msgs",
+                                "sensor_msgs", "trajectory_msgs", "diagnostic_msgs",
+                                "rosgraph_msgs", "visualization_msgs", "armature_msgs"}) {
+      const std::string file = std::string{ARMATURE_SOURCE_DIR "/idl/"} + package + ".idl";
+      const auto added = read.add(test::text_of(file), file);
+      EXPECT_TRUE(added) << added.error().text;
+    }
+    return read;
+  }();
+  return types;
+}
+
+TEST(Messages, EveryTypeOfTheIdlIsKnown) {
   std::set<std::string> described;
-  for (const auto& type : type_descriptions().all()) described.insert(type->dds_name);
+  for (const auto& type : idl_types().all()) described.insert(type->dds_name);
   std::set<std::string> known;
   for (const MessageType* type : known_message_types()) known.insert(std::string{type->dds_name});
   EXPECT_EQ(described, known);
@@ -219,7 +165,7 @@ TEST(Messages, EveryLayoutHashIsDifferent) {
 TEST(Messages, ChangingAnythingInALayoutChangesItsHash) {
   const auto hash = [](const std::string& members) {
     TypeDescriptions types;
-    EXPECT_TRUE(types.add("@final struct X_ { " + members + " };"));
+    EXPECT_TRUE(types.add("@final struct X_ { " + members + " };", "x.idl"));
     return layout_hash(*types.find("X_"));
   };
   const std::set<std::uint64_t> hashes{hash("long a_;"),
@@ -340,15 +286,15 @@ TEST(CdrToJson, ReadsNestedSequencesAndArrays) {
 TEST(Idl, MistakesAreToldWithTheirLine) {
   const auto reason = [](std::string_view idl) {
     TypeDescriptions types;
-    const auto added = types.add(idl);
+    const auto added = types.add(idl, "a.idl");
     return added ? std::string{} : added.error().text;
   };
   EXPECT_EQ(reason("module a {\n@final struct B_ {\n  lang x_;\n};\n};"),
-            "line 3: unknown type 'lang'");
-  EXPECT_EQ(reason("@final struct B_ { long x_[0]; };"), "line 1: '0' is not a length");
-  EXPECT_EQ(reason("@final struct B_ { long x_ };"), "line 1: expected ';' before '}'");
-  EXPECT_EQ(reason("@final struct B_ { };"), "line 1: struct B_ has no members");
-  EXPECT_EQ(reason("@final struct B_ { long x_;"), "line 1: unexpected end of the file");
+            "a.idl:3: unknown type 'lang'");
+  EXPECT_EQ(reason("@final struct B_ { long x_[0]; };"), "a.idl:1: '0' is not a length");
+  EXPECT_EQ(reason("@final struct B_ { long x_ };"), "a.idl:1: expected ';' before '}'");
+  EXPECT_EQ(reason("@final struct B_ { };"), "a.idl:1: struct B_ has no members");
+  EXPECT_EQ(reason("@final struct B_ { long x_;"), "a.idl:1: unexpected end of the file");
 }
 
 TEST(Idl, UnknownTypesAreNotDescribed) { EXPECT_EQ(describe_type("a/B"), nullptr); }
@@ -373,7 +319,7 @@ std::string ros_spelling(const FieldDescription& field) {
 
 TEST(Idl, RosMessageFilesSayTheSame) {
   int compared = 0;
-  for (const auto& type : type_descriptions().all()) {
+  for (const auto& type : idl_types().all()) {
     if (!type->ros_name.starts_with("armature_msgs/")) continue;
     const std::string name = type->ros_name.substr(type->ros_name.find('/') + 1);
     std::ifstream file{ARMATURE_SOURCE_DIR "/idl/msg/" + name + ".msg"};

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/messages/type_description.hpp"
 
-#include <stdexcept>
-
-#include "armature/messages/embedded_idl.hpp"
-
 namespace armature {
 namespace {
 
@@ -14,6 +10,8 @@ std::string_view kind_name(FieldKind kind) {
       return "boolean";
     case FieldKind::octet:
       return "octet";
+    case FieldKind::int8:
+      return "int8";
     case FieldKind::int16:
       return "int16";
     case FieldKind::uint16:
@@ -57,6 +55,7 @@ std::size_t smallest_size(const FieldDescription& field) {
   switch (field.kind) {
     case FieldKind::boolean:
     case FieldKind::octet:
+    case FieldKind::int8:
       return 1;
     case FieldKind::int16:
     case FieldKind::uint16:
@@ -81,25 +80,6 @@ const TypeDescription* TypeDescriptions::find(std::string_view name) const {
     if (type->dds_name == name || type->ros_name == name) return type.get();
   }
   return nullptr;
-}
-
-const TypeDescriptions& type_descriptions() {
-  static const TypeDescriptions types = [] {
-    TypeDescriptions read;
-    for (std::size_t i = 0; !embedded_idl(i).empty(); ++i) {
-      // A broken file of idl/ is a mistake of the build, seen by the first test.
-      if (const auto added = read.add(embedded_idl(i)); !added) {
-        throw std::logic_error{"embedded IDL file " + std::to_string(i) + ": " +
-                               added.error().text};
-      }
-    }
-    return read;
-  }();
-  return types;
-}
-
-const TypeDescription* describe_type(std::string_view name) {
-  return type_descriptions().find(name);
 }
 
 std::uint64_t layout_hash(const TypeDescription& type) {

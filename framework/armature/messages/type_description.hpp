@@ -17,6 +17,7 @@ struct TypeDescription;
 enum class FieldKind {
   boolean,
   octet,
+  int8,
   int16,
   uint16,
   int32,
@@ -48,29 +49,33 @@ struct TypeDescription {
   std::size_t smallest_size = 0;  // [byte] of an encoding without padding and with empty sequences
 };
 
+/// `const octet RAINING = 2;`
+struct ConstantDescription {
+  std::string name;  // with its modules: "weather_msgs::msg::dds_::RAINING"
+  FieldKind kind = FieldKind::octet;
+  std::string value;  // as IDL writes it: "2", "TRUE", "\"text\""
+};
+
 /// Bytes of one element without padding; a string's or sequence's length counts 4.
 std::size_t smallest_size(const FieldDescription& field);
 
 /// Types by name, as read from IDL. The addresses of its descriptions do not change.
 class TypeDescriptions {
  public:
-  /// Reads the subset of IDL that idl/ uses: modules, final structs, basic types, string, arrays,
-  /// sequences. Preprocessor lines are passed over: add the included files first. The reason names
-  /// the line.
-  Expected<void> add(std::string_view idl);
+  /// Reads the subset of IDL that messages need: modules, final structs, numbers, string, arrays,
+  /// sequences, constants. What else IDL knows is refused by name. Preprocessor lines are passed
+  /// over: add the included files first. A struct that is known already is taken when it is the
+  /// same. The reason names file and line.
+  Expected<void> add(std::string_view idl, std::string_view file);
   /// By ROS or DDS name; nullptr: unknown.
   const TypeDescription* find(std::string_view name) const;
   const std::vector<std::unique_ptr<TypeDescription>>& all() const { return types_; }
+  const std::vector<ConstantDescription>& constants() const { return constants_; }
 
  private:
   std::vector<std::unique_ptr<TypeDescription>> types_;
+  std::vector<ConstantDescription> constants_;
 };
-
-/// All types of idl/.
-const TypeDescriptions& type_descriptions();
-
-/// One of them, by ROS or DDS name; nullptr: unknown.
-const TypeDescription* describe_type(std::string_view name);
 
 /// FNV-1a of the type's name and its flattened field list: equal only for the same layout.
 std::uint64_t layout_hash(const TypeDescription& type);

@@ -6,6 +6,7 @@
 
 #include "armature/bus/fast_dds/fast_dds_test.hpp"
 #include "armature/messages/cdr_to_json.hpp"
+#include "armature/messages/known_types.hpp"
 
 namespace armature {
 namespace {

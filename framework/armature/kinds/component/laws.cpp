@@ -10,6 +10,7 @@
 #include <random>
 
 #include "armature/kinds/component/random_message.hpp"
+#include "armature/messages/known_types.hpp"
 #include "armature/messages/message_type.hpp"
 
 namespace armature {

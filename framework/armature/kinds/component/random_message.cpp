@@ -43,6 +43,8 @@ class RandomWriter {
         return number(static_cast<std::uint8_t>(below(2)));
       case FieldKind::octet:
         return integer<std::uint8_t>();
+      case FieldKind::int8:
+        return integer<std::int8_t>();
       case FieldKind::int16:
         return integer<std::int16_t>();
       case FieldKind::uint16:

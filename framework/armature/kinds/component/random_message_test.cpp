@@ -7,6 +7,7 @@
 
 #include "armature/messages/cdr_check.hpp"
 #include "armature/messages/geometry_msgs.hpp"
+#include "armature/messages/known_types.hpp"
 #include "armature/messages/message_type.hpp"
 
 namespace armature {

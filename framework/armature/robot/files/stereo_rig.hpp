@@ -7,9 +7,11 @@
 
 #include "armature/robot/geometry/stereo_camera.hpp"
 
-namespace armature::config {
+namespace armature {
+namespace config ARMATURE_EXPORT {
 class Node;
-}  // namespace armature::config
+}  // namespace config
+}  // namespace armature
 
 namespace armature ARMATURE_EXPORT {
 

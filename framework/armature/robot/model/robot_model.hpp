@@ -14,9 +14,11 @@
 #include "armature/values/expected.hpp"
 #include "armature/values/inline_text.hpp"
 
-namespace armature::config {
+namespace armature {
+namespace config ARMATURE_EXPORT {
 class Node;
-}  // namespace armature::config
+}  // namespace config
+}  // namespace armature
 
 namespace armature ARMATURE_EXPORT {
 

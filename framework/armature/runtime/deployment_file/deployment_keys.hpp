@@ -8,7 +8,7 @@
 #include "armature/config/key.hpp"
 #include "armature/runtime/deployment_file/deployment_config.hpp"
 
-namespace armature {
+namespace armature ARMATURE_EXPORT {
 namespace keys ARMATURE_EXPORT {
 
 using config::Key;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "armature/header_tags.hpp"
@@ -55,6 +56,14 @@ std::optional<std::string> wrong_entry(const PluginEntry& entry, std::string_vie
   return fmt::format("its class is of kind '{}', wanted '{}'", entry.kind, kind);
 }
 
+/// A message's symbol names its layout (armature/messages/message_type.hpp).
+std::string reason_of_dlopen(std::string reason) {
+  if (reason.find("defined_message") != std::string::npos) {
+    reason += "; it was built for other members of this message: build it again";
+  }
+  return reason;
+}
+
 }  // namespace
 
 Expected<std::shared_ptr<PluginLibrary>> PluginLibrary::of_this_program(const PluginEntry& entry,
@@ -73,7 +82,7 @@ Expected<std::shared_ptr<PluginLibrary>> PluginLibrary::load(const std::filesyst
   if (const std::string other = difference(abi->second); !other.empty()) return refuse(other);
   if (const auto tried = try_plugin(file); !tried) return tl::unexpected{tried.error()};
   void* handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (!handle) return refuse(dlerror());
+  if (!handle) return refuse(reason_of_dlopen(dlerror()));
   const auto* entry = static_cast<const PluginEntry*>(dlsym(handle, "armature_plugin_entry"));
   const auto wrong = entry ? wrong_entry(*entry, kind)
                            : std::optional<std::string>{"it has no ARMATURE_PLUGIN(...) line"};

@@ -100,12 +100,17 @@ void PluginRegistry::scan(const std::filesystem::path& folder) {
 }
 
 void PluginRegistry::add(const std::filesystem::path& file) {
-  const auto sections = read_elf_sections(file, {".armature.manifest", ".armature.abi"});
+  const auto sections =
+      read_elf_sections(file, {".armature.manifest", ".armature.abi", ".armature.idl"});
   if (!sections) {
     unusable_.push_back({file, sections.error().text});
     return;
   }
   const auto text = sections->find(".armature.manifest");
+  if (const auto idl = sections->find(".armature.idl"); idl != sections->end()) {
+    messages_.push_back({file, idl->second});
+    if (text == sections->end()) return;
+  }
   if (text == sections->end()) {
     unusable_.push_back({file, "not an Armature plugin: it has no manifest"});
     return;

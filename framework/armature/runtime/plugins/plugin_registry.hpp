@@ -31,6 +31,11 @@ class PluginRegistry {
     std::filesystem::path file;
     std::string reason;
   };
+  /// A library of message types (armature_add_messages) and their IDL.
+  struct Messages {
+    std::filesystem::path file;
+    std::string idl;
+  };
 
   /// $ARMATURE_PLUGIN_PATH (colon-separated), then the framework's own plugin folder.
   static std::vector<std::filesystem::path> default_search_path();
@@ -49,6 +54,8 @@ class PluginRegistry {
   /// Sorted by id.
   const std::vector<PluginManifest>& plugins() const { return plugins_; }
   const std::vector<Unusable>& unusable() const { return unusable_; }
+  /// Of the search path; none of them was loaded.
+  const std::vector<Messages>& messages() const { return messages_; }
   /// What whoever runs these plugins must know: folders and files that others may write, and
   /// ids that are there twice, with both paths. One sentence each.
   const std::vector<std::string>& warnings() const { return warnings_; }
@@ -96,6 +103,7 @@ class PluginRegistry {
   std::vector<std::filesystem::path> search_path_;
   std::vector<PluginManifest> plugins_;
   std::vector<Unusable> unusable_;
+  std::vector<Messages> messages_;
   std::vector<std::string> warnings_;
   std::map<std::string, PluginEntry, std::less<>> of_this_program_;
   std::map<std::string, std::weak_ptr<PluginLibrary>> loaded_;

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <fstream>
+#include <regex>
+#include <sstream>
+
+#include "armature/messages/generator/message_code.hpp"
+
+namespace armature {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What ROS 2 writes for every message, and without what nobody finds the type.
+const std::regex kScope{"[A-Za-z]\\w*::msg::dds_::\\w+"};
+
+struct Included {
+  int line;
+  std::string name;
+};
+
+std::vector<Included> includes_of(const std::string& idl) {
+  static const std::regex kInclude{R"(\s*#\s*include\s*["<]([^">]+)[">].*)"};
+  std::vector<Included> includes;
+  std::istringstream lines{idl};
+  int number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    if (std::smatch match; std::regex_match(line, match, kInclude)) {
+      includes.push_back({number, match[1]});
+    }
+  }
+  return includes;
+}
+
+Expected<void> check_scope(const fs::path& file, const std::string& name) {
+  if (std::regex_match(name, kScope)) return {};
+  return refuse(
+      file.string() + ": " + name +
+      " must stand in 'module PACKAGE { module msg { module dds_ {', as messages of ROS 2 "
+      "do on DDS");
+}
+
+}  // namespace
+
+bool IdlFiles::was_read(const fs::path& path) const {
+  return std::ranges::any_of(begun_,
+                             [&](const fs::path& other) { return fs::equivalent(other, path); });
+}
+
+Expected<std::string> IdlFiles::include(const std::string& name, const IdlFolder& beside) {
+  std::vector<IdlFolder> folders{beside};
+  folders.insert(folders.end(), folders_.begin(), folders_.end());
+  std::string searched;
+  for (const auto& [folder, header_folder] : folders) {
+    searched += (searched.empty() ? "" : ", ") + folder.string();
+    if (!fs::exists(folder / name)) continue;
+    if (const auto done = read(folder / name, header_folder); !done) {
+      return tl::unexpected{done.error()};
+    }
+    return header_folder + "/" + fs::path{name}.stem().string() + ".hpp";
+  }
+  return refuse("no '" + name + "' in " + searched);
+}
+
+Expected<void> IdlFiles::read(const fs::path& path) { return read(path, header_folder_); }
+
+Expected<void> IdlFiles::read(const fs::path& path, const std::string& header_folder) {
+  std::ifstream stream{path};
+  if (!stream) return refuse(path.string() + ": cannot be read");
+  if (was_read(path)) return {};
+  begun_.push_back(path);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  IdlFile file{.path = path,
+               .header = header_folder + "/" + path.stem().string() + ".hpp",
+               .text = text.str(),
+               .includes = {},
+               .types = {},
+               .constants = {}};
+  for (const Included& included : includes_of(file.text)) {
+    const auto header = include(included.name, {path.parent_path(), header_folder});
+    if (!header) {
+      return refuse(path.string() + ":" + std::to_string(included.line) + ": " +
+                    header.error().text);
+    }
+    file.includes.push_back(*header);
+  }
+  const std::size_t types = known_.all().size(), constants = known_.constants().size();
+  if (const auto added = known_.add(file.text, path.string()); !added) return added;
+  for (std::size_t i = types; i < known_.all().size(); ++i) {
+    file.types.push_back(known_.all()[i].get());
+    if (const auto good = check_scope(path, file.types.back()->dds_name); !good) return good;
+  }
+  for (std::size_t i = constants; i < known_.constants().size(); ++i) {
+    file.constants.push_back(known_.constants()[i]);
+    if (const auto good = check_scope(path, file.constants.back().name); !good) return good;
+  }
+  files_.push_back(std::move(file));
+  return {};
+}
+
+}  // namespace armature

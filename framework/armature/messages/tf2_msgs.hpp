@@ -1,8 +1,0 @@
-// SPDX-License-Identifier: Apache-2.0
-#pragma once
-
-#include <armature_messages/tf2_msgs.h>
-
-#include "armature/messages/message_list.hpp"
-
-ARMATURE_MESSAGES_TF2_MSGS(ARMATURE_DECLARE_MESSAGE)

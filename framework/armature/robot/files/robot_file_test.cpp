@@ -119,11 +119,10 @@ TEST(RobotFile, ReportsEverythingThatIsWrongAtOnceWithItsPlace) {
                   "home_deg: [1, 2]\n"
                   "colour: red\n"),
       ElementsAre(
-          "arm.yaml:1:17: 'armature_robot: 2' is a format that this version does not know; it "
-          "reads 1",
+          "arm.yaml:1:17: 'armature_robot' is 2, must be 1: the format that this version reads",
           "arm.yaml:3:13: 'convention' cannot be 'standart'; did you mean 'standard'?",
           "arm.yaml:5:27: 'limits_deg' is [lower, upper], and 90 is not below -90",
-          "arm.yaml:5:54: 'velocity_rad_s' must be more than 0, not 0",
+          "arm.yaml:5:54: 'velocity_rad_s' is 0, must be more than 0",
           "arm.yaml:6:5: missing key 'limits_m' in joint 'b'",
           "arm.yaml:6:32: unknown key 'limits_deg' in joint 'b'; did you mean 'limits_m' or "
           "'limits_mm'?",
@@ -197,7 +196,7 @@ TEST(RobotFile, RefusesWrongShapes) {
   EXPECT_THAT(problems_in(with(kGoodJoint,
                                "frames: {tool: {parent: b, rpy_deg: [1, 2]}}\n"
                                "pointing_axis: [0, 0, 0]")),
-              ElementsAre("arm.yaml:6:37: 'rpy_deg' needs 3 numbers, not 2",
+              ElementsAre("arm.yaml:6:37: 'rpy_deg' must be a list of 3 numbers, not of 2",
                           "arm.yaml:7:16: 'pointing_axis' has no length"));
 }
 

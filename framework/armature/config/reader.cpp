@@ -85,6 +85,9 @@ MapReader::Reading MapReader::read(const KeySpec& key) {
 template <class T>
 std::optional<T> MapReader::get(const KeySpec& key) {
   auto value = read(key).value;
+  if (!value && key.fallback) {
+    if (auto usual = to_value(key, key.name, *key.fallback, "")) value = std::move(*usual);
+  }
   return value ? std::optional<T>{std::get<T>(std::move(*value))} : std::nullopt;
 }
 

@@ -183,6 +183,16 @@ TEST(Tables, RefuseWhatIsOutOfRangeInTheUnitThatIsWritten) {
             "{d_cm: 1}:1:2: unknown key 'd_cm' in slide; did you mean 'd_m' or 'd_mm'?\n");
 }
 
+TEST(Tables, StandForAWrongValueWithTheirDefault) {
+  const std::vector<KeySpec> table{
+      {.name = "executor", .type = Type::text, .fallback = default_value("main")}};
+  const Node node = parse_text("{executor: [a]}", "f");
+  Problems problems;
+  MapReader map{node, "component", table, problems};
+  EXPECT_EQ(map.text("executor"), "main");
+  EXPECT_EQ(text_of(problems), "f:1:12: 'executor' must be a text, not a list\n");
+}
+
 TEST(Tables, AreWhatReadingAsksFor) {
   const Node node = parse_text("{tilt_deg: 1}", "f");
   const auto defect = [&](auto ask) -> std::string {

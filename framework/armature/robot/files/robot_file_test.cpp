@@ -2,6 +2,9 @@
 #include <gmock/gmock.h>
 
 #include "armature/config/document.hpp"
+#include "armature/config/unit_suffix.hpp"
+#include "armature/robot/files/robot_keys.hpp"
+#include "armature/robot/files/stereo_rig.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
 #include "armature/robot/model/test_robots.hpp"
 
@@ -207,6 +210,20 @@ TEST(RobotFile, RefusesMoreJointsThanFit) {
             ", limits_deg: [0, 1], velocity_rad_s: 1, acceleration_rad_s2: 1}\n";
   EXPECT_THAT(problems_in(text + "frames: {tool: {parent: j12}}"),
               ElementsAre("arm.yaml:4:3: 13 joints are too many; a robot may have 12"));
+}
+
+TEST(RobotFile, HasTablesOfKeysWithUnitsThatAreReadAndADoc) {
+  using Type = Joint::Type;
+  for (const auto& table : {robot_keys(), urdf_robot_keys(), joint_keys(Type::revolute, false),
+                            joint_keys(Type::prismatic, true), urdf_joint_keys(Type::prismatic),
+                            coupling_keys(Type::revolute), coupling_keys(Type::prismatic),
+                            frame_keys(), rig_keys(), mount_keys()}) {
+    for (const config::KeySpec& key : table) {
+      EXPECT_EQ(config::unknown_unit(key.name), "");
+      EXPECT_EQ(config::unknown_unit(key.also), "") << key.name;
+      EXPECT_NE(key.doc, "") << key.name;
+    }
+  }
 }
 
 }  // namespace

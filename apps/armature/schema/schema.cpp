@@ -15,6 +15,7 @@
 #include "inspect/plugins.hpp"
 #include "readable_json.hpp"
 #include "schema/component_schema.hpp"
+#include "schema/robot_schema.hpp"
 #include "schema/value_schema.hpp"
 
 namespace armature {
@@ -85,7 +86,11 @@ Json deployment_schema(const PluginRegistry& plugins) {
 
 }  // namespace
 
-int print_schema() {
+int print_schema(const std::string& of) {
+  if (of != "deployment") {
+    fmt::print("{}\n", readable(of == "robot" ? robot_schema() : rig_schema()));
+    return kOk;
+  }
   const PluginRegistry plugins;
   tell_warnings(plugins);
   for (const auto& [file, reason] : plugins.unusable()) {

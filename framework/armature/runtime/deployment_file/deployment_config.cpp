@@ -11,6 +11,8 @@
 #include <iterator>
 #include <set>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "armature/config/document.hpp"
 #include "armature/config/reader.hpp"
@@ -23,7 +25,6 @@
 #include "armature/runtime/deployment_file/graph.hpp"
 #include "armature/runtime/deployment_file/linked_parameters.hpp"
 #include "armature/runtime/deployment_file/on_fault.hpp"
-#include "armature/runtime/deployment_file/open_inputs.hpp"
 
 namespace armature {
 namespace {
@@ -105,6 +106,47 @@ void read_run(const Node& section, DeploymentConfig& deployment, Problems& probl
   deployment.time_limit_s = map.number("time_limit_s");
   deployment.stop_within_s = map.number("stop_within_s");
   map.finish();
+}
+
+/// Opens one of the inputs of `deployment` to programs that are no part of it.
+void open_input(const Node& item, DeploymentConfig& deployment, Problems& problems) {
+  const auto wanted = config::to_text(item);
+  if (!wanted) {
+    problems.add(item.origin(),
+                 fmt::format("'open' lists inputs as component.port, not {}", item.describe()));
+    return;
+  }
+  std::vector<std::string> names;
+  for (ComponentConfig& component : deployment.components) {
+    for (PortBinding& input : component.inputs) {
+      names.push_back(fmt::format("{}.{}", component.name, input.spec.name));
+      if (names.back() != *wanted) continue;
+      if (input.spec.qos != QosProfile::command) {
+        input.spec.outside = true;
+        return;
+      }
+      problems.add(item.origin(),
+                   fmt::format("'{}' takes commands, which come from the deployment itself only; "
+                               "open an input of a component that decides, and let that one "
+                               "command",
+                               *wanted));
+      return;
+    }
+  }
+  problems.add(item.origin(), fmt::format("no component has the input '{}'{}", *wanted,
+                                          config::did_you_mean(*wanted, names)));
+}
+
+/// `open: [task.target]`; null: nothing is opened.
+void open_inputs(const Node* list, DeploymentConfig& deployment, Problems& problems) {
+  if (!list) return;
+  if (list->kind() != Node::Kind::sequence) {
+    problems.add(
+        list->origin(),
+        fmt::format("'open' must be a list of inputs, [task.target], not {}", list->describe()));
+    return;
+  }
+  for (const Node& item : list->items()) open_input(item, deployment, problems);
 }
 
 }  // namespace

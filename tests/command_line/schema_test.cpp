@@ -1,17 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// `armature schema` against what reading takes and refuses. python3-jsonschema judges, as editors
-// do.
-#include <gmock/gmock.h>
-#include <unistd.h>
-
+// `armature schema` of deployments against what reading takes and refuses.
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 
-#include "command.hpp"
+#include "judged_by_schema.hpp"
 
 namespace armature::test {
 namespace {
@@ -21,48 +14,12 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-class Schema : public testing::Test {
- protected:
-  Schema() {
-    const auto result = run_command({armature(), "schema"});
-    EXPECT_EQ(result.exit_code, 0) << result.err;
-    schema_ = json::parse(result.out, nullptr, false);
-    EXPECT_FALSE(schema_.is_discarded()) << result.out.substr(0, 1000);
-    std::filesystem::create_directories(folder_);
-    std::ofstream{folder_ / "schema.json"} << result.out;
-  }
-  ~Schema() override { std::filesystem::remove_all(folder_); }
-
-  /// What the schema says against files, a line for each thing; empty: nothing.
-  std::string judged(const std::vector<std::string>& files) const {
-    // The python of the system has its packages.
-    std::vector<std::string> command{"/usr/bin/python3",
-                                     source_file("tests/command_line/judge_by_schema.py"),
-                                     folder_ / "schema.json"};
-    command.insert(command.end(), files.begin(), files.end());
-    const auto result = run_command(command);
-    EXPECT_EQ(result.err, "");
-    EXPECT_EQ(result.exit_code, result.out.empty() ? 0 : 1) << result.err;
-    return result.out;
-  }
-
-  std::string written(const std::string& yaml, std::size_t number = 0) const {
-    const std::string file = folder_ / ("deployment_" + std::to_string(number) + ".yaml");
-    std::ofstream{file} << yaml;
-    return file;
-  }
-
-  std::string judged_text(const std::string& yaml) const { return judged({written(yaml)}); }
-
+struct Schema : JudgedBySchema {
   /// What reading says.
   json problems_of(const std::string& yaml) const {
     const auto result = run_command({armature(), "check", "--json", written(yaml)});
     return json::parse(result.out)["problems"];
   }
-
-  std::filesystem::path folder_ =
-      std::filesystem::temp_directory_path() / ("armature-schema-" + std::to_string(getpid()));
-  json schema_;
 };
 
 /// "{run: , name: }" of the keys under `properties`; `also` stands before them.
@@ -74,17 +31,10 @@ std::string with_all_keys(const json& schema, const std::string& also = "") {
   return text + "}";
 }
 
-TEST_F(Schema, FitsEveryDeploymentThatIsShipped) {
-  std::vector<std::string> files;
-  for (const auto& entry : std::filesystem::directory_iterator{source_file("configs")}) {
-    if (entry.path().extension() == ".yaml") files.push_back(entry.path());
-  }
-  ASSERT_GE(files.size(), 5U);
-  EXPECT_EQ(judged(files), "");
-}
+TEST_F(Schema, FitsEveryDeploymentThatIsShipped) { expect_fits_all_in("configs", 5); }
 
 TEST_F(Schema, RefusesMisspeltKeysWrongTypesAndNumbersOutOfRange) {
-  const std::vector<std::pair<std::string, std::string>> wrong{
+  std::vector<std::pair<std::string, std::string>> wrong{
       {"clokc: system", "clokc"},
       {"clock: fast", "clock: "},
       {"domain: 300", "domain: 300"},
@@ -114,16 +64,8 @@ TEST_F(Schema, RefusesMisspeltKeysWrongTypesAndNumbersOutOfRange) {
       {"components: {motion: {ik: {plugins: ik/numeric}}}", "'plugins'"},
       {"components: {motion: {params: {distance_m: 1}}}", "'distance_m'"},
   };
-  std::vector<std::string> files;
-  for (const auto& [line, said] : wrong) {
-    files.push_back(written("armature: 1\nname: x\n" + line + "\n", files.size()));
-  }
-  const std::string all = judged(files);
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    const std::size_t at = all.find(files[i]);
-    ASSERT_NE(at, std::string::npos) << wrong[i].first << " is taken";
-    EXPECT_THAT(all.substr(at, all.find('\n', at) - at), HasSubstr(wrong[i].second));
-  }
+  for (auto& [line, said] : wrong) line = "armature: 1\nname: x\n" + line + "\n";
+  expect_refused(wrong);
 }
 
 TEST_F(Schema, TakesVariablesForNumbersFlagsWordsAndPlugins) {

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "armature/runtime/component/component.hpp"
-#include "armature/runtime/deployment_file/component_config.hpp"
 #include "armature/runtime/deployment_file/deployment_keys.hpp"
 #include "schema/value_schema.hpp"
 
@@ -21,8 +20,19 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Manifests = std::vector<const PluginManifest*>;
 
-const std::string kPluginKey{keys::kPlugin.name};
-const std::string kParamsKey{keys::kParams.name};
+constexpr const char* kPluginKey = "plugin";
+constexpr const char* kParamsKey = "params";
+
+/// What the table says of a slot's `plugin:` and `params:`, of any plugin.
+const Json& plain() {
+  static const Json kPlain = properties_of(slot_keys());
+  return kPlain;
+}
+
+/// The map under a key whose schema had only its doc before.
+void fill(Json& section, const Json& properties) {
+  section = map_schema(section["description"].get<std::string>(), properties);
+}
 
 Json reference(const std::string& definition) {
   return {{"$ref", "#" + (Json::json_pointer{} / "$defs" / definition).to_string()}};
@@ -65,7 +75,8 @@ Json schema_by_plugin(const Manifests& plugins, const Then& then_of, Json otherw
   }
   rules.push_back(if_plugin(Json{{"enum", ids}}, true));
   rules.back()["else"] = std::move(otherwise);
-  schema["properties"][kPluginKey] = word_schema(ids, keys::kPlugin.doc);
+  schema["properties"][kPluginKey] =
+      word_schema(ids, plain()[kPluginKey]["description"].get<std::string>());
   schema["allOf"] = std::move(rules);
   return schema;
 }
@@ -94,7 +105,9 @@ class AnyOf {
 Json any_params(const Manifests& plugins) {
   AnyOf all;
   for (const PluginManifest* plugin : plugins) all.add(params_schema(plugin->params)["properties"]);
-  return map_schema(keys::kParams.doc, all.properties());
+  Json schema = plain()[kParamsKey];
+  fill(schema, all.properties());
+  return schema;
 }
 
 Json slot_schema(const std::string& kind, const PluginRegistry& plugins) {
@@ -111,20 +124,18 @@ Json slot_schema(const std::string& kind, const PluginRegistry& plugins) {
     return with_params(params_schema(plugin.params));
   };
   Json schema = schema_by_plugin(some, then, with_params(any_params(some)));
-  for (const config::Key& key : keys::kSlot) {
-    Json& property = schema["properties"][std::string{key.name}];
-    if (property.is_null()) property["description"] = key.doc;
-  }
+  Json& params = schema["properties"][kParamsKey];
+  if (params.is_null()) params = plain()[kParamsKey];
   schema["additionalProperties"] = false;
   return schema;
 }
 
-Json ports_schema(const config::Key& key, const std::vector<PortSpec>& ports) {
+Json port_properties(const std::vector<PortSpec>& ports) {
   Json properties = Json::object();
   for (const PortSpec& port : ports) {
     properties[port.name] = text_schema(fmt::format("{} {}", port.type, port.doc));
   }
-  return map_schema(key.doc, std::move(properties));
+  return properties;
 }
 
 /// What `robot:` and `rig:` say, where the component has any use for them.
@@ -132,17 +143,10 @@ void add_documents(const PluginManifest& component, Json& properties) {
   for (const auto& [section, word] : kDocumentSections) {
     const bool needs = std::ranges::find(component.uses, word) != component.uses.end();
     const bool takes = std::ranges::find(component.may_use, word) != component.may_use.end();
+    properties.erase(std::string{word});
     if (!needs && !takes) continue;
     properties[std::string{word}] =
         text_schema(fmt::format("An entry of '{}'{}.", section, needs ? "" : ", or none"));
-  }
-}
-
-void add_slot_schemas(const PluginManifest& component, bool hosts_plugin, Json& properties) {
-  for (std::size_t i = hosts_plugin ? 1 : 0; i < component.slots.size(); ++i) {
-    const SlotSpec& slot = component.slots[i];
-    properties[slot.name] = reference(slot_for(slot.kind));
-    properties[slot.name]["description"] = slot.doc;
   }
 }
 
@@ -152,36 +156,34 @@ Json component_properties(const PluginManifest& plugin, const PluginManifest& ru
   const bool hosts_plugin = &plugin != &runner;
   std::vector<ParamSpec> params = runner.params;
   if (hosts_plugin) params.insert(params.end(), plugin.params.begin(), plugin.params.end());
-  Json properties;
-  for (const config::Key& key : keys::kComponent) {
-    if (key.type) properties[std::string{key.name}] = schema_of(key);
-  }
+  Json properties = properties_of(component_keys(runner, hosts_plugin));
   properties[kPluginKey] = text_schema(plugin.doc);
   properties[kParamsKey] = params_schema(params);
   add_documents(runner, properties);
-  add_slot_schemas(runner, hosts_plugin, properties);
-  properties[std::string{keys::kIn.name}] = ports_schema(keys::kIn, runner.inputs);
-  properties[std::string{keys::kOut.name}] = ports_schema(keys::kOut, runner.outputs);
+  for (const SlotSpec& slot : runner.slots) {
+    if (properties.contains(slot.name))
+      properties[slot.name].update(reference(slot_for(slot.kind)));
+  }
+  fill(properties["in"], port_properties(runner.inputs));
+  fill(properties["out"], port_properties(runner.outputs));
   return properties;
 }
 
 /// Of a component whose plugin stands elsewhere: what any plugin has, and only that.
 Json any_component(const Manifests& some, const PluginRegistry& plugins) {
-  AnyOf all, params, inputs, outputs;
-  const std::string in{keys::kIn.name}, out{keys::kOut.name};
+  AnyOf all;
+  std::map<std::string, AnyOf> maps;
   for (const PluginManifest* plugin : some) {
     Json properties = component_properties(*plugin, *runner_of(*plugin, plugins));
-    params.add(properties[kParamsKey]["properties"]);
-    inputs.add(properties[in]["properties"]);
-    outputs.add(properties[out]["properties"]);
-    for (const std::string& key : {kPluginKey, kParamsKey, in, out}) properties.erase(key);
+    for (const char* key : {kParamsKey, "in", "out"}) {
+      maps[key].add(properties[key]["properties"]);
+      properties[key].erase("properties");  // the doc and what a map is are the same for all
+    }
+    properties[kPluginKey] = plain()[kPluginKey];
     all.add(properties);
   }
   Json properties = all.properties();
-  properties[kPluginKey] = text_schema(keys::kPlugin.doc);
-  properties[kParamsKey] = map_schema(keys::kParams.doc, params.properties());
-  properties[in] = map_schema(keys::kIn.doc, inputs.properties());
-  properties[out] = map_schema(keys::kOut.doc, outputs.properties());
+  for (const auto& [key, any] : maps) properties[key]["properties"] = any.properties();
   return map_schema("", std::move(properties));
 }
 

@@ -3,20 +3,19 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "armature/config/document.hpp"
 #include "armature/runtime/component/component.hpp"
-#include "armature/runtime/deployment_file/component_config.hpp"
 #include "armature/runtime/deployment_file/deployment_keys.hpp"
 #include "armature/runtime/plugins/plugin_registry.hpp"
 #include "exit_code.hpp"
 #include "inspect/plugins.hpp"
 #include "readable_json.hpp"
 #include "schema/component_schema.hpp"
+#include "schema/robot_schema.hpp"
 #include "schema/value_schema.hpp"
 
 namespace armature {
@@ -25,7 +24,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// The figures that components measure. What is never below 0 has no goal below 0.
-Json goals_schema(const PluginRegistry& plugins) {
+Json goal_properties(const PluginRegistry& plugins) {
   std::map<std::string, MetricSpec> metrics;
   for (const PluginManifest& plugin : plugins.plugins()) {
     if (plugin.kind != Component::kKind) continue;
@@ -36,38 +35,35 @@ Json goals_schema(const PluginRegistry& plugins) {
   }
   Json properties = Json::object();
   for (const auto& [name, metric] : metrics) {
-    const config::Key goal{.name = name,
-                           .type = ParamSpec::Type::number,
-                           .doc = metric.doc,
-                           .min = metric.may_be_negative ? std::nullopt : std::optional<double>{0}};
+    config::KeySpec goal{.name = name, .doc = metric.doc};
+    if (!metric.may_be_negative) goal.min = 0;
     properties[name] = schema_of(goal);
   }
-  return map_schema(keys::kGoals.doc, std::move(properties));
+  return properties;
 }
 
-Json components_schema() {
-  Json schema = names_schema(keys::kComponents.doc, Json{{"$ref", "#/$defs/component"}});
+/// What reads a section.
+Json section_schema(const config::KeySpec& key, const PluginRegistry& plugins) {
+  if (key.name == "dds") return map_schema(key.doc, properties_of(dds_keys()));
+  if (key.name == "run") return map_schema(key.doc, properties_of(run_keys()));
+  if (key.name == "goals") return map_schema(key.doc, goal_properties(plugins));
+  if (key.name == "executors") {
+    return names_schema(key.doc, map_schema("", properties_of(executor_keys())));
+  }
+  if (key.name != "components") {  // robots and rigs
+    return names_schema(key.doc, text_schema("A path, relative to this file."));
+  }
+  Json schema = names_schema(key.doc, Json{{"$ref", "#/$defs/component"}});
   schema["propertyNames"]["not"]["enum"] = Json::array({kStateComponent, kClockComponent});
   return schema;
-}
-
-/// What reads a key that has no type.
-Json section_schema(const config::Key& key, const PluginRegistry& plugins) {
-  if (key.name == keys::kDds.name) return map_schema(key.doc, properties_of(keys::kDdsKeys));
-  if (key.name == keys::kRun.name) return map_schema(key.doc, properties_of(keys::kRunKeys));
-  if (key.name == keys::kExecutors.name) {
-    return names_schema(key.doc, map_schema("", properties_of(keys::kExecutor)));
-  }
-  return key.name == keys::kGoals.name ? goals_schema(plugins) : components_schema();
 }
 
 /// A file that stands on no other one: a component of the framework's own name is that component.
 Json whole_file_rule(const PluginRegistry& plugins) {
   Json rule;
-  rule["if"]["required"] = Json::array({keys::kArmature.name});
+  rule["if"]["required"] = Json::array({"armature"});
   rule["if"]["not"]["required"] = Json::array({config::kInclude});
-  rule["then"]["properties"][std::string{keys::kComponents.name}]["properties"] =
-      own_component_schemas(plugins);
+  rule["then"]["properties"]["components"]["properties"] = own_component_schemas(plugins);
   return rule;
 }
 
@@ -75,13 +71,9 @@ Json deployment_schema(const PluginRegistry& plugins) {
   Json properties;
   properties[std::string{config::kInclude}] =
       paths_schema("Files that this one stands on, relative to it; what it says overrides theirs.");
-  for (const config::Key& key : keys::kDeployment) {
-    properties[std::string{key.name}] = key.type ? schema_of(key) : section_schema(key, plugins);
-  }
-  for (const auto& [section, word] : kDocumentSections) {
-    properties[std::string{section}] =
-        names_schema(fmt::format("Files by name; components say which with '{}'.", word),
-                     text_schema("A path, relative to this file."));
+  for (const config::KeySpec& key : deployment_keys()) {
+    const bool is_section = key.type == config::KeySpec::Type::section;
+    properties[key.name] = is_section ? section_schema(key, plugins) : schema_of(key);
   }
   Json schema{{"$schema", "https://json-schema.org/draft/2020-12/schema"},
               {"title", "Armature deployment"}};
@@ -94,7 +86,11 @@ Json deployment_schema(const PluginRegistry& plugins) {
 
 }  // namespace
 
-int print_schema() {
+int print_schema(const std::string& of) {
+  if (of != "deployment") {
+    fmt::print("{}\n", readable(of == "robot" ? robot_schema() : rig_schema()));
+    return kOk;
+  }
   const PluginRegistry plugins;
   tell_warnings(plugins);
   for (const auto& [file, reason] : plugins.unusable()) {

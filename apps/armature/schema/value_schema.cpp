@@ -4,20 +4,21 @@
 #include <nlohmann/json.hpp>
 
 #include "armature/config/conversion.hpp"
-#include "armature/runtime/deployment_file/deployment_keys.hpp"
+#include "armature/config/unit_suffix.hpp"
 
 namespace armature {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Type = ParamSpec::Type;
+using Type = config::KeySpec::Type;
 
 /// What a number or a flag may be instead, which is known only where it is read.
 constexpr const char* kVariable = "\\$\\{";
 
-void add_limits(Json& schema, const std::optional<double>& min, const std::optional<double>& max) {
-  if (min) schema["minimum"] = *min;
-  if (max) schema["maximum"] = *max;
+void add_limits(Json& schema, const config::KeySpec& key, double scale) {
+  if (key.min) schema["minimum"] = *key.min * scale;
+  if (key.max) schema["maximum"] = *key.max * scale;
+  if (key.above) schema["exclusiveMinimum"] = *key.above * scale;
 }
 
 Json scalar_schema(const char* type) {
@@ -32,15 +33,14 @@ Json list_schema(Json item, const std::optional<std::size_t>& count) {
   return schema;
 }
 
-/// Without doc.
-Json type_schema(Type type, const std::optional<double>& min, const std::optional<double>& max,
-                 const std::vector<std::string>& choices, const std::optional<std::size_t>& count) {
-  Json schema;
-  switch (type) {
+/// Without doc and default; `scale`: what limits are multiplied by.
+Json type_schema(const config::KeySpec& key, double scale) {
+  Json schema = Json::object();
+  switch (key.type) {
     case Type::number:
     case Type::integer:
-      schema = scalar_schema(type == Type::number ? "number" : "integer");
-      add_limits(schema, min, max);
+      schema = scalar_schema(key.type == Type::number ? "number" : "integer");
+      add_limits(schema, key, scale);
       return schema;
     case Type::flag:
       return scalar_schema("boolean");
@@ -48,20 +48,22 @@ Json type_schema(Type type, const std::optional<double>& min, const std::optiona
     case Type::file:
       return text_schema("");
     case Type::choice:
-      return word_schema(choices, "");
+      return word_schema(key.choices, "");
     case Type::numbers:
       schema = scalar_schema("number");
-      add_limits(schema, min, max);
-      return list_schema(std::move(schema), count);
+      add_limits(schema, key, scale);
+      return list_schema(std::move(schema), key.count);
     case Type::texts:
-      return list_schema(text_schema(""), count);
+      return list_schema(text_schema(""), key.count);
+    case Type::section:
+      break;
   }
   return schema;
 }
 
-Json value_of(const ParamSpec& spec, const config::Node& node) {
+Json value_of(const config::KeySpec& key, const config::Node& node) {
   const auto as_json = [](auto value) { return value ? Json(*value) : Json(); };
-  switch (spec.type) {
+  switch (key.type) {
     case Type::number:
       return as_json(config::to_number(node));
     case Type::integer:
@@ -69,13 +71,15 @@ Json value_of(const ParamSpec& spec, const config::Node& node) {
     case Type::flag:
       return as_json(config::to_flag(node));
     case Type::numbers:
-      return as_json(config::to_numbers(node, spec.count));
+      return as_json(config::to_numbers(node, key.count));
     case Type::texts:
       return as_json(config::to_texts(node));
     case Type::text:
     case Type::file:
     case Type::choice:
       return as_json(config::to_text(node));
+    case Type::section:
+      break;
   }
   return {};
 }
@@ -87,15 +91,10 @@ Json with_doc(std::string_view doc, Json schema) {
 
 }  // namespace
 
-Json schema_of(const ParamSpec& spec) {
-  Json schema =
-      with_doc(spec.doc, type_schema(spec.type, spec.min, spec.max, spec.choices, spec.count));
-  if (spec.fallback) schema["default"] = value_of(spec, *spec.fallback);
+Json schema_of(const config::KeySpec& key) {
+  Json schema = with_doc(key.doc, type_schema(key, 1));
+  if (key.fallback) schema["default"] = value_of(key, *key.fallback);
   return schema;
-}
-
-Json schema_of(const config::Key& key) {
-  return with_doc(key.doc, type_schema(key.type.value(), key.min, key.max, choices_of(key), {}));
 }
 
 Json text_schema(std::string_view doc) {
@@ -130,16 +129,21 @@ Json names_schema(std::string_view doc, Json of_each) {
                   {{"type", {"object", "null"}}, {"additionalProperties", std::move(of_each)}});
 }
 
-Json properties_of(std::span<const config::Key> keys) {
+Json properties_of(std::span<const config::KeySpec> keys) {
   Json properties = Json::object();
-  for (const config::Key& key : keys) properties[std::string{key.name}] = schema_of(key);
+  for (const config::KeySpec& key : keys) {
+    properties[key.name] = schema_of(key);
+    if (key.also.empty()) continue;
+    const double scale = config::si_factor(key.name) / config::si_factor(key.also);
+    properties[key.also] = with_doc(key.doc, type_schema(key, scale));
+  }
   return properties;
 }
 
 Json params_schema(const std::vector<ParamSpec>& specs) {
   Json properties = Json::object();
   for (const ParamSpec& spec : specs) properties[spec.name] = schema_of(spec);
-  return map_schema(keys::kParams.doc, std::move(properties));
+  return map_schema("The plugin's parameters.", std::move(properties));
 }
 
 }  // namespace armature

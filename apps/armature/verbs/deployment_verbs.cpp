@@ -134,8 +134,12 @@ void add_inspection(CLI::App& app, Action& action) {
 
 void add_schema(CLI::App& app, Action& action) {
   CLI::App* schema = app.add_subcommand(
-      "schema", "JSON Schema of deployments, for editors: armature schema > armature.schema.json");
-  schema->callback([&action] { action = [] { return print_schema(); }; });
+      "schema", "JSON Schema of files, for editors: armature schema > armature.schema.json");
+  auto of = std::make_shared<std::string>("deployment");
+  schema->add_option("of", *of, "deployment, robot or rig")
+      ->check(CLI::IsMember({"deployment", "robot", "rig"}))
+      ->capture_default_str();
+  schema->callback([&action, of] { action = [of] { return print_schema(*of); }; });
 }
 
 }  // namespace

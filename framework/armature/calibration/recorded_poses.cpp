@@ -12,13 +12,13 @@
 #include "armature/config/reader.hpp"
 #include "armature/config/source_text.hpp"
 #include "armature/config/yaml_parser.hpp"
-#include "armature/robot/files/quantity_reader.hpp"
 #include "armature/robot/files/written_pose.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
 
 namespace armature {
 namespace {
 
+using config::KeySpec;
 using config::MapReader;
 using config::Node;
 using config::Origin;
@@ -89,8 +89,10 @@ std::vector<Node> records_of_lines(std::string_view text, const std::string& nam
 }
 
 std::vector<Node> records_of_document(const Node& document, Problems& problems) {
-  MapReader map{document, "file of poses", problems};
-  check_format(map, "armature_poses", problems);
+  static const std::vector<KeySpec> kKeys{config::format_key("armature_poses"),
+                                          {.name = "poses", .type = KeySpec::Type::section}};
+  MapReader map{document, "file of poses", kKeys, problems};
+  map.integer("armature_poses");
   const Node* poses = map.node("poses");
   map.finish();
   if (!poses) return {};
@@ -138,8 +140,11 @@ std::optional<Isometry3d> flange_of_joints(const Node& joints, const RobotModel*
     problems.add(joints.origin(), "'joints' are those of a robot; name its file with --robot");
     return std::nullopt;
   }
-  const auto all = config::as_numbers(joints, problems);
-  if (!all) return std::nullopt;
+  const auto all = config::to_numbers(joints, std::nullopt);
+  if (!all) {
+    problems.add(all.error().origin, "'joints' " + all.error().message);
+    return std::nullopt;
+  }
   const auto independent = robot->to_independent(std::span<const double>{*all});
   if (independent) return forward_kinematics(*robot, *independent);
   problems.add(joints.origin(), fmt::format("'joints': {}", independent.error().text));
@@ -147,10 +152,15 @@ std::optional<Isometry3d> flange_of_joints(const Node& joints, const RobotModel*
 }
 
 Record read_record(const Node& node, const RobotModel* robot, Problems& problems) {
-  MapReader map{node, "pose", problems};
-  const Node* joints = map.optional_node("joints");
-  const Node* flange = map.optional_node("base_T_flange");
-  const Node* body = map.optional_node("tracker_T_body");
+  constexpr auto kSection = KeySpec::Type::section;
+  static const std::vector<KeySpec> kKeys{
+      {.name = "joints", .type = kSection, .optional = true},
+      {.name = "base_T_flange", .type = kSection, .optional = true},
+      {.name = "tracker_T_body", .type = kSection, .optional = true}};
+  MapReader map{node, "pose", kKeys, problems};
+  const Node* joints = map.node("joints");
+  const Node* flange = map.node("base_T_flange");
+  const Node* body = map.node("tracker_T_body");
   map.finish();
   if (joints && flange) {
     map.problem("base_T_flange", "'joints' and 'base_T_flange' state the same; keep one");

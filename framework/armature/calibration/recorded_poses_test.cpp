@@ -124,10 +124,11 @@ TEST_F(RecordedPoses, TellEverythingThatIsWrongInJsonLinesWithItsPlace) {
           "3:43: 'joints' and 'base_T_flange' state the same; keep one",
           "4:1: a pose for hand-eye needs 'joints' or 'base_T_flange'",
           "4:2: unknown key 'base_T_flnge' in pose; did you mean 'base_T_flange'?",
-          "5:32: 'position_m' needs 3 numbers, not 2",
+          "5:32: 'position_m' must be a list of 3 numbers, not of 2",
           "5:56: 'quaternion_xyzw' has length 2, must be 1",
           "6:18: missing key 'quaternion_xyzw' in base_T_flange",
-          "6:37: must be a list of numbers; item 3 must be a number, not 'NaN'; it must be finite",
+          "6:37: 'position_m' must be a list of 3 numbers; item 3 must be a number, not 'NaN'; it "
+          "must be finite",
           "6:60: tracker_T_body must be a map, not a list", "7:1: a pose must be a map, not a list",
           "8:11: cannot be read as YAML: end of sequence flow not found; what opens here is not "
           "closed"));
@@ -158,10 +159,9 @@ TEST_F(RecordedPoses, OfJointsNeedTheirRobot) {
 TEST_F(RecordedPoses, TellWhatIsWrongInYaml) {
   EXPECT_THAT(
       problems_of_hand_eye("armature_poses: 2\npose: []\n"),
-      ElementsAre(
-          "1:1: missing key 'poses' in file of poses",
-          "1:17: 'armature_poses: 2' is a format that this version does not know; it reads 1",
-          "2:1: unknown key 'pose' in file of poses; did you mean 'poses'?"));
+      ElementsAre("1:1: missing key 'poses' in file of poses",
+                  "1:17: 'armature_poses' is 2, must be 1: the format that this version reads",
+                  "2:1: unknown key 'pose' in file of poses; did you mean 'poses'?"));
   EXPECT_THAT(problems_of_hand_eye("armature_poses: 1\nposes: {}\n"),
               ElementsAre("2:8: 'poses' must be a list, not a map"));
   EXPECT_THAT(problems_of_hand_eye("armature_poses: 1\nposes: [7, {}]\n"),

@@ -9,7 +9,7 @@
 
 #include "armature/config/node.hpp"
 
-namespace armature ARMATURE_EXPORT {
+namespace armature {
 namespace config ARMATURE_EXPORT {
 
 /// Why a node is not what it should be: "must be a number, not 'fast'", and where (an item of a

@@ -9,7 +9,7 @@
 #include "armature/config/node.hpp"
 #include "armature/config/problems.hpp"
 
-namespace armature ARMATURE_EXPORT {
+namespace armature {
 namespace config ARMATURE_EXPORT {
 
 /// Reads one YAML file (or text) strictly: UTF-8, one document, no duplicate keys, nesting up to

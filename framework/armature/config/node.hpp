@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace armature ARMATURE_EXPORT {
+namespace armature {
 namespace config ARMATURE_EXPORT {
 
 /// Where a value was written: `file:line:column`, both counted from 1; a line of 0 means that the

@@ -27,18 +27,40 @@ bool is_name(std::string_view name) {
   });
 }
 
-void read_choices(ParamSpec& spec, MapReader& map, Problems& problems) {
-  const Node* choices = map.optional_node("choices");
+/// What a plugin.yaml says of a parameter.
+const std::vector<config::KeySpec>& keys_of_a_parameter() {
+  const auto text = [](const char* name, const char* doc) {
+    return config::KeySpec{
+        .name = name, .type = Type::text, .doc = doc, .fallback = config::default_value("")};
+  };
+  static const std::vector<config::KeySpec> kKeys{
+      {.name = "type",
+       .type = Type::choice,
+       .doc = "What it is.",
+       .choices = {kTypeNames.begin(), kTypeNames.end()}},
+      text("doc", "What it does."),
+      {.name = "default", .type = Type::section, .doc = "Without: required.", .optional = true},
+      {.name = "min", .doc = "Of every number, inclusive.", .optional = true},
+      {.name = "max", .doc = "Of every number, inclusive.", .optional = true},
+      {.name = "choices", .type = Type::texts, .doc = "Of a choice.", .optional = true},
+      {.name = "count", .type = Type::integer, .doc = "Of numbers.", .min = 1, .optional = true},
+      text("same_as", "The plugin whose parameter of this name says the same."),
+      text("at_most", "The parameter that it is not above."),
+      text("below", "The parameter that it is below."),
+      text("else", "What would be wrong if it were not.")};
+  return kKeys;
+}
+
+void read_choices(ParamSpec& spec, MapReader& map) {
+  const Node* choices = map.node("choices");
   if (!choices && spec.type == Type::choice) {
     map.problem("choices", "a choice needs 'choices: [...]'");
   }
   if (!choices) return;
   if (spec.type != Type::choice) map.problem("choices", "'choices' belong to a choice");
-  if (choices->kind() != Node::Kind::sequence || choices->items().empty()) {
-    map.problem("choices", "'choices' must be a list of texts, not " + choices->describe());
-  }
-  for (const Node& item : choices->items()) {
-    if (auto text = config::as_text(item, problems)) spec.choices.push_back(std::move(*text));
+  spec.choices = map.optional_texts("choices").value_or(std::vector<std::string>{});
+  if (choices->kind() == Node::Kind::sequence && choices->items().empty()) {
+    map.problem("choices", "'choices' must be a list of texts, not empty");
   }
 }
 
@@ -46,9 +68,8 @@ void read_range(ParamSpec& spec, MapReader& map) {
   const bool is_numeric =
       spec.type == Type::number || spec.type == Type::integer || spec.type == Type::numbers;
   for (const auto& [key, bound] : {std::pair{"min", &spec.min}, std::pair{"max", &spec.max}}) {
-    if (!map.optional_node(key)) continue;
-    *bound = map.number(key);
-    if (!is_numeric) map.problem(key, fmt::format("'{}' belongs to a number", key));
+    *bound = map.optional_number(key);
+    if (*bound && !is_numeric) map.problem(key, fmt::format("'{}' belongs to a number", key));
   }
   if (spec.min && spec.max && *spec.min > *spec.max) {
     map.problem("max", fmt::format("'max' is {}, below 'min', which is {}", *spec.max, *spec.min));
@@ -56,11 +77,10 @@ void read_range(ParamSpec& spec, MapReader& map) {
 }
 
 void read_count(ParamSpec& spec, MapReader& map) {
-  if (!map.optional_node("count")) return;
-  const std::int64_t count = map.integer("count", 1);
-  if (count < 1) map.problem("count", fmt::format("'count' is {}, must be at least 1", count));
+  const auto count = map.optional_integer("count");
+  if (!count) return;
   if (spec.type != Type::numbers) map.problem("count", "'count' belongs to numbers");
-  spec.count = static_cast<std::size_t>(std::max<std::int64_t>(count, 1));
+  spec.count = static_cast<std::size_t>(*count);
 }
 
 /// A fallback is checked as if a user had given it.
@@ -85,17 +105,18 @@ ParamSpec read_param_spec(const Node::Entry& entry, Problems& problems) {
     problems.add(entry.key_origin,
                  fmt::format("parameter {}: {}", config::in_quotes(spec.name), wrong));
   }
-  MapReader map{entry.value, "parameter " + config::in_quotes(spec.name), problems};
-  const std::vector<std::string> types{kTypeNames.begin(), kTypeNames.end()};
-  const bool has_type = map.node("type") != nullptr;
-  const std::string type = map.choice("type", types, "number");
-  spec.type = static_cast<Type>(std::ranges::find(types, type) - types.begin());
-  spec.doc = map.text("doc", "");
-  spec.same_as = map.text("same_as", "");
-  spec.at_most = map.text("at_most", "");
-  spec.below = map.text("below", "");
-  spec.otherwise = map.text("else", "");
-  if (const Node* fallback = map.optional_node("default")) spec.fallback = *fallback;
+  MapReader map{entry.value, "parameter " + config::in_quotes(spec.name), keys_of_a_parameter(),
+                problems};
+  const std::string type = map.text("type");
+  const auto found = std::ranges::find(kTypeNames, type);
+  const bool has_type = found != kTypeNames.end();
+  if (has_type) spec.type = static_cast<Type>(found - kTypeNames.begin());
+  spec.doc = map.text("doc");
+  spec.same_as = map.text("same_as");
+  spec.at_most = map.text("at_most");
+  spec.below = map.text("below");
+  spec.otherwise = map.text("else");
+  if (const Node* fallback = map.node("default")) spec.fallback = *fallback;
   if (!spec.same_as.empty() && !spec.fallback) {
     map.problem("same_as", fmt::format("'same_as' needs a default, for deployments without '{}'",
                                        spec.same_as));
@@ -104,7 +125,7 @@ ParamSpec read_param_spec(const Node::Entry& entry, Problems& problems) {
   for (const auto& [key, limit] : {std::pair{"at_most", &spec.at_most}, {"below", &spec.below}}) {
     if (!limit->empty() && !is_one) map.problem(key, fmt::format("'{}' belongs to a number", key));
   }
-  read_choices(spec, map, problems);
+  read_choices(spec, map);
   read_range(spec, map);
   read_count(spec, map);
   map.finish();

@@ -2,147 +2,19 @@
 #include "armature/config/params.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <stdexcept>
-#include <system_error>
 #include <utility>
 
-#include "armature/config/conversion.hpp"
-#include "armature/config/document.hpp"
 #include "armature/config/reader.hpp"
 #include "armature/config/unit_suffix.hpp"
 
 namespace armature {
-namespace {
 
-using config::Converted;
-using config::Mismatch;
 using config::Node;
 using config::Origin;
 using Type = ParamSpec::Type;
-using AnyValue = std::variant<double, std::int64_t, bool, std::string, std::vector<double>,
-                              std::vector<std::string>>;
-
-/// What is wrong with a number's size; empty: nothing.
-std::string out_of_range(const ParamSpec& spec, double value) {
-  if (spec.max && value > *spec.max) {
-    return fmt::format("is {}, must be at most {}", value, *spec.max);
-  }
-  if (spec.min && value < *spec.min) {
-    return fmt::format("is {}, must be at least {}", value, *spec.min);
-  }
-  return "";
-}
-
-Converted<AnyValue> read_number(const ParamSpec& spec, const Node& node) {
-  const auto value = config::to_number(node);
-  if (!value) return tl::unexpected{value.error()};
-  const std::string fault = out_of_range(spec, *value);
-  if (!fault.empty()) return tl::unexpected{Mismatch{node.origin(), fault}};
-  return AnyValue{*value * config::si_factor(spec.name)};
-}
-
-Converted<AnyValue> read_integer(const ParamSpec& spec, const Node& node) {
-  const auto value = config::to_integer(node);
-  if (!value) return tl::unexpected{value.error()};
-  const std::string fault = out_of_range(spec, static_cast<double>(*value));
-  if (!fault.empty()) return tl::unexpected{Mismatch{node.origin(), fault}};
-  return AnyValue{*value};
-}
-
-Converted<AnyValue> read_numbers(const ParamSpec& spec, const Node& node) {
-  auto values = config::to_numbers(node, spec.count);
-  if (!values) return tl::unexpected{values.error()};
-  for (std::size_t i = 0; i < values->size(); ++i) {
-    double& value = (*values)[i];
-    const std::string fault = out_of_range(spec, value);
-    if (!fault.empty()) {
-      return tl::unexpected{
-          Mismatch{node.items()[i].origin(), fmt::format("item {} {}", i + 1, fault)}};
-    }
-    value *= config::si_factor(spec.name);
-  }
-  return AnyValue{std::move(*values)};
-}
-
-Converted<AnyValue> read_choice(const ParamSpec& spec, const Node& node) {
-  const auto text = config::to_text(node);
-  if (!text) return tl::unexpected{text.error()};
-  if (std::ranges::find(spec.choices, *text) != spec.choices.end()) return AnyValue{*text};
-  return tl::unexpected{
-      Mismatch{node.origin(), fmt::format("cannot be {}{}", config::in_quotes(*text),
-                                          config::did_you_mean(*text, spec.choices))}};
-}
-
-/// Whether reading `file` might do something, or never end.
-bool is_device_or_pipe(const std::filesystem::path& file) {
-  std::error_code none;
-  const auto status = std::filesystem::status(file, none);
-  return std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) &&
-         !std::filesystem::is_directory(status);
-}
-
-/// `folder` is where a relative path starts.
-Converted<AnyValue> read_file(const Node& node, const std::filesystem::path& folder) {
-  const auto text = config::to_text(node);
-  if (!text) return tl::unexpected{text.error()};
-  const bool as_written = text->empty() || folder.empty();
-  const std::string file = as_written ? *text : (folder / *text).lexically_normal().string();
-  if (!is_device_or_pipe(file)) return AnyValue{file};
-  return tl::unexpected{Mismatch{
-      node.origin(), fmt::format("names {}, which is a device or a pipe; name a file or a folder",
-                                 config::in_quotes(file))}};
-}
-
-Converted<AnyValue> read_value(const ParamSpec& spec, const Node& node,
-                               const std::filesystem::path& folder) {
-  const auto as_any = [](auto value) { return AnyValue{std::move(value)}; };
-  switch (spec.type) {
-    case Type::number:
-      return read_number(spec, node);
-    case Type::integer:
-      return read_integer(spec, node);
-    case Type::flag:
-      return config::to_flag(node).map(as_any);
-    case Type::text:
-      return config::to_text(node).map(as_any);
-    case Type::choice:
-      return read_choice(spec, node);
-    case Type::numbers:
-      return read_numbers(spec, node);
-    case Type::texts:
-      return config::to_texts(node).map(as_any);
-    case Type::file:
-      return read_file(node, folder);
-  }
-  return AnyValue{};
-}
-
-/// What stands for a value that could not be read, so that asking for it has an answer.
-AnyValue zero(Type type) {
-  switch (type) {
-    case Type::number:
-      return 0.0;
-    case Type::integer:
-      return std::int64_t{0};
-    case Type::flag:
-      return false;
-    case Type::text:
-    case Type::choice:
-    case Type::file:
-      return std::string{};
-    case Type::numbers:
-      return std::vector<double>{};
-    case Type::texts:
-      return std::vector<std::string>{};
-  }
-  return 0.0;
-}
-
-}  // namespace
 
 Params Params::read(const std::vector<ParamSpec>& specs, const Node* given,
                     std::string_view plugin_id, config::Problems& problems, const Origin& place) {
@@ -155,23 +27,14 @@ Params Params::read(const std::vector<ParamSpec>& specs, const Node* given,
   params.place_ = nothing.origin();
   bool is_sound = true;
   for (const ParamSpec& spec : specs) {
-    const Node* written = spec.fallback ? map.optional_node(spec.name) : map.node(spec.name);
-    const Node* node = written ? written : spec.fallback ? &*spec.fallback : nullptr;
-    Value value{spec.type, zero(spec.type), node ? node->origin() : place, written != nullptr};
-    if (node) {
-      auto read = read_value(spec, *node, written ? config::folder_of(node->origin()) : "");
-      if (read) {
-        value.value = std::move(*read);
-        if (spec.type == Type::choice) {
-          const auto& text = std::get<std::string>(value.value);
-          value.choice = static_cast<std::size_t>(std::ranges::find(spec.choices, text) -
-                                                  spec.choices.begin());
-        }
-      } else {
-        is_sound = false;
-        problems.add(read.error().origin,
-                     fmt::format("{} {}", config::in_quotes(spec.name), read.error().message));
-      }
+    const config::MapReader::Reading read = map.read(spec);
+    Value value{spec.type, read.value.value_or(config::zero_of(spec.type)),
+                read.node ? read.node->origin() : place, read.is_written};
+    if (read.node && !read.value) is_sound = false;
+    if (read.value && spec.type == Type::choice) {
+      const auto& text = std::get<std::string>(value.value);
+      value.choice =
+          static_cast<std::size_t>(std::ranges::find(spec.choices, text) - spec.choices.begin());
     }
     params.values_.emplace(spec.name, std::move(value));
   }

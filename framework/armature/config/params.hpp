@@ -10,25 +10,17 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
+#include "armature/config/key.hpp"
 #include "armature/config/node.hpp"
 #include "armature/config/problems.hpp"
 
 namespace armature ARMATURE_EXPORT {
 
-/// One parameter as a plugin declares it in its `plugin.yaml`; reading, checking, defaults,
-/// `armature plugin info` and the JSON Schema all come from it.
-struct ParamSpec {
-  enum class Type { number, integer, flag, text, choice, numbers, texts, file };
-  std::string name;  // its end says the unit that the user writes (unit_suffix.hpp)
-  Type type = Type::number;
-  std::string doc;
-  std::optional<config::Node> fallback;  // none: the parameter is required
-  std::optional<double> min, max;        // of every number, in the user's unit, inclusive
-  std::vector<std::string> choices;
-  std::optional<std::size_t> count;  // of numbers; none: any
+/// One parameter as a plugin declares it in its `plugin.yaml`: a key of `params:`, required when it
+/// has no fallback. `armature plugin info` tells it.
+struct ParamSpec : config::KeySpec {
   std::string same_as;  // a plugin whose parameter of this name says the same; empty: none
   /// "servo_jp.timeout_s": a number that is not above that parameter of any component which reads
   /// this output (0 there is no limit, where `min` keeps the number itself above 0); "poses": one
@@ -98,9 +90,7 @@ class Params {
  private:
   struct Value {
     ParamSpec::Type type;
-    std::variant<double, std::int64_t, bool, std::string, std::vector<double>,
-                 std::vector<std::string>>
-        value;
+    config::Value value;
     config::Origin origin;
     bool written = false;
     std::size_t choice = 0;

@@ -170,7 +170,7 @@ TEST(Parameters, ThatAreWrongAreAllTold) {
       problems);
   EXPECT_EQ(text_of(problems),
             "deployments/lamp.yaml:1:1: missing key 'seed' in params of 'sim/scene'\n"
-            "deployments/lamp.yaml:1:10: 'rate_hz' is 500, must be at most 120\n"
+            "deployments/lamp.yaml:1:10: 'rate_hz' is 500, must be from 1 to 120\n"
             "deployments/lamp.yaml:2:8: 'tries' is 0, must be at least 1\n"
             "deployments/lamp.yaml:3:7: 'blur' must be true or false, not 'yes'\n"
             "deployments/lamp.yaml:4:8: 'label' must be a text, not a list\n"

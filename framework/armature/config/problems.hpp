@@ -9,7 +9,7 @@
 
 #include "armature/config/node.hpp"
 
-namespace armature ARMATURE_EXPORT {
+namespace armature {
 namespace config ARMATURE_EXPORT {
 
 /// One thing that is wrong in a file, ready to print as `file:line:column: message`.

@@ -4,42 +4,26 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 
-#include "armature/config/conversion.hpp"
+#include "armature/config/document.hpp"
 
 namespace armature::config {
-namespace {
 
-template <class T>
-std::optional<T> noted(Converted<T> converted, Problems& problems, const std::string& name = "") {
-  if (converted) return std::move(*converted);
-  problems.add(converted.error().origin, name + converted.error().message);
+using Type = KeySpec::Type;
+
+std::optional<std::string> as_text(const Node& node, Problems& problems) {
+  auto text = to_text(node);
+  if (text) return std::move(*text);
+  problems.add(text.error().origin, text.error().message);
   return std::nullopt;
 }
 
-std::string named(std::string_view key) { return in_quotes(key) + " "; }
-
-}  // namespace
-
-std::optional<double> as_number(const Node& node, Problems& problems) {
-  return noted(to_number(node), problems);
-}
-
-std::optional<std::int64_t> as_integer(const Node& node, Problems& problems) {
-  return noted(to_integer(node), problems);
-}
-
-std::optional<bool> as_flag(const Node& node, Problems& problems) {
-  return noted(to_flag(node), problems);
-}
-
-std::optional<std::string> as_text(const Node& node, Problems& problems) {
-  return noted(to_text(node), problems);
-}
-
-std::optional<std::vector<double>> as_numbers(const Node& node, Problems& problems) {
-  return noted(to_numbers(node, std::nullopt), problems);
+MapReader::MapReader(const Node& node, std::string what, std::span<const KeySpec> table,
+                     Problems& problems)
+    : MapReader{node, std::move(what), problems} {
+  table_ = table;
 }
 
 MapReader::MapReader(const Node& node, std::string what, Problems& problems)
@@ -49,92 +33,171 @@ MapReader::MapReader(const Node& node, std::string what, Problems& problems)
   }
 }
 
-const Node* MapReader::look(std::string_view key) {
+/// The key's row; `types`: what it may be there, the first of them what it is without a table.
+KeySpec MapReader::spec_of(std::string_view key, std::initializer_list<Type> types) {
   asked_.emplace(key);
-  return node_.find(key);
-}
-
-const Node* MapReader::node(std::string_view key) {
-  const Node* value = look(key);
-  if (!value && node_.kind() == Node::Kind::map) {
-    problems_.add(node_.origin(), fmt::format("missing key {} in {}", in_quotes(key), what_));
+  if (!table_) return {.name = std::string{key}, .type = *types.begin()};
+  const auto row = std::ranges::find(*table_, key, &KeySpec::name);
+  if (row == table_->end()) {
+    throw std::logic_error{fmt::format("the table of {} has no key {}", what_, in_quotes(key))};
   }
-  return value;
+  const bool is_any = *types.begin() == Type::section;
+  if (is_any || std::ranges::find(types, row->type) != types.end()) return *row;
+  throw std::logic_error{
+      fmt::format("key {} of {} is asked for as another type", in_quotes(key), what_)};
 }
 
-const Node* MapReader::optional_node(std::string_view key) { return look(key); }
+/// The value as written; what is written twice, in two units, is a problem.
+const Node* MapReader::find(const KeySpec& key, std::string_view* written) {
+  const Node* node = node_.find(key.name);
+  const Node* other = key.also.empty() ? nullptr : node_.find(key.also);
+  if (node && other) {
+    problems_.add(other->origin(), fmt::format("{} and {} state the same; keep one",
+                                               in_quotes(key.name), in_quotes(key.also)));
+  }
+  if (written) *written = !node && other ? key.also : key.name;
+  return node ? node : other;
+}
 
-double MapReader::number(std::string_view key) {
-  const Node* value = node(key);
-  return value ? noted(to_number(*value), problems_, named(key)).value_or(0.0) : 0.0;
+MapReader::Reading MapReader::read(const KeySpec& key) {
+  asked_.insert(key.name);
+  std::string_view name;
+  Reading reading{.node = find(key, &name)};
+  reading.is_written = reading.node != nullptr;
+  if (!reading.node && key.fallback) reading.node = &*key.fallback;
+  if (!reading.node) {
+    if (!key.optional && node_.kind() == Node::Kind::map) {
+      problems_.add(node_.origin(),
+                    fmt::format("missing key {} in {}", in_quotes(key.name), what_));
+    }
+    return reading;
+  }
+  const std::string folder = reading.is_written ? folder_of(reading.node->origin()).string() : "";
+  auto value = to_value(key, name, *reading.node, folder);
+  if (value) {
+    reading.value = std::move(*value);
+  } else {
+    problems_.add(value.error().origin, in_quotes(name) + " " + value.error().message);
+  }
+  return reading;
+}
+
+template <class T>
+std::optional<T> MapReader::get(const KeySpec& key) {
+  auto value = read(key).value;
+  if (!value && key.fallback) {
+    if (auto usual = to_value(key, key.name, *key.fallback, "")) value = std::move(*usual);
+  }
+  return value ? std::optional<T>{std::get<T>(std::move(*value))} : std::nullopt;
+}
+
+double MapReader::number(std::string_view key) { return optional_number(key).value_or(0); }
+
+std::int64_t MapReader::integer(std::string_view key) { return optional_integer(key).value_or(0); }
+
+std::uint64_t MapReader::natural(std::string_view key) {
+  KeySpec spec = spec_of(key, {Type::integer});
+  spec.type = Type::section;  // 64 bits without a sign are no Value
+  const Node* node = read(spec).node;
+  if (!node) return 0;
+  const auto value = to_natural(*node);
+  if (value) return *value;
+  problems_.add(value.error().origin, in_quotes(key) + " " + value.error().message);
+  return 0;
+}
+
+bool MapReader::flag(std::string_view key) {
+  return get<bool>(spec_of(key, {Type::flag})).value_or(false);
 }
 
 std::string MapReader::text(std::string_view key) {
-  const Node* value = node(key);
-  return value ? noted(to_text(*value), problems_, named(key)).value_or("") : "";
+  return get<std::string>(spec_of(key, {Type::text, Type::choice})).value_or("");
 }
 
-std::vector<double> MapReader::numbers(std::string_view key, std::size_t count) {
-  const Node* value = node(key);
-  std::vector<double> zeros(count, 0.0);
-  return value ? noted(to_numbers(*value, count), problems_, named(key)).value_or(zeros) : zeros;
+const Node* MapReader::node(std::string_view key) {
+  KeySpec spec = spec_of(key, {Type::section});
+  spec.type = Type::section;
+  const Reading reading = read(spec);
+  return reading.is_written ? reading.node : nullptr;
+}
+
+std::optional<double> MapReader::optional_number(std::string_view key) {
+  return get<double>(spec_of(key, {Type::number}));
+}
+
+std::optional<std::int64_t> MapReader::optional_integer(std::string_view key) {
+  return get<std::int64_t>(spec_of(key, {Type::integer}));
+}
+
+std::optional<std::vector<double>> MapReader::optional_numbers(std::string_view key) {
+  return get<std::vector<double>>(spec_of(key, {Type::numbers}));
+}
+
+std::optional<std::vector<std::string>> MapReader::optional_texts(std::string_view key) {
+  return get<std::vector<std::string>>(spec_of(key, {Type::texts}));
+}
+
+/// A key that is described where it is asked for.
+KeySpec MapReader::untabled(std::string_view key, Type type) const {
+  if (!table_) return {.name = std::string{key}, .type = type, .optional = true};
+  throw std::logic_error{
+      fmt::format("what {} may be in {} stands in a table", in_quotes(key), what_)};
 }
 
 double MapReader::number(std::string_view key, double fallback) {
-  const Node* value = look(key);
-  return value ? noted(to_number(*value), problems_, named(key)).value_or(fallback) : fallback;
+  return get<double>(untabled(key, Type::number)).value_or(fallback);
 }
 
 std::int64_t MapReader::integer(std::string_view key, std::int64_t fallback) {
-  const Node* value = look(key);
-  return value ? noted(to_integer(*value), problems_, named(key)).value_or(fallback) : fallback;
-}
-
-std::uint64_t MapReader::natural(std::string_view key, std::uint64_t fallback) {
-  const Node* value = look(key);
-  return value ? noted(to_natural(*value), problems_, named(key)).value_or(fallback) : fallback;
+  return get<std::int64_t>(untabled(key, Type::integer)).value_or(fallback);
 }
 
 bool MapReader::flag(std::string_view key, bool fallback) {
-  const Node* value = look(key);
-  return value ? noted(to_flag(*value), problems_, named(key)).value_or(fallback) : fallback;
+  return get<bool>(untabled(key, Type::flag)).value_or(fallback);
 }
 
 std::string MapReader::text(std::string_view key, std::string fallback) {
-  const Node* value = look(key);
-  return value ? noted(to_text(*value), problems_, named(key)).value_or(fallback) : fallback;
+  return get<std::string>(untabled(key, Type::text)).value_or(std::move(fallback));
 }
 
 std::string MapReader::choice(std::string_view key, const std::vector<std::string>& allowed,
                               std::string fallback) {
-  const Node* value = look(key);
-  if (!value) return fallback;
-  const auto text = noted(to_text(*value), problems_, named(key));
-  if (!text) return fallback;
-  if (std::ranges::find(allowed, *text) != allowed.end()) return *text;
-  problems_.add(value->origin(), fmt::format("{} cannot be {}{}", in_quotes(key), in_quotes(*text),
-                                             did_you_mean(*text, allowed)));
-  return fallback;
+  KeySpec spec = untabled(key, Type::choice);
+  spec.choices = allowed;
+  return get<std::string>(spec).value_or(std::move(fallback));
 }
 
-std::optional<std::vector<double>> MapReader::optional_numbers(std::string_view key,
-                                                               std::size_t count) {
-  const Node* value = look(key);
-  if (!value) return std::nullopt;
-  return noted(to_numbers(*value, count), problems_, named(key));
+const Node* MapReader::optional_node(std::string_view key) {
+  return read(untabled(key, Type::section)).node;
+}
+
+std::string MapReader::written(std::string_view key) {
+  std::string_view name;
+  const KeySpec spec = spec_of(key, {Type::section});
+  find(spec, &name);
+  return std::string{name};
 }
 
 void MapReader::problem(std::string_view key, std::string message) {
-  const Node* value = look(key);
+  const Node* value = find(spec_of(key, {Type::section}));
   problems_.add(value ? value->origin() : node_.origin(), std::move(message));
 }
 
 void MapReader::finish() {
-  const std::vector<std::string> known{asked_.begin(), asked_.end()};
+  std::set<std::string, std::less<>> known = asked_;
+  if (table_) known.clear();
+  for (const KeySpec& key : table_.value_or(std::span<const KeySpec>{})) {
+    known.insert(key.name);
+    if (!key.also.empty()) known.insert(key.also);
+    if (asked_.contains(key.name)) continue;
+    throw std::logic_error{
+        fmt::format("key {} of {} is in the table and never read", in_quotes(key.name), what_)};
+  }
+  const std::vector<std::string> names{known.begin(), known.end()};
   for (const Node::Entry& entry : node_.entries()) {
-    if (asked_.contains(entry.key)) continue;
+    if (known.contains(entry.key)) continue;
     problems_.add(entry.key_origin, fmt::format("unknown key {} in {}{}", in_quotes(entry.key),
-                                                what_, did_you_mean(entry.key, known)));
+                                                what_, did_you_mean(entry.key, names)));
   }
 }
 

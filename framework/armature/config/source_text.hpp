@@ -8,7 +8,7 @@
 
 #include "armature/config/node.hpp"
 
-namespace armature ARMATURE_EXPORT {
+namespace armature {
 namespace config ARMATURE_EXPORT {
 
 /// While one exists, all pipes that its thread reads together may be waited for for 2 s: what one

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace armature ARMATURE_EXPORT {
+namespace armature {
 namespace config ARMATURE_EXPORT {
 
 /// The unit that the end of a key states: `tilt_deg`, `max_velocity_mm_s`.

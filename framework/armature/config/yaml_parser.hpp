@@ -7,7 +7,7 @@
 
 #include "armature/config/node.hpp"
 
-namespace armature ARMATURE_EXPORT {
+namespace armature {
 namespace config ARMATURE_EXPORT {
 
 /// One YAML document as nodes, by the rules of `parse_text`. With `origin`, every node comes from

@@ -8,6 +8,7 @@
 #include "armature/messages/header.hpp"
 #include "armature/runtime/component/component.hpp"
 #include "armature/runtime/component/setup.hpp"
+#include "armature/values/expected.hpp"
 
 namespace armature ARMATURE_EXPORT {
 
@@ -24,6 +25,7 @@ class RequestHost : public Component {
   void step(Time) final {
     for (std::size_t i = 0; i < requests_.size(); ++i) {
       auto response = responses_.loan();
+      *response = Response{};  // it was used before
       response->header_() = requests_[i].header_();
       response->request_id_(requests_[i].request_id_());
       answer(requests_[i], *response);
@@ -32,8 +34,19 @@ class RequestHost : public Component {
   }
 
  protected:
-  /// Writes every field but the header and the id: the response is one that was used before.
+  /// Fills an empty response, which has its header and its id.
   virtual void answer(const Request& request, Response& response) = 0;
+
+  /// Of a response that is valid or has a reason: `write` fills in what was found.
+  template <class Found, class Write>
+  static void respond(const Expected<Found>& found, Response& response, const Write& write) {
+    response.valid_(found.has_value());
+    if (found) {
+      write(*found);
+    } else {
+      response.reason_() = found.error().text;
+    }
+  }
 
   /// Poses are those of the base frame; a request that names none means that one.
   static std::optional<std::string> in_another_frame(const Request& request) {

@@ -103,6 +103,8 @@ std::string type_of(const ParamSpec& spec, const std::string& member) {
                         : "std::vector<double>";
     case Type::texts:
       return "std::vector<std::string>";
+    case Type::section:
+      break;  // of files, not of parameters
   }
   return "";
 }
@@ -123,6 +125,8 @@ std::string read_of(const ParamSpec& spec, const std::string& type) {
     case Type::numbers:
       return spec.count ? fmt::format("params.numbers<{}>(\"{}\")", *spec.count, spec.name)
                         : fmt::format("params.numbers(\"{}\")", spec.name);
+    case Type::section:
+      break;
   }
   return "";
 }
@@ -174,6 +178,8 @@ std::string default_of(const ParamSpec& spec, const Params& defaults) {
       for (const std::string& text : defaults.texts(spec.name)) texts.push_back(literal_of(text));
       return fmt::format("{}", fmt::join(texts, ", "));
     }
+    case Type::section:
+      break;
   }
   return "";
 }

@@ -11,7 +11,6 @@
 #include "armature/config/document.hpp"
 #include "armature/config/source_text.hpp"
 #include "armature/config/yaml_parser.hpp"
-#include "armature/robot/files/quantity_reader.hpp"
 #include "armature/robot/files/written_pose.hpp"
 
 namespace armature {
@@ -23,11 +22,17 @@ using config::Problems;
 
 std::optional<CalibratedFrame> read_transform(const Node& node, const std::string& name,
                                               Problems& problems) {
-  MapReader map{node, name, problems};
-  const auto translation =
-      require_quantity(map, {"translation_m", "translation_mm"}, 3, problems).vector();
-  const bool is_turned = map.optional_node("quaternion_xyzw") != nullptr;
-  const auto rotation = read_quaternion(map, "quaternion_xyzw", problems);
+  using config::KeySpec;
+  static const std::vector<KeySpec> kKeys{
+      {.name = "translation_m",
+       .type = KeySpec::Type::numbers,
+       .count = 3,
+       .also = "translation_mm"},
+      {.name = "quaternion_xyzw", .type = KeySpec::Type::numbers, .count = 4, .optional = true}};
+  MapReader map{node, name, kKeys, problems};
+  const auto translation = read_vector(map, "translation_m");
+  const bool is_turned = map.node("quaternion_xyzw") != nullptr;
+  const auto rotation = read_quaternion(map, "quaternion_xyzw");
   map.finish();
   if (!translation || (is_turned && !rotation)) return std::nullopt;
   return CalibratedFrame{*translation, rotation};
@@ -36,10 +41,11 @@ std::optional<CalibratedFrame> read_transform(const Node& node, const std::strin
 /// What else stands in the file is for people.
 std::optional<CalibratedFrame> find_transform(const Node& document, const std::string& wanted,
                                               const Node& path, Problems& problems) {
-  MapReader map{document, "calibration", problems};
+  static const std::vector kKeys{config::format_key("armature_calibration")};
+  MapReader map{document, "calibration", kKeys, problems};
   if (document.kind() != Node::Kind::map) return std::nullopt;
-  check_format(map, "armature_calibration", problems);
-  if (const Node* transform = map.optional_node(wanted)) {
+  map.integer("armature_calibration");
+  if (const Node* transform = document.find(wanted)) {
     return read_transform(*transform, wanted, problems);
   }
   std::vector<std::string> held;

@@ -115,9 +115,9 @@ TEST_F(CalibratedFrameOfARobot, NamesTheFilesAndPlacesOfWhatIsWrong) {
                     "  broken: {parent: flange, calibrated: found/broken.yaml}\n"
                     "  gone: {parent: flange, calibrated: found/gone.yaml}\n"
                     "  number: {parent: flange, calibrated: [0, 1]}\n"),
-      ElementsAre("found/bad.yaml:1:23: 'armature_calibration: 2' is a format that this version "
-                  "does not know; it reads 1",
-                  "found/bad.yaml:2:32: 'translation_m' needs 3 numbers, not 2",
+      ElementsAre("found/bad.yaml:1:23: 'armature_calibration' is 2, must be 1: the format that "
+                  "this version reads",
+                  "found/bad.yaml:2:32: 'translation_m' must be a list of 3 numbers, not of 2",
                   "found/bad.yaml:2:59: 'quaternion_xyzw' has length 2, must be 1",
                   "found/bad.yaml:2:73: unknown key 'colour' in flange_T_tool; known: "
                   "quaternion_xyzw, translation_m, translation_mm",

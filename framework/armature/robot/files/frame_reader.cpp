@@ -7,7 +7,8 @@
 #include <algorithm>
 
 #include "armature/robot/files/calibrated_frame.hpp"
-#include "armature/robot/files/quantity_reader.hpp"
+#include "armature/robot/files/robot_keys.hpp"
+#include "armature/robot/files/written_pose.hpp"
 #include "armature/robot/geometry/rotation.hpp"
 
 namespace armature {
@@ -25,36 +26,34 @@ struct ReadFrame {
 };
 
 /// What a calibration found is not stated again beside it: which of them would count?
-void take_calibrated(MapReader& map, const Node& path, const Quantity& translation,
-                     const Quantity& rpy, ReadFrame& result, Problems& problems) {
-  const auto keep_one = [&](const Quantity& stated) {
-    if (!stated.node) return;
-    map.problem(stated.key,
-                fmt::format("'{}' and 'calibrated' state the same; keep one", stated.key));
+void take_calibrated(MapReader& map, const Node& path, ReadFrame& result, Problems& problems) {
+  const auto keep_one = [&](const char* key) {
+    if (!map.node(key)) return;
+    map.problem(key,
+                fmt::format("'{}' and 'calibrated' state the same; keep one", map.written(key)));
   };
-  keep_one(translation);
+  keep_one("translation_m");
   if (!result.parent) return;  // which is noted
   const auto found =
       read_calibrated_frame(path, result.parent->text(), result.frame.name, problems);
   if (!found) return;
   result.frame.parent_T_frame.translation() = found->translation;
   if (!found->rotation) return;
-  keep_one(rpy);
+  keep_one("rpy_deg");
   result.frame.parent_T_frame.linear() = found->rotation->toRotationMatrix();
 }
 
 ReadFrame read_frame(const Node::Entry& entry, Problems& problems) {
-  MapReader map{entry.value, fmt::format("frame '{}'", entry.key), problems};
+  MapReader map{entry.value, fmt::format("frame '{}'", entry.key), frame_keys(), problems};
   ReadFrame result;
   result.frame.name = entry.key;
   result.parent = map.node("parent");
-  const Quantity translation = read_quantity(map, {"translation_m", "translation_mm"}, 3, problems);
-  const Quantity rpy = read_quantity(map, {"rpy_deg"}, 3, problems);
-  result.frame.parent_T_frame.translation() = translation.vector().value_or(Vector3d::Zero());
-  if (rpy.vector()) result.frame.parent_T_frame.linear() = rotation_from_rpy(*rpy.vector());
-  if (const Node* path = map.optional_node("calibrated")) {
-    take_calibrated(map, *path, translation, rpy, result, problems);
+  result.frame.parent_T_frame.translation() =
+      read_vector(map, "translation_m").value_or(Vector3d::Zero());
+  if (const auto rpy = read_vector(map, "rpy_deg")) {
+    result.frame.parent_T_frame.linear() = rotation_from_rpy(*rpy);
   }
+  if (const Node* path = map.node("calibrated")) take_calibrated(map, *path, result, problems);
   map.finish();
   return result;
 }

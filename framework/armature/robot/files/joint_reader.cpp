@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "armature/robot/files/quantity_reader.hpp"
+#include "armature/robot/files/robot_keys.hpp"
 
 namespace armature {
 namespace {
@@ -21,87 +21,81 @@ struct ReadJoint {
   const Node* leader = nullptr;
 };
 
-void read_positive(MapReader& map, std::string_view key, bool required, double& value,
-                   Problems& problems) {
-  const Quantity quantity =
-      required ? require_quantity(map, {key}, 1, problems) : read_quantity(map, {key}, 1, problems);
-  if (!quantity.number()) return;
-  value = *quantity.number();
-  if (!(value > 0)) map.problem(key, fmt::format("'{}' must be more than 0, not {}", key, value));
-}
-
-void read_limits(MapReader& map, bool required, Joint& joint, Problems& problems) {
+void read_limits(MapReader& map, Joint& joint) {
   const bool revolute = joint.type == Joint::Type::revolute;
-  const auto read = required ? require_quantity : read_quantity;
-  const Quantity limits = revolute ? read(map, {"limits_deg"}, 2, problems)
-                                   : read(map, {"limits_m", "limits_mm"}, 2, problems);
-  if (limits.si.size() == 2) {
-    joint.lower = limits.si[0];
-    joint.upper = limits.si[1];
-    if (!(joint.lower < joint.upper))
-      map.problem(limits.key,
-                  fmt::format("'{}' is [lower, upper], and {} is not below {}", limits.key,
-                              limits.node->items()[0].text(), limits.node->items()[1].text()));
+  const char* const key = revolute ? "limits_deg" : "limits_m";
+  if (const auto limits = map.optional_numbers(key)) {
+    joint.lower = limits->front();
+    joint.upper = limits->back();
+    if (!(joint.lower < joint.upper)) {
+      const Node& list = *map.node(key);
+      map.problem(key,
+                  fmt::format("'{}' is [lower, upper], and {} is not below {}", map.written(key),
+                              list.items()[0].text(), list.items()[1].text()));
+    }
   }
-  read_positive(map, revolute ? "velocity_rad_s" : "velocity_m_s", required, joint.max_velocity,
-                problems);
-  read_positive(map, revolute ? "acceleration_rad_s2" : "acceleration_m_s2", required,
-                joint.max_acceleration, problems);
+  const auto take = [&map](const char* speed, double& value) {
+    value = map.optional_number(speed).value_or(value);
+  };
+  take(revolute ? "velocity_rad_s" : "velocity_m_s", joint.max_velocity);
+  take(revolute ? "acceleration_rad_s2" : "acceleration_m_s2", joint.max_acceleration);
 }
 
-const Node* read_coupling(MapReader& map, Joint& joint, Problems& problems) {
-  const Node* node = map.optional_node("coupled");
-  if (!node) return nullptr;
-  joint.coupling.emplace();
-  MapReader coupled{*node, "coupled", problems};
-  const Node* leader = coupled.node("to");
-  if (const auto ratio = read_quantity(coupled, {"ratio"}, 1, problems).number()) {
-    joint.coupling->ratio = *ratio;
-    if (*ratio == 0)
-      coupled.problem("ratio",
-                      "'ratio' must not be 0; a joint that does not move is a fixed angle");
+/// The node that names the leader.
+const Node* read_coupling(const Node& node, Joint& joint, Problems& problems) {
+  const auto keys = coupling_keys(joint.type);
+  MapReader map{node, "coupled", keys, problems};
+  const Node* leader = map.node("to");
+  const double ratio = map.number("ratio");
+  if (ratio == 0) {
+    map.problem("ratio", "'ratio' must not be 0; a joint that does not move is a fixed angle");
   }
-  const Quantity offset = joint.type == Joint::Type::revolute
-                              ? read_quantity(coupled, {"offset_deg"}, 1, problems)
-                              : read_quantity(coupled, {"offset_m", "offset_mm"}, 1, problems);
-  joint.coupling->offset = offset.number().value_or(0);
-  coupled.finish();
+  const double offset = map.number(joint.type == Joint::Type::revolute ? "offset_deg" : "offset_m");
+  joint.coupling = {.to = 0, .ratio = ratio, .offset = offset};
+  map.finish();
   return leader;
 }
 
 ReadJoint read_joint(const Node& node, Problems& problems) {
   const Node* name = node.find("name");
-  MapReader map{node, name ? fmt::format("joint '{}'", name->text()) : "joint", problems};
+  const Node* type = node.find("type");
   ReadJoint result;
   Joint& joint = result.joint;
+  if (type && type->text() == "prismatic") joint.type = Joint::Type::prismatic;
+  const auto keys = joint_keys(joint.type, node.find("coupled") != nullptr);
+  MapReader map{node, name ? fmt::format("joint '{}'", name->text()) : "joint", keys, problems};
   joint.name = map.text("name");
   result.name = name;
-  if (map.choice("type", {"revolute", "prismatic"}, "revolute") == "prismatic")
-    joint.type = Joint::Type::prismatic;
-  joint.theta = read_quantity(map, {"theta_deg"}, 1, problems).number().value_or(0);
-  joint.d = read_quantity(map, {"d_m", "d_mm"}, 1, problems).number().value_or(0);
-  joint.a = read_quantity(map, {"a_m", "a_mm"}, 1, problems).number().value_or(0);
-  joint.alpha = read_quantity(map, {"alpha_deg"}, 1, problems).number().value_or(0);
-  result.leader = read_coupling(map, joint, problems);
-  read_limits(map, !joint.coupling, joint, problems);  // a leader's limits may do
+  map.text("type");
+  joint.theta = map.number("theta_deg");
+  joint.d = map.number("d_m");
+  joint.a = map.number("a_m");
+  joint.alpha = map.number("alpha_deg");
+  if (const Node* coupled = map.node("coupled")) {
+    result.leader = read_coupling(*coupled, joint, problems);
+  }
+  read_limits(map, joint);
   map.finish();
   return result;
 }
 
 void read_limits_of(const Node& node, std::vector<Joint>& joints, Problems& problems) {
-  MapReader map{node, "joint", problems};
-  const std::string name = map.text("name");
-  const auto joint = std::ranges::find(joints, name, &Joint::name);
-  if (joint == joints.end()) {
+  const Node* name = node.find("name");
+  const auto joint = std::ranges::find(joints, name ? name->text() : "", &Joint::name);
+  const bool is_known = joint != joints.end();
+  const auto keys = urdf_joint_keys(is_known ? joint->type : Joint::Type::revolute);
+  MapReader map{node, "joint", keys, problems};
+  const std::string wanted = map.text("name");
+  if (!is_known) {
     std::vector<std::string> names;
     for (const Joint& other : joints) names.push_back(other.name);
-    if (!name.empty())
-      map.problem("name",
-                  fmt::format("there is no joint '{}'{}", name, config::did_you_mean(name, names)));
+    if (wanted.empty()) return;
+    map.problem("name", fmt::format("there is no joint '{}'{}", wanted,
+                                    config::did_you_mean(wanted, names)));
     return;
   }
   const double before = joint->max_velocity;
-  read_limits(map, false, *joint, problems);
+  read_limits(map, *joint);
   const bool says = node.find("acceleration_rad_s2") || node.find("acceleration_m_s2");
   if (joint->max_velocity != before && !says)
     joint->max_acceleration = usual_acceleration(joint->max_velocity);

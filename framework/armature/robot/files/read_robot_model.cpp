@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
 
 #include "armature/config/document.hpp"
 #include "armature/config/reader.hpp"
 #include "armature/robot/files/frame_reader.hpp"
 #include "armature/robot/files/joint_reader.hpp"
-#include "armature/robot/files/quantity_reader.hpp"
+#include "armature/robot/files/robot_keys.hpp"
 #include "armature/robot/files/urdf_robot.hpp"
 #include "armature/robot/model/robot_model.hpp"
 
@@ -22,25 +22,29 @@ using config::Node;
 using config::Problems;
 using Eigen::Vector3d;
 
-std::optional<Vector3d> read_pointing_axis(MapReader& map, Problems& problems) {
-  static const std::map<std::string, Vector3d, std::less<>> kNamed{
-      {"x", Vector3d::UnitX()},   {"y", Vector3d::UnitY()},   {"z", Vector3d::UnitZ()},
-      {"-x", -Vector3d::UnitX()}, {"-y", -Vector3d::UnitY()}, {"-z", -Vector3d::UnitZ()}};
-  const Node* node = map.optional_node("pointing_axis");
+/// One of the words, or any direction.
+std::optional<Vector3d> read_pointing_axis(MapReader& map) {
+  const Node* node = map.node("pointing_axis");
   if (!node) return std::nullopt;
   if (node->kind() == Node::Kind::sequence) {
-    const auto axis = read_quantity(map, {"pointing_axis"}, 3, problems).vector();
-    if (!axis) return std::nullopt;
-    if (axis->norm() > 1e-6) return axis->normalized();
+    const auto axis = config::to_numbers(*node, 3);
+    if (!axis) {
+      map.problem("pointing_axis", "'pointing_axis' " + axis.error().message);
+      return std::nullopt;
+    }
+    const Vector3d direction{(*axis)[0], (*axis)[1], (*axis)[2]};
+    if (direction.norm() > 1e-6) return direction.normalized();
     map.problem("pointing_axis", "'pointing_axis' has no length");
     return std::nullopt;
   }
-  const auto named = kNamed.find(node->text());
-  if (named != kNamed.end()) return named->second;
-  map.problem(
-      "pointing_axis",
-      fmt::format("'pointing_axis' must be x, y, z, -x, -y, -z or a list of 3 numbers, not {}",
-                  node->describe()));
+  const auto word = std::ranges::find(axis_words(), node->text());
+  if (word != axis_words().end()) {
+    const auto axis = word - axis_words().begin();
+    return Vector3d{(axis < 3 ? 1 : -1) * Vector3d::Unit(axis % 3)};
+  }
+  map.problem("pointing_axis",
+              fmt::format("'pointing_axis' must be {} or a list of 3 numbers, not {}",
+                          fmt::join(axis_words(), ", "), node->describe()));
   return std::nullopt;
 }
 
@@ -55,21 +59,20 @@ std::optional<FrameId> find_tool(MapReader& map, const std::vector<NamedFrame>& 
   return std::nullopt;
 }
 
-/// The home position of all joints; empty when none is written or it is wrong.
-Quantity read_home(MapReader& map, const std::vector<Joint>& joints, Problems& problems) {
-  Quantity home = read_quantity(map, {"home_deg", "home"}, 0, problems);
-  if (!home.node || joints.empty()) return home;
+/// The home position of all joints; nothing when none is written or it is wrong.
+std::optional<std::vector<double>> read_home(MapReader& map, const std::vector<Joint>& joints) {
+  auto home = map.optional_numbers("home_deg");
+  if (!home || joints.empty()) return std::nullopt;
+  const std::string key = map.written("home_deg");
   const auto prismatic = std::ranges::find(joints, Joint::Type::prismatic, &Joint::type);
-  if (home.key == "home_deg" && prismatic != joints.end())
-    map.problem(home.key, fmt::format("'home_deg' cannot state the prismatic joint '{}'; write "
-                                      "'home' in radians and metres",
-                                      prismatic->name));
-  if (!home.si.empty() && home.si.size() != joints.size()) {
-    map.problem(home.key, fmt::format("'{}' needs a value for each of the {} joints, not {}",
-                                      home.key, joints.size(), home.si.size()));
-    home.si.clear();
-  }
-  return home;
+  if (key == "home_deg" && prismatic != joints.end())
+    map.problem("home_deg", fmt::format("'home_deg' cannot state the prismatic joint '{}'; write "
+                                        "'home' in radians and metres",
+                                        prismatic->name));
+  if (home->size() == joints.size()) return home;
+  map.problem("home_deg", fmt::format("'{}' needs a value for each of the {} joints, not {}", key,
+                                      joints.size(), home->size()));
+  return std::nullopt;
 }
 
 /// In what a user's file says: degrees or metres.
@@ -79,7 +82,7 @@ std::string in_file_units(double value, bool revolute) {
 }
 
 /// What only shows when all joints are together: couplings that leave no room, a home out of reach.
-void check_whole(const RobotModel& model, MapReader& map, const Quantity& home) {
+void check_whole(const RobotModel& model, MapReader& map) {
   for (int i = 0; i < model.dof(); ++i)
     if (!(model.lower()[i] < model.upper()[i]))
       map.problem(
@@ -88,9 +91,10 @@ void check_whole(const RobotModel& model, MapReader& map, const Quantity& home) 
                       "that follow it exclude each other",
                       model.joints()[static_cast<std::size_t>(model.independent_joint(i))].name));
   if (!model.home()) return;
+  const std::string home = map.written("home_deg");
   const auto independent = model.to_independent(*model.home());
   if (!independent) {
-    map.problem(home.key, fmt::format("'{}': {}", home.key, independent.error().text));
+    map.problem("home_deg", fmt::format("'{}': {}", home, independent.error().text));
     return;
   }
   for (int i = 0; i < model.dof(); ++i) {
@@ -98,8 +102,8 @@ void check_whole(const RobotModel& model, MapReader& map, const Quantity& home) 
     if (q >= model.lower()[i] && q <= model.upper()[i]) continue;
     const bool revolute = model.is_revolute(i);
     map.problem(
-        home.key,
-        fmt::format("'{}': {} = {} is outside of {} to {}", home.key,
+        "home_deg",
+        fmt::format("'{}': {} = {} is outside of {} to {}", home,
                     model.joints()[static_cast<std::size_t>(model.independent_joint(i))].name,
                     in_file_units(q, revolute), in_file_units(model.lower()[i], revolute),
                     in_file_units(model.upper()[i], revolute)));
@@ -116,12 +120,11 @@ struct Build {
 
 /// From the rows in the file itself.
 Build read_rows(MapReader& map, Problems& problems) {
-  const bool modified =
-      map.choice("convention", {"standard", "modified"}, "standard") == "modified";
+  const bool modified = map.text("convention") == "modified";
   Build build{
       modified ? RobotModel::Convention::modified : RobotModel::Convention::standard, {}, {}, {}};
   if (const Node* list = map.node("joints")) build.joints = read_joints(*list, problems);
-  if (const Node* frames = map.optional_node("frames"))
+  if (const Node* frames = map.node("frames"))
     build.frames = read_frames(*frames, build.joints, {}, problems);
   build.tool = find_tool(map, build.frames, build.joints);
   return build;
@@ -143,10 +146,10 @@ Build read_urdf(const Node& file, MapReader& map, Problems& problems) {
   const auto link = [](const Node* node, const Node& otherwise) {
     return node ? LinkName{node->text(), node->origin()} : LinkName{"", otherwise.origin()};
   };
-  const LinkName base = link(map.optional_node("base"), file);
+  const LinkName base = link(map.node("base"), file);
   const LinkName tip = link(map.node("tip"), file);
-  const Node* limits = map.optional_node("joints");
-  const Node* more = map.optional_node("frames");
+  const Node* limits = map.node("joints");
+  const Node* more = map.node("frames");
   Build build{RobotModel::Convention::modified, {}, {}, {}};
   if (tip.name.empty()) return build;  // noted as missing
   UrdfArm arm = read_urdf_arm(config::folder_of(file.origin()) / file.text(), base, tip, problems);
@@ -165,24 +168,24 @@ Build read_urdf(const Node& file, MapReader& map, Problems& problems) {
 }
 
 std::optional<RobotModel> read(const Node& document, Problems& problems) {
-  MapReader map{document, "robot", problems};
-  check_format(map, "armature_robot", problems);
+  const bool is_urdf = document.find("urdf") != nullptr;
+  MapReader map{document, "robot", is_urdf ? urdf_robot_keys() : robot_keys(), problems};
+  const Node* urdf = map.node("urdf");
+  map.integer("armature_robot");
   const std::string name = map.text("name");
-  const Node* urdf = map.optional_node("urdf");
   const auto [convention, joints, frames, tool] =
       urdf ? read_urdf(*urdf, map, problems) : read_rows(map, problems);
-  const auto axis = read_pointing_axis(map, problems);
-  const Quantity home = read_home(map, joints, problems);
+  const auto axis = read_pointing_axis(map);
+  const auto home = read_home(map, joints);
   map.finish();
   if (!problems.empty() || !tool) return std::nullopt;
-
   std::optional<JointVector> home_all;
-  if (home.node) {
-    home_all.emplace(static_cast<Eigen::Index>(home.si.size()));
-    std::ranges::copy(home.si, home_all->begin());
+  if (home) {
+    home_all.emplace(static_cast<Eigen::Index>(home->size()));
+    std::ranges::copy(*home, home_all->begin());
   }
   RobotModel model{name, convention, joints, frames, *tool, axis, home_all};
-  check_whole(model, map, home);
+  check_whole(model, map);
   if (!problems.empty()) return std::nullopt;
   return model;
 }

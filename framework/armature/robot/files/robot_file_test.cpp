@@ -2,6 +2,9 @@
 #include <gmock/gmock.h>
 
 #include "armature/config/document.hpp"
+#include "armature/config/unit_suffix.hpp"
+#include "armature/robot/files/robot_keys.hpp"
+#include "armature/robot/files/stereo_rig.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
 #include "armature/robot/model/test_robots.hpp"
 
@@ -119,11 +122,10 @@ TEST(RobotFile, ReportsEverythingThatIsWrongAtOnceWithItsPlace) {
                   "home_deg: [1, 2]\n"
                   "colour: red\n"),
       ElementsAre(
-          "arm.yaml:1:17: 'armature_robot: 2' is a format that this version does not know; it "
-          "reads 1",
+          "arm.yaml:1:17: 'armature_robot' is 2, must be 1: the format that this version reads",
           "arm.yaml:3:13: 'convention' cannot be 'standart'; did you mean 'standard'?",
           "arm.yaml:5:27: 'limits_deg' is [lower, upper], and 90 is not below -90",
-          "arm.yaml:5:54: 'velocity_rad_s' must be more than 0, not 0",
+          "arm.yaml:5:54: 'velocity_rad_s' is 0, must be more than 0",
           "arm.yaml:6:5: missing key 'limits_m' in joint 'b'",
           "arm.yaml:6:32: unknown key 'limits_deg' in joint 'b'; did you mean 'limits_m' or "
           "'limits_mm'?",
@@ -197,7 +199,7 @@ TEST(RobotFile, RefusesWrongShapes) {
   EXPECT_THAT(problems_in(with(kGoodJoint,
                                "frames: {tool: {parent: b, rpy_deg: [1, 2]}}\n"
                                "pointing_axis: [0, 0, 0]")),
-              ElementsAre("arm.yaml:6:37: 'rpy_deg' needs 3 numbers, not 2",
+              ElementsAre("arm.yaml:6:37: 'rpy_deg' must be a list of 3 numbers, not of 2",
                           "arm.yaml:7:16: 'pointing_axis' has no length"));
 }
 
@@ -208,6 +210,20 @@ TEST(RobotFile, RefusesMoreJointsThanFit) {
             ", limits_deg: [0, 1], velocity_rad_s: 1, acceleration_rad_s2: 1}\n";
   EXPECT_THAT(problems_in(text + "frames: {tool: {parent: j12}}"),
               ElementsAre("arm.yaml:4:3: 13 joints are too many; a robot may have 12"));
+}
+
+TEST(RobotFile, HasTablesOfKeysWithUnitsThatAreReadAndADoc) {
+  using Type = Joint::Type;
+  for (const auto& table : {robot_keys(), urdf_robot_keys(), joint_keys(Type::revolute, false),
+                            joint_keys(Type::prismatic, true), urdf_joint_keys(Type::prismatic),
+                            coupling_keys(Type::revolute), coupling_keys(Type::prismatic),
+                            frame_keys(), rig_keys(), mount_keys()}) {
+    for (const config::KeySpec& key : table) {
+      EXPECT_EQ(config::unknown_unit(key.name), "");
+      EXPECT_EQ(config::unknown_unit(key.also), "") << key.name;
+      EXPECT_NE(key.doc, "") << key.name;
+    }
+  }
 }
 
 }  // namespace

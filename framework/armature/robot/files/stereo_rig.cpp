@@ -8,85 +8,57 @@
 
 #include "armature/config/document.hpp"
 #include "armature/config/reader.hpp"
-#include "armature/robot/files/quantity_reader.hpp"
+#include "armature/robot/files/written_pose.hpp"
 
 namespace armature {
 namespace {
 
+using config::KeySpec;
 using config::MapReader;
 using config::Node;
 using config::Problems;
 using Eigen::Vector3d;
+using Type = KeySpec::Type;
 
-constexpr double kMaxPixels = 16384;    // per side
 constexpr double kSquareWithin = 1e-6;  // cosine between forward and right
 
-void read_resolution(MapReader& map, StereoCamera& camera, Problems& problems) {
-  const Quantity size = require_quantity(map, {"resolution"}, 2, problems);
-  if (size.si.size() != 2) return;
-  for (const double pixels : size.si)
-    if (!(pixels >= 1 && pixels <= kMaxPixels && pixels == std::floor(pixels))) {
-      map.problem("resolution",
-                  fmt::format("'resolution' is [width, height] in whole pixels from 1 "
-                              "to {:.0f}, not {}",
-                              kMaxPixels, pixels));
-      return;
-    }
-  camera.width = static_cast<int>(size.si[0]);
-  camera.height = static_cast<int>(size.si[1]);
-}
-
-void read_focal_length(MapReader& map, StereoCamera& camera, Problems& problems) {
-  const Quantity fov = read_quantity(map, {"fov_deg"}, 1, problems);
-  const Quantity focal = read_quantity(map, {"focal_px"}, 1, problems);
-  if (fov.node && focal.node)
-    map.problem("focal_px", "'fov_deg' and 'focal_px' state the same; keep one");
-  else if (!fov.node && !focal.node)
-    map.node("fov_deg");  // notes that it is missing
-  if (const auto angle = fov.number()) {
-    if (!(*angle > 0 && *angle < 3.1))
-      map.problem("fov_deg",
-                  "'fov_deg' is the horizontal field of view, more than 0 and less than "
-                  "177 degrees");
-    // Pixel centres are at integers: the image reaches half a pixel further on both sides.
-    camera.focal_px = 0.5 * camera.width / std::tan(0.5 * *angle);
+void read_resolution(MapReader& map, StereoCamera& camera) {
+  const auto size = map.optional_numbers("resolution");
+  if (!size) return;
+  for (const double pixels : *size) {
+    if (pixels == std::floor(pixels)) continue;
+    map.problem("resolution",
+                fmt::format("'resolution' is [width, height] in whole pixels, not {}", pixels));
+    return;
   }
-  if (const auto pixels = focal.number()) {
-    if (!(*pixels > 0)) map.problem("focal_px", "'focal_px' must be more than 0");
-    camera.focal_px = *pixels;
-  }
+  camera.width = static_cast<int>(size->front());
+  camera.height = static_cast<int>(size->back());
 }
 
-void read_principal_point(MapReader& map, StereoCamera& camera, Problems& problems) {
-  const Quantity point = read_quantity(map, {"principal_point_px"}, 2, problems);
-  const bool written = point.si.size() == 2;
-  camera.cx = written ? point.si[0] : 0.5 * (camera.width - 1);
-  camera.cy = written ? point.si[1] : 0.5 * (camera.height - 1);
+void read_focal_length(MapReader& map, StereoCamera& camera) {
+  const auto fov = map.optional_number("fov_deg");
+  const auto focal = map.optional_number("focal_px");
+  const bool both = map.node("fov_deg") && map.node("focal_px");
+  const bool none = !map.node("fov_deg") && !map.node("focal_px");
+  if (both) map.problem("focal_px", "'fov_deg' and 'focal_px' state the same; keep one");
+  if (none) map.problem("fov_deg", "missing key 'fov_deg' in rig; or state 'focal_px'");
+  // Pixel centres are at integers: the image reaches half a pixel further on both sides.
+  if (fov) camera.focal_px = 0.5 * camera.width / std::tan(0.5 * *fov);
+  if (focal) camera.focal_px = *focal;
 }
 
-void read_baseline(MapReader& map, StereoCamera& camera, Problems& problems) {
-  const Quantity baseline = require_quantity(map, {"baseline_mm", "baseline_m"}, 1, problems);
-  camera.baseline_m = baseline.number().value_or(0);
-  if (baseline.number() && !(camera.baseline_m > 0))
-    map.problem(baseline.key, fmt::format("'{}' must be more than 0", baseline.key));
-}
-
-std::optional<Vector3d> read_direction(MapReader& map, std::string_view key, Problems& problems) {
-  const auto vector = require_quantity(map, {key}, 3, problems).vector();
-  if (!vector) return std::nullopt;
-  if (vector->norm() > 1e-6) return vector->normalized();
-  map.problem(key, fmt::format("'{}' has no length", key));
-  return std::nullopt;
+void read_principal_point(MapReader& map, StereoCamera& camera) {
+  const auto point = map.optional_numbers("principal_point_px");
+  camera.cx = point ? point->front() : 0.5 * (camera.width - 1);
+  camera.cy = point ? point->back() : 0.5 * (camera.height - 1);
 }
 
 void read_mount(const Node& node, StereoRig& rig, Problems& problems) {
-  MapReader map{node, "mount", problems};
+  MapReader map{node, "mount", mount_keys(), problems};
   rig.mounted_on = map.text("frame");
-  const Vector3d center = read_quantity(map, {"center_mm", "center_m"}, 3, problems)
-                              .vector()
-                              .value_or(Vector3d::Zero());
-  const auto forward = read_direction(map, "forward", problems);
-  const auto right = read_direction(map, "right", problems);
+  const Vector3d center = read_vector(map, "center_mm").value_or(Vector3d::Zero());
+  const auto forward = read_direction(map, "forward");
+  const auto right = read_direction(map, "right");
   map.finish();
   if (!forward || !right) return;
   if (std::abs(forward->dot(*right)) > kSquareWithin) {
@@ -101,16 +73,68 @@ void read_mount(const Node& node, StereoRig& rig, Problems& problems) {
 
 }  // namespace
 
+const std::vector<KeySpec>& rig_keys() {
+  static const std::vector<KeySpec> kKeys{
+      config::format_key("armature_rig"),
+      {.name = "name", .type = Type::text, .doc = "The rig's name."},
+      {.name = "resolution",
+       .type = Type::numbers,
+       .doc = "[width, height] in pixels.",
+       .min = 1,
+       .max = 16384,
+       .count = 2},
+      {.name = "fov_deg",
+       .doc = "The horizontal field of view.",
+       .max = 177,
+       .optional = true,
+       .above = 0},
+      {.name = "focal_px",
+       .doc = "The focal length, instead of the field of view.",
+       .optional = true,
+       .above = 0},
+      {.name = "principal_point_px",
+       .type = Type::numbers,
+       .doc = "[x, y]; without: the middle of the image.",
+       .count = 2,
+       .optional = true},
+      {.name = "baseline_mm",
+       .doc = "From the left camera to the right one.",
+       .above = 0,
+       .also = "baseline_m"},
+      {.name = "mount", .type = Type::section, .doc = "Where the rig hangs on the arm."}};
+  return kKeys;
+}
+
+const std::vector<KeySpec>& mount_keys() {
+  static const std::vector<KeySpec> kKeys{
+      {.name = "frame", .type = Type::text, .doc = "A frame of the robot."},
+      {.name = "center_mm",
+       .type = Type::numbers,
+       .doc = "The middle between the cameras, in that frame.",
+       .count = 3,
+       .optional = true,
+       .also = "center_m"},
+      {.name = "forward",
+       .type = Type::numbers,
+       .doc = "Where the cameras look, in that frame.",
+       .count = 3},
+      {.name = "right",
+       .type = Type::numbers,
+       .doc = "From the left camera to the right one, square to 'forward'.",
+       .count = 3}};
+  return kKeys;
+}
+
 StereoRig read_stereo_rig(const Node& document) {
   Problems problems;
-  MapReader map{document, "rig", problems};
+  MapReader map{document, "rig", rig_keys(), problems};
   StereoRig rig;
-  check_format(map, "armature_rig", problems);
+  map.integer("armature_rig");
   rig.name = map.text("name");
-  read_resolution(map, rig.camera, problems);
-  read_focal_length(map, rig.camera, problems);
-  read_principal_point(map, rig.camera, problems);
-  read_baseline(map, rig.camera, problems);
+  read_resolution(map, rig.camera);
+  read_focal_length(map, rig.camera);
+  read_principal_point(map, rig.camera);
+  rig.camera.baseline_m = map.number("baseline_mm");
   if (const Node* mount = map.node("mount")) read_mount(*mount, rig, problems);
   map.finish();
   problems.throw_if_any();

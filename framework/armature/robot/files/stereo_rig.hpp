@@ -4,7 +4,9 @@
 #include <Eigen/Geometry>
 #include <filesystem>
 #include <string>
+#include <vector>
 
+#include "armature/config/key.hpp"
 #include "armature/robot/geometry/stereo_camera.hpp"
 
 namespace armature {
@@ -36,5 +38,9 @@ struct StereoRig {
 StereoRig read_stereo_rig(const config::Node& document);
 /// The same from a file.
 StereoRig load_stereo_rig(const std::filesystem::path& file);
+
+/// The keys of a rig file and those of its `mount:`.
+const std::vector<config::KeySpec>& rig_keys();
+const std::vector<config::KeySpec>& mount_keys();
 
 }  // namespace armature

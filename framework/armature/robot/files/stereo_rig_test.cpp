@@ -82,17 +82,16 @@ TEST(StereoRig, FileReportsEverythingThatIsWrongAtOnce) {
                   "focal_px: -3\n"
                   "baseline_mm: 0\n"
                   "mount: {frame: tool, forward: [1, 0, 0], right: [1, 0, 1], centre_mm: 3}\n"),
-      ElementsAre("rig.yaml:3:13: 'resolution' is [width, height] in whole pixels from 1 to "
-                  "16384, not 1280.5",
+      ElementsAre("rig.yaml:3:13: 'resolution' is [width, height] in whole pixels, not 1280.5",
+                  "rig.yaml:5:11: 'focal_px' is -3, must be more than 0",
                   "rig.yaml:5:11: 'fov_deg' and 'focal_px' state the same; keep one",
-                  "rig.yaml:5:11: 'focal_px' must be more than 0",
-                  "rig.yaml:6:14: 'baseline_mm' must be more than 0",
+                  "rig.yaml:6:14: 'baseline_mm' is 0, must be more than 0",
                   "rig.yaml:7:49: 'right' must be square to 'forward'; they are 45.0 "
                   "degrees apart",
                   "rig.yaml:7:60: unknown key 'centre_mm' in mount; did you mean 'center_mm'?"));
   EXPECT_THAT(problems_of("{armature_rig: 1, name: bare}"),
               ElementsAre("rig.yaml:1:1: missing key 'resolution' in rig",
-                          "rig.yaml:1:1: missing key 'fov_deg' in rig",
+                          "rig.yaml:1:1: missing key 'fov_deg' in rig; or state 'focal_px'",
                           "rig.yaml:1:1: missing key 'baseline_mm' in rig",
                           "rig.yaml:1:1: missing key 'mount' in rig"));
 }

@@ -5,17 +5,31 @@
 
 #include <cmath>
 #include <string>
-
-#include "armature/robot/files/quantity_reader.hpp"
+#include <vector>
 
 namespace armature {
 
-std::optional<Eigen::Quaterniond> read_quaternion(config::MapReader& map, std::string_view key,
-                                                  config::Problems& problems) {
+using config::KeySpec;
+
+std::optional<Eigen::Vector3d> read_vector(config::MapReader& map, std::string_view key) {
+  const auto numbers = map.optional_numbers(key);
+  if (!numbers || numbers->size() != 3) return std::nullopt;
+  return Eigen::Vector3d{(*numbers)[0], (*numbers)[1], (*numbers)[2]};
+}
+
+std::optional<Eigen::Vector3d> read_direction(config::MapReader& map, std::string_view key) {
+  const auto vector = read_vector(map, key);
+  if (!vector) return std::nullopt;
+  if (vector->norm() > 1e-6) return vector->normalized();
+  map.problem(key, fmt::format("'{}' has no length", key));
+  return std::nullopt;
+}
+
+std::optional<Eigen::Quaterniond> read_quaternion(config::MapReader& map, std::string_view key) {
   constexpr double kRounding = 1e-3;
-  const Quantity q = read_quantity(map, {key}, 4, problems);
-  if (q.si.size() != 4) return std::nullopt;
-  const Eigen::Quaterniond quaternion{q.si[3], q.si[0], q.si[1], q.si[2]};
+  const auto q = map.optional_numbers(key);
+  if (!q) return std::nullopt;
+  const Eigen::Quaterniond quaternion{(*q)[3], (*q)[0], (*q)[1], (*q)[2]};
   const double length = quaternion.norm();
   if (std::abs(length - 1) <= kRounding) return quaternion.normalized();
   map.problem(key, fmt::format("'{}' has length {:.4g}, must be 1", key, length));
@@ -24,10 +38,12 @@ std::optional<Eigen::Quaterniond> read_quaternion(config::MapReader& map, std::s
 
 std::optional<Eigen::Isometry3d> read_pose(const config::Node& node, std::string_view what,
                                            config::Problems& problems) {
-  config::MapReader map{node, std::string{what}, problems};
-  const auto position = require_quantity(map, {"position_m", "position_mm"}, 3, problems).vector();
-  map.node("quaternion_xyzw");
-  const auto rotation = read_quaternion(map, "quaternion_xyzw", problems);
+  static const std::vector<KeySpec> kKeys{
+      {.name = "position_m", .type = KeySpec::Type::numbers, .count = 3, .also = "position_mm"},
+      {.name = "quaternion_xyzw", .type = KeySpec::Type::numbers, .count = 4}};
+  config::MapReader map{node, std::string{what}, kKeys, problems};
+  const auto position = read_vector(map, "position_m");
+  const auto rotation = read_quaternion(map, "quaternion_xyzw");
   map.finish();
   if (!position || !rotation) return std::nullopt;
   return Eigen::Translation3d{*position} * *rotation;

@@ -9,7 +9,7 @@
 
 #include "armature/robot/model/robot_model.hpp"
 
-namespace armature ARMATURE_EXPORT {
+namespace armature {
 namespace testing ARMATURE_EXPORT {
 
 /// Seven joints of random geometry, the third prismatic, two coupled (one of them follows the

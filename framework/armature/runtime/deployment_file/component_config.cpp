@@ -5,10 +5,8 @@
 
 #include <algorithm>
 
-#include "armature/config/conversion.hpp"
 #include "armature/runtime/component/component.hpp"
 #include "armature/runtime/component/topic_name.hpp"
-#include "armature/runtime/deployment_file/deployment_keys.hpp"
 
 namespace armature {
 namespace {
@@ -55,7 +53,11 @@ const PluginManifest* ComponentReader::find_plugin(const std::string& id,
 }
 
 void ComponentReader::report_missing_plugin(const Node::Entry& entry) const {
-  if (entry.value.kind() != Node::Kind::map) return;  // which its MapReader has said
+  if (entry.value.kind() != Node::Kind::map) {
+    problems_.add(entry.value.origin(), fmt::format("component '{}' must be a map, not {}",
+                                                    entry.key, entry.value.describe()));
+    return;
+  }
   const std::vector<std::string> word{"plugin"};
   for (const auto& [key, key_origin, value] : entry.value.entries()) {
     const std::string hint = config::did_you_mean(key, word);
@@ -76,13 +78,12 @@ std::optional<ComponentConfig> ComponentReader::read(const Node::Entry& entry) c
   ComponentConfig component;
   component.name = entry.key;
   component.origin = entry.key_origin;
-  MapReader map{entry.value, fmt::format("component '{}'", entry.key), problems_};
   if (entry.key == kStateComponent || entry.key == kClockComponent) {
     problems_.add(
         entry.key_origin,
         fmt::format("'{}' is a component of the runtime; choose another name", entry.key));
   }
-  const Node* plugin_node = map.optional_node(keys::kPlugin.name);
+  const Node* plugin_node = entry.value.find("plugin");
   // A component without `plugin:` is the framework's own of that name: `motion:`.
   const auto id = plugin_node ? plugin_id(*plugin_node, problems_) : entry.key;
   if (!id) return std::nullopt;
@@ -108,47 +109,39 @@ std::optional<ComponentConfig> ComponentReader::read(const Node::Entry& entry) c
     }
   }
 
-  component.executor = map.text(keys::kOfExecutor.name, std::string{kMainExecutor});
+  const auto keys = component_keys(*component.manifest, component.manifest != named);
+  MapReader map{entry.value, fmt::format("component '{}'", entry.key), keys, problems_};
+  map.node("plugin");
+  component.executor = map.text("executor");
   const auto executors = names_of(deployment_.executors);
   if (std::find(executors.begin(), executors.end(), component.executor) == executors.end()) {
-    map.problem(keys::kOfExecutor.name,
-                fmt::format("unknown executor '{}'{}", component.executor,
-                            config::did_you_mean(component.executor, executors)));
+    map.problem("executor", fmt::format("unknown executor '{}'{}", component.executor,
+                                        config::did_you_mean(component.executor, executors)));
   }
-  component.process = map.text(keys::kProcess.name, std::string{kMainProcess});
+  component.process = map.text("process");
   if (component.process != kMainProcess && deployment_.simulated) {
-    map.problem(keys::kProcess.name,
+    map.problem("process",
                 "the simulated clock runs one process; remove 'process' or set "
                 "'clock: system'");
   } else if (component.process != kMainProcess && !named->measures.empty()) {
-    map.problem(keys::kProcess.name,
+    map.problem("process",
                 fmt::format("'{}' tells figures of the run, which only the process '{}' shows; "
                             "remove 'process' from '{}'",
                             named->id, kMainProcess, component.name));
   }
-  const double sim_latency = map.number(keys::kSimLatency.name, 0.0);
-  if (!is_within(keys::kSimLatency, sim_latency)) {
-    map.problem(keys::kSimLatency.name,
-                fmt::format("'sim_latency_s' is {:g}, must be from 0 to {:g}", sim_latency,
-                            *keys::kSimLatency.max));
-  }
-  component.sim_latency = seconds(sim_latency);
-  if (map.optional_node(keys::kOnFault.name)) {
-    const bool stops =
-        map.choice(keys::kOnFault.name, choices_of(keys::kOnFault), "stop") == "stop";
-    component.on_fault = stops ? OnFault::stop : OnFault::isolate;
+  component.sim_latency = seconds(map.number("sim_latency_s"));
+  if (const std::string word = map.text("on_fault"); !word.empty()) {
+    component.on_fault = word == "stop" ? OnFault::stop : OnFault::isolate;
   }
   read_params(map, *named, component);
   read_slots(map, component);
   bind_documents(map, component);
-  if (const Node* topics = map.optional_node(keys::kTopics.name)) {
+  if (const Node* topics = map.node("topics")) {
     const std::string prefix = topic_named(*topics, "'topics'", {});
     if (!prefix.empty()) component.topics = prefix + '/';
   }
-  bind_ports(map.optional_node(keys::kIn.name), "input", component.manifest->inputs, component,
-             component.inputs);
-  bind_ports(map.optional_node(keys::kOut.name), "output", component.manifest->outputs, component,
-             component.outputs);
+  bind_ports(map.node("in"), "input", component.manifest->inputs, component, component.inputs);
+  bind_ports(map.node("out"), "output", component.manifest->outputs, component, component.outputs);
   map.finish();
   return component;
 }
@@ -156,7 +149,7 @@ std::optional<ComponentConfig> ComponentReader::read(const Node::Entry& entry) c
 /// A host's parameters and those of the pure plugin that it runs are written together.
 void ComponentReader::read_params(MapReader& map, const PluginManifest& named,
                                   ComponentConfig& component) const {
-  const Node* given = map.optional_node(keys::kParams.name);
+  const Node* given = map.node("params");
   if (component.manifest == &named) {
     component.params = Params::read(named.params, given, named.id, problems_, component.origin);
     return;
@@ -188,7 +181,7 @@ void ComponentReader::read_slots(MapReader& map, ComponentConfig& component) con
     const bool is_filled = std::ranges::any_of(
         component.slots, [&](const SlotConfig& slot) { return slot.name == spec.name; });
     if (is_filled) continue;  // a host's own kind
-    const Node* node = map.optional_node(spec.name);
+    const Node* node = map.node(spec.name);
     if (!node && !spec.otherwise.empty()) {
       read_slot(spec, plugin_node_of(spec.otherwise, component.origin), component);
       continue;
@@ -206,9 +199,9 @@ void ComponentReader::read_slots(MapReader& map, ComponentConfig& component) con
 
 void ComponentReader::read_slot(const SlotSpec& spec, const Node& node,
                                 ComponentConfig& component) const {
-  MapReader map{node, fmt::format("slot '{}'", spec.name), problems_};
-  const Node* plugin_node = map.node(keys::kPlugin.name);
-  const Node* params = map.optional_node(keys::kParams.name);
+  MapReader map{node, fmt::format("slot '{}'", spec.name), slot_keys(), problems_};
+  const Node* plugin_node = map.node("plugin");
+  const Node* params = map.node("params");
   map.finish();
   const auto id = plugin_node ? plugin_id(*plugin_node, problems_) : std::nullopt;
   if (!id) return;

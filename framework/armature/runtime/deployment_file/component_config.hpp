@@ -1,23 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 
 #include "armature/config/reader.hpp"
 #include "armature/runtime/deployment_file/deployment_config.hpp"
+#include "armature/runtime/deployment_file/deployment_keys.hpp"
 
 namespace armature ARMATURE_EXPORT {
-
-// The sections whose entries are files that components are bound to, and the word that a
-// component (and a plugin's `uses:`) says for one of them.
-inline constexpr std::array<std::pair<std::string_view, std::string_view>, 2> kDocumentSections{{
-    {"robots", "robot"},
-    {"rigs", "rig"},
-}};
 
 /// Reads one entry of `components:` against the manifests of the plugins it names.
 class ComponentReader {

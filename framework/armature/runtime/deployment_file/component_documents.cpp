@@ -24,7 +24,7 @@ void ComponentReader::bind_documents(MapReader& map, ComponentConfig& component)
   };
   for (const auto& [section, word] : kDocumentSections) {
     const bool needed = lists(component.manifest->uses, word);
-    const Node* named = map.optional_node(word);
+    const Node* named = map.node(word);
     if (named && named->kind() != Node::Kind::scalar) {
       problems_.add(named->origin(), fmt::format("'{}' must name an entry of '{}', not {}", word,
                                                  section, named->describe()));

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include "armature/config/conversion.hpp"
 #include "armature/config/reader.hpp"
 #include "armature/runtime/deployment_file/deployment_keys.hpp"
 
@@ -46,8 +45,8 @@ std::vector<std::string> DdsConfig::interface_names() const {
 DdsConfig read_dds(const Node* section, Problems& problems) {
   DdsConfig dds;
   if (!section) return dds;
-  config::MapReader map{*section, "dds", problems};
-  if (const Node* list = map.optional_node(keys::kInterfaces.name)) {
+  config::MapReader map{*section, "dds", dds_keys(), problems};
+  if (const Node* list = map.node("interfaces")) {
     dds.interfaces = read_interfaces(*list, problems);
   }
   map.finish();

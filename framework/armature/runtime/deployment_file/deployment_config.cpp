@@ -11,6 +11,8 @@
 #include <iterator>
 #include <set>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "armature/config/document.hpp"
 #include "armature/config/reader.hpp"
@@ -23,7 +25,6 @@
 #include "armature/runtime/deployment_file/graph.hpp"
 #include "armature/runtime/deployment_file/linked_parameters.hpp"
 #include "armature/runtime/deployment_file/on_fault.hpp"
-#include "armature/runtime/deployment_file/open_inputs.hpp"
 
 namespace armature {
 namespace {
@@ -71,12 +72,10 @@ std::map<std::string, Node> read_documents(std::span<const Node::Entry> section,
   return documents;
 }
 
-int read_cpu(MapReader& map) {
-  const std::int64_t cpu = map.integer(keys::kCpu.name, 0);
+int read_cpu(MapReader& map, std::int64_t cpu) {
   const std::int64_t count = sysconf(_SC_NPROCESSORS_CONF);
-  if (cpu < 0 || cpu >= count) {
-    map.problem(keys::kCpu.name,
-                fmt::format("'cpu' is {}, this machine has 0 to {}", cpu, count - 1));
+  if (cpu >= count) {
+    map.problem("cpu", fmt::format("'cpu' is {}, this machine has 0 to {}", cpu, count - 1));
   }
   return static_cast<int>(cpu);
 }
@@ -84,24 +83,12 @@ int read_cpu(MapReader& map) {
 std::vector<ExecutorSpec> read_executors(std::span<const Node::Entry> section, Problems& problems) {
   std::vector<ExecutorSpec> executors;
   for (const auto& [name, name_origin, value] : section) {
-    MapReader map{value, fmt::format("executor '{}'", name), problems};
+    MapReader map{value, fmt::format("executor '{}'", name), executor_keys(), problems};
     ExecutorSpec spec{.name = name, .period = {}, .priority = 0, .cpu = {}};
-    if (map.optional_node(keys::kPeriod.name)) {
-      const double period = map.number(keys::kPeriod.name, *keys::kPeriod.min);
-      spec.period = seconds(period);
-      if (!is_within(keys::kPeriod, period)) {
-        map.problem(keys::kPeriod.name,
-                    fmt::format("'period_s' is {:g}, must be from {:g} to {:g}", period,
-                                *keys::kPeriod.min, *keys::kPeriod.max));
-      }
-    }
-    const std::int64_t priority = map.integer(keys::kPriority.name, 0);
-    if (!is_within(keys::kPriority, static_cast<double>(priority))) {
-      map.problem(keys::kPriority.name, "'priority' must be from 0 (normal) to 99");
-    }
-    spec.priority = static_cast<int>(priority);
-    if (map.optional_node(keys::kCpu.name)) spec.cpu = read_cpu(map);
-    spec.lock_memory = map.flag(keys::kLockMemory.name, false);
+    if (const auto period = map.optional_number("period_s")) spec.period = seconds(*period);
+    spec.priority = static_cast<int>(map.integer("priority"));
+    if (const auto cpu = map.optional_integer("cpu")) spec.cpu = read_cpu(map, *cpu);
+    spec.lock_memory = map.flag("lock_memory");
     map.finish();
     executors.push_back(std::move(spec));
   }
@@ -111,6 +98,55 @@ std::vector<ExecutorSpec> read_executors(std::span<const Node::Entry> section, P
         {.name = std::string{kMainExecutor}, .period = {}, .priority = 0, .cpu = {}});
   }
   return executors;
+}
+
+/// The time limit and how long its end may take.
+void read_run(const Node& section, DeploymentConfig& deployment, Problems& problems) {
+  MapReader map{section, "run", run_keys(), problems};
+  deployment.time_limit_s = map.number("time_limit_s");
+  deployment.stop_within_s = map.number("stop_within_s");
+  map.finish();
+}
+
+/// Opens one of the inputs of `deployment` to programs that are no part of it.
+void open_input(const Node& item, DeploymentConfig& deployment, Problems& problems) {
+  const auto wanted = config::to_text(item);
+  if (!wanted) {
+    problems.add(item.origin(),
+                 fmt::format("'open' lists inputs as component.port, not {}", item.describe()));
+    return;
+  }
+  std::vector<std::string> names;
+  for (ComponentConfig& component : deployment.components) {
+    for (PortBinding& input : component.inputs) {
+      names.push_back(fmt::format("{}.{}", component.name, input.spec.name));
+      if (names.back() != *wanted) continue;
+      if (input.spec.qos != QosProfile::command) {
+        input.spec.outside = true;
+        return;
+      }
+      problems.add(item.origin(),
+                   fmt::format("'{}' takes commands, which come from the deployment itself only; "
+                               "open an input of a component that decides, and let that one "
+                               "command",
+                               *wanted));
+      return;
+    }
+  }
+  problems.add(item.origin(), fmt::format("no component has the input '{}'{}", *wanted,
+                                          config::did_you_mean(*wanted, names)));
+}
+
+/// `open: [task.target]`; null: nothing is opened.
+void open_inputs(const Node* list, DeploymentConfig& deployment, Problems& problems) {
+  if (!list) return;
+  if (list->kind() != Node::Kind::sequence) {
+    problems.add(
+        list->origin(),
+        fmt::format("'open' must be a list of inputs, [task.target], not {}", list->describe()));
+    return;
+  }
+  for (const Node& item : list->items()) open_input(item, deployment, problems);
 }
 
 }  // namespace
@@ -126,7 +162,7 @@ std::vector<std::string> DeploymentConfig::processes() const {
 }
 
 bool check_is_deployment(const Node& root, Problems& problems) {
-  if (root.find(keys::kArmature.name)) return true;
+  if (root.find("armature")) return true;
   const std::array<std::pair<std::string_view, std::string_view>, 3> others{
       {{"armature_robot", "a robot file, which a deployment names under 'robots:'"},
        {"armature_rig", "a rig of cameras, which a deployment names under 'rigs:'"},
@@ -143,57 +179,32 @@ bool check_is_deployment(const Node& root, Problems& problems) {
 DeploymentConfig read_deployment(const Node& root, const PluginRegistry& plugins,
                                  Problems& problems) {
   DeploymentConfig deployment;
-  MapReader map{root, "the deployment", problems};
+  MapReader map{root, "the deployment", deployment_keys(), problems};
   if (!check_is_deployment(root, problems)) return deployment;
-  if (!is_within(keys::kArmature, static_cast<double>(map.integer(keys::kArmature.name, 1)))) {
-    map.problem(keys::kArmature.name, "'armature' is the version of the file format and must be 1");
-  }
-  deployment.name = map.text(keys::kName.name);
+  map.integer("armature");
+  deployment.name = map.text("name");
   if (!deployment.name.empty() && !is_name(deployment.name)) {
-    map.problem(keys::kName.name,
-                fmt::format("'{}' must consist of letters, digits and '_', and begin "
-                            "with no digit: it is the namespace of the topics",
-                            deployment.name));
+    map.problem("name", fmt::format("'{}' must consist of letters, digits and '_', and begin "
+                                    "with no digit: it is the namespace of the topics",
+                                    deployment.name));
   }
-  deployment.simulated =
-      map.choice(keys::kClock.name, choices_of(keys::kClock), "system") == "simulated";
-  const std::int64_t domain = map.integer(keys::kDomain.name, 0);
-  if (!is_within(keys::kDomain, static_cast<double>(domain))) {
-    map.problem(keys::kDomain.name, "'domain' must be from 0 to 232");
-  }
-  deployment.domain = static_cast<int>(domain);
-  deployment.dds = read_dds(map.optional_node(keys::kDds.name), problems);
-  deployment.seed = map.natural(keys::kSeed.name, 1);
-  deployment.time_limit_s = 0;
-  if (const Node* run = map.optional_node(keys::kRun.name)) {
-    MapReader run_map{*run, "run", problems};
-    deployment.time_limit_s = run_map.number(keys::kTimeLimit.name, 0.0);
-    if (!is_within(keys::kTimeLimit, deployment.time_limit_s)) {
-      run_map.problem(keys::kTimeLimit.name, "'time_limit_s' must be positive, or 0 for none");
-    }
-    deployment.stop_within_s = run_map.number(keys::kStopWithin.name, deployment.stop_within_s);
-    if (!is_within(keys::kStopWithin, deployment.stop_within_s)) {
-      run_map.problem(
-          keys::kStopWithin.name,
-          fmt::format("'stop_within_s' is {:g}, must be from {:g} to {:g}: what moves "
-                      "comes to rest before anything ends",
-                      deployment.stop_within_s, *keys::kStopWithin.min, *keys::kStopWithin.max));
-    }
-    run_map.finish();
-  }
-  deployment.executors = read_executors(
-      entries_of(map.optional_node(keys::kExecutors.name), keys::kExecutors.name, problems),
-      problems);
+  deployment.simulated = map.text("clock") == "simulated";
+  deployment.domain = static_cast<int>(map.integer("domain"));
+  deployment.dds = read_dds(map.node("dds"), problems);
+  deployment.seed = map.natural("seed");
+  if (const Node* run = map.node("run")) read_run(*run, deployment, problems);
+  deployment.executors =
+      read_executors(entries_of(map.node("executors"), "executors", problems), problems);
   for (const auto& [section, word] : kDocumentSections) {
     deployment.documents[std::string{section}] =
-        read_documents(entries_of(map.optional_node(section), section, problems), problems);
+        read_documents(entries_of(map.node(section), section, problems), problems);
   }
-  deployment.goals = read_goals(map.optional_node(keys::kGoals.name), problems);
-  const Node* open = map.optional_node(keys::kOpen.name);
-  if (const Node* components = map.node(keys::kComponents.name)) {
+  deployment.goals = read_goals(map.node("goals"), problems);
+  const Node* open = map.node("open");
+  if (const Node* components = map.node("components")) {
     const ComponentReader reader{deployment, plugins, problems};
     std::size_t known = 0;
-    for (const auto& entry : entries_of(components, keys::kComponents.name, problems)) {
+    for (const auto& entry : entries_of(components, "components", problems)) {
       if (const auto component = reader.read(entry)) {
         check_slot_needs(*component, plugins, problems);
         std::ranges::move(units_of(*component), std::back_inserter(deployment.components));

@@ -9,7 +9,7 @@
 
 // Postures at the edges of what an arm can do, found numerically: no word of what the arm is built
 // like is needed.
-namespace armature ARMATURE_EXPORT {
+namespace armature {
 namespace ik_contract ARMATURE_EXPORT {
 
 using Random = std::mt19937_64;

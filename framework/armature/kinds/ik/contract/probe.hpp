@@ -6,7 +6,7 @@
 
 #include "armature/kinds/ik/contract/law.hpp"
 
-namespace armature ARMATURE_EXPORT {
+namespace armature {
 namespace ik_contract ARMATURE_EXPORT {
 
 inline constexpr double kOnePosture = 1e-6;  // [rad] or [m]: two nearer than that are one

@@ -77,7 +77,6 @@ void IkHost::answer(const msg::IkRequest& request, msg::IkResponse& response) {
   const IkStatus status = solve(request, reason);
   response.status_(std::string{to_string(status.code)});
   response.reason_(reason);
-  response.solutions_().clear();
   for (const IkBranch& branch : branches_) {
     response.solutions_().push_back(solution_of(robot_, branch));
   }

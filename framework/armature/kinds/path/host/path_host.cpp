@@ -65,18 +65,15 @@ class PathHost final : public RequestHost<msg::PathRequest, msg::PathResponse> {
 
  private:
   void answer(const msg::PathRequest& request, msg::PathResponse& response) override {
-    const auto wrong = in_another_frame(request);
-    const Expected<Path> path = wrong ? Expected<Path>{refuse(*wrong)} : planned(request);
-    response.valid_(path.has_value());
-    response.reason_() = path ? "" : path.error().text;
-    response.segments_().clear();
-    if (!path) return;
-    for (const PathSegment& segment : *path) {
-      response.segments_().push_back(message_of(robot_, segment));
-    }
+    respond(planned(request), response, [&](const Path& segments) {
+      for (const PathSegment& segment : segments) {
+        response.segments_().push_back(message_of(robot_, segment));
+      }
+    });
   }
 
   Expected<Path> planned(const msg::PathRequest& request) const {
+    if (const auto wrong = in_another_frame(request)) return refuse(*wrong);
     const auto read = request_of(robot_, request);
     if (!read) return tl::unexpected{read.error()};
     auto path = guarded([&] { return planner_->plan(*read); });

@@ -95,14 +95,8 @@ class RegistrationHost final
  private:
   void answer(const msg::RegistrationRequest& request,
               msg::RegistrationResponse& response) override {
-    const Expected<Answer> found = answer_to(*registrar_, request);
-    const msg::Header header = response.header_();
-    response = msg::RegistrationResponse{};
-    response.header_() = header;
-    response.request_id_(request.request_id_());
-    response.valid_(found.has_value());
-    response.reason_() = found ? "" : found.error().text;
-    if (found) write(*found, request.targets_(), response);
+    respond(answer_to(*registrar_, request), response,
+            [&](const Answer& found) { write(found, request.targets_(), response); });
   }
 
   Slot<Registrar> registrar_;

@@ -68,15 +68,12 @@ class SelectHost final : public RequestHost<msg::SelectRequest, msg::SelectRespo
   }
 
   void answer(const msg::SelectRequest& request, msg::SelectResponse& response) override {
-    const auto chosen = choose(request);
-    response.valid_(chosen.has_value());
-    response.reason_() = chosen ? "" : chosen.error().text;
-    response.waypoints_().clear();
-    if (!chosen) return;
-    for (const JointVector& q : *chosen) {
-      const JointVector all = robot_.to_all(q);
-      response.waypoints_().emplace_back().joints_().assign(all.begin(), all.end());
-    }
+    respond(choose(request), response, [&](const std::vector<JointVector>& chosen) {
+      for (const JointVector& q : chosen) {
+        const JointVector all = robot_.to_all(q);
+        response.waypoints_().emplace_back().joints_().assign(all.begin(), all.end());
+      }
+    });
   }
 
   const RobotModel robot_;

@@ -139,16 +139,11 @@ class TrajectoryHost final : public RequestHost<msg::TrajectoryRequest, msg::Tra
   }
 
   void answer(const msg::TrajectoryRequest& request, msg::TrajectoryResponse& response) override {
-    const auto planned = request_of(robot_, request).and_then([&](const TrajectoryRequest& asked) {
-      return checked(asked);
+    const auto planned =
+        request_of(robot_, request).and_then([this](const auto& asked) { return checked(asked); });
+    respond(planned, response, [&](const Trajectory& found) {
+      write_trajectory(found, robot_, response.trajectory_());
     });
-    response.valid_(planned.has_value());
-    response.reason_() = planned ? "" : planned.error().text;
-    if (planned) {
-      write_trajectory(*planned, robot_, response.trajectory_());
-    } else {
-      response.trajectory_() = msg::QuinticTrajectory{};
-    }
   }
 
   const RobotModel robot_;

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/robot/files/robot_keys.hpp"
+
+#include <iterator>
+
+namespace armature {
+namespace {
+
+using config::default_value;
+using config::KeySpec;
+using Type = KeySpec::Type;
+
+const KeySpec kUrdf{.name = "urdf",
+                    .type = Type::text,
+                    .doc = "The URDF file that has the joints, relative to this one.",
+                    .optional = true};
+const KeySpec kFrames{.name = "frames",
+                      .type = Type::section,
+                      .doc = "Frames by name; goals are stated for 'tool'.",
+                      .optional = true};
+const KeySpec kPointingAxis{.name = "pointing_axis",
+                            .type = Type::section,
+                            .doc = "Of the tool, for goals that are a direction.",
+                            .optional = true};
+const KeySpec kHome{.name = "home_deg",
+                    .type = Type::numbers,
+                    .doc = "The position of all joints at the start.",
+                    .optional = true,
+                    .also = "home"};
+const KeySpec kName{.name = "name", .type = Type::text, .doc = "The robot's name."};
+const KeySpec kJointName{.name = "name", .type = Type::text, .doc = "The joint's name."};
+
+void append(std::vector<KeySpec>& keys, const std::vector<KeySpec>& more) {
+  keys.insert(keys.end(), more.begin(), more.end());
+}
+
+std::vector<KeySpec> limit_keys(Joint::Type type, bool optional) {
+  if (type == Joint::Type::revolute) {
+    return {{.name = "limits_deg",
+             .type = Type::numbers,
+             .doc = "[lower, upper].",
+             .count = 2,
+             .optional = optional},
+            {.name = "velocity_rad_s", .doc = "At most.", .optional = optional, .above = 0},
+            {.name = "acceleration_rad_s2", .doc = "At most.", .optional = optional, .above = 0}};
+  }
+  return {{.name = "limits_m",
+           .type = Type::numbers,
+           .doc = "[lower, upper].",
+           .count = 2,
+           .optional = optional,
+           .also = "limits_mm"},
+          {.name = "velocity_m_s", .doc = "At most.", .optional = optional, .above = 0},
+          {.name = "acceleration_m_s2", .doc = "At most.", .optional = optional, .above = 0}};
+}
+
+}  // namespace
+
+const std::vector<KeySpec>& robot_keys() {
+  static const std::vector<KeySpec> kKeys{
+      config::format_key("armature_robot"),
+      kName,
+      {.name = "convention",
+       .type = Type::choice,
+       .doc = "Of the Denavit-Hartenberg rows; modified: Craig's.",
+       .fallback = default_value("standard"),
+       .choices = {"standard", "modified"}},
+      kUrdf,
+      {.name = "joints",
+       .type = Type::section,
+       .doc = "All of them in order, coupled ones included."},
+      kFrames,
+      kPointingAxis,
+      kHome};
+  return kKeys;
+}
+
+const std::vector<KeySpec>& urdf_robot_keys() {
+  static const std::vector<KeySpec> kKeys{
+      config::format_key("armature_robot"),
+      kName,
+      kUrdf,
+      {.name = "base",
+       .type = Type::text,
+       .doc = "The link that the arm stands on; without: the root.",
+       .optional = true},
+      {.name = "tip", .type = Type::text, .doc = "The link that goals are stated for."},
+      {.name = "joints",
+       .type = Type::section,
+       .doc = "What the URDF file does not say of a joint, or says otherwise.",
+       .optional = true},
+      kFrames,
+      kPointingAxis,
+      kHome};
+  return kKeys;
+}
+
+std::vector<KeySpec> joint_keys(Joint::Type type, bool is_coupled) {
+  std::vector<KeySpec> keys{
+      kJointName,
+      {.name = "type",
+       .type = Type::choice,
+       .doc = "Turns or slides.",
+       .fallback = default_value("revolute"),
+       .choices = {"revolute", "prismatic"}},
+      {.name = "theta_deg",
+       .doc = "About z: the offset of a revolute joint, the angle of a prismatic one.",
+       .fallback = default_value("0")},
+      {.name = "d_m",
+       .doc = "Along z: the offset of a prismatic joint, the place of a revolute one.",
+       .fallback = default_value("0"),
+       .also = "d_mm"},
+      {.name = "a_m", .doc = "Along x.", .fallback = default_value("0"), .also = "a_mm"},
+      {.name = "alpha_deg", .doc = "About x.", .fallback = default_value("0")},
+      {.name = "coupled",
+       .type = Type::section,
+       .doc = "This joint follows another one.",
+       .optional = true}};
+  append(keys, limit_keys(type, is_coupled));
+  return keys;
+}
+
+std::vector<KeySpec> urdf_joint_keys(Joint::Type type) {
+  std::vector<KeySpec> keys{kJointName};
+  append(keys, limit_keys(type, true));
+  return keys;
+}
+
+std::vector<KeySpec> coupling_keys(Joint::Type type) {
+  KeySpec offset{.name = "offset_deg", .doc = "Is added.", .fallback = default_value("0")};
+  if (type == Joint::Type::prismatic) {
+    offset.name = "offset_m";
+    offset.also = "offset_mm";
+  }
+  return {{.name = "to", .type = Type::text, .doc = "The joint that it follows."},
+          {.name = "ratio",
+           .doc = "How far it moves when the other one moves by 1.",
+           .fallback = default_value("1")},
+          offset};
+}
+
+const std::vector<KeySpec>& frame_keys() {
+  static const std::vector<KeySpec> kKeys{
+      {.name = "parent", .type = Type::text, .doc = "A joint, 'base' or another frame."},
+      {.name = "translation_m",
+       .type = Type::numbers,
+       .doc = "Of its origin in the parent, x, y, z.",
+       .count = 3,
+       .optional = true,
+       .also = "translation_mm"},
+      {.name = "rpy_deg",
+       .type = Type::numbers,
+       .doc = "Its rotation, about the parent's x, then y, then z.",
+       .count = 3,
+       .optional = true},
+      {.name = "calibrated",
+       .type = Type::text,
+       .doc = "A file of `armature calibrate` that found where it is, relative to this one.",
+       .optional = true}};
+  return kKeys;
+}
+
+const std::vector<std::string>& axis_words() {
+  static const std::vector<std::string> kWords{"x", "y", "z", "-x", "-y", "-z"};
+  return kWords;
+}
+
+}  // namespace armature

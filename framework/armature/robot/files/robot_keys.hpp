@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "armature/config/key.hpp"
+#include "armature/robot/model/robot_model.hpp"
+
+namespace armature ARMATURE_EXPORT {
+
+// The keys of a robot file, map by map: what reading asks for, and what its JSON Schema is made of.
+
+/// Of a file that has its joints in rows.
+const std::vector<config::KeySpec>& robot_keys();
+/// Of a file that has them from a URDF file.
+const std::vector<config::KeySpec>& urdf_robot_keys();
+/// Of a row under `joints:`; a coupled joint may leave its limits to its leader.
+std::vector<config::KeySpec> joint_keys(Joint::Type type, bool is_coupled);
+/// Of an entry of `joints:` beside `urdf:`.
+std::vector<config::KeySpec> urdf_joint_keys(Joint::Type type);
+/// Of `coupled:`.
+std::vector<config::KeySpec> coupling_keys(Joint::Type type);
+/// Of an entry of `frames:`.
+const std::vector<config::KeySpec>& frame_keys();
+
+/// The words that `pointing_axis:` may be instead of a list of 3 numbers: "x", "-x"...
+const std::vector<std::string>& axis_words();
+
+}  // namespace armature

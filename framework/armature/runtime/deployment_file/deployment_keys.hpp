@@ -32,5 +32,4 @@ std::vector<config::KeySpec> component_keys(const PluginManifest& runner, bool i
 /// Of what stands in a slot.
 const std::vector<config::KeySpec>& slot_keys();
 
-namespace armature ARMATURE_EXPORT {
 }  // namespace armature

@@ -52,7 +52,7 @@ class Throws final : public Gauge {
 template <class Plugin>
 SlotPlugin plugin(const char* id) {
   SlotPlugin made;
-  made.library = *PluginLibrary::of_this_program(detail::plugin_entry<Plugin>(), "gauge", 1);
+  made.library = *PluginLibrary::of_this_program(detail::plugin_entry<Plugin>(), "gauge");
   made.manifest.id = id;
   return made;
 }

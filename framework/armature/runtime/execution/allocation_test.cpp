@@ -66,7 +66,7 @@ TEST_F(AllocationTest, NoneInTheExchangeOfAPlugin) {
       "idle", [](Idle::Factory factory, const Params& params) { return factory(params); });
   const auto idle = [] {
     return SlotPlugin{
-        *PluginLibrary::of_this_program(detail::plugin_entry<Idle>(), Idle::kKind, 1), {}, {}};
+        *PluginLibrary::of_this_program(detail::plugin_entry<Idle>(), Idle::kKind), {}, {}};
   };
   place->fill(idle());
   SlotPlace& slot = *place;

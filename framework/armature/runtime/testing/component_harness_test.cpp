@@ -154,7 +154,7 @@ TEST(PluginRegistry, OfThisProgramRefusesAnIdThatIsThereAlreadyAndAnotherKind) {
   PluginRegistry plugins = with_shout();
   EXPECT_THROW(plugins.add<Shout>(kManifest), std::invalid_argument);
   try {
-    plugins.load(*plugins.find("test/shout"), "ik", 1);
+    plugins.load(*plugins.find("test/shout"), "ik");
     ADD_FAILURE() << "it was loaded";
   } catch (const PluginError& error) {
     EXPECT_STREQ(error.what(),

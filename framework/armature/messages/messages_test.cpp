@@ -7,7 +7,9 @@
 //  5. the generic reading by IDL agrees with the generated code
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 

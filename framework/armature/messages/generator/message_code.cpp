@@ -100,7 +100,13 @@ class [[gnu::visibility("default")]] {1} {{
   static constexpr std::uint64_t kLayout = {2:#018x};
 
 {3}
-  bool operator==(const {1}&) const = default;
+  {1}();
+  {1}(const {1}&);
+  {1}({1}&&) noexcept;
+  {1}& operator=(const {1}&);
+  {1}& operator=({1}&&) noexcept;
+  ~{1}();
+  bool operator==(const {1}&) const;
   template <class Cdr>
   void serialize(Cdr& cdr) const {{
     cdr{4};
@@ -115,6 +121,20 @@ class [[gnu::visibility("default")]] {1} {{
 )",
                      type.ros_name, last_part(type.dds_name), layout_hash(type), access, out, in,
                      members);
+}
+
+/// Compiled once, and not in every file that has such a message.
+std::string special_members_of(const TypeDescription& type) {
+  return fmt::format(R"(
+{0}::{1}() = default;
+{0}::{1}(const {1}&) = default;
+{0}::{1}({1}&&) noexcept = default;
+{0}& {0}::operator=(const {1}&) = default;
+{0}& {0}::operator=({1}&&) noexcept = default;
+{0}::~{1}() = default;
+bool {0}::operator==(const {1}&) const = default;
+)",
+                     type.dds_name, last_part(type.dds_name));
 }
 
 std::string constant_of(const ConstantDescription& constant) {
@@ -176,12 +196,13 @@ std::string message_header(const IdlFile& file, const std::string& alias) {
 }
 
 std::string message_source(std::span<const IdlFile> files) {
-  std::string names, includes, idl, definitions, all;
+  std::string names, includes, members, idl, definitions, all;
   for (const IdlFile& file : files) {
     names += " " + file.path.filename().string();
     includes += fmt::format("#include \"{}\"\n", file.header);
     idl += file.text;
     for (const TypeDescription* type : file.types) {
+      members += special_members_of(*type);
       const std::string symbol =
           fmt::format("defined_message<::{0}, ::{0}::kLayout>", type->dds_name);
       definitions += fmt::format(R"(
@@ -197,26 +218,26 @@ const MessageType& {1}() {{
   }
   return fmt::format(R"(// Made by armature-messages from{0}.
 #include "armature/messages/message_library.hpp"
-{1}
+{1}{2}
 namespace armature {{
 namespace {{
 
 // A section of its own is read without loading the library, by `armature topic echo` for one.
 const char idl[] __attribute__((section(".armature.idl"), used, retain)) =
-    R"armature({2})armature";
+    R"armature({3})armature";
 
 const MessageLibrary library{{idl}};
 
 }}  // namespace
-{3}
+{4}
 namespace {{
 [[maybe_unused]] const bool known = library.make_known({{
-{4}}});
+{5}}});
 }}  // namespace
 
 }}  // namespace armature
 )",
-                     names, includes, idl, definitions, all);
+                     names, includes, members, idl, definitions, all);
 }
 
 }  // namespace armature

@@ -9,6 +9,7 @@
 
 #include "armature/config/document.hpp"
 #include "armature/runtime/component/component.hpp"
+#include "armature/runtime/deployment_file/deployment_config.hpp"
 #include "armature/runtime/deployment_file/deployment_keys.hpp"
 #include "armature/runtime/plugins/plugin_registry.hpp"
 #include "exit_code.hpp"

@@ -38,9 +38,15 @@ std::string hint(const std::string& metric, const DeploymentConfig& deployment,
 std::vector<Goal> read_goals(const config::Node* section, config::Problems& problems) {
   std::vector<Goal> goals;
   if (!section) return goals;
-  config::MapReader map{*section, "goals", problems};
+  const config::MapReader map{*section, "goals", problems};  // notes what is no map
   for (const auto& entry : section->entries()) {
-    goals.push_back({entry.key, map.number(entry.key), entry.key_origin, entry.value.origin()});
+    // In the unit of its name, as the report tells it.
+    const auto limit = config::to_number(entry.value);
+    if (!limit) {
+      problems.add(limit.error().origin,
+                   config::in_quotes(entry.key) + " " + limit.error().message);
+    }
+    goals.push_back({entry.key, limit.value_or(0), entry.key_origin, entry.value.origin()});
   }
   return goals;
 }

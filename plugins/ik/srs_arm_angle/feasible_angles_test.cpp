@@ -12,7 +12,7 @@
 
 #include "test_arms.hpp"
 
-namespace armature {
+namespace armature::ik::srs_arm_angle {
 namespace {
 
 constexpr double kNear = 1e-7;  // [rad] nearer to an end, rounding may decide
@@ -255,4 +255,4 @@ TEST(FeasibleRedundancy, AJointThatIsLockedLeavesPoints) {
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::ik::srs_arm_angle

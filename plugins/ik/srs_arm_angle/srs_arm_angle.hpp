@@ -4,10 +4,10 @@
 #include <memory>
 #include <optional>
 
-#include "arm_kernel.hpp"
 #include "armature/kinds/ik/ik.hpp"
+#include "srs_structure.hpp"
 
-namespace armature {
+namespace armature::ik::srs_arm_angle {
 
 /// Closed-form inverse kinematics of seven-joint arms with a spherical shoulder and a spherical
 /// wrist: 8 branches shoulder x elbow x wrist at an arm angle that is asked for, or each at the one
@@ -24,18 +24,16 @@ class SrsArmAngle final : public IkSolver {
 
  private:
   SrsArmAngle(const RobotModel& model, const SrsArm& arm, Objective objective)
-      : model_{&model}, numbers_{numbers_of(arm)}, objective_{objective} {}
+      : model_{&model}, arm_{arm}, objective_{objective} {}
 
-  /// Every branch at one arm angle.
-  void add_branches(const SrsGoal& goal, double arm_angle, IkBranches& out) const;
   /// Every branch at its best arm angle; one that nowhere keeps the limits at the last one, or the
   /// seed's.
-  void add_best_branches(const SrsGoal& goal, const JointVector& seed, std::optional<double> last,
-                         IkBranches& out) const;
+  void solve_best(const SrsGoal& goal, const JointVector& seed, std::optional<double> last,
+                  EightPlaces& at, EightBranches& found) const;
 
   const RobotModel* model_;
-  ArmNumbers numbers_;
+  SrsArm arm_;
   Objective objective_;
 };
 
-}  // namespace armature
+}  // namespace armature::ik::srs_arm_angle

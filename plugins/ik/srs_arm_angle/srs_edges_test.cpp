@@ -10,7 +10,7 @@
 #include "armature/robot/kinematics/kinematics.hpp"
 #include "test_arms.hpp"
 
-namespace armature {
+namespace armature::ik::srs_arm_angle {
 namespace {
 
 constexpr int kPoses = 1000;
@@ -236,4 +236,4 @@ INSTANTIATE_TEST_SUITE_P(Srs, SrsEdges,
                          testing::PrintToStringParamName());
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::ik::srs_arm_angle

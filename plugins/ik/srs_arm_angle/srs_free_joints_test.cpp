@@ -6,7 +6,7 @@
 
 #include "test_arms.hpp"
 
-namespace armature {
+namespace armature::ik::srs_arm_angle {
 namespace {
 
 class SrsFreeJoints : public testing::Test {
@@ -86,4 +86,4 @@ TEST_F(SrsFreeJoints, AWristOnTheShoulderGoesWhereTheSeedComesFrom) {
 }
 
 }  // namespace
-}  // namespace armature
+}  // namespace armature::ik::srs_arm_angle

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <utility>
 
@@ -11,10 +10,10 @@
 #include "armature/robot/kinematics/kinematics.hpp"
 #include "srs_arm_angle.hpp"
 
-namespace armature {
+namespace armature::ik::srs_arm_angle {
 namespace {
 
-constexpr double kPi = std::numbers::pi, kDegree = kPi / 180;
+constexpr double kDegree = kPi / 180;
 
 RobotModel arm_of(RobotModel::Convention convention, std::vector<Joint> joints,
                   const Eigen::Isometry3d& last_T_tool) {
@@ -166,4 +165,4 @@ double joint_distance(const JointVector& a, const JointVector& b) {
   return largest;
 }
 
-}  // namespace armature
+}  // namespace armature::ik::srs_arm_angle

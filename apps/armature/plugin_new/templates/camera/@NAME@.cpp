@@ -37,7 +37,7 @@ class @CLASS@ final : public Component {
   }
   bool finished() const override { return parameters_.pictures > 0 && published_ >= parameters_.pictures; }
   void summarize(Summary& summary) const override {
-    summary.metric("pictures", "pictures", published_);
+    summary.metric("pictures", "pictures", static_cast<double>(published_));
     summary.metric("pictures_lost", "pictures lost", static_cast<double>(pictures_.dropped()));
     summary.metric("greatest_age_ms", "oldest picture when it was published [ms]", 1e3 * to_seconds(greatest_age_));
   }

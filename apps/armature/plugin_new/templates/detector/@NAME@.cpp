@@ -7,7 +7,7 @@
 #include "@TARGET@_parameters.hpp"  // made from plugin.yaml
 
 namespace @NAMESPACE@ {
-/// One blob, from the moments of its pixels: an ellipse reaches two standard deviations far.
+/// One blob, from the moments of its pixels: an ellipse is two standard deviations wide and high.
 class @CLASS@ final : public FaceDetector {
  public:
   explicit @CLASS@(const Params& params) : parameters_{Parameters::read(params)} {}
@@ -37,10 +37,10 @@ class @CLASS@ final : public FaceDetector {
     const double rx = 2 * std::sqrt(std::max(0.0, u2 / n - mean_u * mean_u)), ry = 2 * std::sqrt(std::max(0.0, v2 / n - mean_v * mean_v));
     const bool whole = mean_u - rx > left && mean_u + rx < right && mean_v - ry > top && mean_v + ry < bottom;
     const double filled = n / (4 * rx * ry);  // of an ellipse 0.79; of noise what part of it is bright
-    if (!whole || !(filled > 0.6)) return std::vector<DetectedFace>{};
-    // From the brows to the chin, as those who look for landmarks expect it.
-    const double height = 1.1 * 2 * rx;
-    return std::vector<DetectedFace>{{.box = {mean_u - rx, mean_v + ry - height, 2 * rx, height}, .score = filled}};
+    if (!whole || !(filled > 0.4)) return std::vector<DetectedFace>{};
+    // Skin is darker at its edge. A box goes from the brows to the chin: so landmarks are looked for.
+    const double half = 1.3 * rx;
+    return std::vector<DetectedFace>{{.box = {mean_u - half, mean_v - 1.1 * rx, 2 * half, 2 * half}, .score = filled}};
   }
 
  private:

@@ -49,8 +49,8 @@ class @CLASS@ final : public LandmarkFinder {
       for (int i = 0; i < 10; ++i) at = dark_centre(image, at, face.width * Vector2d{reach_u, reach_v});
       return at;
     };
-    const Vector2d left_eye = look(0.25, 0.22, 0.14, 0.08), right_eye = look(0.75, 0.22, 0.14, 0.08);
-    const Vector2d mouth = look(0.5, 0.76, 0.25, 0.08), aside = 0.3 * (right_eye - left_eye);
+    const Vector2d left_eye = look(0.29, 0.26, 0.14, 0.08), right_eye = look(0.71, 0.26, 0.14, 0.08);
+    const Vector2d mouth = look(0.5, 0.71, 0.25, 0.08), aside = 0.3 * (right_eye - left_eye);
     const Vector2d nose = 0.25 * (left_eye + right_eye) + 0.5 * mouth;
     std::vector<Landmark> five;
     for (const Vector2d& point : {left_eye, right_eye, nose, Vector2d{mouth - aside}, Vector2d{mouth + aside}}) {

@@ -21,16 +21,16 @@ class @CLASS@ final : public Component {
     // A robot with a pointing axis is told where that shall point, one without the whole rotation.
     if (const auto& axis = robot.pointing_axis()) poses_[1].orientation = Direction{home.linear() * *axis};
     poses_[0] = {home.translation() + vector_of(Parameters::read(setup.params()).away), poses_[1].orientation};
-    pursued_.set({.pose = poses_[0]});
+    pursued_.set(goal_at(poses_[0]));
     setup.activate_every(seconds(0.01));
   }
 
   void step(Time now) override {
-    if (!start_) start_ = now;
+    if (!start_) return void(start_ = now);  // first the arm tells where it is
     for (std::size_t i = 0; i < motion_status_.size(); ++i) pursued_.hear(report_of(motion_status_[i]), now);
     if (pursued_.state() == PursuedGoal::State::done && !done_s_) {
       if (++reached_ < poses_.size()) {
-        pursued_.set({.pose = poses_[reached_]});
+        pursued_.set(goal_at(poses_[reached_]));
       } else {
         done_s_ = to_seconds(now - *start_);
       }
@@ -51,6 +51,12 @@ class @CLASS@ final : public Component {
   }
 
  private:
+  static MotionGoal goal_at(const ToolPose& pose) {
+    MotionGoal goal;  // planned: along a path, to rest
+    goal.pose = pose;
+    return goal;
+  }
+
   Input<msg::MotionStatus> motion_status_;
   Output<msg::MotionGoal> goal_;
   std::array<ToolPose, 2> poses_;

@@ -1,13 +1,12 @@
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
+#include "@TARGET@_parameters.hpp"  // made from plugin.yaml
 #include "armature/messages/header.hpp"
 #include "armature/messages/sensor_msgs.hpp"
 #include "armature/runtime/component/component.hpp"
 #include "armature/runtime/component/setup.hpp"
 #include "armature/runtime/plugins/plugin.hpp"
-#include "@TARGET@_parameters.hpp"  // made from plugin.yaml
 
 namespace @NAMESPACE@ {
 using Picture = std::vector<std::uint8_t>;  // mono8, row by row
@@ -35,18 +34,23 @@ class @CLASS@ final : public Component {
       greatest_age_ = std::max(greatest_age_, now - picture->stamp);
     }
   }
-  bool finished() const override { return parameters_.pictures > 0 && published_ >= parameters_.pictures; }
+  bool finished() const override {
+    return parameters_.pictures > 0 && published_ >= parameters_.pictures;
+  }
   void summarize(Summary& summary) const override {
     summary.metric("pictures", "pictures", static_cast<double>(published_));
     summary.metric("pictures_lost", "pictures lost", static_cast<double>(pictures_.dropped()));
-    summary.metric("greatest_age_ms", "oldest picture when it was published [ms]", 1e3 * to_seconds(greatest_age_));
+    summary.metric("greatest_age_ms", "oldest picture when it was published [ms]",
+                   1e3 * to_seconds(greatest_age_));
   }
 
  private:
-  static constexpr std::size_t kWaiting = 8;  // pictures that `step` has not taken yet; then the oldest is lost
+  static constexpr std::size_t kWaiting =
+      8;  // pictures that `step` has not taken yet; then the oldest is lost
 
-  /// On a thread of its own, which may wait for the camera. Open it here, and not in the constructor:
-  /// `armature check` makes the component, and opens no device. Return soon after `stopping()`.
+  /// On a thread of its own, which may wait for the camera. Open it here, and not in the
+  /// constructor: `armature check` makes the component, and opens no device. Return soon after
+  /// `stopping()`.
   void read() {
     while (!pictures_.stopping()) {
       Picture picture = next_picture();
@@ -57,19 +61,15 @@ class @CLASS@ final : public Component {
   /// Put your camera here: wait for its next picture, at most a second.
   Picture next_picture() {
     pictures_.sleep_for(seconds(1 / parameters_.rate));
-    const int width = parameters_.width, height = parameters_.height;
-    const double r = 0.1 * height, turn = 0.1 * ++drawn_;
-    const double u0 = 0.5 * width + 3 * r * std::cos(turn), v0 = 0.5 * height + 3 * r * std::sin(turn);
-    Picture picture(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 40);
-    for (std::size_t i = 0; i < picture.size(); ++i) {
-      const auto u = static_cast<double>(i % static_cast<std::size_t>(width)), v = static_cast<double>(i / static_cast<std::size_t>(width));
-      if (std::hypot(u - u0, v - v0) < r) picture[i] = 220;
-    }
+    Picture picture(static_cast<std::size_t>(parameters_.width * parameters_.height), 40);
+    std::fill_n(picture.begin() + parameters_.width * (row_++ % parameters_.height),
+                parameters_.width, 220);
     return picture;
   }
 
   void publish_info(Time stamp) {
-    const double f = parameters_.focal, cx = 0.5 * (parameters_.width - 1), cy = 0.5 * (parameters_.height - 1);
+    const double f = parameters_.focal, cx = 0.5 * (parameters_.width - 1),
+                 cy = 0.5 * (parameters_.height - 1);
     msg::CameraInfo info;
     write_header(info.header_(), stamp, parameters_.frame);
     info.width_() = static_cast<std::uint32_t>(parameters_.width);
@@ -86,7 +86,7 @@ class @CLASS@ final : public Component {
   Output<msg::Image> image_;
   Output<msg::CameraInfo> info_;
   DriverQueue<Picture>& pictures_;
-  int drawn_ = 0;  // of the driver thread
+  int row_ = 0;  // of the driver thread
   std::int64_t published_ = 0;
   Duration greatest_age_{0};
 };

@@ -2,13 +2,13 @@
 #include <algorithm>
 #include <optional>
 
+#include "@TARGET@_parameters.hpp"  // made from plugin.yaml
 #include "armature/messages/geometry_msgs.hpp"
 #include "armature/messages/stamp.hpp"
 #include "armature/messages/std_msgs.hpp"
 #include "armature/runtime/component/component.hpp"
 #include "armature/runtime/component/setup.hpp"
 #include "armature/runtime/plugins/plugin.hpp"
-#include "@TARGET@_parameters.hpp"  // made from plugin.yaml
 
 namespace @NAMESPACE@ {
 class @CLASS@ final : public Component {

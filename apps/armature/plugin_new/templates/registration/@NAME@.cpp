@@ -1,6 +1,6 @@
+#include "@TARGET@_parameters.hpp"  // made from plugin.yaml
 #include "armature/kinds/registration/registration.hpp"
 #include "armature/runtime/plugins/plugin.hpp"
-#include "@TARGET@_parameters.hpp"  // made from plugin.yaml
 
 namespace @NAMESPACE@ {
 /// Every marker counts; one that disagrees is not found out.
@@ -14,7 +14,8 @@ class @CLASS@ final : public Registrar {
     found.used.assign(markers.image.size(), true);
     found.condition = condition_of_line(markers.image);
     if (!(found.condition <= parameters_.max_condition)) {
-      return refuse("the markers lie nearly on one line: condition " + std::to_string(found.condition));
+      return refuse("the markers lie nearly on one line: condition " +
+                    std::to_string(found.condition));
     }
     Eigen::Matrix3Xd image(3, markers.image.size()), robot = image;
     for (Eigen::Index i = 0; i < image.cols(); ++i) {

@@ -1,16 +1,18 @@
 #include <limits>
 #include <string>
 
+#include "@TARGET@_parameters.hpp"  // made from plugin.yaml
 #include "armature/kinds/select/select.hpp"
 #include "armature/runtime/plugins/plugin.hpp"
-#include "@TARGET@_parameters.hpp"  // made from plugin.yaml
 
 namespace @NAMESPACE@ {
 /// From branch to nearest branch, beginning where the arm is.
 class @CLASS@ final : public BranchSelector {
  public:
   @CLASS@(const RobotModel& robot, const Params& params)
-      : robot_{robot}, weights_{JointVector::LinSpaced(robot.dof(), Parameters::read(params).first_joint_weight, 1)} {}
+      : robot_{robot},
+        weights_{
+            JointVector::LinSpaced(robot.dof(), Parameters::read(params).first_joint_weight, 1)} {}
 
   Expected<std::vector<JointVector>> choose(const JointVector& start,
                                             std::span<const IkBranches> waypoints) const override {

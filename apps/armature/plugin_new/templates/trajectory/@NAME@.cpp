@@ -6,7 +6,8 @@ namespace {
 
 /// The shape of a motion along `curve` under `law`: for every joint a quintic from each knot to the
 /// next that has the curve's position, velocity and acceleration at both.
-std::vector<Quintic> shape(const JointCurve& curve, const TimeLaw& law, std::span<const double> knots) {
+std::vector<Quintic> shape(const JointCurve& curve, const TimeLaw& law,
+                           std::span<const double> knots) {
   std::vector<Quintic> pieces;
   JointState from = state_along(curve, law, knots.front());
   for (std::size_t i = 1; i < knots.size(); ++i) {

@@ -15,8 +15,7 @@ void tell_warnings(const PluginRegistry& plugins);
 int list_plugins(bool json);
 /// `armature plugin info ID`: what its plugin.yaml declares.
 int show_plugin(const std::string& id, bool json);
-/// `armature plugin new ID -o DIR`: a complete small plugin that builds outside this tree, of kind
-/// ik or the driver of an arm.
+/// `armature plugin new ID -o DIR`: a complete small plugin that builds outside this tree.
 int new_plugin(const std::string& id, const std::filesystem::path& directory);
 
 }  // namespace armature

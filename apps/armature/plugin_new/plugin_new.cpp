@@ -9,13 +9,17 @@
 #include <iterator>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "armature/config/document.hpp"
+#include "armature/config/problems.hpp"
 #include "armature/runtime/plugins/plugin_registry.hpp"
 #include "armature/runtime/reporting/output_folder.hpp"
 #include "armature/runtime/reporting/write_atomically.hpp"
 #include "exit_code.hpp"
 #include "inspect/plugins.hpp"
+#include "plugin_new/family.hpp"
 #include "verbs/shipped_configs.hpp"
 
 namespace armature {
@@ -53,26 +57,13 @@ fs::path package_folder() {
                                                      : prefix / "lib" / "cmake" / "Armature";
 }
 
-/// The folders of templates that came with this program, one per family.
-fs::path template_folder() { return shipped_config_folder().parent_path() / "templates"; }
-
-std::vector<std::string> families() {
-  std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator{template_folder()}) {
-    names.push_back(entry.path().filename());
-  }
-  std::ranges::sort(names);
-  return names;
-}
-
-/// The template for plugins of `family`.
-fs::path template_for(const std::string& family) {
-  const std::vector<std::string> known = families();
-  if (std::ranges::find(known, family) != known.end()) return template_folder() / family;
-  throw InvalidChoice(fmt::format(
-      "there is no template for '{}/...', only for '{}/...'; begin with a copy of such a plugin, "
-      "see plugins/ in the sources",
-      family, fmt::join(known, "/...', '")));
+/// Throws unless there is a template for plugins of `family`.
+void check_family(const std::string& family) {
+  const std::vector<std::string> known = family_names();
+  if (std::ranges::find(known, family) != known.end()) return;
+  throw InvalidChoice(
+      fmt::format("there is no family of plugins '{}'{}; `armature plugin new --help` lists all",
+                  family, config::did_you_mean(family, known)));
 }
 
 struct PluginId {
@@ -90,15 +81,57 @@ PluginId id_from(const std::string& text) {
     return id;
   }
   throw InvalidChoice(
-      fmt::format("'{}' must be '{}/name', the name in lower case letters, digits and '_'", text,
-                  fmt::join(families(), "/name', '")));
+      fmt::format("'{}' must be 'family/name', the name in lower case letters, digits and '_'; "
+                  "`armature plugin new --help` lists the families",
+                  text));
+}
+
+/// What stands for the marks of a template: each @MARK@ and its text.
+class Marks {
+ public:
+  explicit Marks(const PluginId& id)
+      : marks_{{"@ID@", id.text},
+               {"@NAME@", id.name},
+               {"@CLASS@", class_name(id.name)},
+               {"@TARGET@", id.family + '_' + id.name},
+               {"@NAMESPACE@", fmt::format("armature::{}::{}", id.family, id.name)},
+               {"@PACKAGE@", package_folder().string()}} {}
+
+  void add(const std::string& mark, std::string text) {
+    marks_.emplace_back(mark, std::move(text));
+  }
+  std::string fill(std::string text) const {
+    for (const auto& [mark, value] : marks_) replace_all(text, mark, value);
+    return text;
+  }
+
+ private:
+  std::vector<std::pair<std::string, std::string>> marks_;
+};
+
+/// Adds what the files that all families share say differently of each.
+void add_shared_marks(const PluginFamily& family, const fs::path& from, Marks& marks) {
+  const config::Node manifest = config::parse_text(marks.fill(text_of(from / "plugin.yaml")), "");
+  marks.add("@DOC@", manifest.find("doc")->text());
+  marks.add("@LINK@", fmt::format("Armature::{}", fmt::join(family.links, " Armature::")));
+  const bool has_test = fs::exists(from / "@NAME@_test.cpp");
+  marks.add("@TESTS@", has_test ? marks.fill(" TESTS @NAME@_test.cpp") : "");
+  marks.add("@ROBOT@", family.robot ? " --robot arm.yaml" : "");
+  std::string runs, files;
+  for (const std::string& run : family.runs) runs += "    " + run + '\n';
+  for (const auto& [file, says] : family.files) files += fmt::format("| `{}` | {} |\n", file, says);
+  if (family.robot) {
+    files += "| `arm.yaml`, `arm.urdf` | a robot to try it with: put your own here |\n";
+  }
+  marks.add("@RUN@\n", runs + '\n');
+  marks.add("@FILES@\n", files + '\n');
 }
 
 }  // namespace
 
 int new_plugin(const std::string& text, const fs::path& directory) {
   const PluginId id = id_from(text);
-  const fs::path from = template_for(id.family);
+  check_family(id.family);
   const PluginRegistry plugins;
   if (const PluginManifest* there = plugins.find(id.text)) {
     throw InvalidChoice(fmt::format("there is a plugin '{}' already, '{}'; choose another name",
@@ -108,21 +141,23 @@ int new_plugin(const std::string& text, const fs::path& directory) {
     throw InvalidChoice(fmt::format("'{}' is there already and not empty", directory.string()));
   }
   prepare_output_folder(directory);
-  const auto fill = [&](std::string filled) {
-    replace_all(filled, "@ID@", id.text);
-    replace_all(filled, "@NAME@", id.name);
-    replace_all(filled, "@CLASS@", class_name(id.name));
-    replace_all(filled, "@TARGET@", id.family + '_' + id.name);
-    replace_all(filled, "@NAMESPACE@", fmt::format("armature::{}::{}", id.family, id.name));
-    replace_all(filled, "@PACKAGE@", package_folder().string());
-    replace_all(filled, "@CONFIGS@", shipped_config_folder().string());
-    return filled;
+  Marks marks{id};
+  const fs::path from = template_folder() / id.family, common = template_folder() / "common";
+  const PluginFamily family =
+      read_family(id.family, [&](std::string filled) { return marks.fill(std::move(filled)); });
+  add_shared_marks(family, from, marks);
+  const auto write = [&](const fs::path& file) {
+    const fs::path written = directory / marks.fill(file.filename());
+    write_atomically(written, marks.fill(text_of(file)), FileUse::named_by_user);
   };
   for (const auto& entry : fs::directory_iterator{from}) {
-    const std::string name = fill(entry.path().filename());
-    write_atomically(directory / name, fill(text_of(entry.path())), FileUse::named_by_user);
+    if (entry.path().filename() != "family.yaml") write(entry.path());
   }
-  fs::copy_file(shipped_config_folder() / "robots" / "arm.urdf", directory / "arm.urdf");
+  for (const char* file : {"CMakeLists.txt", "README.md"}) write(common / file);
+  if (family.robot) {
+    write(common / "arm.yaml");
+    write(shipped_config_folder() / "robots" / "arm.urdf");
+  }
   fmt::print("wrote {}: see {}\n", id.text, (directory / "README.md").string());
   return kOk;
 }

@@ -185,9 +185,7 @@ int conclude(const RunOptions& options, const Deployment& deployment,
 /// What failed in a process that does not judge the deployment's goals, or "".
 std::string fault_of(const Deployment& deployment, const ChildWatch& watch) {
   if (std::string fault = deployment.fault(); !fault.empty()) return fault;
-  if (!deployment.hung().empty()) {
-    return fmt::format("'{}' hangs: its step has not returned", deployment.hung().front()->name());
-  }
+  if (!deployment.hangs().empty()) return deployment.hangs().front();
   if (const auto isolated = deployment.isolated_faults(); !isolated.empty()) {
     return isolated.front();
   }

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "inspect/plugins.hpp"
+#include "plugin_new/family.hpp"
 #include "verbs/option_checks.hpp"
 #include "verbs/verbs.hpp"
 #include "verify/verify.hpp"
@@ -53,8 +54,9 @@ void add_plugin_verbs(CLI::App& app, Action& action) {
   info->callback([=, &action] { action = [=] { return show_plugin(*id, *json); }; });
 
   CLI::App* fresh = plugin->add_subcommand("new", "Write a complete small plugin to start from");
-  fresh->add_option("id", *id, "ik/mine: a solver; arm/mine: the driver of an arm")->required();
+  fresh->add_option("id", *id, "family/name, e.g. ik/mine")->required();
   fresh->add_option("-o,--output", *directory, "folder to write it into")->required();
+  fresh->footer(family_table);
   fresh->callback([=, &action] { action = [=] { return new_plugin(*id, *directory); }; });
 
   add_verify(*plugin, action);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -10,6 +12,7 @@
 
 #include "armature/config/node.hpp"
 #include "armature/config/params.hpp"
+#include "armature/runtime/component/driver_thread.hpp"
 #include "armature/runtime/component/ports.hpp"
 #include "armature/runtime/component/slot.hpp"
 #include "armature/runtime/plugins/plugin_library.hpp"
@@ -80,6 +83,19 @@ class Setup {
     return slot;
   }
 
+  /// A thread for a device whose calls wait, and the queue of at most `capacity` samples from it to
+  /// `step`, which every sample activates. `body` runs on it once, from the beginning of the run:
+  /// `while (!queue.stopping()) queue.push(queue.now(), device.read());`. It has returned before
+  /// the component is asked for its figures or destroyed. The plugin says `pure: false`, so that
+  /// the simulated clock, which waits for nobody, refuses it by name.
+  template <class Sample>
+  DriverQueue<Sample>& driver_thread(std::size_t capacity, std::function<void()> body) {
+    auto queue = std::make_unique<DriverQueue<Sample>>(capacity, std::move(body));
+    DriverQueue<Sample>& kept = *queue;
+    keep_thread(std::move(queue));
+    return kept;
+  }
+
   virtual std::shared_ptr<class StatusReporter> reporter() = 0;
 
  protected:
@@ -87,6 +103,7 @@ class Setup {
   virtual OutputPort& claim_output(std::string_view port, const MessageType& type) = 0;
   virtual SlotPlugin slot_plugin(std::string_view slot, std::string_view kind) = 0;
   virtual void keep_slot(std::unique_ptr<SlotPlace> place) = 0;
+  virtual void keep_thread(std::unique_ptr<DriverThread> thread) = 0;
 };
 
 }  // namespace armature

@@ -123,6 +123,16 @@ SlotPlugin ComponentSetup::slot_plugin(std::string_view slot, std::string_view k
   return {plugins_.load(*config.manifest, kind), *config.manifest, config.params};
 }
 
+void ComponentSetup::keep_thread(std::unique_ptr<DriverThread> thread) {
+  if (config_.manifest->pure) {
+    throw std::logic_error(
+        fmt::format("plugin '{}' has a driver thread, so no two runs of it are alike; its "
+                    "plugin.yaml must say 'pure: false'",
+                    config_.manifest->id));
+  }
+  unit_.add_thread(std::move(thread));
+}
+
 void ComponentSetup::check_all_claimed() const {
   for (const auto* ports : {&config_.inputs, &config_.outputs}) {
     for (const PortBinding& port : *ports) {

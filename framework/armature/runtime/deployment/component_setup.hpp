@@ -47,6 +47,7 @@ class ComponentSetup final : public Setup {
   void keep_slot(std::unique_ptr<SlotPlace> place) override {
     unit_.slots().push_back(std::move(place));
   }
+  void keep_thread(std::unique_ptr<DriverThread> thread) override;
 
  private:
   const SlotConfig& slot_config(std::string_view slot_name) const;

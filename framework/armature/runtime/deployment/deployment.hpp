@@ -84,9 +84,11 @@ class Deployment {
   std::vector<std::string> silent() const;
   /// Components that were not at rest when the run ended.
   const std::vector<std::string>& moving() const { return moving_; }
-  /// Components whose step has not returned; nothing of them may be called any more, and the
-  /// process has to be left without destroying the deployment.
+  /// Components whose step or driver thread has not returned; nothing of them may be called any
+  /// more, and the process has to be left without destroying the deployment.
   const std::vector<const ComponentRunner*>& hung() const { return hung_; }
+  /// Each of them in a sentence: "'arm' hangs: its step has not returned for 2 s".
+  const std::vector<std::string>& hangs() const { return hangs_; }
   bool is_hung(const ComponentRunner& unit) const;
 
   /// Says that the "stop" (or another `function`) of a component is called next (on_ending).
@@ -94,6 +96,8 @@ class Deployment {
 
   /// How long the end of a run waits for a step to return.
   static constexpr Duration kStepTimeout = seconds(kSanitized ? 10 : 2);
+  /// The same of a driver thread, after that and after the components' `stop`.
+  static constexpr Duration kThreadTimeout = seconds(kSanitized ? 5 : 1);
 
  private:
   void make_scheduler();
@@ -121,6 +125,7 @@ class Deployment {
   void come_to_rest(RunWatch& watch);
   std::vector<std::string> find_moving() const;
   void end();
+  void add_hung(const ComponentRunner& unit, std::string_view what, Duration timeout);
 
   DeploymentConfig config_;
   Options options_;
@@ -137,6 +142,7 @@ class Deployment {
   LostPeers lost_peers_;
   std::vector<std::string> moving_;
   std::vector<const ComponentRunner*> hung_;
+  std::vector<std::string> hangs_;
   std::optional<RemoteTopics> remote_;  // the topics that it has writers of go first
 };
 

@@ -60,6 +60,7 @@ void Deployment::start_watchdog() {
 std::string Deployment::run_until_stop(RunWatch& watch) {
   const Time start = clock_->now();
   start_watchdog();
+  for (const auto& unit : units_) unit->start_threads(*clock_);
   std::optional<std::string> cause;
   scheduler_->run([&] {
     cause = stop_cause(watch, start);
@@ -110,20 +111,32 @@ std::vector<std::string> Deployment::find_moving() const {
 }
 
 void Deployment::end() {
-  hung_ = scheduler_->stop(kStepTimeout);
-  for (const ComponentRunner* unit : hung_) {
-    std::erase(moving_, unit->name());
-    options_.on_note(fmt::format("'{}' hangs: its step has not returned for {:g} s", unit->name(),
-                                 to_seconds(kStepTimeout)));
+  for (const ComponentRunner* unit : scheduler_->stop(kStepTimeout)) {
+    add_hung(*unit, "step", kStepTimeout);
   }
+  for (const auto& unit : units_) unit->request_threads_stop();
   for (const auto& unit : units_) {
     if (is_hung(*unit)) continue;
     tell_ending("stop", *unit);
     unit->stop(clock_->now());
   }
+  const auto threads_end = std::chrono::steady_clock::now() + kThreadTimeout;
+  for (const auto& unit : units_) {
+    if (is_hung(*unit)) continue;
+    tell_ending("driver thread", *unit);
+    if (!unit->join_threads(threads_end)) add_hung(*unit, "driver thread", kThreadTimeout);
+  }
   options_.on_ending("the end of the run");
   if (!remote_) return;
   for (const std::string& refusal : remote_->refusals()) options_.on_note(refusal);
+}
+
+void Deployment::add_hung(const ComponentRunner& unit, std::string_view what, Duration timeout) {
+  hung_.push_back(&unit);
+  std::erase(moving_, unit.name());
+  hangs_.push_back(fmt::format("'{}' hangs: its {} has not returned for {:g} s", unit.name(), what,
+                               to_seconds(timeout)));
+  options_.on_note(hangs_.back());
 }
 
 void Deployment::tell_ending(std::string_view function, const ComponentRunner& unit) const {

@@ -94,6 +94,35 @@ void ComponentRunner::ask_stopped() {
   reporter_->keep_to_itself(stopped);
 }
 
+void ComponentRunner::start_threads(const Clock& clock) {
+  if (std::exchange(threads_started_, true)) return;
+  for (const auto& thread : threads_) {
+    thread->start(name_,
+                  {.now = [&clock] { return clock.now(); },
+                   .wake =
+                       [this] {
+                         if (triggered_) triggered_();
+                       },
+                   .fault = [this](const std::string& what) { fault("driver thread", what); }});
+  }
+}
+
+void ComponentRunner::request_threads_stop() {
+  for (const auto& thread : threads_) thread->request_stop();
+}
+
+bool ComponentRunner::join_threads(std::chrono::steady_clock::time_point end) {
+  bool joined = true;
+  for (const auto& thread : threads_) joined = thread->join_until(end) && joined;
+  return joined;
+}
+
+std::uint64_t ComponentRunner::dropped() const {
+  std::uint64_t dropped = inbox_.dropped();
+  for (const auto& thread : threads_) dropped += thread->dropped();
+  return dropped;
+}
+
 void ComponentRunner::stop(Time now) {
   if (!component_ || faulted()) return;
   const RunningComponent running{name_, "stop"};

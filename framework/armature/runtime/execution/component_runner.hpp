@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <deque>
 #include <functional>
@@ -12,10 +13,12 @@
 #include <vector>
 
 #include "armature/runtime/component/component.hpp"
+#include "armature/runtime/component/driver_thread.hpp"
 #include "armature/runtime/component/inbox.hpp"
 #include "armature/runtime/component/output_port.hpp"
 #include "armature/runtime/component/slot.hpp"
 #include "armature/runtime/component/status_reporter.hpp"
+#include "armature/runtime/execution/clock.hpp"
 #include "armature/runtime/execution/timing_histogram.hpp"
 #include "armature/runtime/plugins/plugin_library.hpp"
 
@@ -52,6 +55,14 @@ class ComponentRunner {
   }
   Component& component() { return *component_; }
 
+  /// A thread of the component's own, before the run.
+  void add_thread(std::unique_ptr<DriverThread> thread) { threads_.push_back(std::move(thread)); }
+  /// Starts them; `clock` outlives the unit. Where they were started already nothing happens.
+  void start_threads(const Clock& clock);
+  void request_threads_stop();
+  /// False when one has not returned until `end`.
+  bool join_threads(std::chrono::steady_clock::time_point end);
+
   /// A drill's fault, which outlives the unit.
   void inject(const InjectedFault& fault) { injected_ = &fault; }
 
@@ -81,6 +92,8 @@ class ComponentRunner {
   bool finished() const { return finished_.load(std::memory_order_acquire); }
   std::uint64_t activations() const { return activations_.load(std::memory_order_relaxed); }
   std::uint64_t overruns() const { return overruns_.load(std::memory_order_relaxed); }
+  /// What full queues have lost, of inputs and of driver threads.
+  std::uint64_t dropped() const;
 
   /// Of its steps since the start. Any thread.
   const StepTimes& times() const { return times_; }
@@ -115,13 +128,15 @@ class ComponentRunner {
   std::optional<Duration> period_;
   Duration latency_{0};
   const InjectedFault* injected_ = nullptr;
-  // In this order: the component goes first, then its slots, then the code of both, then its ports.
+  // In this order: threads go first, then the component, its slots, the code of all, and its ports.
   std::shared_ptr<PluginLibrary> library_;
   std::vector<std::unique_ptr<SlotPlace>> slots_;
   std::unique_ptr<Component> component_;
+  std::vector<std::unique_ptr<DriverThread>> threads_;
   std::atomic<bool> faulted_{false}, finished_{false};
   std::atomic<bool> stop_requested_{false}, stopped_{false};
   bool stop_begun_ = false;  // of the executor's thread
+  bool threads_started_ = false;
   std::atomic<std::uint64_t> activations_{0}, overruns_{0};
   StepTimes times_;
   const std::string* executor_name_ = nullptr;

@@ -138,7 +138,7 @@ void StatePublisher::publish_state(const ComponentRunner& unit, const Counted& c
   message->reason_(status.reason);
   message->activations_(unit.activations());
   message->overruns_(unit.overruns());
-  message->dropped_(unit.inbox().dropped());
+  message->dropped_(unit.dropped());
   set_times(message->lateness_(), counted.lateness.figures);
   set_times(message->step_(), counted.duration.figures);
   set_times(message->processor_(), counted.processor.figures);
@@ -162,7 +162,7 @@ msg::DiagnosticStatus StatePublisher::diagnostic_of(const ComponentRunner& unit,
   diagnostic.hardware_id_(unit.plugin_id());
   std::vector<msg::KeyValue> values{key_value("activations", unit.activations()),
                                     key_value("overruns", unit.overruns()),
-                                    key_value("dropped", unit.inbox().dropped())};
+                                    key_value("dropped", unit.dropped())};
   add_times("lateness", counted.lateness.figures, values);
   add_times("step", counted.duration.figures, values);
   add_times("processor", counted.processor.figures, values);

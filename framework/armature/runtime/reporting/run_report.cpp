@@ -87,10 +87,7 @@ std::vector<std::string> faults_of_the_end(const Deployment& deployment) {
     faults.push_back(fmt::format("'{}' was not at rest {:g} s after it was to stop", name,
                                  deployment.config().stop_within_s));
   }
-  for (const ComponentRunner* unit : deployment.hung()) {
-    faults.push_back(fmt::format("'{}' hangs: its step has not returned for {:g} s", unit->name(),
-                                 to_seconds(Deployment::kStepTimeout)));
-  }
+  std::ranges::copy(deployment.hangs(), std::back_inserter(faults));
   return faults;
 }
 

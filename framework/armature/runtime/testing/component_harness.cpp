@@ -62,16 +62,17 @@ void ComponentHarness::read(const PluginRegistry& plugins, const Options& option
 }
 
 void ComponentHarness::step(double now_s) {
-  now_ = Time{} + seconds(now_s);
+  now_.set(Time{} + seconds(now_s));
   triggered_ = false;
-  unit_->step(now_);
+  unit_->start_threads(now_);
+  unit_->step(now_.now());
   if (unit_->faulted()) throw std::runtime_error(unit_->status().reason);
 }
 
 void ComponentHarness::begin_stop(double now_s) {
-  now_ = Time{} + seconds(now_s);
+  now_.set(Time{} + seconds(now_s));
   unit_->request_stop();
-  unit_->answer_stop_request(now_);
+  unit_->answer_stop_request(now_.now());
   if (unit_->faulted()) throw std::runtime_error(unit_->status().reason);
 }
 
@@ -113,7 +114,7 @@ bool ComponentHarness::send_encoded(std::string_view input, std::span<const std:
   Topic& topic = *topics_.at(port->topic);
   SampleRef sample = topic.loan();
   if (!topic.spec().type->decode(cdr, sample.mutable_message())) return false;
-  topic.publish(std::move(sample), now_);
+  topic.publish(std::move(sample), now_.now());
   return true;
 }
 

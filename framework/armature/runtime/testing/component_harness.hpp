@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <optional>
@@ -16,6 +18,7 @@
 #include "armature/runtime/component/component.hpp"
 #include "armature/runtime/deployment/component_setup.hpp"
 #include "armature/runtime/deployment_file/component_config.hpp"
+#include "armature/runtime/execution/clock.hpp"
 
 namespace armature ARMATURE_EXPORT {
 
@@ -76,14 +79,17 @@ class ComponentHarness final : private Delivery {
     Topic& topic = topic_of(config_.inputs, input, message_type<Message>());
     SampleRef sample = topic.loan();
     *static_cast<Message*>(sample.mutable_message()) = message;
-    topic.publish(std::move(sample), now_);
+    topic.publish(std::move(sample), now_.now());
   }
   /// The same with an encoded message of the port's type; false when `cdr` is none.
   bool send_encoded(std::string_view input, std::span<const std::byte> cdr);
   const std::vector<PortBinding>& inputs() const { return config_.inputs; }
   /// True when a trigger input has asked for an activation since the last one.
   bool triggered() const { return triggered_; }
+  /// Samples that full queues have lost.
+  std::uint64_t dropped() const { return unit_->dropped(); }
   /// One activation at `now_s`; an exception out of the component is thrown on as runtime_error.
+  /// The first one starts its driver threads.
   void step(double now_s);
   /// Tells the component at `now_s` that the run is stopping; steps go on. An exception as above.
   void begin_stop(double now_s);
@@ -116,7 +122,9 @@ class ComponentHarness final : private Delivery {
     void deliver(const SampleRef& sample) override { samples.push_back(sample); }
   };
 
-  void publish(Topic& topic, SampleRef sample) override { topic.publish(std::move(sample), now_); }
+  void publish(Topic& topic, SampleRef sample) override {
+    topic.publish(std::move(sample), now_.now());
+  }
   void read(const PluginRegistry& plugins, const Options& options);
   Topic& topic_for(const PortBinding& port, const MessageType& type);
   Topic& topic_of(const std::vector<PortBinding>& ports, std::string_view name,
@@ -124,8 +132,8 @@ class ComponentHarness final : private Delivery {
 
   DeploymentConfig deployment_;
   ComponentConfig config_;
-  Time now_;
-  bool triggered_ = false;
+  SimulatedClock now_;
+  std::atomic<bool> triggered_{false};
   std::vector<std::string> lines_;
   std::map<std::string, std::unique_ptr<Topic>> topics_;  // by name; outlive their samples
   std::map<std::string, Tap> taps_;                       // by output

@@ -54,6 +54,9 @@ class FakeSetup final : public Setup, public Delivery {
   void keep_slot(std::unique_ptr<SlotPlace> place) override {
     unit_.slots().push_back(std::move(place));
   }
+  void keep_thread(std::unique_ptr<DriverThread> thread) override {
+    unit_.add_thread(std::move(thread));
+  }
 
  private:
   Topic& make_topic(std::string_view port, const MessageType& type) {

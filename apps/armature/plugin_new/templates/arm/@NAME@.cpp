@@ -14,7 +14,7 @@ namespace @NAMESPACE@ {
 namespace {
 
 /// Put your arm here: its maker's library, or the bus that it hangs on. No function may wait for
-/// the arm: where one would, let a thread of your own talk to it and keep its last word here.
+/// the arm: where one would, Setup::driver_thread talks to it, and its last word is kept here.
 class Device {
  public:
   explicit Device(const JointVector& q) : q_{q}, v_{JointVector::Zero(q.size())} {}

@@ -18,10 +18,10 @@ namespace armature::test {
 
 class JudgedBySchema : public testing::Test {
  protected:
-  /// `of`: nothing, or the sort of file.
-  explicit JudgedBySchema(const std::vector<std::string>& of = {}) {
+  /// `of`: the sort of file; without, a deployment.
+  explicit JudgedBySchema(const std::string& of = "") {
     std::vector<std::string> command{armature(), "schema"};
-    command.insert(command.end(), of.begin(), of.end());
+    if (!of.empty()) command.push_back(of);
     const auto result = run_command(command);
     EXPECT_EQ(result.exit_code, 0) << result.err;
     schema_ = nlohmann::json::parse(result.out, nullptr, false);

@@ -6,10 +6,10 @@ namespace armature::test {
 namespace {
 
 struct RobotSchema : JudgedBySchema {
-  RobotSchema() : JudgedBySchema{{"robot"}} {}
+  RobotSchema() : JudgedBySchema{"robot"} {}
 };
 struct RigSchema : JudgedBySchema {
-  RigSchema() : JudgedBySchema{{"rig"}} {}
+  RigSchema() : JudgedBySchema{"rig"} {}
 };
 
 TEST_F(RobotSchema, FitsEveryRobotThatIsShipped) { expect_fits_all_in("configs/robots", 6); }

@@ -115,8 +115,8 @@ void ArmAngleChoice::add_span(int branch, const Span& span) {
   constexpr int kFew = 2;
   if (goal_.shoulder.collinear || goal_.wrist.collinear) add_collinear_places(branch, span);
   const bool round = span.upper - span.lower >= kTurn;
-  const int first = place_from(span.lower), last = round ? first + table_.count - 1
-                                                         : place_from(span.upper) - 1;
+  const int first = place_from(span.lower),
+            last = round ? first + table_.count - 1 : place_from(span.upper) - 1;
   if (last - first + 1 < kFew) return add_narrow_span(branch, span);
   add_valleys_between(branch, first, last);
   if (round) return;
@@ -196,8 +196,8 @@ void ArmAngleChoice::drop_hopeless_valleys() {
     const double known = least[static_cast<std::size_t>(valley.left.branch)];
     return !may_fall_below(known + kEqual * std::abs(known), valley.left, valley.right);
   };
-  count_valleys_ =
-      static_cast<int>(std::remove_if(valleys.begin(), valleys.end(), is_hopeless) - valleys.begin());
+  count_valleys_ = static_cast<int>(std::remove_if(valleys.begin(), valleys.end(), is_hopeless) -
+                                    valleys.begin());
 }
 
 void ArmAngleChoice::find_best(const SpansByBranch& spans) {

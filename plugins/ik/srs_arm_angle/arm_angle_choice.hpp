@@ -13,8 +13,8 @@ namespace armature::ik::srs_arm_angle {
 /// around the turn, at three at least within every span, and where a shoulder or wrist is next to
 /// collinear and its outer joints therefore sweep through half a turn, at as many more as that
 /// takes; at a span's end where the cost goes down to it. Wherever two neighbours have a minimum
-/// between them it is found to 1e-8 rad, unless their tangents leave it no room below what is known.
-/// Answers once. No allocation; less than 256 KiB, for the stack.
+/// between them it is found to 1e-8 rad, unless their tangents leave it no room below what is
+/// known. Answers once. No allocation; less than 256 KiB, for the stack.
 class ArmAngleChoice {
  public:
   /// The arm angle that is remembered, or the seed's, is what continuity keeps to, and what decides
@@ -74,8 +74,8 @@ class ArmAngleChoice {
 /// The angle of `spans`, which is not empty, that is nearest to `wanted`, the short way round.
 double nearest_in(const Spans& spans, double wanted);
 
-/// The arm angles at which costs are looked at all round: regular ones, and more where a shoulder or
-/// wrist comes next to collinear.
+/// The arm angles at which costs are looked at all round: regular ones, and more where a shoulder
+/// or wrist comes next to collinear.
 void set_places(const SrsGoal& goal, const Aim& aim, CostTable& table);
 
 }  // namespace armature::ik::srs_arm_angle

@@ -16,8 +16,8 @@ double way_to_limits(const SrsArm& arm, std::size_t first, double t, double u, d
   for (const double end : {-1.0, 1.0}) {
     for (const double way : {wrap_angle(arm.middle[first] + end * arm.half[first] - t),
                              ratio * wrap_angle(arm.middle[last] + end * arm.half[last] - u)}) {
-      const bool inside = arm.beyond(first, t + way) <= kAtLimit &&
-                          arm.keeps_limits(last, u + ratio * way);
+      const bool inside =
+          arm.beyond(first, t + way) <= kAtLimit && arm.keeps_limits(last, u + ratio * way);
       if (inside && std::abs(way) < std::abs(best)) best = way;
     }
   }
@@ -59,8 +59,7 @@ void solve(const SrsArm& arm, const SrsGoal& goal, double arm_angle, EightBranch
   kernel().solve(arm, goal, arm_angle, out);
   share_all_turns(arm, out);
 }
-void solve_each(const SrsArm& arm, const SrsGoal& goal, const EightPlaces& at,
-                EightBranches& out) {
+void solve_each(const SrsArm& arm, const SrsGoal& goal, const EightPlaces& at, EightBranches& out) {
   kernel().solve_each(arm, goal, at, out);
   share_all_turns(arm, out);
 }

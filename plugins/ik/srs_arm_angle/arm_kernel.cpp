@@ -9,9 +9,9 @@
 namespace armature::ik::srs_arm_angle {
 
 const Kernel& ARMATURE_FOR_PROCESSOR(kernel)() {
-  static constexpr Kernel kernel{arctangents,  sines_and_cosines, solve_all, solve_each,
-                                 limit_angles, keep_limits,       costs_all_round,
-                                 costs,        minima};
+  static constexpr Kernel kernel{arctangents,  sines_and_cosines, solve_all,       solve_each,
+                                 limit_angles, keep_limits,       costs_all_round, costs,
+                                 minima};
   return kernel;
 }
 

@@ -17,8 +17,8 @@ struct SinCos {
   double sin = 0, cos = 1;
 };
 
-/// Joints of an arm of SrsArm's form: t = sign q + offset; limits of t: middle +- half, which may be
-/// infinite [rad].
+/// Joints of an arm of SrsArm's form: t = sign q + offset; limits of t: middle +- half, which may
+/// be infinite [rad].
 struct ArmNumbers {
   double upper = 0, fore = 0;  // [m] shoulder to elbow, elbow to wrist
   double sign[7]{1, 1, 1, 1, 1, 1, 1}, offset[7]{};
@@ -50,24 +50,24 @@ struct Triangle {
 
 /// A goal in SrsArm's form, and what of the arm does not depend on the arm angle.
 struct SrsGoal {
-  double rotation[3][3];      // columns of shoulder_R_wrist
+  double rotation[3][3];                  // columns of shoulder_R_wrist
   double shoulder_to_wrist[3], lever[3];  // [m]; wrist to tool
-  double distance = 0;        // [m] shoulder to wrist
-  double t4 = 0;              // [rad] of elbow 0; elbow 1 has -t4
-  SinCos elbow;               // of t4
-  Triangle shoulder, wrist;   // of elbow 0
-  double collinear = 0;       // [rad] axes at a smaller angle are collinear
+  double distance = 0;                    // [m] shoulder to wrist
+  double t4 = 0;                          // [rad] of elbow 0; elbow 1 has -t4
+  SinCos elbow;                           // of t4
+  Triangle shoulder, wrist;               // of elbow 0
+  double collinear = 0;                   // [rad] axes at a smaller angle are collinear
   /// How far the wrist is out of reach [m], and why.
   double shortfall = 0;
   std::string_view detail;
 };
 
-/// Branch 4 s + 2 e + w is shoulder s, elbow e, wrist w. Elbow 1 at psi stands where elbow 0 does at
-/// psi - pi, with t3 and t5 half a turn on and t4 negated.
-inline constexpr std::string_view kLabels[8]{
-    "shoulder0/elbow0/wrist0", "shoulder0/elbow0/wrist1", "shoulder0/elbow1/wrist0",
-    "shoulder0/elbow1/wrist1", "shoulder1/elbow0/wrist0", "shoulder1/elbow0/wrist1",
-    "shoulder1/elbow1/wrist0", "shoulder1/elbow1/wrist1"};
+/// Branch 4 s + 2 e + w is shoulder s, elbow e, wrist w. Elbow 1 at psi stands where elbow 0 does
+/// at psi - pi, with t3 and t5 half a turn on and t4 negated.
+inline constexpr std::string_view kLabels[8]{"shoulder0/elbow0/wrist0", "shoulder0/elbow0/wrist1",
+                                             "shoulder0/elbow1/wrist0", "shoulder0/elbow1/wrist1",
+                                             "shoulder1/elbow0/wrist0", "shoulder1/elbow0/wrist1",
+                                             "shoulder1/elbow1/wrist0", "shoulder1/elbow1/wrist1"};
 inline constexpr unsigned kOfElbow1 = 0b11001100;
 
 /// Eight branches, any of them, each at an arm angle of its own.
@@ -109,7 +109,7 @@ struct CostTable {
   static constexpr int kMax = kMaxRegular + kMaxMore + 8, kWords = (kMax + 63) / 64;
   double place[kMax];  // [rad]; behind the `count` used ones there is room for what fills lanes
   int regular = 0, count = 0;
-  int of_regular[kMaxRegular + 1];  // where a regular place stands
+  int of_regular[kMaxRegular + 1];        // where a regular place stands
   double value[8][kMax], slope[8][kMax];  // by branch
   /// Bit i: between places i and i + 1 there is a minimum.
   std::uint64_t valley[8][kWords];
@@ -142,8 +142,7 @@ struct Kernel {
                       std::uint64_t (&kept)[8]);
   void (*costs_all_round)(const ArmNumbers& arm, const SrsGoal& goal, const Aim& aim,
                           CostTable& table);
-  void (*costs)(const ArmNumbers& arm, const SrsGoal& goal, const Aim& aim, int count,
-                Node* nodes);
+  void (*costs)(const ArmNumbers& arm, const SrsGoal& goal, const Aim& aim, int count, Node* nodes);
   /// The minimum of each valley; its slope is not told.
   void (*minima)(const ArmNumbers& arm, const SrsGoal& goal, const Aim& aim, int count,
                  const Valley* valleys, Node* minima);

@@ -60,9 +60,8 @@ TEST_P(SrsKernel, AnswersAsTheOneForEveryProcessorDoes) {
     kernel().solve_each(arm_, goal, at, found);
     portable_kernel().solve_each(arm_, goal, at, wanted);
     for (std::size_t k = 0; k < 8; ++k) {
-      const double sine =
-          std::min(std::abs(std::sin(arm_.canonical(1, wanted.joint[1][k]))),
-                   std::abs(std::sin(arm_.canonical(5, wanted.joint[5][k]))));
+      const double sine = std::min(std::abs(std::sin(arm_.canonical(1, wanted.joint[1][k]))),
+                                   std::abs(std::sin(arm_.canonical(5, wanted.joint[5][k]))));
       for (std::size_t joint = 0; joint < 7; ++joint) {
         EXPECT_NEAR(wrap_angle(found.joint[joint][k] - wanted.joint[joint][k]), 0, 4e-15 / sine);
         EXPECT_GE(found.joint[joint][k], -M_PI);

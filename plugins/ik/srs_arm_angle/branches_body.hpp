@@ -29,8 +29,7 @@ inline Posture posture_at(const SrsGoal& goal, const LaneSinCos& arm_angle) {
 struct LaneRotation {
   LaneTriple x, y, z;
 };
-inline LaneRotation rotation_of(const LaneSinCos& a, const LaneSinCos& b,
-                                                       const LaneSinCos& c) {
+inline LaneRotation rotation_of(const LaneSinCos& a, const LaneSinCos& b, const LaneSinCos& c) {
   const Lanes cc = a.cos * b.cos, sc = a.sin * b.cos;
   return {{cc * c.cos - a.sin * c.sin, sc * c.cos + a.cos * c.sin, -(b.sin * c.cos)},
           {-(cc * c.sin) - a.sin * c.cos, a.cos * c.cos - sc * c.sin, b.sin * c.sin},
@@ -61,15 +60,15 @@ inline Lanes squared_rates(const Triangle& triangle, const Angles& angles) {
 /// sqrt(det J J^T) = distance upper fore |sin t4| spread, spread = |sin t2 sin t6 (t1', ..., t7')|,
 /// since the 6 x 6 minors of the 6 x 7 Jacobian are the arm's motion within itself. An arm is
 /// singular when that over upper fore (upper + fore) is below 1e-6.
-inline Masks singular(const ArmNumbers& arm, const SrsGoal& goal,
-                                             const Angles& shoulder, const Angles& wrist) {
+inline Masks singular(const ArmNumbers& arm, const SrsGoal& goal, const Angles& shoulder,
+                      const Angles& wrist) {
   constexpr double kSingular = 1e-6;
   const Lanes spread = root(wrist.b.sin * wrist.b.sin * squared_rates(goal.shoulder, shoulder) +
                             shoulder.b.sin * shoulder.b.sin * squared_rates(goal.wrist, wrist));
   return goal.distance * goal.elbow.sin * spread < kSingular * (arm.upper + arm.fore);
 }
-inline Accuracy accuracy_of(const ArmNumbers& arm, const SrsGoal& goal,
-                                                   const Angles& shoulder, const Angles& wrist) {
+inline Accuracy accuracy_of(const ArmNumbers& arm, const SrsGoal& goal, const Angles& shoulder,
+                            const Angles& wrist) {
   const LaneRotation upper =
       rotation_of(sum(shoulder.a, goal.shoulder.shift_a), shoulder.b, shoulder.c);
   const Lanes bend_cos = all(goal.elbow.cos), bend_sin = all(goal.elbow.sin);
@@ -86,25 +85,24 @@ inline Accuracy accuracy_of(const ArmNumbers& arm, const SrsGoal& goal,
                            cross(everywhere(goal.rotation[2]), hand(turned.z));
   const LaneTriple turn{0.5 * twice.x, 0.5 * twice.y, 0.5 * twice.z};
   const LaneTriple wrist_at = combined(upper.z, all(arm.upper), fore_z, all(arm.fore));
-  const LaneTriple off{wrist_at.x - goal.shoulder_to_wrist[0], wrist_at.y - goal.shoulder_to_wrist[1],
+  const LaneTriple off{wrist_at.x - goal.shoulder_to_wrist[0],
+                       wrist_at.y - goal.shoulder_to_wrist[1],
                        wrist_at.z - goal.shoulder_to_wrist[2]};
   return {norm(off + cross(turn, everywhere(goal.lever))), norm(turn),
           singular(arm, goal, shoulder, wrist)};
 }
 
 /// Joint `i` (from 0) of the robot at the angle `t`; `within` loses the lanes beyond its limits.
-inline Lanes joint_at(const ArmNumbers& arm, int i, const Lanes& t,
-                                             Masks& within) {
+inline Lanes joint_at(const ArmNumbers& arm, int i, const Lanes& t, Masks& within) {
   within &= magnitude(wrapped(t - arm.middle[i])) - arm.half[i] <= kLimitTolerance;
   return wrapped(arm.sign[i] * (t - arm.offset[i]));
 }
 
 /// Stores branches `number` of the postures from `first` on. Where axes are collinear both
 /// solutions are one, and elbow 1 has c half a turn on.
-inline void store_branches(const ArmNumbers& arm, const SrsGoal& goal,
-                                                  const Posture& at, const Accuracy& accuracy,
-                                                  const Masks& number, int first,
-                                                  EightBranches& out) {
+inline void store_branches(const ArmNumbers& arm, const SrsGoal& goal, const Posture& at,
+                           const Accuracy& accuracy, const Masks& number, int first,
+                           EightBranches& out) {
   const Masks free_shoulder = at.shoulder.collinear, free_wrist = at.wrist.collinear;
   const Masks elbow = -((number >> 1) & 1);
   const Masks shoulder = -(number >> 2) & ~free_shoulder, wrist = -(number & 1) & ~free_wrist;
@@ -130,14 +128,13 @@ void clear_masks(EightBranches& out) {
 }
 
 [[gnu::flatten]] void solve_each(const ArmNumbers& arm, const SrsGoal& goal, const EightPlaces& at,
-                EightBranches& out) {
+                                 EightBranches& out) {
   clear_masks(out);
   for (int i = 0; i < 8; i += kLanes) {
     const int* branch = at.branch + i;
     const Masks number{branch[0], branch[1], branch[2], branch[3]};
     const LaneSinCos turn = sine_and_cosine(load(at.arm_angle + i));
-    const Posture posture =
-        posture_at(goal, pick(-((number >> 1) & 1), negated(turn), turn));
+    const Posture posture = posture_at(goal, pick(-((number >> 1) & 1), negated(turn), turn));
     store_branches(arm, goal, posture, accuracy_of(arm, goal, posture.shoulder, posture.wrist),
                    number, i, out);
   }
@@ -158,7 +155,8 @@ inline Angles spread_out(const Angles& v) {
           __builtin_shufflevector(v.collinear, v.collinear, first, first, first + 1, first + 1),
           spread_out<first>(v.inverse_sine)};
 }
-[[gnu::flatten]] void solve_all(const ArmNumbers& arm, const SrsGoal& goal, double arm_angle, EightBranches& out) {
+[[gnu::flatten]] void solve_all(const ArmNumbers& arm, const SrsGoal& goal, double arm_angle,
+                                EightBranches& out) {
   const LaneSinCos turn = sine_and_cosine(all(arm_angle));
   const Lanes back{1, -1, 1, -1};
   const Angles angles = angles_at(Triangles{goal.shoulder, goal.wrist},
@@ -178,10 +176,12 @@ inline Angles spread_out(const Angles& v) {
   store_branches(arm, goal, posture, accuracy, Masks{4, 5, 6, 7}, 4, out);
 }
 
-[[gnu::flatten]] void arctangents(const double (&sine)[4], const double (&cosine)[4], double (&angle)[4]) {
+[[gnu::flatten]] void arctangents(const double (&sine)[4], const double (&cosine)[4],
+                                  double (&angle)[4]) {
   store(arctangent(load(sine), load(cosine)), angle);
 }
-[[gnu::flatten]] void sines_and_cosines(const double (&angle)[4], double (&sine)[4], double (&cosine)[4]) {
+[[gnu::flatten]] void sines_and_cosines(const double (&angle)[4], double (&sine)[4],
+                                        double (&cosine)[4]) {
   const LaneSinCos found = sine_and_cosine(load(angle));
   store(found.sin, sine);
   store(found.cos, cosine);

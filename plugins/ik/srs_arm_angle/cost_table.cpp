@@ -52,7 +52,7 @@ class MorePlaces {
 
 void set_places(const SrsGoal& goal, const Aim& aim, CostTable& table) {
   // The manipulability has more hills than the limits have.
-  table.regular = aim.objective == Objective::singularity ? CostTable::kMaxRegular : 40;
+  table.regular = aim.objective == Objective::singularity ? CostTable::kMaxRegular : 32;
   const double step = 2 * kPi / table.regular;
   for (int i = 0; i <= table.regular; ++i) {
     table.place[i] = i == table.regular ? kPi : -kPi + step * i;

@@ -38,8 +38,7 @@ struct Motion {
   Angles angles;
   Lanes a, b, c;
 };
-inline Motion motion_at(const Triangles& t, const LaneSinCos& arm_angle,
-                                               double collinear) {
+inline Motion motion_at(const Triangles& t, const LaneSinCos& arm_angle, double collinear) {
   constexpr double kMinSine = 1e-12;
   const Angles angles = angles_at(t, arm_angle, collinear);
   const Lanes sine = larger(angles.b.sin, all(kMinSine)), most = all(1 / kMinSine);
@@ -85,8 +84,7 @@ Level distance_cost(const Aim& aim, const Lanes& arm_angle) {
 struct JointCosts {
   Level a, b, c;
 };
-inline JointCosts joint_costs(const Level& a, const Level& b,
-                                                     const Level& c) {
+inline JointCosts joint_costs(const Level& a, const Level& b, const Level& c) {
   // At the limit, and as far beyond as rounding is.
   const Lanes least = all(1e-9);
   const auto room = [&](const Level& u) { return larger(1 - u.value * u.value, least); };
@@ -99,9 +97,8 @@ inline JointCosts joint_costs(const Level& a, const Level& b,
 }
 
 /// The costs of limits of a shoulder (`first` is 0) or a wrist (4), by elbow and flip.
-inline void set_limit_costs(const ArmNumbers& arm, const Triangle& triangle,
-                                                   int first, const Motion& m,
-                                                   Level (&cost)[2][2]) {
+inline void set_limit_costs(const ArmNumbers& arm, const Triangle& triangle, int first,
+                            const Motion& m, Level (&cost)[2][2]) {
   const auto from_middle = [&](int i, const Lanes& angle, double shift) {
     return near_zero(angle + (shift - arm.middle[first + i]));
   };
@@ -125,8 +122,8 @@ inline void set_limit_costs(const ArmNumbers& arm, const Triangle& triangle,
           by_flip[is_wrist ? other : flip].a + by_flip[flip].b + by_flip[is_wrist ? flip : other].c;
       if (!collinear) continue;
       // Both solutions are one, and elbow 1 has c half a turn on.
-      cost[elbow][flip] = pick(angles.collinear, by_flip[0].a + by_flip[0].b + by_flip[elbow].c,
-                               cost[elbow][flip]);
+      cost[elbow][flip] =
+          pick(angles.collinear, by_flip[0].a + by_flip[0].b + by_flip[elbow].c, cost[elbow][flip]);
     }
   }
 }
@@ -194,7 +191,8 @@ inline Masks gather_numbers(int count, const Get& get) {
   return __builtin_convertvector(gather(count, get), Masks);
 }
 
-[[gnu::flatten]] void costs(const ArmNumbers& arm, const SrsGoal& goal, const Aim& aim, int count, Node* nodes) {
+[[gnu::flatten]] void costs(const ArmNumbers& arm, const SrsGoal& goal, const Aim& aim, int count,
+                            Node* nodes) {
   const CostFunction cost{arm, goal, aim};
   for (; count > 0; count -= kLanes, nodes += kLanes) {
     const Level level = cost.at(gather(count, [&](int i) { return nodes[i].at; }),
@@ -206,40 +204,49 @@ inline Masks gather_numbers(int count, const Get& get) {
   }
 }
 
-/// Between two nodes there is a minimum when the left one falls and the right one rises or is higher
-/// by more than rounding, or when the right one rises and the left one is higher.
-void mark_valleys(const double* value, const double* slope, int count, std::uint64_t* valley) {
-  for (int word = 0; 64 * word < count; ++word) {
-    std::uint64_t bits = 0;
-    for (int i = 64 * word; i < count && i < 64 * (word + 1); i += kLanes) {
-      const Lanes left = load(value + i), fall = load(slope + i), rise = load(slope + i + 1);
-      const Lanes climb = load(value + i + 1) - left, noise = 1e-12 * magnitude(left);
-      const Masks marked = ((fall < 0) & ((rise >= 0) | (climb > noise))) |
-                           ((rise > 0) & ((fall <= 0) | (-climb > noise)));
-      bits |= std::uint64_t{bits_of(marked)} << (i % 64);
-    }
-    valley[word] = bits;
+/// Between two nodes there is a minimum when the left one falls and the right one rises or is
+/// higher by more than rounding, or when the right one rises and the left one is higher.
+inline Masks valleys_between(const Level& left, const Level& right) {
+  const Lanes climb = right.value - left.value, noise = 1e-12 * magnitude(left.value);
+  return ((left.slope < 0) & ((right.slope >= 0) | (climb > noise))) |
+         ((right.slope > 0) & ((left.slope <= 0) | (-climb > noise)));
+}
+/// Marks the valleys between place `i` - 1 and place `i` + 3.
+void mark_valleys(const Level& here, int i, const double* value, const double* slope,
+                  std::uint64_t* valley) {
+  const auto shifted = [&](const Lanes& now, const double* all_values) {
+    const Lanes before = i == 0 ? now : load(all_values + i - kLanes);
+    return __builtin_shufflevector(before, now, 3, 4, 5, 6);
+  };
+  const Level left{shifted(here.value, value), shifted(here.slope, slope)};
+  const std::uint64_t bits = bits_of(valleys_between(left, here));
+  if (i % 64 != 0) {
+    valley[i / 64] |= bits << (i % 64 - 1);
+    return;
   }
+  valley[i / 64] = bits >> 1;
+  if (i > 0) valley[i / 64 - 1] |= bits << 63;
 }
 
 [[gnu::flatten]] void costs_all_round(const ArmNumbers& arm, const SrsGoal& goal, const Aim& aim,
-                     CostTable& table) {
-  for (int i = table.count; i % kLanes != 0; ++i) table.place[i] = kPi;
+                                      CostTable& table) {
   const CostFunction cost{arm, goal, aim};
+  for (int i = table.count; i % kLanes != 0; ++i) table.place[i] = kPi;
   for (int i = 0; i < table.count; i += kLanes) {
     const Costs found = cost.at(load(table.place + i));
 #pragma GCC unroll 8
     for (int branch = 0; branch < 8; ++branch) {
-      const Level level = found.of(branch);
-      store(level.value, table.value[branch] + i);
-      store(level.slope, table.slope[branch] + i);
+      double *value = table.value[branch], *slope = table.slope[branch];
+      Level level = found.of(branch);
+      if (i + kLanes >= table.count) {
+        // At pi the arm is where it is at -pi: rounding must not lose a valley there.
+        const Masks at_pi = load(table.place + i) == all(kPi);
+        level = pick(at_pi, Level{all(value[0]), all(slope[0])}, level);
+      }
+      mark_valleys(level, i, value, slope, table.valley[branch]);
+      store(level.value, value + i);
+      store(level.slope, slope + i);
     }
-  }
-  for (int branch = 0; branch < 8; ++branch) {
-    // At pi the arm is where it is at -pi: rounding must not lose a valley there.
-    table.value[branch][table.count - 1] = table.value[branch][0];
-    table.slope[branch][table.count - 1] = table.slope[branch][0];
-    mark_valleys(table.value[branch], table.slope[branch], table.count, table.valley[branch]);
   }
 }
 

@@ -121,8 +121,8 @@ void set_feasible_angles(const SrsArm& arm, const SrsGoal& goal, SpansByBranch& 
     if (collinear) return keep_limits_as_solved(arm, goal, at, count, kept);
     kernel().keep_limits(arm, goal, at, count, kept);
   };
-  const bool everywhere = is_collinear_everywhere(goal.shoulder, goal) ||
-                          is_collinear_everywhere(goal.wrist, goal);
+  const bool everywhere =
+      is_collinear_everywhere(goal.shoulder, goal) || is_collinear_everywhere(goal.wrist, goal);
   const bool somewhere = goal.shoulder.collinear || goal.wrist.collinear;
   std::uint64_t kept[8], kept_at_events[8]{};
   keep_limits(everywhere, middle, pieces, kept);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where joints reach their limits, and whether they keep them, without an arctangent of a joint; see
-// triangles_body.hpp. The entries of M = Ry(p) Rz(x) Ry(q) tell: a and c are arctangents of (M23,
-// M13) and (M32, -M31), b is arccos M33.
+// Where joints reach their limits, and whether they keep them, without an arctangent of a joint;
+// see triangles_body.hpp. The entries of M = Ry(p) Rz(x) Ry(q) tell: a and c are arctangents of
+// (M23, M13) and (M32, -M31), b is arccos M33.
 //   M13 = cos p sin q cos x + sin p cos q    M23 = sin q sin x
 //   M31 = -sin p cos q cos x - cos p sin q   M32 = sin p sin x
 //   M33 = cos p cos q - sin p sin q cos x
@@ -92,8 +92,8 @@ class LimitedBall {
   Range a_, b_, c_;
 };
 
-[[gnu::flatten]] void keep_limits(const ArmNumbers& arm, const SrsGoal& goal, const double* at, int count,
-                 std::uint64_t (&kept)[8]) {
+[[gnu::flatten]] void keep_limits(const ArmNumbers& arm, const SrsGoal& goal, const double* at,
+                                  int count, std::uint64_t (&kept)[8]) {
   const LimitedBall shoulder{arm, goal.shoulder, 0}, wrist{arm, goal.wrist, 4};
   std::memset(kept, 0, sizeof kept);
   for (int i = 0; i < count; i += kLanes) {

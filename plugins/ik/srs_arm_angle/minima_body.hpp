@@ -96,7 +96,7 @@ class Descent {
 
   bool has_poles_;
   Nodes left_, right_, last_{};
-  Lanes least_;   // the least that a miss is of step times width^2
+  Lanes least_;     // the least that a miss is of step times width^2
   Lanes spread_{};  // step times width^2 of the cubic that led to the next place; 0: of none
   Nodes best_{all(0), all(std::numeric_limits<double>::infinity()), all(0)};
   Lanes next_;
@@ -105,7 +105,7 @@ class Descent {
 };
 
 [[gnu::flatten]] void minima(const ArmNumbers& arm, const SrsGoal& goal, const Aim& aim, int count,
-            const Valley* valleys, Node* minima) {
+                             const Valley* valleys, Node* minima) {
   const CostFunction cost{arm, goal, aim};
   for (; count > 0; count -= kLanes, valleys += kLanes, minima += kLanes) {
     const auto nodes = [&](Node Valley::*side) {

@@ -40,8 +40,8 @@ void copy_branch(const EightBranches& from, std::size_t k, std::size_t to, Eight
   copy_bit(from.singular, out.singular);
 }
 
-/// At the end of a span rounding may put a fast joint of branch `i` beyond its limit: it is solved a
-/// little further inside.
+/// At the end of a span rounding may put a fast joint of branch `i` beyond its limit: it is solved
+/// a little further inside.
 void move_inside(const SrsArm& arm, const SrsGoal& goal, const Spans& spans, std::size_t i,
                  EightPlaces& at, EightBranches& found) {
   constexpr double kParts[4]{1e-9, 1e-6, 1e-3, 1.0};

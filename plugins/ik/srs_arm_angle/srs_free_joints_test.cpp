@@ -24,7 +24,7 @@ class SrsFreeJoints : public testing::Test {
   std::mt19937_64 random_{5};
 };
 
-TEST_F(SrsFreeJoints, AShoulderInLineKeepsTheSeedsFirstJointAndBothShouldersAreOne) {
+TEST_F(SrsFreeJoints, AShoulderWithCollinearAxesKeepsTheSeedsFirstJointAndBothShouldersAreOne) {
   JointVector q(7), seed = JointVector::Zero(7);
   q << 0.3, 0, 0.4, 1, 0.5, 0.6, 0.7;
   seed[0] = -0.7;
@@ -39,7 +39,7 @@ TEST_F(SrsFreeJoints, AShoulderInLineKeepsTheSeedsFirstJointAndBothShouldersAreO
   EXPECT_EQ(kept, 4);
 }
 
-TEST_F(SrsFreeJoints, AWristInLineKeepsTheSeedsFifthJoint) {
+TEST_F(SrsFreeJoints, AWristWithCollinearAxesKeepsTheSeedsFifthJoint) {
   JointVector q(7), seed = JointVector::Zero(7);
   q << 0.3, 0.2, 0.4, 1, 0.5, 0, 0.7;
   seed[4] = 2;
@@ -53,7 +53,7 @@ TEST_F(SrsFreeJoints, AWristInLineKeepsTheSeedsFifthJoint) {
   EXPECT_EQ(kept, 4);
 }
 
-TEST_F(SrsFreeJoints, TurnsInLineAreSharedOutSoThatTheLimitsAreKept) {
+TEST_F(SrsFreeJoints, TurnsOfCollinearAxesAreSharedOutSoThatTheLimitsAreKept) {
   auto joints = med7()->joints();
   for (const std::size_t i : {0U, 4U}) joints[i].lower = -1, joints[i].upper = 2;
   for (const std::size_t i : {2U, 6U}) joints[i].lower = -0.5, joints[i].upper = 0.5;

@@ -6,8 +6,8 @@
 
 namespace armature::ik::srs_arm_angle {
 
-/// `goal`, which must be a good one (invalid_input), in SrsArm's form. F, the frame in which the arm
-/// angle turns, has its z along the line from shoulder to wrist and its y level:
+/// `goal`, which must be a good one (invalid_input), in SrsArm's form. F, the frame in which the
+/// arm angle turns, has its z along the line from shoulder to wrist and its y level:
 ///
 ///   shoulder_R_upper(psi) = F Rz(psi) Ry(-phi),  F = Rz(azimuth) Ry(polar)
 ///   F^T shoulder_R_wrist  = Rz(alpha) Ry(gamma) Rz(beta)

@@ -81,13 +81,8 @@ std::string mismatch(const RobotModel& model) {
 /// Joints whose axis points against the pattern's: Z(t, d) = Rx(180) Z(-t, -d) Rx(180) turns one
 /// round, and the half turns go into the twists of the links on either side.
 std::array<bool, kJoints> turned_joints(const Links& links) {
-  constexpr std::array<double, kJoints> kTwist{0,
-                                               -kPi / 2,
-                                               kPi / 2,
-                                               kPi / 2,
-                                               -kPi / 2,
-                                               -kPi / 2,
-                                               kPi / 2};
+  constexpr std::array<double, kJoints> kTwist{0,        -kPi / 2, kPi / 2, kPi / 2,
+                                               -kPi / 2, -kPi / 2, kPi / 2};
   std::array<bool, kJoints> turned{};
   for (std::size_t i = 1; i < kJoints; ++i) {
     const double wanted = kTwist[i] + (turned[i - 1] ? kPi : 0);
@@ -124,8 +119,7 @@ void set_limits(const RobotModel& model, std::size_t i, SrsArm& arm) {
   arm.half_turn[i] = wide < kPi ? turn(wide) : SinCos{0, -1};
   if (i == 3) return;
   for (const std::size_t side : {0U, 1U}) {
-    const double end =
-        wide < kPi ? arm.middle[i] + (side == 0 ? -half : half) : std::nan("");
+    const double end = wide < kPi ? arm.middle[i] + (side == 0 ? -half : half) : std::nan("");
     arm.end_sin[i % 4][i / 4 * 2 + side] = std::sin(end);
     arm.end_cos[i % 4][i / 4 * 2 + side] = std::cos(end);
   }
@@ -153,9 +147,8 @@ Expected<SrsArm> srs_arm(const RobotModel& model) {
   for (std::size_t i = 0; i < kJoints; ++i) set_limits(model, i, arm);
   arm.base_T_shoulder = joints[0].placement.value_or(Eigen::Isometry3d::Identity()) *
                         links[0].transform() * Eigen::Translation3d{0, 0, joints[0].d};
-  arm.wrist_T_tool = Eigen::Translation3d{0, 0, d(6)} *
-                     Link{0, turned[6] ? kPi : 0}.transform() * links[7].transform() *
-                     model.frame(model.tool()).parent_T_frame;
+  arm.wrist_T_tool = Eigen::Translation3d{0, 0, d(6)} * Link{0, turned[6] ? kPi : 0}.transform() *
+                     links[7].transform() * model.frame(model.tool()).parent_T_frame;
   return arm;
 }
 

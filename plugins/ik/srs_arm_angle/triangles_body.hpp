@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The spherical triangles of shoulders and wrists (Triangle), four at once. Bodies are compiled once
-// for each kind of processor (arm_kernel.cpp), everything unnamed so that they never mix.
+// The spherical triangles of shoulders and wrists (Triangle), four at once. Bodies are compiled
+// once for each kind of processor (arm_kernel.cpp), everything unnamed so that they never mix.
 #pragma once
 
 #include <cstring>
@@ -50,7 +50,8 @@ struct Triangles {
   explicit Triangles(const Triangle& one) : Triangles{one, one} {}
 
   static LaneSinCos both(const SinCos& low, const SinCos& high) {
-    return {Lanes{low.sin, low.sin, high.sin, high.sin}, Lanes{low.cos, low.cos, high.cos, high.cos}};
+    return {Lanes{low.sin, low.sin, high.sin, high.sin},
+            Lanes{low.cos, low.cos, high.cos, high.cos}};
   }
   /// x at an arm angle.
   LaneSinCos x_at(const LaneSinCos& arm_angle) const {
@@ -66,8 +67,7 @@ struct Angles {
   Masks collinear;
   Lanes inverse_sine;  // of b; 1 where the axes are collinear
 };
-inline Angles angles_at(const Triangles& t, const LaneSinCos& arm_angle,
-                                               double collinear) {
+inline Angles angles_at(const Triangles& t, const LaneSinCos& arm_angle, double collinear) {
   const LaneSinCos x = t.x_at(arm_angle);
   const Lanes m13 = t.cos_sin * x.cos + t.sin_cos, m23 = t.q.sin * x.sin;
   Angles angles;

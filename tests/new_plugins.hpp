@@ -79,8 +79,8 @@ target_link_libraries(precompiled PRIVATE Armature::kinds Armature::trajectory)
 set_target_properties(precompiled PROPERTIES POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden
                                              VISIBILITY_INLINES_HIDDEN ON)
 target_precompile_headers(precompiled PRIVATE <Eigen/Geometry> <functional> <memory> <optional>
-  <string> <vector> "armature/kinds/trajectory/trajectory_planner.hpp"
-  "armature/runtime/component/setup.hpp")
+  <string> <vector> <armature/kinds/trajectory/trajectory_planner.hpp>
+  <armature/runtime/component/setup.hpp>)
 get_property(folders DIRECTORY PROPERTY SUBDIRECTORIES)
 foreach(folder ${folders})
   get_property(targets DIRECTORY ${folder} PROPERTY BUILDSYSTEM_TARGETS)

@@ -84,12 +84,14 @@ TEST_F(YourOwn, ComponentComesAboutAsThePageSays) {
   const std::string out = run_page("docs/your_own_component.md");
   EXPECT_EQ(out.find("FAIL"), std::string::npos) << out;
   EXPECT_NE(out.find("top speed of the tool"), std::string::npos) << out;
+  EXPECT_NE(out.find("\nrefused, as it should be\n"), std::string::npos) << out;
 }
 
 TEST_F(YourOwn, CameraComesAboutAsThePageSays) {
   const std::string out = run_page("docs/your_own_camera.md");
   EXPECT_EQ(out.find("FAIL"), std::string::npos) << out;
   EXPECT_NE(out.find("oldest picture when it was published"), std::string::npos) << out;
+  EXPECT_NE(out.find("\nrefused, as it should be\n"), std::string::npos) << out;
 }
 
 /// What is indented, but for the lines that build: that was done for all of them at once.

@@ -8,8 +8,6 @@
 # ARMATURE_FOR_PROCESSOR(name), which become portable_name, avx2_name, avx512_name. HEADER declares
 # them and whatever inline functions the source shares with others: those stay every processor's.
 
-set(ARMATURE_KERNEL_TEMPLATE "${CMAKE_CURRENT_LIST_DIR}/kernel.cpp.in")
-
 function(armature_add_kernel id source)
   cmake_parse_arguments(arg "" "HEADER" "FOR" ${ARGN})
   string(REPLACE "/" "_" target "${id}")
@@ -28,7 +26,7 @@ function(armature_add_kernel id source)
                                  "\n#define ARMATURE_AVX512")
     endif()
     set(generated "${CMAKE_CURRENT_BINARY_DIR}/${name}_${KERNEL_PROCESSOR}.cpp")
-    configure_file("${ARMATURE_KERNEL_TEMPLATE}" "${generated}" @ONLY)
+    configure_file("${CMAKE_CURRENT_FUNCTION_LIST_DIR}/kernel.cpp.in" "${generated}" @ONLY)
     target_sources(${target} PRIVATE "${generated}")
     set_source_files_properties("${generated}" PROPERTIES
       SKIP_PRECOMPILE_HEADERS ON SKIP_UNITY_BUILD_INCLUSION ON

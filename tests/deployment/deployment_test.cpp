@@ -49,12 +49,13 @@ class DeploymentTest : public testing::Test {
     RunReport::Ending ending;
     if (tells_timing) ending.timing = timing_of(deployment);
     const RunReport report{deployment, ending};
-    Told told{.status = report.status(),
-              .reasons = report.reasons(),
-              .metrics = {},
-              .texts = {},
-              .json = to_json(report),
-              .table = to_table(report)};
+    Told told{
+        .status = report.status(),
+        .reasons = report.reasons(),
+        .metrics = {},
+        .texts = {},
+        .json = to_json(report),
+        .table = to_table(report, [](std::string_view word, bool) { return std::string{word}; })};
     for (const auto& figure : report.figures()) {
       if (const auto* value = std::get_if<double>(&figure.value)) told.metrics[figure.key] = *value;
       if (const auto* text = std::get_if<std::string>(&figure.value)) {

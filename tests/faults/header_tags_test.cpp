@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string replaced(const std::string& text, const std::string& pattern, const std::string& by) {
+std::string with_every(const std::string& text, const std::string& pattern, const std::string& by) {
   const std::string changed = std::regex_replace(text, std::regex{pattern}, by);
   EXPECT_NE(changed, text) << pattern;
   return changed;
@@ -66,8 +66,8 @@ class HeaderTags : public testing::Test {
   }
 
   std::string with_another_virtual_function() const {
-    return replaced(header_, "virtual IkStatus solve",
-                    "virtual int more() const;\n  virtual IkStatus solve");
+    return with_every(header_, "virtual IkStatus solve",
+                      "virtual int more() const;\n  virtual IkStatus solve");
   }
 
   const std::string header_ = text_of(source_file("framework/armature/kinds/ik/ik.hpp"));
@@ -77,8 +77,8 @@ class HeaderTags : public testing::Test {
 
 TEST_F(HeaderTags, CommentsAndBlanksDoNotCount) {
   const auto before = tags_with(header_);
-  EXPECT_EQ(tags_with(replaced(header_, "//[^\n]*", "// another")), before);
-  EXPECT_EQ(tags_with(replaced(header_, "[{]\n", "{\n\n  /* more\n * lines **/\n")), before);
+  EXPECT_EQ(tags_with(with_every(header_, "//[^\n]*", "// another")), before);
+  EXPECT_EQ(tags_with(with_every(header_, "[{]\n", "{\n\n  /* more\n * lines **/\n")), before);
 }
 
 TEST_F(HeaderTags, AVirtualFunctionChangesThoseOfTheLibraryAndOfWhatStandsOnIt) {

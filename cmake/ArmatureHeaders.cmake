@@ -37,11 +37,11 @@ function(armature_tag_headers)
   foreach(library ${libraries})
     list(APPEND headers ${${library}_headers})
   endforeach()
-  set(tags "${Armature_BINARY_DIR}/generated/armature/header_tags.hpp")
+  set(tags "${Armature_BINARY_DIR}/generated/armature/values/header_tags.hpp")
   set(script "${Armature_SOURCE_DIR}/cmake/header_tags.cmake")
   add_custom_command(OUTPUT "${tags}"
     COMMAND ${CMAKE_COMMAND} -D LIBRARIES=${Armature_BINARY_DIR}/libraries.cmake -D OUTPUT=${tags} -P ${script}
     DEPENDS ${headers} "${script}" "${Armature_BINARY_DIR}/libraries.cmake" VERBATIM)
   add_custom_target(armature_header_tags DEPENDS "${tags}")
-  install(FILES "${tags}" DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/armature)
+  install(FILES "${tags}" DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/armature/values)
 endfunction()

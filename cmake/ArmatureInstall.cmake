@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # find_package(Armature) for plugin authors, from an installation or straight from a build folder.
 include(CMakePackageConfigHelpers)
-set(package_files cmake/ArmaturePlugin.cmake cmake/plugin_manifest.cpp.in cmake/ArmatureKernel.cmake cmake/kernel.cpp.in
-                  cmake/ArmatureMessages.cmake)
+set(package_files cmake/ArmaturePlugin.cmake cmake/plugin_manifest.cpp.in cmake/ArmatureMessages.cmake)
 
 install(EXPORT ArmatureTargets NAMESPACE Armature:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/Armature)
 export(EXPORT ArmatureTargets NAMESPACE Armature:: FILE "${Armature_BINARY_DIR}/ArmatureTargets.cmake")

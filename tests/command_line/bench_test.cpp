@@ -134,7 +134,7 @@ TEST(BenchIk, ReadsParametersAsStrictlyAsADeployment) {
     return result.err;
   };
   EXPECT_EQ(refusal("{ik/numeric: {max_restarts: -1, candidates: many}}"),
-            "--params:1:29: 'max_restarts' is -1, must be at least 0\n"
+            "--params:1:29: 'max_restarts' is -1, must be from 0 to 10000\n"
             "--params:1:45: 'candidates' must be a whole number, not 'many'\n");
   EXPECT_EQ(refusal("{ik/numeric: {max_restart: 3}}"),
             "--params:1:15: unknown key 'max_restart' in params of 'ik/numeric'; did you mean "

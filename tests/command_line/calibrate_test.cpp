@@ -216,7 +216,8 @@ const BadPoses kBadPoses[] = {
      {"tool"},
      R"({"tracker_T_body":{"position_m":[0,0,NaN],"quaternion_xyzw":[0,0,0,1]}})",
      3,
-     "bad.jsonl:1:38: must be a list of numbers; item 3 must be a number, not 'NaN'; it must be "
+     "bad.jsonl:1:38: 'position_m' must be a list of 3 numbers; item 3 must be a number, not "
+     "'NaN'; it must be "
      "finite\n"},
     {"NoRotation",
      {"tool"},

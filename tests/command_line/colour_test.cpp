@@ -9,7 +9,7 @@
 namespace armature::test {
 namespace {
 
-const std::string kUnknown = armature() + " ik --robot nowhere.yaml --plugin ik/numeric";
+const std::string kUnknown = armature() + " plugin info ik/nothing";
 
 /// What `armature` prints of an error on a terminal of this sort.
 std::string on_terminal(const std::string& environment) {

@@ -28,7 +28,7 @@ std::string with_every(const std::string& text, const std::string& pattern, cons
 class HeaderTags : public testing::Test {
  protected:
   HeaderTags() {
-    fs::create_directories(folder_ / "armature");
+    fs::create_directories(folder_);
     write("libraries.cmake",
           "set(libraries \"abi;path;ik;select\")\n"
           "set(abi_headers \"" +
@@ -50,7 +50,7 @@ class HeaderTags : public testing::Test {
   /// The tag of each library when the header of `ik` is this.
   std::map<std::string, std::string> tags_with(const std::string& header) const {
     write("ik.hpp", header);
-    const fs::path written = folder_ / "armature/header_tags.hpp";
+    const fs::path written = folder_ / "header_tags.hpp";
     const auto result = run_command(
         {CMAKE_PROGRAM, "-D", "LIBRARIES=" + (folder_ / "libraries.cmake").string(), "-D",
          "OUTPUT=" + written.string(), "-P", source_file("cmake/header_tags.cmake")});

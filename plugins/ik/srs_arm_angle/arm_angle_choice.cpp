@@ -5,38 +5,37 @@
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <span>
+#include <numbers>
+#include <utility>
 
-#include "srs_goal.hpp"
+#include "places.hpp"
 
-namespace armature::ik::srs_arm_angle {
+namespace armature {
 namespace {
-
-constexpr double kTurn = 2 * kPi;
 
 /// Between two angles in [-pi, pi], the short way round.
 double between(double a, double b) {
   const double way = std::abs(a - b);
-  return std::min(way, kTurn - way);
-}
-
-bool is_of_elbow1(int branch) { return (kOfElbow1 >> branch & 1) != 0; }
-double half_turn_of(int branch) { return is_of_elbow1(branch) ? kPi : 0; }
-
-/// Two neighbours have a minimum between them (as in mark_valleys).
-bool is_valley(const Node& left, const Node& right) {
-  return (left.slope < 0 && (right.slope >= 0 || right.value > left.value)) ||
-         (right.slope > 0 && (left.slope <= 0 || left.value > right.value));
+  return std::min(way, 2 * std::numbers::pi - way);
 }
 
 /// A minimum between a falling and a rising slope is not below where their tangents meet. Where the
 /// chord is steeper than one of them, the valley is not convex and they tell nothing.
-bool may_fall_below(double least, const Node& left, const Node& right) {
+template <class Node>
+inline bool may_fall_below(double least, const Node& left, const Node& right) {
   const double fall = left.slope, rise = right.slope, width = right.at - left.at;
   const double climb = right.value - left.value, bend = rise - fall;
-  const bool convex = climb > fall * width && climb < rise * width;
   // The tangents meet at left.value + fall (rise width - climb) / bend.
-  return !convex || fall * (rise * width - climb) <= (least - left.value) * bend;
+  const double room = (least - left.value) * bend;
+  const bool convex = (climb > fall * width) & (climb < rise * width);
+  return !convex | (fall * (rise * width - climb) <= room);
+}
+
+/// By the rounding of the table, which is of single precision: next to limits a joint's counts for
+/// more.
+inline double raised(double cost) {
+  const double size = std::abs(cost);
+  return cost + (1e-5 + 1e-6 * size) * size;
 }
 
 }  // namespace
@@ -55,186 +54,250 @@ double nearest_in(const Spans& spans, double wanted) {
   return best;
 }
 
-double ArmAngleChoice::wanted() {
-  if (!wanted_) wanted_ = arm_angle_of(arm_, seed_);
+double ArmAngleChoice::has_subscribers() {
+  if (!wanted_) wanted_ = arm_angle_of(numbers_.arm, canonical(numbers_.arm, seed_));
   return *wanted_;
 }
 
-double ArmAngleChoice::nearest_to_wanted(int branch, const Spans& spans) {
-  if (spans.count == 0) return wanted();
-  const double half_turn = half_turn_of(branch);
-  const double turned = wrap_angle(wanted() - half_turn), at = nearest_in(spans, turned);
-  return at == turned ? wanted() : wrap_angle(at + half_turn);
+double ArmAngleChoice::nearest_to_wanted(std::size_t branch, const Spans& spans) {
+  if (spans.count == 0) return has_subscribers();
+  const double turned = wrap_angle(has_subscribers() - half_turns(kBranches[branch].elbow)),
+               at = nearest_in(spans, turned);
+  return at == turned ? has_subscribers() : wrap_angle(at + half_turns(kBranches[branch].elbow));
 }
 
-/// Places go on behind pi.
-Node ArmAngleChoice::table_node(int branch, int place) const {
-  const int round = table_.count - 1;  // the last place is the first one
-  const bool behind = place >= round;
-  const int i = behind ? place - round : place;
-  return {branch, table_.place[i] + (behind ? kTurn : 0) + half_turn_of(branch),
-          table_.value[branch][i], table_.slope[branch][i]};
+ArmAngleChoice::Node ArmAngleChoice::node_of(std::size_t branch, int place) const {
+  return {table_.place[place] + half_turns(kBranches[branch].elbow), table_.value[branch][place],
+          table_.slope[branch][place]};
 }
 
-/// The first place that is not below `at`, which is not below -pi.
-int ArmAngleChoice::place_from(double at) const {
-  if (at > kPi) return place_from(at - kTurn) + table_.count - 1;
-  // Among regular places alone it is this or the next one; behind that there may be more.
-  int i = table_.of_regular[static_cast<int>((at + kPi) * (table_.regular / kTurn))];
-  i += table_.place[i] < at ? 1 : 0;
-  while (table_.place[i] < at) ++i;
-  return i;
+void ArmAngleChoice::add_end(const Stretch& stretch, End::Kind kind, double at) {
+  end_[ends_++] = {&stretch, kind, {at + half_turns(kBranches[stretch.branch].elbow), 0, 0}};
 }
 
-int ArmAngleChoice::add_node(int branch, double at, bool is_inner) {
-  if (count_nodes_ == kMaxNodes) return count_nodes_ - 1;
-  is_inner_[count_nodes_] = is_inner;
-  nodes_[count_nodes_] = {branch, at + half_turn_of(branch), 0, 0};
-  return count_nodes_++;
+/// Where the stretch goes down to them, or has no place; of a point the lower one.
+void ArmAngleChoice::add_ends(const Stretch& stretch) {
+  const auto& [lower, upper] = stretch.span;
+  const float* slope = table_.slope[stretch.branch];
+  const bool empty = stretch.first == stretch.end, point = lower == upper;
+  const bool to_lower = empty || (!stretch.cut_below && slope[stretch.first] > 0);
+  const bool to_upper = empty ? !point : !stretch.cut_above && slope[stretch.end - 1] < 0;
+  if (to_lower) add_end(stretch, End::Kind::lower, lower);
+  if (to_upper) add_end(stretch, End::Kind::upper, upper);
 }
 
-void ArmAngleChoice::add_valley(const Node& left, const Node& right) {
-  if (count_valleys_ < kMaxValleys) valleys_[count_valleys_++] = {left, right};
-}
-
-void ArmAngleChoice::add_spans(int branch, const Spans& spans) {
-  const Span *first = spans.begin(), *end = spans.end();
-  if (first == end) return;
-  const bool round = first->lower == -kPi && (end - 1)->upper == kPi;
-  if (round && end - first > 1) {  // a span across the cut is one
-    --end;
-    add_span(branch, {end->lower, first->upper + kTurn});
-    ++first;
-  }
-  for (; first != end; ++first) add_span(branch, *first);
-}
-
-/// Its valleys between places, and those between an end to which the cost goes down and the place
-/// next to it. What has neither is too narrow for that.
-void ArmAngleChoice::add_span(int branch, const Span& span) {
-  constexpr int kFew = 2;
-  if (goal_.shoulder.collinear || goal_.wrist.collinear) add_collinear_places(branch, span);
-  const bool round = span.upper - span.lower >= kTurn;
-  const int first = place_from(span.lower),
-            last = round ? first + table_.count - 1 : place_from(span.upper) - 1;
-  if (last - first + 1 < kFew) return add_narrow_span(branch, span);
-  add_valleys_between(branch, first, last);
-  if (round) return;
-  const Node left = table_node(branch, first), right = table_node(branch, last);
-  if (left.slope > 0) pending_[count_pending_++] = {{{}, left}, add_node(branch, span.lower), -1};
-  if (right.slope < 0) pending_[count_pending_++] = {{right, {}}, -1, add_node(branch, span.upper)};
-}
-
-/// At its ends, and if it is not tiny at three places within.
-void ArmAngleChoice::add_narrow_span(int branch, const Span& span) {
-  constexpr double kTiny = 1e-3;  // [rad]
-  const double width = span.upper - span.lower;
-  const int steps = width > kTiny ? 2 : width > 0 ? 1 : 0;
-  int left = add_node(branch, span.lower);
-  for (int i = 1; i <= steps; ++i) {
-    const int right = add_node(branch, span.lower + width * i / steps, i < steps);
-    pending_[count_pending_++] = {{}, left, right};
-    left = right;
-  }
-}
-
-void ArmAngleChoice::add_valleys_between(int branch, int first, int last) {
-  const int round = table_.count - 1;
-  if (first < round && last > round) {
-    add_valleys_between(branch, first, round);
-    return add_valleys_between(branch, round, last);
-  }
-  const int shift = first >= round ? round : 0;
-  for (int i = first - shift; i < last - shift;) {
-    const int left_in_word = std::min(last - shift - i, 64 - i % 64);
-    std::uint64_t bits = table_.valley[branch][i / 64] >> (i % 64);
-    bits &= ~std::uint64_t{0} >> (64 - left_in_word);
-    for (; bits != 0; bits &= bits - 1) {
-      const int place = i + shift + std::countr_zero(bits);
-      add_valley(table_node(branch, place), table_node(branch, place + 1));
-    }
-    i += left_in_word;
-  }
-}
-
-/// Where axes are collinear turns are shared out, so that it may cost less than all around.
-void ArmAngleChoice::add_collinear_places(int branch, const Span& span) {
-  for (const Triangle* triangle : {&goal_.shoulder, &goal_.wrist}) {
+void ArmAngleChoice::add_places_in_line(const Stretch& stretch) {
+  const auto add = [&](const SinCos& p, const SinCos& q, double whole) {
     for (const auto& [x, sine] :
-         {std::pair{0.0, triangle->sine_at_0}, std::pair{kPi, triangle->sine_at_pi}}) {
-      if (!triangle->collinear || sine >= 2 * goal_.collinear) continue;
-      const double at = wrap_angle(triangle->direction * (x - triangle->start_rad));
-      for (const double each : {at, at + kTurn}) {
-        if (each >= span.lower && each <= span.upper) add_node(branch, each);
+         {std::pair{0.0, (p + q).sin}, std::pair{std::numbers::pi, (p - q).sin}}) {
+      if (std::abs(sine) >= 2 * goal_.in_line) continue;
+      const double at = wrap_angle(whole - x);
+      if (at >= stretch.span.lower && at <= stretch.span.upper) {
+        add_end(stretch, End::Kind::in_line, at);
       }
+    }
+  };
+  if (goal_.shoulder_in_line) add(goal_.polar, -goal_.phi, 0);
+  if (goal_.wrist_in_line) add(goal_.bend, goal_.gamma, goal_.alpha_rad);
+}
+
+void ArmAngleChoice::set_costs_of_ends() {
+  for (std::size_t i = 0; i < ends_; i += 8) {
+    EightPlaces at;
+    for (std::size_t k = 0; k < 8; ++k) {
+      const End& end = end_[std::min(i + k, ends_ - 1)];
+      at.arm_angle[k] = end.node.at;
+      at.branch[k] = static_cast<int>(end.stretch->branch);
+    }
+    const std::size_t count = std::min<std::size_t>(8, ends_ - i);
+    double value[8], slope[8];
+    kernel_.cost_at(numbers_, goal_, aim_, at, static_cast<int>(count), value, slope);
+    for (std::size_t k = 0; k < count; ++k) {
+      end_[i + k].node.value = value[k];
+      end_[i + k].node.slope = slope[k];
     }
   }
 }
 
 /// Among equals the nearest to what is wanted is the best.
-void ArmAngleChoice::consider(const Node& node) {
-  Best& best = best_[static_cast<std::size_t>(node.branch)];
-  const double equal = 1e-10 * std::abs(node.value);  // what minima are predicted to
-  if (!(node.value <= best.value + equal)) return;
-  if (node.value >= best.value - equal &&
-      std::abs(wrap_angle(node.at - wanted())) >= std::abs(wrap_angle(best.at - wanted()))) {
+void ArmAngleChoice::consider(const Best& another, Best& best) {
+  const double equal = 1e-10 * std::abs(another.value);  // what minima are predicted to
+  if (!(another.value <= best.value + equal)) return;
+  if (another.value >= best.value - equal &&
+      std::abs(wrap_angle(another.at - has_subscribers())) >=
+          std::abs(wrap_angle(best.at - has_subscribers()))) {
     return;
   }
-  best = {node.at, node.value};
+  best = another;
 }
 
-void ArmAngleChoice::drop_hopeless_valleys() {
-  std::array<double, 8> least;
-  for (std::size_t i = 0; i < 8; ++i) least[i] = best_[i].value;
-  const auto valleys = std::span{valleys_}.first(count_valleys_);
-  for (const Valley& valley : valleys) {
-    double& known = least[static_cast<std::size_t>(valley.left.branch)];
-    known = std::min({known, valley.left.value, valley.right.value});
-  }
-  constexpr double kEqual = 1e-9;
-  const auto is_hopeless = [&](const Valley& valley) {
-    const double known = least[static_cast<std::size_t>(valley.left.branch)];
-    return !may_fall_below(known + kEqual * std::abs(known), valley.left, valley.right);
-  };
-  count_valleys_ = static_cast<int>(std::remove_if(valleys.begin(), valleys.end(), is_hopeless) -
-                                    valleys.begin());
+/// Of a valley behind a place, the next one outside on the nearer side, otherwise on the other.
+ArmAngleChoice::Node ArmAngleChoice::outer_node(const Stretch& stretch, int place,
+                                                bool left_is_nearer) const {
+  const bool before = place > stretch.first, behind = place + 2 < stretch.end;
+  if (before && (left_is_nearer || !behind)) return node_of(stretch.branch, place - 1);
+  return behind ? node_of(stretch.branch, place + 2) : kNoNode;
 }
 
-void ArmAngleChoice::find_best(const SpansByBranch& spans) {
-  set_places(goal_, aim_, table_);
-  kernel().costs_all_round(arm_, goal_, aim_, table_);
-  for (int branch = 0; branch < 8; ++branch) {
-    add_spans(branch, spans[static_cast<std::size_t>(branch)]);
-  }
-  kernel().costs(arm_, goal_, aim_, count_nodes_, nodes_.data());
-  for (int i = 0; i < count_nodes_; ++i) {
-    if (!is_inner_[i]) consider(nodes_[i]);
-  }
-  for (int i = 0; i < count_pending_; ++i) {
-    auto& [valley, left, right] = pending_[i];
-    if (left >= 0) valley.left = nodes_[left];
-    if (right >= 0) valley.right = nodes_[right];
-    if (is_valley(valley.left, valley.right)) add_valley(valley.left, valley.right);
-  }
-  drop_hopeless_valleys();
-  std::array<Node, kMaxValleys> minima;
-  kernel().minima(arm_, goal_, aim_, count_valleys_, valleys_.data(), minima.data());
-  for (int i = 0; i < count_valleys_; ++i) consider(minima[i]);
+/// Where the table says that a valley begins or ends it may do so a little beyond.
+void ArmAngleChoice::add_valley(const Stretch& stretch, const Node& left, const Node& right,
+                                const Node& outer) {
+  if (valleys_ == kValleys) return;
+  const double turn = half_turns(kBranches[stretch.branch].elbow);
+  const double beyond = 1e-3 * (right.at - left.at);
+  valley_[valleys_++] = {stretch.branch,
+                         left,
+                         right,
+                         outer,
+                         std::max(left.at - beyond, stretch.span.lower + turn),
+                         std::min(right.at + beyond, stretch.span.upper + turn)};
 }
 
-void ArmAngleChoice::choose(const SpansByBranch& spans, std::array<double, 8>& arm_angle) {
+/// Considers an end, and notes the valley between it and the place next to it, or the other end.
+void ArmAngleChoice::look_at_end(const End& end, Best& best) {
+  const auto& [stretch, kind, node] = end;
+  consider({node.at, node.value}, best);
+  if (kind == End::Kind::in_line) return;
+  const bool upper = kind == End::Kind::upper;
+  const bool empty = stretch->first == stretch->end;
+  if (empty && !upper) return;  // the upper one looks at both, if there is one
+  const Node next = empty ? (&end - 1)->node
+                          : node_of(stretch->branch, upper ? stretch->end - 1 : stretch->first);
+  if (next.at == node.at) return;
+  const bool rises = upper ? node.slope > 0 : node.slope < 0;  // on the way out
+  if (!rises && node.value < next.value) return;
+  if (upper) {
+    add_valley(*stretch, next, node, kNoNode);
+  } else {
+    add_valley(*stretch, node, next, kNoNode);
+  }
+}
+
+/// Lists the places of a stretch behind which there are valleys; the least that is known.
+float ArmAngleChoice::list_valleys(const Stretch& stretch, float least) {
+  const float* value = table_.value[stretch.branch];
+  for (int i = stretch.first; i + 1 < stretch.end;) {
+    const int left = std::min(stretch.end - 1 - i, 64 - i % 64);
+    std::uint64_t bits = table_.valley[stretch.branch][i / 64] >> (i % 64);
+    bits &= ~std::uint64_t{0} >> (64 - left);
+    for (; bits != 0; bits &= bits - 1) {
+      const int place = i + std::countr_zero(bits);
+      listed_[count_listed_++] = {&stretch, place};
+      least = std::min({least, value[place], value[place + 1]});
+    }
+    i += left;
+  }
+  return least;
+}
+
+/// Along all stretches of one branch, from `first` to before `end`.
+void ArmAngleChoice::look_along(const Stretch* first, const Stretch* end, Best& best) {
+  const std::size_t from = valleys_;
+  float lowest = std::numeric_limits<float>::infinity();
+  count_listed_ = 0;
+  for (; looked_at_ < ends_ && end_[looked_at_].stretch < end; ++looked_at_) {
+    look_at_end(end_[looked_at_], best);
+  }
+  for (const Stretch* stretch = first; stretch != end; ++stretch) {
+    lowest = list_valleys(*stretch, lowest);
+  }
+  double least = std::min(best.value, static_cast<double>(lowest));
+  for (std::size_t i = from; i < valleys_; ++i) {
+    least = std::min({least, valley_[i].left.value, valley_[i].right.value});
+  }
+  least = raised(least);
+  std::size_t kept = from;
+  for (std::size_t i = from; i < valleys_; ++i) {
+    if (may_fall_below(least, valley_[i].left, valley_[i].right)) valley_[kept++] = valley_[i];
+  }
+  valleys_ = kept;
+  for (std::size_t i = 0; i < count_listed_; ++i) {
+    const auto& [stretch, place] = listed_[i];
+    const Node left = node_of(stretch->branch, place), right = node_of(stretch->branch, place + 1);
+    if (!may_fall_below(least, left, right)) continue;
+    add_valley(*stretch, left, right, outer_node(*stretch, place, left.value < right.value));
+  }
+}
+
+/// First into the most promising valley of each branch, then into those that may still fall below
+/// what was found there.
+void ArmAngleChoice::go_down(std::array<Best, 8>& best) {
+  std::size_t rest = 0;
+  chosen_ = 0;
+  for (std::size_t i = 0; i < valleys_; ++i) {
+    if (i == 0 || valley_[i - 1].branch != valley_[i].branch) {
+      choice_[chosen_++] = i;
+      continue;
+    }
+    std::size_t& promising = choice_[chosen_ - 1];
+    const bool better = valley_[i].lowest() < valley_[promising].lowest();
+    rest_[rest++] = better ? std::exchange(promising, i) : i;
+  }
+  go_down_chosen(best);
+  chosen_ = 0;
+  for (std::size_t i = 0; i < rest; ++i) {
+    const Valley& valley = valley_[rest_[i]];
+    const double least = raised(best[valley.branch].value);
+    if (may_fall_below(least, valley.left, valley.right)) choice_[chosen_++] = rest_[i];
+  }
+  go_down_chosen(best);
+}
+
+void ArmAngleChoice::go_down_chosen(std::array<Best, 8>& best) {
+  for (std::size_t from = 0; from < chosen_; from += 8) {
+    EightValleys valleys;
+    for (std::size_t k = 0; k < 8; ++k) {
+      const Valley& valley = valley_[choice_[std::min(from + k, chosen_ - 1)]];
+      const auto put = [&](const Node& node, EightNodes& nodes) {
+        nodes.at[k] = node.at, nodes.value[k] = node.value, nodes.slope[k] = node.slope;
+      };
+      valleys.branch[k] = static_cast<int>(valley.branch);
+      put(valley.left, valleys.left);
+      put(valley.right, valleys.right);
+      put(valley.outer, valleys.outer);
+      valleys.lower[k] = valley.lower, valleys.upper[k] = valley.upper;
+    }
+    const std::size_t count = std::min<std::size_t>(chosen_ - from, 8);
+    EightMinima minima;
+    kernel_.find_minima(numbers_, goal_, aim_, valleys, static_cast<int>(count), minima);
+    for (std::size_t k = 0; k < count; ++k) {
+      consider({minima.at[k], minima.value[k]}, best[valley_[choice_[from + k]].branch]);
+    }
+  }
+}
+
+void ArmAngleChoice::choose(const std::array<Spans, 8>& spans, std::array<double, 8>& arm_angle) {
   constexpr double kNothing = std::numeric_limits<double>::infinity();
+  std::array<Best, 8> best;
+  best.fill({0, kNothing});
+  if (aim_.objective != Objective::continuity) {
+    set_places(goal_, aim_, table_);
+    for (std::size_t branch = 0; branch < 8; ++branch) stretches_.add(branch, spans[branch]);
+    if (stretches_.begin() != stretches_.end()) find_best(best);
+  }
   constexpr double kSame = 1e-8;  // [rad] as exactly as minima are found
-  best_.fill({0, kNothing});
-  const bool any = std::any_of(spans.begin(), spans.end(), [](auto& s) { return s.count > 0; });
-  if (aim_.objective != Objective::continuity && any) find_best(spans);
   for (std::size_t branch = 0; branch < 8; ++branch) {
-    const double at = wrap_angle(best_[branch].at);
-    const bool found = best_[branch].value < kNothing;
+    const double at = wrap_angle(best[branch].at);
+    const bool found = best[branch].value < kNothing;
     const bool kept = aim_.remembers && between(at, aim_.last) <= kSame;
-    arm_angle[branch] =
-        found && !kept ? at : nearest_to_wanted(static_cast<int>(branch), spans[branch]);
+    arm_angle[branch] = found && !kept ? at : nearest_to_wanted(branch, spans[branch]);
   }
 }
 
-}  // namespace armature::ik::srs_arm_angle
+void ArmAngleChoice::find_best(std::array<Best, 8>& best) {
+  kernel_.cost_all_round(numbers_, goal_, aim_, table_);
+  for (const Stretch& stretch : stretches_) {
+    add_ends(stretch);
+    add_places_in_line(stretch);
+  }
+  set_costs_of_ends();
+  for (const Stretch* first = stretches_.begin(); first != stretches_.end();) {
+    const Stretch* after = first + 1;
+    while (after != stretches_.end() && after->branch == first->branch) ++after;
+    look_along(first, after, best[first->branch]);
+    first = after;
+  }
+  go_down(best);
+}
+
+}  // namespace armature

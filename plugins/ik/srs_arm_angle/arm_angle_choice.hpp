@@ -1,81 +1,106 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
+#include <limits>
 #include <optional>
 
-#include "armature/robot/model/joint_vector.hpp"
+#include "arm_kernel.hpp"
 #include "feasible_angles.hpp"
+#include "stretches.hpp"
 
-namespace armature::ik::srs_arm_angle {
+namespace armature {
 
-/// The arm angles that an objective likes best, one for each branch. Looks at regular arm angles
-/// around the turn, at three at least within every span, and where a shoulder or wrist is next to
-/// collinear and its outer joints therefore sweep through half a turn, at as many more as that
-/// takes; at a span's end where the cost goes down to it. Wherever two neighbours have a minimum
-/// between them it is found to 1e-8 rad, unless their tangents leave it no room below what is
-/// known. Answers once. No allocation; less than 256 KiB, for the stack.
+/// The arm angles that an objective likes best, one for each branch. Looks, in single precision, at
+/// regular places around the turn, at three at least of every span, and where a shoulder or wrist
+/// is next to in line and its outer joints therefore sweep through half a turn, at as many more as
+/// that takes; at a span's end where it goes down to it. Wherever two neighbours have a minimum
+/// between them it is found in double precision to 1e-8 rad, unless their tangents leave it no room
+/// below what is known. Answers once. No allocation; less than 256 KiB, for the stack.
 class ArmAngleChoice {
  public:
   /// The arm angle that is remembered, or the seed's, is what continuity keeps to, and what decides
   /// among equals.
-  ArmAngleChoice(const SrsArm& arm, const SrsGoal& goal, const Aim& aim, const JointVector& seed)
-      : arm_{arm}, goal_{goal}, aim_{aim}, seed_{seed} {
+  ArmAngleChoice(const ArmNumbers& numbers, const SrsGoal& goal, const SrsKernel& kernel,
+                 const Aim& aim, const JointVector& seed)
+      : numbers_{numbers}, goal_{goal}, kernel_{kernel}, aim_{aim}, seed_{seed} {
     if (aim.remembers) wanted_ = aim.last;
   }
+
   ArmAngleChoice(const ArmAngleChoice&) = delete;
   ArmAngleChoice& operator=(const ArmAngleChoice&) = delete;
 
-  /// By branch, from its spans; what is wanted where it has none.
-  void choose(const SpansByBranch& spans, std::array<double, 8>& arm_angle);
+  /// By branch, from its spans in arm angles of elbow 0; what is wanted where it has none.
+  void choose(const std::array<Spans, 8>& spans, std::array<double, 8>& arm_angle);
 
  private:
-  /// Nodes with a number in `nodes_` of what has still to be asked, or -1.
-  struct Pending {
-    Valley valley;
-    int left, right;
+  /// An arm angle of a branch [rad] and what it costs.
+  struct Node {
+    double at, value, slope;
+  };
+  static constexpr Node kNoNode{std::numeric_limits<double>::quiet_NaN(), 0, 0};
+  /// An end of a stretch, or a place within it where a ball is in line: its turns are shared out
+  /// there, so that it may cost less than all around it.
+  struct End {
+    enum class Kind { lower, upper, in_line };
+    const Stretch* stretch;
+    Kind kind;
+    Node node;
+  };
+  /// Between two nodes, or a little beyond them; `outer` is another one on either side, if any.
+  struct Valley {
+    std::size_t branch;
+    Node left, right, outer;
+    double lower, upper;
+    double lowest() const { return std::min(left.value, right.value); }
   };
   struct Best {
     double at, value;
   };
-  static constexpr int kMaxNodes = 640, kMaxValleys = 1024;
+  static constexpr std::size_t kEnds = 6 * Stretches::kMax, kValleys = 1024;
 
-  double wanted();
-  double nearest_to_wanted(int branch, const Spans& spans);
-  Node table_node(int branch, int place) const;
-  int place_from(double at) const;
-  int add_node(int branch, double at, bool is_inner = false);
-  void add_valley(const Node& left, const Node& right);
-  void add_spans(int branch, const Spans& spans);
-  void add_span(int branch, const Span& span);
-  void add_narrow_span(int branch, const Span& span);
-  void add_valleys_between(int branch, int first, int last);
-  void add_collinear_places(int branch, const Span& span);
-  void consider(const Node& node);
-  void drop_hopeless_valleys();
-  void find_best(const SpansByBranch& spans);
+  void find_best(std::array<Best, 8>& best);
+  double has_subscribers();
+  void add_ends(const Stretch& stretch);
+  void add_end(const Stretch& stretch, End::Kind kind, double at);
+  void add_places_in_line(const Stretch& stretch);
+  void set_costs_of_ends();
+  Node node_of(std::size_t branch, int place) const;
+  void add_valley(const Stretch& stretch, const Node& left, const Node& right, const Node& outer);
+  Node outer_node(const Stretch& stretch, int place, bool left_is_nearer) const;
+  void look_at_end(const End& end, Best& best);
+  float list_valleys(const Stretch& stretch, float least);
+  void look_along(const Stretch* first, const Stretch* end, Best& best);
+  void go_down(std::array<Best, 8>& best);
+  void go_down_chosen(std::array<Best, 8>& best);
+  void consider(const Best& another, Best& best);
+  double nearest_to_wanted(std::size_t branch, const Spans& spans);
 
-  const SrsArm& arm_;
+  const ArmNumbers& numbers_;
   const SrsGoal& goal_;
+  const SrsKernel& kernel_;
   const Aim& aim_;
   const JointVector& seed_;
   std::optional<double> wanted_;  // the seed's only when it is asked for
   CostTable table_;
-  std::array<Node, kMaxNodes> nodes_;
-  std::array<bool, kMaxNodes> is_inner_;  // of a narrow span: a node only, no candidate
-  int count_nodes_ = 0;
-  std::array<Pending, kMaxNodes> pending_;
-  int count_pending_ = 0;
-  std::array<Valley, kMaxValleys> valleys_;
-  int count_valleys_ = 0;
-  std::array<Best, 8> best_;
+  Stretches stretches_{table_};
+  std::array<End, kEnds> end_;  // in the order of the stretches
+  std::size_t ends_ = 0, looked_at_ = 0;
+  struct Listed {
+    const Stretch* stretch;
+    int place;
+  };
+  std::array<Listed, CostTable::kMax> listed_;  // valleys of one branch in the table
+  std::size_t count_listed_ = 0;
+  std::array<Valley, kValleys> valley_;
+  std::size_t valleys_ = 0;
+  std::array<std::size_t, kValleys> choice_, rest_;  // of valley_
+  std::size_t chosen_ = 0;
 };
 
 /// The angle of `spans`, which is not empty, that is nearest to `wanted`, the short way round.
 double nearest_in(const Spans& spans, double wanted);
 
-/// The arm angles at which costs are looked at all round: regular ones, and more where a shoulder
-/// or wrist comes next to collinear.
-void set_places(const SrsGoal& goal, const Aim& aim, CostTable& table);
-
-}  // namespace armature::ik::srs_arm_angle
+}  // namespace armature

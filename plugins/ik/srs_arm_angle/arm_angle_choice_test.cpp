@@ -12,12 +12,10 @@
 #include <optional>
 #include <string>
 
-#include "arm_branches.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
-#include "srs_goal.hpp"
 #include "test_arms.hpp"
 
-namespace armature::ik::srs_arm_angle {
+namespace armature {
 namespace {
 
 struct Subject {
@@ -167,35 +165,41 @@ std::vector<Subject> subjects() {
 INSTANTIATE_TEST_SUITE_P(Srs, ArmAngleChoices, testing::ValuesIn(subjects()),
                          testing::PrintToStringParamName());
 
-Node cost_at(const SrsArm& arm, const SrsGoal& goal, const Aim& aim, int branch, double at) {
-  Node node{branch, at, 0, 0};
-  kernel().costs(arm, goal, aim, 1, &node);
-  return node;
+/// Value and slope at one arm angle of one branch.
+struct Cost {
+  double value, slope;
+};
+Cost cost_at(const ArmNumbers& numbers, const SrsGoal& goal, const Aim& aim, int branch,
+             double arm_angle) {
+  const EightPlaces at{.arm_angle = {arm_angle}, .branch = {branch}};
+  double value[8], slope[8];
+  srs_kernel().cost_at(numbers, goal, aim, at, 1, value, slope);
+  return {value[0], slope[0]};
 }
 
 TEST(ArmAngleChoice, SlopesAreThoseOfTheCosts) {
   SCOPED_TRACE("seed 910");
   std::mt19937_64 random{910};
   const SrsArm arm = srs_arm(*uneven_arm()).value();
+  const ArmNumbers numbers = numbers_of(arm);
   std::uniform_real_distribution<double> angle{-M_PI, M_PI};
   int checked = 0;
   for (int i = 0; i < 2000; ++i) {
     const JointVector q = random_joints(*uneven_arm(), random);
     const SrsGoal goal = srs_goal(arm, goal_at(*uneven_arm(), q), q);
     const double at = angle(random);
-    const int branch = static_cast<int>(random() % 8);
-    EightBranches found;
-    solve(arm, goal, at, found);
-    const double s = std::sin(arm.canonical(1, found.joint[1][branch])),
-                 z = std::sin(arm.canonical(5, found.joint[5][branch]));
+    const ArmPosture posture = posture_at(arm_circle(goal, i % 2), at);
+    const double s = posture.shoulder.b.sin, z = posture.wrist.b.sin;
     if (std::min(s * s, z * z) < 0.01) continue;
+    const int shoulder = static_cast<int>(random() % 2), wrist = static_cast<int>(random() % 2);
+    const int branch = 4 * shoulder + 2 * (i % 2) + wrist;
     constexpr double kStep = 1e-6;
     for (const Objective objective :
          {Objective::limits, Objective::singularity, Objective::balanced}) {
       const Aim aim{.objective = objective, .remembers = true, .last = at - 0.3};
-      const Node here = cost_at(arm, goal, aim, branch, at);
-      const Node next = cost_at(arm, goal, aim, branch, at + kStep);
-      const Node last = cost_at(arm, goal, aim, branch, at - kStep);
+      const Cost here = cost_at(numbers, goal, aim, branch, at);
+      const Cost next = cost_at(numbers, goal, aim, branch, at + kStep);
+      const Cost last = cost_at(numbers, goal, aim, branch, at - kStep);
       if (!(here.value < 20)) continue;  // beyond the limits
       const double slope = (next.value - last.value) / (2 * kStep);
       EXPECT_NEAR(here.slope, slope, 1e-4 * (1 + std::abs(slope)));
@@ -205,28 +209,34 @@ TEST(ArmAngleChoice, SlopesAreThoseOfTheCosts) {
   EXPECT_GT(checked, 1000);
 }
 
+/// Though the table that leads there is of single precision.
 TEST(ArmAngleChoice, IsTheMinimumToATenMillionthOfARadian) {
   SCOPED_TRACE("seed 911");
   std::mt19937_64 random{911};
   const ModelPtr model = med7();
   const SrsArm arm = srs_arm(*model).value();
+  const ArmNumbers numbers = numbers_of(arm);
   const Aim aim{.objective = Objective::limits};
   int checked = 0;
   for (int i = 0; i < 20000; ++i) {
     const JointVector q =
         i % 2 == 0 ? joints_at_limits(*model, random) : random_joints(*model, random);
     const SrsGoal goal = srs_goal(arm, goal_at(*model, q), q);
-    SpansByBranch spans;
-    set_feasible_angles(arm, goal, spans);
+    const FeasibleAngles feasible{numbers, goal, srs_kernel()};
+    std::array<Spans, 8> spans;
+    for (std::size_t k = 0; k < 8; ++k) feasible.of_elbow0(kBranches[k], spans[k]);
     std::array<double, 8> chosen;
-    ArmAngleChoice{arm, goal, aim, q}.choose(spans, chosen);
+    ArmAngleChoice{numbers, goal, srs_kernel(), aim, q}.choose(spans, chosen);
     for (std::size_t k = 0; k < 8; ++k) {
       const int branch = static_cast<int>(k);
       if (spans[k].count == 0) continue;
       // Next to a limit rounding makes up the cost.
-      if (!(cost_at(arm, goal, aim, branch, chosen[k]).value < 1000)) continue;
-      EXPECT_LE(cost_at(arm, goal, aim, branch, chosen[k] - 1e-7).slope, 0) << q.transpose();
-      EXPECT_GE(cost_at(arm, goal, aim, branch, chosen[k] + 1e-7).slope, 0) << q.transpose();
+      const Cost here = cost_at(numbers, goal, aim, branch, chosen[k]);
+      if (!(here.value < 1000)) continue;
+      const Cost before = cost_at(numbers, goal, aim, branch, chosen[k] - 1e-7);
+      const Cost behind = cost_at(numbers, goal, aim, branch, chosen[k] + 1e-7);
+      EXPECT_LE(before.slope, 0) << q.transpose();
+      EXPECT_GE(behind.slope, 0) << q.transpose();
       ++checked;
     }
   }
@@ -262,4 +272,4 @@ TEST(ArmAngleChoice, OfAnArmWithoutLimitsStaysWhereItWas) {
 }
 
 }  // namespace
-}  // namespace armature::ik::srs_arm_angle
+}  // namespace armature

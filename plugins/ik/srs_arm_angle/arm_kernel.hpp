@@ -2,156 +2,123 @@
 #pragma once
 
 #include <cstdint>
-#include <numbers>
-#include <string_view>
 
-// Plain numbers only: what is compiled for one kind of processor must not share inline functions
-// with the rest.
-namespace armature::ik::srs_arm_angle {
+#include "arm_posture.hpp"
+#include "objective.hpp"
+#include "srs_goal.hpp"
+#include "srs_structure.hpp"
 
-inline constexpr double kPi = std::numbers::pi;
-inline constexpr double kLimitTolerance = 1e-9;  // [rad] that of the kind
+namespace armature {
 
-/// Sine and cosine of an angle.
-struct SinCos {
-  double sin = 0, cos = 1;
+/// What the kernel needs of joints 1 and 5, of 2 and 6, or of 3 and 7: first the shoulder's joint,
+/// twice, then the wrist's.
+struct TurnNumbers {
+  double sign[4], offset[4], middle[4], half[4];  // as in SrsArm
+  double weight[4];                               // 1 / half; 0 where the limits cost nothing
+  double middle_sin[4], middle_cos[4];
+  double half_sin[4],
+      half_cos[4];  // of half with its tolerance; 0 and -1 of a joint without limits
+  // Of the lower and the upper limit, shoulder and then wrist; NaN of a joint without limits.
+  double end_sin[4], end_cos[4];
 };
-
-/// Joints of an arm of SrsArm's form: t = sign q + offset; limits of t: middle +- half, which may
-/// be infinite [rad].
 struct ArmNumbers {
-  double upper = 0, fore = 0;  // [m] shoulder to elbow, elbow to wrist
-  double sign[7]{1, 1, 1, 1, 1, 1, 1}, offset[7]{};
-  double middle[7]{}, half[7]{};
-  double weight[7]{};  // 1 / half; 0 where the limits cost nothing
-  /// The middle, and the half with the tolerance that intervals have; half a turn without limits.
-  SinCos middle_turn[7], half_turn[7];
-  /// Lower and upper limits of joints 1 and 5, of 2 and 6, of 3 and 7; NaN without limits.
-  double end_sin[3][4]{}, end_cos[3][4]{};
+  SrsArm arm;
+  TurnNumbers turn[3];
 };
+ArmNumbers numbers_of(const SrsArm& arm);
 
-/// The shoulder (joints 1 to 3) or the wrist (5 to 7) at the arm angle psi, as a spherical triangle
-/// of the sides p, q and b:
-///
-///   Rz(a) Ry(b) Rz(c) = Ry(p) Rz(x) Ry(q),  x = start + direction psi
-///
-/// The joints are a + shift_a, b, c + shift_c; the other solution is a + pi, -b, c + pi.
-struct Triangle {
-  SinCos p, q, start;
-  double start_rad = 0, direction = 1;
-  double shift_a_rad = 0, shift_c_rad = 0;
-  SinCos shift_a, shift_c;
-  double sine_at_0 = 0, sine_at_pi = 0;  // sin b at x = 0 and at x = pi
-  /// The axes of a and c are collinear (sin b = 0) at some psi. Only a + c or a - c is determined
-  /// there, and a is kept.
-  bool collinear = false;
-  SinCos kept_a;
-};
-
-/// A goal in SrsArm's form, and what of the arm does not depend on the arm angle.
-struct SrsGoal {
-  double rotation[3][3];                  // columns of shoulder_R_wrist
-  double shoulder_to_wrist[3], lever[3];  // [m]; wrist to tool
-  double distance = 0;                    // [m] shoulder to wrist
-  double t4 = 0;                          // [rad] of elbow 0; elbow 1 has -t4
-  SinCos elbow;                           // of t4
-  Triangle shoulder, wrist;               // of elbow 0
-  double collinear = 0;                   // [rad] axes at a smaller angle are collinear
-  /// How far the wrist is out of reach [m], and why.
-  double shortfall = 0;
-  std::string_view detail;
-};
-
-/// Branch 4 s + 2 e + w is shoulder s, elbow e, wrist w. Elbow 1 at psi stands where elbow 0 does
-/// at psi - pi, with t3 and t5 half a turn on and t4 negated.
-inline constexpr std::string_view kLabels[8]{"shoulder0/elbow0/wrist0", "shoulder0/elbow0/wrist1",
-                                             "shoulder0/elbow1/wrist0", "shoulder0/elbow1/wrist1",
-                                             "shoulder1/elbow0/wrist0", "shoulder1/elbow0/wrist1",
-                                             "shoulder1/elbow1/wrist0", "shoulder1/elbow1/wrist1"};
-inline constexpr unsigned kOfElbow1 = 0b11001100;
-
-/// Eight branches, any of them, each at an arm angle of its own.
+/// Eight branches at once, any of them, each at an arm angle of its own.
 struct EightPlaces {
   double arm_angle[8];
-  int branch[8];
+  int branch[8];  // index into kBranches
 };
-/// A bit of each mask for each place.
 struct EightBranches {
   double joint[7][8];                  // the robot's values, in [-pi, pi)
   double position_m[8], angle_rad[8];  // by which forward kinematics miss the goal
-  unsigned within_limits, singular;
-  unsigned collinear_shoulder, collinear_wrist;  // turns are not shared out yet (share_turns)
+  // A bit for each branch. Where shoulder or wrist is in line the joints are not told: solve_elbow
+  // has the rules.
+  unsigned within_limits, singular, in_line;
 };
 
-/// What the arm angle shall make small.
-enum class Objective {
-  /// Sum of u^2 / (1 - u^2), u the distance of a joint from the middle of its range over half of
-  /// it; joints that turn all the way count nothing.
-  limits,
-  /// -sin^2 t2 sin^2 t6 norm(dt/dpsi)^2
-  singularity,
-  /// The distance from the last arm angle, or the seed's: no search.
-  continuity,
-  /// limits + 0.02 sum 1 / (sin^2 b + 1e-3) + 0.1 (distance from the last arm angle)^2, b of
-  /// shoulder and wrist
-  balanced
+/// Where shoulder and wrist keep their limits, of either elbow, as found and flipped: in arm angles
+/// of elbow 0 from -pi to pi, between two of which nothing changes; those of elbow 1 are half a
+/// turn further.
+struct LimitPieces {
+  static constexpr int kEvents = 16;
+  double event[2][kEvents];  // of shoulder and wrist; rising, the last ones may be equal
+  /// By ball, elbow and flip. Bit 2 i: the limits are kept at event i; bit 2 i + 1: between it and
+  /// the next.
+  std::uint32_t kept[2][2][2];
 };
-/// `last`: the arm angle that is remembered, if any.
+
+/// Costs all round, in single precision: places are arm angles of elbow 0.
+struct CostTable {
+  static constexpr int kMaxRegular = 48, kMaxMore = 168, kMaxNarrow = 480;
+  static constexpr int kMax = 704, kWords = kMax / 64;
+  static_assert(kMaxRegular + kMaxMore + 1 + kMaxNarrow <= kMax);
+  static constexpr int kMargin = 16;  // a place has a neighbour, which may be anything
+  /// [rad] The first `sorted` rise from -pi to pi, of which `regular` and the last are in equal
+  /// steps; behind them are those of narrow spans.
+  double place[kMax];
+  int regular = 0, sorted = 0, count = 0;
+  float value[8][kMax + kMargin], slope[8][kMax + kMargin];  // by branch
+  /// A bit for every place: between it and the next there is a minimum.
+  std::uint64_t valley[8][kWords];
+};
+
+/// Places of eight branches, any of them, and what they cost.
+struct EightNodes {
+  double at[8], value[8], slope[8];
+};
+/// Nodes with a minimum between them, or a little beyond them, but not beyond `lower` and `upper`;
+/// `outer` is one more on either side, with an `at` that is not a number where there is none.
+struct EightValleys {
+  int branch[8];
+  EightNodes left, right, outer;
+  double lower[8], upper[8];
+};
+/// The minima of valleys, and what they cost.
+struct EightMinima {
+  double at[8], value[8];
+};
+
+/// What an arm angle costs; `last`: the one that is remembered, if any.
 struct Aim {
   Objective objective = Objective::limits;
   bool remembers = false;
   double last = 0;
 };
 
-/// Costs of all branches at arm angles of elbow 0 that rise from -pi to pi.
-struct CostTable {
-  static constexpr int kMaxRegular = 48, kMaxMore = 168;
-  static constexpr int kMax = kMaxRegular + kMaxMore + 8, kWords = (kMax + 63) / 64;
-  double place[kMax];  // [rad]; behind the `count` used ones there is room for what fills lanes
-  int regular = 0, count = 0;
-  int of_regular[kMaxRegular + 1];        // where a regular place stands
-  double value[8][kMax], slope[8][kMax];  // by branch
-  /// Bit i: between places i and i + 1 there is a minimum.
-  std::uint64_t valley[8][kWords];
-};
-
-/// A branch at an arm angle [rad], its cost and the cost's derivative.
-struct Node {
-  int branch;
-  double at, value, slope;
-};
-/// Two nodes of one branch with a minimum between them.
-struct Valley {
-  Node left, right;
-};
-
-/// The arithmetic, by four lanes, compiled for each kind of processor. Real-time safe.
-struct Kernel {
+/// Lanes are shoulders and wrists of both elbows, places, or branches. The same source is compiled
+/// for each kind of processor. Real-time safe.
+struct SrsKernel {
   /// Of four sines and cosines, and back.
   void (*angles)(const double (&sine)[4], const double (&cosine)[4], double (&angle)[4]);
   void (*sines)(const double (&angle)[4], double (&sine)[4], double (&cosine)[4]);
-  /// All branches at one arm angle.
-  void (*solve)(const ArmNumbers& arm, const SrsGoal& goal, double arm_angle, EightBranches& out);
-  void (*solve_each)(const ArmNumbers& arm, const SrsGoal& goal, const EightPlaces& at,
-                     EightBranches& out);
-  /// Arm angles of elbow 0 at which joints reach their limits; NaN where they do not.
-  void (*limit_angles)(const ArmNumbers& arm, const SrsGoal& goal, double (&at)[24]);
-  /// At which of up to 64 arm angles of elbow 0, a bit for each, a branch keeps the limits of all
-  /// joints but joint 4. The angles that fill lanes are asked, too.
-  void (*keep_limits)(const ArmNumbers& arm, const SrsGoal& goal, const double* at, int count,
-                      std::uint64_t (&kept)[8]);
-  void (*costs_all_round)(const ArmNumbers& arm, const SrsGoal& goal, const Aim& aim,
-                          CostTable& table);
-  void (*costs)(const ArmNumbers& arm, const SrsGoal& goal, const Aim& aim, int count, Node* nodes);
-  /// The minimum of each valley; its slope is not told.
-  void (*minima)(const ArmNumbers& arm, const SrsGoal& goal, const Aim& aim, int count,
-                 const Valley* valleys, Node* minima);
+  /// All branches at one arm angle, in the order of kBranches.
+  void (*turn_to)(const ArmNumbers& arm, const SrsGoal& goal, double arm_angle, EightBranches& out);
+  void (*turn_each)(const ArmNumbers& arm, const SrsGoal& goal, const EightPlaces& at,
+                    EightBranches& out);
+  /// First the events, then between which of them limits are kept.
+  void (*limit_events)(const ArmNumbers& arm, const SrsGoal& goal, LimitPieces& out);
+  void (*limits_kept)(const ArmNumbers& arm, const SrsGoal& goal, LimitPieces& out);
+  void (*cost_all_round)(const ArmNumbers& arm, const SrsGoal& goal, const Aim& aim,
+                         CostTable& table);
+  /// Of the first `count` and perhaps more.
+  void (*cost_at)(const ArmNumbers& arm, const SrsGoal& goal, const Aim& aim, const EightPlaces& at,
+                  int count, double (&value)[8], double (&slope)[8]);
+  void (*find_minima)(const ArmNumbers& arm, const SrsGoal& goal, const Aim& aim,
+                      const EightValleys& valleys, int count, EightMinima& minima);
 };
-const Kernel& portable_kernel();
-const Kernel& avx2_kernel();
-/// Whether this processor runs avx2_kernel.
-bool has_avx2();
-/// The fastest that this processor runs.
-const Kernel& kernel();
+const SrsKernel& portable_srs_kernel();
+const SrsKernel& avx2_srs_kernel();
+const SrsKernel& avx512_srs_kernel();
+/// Those that this processor can run, the fastest last.
+struct SrsKernels {
+  const SrsKernel* kernel[3];
+  int count;
+};
+SrsKernels srs_kernels();
+const SrsKernel& srs_kernel();  // the fastest
 
-}  // namespace armature::ik::srs_arm_angle
+}  // namespace armature

@@ -4,140 +4,162 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numbers>
 
-#include "arm_branches.hpp"
-
-namespace armature::ik::srs_arm_angle {
+namespace armature {
 namespace {
 
-bool is_collinear_everywhere(const Triangle& triangle, const SrsGoal& goal) {
-  return std::abs(triangle.p.sin) + std::abs(triangle.q.sin) < goal.collinear;
+/// `piece` begins where the last span ends, or later.
+void join(const Span& piece, Spans& spans) {
+  if (spans.count > 0) {
+    Span& last = spans.span[static_cast<std::size_t>(spans.count - 1)];
+    if (piece.lower <= last.upper) {
+      last.upper = std::max(last.upper, piece.upper);
+      return;
+    }
+  }
+  spans.add(piece);
 }
 
-/// The arm angles of elbow 0 between which nothing changes, rising from -pi to pi.
-class Events {
- public:
-  Events(const SrsArm& arm, const SrsGoal& goal) {
-    add(-kPi);
-    double at_limits[24];
-    kernel().limit_angles(arm, goal, at_limits);
-    for (const double at : at_limits) {
-      if (!std::isnan(at)) add(at);
-    }
-    add_jumps(goal.shoulder);
-    add_jumps(goal.wrist);
-    if (is_collinear_everywhere(goal.shoulder, goal)) add_sums(arm, goal.shoulder, 0);
-    if (is_collinear_everywhere(goal.wrist, goal)) add_sums(arm, goal.wrist, 4);
-    add(kPi);
-    std::sort(at_.begin(), at_.begin() + count_);
-    std::fill(at_.begin() + count_, at_.end(), kPi);
-  }
-  const double* begin() const { return at_.data(); }
-  int count() const { return count_; }
-
- private:
-  void add(double at) { at_[count_++] = at; }
-  /// At x = 0 and x = pi b is at its ends, and a and c may jump.
-  void add_jumps(const Triangle& triangle) {
-    for (const double x : {0.0, kPi}) {
-      add(wrap_angle(triangle.direction * (x - triangle.start_rad)));
-    }
-  }
-  /// x or -x is a + c or a - c, which has a range of the width of both joints' together.
-  void add_sums(const SrsArm& arm, const Triangle& triangle, std::size_t first) {
-    const double sign = triangle.p.cos < 0 ? -1 : 1;
-    const double of_c = triangle.p.cos * triangle.q.cos < 0 ? -1 : 1;
-    const double middle = arm.middle[first] - triangle.shift_a_rad +
-                          of_c * (arm.middle[first + 2] - triangle.shift_c_rad);
-    const double half = arm.half[first] + arm.half[first + 2];
-    if (!std::isfinite(half)) return;
-    for (const double end : {middle - half, middle + half}) {
-      const double at = triangle.direction * (sign * end - triangle.start_rad);
-      add(wrap_angle(at));
-      add(wrap_angle(at + kPi));  // of elbow 1
-    }
-  }
-
-  static constexpr int kMax = 2 + 24 + 4 + 8;
-  std::array<double, kMax + 2> at_;  // what fills lanes is asked, too
-  int count_ = 0;
-};
-
-/// Kernel::keep_limits, but for what `solve` shares out where axes are collinear.
-void keep_limits_as_solved(const SrsArm& arm, const SrsGoal& goal, const double* at, int count,
-                           std::uint64_t (&kept)[8]) {
-  std::fill_n(kept, 8, 0);
-  for (int i = 0; i < count; ++i) {
-    EightBranches of_elbow0, of_elbow1;
-    solve(arm, goal, at[i], of_elbow0);
-    solve(arm, goal, at[i] + kPi, of_elbow1);
-    const std::uint64_t branches =
-        (of_elbow0.within_limits & ~kOfElbow1) | (of_elbow1.within_limits & kOfElbow1);
-    for (int branch = 0; branch < 8; ++branch) kept[branch] |= (branches >> branch & 1) << i;
+void set_spans(const double* event, std::uint32_t bits, Spans& spans) {
+  while (bits != 0) {
+    const int first = std::countr_zero(bits), after = first + std::countr_one(bits >> first);
+    join({event[first / 2], event[after / 2]}, spans);
+    bits &= ~std::uint32_t{0} << after;
   }
 }
 
-}  // namespace
-
-void Spans::join(const Span& another) {
-  if (count > 0 && another.lower <= span[count - 1].upper) {
-    span[count - 1].upper = std::max(span[count - 1].upper, another.upper);
-  } else if (count < kCapacity) {
-    span[count++] = another;
-  }
-}
-
+/// Half a turn on, which brings the upper half of the circle first.
 Spans half_turned(const Spans& spans) {
-  Spans turned;  // the upper half of the circle comes first
+  constexpr double kHalf = std::numbers::pi;
+  Spans turned;
   for (const Span& span : spans) {
-    if (span.upper > 0) turned.join({std::max(span.lower, 0.0) - kPi, span.upper - kPi});
+    if (span.upper > 0) join({std::max(span.lower, 0.0) - kHalf, span.upper - kHalf}, turned);
   }
   for (const Span& span : spans) {
     if (span.lower < 0 || span.upper == 0) {
-      turned.join({span.lower + kPi, std::min(span.upper, 0.0) + kPi});
+      join({span.lower + kHalf, std::min(span.upper, 0.0) + kHalf}, turned);
     }
   }
   return turned;
 }
 
-void set_feasible_angles(const SrsArm& arm, const SrsGoal& goal, SpansByBranch& spans) {
-  constexpr std::uint64_t kAll = ~std::uint64_t{0};
-  constexpr double kClose = 1e-6;  // nearer than this several limits may meet in one point
-  for (Spans& each : spans) each.count = 0;
-  const bool feasible_elbow[2]{arm.keeps_limits(3, goal.t4), arm.keeps_limits(3, -goal.t4)};
-  if (!feasible_elbow[0] && !feasible_elbow[1]) return;
-  const Events events{arm, goal};
-  const double* event = events.begin();
-  const int pieces = events.count() - 1;
-  double middle[64]{};
-  bool close = false;
-  for (int i = 0; i < pieces; ++i) {
-    const double gap = event[i + 1] - event[i];
-    close |= gap > 0 && gap < kClose;
-    middle[i] = event[i] + 0.5 * gap;
-  }
-  const auto keep_limits = [&](bool collinear, const double* at, int count,
-                               std::uint64_t(&kept)[8]) {
-    if (collinear) return keep_limits_as_solved(arm, goal, at, count, kept);
-    kernel().keep_limits(arm, goal, at, count, kept);
-  };
-  const bool everywhere =
-      is_collinear_everywhere(goal.shoulder, goal) || is_collinear_everywhere(goal.wrist, goal);
-  const bool somewhere = goal.shoulder.collinear || goal.wrist.collinear;
-  std::uint64_t kept[8], kept_at_events[8]{};
-  keep_limits(everywhere, middle, pieces, kept);
-  // An event between two pieces belongs to both; one by itself can only be where limits meet.
-  if (close || somewhere) keep_limits(somewhere, event, events.count(), kept_at_events);
-  for (int branch = 0; branch < 8; ++branch) {
-    if (!feasible_elbow[branch / 2 % 2]) continue;
-    const std::uint64_t runs = kept[branch] & ~(kAll << pieces);
-    std::uint64_t bits = runs | (kept_at_events[branch] & ~(runs | runs << 1));
-    while (bits != 0) {
-      const int first = std::countr_zero(bits), after = first + std::countr_one(runs >> first);
-      spans[branch].join({event[first], event[after]});
-      bits &= (kAll << after) & ~(std::uint64_t{1} << first);
+}  // namespace
+
+FeasibleAngles::FeasibleAngles(const ArmNumbers& numbers, const SrsGoal& goal,
+                               const SrsKernel& kernel)
+    : arm_{numbers.arm},
+      goal_{goal},
+      elbow_within_limits_{within_limits(arm_, 3, goal.t4), within_limits(arm_, 3, -goal.t4)} {
+  if (!elbow_within_limits_[0] && !elbow_within_limits_[1]) return;
+  LimitPieces pieces;
+  kernel.limit_events(numbers, goal, pieces);
+  kernel.limits_kept(numbers, goal, pieces);
+  for (std::size_t which = 0; which < 2; ++which) {
+    const bool in_line = which == 0 ? goal.shoulder_in_line : goal.wrist_in_line;
+    for (std::size_t elbow = 0; elbow < 2; ++elbow) {
+      if (!elbow_within_limits_[elbow]) continue;
+      auto& kept = kept_[which][elbow];
+      if (in_line && in_line_everywhere(which, elbow)) {
+        kept[0] = kept[1] = spans_in_line(which, elbow);
+        continue;
+      }
+      if (in_line) add_points_in_line(which, elbow, pieces);
+      for (std::size_t flip = 0; flip < 2; ++flip) {
+        set_spans(pieces.event[which], pieces.kept[which][elbow][flip], kept[flip]);
+      }
     }
   }
 }
 
-}  // namespace armature::ik::srs_arm_angle
+ArmBall FeasibleAngles::ball(std::size_t which, std::size_t elbow) const {
+  const ArmCircle circle = arm_circle(goal_, static_cast<int>(elbow));
+  return which == 0 ? circle.shoulder : circle.wrist;
+}
+
+/// As found and flipped; in line by some sharing of the turns.
+std::array<bool, 2> FeasibleAngles::keep_at(std::size_t which, std::size_t elbow,
+                                            double arm_angle) const {
+  const ArmBall own = ball(which, elbow);
+  const auto turns = turns_of(arm_, own, own.angles_at(arm_angle));
+  return {turns[0].within_limits, turns[1].within_limits};
+}
+
+bool FeasibleAngles::in_line_everywhere(std::size_t which, std::size_t elbow) const {
+  const ArmBall own = ball(which, elbow);
+  return std::abs(own.ball.p.sin) + std::abs(own.ball.q.sin) < goal_.in_line;
+}
+
+/// Where a ball comes in line its outer turns jump, and by some sharing of them it may keep limits
+/// that it keeps neither before nor behind.
+void FeasibleAngles::add_points_in_line(std::size_t which, std::size_t elbow,
+                                        LimitPieces& pieces) const {
+  const ArmBall own = ball(which, elbow);
+  for (std::size_t i = 0; i < LimitPieces::kEvents; ++i) {
+    const BallAngles angles = own.angles_at(pieces.event[which][i] + half_turns(elbow));
+    if (!angles.free || !turns_of(arm_, own, angles)[0].within_limits) continue;
+    for (auto& kept : pieces.kept[which][elbow]) kept |= std::uint32_t{1} << (2 * i);
+  }
+}
+
+/// Of a ball that is in line at all arm angles: +-x is the sum or the difference of a and c, each
+/// of which is anywhere in its range.
+Spans FeasibleAngles::spans_in_line(std::size_t which, std::size_t elbow) const {
+  const ArmBall own = ball(which, elbow);
+  const std::size_t a = own.first, c = own.first + 2;
+  std::array<double, 20> events{-std::numbers::pi, std::numbers::pi, wrap_angle(own.x_at(0)),
+                                wrap_angle(own.x_at(std::numbers::pi))};
+  std::size_t count = 4;
+  for (const double end_a : {-arm_.half[a], arm_.half[a]}) {
+    for (const double end_c : {-arm_.half[c], arm_.half[c]}) {
+      const double at_a = arm_.middle[a] - own.shift_a + end_a;
+      const double at_c = arm_.middle[c] - own.shift_c + end_c;
+      for (const double x : {at_a + at_c, at_a - at_c, -at_a - at_c, at_c - at_a}) {
+        if (std::isfinite(x)) events[count++] = wrap_angle(own.x_at(x));
+      }
+    }
+  }
+  std::sort(events.begin(), events.begin() + count);
+  Spans spans;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (keep_at(which, elbow, events[i])[0]) join({events[i], events[i]}, spans);
+    if (i + 1 == count) break;
+    const double middle = events[i] + 0.5 * (events[i + 1] - events[i]);
+    if (keep_at(which, elbow, middle)[0]) join({events[i], events[i + 1]}, spans);
+  }
+  return elbow == 0 ? spans : half_turned(spans);
+}
+
+bool FeasibleAngles::both_keep_at(const Branch& branch, double at) const {
+  const double arm_angle = at + half_turns(branch.elbow);
+  return keep_at(0, branch.elbow, arm_angle)[branch.flips.shoulder] &&
+         keep_at(1, branch.elbow, arm_angle)[branch.flips.wrist];
+}
+
+Spans FeasibleAngles::of(const Branch& branch) const {
+  Spans spans;
+  of_elbow0(branch, spans);
+  return branch.elbow == 0 ? spans : half_turned(spans);
+}
+
+void FeasibleAngles::of_elbow0(const Branch& branch, Spans& common) const {
+  constexpr double kTouching = 1e-7;  // a root of two limits at once is known to the root of 1e-16
+  common.count = 0;
+  if (!elbow_within_limits_[branch.elbow]) return;
+  const Spans& shoulder = kept_[0][branch.elbow][branch.flips.shoulder];
+  const Spans& wrist = kept_[1][branch.elbow][branch.flips.wrist];
+  for (const Span *a = shoulder.begin(), *b = wrist.begin();
+       a != shoulder.end() && b != wrist.end();) {
+    const double lower = std::max(a->lower, b->lower), upper = std::min(a->upper, b->upper);
+    if (lower <= upper) {
+      join({lower, upper}, common);
+    } else if (lower - upper < kTouching) {
+      for (const double at : {upper, 0.5 * (lower + upper), lower}) {
+        if (both_keep_at(branch, at)) join({at, at}, common);
+      }
+    }
+    (a->upper < b->upper ? a : b)++;
+  }
+}
+
+}  // namespace armature

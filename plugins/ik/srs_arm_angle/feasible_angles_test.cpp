@@ -12,7 +12,7 @@
 
 #include "test_arms.hpp"
 
-namespace armature::ik::srs_arm_angle {
+namespace armature {
 namespace {
 
 constexpr double kNear = 1e-7;  // [rad] nearer to an end, rounding may decide
@@ -106,14 +106,14 @@ class FeasibleAngles : public testing::TestWithParam<AnglesSubject> {
     }
     return least;
   }
-  /// Where an interval ends, a joint is at a limit (or joints jump, the axes of a shoulder or wrist
-  /// collinear), but for the place where the circle is cut.
+  /// Where an interval ends, a joint is at a limit (or joints jump, both axes of a ball in line),
+  /// but for the place where the circle is cut.
   void expect_ends_at_limits() {
     for (const RedundancyInterval& interval : found_) {
       for (const double end : {interval.lower, interval.upper}) {
         if (std::abs(end) == M_PI) continue;
         const JointVector q = branch_at(end, interval.label).q;
-        if (rounding_at(q) > 1e-5) continue;  // collinear axes: the turns are shared out or jump
+        if (rounding_at(q) > 1e-5) continue;  // in line: the turns are shared out or jump
         EXPECT_LE(from_limits(q), rounding_at(q))
             << interval.label << " ends at " << end << ", pose of " << seed_.transpose();
       }
@@ -255,4 +255,4 @@ TEST(FeasibleRedundancy, AJointThatIsLockedLeavesPoints) {
 }
 
 }  // namespace
-}  // namespace armature::ik::srs_arm_angle
+}  // namespace armature

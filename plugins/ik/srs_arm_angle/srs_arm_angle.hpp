@@ -4,10 +4,10 @@
 #include <memory>
 #include <optional>
 
+#include "arm_kernel.hpp"
 #include "armature/kinds/ik/ik.hpp"
-#include "srs_structure.hpp"
 
-namespace armature::ik::srs_arm_angle {
+namespace armature {
 
 /// Closed-form inverse kinematics of seven-joint arms with a spherical shoulder and a spherical
 /// wrist: 8 branches shoulder x elbow x wrist at an arm angle that is asked for, or each at the one
@@ -24,16 +24,18 @@ class SrsArmAngle final : public IkSolver {
 
  private:
   SrsArmAngle(const RobotModel& model, const SrsArm& arm, Objective objective)
-      : model_{&model}, arm_{arm}, objective_{objective} {}
+      : model_{&model}, numbers_{numbers_of(arm)}, objective_{objective} {}
 
+  /// Every branch at one arm angle.
+  void add_branches(const SrsGoal& goal, double arm_angle, IkBranches& out) const;
   /// Every branch at its best arm angle; one that nowhere keeps the limits at the last one, or the
   /// seed's.
-  void solve_best(const SrsGoal& goal, const JointVector& seed, std::optional<double> last,
-                  EightPlaces& at, EightBranches& found) const;
+  void add_best_branches(const SrsGoal& goal, const JointVector& seed, std::optional<double> last,
+                         IkBranches& out) const;
 
   const RobotModel* model_;
-  SrsArm arm_;
+  ArmNumbers numbers_;
   Objective objective_;
 };
 
-}  // namespace armature::ik::srs_arm_angle
+}  // namespace armature

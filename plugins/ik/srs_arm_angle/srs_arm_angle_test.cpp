@@ -9,7 +9,7 @@
 #include "armature/robot/kinematics/kinematics.hpp"
 #include "test_arms.hpp"
 
-namespace armature::ik::srs_arm_angle {
+namespace armature {
 namespace {
 
 IkSubject subject(std::string name, ModelPtr model, const std::string& objective, int edge_poses) {
@@ -147,4 +147,4 @@ TEST_F(SrsArmAngleTest, ASingularBranchIsOneWithoutManipulability) {
 }
 
 }  // namespace
-}  // namespace armature::ik::srs_arm_angle
+}  // namespace armature

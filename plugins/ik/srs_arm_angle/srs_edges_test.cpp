@@ -10,7 +10,7 @@
 #include "armature/robot/kinematics/kinematics.hpp"
 #include "test_arms.hpp"
 
-namespace armature::ik::srs_arm_angle {
+namespace armature {
 namespace {
 
 constexpr int kPoses = 1000;
@@ -97,19 +97,19 @@ class SrsEdges : public testing::TestWithParam<EdgeSubject> {
   IkBranches found_;
 };
 
-TEST_P(SrsEdges, TheShoulderAxesCollinear) {
+TEST_P(SrsEdges, TheShoulderInLine) {
   expect_solved(1e-5, [](Angles& t, double by) { t[1] = by; });
 }
 TEST_P(SrsEdges, TheShoulderTurnedOver) {
   expect_solved(1e-5, [](Angles& t, double by) { t[1] = M_PI + by; });
 }
-TEST_P(SrsEdges, TheWristAxesCollinear) {
+TEST_P(SrsEdges, TheWristInLine) {
   expect_solved(1e-5, [](Angles& t, double by) { t[5] = by; });
 }
 TEST_P(SrsEdges, TheWristFoldedBack) {
   expect_solved(1e-5, [](Angles& t, double by) { t[5] = M_PI + by; });
 }
-TEST_P(SrsEdges, ShoulderAndWristAxesCollinear) {
+TEST_P(SrsEdges, ShoulderAndWristInLine) {
   expect_solved(1e-5, [](Angles& t, double by) { t[1] = t[5] = by; });
 }
 TEST_P(SrsEdges, TheShoulderSingular) {
@@ -136,7 +136,7 @@ TEST_P(SrsEdges, TheElbowFolded) {
 TEST_P(SrsEdges, TheWristOnTheAxisOfJoint1) {
   expect_solved(2e-5, [this](Angles& t, double by) { put_wrist_on_axis(t, by); });
 }
-TEST_P(SrsEdges, AllAxesCollinear) {
+TEST_P(SrsEdges, EverythingInLine) {
   // The arm straight up: of t1, t3, t5, t7 the pose knows the sum.
   for (const double offset : kOffsets) {
     SCOPED_TRACE(testing::Message() << "seed 20260117, offset " << offset);
@@ -236,4 +236,4 @@ INSTANTIATE_TEST_SUITE_P(Srs, SrsEdges,
                          testing::PrintToStringParamName());
 
 }  // namespace
-}  // namespace armature::ik::srs_arm_angle
+}  // namespace armature

@@ -6,7 +6,7 @@
 
 #include "test_arms.hpp"
 
-namespace armature::ik::srs_arm_angle {
+namespace armature {
 namespace {
 
 class SrsFreeJoints : public testing::Test {
@@ -24,7 +24,7 @@ class SrsFreeJoints : public testing::Test {
   std::mt19937_64 random_{5};
 };
 
-TEST_F(SrsFreeJoints, AShoulderWithCollinearAxesKeepsTheSeedsFirstJointAndBothShouldersAreOne) {
+TEST_F(SrsFreeJoints, AShoulderInLineKeepsTheSeedsFirstJointAndBothShouldersAreOne) {
   JointVector q(7), seed = JointVector::Zero(7);
   q << 0.3, 0, 0.4, 1, 0.5, 0.6, 0.7;
   seed[0] = -0.7;
@@ -39,7 +39,7 @@ TEST_F(SrsFreeJoints, AShoulderWithCollinearAxesKeepsTheSeedsFirstJointAndBothSh
   EXPECT_EQ(kept, 4);
 }
 
-TEST_F(SrsFreeJoints, AWristWithCollinearAxesKeepsTheSeedsFifthJoint) {
+TEST_F(SrsFreeJoints, AWristInLineKeepsTheSeedsFifthJoint) {
   JointVector q(7), seed = JointVector::Zero(7);
   q << 0.3, 0.2, 0.4, 1, 0.5, 0, 0.7;
   seed[4] = 2;
@@ -53,7 +53,7 @@ TEST_F(SrsFreeJoints, AWristWithCollinearAxesKeepsTheSeedsFifthJoint) {
   EXPECT_EQ(kept, 4);
 }
 
-TEST_F(SrsFreeJoints, TurnsOfCollinearAxesAreSharedOutSoThatTheLimitsAreKept) {
+TEST_F(SrsFreeJoints, TurnsInLineAreSharedOutSoThatTheLimitsAreKept) {
   auto joints = med7()->joints();
   for (const std::size_t i : {0U, 4U}) joints[i].lower = -1, joints[i].upper = 2;
   for (const std::size_t i : {2U, 6U}) joints[i].lower = -0.5, joints[i].upper = 0.5;
@@ -86,4 +86,4 @@ TEST_F(SrsFreeJoints, AWristOnTheShoulderGoesWhereTheSeedComesFrom) {
 }
 
 }  // namespace
-}  // namespace armature::ik::srs_arm_angle
+}  // namespace armature

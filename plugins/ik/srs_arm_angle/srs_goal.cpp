@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-namespace armature::ik::srs_arm_angle {
+#include "arm_kernel.hpp"
+
+namespace armature {
 namespace {
 
 using Eigen::Matrix3d;
@@ -13,15 +15,9 @@ using Eigen::Vector3d;
 // Relative to the arm's length: a gap to the rim of reach below kOnRim is rounding, a wrist nearer
 // to the shoulder or to the axis of joint 1 than kOnAxis is there.
 constexpr double kOnRim = 2e-15, kOnAxis = 1e-13;
-// A wrist out of reach by less than this part of the arm is on the rim of reach, and axes at a
-// smaller angle than this [rad] are collinear; but never by more than the goal tolerates.
-constexpr double kSlack = 1e-11, kCollinear = 1e-10, kRounding = 1e-14;
-
-SinCos operator-(const SinCos& a) { return {-a.sin, a.cos}; }
-SinCos operator+(const SinCos& a, const SinCos& b) {
-  return {a.sin * b.cos + a.cos * b.sin, a.cos * b.cos - a.sin * b.sin};
-}
-SinCos operator-(const SinCos& a, const SinCos& b) { return a + -b; }
+// A wrist out of reach by less than this part of the arm is on the rim of reach, and axes nearer to
+// in line than this [rad] are in line; but never by more than the goal tolerates.
+constexpr double kSlack = 1e-11, kInLine = 1e-10, kRounding = 1e-14;
 
 /// Azimuth and polar angle of a direction; no azimuth on the axis.
 struct Spherical {
@@ -41,15 +37,14 @@ Matrix3d frame_of(const SinCos& azimuth, const SinCos& polar) {
   return F;
 }
 
-/// Joints 1 to 4: Rz(t1) Ry(t2) Rz(t3), and t4.
+/// Joints 1 to 4 of a posture: Rz(t1) Ry(t2) Rz(t3), and t4.
 struct UpperArm {
   Matrix3d rotation;
   SinCos elbow;
 };
-UpperArm upper_arm(const SrsArm& arm, const JointVector& q) {
-  double t[4], sine[4], cosine[4];
-  for (std::size_t i = 0; i < 4; ++i) t[i] = arm.canonical(i, q.data()[i]);
-  kernel().sines(t, sine, cosine);
+UpperArm upper_arm(const std::array<double, 7>& t) {
+  double sine[4], cosine[4];
+  srs_kernel().sines({t[0], t[1], t[2], t[3]}, sine, cosine);
   const Matrix3d F = frame_of({sine[0], cosine[0]}, {sine[1], cosine[1]});
   UpperArm upper;
   upper.rotation.col(0) = cosine[2] * F.col(0) + sine[2] * F.col(1);
@@ -100,57 +95,69 @@ SinCos set_elbow(const SrsArm& arm, SrsGoal& goal) {
   const double flat2 = inside < kOnRim * far ? 0 : inside * (rho + near);
   const double up = std::sqrt(up2), flat = std::sqrt(flat2), scale = 1 / (up2 + flat2);
   goal.elbow = {2 * up * flat * scale, (flat2 - up2) * scale};
+  goal.phi = direction_in_upper(arm, goal.elbow);
+  goal.bend = goal.phi + goal.elbow;
   return {up, flat};
 }
 
-/// The triangles from the line to the wrist and the hand `shoulder_R_wrist` seen from it.
-void set_triangles(const SrsArm& arm, const Vector3d& along, const Matrix3d& shoulder_R_wrist,
-                   SrsGoal& goal) {
+/// The line to the wrist and the hand seen from it.
+void set_frame(const SrsArm& arm, const Vector3d& along, SrsGoal& goal) {
   const Spherical line = spherical(along, kOnAxis * arm.reach());
-  const Matrix3d hand = frame_of(line.azimuth, line.polar).transpose() * shoulder_R_wrist;
+  goal.azimuth = line.azimuth;
+  goal.polar = line.polar;
+  const Matrix3d hand = frame_of(line.azimuth, line.polar).transpose() * goal.rotation;
   const Spherical axis = spherical(hand.col(2), 0);
-  const SinCos phi = direction_in_upper(arm, goal.elbow);
-  goal.shoulder.p = line.polar;
-  goal.shoulder.q = -phi;
-  goal.shoulder.shift_a = line.azimuth;
-  goal.wrist.direction = -1;
-  goal.wrist.p = phi + goal.elbow;
-  goal.wrist.q = axis.polar;
-  goal.wrist.start = axis.azimuth;
-  goal.wrist.shift_c = {axis.azimuth.cos * hand(1, 0) - axis.azimuth.sin * hand(0, 0),
-                        axis.azimuth.cos * hand(1, 1) - axis.azimuth.sin * hand(0, 1)};
+  goal.alpha = axis.azimuth;
+  goal.gamma = axis.polar;
+  goal.beta = {axis.azimuth.cos * hand(1, 0) - axis.azimuth.sin * hand(0, 0),
+               axis.azimuth.cos * hand(1, 1) - axis.azimuth.sin * hand(0, 1)};
 }
 
-/// Angles from sines and cosines; t4 from its half.
+/// t4 and the angles of azimuth, alpha and beta; t4 from its half.
 void set_angles(const SinCos& half_elbow, SrsGoal& goal) {
-  Triangle &shoulder = goal.shoulder, &wrist = goal.wrist;
-  const double sine[4]{half_elbow.sin, shoulder.shift_a.sin, wrist.start.sin, wrist.shift_c.sin};
-  const double cosine[4]{half_elbow.cos, shoulder.shift_a.cos, wrist.start.cos, wrist.shift_c.cos};
+  const double sine[4]{half_elbow.sin, goal.azimuth.sin, goal.alpha.sin, goal.beta.sin};
+  const double cosine[4]{half_elbow.cos, goal.azimuth.cos, goal.alpha.cos, goal.beta.cos};
   double angle[4];
-  kernel().angles(sine, cosine, angle);
+  srs_kernel().angles(sine, cosine, angle);
   goal.t4 = 2 * angle[0];
-  shoulder.shift_a_rad = angle[1];
-  wrist.start_rad = angle[2];
-  wrist.shift_c_rad = angle[3];
+  goal.azimuth_rad = angle[1];
+  goal.alpha_rad = angle[2];
+  goal.beta_rad = angle[3];
 }
 
-/// Where axes come to be collinear, which is at x = 0 or x = pi, joint `i` is kept.
-void keep_joint(const SrsArm& arm, const JointVector& seed, std::size_t i, double collinear,
-                Triangle& triangle) {
-  triangle.sine_at_0 = std::abs((triangle.p + triangle.q).sin);
-  triangle.sine_at_pi = std::abs((triangle.p - triangle.q).sin);
-  triangle.collinear = std::min(triangle.sine_at_0, triangle.sine_at_pi) < 2 * collinear;
-  if (!triangle.collinear) return;
-  const double t = arm.canonical(i, seed.data()[i]);
-  const double offset = std::clamp(wrap_angle(t - arm.middle[i]), -arm.half[i], arm.half[i]);
-  const double kept = wrap_angle(arm.middle[i] + offset);
-  triangle.kept_a = SinCos{std::sin(kept), std::cos(kept)} - triangle.shift_a;
+/// Whether axes come in line at x = 0 or x = pi.
+bool comes_in_line(const SinCos& p, const SinCos& q, double in_line) {
+  return std::min(std::abs((p + q).sin), std::abs((p - q).sin)) < 2 * in_line;
+}
+
+void set_free_joints(const SrsArm& arm, const JointVector& seed, SrsGoal& goal) {
+  goal.shoulder_in_line = comes_in_line(goal.polar, goal.phi, goal.in_line);
+  goal.wrist_in_line = comes_in_line(goal.bend, goal.gamma, goal.in_line);
+  if (goal.shoulder_in_line) {
+    goal.kept1 = nearest_within_limits(arm, 0, arm.canonical(0, seed[0]));
+    goal.kept_shoulder = SinCos::of(goal.kept1) - goal.azimuth;
+  }
+  if (goal.wrist_in_line) {
+    goal.kept5 = nearest_within_limits(arm, 4, arm.canonical(4, seed[4]));
+    goal.kept_wrist = SinCos::of(goal.kept5);
+  }
 }
 
 }  // namespace
 
-double arm_angle_of(const SrsArm& arm, const JointVector& q) {
-  const UpperArm upper = upper_arm(arm, q);
+std::array<double, 7> canonical(const SrsArm& arm, const JointVector& q) {
+  std::array<double, 7> t;
+  for (std::size_t i = 0; i < 7; ++i) t[i] = arm.canonical(i, q.data()[i]);
+  return t;
+}
+
+double nearest_within_limits(const SrsArm& arm, std::size_t i, double t) {
+  const double offset = wrap_angle(t - arm.middle[i]);
+  return wrap_angle(arm.middle[i] + std::clamp(offset, -arm.half[i], arm.half[i]));
+}
+
+double arm_angle_of(const SrsArm& arm, const std::array<double, 7>& t) {
+  const UpperArm upper = upper_arm(t);
   const Spherical line = spherical(wrist_or_direction(arm, upper), kOnAxis * arm.reach());
   const SinCos phi = direction_in_upper(arm, upper.elbow);
   // The first two columns of F^T upper Ry(phi) = Rz(psi).
@@ -168,28 +175,24 @@ double arm_angle_of(const SrsArm& arm, const JointVector& q) {
 
 SrsGoal srs_goal(const SrsArm& arm, const IkGoal& goal, const JointVector& seed) {
   const Matrix3d shoulder_R_base = arm.base_T_shoulder.linear().transpose();
-  const auto& base_R_tool = std::get<Eigen::Quaterniond>(goal.pose.orientation);
-  const Matrix3d rotation = shoulder_R_base * base_R_tool.normalized().toRotationMatrix() *
-                            arm.wrist_T_tool.linear().transpose();
-  const Vector3d lever = rotation * arm.wrist_T_tool.translation();
-  const Vector3d wrist =
-      shoulder_R_base * (goal.pose.position - arm.base_T_shoulder.translation()) - lever;
+  const auto& rotation = std::get<Eigen::Quaterniond>(goal.pose.orientation);
   SrsGoal own;
-  own.distance = wrist.norm();
+  own.rotation = shoulder_R_base * rotation.normalized().toRotationMatrix() *
+                 arm.wrist_T_tool.linear().transpose();
+  own.lever = own.rotation * arm.wrist_T_tool.translation();
+  own.wrist =
+      shoulder_R_base * (goal.pose.position - arm.base_T_shoulder.translation()) - own.lever;
+  own.distance = own.wrist.norm();
   set_reach(arm, goal.tolerance, own);
   if (own.shortfall > 0) return own;
-  Eigen::Map<Matrix3d>{own.rotation[0]} = rotation;
-  Eigen::Map<Vector3d>{own.lever} = lever;
-  Eigen::Map<Vector3d>{own.shoulder_to_wrist} = wrist;
   const SinCos half_elbow = set_elbow(arm, own);
   const bool on_shoulder = own.distance < kOnAxis * arm.reach();
-  set_triangles(arm, on_shoulder ? wrist_or_direction(arm, upper_arm(arm, seed)) : wrist, rotation,
-                own);
+  set_frame(arm, on_shoulder ? wrist_or_direction(arm, upper_arm(canonical(arm, seed))) : own.wrist,
+            own);
   set_angles(half_elbow, own);
-  own.collinear = std::clamp(goal.tolerance.angle_rad, kRounding, kCollinear);
-  keep_joint(arm, seed, 0, own.collinear, own.shoulder);
-  keep_joint(arm, seed, 4, own.collinear, own.wrist);
+  own.in_line = std::clamp(goal.tolerance.angle_rad, kRounding, kInLine);
+  set_free_joints(arm, seed, own);
   return own;
 }
 
-}  // namespace armature::ik::srs_arm_angle
+}  // namespace armature

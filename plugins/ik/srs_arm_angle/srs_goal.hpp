@@ -1,21 +1,51 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <Eigen/Core>
+#include <array>
+#include <string_view>
+
 #include "armature/kinds/ik/ik.hpp"
+#include "ball_joint.hpp"
 #include "srs_structure.hpp"
 
-namespace armature::ik::srs_arm_angle {
+namespace armature {
 
-/// `goal`, which must be a good one (invalid_input), in SrsArm's form. F, the frame in which the
-/// arm angle turns, has its z along the line from shoulder to wrist and its y level:
+/// A goal in SrsArm's form, and what of the arm does not depend on the arm angle. F, the frame in
+/// which the arm angle turns, has its z along the line from shoulder to wrist and its y level:
 ///
 ///   shoulder_R_upper(psi) = F Rz(psi) Ry(-phi),  F = Rz(azimuth) Ry(polar)
 ///   F^T shoulder_R_wrist  = Rz(alpha) Ry(gamma) Rz(beta)
-///
-/// Where the pose leaves joints free, t1 and t5 are kept from `seed`, brought within limits.
+struct SrsGoal {
+  Eigen::Matrix3d rotation;      // shoulder_R_wrist
+  Eigen::Vector3d wrist, lever;  // [m] shoulder to wrist, wrist to tool
+  double distance = 0;           // [m] shoulder to wrist
+  double t4 = 0;                 // [rad] of elbow 0; elbow 1 has -t4
+  SinCos elbow;                  // of t4
+  SinCos phi;                    // from the upper arm to the line to the wrist, of elbow 0
+  SinCos bend;                   // phi + t4
+  SinCos azimuth, polar;         // of that line
+  SinCos alpha, gamma, beta;     // of the hand, seen from F
+  double azimuth_rad = 0, alpha_rad = 0, beta_rad = 0;
+  double in_line = 0;  // [rad] axes nearer to in line are in line
+  /// Somewhere on the circle of the arm angle a shoulder or a wrist is in line.
+  bool shoulder_in_line = false, wrist_in_line = false;
+  double kept1 = 0, kept5 = 0;       // [rad] where the pose leaves t1 or t5 free
+  SinCos kept_shoulder, kept_wrist;  // the same of the ball joint's a
+  /// How far the wrist is out of reach [m], and why.
+  double shortfall = 0;
+  std::string_view detail;
+};
+
+/// `goal` must be a good one (invalid_input). What the pose leaves free is kept from `seed`,
+/// brought within limits.
 SrsGoal srs_goal(const SrsArm& arm, const IkGoal& goal, const JointVector& seed);
 
-/// The arm angle at joints `q`.
-double arm_angle_of(const SrsArm& arm, const JointVector& q);
+/// SrsArm's angles of the joints `q`, and the arm angle at them.
+std::array<double, 7> canonical(const SrsArm& arm, const JointVector& q);
+double arm_angle_of(const SrsArm& arm, const std::array<double, 7>& t);
 
-}  // namespace armature::ik::srs_arm_angle
+/// `t` of joint `i` (from 0), or the nearest value within its limits.
+double nearest_within_limits(const SrsArm& arm, std::size_t i, double t);
+
+}  // namespace armature

@@ -4,12 +4,13 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
 #include <string>
 
-namespace armature::ik::srs_arm_angle {
+namespace armature {
 namespace {
 
-constexpr double kDegree = kPi / 180;
+constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kSame = 1e-9;  // [m] or [rad]
 constexpr std::size_t kJoints = 7;
 
@@ -40,7 +41,7 @@ bool is_angle(double angle, double wanted) { return std::abs(wrap_angle(angle - 
 
 /// Why the link between two joints is not the pattern's; empty when it is.
 std::string link_mismatch(const Link& link) {
-  if (!is_angle(link.alpha, kPi / 2) && !is_angle(link.alpha, -kPi / 2))
+  if (!is_angle(link.alpha, std::numbers::pi / 2) && !is_angle(link.alpha, -std::numbers::pi / 2))
     return fmt::format("joint '{}': alpha_deg must be 90 or -90, it is {:g}", link.row->name,
                        link.alpha / kDegree);
   if (std::abs(link.a) > kSame)
@@ -81,11 +82,16 @@ std::string mismatch(const RobotModel& model) {
 /// Joints whose axis points against the pattern's: Z(t, d) = Rx(180) Z(-t, -d) Rx(180) turns one
 /// round, and the half turns go into the twists of the links on either side.
 std::array<bool, kJoints> turned_joints(const Links& links) {
-  constexpr std::array<double, kJoints> kTwist{0,        -kPi / 2, kPi / 2, kPi / 2,
-                                               -kPi / 2, -kPi / 2, kPi / 2};
+  constexpr std::array<double, kJoints> kTwist{0,
+                                               -std::numbers::pi / 2,
+                                               std::numbers::pi / 2,
+                                               std::numbers::pi / 2,
+                                               -std::numbers::pi / 2,
+                                               -std::numbers::pi / 2,
+                                               std::numbers::pi / 2};
   std::array<bool, kJoints> turned{};
   for (std::size_t i = 1; i < kJoints; ++i) {
-    const double wanted = kTwist[i] + (turned[i - 1] ? kPi : 0);
+    const double wanted = kTwist[i] + (turned[i - 1] ? std::numbers::pi : 0);
     turned[i] = !is_angle(links[i].alpha, wanted);
   }
   return turned;
@@ -98,30 +104,17 @@ void make_positive(SrsArm& arm, double& length, std::size_t i) {
   length = -length;
   arm.sign[i] = -arm.sign[i];
   arm.offset[i] = -arm.offset[i];
-  arm.offset[i - 1] += kPi;
-  arm.offset[i + 1] += kPi;
+  arm.offset[i - 1] += std::numbers::pi;
+  arm.offset[i + 1] += std::numbers::pi;
 }
 
-/// What the kernel needs of a joint's limits.
-void set_limits(const RobotModel& model, std::size_t i, SrsArm& arm) {
-  constexpr double kLocked = 1e-9;
-  // Less than the kind's, so that what is feasible here is within limits there [rad].
-  constexpr double kTolerance = 0.9 * kLimitTolerance;
-  const auto at = static_cast<int>(i);
-  const double middle = 0.5 * (model.lower()[at] + model.upper()[at]);
-  // Without a limit on one side a joint that turns is never beyond the other.
-  const double half = 0.5 * (model.upper()[at] - model.lower()[at]), wide = half + kTolerance;
-  const auto turn = [](double angle) { return SinCos{std::sin(angle), std::cos(angle)}; };
-  arm.half[i] = half;
-  arm.middle[i] = std::isfinite(middle) ? arm.canonical(i, middle) : 0;
-  arm.weight[i] = half >= kPi || half < kLocked ? 0 : 1 / half;
-  arm.middle_turn[i] = turn(arm.middle[i]);
-  arm.half_turn[i] = wide < kPi ? turn(wide) : SinCos{0, -1};
-  if (i == 3) return;
-  for (const std::size_t side : {0U, 1U}) {
-    const double end = wide < kPi ? arm.middle[i] + (side == 0 ? -half : half) : std::nan("");
-    arm.end_sin[i % 4][i / 4 * 2 + side] = std::sin(end);
-    arm.end_cos[i % 4][i / 4 * 2 + side] = std::cos(end);
+void set_limits(const RobotModel& model, SrsArm& arm) {
+  for (std::size_t i = 0; i < kJoints; ++i) {
+    const auto at = static_cast<int>(i);
+    const double middle = 0.5 * (model.lower()[at] + model.upper()[at]);
+    // Without a limit on one side a joint that turns is never beyond the other.
+    arm.half[i] = 0.5 * (model.upper()[at] - model.lower()[at]);
+    arm.middle[i] = std::isfinite(middle) ? arm.canonical(i, middle) : 0;
   }
 }
 
@@ -144,12 +137,13 @@ Expected<SrsArm> srs_arm(const RobotModel& model) {
   make_positive(arm, arm.upper, 2);
   make_positive(arm, arm.fore, 4);
   for (double& offset : arm.offset) offset = wrap_angle(offset);
-  for (std::size_t i = 0; i < kJoints; ++i) set_limits(model, i, arm);
+  set_limits(model, arm);
   arm.base_T_shoulder = joints[0].placement.value_or(Eigen::Isometry3d::Identity()) *
                         links[0].transform() * Eigen::Translation3d{0, 0, joints[0].d};
-  arm.wrist_T_tool = Eigen::Translation3d{0, 0, d(6)} * Link{0, turned[6] ? kPi : 0}.transform() *
-                     links[7].transform() * model.frame(model.tool()).parent_T_frame;
+  arm.wrist_T_tool = Eigen::Translation3d{0, 0, d(6)} *
+                     Link{0, turned[6] ? std::numbers::pi : 0}.transform() * links[7].transform() *
+                     model.frame(model.tool()).parent_T_frame;
   return arm;
 }
 
-}  // namespace armature::ik::srs_arm_angle
+}  // namespace armature

@@ -2,12 +2,12 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
 
-#include "arm_kernel.hpp"
 #include "armature/robot/model/robot_model.hpp"
 #include "armature/values/expected.hpp"
 
-namespace armature::ik::srs_arm_angle {
+namespace armature {
 
 /// An arm of spherical shoulder, revolute elbow and spherical wrist in the one form that the
 /// equations are written for:
@@ -17,7 +17,11 @@ namespace armature::ik::srs_arm_angle {
 ///   base_T_tool      = base_T_shoulder . shoulder_T_wrist . wrist_T_tool
 ///
 /// with `upper` and `fore` positive: the LBR Med 7 with its own joint angles.
-struct SrsArm : ArmNumbers {
+struct SrsArm {
+  double upper = 0, fore = 0;  // [m] shoulder to elbow, elbow to wrist
+  std::array<double, 7> sign{1, 1, 1, 1, 1, 1, 1}, offset{};  // t = sign q + offset [rad]
+  std::array<double, 7> middle{},
+      half{};  // limits of t: middle +- half [rad]; half may be infinite
   Eigen::Isometry3d base_T_shoulder = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d wrist_T_tool = Eigen::Isometry3d::Identity();
 
@@ -25,11 +29,6 @@ struct SrsArm : ArmNumbers {
   /// t of joint `i` (from 0) at its value q, and back; both in [-pi, pi).
   double canonical(std::size_t i, double q) const { return wrap_angle(sign[i] * q + offset[i]); }
   double joint(std::size_t i, double t) const { return wrap_angle(sign[i] * (t - offset[i])); }
-  /// By how much `t` of joint `i` is beyond its limits [rad]; negative within them.
-  double beyond(std::size_t i, double t) const {
-    return std::abs(wrap_angle(t - middle[i])) - half[i];
-  }
-  bool keeps_limits(std::size_t i, double t) const { return beyond(i, t) <= kLimitTolerance; }
 };
 
 /// `model` in this form, or the first place where it is not: seven independent revolute joints,
@@ -37,4 +36,4 @@ struct SrsArm : ArmNumbers {
 /// in a third; a tool on joint 7 and no pointing axis.
 Expected<SrsArm> srs_arm(const RobotModel& model);
 
-}  // namespace armature::ik::srs_arm_angle
+}  // namespace armature

@@ -8,7 +8,7 @@
 #include "armature/robot/kinematics/kinematics.hpp"
 #include "test_arms.hpp"
 
-namespace armature::ik::srs_arm_angle {
+namespace armature {
 namespace {
 
 /// The product of transforms that SrsArm is documented with.
@@ -120,4 +120,4 @@ TEST(SrsStructure, AToolElsewhereOrAPointingAxisIsRefused) {
 }
 
 }  // namespace
-}  // namespace armature::ik::srs_arm_angle
+}  // namespace armature

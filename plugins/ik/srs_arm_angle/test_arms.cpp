@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <utility>
 
@@ -10,10 +11,10 @@
 #include "armature/robot/kinematics/kinematics.hpp"
 #include "srs_arm_angle.hpp"
 
-namespace armature::ik::srs_arm_angle {
+namespace armature {
 namespace {
 
-constexpr double kDegree = kPi / 180;
+constexpr double kPi = std::numbers::pi, kDegree = kPi / 180;
 
 RobotModel arm_of(RobotModel::Convention convention, std::vector<Joint> joints,
                   const Eigen::Isometry3d& last_T_tool) {
@@ -165,4 +166,4 @@ double joint_distance(const JointVector& a, const JointVector& b) {
   return largest;
 }
 
-}  // namespace armature::ik::srs_arm_angle
+}  // namespace armature

@@ -9,7 +9,7 @@
 #include "armature/kinds/ik/ik.hpp"
 #include "srs_structure.hpp"
 
-namespace armature::ik::srs_arm_angle {
+namespace armature {
 
 using ModelPtr = std::shared_ptr<const RobotModel>;
 using Angles = std::array<double, 7>;  // t1 to t7 of SrsArm
@@ -43,4 +43,4 @@ Angles angles_of(const SrsArm& arm, const JointVector& q);
 /// Largest joint difference, whole turns aside.
 double joint_distance(const JointVector& a, const JointVector& b);
 
-}  // namespace armature::ik::srs_arm_angle
+}  // namespace armature

@@ -3,7 +3,7 @@
 
 #include <bits/c++config.h>
 
-#include "armature/header_tags.hpp"
+#include "armature/values/header_tags.hpp"
 
 // The ABI tag: what must be equal on both sides before a plugin may share objects with the
 // framework. It says how both were compiled, and of each library that the plugin includes headers

@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "armature/header_tags.hpp"
 #include "armature/runtime/plugins/abi.hpp"
 #include "armature/runtime/plugins/elf_section.hpp"
 #include "armature/runtime/plugins/plugin_trial.hpp"
+#include "armature/values/header_tags.hpp"
 
 namespace armature {
 namespace {

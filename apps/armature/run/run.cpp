@@ -291,7 +291,7 @@ DeploymentConfig read(const DeploymentSource& source, PluginRegistry& plugins,
   return config;
 }
 
-/// What a run says first: a component may take seconds to read what it needs.
+/// The first line of a run. It comes before the components are made, which may take seconds.
 std::string starting_text(const DeploymentConfig& config) {
   return fmt::format("starting {}: {} components", config.name, config.components.size());
 }

@@ -16,9 +16,8 @@ namespace {
 using sim::photo_scene::drawn_face, sim::photo_scene::placed;
 
 PluginPtr<FaceDetector> make(std::string_view params = "") {
-  auto library =
-      PluginLibrary::load(std::filesystem::path{ARMATURE_PLUGIN_BUILD_DIR} / "detector_hog.so",
-                          FaceDetector::kKind);
+  auto library = PluginLibrary::load(
+      std::filesystem::path{ARMATURE_PLUGIN_BUILD_DIR} / "detector_hog.so", FaceDetector::kKind);
   if (!library) throw std::runtime_error(library.error().text);
   const auto factory = reinterpret_cast<FaceDetector::Factory>((*library)->factory());
   return {*library,

@@ -53,7 +53,7 @@ PluginEntry plugin_entry() {
 }
 
 }  // namespace detail
-}  // namespace ARMATURE_EXPORT
+}  // namespace armature
 
 /// The one registration line of a plugin: `ARMATURE_PLUGIN(armature::LampGeometric);` at global
 /// scope, once per library. Id, kind, parameters and ports stand in the plugin.yaml beside it.

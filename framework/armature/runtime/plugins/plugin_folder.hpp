@@ -13,4 +13,4 @@ namespace armature ARMATURE_EXPORT {
 /// the owner of this framework's own library, and nobody else may write there.
 std::optional<std::string> danger_of_place(const std::filesystem::path& path);
 
-}  // namespace ARMATURE_EXPORT
+}  // namespace armature

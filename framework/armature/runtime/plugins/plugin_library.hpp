@@ -63,4 +63,4 @@ class PluginPtr {
   std::unique_ptr<Kind> object_;
 };
 
-}  // namespace ARMATURE_EXPORT
+}  // namespace armature

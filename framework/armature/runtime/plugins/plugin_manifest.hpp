@@ -126,4 +126,4 @@ PluginManifest parse_manifest(std::string_view yaml, std::string_view name,
 /// The manifest of a component that is part of the runtime. Throws config::ConfigError.
 PluginManifest parse_own_manifest(std::string_view yaml);
 
-}  // namespace ARMATURE_EXPORT
+}  // namespace armature

@@ -109,4 +109,4 @@ class PluginRegistry {
   std::map<std::string, std::weak_ptr<PluginLibrary>> loaded_;
 };
 
-}  // namespace ARMATURE_EXPORT
+}  // namespace armature

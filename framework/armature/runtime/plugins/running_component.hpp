@@ -43,4 +43,4 @@ class CrashStack {
   void* memory_;
 };
 
-}  // namespace ARMATURE_EXPORT
+}  // namespace armature

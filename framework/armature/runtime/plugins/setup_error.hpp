@@ -35,4 +35,4 @@ std::string current_exception_text();
 /// holds the code that destroys it.
 [[noreturn]] void throw_as_own(const std::string& who, std::string_view slot = {});
 
-}  // namespace ARMATURE_EXPORT
+}  // namespace armature

@@ -81,4 +81,4 @@ std::string to_table(const RunReport& report, const Mark& mark);
 void write_report(const RunReport& report, const Deployment& deployment,
                   const std::filesystem::path& directory);
 
-}  // namespace ARMATURE_EXPORT
+}  // namespace armature

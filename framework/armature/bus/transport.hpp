@@ -99,6 +99,8 @@ class Transport {
   using Factory = Expected<std::unique_ptr<Transport>> (*)(const TransportOptions&);
 
   virtual ~Transport() = default;
+  /// After the readers of the same topic in this process: who else writes what nobody here reads is
+  /// reported.
   virtual Expected<std::unique_ptr<RemoteWriter>> advertise(const TopicSpec& topic) = 0;
   /// `deliver` is called on a transport thread and must only enqueue. Samples of this process'
   /// own writers are never delivered. `same_deployment_only`: writers with another fingerprint or

@@ -62,7 +62,8 @@ class LawCheck {
   /// `answer` is an Expected that holds a reason with words.
   template <class Answer>
   bool refused(const Answer& answer, std::string_view question) {
-    if (answer) return violated(std::string{question} + " is answered, not refused");
+    std::string fault{question};
+    if (answer) return violated(fault.append(" is answered, not refused"));
     return that(!answer.error().text.empty(), "a refusal says why");
   }
   /// `answer` is an Expected that holds exactly this reason.

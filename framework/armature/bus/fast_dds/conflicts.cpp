@@ -2,6 +2,7 @@
 #include "armature/bus/fast_dds/conflicts.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "armature/bus/topic_name.hpp"
@@ -18,25 +19,30 @@ bool has_other_layout(const Endpoint& other, const OwnEndpoint& own) {
 
 }  // namespace
 
-void Conflicts::own_endpoint_added(const OwnEndpoint& added, const std::vector<Endpoint>& others,
-                                   const Discovery& discovery) {
+void Conflicts::own_endpoint_added(const OwnEndpoint& added, const Discovery& discovery) {
   {
     const std::scoped_lock lock{mutex_};
     endpoints_.push_back(added);
   }
-  for (const Endpoint& other : others) compare(added, other, discovery);
+  // Asked only now: whoever is found from here on finds the new endpoint among ours.
+  for (const Endpoint& other : discovery.endpoints()) {
+    compare(added, other, discovery);
+    tell_second_writer(own_on(other.topic), other, discovery);
+  }
 }
 
 void Conflicts::endpoint_found(const Endpoint& other, const Discovery& discovery) {
-  std::vector<OwnEndpoint> same_topic;
-  {
-    const std::scoped_lock lock{mutex_};
-    for (const OwnEndpoint& own : endpoints_) {
-      if (own.topic.name == other.topic) same_topic.push_back(own);
-    }
-  }
-  for (const OwnEndpoint& own : same_topic) compare(own, other, discovery);
-  tell_second_writer(same_topic, other, discovery);
+  const std::vector<OwnEndpoint> own = own_on(other.topic);
+  for (const OwnEndpoint& endpoint : own) compare(endpoint, other, discovery);
+  tell_second_writer(own, other, discovery);
+}
+
+std::vector<OwnEndpoint> Conflicts::own_on(const std::string& topic) const {
+  const std::scoped_lock lock{mutex_};
+  std::vector<OwnEndpoint> own;
+  std::ranges::copy_if(endpoints_, std::back_inserter(own),
+                       [&](const OwnEndpoint& endpoint) { return endpoint.topic.name == topic; });
+  return own;
 }
 
 /// Where writer and reader are in one process nobody else is heard, and nobody is refused. That

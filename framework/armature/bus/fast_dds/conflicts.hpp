@@ -27,9 +27,8 @@ class Conflicts {
   Conflicts(EndpointTag own, std::function<void(const TransportEvent&)> on_event)
       : own_{std::move(own)}, on_event_{std::move(on_event)} {}
 
-  /// `others`: everything discovered so far.
-  void own_endpoint_added(const OwnEndpoint& added, const std::vector<Endpoint>& others,
-                          const Discovery& discovery);
+  /// The readers of a topic are added before its writers: only then is it known that nobody reads.
+  void own_endpoint_added(const OwnEndpoint& added, const Discovery& discovery);
   void endpoint_found(const Endpoint& other, const Discovery& discovery);
 
   /// Whether samples of that writer must not reach a reader of ours.
@@ -40,13 +39,14 @@ class Conflicts {
   void report_always(const TransportEvent& event) const;
 
  private:
+  std::vector<OwnEndpoint> own_on(const std::string& topic) const;
   void tell_second_writer(const std::vector<OwnEndpoint>& own, const Endpoint& other,
                           const Discovery& discovery);
   void compare(const OwnEndpoint& own, const Endpoint& other, const Discovery& discovery);
 
   EndpointTag own_;
   std::function<void(const TransportEvent&)> on_event_;
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::vector<OwnEndpoint> endpoints_;
   std::set<std::pair<TransportEvent::Kind, std::string>> reported_;
 };

@@ -3,6 +3,7 @@
 // reported by name.
 #include <gmock/gmock.h>
 
+#include "armature/bus/fast_dds/conflicts.hpp"
 #include "armature/bus/fast_dds/fast_dds_test.hpp"
 
 namespace armature {
@@ -59,6 +60,53 @@ TEST_F(FastDds, SamplesOfStrangersAreRefusedNamedOnceAndCounted) {
                         "deployment 'lamp' (configuration f00d); 'open:' in its file opens an "
                         "input to all"));
   EXPECT_EQ(events(Kind::foreign_writer), 1);
+}
+
+/// Deployment 'lamp' writes rt/lamp/beat, and so does a stranger.
+class SecondWriter : public testing::Test {
+ protected:
+  void found() { discovery_.endpoint_found(stranger_); }
+  void added(bool writes) {
+    conflicts_.own_endpoint_added({.writes = writes, .topic = topic_}, discovery_);
+  }
+
+  const TopicSpec topic_{"rt/lamp/beat", &message_type<msg::JointState>(), QosProfile::state};
+  const Endpoint stranger_{.guid = {},
+                           .writes = true,
+                           .topic = topic_.name,
+                           .type = std::string{topic_.type->dds_name},
+                           .tag = {}};
+  std::vector<std::string> told_;
+  Conflicts conflicts_{
+      EndpointTag{.ours = true, .deployment = "lamp", .fingerprint = "f00d", .run = {}},
+      [this](const TransportEvent& event) { told_.push_back(event.text); }};
+  Discovery discovery_{{.endpoint_found = [this](const Endpoint& other, const Discovery& discovery) {
+    conflicts_.endpoint_found(other, discovery);
+  }}};
+};
+
+TEST_F(SecondWriter, IsToldOnceWhoeverWasFirst) {
+  found();
+  added(true);
+  ASSERT_EQ(told_.size(), 1U);
+  EXPECT_THAT(told_.front(), HasSubstr("writes '/lamp/beat', too, which is this deployment's own: "
+                                       "nobody here hears it"));
+  found();
+  EXPECT_EQ(told_.size(), 1U);
+}
+
+TEST_F(SecondWriter, IsToldWhenItComesLater) {
+  added(true);
+  EXPECT_TRUE(told_.empty());
+  found();
+  EXPECT_EQ(told_.size(), 1U);
+}
+
+TEST_F(SecondWriter, IsNoNewsWhereOneOfOurReadersTakesIt) {
+  found();
+  added(false);
+  added(true);
+  EXPECT_THAT(told_, testing::IsEmpty());
 }
 
 TEST_F(FastDds, ASecondTypeOnATopicIsReported) {

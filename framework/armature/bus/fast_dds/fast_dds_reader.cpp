@@ -49,8 +49,7 @@ class FastDdsReader final : public RemoteReader, private dds::DataReaderListener
         *topic, reader_qos(settings, lease, to_user_data(link_->tag_for(type))), this);
     if (!reader_)
       return refuse("DDS: cannot create a reader on '" + ros_topic_name(own_.topic.name) + "'");
-    link_->conflicts.own_endpoint_added(own_, participant.discovery().endpoints(),
-                                        participant.discovery());
+    link_->conflicts.own_endpoint_added(own_, participant.discovery());
     return {};
   }
 

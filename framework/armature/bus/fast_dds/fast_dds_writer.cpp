@@ -35,7 +35,6 @@ class FastDdsWriter final : public RemoteWriter, private dds::DataWriterListener
     queue_ = link_->egress->open(static_cast<std::size_t>(settings_.depth),
                                  [this](const SampleRef& sample) { send(sample); });
     link_->conflicts.own_endpoint_added({.writes = true, .topic = topic_},
-                                        participant.discovery().endpoints(),
                                         participant.discovery());
     return {};
   }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <ranges>
 #include <thread>
 #include <utility>
 
@@ -275,13 +276,17 @@ void Deployment::connect(PluginRegistry& plugins, int domain, const std::string&
   auto transport = plugins.make<Transport>("transport/fast_dds", options);
   if (!transport) throw PluginError("cannot join DDS: " + transport.error().text);
   remote_.emplace(std::move(*transport), config_, options_.process);
-  for (const ComponentConfig& component : config_.components) {
-    if (component.process != options_.process) continue;
-    for (const PortBinding& output : component.outputs) {
-      remote_->advertise(output, *topics_.at(writer_key(component, output)));
-    }
+  const auto of_this_process = [&](const ComponentConfig& component) {
+    return component.process == options_.process;
+  };
+  for (const ComponentConfig& component : config_.components | std::views::filter(of_this_process)) {
     for (const PortBinding& input : component.inputs) {
       remote_->subscribe(input, *topics_.at(input.topic));
+    }
+  }
+  for (const ComponentConfig& component : config_.components | std::views::filter(of_this_process)) {
+    for (const PortBinding& output : component.outputs) {
+      remote_->advertise(output, *topics_.at(writer_key(component, output)));
     }
   }
 }

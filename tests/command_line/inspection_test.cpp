@@ -73,11 +73,11 @@ TEST(Check, LetsAComponentThatMayUseARigUseNone) {
 TEST(Check, FindsAnArmThatIsBoundToTheOtherRobot) {
   const auto result =
       run_command({armature(), "check", source_file("configs/master_manipulator.yaml"), "--set",
-                   "components.arm.robot=master"});
+                   "components.arm.robot=leader"});
   EXPECT_EQ(result.exit_code, 3);
-  EXPECT_NE(result.err.find("arm.servo_jp reads values of robot 'master' from topic "
+  EXPECT_NE(result.err.find("arm.servo_jp reads values of robot 'leader' from topic "
                             "'/master_manipulator/arm/servo_jp', but motion.servo_jp writes values "
-                            "of robot 'slave'"),
+                            "of robot 'follower'"),
             std::string::npos)
       << result.err;
 }
@@ -166,14 +166,14 @@ TEST(Show, TellsWhoWaitsForWhomHowLongAndWhatHappensThen) {
 }
 
 TEST(Show, TellsWhatFollowsWhenSamplesAreTooOld) {
-  const std::string held = "the slave stops, until the clutch is opened and closed again";
+  const std::string held = "the follower stops, until the clutch is opened and closed again";
   const auto rows =
-      leases_of(source_file("configs/master_manipulator.yaml"), {"open=[task.slave_cp]"});
+      leases_of(source_file("configs/master_manipulator.yaml"), {"open=[task.follower_cp]"});
   EXPECT_THAT(rows, testing::IsSupersetOf({
-                        Row{"task", "master measured_cp", "0.1 s", held},
+                        Row{"task", "leader measured_cp", "0.1 s", held},
                         Row{"task", "arm measured_cp, programs outside", "0.1 s", held},
                         Row{"task", "surgeon clutch", "0.1 s", held},
-                        Row{"master", "surgeon hand_js", "0.1 s",
+                        Row{"leader", "surgeon hand_js", "0.1 s",
                             "the hand has let go, and servo_jp counts again"},
                     }));
 }

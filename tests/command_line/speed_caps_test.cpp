@@ -14,7 +14,7 @@ using testing::StartsWith;
 const std::string kTipSpeed = "components.task.params.max_tip_speed_m_s";
 const std::string kTrackingSpeed = "components.motion.params.max_tracking_velocity_m_s";
 
-CommandResult check_master(const std::vector<std::string>& settings) {
+CommandResult check_leader(const std::vector<std::string>& settings) {
   std::vector<std::string> words{armature(), "check",
                                  source_file("configs/master_manipulator.yaml")};
   for (const std::string& setting : settings) words.insert(words.end(), {"--set", setting});
@@ -22,7 +22,7 @@ CommandResult check_master(const std::vector<std::string>& settings) {
 }
 
 TEST(SpeedCaps, ATipThatIsAskedToBeFasterThanItsMotionIsRefusedWithBothPlaces) {
-  const CommandResult result = check_master({kTipSpeed + "=0.2"});
+  const CommandResult result = check_leader({kTipSpeed + "=0.2"});
   EXPECT_EQ(result.exit_code, 3);
   EXPECT_THAT(result.err,
               AllOf(StartsWith("--set " + kTipSpeed + "=0.2: 'max_tip_speed_m_s' of component "),
@@ -30,14 +30,14 @@ TEST(SpeedCaps, ATipThatIsAskedToBeFasterThanItsMotionIsRefusedWithBothPlaces) {
                     HasSubstr("above 'max_tracking_velocity_m_s' of component 'motion', which is "
                               "0.049 ("),
                     HasSubstr("configs/master_manipulator.yaml:31:"),
-                    HasSubstr("): the slave would trail behind its target; lower the first or "
+                    HasSubstr("): the follower would trail behind its target; lower the first or "
                               "raise the second\n")));
   EXPECT_EQ(result.err.find('\n'), result.err.size() - 1) << "it is said once: " << result.err;
 }
 
 TEST(SpeedCaps, BothTogetherOrNoneOfTheMotionPassTheCheck) {
-  EXPECT_EQ(check_master({kTipSpeed + "=0.2", kTrackingSpeed + "=0.2"}).exit_code, 0);
-  const CommandResult any = check_master({kTipSpeed + "=0.2", kTrackingSpeed + "=0"});
+  EXPECT_EQ(check_leader({kTipSpeed + "=0.2", kTrackingSpeed + "=0.2"}).exit_code, 0);
+  const CommandResult any = check_leader({kTipSpeed + "=0.2", kTrackingSpeed + "=0"});
   EXPECT_EQ(any.exit_code, 0) << any.err;
 }
 

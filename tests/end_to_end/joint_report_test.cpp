@@ -170,9 +170,9 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(System{"dental_lamp", {{"arm", {1.5e-3, 2.5 * kDegree}}}, 2e-3},
                     System{"sr1_biopsy", {{"arm", {1e-5, 0.01 * kDegree}}}, 1e-4},
                     System{"dental_implant", {{"arm", {5e-5, 0.01 * kDegree}}}, 2e-4},
-                    // The slave follows: its tracking_error_mm, and goal_tolerance_rad.
+                    // The follower trails: its tracking_error_mm, and goal_tolerance_rad.
                     System{"master_manipulator",
-                           {{"master", {1e-5, 0.001 * kDegree}}, {"arm", {1e-4, 2e-3}}},
+                           {{"leader", {1e-5, 0.001 * kDegree}}, {"arm", {1e-4, 2e-3}}},
                            5e-4}),
     [](const auto& system) { return system.param.name; });
 

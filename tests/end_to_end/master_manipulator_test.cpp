@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The master manipulator: from the instrument's pose to a slave that follows a hand, by one file;
-// and every way in which the slave must stand still.
+// The master manipulator: from the instrument's pose to a follower that a hand leads, by one file;
+// and every way in which the follower must stand still.
 #include <gtest/gtest.h>
 
 #include "deployment_run.hpp"
@@ -30,7 +30,7 @@ void expect_teleoperated(const DeploymentRun& run) {
   EXPECT_LE(run.figure("closing_step_mm"), 0.01);
 }
 
-TEST(MasterManipulator, AlignsAndDrivesTheSlaveTwiceInTheSameWay) {
+TEST(MasterManipulator, AlignsAndDrivesTheFollowerTwiceInTheSameWay) {
   const DeploymentRun first = teleoperation(), second = teleoperation();
   expect_teleoperated(first);
   EXPECT_EQ(first.report, second.report);
@@ -42,15 +42,15 @@ TEST(MasterManipulator, AlignsAndDrivesTheSlaveTwiceInTheSameWay) {
 }
 
 TEST(MasterManipulator, SolversSelectorsAndTrajectoriesAreSwappedAndLimitsLowered) {
-  const std::string slave_ik = "components.motion.ik.";
+  const std::string follower_ik = "components.motion.ik.";
   const std::vector<std::vector<std::string>> swaps{
-      {slave_ik + "plugin=ik/numeric", slave_ik + "params=null"},
-      {slave_ik + "params.objective=limits"},
+      {follower_ik + "plugin=ik/numeric", follower_ik + "params=null"},
+      {follower_ik + "params.objective=limits"},
       {"components.motion.params.max_jerk_rad_s3=100"},
       {"components.motion.select.plugin=select/minmax"},
-      {"components.master_motion.ik.plugin=ik/numeric"},
-      {"components.master_motion.trajectory.plugin=trajectory/quintic_spline"},
-      {"components.master_motion.select.plugin=select/minmax"}};
+      {"components.leader_motion.ik.plugin=ik/numeric"},
+      {"components.leader_motion.trajectory.plugin=trajectory/quintic_spline"},
+      {"components.leader_motion.select.plugin=select/minmax"}};
   for (const auto& swap : swaps) {
     SCOPED_TRACE(swap.front());
     expect_teleoperated(teleoperation(swap));
@@ -64,7 +64,7 @@ TEST(MasterManipulator, AnyHandsTremorIsTakenOut) {
   }
 }
 
-TEST(MasterManipulator, TheSlaveIsJudgedByTheScaleThatItWasGiven) {
+TEST(MasterManipulator, TheFollowerIsJudgedByTheScaleThatItWasGiven) {
   expect_teleoperated(teleoperation({kTask + "scale=0.25"}));
   const DeploymentRun two = teleoperation({kTask + "scale=0.25", kReport + "scale=0.5"});
   EXPECT_EQ(two.command.exit_code, 3);
@@ -74,7 +74,7 @@ TEST(MasterManipulator, TheSlaveIsJudgedByTheScaleThatItWasGiven) {
       << two.text();
 }
 
-TEST(MasterManipulator, OfAHandThatIsTooFastTheSlaveKeepsItsTopSpeed) {
+TEST(MasterManipulator, OfAHandThatIsTooFastTheFollowerKeepsItsTopSpeed) {
   const DeploymentRun run =
       teleoperation({kSurgeon + "curve_mm=[-30, 30, 20]", kSurgeon + "curve_hz=0.4"});
   EXPECT_GT(run.figure("tip_speed_mm_s"), 45) << run.text();
@@ -84,7 +84,7 @@ TEST(MasterManipulator, OfAHandThatIsTooFastTheSlaveKeepsItsTopSpeed) {
   EXPECT_LE(run.figure("clutch_motion_mm"), 0.001);
 }
 
-/// It ends by itself with a reason, and the slave stands.
+/// It ends by itself with a reason, and the follower stands.
 void expect_ended(const DeploymentRun& run, const std::string& status, const std::string& reason) {
   SCOPED_TRACE(run.text());
   EXPECT_EQ(run.command.exit_code, 1);
@@ -92,26 +92,26 @@ void expect_ended(const DeploymentRun& run, const std::string& status, const std
   EXPECT_NE(run.command.err.find(status + ": " + reason), std::string::npos);
 }
 
-TEST(MasterManipulator, AnInstrumentOutOfTheMastersReachIsRefusedAndNothingMoves) {
+TEST(MasterManipulator, AnInstrumentOutOfTheLeadersReachIsRefusedAndNothingMoves) {
   const DeploymentRun run = teleoperation({kSurgeon + "console_mm=[922, -122, 79]"});
   expect_ended(run, "refused",
-               "the master cannot come to the instrument: ik: the goal: out_of_reach");
+               "the leader cannot come to the instrument: ik: the goal: out_of_reach");
   EXPECT_EQ(run.figure("tip_speed_mm_s"), 0);
 }
 
-TEST(MasterManipulator, AMoveThatTheMastersLimitsForbidInThePapersTimeIsRefused) {
-  const DeploymentRun run = teleoperation({"components.master_motion.path.params.duration_s=0.5"});
+TEST(MasterManipulator, AMoveThatTheLeadersLimitsForbidInThePapersTimeIsRefused) {
+  const DeploymentRun run = teleoperation({"components.leader_motion.path.params.duration_s=0.5"});
   expect_ended(run, "refused",
-               "the master cannot come to the instrument: trajectory: segment 1 lasts");
+               "the leader cannot come to the instrument: trajectory: segment 1 lasts");
 }
 
-TEST(MasterManipulator, ASlaveThatCannotFollowIsHeld) {
+TEST(MasterManipulator, AFollowerThatCannotFollowIsHeld) {
   const DeploymentRun run = teleoperation({kTask + "scale=10", kTask + "max_tip_speed_m_s=1",
                                            "components.motion.params.max_tracking_velocity_m_s=1"});
-  expect_ended(run, "held", "the slave cannot follow: ik: the goal: joint_limit");
+  expect_ended(run, "held", "the follower cannot follow: ik: the goal: joint_limit");
 }
 
-TEST(MasterManipulator, AHandThatFallsSilentHoldsTheSlave) {
+TEST(MasterManipulator, AHandThatFallsSilentHoldsTheFollower) {
   const DeploymentRun run = teleoperation({kSurgeon + "silent_after_s=3"});
   expect_ended(run, "held", "the clutch tells nothing");
   EXPECT_LE(run.figure("clutch_motion_mm"), 0.001);
@@ -126,19 +126,19 @@ TEST(MasterManipulator, AHandThatIsSilentBeforeItClosesTheClutchIsNamedAndEndsTh
 }
 
 TEST(MasterManipulator, AMisspeltWordBeforeTheTopicsOfAnArmIsTold) {
-  const DeploymentRun run = teleoperation({"components.master.topics=mastr"});
+  const DeploymentRun run = teleoperation({"components.leader.topics=leadr"});
   EXPECT_EQ(run.command.exit_code, 3);
   EXPECT_NE(
       run.command.err.find("surgeon.measured_js reads topic "
-                           "'/master_manipulator/master/arm/measured_js', which nobody writes; "
-                           "did you mean '/master_manipulator/mastr/arm/measured_js'?\n"),
+                           "'/master_manipulator/leader/arm/measured_js', which nobody writes; "
+                           "did you mean '/master_manipulator/leadr/arm/measured_js'?\n"),
       std::string::npos)
       << run.text();
 }
 
 TEST(MasterManipulator, MotionsWithoutAnExecutorsPeriodHaveTheirOwn) {
   expect_teleoperated(
-      teleoperation({"components.motion.executor=main", "components.master_motion.executor=main"}));
+      teleoperation({"components.motion.executor=main", "components.leader_motion.executor=main"}));
 }
 
 TEST(MasterManipulator, OfAHandThatDoesNotTrembleNoRatioIsTold) {
@@ -157,7 +157,7 @@ TEST(MasterManipulator, OfAHandThatRestsNoLagIsTold) {
 }
 
 TEST(MasterManipulator, TwoArmsNeedTopicsOfTheirOwn) {
-  const DeploymentRun run = teleoperation({"components.master.topics=null"});
+  const DeploymentRun run = teleoperation({"components.leader.topics=null"});
   EXPECT_EQ(run.command.exit_code, 3);
   EXPECT_NE(run.command.err.find("both write topic '/master_manipulator/arm/measured_js'"),
             std::string::npos)

@@ -23,7 +23,7 @@ std::atomic<long> other_allocations{0};
 void count_by_component() {
   const char* name = armature::RunningComponent::name();
   if (!name) return;
-  const bool motion = std::strcmp(name, "motion") == 0 || std::strcmp(name, "master_motion") == 0;
+  const bool motion = std::strcmp(name, "motion") == 0 || std::strcmp(name, "leader_motion") == 0;
   ++(motion ? motion_allocations : other_allocations);
 }
 
@@ -113,7 +113,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"master_manipulator.yaml", {"components.surgeon.params.silent_after_s=3"}},
         Case{"master_manipulator.yaml",
              {"components.surgeon.params.curve_mm=[-30, 30, 20]",
-              "components.surgeon.params.curve_hz=0.4"}},  // faster than the slave may be
+              "components.surgeon.params.curve_hz=0.4"}},  // faster than the follower may be
         Case{"sr1_biopsy.yaml", {"components.arm.params.lag_s=1"}}));
 
 }  // namespace

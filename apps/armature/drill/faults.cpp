@@ -104,7 +104,7 @@ std::optional<Fault> driver_halted(const DrilledDeployment& deployment, Form for
   return Fault{.name = {},
                .outcome = Outcome::goes_on,
                .shown = {},
-               .may_give_up = true,  // teleoperation holds when its master was silent for 0.1 s
+               .may_give_up = true,  // teleoperation holds when its leader was silent for 0.1 s
                .fire = [process = deployment.arms.front().process](Scene& scene) {
                  std::string wrong = send(scene, process, SIGSTOP);
                  // Shorter than a reference takes to go farther ahead than max_deviation.

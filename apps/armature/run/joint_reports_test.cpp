@@ -40,22 +40,22 @@ std::map<std::string, std::string> topics_of(const ComponentConfig& component) {
 TEST(JointReports, EachOfTwoArmsHasOneThatReadsItsOwnTopics) {
   DeploymentConfig teleoperation = deployment("master_manipulator.yaml");
   add_joint_reports(teleoperation, built_plugins(), "/reports");
-  const ComponentConfig& master = component(teleoperation, "master.joints");
-  const ComponentConfig& slave = component(teleoperation, "arm.joints");
+  const ComponentConfig& leader = component(teleoperation, "leader.joints");
+  const ComponentConfig& follower = component(teleoperation, "arm.joints");
   const std::string space = "/master_manipulator/";
-  EXPECT_EQ(topics_of(master),
-            (std::map<std::string, std::string>{{"measured_js", space + "master/arm/measured_js"},
-                                                {"servo_jp", space + "master/arm/servo_jp"},
-                                                {"goal", space + "master/motion/goal"},
-                                                {"status", space + "master/motion/status"}}));
-  EXPECT_EQ(topics_of(slave),
+  EXPECT_EQ(topics_of(leader),
+            (std::map<std::string, std::string>{{"measured_js", space + "leader/arm/measured_js"},
+                                                {"servo_jp", space + "leader/arm/servo_jp"},
+                                                {"goal", space + "leader/motion/goal"},
+                                                {"status", space + "leader/motion/status"}}));
+  EXPECT_EQ(topics_of(follower),
             (std::map<std::string, std::string>{{"measured_js", space + "arm/measured_js"},
                                                 {"servo_jp", space + "arm/servo_jp"},
                                                 {"goal", space + "motion/goal"},
                                                 {"status", space + "motion/status"}}));
-  EXPECT_EQ(master.documents.at("robots"), "master");
-  EXPECT_EQ(slave.documents.at("robots"), "slave");
-  EXPECT_EQ(slave.params.text("file"), "/reports/arm_joints");
+  EXPECT_EQ(leader.documents.at("robots"), "master");
+  EXPECT_EQ(follower.documents.at("robots"), "follower");
+  EXPECT_EQ(follower.params.text("file"), "/reports/arm_joints");
 }
 
 TEST(JointReports, ItIsAloneOnItsThreadComesLastAndItsFaultStaysWhereItIs) {

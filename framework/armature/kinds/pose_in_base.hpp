@@ -12,8 +12,8 @@
 
 namespace armature ARMATURE_EXPORT {
 
-// What stands in a message about where something is, checked: "the master is stated in frame
-// 'camera', not in 'base'", "the master's quaternion has length 0, not 1". Real-time safe but for
+// What stands in a message about where something is, checked: "the leader is stated in frame
+// 'camera', not in 'base'", "the leader's quaternion has length 0, not 1". Real-time safe but for
 // the reason.
 
 inline Expected<Eigen::Isometry3d> pose_in_base(const msg::Header& header,

@@ -35,16 +35,16 @@ TEST(PoseInBase, AQuaternionThatIsNearlyAUnitIsMadeOne) {
 TEST(PoseInBase, IsRefusedByName) {
   msg::PoseStamped message = stamped_pose();
   message.header_().frame_id_() = "camera";
-  EXPECT_EQ(pose_in_base(message, "the master").error().text,
-            "the master is stated in frame 'camera', not in 'base'");
+  EXPECT_EQ(pose_in_base(message, "the leader").error().text,
+            "the leader is stated in frame 'camera', not in 'base'");
   message = stamped_pose();
   message.pose_().position_().y_(NAN);
-  EXPECT_EQ(pose_in_base(message, "the master").error().text,
-            "the master's position is not finite");
+  EXPECT_EQ(pose_in_base(message, "the leader").error().text,
+            "the leader's position is not finite");
   message = stamped_pose();
   message.pose_().orientation_() = {};
-  EXPECT_EQ(pose_in_base(message, "the master").error().text,
-            "the master's quaternion has length 0, not 1");
+  EXPECT_EQ(pose_in_base(message, "the leader").error().text,
+            "the leader's quaternion has length 0, not 1");
 }
 
 }  // namespace

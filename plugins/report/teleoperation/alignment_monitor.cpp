@@ -7,12 +7,12 @@
 
 namespace armature::report::teleoperation {
 
-std::optional<PoseResidual> AlignmentMonitor::error(const Eigen::Isometry3d& slave_T_master,
-                                                    const Eigen::Isometry3d& slave_T_tool) const {
-  if (!master_T_hand_) return std::nullopt;
-  const ToolPose instrument{.position = slave_T_tool.translation(),
-                            .orientation = Eigen::Quaterniond{slave_T_tool.linear()}};
-  return residual(slave_T_master * *master_T_hand_, Eigen::Vector3d::UnitX(), instrument);
+std::optional<PoseResidual> AlignmentMonitor::error(
+    const Eigen::Isometry3d& follower_T_leader, const Eigen::Isometry3d& follower_T_tool) const {
+  if (!leader_T_hand_) return std::nullopt;
+  const ToolPose instrument{.position = follower_T_tool.translation(),
+                            .orientation = Eigen::Quaterniond{follower_T_tool.linear()}};
+  return residual(follower_T_leader * *leader_T_hand_, Eigen::Vector3d::UnitX(), instrument);
 }
 
 std::optional<double> AlignmentMonitor::peak_speed_error(

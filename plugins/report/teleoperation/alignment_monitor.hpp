@@ -10,24 +10,24 @@
 
 namespace armature::report::teleoperation {
 
-/// Watches the master on its way to the instrument.
+/// Watches the leader on its way to the instrument.
 class AlignmentMonitor {
  public:
   void see_rates(const JointVector& v) {
     peak_ = peak_.size() == v.size() ? JointVector{peak_.cwiseMax(v.cwiseAbs())} : v.cwiseAbs();
   }
-  void see_master(const Eigen::Isometry3d& master_T_hand) { master_T_hand_ = master_T_hand; }
+  void see_leader(const Eigen::Isometry3d& leader_T_hand) { leader_T_hand_ = leader_T_hand; }
 
-  /// How far the master is from the instrument: in [m] and [rad].
-  std::optional<PoseResidual> error(const Eigen::Isometry3d& slave_T_master,
-                                    const Eigen::Isometry3d& slave_T_tool) const;
+  /// How far the leader is from the instrument: in [m] and [rad].
+  std::optional<PoseResidual> error(const Eigen::Isometry3d& follower_T_leader,
+                                    const Eigen::Isometry3d& follower_T_tool) const;
   /// The largest part by which a joint's peak speed differs from that of the reference; none
   /// without a reference of so many joints.
   std::optional<double> peak_speed_error(const std::vector<double>& reference) const;
 
  private:
   JointVector peak_;
-  std::optional<Eigen::Isometry3d> master_T_hand_;
+  std::optional<Eigen::Isometry3d> leader_T_hand_;
 };
 
 }  // namespace armature::report::teleoperation

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A master on its way to the instrument.
+// A leader on its way to the instrument.
 #include "alignment_monitor.hpp"
 
 #include <gtest/gtest.h>
@@ -9,18 +9,18 @@ namespace {
 
 using Eigen::Vector3d;
 
-TEST(AlignmentMonitor, TellsHowFarTheMasterIsFromTheInstrument) {
-  const Eigen::Isometry3d slave_T_master =
+TEST(AlignmentMonitor, TellsHowFarTheLeaderIsFromTheInstrument) {
+  const Eigen::Isometry3d follower_T_leader =
       Eigen::Translation3d{0.6, 0, 0.1} * Eigen::AngleAxisd{1.2, Vector3d::UnitZ()};
-  const Eigen::Isometry3d master_T_hand =
+  const Eigen::Isometry3d leader_T_hand =
       Eigen::Translation3d{0.1, 0.1, 0.1} * Eigen::AngleAxisd{0.7, Vector3d::UnitX()};
   AlignmentMonitor monitor;
-  EXPECT_FALSE(monitor.error(slave_T_master, Eigen::Isometry3d::Identity()));
-  monitor.see_master(master_T_hand);
-  Eigen::Isometry3d instrument = slave_T_master * master_T_hand;
+  EXPECT_FALSE(monitor.error(follower_T_leader, Eigen::Isometry3d::Identity()));
+  monitor.see_leader(leader_T_hand);
+  Eigen::Isometry3d instrument = follower_T_leader * leader_T_hand;
   instrument.translation().y() += 0.0003;
   instrument.linear() = instrument.linear() * Eigen::AngleAxisd{0.01, Vector3d{0.6, 0.8, 0}};
-  const auto off = monitor.error(slave_T_master, instrument);
+  const auto off = monitor.error(follower_T_leader, instrument);
   ASSERT_TRUE(off);
   EXPECT_NEAR(off->position_m, 0.0003, 1e-15);
   EXPECT_NEAR(off->angle_rad, 0.01, 1e-12);

@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 
 constexpr double kTremorFrom_hz = 8, kTremorTo_hz = 12;
 constexpr double kSettles_s = 0.5;  // after the clutch has closed, before the following is judged
-constexpr double kStops_s = 0.1;    // after the clutch has opened, until the slave must stand
+constexpr double kStops_s = 0.1;    // after the clutch has opened, until the follower must stand
 constexpr double kCloses_s = 0.05;  // after it has closed: no jump in this time
 
 bool before(const TrackPoint& point, double t) { return point.t < t; }
@@ -58,11 +58,11 @@ void FollowMonitor::see_clutch(bool closed, double t) {
 
 std::vector<FollowMonitor::Stretch> FollowMonitor::stretches(bool closed) const {
   std::vector<Stretch> found;
-  if (slave_.empty()) return found;
+  if (follower_.empty()) return found;
   for (std::size_t i = 0; i < clutch_.size(); ++i) {
     if (clutch_[i].closed != closed) continue;
     const bool last = i + 1 == clutch_.size();
-    found.push_back({clutch_[i].t, last ? slave_.back().t : clutch_[i + 1].t});
+    found.push_back({clutch_[i].t, last ? follower_.back().t : clutch_[i + 1].t});
   }
   return found;
 }
@@ -71,7 +71,7 @@ FollowMonitor::Comparison FollowMonitor::compare(double lag_s, const Sample& sam
   constexpr double kHalfStep = 5e-4;  // [s] of the difference quotient
   Comparison result;
   for (const Stretch& stretch : stretches(true)) {
-    const auto points = between(slave_, std::max(stretch.from + kSettles_s, sample.from),
+    const auto points = between(follower_, std::max(stretch.from + kSettles_s, sample.from),
                                 std::min(stretch.to, sample.to));
     std::vector<Vector3d> off, rate;
     for (std::size_t i = 0; i < points.size(); i += sample.every) {
@@ -101,7 +101,7 @@ std::optional<double> FollowMonitor::coarse_lag() const {
   // The same points at every lag: else the lag that leaves out the worst of them would be best.
   const Sample sample{.from = intended_.front().t + kMaxLag_s + kLagStep_s,
                       .to = intended_.back().t + kMinLag_s - kLagStep_s,
-                      .every = 1 + slave_.size() / kEnough};
+                      .every = 1 + follower_.size() / kEnough};
   const int last = static_cast<int>(std::lround((kMaxLag_s - kMinLag_s) / kLagStep_s));
   int best = 0;
   double least = compare(kMinLag_s, sample).squares;
@@ -163,24 +163,26 @@ std::optional<FollowMonitor::Following> FollowMonitor::following() const {
 }
 
 std::optional<FollowMonitor::Tremor> FollowMonitor::tremor() const {
-  double hand = 0, slave = 0, duration = 0;
+  double hand = 0, follower = 0, duration = 0;
   for (const Stretch& stretch : stretches(true)) {
     const double from = stretch.from + kSettles_s, lasts = stretch.to - from;
     if (lasts <= 0) continue;
     hand += lasts * band_power(between(hand_, from, stretch.to), kTremorFrom_hz, kTremorTo_hz);
-    slave += lasts * band_power(between(slave_, from, stretch.to), kTremorFrom_hz, kTremorTo_hz);
+    follower +=
+        lasts * band_power(between(follower_, from, stretch.to), kTremorFrom_hz, kTremorTo_hz);
     duration += lasts;
   }
   if (!(hand > 0)) return std::nullopt;
-  return Tremor{.hand_m = std::sqrt(hand / duration),
-                .slave_m = std::sqrt(slave / duration),
-                .left_db = 10 * std::log10(slave / (parameters_.scale * parameters_.scale * hand))};
+  return Tremor{
+      .hand_m = std::sqrt(hand / duration),
+      .follower_m = std::sqrt(follower / duration),
+      .left_db = 10 * std::log10(follower / (parameters_.scale * parameters_.scale * hand))};
 }
 
 std::optional<double> FollowMonitor::open_motion_m() const {
   std::optional<double> farthest;
   for (const Stretch& stretch : stretches(false)) {
-    const auto stands = between(slave_, stretch.from + kStops_s, stretch.to);
+    const auto stands = between(follower_, stretch.from + kStops_s, stretch.to);
     for (const TrackPoint& point : stands) {
       keep_largest(farthest, (point.position - stands.front().position).norm());
     }
@@ -192,7 +194,7 @@ std::optional<double> FollowMonitor::stopping_m() const {
   std::optional<double> farthest;
   for (const Stretch& stretch : stretches(false)) {
     const double stands = std::min(stretch.from + kStops_s, stretch.to);
-    const auto stopping = between(slave_, stretch.from, stands);
+    const auto stopping = between(follower_, stretch.from, stands);
     if (stopping.empty()) continue;
     keep_largest(farthest, (stopping.back().position - stopping.front().position).norm());
   }
@@ -202,7 +204,7 @@ std::optional<double> FollowMonitor::stopping_m() const {
 std::optional<double> FollowMonitor::closing_step_m() const {
   std::optional<double> longest;
   for (const Stretch& stretch : stretches(true)) {
-    const auto closing = between(slave_, stretch.from, stretch.from + kCloses_s);
+    const auto closing = between(follower_, stretch.from, stretch.from + kCloses_s);
     for (std::size_t i = 1; i < closing.size(); ++i) {
       keep_largest(longest, (closing[i].position - closing[i - 1].position).norm());
     }
@@ -212,8 +214,8 @@ std::optional<double> FollowMonitor::closing_step_m() const {
 
 std::optional<double> FollowMonitor::top_speed_m_s() const {
   std::optional<double> fastest;
-  for (std::size_t i = 1; i < slave_.size(); ++i) {
-    const TrackPoint &a = slave_[i - 1], &b = slave_[i];
+  for (std::size_t i = 1; i < follower_.size(); ++i) {
+    const TrackPoint &a = follower_[i - 1], &b = follower_[i];
     if (b.t > a.t) keep_largest(fastest, (b.position - a.position).norm() / (b.t - a.t));
   }
   return fastest;

@@ -12,21 +12,21 @@
 
 namespace armature::report::teleoperation {
 
-/// Watches a slave that follows a hand; the slave's points are told along the master's axes, from
-/// any origin. Times in [s].
+/// Watches a follower that a hand leads; the follower's points are told along the leader's axes,
+/// from any origin. Times in [s].
 class FollowMonitor {
  public:
   explicit FollowMonitor(const Parameters& parameters) : parameters_{parameters} {}
 
-  /// Where the hand means to be, where it is, and where the slave's tip is.
+  /// Where the hand means to be, where it is, and where the follower's tip is.
   void see_intended(const TrackPoint& point) { intended_.push_back(point); }
   void see_hand(const TrackPoint& point) { hand_.push_back(point); }
-  void see_slave(const TrackPoint& point) { slave_.push_back(point); }
+  void see_follower(const TrackPoint& point) { follower_.push_back(point); }
   /// Every change; open before the first.
   void see_clutch(bool closed, double t);
 
-  /// Of the slave from the intended way, scaled, that much later. Where either began plays no part
-  /// (the clutch), so the mean of each stretch is taken off.
+  /// Of the follower from the intended way, scaled, that much later. Where either began plays no
+  /// part (the clutch), so the mean of each stretch is taken off.
   struct Following {
     double rms_m = 0, worst_m = 0;
     /// With which the rms would be least, or why nobody can say: that is not between the two below,
@@ -36,18 +36,18 @@ class FollowMonitor {
   static constexpr double kMinLag_s = -0.1, kMaxLag_s = 1.1;
   std::optional<Following> following() const;
 
-  /// What the hand's tremor is, and what the slave has of it; rms [m].
+  /// What the hand's tremor is, and what the follower has of it; rms [m].
   struct Tremor {
-    double hand_m = 0, slave_m = 0;
-    double left_db = 0;  // the slave's, over scale times the hand's
+    double hand_m = 0, follower_m = 0;
+    double left_db = 0;  // the follower's, over scale times the hand's
   };
   std::optional<Tremor> tremor() const;
 
-  /// The farthest that the slave went while the clutch was open, once it stood.
+  /// The farthest that the follower went while the clutch was open, once it stood.
   std::optional<double> open_motion_m() const;
   /// How far it went until then.
   std::optional<double> stopping_m() const;
-  /// The longest step of the slave, from one point to the next, as the clutch closes.
+  /// The longest step of the follower, from one point to the next, as the clutch closes.
   std::optional<double> closing_step_m() const;
   std::optional<double> top_speed_m_s() const;
 
@@ -55,10 +55,10 @@ class FollowMonitor {
   struct Stretch {
     double from, to;
   };
-  /// With the clutch closed, or open after it was closed, up to the last point of the slave.
+  /// With the clutch closed, or open after it was closed, up to the last point of the follower.
   std::vector<Stretch> stretches(bool closed) const;
 
-  /// Which of the slave's points are compared: every so many in that time.
+  /// Which of the follower's points are compared: every so many in that time.
   struct Sample {
     double from = -std::numeric_limits<double>::infinity();
     double to = std::numeric_limits<double>::infinity();
@@ -78,7 +78,7 @@ class FollowMonitor {
   static constexpr double kLagStep_s = 0.01, kTellsApart_s = 0.1;
 
   Parameters parameters_;
-  Track intended_, hand_, slave_;
+  Track intended_, hand_, follower_;
   struct ClutchChange {
     bool closed;
     double t;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How well a slave follows: 1. how far off and how late, 2. tremor, 3. the clutch, 4. speed.
+// How well a follower keeps to the hand: 1. how far off and how late, 2. tremor, 3. the clutch, 4.
+// speed.
 #include "follow_monitor.hpp"
 
 #include <gtest/gtest.h>
@@ -23,20 +24,20 @@ Vector3d shaking(double t, double amplitude) {
 }
 
 /// From 0 to `end` s, the clutch closed from 1 s to 5 s and from 7 s on.
-FollowMonitor watched(const Way& intended, const Way& hand, const Way& slave, double end = 11,
+FollowMonitor watched(const Way& intended, const Way& hand, const Way& follower, double end = 11,
                       const Parameters& parameters = {.scale = 0.5, .lag = 0.05}) {
   FollowMonitor monitor{parameters};
   for (int k = 0; k * kSample < end; ++k) {
     const double t = k * kSample;
     monitor.see_intended({t, intended(t)});
     monitor.see_hand({t, hand(t)});
-    monitor.see_slave({t, slave(t)});
+    monitor.see_follower({t, follower(t)});
     monitor.see_clutch((t >= 1 && t < 5) || t >= 7, t);
   }
   return monitor;
 }
 
-TEST(FollowMonitor, TellsNothingOfASlaveThatNeverFollowed) {
+TEST(FollowMonitor, TellsNothingOfAFollowerThatNeverFollowed) {
   const FollowMonitor monitor{{}};
   EXPECT_FALSE(monitor.following());
   EXPECT_FALSE(monitor.tremor());
@@ -46,7 +47,7 @@ TEST(FollowMonitor, TellsNothingOfASlaveThatNeverFollowed) {
   EXPECT_FALSE(monitor.top_speed_m_s());
 }
 
-TEST(FollowMonitor, ASlaveThatFollowsAsStatedIsNowhereOffWhereverItBegan) {
+TEST(FollowMonitor, AFollowerThatFollowsAsStatedIsNowhereOffWhereverItBegan) {
   const auto monitor = watched(curve, curve, [](double t) {
     const Vector3d began = t < 6 ? Vector3d{1, 2, 3} : Vector3d{1, 2, 3.1};
     return Vector3d{began + 0.5 * curve(t - 0.05)};
@@ -77,7 +78,7 @@ TEST(FollowMonitor, TellsHowLateItComesInTruthWhateverLagIsStated) {
   }
 }
 
-TEST(FollowMonitor, TellsNoLagOfASlaveThatDoesNotFollowInTime) {
+TEST(FollowMonitor, TellsNoLagOfAFollowerThatDoesNotFollowInTime) {
   const auto late = watched(curve, curve, [](double t) { return Vector3d{0.5 * curve(t - 1.5)}; });
   EXPECT_FALSE(late.following()->lag_s);
   const Way standing = [](double) { return Vector3d{0, 0, 0}; };
@@ -86,14 +87,14 @@ TEST(FollowMonitor, TellsNoLagOfASlaveThatDoesNotFollowInTime) {
 }
 
 TEST(FollowMonitor, TellsNoLagThatTheMotionDoesNotDetermine) {
-  const auto slave_of = [](const Way& hand) -> Way {
+  const auto follower_of = [](const Way& hand) -> Way {
     return [hand](double t) {
       return Vector3d{0.5 * hand(t - 0.05) + shaking(t, 5e-6) + shaking(1.3 * t, 3e-6)};
     };
   };
   const auto lag_of = [&](double of_curve) {
     const Way hand = [=](double t) { return Vector3d{of_curve * curve(t)}; };
-    return watched(hand, hand, slave_of(hand)).following()->lag_s;
+    return watched(hand, hand, follower_of(hand)).following()->lag_s;
   };
   ASSERT_TRUE(lag_of(1));
   EXPECT_NEAR(*lag_of(1), 0.05, 1e-4);
@@ -106,7 +107,7 @@ TEST(FollowMonitor, TellsNoLagThatTheMotionDoesNotDetermine) {
   EXPECT_FALSE(lag_of(0));
 }
 
-TEST(FollowMonitor, TellsTheLagOfASlaveThatIsFartherOffThanItsLagMakesIt) {
+TEST(FollowMonitor, TellsTheLagOfAFollowerThatIsFartherOffThanItsLagMakesIt) {
   const auto too_short =
       watched(curve, curve, [](double t) { return Vector3d{0.35 * curve(t - 0.05)}; });
   ASSERT_TRUE(too_short.following()->lag_s) << too_short.following()->lag_s.error().text;
@@ -120,11 +121,11 @@ TEST(FollowMonitor, ComparesTheTremorOfBothScaled) {
   const auto tremor = monitor.tremor();
   ASSERT_TRUE(tremor);
   EXPECT_NEAR(tremor->hand_m, 2e-4 / std::sqrt(2), 1e-6);
-  EXPECT_NEAR(tremor->slave_m, 1e-5 / std::sqrt(2), 1e-7);
+  EXPECT_NEAR(tremor->follower_m, 1e-5 / std::sqrt(2), 1e-7);
   EXPECT_NEAR(tremor->left_db, -20, 0.05) << "0.1 of half of it";
 }
 
-TEST(FollowMonitor, TellsWhatTheSlaveDoesWithTheClutchOpen) {
+TEST(FollowMonitor, TellsWhatTheFollowerDoesWithTheClutchOpen) {
   const Way standing = [](double) { return Vector3d{0, 0, 0}; };
   const auto monitor = watched(curve, curve, [](double t) {
     const double rolls_out = std::min(std::max(t - 5, 0.0), 0.06);

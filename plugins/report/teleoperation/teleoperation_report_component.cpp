@@ -49,13 +49,13 @@ class TeleoperationReport final : public Component {
  public:
   explicit TeleoperationReport(Setup& setup)
       : Component{setup},
-        master_{robot_of(setup)},
-        parameters_{parameters_of(setup.params(), master_)},
+        leader_{robot_of(setup)},
+        parameters_{parameters_of(setup.params(), leader_)},
         follow_{parameters_},
         console_{setup.input<msg::TransformStamped>("console")},
-        master_js_{setup.input<msg::JointState>("master_js")},
-        master_cp_{setup.input<msg::PoseStamped>("master_cp")},
-        slave_cp_{setup.input<msg::PoseStamped>("slave_cp")},
+        leader_js_{setup.input<msg::JointState>("leader_js")},
+        leader_cp_{setup.input<msg::PoseStamped>("leader_cp")},
+        follower_cp_{setup.input<msg::PoseStamped>("follower_cp")},
         intended_cp_{setup.input<msg::PoseStamped>("intended_cp")},
         task_state_{setup.input<msg::TaskState>("task_state")} {
     setup.activate_every(kPeriod);
@@ -66,9 +66,9 @@ class TeleoperationReport final : public Component {
     complaint_.clear();
     for (std::size_t i = 0; i < task_state_.size(); ++i) read(task_state_[i]);
     if (console_.latest()) read(*console_.latest());
-    for (std::size_t i = 0; i < master_js_.size(); ++i) read_rates(master_js_[i]);
-    for (std::size_t i = 0; i < master_cp_.size(); ++i) read_master(master_cp_[i]);
-    for (std::size_t i = 0; i < slave_cp_.size(); ++i) read_slave(slave_cp_[i]);
+    for (std::size_t i = 0; i < leader_js_.size(); ++i) read_rates(leader_js_[i]);
+    for (std::size_t i = 0; i < leader_cp_.size(); ++i) read_leader(leader_cp_[i]);
+    for (std::size_t i = 0; i < follower_cp_.size(); ++i) read_follower(follower_cp_[i]);
     for (std::size_t i = 0; i < intended_cp_.size(); ++i) {
       read_intended(intended_cp_[i]);
     }
@@ -90,30 +90,32 @@ class TeleoperationReport final : public Component {
     if (aligned_at_) {
       metric("time_to_align_s", "time to align [s]", to_seconds(*aligned_at_ - *start_));
       if (const auto& off = alignment_error_) {
-        metric("alignment_error_mm", "master off the instrument [mm]", off->position_m, 1e3);
+        metric("alignment_error_mm", "leader off the instrument [mm]", off->position_m, 1e3);
         metric("alignment_error_deg", "its rotation [deg]", off->angle_rad, kDegrees);
       }
       metric("peak_speed_error_percent", "peak joint speeds off the reference [%]",
              alignment_.peak_speed_error(parameters_.peak_speeds), 100);
     }
     if (const auto following = follow_.following()) {
-      metric("tracking_error_mm", "slave off the hand, later, rms [mm]", following->rms_m, 1e3);
+      metric("tracking_error_mm", "follower off the hand, later, rms [mm]", following->rms_m, 1e3);
       metric("tracking_worst_mm", "the largest [mm]", following->worst_m, 1e3);
       tell_lag(summary, following->lag_s);
     }
     if (const auto tremor = follow_.tremor()) {
       metric("hand_tremor_mm", "tremor of the hand, rms [mm]", tremor->hand_m, 1e3);
-      metric("slave_tremor_mm", "tremor of the slave's tip, rms [mm]", tremor->slave_m, 1e3);
+      metric("follower_tremor_mm", "tremor of the follower's tip, rms [mm]", tremor->follower_m,
+             1e3);
       tell_tremor_left(summary, *tremor);
     }
-    metric("tip_speed_mm_s", "top speed of the slave's tip [mm/s]", follow_.top_speed_m_s(), 1e3);
+    metric("tip_speed_mm_s", "top speed of the follower's tip [mm/s]", follow_.top_speed_m_s(),
+           1e3);
     metric("stopping_mm", "stops after the clutch opens within [mm]", follow_.stopping_m(), 1e3);
     metric("clutch_motion_mm", "moves with the clutch open [mm]", follow_.open_motion_m(), 1e3);
     metric("closing_step_mm", "longest step when it closes [mm]", follow_.closing_step_m(), 1e3);
   }
 
  private:
-  /// Of a hand that does not tremble, what the slave has of it would be a ratio of noise.
+  /// Of a hand that does not tremble, what the follower has of it would be a ratio of noise.
   void tell_tremor_left(Summary& summary, const FollowMonitor::Tremor& tremor) const {
     constexpr const char *kKey = "tremor_db", *kTitle = "what is left of it, scaled [dB]";
     if (tremor.hand_m >= parameters_.min_tremor) {
@@ -143,7 +145,7 @@ class TeleoperationReport final : public Component {
   double since_start(const msg::Header& header) const {
     return to_seconds(stamp_of(header.stamp_()) - *start_);
   }
-  /// Before the task's word the master moves by itself, afterwards in the hand.
+  /// Before the task's word the leader moves by itself, afterwards in the hand.
   bool is_aligning(const msg::Header& header) const {
     return !aligned_at_ || stamp_of(header.stamp_()) <= *aligned_at_;
   }
@@ -164,20 +166,20 @@ class TeleoperationReport final : public Component {
   void read(const msg::TransformStamped& console) {
     const auto pose = pose_in_base(console, "the console");
     if (!pose) return complain(pose.error().text);
-    slave_T_master_ = *pose;
+    follower_T_leader_ = *pose;
   }
 
   void read_rates(const msg::JointState& state) {
     if (!is_aligning(state.header_())) return;
-    const auto v = joint_rates_of(master_, state);
-    if (!v) return complain("master_js: " + v.error().text);
+    const auto v = joint_rates_of(leader_, state);
+    if (!v) return complain("leader_js: " + v.error().text);
     alignment_.see_rates(*v);
   }
 
-  void read_master(const msg::PoseStamped& message) {
-    const auto pose = pose_in_base(message, "the master");
+  void read_leader(const msg::PoseStamped& message) {
+    const auto pose = pose_in_base(message, "the leader");
     if (!pose) return complain(pose.error().text);
-    if (is_aligning(message.header_())) alignment_.see_master(*pose);
+    if (is_aligning(message.header_())) alignment_.see_leader(*pose);
     follow_.see_hand({since_start(message.header_()), pose->translation()});
   }
 
@@ -187,29 +189,29 @@ class TeleoperationReport final : public Component {
     follow_.see_intended({since_start(message.header_()), pose->translation()});
   }
 
-  void read_slave(const msg::PoseStamped& message) {
-    const auto pose = pose_in_base(message, "the slave's tool");
+  void read_follower(const msg::PoseStamped& message) {
+    const auto pose = pose_in_base(message, "the follower's tool");
     if (!pose) return complain(pose.error().text);
-    if (!slave_T_master_) return;
+    if (!follower_T_leader_) return;
     if (is_aligning(message.header_())) {
-      alignment_error_ = alignment_.error(*slave_T_master_, *pose);
+      alignment_error_ = alignment_.error(*follower_T_leader_, *pose);
     }
-    const Eigen::Matrix3d master_R_slave = slave_T_master_->linear().transpose();
-    follow_.see_slave({since_start(message.header_()), master_R_slave * pose->translation()});
+    const Eigen::Matrix3d leader_R_follower = follower_T_leader_->linear().transpose();
+    follow_.see_follower({since_start(message.header_()), leader_R_follower * pose->translation()});
   }
 
-  RobotModel master_;
+  RobotModel leader_;
   Parameters parameters_;
   AlignmentMonitor alignment_;
   FollowMonitor follow_;
   std::optional<PoseResidual> alignment_error_;
-  std::optional<Eigen::Isometry3d> slave_T_master_;
+  std::optional<Eigen::Isometry3d> follower_T_leader_;
   std::optional<Time> start_, aligned_at_, closed_at_, held_since_;
   std::string complaint_, trouble_;
   bool refused_ = false, held_ = false, finished_ = false;
   Input<msg::TransformStamped> console_;
-  Input<msg::JointState> master_js_;
-  Input<msg::PoseStamped> master_cp_, slave_cp_, intended_cp_;
+  Input<msg::JointState> leader_js_;
+  Input<msg::PoseStamped> leader_cp_, follower_cp_, intended_cp_;
   Input<msg::TaskState> task_state_;
 };
 

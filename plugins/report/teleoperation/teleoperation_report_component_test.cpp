@@ -17,11 +17,11 @@ namespace {
 
 using Eigen::Vector3d;
 
-const std::string kMasterFile = ARMATURE_SOURCE_DIR "/configs/robots/master.yaml";
+const std::string kLeaderFile = ARMATURE_SOURCE_DIR "/configs/robots/master.yaml";
 
 ComponentHarness::Options report_with(const std::string& params) {
   return {.component = "{plugin: report/teleoperation, params: {" + params + "}}",
-          .robot = config::load(kMasterFile),
+          .robot = config::load(kLeaderFile),
           .rig = {}};
 }
 
@@ -30,11 +30,11 @@ class TeleoperationReportTest : public testing::Test {
   TeleoperationReportTest() {
     msg::TransformStamped console;
     write_header(console.header_(), Time{}, kBaseFrame);
-    assign(console.transform_(), slave_T_master_);
+    assign(console.transform_(), follower_T_leader_);
     report_.send("console", console);
   }
   /// One millisecond of both arms and the hand; the report wakes up every 20.
-  void sample(const Vector3d& hand, const Vector3d& intended, const Vector3d& slave_in_master) {
+  void sample(const Vector3d& hand, const Vector3d& intended, const Vector3d& follower_in_leader) {
     ++sample_;
     const Time now = Time{} + sample_ * seconds(0.001);
     const auto tell = [&](const char* input, const Vector3d& position) {
@@ -44,12 +44,12 @@ class TeleoperationReportTest : public testing::Test {
       pose.pose_().orientation_().w_(1);
       report_.send(input, pose);
     };
-    tell("master_cp", hand);
+    tell("leader_cp", hand);
     tell("intended_cp", intended);
-    tell("slave_cp", slave_T_master_ * slave_in_master);
+    tell("follower_cp", follower_T_leader_ * follower_in_leader);
     msg::JointState joints;
-    write_all_joints(master_, JointVector::Zero(6), JointVector::Constant(6, 0.1), now, joints);
-    report_.send("master_js", joints);
+    write_all_joints(leader_, JointVector::Zero(6), JointVector::Constant(6, 0.1), now, joints);
+    report_.send("leader_js", joints);
     if (sample_ % 20 == 0) report_.step(0.001 * sample_);
   }
   void tell(const std::string& state, const std::string& detail = "") {
@@ -67,9 +67,9 @@ class TeleoperationReportTest : public testing::Test {
     }
   }
 
-  const RobotModel master_ = load_robot_model(kMasterFile);
+  const RobotModel leader_ = load_robot_model(kLeaderFile);
   // A pure move, so that the rotations of hand and tool, which stay, are equal.
-  const Eigen::Isometry3d slave_T_master_{Eigen::Translation3d{0.6, -0.1, 0.1}};
+  const Eigen::Isometry3d follower_T_leader_{Eigen::Translation3d{0.6, -0.1, 0.1}};
   ComponentHarness report_{built_plugins(),
                            report_with("peak_speeds: [0.1, 0.1, 0.1, 0.1, 0.1, 0.08], "
                                        "lag_ms: 40, watch_s: 3")};
@@ -90,7 +90,7 @@ TEST_F(TeleoperationReportTest, TellsTheAlignmentAtTheTasksWord) {
   EXPECT_FALSE(told.contains("tracking_error_mm"));
 }
 
-TEST_F(TeleoperationReportTest, TellsHowTheSlaveFollowsAndEnds) {
+TEST_F(TeleoperationReportTest, TellsHowTheFollowerFollowsAndEnds) {
   teleoperate(100);
   tell("aligned");
   teleoperate(100);
@@ -115,7 +115,7 @@ TEST_F(TeleoperationReportTest, AHandThatNeverBeginsEndsTheRunToo) {
   EXPECT_EQ(report_.figures().status, "held");
 }
 
-TEST_F(TeleoperationReportTest, AStoryThatEndsWhileTheSlaveIsHeldDidNotGoWell) {
+TEST_F(TeleoperationReportTest, AStoryThatEndsWhileTheFollowerIsHeldDidNotGoWell) {
   tell("teleoperating");
   teleoperate(2500);
   tell("held", "the clutch tells nothing");
@@ -144,7 +144,7 @@ TEST_F(TeleoperationReportTest, TellsWhatHappensWithTheClutchOpen) {
   EXPECT_NEAR(report_.figures().metrics.at("clutch_motion_mm"), 4, 1e-9);
 }
 
-TEST_F(TeleoperationReportTest, ASlaveThatIsHeldForLongOrARefusalEndsTheRun) {
+TEST_F(TeleoperationReportTest, AFollowerThatIsHeldForLongOrARefusalEndsTheRun) {
   tell("teleoperating");
   teleoperate(500);
   tell("held", "the clutch tells nothing");
@@ -158,21 +158,21 @@ TEST_F(TeleoperationReportTest, ASlaveThatIsHeldForLongOrARefusalEndsTheRun) {
   EXPECT_EQ(report_.figures().status, "held");
   EXPECT_EQ(report_.figures().reason, "the clutch tells nothing");
 
-  tell("refused", "the master stands 2 mm off");
+  tell("refused", "the leader stands 2 mm off");
   teleoperate(20);
   EXPECT_TRUE(report_.component().finished());
-  EXPECT_EQ(report_.figures().reason, "the master stands 2 mm off");
+  EXPECT_EQ(report_.figures().reason, "the leader stands 2 mm off");
 }
 
 TEST_F(TeleoperationReportTest, ASampleThatIsNoneIsSaid) {
   msg::JointState state;
   state.velocity_() = {1, 2};
-  report_.send("master_js", state);
+  report_.send("leader_js", state);
   report_.step(1);
-  EXPECT_EQ(report_.status().reason, "master_js: 2 joint values; master has 6 joints");
-  report_.send("slave_cp", msg::PoseStamped{});
+  EXPECT_EQ(report_.status().reason, "leader_js: 2 joint values; master has 6 joints");
+  report_.send("follower_cp", msg::PoseStamped{});
   report_.step(2);
-  EXPECT_EQ(report_.status().reason, "the slave's tool is stated in frame '', not in 'base'");
+  EXPECT_EQ(report_.status().reason, "the follower's tool is stated in frame '', not in 'base'");
 }
 
 TEST(TeleoperationReport, RefusesSpeedsThatAreNotTheRobotsOrNone) {

@@ -9,7 +9,7 @@
 namespace armature::sim::surgeon {
 namespace {
 
-const RobotModel& master_arm() {
+const RobotModel& leader_arm() {
   static const RobotModel model =
       load_robot_model(ARMATURE_SOURCE_DIR "/configs/robots/master.yaml");
   return model;
@@ -22,7 +22,7 @@ JointVector working_pose() {
 }
 
 ToolPose pose_at(const JointVector& q) {
-  const Eigen::Isometry3d base_T_tool = forward_kinematics(master_arm(), q);
+  const Eigen::Isometry3d base_T_tool = forward_kinematics(leader_arm(), q);
   return {base_T_tool.translation(), Eigen::Quaterniond{base_T_tool.linear()}};
 }
 
@@ -31,10 +31,10 @@ TEST(HeldArm, ItsToolIsWhereTheHandIs) {
   for (int k = 0; k < 200; ++k) {
     ToolPose pose = pose_at(q);
     pose.position += Eigen::Vector3d{-1e-4, 5e-5, 2e-5};
-    const auto next = joints_of_held_arm(master_arm(), pose, q);
+    const auto next = joints_of_held_arm(leader_arm(), pose, q);
     ASSERT_TRUE(next) << next.error().text;
     const PoseResidual off =
-        residual(forward_kinematics(master_arm(), *next), Eigen::Vector3d::UnitX(), pose);
+        residual(forward_kinematics(leader_arm(), *next), Eigen::Vector3d::UnitX(), pose);
     ASSERT_LT(off.position_m, 1e-10);
     ASSERT_LT(off.angle_rad, 1e-9);
     ASSERT_LT((*next - q).cwiseAbs().maxCoeff(), 0.01);
@@ -47,7 +47,7 @@ TEST(HeldArm, DoesNotGoBeyondAJointLimit) {
   q[2] = 0.2;
   ToolPose pose = pose_at(q);
   pose.position *= 1.001;
-  const auto next = joints_of_held_arm(master_arm(), pose, q);
+  const auto next = joints_of_held_arm(leader_arm(), pose, q);
   ASSERT_FALSE(next);
   EXPECT_EQ(next.error().text, "joint j3 is at its limit");
 }
@@ -55,7 +55,7 @@ TEST(HeldArm, DoesNotGoBeyondAJointLimit) {
 TEST(HeldArm, DoesNotLeap) {
   ToolPose pose = pose_at(working_pose());
   pose.position.x() += 0.1;
-  EXPECT_EQ(joints_of_held_arm(master_arm(), pose, working_pose()).error().text,
+  EXPECT_EQ(joints_of_held_arm(leader_arm(), pose, working_pose()).error().text,
             "the arm cannot go along");
 }
 

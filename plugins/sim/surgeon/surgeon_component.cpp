@@ -20,7 +20,7 @@ namespace {
 
 constexpr Duration kPeriod = seconds(0.001);
 constexpr double kComesToRestIn_s = 0.3;
-constexpr const char* kMasterFrame = "master_base";
+constexpr const char* kLeaderFrame = "leader_base";
 
 }  // namespace
 
@@ -63,7 +63,7 @@ class Surgeon final : public Component {
   bool stopped() const override { return !taken_at_ || silent_ || pace_ == 0; }
 
  private:
-  /// Nobody goes on moving a master while the console is held, tells trouble, or stops.
+  /// Nobody goes on moving a leader while the console is held, tells trouble, or stops.
   void pause(Time now) {
     const msg::TaskState* task = task_state_.latest();
     const bool held = task && (task->state_() == "held" || !task->detail_().empty());
@@ -77,7 +77,7 @@ class Surgeon final : public Component {
     console_told_ = true;
     auto loan = console_.loan();
     write_header(loan->header_(), now, kBaseFrame);
-    loan->child_frame_id_(kMasterFrame);
+    loan->child_frame_id_(kLeaderFrame);
     assign(loan->transform_(), pose_of(parameters_.console, parameters_.console_rpy));
     loan.publish();
   }
@@ -92,7 +92,7 @@ class Surgeon final : public Component {
     taken_at_ = moved_at_ = now;
   }
 
-  /// A hand that the master cannot follow stays where the master is.
+  /// A hand that the leader cannot follow stays where the leader is.
   void move(double t, Time now) {
     const Eigen::Isometry3d pose = hand_.actual(t, start_);
     const auto q =
@@ -119,7 +119,7 @@ class Surgeon final : public Component {
   Time moved_at_;
   bool stopping_ = false, silent_ = false;
   double pace_ = 1, paused_s_ = 0;                           // of the hand's own time
-  Eigen::Isometry3d start_ = Eigen::Isometry3d::Identity();  // master_T_hand when it took hold
+  Eigen::Isometry3d start_ = Eigen::Isometry3d::Identity();  // leader_T_hand when it took hold
   JointVector q_;
   Input<msg::TaskState> task_state_;
   Input<msg::JointState> measured_js_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The simulated surgeon on its topics: 1. the console, told once, 2. the hand and the clutch, once
-// the master is aligned, 3. a hand that the master cannot follow, or that falls silent.
+// the leader is aligned, 3. a hand that the leader cannot follow, or that falls silent.
 #include <gtest/gtest.h>
 
 #include "armature/kinds/joint_messages.hpp"
@@ -14,11 +14,11 @@
 namespace armature::sim::surgeon {
 namespace {
 
-const std::string kMaster = ARMATURE_SOURCE_DIR "/configs/robots/master.yaml";
+const std::string kLeader = ARMATURE_SOURCE_DIR "/configs/robots/master.yaml";
 
 ComponentHarness::Options surgeon_with(const std::string& params) {
   return {.component = "{plugin: sim/surgeon, params: {" + params + "}}",
-          .robot = config::load(kMaster),
+          .robot = config::load(kLeader),
           .rig = {}};
 }
 
@@ -27,7 +27,7 @@ class SurgeonTest : public testing::Test {
   void make(const std::string& params) { bench_.emplace(built_plugins(), surgeon_with(params)); }
   void align() {
     msg::JointState state;
-    write_all_joints(master_, q_, JointVector::Zero(6), Time{}, state);
+    write_all_joints(leader_, q_, JointVector::Zero(6), Time{}, state);
     bench_->send("measured_js", state);
     tell("aligned");
   }
@@ -41,10 +41,10 @@ class SurgeonTest : public testing::Test {
     for (int i = 0; i < count; ++i) bench_->step(now_s_ += 0.001);
   }
   Eigen::Isometry3d hand_at(const msg::JointState& message) const {
-    return forward_kinematics(master_, master_.to_independent(message.position_()).value());
+    return forward_kinematics(leader_, leader_.to_independent(message.position_()).value());
   }
 
-  const RobotModel master_ = load_robot_model(kMaster);
+  const RobotModel leader_ = load_robot_model(kLeader);
   const JointVector q_ = [] {
     JointVector q(6);
     q << 0.7898, 1.1733, 0.1666349, 0.4488, -0.3927, 0.5236;
@@ -60,12 +60,12 @@ TEST_F(SurgeonTest, TellsOnceWhereTheConsoleStands) {
   const auto told = bench_->take<msg::TransformStamped>("console");
   ASSERT_EQ(told.size(), 1u);
   EXPECT_EQ(told[0].header_().frame_id_(), "base");
-  EXPECT_EQ(told[0].child_frame_id_(), "master_base");
+  EXPECT_EQ(told[0].child_frame_id_(), "leader_base");
   const Eigen::Vector3d x = to_eigen(told[0].transform_()) * Eigen::Vector3d{0.1, 0, 0};
   EXPECT_LT((x - Eigen::Vector3d{0.1, 0.3, 0.3}).norm(), 1e-12);
 }
 
-TEST_F(SurgeonTest, TakesTheMasterWhenItIsAlignedAndNotBefore) {
+TEST_F(SurgeonTest, TakesTheLeaderWhenItIsAlignedAndNotBefore) {
   make("tremor_mm: 0");
   steps(10);
   EXPECT_TRUE(bench_->take<msg::JointState>("hand_js").empty());
@@ -74,14 +74,14 @@ TEST_F(SurgeonTest, TakesTheMasterWhenItIsAlignedAndNotBefore) {
   steps(1);
   const auto hand = bench_->take<msg::JointState>("hand_js");
   ASSERT_EQ(hand.size(), 1u);
-  EXPECT_LT((master_.to_independent(hand[0].position_()).value() - q_).norm(), 1e-12);
+  EXPECT_LT((leader_.to_independent(hand[0].position_()).value() - q_).norm(), 1e-12);
   EXPECT_EQ(stamp_of(hand[0].header_().stamp_()), Time{} + seconds(now_s_));
   EXPECT_FALSE(bench_->take<msg::Bool>("clutch").back().data_());
   steps(500);
   EXPECT_TRUE(bench_->take<msg::Bool>("clutch").back().data_());
 }
 
-TEST_F(SurgeonTest, TheMastersJointsAreThoseOfTheHandAndTheTruthHasNoTremor) {
+TEST_F(SurgeonTest, TheLeadersJointsAreThoseOfTheHandAndTheTruthHasNoTremor) {
   make("tremor_mm: 0.1");
   align();
   steps(5000);
@@ -103,7 +103,7 @@ TEST_F(SurgeonTest, TheMastersJointsAreThoseOfTheHandAndTheTruthHasNoTremor) {
   EXPECT_NEAR(last.velocity_()[0], (last.position_()[0] - before.position_()[0]) / 0.001, 1e-6);
 }
 
-TEST_F(SurgeonTest, AHandThatTheMasterCannotFollowStops) {
+TEST_F(SurgeonTest, AHandThatTheLeaderCannotFollowStops) {
   make("curve_mm: [0, 200, 0], tremor_mm: 0, ease_s: 0");
   align();
   for (int i = 0; i < 600 && bench_->status().reason.empty(); ++i) steps(1);
@@ -111,7 +111,7 @@ TEST_F(SurgeonTest, AHandThatTheMasterCannotFollowStops) {
   const auto hand = bench_->take<msg::JointState>("hand_js");
   EXPECT_GT(hand.size(), 50u);
   for (const auto& state : hand) {
-    ASSERT_TRUE(master_.within_limits(master_.to_independent(state.position_()).value()));
+    ASSERT_TRUE(leader_.within_limits(leader_.to_independent(state.position_()).value()));
   }
   EXPECT_EQ(hand.back().velocity_(), std::vector<double>(6, 0.0));
 }
@@ -121,7 +121,7 @@ TEST_F(SurgeonTest, TheHandRestsWhileTheTaskIsHeldAndGoesOnWhereItWas) {
   align();
   steps(2000);
   bench_->take<msg::JointState>("hand_js");
-  tell("clutch open", "the master is not free for the hand");
+  tell("clutch open", "the leader is not free for the hand");
   steps(300);
   const auto slower = bench_->take<msg::JointState>("hand_js");
   steps(100);
@@ -168,7 +168,7 @@ TEST_F(SurgeonTest, FallsSilentWhenTold) {
   EXPECT_EQ(bench_->take<msg::Bool>("clutch").size(), 200u);
 }
 
-TEST_F(SurgeonTest, AMasterStateThatIsNoneIsSaid) {
+TEST_F(SurgeonTest, ALeaderStateThatIsNoneIsSaid) {
   make("");
   msg::JointState state;
   state.position_() = {1, 2};

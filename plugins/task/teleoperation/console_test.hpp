@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A console, a master and an instrument, for tests of the scenario.
+// A console, a leader and an instrument, for tests of the scenario.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -23,33 +23,33 @@ class TeleoperationTest : public testing::Test {
     now_ = now_ + seconds(0.001);
     view_.hand_stamp = now_ - hand_is_late_;
     task_.see(view_, now_);
-    if (const auto goal = task_.outgoing_master_goal(now_)) master_goal_ = goal;
-    slave_goal_ = task_.outgoing_slave_goal();
+    if (const auto goal = task_.outgoing_leader_goal(now_)) leader_goal_ = goal;
+    follower_goal_ = task_.outgoing_follower_goal();
   }
   void see(int count) {
     for (int i = 0; i < count; ++i) see();
   }
-  void hear_master(Report state, const std::string& stage = "", const std::string& reason = "") {
-    task_.hear_master(
-        {.goal_id = master_goal_->id, .state = state, .stage = stage, .reason = reason}, now_);
+  void hear_leader(Report state, const std::string& stage = "", const std::string& reason = "") {
+    task_.hear_leader(
+        {.goal_id = leader_goal_->id, .state = state, .stage = stage, .reason = reason}, now_);
   }
   void show_console() {
-    view_.slave_T_master = console_;
-    view_.master_T_hand = pose_of({0, 0, 0.1});
-    view_.slave_T_tool = instrument_;
+    view_.follower_T_leader = console_;
+    view_.leader_T_hand = pose_of({0, 0, 0.1});
+    view_.follower_T_tool = instrument_;
   }
-  /// The master stands on the instrument, and the motion says so.
+  /// The leader stands on the instrument, and the motion says so.
   void align() {
     show_console();
     see();
-    hear_master(Report::executing);
-    hear_master(Report::done);
-    view_.master_T_hand = console_.inverse() * instrument_;
+    hear_leader(Report::executing);
+    hear_leader(Report::done);
+    view_.leader_T_hand = console_.inverse() * instrument_;
     see();
   }
   void give_to_hand() {
     align();
-    hear_master(Report::executing);
+    hear_leader(Report::executing);
     view_.clutch_closed = false;
     see();
   }
@@ -58,7 +58,7 @@ class TeleoperationTest : public testing::Test {
     view_.clutch_closed = true;
     see();
   }
-  void move_hand(double mm) { view_.master_T_hand->translation().x() += 1e-3 * mm; }
+  void move_hand(double mm) { view_.leader_T_hand->translation().x() += 1e-3 * mm; }
 
   const Eigen::Isometry3d console_ = pose_of({0.6, -0.1, 0.1}, 0.5);
   const Eigen::Isometry3d instrument_ = pose_of({0.5, 0, 0.2}, 2);
@@ -66,7 +66,7 @@ class TeleoperationTest : public testing::Test {
   ConsoleView view_;
   Time now_;
   Duration hand_is_late_ = seconds(0.001);
-  std::optional<MotionGoal> master_goal_, slave_goal_;
+  std::optional<MotionGoal> leader_goal_, follower_goal_;
 };
 
 }  // namespace armature::task::teleoperation

@@ -11,7 +11,7 @@ namespace armature::task::teleoperation {
 namespace {
 
 /// `speed` up to four fifths of `limit`, from there on smoothly less and never more than it: a
-/// sharp corner would be overshot by the slave.
+/// sharp corner would be overshot by the follower.
 double gently_limited(double speed, double limit) {
   constexpr double kKnee = 0.8;
   const double part = speed / limit;
@@ -21,34 +21,34 @@ double gently_limited(double speed, double limit) {
 
 }  // namespace
 
-void ScaledMotion::engage(const Eigen::Isometry3d& slave_T_tool,
-                          const Eigen::Isometry3d& master_T_hand,
-                          const Eigen::Matrix3d& slave_R_master) {
-  slave_R_master_ = slave_R_master;
-  hand_ = master_T_hand;
-  position_ = slave_T_tool.translation();
-  rotation_ = slave_T_tool.linear();
+void ScaledMotion::engage(const Eigen::Isometry3d& follower_T_tool,
+                          const Eigen::Isometry3d& leader_T_hand,
+                          const Eigen::Matrix3d& follower_R_leader) {
+  follower_R_leader_ = follower_R_leader;
+  hand_ = leader_T_hand;
+  position_ = follower_T_tool.translation();
+  rotation_ = follower_T_tool.linear();
   engaged_s_ = 0;
 }
 
-SlaveTarget ScaledMotion::follow(const Eigen::Isometry3d& master_T_hand, int periods) {
+FollowerTarget ScaledMotion::follow(const Eigen::Isometry3d& leader_T_hand, int periods) {
   const double dt = periods * kHandPeriod_s;
   engaged_s_ += dt;
   const double engage = parameters_.engage;
   const double grip =
       engaged_s_ < engage ? Quintic::between({0, 0, 0}, {1, 0, 0}, engage).position(engaged_s_) : 1;
 
-  const Eigen::Vector3d moved = master_T_hand.translation() - hand_.translation();
-  Eigen::Vector3d velocity = grip * parameters_.scale / dt * (slave_R_master_ * moved);
+  const Eigen::Vector3d moved = leader_T_hand.translation() - hand_.translation();
+  Eigen::Vector3d velocity = grip * parameters_.scale / dt * (follower_R_leader_ * moved);
   const double speed = velocity.norm();
   if (speed > 0) velocity *= gently_limited(speed, parameters_.max_tip_speed) / speed;
   position_ += velocity * dt;
 
-  const Eigen::Quaterniond turned{master_T_hand.linear() * hand_.linear().transpose()};
-  const Eigen::Vector3d turn = grip * (slave_R_master_ * rotation_vector_of(turned));
+  const Eigen::Quaterniond turned{leader_T_hand.linear() * hand_.linear().transpose()};
+  const Eigen::Vector3d turn = grip * (follower_R_leader_ * rotation_vector_of(turned));
   rotation_ = (rotation_of(turn) * rotation_).normalized();
 
-  hand_ = master_T_hand;
+  hand_ = leader_T_hand;
   return {.pose = Eigen::Translation3d{position_} * rotation_,
           .velocity = velocity,
           .angular_velocity = turn / dt};

@@ -7,33 +7,33 @@
 
 namespace armature::task::teleoperation {
 
-/// Where the slave's tool shall be, and how fast it moves [m/s] and turns [rad/s] there, in the
-/// slave's base frame.
-struct SlaveTarget {
+/// Where the follower's tool shall be, and how fast it moves [m/s] and turns [rad/s] there, in the
+/// follower's base frame.
+struct FollowerTarget {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();
 };
 
-/// What the slave does while the clutch is closed: the hand's moves from there on, scaled, and its
-/// turns, not scaled, about the same axes in space. Where the hand was before plays no part, so
+/// What the follower does while the clutch is closed: the hand's moves from there on, scaled, and
+/// its turns, not scaled, about the same axes in space. Where the hand was before plays no part, so
 /// closing the clutch moves nothing; the scale comes up smoothly. Of a hand that is too fast for
-/// the slave (from four fifths of its top speed on), what is beyond is lost, as with an open
-/// clutch: the slave never goes on when the hand stops. Real-time safe.
+/// the follower (from four fifths of its top speed on), what is beyond is lost, as with an open
+/// clutch: the follower never goes on when the hand stops. Real-time safe.
 class ScaledMotion {
  public:
   explicit ScaledMotion(const Parameters& parameters) : parameters_{parameters} {}
 
-  /// The clutch closes with the slave and the hand there; `slave_R_master` turns what is told in
-  /// the master's base frame into the slave's.
-  void engage(const Eigen::Isometry3d& slave_T_tool, const Eigen::Isometry3d& master_T_hand,
-              const Eigen::Matrix3d& slave_R_master);
+  /// The clutch closes with the follower and the hand there; `follower_R_leader` turns what is told
+  /// in the leader's base frame into the follower's.
+  void engage(const Eigen::Isometry3d& follower_T_tool, const Eigen::Isometry3d& leader_T_hand,
+              const Eigen::Matrix3d& follower_R_leader);
   /// One period later; or so many, when the hand's poses between were missed.
-  SlaveTarget follow(const Eigen::Isometry3d& master_T_hand, int periods = 1);
+  FollowerTarget follow(const Eigen::Isometry3d& leader_T_hand, int periods = 1);
 
  private:
   Parameters parameters_;
-  Eigen::Matrix3d slave_R_master_ = Eigen::Matrix3d::Identity();
+  Eigen::Matrix3d follower_R_leader_ = Eigen::Matrix3d::Identity();
   Eigen::Isometry3d hand_ = Eigen::Isometry3d::Identity();
   Eigen::Vector3d position_ = Eigen::Vector3d::Zero();
   Eigen::Quaterniond rotation_ = Eigen::Quaterniond::Identity();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The slave's moves from the hand's: 1. scaled and turned into its frame, 2. closing the clutch
+// The follower's moves from the hand's: 1. scaled and turned into its frame, 2. closing the clutch
 // moves nothing, 3. its speed.
 #include "scaled_motion.hpp"
 
@@ -25,13 +25,13 @@ double angle_between(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
 class ScaledMotionTest : public testing::Test {
  protected:
   /// Engages at hand(0) and follows it for `duration`; every step is looked at.
-  SlaveTarget follow(const std::function<Eigen::Isometry3d(double)>& hand, double duration,
-                     Parameters parameters = {.scale = 0.5, .engage = 0}) {
+  FollowerTarget follow(const std::function<Eigen::Isometry3d(double)>& hand, double duration,
+                        Parameters parameters = {.scale = 0.5, .engage = 0}) {
     ScaledMotion motion{parameters};
-    motion.engage(slave_, hand(0), turn_);
-    SlaveTarget last{.pose = slave_};
+    motion.engage(follower_, hand(0), turn_);
+    FollowerTarget last{.pose = follower_};
     for (int k = 1; k * kHandPeriod_s < duration + kHandPeriod_s / 2; ++k) {
-      const SlaveTarget target = motion.follow(hand(k * kHandPeriod_s));
+      const FollowerTarget target = motion.follow(hand(k * kHandPeriod_s));
       const Vector3d step = target.pose.translation() - last.pose.translation();
       EXPECT_LT((step - kHandPeriod_s * target.velocity).norm(), 1e-15) << k;
       const Eigen::AngleAxisd turned{target.pose.linear() * last.pose.linear().transpose()};
@@ -44,23 +44,23 @@ class ScaledMotionTest : public testing::Test {
     return last;
   }
 
-  const Eigen::Isometry3d slave_ = turned_pose({0.5, 0.1, 0.2}, 1, {1, 2, 3});
+  const Eigen::Isometry3d follower_ = turned_pose({0.5, 0.1, 0.2}, 1, {1, 2, 3});
   const Eigen::Isometry3d hand_ = turned_pose({0.1, 0.1, 0.1}, 2, {-1, 0, 3});
   const Eigen::Matrix3d turn_{Eigen::AngleAxisd{M_PI / 2, Vector3d::UnitZ()}};
   double fastest_ = 0, hardest_ = 0;
 };
 
-TEST_F(ScaledMotionTest, TheSlaveGoesItsPartOfTheHandsWayInItsOwnFrame) {
+TEST_F(ScaledMotionTest, TheFollowerGoesItsPartOfTheHandsWayInItsOwnFrame) {
   const auto hand = [&](double t) {
     Eigen::Isometry3d pose = hand_;
     pose.translation() += Vector3d{0.02 * t, -0.01 * t, 0.03 * t};
     return pose;
   };
-  const SlaveTarget target = follow(hand, 1);
-  const Vector3d wanted = slave_.translation() + 0.5 * Vector3d{0.01, 0.02, 0.03};
+  const FollowerTarget target = follow(hand, 1);
+  const Vector3d wanted = follower_.translation() + 0.5 * Vector3d{0.01, 0.02, 0.03};
   EXPECT_LT((target.pose.translation() - wanted).norm(), 1e-12);
   EXPECT_LT((target.velocity - 0.5 * Vector3d{0.01, 0.02, 0.03}).norm(), 1e-9);
-  EXPECT_LT(angle_between(target.pose, slave_), 1e-12);
+  EXPECT_LT(angle_between(target.pose, follower_), 1e-12);
 }
 
 TEST_F(ScaledMotionTest, TurnsAreAboutTheSameAxesInSpaceAndNotScaled) {
@@ -69,18 +69,18 @@ TEST_F(ScaledMotionTest, TurnsAreAboutTheSameAxesInSpaceAndNotScaled) {
     pose.linear() = Eigen::AngleAxisd{0.4 * t, Vector3d::UnitX()} * hand_.linear();
     return pose;
   };
-  const SlaveTarget target = follow(hand, 1);
-  Eigen::Isometry3d wanted = slave_;
-  wanted.linear() = Eigen::AngleAxisd{0.4, Vector3d::UnitY()} * slave_.linear();
+  const FollowerTarget target = follow(hand, 1);
+  Eigen::Isometry3d wanted = follower_;
+  wanted.linear() = Eigen::AngleAxisd{0.4, Vector3d::UnitY()} * follower_.linear();
   EXPECT_LT(angle_between(target.pose, wanted), 1e-9);
   EXPECT_LT((target.angular_velocity - Vector3d{0, 0.4, 0}).norm(), 1e-9);
-  EXPECT_LT((target.pose.translation() - slave_.translation()).norm(), 1e-15);
+  EXPECT_LT((target.pose.translation() - follower_.translation()).norm(), 1e-15);
 }
 
 TEST_F(ScaledMotionTest, ClosingTheClutchMovesNothingWhereverTheHandIs) {
-  const SlaveTarget target = follow([&](double) { return hand_; }, 0.1);
-  EXPECT_LT((target.pose.translation() - slave_.translation()).norm(), 1e-15);
-  EXPECT_LT(angle_between(target.pose, slave_), 1e-9);
+  const FollowerTarget target = follow([&](double) { return hand_; }, 0.1);
+  EXPECT_LT((target.pose.translation() - follower_.translation()).norm(), 1e-15);
+  EXPECT_LT(angle_between(target.pose, follower_), 1e-9);
   EXPECT_EQ(fastest_, 0);
 }
 
@@ -90,22 +90,22 @@ TEST_F(ScaledMotionTest, OnAMovingHandTheScaleComesUpSmoothly) {
     pose.translation().x() += 0.04 * t;
     return pose;
   };
-  const SlaveTarget target = follow(hand, 1, {.scale = 0.5, .engage = 0.3});
+  const FollowerTarget target = follow(hand, 1, {.scale = 0.5, .engage = 0.3});
   EXPECT_NEAR(target.velocity.norm(), 0.02, 1e-9);
   EXPECT_LT(hardest_, 1.9 * 0.02 / 0.3) << "the quintic's steepest slope is 1.875";
-  EXPECT_NEAR((target.pose.translation() - slave_.translation()).norm(), 0.02 * 0.85, 2e-5);
+  EXPECT_NEAR((target.pose.translation() - follower_.translation()).norm(), 0.02 * 0.85, 2e-5);
 }
 
 TEST_F(ScaledMotionTest, MissedPosesOfTheHandMakeItNoFaster) {
   ScaledMotion motion{{.scale = 0.5, .engage = 0, .max_tip_speed = 0.05}};
-  motion.engage(slave_, hand_, turn_);
+  motion.engage(follower_, hand_, turn_);
   Eigen::Isometry3d hand = hand_;
   hand.translation().x() += 0.0004;
   hand.linear() = Eigen::AngleAxisd{0.01, Vector3d::UnitX()} * hand.linear();
-  const SlaveTarget target = motion.follow(hand, 8);
+  const FollowerTarget target = motion.follow(hand, 8);
   EXPECT_NEAR(target.velocity.norm(), 0.025, 1e-12);
   EXPECT_NEAR(target.angular_velocity.norm(), 1.25, 1e-9);
-  EXPECT_NEAR((target.pose.translation() - slave_.translation()).norm(), 0.0002, 1e-15);
+  EXPECT_NEAR((target.pose.translation() - follower_.translation()).norm(), 0.0002, 1e-15);
 }
 
 TEST_F(ScaledMotionTest, ItsSpeedKeepsItsLimitAndItStopsWithTheHand) {
@@ -114,11 +114,11 @@ TEST_F(ScaledMotionTest, ItsSpeedKeepsItsLimitAndItStopsWithTheHand) {
     pose.translation().x() += 0.2 * std::min(t, 0.5);  // 200 mm/s, then at rest
     return pose;
   };
-  const SlaveTarget target = follow(hand, 1, {.scale = 0.5, .engage = 0, .max_tip_speed = 0.05});
+  const FollowerTarget target = follow(hand, 1, {.scale = 0.5, .engage = 0, .max_tip_speed = 0.05});
   EXPECT_LE(fastest_, 0.05);
   EXPECT_GT(fastest_, 0.049);
   EXPECT_EQ(target.velocity.norm(), 0) << "what was lost is not made up for";
-  EXPECT_LE((target.pose.translation() - slave_.translation()).norm(), 0.025 + 1e-12);
+  EXPECT_LE((target.pose.translation() - follower_.translation()).norm(), 0.025 + 1e-12);
 }
 
 TEST_F(ScaledMotionTest, UpToFourFifthsOfTheLimitNothingIsLost) {
@@ -127,7 +127,7 @@ TEST_F(ScaledMotionTest, UpToFourFifthsOfTheLimitNothingIsLost) {
     pose.translation().z() += 0.0799 * t;
     return pose;
   };
-  const SlaveTarget target = follow(hand, 1, {.scale = 0.5, .engage = 0, .max_tip_speed = 0.05});
+  const FollowerTarget target = follow(hand, 1, {.scale = 0.5, .engage = 0, .max_tip_speed = 0.05});
   EXPECT_NEAR(target.velocity.z(), 0.03995, 1e-9);
 }
 

@@ -51,32 +51,32 @@ void Teleoperation::name_missing(const std::string& what, Time now) {
 void Teleoperation::align(const ConsoleView& view, Time now) {
   name_missing(silent(view), now);
   if (!view.is_whole()) return;
-  const Eigen::Isometry3d master_T_instrument =
-      view.slave_T_master->inverse(Eigen::Isometry) * *view.slave_T_tool;
-  master_goal_.set({.pose = tool_pose_of(master_T_instrument)});
+  const Eigen::Isometry3d leader_T_instrument =
+      view.follower_T_leader->inverse(Eigen::Isometry) * *view.follower_T_tool;
+  leader_goal_.set({.pose = tool_pose_of(leader_T_instrument)});
   phase_ = Phase::aligning;
 }
 
 void Teleoperation::judge_alignment(const ConsoleView& view, Time now) {
   using State = PursuedGoal::State;
   name_missing(silent(view), now);
-  if (master_goal_.state() == State::failed) {
-    return refuse("the master cannot come to the instrument: " + master_goal_.reason());
+  if (leader_goal_.state() == State::failed) {
+    return refuse("the leader cannot come to the instrument: " + leader_goal_.reason());
   }
-  if (master_goal_.state() != State::done || !view.is_whole()) return;
-  const PoseResidual off = residual(*view.slave_T_master * *view.master_T_hand,
-                                    Eigen::Vector3d::UnitX(), tool_pose_of(*view.slave_T_tool));
+  if (leader_goal_.state() != State::done || !view.is_whole()) return;
+  const PoseResidual off = residual(*view.follower_T_leader * *view.leader_T_hand,
+                                    Eigen::Vector3d::UnitX(), tool_pose_of(*view.follower_T_tool));
   if (off.position_m <= parameters_.aligned_m && off.angle_rad <= parameters_.aligned_rad) {
-    master_goal_.set({.mode = MotionMode::guided, .pose = {}});
+    leader_goal_.set({.mode = MotionMode::guided, .pose = {}});
     phase_ = Phase::aligned;
-  } else if (now - master_goal_.done_at() > kSettlesWithin) {
-    refuse(fmt::format("the master stands {:.3f} mm and {:.3f} degrees off the instrument",
+  } else if (now - leader_goal_.done_at() > kSettlesWithin) {
+    refuse(fmt::format("the leader stands {:.3f} mm and {:.3f} degrees off the instrument",
                        1e3 * off.position_m, kDegrees * off.angle_rad));
   }
 }
 
 int Teleoperation::filter_hand(const ConsoleView& view) {
-  if (!view.master_T_hand) {
+  if (!view.leader_T_hand) {
     hand_.reset();
     return 0;
   }
@@ -85,27 +85,27 @@ int Teleoperation::filter_hand(const ConsoleView& view) {
   const bool unbroken = hand_ && passed_s >= 0 && passed_s <= kLongestGap_s;
   if (!unbroken) {
     const int broken = hand_ ? kBroken : 0;
-    filter_.start(*view.master_T_hand);
-    hand_ = view.master_T_hand;
+    filter_.start(*view.leader_T_hand);
+    hand_ = view.leader_T_hand;
     return broken;
   }
   const int periods = static_cast<int>(std::lround(passed_s / kHandPeriod_s));
-  if (periods > 0) hand_ = filter_.step(*view.master_T_hand, periods);
+  if (periods > 0) hand_ = filter_.step(*view.leader_T_hand, periods);
   return periods;
 }
 
 std::string Teleoperation::silent(const ConsoleView& view) {
-  if (!view.slave_T_master) return "where the console stands is not known";
-  if (!view.master_T_hand) return "the master tells nothing";
-  if (!view.slave_T_tool) return "the slave tells nothing";
+  if (!view.follower_T_leader) return "where the console stands is not known";
+  if (!view.leader_T_hand) return "the leader tells nothing";
+  if (!view.follower_T_tool) return "the follower tells nothing";
   return "";
 }
 
 std::string Teleoperation::missing(const ConsoleView& view) const {
   if (std::string silent = this->silent(view); !silent.empty()) return silent;
-  if (master_goal_.state() != PursuedGoal::State::moving) {
-    const std::string& why = master_goal_.reason();
-    return "the master is not free for the hand" + (why.empty() ? "" : ": " + why);
+  if (leader_goal_.state() != PursuedGoal::State::moving) {
+    const std::string& why = leader_goal_.reason();
+    return "the leader is not free for the hand" + (why.empty() ? "" : ": " + why);
   }
   if (!view.clutch_closed) return "the clutch tells nothing";
   return "";
@@ -114,15 +114,15 @@ std::string Teleoperation::missing(const ConsoleView& view) const {
 void Teleoperation::follow_hand(const ConsoleView& view, int periods, Time now) {
   const std::string missing = this->missing(view);
   if (phase_ != Phase::teleoperating) return await_clutch(view, missing, now);
-  if (!missing.empty()) return stop_slave(Phase::held, missing);
-  if (!*view.clutch_closed) return stop_slave(Phase::clutch_open, "");
-  if (periods == kBroken) return stop_slave(Phase::held, "the master's stamps jump");
+  if (!missing.empty()) return stop_follower(Phase::held, missing);
+  if (!*view.clutch_closed) return stop_follower(Phase::clutch_open, "");
+  if (periods == kBroken) return stop_follower(Phase::held, "the leader's stamps jump");
   if (periods == 0) return;
-  const SlaveTarget target = motion_.follow(*hand_, periods);
-  slave_goal_ = MotionGoal{.mode = MotionMode::tracking,
-                           .pose = tool_pose_of(target.pose),
-                           .velocity = target.velocity,
-                           .angular_velocity = target.angular_velocity};
+  const FollowerTarget target = motion_.follow(*hand_, periods);
+  follower_goal_ = MotionGoal{.mode = MotionMode::tracking,
+                              .pose = tool_pose_of(target.pose),
+                              .velocity = target.velocity,
+                              .angular_velocity = target.angular_velocity};
 }
 
 void Teleoperation::await_clutch(const ConsoleView& view, const std::string& missing, Time now) {
@@ -137,29 +137,30 @@ void Teleoperation::await_clutch(const ConsoleView& view, const std::string& mis
 }
 
 void Teleoperation::engage(const ConsoleView& view) {
-  motion_.engage(*view.slave_T_tool, *hand_, view.slave_T_master->linear());
+  motion_.engage(*view.follower_T_tool, *hand_, view.follower_T_leader->linear());
   missing_since_.reset();
-  first_engaged_id_ = last_slave_id_ + 1;
+  first_engaged_id_ = last_follower_id_ + 1;
   phase_ = Phase::teleoperating;
 }
 
-void Teleoperation::hear_slave(const GoalReport& report) {
+void Teleoperation::hear_follower(const GoalReport& report) {
   // A task that starts late, or again, goes on counting where the goals are.
-  if (is_newer(report.goal_id, last_slave_id_)) last_slave_id_ = report.goal_id;
+  if (is_newer(report.goal_id, last_follower_id_)) last_follower_id_ = report.goal_id;
   const bool mine = is_newer(report.goal_id, first_engaged_id_ - 1);
   if (report.state != GoalReport::State::failed || !mine) return;
   if (phase_ == Phase::teleoperating) {
-    stop_slave(Phase::held, "the slave cannot follow: " + report.stage + ": " + report.reason);
+    stop_follower(Phase::held,
+                  "the follower cannot follow: " + report.stage + ": " + report.reason);
   }
 }
 
-std::optional<MotionGoal> Teleoperation::outgoing_slave_goal() {
-  if (slave_goal_) slave_goal_->id = ++last_slave_id_;
-  return std::exchange(slave_goal_, std::nullopt);
+std::optional<MotionGoal> Teleoperation::outgoing_follower_goal() {
+  if (follower_goal_) follower_goal_->id = ++last_follower_id_;
+  return std::exchange(follower_goal_, std::nullopt);
 }
 
-void Teleoperation::stop_slave(Phase phase, std::string trouble) {
-  slave_goal_ = MotionGoal{.mode = MotionMode::hold, .pose = {}};
+void Teleoperation::stop_follower(Phase phase, std::string trouble) {
+  follower_goal_ = MotionGoal{.mode = MotionMode::hold, .pose = {}};
   phase_ = phase;
   trouble_ = std::move(trouble);
 }

@@ -14,39 +14,40 @@ namespace armature::task::teleoperation {
 
 /// What is known at one instant; what is silent is not there.
 struct ConsoleView {
-  std::optional<Eigen::Isometry3d> slave_T_master;  // where the console stands
-  std::optional<Eigen::Isometry3d> master_T_hand, slave_T_tool;
-  Time hand_stamp;  // of master_T_hand
+  std::optional<Eigen::Isometry3d> follower_T_leader;  // where the console stands
+  std::optional<Eigen::Isometry3d> leader_T_hand, follower_T_tool;
+  Time hand_stamp;  // of leader_T_hand
   std::optional<bool> clutch_closed;
 
-  bool is_whole() const { return slave_T_master && master_T_hand && slave_T_tool; }
+  bool is_whole() const { return follower_T_leader && leader_T_hand && follower_T_tool; }
 };
 
-/// The scenario of a master-slave robot. The master comes to the pose of the instrument by itself
-/// (never the other way round, which would move the instrument in the body); then a hand may take
-/// it, and while the clutch is closed the slave follows. Call `see` once a period.
+/// The scenario of a leader-follower robot. The leader comes to the pose of the instrument by
+/// itself (never the other way round, which would move the instrument in the body); then a hand may
+/// take it, and while the clutch is closed the follower goes with the hand. Call `see` once a
+/// period.
 class Teleoperation {
  public:
   enum class Phase {
     waiting,        // for the console and both arms
-    aligning,       // the master comes to the instrument
-    aligned,        // the hand may take the master; the clutch has not been closed yet
-    teleoperating,  // the slave follows
-    clutch_open,    // the slave stands, the hand is free to move
-    held,           // the slave stands for a reason, until the clutch is opened
-    refused,        // the master does not come to the instrument
+    aligning,       // the leader comes to the instrument
+    aligned,        // the hand may take the leader; the clutch has not been closed yet
+    teleoperating,  // the follower goes with the hand
+    clutch_open,    // the follower stands, the hand is free to move
+    held,           // the follower stands for a reason, until the clutch is opened
+    refused,        // the leader does not come to the instrument
   };
 
   explicit Teleoperation(const Parameters& parameters)
       : parameters_{parameters}, filter_{parameters}, motion_{parameters} {}
 
   void see(const ConsoleView& view, Time now);
-  void hear_master(const GoalReport& report, Time now) { master_goal_.hear(report, now); }
-  void hear_slave(const GoalReport& report);
+  void hear_leader(const GoalReport& report, Time now) { leader_goal_.hear(report, now); }
+  void hear_follower(const GoalReport& report);
 
-  std::optional<MotionGoal> outgoing_master_goal(Time now) { return master_goal_.outgoing(now); }
-  /// A target that moves, once a period while the slave follows, and `hold` when it ends.
-  std::optional<MotionGoal> outgoing_slave_goal();
+  std::optional<MotionGoal> outgoing_leader_goal(Time now) { return leader_goal_.outgoing(now); }
+  /// A target that moves, once a period while the follower moves, and `hold` when it ends.
+  std::optional<MotionGoal> outgoing_follower_goal();
 
   Phase phase() const { return phase_; }
   /// Why it does not go on, or "".
@@ -59,9 +60,9 @@ class Teleoperation {
   void follow_hand(const ConsoleView& view, int periods, Time now);
   /// What of the console and the arms is silent, or "".
   static std::string silent(const ConsoleView& view);
-  /// What is missing for the slave to follow, or "".
+  /// What is missing for the follower to follow, or "".
   std::string missing(const ConsoleView& view) const;
-  /// Of a slave that does not follow yet: nothing is wrong with what begins a moment later.
+  /// Of a follower that does not follow yet: nothing is wrong with what begins a moment later.
   void name_missing(const std::string& what, Time now);
   /// For how many periods the hand has moved on: 0 when nothing new is told of it, -1 when it
   /// cannot be said.
@@ -69,7 +70,7 @@ class Teleoperation {
   /// Not following: until the clutch is closed.
   void await_clutch(const ConsoleView& view, const std::string& missing, Time now);
   void engage(const ConsoleView& view);
-  void stop_slave(Phase phase, std::string trouble);
+  void stop_follower(Phase phase, std::string trouble);
   void refuse(std::string why);
 
   Parameters parameters_;
@@ -77,9 +78,9 @@ class Teleoperation {
   ScaledMotion motion_;
   std::optional<Eigen::Isometry3d> hand_;  // filtered
   Time hand_stamp_;
-  PursuedGoal master_goal_;
-  std::optional<MotionGoal> slave_goal_;
-  std::uint64_t last_slave_id_ = 0, first_engaged_id_ = 0;
+  PursuedGoal leader_goal_;
+  std::optional<MotionGoal> follower_goal_;
+  std::uint64_t last_follower_id_ = 0, first_engaged_id_ = 0;
   Phase phase_ = Phase::waiting;
   std::optional<Time> missing_since_;
   std::string trouble_;

@@ -27,30 +27,30 @@ class TeleoperationComponent final : public Component {
       : Component{setup},
         task_{Parameters::read(setup.params())},
         console_{setup.input<msg::TransformStamped>("console")},
-        master_cp_{setup.input<msg::PoseStamped>("master_cp")},
-        slave_cp_{setup.input<msg::PoseStamped>("slave_cp")},
+        leader_cp_{setup.input<msg::PoseStamped>("leader_cp")},
+        follower_cp_{setup.input<msg::PoseStamped>("follower_cp")},
         clutch_{setup.input<msg::Bool>("clutch")},
-        master_status_{setup.input<msg::MotionStatus>("master_status")},
-        slave_status_{setup.input<msg::MotionStatus>("slave_status")},
-        master_goal_{setup.output<msg::MotionGoal>("master_goal")},
-        slave_goal_{setup.output<msg::MotionGoal>("slave_goal")},
+        leader_status_{setup.input<msg::MotionStatus>("leader_status")},
+        follower_status_{setup.input<msg::MotionStatus>("follower_status")},
+        leader_goal_{setup.output<msg::MotionGoal>("leader_goal")},
+        follower_goal_{setup.output<msg::MotionGoal>("follower_goal")},
         state_{setup} {
     setup.activate_every(kPeriod);
     const TremorFilter& filter = task_.filter();
-    log(fmt::format("the slave follows {:.1f} ms behind the hand; 10 Hz is down by {:.1f} dB",
+    log(fmt::format("the follower trails {:.1f} ms behind the hand; 10 Hz is down by {:.1f} dB",
                     1e3 * filter.lag_s(), -20 * std::log10(filter.gain(10))));
   }
 
   void step(Time now) override {
-    for (std::size_t i = 0; i < master_status_.size(); ++i) {
-      task_.hear_master(report_of(master_status_[i]), now);
+    for (std::size_t i = 0; i < leader_status_.size(); ++i) {
+      task_.hear_leader(report_of(leader_status_[i]), now);
     }
-    for (std::size_t i = 0; i < slave_status_.size(); ++i) {
-      task_.hear_slave(report_of(slave_status_[i]));
+    for (std::size_t i = 0; i < follower_status_.size(); ++i) {
+      task_.hear_follower(report_of(follower_status_[i]));
     }
     task_.see(view(), now);
-    send(task_.outgoing_master_goal(now), master_goal_, now);
-    send(task_.outgoing_slave_goal(), slave_goal_, now);
+    send(task_.outgoing_leader_goal(now), leader_goal_, now);
+    send(task_.outgoing_follower_goal(), follower_goal_, now);
     publish_state(now);
   }
 
@@ -69,10 +69,10 @@ class TeleoperationComponent final : public Component {
       }
       return found;
     };
-    ConsoleView view{.slave_T_master = pose_of(console_, "the console"),
-                     .master_T_hand = pose_of(master_cp_, "the master"),
-                     .slave_T_tool = pose_of(slave_cp_, "the slave's tool")};
-    if (view.master_T_hand) view.hand_stamp = stamp_of(master_cp_.latest()->header_().stamp_());
+    ConsoleView view{.follower_T_leader = pose_of(console_, "the console"),
+                     .leader_T_hand = pose_of(leader_cp_, "the leader"),
+                     .follower_T_tool = pose_of(follower_cp_, "the follower's tool")};
+    if (view.leader_T_hand) view.hand_stamp = stamp_of(leader_cp_.latest()->header_().stamp_());
     if (clutch_.latest()) view.clutch_closed = clutch_.latest()->data_();
     show_health(bad);
     return view;
@@ -104,10 +104,10 @@ class TeleoperationComponent final : public Component {
   Teleoperation task_;
   std::string shown_bad_;
   Input<msg::TransformStamped> console_;
-  Input<msg::PoseStamped> master_cp_, slave_cp_;
+  Input<msg::PoseStamped> leader_cp_, follower_cp_;
   Input<msg::Bool> clutch_;
-  Input<msg::MotionStatus> master_status_, slave_status_;
-  Output<msg::MotionGoal> master_goal_, slave_goal_;
+  Input<msg::MotionStatus> leader_status_, follower_status_;
+  Output<msg::MotionGoal> leader_goal_, follower_goal_;
   TaskStatePublisher state_;
 };
 

@@ -30,32 +30,32 @@ class TeleoperationComponentTest : public testing::Test {
   void tell_arms() {
     msg::PoseStamped pose;
     write_header(pose.header_(), Time{} + seconds(now_s_), kBaseFrame);
-    assign(pose.pose_(), master_T_hand_);
-    task_.send("master_cp", pose);
-    assign(pose.pose_(), slave_T_tool_);
-    task_.send("slave_cp", pose);
+    assign(pose.pose_(), leader_T_hand_);
+    task_.send("leader_cp", pose);
+    assign(pose.pose_(), follower_T_tool_);
+    task_.send("follower_cp", pose);
   }
   void tell_console() {
     msg::TransformStamped console;
     write_header(console.header_(), Time{}, kBaseFrame);
-    assign(console.transform_(), slave_T_master_);
+    assign(console.transform_(), follower_T_leader_);
     task_.send("console", console);
   }
-  void tell_master_status(std::uint64_t goal_id, GoalReport::State state) {
+  void tell_leader_status(std::uint64_t goal_id, GoalReport::State state) {
     msg::MotionStatus status;
     status.goal_id_(goal_id);
     status.state_(static_cast<std::uint8_t>(state));
-    task_.send("master_status", status);
+    task_.send("leader_status", status);
   }
   /// Up to a closed clutch.
-  void take_master() {
+  void take_leader() {
     tell_console();
     step();
-    tell_master_status(1, GoalReport::State::executing);
-    tell_master_status(1, GoalReport::State::done);
-    master_T_hand_ = slave_T_master_.inverse() * slave_T_tool_;
+    tell_leader_status(1, GoalReport::State::executing);
+    tell_leader_status(1, GoalReport::State::done);
+    leader_T_hand_ = follower_T_leader_.inverse() * follower_T_tool_;
     step();
-    tell_master_status(2, GoalReport::State::executing);
+    tell_leader_status(2, GoalReport::State::executing);
     step();
     clutch_closed_ = true;
     step();
@@ -63,10 +63,10 @@ class TeleoperationComponentTest : public testing::Test {
 
   ComponentHarness task_{built_plugins(),
                          {.component = "{plugin: task/teleoperation}", .robot = {}, .rig = {}}};
-  const Eigen::Isometry3d slave_T_master_ =
+  const Eigen::Isometry3d follower_T_leader_ =
       Eigen::Translation3d{0.6, 0, 0} * Eigen::AngleAxisd{M_PI / 2, Vector3d::UnitZ()};
-  Eigen::Isometry3d slave_T_tool_{Eigen::Translation3d{0.5, 0.1, 0.2}};
-  Eigen::Isometry3d master_T_hand_ = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d follower_T_tool_{Eigen::Translation3d{0.5, 0.1, 0.2}};
+  Eigen::Isometry3d leader_T_hand_ = Eigen::Isometry3d::Identity();
   bool clutch_closed_ = false, hand_silent_ = false, arms_silent_ = false;
   double now_s_ = 0;
   msg::TaskState state_;
@@ -74,15 +74,15 @@ class TeleoperationComponentTest : public testing::Test {
 
 TEST_F(TeleoperationComponentTest, SaysWhatItsFilterCostsAndBrings) {
   EXPECT_EQ(task_.lines().front(),
-            "the slave follows 46.6 ms behind the hand; 10 Hz is down by "
+            "the follower trails 46.6 ms behind the hand; 10 Hz is down by "
             "23.5 dB");
   EXPECT_EQ(task_.period(), seconds(0.001));
 }
 
-TEST_F(TeleoperationComponentTest, SendsTheMasterToTheInstrumentThenLetsTheHandGuideIt) {
+TEST_F(TeleoperationComponentTest, SendsTheLeaderToTheInstrumentThenLetsTheHandGuideIt) {
   tell_console();
   step();
-  auto goals = task_.take<msg::MotionGoal>("master_goal");
+  auto goals = task_.take<msg::MotionGoal>("leader_goal");
   ASSERT_EQ(goals.size(), 1u);
   EXPECT_EQ(goals[0].mode_(), 0);
   EXPECT_EQ(goals[0].header_().frame_id_(), "base");
@@ -92,55 +92,55 @@ TEST_F(TeleoperationComponentTest, SendsTheMasterToTheInstrumentThenLetsTheHandG
   EXPECT_FALSE(goals[0].pointing_());
   EXPECT_NEAR(goals[0].orientation_().z_(), -std::sqrt(0.5), 1e-12);
   EXPECT_EQ(state_.state_(), "aligning");
-  tell_master_status(1, GoalReport::State::executing);
-  tell_master_status(1, GoalReport::State::done);
-  master_T_hand_ = slave_T_master_.inverse() * slave_T_tool_;
+  tell_leader_status(1, GoalReport::State::executing);
+  tell_leader_status(1, GoalReport::State::done);
+  leader_T_hand_ = follower_T_leader_.inverse() * follower_T_tool_;
   step();
-  goals = task_.take<msg::MotionGoal>("master_goal");
+  goals = task_.take<msg::MotionGoal>("leader_goal");
   ASSERT_EQ(goals.size(), 1u);
   EXPECT_EQ(goals[0].mode_(), 3);
   EXPECT_EQ(state_.state_(), "aligned");
-  EXPECT_TRUE(task_.take<msg::MotionGoal>("slave_goal").empty());
+  EXPECT_TRUE(task_.take<msg::MotionGoal>("follower_goal").empty());
 }
 
-TEST_F(TeleoperationComponentTest, TheSlaveIsToldAThousandTimesASecondWhereAndHowFast) {
-  take_master();
+TEST_F(TeleoperationComponentTest, TheFollowerIsToldAThousandTimesASecondWhereAndHowFast) {
+  take_leader();
   EXPECT_EQ(state_.state_(), "teleoperating");
   step(1000);
-  task_.take<msg::MotionGoal>("slave_goal");
+  task_.take<msg::MotionGoal>("follower_goal");
   for (int i = 0; i < 500; ++i) {
-    master_T_hand_.translation().x() += 0.00004;
+    leader_T_hand_.translation().x() += 0.00004;
     step();
   }
-  const auto goals = task_.take<msg::MotionGoal>("slave_goal");
+  const auto goals = task_.take<msg::MotionGoal>("follower_goal");
   ASSERT_EQ(goals.size(), 500u);
   EXPECT_EQ(goals.back().mode_(), 1);
   EXPECT_NEAR(goals.back().velocity_().y_(), 0.02, 1e-4);
   EXPECT_NEAR(goals.back().position_().y_(), 0.1 + 0.02 * (0.5 - 0.0466), 1e-4);
 }
 
-TEST_F(TeleoperationComponentTest, APoseThatIsNoneIsSaidAndHoldsTheSlave) {
-  take_master();
+TEST_F(TeleoperationComponentTest, APoseThatIsNoneIsSaidAndHoldsTheFollower) {
+  take_leader();
   step(10);
-  master_T_hand_.translation().x() = NAN;
+  leader_T_hand_.translation().x() = NAN;
   step();
-  EXPECT_EQ(task_.status().reason, "the master's position is not finite");
+  EXPECT_EQ(task_.status().reason, "the leader's position is not finite");
   EXPECT_EQ(state_.state_(), "held");
-  EXPECT_EQ(state_.detail_(), "the master tells nothing");
-  EXPECT_EQ(task_.take<msg::MotionGoal>("slave_goal").back().mode_(), 2);
-  master_T_hand_.translation().x() = 0.1;
+  EXPECT_EQ(state_.detail_(), "the leader tells nothing");
+  EXPECT_EQ(task_.take<msg::MotionGoal>("follower_goal").back().mode_(), 2);
+  leader_T_hand_.translation().x() = 0.1;
   step();
   EXPECT_EQ(task_.status().reason, "");
 }
 
-TEST_F(TeleoperationComponentTest, ASilentClutchOrArmHoldsTheSlaveWithinATenthOfASecond) {
-  take_master();
+TEST_F(TeleoperationComponentTest, ASilentClutchOrArmHoldsTheFollowerWithinATenthOfASecond) {
+  take_leader();
   step(500);
   hand_silent_ = true;
   step(110);
   EXPECT_EQ(state_.state_(), "held");
   EXPECT_EQ(state_.detail_(), "the clutch tells nothing");
-  EXPECT_EQ(task_.take<msg::MotionGoal>("slave_goal").back().mode_(), 2);
+  EXPECT_EQ(task_.take<msg::MotionGoal>("follower_goal").back().mode_(), 2);
   EXPECT_EQ(task_.lines().back(), "held: the clutch tells nothing");
   hand_silent_ = clutch_closed_ = false;
   step();
@@ -150,7 +150,7 @@ TEST_F(TeleoperationComponentTest, ASilentClutchOrArmHoldsTheSlaveWithinATenthOf
   arms_silent_ = true;
   step(110);
   EXPECT_EQ(state_.state_(), "held");
-  EXPECT_EQ(state_.detail_(), "the master tells nothing");
+  EXPECT_EQ(state_.detail_(), "the leader tells nothing");
 }
 
 }  // namespace

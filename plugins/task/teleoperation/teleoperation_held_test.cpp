@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// When a master-slave robot must not go on, without topics: 1. who never began is named, 2. what
-// holds the slave.
+// When a leader-follower robot must not go on, without topics: 1. who never began is named, 2. what
+// holds the follower.
 #include "console_test.hpp"
 
 namespace armature::task::teleoperation {
@@ -12,9 +12,9 @@ TEST_F(TeleoperationTest, WhoNeverTellsAnythingIsNamedAfterASecond) {
   see(200);
   EXPECT_EQ(task_.phase(), Phase::waiting);
   EXPECT_EQ(task_.trouble(), "where the console stands is not known");
-  view_.slave_T_master = console_;
+  view_.follower_T_leader = console_;
   see();
-  EXPECT_EQ(task_.trouble(), "the master tells nothing");
+  EXPECT_EQ(task_.trouble(), "the leader tells nothing");
   show_console();
   see();
   EXPECT_EQ(task_.phase(), Phase::aligning);
@@ -23,7 +23,7 @@ TEST_F(TeleoperationTest, WhoNeverTellsAnythingIsNamedAfterASecond) {
 
 TEST_F(TeleoperationTest, AHandThatIsSilentBeforeTheFirstClosingIsNamed) {
   align();
-  hear_master(Report::executing);
+  hear_leader(Report::executing);
   see(900);
   EXPECT_EQ(task_.trouble(), "");
   see(200);
@@ -40,14 +40,14 @@ TEST_F(TeleoperationTest, AHandThatIsSilentBeforeTheFirstClosingIsNamed) {
   EXPECT_EQ(task_.phase(), Phase::teleoperating);
 }
 
-TEST_F(TeleoperationTest, StampsThatJumpHoldTheSlave) {
+TEST_F(TeleoperationTest, StampsThatJumpHoldTheFollower) {
   close_clutch();
   see(100);
   for (const Duration jump : {seconds(1000), -seconds(2000)}) {
     hand_is_late_ += jump;
     see();
     EXPECT_EQ(task_.phase(), Phase::held);
-    EXPECT_EQ(task_.trouble(), "the master's stamps jump");
+    EXPECT_EQ(task_.trouble(), "the leader's stamps jump");
     view_.clutch_closed = false;
     see();
     view_.clutch_closed = true;
@@ -56,7 +56,7 @@ TEST_F(TeleoperationTest, StampsThatJumpHoldTheSlave) {
   }
 }
 
-TEST_F(TeleoperationTest, WhatFallsSilentHoldsTheSlaveUntilTheClutchWasOpen) {
+TEST_F(TeleoperationTest, WhatFallsSilentHoldsTheFollowerUntilTheClutchWasOpen) {
   const auto held = [&](auto silence, const std::string& reason) {
     SCOPED_TRACE(reason);
     const ConsoleView before = view_;
@@ -64,8 +64,8 @@ TEST_F(TeleoperationTest, WhatFallsSilentHoldsTheSlaveUntilTheClutchWasOpen) {
     see();
     EXPECT_EQ(task_.phase(), Phase::held);
     EXPECT_EQ(task_.trouble(), reason);
-    ASSERT_TRUE(slave_goal_);
-    EXPECT_EQ(slave_goal_->mode, MotionMode::hold);
+    ASSERT_TRUE(follower_goal_);
+    EXPECT_EQ(follower_goal_->mode, MotionMode::hold);
     view_ = before;
     see(10);
     EXPECT_EQ(task_.phase(), Phase::held) << "a closed clutch does not go on by itself";
@@ -79,36 +79,37 @@ TEST_F(TeleoperationTest, WhatFallsSilentHoldsTheSlaveUntilTheClutchWasOpen) {
   };
   close_clutch();
   held([&] { view_.clutch_closed.reset(); }, "the clutch tells nothing");
-  held([&] { view_.master_T_hand.reset(); }, "the master tells nothing");
-  held([&] { view_.slave_T_tool.reset(); }, "the slave tells nothing");
-  held([&] { view_.slave_T_master.reset(); }, "where the console stands is not known");
+  held([&] { view_.leader_T_hand.reset(); }, "the leader tells nothing");
+  held([&] { view_.follower_T_tool.reset(); }, "the follower tells nothing");
+  held([&] { view_.follower_T_leader.reset(); }, "where the console stands is not known");
 }
 
-TEST_F(TeleoperationTest, ASlaveThatCannotFollowIsHeldWithItsReason) {
+TEST_F(TeleoperationTest, AFollowerThatCannotFollowIsHeldWithItsReason) {
   close_clutch();
   see(5);
-  const std::uint64_t id = slave_goal_->id;
-  task_.hear_slave(
+  const std::uint64_t id = follower_goal_->id;
+  task_.hear_follower(
       {.goal_id = id, .state = Report::failed, .stage = "ik", .reason = "out_of_reach"});
   EXPECT_EQ(task_.phase(), Phase::held);
-  EXPECT_EQ(task_.trouble(), "the slave cannot follow: ik: out_of_reach");
+  EXPECT_EQ(task_.trouble(), "the follower cannot follow: ik: out_of_reach");
   view_.clutch_closed = false;
   see();
   view_.clutch_closed = true;
   see(2);
-  task_.hear_slave({.goal_id = id, .state = Report::failed, .stage = "ik", .reason = "late news"});
+  task_.hear_follower(
+      {.goal_id = id, .state = Report::failed, .stage = "ik", .reason = "late news"});
   EXPECT_EQ(task_.phase(), Phase::teleoperating);
 }
 
-TEST_F(TeleoperationTest, AMasterThatIsTakenFromTheHandHoldsTheSlave) {
+TEST_F(TeleoperationTest, ALeaderThatIsTakenFromTheHandHoldsTheFollower) {
   close_clutch();
-  hear_master(Report::failed, "execution", "no joint state of the arm");
+  hear_leader(Report::failed, "execution", "no joint state of the arm");
   see();
   EXPECT_EQ(task_.phase(), Phase::held);
-  EXPECT_EQ(task_.trouble(), "the master is not free for the hand: no joint state of the arm");
+  EXPECT_EQ(task_.trouble(), "the leader is not free for the hand: no joint state of the arm");
   see(300);
-  EXPECT_EQ(master_goal_->mode, MotionMode::guided) << "it is given to the hand again";
-  hear_master(Report::executing);
+  EXPECT_EQ(leader_goal_->mode, MotionMode::guided) << "it is given to the hand again";
+  hear_leader(Report::executing);
   view_.clutch_closed = false;
   see();
   EXPECT_EQ(task_.phase(), Phase::clutch_open);

@@ -118,7 +118,7 @@ function(armature_add_library name)
     target_link_options(armature_${name} PRIVATE LINKER:-z,defs)
   endif()
   armature_precompile(armature_${name} libraries)
-  armature_compile_together(armature_${name} 8)
+  armature_compile_together(armature_${name} 16)
   armature_public_headers(${name} "${arg_HEADERS}" "${arg_LINK}" PUBLIC)
 endfunction()
 
@@ -132,16 +132,15 @@ function(armature_test_main)
   target_link_libraries(armature_test_main PUBLIC GTest::gmock GTest::gtest GTest::gtest_main)
   target_link_libraries(armature_test_main PUBLIC Armature::abi Eigen3::Eigen fmt::fmt
                                            PRIVATE armature_warnings)
-  # What takes time when tests run is the libraries; what takes time to compile is the tests.
+  # What takes time when tests run is the libraries; what takes time to compile is the tests, with -Og
+  # the least that still runs them fast.
   # There GCC 12 falsely warns of the small buffer inside of std::string.
   target_compile_options(armature_test_main PUBLIC
-    $<$<CONFIG:Release,RelWithDebInfo>:-O1> -Wno-array-bounds -Wno-stringop-overflow
+    $<$<CONFIG:Release,RelWithDebInfo>:-Og> -Wno-array-bounds -Wno-stringop-overflow
     -Wno-stringop-overread -Wno-restrict)
   if(ARMATURE_PRECOMPILE)
     target_precompile_headers(armature_test_main PRIVATE
                               "${Armature_SOURCE_DIR}/tests/precompiled.hpp")
-    target_include_directories(armature_test_main PRIVATE "${ARMATURE_GENERATED_DIR}")
-    add_dependencies(armature_test_main armature_message_code)
   endif()
   set_target_properties(armature_test_main PROPERTIES POSITION_INDEPENDENT_CODE OFF)
 endfunction()
@@ -169,7 +168,7 @@ function(armature_add_test_library name)
   target_include_directories(armature_test_${name} PUBLIC "${CMAKE_CURRENT_SOURCE_DIR}")
   target_link_libraries(armature_test_${name} PUBLIC ${arg_LINK})
   armature_compile_as_test(armature_test_${name})
-  armature_compile_together(armature_test_${name} 8)
+  armature_compile_together(armature_test_${name} 16)
 endfunction()
 
 # armature_add_test(robot_test SOURCES a_test.cpp ... LINK Armature::robot ... [DEPENDS plugin...])
@@ -180,7 +179,7 @@ function(armature_add_test name)
   if(NOT ARMATURE_BUILD_TESTS)
     return()
   endif()
-  cmake_parse_arguments(arg "SEPARATELY" "TIMEOUT" "SOURCES;LINK;DEPENDS;LABELS" ${ARGN})
+  cmake_parse_arguments(arg "SEPARATELY;WAITS" "TIMEOUT" "SOURCES;LINK;DEPENDS;LABELS" ${ARGN})
   armature_left_out(left_out "${name}" ${arg_LINK})
   if(left_out)
     return()
@@ -201,9 +200,13 @@ function(armature_add_test name)
   if(arg_DEPENDS)
     add_dependencies(${name} ${arg_DEPENDS})
   endif()
+  set(half_cores 2)
+  if(arg_WAITS)
+    set(half_cores 1)
+  endif()
   include(GoogleTest)
   gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST TEST_PREFIX "${name}."
-    PROPERTIES TIMEOUT ${arg_TIMEOUT} LABELS "${arg_LABELS}")
+    PROPERTIES TIMEOUT ${arg_TIMEOUT} PROCESSORS ${half_cores} LABELS "${arg_LABELS}")
 endfunction()
 
 # armature_add_contract(path [SOURCES sound_path.cpp] LINK Armature::path): laws.cpp and SOURCES, what

@@ -22,9 +22,4 @@
 #include <vector>
 
 #include "armature/kinds/ik/ik.hpp"
-#include "armature/messages/armature_msgs.hpp"
-#include "armature/messages/geometry_msgs.hpp"
-#include "armature/messages/sensor_msgs.hpp"
-#include "armature/robot/kinematics/kinematics.hpp"
 #include "armature/runtime/plugins/plugin_registry.hpp"
-#include "armature/runtime/testing/component_harness.hpp"

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The laws of the kind `ik`, for every plugin of the build times every arm of configs/robots and
 // every URDF arm of tests/data: one test each. A robot that the plugin refuses is not served; a
-// plugin that needs parameters is left to its own test.
+// plugin that needs parameters is left to its own test. That nothing stays behind when the library is
+// unloaded is a law of the plugin, and asked with the first robot that it serves.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -74,34 +75,59 @@ void add_test(const std::string& suite, std::string_view name, std::function<voi
                         __LINE__, [body] { return new LawTest{body}; });
 }
 
+/// Whether the filter of the command line may choose a test of this suite. CTest runs each test as a
+/// program of its own, which has no use for the solvers of the others.
+bool is_wanted(const std::string& suite) {
+  const std::string filter = GTEST_FLAG_GET(filter);
+  const bool names_one = filter.find_first_of("*?:-") == std::string::npos;
+  return !names_one || filter.starts_with(suite + ".");
+}
+
+/// None for a robot that the plugin refuses.
 void add_tests_of(const PluginManifest& plugin, const Params& params, const RobotPtr& robot) {
-  // Made anew in every test: the loading law wants the library held by nobody.
+  std::string suite = plugin.id + "_" + robot->name();
+  std::ranges::replace(suite, '/', '_');
+  if (!is_wanted(suite)) return;
+  // Made anew in every test: no library is held while none of its tests runs.
   const auto subject = [&plugin, params, robot] {
     return plugin_subject(registry(), plugin, robot, params);
   };
-  if (!subject()) return;  // refused: not served
-  std::string suite = plugin.id + "_" + robot->name();
-  std::ranges::replace(suite, '/', '_');
+  if (!subject()) return;
   for (const IkLaw& law : ik_laws()) {
     add_test(suite, law.name, [law, subject] { expect_kept(law, subject().value()); });
   }
-  add_test(suite, IkLoadingLaw::kName, [&plugin, params, robot] {
-    const LawReport report = check_loading({ARMATURE_PLUGIN_BUILD_DIR}, plugin.id, *robot, params);
+}
+
+void add_loading_test(const PluginManifest& plugin, const Params& params,
+                      const std::vector<RobotPtr>& robots) {
+  add_test("unloading", plugin.id, [&plugin, params, robots] {
+    const auto served = std::ranges::find_if(robots, [&](const RobotPtr& robot) {
+      return plugin_subject(registry(), plugin, robot, params).has_value();
+    });
+    ASSERT_NE(served, robots.end());
+    const LawReport report =
+        check_loading({ARMATURE_PLUGIN_BUILD_DIR}, plugin.id, **served, params);
     for (const auto& [what, question] : report.violations) ADD_FAILURE() << what;
   });
 }
 
-bool add_all_tests() {
+void add_all_tests() {
+  const std::vector<RobotPtr> all = robots();
   for (const PluginManifest& plugin : registry().plugins()) {
     if (plugin.kind != IkSolver::kKind) continue;
     add_test("provides", plugin.id, [&plugin] { EXPECT_EQ(wrong_promises(plugin), ""); });
     const auto params = defaults(plugin);
     if (!params) continue;
-    for (const RobotPtr& robot : robots()) add_tests_of(plugin, *params, robot);
+    add_loading_test(plugin, *params, all);
+    for (const RobotPtr& robot : all) add_tests_of(plugin, *params, robot);
   }
-  return true;
 }
-[[maybe_unused]] const bool added = add_all_tests();
 
 }  // namespace
 }  // namespace armature
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  armature::add_all_tests();
+  return RUN_ALL_TESTS();
+}

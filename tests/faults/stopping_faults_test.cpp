@@ -370,26 +370,33 @@ TEST_F(PulledPlug, AStepThatDoesNotReturnIsNamedAndTheProcessLeavesAllTheSame) {
   EXPECT_TRUE(ends_within(aside, seconds{1}));
 }
 
-TEST_F(PulledPlug, AComponentThatDoesNotEndIsNamedAndTheProcessLeavesAllTheSame) {
-  for (const auto& [function, phase] : std::map<std::string, std::string>{
-           {"stop", "stop"}, {"summarize", "summary"}, {"destructor", "destructor"}}) {
-    Command run{command({"components.beat.params.hangs_in=" + function}), options_};
-    ASSERT_TRUE(run.wait_for_err("arm       moves", kWithin)) << run.err();
-    run.signal(SIGINT);
-    const CommandResult result = run.finish(kWithin);
-    EXPECT_FALSE(result.timed_out) << function;
-    EXPECT_EQ(result.exit_code, 1);
-    const std::string hangs = "the " + phase + " of 'beat' has not returned for ";
-    EXPECT_THAT(result.err, HasSubstr("arm       at rest\n"));
-    EXPECT_THAT(result.err, HasSubstr("armature: " + hangs));
-    if (function == "destructor") {
-      EXPECT_THAT(result.out, HasSubstr(R"({"status":"ok")")) << "it was told before";
-    } else {
-      EXPECT_THAT(result.out, HasSubstr(R"({"status":"fault","reason":")" + hangs));
-    }
-    EXPECT_EQ(report(), result.out) << "one object, the same in both places";
+struct Hang {
+  std::string function, phase;
+};
+class PulledPlugOfAComponent : public PulledPlug, public testing::WithParamInterface<Hang> {};
+
+TEST_P(PulledPlugOfAComponent, ThatDoesNotEndNamesItAndTheProcessLeavesAllTheSame) {
+  Command run{command({"components.beat.params.hangs_in=" + GetParam().function}), options_};
+  ASSERT_TRUE(run.wait_for_err("arm       moves", kWithin)) << run.err();
+  run.signal(SIGINT);
+  const CommandResult result = run.finish(kWithin);
+  EXPECT_FALSE(result.timed_out);
+  EXPECT_EQ(result.exit_code, 1);
+  const std::string hangs = "the " + GetParam().phase + " of 'beat' has not returned for ";
+  EXPECT_THAT(result.err, HasSubstr("arm       at rest\n"));
+  EXPECT_THAT(result.err, HasSubstr("armature: " + hangs));
+  if (GetParam().function == "destructor") {
+    EXPECT_THAT(result.out, HasSubstr(R"({"status":"ok")")) << "it was told before";
+  } else {
+    EXPECT_THAT(result.out, HasSubstr(R"({"status":"fault","reason":")" + hangs));
   }
+  EXPECT_EQ(report(), result.out) << "one object, the same in both places";
 }
+
+INSTANTIATE_TEST_SUITE_P(In, PulledPlugOfAComponent,
+                         testing::Values(Hang{"stop", "stop"}, Hang{"summarize", "summary"},
+                                         Hang{"destructor", "destructor"}),
+                         [](const auto& hang) { return hang.param.function; });
 
 TEST_F(PulledPlug, FilesThatAreNeverWrittenAreNamedAndTheProcessLeavesAllTheSame) {
   Command run{command({"components.beat.params.hangs_in=write_files"}), options_};

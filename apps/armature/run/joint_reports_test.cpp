@@ -53,7 +53,7 @@ TEST(JointReports, EachOfTwoArmsHasOneThatReadsItsOwnTopics) {
                                                 {"servo_jp", space + "arm/servo_jp"},
                                                 {"goal", space + "motion/goal"},
                                                 {"status", space + "motion/status"}}));
-  EXPECT_EQ(leader.documents.at("robots"), "master");
+  EXPECT_EQ(leader.documents.at("robots"), "leader");
   EXPECT_EQ(follower.documents.at("robots"), "follower");
   EXPECT_EQ(follower.params.text("file"), "/reports/arm_joints");
 }

@@ -28,10 +28,13 @@ double soft(double signed_distance, double softness) {
 
 /// How much of an ellipse covers p, [0, 1]; softness in mm.
 double ellipse(Point p, Point centre, double rx, double ry, double softness, double turn = 0) {
-  const double c = std::cos(turn), s = std::sin(turn);
+  const double c = turn == 0 ? 1 : std::cos(turn), s = turn == 0 ? 0 : std::sin(turn);
   const double dx = p.x - centre.x, dy = p.y - centre.y;
   const double x = (c * dx + s * dy) / rx, y = (-s * dx + c * dy) / ry;
-  return soft((std::hypot(x, y) - 1) * std::min(rx, ry), softness);
+  const double radius = std::min(rx, ry);
+  // Most points lie far outside, which is seen without a square root.
+  if ((std::max(std::abs(x), std::abs(y)) - 1) * radius > softness / 2) return 0;
+  return soft((std::hypot(x, y) - 1) * radius, softness);
 }
 
 double mix(double a, double b, double share) { return a + (b - a) * share; }

@@ -62,8 +62,8 @@ class StopAt final : public RunWatch {
  private:
   void send() {
     sent_ = true;
-    for (const auto& unit : deployment_.units()) {
-      for (const auto& port : unit->inbox().ports()) {
+    for (const auto& runner : deployment_.runners()) {
+      for (const auto& port : runner->inbox().ports()) {
         if (port->spec().name != "stop") continue;
         SampleRef sample = pool_.loan();
         static_cast<msg::Bool*>(sample.mutable_message())->data_(true);

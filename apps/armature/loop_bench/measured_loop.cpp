@@ -82,10 +82,10 @@ OurLoop::OurLoop(const LoopSettings& settings, std::function<void(const std::str
   deployment_ =
       std::make_unique<Deployment>(read(settings, plugins_), plugins_,
                                    Deployment::Options{.on_line = {}, .on_note = std::move(note)});
-  for (const auto& unit : deployment_->units()) {
-    if (unit->name() != "loop") continue;
-    unit_ = unit.get();
-    component_ = &dynamic_cast<LoopComponent&>(unit->component());
+  for (const auto& runner : deployment_->runners()) {
+    if (runner->name() != "loop") continue;
+    runner_ = runner.get();
+    component_ = &dynamic_cast<LoopComponent&>(runner->component());
   }
   deployment_->connect(plugins_, settings.domain);
   thread_ = std::thread{[this] {
@@ -100,7 +100,7 @@ OurLoop::~OurLoop() {
 }
 
 int OurLoop::readers() const {
-  const RemoteWriter* remote = unit_->outputs().front().topic().remote();
+  const RemoteWriter* remote = runner_->outputs().front().topic().remote();
   return remote ? remote->matched_readers() : 0;
 }
 

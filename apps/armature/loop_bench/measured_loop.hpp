@@ -53,7 +53,7 @@ class OurLoop final : public MeasuredLoop {
   /// not allow.
   OurLoop(const LoopSettings& settings, std::function<void(const std::string&)> note);
   ~OurLoop() override;
-  const TimingHistogram& lateness() const override { return unit_->times().lateness; }
+  const TimingHistogram& lateness() const override { return runner_->times().lateness; }
   Requests& requests() override { return component_->requests(); }
   /// How many other processes read its joint state now.
   int readers() const;
@@ -61,7 +61,7 @@ class OurLoop final : public MeasuredLoop {
  private:
   PluginRegistry plugins_;
   std::unique_ptr<Deployment> deployment_;
-  ComponentRunner* unit_ = nullptr;
+  ComponentRunner* runner_ = nullptr;
   LoopComponent* component_ = nullptr;
   std::atomic<bool> end_{false};
   std::thread thread_;

@@ -194,17 +194,17 @@ TEST_F(SlotTest, AnActivationSeesOnePluginWhileAnotherThreadOffersSuccessors) {
   const Slot<Gauge> slot{*place};
   std::atomic<int> steps{0}, mixed{0}, changes{0};
   int last = 1;
-  const auto unit = make_unit("reader", 0, [&](Time) {
+  const auto runner = make_runner("reader", 0, [&](Time) {
     const int seen = slot->read();
     std::this_thread::yield();
     if (slot->read() != seen) ++mixed;
     if (std::exchange(last, seen) != seen) ++changes;
     ++steps;
   });
-  unit->slots().push_back(std::move(place));
+  runner->slots().push_back(std::move(place));
 
   std::jthread steering{[&](const std::stop_token& stop) {
-    while (!stop.stop_requested()) unit->step(Time{});
+    while (!stop.stop_requested()) runner->step(Time{});
   }};
   for (int round = 0; round < 200; ++round) {
     ASSERT_TRUE(shared.offer(round % 2 == 0 ? plugin<Reads<2>>("gauge/two")
@@ -216,7 +216,7 @@ TEST_F(SlotTest, AnActivationSeesOnePluginWhileAnotherThreadOffersSuccessors) {
   EXPECT_EQ(mixed, 0);
   EXPECT_GE(changes, 199);
   EXPECT_LE(alive_, 2);
-  EXPECT_FALSE(unit->faulted());
+  EXPECT_FALSE(runner->faulted());
 }
 
 }  // namespace

@@ -23,12 +23,12 @@ config::Problem problem_of(const ComponentConfig& component, const SlotError& er
 }
 
 ComponentSetup::ComponentSetup(const ComponentConfig& config, const DeploymentConfig& deployment,
-                               PluginRegistry& plugins, ComponentRunner& unit, Delivery& delivery,
+                               PluginRegistry& plugins, ComponentRunner& runner, Delivery& delivery,
                                FindTopic find_topic)
     : config_{config},
       deployment_{deployment},
       plugins_{plugins},
-      unit_{unit},
+      runner_{runner},
       delivery_{delivery},
       find_topic_{std::move(find_topic)} {}
 
@@ -56,7 +56,7 @@ bool ComponentSetup::has_document(std::string_view section) const {
 
 void ComponentSetup::activate_every(Duration period) {
   if (period <= Duration{0}) throw SetupError("its period must be positive");
-  unit_.set_period(period);
+  runner_.set_period(period);
 }
 
 const PortBinding& ComponentSetup::declared(const std::vector<PortBinding>& ports,
@@ -82,7 +82,7 @@ const PortBinding& ComponentSetup::declared(const std::vector<PortBinding>& port
 
 InputPort& ComponentSetup::claim_input(std::string_view port, const MessageType& type) {
   const PortBinding& binding = declared(config_.inputs, "input", port, type);
-  InputPort& input = unit_.inbox().add(binding.spec, type);
+  InputPort& input = runner_.inbox().add(binding.spec, type);
   find_topic_(binding, type)
       .connect(input, binding.spec.outside ? Sources::any : Sources::deployment);
   return input;
@@ -90,7 +90,7 @@ InputPort& ComponentSetup::claim_input(std::string_view port, const MessageType&
 
 OutputPort& ComponentSetup::claim_output(std::string_view port, const MessageType& type) {
   const PortBinding& binding = declared(config_.outputs, "output", port, type);
-  return unit_.outputs().emplace_back(binding.spec, find_topic_(binding, type), delivery_);
+  return runner_.outputs().emplace_back(binding.spec, find_topic_(binding, type), delivery_);
 }
 
 bool ComponentSetup::is_written(std::string_view input) const {
@@ -130,7 +130,7 @@ void ComponentSetup::keep_thread(std::unique_ptr<DriverThread> thread) {
                     "plugin.yaml must say 'pure: false'",
                     config_.manifest->id));
   }
-  unit_.add_thread(std::move(thread));
+  runner_.add_thread(std::move(thread));
 }
 
 void ComponentSetup::check_all_claimed() const {

@@ -22,7 +22,7 @@ class ComponentSetup final : public Setup {
   using FindTopic = std::function<Topic&(const PortBinding&, const MessageType&)>;
 
   ComponentSetup(const ComponentConfig& config, const DeploymentConfig& deployment,
-                 PluginRegistry& plugins, ComponentRunner& unit, Delivery& delivery,
+                 PluginRegistry& plugins, ComponentRunner& runner, Delivery& delivery,
                  FindTopic find_topic);
 
   const std::string& name() const override { return config_.name; }
@@ -32,10 +32,10 @@ class ComponentSetup final : public Setup {
   const config::Node& document(std::string_view section) override;
   bool has_document(std::string_view section) const override;
   void activate_every(Duration period) override;
-  void deliver_after(Duration latency) override { unit_.set_latency(latency); }
+  void deliver_after(Duration latency) override { runner_.set_latency(latency); }
   bool is_written(std::string_view input) const override;
   const PluginManifest& slot_manifest(std::string_view slot_name) const override;
-  std::shared_ptr<StatusReporter> reporter() override { return unit_.reporter(); }
+  std::shared_ptr<StatusReporter> reporter() override { return runner_.reporter(); }
 
   /// Throws std::logic_error when a declared port was never claimed.
   void check_all_claimed() const;
@@ -45,7 +45,7 @@ class ComponentSetup final : public Setup {
   OutputPort& claim_output(std::string_view port, const MessageType& type) override;
   SlotPlugin slot_plugin(std::string_view slot, std::string_view kind) override;
   void keep_slot(std::unique_ptr<SlotPlace> place) override {
-    unit_.slots().push_back(std::move(place));
+    runner_.slots().push_back(std::move(place));
   }
   void keep_thread(std::unique_ptr<DriverThread> thread) override;
 
@@ -57,7 +57,7 @@ class ComponentSetup final : public Setup {
   const ComponentConfig& config_;
   const DeploymentConfig& deployment_;
   PluginRegistry& plugins_;
-  ComponentRunner& unit_;
+  ComponentRunner& runner_;
   Delivery& delivery_;
   FindTopic find_topic_;
   std::set<const PortBinding*> claimed_;

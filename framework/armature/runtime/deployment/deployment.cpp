@@ -39,12 +39,12 @@ std::string writer_key(const ComponentConfig& component, const PortBinding& outp
 
 /// An executor's period is for all of its components: one that a component has itself would be
 /// ignored, with the parameter that says it (`rate_hz`).
-void check_period(const ComponentConfig& component, const ComponentRunner& unit,
+void check_period(const ComponentConfig& component, const ComponentRunner& runner,
                   const std::vector<ExecutorSpec>& executors, config::Problems& problems) {
   constexpr double kSame = 1e-3;  // a rate in Hz is seldom a round period
   const auto executor = std::ranges::find(executors, component.executor, &ExecutorSpec::name);
-  if (!unit.period() || executor == executors.end() || !executor->period) return;
-  const double own = to_seconds(*unit.period()), given = to_seconds(*executor->period);
+  if (!runner.period() || executor == executors.end() || !executor->period) return;
+  const double own = to_seconds(*runner.period()), given = to_seconds(*executor->period);
   if (std::abs(own - given) <= kSame * given) return;
   problems.add(
       component.origin,
@@ -71,14 +71,14 @@ Deployment::Deployment(DeploymentConfig config, PluginRegistry& plugins, Options
   std::sort(order.begin(), order.end(),
             [](const auto* a, const auto* b) { return a->place < b->place; });
   config::Problems problems;
-  for (const ComponentConfig* component : order) make_unit(*component, plugins, problems);
+  for (const ComponentConfig* component : order) make_runner(*component, plugins, problems);
   problems.throw_if_any();
   make_own_units(plugins);
   if (std::ranges::find(config_.executors, kRuntimeExecutor, &ExecutorSpec::name) ==
       config_.executors.end()) {
     config_.executors.push_back({.name = std::string{kRuntimeExecutor}, .period = {}, .cpu = {}});
   }
-  assign_units();
+  assign_runners();
 }
 
 Deployment::~Deployment() {
@@ -89,11 +89,11 @@ Deployment::~Deployment() {
     options_.on_ending(kTransport);
     remote_->stop_reading();  // deliveries end before their inboxes go
   }
-  for (auto& unit : units_) {
-    tell_ending("destructor", *unit);
-    const std::string name = unit->name();
+  for (auto& runner : runners_) {
+    tell_ending("destructor", *runner);
+    const std::string name = runner->name();
     const RunningComponent running{name, "destructor"};
-    unit.reset();
+    runner.reset();
   }
   options_.on_ending(kTransport);
   topics_.clear();  // outside writers go before the transport
@@ -112,21 +112,21 @@ void Deployment::make_scheduler() {
   }
 }
 
-void Deployment::make_unit(const ComponentConfig& component, PluginRegistry& plugins,
-                           config::Problems& problems) {
+void Deployment::make_runner(const ComponentConfig& component, PluginRegistry& plugins,
+                             config::Problems& problems) {
   const RunningComponent running{component.name, "constructor"};
   // Outlives the exceptions that its code throws, and the slots that it makes.
   const auto library = plugins.load(*component.manifest, Component::kKind);
-  auto unit = std::make_unique<ComponentRunner>(component.name, component.plugin_id,
-                                                component.place, options_.on_line);
-  ComponentSetup setup = setup_of(component, plugins, *unit);
+  auto runner = std::make_unique<ComponentRunner>(component.name, component.plugin_id,
+                                                  component.place, options_.on_line);
+  ComponentSetup setup = setup_of(component, plugins, *runner);
   try {
     const auto make = reinterpret_cast<Component::Factory>(library->factory());
     auto object = make(setup);
     setup.check_all_claimed();
-    unit->install(library, std::move(object));
-    check_period(component, *unit, config_.executors, problems);
-    units_.push_back(std::move(unit));
+    runner->install(library, std::move(object));
+    check_period(component, *runner, config_.executors, problems);
+    runners_.push_back(std::move(runner));
   } catch (const config::ConfigError& error) {
     for (const auto& problem : error.problems()) problems.add(problem.origin, problem.message);
   } catch (const PluginError&) {
@@ -164,14 +164,14 @@ void Deployment::make_own_units(PluginRegistry& plugins) {
   }
   const int last = static_cast<int>(config_.components.size());
   make_own_unit(kStateComponent, StatePublisher::manifest(), last, plugins,
-                [this](Setup& setup) { return std::make_unique<StatePublisher>(setup, units_); });
+                [this](Setup& setup) { return std::make_unique<StatePublisher>(setup, runners_); });
   // The other processes tell how their components are, too: a component that reads it hears all.
   for (const std::string& process : config_.processes()) {
     if (process == options_.process || options_.process.empty()) continue;
     config_.components.push_back(
         own_config(kStateComponent, StatePublisher::manifest(), last, process));
   }
-  std::sort(units_.begin(), units_.end(),
+  std::sort(runners_.begin(), runners_.end(),
             [](const auto& a, const auto& b) { return a->place() < b->place(); });
 }
 
@@ -180,10 +180,11 @@ void Deployment::make_own_unit(std::string_view name, const PluginManifest& mani
                                const std::function<std::unique_ptr<Component>(Setup&)>& make) {
   config_.components.push_back(own_config(name, manifest, place, options_.process));
   const ComponentConfig& config = config_.components.back();
-  auto unit = std::make_unique<ComponentRunner>(config.name, manifest.id, place, options_.on_line);
-  ComponentSetup setup = setup_of(config, plugins, *unit);
-  unit->install(nullptr, make(setup));
-  units_.push_back(std::move(unit));
+  auto runner =
+      std::make_unique<ComponentRunner>(config.name, manifest.id, place, options_.on_line);
+  ComponentSetup setup = setup_of(config, plugins, *runner);
+  runner->install(nullptr, make(setup));
+  runners_.push_back(std::move(runner));
 }
 
 void Deployment::on_event(const TransportEvent& event) {
@@ -204,11 +205,11 @@ std::vector<std::string> Deployment::silent() const {
 }
 
 ComponentSetup Deployment::setup_of(const ComponentConfig& component, PluginRegistry& plugins,
-                                    ComponentRunner& unit) {
+                                    ComponentRunner& runner) {
   return {component,
           config_,
           plugins,
-          unit,
+          runner,
           *scheduler_,
           [this, &component](const PortBinding& port, const MessageType& type) -> Topic& {
             return topic_for(component, port, type);
@@ -235,26 +236,26 @@ Topic& Deployment::topic_at(const std::string& key, const PortBinding& port,
   return *topic;
 }
 
-const ComponentConfig& Deployment::config_of(const ComponentRunner& unit) const {
+const ComponentConfig& Deployment::config_of(const ComponentRunner& runner) const {
   return *std::find_if(config_.components.begin(), config_.components.end(),
-                       [&](const ComponentConfig& c) { return c.name == unit.name(); });
+                       [&](const ComponentConfig& c) { return c.name == runner.name(); });
 }
 
 void Deployment::inject(const InjectedFault& fault) {
-  for (const auto& unit : units_) {
-    if (unit->name() == fault.component()) unit->inject(fault);
+  for (const auto& runner : runners_) {
+    if (runner->name() == fault.component()) runner->inject(fault);
   }
 }
 
-void Deployment::assign_units() {
+void Deployment::assign_runners() {
   for (const ExecutorSpec& spec : config_.executors) {
     std::vector<ComponentRunner*> assigned;
-    for (const auto& unit : units_) {
-      if (config_of(*unit).executor == spec.name) assigned.push_back(unit.get());
+    for (const auto& runner : runners_) {
+      if (config_of(*runner).executor == spec.name) assigned.push_back(runner.get());
     }
     if (!assigned.empty())
-      scheduler_->assign(spec, assigned, [this](const ComponentRunner& unit) {
-        return std::max(config_of(unit).sim_latency, unit.latency());
+      scheduler_->assign(spec, assigned, [this](const ComponentRunner& runner) {
+        return std::max(config_of(runner).sim_latency, runner.latency());
       });
   }
 }
@@ -279,12 +280,14 @@ void Deployment::connect(PluginRegistry& plugins, int domain, const std::string&
   const auto of_this_process = [&](const ComponentConfig& component) {
     return component.process == options_.process;
   };
-  for (const ComponentConfig& component : config_.components | std::views::filter(of_this_process)) {
+  for (const ComponentConfig& component :
+       config_.components | std::views::filter(of_this_process)) {
     for (const PortBinding& input : component.inputs) {
       remote_->subscribe(input, *topics_.at(input.topic));
     }
   }
-  for (const ComponentConfig& component : config_.components | std::views::filter(of_this_process)) {
+  for (const ComponentConfig& component :
+       config_.components | std::views::filter(of_this_process)) {
     for (const PortBinding& output : component.outputs) {
       remote_->advertise(output, *topics_.at(writer_key(component, output)));
     }

@@ -25,7 +25,7 @@
 
 namespace armature ARMATURE_EXPORT {
 
-/// A deployment in memory: topics, units, scheduler, and the way to other processes. Built in
+/// A deployment in memory: topics, components, scheduler, and the way to other processes. Built in
 /// three steps, each of which throws with every problem it finds: the configuration is read
 /// (read_deployment), the components are constructed (here), the transport is joined (connect).
 class Deployment {
@@ -51,9 +51,9 @@ class Deployment {
 
   const DeploymentConfig& config() const { return config_; }
   const Clock& clock() const { return *clock_; }
-  const std::vector<std::unique_ptr<ComponentRunner>>& units() const { return units_; }
-  /// The entry of the deployment that `unit` was made from.
-  const ComponentConfig& config_of(const ComponentRunner& unit) const;
+  const std::vector<std::unique_ptr<ComponentRunner>>& runners() const { return runners_; }
+  /// The entry of the deployment that `runner` was made from.
+  const ComponentConfig& config_of(const ComponentRunner& runner) const;
 
   /// Puts a drill's fault, which outlives the deployment, into its component, if that is here.
   void inject(const InjectedFault& fault);
@@ -89,10 +89,10 @@ class Deployment {
   const std::vector<const ComponentRunner*>& hung() const { return hung_; }
   /// Each of them in a sentence: "'arm' hangs: its step has not returned for 2 s".
   const std::vector<std::string>& hangs() const { return hangs_; }
-  bool is_hung(const ComponentRunner& unit) const;
+  bool is_hung(const ComponentRunner& runner) const;
 
   /// Says that the "stop" (or another `function`) of a component is called next (on_ending).
-  void tell_ending(std::string_view function, const ComponentRunner& unit) const;
+  void tell_ending(std::string_view function, const ComponentRunner& runner) const;
 
   /// How long the end of a run waits for a step to return.
   static constexpr Duration kStepTimeout = seconds(kSanitized ? 10 : 2);
@@ -101,8 +101,8 @@ class Deployment {
 
  private:
   void make_scheduler();
-  void make_unit(const ComponentConfig& component, PluginRegistry& plugins,
-                 config::Problems& problems);
+  void make_runner(const ComponentConfig& component, PluginRegistry& plugins,
+                   config::Problems& problems);
   void make_own_units(PluginRegistry& plugins);
   void make_own_unit(std::string_view name, const PluginManifest& manifest, int place,
                      PluginRegistry& plugins,
@@ -111,12 +111,12 @@ class Deployment {
   ComponentConfig own_config(std::string_view name, const PluginManifest& manifest, int place,
                              const std::string& process) const;
   ComponentSetup setup_of(const ComponentConfig& component, PluginRegistry& plugins,
-                          ComponentRunner& unit);
+                          ComponentRunner& runner);
   Topic& topic_for(const ComponentConfig& component, const PortBinding& port,
                    const MessageType& type);
   Topic& topic_at(const std::string& key, const PortBinding& port, const MessageType& type);
   void start_watchdog();
-  void assign_units();
+  void assign_runners();
   void on_event(const TransportEvent& event);
   bool await_start(RunWatch& watch);
   /// Returns why it is to stop.
@@ -125,14 +125,14 @@ class Deployment {
   void come_to_rest(RunWatch& watch);
   std::vector<std::string> find_moving() const;
   void end();
-  void add_hung(const ComponentRunner& unit, std::string_view what, Duration timeout);
+  void add_hung(const ComponentRunner& runner, std::string_view what, Duration timeout);
 
   DeploymentConfig config_;
   Options options_;
   std::unique_ptr<Clock> clock_;
   std::map<std::string, std::unique_ptr<Topic>> topics_;  // by name, of shared ones also by writer
   std::unique_ptr<Scheduler> scheduler_;
-  std::vector<std::unique_ptr<ComponentRunner>> units_;  // in the order of the graph
+  std::vector<std::unique_ptr<ComponentRunner>> runners_;  // in the order of the graph
   std::optional<Watchdog> watchdog_;
   bool scenario_over_ = false;  // a component has finished
   bool timed_out_ = false;

@@ -13,8 +13,8 @@
 namespace armature {
 namespace {
 
-std::string fault_text(const ComponentRunner& unit) {
-  return unit.name() + ": " + unit.status().reason;
+std::string fault_text(const ComponentRunner& runner) {
+  return runner.name() + ": " + runner.status().reason;
 }
 
 }  // namespace
@@ -42,14 +42,14 @@ bool Deployment::await_start(RunWatch& watch) {
 void Deployment::start_watchdog() {
   std::vector<Watchdog::Watched> watched;
   int priority = 0;
-  for (const auto& unit : units_) {
-    const ComponentConfig& config = config_of(*unit);
+  for (const auto& runner : runners_) {
+    const ComponentConfig& config = config_of(*runner);
     const auto executor =
         std::ranges::find(config_.executors, config.executor, &ExecutorSpec::name);
     priority = std::max(priority, executor->priority);
     const auto declared = declared_max_step(config, config_);
-    watched.push_back({.unit = unit.get(),
-                       .max_step = declared.value_or(max_step_of({}, unit->period())),
+    watched.push_back({.runner = runner.get(),
+                       .max_step = declared.value_or(max_step_of({}, runner->period())),
                        .stops_run = hang_stops_run(config, config_)});
   }
   constexpr int kHighest = 99;
@@ -60,7 +60,7 @@ void Deployment::start_watchdog() {
 std::string Deployment::run_until_stop(RunWatch& watch) {
   const Time start = clock_->now();
   start_watchdog();
-  for (const auto& unit : units_) unit->start_threads(*clock_);
+  for (const auto& runner : runners_) runner->start_threads(*clock_);
   std::optional<std::string> cause;
   scheduler_->run([&] {
     cause = stop_cause(watch, start);
@@ -104,66 +104,66 @@ void Deployment::come_to_rest(RunWatch& watch) {
 
 std::vector<std::string> Deployment::find_moving() const {
   std::vector<std::string> names;
-  for (const auto& unit : units_) {
-    if (!unit->stopped()) names.push_back(unit->name());
+  for (const auto& runner : runners_) {
+    if (!runner->stopped()) names.push_back(runner->name());
   }
   return names;
 }
 
 void Deployment::end() {
-  for (const ComponentRunner* unit : scheduler_->stop(kStepTimeout)) {
-    add_hung(*unit, "step", kStepTimeout);
+  for (const ComponentRunner* runner : scheduler_->stop(kStepTimeout)) {
+    add_hung(*runner, "step", kStepTimeout);
   }
-  for (const auto& unit : units_) unit->request_threads_stop();
-  for (const auto& unit : units_) {
-    if (is_hung(*unit)) continue;
-    tell_ending("stop", *unit);
-    unit->stop(clock_->now());
+  for (const auto& runner : runners_) runner->request_threads_stop();
+  for (const auto& runner : runners_) {
+    if (is_hung(*runner)) continue;
+    tell_ending("stop", *runner);
+    runner->stop(clock_->now());
   }
   const auto threads_end = std::chrono::steady_clock::now() + kThreadTimeout;
-  for (const auto& unit : units_) {
-    if (is_hung(*unit)) continue;
-    tell_ending("driver thread", *unit);
-    if (!unit->join_threads(threads_end)) add_hung(*unit, "driver thread", kThreadTimeout);
+  for (const auto& runner : runners_) {
+    if (is_hung(*runner)) continue;
+    tell_ending("driver thread", *runner);
+    if (!runner->join_threads(threads_end)) add_hung(*runner, "driver thread", kThreadTimeout);
   }
   options_.on_ending("the end of the run");
   if (!remote_) return;
   for (const std::string& refusal : remote_->refusals()) options_.on_note(refusal);
 }
 
-void Deployment::add_hung(const ComponentRunner& unit, std::string_view what, Duration timeout) {
-  hung_.push_back(&unit);
-  std::erase(moving_, unit.name());
-  hangs_.push_back(fmt::format("'{}' hangs: its {} has not returned for {:g} s", unit.name(), what,
-                               to_seconds(timeout)));
+void Deployment::add_hung(const ComponentRunner& runner, std::string_view what, Duration timeout) {
+  hung_.push_back(&runner);
+  std::erase(moving_, runner.name());
+  hangs_.push_back(fmt::format("'{}' hangs: its {} has not returned for {:g} s", runner.name(),
+                               what, to_seconds(timeout)));
   options_.on_note(hangs_.back());
 }
 
-void Deployment::tell_ending(std::string_view function, const ComponentRunner& unit) const {
-  options_.on_ending(fmt::format("the {} of '{}'", function, unit.name()));
+void Deployment::tell_ending(std::string_view function, const ComponentRunner& runner) const {
+  options_.on_ending(fmt::format("the {} of '{}'", function, runner.name()));
 }
 
-bool Deployment::is_hung(const ComponentRunner& unit) const {
-  return std::ranges::find(hung_, &unit) != hung_.end();
+bool Deployment::is_hung(const ComponentRunner& runner) const {
+  return std::ranges::find(hung_, &runner) != hung_.end();
 }
 
 bool Deployment::any_finished() const {
-  return std::any_of(units_.begin(), units_.end(),
-                     [](const auto& unit) { return unit->finished(); });
+  return std::any_of(runners_.begin(), runners_.end(),
+                     [](const auto& runner) { return runner->finished(); });
 }
 
 std::string Deployment::fault() const {
-  for (const auto& unit : units_) {
-    if (unit->faulted() && stops_run(config_of(*unit))) return fault_text(*unit);
+  for (const auto& runner : runners_) {
+    if (runner->faulted() && stops_run(config_of(*runner))) return fault_text(*runner);
   }
   return watchdog_ ? watchdog_->verdict() : std::string{};
 }
 
 std::vector<std::string> Deployment::isolated_faults() const {
   std::vector<std::string> faults;
-  for (const auto& unit : units_) {
-    if (!unit->faulted() || stops_run(config_of(*unit))) continue;
-    faults.push_back(fault_text(*unit) + " (the run went on without it)");
+  for (const auto& runner : runners_) {
+    if (!runner->faulted() || stops_run(config_of(*runner))) continue;
+    faults.push_back(fault_text(*runner) + " (the run went on without it)");
   }
   return faults;
 }

@@ -38,15 +38,15 @@ TEST_F(InjectedFaultTest, StrikesInTheNextStepOnceTheSignalHasCome) {
   const auto fault = InjectedFault::read("monitor:throw", deployment_);
   EXPECT_EQ(fault.component(), "monitor");
   int steps = 0;
-  const auto unit = make_unit("monitor", 0, [&](Time) { ++steps; });
-  unit->inject(fault);
+  const auto runner = make_runner("monitor", 0, [&](Time) { ++steps; });
+  runner->inject(fault);
   InjectedFault::listen();
-  unit->activate({});
-  EXPECT_FALSE(unit->faulted());
+  runner->activate({});
+  EXPECT_FALSE(runner->faulted());
   std::raise(SIGUSR1);
-  unit->activate({});
-  EXPECT_TRUE(unit->faulted());
-  EXPECT_EQ(unit->status().reason, "step failed: a drill's fault");
+  runner->activate({});
+  EXPECT_TRUE(runner->faulted());
+  EXPECT_EQ(runner->status().reason, "step failed: a drill's fault");
   EXPECT_EQ(steps, 1);
 }
 

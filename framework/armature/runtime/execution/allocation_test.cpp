@@ -61,7 +61,7 @@ struct Idle {
 };
 
 TEST_F(AllocationTest, NoneInTheExchangeOfAPlugin) {
-  const auto unit = make_unit("arm", 0, [](Time) {});
+  const auto runner = make_runner("arm", 0, [](Time) {});
   auto place = std::make_unique<SlotOf<Idle>>(
       "idle", [](Idle::Factory factory, const Params& params) { return factory(params); });
   const auto idle = [] {
@@ -70,18 +70,18 @@ TEST_F(AllocationTest, NoneInTheExchangeOfAPlugin) {
   };
   place->fill(idle());
   SlotPlace& slot = *place;
-  unit->slots().push_back(std::move(place));
-  unit->step(Time{});
+  runner->slots().push_back(std::move(place));
+  runner->step(Time{});
   ASSERT_TRUE(slot.offer(idle()));
-  EXPECT_EQ(allocations_of([&] { unit->step(Time{}); }), 0U);
+  EXPECT_EQ(allocations_of([&] { runner->step(Time{}); }), 0U);
   EXPECT_TRUE(slot.settle()) << "the successor sits there";
 }
 
 TEST_F(AllocationTest, NoneInAnActivationAndItsTimes) {
   int steps = 0;
-  const auto unit = make_unit("arm", 0, [&](Time) { ++steps; });
+  const auto runner = make_runner("arm", 0, [&](Time) { ++steps; });
   EXPECT_EQ(allocations_of([&] {
-              for (int i = 0; i < 1000; ++i) unit->activate(Time{i}, Duration{i});
+              for (int i = 0; i < 1000; ++i) runner->activate(Time{i}, Duration{i});
             }),
             0U);
   EXPECT_EQ(steps, 1000);
@@ -91,14 +91,14 @@ TEST_F(AllocationTest, NoneInAnExecutorsCycle) {
   const SystemClock clock;
   std::atomic<int> steps{0};
   std::atomic<std::size_t> first{0}, last{0};
-  const auto unit = make_unit("arm", 0, [&](Time) {
+  const auto runner = make_runner("arm", 0, [&](Time) {
     if (steps == 10) first = allocation_count;
     last = allocation_count;
     ++steps;
   });
-  InputPort& trigger = unit->inbox().add({.name = "in", .trigger = true}, type_);
+  InputPort& trigger = runner->inbox().add({.name = "in", .trigger = true}, type_);
   Executor executor{{.name = "control", .period = seconds(0.001), .cpu = {}}, clock};
-  executor.assign(*unit);
+  executor.assign(*runner);
   executor.start([](const std::string&) {});
   while (steps < 200) trigger.deliver(sample(Time{1}));
   executor.request_stop();

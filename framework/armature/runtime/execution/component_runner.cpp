@@ -25,17 +25,17 @@ Duration read_clock(clockid_t clock) {
 /// crash.
 class ComponentRunner::Running {
  public:
-  Running(ComponentRunner& unit, const char* phase)
-      : unit_{unit}, component_{unit.name_, phase}, start_{read_clock(CLOCK_MONOTONIC)} {
-    unit_.running_since_ns_.store(start_.count(), std::memory_order_relaxed);
+  Running(ComponentRunner& runner, const char* phase)
+      : runner_{runner}, component_{runner.name_, phase}, start_{read_clock(CLOCK_MONOTONIC)} {
+    runner_.running_since_ns_.store(start_.count(), std::memory_order_relaxed);
   }
-  ~Running() { unit_.running_since_ns_.store(0, std::memory_order_relaxed); }
+  ~Running() { runner_.running_since_ns_.store(0, std::memory_order_relaxed); }
   Running(const Running&) = delete;
   Running& operator=(const Running&) = delete;
   Duration start() const { return start_; }
 
  private:
-  ComponentRunner& unit_;
+  ComponentRunner& runner_;
   RunningComponent component_;
   Duration start_;
 };

@@ -57,21 +57,21 @@ class ComponentRunner {
 
   /// A thread of the component's own, before the run.
   void add_thread(std::unique_ptr<DriverThread> thread) { threads_.push_back(std::move(thread)); }
-  /// Starts them; `clock` outlives the unit. Where they were started already nothing happens.
+  /// Starts them; `clock` outlives the component. Where they were started already nothing happens.
   void start_threads(const Clock& clock);
   void request_threads_stop();
   /// False when one has not returned until `end`.
   bool join_threads(std::chrono::steady_clock::time_point end);
 
-  /// A drill's fault, which outlives the unit.
+  /// A drill's fault, which outlives the component.
   void inject(const InjectedFault& fault) { injected_ = &fault; }
 
   /// Called when a trigger input gets a sample; any thread.
   void on_triggered(std::function<void()> callback) { triggered_ = std::move(callback); }
 
   /// One activation, unless the component has finished; `lateness` is how long after its release.
-  /// An exception is caught and becomes the unit's fault: the unit is not called again and its
-  /// outputs end.
+  /// An exception is caught and becomes the component's fault: the component is not called again
+  /// and its outputs end.
   void activate(Time now, Duration lateness = {});
   /// The same, also of a component that has finished.
   void step(Time now, Duration lateness = {});

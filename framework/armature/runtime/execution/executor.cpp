@@ -20,24 +20,26 @@ Executor::~Executor() {
   join();
 }
 
-void Executor::assign(ComponentRunner& unit) {
+void Executor::assign(ComponentRunner& runner) {
   triggers_.push_back(std::make_unique<std::atomic<std::int64_t>>(kNever));
   std::atomic<std::int64_t>* triggered_ns = triggers_.back().get();
-  entries_.push_back({.unit = &unit,
-                      .period = spec_.period ? spec_.period : unit.period(),
+  entries_.push_back({.runner = &runner,
+                      .period = spec_.period ? spec_.period : runner.period(),
                       .next_release = {},
                       .triggered_ns = triggered_ns});
   std::sort(entries_.begin(), entries_.end(),
-            [](const Entry& a, const Entry& b) { return a.unit->place() < b.unit->place(); });
-  unit.set_executor(spec_.name, times_);
-  unit.on_triggered([this, triggered_ns] {
+            [](const Entry& a, const Entry& b) { return a.runner->place() < b.runner->place(); });
+  runner.set_executor(spec_.name, times_);
+  runner.on_triggered([this, triggered_ns] {
     std::int64_t never = kNever;
     triggered_ns->compare_exchange_strong(never, clock_->now().ns, std::memory_order_acq_rel);
     wake_.notify();
   });
 }
 
-int Executor::first_place() const { return entries_.empty() ? 0 : entries_.front().unit->place(); }
+int Executor::first_place() const {
+  return entries_.empty() ? 0 : entries_.front().runner->place();
+}
 
 bool Executor::has_period() const {
   return std::ranges::any_of(entries_, [](const Entry& entry) { return entry.period.has_value(); });
@@ -67,7 +69,7 @@ void Executor::start(const std::function<void(const std::string&)>& note) {
 }
 
 void Executor::begin_stop() {
-  for (const Entry& entry : entries_) entry.unit->request_stop();
+  for (const Entry& entry : entries_) entry.runner->request_stop();
   wake_.notify();
 }
 
@@ -103,7 +105,7 @@ std::optional<Time> Executor::take_release(Entry& entry, Time now) {
   if (entry.period && now >= entry.next_release) {
     if (!release || entry.next_release < *release) release = entry.next_release;
     const auto missed = (now - entry.next_release) / *entry.period;
-    entry.unit->count_overruns(static_cast<std::uint64_t>(missed));
+    entry.runner->count_overruns(static_cast<std::uint64_t>(missed));
     entry.next_release = entry.next_release + *entry.period * (missed + 1);
   }
   return release;
@@ -114,14 +116,14 @@ void Executor::activate_due() {
   for (Entry& entry : entries_) {
     if (stopping_) break;
     const Time now = clock_->now();
-    running_.store(entry.unit, std::memory_order_release);
-    entry.unit->answer_stop_request(now);
+    running_.store(entry.runner, std::memory_order_release);
+    entry.runner->answer_stop_request(now);
     if (const auto release = take_release(entry, now)) {
       if (!begin) {
         begin = now;
         times_.lateness.add(now - *release);
       }
-      entry.unit->activate(now, now - *release);
+      entry.runner->activate(now, now - *release);
     }
     running_.store(nullptr, std::memory_order_release);
   }

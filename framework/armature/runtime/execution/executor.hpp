@@ -19,7 +19,7 @@
 
 namespace armature ARMATURE_EXPORT {
 
-/// A named thread that activates the units assigned to it, in the order of the graph. A period
+/// A named thread that activates the components assigned to it, in the order of the graph. A period
 /// that was missed is skipped and counted, never caught up in a burst. Once it runs it neither
 /// allocates nor waits for a lock of its own; what its components do is theirs.
 class Executor {
@@ -27,19 +27,19 @@ class Executor {
   Executor(ExecutorSpec spec, const Clock& clock);
   ~Executor();
 
-  void assign(ComponentRunner& unit);
+  void assign(ComponentRunner& runner);
   /// Starts the thread, and returns when it is as the specification says and about to take its
   /// first step; the note says what the system did not allow.
   void start(const std::function<void(const std::string&)>& note);
-  /// Makes every unit come to rest (Component::begin_stop), at once or when its running step is
-  /// over; steps go on. Any thread.
+  /// Makes every component come to rest (Component::begin_stop), at once or when its running step
+  /// is over; steps go on. Any thread.
   void begin_stop();
   void request_stop();
   void join();
   /// Waits for the thread's end for at most `timeout`; false when a step has not returned until
   /// then.
   bool join_for(Duration timeout);
-  /// The unit whose step is running, or nullptr. Any thread.
+  /// The component whose step is running, or nullptr. Any thread.
   const ComponentRunner* running() const { return running_.load(std::memory_order_acquire); }
   const std::string& name() const { return spec_.name; }
   int first_place() const;
@@ -48,7 +48,7 @@ class Executor {
 
  private:
   struct Entry {
-    ComponentRunner* unit;
+    ComponentRunner* runner;
     std::optional<Duration> period;
     Time next_release;
     std::atomic<std::int64_t>* triggered_ns;  // since when, or kNever

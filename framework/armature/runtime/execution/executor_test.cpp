@@ -25,7 +25,7 @@
 namespace armature {
 namespace {
 
-/// How the thread that runs a unit is scheduled.
+/// How the thread that runs a component is scheduled.
 struct Scheduling {
   std::string thread_name;
   int policy = -1, priority = -1, timer_slack_ns = 0;
@@ -51,16 +51,17 @@ Scheduling scheduling_of_this_thread() {
 
 class ExecutorTest : public testing::Test {
  protected:
-  /// What the first step of a unit sees under the settings of `spec`; keeps the executor's notes.
+  /// What the first step of a component sees under the settings of `spec`; keeps the executor's
+  /// notes.
   Scheduling run(ExecutorSpec spec) {
     if (!spec.period) spec.period = seconds(0.001);
     std::promise<Scheduling> first;
     int steps = 0;
-    const auto unit = make_unit("probe", 0, [&](Time) {
+    const auto runner = make_runner("probe", 0, [&](Time) {
       if (steps++ == 0) first.set_value(scheduling_of_this_thread());
     });
     Executor executor{std::move(spec), clock_};
-    executor.assign(*unit);
+    executor.assign(*runner);
     executor.start([&](const std::string& note) { notes_.push_back(note); });
     return first.get_future().get();
   }
@@ -179,11 +180,11 @@ TEST_F(ExecutorTest, ALimitUnderWhichMemoryThatIsAskedForLaterWouldBeRefusedIsNo
 
 TEST_F(ExecutorTest, KnowsOfEveryStepHowLateItBeganAndHowLongItTook) {
   std::atomic<int> steps{0};
-  const auto paced = make_unit("paced", 0, [&](Time) {
+  const auto paced = make_runner("paced", 0, [&](Time) {
     std::this_thread::sleep_for(std::chrono::milliseconds{2});
     ++steps;
   });
-  const auto after = make_unit("after", 1, [](Time) {});
+  const auto after = make_runner("after", 1, [](Time) {});
   Executor executor{{.name = "control", .period = seconds(0.01), .cpu = {}}, clock_};
   executor.assign(*paced);
   executor.assign(*after);
@@ -211,11 +212,11 @@ TEST_F(ExecutorTest, ATriggeredStepIsAsLateAsItsTriggerIsOld) {
   type.destroy = [](void* message) { delete static_cast<int*>(message); };
   SamplePool pool{type, 2};
   std::atomic<bool> busy{false}, done{false};
-  const auto slow = make_unit("slow", 0, [&](Time) {
+  const auto slow = make_runner("slow", 0, [&](Time) {
     busy = true;
     std::this_thread::sleep_for(std::chrono::milliseconds{20});
   });
-  const auto waiting = make_unit("waiting", 1, [&](Time) { done = true; });
+  const auto waiting = make_runner("waiting", 1, [&](Time) { done = true; });
   InputPort& start = slow->inbox().add({.name = "in", .trigger = true}, type);
   InputPort& trigger = waiting->inbox().add({.name = "in", .trigger = true}, type);
   Executor executor{{.name = "main", .period = {}, .cpu = {}}, clock_};
@@ -235,11 +236,11 @@ TEST_F(ExecutorTest, ATriggeredStepIsAsLateAsItsTriggerIsOld) {
 
 TEST_F(ExecutorTest, AStopReachesAUnitThatNothingActivatesAndAJoinThatIsTooLongNamesTheUnit) {
   std::atomic<bool> hangs{true}, entered{false};
-  const auto hung = make_unit("hung", 0, [&](Time) {
+  const auto hung = make_runner("hung", 0, [&](Time) {
     entered = true;
     while (hangs) std::this_thread::sleep_for(std::chrono::milliseconds{1});
   });
-  const auto idle = make_unit("idle", 1, [](Time) {});
+  const auto idle = make_runner("idle", 1, [](Time) {});
   Executor quiet{{.name = "quiet", .period = {}, .cpu = {}}, clock_};
   quiet.assign(*idle);
   quiet.start([](const std::string&) {});

@@ -6,25 +6,25 @@
 namespace armature {
 
 void LockstepScheduler::assign(const ExecutorSpec& executor,
-                               const std::vector<ComponentRunner*>& units,
+                               const std::vector<ComponentRunner*>& runners,
                                const std::function<Duration(const ComponentRunner&)>& latency) {
-  for (ComponentRunner* unit : units) {
-    add(*unit, executor.period ? executor.period : unit->period(), latency(*unit));
+  for (ComponentRunner* runner : runners) {
+    add(*runner, executor.period ? executor.period : runner->period(), latency(*runner));
   }
 }
 
-void LockstepScheduler::add(ComponentRunner& unit, std::optional<Duration> period,
+void LockstepScheduler::add(ComponentRunner& runner, std::optional<Duration> period,
                             Duration latency) {
-  entries_.push_back({&unit, period, latency, std::nullopt});
+  entries_.push_back({&runner, period, latency, std::nullopt});
   Entry& entry = entries_.back();
-  unit.on_triggered([this, &entry] {
+  runner.on_triggered([this, &entry] {
     const Time now = clock_->now();
     if (entry.triggered_at == now) return;
     entry.triggered_at = now;
-    schedule({.time = now, .place = entry.unit->place(), .activate = &entry});
+    schedule({.time = now, .place = entry.runner->place(), .activate = &entry});
   });
   if (period) {
-    schedule({.time = {}, .place = unit.place(), .activate = &entry, .periodic = true});
+    schedule({.time = {}, .place = runner.place(), .activate = &entry, .periodic = true});
   }
 }
 
@@ -39,7 +39,7 @@ void LockstepScheduler::publish(Topic& topic, SampleRef sample) {
     return;
   }
   schedule({.time = clock_->now() + running_->latency,
-            .place = running_->unit->place(),
+            .place = running_->runner->place(),
             .topic = &topic,
             .sample = std::move(sample)});
 }
@@ -59,7 +59,7 @@ void LockstepScheduler::handle(Event& event) {
     entry.triggered_at.reset();
   }
   running_ = &entry;
-  entry.unit->activate(event.time);
+  entry.runner->activate(event.time);
   running_ = nullptr;
 }
 
@@ -75,8 +75,8 @@ void LockstepScheduler::run(const std::function<bool()>& done) {
 /// At once, between two activations: when everything rests already, not one more happens.
 void LockstepScheduler::begin_stop() {
   for (Entry& entry : entries_) {
-    entry.unit->request_stop();
-    entry.unit->answer_stop_request(clock_->now());
+    entry.runner->request_stop();
+    entry.runner->answer_stop_request(clock_->now());
   }
 }
 

@@ -19,7 +19,7 @@ class LockstepScheduler final : public Scheduler {
  public:
   explicit LockstepScheduler(SimulatedClock& clock) : clock_{&clock} {}
 
-  void assign(const ExecutorSpec& executor, const std::vector<ComponentRunner*>& units,
+  void assign(const ExecutorSpec& executor, const std::vector<ComponentRunner*>& runners,
               const std::function<Duration(const ComponentRunner&)>& latency) override;
   void run(const std::function<bool()>& done) override;
   void begin_stop() override;
@@ -32,7 +32,7 @@ class LockstepScheduler final : public Scheduler {
 
  private:
   struct Entry {
-    ComponentRunner* unit;
+    ComponentRunner* runner;
     std::optional<Duration> period;
     Duration latency;
     std::optional<Time> triggered_at;  // an activation by trigger is already queued for then
@@ -51,7 +51,7 @@ class LockstepScheduler final : public Scheduler {
       return std::tie(a.time.ns, a.place, a.sequence) > std::tie(b.time.ns, b.place, b.sequence);
     }
   };
-  void add(ComponentRunner& unit, std::optional<Duration> period, Duration latency);
+  void add(ComponentRunner& runner, std::optional<Duration> period, Duration latency);
   void schedule(Event event);
   void handle(Event& event);
 

@@ -11,23 +11,23 @@
 
 namespace armature ARMATURE_EXPORT {
 
-/// Decides when units are activated. Two of them: threads on the system clock, lockstep on the
+/// Decides when components are activated. Two of them: threads on the system clock, lockstep on the
 /// simulated one.
 class Scheduler : public Delivery {
  public:
-  /// Gives `units` (in graph order) to an executor; `latency` is how long after an activation a
-  /// unit's samples reach their readers on the simulated clock. Before `run`.
-  virtual void assign(const ExecutorSpec& executor, const std::vector<ComponentRunner*>& units,
+  /// Gives `runners` (in graph order) to an executor; `latency` is how long after an activation a
+  /// component's samples reach their readers on the simulated clock. Before `run`.
+  virtual void assign(const ExecutorSpec& executor, const std::vector<ComponentRunner*>& runners,
                       const std::function<Duration(const ComponentRunner&)>& latency) = 0;
   /// Runs until `done` (asked at least every 20 ms of the wall clock and after every activation
-  /// of the simulated one) says so. Units go on being activated on the system clock when it has
-  /// returned; called again it goes on where it was.
+  /// of the simulated one) says so. Components go on being activated on the system clock when it
+  /// has returned; called again it goes on where it was.
   virtual void run(const std::function<bool()>& done) = 0;
-  /// Tells every unit to come to rest; they go on being activated.
+  /// Tells every component to come to rest; they go on being activated.
   virtual void begin_stop() = 0;
   /// Stops activating, sources first; returns when no step runs any more. A step that has not
-  /// returned after `timeout` is left behind: its unit is in the answer, and neither it nor the
-  /// scheduler may be touched or destroyed any more.
+  /// returned after `timeout` is left behind: its component is in the answer, and neither it nor
+  /// the scheduler may be touched or destroyed any more.
   virtual std::vector<const ComponentRunner*> stop(Duration timeout) = 0;
 };
 

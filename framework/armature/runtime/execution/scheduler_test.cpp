@@ -30,8 +30,8 @@ TEST(LockstepScheduler, ActivatesInTheOrderOfTimeThenGraph) {
   const auto record = [&](const std::string& name) {
     return [&log, name](Time now) { log.push_back(name + "@" + std::to_string(now.ns)); };
   };
-  const auto late = make_unit("late", 1, record("late"));
-  const auto early = make_unit("early", 0, record("early"));
+  const auto late = make_runner("late", 1, record("late"));
+  const auto early = make_runner("early", 0, record("early"));
   scheduler.assign({.name = "a", .period = Duration{20}, .cpu = {}}, {late.get()}, kNoLatency);
   scheduler.assign({.name = "b", .period = Duration{10}, .cpu = {}}, {early.get()}, kNoLatency);
   scheduler.run([&] { return log.size() >= 5; });
@@ -46,9 +46,9 @@ TEST(LockstepScheduler, DeliversAtOnceWithoutLatencyAndLaterWithOne) {
     const MessageType type = number_type();
     Topic topic{{.name = "rt/n", .type = &type}, 2};
     const auto source =
-        make_unit("source", 0, [&](Time) { scheduler.publish(topic, topic.loan()); });
+        make_runner("source", 0, [&](Time) { scheduler.publish(topic, topic.loan()); });
     std::vector<std::int64_t> seen;
-    const auto sink = make_unit("sink", 1, [&](Time now) { seen.push_back(now.ns); });
+    const auto sink = make_runner("sink", 1, [&](Time now) { seen.push_back(now.ns); });
     topic.connect(sink->inbox().add({.name = "in", .trigger = true}, type));
     scheduler.assign({.name = "a", .period = Duration{100}, .cpu = {}}, {source.get()},
                      [&](const ComponentRunner&) { return latency; });
@@ -63,7 +63,8 @@ TEST(LockstepScheduler, WhenItStopsNothingIsOnItsWayAnyMore) {
   LockstepScheduler scheduler{clock};
   const MessageType type = number_type();
   Topic topic{{.name = "rt/n", .type = &type}, 1};
-  const auto source = make_unit("source", 0, [&](Time) { scheduler.publish(topic, topic.loan()); });
+  const auto source =
+      make_runner("source", 0, [&](Time) { scheduler.publish(topic, topic.loan()); });
   scheduler.assign({.name = "a", .period = Duration{100}, .cpu = {}}, {source.get()},
                    [](const ComponentRunner&) { return Duration{7}; });
   scheduler.run([&] { return source->activations() == 1; });
@@ -81,15 +82,15 @@ TEST(LockstepScheduler, EndsWhenNothingIsLeftToDo) {
 
 TEST(ComponentRunner, AnExceptionBecomesItsFaultAndItIsNotCalledAgain) {
   int calls = 0;
-  const auto unit = make_unit("arm", 0, [&](Time) {
+  const auto runner = make_runner("arm", 0, [&](Time) {
     ++calls;
     throw std::runtime_error("joint 3 is gone");
   });
-  unit->activate({});
-  unit->activate({});
+  runner->activate({});
+  runner->activate({});
   EXPECT_EQ(calls, 1);
-  EXPECT_TRUE(unit->faulted());
-  EXPECT_EQ(unit->reporter()->status().reason, "step failed: joint 3 is gone");
+  EXPECT_TRUE(runner->faulted());
+  EXPECT_EQ(runner->reporter()->status().reason, "step failed: joint 3 is gone");
 }
 
 TEST(ComponentRunner, AFaultEndsItsOutputsWhicheverOfItsThreadsStillPublishes) {
@@ -97,11 +98,11 @@ TEST(ComponentRunner, AFaultEndsItsOutputsWhicheverOfItsThreadsStillPublishes) {
   LockstepScheduler scheduler{clock};
   const MessageType type = number_type();
   Topic topic{{.name = "rt/n", .type = &type}, 2};
-  const auto unit = make_unit("camera", 0, [](Time) { throw std::runtime_error("no light"); });
-  OutputPort& output = unit->outputs().emplace_back(PortSpec{.name = "n"}, topic, scheduler);
+  const auto runner = make_runner("camera", 0, [](Time) { throw std::runtime_error("no light"); });
+  OutputPort& output = runner->outputs().emplace_back(PortSpec{.name = "n"}, topic, scheduler);
   output.publish(topic.loan());
   EXPECT_EQ(topic.published(), 1U);
-  unit->activate({});
+  runner->activate({});
   output.publish(topic.loan());
   EXPECT_EQ(topic.published(), 1U);
   EXPECT_FALSE(output.has_subscribers());
@@ -136,70 +137,70 @@ class Mover final : public Component {
 class StoppingUnit : public testing::Test {
  protected:
   void make(int steps_to_rest) {
-    FakeSetup setup{unit_};
+    FakeSetup setup{runner_};
     auto mover = std::make_unique<Mover>(setup, steps_to_rest);
     mover_ = mover.get();
-    unit_.install(nullptr, std::move(mover));
+    runner_.install(nullptr, std::move(mover));
   }
   std::vector<std::string> lines_;
-  ComponentRunner unit_{"mover", "test/mover", 0, [this](std::string_view, std::string_view line) {
-                          lines_.emplace_back(line);
-                        }};
+  ComponentRunner runner_{
+      "mover", "test/mover", 0,
+      [this](std::string_view, std::string_view line) { lines_.emplace_back(line); }};
   Mover* mover_ = nullptr;
 };
 
 TEST_F(StoppingUnit, IsToldOnceBeforeItsNextStepAndStepsUntilItIsAtRest) {
   make(2);
-  unit_.activate(Time{1});
-  EXPECT_FALSE(unit_.stopped()) << "nobody has asked it to";
-  unit_.request_stop();
-  unit_.activate(Time{2});
-  EXPECT_FALSE(unit_.stopped());
-  unit_.activate(Time{3});
-  EXPECT_TRUE(unit_.stopped());
+  runner_.activate(Time{1});
+  EXPECT_FALSE(runner_.stopped()) << "nobody has asked it to";
+  runner_.request_stop();
+  runner_.activate(Time{2});
+  EXPECT_FALSE(runner_.stopped());
+  runner_.activate(Time{3});
+  EXPECT_TRUE(runner_.stopped());
   EXPECT_EQ(mover_->log, (std::vector<std::string>{"step", "begin_stop@2", "step", "step"}));
 }
 
 TEST_F(StoppingUnit, ThatRestsAlreadyNeedsNoStep) {
   make(0);
-  unit_.request_stop();
-  unit_.answer_stop_request(Time{5});
-  unit_.answer_stop_request(Time{6});
-  EXPECT_TRUE(unit_.stopped());
+  runner_.request_stop();
+  runner_.answer_stop_request(Time{5});
+  runner_.answer_stop_request(Time{6});
+  EXPECT_TRUE(runner_.stopped());
   EXPECT_EQ(mover_->log, std::vector<std::string>{"begin_stop@5"});
 }
 
 TEST_F(StoppingUnit, ThatRestsDoesNotTellWhatItMissesOfThoseWhoEndBeforeIt) {
   make(1);
-  unit_.activate(Time{1});
-  unit_.request_stop();
+  runner_.activate(Time{1});
+  runner_.request_stop();
   mover_->missed = "no command for 0.1 s";
-  unit_.activate(Time{2});
+  runner_.activate(Time{2});
   EXPECT_EQ(lines_, std::vector<std::string>{mover_->missed}) << "it moved still";
   mover_->missed = "no command for 0.2 s";
-  unit_.activate(Time{3});
+  runner_.activate(Time{3});
   EXPECT_EQ(lines_.size(), 1U);
-  EXPECT_EQ(unit_.status().reason, mover_->missed) << "it is kept for those who ask";
+  EXPECT_EQ(runner_.status().reason, mover_->missed) << "it is kept for those who ask";
 }
 
 TEST_F(StoppingUnit, ThatRestsTellsItsFaults) {
   make(0);
-  unit_.request_stop();
-  unit_.activate(Time{1});
+  runner_.request_stop();
+  runner_.activate(Time{1});
   mover_->broken = true;
-  unit_.activate(Time{2});
+  runner_.activate(Time{2});
   EXPECT_EQ(lines_, std::vector<std::string>{"FAULT: step failed: a joint is blocked"});
 }
 
 TEST_F(StoppingUnit, ThatHasFinishedIsNotSteppedAnyMoreButToldThatTheRunStops) {
   make(0);
   mover_->told = true;
-  unit_.activate(Time{1});
-  unit_.activate(Time{2});
-  unit_.request_stop();
-  unit_.activate(Time{3});
+  runner_.activate(Time{1});
+  runner_.activate(Time{2});
+  runner_.request_stop();
+  runner_.activate(Time{3});
   EXPECT_EQ(mover_->log, (std::vector<std::string>{"step", "begin_stop@3"}));
-  EXPECT_TRUE(unit_.stopped());
+  EXPECT_TRUE(runner_.stopped());
 }
 
 TEST(ThreadedScheduler, ActivatesPeriodicallyAndOnTriggersAndStops) {
@@ -208,13 +209,13 @@ TEST(ThreadedScheduler, ActivatesPeriodicallyAndOnTriggersAndStops) {
   const MessageType type = number_type();
   Topic topic{{.name = "rt/n", .type = &type}, 2};
   std::atomic<int> sent{0}, received{0};
-  const auto source = make_unit("source", 0, [&](Time) {
+  const auto source = make_runner("source", 0, [&](Time) {
     if (sent < 20) {
       scheduler.publish(topic, topic.loan());
       ++sent;
     }
   });
-  const auto sink = make_unit("sink", 1, [&](Time) { ++received; });
+  const auto sink = make_runner("sink", 1, [&](Time) { ++received; });
   topic.connect(sink->inbox().add({.name = "in", .queue = 32, .trigger = true}, type));
   scheduler.assign({.name = "periodic", .period = seconds(0.001), .cpu = {}}, {source.get()},
                    kNoLatency);
@@ -231,7 +232,7 @@ TEST(ThreadedScheduler, CountsMissedPeriodsInsteadOfCatchingUp) {
   const SystemClock clock;
   ThreadedScheduler scheduler{clock, [](const std::string&) {}};
   std::atomic<int> calls{0};
-  const auto slow = make_unit("slow", 0, [&](Time) {
+  const auto slow = make_runner("slow", 0, [&](Time) {
     if (calls++ == 0) std::this_thread::sleep_for(std::chrono::milliseconds{50});
   });
   scheduler.assign({.name = "control", .period = seconds(0.005), .cpu = {}}, {slow.get()},

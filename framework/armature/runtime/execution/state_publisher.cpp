@@ -62,9 +62,9 @@ const PluginManifest& StatePublisher::manifest() {
 }
 
 StatePublisher::StatePublisher(Setup& setup,
-                               const std::vector<std::unique_ptr<ComponentRunner>>& units)
+                               const std::vector<std::unique_ptr<ComponentRunner>>& runners)
     : Component{setup},
-      units_{units},
+      runners_{runners},
       state_{setup.output<msg::ComponentState>("state")},
       diagnostics_{setup.output<msg::DiagnosticArray>("diagnostics")} {
   setup.activate_every(seconds(0.5));
@@ -77,13 +77,13 @@ void StatePublisher::Window::move_on(const TimingHistogram& histogram) {
 }
 
 void StatePublisher::move_on() {
-  counted_.resize(units_.size());
-  for (std::size_t i = 0; i < units_.size(); ++i) {
-    const ComponentRunner& unit = *units_[i];
-    counted_[i].lateness.move_on(unit.times().lateness);
-    counted_[i].duration.move_on(unit.times().duration);
-    counted_[i].processor.move_on(unit.times().processor);
-    if (unit.executor_times()) executors_[unit.executor_times()].name = unit.executor_name();
+  counted_.resize(runners_.size());
+  for (std::size_t i = 0; i < runners_.size(); ++i) {
+    const ComponentRunner& runner = *runners_[i];
+    counted_[i].lateness.move_on(runner.times().lateness);
+    counted_[i].duration.move_on(runner.times().duration);
+    counted_[i].processor.move_on(runner.times().processor);
+    if (runner.executor_times()) executors_[runner.executor_times()].name = runner.executor_name();
   }
   for (auto& [times, executor] : executors_) {
     executor.lateness.move_on(times->lateness);
@@ -91,33 +91,33 @@ void StatePublisher::move_on() {
   }
 }
 
-StatusReporter::Status StatePublisher::status_with_stamps(const ComponentRunner& unit,
+StatusReporter::Status StatePublisher::status_with_stamps(const ComponentRunner& runner,
                                                           Counted& counted) {
-  StatusReporter::Status status = unit.status();
-  const Inbox::Ahead ahead = unit.inbox().ahead();
+  StatusReporter::Status status = runner.status();
+  const Inbox::Ahead ahead = runner.inbox().ahead();
   const bool first = counted.ahead == 0;
   if (std::exchange(counted.ahead, ahead.samples) == ahead.samples) return status;
   const std::string reason =
       fmt::format("input '{}' is stamped {:.3g} s ahead of now, so it is not shown",
                   ahead.port->spec().name, to_seconds(ahead.by));
-  if (first) log(fmt::format("'{}': {}", unit.name(), reason));
+  if (first) log(fmt::format("'{}': {}", runner.name(), reason));
   if (status.state == StatusReporter::State::ok) status = {StatusReporter::State::degraded, reason};
   return status;
 }
 
-StatusReporter::Status StatePublisher::status_of(const ComponentRunner& unit, Counted& counted) {
+StatusReporter::Status StatePublisher::status_of(const ComponentRunner& runner, Counted& counted) {
   constexpr int kLate = 2;  // times: once may be while everything starts
-  const auto kept = unit.activations() - std::exchange(counted.activations, unit.activations());
-  const auto missed = unit.overruns() - std::exchange(counted.overruns, unit.overruns());
+  const auto kept = runner.activations() - std::exchange(counted.activations, runner.activations());
+  const auto missed = runner.overruns() - std::exchange(counted.overruns, runner.overruns());
   counted.late = missed > kept ? counted.late + 1 : 0;
-  if (const Duration stalled = unit.stalled(); stalled > Duration{0}) {
+  if (const Duration stalled = runner.stalled(); stalled > Duration{0}) {
     return {StatusReporter::State::stalled,
             fmt::format("its step has not returned for {:.1f} s", to_seconds(stalled))};
   }
-  StatusReporter::Status status = status_with_stamps(unit, counted);
+  StatusReporter::Status status = status_with_stamps(runner, counted);
   if (counted.late < kLate) return status;
   if (counted.late == kLate) {
-    log(fmt::format("'{}' misses more periods than it keeps: {} of {}", unit.name(), missed,
+    log(fmt::format("'{}' misses more periods than it keeps: {} of {}", runner.name(), missed,
                     kept + missed));
   }
   if (status.state == StatusReporter::State::ok) {
@@ -127,22 +127,22 @@ StatusReporter::Status StatePublisher::status_of(const ComponentRunner& unit, Co
   return status;
 }
 
-void StatePublisher::publish_state(const ComponentRunner& unit, const Counted& counted,
+void StatePublisher::publish_state(const ComponentRunner& runner, const Counted& counted,
                                    const StatusReporter::Status& status, Time now) {
   auto message = state_.loan();
   set_stamp(message->header_().stamp_(), now);
   message->header_().frame_id_().clear();
-  message->component_(unit.name());
-  message->plugin_(unit.plugin_id());
+  message->component_(runner.name());
+  message->plugin_(runner.plugin_id());
   message->state_(static_cast<std::uint8_t>(status.state));
   message->reason_(status.reason);
-  message->activations_(unit.activations());
-  message->overruns_(unit.overruns());
-  message->dropped_(unit.dropped());
+  message->activations_(runner.activations());
+  message->overruns_(runner.overruns());
+  message->dropped_(runner.dropped());
   set_times(message->lateness_(), counted.lateness.figures);
   set_times(message->step_(), counted.duration.figures);
   set_times(message->processor_(), counted.processor.figures);
-  const auto executor = executors_.find(unit.executor_times());
+  const auto executor = executors_.find(runner.executor_times());
   const bool threaded = executor != executors_.end();
   message->executor_(threaded ? *executor->second.name : "");
   set_times(message->executor_lateness_(),
@@ -152,17 +152,17 @@ void StatePublisher::publish_state(const ComponentRunner& unit, const Counted& c
   message.publish();
 }
 
-msg::DiagnosticStatus StatePublisher::diagnostic_of(const ComponentRunner& unit,
+msg::DiagnosticStatus StatePublisher::diagnostic_of(const ComponentRunner& runner,
                                                     const Counted& counted,
                                                     const StatusReporter::Status& status) {
   msg::DiagnosticStatus diagnostic;
   diagnostic.level_(static_cast<std::uint8_t>(status.state));  // OK 0, WARN 1, ERROR 2, STALE 3
-  diagnostic.name_(unit.name());
+  diagnostic.name_(runner.name());
   diagnostic.message_(status.reason);
-  diagnostic.hardware_id_(unit.plugin_id());
-  std::vector<msg::KeyValue> values{key_value("activations", unit.activations()),
-                                    key_value("overruns", unit.overruns()),
-                                    key_value("dropped", unit.dropped())};
+  diagnostic.hardware_id_(runner.plugin_id());
+  std::vector<msg::KeyValue> values{key_value("activations", runner.activations()),
+                                    key_value("overruns", runner.overruns()),
+                                    key_value("dropped", runner.dropped())};
   add_times("lateness", counted.lateness.figures, values);
   add_times("step", counted.duration.figures, values);
   add_times("processor", counted.processor.figures, values);
@@ -187,11 +187,11 @@ void StatePublisher::step(Time now) {
   array->header_().frame_id_().clear();
   array->status_().clear();
   move_on();
-  for (std::size_t i = 0; i < units_.size(); ++i) {
-    const ComponentRunner& unit = *units_[i];
-    const StatusReporter::Status status = status_of(unit, counted_[i]);
-    publish_state(unit, counted_[i], status, now);
-    array->status_().push_back(diagnostic_of(unit, counted_[i], status));
+  for (std::size_t i = 0; i < runners_.size(); ++i) {
+    const ComponentRunner& runner = *runners_[i];
+    const StatusReporter::Status status = status_of(runner, counted_[i]);
+    publish_state(runner, counted_[i], status, now);
+    array->status_().push_back(diagnostic_of(runner, counted_[i], status));
   }
   for (const auto& [times, executor] : executors_) {
     array->status_().push_back(diagnostic_of(executor));

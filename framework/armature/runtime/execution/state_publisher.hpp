@@ -23,8 +23,8 @@ namespace armature ARMATURE_EXPORT {
 /// step can silence it.
 class StatePublisher final : public Component {
  public:
-  /// `units` outlives it and holds the components to tell about.
-  StatePublisher(Setup& setup, const std::vector<std::unique_ptr<ComponentRunner>>& units);
+  /// `runners` outlives it and holds the components to tell about.
+  StatePublisher(Setup& setup, const std::vector<std::unique_ptr<ComponentRunner>>& runners);
 
   static const PluginManifest& manifest();
   void step(Time now) override;
@@ -36,7 +36,7 @@ class StatePublisher final : public Component {
     TimingFigures figures{};
     void move_on(const TimingHistogram& histogram);
   };
-  /// What was counted of a unit until the last time, and for how many times it has been late.
+  /// What was counted of a component until the last time, and for how many times it has been late.
   struct Counted {
     std::uint64_t activations = 0, overruns = 0, ahead = 0;
     int late = 0;
@@ -47,18 +47,18 @@ class StatePublisher final : public Component {
     Window lateness, duration;
   };
   void move_on();
-  /// How the unit is, its periods since the last time included.
-  StatusReporter::Status status_of(const ComponentRunner& unit, Counted& counted);
+  /// How the component is, its periods since the last time included.
+  StatusReporter::Status status_of(const ComponentRunner& runner, Counted& counted);
   /// The same, without its periods: an input that is stamped too far ahead is a reason.
-  StatusReporter::Status status_with_stamps(const ComponentRunner& unit, Counted& counted);
-  void publish_state(const ComponentRunner& unit, const Counted& counted,
+  StatusReporter::Status status_with_stamps(const ComponentRunner& runner, Counted& counted);
+  void publish_state(const ComponentRunner& runner, const Counted& counted,
                      const StatusReporter::Status& status, Time now);
-  static msg::DiagnosticStatus diagnostic_of(const ComponentRunner& unit, const Counted& counted,
+  static msg::DiagnosticStatus diagnostic_of(const ComponentRunner& runner, const Counted& counted,
                                              const StatusReporter::Status& status);
   static msg::DiagnosticStatus diagnostic_of(const CountedExecutor& executor);
 
-  const std::vector<std::unique_ptr<ComponentRunner>>& units_;
-  std::vector<Counted> counted_;  // of units_
+  const std::vector<std::unique_ptr<ComponentRunner>>& runners_;
+  std::vector<Counted> counted_;  // of runners_
   std::map<const CycleTimes*, CountedExecutor> executors_;
   Output<msg::ComponentState> state_;
   Output<msg::DiagnosticArray> diagnostics_;

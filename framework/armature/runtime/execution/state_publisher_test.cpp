@@ -27,29 +27,29 @@ class Collector final : public Subscriber {
 class StatePublisherTest : public testing::Test {
  protected:
   StatePublisherTest() {
-    units_.push_back(make_unit("arm", 0, [](Time) {}));
-    units_.push_back(make_unit("camera", 1, [](Time) {}));
-    units_.push_back(make_unit("motion", 2, [](Time) { throw std::runtime_error("no way"); }));
-    InputPort& full = units_[1]->inbox().add({.name = "in", .queue = 1}, pool_.type());
+    runners_.push_back(make_runner("arm", 0, [](Time) {}));
+    runners_.push_back(make_runner("camera", 1, [](Time) {}));
+    runners_.push_back(make_runner("motion", 2, [](Time) { throw std::runtime_error("no way"); }));
+    InputPort& full = runners_[1]->inbox().add({.name = "in", .queue = 1}, pool_.type());
     for (int i = 0; i < 4; ++i) full.deliver(pool_.loan());
-    units_[1]->inbox().show({});
-    units_[1]->reporter()->set(StatusReporter::State::degraded, "no light");
-    units_[1]->count_overruns(7);
-    for (int i = 0; i < 5; ++i) units_[0]->activate({});
-    for (int i = 0; i < 5; ++i) units_[2]->activate({});
+    runners_[1]->inbox().show({});
+    runners_[1]->reporter()->set(StatusReporter::State::degraded, "no light");
+    runners_[1]->count_overruns(7);
+    for (int i = 0; i < 5; ++i) runners_[0]->activate({});
+    for (int i = 0; i < 5; ++i) runners_[2]->activate({});
     setup_.topic("state").connect(states_);
     setup_.topic("diagnostics").connect(diagnostics_);
     publisher_.step(Time{} + seconds(1.5));
   }
 
   SamplePool pool_{message_type<msg::ComponentState>(), 4};
-  std::vector<std::unique_ptr<ComponentRunner>> units_;
+  std::vector<std::unique_ptr<ComponentRunner>> runners_;
   std::vector<std::string> lines_;
   ComponentRunner own_{
       "runtime", "runtime/state_publisher", 3,
       [this](std::string_view, std::string_view line) { lines_.emplace_back(line); }};
   FakeSetup setup_{own_};
-  StatePublisher publisher_{setup_, units_};
+  StatePublisher publisher_{setup_, runners_};
   Collector<msg::ComponentState> states_;
   Collector<msg::DiagnosticArray> diagnostics_;
 };
@@ -117,7 +117,8 @@ TEST_F(StatePublisherTest, TellsHowLateAndHowLongTheStepsSinceTheLastTimeWere) {
       << "the camera was not activated";
   EXPECT_GT(states_.messages[0].step_().max_(), 0);
   EXPECT_LE(states_.messages[0].step_().p99_(), states_.messages[0].step_().max_());
-  for (int i = 0; i < 100; ++i) units_[0]->activate({}, std::chrono::microseconds{i < 50 ? 8 : 16});
+  for (int i = 0; i < 100; ++i)
+    runners_[0]->activate({}, std::chrono::microseconds{i < 50 ? 8 : 16});
   publisher_.step({});
   EXPECT_EQ(told_us(states_.messages[3].lateness_()), (std::vector<double>{16, 12, 16, 16}));
   publisher_.step({});
@@ -127,7 +128,7 @@ TEST_F(StatePublisherTest, TellsHowLateAndHowLongTheStepsSinceTheLastTimeWere) {
 TEST_F(StatePublisherTest, TellsTheSameOfEveryExecutorOnce) {
   const std::string name = "control";
   CycleTimes times;
-  for (int i = 0; i < 2; ++i) units_[static_cast<std::size_t>(i)]->set_executor(name, times);
+  for (int i = 0; i < 2; ++i) runners_[static_cast<std::size_t>(i)]->set_executor(name, times);
   times.lateness.add(std::chrono::microseconds{30});
   times.duration.add(std::chrono::microseconds{200});
   publisher_.step({});
@@ -145,18 +146,18 @@ TEST_F(StatePublisherTest, TellsTheSameOfEveryExecutorOnce) {
 }
 
 TEST_F(StatePublisherTest, AStepThatHangsIsStalledForAsLongAsItDoes) {
-  units_[1]->set_stalled(seconds(3.25));
+  runners_[1]->set_stalled(seconds(3.25));
   publisher_.step({});
   EXPECT_EQ(states_.messages[4].state_(), 3);
   EXPECT_EQ(states_.messages[4].reason_(), "its step has not returned for 3.2 s");
   EXPECT_EQ(diagnostics_.messages[1].status_()[1].level_(), 3) << "STALE";
-  units_[1]->set_stalled({});
+  runners_[1]->set_stalled({});
   publisher_.step({});
   EXPECT_EQ(states_.messages[7].reason_(), "no light") << "as before";
 }
 
 TEST_F(StatePublisherTest, AComponentThatIsWellAgainHasNoReasonAnyMore) {
-  units_[1]->reporter()->set(StatusReporter::State::ok, {});
+  runners_[1]->reporter()->set(StatusReporter::State::ok, {});
   publisher_.step(Time{} + seconds(2));
   EXPECT_EQ(states_.messages[4].component_(), "camera");
   EXPECT_EQ(states_.messages[4].state_(), 0);
@@ -166,8 +167,8 @@ TEST_F(StatePublisherTest, AComponentThatIsWellAgainHasNoReasonAnyMore) {
 TEST_F(StatePublisherTest, AComponentThatMissesMostOfItsPeriodsForASecondIsDegraded) {
   using Told = std::pair<int, std::string>;
   const auto arm_after = [&](std::uint64_t missed, int kept) {
-    units_[0]->count_overruns(missed);
-    for (int i = 0; i < kept; ++i) units_[0]->activate({});
+    runners_[0]->count_overruns(missed);
+    for (int i = 0; i < kept; ++i) runners_[0]->activate({});
     publisher_.step({});
     const msg::ComponentState& arm = states_.messages[states_.messages.size() - 3];
     return Told{arm.state_(), arm.reason_()};
@@ -182,12 +183,12 @@ TEST_F(StatePublisherTest, AComponentThatMissesMostOfItsPeriodsForASecondIsDegra
 
 TEST_F(StatePublisherTest, AnInputThatIsStampedAheadOfNowIsAReasonWhileItComes) {
   const auto of_arm = [&] { return states_.messages[states_.messages.size() - 3]; };
-  InputPort& port = units_[0]->inbox().add({.name = "measured_js"}, pool_.type());
+  InputPort& port = runners_[0]->inbox().add({.name = "measured_js"}, pool_.type());
   SampleRef sample = pool_.loan();
   set_stamp(static_cast<msg::ComponentState*>(sample.mutable_message())->header_().stamp_(),
             Time{} + seconds(3600));
   port.deliver(sample);
-  units_[0]->activate({});
+  runners_[0]->activate({});
   publisher_.step(Time{} + seconds(2));
   const std::string reason =
       "input 'measured_js' is stamped 3.6e+03 s ahead of now, so it is not shown";

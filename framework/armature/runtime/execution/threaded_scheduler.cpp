@@ -10,10 +10,10 @@
 namespace armature {
 
 void ThreadedScheduler::assign(const ExecutorSpec& executor,
-                               const std::vector<ComponentRunner*>& units,
+                               const std::vector<ComponentRunner*>& runners,
                                const std::function<Duration(const ComponentRunner&)>&) {
   Executor& thread = executors_.emplace_back(executor, *clock_);
-  for (ComponentRunner* unit : units) thread.assign(*unit);
+  for (ComponentRunner* runner : runners) thread.assign(*runner);
 }
 
 void ThreadedScheduler::run(const std::function<bool()>& done) {
@@ -36,8 +36,8 @@ std::vector<const ComponentRunner*> ThreadedScheduler::stop(Duration timeout) {
   for (Executor* executor : order) {
     executor->request_stop();
     if (executor->join_for(timeout)) continue;
-    if (const ComponentRunner* unit = executor->running()) {
-      hung.push_back(unit);
+    if (const ComponentRunner* runner = executor->running()) {
+      hung.push_back(runner);
     } else {
       executor->join();  // between two steps: it only has to get its turn
     }

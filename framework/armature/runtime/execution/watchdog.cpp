@@ -78,26 +78,26 @@ void Watchdog::loop() {
 }
 
 void Watchdog::look(const Watched& watched, Seen& seen, Duration elapsed) {
-  const std::int64_t since_ns = watched.unit->running_since_ns();
+  const std::int64_t since_ns = watched.runner->running_since_ns();
   const bool same = since_ns != 0 && since_ns == seen.since_ns;
   if (!same) {
     if (seen.observed >= watched.max_step && note_) {
-      note_(fmt::format("the step of '{}' has returned", watched.unit->name()));
+      note_(fmt::format("the step of '{}' has returned", watched.runner->name()));
     }
-    watched.unit->set_stalled({});
+    watched.runner->set_stalled({});
     seen = {.since_ns = since_ns, .observed = {}};
     return;
   }
   const bool hung_before = seen.observed >= watched.max_step;
   seen.observed += elapsed;
   if (seen.observed < watched.max_step) return;
-  watched.unit->set_stalled(seen.observed);
+  watched.runner->set_stalled(seen.observed);
   if (!hung_before) tell_hung(watched, seen.observed);
 }
 
 void Watchdog::tell_hung(const Watched& watched, Duration observed) {
   const std::string text = fmt::format("the step of '{}' has not returned for {:.2f} s",
-                                       watched.unit->name(), to_seconds(observed));
+                                       watched.runner->name(), to_seconds(observed));
   if (watched.stops_run) {
     const std::scoped_lock lock{mutex_};
     if (verdict_.empty()) verdict_ = text;

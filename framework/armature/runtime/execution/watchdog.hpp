@@ -16,13 +16,14 @@ namespace armature ARMATURE_EXPORT {
 struct ComponentConfig;
 struct DeploymentConfig;
 
-/// A thread that sees steps that do not return. It reads when the running step of each unit began
-/// and counts for how long it has seen it; time in which it did not run itself (a machine that
-/// stood still) is not counted. What hangs is marked in its unit (`stalled`), and told once.
+/// A thread that sees steps that do not return. It reads when the running step of each component
+/// began and counts for how long it has seen it; time in which it did not run itself (a machine
+/// that stood still) is not counted. What hangs is marked in its component (`stalled`), and told
+/// once.
 class Watchdog {
  public:
   struct Watched {
-    ComponentRunner* unit;
+    ComponentRunner* runner;
     Duration max_step;  // a step that takes longer hangs
     bool stops_run;     // it is on the way to a driver: the run cannot go on
   };
@@ -39,7 +40,7 @@ class Watchdog {
   std::string verdict() const;
 
  private:
-  /// What was seen of a unit's running step.
+  /// What was seen of a component's running step.
   struct Seen {
     std::int64_t since_ns = 0;  // when it began; 0: none runs
     Duration observed{0};

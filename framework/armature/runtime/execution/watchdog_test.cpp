@@ -16,7 +16,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// A unit whose step hangs while it is told to, on a thread of its own.
+/// A component whose step hangs while it is told to, on a thread of its own.
 class WatchdogTest : public testing::Test {
  protected:
   ~WatchdogTest() override { let_go(); }
@@ -24,8 +24,8 @@ class WatchdogTest : public testing::Test {
   void watch(bool stops_run) {
     watchdog_.emplace(
         std::vector<Watchdog::Watched>{
-            {.unit = hung_.get(), .max_step = milliseconds{20}, .stops_run = stops_run},
-            {.unit = quick_.get(), .max_step = milliseconds{20}, .stops_run = true}},
+            {.runner = hung_.get(), .max_step = milliseconds{20}, .stops_run = stops_run},
+            {.runner = quick_.get(), .max_step = milliseconds{20}, .stops_run = true}},
         0, [this](const std::string& note) {
           const std::scoped_lock lock{mutex_};
           notes_.push_back(note);
@@ -48,10 +48,10 @@ class WatchdogTest : public testing::Test {
   }
 
   std::atomic<bool> hangs_{true};
-  const std::unique_ptr<ComponentRunner> hung_ = make_unit("planner", 0, [this](Time) {
+  const std::unique_ptr<ComponentRunner> hung_ = make_runner("planner", 0, [this](Time) {
     while (hangs_) std::this_thread::sleep_for(milliseconds{1});
   });
-  const std::unique_ptr<ComponentRunner> quick_ = make_unit("arm", 1, [](Time) {});
+  const std::unique_ptr<ComponentRunner> quick_ = make_runner("arm", 1, [](Time) {});
   std::mutex mutex_;
   std::vector<std::string> notes_;
   std::optional<Watchdog> watchdog_;

@@ -20,9 +20,9 @@ namespace {
 void run_step(const std::function<void(Time)>& step) {
   name_crashing_components();
   const SystemClock clock;
-  const auto unit = make_unit("camera", 0, step);
+  const auto runner = make_runner("camera", 0, step);
   Executor executor{{.name = "vision", .period = seconds(0.001), .cpu = {}}, clock};
-  executor.assign(*unit);
+  executor.assign(*runner);
   executor.start([](const std::string&) {});
   std::this_thread::sleep_for(std::chrono::seconds{30});
 }
@@ -62,9 +62,9 @@ TEST_F(CrashDeathTest, NamesItAlsoWhenItsStackIsFull) {
 
 /// As lockstep does, on the thread that watches for crashes.
 void run_out_of_stack_here() {
-  const auto unit = make_unit("camera", 0, [](Time) { without_end(0); });
+  const auto runner = make_runner("camera", 0, [](Time) { without_end(0); });
   name_crashing_components();
-  unit->activate({});
+  runner->activate({});
 }
 
 TEST_F(CrashDeathTest, NamesItInLockstepToo) {

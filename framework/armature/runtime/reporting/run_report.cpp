@@ -18,11 +18,11 @@
 namespace armature {
 
 RunReport::RunReport(const Deployment& deployment, const Ending& ending) {
-  for (const auto& unit : deployment.units()) {
-    if (deployment.is_hung(*unit)) continue;
-    speaker_ = &deployment.config_of(*unit);
-    deployment.tell_ending("summary", *unit);
-    unit->summarize(*this);
+  for (const auto& runner : deployment.runners()) {
+    if (deployment.is_hung(*runner)) continue;
+    speaker_ = &deployment.config_of(*runner);
+    deployment.tell_ending("summary", *runner);
+    runner->summarize(*this);
   }
   judge(deployment, ending);
   timing_ = ending.timing;
@@ -203,10 +203,10 @@ void write_report(const RunReport& report, const Deployment& deployment,
     }
   };
   attempt([&] { write_atomically(directory / "report.json", to_json(report) + '\n'); });
-  for (const auto& unit : deployment.units()) {
-    if (deployment.is_hung(*unit)) continue;
-    deployment.tell_ending("report", *unit);
-    attempt([&] { unit->component().write_files(directory); });
+  for (const auto& runner : deployment.runners()) {
+    if (deployment.is_hung(*runner)) continue;
+    deployment.tell_ending("report", *runner);
+    attempt([&] { runner->component().write_files(directory); });
   }
   if (!failed.empty()) throw std::runtime_error{failed};
 }

@@ -63,14 +63,14 @@ RunTiming timing_of(const Deployment& deployment) {
   };
   RunTiming timing;
   std::set<const CycleTimes*> told;
-  for (const auto& unit : deployment.units()) {
-    timing.components.push_back({.name = unit->name(),
-                                 .lateness = figures(unit->times().lateness),
-                                 .step = figures(unit->times().duration),
-                                 .processor = figures(unit->times().processor)});
-    const CycleTimes* executor = unit->executor_times();
+  for (const auto& runner : deployment.runners()) {
+    timing.components.push_back({.name = runner->name(),
+                                 .lateness = figures(runner->times().lateness),
+                                 .step = figures(runner->times().duration),
+                                 .processor = figures(runner->times().processor)});
+    const CycleTimes* executor = runner->executor_times();
     if (!executor || !told.insert(executor).second) continue;
-    timing.executors.push_back({.name = *unit->executor_name(),
+    timing.executors.push_back({.name = *runner->executor_name(),
                                 .lateness = figures(executor->lateness),
                                 .cycle = figures(executor->duration)});
   }

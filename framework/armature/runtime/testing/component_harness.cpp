@@ -11,22 +11,22 @@ ComponentHarness::ComponentHarness(PluginRegistry& plugins, const Options& optio
   read(plugins, options);
   // Outlives the slots that its code makes.
   const auto library = plugins.load(*config_.manifest, Component::kKind);
-  auto unit = std::make_unique<ComponentRunner>(
+  auto runner = std::make_unique<ComponentRunner>(
       config_.name, config_.plugin_id, 0,
       [this](std::string_view, std::string_view line) { lines_.emplace_back(line); });
-  unit->on_triggered([this] { triggered_ = true; });
+  runner->on_triggered([this] { triggered_ = true; });
   ComponentSetup setup{config_,
                        deployment_,
                        plugins,
-                       *unit,
+                       *runner,
                        *this,
                        [this](const PortBinding& port, const MessageType& type) -> Topic& {
                          return topic_for(port, type);
                        }};
   auto component = reinterpret_cast<Component::Factory>(library->factory())(setup);
   setup.check_all_claimed();
-  unit->install(library, std::move(component));
-  unit_ = std::move(unit);
+  runner->install(library, std::move(component));
+  runner_ = std::move(runner);
   for (const PortBinding& output : config_.outputs) {
     topics_.at(output.topic)->connect(taps_[output.spec.name]);
   }
@@ -64,16 +64,16 @@ void ComponentHarness::read(const PluginRegistry& plugins, const Options& option
 void ComponentHarness::step(double now_s) {
   now_.set(Time{} + seconds(now_s));
   triggered_ = false;
-  unit_->start_threads(now_);
-  unit_->step(now_.now());
-  if (unit_->faulted()) throw std::runtime_error(unit_->status().reason);
+  runner_->start_threads(now_);
+  runner_->step(now_.now());
+  if (runner_->faulted()) throw std::runtime_error(runner_->status().reason);
 }
 
 void ComponentHarness::begin_stop(double now_s) {
   now_.set(Time{} + seconds(now_s));
-  unit_->request_stop();
-  unit_->answer_stop_request(now_.now());
-  if (unit_->faulted()) throw std::runtime_error(unit_->status().reason);
+  runner_->request_stop();
+  runner_->answer_stop_request(now_.now());
+  if (runner_->faulted()) throw std::runtime_error(runner_->status().reason);
 }
 
 Topic& ComponentHarness::topic_for(const PortBinding& port, const MessageType& type) {
@@ -99,7 +99,7 @@ Topic& ComponentHarness::topic_of(const std::vector<PortBinding>& ports, std::st
 }
 
 SlotPlace& ComponentHarness::slot(std::string_view name) {
-  for (const auto& place : unit_->slots()) {
+  for (const auto& place : runner_->slots()) {
     if (place->name() == name) return *place;
   }
   throw std::invalid_argument("there is no slot '" + std::string{name} + "'");

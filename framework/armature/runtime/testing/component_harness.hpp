@@ -87,7 +87,7 @@ class ComponentHarness final : private Delivery {
   /// True when a trigger input has asked for an activation since the last one.
   bool triggered() const { return triggered_; }
   /// Samples that full queues have lost.
-  std::uint64_t dropped() const { return unit_->dropped(); }
+  std::uint64_t dropped() const { return runner_->dropped(); }
   /// One activation at `now_s`; an exception out of the component is thrown on as runtime_error.
   /// The first one starts its driver threads.
   void step(double now_s);
@@ -96,7 +96,7 @@ class ComponentHarness final : private Delivery {
   /// Where its plugin `name` sits; a successor that is offered sits there from the next step on.
   SlotPlace& slot(std::string_view name);
   /// What the component answered last to whether it is at rest; false before `begin_stop`.
-  bool stopped() const { return unit_->stopped(); }
+  bool stopped() const { return runner_->stopped(); }
   /// Everything the output published since the last call, oldest first.
   template <class Message>
   std::vector<Message> take(std::string_view output) {
@@ -108,11 +108,11 @@ class ComponentHarness final : private Delivery {
     return messages;
   }
 
-  StatusReporter::Status status() const { return unit_->status(); }
+  StatusReporter::Status status() const { return runner_->status(); }
   /// What it told the operator.
   const std::vector<std::string>& lines() const { return lines_; }
-  const std::optional<Duration>& period() const { return unit_->period(); }
-  Component& component() { return unit_->component(); }
+  const std::optional<Duration>& period() const { return runner_->period(); }
+  Component& component() { return runner_->component(); }
   /// What it tells of the run so far.
   Figures figures() { return figures_of(component()); }
 
@@ -137,7 +137,7 @@ class ComponentHarness final : private Delivery {
   std::vector<std::string> lines_;
   std::map<std::string, std::unique_ptr<Topic>> topics_;  // by name; outlive their samples
   std::map<std::string, Tap> taps_;                       // by output
-  std::unique_ptr<ComponentRunner> unit_;
+  std::unique_ptr<ComponentRunner> runner_;
 };
 
 /// Why such a component cannot be made, or "".

@@ -16,9 +16,9 @@ namespace armature ARMATURE_EXPORT {
 /// component.
 class FakeSetup final : public Setup, public Delivery {
  public:
-  explicit FakeSetup(ComponentRunner& unit) : unit_{unit} {}
+  explicit FakeSetup(ComponentRunner& runner) : runner_{runner} {}
 
-  const std::string& name() const override { return unit_.name(); }
+  const std::string& name() const override { return runner_.name(); }
   std::string_view unit() const override { return kMainUnit; }
   const Params& params() const override { return params_; }
   std::uint64_t seed() const override { return 1; }
@@ -26,13 +26,13 @@ class FakeSetup final : public Setup, public Delivery {
     throw std::logic_error("no documents");
   }
   bool has_document(std::string_view) const override { return false; }
-  void activate_every(Duration period) override { unit_.set_period(period); }
-  void deliver_after(Duration latency) override { unit_.set_latency(latency); }
+  void activate_every(Duration period) override { runner_.set_period(period); }
+  void deliver_after(Duration latency) override { runner_.set_latency(latency); }
   bool is_written(std::string_view) const override { return true; }
   const PluginManifest& slot_manifest(std::string_view) const override {
     throw std::logic_error("no slots");
   }
-  std::shared_ptr<StatusReporter> reporter() override { return unit_.reporter(); }
+  std::shared_ptr<StatusReporter> reporter() override { return runner_.reporter(); }
   void publish(Topic& topic, SampleRef sample) override { topic.publish(std::move(sample), {}); }
 
   /// The topic of a port that has been claimed.
@@ -40,22 +40,22 @@ class FakeSetup final : public Setup, public Delivery {
 
  protected:
   InputPort& claim_input(std::string_view port, const MessageType& type) override {
-    InputPort& input = unit_.inbox().add({.name = std::string{port}}, type);
+    InputPort& input = runner_.inbox().add({.name = std::string{port}}, type);
     make_topic(port, type).connect(input);
     return input;
   }
   OutputPort& claim_output(std::string_view port, const MessageType& type) override {
-    return unit_.outputs().emplace_back(PortSpec{.name = std::string{port}}, make_topic(port, type),
-                                        *this);
+    return runner_.outputs().emplace_back(PortSpec{.name = std::string{port}},
+                                          make_topic(port, type), *this);
   }
   SlotPlugin slot_plugin(std::string_view, std::string_view) override {
     throw std::logic_error("no slots");
   }
   void keep_slot(std::unique_ptr<SlotPlace> place) override {
-    unit_.slots().push_back(std::move(place));
+    runner_.slots().push_back(std::move(place));
   }
   void keep_thread(std::unique_ptr<DriverThread> thread) override {
-    unit_.add_thread(std::move(thread));
+    runner_.add_thread(std::move(thread));
   }
 
  private:
@@ -65,7 +65,7 @@ class FakeSetup final : public Setup, public Delivery {
     return *topic;
   }
 
-  ComponentRunner& unit_;
+  ComponentRunner& runner_;
   Params params_;
   std::map<std::string, std::unique_ptr<Topic>> topics_;
 };
@@ -81,12 +81,13 @@ class LambdaComponent final : public Component {
   std::function<void(Time)> step_;
 };
 
-inline std::unique_ptr<ComponentRunner> make_unit(const std::string& name, int place,
-                                                  std::function<void(Time)> step) {
-  auto unit = std::make_unique<ComponentRunner>(name, "test/lambda", place, StatusReporter::Sink{});
-  FakeSetup setup{*unit};
-  unit->install(nullptr, std::make_unique<LambdaComponent>(setup, std::move(step)));
-  return unit;
+inline std::unique_ptr<ComponentRunner> make_runner(const std::string& name, int place,
+                                                    std::function<void(Time)> step) {
+  auto runner =
+      std::make_unique<ComponentRunner>(name, "test/lambda", place, StatusReporter::Sink{});
+  FakeSetup setup{*runner};
+  runner->install(nullptr, std::make_unique<LambdaComponent>(setup, std::move(step)));
+  return runner;
 }
 
 }  // namespace armature

@@ -50,21 +50,21 @@ ThreadCounts counts_of_this_thread() {
 }
 
 bool Requests::ask(ThreadCounts& counts) {
-  asked_.store(true);
-  for (int i = 0; i < 1000 && asked_.load(); ++i) {
+  requested_.store(true);
+  for (int i = 0; i < 1000 && requested_.load(); ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds{1});
   }
   counts = {.page_faults = page_faults_.load(), .allocations = allocations_.load()};
-  return !asked_.load();
+  return !requested_.load();
 }
 
 void Requests::answer() {
   if (const int cpu = cpu_.exchange(kNone); cpu != kNone) move_to_cpu(cpu);
-  if (!asked_.load()) return;
+  if (!requested_.load()) return;
   const ThreadCounts counts = counts_of_this_thread();
   page_faults_.store(counts.page_faults);
   allocations_.store(counts.allocations);
-  asked_.store(false);
+  requested_.store(false);
 }
 
 LoopComponent::LoopComponent(Setup& setup)

@@ -39,7 +39,7 @@ class Requests {
  private:
   static constexpr int kNone = -1;
   std::atomic<int> cpu_{kNone};
-  std::atomic<bool> asked_{false};
+  std::atomic<bool> requested_{false};
   std::atomic<std::uint64_t> page_faults_{0}, allocations_{0};
 };
 

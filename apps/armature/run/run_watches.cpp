@@ -168,7 +168,7 @@ void ChildWatch::stopping(const std::string& cause) {
   if (stop_.empty()) {
     control_.send("stop " + cause);
     own_stop_ = cause;
-    asked_ = SteadyClock::now();
+    requested_at_ = SteadyClock::now();
   }
   if (alone() || control_.lost()) console().line("runtime", "stopping: " + cause);
 }
@@ -187,7 +187,7 @@ bool ChildWatch::may_end(const std::vector<std::string>& moving, Duration left) 
 
 bool ChildWatch::main_is_silent() {
   if (own_stop_.empty() || !stop_.empty()) return false;
-  if (SteadyClock::now() - asked_ < kAnswersWithin) return false;
+  if (SteadyClock::now() - requested_at_ < kAnswersWithin) return false;
   if (!std::exchange(told_silent_, true)) {
     console().line("runtime", fmt::format("stopping: {}; the main process does not answer, and "
                                           "this one ends by itself",

@@ -100,7 +100,7 @@ class ChildWatch final : public ProcessWatch {
   bool started_ = false, told_end_ = false;
   std::string stop_;      // as the main process said
   std::string own_stop_;  // which it is to answer
-  SteadyClock::time_point asked_;
+  SteadyClock::time_point requested_at_;
   bool told_silent_ = false;
   std::string said_joined_, said_waiting_, said_moving_;
 };

@@ -35,7 +35,7 @@ MapReader::MapReader(const Node& node, std::string what, Problems& problems)
 
 /// The key's row; `types`: what it may be there, the first of them what it is without a table.
 KeySpec MapReader::spec_of(std::string_view key, std::initializer_list<Type> types) {
-  asked_.emplace(key);
+  keys_read_.emplace(key);
   if (!table_) return {.name = std::string{key}, .type = *types.begin()};
   const auto row = std::ranges::find(*table_, key, &KeySpec::name);
   if (row == table_->end()) {
@@ -60,7 +60,7 @@ const Node* MapReader::find(const KeySpec& key, std::string_view* written) {
 }
 
 MapReader::Reading MapReader::read(const KeySpec& key) {
-  asked_.insert(key.name);
+  keys_read_.insert(key.name);
   std::string_view name;
   Reading reading{.node = find(key, &name)};
   reading.is_written = reading.node != nullptr;
@@ -184,12 +184,12 @@ void MapReader::problem(std::string_view key, std::string message) {
 }
 
 void MapReader::finish() {
-  std::set<std::string, std::less<>> known = asked_;
+  std::set<std::string, std::less<>> known = keys_read_;
   if (table_) known.clear();
   for (const KeySpec& key : table_.value_or(std::span<const KeySpec>{})) {
     known.insert(key.name);
     if (!key.also.empty()) known.insert(key.also);
-    if (asked_.contains(key.name)) continue;
+    if (keys_read_.contains(key.name)) continue;
     throw std::logic_error{
         fmt::format("key {} of {} is in the table and never read", in_quotes(key.name), what_)};
   }

@@ -93,7 +93,7 @@ class MapReader {
   std::string what_;
   std::optional<std::span<const KeySpec>> table_;
   Problems& problems_;
-  std::set<std::string, std::less<>> asked_;
+  std::set<std::string, std::less<>> keys_read_;
 };
 
 }  // namespace config

@@ -14,16 +14,16 @@ RegistrationDialogue::RegistrationDialogue(Setup& setup, double marker_error,
 
 bool RegistrationDialogue::due(Time now) const {
   constexpr Duration kAnswerWithin = seconds(1.0);
-  return !asked_ || now - asked_at_ >= kAnswerWithin;
+  return !last_id_ || now - requested_at_ >= kAnswerWithin;
 }
 
 void RegistrationDialogue::ask(const Question& question, Time now) {
-  asked_at_ = now;
+  requested_at_ = now;
   // A number that nobody else's question on this topic has, as far as one can tell.
-  asked_ = static_cast<std::uint64_t>(now.ns);
+  last_id_ = static_cast<std::uint64_t>(now.ns);
   auto loan = requests_.loan();
   write_header(loan->header_(), now, question.robot_frame);
-  loan->request_id_(*asked_);
+  loan->request_id_(*last_id_);
   loan->image_markers_() = question.image_markers;
   loan->robot_markers_() = question.robot_markers;
   loan->ordered_(false);

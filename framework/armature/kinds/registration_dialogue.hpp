@@ -34,14 +34,14 @@ class RegistrationDialogue {
   template <class Hear>
   void listen(const Hear& hear) const {
     for (std::size_t i = 0; i < answers_.size(); ++i) {
-      if (asked_ && answers_[i].request_id_() == *asked_) hear(answers_[i]);
+      if (last_id_ && answers_[i].request_id_() == *last_id_) hear(answers_[i]);
     }
   }
 
  private:
   double marker_error_, match_tolerance_;
-  std::optional<std::uint64_t> asked_;
-  Time asked_at_;
+  std::optional<std::uint64_t> last_id_;
+  Time requested_at_;
   Input<msg::RegistrationResponse> answers_;
   Output<msg::RegistrationRequest> requests_;
 };
@@ -56,15 +56,15 @@ class OverheardRegistration {
   /// Calls `hear` with every answer to the task's last question that tells a registration.
   template <class Hear>
   void listen(const Hear& hear) {
-    if (requests_.latest()) asked_ = requests_.latest()->request_id_();
+    if (requests_.latest()) last_id_ = requests_.latest()->request_id_();
     for (std::size_t i = 0; i < answers_.size(); ++i) {
-      const bool is_answer = asked_ && answers_[i].request_id_() == *asked_;
+      const bool is_answer = last_id_ && answers_[i].request_id_() == *last_id_;
       if (is_answer && answers_[i].valid_()) hear(answers_[i]);
     }
   }
 
  private:
-  std::optional<std::uint64_t> asked_;
+  std::optional<std::uint64_t> last_id_;
   Input<msg::RegistrationRequest> requests_;
   Input<msg::RegistrationResponse> answers_;
 };

@@ -68,10 +68,10 @@ class RvizMonitor final : public Component {
     if (!q) return degraded("measured_js: " + q.error().text);
     healthy();
     const Time stamp = stamp_of(arm->header_().stamp_());
-    if (!told_ || stamp > *told_) {
+    if (!published_at_ || stamp > *published_at_) {
       publish_frames(*q, stamp);
       publish_tool_pose(*q, stamp);
-      told_ = stamp;
+      published_at_ = stamp;
     }
     if (marker_rate_limiter_.due(now)) publish_markers(*q, stamp);
   }
@@ -120,7 +120,7 @@ class RvizMonitor final : public Component {
   GoalWatch goals_;
   RateLimiter rate_limiter_, marker_rate_limiter_;
   bool told_fixed_ = false;
-  std::optional<Time> told_;
+  std::optional<Time> published_at_;
   Input<msg::JointState> measured_js_;
   Input<msg::Target> target_, truth_;
   Input<msg::FacePose> face_;

@@ -65,8 +65,8 @@ class MarkedHeadComponent final : public Component {
   }
 
   void step(Time now) override {
-    if (told_) return;
-    told_ = true;
+    if (published_) return;
+    published_ = true;
     msg::NeedlePlan plan;
     write_header(plan.header_(), now, kImageFrame);
     add_points(head_.markers, plan.markers_());
@@ -89,7 +89,7 @@ class MarkedHeadComponent final : public Component {
   Parameters parameters_;
   MarkedHead head_;
   std::uint64_t seed_;
-  bool told_ = false;
+  bool published_ = false;
   Output<msg::NeedlePlan> plan_;
   Output<msg::MeasuredMarkers> markers_;
   Output<msg::TransformStamped> truth_;

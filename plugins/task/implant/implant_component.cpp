@@ -161,8 +161,8 @@ class ImplantComponent final : public Component {
   }
 
   void publish_estimate(Time now) {
-    if (told_ || task_.forecasts().empty()) return;
-    told_ = true;
+    if (published_ || task_.forecasts().empty()) return;
+    published_ = true;
     msg::TFMessage estimate;
     write_chain(task_.chain(), now, estimate);
     estimate_.publish(estimate);
@@ -181,7 +181,7 @@ class ImplantComponent final : public Component {
   RobotModel robot_;
   Flange mount_;
   Implant task_;
-  bool begun_ = false, told_ = false;
+  bool begun_ = false, published_ = false;
   BodyInput flange_, jaw_, pivot_;
   Input<msg::JointState> measured_js_;
   Input<msg::ImplantPlan> plan_;

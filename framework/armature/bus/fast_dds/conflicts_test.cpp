@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Samples of strangers are refused where the deployment itself writes; whatever cannot meet is
 // reported by name.
+#include "armature/bus/fast_dds/conflicts.hpp"
+
 #include <gmock/gmock.h>
 
-#include "armature/bus/fast_dds/conflicts.hpp"
 #include "armature/bus/fast_dds/fast_dds_test.hpp"
 
 namespace armature {
@@ -76,37 +77,39 @@ class SecondWriter : public testing::Test {
                            .topic = topic_.name,
                            .type = std::string{topic_.type->dds_name},
                            .tag = {}};
-  std::vector<std::string> told_;
+  std::vector<std::string> reported_;
   Conflicts conflicts_{
       EndpointTag{.ours = true, .deployment = "lamp", .fingerprint = "f00d", .run = {}},
-      [this](const TransportEvent& event) { told_.push_back(event.text); }};
-  Discovery discovery_{{.endpoint_found = [this](const Endpoint& other, const Discovery& discovery) {
-    conflicts_.endpoint_found(other, discovery);
-  }}};
+      [this](const TransportEvent& event) { reported_.push_back(event.text); }};
+  Discovery discovery_{
+      {.endpoint_found = [this](const Endpoint& other, const Discovery& discovery) {
+        conflicts_.endpoint_found(other, discovery);
+      }}};
 };
 
 TEST_F(SecondWriter, IsToldOnceWhoeverWasFirst) {
   found();
   added(true);
-  ASSERT_EQ(told_.size(), 1U);
-  EXPECT_THAT(told_.front(), HasSubstr("writes '/lamp/beat', too, which is this deployment's own: "
-                                       "nobody here hears it"));
+  ASSERT_EQ(reported_.size(), 1U);
+  EXPECT_THAT(reported_.front(),
+              HasSubstr("writes '/lamp/beat', too, which is this deployment's own: "
+                        "nobody here hears it"));
   found();
-  EXPECT_EQ(told_.size(), 1U);
+  EXPECT_EQ(reported_.size(), 1U);
 }
 
 TEST_F(SecondWriter, IsToldWhenItComesLater) {
   added(true);
-  EXPECT_TRUE(told_.empty());
+  EXPECT_TRUE(reported_.empty());
   found();
-  EXPECT_EQ(told_.size(), 1U);
+  EXPECT_EQ(reported_.size(), 1U);
 }
 
 TEST_F(SecondWriter, IsNoNewsWhereOneOfOurReadersTakesIt) {
   found();
   added(false);
   added(true);
-  EXPECT_THAT(told_, testing::IsEmpty());
+  EXPECT_THAT(reported_, testing::IsEmpty());
 }
 
 TEST_F(FastDds, ASecondTypeOnATopicIsReported) {

@@ -32,7 +32,7 @@ bool LostPeers::is_told_here(std::string_view note) {
   const auto first = std::ranges::find_if(
       processes_, [&](const std::string& process) { return !is_of(note, process); });
   if (first == processes_.end() || *first != own_) return false;
-  return told_.emplace(place_in(note)).second;
+  return reported_.emplace(place_in(note)).second;
 }
 
 }  // namespace armature

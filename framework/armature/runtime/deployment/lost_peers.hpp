@@ -28,7 +28,7 @@ class LostPeers {
   std::string deployment_;
   std::vector<std::string> processes_;
   std::string own_;
-  std::set<std::string, std::less<>> told_;  // "(pid 12 on host)", or the whole note
+  std::set<std::string, std::less<>> reported_;  // "(pid 12 on host)", or the whole note
 };
 
 }  // namespace armature

@@ -15,15 +15,15 @@ using std::chrono::milliseconds;
 
 class EndWatchTest : public testing::Test {
  protected:
-  std::promise<std::string> told_;
-  std::future<std::string> hung_ = told_.get_future();
+  std::promise<std::string> reported_;
+  std::future<std::string> hung_ = reported_.get_future();
   bool hangs_within(milliseconds timeout) const {
     return hung_.wait_for(timeout) == std::future_status::ready;
   }
 };
 
 TEST_F(EndWatchTest, WhatDoesNotReturnIsNamed) {
-  EndWatch watch{seconds(0.1), [this](const auto& text) { told_.set_value(text); }};
+  EndWatch watch{seconds(0.1), [this](const auto& text) { reported_.set_value(text); }};
   watch.begin("the stop of 'beat'");
   watch.begin("the stop of 'arm'");
   ASSERT_TRUE(hangs_within(milliseconds{20000}));
@@ -32,7 +32,7 @@ TEST_F(EndWatchTest, WhatDoesNotReturnIsNamed) {
 }
 
 TEST_F(EndWatchTest, EachPartOfTheEndHasItsOwnTime) {
-  EndWatch watch{seconds(1), [this](const auto& text) { told_.set_value(text); }};
+  EndWatch watch{seconds(1), [this](const auto& text) { reported_.set_value(text); }};
   for (int i = 0; i < 8; ++i) {
     watch.begin("the stop of 'arm'");
     std::this_thread::sleep_for(milliseconds{200});
@@ -42,7 +42,7 @@ TEST_F(EndWatchTest, EachPartOfTheEndHasItsOwnTime) {
 
 TEST_F(EndWatchTest, WhatHasNotBegunOrIsOverIsNotWatched) {
   {
-    EndWatch watch{seconds(0.05), [this](const auto& text) { told_.set_value(text); }};
+    EndWatch watch{seconds(0.05), [this](const auto& text) { reported_.set_value(text); }};
     EXPECT_FALSE(hangs_within(milliseconds{150}));
     watch.begin("the stop of 'arm'");
   }

@@ -37,7 +37,7 @@ bool is_found(const Probe& probe, const JointVector& q) {
 }  // namespace
 
 void EdgeSet::ask(const IkGoal& goal, const JointVector& q) {
-  ++asked_;
+  ++questions_;
   ask_from_anywhere(goal);
   ask_from_itself(goal, q);
 }
@@ -85,9 +85,9 @@ void EdgeSet::ask_at(double redundancy, IkGoal goal, const JointVector& q) {
 }
 
 void EdgeSet::close() {
-  if (asked_ == 0) return;
-  const double part = 1.0 * reached_ / asked_;
-  if (reached_ < asked_) {
+  if (questions_ == 0) return;
+  const double part = 1.0 * reached_ / questions_;
+  if (reached_ < questions_) {
     std::string& note = probe_.report().note;
     note += fmt::format("{}{} {:.1f} %", note.empty() ? "reached: " : ", ", name_, 100 * part);
   }
@@ -95,7 +95,7 @@ void EdgeSet::close() {
     probe_.violated_by(
         missed_->first, missed_->second,
         fmt::format("{}: {} of {} reached from random seeds, `any_seed_at_edges` promises {} %",
-                    name_, reached_, asked_, 100 * kPromised));
+                    name_, reached_, questions_, 100 * kPromised));
   }
 }
 

@@ -28,7 +28,7 @@ class EdgeSet {
 
   Probe& probe_;
   std::string name_;
-  int asked_ = 0, reached_ = 0;
+  int questions_ = 0, reached_ = 0;
   std::optional<std::pair<IkGoal, JointVector>> missed_;  // the first, and its seed
 };
 

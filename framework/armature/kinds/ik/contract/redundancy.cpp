@@ -52,9 +52,9 @@ class ToldIntervals {
         goal_{goal},
         seed_{seed},
         is_angle_{!probe.solver().redundancy_is_length()},
-        told_{probe.feasible_redundancy(goal, seed, intervals_)} {}
+        answered_{probe.feasible_redundancy(goal, seed, intervals_)} {}
 
-  bool told() const { return told_; }
+  bool answered() const { return answered_; }
 
   /// Finite, the right way round, within a turn, rising and apart within a branch.
   void expect_order() {
@@ -157,7 +157,7 @@ class ToldIntervals {
   JointVector seed_;
   bool is_angle_;
   RedundancyIntervals intervals_;
-  bool told_;
+  bool answered_;
 };
 
 /// Of a goal that cannot be reached, or is none, nothing is told.
@@ -194,7 +194,7 @@ void redundancy_is_feasible(Probe& probe) {
   for (int i = 0; i < probe.subject().poses / 4; ++i) {
     const JointVector q = probe.random_joints();
     ToldIntervals intervals{probe, probe.goal_at(q), probe.random_joints()};
-    if (!intervals.told()) {
+    if (!intervals.answered()) {
       probe.violated("joints within limits made this goal, and no intervals are told");
       continue;
     }

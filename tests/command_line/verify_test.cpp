@@ -4,10 +4,10 @@
 
 #include <cstdlib>
 #include <nlohmann/json.hpp>
-#include <regex>
 
 #include "armature/values/sanitizer.hpp"
 #include "tests/command_line/lamp_robot.hpp"
+#include "tests/text.hpp"
 
 namespace armature::test {
 namespace {
@@ -39,10 +39,9 @@ CommandResult verify_faulty(const std::string& params) {
 
 /// The first "echo ... | armature ik ..." of the output, run by a shell.
 CommandResult reproduce(const std::string& out) {
-  std::smatch found;
-  if (!std::regex_search(out, found, std::regex{"echo '[^\n]*"})) return {.exit_code = -1};
-  const std::string command =
-      std::regex_replace(found.str(), std::regex{"armature ik"}, armature() + " ik");
+  const auto found = matches_of("echo '[^\n]*", out);
+  if (found.empty()) return {.exit_code = -1};
+  const std::string command = replaced(found.front().front(), "armature ik", armature() + " ik");
   return run_command({"/bin/bash", "-c", "set -o pipefail; " + command}, crashes_allowed());
 }
 

@@ -6,10 +6,10 @@
 
 #include <filesystem>
 #include <fstream>
-#include <regex>
 #include <sstream>
 
 #include "command.hpp"
+#include "tests/text.hpp"
 
 namespace armature::test {
 namespace {
@@ -67,10 +67,9 @@ TEST_F(WrongFile, APluginFolderThatIsNotThereIsSaid) {
 }
 
 TEST_F(WrongFile, AForgottenArmIsAskedFor) {
-  std::ostringstream lamp;
-  lamp << std::ifstream{source_file("configs/dental_lamp.yaml")}.rdbuf();
-  std::string text = std::regex_replace(lamp.str(), std::regex{"\n  arm: [^\n]*"}, "");
-  text = std::regex_replace(text, std::regex{"(robots|rigs)/"}, source_file("configs") + "/$1/");
+  std::string text =
+      replaced(text_of(source_file("configs/dental_lamp.yaml")), "\n  arm: [^\n]*", "");
+  text = replaced(text, "(robots|rigs)/", source_file("configs") + "/$1/");
   EXPECT_THAT(refusal({"check", written("lamp.yaml", text)}),
               HasSubstr("motion.measured_js reads topic '/dental_lamp/arm/measured_js', which "
                         "nobody writes; add a component that does: arm/simulated\n"));

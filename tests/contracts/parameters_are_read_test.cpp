@@ -5,11 +5,11 @@
 
 #include <filesystem>
 #include <fstream>
-#include <regex>
 #include <sstream>
 
 #include "armature/config/document.hpp"
 #include "armature/config/parameters/parameters_struct.hpp"
+#include "tests/text.hpp"
 
 namespace armature {
 namespace {
@@ -61,7 +61,7 @@ TEST(AParameterThatIsDeclared, IsRead) {
       for (const std::string& member : members_of(manifest)) {
         ++declared;
         if (decides_a_trait(manifest, member)) continue;
-        EXPECT_TRUE(std::regex_search(code, std::regex{"(\\.|->)" + member + "\\b"}))
+        EXPECT_FALSE(test::matches_of("(\\.|->)" + member + "\\b", code).empty())
             << entry.path().string() << " declares what becomes the member '" << member
             << "', and no file beside it reads that";
       }

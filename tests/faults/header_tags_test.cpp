@@ -6,12 +6,11 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <regex>
 #include <string>
 
-#include "../text_of.hpp"
 #include "armature/runtime/plugins/abi.hpp"
 #include "command.hpp"
+#include "tests/text.hpp"
 
 namespace armature::test {
 namespace {
@@ -19,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string with_every(const std::string& text, const std::string& pattern, const std::string& by) {
-  const std::string changed = std::regex_replace(text, std::regex{pattern}, by);
+  const std::string changed = replaced(text, pattern, by);
   EXPECT_NE(changed, text) << pattern;
   return changed;
 }
@@ -56,10 +55,10 @@ class HeaderTags : public testing::Test {
          "OUTPUT=" + written.string(), "-P", source_file("cmake/header_tags.cmake")});
     EXPECT_EQ(result.exit_code, 0) << result.err;
     const std::string text = text_of(written);
-    const std::regex line{"#define ARMATURE_HEADERS_(\\w+) \"\\1 ([0-9a-f]{12})\""};
     std::map<std::string, std::string> tags;
-    for (std::sregex_iterator found{text.begin(), text.end(), line}, end; found != end; ++found) {
-      tags[(*found)[1]] = (*found)[2];
+    for (const auto& line :
+         matches_of("#define ARMATURE_HEADERS_(\\w+) \"\\1 ([0-9a-f]{12})\"", text)) {
+      tags[line[1]] = line[2];
     }
     EXPECT_EQ(tags.size(), 4u) << text;
     return tags;

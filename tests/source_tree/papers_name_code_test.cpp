@@ -6,10 +6,9 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
-#include <regex>
 #include <string>
 
-#include "tests/text_of.hpp"
+#include "tests/text.hpp"
 
 namespace armature::paper {
 namespace {
@@ -60,13 +59,12 @@ class Pages : public testing::Test {
 };
 
 TEST_F(Pages, NameFilesThatAreThere) {
-  const std::regex file{"`([a-z0-9_/]+\\.(cpp|hpp|yaml|urdf|py))[`:]"};
+  const std::string file = "`([a-z0-9_/]+\\.(cpp|hpp|yaml|urdf|py))[`:]";
   int named = 0;
   for (const fs::path& page : pages()) {
-    const std::string text = test::text_of(page);
-    for (std::sregex_iterator match{text.begin(), text.end(), file}, end; match != end; ++match) {
-      EXPECT_FALSE(meant((*match)[1], page, files_).empty())
-          << page << " names " << (*match)[1] << ", which is nowhere";
+    for (const auto& match : test::matches_of(file, test::text_of(page))) {
+      EXPECT_FALSE(meant(match[1], page, files_).empty())
+          << page << " names " << match[1] << ", which is nowhere";
       ++named;
     }
   }
@@ -74,19 +72,19 @@ TEST_F(Pages, NameFilesThatAreThere) {
 }
 
 TEST_F(Pages, NameFunctionsThatAreInTheirFiles) {
-  const std::regex place{"`([a-z0-9_/]+\\.(?:cpp|hpp))`: ((?:`[A-Za-z0-9_:]+`(?:, )?)+)"};
-  const std::regex word{"`(?:[A-Za-z0-9_]+::)*([A-Za-z0-9_]+)`"};
+  const std::string place = "`([a-z0-9_/]+\\.(?:cpp|hpp))`: ((?:`[A-Za-z0-9_:]+`(?:, )?)+)";
+  const std::string word = "`(?:[A-Za-z0-9_]+::)*([A-Za-z0-9_]+)`";
   int named = 0;
   for (const fs::path& page : pages()) {
-    const std::string text = test::text_of(page);
-    for (std::sregex_iterator match{text.begin(), text.end(), place}, end; match != end; ++match) {
-      const std::string words = (*match)[2];
-      for (std::sregex_iterator name{words.begin(), words.end(), word}; name != end; ++name) {
-        const std::regex whole{"\\b" + name->str(1) + "\\b"};
-        EXPECT_TRUE(std::ranges::any_of(
-            meant((*match)[1], page, files_),
-            [&](const fs::path& path) { return std::regex_search(test::text_of(path), whole); }))
-            << page << ": there is no " << name->str(1) << " in " << (*match)[1];
+    for (const auto& match : test::matches_of(place, test::text_of(page))) {
+      for (const auto& name : test::matches_of(word, match[2])) {
+        const std::string whole = "\\b" + name[1] + "\\b";
+        EXPECT_TRUE(
+            std::ranges::any_of(meant(match[1], page, files_),
+                                [&](const fs::path& path) {
+                                  return !test::matches_of(whole, test::text_of(path)).empty();
+                                }))
+            << page << ": there is no " << name[1] << " in " << match[1];
         ++named;
       }
     }

@@ -10,13 +10,12 @@
 #include <filesystem>
 #include <functional>
 #include <map>
-#include <regex>
 #include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "tests/text_of.hpp"
+#include "tests/text.hpp"
 
 namespace armature::test {
 namespace {
@@ -41,11 +40,9 @@ std::vector<fs::path> product_sources(const fs::path& folder) {
 
 /// What a file includes in quotation marks: "armature/robot/model/robot_model.hpp".
 std::vector<std::string> included(const fs::path& file) {
-  static const std::regex kInclude{"#include \"([^\"]+)\""};
-  const std::string text = text_of(file);
   std::vector<std::string> names;
-  for (std::sregex_iterator one{text.begin(), text.end(), kInclude}, end; one != end; ++one) {
-    names.push_back((*one)[1]);
+  for (const auto& match : matches_of("#include \"([^\"]+)\"", text_of(file))) {
+    names.push_back(match[1]);
   }
   return names;
 }

@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <fstream>
 
-#include "../text_of.hpp"
 #include "command.hpp"
 #include "page.hpp"
+#include "tests/text.hpp"
 
 namespace armature::test {
 namespace {

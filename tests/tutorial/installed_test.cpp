@@ -8,15 +8,14 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <regex>
 #include <sstream>
 #include <string>
 #include <vector>
 
-#include "../text_of.hpp"
 #include "command.hpp"
 #include "page.hpp"
 #include "tests/dds_domain.hpp"
+#include "tests/text.hpp"
 
 namespace armature::test {
 namespace {
@@ -64,8 +63,8 @@ TEST_F(Installed, ANewPluginIsBuiltTestedVerifiedMeasuredAndDeployedAsItsReadmeS
   const auto written = shell("armature plugin new ik/mine -o mine");
   ASSERT_EQ(written.exit_code, 0) << written.err;
   EXPECT_NE(text_of(folder_ / "mine/CMakeLists.txt").find(prefix_.string()), std::string::npos);
-  const std::string readme = std::regex_replace(text_of(folder_ / "mine/README.md"),
-                                                std::regex{"--poses 10000"}, "--poses 200");
+  const std::string readme =
+      replaced(text_of(folder_ / "mine/README.md"), "--poses 10000", "--poses 200");
   const auto result = shell("cd mine\n" + script_of(readme));
   EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
   for (const char* shown : {"100% tests passed", "loading leaves nothing behind", "times ik/kdl",

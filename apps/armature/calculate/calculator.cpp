@@ -26,9 +26,10 @@ namespace armature {
 namespace {
 
 /// What lines are read from.
-class Input {
+class LineInput {
  public:
-  explicit Input(const std::string& file) : in_{file.empty() || file == "-" ? std::cin : file_} {
+  explicit LineInput(const std::string& file)
+      : in_{file.empty() || file == "-" ? std::cin : file_} {
     if (&in_ == &std::cin) return;
     file_.open(file);
     int error = errno;
@@ -67,14 +68,14 @@ int answer_lines(std::istream& in, const auto& answer) {
 }  // namespace
 
 int run_fk(const ArmChoice& arm, const std::string& input) {
-  Input lines{input};
+  LineInput lines{input};
   const RobotModel robot = load_arm(arm);
   return answer_lines(lines.stream(),
                       [&](const std::string& line) { return answer_fk(robot, line); });
 }
 
 int run_ik(const ArmChoice& arm, const SolverChoice& choice, const std::string& input) {
-  Input lines{input};
+  LineInput lines{input};
   const RobotModel robot = load_arm(arm);
   PluginRegistry plugins;
   tell_warnings(plugins);

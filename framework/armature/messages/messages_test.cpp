@@ -24,7 +24,7 @@
 #include "armature/messages/tf2_msgs.hpp"
 #include "armature/messages/type_description.hpp"
 #include "armature/messages/visualization_msgs.hpp"
-#include "tests/text_of.hpp"
+#include "tests/text.hpp"
 
 namespace armature {
 namespace {

@@ -7,8 +7,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <regex>
 #include <set>
+
+#include "tests/text.hpp"
 
 namespace armature::report::joints {
 namespace {
@@ -27,14 +28,11 @@ Panel panel(const std::string& title, std::size_t curve, bool is_logarithmic = f
 
 /// The numbers of the path that bears this title.
 std::vector<double> path_of(const std::string& svg, const std::string& title) {
-  const std::regex path{"d=\"([^\"]*)\"><title>" + title};
-  std::smatch found;
-  if (!std::regex_search(svg, found, path)) return {};
+  const auto paths = test::matches_of("d=\"([^\"]*)\"><title>" + title, svg);
+  if (paths.empty()) return {};
   std::vector<double> numbers;
-  const std::string text = found[1];
-  const std::regex number{"[-0-9.]+"};
-  for (std::sregex_iterator it{text.begin(), text.end(), number}, end; it != end; ++it) {
-    numbers.push_back(std::stod(it->str()));
+  for (const auto& number : test::matches_of("[-0-9.]+", paths.front()[1])) {
+    numbers.push_back(std::stod(number.front()));
   }
   return numbers;
 }
@@ -92,8 +90,7 @@ TEST(ReportPlot, WhatIsMissingIsAGapAndAPanelWithoutAnyValueIsLeftOut) {
   }
   const std::string svg = to_svg("t", {line_of(0, "a"), line_of(1, "b")},
                                  {panel("first", 0), panel("second", 1)}, envelope);
-  EXPECT_TRUE(std::regex_search(svg, std::regex{"d=\"M[-0-9.,]+L[-0-9.,]+M[-0-9.,]+L[-0-9.,]+\""}))
-      << svg;
+  EXPECT_THAT(svg, testing::ContainsRegex("d=\"M[-0-9.,]+L[-0-9.,]+M[-0-9.,]+L[-0-9.,]+\""));
   EXPECT_THAT(svg, HasSubstr(">first<"));
   EXPECT_THAT(svg, Not(HasSubstr(">second<")));
 }
@@ -116,9 +113,8 @@ TEST(ReportPlot, FourteenCurvesAreFourteenStrokes) {
   }
   const std::string svg = to_svg("t", legend, {all}, envelope);
   std::set<std::string> strokes;
-  const std::regex stroke{"stroke=\"#[^>]*? d="};
-  for (std::sregex_iterator it{svg.begin(), svg.end(), stroke}, end; it != end; ++it) {
-    strokes.insert(it->str());
+  for (const auto& stroke : test::matches_of("stroke=\"#[^>]*? d=", svg)) {
+    strokes.insert(stroke.front());
   }
   EXPECT_EQ(strokes.size(), 14u);
 }

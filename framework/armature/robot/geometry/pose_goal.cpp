@@ -9,7 +9,8 @@ namespace armature {
 namespace {
 
 constexpr double kLengthTolerance = 0.01;
-constexpr double kRounding = 1e-15;  // of a length that is 1: dividing by it would only cost digits
+constexpr double kLengthRounding =
+    1e-15;  // of a length that is 1: dividing by it would only cost digits
 
 double length_of(const Orientation& orientation) {
   const auto* direction = std::get_if<Direction>(&orientation);
@@ -34,7 +35,7 @@ Expected<ToolPose> checked(ToolPose pose, std::string_view whose) {
   }
   auto* direction = std::get_if<Direction>(&pose.orientation);
   const double length = length_of(pose.orientation);
-  if (std::abs(length - 1) <= kRounding) return pose;
+  if (std::abs(length - 1) <= kLengthRounding) return pose;
   if (direction) {
     direction->unit /= length;
   } else {

@@ -13,8 +13,8 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-constexpr double kRounding = 1e-14;  // [m], and the sine of an angle
-constexpr double kSkew = 0.1;        // the least sine between two axes whose normal is used
+constexpr double kGeometryRounding = 1e-14;  // [m], and the sine of an angle
+constexpr double kSkew = 0.1;                // the least sine between two axes whose normal is used
 
 /// A place on an axis, seen from the axis's own frame: Rz(angle) Tz(height).
 struct OnAxis {
@@ -34,17 +34,17 @@ Normal normal_of_parallels(const Isometry3d& T) {
   Vector3d offset = T.translation();
   offset.z() = 0;
   const double a = offset.norm();
-  const Vector3d n = a > kRounding ? Vector3d{offset / a} : Vector3d::UnitX();
+  const Vector3d n = a > kGeometryRounding ? Vector3d{offset / a} : Vector3d::UnitX();
   return {.from = {angle_of(n), T.translation().z()},
           .to = {angle_of(T.linear().transpose() * n), 0},
-          .a = a > kRounding ? a : 0,
+          .a = a > kGeometryRounding ? a : 0,
           .alpha = T.linear()(2, 2) > 0 ? 0 : std::numbers::pi};
 }
 
 Normal normal_of_skew_axes(const Isometry3d& T, double sine) {
   const Vector3d u = T.linear().col(2), p = T.translation();
   Vector3d n = Vector3d::UnitZ().cross(u) / sine;
-  if (n.dot(p) < -kRounding) n = -n;
+  if (n.dot(p) < -kGeometryRounding) n = -n;
   // p + t u is the foot on the next axis: seen along z, u is square to n.
   const double t = -p.head<2>().dot(u.head<2>()) / (sine * sine);
   return {.from = {angle_of(n), p.z() + t * u.z()},
@@ -56,7 +56,7 @@ Normal normal_of_skew_axes(const Isometry3d& T, double sine) {
 /// None when the axes are nearly parallel.
 std::optional<Normal> common_normal(const Isometry3d& T) {
   const double sine = T.linear().col(2).head<2>().norm();
-  if (sine < kRounding) return normal_of_parallels(T);
+  if (sine < kGeometryRounding) return normal_of_parallels(T);
   if (sine < kSkew) return std::nullopt;
   return normal_of_skew_axes(T, sine);
 }
@@ -66,7 +66,8 @@ std::optional<Normal> normal_along_x(const Isometry3d& T) {
   const Vector3d u = T.linear().col(2), p = T.translation();
   const double t = -(p.y() * u.y() + p.z() * u.z());
   const Vector3d foot = p + t * u;
-  if (std::abs(u.x()) > kRounding || foot.tail<2>().norm() > kRounding) return std::nullopt;
+  if (std::abs(u.x()) > kGeometryRounding || foot.tail<2>().norm() > kGeometryRounding)
+    return std::nullopt;
   return Normal{.from = {},
                 .to = {angle_of(T.linear().transpose() * Vector3d::UnitX()), t},
                 .a = foot.x(),

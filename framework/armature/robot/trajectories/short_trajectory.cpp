@@ -12,7 +12,7 @@ namespace {
 constexpr double kPeakVelocity = 15.0 / 8;
 constexpr double kPeakAcceleration = 10 * std::numbers::inv_sqrt3;
 constexpr double kShortestMove_s = 0.01;
-constexpr double kRounding = 1e-9;  // of the limits
+constexpr double kLimitRounding = 1e-9;  // of the limits
 
 }  // namespace
 
@@ -56,7 +56,7 @@ ShortTrajectory short_move(const JointVector& from, const JointVector& to,
                            Time start, std::uint64_t goal_id) {
   const double needed = shortest_move_s(to - from, max_velocity, max_acceleration);
   if (needed == 0) return short_hold_at(from, start, goal_id);
-  const double T = std::max(needed * (1 + kRounding), kShortestMove_s);
+  const double T = std::max(needed * (1 + kLimitRounding), kShortestMove_s);
   ShortTrajectory move{.goal_id = goal_id, .dof = static_cast<int>(from.size()), .start = start};
   move.add_piece(T);
   for (int j = 0; j < move.dof; ++j) {

@@ -12,6 +12,7 @@
 
 #include "armature/kinds/ik/batch.hpp"
 #include "armature/kinds/ik/contract.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
 
 namespace armature {
 namespace {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "armature/kinds/ik/contract.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
 
 namespace armature::redundancy_law {
 namespace {

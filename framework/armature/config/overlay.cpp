@@ -125,7 +125,7 @@ class Assignment {
 
   /// What is wrong with the path; empty: nothing.
   std::string read_path(const std::string& text) {
-    constexpr std::size_t kDeepest = 100;
+    constexpr std::size_t kMaxParts = 100;
     std::size_t start = 0;
     while (start <= text.size()) {
       const std::size_t end = std::min(text.find('.', start), text.size());
@@ -133,7 +133,7 @@ class Assignment {
       keys_.push_back(text.substr(start, end - start));
       start = end + 1;
     }
-    return keys_.size() > kDeepest ? "the path is longer than 100 parts" : "";
+    return keys_.size() > kMaxParts ? "the path is longer than 100 parts" : "";
   }
 
   void complain(std::string message) const { problems_.add(origin_, std::move(message)); }

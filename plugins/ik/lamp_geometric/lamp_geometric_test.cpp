@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/kinds/ik/contract.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
 
 namespace armature {
 namespace {

@@ -2,6 +2,7 @@
 // At and next to every set where the arm loses a branch, a digit or its reach: 1000 poses each.
 #include <gtest/gtest.h>
 
+#include "armature/robot/kinematics/kinematics.hpp"
 #include "rrp_test_arms.hpp"
 
 namespace armature {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/kinds/ik/contract.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
 #include "rrp_test_arms.hpp"
 
 namespace armature {

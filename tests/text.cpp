@@ -23,7 +23,8 @@ std::vector<std::vector<std::string>> matches_of(const std::string& pattern,
   return all;
 }
 
-std::string replaced(const std::string& text, const std::string& pattern, const std::string& by) {
+std::string all_replaced(const std::string& text, const std::string& pattern,
+                         const std::string& by) {
   return std::regex_replace(text, std::regex{pattern}, by);
 }
 

@@ -15,6 +15,7 @@ std::string text_of(const std::filesystem::path& file);
 std::vector<std::vector<std::string>> matches_of(const std::string& pattern,
                                                  const std::string& text);
 /// The text with every match replaced; "$1" in `by` is the first group.
-std::string replaced(const std::string& text, const std::string& pattern, const std::string& by);
+std::string all_replaced(const std::string& text, const std::string& pattern,
+                         const std::string& by);
 
 }  // namespace armature::test

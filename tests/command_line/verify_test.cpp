@@ -41,7 +41,8 @@ CommandResult verify_faulty(const std::string& params) {
 CommandResult reproduce(const std::string& out) {
   const auto found = matches_of("echo '[^\n]*", out);
   if (found.empty()) return {.exit_code = -1};
-  const std::string command = replaced(found.front().front(), "armature ik", armature() + " ik");
+  const std::string command =
+      all_replaced(found.front().front(), "armature ik", armature() + " ik");
   return run_command({"/bin/bash", "-c", "set -o pipefail; " + command}, crashes_allowed());
 }
 

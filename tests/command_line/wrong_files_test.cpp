@@ -68,8 +68,8 @@ TEST_F(WrongFile, APluginFolderThatIsNotThereIsSaid) {
 
 TEST_F(WrongFile, AForgottenArmIsAskedFor) {
   std::string text =
-      replaced(text_of(source_file("configs/dental_lamp.yaml")), "\n  arm: [^\n]*", "");
-  text = replaced(text, "(robots|rigs)/", source_file("configs") + "/$1/");
+      all_replaced(text_of(source_file("configs/dental_lamp.yaml")), "\n  arm: [^\n]*", "");
+  text = all_replaced(text, "(robots|rigs)/", source_file("configs") + "/$1/");
   EXPECT_THAT(refusal({"check", written("lamp.yaml", text)}),
               HasSubstr("motion.measured_js reads topic '/dental_lamp/arm/measured_js', which "
                         "nobody writes; add a component that does: arm/simulated\n"));

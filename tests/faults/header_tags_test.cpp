@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string with_every(const std::string& text, const std::string& pattern, const std::string& by) {
-  const std::string changed = replaced(text, pattern, by);
+  const std::string changed = all_replaced(text, pattern, by);
   EXPECT_NE(changed, text) << pattern;
   return changed;
 }

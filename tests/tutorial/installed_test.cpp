@@ -64,7 +64,7 @@ TEST_F(Installed, ANewPluginIsBuiltTestedVerifiedMeasuredAndDeployedAsItsReadmeS
   ASSERT_EQ(written.exit_code, 0) << written.err;
   EXPECT_NE(text_of(folder_ / "mine/CMakeLists.txt").find(prefix_.string()), std::string::npos);
   const std::string readme =
-      replaced(text_of(folder_ / "mine/README.md"), "--poses 10000", "--poses 200");
+      all_replaced(text_of(folder_ / "mine/README.md"), "--poses 10000", "--poses 200");
   const auto result = shell("cd mine\n" + script_of(readme));
   EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
   for (const char* shown : {"100% tests passed", "loading leaves nothing behind", "times ik/kdl",

@@ -52,7 +52,7 @@ class YourOwn : public testing::Test {
     script += "armature() { local more=; [ \"$1\" = run ] && more='--domain " +
               std::to_string(unique_dds_domain()) + "'; command armature \"$@\" $more; }\n";
     for (const std::string& command : commands) {
-      script += "echo '$ " + replaced(command, "'", "\"") + "'\n" + command + "\n";
+      script += "echo '$ " + all_replaced(command, "'", "\"") + "'\n" + command + "\n";
     }
     const auto result =
         run_command({"/bin/bash", "-c", script}, options, std::chrono::seconds{280});
@@ -106,7 +106,7 @@ TEST_F(YourOwn, EveryFamilysReadmeSaysWhatWorks) {
     }
     EXPECT_GE(commands.size(), 2U) << family;
     for (std::string& command : commands) {
-      command = replaced(command, "--poses 10000", "--poses 200");
+      command = all_replaced(command, "--poses 10000", "--poses 200");
     }
     run_commands(commands, plugins.folder(family), plugins.environment());
   }

@@ -39,7 +39,7 @@ target_compile_options(armature_abi INTERFACE $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-
 # all others the word means nothing, so that what they compile of a header stays their own.
 target_compile_definitions(armature_abi INTERFACE
   "ARMATURE_EXPORT=$<$<BOOL:$<TARGET_PROPERTY:ARMATURE_EXPORTS>>:__attribute__((visibility(\"default\")))>")
-target_link_libraries(armature_abi INTERFACE tl::expected)
+target_link_libraries(armature_abi INTERFACE tl::expected fmt::fmt)
 target_include_directories(armature_abi INTERFACE $<BUILD_INTERFACE:${Armature_BINARY_DIR}/generated>)
 
 # The compiler collects its garbage too often for a machine that has memory.
@@ -72,7 +72,7 @@ function(armature_precompile target purpose)
   if(NOT TARGET ${precompiled})
     file(WRITE "${Armature_BINARY_DIR}/${precompiled}.cpp" "")
     add_library(${precompiled} OBJECT "${Armature_BINARY_DIR}/${precompiled}.cpp")
-    target_link_libraries(${precompiled} PRIVATE Armature::abi armature_warnings Eigen3::Eigen fmt::fmt)
+    target_link_libraries(${precompiled} PRIVATE Armature::abi armature_warnings Eigen3::Eigen)
     target_precompile_headers(${precompiled} PRIVATE "${Armature_SOURCE_DIR}/cmake/precompiled.hpp")
     # The flags must be those of the files that use it.
     if(purpose STREQUAL "libraries")
@@ -82,7 +82,6 @@ function(armature_precompile target purpose)
     endif()
   endif()
   target_precompile_headers(${target} REUSE_FROM ${precompiled})
-  target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:fmt::fmt>)
 endfunction()
 
 # A target's files are compiled a few at a time, which makes templates once for them.
@@ -130,7 +129,7 @@ function(armature_test_main)
   file(WRITE "${Armature_BINARY_DIR}/test_main.cpp" "#include <gtest/gtest.h>\n")
   add_library(armature_test_main STATIC "${Armature_BINARY_DIR}/test_main.cpp")
   target_link_libraries(armature_test_main PUBLIC GTest::gmock GTest::gtest GTest::gtest_main)
-  target_link_libraries(armature_test_main PUBLIC Armature::abi Eigen3::Eigen fmt::fmt
+  target_link_libraries(armature_test_main PUBLIC Armature::abi Eigen3::Eigen
                                            PRIVATE armature_warnings)
   # What takes time when tests run is the libraries; what takes time to compile is the tests, with -Og
   # the least that still runs them fast.
@@ -217,5 +216,5 @@ function(armature_add_contract kind)
     SOURCES laws.cpp ${arg_SOURCES}
     HEADERS contract.hpp laws.hpp ${arg_HEADERS}
     LINK Armature::laws ${arg_LINK}
-    PRIVATE fmt::fmt ${arg_PRIVATE})
+    PRIVATE ${arg_PRIVATE})
 endfunction()

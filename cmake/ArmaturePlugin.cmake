@@ -27,7 +27,7 @@ function(armature_left_out result id)
   endforeach()
 endfunction()
 
-# armature_header_tags_of(result ik Armature::ik fmt::fmt ...): the text of C++ that appends the tags of
+# armature_header_tags_of(result ik Armature::ik ...): the text of C++ that appends the tags of
 # the kind's library and of the named ones to the ABI tag.
 function(armature_header_tags_of result kind)
   set(library_of_component runtime)

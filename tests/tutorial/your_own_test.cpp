@@ -67,7 +67,7 @@ class YourOwn : public testing::Test {
 
 TEST_F(YourOwn, SolverComesAboutAsThePageSays) {
   const std::string out = run_page("docs/your_own_solver.md");
-  for (const char* file : {"mine/README.md", "bench/solves.csv", "bench/cumulative.svg"}) {
+  for (const char* file : {"my_solver/README.md", "bench/solves.csv", "bench/cumulative.svg"}) {
     EXPECT_TRUE(fs::exists(folder_ / file)) << file;
   }
   EXPECT_EQ(out.find("FAIL"), std::string::npos) << out;

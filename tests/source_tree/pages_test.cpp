@@ -18,8 +18,8 @@ TEST(PagesForNewcomers, WritePluginsToFoldersOfTheirOwn) {
   for (const fs::path folder : {ARMATURE_SOURCE_DIR, ARMATURE_SOURCE_DIR "/docs"}) {
     for (const auto& page : fs::directory_iterator{folder}) {
       if (page.path().extension() != ".md") continue;
-      for (const auto& command :
-           matches_of("\\n\\$ armature plugin new \\S+ -o (\\S+)", text_of(page.path()))) {
+      for (const auto& command : matches_of("\\n\\$ (?:tools/)?armature plugin new \\S+ -o (\\S+)",
+                                            text_of(page.path()))) {
         const auto [first, is_new] = pages.emplace(command[1], page.path().filename());
         EXPECT_TRUE(is_new) << page.path().filename() << " writes '" << command[1] << "', as does "
                             << first->second;

@@ -293,7 +293,8 @@ DeploymentConfig read(const DeploymentSource& source, PluginRegistry& plugins,
 
 /// The first line of a run. It comes before the components are made, which may take seconds.
 std::string starting_text(const DeploymentConfig& config) {
-  return fmt::format("starting {}: {} components", config.name, config.components.size());
+  const std::size_t count = config.components.size();
+  return fmt::format("starting {}: {} component{}", config.name, count, count == 1 ? "" : "s");
 }
 
 int run(const RunOptions& options) {

@@ -30,7 +30,7 @@ struct IkGoal {
 /// One joint position that reaches the goal.
 struct IkBranch {
   /// Stable name of the branch, "tilt0/balance0/elbow0": it does not shift when another vanishes.
-  /// Points to static storage.
+  /// Points to static storage of the plugin, which the runtime keeps to the end of the run.
   std::string_view label;
   JointVector q;               // independent joints, freely turning ones in [-pi, pi)
   double redundancy = 0;       // arm angle [rad] or needle depth [m] where the goal leaves it free

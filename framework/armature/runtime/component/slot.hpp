@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <concepts>
 #include <exception>
@@ -10,6 +11,7 @@
 #include <string_view>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "armature/config/params.hpp"
 #include "armature/runtime/plugins/plugin_library.hpp"
@@ -28,8 +30,9 @@ struct SlotPlugin {
 
 /// A slot as the runtime keeps it, whatever its kind. The runtime owns the plugin's object; the
 /// component holds a `Slot` and never sees which object is behind it. An exchange has three steps:
-/// `offer` makes the successor, `exchange` puts it in between two activations, `settle` frees what
-/// sat there before.
+/// `offer` makes the successor, `exchange` puts it in between two activations, `settle` frees the
+/// object that sat there before. Its library stays as long as the slot: the label of a branch or
+/// the reason of a refusal is text in there, and may be kept past an exchange.
 class SlotPlace {
  public:
   /// Why a plugin must not sit here, or "".
@@ -74,10 +77,14 @@ class SlotPlace {
 
  protected:
   virtual void await(SlotPlugin plugin) = 0;
+  void keep(const std::shared_ptr<PluginLibrary>& library) {
+    if (std::ranges::find(libraries_, library) == libraries_.end()) libraries_.push_back(library);
+  }
 
  private:
   std::string name_;
   Objection objection_;
+  std::vector<std::shared_ptr<PluginLibrary>> libraries_;  // of all plugins that have sat here
 };
 
 /// A slot of kind `Kind`, and how its plugins are made.
@@ -125,7 +132,7 @@ class SlotOf final : public SlotPlace {
     std::unique_ptr<Kind> object;  // goes before the library that its code lives in
   };
 
-  std::unique_ptr<Occupant> make(SlotPlugin plugin) const {
+  std::unique_ptr<Occupant> make(SlotPlugin plugin) {
     auto next = std::make_unique<Occupant>(Occupant{std::move(plugin), nullptr});
     const std::string& id = next->plugin.manifest.id;
     // While `next` holds the library: an exception of the plugin's own type ends in here.
@@ -139,6 +146,7 @@ class SlotOf final : public SlotPlace {
     }();
     if (!made) throw SlotError{name(), id + " refuses: " + made.error().text};
     next->object = std::move(*made);
+    keep(next->plugin.library);
     return next;
   }
 

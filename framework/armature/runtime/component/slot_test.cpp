@@ -167,14 +167,22 @@ TEST_F(SlotTest, TheFirstPluginThatRefusesIsASlotErrorWithTheSlotsName) {
   }
 }
 
-TEST_F(SlotTest, ALibraryStaysAsLongAsItsPluginSitsThere) {
-  SlotPlugin first = plugin<Reads<1>>("gauge/one");
-  const std::weak_ptr<PluginLibrary> library = first.library;
-  place_.fill(std::move(first));
-  ASSERT_TRUE(place_.offer(plugin<Reads<2>>("gauge/two")));
-  place_.exchange();
-  EXPECT_FALSE(library.expired());
-  place_.settle();
+TEST_F(SlotTest, ALibraryStaysAsLongAsTheSlotForWhatItsPluginHasTold) {
+  SlotPlugin first = plugin<Reads<1>>("gauge/one"), refused = plugin<Refuses>("gauge/broken");
+  const std::weak_ptr<PluginLibrary> library = first.library, of_refused = refused.library;
+  {
+    SlotOf<Gauge> place{"gauge", [this](Gauge::Factory factory, const Params& params) {
+                          return factory(&alive_, params);
+                        }};
+    place.fill(std::move(first));
+    EXPECT_FALSE(place.offer(std::move(refused)));
+    EXPECT_TRUE(of_refused.expired()) << "it never sat there";
+    ASSERT_TRUE(place.offer(plugin<Reads<2>>("gauge/two")));
+    place.exchange();
+    place.settle();
+    EXPECT_EQ(alive_, 1) << "its object is gone";
+    EXPECT_FALSE(library.expired());
+  }
   EXPECT_TRUE(library.expired());
 }
 

@@ -3,9 +3,9 @@
 #include <memory>
 #include <string>
 
-#include "ik_bench/bench.hpp"
-#include "loop_bench/bench_loop.hpp"
-#include "plan_bench/bench_plan.hpp"
+#include "bench/ik/bench_ik.hpp"
+#include "bench/loop/bench_loop.hpp"
+#include "bench/plan/bench_plan.hpp"
 #include "verbs/option_checks.hpp"
 #include "verbs/verbs.hpp"
 

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/messages/trajectory_msgs.hpp"
-#include "armature/motion/motion_bench_test.hpp"
+#include "armature/motion/motion_harness_test.hpp"
 
 namespace armature {
 namespace {
@@ -21,7 +21,7 @@ msg::MotionGoal goal(std::uint64_t id, const Vector3d& position) {
   return test::goal_message(id, position);
 }
 
-class MotionComponentTest : public ::testing::Test, protected test::MotionBench {};
+class MotionComponentTest : public ::testing::Test, protected test::MotionHarness {};
 
 TEST_F(MotionComponentTest, SaysNothingToAnArmThatHasNotSpoken) {
   for (const double t : {0.0, 0.2, 0.4}) {

@@ -6,13 +6,13 @@
 #include <cctype>
 
 #include "armature/messages/std_msgs.hpp"
-#include "armature/motion/motion_bench_test.hpp"
+#include "armature/motion/motion_harness_test.hpp"
 
 namespace armature {
 namespace {
 
 using Eigen::Vector3d;
-using test::MotionBench;
+using test::MotionHarness;
 
 msg::Bool flag(bool value) {
   msg::Bool message;
@@ -46,7 +46,7 @@ class MotionStops : public ::testing::Test {
   }
   std::string reason() { return bench_.motion().status().reason; }
 
-  MotionBench bench_;
+  MotionHarness bench_;
 };
 
 TEST_F(MotionStops, AStopFromAnybodyDropsTheGoalAndStaysUntilItIsRearmed) {
@@ -101,7 +101,7 @@ TEST_F(MotionStops, AnArmThatMovesIsNotRearmed) {
 
 TEST_F(MotionStops, WhatTheArmSaysOfItselfIsAStopThatOutlivesIt) {
   for (const std::string stop : {"protective_stop", "emergency_stop", "override"}) {
-    MotionBench bench;
+    MotionHarness bench;
     bench.motion().send("operating_state", word("ENABLED"));
     bench.run(100.1);
     EXPECT_EQ(bench.motion().status().state, StatusReporter::State::ok);
@@ -123,7 +123,7 @@ TEST_F(MotionStops, WhatTheArmSaysOfItselfIsAStopThatOutlivesIt) {
 
 TEST_F(MotionStops, AnArmThatIsNotEnabledAnyMoreWasStopped) {
   for (const std::string word_of_arm : {"DISABLED", "PAUSED", "FAULT"}) {
-    MotionBench bench;
+    MotionHarness bench;
     bench.motion().send("operating_state", word(word_of_arm));
     bench.run(100.1);
     EXPECT_EQ(bench.motion().status().state, StatusReporter::State::ok)

@@ -2,7 +2,7 @@
 // Several targets that are tracked come in one step of motion: only the newest costs a search.
 #include <gtest/gtest.h>
 
-#include "armature/motion/motion_bench_test.hpp"
+#include "armature/motion/motion_harness_test.hpp"
 
 namespace armature {
 namespace {

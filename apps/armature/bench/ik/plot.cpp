@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "ik_bench/report.hpp"
+#include "bench/ik/report.hpp"
 
 namespace armature::bench {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "plan_bench/interpolators.hpp"
+#include "bench/plan/interpolators.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "plan_bench/motions.hpp"
+#include "bench/plan/motions.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ik_bench/bench.hpp"
+#include "bench/ik/bench_ik.hpp"
 
 #include <fmt/format.h>
 
@@ -13,8 +13,8 @@
 #include "armature/runtime/reporting/output_folder.hpp"
 #include "armature/runtime/reporting/write_atomically.hpp"
 #include "bench/contestants.hpp"
+#include "bench/ik/report.hpp"
 #include "exit_code.hpp"
-#include "ik_bench/report.hpp"
 #include "progress.hpp"
 
 namespace armature {

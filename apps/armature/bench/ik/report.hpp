@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "bench/ik/measure.hpp"
 #include "bench/machine.hpp"
 #include "bench/statistics.hpp"
-#include "ik_bench/measure.hpp"
 
 namespace armature::bench {
 

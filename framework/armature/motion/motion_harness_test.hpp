@@ -72,10 +72,10 @@ inline msg::MotionGoal goal_message(std::uint64_t id, const Eigen::Vector3d& pos
 }
 
 /// Both units, and an arm.
-class MotionBench {
+class MotionHarness {
  public:
   /// `written`: optional inputs that some other component writes.
-  explicit MotionBench(const std::vector<std::string>& written = {})
+  explicit MotionHarness(const std::vector<std::string>& written = {})
       : motion_{plugins(), motion_with("", kMainUnit, written)},
         planner_{plugins(), motion_with("", "planner")} {}
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the bench believes is what it has checked itself.
-#include "ik_bench/measure.hpp"
+#include "bench/ik/measure.hpp"
 
 #include <gtest/gtest.h>
 

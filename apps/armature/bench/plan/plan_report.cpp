@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "plan_bench/plan_report.hpp"
+#include "bench/plan/plan_report.hpp"
 
 #include <fmt/format.h>
 

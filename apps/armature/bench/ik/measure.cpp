@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ik_bench/measure.hpp"
+#include "bench/ik/measure.hpp"
 
 #include <algorithm>
 #include <limits>

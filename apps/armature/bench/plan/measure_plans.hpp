@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "bench/allocations.hpp"
-#include "plan_bench/motions.hpp"
-#include "plan_bench/planners.hpp"
+#include "bench/plan/motions.hpp"
+#include "bench/plan/planners.hpp"
 
 namespace armature::bench {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "loop_bench/bench_loop.hpp"
+#include "bench/loop/bench_loop.hpp"
 
 #include <fmt/format.h>
 #include <sched.h>
@@ -18,10 +18,10 @@
 #include <vector>
 
 #include "armature/values/spawn_plan.hpp"
+#include "bench/loop/loop_report.hpp"
+#include "bench/loop/measured_loop.hpp"
 #include "bench/statistics.hpp"
 #include "exit_code.hpp"
-#include "loop_bench/loop_report.hpp"
-#include "loop_bench/measured_loop.hpp"
 #include "progress.hpp"
 
 namespace armature {

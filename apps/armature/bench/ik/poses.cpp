@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ik_bench/poses.hpp"
+#include "bench/ik/poses.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ik_bench/report.hpp"
+#include "bench/ik/report.hpp"
 
 #include <fmt/format.h>
 

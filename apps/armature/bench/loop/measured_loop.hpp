@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "armature/runtime/deployment/deployment.hpp"
-#include "loop_bench/loop_work.hpp"
+#include "bench/loop/loop_work.hpp"
 
 namespace armature::bench {
 

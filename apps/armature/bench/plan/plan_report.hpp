@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "bench/machine.hpp"
-#include "plan_bench/interpolators.hpp"
-#include "plan_bench/measure_plans.hpp"
+#include "bench/plan/interpolators.hpp"
+#include "bench/plan/measure_plans.hpp"
 
 namespace armature::bench {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "plan_bench/bench_plan.hpp"
+#include "bench/plan/bench_plan.hpp"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 
 #include "armature/runtime/plugins/running_component.hpp"
 #include "bench/contestants.hpp"
+#include "bench/plan/plan_report.hpp"
 #include "exit_code.hpp"
-#include "plan_bench/plan_report.hpp"
 #include "progress.hpp"
 
 namespace armature {

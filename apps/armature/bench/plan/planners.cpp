@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "plan_bench/planners.hpp"
+#include "bench/plan/planners.hpp"
 
 #include <algorithm>
 #include <kdl/velocityprofile_trap.hpp>

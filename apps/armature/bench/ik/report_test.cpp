@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ik_bench/report.hpp"
+#include "bench/ik/report.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

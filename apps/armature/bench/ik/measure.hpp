@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bench/allocations.hpp"
-#include "ik_bench/poses.hpp"
+#include "bench/ik/poses.hpp"
 
 namespace armature::bench {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "loop_bench/loop_report.hpp"
+#include "bench/loop/loop_report.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

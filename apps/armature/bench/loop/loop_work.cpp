@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "loop_bench/loop_work.hpp"
+#include "bench/loop/loop_work.hpp"
 
 #include <pthread.h>
 #include <sched.h>

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "armature/runtime/execution/timing_histogram.hpp"
+#include "bench/loop/bench_loop.hpp"
 #include "bench/machine.hpp"
-#include "loop_bench/bench_loop.hpp"
 
 namespace armature::bench {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "loop_bench/measured_loop.hpp"
+#include "bench/loop/measured_loop.hpp"
 
 #include <fmt/format.h>
 #include <time.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "plan_bench/measure_plans.hpp"
+#include "bench/plan/measure_plans.hpp"
 
 #include <algorithm>
 #include <array>

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "armature/kinds/ik/contract.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
 

@@ -2,7 +2,9 @@
 // SR-1, the plan: how near the needle comes to what it must not touch.
 #include <gtest/gtest.h>
 
+#include "armature/config/problems.hpp"
 #include "armature/kinds/path/path.hpp"
+#include "armature/robot/model/robot_model.hpp"
 #include "armature/runtime/plugins/plugin_registry.hpp"
 #include "reference_file.hpp"
 

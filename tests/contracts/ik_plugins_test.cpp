@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The laws of the kind `ik`, for every plugin of the build times every arm of configs/robots and
 // every URDF arm of tests/data: one test each. A robot that the plugin refuses is not served; a
-// plugin that needs parameters is left to its own test. That nothing stays behind when the library is
-// unloaded is a law of the plugin, and asked with the first robot that it serves.
+// plugin that needs parameters is left to its own test. That nothing stays behind when the library
+// is unloaded is a law of the plugin, and asked with the first robot that it serves.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -75,8 +75,8 @@ void add_test(const std::string& suite, std::string_view name, std::function<voi
                         __LINE__, [body] { return new LawTest{body}; });
 }
 
-/// Whether the filter of the command line may choose a test of this suite. CTest runs each test as a
-/// program of its own, which has no use for the solvers of the others.
+/// Whether the filter of the command line may choose a test of this suite. CTest runs each test as
+/// a program of its own, which has no use for the solvers of the others.
 bool is_wanted(const std::string& suite) {
   const std::string filter = GTEST_FLAG_GET(filter);
   const bool names_one = filter.find_first_of("*?:-") == std::string::npos;

@@ -4,8 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include "armature/config/document.hpp"
 #include "armature/config/parameters/parameters_struct.hpp"
@@ -18,15 +16,13 @@ namespace fs = std::filesystem;
 
 /// The text of all sources in `folder` that are no tests.
 std::string code_in(const fs::path& folder) {
-  std::ostringstream code;
+  std::string code;
   for (const auto& entry : fs::directory_iterator{folder}) {
     const std::string name = entry.path().filename();
     const bool is_source = name.ends_with(".cpp") || name.ends_with(".hpp");
-    if (is_source && name.find("_test.") == std::string::npos) {
-      code << std::ifstream{entry.path()}.rdbuf();
-    }
+    if (is_source && name.find("_test.") == std::string::npos) code += test::text_of(entry.path());
   }
-  return code.str();
+  return code;
 }
 
 /// Whether something that the plugin requires or provides depends on the parameter.

@@ -73,7 +73,7 @@ class IkLawsOfPlugin final : public PluginLaws {
                         return check_law(law, tried, tools(*tried.solver));
                       }});
     }
-    runs.push_back({std::string{IkLoadingLaw::kSays}, [this] {
+    runs.push_back({std::string{kIkLoadingLaw}, [this] {
                       return check_loading(verified_.search_path, verified_.id, *model_, params_);
                     }});
     return runs;

@@ -28,7 +28,7 @@ PixelBox clipped(const PixelBox& box, const ImageView& image) {
   return {left, top, right - left, bottom - top};
 }
 
-/// As dlib ships it, unpacked once: that takes a quarter of a second.
+/// The detector that dlib ships, unpacked once for the process.
 const dlib::frontal_face_detector& trained_detector() {
   static const dlib::frontal_face_detector detector = dlib::get_frontal_face_detector();
   return detector;

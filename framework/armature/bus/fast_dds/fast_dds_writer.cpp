@@ -34,8 +34,7 @@ class FastDdsWriter final : public RemoteWriter, private dds::DataWriterListener
       return refuse("DDS: cannot create a writer on '" + ros_topic_name(topic_.name) + "'");
     queue_ = link_->egress->open(static_cast<std::size_t>(settings_.depth),
                                  [this](const SampleRef& sample) { send(sample); });
-    link_->conflicts.own_endpoint_added({.writes = true, .topic = topic_},
-                                        participant.discovery());
+    link_->conflicts.own_endpoint_added({.writes = true, .topic = topic_}, participant.discovery());
     return {};
   }
 

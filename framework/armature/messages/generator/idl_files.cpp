@@ -41,8 +41,8 @@ std::vector<Included> includes_of(const std::string& idl) {
   return includes;
 }
 
-/// What ROS 2 writes for every message, and without what nobody finds the type: a name with one
-/// package before "::msg::dds_::" and nothing but its own after it.
+/// A type is named "package::msg::dds_::Type_", as ROS 2 names its own on DDS: under another name
+/// nobody finds it.
 Expected<void> check_scope(const fs::path& file, const std::string& name) {
   constexpr std::string_view kBetween = "::msg::dds_::";
   const std::size_t at = name.find(kBetween);

@@ -36,7 +36,7 @@ class StatePublisher final : public Component {
     TimingFigures figures{};
     void move_on(const TimingHistogram& histogram);
   };
-  /// What was counted of a component until the last time, and for how many times it has been late.
+  /// The counts of a component at the last report, and for how many reports it has been late.
   struct Counted {
     std::uint64_t activations = 0, overruns = 0, ahead = 0;
     int late = 0;
@@ -47,7 +47,7 @@ class StatePublisher final : public Component {
     Window lateness, duration;
   };
   void move_on();
-  /// How the component is, its periods since the last time included.
+  /// The status of the component, with the periods that it missed since the last report.
   StatusReporter::Status status_of(const ComponentRunner& runner, Counted& counted);
   /// The same, without its periods: an input that is stamped too far ahead is a reason.
   StatusReporter::Status status_with_stamps(const ComponentRunner& runner, Counted& counted);

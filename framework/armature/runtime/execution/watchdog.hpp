@@ -40,7 +40,7 @@ class Watchdog {
   std::string verdict() const;
 
  private:
-  /// What was seen of a component's running step.
+  /// The running step of a component, as the watchdog saw it last.
   struct Seen {
     std::int64_t since_ns = 0;  // when it began; 0: none runs
     Duration observed{0};

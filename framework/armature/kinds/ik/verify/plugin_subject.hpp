@@ -22,10 +22,7 @@ std::string wrong_promises(const PluginManifest& plugin);
 
 /// The law of the library itself: loaded, asked once and unloaded 1000 times (fewer when that takes
 /// more than 60 s), the process is as it was.
-struct IkLoadingLaw {
-  static constexpr std::string_view kName = "LoadingAndUnloadingLeavesNothingBehind";
-  static constexpr std::string_view kSays = "loading leaves nothing behind";
-};
+inline constexpr std::string_view kIkLoadingLaw = "loading leaves nothing behind";
 LawReport check_loading(const std::vector<std::filesystem::path>& search_path,
                         std::string_view plugin_id, const RobotModel& model, const Params& params);
 

@@ -2,6 +2,7 @@
 #include "envelope.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace armature::report::joints {
@@ -38,10 +39,22 @@ void Envelope::merge_pairs() {
   samples_in_one_ *= 2;
 }
 
-Envelope::Range Envelope::range(std::size_t curve) const {
-  Range range;
-  for (const Stretch& stretch : stretches_) range.include(stretch.ranges[curve]);
-  return range;
+plot::Curve Envelope::curve(std::size_t curve, std::size_t in_legend) const {
+  plot::Curve points{.in_legend = in_legend, .x = {}, .y = {}};
+  const auto add = [&](double time_s, double value) {
+    points.x.push_back(time_s);
+    points.y.push_back(value);
+  };
+  double before = std::numeric_limits<double>::quiet_NaN();
+  for (const Stretch& stretch : stretches_) {
+    const auto [low, high] = stretch.ranges[curve];
+    const bool falls = std::abs(before - high) < std::abs(before - low);
+    const double first = falls ? high : low, second = falls ? low : high;
+    add(stretch.begin_s, first);
+    if (stretch.samples > 1) add(stretch.end_s, second);
+    before = second;
+  }
+  return points;
 }
 
 }  // namespace armature::report::joints

@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "armature/plot/chart.hpp"
+
 namespace armature::report::joints {
 
 /// Several curves over time in bounded memory, for a picture: the least and the greatest value of
@@ -31,8 +33,9 @@ class Envelope {
     std::vector<Range> ranges;  // of the curves
   };
   const std::vector<Stretch>& stretches() const { return stretches_; }
-  /// Of a curve over all time.
-  Range range(std::size_t curve) const;
+  /// A curve through the least and the greatest value of each stretch, first the one that is nearer
+  /// to where it comes from; a stretch without one is a gap.
+  plot::Curve curve(std::size_t curve, std::size_t in_legend) const;
 
  private:
   void merge_pairs();

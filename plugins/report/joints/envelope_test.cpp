@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -21,9 +22,20 @@ TEST(ReportEnvelope, ALongRunNeedsNoMoreMemoryAndKeepsItsPeak) {
     ASSERT_LE(envelope.stretches().size(), Envelope::kStretches);
   }
   EXPECT_GE(envelope.stretches().size(), Envelope::kStretches / 2);
-  EXPECT_EQ(envelope.range(0).high, 5.0);
-  EXPECT_NEAR(envelope.range(0).low, -1, 1e-4);
-  EXPECT_FALSE(envelope.range(1).known()) << "nobody told it";
+  const plot::Curve told = envelope.curve(0, 0), untold = envelope.curve(1, 0);
+  EXPECT_EQ(*std::ranges::max_element(told.y), 5.0);
+  EXPECT_NEAR(*std::ranges::min_element(told.y), -1, 1e-4);
+  EXPECT_TRUE(std::ranges::all_of(untold.y, [](double y) { return std::isnan(y); }));
+}
+
+TEST(ReportEnvelope, ACurveThatFallsFallsWithinEveryStretchToo) {
+  Envelope envelope{1};
+  for (int i = 0; i < 3000; ++i) envelope.add(i, std::array{-1.0 * i});
+  ASSERT_GT(envelope.stretches().front().samples, 1u);
+  const plot::Curve curve = envelope.curve(0, 0);
+  ASSERT_GT(curve.y.size(), 100u);
+  // Of the first stretch nobody knows where the curve came from.
+  for (std::size_t i = 3; i < curve.y.size(); ++i) EXPECT_LE(curve.y[i], curve.y[i - 1]) << i;
 }
 
 TEST(ReportEnvelope, EverySampleIsInTheStretchOfItsTime) {
@@ -45,8 +57,8 @@ TEST(ReportEnvelope, EverySampleIsInTheStretchOfItsTime) {
 TEST(ReportEnvelope, AValueThatIsMissingTakesNothingFromThoseBesideIt) {
   Envelope envelope{1};
   for (int i = 0; i < 2000; ++i) envelope.add(i, std::array{i % 2 == 0 ? 1.0 : kNone});
-  EXPECT_EQ(envelope.range(0).low, 1.0);
-  EXPECT_EQ(envelope.range(0).high, 1.0);
+  EXPECT_EQ(envelope.stretches().back().ranges[0].low, 1.0);
+  EXPECT_EQ(envelope.stretches().back().ranges[0].high, 1.0);
 }
 
 }  // namespace

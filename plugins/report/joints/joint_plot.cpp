@@ -5,8 +5,6 @@
 #include <limits>
 #include <vector>
 
-#include "plot.hpp"
-
 namespace armature::report::joints {
 namespace {
 
@@ -21,14 +19,16 @@ constexpr Quantity kQuantities[]{{"joint position", "", 1e-3},
 constexpr const char* kToolErrors[]{"position error of the tool against the goal [m]",
                                     "orientation error of the tool against the goal [rad]"};
 
-Panel panel_of(const Quantity& quantity, const std::string& unit, const std::vector<Joint>& joints,
-               std::size_t first) {
-  Panel panel{.title = std::string{quantity.name} + " [" + unit + quantity.per_time + "]",
-              .is_logarithmic = false,
-              .min_span = quantity.min_span,
-              .curves = {}};
+/// Of the joints with this unit; curve `first` is that of the first joint.
+plot::Panel panel_of(const Quantity& quantity, const std::string& unit,
+                     const std::vector<Joint>& joints, std::size_t first,
+                     const Envelope& envelope) {
+  plot::Panel panel{
+      .y = {.label = std::string{quantity.name} + " [" + unit + quantity.per_time + "]",
+            .min_span = quantity.min_span},
+      .curves = {}};
   for (std::size_t j = 0; j < joints.size(); ++j) {
-    if (unit_of(joints[j]) == unit) panel.curves.push_back({first + j, j});
+    if (unit_of(joints[j]) == unit) panel.curves.push_back(envelope.curve(first + j, j));
   }
   return panel;
 }
@@ -55,23 +55,27 @@ void JointPlot::add(const JointRow& row) {
 
 std::string JointPlot::svg() const {
   const std::vector<Joint>& joints = model_.joints();
-  std::vector<Line> legend;
-  for (std::size_t j = 0; j < joints.size(); ++j) legend.push_back(line_of(j, joints[j].name));
-  legend.push_back(black_line("tool"));
-  std::vector<Panel> panels;
+  plot::Chart chart{.title = "The joints of " + model_.name(),
+                    .legend = {},
+                    .x = {.label = "time [s]", .min_span = 0.1},
+                    .panels = {}};
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    chart.legend.push_back(plot::line_of(j, joints[j].name));
+  }
+  chart.legend.push_back(plot::black_line("tool"));
   std::size_t next = 0;
   for (const Quantity& quantity : kQuantities) {
-    for (const char* unit : {"rad", "m"}) panels.push_back(panel_of(quantity, unit, joints, next));
+    for (const char* unit : {"rad", "m"}) {
+      chart.panels.push_back(panel_of(quantity, unit, joints, next, envelope_));
+    }
     next += joints.size();
   }
   constexpr double kMinError = 1e-9;  // [m] or [rad]: what the table still tells
   for (const char* title : kToolErrors) {
-    panels.push_back({.title = title,
-                      .is_logarithmic = true,
-                      .min_span = kMinError,
-                      .curves = {{next++, joints.size()}}});
+    chart.panels.push_back({.y = {.label = title, .is_logarithmic = true, .min_span = kMinError},
+                            .curves = {envelope_.curve(next++, joints.size())}});
   }
-  return to_svg("The joints of " + model_.name(), legend, panels, envelope_);
+  return plot::to_svg(chart);
 }
 
 }  // namespace armature::report::joints

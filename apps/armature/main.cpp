@@ -64,6 +64,7 @@ int run_command_line(int argc, char** argv) {
   add_topic_verbs(app, action);
   add_arm_verbs(app, action);
   add_bench_verbs(app, action);
+  add_paper_verbs(app, action);
   add_machine_verbs(app, action);
   std::vector<std::string> words = words_of(argc, argv);
   if (!words.empty() && words.front() == "__complete") {

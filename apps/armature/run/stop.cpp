@@ -10,6 +10,8 @@
 #include <string>
 #include <thread>
 
+#include "armature/bus/sample.hpp"
+#include "armature/bus/transport.hpp"
 #include "armature/messages/std_msgs.hpp"
 #include "armature/runtime/execution/clock.hpp"
 #include "armature/runtime/plugins/plugin_registry.hpp"
@@ -21,7 +23,7 @@ namespace {
 using Steady = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
-constexpr milliseconds kPause{10};
+constexpr milliseconds kRepeat{10};
 constexpr milliseconds kInsists{500};  // deployments that are still being discovered hear it, too
 
 /// Writes the stop until who reads it has been found, and says who has taken it.
@@ -43,7 +45,7 @@ class Stopping {
       static_cast<msg::Bool*>(sample.mutable_message())->data_(true);
       sample.mutable_info().published = clock_.now();
       writer_.offer(sample);
-      std::this_thread::sleep_for(kPause);
+      std::this_thread::sleep_for(kRepeat);
     }
     return std::ranges::any_of(heard_by_, [](const auto& heard) { return heard.second; });
   }

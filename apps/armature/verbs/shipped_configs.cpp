@@ -26,9 +26,9 @@ std::vector<fs::path> yaml_files(const fs::path& folder) {
 
 }  // namespace
 
-fs::path shipped_config_folder() {
+fs::path shipped_folder(const std::string& name) {
   const auto prefix = fs::canonical("/proc/self/exe").parent_path().parent_path();
-  return prefix / "share" / "armature" / "configs";
+  return prefix / "share" / "armature" / name;
 }
 
 std::vector<fs::path> shipped_deployments() { return yaml_files(shipped_config_folder()); }

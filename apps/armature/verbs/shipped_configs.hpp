@@ -7,8 +7,9 @@
 
 namespace armature {
 
-/// Where the deployments, robots and rigs are that came with this program.
-std::filesystem::path shipped_config_folder();
+/// A folder of what came with this program: "configs" with deployments, robots and rigs, "papers".
+std::filesystem::path shipped_folder(const std::string& name);
+inline std::filesystem::path shipped_config_folder() { return shipped_folder("configs"); }
 
 /// The deployments among them, sorted.
 std::vector<std::filesystem::path> shipped_deployments();

@@ -22,6 +22,7 @@ void add_plugin_verbs(CLI::App& app, Action& action);
 void add_topic_verbs(CLI::App& app, Action& action);
 void add_arm_verbs(CLI::App& app, Action& action);
 void add_bench_verbs(CLI::App& app, Action& action);
+void add_paper_verbs(CLI::App& app, Action& action);
 /// Of the machine and its shells: doctor, completion, man.
 void add_machine_verbs(CLI::App& app, Action& action);
 

@@ -29,7 +29,7 @@ class Master {
  public:
   explicit Master(const Numbers& numbers)
       : numbers_{numbers},
-        solver_{plugins_.make<IkSolver>("ik/rrp_zyz", "", model_)},
+        solver_{plugins_.get<IkSolver>("ik/rrp_zyz", "", model_)},
         a_{joints_of(numbers["q_A"])},
         b_{joints_of(numbers["q_B"])},
         motion_{planned()} {}
@@ -40,7 +40,7 @@ class Master {
     goal.pose = {pose.translation(), Eigen::Quaterniond{pose.linear()}};
     IkBranches found;
     IkState state;
-    solver_->solve(goal, near, found, state);
+    solver_.solve(goal, near, found, state);
     const IkBranch* nearest = std::min_element(
         found.begin(), found.end(), [&](const IkBranch& one, const IkBranch& other) {
           return (one.q - near).norm() < (other.q - near).norm();
@@ -125,15 +125,15 @@ class Master {
 
  private:
   Trajectory planned() {
-    const auto planner = plugins_.make<TrajectoryPlanner>("trajectory/quintic", "");
+    const auto& planner = plugins_.get<TrajectoryPlanner>("trajectory/quintic", "");
     const JointVector zero = JointVector::Zero(6);
     return planner
-        ->plan({.goal_id = 1,
-                .start = {},
-                .from = {a_, zero, zero},
-                .segments = {{{0, 1}, {a_, b_}, true, numbers_["duration_s"].number()}},
-                .max_velocity = model_.max_velocity(),
-                .max_acceleration = model_.max_acceleration()})
+        .plan({.goal_id = 1,
+               .start = {},
+               .from = {a_, zero, zero},
+               .segments = {{{0, 1}, {a_, b_}, true, numbers_["duration_s"].number()}},
+               .max_velocity = model_.max_velocity(),
+               .max_acceleration = model_.max_acceleration()})
         .value();
   }
   JointState at(double t) const { return motion_.at(motion_.start + seconds(t)); }
@@ -168,7 +168,7 @@ class Master {
   Numbers numbers_;
   RobotModel model_ = shipped_robot("master");
   Plugins plugins_;
-  PluginPtr<IkSolver> solver_;
+  const IkSolver& solver_;
   JointVector a_, b_;
   Trajectory motion_;
 };

@@ -4,7 +4,8 @@
 namespace armature::reproduce {
 
 const std::vector<Paper>& papers() {
-  static const std::vector<Paper> all{{"master", "master_manipulator.yaml", compute_master}};
+  static const std::vector<Paper> all{{"lamp", "dental_lamp.yaml", compute_lamp},
+                                      {"master", "master_manipulator.yaml", compute_master}};
   return all;
 }
 

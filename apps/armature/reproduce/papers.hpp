@@ -23,6 +23,7 @@ struct Paper {
 /// The four, in the order of the README.
 const std::vector<Paper>& papers();
 
+void compute_lamp(const Numbers& numbers, bool with_long, Results& results);
 void compute_master(const Numbers& numbers, bool with_long, Results& results);
 
 }  // namespace armature::reproduce

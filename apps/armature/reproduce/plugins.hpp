@@ -2,8 +2,10 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "armature/config/params.hpp"
 #include "armature/robot/model/robot_model.hpp"
@@ -18,18 +20,24 @@ RobotModel shipped_robot(const std::string& name);
 /// says. Each is made once and kept as long as this.
 class Plugins {
  public:
-  /// Throws std::runtime_error with the plugin's own refusal.
+  /// `args`: what the kind's factory takes before the parameters; the same at every call. Throws
+  /// std::runtime_error with the plugin's own refusal.
   template <class Kind, class... Args>
-  PluginPtr<Kind> make(const std::string& id, const std::string& params, const Args&... args) {
-    auto plugin = registry_.make<Kind>(id, args..., params_for(id, params));
-    if (!plugin) throw std::runtime_error(id + ": " + plugin.error().text);
-    return std::move(*plugin);
+  const Kind& get(const std::string& id, const std::string& params, const Args&... args) {
+    std::shared_ptr<void>& kept = made_[id + ' ' + params];
+    if (!kept) {
+      auto plugin = registry_.make<Kind>(id, args..., params_for(id, params));
+      if (!plugin) throw std::runtime_error(id + ": " + plugin.error().text);
+      kept = std::make_shared<PluginPtr<Kind>>(std::move(*plugin));
+    }
+    return **static_cast<PluginPtr<Kind>*>(kept.get());
   }
 
  private:
   Params params_for(const std::string& id, const std::string& params) const;
 
   PluginRegistry registry_;
+  std::map<std::string, std::shared_ptr<void>> made_;  // by id and parameters
 };
 
 }  // namespace armature::reproduce

@@ -5,7 +5,7 @@
 #include <random>
 
 #include "armature/robot/kinematics/kinematics.hpp"
-#include "lamp_plugins.hpp"
+#include "paper_lamp.hpp"
 #include "reference_file.hpp"
 
 namespace armature::paper {
@@ -19,15 +19,17 @@ double wrapped_difference(const JointVector& a, const JointVector& b) {
   return largest;
 }
 
-JointVector contracted(const Eigen::VectorXd& all) { return lamp().to_independent(all).value(); }
+JointVector contracted(const Eigen::VectorXd& all) {
+  return paper_lamp().model().to_independent(all).value();
+}
 
 TEST(DentalLamp, TheRobotFileHasTheLengthsOfTable1) {
   const Figures rows = dental_lamp()["dh_standard"];
   ASSERT_EQ(rows.size(), 6u);
   for (std::size_t i = 0; i < 6; ++i) {
-    EXPECT_NEAR(lamp().joints()[i].d, 1e-3 * rows[i]["d"].number(), 1e-12);
-    EXPECT_NEAR(lamp().joints()[i].a, 1e-3 * rows[i]["a"].number(), 1e-12);
-    EXPECT_NEAR(lamp().joints()[i].alpha, rows[i]["alpha"].number(), 1e-12);
+    EXPECT_NEAR(paper_lamp().model().joints()[i].d, 1e-3 * rows[i]["d"].number(), 1e-12);
+    EXPECT_NEAR(paper_lamp().model().joints()[i].a, 1e-3 * rows[i]["a"].number(), 1e-12);
+    EXPECT_NEAR(paper_lamp().model().joints()[i].alpha, rows[i]["alpha"].number(), 1e-12);
   }
 }
 
@@ -35,7 +37,8 @@ TEST(DentalLamp, ForwardKinematicsGivesEveryReferenceMatrix) {
   const Figures cases = dental_lamp()["fk_cases"];
   for (std::size_t i = 0; i < cases.size(); ++i) {
     SCOPED_TRACE(cases[i]["name"].text());
-    const Eigen::Isometry3d pose = forward_kinematics(lamp(), contracted(cases[i]["q"].numbers()));
+    const Eigen::Isometry3d pose =
+        forward_kinematics(paper_lamp().model(), contracted(cases[i]["q"].numbers()));
     for (std::size_t row = 0; row < 3; ++row) {
       const Eigen::VectorXd wanted = cases[i]["T"][row].numbers();
       for (Eigen::Index column = 0; column < 4; ++column) {
@@ -49,8 +52,10 @@ TEST(DentalLamp, ForwardKinematicsGivesEveryReferenceMatrix) {
 TEST(DentalLamp, TheExampleOfEquation40IsSolvedAsCorrectedAndNotAsPrinted) {
   const Figures example = dental_lamp()["ik_example"];
   const Eigen::Vector3d direction = example["target"]["x7"].numbers().head<3>();
-  const JointVector q = paper_joints(example["target"]["P"].point_m(), direction);
-  EXPECT_LE((all_joints(q) - example["recomputed_theta"].numbers()).cwiseAbs().maxCoeff(), 1e-9);
+  const JointVector q = paper_lamp().joints(example["target"]["P"].point_m(), direction);
+  EXPECT_LE(
+      (paper_lamp().all_joints(q) - example["recomputed_theta"].numbers()).cwiseAbs().maxCoeff(),
+      1e-9);
   const Figures literal = example["literal_print_gives"];
   EXPECT_GT(std::abs(q[0] - literal["theta1_eq31"].number()), 0.01);
   EXPECT_GT(std::abs(q[1] - literal["theta2_eq34"].number()), 0.01);
@@ -61,7 +66,7 @@ TEST(DentalLamp, TheExampleOfEquation40IsSolvedAsCorrectedAndNotAsPrinted) {
 /// Every listed solution under its label, and no other.
 void expect_solutions(const Figures& row, double tolerance) {
   const Eigen::Vector3d direction = row["x7"].numbers().head<3>();
-  const IkBranches found = branches_of(row["P"].point_m(), direction);
+  const IkBranches found = paper_lamp().branches(row["P"].point_m(), direction);
   const Figures wanted = row["solutions"];
   ASSERT_EQ(static_cast<std::size_t>(found.count), wanted.size());
   for (std::size_t i = 0; i < wanted.size(); ++i) {
@@ -70,9 +75,10 @@ void expect_solutions(const Figures& row, double tolerance) {
                               std::to_string(static_cast<int>(bits[1])) + "/elbow" +
                               std::to_string(static_cast<int>(bits[2]));
     EXPECT_EQ(found.branch[i].label, label);
-    EXPECT_LE(wrapped_difference(all_joints(found.branch[i].q), wanted[i]["q"].numbers()),
-              tolerance)
-        << label << ": " << all_joints(found.branch[i].q).transpose();
+    EXPECT_LE(
+        wrapped_difference(paper_lamp().all_joints(found.branch[i].q), wanted[i]["q"].numbers()),
+        tolerance)
+        << label << ": " << paper_lamp().all_joints(found.branch[i].q).transpose();
     EXPECT_LE(found.branch[i].residual.position_m, 1e-9);
     EXPECT_LE(found.branch[i].residual.angle_rad, 1e-9);
   }
@@ -93,7 +99,7 @@ TEST(DentalLamp, SpecialPosesHaveTheSolutionsOfTheReference) {
     SCOPED_TRACE(rows[i]["name"].text());
     if (rows[i]["n_solutions"].text() == "infinite") {
       const Eigen::Vector3d direction = rows[i]["x7"].numbers().head<3>();
-      EXPECT_GE(branches_of(rows[i]["P"].point_m(), direction).count, 2);
+      EXPECT_GE(paper_lamp().branches(rows[i]["P"].point_m(), direction).count, 2);
     } else {
       expect_solutions(rows[i], 1e-8);
     }
@@ -109,14 +115,15 @@ TEST(DentalLamp, NumericAndClosedFormAgreeNearTheWork) {
     JointVector q(5);
     q << 1.0 + 0.6 * unit(random), -1.7 + 0.6 * unit(random), 0.4 * unit(random),
         0.8 + 0.8 * unit(random), 0.5 * unit(random);
-    const Eigen::Isometry3d pose = forward_kinematics(lamp(), q);
+    const Eigen::Isometry3d pose = forward_kinematics(paper_lamp().model(), q);
     IkGoal goal;
     goal.pose = {pose.translation(), Direction{pose.linear().col(0)}};
     const JointVector seed = q + 0.15 * JointVector::Random(5);
     IkBranches numeric;
     IkState state;
-    ASSERT_EQ(lamp_ik("ik/numeric").solve(goal, seed, numeric, state).code, IkStatus::Code::ok);
-    const IkBranches closed = branches_of(goal.pose.position, pose.linear().col(0));
+    ASSERT_EQ(paper_lamp().ik("ik/numeric").solve(goal, seed, numeric, state).code,
+              IkStatus::Code::ok);
+    const IkBranches closed = paper_lamp().branches(goal.pose.position, pose.linear().col(0));
     double nearest = 1;
     for (const IkBranch& branch : closed) {
       nearest = std::min(nearest, wrapped_difference(branch.q, numeric.begin()->q));
@@ -138,9 +145,11 @@ TEST(DentalLamp, TheNineSearchPosesHaveTheReferencesJoints) {
                                     std::cos(pitch) * std::sin(yaw), std::sin(pitch)};
     const Eigen::Vector3d joint6{0.798, 0, 0.505};
     EXPECT_LE((joint6 + 0.08 * direction - poses[i]["P7"].point_m()).norm(), 1e-7);
-    const JointVector q = paper_joints(joint6 + 0.08 * direction, direction);
-    EXPECT_LE((all_joints(q) - poses[i]["q"].numbers()).cwiseAbs().maxCoeff(), 2e-8);
-    EXPECT_LE((all_joints(q) / kDegree - poses[i]["q_deg"].numbers()).cwiseAbs().maxCoeff(), 1e-4);
+    const JointVector q = paper_lamp().joints(joint6 + 0.08 * direction, direction);
+    EXPECT_LE((paper_lamp().all_joints(q) - poses[i]["q"].numbers()).cwiseAbs().maxCoeff(), 2e-8);
+    EXPECT_LE(
+        (paper_lamp().all_joints(q) / kDegree - poses[i]["q_deg"].numbers()).cwiseAbs().maxCoeff(),
+        1e-4);
   }
 }
 

@@ -6,7 +6,7 @@
 #include "armature/kinds/trajectory/one_law.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
 #include "armature/robot/trajectories/quintic_spline.hpp"
-#include "lamp_plugins.hpp"
+#include "paper_lamp.hpp"
 #include "reference_file.hpp"
 
 namespace armature::paper {
@@ -25,7 +25,7 @@ Figures goal_row(std::string_view option) {
 void expect_row(const Trajectory& trajectory, std::string_view option) {
   SCOPED_TRACE(std::string{option});
   const Figures row = goal_row(option);
-  const Largest errors = largest_errors(trajectory, 0, kDuration_s, 1e-3);
+  const LampExample::Largest errors = paper_lamp().largest_errors(trajectory, 0, kDuration_s, 1e-3);
   EXPECT_NEAR(errors.distance_error_mm, row["max_dist_err_mm"].number(), 1e-3);
   EXPECT_NEAR(errors.aim_deg, row["max_dir_err_deg"].number(), 1e-4);
   const Peaks peaks = peaks_of(trajectory);
@@ -33,9 +33,9 @@ void expect_row(const Trajectory& trajectory, std::string_view option) {
   EXPECT_NEAR(peaks.acceleration, row["peak_acc"].number(), 2e-4);
 }
 
-const ToolPose& point(std::size_t i) { return mouth_points()[i - 1]; }
+ToolPose point(std::size_t i) { return paper_lamp().mouth_points()[i - 1]; }
 JointVector joints_at(std::size_t i) {
-  return paper_joints(point(i).position, direction_of(point(i)));
+  return paper_lamp().joints(point(i).position, direction_of(point(i)));
 }
 
 JointSegment straight(std::size_t from, std::size_t to, double duration_s) {
@@ -51,7 +51,7 @@ std::vector<JointVector> arc_joints(const std::vector<double>& times) {
   std::vector<JointVector> joints;
   for (const double t : times) {
     const Eigen::Vector3d u = Eigen::AngleAxisd{law.s(t) * angle, axis} * u1;
-    joints.push_back(paper_joints(example().mouth - kDistance_m * u, u));
+    joints.push_back(paper_lamp().joints(paper_lamp().mouth - LampExample::kDistance_m * u, u));
   }
   return joints;
 }
@@ -63,35 +63,37 @@ std::vector<double> even_times(int parts) {
 }
 
 TEST(DentalLampPlanning, ThePapersTwoQuinticsStrayFromTheMouth) {
-  expect_row(timed("trajectory/quintic", {straight(1, 2, 1), straight(2, 3, 1)}),
+  expect_row(paper_lamp().timed("trajectory/quintic", {straight(1, 2, 1), straight(2, 3, 1)}),
              "paper: joint quintics");
 }
 
 TEST(DentalLampPlanning, OneJointQuinticStraysEvenFurther) {
-  expect_row(timed("trajectory/quintic", {straight(1, 3, 2)}), "single joint quintic");
+  expect_row(paper_lamp().timed("trajectory/quintic", {straight(1, 3, 2)}), "single joint quintic");
 }
 
 TEST(DentalLampPlanning, TheArcWithAStopInTheMiddleStaysOnTheMouth) {
-  expect_row(timed("trajectory/quintic",
-                   {arc_segment(point(1), point(2), 1), arc_segment(point(2), point(3), 1)}),
-             "Cartesian arc, quintic per half");
+  expect_row(
+      paper_lamp().timed("trajectory/quintic", {paper_lamp().arc_segment(point(1), point(2), 1),
+                                                paper_lamp().arc_segment(point(2), point(3), 1)}),
+      "Cartesian arc, quintic per half");
 }
 
 TEST(DentalLampPlanning, TheArcUnderOneQuinticStaysOnTheMouthAndIsGentlest) {
-  const JointSegment arc = arc_segment(point(1), point(3), kDuration_s);
-  expect_row(timed("trajectory/quintic", {arc}), "Cartesian arc, one quintic");
-  expect_row(timed("trajectory/quintic_spline", {arc}), "Cartesian arc, one quintic");
+  const JointSegment arc = paper_lamp().arc_segment(point(1), point(3), kDuration_s);
+  expect_row(paper_lamp().timed("trajectory/quintic", {arc}), "Cartesian arc, one quintic");
+  expect_row(paper_lamp().timed("trajectory/quintic_spline", {arc}), "Cartesian arc, one quintic");
 }
 
 TEST(DentalLampPlanning, TheProposedPlannerMeetsItsGoals) {
   for (const char* id : {"trajectory/quintic", "trajectory/quintic_spline"}) {
     SCOPED_TRACE(id);
-    const Trajectory plan = timed(id, {arc_segment(point(1), point(3), kDuration_s)});
-    const Largest errors = largest_errors(plan, 0, kDuration_s, 1e-3);
+    const Trajectory plan =
+        paper_lamp().timed(id, {paper_lamp().arc_segment(point(1), point(3), kDuration_s)});
+    const LampExample::Largest errors = paper_lamp().largest_errors(plan, 0, kDuration_s, 1e-3);
     EXPECT_LT(errors.distance_error_mm, 0.01);
     EXPECT_LT(errors.aim_deg, 0.0005);
     const Peaks paper =
-        peaks_of(timed("trajectory/quintic", {straight(1, 2, 1), straight(2, 3, 1)}));
+        peaks_of(paper_lamp().timed("trajectory/quintic", {straight(1, 2, 1), straight(2, 3, 1)}));
     EXPECT_LE(peaks_of(plan).acceleration, 0.65 * paper.acceleration);
   }
 }
@@ -99,27 +101,28 @@ TEST(DentalLampPlanning, TheProposedPlannerMeetsItsGoals) {
 TEST(DentalLampPlanning, TheArcGoesThroughTheReferencePoints) {
   const Figures rows = dental_lamp()["arc_reference"];
   ASSERT_EQ(rows.size(), 9u);
-  const Trajectory plan =
-      timed("trajectory/quintic", {arc_segment(point(1), point(3), kDuration_s)});
+  const Trajectory plan = paper_lamp().timed(
+      "trajectory/quintic", {paper_lamp().arc_segment(point(1), point(3), kDuration_s)});
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const JointVector q = plan.at(plan.start + seconds(rows[i]["t"].number())).q;
-    const Eigen::Isometry3d pose = forward_kinematics(lamp(), q);
+    const Eigen::Isometry3d pose = forward_kinematics(paper_lamp().model(), q);
     const Eigen::Vector3d x7 = rows[i]["x7"].numbers().head<3>();
     EXPECT_LE((pose.translation() - rows[i]["P"].point_m()).norm(), 1e-6);
     EXPECT_LE((pose.linear().col(0) - x7).norm(), 1e-6);
-    EXPECT_LE((all_joints(q) - rows[i]["q"].numbers()).cwiseAbs().maxCoeff(), 1e-6);
+    EXPECT_LE((paper_lamp().all_joints(q) - rows[i]["q"].numbers()).cwiseAbs().maxCoeff(), 1e-6);
   }
 }
 
 TEST(DentalLampPlanning, InverseKinematicsEvery10msWithStraightLinesBetweenIsAsGoodAsSaid) {
   const Figures row = goal_row("IK every 10 ms");
   const std::vector<JointVector> joints = arc_joints(even_times(200));
-  Largest largest;
+  LampExample::Largest largest;
   for (std::size_t i = 1; i < joints.size(); ++i) {
     for (double part = 0; part < 1; part += 0.1) {
-      const Standing here = standing_at((1 - part) * joints[i - 1] + part * joints[i]);
-      largest.distance_error_mm =
-          std::max(largest.distance_error_mm, std::abs(here.distance_mm - 1e3 * kDistance_m));
+      const LampExample::Standing here =
+          paper_lamp().standing_at((1 - part) * joints[i - 1] + part * joints[i]);
+      largest.distance_error_mm = std::max(
+          largest.distance_error_mm, std::abs(here.distance_mm - 1e3 * LampExample::kDistance_m));
       largest.aim_deg = std::max(largest.aim_deg, here.aim_deg);
     }
   }
@@ -143,7 +146,7 @@ TEST(DentalLampPlanning, FewPointsOnTheArcAreEnoughForAQuinticSpline) {
 }
 
 TEST(DentalLampPlanning, FourPointsWithTheirVelocitiesAndAccelerationsAreEnoughForQuintics) {
-  const JointSegment arc = arc_segment(point(1), point(3), kDuration_s);
+  const JointSegment arc = paper_lamp().arc_segment(point(1), point(3), kDuration_s);
   const JointCurve curve{arc.s, arc.q};
   const TimeLaw law{kDuration_s};
   const std::vector<double> times = even_times(5);

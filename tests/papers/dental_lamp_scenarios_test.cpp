@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "armature/robot/kinematics/kinematics.hpp"
-#include "lamp_plugins.hpp"
+#include "paper_lamp.hpp"
 
 namespace armature::paper {
 namespace {
@@ -34,7 +34,7 @@ class Scenarios {
   /// example's last one.
   Scenario next() {
     Scenario scenario;
-    scenario.mouth = example().mouth +
+    scenario.mouth = paper_lamp().mouth +
                      Vector3d{0.3 * even_(random_), 0.3 * even_(random_), 0.15 * even_(random_)};
     scenario.P1 = looking(scenario.mouth);
     scenario.P3 = looking(scenario.mouth);
@@ -43,13 +43,13 @@ class Scenarios {
 
  private:
   ToolPose looking(const Vector3d& mouth) {
-    const Vector3d middle = direction_of(example().P3);
+    const Vector3d middle = direction_of(paper_lamp().P3);
     const double lowest = std::cos(35 * kDegree);
     const double cosine = lowest + (1 - lowest) * 0.5 * (1 + even_(random_));
     const Vector3d aside = middle.unitOrthogonal();
     const Vector3d round = Eigen::AngleAxisd{M_PI * even_(random_), middle} * aside;
     const Vector3d u = cosine * middle + std::sqrt(1 - cosine * cosine) * round;
-    return {mouth - kDistance_m * u, Direction{u}};
+    return {mouth - LampExample::kDistance_m * u, Direction{u}};
   }
 
   std::mt19937_64 random_{kScenarioSeed};
@@ -58,7 +58,7 @@ class Scenarios {
 
 /// The paper's branch, whatever the joint limits, on the turn that is nearest to `near`.
 std::optional<JointVector> reached(const ToolPose& pose, const JointVector& near) {
-  for (const IkBranch& branch : branches_of(pose.position, direction_of(pose))) {
+  for (const IkBranch& branch : paper_lamp().branches(pose.position, direction_of(pose))) {
     if (branch.label != "tilt0/balance0/elbow0") continue;
     JointVector q = branch.q;
     for (int i = 0; i < q.size(); ++i) q[i] = near[i] + std::remainder(q[i] - near[i], 2 * M_PI);
@@ -76,11 +76,11 @@ Outcome outcome_of(const Trajectory& plan, const Vector3d& mouth) {
   Outcome outcome{.acceleration = peaks_of(plan).acceleration};
   for (int i = 0; i <= kChecks; ++i) {
     const JointVector q = plan.at(plan.start + seconds(kWay_s * i / kChecks)).q;
-    const Eigen::Isometry3d pose = forward_kinematics(lamp(), q);
+    const Eigen::Isometry3d pose = forward_kinematics(paper_lamp().model(), q);
     const Vector3d to_mouth = mouth - pose.translation();
     const Vector3d light = pose.linear().col(0);
     outcome.distance_mm =
-        std::max(outcome.distance_mm, 1e3 * std::abs(to_mouth.norm() - kDistance_m));
+        std::max(outcome.distance_mm, 1e3 * std::abs(to_mouth.norm() - LampExample::kDistance_m));
     outcome.aim_deg = std::max(
         outcome.aim_deg, std::atan2(light.cross(to_mouth).norm(), light.dot(to_mouth)) / kDegree);
   }
@@ -90,15 +90,17 @@ Outcome outcome_of(const Trajectory& plan, const Vector3d& mouth) {
 /// Two joint quintics of a second each by P2, where the lamp stands: the paper's.
 Outcome by_paper(const Scenario& scenario, const JointVector& q1, const JointVector& q3) {
   const Vector3d middle = (direction_of(scenario.P1) + direction_of(scenario.P3)).normalized();
-  const auto q2 = reached({scenario.mouth - kDistance_m * middle, Direction{middle}}, q1);
+  const auto q2 =
+      reached({scenario.mouth - LampExample::kDistance_m * middle, Direction{middle}}, q1);
   const JointSegment first{{0, 1}, {q1, q2.value()}, true, 0.5 * kWay_s};
   const JointSegment second{{0, 1}, {q2.value(), q3}, true, 0.5 * kWay_s};
-  return outcome_of(unlimited("trajectory/quintic", {first, second}), scenario.mouth);
+  return outcome_of(paper_lamp().unlimited("trajectory/quintic", {first, second}), scenario.mouth);
 }
 
 /// path/mouth_arc and trajectory/quintic_spline, as configs/dental_lamp.yaml has them.
 Outcome by_arc(const Scenario& scenario, const JointVector& q1) {
-  const auto path = lamp_path("path/mouth_arc")
+  const auto path = paper_lamp()
+                        .path("path/mouth_arc")
                         .plan({.start = scenario.P1, .goal = scenario.P3, .focus = scenario.mouth});
   JointSegment arc{.s = {}, .q = {}, .duration_s = kWay_s};
   for (const PathSample& sample : path->front().samples) {
@@ -106,7 +108,7 @@ Outcome by_arc(const Scenario& scenario, const JointVector& q1) {
     arc.q.push_back(reached(sample.pose, arc.q.empty() ? q1 : arc.q.back()).value());
   }
   EXPECT_EQ(path->size(), 1u) << "an arc from end to end";
-  return outcome_of(unlimited("trajectory/quintic_spline", {arc}), scenario.mouth);
+  return outcome_of(paper_lamp().unlimited("trajectory/quintic_spline", {arc}), scenario.mouth);
 }
 
 /// Of a figure of all outcomes.

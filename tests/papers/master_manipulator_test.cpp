@@ -191,35 +191,6 @@ TEST_F(MasterMotion, HasEverySampleOfTheReference) {
   }
 }
 
-TEST_F(MasterMotion, PeaksWhereTheReferenceSays) {
-  EXPECT_LE((at(motion_["t_vmax"].number()).v - joints(motion_["vmax"])).cwiseAbs().maxCoeff(),
-            1e-11);
-  const JointVector peak = joints(motion_["amax"]);
-  const Figures times = motion_["t_amax"];
-  EXPECT_LE((at(times[0].number()).a - peak).cwiseAbs().maxCoeff(), 1e-9);
-  EXPECT_LE((at(times[1].number()).a + peak).cwiseAbs().maxCoeff(), 1e-9);
-  EXPECT_LE(
-      (trajectory_.jerk_at(trajectory_.start) - joints(motion_["jerk_ends"])).cwiseAbs().maxCoeff(),
-      1e-11);
-}
-
-/// The reference counts chords of a millisecond and central differences; the exact length and
-/// speed are 2.4e-6 mm and 1.7e-5 mm/s more.
-TEST_F(MasterMotion, LeadsTheHandAlongThePathOfTheReference) {
-  constexpr double kStep_s = 1e-3;
-  std::vector<Eigen::Vector3d> tip;
-  for (int i = 0; i <= 5000; ++i) {
-    tip.push_back(forward_kinematics(master(), at(i * kStep_s).q).translation());
-  }
-  double length = 0, fastest = 0;
-  for (std::size_t i = 1; i < tip.size(); ++i) {
-    length += (tip[i] - tip[i - 1]).norm();
-    if (i > 1) fastest = std::max(fastest, (tip[i] - tip[i - 2]).norm() / (2 * kStep_s));
-  }
-  EXPECT_NEAR(length, motion_["tip_path_length"].number() * kMillimetre, 1e-12);
-  EXPECT_NEAR(fastest, motion_["tip_speed_max"].number() * kMillimetre, 1e-12);
-}
-
 TEST_F(MasterMotion, KeepsTheFirstBranchWithinTheLimitsAllTheWay) {
   for (int i = 0; i <= 500; ++i) {
     const JointVector q = at(0.01 * i).q;

@@ -173,6 +173,12 @@ Declaration read_declaration(const config::Node& file) {
     }
   }
   map.finish();
+  std::set<std::string> names;  // of files
+  for (const DeclaredTable& table : declaration.tables) names.insert(table.name);
+  for (const DeclaredFigure& figure : declaration.figures) names.insert(figure.name);
+  if (names.size() != declaration.tables.size() + declaration.figures.size()) {
+    problems.add(file.origin(), "two tables or figures have one name, and would have one file");
+  }
   problems.throw_if_any();
   return declaration;
 }

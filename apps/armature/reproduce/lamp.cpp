@@ -111,7 +111,7 @@ void add_search(LampExample& lamp, Results& results) {
   for (const auto& [name, heading_deg] :
        {View{"left", 40}, View{"middle", 0}, View{"right", -40}}) {
     const double limit_mm = lamp.search_limit_mm(heading_deg * kDegree);
-    results.value("figures_15_17", std::string{name} + " limit", limit_mm);
+    results.value("search_limits", std::string{name} + " limit", limit_mm);
     const Vector3d direction{std::cos(heading_deg * kDegree), std::sin(heading_deg * kDegree), 0};
     const JointVector q =
         lamp.joints(Vector3d{1e-3 * limit_mm, 0, 0.50407} + 0.08 * direction, direction);

@@ -39,40 +39,58 @@ namespace {
   _exit(0);
 }
 
-/// Reads until the other end is closed; false when that takes too long.
-bool read_all(int from, double timeout_s, std::string& text) {
-  using Clock = std::chrono::steady_clock;
-  const auto end = Clock::now() + std::chrono::duration<double>{timeout_s};
-  for (std::array<char, 4096> buffer;;) {
-    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now());
-    if (left.count() <= 0) return false;
-    pollfd ready{from, POLLIN, 0};
-    if (poll(&ready, 1, static_cast<int>(left.count()) + 1) <= 0) continue;
-    const ssize_t n = ::read(from, buffer.data(), buffer.size());
-    if (n == 0) return true;
-    if (n > 0) text.append(buffer.data(), static_cast<std::size_t>(n));
+int wait_for(pid_t child) {
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
+  return status;
 }
 
 }  // namespace
 
-Isolated isolated(double timeout_s, const std::function<std::string()>& work) {
+IsolatedWork::IsolatedWork(double timeout_s, const std::function<std::string()>& work)
+    : timeout_s_{timeout_s},
+      end_{Clock::now() +
+           std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>{timeout_s})} {
   std::array<int, 2> ends{};
   if (pipe2(ends.data(), O_CLOEXEC) != 0) throw std::runtime_error("cannot make a pipe");
+  fcntl(ends[0], F_SETFL, O_NONBLOCK);
   std::fflush(nullptr);
-  const pid_t child = fork();
-  if (child < 0) throw std::runtime_error(fmt::format("cannot fork: {}", std::strerror(errno)));
-  if (child == 0) work_and_exit(ends[1], work);
+  child_ = fork();
+  if (child_ == 0) work_and_exit(ends[1], work);
   close(ends[1]);
-  Isolated outcome;
-  const bool in_time = read_all(ends[0], timeout_s, outcome.result);
-  close(ends[0]);
-  if (!in_time) kill(child, SIGKILL);
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  from_ = ends[0];
+  if (child_ >= 0) return;
+  const int error = errno;
+  close(from_);
+  throw std::runtime_error(fmt::format("cannot fork: {}", std::strerror(error)));
+}
+
+IsolatedWork::~IsolatedWork() {
+  close(from_);
+  if (child_ < 0) return;
+  kill(child_, SIGKILL);
+  wait_for(child_);
+}
+
+bool IsolatedWork::is_over() {
+  for (std::array<char, 4096> buffer; !told_all_;) {
+    const ssize_t n = ::read(from_, buffer.data(), buffer.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) break;
+    if (n == 0) told_all_ = true;
+    result_.append(buffer.data(), static_cast<std::size_t>(n));
   }
-  if (!in_time) {
-    outcome.fault = fmt::format("not done after {:g} s", timeout_s);
+  return told_all_ || Clock::now() >= end_;
+}
+
+Isolated IsolatedWork::outcome() {
+  if (!told_all_) kill(child_, SIGKILL);
+  const int status = wait_for(child_);
+  child_ = -1;
+  Isolated outcome{.result = result_, .fault = ""};
+  if (!told_all_) {
+    outcome.fault = fmt::format("not done after {:g} s", timeout_s_);
   } else if (WIFSIGNALED(status)) {
     outcome.fault =
         fmt::format("killed by signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)));
@@ -80,6 +98,16 @@ Isolated isolated(double timeout_s, const std::function<std::string()>& work) {
     outcome.fault = fmt::format("it ends the process (exit code {})", WEXITSTATUS(status));
   }
   return outcome;
+}
+
+Isolated isolated(double timeout_s, const std::function<std::string()>& work) {
+  constexpr int kLongest_ms = 100;
+  IsolatedWork running{timeout_s, work};
+  while (!running.is_over()) {
+    pollfd ready{running.descriptor(), POLLIN, 0};
+    poll(&ready, 1, kLongest_ms);
+  }
+  return running.outcome();
 }
 
 }  // namespace armature

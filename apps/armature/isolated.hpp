@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <sys/types.h>
+
+#include <chrono>
 #include <functional>
 #include <string>
 
@@ -12,9 +15,35 @@ struct Isolated {
   std::string fault;   // why it returned nothing: "killed by signal 11 (Segmentation fault)"
 };
 
-/// Does `work` in a child process, which may crash or hang without taking this one with it; it is
-/// killed after `timeout_s`. What it prints on standard output is lost. To be called by a process
-/// with one thread.
+/// Work in a child process, which may crash or hang without taking this one with it. What it prints
+/// on standard output is lost. To be started by a process with one thread.
+class IsolatedWork {
+ public:
+  /// Throws std::runtime_error when there can be no process.
+  IsolatedWork(double timeout_s, const std::function<std::string()>& work);
+  /// Kills it, if it is still there.
+  ~IsolatedWork();
+  IsolatedWork(const IsolatedWork&) = delete;
+  IsolatedWork& operator=(const IsolatedWork&) = delete;
+
+  /// Can be read when there is something to take: for poll(2).
+  int descriptor() const { return from_; }
+  /// Takes what there is, and waits for no more; true when the work is done or its time is over.
+  bool is_over();
+  /// Once it is over.
+  Isolated outcome();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  double timeout_s_;
+  Clock::time_point end_;
+  pid_t child_ = -1;
+  int from_ = -1;
+  bool told_all_ = false;
+  std::string result_;
+};
+
+/// Does `work` in a child process and waits for it; it is killed after `timeout_s`.
 Isolated isolated(double timeout_s, const std::function<std::string()>& work);
 
 }  // namespace armature

@@ -43,6 +43,17 @@ void Progress::count(std::uint64_t so_far) {
                    static_cast<double>(so_far) / seconds));
 }
 
+void Progress::of(std::size_t done, std::size_t all) {
+  if (!due()) return;
+  const double seconds = std::chrono::duration<double>{Clock::now() - start_}.count();
+  std::string line = fmt::format("{} of {} {}", done, all, what_);
+  if (done > 0) {
+    line += fmt::format(", about {:.0f} s left",
+                        seconds / static_cast<double>(done) * static_cast<double>(all - done));
+  }
+  show(line);
+}
+
 void Progress::show(const std::string& line) {
   fmt::print(stderr, "\r\033[K{}", line);
   std::fflush(stderr);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
@@ -16,7 +17,9 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  void part(double part);            // of all, 0 to 1
+  void part(double part);  // of all, 0 to 1
+  /// So many of so many, and what time is left if it goes on like this.
+  void of(std::size_t done, std::size_t all);
   void count(std::uint64_t so_far);  // of an unknown number
 
  private:

@@ -25,7 +25,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// The figures that components measure. What is never below 0 has no goal below 0.
-Json goal_properties(const PluginRegistry& plugins) {
+std::map<std::string, MetricSpec> metrics_of(const PluginRegistry& plugins) {
   std::map<std::string, MetricSpec> metrics;
   for (const PluginManifest& plugin : plugins.plugins()) {
     if (plugin.kind != Component::kKind) continue;
@@ -34,11 +34,34 @@ Json goal_properties(const PluginRegistry& plugins) {
       known.may_be_negative = known.may_be_negative || metric.may_be_negative;
     }
   }
+  return metrics;
+}
+
+Json goal_properties(const PluginRegistry& plugins) {
   Json properties = Json::object();
-  for (const auto& [name, metric] : metrics) {
+  for (const auto& [name, metric] : metrics_of(plugins)) {
     config::KeySpec goal{.name = name, .doc = metric.doc};
     if (!metric.may_be_negative) goal.min = 0;
     properties[name] = schema_of(goal);
+  }
+  return properties;
+}
+
+Json sweep_goal_properties(const PluginRegistry& plugins) {
+  const Json number{{"type", Json::array({"number", "string"})}, {"pattern", "\\$\\{"}};
+  const Json bounds{{"oneOf", Json::array({number, Json{{"type", "array"},
+                                                        {"items", number},
+                                                        {"minItems", 2},
+                                                        {"maxItems", 2}}})}};
+  Json statistics = Json::object();
+  for (const config::KeySpec& key : sweep_goal_keys()) {
+    const bool is_number = key.type == config::KeySpec::Type::number;
+    statistics[key.name] = is_number ? schema_of(key) : bounds;
+    statistics[key.name]["description"] = key.doc;
+  }
+  Json properties = Json::object();
+  for (const auto& [name, metric] : metrics_of(plugins)) {
+    properties[name] = map_schema(metric.doc, statistics);
   }
   return properties;
 }
@@ -48,6 +71,7 @@ Json section_schema(const config::KeySpec& key, const PluginRegistry& plugins) {
   if (key.name == "dds") return map_schema(key.doc, properties_of(dds_keys()));
   if (key.name == "run") return map_schema(key.doc, properties_of(run_keys()));
   if (key.name == "goals") return map_schema(key.doc, goal_properties(plugins));
+  if (key.name == "sweep_goals") return map_schema(key.doc, sweep_goal_properties(plugins));
   if (key.name == "executors") {
     return names_schema(key.doc, map_schema("", properties_of(executor_keys())));
   }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "drill/drill.hpp"
 #include "inspect/check.hpp"
@@ -9,6 +11,7 @@
 #include "run/run.hpp"
 #include "run/stop.hpp"
 #include "schema/schema.hpp"
+#include "sweep/sweep.hpp"
 #include "verbs/option_checks.hpp"
 #include "verbs/shipped_configs.hpp"
 #include "verbs/verbs.hpp"
@@ -94,6 +97,53 @@ void add_drill(CLI::App& app, Action& action) {
   verb->callback([options, &action] { action = [options] { return run_drill(*options); }; });
 }
 
+/// What is wrong with an option's value is told as it is thrown.
+template <class Read>
+CLI::Validator reading(Read read) {
+  return {[read](std::string& given) -> std::string {
+            try {
+              read(given);
+              return "";
+            } catch (const std::invalid_argument& error) {
+              return error.what();
+            }
+          },
+          ""};
+}
+
+void add_sweep(CLI::App& app, Action& action) {
+  auto options = std::make_shared<SweepOptions>();
+  auto seeds = std::make_shared<std::string>("1..100");
+  auto vary = std::make_shared<std::vector<std::string>>();
+  CLI::App* verb = app.add_subcommand(
+      "sweep",
+      "Run a deployment for many seeds in lockstep and tell the spread of its figures: "
+      "armature sweep sr1_biopsy --seeds 1..200 --out sweep");
+  add_source(*verb, options->source);
+  verb->add_option("--seeds", *seeds, "1..200, or 1,2,5..9")
+      ->capture_default_str()
+      ->check(reading(sweep::seeds_of));
+  verb->add_option("--vary", *vary,
+                   "values of a key: components.motion.ik.plugin=ik/numeric,ik/kdl; several: every "
+                   "combination")
+      ->allow_extra_args(false)
+      ->check(reading(sweep::vary_of));
+  verb->add_option("--jobs", options->jobs, "runs at the same time (as many as processors)")
+      ->check(CLI::Range(1, 256));
+  verb->add_option("--timeout", options->timeout_s, "seconds that one run may take")
+      ->capture_default_str()
+      ->check(not_positive);
+  verb->add_option("--out", options->out,
+                   "folder for figures.csv, histograms and the reports of all runs; with the same "
+                   "folder an interrupted sweep goes on");
+  verb->add_flag("--json", options->json, "as JSON");
+  verb->callback([options, seeds, vary, &action] {
+    options->seeds = sweep::seeds_of(*seeds);
+    for (const std::string& one : *vary) options->vary.push_back(sweep::vary_of(one));
+    action = [options] { return sweep_deployment(*options); };
+  });
+}
+
 void add_stop(CLI::App& app, Action& action) {
   auto options = std::make_shared<StopOptions>();
   CLI::App* verb = app.add_subcommand(
@@ -147,6 +197,7 @@ void add_schema(CLI::App& app, Action& action) {
 void add_deployment_verbs(CLI::App& app, Action& action) {
   add_run(app, action);
   add_drill(app, action);
+  add_sweep(app, action);
   add_stop(app, action);
   add_inspection(app, action);
   add_schema(app, action);

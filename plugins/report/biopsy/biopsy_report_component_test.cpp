@@ -9,6 +9,7 @@
 #include "armature/messages/geometry.hpp"
 #include "armature/messages/header.hpp"
 #include "armature/messages/sensor_msgs.hpp"
+#include "armature/robot/geometry/point_error.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
 #include "armature/runtime/testing/component_harness.hpp"
 #include "armature/runtime/testing/test_plugins.hpp"
@@ -87,6 +88,8 @@ TEST_F(BiopsyReportTest, TellsTheErrorsAgainstTruthAndExpectation) {
   EXPECT_NEAR(told.metrics.at("predicted_target_error_rms_mm"), 0.5, 1e-12);
   EXPECT_NEAR(told.metrics.at("predicted_target_error_95_mm"), 0.8, 1e-12);
   EXPECT_NEAR(told.metrics.at("target_error_of_bound"), 0.5, 1e-9);
+  EXPECT_NEAR(told.metrics.at("target_error_of_bound_999"),
+              0.0004 / radius_of_999_in_1000(0.0005, 0.0008), 1e-9);
   EXPECT_NEAR(told.metrics.at("fiducial_error_mm"), 0.3, 1e-12);
   EXPECT_FALSE(told.metrics.contains("line_deviation_mm")) << "it did not come by the entry";
 }

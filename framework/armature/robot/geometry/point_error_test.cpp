@@ -28,5 +28,20 @@ TEST(RadiusOf95Percent, IsZeroWithoutError) {
   EXPECT_EQ(radius_of_95_percent(Eigen::Matrix3d::Zero()), 0);
 }
 
+TEST(RadiusOf999In1000, IsThatOfTheChiSquaredDistributions) {
+  constexpr double kFarQuantile[]{10.827566170662733, 13.815510557964274, 16.26623619623813};
+  Eigen::Vector3d variances = Eigen::Vector3d::Zero();
+  constexpr double kOff[]{0.025, 0.006, 0.003};  // the larger, the fewer directions it has
+  for (int freedom = 1; freedom <= 3; ++freedom) {
+    variances[freedom - 1] = 4e-6;
+    const PointError error = point_error(variances.asDiagonal());
+    const double exact = 0.002 * std::sqrt(kFarQuantile[freedom - 1]);
+    EXPECT_NEAR(radius_of_999_in_1000(error.rms_m, error.bound95_m), exact,
+                exact * kOff[freedom - 1])
+        << freedom;
+  }
+  EXPECT_EQ(radius_of_999_in_1000(0, 0), 0);
+}
+
 }  // namespace
 }  // namespace armature

@@ -200,6 +200,7 @@ DeploymentConfig read_deployment(const Node& root, const PluginRegistry& plugins
         read_documents(entries_of(map.node(section), section, problems), problems);
   }
   deployment.goals = read_goals(map.node("goals"), problems);
+  deployment.sweep_goals = read_sweep_goals(map.node("sweep_goals"), deployment.goals, problems);
   const Node* open = map.node("open");
   if (const Node* components = map.node("components")) {
     const ComponentReader reader{deployment, plugins, problems};

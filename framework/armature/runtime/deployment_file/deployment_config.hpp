@@ -63,6 +63,16 @@ struct Goal {
   config::Origin origin, limit_origin;
 };
 
+/// `sweep_goals:`: what a metric must keep over many runs (`armature sweep`).
+struct SweepGoal {
+  enum class Statistic { median, p95, max, rms, share };
+  std::string metric;
+  Statistic statistic;
+  std::optional<double> at_least, at_most;  // of the statistic
+  double share_of = 0;                      // share: of the runs whose metric is at most this
+  config::Origin origin;
+};
+
 /// A deployment file, read, checked and resolved against the plugins that are there.
 struct DeploymentConfig {
   std::string name;
@@ -76,6 +86,7 @@ struct DeploymentConfig {
   std::map<std::string, std::map<std::string, config::Node>> documents;  // section -> name -> file
   std::vector<ComponentConfig> components;                               // in file order
   std::vector<Goal> goals;
+  std::vector<SweepGoal> sweep_goals;
   std::string fingerprint;  // SHA-256 of the resolved file and of all documents
 
   std::vector<std::string> processes() const;  // "main" first

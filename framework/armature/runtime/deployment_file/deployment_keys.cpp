@@ -56,7 +56,8 @@ const std::vector<KeySpec>& deployment_keys() {
         {.name = "components",
          .type = Type::section,
          .doc = "What runs, by name: each names its plugin."},
-        section("goals", "What figures of the report must not exceed.")};
+        section("goals", "What figures of the report must not exceed."),
+        section("sweep_goals", "What they must keep over many runs: armature sweep.")};
     for (const auto& [name, word] : kDocumentSections) {
       keys.push_back(
           section(name, fmt::format("Files by name; components say which with '{}'.", word)));
@@ -115,6 +116,19 @@ const std::vector<KeySpec>& executor_keys() {
        .type = Type::flag,
        .doc = "Keep the process in memory.",
        .fallback = default_value("false")}};
+  return kKeys;
+}
+
+const std::vector<KeySpec>& sweep_goal_keys() {
+  static const std::vector<KeySpec> kKeys{
+      section("median", "At most this, or [least, most]."),
+      section("p95", "What 95 of 100 runs stay below: at most this, or [least, most]."),
+      section("max", "Of the worst run: at most this, or [least, most]."),
+      section("rms", "Over all runs: at most this, or [least, most]."),
+      section("share", "Part of the runs at or below 'at_most': at least this, or [least, most]."),
+      {.name = "at_most",
+       .doc = "What 'share' counts; without: the limit under 'goals'.",
+       .optional = true}};
   return kKeys;
 }
 

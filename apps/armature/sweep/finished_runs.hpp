@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+namespace armature::sweep {
+
+/// One run of a sweep, and what makes it another one than the rest.
+struct RunKey {
+  std::string fingerprint;  // of the files with this variation, whatever the seed
+  std::uint64_t seed = 0;
+  auto operator<=>(const RunKey&) const = default;
+};
+
+/// What runs have told, kept in a file with a line for each, so that a sweep that was interrupted
+/// goes on where it stopped.
+class FinishedRuns {
+ public:
+  /// Reads `file`, if it is there; its last line may have been cut off. Without a file nothing is
+  /// kept. Throws std::runtime_error when it cannot be read, or is of something else.
+  explicit FinishedRuns(std::optional<std::filesystem::path> file);
+
+  /// The report of a run, or nullptr.
+  const nlohmann::ordered_json* find(const RunKey& key) const;
+  /// Throws std::runtime_error when the file cannot be written.
+  void add(const RunKey& key, nlohmann::ordered_json report);
+
+ private:
+  std::optional<std::filesystem::path> file_;
+  std::map<RunKey, nlohmann::ordered_json> reports_;
+};
+
+}  // namespace armature::sweep

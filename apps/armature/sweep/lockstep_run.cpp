@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sweep/lockstep_run.hpp"
+
+#include <utility>
+
+#include "armature/config/document.hpp"
+#include "armature/runtime/deployment/deployment.hpp"
+#include "armature/runtime/plugins/running_component.hpp"
+#include "armature/runtime/reporting/run_report.hpp"
+
+namespace armature {
+
+DeploymentConfig read_for_lockstep(const DeploymentSource& source, const PluginRegistry& plugins) {
+  std::vector<std::string> assignments = source.assignments;
+  assignments.push_back("clock=simulated");
+  config::Problems problems;
+  DeploymentConfig config =
+      read_deployment(config::load_with_overlays(source.files, assignments), plugins, problems);
+  problems.throw_if_any();
+  return config;
+}
+
+std::string lockstep_report(DeploymentConfig config, PluginRegistry& plugins) {
+  name_crashing_components();
+  Deployment deployment{
+      std::move(config),
+      plugins,
+      {.process = "", .on_line = [](const auto&, const auto&) {}, .on_note = [](const auto&) {}}};
+  RunWatch alone;
+  deployment.run(alone);
+  return to_json(RunReport{deployment, {}});
+}
+
+}  // namespace armature

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sweep/spread.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "armature/runtime/deployment_file/goals.hpp"
+#include "bench/statistics.hpp"
+
+namespace armature::sweep {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kTwoSided95 = 1.959963984540054;  // of a normal distribution
+
+double statistic_of(const Spread& spread, const SweepGoal& goal) {
+  switch (goal.statistic) {
+    case SweepGoal::Statistic::median:
+      return spread.median();
+    case SweepGoal::Statistic::p95:
+      return spread.p95();
+    case SweepGoal::Statistic::max:
+      return spread.max();
+    case SweepGoal::Statistic::rms:
+      return spread.rms();
+    case SweepGoal::Statistic::share:
+      break;
+  }
+  return spread.share_at_most(goal.share_of);
+}
+
+JudgedSweepGoal judged(const SweepGoal& goal, const std::vector<Spread>& figures) {
+  JudgedSweepGoal result{.goal = goal, .value = std::nan("")};
+  const auto spread = std::ranges::find(figures, goal.metric, &Spread::figure);
+  if (spread == figures.end() || spread->values.empty()) {
+    result.fault = "no run measured it";
+    return result;
+  }
+  result.value = statistic_of(*spread, goal);
+  if (spread->unmeasured > 0 && goal.statistic != SweepGoal::Statistic::share) {
+    result.fault =
+        fmt::format("{} of {} runs did not measure it", spread->unmeasured, spread->runs());
+  } else if (goal.at_least && result.value < *goal.at_least) {
+    result.fault = fmt::format("at least {:g}", *goal.at_least);
+  } else if (goal.at_most && result.value > *goal.at_most) {
+    result.fault = fmt::format("at most {:g}", *goal.at_most);
+  }
+  return result;
+}
+
+/// The figures that are numbers, in the order in which reports tell them.
+std::vector<Spread> figures_of(const std::vector<const Json*>& reports) {
+  std::vector<Spread> figures;
+  for (const Json* report : reports) {
+    for (const auto& [key, value] : report->items()) {
+      if (!value.is_number() && !value.is_null()) continue;
+      if (std::ranges::find(figures, key, &Spread::figure) == figures.end()) {
+        figures.push_back({.figure = key, .values = {}, .goal = {}});
+      }
+    }
+  }
+  return figures;
+}
+
+}  // namespace
+
+Bounds share_interval(std::size_t hits, std::size_t count) {
+  if (count == 0) return {0, 1};
+  const double n = static_cast<double>(count), p = static_cast<double>(hits) / n;
+  const double z2 = kTwoSided95 * kTwoSided95;
+  const double middle = (p + z2 / (2 * n)) / (1 + z2 / n);
+  const double half = kTwoSided95 * std::sqrt(p * (1 - p) / n + z2 / (4 * n * n)) / (1 + z2 / n);
+  return {std::max(0.0, middle - half), std::min(1.0, middle + half)};
+}
+
+Bounds quantile_interval(const std::vector<double>& sorted, double part) {
+  const double n = static_cast<double>(sorted.size());
+  const double half = kTwoSided95 * std::sqrt(n * part * (1 - part));
+  const auto at = [&](double rank) {
+    return sorted[static_cast<std::size_t>(std::clamp(rank, 0.0, n - 1))];
+  };
+  return {at(std::floor(n * part - half)), at(std::ceil(n * part + half))};
+}
+
+double Spread::median() const { return bench::quantile(values, 0.5); }
+double Spread::p95() const { return bench::quantile(values, 0.95); }
+
+double Spread::rms() const {
+  double sum = 0;
+  for (const double value : values) sum += value * value;
+  return std::sqrt(sum / static_cast<double>(values.size()));
+}
+
+double Spread::share_at_most(double limit) const {
+  const auto below = std::ranges::upper_bound(values, limit) - values.begin();
+  return static_cast<double>(below) / static_cast<double>(runs());
+}
+
+bool RunSpread::is_ok() const {
+  const bool all_met =
+      std::ranges::all_of(goals, [](const JudgedSweepGoal& goal) { return goal.fault.empty(); });
+  return all_met && std::ranges::all_of(statuses, [&](const auto& status) {
+           return status.first == "ok" || (status.first == "goals_missed" && !goals.empty());
+         });
+}
+
+RunSpread spread_of(const std::vector<const Json*>& reports, const DeploymentConfig& config,
+                    std::vector<std::string> variation) {
+  RunSpread all{.variation = std::move(variation),
+                .figures = figures_of(reports),
+                .statuses = {},
+                .goals = {}};
+  for (Spread& spread : all.figures) {
+    const auto goal = std::ranges::find(config.goals, spread.figure, &Goal::metric);
+    if (goal != config.goals.end()) spread.goal = goal->limit;
+    for (const Json* report : reports) {
+      const auto value = report->find(spread.figure);
+      if (value == report->end() || !value->is_number()) {
+        ++spread.unmeasured;
+        continue;
+      }
+      spread.values.push_back(value->get<double>());
+      if (spread.goal && spread.values.back() <= *spread.goal) ++spread.met;
+    }
+    std::ranges::sort(spread.values);
+  }
+  for (const Json* report : reports) {
+    const std::string status = report->value("status", "");
+    const auto known =
+        std::ranges::find(all.statuses, status, &decltype(all.statuses)::value_type::first);
+    if (known == all.statuses.end()) {
+      all.statuses.emplace_back(status, 1);
+    } else {
+      ++known->second;
+    }
+  }
+  for (const SweepGoal& goal : config.sweep_goals) all.goals.push_back(judged(goal, all.figures));
+  return all;
+}
+
+}  // namespace armature::sweep

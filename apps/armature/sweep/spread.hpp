@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "armature/runtime/deployment_file/deployment_config.hpp"
+
+namespace armature::sweep {
+
+struct Bounds {
+  double low = 0, high = 0;
+};
+
+/// Where the true share lies in 95 of 100 cases when `hits` of `count` were seen (Wilson 1927).
+Bounds share_interval(std::size_t hits, std::size_t count);
+/// The same of a quantile: the values between which it lies, by their ranks (normal approximation
+/// of the binomial). `sorted` is not empty.
+Bounds quantile_interval(const std::vector<double>& sorted, double part);
+
+/// One figure of all runs.
+struct Spread {
+  std::string figure;
+  std::vector<double> values;  // of the runs that measured it, sorted
+  std::size_t unmeasured = 0;
+  std::optional<double> goal;  // of a single run, at most
+  std::size_t met = 0;         // runs
+
+  double median() const;
+  double p95() const;
+  double max() const { return values.back(); }
+  double rms() const;
+  /// Of all runs, measured or not.
+  double share_at_most(double limit) const;
+  std::size_t runs() const { return values.size() + unmeasured; }
+};
+
+/// A sweep goal held against the runs.
+struct JudgedSweepGoal {
+  SweepGoal goal;
+  double value = 0;
+  std::string fault;  // why it is not met, or ""
+};
+
+/// All runs of one combination.
+struct RunSpread {
+  std::vector<std::string> variation;                         // assignments
+  std::vector<Spread> figures;                                // in the order of the report
+  std::vector<std::pair<std::string, std::size_t>> statuses;  // "ok", 195
+  std::vector<JudgedSweepGoal> goals;
+  /// Whether all sweep goals are met and no run came to another end than ok or goals_missed;
+  /// without sweep goals every run must be ok.
+  bool is_ok() const;
+};
+
+RunSpread spread_of(const std::vector<const nlohmann::ordered_json*>& reports,
+                    const DeploymentConfig& config, std::vector<std::string> variation);
+
+}  // namespace armature::sweep

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sweep/sweep.hpp"
+
+#include <fmt/format.h>
+#include <poll.h>
+
+#include <algorithm>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <thread>
+#include <utility>
+
+#include "armature/runtime/reporting/output_folder.hpp"
+#include "exit_code.hpp"
+#include "inspect/plugins.hpp"
+#include "isolated.hpp"
+#include "progress.hpp"
+#include "readable_json.hpp"
+#include "sweep/finished_runs.hpp"
+#include "sweep/lockstep_run.hpp"
+#include "sweep/spread.hpp"
+#include "sweep/sweep_report.hpp"
+
+namespace armature {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using sweep::RunKey;
+
+/// The files with the values of one combination.
+struct Combination {
+  std::vector<std::string> variation;
+  DeploymentSource source;
+  DeploymentConfig config;  // with seed 0, for what does not depend on it
+};
+
+struct Job {
+  const Combination* combination;
+  RunKey key;
+};
+
+std::vector<Combination> combinations_of(const SweepOptions& options,
+                                         const PluginRegistry& plugins) {
+  std::vector<Combination> all;
+  for (const std::vector<std::string>& variation : sweep::combinations(options.vary)) {
+    DeploymentSource source = options.source;
+    source.assignments.insert(source.assignments.end(), variation.begin(), variation.end());
+    DeploymentSource without_seed = source;
+    without_seed.assignments.push_back("seed=0");
+    all.push_back({variation, std::move(source), read_for_lockstep(without_seed, plugins)});
+  }
+  return all;
+}
+
+std::string run_once(const Job& job, PluginRegistry& plugins) {
+  DeploymentSource source = job.combination->source;
+  source.assignments.push_back(fmt::format("seed={}", job.key.seed));
+  return lockstep_report(read_for_lockstep(source, plugins), plugins);
+}
+
+/// A process that crashed or hung has a report, too.
+Json report_of(const Isolated& outcome) {
+  if (outcome.fault.empty()) return Json::parse(outcome.result);
+  return Json{{"status", "crashed"}, {"reason", outcome.fault}};
+}
+
+/// Runs what is missing, so many at a time.
+class Runs {
+ public:
+  Runs(const SweepOptions& options, PluginRegistry& plugins, sweep::FinishedRuns& finished)
+      : options_{options}, plugins_{plugins}, finished_{finished} {}
+
+  void run(const std::vector<Job>& jobs) {
+    Progress progress{"runs"};
+    for (std::size_t next = 0, done = 0; done < jobs.size();) {
+      while (next < jobs.size() && running_.size() < at_once()) start(jobs[next++]);
+      wait();
+      done += collect();
+      progress.of(done, jobs.size());
+    }
+  }
+
+ private:
+  struct Running {
+    const Job* job;
+    std::unique_ptr<IsolatedWork> work;
+  };
+
+  std::size_t at_once() const {
+    const unsigned processors = std::max(1u, std::thread::hardware_concurrency());
+    return options_.jobs > 0 ? static_cast<std::size_t>(options_.jobs) : processors;
+  }
+
+  void start(const Job& job) {
+    running_.push_back({&job, std::make_unique<IsolatedWork>(
+                                  options_.timeout_s, [&] { return run_once(job, plugins_); })});
+  }
+
+  void wait() const {
+    constexpr int kLongest_ms = 100;
+    std::vector<pollfd> ready;
+    for (const Running& one : running_) ready.push_back({one.work->descriptor(), POLLIN, 0});
+    poll(ready.data(), ready.size(), kLongest_ms);
+  }
+
+  std::size_t collect() {
+    return std::erase_if(running_, [&](Running& one) {
+      if (!one.work->is_over()) return false;
+      finished_.add(one.job->key, report_of(one.work->outcome()));
+      return true;
+    });
+  }
+
+  const SweepOptions& options_;
+  PluginRegistry& plugins_;
+  sweep::FinishedRuns& finished_;
+  std::vector<Running> running_;
+};
+
+}  // namespace
+
+int sweep_deployment(const SweepOptions& options) {
+  PluginRegistry plugins;
+  tell_warnings(plugins);
+  const std::vector<Combination> combinations = combinations_of(options, plugins);
+  if (options.out) prepare_output_folder(*options.out);
+  sweep::FinishedRuns finished{options.out ? std::optional{*options.out / "runs.jsonl"}
+                                           : std::nullopt};
+  std::vector<Job> missing;
+  std::size_t known = 0;
+  for (const Combination& combination : combinations) {
+    for (const std::uint64_t seed : options.seeds) {
+      const RunKey key{combination.config.fingerprint, seed};
+      if (finished.find(key)) {
+        ++known;
+      } else {
+        missing.push_back({&combination, key});
+      }
+    }
+  }
+  if (known > 0) {
+    fmt::print(stderr, "armature: {} of {} runs are in {} already\n", known, known + missing.size(),
+               options.out->string());
+  }
+  Runs{options, plugins, finished}.run(missing);
+
+  std::vector<sweep::RunSpread> spreads;
+  for (const Combination& combination : combinations) {
+    std::vector<const Json*> reports;
+    for (const std::uint64_t seed : options.seeds) {
+      reports.push_back(finished.find({combination.config.fingerprint, seed}));
+    }
+    spreads.push_back(sweep::spread_of(reports, combination.config, combination.variation));
+  }
+  if (options.out) sweep::write_files(*options.out, spreads);
+  Json json = Json::array();
+  for (const sweep::RunSpread& spread : spreads) {
+    if (options.json) {
+      json.push_back(to_json(spread));
+    } else {
+      fmt::print("{}", to_text(spread));
+    }
+  }
+  if (options.json) fmt::print("{}\n", readable(json));
+  return std::ranges::all_of(spreads, &sweep::RunSpread::is_ok) ? kOk : kFailed;
+}
+
+}  // namespace armature

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sweep/sweep_report.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "armature/plot/chart.hpp"
+#include "armature/runtime/deployment_file/goals.hpp"
+#include "armature/runtime/reporting/write_atomically.hpp"
+#include "colour.hpp"
+
+namespace armature::sweep {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string name_of(const RunSpread& spread) {
+  return spread.variation.empty() ? "all" : fmt::format("{}", fmt::join(spread.variation, ", "));
+}
+
+std::string text_of(const Spread& spread, std::size_t width) {
+  if (spread.values.empty()) {
+    return fmt::format("  {:<{}}  {:>5}  not measured\n", spread.figure, width, 0);
+  }
+  const Bounds p95 = quantile_interval(spread.values, 0.95);
+  std::string text =
+      fmt::format("  {:<{}}  {:>5}  {:>10.4g}  {:>10.4g}  [{:.4g}, {:.4g}]", spread.figure, width,
+                  spread.values.size(), spread.median(), spread.p95(), p95.low, p95.high);
+  text = fmt::format("{:<{}}  {:>10.4g}  {:>10.4g}", text, width + 57, spread.max(), spread.rms());
+  if (spread.goal) {
+    const Bounds met = share_interval(spread.met, spread.runs());
+    text +=
+        fmt::format("  {:>8g}  {:>5.1f} % [{:.1f}, {:.1f}]", *spread.goal,
+                    100.0 * static_cast<double>(spread.met) / static_cast<double>(spread.runs()),
+                    100 * met.low, 100 * met.high);
+  }
+  return text + '\n';
+}
+
+std::string text_of(const JudgedSweepGoal& judged) {
+  const SweepGoal& goal = judged.goal;
+  std::string wanted;
+  if (goal.at_least) wanted = fmt::format("at least {:g}", *goal.at_least);
+  if (goal.at_most) {
+    wanted += fmt::format("{}at most {:g}", wanted.empty() ? "" : ", ", *goal.at_most);
+  }
+  const std::string what = goal.statistic == SweepGoal::Statistic::share
+                               ? fmt::format("share of runs at most {:g}", goal.share_of)
+                               : std::string{to_string(goal.statistic)};
+  const bool is_met = judged.fault.empty();
+  return fmt::format("  {}, {}: {:.4g}; {}  {}\n", goal.metric, what, judged.value, wanted,
+                     is_met ? coloured("met", Tone::good, stdout)
+                            : coloured("MISSED: " + judged.fault, Tone::bad, stdout));
+}
+
+std::string csv_of(const std::vector<RunSpread>& spreads) {
+  std::string csv =
+      "variation,figure,runs,not_measured,median,p95,p95_low,p95_high,greatest,rms,goal,met\r\n";
+  for (const RunSpread& one : spreads) {
+    for (const Spread& spread : one.figures) {
+      if (spread.values.empty()) continue;
+      const Bounds p95 = quantile_interval(spread.values, 0.95);
+      csv += fmt::format("\"{}\",{},{},{},{},{},{},{},{},{},{},{}\r\n", name_of(one), spread.figure,
+                         spread.values.size(), spread.unmeasured, spread.median(), spread.p95(),
+                         p95.low, p95.high, spread.max(), spread.rms(),
+                         spread.goal ? fmt::format("{}", *spread.goal) : "",
+                         spread.goal ? fmt::format("{}", spread.met) : "");
+    }
+  }
+  return csv;
+}
+
+/// As steps: two points for each of its columns.
+plot::Curve histogram_of(const std::vector<double>& sorted, double low, double high,
+                         std::size_t in_legend) {
+  constexpr int kColumns = 30;
+  const double width = high > low ? (high - low) / kColumns : 1;
+  std::vector<double> counts(kColumns);
+  for (const double value : sorted) {
+    const auto column = static_cast<std::size_t>(
+        std::clamp(static_cast<int>((value - low) / width), 0, kColumns - 1));
+    counts[column] += 1;
+  }
+  plot::Curve curve{.in_legend = in_legend, .x = {low}, .y = {0}};
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    for (const std::size_t edge : {i, i + 1}) {
+      curve.x.push_back(low + static_cast<double>(edge) * width);
+      curve.y.push_back(counts[i]);
+    }
+  }
+  curve.x.push_back(curve.x.back());
+  curve.y.push_back(0);
+  return curve;
+}
+
+plot::Chart chart_of(const std::string& figure, const std::vector<RunSpread>& spreads) {
+  plot::Chart chart{
+      .title = "Runs by " + figure, .legend = {}, .x = {.label = figure}, .panels = {}};
+  plot::Panel& panel = chart.panels.emplace_back();
+  panel.y.label = "runs";
+  std::vector<std::pair<std::string, const Spread*>> curves;
+  for (const RunSpread& one : spreads) {
+    const auto spread = std::ranges::find(one.figures, figure, &Spread::figure);
+    if (spread != one.figures.end() && !spread->values.empty()) {
+      curves.emplace_back(name_of(one), &*spread);
+    }
+  }
+  double low = curves.front().second->values.front(), high = low;
+  for (const auto& [name, spread] : curves) {
+    low = std::min(low, spread->values.front());
+    high = std::max(high, spread->values.back());
+  }
+  for (const auto& [name, spread] : curves) {
+    panel.curves.push_back(histogram_of(spread->values, low, high, chart.legend.size()));
+    chart.legend.push_back(plot::line_of(chart.legend.size(), name));
+  }
+  return chart;
+}
+
+}  // namespace
+
+std::string to_text(const RunSpread& spread) {
+  std::size_t width = 6;
+  for (const Spread& figure : spread.figures) width = std::max(width, figure.figure.size());
+  std::string text;
+  if (!spread.variation.empty()) text += name_of(spread) + '\n';
+  text += fmt::format("  {:<{}}  {:>5}  {:>10}  {:>10}  {:<22}  {:>10}  {:>10}  {:>8}  {}\n",
+                      "figure", width, "runs", "median", "p95", "[95 % interval]", "greatest",
+                      "rms", "goal", "met [95 % interval]");
+  for (const Spread& figure : spread.figures) text += text_of(figure, width);
+  text += "  runs: ";
+  for (const auto& [status, count] : spread.statuses) text += fmt::format("{} {}  ", count, status);
+  text += '\n';
+  if (!spread.goals.empty()) text += "sweep goals\n";
+  for (const JudgedSweepGoal& goal : spread.goals) text += text_of(goal);
+  return text;
+}
+
+Json to_json(const RunSpread& spread) {
+  Json json{{"variation", spread.variation}, {"ok", spread.is_ok()}};
+  json["statuses"] = Json::object();
+  for (const auto& [status, count] : spread.statuses) json["statuses"][status] = count;
+  json["figures"] = Json::object();
+  for (const Spread& figure : spread.figures) {
+    Json one{{"runs", figure.values.size()}, {"not_measured", figure.unmeasured}};
+    if (!figure.values.empty()) {
+      const Bounds p95 = quantile_interval(figure.values, 0.95);
+      one.update({{"median", figure.median()},
+                  {"p95", figure.p95()},
+                  {"p95_interval", {p95.low, p95.high}},
+                  {"greatest", figure.max()},
+                  {"rms", figure.rms()}});
+    }
+    if (figure.goal) one.update({{"goal", *figure.goal}, {"met", figure.met}});
+    json["figures"][figure.figure] = std::move(one);
+  }
+  json["sweep_goals"] = Json::array();
+  for (const JudgedSweepGoal& goal : spread.goals) {
+    Json one{{"figure", goal.goal.metric},
+             {"statistic", to_string(goal.goal.statistic)},
+             {"value", goal.value},
+             {"met", goal.fault.empty()}};
+    json["sweep_goals"].push_back(std::move(one));
+  }
+  return json;
+}
+
+void write_files(const std::filesystem::path& folder, const std::vector<RunSpread>& spreads) {
+  constexpr FileUse kUse = FileUse::named_by_user;
+  write_atomically(folder / "figures.csv", csv_of(spreads), kUse);
+  for (const RunSpread& one : spreads) {
+    for (const Spread& figure : one.figures) {
+      if (figure.values.empty()) continue;
+      write_atomically(folder / (figure.figure + ".svg"),
+                       plot::to_svg(chart_of(figure.figure, spreads)), kUse);
+    }
+  }
+}
+
+}  // namespace armature::sweep

@@ -13,16 +13,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr std::array kAxes{"x", "y", "z"};
-
 std::string theta(int i) { return "theta" + std::to_string(i + 1); }
-
-void add_axes(const std::string& table, const std::string& row, const Vector3d& at,
-              Results& results) {
-  for (int i = 0; i < 3; ++i) {
-    results.value(table, row + "." + kAxes[static_cast<std::size_t>(i)], at[i]);
-  }
-}
 
 /// (40) to (42).
 void add_inverse(const Numbers& numbers, LampExample& lamp, Results& results) {
@@ -58,12 +49,12 @@ void add_points(const Numbers& numbers, LampExample& lamp, Results& results) {
   results.value(table, "P0.x at theta=0", 1e3 * at_zero.x());
   results.value(table, "P0.z at theta=0", 1e3 * at_zero.z());
   results.value(table, "m.y", inferred_mouth_y_mm(numbers["example"]));
-  add_axes(table, "n", lamp.n, results);
+  results.point(table, "n", lamp.n);
   const std::vector<ToolPose> points = lamp.mouth_points();
   for (std::size_t k = 0; k < points.size(); ++k) {
     const std::string name = "P" + std::to_string(k + 1);
-    add_axes(table, name, 1e3 * points[k].position, results);
-    add_axes(table, name + "_dir", direction_of(points[k]), results);
+    results.point(table, name, 1e3 * points[k].position);
+    results.point(table, name + "_dir", direction_of(points[k]));
     const JointVector q = lamp.all_joints(lamp.joints(points[k]));
     for (int i = 0; i < 6; ++i) results.value(table, theta(i) + "(" + name + ")", q[i]);
   }
@@ -195,19 +186,19 @@ void add_simulation(const Numbers& numbers, LampExample& lamp, Results& results)
   const std::string table = "section_5";
   const Vector3d left_eye = seen(numbers, "left_eye"), right_eye = seen(numbers, "right_eye"),
                  seen_mouth = seen(numbers, "mouth");
-  add_axes(table, "mouth", seen_mouth, results);
+  results.point(table, "mouth", seen_mouth);
   results.value(table, "eyes.x", left_eye.x());
   results.value(table, "left eye.y", left_eye.y());
   results.value(table, "left eye.z", left_eye.z());
   results.value(table, "right eye.y", right_eye.y());
   results.value(table, "right eye.z", right_eye.z());
-  add_axes(table, "face normal", (right_eye - seen_mouth).cross(left_eye - seen_mouth).normalized(),
-           results);
+  results.point(table, "face normal",
+                (right_eye - seen_mouth).cross(left_eye - seen_mouth).normalized());
   const Numbers test = numbers["simulation"];
   const JointVector start =
       lamp.model().to_independent(kDegree * test["start_deg"].numbers()).value();
-  add_axes(table, "lamp at the start", 1e3 * forward_kinematics(lamp.model(), start).translation(),
-           results);
+  results.point(table, "lamp at the start",
+                1e3 * forward_kinematics(lamp.model(), start).translation());
   const Vector3d mouth = test["mouth"].numbers(), lamp_at = test["lamp"].numbers();
   const Vector3d measured = test["mouth_measured"].numbers();
   const Vector3d turns = kDegree * Vector3d{test["photo_deg"].numbers()};
@@ -217,7 +208,7 @@ void add_simulation(const Numbers& numbers, LampExample& lamp, Results& results)
                                     .toRotationMatrix();
   results.value(table, "photo normal.z", photo(2, 2));
   results.value(table, "sphere distance", (mouth - lamp_at).norm());
-  add_axes(table, "mouth error", measured - mouth, results);
+  results.point(table, "mouth error", measured - mouth);
   results.value(table, "mouth error", (measured - mouth).norm());
   results.value(table, "normal deviation",
                 angle_between(test["normal_measured"].numbers().head<3>(),

@@ -6,6 +6,12 @@
 
 namespace armature::reproduce {
 
+void Results::point(const std::string& table, const std::string& row, const Eigen::Vector3d& at) {
+  value(table, row + ".x", at.x());
+  value(table, row + ".y", at.y());
+  value(table, row + ".z", at.z());
+}
+
 double Results::value(const std::string& table, const std::string& row) const {
   const auto of_table = values_.find(table);
   if (of_table != values_.end()) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <Eigen/Core>
 #include <map>
 #include <string>
 #include <vector>
@@ -15,6 +16,8 @@ class Results {
   void value(const std::string& table, const std::string& row, double value) {
     values_[table][row] = value;
   }
+  /// Rows "<row>.x", "<row>.y", "<row>.z".
+  void point(const std::string& table, const std::string& row, const Eigen::Vector3d& at);
   /// Throws std::out_of_range with the names when it was not computed.
   double value(const std::string& table, const std::string& row) const;
 

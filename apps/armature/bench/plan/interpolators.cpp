@@ -8,7 +8,7 @@
 #include <numbers>
 #include <random>
 
-#include "armature/robot/orientations/orientation_curve.hpp"
+#include "armature/robot/orientations/curve_measures.hpp"
 #include "bench/clock.hpp"
 #include "bench/random_joints.hpp"
 #include "bench/statistics.hpp"
@@ -19,8 +19,9 @@ namespace {
 using Keys = std::vector<Eigen::Quaterniond>;
 
 constexpr std::array kNames{"slerp", "squad", "rotvec_bspline", "chart_bspline"};
-constexpr int kSamplesOfACurve = 1000;
-constexpr double kBeside = 1e-7;  // of the parameter, before and behind the place of a jump
+constexpr int kSamplesOfACurve = 1000;  // that are timed
+constexpr int kSamplesOfAPiece = 40;
+constexpr double kBeside = 1e-6;  // of a piece, before and behind the place of a jump
 
 /// Uniform over all rotations (Shoemake 1992, "Uniform random rotations").
 Eigen::Quaterniond any_rotation(std::mt19937_64& random) {
@@ -34,37 +35,6 @@ struct Figures {
   std::vector<double> build_s, sample_s, with_acceleration_s, turn, peak, velocity_jump,
       acceleration_jump;
 };
-
-double turn_of(const OrientationCurve& curve) {
-  double turn = 0;
-  Eigen::Quaterniond before = curve.at(0).rotation;
-  for (int i = 1; i <= kSamplesOfACurve; ++i) {
-    const Eigen::Quaterniond here = curve.at(static_cast<double>(i) / kSamplesOfACurve).rotation;
-    turn += before.angularDistance(here);
-    before = here;
-  }
-  return turn;
-}
-
-double peak_of(const OrientationCurve& curve) {
-  double peak = 0;
-  for (int i = 0; i <= kSamplesOfACurve; ++i) {
-    peak = std::max(peak, curve.at(static_cast<double>(i) / kSamplesOfACurve).acceleration.norm());
-  }
-  return peak;
-}
-
-void add_jumps(const OrientationCurve& curve, Figures& figures) {
-  double velocity = 0, acceleration = 0;
-  for (const double u : curve.piece_starts()) {
-    if (u < kBeside) continue;
-    const OrientationState before = curve.at(u - kBeside), behind = curve.at(u + kBeside);
-    velocity = std::max(velocity, (behind.velocity - before.velocity).norm());
-    acceleration = std::max(acceleration, (behind.acceleration - before.acceleration).norm());
-  }
-  figures.velocity_jump.push_back(velocity);
-  figures.acceleration_jump.push_back(acceleration);
-}
 
 /// [s] of one sample of many.
 double sample_time(const OrientationCurve& curve, Rates rates, double clock_s) {
@@ -110,11 +80,13 @@ std::vector<InterpolatorRow> measure_interpolators(int curves, int keys, std::ui
       const auto kind = *orientation_interpolator(kNames[k]);
       const auto curve = OrientationCurve::through(own, kind);
       if (!curve) continue;  // two neighbours half a turn apart
-      const double turn = turn_of(*curve);
+      const double turn = total_rotation(*curve, kSamplesOfAPiece);
       if (k == 0) shortest = turn;
       figures[k].turn.push_back(turn / shortest);
-      figures[k].peak.push_back(peak_of(*curve));
-      add_jumps(*curve, figures[k]);
+      figures[k].peak.push_back(peaks_of(*curve, kSamplesOfAPiece).acceleration);
+      const OrientationJump jump = largest_jump_beside(*curve, kBeside);
+      figures[k].velocity_jump.push_back(jump.velocity);
+      figures[k].acceleration_jump.push_back(jump.acceleration);
       add_times(own, kind, repetitions, clock_s, figures[k]);
     }
   }

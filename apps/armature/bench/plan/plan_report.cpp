@@ -47,7 +47,9 @@ std::string table(const PlanReport& report) {
              "acceleration limits allow, median\ninterpolators: {} random keys, parameter 0 to 1; "
              "a sample is the rotation and its angular velocity, with acc\nits angular "
              "acceleration "
-             "too; turn as a multiple of the great arcs', rates in rad\ntimes: the least of {} "
+             "too; turn as a multiple of the great arcs', rates in rad; keys at parameters in "
+             "proportion\nto their turns, squad with the velocity at a key of its two turns over "
+             "their time\ntimes: the least of {} "
              "repetitions; medians\n{}\n",
              report.motions, report.robot, report.seed, report.keys, report.repetitions,
              to_text(report.machine));

@@ -1,0 +1,302 @@
+// SPDX-License-Identifier: Apache-2.0
+// Zhong et al. 2023: curves through many orientations, and an arm that follows them.
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <stdexcept>
+
+#include "armature/kinds/trajectory/time_law.hpp"
+#include "armature/motion/goal_planner.hpp"
+#include "armature/robot/geometry/rotation_vector.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
+#include "armature/robot/orientations/corner_blend.hpp"
+#include "armature/robot/orientations/curve_measures.hpp"
+#include "reproduce/papers.hpp"
+#include "reproduce/plugins.hpp"
+
+namespace armature::reproduce {
+namespace {
+
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+using Keys = std::vector<Quaterniond>;
+
+struct Interpolator {
+  const char* name;
+  OrientationInterpolator kind;
+};
+constexpr std::array kInterpolators{
+    Interpolator{"slerp", OrientationInterpolator::slerp},
+    Interpolator{"squad", OrientationInterpolator::squad},
+    Interpolator{"rotvec_bspline", OrientationInterpolator::rotvec_bspline},
+    Interpolator{"chart_bspline", OrientationInterpolator::chart_bspline}};
+
+/// At even parameters for SQUAD, as Shoemake has it; the others at one common speed.
+OrientationCurve curve_of(const Keys& keys, OrientationInterpolator kind) {
+  std::vector<double> even;
+  if (kind == OrientationInterpolator::squad) {
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+      even.push_back(static_cast<double>(i) / static_cast<double>(keys.size() - 1));
+    }
+  }
+  return OrientationCurve::through(keys, kind, even).value();
+}
+
+Keys table3_keys(const Numbers& numbers) {
+  Keys keys;
+  for (std::size_t i = 0; i < numbers["quaternions"].size(); ++i) {
+    const Eigen::VectorXd wxyz = numbers["quaternions"][i].numbers();
+    keys.push_back(Quaterniond{wxyz[0], wxyz[1], wxyz[2], wxyz[3]}.normalized());
+  }
+  return keys;
+}
+
+/// The keys, the control points between them, and what each curve turns by.
+void add_table3(const Keys& keys, Results& results) {
+  const std::string table = "table_3";
+  std::vector<Vector3d> P;
+  for (const Quaterniond& key : keys) P.push_back(rotation_vector_of(key));
+  for (std::size_t i = 0; i < 3; ++i) results.point(table, std::string{"P_"} + "ABC"[i], P[i]);
+  const double l0 = 0.5 * std::min((P[0] - P[1]).norm(), (P[2] - P[1]).norm());
+  const Vector3d D = P[1] + l0 * (P[0] - P[1]).normalized();
+  const Vector3d E = P[1] + l0 * (P[2] - P[1]).normalized();
+  const CornerControls controls = corner_controls(D, P[1], E, D - P[0], P[2] - E);
+  for (std::size_t i = 0; i < controls.size(); ++i) {
+    results.point(table, "d" + std::to_string(i), controls[i]);
+  }
+  for (const auto& [name, kind] : kInterpolators) {
+    results.value(table, std::string{"total rotation, "} + name,
+                  total_rotation(curve_of(keys, kind)));
+  }
+  const OrientationPeaks peaks = peaks_of(curve_of(keys, OrientationInterpolator::rotvec_bspline));
+  // The paper counts a piece as 1, and there are three.
+  results.value(table, "peak velocity, rotvec_bspline", peaks.velocity / 3);
+}
+
+/// Uniform over all rotations.
+Keys random_keys(std::mt19937_64& random, std::size_t count) {
+  std::normal_distribution<double> normal;
+  Keys keys(count);
+  for (Quaterniond& key : keys) {
+    for (double& part : key.coeffs()) part = normal(random);
+    key.normalize();
+  }
+  return keys;
+}
+
+/// Total rotations of curves through so many keys at random, as multiples of SLERP's; of few keys
+/// the mean of many curves.
+void add_table5(Results& results) {
+  struct Size {
+    std::size_t keys;
+    int curves;
+  };
+  constexpr int kPartsOfAPiece = 40;
+  for (const auto& [count, curves] : {Size{3, 2000}, Size{100, 40}, Size{1000, 4}}) {
+    std::mt19937_64 random{count};
+    std::array<double, kInterpolators.size()> total{};
+    for (int i = 0; i < curves; ++i) {
+      const Keys keys = random_keys(random, count);
+      for (std::size_t k = 0; k < kInterpolators.size(); ++k) {
+        total[k] += total_rotation(curve_of(keys, kInterpolators[k].kind), kPartsOfAPiece);
+      }
+    }
+    const std::string size = std::to_string(count) + " keys, ";
+    results.value("table_5", size + "slerp, of an arc",
+                  total[0] / curves / static_cast<double>(count - 1));
+    for (std::size_t k = 1; k < kInterpolators.size(); ++k) {
+      results.value("table_5", size + kInterpolators[k].name + " of slerp", total[k] / total[0]);
+    }
+  }
+}
+
+/// [s] to build a curve and to take a thousand samples of each of its arcs: the least of five.
+double seconds_for(const Keys& keys, OrientationInterpolator kind) {
+  using Clock = std::chrono::steady_clock;
+  volatile double kept = 0;  // so that no sample can be left out
+  double least = std::numeric_limits<double>::infinity();
+  for (int repetition = 0; repetition < 5; ++repetition) {
+    const auto start = Clock::now();
+    const OrientationCurve curve = curve_of(keys, kind);
+    double sum = 0;
+    for (const double u : parameters_along(curve, 1000)) {
+      sum += curve.at(u, Rates::velocity).rotation.w();
+    }
+    kept = sum;
+    least = std::min(least, std::chrono::duration<double>{Clock::now() - start}.count());
+  }
+  static_cast<void>(kept);
+  return least / static_cast<double>(curve_of(keys, kind).piece_starts().size());
+}
+
+/// Computing times as multiples of SLERP's, for a sample of each.
+void add_table4(Results& results) {
+  std::mt19937_64 random{4};
+  for (const std::size_t count : {std::size_t{3}, std::size_t{50}, std::size_t{100}}) {
+    const Keys keys = random_keys(random, count);
+    const double slerp = seconds_for(keys, OrientationInterpolator::slerp);
+    const double squad = seconds_for(keys, OrientationInterpolator::squad);
+    const double spline = seconds_for(keys, OrientationInterpolator::rotvec_bspline);
+    const std::string size = std::to_string(count) + " keys, ";
+    results.value("table_4", size + "squad of slerp", squad / slerp);
+    results.value("table_4", size + "rotvec_bspline of slerp", spline / slerp);
+  }
+}
+
+/// Where a rotation takes z: the map of Hopf from quaternions to the sphere.
+Vector3d hopf(const Quaterniond& q) { return q * Vector3d::UnitZ(); }
+
+Vector3d euler_zyx_deg(const Quaterniond& q) {
+  const Eigen::Matrix3d R = q.toRotationMatrix();
+  return 180 / M_PI *
+         Vector3d{std::atan2(R(1, 0), R(0, 0)), -std::asin(std::clamp(R(2, 0), -1.0, 1.0)),
+                  std::atan2(R(2, 1), R(2, 2))};
+}
+
+/// Figures 4 to 7.
+void add_figures(const Keys& keys, Results& results) {
+  constexpr int kSamples = 300;
+  std::vector<double> x, y, z;
+  for (const Quaterniond& key : keys) {
+    x.push_back(hopf(key).x());
+    y.push_back(hopf(key).y());
+    z.push_back(hopf(key).z());
+  }
+  results.curve("figure_4", 0, "keys", x, y, Results::Look::dots);
+  results.curve("figure_4", 1, "keys", x, z, Results::Look::dots);
+  constexpr std::array kFigures{"figure_5", "figure_6", "figure_7"};
+  for (std::size_t k = 0; k < kFigures.size(); ++k) {
+    const OrientationCurve curve = curve_of(keys, kInterpolators[k].kind);
+    std::vector<double> u;
+    std::array<std::vector<double>, 3> place, angle, velocity, acceleration;
+    for (int i = 0; i <= kSamples; ++i) {
+      u.push_back(static_cast<double>(i) / kSamples);
+      const OrientationState state = curve.at(u.back());
+      const Vector3d at = hopf(state.rotation), euler = euler_zyx_deg(state.rotation);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto j = static_cast<Eigen::Index>(axis);
+        place[axis].push_back(at[j]);
+        angle[axis].push_back(euler[j]);
+        velocity[axis].push_back(state.velocity[j]);
+        acceleration[axis].push_back(state.acceleration[j]);
+      }
+    }
+    results.curve("figure_4", 0, kInterpolators[k].name, place[0], place[1]);
+    results.curve("figure_4", 1, kInterpolators[k].name, place[0], place[2]);
+    constexpr std::array kAngles{"about z", "about y", "about x"};
+    constexpr std::array kAxes{"along x", "along y", "along z"};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      results.curve(kFigures[k], 0, kAngles[axis], u, angle[axis]);
+      results.curve(kFigures[k], 1, kAxes[axis], u, velocity[axis]);
+      results.curve(kFigures[k], 2, kAxes[axis], u, acceleration[axis]);
+    }
+  }
+}
+
+/// The LBR Med 7 turns its tool through the keys of table 3, laid about its pose at home, by the
+/// plugins as they are deployed.
+class TurningArm {
+ public:
+  explicit TurningArm(const Keys& keys) {
+    const Eigen::Isometry3d home = forward_kinematics(model_, home_);
+    for (const Quaterniond& key : keys) {
+      keys_.push_back(Quaterniond{home.linear()} * keys[1].conjugate() * key);
+    }
+    place_ = home.translation();
+  }
+
+  Trajectory planned(const std::string& interpolator) {
+    const PlanStages stages{
+        plugins_.get<PathPlanner>("path/orientations", "{interpolator: " + interpolator + "}",
+                                  model_),
+        plugins_.get<IkSolver>("ik/srs_arm_angle", "{objective: limits}", model_),
+        plugins_.get<BranchSelector>("select/nearest", "", model_),
+        plugins_.get<TrajectoryPlanner>("trajectory/quintic_spline", "")};
+    GoalPlanner planner{model_, stages, {model_.max_velocity(), model_.max_acceleration()}};
+    const JointVector rest = JointVector::Zero(model_.dof());
+    MotionGoal to_first;
+    to_first.id = 1;
+    to_first.pose = {place_, keys_.front()};
+    const Trajectory approach = plan_of(planner, to_first, {home_, rest, rest});
+    MotionGoal through;
+    through.id = 2;
+    through.through = {{place_, keys_[1]}};
+    through.pose = {place_, keys_.back()};
+    return plan_of(planner, through, {approach.at(approach.end()).q, rest, rest});
+  }
+
+  /// How far the tool is from the curve, in place and in turn, at 2001 instants.
+  void compare(const Trajectory& plan, OrientationInterpolator kind, double& off_m,
+               double& turned_rad) const {
+    const OrientationCurve curve = OrientationCurve::through(keys_, kind).value();
+    const TimeLaw law{plan.duration_s()};
+    for (int i = 0; i <= 2000; ++i) {
+      const double t = law.duration_s() * i / 2000;
+      const Eigen::Isometry3d tool = forward_kinematics(model_, plan.at(plan.start + seconds(t)).q);
+      off_m = std::max(off_m, (tool.translation() - place_).norm());
+      turned_rad = std::max(turned_rad,
+                            turn_between(Quaterniond{tool.linear()}, curve.at(law.s(t)).rotation));
+    }
+  }
+
+  const RobotModel& model() const { return model_; }
+
+ private:
+  static Trajectory plan_of(GoalPlanner& planner, const MotionGoal& goal, const JointState& from) {
+    const auto plan = planner.plan(goal, from, Time{});
+    if (!plan)
+      throw std::runtime_error(std::string{plan.error().stage} + ": " + plan.error().reason);
+    return plan->trajectory;
+  }
+
+  RobotModel model_ = shipped_robot("med7");
+  JointVector home_ = *model_.home();
+  Plugins plugins_;
+  Keys keys_;
+  Vector3d place_;
+};
+
+void add_robot(const Keys& keys, Results& results) {
+  TurningArm arm{keys};
+  const Trajectory plan = arm.planned("chart_bspline");
+  double off_m = 0, turned_rad = 0;
+  arm.compare(plan, OrientationInterpolator::chart_bspline, off_m, turned_rad);
+  results.value("robot", "tool off its place", 1e3 * off_m);
+  results.value("robot", "turn off the curve", turned_rad);
+  results.value("robot", "speed at the ends",
+                std::max(plan.at(plan.start).v.norm(), plan.at(plan.end()).v.norm()));
+  results.value("robot", "slerp's time of chart_bspline's",
+                arm.planned("slerp").duration_s() / plan.duration_s());
+  constexpr int kSamples = 300;
+  std::vector<double> time;
+  std::vector<std::vector<double>> q(7), v(7);
+  for (int i = 0; i <= kSamples; ++i) {
+    time.push_back(plan.duration_s() * i / kSamples);
+    const JointState state = plan.at(plan.start + seconds(time.back()));
+    for (std::size_t j = 0; j < 7; ++j) {
+      q[j].push_back(state.q[static_cast<Eigen::Index>(j)]);
+      v[j].push_back(state.v[static_cast<Eigen::Index>(j)]);
+    }
+  }
+  for (std::size_t j = 0; j < 7; ++j) {
+    results.curve("robot_joints", 0, arm.model().joints()[j].name, time, q[j]);
+    results.curve("robot_joints", 1, arm.model().joints()[j].name, time, v[j]);
+  }
+}
+
+}  // namespace
+
+void compute_implant(const Numbers& numbers, bool with_long, Results& results) {
+  const Keys keys = table3_keys(numbers);
+  add_table3(keys, results);
+  add_figures(keys, results);
+  add_robot(keys, results);
+  if (!with_long) return;
+  add_table4(results);
+  add_table5(results);
+}
+
+}  // namespace armature::reproduce

@@ -45,7 +45,7 @@ TEST_P(Reproduce, EveryRowHoldsAndEveryFigureIsWritten) {
   fs::remove_all(folder);
 }
 
-INSTANTIATE_TEST_SUITE_P(Papers, Reproduce, testing::Values("lamp", "implant", "master"),
+INSTANTIATE_TEST_SUITE_P(Papers, Reproduce, testing::Values("lamp", "sr1", "implant", "master"),
                          [](const auto& of) { return std::string{of.param}; });
 
 TEST(ReproduceCommand, NamesThePapersWhereThereIsNoSuchOne) {

@@ -9,14 +9,11 @@
 #include "armature/config/document.hpp"
 #include "armature/kinds/registration/marker_matching.hpp"
 #include "armature/kinds/registration/registration.hpp"
-#include "armature/kinds/registration/target_error.hpp"
 #include "armature/runtime/plugins/plugin_registry.hpp"
 #include "reference_file.hpp"
 
 namespace armature::paper {
 namespace {
-
-constexpr double kMarkerError = 0.0005;  // [m] rms
 
 PluginPtr<Registrar> registrar(const std::string& id) {
   static PluginRegistry plugins{{ARMATURE_PLUGIN_BUILD_DIR}};
@@ -47,12 +44,17 @@ Eigen::Matrix3d matrix(const Figures& rows) {
   return m;
 }
 
-Eigen::Vector3d target() { return sr1()["registration"]["case"]["target_image"].point_m(); }
+/// The last column of a transform.
+Eigen::Vector3d translation(const Figures& rows) {
+  Eigen::Vector3d t;
+  for (std::size_t i = 0; i < 3; ++i) t[static_cast<Eigen::Index>(i)] = 1e-3 * rows[i][3].number();
+  return t;
+}
 
 /// Figures are printed to 1e-12 and, lengths, to 1e-9 mm; exact markers to 1e-9 mm.
 constexpr double kLastFigure = 1e-11, kLastDigit = 1e-12;
 
-TEST(Sr1Registration, ExactMarkersLeadToTheExactTarget) {
+TEST(Sr1Registration, ExactMarkersLeadToTheExactMap) {
   const Figures figures = sr1()["registration"]["case"];
   for (const char* id : {"registration/affine4", "registration/frame3", "registration/rigid"}) {
     SCOPED_TRACE(id);
@@ -60,7 +62,7 @@ TEST(Sr1Registration, ExactMarkersLeadToTheExactTarget) {
     ASSERT_TRUE(found) << found.error().text;
     EXPECT_LT((found->robot_T_image.linear() - matrix(figures["R_robot_image"])).norm(),
               kLastFigure);
-    EXPECT_LT((found->robot_T_image * target() - figures["target_robot_exact"].point_m()).norm(),
+    EXPECT_LT((found->robot_T_image.translation() - figures["t_robot_image"].point_m()).norm(),
               2e-12);
     EXPECT_LT(found->fre_m, 1e-12);
   }
@@ -72,9 +74,6 @@ TEST(Sr1Registration, FourMarkersMakeTheAffineMapOfTheCase) {
   ASSERT_TRUE(found) << found.error().text;
   EXPECT_LT((found->robot_T_image.linear() - matrix(figures["A"])).norm(), kLastFigure);
   EXPECT_LT((found->robot_T_image.translation() - figures["b"].point_m()).norm(), kLastDigit);
-  EXPECT_LT((found->robot_T_image * target() - figures["target"].point_m()).norm(), kLastDigit);
-  EXPECT_LT(found->fre_m, 1e-15) << figures["fre"].number();
-  EXPECT_NEAR(found->condition, 3.03, 0.005);
 }
 
 TEST(Sr1Registration, ThreeMarkersMakeTheFrameOfTheCase) {
@@ -82,7 +81,7 @@ TEST(Sr1Registration, ThreeMarkersMakeTheFrameOfTheCase) {
   const auto found = registrar("registration/frame3")->find(markers(3, "robot_markers_noisy"));
   ASSERT_TRUE(found) << found.error().text;
   EXPECT_LT((found->robot_T_image.linear() - matrix(figures["T"])).norm(), kLastFigure);
-  EXPECT_LT((found->robot_T_image * target() - figures["target"].point_m()).norm(), kLastDigit);
+  EXPECT_LT((found->robot_T_image.translation() - translation(figures["T"])).norm(), kLastDigit);
 }
 
 TEST(Sr1Registration, LeastSquaresOverThreeFourAndSixMarkersIsThatOfTheCase) {
@@ -96,33 +95,6 @@ TEST(Sr1Registration, LeastSquaresOverThreeFourAndSixMarkersIsThatOfTheCase) {
     ASSERT_TRUE(found) << found.error().text;
     EXPECT_LT((found->robot_T_image.linear() - matrix(figures["R"])).norm(), kLastFigure);
     EXPECT_LT((found->robot_T_image.translation() - figures["t"].point_m()).norm(), kLastDigit);
-    EXPECT_LT((found->robot_T_image * target() - figures["target"].point_m()).norm(), kLastDigit);
-    EXPECT_NEAR(1e3 * found->fre_m, figures["fre_rms"].number(), 1e-9);
-    // Fitzpatrick's formula is that of markers without error.
-    const auto error =
-        predicted_error(*rigid, markers(count, "robot_markers_exact"), target(), kMarkerError);
-    ASSERT_TRUE(error);
-    EXPECT_NEAR(1e3 * error->rms_m, figures["fitzpatrick_tre_rms_for_fle_0p5"].number(), 1e-6);
-  }
-}
-
-TEST(Sr1Registration, TheErrorsOfAllMethodsAreThoseOfTheSimulation) {
-  const Figures simulated = sr1()["registration"]["montecarlo"]["tre_rms_p95_mm"];
-  struct Method {
-    const char *figures, *id;
-    std::size_t count;
-  };
-  for (const auto& [name, id, count] :
-       {Method{"affine4", "registration/affine4", 4}, Method{"frame3", "registration/frame3", 3},
-        Method{"kabsch3", "registration/rigid", 3}, Method{"kabsch4", "registration/rigid", 4},
-        Method{"kabsch6", "registration/rigid", 6}}) {
-    SCOPED_TRACE(name);
-    const auto error = predicted_error(*registrar(id), markers(count, "robot_markers_exact"),
-                                       target(), kMarkerError);
-    ASSERT_TRUE(error);
-    // 20 000 trials know the rms to 0.4 % and the quantile to 0.7 %; one sigma each.
-    EXPECT_NEAR(1e3 * error->rms_m / simulated[name][0].number(), 1, 0.012);
-    EXPECT_NEAR(1e3 * error->bound95_m / simulated[name][1].number(), 1, 0.02);
   }
 }
 

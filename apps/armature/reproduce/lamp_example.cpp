@@ -17,10 +17,6 @@ const Vector3d& direction_of(const ToolPose& pose) {
   return std::get<Direction>(pose.orientation).unit;
 }
 
-double angle_between(const Vector3d& a, const Vector3d& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b));
-}
-
 LampExample::LampExample(const Numbers& numbers, RobotModel model) : model_{std::move(model)} {
   const Numbers example = numbers["example"];
   mouth = example["m"].point_m();

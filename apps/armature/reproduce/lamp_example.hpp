@@ -10,17 +10,14 @@
 #include "armature/kinds/select/select.hpp"
 #include "armature/kinds/trajectory/trajectory_planner.hpp"
 #include "armature/robot/model/robot_model.hpp"
+#include "reproduce/angles.hpp"
 #include "reproduce/numbers.hpp"
 #include "reproduce/plugins.hpp"
 
 namespace armature::reproduce {
 
-inline constexpr double kDegree = 0.017453292519943295;
-
 /// Where the light of a tool pose goes.
 const Eigen::Vector3d& direction_of(const ToolPose& pose);
-/// Between two directions [rad].
-double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
 
 /// The lamp of the paper with the plugins as they are deployed, and the example of its section 4.4:
 /// P0, P1, P2, P3 and the joint quintics between them.

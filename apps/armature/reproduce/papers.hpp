@@ -24,6 +24,7 @@ struct Paper {
 const std::vector<Paper>& papers();
 
 void compute_lamp(const Numbers& numbers, bool with_long, Results& results);
+void compute_sr1(const Numbers& numbers, bool with_long, Results& results);
 void compute_implant(const Numbers& numbers, bool with_long, Results& results);
 void compute_master(const Numbers& numbers, bool with_long, Results& results);
 

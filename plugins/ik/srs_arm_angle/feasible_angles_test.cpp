@@ -23,7 +23,7 @@ struct AnglesSubject {
   friend void PrintTo(const AnglesSubject& subject, std::ostream* out) { *out << subject.name; }
 };
 
-class FeasibleAngles : public testing::TestWithParam<AnglesSubject> {
+class FeasibleAnglesTest : public testing::TestWithParam<AnglesSubject> {
  protected:
   using Posture = std::function<JointVector()>;
 
@@ -144,11 +144,11 @@ class FeasibleAngles : public testing::TestWithParam<AnglesSubject> {
   IkBranches branches_;
 };
 
-TEST_P(FeasibleAngles, AreThoseAtWhichTheLimitsAreKept) {
+TEST_P(FeasibleAnglesTest, AreThoseAtWhichTheLimitsAreKept) {
   expect_right_intervals(300, 720, [this] { return random_joints(model(), random_); });
 }
 
-TEST_P(FeasibleAngles, OfPosturesAtTheLimitsContainThePostureItself) {
+TEST_P(FeasibleAnglesTest, OfPosturesAtTheLimitsContainThePostureItself) {
   SCOPED_TRACE("seed 424242");
   for (int i = 0; i < 2000; ++i) {
     const JointVector q = joints_at_limits(model(), random_);
@@ -171,7 +171,7 @@ TEST_P(FeasibleAngles, OfPosturesAtTheLimitsContainThePostureItself) {
   expect_right_intervals(100, 720, [this] { return joints_at_limits(model(), random_); });
 }
 
-TEST_P(FeasibleAngles, AreRightNextToEverySingularSet) {
+TEST_P(FeasibleAnglesTest, AreRightNextToEverySingularSet) {
   const SrsArm arm = srs_arm(model()).value();
   int turn = 0;
   expect_right_intervals(400, 360, [&] {
@@ -188,7 +188,7 @@ TEST_P(FeasibleAngles, AreRightNextToEverySingularSet) {
   });
 }
 
-INSTANTIATE_TEST_SUITE_P(Srs, FeasibleAngles,
+INSTANTIATE_TEST_SUITE_P(Srs, FeasibleAnglesTest,
                          testing::Values(AnglesSubject{"med7", med7()},
                                          AnglesSubject{"narrow_arm", narrow_arm()},
                                          AnglesSubject{"uneven_arm", uneven_arm()}),

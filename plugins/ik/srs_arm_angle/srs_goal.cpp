@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "arm_kernel.hpp"
+#include "srs_kernel.hpp"
 
 namespace armature {
 namespace {

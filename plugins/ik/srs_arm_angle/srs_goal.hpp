@@ -3,13 +3,25 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cmath>
 #include <string_view>
 
 #include "armature/kinds/ik/ik.hpp"
-#include "ball_joint.hpp"
 #include "srs_structure.hpp"
 
 namespace armature {
+
+/// Sine and cosine of an angle.
+struct SinCos {
+  double sin = 0, cos = 1;
+
+  static SinCos of(double angle) { return {std::sin(angle), std::cos(angle)}; }
+  SinCos operator-() const { return {-sin, cos}; }
+  SinCos operator+(const SinCos& o) const {
+    return {sin * o.cos + cos * o.sin, cos * o.cos - sin * o.sin};
+  }
+  SinCos operator-(const SinCos& o) const { return *this + -o; }
+};
 
 /// A goal in SrsArm's form, and what of the arm does not depend on the arm angle. F, the frame in
 /// which the arm angle turns, has its z along the line from shoulder to wrist and its y level:

@@ -71,7 +71,7 @@ struct MorePlaces {
 static_assert(sizeof(ArmAngleChoice) < 256 * 1024);
 
 double ArmAngleChoice::wanted() {
-  if (!wanted_) wanted_ = arm_angle_of(numbers_.arm, canonical(numbers_.arm, seed_));
+  if (!wanted_) wanted_ = arm_angle_of(numbers_.arm, seed_);
   return *wanted_;
 }
 
@@ -105,7 +105,14 @@ void ArmAngleChoice::set_places(const FeasibleAngles& feasible) {
   const auto end = std::merge(regular.begin(), regular.begin() + count, more.place.begin(),
                               more_end, place.begin());
   auto next = place.begin();
-  for (std::uint32_t ends = feasible.ends(); ends != 0; ends &= ends - 1) {
+  std::uint32_t ends = 0;  // a bit for each event at which a run begins or ends
+  for (std::size_t branch = 0; branch < 8; ++branch) {
+    for (std::uint64_t bits = feasible.bits(branch); bits != 0;) {
+      const auto [first, last] = FeasibleAngles::take_run(bits);
+      ends |= std::uint32_t{1} << first | std::uint32_t{1} << last;
+    }
+  }
+  for (; ends != 0; ends &= ends - 1) {
     const auto event = static_cast<std::size_t>(std::countr_zero(ends));
     const double at = feasible.event(event);
     for (; next != end && *next < at; ++next) table_.place[table_.count++] = *next;
@@ -150,7 +157,7 @@ void ArmAngleChoice::look_along_run(std::size_t branch, int first, int last) {
 /// Lists the valleys of a branch that may be lower than all that is known.
 void ArmAngleChoice::look_along(std::size_t branch, const FeasibleAngles& feasible) {
   const std::size_t from = valleys_;
-  for (std::uint64_t bits = feasible.bits_of(kBranches[branch]); bits != 0;) {
+  for (std::uint64_t bits = feasible.bits(branch); bits != 0;) {
     const auto [first, last] = FeasibleAngles::take_run(bits);
     look_along_run(branch, place_of_event_[first], place_of_event_[last]);
   }
@@ -176,7 +183,7 @@ void ArmAngleChoice::choose(const FeasibleAngles& feasible, std::array<double, 8
   constexpr double kNothing = std::numeric_limits<double>::infinity();
   constexpr double kSame = 1e-8;  // [rad] as exactly as minima are found
   best_.fill({0, kNothing});
-  if (aim_.objective != Objective::continuity && feasible.ends() != 0) {
+  if (aim_.objective != Objective::continuity) {
     set_places(feasible);
     kernel_.costs_all_round(numbers_, goal_, aim_, table_);
     for (std::size_t branch = 0; branch < 8; ++branch) look_along(branch, feasible);
@@ -186,8 +193,7 @@ void ArmAngleChoice::choose(const FeasibleAngles& feasible, std::array<double, 8
     const auto& [own, value] = best_[branch];
     const double at = wrap_angle(own + half_turns(kBranches[branch].elbow));
     const bool kept = aim_.remembers && between(at, aim_.last) <= kSame;
-    arm_angle[branch] =
-        value < kNothing && !kept ? at : nearest_to_wanted(feasible.of(kBranches[branch]));
+    arm_angle[branch] = value < kNothing && !kept ? at : nearest_to_wanted(feasible.of(branch));
   }
 }
 

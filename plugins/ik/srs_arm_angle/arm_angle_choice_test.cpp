@@ -187,7 +187,7 @@ TEST(ArmAngleChoice, IsTheMinimumToAHundredMillionthOfARadian) {
       for (const double by : {-1e-8, 0.0, 1e-8}) table->place[table->count++] = at + by;
       srs_kernel().costs_all_round(numbers, goal, aim, *table);
       // Next to a limit rounding makes up the cost.
-      if (feasible.bits_of(kBranches[k]) == 0 || !(table->value[k][1] < 100)) continue;
+      if (feasible.bits(k) == 0 || !(table->value[k][1] < 100)) continue;
       EXPECT_LE(table->slope[k][0], 0) << q.transpose();
       EXPECT_GE(table->slope[k][2], 0) << q.transpose();
       ++checked;

@@ -45,13 +45,14 @@ void Spans::add(const Span& another) {
 }
 
 FeasibleAngles::FeasibleAngles(const ArmNumbers& numbers, const SrsGoal& goal,
-                               const SrsKernel& kernel)
-    : elbow_within_limits_{within_limits(numbers.arm, 3, goal.t4),
-                           within_limits(numbers.arm, 3, -goal.t4)} {
-  if (!elbow_within_limits_[0] && !elbow_within_limits_[1]) return;
+                               const SrsKernel& kernel) {
+  const bool elbow_within_limits[2]{within_limits(numbers.arm, 3, goal.t4),
+                                    within_limits(numbers.arm, 3, -goal.t4)};
+  if (!elbow_within_limits[0] && !elbow_within_limits[1]) return;
   set_events(numbers, goal, kernel);
+  KeptLimits kept;
   const auto even = static_cast<int>(count_ + count_ % 2);
-  kernel.limits_kept(numbers, goal, middle_.data(), even, 1, kept_);
+  kernel.limits_kept(numbers, goal, middle_.data(), even, 1, kept);
   // A point between two pieces belongs to both; one by itself can only be where limits meet.
   constexpr double kClose = 1e-6;
   bool close = false;
@@ -59,18 +60,20 @@ FeasibleAngles::FeasibleAngles(const ArmNumbers& numbers, const SrsGoal& goal,
     const double gap = event_[i] - event_[i - 1];
     close |= gap > 0 && gap < kClose;
   }
-  if (close) kernel.limits_kept(numbers, goal, event_.data(), even, 0, kept_);
-  if (goal.shoulder_in_line) set_kept_in_line(numbers, goal, kernel, 0);
-  if (goal.wrist_in_line) set_kept_in_line(numbers, goal, kernel, 1);
+  if (close) kernel.limits_kept(numbers, goal, event_.data(), even, 0, kept);
+  if (goal.shoulder_in_line) set_kept_in_line(numbers, goal, kernel, 0, kept);
+  if (goal.wrist_in_line) set_kept_in_line(numbers, goal, kernel, 1, kept);
   // -pi stands for a point by itself at pi, the last event.
   const std::uint64_t before_last = (std::uint64_t{1} << (2 * count_ - 2)) - 1;
-  for (auto& by_elbow : kept_.bits) {
-    for (auto& by_flip : by_elbow) {
-      for (std::uint64_t& bits : by_flip) {
-        const std::uint64_t own = bits & before_last, pieces = own & ~kAtEvents;
-        bits = own | pieces << 1 | pieces >> 1;
-      }
-    }
+  const auto closed = [&](std::uint64_t bits) {
+    const std::uint64_t own = bits & before_last, pieces = own & ~kAtEvents;
+    return own | pieces << 1 | pieces >> 1;
+  };
+  for (std::size_t i = 0; i < 8; ++i) {
+    const auto& [label, elbow, flips] = kBranches[i];
+    if (!elbow_within_limits[elbow]) continue;
+    bits_[i] =
+        closed(kept.bits[0][elbow][flips.shoulder]) & closed(kept.bits[1][elbow][flips.wrist]);
   }
 }
 
@@ -118,7 +121,8 @@ void FeasibleAngles::add_events_in_line(const SrsArm& arm, const SrsGoal& goal, 
 /// Where a ball is in line its outer turns jump, and by some sharing of them it may keep limits
 /// that it keeps neither before nor behind.
 void FeasibleAngles::set_kept_in_line(const ArmNumbers& numbers, const SrsGoal& goal,
-                                      const SrsKernel& kernel, std::size_t ball) {
+                                      const SrsKernel& kernel, std::size_t ball,
+                                      KeptLimits& kept) const {
   const std::size_t kinds = in_line_everywhere(goal, ball) ? 2 : 1;  // at events, and between them
   for (std::size_t elbow = 0; elbow < 2; ++elbow) {
     const double turn = half_turns(elbow);
@@ -131,28 +135,10 @@ void FeasibleAngles::set_kept_in_line(const ArmNumbers& numbers, const SrsGoal& 
         if ((arms.in_line >> lane & 1) == 0) continue;
         const std::uint64_t bit = std::uint64_t{1} << (2 * i + k);
         const bool within = (arms.within_limits[0] >> lane & 1) != 0;
-        for (std::uint64_t& bits : kept_.bits[ball][elbow])
-          bits = within ? bits | bit : bits & ~bit;
+        for (std::uint64_t& bits : kept.bits[ball][elbow]) bits = within ? bits | bit : bits & ~bit;
       }
     }
   }
-}
-
-std::uint64_t FeasibleAngles::bits_of(const Branch& branch) const {
-  if (!elbow_within_limits_[branch.elbow]) return 0;
-  return kept_.bits[0][branch.elbow][branch.flips.shoulder] &
-         kept_.bits[1][branch.elbow][branch.flips.wrist];
-}
-
-std::uint32_t FeasibleAngles::ends() const {
-  std::uint32_t ends = 0;
-  for (const Branch& branch : kBranches) {
-    for (std::uint64_t bits = bits_of(branch); bits != 0;) {
-      const auto [first, last] = take_run(bits);
-      ends |= std::uint32_t{1} << first | std::uint32_t{1} << last;
-    }
-  }
-  return ends;
 }
 
 FeasibleAngles::Run FeasibleAngles::take_run(std::uint64_t& bits) {
@@ -161,13 +147,13 @@ FeasibleAngles::Run FeasibleAngles::take_run(std::uint64_t& bits) {
   return {static_cast<std::size_t>(first / 2), static_cast<std::size_t>(after / 2)};
 }
 
-Spans FeasibleAngles::of(const Branch& branch) const {
+Spans FeasibleAngles::of(std::size_t branch) const {
   Spans spans;
-  for (std::uint64_t bits = bits_of(branch); bits != 0;) {
+  for (std::uint64_t bits = bits_[branch]; bits != 0;) {
     const auto [first, last] = take_run(bits);
     spans.add({event_[first], event_[last]});
   }
-  return branch.elbow == 0 ? spans : half_turned(spans);
+  return kBranches[branch].elbow == 0 ? spans : half_turned(spans);
 }
 
 }  // namespace armature

@@ -33,30 +33,29 @@ class FeasibleAngles {
  public:
   FeasibleAngles(const ArmNumbers& numbers, const SrsGoal& goal, const SrsKernel& kernel);
 
-  Spans of(const Branch& branch) const;
+  /// Of a branch (of kBranches), in its own arm angles.
+  Spans of(std::size_t branch) const;
 
   /// Where something may change, rising from -pi to pi, in arm angles of elbow 0.
   double event(std::size_t i) const { return event_[i]; }
-  /// A bit for each event at which a run of some branch begins or ends.
-  std::uint32_t ends() const;
   /// From one event to another, both included.
   struct Run {
     std::size_t first, last;
   };
-  /// Takes the runs of a branch one after another out of its bits.
-  std::uint64_t bits_of(const Branch& branch) const;
+  /// A bit for each event and for what is between it and the next; they are 0 when all runs of the
+  /// branch are taken.
+  std::uint64_t bits(std::size_t branch) const { return bits_[branch]; }
   static Run take_run(std::uint64_t& bits);
 
  private:
   void set_events(const ArmNumbers& numbers, const SrsGoal& goal, const SrsKernel& kernel);
   void add_events_in_line(const SrsArm& arm, const SrsGoal& goal, bool wrist);
   void set_kept_in_line(const ArmNumbers& numbers, const SrsGoal& goal, const SrsKernel& kernel,
-                        std::size_t ball);
+                        std::size_t ball, KeptLimits& kept) const;
 
-  std::array<bool, 2> elbow_within_limits_;
   std::array<double, KeptLimits::kMax> event_, middle_;  // and the middles between
   std::size_t count_ = 0;
-  KeptLimits kept_;
+  std::array<std::uint64_t, 8> bits_{};
 };
 
 }  // namespace armature

@@ -51,9 +51,7 @@ Expected<std::unique_ptr<IkSolver>> SrsArmAngle::make(const RobotModel& model,
 }
 
 std::optional<double> SrsArmAngle::redundancy_of(const JointVector& q) const {
-  std::array<double, 7> t{};
-  for (std::size_t i = 0; i < 4; ++i) t[i] = numbers_.arm.canonical(i, q.data()[i]);
-  return arm_angle_of(numbers_.arm, t);
+  return arm_angle_of(numbers_.arm, q);
 }
 
 void SrsArmAngle::add_branches(const SrsGoal& goal, double arm_angle, IkBranches& out) const {
@@ -78,7 +76,7 @@ void SrsArmAngle::add_best_branches(const SrsGoal& goal, const JointVector& seed
       const Branch& which = kBranches[i + k];
       IkBranch& branch = out.add();
       set_branch(arms, k, which, wrap_angle(arm_angle[i + k]), branch);
-      if (!branch.within_limits) move_inside(numbers_, goal, which, feasible.of(which), branch);
+      if (!branch.within_limits) move_inside(numbers_, goal, which, feasible.of(i + k), branch);
     }
   }
 }
@@ -111,9 +109,9 @@ bool SrsArmAngle::feasible_redundancy(const IkGoal& goal, const JointVector& see
   const SrsGoal own = srs_goal(numbers_.arm, goal, seed);
   if (own.shortfall > 0) return false;
   const FeasibleAngles feasible{numbers_, own, srs_kernel()};
-  for (const Branch& branch : kBranches) {
-    const Spans spans = feasible.of(branch);
-    for (const Span& span : spans) out.add({branch.label, span.lower, span.upper});
+  for (std::size_t i = 0; i < 8; ++i) {
+    const Spans spans = feasible.of(i);
+    for (const Span& span : spans) out.add({kBranches[i].label, span.lower, span.upper});
   }
   return true;
 }

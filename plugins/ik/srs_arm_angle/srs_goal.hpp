@@ -42,8 +42,7 @@ struct SrsGoal {
   double in_line = 0;  // [rad] axes nearer to in line are in line
   /// Somewhere on the circle of the arm angle a shoulder or a wrist is in line.
   bool shoulder_in_line = false, wrist_in_line = false;
-  double kept1 = 0, kept5 = 0;       // [rad] where the pose leaves t1 or t5 free
-  SinCos kept_shoulder, kept_wrist;  // the same of the ball joint's a
+  SinCos kept_shoulder, kept_wrist;  // of the ball joint's a, where the pose leaves t1 or t5 free
   /// How far the wrist is out of reach [m], and why.
   double shortfall = 0;
   std::string_view detail;
@@ -53,11 +52,7 @@ struct SrsGoal {
 /// brought within limits.
 SrsGoal srs_goal(const SrsArm& arm, const IkGoal& goal, const JointVector& seed);
 
-/// SrsArm's angles of the joints `q`, and the arm angle at them.
-std::array<double, 7> canonical(const SrsArm& arm, const JointVector& q);
-double arm_angle_of(const SrsArm& arm, const std::array<double, 7>& t);
-
-/// `t` of joint `i` (from 0), or the nearest value within its limits.
-double nearest_within_limits(const SrsArm& arm, std::size_t i, double t);
+/// The arm angle at the joints `q` [rad].
+double arm_angle_of(const SrsArm& arm, const JointVector& q);
 
 }  // namespace armature

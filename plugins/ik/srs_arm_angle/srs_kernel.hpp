@@ -119,9 +119,8 @@ struct Valley {
 
 /// The same source compiled for each kind of processor. Real-time safe.
 struct SrsKernel {
-  /// Of four sines and cosines, and back.
+  /// Of four sines and cosines.
   void (*angles)(const double (&sine)[4], const double (&cosine)[4], double (&angle)[4]);
-  void (*sines)(const double (&angle)[4], double (&sine)[4], double (&cosine)[4]);
   void (*turn)(const ArmNumbers& arm, const SrsGoal& goal, const TwoPlaces& at, TwoArms& out);
   /// Arm angles of elbow 0, within [-pi, pi], where a shoulder and a wrist are at a limit or their
   /// outer joints may jump; NaN where there are less.

@@ -8,9 +8,8 @@
 namespace armature::ARMATURE_PROCESSOR {
 
 const SrsKernel& srs_kernel() {
-  static constexpr SrsKernel kernel{arctangents,      sines_and_cosines, turn_two,
-                                    find_limit_roots, find_limits_kept,  find_costs_all_round,
-                                    find_minima};
+  static constexpr SrsKernel kernel{
+      arctangents, turn_two, find_limit_roots, find_limits_kept, find_costs_all_round, find_minima};
   return kernel;
 }
 

@@ -121,7 +121,7 @@ TEST(SrsKernel, AllBuildsFindTheSameIntervalsAndArmAngles) {
     std::array<std::array<double, 8>, 2> arm_angle;
     for (std::size_t build = 0; build < 2; ++build) {
       const FeasibleAngles feasible{numbers, goal, *builds[build]};
-      for (std::size_t k = 0; k < 8; ++k) spans[build][k] = feasible.of(kBranches[k]);
+      for (std::size_t k = 0; k < 8; ++k) spans[build][k] = feasible.of(k);
       ArmAngleChoice{numbers, goal, *builds[build], aim, q}.choose(feasible, arm_angle[build]);
     }
     for (std::size_t k = 0; k < 8; ++k) {

@@ -121,11 +121,6 @@ void turn_two(const ArmNumbers& numbers, const SrsGoal& goal, const TwoPlaces& a
 void arctangents(const double (&sine)[4], const double (&cosine)[4], double (&angle)[4]) {
   store(arctangent(load(sine), load(cosine)), angle);
 }
-void sines_and_cosines(const double (&angle)[4], double (&sine)[4], double (&cosine)[4]) {
-  const LaneSinCos found = sine_and_cosine(load(angle));
-  store(found.sin, sine);
-  store(found.cos, cosine);
-}
 
 }  // namespace
 }  // namespace armature

@@ -23,13 +23,13 @@ constexpr double kSlack = 1e-11, kInLine = 1e-10, kRounding = 1e-14;
 struct Spherical {
   SinCos azimuth, polar;
 };
-Spherical spherical(const Vector3d& v, double on_axis) {
+inline Spherical spherical(const Vector3d& v, double on_axis) {
   const double radius = v.head<2>().norm(), length = v.norm();
   if (radius <= on_axis) return {{}, {0, v.z() < 0 ? -1.0 : 1.0}};
   return {{v.y() / radius, v.x() / radius}, {radius / length, v.z() / length}};
 }
 
-Matrix3d frame_of(const SinCos& azimuth, const SinCos& polar) {
+inline Matrix3d frame_of(const SinCos& azimuth, const SinCos& polar) {
   Matrix3d F;
   F << azimuth.cos * polar.cos, -azimuth.sin, azimuth.cos * polar.sin,  //
       azimuth.sin * polar.cos, azimuth.cos, azimuth.sin * polar.sin,    //
@@ -59,7 +59,7 @@ Vector3d wrist_in_upper(const SrsArm& arm, const SinCos& t4) {
 
 /// The direction of that: phi is its angle to the upper arm. Where the forearm folds back onto the
 /// shoulder, what it comes to.
-SinCos direction_in_upper(const SrsArm& arm, const SinCos& t4) {
+inline SinCos direction_in_upper(const SrsArm& arm, const SinCos& t4) {
   const Vector3d v = wrist_in_upper(arm, t4);
   const double length = v.norm();
   if (length < kOnAxis * arm.reach()) return {t4.sin < 0 ? 1.0 : -1.0, 0};

@@ -51,7 +51,7 @@ struct MorePlaces {
     constexpr double kNarrowest = 1e-6;
     for (const auto& [x, sine] : {std::pair{0.0, (p + q).sin}, {std::numbers::pi, (p - q).sin}}) {
       const double width = std::abs(sine) / std::max({std::abs(p.sin), std::abs(q.sin), 1e-9});
-      if (width > step) continue;
+      if (width > 0.5 * step) continue;
       for (double away = std::max(width, kNarrowest) / 4; away < step; away *= 2) {
         add(whole + x - away);
         add(whole + x + away);
@@ -80,9 +80,9 @@ double ArmAngleChoice::nearest_to_wanted(const Spans& spans) {
 }
 
 void ArmAngleChoice::set_places(const FeasibleAngles& feasible) {
-  // The manipulability has more hills than the limits have.
+  // Being near to singular has more hills than the limits have.
   constexpr std::size_t kFew = 24, kMany = 48;
-  const std::size_t count = aim_.objective == Objective::singularity ? kMany : kFew;
+  const std::size_t count = aim_.objective == Objective::limits ? kFew : kMany;
   const double step = kTurn / static_cast<double>(count);
   std::array<double, kMany> regular;
   for (std::size_t i = 0; i < count; ++i) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 namespace armature {
@@ -66,8 +67,44 @@ struct MorePlaces {
   std::size_t count = 0;
 };
 
-}  // namespace
+/// Answers once.
+class ArmAngleChoice {
+ public:
+  ArmAngleChoice(const ArmNumbers& numbers, const SrsGoal& goal, const SrsKernel& kernel,
+                 const Aim& aim, const JointVector& seed, const FeasibleAngles& feasible)
+      : numbers_{numbers},
+        goal_{goal},
+        kernel_{kernel},
+        aim_{aim},
+        seed_{seed},
+        feasible_{feasible} {
+    if (aim.remembers) wanted_ = aim.last;
+  }
 
+  std::array<double, 8> best();
+
+ private:
+  static constexpr std::size_t kValleys = 512;
+
+  void set_places();
+  void look_along(std::size_t branch);
+  void look_along_run(std::size_t branch, int first, int last);
+  void consider(std::size_t branch, const Node& node);
+  double wanted();
+
+  const ArmNumbers& numbers_;
+  const SrsGoal& goal_;
+  const SrsKernel& kernel_;
+  const Aim& aim_;
+  const JointVector& seed_;
+  const FeasibleAngles& feasible_;
+  std::optional<double> wanted_;  // the seed's only when it is asked for
+  std::array<Node, 8> best_;
+  CostTable table_;
+  std::array<int, KeptLimits::kMax> place_of_event_;
+  std::array<Valley, kValleys> valley_;
+  std::size_t valleys_ = 0;
+};
 static_assert(sizeof(ArmAngleChoice) < 256 * 1024);
 
 double ArmAngleChoice::wanted() {
@@ -75,11 +112,7 @@ double ArmAngleChoice::wanted() {
   return *wanted_;
 }
 
-double ArmAngleChoice::nearest_to_wanted(const Spans& spans) {
-  return spans.count == 0 ? wanted() : wrap_angle(nearest_in(spans, wanted()));
-}
-
-void ArmAngleChoice::set_places(const FeasibleAngles& feasible) {
+void ArmAngleChoice::set_places() {
   // Being near to singular has more hills than the limits have.
   constexpr std::size_t kFew = 24, kMany = 48;
   const std::size_t count = aim_.objective == Objective::limits ? kFew : kMany;
@@ -107,14 +140,14 @@ void ArmAngleChoice::set_places(const FeasibleAngles& feasible) {
   auto next = place.begin();
   std::uint32_t ends = 0;  // a bit for each event at which a run begins or ends
   for (std::size_t branch = 0; branch < 8; ++branch) {
-    for (std::uint64_t bits = feasible.bits(branch); bits != 0;) {
+    for (std::uint64_t bits = feasible_.bits(branch); bits != 0;) {
       const auto [first, last] = FeasibleAngles::take_run(bits);
       ends |= std::uint32_t{1} << first | std::uint32_t{1} << last;
     }
   }
   for (; ends != 0; ends &= ends - 1) {
     const auto event = static_cast<std::size_t>(std::countr_zero(ends));
-    const double at = feasible.event(event);
+    const double at = feasible_.event(event);
     for (; next != end && *next < at; ++next) table_.place[table_.count++] = *next;
     place_of_event_[event] = table_.count;
     table_.place[table_.count++] = at;
@@ -123,14 +156,14 @@ void ArmAngleChoice::set_places(const FeasibleAngles& feasible) {
 
 /// Among equals the nearest to what is wanted is the best.
 void ArmAngleChoice::consider(std::size_t branch, const Node& node) {
-  Best& best = best_[branch];
+  Node& best = best_[branch];
   const double equal = 1e-10 * std::abs(node.value);  // what minima are predicted to
   if (!(node.value <= best.value + equal)) return;
   if (node.value >= best.value - equal) {
     const double own = wanted() - half_turns(kBranches[branch].elbow);
     if (std::abs(wrap_angle(node.at - own)) >= std::abs(wrap_angle(best.at - own))) return;
   }
-  best = {node.at, node.value};
+  best = node;
 }
 
 /// Considers the ends to which costs go down, and where a ball may be in line all places: its turns
@@ -155,9 +188,9 @@ void ArmAngleChoice::look_along_run(std::size_t branch, int first, int last) {
 }
 
 /// Lists the valleys of a branch that may be lower than all that is known.
-void ArmAngleChoice::look_along(std::size_t branch, const FeasibleAngles& feasible) {
+void ArmAngleChoice::look_along(std::size_t branch) {
   const std::size_t from = valleys_;
-  for (std::uint64_t bits = feasible.bits(branch); bits != 0;) {
+  for (std::uint64_t bits = feasible_.bits(branch); bits != 0;) {
     const auto [first, last] = FeasibleAngles::take_run(bits);
     look_along_run(branch, place_of_event_[first], place_of_event_[last]);
   }
@@ -172,29 +205,37 @@ void ArmAngleChoice::look_along(std::size_t branch, const FeasibleAngles& feasib
   valleys_ = kept;
 }
 
-/// Into all valleys at once, since the kernel is quick with many.
-void ArmAngleChoice::go_down() {
-  std::array<Node, kValleys> minima;
-  kernel_.minima(numbers_, goal_, aim_, valley_.data(), static_cast<int>(valleys_), minima.data());
-  for (std::size_t i = 0; i < valleys_; ++i) consider(valley_[i].branch, minima[i]);
-}
-
-void ArmAngleChoice::choose(const FeasibleAngles& feasible, std::array<double, 8>& arm_angle) {
+std::array<double, 8> ArmAngleChoice::best() {
   constexpr double kNothing = std::numeric_limits<double>::infinity();
   constexpr double kSame = 1e-8;  // [rad] as exactly as minima are found
-  best_.fill({0, kNothing});
+  best_.fill({0, kNothing, 0});
   if (aim_.objective != Objective::continuity) {
-    set_places(feasible);
+    set_places();
     kernel_.costs_all_round(numbers_, goal_, aim_, table_);
-    for (std::size_t branch = 0; branch < 8; ++branch) look_along(branch, feasible);
-    go_down();
+    for (std::size_t branch = 0; branch < 8; ++branch) look_along(branch);
+    std::array<Node, kValleys> minima;
+    const auto count = static_cast<int>(valleys_);
+    kernel_.minima(numbers_, goal_, aim_, valley_.data(), count, minima.data());
+    for (std::size_t i = 0; i < valleys_; ++i) consider(valley_[i].branch, minima[i]);
   }
+  std::array<double, 8> arm_angle;
   for (std::size_t branch = 0; branch < 8; ++branch) {
-    const auto& [own, value] = best_[branch];
-    const double at = wrap_angle(own + half_turns(kBranches[branch].elbow));
+    double& at = arm_angle[branch];
+    at = wrap_angle(best_[branch].at + half_turns(kBranches[branch].elbow));
     const bool kept = aim_.remembers && between(at, aim_.last) <= kSame;
-    arm_angle[branch] = value < kNothing && !kept ? at : nearest_to_wanted(feasible.of(branch));
+    if (best_[branch].value < kNothing && !kept) continue;
+    const Spans spans = feasible_.of(branch);
+    at = spans.count == 0 ? wanted() : wrap_angle(nearest_in(spans, wanted()));
   }
+  return arm_angle;
+}
+
+}  // namespace
+
+std::array<double, 8> best_arm_angles(const ArmNumbers& numbers, const SrsGoal& goal,
+                                      const SrsKernel& kernel, const Aim& aim,
+                                      const JointVector& seed, const FeasibleAngles& feasible) {
+  return ArmAngleChoice{numbers, goal, kernel, aim, seed, feasible}.best();
 }
 
 }  // namespace armature

@@ -179,8 +179,7 @@ TEST(ArmAngleChoice, IsTheMinimumToAHundredMillionthOfARadian) {
         i % 2 == 0 ? joints_at_limits(*model, random) : random_joints(*model, random);
     const SrsGoal goal = srs_goal(arm, goal_at(*model, q), q);
     const FeasibleAngles feasible{numbers, goal, srs_kernel()};
-    std::array<double, 8> chosen;
-    ArmAngleChoice{numbers, goal, srs_kernel(), aim, q}.choose(feasible, chosen);
+    const auto chosen = best_arm_angles(numbers, goal, srs_kernel(), aim, q, feasible);
     for (std::size_t k = 0; k < 8; ++k) {
       const double at = chosen[k] - half_turns(kBranches[k].elbow);
       const auto table = std::make_unique<CostTable>();

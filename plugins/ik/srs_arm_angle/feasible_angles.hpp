@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "srs_arms.hpp"
+#include "srs_kernel.hpp"
 
 namespace armature {
 

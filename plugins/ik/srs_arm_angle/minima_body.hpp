@@ -9,42 +9,28 @@
 namespace armature {
 namespace {
 
-/// Branches, each at a place of its own.
-class CostOfBranches {
- public:
-  CostOfBranches(const ArmNumbers& numbers, const SrsGoal& goal, const Aim& aim,
-                 const std::size_t (&branch)[4])
-      : numbers_{numbers}, goal_{goal}, aim_{aim}, balls_{goal} {
-    for (int lane = 0; lane < 4; ++lane) {
-      const auto& [label, elbow, flips] = kBranches[branch[lane]];
-      const int pair = lane / 2, arm = lane % 2;
-      elbow_[pair][arm] = elbow_[pair][arm + 2] = -static_cast<std::int64_t>(elbow);
-      flip_[pair][arm] = -static_cast<std::int64_t>(flips.shoulder);
-      flip_[pair][arm + 2] = -static_cast<std::int64_t>(flips.wrist);
+/// Which elbow and which flips four branches have: of the arms of two of them, and of the others.
+struct FourBranches {
+  Masks elbow[2], flip[2];
+
+  void set(int lane, const Branch& branch) {
+    const int pair = lane / 2, arm = lane % 2;
+    elbow[pair][arm] = elbow[pair][arm + 2] = -static_cast<std::int64_t>(branch.elbow);
+    flip[pair][arm] = -static_cast<std::int64_t>(branch.flips.shoulder);
+    flip[pair][arm + 2] = -static_cast<std::int64_t>(branch.flips.wrist);
+  }
+  /// What they cost, out of what the two and the others do.
+  [[gnu::always_inline]] Level of(const Costs (&costs)[2]) const {
+    Level whole[2];
+    for (int pair = 0; pair < 2; ++pair) {
+      const auto& all = costs[pair].of;
+      const Level part = either_of(elbow[pair], either_of(flip[pair], all[1][1], all[1][0]),
+                                   either_of(flip[pair], all[0][1], all[0][0]));
+      whole[pair] = part + swapped(part);
     }
+    return {__builtin_shufflevector(whole[0].value, whole[1].value, 0, 1, 4, 5),
+            __builtin_shufflevector(whole[0].slope, whole[1].slope, 0, 1, 4, 5)};
   }
-
-  [[gnu::always_inline]] Level at(const Lanes& place) const {
-    const Level first = of_pair(__builtin_shufflevector(place, place, 0, 1, 0, 1), 0);
-    const Level second = of_pair(__builtin_shufflevector(place, place, 2, 3, 2, 3), 1);
-    return {__builtin_shufflevector(first.value, second.value, 0, 1, 4, 5),
-            __builtin_shufflevector(first.slope, second.slope, 0, 1, 4, 5)};
-  }
-
- private:
-  [[gnu::always_inline]] Level of_pair(const Lanes& place, int pair) const {
-    const Costs costs = costs_of(numbers_, goal_, aim_, balls_, place);
-    const Masks elbow = elbow_[pair], flip = flip_[pair];
-    const Level part = either_of(elbow, either_of(flip, costs.of[1][1], costs.of[1][0]),
-                                 either_of(flip, costs.of[0][1], costs.of[0][0]));
-    return part + swapped(part);
-  }
-
-  const ArmNumbers& numbers_;
-  const SrsGoal& goal_;
-  const Aim& aim_;
-  Balls balls_;
-  Masks elbow_[2], flip_[2];
 };
 
 /// Places of branches and what they cost.
@@ -140,19 +126,26 @@ class Descent {
 
 void find_minima(const ArmNumbers& numbers, const SrsGoal& goal, const Aim& aim,
                  const Valley* valleys, int count, Node* minima) {
+  const Balls balls{goal};
   for (int i = 0; i < count; i += kLanes) {
-    std::size_t branch[kLanes];
+    FourBranches branches;
     Nodes left, right;
     for (int k = 0; k < kLanes; ++k) {
       const Valley& valley = valleys[std::min(i + k, count - 1)];
-      branch[k] = valley.branch;
+      branches.set(k, kBranches[valley.branch]);
       left.at[k] = valley.left.at, right.at[k] = valley.right.at;
       left.value[k] = valley.left.value, right.value[k] = valley.right.value;
       left.slope[k] = valley.left.slope, right.slope[k] = valley.right.slope;
     }
-    const CostOfBranches cost{numbers, goal, aim, branch};
     Descent descent{left, right, aim.objective != Objective::singularity};
-    while (descent.take(cost.at(descent.place()))) continue;
+    Level cost;
+    do {
+      const Lanes& at = descent.place();
+      const Costs costs[2]{
+          costs_of(numbers, goal, aim, balls, __builtin_shufflevector(at, at, 0, 1, 0, 1)),
+          costs_of(numbers, goal, aim, balls, __builtin_shufflevector(at, at, 2, 3, 2, 3))};
+      cost = branches.of(costs);
+    } while (descent.take(cost));
     const Lanes at = descent.best_place(), value = descent.best_value();
     for (int k = 0; k < kLanes && i + k < count; ++k) minima[i + k] = {at[k], value[k], 0};
   }

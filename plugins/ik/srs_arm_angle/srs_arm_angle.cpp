@@ -66,8 +66,7 @@ void SrsArmAngle::add_best_branches(const SrsGoal& goal, const JointVector& seed
   const SrsKernel& kernel = srs_kernel();
   const FeasibleAngles feasible{numbers_, goal, kernel};
   const Aim aim{objective_, last.has_value(), last.value_or(0)};
-  std::array<double, 8> arm_angle;
-  ArmAngleChoice{numbers_, goal, kernel, aim, seed}.choose(feasible, arm_angle);
+  const auto arm_angle = best_arm_angles(numbers_, goal, kernel, aim, seed, feasible);
   for (std::size_t i = 0; i < 8; i += 2) {  // both have one elbow
     const int elbow = static_cast<int>(kBranches[i].elbow);
     const TwoArms arms =

@@ -122,7 +122,7 @@ TEST(SrsKernel, AllBuildsFindTheSameIntervalsAndArmAngles) {
     for (std::size_t build = 0; build < 2; ++build) {
       const FeasibleAngles feasible{numbers, goal, *builds[build]};
       for (std::size_t k = 0; k < 8; ++k) spans[build][k] = feasible.of(k);
-      ArmAngleChoice{numbers, goal, *builds[build], aim, q}.choose(feasible, arm_angle[build]);
+      arm_angle[build] = best_arm_angles(numbers, goal, *builds[build], aim, q, feasible);
     }
     for (std::size_t k = 0; k < 8; ++k) {
       ASSERT_EQ(spans[0][k].count, spans[1][k].count) << q.transpose();

@@ -17,13 +17,7 @@ namespace {
 
 constexpr double kNear = 1e-7;  // [rad] nearer to an end, rounding may decide
 
-struct AnglesSubject {
-  std::string name;
-  ModelPtr model;
-  friend void PrintTo(const AnglesSubject& subject, std::ostream* out) { *out << subject.name; }
-};
-
-class FeasibleAnglesTest : public testing::TestWithParam<AnglesSubject> {
+class FeasibleAnglesTest : public testing::TestWithParam<ArmSubject> {
  protected:
   using Posture = std::function<JointVector()>;
 
@@ -189,9 +183,9 @@ TEST_P(FeasibleAnglesTest, AreRightNextToEverySingularSet) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Srs, FeasibleAnglesTest,
-                         testing::Values(AnglesSubject{"med7", med7()},
-                                         AnglesSubject{"narrow_arm", narrow_arm()},
-                                         AnglesSubject{"uneven_arm", uneven_arm()}),
+                         testing::Values(ArmSubject{"med7", med7()},
+                                         ArmSubject{"narrow_arm", narrow_arm()},
+                                         ArmSubject{"uneven_arm", uneven_arm()}),
                          testing::PrintToStringParamName());
 
 TEST(FeasibleRedundancy, OfAGoalThatIsOutOfReachOrBadIsNotTold) {

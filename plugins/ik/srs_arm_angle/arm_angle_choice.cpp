@@ -43,8 +43,8 @@ bool may_fall_below(double least, const Node& left, const Node& right) {
   return !convex | (fall * (rise - climb) <= (least - left.value) * (rise - fall));
 }
 
-/// Places next to in line, where the outer turns go like arctan(x / width): at twice and twice the
-/// distance, from a quarter of the width.
+/// Places next to in line, where the outer turns go like arctan(x / width): the nearest one, and at
+/// twice and twice the distance from it, from a quarter of the width.
 struct MorePlaces {
   static constexpr std::size_t kMax = 168;
 
@@ -53,6 +53,7 @@ struct MorePlaces {
     for (const auto& [x, sine] : {std::pair{0.0, (p + q).sin}, {std::numbers::pi, (p - q).sin}}) {
       const double width = std::abs(sine) / std::max({std::abs(p.sin), std::abs(q.sin), 1e-9});
       if (width > 0.5 * step) continue;
+      add(whole + x);
       for (double away = std::max(width, kNarrowest) / 4; away < step; away *= 2) {
         add(whole + x - away);
         add(whole + x + away);

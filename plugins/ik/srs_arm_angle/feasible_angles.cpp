@@ -36,11 +36,12 @@ bool in_line_everywhere(const SrsGoal& goal, std::size_t ball) {
 }  // namespace
 
 void Spans::add(const Span& another) {
-  Span* last = span.data() + count - 1;
-  if (count > 0 && another.lower <= last->upper) {
-    last->upper = std::max(last->upper, another.upper);
+  const auto next = static_cast<std::size_t>(count);
+  if (count > 0 && another.lower <= span[next - 1].upper) {
+    span[next - 1].upper = std::max(span[next - 1].upper, another.upper);
   } else if (count < kCapacity) {
-    span[static_cast<std::size_t>(count++)] = another;
+    span[next] = another;
+    ++count;
   }
 }
 

@@ -98,7 +98,14 @@ struct ArmKernels {
   int count;
 };
 ArmKernels arm_kernels();
-const ArmKernel& avx2_kernel();
-void solve_poses_avx512(const ArmNumbers& arm, const PoseBatch& poses, const PoseAnswers& out);
+namespace portable {
+ArmKernel arm_kernel();
+}
+namespace avx2 {
+ArmKernel arm_kernel();
+}
+namespace avx512 {
+ArmKernel arm_kernel();
+}
 
 }  // namespace armature

@@ -63,6 +63,18 @@ IkBranch& add_branch(const FourArms& arms, std::size_t arm, std::size_t wrist,
 
 }  // namespace
 
+ArmKernels arm_kernels() {
+  ArmKernels list{{portable::arm_kernel()}, 1};
+#if defined(__x86_64__)
+  if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) return list;
+  list.kernel[list.count++] = avx2::arm_kernel();
+  const bool wide = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+                    __builtin_cpu_supports("avx512vl");
+  if (wide) list.kernel[list.count++] = avx512::arm_kernel();
+#endif
+  return list;
+}
+
 PumaAlgebraic::PumaAlgebraic(const RobotModel& model, const PumaArm& arm)
     : model_{&model}, arm_{arm} {
   const ArmKernels kernels = arm_kernels();

@@ -165,52 +165,8 @@ std::vector<Subject> subjects() {
 INSTANTIATE_TEST_SUITE_P(Srs, ArmAngleChoices, testing::ValuesIn(subjects()),
                          testing::PrintToStringParamName());
 
-/// Value and slope at one arm angle of one branch.
-struct Cost {
-  double value, slope;
-};
-Cost cost_at(const ArmNumbers& numbers, const SrsGoal& goal, const Aim& aim, int branch,
-             double arm_angle) {
-  const EightPlaces at{.arm_angle = {arm_angle}, .branch = {branch}};
-  double value[8], slope[8];
-  srs_kernel().cost_at(numbers, goal, aim, at, 1, value, slope);
-  return {value[0], slope[0]};
-}
-
-TEST(ArmAngleChoice, SlopesAreThoseOfTheCosts) {
-  SCOPED_TRACE("seed 910");
-  std::mt19937_64 random{910};
-  const SrsArm arm = srs_arm(*uneven_arm()).value();
-  const ArmNumbers numbers = numbers_of(arm);
-  std::uniform_real_distribution<double> angle{-M_PI, M_PI};
-  int checked = 0;
-  for (int i = 0; i < 2000; ++i) {
-    const JointVector q = random_joints(*uneven_arm(), random);
-    const SrsGoal goal = srs_goal(arm, goal_at(*uneven_arm(), q), q);
-    const double at = angle(random);
-    const ArmPosture posture = posture_at(arm_circle(goal, i % 2), at);
-    const double s = posture.shoulder.b.sin, z = posture.wrist.b.sin;
-    if (std::min(s * s, z * z) < 0.01) continue;
-    const int shoulder = static_cast<int>(random() % 2), wrist = static_cast<int>(random() % 2);
-    const int branch = 4 * shoulder + 2 * (i % 2) + wrist;
-    constexpr double kStep = 1e-6;
-    for (const Objective objective :
-         {Objective::limits, Objective::singularity, Objective::balanced}) {
-      const Aim aim{.objective = objective, .remembers = true, .last = at - 0.3};
-      const Cost here = cost_at(numbers, goal, aim, branch, at);
-      const Cost next = cost_at(numbers, goal, aim, branch, at + kStep);
-      const Cost last = cost_at(numbers, goal, aim, branch, at - kStep);
-      if (!(here.value < 20)) continue;  // beyond the limits
-      const double slope = (next.value - last.value) / (2 * kStep);
-      EXPECT_NEAR(here.slope, slope, 1e-4 * (1 + std::abs(slope)));
-      ++checked;
-    }
-  }
-  EXPECT_GT(checked, 1000);
-}
-
-/// Though the table that leads there is of single precision.
-TEST(ArmAngleChoice, IsTheMinimumToATenMillionthOfARadian) {
+/// To within 1e-8 rad: the slope changes its sign there.
+TEST(ArmAngleChoice, IsTheMinimumToAHundredMillionthOfARadian) {
   SCOPED_TRACE("seed 911");
   std::mt19937_64 random{911};
   const ModelPtr model = med7();
@@ -223,20 +179,16 @@ TEST(ArmAngleChoice, IsTheMinimumToATenMillionthOfARadian) {
         i % 2 == 0 ? joints_at_limits(*model, random) : random_joints(*model, random);
     const SrsGoal goal = srs_goal(arm, goal_at(*model, q), q);
     const FeasibleAngles feasible{numbers, goal, srs_kernel()};
-    std::array<Spans, 8> spans;
-    for (std::size_t k = 0; k < 8; ++k) feasible.of_elbow0(kBranches[k], spans[k]);
-    std::array<double, 8> chosen;
-    ArmAngleChoice{numbers, goal, srs_kernel(), aim, q}.choose(spans, chosen);
+    const auto chosen = best_arm_angles(numbers, goal, srs_kernel(), aim, q, feasible);
     for (std::size_t k = 0; k < 8; ++k) {
-      const int branch = static_cast<int>(k);
-      if (spans[k].count == 0) continue;
+      const double at = chosen[k] - half_turns(kBranches[k].elbow);
+      const auto table = std::make_unique<CostTable>();
+      for (const double by : {-1e-8, 0.0, 1e-8}) table->place[table->count++] = at + by;
+      srs_kernel().costs_all_round(numbers, goal, aim, *table);
       // Next to a limit rounding makes up the cost.
-      const Cost here = cost_at(numbers, goal, aim, branch, chosen[k]);
-      if (!(here.value < 1000)) continue;
-      const Cost before = cost_at(numbers, goal, aim, branch, chosen[k] - 1e-7);
-      const Cost behind = cost_at(numbers, goal, aim, branch, chosen[k] + 1e-7);
-      EXPECT_LE(before.slope, 0) << q.transpose();
-      EXPECT_GE(behind.slope, 0) << q.transpose();
+      if (feasible.bits(k) == 0 || !(table->value[k][1] < 100)) continue;
+      EXPECT_LE(table->slope[k][0], 0) << q.transpose();
+      EXPECT_GE(table->slope[k][2], 0) << q.transpose();
       ++checked;
     }
   }

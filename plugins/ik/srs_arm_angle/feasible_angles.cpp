@@ -5,161 +5,156 @@
 #include <bit>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace armature {
 namespace {
 
-/// `piece` begins where the last span ends, or later.
-void join(const Span& piece, Spans& spans) {
-  if (spans.count > 0) {
-    Span& last = spans.span[static_cast<std::size_t>(spans.count - 1)];
-    if (piece.lower <= last.upper) {
-      last.upper = std::max(last.upper, piece.upper);
-      return;
-    }
-  }
-  spans.add(piece);
-}
-
-void set_spans(const double* event, std::uint32_t bits, Spans& spans) {
-  while (bits != 0) {
-    const int first = std::countr_zero(bits), after = first + std::countr_one(bits >> first);
-    join({event[first / 2], event[after / 2]}, spans);
-    bits &= ~std::uint32_t{0} << after;
-  }
-}
+constexpr std::uint64_t kAtEvents = 0x5555555555555555;  // of KeptLimits; the others are between
 
 /// Half a turn on, which brings the upper half of the circle first.
 Spans half_turned(const Spans& spans) {
   constexpr double kHalf = std::numbers::pi;
   Spans turned;
   for (const Span& span : spans) {
-    if (span.upper > 0) join({std::max(span.lower, 0.0) - kHalf, span.upper - kHalf}, turned);
+    if (span.upper > 0) turned.add({std::max(span.lower, 0.0) - kHalf, span.upper - kHalf});
   }
   for (const Span& span : spans) {
     if (span.lower < 0 || span.upper == 0) {
-      join({span.lower + kHalf, std::min(span.upper, 0.0) + kHalf}, turned);
+      turned.add({span.lower + kHalf, std::min(span.upper, 0.0) + kHalf});
     }
   }
   return turned;
 }
 
+bool in_line_everywhere(const SrsGoal& goal, std::size_t ball) {
+  const auto& [p, q] =
+      ball == 0 ? std::pair{goal.polar, goal.phi} : std::pair{goal.bend, goal.gamma};
+  return std::abs(p.sin) + std::abs(q.sin) < goal.in_line;
+}
+
 }  // namespace
 
-FeasibleAngles::FeasibleAngles(const ArmNumbers& numbers, const SrsGoal& goal,
-                               const SrsKernel& kernel)
-    : arm_{numbers.arm},
-      goal_{goal},
-      elbow_within_limits_{within_limits(arm_, 3, goal.t4), within_limits(arm_, 3, -goal.t4)} {
-  if (!elbow_within_limits_[0] && !elbow_within_limits_[1]) return;
-  LimitPieces pieces;
-  kernel.limit_events(numbers, goal, pieces);
-  kernel.limits_kept(numbers, goal, pieces);
-  for (std::size_t which = 0; which < 2; ++which) {
-    const bool in_line = which == 0 ? goal.shoulder_in_line : goal.wrist_in_line;
-    for (std::size_t elbow = 0; elbow < 2; ++elbow) {
-      if (!elbow_within_limits_[elbow]) continue;
-      auto& kept = kept_[which][elbow];
-      if (in_line && in_line_everywhere(which, elbow)) {
-        kept[0] = kept[1] = spans_in_line(which, elbow);
-        continue;
-      }
-      if (in_line) add_points_in_line(which, elbow, pieces);
-      for (std::size_t flip = 0; flip < 2; ++flip) {
-        set_spans(pieces.event[which], pieces.kept[which][elbow][flip], kept[flip]);
-      }
-    }
+void Spans::add(const Span& another) {
+  const auto next = static_cast<std::size_t>(count);
+  if (count > 0 && another.lower <= span[next - 1].upper) {
+    span[next - 1].upper = std::max(span[next - 1].upper, another.upper);
+  } else if (count < kCapacity) {
+    span[next] = another;
+    ++count;
   }
 }
 
-ArmBall FeasibleAngles::ball(std::size_t which, std::size_t elbow) const {
-  const ArmCircle circle = arm_circle(goal_, static_cast<int>(elbow));
-  return which == 0 ? circle.shoulder : circle.wrist;
+FeasibleAngles::FeasibleAngles(const ArmNumbers& numbers, const SrsGoal& goal,
+                               const SrsKernel& kernel) {
+  const bool elbow_within_limits[2]{within_limits(numbers.arm, 3, goal.t4),
+                                    within_limits(numbers.arm, 3, -goal.t4)};
+  if (!elbow_within_limits[0] && !elbow_within_limits[1]) return;
+  set_events(numbers, goal, kernel);
+  KeptLimits kept;
+  const auto even = static_cast<int>(count_ + count_ % 2);
+  kernel.limits_kept(numbers, goal, middle_.data(), even, 1, kept);
+  // A point between two pieces belongs to both; one by itself can only be where limits meet.
+  constexpr double kClose = 1e-6;
+  bool close = false;
+  for (std::size_t i = 1; i < count_; ++i) {
+    const double gap = event_[i] - event_[i - 1];
+    close |= gap > 0 && gap < kClose;
+  }
+  if (close) kernel.limits_kept(numbers, goal, event_.data(), even, 0, kept);
+  if (goal.shoulder_in_line) set_kept_in_line(numbers, goal, kernel, 0, kept);
+  if (goal.wrist_in_line) set_kept_in_line(numbers, goal, kernel, 1, kept);
+  // -pi stands for a point by itself at pi, the last event.
+  const std::uint64_t before_last = (std::uint64_t{1} << (2 * count_ - 2)) - 1;
+  const auto closed = [&](std::uint64_t bits) {
+    const std::uint64_t own = bits & before_last, pieces = own & ~kAtEvents;
+    return own | pieces << 1 | pieces >> 1;
+  };
+  for (std::size_t i = 0; i < 8; ++i) {
+    const auto& [label, elbow, flips] = kBranches[i];
+    if (!elbow_within_limits[elbow]) continue;
+    bits_[i] =
+        closed(kept.bits[0][elbow][flips.shoulder]) & closed(kept.bits[1][elbow][flips.wrist]);
+  }
 }
 
-/// As found and flipped; in line by some sharing of the turns.
-std::array<bool, 2> FeasibleAngles::keep_at(std::size_t which, std::size_t elbow,
-                                            double arm_angle) const {
-  const ArmBall own = ball(which, elbow);
-  const auto turns = turns_of(arm_, own, own.angles_at(arm_angle));
-  return {turns[0].within_limits, turns[1].within_limits};
-}
-
-bool FeasibleAngles::in_line_everywhere(std::size_t which, std::size_t elbow) const {
-  const ArmBall own = ball(which, elbow);
-  return std::abs(own.ball.p.sin) + std::abs(own.ball.q.sin) < goal_.in_line;
-}
-
-/// Where a ball comes in line its outer turns jump, and by some sharing of them it may keep limits
-/// that it keeps neither before nor behind.
-void FeasibleAngles::add_points_in_line(std::size_t which, std::size_t elbow,
-                                        LimitPieces& pieces) const {
-  const ArmBall own = ball(which, elbow);
-  for (std::size_t i = 0; i < LimitPieces::kEvents; ++i) {
-    const BallAngles angles = own.angles_at(pieces.event[which][i] + half_turns(elbow));
-    if (!angles.free || !turns_of(arm_, own, angles)[0].within_limits) continue;
-    for (auto& kept : pieces.kept[which][elbow]) kept |= std::uint32_t{1} << (2 * i);
+void FeasibleAngles::set_events(const ArmNumbers& numbers, const SrsGoal& goal,
+                                const SrsKernel& kernel) {
+  double root[2][14];
+  kernel.limit_roots(numbers, goal, root);
+  event_[count_++] = -std::numbers::pi;
+  for (std::size_t ball = 0; ball < 2; ++ball) {
+    if (in_line_everywhere(goal, ball)) {
+      add_events_in_line(numbers.arm, goal, ball == 1);
+      continue;
+    }
+    for (const double at : root[ball]) {
+      if (at == at) event_[count_++] = at;  // NaN: there is none
+    }
+  }
+  std::sort(event_.begin() + 1, event_.begin() + count_);
+  event_[count_] = event_[count_ + 1] = middle_[count_ + 1] = std::numbers::pi;
+  ++count_;
+  for (std::size_t i = 0; i < count_; ++i) {
+    middle_[i] = event_[i] + 0.5 * (event_[i + 1] - event_[i]);
   }
 }
 
 /// Of a ball that is in line at all arm angles: +-x is the sum or the difference of a and c, each
-/// of which is anywhere in its range.
-Spans FeasibleAngles::spans_in_line(std::size_t which, std::size_t elbow) const {
-  const ArmBall own = ball(which, elbow);
-  const std::size_t a = own.first, c = own.first + 2;
-  std::array<double, 20> events{-std::numbers::pi, std::numbers::pi, wrap_angle(own.x_at(0)),
-                                wrap_angle(own.x_at(std::numbers::pi))};
-  std::size_t count = 4;
-  for (const double end_a : {-arm_.half[a], arm_.half[a]}) {
-    for (const double end_c : {-arm_.half[c], arm_.half[c]}) {
-      const double at_a = arm_.middle[a] - own.shift_a + end_a;
-      const double at_c = arm_.middle[c] - own.shift_c + end_c;
-      for (const double x : {at_a + at_c, at_a - at_c, -at_a - at_c, at_c - at_a}) {
-        if (std::isfinite(x)) events[count++] = wrap_angle(own.x_at(x));
+/// of which is at an end of its range; of elbow 1, with c half a turn on.
+void FeasibleAngles::add_events_in_line(const SrsArm& arm, const SrsGoal& goal, bool wrist) {
+  const std::size_t a = wrist ? 4 : 0, c = a + 2;
+  const double p_cos = wrist ? goal.bend.cos : goal.polar.cos;
+  const double q_cos = wrist ? goal.gamma.cos : goal.phi.cos;
+  const double middle_a = arm.middle[a] - (wrist ? 0 : goal.azimuth_rad);
+  const double middle_c = arm.middle[c] - (wrist ? goal.beta_rad : 0);
+  for (const double end_a : {middle_a - arm.half[a], middle_a + arm.half[a]}) {
+    for (const double end_c : {middle_c - arm.half[c], middle_c + arm.half[c]}) {
+      const double sum = p_cos * q_cos > 0 ? end_a + end_c : end_a - end_c;
+      const double x = p_cos > 0 ? sum : -sum, at = wrist ? goal.alpha_rad - x : x;
+      if (!std::isfinite(at)) continue;
+      event_[count_++] = wrap_angle(at);
+      event_[count_++] = wrap_angle(at + std::numbers::pi);
+    }
+  }
+}
+
+/// Where a ball is in line its outer turns jump, and by some sharing of them it may keep limits
+/// that it keeps neither before nor behind.
+void FeasibleAngles::set_kept_in_line(const ArmNumbers& numbers, const SrsGoal& goal,
+                                      const SrsKernel& kernel, std::size_t ball,
+                                      KeptLimits& kept) const {
+  const std::size_t kinds = in_line_everywhere(goal, ball) ? 2 : 1;  // at events, and between them
+  for (std::size_t elbow = 0; elbow < 2; ++elbow) {
+    const double turn = half_turns(elbow);
+    const int which = static_cast<int>(elbow);
+    for (std::size_t i = 0; i < count_; ++i) {
+      const TwoArms arms =
+          arms_at(numbers, goal, kernel, {{event_[i] + turn, middle_[i] + turn}, {which, which}});
+      for (std::size_t k = 0; k < kinds; ++k) {
+        const std::size_t lane = 2 * ball + k;
+        if ((arms.in_line >> lane & 1) == 0) continue;
+        const std::uint64_t bit = std::uint64_t{1} << (2 * i + k);
+        const bool within = (arms.within_limits[0] >> lane & 1) != 0;
+        for (std::uint64_t& bits : kept.bits[ball][elbow]) bits = within ? bits | bit : bits & ~bit;
       }
     }
   }
-  std::sort(events.begin(), events.begin() + count);
+}
+
+FeasibleAngles::Run FeasibleAngles::take_run(std::uint64_t& bits) {
+  const int first = std::countr_zero(bits), after = first + std::countr_one(bits >> first);
+  bits &= ~std::uint64_t{0} << after;
+  return {static_cast<std::size_t>(first / 2), static_cast<std::size_t>(after / 2)};
+}
+
+Spans FeasibleAngles::of(std::size_t branch) const {
   Spans spans;
-  for (std::size_t i = 0; i < count; ++i) {
-    if (keep_at(which, elbow, events[i])[0]) join({events[i], events[i]}, spans);
-    if (i + 1 == count) break;
-    const double middle = events[i] + 0.5 * (events[i + 1] - events[i]);
-    if (keep_at(which, elbow, middle)[0]) join({events[i], events[i + 1]}, spans);
+  for (std::uint64_t bits = bits_[branch]; bits != 0;) {
+    const auto [first, last] = take_run(bits);
+    spans.add({event_[first], event_[last]});
   }
-  return elbow == 0 ? spans : half_turned(spans);
-}
-
-bool FeasibleAngles::both_keep_at(const Branch& branch, double at) const {
-  const double arm_angle = at + half_turns(branch.elbow);
-  return keep_at(0, branch.elbow, arm_angle)[branch.flips.shoulder] &&
-         keep_at(1, branch.elbow, arm_angle)[branch.flips.wrist];
-}
-
-Spans FeasibleAngles::of(const Branch& branch) const {
-  Spans spans;
-  of_elbow0(branch, spans);
-  return branch.elbow == 0 ? spans : half_turned(spans);
-}
-
-void FeasibleAngles::of_elbow0(const Branch& branch, Spans& common) const {
-  constexpr double kTouching = 1e-7;  // a root of two limits at once is known to the root of 1e-16
-  common.count = 0;
-  if (!elbow_within_limits_[branch.elbow]) return;
-  const Spans& shoulder = kept_[0][branch.elbow][branch.flips.shoulder];
-  const Spans& wrist = kept_[1][branch.elbow][branch.flips.wrist];
-  for (const Span *a = shoulder.begin(), *b = wrist.begin();
-       a != shoulder.end() && b != wrist.end();) {
-    const double lower = std::max(a->lower, b->lower), upper = std::min(a->upper, b->upper);
-    if (lower <= upper) {
-      join({lower, upper}, common);
-    } else if (lower - upper < kTouching) {
-      for (const double at : {upper, 0.5 * (lower + upper), lower}) {
-        if (both_keep_at(branch, at)) join({at, at}, common);
-      }
-    }
-    (a->upper < b->upper ? a : b)++;
-  }
+  return kBranches[branch].elbow == 0 ? spans : half_turned(spans);
 }
 
 }  // namespace armature

@@ -3,9 +3,7 @@
 
 #include <array>
 
-#include "arm_kernel.hpp"
-#include "branches.hpp"
-#include "srs_joints.hpp"
+#include "srs_kernel.hpp"
 
 namespace armature {
 
@@ -24,39 +22,40 @@ struct Spans {
 
   const Span* begin() const { return span.data(); }
   const Span* end() const { return span.data() + count; }
-  void add(const Span& another) {
-    if (count < kCapacity) span[static_cast<std::size_t>(count++)] = another;
-  }
+  /// One that begins where the last span ends, or later: where they touch both are one.
+  void add(const Span& another);
 };
 
 /// Where the branches of a goal keep their limits: the ends are roots of a sin x + b cos x + c = 0,
 /// one for each limit (Shimizu et al. 2008), and between two neighbouring roots one place tells
-/// all (SrsKernel::limits_kept). Where joints come in line turns are shared out as in turns_of.
-/// Real-time safe.
+/// all. Where joints come in line turns are shared out as `arms_at` does. Real-time safe.
 class FeasibleAngles {
  public:
   FeasibleAngles(const ArmNumbers& numbers, const SrsGoal& goal, const SrsKernel& kernel);
 
-  /// Where shoulder and wrist of a branch both do. Spans that miss each other by rounding have the
-  /// points in common at which both keep their limits.
-  Spans of(const Branch& branch) const;
-  /// The same in arm angles of elbow 0: those of elbow 1 less half a turn.
-  void of_elbow0(const Branch& branch, Spans& common) const;
+  /// Of a branch (of kBranches), in its own arm angles.
+  Spans of(std::size_t branch) const;
+
+  /// Where something may change, rising from -pi to pi, in arm angles of elbow 0.
+  double event(std::size_t i) const { return event_[i]; }
+  /// From one event to another, both included.
+  struct Run {
+    std::size_t first, last;
+  };
+  /// A bit for each event and for what is between it and the next; they are 0 when all runs of the
+  /// branch are taken.
+  std::uint64_t bits(std::size_t branch) const { return bits_[branch]; }
+  static Run take_run(std::uint64_t& bits);
 
  private:
-  /// By ball, 0 the shoulder and 1 the wrist, elbow and flip; in arm angles of elbow 0.
-  using Kept = std::array<std::array<std::array<Spans, 2>, 2>, 2>;
-  ArmBall ball(std::size_t which, std::size_t elbow) const;
-  std::array<bool, 2> keep_at(std::size_t which, std::size_t elbow, double arm_angle) const;
-  bool in_line_everywhere(std::size_t which, std::size_t elbow) const;
-  void add_points_in_line(std::size_t which, std::size_t elbow, LimitPieces& pieces) const;
-  Spans spans_in_line(std::size_t which, std::size_t elbow) const;
-  bool both_keep_at(const Branch& branch, double at) const;
+  void set_events(const ArmNumbers& numbers, const SrsGoal& goal, const SrsKernel& kernel);
+  void add_events_in_line(const SrsArm& arm, const SrsGoal& goal, bool wrist);
+  void set_kept_in_line(const ArmNumbers& numbers, const SrsGoal& goal, const SrsKernel& kernel,
+                        std::size_t ball, KeptLimits& kept) const;
 
-  const SrsArm& arm_;
-  const SrsGoal& goal_;
-  std::array<bool, 2> elbow_within_limits_;
-  Kept kept_;
+  std::array<double, KeptLimits::kMax> event_, middle_;  // and the middles between
+  std::size_t count_ = 0;
+  std::array<std::uint64_t, 8> bits_{};
 };
 
 }  // namespace armature

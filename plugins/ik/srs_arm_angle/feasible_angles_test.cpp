@@ -17,13 +17,7 @@ namespace {
 
 constexpr double kNear = 1e-7;  // [rad] nearer to an end, rounding may decide
 
-struct AnglesSubject {
-  std::string name;
-  ModelPtr model;
-  friend void PrintTo(const AnglesSubject& subject, std::ostream* out) { *out << subject.name; }
-};
-
-class FeasibleAngles : public testing::TestWithParam<AnglesSubject> {
+class FeasibleAnglesTest : public testing::TestWithParam<ArmSubject> {
  protected:
   using Posture = std::function<JointVector()>;
 
@@ -144,11 +138,11 @@ class FeasibleAngles : public testing::TestWithParam<AnglesSubject> {
   IkBranches branches_;
 };
 
-TEST_P(FeasibleAngles, AreThoseAtWhichTheLimitsAreKept) {
+TEST_P(FeasibleAnglesTest, AreThoseAtWhichTheLimitsAreKept) {
   expect_right_intervals(300, 720, [this] { return random_joints(model(), random_); });
 }
 
-TEST_P(FeasibleAngles, OfPosturesAtTheLimitsContainThePostureItself) {
+TEST_P(FeasibleAnglesTest, OfPosturesAtTheLimitsContainThePostureItself) {
   SCOPED_TRACE("seed 424242");
   for (int i = 0; i < 2000; ++i) {
     const JointVector q = joints_at_limits(model(), random_);
@@ -171,7 +165,7 @@ TEST_P(FeasibleAngles, OfPosturesAtTheLimitsContainThePostureItself) {
   expect_right_intervals(100, 720, [this] { return joints_at_limits(model(), random_); });
 }
 
-TEST_P(FeasibleAngles, AreRightNextToEverySingularSet) {
+TEST_P(FeasibleAnglesTest, AreRightNextToEverySingularSet) {
   const SrsArm arm = srs_arm(model()).value();
   int turn = 0;
   expect_right_intervals(400, 360, [&] {
@@ -188,10 +182,10 @@ TEST_P(FeasibleAngles, AreRightNextToEverySingularSet) {
   });
 }
 
-INSTANTIATE_TEST_SUITE_P(Srs, FeasibleAngles,
-                         testing::Values(AnglesSubject{"med7", med7()},
-                                         AnglesSubject{"narrow_arm", narrow_arm()},
-                                         AnglesSubject{"uneven_arm", uneven_arm()}),
+INSTANTIATE_TEST_SUITE_P(Srs, FeasibleAnglesTest,
+                         testing::Values(ArmSubject{"med7", med7()},
+                                         ArmSubject{"narrow_arm", narrow_arm()},
+                                         ArmSubject{"uneven_arm", uneven_arm()}),
                          testing::PrintToStringParamName());
 
 TEST(FeasibleRedundancy, OfAGoalThatIsOutOfReachOrBadIsNotTold) {

@@ -4,34 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
-#include <utility>
 
 #include "arm_angle_choice.hpp"
 #include "armature/runtime/plugins/plugin.hpp"
-#include "branches.hpp"
-#include "feasible_angles.hpp"
-#include "ik_srs_arm_angle_parameters.hpp"
-#include "srs_branch.hpp"
 
 namespace armature {
 namespace {
-
-using ik::srs_arm_angle::Parameters;
-
-Objective objective_of(const Parameters& parameters) {
-  switch (parameters.objective) {
-    case Parameters::Objective::limits:
-      return Objective::limits;
-    case Parameters::Objective::singularity:
-      return Objective::singularity;
-    case Parameters::Objective::continuity:
-      return Objective::continuity;
-    case Parameters::Objective::balanced:
-      break;
-  }
-  return Objective::balanced;
-}
 
 IkStatus status_of(const IkBranches& branches) {
   const bool any =
@@ -40,25 +18,26 @@ IkStatus status_of(const IkBranches& branches) {
   return {IkStatus::Code::joint_limit, 0, "every branch leaves the joint limits"};
 }
 
-/// `arm_angle`, or where that is the end of a span and rounding puts a fast joint beyond its limit,
-/// a place a little further inside.
-IkBranch branch_inside(const SrsArm& arm, const SrsGoal& goal, const Branch& branch,
-                       const Spans& spans, double arm_angle) {
-  const ArmCircle circle = arm_circle(goal, static_cast<int>(branch.elbow));
-  const auto at = [&](double place) {
-    return branch_of(arm, solve_elbow(arm, goal, circle, place), branch.flips, branch.label);
-  };
-  const IkBranch found = at(arm_angle);
-  if (found.within_limits) return found;
+/// The arm angle, or where that is the end of a span and rounding puts a fast joint beyond its
+/// limit, a place a little further inside.
+void move_inside(const ArmNumbers& numbers, const SrsGoal& goal, const Branch& which,
+                 const Spans& spans, IkBranch& branch) {
+  constexpr double kRounding = 1e-12;
+  const double arm_angle = branch.redundancy;
+  const int elbow = static_cast<int>(which.elbow);
   for (const Span& span : spans) {
-    if (arm_angle < span.lower || arm_angle > span.upper) continue;
+    if (arm_angle < span.lower - kRounding || arm_angle > span.upper + kRounding) continue;
     const double inwards = 0.5 * (span.lower + span.upper) - arm_angle;
     for (const double part : {1e-9, 1e-6, 1e-3, 1.0}) {
-      const IkBranch other = at(arm_angle + part * inwards);
-      if (other.within_limits) return other;
+      const double at = arm_angle + part * inwards;
+      IkBranch other;
+      set_branch(arms_at(numbers, goal, srs_kernel(), {{at, at}, {elbow, elbow}}), 0, which,
+                 wrap_angle(at), other);
+      if (!other.within_limits) continue;
+      branch = other;
+      return;
     }
   }
-  return found;
 }
 
 }  // namespace
@@ -68,32 +47,17 @@ Expected<std::unique_ptr<IkSolver>> SrsArmAngle::make(const RobotModel& model,
   auto arm = srs_arm(model);
   if (!arm) return tl::unexpected{arm.error()};
   return std::unique_ptr<IkSolver>{
-      new SrsArmAngle{model, *arm, objective_of(Parameters::read(params))}};
+      new SrsArmAngle{model, *arm, ik::srs_arm_angle::Parameters::read(params).objective}};
 }
 
 std::optional<double> SrsArmAngle::redundancy_of(const JointVector& q) const {
-  std::array<double, 7> t{};
-  for (std::size_t i = 0; i < 4; ++i) t[i] = numbers_.arm.canonical(i, q.data()[i]);
-  return arm_angle_of(numbers_.arm, t);
+  return arm_angle_of(numbers_.arm, q);
 }
 
 void SrsArmAngle::add_branches(const SrsGoal& goal, double arm_angle, IkBranches& out) const {
-  EightBranches found;
-  srs_kernel().turn_to(numbers_, goal, arm_angle, found);
-  std::array<SolvedElbow, 2> elbows;
-  std::array<bool, 2> solved{};
-  for (std::size_t i = 0; i < kBranches.size(); ++i) {
-    const Branch& branch = kBranches[i];
-    if ((found.in_line >> i & 1) == 0) {
-      set_branch(found, i, arm_angle, branch.label, out.add());
-      continue;
-    }
-    const std::size_t elbow = branch.elbow;
-    if (!std::exchange(solved[elbow], true)) {
-      elbows[elbow] =
-          solve_elbow(numbers_.arm, goal, arm_circle(goal, static_cast<int>(elbow)), arm_angle);
-    }
-    out.add() = branch_of(numbers_.arm, elbows[elbow], branch.flips, branch.label);
+  const TwoArms arms = arms_at(numbers_, goal, srs_kernel(), {{arm_angle, arm_angle}, {0, 1}});
+  for (const Branch& branch : kBranches) {
+    set_branch(arms, branch.elbow, branch, arm_angle, out.add());
   }
 }
 
@@ -101,23 +65,17 @@ void SrsArmAngle::add_best_branches(const SrsGoal& goal, const JointVector& seed
                                     std::optional<double> last, IkBranches& out) const {
   const SrsKernel& kernel = srs_kernel();
   const FeasibleAngles feasible{numbers_, goal, kernel};
-  std::array<Spans, 8> spans;
-  for (std::size_t i = 0; i < 8; ++i) feasible.of_elbow0(kBranches[i], spans[i]);
   const Aim aim{objective_, last.has_value(), last.value_or(0)};
-  std::array<double, 8> arm_angle;
-  ArmAngleChoice{numbers_, goal, kernel, aim, seed}.choose(spans, arm_angle);
-  EightPlaces at;
-  std::copy(arm_angle.begin(), arm_angle.end(), at.arm_angle);
-  std::iota(at.branch, at.branch + 8, 0);
-  EightBranches found;
-  kernel.turn_each(numbers_, goal, at, found);
-  for (std::size_t i = 0; i < 8; ++i) {
-    const bool inside = (found.within_limits >> i & 1) != 0 || spans[i].count == 0;
-    if (inside && (found.in_line >> i & 1) == 0) {
-      set_branch(found, i, wrap_angle(arm_angle[i]), kBranches[i].label, out.add());
-    } else {
-      out.add() =
-          branch_inside(numbers_.arm, goal, kBranches[i], feasible.of(kBranches[i]), arm_angle[i]);
+  const auto arm_angle = best_arm_angles(numbers_, goal, kernel, aim, seed, feasible);
+  for (std::size_t i = 0; i < 8; i += 2) {  // both have one elbow
+    const int elbow = static_cast<int>(kBranches[i].elbow);
+    const TwoArms arms =
+        arms_at(numbers_, goal, kernel, {{arm_angle[i], arm_angle[i + 1]}, {elbow, elbow}});
+    for (std::size_t k = 0; k < 2; ++k) {
+      const Branch& which = kBranches[i + k];
+      IkBranch& branch = out.add();
+      set_branch(arms, k, which, wrap_angle(arm_angle[i + k]), branch);
+      if (!branch.within_limits) move_inside(numbers_, goal, which, feasible.of(i + k), branch);
     }
   }
 }
@@ -150,9 +108,9 @@ bool SrsArmAngle::feasible_redundancy(const IkGoal& goal, const JointVector& see
   const SrsGoal own = srs_goal(numbers_.arm, goal, seed);
   if (own.shortfall > 0) return false;
   const FeasibleAngles feasible{numbers_, own, srs_kernel()};
-  for (const Branch& branch : kBranches) {
-    const Spans spans = feasible.of(branch);
-    for (const Span& span : spans) out.add({branch.label, span.lower, span.upper});
+  for (std::size_t i = 0; i < 8; ++i) {
+    const Spans spans = feasible.of(i);
+    for (const Span& span : spans) out.add({kBranches[i].label, span.lower, span.upper});
   }
   return true;
 }

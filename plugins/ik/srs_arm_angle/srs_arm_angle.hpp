@@ -4,8 +4,8 @@
 #include <memory>
 #include <optional>
 
-#include "arm_kernel.hpp"
 #include "armature/kinds/ik/ik.hpp"
+#include "srs_kernel.hpp"
 
 namespace armature {
 

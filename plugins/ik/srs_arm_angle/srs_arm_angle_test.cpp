@@ -40,6 +40,12 @@ class SrsArmAngleTest : public testing::Test {
     return goal;
   }
 
+  /// At the arm angle of `q`.
+  const IkBranches& branches_of(const JointVector& q, const JointVector& seed) {
+    solve(goal_with_arm_angle(q), seed);
+    return found_;
+  }
+
   ModelPtr model_ = med7();
   std::shared_ptr<const IkSolver> solver_ = solver_for(*model_);
   IkBranches found_;
@@ -143,6 +149,69 @@ TEST_F(SrsArmAngleTest, ASingularBranchIsOneWithoutManipulability) {
         EXPECT_EQ(branch.singular, actual < scale) << actual / scale;
       }
     }
+  }
+}
+
+// Where a pose leaves joints free.
+
+TEST_F(SrsArmAngleTest, AShoulderInLineKeepsTheSeedsFirstJointAndBothShouldersAreOne) {
+  JointVector q(7), seed = JointVector::Zero(7);
+  q << 0.3, 0, 0.4, 1, 0.5, 0.6, 0.7;
+  seed[0] = -0.7;
+  int kept = 0;
+  for (const IkBranch& branch : branches_of(q, seed)) {
+    if (std::abs(branch.q[1]) > 1e-9) continue;
+    EXPECT_NEAR(branch.q[0], -0.7, 1e-15);
+    EXPECT_NEAR(branch.q[2], 0.3 + 0.4 + 0.7, 1e-12);
+    EXPECT_FALSE(branch.singular);  // another arm angle leads away
+    ++kept;
+  }
+  EXPECT_EQ(kept, 4);
+}
+
+TEST_F(SrsArmAngleTest, AWristInLineKeepsTheSeedsFifthJoint) {
+  JointVector q(7), seed = JointVector::Zero(7);
+  q << 0.3, 0.2, 0.4, 1, 0.5, 0, 0.7;
+  seed[4] = 2;
+  int kept = 0;
+  for (const IkBranch& branch : branches_of(q, seed)) {
+    if (std::abs(branch.q[5]) > 1e-9) continue;
+    EXPECT_NEAR(branch.q[4], 2, 1e-15);
+    EXPECT_NEAR(branch.q[6], 0.5 + 0.7 - 2, 1e-12);
+    ++kept;
+  }
+  EXPECT_EQ(kept, 4);
+}
+
+TEST_F(SrsArmAngleTest, TurnsInLineAreSharedOutSoThatTheLimitsAreKept) {
+  auto joints = med7()->joints();
+  for (const std::size_t i : {0U, 4U}) joints[i].lower = -1, joints[i].upper = 2;
+  for (const std::size_t i : {2U, 6U}) joints[i].lower = -0.5, joints[i].upper = 0.5;
+  model_ = with_joints(*med7(), joints);
+  solver_ = solver_for(*model_);
+  SCOPED_TRACE("seed 77");
+  for (int i = 0; i < 2000; ++i) {
+    JointVector q = random_joints(*model_, random_);
+    q[i % 2 == 0 ? 1 : 5] = 0;
+    const JointVector seed = random_joints(*model_, random_);
+    bool within = false;
+    for (const IkBranch& branch : branches_of(q, seed)) within = within || branch.within_limits;
+    EXPECT_TRUE(within) << q.transpose();
+  }
+}
+
+TEST_F(SrsArmAngleTest, AWristOnTheShoulderGoesWhereTheSeedComesFrom) {
+  model_ = without_limits(*med7_flange());
+  solver_ = solver_for(*model_);
+  SCOPED_TRACE("seed 77");
+  for (int i = 0; i < 1000; ++i) {
+    JointVector q = random_joints(*model_, random_);
+    q[3] = i % 2 == 0 ? M_PI : -M_PI;
+    double nearest = 10;
+    for (const IkBranch& branch : branches_of(q, q)) {
+      nearest = std::min(nearest, joint_distance(branch.q, q));
+    }
+    EXPECT_LE(nearest, 1e-7);
   }
 }
 

@@ -16,13 +16,7 @@ namespace {
 constexpr int kPoses = 1000;
 constexpr std::array<double, 4> kOffsets{0, 1e-9, 1e-7, 1e-4};
 
-struct EdgeSubject {
-  std::string name;
-  ModelPtr model;
-  friend void PrintTo(const EdgeSubject& subject, std::ostream* out) { *out << subject.name; }
-};
-
-class SrsEdges : public testing::TestWithParam<EdgeSubject> {
+class SrsEdges : public testing::TestWithParam<ArmSubject> {
  protected:
   double any(double lower, double upper) {
     return std::uniform_real_distribution{lower, upper}(random_);
@@ -157,10 +151,7 @@ TEST_P(SrsEdges, EveryJointAtALimit) {
   arm_ = srs_arm(model()).value();
   solver_ = solver_for(model());
   for (int i = 0; i < kPoses; ++i) {
-    JointVector q = random_joints(model(), random_);
-    for (Eigen::Index j = 0; j < 7; ++j) {
-      if (any(0, 1) < 0.5) q[j] = any(0, 1) < 0.5 ? model().lower()[j] : model().upper()[j];
-    }
+    const JointVector q = joints_at_limits(model(), random_);
     const IkGoal goal = goal_of(q);
     EXPECT_EQ(solve(goal, q).code, IkStatus::Code::ok) << q.transpose();
     expect_truth(goal);
@@ -230,9 +221,9 @@ TEST_P(SrsEdges, ANanometreDecidesAtTheRims) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Srs, SrsEdges,
-                         testing::Values(EdgeSubject{"med7", med7()},
-                                         EdgeSubject{"med7_flange", med7_flange()},
-                                         EdgeSubject{"uneven_arm", uneven_arm()}),
+                         testing::Values(ArmSubject{"med7", med7()},
+                                         ArmSubject{"med7_flange", med7_flange()},
+                                         ArmSubject{"uneven_arm", uneven_arm()}),
                          testing::PrintToStringParamName());
 
 }  // namespace

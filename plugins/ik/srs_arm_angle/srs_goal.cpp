@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "arm_kernel.hpp"
+#include "srs_kernel.hpp"
 
 namespace armature {
 namespace {
@@ -23,13 +23,13 @@ constexpr double kSlack = 1e-11, kInLine = 1e-10, kRounding = 1e-14;
 struct Spherical {
   SinCos azimuth, polar;
 };
-Spherical spherical(const Vector3d& v, double on_axis) {
+inline Spherical spherical(const Vector3d& v, double on_axis) {
   const double radius = v.head<2>().norm(), length = v.norm();
   if (radius <= on_axis) return {{}, {0, v.z() < 0 ? -1.0 : 1.0}};
   return {{v.y() / radius, v.x() / radius}, {radius / length, v.z() / length}};
 }
 
-Matrix3d frame_of(const SinCos& azimuth, const SinCos& polar) {
+inline Matrix3d frame_of(const SinCos& azimuth, const SinCos& polar) {
   Matrix3d F;
   F << azimuth.cos * polar.cos, -azimuth.sin, azimuth.cos * polar.sin,  //
       azimuth.sin * polar.cos, azimuth.cos, azimuth.sin * polar.sin,    //
@@ -42,15 +42,13 @@ struct UpperArm {
   Matrix3d rotation;
   SinCos elbow;
 };
-UpperArm upper_arm(const std::array<double, 7>& t) {
-  double sine[4], cosine[4];
-  srs_kernel().sines({t[0], t[1], t[2], t[3]}, sine, cosine);
-  const Matrix3d F = frame_of({sine[0], cosine[0]}, {sine[1], cosine[1]});
-  UpperArm upper;
-  upper.rotation.col(0) = cosine[2] * F.col(0) + sine[2] * F.col(1);
-  upper.rotation.col(1) = cosine[2] * F.col(1) - sine[2] * F.col(0);
-  upper.rotation.col(2) = F.col(2);
-  upper.elbow = {sine[3], cosine[3]};
+UpperArm upper_arm(const SrsArm& arm, const JointVector& q) {
+  const auto turn = [&](std::size_t i) { return SinCos::of(arm.canonical(i, q.data()[i])); };
+  const Matrix3d F = frame_of(turn(0), turn(1));
+  const SinCos third = turn(2);
+  UpperArm upper{F, turn(3)};
+  upper.rotation.col(0) = third.cos * F.col(0) + third.sin * F.col(1);
+  upper.rotation.col(1) = third.cos * F.col(1) - third.sin * F.col(0);
   return upper;
 }
 
@@ -61,7 +59,7 @@ Vector3d wrist_in_upper(const SrsArm& arm, const SinCos& t4) {
 
 /// The direction of that: phi is its angle to the upper arm. Where the forearm folds back onto the
 /// shoulder, what it comes to.
-SinCos direction_in_upper(const SrsArm& arm, const SinCos& t4) {
+inline SinCos direction_in_upper(const SrsArm& arm, const SinCos& t4) {
   const Vector3d v = wrist_in_upper(arm, t4);
   const double length = v.norm();
   if (length < kOnAxis * arm.reach()) return {t4.sin < 0 ? 1.0 : -1.0, 0};
@@ -130,47 +128,30 @@ bool comes_in_line(const SinCos& p, const SinCos& q, double in_line) {
   return std::min(std::abs((p + q).sin), std::abs((p - q).sin)) < 2 * in_line;
 }
 
+/// Joint `i` (from 0) of the seed, or the nearest value within its limits.
+SinCos kept_from(const JointVector& seed, const SrsArm& arm, std::size_t i) {
+  const double offset = wrap_angle(arm.canonical(i, seed.data()[i]) - arm.middle[i]);
+  return SinCos::of(arm.middle[i] + std::clamp(offset, -arm.half[i], arm.half[i]));
+}
+
 void set_free_joints(const SrsArm& arm, const JointVector& seed, SrsGoal& goal) {
   goal.shoulder_in_line = comes_in_line(goal.polar, goal.phi, goal.in_line);
   goal.wrist_in_line = comes_in_line(goal.bend, goal.gamma, goal.in_line);
-  if (goal.shoulder_in_line) {
-    goal.kept1 = nearest_within_limits(arm, 0, arm.canonical(0, seed[0]));
-    goal.kept_shoulder = SinCos::of(goal.kept1) - goal.azimuth;
-  }
-  if (goal.wrist_in_line) {
-    goal.kept5 = nearest_within_limits(arm, 4, arm.canonical(4, seed[4]));
-    goal.kept_wrist = SinCos::of(goal.kept5);
-  }
+  if (goal.shoulder_in_line) goal.kept_shoulder = kept_from(seed, arm, 0) - goal.azimuth;
+  if (goal.wrist_in_line) goal.kept_wrist = kept_from(seed, arm, 4);
 }
 
 }  // namespace
 
-std::array<double, 7> canonical(const SrsArm& arm, const JointVector& q) {
-  std::array<double, 7> t;
-  for (std::size_t i = 0; i < 7; ++i) t[i] = arm.canonical(i, q.data()[i]);
-  return t;
-}
-
-double nearest_within_limits(const SrsArm& arm, std::size_t i, double t) {
-  const double offset = wrap_angle(t - arm.middle[i]);
-  return wrap_angle(arm.middle[i] + std::clamp(offset, -arm.half[i], arm.half[i]));
-}
-
-double arm_angle_of(const SrsArm& arm, const std::array<double, 7>& t) {
-  const UpperArm upper = upper_arm(t);
+double arm_angle_of(const SrsArm& arm, const JointVector& q) {
+  const UpperArm upper = upper_arm(arm, q);
   const Spherical line = spherical(wrist_or_direction(arm, upper), kOnAxis * arm.reach());
   const SinCos phi = direction_in_upper(arm, upper.elbow);
   // The first two columns of F^T upper Ry(phi) = Rz(psi).
-  const Vector3d x = phi.cos * upper.rotation.col(0) - phi.sin * upper.rotation.col(2);
-  const Vector3d y = upper.rotation.col(1);
-  const auto& [azimuth, polar] = line;
-  const double sine = azimuth.cos * x.y() - azimuth.sin * x.x();
-  const double cosine = azimuth.cos * y.y() - azimuth.sin * y.x();
-  const double ahead_x =
-      polar.cos * (azimuth.cos * x.x() + azimuth.sin * x.y()) - polar.sin * x.z();
-  const double ahead_y =
-      polar.cos * (azimuth.cos * y.x() + azimuth.sin * y.y()) - polar.sin * y.z();
-  return wrap_angle(std::atan2(sine - ahead_y, cosine + ahead_x));
+  const Matrix3d seen = frame_of(line.azimuth, line.polar).transpose();
+  const Vector3d x = seen * (phi.cos * upper.rotation.col(0) - phi.sin * upper.rotation.col(2));
+  const Vector3d y = seen * upper.rotation.col(1);
+  return wrap_angle(std::atan2(x.y() - y.x(), x.x() + y.y()));
 }
 
 SrsGoal srs_goal(const SrsArm& arm, const IkGoal& goal, const JointVector& seed) {
@@ -187,8 +168,7 @@ SrsGoal srs_goal(const SrsArm& arm, const IkGoal& goal, const JointVector& seed)
   if (own.shortfall > 0) return own;
   const SinCos half_elbow = set_elbow(arm, own);
   const bool on_shoulder = own.distance < kOnAxis * arm.reach();
-  set_frame(arm, on_shoulder ? wrist_or_direction(arm, upper_arm(canonical(arm, seed))) : own.wrist,
-            own);
+  set_frame(arm, on_shoulder ? wrist_or_direction(arm, upper_arm(arm, seed)) : own.wrist, own);
   set_angles(half_elbow, own);
   own.in_line = std::clamp(goal.tolerance.angle_rad, kRounding, kInLine);
   set_free_joints(arm, seed, own);

@@ -3,13 +3,25 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cmath>
 #include <string_view>
 
 #include "armature/kinds/ik/ik.hpp"
-#include "ball_joint.hpp"
 #include "srs_structure.hpp"
 
 namespace armature {
+
+/// Sine and cosine of an angle.
+struct SinCos {
+  double sin = 0, cos = 1;
+
+  static SinCos of(double angle) { return {std::sin(angle), std::cos(angle)}; }
+  SinCos operator-() const { return {-sin, cos}; }
+  SinCos operator+(const SinCos& o) const {
+    return {sin * o.cos + cos * o.sin, cos * o.cos - sin * o.sin};
+  }
+  SinCos operator-(const SinCos& o) const { return *this + -o; }
+};
 
 /// A goal in SrsArm's form, and what of the arm does not depend on the arm angle. F, the frame in
 /// which the arm angle turns, has its z along the line from shoulder to wrist and its y level:
@@ -30,8 +42,7 @@ struct SrsGoal {
   double in_line = 0;  // [rad] axes nearer to in line are in line
   /// Somewhere on the circle of the arm angle a shoulder or a wrist is in line.
   bool shoulder_in_line = false, wrist_in_line = false;
-  double kept1 = 0, kept5 = 0;       // [rad] where the pose leaves t1 or t5 free
-  SinCos kept_shoulder, kept_wrist;  // the same of the ball joint's a
+  SinCos kept_shoulder, kept_wrist;  // of the ball joint's a, where the pose leaves t1 or t5 free
   /// How far the wrist is out of reach [m], and why.
   double shortfall = 0;
   std::string_view detail;
@@ -41,11 +52,7 @@ struct SrsGoal {
 /// brought within limits.
 SrsGoal srs_goal(const SrsArm& arm, const IkGoal& goal, const JointVector& seed);
 
-/// SrsArm's angles of the joints `q`, and the arm angle at them.
-std::array<double, 7> canonical(const SrsArm& arm, const JointVector& q);
-double arm_angle_of(const SrsArm& arm, const std::array<double, 7>& t);
-
-/// `t` of joint `i` (from 0), or the nearest value within its limits.
-double nearest_within_limits(const SrsArm& arm, std::size_t i, double t);
+/// The arm angle at the joints `q` [rad].
+double arm_angle_of(const SrsArm& arm, const JointVector& q);
 
 }  // namespace armature

@@ -82,13 +82,9 @@ std::string mismatch(const RobotModel& model) {
 /// Joints whose axis points against the pattern's: Z(t, d) = Rx(180) Z(-t, -d) Rx(180) turns one
 /// round, and the half turns go into the twists of the links on either side.
 std::array<bool, kJoints> turned_joints(const Links& links) {
-  constexpr std::array<double, kJoints> kTwist{0,
-                                               -std::numbers::pi / 2,
-                                               std::numbers::pi / 2,
-                                               std::numbers::pi / 2,
-                                               -std::numbers::pi / 2,
-                                               -std::numbers::pi / 2,
-                                               std::numbers::pi / 2};
+  constexpr double kQuarter = std::numbers::pi / 2;
+  constexpr std::array<double, kJoints> kTwist{0,         -kQuarter, kQuarter, kQuarter,
+                                               -kQuarter, -kQuarter, kQuarter};
   std::array<bool, kJoints> turned{};
   for (std::size_t i = 1; i < kJoints; ++i) {
     const double wanted = kTwist[i] + (turned[i - 1] ? std::numbers::pi : 0);

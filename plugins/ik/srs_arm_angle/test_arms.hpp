@@ -3,7 +3,9 @@
 
 #include <array>
 #include <memory>
+#include <ostream>
 #include <random>
+#include <string>
 #include <vector>
 
 #include "armature/kinds/ik/ik.hpp"
@@ -13,6 +15,13 @@ namespace armature {
 
 using ModelPtr = std::shared_ptr<const RobotModel>;
 using Angles = std::array<double, 7>;  // t1 to t7 of SrsArm
+
+/// A robot that tests are made for.
+struct ArmSubject {
+  std::string name;
+  ModelPtr model;
+  friend void PrintTo(const ArmSubject& subject, std::ostream* out) { *out << subject.name; }
+};
 
 /// configs/robots/med7.yaml, and the same with the bare flange for its tool.
 ModelPtr med7();

@@ -22,9 +22,9 @@ std::string number_text(const std::optional<double>& value) {
 }
 
 std::string bound_text(const DeclaredRow& row) {
+  if (row.at_least && row.at_most) return fmt::format("{:g} to {:g}", *row.at_least, *row.at_most);
   if (row.at_most) return fmt::format("at most {:g}", *row.at_most);
-  if (row.at_least) return fmt::format("at least {:g}", *row.at_least);
-  return "";
+  return row.at_least ? fmt::format("at least {:g}", *row.at_least) : "";
 }
 
 std::string remark_of(const JudgedRow& row) {

@@ -145,13 +145,16 @@ int sweep_deployment(const SweepOptions& options) {
   Runs{options, plugins, finished}.run(missing);
 
   std::vector<sweep::RunSpread> spreads;
+  std::vector<const Json*> reports;
   for (const Combination& combination : combinations) {
-    std::vector<const Json*> reports;
+    if (!options.pool) reports.clear();
     for (const std::uint64_t seed : options.seeds) {
       reports.push_back(finished.find({combination.config.fingerprint, seed}));
     }
+    if (options.pool) continue;
     spreads.push_back(sweep::spread_of(reports, combination.config, combination.variation));
   }
+  if (options.pool) spreads.push_back(sweep::spread_of(reports, combinations.front().config, {}));
   if (options.out) sweep::write_files(*options.out, spreads);
   Json json = Json::array();
   for (const sweep::RunSpread& spread : spreads) {

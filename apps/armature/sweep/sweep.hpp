@@ -15,6 +15,7 @@ struct SweepOptions {
   DeploymentSource source;
   std::vector<std::uint64_t> seeds;
   std::vector<sweep::Vary> vary;
+  bool pool = false;       // one spread of all combinations, not one of each
   int jobs = 0;            // runs at the same time; 0: as many as processors
   double timeout_s = 600;  // of one run
   bool json = false;

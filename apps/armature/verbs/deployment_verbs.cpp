@@ -128,6 +128,7 @@ void add_sweep(CLI::App& app, Action& action) {
                    "combination")
       ->allow_extra_args(false)
       ->check(reading(sweep::vary_of));
+  verb->add_flag("--pool", options->pool, "one table of all combinations together");
   verb->add_option("--jobs", options->jobs, "runs at the same time (as many as processors)")
       ->check(CLI::Range(1, 256));
   verb->add_option("--timeout", options->timeout_s, "seconds that one run may take")

@@ -186,8 +186,8 @@ void add_figures(const Keys& keys, Results& results) {
     }
     results.curve("figure_4", 0, kInterpolators[k].name, place[0], place[1]);
     results.curve("figure_4", 1, kInterpolators[k].name, place[0], place[2]);
-    constexpr std::array kAngles{"about z", "about y", "about x"};
-    constexpr std::array kAxes{"along x", "along y", "along z"};
+    constexpr std::array kAngles{"z", "y", "x"};
+    constexpr std::array kAxes{"x", "y", "z"};
     for (std::size_t axis = 0; axis < 3; ++axis) {
       results.curve(kFigures[k], 0, kAngles[axis], u, angle[axis]);
       results.curve(kFigures[k], 1, kAxes[axis], u, velocity[axis]);

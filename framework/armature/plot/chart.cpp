@@ -16,6 +16,7 @@ namespace {
 // All in user units of the picture.
 constexpr double kWidth = 1000, kLeft = 76, kRight = 984, kPanelHeight = 150, kPanelGap = 46;
 constexpr double kOnlyPanelHeight = 420;  // of a picture that has but one
+constexpr double kEqualHeight = 560;      // of places, at most
 constexpr double kTitleHeight = 34, kLegendLine = 20, kBottom = 30;
 constexpr double kLetter = 7.5;  // of 13 high, at most on average
 
@@ -126,12 +127,28 @@ Range range_of(const Panel& panel) {
   return range;
 }
 
+constexpr double kMargin = 0.05;  // beyond the values of an axis, as a part of them
+
+/// What a panel of places shows from bottom to top.
+double span_of(const Panel& panel) {
+  const Range range = range_of(panel);
+  return range.known() ? (1 + 2 * kMargin) * (range.high - range.low) : 0;
+}
+
 Scale x_scale(const Chart& chart) {
   Range range;
   for (const Panel& panel : chart.panels) {
     for (const Curve& curve : panel.curves) range.include(curve.x);
   }
-  return scale_of(chart.x, range, chart.is_equal ? 0.05 : 0, kLeft, kRight);
+  Scale x = scale_of(chart.x, range, chart.is_equal ? kMargin : 0, kLeft, kRight);
+  if (!chart.is_equal) return x;
+  double tallest = 0;
+  for (const Panel& panel : chart.panels) tallest = std::max(tallest, span_of(panel));
+  const double span = std::max(x.high - x.low, tallest * (kRight - kLeft) / kEqualHeight);
+  const double middle = (x.low + x.high) / 2;
+  x.low = middle - span / 2;
+  x.high = middle + span / 2;
+  return x;
 }
 
 void draw_values(const Scale& y, std::string& svg) {
@@ -209,9 +226,8 @@ double draw_legend(const std::vector<Line>& legend, std::string& svg) {
 
 /// Of a panel whose scale is that of x.
 double equal_height(const Panel& panel, const Scale& x) {
-  const Range range = range_of(panel);
   const double per_unit = (x.to - x.from) / (x.high - x.low);
-  return std::clamp(1.1 * (range.high - range.low) * per_unit, 100.0, 2000.0);
+  return std::clamp(span_of(panel) * per_unit, 100.0, kEqualHeight);
 }
 
 }  // namespace
@@ -241,7 +257,7 @@ std::string to_svg(const Chart& chart) {
     if (!range.known()) continue;
     const double top = bottom + kPanelGap;
     bottom = top + (chart.is_equal ? equal_height(panel, x) : height);
-    Scale y = scale_of(panel.y, range, 0.05, bottom, top);
+    Scale y = scale_of(panel.y, range, kMargin, bottom, top);
     if (chart.is_equal) {
       const double half = 0.5 * (bottom - top) * (x.high - x.low) / (x.to - x.from);
       const double middle = (y.low + y.high) / 2;

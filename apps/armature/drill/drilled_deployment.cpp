@@ -133,6 +133,9 @@ std::vector<std::string> without_reports(const DeploymentConfig& deployment) {
     settings.push_back(fmt::format("components.{}=null", report.name));
   }
   if (!settings.empty() && !deployment.goals.empty()) settings.emplace_back("goals=null");
+  if (!settings.empty() && !deployment.sweep_goals.empty()) {
+    settings.emplace_back("sweep_goals=null");
+  }
   return settings;
 }
 

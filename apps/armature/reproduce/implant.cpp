@@ -71,6 +71,13 @@ void add_table3(const Keys& keys, Results& results) {
     results.value(table, std::string{"total rotation, "} + name,
                   total_rotation(curve_of(keys, kind)));
   }
+  // From a millionth of a piece away what is continuous has no jump, and what is not has all of it.
+  for (const auto& [name, kind] : kInterpolators) {
+    const OrientationJump jump = largest_jump_beside(curve_of(keys, kind), 1e-6);
+    results.value("continuity", std::string{name} + ", jump of the velocity", jump.velocity);
+    results.value("continuity", std::string{name} + ", jump of the acceleration",
+                  jump.acceleration);
+  }
   const OrientationPeaks peaks = peaks_of(curve_of(keys, OrientationInterpolator::rotvec_bspline));
   // The paper counts a piece as 1, and there are three.
   results.value(table, "peak velocity, rotvec_bspline", peaks.velocity / 3);

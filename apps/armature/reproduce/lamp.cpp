@@ -2,9 +2,11 @@
 // Jiang et al. 2021: the auto-tracking dental lamp. In the paper's millimetres.
 #include <array>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "armature/robot/geometry/stereo_camera.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
+#include "reproduce/experiment.hpp"
 #include "reproduce/lamp_example.hpp"
 #include "reproduce/papers.hpp"
 
@@ -219,9 +221,29 @@ void add_simulation(const Numbers& numbers, LampExample& lamp, Results& results)
   for (int i = 0; i < 6; ++i) results.value(table, "goal " + theta(i), goal[i]);
 }
 
+/// Section 5 as a deployment: what the lamp sees and how far off it is, at rest at the end.
+void add_experiment(Results& results) {
+  const auto report = run_experiment("lamp_section_5");
+  const std::vector<double> error = report.at("mouth_error_mm");
+  results.point("experiment", "mouth error", {error.at(0), error.at(1), error.at(2)});
+  results.value("experiment", "mouth error", report.at("mouth_position_error_mm"));
+  results.value("experiment", "normal error", report.at("face_normal_error_deg"));
+  results.value("experiment", "distance error", report.at("distance_error_mm"));
+  results.value("experiment", "direction error", report.at("direction_error_deg"));
+  // u and v in the left picture, then in the right one.
+  const std::vector<double> left_eye = report.at("left_eye_px"),
+                            right_eye = report.at("right_eye_px"), mouth = report.at("mouth_px");
+  constexpr std::array kCoordinates{"u, left", "v, left", "u, right", "v, right"};
+  for (std::size_t i = 0; i < kCoordinates.size(); ++i) {
+    results.value("experiment_pixels", std::string{"mouth "} + kCoordinates[i], mouth.at(i));
+  }
+  results.value("experiment_pixels", "eyes apart, left", right_eye.at(0) - left_eye.at(0));
+  results.value("experiment_pixels", "eyes apart, right", right_eye.at(2) - left_eye.at(2));
+}
+
 }  // namespace
 
-void compute_lamp(const Numbers& numbers, bool /*with_long*/, Results& results) {
+void compute_lamp(const Numbers& numbers, bool with_long, Results& results) {
   LampExample lamp{numbers, shipped_robot("dental_lamp")};
   const Trajectory plan = lamp.paper_plan();
   add_inverse(numbers, lamp, results);
@@ -232,6 +254,7 @@ void compute_lamp(const Numbers& numbers, bool /*with_long*/, Results& results) 
   add_motion(lamp, plan, results);
   add_comparison(lamp, plan, results);
   add_simulation(numbers, lamp, results);
+  if (with_long) add_experiment(results);
 }
 
 }  // namespace armature::reproduce

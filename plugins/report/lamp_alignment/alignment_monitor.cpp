@@ -61,7 +61,7 @@ void AlignmentMonitor::see_lamp(const Eigen::Vector3d& center, const Eigen::Vect
 
 std::optional<EstimateError> AlignmentMonitor::estimate_error() const {
   if (!truth_ || count_ < parameters_.min_frames) return std::nullopt;
-  return EstimateError{.mouth_m = (sum_.mouth / count_ - truth_->mouth).norm(),
+  return EstimateError{.mouth = sum_.mouth / count_ - truth_->mouth,
                        .normal_rad = angle_between(sum_.normal, truth_->normal)};
 }
 
@@ -73,7 +73,7 @@ std::array<AlignmentCheck, 2> AlignmentMonitor::estimate_checks() const {
       {.name = "face_normal_error_deg", .limit = parameters_.face_normal_error, .unit = kDegree},
   }};
   if (const auto error = estimate_error()) {
-    checks[0].value = error->mouth_m;
+    checks[0].value = error->mouth.norm();
     checks[1].value = error->normal_rad;
   }
   return checks;

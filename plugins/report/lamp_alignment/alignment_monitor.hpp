@@ -27,7 +27,8 @@ struct LampError {
 
 /// How far the averaged estimate is from the truth.
 struct EstimateError {
-  double mouth_m = 0, normal_rad = 0;
+  Eigen::Vector3d mouth = Eigen::Vector3d::Zero();  // [m] in the base frame
+  double normal_rad = 0;
 };
 
 /// One of the limits of "aligned" and what was measured against it.

@@ -94,7 +94,7 @@ TEST_F(AlignmentMonitorTest, AveragesTheEstimatesAtRestAndNeedsEnoughOfThem) {
   EXPECT_FALSE(monitor_.estimate_error());
   run(0.3);
   ASSERT_TRUE(monitor_.estimate_error());
-  EXPECT_NEAR(monitor_.estimate_error()->mouth_m, 0.001, 1e-9);
+  EXPECT_NEAR(monitor_.estimate_error()->mouth.norm(), 0.001, 1e-9);
   EXPECT_NEAR(monitor_.estimate_error()->normal_rad, 0, 1e-9);
 }
 

@@ -7,6 +7,7 @@
 
 #include "alignment_monitor.hpp"
 #include "armature/kinds/joint_messages.hpp"
+#include "armature/kinds/landmarks/landmark_messages.hpp"
 #include "armature/kinds/setup_robot.hpp"
 #include "armature/kinds/target/target_messages.hpp"
 #include "armature/messages/geometry.hpp"
@@ -84,7 +85,10 @@ class LampReport : public Component {
     metric("time_to_realign_s", "time to align again after the move [s]",
            monitor_.time_to_realign_s());
     if (const auto error = monitor_.estimate_error()) {
-      metric("mouth_position_error_mm", "mouth position error [mm]", 1000 * error->mouth_m);
+      metric("mouth_position_error_mm", "mouth position error [mm]", 1000 * error->mouth.norm());
+      const Eigen::Vector3d mouth_mm = 1000 * error->mouth;
+      summary.series("mouth_error_mm", "  along x, y and z of the base [mm]",
+                     {mouth_mm.x(), mouth_mm.y(), mouth_mm.z()});
       metric("face_normal_error_deg", "face normal error [deg]", kDegrees * error->normal_rad);
     }
     if (!monitor_.lamp_errors().empty()) {
@@ -95,6 +99,7 @@ class LampReport : public Component {
       }
       metric("direction_error_deg", "direction error [deg]", kDegrees * last.direction_error_rad);
     }
+    tell_pixels(summary);
     metric("replans", "goals after the first alignment", monitor_.replans());
     summary.text("trajectory_sha256", "SHA-256 of the arm's trajectory", hash_.hex());
     if (!monitor_.finished()) {
@@ -110,6 +115,26 @@ class LampReport : public Component {
   }
 
  private:
+  /// Where the newest face is in both pictures.
+  void tell_pixels(Summary& summary) const {
+    if (!seen_) return;
+    const auto tell = [&](const char* key, const char* title, FaceFeature feature) {
+      std::vector<double> pixels;
+      for (const FaceLandmarks* face : {&seen_->left, &seen_->right}) {
+        const auto around = landmarks_around(feature, face->scheme);
+        Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+        for (const std::size_t i : around) sum += face->points[i].point;
+        pixels.push_back(sum.x() / static_cast<double>(around.size()));
+        pixels.push_back(sum.y() / static_cast<double>(around.size()));
+      }
+      summary.series(key, title, std::move(pixels));
+    };
+    tell("left_eye_px", "left eye, u and v in the left and the right picture [px]",
+         FaceFeature::left_eye);
+    tell("right_eye_px", "right eye [px]", FaceFeature::right_eye);
+    tell("mouth_px", "mouth [px]", FaceFeature::mouth);
+  }
+
   void see_truth(Time now) {
     if (!truth_.latest()) return;
     const auto truth = estimate_of(*truth_.latest());
@@ -118,7 +143,9 @@ class LampReport : public Component {
 
   void see_faces(Time now) {
     for (std::size_t i = 0; i < landmarks_.size(); ++i) {
-      if (landmarks_[i].valid_()) unfinished_.see_face(stamp_of(landmarks_[i].header_().stamp_()));
+      if (!landmarks_[i].valid_()) continue;
+      unfinished_.see_face(stamp_of(landmarks_[i].header_().stamp_()));
+      if (auto face = landmarks_of(landmarks_[i])) seen_ = std::move(*face);
     }
     for (std::size_t i = 0; i < target_.size(); ++i) {
       const auto estimate = estimate_of(target_[i]);
@@ -207,7 +234,8 @@ class LampReport : public Component {
   Time now_;
   TrajectoryHash hash_;
   CameraPicture picture_;
-  std::optional<JointVector> last_q_;  // of the arm
+  std::optional<JointVector> last_q_;    // of the arm
+  std::optional<StereoLandmarks> seen_;  // the newest
   Input<msg::Target> truth_, target_;
   Input<msg::JointState> measured_js_;
   Input<msg::TaskState> task_state_;

@@ -48,6 +48,41 @@ TEST(LampFull, AlignsAsThePaperHasIt) {
   expect_aligned(run, {.mouth_mm = 8, .normal_deg = 6, .distance_mm = 8, .direction_deg = 6});
 }
 
+struct Place {
+  std::string name, mouth_m;
+  int tilt_up_deg;
+
+  friend void PrintTo(const Place& place, std::ostream* out) { *out << place.name; }
+};
+
+class WideSearch : public testing::TestWithParam<Place> {};
+
+/// High and low, and tilted away from the lamp: the cameras of configs/rigs/default.yaml see none.
+TEST_P(WideSearch, FindsTheFaceAndAligns) {
+  const DeploymentRun run = run_deployment(
+      {.files = {source_file("configs/dental_lamp_wide.yaml")},
+       .settings = {
+           kSimulated, "components.scene.params.mouth_m=" + GetParam().mouth_m,
+           "components.scene.params.tilt_up_deg=" + std::to_string(GetParam().tilt_up_deg)}});
+  expect_aligned(run);
+}
+
+INSTANTIATE_TEST_SUITE_P(Places, WideSearch,
+                         testing::Values(Place{"High", "[1.35, 0, 1.0]", -40},
+                                         Place{"Low", "[1.2, 0, 0]", 35},
+                                         Place{"HighAside", "[1.3, 0.3, 0.9]", -40},
+                                         Place{"LowAside", "[1.2, -0.3, 0.1]", 40}),
+                         [](const auto& place) { return place.param.name; });
+
+TEST(LampFull, NamesAFaceOutOfReach) {
+  const DeploymentRun run =
+      run_deployment({.files = {source_file("configs/dental_lamp_wide.yaml")},
+                      .settings = {kSimulated, "run.time_limit_s=10",
+                                   "components.scene.params.mouth_m=[2.3, 0, 0.5]"}});
+  EXPECT_EQ(run.status(), "goals_missed");
+  EXPECT_NE(run.command.err.find("m beyond reach"), std::string::npos) << run.text();
+}
+
 TEST(LampFull, RaisesTheLightInADarkRoomAndAligns) {
   const DeploymentRun run =
       run_deployment({.settings = {kSimulated, "components.scene.params.gain=0.3"}});

@@ -46,7 +46,7 @@ const Json* FinishedRuns::find(const RunKey& key) const {
 }
 
 void FinishedRuns::add(const RunKey& key, Json report) {
-  if (file_) {
+  if (file_ && report.value("status", "") != kCrashed) {
     std::ofstream out{*file_, std::ios::app};
     const Json line{{"fingerprint", key.fingerprint}, {"seed", key.seed}, {"report", report}};
     out << line.dump() << '\n' << std::flush;

@@ -17,6 +17,9 @@ struct RunKey {
   auto operator<=>(const RunKey&) const = default;
 };
 
+/// The status of a run whose process ended without a report.
+inline constexpr const char* kCrashed = "crashed";
+
 /// What runs have told, kept in a file with a line for each, so that a sweep that was interrupted
 /// goes on where it stopped.
 class FinishedRuns {
@@ -27,6 +30,7 @@ class FinishedRuns {
 
   /// The report of a run, or nullptr.
   const nlohmann::ordered_json* find(const RunKey& key) const;
+  /// A run that crashed or hung is not kept in the file: a sweep that goes on tries it again.
   /// Throws std::runtime_error when the file cannot be written.
   void add(const RunKey& key, nlohmann::ordered_json report);
 

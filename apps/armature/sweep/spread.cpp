@@ -54,9 +54,9 @@ JudgedSweepGoal judged(const SweepGoal& goal, const std::vector<Spread>& figures
 }
 
 /// The figures that are numbers, in the order in which reports tell them.
-std::vector<Spread> figures_of(const std::vector<const Json*>& reports) {
+std::vector<Spread> figures_of(const std::vector<SeedReport>& reports) {
   std::vector<Spread> figures;
-  for (const Json* report : reports) {
+  for (const auto& [seed, report] : reports) {
     for (const auto& [key, value] : report->items()) {
       if (!value.is_number() && !value.is_null()) continue;
       if (std::ranges::find(figures, key, &Spread::figure) == figures.end()) {
@@ -109,16 +109,17 @@ bool RunSpread::is_ok() const {
          });
 }
 
-RunSpread spread_of(const std::vector<const Json*>& reports, const DeploymentConfig& config,
+RunSpread spread_of(const std::vector<SeedReport>& reports, const DeploymentConfig& config,
                     std::vector<std::string> variation) {
   RunSpread all{.variation = std::move(variation),
                 .figures = figures_of(reports),
                 .statuses = {},
+                .failed = {},
                 .goals = {}};
   for (Spread& spread : all.figures) {
     const auto goal = std::ranges::find(config.goals, spread.figure, &Goal::metric);
     if (goal != config.goals.end()) spread.goal = goal->limit;
-    for (const Json* report : reports) {
+    for (const auto& [seed, report] : reports) {
       const auto value = report->find(spread.figure);
       if (value == report->end() || !value->is_number()) {
         ++spread.unmeasured;
@@ -129,8 +130,11 @@ RunSpread spread_of(const std::vector<const Json*>& reports, const DeploymentCon
     }
     std::ranges::sort(spread.values);
   }
-  for (const Json* report : reports) {
+  for (const auto& [seed, report] : reports) {
     const std::string status = report->value("status", "");
+    if (status != "ok" && status != "goals_missed") {
+      all.failed.push_back({seed, status, report->value("reason", "")});
+    }
     const auto known =
         std::ranges::find(all.statuses, status, &decltype(all.statuses)::value_type::first);
     if (known == all.statuses.end()) {

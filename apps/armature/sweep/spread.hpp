@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -44,18 +45,31 @@ struct JudgedSweepGoal {
   std::string fault;  // why it is not met, or ""
 };
 
+/// What a run told, and its seed.
+struct SeedReport {
+  std::uint64_t seed = 0;
+  const nlohmann::ordered_json* report = nullptr;
+};
+
+/// A run that came to another end than ok or goals_missed.
+struct FailedRun {
+  std::uint64_t seed = 0;
+  std::string status, reason;
+};
+
 /// All runs of one combination.
 struct RunSpread {
   std::vector<std::string> variation;                         // assignments
   std::vector<Spread> figures;                                // in the order of the report
   std::vector<std::pair<std::string, std::size_t>> statuses;  // "ok", 195
+  std::vector<FailedRun> failed;
   std::vector<JudgedSweepGoal> goals;
   /// Whether all sweep goals are met and no run came to another end than ok or goals_missed;
   /// without sweep goals every run must be ok.
   bool is_ok() const;
 };
 
-RunSpread spread_of(const std::vector<const nlohmann::ordered_json*>& reports,
-                    const DeploymentConfig& config, std::vector<std::string> variation);
+RunSpread spread_of(const std::vector<SeedReport>& reports, const DeploymentConfig& config,
+                    std::vector<std::string> variation);
 
 }  // namespace armature::sweep

@@ -31,8 +31,8 @@ class SpreadTest : public testing::Test {
                                    .origin = {}});
   }
   RunSpread spread() const {
-    std::vector<const Json*> reports;
-    for (const Json& report : reports_) reports.push_back(&report);
+    std::vector<SeedReport> reports;
+    for (const Json& report : reports_) reports.push_back({reports.size() + 1, &report});
     return spread_of(reports, config_, {});
   }
 
@@ -60,6 +60,8 @@ TEST_F(SpreadTest, AGoalOfOneRunIsCountedAndDoesNotDecideWhereThereAreSweepGoals
   EXPECT_TRUE(spread().is_ok());
   reports_[0]["status"] = "fault";
   EXPECT_FALSE(spread().is_ok());
+  EXPECT_EQ(spread().failed.at(0).seed, 1u);
+  EXPECT_EQ(spread().failed.at(0).status, "fault");
 }
 
 TEST_F(SpreadTest, EverySweepGoalIsHeldAgainstItsBoundsOnBothSides) {

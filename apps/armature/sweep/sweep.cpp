@@ -61,7 +61,7 @@ std::string run_once(const Job& job, PluginRegistry& plugins) {
 /// A process that crashed or hung has a report, too.
 Json report_of(const Isolated& outcome) {
   if (outcome.fault.empty()) return Json::parse(outcome.result);
-  return Json{{"status", "crashed"}, {"reason", outcome.fault}};
+  return Json{{"status", sweep::kCrashed}, {"reason", outcome.fault}};
 }
 
 /// Runs what is missing, so many at a time.
@@ -145,11 +145,11 @@ int sweep_deployment(const SweepOptions& options) {
   Runs{options, plugins, finished}.run(missing);
 
   std::vector<sweep::RunSpread> spreads;
-  std::vector<const Json*> reports;
+  std::vector<sweep::SeedReport> reports;
   for (const Combination& combination : combinations) {
     if (!options.pool) reports.clear();
     for (const std::uint64_t seed : options.seeds) {
-      reports.push_back(finished.find({combination.config.fingerprint, seed}));
+      reports.push_back({seed, finished.find({combination.config.fingerprint, seed})});
     }
     if (options.pool) continue;
     spreads.push_back(sweep::spread_of(reports, combination.config, combination.variation));

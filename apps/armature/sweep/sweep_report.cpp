@@ -135,6 +135,15 @@ std::string to_text(const RunSpread& spread) {
   text += "  runs: ";
   for (const auto& [status, count] : spread.statuses) text += fmt::format("{} {}  ", count, status);
   text += '\n';
+  constexpr std::size_t kShown = 10;
+  for (std::size_t i = 0; i < std::min(kShown, spread.failed.size()); ++i) {
+    const FailedRun& run = spread.failed[i];
+    text += fmt::format("  seed {}: {}{}{}\n", run.seed, run.status, run.reason.empty() ? "" : ", ",
+                        run.reason);
+  }
+  if (spread.failed.size() > kShown) {
+    text += fmt::format("  and {} more\n", spread.failed.size() - kShown);
+  }
   if (!spread.goals.empty()) text += "sweep goals\n";
   for (const JudgedSweepGoal& goal : spread.goals) text += text_of(goal);
   return text;
@@ -144,6 +153,10 @@ Json to_json(const RunSpread& spread) {
   Json json{{"variation", spread.variation}, {"ok", spread.is_ok()}};
   json["statuses"] = Json::object();
   for (const auto& [status, count] : spread.statuses) json["statuses"][status] = count;
+  json["failed"] = Json::array();
+  for (const FailedRun& run : spread.failed) {
+    json["failed"].push_back({{"seed", run.seed}, {"status", run.status}, {"reason", run.reason}});
+  }
   json["figures"] = Json::object();
   for (const Spread& figure : spread.figures) {
     Json one{{"runs", figure.values.size()}, {"not_measured", figure.unmeasured}};

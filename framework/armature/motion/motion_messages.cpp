@@ -150,6 +150,8 @@ void write_path(const Plan& plan, const RobotModel& model, msg::ToolPath& messag
   message.goal_id_(plan.trajectory.goal_id);
   message.position_().clear();
   message.direction_().clear();
+  message.orientation_().clear();
+  message.s_().clear();
   const Eigen::Vector3d axis = model.pointing_axis().value_or(Eigen::Vector3d::UnitX());
   for (const PathSegment& segment : plan.path) {
     for (const PathSample& sample : segment.samples) {
@@ -159,6 +161,10 @@ void write_path(const Plan& plan, const RobotModel& model, msg::ToolPath& messag
              direction
                  ? direction->unit
                  : Eigen::Vector3d{std::get<Eigen::Quaterniond>(sample.pose.orientation) * axis});
+      message.s_().push_back(sample.s);
+      if (const auto* q = std::get_if<Eigen::Quaterniond>(&sample.pose.orientation)) {
+        assign(message.orientation_().emplace_back(), *q);
+      }
     }
   }
 }

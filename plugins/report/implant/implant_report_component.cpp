@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -17,6 +18,7 @@
 #include "armature/kinds/setup_flange.hpp"
 #include "armature/kinds/setup_robot.hpp"
 #include "armature/messages/armature_msgs.hpp"
+#include "armature/messages/geometry.hpp"
 #include "armature/messages/sensor_msgs.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
 #include "armature/runtime/component/component.hpp"
@@ -24,6 +26,7 @@
 #include "armature/runtime/plugins/plugin.hpp"
 #include "bore_monitor.hpp"
 #include "drill_error.hpp"
+#include "planned_turn.hpp"
 #include "smoothness.hpp"
 
 namespace armature::report::implant {
@@ -54,6 +57,8 @@ class ImplantReport final : public Component {
         estimate_{setup.input<msg::TFMessage>("estimate")},
         registration_{setup},
         measured_js_{setup.input<msg::JointState>("measured_js")},
+        goal_{setup.input<msg::MotionGoal>("goal")},
+        path_{setup.input<msg::ToolPath>("path")},
         task_state_{setup.input<msg::TaskState>("task_state")} {
     setup.activate_every(kPeriod);
   }
@@ -66,6 +71,8 @@ class ImplantReport final : public Component {
     read_chains();
     for (std::size_t i = 0; i < task_state_.size(); ++i) read(task_state_[i], now);
     for (std::size_t i = 0; i < measured_js_.size(); ++i) read(measured_js_[i]);
+    for (std::size_t i = 0; i < goal_.size(); ++i) read(goal_[i]);
+    for (std::size_t i = 0; i < path_.size(); ++i) read(path_[i]);
     finished_ = ended_at_ && now - *ended_at_ >= seconds(parameters_.still_for);
   }
 
@@ -126,6 +133,40 @@ class ImplantReport final : public Component {
     if (ended && !ended_at_) ended_at_ = now;
   }
 
+  void read(const msg::MotionGoal& goal) {
+    if (goal.through_().empty()) return;
+    keyed_goal_ = goal.goal_id_();
+    keys_.clear();
+    for (const msg::ToolPose& key : goal.through_()) keys_.push_back(to_eigen(key.position_()));
+    key_rotations_.clear();
+    for (const msg::ToolPose& key : goal.through_()) {
+      key_rotations_.push_back(to_eigen(key.orientation_()));
+    }
+  }
+
+  /// The path of the newest goal with key poses. Its samples hold the keys in their order.
+  void read(const msg::ToolPath& path) {
+    const std::size_t count = path.s_().size();
+    if (path.goal_id_() != keyed_goal_ || path.orientation_().size() != count ||
+        path.position_().size() != count) {
+      return;
+    }
+    constexpr double kSame = 1e-9;  // [m] and [rad]
+    std::vector<TurnSample> samples;
+    std::vector<std::size_t> at;
+    for (std::size_t i = 0; i < count; ++i) {
+      samples.push_back({path.s_()[i], to_eigen(path.orientation_()[i])});
+      if (at.size() == keys_.size()) continue;
+      const bool is_next =
+          (to_eigen(path.position_()[i]) - keys_[at.size()]).norm() <= kSame &&
+          samples.back().rotation.angularDistance(key_rotations_[at.size()]) <= kSame;
+      if (is_next) at.push_back(i);
+    }
+    const PlannedTurn turn{samples, at};
+    if (turn.total_rad() < parameters_.min_turn || turn.keys_seen() == 0) return;
+    planned_jump_ = std::max(planned_jump_.value_or(0), turn.jump_of_peak());
+  }
+
   void read(const msg::JointState& state) {
     const auto q = joints_of(robot_, state);
     const auto v = joint_rates_of(robot_, state);
@@ -175,6 +216,7 @@ class ImplantReport final : public Component {
   }
 
   void tell_smoothness(Summary& summary) const {
+    tell_planned_turn(summary);
     const auto degrees = [&](const char* key, const char* title, double radians) {
       summary.metric(key, title, kDegrees * radians);
     };
@@ -196,6 +238,16 @@ class ImplantReport final : public Component {
                     kDegrees * smoothness_.total_rad(), kDegrees * parameters_.min_turn));
   }
 
+  void tell_planned_turn(Summary& summary) const {
+    constexpr const char *kKey = "planned_turn_jump",
+                         *kTitle = "jump of the planned turn at a key pose, as a part of its peak";
+    if (planned_jump_) return summary.metric(kKey, kTitle, *planned_jump_);
+    summary.not_measured(kKey, kTitle,
+                         fmt::format("no path turned by 'min_turn_deg', {:g} degrees, and had key "
+                                     "poses with samples on both sides",
+                                     kDegrees * parameters_.min_turn));
+  }
+
   Parameters parameters_;
   RobotModel robot_;
   FrameId flange_;
@@ -205,6 +257,10 @@ class ImplantReport final : public Component {
   std::optional<GuidedChain> chain_;
   std::optional<BoreMonitor> bores_;
   Smoothness smoothness_;
+  std::uint64_t keyed_goal_ = 0;
+  std::vector<Vector3d> keys_;
+  std::vector<Eigen::Quaterniond> key_rotations_;
+  std::optional<double> planned_jump_;
   std::string state_, trouble_;
   double speed_ = 0;
   bool finished_ = false;
@@ -212,6 +268,8 @@ class ImplantReport final : public Component {
   Input<msg::TFMessage> truth_, estimate_;
   OverheardRegistration registration_;
   Input<msg::JointState> measured_js_;
+  Input<msg::MotionGoal> goal_;
+  Input<msg::ToolPath> path_;
   Input<msg::TaskState> task_state_;
 };
 

@@ -91,6 +91,7 @@ Isolated IsolatedWork::outcome() {
   Isolated outcome{.result = result_, .fault = ""};
   if (!told_all_) {
     outcome.fault = fmt::format("not done after {:g} s", timeout_s_);
+    outcome.timed_out = true;
   } else if (WIFSIGNALED(status)) {
     outcome.fault =
         fmt::format("killed by signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)));

@@ -13,6 +13,7 @@ namespace armature {
 struct Isolated {
   std::string result;  // what the work returned
   std::string fault;   // why it returned nothing: "killed by signal 11 (Segmentation fault)"
+  bool timed_out = false;
 };
 
 /// Work in a child process, which may crash or hang without taking this one with it. What it prints

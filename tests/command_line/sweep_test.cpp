@@ -89,6 +89,22 @@ TEST_F(Sweep, ThatIsInterruptedKeepsWhatHasFinished) {
   EXPECT_THAT(sweep({"--seeds", "1..2", "--out", folder_}).err, HasSubstr("2 of 2 runs are in"));
 }
 
+TEST_F(Sweep, AFolderOfAnotherSweepOrOfSomebodyElseIsLeftAlone) {
+  fs::create_directories(folder_);
+  std::ofstream{folder_ / "runs.jsonl"} << "important notes";
+  EXPECT_THAT(sweep({"--seeds", "1", "--out", folder_}).err,
+              HasSubstr("runs.jsonl:1: no line of a sweep; give another folder"));
+  EXPECT_EQ(text_of(folder_ / "runs.jsonl"), "important notes");
+  fs::remove(folder_ / "runs.jsonl");
+  Command running{command({"--seeds", "1..100000", "--out", folder_})};
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds{30};
+  while (finished_runs() < 1 && std::chrono::steady_clock::now() < end) {
+    std::this_thread::sleep_for(std::chrono::milliseconds{20});
+  }
+  EXPECT_THAT(sweep({"--seeds", "1", "--out", folder_}).err,
+              HasSubstr("another sweep uses this folder"));
+}
+
 TEST_F(Sweep, VariesKeysAndHoldsSweepGoalsAgainstEachCombination) {
   const auto result =
       sweep({"--seeds", "1..4", "--vary",
@@ -100,11 +116,16 @@ TEST_F(Sweep, VariesKeysAndHoldsSweepGoalsAgainstEachCombination) {
   EXPECT_THAT(result.out, HasSubstr("MISSED: at most 0.0001"));
 }
 
-TEST_F(Sweep, ACrashIsAStatusAndStopsNoOtherRun) {
-  const auto result = sweep({"--seeds", "1..3", "--json", "--timeout", "0.001", "--out", folder_});
-  EXPECT_EQ(finished_runs(), 0) << "a sweep that goes on tries them again";
+TEST_F(Sweep, ARunThatIsNotDoneInTimeIsToldAndTriedAgainTheNextTime) {
+  const auto result =
+      run_command({armature(), "sweep", source_file("configs/dental_implant.yaml"), "--seeds",
+                   "1..2", "--json", "--timeout", "0.05", "--out", folder_});
   EXPECT_EQ(result.exit_code, 1);
-  EXPECT_EQ(nlohmann::json::parse(result.out).at(0)["statuses"]["crashed"], 3);
+  const auto told = nlohmann::json::parse(result.out).at(0);
+  EXPECT_EQ(told["statuses"]["timed_out"], 2);
+  EXPECT_EQ(told["failed"][1]["seed"], 2);
+  EXPECT_EQ(told["failed"][1]["reason"], "not done after 0.05 s");
+  EXPECT_EQ(finished_runs(), 0);
 }
 
 TEST_F(Sweep, WhatIsWrongIsToldBeforeAnythingRuns) {
@@ -118,6 +139,12 @@ TEST_F(Sweep, WhatIsWrongIsToldBeforeAnythingRuns) {
               HasSubstr("'share' needs 'at_most'"));
   EXPECT_THAT(sweep({"--set", "sweep_goals={target_error_mm: {p95: [2, 1]}}"}).err,
               HasSubstr("at least 2 and at most 1"));
+  EXPECT_THAT(sweep({"--set", "sweep_goals={target_error_mm: {share: 1.5, at_most: 1}}"}).err,
+              HasSubstr("a share is from 0 to 1"));
+  EXPECT_THAT(sweep({"--set", "sweep_goals={target_error_mm: {p95: -1}}"}).err,
+              HasSubstr("is never below 0"));
+  EXPECT_THAT(sweep({"--pool", "--vary", "goals.line_deviation_mm=1,2"}).err,
+              HasSubstr("not the same goals"));
   EXPECT_THAT(sweep({"--vary", "components.motion.ik.plugin=ik/nmeric"}).err,
               HasSubstr("unknown plugin 'ik/nmeric'"));
 }

@@ -26,6 +26,10 @@ const std::vector<KeySpec> kRowKeys{
     {.name = "rounding", .doc = "Of it against the printed one.", .min = 0, .optional = true},
     {.name = "at_least", .doc = "Of ours.", .optional = true},
     {.name = "at_most", .doc = "Of ours.", .optional = true},
+    {.name = "differs",
+     .type = Type::text,
+     .doc = "Why ours is another number than the printed one.",
+     .optional = true},
     {.name = "misprint",
      .type = Type::text,
      .doc = "What is wrong in the paper.",
@@ -41,6 +45,7 @@ const std::vector<KeySpec> kTableKeys{
     {.name = "unit", .type = Type::text, .doc = "Of its rows.", .optional = true},
     {.name = "tolerance", .doc = "Of its rows.", .optional = true, .above = 0},
     {.name = "rounding", .doc = "Of its rows.", .min = 0, .optional = true},
+    {.name = "differs", .type = Type::text, .doc = "Of its rows.", .optional = true},
     {.name = "rows", .type = Type::section, .doc = "Its lines."}};
 const std::vector<KeySpec> kFigureKeys{
     {.name = "figure", .type = Type::text, .doc = "Its name, and that of its files."},
@@ -77,6 +82,7 @@ std::optional<Printed> read_printed(MapReader& map) {
 struct Defaults {
   std::string unit;
   std::optional<double> tolerance, rounding;
+  std::string differs;
 };
 
 DeclaredRow read_row(const config::Node& node, const Defaults& defaults, Problems& problems) {
@@ -94,6 +100,8 @@ DeclaredRow read_row(const config::Node& node, const Defaults& defaults, Problem
   const double last_digit = row.printed ? row.printed->last_digit() : 0;
   row.rounding = map.optional_number("rounding").value_or(defaults.rounding.value_or(last_digit));
   row.misprint = map.text("misprint");
+  row.differs = map.text("differs");
+  if (row.differs.empty() && row.printed) row.differs = defaults.differs;
   map.finish();
   const auto object = [&](const char* what) {
     problems.add(node.origin(), fmt::format("'{}' {}", row.name, what));
@@ -116,7 +124,7 @@ DeclaredTable read_table(const config::Node& node, Problems& problems) {
                       .is_long = map.flag("long"),
                       .rows = {}};
   const Defaults defaults{map.text("unit"), map.optional_number("tolerance"),
-                          map.optional_number("rounding")};
+                          map.optional_number("rounding"), map.text("differs")};
   std::set<std::string> names;
   if (const config::Node* rows = map.node("rows")) {
     for (const config::Node& row : rows->items()) {

@@ -27,7 +27,8 @@ struct DeclaredRow {
   double tolerance = 0;                     // of ours against the recomputed value
   std::optional<double> at_least, at_most;  // of ours
   double rounding = 0;                      // of the recomputed against the printed value
-  std::string misprint;                     // what is wrong with the printed value; "": it is right
+  std::string differs;   // why ours is another number than the printed one; "": it is the same
+  std::string misprint;  // what is wrong with the printed value; "": it is right
 };
 
 struct DeclaredTable {

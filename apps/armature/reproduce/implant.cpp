@@ -42,13 +42,13 @@ OrientationCurve curve_of(const Keys& keys, OrientationInterpolator kind) {
       even.push_back(static_cast<double>(i) / static_cast<double>(keys.size() - 1));
     }
   }
-  return OrientationCurve::through(keys, kind, even).value();
+  return or_throw(OrientationCurve::through(keys, kind, even), "keys");
 }
 
 Keys table3_keys(const Numbers& numbers) {
   Keys keys;
-  for (std::size_t i = 0; i < numbers["quaternions"].size(); ++i) {
-    const Eigen::VectorXd wxyz = numbers["quaternions"][i].numbers();
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Eigen::VectorXd wxyz = numbers["quaternions"][i].numbers(4);
     keys.push_back(Quaterniond{wxyz[0], wxyz[1], wxyz[2], wxyz[3]}.normalized());
   }
   return keys;
@@ -238,14 +238,14 @@ class TurningArm {
   /// How far the tool is from the curve, in place and in turn, at 2001 instants.
   void compare(const Trajectory& plan, OrientationInterpolator kind, double& off_m,
                double& turned_rad) const {
-    const OrientationCurve curve = OrientationCurve::through(keys_, kind).value();
+    const OrientationCurve curve = or_throw(OrientationCurve::through(keys_, kind), "keys");
     const TimeLaw law{plan.duration_s()};
     for (int i = 0; i <= 2000; ++i) {
       const double t = law.duration_s() * i / 2000;
       const Eigen::Isometry3d tool = forward_kinematics(model_, plan.at(plan.start + seconds(t)).q);
-      off_m = std::max(off_m, (tool.translation() - place_).norm());
-      turned_rad = std::max(turned_rad,
-                            turn_between(Quaterniond{tool.linear()}, curve.at(law.s(t)).rotation));
+      off_m = worst(off_m, (tool.translation() - place_).norm());
+      turned_rad =
+          worst(turned_rad, turn_between(Quaterniond{tool.linear()}, curve.at(law.s(t)).rotation));
     }
   }
 

@@ -23,12 +23,12 @@ std::string fault_of_ours(const DeclaredRow& row, double ours) {
 }
 
 /// Why the printed value is not what the declaration says of it, or "".
-std::string fault_of_print(const DeclaredRow& row) {
-  if (!row.printed || !row.recomputed) return "";
-  const double off = std::abs(row.printed->value - *row.recomputed);
+std::string fault_of_print(const DeclaredRow& row, double ours) {
+  if (!row.printed) return "";
+  const double off = std::abs(row.printed->value - row.recomputed.value_or(ours));
   const bool agrees = off <= row.rounding * (1 + 1e-9);
-  if (!agrees && row.misprint.empty()) {
-    return fmt::format("printed {:.3g} from the recomputed value, and no misprint is named", off);
+  if (!agrees && row.misprint.empty() && row.differs.empty()) {
+    return fmt::format("{:.3g} from the printed value, and no misprint is named", off);
   }
   if (agrees && !row.misprint.empty()) return "a misprint is named, and the printed value is right";
   return "";
@@ -44,7 +44,7 @@ JudgedRow judge_row(const std::string& table, const DeclaredRow& row, const Resu
     return judged;
   }
   judged.fault = fault_of_ours(row, judged.ours);
-  if (judged.fault.empty()) judged.fault = fault_of_print(row);
+  if (judged.fault.empty()) judged.fault = fault_of_print(row, judged.ours);
   return judged;
 }
 
@@ -97,6 +97,10 @@ int Judgement::failed() const {
 }
 int Judgement::misprints() const {
   return count_rows(tables, [](const JudgedRow& row) { return !row.declared.misprint.empty(); });
+}
+
+int Judgement::differ() const {
+  return count_rows(tables, [](const JudgedRow& row) { return !row.declared.differs.empty(); });
 }
 
 Judgement judge(const Declaration& declaration, const Results& results, bool with_long) {

@@ -30,12 +30,14 @@ struct Judgement {
   int rows() const;
   int failed() const;  // rows and faults
   int misprints() const;
+  int differ() const;  // rows that are another number than the paper's, with the reason
 };
 
 /// Every declared row must have been computed and hold: ours within the tolerance of the
 /// recomputed value, or within its bounds; the recomputed value within the rounding of the printed
-/// one, or farther away where a misprint is named. A value or a curve that nothing declares is a
-/// fault, too. `with_long`: tables that take long were computed.
+/// one, or farther away where a misprint or the reason is named; ours stands for a value that could
+/// not be recomputed. A value or a curve that nothing declares is a fault, too. `with_long`: tables
+/// that take long were computed.
 Judgement judge(const Declaration& declaration, const Results& results, bool with_long);
 
 }  // namespace armature::reproduce

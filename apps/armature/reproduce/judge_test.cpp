@@ -74,6 +74,9 @@ TEST(PaperRow, NamesAMisprintWhereThereIsOneAndNowhereElse) {
   EXPECT_THAT(fault_of("{row: a, printed: 1.43, recomputed: 1.2341}", 1.2341),
               HasSubstr("no misprint is named"));
   EXPECT_EQ(fault_of("{row: a, printed: 1.43, recomputed: 1.2341, misprint: digits}", 1.2341), "");
+  EXPECT_THAT(fault_of("{row: a, printed: 1.43, at_most: 2}", 1.2),
+              HasSubstr("0.23 from the printed value"));
+  EXPECT_EQ(fault_of("{row: a, printed: 1.43, at_most: 2, differs: other keys}", 1.2), "");
   EXPECT_THAT(fault_of("{row: a, printed: 1.23, recomputed: 1.2341, misprint: digits}", 1.2341),
               HasSubstr("the printed value is right"));
 }
@@ -100,7 +103,7 @@ TEST(PaperReport, ShowsEveryRowWithItsVerdict) {
   const std::string text = to_text(declaration, judge(declaration, results, true));
   EXPECT_THAT(text, HasSubstr("misprint: digits"));
   EXPECT_THAT(text, HasSubstr("FAILS: at most 2"));
-  EXPECT_THAT(text, HasSubstr("2 rows: 1 hold, 1 fail; 1 misprints named"));
+  EXPECT_THAT(text, HasSubstr("2 rows: 1 hold, 1 fail; 1 misprints named, 0 differ"));
 }
 
 }  // namespace

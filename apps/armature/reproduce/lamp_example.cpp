@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "armature/robot/kinematics/kinematics.hpp"
+#include "reproduce/results.hpp"
 
 namespace armature::reproduce {
 
@@ -53,7 +54,7 @@ JointVector LampExample::joints(const Vector3d& position_m, const Vector3d& dire
 }
 
 Path LampExample::planned_path(const std::string& id, const ToolPose& from, const ToolPose& to) {
-  return path(id).plan({.start = from, .goal = to, .focus = mouth}).value();
+  return or_throw(path(id).plan({.start = from, .goal = to, .focus = mouth}), id);
 }
 
 std::vector<ToolPose> LampExample::mouth_points() {
@@ -70,35 +71,33 @@ std::vector<JointVector> LampExample::joints_along(const std::vector<PathSample>
   for (const PathSample& sample : samples) {
     waypoints.push_back(branches(sample.pose.position, direction_of(sample.pose)));
   }
-  return plugins_.get<BranchSelector>("select/nearest", "", model_)
-      .choose(start, waypoints)
-      .value();
+  return or_throw(
+      plugins_.get<BranchSelector>("select/nearest", "", model_).choose(start, waypoints),
+      "select/nearest");
 }
 
 Trajectory LampExample::timed(const std::string& id, const std::vector<JointSegment>& segments) {
   const JointVector zero = JointVector::Zero(model_.dof());
-  return trajectory(id)
-      .plan({.goal_id = 1,
-             .start = {},
-             .from = {segments.front().q.front(), zero, zero},
-             .segments = segments,
-             .max_velocity = model_.max_velocity(),
-             .max_acceleration = model_.max_acceleration()})
-      .value();
+  return or_throw(trajectory(id).plan({.goal_id = 1,
+                                       .start = {},
+                                       .from = {segments.front().q.front(), zero, zero},
+                                       .segments = segments,
+                                       .max_velocity = model_.max_velocity(),
+                                       .max_acceleration = model_.max_acceleration()}),
+                  id);
 }
 
 Trajectory LampExample::unlimited(const std::string& id,
                                   const std::vector<JointSegment>& segments) {
   const JointVector zero = JointVector::Zero(model_.dof());
   const JointVector high = JointVector::Constant(model_.dof(), 1e6);
-  return trajectory(id)
-      .plan({.goal_id = 1,
-             .start = {},
-             .from = {segments.front().q.front(), zero, zero},
-             .segments = segments,
-             .max_velocity = high,
-             .max_acceleration = high})
-      .value();
+  return or_throw(trajectory(id).plan({.goal_id = 1,
+                                       .start = {},
+                                       .from = {segments.front().q.front(), zero, zero},
+                                       .segments = segments,
+                                       .max_velocity = high,
+                                       .max_acceleration = high}),
+                  id);
 }
 
 Trajectory LampExample::paper_plan() {
@@ -139,8 +138,8 @@ LampExample::Largest LampExample::largest_errors(const Trajectory& trajectory, d
     const Standing here =
         standing_at(trajectory.at(trajectory.start + seconds(from_s + i * step_s)).q);
     largest.distance_error_mm =
-        std::max(largest.distance_error_mm, std::abs(here.distance_mm - 1e3 * kDistance_m));
-    largest.aim_deg = std::max(largest.aim_deg, here.aim_deg);
+        worst(largest.distance_error_mm, std::abs(here.distance_mm - 1e3 * kDistance_m));
+    largest.aim_deg = worst(largest.aim_deg, here.aim_deg);
   }
   return largest;
 }

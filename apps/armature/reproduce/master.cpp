@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Wang, Guan, Cao: the master manipulator of a urology robot. In the paper's millimetres.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
+#include <string>
+#include <vector>
 
 #include "armature/kinds/ik/ik.hpp"
 #include "armature/kinds/trajectory/trajectory_planner.hpp"
@@ -20,7 +23,7 @@ constexpr std::array kJoints{"theta1", "theta2", "d3", "theta4", "theta5", "thet
 double papers_unit(int i) { return i == kSlide ? 1e3 : 1; }
 
 JointVector joints_of(const Numbers& numbers) {
-  JointVector q = numbers.numbers();
+  JointVector q = numbers.numbers(6);
   q[kSlide] *= 1e-3;
   return q;
 }
@@ -87,9 +90,8 @@ class Master {
         set[axis].push_back(1e3 * wanted.translation()[axis]);
         actual[axis].push_back(1e3 * got.translation()[axis]);
       }
-      position = std::max(position, 1e3 * (wanted.translation() - got.translation()).norm());
-      angle =
-          std::max(angle, Eigen::AngleAxisd{wanted.linear().transpose() * got.linear()}.angle());
+      position = worst(position, 1e3 * (wanted.translation() - got.translation()).norm());
+      angle = worst(angle, Eigen::AngleAxisd{wanted.linear().transpose() * got.linear()}.angle());
     }
     results.value("poses", "largest position error", position);
     results.value("poses", "largest angle error", angle);
@@ -127,14 +129,14 @@ class Master {
   Trajectory planned() {
     const auto& planner = plugins_.get<TrajectoryPlanner>("trajectory/quintic", "");
     const JointVector zero = JointVector::Zero(6);
-    return planner
-        .plan({.goal_id = 1,
-               .start = {},
-               .from = {a_, zero, zero},
-               .segments = {{{0, 1}, {a_, b_}, true, numbers_["duration_s"].number()}},
-               .max_velocity = model_.max_velocity(),
-               .max_acceleration = model_.max_acceleration()})
-        .value();
+    return or_throw(
+        planner.plan({.goal_id = 1,
+                      .start = {},
+                      .from = {a_, zero, zero},
+                      .segments = {{{0, 1}, {a_, b_}, true, numbers_["duration_s"].number()}},
+                      .max_velocity = model_.max_velocity(),
+                      .max_acceleration = model_.max_acceleration()}),
+        "trajectory/quintic");
   }
   JointState at(double t) const { return motion_.at(motion_.start + seconds(t)); }
 
@@ -158,7 +160,7 @@ class Master {
     for (int n = 1; n <= std::lround(duration / kStep_s); ++n) {
       const Eigen::Vector3d here = forward_kinematics(model_, at(n * kStep_s).q).translation();
       way += (here - before).norm();
-      fastest = std::max(fastest, (here - before).norm() / kStep_s);
+      fastest = worst(fastest, (here - before).norm() / kStep_s);
       before = here;
     }
     results.value("table_3", "way of the tip", 1e3 * way);

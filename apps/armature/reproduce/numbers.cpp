@@ -2,6 +2,9 @@
 #include "reproduce/numbers.hpp"
 
 #include <stdexcept>
+#include <string>
+
+#include "armature/config/conversion.hpp"
 
 namespace armature::reproduce {
 
@@ -12,12 +15,12 @@ Numbers Numbers::operator[](std::string_view key) const {
 }
 
 double Numbers::number() const {
-  try {
-    return std::stod(node_->text());
-  } catch (const std::exception&) {
-    throw std::invalid_argument(node_->origin().text() + ": " + node_->describe() +
-                                " is no number");
+  const auto number = config::to_number(*node_);
+  if (!number) {
+    throw std::invalid_argument(number.error().origin.text() + ": a number " +
+                                number.error().message);
   }
+  return *number;
 }
 
 Eigen::VectorXd Numbers::numbers() const {
@@ -28,10 +31,18 @@ Eigen::VectorXd Numbers::numbers() const {
   return result;
 }
 
+Eigen::VectorXd Numbers::numbers(std::size_t count) const {
+  if (size() != count) {
+    throw std::invalid_argument(node_->origin().text() + ": " + std::to_string(count) +
+                                " numbers are needed, not " + std::to_string(size()));
+  }
+  return numbers();
+}
+
 Eigen::Isometry3d Numbers::transform() const {
   Eigen::Isometry3d result;
   for (std::size_t row = 0; row < 4; ++row) {
-    result.matrix().row(static_cast<Eigen::Index>(row)) = (*this)[row].numbers();
+    result.matrix().row(static_cast<Eigen::Index>(row)) = (*this)[row].numbers(4);
   }
   return result;
 }

@@ -24,8 +24,10 @@ class Numbers {
   double number() const;
   const std::string& text() const { return node_->text(); }
   Eigen::VectorXd numbers() const;
+  /// So many of them.
+  Eigen::VectorXd numbers(std::size_t count) const;
   /// A point in millimetres, in metres.
-  Eigen::Vector3d point_m() const { return 1e-3 * numbers().head<3>(); }
+  Eigen::Vector3d point_m() const { return 1e-3 * numbers(3); }
   /// Four rows of four numbers.
   Eigen::Isometry3d transform() const;
 

@@ -10,8 +10,16 @@
 #include "armature/config/params.hpp"
 #include "armature/robot/model/robot_model.hpp"
 #include "armature/runtime/plugins/plugin_registry.hpp"
+#include "armature/values/expected.hpp"
 
 namespace armature::reproduce {
+
+/// What was asked for, or a std::runtime_error that says who refused it and why.
+template <class T>
+T or_throw(Expected<T> given, const std::string& who) {
+  if (!given) throw std::runtime_error(who + ": " + given.error().text);
+  return std::move(*given);
+}
 
 /// The shipped robot `name`, "master".
 RobotModel shipped_robot(const std::string& name);

@@ -10,6 +10,7 @@
 
 #include "armature/runtime/reporting/write_atomically.hpp"
 #include "colour.hpp"
+#include "csv_field.hpp"
 
 namespace armature::reproduce {
 namespace {
@@ -30,7 +31,9 @@ std::string bound_text(const DeclaredRow& row) {
 std::string remark_of(const JudgedRow& row) {
   if (!row.fault.empty()) return coloured("FAILS: " + row.fault, Tone::bad, stdout);
   if (!row.declared.misprint.empty()) return "misprint: " + row.declared.misprint;
-  return bound_text(row.declared);
+  const std::string bound = bound_text(row.declared);
+  if (row.declared.differs.empty()) return bound;
+  return bound + (bound.empty() ? "" : "; ") + "differs: " + row.declared.differs;
 }
 
 std::string table_text(const JudgedTable& table) {
@@ -51,35 +54,27 @@ std::string table_text(const JudgedTable& table) {
   return text;
 }
 
-/// A field of a CSV (RFC 4180).
-std::string field(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string{"\"\""} : std::string{c};
-  return quoted + '"';
-}
-
 std::string csv_of(const JudgedTable& table) {
   std::string csv = "row,unit,printed,recomputed,ours,tolerance,misprint,fault\r\n";
   for (const JudgedRow& row : table.rows) {
     const DeclaredRow& declared = row.declared;
-    csv += fmt::format("{},{},{},{},{:.12g},{},{},{}\r\n", field(declared.name),
-                       field(declared.unit), declared.printed ? declared.printed->text : "",
+    csv += fmt::format("{},{},{},{},{:.12g},{},{},{}\r\n", csv_field(declared.name),
+                       csv_field(declared.unit), declared.printed ? declared.printed->text : "",
                        declared.recomputed ? fmt::format("{:.12g}", *declared.recomputed) : "",
                        row.ours, declared.recomputed ? fmt::format("{:g}", declared.tolerance) : "",
-                       field(declared.misprint), field(row.fault));
+                       csv_field(declared.misprint), csv_field(row.fault));
   }
   return csv;
 }
 
 /// A point in a line, since not all curves have theirs in the same places.
 std::string csv_of(const DeclaredFigure& figure, const std::vector<Results::Curve>& curves) {
-  std::string csv = fmt::format("panel,curve,{},value\r\n", field(figure.x));
+  std::string csv = fmt::format("panel,curve,{},value\r\n", csv_field(figure.x));
   for (const Results::Curve& curve : curves) {
     const std::string& panel = figure.panels.at(curve.panel);
     for (std::size_t i = 0; i < curve.x.size(); ++i) {
-      csv += fmt::format("{},{},{:.12g},{:.12g}\r\n", field(panel), field(curve.name), curve.x[i],
-                         curve.y[i]);
+      csv += fmt::format("{},{},{:.12g},{:.12g}\r\n", csv_field(panel), csv_field(curve.name),
+                         curve.x[i], curve.y[i]);
     }
   }
   return csv;
@@ -116,10 +111,10 @@ std::string to_text(const Declaration& declaration, const Judgement& judgement) 
   for (const std::string& fault : judgement.faults) {
     text += coloured("FAILS: " + fault, Tone::bad, stdout) + '\n';
   }
-  return text + fmt::format("{} rows: {} hold, {} fail; {} misprints named\n", judgement.rows(),
-                            judgement.rows() -
-                                (judgement.failed() - static_cast<int>(judgement.faults.size())),
-                            judgement.failed(), judgement.misprints());
+  const int failed_rows = judgement.failed() - static_cast<int>(judgement.faults.size());
+  return text + fmt::format("{} rows: {} hold, {} fail; {} misprints named, {} differ\n",
+                            judgement.rows(), judgement.rows() - failed_rows, judgement.failed(),
+                            judgement.misprints(), judgement.differ());
 }
 
 nlohmann::ordered_json to_json(const Declaration& declaration, const Judgement& judgement) {
@@ -132,6 +127,10 @@ nlohmann::ordered_json to_json(const Declaration& declaration, const Judgement& 
       if (row.declared.printed) json["printed"] = row.declared.printed->value;
       if (row.declared.recomputed) json["recomputed"] = *row.declared.recomputed;
       json["ours"] = row.ours;
+      if (row.declared.recomputed) json["tolerance"] = row.declared.tolerance;
+      if (row.declared.at_least) json["at_least"] = *row.declared.at_least;
+      if (row.declared.at_most) json["at_most"] = *row.declared.at_most;
+      if (!row.declared.differs.empty()) json["differs"] = row.declared.differs;
       if (!row.declared.misprint.empty()) json["misprint"] = row.declared.misprint;
       if (!row.fault.empty()) json["fault"] = row.fault;
       rows.push_back(std::move(json));

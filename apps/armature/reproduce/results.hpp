@@ -10,6 +10,10 @@
 
 namespace armature::reproduce {
 
+/// The greater one, or no number when one of them is none: a value that was not computed must not
+/// hide behind those that were.
+inline double worst(double a, double b) { return a > b || a != a ? a : b; }
+
 /// What was computed for a paper: values for the rows of its tables, curves for its figures.
 class Results {
  public:

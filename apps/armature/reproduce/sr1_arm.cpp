@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "armature/kinds/select/select.hpp"
+#include "reproduce/results.hpp"
 
 namespace armature::reproduce::sr1 {
 namespace {
@@ -94,7 +95,7 @@ Trajectory Arm::timed(const JointSegment& segment) {
 double largest_turn(const JointVector& from, const JointVector& to) {
   double largest = 0;
   for (Eigen::Index i = 0; i < from.size(); ++i) {
-    largest = std::max(largest, std::abs(wrap_angle(to[i] - from[i])));
+    largest = worst(largest, std::abs(wrap_angle(to[i] - from[i])));
   }
   return largest;
 }

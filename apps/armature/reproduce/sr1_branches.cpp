@@ -7,6 +7,7 @@
 #include <string>
 
 #include "armature/robot/kinematics/kinematics.hpp"
+#include "reproduce/results.hpp"
 #include "reproduce/sr1_arm.hpp"
 #include "reproduce/sr1_parts.hpp"
 
@@ -54,11 +55,11 @@ RoundTrips round_trips(Arm& arm, int poses) {
     for (const IkBranch& branch : found) {
       const PoseResidual off =
           residual(forward_kinematics(arm.model(), branch.q), Eigen::Vector3d::UnitZ(), goal);
-      trips.position_m = std::max(trips.position_m, off.position_m);
-      trips.angle_rad = std::max(trips.angle_rad, off.angle_rad);
+      trips.position_m = worst(trips.position_m, off.position_m);
+      trips.angle_rad = worst(trips.angle_rad, off.angle_rad);
       nearest = std::min(nearest, largest_turn(branch.q, q));
     }
-    trips.recovered_rad = std::max(trips.recovered_rad, nearest);
+    trips.recovered_rad = worst(trips.recovered_rad, nearest);
     trips.full += found.count == 8;
     trips.half += found.count == 4;
   }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "armature/robot/kinematics/kinematics.hpp"
+#include "reproduce/results.hpp"
 #include "reproduce/sr1_arm.hpp"
 #include "reproduce/sr1_parts.hpp"
 
@@ -75,7 +76,7 @@ double greatest_step(const RobotModel& model, const std::vector<JointVector>& jo
   double step = 0;
   for (std::size_t k = 1; k < joints.size(); ++k) {
     const JointVector way = (joints[k] - joints[k - 1]).cwiseAbs();
-    step = std::max(step, way.cwiseQuotient(model.max_velocity()).maxCoeff() / kStep_s);
+    step = worst(step, way.cwiseQuotient(model.max_velocity()).maxCoeff() / kStep_s);
   }
   return step;
 }

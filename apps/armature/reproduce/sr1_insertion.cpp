@@ -9,6 +9,7 @@
 
 #include "armature/robot/kinematics/kinematics.hpp"
 #include "reproduce/angles.hpp"
+#include "reproduce/results.hpp"
 #include "reproduce/sr1_arm.hpp"
 #include "reproduce/sr1_parts.hpp"
 
@@ -108,9 +109,8 @@ double largest_turn_of(const Planned& needle) {
   double largest = 0;
   for (const IkBranches& here : needle.at_waypoints) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(here.count); ++i) {
-      largest =
-          std::max(largest, largest_turn(needle.at_waypoints.front().branch[i].q.head<kNeedle>(),
-                                         here.branch[i].q.head<kNeedle>()));
+      largest = worst(largest, largest_turn(needle.at_waypoints.front().branch[i].q.head<kNeedle>(),
+                                            here.branch[i].q.head<kNeedle>()));
     }
   }
   return largest;

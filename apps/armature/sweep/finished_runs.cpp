@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sweep/finished_runs.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
@@ -10,34 +14,51 @@
 #include <utility>
 
 namespace armature::sweep {
-namespace {
 
 using Json = nlohmann::ordered_json;
 
-}  // namespace
-
 FinishedRuns::FinishedRuns(std::optional<std::filesystem::path> file) : file_{std::move(file)} {
-  if (!file_ || !std::filesystem::exists(*file_)) return;
+  if (!file_) return;
+  const auto refuse = [&](const std::string& why) {
+    throw std::runtime_error(fmt::format("{}: {}", file_->string(), why));
+  };
+  descriptor_ = open(file_->c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NONBLOCK | O_APPEND, 0600);
+  if (descriptor_ < 0) refuse(std::strerror(errno));
+  struct stat status {};
+  fstat(descriptor_, &status);
+  if (!S_ISREG(status.st_mode)) refuse("is no file; give another folder");
+  if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) refuse("another sweep uses this folder");
+  read();
+}
+
+FinishedRuns::~FinishedRuns() {
+  if (descriptor_ >= 0) close(descriptor_);
+}
+
+void FinishedRuns::read() {
   std::ifstream in{*file_};
-  if (!in) {
-    throw std::runtime_error(fmt::format("cannot read {}: {}", file_->string(), strerror(errno)));
-  }
   std::size_t whole = 0;  // bytes of lines that are complete
   int number = 0;
   for (std::string line; std::getline(in, line);) {
     ++number;
-    if (in.eof()) break;  // its end of line is missing: cut off
+    const bool is_torn = in.eof();  // its end of line is missing
     const Json read = Json::parse(line, nullptr, false);
-    if (!read.is_object() || !read.contains("fingerprint") || !read.contains("seed") ||
-        !read.contains("report")) {
+    const bool is_run = read.is_object() && read.contains("seed") && read.contains("report") &&
+                        read.contains("fingerprint") && read["fingerprint"].is_string() &&
+                        read["seed"].is_number_unsigned() && read["report"].is_object();
+    if (is_torn && line.starts_with(R"({"fingerprint":)")) {
+      if (ftruncate(descriptor_, static_cast<off_t>(whole)) != 0) {
+        throw std::runtime_error(fmt::format("{}: {}", file_->string(), std::strerror(errno)));
+      }
+      return;
+    }
+    if (!is_run) {
       throw std::runtime_error(
           fmt::format("{}:{}: no line of a sweep; give another folder", file_->string(), number));
     }
     reports_[{read["fingerprint"], read["seed"]}] = read["report"];
     whole += line.size() + 1;
   }
-  in.close();
-  std::filesystem::resize_file(*file_, whole);
 }
 
 const Json* FinishedRuns::find(const RunKey& key) const {
@@ -46,13 +67,13 @@ const Json* FinishedRuns::find(const RunKey& key) const {
 }
 
 void FinishedRuns::add(const RunKey& key, Json report) {
-  if (file_ && report.value("status", "") != kCrashed) {
-    std::ofstream out{*file_, std::ios::app};
+  const std::string status = report.value("status", "");
+  if (file_ && status != kCrashed && status != kTimedOut) {
     const Json line{{"fingerprint", key.fingerprint}, {"seed", key.seed}, {"report", report}};
-    out << line.dump() << '\n' << std::flush;
-    if (!out) {
+    const std::string text = line.dump() + '\n';
+    if (write(descriptor_, text.data(), text.size()) != static_cast<ssize_t>(text.size())) {
       throw std::runtime_error(
-          fmt::format("cannot write {}: {}", file_->string(), strerror(errno)));
+          fmt::format("cannot write {}: {}", file_->string(), std::strerror(errno)));
     }
   }
   reports_[key] = std::move(report);

@@ -78,13 +78,23 @@ Bounds share_interval(std::size_t hits, std::size_t count) {
   return {std::max(0.0, middle - half), std::min(1.0, middle + half)};
 }
 
-Bounds quantile_interval(const std::vector<double>& sorted, double part) {
+QuantileInterval quantile_interval(const std::vector<double>& sorted, double part) {
+  constexpr double kTail = 0.025;
   const double n = static_cast<double>(sorted.size());
-  const double half = kTwoSided95 * std::sqrt(n * part * (1 - part));
-  const auto at = [&](double rank) {
-    return sorted[static_cast<std::size_t>(std::clamp(rank, 0.0, n - 1))];
-  };
-  return {at(std::floor(n * part - half)), at(std::ceil(n * part + half))};
+  QuantileInterval interval;
+  // `below` is the chance that at most `rank` of the values are below the true quantile.
+  double below = 0;
+  for (std::size_t rank = 0; rank < sorted.size(); ++rank) {
+    const double k = static_cast<double>(rank);
+    below += std::exp(std::lgamma(n + 1) - std::lgamma(k + 1) - std::lgamma(n - k + 1) +
+                      k * std::log(part) + (n - k) * std::log1p(-part));
+    if (below <= kTail) interval.low = sorted[rank];
+    if (below >= 1 - kTail) {
+      interval.high = sorted[rank];
+      break;
+    }
+  }
+  return interval;
 }
 
 double Spread::median() const { return bench::quantile(values, 0.5); }

@@ -17,9 +17,13 @@ struct Bounds {
 
 /// Where the true share lies in 95 of 100 cases when `hits` of `count` were seen (Wilson 1927).
 Bounds share_interval(std::size_t hits, std::size_t count);
-/// The same of a quantile: the values between which it lies, by their ranks (normal approximation
-/// of the binomial). `sorted` is not empty.
-Bounds quantile_interval(const std::vector<double>& sorted, double part);
+/// The same of a quantile: the values between which it lies, by their ranks, whatever their
+/// distribution (binomial; Conover 1999, section 3.2). No bound where there are too few values:
+/// above the 95 % quantile before there are 73. `sorted` is not empty.
+struct QuantileInterval {
+  std::optional<double> low, high;
+};
+QuantileInterval quantile_interval(const std::vector<double>& sorted, double part);
 
 /// One figure of all runs.
 struct Spread {
@@ -59,7 +63,8 @@ struct FailedRun {
 
 /// All runs of one combination.
 struct RunSpread {
-  std::vector<std::string> variation;                         // assignments
+  std::vector<std::string> variation;  // assignments
+  bool is_pooled = false;  // of several combinations: runs are not independent, so no intervals
   std::vector<Spread> figures;                                // in the order of the report
   std::vector<std::pair<std::string, std::size_t>> statuses;  // "ok", 195
   std::vector<FailedRun> failed;

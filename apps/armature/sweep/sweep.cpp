@@ -2,11 +2,17 @@
 #include "sweep/sweep.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <poll.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <string>
 #include <thread>
 #include <utility>
 
@@ -24,6 +30,7 @@
 namespace armature {
 namespace {
 
+namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 using sweep::RunKey;
 
@@ -61,7 +68,8 @@ std::string run_once(const Job& job, PluginRegistry& plugins) {
 /// A process that crashed or hung has a report, too.
 Json report_of(const Isolated& outcome) {
   if (outcome.fault.empty()) return Json::parse(outcome.result);
-  return Json{{"status", sweep::kCrashed}, {"reason", outcome.fault}};
+  return Json{{"status", outcome.timed_out ? sweep::kTimedOut : sweep::kCrashed},
+              {"reason", outcome.fault}};
 }
 
 /// Runs what is missing, so many at a time.
@@ -117,12 +125,63 @@ class Runs {
   std::vector<Running> running_;
 };
 
+bool same_goals(const DeploymentConfig& a, const DeploymentConfig& b) {
+  const auto same = [](const SweepGoal& x, const SweepGoal& y) {
+    return x.metric == y.metric && x.statistic == y.statistic && x.at_least == y.at_least &&
+           x.at_most == y.at_most && x.share_of == y.share_of;
+  };
+  return std::ranges::equal(a.goals, b.goals,
+                            [](const Goal& x, const Goal& y) {
+                              return x.metric == y.metric && x.limit == y.limit;
+                            }) &&
+         std::ranges::equal(a.sweep_goals, b.sweep_goals, same);
+}
+
+/// Two that are one deployment would be counted twice; one table has one set of goals.
+void check(const std::vector<Combination>& combinations, bool is_pooled) {
+  std::set<std::string> fingerprints;
+  for (const Combination& one : combinations) {
+    if (!fingerprints.insert(one.config.fingerprint).second) {
+      throw InvalidChoice(fmt::format("--vary: '{}' is the same deployment as another combination",
+                                      fmt::join(one.variation, ", ")));
+    }
+    if (is_pooled && !same_goals(one.config, combinations.front().config)) {
+      throw InvalidChoice("--pool: the combinations have not the same goals");
+    }
+  }
+}
+
+/// Of the programs and libraries that run: what another build told is not this one's.
+std::string build_of(const PluginRegistry& plugins) {
+  std::set<fs::path> files{"/proc/self/exe"};
+  std::ifstream maps{"/proc/self/maps"};
+  for (std::string line; std::getline(maps, line);) {
+    const auto path = line.find('/');
+    if (path != std::string::npos && line.find("libarmature_") != std::string::npos) {
+      files.insert(line.substr(path));
+    }
+  }
+  for (const PluginManifest& plugin : plugins.plugins()) files.insert(plugin.file);
+  std::string text;
+  for (const fs::path& file : files) {
+    std::error_code none;
+    text += fmt::format("{} {} {}\n", file.filename().string(), fs::file_size(file, none),
+                        fs::last_write_time(file, none).time_since_epoch().count());
+  }
+  return fmt::format("{:016x}", std::hash<std::string>{}(text));
+}
+
 }  // namespace
 
 int sweep_deployment(const SweepOptions& options) {
   PluginRegistry plugins;
   tell_warnings(plugins);
   const std::vector<Combination> combinations = combinations_of(options, plugins);
+  check(combinations, options.pool);
+  const std::string build = build_of(plugins);
+  const auto key_of = [&](const Combination& combination, std::uint64_t seed) {
+    return RunKey{combination.config.fingerprint + '/' + build, seed};
+  };
   if (options.out) prepare_output_folder(*options.out);
   sweep::FinishedRuns finished{options.out ? std::optional{*options.out / "runs.jsonl"}
                                            : std::nullopt};
@@ -130,7 +189,7 @@ int sweep_deployment(const SweepOptions& options) {
   std::size_t known = 0;
   for (const Combination& combination : combinations) {
     for (const std::uint64_t seed : options.seeds) {
-      const RunKey key{combination.config.fingerprint, seed};
+      const RunKey key = key_of(combination, seed);
       if (finished.find(key)) {
         ++known;
       } else {
@@ -149,12 +208,15 @@ int sweep_deployment(const SweepOptions& options) {
   for (const Combination& combination : combinations) {
     if (!options.pool) reports.clear();
     for (const std::uint64_t seed : options.seeds) {
-      reports.push_back({seed, finished.find({combination.config.fingerprint, seed})});
+      reports.push_back({seed, finished.find(key_of(combination, seed))});
     }
     if (options.pool) continue;
     spreads.push_back(sweep::spread_of(reports, combination.config, combination.variation));
   }
-  if (options.pool) spreads.push_back(sweep::spread_of(reports, combinations.front().config, {}));
+  if (options.pool) {
+    spreads.push_back(sweep::spread_of(reports, combinations.front().config, {}));
+    spreads.back().is_pooled = combinations.size() > 1;
+  }
   if (options.out) sweep::write_files(*options.out, spreads);
   Json json = Json::array();
   for (const sweep::RunSpread& spread : spreads) {

@@ -5,13 +5,17 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
 #include <utility>
 
 #include "armature/plot/chart.hpp"
 #include "armature/runtime/deployment_file/goals.hpp"
 #include "armature/runtime/reporting/write_atomically.hpp"
 #include "colour.hpp"
+#include "csv_field.hpp"
 
 namespace armature::sweep {
 namespace {
@@ -22,21 +26,27 @@ std::string name_of(const RunSpread& spread) {
   return spread.variation.empty() ? "all" : fmt::format("{}", fmt::join(spread.variation, ", "));
 }
 
-std::string text_of(const Spread& spread, std::size_t width) {
+/// A bound that there are too few runs for is a dash.
+std::string bound_text(const std::optional<double>& bound) {
+  return bound ? fmt::format("{:.4g}", *bound) : "-";
+}
+
+std::string text_of(const Spread& spread, std::size_t width, bool is_pooled) {
   if (spread.values.empty()) {
     return fmt::format("  {:<{}}  {:>5}  not measured\n", spread.figure, width, 0);
   }
-  const Bounds p95 = quantile_interval(spread.values, 0.95);
-  std::string text =
-      fmt::format("  {:<{}}  {:>5}  {:>10.4g}  {:>10.4g}  [{:.4g}, {:.4g}]", spread.figure, width,
-                  spread.values.size(), spread.median(), spread.p95(), p95.low, p95.high);
+  const QuantileInterval p95 =
+      is_pooled ? QuantileInterval{} : quantile_interval(spread.values, 0.95);
+  std::string text = fmt::format("  {:<{}}  {:>5}  {:>10.4g}  {:>10.4g}  [{}, {}]", spread.figure,
+                                 width, spread.values.size(), spread.median(), spread.p95(),
+                                 bound_text(p95.low), bound_text(p95.high));
   text = fmt::format("{:<{}}  {:>10.4g}  {:>10.4g}", text, width + 57, spread.max(), spread.rms());
   if (spread.goal) {
     const Bounds met = share_interval(spread.met, spread.runs());
     text +=
-        fmt::format("  {:>8g}  {:>5.1f} % [{:.1f}, {:.1f}]", *spread.goal,
-                    100.0 * static_cast<double>(spread.met) / static_cast<double>(spread.runs()),
-                    100 * met.low, 100 * met.high);
+        fmt::format("  {:>8g}  {:>5.1f} %", *spread.goal,
+                    100.0 * static_cast<double>(spread.met) / static_cast<double>(spread.runs()));
+    if (!is_pooled) text += fmt::format(" [{:.1f}, {:.1f}]", 100 * met.low, 100 * met.high);
   }
   return text + '\n';
 }
@@ -63,10 +73,13 @@ std::string csv_of(const std::vector<RunSpread>& spreads) {
   for (const RunSpread& one : spreads) {
     for (const Spread& spread : one.figures) {
       if (spread.values.empty()) continue;
-      const Bounds p95 = quantile_interval(spread.values, 0.95);
-      csv += fmt::format("\"{}\",{},{},{},{},{},{},{},{},{},{},{}\r\n", name_of(one), spread.figure,
-                         spread.values.size(), spread.unmeasured, spread.median(), spread.p95(),
-                         p95.low, p95.high, spread.max(), spread.rms(),
+      const QuantileInterval p95 = quantile_interval(spread.values, 0.95);
+      const auto bound = [](const std::optional<double>& value) {
+        return value ? fmt::format("{}", *value) : "";
+      };
+      csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\r\n", csv_field(name_of(one)),
+                         spread.figure, spread.values.size(), spread.unmeasured, spread.median(),
+                         spread.p95(), bound(p95.low), bound(p95.high), spread.max(), spread.rms(),
                          spread.goal ? fmt::format("{}", *spread.goal) : "",
                          spread.goal ? fmt::format("{}", spread.met) : "");
     }
@@ -78,7 +91,9 @@ std::string csv_of(const std::vector<RunSpread>& spreads) {
 plot::Curve histogram_of(const std::vector<double>& sorted, double low, double high,
                          std::size_t in_legend) {
   constexpr int kColumns = 30;
-  const double width = high > low ? (high - low) / kColumns : 1;
+  // Of one value alone a column that the value is not lost in.
+  const double one = low == 0 ? 1 : 0.01 * std::abs(low) / kColumns;
+  const double width = high > low ? (high - low) / kColumns : one;
   std::vector<double> counts(kColumns);
   for (const double value : sorted) {
     const auto column = static_cast<std::size_t>(
@@ -131,7 +146,7 @@ std::string to_text(const RunSpread& spread) {
   text += fmt::format("  {:<{}}  {:>5}  {:>10}  {:>10}  {:<22}  {:>10}  {:>10}  {:>8}  {}\n",
                       "figure", width, "runs", "median", "p95", "[95 % interval]", "greatest",
                       "rms", "goal", "met [95 % interval]");
-  for (const Spread& figure : spread.figures) text += text_of(figure, width);
+  for (const Spread& figure : spread.figures) text += text_of(figure, width, spread.is_pooled);
   text += "  runs: ";
   for (const auto& [status, count] : spread.statuses) text += fmt::format("{} {}  ", count, status);
   text += '\n';
@@ -161,10 +176,13 @@ Json to_json(const RunSpread& spread) {
   for (const Spread& figure : spread.figures) {
     Json one{{"runs", figure.values.size()}, {"not_measured", figure.unmeasured}};
     if (!figure.values.empty()) {
-      const Bounds p95 = quantile_interval(figure.values, 0.95);
+      const QuantileInterval p95 = quantile_interval(figure.values, 0.95);
+      const auto bound = [](const std::optional<double>& value) {
+        return value ? Json(*value) : Json(nullptr);
+      };
       one.update({{"median", figure.median()},
                   {"p95", figure.p95()},
-                  {"p95_interval", {p95.low, p95.high}},
+                  {"p95_interval", {bound(p95.low), bound(p95.high)}},
                   {"greatest", figure.max()},
                   {"rms", figure.rms()}});
     }
@@ -177,6 +195,10 @@ Json to_json(const RunSpread& spread) {
              {"statistic", to_string(goal.goal.statistic)},
              {"value", goal.value},
              {"met", goal.fault.empty()}};
+    if (goal.goal.at_least) one["at_least"] = *goal.goal.at_least;
+    if (goal.goal.at_most) one["at_most"] = *goal.goal.at_most;
+    if (goal.goal.statistic == SweepGoal::Statistic::share) one["share_of"] = goal.goal.share_of;
+    if (!goal.fault.empty()) one["fault"] = goal.fault;
     json["sweep_goals"].push_back(std::move(one));
   }
   return json;
@@ -185,12 +207,14 @@ Json to_json(const RunSpread& spread) {
 void write_files(const std::filesystem::path& folder, const std::vector<RunSpread>& spreads) {
   constexpr FileUse kUse = FileUse::named_by_user;
   write_atomically(folder / "figures.csv", csv_of(spreads), kUse);
+  std::set<std::string> figures;
   for (const RunSpread& one : spreads) {
     for (const Spread& figure : one.figures) {
-      if (figure.values.empty()) continue;
-      write_atomically(folder / (figure.figure + ".svg"),
-                       plot::to_svg(chart_of(figure.figure, spreads)), kUse);
+      if (!figure.values.empty()) figures.insert(figure.figure);
     }
+  }
+  for (const std::string& figure : figures) {
+    write_atomically(folder / (figure + ".svg"), plot::to_svg(chart_of(figure, spreads)), kUse);
   }
 }
 

@@ -67,7 +67,11 @@ Vary vary_of(const std::string& text) {
   if (equals == 0 || equals == std::string::npos || equals + 1 == text.size()) {
     throw std::invalid_argument(fmt::format("'{}' is not key=a,b,c", text));
   }
-  Vary vary{text.substr(0, equals), parts_of(text.substr(equals + 1))};
+  const std::string key = text.substr(0, equals);
+  if (key == "seed" || key == "clock") {
+    throw std::invalid_argument(fmt::format("a sweep sets '{}' itself; see --seeds", key));
+  }
+  Vary vary{key, parts_of(text.substr(equals + 1))};
   if (std::set<std::string>(vary.values.begin(), vary.values.end()).size() != vary.values.size()) {
     throw std::invalid_argument(fmt::format("'{}' has a value twice", text));
   }
@@ -76,7 +80,11 @@ Vary vary_of(const std::string& text) {
 
 std::vector<std::vector<std::string>> combinations(const std::vector<Vary>& vary) {
   std::vector<std::vector<std::string>> all{{}};
+  std::set<std::string> keys;
   for (const Vary& one : vary) {
+    if (!keys.insert(one.key).second) {
+      throw std::invalid_argument(fmt::format("'{}' is varied twice", one.key));
+    }
     std::vector<std::vector<std::string>> longer;
     for (const auto& before : all) {
       for (const std::string& value : one.values) {

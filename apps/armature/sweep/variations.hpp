@@ -16,11 +16,12 @@ struct Vary {
   std::string key;
   std::vector<std::string> values;
 };
-/// Throws std::invalid_argument. A comma in brackets or braces belongs to its value.
+/// Throws std::invalid_argument, also of `seed` and `clock`, which a sweep sets itself. A comma in
+/// brackets or braces belongs to its value.
 Vary vary_of(const std::string& text);
 
 /// The assignments of each combination of values, in order: the last key changes fastest. One empty
-/// list of nothing to vary.
+/// list of nothing to vary. Throws std::invalid_argument for a key that is there twice.
 std::vector<std::vector<std::string>> combinations(const std::vector<Vary>& vary);
 
 }  // namespace armature::sweep

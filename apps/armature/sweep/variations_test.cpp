@@ -48,6 +48,11 @@ TEST(Variations, ThatAreNoneAreRefused) {
   EXPECT_THAT(refusal([] { vary_of("a"); }), HasSubstr("'a' is not key=a,b,c"));
   EXPECT_THAT(refusal([] { vary_of("=1"); }), HasSubstr("is not key=a,b,c"));
   EXPECT_THAT(refusal([] { vary_of("a=1,1"); }), HasSubstr("a value twice"));
+  EXPECT_THAT(refusal([] { vary_of("seed=1,2"); }), HasSubstr("sets 'seed' itself"));
+  EXPECT_THAT(refusal([] {
+                combinations({vary_of("a=1"), vary_of("a=2")});
+              }),
+              HasSubstr("'a' is varied twice"));
 }
 
 }  // namespace

@@ -141,6 +141,11 @@ void add_sweep(CLI::App& app, Action& action) {
   verb->callback([options, seeds, vary, &action] {
     options->seeds = sweep::seeds_of(*seeds);
     for (const std::string& one : *vary) options->vary.push_back(sweep::vary_of(one));
+    try {
+      sweep::combinations(options->vary);
+    } catch (const std::invalid_argument& error) {
+      throw CLI::ValidationError("--vary", error.what());
+    }
     action = [options] { return sweep_deployment(*options); };
   });
 }

@@ -37,7 +37,8 @@ std::optional<Rates> rates_beside(std::span<const TurnSample> samples, std::size
   return Rates{coefficients.row(0), 2 * coefficients.row(1)};
 }
 
-double part_of(double jump, double peak) { return peak > 0 ? jump / peak : 0; }
+/// What is below `noise` is rounding, and has no parts.
+double part_of(double jump, double peak, double noise) { return peak > noise ? jump / peak : 0; }
 
 }  // namespace
 
@@ -57,9 +58,11 @@ PlannedTurn::PlannedTurn(std::span<const TurnSample> samples, std::span<const st
     const auto before = rates_beside(samples, key, -1), behind = rates_beside(samples, key, 1);
     if (!before || !behind) continue;
     ++seen_;
-    jump_ = std::max(
-        {jump_, part_of((behind->velocity - before->velocity).norm(), peak_velocity),
-         part_of((behind->acceleration - before->acceleration).norm(), peak_acceleration)});
+    constexpr double kNoise = 1e-6;  // of the acceleration, as a part of the velocity
+    jump_ =
+        std::max({jump_, part_of((behind->velocity - before->velocity).norm(), peak_velocity, 0),
+                  part_of((behind->acceleration - before->acceleration).norm(), peak_acceleration,
+                          kNoise * peak_velocity)});
   }
 }
 

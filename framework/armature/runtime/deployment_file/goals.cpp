@@ -65,7 +65,7 @@ void read_bounds(const config::Node& node, SweepGoal& goal, config::Problems& pr
     goal.at_most = number(node);
   }
   const bool is_share = goal.statistic == SweepGoal::Statistic::share;
-  if (is_share && (*goal.at_least < 0 || goal.at_most.value_or(1) > 1)) {
+  if (is_share && (*goal.at_least < 0 || goal.at_most.value_or(*goal.at_least) > 1)) {
     problems.add(node.origin(), "a share is from 0 to 1");
   }
 }
@@ -164,6 +164,13 @@ void check_goals(const DeploymentConfig& deployment, const PluginRegistry& plugi
   }
   for (const SweepGoal& goal : deployment.sweep_goals) {
     check_metric(goal.metric, goal.origin, deployment, plugins, problems);
+    for (const ComponentConfig& component : deployment.components) {
+      const MetricSpec* metric = find_metric(*component.manifest, goal.metric);
+      if (!metric || goal.at_most.value_or(0) >= 0 || metric->may_be_negative) continue;
+      problems.add(goal.origin,
+                   fmt::format("the sweep goal {:g} cannot be met: '{}' is never below 0",
+                               *goal.at_most, goal.metric));
+    }
   }
 }
 

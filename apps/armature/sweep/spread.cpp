@@ -50,6 +50,17 @@ JudgedSweepGoal judged(const SweepGoal& goal, const std::vector<Spread>& figures
   } else if (goal.at_most && result.value > *goal.at_most) {
     result.fault = fmt::format("at most {:g}", *goal.at_most);
   }
+  if (!result.fault.empty() && goal.statistic == SweepGoal::Statistic::share) {
+    const auto hits =
+        static_cast<std::size_t>(std::lround(result.value * static_cast<double>(spread->runs())));
+    const Bounds interval = share_interval(hits, spread->runs());
+    const bool may_be_met =
+        interval.high >= goal.at_least.value_or(0) && interval.low <= goal.at_most.value_or(1);
+    if (may_be_met) {
+      result.fault += fmt::format("; {} runs are too few to tell, it is between {:.3g} and {:.3g}",
+                                  spread->runs(), interval.low, interval.high);
+    }
+  }
   return result;
 }
 

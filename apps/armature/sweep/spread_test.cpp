@@ -75,7 +75,8 @@ TEST_F(SpreadTest, EverySweepGoalIsHeldAgainstItsBoundsOnBothSides) {
   EXPECT_EQ(goals[0].fault, "at most 94.9");
   EXPECT_EQ(goals[1].fault, "");
   EXPECT_EQ(goals[2].fault, "at most 99");
-  EXPECT_EQ(goals[3].fault, "at least 0.5");
+  EXPECT_EQ(goals[3].fault,
+            "at least 0.5; 100 runs are too few to tell, it is between 0.394 and 0.587");
   EXPECT_EQ(goals[4].fault, "");
 }
 
@@ -87,7 +88,7 @@ TEST_F(SpreadTest, ARunThatDidNotMeasureMeetsNothing) {
   ask(Statistic::share, 0.7, {}, 10);
   const auto goals = spread().goals;
   EXPECT_EQ(goals[0].fault, "2 of 5 runs did not measure it");
-  EXPECT_EQ(goals[1].fault, "at least 0.7") << "3 of 5";
+  EXPECT_EQ(goals[1].fault.substr(0, 12), "at least 0.7") << "3 of 5";
   EXPECT_NEAR(goals[1].value, 0.6, 1e-12);
 }
 

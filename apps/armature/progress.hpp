@@ -18,7 +18,7 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
 
   void part(double part);  // of all, 0 to 1
-  /// So many of so many, and what time is left if it goes on like this.
+  /// Tells how many are done of all, and what time is left if it goes on like this.
   void of(std::size_t done, std::size_t all);
   void count(std::uint64_t so_far);  // of an unknown number
 

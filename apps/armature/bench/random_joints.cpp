@@ -8,6 +8,13 @@ namespace armature::bench {
 
 double unit(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
 
+Eigen::Quaterniond any_rotation(std::mt19937_64& random) {
+  constexpr double kTurn = 2 * std::numbers::pi;
+  const double u = unit(random), a = kTurn * unit(random), b = kTurn * unit(random);
+  const double low = std::sqrt(1 - u), high = std::sqrt(u);
+  return {high * std::cos(b), low * std::sin(a), low * std::cos(a), high * std::sin(b)};
+}
+
 std::pair<double, double> range(const RobotModel& model, int i) {
   const double lower = model.lower()[i], upper = model.upper()[i];
   const bool finite = std::isfinite(lower) && std::isfinite(upper);

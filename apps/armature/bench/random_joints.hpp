@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <Eigen/Geometry>
 #include <random>
 #include <utility>
 
@@ -10,6 +11,9 @@ namespace armature::bench {
 
 /// Uniform in [0, 1), the same in every standard library.
 double unit(std::mt19937_64& random);
+
+/// Uniform over all rotations (Shoemake 1992, "Uniform random rotations").
+Eigen::Quaterniond any_rotation(std::mt19937_64& random);
 
 /// Limits of independent joint `i`, or a turn where there are none.
 std::pair<double, double> range(const RobotModel& model, int i);

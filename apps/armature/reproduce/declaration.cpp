@@ -78,7 +78,7 @@ std::optional<Printed> read_printed(MapReader& map) {
   return printed;
 }
 
-/// What stands at the table holds for its rows, until one says otherwise.
+/// The values of a table that hold for its rows, until a row says otherwise.
 struct Defaults {
   std::string unit;
   std::optional<double> tolerance, rounding;

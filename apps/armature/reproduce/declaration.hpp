@@ -44,7 +44,7 @@ struct DeclaredFigure {
   bool is_equal = false;            // of places: both axes to one scale
 };
 
-/// What `armature reproduce` shows of a paper: docs/papers/<paper>.yaml.
+/// The file docs/papers/<paper>.yaml: what `armature reproduce` shows of a paper.
 struct Declaration {
   std::string paper;
   config::Node numbers;  // the paper's own, which the computation starts from

@@ -10,6 +10,7 @@
 #include "armature/robot/geometry/rotation_vector.hpp"
 #include "armature/robot/orientations/corner_blend.hpp"
 #include "armature/robot/orientations/curve_measures.hpp"
+#include "bench/random_joints.hpp"
 #include "reproduce/implant_arm.hpp"
 #include "reproduce/papers.hpp"
 #include "reproduce/plugins.hpp"
@@ -79,14 +80,9 @@ void add_table3(const Keys& keys, Results& results) {
   results.value(table, "peak velocity, rotvec_bspline", peaks.velocity / 3);
 }
 
-/// Uniform over all rotations.
 Keys random_keys(std::mt19937_64& random, std::size_t count) {
-  std::normal_distribution<double> normal;
   Keys keys(count);
-  for (Quaterniond& key : keys) {
-    for (double& part : key.coeffs()) part = normal(random);
-    key.normalize();
-  }
+  for (Quaterniond& key : keys) key = bench::any_rotation(random);
   return keys;
 }
 

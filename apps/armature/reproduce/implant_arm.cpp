@@ -49,7 +49,7 @@ class TurningArm {
     return plan_of(planner, through, {approach.at(approach.end()).q, rest, rest});
   }
 
-  /// How far the tool is from the curve, in place and in turn, at 2001 instants.
+  /// Measures how far the tool is from the curve, in place and in turn, at 2001 instants.
   void compare(const Trajectory& plan, OrientationInterpolator kind, double& off_m,
                double& turned_rad) const {
     const OrientationCurve curve = or_throw(OrientationCurve::through(keys_, kind), "keys");

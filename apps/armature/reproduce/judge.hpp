@@ -23,7 +23,7 @@ struct JudgedTable {
   std::vector<JudgedRow> rows;
 };
 
-/// Of a whole paper.
+/// The judged tables of a whole paper.
 struct Judgement {
   std::vector<JudgedTable> tables;
   std::vector<std::string> faults;  // of what is declared or computed alone

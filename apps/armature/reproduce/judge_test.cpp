@@ -34,7 +34,7 @@ std::string problems_of(const std::string& rows) {
   return "";
 }
 
-/// Of one row, and ours for it.
+/// Judges one row with this value of ours; its fault, or "".
 std::string fault_of(const std::string& row, double ours) {
   Results results;
   results.value("t", "a", ours);

@@ -76,28 +76,27 @@ std::vector<JointVector> LampExample::joints_along(const std::vector<PathSample>
       "select/nearest");
 }
 
-Trajectory LampExample::timed(const std::string& id, const std::vector<JointSegment>& segments) {
+Trajectory LampExample::planned(const std::string& id, const std::vector<JointSegment>& segments,
+                                const JointVector& max_velocity,
+                                const JointVector& max_acceleration) {
   const JointVector zero = JointVector::Zero(model_.dof());
   return or_throw(trajectory(id).plan({.goal_id = 1,
                                        .start = {},
                                        .from = {segments.front().q.front(), zero, zero},
                                        .segments = segments,
-                                       .max_velocity = model_.max_velocity(),
-                                       .max_acceleration = model_.max_acceleration()}),
+                                       .max_velocity = max_velocity,
+                                       .max_acceleration = max_acceleration}),
                   id);
+}
+
+Trajectory LampExample::timed(const std::string& id, const std::vector<JointSegment>& segments) {
+  return planned(id, segments, model_.max_velocity(), model_.max_acceleration());
 }
 
 Trajectory LampExample::unlimited(const std::string& id,
                                   const std::vector<JointSegment>& segments) {
-  const JointVector zero = JointVector::Zero(model_.dof());
   const JointVector high = JointVector::Constant(model_.dof(), 1e6);
-  return or_throw(trajectory(id).plan({.goal_id = 1,
-                                       .start = {},
-                                       .from = {segments.front().q.front(), zero, zero},
-                                       .segments = segments,
-                                       .max_velocity = high,
-                                       .max_acceleration = high}),
-                  id);
+  return planned(id, segments, high, high);
 }
 
 Trajectory LampExample::paper_plan() {

@@ -77,6 +77,8 @@ class LampExample {
   double search_limit_mm(double heading);
 
  private:
+  Trajectory planned(const std::string& id, const std::vector<JointSegment>& segments,
+                     const JointVector& max_velocity, const JointVector& max_acceleration);
   Path planned_path(const std::string& id, const ToolPose& from, const ToolPose& to);
 
   RobotModel model_;

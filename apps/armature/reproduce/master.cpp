@@ -10,6 +10,7 @@
 #include "armature/kinds/ik/ik.hpp"
 #include "armature/kinds/trajectory/trajectory_planner.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
+#include "bench/random_joints.hpp"
 #include "reproduce/papers.hpp"
 #include "reproduce/plugins.hpp"
 
@@ -78,11 +79,7 @@ class Master {
     std::vector<double> number, set[3], actual[3];
     double position = 0, angle = 0;
     for (int n = 1; n <= kPoses; ++n) {
-      JointVector q(6);
-      for (int i = 0; i < 6; ++i) {
-        const double part = static_cast<double>(random() >> 11) * 0x1p-53;
-        q[i] = std::lerp(model_.lower()[i], model_.upper()[i], part);
-      }
+      const JointVector q = bench::anywhere(model_, random);
       const Eigen::Isometry3d wanted = forward_kinematics(model_, q);
       const Eigen::Isometry3d got = forward_kinematics(model_, inverse(wanted, q));
       number.push_back(n);

@@ -86,7 +86,7 @@ struct Dexterity {
   double manipulability = std::numeric_limits<double>::infinity();
   double singular_value = std::numeric_limits<double>::infinity();
 };
-Dexterity least_dexterity(const RobotModel& model, const std::vector<JointVector>& joints) {
+Dexterity min_dexterity(const RobotModel& model, const std::vector<JointVector>& joints) {
   Dexterity least;
   for (const JointVector& q : joints) {
     least.manipulability = std::min(least.manipulability, manipulability(model, q));
@@ -123,7 +123,7 @@ void add_choice(const Numbers& numbers, Results& results) {
     const std::string label{waypoints.front().branch[branch].label};
     const std::vector<JointVector> joints = followed(waypoints, branch);
     const std::vector<double> ratios = speed_ratios(limited.model(), joints);
-    const Dexterity least = least_dexterity(limited.model(), joints);
+    const Dexterity least = min_dexterity(limited.model(), joints);
     results.value("branches_of_the_path", label + ": speed ratio", greatest(ratios));
     results.value("branches_of_the_path", label + ": manipulability", least.manipulability);
     results.value("branches_of_the_path", label + ": singular value", least.singular_value);

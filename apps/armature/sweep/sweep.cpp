@@ -151,7 +151,7 @@ void check(const std::vector<Combination>& combinations, bool is_pooled) {
   }
 }
 
-/// Of the programs and libraries that run: what another build told is not this one's.
+/// Names the build by its programs and libraries: what another one told is not this one's.
 std::string build_of(const PluginRegistry& plugins) {
   std::set<fs::path> files{"/proc/self/exe"};
   std::ifstream maps{"/proc/self/maps"};

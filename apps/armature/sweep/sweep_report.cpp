@@ -26,6 +26,11 @@ std::string name_of(const RunSpread& spread) {
   return spread.variation.empty() ? "all" : fmt::format("{}", fmt::join(spread.variation, ", "));
 }
 
+/// Runs of several combinations are not independent, and tell no interval.
+QuantileInterval p95_of(const Spread& spread, bool is_pooled) {
+  return is_pooled ? QuantileInterval{} : quantile_interval(spread.values, 0.95);
+}
+
 /// A bound that there are too few runs for is a dash.
 std::string bound_text(const std::optional<double>& bound) {
   return bound ? fmt::format("{:.4g}", *bound) : "-";
@@ -35,8 +40,7 @@ std::string text_of(const Spread& spread, std::size_t width, bool is_pooled) {
   if (spread.values.empty()) {
     return fmt::format("  {:<{}}  {:>5}  not measured\n", spread.figure, width, 0);
   }
-  const QuantileInterval p95 =
-      is_pooled ? QuantileInterval{} : quantile_interval(spread.values, 0.95);
+  const QuantileInterval p95 = p95_of(spread, is_pooled);
   std::string text = fmt::format("  {:<{}}  {:>5}  {:>10.4g}  {:>10.4g}  [{}, {}]", spread.figure,
                                  width, spread.values.size(), spread.median(), spread.p95(),
                                  bound_text(p95.low), bound_text(p95.high));
@@ -73,7 +77,7 @@ std::string csv_of(const std::vector<RunSpread>& spreads) {
   for (const RunSpread& one : spreads) {
     for (const Spread& spread : one.figures) {
       if (spread.values.empty()) continue;
-      const QuantileInterval p95 = quantile_interval(spread.values, 0.95);
+      const QuantileInterval p95 = p95_of(spread, one.is_pooled);
       const auto bound = [](const std::optional<double>& value) {
         return value ? fmt::format("{}", *value) : "";
       };
@@ -176,7 +180,7 @@ Json to_json(const RunSpread& spread) {
   for (const Spread& figure : spread.figures) {
     Json one{{"runs", figure.values.size()}, {"not_measured", figure.unmeasured}};
     if (!figure.values.empty()) {
-      const QuantileInterval p95 = quantile_interval(figure.values, 0.95);
+      const QuantileInterval p95 = p95_of(figure, spread.is_pooled);
       const auto bound = [](const std::optional<double>& value) {
         return value ? Json(*value) : Json(nullptr);
       };

@@ -37,6 +37,11 @@ using Eigen::Vector3d;
 constexpr Duration kPeriod = seconds(0.02);
 constexpr double kDegrees = 180 / std::numbers::pi, kMillimetres = 1e3;
 
+struct KeyPose {
+  Vector3d position;
+  Eigen::Quaterniond rotation;
+};
+
 double rms(const std::vector<Vector3d>& errors) {
   double sum = 0;
   for (const Vector3d& error : errors) sum += error.squaredNorm();
@@ -137,10 +142,8 @@ class ImplantReport final : public Component {
     if (goal.through_().empty()) return;
     keyed_goal_ = goal.goal_id_();
     keys_.clear();
-    for (const msg::ToolPose& key : goal.through_()) keys_.push_back(to_eigen(key.position_()));
-    key_rotations_.clear();
     for (const msg::ToolPose& key : goal.through_()) {
-      key_rotations_.push_back(to_eigen(key.orientation_()));
+      keys_.push_back({to_eigen(key.position_()), to_eigen(key.orientation_())});
     }
   }
 
@@ -158,8 +161,8 @@ class ImplantReport final : public Component {
       samples.push_back({path.s_()[i], to_eigen(path.orientation_()[i])});
       if (at.size() == keys_.size()) continue;
       const bool is_next =
-          (to_eigen(path.position_()[i]) - keys_[at.size()]).norm() <= kSame &&
-          samples.back().rotation.angularDistance(key_rotations_[at.size()]) <= kSame;
+          (to_eigen(path.position_()[i]) - keys_[at.size()].position).norm() <= kSame &&
+          samples.back().rotation.angularDistance(keys_[at.size()].rotation) <= kSame;
       if (is_next) at.push_back(i);
     }
     const PlannedTurn turn{samples, at};
@@ -258,8 +261,7 @@ class ImplantReport final : public Component {
   std::optional<BoreMonitor> bores_;
   Smoothness smoothness_;
   std::uint64_t keyed_goal_ = 0;
-  std::vector<Vector3d> keys_;
-  std::vector<Eigen::Quaterniond> key_rotations_;
+  std::vector<KeyPose> keys_;
   std::optional<double> planned_jump_;
   std::string state_, trouble_;
   double speed_ = 0;

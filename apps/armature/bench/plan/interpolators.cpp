@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <random>
 
 #include "armature/robot/orientations/curve_measures.hpp"
@@ -22,14 +21,6 @@ constexpr std::array kNames{"slerp", "squad", "rotvec_bspline", "chart_bspline"}
 constexpr int kSamplesOfACurve = 1000;  // that are timed
 constexpr int kSamplesOfAPiece = 40;
 constexpr double kBeside = 1e-6;  // of a piece, before and behind the place of a jump
-
-/// Uniform over all rotations (Shoemake 1992, "Uniform random rotations").
-Eigen::Quaterniond any_rotation(std::mt19937_64& random) {
-  constexpr double kTurn = 2 * std::numbers::pi;
-  const double u = unit(random), a = kTurn * unit(random), b = kTurn * unit(random);
-  const double low = std::sqrt(1 - u), high = std::sqrt(u);
-  return {high * std::cos(b), low * std::sin(a), low * std::cos(a), high * std::sin(b)};
-}
 
 struct Figures {
   std::vector<double> build_s, sample_s, with_acceleration_s, turn, peak, velocity_jump,

@@ -8,7 +8,7 @@
 namespace armature {
 
 ReasonText defect(const MotionGoal& goal) {
-  if (goal.mode == MotionMode::hold || goal.mode == MotionMode::guided) return {};
+  if (!has_pose(goal.mode)) return {};
   if (!goal.velocity.allFinite()) return "the goal's velocity is not finite";
   if (!goal.angular_velocity.allFinite()) return "the goal's angular velocity is not finite";
   if (goal.focus && !goal.focus->allFinite()) return "the goal's focus is not finite";
@@ -16,7 +16,7 @@ ReasonText defect(const MotionGoal& goal) {
 }
 
 Expected<MotionGoal> checked(MotionGoal goal) {
-  if (goal.mode == MotionMode::hold || goal.mode == MotionMode::guided) return goal;
+  if (!has_pose(goal.mode)) return goal;
   if (const ReasonText wrong = defect(goal); !wrong.empty()) {
     return refuse(std::string{wrong.view()});
   }

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -20,6 +21,9 @@ enum class MotionMode {
   tracking,  // a target that moves; the next goal follows soon
   hold,      // stop within limits and stay
   guided,    // stop within limits, then let a hand move the arm: the reference is where it is
+  pause,     // stop on the way of a planned goal, and stay there; else as hold
+  resume,    // go on along it
+  retrace,   // go back along it, as it came
 };
 
 /// What the arm shall do next.
@@ -33,6 +37,23 @@ struct MotionGoal {
   Eigen::Vector3d angular_velocity =
       Eigen::Vector3d::Zero();         // [rad/s] in the base frame, the same
   std::vector<ToolPose> through = {};  // key poses on the way, in order; planned only
+  /// Done where the way next stops, as a path says it does; planned, resume and retrace only. The
+  /// whole way has been planned then, and `resume` goes on.
+  bool stepwise = false;
+};
+
+/// Whether a goal of that mode says where the tool shall be.
+inline bool has_pose(MotionMode mode) {
+  return mode == MotionMode::planned || mode == MotionMode::tracking;
+}
+
+/// What the motion component said about a goal.
+struct GoalReport {
+  enum class State : std::uint8_t { accepted = 0, executing, done, superseded, failed };
+  std::uint64_t goal_id = 0;
+  State state = State::accepted;
+  std::string stage = {}, reason = {};
+  int stops_ahead = 0;
 };
 
 /// Stage of a goal that has failed because the arm was stopped until it is rearmed: a stop drops

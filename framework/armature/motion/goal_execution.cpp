@@ -9,8 +9,25 @@ namespace {
 
 using State = GoalStatus::State;
 
-constexpr int kMaxAttempts = 3;  // to plan while the arm moves
-constexpr double kStill = 1e-3;  // [rad/s] or [m/s] that an arm tells of itself
+constexpr int kMaxAttempts = 3;                    // to plan while the arm moves
+constexpr double kStill = 1e-3;                    // [rad/s] or [m/s] that an arm tells of itself
+constexpr Duration kPausePatience = seconds(0.1);  // behind the start that its plan should have
+
+/// Of which a plan is made.
+bool is_planned(MotionMode mode) {
+  switch (mode) {
+    case MotionMode::planned:
+    case MotionMode::pause:
+    case MotionMode::resume:
+    case MotionMode::retrace:
+      return true;
+    case MotionMode::tracking:
+    case MotionMode::hold:
+    case MotionMode::guided:
+      return false;
+  }
+  return false;
+}
 
 }  // namespace
 
@@ -26,8 +43,12 @@ GoalExecution::GoalExecution(const RobotModel& model, const MotionLimits& limits
 
 GoalStatus& GoalExecution::report(std::uint64_t goal_id, State state, std::string_view stage,
                                   const ReasonText& reason) {
-  last_ = GoalStatus{
-      .goal_id = goal_id, .state = state, .stage = stage, .reason = reason, .remaining_s = 0};
+  last_ = GoalStatus{.goal_id = goal_id,
+                     .state = state,
+                     .stage = stage,
+                     .reason = reason,
+                     .remaining_s = 0,
+                     .stops_ahead = active_ == goal_id ? stops_ahead_ : 0};
   if (status_count_ == statuses_.size()) --status_count_;
   return statuses_[status_count_++] = *last_;
 }
@@ -175,6 +196,9 @@ void GoalExecution::update(Time now, const std::optional<MeasuredJoints>& measur
     return;
   }
   if (halted()) stay_with(*measured, now);
+  if (pending_ && pending_->mode == MotionMode::pause && now > pending_->start + kPausePatience) {
+    stop_off_the_way(now);
+  }
   watch(now, *measured);
   reference_.advance(now);
   if (active_ && now >= reference_.last().end()) arrive(now, measured->q);
@@ -216,15 +240,36 @@ void GoalExecution::pass_over(const MotionGoal& goal) {
 void GoalExecution::take(const MotionGoal& goal, const ReasonText& wrong, Time now) {
   if (!accept(goal, wrong)) return;
   switch (goal.mode) {
+    case MotionMode::pause:
+      if (!is_under_way(now)) return stop_for(goal.id, goal.mode, now);
+      [[fallthrough]];
     case MotionMode::planned:
-      return ask_for_plan({.goal_id = goal.id, .budget = options_.plan_budget}, now);
+    case MotionMode::resume:
+    case MotionMode::retrace:
+      return ask_for_plan({.goal_id = goal.id, .mode = goal.mode, .budget = options_.plan_budget},
+                          now);
     case MotionMode::tracking:
       return track(goal, now);
     case MotionMode::hold:
     case MotionMode::guided:
-      stop(now);
-      return execute(goal.id, goal.mode, now);
+      return stop_for(goal.id, goal.mode, now);
   }
+}
+
+bool GoalExecution::is_under_way(Time now) const {
+  return active_ && is_planned(active_mode_) && !armature::at_rest(reference_.at(now));
+}
+
+void GoalExecution::stop_for(std::uint64_t goal_id, MotionMode mode, Time now) {
+  stop(now);
+  execute(goal_id, mode, now);
+}
+
+void GoalExecution::stop_off_the_way(Time now) {
+  const std::uint64_t goal_id = pending_->goal_id;
+  pending_.reset();
+  request_.reset();
+  stop_for(goal_id, MotionMode::hold, now);
 }
 
 void GoalExecution::ask_for_plan(Pending pending, Time now) {
@@ -233,7 +278,8 @@ void GoalExecution::ask_for_plan(Pending pending, Time now) {
   request_ = PlanRequest{.goal_id = pending.goal_id,
                          .continues = pending.continues,
                          .start = pending.start,
-                         .from = reference_.at(pending.start)};
+                         .from = reference_.at(pending.start),
+                         .since = reference_.trajectory_at(pending.start).start};
   pending_ = pending;
 }
 
@@ -241,6 +287,7 @@ void GoalExecution::ask_again(Time now) {
   Pending next = *pending_;
   next.budget *= 2;
   if (++next.attempt > kMaxAttempts && !next.standing) {
+    if (next.mode == MotionMode::pause) return stop_off_the_way(now);
     next.standing = true;
     stop(now);
     next.start = reference_.last().end();
@@ -265,6 +312,10 @@ bool GoalExecution::take(const PlanAnswer& answer, Time now) {
                           answer.start == pending_->start;
   if (!waited_for) return false;
   if (!answer.reason.empty()) {
+    if (pending_->mode == MotionMode::pause) {
+      stop_off_the_way(now);
+      return false;
+    }
     pending_.reset();
     report(answer.goal_id, State::failed, answer.stage, answer.reason);
     return false;
@@ -273,11 +324,12 @@ bool GoalExecution::take(const PlanAnswer& answer, Time now) {
     ask_again(now);
     return false;
   }
+  const MotionMode mode = pending_->mode;
   pending_.reset();
   reference_.splice(answer.trajectory, answer.sample);
   begin_late(now);
   spliced_ = true;
-  execute(answer.goal_id, MotionMode::planned, now);
+  execute(answer.goal_id, mode, now, answer.stops_ahead);
   return true;
 }
 
@@ -296,8 +348,9 @@ void GoalExecution::track(const MotionGoal& goal, Time now) {
   report(goal.id, State::failed, failure.stage, failure.reason);
 }
 
-void GoalExecution::execute(std::uint64_t goal_id, MotionMode mode, Time now) {
+void GoalExecution::execute(std::uint64_t goal_id, MotionMode mode, Time now, int stops_ahead) {
   finish_active(State::superseded);
+  stops_ahead_ = stops_ahead;
   active_ = goal_id;
   active_mode_ = mode;
   report(goal_id, State::executing).remaining_s = current(now)->remaining_s;
@@ -345,7 +398,8 @@ std::optional<GoalStatus> GoalExecution::current(Time now) const {
                     .state = State::executing,
                     .stage = {},
                     .reason = {},
-                    .remaining_s = std::max(0.0, to_seconds(reference_.last().end() - now))};
+                    .remaining_s = std::max(0.0, to_seconds(reference_.last().end() - now)),
+                    .stops_ahead = stops_ahead_};
 }
 
 std::span<const GoalStatus> GoalExecution::take_statuses() {

@@ -23,6 +23,7 @@ struct GoalStatus {
   InlineText<16> stage;
   ReasonText reason;       // why it failed
   double remaining_s = 0;  // until the goal's trajectory ends
+  int stops_ahead = 0;     // of its way, behind where the goal ends
 };
 
 /// The joint positions that the arm reports.
@@ -50,9 +51,11 @@ struct ExecutionOptions {
 /// measures. The plan is taken when the reference that it continues still holds at its start; late
 /// only when it begins at rest; else it is asked for again with twice the budget, and after three
 /// times the arm stops and it is planned from rest. A newer goal takes the place of one that is
-/// being planned. A goal that fails leaves the motion before it as it is. A target that is tracked
-/// and cannot be met within limits from where the arm is and how it moves has not failed as long as
-/// the arm moves: the motion towards where it was goes on, and ends in a stop. Real-time safe.
+/// being planned. A goal that fails leaves the motion before it as it is. A pause asks for a plan
+/// along the way, too; when that does not come within 0.1 s, the reference stops beside it. A
+/// target that is tracked and cannot be met within limits from where the arm is and how it moves
+/// has not failed as long as the arm moves: the motion towards where it was goes on, and ends in a
+/// stop. Real-time safe.
 class GoalExecution {
  public:
   /// Keeps references to `model` and `tracker`. Without a tracker goals that are tracked are
@@ -109,6 +112,7 @@ class GoalExecution {
   /// A goal that waits for its plan.
   struct Pending {
     std::uint64_t goal_id = 0, continues = 0;
+    MotionMode mode = MotionMode::planned;
     Time start;
     Duration budget{};
     int attempt = 1;
@@ -121,7 +125,12 @@ class GoalExecution {
   void ask_again(Time now);
   bool still_holds(const PlanAnswer& answer, Time now);
   void track(const MotionGoal& goal, Time now);
-  void execute(std::uint64_t goal_id, MotionMode mode, Time now);
+  /// Whether the reference goes along a planned way now.
+  bool is_under_way(Time now) const;
+  void stop_for(std::uint64_t goal_id, MotionMode mode, Time now);
+  /// A pause whose plan was refused, or does not come.
+  void stop_off_the_way(Time now);
+  void execute(std::uint64_t goal_id, MotionMode mode, Time now, int stops_ahead = 0);
   GoalStatus& report(std::uint64_t goal_id, GoalStatus::State state, std::string_view stage = {},
                      const ReasonText& reason = {});
   /// Of the goal that is being executed and the one that is being planned.
@@ -167,6 +176,7 @@ class GoalExecution {
   bool untold_ = false;       // of the last stop: no goal has failed by it
   std::optional<std::uint64_t> active_;
   MotionMode active_mode_ = MotionMode::planned;
+  int stops_ahead_ = 0;  // of the active goal
   std::optional<Pending> pending_;
   std::optional<PlanRequest> request_;
   std::optional<GoalStatus> last_;

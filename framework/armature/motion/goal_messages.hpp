@@ -5,7 +5,6 @@
 #include "armature/kinds/zone_messages.hpp"
 #include "armature/messages/header.hpp"
 #include "armature/motion/goal.hpp"
-#include "armature/motion/pursued_goal.hpp"
 
 namespace armature ARMATURE_EXPORT {
 
@@ -23,6 +22,7 @@ inline void write_goal(const MotionGoal& goal, Time now, msg::MotionGoal& messag
     write_tool_pose(goal.through[i], message.through_()[i]);
   }
   write_zones(goal.forbidden, message.forbidden_());
+  message.stepwise_(goal.stepwise);
   assign(message.velocity_(), goal.velocity);
   assign(message.angular_velocity_(), goal.angular_velocity);
 }
@@ -31,7 +31,8 @@ inline GoalReport report_of(const msg::MotionStatus& status) {
   return {.goal_id = status.goal_id_(),
           .state = static_cast<GoalReport::State>(status.state_()),
           .stage = status.stage_(),
-          .reason = status.reason_()};
+          .reason = status.reason_(),
+          .stops_ahead = static_cast<int>(status.stops_ahead_())};
 }
 
 }  // namespace armature

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "armature/robot/kinematics/kinematics.hpp"
+#include "armature/robot/trajectories/retiming.hpp"
 #include "armature/values/guarded.hpp"
 
 namespace armature {
@@ -158,7 +159,7 @@ PlanResult GoalPlanner::plan(const MotionGoal& goal, const JointState& from, Tim
   if (moving) {
     if (PlanResult stopped = after_stop(goal, from, start, false)) return stopped;
   }
-  if (options_.path_only) return first;
+  if (options_.path_only || goal.stepwise) return first;
   PlanResult straight =
       moving ? after_stop(goal, from, start, true) : attempt(goal, from, start, true);
   return straight ? std::move(straight) : std::move(first);
@@ -173,7 +174,7 @@ PlanResult GoalPlanner::after_stop(const MotionGoal& goal, const JointState& fro
   rest.a.setZero();
   PlanResult plan = attempt(goal, rest, stop.end(), straight);
   if (!plan) return plan;
-  plan->trajectory = joined(stop, plan->trajectory);
+  plan->trajectory = followed_by(stop, plan->trajectory);
   const ReasonText wrong = trajectory_defect(plan->trajectory.view(), model_, limits_, from, start);
   if (!wrong.empty()) return fail("trajectory", std::string{wrong.view()});
   return plan;

@@ -34,8 +34,9 @@ class GoalPlanner {
 
   /// A plan for `goal` that leaves `from` at `start` without a jump in q, v, a and ends at rest at
   /// the goal. Tried in this order: the path plugin's path, spliced while moving; the same after a
-  /// stop; unless path_only, straight in joint space. Fails with the reason of the first. With key
-  /// poses only the path plugin's path, from rest: anything else would miss them.
+  /// stop; unless path_only, straight in joint space. Fails with the reason of the first. A goal
+  /// that is stepwise never goes straight: its stops are the path's. With key poses only the path
+  /// plugin's path, from rest: anything else would miss them.
   PlanResult plan(const MotionGoal& goal, const JointState& from, Time start);
 
   /// The joint position nearest to `near` that reaches `pose`.

@@ -116,7 +116,7 @@ TEST_F(MotionComponentTest, AGoalThatIsNoneIsRefusedWithItsReasonAndTheMotionGoe
             "the goal is stated in frame 'camera', not in 'base'");
   EXPECT_EQ(refusal([](auto& g) { g.header_().frame_id_().clear(); }),
             "the goal is stated in frame '', not in 'base'");
-  EXPECT_EQ(refusal([](auto& g) { g.mode_(4); }), "the goal has the unknown mode 4");
+  EXPECT_EQ(refusal([](auto& g) { g.mode_(7); }), "the goal has the unknown mode 7");
   EXPECT_EQ(refusal([](auto& g) { g.position_().z_(NAN); }), "the goal's position is not finite");
   EXPECT_EQ(refusal([](auto& g) { g.direction_().x_(0.5); }),
             "the goal's direction has length 0.5, not 1");

@@ -29,12 +29,13 @@ ReasonText read_goal_head(const msg::MotionGoal& message, MotionGoal& goal) {
     return ReasonText::format("the goal is stated in frame '{}', not in '{}'",
                               message.header_().frame_id_(), kBaseFrame);
   }
-  if (message.mode_() > static_cast<int>(MotionMode::guided)) {
+  if (message.mode_() > static_cast<int>(MotionMode::retrace)) {
     return ReasonText::format("the goal has the unknown mode {}", message.mode_());
   }
   goal.mode = static_cast<MotionMode>(message.mode_());
   goal.pose = tool_pose_of(message);
   if (message.has_focus_()) goal.focus = to_eigen(message.focus_());
+  goal.stepwise = message.stepwise_();
   if (goal.mode == MotionMode::tracking) {
     goal.velocity = to_eigen(message.velocity_());
     goal.angular_velocity = to_eigen(message.angular_velocity_());
@@ -44,8 +45,7 @@ ReasonText read_goal_head(const msg::MotionGoal& message, MotionGoal& goal) {
     if (!message.through_().empty()) return "a goal that is tracked has no key poses";
   }
   if (ReasonText wrong = defect(goal); !wrong.empty()) return wrong;
-  const bool has_pose = goal.mode == MotionMode::planned || goal.mode == MotionMode::tracking;
-  if (has_pose) goal.pose = *checked(goal.pose, "the goal's");  // made a unit
+  if (has_pose(goal.mode)) goal.pose = *checked(goal.pose, "the goal's");  // made a unit
   return {};
 }
 
@@ -78,6 +78,7 @@ void write_request(const PlanRequest& request, msg::MotionPlanRequest& message) 
   write_values(request.from.q, message.position_());
   write_values(request.from.v, message.velocity_());
   write_values(request.from.a, message.acceleration_());
+  set_stamp(message.since_(), request.since);
 }
 
 PlanRequest read_request(const msg::MotionPlanRequest& message) {
@@ -86,10 +87,12 @@ PlanRequest read_request(const msg::MotionPlanRequest& message) {
           .start = stamp_of(message.header_().stamp_()),
           .from = {.q = values_of(message.position_()),
                    .v = values_of(message.velocity_()),
-                   .a = values_of(message.acceleration_())}};
+                   .a = values_of(message.acceleration_())},
+          .since = stamp_of(message.since_())};
 }
 
-void write_answer(const PlanRequest& request, const PlanResult& result, msg::MotionPlan& message) {
+void write_answer(const PlanRequest& request, const WayLegResult& result,
+                  msg::MotionPlan& message) {
   write_header(message.header_(), request.start, kBaseFrame);
   message.goal_id_(request.goal_id);
   message.continues_(request.continues);
@@ -97,6 +100,7 @@ void write_answer(const PlanRequest& request, const PlanResult& result, msg::Mot
   message.reason_() = result ? "" : result.error().reason;
   message.knots_().clear();
   message.coefficients_().clear();
+  message.stops_ahead_(result ? static_cast<std::uint32_t>(result->stops_ahead) : 0);
   if (!result) return;
   message.knots_() = result->trajectory.knots;
   for (const Quintic& piece : result->trajectory.pieces) {
@@ -116,7 +120,8 @@ PlanAnswer read_answer(const RobotModel& model, const msg::MotionPlan& message, 
                          .coefficients = message.coefficients_().data()},
           .sample = std::move(sample),
           .stage = message.stage_(),
-          .reason = message.reason_()};
+          .reason = message.reason_(),
+          .stops_ahead = static_cast<int>(message.stops_ahead_())};
 }
 
 void write_reference(const RobotModel& model, const JointState& state, Time stamp,
@@ -143,6 +148,7 @@ void write_status(const GoalStatus& status, Time stamp, msg::MotionStatus& messa
   message.stage_().assign(status.stage);
   message.reason_().assign(status.reason.view());
   message.remaining_(status.remaining_s);
+  message.stops_ahead_(static_cast<std::uint32_t>(status.stops_ahead));
 }
 
 void write_path(const Plan& plan, const RobotModel& model, msg::ToolPath& message) {

@@ -6,6 +6,7 @@
 #include "armature/messages/trajectory_msgs.hpp"
 #include "armature/motion/goal_execution.hpp"
 #include "armature/motion/plan.hpp"
+#include "armature/motion/way.hpp"
 
 namespace armature ARMATURE_EXPORT {
 
@@ -22,7 +23,7 @@ ReasonText read_goal_head(const msg::MotionGoal& message, MotionGoal& goal);
 void write_request(const PlanRequest& request, msg::MotionPlanRequest& message);
 PlanRequest read_request(const msg::MotionPlanRequest& message);
 /// The answer to it. What is read points into the sample's message.
-void write_answer(const PlanRequest& request, const PlanResult& result, msg::MotionPlan& message);
+void write_answer(const PlanRequest& request, const WayLegResult& result, msg::MotionPlan& message);
 PlanAnswer read_answer(const RobotModel& model, const msg::MotionPlan& message, SampleRef sample);
 
 /// Position, velocity and acceleration of the independent joints.

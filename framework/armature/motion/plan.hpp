@@ -27,7 +27,4 @@ struct PlanFailure {
 };
 using PlanResult = tl::expected<Plan, PlanFailure>;
 
-/// `first`, then `second`, which starts where and when `first` ends.
-Trajectory joined(const Trajectory& first, const Trajectory& second);
-
 }  // namespace armature

@@ -17,6 +17,7 @@ struct PlanRequest {
   std::uint64_t continues = 0;  // serial number of the reference that the plan leaves
   Time start;                   // when the plan shall take over
   JointState from;              // the reference's own q, v, a then
+  Time since = {};              // when the trajectory began that holds then
 };
 
 /// What became of a request; goal, serial number and start are those of the request.
@@ -27,6 +28,7 @@ struct PlanAnswer {
   TrajectoryView trajectory;       // in the memory of `sample`
   SampleRef sample;                // holds it; none where something else does
   std::string_view stage, reason;  // which stage refused, and why; empty: there is a plan
+  int stops_ahead = 0;             // of the goal's way, behind the trajectory's end
 };
 
 }  // namespace armature

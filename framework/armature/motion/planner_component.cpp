@@ -34,7 +34,8 @@ MotionPlanner::MotionPlanner(Setup& setup)
                 .select = setup.slot<BranchSelector>("select", model_),
                 .trajectory = setup.slot<TrajectoryPlanner>("trajectory")},
                limits_of(setup.params(), model_),
-               planning_of(motion::Parameters::read(setup.params()))} {
+               planning_of(motion::Parameters::read(setup.params()))},
+      ways_{planner_.limits()} {
   setup.deliver_after(seconds(motion::Parameters::read(setup.params()).plan_budget / 2));
 }
 
@@ -59,27 +60,49 @@ const msg::MotionGoal* MotionPlanner::find(std::uint64_t goal_id) const {
 
 void MotionPlanner::answer(const PlanRequest& request, const msg::MotionGoal& message) {
   const auto goal = read_goal(message);
-  const PlanResult result =
-      goal ? planner_.plan(*goal, request.from, request.start)
-           : PlanResult{tl::unexpected{PlanFailure{"accept", goal.error().text}}};
-  auto plan = plan_.loan();
-  write_answer(request, result, *plan);
-  plan.publish();
-  if (result) publish_stages(*result);
+  planned_.reset();
+  const WayLegResult leg =
+      !goal ? WayLegResult{tl::unexpected{PlanFailure{"accept", goal.error().text}}}
+      : goal->mode == MotionMode::planned ? plan(request, *goal)
+                                          : change_way(request, *goal);
+  auto answer = plan_.loan();
+  write_answer(request, leg, *answer);
+  answer.publish();
+  if (planned_) publish_path(*planned_);
+  if (leg) publish_trajectory(leg->trajectory);
 }
 
-void MotionPlanner::publish_stages(const Plan& plan) {
+WayLegResult MotionPlanner::plan(const PlanRequest& request, const MotionGoal& goal) {
+  PlanResult plan = planner_.plan(goal, request.from, request.start);
+  if (!plan) return tl::unexpected{plan.error()};
+  planned_ = std::move(*plan);
+  return ways_.begin(*planned_, goal.stepwise);
+}
+
+WayLegResult MotionPlanner::change_way(const PlanRequest& request, const MotionGoal& goal) {
+  WayLegResult leg = ways_.change(goal.mode, goal.stepwise, request);
+  if (!leg) return leg;
+  const ReasonText wrong = trajectory_defect(leg->trajectory.view(), model_, planner_.limits(),
+                                             request.from, request.start);
+  if (wrong.empty()) return leg;
+  return tl::unexpected{PlanFailure{"trajectory", std::string{wrong.view()}}};
+}
+
+void MotionPlanner::publish_path(const Plan& plan) {
   auto path = path_out_.loan();
   write_path(plan, model_, *path);
   path.publish();
   auto joint_path = joint_path_out_.loan();
   write_joint_path(plan, model_, *joint_path);
   joint_path.publish();
-  auto trajectory = trajectory_out_.loan();
-  write_trajectory(plan.trajectory, model_, *trajectory);
-  trajectory.publish();
+}
+
+void MotionPlanner::publish_trajectory(const Trajectory& trajectory) {
+  auto pieces = trajectory_out_.loan();
+  write_trajectory(trajectory, model_, *pieces);
+  pieces.publish();
   auto points = joint_trajectory_out_.loan();
-  write_trajectory_points(plan.trajectory, model_, *points);
+  write_trajectory_points(trajectory, model_, *points);
   points.publish();
 }
 

@@ -8,6 +8,7 @@
 #include "armature/messages/trajectory_msgs.hpp"
 #include "armature/motion/goal_planner.hpp"
 #include "armature/motion/plan_exchange.hpp"
+#include "armature/motion/way.hpp"
 #include "armature/runtime/component/component.hpp"
 #include "armature/runtime/component/setup.hpp"
 
@@ -24,7 +25,10 @@ class MotionPlanner final : public Component {
  private:
   const msg::MotionGoal* find(std::uint64_t goal_id) const;
   void answer(const PlanRequest& request, const msg::MotionGoal& goal);
-  void publish_stages(const Plan& plan);
+  WayLegResult plan(const PlanRequest& request, const MotionGoal& goal);
+  WayLegResult change_way(const PlanRequest& request, const MotionGoal& goal);
+  void publish_path(const Plan& plan);
+  void publish_trajectory(const Trajectory& trajectory);
 
   RobotModel model_, solver_model_;
   Input<msg::MotionGoal> goals_;
@@ -34,6 +38,8 @@ class MotionPlanner final : public Component {
   Output<msg::JointTrajectory> joint_path_out_, joint_trajectory_out_;
   Output<msg::QuinticTrajectory> trajectory_out_;
   GoalPlanner planner_;
+  Ways ways_;
+  std::optional<Plan> planned_;        // whose path is still to be told
   std::deque<msg::MotionGoal> known_;  // newest last
   std::optional<PlanRequest> wanted_;  // whose goal has not come yet
 };

@@ -18,7 +18,6 @@
 #include "armature/runtime/component/setup.hpp"
 #include "armature/runtime/plugins/plugin.hpp"
 #include "insertion_monitor.hpp"
-#include "report_biopsy_parameters.hpp"
 
 namespace armature::report::biopsy {
 namespace {
@@ -32,7 +31,6 @@ class BiopsyReport final : public Component {
  public:
   explicit BiopsyReport(Setup& setup)
       : Component{setup},
-        parameters_{Parameters::read(setup.params())},
         robot_{robot_of(setup)},
         needle_axis_{robot_.pointing_axis().value_or(Eigen::Vector3d::UnitZ())},
         plan_{setup.input<msg::NeedlePlan>("plan")},
@@ -48,14 +46,13 @@ class BiopsyReport final : public Component {
     registration_.listen([&](const msg::RegistrationResponse& response) { read(response); });
     for (std::size_t i = 0; i < measured_js_.size(); ++i) read(measured_js_[i]);
     for (std::size_t i = 0; i < task_state_.size(); ++i) read(task_state_[i], now);
-    finished_ =
-        refused_ || (at_target_since_ && now - *at_target_since_ >= seconds(parameters_.still_for));
   }
 
-  bool finished() const override { return finished_; }
+  bool finished() const override { return !ended_as_.empty(); }
 
   void summarize(Summary& summary) const override {
-    if (refused_) summary.failed("refused", trouble_);
+    if (ended_as_ == "refused") summary.failed("refused", trouble_);
+    if (ended_as_ == "aborted") summary.failed("aborted", "by the operator");
     const auto metric = [&](const char* key, const char* title, std::optional<double> value,
                             double unit = 1) {
       if (value) summary.metric(key, title, *value * unit);
@@ -94,9 +91,9 @@ class BiopsyReport final : public Component {
 
   /// None until the task said that the needle is there.
   std::optional<double> target_error_m() const {
-    if (!time_to_target_s_ || !plan_.latest() || !truth_.latest() || !monitor_.tip()) return {};
+    if (!tip_at_target_ || !plan_.latest() || !truth_.latest()) return {};
     const Eigen::Isometry3d robot_T_image = to_eigen(truth_.latest()->transform_());
-    return (*monitor_.tip() - robot_T_image * to_eigen(plan_.latest()->target_())).norm();
+    return (*tip_at_target_ - robot_T_image * to_eigen(plan_.latest()->target_())).norm();
   }
 
   void read(const msg::RegistrationResponse& response) {
@@ -128,24 +125,22 @@ class BiopsyReport final : public Component {
   }
 
   void read(const msg::TaskState& state, Time now) {
-    refused_ = state.state_() == "refused";
-    trouble_ = state.detail_();
-    if (state.state_() != "at target") {
-      at_target_since_.reset();
-      return;
+    for (const char* end : {"withdrawn", "aborted", "refused"}) {
+      if (state.state_() == end) ended_as_ = end;
     }
-    if (!at_target_since_) at_target_since_ = now;
+    trouble_ = state.detail_();
+    if (state.state_() != "at target") return;
+    tip_at_target_ = monitor_.tip();
     if (!time_to_target_s_) time_to_target_s_ = to_seconds(now - *start_);
   }
 
-  Parameters parameters_;
   RobotModel robot_;
   Eigen::Vector3d needle_axis_;
   InsertionMonitor monitor_;
-  std::optional<Time> start_, at_target_since_;
+  std::optional<Time> start_;
+  std::optional<Eigen::Vector3d> tip_at_target_;
   std::optional<double> time_to_target_s_;
-  std::string trouble_;
-  bool refused_ = false, finished_ = false;
+  std::string trouble_, ended_as_;
   Input<msg::NeedlePlan> plan_;
   Input<msg::TransformStamped> truth_;
   OverheardRegistration registration_;

@@ -73,13 +73,19 @@ class BiopsyReportTest : public testing::Test {
 TEST_F(BiopsyReportTest, TellsTheErrorsAgainstTruthAndExpectation) {
   show_head();
   move_arm();
-  tell("inserting");
+  tell("insertion");
   report_.step(1);
   EXPECT_FALSE(report_.figures().metrics.contains("target_error_mm")) << "it is not there yet";
   tell("at target");
   report_.step(5);
-  EXPECT_FALSE(report_.component().finished());
+  tell("withdrawing");
+  JointVector out = resting_position(robot_);
+  out[5] -= 0.03;
+  send_arm(out);
   report_.step(5.5);
+  EXPECT_FALSE(report_.component().finished());
+  tell("withdrawn");
+  report_.step(6);
   EXPECT_TRUE(report_.component().finished());
   auto told = report_.figures();
   EXPECT_EQ(told.status, "");
@@ -126,6 +132,14 @@ TEST_F(BiopsyReportTest, ARefusedBiopsyEndsTheRun) {
   EXPECT_EQ(report_.figures().status, "refused");
   EXPECT_EQ(report_.figures().reason, "the markers lie nearly on one line");
   EXPECT_FALSE(report_.figures().metrics.contains("target_error_mm"));
+}
+
+TEST_F(BiopsyReportTest, AnAbortedBiopsyEndsTheRun) {
+  tell("aborted");
+  report_.step(1);
+  EXPECT_TRUE(report_.component().finished());
+  EXPECT_EQ(report_.figures().status, "aborted");
+  EXPECT_EQ(report_.figures().reason, "by the operator");
 }
 
 TEST_F(BiopsyReportTest, ASampleThatIsNoPositionIsSaid) {

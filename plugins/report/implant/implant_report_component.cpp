@@ -85,6 +85,7 @@ class ImplantReport final : public Component {
 
   void summarize(Summary& summary) const override {
     if (state_ == "refused") summary.failed("refused", trouble_);
+    if (state_ == "aborted") summary.failed("aborted", "by the operator");
     if (state_ == "drilled") tell_drilling(summary);
     summary.metric("final_speed_rad_s", "speed of the fastest joint at the end [rad/s]", speed_);
   }
@@ -134,7 +135,7 @@ class ImplantReport final : public Component {
   void read(const msg::TaskState& state, Time now) {
     state_ = state.state_();
     trouble_ = state.detail_();
-    const bool ended = state_ == "drilled" || state_ == "refused";
+    const bool ended = state_ == "drilled" || state_ == "aborted" || state_ == "refused";
     if (ended && !ended_at_) ended_at_ = now;
   }
 

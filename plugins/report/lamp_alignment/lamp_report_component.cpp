@@ -69,9 +69,10 @@ class LampReport : public Component {
     now_ = now;
   }
 
-  bool finished() const override { return monitor_.finished(); }
+  bool finished() const override { return aborted_ || monitor_.finished(); }
 
   void summarize(Summary& summary) const override {
+    if (aborted_) summary.failed("aborted", "by the operator");
     if (monitor_.face_not_found()) {
       summary.failed("face_not_found",
                      fmt::format("no face was found for {:g} s{}", parameters_.search_timeout,
@@ -160,6 +161,7 @@ class LampReport : public Component {
 
   void see_task(const msg::TaskState& task, Time now) {
     monitor_.see_task(task.state_() == "holding");
+    aborted_ = task.state_() == "aborted";
     const std::string part =
         task.steps_() == 0 ? "" : fmt::format(" {}/{}", task.step_(), task.steps_());
     unfinished_.see_task(task.state_() + part, task.detail_(), now);
@@ -231,6 +233,7 @@ class LampReport : public Component {
   Parameters parameters_;
   AlignmentMonitor monitor_;
   UnfinishedScenario unfinished_;
+  bool aborted_ = false;
   Time now_;
   TrajectoryHash hash_;
   CameraPicture picture_;

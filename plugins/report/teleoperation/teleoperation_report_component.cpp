@@ -75,13 +75,14 @@ class TeleoperationReport final : public Component {
     show_health();
     const bool watched = closed_at_ && now - *closed_at_ >= seconds(parameters_.watch);
     held_ = held_since_ && (watched || now - *held_since_ >= seconds(parameters_.held_for));
-    finished_ = refused_ || held_ || watched;
+    finished_ = refused_ || aborted_ || held_ || watched;
   }
 
   bool finished() const override { return finished_; }
 
   void summarize(Summary& summary) const override {
     if (refused_) summary.failed("refused", trouble_);
+    if (aborted_) summary.failed("aborted", "by the operator");
     if (held_) summary.failed("held", trouble_);
     const auto metric = [&](const char* key, const char* title, std::optional<double> value,
                             double unit = 1) {
@@ -161,6 +162,7 @@ class TeleoperationReport final : public Component {
     if (trouble_.empty()) held_since_.reset();
     if (!trouble_.empty() && !held_since_) held_since_ = at;
     refused_ = phase == "refused";
+    aborted_ = phase == "aborted";
   }
 
   void read(const msg::TransformStamped& console) {
@@ -208,7 +210,7 @@ class TeleoperationReport final : public Component {
   std::optional<Eigen::Isometry3d> follower_T_leader_;
   std::optional<Time> start_, aligned_at_, closed_at_, held_since_;
   std::string complaint_, trouble_;
-  bool refused_ = false, held_ = false, finished_ = false;
+  bool refused_ = false, aborted_ = false, held_ = false, finished_ = false;
   Input<msg::TransformStamped> console_;
   Input<msg::JointState> leader_js_;
   Input<msg::PoseStamped> leader_cp_, follower_cp_, intended_cp_;

@@ -3,6 +3,9 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <utility>
+
 #include "armature/robot/kinematics/kinematics.hpp"
 
 namespace armature::task::biopsy {
@@ -39,14 +42,24 @@ ToolPose pose_at_target(const NeedleLine& line, const RobotModel& robot) {
   return {line.target, rotation_along(along, home.linear().col(0))};
 }
 
+Biopsy::Biopsy(const Parameters& parameters, const RobotModel& robot)
+    : parameters_{parameters},
+      robot_{robot},
+      procedure_{{{.name = "registration"},
+                  {.name = "approach", .asks = true},
+                  {.name = "entry", .asks = true},
+                  {.name = "insertion", .asks = true},
+                  {.name = "withdrawal"}},
+                 parameters.auto_confirm} {}
+
 void Biopsy::see_head(const NeedleLine& plan) {
-  if (phase_ != Phase::waiting) return;
+  if (has_plan_) return;
   plan_ = plan;
-  phase_ = Phase::registering;
+  has_plan_ = true;
 }
 
 void Biopsy::see_registration(const RegisteredHead& head) {
-  if (phase_ != Phase::registering) return;
+  if (!wants_registration()) return;
   if (head.fiducial_error_m > parameters_.max_fre) {
     return refuse(fmt::format("the markers fit to {:.2f} mm rms, {:g} mm are allowed",
                               1e3 * head.fiducial_error_m, 1e3 * parameters_.max_fre));
@@ -57,22 +70,156 @@ void Biopsy::see_registration(const RegisteredHead& head) {
   }
   const NeedleLine line = moved(plan_, head.robot_T_image);
   if (!((line.target - line.entry).norm() > 0)) return refuse("entry and target are one point");
-  goal_.set_once(
-      {.pose = pose_at_target(line, robot_), .focus = line.entry, .forbidden = line.forbidden});
-  phase_ = Phase::inserting;
+  line_ = line;
+  enter(Step::approach);
+}
+
+void Biopsy::update(Time now) {
+  if (procedure_.over()) return;
+  const bool rests = goal_.state() != PursuedGoal::State::pausing;
+  if (turning_to_ != Heading::none && rests && !procedure_.paused()) {
+    return turn_to(std::exchange(turning_to_, Heading::none));
+  }
+  if (!procedure_.may_act() || heading_ != Heading::none) return;
+  switch (step()) {
+    case Step::registration:
+      break;
+    case Step::approach:
+    case Step::entry:
+    case Step::insertion:
+      set_out();
+      break;
+    case Step::withdrawal:
+      if (now - at_target_since_ >= seconds(parameters_.dwell)) turn_to(Heading::out);
+      break;
+  }
+}
+
+/// The whole way is planned before anything moves; then it is gone on with, stop by stop.
+void Biopsy::set_out() {
+  heading_ = Heading::onward;
+  if (way_stops_ > 0) return goal_.go_on();
+  goal_.set_once({.pose = pose_at_target(*line_, robot_),
+                  .focus = line_->entry,
+                  .forbidden = line_->forbidden,
+                  .stepwise = true});
+}
+
+void Biopsy::turn_to(Heading heading) {
+  heading_ = heading;
+  goal_.retrace(heading != Heading::home);
 }
 
 void Biopsy::hear(const GoalReport& report, Time now) {
   goal_.hear(report, now);
-  if (phase_ != Phase::inserting && phase_ != Phase::at_target) return;
-  if (goal_.state() == PursuedGoal::State::failed) return refuse(goal_.reason());
-  const bool there = goal_.state() == PursuedGoal::State::done;
-  phase_ = there ? Phase::at_target : Phase::inserting;
+  if (procedure_.over() || heading_ == Heading::none) return;
+  if (goal_.state() == PursuedGoal::State::failed) {
+    const bool aborts = heading_ == Heading::home;
+    return refuse((aborts ? "aborted, and the way back failed: " : "") + goal_.reason());
+  }
+  if (goal_.state() == PursuedGoal::State::done) arrive(now);
+}
+
+void Biopsy::arrive(Time now) {
+  const Heading came = std::exchange(heading_, Heading::none);
+  const int ahead = goal_.stops_ahead();
+  if (way_stops_ == 0) way_stops_ = ahead + 1;
+  place_ = came == Heading::onward ? way_stops_ - ahead : ahead;
+  if (came == Heading::home) {
+    ended_as_ = Phase::aborted;
+    return procedure_.end(Procedure::StepState::broken_off);
+  }
+  if (came != Heading::out) {
+    if (place_ == way_stops_) at_target_since_ = now;
+    return enter(step_from(place_));
+  }
+  // Back to the stand-off; the entry on the way there is passed.
+  const int stand_off = std::max(way_stops_ - 2, 0);
+  if (place_ > stand_off) return turn_to(Heading::out);
+  ended_as_ = Phase::withdrawn;
+  procedure_.end();
+}
+
+Biopsy::Step Biopsy::step_from(int place) const {
+  if (place == way_stops_) return Step::withdrawal;
+  if (place == way_stops_ - 1) return Step::insertion;
+  return place == way_stops_ - 2 ? Step::entry : Step::approach;
+}
+
+Expected<void> Biopsy::hear(const OperatorCommand& command) {
+  const auto word = procedure_.hear(command);
+  if (!word) return tl::unexpected{word.error()};
+  switch (*word) {
+    case OperatorWord::confirm:
+      break;
+    case OperatorWord::pause:
+      goal_.pause();
+      break;
+    case OperatorWord::resume:
+      if (turning_to_ == Heading::none) goal_.resume();
+      break;
+    case OperatorWord::back:
+      return go_back();
+    case OperatorWord::abort:
+      return abort();
+  }
+  return {};
+}
+
+Expected<void> Biopsy::go_back() {
+  if (heading() != Heading::none && heading() != Heading::onward) {
+    return armature::refuse("the needle goes back already");
+  }
+  if (step() == Step::registration) return armature::refuse("there is no step before this one");
+  procedure_.end_pause();
+  if (heading_ == Heading::none && place_ == 0) {
+    line_.reset();
+    way_stops_ = 0;
+    enter(Step::registration);
+    return {};
+  }
+  goal_.pause();
+  turning_to_ = Heading::back;
+  return {};
+}
+
+Expected<void> Biopsy::abort() {
+  if (heading() == Heading::home) return armature::refuse("it is being aborted already");
+  procedure_.end_pause();
+  const bool stands_where_it_began = place_ == 0 && heading_ == Heading::none;
+  if (stands_where_it_began) {
+    ended_as_ = Phase::aborted;
+    procedure_.end(Procedure::StepState::broken_off);
+    return {};
+  }
+  goal_.pause();
+  turning_to_ = Heading::home;
+  return {};
 }
 
 void Biopsy::refuse(const std::string& why) {
-  phase_ = Phase::refused;
+  ended_as_ = Phase::refused;
   trouble_ = why;
+  procedure_.end(Procedure::StepState::broken_off);
+}
+
+Biopsy::Phase Biopsy::phase() const {
+  if (procedure_.over()) return ended_as_;
+  switch (heading()) {
+    case Heading::onward:
+      return Phase::moving;
+    case Heading::back:
+      return Phase::going_back;
+    case Heading::out:
+      return Phase::withdrawing;
+    case Heading::home:
+      return Phase::aborting;
+    case Heading::none:
+      break;
+  }
+  if (procedure_.asks()) return Phase::asking;
+  if (step() == Step::registration) return has_plan_ ? Phase::registering : Phase::waiting;
+  return step() == Step::withdrawal ? Phase::at_target : Phase::moving;
 }
 
 const char* to_string(Biopsy::Phase phase) {
@@ -81,10 +228,22 @@ const char* to_string(Biopsy::Phase phase) {
       return "waiting";
     case Biopsy::Phase::registering:
       return "registering";
-    case Biopsy::Phase::inserting:
-      return "inserting";
+    case Biopsy::Phase::asking:
+      return "asking";
+    case Biopsy::Phase::moving:
+      return "moving";
     case Biopsy::Phase::at_target:
       return "at target";
+    case Biopsy::Phase::withdrawing:
+      return "withdrawing";
+    case Biopsy::Phase::going_back:
+      return "going back";
+    case Biopsy::Phase::aborting:
+      return "aborting";
+    case Biopsy::Phase::withdrawn:
+      return "withdrawn";
+    case Biopsy::Phase::aborted:
+      return "aborted";
     case Biopsy::Phase::refused:
       return "refused";
   }

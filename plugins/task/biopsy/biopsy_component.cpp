@@ -8,10 +8,10 @@
 #include "armature/kinds/registration_messages.hpp"
 #include "armature/kinds/setup_robot.hpp"
 #include "armature/motion/goal_messages.hpp"
-#include "armature/motion/task_state_publisher.hpp"
 #include "armature/runtime/component/component.hpp"
 #include "armature/runtime/component/setup.hpp"
 #include "armature/runtime/plugins/plugin.hpp"
+#include "armature/task/task_ports.hpp"
 #include "biopsy.hpp"
 
 namespace armature::task::biopsy {
@@ -42,15 +42,20 @@ class BiopsyComponent final : public Component {
         task_{parameters_, robot_},
         plan_{setup.input<msg::NeedlePlan>("plan")},
         markers_{setup.input<msg::MeasuredMarkers>("markers")},
+        ports_{setup},
         registration_{setup, parameters_.marker_error, parameters_.match_tolerance},
         motion_status_{setup.input<msg::MotionStatus>("motion_status")},
-        goal_{setup.output<msg::MotionGoal>("goal")},
-        state_{setup} {
+        goal_{setup.output<msg::MotionGoal>("goal")} {
     setup.activate_every(kPeriod);
   }
 
   void step(Time now) override {
+    for (const std::string& line : ports_.hear(
+             task_.procedure(), [this](const auto& command) { return task_.hear(command); })) {
+      log(line);
+    }
     read(now);
+    task_.update(now);
     if (task_.wants_registration() && registration_.due(now)) ask(now);
     if (const auto goal = task_.outgoing_goal(now)) {
       auto loan = goal_.loan();
@@ -93,8 +98,12 @@ class BiopsyComponent final : public Component {
   }
 
   void publish_state(Time now) {
-    const TaskReport report{.state = to_string(task_.phase()), .detail = task_.trouble()};
-    if (state_.publish(now, report, report.line())) log(report.line());
+    const Procedure& procedure = task_.procedure();
+    const bool moving = task_.phase() == Biopsy::Phase::moving;
+    const TaskReport report{
+        .state = moving ? procedure.steps()[procedure.step()].name : to_string(task_.phase()),
+        .detail = task_.trouble()};
+    if (const auto said = ports_.publish(now, report, report.line(), procedure)) log(*said);
   }
 
   Parameters parameters_;
@@ -102,10 +111,10 @@ class BiopsyComponent final : public Component {
   Biopsy task_;
   Input<msg::NeedlePlan> plan_;
   Input<msg::MeasuredMarkers> markers_;
+  TaskPorts ports_;
   RegistrationDialogue registration_;
   Input<msg::MotionStatus> motion_status_;
   Output<msg::MotionGoal> goal_;
-  TaskStatePublisher state_;
 };
 
 }  // namespace armature::task::biopsy

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The biopsy on its topics: 1. what it asks the registration, 2. the goal, 3. answers to others'
-// questions are none, 4. what it says.
+// questions are none, 4. what it says, 5. what it is told.
 #include <gtest/gtest.h>
 
 #include "armature/kinds/zone_messages.hpp"
 #include "armature/messages/header.hpp"
 #include "armature/runtime/testing/component_harness.hpp"
 #include "armature/runtime/testing/test_plugins.hpp"
+#include "armature/task/procedure.hpp"
 
 namespace armature::task::biopsy {
 namespace {
@@ -46,7 +47,7 @@ class BiopsyComponentTest : public testing::Test {
 
   ComponentHarness task_{
       built_plugins(),
-      {.component = "{plugin: task/biopsy}",
+      {.component = "{plugin: task/biopsy, params: {auto_confirm: true}}",
        .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/sr1_needle.yaml"),
        .rig = {}}};
   double now_s_ = 100;
@@ -85,9 +86,44 @@ TEST_F(BiopsyComponentTest, SendsTheRegisteredTargetAsAGoal) {
   EXPECT_NEAR(goals[0].focus_().z_(), 0.25, 1e-15);
   ASSERT_EQ(goals[0].forbidden_().size(), 1u);
   EXPECT_NEAR(goals[0].forbidden_()[0].to_().x_(), 0.5, 1e-15);
-  EXPECT_EQ(task_.lines().back(), "inserting");
+  EXPECT_TRUE(goals[0].stepwise_());
+  EXPECT_EQ(task_.lines().back(), "approach");
   EXPECT_EQ(task_.lines()[task_.lines().size() - 2],
             "2 of 3 markers fit to 0.30 mm, the target is known to 0.40 mm (95 %)");
+}
+
+TEST_F(BiopsyComponentTest, TellsItsStepsAndAnswersTheOperator) {
+  const auto command = [&](std::uint64_t id, const std::string& word) {
+    msg::OperatorCommand message;
+    message.command_id_(id);
+    message.command_() = word;
+    task_.send("operator", message);
+    task_.step(now_s_ += 0.25);
+    return task_.take<msg::TaskState>("state").back();
+  };
+  task_.step(now_s_);
+  EXPECT_EQ(task_.lines().front(),
+            "nobody confirms the steps towards the patient (auto_confirm: true)");
+  show_head();
+  task_.send("registration", answer_to(asked()));
+  task_.step(now_s_ += 0.02);
+  const auto told = command(7, "pause");
+  ASSERT_EQ(told.procedure_().size(), 5u);
+  EXPECT_EQ(told.procedure_()[0].name_(), "registration");
+  EXPECT_EQ(told.procedure_()[0].state_(), static_cast<int>(Procedure::StepState::done));
+  EXPECT_EQ(told.procedure_()[1].name_(), "approach");
+  EXPECT_EQ(told.procedure_()[1].state_(), static_cast<int>(Procedure::StepState::active));
+  EXPECT_TRUE(told.procedure_()[1].asks_());
+  EXPECT_TRUE(told.auto_confirm_());
+  EXPECT_TRUE(told.paused_());
+  EXPECT_EQ(told.answered_(), 7u);
+  EXPECT_EQ(told.answer_(), "");
+  EXPECT_EQ(task_.lines()[task_.lines().size() - 2], "the operator says pause");
+  EXPECT_EQ(task_.lines().back(), "paused: approach");
+  EXPECT_EQ(task_.take<msg::MotionGoal>("goal").back().mode_(), 4);
+  EXPECT_EQ(command(8, "pause").answer_(), "it is paused already");
+  EXPECT_EQ(task_.lines().back(), "the operator says pause, refused: it is paused already");
+  EXPECT_EQ(command(8, "resume").answer_(), "it is paused already") << "told again";
 }
 
 TEST_F(BiopsyComponentTest, AnAnswerToSomebodyElseIsNone) {

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scenario of a biopsy, without topics.
+// The scenario of a biopsy, without topics: 1. by itself, 2. with an operator.
 #include "biopsy.hpp"
 
 #include <gtest/gtest.h>
+
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "armature/robot/kinematics/kinematics.hpp"
 
@@ -20,6 +24,10 @@ const NeedleLine kPlan{
 
 class BiopsyTest : public testing::Test {
  protected:
+  BiopsyTest() { begin(true); }
+  void begin(bool auto_confirm) {
+    task_.emplace(Parameters{.auto_confirm = auto_confirm}, needle_arm());
+  }
   static const RobotModel& needle_arm() {
     static const RobotModel model =
         load_robot_model(ARMATURE_SOURCE_DIR "/configs/robots/sr1_needle.yaml");
@@ -31,76 +39,276 @@ class BiopsyTest : public testing::Test {
         Eigen::Translation3d{0.4, 0, 0.2} * Eigen::AngleAxisd{M_PI / 2, Vector3d::UnitX()};
     return head;
   }
-  Biopsy task_{{}, needle_arm()};
+  void register_head() {
+    task_->see_head(kPlan);
+    task_->see_registration(good());
+  }
+  /// The motion has done the goal that is sent now, of which `stops_ahead` are left.
+  MotionGoal reach(int stops_ahead) {
+    const MotionGoal goal = sent();
+    hear(Report::executing);
+    hear(Report::done, stops_ahead);
+    return goal;
+  }
+  MotionGoal sent() {
+    task_->update(now_);
+    const auto goal = task_->outgoing_goal(now_);
+    EXPECT_TRUE(goal) << to_string(task_->phase());
+    id_ = goal ? goal->id : id_;
+    return goal.value_or(MotionGoal{});
+  }
+  void hear(Report state, int stops_ahead = 0) {
+    task_->hear({.goal_id = id_, .state = state, .stops_ahead = stops_ahead}, now_);
+  }
+  void expect_no_goal() {
+    task_->update(now_);
+    EXPECT_FALSE(task_->outgoing_goal(now_));
+  }
+  /// What the operator is answered.
+  std::string say(const std::string& word, const std::string& step = "") {
+    const auto obeyed = task_->hear(OperatorCommand{.id = ++said_, .word = word, .step = step});
+    return obeyed ? "" : obeyed.error().text;
+  }
+  std::string asked() const {
+    const Procedure& procedure = task_->procedure();
+    return procedure.asks() ? procedure.steps()[procedure.step()].name : "";
+  }
+
+  Time now_ = at(1);
+  std::uint64_t id_ = 0, said_ = 0;
+  std::optional<Biopsy> task_;
 };
 
-TEST_F(BiopsyTest, GoesFromThePlanToTheTarget) {
-  EXPECT_FALSE(task_.wants_registration());
-  task_.see_head(kPlan);
-  EXPECT_EQ(task_.phase(), Phase::registering);
-  EXPECT_TRUE(task_.wants_registration());
-  task_.see_registration(good());
-  EXPECT_FALSE(task_.wants_registration());
-  EXPECT_EQ(task_.phase(), Phase::inserting);
-  const auto goal = task_.outgoing_goal(at(0.6));
-  ASSERT_TRUE(goal);
-  EXPECT_LT((goal->pose.position - Vector3d{0.4, 0.03, 0.2}).norm(), 1e-15);
-  EXPECT_LT((std::get<Direction>(goal->pose.orientation).unit - Vector3d{0, 1, 0}).norm(), 1e-15);
-  EXPECT_LT((*goal->focus - Vector3d{0.4, -0.05, 0.2}).norm(), 1e-15);
-  ASSERT_EQ(goal->forbidden.size(), 1u);
-  EXPECT_LT((goal->forbidden[0].to - Vector3d{0.41, 0, 0.3}).norm(), 1e-15);
-  EXPECT_EQ(goal->forbidden[0].radius_m, 0.002);
-  task_.hear({.goal_id = goal->id, .state = Report::executing}, at(1));
-  EXPECT_EQ(task_.phase(), Phase::inserting);
-  task_.hear({.goal_id = goal->id, .state = Report::done}, at(5));
-  EXPECT_EQ(task_.phase(), Phase::at_target);
+TEST_F(BiopsyTest, GoesFromThePlanToTheTargetStopByStopAndOutAgain) {
+  EXPECT_FALSE(task_->wants_registration());
+  task_->see_head(kPlan);
+  EXPECT_EQ(task_->phase(), Phase::registering);
+  EXPECT_TRUE(task_->wants_registration());
+  task_->see_registration(good());
+  EXPECT_FALSE(task_->wants_registration());
+  EXPECT_EQ(task_->phase(), Phase::moving);
+  const MotionGoal goal = reach(2);
+  EXPECT_TRUE(goal.stepwise) << "the whole way is planned, and it stops before the head";
+  EXPECT_LT((goal.pose.position - Vector3d{0.4, 0.03, 0.2}).norm(), 1e-15);
+  EXPECT_LT((std::get<Direction>(goal.pose.orientation).unit - Vector3d{0, 1, 0}).norm(), 1e-15);
+  EXPECT_LT((*goal.focus - Vector3d{0.4, -0.05, 0.2}).norm(), 1e-15);
+  ASSERT_EQ(goal.forbidden.size(), 1u);
+  EXPECT_LT((goal.forbidden[0].to - Vector3d{0.41, 0, 0.3}).norm(), 1e-15);
+  EXPECT_EQ(goal.forbidden[0].radius_m, 0.002);
+  EXPECT_EQ(reach(1).mode, MotionMode::resume);
+  EXPECT_EQ(reach(0).mode, MotionMode::resume);
+  EXPECT_EQ(task_->phase(), Phase::at_target);
+  now_ = at(1.4);
+  expect_no_goal();
+  now_ = at(1.6);
+  EXPECT_EQ(reach(2).mode, MotionMode::retrace) << "to the entry";
+  EXPECT_EQ(task_->phase(), Phase::withdrawing);
+  EXPECT_EQ(reach(1).mode, MotionMode::retrace) << "to the stand-off";
+  EXPECT_EQ(task_->phase(), Phase::withdrawn);
+  expect_no_goal();
+}
+
+TEST_F(BiopsyTest, AWayThatBeginsOnItsLineHasAStopLess) {
+  register_head();
+  EXPECT_EQ(task_->procedure().step(), 1u);
+  reach(1);
+  EXPECT_EQ(task_->procedure().step(), 3u) << "it is at the entry";
+  reach(0);
+  now_ = at(9);
+  reach(1);
+  EXPECT_EQ(task_->phase(), Phase::withdrawing);
+  reach(0);
+  EXPECT_EQ(task_->phase(), Phase::withdrawn);
 }
 
 TEST_F(BiopsyTest, DoesNotTrustMarkersThatFitBadly) {
-  task_.see_head(kPlan);
+  task_->see_head(kPlan);
   RegisteredHead head = good();
   head.fiducial_error_m = 0.0012;
-  task_.see_registration(head);
-  EXPECT_EQ(task_.phase(), Phase::refused);
-  EXPECT_EQ(task_.trouble(), "the markers fit to 1.20 mm rms, 1 mm are allowed");
-  EXPECT_FALSE(task_.outgoing_goal(at(1)));
+  task_->see_registration(head);
+  EXPECT_EQ(task_->phase(), Phase::refused);
+  EXPECT_EQ(task_->trouble(), "the markers fit to 1.20 mm rms, 1 mm are allowed");
+  EXPECT_FALSE(task_->outgoing_goal(at(1)));
 }
 
 TEST_F(BiopsyTest, DoesNotApproachATargetThatIsNotKnownWellEnough) {
-  task_.see_head(kPlan);
+  task_->see_head(kPlan);
   RegisteredHead head = good();
   head.target_error95_m = 0.0023;
-  task_.see_registration(head);
-  EXPECT_EQ(task_.trouble(), "the target is known to 2.30 mm (95 %), 1 mm are required");
+  task_->see_registration(head);
+  EXPECT_EQ(task_->trouble(), "the target is known to 2.30 mm (95 %), 1 mm are required");
   head.target_error95_m = NAN;
-  Biopsy another{{}, needle_arm()};
+  Biopsy another{{.auto_confirm = true}, needle_arm()};
   another.see_head(kPlan);
   another.see_registration(head);
   EXPECT_EQ(another.phase(), Phase::refused);
 }
 
 TEST_F(BiopsyTest, StopsWithTheReasonWhenTheMotionRefuses) {
-  task_.see_head(kPlan);
-  task_.see_registration(good());
-  const auto goal = task_.outgoing_goal(at(0));
-  task_.hear({.goal_id = goal->id, .state = Report::failed, .stage = "path", .reason = "a vessel"},
-             at(0.1));
-  EXPECT_EQ(task_.phase(), Phase::refused);
-  EXPECT_EQ(task_.trouble(), "path: a vessel");
-  EXPECT_FALSE(task_.outgoing_goal(at(5)));
+  register_head();
+  task_->hear(
+      {.goal_id = sent().id, .state = Report::failed, .stage = "path", .reason = "a vessel"},
+      at(0.1));
+  EXPECT_EQ(task_->phase(), Phase::refused);
+  EXPECT_EQ(task_->trouble(), "path: a vessel");
+  EXPECT_FALSE(task_->outgoing_goal(at(5)));
 }
 
 TEST_F(BiopsyTest, DoesNotBeginAgainWhenTheNeedleMayBeInTissue) {
-  task_.see_head(kPlan);
-  task_.see_registration(good());
-  const auto goal = task_.outgoing_goal(at(0));
-  task_.hear({.goal_id = goal->id, .state = Report::executing}, at(0.1));
-  task_.hear(
-      {.goal_id = goal->id, .state = Report::failed, .stage = "execution", .reason = "stuck"},
+  register_head();
+  const MotionGoal goal = sent();
+  hear(Report::executing);
+  task_->hear(
+      {.goal_id = goal.id, .state = Report::failed, .stage = "execution", .reason = "stuck"},
       at(3));
-  EXPECT_EQ(task_.phase(), Phase::refused);
-  EXPECT_EQ(task_.trouble(), "execution: stuck");
-  EXPECT_FALSE(task_.outgoing_goal(at(9)));
+  EXPECT_EQ(task_->phase(), Phase::refused);
+  EXPECT_EQ(task_->trouble(), "execution: stuck");
+  EXPECT_FALSE(task_->outgoing_goal(at(9)));
+}
+
+class OperatedBiopsyTest : public BiopsyTest {
+ protected:
+  OperatedBiopsyTest() {
+    begin(false);
+    register_head();
+  }
+  void confirm(const std::string& step, int stops_ahead) {
+    EXPECT_EQ(asked(), step);
+    expect_no_goal();
+    EXPECT_EQ(say("confirm", step), "");
+    reach(stops_ahead);
+  }
+};
+
+TEST_F(OperatedBiopsyTest, EveryStepTowardsThePatientWaitsForItsConfirmation) {
+  confirm("approach", 2);
+  confirm("entry", 1);
+  confirm("insertion", 0);
+  EXPECT_EQ(asked(), "") << "a needle that comes out asks nobody";
+  EXPECT_EQ(task_->phase(), Phase::at_target);
+}
+
+TEST_F(OperatedBiopsyTest, PausedOnItsWayItGoesOnAlongIt) {
+  confirm("approach", 2);
+  confirm("entry", 1);
+  say("confirm", "insertion");
+  sent();
+  hear(Report::executing);
+  EXPECT_EQ(say("pause"), "");
+  EXPECT_EQ(sent().mode, MotionMode::pause);
+  hear(Report::done);
+  expect_no_goal();
+  EXPECT_EQ(say("resume"), "");
+  EXPECT_EQ(sent().mode, MotionMode::resume);
+  hear(Report::done);
+  EXPECT_EQ(task_->phase(), Phase::at_target);
+}
+
+TEST_F(OperatedBiopsyTest, BackFromAStopGoesToTheOneBeforeAndItsStepAsksAgain) {
+  confirm("approach", 2);
+  confirm("entry", 1);
+  EXPECT_EQ(asked(), "insertion");
+  EXPECT_EQ(say("back"), "");
+  EXPECT_EQ(reach(1).mode, MotionMode::retrace);
+  EXPECT_EQ(asked(), "entry") << "at the stand-off";
+  EXPECT_EQ(say("back"), "");
+  reach(0);
+  EXPECT_EQ(asked(), "approach") << "where it came from";
+  EXPECT_EQ(say("confirm", "approach"), "");
+  EXPECT_EQ(reach(2).mode, MotionMode::resume) << "the way is the same";
+  EXPECT_EQ(asked(), "entry");
+}
+
+TEST_F(OperatedBiopsyTest, BackBeforeAnythingHasMovedRegistersAgain) {
+  EXPECT_EQ(say("back"), "");
+  EXPECT_TRUE(task_->wants_registration());
+  EXPECT_EQ(say("back"), "there is no step before this one");
+  task_->see_registration(good());
+  EXPECT_EQ(asked(), "approach");
+}
+
+TEST_F(OperatedBiopsyTest, BackOnTheWayStopsAndTurns) {
+  confirm("approach", 2);
+  say("confirm", "entry");
+  sent();
+  hear(Report::executing);
+  EXPECT_EQ(say("back"), "");
+  EXPECT_EQ(sent().mode, MotionMode::pause);
+  EXPECT_EQ(say("back"), "the needle goes back already");
+  expect_no_goal();
+  EXPECT_EQ(say("pause"), "") << "before it has turned";
+  hear(Report::done);
+  expect_no_goal();
+  EXPECT_EQ(say("resume"), "");
+  EXPECT_EQ(reach(1).mode, MotionMode::retrace) << "what was begun goes on: back";
+  EXPECT_EQ(asked(), "entry");
+}
+
+/// At which step and where in it: every abort ends where the way began.
+TEST_F(OperatedBiopsyTest, AbortedAnywhereItGoesBackAllTheWayThatItCame) {
+  const std::vector<std::string> steps{"approach", "entry", "insertion"};
+  for (std::size_t before = 0; before < 3; ++before) {
+    for (const std::string where : {"asking", "moving", "paused"}) {
+      SCOPED_TRACE(steps[before] + " " + where);
+      begin(false);
+      register_head();
+      for (std::size_t i = 0; i < before; ++i) confirm(steps[i], 2 - static_cast<int>(i));
+      if (where != "asking") {
+        say("confirm", steps[before]);
+        sent();
+        hear(Report::executing);
+      }
+      if (where == "paused") {
+        say("pause");
+        sent();
+        hear(Report::done);
+      }
+      EXPECT_EQ(say("abort"), "");
+      if (where == "moving") {
+        EXPECT_EQ(sent().mode, MotionMode::pause);
+        hear(Report::done);
+      }
+      const bool has_moved = before > 0 || where != "asking";
+      if (has_moved) {
+        EXPECT_EQ(task_->phase(), Phase::aborting);
+        const MotionGoal home = reach(0);
+        EXPECT_EQ(home.mode, MotionMode::retrace);
+        EXPECT_FALSE(home.stepwise);
+      }
+      EXPECT_EQ(task_->phase(), Phase::aborted);
+      expect_no_goal();
+      EXPECT_EQ(say("abort"), "the procedure is over");
+    }
+  }
+}
+
+TEST_F(OperatedBiopsyTest, AbortedAtTheTargetOrOnTheWayOutItGoesOnToWhereItBegan) {
+  confirm("approach", 2);
+  confirm("entry", 1);
+  confirm("insertion", 0);
+  now_ = at(9);
+  sent();
+  hear(Report::executing);
+  EXPECT_EQ(task_->phase(), Phase::withdrawing);
+  EXPECT_EQ(say("back"), "the needle goes back already");
+  EXPECT_EQ(say("abort"), "");
+  sent();
+  hear(Report::done);
+  reach(0);
+  EXPECT_EQ(task_->phase(), Phase::aborted);
+}
+
+TEST_F(OperatedBiopsyTest, AWayBackThatFailsIsSaid) {
+  confirm("approach", 2);
+  say("abort");
+  task_->hear({.goal_id = sent().id,
+               .state = Report::failed,
+               .stage = "path",
+               .reason = "the arm is on no planned way"},
+              now_);
+  EXPECT_EQ(task_->phase(), Phase::refused);
+  EXPECT_EQ(task_->trouble(),
+            "aborted, and the way back failed: path: the arm is on no planned way");
 }
 
 TEST_F(BiopsyTest, ARobotWithoutAPointingAxisIsGivenTheRotationNearestToHome) {

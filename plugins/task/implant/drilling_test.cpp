@@ -45,8 +45,8 @@ class DrillingWayTest : public testing::Test {
 };
 
 TEST_F(DrillingWayTest, GoesThroughAllSitesInOneMotion) {
-  const DrillingWay way = drilling_way(chain_, file_tool_, sites_, {});
-  expect_at(way.approach, 0, 0.03);
+  const DrillingWay way = drilling_way(chain_, file_tool_, sites_, {.auto_confirm = true});
+  expect_at(way.above[0], 0, 0.03);
   ASSERT_EQ(way.bores.size(), 1u);
   EXPECT_FALSE(way.bores[0].ends_at_bottom);
   EXPECT_EQ(way.bores[0].name, "sites 1 to 3");
@@ -62,28 +62,50 @@ TEST_F(DrillingWayTest, GoesThroughAllSitesInOneMotion) {
   expect_at(way.bores[0].goal.pose, 2, 0.03);
 }
 
-TEST_F(DrillingWayTest, OrEndsAMotionAtEveryBottom) {
-  const DrillingWay way =
-      drilling_way(chain_, file_tool_, sites_, {.stand_off = 0.02, .stop_at_sites = true});
-  ASSERT_EQ(way.bores.size(), 4u);
-  for (std::size_t i = 0; i < 3; ++i) {
-    EXPECT_TRUE(way.bores[i].ends_at_bottom);
-    expect_at(way.bores[i].goal.pose, i, 0);
-    if (i == 0) continue;
-    ASSERT_EQ(way.bores[i].goal.through.size(), 2u);
-    expect_at(way.bores[i].goal.through[0], i - 1, 0.02);
-    expect_at(way.bores[i].goal.through[1], i, 0.02);
+TEST_F(DrillingWayTest, OrEndsAMotionAtEveryBottomAndAboveIt) {
+  for (const bool stop_at_sites : {true, false}) {  // an operator who is asked is reason enough
+    const DrillingWay way = drilling_way(
+        chain_, file_tool_, sites_,
+        {.stand_off = 0.02, .stop_at_sites = stop_at_sites, .auto_confirm = stop_at_sites});
+    ASSERT_EQ(way.bores.size(), 6u);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Bore &in = way.bores[2 * i], &out = way.bores[2 * i + 1];
+      EXPECT_TRUE(in.ends_at_bottom);
+      EXPECT_EQ(in.first_site, i);
+      EXPECT_EQ(out.first_site, i);
+      expect_at(in.goal.pose, i, 0);
+      EXPECT_FALSE(out.ends_at_bottom);
+      expect_at(out.goal.pose, i, 0.02);
+      EXPECT_TRUE(out.goal.through.empty());
+      ASSERT_EQ(in.goal.through.size(), i > 0 ? 1u : 0u);
+      if (i > 0) expect_at(in.goal.through[0], i, 0.02);
+    }
+    EXPECT_EQ(way.bores[2].name, "site 2");
+    EXPECT_EQ(way.bores[5].name, "out of site 3");
   }
-  EXPECT_TRUE(way.bores[0].goal.through.empty());
-  EXPECT_EQ(way.bores[1].name, "site 2");
-  EXPECT_EQ(way.bores[3].name, "out of site 3");
-  EXPECT_FALSE(way.bores[3].ends_at_bottom);
-  expect_at(way.bores[3].goal.pose, 2, 0.02);
+}
+
+TEST_F(DrillingWayTest, LeadsOutOfTheBoneAndBackOverTheSitesThatItCameBy) {
+  const DrillingWay way = drilling_way(chain_, file_tool_, sites_, {.auto_confirm = true});
+  const Vector3d bottom = way.bores[0].goal.through[6].position;
+  const ToolPose home{.position = {0, 0, 1}, .orientation = Eigen::Quaterniond::Identity()};
+  const MotionGoal out = way_out(way, bottom, 0, home);
+  ASSERT_EQ(out.through.size(), 3u);
+  expect_at(out.through[0], 2, 0.03);
+  expect_at(out.through[1], 1, 0.03);
+  expect_at(out.through[2], 0, 0.03);
+  EXPECT_EQ(out.pose.position, home.position);
+  const MotionGoal up = way_out(way, bottom, 2);
+  EXPECT_TRUE(up.through.empty());
+  expect_at(up.pose, 2, 0.03);
+  EXPECT_EQ(way_out(way, way.above[1].position, 0).through.size(), 0u)
+      << "where it stands it does not go to";
+  expect_at(way_out(way, way.above[1].position, 1).pose, 1, 0.03);
 }
 
 TEST_F(DrillingWayTest, OneSiteIsEnough) {
   sites_.resize(1);
-  const DrillingWay way = drilling_way(chain_, file_tool_, sites_, {});
+  const DrillingWay way = drilling_way(chain_, file_tool_, sites_, {.auto_confirm = true});
   ASSERT_EQ(way.bores.size(), 1u);
   EXPECT_EQ(way.bores[0].name, "site 1");
   ASSERT_EQ(way.bores[0].goal.through.size(), 1u);

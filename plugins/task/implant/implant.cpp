@@ -19,6 +19,12 @@ Implant::Implant(const Parameters& parameters, const RobotModel& robot,
                  const Isometry3d& flange_T_file_tool)
     : parameters_{parameters},
       flange_T_file_tool_{flange_T_file_tool},
+      procedure_{{{.name = "pivot"},
+                  {.name = "calibration"},
+                  {.name = "registration"},
+                  {.name = "approach", .asks = true},
+                  {.name = "drilling", .asks = true}},
+                 parameters.auto_confirm},
       calibration_{parameters, robot},
       drill_watch_{"the drill in the hand", seconds(parameters.timeout)},
       flange_watch_{"the flange", seconds(parameters.timeout)},
@@ -114,23 +120,25 @@ void Implant::hear(const GoalReport& report, Time now) {
   goal_.hear(report, now);
   const bool there = goal_.state() == PursuedGoal::State::done;
   const bool failed = goal_.state() == PursuedGoal::State::failed;
+  if (turned_ && (there || failed)) return come_back(now);
   if (phase_ == Phase::calibrating && sent_to_ == calibration_.number()) {
     if (there) calibration_.arrive(goal_.done_at());
     // Or it would go on with the poses that it has, and move once somebody rearms the arm.
     if (failed && goal_.stopped()) return refuse("hand-eye: " + goal_.reason());
     if (failed) calibration_.leave_out(goal_.reason());
   }
-  if (phase_ != Phase::approaching && phase_ != Phase::drilling) return;
+  if ((phase_ != Phase::approaching && phase_ != Phase::drilling) || !set_out_) return;
   if (failed) {
     const bool above = phase_ == Phase::approaching;
     return refuse((above ? "above site 1" : way_.bores[bore_].name) + ": " + goal_.reason());
   }
   if (!there || phase_ == Phase::drilling) return;
-  goal_.set_once(way_.bores.front().goal);
-  enter(Phase::drilling, now);
+  come_to_bore(0, now);
 }
 
 void Implant::update(Time now) {
+  const bool near_the_jaw = phase_ == Phase::approaching || phase_ == Phase::drilling;
+  if (procedure_.paused() && !near_the_jaw) return;
   switch (phase_) {
     case Phase::pivoting:
       if (pivot_since_ && now - *pivot_since_ >= seconds(parameters_.pivot)) {
@@ -152,10 +160,16 @@ void Implant::update(Time now) {
     case Phase::drilling:
       if (const auto blind = jaw_watch_.blind(now)) return refuse(*blind);
       if (const auto blind = flange_watch_.blind(now)) return refuse(*blind);
-      if (phase_ == Phase::drilling) go_on_drilling(now);
+      if (!set_out_) return set_out();
+      if (phase_ == Phase::drilling && procedure_.may_act()) go_on_drilling(now);
+      break;
+    case Phase::going_back:
+    case Phase::aborting:
+      if (!turned_ && goal_.state() != PursuedGoal::State::pausing) turn_back();
       break;
     case Phase::registering:
     case Phase::drilled:
+    case Phase::aborted:
     case Phase::refused:
       break;
   }
@@ -175,6 +189,7 @@ void Implant::finish_pivot(Time now) {
       "{:.2f} mm (95 %)",
       pivot_poses_.size(), 1e3 * pivot_.residual_rms_m, 1e3 * pivot_.tip_error.bound95_m));
   enter(Phase::calibrating, now);
+  enter_step(Step::calibration);
 }
 
 void Implant::go_on_calibrating() {
@@ -199,6 +214,7 @@ void Implant::finish_calibration(Time now) {
   if (!calibration_.left_out().empty()) line += "; left out: " + calibration_.left_out();
   news_.push_back(line);
   enter(Phase::registering, now);
+  enter_step(Step::registration);
 }
 
 void Implant::see_registration(const RegisteredJaw& jaw, Time now) {
@@ -235,8 +251,133 @@ void Implant::finish_locating(Time now) {
                               1e3 * worst_m));
   way_ = drilling_way(chain_, flange_T_file_tool_, sites_, parameters_);
   bottoms_ = BottomWatch{chain_, sites_};
-  goal_.set({.pose = way_.approach, .focus = {}});
+  std::vector<Procedure::Step> ahead{procedure_.steps()[static_cast<std::size_t>(Step::approach)]};
+  for (const Bore& bore : way_.bores) {
+    if (bore.ends_at_bottom) ahead.push_back({.name = bore.name, .asks = true});
+  }
+  if (ahead.size() == 1) ahead.push_back({.name = "drilling", .asks = true});
+  procedure_.set_steps_ahead(ahead);
+  if (base_T_flange_ && !came_from_) {
+    const Isometry3d tool = *base_T_flange_ * flange_T_file_tool_;
+    came_from_ = {tool.translation(), Eigen::Quaterniond{tool.linear()}.normalized()};
+  }
+  set_out_ = false;
   enter(Phase::approaching, now);
+  enter_step(Step::approach);
+  set_out();
+}
+
+void Implant::set_out() {
+  if (!procedure_.may_act()) return;
+  set_out_ = true;
+  goal_.set_once(phase_ == Phase::approaching ? MotionGoal{.pose = way_.above.front()}
+                                              : way_.bores[bore_].goal);
+}
+
+void Implant::come_to_bore(std::size_t bore, Time now) {
+  enter(Phase::drilling, now);
+  bore_ = bore;
+  set_out_ = false;
+  const auto first = static_cast<std::size_t>(Step::first_site);
+  const bool each_asks = way_.bores.size() > 1;
+  const std::size_t step = first + (each_asks ? way_.bores[bore].first_site : 0);
+  const bool comes_out = bore > 0 && !way_.bores[bore].ends_at_bottom;
+  if (!comes_out) procedure_.enter(step);
+  set_out();
+}
+
+Expected<void> Implant::hear(const OperatorCommand& command, Time now) {
+  const auto word = procedure_.hear(command);
+  if (!word) return tl::unexpected{word.error()};
+  switch (*word) {
+    case OperatorWord::confirm:
+      break;
+    case OperatorWord::pause:
+      goal_.pause();
+      break;
+    case OperatorWord::resume:
+      goal_.resume();
+      break;
+    case OperatorWord::back:
+      return go_back(now);
+    case OperatorWord::abort:
+      return abort();
+  }
+  return {};
+}
+
+/// From a bore out of the bone, where its step asks again; from above the first site, and before,
+/// to the registration.
+Expected<void> Implant::go_back(Time now) {
+  if (phase_ == Phase::going_back || phase_ == Phase::aborting) {
+    return armature::refuse("the drill goes back already");
+  }
+  if (phase_ != Phase::approaching && phase_ != Phase::drilling) {
+    return armature::refuse("before the approach there is no step to go back to");
+  }
+  procedure_.end_pause();
+  goal_.pause();
+  if (phase_ == Phase::approaching || (bore_ == 0 && !set_out_)) {
+    register_again(now);
+  } else if (!set_out_) {
+    come_to_bore(bore_ - 2, now);  // into the site before
+  } else {
+    phase_ = Phase::going_back;
+    turned_ = false;
+  }
+  return {};
+}
+
+void Implant::register_again(Time now) {
+  jaw_.clear();
+  jaw_now_.clear();
+  jaw_first_.reset();
+  forecasts_.clear();
+  enter(Phase::registering, now);
+  enter_step(Step::registration);
+}
+
+/// Out of the bone, over the sites, and to where the approach began.
+Expected<void> Implant::abort() {
+  if (phase_ == Phase::aborting) return armature::refuse("it is being aborted already");
+  procedure_.end_pause();
+  const bool left = phase_ == Phase::drilling || phase_ == Phase::going_back ||
+                    (phase_ == Phase::approaching && set_out_);
+  if (left) {
+    if (!turned_ || phase_ != Phase::going_back) goal_.pause();
+    set_out_ = set_out_ || phase_ != Phase::approaching;
+    phase_ = Phase::aborting;
+    turned_ = false;
+    return {};
+  }
+  goal_.pause();
+  phase_ = Phase::aborted;
+  procedure_.end(Procedure::StepState::broken_off);
+  return {};
+}
+
+void Implant::turn_back() {
+  if (procedure_.paused() || !base_T_flange_) return;
+  turned_ = true;
+  const bool approached = procedure_.step() > static_cast<std::size_t>(Step::approach);
+  if (!approached) return goal_.retrace(false);
+  const Eigen::Vector3d tool = (*base_T_flange_ * flange_T_file_tool_).translation();
+  const std::size_t site = way_.bores[bore_].first_site;
+  goal_.set_once(phase_ == Phase::aborting ? way_out(way_, tool, 0, came_from_)
+                                           : way_out(way_, tool, site));
+}
+
+void Implant::come_back(Time now) {
+  turned_ = false;
+  if (goal_.state() == PursuedGoal::State::failed) {
+    return refuse("the way back: " + goal_.reason());
+  }
+  if (phase_ == Phase::aborting) {
+    phase_ = Phase::aborted;
+    return procedure_.end(Procedure::StepState::broken_off);
+  }
+  const std::size_t site = way_.bores[bore_].first_site;
+  come_to_bore(way_.bores.size() > 1 ? 2 * site : 0, now);
 }
 
 void Implant::go_on_drilling(Time now) {
@@ -246,14 +387,16 @@ void Implant::go_on_drilling(Time now) {
   }
   const auto missed = bottoms_.missed(way_.bores[bore_].sites, parameters_.max_bottom_error);
   if (missed) return refuse(*missed);
-  if (++bore_ == way_.bores.size()) return enter(Phase::drilled, now);
-  goal_.set_once(way_.bores[bore_].goal);
+  if (bore_ + 1 < way_.bores.size()) return come_to_bore(bore_ + 1, now);
+  enter(Phase::drilled, now);
+  procedure_.end();
 }
 
 void Implant::refuse(const std::string& why) {
   if (phase_ == Phase::refused) return;
   phase_ = Phase::refused;
   trouble_ = why;
+  procedure_.end(Procedure::StepState::broken_off);
   const bool on_its_way =
       goal_.state() == PursuedGoal::State::waiting || goal_.state() == PursuedGoal::State::moving;
   if (on_its_way) goal_.set({.mode = MotionMode::hold, .pose = {}, .focus = {}});
@@ -277,6 +420,12 @@ const char* to_string(Implant::Phase phase) {
       return "drilling";
     case Implant::Phase::drilled:
       return "drilled";
+    case Implant::Phase::going_back:
+      return "going back";
+    case Implant::Phase::aborting:
+      return "aborting";
+    case Implant::Phase::aborted:
+      return "aborted";
     case Implant::Phase::refused:
       return "refused";
   }

@@ -7,7 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "armature/motion/pursued_goal.hpp"
+#include "armature/task/procedure.hpp"
+#include "armature/task/pursued_goal.hpp"
 #include "bottom_watch.hpp"
 #include "calibration_run.hpp"
 #include "drilling.hpp"
@@ -38,6 +39,9 @@ class Implant {
     approaching,
     drilling,
     drilled,
+    going_back,  // out of the bone, to above the site
+    aborting,    // to where the approach began
+    aborted,
     refused
   };
 
@@ -56,6 +60,7 @@ class Implant {
   void see_registration(const RegisteredJaw& jaw, Time now);
   void see_refused_registration(const std::string& reason) { refuse(reason); }
   void hear(const GoalReport& report, Time now);
+  Expected<void> hear(const OperatorCommand& command, Time now);
   void update(Time now);
 
   /// True as long as there is a plan to register and no answer.
@@ -63,6 +68,7 @@ class Implant {
   std::optional<MotionGoal> outgoing_goal(Time now) { return goal_.outgoing(now); }
 
   Phase phase() const { return phase_; }
+  const Procedure& procedure() const { return procedure_; }
   /// Where in the calibration it is, from 1.
   std::size_t calibration_pose() const { return static_cast<std::size_t>(calibration_.number()); }
   std::size_t calibration_poses() const { return static_cast<std::size_t>(calibration_.count()); }
@@ -77,6 +83,17 @@ class Implant {
 
  private:
   void enter(Phase phase, Time now);
+  enum class Step : std::size_t { pivot, calibration, registration, approach, first_site };
+  void enter_step(Step step) { procedure_.enter(static_cast<std::size_t>(step)); }
+  Expected<void> go_back(Time now);
+  Expected<void> abort();
+  void register_again(Time now);
+  void come_to_bore(std::size_t bore, Time now);
+  /// For the approach, or for the bore, once it may.
+  void set_out();
+  /// Once the arm rests.
+  void turn_back();
+  void come_back(Time now);
   void finish_pivot(Time now);
   void go_on_calibrating();
   void finish_calibration(Time now);
@@ -93,6 +110,7 @@ class Implant {
 
   Parameters parameters_;
   Eigen::Isometry3d flange_T_file_tool_;
+  Procedure procedure_;
   CalibrationRun calibration_;
   BodyWatch drill_watch_, flange_watch_, jaw_watch_;
   PursuedGoal goal_;
@@ -109,7 +127,10 @@ class Implant {
   RegisteredJaw registered_;
   GuidedChain chain_;
   DrillingWay way_;
-  std::size_t bore_ = 0;  // of way_
+  std::optional<ToolPose> came_from_;  // where the approach began
+  std::size_t bore_ = 0;               // of way_
+  bool set_out_ = false;               // for the approach, or for the bore
+  bool turned_ = false;                // going back or aborting: the way back is under way
   BottomWatch bottoms_;
   std::vector<ErrorForecast> forecasts_;
   std::vector<std::string> news_;
@@ -117,7 +138,7 @@ class Implant {
 };
 
 /// "pivoting", "calibrating", "registering", "locating", "approaching", "drilling", "drilled",
-/// "refused".
+/// "going back", "aborting", "aborted", "refused".
 const char* to_string(Implant::Phase phase);
 
 }  // namespace armature::task::implant

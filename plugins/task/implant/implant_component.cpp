@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "armature/kinds/chain_messages.hpp"
 #include "armature/kinds/joint_messages.hpp"
@@ -13,11 +14,11 @@
 #include "armature/kinds/setup_robot.hpp"
 #include "armature/messages/sensor_msgs.hpp"
 #include "armature/motion/goal_messages.hpp"
-#include "armature/motion/task_state_publisher.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
 #include "armature/runtime/component/component.hpp"
 #include "armature/runtime/component/setup.hpp"
 #include "armature/runtime/plugins/plugin.hpp"
+#include "armature/task/task_ports.hpp"
 #include "body_input.hpp"
 #include "implant.hpp"
 
@@ -84,13 +85,15 @@ class ImplantComponent final : public Component {
         motion_status_{setup.input<msg::MotionStatus>("motion_status")},
         goal_{setup.output<msg::MotionGoal>("goal")},
         estimate_{setup.output<msg::TFMessage>("estimate")},
-        state_{setup} {
+        ports_{setup} {
     setup.activate_every(kPeriod);
   }
 
   void step(Time now) override {
     if (!begun_) task_.begin(now);
     begun_ = true;
+    const auto obey = [&](const auto& command) { return task_.hear(command, now); };
+    for (const std::string& line : ports_.hear(task_.procedure(), obey)) log(line);
     read_arm();
     read(now);
     task_.update(now);
@@ -161,8 +164,8 @@ class ImplantComponent final : public Component {
   }
 
   void publish_estimate(Time now) {
-    if (published_ || task_.forecasts().empty()) return;
-    published_ = true;
+    const bool known = !task_.forecasts().empty();
+    if (std::exchange(published_, known) || !known) return;
     msg::TFMessage estimate;
     write_chain(task_.chain(), now, estimate);
     estimate_.publish(estimate);
@@ -174,7 +177,8 @@ class ImplantComponent final : public Component {
                             .step = calibrating ? task_.calibration_pose() : 0,
                             .steps = calibrating ? task_.calibration_poses() : 0,
                             .detail = task_.trouble()};
-    if (state_.publish(now, report, report.line())) log(report.line());
+    const auto said = ports_.publish(now, report, report.line(), task_.procedure());
+    if (said) log(*said);
   }
 
   Parameters parameters_;
@@ -190,7 +194,7 @@ class ImplantComponent final : public Component {
   Input<msg::MotionStatus> motion_status_;
   Output<msg::MotionGoal> goal_;
   Output<msg::TFMessage> estimate_;
-  TaskStatePublisher state_;
+  TaskPorts ports_;
 };
 
 }  // namespace armature::task::implant

@@ -28,7 +28,7 @@ class ImplantComponentTest : public testing::Test {
   static ComponentHarness::Options task(const std::string& robot) {
     return {.component =
                 "{plugin: task/implant, params: {pivot_s: 0.5, calibration_poses: 6, "
-                "min_poses: 6, samples_per_pose: 1, jaw_samples: 2}}",
+                "min_poses: 6, samples_per_pose: 1, jaw_samples: 2, auto_confirm: true}}",
             .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/" + robot),
             .rig = {}};
   }
@@ -127,7 +127,7 @@ TEST_F(ImplantComponentTest, FindsTheTipAndThenSendsTheArmToThePosesOfItsCalibra
   const Isometry3d pose = forward_kinematics(robot_, poses_[0]);
   EXPECT_LT((to_eigen(goals_[0].position_()) - pose.translation()).norm(), 1e-12);
   ASSERT_GE(task_.lines().size(), 3u);
-  EXPECT_EQ(task_.lines()[1].substr(0, 16), "pivot: 26 poses,");
+  EXPECT_EQ(task_.lines()[2].substr(0, 16), "pivot: 26 poses,");
 }
 
 TEST_F(ImplantComponentTest, AsksForARegistrationInTheFrameOfTheMarkers) {

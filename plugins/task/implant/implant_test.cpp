@@ -48,10 +48,10 @@ TEST_F(ImplantTest, StaysForAWhileAtEveryBottomWhereItStops) {
   wait(0.4);
   EXPECT_EQ(goals_.size(), first);
   wait(0.2);
-  EXPECT_EQ(goals_.size(), first + 1);
+  ASSERT_EQ(goals_.size(), first + 2) << "out, and into the next";
   expect_tip_at(goals_.back().pose, 1);
   go_to(Phase::drilled);
-  EXPECT_EQ(goals_.size(), first + 2) << "and out again";
+  EXPECT_EQ(goals_.size(), first + 3) << "and out again";
 }
 
 TEST_F(ImplantTest, ADrillThatWasNotAtEveryBottomHasNotDrilled) {

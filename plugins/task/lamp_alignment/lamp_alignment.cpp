@@ -2,6 +2,7 @@
 #include "lamp_alignment.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace armature::task::lamp_alignment {
 namespace {
@@ -40,12 +41,20 @@ const char* to_string(LampAlignment::Phase phase) {
     case LampAlignment::Phase::no_view:
     case LampAlignment::Phase::unreachable:
       return "unreachable";
+    case LampAlignment::Phase::aborting:
+      return "aborting";
+    case LampAlignment::Phase::aborted:
+      return "aborted";
   }
   return "";
 }
 
 LampAlignment::LampAlignment(const Parameters& parameters, double joint_6_to_lamp)
     : parameters_{parameters},
+      procedure_{{{.name = "light"},
+                  {.name = "search", .asks = true},
+                  {.name = "alignment", .asks = true}},
+                 parameters.auto_confirm},
       settled_{parameters.settled_position, parameters.settled_angle},
       still_{parameters.replan_position, parameters.replan_angle},
       moved_{parameters.moved_position, parameters.moved_angle},
@@ -77,9 +86,10 @@ void LampAlignment::see(const FaceEstimate& estimate) {
 }
 
 void LampAlignment::step(Time now) {
+  if (procedure_.paused()) return;
   switch (phase_) {
     case Phase::checking_light:
-      if (latest_) align_with(*latest_, Phase::aligning, now);
+      if (latest_ && may_align()) align_with(*latest_, Phase::aligning, now);
       break;
     case Phase::searching:
       search(now);
@@ -97,7 +107,69 @@ void LampAlignment::step(Time now) {
     case Phase::unreachable:
       wait_for_another_face_position(now);
       break;
+    case Phase::aborting:
+      end_abort();
+      break;
+    case Phase::aborted:
+      break;
   }
+}
+
+bool LampAlignment::may_align() {
+  if (step() != Step::alignment) procedure_.enter(static_cast<std::size_t>(Step::alignment));
+  return procedure_.may_act();
+}
+
+Expected<void> LampAlignment::hear(const OperatorCommand& command, Time now) {
+  const auto word = procedure_.hear(command);
+  if (!word) return tl::unexpected{word.error()};
+  switch (*word) {
+    case OperatorWord::confirm:
+      break;
+    case OperatorWord::pause:
+      goals_.pause();
+      break;
+    case OperatorWord::resume:
+      goals_.resume();
+      break;
+    case OperatorWord::back:
+      return go_back(now);
+    case OperatorWord::abort:
+      return abort();
+  }
+  return {};
+}
+
+Expected<void> LampAlignment::go_back(Time now) {
+  if (phase_ == Phase::aborting) return refuse("it is being aborted");
+  if (step() != Step::alignment) return refuse("the search is the first step that moves the lamp");
+  procedure_.end_pause();
+  goals_.set({.mode = MotionMode::hold, .pose = {}});
+  start_search(now);
+  return {};
+}
+
+/// To the view from which it saw the face, if it has left one; else it stays where it is.
+Expected<void> LampAlignment::abort() {
+  if (phase_ == Phase::aborting) return refuse("it is being aborted already");
+  procedure_.end_pause();
+  const bool came_from_a_view = step() == Step::alignment && views_looked_at_ > 0;
+  MotionGoal goal{.mode = MotionMode::hold, .pose = {}};
+  if (came_from_a_view) goal = {.pose = poses_[pose_]};
+  if (goals_.state() != GoalState::none) goals_.set(goal);
+  phase_ = Phase::aborting;
+  trouble_.clear();
+  capture_ = false;
+  return {};
+}
+
+void LampAlignment::end_abort() {
+  if (goals_.state() == GoalState::failed) trouble_ = "the way back failed: " + goals_.reason();
+  const bool under_way =
+      goals_.state() == GoalState::waiting || goals_.state() == GoalState::moving;
+  if (under_way) return;
+  phase_ = Phase::aborted;
+  procedure_.end(Procedure::StepState::broken_off);
 }
 
 void LampAlignment::start_search(Time now) {
@@ -108,7 +180,14 @@ void LampAlignment::start_search(Time now) {
   if (goal_estimate_) pose_ = nearest_pose(poses_, -goal_estimate_->normal);
   pose_ = (pose_ + poses_.size() - 1) % poses_.size();
   looking_since_ = now;
-  next_view();
+  looking_ = false;
+  sets_out_ = true;
+  procedure_.enter(static_cast<std::size_t>(Step::search));
+  set_out();
+}
+
+void LampAlignment::set_out() {
+  if (procedure_.may_act() && std::exchange(sets_out_, false)) next_view();
 }
 
 void LampAlignment::search_for_lost_face(Time now) {
@@ -127,6 +206,15 @@ void LampAlignment::next_view() {
 }
 
 void LampAlignment::search(Time now) {
+  if (face_since(looking_since_) && looking_) {
+    if (may_align()) return align_with(*latest_, Phase::aligning, now);
+    if (to_seconds(now - latest_->stamp) <= parameters_.lost) return;
+    procedure_.enter(static_cast<std::size_t>(Step::search));  // it asks no more for what is lost
+    looking_since_ = now;
+    pictures_ = 0;
+  }
+  if (!procedure_.may_act()) return;
+  set_out();
   if (!looking_) {
     if (goals_.state() == GoalState::failed) {
       leave_failed_view(now);
@@ -138,10 +226,6 @@ void LampAlignment::search(Time now) {
       pictures_ = 0;
       face_in_picture_ = false;
     }
-    return;
-  }
-  if (face_since(looking_since_)) {
-    align_with(*latest_, Phase::aligning, now);
     return;
   }
   const int enough = parameters_.frames_per_view + (face_in_picture_ ? kPicturesForEstimate : 0);
@@ -163,7 +247,7 @@ void LampAlignment::leave_failed_view(Time now) {
 
 void LampAlignment::wait_for_a_view(Time now) {
   if (face_since(looking_since_)) {
-    align_with(*latest_, Phase::aligning, now);
+    if (may_align()) align_with(*latest_, Phase::aligning, now);
   } else if (goals_.state() == GoalState::moving || goals_.state() == GoalState::done) {
     phase_ = Phase::searching;
     trouble_.clear();

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "armature/motion/pursued_goal.hpp"
+#include "armature/task/procedure.hpp"
+#include "armature/task/pursued_goal.hpp"
 #include "face_estimate.hpp"
 #include "light_control.hpp"
 #include "search_poses.hpp"
@@ -20,7 +22,8 @@ struct Picture {
   double image_intensity = 0, face_intensity = 0;  // mean grey values
 };
 
-/// The behaviour of the lamp: check the light, search for a face, align with it, hold, follow.
+/// The behaviour of the lamp: check the light, search for a face, align with it, hold, follow. Its
+/// steps are the light, the search and the alignment; following is part of the last one.
 /// Everything it knows comes in through the `see` and `hear` calls; `step` decides.
 class LampAlignment {
  public:
@@ -31,7 +34,9 @@ class LampAlignment {
     aligning,
     holding,
     following,
-    unreachable
+    unreachable,
+    aborting,  // back to the view from which it came
+    aborted
   };
 
   /// `joint_6_to_lamp` in m: as of search_poses.
@@ -42,6 +47,7 @@ class LampAlignment {
   /// Why a picture gave no estimate.
   void see_no_estimate(const std::string& why) { no_estimate_ = why; }
   void hear(const GoalReport& report, Time now) { goals_.hear(report, now); }
+  Expected<void> hear(const OperatorCommand& command, Time now);
   void step(Time now);
 
   std::optional<MotionGoal> outgoing_goal(Time now) { return goals_.outgoing(now); }
@@ -49,6 +55,7 @@ class LampAlignment {
   bool capture() const { return capture_; }
 
   Phase phase() const { return phase_; }
+  const Procedure& procedure() const { return procedure_; }
   std::size_t view() const { return views_looked_at_; }  // 1..9 while searching
   std::size_t views() const { return poses_.size(); }
   /// Why it does not go on, or "".
@@ -56,8 +63,17 @@ class LampAlignment {
 
  private:
   using GoalState = PursuedGoal::State;
+  enum class Step : std::size_t { light, search, alignment };
 
+  Step step() const { return static_cast<Step>(procedure_.step()); }
+  /// Whether the arm may set out to align with a face that is seen; asks the operator if need be.
+  bool may_align();
+  Expected<void> go_back(Time now);
+  Expected<void> abort();
+  void end_abort();
   void start_search(Time now);
+  /// To the first view, once it may.
+  void set_out();
   void search_for_lost_face(Time now);
   void next_view();
   void search(Time now);
@@ -72,6 +88,7 @@ class LampAlignment {
   bool face_since(Time time) const { return latest_ && latest_->stamp >= time; }
 
   Parameters parameters_;
+  Procedure procedure_;
   FaceBand settled_, still_, moved_;
   std::vector<ToolPose> poses_;
   LightControl light_;
@@ -82,8 +99,8 @@ class LampAlignment {
   Phase phase_ = Phase::checking_light;
   bool capture_ = true;
   std::size_t pose_ = 0, views_looked_at_ = 0;
-  std::size_t failed_views_ = 0;  // one after the other
-  bool looking_ = false;
+  std::size_t failed_views_ = 0;             // one after the other
+  bool looking_ = false, sets_out_ = false;  // to the first view of a search
   Time looking_since_, goal_set_at_;
   int pictures_ = 0;  // in this view
   bool face_in_picture_ = false;

@@ -6,10 +6,10 @@
 #include "armature/kinds/setup_robot.hpp"
 #include "armature/kinds/target/target_messages.hpp"
 #include "armature/motion/goal_messages.hpp"
-#include "armature/motion/task_state_publisher.hpp"
 #include "armature/runtime/component/component.hpp"
 #include "armature/runtime/component/setup.hpp"
 #include "armature/runtime/plugins/plugin.hpp"
+#include "armature/task/task_ports.hpp"
 #include "lamp_alignment.hpp"
 
 namespace armature::task::lamp_alignment {
@@ -39,11 +39,13 @@ class LampAlignmentComponent : public Component {
         goal_{setup.output<msg::MotionGoal>("goal")},
         light_level_{setup.output<msg::LightLevel>("light_level")},
         capture_{setup.output<msg::Capture>("capture")},
-        state_{setup} {
+        ports_{setup} {
     setup.activate_every(kPeriod);
   }
 
   void step(Time now) override {
+    const auto obey = [&](const auto& command) { return task_.hear(command, now); };
+    for (const std::string& line : ports_.hear(task_.procedure(), obey)) log(line);
     read(now);
     task_.step(now);
     send_goal(now);
@@ -107,7 +109,8 @@ class LampAlignmentComponent : public Component {
                             .step = searching ? task_.view() : 0,
                             .steps = searching ? task_.views() : 0,
                             .detail = task_.trouble()};
-    if (state_.publish(now, report, line)) log(line);
+    const auto said = ports_.publish(now, report, line, task_.procedure());
+    if (said) log(*said);
   }
 
   LampAlignment task_;
@@ -117,7 +120,7 @@ class LampAlignmentComponent : public Component {
   Output<msg::MotionGoal> goal_;
   Output<msg::LightLevel> light_level_;
   Output<msg::Capture> capture_;
-  TaskStatePublisher state_;
+  TaskPorts ports_;
   std::optional<bool> sent_capture_;
 };
 

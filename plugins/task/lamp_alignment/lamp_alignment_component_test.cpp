@@ -17,9 +17,10 @@ using Eigen::Vector3d;
 constexpr double kPeriod_s = 0.02;
 
 ComponentHarness::Options task_with(const std::string& params) {
-  return {.component = "{plugin: task/lamp_alignment, params: {" + params + "}}",
-          .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/dental_lamp.yaml"),
-          .rig = {}};
+  return {
+      .component = "{plugin: task/lamp_alignment, params: {auto_confirm: true, " + params + "}}",
+      .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/dental_lamp.yaml"),
+      .rig = {}};
 }
 
 class LampAlignmentComponentTest : public testing::Test {
@@ -78,13 +79,15 @@ TEST_F(LampAlignmentComponentTest, ChecksTheLightFirstWithTheCamerasOn) {
   EXPECT_EQ(states_[0].state_(), "checking light");
   EXPECT_EQ(states_[0].steps_(), 0u);
   EXPECT_TRUE(goals_.empty());
-  EXPECT_EQ(task_.lines(), std::vector<std::string>{"checking light"});
+  EXPECT_EQ(task_.lines(), (std::vector<std::string>{
+                               "nobody confirms the steps towards the patient (auto_confirm: true)",
+                               "checking light"}));
 }
 
 TEST_F(LampAlignmentComponentTest, TellsItsStateFiveTimesASecondAndAtEveryChange) {
   steps(101);
   EXPECT_NEAR(static_cast<double>(states_.size()), 2 * 5 + 1, 1);
-  EXPECT_EQ(task_.lines().size(), 1u) << "the operator is told of changes only";
+  EXPECT_EQ(task_.lines().size(), 2u) << "the operator is told of changes only";
   states_.clear();
   see_picture(120);
   step();
@@ -203,19 +206,19 @@ TEST_F(LampAlignmentComponentTest, CountsItsGoalsFromWhereTheMotionIs) {
 
 TEST(LampAlignmentComponent, DoesNotStartWithoutAnAngleToSearchAt) {
   EXPECT_EQ(refusal_of(built_plugins(), task_with("search_pitch_deg: []")),
-            "bench:1:65: 'search_yaw_deg' and 'search_pitch_deg' need at least one angle each");
+            "bench:1:85: 'search_yaw_deg' and 'search_pitch_deg' need at least one angle each");
 }
 
 TEST(LampAlignmentComponent, RefusesHysteresesThatAreNone) {
   EXPECT_EQ(refusal_of(built_plugins(), task_with("replan_position_mm: 1")),
-            "bench:1:67: 'settled_position_mm' is 1, not below 'replan_position_mm', which is 1: "
+            "bench:1:87: 'settled_position_mm' is 1, not below 'replan_position_mm', which is 1: "
             "what is aligned would be aligned again");
   EXPECT_EQ(refusal_of(built_plugins(), task_with("moved_angle_deg: 2")),
-            "bench:1:64: 'replan_angle_deg' is 2.5, not below 'moved_angle_deg', which is 2: noise "
+            "bench:1:84: 'replan_angle_deg' is 2.5, not below 'moved_angle_deg', which is 2: noise "
             "would be a patient that moves");
   EXPECT_EQ(
       refusal_of(built_plugins(), task_with("dark: 201")),
-      "bench:1:53: 'dark' is 201, not below 'bright', which is 200: the lamp would never stop "
+      "bench:1:73: 'dark' is 201, not below 'bright', which is 200: the lamp would never stop "
       "changing its light");
 }
 

@@ -83,7 +83,7 @@ class LampAlignmentTest : public testing::Test {
     return {normal(random_), normal(random_), normal(random_)};
   }
 
-  LampAlignment task_{Parameters{}, 0.08};
+  LampAlignment task_{Parameters{.auto_confirm = true}, 0.08};
   Time now_;
   int ticks_ = 0;
   std::optional<MotionGoal> goal_;

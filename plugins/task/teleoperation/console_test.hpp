@@ -62,7 +62,7 @@ class TeleoperationTest : public testing::Test {
 
   const Eigen::Isometry3d console_ = pose_of({0.6, -0.1, 0.1}, 0.5);
   const Eigen::Isometry3d instrument_ = pose_of({0.5, 0, 0.2}, 2);
-  Teleoperation task_{{}};
+  Teleoperation task_{{.auto_confirm = true}};
   ConsoleView view_;
   Time now_;
   Duration hand_is_late_ = seconds(0.001);

@@ -27,11 +27,14 @@ ToolPose tool_pose_of(const Eigen::Isometry3d& base_T_tool) {
 }  // namespace
 
 void Teleoperation::see(const ConsoleView& view, Time now) {
+  const bool leader_waits = procedure_.paused() && phase_ == Phase::waiting;
+  if (leader_waits) return;
   switch (phase_) {
     case Phase::waiting:
       return align(view, now);
     case Phase::aligning:
       return judge_alignment(view, now);
+    case Phase::aborted:
     case Phase::refused:
       return;
     default:
@@ -69,6 +72,7 @@ void Teleoperation::judge_alignment(const ConsoleView& view, Time now) {
   if (off.position_m <= parameters_.aligned_m && off.angle_rad <= parameters_.aligned_rad) {
     leader_goal_.set({.mode = MotionMode::guided, .pose = {}});
     phase_ = Phase::aligned;
+    procedure_.enter_next();
   } else if (now - leader_goal_.done_at() > kSettlesWithin) {
     refuse(fmt::format("the leader stands {:.3f} mm and {:.3f} degrees off the instrument",
                        1e3 * off.position_m, kDegrees * off.angle_rad));
@@ -133,7 +137,7 @@ void Teleoperation::await_clutch(const ConsoleView& view, const std::string& mis
     phase_ = Phase::clutch_open;
     trouble_.clear();
   }
-  if (*view.clutch_closed) engage(view);
+  if (*view.clutch_closed && procedure_.may_act()) engage(view);
 }
 
 void Teleoperation::engage(const ConsoleView& view) {
@@ -154,6 +158,35 @@ void Teleoperation::hear_follower(const GoalReport& report) {
   }
 }
 
+Expected<void> Teleoperation::hear(const OperatorCommand& command) {
+  const auto word = procedure_.hear(command);
+  if (!word) return tl::unexpected{word.error()};
+  const bool leader_moves = phase_ == Phase::waiting || phase_ == Phase::aligning;
+  switch (*word) {
+    case OperatorWord::confirm:
+      break;
+    case OperatorWord::pause:
+      if (leader_moves) leader_goal_.pause();
+      if (phase_ == Phase::teleoperating) stop_follower(Phase::held, "");
+      break;
+    case OperatorWord::resume:
+      if (leader_moves) leader_goal_.resume();
+      break;
+    case OperatorWord::back:
+      if (leader_moves) return armature::refuse("there is no step before this one");
+      procedure_.end_pause();
+      stop_follower(Phase::waiting, "");
+      procedure_.enter(0);
+      break;
+    case OperatorWord::abort:
+      stop_follower(Phase::aborted, "");
+      if (leader_moves) leader_goal_.set({.mode = MotionMode::hold, .pose = {}});
+      procedure_.end(Procedure::StepState::broken_off);
+      break;
+  }
+  return {};
+}
+
 std::optional<MotionGoal> Teleoperation::outgoing_follower_goal() {
   if (follower_goal_) follower_goal_->id = ++last_follower_id_;
   return std::exchange(follower_goal_, std::nullopt);
@@ -168,6 +201,7 @@ void Teleoperation::stop_follower(Phase phase, std::string trouble) {
 void Teleoperation::refuse(std::string why) {
   phase_ = Phase::refused;
   trouble_ = std::move(why);
+  procedure_.end(Procedure::StepState::broken_off);
 }
 
 const char* to_string(Teleoperation::Phase phase) {
@@ -184,6 +218,8 @@ const char* to_string(Teleoperation::Phase phase) {
       return "clutch open";
     case Teleoperation::Phase::held:
       return "held";
+    case Teleoperation::Phase::aborted:
+      return "aborted";
     case Teleoperation::Phase::refused:
       return "refused";
   }

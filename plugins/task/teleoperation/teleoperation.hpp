@@ -5,7 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "armature/motion/pursued_goal.hpp"
+#include "armature/task/procedure.hpp"
+#include "armature/task/pursued_goal.hpp"
 #include "scaled_motion.hpp"
 #include "task_teleoperation_parameters.hpp"
 #include "tremor_filter.hpp"
@@ -35,21 +36,30 @@ class Teleoperation {
     teleoperating,  // the follower goes with the hand
     clutch_open,    // the follower stands, the hand is free to move
     held,           // the follower stands for a reason, until the clutch is opened
+    aborted,        // the follower stands, for good
     refused,        // the leader does not come to the instrument
   };
 
   explicit Teleoperation(const Parameters& parameters)
-      : parameters_{parameters}, filter_{parameters}, motion_{parameters} {}
+      : parameters_{parameters},
+        procedure_{{{.name = "alignment"}, {.name = "teleoperation", .asks = true}},
+                   parameters.auto_confirm},
+        filter_{parameters},
+        motion_{parameters} {}
 
   void see(const ConsoleView& view, Time now);
   void hear_leader(const GoalReport& report, Time now) { leader_goal_.hear(report, now); }
   void hear_follower(const GoalReport& report);
+  /// A pause, a way back and an abort stop the follower where it is: the way out of the body is the
+  /// surgeon's.
+  Expected<void> hear(const OperatorCommand& command);
 
   std::optional<MotionGoal> outgoing_leader_goal(Time now) { return leader_goal_.outgoing(now); }
   /// A target that moves, once a period while the follower moves, and `hold` when it ends.
   std::optional<MotionGoal> outgoing_follower_goal();
 
   Phase phase() const { return phase_; }
+  const Procedure& procedure() const { return procedure_; }
   /// Why it does not go on, or "".
   const std::string& trouble() const { return trouble_; }
   const TremorFilter& filter() const { return filter_; }
@@ -74,6 +84,7 @@ class Teleoperation {
   void refuse(std::string why);
 
   Parameters parameters_;
+  Procedure procedure_;
   TremorFilter filter_;
   ScaledMotion motion_;
   std::optional<Eigen::Isometry3d> hand_;  // filtered
@@ -86,7 +97,8 @@ class Teleoperation {
   std::string trouble_;
 };
 
-/// "waiting", "aligning", "aligned", "teleoperating", "clutch open", "held", "refused".
+/// "waiting", "aligning", "aligned", "teleoperating", "clutch open", "held", "aborted",
+/// "refused".
 const char* to_string(Teleoperation::Phase phase);
 
 }  // namespace armature::task::teleoperation

@@ -7,10 +7,10 @@
 
 #include "armature/kinds/pose_in_base.hpp"
 #include "armature/motion/goal_messages.hpp"
-#include "armature/motion/task_state_publisher.hpp"
 #include "armature/runtime/component/component.hpp"
 #include "armature/runtime/component/setup.hpp"
 #include "armature/runtime/plugins/plugin.hpp"
+#include "armature/task/task_ports.hpp"
 #include "hand_period.hpp"
 #include "teleoperation.hpp"
 
@@ -34,7 +34,7 @@ class TeleoperationComponent final : public Component {
         follower_status_{setup.input<msg::MotionStatus>("follower_status")},
         leader_goal_{setup.output<msg::MotionGoal>("leader_goal")},
         follower_goal_{setup.output<msg::MotionGoal>("follower_goal")},
-        state_{setup} {
+        ports_{setup} {
     setup.activate_every(kPeriod);
     const TremorFilter& filter = task_.filter();
     log(fmt::format("the follower trails {:.1f} ms behind the hand; 10 Hz is down by {:.1f} dB",
@@ -47,6 +47,10 @@ class TeleoperationComponent final : public Component {
     }
     for (std::size_t i = 0; i < follower_status_.size(); ++i) {
       task_.hear_follower(report_of(follower_status_[i]));
+    }
+    for (const std::string& line : ports_.hear(
+             task_.procedure(), [this](const auto& command) { return task_.hear(command); })) {
+      log(line);
     }
     task_.see(view(), now);
     send(task_.outgoing_leader_goal(now), leader_goal_, now);
@@ -98,7 +102,8 @@ class TeleoperationComponent final : public Component {
 
   void publish_state(Time now) {
     const TaskReport report{.state = to_string(task_.phase()), .detail = task_.trouble()};
-    if (state_.publish(now, report, report.line())) log(report.line());
+    const auto said = ports_.publish(now, report, report.line(), task_.procedure());
+    if (said) log(*said);
   }
 
   Teleoperation task_;
@@ -108,7 +113,7 @@ class TeleoperationComponent final : public Component {
   Input<msg::Bool> clutch_;
   Input<msg::MotionStatus> leader_status_, follower_status_;
   Output<msg::MotionGoal> leader_goal_, follower_goal_;
-  TaskStatePublisher state_;
+  TaskPorts ports_;
 };
 
 }  // namespace armature::task::teleoperation

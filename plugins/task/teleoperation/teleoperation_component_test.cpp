@@ -5,9 +5,9 @@
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/geometry.hpp"
 #include "armature/messages/header.hpp"
-#include "armature/motion/pursued_goal.hpp"
 #include "armature/runtime/testing/component_harness.hpp"
 #include "armature/runtime/testing/test_plugins.hpp"
+#include "armature/task/pursued_goal.hpp"
 
 namespace armature::task::teleoperation {
 namespace {
@@ -62,7 +62,9 @@ class TeleoperationComponentTest : public testing::Test {
   }
 
   ComponentHarness task_{built_plugins(),
-                         {.component = "{plugin: task/teleoperation}", .robot = {}, .rig = {}}};
+                         {.component = "{plugin: task/teleoperation, params: {auto_confirm: true}}",
+                          .robot = {},
+                          .rig = {}}};
   const Eigen::Isometry3d follower_T_leader_ =
       Eigen::Translation3d{0.6, 0, 0} * Eigen::AngleAxisd{M_PI / 2, Vector3d::UnitZ()};
   Eigen::Isometry3d follower_T_tool_{Eigen::Translation3d{0.5, 0.1, 0.2}};

@@ -6,32 +6,114 @@
 #include <algorithm>
 
 namespace armature::task::waypoints {
+namespace {
+
+/// A tour waits for the arm, and then goes from one waypoint to the next.
+std::vector<Procedure::Step> steps_of(std::size_t waypoints) {
+  std::vector<Procedure::Step> steps{{.name = "start"}};
+  for (std::size_t i = 1; i <= waypoints; ++i) {
+    steps.push_back({.name = fmt::format("waypoint {}", i), .asks = true});
+  }
+  return steps;
+}
+
+}  // namespace
 
 Tour::Tour(const Parameters& parameters, const std::vector<ToolPose>& waypoints)
-    : parameters_{parameters}, waypoints_{waypoints} {
-  goal_.set({.pose = waypoint()});
-}
+    : parameters_{parameters},
+      waypoints_{waypoints},
+      procedure_{steps_of(waypoints.size()), parameters.auto_confirm} {}
 
 void Tour::see(const PoseResidual& off) {
   off_ = off;
-  if (phase_ == Phase::waiting) phase_ = Phase::moving;
+  if (phase_ != Phase::waiting) return;
+  phase_ = Phase::moving;
+  come_to(0);
+}
+
+void Tour::come_to(std::size_t number) {
+  number_ = number;
+  set_out_ = false;
+  phase_ = Phase::moving;
+  procedure_.enter(number + 1);
 }
 
 void Tour::hear(const GoalReport& report, Time now) {
   goal_.hear(report, now);
-  if (phase_ != Phase::moving && phase_ != Phase::resting) return;
-  if (goal_.state() == PursuedGoal::State::failed) {
+  using State = PursuedGoal::State;
+  if (phase_ == Phase::aborting && !aborts_) {
+    if (goal_.state() != State::done && goal_.state() != State::failed) return;
+    if (goal_.state() == State::failed) trouble_ = "the way back failed: " + goal_.reason();
+    phase_ = Phase::aborted;
+    return procedure_.end(Procedure::StepState::broken_off);
+  }
+  if (!set_out_ || (phase_ != Phase::moving && phase_ != Phase::resting)) return;
+  if (goal_.state() == State::failed) {
     phase_ = Phase::refused;
     trouble_ = fmt::format("waypoint {}: {}", number_ + 1, goal_.reason());
-    return;
+    return procedure_.end(Procedure::StepState::broken_off);
   }
-  phase_ = goal_.state() == PursuedGoal::State::done ? Phase::resting : Phase::moving;
+  phase_ = goal_.state() == State::done ? Phase::resting : Phase::moving;
 }
 
 std::optional<MotionGoal> Tour::outgoing_goal(Time now) {
-  if (phase_ == Phase::resting && now - goal_.done_at() >= seconds(parameters_.rest)) leave(now);
-  const bool under_way = phase_ == Phase::moving || phase_ == Phase::resting;
-  return under_way ? goal_.outgoing(now) : std::nullopt;
+  const bool rests = goal_.state() != PursuedGoal::State::pausing;
+  if (aborts_ && rests) {
+    aborts_ = false;
+    goal_.retrace(false);
+  }
+  if (procedure_.may_act()) {
+    if (phase_ == Phase::resting && now - goal_.done_at() >= seconds(parameters_.rest)) leave(now);
+    const bool sets_out = phase_ == Phase::moving && procedure_.may_act() && !set_out_;
+    if (sets_out) goal_.set({.pose = waypoint()});
+    set_out_ = set_out_ || sets_out;
+  }
+  return goal_.outgoing(now);
+}
+
+Expected<void> Tour::hear(const OperatorCommand& command) {
+  const auto word = procedure_.hear(command);
+  if (!word) return tl::unexpected{word.error()};
+  switch (*word) {
+    case OperatorWord::confirm:
+      break;
+    case OperatorWord::pause:
+      goal_.pause();
+      break;
+    case OperatorWord::resume:
+      goal_.resume();
+      break;
+    case OperatorWord::back:
+      return go_back();
+    case OperatorWord::abort:
+      return abort();
+  }
+  return {};
+}
+
+Expected<void> Tour::go_back() {
+  if (phase_ == Phase::aborting) return refuse("it is being aborted");
+  if (phase_ == Phase::waiting || number_ == 0)
+    return refuse("there is no waypoint before this one");
+  procedure_.end_pause();
+  goal_.pause();
+  come_to(number_ - 1);
+  return {};
+}
+
+Expected<void> Tour::abort() {
+  if (phase_ == Phase::aborting) return refuse("it is being aborted already");
+  procedure_.end_pause();
+  const bool has_moved = goal_.state() != PursuedGoal::State::none;
+  if (!has_moved) {
+    phase_ = Phase::aborted;
+    procedure_.end(Procedure::StepState::broken_off);
+    return {};
+  }
+  goal_.pause();
+  phase_ = Phase::aborting;
+  aborts_ = true;
+  return {};
 }
 
 void Tour::leave(Time now) {
@@ -45,21 +127,25 @@ void Tour::leave(Time now) {
   if (last && parameters_.rounds > 0 && ++round_ == parameters_.rounds) {
     phase_ = Phase::done;
     done_at_ = now;
-    return;
+    return procedure_.end();
   }
-  number_ = last ? 0 : number_ + 1;
-  phase_ = Phase::moving;
-  goal_.set({.pose = waypoint()});
+  come_to(last ? 0 : number_ + 1);
 }
 
 const char* to_string(Tour::Phase phase) {
   switch (phase) {
     case Tour::Phase::waiting:
       return "waiting";
+    case Tour::Phase::asking:
+      return "asking";
     case Tour::Phase::moving:
       return "moving";
     case Tour::Phase::resting:
       return "resting";
+    case Tour::Phase::aborting:
+      return "aborting";
+    case Tour::Phase::aborted:
+      return "aborted";
     case Tour::Phase::done:
       return "done";
     case Tour::Phase::refused:

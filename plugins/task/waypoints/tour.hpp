@@ -6,28 +6,31 @@
 #include <string>
 #include <vector>
 
-#include "armature/motion/pursued_goal.hpp"
 #include "armature/robot/geometry/pose_goal.hpp"
+#include "armature/task/procedure.hpp"
+#include "armature/task/pursued_goal.hpp"
 #include "task_waypoints_parameters.hpp"
 
 namespace armature::task::waypoints {
 
-/// From waypoint to waypoint, with a rest at each. Everything it knows comes in through the `see`
-/// and `hear` calls.
+/// From waypoint to waypoint, with a rest at each; every waypoint is a step. Everything it knows
+/// comes in through the `see` and `hear` calls.
 class Tour {
  public:
-  enum class Phase { waiting, moving, resting, done, refused };
+  enum class Phase { waiting, asking, moving, resting, aborting, aborted, done, refused };
 
   /// `waypoints`: one at least.
   Tour(const Parameters& parameters, const std::vector<ToolPose>& waypoints);
 
   void hear(const GoalReport& report, Time now);
+  Expected<void> hear(const OperatorCommand& command);
   /// How far the tool is from `waypoint` now. Until the arm is seen there is no goal.
   void see(const PoseResidual& off);
-  /// The goal to send now, if any; ends a rest that is over.
+  /// The goal to send now, if any; sets out, and ends a rest that is over.
   std::optional<MotionGoal> outgoing_goal(Time now);
 
-  Phase phase() const { return phase_; }
+  Phase phase() const { return procedure_.asks() ? Phase::asking : phase_; }
+  const Procedure& procedure() const { return procedure_; }
   std::size_t number() const { return number_; }  // of the waypoint, from 0
   std::size_t count() const { return waypoints_.size(); }
   const ToolPose& waypoint() const { return waypoints_[number_]; }
@@ -39,10 +42,17 @@ class Tour {
 
  private:
   void leave(Time now);
+  /// To the waypoint before, or for good to where the arm came from.
+  Expected<void> go_back();
+  Expected<void> abort();
+  void come_to(std::size_t number);
 
   Parameters parameters_;
   std::vector<ToolPose> waypoints_;
+  Procedure procedure_;
   PursuedGoal goal_;
+  bool set_out_ = false;  // to the waypoint
+  bool aborts_ = false;   // as soon as the arm rests
   Phase phase_ = Phase::waiting;
   std::size_t number_ = 0;
   int round_ = 0;
@@ -51,7 +61,7 @@ class Tour {
   std::string trouble_;
 };
 
-/// "waiting", "moving", "resting", "done", "refused".
+/// "waiting", "asking", "moving", "resting", "aborting", "aborted", "done", "refused".
 const char* to_string(Tour::Phase phase);
 
 }  // namespace armature::task::waypoints

@@ -40,7 +40,7 @@ class TourTest : public testing::Test {
 };
 
 TEST_F(TourTest, GoesFromWaypointToWaypointAndEndsAfterTheLastRest) {
-  Tour tour{{.rest = 1, .rounds = 2}, {at_x(1), at_x(2), at_x(3)}};
+  Tour tour{{.rest = 1, .rounds = 2, .auto_confirm = true}, {at_x(1), at_x(2), at_x(3)}};
   EXPECT_EQ(follow(tour, 1.35), std::vector<double>{1});
   EXPECT_EQ(tour.phase(), Tour::Phase::resting);
   EXPECT_EQ(follow(tour, 7.5), (std::vector<double>{2, 3, 1, 2, 3}));
@@ -52,13 +52,13 @@ TEST_F(TourTest, GoesFromWaypointToWaypointAndEndsAfterTheLastRest) {
 }
 
 TEST_F(TourTest, WithoutEndItBeginsAgain) {
-  Tour tour{{.rest = 0, .rounds = 0}, {at_x(1), at_x(2)}};
+  Tour tour{{.rest = 0, .rounds = 0, .auto_confirm = true}, {at_x(1), at_x(2)}};
   EXPECT_GE(follow(tour, 60).size(), 100U);
   EXPECT_EQ(tour.phase(), Tour::Phase::moving);
 }
 
 TEST_F(TourTest, TellsTheLargestErrorAtTheEndOfARest) {
-  Tour tour{{.rest = 0.2, .rounds = 1}, {at_x(1), at_x(2)}};
+  Tour tour{{.rest = 0.2, .rounds = 1, .auto_confirm = true}, {at_x(1), at_x(2)}};
   follow(tour, 0.6, 0.5);
   EXPECT_FALSE(tour.worst()) << "no rest is over";
   follow(tour, 5, 0.001);
@@ -67,7 +67,7 @@ TEST_F(TourTest, TellsTheLargestErrorAtTheEndOfARest) {
 }
 
 TEST_F(TourTest, WaitsForTheArm) {
-  Tour tour{{}, {at_x(1)}};
+  Tour tour{{.auto_confirm = true}, {at_x(1)}};
   EXPECT_FALSE(tour.outgoing_goal(now_));
   EXPECT_EQ(tour.phase(), Tour::Phase::waiting);
   tour.see({});
@@ -75,7 +75,7 @@ TEST_F(TourTest, WaitsForTheArm) {
 }
 
 TEST_F(TourTest, AWaypointThatCannotBeReachedIsNamed) {
-  Tour tour{{.rest = 0, .rounds = 0}, {at_x(1), at_x(2)}};
+  Tour tour{{.rest = 0, .rounds = 0, .auto_confirm = true}, {at_x(1), at_x(2)}};
   follow(tour, 0.8);
   ASSERT_EQ(tour.number(), 1U);
   tour.hear(

@@ -10,11 +10,11 @@
 #include "armature/kinds/setup_robot.hpp"
 #include "armature/messages/sensor_msgs.hpp"
 #include "armature/motion/goal_messages.hpp"
-#include "armature/motion/task_state_publisher.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
 #include "armature/runtime/component/component.hpp"
 #include "armature/runtime/component/setup.hpp"
 #include "armature/runtime/plugins/plugin.hpp"
+#include "armature/task/task_ports.hpp"
 #include "tour.hpp"
 
 namespace armature::task::waypoints {
@@ -65,7 +65,7 @@ class WaypointsComponent final : public Component {
         motion_status_{setup.input<msg::MotionStatus>("motion_status")},
         measured_js_{setup.input<msg::JointState>("measured_js")},
         goal_{setup.output<msg::MotionGoal>("goal")},
-        state_{setup} {
+        ports_{setup} {
     setup.activate_every(kPeriod);
   }
 
@@ -73,6 +73,10 @@ class WaypointsComponent final : public Component {
     if (!start_) start_ = now;
     for (std::size_t i = 0; i < motion_status_.size(); ++i) {
       tour_.hear(report_of(motion_status_[i]), now);
+    }
+    for (const std::string& line : ports_.hear(
+             tour_.procedure(), [this](const auto& command) { return tour_.hear(command); })) {
+      log(line);
     }
     see_arm();
     if (const auto goal = tour_.outgoing_goal(now)) {
@@ -84,7 +88,9 @@ class WaypointsComponent final : public Component {
   }
 
   bool finished() const override {
-    return tour_.phase() == Tour::Phase::done || tour_.phase() == Tour::Phase::refused;
+    const Tour::Phase phase = tour_.phase();
+    return phase == Tour::Phase::done || phase == Tour::Phase::aborted ||
+           phase == Tour::Phase::refused;
   }
 
   void summarize(Summary& summary) const override {
@@ -98,7 +104,8 @@ class WaypointsComponent final : public Component {
       summary.metric("tool_error_deg", "the same of its rotation [deg]",
                      worst->angle_rad * 180 / std::numbers::pi);
     }
-    if (!tour_.trouble().empty()) summary.failed("refused", tour_.trouble());
+    if (tour_.phase() == Tour::Phase::aborted) summary.failed("aborted", "by the operator");
+    if (tour_.phase() == Tour::Phase::refused) summary.failed("refused", tour_.trouble());
   }
 
  private:
@@ -121,7 +128,7 @@ class WaypointsComponent final : public Component {
     const std::string line = under_way
                                  ? fmt::format("{} {}/{}", report.state, report.step, report.steps)
                                  : report.line();
-    if (state_.publish(now, report, line)) log(line);
+    if (const auto said = ports_.publish(now, report, line, tour_.procedure())) log(*said);
   }
 
   RobotModel robot_;
@@ -129,7 +136,7 @@ class WaypointsComponent final : public Component {
   Input<msg::MotionStatus> motion_status_;
   Input<msg::JointState> measured_js_;
   Output<msg::MotionGoal> goal_;
-  TaskStatePublisher state_;
+  TaskPorts ports_;
   std::optional<Time> start_;
 };
 

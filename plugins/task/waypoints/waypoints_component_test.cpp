@@ -17,7 +17,7 @@ using testing::HasSubstr;
 const std::string kRobots = ARMATURE_SOURCE_DIR "/configs/robots/";
 
 ComponentHarness::Options tour_of(const std::string& robot, const std::string& params) {
-  return {.component = "{plugin: task/waypoints, params: {" + params + "}}",
+  return {.component = "{plugin: task/waypoints, params: {auto_confirm: true, " + params + "}}",
           .robot = config::load(kRobots + robot),
           .rig = {}};
 }

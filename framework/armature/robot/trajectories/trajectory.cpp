@@ -43,25 +43,6 @@ struct Powers {
   }
 };
 
-JointState state_at(const TrajectoryView& trajectory, double t) {
-  JointState state{JointVector(trajectory.dof), JointVector(trajectory.dof),
-                   JointVector(trajectory.dof)};
-  if (trajectory.piece_count() == 0) {
-    for (JointVector* values : {&state.q, &state.v, &state.a}) values->setZero();
-    return state;
-  }
-  const Place place = place_of(trajectory.knots, t);
-  const Powers at{place.t};
-  for (int j = 0; j < trajectory.dof; ++j) {
-    const Eigen::Map<const Powers::Row> c{trajectory.coefficients +
-                                          6 * (place.piece * trajectory.dof + j)};
-    state.q[j] = at.value.dot(c);
-    state.v[j] = at.first.dot(c);
-    state.a[j] = at.second.dot(c);
-  }
-  return state;
-}
-
 /// The same motion with a knot at `t` too: a piece that holds `t` is split, one is appended that
 /// stays at the end when `t` is behind it.
 Trajectory with_knot_at(Trajectory trajectory, double t) {
@@ -86,6 +67,25 @@ Trajectory with_knot_at(Trajectory trajectory, double t) {
 }
 
 }  // namespace
+
+JointState state_at(const TrajectoryView& trajectory, double t) {
+  JointState state{JointVector(trajectory.dof), JointVector(trajectory.dof),
+                   JointVector(trajectory.dof)};
+  if (trajectory.piece_count() == 0) {
+    for (JointVector* values : {&state.q, &state.v, &state.a}) values->setZero();
+    return state;
+  }
+  const Place place = place_of(trajectory.knots, t);
+  const Powers at{place.t};
+  for (int j = 0; j < trajectory.dof; ++j) {
+    const Eigen::Map<const Powers::Row> c{trajectory.coefficients +
+                                          6 * (place.piece * trajectory.dof + j)};
+    state.q[j] = at.value.dot(c);
+    state.v[j] = at.first.dot(c);
+    state.a[j] = at.second.dot(c);
+  }
+  return state;
+}
 
 JointState TrajectoryView::at(Time time) const {
   // end() is rounded to nanoseconds; from there on it is the end itself, not half a one before it.

@@ -29,6 +29,10 @@ struct TrajectoryView {
   JointState at(Time time) const;
 };
 
+/// As TrajectoryView::at, `t` [s] behind its start: not rounded to a nanosecond, which an
+/// acceleration shows where the jerk is not 0. Real-time safe.
+JointState state_at(const TrajectoryView& trajectory, double t);
+
 /// Piecewise quintics of all independent joints with absolute times: data, evaluated anywhere for
 /// q, v, a and jerk, sent as it is. Piece k holds from `knots[k]` to `knots[k+1]`.
 struct Trajectory {

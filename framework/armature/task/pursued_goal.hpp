@@ -11,14 +11,6 @@
 
 namespace armature ARMATURE_EXPORT {
 
-/// What the motion component said about a goal.
-struct GoalReport {
-  enum class State : std::uint8_t { accepted = 0, executing, done, superseded, failed };
-  std::uint64_t goal_id = 0;
-  State state = State::accepted;
-  std::string stage = {}, reason = {};
-};
-
 /// The one goal that a task has the arm on its way to. Goals that were refused because the motion
 /// was not ready, and goals that nobody answered, are given again. A goal that breaks down on its
 /// way, since the arm does not follow, is given again, too, but not three times within 5 s, nor to
@@ -28,13 +20,24 @@ struct GoalReport {
 /// itself, and is given again.
 class PursuedGoal {
  public:
-  enum class State { none, waiting, moving, done, failed };
+  enum class State { none, waiting, moving, pausing, paused, done, failed };
 
   /// Makes `goal` the current one; it is sent with the next `outgoing`.
   void set(const MotionGoal& goal);
   /// The same of a goal that must not be begun a second time, as where the arm then stands is not
   /// where its way begins (a needle in tissue): it has failed when it breaks down on its way.
   void set_once(const MotionGoal& goal);
+  /// Stops an arm that is on its way, along the way where that can be. `hear` tells when it is
+  /// paused. Of a goal that has been done, or has failed, nothing moves: nothing to do.
+  void pause();
+  /// Goes on after a pause: a goal that must not be begun a second time along its way, any other
+  /// from where the arm is.
+  void resume();
+  /// Makes "back along the way, as it came" the current goal: to the stop before when `stepwise`,
+  /// else to where the way began. For an arm that rests on its way: paused, or done.
+  void retrace(bool stepwise);
+  /// Makes "on along the way, to its next stop" the current goal.
+  void go_on();
   void hear(const GoalReport& report, Time now);
   /// The goal to send now, with its id, if any.
   std::optional<MotionGoal> outgoing(Time now);
@@ -44,6 +47,8 @@ class PursuedGoal {
   bool stopped() const { return state_ == State::failed && stopped_; }
   Time done_at() const { return done_at_; }
   const std::string& reason() const { return reason_; }
+  /// Of a goal that is done: how many stops of its way lie behind it.
+  int stops_ahead() const { return stops_ahead_; }
   int sent() const { return sent_; }
 
  private:
@@ -57,6 +62,12 @@ class PursuedGoal {
   std::optional<Time> send_at_;  // not sent yet: at once or later
   Time sent_at_, done_at_;
   std::string reason_;
+  struct Interrupted {
+    MotionGoal rest;
+    bool once = false;
+  };
+  std::optional<Interrupted> interrupted_;  // by a pause
+  int stops_ahead_ = 0;
   std::array<std::optional<Time>, 2> broke_down_;  // the last two times, the newest first
   int sent_ = 0;
   bool once_ = false, begun_ = false, accepted_ = false, stopped_ = false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/motion/pursued_goal.hpp"
+#include "armature/task/pursued_goal.hpp"
 
 #include <gtest/gtest.h>
 
@@ -49,6 +49,98 @@ TEST(PursuedGoal, GivesAGoalAgainThatTheMotionWasNotReadyFor) {
   EXPECT_FALSE(goals.outgoing(at(0.2)));
   goals.hear(refused, at(0.3));  // told again every now and then
   EXPECT_EQ(goals.outgoing(at(0.4))->id, 2u);
+}
+
+class PausedGoalTest : public ::testing::Test {
+ protected:
+  /// `story` of the goal that was sent last.
+  void hear(Report state, int stops_ahead = 0) {
+    goals_.hear({.goal_id = id_, .state = state, .stops_ahead = stops_ahead}, at(1));
+  }
+  MotionGoal sent() {
+    const auto goal = goals_.outgoing(at(1));
+    EXPECT_TRUE(goal);
+    id_ = goal ? goal->id : 0;
+    return goal.value_or(MotionGoal{});
+  }
+  void pause() {
+    goals_.pause();
+    EXPECT_EQ(goals_.state(), PursuedGoal::State::pausing);
+    EXPECT_EQ(sent().mode, MotionMode::pause);
+    hear(Report::executing);
+    EXPECT_EQ(goals_.state(), PursuedGoal::State::pausing);
+    hear(Report::done);
+    EXPECT_EQ(goals_.state(), PursuedGoal::State::paused);
+  }
+
+  PursuedGoal goals_;
+  std::uint64_t id_ = 0;
+  const MotionGoal goal_{.pose = {.position = {1, 2, 3}, .orientation = {}}, .stepwise = true};
+};
+
+TEST_F(PausedGoalTest, AWayThatMustNotBeBegunTwiceIsGoneOnWith) {
+  goals_.set_once(goal_);
+  EXPECT_TRUE(sent().stepwise);
+  hear(Report::executing);
+  pause();
+  goals_.resume();
+  const MotionGoal rest = sent();
+  EXPECT_EQ(rest.mode, MotionMode::resume);
+  EXPECT_TRUE(rest.stepwise);
+  hear(Report::executing);
+  pause();  // again
+  goals_.resume();
+  EXPECT_EQ(sent().mode, MotionMode::resume);
+  hear(Report::done, 2);
+  EXPECT_EQ(goals_.state(), PursuedGoal::State::done);
+  EXPECT_EQ(goals_.stops_ahead(), 2);
+}
+
+TEST_F(PausedGoalTest, AnyOtherGoalIsGivenAnewAndSoIsOneThatHadNotBegun) {
+  goals_.set(goal_);
+  sent();
+  hear(Report::executing);
+  pause();
+  goals_.resume();
+  EXPECT_EQ(sent().mode, MotionMode::planned);
+  goals_.set_once(goal_);
+  sent();
+  hear(Report::accepted);
+  pause();
+  goals_.resume();
+  EXPECT_EQ(sent().mode, MotionMode::planned);
+}
+
+TEST_F(PausedGoalTest, AWayBackThatWasPausedGoesOnBack) {
+  goals_.retrace(true);
+  EXPECT_EQ(sent().mode, MotionMode::retrace);
+  hear(Report::executing);
+  pause();
+  goals_.resume();
+  const MotionGoal rest = sent();
+  EXPECT_EQ(rest.mode, MotionMode::retrace);
+  EXPECT_TRUE(rest.stepwise);
+}
+
+TEST_F(PausedGoalTest, WhereNothingMovesThereIsNothingToPause) {
+  goals_.pause();
+  EXPECT_EQ(goals_.state(), PursuedGoal::State::none);
+  goals_.set(goal_);
+  sent();
+  hear(Report::done);
+  goals_.pause();
+  EXPECT_EQ(goals_.state(), PursuedGoal::State::done);
+  goals_.resume();
+  EXPECT_FALSE(goals_.outgoing(at(9)));
+}
+
+TEST_F(PausedGoalTest, APauseThatNobodyAnswersIsAskedForAgain) {
+  goals_.set(goal_);
+  sent();
+  goals_.pause();
+  sent();
+  EXPECT_FALSE(goals_.outgoing(at(1.5)));
+  EXPECT_EQ(goals_.outgoing(at(2.5))->mode, MotionMode::pause);
 }
 
 GoalReport broken(std::uint64_t id) {

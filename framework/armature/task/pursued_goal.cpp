@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/motion/pursued_goal.hpp"
+#include "armature/task/pursued_goal.hpp"
 
 #include <limits>
 
@@ -19,6 +19,7 @@ void PursuedGoal::set(const MotionGoal& goal) {
   send_at_ = kAtOnce;
   broke_down_ = {};
   once_ = begun_ = false;
+  interrupted_.reset();
   reason_.clear();
 }
 
@@ -26,6 +27,34 @@ void PursuedGoal::set_once(const MotionGoal& goal) {
   set(goal);
   once_ = true;
 }
+
+void PursuedGoal::pause() {
+  if (state_ != State::waiting && state_ != State::moving) return;
+  MotionGoal rest = goal_;
+  const bool once = once_;
+  if (once && begun_) {
+    const bool goes_back = goal_.mode == MotionMode::retrace;
+    rest = {.mode = goes_back ? MotionMode::retrace : MotionMode::resume,
+            .pose = {},
+            .stepwise = goal_.stepwise};
+  }
+  set({.mode = MotionMode::pause, .pose = {}});
+  state_ = State::pausing;
+  interrupted_ = {rest, once};
+}
+
+void PursuedGoal::resume() {
+  if (!interrupted_) return;
+  const auto [rest, once] = *interrupted_;
+  set(rest);
+  once_ = once;
+}
+
+void PursuedGoal::retrace(bool stepwise) {
+  set_once({.mode = MotionMode::retrace, .pose = {}, .stepwise = stepwise});
+}
+
+void PursuedGoal::go_on() { set_once({.mode = MotionMode::resume, .pose = {}, .stepwise = true}); }
 
 void PursuedGoal::hear(const GoalReport& report, Time now) {
   // A task that starts late, or again, goes on counting where the goals are.
@@ -41,8 +70,13 @@ void PursuedGoal::hear(const GoalReport& report, Time now) {
       if (state_ == State::waiting) state_ = State::moving;
       break;
     case GoalReport::State::done:
+      if (state_ == State::pausing || state_ == State::paused) {
+        state_ = State::paused;
+        break;
+      }
       if (state_ != State::done) done_at_ = now;
       state_ = State::done;
+      stops_ahead_ = report.stops_ahead;
       break;
     case GoalReport::State::superseded:  // by a goal that is not ours
     case GoalReport::State::failed:
@@ -54,7 +88,7 @@ void PursuedGoal::hear(const GoalReport& report, Time now) {
 void PursuedGoal::give_up_or_try_again(const GoalReport& report, Time now) {
   if (worth_another_try(report, now)) {
     reason_ = report.reason;
-    state_ = State::waiting;
+    if (state_ != State::pausing) state_ = State::waiting;
     send_at_ = now + kRetryAfter;
     return;
   }
@@ -81,7 +115,8 @@ bool PursuedGoal::breaks_down_for_good(Time now) {
 
 std::optional<MotionGoal> PursuedGoal::outgoing(Time now) {
   const bool silent = !send_at_ && !accepted_ && now - sent_at_ > kAnswerWithin;
-  const bool unanswered = state_ == State::waiting && silent;
+  const bool asks = state_ == State::waiting || state_ == State::pausing;
+  const bool unanswered = asks && silent;
   const bool due = send_at_ && now >= *send_at_;
   if (!due && !unanswered) return std::nullopt;
   send_at_.reset();

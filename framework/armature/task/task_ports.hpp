@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "armature/messages/armature_msgs.hpp"
+#include "armature/messages/header.hpp"
+#include "armature/runtime/component/setup.hpp"
+#include "armature/task/procedure.hpp"
+
+namespace armature ARMATURE_EXPORT {
+
+/// What a task is doing: "searching", 4 of 9; why it does not go on.
+struct TaskReport {
+  std::string state;
+  std::size_t step = 0, steps = 0;
+  std::string detail = {};
+
+  /// What the operator reads: "refused: the markers lie nearly on one line".
+  std::string line() const { return detail.empty() ? state : state + ": " + detail; }
+};
+
+/// The two ports at which an operator meets a task: `operator`, what is said to it, and `state`,
+/// what it is doing: every change, and five times a second.
+class TaskPorts {
+ public:
+  explicit TaskPorts(Setup& setup)
+      : operator_{setup.input<msg::OperatorCommand>("operator")},
+        state_{setup.output<msg::TaskState>("state")} {}
+
+  /// Hands new commands to `obey` (OperatorCommand to Expected<void>). A command that is told
+  /// again, since its answer has not been seen yet, is obeyed once. What there is to say of it.
+  template <class Obey>
+  std::vector<std::string> hear(const Procedure& procedure, const Obey& obey) {
+    std::vector<std::string> lines;
+    if (procedure.auto_confirm() && !std::exchange(said_who_confirms_, true)) {
+      lines.emplace_back("nobody confirms the steps towards the patient (auto_confirm: true)");
+    }
+    for (std::size_t i = 0; i < operator_.size(); ++i) {
+      const msg::OperatorCommand& message = operator_[i];
+      const OperatorCommand command{message.command_id_(), message.command_(), message.step_()};
+      if (command.id == answered_) continue;
+      answered_ = command.id;
+      const Expected<void> obeyed = obey(command);
+      answer_ = obeyed ? "" : obeyed.error().text;
+      const std::string said =
+          command.step.empty() ? command.word : command.word + " " + command.step;
+      lines.push_back("the operator says " + said + (obeyed ? "" : ", refused: " + answer_));
+      changed_ = true;
+    }
+    return lines;
+  }
+
+  /// What the operator reads of it, when that is not what he read before: `line`, unless a step
+  /// asks.
+  std::optional<std::string> publish(Time now, const TaskReport& report, std::string line,
+                                     const Procedure& procedure) {
+    constexpr Duration kPeriod = seconds(0.2);
+    if (procedure.asks()) {
+      line = "asks the operator to confirm '" + procedure.steps()[procedure.step()].name + "'";
+    }
+    if (procedure.paused()) line = "paused: " + line;
+    const bool changed = line != line_;
+    if (!changed && !changed_ && now - published_ < kPeriod) return std::nullopt;
+    line_ = line;
+    changed_ = false;
+    published_ = now;
+    auto loan = state_.loan();
+    write_header(loan->header_(), now);
+    loan->state_() = report.state;
+    loan->step_(static_cast<std::uint32_t>(report.step));
+    loan->steps_(static_cast<std::uint32_t>(report.steps));
+    loan->detail_() = report.detail;
+    write_procedure(procedure, *loan);
+    loan->answered_(answered_);
+    loan->answer_() = answer_;
+    loan.publish();
+    return changed ? std::optional{line_} : std::nullopt;
+  }
+
+ private:
+  static void write_procedure(const Procedure& procedure, msg::TaskState& state) {
+    state.procedure_().resize(procedure.steps().size());
+    for (std::size_t i = 0; i < procedure.steps().size(); ++i) {
+      state.procedure_()[i].name_() = procedure.steps()[i].name;
+      state.procedure_()[i].state_(static_cast<std::uint8_t>(procedure.state_of(i)));
+      state.procedure_()[i].asks_(procedure.steps()[i].asks);
+    }
+    state.auto_confirm_(procedure.auto_confirm());
+    state.paused_(procedure.paused());
+  }
+
+  Input<msg::OperatorCommand> operator_;
+  Output<msg::TaskState> state_;
+  std::string line_, answer_;
+  std::uint64_t answered_ = 0;
+  bool changed_ = false, said_who_confirms_ = false;
+  Time published_;
+};
+
+}  // namespace armature

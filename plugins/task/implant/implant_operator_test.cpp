@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+// The drilling with an operator: every step towards the jaw is asked for, and there is a way out of
+// each.
+#include "implant_room_test.hpp"
+
+namespace armature::task::implant {
+namespace {
+
+class OperatedImplantTest : public ImplantTest {
+ protected:
+  OperatedImplantTest() {
+    Parameters parameters = quick();
+    parameters.auto_confirm = false;
+    task_ = Implant{parameters, med7(), file_tool_};
+    begin();
+    go_to(Phase::approaching);
+  }
+  std::string say(const std::string& word, const std::string& step = "") {
+    const auto obeyed = task_.hear({.id = ++said_, .word = word, .step = step}, now());
+    return obeyed ? "" : obeyed.error().text;
+  }
+  std::string asked() const {
+    const Procedure& procedure = task_.procedure();
+    return procedure.asks() ? procedure.steps()[procedure.step()].name : "";
+  }
+  /// Until something is asked for, or it is over.
+  void run_until_asked() {
+    for (int i = 0; i < 500 && asked().empty() && !task_.procedure().over(); ++i) step();
+  }
+  void confirm(const std::string& step) {
+    run_until_asked();
+    EXPECT_EQ(asked(), step);
+    EXPECT_EQ(say("confirm", step), "");
+    this->step();
+  }
+  Vector3d tool() const { return (base_T_flange_ * file_tool_).translation(); }
+  /// In the midst of the motion to `goals_.back()`, of which the arm has done a half.
+  void stop_half_way() {
+    const Vector3d to = goals_.back().pose.position;
+    base_T_flange_.translation() += 0.5 * (before_ - to);
+    done_ = 0;
+  }
+
+  std::uint64_t said_ = 0;
+  Vector3d before_ = Vector3d::Zero();
+};
+
+TEST_F(OperatedImplantTest, AsksBeforeTheApproachAndBeforeEverySite) {
+  const std::size_t calibration = goals_.size();
+  wait(1);
+  EXPECT_EQ(goals_.size(), calibration) << "nothing moves before its confirmation";
+  confirm("approach");
+  confirm("site 1");
+  expect_tip_at(goals_.back().pose, 0);
+  run_until_asked();
+  EXPECT_EQ(asked(), "site 2") << "the drill is out of site 1";
+  EXPECT_LT((tool() - goals_.back().pose.position).norm(), 1e-9);
+  confirm("site 2");
+  go_to(Phase::drilled);
+  EXPECT_TRUE(task_.procedure().over());
+}
+
+TEST_F(OperatedImplantTest, BackOutOfABoreAsksForItsSiteAgain) {
+  confirm("approach");
+  run_until_asked();
+  before_ = tool();
+  confirm("site 1");
+  stop_half_way();
+  EXPECT_EQ(say("back"), "");
+  EXPECT_EQ(say("back"), "the drill goes back already");
+  step();
+  EXPECT_EQ(goals_.back().mode, MotionMode::pause);
+  step();
+  EXPECT_LT((goals_.back().pose.position - before_).norm(), 1e-9) << "straight out";
+  EXPECT_TRUE(goals_.back().through.empty());
+  run_until_asked();
+  EXPECT_EQ(asked(), "site 1");
+  confirm("site 1");
+  run_until_asked();
+  EXPECT_EQ(asked(), "site 2");
+  EXPECT_EQ(say("back"), "");
+  EXPECT_EQ(asked(), "site 1") << "once more";
+}
+
+TEST_F(OperatedImplantTest, BackBeforeTheFirstSiteRegistersAgain) {
+  EXPECT_EQ(say("back"), "");
+  EXPECT_TRUE(task_.wants_registration());
+  EXPECT_EQ(say("back"), "before the approach there is no step to go back to");
+  go_to(Phase::approaching);
+  confirm("approach");
+  run_until_asked();
+  EXPECT_EQ(say("back"), "");
+  go_to(Phase::approaching);
+  EXPECT_EQ(asked(), "approach");
+}
+
+TEST_F(OperatedImplantTest, AbortedInABoreItGoesOutAndOverTheSitesToWhereItCameFrom) {
+  const Vector3d came_from = tool();
+  confirm("approach");
+  confirm("site 1");
+  confirm("site 2");
+  EXPECT_EQ(say("abort"), "");
+  EXPECT_EQ(say("abort"), "it is being aborted already");
+  step();
+  EXPECT_EQ(goals_.back().mode, MotionMode::pause);
+  step();
+  EXPECT_EQ(goals_.back().through.size(), 2u) << "above site 2, above site 1";
+  EXPECT_LT((goals_.back().pose.position - came_from).norm(), 1e-9);
+  go_to(Phase::aborted);
+  EXPECT_EQ(say("abort"), "the procedure is over");
+}
+
+TEST_F(OperatedImplantTest, AbortedOnTheApproachItGoesBackAlongIt) {
+  confirm("approach");
+  EXPECT_EQ(say("abort"), "");
+  step();
+  step();
+  EXPECT_EQ(goals_.back().mode, MotionMode::retrace);
+  go_to(Phase::aborted);
+}
+
+TEST_F(OperatedImplantTest, AbortedBeforeAnythingMovedItIsOver) {
+  EXPECT_EQ(say("abort"), "");
+  EXPECT_EQ(task_.phase(), Phase::aborted);
+}
+
+TEST_F(OperatedImplantTest, AJawThatMovesIsSeenWhileItIsPausedToo) {
+  confirm("approach");
+  EXPECT_EQ(say("pause"), "");
+  chain_.tracker_T_patient = chain_.tracker_T_patient * Eigen::Translation3d{0.01, 0, 0};
+  wait(0.5);
+  EXPECT_EQ(task_.phase(), Phase::refused);
+}
+
+}  // namespace
+}  // namespace armature::task::implant

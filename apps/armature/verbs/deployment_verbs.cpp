@@ -8,6 +8,7 @@
 #include "drill/drill.hpp"
 #include "inspect/check.hpp"
 #include "inspect/inspect.hpp"
+#include "operator/operator.hpp"
 #include "run/run.hpp"
 #include "run/stop.hpp"
 #include "schema/schema.hpp"
@@ -165,6 +166,27 @@ void add_stop(CLI::App& app, Action& action) {
   verb->callback([options, &action] { action = [options] { return stop_arms(*options); }; });
 }
 
+void add_operator(CLI::App& app, Action& action) {
+  auto options = std::make_shared<OperatorOptions>();
+  CLI::App* verb = app.add_subcommand(
+      "operator",
+      "Show the steps of a running deployment's task; confirm, pause, resume, go back, abort");
+  add_source(*verb, options->source);
+  verb->add_option("--say", options->say, "one word, and end: confirm, pause, resume, back, abort")
+      ->check(CLI::IsMember({"confirm", "pause", "resume", "back", "abort"}));
+  verb->add_option("--step", options->step, "which step is confirmed (the one that waits for it)");
+  verb->add_option("--component", options->component, "the task, where there are several");
+  verb->add_option("--domain", options->domain, "DDS domain, instead of the file's")
+      ->check(CLI::Range(0, 232));
+  add_interfaces(*verb, options->interfaces);
+  verb->add_option("--timeout", options->timeout_s,
+                   "seconds for the task to be found, and to answer")
+      ->capture_default_str()
+      ->check(not_positive);
+  verb->add_flag("--json", options->json, "as JSON: a line for every change");
+  verb->callback([options, &action] { action = [options] { return be_operator(*options); }; });
+}
+
 void add_inspection(CLI::App& app, Action& action) {
   auto source = std::make_shared<DeploymentSource>();
   auto json = std::make_shared<bool>(false);
@@ -205,6 +227,7 @@ void add_deployment_verbs(CLI::App& app, Action& action) {
   add_drill(app, action);
   add_sweep(app, action);
   add_stop(app, action);
+  add_operator(app, action);
   add_inspection(app, action);
   add_schema(app, action);
 }

@@ -1,101 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lamp_alignment.hpp"
+#include <numbers>
 
-#include <gtest/gtest.h>
-
-#include <random>
+#include "lamp_room_test.hpp"
 
 namespace armature::task::lamp_alignment {
 namespace {
 
-using Phase = LampAlignment::Phase;
 constexpr double kDegree = std::numbers::pi / 180;
-
-/// A lamp in a world where every goal takes one second, and a patient who is seen from straight
-/// ahead only, at 10 Hz, with noise.
-class LampAlignmentTest : public testing::Test {
- protected:
-  void run(double duration_s) {
-    const Time end = now_ + seconds(duration_s);
-    while (now_ < end) tick();
-  }
-  bool run_until(Phase phase, double at_most_s) {
-    const Time end = now_ + seconds(at_most_s);
-    while (now_ < end && task_.phase() != phase) tick();
-    return task_.phase() == phase;
-  }
-
-  void tick() {
-    now_ = now_ + seconds(0.02);
-    ++ticks_;
-    if (goal_ && now_ >= arrival_) {
-      lamp_ = goal_->pose;
-      task_.hear({.goal_id = goal_->id, .state = GoalReport::State::done}, now_);
-      goal_.reset();
-    }
-    if (ticks_ % 5 == 0 && task_.capture()) take_picture();
-    task_.step(now_);
-    if (auto level = task_.take_light_level()) light_ = *level;
-    if (auto goal = task_.outgoing_goal(now_)) receive(*goal);
-  }
-
-  void receive(const MotionGoal& goal) {
-    goals_.push_back(goal);
-    if (stopped_) return drop(goal);
-    if (goal.pose.position.norm() > reach_m_) {
-      task_.hear({.goal_id = goal.id,
-                  .state = GoalReport::State::failed,
-                  .stage = "ik",
-                  .reason = "out_of_reach"},
-                 now_);
-      return;
-    }
-    goal_ = goal;
-    arrival_ = now_ + seconds(1);
-    task_.hear({.goal_id = goal.id, .state = GoalReport::State::executing}, now_);
-  }
-
-  void drop(const MotionGoal& goal) {
-    task_.hear({.goal_id = goal.id,
-                .state = GoalReport::State::failed,
-                .stage = "stop",
-                .reason = "stopped until it is rearmed"},
-               now_);
-  }
-  void stop() {
-    stopped_ = true;
-    if (goal_) drop(*goal_);
-    goal_.reset();
-  }
-  void rearm() { stopped_ = false; }
-
-  void take_picture() {
-    const Eigen::Vector3d looks_along = std::get<Direction>(lamp_.orientation).unit;
-    const bool seen = present_ && looks_along.x() > 0.8;
-    const double gray = gain_ * (100 + 200 * light_);
-    task_.see(Picture{now_, seen, gray, gray}, now_);
-    if (seen)
-      task_.see(
-          FaceEstimate{now_, mouth_ + noise(noise_m_), (normal_ + noise(noise_rad_)).normalized()});
-  }
-  Eigen::Vector3d noise(double sigma) {
-    std::normal_distribution<double> normal{0, sigma};
-    return {normal(random_), normal(random_), normal(random_)};
-  }
-
-  LampAlignment task_{Parameters{.auto_confirm = true}, 0.08};
-  Time now_;
-  int ticks_ = 0;
-  std::optional<MotionGoal> goal_;
-  Time arrival_;
-  ToolPose lamp_{.position = {0.6, 0, 0.5}, .orientation = Direction{Eigen::Vector3d::UnitY()}};
-  std::vector<MotionGoal> goals_;
-  bool present_ = true, stopped_ = false;
-  double reach_m_ = 10, gain_ = 1, light_ = 0;
-  double noise_m_ = 0.0005, noise_rad_ = 0.01;
-  Eigen::Vector3d mouth_{1.55, 0, 0.45}, normal_{-1, 0, 0};
-  std::mt19937 random_{5};
-};
 
 TEST_F(LampAlignmentTest, ChecksTheLightThenSearchesThenAlignsAndHolds) {
   EXPECT_EQ(task_.phase(), Phase::checking_light);

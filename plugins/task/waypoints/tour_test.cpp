@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A tour: 1. where it goes and how long it rests, 2. what it measures, 3. what it refuses.
+// A tour: 1. where it goes and how long it rests, 2. what it measures, 3. what it refuses, 4. with
+// an operator.
 #include "tour.hpp"
 
 #include <gtest/gtest.h>
@@ -72,6 +73,56 @@ TEST_F(TourTest, WaitsForTheArm) {
   EXPECT_EQ(tour.phase(), Tour::Phase::waiting);
   tour.see({});
   EXPECT_TRUE(tour.outgoing_goal(now_));
+}
+
+class OperatedTourTest : public TourTest {
+ protected:
+  std::string say(const std::string& word, const std::string& step = "") {
+    const auto obeyed = tour_.hear({.id = ++said_, .word = word, .step = step});
+    return obeyed ? "" : obeyed.error().text;
+  }
+  Tour tour_{{.rest = 0.2, .rounds = 1}, {at_x(1), at_x(2), at_x(3)}};
+  std::uint64_t said_ = 0;
+};
+
+TEST_F(OperatedTourTest, EveryWaypointIsConfirmed) {
+  EXPECT_TRUE(follow(tour_, 2).empty());
+  EXPECT_EQ(tour_.phase(), Tour::Phase::asking);
+  say("confirm", "waypoint 1");
+  EXPECT_EQ(follow(tour_, 2), std::vector<double>{1});
+  EXPECT_EQ(say("confirm", "waypoint 1"),
+            "the step that waits for its confirmation is 'waypoint 2', not 'waypoint 1'");
+  say("confirm", "waypoint 2");
+  EXPECT_EQ(follow(tour_, 2), std::vector<double>{2});
+}
+
+TEST_F(OperatedTourTest, BackGoesToTheWaypointBefore) {
+  EXPECT_EQ(say("back"), "there is no waypoint before this one");
+  follow(tour_, 1);
+  say("confirm", "waypoint 1");
+  follow(tour_, 2);
+  EXPECT_EQ(say("back"), "");
+  follow(tour_, 1);
+  say("confirm", "waypoint 1");
+  EXPECT_EQ(follow(tour_, 2), std::vector<double>{1});
+}
+
+TEST_F(OperatedTourTest, AbortedItGoesBackAlongTheWayThatItCame) {
+  follow(tour_, 1);
+  say("confirm", "waypoint 1");
+  follow(tour_, 0.3);
+  EXPECT_EQ(say("abort"), "");
+  follow(tour_, 0.1);
+  EXPECT_EQ(tour_.phase(), Tour::Phase::aborting);
+  follow(tour_, 3);
+  EXPECT_EQ(tour_.phase(), Tour::Phase::aborted);
+  EXPECT_TRUE(follow(tour_, 3).empty());
+}
+
+TEST_F(OperatedTourTest, AbortedBeforeAnythingMovedItIsOver) {
+  follow(tour_, 1);
+  EXPECT_EQ(say("abort"), "");
+  EXPECT_EQ(tour_.phase(), Tour::Phase::aborted);
 }
 
 TEST_F(TourTest, AWaypointThatCannotBeReachedIsNamed) {

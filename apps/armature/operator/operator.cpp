@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "operator/operator.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <thread>
+#include <utility>
+
+#include "armature/config/document.hpp"
+#include "armature/config/problems.hpp"
+#include "armature/runtime/deployment_file/deployment_config.hpp"
+#include "armature/runtime/plugins/plugin_registry.hpp"
+#include "armature/task/procedure.hpp"
+#include "exit_code.hpp"
+#include "operator/procedure_view.hpp"
+#include "operator/task_link.hpp"
+
+namespace armature {
+namespace {
+
+using Steady = std::chrono::steady_clock;
+using std::chrono::milliseconds;
+
+constexpr milliseconds kLook{20}, kSayAgain{100};
+
+std::atomic<bool> g_left{false};
+
+const PortBinding* port_of(const std::vector<PortBinding>& ports, std::string_view type) {
+  const auto found =
+      std::ranges::find_if(ports, [&](const auto& port) { return port.spec.type == type; });
+  return found == ports.end() ? nullptr : &*found;
+}
+
+/// The task that is meant, of those that an operator is heard by.
+TaskTopics find_task(const DeploymentConfig& deployment, const std::string& component) {
+  std::vector<TaskTopics> tasks;
+  std::vector<std::string> names;
+  for (const ComponentConfig& one : deployment.components) {
+    const PortBinding* command = port_of(one.inputs, "armature_msgs/OperatorCommand");
+    const PortBinding* state = port_of(one.outputs, "armature_msgs/TaskState");
+    if (!command || !state || (!component.empty() && one.name != component)) continue;
+    tasks.push_back({one.name, command->topic, state->topic});
+    names.push_back(one.name);
+  }
+  if (tasks.size() == 1) return tasks.front();
+  if (tasks.empty()) {
+    throw InvalidChoice(fmt::format(
+        "deployment '{}' has no {} that hears an operator, which an input of type "
+        "armature_msgs/OperatorCommand does",
+        deployment.name, component.empty() ? "component" : "component '" + component + "'"));
+  }
+  throw InvalidChoice(fmt::format("deployment '{}' has several tasks: --component {}",
+                                  deployment.name, fmt::join(names, ", or ")));
+}
+
+/// One operator at a running task.
+class Dialogue {
+ public:
+  Dialogue(const OperatorOptions& options, const DeploymentConfig& deployment, TaskLink& link)
+      : options_{options}, deployment_{deployment}, link_{link} {}
+
+  /// kOk once the task has told what it does.
+  int meet() {
+    const bool met = wait([&] { return link_.state().has_value(); });
+    if (met || g_left) return kOk;
+    fmt::print(stderr,
+               "armature: no task of '{}' tells what it does in domain {} within {:g} s; is it "
+               "running? armature run FILE --keep-running\n",
+               deployment_.name, options_.domain.value_or(deployment_.domain), options_.timeout_s);
+    return kTimedOut;
+  }
+
+  int say(const std::string& word, std::string step) {
+    if (word == "confirm" && step.empty()) step = step_that_asks(*link_.state());
+    const std::uint64_t id = ids_();
+    Steady::time_point told{};
+    const bool answered = wait([&] {
+      if (link_.state()->answered_() == id) return true;
+      if (Steady::now() - told < kSayAgain) return false;
+      told = Steady::now();
+      link_.say(id, word, step);
+      return false;
+    });
+    if (!answered) {
+      fmt::print(stderr, "armature: the task did not answer '{}' within {:g} s\n", word,
+                 options_.timeout_s);
+      return kTimedOut;
+    }
+    const std::string refused = link_.state()->answer_();
+    if (refused.empty()) return kOk;
+    fmt::print(stderr, "armature: '{}' was refused: {}\n", word, refused);
+    return kFailed;
+  }
+
+  void show_if_changed() {
+    const msg::TaskState state = *link_.state();
+    const std::string summary = summary_of(state);
+    if (summary == shown_) return;
+    shown_ = summary;
+    fmt::print("{}\n", options_.json ? json_of(state).dump() : table_of(state));
+    if (const std::string asks = step_that_asks(state); !asks.empty() && !options_.json) {
+      fmt::print("c(onfirm) '{}', p(ause), b(ack), a(bort)?\n", asks);
+    }
+    std::fflush(stdout);
+  }
+
+  /// Shows every change, and says what is typed, until the end of input.
+  int listen() {
+    if (!options_.json) {
+      fmt::print("a word or its letter, and Enter: {}; q leaves, and changes nothing\n",
+                 fmt::join(kOperatorWords, ", "));
+    }
+    std::string line;
+    while (!g_left) {
+      show_if_changed();
+      if (!read_line(line)) continue;
+      if (line == "q" || ended_) return kOk;
+      const std::string word = word_of(line);
+      if (word.empty()) {
+        if (!line.empty()) fmt::print(stderr, "armature: '{}' is no word of an operator\n", line);
+        continue;
+      }
+      say(word, "");
+    }
+    return kOk;
+  }
+
+ private:
+  template <class Done>
+  bool wait(const Done& done) {
+    const auto give_up = Steady::now() + std::chrono::duration_cast<Steady::duration>(
+                                             std::chrono::duration<double>{options_.timeout_s});
+    while (!g_left && Steady::now() < give_up) {
+      if (done()) return true;
+      std::this_thread::sleep_for(kLook);
+    }
+    return false;
+  }
+
+  /// True when a line was typed, or none will be any more.
+  bool read_line(std::string& line) {
+    pollfd input{.fd = STDIN_FILENO, .events = POLLIN, .revents = 0};
+    if (poll(&input, 1, static_cast<int>(kLook.count())) <= 0) return false;
+    char letter = 0;
+    if (read(STDIN_FILENO, &letter, 1) <= 0) return ended_ = true;
+    if (letter != '\n') {
+      typed_ += letter;
+      return false;
+    }
+    line = std::exchange(typed_, {});
+    return true;
+  }
+
+  const OperatorOptions& options_;
+  const DeploymentConfig& deployment_;
+  TaskLink& link_;
+  std::mt19937_64 ids_{std::random_device{}()};
+  std::string shown_, typed_;
+  bool ended_ = false;
+};
+
+}  // namespace
+
+int be_operator(const OperatorOptions& options) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) {
+    std::signal(signal, [](int) { g_left = true; });
+  }
+  PluginRegistry plugins;
+  config::Problems problems;
+  const DeploymentConfig deployment =
+      read_deployment(config::load_with_overlays(options.source.files, options.source.assignments),
+                      plugins, problems);
+  problems.throw_if_any();
+  const TaskTopics topics = find_task(deployment, options.component);
+  std::vector<std::string> interfaces = options.interfaces;
+  std::ranges::copy(deployment.dds.interface_names(), std::back_inserter(interfaces));
+  TaskLink link{plugins, topics, options.domain.value_or(deployment.domain), interfaces};
+  Dialogue dialogue{options, deployment, link};
+  if (const int code = dialogue.meet(); code != kOk || g_left) return code;
+  if (options.say.empty()) return dialogue.listen();
+  const int code = dialogue.say(options.say, options.step);
+  dialogue.show_if_changed();
+  return code;
+}
+
+}  // namespace armature

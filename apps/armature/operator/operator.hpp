@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "run/run.hpp"
+
+namespace armature {
+
+struct OperatorOptions {
+  DeploymentSource source;
+  std::optional<int> domain;            // instead of the file's
+  std::vector<std::string> interfaces;  // joined beside loopback and those of the file
+  std::string component;                // which task, when the deployment has several
+  std::string say, step;                // one word, and the step that it confirms; or a dialogue
+  double timeout_s = 3;                 // for the task to be found, and to answer
+  bool json = false;
+};
+
+/// `armature operator`: shows the steps of a running deployment's task and says the operator's
+/// words to it, one or as they are typed. Exit code 1 when a word was refused, 5 when no task was
+/// found or none answered.
+int be_operator(const OperatorOptions& options);
+
+}  // namespace armature

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+// The lamp with an operator: search and alignment are asked for, and there is a way out of each.
+#include "lamp_room_test.hpp"
+
+namespace armature::task::lamp_alignment {
+namespace {
+
+class OperatedLampTest : public LampAlignmentTest {
+ protected:
+  OperatedLampTest() { task_ = LampAlignment{Parameters{}, 0.08}; }
+  std::string asked() const {
+    const Procedure& procedure = task_.procedure();
+    return procedure.asks() ? procedure.steps()[procedure.step()].name : "";
+  }
+  std::string say(const std::string& word, const std::string& step = "") {
+    const auto obeyed = task_.hear({.id = ++said_, .word = word, .step = step}, now_);
+    return obeyed ? "" : obeyed.error().text;
+  }
+  void confirm(const std::string& step) {
+    for (int i = 0; i < 1000 && asked() != step; ++i) tick();
+    EXPECT_EQ(say("confirm", step), "");
+  }
+
+  std::uint64_t said_ = 0;
+};
+
+TEST_F(OperatedLampTest, NothingMovesBeforeSearchAndAlignmentAreConfirmed) {
+  run(5);
+  EXPECT_EQ(asked(), "search");
+  EXPECT_TRUE(goals_.empty());
+  confirm("search");
+  run(20);
+  EXPECT_EQ(asked(), "alignment") << "the face is seen";
+  const std::size_t views = goals_.size();
+  run(5);
+  EXPECT_EQ(goals_.size(), views) << "it looks from where it is";
+  EXPECT_EQ(say("confirm", "alignment"), "");
+  ASSERT_TRUE(run_until(Phase::holding, 20));
+  EXPECT_EQ(asked(), "") << "what follows the patient has been confirmed with it";
+}
+
+TEST_F(OperatedLampTest, AFaceThatIsGoneBeforeItsConfirmationIsSearchedForOnceThatIsConfirmed) {
+  confirm("search");
+  run(20);
+  ASSERT_EQ(asked(), "alignment");
+  present_ = false;
+  run(5);
+  EXPECT_EQ(asked(), "search");
+  confirm("search");
+  const std::size_t views = goals_.size();
+  run(5);
+  EXPECT_GT(goals_.size(), views);
+}
+
+TEST_F(OperatedLampTest, PausedItStandsAndFollowsNobodyAndGoesOnAfterwards) {
+  confirm("search");
+  confirm("alignment");
+  ASSERT_TRUE(run_until(Phase::aligning, 5));
+  tick();
+  EXPECT_EQ(say("pause"), "");
+  run(1);
+  EXPECT_EQ(goals_.back().mode, MotionMode::pause);
+  const std::size_t goals = goals_.size();
+  mouth_.y() += 0.1;
+  run(5);
+  EXPECT_EQ(goals_.size(), goals);
+  EXPECT_EQ(say("resume"), "");
+  tick();
+  EXPECT_EQ(goals_.back().mode, MotionMode::planned);
+  ASSERT_TRUE(run_until(Phase::holding, 20));
+  EXPECT_NEAR((*goals_.back().focus - mouth_).norm(), 0, 0.003) << "where the patient is by now";
+}
+
+TEST_F(OperatedLampTest, BackFromTheAlignmentSearchesAgainOnceThatIsConfirmed) {
+  run(1);
+  EXPECT_EQ(say("back"), "the search is the first step that moves the lamp");
+  confirm("search");
+  confirm("alignment");
+  ASSERT_TRUE(run_until(Phase::holding, 20));
+  EXPECT_EQ(say("back"), "");
+  EXPECT_EQ(asked(), "search");
+  tick();
+  EXPECT_EQ(goals_.back().mode, MotionMode::hold);
+  confirm("search");
+  run(20);
+  EXPECT_EQ(asked(), "alignment");
+}
+
+TEST_F(OperatedLampTest, AbortedAtTheFaceItGoesBackToTheViewFromWhichItCame) {
+  confirm("search");
+  run(20);
+  ASSERT_EQ(asked(), "alignment");
+  const ToolPose view = lamp_;
+  confirm("alignment");
+  ASSERT_TRUE(run_until(Phase::holding, 20));
+  EXPECT_EQ(say("abort"), "");
+  EXPECT_EQ(say("abort"), "it is being aborted already");
+  ASSERT_TRUE(run_until(Phase::aborted, 5));
+  EXPECT_EQ(lamp_.position, view.position);
+  const std::size_t goals = goals_.size();
+  run(10);
+  EXPECT_EQ(goals_.size(), goals);
+  EXPECT_EQ(say("back"), "the procedure is over");
+}
+
+TEST_F(OperatedLampTest, AbortedInTheSearchItStaysWhereItIs) {
+  confirm("search");
+  run(0.5);
+  EXPECT_EQ(say("abort"), "");
+  ASSERT_TRUE(run_until(Phase::aborted, 5));
+  EXPECT_EQ(goals_.back().mode, MotionMode::hold);
+}
+
+TEST_F(OperatedLampTest, AbortedBeforeAnythingMovedItIsOver) {
+  run(1);
+  const std::size_t goals = goals_.size();
+  EXPECT_EQ(say("abort"), "");
+  ASSERT_TRUE(run_until(Phase::aborted, 5));
+  EXPECT_EQ(goals_.size(), goals);
+}
+
+}  // namespace
+}  // namespace armature::task::lamp_alignment

@@ -144,7 +144,7 @@ TEST_F(Interfaces, CarryAStopToAnotherMachine) {
                                                  .settings = {kJoined, "clock=system"},
                                                  .domain = domain_,
                                                  .options = {}}))};
-  ASSERT_TRUE(run.wait_for_err("task      inserting", kTimeout)) << run.err();
+  ASSERT_TRUE(run.wait_for_err("task      approach", kTimeout)) << run.err();
   const auto stop =
       run_command(armature_on(desk_, {"stop", "--timeout", "8", "--interface", "eth0"}));
   EXPECT_EQ(stop.exit_code, 0) << stop.err;

@@ -68,7 +68,7 @@ const Fault kFaults[] = {
      "deployment.yaml:12:60: 'distance_m' must be a number, not 'half'\n"},
     {"ParameterOutOfRange", "tilt_up_deg: 0", "tilt_up_deg: 120",
      "deployment.yaml:8:76: 'tilt_up_deg' is 120, must be from -90 to 90\n"},
-    {"AThresholdThatNothingMeets", "{plugin: task/lamp_alignment, params: {distance_m: 0.5}}",
+    {"AThresholdThatNothingMeets", "{plugin: task/lamp_alignment, params: {distance_m: 0.5, auto_confirm: true}}",
      "{plugin: task/lamp_alignment, params: {settled_position_mm: 0}}",
      "deployment.yaml:12:69: 'settled_position_mm' is 0, must be at least 0.001\n"},
     {"ParameterUnknownChoice", "photo: generated", "photo: astronout",

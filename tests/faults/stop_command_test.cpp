@@ -28,7 +28,7 @@ TEST_F(StopCommand, NamesTheDeploymentThatHasStopped) {
   Command run{{armature(), "run", source_file("configs/sr1_biopsy.yaml"), "--set", "clock=system",
                "--domain", domain_},
               {}};
-  ASSERT_TRUE(run.wait_for_err("task      inserting", kAtMost)) << run.err();
+  ASSERT_TRUE(run.wait_for_err("task      approach", kAtMost)) << run.err();
   const CommandResult result = stop("20");
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("stopped: deployment 'sr1_biopsy', process 'main' (pid " +

@@ -101,7 +101,9 @@ class JointsReport : public Component {
       if (readable) references_.add(stamp_of(servo_jp_[i].header_().stamp_()), reference);
     }
     for (std::size_t i = 0; i < goal_.size(); ++i) {
-      goals_.add(stamp_of(goal_[i].header_().stamp_()), tool_goal_of(goal_[i]));
+      const ToolGoal goal = tool_goal_of(goal_[i], way_to_);
+      if (goal.pose) way_to_ = goal.pose;
+      goals_.add(stamp_of(goal_[i].header_().stamp_()), goal);
     }
     for (std::size_t i = 0; i < status_.size(); ++i) {
       constexpr std::uint8_t kFailed = 4;
@@ -165,6 +167,7 @@ class JointsReport : public Component {
   ReasonText unreadable_;
   Timeline<Reference> references_;
   Timeline<ToolGoal> goals_;
+  std::optional<ToolPose> way_to_;  // where the way leads that is gone along
   Motion motion_;  // as it was told last
   Timeline<Motion> motions_;
   JointPlot plot_;

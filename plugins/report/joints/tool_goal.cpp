@@ -20,9 +20,10 @@ ToolPose ToolGoal::after(double time_s) const {
   return moved;
 }
 
-ToolGoal tool_goal_of(const msg::MotionGoal& message) {
-  constexpr std::uint8_t kPlanned = 0, kTracking = 1;
+ToolGoal tool_goal_of(const msg::MotionGoal& message, const std::optional<ToolPose>& before) {
+  constexpr std::uint8_t kPlanned = 0, kTracking = 1, kResume = 5;
   ToolGoal goal{.id = message.goal_id_()};
+  if (message.mode_() == kResume) goal.pose = before;
   if (message.mode_() != kPlanned && message.mode_() != kTracking) return goal;
   const auto pose = checked(tool_pose_of(message), "the goal's");
   if (pose) goal.pose = *pose;

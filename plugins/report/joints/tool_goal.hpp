@@ -21,7 +21,8 @@ struct ToolGoal {
   ToolPose after(double time_s) const;
 };
 
-/// Of a goal that is planned or tracked; one whose numbers make no pose has none.
-ToolGoal tool_goal_of(const msg::MotionGoal& message);
+/// Of a goal that is planned or tracked; one whose numbers make no pose has none, and one that
+/// resumes a planned way that of `before`.
+ToolGoal tool_goal_of(const msg::MotionGoal& message, const std::optional<ToolPose>& before = {});
 
 }  // namespace armature::report::joints

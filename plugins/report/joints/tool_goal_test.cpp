@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-enum Mode : std::uint8_t { planned, tracking, hold };
+enum Mode : std::uint8_t { planned, tracking, hold, resume = 5, retrace };
 
 msg::MotionGoal message_of(const ToolPose& pose, Mode mode) {
   msg::MotionGoal message;
@@ -51,6 +51,15 @@ TEST(ReportedToolGoal, AnArmThatHoldsAndAPoseThatIsNoneHaveNoGoal) {
   EXPECT_FALSE(tool_goal_of(message_of({.position = {1, 2, 3}}, hold)).pose);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(tool_goal_of(message_of({.position = {1, nan, 3}}, tracking)).pose);
+}
+
+TEST(ToolGoal, AWayThatIsGoneOnAlongLeadsWhereItLedBefore) {
+  const ToolPose pose{.position = {1, 2, 3}, .orientation = Direction{Vector3d::UnitX()}};
+  const auto goal = tool_goal_of(message_of({}, resume), pose);
+  ASSERT_TRUE(goal.pose);
+  EXPECT_EQ(goal.pose->position, pose.position);
+  EXPECT_FALSE(tool_goal_of(message_of({}, resume)).pose) << "it is not known";
+  EXPECT_FALSE(tool_goal_of(message_of({}, retrace), pose).pose) << "it goes away from there";
 }
 
 }  // namespace

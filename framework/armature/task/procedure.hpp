@@ -62,10 +62,10 @@ class Procedure {
 
   /// What of the word holds here: a confirmed step is active then, a task paused or not paused. Or
   /// why it is refused, with what could be said instead. `back` and `abort` are the task's to obey
-  /// or to refuse; they end a pause once it obeys.
+  /// or to refuse.
   Expected<OperatorWord> hear(const OperatorCommand& command);
-  /// The task has obeyed a word that ends a pause.
-  void end_pause() { paused_ = false; }
+  /// The task obeys `back` or `abort`: nothing is paused, and the step that it leaves asks nothing.
+  void turn_back() { paused_ = asks_ = false; }
 
  private:
   std::vector<Step> steps_;

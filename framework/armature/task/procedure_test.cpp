@@ -63,7 +63,10 @@ TEST_F(ProcedureTest, BackAtAStepThatAsksItAsksAgain) {
   procedure_.enter(1);
   EXPECT_EQ(refusal("confirm", "approach"), "");
   procedure_.enter(2);
+  EXPECT_TRUE(procedure_.asks());
   EXPECT_EQ(refusal("back"), "");
+  procedure_.turn_back();
+  EXPECT_FALSE(procedure_.asks()) << "while it goes back";
   procedure_.enter(1);
   EXPECT_TRUE(procedure_.asks());
 }

@@ -13,6 +13,8 @@ void InsertionMonitor::see_tip(const Eigen::Vector3d& tip, const Eigen::Vector3d
   const Eigen::Vector3d along = (needle_->target - needle_->entry).normalized();
   const Eigen::Vector3d from_entry = tip - needle_->entry;
   constexpr double kAtEntry = 0.001, kPastEntry = 1e-4;  // [m]: at the entry the approach ends
+  // A needle that was drawn out may go past the head, at any height.
+  if (along.dot(from_entry) < -kAtEntry) entered_ = false;
   if (!entered_ && from_entry.norm() > kAtEntry) return;
   entered_ = true;
   if (along.dot(from_entry) < kPastEntry) return;

@@ -34,6 +34,17 @@ TEST(InsertionMonitor, WatchesTheLineOnlyPastTheEntry) {
   EXPECT_EQ(*monitor.turned_rad(), 0);
 }
 
+TEST(InsertionMonitor, ANeedleThatWasDrawnOutIsWatchedNoMore) {
+  InsertionMonitor monitor;
+  monitor.see_registration(kNeedle);
+  for (const double z : {0.0, -0.03, 0.0, 0.05}) monitor.see_tip({0, 0, z}, kDown, joints(1, 2));
+  monitor.see_tip({0.3, 0, -0.3}, {1, 0, 0}, joints(9, 9));
+  EXPECT_EQ(*monitor.line_deviation_m(), 0);
+  monitor.see_tip({0, 0, 0}, kDown, joints(1, 2));
+  monitor.see_tip({0.001, 0, -0.01}, kDown, joints(1, 2));
+  EXPECT_NEAR(*monitor.line_deviation_m(), 0.001, 1e-12) << "a second time";
+}
+
 TEST(InsertionMonitor, KeepsTheWorst) {
   InsertionMonitor monitor;
   monitor.see_registration(kNeedle);

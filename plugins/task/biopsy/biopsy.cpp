@@ -171,7 +171,7 @@ Expected<void> Biopsy::go_back() {
     return armature::refuse("the needle goes back already");
   }
   if (step() == Step::registration) return armature::refuse("there is no step before this one");
-  procedure_.end_pause();
+  procedure_.turn_back();
   if (heading_ == Heading::none && place_ == 0) {
     line_.reset();
     way_stops_ = 0;
@@ -185,7 +185,7 @@ Expected<void> Biopsy::go_back() {
 
 Expected<void> Biopsy::abort() {
   if (heading() == Heading::home) return armature::refuse("it is being aborted already");
-  procedure_.end_pause();
+  procedure_.turn_back();
   const bool stands_where_it_began = place_ == 0 && heading_ == Heading::none;
   if (stands_where_it_began) {
     ended_as_ = Phase::aborted;

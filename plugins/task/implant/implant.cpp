@@ -315,7 +315,7 @@ Expected<void> Implant::go_back(Time now) {
   if (phase_ != Phase::approaching && phase_ != Phase::drilling) {
     return armature::refuse("before the approach there is no step to go back to");
   }
-  procedure_.end_pause();
+  procedure_.turn_back();
   goal_.pause();
   if (phase_ == Phase::approaching || (bore_ == 0 && !set_out_)) {
     register_again(now);
@@ -340,7 +340,7 @@ void Implant::register_again(Time now) {
 /// Out of the bone, over the sites, and to where the approach began.
 Expected<void> Implant::abort() {
   if (phase_ == Phase::aborting) return armature::refuse("it is being aborted already");
-  procedure_.end_pause();
+  procedure_.turn_back();
   const bool left = phase_ == Phase::drilling || phase_ == Phase::going_back ||
                     (phase_ == Phase::approaching && set_out_);
   if (left) {

@@ -174,7 +174,7 @@ Expected<void> Teleoperation::hear(const OperatorCommand& command) {
       break;
     case OperatorWord::back:
       if (leader_moves) return armature::refuse("there is no step before this one");
-      procedure_.end_pause();
+      procedure_.turn_back();
       stop_follower(Phase::waiting, "");
       procedure_.enter(0);
       break;

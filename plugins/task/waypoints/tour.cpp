@@ -95,7 +95,7 @@ Expected<void> Tour::go_back() {
   if (phase_ == Phase::aborting) return refuse("it is being aborted");
   if (phase_ == Phase::waiting || number_ == 0)
     return refuse("there is no waypoint before this one");
-  procedure_.end_pause();
+  procedure_.turn_back();
   goal_.pause();
   come_to(number_ - 1);
   return {};
@@ -103,7 +103,7 @@ Expected<void> Tour::go_back() {
 
 Expected<void> Tour::abort() {
   if (phase_ == Phase::aborting) return refuse("it is being aborted already");
-  procedure_.end_pause();
+  procedure_.turn_back();
   const bool has_moved = goal_.state() != PursuedGoal::State::none;
   if (!has_moved) {
     phase_ = Phase::aborted;

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+// An operator at a running deployment, by DDS: what he confirms begins, what he pauses rests, and
+// what he aborts goes back.
+#include <gmock/gmock.h>
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+
+#include "command.hpp"
+#include "tests/dds_domain.hpp"
+
+namespace armature::test {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr std::chrono::seconds kAtMost{30};
+constexpr int kRefused = 1, kInvalid = 3, kTimedOut = 5;
+
+class OperatorTest : public testing::Test {
+ protected:
+  std::vector<std::string> biopsy(const std::string& verb) const {
+    return {armature(), verb, source_file("configs/sr1_biopsy.yaml"), "--domain", domain_};
+  }
+  std::vector<std::string> operated_biopsy() const {
+    std::vector<std::string> command = biopsy("run");
+    command.insert(command.begin() + 3, source_file("configs/overlays/operated.yaml"));
+    return command;
+  }
+  CommandResult say(const std::string& word, std::vector<std::string> more = {}) const {
+    std::vector<std::string> command = biopsy("operator");
+    command.insert(command.end(), {"--say", word, "--timeout", "10"});
+    command.insert(command.end(), more.begin(), more.end());
+    return run_command(command, {}, kAtMost);
+  }
+  const std::string domain_ = std::to_string(unique_dds_domain());
+};
+
+TEST_F(OperatorTest, ConfirmsPausesResumesAndAborts) {
+  Command run{operated_biopsy(), {}};
+  ASSERT_TRUE(run.wait_for_err("asks the operator to confirm 'approach'", kAtMost)) << run.err();
+  const CommandResult early = say("confirm", {"--step", "insertion"});
+  EXPECT_EQ(early.exit_code, kRefused);
+  EXPECT_THAT(early.err, HasSubstr("'confirm' was refused: the step that waits for its "
+                                   "confirmation is 'approach', not 'insertion'"));
+  const CommandResult confirmed = say("confirm", {"--json"});
+  EXPECT_EQ(confirmed.exit_code, 0) << confirmed.err;
+  const auto told = nlohmann::json::parse(confirmed.out);
+  EXPECT_EQ(told["state"], "approach");
+  EXPECT_EQ(told["steps"][1]["state"], "active");
+  EXPECT_EQ(told["steps"][2]["state"], "ahead");
+  EXPECT_EQ(told["auto_confirm"], false);
+  EXPECT_EQ(say("pause").exit_code, 0);
+  EXPECT_TRUE(run.wait_for_err("paused: approach", kAtMost)) << run.err();
+  EXPECT_EQ(say("resume").exit_code, 0);
+  EXPECT_EQ(say("abort").exit_code, 0);
+  EXPECT_TRUE(run.wait_for_err("task      aborted", kAtMost)) << run.err();
+  const CommandResult ended = run.finish(kAtMost);
+  EXPECT_EQ(ended.exit_code, 1) << "a run that was broken off has not met its goals";
+  EXPECT_THAT(ended.out, HasSubstr("aborted"));
+}
+
+TEST_F(OperatorTest, TypesHisWords) {
+  Command run{operated_biopsy(), {}};
+  ASSERT_TRUE(run.wait_for_err("asks the operator to confirm 'approach'", kAtMost)) << run.err();
+  const CommandResult dialogue =
+      run_command(biopsy("operator"), {.environment = {}, .input = "go\nc\nb\n"}, kAtMost);
+  EXPECT_EQ(dialogue.exit_code, 0) << "the end of the input ends the dialogue, not the run";
+  EXPECT_THAT(dialogue.out, HasSubstr("approach      waits for confirm"));
+  EXPECT_THAT(dialogue.err, HasSubstr("'go' is no word of an operator"));
+  EXPECT_TRUE(run.wait_for_err("the operator says confirm approach", kAtMost)) << run.err();
+  EXPECT_TRUE(run.wait_for_err("the operator says back", kAtMost)) << run.err();
+  EXPECT_FALSE(ends_within(run.pid(), std::chrono::seconds{0}));
+}
+
+TEST_F(OperatorTest, WhereNothingRunsHeIsToldSo) {
+  std::vector<std::string> command = biopsy("operator");
+  command.insert(command.end(), {"--say", "abort", "--timeout", "0.5"});
+  const CommandResult result = run_command(command, {}, kAtMost);
+  EXPECT_EQ(result.exit_code, kTimedOut);
+  EXPECT_THAT(result.err,
+              HasSubstr("no task of 'sr1_biopsy' tells what it does in domain " + domain_));
+}
+
+TEST_F(OperatorTest, AComponentThatIsNoTaskIsNamed) {
+  std::vector<std::string> command = biopsy("operator");
+  command.insert(command.end(), {"--component", "motion"});
+  const CommandResult result = run_command(command, {}, kAtMost);
+  EXPECT_EQ(result.exit_code, kInvalid);
+  EXPECT_THAT(result.err, HasSubstr("has no component 'motion' that hears an operator"));
+}
+
+}  // namespace
+}  // namespace armature::test

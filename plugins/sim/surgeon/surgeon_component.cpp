@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
 #include <algorithm>
+#include <cstddef>
 #include <optional>
 
 #include "armature/kinds/geometry_params.hpp"
@@ -51,6 +54,7 @@ class Surgeon final : public Component {
     const double hand_t = t - paused_s_;
     move(hand_t, now);
     auto clutch = clutch_.loan();
+        incision_{setup.output<msg::PointStamped>("incision")},
     clutch->data_(hand_.clutch_closed(t));
     clutch.publish();
     auto intended = intended_cp_.loan();
@@ -97,6 +101,14 @@ class Surgeon final : public Component {
     const Eigen::Isometry3d pose = hand_.actual(t, start_);
     const auto q =
         joints_of_held_arm(robot_, {pose.translation(), Eigen::Quaterniond{pose.linear()}}, q_);
+    if (!parameters_.incision.empty()) tell_incision(now);
+  }
+
+  void tell_incision(Time now) {
+    auto loan = incision_.loan();
+    write_header(loan->header_(), now, kBaseFrame);
+    assign(loan->point_(), Eigen::Vector3d{parameters_.incision.data()});
+    loan.publish();
     if (q) {
       healthy();
     } else {
@@ -132,3 +144,4 @@ class Surgeon final : public Component {
 }  // namespace armature::sim::surgeon
 
 ARMATURE_PLUGIN(armature::sim::surgeon::Surgeon);
+  Output<msg::PointStamped> incision_;

@@ -65,6 +65,18 @@ TEST_F(SurgeonTest, TellsOnceWhereTheConsoleStands) {
   EXPECT_LT((x - Eigen::Vector3d{0.1, 0.3, 0.3}).norm(), 1e-12);
 }
 
+TEST_F(SurgeonTest, TellsOnceWhereTheIncisionIsIfThereIsOne) {
+  make("incision_mm: [100, -20, 300]");
+  steps(3);
+  const auto told = bench_->take<msg::PointStamped>("incision");
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(told[0].header_().frame_id_(), "base");
+  EXPECT_LT((to_eigen(told[0].point_()) - Eigen::Vector3d{0.1, -0.02, 0.3}).norm(), 1e-15);
+  make("");
+  steps(3);
+  EXPECT_TRUE(bench_->take<msg::PointStamped>("incision").empty());
+}
+
 TEST_F(SurgeonTest, TakesTheLeaderWhenItIsAlignedAndNotBefore) {
   make("tremor_mm: 0");
   steps(10);

@@ -3,6 +3,9 @@
 // and every way in which the follower must stand still.
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
+
 #include "deployment_run.hpp"
 
 namespace armature::test {
@@ -159,6 +162,41 @@ TEST(MasterManipulator, AnIncisionThatTheShaftIsNotInHoldsTheFollowerAndNothingM
                "-0.0634, 0.2671) m by 36.96 mm, more than max_incision_offset_mm, 1: register the "
                "incision where the shaft is, or bring the shaft through it");
   EXPECT_EQ(run.figure("tip_speed_mm_s"), 0);
+}
+
+/// A file for the knife: so much of each way, in so many seconds.
+class KnifePath {
+ public:
+  explicit KnifePath(const std::string& rows)
+      : file_{std::filesystem::path{testing::TempDir()} / "knife.csv"} {
+    std::ofstream{file_} << "t,x,y,z,qx,qy,qz,qw\n" << rows;
+  }
+  ~KnifePath() { std::filesystem::remove(file_); }
+  std::string setting() const { return kSurgeon + "path=" + file_.string(); }
+
+ private:
+  std::filesystem::path file_;
+};
+
+TEST(MasterManipulator, AKnifeGoesAPlannedPathAboutTheIncision) {
+  const KnifePath path{
+      "0, 0.55, 0, 0.2, 0, 0, 0, 1\n"
+      "2, 0.56, 0.01, 0.195, 0, 0, 0, 1\n"
+      "4, 0.555, 0.02, 0.19, 0, 0, 0.0998334, 0.9950042\n"};
+  const DeploymentRun run = teleoperation({path.setting()});
+  SCOPED_TRACE(run.text());
+  EXPECT_EQ(run.status(), "ok");
+  EXPECT_LE(run.figure("tracking_error_mm"), 0.1);
+  EXPECT_LE(run.figure("incision_deviation_mm"), 0.1);
+  EXPECT_GT(run.figure("tip_speed_mm_s"), 5);
+}
+
+TEST(MasterManipulator, APlannedPathWithANumberThatIsNoneIsRefusedWithItsLine) {
+  const KnifePath path{"0, 0.55, 0, 0.2, 0, 0, 0, 1\n1, 0.56, nan, 0.2, 0, 0, 0, 1\n"};
+  const DeploymentRun run = teleoperation({path.setting()});
+  EXPECT_EQ(run.command.exit_code, 3);
+  EXPECT_NE(run.command.err.find("knife.csv:3: y is nan, not a finite number"), std::string::npos)
+      << run.text();
 }
 
 TEST(MasterManipulator, AHandThatFallsSilentHoldsTheFollower) {

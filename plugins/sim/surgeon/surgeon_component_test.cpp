@@ -200,5 +200,17 @@ TEST(SurgeonParams, AClutchThatOpensBeforeItClosesIsRefused) {
       "would open before it is closed");
 }
 
+TEST(SurgeonParams, AnIncisionOfTwoNumbersIsRefused) {
+  EXPECT_NE(refusal_of(built_plugins(), surgeon_with("incision_mm: [1, 2]"))
+                .find("'incision_mm' has 2 numbers; a point has 3, x, y and z"),
+            std::string::npos);
+}
+
+TEST(SurgeonParams, APathThatIsNotThereIsRefused) {
+  EXPECT_NE(refusal_of(built_plugins(), surgeon_with("path: /nowhere/knife.csv"))
+                .find("cannot read '/nowhere/knife.csv': No such file or directory"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace armature::sim::surgeon

@@ -38,6 +38,7 @@ TEST_F(RobotSchema, RefusesMisspeltKeysWrongTypesAndNumbersOutOfRange) {
       {head + "frames: {tool: {parent: a, rpy_deg: [1, 2]}}", "frames.tool.rpy_deg: "},
       {head + "pointing_axis: w", "pointing_axis: "},
       {head + "pointing_axis: [0, 1]", "pointing_axis: "},
+      {head + "shaft: {axis: w, length_mm: 280}", "shaft.axis: "},
       {head + "home_deg: [a]", "home_deg.0: "},
       {head + "tip: tool0", "tip"},
       {head + "urdf: a.urdf\nconvention: standard", "convention"},

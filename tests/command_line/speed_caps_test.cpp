@@ -29,7 +29,7 @@ TEST(SpeedCaps, ATipThatIsAskedToBeFasterThanItsMotionIsRefusedWithBothPlaces) {
                     HasSubstr("'task' is 0.2 ("),
                     HasSubstr("above 'max_tracking_velocity_m_s' of component 'motion', which is "
                               "0.049 ("),
-                    HasSubstr("configs/master_manipulator.yaml:31:"),
+                    HasSubstr("configs/master_manipulator.yaml:33:"),
                     HasSubstr("): the follower would trail behind its target; lower the first or "
                               "raise the second\n")));
   EXPECT_EQ(result.err.find('\n'), result.err.size() - 1) << "it is said once: " << result.err;

@@ -57,7 +57,9 @@ bool uses(const PluginManifest& plugin, std::string_view word) {
 Made made(const PluginManifest& plugin) {
   const fs::path configs{ARMATURE_SOURCE_DIR "/configs"};
   std::vector<std::string> robots{""}, rigs{""};
-  if (uses(plugin, "robot")) robots = {"dental_lamp", "sr1_needle", "med7", "master"};
+  if (uses(plugin, "robot")) {
+    robots = {"dental_lamp", "sr1_needle", "med7", "master", "med7_scope"};
+  }
   if (uses(plugin, "rig")) rigs = {"default"};
   Made found;
   for (const std::string& robot : robots) {

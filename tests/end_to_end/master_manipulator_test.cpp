@@ -3,6 +3,9 @@
 // and every way in which the follower must stand still.
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
+
 #include "deployment_run.hpp"
 
 namespace armature::test {
@@ -15,6 +18,15 @@ DeploymentRun teleoperation(std::vector<std::string> settings = {}) {
 
 const std::string kSurgeon = "components.surgeon.params.", kTask = "components.task.params.",
                   kReport = "components.report.params.";
+
+/// Without an incision: the paper's follower, whose instrument moves freely.
+const std::vector<std::string> kFree{"components.motion.params.remote_centre=false",
+                                     kSurgeon + "incision_mm=[]",
+                                     "goals.incision_deviation_mm=null"};
+std::vector<std::string> freely(std::vector<std::string> settings = {}) {
+  settings.insert(settings.end(), kFree.begin(), kFree.end());
+  return settings;
+}
 
 void expect_teleoperated(const DeploymentRun& run) {
   SCOPED_TRACE(run.text());
@@ -76,7 +88,7 @@ TEST(MasterManipulator, TheFollowerIsJudgedByTheScaleThatItWasGiven) {
 
 TEST(MasterManipulator, OfAHandThatIsTooFastTheFollowerKeepsItsTopSpeed) {
   const DeploymentRun run =
-      teleoperation({kSurgeon + "curve_mm=[-30, 30, 20]", kSurgeon + "curve_hz=0.4"});
+      teleoperation(freely({kSurgeon + "curve_mm=[-30, 30, 20]", kSurgeon + "curve_hz=0.4"}));
   EXPECT_GT(run.figure("tip_speed_mm_s"), 45) << run.text();
   EXPECT_LE(run.figure("tip_speed_mm_s"), 50);
   EXPECT_EQ(run.status(), "goals_missed") << "it does not follow then";
@@ -106,9 +118,85 @@ TEST(MasterManipulator, AMoveThatTheLeadersLimitsForbidInThePapersTimeIsRefused)
 }
 
 TEST(MasterManipulator, AFollowerThatCannotFollowIsHeld) {
+  const DeploymentRun run =
+      teleoperation(freely({kTask + "scale=10", kTask + "max_tip_speed_m_s=1",
+                            "components.motion.params.max_tracking_velocity_m_s=1"}));
+  expect_ended(run, "held", "the follower cannot follow: ik: the goal: joint_limit");
+}
+
+TEST(MasterManipulator, WithoutAnIncisionTheFollowerIsAsGood) {
+  expect_teleoperated(teleoperation(freely()));
+}
+
+TEST(MasterManipulator, TheShaftStaysInTheIncisionWhateverTheHandDoes) {
+  const std::vector<std::vector<std::string>> hands{
+      {},
+      {"seed=2"},
+      {"components.motion.ik.plugin=ik/numeric", "components.motion.ik.params=null"},
+      {kSurgeon + "curve_mm=[-30, 30, 20]", kSurgeon + "curve_hz=0.4"},
+      {kSurgeon + "silent_after_s=3"},
+      {kTask + "scale=10", kTask + "max_tip_speed_m_s=1",
+       "components.motion.params.max_tracking_velocity_m_s=1"}};
+  for (const auto& hand : hands) {
+    const DeploymentRun run = teleoperation(hand);
+    SCOPED_TRACE(run.text());
+    EXPECT_LE(run.figure("incision_deviation_mm"), 0.1);
+    EXPECT_GE(run.figure("min_depth_mm"), 10);
+  }
+}
+
+TEST(MasterManipulator, ATipThatCannotGoWithTheHandWaitsAtTheBorderAndSaysWhy) {
   const DeploymentRun run = teleoperation({kTask + "scale=10", kTask + "max_tip_speed_m_s=1",
                                            "components.motion.params.max_tracking_velocity_m_s=1"});
-  expect_ended(run, "held", "the follower cannot follow: ik: the goal: joint_limit");
+  SCOPED_TRACE(run.text());
+  EXPECT_EQ(run.status(), "goals_missed") << "it does not follow then, and is not held either";
+  EXPECT_NE(run.command.err.find("the tip waits before its target: the goal: joint_limit"),
+            std::string::npos);
+  EXPECT_LE(run.figure("incision_deviation_mm"), 0.2);
+}
+
+TEST(MasterManipulator, AnIncisionThatTheShaftIsNotInHoldsTheFollowerAndNothingMoves) {
+  const DeploymentRun run = teleoperation({kSurgeon + "incision_mm=[551.533, -63.43, 267.141]"});
+  expect_ended(run, "held",
+               "the follower cannot follow: accept: the shaft passes the incision at (0.5515, "
+               "-0.0634, 0.2671) m by 36.96 mm, more than max_incision_offset_mm, 1: register the "
+               "incision where the shaft is, or bring the shaft through it");
+  EXPECT_EQ(run.figure("tip_speed_mm_s"), 0);
+}
+
+/// A file for the knife: so much of each way, in so many seconds.
+class KnifePath {
+ public:
+  explicit KnifePath(const std::string& rows)
+      : file_{std::filesystem::path{testing::TempDir()} / "knife.csv"} {
+    std::ofstream{file_} << "t,x,y,z,qx,qy,qz,qw\n" << rows;
+  }
+  ~KnifePath() { std::filesystem::remove(file_); }
+  std::string setting() const { return kSurgeon + "path=" + file_.string(); }
+
+ private:
+  std::filesystem::path file_;
+};
+
+TEST(MasterManipulator, AKnifeGoesAPlannedPathAboutTheIncision) {
+  const KnifePath path{
+      "0, 0.55, 0, 0.2, 0, 0, 0, 1\n"
+      "2, 0.56, 0.01, 0.195, 0, 0, 0, 1\n"
+      "4, 0.555, 0.02, 0.19, 0, 0, 0.0998334, 0.9950042\n"};
+  const DeploymentRun run = teleoperation({path.setting()});
+  SCOPED_TRACE(run.text());
+  EXPECT_EQ(run.status(), "ok");
+  EXPECT_LE(run.figure("tracking_error_mm"), 0.1);
+  EXPECT_LE(run.figure("incision_deviation_mm"), 0.1);
+  EXPECT_GT(run.figure("tip_speed_mm_s"), 5);
+}
+
+TEST(MasterManipulator, APlannedPathWithANumberThatIsNoneIsRefusedWithItsLine) {
+  const KnifePath path{"0, 0.55, 0, 0.2, 0, 0, 0, 1\n1, 0.56, nan, 0.2, 0, 0, 0, 1\n"};
+  const DeploymentRun run = teleoperation({path.setting()});
+  EXPECT_EQ(run.command.exit_code, 3);
+  EXPECT_NE(run.command.err.find("knife.csv:3: y is nan, not a finite number"), std::string::npos)
+      << run.text();
 }
 
 TEST(MasterManipulator, AHandThatFallsSilentHoldsTheFollower) {

@@ -60,6 +60,13 @@ Json sort_rule() {
   return rule;
 }
 
+/// A word, or a list of 3 numbers.
+void allow_axis(Json& schema) {
+  const config::KeySpec direction{
+      .name = "axis", .type = config::KeySpec::Type::numbers, .count = 3};
+  schema["anyOf"] = Json::array({word_schema(axis_words(), ""), schema_of(direction)});
+}
+
 Json file_schema(const char* title, const char* doc, Json properties) {
   properties["include"] = paths_schema("Files that this one stands on, relative to it.");
   Json schema{{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", title}};
@@ -75,10 +82,11 @@ Json robot_schema() {
   properties["joints"]["type"] = {"array", "null"};
   properties["frames"] = names_schema(properties["frames"]["description"].get<std::string>(),
                                       map_schema("", properties_of(frame_keys())));
-  const config::KeySpec direction{
-      .name = "pointing_axis", .type = config::KeySpec::Type::numbers, .count = 3};
-  properties["pointing_axis"]["anyOf"] =
-      Json::array({word_schema(axis_words(), ""), schema_of(direction)});
+  allow_axis(properties["pointing_axis"]);
+  Json shaft = properties_of(shaft_keys());
+  allow_axis(shaft["axis"]);
+  properties["shaft"] =
+      map_schema(properties["shaft"]["description"].get<std::string>(), std::move(shaft));
   Json schema = file_schema("Armature robot", "A robot file of Armature.", std::move(properties));
   schema["allOf"] = Json::array({sort_rule()});
   return schema;

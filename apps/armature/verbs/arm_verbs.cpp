@@ -6,6 +6,7 @@
 #include "calculate/calculator.hpp"
 #include "calculate/calibrate.hpp"
 #include "verbs/verbs.hpp"
+#include "workspace/workspace.hpp"
 
 namespace armature {
 namespace {
@@ -28,6 +29,33 @@ void add_calculators(CLI::App& app, Action& action) {
   ik->add_option("--params", solver->params, "its parameters, a YAML map: '{max_restarts: 3}'");
   ik->add_option("input", *input, "file of JSON lines (standard input)");
   ik->callback([=, &action] { action = [=] { return run_ik(*arm, *solver, *input); }; });
+}
+
+void add_workspace(CLI::App& app, Action& action) {
+  auto options = std::make_shared<WorkspaceOptions>();
+  CLI::App* workspace = app.add_subcommand(
+      "workspace",
+      "Where the tip of an arm comes to: armature workspace --robot configs/robots/med7_scope.yaml "
+      "--incision 0.5115,-0.0634,0.2671 --plugin ik/srs_arm_angle --out workspace");
+  add_arm(workspace, options->arm);
+  workspace->get_option("--robot")->required();
+  workspace
+      ->add_option("--incision", options->incision_m,
+                   "point of the base [m] that the shaft goes through: x,y,z; without, it is free")
+      ->delimiter(',')
+      ->expected(3);
+  workspace->add_option("--min-depth", options->min_depth_mm, "of the tip in the incision [mm]")
+      ->capture_default_str();
+  workspace->add_option("--plugin", options->solver.plugin, "solver, with an incision")
+      ->capture_default_str();
+  workspace->add_option("--params", options->solver.params, "its parameters, a YAML map");
+  workspace->add_option("--samples", options->samples, "places, or joint positions, that are tried")
+      ->check(CLI::Range(1, 10'000'000))
+      ->capture_default_str();
+  workspace->add_option("--seed", options->seed, "of what is tried")->capture_default_str();
+  workspace->add_option("--out", options->out, "folder for workspace.csv and workspace.svg");
+  workspace->add_flag("--json", options->json, "as JSON");
+  workspace->callback([=, &action] { action = [=] { return run_workspace(*options); }; });
 }
 
 void add_calibrations(CLI::App& app, Action& action) {
@@ -69,6 +97,7 @@ void add_calibrations(CLI::App& app, Action& action) {
 
 void add_arm_verbs(CLI::App& app, Action& action) {
   add_calculators(app, action);
+  add_workspace(app, action);
   add_calibrations(app, action);
 }
 

@@ -39,4 +39,18 @@ inline Expected<Eigen::Isometry3d> pose_in_base(const msg::TransformStamped& mes
                       to_eigen(message.transform_().rotation_()), what);
 }
 
+/// Empty, or why a point that shall be in the base frame is not. Real-time safe.
+inline ReasonText defect_of_point(const msg::Header& header, const Eigen::Vector3d& point,
+                                  std::string_view what) {
+  if (header.frame_id_() != kBaseFrame) {
+    return ReasonText::format("{} is stated in frame '{}', not in '{}'", what, header.frame_id_(),
+                              kBaseFrame);
+  }
+  if (point.allFinite()) return {};
+  return ReasonText::format(
+      "{}'s point ({}, {}, {}) is not finite; tell it again with three numbers "
+      "in metres",
+      what, point.x(), point.y(), point.z());
+}
+
 }  // namespace armature

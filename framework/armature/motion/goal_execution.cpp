@@ -9,7 +9,8 @@ namespace {
 
 using State = GoalStatus::State;
 
-constexpr int kMaxAttempts = 3;                    // to plan while the arm moves
+constexpr int kMaxAttempts = 3;  // to plan while the arm moves
+constexpr Duration kEndsSoon = seconds(0.5);
 constexpr double kStill = 1e-3;                    // [rad/s] or [m/s] that an arm tells of itself
 constexpr Duration kPausePatience = seconds(0.1);  // behind the start that its plan should have
 
@@ -113,7 +114,18 @@ bool GoalExecution::silent(Time now, const std::optional<MeasuredJoints>& measur
   return true;
 }
 
+bool GoalExecution::stop_about_incision(Time now) {
+  if (!tracker_ || !tracker_->pivots()) return false;
+  if (tracker_->stop(reference_.at(now), now, last_goal_id_, way_)) {
+    reference_.splice(way_);
+    return true;
+  }
+  // A way about the incision ends in a rest by itself.
+  return reference_.last().end() - now < kEndsSoon;
+}
+
 void GoalExecution::stop(Time now) {
+  if (stop_about_incision(now)) return;
   reference_.splice(short_stop_from(reference_.at(now), limits_.max_velocity,
                                     limits_.max_acceleration, now, last_goal_id_));
 }

@@ -146,6 +146,8 @@ class GoalExecution {
   ReasonText silence(Time now, const std::optional<MeasuredJoints>& measured) const;
   bool silent(Time now, const std::optional<MeasuredJoints>& measured);
   void stop(Time now);
+  /// Of a shaft that is in an incision; false where it cannot, or need not, stop about it.
+  bool stop_about_incision(Time now);
   /// At rest where the arm is, and not where it is just passing.
   void begin(Time now, const std::optional<MeasuredJoints>& measured);
   /// Once the reference of an arm that is halted rests.

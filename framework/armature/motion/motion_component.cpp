@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include "armature/kinds/joint_messages.hpp"
+#include "armature/kinds/pose_in_base.hpp"
 #include "armature/kinds/setup_robot.hpp"
 #include "armature/messages/stamp.hpp"
 #include "armature/motion/motion_messages.hpp"
@@ -65,6 +66,7 @@ Motion::Motion(Setup& setup)
       goals_{setup.input<msg::MotionGoal>("goal")},
       plans_{setup.input<msg::MotionPlan>("plan")},
       measured_js_{setup.input<msg::JointState>("measured_js")},
+      incision_{setup.input<msg::PointStamped>("incision")},
       stops_{setup, seconds(parameters_.operator_timeout)},
       plan_request_{setup.output<msg::MotionPlanRequest>("plan_request")},
       servo_jp_{setup.output<msg::JointState>("servo_jp")},
@@ -72,11 +74,16 @@ Motion::Motion(Setup& setup)
       status_{setup.output<msg::MotionStatus>("status")},
       tracker_{ik_ ? std::optional<Tracker>{std::in_place, model_,
                                             limits_of(setup.params(), model_), ik_,
-                                            tracking_of(parameters_, model_)}
+                                            tracking_of(setup.params(), model_)}
                    : std::nullopt},
       execution_{model_, limits_of(setup.params(), model_), execution_of(parameters_),
                  tracker_ ? &*tracker_ : nullptr, no_tracker_} {
   if (ik_) ik_.object_to(unfit_to_track);
+  if (parameters_.remote_centre && !setup.is_written("incision")) {
+    setup.params().refuse({"remote_centre"},
+                          "'remote_centre' needs an incision, and no component writes 'incision'; "
+                          "add one that does, for example sim/surgeon with incision_mm");
+  }
   servo_jp_.prepare(joints_with_room(model_));
   reference_.prepare(reference_with_room(model_));
   status_.prepare(status_with_room());
@@ -86,6 +93,7 @@ Motion::Motion(Setup& setup)
 
 void Motion::step(Time now) {
   const auto measured = read_measured();
+  read_incision();
   execution_.update(now, measured);
   const bool may_rearm = heed_stops(now);
   if (plans_.fresh()) {
@@ -100,6 +108,7 @@ void Motion::step(Time now) {
     publish_statuses(now);
   }
   if (execution_.reference().started()) publish_reference(now);
+  see_waiting(now);
   show_health(now);
   stopped_ = execution_.at_rest(now);
 }
@@ -137,6 +146,43 @@ std::optional<MeasuredJoints> Motion::read_measured() {
   return measured;
 }
 
+void Motion::read_incision() {
+  if (!parameters_.remote_centre || !tracker_ || !incision_.fresh()) return;
+  const msg::PointStamped& message = *incision_.latest();
+  const Eigen::Vector3d point = to_eigen(message.point_());
+  bad_incision_ = defect_of_point(message.header_(), point, "the incision");
+  tracker_->pivot()->set_incision(bad_incision_.empty() ? std::optional{point} : std::nullopt);
+}
+
+ReasonText Motion::pivot_refusal(const MotionGoal& goal, Time now) const {
+  if (!parameters_.remote_centre || !tracker_) return {};
+  const bool pivots = tracker_->pivots();
+  if (goal.mode == MotionMode::planned && pivots) {
+    return "the shaft is in an incision, about which no planned path pivots: track a target";
+  }
+  if (goal.mode != MotionMode::tracking) return {};
+  if (!bad_incision_.empty()) return bad_incision_;
+  if (!pivots) return "the incision is not registered: nothing was told on topic incision";
+  if (!std::holds_alternative<Eigen::Quaterniond>(goal.pose.orientation)) {
+    return "a direction leaves the roll of the shaft open: give the goal a rotation";
+  }
+  if (!execution_.reference().started()) return {};
+  return tracker_->pivot()->refusal(execution_.reference().at(now).q);
+}
+
+void Motion::see_waiting(Time now) {
+  const bool tracks = tracked_at_ && now - *tracked_at_ < kTimeout;
+  if (!tracks || tracker_->waits_for().empty()) {
+    waits_since_.reset();
+    return waits_for_.clear();
+  }
+  if (!waits_since_) waits_since_ = now;
+  // A target that is only far away is come to; the first words stay, whose numbers change.
+  if (now - *waits_since_ < kTimeout || !waits_for_.empty()) return;
+  waits_for_ =
+      ReasonText::format("the tip waits before its target: {}", tracker_->waits_for().view());
+}
+
 void Motion::read_goals(Time now) {
   // Of the targets of one step only the newest is worth a search.
   std::optional<std::uint64_t> newest;
@@ -145,8 +191,10 @@ void Motion::read_goals(Time now) {
     if (usable && goal_.mode == MotionMode::tracking) newest = goal_.id;
   }
   for (std::size_t i = 0; i < goals_.size(); ++i) {
-    const ReasonText wrong = read_goal_head(goals_[i], goal_);
+    ReasonText wrong = read_goal_head(goals_[i], goal_);
+    if (wrong.empty()) wrong = pivot_refusal(goal_, now);
     const bool tracked = newest && wrong.empty() && goal_.mode == MotionMode::tracking;
+    if (tracked) tracked_at_ = now;
     if (tracked && is_newer(*newest, goal_.id)) {
       execution_.pass_over(goal_);
     } else {
@@ -198,7 +246,8 @@ void Motion::show_health(Time now) {
   // That an arm has not spoken yet is worth a word only when it takes long.
   if (!first_step_) first_step_ = now;
   if (!execution_.reference().started() && now - *first_step_ < kTimeout) return;
-  const ReasonText& trouble = bad_measurement_.empty() ? execution_.trouble() : bad_measurement_;
+  const ReasonText& standing = execution_.trouble().empty() ? waits_for_ : execution_.trouble();
+  const ReasonText& trouble = bad_measurement_.empty() ? standing : bad_measurement_;
   if (trouble == shown_trouble_) return;
   shown_trouble_ = trouble;
   if (trouble.empty()) {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "armature/messages/armature_msgs.hpp"
+#include "armature/messages/geometry.hpp"
 #include "armature/messages/sensor_msgs.hpp"
 #include "armature/motion/goal_execution.hpp"
 #include "armature/motion/stop_inputs.hpp"
@@ -28,6 +29,11 @@ class Motion final : public Component {
   std::optional<MeasuredJoints> read_measured();
   /// False while there is a cause to stop.
   bool heed_stops(Time now);
+  void read_incision();
+  /// Why a shaft that is in an incision, or shall be, does not move for `goal`, or empty.
+  ReasonText pivot_refusal(const MotionGoal& goal, Time now) const;
+  /// Whether the tip waits before a target that cannot be met, and why.
+  void see_waiting(Time now);
   void read_goals(Time now);
   void publish_request();
   void publish_statuses(Time now);
@@ -42,6 +48,7 @@ class Motion final : public Component {
   Input<msg::MotionGoal> goals_;
   Input<msg::MotionPlan> plans_;
   Input<msg::JointState> measured_js_;
+  Input<msg::PointStamped> incision_;
   StopInputs stops_;
   Output<msg::MotionPlanRequest> plan_request_;
   Output<msg::JointState> servo_jp_;
@@ -52,7 +59,9 @@ class Motion final : public Component {
   MotionGoal goal_;  // kept for its memory
   Time last_status_;
   std::optional<Time> first_step_;
-  ReasonText bad_measurement_, shown_trouble_;
+  ReasonText bad_measurement_, bad_incision_, shown_trouble_;
+  std::optional<Time> waits_since_, tracked_at_;  // the tip, before a target
+  ReasonText waits_for_;
   bool stopping_ = false, stopped_ = false;  // with the run, for good
 };
 

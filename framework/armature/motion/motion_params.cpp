@@ -90,11 +90,32 @@ PlanningOptions planning_of(const Parameters& parameters) {
           .narrow_solver = parameters.limit_margin_rad > 0 || parameters.limit_margin_m > 0};
 }
 
-TrackingOptions tracking_of(const Parameters& parameters, const RobotModel& model) {
+namespace {
+
+/// None where no shaft shall pivot.
+std::optional<PivotOptions> pivot_of(const Parameters& parameters, const Params& params,
+                                     const RobotModel& model) {
+  if (!parameters.remote_centre) return std::nullopt;
+  if (!model.shaft()) {
+    params.refuse({"remote_centre"},
+                  fmt::format("'remote_centre' needs a shaft, and robot {} names none; state in "
+                              "its file, for example, shaft: {{axis: z, length_mm: 250}}",
+                              model.name()));
+  }
+  return PivotOptions{.max_deviation = parameters.max_incision_deviation,
+                      .max_offset = parameters.max_incision_offset,
+                      .min_depth = parameters.min_depth};
+}
+
+}  // namespace
+
+TrackingOptions tracking_of(const Params& params, const RobotModel& model) {
+  const auto parameters = Parameters::read(params);
   const double speed = parameters.max_tracking_velocity;
   return {.shortest_horizon_s = parameters.tracking_horizon,
           .max_jerk = max_jerk_of(parameters, model),
-          .max_tool_speed = speed > 0 ? speed : std::numeric_limits<double>::infinity()};
+          .max_tool_speed = speed > 0 ? speed : std::numeric_limits<double>::infinity(),
+          .pivot = pivot_of(parameters, params, model)};
 }
 
 ExecutionOptions execution_of(const Parameters& parameters) {

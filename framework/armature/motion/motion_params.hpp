@@ -16,7 +16,8 @@ MotionLimits limits_of(const Params& params, const RobotModel& model);
 /// The robot as the solver has it. Throws config::ConfigError where a margin leaves nothing.
 RobotModel solver_model_of(const Params& params, const RobotModel& model);
 PlanningOptions planning_of(const motion::Parameters& parameters);
-TrackingOptions tracking_of(const motion::Parameters& parameters, const RobotModel& model);
+/// Throws config::ConfigError where a shaft shall pivot and the robot names none.
+TrackingOptions tracking_of(const Params& params, const RobotModel& model);
 ExecutionOptions execution_of(const motion::Parameters& parameters);
 
 }  // namespace armature

@@ -8,6 +8,7 @@
 #include <optional>
 #include <variant>
 
+#include "armature/motion/target_motion.hpp"
 #include "armature/robot/geometry/rotation_vector.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
 #include "armature/values/guarded.hpp"
@@ -19,31 +20,7 @@ constexpr double kHorizonGrowth = 1.25;
 constexpr double kLongestHorizon = 20.0;    // [s]
 constexpr double kLongestPrediction = 1.0;  // [s] a velocity is not trusted longer
 constexpr double kFollowing = 0.25;         // [s] nor that of a target that is followed behind
-constexpr double kMeetingUse = 0.9;         // of a limit: more leaves nothing to catch up with
 constexpr double kVelocityStep = 1e-3;      // [s] for the difference quotient
-
-ToolPose after(const MotionGoal& goal, double time_s) {
-  ToolPose pose = goal.pose;
-  pose.position += goal.velocity * time_s;
-  const Eigen::Quaterniond turn = rotation_of(goal.angular_velocity * time_s);
-  if (auto* direction = std::get_if<Direction>(&pose.orientation)) {
-    direction->unit = turn * direction->unit;
-  } else {
-    pose.orientation = turn * std::get<Eigen::Quaterniond>(pose.orientation);
-  }
-  return pose;
-}
-
-ShortTrajectory quintic_to(const JointState& from, const JointState& to, Time start,
-                           double horizon_s, std::uint64_t goal_id) {
-  ShortTrajectory way{.goal_id = goal_id, .dof = static_cast<int>(from.q.size()), .start = start};
-  way.add_piece(horizon_s);
-  for (int i = 0; i < way.dof; ++i) {
-    way.piece(0, i) =
-        Quintic::between({from.q[i], from.v[i], from.a[i]}, {to.q[i], to.v[i], to.a[i]}, horizon_s);
-  }
-  return way;
-}
 
 /// [m/s] of the tool's origin.
 double tool_speed(const RobotModel& model, const JointState& state) {
@@ -103,6 +80,29 @@ int growths_for(double longer) {
 
 }  // namespace
 
+ToolPose after(const MotionGoal& goal, double time_s) {
+  ToolPose pose = goal.pose;
+  pose.position += goal.velocity * time_s;
+  const Eigen::Quaterniond turn = rotation_of(goal.angular_velocity * time_s);
+  if (auto* direction = std::get_if<Direction>(&pose.orientation)) {
+    direction->unit = turn * direction->unit;
+  } else {
+    pose.orientation = turn * std::get<Eigen::Quaterniond>(pose.orientation);
+  }
+  return pose;
+}
+
+ShortTrajectory quintic_to(const JointState& from, const JointState& to, Time start,
+                           double horizon_s, std::uint64_t goal_id) {
+  ShortTrajectory way{.goal_id = goal_id, .dof = static_cast<int>(from.q.size()), .start = start};
+  way.add_piece(horizon_s);
+  for (int i = 0; i < way.dof; ++i) {
+    way.piece(0, i) =
+        Quintic::between({from.q[i], from.v[i], from.a[i]}, {to.q[i], to.v[i], to.a[i]}, horizon_s);
+  }
+  return way;
+}
+
 Tracker::Tracker(const RobotModel& model, const MotionLimits& limits, Slot<const IkSolver> ik,
                  const TrackingOptions& options)
     : model_{model},
@@ -112,6 +112,7 @@ Tracker::Tracker(const RobotModel& model, const MotionLimits& limits, Slot<const
       horizons_{1 + static_cast<int>(std::log(kLongestHorizon / options.shortest_horizon_s) /
                                      std::log(kHorizonGrowth))} {
   begin_search({0, horizons_});
+  if (options.pivot) pivot_.emplace(model, *options.pivot);
 }
 
 /// The branch nearest to `near`; false, and the defect says why, when none is within limits.
@@ -135,6 +136,7 @@ bool Tracker::solve(const ToolPose& pose, const JointVector& near, JointVector& 
 /// Where the joints shall be after `horizon_s`, and how fast they move there.
 bool Tracker::meeting_point(const MotionGoal& goal, const JointState& from, double horizon_s,
                             JointState& meet) {
+  if (pivots()) return pivoted_meeting_point(goal, from, horizon_s, meet);
   const double ahead = std::min(horizon_s, trusted_s_);
   if (!solve(after(goal, ahead), from.q, meet.q)) return false;
   meet.v = meet.a = JointVector::Zero(meet.q.size());
@@ -184,6 +186,19 @@ double Tracker::longer_for_joints(const ShortTrajectory& way, double horizon_s) 
   return longer;
 }
 
+/// Behind a meeting point that is passed moving.
+bool Tracker::append_stop(const JointState& meet, ShortTrajectory& out) {
+  const Time end = out.view().end();
+  if (!pivots()) {
+    return out.append(
+        short_stop_from(meet, limits_.max_velocity, limits_.max_acceleration, end, out.goal_id));
+  }
+  JointState rest;
+  const double stop_s = stop_time_s(meet);
+  return rest_behind(meet, stop_s, rest) &&
+         out.append(quintic_to(meet, rest, end, stop_s, out.goal_id));
+}
+
 /// The defect says why a target is not met. What costs least is looked at first.
 Tracker::Attempt Tracker::attempt(const MotionGoal& goal, const JointState& from, Time start,
                                   double horizon_s, ShortTrajectory& out) {
@@ -197,13 +212,12 @@ Tracker::Attempt Tracker::attempt(const MotionGoal& goal, const JointState& from
     return {too_short, trusted_s_ / horizon_s};  // behind which it ends at rest
   }
   out = quintic_to(from, meet, start, horizon_s, goal.id);
-  if (!at_rest(meet)) {
-    out.append(short_stop_from(meet, limits_.max_velocity, limits_.max_acceleration,
-                               out.view().end(), goal.id));
-  }
+  if (!at_rest(meet) && !append_stop(meet, out)) return {out_of_reach};
   defect_ = jerk_defect(out, horizon_s);
   if (defect_.empty()) defect_ = trajectory_defect(out.view(), model_, limits_, from, start);
   if (!defect_.empty()) return {too_short, longer_for_joints(out, horizon_s)};
+  // A longer way would leave the incision farther.
+  if (pivots() && !keeps_to_incision(out, from)) return {out_of_reach};
   const double speed = limited ? peak_tool_speed(model_, out.view(), horizon_s) : 0;
   if (speed <= allowed_speed_) return {met};
   defect_ = speed_defect(speed);
@@ -222,6 +236,7 @@ void Tracker::begin_search(Horizons among) {
 /// What holds for every horizon of a call.
 void Tracker::look_around(const MotionGoal& goal, const JointState& from) {
   attempts_ = 0;
+  waits_for_.clear();
   allowed_speed_ = options_.max_tool_speed;
   if (std::isfinite(allowed_speed_)) {
     allowed_speed_ = std::max(allowed_speed_, tool_speed(model_, from)) * (1 + 1e-9);
@@ -237,6 +252,7 @@ TrackingFailure Tracker::begin(const MotionGoal& goal, const JointState& from, T
   look_around(goal, from);
   begin_search({0, horizons_});
   while (attempts_ < kMaxAttempts && !search_.left.empty()) try_next(goal, from, start, out);
+  if (pivots()) return wait_at_border(outcome(), from, start, goal.id, out);
   return outcome();
 }
 
@@ -245,6 +261,7 @@ TrackingFailure Tracker::follow(const MotionGoal& goal, const JointState& from, 
   under_way_ = true;
   look_around(goal, from);
   try_next(goal, from, start, out);
+  if (pivots()) return wait_at_border(outcome(), from, start, goal.id, out);
   return outcome();
 }
 

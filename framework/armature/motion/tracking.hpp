@@ -7,6 +7,7 @@
 
 #include "armature/kinds/ik/ik.hpp"
 #include "armature/motion/goal.hpp"
+#include "armature/motion/pivot.hpp"
 #include "armature/robot/trajectories/short_trajectory.hpp"
 #include "armature/robot/trajectories/trajectory_check.hpp"
 #include "armature/runtime/component/slot.hpp"
@@ -18,6 +19,7 @@ struct TrackingOptions {
   double shortest_horizon_s;
   JointVector max_jerk = {};  // [rad/s3] or [m/s3] of each independent joint; empty: any
   double max_tool_speed = std::numeric_limits<double>::infinity();  // [m/s] of the tool's origin
+  std::optional<PivotOptions> pivot = {};  // of an arm whose shaft is in an incision
 };
 
 /// Which stage refused, "ik" or "trajectory", and why; no stage: it worked.
@@ -39,8 +41,15 @@ struct TrackingFailure {
 /// A target under way that is nearly as fast as `max_tool_speed`, or faster, is followed behind:
 /// its velocity is trusted for a quarter of a second only.
 ///
+/// Of an arm whose shaft pivots about an incision the pose of a goal says where the tip shall be
+/// and how the shaft shall be rolled; its tilt follows from the incision. No way is made that
+/// leaves the incision by more than the pivot allows. A target that is too far for one such way,
+/// out of reach, or too near to the incision is gone towards as far as possible, along the straight
+/// line to it, and waited for there: such a goal does not fail (`waits_for` says why the tip
+/// waits).
+///
 /// Real-time safe. With each horizon the solver is asked at most twice and at most 16 Jacobians are
-/// computed.
+/// computed; of a shaft that pivots at most 12 times.
 class Tracker {
  public:
   static constexpr int kMaxAttempts = 8;
@@ -63,6 +72,17 @@ class Tracker {
 
   /// How many horizons the last call tried.
   int attempts() const { return attempts_; }
+
+  /// What the shaft shall pivot about, if this arm's does.
+  Pivot* pivot() { return pivot_ ? &*pivot_ : nullptr; }
+  const Pivot* pivot() const { return pivot_ ? &*pivot_ : nullptr; }
+  /// Whether the shaft is in an incision: it shall only move about it.
+  bool pivots() const { return pivot_ && pivot_->incision(); }
+  /// A stop about the incision from `from`, as short as the limits allow. False when there is none;
+  /// `out` is then of no use. Needs pivots().
+  bool stop(const JointState& from, Time start, std::uint64_t goal_id, ShortTrajectory& out);
+  /// Why the tip waits before its target, or empty.
+  const ReasonText& waits_for() const { return waits_for_; }
 
  private:
   /// What came of one horizon; `longer`: how much longer the limits that it breaks ask for.
@@ -91,6 +111,18 @@ class Tracker {
   bool meeting_point(const MotionGoal& goal, const JointState& from, double horizon_s,
                      JointState& meet);
   bool solve(const ToolPose& pose, const JointVector& near, JointVector& q);
+  bool append_stop(const JointState& meet, ShortTrajectory& out);
+
+  // Of a shaft that pivots (pivoting.cpp).
+  bool pivoted_meeting_point(const MotionGoal& goal, const JointState& from, double horizon_s,
+                             JointState& meet);
+  bool move_along(const MotionGoal& goal, double ahead_s, JointState& meet);
+  bool solve_pivoted(const Eigen::Isometry3d& base_T_tool, const JointVector& near, JointVector& q);
+  bool rest_behind(const JointState& state, double stop_s, JointState& rest);
+  double stop_time_s(const JointState& state) const;
+  bool keeps_to_incision(const ShortTrajectory& way, const JointState& from);
+  TrackingFailure wait_at_border(const TrackingFailure& failure, const JointState& from, Time start,
+                                 std::uint64_t goal_id, ShortTrajectory& out);
   ReasonText jerk_defect(const ShortTrajectory& way, double horizon_s) const;
   ReasonText speed_defect(double speed) const;
   double longer_for_joints(const ShortTrajectory& way, double horizon_s) const;
@@ -108,6 +140,9 @@ class Tracker {
   Search search_;
   int attempts_ = 0;        // of the last call
   bool under_way_ = false;  // a target, in the last call
+  std::optional<Pivot> pivot_;
+  double boldness_ = 1;  // how much of the way that the pivot seems to allow is gone
+  ReasonText waits_for_;
 };
 
 }  // namespace armature

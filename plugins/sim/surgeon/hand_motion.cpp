@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <utility>
 
 #include "armature/kinds/geometry_params.hpp"
 #include "armature/robot/trajectories/quintic.hpp"
@@ -29,7 +30,11 @@ double eased_integral(double s) {
 
 }  // namespace
 
-HandMotion::HandMotion(const Parameters& parameters, std::uint64_t seed) : parameters_{parameters} {
+HandMotion::HandMotion(const Parameters& parameters, std::uint64_t seed,
+                       std::optional<PosePath> path)
+    : parameters_{parameters},
+      path_{std::move(path)},
+      leader_R_follower_{pose_of(parameters.console, parameters.console_rpy).linear().transpose()} {
   std::mt19937_64 random{seed};
   std::uniform_real_distribution<double> frequency{kLowest_hz, kHighest_hz}, phase{0, kTurn};
   // The mean square of a sine is half of its amplitude's square.
@@ -47,15 +52,39 @@ double HandMotion::phase(double t) const {
   return kTurn * parameters_.curve_hz * (ease > 0 ? ease * eased_integral(t / ease) : t);
 }
 
-Eigen::Isometry3d HandMotion::intended(double t, const Eigen::Isometry3d& start) const {
+Eigen::Isometry3d HandMotion::on_curve(double t, const Eigen::Isometry3d& start) const {
   const double u = phase(t);
   const Vector3d a = vector_of(parameters_.curve_m);
   const Vector3d curve{a.x() * (1 - std::cos(u)), a.y() * std::sin(u), a.z() * std::sin(2 * u)};
-  const double moved_on = eased((t - parameters_.clutch_opens) / parameters_.clutch_open_for);
   const Eigen::AngleAxisd turn{parameters_.turn * std::sin(u), Vector3d{0.6, 0, 0.8}};
   Eigen::Isometry3d pose = start;
-  pose.translation() += curve + moved_on * vector_of(parameters_.shift);
+  pose.translation() += curve;
   pose.linear() = turn * start.linear();
+  return pose;
+}
+
+/// The path lies along the axes of the follower's base, and the follower goes a part of the hand's
+/// way.
+Eigen::Isometry3d HandMotion::on_path(double t, const Eigen::Isometry3d& start) const {
+  const Eigen::Isometry3d moved = path_->moved(t - parameters_.path_starts);
+  const Eigen::Matrix3d turn = leader_R_follower_ * moved.linear() * leader_R_follower_.transpose();
+  Eigen::Isometry3d pose = start;
+  pose.translation() += leader_R_follower_ * moved.translation() / parameters_.path_scale;
+  pose.linear() = turn * start.linear();
+  return pose;
+}
+
+double HandMotion::clutch_opens() const {
+  constexpr double kLags_s = 0.5;  // the follower, and what must come to rest
+  if (!path_) return parameters_.clutch_opens;
+  return std::max(parameters_.clutch_opens,
+                  parameters_.path_starts + path_->duration_s() + kLags_s);
+}
+
+Eigen::Isometry3d HandMotion::intended(double t, const Eigen::Isometry3d& start) const {
+  const double moved_on = eased((t - clutch_opens()) / parameters_.clutch_open_for);
+  Eigen::Isometry3d pose = path_ ? on_path(t, start) : on_curve(t, start);
+  pose.translation() += moved_on * vector_of(parameters_.shift);
   return pose;
 }
 
@@ -70,8 +99,7 @@ Eigen::Isometry3d HandMotion::actual(double t, const Eigen::Isometry3d& start) c
 
 bool HandMotion::clutch_closed(double t) const {
   if (t < parameters_.clutch_closes) return false;
-  return t < parameters_.clutch_opens ||
-         t >= parameters_.clutch_opens + parameters_.clutch_open_for;
+  return t < clutch_opens() || t >= clutch_opens() + parameters_.clutch_open_for;
 }
 
 }  // namespace armature::sim::surgeon

@@ -3,8 +3,10 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "pose_path.hpp"
 #include "sim_surgeon_parameters.hpp"
 
 namespace armature::sim::surgeon {
@@ -14,7 +16,8 @@ namespace armature::sim::surgeon {
 class HandMotion {
  public:
   /// All that is random follows `seed`.
-  HandMotion(const Parameters& parameters, std::uint64_t seed);
+  /// Without a path the hand goes along its curve.
+  HandMotion(const Parameters& parameters, std::uint64_t seed, std::optional<PosePath> path = {});
 
   /// Where the hand means to be when it took hold at `start`.
   Eigen::Isometry3d intended(double t, const Eigen::Isometry3d& start) const;
@@ -30,8 +33,13 @@ class HandMotion {
   };
   /// Where on the curve [rad]; smooth, from rest.
   double phase(double t) const;
+  Eigen::Isometry3d on_curve(double t, const Eigen::Isometry3d& start) const;
+  Eigen::Isometry3d on_path(double t, const Eigen::Isometry3d& start) const;
+  double clutch_opens() const;
 
   Parameters parameters_;
+  std::optional<PosePath> path_;
+  Eigen::Matrix3d leader_R_follower_;
   std::vector<Tone> tremor_;
 };
 

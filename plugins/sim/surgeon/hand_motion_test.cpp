@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A simulated hand: 1. it starts from rest and comes round, 2. its tremor, 3. the clutch.
+// A simulated hand: 1. it starts from rest and comes round, 2. its tremor, 3. the clutch, 4. a
+// planned path.
 #include "hand_motion.hpp"
 
 #include <gtest/gtest.h>
@@ -89,6 +90,23 @@ TEST(HandMotion, OpensTheClutchOnceAndMovesOnMeanwhile) {
   EXPECT_TRUE(hand.clutch_closed(5));
   EXPECT_LT(way(hand.intended(3, kStart), kStart), 1e-15);
   EXPECT_NEAR(way(hand.intended(5, kStart), kStart), 0.01, 1e-15);
+}
+
+TEST(HandMotion, LeadsTheKnifeAlongAPathOfTheFollowersBase) {
+  const PosePath path{{{.t = 0}, {.t = 8, .position = {0.01, 0, 0}}}};
+  const HandMotion hand{{.console_rpy = {0, 0, M_PI / 2},
+                         .path_scale = 0.5,
+                         .path_starts = 1,
+                         .clutch_closes = 0.5,
+                         .clutch_opens = 6,
+                         .shift = {0, 0, 0}},
+                        1,
+                        path};
+  EXPECT_TRUE(hand.intended(1, kStart).isApprox(kStart, 1e-15));
+  const Vector3d way = hand.intended(9, kStart).translation() - kStart.translation();
+  EXPECT_LT((way - Vector3d{0, -0.02, 0}).norm(), 1e-12) << "twice as far, along the same axis";
+  EXPECT_TRUE(hand.clutch_closed(9.4)) << "not before the path's end";
+  EXPECT_FALSE(hand.clutch_closed(9.6));
 }
 
 }  // namespace

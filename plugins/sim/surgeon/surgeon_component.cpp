@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
 #include <algorithm>
+#include <cstddef>
 #include <optional>
 
 #include "armature/kinds/geometry_params.hpp"
@@ -22,6 +25,23 @@ constexpr Duration kPeriod = seconds(0.001);
 constexpr double kComesToRestIn_s = 0.3;
 constexpr const char* kLeaderFrame = "leader_base";
 
+Parameters parameters_of(const Params& params) {
+  const Parameters parameters = Parameters::read(params);
+  const std::size_t count = parameters.incision.size();
+  if (count != 0 && count != 3) {
+    params.refuse({"incision_mm"},
+                  fmt::format("'incision_mm' has {} numbers; a point has 3, x, y and z", count));
+  }
+  return parameters;
+}
+
+std::optional<PosePath> path_of(const Parameters& parameters, const Params& params) {
+  if (parameters.path.empty()) return std::nullopt;
+  auto path = load_pose_path(parameters.path);
+  if (!path) params.refuse({"path"}, path.error().text);
+  return std::move(*path);
+}
+
 }  // namespace
 
 class Surgeon final : public Component {
@@ -29,11 +49,12 @@ class Surgeon final : public Component {
   explicit Surgeon(Setup& setup)
       : Component{setup},
         robot_{robot_of(setup)},
-        parameters_{Parameters::read(setup.params())},
-        hand_{parameters_, setup.seed()},
+        parameters_{parameters_of(setup.params())},
+        hand_{parameters_, setup.seed(), path_of(parameters_, setup.params())},
         task_state_{setup.input<msg::TaskState>("task_state")},
         measured_js_{setup.input<msg::JointState>("measured_js")},
         console_{setup.output<msg::TransformStamped>("console")},
+        incision_{setup.output<msg::PointStamped>("incision")},
         hand_js_{setup.output<msg::JointState>("hand_js")},
         clutch_{setup.output<msg::Bool>("clutch")},
         intended_cp_{setup.output<msg::PoseStamped>("intended_cp")} {
@@ -80,6 +101,14 @@ class Surgeon final : public Component {
     loan->child_frame_id_(kLeaderFrame);
     assign(loan->transform_(), pose_of(parameters_.console, parameters_.console_rpy));
     loan.publish();
+    if (!parameters_.incision.empty()) tell_incision(now);
+  }
+
+  void tell_incision(Time now) {
+    auto loan = incision_.loan();
+    write_header(loan->header_(), now, kBaseFrame);
+    assign(loan->point_(), Eigen::Vector3d{parameters_.incision.data()});
+    loan.publish();
   }
 
   void take_hold(Time now) {
@@ -124,6 +153,7 @@ class Surgeon final : public Component {
   Input<msg::TaskState> task_state_;
   Input<msg::JointState> measured_js_;
   Output<msg::TransformStamped> console_;
+  Output<msg::PointStamped> incision_;
   Output<msg::JointState> hand_js_;
   Output<msg::Bool> clutch_;
   Output<msg::PoseStamped> intended_cp_;

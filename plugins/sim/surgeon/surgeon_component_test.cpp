@@ -65,6 +65,18 @@ TEST_F(SurgeonTest, TellsOnceWhereTheConsoleStands) {
   EXPECT_LT((x - Eigen::Vector3d{0.1, 0.3, 0.3}).norm(), 1e-12);
 }
 
+TEST_F(SurgeonTest, TellsOnceWhereTheIncisionIsIfThereIsOne) {
+  make("incision_mm: [100, -20, 300]");
+  steps(3);
+  const auto told = bench_->take<msg::PointStamped>("incision");
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(told[0].header_().frame_id_(), "base");
+  EXPECT_LT((to_eigen(told[0].point_()) - Eigen::Vector3d{0.1, -0.02, 0.3}).norm(), 1e-15);
+  make("");
+  steps(3);
+  EXPECT_TRUE(bench_->take<msg::PointStamped>("incision").empty());
+}
+
 TEST_F(SurgeonTest, TakesTheLeaderWhenItIsAlignedAndNotBefore) {
   make("tremor_mm: 0");
   steps(10);
@@ -186,6 +198,18 @@ TEST(SurgeonParams, AClutchThatOpensBeforeItClosesIsRefused) {
       refusal_of(built_plugins(), surgeon_with("clutch_opens_s: 1, clutch_closes_s: 2")),
       "bench:1:75: 'clutch_closes_s' is 2, not below 'clutch_opens_s', which is 1: the clutch "
       "would open before it is closed");
+}
+
+TEST(SurgeonParams, AnIncisionOfTwoNumbersIsRefused) {
+  EXPECT_NE(refusal_of(built_plugins(), surgeon_with("incision_mm: [1, 2]"))
+                .find("'incision_mm' has 2 numbers; a point has 3, x, y and z"),
+            std::string::npos);
+}
+
+TEST(SurgeonParams, APathThatIsNotThereIsRefused) {
+  EXPECT_NE(refusal_of(built_plugins(), surgeon_with("path: /nowhere/knife.csv"))
+                .find("cannot read '/nowhere/knife.csv': No such file or directory"),
+            std::string::npos);
 }
 
 }  // namespace

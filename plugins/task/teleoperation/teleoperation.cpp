@@ -141,7 +141,7 @@ void Teleoperation::await_clutch(const ConsoleView& view, const std::string& mis
 }
 
 void Teleoperation::engage(const ConsoleView& view) {
-  motion_.engage(*view.follower_T_tool, *hand_, view.follower_T_leader->linear());
+  motion_.engage(*view.follower_T_tool, *hand_, view.follower_T_leader->linear(), view.incision);
   missing_since_.reset();
   first_engaged_id_ = last_follower_id_ + 1;
   phase_ = Phase::teleoperating;

@@ -19,6 +19,7 @@ struct ConsoleView {
   std::optional<Eigen::Isometry3d> leader_T_hand, follower_T_tool;
   Time hand_stamp;  // of leader_T_hand
   std::optional<bool> clutch_closed;
+  std::optional<Eigen::Vector3d> incision;  // [m] in the follower's base frame; none: none is there
 
   bool is_whole() const { return follower_T_leader && leader_T_hand && follower_T_tool; }
 };

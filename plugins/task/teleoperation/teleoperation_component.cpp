@@ -30,6 +30,7 @@ class TeleoperationComponent final : public Component {
         leader_cp_{setup.input<msg::PoseStamped>("leader_cp")},
         follower_cp_{setup.input<msg::PoseStamped>("follower_cp")},
         clutch_{setup.input<msg::Bool>("clutch")},
+        incision_{setup.input<msg::PointStamped>("incision")},
         leader_status_{setup.input<msg::MotionStatus>("leader_status")},
         follower_status_{setup.input<msg::MotionStatus>("follower_status")},
         leader_goal_{setup.output<msg::MotionGoal>("leader_goal")},
@@ -78,6 +79,15 @@ class TeleoperationComponent final : public Component {
                      .follower_T_tool = pose_of(follower_cp_, "the follower's tool")};
     if (view.leader_T_hand) view.hand_stamp = stamp_of(leader_cp_.latest()->header_().stamp_());
     if (clutch_.latest()) view.clutch_closed = clutch_.latest()->data_();
+    if (const msg::PointStamped* incision = incision_.latest()) {
+      const Eigen::Vector3d point = to_eigen(incision->point_());
+      const ReasonText wrong = defect_of_point(incision->header_(), point, "the incision");
+      if (wrong.empty()) {
+        view.incision = point;
+      } else {
+        bad = wrong.view();
+      }
+    }
     show_health(bad);
     return view;
   }
@@ -111,6 +121,7 @@ class TeleoperationComponent final : public Component {
   Input<msg::TransformStamped> console_;
   Input<msg::PoseStamped> leader_cp_, follower_cp_;
   Input<msg::Bool> clutch_;
+  Input<msg::PointStamped> incision_;
   Input<msg::MotionStatus> leader_status_, follower_status_;
   Output<msg::MotionGoal> leader_goal_, follower_goal_;
   TaskPorts ports_;

@@ -23,18 +23,18 @@ using config::Problems;
 using Eigen::Vector3d;
 
 /// One of the words, or any direction.
-std::optional<Vector3d> read_pointing_axis(MapReader& map) {
-  const Node* node = map.node("pointing_axis");
+std::optional<Vector3d> read_axis(MapReader& map, std::string_view key) {
+  const Node* node = map.node(key);
   if (!node) return std::nullopt;
   if (node->kind() == Node::Kind::sequence) {
     const auto axis = config::to_numbers(*node, 3);
     if (!axis) {
-      map.problem("pointing_axis", "'pointing_axis' " + axis.error().message);
+      map.problem(key, fmt::format("'{}' {}", key, axis.error().message));
       return std::nullopt;
     }
     const Vector3d direction{(*axis)[0], (*axis)[1], (*axis)[2]};
     if (direction.norm() > 1e-6) return direction.normalized();
-    map.problem("pointing_axis", "'pointing_axis' has no length");
+    map.problem(key, fmt::format("'{}' has no length", key));
     return std::nullopt;
   }
   const auto word = std::ranges::find(axis_words(), node->text());
@@ -42,10 +42,20 @@ std::optional<Vector3d> read_pointing_axis(MapReader& map) {
     const auto axis = word - axis_words().begin();
     return Vector3d{(axis < 3 ? 1 : -1) * Vector3d::Unit(axis % 3)};
   }
-  map.problem("pointing_axis",
-              fmt::format("'pointing_axis' must be {} or a list of 3 numbers, not {}",
-                          fmt::join(axis_words(), ", "), node->describe()));
+  map.problem(key, fmt::format("'{}' must be {} or a list of 3 numbers, not {}", key,
+                               fmt::join(axis_words(), ", "), node->describe()));
   return std::nullopt;
+}
+
+std::optional<Shaft> read_shaft(MapReader& robot, Problems& problems) {
+  const Node* node = robot.node("shaft");
+  if (!node) return std::nullopt;
+  MapReader map{*node, "shaft", shaft_keys(), problems};
+  const auto axis = read_axis(map, "axis");
+  const double length = map.number("length_m");
+  map.finish();
+  if (!axis) return std::nullopt;
+  return Shaft{.axis = *axis, .length = length};
 }
 
 std::optional<FrameId> find_tool(MapReader& map, const std::vector<NamedFrame>& frames,
@@ -175,7 +185,8 @@ std::optional<RobotModel> read(const Node& document, Problems& problems) {
   const std::string name = map.text("name");
   const auto [convention, joints, frames, tool] =
       urdf ? read_urdf(*urdf, map, problems) : read_rows(map, problems);
-  const auto axis = read_pointing_axis(map);
+  const auto axis = read_axis(map, "pointing_axis");
+  const auto shaft = read_shaft(map, problems);
   const auto home = read_home(map, joints);
   map.finish();
   if (!problems.empty() || !tool) return std::nullopt;
@@ -184,7 +195,7 @@ std::optional<RobotModel> read(const Node& document, Problems& problems) {
     home_all.emplace(static_cast<Eigen::Index>(home->size()));
     std::ranges::copy(*home, home_all->begin());
   }
-  RobotModel model{name, convention, joints, frames, *tool, axis, home_all};
+  RobotModel model{name, convention, joints, frames, *tool, axis, home_all, shaft};
   check_whole(model, map);
   if (!problems.empty()) return std::nullopt;
   return model;

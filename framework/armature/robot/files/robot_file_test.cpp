@@ -41,6 +41,25 @@ const std::string kGoodJoint =
     "{name: b, limits_deg: [-90, 90], velocity_rad_s: 1, acceleration_rad_s2: 2}";
 const std::string kGoodFrames = "frames: {tool: {parent: b}}";
 
+TEST(RobotFile, NamesTheShaftOfAnInstrument) {
+  const std::string good = with(kGoodJoint, kGoodFrames);
+  EXPECT_FALSE(read_good(good).shaft());
+  const RobotModel robot = read_good(good + "shaft: {axis: [0, 0, -2], length_mm: 280}\n");
+  ASSERT_TRUE(robot.shaft());
+  EXPECT_TRUE(robot.shaft()->axis == -Eigen::Vector3d::UnitZ());
+  EXPECT_NEAR(robot.shaft()->length, 0.28, 1e-15);
+}
+
+TEST(RobotFile, AShaftIsALineWithALength) {
+  const std::string good = with(kGoodJoint, kGoodFrames);
+  EXPECT_THAT(problems_in(good + "shaft: {axis: w, length_m: 0}\n"),
+              ElementsAre("arm.yaml:7:15: 'axis' must be x, y, z, -x, -y, -z or a list of 3 "
+                          "numbers, not 'w'",
+                          "arm.yaml:7:28: 'length_m' is 0, must be more than 0"));
+  EXPECT_THAT(problems_in(good + "shaft: {axis: z}\n"),
+              ElementsAre("arm.yaml:7:8: missing key 'length_m' in shaft"));
+}
+
 TEST(RobotFile, OfTheLampIsThePapersTableWithTheParallelogram) {
   const RobotModel lamp = testing::dental_lamp();
   const double deg = std::numbers::pi / 180;

@@ -22,6 +22,10 @@ const KeySpec kPointingAxis{.name = "pointing_axis",
                             .type = Type::section,
                             .doc = "Of the tool, for goals that are a direction.",
                             .optional = true};
+const KeySpec kShaft{.name = "shaft",
+                     .type = Type::section,
+                     .doc = "The straight shaft of an instrument whose tip is the tool's origin.",
+                     .optional = true};
 const KeySpec kHome{.name = "home_deg",
                     .type = Type::numbers,
                     .doc = "The position of all joints at the start.",
@@ -71,6 +75,7 @@ const std::vector<KeySpec>& robot_keys() {
        .doc = "All of them in order, coupled ones included."},
       kFrames,
       kPointingAxis,
+      kShaft,
       kHome};
   return kKeys;
 }
@@ -91,6 +96,7 @@ const std::vector<KeySpec>& urdf_robot_keys() {
        .optional = true},
       kFrames,
       kPointingAxis,
+      kShaft,
       kHome};
   return kKeys;
 }
@@ -157,6 +163,16 @@ const std::vector<KeySpec>& frame_keys() {
        .type = Type::text,
        .doc = "A file of `armature calibrate` that found where it is, relative to this one.",
        .optional = true}};
+  return kKeys;
+}
+
+const std::vector<KeySpec>& shaft_keys() {
+  static const std::vector<KeySpec> kKeys{
+      {.name = "axis", .type = Type::section, .doc = "Of the tool, from the hand to the tip."},
+      {.name = "length_m",
+       .doc = "From the tip, as far as it is straight.",
+       .above = 0,
+       .also = "length_mm"}};
   return kKeys;
 }
 

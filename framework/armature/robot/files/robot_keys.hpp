@@ -23,7 +23,12 @@ std::vector<config::KeySpec> coupling_keys(Joint::Type type);
 /// Of an entry of `frames:`.
 const std::vector<config::KeySpec>& frame_keys();
 
-/// The words that `pointing_axis:` may be instead of a list of 3 numbers: "x", "-x"...
+/// Of `shaft:`.
+const std::vector<config::KeySpec>& shaft_keys();
+
+/// The words that `pointing_axis:` and a shaft's `axis:` may be instead of a list of 3 numbers:
+/// "x",
+/// "-x"...
 const std::vector<std::string>& axis_words();
 
 }  // namespace armature

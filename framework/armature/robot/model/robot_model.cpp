@@ -49,14 +49,15 @@ ChainLink link_of(const Joint& joint) {
 RobotModel::RobotModel(std::string name, Convention convention, std::vector<Joint> joints,
                        std::vector<NamedFrame> frames, FrameId tool,
                        std::optional<Eigen::Vector3d> pointing_axis,
-                       std::optional<JointVector> home_all)
+                       std::optional<JointVector> home_all, std::optional<Shaft> shaft)
     : name_(std::move(name)),
       convention_(convention),
       joints_(std::move(joints)),
       frames_(std::move(frames)),
       tool_(tool),
       pointing_axis_(std::move(pointing_axis)),
-      home_(std::move(home_all)) {
+      home_(std::move(home_all)),
+      shaft_(std::move(shaft)) {
   require(!joints_.empty() && joint_count() <= kMaxJoints,
           fmt::format("a robot has 1 to {} joints, not {}", kMaxJoints, joint_count()));
   const int frame_count = static_cast<int>(frames_.size());
@@ -67,6 +68,7 @@ RobotModel::RobotModel(std::string name, Convention convention, std::vector<Join
             fmt::format("frame {}: joint {} is not there", frame.name, frame.parent_joint));
   require(!home_ || home_->size() == joint_count(), "home needs a value for every joint");
   if (pointing_axis_) pointing_axis_->normalize();
+  if (shaft_) shaft_->axis.normalize();
   number_joints();
   fold_limits();
 }

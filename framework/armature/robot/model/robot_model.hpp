@@ -61,6 +61,13 @@ struct NamedFrame {
   Eigen::Isometry3d parent_T_frame = Eigen::Isometry3d::Identity();
 };
 
+/// The straight shaft of an instrument that an arm moves through an incision: a line through the
+/// tool's origin, the instrument's tip.
+struct Shaft {
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  // in the tool frame, towards the tip
+  double length = 0;                                // [m] of the straight part behind the tip
+};
+
 /// A joint as kinematics needs it, everything that does not change worked out: the joint's value is
 /// ratio * q[independent] + offset.
 struct ChainLink {
@@ -87,7 +94,8 @@ class RobotModel {
   /// home of another length); files are checked by read_robot_model, which says more.
   RobotModel(std::string name, Convention convention, std::vector<Joint> joints,
              std::vector<NamedFrame> frames, FrameId tool,
-             std::optional<Eigen::Vector3d> pointing_axis, std::optional<JointVector> home_all);
+             std::optional<Eigen::Vector3d> pointing_axis, std::optional<JointVector> home_all,
+             std::optional<Shaft> shaft = std::nullopt);
 
   const std::string& name() const { return name_; }
   Convention convention() const { return convention_; }
@@ -105,6 +113,8 @@ class RobotModel {
 
   /// The unit axis of the tool frame that a pointing goal aligns with a direction.
   const std::optional<Eigen::Vector3d>& pointing_axis() const { return pointing_axis_; }
+  /// The instrument's shaft, if the file names one; its axis has length 1.
+  const std::optional<Shaft>& shaft() const { return shaft_; }
   /// Home position of all joints, if the file names one.
   const std::optional<JointVector>& home() const { return home_; }
 
@@ -148,6 +158,7 @@ class RobotModel {
   FrameId tool_;
   std::optional<Eigen::Vector3d> pointing_axis_;
   std::optional<JointVector> home_;
+  std::optional<Shaft> shaft_;
   std::vector<int> independent_;
   std::vector<ChainLink> chain_;
   bool is_placed_ = false;

@@ -15,7 +15,7 @@ using testing::HasSubstr;
 
 TEST(NewPlugins, OfEveryFamilyBuildKeepTheLawsAndRunTogether) {
   const NewPlugins plugins{ARMATURE_BINARY_DIR "/tests/new_plugins"};
-  EXPECT_EQ(plugins.families().size(), 14U);
+  EXPECT_EQ(plugins.families().size(), 15U);
   plugins.write();
   plugins.build(true);
   if (HasFatalFailure()) return;

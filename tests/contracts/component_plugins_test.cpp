@@ -28,6 +28,7 @@ std::string entry_of(const PluginManifest& plugin) {
       {"host/face_pose", "{plugin: face_pose/three_point}"},
       {"host/ik", "{plugin: ik/numeric}"},
       {"host/landmarks", "{plugin: landmarks/dlib68}"},
+      {"host/markers", "{plugin: markers/spheres}"},
       {"host/path", "{plugin: path/mouth_arc}"},
       {"host/registration", "{plugin: registration/rigid}"},
       {"host/select", "{plugin: select/nearest}"},

@@ -8,7 +8,7 @@
 #include <tuple>
 
 #include "armature/runtime/plugins/plugin.hpp"
-#include "dense_parts.hpp"
+#include "armature/volume/connected_parts.hpp"
 #include "sphere_surface.hpp"
 
 namespace armature::markers::spheres {
@@ -20,14 +20,15 @@ double voxels_of(double radius, const VolumeGeometry& geometry) {
 }
 
 /// Nearly as wide along every axis as a ball is.
-bool is_as_wide(const DensePart& part, double radius, const VolumeGeometry& geometry) {
-  const Eigen::Vector3d widths =
-      (part.high - part.low).cast<double>().cwiseProduct(geometry.spacing);
-  for (int axis = 0; axis < 3; ++axis) {
-    if (std::abs(widths[axis] - 2 * radius) > 0.6 * radius + 2 * geometry.spacing[axis])
-      return false;
+bool is_as_wide(const ConnectedPart& part, double radius, const VolumeGeometry& geometry) {
+  Eigen::Vector3i low = part.front(), high = low;
+  for (const Eigen::Vector3i& voxel : part) {
+    low = low.cwiseMin(voxel);
+    high = high.cwiseMax(voxel);
   }
-  return true;
+  const Eigen::Array3d off =
+      (high - low).cast<double>().array() * geometry.spacing.array() - 2 * radius;
+  return (off.abs() < 0.6 * radius + 2 * geometry.spacing.array()).all();
 }
 
 std::optional<FoundMarker> ball_at(const Volume& volume, Eigen::Vector3d centre, double radius) {
@@ -60,11 +61,11 @@ Expected<std::vector<FoundMarker>> Spheres::find(const Volume& volume) const {
   if (auto wrong = invalid_input(volume)) return refuse(std::move(*wrong));
   const double whole = voxels_of(parameters_.radius, volume.geometry);
   std::vector<FoundMarker> found;
-  for (const DensePart& part :
-       dense_parts(volume, parameters_.threshold, static_cast<std::size_t>(2 * whole))) {
-    if (static_cast<double>(part.voxels) < 0.3 * whole) continue;
+  for (const ConnectedPart& part : connected_parts(
+           voxels_between(volume, parameters_.threshold, 32767), volume.geometry,
+           static_cast<std::size_t>(0.3 * whole), static_cast<std::size_t>(2 * whole))) {
     if (!is_as_wide(part, parameters_.radius, volume.geometry)) continue;
-    const auto ball = ball_at(volume, volume.geometry.point_at(part.centroid), parameters_.radius);
+    const auto ball = ball_at(volume, volume.geometry.point_at(centroid(part)), parameters_.radius);
     if (ball && ball->confidence >= parameters_.min_confidence && ball->confidence > 0 &&
         std::abs(ball->radius - parameters_.radius) <= parameters_.radius_tolerance) {
       found.push_back(*ball);

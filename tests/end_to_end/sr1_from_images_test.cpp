@@ -2,6 +2,9 @@
 // SR-1 from pictures: from a volume to a needle in the true lesion, and every volume with which it
 // must not go on.
 #include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
 
 #include "deployment_run.hpp"
 
@@ -49,6 +52,29 @@ TEST(Sr1FromImages, AMirroredVolumeIsFoundOutByTheRegistration) {
 TEST(Sr1FromImages, NoWayPastTheVesselsIsToldWithItsReasons) {
   expect_refused({"components.planner.params.min_vessel_distance_mm=60"},
                  "come too near to a vessel");
+}
+
+/// Of a run that left its volume in a file.
+class Sr1FromAFile : public testing::Test {
+ protected:
+  ~Sr1FromAFile() override { std::filesystem::remove(file_); }
+
+  const std::string file_ = std::filesystem::temp_directory_path() /
+                            ("armature-sr1-" + std::to_string(getpid()) + ".nrrd");
+  const std::vector<std::string> settings_{
+      "components.tomograph={plugin: image/volume, params: {path: " + file_ + "}}"};
+};
+
+TEST_F(Sr1FromAFile, AVolumeFromAFileIsAsGoodAsOneFromTheTomograph) {
+  const DeploymentRun scanned = biopsy({kScan + "file=" + file_});
+  const DeploymentRun read = biopsy(settings_);
+  SCOPED_TRACE(read.text());
+  EXPECT_EQ(read.status(), "ok");
+  for (const char* figure : {"max_marker_error_mm", "lesion_error_mm", "target_error_mm"}) {
+    EXPECT_EQ(read.figure(figure), scanned.figure(figure)) << figure;
+  }
+  std::filesystem::resize_file(file_, 1000000);
+  expect_refused(settings_, "is it truncated?");
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "armature/volume/dicom_series.hpp"
 #include "armature/volume/nrrd.hpp"
 
 namespace armature {
@@ -12,7 +13,7 @@ Expected<Volume> read_volume(const std::filesystem::path& path) {
   if (!std::filesystem::exists(path, error)) {
     return refuse(fmt::format("there is no '{}'", path.string()));
   }
-  return read_nrrd(path);
+  return std::filesystem::is_directory(path, error) ? read_dicom_series(path) : read_nrrd(path);
 }
 
 }  // namespace armature

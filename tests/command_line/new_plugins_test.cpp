@@ -48,6 +48,7 @@ TEST(NewPlugins, OfEveryFamilyBuildKeepTheLawsAndRunTogether) {
   EXPECT_THAT(lamp_told, HasSubstr("top speed of the tool"));
   EXPECT_THAT(lamp_told, HasSubstr("greatest joint speed"));
   run({"sr1_biopsy", "--set", "components.registration.plugin=registration/my_registration"});
+  run({"sr1_from_images", "--set", "components.markers.plugin=markers/my_markers"});
   run({plugins.folder("task") / "tour.yaml"});
   run({plugins.folder("arm") / "tour.yaml", "--set", "clock=simulated"});
   EXPECT_THAT(run({plugins.folder("camera") / "camera.yaml"}),

@@ -12,8 +12,8 @@ namespace armature::test {
 namespace {
 
 DeploymentRun biopsy(std::vector<std::string> settings = {}) {
-  return run_deployment({.files = {source_file("configs/experiments/sr1_from_images.yaml")},
-                         .settings = std::move(settings)});
+  return run_deployment(
+      {.files = {source_file("configs/sr1_from_images.yaml")}, .settings = std::move(settings)});
 }
 
 void expect_refused(const std::vector<std::string>& settings, const std::string& reason) {

@@ -15,7 +15,9 @@ Volume water() {
   return {geometry, std::vector<std::int16_t>(geometry.count(), 0)};
 }
 
-Section axial(double z) { return section_through(View::axial, {0, 0, z}, water().geometry, 0.1, 200); }
+Section axial(double z) {
+  return section_through(View::axial, {0, 0, z}, water().geometry, 0.1, 200);
+}
 
 cv::Mat picture(double z, const Overlay& overlay) {
   return drawn(water(), axial(z), -100, 100, overlay, "axial");

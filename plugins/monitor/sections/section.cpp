@@ -38,7 +38,8 @@ Section section_through(View view, const Vector3d& point, const VolumeGeometry& 
   }
   const Vector3d middle = geometry.point_at(0.5 * last), normal = right.cross(down);
   const Vector3d centre = middle + normal.dot(point - middle) * normal;
-  Section section{.corner = centre, .right = right, .down = down, .pixel = width / size, .size = size};
+  Section section{
+      .corner = centre, .right = right, .down = down, .pixel = width / size, .size = size};
   section.corner -= 0.5 * (size - 1) * section.pixel * (right + down);
   return section;
 }
@@ -49,7 +50,8 @@ std::vector<std::uint8_t> grey_values(const Volume& volume, const Section& secti
   values.reserve(static_cast<std::size_t>(section.size) * static_cast<std::size_t>(section.size));
   for (int v = 0; v < section.size; ++v) {
     for (int u = 0; u < section.size; ++u) {
-      const double share = (hounsfield_at(volume, section.point_at(u, v)) - black) / (white - black);
+      const double share =
+          (hounsfield_at(volume, section.point_at(u, v)) - black) / (white - black);
       values.push_back(static_cast<std::uint8_t>(std::lround(255 * std::clamp(share, 0.0, 1.0))));
     }
   }

@@ -23,7 +23,8 @@ TEST(Sections, GoThroughTheirPointAndAreAboutTheMiddleOfTheVolume) {
   for (const View view : {View::axial, View::coronal, View::sagittal}) {
     EXPECT_NEAR(through(view, point).seen(point).z(), 0, 1e-15);
   }
-  EXPECT_LT((through(View::axial, point).point_at(99.5, 99.5) - Vector3d{0, 0, 0.035}).norm(), 1e-12);
+  EXPECT_LT((through(View::axial, point).point_at(99.5, 99.5) - Vector3d{0, 0, 0.035}).norm(),
+            1e-12);
   EXPECT_LT((through(View::coronal, point).point_at(99.5, 99.5) - Vector3d{0, -0.02, 0.02}).norm(),
             1e-12);
 }

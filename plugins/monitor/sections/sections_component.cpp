@@ -166,8 +166,8 @@ class SectionsComponent final : public Component {
     if (!tool_) return overlay;
     overlay.needle = {tool_->tip, tool_->tip - parameters_.needle * tool_->direction};
     if (plan_now_) {
-      overlay.texts.push_back(fmt::format("to the target {:.1f} mm",
-                                          1e3 * (tool_->tip - overlay.plan->to).norm()));
+      overlay.texts.push_back(
+          fmt::format("to the target {:.1f} mm", 1e3 * (tool_->tip - overlay.plan->to).norm()));
     }
     const double vessel = vessel_distance(tool_->tip);
     if (std::isfinite(vessel)) {

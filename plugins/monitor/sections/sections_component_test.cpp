@@ -14,8 +14,8 @@
 #include "armature/robot/model/robot_model.hpp"
 #include "armature/runtime/testing/component_harness.hpp"
 #include "armature/runtime/testing/test_plugins.hpp"
-#include "armature/volume/phantom.hpp"
 #include "armature/volume/nrrd.hpp"
+#include "armature/volume/phantom.hpp"
 
 namespace armature::monitor::sections {
 namespace {
@@ -57,15 +57,21 @@ class SectionsComponentTest : public testing::Test {
   }
   void tell_arm() {
     msg::JointState state;
-    write_all_joints(model_, *model_.home(), JointVector::Zero(model_.dof()), Time{99900000000}, state);
+    write_all_joints(model_, *model_.home(), JointVector::Zero(model_.dof()), Time{99900000000},
+                     state);
     view_.send("measured_js", state);
   }
 
-  const fs::path folder_ = fs::temp_directory_path() / ("armature-view-" + std::to_string(getpid()));
+  const fs::path folder_ =
+      fs::temp_directory_path() / ("armature-view-" + std::to_string(getpid()));
   const config::Node robot_ = config::load(ARMATURE_SOURCE_DIR "/configs/robots/sr1_needle.yaml");
   const RobotModel model_ = read_robot_model(robot_);
   const Vector3d tip_ = forward_kinematics(model_, *model_.home()).translation();
-  ComponentHarness view_{built_plugins(), {.component = "{plugin: monitor/sections, params: {size_px: 128, view_mm: 100}}", .robot = robot_, .rig = {}}};
+  ComponentHarness view_{
+      built_plugins(),
+      {.component = "{plugin: monitor/sections, params: {size_px: 128, view_mm: 100}}",
+       .robot = robot_,
+       .rig = {}}};
 };
 
 TEST_F(SectionsComponentTest, TellWhereTheToolIsInTheImageAndHowFarFromWhatCounts) {
@@ -120,12 +126,13 @@ TEST_F(SectionsComponentTest, WithoutAVolumeWriteNothing) {
 }
 
 TEST(SectionsComponent, RefuseAWindowThatIsTurnedRound) {
-  EXPECT_NE(refusal_of(built_plugins(),
-                       {.component = "{plugin: monitor/sections, params: {window: [100, -100]}}",
-                        .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/sr1_needle.yaml"),
-                        .rig = {}})
-                .find("'window' is black first"),
-            std::string::npos);
+  EXPECT_NE(
+      refusal_of(built_plugins(),
+                 {.component = "{plugin: monitor/sections, params: {window: [100, -100]}}",
+                  .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/sr1_needle.yaml"),
+                  .rig = {}})
+          .find("'window' is black first"),
+      std::string::npos);
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ std::string entry_of(const PluginManifest& plugin) {
       {"host/select", "{plugin: select/nearest}"},
       {"host/target", "{plugin: target/constant_velocity}"},
       {"host/trajectory", "{plugin: trajectory/quintic_spline}"},
-      {"image/volume", "{plugin: image/volume, params: {path: /dev/null}}"},
+      {"image/volume", "{plugin: image/volume, params: {path: " ARMATURE_SOURCE_DIR "}}"},
       {"motion",
        "{plugin: motion, path: {plugin: path/joint_move}, ik: {plugin: ik/numeric}, select: "
        "{plugin: "

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "armature/kinds/volume_messages.hpp"
+#include "armature/messages/stamp.hpp"
 #include "armature/runtime/component/setup.hpp"
 #include "armature/values/time.hpp"
 
@@ -14,6 +15,13 @@ namespace armature ARMATURE_EXPORT {
 class AnnouncedVolume {
  public:
   explicit AnnouncedVolume(Setup& setup) : files_{setup.input<msg::VolumeFile>("volume")} {}
+
+  /// When the volume that was announced last was taken; nothing before there is one. What is found
+  /// in a volume is told under its stamp.
+  std::optional<Time> stamp() const {
+    const msg::VolumeFile* file = files_.latest();
+    return file ? std::optional{stamp_of(file->header_().stamp_())} : std::nullopt;
+  }
 
   /// Once for every volume that is announced: the volume, or why it cannot be had. Reads files, and
   /// takes some tenths of a second.

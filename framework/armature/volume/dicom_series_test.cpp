@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "armature/volume/phantom.hpp"
 #include "armature/volume/read_volume.hpp"
 
 namespace armature {
@@ -30,6 +31,8 @@ struct Slice {
   std::string spacing = "0.5\\0.75";  // from row to row, from column to column
   std::string gantry_tilt;
   int of_acquisition = 0;
+  int columns = 4, rows = 3;
+  std::vector<Uint16> pixels;  // none: 100 times its number, counted up
 };
 
 class DicomSeries : public testing::Test {
@@ -62,18 +65,19 @@ class DicomSeries : public testing::Test {
     const auto number = [&](const DcmTagKey& tag, int value) {
       data.putAndInsertUint16(tag, static_cast<Uint16>(value));
     };
-    number(DCM_Rows, 3);
-    number(DCM_Columns, 4);
+    number(DCM_Rows, slice.rows);
+    number(DCM_Columns, slice.columns);
     number(DCM_BitsAllocated, 16);
     number(DCM_BitsStored, 16);
     number(DCM_HighBit, 15);
     number(DCM_PixelRepresentation, 0);
     number(DCM_SamplesPerPixel, 1);
-    std::vector<Uint16> pixels(12);
-    for (std::size_t i = 0; i < 12; ++i) {
-      pixels[i] = static_cast<Uint16>(100 * slice.number + static_cast<int>(i));
+    std::vector<Uint16> pixels = slice.pixels;
+    for (int i = 0; pixels.size() < 12; ++i) {
+      pixels.push_back(static_cast<Uint16>(100 * slice.number + i));
     }
-    data.putAndInsertUint16Array(DCM_PixelData, pixels.data(), 12);
+    data.putAndInsertUint16Array(DCM_PixelData, pixels.data(),
+                                 static_cast<unsigned long>(pixels.size()));
     const fs::path file = folder_ / fmt::format("slice{:02}.dcm", slice.number);
     EXPECT_TRUE(format.saveFile(file.c_str(), syntax).good());
     return file;
@@ -124,6 +128,28 @@ TEST_F(DicomSeries, MayLieAnyhowInThePatientAndInEveryUncompressedForm) {
     EXPECT_LT((volume->geometry.direction - rotation).norm(), 1e-8);
     EXPECT_EQ(volume->at(3, 0, 2), 2 * 203 - 1024);
   }
+}
+
+TEST_F(DicomSeries, OfAHeadIsTheVolumeThatItWasWrittenFrom) {
+  VolumeGeometry geometry{.size = {20, 18, 16}, .spacing = {0.00075, 0.0005, 0.00125}};
+  geometry.origin = {-0.01, 0.02, 0.005};
+  const Volume head = scanned(std::array{ball({-0.003, 0.024, 0.015}, 0.004, 1000)}, geometry, {});
+  for (int k = 0; k < 16; ++k) {
+    Slice slice = at(k, 1.25 * k);
+    slice.columns = 20;
+    slice.rows = 18;
+    for (int i = 0; i < 20 * 18; ++i) {
+      const auto hu = head.voxels[static_cast<std::size_t>(20 * 18 * k + i)];
+      slice.pixels.push_back(static_cast<Uint16>((hu + 1024) / 2));
+    }
+    write(slice);
+  }
+  const auto volume = read_volume(folder_);
+  ASSERT_TRUE(volume) << volume.error().text;
+  for (std::size_t i = 0; i < head.voxels.size(); ++i) {
+    ASSERT_NEAR(volume->voxels[i], head.voxels[i], 1) << i;  // a step of the file is two
+  }
+  EXPECT_NEAR(hounsfield_at(*volume, {-0.003, 0.024, 0.015}), 1000, 1);
 }
 
 TEST_F(DicomSeries, OfATiltedGantryIsRefused) {

@@ -72,18 +72,20 @@ class NeedlePlanner final : public Component {
         ways_{setup.output<msg::NeedleWays>("ways")},
         plan_{setup.output<msg::NeedlePlan>("plan")} {}
 
-  void step(Time now) override {
-    if (!markers_.latest()) return;
+  void step(Time) override {
+    const auto stamp = volume_.stamp();
+    if (!stamp || !markers_.latest()) return;
+    if (stamp_of(markers_.latest()->header_().stamp_()) != *stamp) return;  // of another volume
     const auto volume = volume_.take();
     if (!volume) return;
     const auto planned = plan_on(*volume, *markers_.latest());
     refusal_ = planned ? "" : planned.error().text;
-    publish_ways(planned, now);
+    publish_ways(planned, *stamp);
     if (!planned) return degraded(refusal_);
     healthy();
     log(fmt::format("{} ways in; the best: {}", planned->ways.size(),
                     reason_of(planned->ways.front())));
-    publish_plan(*planned, now);
+    publish_plan(*planned, *stamp);
   }
 
   /// Without a plan nothing goes on.
@@ -110,10 +112,10 @@ class NeedlePlanner final : public Component {
     return planned;
   }
 
-  void publish_ways(const Expected<Planned>& planned, Time now) {
+  void publish_ways(const Expected<Planned>& planned, Time stamp) {
     auto message = ways_.loan();
     *message = msg::NeedleWays{};  // it was used before
-    write_header(message->header_(), now, kImageFrame);
+    write_header(message->header_(), stamp, kImageFrame);
     message->valid_(planned.has_value());
     if (planned) {
       assign(message->target_(), planned->lesion.centre);
@@ -133,10 +135,10 @@ class NeedlePlanner final : public Component {
     message.publish();
   }
 
-  void publish_plan(const Planned& planned, Time now) {
+  void publish_plan(const Planned& planned, Time stamp) {
     auto message = plan_.loan();
     *message = msg::NeedlePlan{};
-    write_header(message->header_(), now, kImageFrame);
+    write_header(message->header_(), stamp, kImageFrame);
     for (const msg::ImageMarker& marker : markers_.latest()->markers_()) {
       message->markers_().push_back(marker.position_());
     }

@@ -8,6 +8,7 @@
 
 #include "armature/kinds/volume_messages.hpp"
 #include "armature/messages/geometry.hpp"
+#include "armature/messages/stamp.hpp"
 #include "armature/runtime/testing/component_harness.hpp"
 #include "armature/runtime/testing/test_plugins.hpp"
 #include "armature/volume/nrrd.hpp"
@@ -31,8 +32,9 @@ class NeedlePlannerTest : public testing::Test {
     message.sha256_(sha256_of(volume));
     planner_.send("volume", message);
   }
-  void find_markers(std::size_t count) {
+  void find_markers(std::size_t count, double taken_s = 0) {
     msg::ImageMarkers message;
+    set_stamp(message.header_().stamp_(), Time{} + seconds(taken_s));
     message.valid_(true);
     for (std::size_t i = 0; i < count; ++i) {
       assign(message.markers_().emplace_back().position_(),
@@ -89,6 +91,16 @@ TEST_F(NeedlePlannerTest, PlansTheBestWayOnce) {
   EXPECT_LT((to_eigen(plans[0].target_()) - Vector3d{0.005, 0, 0.008}).norm(), 0.0002);
   EXPECT_THAT(ways[0].ways_()[0].reason_(), HasSubstr("vessel 1 is "));
   EXPECT_FALSE(planner_.component().finished());
+}
+
+TEST_F(NeedlePlannerTest, WaitsForTheMarkersOfTheVolumeThatWasAnnouncedLast) {
+  announce(sound());
+  find_markers(4, 99.0);
+  planner_.step(0.1);
+  EXPECT_TRUE(planner_.take<msg::NeedleWays>("ways").empty());
+  find_markers(4);
+  planner_.step(0.2);
+  EXPECT_EQ(planner_.take<msg::NeedleWays>("ways").size(), 1u);
 }
 
 TEST_F(NeedlePlannerTest, RefusesAVolumeWithoutItsMarkersByTheirNumber) {

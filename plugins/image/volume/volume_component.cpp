@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <string>
+#include <system_error>
 
 #include "armature/kinds/volume_messages.hpp"
 #include "armature/messages/header.hpp"
@@ -20,6 +22,12 @@ class VolumeComponent final : public Component {
       : Component{setup},
         parameters_{Parameters::read(setup.params())},
         volume_{setup.output<msg::VolumeFile>("volume")} {
+    if (std::error_code error; !std::filesystem::exists(parameters_.path, error)) {
+      throw SetupError(
+          fmt::format("path: there is no '{}'; it is an NRRD file, or the folder of a "
+                      "DICOM series",
+                      parameters_.path));
+    }
     setup.activate_every(seconds(0.1));
   }
 
@@ -37,7 +45,7 @@ class VolumeComponent final : public Component {
                     mm.x(), mm.y(), mm.z()));
     auto message = volume_.loan();
     write_header(message->header_(), now, kImageFrame);
-    message->path_(parameters_.path);
+    message->path_(std::filesystem::absolute(parameters_.path).string());
     message->sha256_(sha256_of(*volume));
     message.publish();
   }

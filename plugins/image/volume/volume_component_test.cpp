@@ -50,5 +50,14 @@ TEST_F(VolumeComponentTest, EndsTheRunWithTheReasonWhenAFileIsTruncated) {
   EXPECT_NE(images.figures().reason.find("it ends after 47 of 48 bytes"), std::string::npos);
 }
 
+TEST_F(VolumeComponentTest, APathThatIsNotThereIsRefusedBeforeTheRun) {
+  EXPECT_NE(
+      refusal_of(
+          built_plugins(),
+          {.component = "{plugin: image/volume, params: {path: /gone}}", .robot = {}, .rig = {}})
+          .find("path: there is no '/gone'; it is an NRRD file, or the folder"),
+      std::string::npos);
+}
+
 }  // namespace
 }  // namespace armature::image::volume

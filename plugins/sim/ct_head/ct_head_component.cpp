@@ -61,7 +61,7 @@ class CtHeadComponent final : public Component {
     log(fmt::format("scanned {} x {} x {} voxels", size[0], size[1], size[2]));
     auto message = volume_.loan();
     write_header(message->header_(), now, kImageFrame);
-    message->path_(file_.string());
+    message->path_(fs::absolute(file_).string());
     message->sha256_(sha256_of(*volume));
     message.publish();
   }

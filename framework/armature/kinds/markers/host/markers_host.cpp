@@ -33,13 +33,13 @@ class MarkersHost final : public Component {
         finder_{setup.slot<MarkerFinder>("finder")},
         markers_{setup.output<msg::ImageMarkers>("markers")} {}
 
-  void step(Time now) override {
+  void step(Time) override {
     const auto volume = volume_.take();
     if (!volume) return;
     const auto found = search(*volume);
     auto message = markers_.loan();
     *message = msg::ImageMarkers{};  // it was used before
-    write_header(message->header_(), now, kImageFrame);
+    write_header(message->header_(), *volume_.stamp(), kImageFrame);
     message->valid_(found.has_value());
     if (found) {
       healthy();

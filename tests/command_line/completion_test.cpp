@@ -42,8 +42,8 @@ TEST(Completion, BashCompletesVerbsAndOptions) {
 }
 
 TEST(Completion, BashCompletesDeploymentsByNameAndByFile) {
-  EXPECT_THAT(after_tab("run sr1"), ElementsAre("sr1_biopsy"));
-  EXPECT_THAT(after_tab("run configs/sr1"), ElementsAre("configs/sr1_biopsy.yaml"));
+  EXPECT_THAT(after_tab("run sr1_b"), ElementsAre("sr1_biopsy"));
+  EXPECT_THAT(after_tab("run configs/sr1_b"), ElementsAre("configs/sr1_biopsy.yaml"));
   EXPECT_THAT(after_tab("run conf"), ElementsAre("configs/"));
 }
 

@@ -15,7 +15,7 @@ using testing::HasSubstr;
 
 TEST(NewPlugins, OfEveryFamilyBuildKeepTheLawsAndRunTogether) {
   const NewPlugins plugins{ARMATURE_BINARY_DIR "/tests/new_plugins"};
-  EXPECT_EQ(plugins.families().size(), 14U);
+  EXPECT_EQ(plugins.families().size(), 15U);
   plugins.write();
   plugins.build(true);
   if (HasFatalFailure()) return;
@@ -48,6 +48,7 @@ TEST(NewPlugins, OfEveryFamilyBuildKeepTheLawsAndRunTogether) {
   EXPECT_THAT(lamp_told, HasSubstr("top speed of the tool"));
   EXPECT_THAT(lamp_told, HasSubstr("greatest joint speed"));
   run({"sr1_biopsy", "--set", "components.registration.plugin=registration/my_registration"});
+  run({"sr1_from_images", "--set", "components.markers.plugin=markers/my_markers"});
   run({plugins.folder("task") / "tour.yaml"});
   run({plugins.folder("arm") / "tour.yaml", "--set", "clock=simulated"});
   EXPECT_THAT(run({plugins.folder("camera") / "camera.yaml"}),

@@ -138,7 +138,8 @@ TEST(PluginVerify, ARobotThatIsNotServedIsSaidAndNothingIsVerified) {
 TEST(PluginVerify, EveryKindHasLaws) {
   for (const std::string plugin :
        {"path/mouth_arc", "select/nearest", "trajectory/quintic_spline", "registration/rigid",
-        "target/constant_velocity", "face_pose/three_point", "detector/hog", "landmarks/dlib68"}) {
+        "markers/spheres", "target/constant_velocity", "face_pose/three_point", "detector/hog",
+        "landmarks/dlib68"}) {
     const auto result = verify(plugin, {"--robot", kLamp, "--json"});
     ASSERT_EQ(result.exit_code, 0) << plugin << "\n" << result.out << result.err;
     const json laws = json::parse(result.out)["robots"][0]["laws"];

@@ -28,11 +28,13 @@ std::string entry_of(const PluginManifest& plugin) {
       {"host/face_pose", "{plugin: face_pose/three_point}"},
       {"host/ik", "{plugin: ik/numeric}"},
       {"host/landmarks", "{plugin: landmarks/dlib68}"},
+      {"host/markers", "{plugin: markers/spheres}"},
       {"host/path", "{plugin: path/mouth_arc}"},
       {"host/registration", "{plugin: registration/rigid}"},
       {"host/select", "{plugin: select/nearest}"},
       {"host/target", "{plugin: target/constant_velocity}"},
       {"host/trajectory", "{plugin: trajectory/quintic_spline}"},
+      {"image/volume", "{plugin: image/volume, params: {path: " ARMATURE_SOURCE_DIR "}}"},
       {"motion",
        "{plugin: motion, path: {plugin: path/joint_move}, ik: {plugin: ik/numeric}, select: "
        "{plugin: "

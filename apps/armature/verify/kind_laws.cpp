@@ -10,6 +10,7 @@
 #include "armature/kinds/detector/laws.hpp"
 #include "armature/kinds/face_pose/laws.hpp"
 #include "armature/kinds/landmarks/laws.hpp"
+#include "armature/kinds/markers/laws.hpp"
 #include "armature/kinds/path/laws.hpp"
 #include "armature/kinds/registration/laws.hpp"
 #include "armature/kinds/select/laws.hpp"
@@ -172,6 +173,12 @@ std::unique_ptr<PluginLaws> laws_of_landmarks(const VerifiedPlugin& verified) {
   });
 }
 
+std::unique_ptr<PluginLaws> laws_of_markers(const VerifiedPlugin& verified) {
+  return laws_with<MarkerFinder>(verified, marker_laws(), [](const Maker& maker, auto finder) {
+    return MarkerSubject{.name = maker.plugin().id, .finder = finder};
+  });
+}
+
 struct KindWithLaws {
   std::string_view kind;
   bool for_robot;
@@ -183,6 +190,7 @@ constexpr std::array kKinds{
     KindWithLaws{"face_pose", false, laws_of_face_pose},
     KindWithLaws{"ik", true, laws_of_ik},
     KindWithLaws{"landmarks", false, laws_of_landmarks},
+    KindWithLaws{"markers", false, laws_of_markers},
     KindWithLaws{"path", true, laws_of_path},
     KindWithLaws{"registration", false, laws_of_registration},
     KindWithLaws{"select", true, laws_of_select},

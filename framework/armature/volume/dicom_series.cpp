@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/volume/dicom_series.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "armature/volume/dicom_slice.hpp"
+#include "armature/volume/slice_stack.hpp"
+
+namespace armature {
+
+namespace fs = std::filesystem;
+
+Expected<Volume> read_dicom_series(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator{folder, error}) {
+    if (entry.is_regular_file(error) && is_dicom_image(entry.path())) files.push_back(entry.path());
+  }
+  if (error) return refuse(fmt::format("'{}': {}", folder.string(), error.message()));
+  if (files.empty()) return refuse(fmt::format("'{}': it holds no DICOM files", folder.string()));
+  std::ranges::sort(files);
+  std::vector<DicomSlice> slices;
+  for (const fs::path& file : files) {
+    auto slice = read_dicom_slice(file);
+    if (!slice) return refuse(fmt::format("'{}': {}", file.string(), slice.error().text));
+    slices.push_back(std::move(*slice));
+  }
+  auto volume = stacked(std::move(slices));
+  if (!volume) return refuse(fmt::format("'{}': {}", folder.string(), volume.error().text));
+  return volume;
+}
+
+}  // namespace armature

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dcmtk/config/osconfig.h"
+//
+#include "dcmtk/dcmdata/dctk.h"
+//
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <fstream>
+
+#include "armature/volume/dicom_slice.hpp"
+
+namespace armature {
+namespace {
+
+using Eigen::Vector3d;
+
+/// What a slice says, by tag; the first one that is missing is remembered.
+class Tags {
+ public:
+  explicit Tags(DcmDataset& data) : data_{data} {}
+
+  std::string text(const DcmTagKey& tag, const char* name) {
+    OFString value;
+    if (data_.findAndGetOFStringArray(tag, value).bad()) miss(name);
+    return value.c_str();
+  }
+  int integer(const DcmTagKey& tag, const char* name) {
+    Uint16 value = 0;
+    if (data_.findAndGetUint16(tag, value).bad()) miss(name);
+    return value;
+  }
+  double number(const DcmTagKey& tag, unsigned long at, const char* name) {
+    Float64 value = 0;
+    if (data_.findAndGetFloat64(tag, value, at).bad() || !std::isfinite(value)) miss(name);
+    return value;
+  }
+  std::optional<double> optional_number(const DcmTagKey& tag) {
+    Float64 value = 0;
+    return data_.findAndGetFloat64(tag, value).good() ? std::optional{value} : std::nullopt;
+  }
+  Vector3d vector(const DcmTagKey& tag, unsigned long at, const char* name) {
+    return {number(tag, at, name), number(tag, at + 1, name), number(tag, at + 2, name)};
+  }
+  const std::string& missing() const { return missing_; }
+
+ private:
+  void miss(const char* name) {
+    if (missing_.empty()) missing_ = name;
+  }
+
+  DcmDataset& data_;
+  std::string missing_;
+};
+
+/// Pixels as they are stored, of 16 bits; `is_signed` as Pixel Representation says.
+Expected<void> read_pixels(DcmDataset& data, bool is_signed, double slope, double intercept,
+                           DicomSlice& slice) {
+  const std::size_t needed =
+      static_cast<std::size_t>(slice.rows) * static_cast<std::size_t>(slice.columns);
+  const Uint16* pixels = nullptr;
+  unsigned long count = 0;
+  if (data.findAndGetUint16Array(DCM_PixelData, pixels, &count).bad() || pixels == nullptr ||
+      count < needed) {
+    return refuse(fmt::format("it has {} of {} pixels: is it truncated?", count, needed));
+  }
+  slice.hounsfield.resize(needed);
+  for (std::size_t i = 0; i < needed; ++i) {
+    const double stored = is_signed ? static_cast<std::int16_t>(pixels[i]) : pixels[i];
+    const double value = slope * stored + intercept;
+    if (!(std::abs(value) <= 32767)) {
+      return refuse(fmt::format("pixel {} is {:g}, which is no Hounsfield unit", i, value));
+    }
+    slice.hounsfield[i] = static_cast<std::int16_t>(std::lround(value));
+  }
+  return {};
+}
+
+Expected<DicomSlice> slice_of(DcmDataset& data) {
+  Tags tags{data};
+  const std::string modality = tags.text(DCM_Modality, "Modality");
+  if (tags.missing().empty() && modality != "CT") {
+    return refuse(fmt::format("its modality is '{}', not 'CT'", modality));
+  }
+  const DcmXfer syntax{data.getOriginalXfer()};
+  if (syntax.isEncapsulated()) {
+    return refuse(fmt::format("it is compressed ({})", syntax.getXferName()));
+  }
+  DicomSlice slice;
+  slice.series = tags.text(DCM_SeriesInstanceUID, "Series Instance UID");
+  slice.rows = tags.integer(DCM_Rows, "Rows");
+  slice.columns = tags.integer(DCM_Columns, "Columns");
+  slice.position = tags.vector(DCM_ImagePositionPatient, 0, "Image Position (Patient)");
+  slice.along_row = tags.vector(DCM_ImageOrientationPatient, 0, "Image Orientation (Patient)");
+  slice.along_column = tags.vector(DCM_ImageOrientationPatient, 3, "Image Orientation (Patient)");
+  slice.row_step = tags.number(DCM_PixelSpacing, 0, "Pixel Spacing");
+  slice.column_step = tags.number(DCM_PixelSpacing, 1, "Pixel Spacing");
+  const double slope = tags.number(DCM_RescaleSlope, 0, "Rescale Slope");
+  const double intercept = tags.number(DCM_RescaleIntercept, 0, "Rescale Intercept");
+  const int bits = tags.integer(DCM_BitsAllocated, "Bits Allocated");
+  const int sign = tags.integer(DCM_PixelRepresentation, "Pixel Representation");
+  if (!tags.missing().empty()) return refuse(fmt::format("it has no {}", tags.missing()));
+  if (bits != 16) return refuse(fmt::format("it has {} bits a pixel; 16 are read", bits));
+  slice.gantry_tilt_deg = tags.optional_number(DCM_GantryDetectorTilt).value_or(0);
+  Sint32 slices = 0;
+  if (data.findAndGetSint32(DCM_ImagesInAcquisition, slices).good()) slice.of_acquisition = slices;
+  if (auto read = read_pixels(data, sign == 1, slope, intercept, slice); !read) {
+    return tl::unexpected{read.error()};
+  }
+  return slice;
+}
+
+}  // namespace
+
+Vector3d DicomSlice::normal() const { return along_row.cross(along_column); }
+
+bool is_dicom_image(const std::filesystem::path& file) {
+  std::ifstream in{file, std::ios::binary};
+  char begin[132] = {};
+  in.read(begin, sizeof begin);
+  return in.gcount() == sizeof begin && std::string_view{begin + 128, 4} == "DICM" &&
+         file.filename() != "DICOMDIR";
+}
+
+Expected<DicomSlice> read_dicom_slice(const std::filesystem::path& file) {
+  // DCMTK tells its opinion on stderr; what is wrong is told in the reason.
+  static const bool quiet = (OFLog::configure(OFLogger::OFF_LOG_LEVEL), true);
+  static_cast<void>(quiet);
+  DcmFileFormat format;
+  const OFCondition loaded = format.loadFile(file.c_str());
+  if (loaded.bad()) {
+    return refuse(fmt::format("it cannot be read ({}): is it truncated?", loaded.text()));
+  }
+  auto slice = slice_of(*format.getDataset());
+  if (slice) slice->file = file;
+  return slice;
+}
+
+}  // namespace armature

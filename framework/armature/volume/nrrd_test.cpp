@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+// NRRD files: 1. what is written is read again, 2. forms that other programs write, 3. what is
+// wrong with a file is told by name.
+#include "armature/volume/nrrd.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+#include <zlib.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+namespace armature {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Nrrd : public testing::Test {
+ protected:
+  ~Nrrd() override { fs::remove(file_); }
+
+  void write(const std::string& header, const std::string& data) const {
+    std::ofstream{file_, std::ios::binary} << "NRRD0004\n" << header << "\n" << data;
+  }
+  std::string refusal() const {
+    const auto volume = read_nrrd(file_);
+    return volume ? "read" : volume.error().text.substr(file_.string().size() + 4);
+  }
+  static std::string header(const std::string& type, const std::string& more,
+                            const std::string& directions = "(0.5,0,0) (0,0.5,0) (0,0,2)",
+                            const std::string& space = "LPS") {
+    return "type: " + type + "\ndimension: 3\nspace: " + space +
+           "\nsizes: 2 2 2\nspace directions: " + directions +
+           "\nspace origin: (10,20,30)\nkinds: domain domain domain\n" + more;
+  }
+  template <class Number>
+  static std::string bytes(std::initializer_list<Number> numbers) {
+    std::string data(numbers.size() * sizeof(Number), '\0');
+    std::memcpy(data.data(), numbers.begin(), data.size());
+    return data;
+  }
+  static std::string gzipped(const std::string& data) {
+    std::string out(1000, '\0');
+    z_stream stream{};
+    deflateInit2(&stream, 6, Z_DEFLATED, MAX_WBITS + 16, 8, Z_DEFAULT_STRATEGY);
+    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(data.data()));
+    stream.avail_in = static_cast<uInt>(data.size());
+    stream.next_out = reinterpret_cast<Bytef*>(out.data());
+    stream.avail_out = 1000;
+    deflate(&stream, Z_FINISH);
+    deflateEnd(&stream);
+    out.resize(1000 - stream.avail_out);
+    return out;
+  }
+
+  const fs::path file_ =
+      fs::temp_directory_path() / ("armature-nrrd-" + std::to_string(getpid()) + ".nrrd");
+  const std::string eight_ = bytes<std::int16_t>({1, 2, 3, 4, 5, 6, 7, -8});
+};
+
+TEST_F(Nrrd, WhatIsWrittenIsReadAgain) {
+  Volume volume{.geometry = {.size = {3, 2, 4}, .spacing = {0.0007, 0.0008, 0.00125}}};
+  volume.geometry.direction =
+      Eigen::AngleAxisd{0.3, Eigen::Vector3d{1, 2, 3}.normalized()}.toRotationMatrix();
+  volume.geometry.origin = {-0.1, 0.02, 0.3};
+  for (int i = 0; i < 24; ++i) volume.voxels.push_back(static_cast<std::int16_t>(100 * i - 1000));
+  ASSERT_TRUE(write_nrrd(volume, file_));
+  const auto read = read_nrrd(file_);
+  ASSERT_TRUE(read) << read.error().text;
+  EXPECT_EQ(read->voxels, volume.voxels);
+  EXPECT_EQ(read->geometry.size, volume.geometry.size);
+  for (const Eigen::Vector3d& index : {Eigen::Vector3d{0, 0, 0}, Eigen::Vector3d{2, 1, 3}}) {
+    EXPECT_LT((read->geometry.point_at(index) - volume.geometry.point_at(index)).norm(), 1e-12);
+  }
+}
+
+TEST_F(Nrrd, IsReadRawAndCompressedBigAndLittleOfSeveralTypes) {
+  write(header("short", "endian: little\nencoding: raw\n"), eight_);
+  const auto raw = read_nrrd(file_);
+  ASSERT_TRUE(raw) << raw.error().text;
+  EXPECT_EQ(raw->voxels, (std::vector<std::int16_t>{1, 2, 3, 4, 5, 6, 7, -8}));
+  EXPECT_LT((raw->geometry.origin - Eigen::Vector3d{0.01, 0.02, 0.03}).norm(), 1e-15);
+  EXPECT_DOUBLE_EQ(raw->geometry.spacing.z(), 0.002);
+  write(header("short", "endian: little\nencoding: gzip\n"), gzipped(eight_));
+  EXPECT_EQ(read_nrrd(file_).value().voxels, raw->voxels);
+  write(header("float", "endian: little\nencoding: raw\n"),
+        bytes<float>({1, 2, 3, 4, 5, 6.4F, 7, -8}));
+  EXPECT_EQ(read_nrrd(file_).value().voxels, raw->voxels);
+  write(header("int16", "endian: big\nencoding: raw\n"),
+        std::string{"\0\1\0\2\0\3\0\4\0\5\0\6\0\7\xff\xf8", 16});
+  EXPECT_EQ(read_nrrd(file_).value().voxels, raw->voxels);
+}
+
+TEST_F(Nrrd, OfRightAnteriorSuperiorIsTurnedAndAMirroredOneStaysSo) {
+  write(header("short", "encoding: raw\n", "(-0.5,0,0) (0,-0.5,0) (0,0,2)",
+               "right-anterior-superior"),
+        eight_);
+  const auto ras = read_nrrd(file_);
+  ASSERT_TRUE(ras) << ras.error().text;
+  EXPECT_LT((ras->geometry.direction - Eigen::Matrix3d::Identity()).norm(), 1e-15);
+  EXPECT_LT((ras->geometry.origin - Eigen::Vector3d{-0.01, -0.02, 0.03}).norm(), 1e-15);
+  write(header("short", "encoding: raw\n", "(-0.5,0,0) (0,0.5,0) (0,0,2)"), eight_);
+  EXPECT_LT(read_nrrd(file_).value().geometry.direction.determinant(), 0);
+}
+
+TEST_F(Nrrd, ThatIsTruncatedOrHoldsNoNumbersIsRefusedByName) {
+  write(header("short", "encoding: raw\n"), eight_.substr(0, 13));
+  EXPECT_EQ(refusal(), "it ends after 13 of 16 bytes of voxels: is it truncated?");
+  const std::string zip = gzipped(eight_);
+  write(header("short", "encoding: gzip\n"), zip.substr(0, zip.size() - 14));
+  EXPECT_NE(refusal().find(" of 16 bytes of voxels: is it truncated?"), std::string::npos);
+  write(header("float", "encoding: raw\n"), bytes<float>({1, 2, 3, 4, 5, NAN, 7, 8}));
+  EXPECT_EQ(refusal(), "voxel (1, 0, 1) is nan, which is no Hounsfield unit");
+  write(header("float", "encoding: raw\n"), bytes<float>({1, 2, 3, 1e9F, 5, 6, 7, 8}));
+  EXPECT_EQ(refusal(), "voxel (1, 1, 0) is 1e+09, which is no Hounsfield unit");
+}
+
+TEST_F(Nrrd, WhoseSlicesAreTiltedIsRefusedByName) {
+  write(header("short", "encoding: raw\n", "(0.5,0,0) (0,0.5,0) (0,0.5,2)"), eight_);
+  EXPECT_EQ(refusal(), "its slices are tilted by 14.04 degrees against their stack (gantry tilt)");
+  write(header("short", "encoding: raw\n", "(0.5,0,0) (0.1,0.5,0) (0,0,2)"), eight_);
+  EXPECT_EQ(refusal(), "its rows and columns are 11.31 degrees off the right angle");
+}
+
+TEST_F(Nrrd, ThatIsAnotherThingIsRefusedByName) {
+  std::ofstream{file_} << "\x89PNG";
+  EXPECT_EQ(refusal(), "it is no NRRD file");
+  write(header("block", "encoding: raw\n"), eight_);
+  EXPECT_EQ(refusal(), "the type 'block' is not read");
+  write(header("short", "encoding: bzip2\n"), eight_);
+  EXPECT_EQ(refusal(), "its encoding is 'bzip2'; raw and gzip are read");
+  write(header("short", "encoding: raw\n", "(0.5,0,0) (0,x,0) (0,0,2)"), eight_);
+  EXPECT_EQ(refusal(), "it has no three 'space directions'");
+  write(header("short", "encoding: raw\n", "(0.5,0,0) (0,0.5,0) (0,0,2)", "scanner-xyz"), eight_);
+  EXPECT_EQ(refusal().substr(0, 29), "its space is 'scanner-xyz', n");
+  write(header("short", "encoding: raw\ndata file: voxels.raw\n"), eight_);
+  EXPECT_EQ(refusal(), "its voxels are in another file, which is not read");
+  EXPECT_EQ(read_nrrd("/gone.nrrd").error().text, "'/gone.nrrd' cannot be read");
+}
+
+}  // namespace
+}  // namespace armature

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crossing.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace armature::image::needle_planner {
+namespace {
+
+using Eigen::Vector3d;
+
+/// How far along a line skull and skin end [m].
+struct Ends {
+  double skull, skin;
+};
+
+std::optional<Ends> ends_along(const Volume& volume, const Vector3d& from,
+                               const Vector3d& direction, double bone_from) {
+  constexpr double kSkin = 0.5 * kAirHu;
+  constexpr double kFarthest = 0.3;  // [m]
+  const double step = 0.25 * volume.geometry.spacing.minCoeff();
+  std::optional<double> skull, skin;
+  bool bone_is_over = false;
+  double before = hounsfield_at(volume, from);
+  for (double t = step; t < kFarthest; t += step) {
+    const double value = hounsfield_at(volume, from + t * direction);
+    const auto falls_below = [&](double level) { return before > level && value <= level; };
+    const auto place = [&](double level) { return t - step * (level - value) / (before - value); };
+    if (falls_below(bone_from) && !bone_is_over) skull = place(bone_from);
+    if (skull && value < 0.5 * bone_from) bone_is_over = true;  // what is as dense yet is a marker
+    if (skull && falls_below(kSkin)) {
+      skin = place(kSkin);
+      break;
+    }
+    before = value;
+  }
+  if (!skull || !skin) return std::nullopt;
+  return Ends{*skull, *skin};
+}
+
+/// Of the plane that is nearest to points.
+Vector3d normal_of(const std::vector<Vector3d>& points) {
+  Vector3d middle = Vector3d::Zero();
+  for (const Vector3d& point : points) middle += point / static_cast<double>(points.size());
+  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+  for (const Vector3d& point : points) {
+    scatter += (point - middle) * (point - middle).transpose();
+  }
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>{scatter}.eigenvectors().col(0);
+}
+
+}  // namespace
+
+std::optional<Crossing> crossing_of(const Volume& volume, const Vector3d& target,
+                                    const Vector3d& direction, double bone_from) {
+  const auto ends = ends_along(volume, target, direction, bone_from);
+  if (!ends) return std::nullopt;
+  constexpr double kAside = 0.003;  // [m]
+  constexpr int kLines = 8, kEnough = 6;
+  const Vector3d across = direction.unitOrthogonal(), third = direction.cross(across);
+  std::vector<Vector3d> around;
+  for (int i = 0; i < kLines; ++i) {
+    const double angle = 2 * std::numbers::pi * i / kLines;
+    const Vector3d from = target + kAside * (std::cos(angle) * across + std::sin(angle) * third);
+    const auto beside = ends_along(volume, from, direction, bone_from);
+    if (beside) around.push_back(from + beside->skull * direction);
+  }
+  if (around.size() < kEnough) return std::nullopt;
+  return Crossing{
+      .skin = target + ends->skin * direction,
+      .skull = target + ends->skull * direction,
+      .skull_angle = std::acos(std::min(1.0, std::abs(normal_of(around).dot(direction))))};
+}
+
+}  // namespace armature::image::needle_planner

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <opencv2/imgcodecs.hpp>
+#include <optional>
+#include <string>
+
+#include "armature/kinds/announced_volume.hpp"
+#include "armature/kinds/geometry_params.hpp"
+#include "armature/kinds/joint_messages.hpp"
+#include "armature/kinds/registration_dialogue.hpp"
+#include "armature/kinds/registration_messages.hpp"
+#include "armature/kinds/setup_robot.hpp"
+#include "armature/kinds/zone_messages.hpp"
+#include "armature/messages/header.hpp"
+#include "armature/messages/sensor_msgs.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
+#include "armature/runtime/component/component.hpp"
+#include "armature/runtime/component/setup.hpp"
+#include "armature/runtime/plugins/plugin.hpp"
+#include "drawing.hpp"
+#include "monitor_sections_parameters.hpp"
+
+namespace armature::monitor::sections {
+
+/// The tool in the image's frame.
+struct Tool {
+  Time stamp;
+  Eigen::Vector3d tip, direction;
+};
+
+/// What one of the three pictures shows.
+struct Picture {
+  View view;
+  const char* name;
+  const char* normal;  // along which its planes are counted
+  int axis;
+};
+
+constexpr std::array kPictures{Picture{View::axial, "axial", "z", 2},
+                               Picture{View::coronal, "coronal", "y", 1},
+                               Picture{View::sagittal, "sagittal", "x", 0}};
+
+class SectionsComponent final : public Component {
+ public:
+  explicit SectionsComponent(Setup& setup)
+      : Component{setup},
+        parameters_{Parameters::read(setup.params())},
+        robot_{robot_of(setup)},
+        needle_axis_{robot_.pointing_axis().value_or(Eigen::Vector3d::UnitZ())},
+        announced_{setup},
+        plan_{setup.input<msg::NeedlePlan>("plan")},
+        registration_{setup},
+        measured_js_{setup.input<msg::JointState>("measured_js")},
+        images_{setup.output<msg::Image>("axial"), setup.output<msg::Image>("coronal"),
+                setup.output<msg::Image>("sagittal")},
+        tool_out_{setup.output<msg::ToolInImage>("tool")} {
+    if (parameters_.window[0] >= parameters_.window[1]) {
+      setup.params().refuse({"window"}, "'window' is black first, then white, which is above it");
+    }
+    setup.activate_every(seconds(1 / parameters_.rate));
+  }
+
+  void step(Time now) override {
+    if (auto volume = announced_.take()) {
+      if (*volume) {
+        volume_ = std::move(**volume);
+        healthy();
+      } else {
+        degraded(volume->error().text);
+      }
+    }
+    registration_.listen([&](const msg::RegistrationResponse& response) {
+      image_T_robot_ = robot_T_image_of(response).inverse();
+    });
+    if (plan_.latest()) plan_now_ = *plan_.latest();
+    const auto tool = tool_now();
+    if (tool) tool_ = *tool;
+    publish_tool(tool, now);
+    for (std::size_t i = 0; volume_ && i < kPictures.size(); ++i) {
+      if (images_[i].has_subscribers()) publish_picture(i, now);
+    }
+  }
+
+  /// The sections through the target, with the tool where it was last.
+  void write_files(const std::filesystem::path& directory) const override {
+    if (!volume_) return;
+    const Eigen::Vector3d through = parameters_.through == Parameters::Through::point || !plan_now_
+                                        ? point()
+                                        : to_eigen(plan_now_->target_());
+    for (const Picture& picture : kPictures) {
+      const std::string file = directory / fmt::format("section_{}.png", picture.name);
+      if (!cv::imwrite(file, drawn_through(picture, through))) {
+        throw std::runtime_error("cannot write '" + file + "'");
+      }
+    }
+  }
+
+ private:
+  Expected<Tool> tool_now() const {
+    if (!image_T_robot_) return refuse("the image is not registered yet");
+    if (!measured_js_.latest()) return refuse("the arm has not said where it is");
+    const msg::JointState& arm = *measured_js_.latest();
+    const auto q = joints_of(robot_, arm);
+    if (!q) return tl::unexpected{q.error()};
+    const Eigen::Isometry3d base_T_tool = forward_kinematics(robot_, *q);
+    const Eigen::Vector3d axis = image_T_robot_->linear() * (base_T_tool.linear() * needle_axis_);
+    return Tool{stamp_of(arm.header_().stamp_()), *image_T_robot_ * base_T_tool.translation(),
+                axis.normalized()};
+  }
+
+  Eigen::Vector3d point() const { return vector_of(parameters_.point); }
+
+  std::vector<ForbiddenZone> vessels() const {
+    return plan_now_ ? zones_of(plan_now_->forbidden_()) : std::vector<ForbiddenZone>{};
+  }
+
+  static double distance_from_line(const Eigen::Vector3d& point, const Eigen::Vector3d& a,
+                                   const Eigen::Vector3d& b) {
+    if ((b - a).norm() < 1e-9) return (point - a).norm();
+    return (point - a).cross((b - a).normalized()).norm();
+  }
+
+  double vessel_distance(const Eigen::Vector3d& point) const {
+    double distance = std::numeric_limits<double>::infinity();
+    for (const ForbiddenZone& vessel : vessels()) {
+      distance = std::min(distance, clearance(point, point, vessel));
+    }
+    return distance;
+  }
+
+  void publish_tool(const Expected<Tool>& tool, Time now) {
+    auto message = tool_out_.loan();
+    *message = msg::ToolInImage{};  // it was used before
+    write_header(message->header_(), tool ? tool->stamp : now, kImageFrame);
+    message->valid_(tool && plan_now_);
+    if (tool && plan_now_) {
+      assign(message->tip_(), tool->tip);
+      assign(message->direction_(), tool->direction);
+      const Eigen::Vector3d target = to_eigen(plan_now_->target_());
+      message->target_distance_((tool->tip - target).norm());
+      message->line_distance_(distance_from_line(tool->tip, to_eigen(plan_now_->entry_()), target));
+      message->vessel_distance_(vessel_distance(tool->tip));
+    } else {
+      message->reason_() = tool ? "there is no plan yet" : tool.error().text;
+    }
+    message.publish();
+  }
+
+  /// What the live sections go through.
+  Eigen::Vector3d through_now() const {
+    if (parameters_.through == Parameters::Through::point) return point();
+    const bool tool_inside = tool_ && volume_->geometry.contains(tool_->tip);
+    if (parameters_.through == Parameters::Through::tool && tool_inside) return tool_->tip;
+    return plan_now_ ? to_eigen(plan_now_->target_()) : point();
+  }
+
+  Overlay overlay() const {
+    Overlay overlay{.plan = {}, .needle = {}, .vessels = vessels(), .texts = {}};
+    if (plan_now_) overlay.plan = {to_eigen(plan_now_->entry_()), to_eigen(plan_now_->target_())};
+    if (!tool_) return overlay;
+    overlay.needle = {tool_->tip, tool_->tip - parameters_.needle * tool_->direction};
+    if (plan_now_) {
+      overlay.texts.push_back(
+          fmt::format("to the target {:.1f} mm", 1e3 * (tool_->tip - overlay.plan->to).norm()));
+    }
+    const double vessel = vessel_distance(tool_->tip);
+    if (std::isfinite(vessel)) {
+      overlay.texts.push_back(fmt::format("to a vessel {:.1f} mm", 1e3 * vessel));
+    }
+    return overlay;
+  }
+
+  cv::Mat drawn_through(const Picture& picture, const Eigen::Vector3d& through) const {
+    const Section section = section_through(picture.view, through, volume_->geometry,
+                                            parameters_.view, parameters_.size);
+    return drawn(*volume_, section, parameters_.window[0], parameters_.window[1], overlay(),
+                 fmt::format("{} {} = {:.1f} mm", picture.name, picture.normal,
+                             1e3 * through[picture.axis]));
+  }
+
+  void publish_picture(std::size_t i, Time now) {
+    const cv::Mat picture = drawn_through(kPictures[i], through_now());
+    auto image = images_[i].loan();
+    write_header(image->header_(), tool_ ? tool_->stamp : now, kImageFrame);
+    image->width_(static_cast<std::uint32_t>(picture.cols));
+    image->height_(static_cast<std::uint32_t>(picture.rows));
+    image->step_(static_cast<std::uint32_t>(3 * picture.cols));
+    image->encoding_("bgr8");
+    image->is_bigendian_(0);
+    image->data_().assign(picture.datastart, picture.dataend);
+    image.publish();
+  }
+
+  Parameters parameters_;
+  RobotModel robot_;
+  Eigen::Vector3d needle_axis_;
+  std::optional<Volume> volume_;
+  std::optional<msg::NeedlePlan> plan_now_;
+  std::optional<Eigen::Affine3d> image_T_robot_;
+  std::optional<Tool> tool_;
+  AnnouncedVolume announced_;
+  Input<msg::NeedlePlan> plan_;
+  OverheardRegistration registration_;
+  Input<msg::JointState> measured_js_;
+  std::array<Output<msg::Image>, 3> images_;
+  Output<msg::ToolInImage> tool_out_;
+};
+
+}  // namespace armature::monitor::sections
+
+ARMATURE_PLUGIN(armature::monitor::sections::SectionsComponent);

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+// The navigation view on its topics: where the tool is in the image, and pictures of that.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <opencv2/imgcodecs.hpp>
+
+#include "armature/kinds/joint_messages.hpp"
+#include "armature/kinds/volume_messages.hpp"
+#include "armature/kinds/zone_messages.hpp"
+#include "armature/messages/sensor_msgs.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
+#include "armature/robot/model/robot_model.hpp"
+#include "armature/runtime/testing/component_harness.hpp"
+#include "armature/runtime/testing/test_plugins.hpp"
+#include "armature/volume/nrrd.hpp"
+#include "armature/volume/phantom.hpp"
+
+namespace armature::monitor::sections {
+namespace {
+
+namespace fs = std::filesystem;
+using Eigen::Vector3d;
+
+class SectionsComponentTest : public testing::Test {
+ protected:
+  SectionsComponentTest() { fs::create_directories(folder_); }
+  ~SectionsComponentTest() override { fs::remove_all(folder_); }
+
+  void show_volume_and_plan() {
+    VolumeGeometry geometry{.size = {51, 51, 51}, .spacing = Vector3d::Constant(0.002)};
+    geometry.origin = Vector3d::Constant(-0.05);
+    const Volume volume = scanned(std::array{ball({0, 0, 0}, 0.04, 35)}, geometry, {});
+    ASSERT_TRUE(write_nrrd(volume, folder_ / "volume.nrrd"));
+    msg::VolumeFile file;
+    file.path_(folder_ / "volume.nrrd");
+    file.sha256_(sha256_of(volume));
+    view_.send("volume", file);
+    msg::NeedlePlan plan;
+    assign(plan.entry_(), Vector3d{0, 0, 0.04});
+    assign(plan.target_(), Vector3d{0, 0, 0.01});
+    write_zones({{"vessel 1", {0.02, -0.01, 0.01}, {0.02, 0.01, 0.01}, 0.003}}, plan.forbidden_());
+    view_.send("plan", plan);
+  }
+  /// The image's origin is where the tip is, moved by `off`.
+  void register_at_tip(const Vector3d& off) {
+    const Vector3d origin = tip_ + off;
+    msg::RegistrationRequest request;
+    request.request_id_(7);
+    view_.send("request", request);
+    msg::RegistrationResponse response;
+    response.request_id_(7);
+    response.valid_(true);
+    response.robot_t_image_({1, 0, 0, origin.x(), 0, 1, 0, origin.y(), 0, 0, 1, origin.z()});
+    view_.send("registration", response);
+  }
+  void tell_arm() {
+    msg::JointState state;
+    write_all_joints(model_, *model_.home(), JointVector::Zero(model_.dof()), Time{99900000000},
+                     state);
+    view_.send("measured_js", state);
+  }
+
+  const fs::path folder_ =
+      fs::temp_directory_path() / ("armature-view-" + std::to_string(getpid()));
+  const config::Node robot_ = config::load(ARMATURE_SOURCE_DIR "/configs/robots/sr1_needle.yaml");
+  const RobotModel model_ = read_robot_model(robot_);
+  const Vector3d tip_ = forward_kinematics(model_, *model_.home()).translation();
+  ComponentHarness view_{
+      built_plugins(),
+      {.component = "{plugin: monitor/sections, params: {size_px: 128, view_mm: 100}}",
+       .robot = robot_,
+       .rig = {}}};
+};
+
+TEST_F(SectionsComponentTest, TellWhereTheToolIsInTheImageAndHowFarFromWhatCounts) {
+  view_.step(99);
+  auto tools = view_.take<msg::ToolInImage>("tool");
+  ASSERT_EQ(tools.size(), 1u);
+  EXPECT_EQ(tools[0].reason_(), "the image is not registered yet");
+  show_volume_and_plan();
+  register_at_tip({-0.003, 0, -0.02});  // so the tip is at (3, 0, 20) mm
+  tell_arm();
+  view_.step(100);
+  tools = view_.take<msg::ToolInImage>("tool");
+  ASSERT_EQ(tools.size(), 1u);
+  ASSERT_TRUE(tools[0].valid_()) << tools[0].reason_();
+  EXPECT_LT((to_eigen(tools[0].tip_()) - Vector3d{0.003, 0, 0.02}).norm(), 1e-12);
+  EXPECT_NEAR(tools[0].target_distance_(), std::hypot(0.003, 0.01), 1e-12);
+  EXPECT_NEAR(tools[0].line_distance_(), 0.003, 1e-12);
+  EXPECT_NEAR(tools[0].vessel_distance_(), std::hypot(0.017, 0.01) - 0.003, 1e-12);
+  EXPECT_EQ(tools[0].header_().frame_id_(), "image");
+}
+
+TEST_F(SectionsComponentTest, ShowThreePicturesWhileSomebodyLooks) {
+  static_cast<void>(view_.take<msg::Image>("axial"));
+  show_volume_and_plan();
+  register_at_tip({-0.003, 0, -0.02});
+  tell_arm();
+  view_.step(100);
+  for (const char* name : {"axial", "coronal", "sagittal"}) {
+    const auto images = view_.take<msg::Image>(name);
+    ASSERT_EQ(images.size(), 1u) << name;
+    EXPECT_EQ(images[0].encoding_(), "bgr8");
+    EXPECT_EQ(images[0].width_(), 128u);
+    EXPECT_EQ(images[0].data_().size(), 3u * 128 * 128);
+    EXPECT_EQ(images[0].header_().frame_id_(), "image");
+  }
+}
+
+TEST_F(SectionsComponentTest, WriteTheSectionsThroughTheTargetIntoTheReport) {
+  show_volume_and_plan();
+  view_.step(100);
+  view_.component().write_files(folder_);
+  for (const char* name : {"axial", "coronal", "sagittal"}) {
+    const cv::Mat picture = cv::imread(folder_ / (std::string{"section_"} + name + ".png"));
+    EXPECT_EQ(picture.size(), cv::Size(128, 128)) << name;
+  }
+}
+
+TEST_F(SectionsComponentTest, WithoutAVolumeWriteNothing) {
+  view_.step(100);
+  view_.component().write_files(folder_);
+  EXPECT_TRUE(fs::is_empty(folder_));
+}
+
+TEST(SectionsComponent, RefuseAWindowThatIsTurnedRound) {
+  EXPECT_NE(
+      refusal_of(built_plugins(),
+                 {.component = "{plugin: monitor/sections, params: {window: [100, -100]}}",
+                  .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/sr1_needle.yaml"),
+                  .rig = {}})
+          .find("'window' is black first"),
+      std::string::npos);
+}
+
+}  // namespace
+}  // namespace armature::monitor::sections

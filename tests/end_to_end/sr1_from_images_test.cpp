@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// SR-1 from pictures: from a volume to a needle in the true lesion, and every volume with which it
+// must not go on.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+
+#include "deployment_run.hpp"
+
+namespace armature::test {
+namespace {
+
+DeploymentRun biopsy(std::vector<std::string> settings = {}) {
+  return run_deployment(
+      {.files = {source_file("configs/sr1_from_images.yaml")}, .settings = std::move(settings)});
+}
+
+void expect_refused(const std::vector<std::string>& settings, const std::string& reason) {
+  const DeploymentRun run = biopsy(settings);
+  SCOPED_TRACE(run.text());
+  EXPECT_EQ(run.command.exit_code, 1);
+  EXPECT_EQ(run.status(), "refused");
+  EXPECT_NE(run.word("reason").find(reason), std::string::npos);
+  EXPECT_FALSE(run.tells("target_error_mm"));
+}
+
+const std::string kScan = "components.tomograph.params.";
+
+TEST(Sr1FromImages, ComesToTheTrueLesionTwiceInTheSameWay) {
+  const DeploymentRun first = biopsy(), second = biopsy();
+  SCOPED_TRACE(first.text());
+  EXPECT_EQ(first.status(), "ok");
+  EXPECT_EQ(first.report, second.report);
+  EXPECT_EQ(first.figure("markers_found"), 6);
+  EXPECT_LE(first.figure("max_marker_error_mm"), 0.08);
+  EXPECT_LE(first.figure("lesion_error_mm"), 0.08);
+  EXPECT_NEAR(first.figure("lesion_volume_ml"), 0.905, 0.1);
+  EXPECT_LE(first.figure("target_error_of_bound_999"), 1);
+  EXPECT_GE(first.figure("vessel_distance_mm"), 4);
+}
+
+TEST(Sr1FromImages, AMarkerThatCameOffBeforeTheScanIsMissed) {
+  expect_refused({kScan + "lost_markers=1"}, "5 of 6 markers were found in the volume");
+  expect_refused({kScan + "lost_markers=6"}, "no marker was found in the volume");
+}
+
+TEST(Sr1FromImages, AMirroredVolumeIsFoundOutByTheRegistration) {
+  expect_refused({kScan + "mirrored=true"}, "mirror");
+}
+
+TEST(Sr1FromImages, NoWayPastTheVesselsIsToldWithItsReasons) {
+  expect_refused({"components.planner.params.min_vessel_distance_mm=60"},
+                 "come too near to a vessel");
+}
+
+/// Of a run that left its volume in a file.
+class Sr1FromAFile : public testing::Test {
+ protected:
+  ~Sr1FromAFile() override { std::filesystem::remove(file_); }
+
+  const std::string file_ = std::filesystem::temp_directory_path() /
+                            ("armature-sr1-" + std::to_string(getpid()) + ".nrrd");
+  const std::vector<std::string> settings_{
+      "components.tomograph={plugin: image/volume, params: {path: " + file_ + "}}"};
+};
+
+TEST_F(Sr1FromAFile, AVolumeFromAFileIsAsGoodAsOneFromTheTomograph) {
+  const DeploymentRun scanned = biopsy({kScan + "file=" + file_});
+  const DeploymentRun read = biopsy(settings_);
+  SCOPED_TRACE(read.text());
+  EXPECT_EQ(read.status(), "ok");
+  for (const char* figure : {"max_marker_error_mm", "lesion_error_mm", "target_error_mm"}) {
+    EXPECT_EQ(read.figure(figure), scanned.figure(figure)) << figure;
+  }
+  std::filesystem::resize_file(file_, 1000000);
+  expect_refused(settings_, "is it truncated?");
+}
+
+}  // namespace
+}  // namespace armature::test

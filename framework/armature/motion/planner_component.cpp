@@ -7,12 +7,15 @@
 
 #include "armature/kinds/setup_robot.hpp"
 #include "armature/kinds/trajectory/trajectory_messages.hpp"
+#include "armature/motion/joint_bound.hpp"
 #include "armature/motion/motion_messages.hpp"
 #include "armature/motion/motion_params.hpp"
 
 namespace armature {
 namespace {
 
+/// Of the way that an arm joins again: a millimetre at the tool of an arm of half a metre.
+constexpr JointBound kJoinWithin{.turning_rad = 0.002, .sliding_m = 0.0005};
 constexpr std::size_t kKnownGoals = 16;  // one that waits for its plan is among the last eight
 
 }  // namespace
@@ -35,7 +38,7 @@ MotionPlanner::MotionPlanner(Setup& setup)
                 .trajectory = setup.slot<TrajectoryPlanner>("trajectory")},
                limits_of(setup.params(), model_),
                planning_of(motion::Parameters::read(setup.params()))},
-      ways_{planner_.limits()} {
+      ways_{planner_.limits(), each(kJoinWithin, model_)} {
   setup.deliver_after(seconds(motion::Parameters::read(setup.params()).plan_budget / 2));
 }
 

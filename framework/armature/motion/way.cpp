@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -23,6 +24,25 @@ int stops_behind(const Trajectory& way, double place_s) {
     at = next_rest_s(way, at);
   }
   return stops;
+}
+
+/// [s] Where the way is nearest to `q`.
+double nearest_s(const Trajectory& way, const JointVector& q) {
+  const auto off = [&](double t) { return (state_at(way.view(), t).q - q).squaredNorm(); };
+  constexpr int kSamples = 2000, kSteps = 60;
+  const double end = way.duration_s(), step = end / kSamples;
+  double nearest = 0;
+  for (int i = 1; i <= kSamples; ++i) {
+    if (off(i * step) < off(nearest)) nearest = i * step;
+  }
+  double from = std::max(0.0, nearest - step), to = std::min(end, nearest + step);
+  for (int i = 0; i < kSteps; ++i) {
+    const double third = (to - from) / 3;
+    const bool nearer_to_from = off(from + third) < off(to - third);
+    from += nearer_to_from ? 0 : third;
+    to -= nearer_to_from ? third : 0;
+  }
+  return (from + to) / 2;
 }
 
 WayLegResult no_leg(std::string reason) {
@@ -63,6 +83,14 @@ const Ways::Drive* Ways::find(const PlanRequest& request) const {
     if (same) return &*drive;
   }
   return nullptr;
+}
+
+/// What leads to the way, before what goes along it.
+void Ways::join(const Trajectory& to_way, Drive& drive) {
+  const double lasts = to_way.duration_s();
+  if (lasts == 0) return;
+  drive.trajectory = followed_by(to_way, drive.trajectory);
+  drive.ramp_s += lasts;
 }
 
 Ways::Drive Ways::paused(const Drive& drive, double t) const {
@@ -108,18 +136,40 @@ Expected<Ways::Drive> Ways::gone_on(const Drive& drive, bool back, bool stepwise
   return next;
 }
 
+Expected<Ways::Drive> Ways::joined(const JointVector& q) const {
+  double off_most = INFINITY;
+  for (auto drive = drives_.rbegin(); drive != drives_.rend(); ++drive) {
+    const Trajectory& way = drive->way.trajectory();
+    const double place_s = nearest_s(way, q);
+    const JointVector there = state_at(way.view(), place_s).q;
+    const double off = (q - there).cwiseAbs().cwiseQuotient(join_within_).maxCoeff();
+    off_most = std::min(off_most, off);
+    if (off > 1) continue;
+    Drive on{.way = drive->way, .to_s = place_s};
+    on.trajectory = to_trajectory(
+        short_move(q, there, limits_.max_velocity, limits_.max_acceleration, {}, 0).view());
+    return on;
+  }
+  if (drives_.empty()) return refuse("the arm is on no planned way");
+  return refuse(fmt::format(
+      "the arm is beside its way, by {:.1f} times as much as it may join it again from", off_most));
+}
+
 WayLegResult Ways::change(MotionMode mode, bool stepwise, const PlanRequest& request) {
   const Drive* drive = find(request);
-  if (!drive) return no_leg("the arm is on no planned way");
-  const double t = to_seconds(request.start - request.since);
+  const bool back = mode == MotionMode::retrace;
+  if (!drive && !back) return no_leg("the arm is on no planned way");
   Drive next;
   if (mode == MotionMode::pause) {
-    next = paused(*drive, t);
+    next = paused(*drive, to_seconds(request.start - request.since));
   } else {
     if (!at_rest(request.from)) return no_leg("the arm has not stopped yet");
-    auto on = gone_on(*drive, mode == MotionMode::retrace, stepwise);
+    const auto from = drive ? Expected<Drive>{*drive} : joined(request.from.q);
+    if (!from) return no_leg(from.error().text);
+    auto on = gone_on(*from, back, stepwise);
     if (!on) return no_leg(on.error().text);
     next = std::move(*on);
+    if (!drive) join(from->trajectory, next);
   }
   next.trajectory.start = request.start;
   next.trajectory.goal_id = request.goal_id;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <utility>
 
 #include "armature/motion/goal.hpp"
 #include "armature/motion/plan.hpp"
@@ -24,7 +25,10 @@ using WayLegResult = tl::expected<WayLeg, PlanFailure>;
 /// way has a stop. May allocate.
 class Ways {
  public:
-  explicit Ways(const MotionLimits& limits) : limits_{limits} {}
+  /// `join_within`: an arm that was stopped beside its way joins it again when no joint is farther
+  /// from it [rad] or [m].
+  Ways(const MotionLimits& limits, JointVector join_within)
+      : limits_{limits}, join_within_{std::move(join_within)} {}
 
   /// A new way, and its first leg: to its first stop when it is `stepwise`, else all of it.
   /// A trajectory that rests less often than its path says is refused then: it would go past a
@@ -34,8 +38,9 @@ class Ways {
   /// The leg that `mode` (pause, resume, retrace) makes of the way on which the reference is at
   /// `request.start`. Resume goes on to the next stop, or to the end; retrace back to the stop
   /// before, or to the start of the way. What was paused is gone on with to where it was to end,
-  /// even where that is reached already. Refuses where the reference is on no way, or where nothing
-  /// is left of it.
+  /// even where that is reached already. To go back, an arm that was stopped beside its way joins
+  /// it again where that is near, straight in joint space. Refuses where the reference is on no
+  /// way, or where nothing is left of it.
   WayLegResult change(MotionMode mode, bool stepwise, const PlanRequest& request);
 
  private:
@@ -65,8 +70,12 @@ class Ways {
   /// `t`: [s] from the drive's begin, as `Drive::place_at`.
   Drive paused(const Drive& drive, double t) const;
   Expected<Drive> gone_on(const Drive& drive, bool back, bool stepwise) const;
+  static void join(const Trajectory& to_way, Drive& drive);
+  /// As if it had been driven to where `q` is on the way, or why that is on none.
+  Expected<Drive> joined(const JointVector& q) const;
 
   MotionLimits limits_;
+  JointVector join_within_;
   std::deque<Drive> drives_;  // newest last; the reference is on one of the last few
 };
 

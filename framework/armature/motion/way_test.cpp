@@ -74,7 +74,7 @@ class WaysTest : public ::testing::Test {
 
   const JointVector kStops[4] = {joints(0, 0), joints(0.5, -0.3), joints(0.4, 0.2), joints(1, 1)};
   const MotionLimits limits_{.max_velocity = joints(0.5, 0.6), .max_acceleration = joints(1, 2)};
-  Ways ways_{limits_};
+  Ways ways_{limits_, joints(0.002, 0.002)};
   Trajectory whole_, reference_;
   Time now_ = kBegin;
   std::uint64_t goal_id_ = 1;
@@ -165,13 +165,21 @@ TEST_F(WaysTest, APauseThatCameAtTheEndOfALegDoesNotLetTheNextOneBegin) {
   expect_at(2, 1);
 }
 
-TEST_F(WaysTest, AReferenceThatHasLeftItsWayIsOnNone) {
-  drive(*ways_.begin(planned(whole_), false), 0.15);
+TEST_F(WaysTest, AReferenceThatWasStoppedBesideItsWayJoinsItAgainToGoBack) {
+  drive(*ways_.begin(planned(whole_), false), 0.5);  // on the second leg, or near its ends
+  const JointVector beside = joints(0.0015, -0.0015);
   reference_ =
-      stop_from(reference_.at(now_), limits_.max_velocity, limits_.max_acceleration, now_, 1);
-  now_ = reference_.end();
-  EXPECT_EQ(refusal(MotionMode::resume), "the arm is on no planned way");
-  EXPECT_EQ(refusal(MotionMode::retrace), "the arm is on no planned way");
+      hold_at(whole_.at(whole_.start + seconds(0.5 * whole_.duration_s())).q + beside, now_, 1);
+  EXPECT_EQ(refusal(MotionMode::resume), "the arm is on no planned way") << "only back";
+  drive(*ask(MotionMode::retrace, false));
+  expect_at(0, 0);
+}
+
+TEST_F(WaysTest, AReferenceThatIsFarFromItsWayIsOnNone) {
+  drive(*ways_.begin(planned(whole_), false));
+  reference_ = hold_at(kStops[3] + joints(0, 0.01), now_, 1);
+  EXPECT_EQ(refusal(MotionMode::retrace),
+            "the arm is beside its way, by 5.0 times as much as it may join it again from");
 }
 
 TEST_F(WaysTest, AMovingReferenceDoesNotGoBack) {

@@ -47,6 +47,8 @@ class PursuedGoal {
   bool stopped() const { return state_ == State::failed && stopped_; }
   Time done_at() const { return done_at_; }
   const std::string& reason() const { return reason_; }
+  /// The arm has set out for it.
+  bool begun() const { return begun_; }
   /// Of a goal that is done: how many stops of its way lie behind it.
   int stops_ahead() const { return stops_ahead_; }
   int sent() const { return sent_; }

@@ -80,7 +80,7 @@ void Biopsy::update(Time now) {
   if (turning_to_ != Heading::none && rests && !procedure_.paused()) {
     return turn_to(std::exchange(turning_to_, Heading::none));
   }
-  if (!procedure_.may_act() || heading_ != Heading::none) return;
+  if (!procedure_.may_act() || heading_ != Heading::none || held_) return;
   switch (step()) {
     case Step::registration:
       break;
@@ -106,6 +106,7 @@ void Biopsy::set_out() {
 }
 
 void Biopsy::turn_to(Heading heading) {
+  trouble_.clear();
   heading_ = heading;
   goal_.retrace(heading != Heading::home);
 }
@@ -114,8 +115,8 @@ void Biopsy::hear(const GoalReport& report, Time now) {
   goal_.hear(report, now);
   if (procedure_.over() || heading_ == Heading::none) return;
   if (goal_.state() == PursuedGoal::State::failed) {
-    const bool aborts = heading_ == Heading::home;
-    return refuse((aborts ? "aborted, and the way back failed: " : "") + goal_.reason());
+    return break_down((heading_ == Heading::onward ? "" : "the way back failed: ") +
+                      goal_.reason());
   }
   if (goal_.state() == PursuedGoal::State::done) arrive(now);
 }
@@ -123,7 +124,7 @@ void Biopsy::hear(const GoalReport& report, Time now) {
 void Biopsy::arrive(Time now) {
   const Heading came = std::exchange(heading_, Heading::none);
   const int ahead = goal_.stops_ahead();
-  if (way_stops_ == 0) way_stops_ = ahead + 1;
+  if (way_stops_ == 0 && came == Heading::onward) way_stops_ = ahead + 1;
   place_ = came == Heading::onward ? way_stops_ - ahead : ahead;
   if (came == Heading::home) {
     ended_as_ = Phase::aborted;
@@ -141,12 +142,16 @@ void Biopsy::arrive(Time now) {
 }
 
 Biopsy::Step Biopsy::step_from(int place) const {
+  if (way_stops_ == 0) return Step::approach;
   if (place == way_stops_) return Step::withdrawal;
   if (place == way_stops_ - 1) return Step::insertion;
   return place == way_stops_ - 2 ? Step::entry : Step::approach;
 }
 
 Expected<void> Biopsy::hear(const OperatorCommand& command) {
+  if (held_ && command.word != "back" && command.word != "abort") {
+    return armature::refuse("the needle has broken down on its way: back or abort leads it out");
+  }
   const auto word = procedure_.hear(command);
   if (!word) return tl::unexpected{word.error()};
   switch (*word) {
@@ -172,13 +177,14 @@ Expected<void> Biopsy::go_back() {
   }
   if (step() == Step::registration) return armature::refuse("there is no step before this one");
   procedure_.turn_back();
-  if (heading_ == Heading::none && place_ == 0) {
+  if (heading_ == Heading::none && place_ == 0 && !held_) {
     line_.reset();
     way_stops_ = 0;
     enter(Step::registration);
     return {};
   }
   goal_.pause();
+  held_ = false;
   turning_to_ = Heading::back;
   return {};
 }
@@ -186,15 +192,24 @@ Expected<void> Biopsy::go_back() {
 Expected<void> Biopsy::abort() {
   if (heading() == Heading::home) return armature::refuse("it is being aborted already");
   procedure_.turn_back();
-  const bool stands_where_it_began = place_ == 0 && heading_ == Heading::none;
+  const bool stands_where_it_began = place_ == 0 && heading_ == Heading::none && !held_;
   if (stands_where_it_began) {
     ended_as_ = Phase::aborted;
     procedure_.end(Procedure::StepState::broken_off);
     return {};
   }
   goal_.pause();
+  held_ = false;
   turning_to_ = Heading::home;
   return {};
+}
+
+void Biopsy::break_down(const std::string& why) {
+  const bool has_set_out = way_stops_ > 0 || goal_.begun();
+  if (parameters_.auto_confirm || !has_set_out) return refuse(why);
+  held_ = true;
+  heading_ = turning_to_ = Heading::none;
+  trouble_ = why;
 }
 
 void Biopsy::refuse(const std::string& why) {
@@ -205,6 +220,7 @@ void Biopsy::refuse(const std::string& why) {
 
 Biopsy::Phase Biopsy::phase() const {
   if (procedure_.over()) return ended_as_;
+  if (held_) return Phase::held;
   switch (heading()) {
     case Heading::onward:
       return Phase::moving;
@@ -240,6 +256,8 @@ const char* to_string(Biopsy::Phase phase) {
       return "going back";
     case Biopsy::Phase::aborting:
       return "aborting";
+    case Biopsy::Phase::held:
+      return "held";
     case Biopsy::Phase::withdrawn:
       return "withdrawn";
     case Biopsy::Phase::aborted:

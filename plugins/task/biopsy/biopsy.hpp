@@ -51,6 +51,7 @@ class Biopsy {
     withdrawing,
     going_back,  // one stop, since the operator wants it
     aborting,    // to where the way began
+    held,        // it broke down on its way: the operator leads it back
     withdrawn,
     aborted,
     refused,
@@ -90,6 +91,8 @@ class Biopsy {
   Expected<void> abort();
   /// Along the way, once the arm rests.
   void turn_to(Heading heading);
+  /// For good; or, of a needle that has set out, until an operator who is there leads it back.
+  void break_down(const std::string& why);
   void refuse(const std::string& why);
 
   Parameters parameters_;
@@ -105,6 +108,7 @@ class Biopsy {
   int place_ = 0;                       // the stop where the arm rests, or rested last
   Time at_target_since_;
   Phase ended_as_ = Phase::withdrawn;
+  bool held_ = false;
   std::string trouble_;
 };
 

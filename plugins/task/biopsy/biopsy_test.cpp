@@ -60,6 +60,9 @@ class BiopsyTest : public testing::Test {
   void hear(Report state, int stops_ahead = 0) {
     task_->hear({.goal_id = id_, .state = state, .stops_ahead = stops_ahead}, now_);
   }
+  void fail(const std::string& stage, const std::string& reason) {
+    task_->hear({.goal_id = id_, .state = Report::failed, .stage = stage, .reason = reason}, now_);
+  }
   void expect_no_goal() {
     task_->update(now_);
     EXPECT_FALSE(task_->outgoing_goal(now_));
@@ -298,17 +301,42 @@ TEST_F(OperatedBiopsyTest, AbortedAtTheTargetOrOnTheWayOutItGoesOnToWhereItBegan
   EXPECT_EQ(task_->phase(), Phase::aborted);
 }
 
-TEST_F(OperatedBiopsyTest, AWayBackThatFailsIsSaid) {
+TEST_F(OperatedBiopsyTest, ANeedleThatBrokeDownOnItsWayIsLedOutByTheOperator) {
   confirm("approach", 2);
-  say("abort");
-  task_->hear({.goal_id = sent().id,
-               .state = Report::failed,
-               .stage = "path",
-               .reason = "the arm is on no planned way"},
-              now_);
+  confirm("entry", 1);
+  say("confirm", "insertion");
+  sent();
+  hear(Report::executing);
+  fail("stop", "stopped until it is rearmed");
+  EXPECT_EQ(task_->phase(), Phase::held);
+  expect_no_goal();
+  EXPECT_EQ(say("resume"), "the needle has broken down on its way: back or abort leads it out");
+  EXPECT_EQ(say("abort"), "");
+  EXPECT_EQ(sent().mode, MotionMode::retrace);
+  fail("stop", "stopped until it is rearmed");  // it was not rearmed
+  EXPECT_EQ(task_->phase(), Phase::held);
+  EXPECT_EQ(task_->trouble(), "the way back failed: stop: stopped until it is rearmed");
+  EXPECT_EQ(say("abort"), "") << "once more";
+  reach(0);
+  EXPECT_EQ(task_->phase(), Phase::aborted);
+}
+
+TEST_F(OperatedBiopsyTest, BackFromABreakdownGoesToTheStopBefore) {
+  say("confirm", "approach");
+  sent();
+  hear(Report::executing);
+  fail("execution", "stuck");
+  EXPECT_EQ(task_->phase(), Phase::held);
+  EXPECT_EQ(say("back"), "");
+  reach(0);
+  EXPECT_EQ(asked(), "approach") << "where it began";
+}
+
+TEST_F(OperatedBiopsyTest, APlanThatIsRefusedBeforeAnythingMovedIsTheEnd) {
+  say("confirm", "approach");
+  sent();
+  fail("path", "a vessel");
   EXPECT_EQ(task_->phase(), Phase::refused);
-  EXPECT_EQ(task_->trouble(),
-            "aborted, and the way back failed: path: the arm is on no planned way");
 }
 
 TEST_F(BiopsyTest, ARobotWithoutAPointingAxisIsGivenTheRotationNearestToHome) {

@@ -31,6 +31,44 @@ TEST(DentalImplant, DrillsThreeSitesTwiceInTheSameWay) {
   EXPECT_NEAR(first.figure("expected_error_rms_mm"), 0.25, 0.02);
 }
 
+DeploymentRun with_implants(std::vector<std::string> settings = {}) {
+  return run_deployment({.files = {source_file("configs/dental_implant.yaml")},
+                         .settings = std::move(settings),
+                         .domain = unique_dds_domain()});
+}
+
+TEST(DentalImplant, PlacesAnImplantInEveryBoreTwiceInTheSameWay) {
+  const DeploymentRun first = with_implants(), second = with_implants();
+  expect_drilled(first);
+  EXPECT_EQ(first.report, second.report);
+  EXPECT_LE(first.figure("implant_error_mm"), 0.8);
+  EXPECT_LE(first.figure("implant_deviation_mm"), 0.05);
+  EXPECT_LE(first.figure("thread_error_mm"), 1e-6) << "the simulated handpiece follows at once";
+  EXPECT_GT(first.figure("time_to_placed_s"), first.figure("time_to_drilled_s") + 3 * 10)
+      << "an implant is turned in slowly";
+  EXPECT_LE(first.figure("final_speed_rad_s"), 1e-9);
+}
+
+/// Behind by its lag times the speed along the thread, 1.2 mm for 2 pi at 5 rad/s.
+TEST(DentalImplant, AHandpieceThatLagsIsMeasuredAndOneThatLagsTooMuchStopsTheArm) {
+  const DeploymentRun behind = with_implants({"components.handpiece.params.lag_s=0.05"});
+  EXPECT_EQ(behind.status(), "ok") << behind.text();
+  EXPECT_NEAR(behind.figure("thread_error_mm"), 0.05 * 1.2 * 5 / (2 * M_PI), 0.002);
+  const DeploymentRun stopped = with_implants({"components.handpiece.params.lag_s=0.4"});
+  EXPECT_EQ(stopped.status(), "refused") << stopped.text();
+  EXPECT_EQ(stopped.word("reason").find("implant 1: the implant went in by "), 0u)
+      << stopped.word("reason");
+  EXPECT_LE(stopped.figure("final_speed_rad_s"), 1e-9);
+}
+
+TEST(DentalImplant, WithoutAHandpieceNoImplantIsPlacedAndNothingMoves) {
+  const DeploymentRun run =
+      with_implants({"components.handpiece=null", "components.threading=null"});
+  EXPECT_EQ(run.status(), "refused") << run.text();
+  EXPECT_EQ(run.word("reason"),
+            "the plan has implants, and no handpiece tells how far it turns them");
+}
+
 TEST(DentalImplant, WithoutAnyErrorOfItsSourcesTheDrillIsAtEverySite) {
   const DeploymentRun run =
       implant({kTracker + "sphere_error_mm=0", kTracker + "marker_error_mm=0"});

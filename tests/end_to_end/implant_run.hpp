@@ -12,10 +12,11 @@
 
 namespace armature::test {
 
-/// One run after the other, all in one domain: there are not enough for hundreds.
+/// The bores alone. One run after the other, all in one domain: there are not enough for hundreds.
 inline DeploymentRun implant(std::vector<std::string> settings = {}) {
   static const int domain = unique_dds_domain();
-  return run_deployment({.files = {source_file("configs/dental_implant.yaml")},
+  return run_deployment({.files = {source_file("configs/dental_implant.yaml"),
+                                   source_file("configs/overlays/drilling_only.yaml")},
                          .settings = std::move(settings),
                          .domain = domain});
 }

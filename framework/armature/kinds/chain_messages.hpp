@@ -11,6 +11,18 @@
 
 namespace armature ARMATURE_EXPORT {
 
+/// What the second tool of a chain is called, where there is one.
+inline constexpr std::string_view kDriver = "driver";
+
+/// Adds where a tool is on the body of the flange.
+inline void write_tool(const GuidedChain& chain, std::string_view tool, Time stamp,
+                       msg::TFMessage& message) {
+  auto& transform = message.transforms_().emplace_back();
+  write_header(transform.header_(), stamp, "body");
+  transform.child_frame_id_().assign(tool);
+  assign(transform.transform_(), chain.flange_T_body.inverse() * chain.flange_T_tool());
+}
+
 /// The links of a guided chain, as ROS tells frames. Of a map that is not rigid the rotation only.
 inline void write_chain(const GuidedChain& chain, Time stamp, msg::TFMessage& message) {
   message.transforms_().clear();
@@ -23,15 +35,16 @@ inline void write_chain(const GuidedChain& chain, Time stamp, msg::TFMessage& me
   };
   link(kBaseFrame, "tracker", chain.base_T_tracker);
   link("flange", "body", chain.flange_T_body);
-  link("body", "tool", chain.flange_T_body.inverse() * chain.flange_T_tool());
+  write_tool(chain, "tool", stamp, message);
   link("tracker", "patient", chain.tracker_T_patient);
   link("patient", "image",
        Eigen::Translation3d{chain.patient_T_image.translation()} *
            Eigen::Quaterniond{chain.patient_T_image.rotation()});
 }
 
-/// The chain of such a message, or which link it lacks.
-inline Expected<GuidedChain> chain_of(const msg::TFMessage& message) {
+/// The chain of such a message, with that tool, or which link it lacks.
+inline Expected<GuidedChain> chain_of(const msg::TFMessage& message,
+                                      std::string_view tool = "tool") {
   std::string missing;
   const auto link = [&](std::string_view parent, std::string_view child) {
     for (const auto& transform : message.transforms_()) {
@@ -45,7 +58,7 @@ inline Expected<GuidedChain> chain_of(const msg::TFMessage& message) {
   GuidedChain chain;
   chain.base_T_tracker = link(kBaseFrame, "tracker");
   chain.flange_T_body = link("flange", "body");
-  const Eigen::Isometry3d body_T_tool = link("body", "tool");
+  const Eigen::Isometry3d body_T_tool = link("body", tool);
   chain.tip = body_T_tool.translation();
   chain.flange_R_tool = chain.flange_T_body.linear() * body_T_tool.linear();
   chain.tracker_T_patient = link("tracker", "patient");

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstddef>
 
 namespace armature {
@@ -12,6 +13,12 @@ ReasonText defect(const MotionGoal& goal) {
   if (!goal.velocity.allFinite()) return "the goal's velocity is not finite";
   if (!goal.angular_velocity.allFinite()) return "the goal's angular velocity is not finite";
   if (goal.focus && !goal.focus->allFinite()) return "the goal's focus is not finite";
+  if (!std::isfinite(goal.max_speed) || goal.max_speed < 0) {
+    return ReasonText::format("the goal's greatest speed is {:g} m/s", goal.max_speed);
+  }
+  if (goal.mode == MotionMode::tracking && goal.max_speed > 0) {
+    return "the goal has a greatest speed, which tracking takes from its parameters";
+  }
   return defect(goal.pose, "the goal's");
 }
 

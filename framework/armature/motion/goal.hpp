@@ -40,6 +40,7 @@ struct MotionGoal {
   /// Done where the way next stops, as a path says it does; planned, resume and retrace only. The
   /// whole way has been planned then, and `resume` goes on.
   bool stepwise = false;
+  double max_speed = 0;  // [m/s] of the tool's position, on the whole way; 0: any; planned only
 };
 
 /// Whether a goal of that mode says where the tool shall be.

@@ -23,6 +23,7 @@ inline void write_goal(const MotionGoal& goal, Time now, msg::MotionGoal& messag
   }
   write_zones(goal.forbidden, message.forbidden_());
   message.stepwise_(goal.stepwise);
+  message.max_speed_(goal.max_speed);
   assign(message.velocity_(), goal.velocity);
   assign(message.angular_velocity_(), goal.angular_velocity);
 }

@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -95,6 +96,20 @@ Expected<IkStatus> solved(const IkSolver& solver, const IkGoal& goal, const Join
   });
 }
 
+/// [m/s] The greatest speed of the tool's position, by samples 2 ms apart or closer.
+double peak_speed(const Trajectory& trajectory, const RobotModel& model) {
+  const double step_s = std::clamp(trajectory.duration_s() / 1000, 1e-5, 2e-3);
+  const TrajectoryView view = trajectory.view();
+  double peak = 0;
+  for (double t = 0; t < trajectory.duration_s(); t += step_s) {
+    const JointState state = state_at(view, t);
+    const Eigen::VectorXd twist =
+        forward_kinematics_with_jacobian(model, state.q, model.tool()).jacobian * state.v;
+    peak = std::max(peak, twist.head<3>().norm());
+  }
+  return peak;
+}
+
 bool leaves_limits(const Trajectory& trajectory, const RobotModel& model) {
   const auto dof = static_cast<std::size_t>(trajectory.dof);
   for (std::size_t i = 0; i < trajectory.pieces.size(); ++i) {
@@ -120,6 +135,9 @@ std::string with_way_out(std::string defect, const Plan& plan, const RobotModel&
          "; no sample of its path does: give the curve between them room with limit_margin_deg (or "
          "_mm)";
 }
+
+/// A splice would leave the key poses, and an arm that is faster than it may be is not spliced.
+bool begins_at_rest(const MotionGoal& goal) { return !goal.through.empty() || goal.max_speed > 0; }
 
 }  // namespace
 
@@ -150,13 +168,11 @@ tl::expected<JointVector, PlanFailure> GoalPlanner::solve(const ToolPose& pose,
 
 PlanResult GoalPlanner::plan(const MotionGoal& goal, const JointState& from, Time start) {
   if (auto end = solve(goal.pose, from.q); !end) return tl::unexpected{end.error()};
-  const bool moving = !at_rest(from);
-  if (!goal.through.empty()) {
-    return moving ? after_stop(goal, from, start, false) : attempt(goal, from, start, false);
-  }
-  PlanResult first = attempt(goal, from, start, false);
-  if (first) return first;
-  if (moving) {
+  const bool moving = !at_rest(from), stops_first = moving && begins_at_rest(goal);
+  PlanResult first =
+      stops_first ? after_stop(goal, from, start, false) : attempt(goal, from, start, false);
+  if (first || !goal.through.empty()) return first;
+  if (moving && !stops_first) {
     if (PlanResult stopped = after_stop(goal, from, start, false)) return stopped;
   }
   if (options_.path_only || goal.stepwise) return first;
@@ -215,6 +231,11 @@ PlanResult GoalPlanner::attempt(const MotionGoal& goal, const JointState& from, 
   const ReasonText wrong = trajectory_defect(plan.trajectory.view(), model_, limits_, from, start);
   if (!wrong.empty()) {
     return fail("trajectory", with_way_out(std::string{wrong.view()}, plan, model_));
+  }
+  if (goal.max_speed > 0) {
+    constexpr double kBetweenSamples = 1.0001;
+    const double slower = kBetweenSamples * peak_speed(plan.trajectory, model_) / goal.max_speed;
+    if (slower > 1) plan.trajectory = stretched(plan.trajectory, slower);
   }
   return plan;
 }

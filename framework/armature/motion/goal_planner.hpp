@@ -36,7 +36,8 @@ class GoalPlanner {
   /// the goal. Tried in this order: the path plugin's path, spliced while moving; the same after a
   /// stop; unless path_only, straight in joint space. Fails with the reason of the first. A goal
   /// that is stepwise never goes straight: its stops are the path's. With key poses only the path
-  /// plugin's path, from rest: anything else would miss them.
+  /// plugin's path, from rest: anything else would miss them. With a greatest speed from rest, too;
+  /// a stop that comes first counts for nothing there.
   PlanResult plan(const MotionGoal& goal, const JointState& from, Time start);
 
   /// The joint position nearest to `near` that reaches `pose`.

@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 #include "armature/motion/gantry_stages_test.hpp"
 
 namespace armature {
@@ -90,6 +92,43 @@ TEST(GoalPlanner, StopsBeforeItGoesThroughKeyPoses) {
   EXPECT_EQ(gantry.trajectory.last_request.from.v.norm(), 0);
   EXPECT_NEAR(plan->trajectory.at(kStart).v[0], 0.5, 1e-12);
   EXPECT_NEAR(plan->trajectory.at(plan->trajectory.end()).q[2], 1, 1e-9);
+}
+
+/// The gantry's joints are the tool's coordinates.
+double peak_speed_of(const Trajectory& trajectory) {
+  double peak = 0;
+  for (double t = 0; t <= trajectory.duration_s(); t += 1e-3) {
+    peak = std::max(peak, state_at(trajectory.view(), t).v.norm());
+  }
+  return peak;
+}
+
+TEST(GoalPlanner, IsNowhereFasterThanItsGoalAllowsAndNotMuchSlower) {
+  const Gantry gantry;
+  MotionGoal goal = goal_at(1, 0.5, 0.6, 0.7);
+  const auto free = gantry.planner().plan(goal, rest_at(0, 0, 0), kStart);
+  goal.max_speed = 0.01;
+  const auto slow = gantry.planner().plan(goal, rest_at(0, 0, 0), kStart);
+  ASSERT_TRUE(free && slow);
+  EXPECT_GT(peak_speed_of(free->trajectory), 0.5);
+  EXPECT_LE(peak_speed_of(slow->trajectory), 0.01);
+  EXPECT_GE(peak_speed_of(slow->trajectory), 0.0099);
+  goal.max_speed = 100;
+  const auto fast = gantry.planner().plan(goal, rest_at(0, 0, 0), kStart);
+  ASSERT_TRUE(fast);
+  EXPECT_EQ(fast->trajectory.duration_s(), free->trajectory.duration_s());
+}
+
+TEST(GoalPlanner, StopsBeforeItGoesSlowly) {
+  Gantry gantry;
+  JointState from = rest_at(0, 0, 0);
+  from.v = Eigen::Vector3d{0.5, 0, 0};
+  MotionGoal goal = goal_at(1, 1, 0, 0);
+  goal.max_speed = 0.02;
+  auto plan = gantry.planner().plan(goal, from, kStart);
+  ASSERT_TRUE(plan) << plan.error().reason;
+  EXPECT_EQ(gantry.trajectory.last_request.from.v.norm(), 0);
+  EXPECT_NEAR(plan->trajectory.at(kStart).v[0], 0.5, 1e-12);
 }
 
 TEST(GoalPlanner, TellsTheSolverTheRedundancyOfTheJointsThatItTookBefore) {

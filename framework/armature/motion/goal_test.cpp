@@ -55,6 +55,20 @@ TEST(Goal, WithForbiddenZonesIsForAPath) {
             "the goal's forbidden zone 'artery' has the radius -0.01 m");
 }
 
+TEST(Goal, WithAGreatestSpeedThatIsNoneIsRefused) {
+  MotionGoal goal = good_goal();
+  goal.max_speed = 0.001;
+  EXPECT_TRUE(checked(goal));
+  goal.mode = MotionMode::tracking;
+  EXPECT_EQ(checked(goal).error().text,
+            "the goal has a greatest speed, which tracking takes from its parameters");
+  goal = good_goal();
+  goal.max_speed = -1;
+  EXPECT_EQ(checked(goal).error().text, "the goal's greatest speed is -1 m/s");
+  goal.max_speed = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(checked(goal).error().text, "the goal's greatest speed is nan m/s");
+}
+
 TEST(Goal, WithAZeroDirectionOrQuaternionIsRefused) {
   MotionGoal goal = good_goal();
   goal.pose.orientation = Direction{Eigen::Vector3d::Zero()};

@@ -36,6 +36,7 @@ ReasonText read_goal_head(const msg::MotionGoal& message, MotionGoal& goal) {
   goal.pose = tool_pose_of(message);
   if (message.has_focus_()) goal.focus = to_eigen(message.focus_());
   goal.stepwise = message.stepwise_();
+  goal.max_speed = message.max_speed_();
   if (goal.mode == MotionMode::tracking) {
     goal.velocity = to_eigen(message.velocity_());
     goal.angular_velocity = to_eigen(message.angular_velocity_());

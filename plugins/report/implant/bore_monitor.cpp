@@ -24,12 +24,12 @@ AtSite at_site(const Isometry3d& site_T_drill) {
 
 }  // namespace
 
-BoreMonitor::BoreMonitor(const std::vector<Isometry3d>& image_T_sites, const GuidedChain& estimate,
+BoreMonitor::BoreMonitor(const std::vector<Site>& sites, const GuidedChain& estimate,
                          const Parameters& parameters)
     : parameters_{parameters}, flange_T_tool_{estimate.flange_T_tool()} {
-  for (const Isometry3d& site : image_T_sites) {
-    bores_.push_back({.image_T_site = site});
-    site_T_base_.push_back(estimate.base_T_site(site).inverse());
+  for (const Site& site : sites) {
+    bores_.push_back({site});
+    site_T_base_.push_back(estimate.base_T_site(site.image_T_site).inverse());
   }
   for (std::size_t i = 0; i < bores_.size(); ++i) {
     bores_[i].near_m = parameters.near;
@@ -46,8 +46,12 @@ double BoreMonitor::entry_to_axis(std::size_t i, std::size_t other) const {
 }
 
 void BoreMonitor::see(const Isometry3d& base_T_flange, const GuidedChain& truth) {
-  const Isometry3d base_T_drill = base_T_flange * flange_T_tool_;
-  const auto believed_at = [&](std::size_t i) { return at_site(site_T_base_[i] * base_T_drill); };
+  const auto end_of = [&](const Isometry3d& flange_T_tool, const Site& site) {
+    return base_T_flange * flange_T_tool * Eigen::Translation3d{0, 0, site.longer_m};
+  };
+  const auto believed_at = [&](std::size_t i) {
+    return at_site(site_T_base_[i] * end_of(flange_T_tool_, bores_[i]));
+  };
   const auto is_in = [&](const AtSite& there) { return there.depth_m >= -parameters_.depth; };
   std::optional<std::size_t> nearest;  // of crossing bores
   for (std::size_t i = 0; i < bores_.size(); ++i) {
@@ -61,7 +65,7 @@ void BoreMonitor::see(const Isometry3d& base_T_flange, const GuidedChain& truth)
   Bore* bore = &bores_[*inside_];
   const AtSite believed = believed_at(*inside_);
   const Isometry3d base_T_site = truth.base_T_site(bore->image_T_site);
-  const Isometry3d site_T_drill = base_T_site.inverse() * base_T_flange * truth.flange_T_tool();
+  const Isometry3d site_T_drill = base_T_site.inverse() * end_of(truth.flange_T_tool(), *bore);
   const AtSite is = at_site(site_T_drill);
   if (!bore->error || is.depth_m > bore->deepest_m) {
     bore->deepest_m = is.depth_m;

@@ -11,9 +11,14 @@
 
 namespace armature::report::implant {
 
-/// What came of the bore at one site.
-struct Bore {
+/// Where a tool has to come to.
+struct Site {
   Eigen::Isometry3d image_T_site;
+  double longer_m = 0;  // than the chain says the tool is here, by the implant that it holds
+};
+
+/// What came of the bore at one site, or of the implant in it.
+struct Bore : Site {
   /// Where the drill was deepest along the site's true axis: its tip from the site [m], in the base
   /// frame, and its axis against the site's. None before it was in.
   std::optional<Eigen::Vector3d> error = {};
@@ -30,13 +35,13 @@ struct OneAxis {
   std::size_t first, second;
 };
 
-/// Watches a drill at all sites of a plan. Where it is in is judged as the arm believes: however
-/// wrong its chain is, it knows which site it drills. Once in, it is in until it is out above or
-/// near another site, however far it goes off the axis.
+/// Watches a tool at all sites of a plan: a drill, or a driver with implants. Where it is in is
+/// judged as the arm believes: however wrong its chain is, it knows which site it drills. Once in,
+/// it is in until it is out above or near another site, however far it goes off the axis.
 class BoreMonitor {
  public:
   /// `estimate`: what the arm believes.
-  BoreMonitor(const std::vector<Eigen::Isometry3d>& image_T_sites, const GuidedChain& estimate,
+  BoreMonitor(const std::vector<Site>& sites, const GuidedChain& estimate,
               const Parameters& parameters);
 
   void see(const Eigen::Isometry3d& base_T_flange, const GuidedChain& truth);

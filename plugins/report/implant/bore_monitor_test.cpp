@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace armature::report::implant {
 namespace {
 
@@ -19,7 +21,9 @@ class BoreMonitorTest : public testing::Test {
     estimate_ = truth_;
     watch();
   }
-  void watch(double near_m = 0.002) { monitor_ = BoreMonitor{sites_, estimate_, {.near = near_m}}; }
+  void watch(double near_m = 0.002) {
+    monitor_ = BoreMonitor{{{sites_[0]}, {sites_[1]}}, estimate_, {.near = near_m}};
+  }
   /// The drill, as the arm believes, at `x`, `z` of the first site, z from its bottom [m].
   void see(double x, double z, double tilt = 0) {
     const Isometry3d drill = estimate_.base_T_site(sites_[0]) * Eigen::Translation3d{x, 0, z} *
@@ -94,12 +98,20 @@ TEST_F(BoreMonitorTest, ADrillInOneBoreIsNotAtItsNeighbourHoweverMuchIsCalledNea
 
 TEST_F(BoreMonitorTest, TellsOfSitesOnOneAxis) {
   EXPECT_FALSE(monitor_.one_axis());
-  const std::vector<Isometry3d> sites{sites_[0], sites_[1],
-                                      sites_[0] * Eigen::Translation3d{0, 0, 0.004}};
+  const std::vector<Site> sites{
+      {sites_[0]}, {sites_[1]}, {sites_[0] * Eigen::Translation3d{0, 0, 0.004}}};
   const auto both = BoreMonitor{sites, estimate_, {}}.one_axis();
   ASSERT_TRUE(both);
   EXPECT_EQ(both->first, 0U);
   EXPECT_EQ(both->second, 2U);
+}
+
+TEST_F(BoreMonitorTest, OfAnImplantTheEndCountsWhereverTheDriverIs) {
+  monitor_ = BoreMonitor{{{sites_[0], 0.01}, {sites_[1]}}, estimate_, {}};
+  see(0, -0.01, 0.02);  // the driver's tip, tilted about it by the estimate's own measure
+  ASSERT_TRUE(bore(0).error);
+  EXPECT_NEAR(bore(0).error->norm(), 2 * 0.01 * std::sin(0.01), 1e-12);
+  EXPECT_NEAR(bore(0).axis_error_rad, 0.02, 1e-12);
 }
 
 TEST_F(BoreMonitorTest, ADrillThatMissesByFarIsStillAtTheSiteThatItDrills) {

@@ -28,6 +28,7 @@
 #include "drill_error.hpp"
 #include "planned_turn.hpp"
 #include "smoothness.hpp"
+#include "thread_monitor.hpp"
 
 namespace armature::report::implant {
 namespace {
@@ -36,11 +37,6 @@ using Eigen::Vector3d;
 
 constexpr Duration kPeriod = seconds(0.02);
 constexpr double kDegrees = 180 / std::numbers::pi, kMillimetres = 1e3;
-
-struct KeyPose {
-  Vector3d position;
-  Eigen::Quaterniond rotation;
-};
 
 double rms(const std::vector<Vector3d>& errors) {
   double sum = 0;
@@ -56,12 +52,14 @@ class ImplantReport final : public Component {
       : Component{setup},
         parameters_{Parameters::read(setup.params())},
         robot_{robot_of(setup)},
-        flange_{flange_of(robot_).frame},
+        flange_{flange_of(robot_)},
         plan_{setup.input<msg::ImplantPlan>("plan")},
         truth_{setup.input<msg::TFMessage>("truth")},
         estimate_{setup.input<msg::TFMessage>("estimate")},
         registration_{setup},
         measured_js_{setup.input<msg::JointState>("measured_js")},
+        handpiece_js_{setup.input<msg::JointState>("handpiece_js")},
+        thread_{setup.input<msg::ThreadAxis>("thread")},
         goal_{setup.input<msg::MotionGoal>("goal")},
         path_{setup.input<msg::ToolPath>("path")},
         task_state_{setup.input<msg::TaskState>("task_state")} {
@@ -75,6 +73,8 @@ class ImplantReport final : public Component {
     });
     read_chains();
     for (std::size_t i = 0; i < task_state_.size(); ++i) read(task_state_[i], now);
+    for (std::size_t i = 0; i < thread_.size(); ++i) threads_.engage(thread_of(thread_[i]));
+    handpiece_read_ = 0;
     for (std::size_t i = 0; i < measured_js_.size(); ++i) read(measured_js_[i]);
     for (std::size_t i = 0; i < goal_.size(); ++i) read(goal_[i]);
     for (std::size_t i = 0; i < path_.size(); ++i) read(path_[i]);
@@ -86,15 +86,16 @@ class ImplantReport final : public Component {
   void summarize(Summary& summary) const override {
     if (state_ == "refused") summary.failed("refused", trouble_);
     if (state_ == "aborted") summary.failed("aborted", "by the operator");
-    if (state_ == "drilled") tell_drilling(summary);
+    if (state_ == "drilled" || state_ == "placed") tell_drilling(summary);
+    if (state_ == "placed") tell_placing(summary);
     summary.metric("final_speed_rad_s", "speed of the fastest joint at the end [rad/s]", speed_);
   }
 
  private:
   void tell_drilling(Summary& summary) const {
     summary.metric("time_to_drilled_s", "time until all sites are drilled [s]",
-                   to_seconds(*ended_at_ - *start_));
-    if (const std::string why = without_errors(); !why.empty()) {
+                   to_seconds(*drilled_at_ - *start_));
+    if (const std::string why = without_errors(bores_, "drill"); !why.empty()) {
       summary.not_measured("site_error_mm", "error of the tip at the worst site [mm]", why);
     } else if (bores_) {
       tell_errors(summary);
@@ -102,18 +103,44 @@ class ImplantReport final : public Component {
     tell_smoothness(summary);
   }
 
-  /// Why the errors at the sites cannot be told, or "".
-  std::string without_errors() const {
-    if (!bores_) return "";
-    if (const auto both = bores_->one_axis()) {
-      return fmt::format("sites {} and {} have one axis, so at which the drill is cannot be told",
-                         both->first + 1, both->second + 1);
+  void tell_placing(Summary& summary) const {
+    summary.metric("time_to_placed_s", "time until all implants are placed [s]",
+                   to_seconds(*ended_at_ - *start_));
+    constexpr const char *kError = "implant_error_mm",
+                         *kTitle = "error of the implant's end at the worst site [mm]";
+    if (const std::string why = without_errors(implants_, "implant"); !why.empty()) {
+      summary.not_measured(kError, kTitle, why);
+    } else if (implants_) {
+      double worst_m = 0, off_m = 0;
+      for (const Bore& bore : implants_->bores()) {
+        worst_m = std::max(worst_m, bore.error->norm());
+        off_m = std::max(off_m, bore.line_deviation_m);
+      }
+      summary.metric(kError, kTitle, kMillimetres * worst_m);
+      summary.metric("implant_deviation_mm", "  farthest off the registered axis [mm]",
+                     kMillimetres * off_m);
     }
-    const auto& bores = bores_->bores();
+    constexpr const char *kThread = "thread_error_mm",
+                         *kThreadTitle = "  most ahead of its turns, or behind them [mm]";
+    if (const auto& error_m = threads_.max_error_m()) {
+      summary.metric(kThread, kThreadTitle, kMillimetres * *error_m);
+    } else {
+      summary.not_measured(kThread, kThreadTitle, "no handpiece told how far it turned");
+    }
+  }
+
+  /// Why the errors at the sites cannot be told, or "".
+  std::string without_errors(const std::optional<BoreMonitor>& monitor, const char* tool) const {
+    if (!monitor) return "";
+    if (const auto both = monitor->one_axis()) {
+      return fmt::format("sites {} and {} have one axis, so at which the {} is cannot be told",
+                         both->first + 1, both->second + 1, tool);
+    }
+    const auto& bores = monitor->bores();
     const auto missed = std::ranges::find_if(bores, [](const Bore& bore) { return !bore.error; });
     if (missed == bores.end()) return "";
     const bool as_set = missed->near_m == parameters_.near;
-    return fmt::format("the drill was never within {:.4g} mm of the axis of site {}, {}",
+    return fmt::format("the {} was never within {:.4g} mm of the axis of site {}, {}", tool,
                        kMillimetres * missed->near_m, missed - bores.begin() + 1,
                        as_set ? "'near_mm'" : "half of what it is from the next site's");
   }
@@ -127,15 +154,53 @@ class ImplantReport final : public Component {
     chain_ = *estimate;
     chain_->patient_T_image = *jaw_T_image_;
     if (bores_) return;
-    std::vector<Eigen::Isometry3d> sites;
-    for (const msg::Pose& site : plan_.latest()->sites_()) sites.push_back(to_eigen(site));
+    std::vector<Site> sites, places;
+    const auto& implants = plan_.latest()->implants_();
+    for (const msg::Pose& site : plan_.latest()->sites_()) {
+      const std::size_t i = sites.size();
+      sites.push_back({to_eigen(site)});
+      if (i >= implants.size()) continue;
+      const Eigen::Translation3d up{0, 0, -implants[i].above_bottom_()};
+      places.push_back({sites[i].image_T_site * up, implants[i].length_()});
+    }
     bores_.emplace(sites, *chain_, parameters_);
+    read_driver(places);
+  }
+
+  void read_driver(const std::vector<Site>& places) {
+    auto driver = chain_of(*estimate_.latest(), kDriver);
+    auto true_driver = chain_of(*truth_.latest(), kDriver);
+    if (!driver || !true_driver) return;
+    driver->patient_T_image = *jaw_T_image_;
+    true_driver_ = *true_driver;
+    implants_.emplace(places, *driver, parameters_);
+  }
+
+  static std::optional<ThreadMonitor::Thread> thread_of(const msg::ThreadAxis& axis) {
+    if (!axis.engaged_()) return std::nullopt;
+    return ThreadMonitor::Thread{
+        .start = to_eigen(axis.start_()), .axis = to_eigen(axis.axis_()), .pitch_m = axis.pitch_()};
+  }
+
+  /// How far the handpiece had turned at an instant, when it says so.
+  std::optional<double> handpiece_at(Time stamp) {
+    std::optional<double> angle;
+    for (; handpiece_read_ < handpiece_js_.size(); ++handpiece_read_) {
+      const msg::JointState& state = handpiece_js_[handpiece_read_];
+      if (stamp_of(state.header_().stamp_()) > stamp) break;
+      if (!state.position_().empty()) angle = state.position_().front();
+    }
+    return angle;
   }
 
   void read(const msg::TaskState& state, Time now) {
     state_ = state.state_();
     trouble_ = state.detail_();
-    const bool ended = state_ == "drilled" || state_ == "aborted" || state_ == "refused";
+    const bool out = state_ == "withdrawing" || state_ == "drilled";
+    if (out && !drilled_at_) drilled_at_ = now;
+    if (state_ == "changing tool") has_driver_ = true;
+    const bool ended =
+        state_ == "drilled" || state_ == "placed" || state_ == "aborted" || state_ == "refused";
     if (ended && !ended_at_) ended_at_ = now;
   }
 
@@ -178,8 +243,14 @@ class ImplantReport final : public Component {
     healthy();
     speed_ = v->cwiseAbs().maxCoeff();
     if (!bores_) return;
-    const PoseAndJacobian flange = forward_kinematics_with_jacobian(robot_, *q, flange_);
-    bores_->see(flange.base_T_frame, true_chain_);
+    const PoseAndJacobian flange = forward_kinematics_with_jacobian(robot_, *q, flange_.frame);
+    if (has_driver_ && implants_) {
+      implants_->see(flange.base_T_frame, true_driver_);
+      const auto angle = handpiece_at(stamp_of(state.header_().stamp_()));
+      if (angle) threads_.see((flange.base_T_frame * flange_.flange_T_tool).translation(), *angle);
+    } else {
+      bores_->see(flange.base_T_frame, true_chain_);
+    }
     if (state_ != "drilling") return;
     const Eigen::VectorXd twist = flange.jacobian * *v;
     smoothness_.see(stamp_of(state.header_().stamp_()), twist.tail<3>());
@@ -252,14 +323,23 @@ class ImplantReport final : public Component {
                                      kDegrees * parameters_.min_turn));
   }
 
+  struct KeyPose {
+    Vector3d position;
+    Eigen::Quaterniond rotation;
+  };
+
   Parameters parameters_;
   RobotModel robot_;
-  FrameId flange_;
-  std::optional<Time> start_, ended_at_;
+  Flange flange_;
+  std::optional<Time> start_, drilled_at_, ended_at_;
   std::optional<Eigen::Affine3d> jaw_T_image_;
   GuidedChain true_chain_;
   std::optional<GuidedChain> chain_;
-  std::optional<BoreMonitor> bores_;
+  std::optional<BoreMonitor> bores_, implants_;
+  GuidedChain true_driver_;
+  bool has_driver_ = false;  // in the drill's place
+  ThreadMonitor threads_;
+  std::size_t handpiece_read_ = 0;  // of its samples
   Smoothness smoothness_;
   std::uint64_t keyed_goal_ = 0;
   std::vector<KeyPose> keys_;
@@ -270,7 +350,8 @@ class ImplantReport final : public Component {
   Input<msg::ImplantPlan> plan_;
   Input<msg::TFMessage> truth_, estimate_;
   OverheardRegistration registration_;
-  Input<msg::JointState> measured_js_;
+  Input<msg::JointState> measured_js_, handpiece_js_;
+  Input<msg::ThreadAxis> thread_;
   Input<msg::MotionGoal> goal_;
   Input<msg::ToolPath> path_;
   Input<msg::TaskState> task_state_;

@@ -31,6 +31,23 @@ std::vector<Isometry3d> sites_of(const Parameters& parameters, const Params& par
   return sites;
 }
 
+std::vector<PlannedImplant> implants_of(const Parameters& parameters, const Params& params,
+                                        std::size_t sites) {
+  if (parameters.implants.empty()) return {};
+  std::vector<PlannedImplant> implants;
+  for (const Vector3d& implant : points_of(parameters.implants, params, "implants_mm", 1,
+                                           "above the bottom, length and pitch of each")) {
+    implants.push_back(
+        {.above_bottom_m = implant.x(), .length_m = implant.y(), .pitch_m = implant.z()});
+  }
+  if (implants.size() != sites) {
+    params.refuse({"implants_mm", "sites_mm"},
+                  fmt::format("'implants_mm' has {} implants, 'sites_mm' has {} sites",
+                              implants.size(), sites));
+  }
+  return implants;
+}
+
 }  // namespace
 
 OperatingRoom operating_room(const Parameters& parameters, const Params& params,
@@ -41,12 +58,16 @@ OperatingRoom operating_room(const Parameters& parameters, const Params& params,
   room.chain.base_T_tracker = pose_of(parameters.tracker, parameters.tracker_rpy);
   room.chain.flange_T_body = pose_of(parameters.body, parameters.body_rpy);
   room.chain.tip = room.chain.flange_T_body.inverse() * flange_T_drill.translation();
+  const Eigen::Translation3d driver_offset{vector_of(parameters.driver_offset)};
+  room.driver_tip =
+      room.chain.flange_T_body.inverse() * (flange_T_file_tool * driver_offset).translation();
   room.chain.flange_R_tool = flange_T_drill.linear();
   room.chain.tracker_T_patient =
       room.chain.base_T_tracker.inverse() * pose_of(parameters.jaw, parameters.jaw_rpy);
   room.chain.patient_T_image = pose_of(parameters.image, parameters.image_rpy);
   room.markers = points_of(parameters.markers, params, "markers_mm", 3, "at least three markers");
   room.sites = sites_of(parameters, params);
+  room.implants = implants_of(parameters, params, room.sites.size());
   return room;
 }
 

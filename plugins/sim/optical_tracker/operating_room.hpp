@@ -9,11 +9,18 @@
 
 namespace armature::sim::optical_tracker {
 
+/// An implant as it was planned [m].
+struct PlannedImplant {
+  double above_bottom_m, length_m, pitch_m;
+};
+
 /// Where everything is in truth [m]: nobody in the deployment but the report is told.
 struct OperatingRoom {
-  GuidedChain chain;
+  GuidedChain chain;                     // with the drill
+  Eigen::Vector3d driver_tip;            // [m] in the body's frame, when the driver is in its place
   std::vector<Eigen::Vector3d> markers;  // on the jaw, in the image
   std::vector<Eigen::Isometry3d> sites;  // of the drill with its tip at the bottom, in the image
+  std::vector<PlannedImplant> implants;  // for every site, or none
 };
 
 /// Of the plugin's parameters and the robot file's drill. `params` refuses lists that do not come

@@ -95,8 +95,12 @@ class OpticalTracker final : public Component {
       shift_jaw(now);
     }
     look(jaw_, "jaw", room_.chain.tracker_T_patient, jaw_sight_, elapsed_s, light);
+    const bool driver_follows = !room_.implants.empty();
     if (elapsed_s < parameters_.pivot) {
-      look(pivot_, "drill", in_hand(elapsed_s), flange_sight_, elapsed_s, light);
+      look(pivot_, "drill", in_hand(room_.chain.tip, elapsed_s), flange_sight_, elapsed_s, light);
+    } else if (driver_follows && elapsed_s < 2 * parameters_.pivot) {
+      look(pivot_, "driver", in_hand(room_.driver_tip, elapsed_s - parameters_.pivot),
+           flange_sight_, elapsed_s, light);
     } else {
       look_at_flange(elapsed_s, light);
     }
@@ -121,6 +125,12 @@ class OpticalTracker final : public Component {
              scattered(room_.chain.patient_T_image * marker, parameters_.marker_error, random_));
     }
     for (const Isometry3d& site : room_.sites) assign(plan.sites_().emplace_back(), site);
+    for (const PlannedImplant& implant : room_.implants) {
+      msg::Implant& planned = plan.implants_().emplace_back();
+      planned.above_bottom_(implant.above_bottom_m);
+      planned.length_(implant.length_m);
+      planned.pitch_(implant.pitch_m);
+    }
     plan_.publish(plan);
     markers_.publish(markers);
   }
@@ -128,6 +138,11 @@ class OpticalTracker final : public Component {
   void tell_truth(Time now) {
     msg::TFMessage truth;
     write_chain(room_.chain, now, truth);
+    if (!room_.implants.empty()) {
+      GuidedChain driver = room_.chain;
+      driver.tip = room_.driver_tip;
+      write_tool(driver, kDriver, now, truth);
+    }
     truth_.publish(truth);
   }
 
@@ -137,8 +152,8 @@ class OpticalTracker final : public Component {
     tell_truth(now);
   }
 
-  Isometry3d in_hand(double elapsed_s) const {
-    return turned_about_tip(room_.chain.tip, room_.chain.tracker_T_patient.translation(),
+  Isometry3d in_hand(const Eigen::Vector3d& tip, double elapsed_s) const {
+    return turned_about_tip(tip, room_.chain.tracker_T_patient.translation(),
                             parameters_.pivot_cone, elapsed_s);
   }
 

@@ -24,12 +24,14 @@ class BodyInput {
       : bodies_{setup.input<msg::TrackedBody>(port)}, expected_{std::move(body)} {}
 
   std::size_t size() const { return bodies_.size(); }
-  Sighting operator[](std::size_t i) const {
+  Sighting operator[](std::size_t i) const { return as(i, expected_); }
+  /// The same, with the body expected that is named so.
+  Sighting as(std::size_t i, const std::string& expected) const {
     const msg::TrackedBody& body = bodies_[i];
     Sighting sighting{.stamp = stamp_of(body.header_().stamp_()), .tracker_T_body = {}};
-    if (!body.body_().empty() && body.body_() != expected_) {
+    if (!body.body_().empty() && body.body_() != expected) {
       sighting.reason =
-          fmt::format("its topic tells of the body '{}', not of '{}'", body.body_(), expected_);
+          fmt::format("its topic tells of the body '{}', not of '{}'", body.body_(), expected);
       return sighting;
     }
     if (!body.valid_()) {

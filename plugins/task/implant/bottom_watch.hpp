@@ -7,16 +7,21 @@
 #include <string>
 #include <vector>
 
-#include "armature/robot/geometry/guided_chain.hpp"
-
 namespace armature::task::implant {
 
-/// How near the drill's tip has come to the bottom of every site, by where the arm says that it is:
+/// Where a tool has to come to.
+struct Destination {
+  Eigen::Vector3d flange_tip;   // [m] of the tool
+  Eigen::Vector3d base_bottom;  // [m]
+};
+
+/// How near a tool's tip has come to the bottom of every site, by where the arm says that it is:
 /// a motion that has come to its end has not been everywhere on its way when the arm lags.
 class BottomWatch {
  public:
   BottomWatch() = default;
-  BottomWatch(const GuidedChain& chain, const std::vector<Eigen::Isometry3d>& image_T_sites);
+  /// `tool` and `at` as in "the drill", "the bottom of".
+  BottomWatch(const std::vector<Destination>& destinations, std::string tool, std::string at);
 
   void see(const Eigen::Isometry3d& base_T_flange);
   /// Of the first `sites`, the one that was missed by most, when that is more than `max_m`: "the
@@ -24,12 +29,11 @@ class BottomWatch {
   std::optional<std::string> missed(std::size_t sites, double max_m) const;
 
  private:
-  Eigen::Vector3d flange_tip_ = Eigen::Vector3d::Zero();
-  struct Bottom {
-    Eigen::Vector3d point;  // in the base frame
+  struct Bottom : Destination {
     double min_distance_m;
   };
   std::vector<Bottom> bottoms_;
+  std::string tool_, at_;
 };
 
 }  // namespace armature::task::implant

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "armature/robot/geometry/guided_chain.hpp"
+
 namespace armature::task::implant {
 namespace {
 
@@ -22,7 +24,12 @@ class BottomWatchTest : public testing::Test {
       sites_.emplace_back(Eigen::Translation3d{x, 0, 0.01} *
                           Eigen::AngleAxisd{20 * x, Vector3d::UnitX()});
     }
-    watch_ = BottomWatch{chain_, sites_};
+    std::vector<Destination> bottoms;
+    for (const Isometry3d& site : sites_) {
+      bottoms.push_back(
+          {chain_.flange_T_tool().translation(), chain_.base_T_site(site).translation()});
+    }
+    watch_ = BottomWatch{bottoms, "the drill", "the bottom of"};
   }
   /// The drill down into a site and out again, by samples, up to `short_m` before its bottom.
   void drill(std::size_t site, double short_m) {

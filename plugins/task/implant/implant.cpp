@@ -6,12 +6,19 @@
 #include <algorithm>
 #include <utility>
 
+#include "armature/task/obey.hpp"
+
 namespace armature::task::implant {
 namespace {
 
 using Eigen::Isometry3d;
 
-constexpr int kJawSamples = 10;  // one by itself errs too much far from the body
+/// The steps that are known before there is a way.
+enum Step : std::size_t { kPivot, kCalibration, kRegistration, kApproach };
+
+Destination destination(const GuidedChain& chain, const Isometry3d& image_T_place) {
+  return {chain.flange_T_tool().translation(), chain.base_T_site(image_T_place).translation()};
+}
 
 }  // namespace
 
@@ -26,9 +33,12 @@ Implant::Implant(const Parameters& parameters, const RobotModel& robot,
                   {.name = "drilling", .asks = true}},
                  parameters.auto_confirm},
       calibration_{parameters, robot},
-      drill_watch_{"the drill in the hand", seconds(parameters.timeout)},
+      drill_{parameters, "the drill"},
+      driver_{parameters, "the driver"},
       flange_watch_{"the flange", seconds(parameters.timeout)},
-      jaw_watch_{"the jaw", seconds(parameters.timeout)} {
+      jaw_watch_{"the jaw", seconds(parameters.timeout)},
+      thread_watch_{parameters},
+      jaw_{parameters} {
   chain_.flange_R_tool = flange_T_file_tool.linear();
 }
 
@@ -36,12 +46,13 @@ void Implant::begin(Time now) { enter(Phase::pivoting, now); }
 
 void Implant::enter(Phase phase, Time now) {
   phase_ = phase;
-  if (phase == Phase::pivoting) drill_watch_.begin(now);
+  if (phase == Phase::pivoting) drill_.begin(now);
   if (phase == Phase::locating || phase == Phase::approaching) jaw_watch_.begin(now);
   if (phase == Phase::approaching) flange_watch_.begin(now);
 }
 
-void Implant::see_plan(const std::vector<ToolPose>& sites) {
+void Implant::see_plan(const std::vector<ToolPose>& sites,
+                       const std::vector<PlannedImplant>& implants) {
   if (!sites_.empty() || phase_ == Phase::refused) return;
   if (sites.empty()) return refuse("the plan has no sites");
   for (const ToolPose& site : sites) {
@@ -50,19 +61,27 @@ void Implant::see_plan(const std::vector<ToolPose>& sites) {
     sites_.emplace_back(Eigen::Translation3d{valid->position} *
                         std::get<Eigen::Quaterniond>(valid->orientation));
   }
+  if (implants.empty()) return;
+  if (const auto wrong = defect(implants, sites.size(), parameters_.depth)) {
+    return refuse("the plan: " + *wrong);
+  }
+  if (phase_ != Phase::pivoting) {
+    return refuse("the plan with implants came when the driver's tip could not be found any more");
+  }
+  implants_ = implants;
 }
 
 void Implant::see_arm(const Isometry3d& base_T_flange) {
   base_T_flange_ = base_T_flange;
-  if (phase_ == Phase::drilling) bottoms_.see(base_T_flange);
+  if (at_sites()) rounds_[round_].bottoms.see(base_T_flange);
 }
 
-void Implant::see_pivot(const Sighting& sighting) {
-  if (phase_ != Phase::pivoting) return;
-  drill_watch_.see(sighting);
-  if (!sighting.tracker_T_body) return;
-  if (!pivot_since_) pivot_since_ = sighting.stamp;
-  pivot_poses_.push_back(*sighting.tracker_T_body);
+void Implant::see_drill_in_hand(const Sighting& sighting) {
+  if (phase_ == Phase::pivoting && !drill_tip_) drill_.see(sighting);
+}
+
+void Implant::see_driver_in_hand(const Sighting& sighting) {
+  if (phase_ == Phase::pivoting && drill_tip_) driver_.see(sighting);
 }
 
 void Implant::see_flange(const Sighting& sighting) {
@@ -73,47 +92,11 @@ void Implant::see_flange(const Sighting& sighting) {
 void Implant::see_jaw(const Sighting& sighting) {
   jaw_watch_.see(sighting);
   if (!sighting.tracker_T_body) return;
-  if (phase_ == Phase::locating) locate_jaw(*sighting.tracker_T_body);
-  if (phase_ != Phase::approaching && phase_ != Phase::drilling) return;
-  jaw_now_.add(*sighting.tracker_T_body);
-  if (jaw_now_.count() == kJawSamples) guard_jaw();
-}
-
-int Implant::jaw_block() const { return std::clamp(parameters_.jaw_samples / 2, 1, kJawSamples); }
-
-double Implant::max_moved(const Isometry3d& tracker_T_jaw, const Isometry3d& from) const {
-  double max_m = 0;
-  for (const Isometry3d& site : sites_) {
-    for (const double above_m : {0.0, parameters_.depth}) {
-      const Eigen::Vector3d point =
-          chain_.patient_T_image * (site * Eigen::Vector3d{0, 0, -above_m});
-      max_m = std::max(max_m, (tracker_T_jaw * point - from * point).norm());
-    }
+  if (phase_ == Phase::locating) {
+    if (const auto moved = jaw_.see(*sighting.tracker_T_body)) refuse(*moved);
+  } else if (phase_ == Phase::approaching || at_sites()) {
+    if (const auto moved = jaw_.guard(*sighting.tracker_T_body)) refuse(*moved);
   }
-  return max_m;
-}
-
-/// A jaw that moves meanwhile is no noise, which a mean would take down.
-void Implant::locate_jaw(const Isometry3d& tracker_T_jaw) {
-  jaw_.add(tracker_T_jaw);
-  jaw_now_.add(tracker_T_jaw);
-  if (jaw_now_.count() < jaw_block()) return;
-  const Isometry3d now = jaw_now_.mean();
-  jaw_now_.clear();
-  if (!jaw_first_) jaw_first_ = now;
-  const double moved_m = max_moved(now, *jaw_first_);
-  if (moved_m <= parameters_.max_jaw_motion) return;
-  refuse(fmt::format("the jaw moved by {:.2f} mm while its place was averaged, {:g} mm are allowed",
-                     1e3 * moved_m, 1e3 * parameters_.max_jaw_motion));
-}
-
-/// Against where the jaw was when the way was worked out.
-void Implant::guard_jaw() {
-  const double moved_m = max_moved(jaw_now_.mean(), chain_.tracker_T_patient);
-  jaw_now_.clear();
-  if (moved_m <= parameters_.max_jaw_motion) return;
-  refuse(fmt::format("the jaw has moved by {:.2f} mm, {:g} mm are allowed", 1e3 * moved_m,
-                     1e3 * parameters_.max_jaw_motion));
 }
 
 void Implant::hear(const GoalReport& report, Time now) {
@@ -127,24 +110,34 @@ void Implant::hear(const GoalReport& report, Time now) {
     if (failed && goal_.stopped()) return refuse("hand-eye: " + goal_.reason());
     if (failed) calibration_.leave_out(goal_.reason());
   }
-  if ((phase_ != Phase::approaching && phase_ != Phase::drilling) || !set_out_) return;
+  const bool above = phase_ == Phase::approaching, out = phase_ == Phase::withdrawing;
+  if (!set_out_ || !(above || out || at_sites())) return;
   if (failed) {
-    const bool above = phase_ == Phase::approaching;
-    return refuse((above ? "above site 1" : way_.bores[bore_].name) + ": " + goal_.reason());
+    return refuse((above ? "above site 1"
+                   : out ? "withdrawal"
+                         : pass().name) +
+                  ": " + goal_.reason());
   }
-  if (!there || phase_ == Phase::drilling) return;
-  come_to_bore(0, now);
+  if (there && above) come_to_pass(0, now);
+  if (there && out && homing_) return finish_round(now);
+  if (there && out) {
+    homing_ = true;
+    lead_out();
+  }
 }
 
 void Implant::update(Time now) {
-  const bool near_the_jaw = phase_ == Phase::approaching || phase_ == Phase::drilling;
-  if (procedure_.paused() && !near_the_jaw) return;
+  if (phase_ == Phase::refused || phase_ == Phase::held) return;
+  if (base_T_flange_) {
+    const auto wrong = thread_watch_.trouble(tool(), now);
+    if (wrong) return refuse(pass().name + ": " + *wrong);
+  }
+  const bool watches_the_jaw = phase_ == Phase::approaching || at_sites();
+  if (procedure_.paused() && !watches_the_jaw) return;
   switch (phase_) {
     case Phase::pivoting:
-      if (pivot_since_ && now - *pivot_since_ >= seconds(parameters_.pivot)) {
-        return finish_pivot(now);
-      }
-      if (const auto blind = drill_watch_.blind(now)) refuse("pivot: " + *blind);
+      if ((drill_tip_ ? driver_ : drill_).complete(now)) return finish_pivot(now);
+      if (const auto blind = (drill_tip_ ? driver_ : drill_).blind(now)) refuse("pivot: " + *blind);
       break;
     case Phase::calibrating:
       calibration_.update(now);
@@ -153,15 +146,23 @@ void Implant::update(Time now) {
       go_on_calibrating();
       break;
     case Phase::locating:
-      if (jaw_.count() >= parameters_.jaw_samples) return finish_locating(now);
+      if (jaw_.located()) return finish_locating(now);
       if (const auto blind = jaw_watch_.blind(now)) refuse(*blind);
       break;
     case Phase::approaching:
     case Phase::drilling:
+    case Phase::placing:
       if (const auto blind = jaw_watch_.blind(now)) return refuse(*blind);
       if (const auto blind = flange_watch_.blind(now)) return refuse(*blind);
-      if (!set_out_) return set_out();
-      if (phase_ == Phase::drilling && procedure_.may_act()) go_on_drilling(now);
+      if (!set_out_) return set_out(now);
+      if (at_sites() && procedure_.may_act()) go_on(now);
+      break;
+    case Phase::withdrawing:
+      if (!set_out_) set_out(now);
+      break;
+    case Phase::changing_tool:
+      // Not at once: whoever watches is told of it.
+      if (procedure_.may_act() && now > out_at_) enter_approach(now);
       break;
     case Phase::going_back:
     case Phase::aborting:
@@ -169,27 +170,36 @@ void Implant::update(Time now) {
       break;
     case Phase::registering:
     case Phase::drilled:
+    case Phase::placed:
+    case Phase::held:
     case Phase::aborted:
     case Phase::refused:
       break;
   }
 }
 
+/// Of the drill, and then of the driver where there are implants.
 void Implant::finish_pivot(Time now) {
-  const auto pivot = calibrate_pivot(pivot_poses_);
-  if (!pivot) return refuse("pivot: " + pivot.error().text);
-  if (pivot->residual_rms_m > parameters_.max_pivot_rms) {
-    return refuse(fmt::format("pivot: the tip stood still to {:.2f} mm rms, {:g} mm are allowed",
-                              1e3 * pivot->residual_rms_m, 1e3 * parameters_.max_pivot_rms));
-  }
-  pivot_ = *pivot;
-  chain_.tip = pivot_.tip;
+  const bool of_driver = drill_tip_.has_value();
+  const PivotRun& run = of_driver ? driver_ : drill_;
+  const auto pivot = run.result();
+  const char* tool = of_driver ? "driver" : "pivot";
+  if (!pivot) return refuse(fmt::format("{}: {}", tool, pivot.error().text));
   news_.push_back(fmt::format(
-      "pivot: {} poses, the tip stood still to {:.2f} mm and is known to "
-      "{:.2f} mm (95 %)",
-      pivot_poses_.size(), 1e3 * pivot_.residual_rms_m, 1e3 * pivot_.tip_error.bound95_m));
+      "{}: {} poses, the tip stood still to {:.2f} mm and is known to {:.2f} mm (95 %)", tool,
+      run.poses(), 1e3 * pivot->residual_rms_m, 1e3 * pivot->tip_error.bound95_m));
+  (of_driver ? driver_tip_ : drill_tip_) = *pivot;
+  if (!of_driver) {
+    chain_.tip = pivot->tip;
+    if (!implants_.empty()) {
+      news_.push_back("pivot: waits for the driver, turned about its tip");
+      return;
+    }
+  } else if (!thread_watch_.heard_of()) {
+    return refuse("the plan has implants, and no handpiece tells how far it turns them");
+  }
   enter(Phase::calibrating, now);
-  enter_step(Step::calibration);
+  procedure_.enter(kCalibration);
 }
 
 void Implant::go_on_calibrating() {
@@ -214,7 +224,7 @@ void Implant::finish_calibration(Time now) {
   if (!calibration_.left_out().empty()) line += "; left out: " + calibration_.left_out();
   news_.push_back(line);
   enter(Phase::registering, now);
-  enter_step(Step::registration);
+  procedure_.enter(kRegistration);
 }
 
 void Implant::see_registration(const RegisteredJaw& jaw, Time now) {
@@ -231,96 +241,180 @@ void Implant::see_registration(const RegisteredJaw& jaw, Time now) {
       fmt::format("registration: the markers fit to {:.2f} mm", 1e3 * jaw.fiducial_error_m));
   registered_ = jaw;
   chain_.patient_T_image = jaw.jaw_T_image;
+  std::vector<Eigen::Vector3d> ends;
+  for (const Isometry3d& site : sites_) {
+    for (const double above_m : {0.0, parameters_.depth}) {
+      ends.emplace_back(chain_.patient_T_image * (site * Eigen::Vector3d{0, 0, -above_m}));
+    }
+  }
+  jaw_.locate(std::move(ends));
   enter(Phase::locating, now);
 }
 
 void Implant::finish_locating(Time now) {
-  chain_.tracker_T_patient = jaw_.mean();
-  jaw_now_.clear();
+  chain_.tracker_T_patient = jaw_.average().mean();
+  auto drilling = forecast(std::vector(sites_.size(), chain_), *drill_tip_, "site");
+  if (!drilling) return refuse(drilling.error().text);
+  forecasts_ = std::move(*drilling);
+  if (driver_tip_) {
+    std::vector<GuidedChain> ends;
+    for (const PlannedImplant& implant : implants_) {
+      ends.push_back(with_implant(*driver_chain(), implant));
+    }
+    const auto placing = forecast(ends, *driver_tip_, "implant");
+    if (!placing) return refuse(placing.error().text);
+  }
+  plan_rounds();
+  if (base_T_flange_ && !came_from_) {
+    const Isometry3d at = *base_T_flange_ * flange_T_file_tool_;
+    came_from_ = {at.translation(), Eigen::Quaterniond{at.linear()}.normalized()};
+  }
+  enter_approach(now);
+}
+
+Expected<std::vector<ErrorForecast>> Implant::forecast(const std::vector<GuidedChain>& chains,
+                                                       const Pivot& pivot, const char* tool) {
+  std::vector<ErrorForecast> forecasts;
   double worst_m = 0;
   for (std::size_t i = 0; i < sites_.size(); ++i) {
-    const ErrorForecast& forecast = forecasts_.emplace_back(
-        forecast_at(sites_[i], chain_, pivot_, hand_eye_, jaw_, registered_.sites[i]));
-    worst_m = std::max(worst_m, forecast.bound95_m());
-    if (!(forecast.bound95_m() <= parameters_.max_tre)) {
-      return refuse(fmt::format("site {} is known to {:.2f} mm (95 %), {:g} mm are required", i + 1,
-                                1e3 * forecast.bound95_m(), 1e3 * parameters_.max_tre));
+    forecasts.push_back(
+        forecast_at(sites_[i], chains[i], pivot, hand_eye_, jaw_.average(), registered_.sites[i]));
+    const double bound_m = forecasts.back().bound95_m();
+    worst_m = std::max(worst_m, bound_m);
+    if (!(bound_m <= parameters_.max_tre)) {
+      return armature::refuse(
+          fmt::format("{} {} is known to {:.2f} mm (95 %), {:g} mm are required", tool, i + 1,
+                      1e3 * bound_m, 1e3 * parameters_.max_tre));
     }
   }
-  news_.push_back(fmt::format("the worst of {} sites is known to {:.2f} mm (95 %)", sites_.size(),
-                              1e3 * worst_m));
-  way_ = drilling_way(chain_, flange_T_file_tool_, sites_, parameters_);
-  bottoms_ = BottomWatch{chain_, sites_};
-  std::vector<Procedure::Step> ahead{procedure_.steps()[static_cast<std::size_t>(Step::approach)]};
-  for (const Bore& bore : way_.bores) {
-    if (bore.ends_at_bottom) ahead.push_back({.name = bore.name, .asks = true});
+  news_.push_back(fmt::format("the worst of {} {}s is known to {:.2f} mm (95 %)", sites_.size(),
+                              tool, 1e3 * worst_m));
+  return forecasts;
+}
+
+std::optional<GuidedChain> Implant::driver_chain() const {
+  if (!driver_tip_) return std::nullopt;
+  GuidedChain chain = chain_;
+  chain.tip = driver_tip_->tip;
+  return chain;
+}
+
+void Implant::plan_rounds() {
+  rounds_.clear();
+  std::vector<Destination> bottoms;
+  for (const Isometry3d& site : sites_) bottoms.push_back(destination(chain_, site));
+  rounds_.push_back({.way = drilling_way(chain_, flange_T_file_tool_, sites_, parameters_),
+                     .bottoms = {bottoms, "the drill", "the bottom of"}});
+  if (driver_tip_) {
+    const GuidedChain driver = *driver_chain();
+    bottoms.clear();
+    for (std::size_t i = 0; i < sites_.size(); ++i) {
+      bottoms.push_back(
+          destination(with_implant(driver, implants_[i]), place_of(sites_[i], implants_[i])));
+    }
+    rounds_.push_back(
+        {.way = placing_way(driver, flange_T_file_tool_, sites_, implants_, parameters_),
+         .bottoms = {bottoms, "the implant", "its place in"}});
   }
-  if (ahead.size() == 1) ahead.push_back({.name = "drilling", .asks = true});
+  std::vector<Procedure::Step> ahead;
+  for (Round& round : rounds_) {
+    const bool first = &round == &rounds_.front();
+    if (!first) ahead.push_back({.name = "tool change", .asks = true});
+    round.approach = kApproach + ahead.size();
+    ahead.push_back({.name = first ? "approach" : "second approach", .asks = true});
+    for (const Pass& pass : round.way.passes) {
+      if (pass.asks) ahead.push_back({.name = pass.name, .asks = true});
+    }
+    round.withdrawal = kApproach + ahead.size();
+    ahead.push_back({.name = first ? "withdrawal" : "last withdrawal"});
+  }
   procedure_.set_steps_ahead(ahead);
-  if (base_T_flange_ && !came_from_) {
-    const Isometry3d tool = *base_T_flange_ * flange_T_file_tool_;
-    came_from_ = {tool.translation(), Eigen::Quaterniond{tool.linear()}.normalized()};
-  }
+}
+
+void Implant::enter_approach(Time now) {
   set_out_ = false;
   enter(Phase::approaching, now);
-  enter_step(Step::approach);
-  set_out();
+  procedure_.enter(rounds_[round_].approach);
+  set_out(now);
 }
 
-void Implant::set_out() {
+void Implant::set_out(Time now) {
   if (!procedure_.may_act()) return;
   set_out_ = true;
-  goal_.set_once(phase_ == Phase::approaching ? MotionGoal{.pose = way_.above.front()}
-                                              : way_.bores[bore_].goal);
+  const SiteWay& way = rounds_[round_].way;
+  switch (phase_) {
+    case Phase::approaching:
+      return goal_.set_once({.pose = way.above.front()});
+    case Phase::withdrawing:
+      homing_ = false;
+      return lead_out();
+    default:
+      if (pass().turns) {
+        const Isometry3d site = chain_.base_T_site(sites_[pass().site]);
+        thread_watch_.engage({.start = way.passes[pass_ - 1].goal.pose.position,
+                              .axis = site.linear().col(2),
+                              .pitch_m = implants_[pass().site].pitch_m},
+                             now);
+      }
+      return goal_.set_once(pass().goal);
+  }
 }
 
-void Implant::come_to_bore(std::size_t bore, Time now) {
-  enter(Phase::drilling, now);
-  bore_ = bore;
+void Implant::come_to_pass(std::size_t pass, Time now) {
+  enter(placing() ? Phase::placing : Phase::drilling, now);
+  thread_watch_.release();
+  pass_ = pass;
   set_out_ = false;
-  const auto first = static_cast<std::size_t>(Step::first_site);
-  const bool each_asks = way_.bores.size() > 1;
-  const std::size_t step = first + (each_asks ? way_.bores[bore].first_site : 0);
-  const bool comes_out = bore > 0 && !way_.bores[bore].ends_at_bottom;
-  if (!comes_out) procedure_.enter(step);
-  set_out();
+  if (this->pass().asks) {
+    const auto& passes = rounds_[round_].way.passes;
+    const auto steps = std::count_if(passes.begin(), passes.begin() + static_cast<int>(pass_),
+                                     [](const Pass& before) { return before.asks; });
+    procedure_.enter(rounds_[round_].approach + 1 + static_cast<std::size_t>(steps));
+  }
+  set_out(now);
+}
+
+std::size_t Implant::first_of_step() const {
+  std::size_t first = pass_;
+  while (!rounds_[round_].way.passes[first].asks) --first;
+  return first;
 }
 
 Expected<void> Implant::hear(const OperatorCommand& command, Time now) {
-  const auto word = procedure_.hear(command);
-  if (!word) return tl::unexpected{word.error()};
-  switch (*word) {
-    case OperatorWord::confirm:
-      break;
-    case OperatorWord::pause:
-      goal_.pause();
-      break;
-    case OperatorWord::resume:
-      goal_.resume();
-      break;
-    case OperatorWord::back:
-      return go_back(now);
-    case OperatorWord::abort:
-      return abort();
+  if (phase_ == Phase::held && command.word != "abort") {
+    return armature::refuse("the tool is held near the jaw: abort leads it out");
   }
-  return {};
+  return obey(
+      command, procedure_, goal_, [&] { return go_back(now); }, [&] { return abort(); });
 }
 
-/// From a bore out of the bone, where its step asks again; from above the first site, and before,
-/// to the registration.
+/// Out of the bone, where its step asks again; from above the first site, and before, to the
+/// registration.
 Expected<void> Implant::go_back(Time now) {
-  if (phase_ == Phase::going_back || phase_ == Phase::aborting) {
-    return armature::refuse("the drill goes back already");
+  switch (phase_) {
+    case Phase::going_back:
+    case Phase::aborting:
+      return armature::refuse("the tool goes back already");
+    case Phase::withdrawing:
+    case Phase::changing_tool:
+      return armature::refuse("the sites are drilled, or served: the tool is out");
+    case Phase::approaching:
+    case Phase::drilling:
+    case Phase::placing:
+      break;
+    default:
+      return armature::refuse("before the approach there is no step to go back to");
   }
-  if (phase_ != Phase::approaching && phase_ != Phase::drilling) {
-    return armature::refuse("before the approach there is no step to go back to");
-  }
+  const bool again = phase_ == Phase::approaching || (pass_ == 0 && !set_out_);
+  const bool placed = placing() && (set_out_ ? !pass().asks && !pass().turns : pass().asks);
+  if (!again && placed) return armature::refuse("the implant before stays where it was placed");
   procedure_.turn_back();
   goal_.pause();
-  if (phase_ == Phase::approaching || (bore_ == 0 && !set_out_)) {
+  if (again) {
     register_again(now);
   } else if (!set_out_) {
-    come_to_bore(bore_ - 2, now);  // into the site before
+    --pass_;
+    come_to_pass(first_of_step(), now);  // into the site before
   } else {
     phase_ = Phase::going_back;
     turned_ = false;
@@ -329,23 +423,19 @@ Expected<void> Implant::go_back(Time now) {
 }
 
 void Implant::register_again(Time now) {
-  jaw_.clear();
-  jaw_now_.clear();
-  jaw_first_.reset();
   forecasts_.clear();
   enter(Phase::registering, now);
-  enter_step(Step::registration);
+  procedure_.enter(kRegistration);
 }
 
 /// Out of the bone, over the sites, and to where the approach began.
 Expected<void> Implant::abort() {
   if (phase_ == Phase::aborting) return armature::refuse("it is being aborted already");
   procedure_.turn_back();
-  const bool left = phase_ == Phase::drilling || phase_ == Phase::going_back ||
-                    (phase_ == Phase::approaching && set_out_);
-  if (left) {
+  if (near_the_jaw()) {
     if (!turned_ || phase_ != Phase::going_back) goal_.pause();
-    set_out_ = set_out_ || phase_ != Phase::approaching;
+    set_out_ = true;
+    trouble_.clear();
     phase_ = Phase::aborting;
     turned_ = false;
     return {};
@@ -359,44 +449,98 @@ Expected<void> Implant::abort() {
 void Implant::turn_back() {
   if (procedure_.paused() || !base_T_flange_) return;
   turned_ = true;
-  const bool approached = procedure_.step() > static_cast<std::size_t>(Step::approach);
+  const bool approached = procedure_.step() > rounds_[round_].approach;
+  homing_ = !approached;
   if (!approached) return goal_.retrace(false);
-  const Eigen::Vector3d tool = (*base_T_flange_ * flange_T_file_tool_).translation();
-  const std::size_t site = way_.bores[bore_].first_site;
-  goal_.set_once(phase_ == Phase::aborting ? way_out(way_, tool, 0, came_from_)
-                                           : way_out(way_, tool, site));
+  if (phase_ == Phase::aborting) return lead_out();
+  MotionGoal out = way_out(rounds_[round_].way, tool(), pass().site);
+  if (thread()) out.max_speed = pass().goal.max_speed;  // it is turned out again
+  goal_.set_once(out);
+}
+
+void Implant::lead_out() {
+  const SiteWay& way = rounds_[round_].way;
+  homing_ = homing_ || is_above(way, tool(), 0);
+  if (homing_) return goal_.set_once({.pose = *came_from_});
+  MotionGoal out = way_out(way, tool(), 0);
+  if (thread()) out.max_speed = pass().goal.max_speed;
+  goal_.set_once(out);
 }
 
 void Implant::come_back(Time now) {
-  turned_ = false;
   if (goal_.state() == PursuedGoal::State::failed) {
     return refuse("the way back: " + goal_.reason());
   }
+  if (phase_ == Phase::aborting && !homing_) {
+    homing_ = true;
+    thread_watch_.release();
+    return lead_out();
+  }
+  turned_ = false;
   if (phase_ == Phase::aborting) {
     phase_ = Phase::aborted;
     return procedure_.end(Procedure::StepState::broken_off);
   }
-  const std::size_t site = way_.bores[bore_].first_site;
-  come_to_bore(way_.bores.size() > 1 ? 2 * site : 0, now);
+  come_to_pass(first_of_step(), now);
 }
 
-void Implant::go_on_drilling(Time now) {
+void Implant::go_on(Time now) {
   if (goal_.state() != PursuedGoal::State::done) return;
-  if (way_.bores[bore_].ends_at_bottom && now - goal_.done_at() < seconds(parameters_.dwell)) {
-    return;
-  }
-  const auto missed = bottoms_.missed(way_.bores[bore_].sites, parameters_.max_bottom_error);
+  if (pass().ends_at_bottom && now - goal_.done_at() < seconds(parameters_.dwell)) return;
+  const Round& round = rounds_[round_];
+  const auto missed = round.bottoms.missed(pass().sites, parameters_.max_bottom_error);
   if (missed) return refuse(*missed);
-  if (bore_ + 1 < way_.bores.size()) return come_to_bore(bore_ + 1, now);
-  enter(Phase::drilled, now);
-  procedure_.end();
+  if (pass_ + 1 < round.way.passes.size()) return come_to_pass(pass_ + 1, now);
+  withdraw(now);
+}
+
+void Implant::withdraw(Time now) {
+  set_out_ = false;
+  enter(Phase::withdrawing, now);
+  procedure_.enter(rounds_[round_].withdrawal);
+  set_out(now);
+}
+
+void Implant::finish_round(Time now) {
+  if (round_ + 1 == rounds_.size()) {
+    enter(placing() ? Phase::placed : Phase::drilled, now);
+    return procedure_.end();
+  }
+  out_at_ = now;
+  ++round_;
+  pass_ = 0;
+  set_out_ = false;
+  enter(Phase::changing_tool, now);
+  procedure_.enter(rounds_[round_].approach - 1);
+}
+
+bool Implant::near_the_jaw() const {
+  switch (phase_) {
+    case Phase::approaching:
+      return set_out_;
+    case Phase::drilling:
+    case Phase::placing:
+    case Phase::withdrawing:
+    case Phase::going_back:
+    case Phase::held:
+    case Phase::aborting:
+      return true;
+    default:
+      return false;
+  }
 }
 
 void Implant::refuse(const std::string& why) {
-  if (phase_ == Phase::refused) return;
-  phase_ = Phase::refused;
+  if (phase_ == Phase::refused || phase_ == Phase::held) return;
+  const bool held = near_the_jaw() && !procedure_.auto_confirm();
+  phase_ = held ? Phase::held : Phase::refused;
+  turned_ = false;
   trouble_ = why;
-  procedure_.end(Procedure::StepState::broken_off);
+  if (held) {
+    procedure_.turn_back();
+  } else {
+    procedure_.end(Procedure::StepState::broken_off);
+  }
   const bool on_its_way =
       goal_.state() == PursuedGoal::State::waiting || goal_.state() == PursuedGoal::State::moving;
   if (on_its_way) goal_.set({.mode = MotionMode::hold, .pose = {}, .focus = {}});
@@ -418,10 +562,20 @@ const char* to_string(Implant::Phase phase) {
       return "approaching";
     case Implant::Phase::drilling:
       return "drilling";
+    case Implant::Phase::placing:
+      return "placing";
+    case Implant::Phase::withdrawing:
+      return "withdrawing";
+    case Implant::Phase::changing_tool:
+      return "changing tool";
     case Implant::Phase::drilled:
       return "drilled";
+    case Implant::Phase::placed:
+      return "placed";
     case Implant::Phase::going_back:
       return "going back";
+    case Implant::Phase::held:
+      return "held";
     case Implant::Phase::aborting:
       return "aborting";
     case Implant::Phase::aborted:

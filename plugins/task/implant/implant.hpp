@@ -11,10 +11,13 @@
 #include "armature/task/pursued_goal.hpp"
 #include "bottom_watch.hpp"
 #include "calibration_run.hpp"
-#include "drilling.hpp"
 #include "error_forecast.hpp"
+#include "jaw_place.hpp"
+#include "pivot_run.hpp"
 #include "sighting.hpp"
+#include "site_way.hpp"
 #include "task_implant_parameters.hpp"
+#include "thread_watch.hpp"
 
 namespace armature::task::implant {
 
@@ -27,8 +30,9 @@ struct RegisteredJaw {
 
 /// The scenario of a drilling: the drill's tip is found (pivot), where tracker and body are
 /// (hand-eye), how the image lies in the jaw (registration), where the jaw is (tracker), and then
-/// the drill goes through all sites. Everything it knows comes in through the `see` and `hear`
-/// calls.
+/// the drill goes through all sites and back to where it came from. Where the plan has implants,
+/// the driver that holds them takes its place there and goes through them the same way. Everything
+/// it knows comes in through the `see` and `hear` calls.
 class Implant {
  public:
   enum class Phase {
@@ -38,9 +42,14 @@ class Implant {
     locating,
     approaching,
     drilling,
-    drilled,
-    going_back,  // out of the bone, to above the site
-    aborting,    // to where the approach began
+    placing,
+    withdrawing,    // to where the approach began
+    changing_tool,  // the driver takes the place of the drill
+    drilled,        // and out, with nothing to place
+    placed,         // and out
+    going_back,     // out of the bone, to above the site
+    held,           // something is wrong while it is near the jaw: the operator leads it out
+    aborting,       // to where the approach began
     aborted,
     refused
   };
@@ -50,11 +59,15 @@ class Implant {
           const Eigen::Isometry3d& flange_T_file_tool);
 
   void begin(Time now);
-  /// The sites of the plan: of the drill, in the image.
-  void see_plan(const std::vector<ToolPose>& sites);
+  /// The sites of the plan, of the drill in the image, and an implant for each, or none.
+  void see_plan(const std::vector<ToolPose>& sites,
+                const std::vector<PlannedImplant>& implants = {});
   /// Every sample of the arm.
   void see_arm(const Eigen::Isometry3d& base_T_flange);
-  void see_pivot(const Sighting& sighting);
+  /// How far the handpiece has turned [rad].
+  void see_handpiece(double angle, Time now) { thread_watch_.see(angle, now); }
+  void see_drill_in_hand(const Sighting& sighting);
+  void see_driver_in_hand(const Sighting& sighting);
   void see_flange(const Sighting& sighting);
   void see_jaw(const Sighting& sighting);
   void see_registration(const RegisteredJaw& jaw, Time now);
@@ -66,6 +79,8 @@ class Implant {
   /// True as long as there is a plan to register and no answer.
   bool wants_registration() const { return phase_ == Phase::registering && !sites_.empty(); }
   std::optional<MotionGoal> outgoing_goal(Time now) { return goal_.outgoing(now); }
+  /// Into which an implant is being turned, or out of which, if any.
+  const std::optional<Thread>& thread() const { return thread_watch_.thread(); }
 
   Phase phase() const { return phase_; }
   const Procedure& procedure() const { return procedure_; }
@@ -76,69 +91,91 @@ class Implant {
   const std::string& trouble() const { return trouble_; }
   /// What was found, each said once.
   std::vector<std::string> take_news();
-  /// As far as it is known: complete from `approaching` on.
+  /// As far as it is known: complete from `approaching` on. With the drill's tip.
   const GuidedChain& chain() const { return chain_; }
-  /// Of every site, from `approaching` on.
+  /// The same with the driver's, where there are implants.
+  std::optional<GuidedChain> driver_chain() const;
+  /// Of every site, from `approaching` on: of the drill.
   const std::vector<ErrorForecast>& forecasts() const { return forecasts_; }
 
  private:
+  /// The way of one tool through the sites.
+  struct Round {
+    SiteWay way;
+    BottomWatch bottoms;
+    std::size_t approach = 0;  // its step; the withdrawal is the last of its steps
+    std::size_t withdrawal = 0;
+  };
+
   void enter(Phase phase, Time now);
-  enum class Step : std::size_t { pivot, calibration, registration, approach, first_site };
-  void enter_step(Step step) { procedure_.enter(static_cast<std::size_t>(step)); }
   Expected<void> go_back(Time now);
   Expected<void> abort();
   void register_again(Time now);
-  void come_to_bore(std::size_t bore, Time now);
-  /// For the approach, or for the bore, once it may.
-  void set_out();
+  void come_to_pass(std::size_t pass, Time now);
+  /// For the approach, or for the pass, once it may.
+  void set_out(Time now);
   /// Once the arm rests.
   void turn_back();
   void come_back(Time now);
+  /// Over the sites to above the first, and then to where the approach began.
+  void lead_out();
   void finish_pivot(Time now);
   void go_on_calibrating();
   void finish_calibration(Time now);
   void finish_locating(Time now);
-  void go_on_drilling(Time now);
-  /// How many samples are averaged before they are held against `max_jaw_motion_m`.
-  int jaw_block() const;
-  void locate_jaw(const Eigen::Isometry3d& tracker_T_jaw);
-  void guard_jaw();
-  /// By how much a jaw has moved [m] at the ends of the bores, where that is most.
-  double max_moved(const Eigen::Isometry3d& tracker_T_jaw, const Eigen::Isometry3d& from) const;
-  /// For good; an arm that is on its way holds.
+  /// How well every site is known, for a tool whose tip was found so, or why that is not enough.
+  Expected<std::vector<ErrorForecast>> forecast(const std::vector<GuidedChain>& chains,
+                                                const Pivot& pivot, const char* tool);
+  void plan_rounds();
+  void enter_approach(Time now);
+  void go_on(Time now);
+  void withdraw(Time now);
+  void finish_round(Time now);
+  bool placing() const { return round_ == 1; }
+  bool at_sites() const { return phase_ == Phase::drilling || phase_ == Phase::placing; }
+  /// On its way there, or not out yet.
+  bool near_the_jaw() const;
+  const Pass& pass() const { return rounds_[round_].way.passes[pass_]; }
+  /// The motion that begins the step in which the present one is.
+  std::size_t first_of_step() const;
+  Eigen::Vector3d tool() const { return (*base_T_flange_ * flange_T_file_tool_).translation(); }
+  /// For good; an arm that is on its way holds. A tool that has set out towards the jaw is held
+  /// where there is an operator, and he leads it out.
   void refuse(const std::string& why);
 
   Parameters parameters_;
   Eigen::Isometry3d flange_T_file_tool_;
   Procedure procedure_;
   CalibrationRun calibration_;
-  BodyWatch drill_watch_, flange_watch_, jaw_watch_;
+  PivotRun drill_, driver_;
+  BodyWatch flange_watch_, jaw_watch_;
+  ThreadWatch thread_watch_;
   PursuedGoal goal_;
   int sent_to_ = 0;  // the calibration pose that goal_ is
   Phase phase_ = Phase::pivoting;
   std::vector<Eigen::Isometry3d> sites_;
+  std::vector<PlannedImplant> implants_;
   std::optional<Eigen::Isometry3d> base_T_flange_;
-  std::vector<Eigen::Isometry3d> pivot_poses_;
-  std::optional<Time> pivot_since_;
-  Pivot pivot_;
+  std::optional<Pivot> drill_tip_, driver_tip_;
   HandEye hand_eye_;
-  PoseAverage jaw_, jaw_now_;
-  std::optional<Eigen::Isometry3d> jaw_first_;  // the mean of the first samples of jaw_
+  JawPlace jaw_;
   RegisteredJaw registered_;
   GuidedChain chain_;
-  DrillingWay way_;
+  std::vector<Round> rounds_;
   std::optional<ToolPose> came_from_;  // where the approach began
-  std::size_t bore_ = 0;               // of way_
-  bool set_out_ = false;               // for the approach, or for the bore
+  std::size_t round_ = 0, pass_ = 0;   // of rounds_, and of its way
+  Time out_at_;                        // since then the drill is out, and may be changed
+  bool set_out_ = false;               // for the approach, or for the pass
   bool turned_ = false;                // going back or aborting: the way back is under way
-  BottomWatch bottoms_;
+  bool homing_ = false;                // led out: on the way to where the approach began
   std::vector<ErrorForecast> forecasts_;
   std::vector<std::string> news_;
   std::string trouble_;
 };
 
-/// "pivoting", "calibrating", "registering", "locating", "approaching", "drilling", "drilled",
-/// "going back", "aborting", "aborted", "refused".
+/// "pivoting", "calibrating", "registering", "locating", "approaching", "drilling", "placing",
+/// "withdrawing", "changing tool", "drilled", "placed", "going back", "held", "aborting",
+/// "aborted", "refused".
 const char* to_string(Implant::Phase phase);
 
 }  // namespace armature::task::implant

@@ -49,6 +49,16 @@ std::vector<ToolPose> sites_of(const msg::ImplantPlan& plan) {
   return sites;
 }
 
+std::vector<PlannedImplant> implants_of(const msg::ImplantPlan& plan) {
+  std::vector<PlannedImplant> implants;
+  for (const msg::Implant& implant : plan.implants_()) {
+    implants.push_back({.above_bottom_m = implant.above_bottom_(),
+                        .length_m = implant.length_(),
+                        .pitch_m = implant.pitch_()});
+  }
+  return implants;
+}
+
 RegisteredJaw jaw_of(const msg::RegistrationResponse& response) {
   RegisteredJaw jaw{
       .jaw_T_image = robot_T_image_of(response), .fiducial_error_m = response.fre_(), .sites = {}};
@@ -78,6 +88,7 @@ class ImplantComponent final : public Component {
         flange_{setup, "flange", parameters_.flange_body},
         jaw_{setup, "jaw", parameters_.jaw_body},
         pivot_{setup, "pivot", parameters_.pivot_body},
+        handpiece_js_{setup.input<msg::JointState>("handpiece_js")},
         measured_js_{setup.input<msg::JointState>("measured_js")},
         plan_{setup.input<msg::ImplantPlan>("plan")},
         markers_{setup.input<msg::MeasuredMarkers>("markers")},
@@ -85,6 +96,7 @@ class ImplantComponent final : public Component {
         motion_status_{setup.input<msg::MotionStatus>("motion_status")},
         goal_{setup.output<msg::MotionGoal>("goal")},
         estimate_{setup.output<msg::TFMessage>("estimate")},
+        thread_{setup.output<msg::ThreadAxis>("thread")},
         ports_{setup} {
     setup.activate_every(kPeriod);
   }
@@ -95,6 +107,10 @@ class ImplantComponent final : public Component {
     const auto obey = [&](const auto& command) { return task_.hear(command, now); };
     for (const std::string& line : ports_.hear(task_.procedure(), obey)) log(line);
     read_arm();
+    const msg::JointState* handpiece = handpiece_js_.latest();
+    if (handpiece && !handpiece->position_().empty()) {
+      task_.see_handpiece(handpiece->position_().front(), stamp_of(handpiece->header_().stamp_()));
+    }
     read(now);
     task_.update(now);
     if (markers_.latest() && task_.wants_registration() && registration_.due(now)) ask(now);
@@ -105,6 +121,7 @@ class ImplantComponent final : public Component {
     }
     for (const std::string& line : task_.take_news()) log(line);
     publish_estimate(now);
+    publish_thread(now);
     publish_state(now);
   }
 
@@ -137,11 +154,16 @@ class ImplantComponent final : public Component {
   }
 
   void read(Time now) {
-    if (plan_.latest()) task_.see_plan(sites_of(*plan_.latest()));
+    if (const msg::ImplantPlan* plan = plan_.latest()) {
+      task_.see_plan(sites_of(*plan), implants_of(*plan));
+    }
     for (std::size_t i = 0; i < motion_status_.size(); ++i) {
       task_.hear(report_of(motion_status_[i]), now);
     }
-    for (std::size_t i = 0; i < pivot_.size(); ++i) task_.see_pivot(pivot_[i]);
+    for (std::size_t i = 0; i < pivot_.size(); ++i) {
+      task_.see_drill_in_hand(pivot_[i]);
+      task_.see_driver_in_hand(pivot_.as(i, parameters_.driver_body));
+    }
     for (std::size_t i = 0; i < flange_.size(); ++i) task_.see_flange(flange_[i]);
     for (std::size_t i = 0; i < jaw_.size(); ++i) task_.see_jaw(jaw_[i]);
     registration_.listen([&](const msg::RegistrationResponse& response) {
@@ -168,7 +190,22 @@ class ImplantComponent final : public Component {
     if (std::exchange(published_, known) || !known) return;
     msg::TFMessage estimate;
     write_chain(task_.chain(), now, estimate);
+    if (const auto driver = task_.driver_chain()) write_tool(*driver, kDriver, now, estimate);
     estimate_.publish(estimate);
+  }
+
+  void publish_thread(Time now) {
+    const bool engaged = task_.thread().has_value();
+    if (std::exchange(engaged_, engaged) == engaged) return;
+    msg::ThreadAxis message;
+    write_header(message.header_(), now, kBaseFrame);
+    message.engaged_(engaged);
+    if (const auto& thread = task_.thread()) {
+      assign(message.start_(), thread->start);
+      assign(message.axis_(), thread->axis);
+      message.pitch_(thread->pitch_m);
+    }
+    thread_.publish(message);
   }
 
   void publish_state(Time now) {
@@ -185,15 +222,16 @@ class ImplantComponent final : public Component {
   RobotModel robot_;
   Flange mount_;
   Implant task_;
-  bool begun_ = false, published_ = false;
+  bool begun_ = false, published_ = false, engaged_ = false;
   BodyInput flange_, jaw_, pivot_;
-  Input<msg::JointState> measured_js_;
+  Input<msg::JointState> handpiece_js_, measured_js_;
   Input<msg::ImplantPlan> plan_;
   Input<msg::MeasuredMarkers> markers_;
   RegistrationDialogue registration_;
   Input<msg::MotionStatus> motion_status_;
   Output<msg::MotionGoal> goal_;
   Output<msg::TFMessage> estimate_;
+  Output<msg::ThreadAxis> thread_;
   TaskPorts ports_;
 };
 

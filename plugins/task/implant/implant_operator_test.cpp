@@ -47,6 +47,7 @@ class OperatedImplantTest : public ImplantTest {
 
 TEST_F(OperatedImplantTest, AsksBeforeTheApproachAndBeforeEverySite) {
   const std::size_t calibration = goals_.size();
+  const Vector3d came_from = tool();
   wait(1);
   EXPECT_EQ(goals_.size(), calibration) << "nothing moves before its confirmation";
   confirm("approach");
@@ -58,6 +59,7 @@ TEST_F(OperatedImplantTest, AsksBeforeTheApproachAndBeforeEverySite) {
   confirm("site 2");
   go_to(Phase::drilled);
   EXPECT_TRUE(task_.procedure().over());
+  EXPECT_LT((tool() - came_from).norm(), 1e-9) << "out, and to where it came from";
 }
 
 TEST_F(OperatedImplantTest, BackOutOfABoreAsksForItsSiteAgain) {
@@ -67,7 +69,7 @@ TEST_F(OperatedImplantTest, BackOutOfABoreAsksForItsSiteAgain) {
   confirm("site 1");
   stop_half_way();
   EXPECT_EQ(say("back"), "");
-  EXPECT_EQ(say("back"), "the drill goes back already");
+  EXPECT_EQ(say("back"), "the tool goes back already");
   step();
   EXPECT_EQ(goals_.back().mode, MotionMode::pause);
   step();
@@ -104,9 +106,9 @@ TEST_F(OperatedImplantTest, AbortedInABoreItGoesOutAndOverTheSitesToWhereItCameF
   step();
   EXPECT_EQ(goals_.back().mode, MotionMode::pause);
   step();
-  EXPECT_EQ(goals_.back().through.size(), 2u) << "above site 2, above site 1";
-  EXPECT_LT((goals_.back().pose.position - came_from).norm(), 1e-9);
+  EXPECT_EQ(goals_.back().through.size(), 1u) << "above site 2, to above site 1";
   go_to(Phase::aborted);
+  EXPECT_LT((goals_.back().pose.position - came_from).norm(), 1e-9);
   EXPECT_EQ(say("abort"), "the procedure is over");
 }
 
@@ -127,6 +129,37 @@ TEST_F(OperatedImplantTest, AbortedBeforeAnythingMovedItIsOver) {
 TEST_F(OperatedImplantTest, AJawThatMovesIsSeenWhileItIsPausedToo) {
   confirm("approach");
   EXPECT_EQ(say("pause"), "");
+  chain_.tracker_T_patient = chain_.tracker_T_patient * Eigen::Translation3d{0.01, 0, 0};
+  wait(0.5);
+  EXPECT_EQ(task_.phase(), Phase::held);
+}
+
+TEST_F(OperatedImplantTest, ADrillThatBreaksDownInTheBoneIsHeldUntilAnAbortLeadsItOut) {
+  const Vector3d came_from = tool();
+  confirm("approach");
+  run_until_asked();
+  before_ = tool();
+  confirm("site 1");
+  stop_half_way();
+  task_.hear({.goal_id = goals_.back().id,
+              .state = Report::failed,
+              .stage = "execution",
+              .reason = "the arm does not follow"},
+             now());
+  EXPECT_EQ(task_.phase(), Phase::held);
+  EXPECT_EQ(task_.trouble(), "site 1: execution: the arm does not follow");
+  const std::size_t until_then = goals_.size();
+  wait(2);
+  EXPECT_EQ(goals_.size(), until_then) << "nothing moves by itself";
+  EXPECT_EQ(say("back"), "the tool is held near the jaw: abort leads it out");
+  EXPECT_EQ(say("abort"), "");
+  step();
+  EXPECT_LT((goals_.back().pose.position - before_).norm(), 1e-9) << "out of the bone first";
+  go_to(Phase::aborted);
+  EXPECT_LT((goals_.back().pose.position - came_from).norm(), 1e-9);
+}
+
+TEST_F(OperatedImplantTest, WhatIsWrongBeforeTheDrillHasSetOutIsRefused) {
   chain_.tracker_T_patient = chain_.tracker_T_patient * Eigen::Translation3d{0.01, 0, 0};
   wait(0.5);
   EXPECT_EQ(task_.phase(), Phase::refused);

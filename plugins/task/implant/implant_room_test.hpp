@@ -62,18 +62,20 @@ class ImplantTest : public testing::Test {
   void step() {
     now_s_ += 0.02;
     task_.see_arm(base_T_flange_);
+    if (handpiece_) task_.see_handpiece(turn_handpiece(), now());
     if (done_) task_.hear({.goal_id = done_, .state = Report::done}, now());
-    if (see_drill_) task_.see_pivot(drill_in_hand());
+    if (see_drill_) task_.see_drill_in_hand(in_hand(chain_.tip));
+    if (see_driver_) task_.see_driver_in_hand(in_hand(driver_tip_));
     if (see_flange_) task_.see_flange(flange());
     if (see_jaw_) task_.see_jaw({now(), chain_.tracker_T_patient});
     task_.update(now());
     if (const auto goal = task_.outgoing_goal(now())) drive(*goal);
   }
-  Sighting drill_in_hand() const {
+  Sighting in_hand(const Vector3d& tip) const {
     const double turn = 7 * now_s_;
     const Isometry3d about = pose(0.1, 0, 1.5, 0.5, {std::cos(turn), std::sin(turn), 0.3}) *
                              Eigen::Translation3d{jitter_m_ * std::sin(40 * turn), 0, 0};
-    return {now(), about * Eigen::Translation3d{-chain_.tip}};
+    return {now(), about * Eigen::Translation3d{-tip}};
   }
   Sighting flange() {
     std::normal_distribution<double> normal{0, jitter_m_ + 1e-15};
@@ -92,6 +94,18 @@ class ImplantTest : public testing::Test {
     if (goal.mode != MotionMode::planned) return;
     for (const ToolPose& key : goal.through) task_.see_arm(cut_short(flange_at(key)));
     base_T_flange_ = cut_short(flange_at(goal.pose));
+  }
+  /// As a handpiece does that follows the arm.
+  double turn_handpiece() {
+    const auto& thread = task_.thread();
+    if (!thread) {
+      turned_from_ = angle_;
+    } else {
+      const Vector3d tool = (base_T_flange_ * file_tool_).translation();
+      const double advance_m = std::max(thread->axis.dot(tool - thread->start), 0.0);
+      angle_ = turned_from_ + turned_part_ * 2 * M_PI * advance_m / thread->pitch_m;
+    }
+    return angle_;
   }
   Isometry3d flange_at(const ToolPose& tool) const {
     return Eigen::Translation3d{tool.position} * std::get<Eigen::Quaterniond>(tool.orientation) *
@@ -128,10 +142,13 @@ class ImplantTest : public testing::Test {
 
   const Isometry3d file_tool_ = pose(0, 0.02, 0.15, 0.5, {0, 1, 0});
   GuidedChain chain_;
+  const Vector3d driver_tip_{0.012, 0.018, 0.085};
   std::vector<ToolPose> sites_;
   double now_s_ = 100, jitter_m_ = 0, short_m_ = 0;
   std::mt19937 random_{5};
-  bool see_drill_ = true, see_flange_ = true, see_jaw_ = true;
+  bool see_drill_ = true, see_driver_ = true, see_flange_ = true, see_jaw_ = true;
+  bool handpiece_ = true;
+  double angle_ = 11, turned_from_ = 11, turned_part_ = 1;
   Isometry3d base_T_flange_ = Isometry3d::Identity();
   std::uint64_t done_ = 0;
   std::vector<MotionGoal> goals_;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "armature/task/obey.hpp"
+
 namespace armature::task::lamp_alignment {
 namespace {
 
@@ -121,23 +123,8 @@ bool LampAlignment::may_align() {
 }
 
 Expected<void> LampAlignment::hear(const OperatorCommand& command, Time now) {
-  const auto word = procedure_.hear(command);
-  if (!word) return tl::unexpected{word.error()};
-  switch (*word) {
-    case OperatorWord::confirm:
-      break;
-    case OperatorWord::pause:
-      goals_.pause();
-      break;
-    case OperatorWord::resume:
-      goals_.resume();
-      break;
-    case OperatorWord::back:
-      return go_back(now);
-    case OperatorWord::abort:
-      return abort();
-  }
-  return {};
+  return obey(
+      command, procedure_, goals_, [&] { return go_back(now); }, [&] { return abort(); });
 }
 
 Expected<void> LampAlignment::go_back(Time now) {

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "armature/task/obey.hpp"
+
 namespace armature::task::waypoints {
 namespace {
 
@@ -72,23 +74,8 @@ std::optional<MotionGoal> Tour::outgoing_goal(Time now) {
 }
 
 Expected<void> Tour::hear(const OperatorCommand& command) {
-  const auto word = procedure_.hear(command);
-  if (!word) return tl::unexpected{word.error()};
-  switch (*word) {
-    case OperatorWord::confirm:
-      break;
-    case OperatorWord::pause:
-      goal_.pause();
-      break;
-    case OperatorWord::resume:
-      goal_.resume();
-      break;
-    case OperatorWord::back:
-      return go_back();
-    case OperatorWord::abort:
-      return abort();
-  }
-  return {};
+  return obey(
+      command, procedure_, goal_, [&] { return go_back(); }, [&] { return abort(); });
 }
 
 Expected<void> Tour::go_back() {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "armature/robot/files/robot_keys.hpp"
 
@@ -21,10 +22,11 @@ struct ReadJoint {
   const Node* leader = nullptr;
 };
 
-void read_limits(MapReader& map, Joint& joint) {
+void read_limits(MapReader& map, Joint& joint, bool endless = false) {
   const bool revolute = joint.type == Joint::Type::revolute;
   const char* const key = revolute ? "limits_deg" : "limits_m";
-  if (const auto limits = map.optional_numbers(key)) {
+  const auto limits = endless ? std::nullopt : map.optional_numbers(key);
+  if (limits) {
     joint.lower = limits->front();
     joint.upper = limits->back();
     if (!(joint.lower < joint.upper)) {
@@ -62,7 +64,9 @@ ReadJoint read_joint(const Node& node, Problems& problems) {
   ReadJoint result;
   Joint& joint = result.joint;
   if (type && type->text() == "prismatic") joint.type = Joint::Type::prismatic;
-  const auto keys = joint_keys(joint.type, node.find("coupled") != nullptr);
+  auto keys = joint_keys(joint.type, node.find("coupled") != nullptr);
+  const bool endless = type && type->text() == "continuous";
+  if (endless) std::erase_if(keys, [](const auto& key) { return key.name == "limits_deg"; });
   MapReader map{node, name ? fmt::format("joint '{}'", name->text()) : "joint", keys, problems};
   joint.name = map.text("name");
   result.name = name;
@@ -74,7 +78,7 @@ ReadJoint read_joint(const Node& node, Problems& problems) {
   if (const Node* coupled = map.node("coupled")) {
     result.leader = read_coupling(*coupled, joint, problems);
   }
-  read_limits(map, joint);
+  read_limits(map, joint, endless);
   map.finish();
   return result;
 }

@@ -106,6 +106,17 @@ TEST(RobotFile, MayStateMillimetresPrismaticJointsAndOffsets) {
   EXPECT_TRUE(*robot.home() == joint_vector({0.5, 0.1, 0.205}));
 }
 
+TEST(RobotFile, HasJointsThatTurnWithoutAnEnd) {
+  const RobotModel robot = read_good(
+      "armature_robot: 1\n"
+      "name: spindle\n"
+      "joints: [{name: turn, type: continuous, velocity_rad_s: 8, acceleration_rad_s2: 200}]\n"
+      "frames: {tool: {parent: turn}}\n");
+  EXPECT_TRUE(robot.is_revolute(0));
+  EXPECT_TRUE(robot.within_limits(joint_vector({1e6})));
+  EXPECT_EQ(robot.max_velocity()[0], 8);
+}
+
 TEST(RobotFile, HangsFramesOnJointsTheBaseAndOtherFrames) {
   const RobotModel robot =
       read_good(with(kGoodJoint,

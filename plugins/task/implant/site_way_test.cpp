@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which way the drill goes.
-#include "drilling.hpp"
+// Which way the drill goes, and the implants.
+#include "site_way.hpp"
 
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 namespace armature::task::implant {
 namespace {
@@ -10,9 +12,9 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-class DrillingWayTest : public testing::Test {
+class SiteWayTest : public testing::Test {
  protected:
-  DrillingWayTest() {
+  SiteWayTest() {
     chain_.base_T_tracker = Eigen::Translation3d{-1, 0.5, 1.2} *
                             Eigen::AngleAxisd{1.8, Vector3d{0.3, 1, 0.2}.normalized()};
     chain_.flange_T_body =
@@ -44,13 +46,13 @@ class DrillingWayTest : public testing::Test {
   std::vector<Isometry3d> sites_;
 };
 
-TEST_F(DrillingWayTest, GoesThroughAllSitesInOneMotion) {
-  const DrillingWay way = drilling_way(chain_, file_tool_, sites_, {.auto_confirm = true});
+TEST_F(SiteWayTest, GoesThroughAllSitesInOneMotion) {
+  const SiteWay way = drilling_way(chain_, file_tool_, sites_, {.auto_confirm = true});
   expect_at(way.above[0], 0, 0.03);
-  ASSERT_EQ(way.bores.size(), 1u);
-  EXPECT_FALSE(way.bores[0].ends_at_bottom);
-  EXPECT_EQ(way.bores[0].name, "sites 1 to 3");
-  const auto& through = way.bores[0].goal.through;
+  ASSERT_EQ(way.passes.size(), 1u);
+  EXPECT_FALSE(way.passes[0].ends_at_bottom);
+  EXPECT_EQ(way.passes[0].name, "sites 1 to 3");
+  const auto& through = way.passes[0].goal.through;
   ASSERT_EQ(through.size(), 7u);
   expect_at(through[0], 0, 0);
   expect_at(through[1], 0, 0.03);
@@ -59,20 +61,20 @@ TEST_F(DrillingWayTest, GoesThroughAllSitesInOneMotion) {
   expect_at(through[4], 1, 0.03);
   expect_at(through[5], 2, 0.03);
   expect_at(through[6], 2, 0);
-  expect_at(way.bores[0].goal.pose, 2, 0.03);
+  expect_at(way.passes[0].goal.pose, 2, 0.03);
 }
 
-TEST_F(DrillingWayTest, OrEndsAMotionAtEveryBottomAndAboveIt) {
+TEST_F(SiteWayTest, OrEndsAMotionAtEveryBottomAndAboveIt) {
   for (const bool stop_at_sites : {true, false}) {  // an operator who is asked is reason enough
-    const DrillingWay way = drilling_way(
+    const SiteWay way = drilling_way(
         chain_, file_tool_, sites_,
         {.stand_off = 0.02, .stop_at_sites = stop_at_sites, .auto_confirm = stop_at_sites});
-    ASSERT_EQ(way.bores.size(), 6u);
+    ASSERT_EQ(way.passes.size(), 6u);
     for (std::size_t i = 0; i < 3; ++i) {
-      const Bore &in = way.bores[2 * i], &out = way.bores[2 * i + 1];
+      const Pass &in = way.passes[2 * i], &out = way.passes[2 * i + 1];
       EXPECT_TRUE(in.ends_at_bottom);
-      EXPECT_EQ(in.first_site, i);
-      EXPECT_EQ(out.first_site, i);
+      EXPECT_EQ(in.site, i);
+      EXPECT_EQ(out.site, i);
       expect_at(in.goal.pose, i, 0);
       EXPECT_FALSE(out.ends_at_bottom);
       expect_at(out.goal.pose, i, 0.02);
@@ -80,37 +82,56 @@ TEST_F(DrillingWayTest, OrEndsAMotionAtEveryBottomAndAboveIt) {
       ASSERT_EQ(in.goal.through.size(), i > 0 ? 1u : 0u);
       if (i > 0) expect_at(in.goal.through[0], i, 0.02);
     }
-    EXPECT_EQ(way.bores[2].name, "site 2");
-    EXPECT_EQ(way.bores[5].name, "out of site 3");
+    EXPECT_EQ(way.passes[2].name, "site 2");
+    EXPECT_EQ(way.passes[5].name, "out of site 3");
   }
 }
 
-TEST_F(DrillingWayTest, LeadsOutOfTheBoneAndBackOverTheSitesThatItCameBy) {
-  const DrillingWay way = drilling_way(chain_, file_tool_, sites_, {.auto_confirm = true});
-  const Vector3d bottom = way.bores[0].goal.through[6].position;
-  const ToolPose home{.position = {0, 0, 1}, .orientation = Eigen::Quaterniond::Identity()};
-  const MotionGoal out = way_out(way, bottom, 0, home);
-  ASSERT_EQ(out.through.size(), 3u);
+TEST_F(SiteWayTest, LeadsOutOfTheBoneAndBackOverTheSitesThatItCameBy) {
+  const SiteWay way = drilling_way(chain_, file_tool_, sites_, {.auto_confirm = true});
+  const Vector3d bottom = way.passes[0].goal.through[6].position;
+  const MotionGoal out = way_out(way, bottom, 0);
+  ASSERT_EQ(out.through.size(), 2u);
   expect_at(out.through[0], 2, 0.03);
   expect_at(out.through[1], 1, 0.03);
-  expect_at(out.through[2], 0, 0.03);
-  EXPECT_EQ(out.pose.position, home.position);
+  expect_at(out.pose, 0, 0.03);
   const MotionGoal up = way_out(way, bottom, 2);
   EXPECT_TRUE(up.through.empty());
   expect_at(up.pose, 2, 0.03);
   EXPECT_EQ(way_out(way, way.above[1].position, 0).through.size(), 0u)
       << "where it stands it does not go to";
-  expect_at(way_out(way, way.above[1].position, 1).pose, 1, 0.03);
+  EXPECT_TRUE(is_above(way, way.above[1].position, 1));
+  EXPECT_FALSE(is_above(way, bottom, 2));
 }
 
-TEST_F(DrillingWayTest, OneSiteIsEnough) {
+TEST_F(SiteWayTest, AnImplantGoesToTheBoneThenSlowlyToItsPlaceAndTheDriverOutWithoutIt) {
+  const std::vector<PlannedImplant> implants(3, {0.0005, 0.011, 0.0012});
+  const SiteWay way =
+      placing_way(chain_, file_tool_, sites_, implants, {.depth = 0.012, .max_turn = 4});
+  ASSERT_EQ(way.passes.size(), 9u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Pass &to_bone = way.passes[3 * i], &in = way.passes[3 * i + 1],
+               &out = way.passes[3 * i + 2];
+    // The driver's tip is where the implant begins, its length above its end.
+    expect_at(to_bone.goal.pose, i, 0.012 + 0.011);
+    expect_at(in.goal.pose, i, 0.0005 + 0.011);
+    expect_at(out.goal.pose, i, 0.03 + 0.011);
+    EXPECT_TRUE(to_bone.asks && !to_bone.turns && !to_bone.ends_at_bottom);
+    EXPECT_TRUE(in.turns && in.ends_at_bottom && !in.asks);
+    EXPECT_FALSE(out.asks || out.turns || out.ends_at_bottom);
+    EXPECT_NEAR(in.goal.max_speed, 0.0012 * 4 / (2 * M_PI), 1e-15);
+  }
+  EXPECT_EQ(way.passes[4].name, "implant 2");
+}
+
+TEST_F(SiteWayTest, OneSiteIsEnough) {
   sites_.resize(1);
-  const DrillingWay way = drilling_way(chain_, file_tool_, sites_, {.auto_confirm = true});
-  ASSERT_EQ(way.bores.size(), 1u);
-  EXPECT_EQ(way.bores[0].name, "site 1");
-  ASSERT_EQ(way.bores[0].goal.through.size(), 1u);
-  expect_at(way.bores[0].goal.through[0], 0, 0);
-  expect_at(way.bores[0].goal.pose, 0, 0.03);
+  const SiteWay way = drilling_way(chain_, file_tool_, sites_, {.auto_confirm = true});
+  ASSERT_EQ(way.passes.size(), 1u);
+  EXPECT_EQ(way.passes[0].name, "site 1");
+  ASSERT_EQ(way.passes[0].goal.through.size(), 1u);
+  expect_at(way.passes[0].goal.through[0], 0, 0);
+  expect_at(way.passes[0].goal.pose, 0, 0.03);
 }
 
 }  // namespace

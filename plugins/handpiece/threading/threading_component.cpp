@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <optional>
+
+#include "armature/kinds/joint_messages.hpp"
+#include "armature/kinds/setup_robot.hpp"
+#include "armature/messages/armature_msgs.hpp"
+#include "armature/messages/geometry.hpp"
+#include "armature/messages/header.hpp"
+#include "armature/messages/sensor_msgs.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
+#include "armature/runtime/component/component.hpp"
+#include "armature/runtime/component/setup.hpp"
+#include "armature/runtime/plugins/plugin.hpp"
+#include "gearing.hpp"
+#include "handpiece_threading_parameters.hpp"
+
+namespace armature::handpiece::threading {
+
+class Threading final : public Component {
+ public:
+  explicit Threading(Setup& setup)
+      : Component{setup},
+        robot_{robot_of(setup)},
+        thread_{setup.input<msg::ThreadAxis>("thread")},
+        measured_js_{setup.input<msg::JointState>("measured_js")},
+        handpiece_js_{setup.input<msg::JointState>("handpiece_js")},
+        servo_jp_{setup.output<msg::JointState>("servo_jp")} {
+    q_ = v_ = JointVector::Zero(robot_.dof());
+    msg::JointState room;
+    room.position_().resize(1);
+    room.velocity_().resize(1);
+    servo_jp_.prepare(room);
+    setup.activate_every(seconds(1 / Parameters::read(setup.params()).rate));
+  }
+
+  void step(Time now) override {
+    const msg::JointState* handpiece = handpiece_js_.latest();
+    if (!handpiece || handpiece->position_().empty()) return;
+    follow_thread(handpiece->position_().front());
+    if (!measured_js_.latest()) return;
+    ReasonText wrong = read_joints(robot_, *measured_js_.latest(), q_);
+    if (wrong.empty()) wrong = read_joint_rates(robot_, *measured_js_.latest(), v_);
+    if (wrong.empty() && defect_) wrong = defect_;
+    if (!wrong.empty()) return degraded(wrong.view());
+    healthy();
+    const PoseAndJacobian tool = forward_kinematics_with_jacobian(robot_, q_, robot_.tool());
+    const Eigen::Vector3d velocity = tool.jacobian.topRows<3>() * v_;
+    const Turn turn = gearing_.follow(tool.base_T_frame.translation(), velocity);
+    auto loan = servo_jp_.loan();
+    write_header(loan->header_(), now, "");
+    loan->position_().assign(1, turn.angle);
+    loan->velocity_().assign(1, turn.velocity);
+    loan.publish();
+  }
+
+ private:
+  /// A thread begins, or ends; before the first the handpiece stays where it was found.
+  void follow_thread(double angle) {
+    if (!found_) gearing_.stay(angle);
+    found_ = true;
+    const msg::ThreadAxis* thread = thread_.latest();
+    const bool engaged = thread && thread->engaged_();
+    if (engaged == wanted_) return;
+    wanted_ = engaged;
+    gearing_.release();
+    defect_ = nullptr;
+    if (!engaged) return;
+    const Thread axis{.start = to_eigen(thread->start_()),
+                      .axis = to_eigen(thread->axis_()),
+                      .pitch_m = thread->pitch_()};
+    defect_ = defect(axis);
+    if (!defect_) gearing_.engage(axis, angle);
+  }
+
+  RobotModel robot_;
+  JointVector q_, v_;
+  Gearing gearing_;
+  bool found_ = false, wanted_ = false;
+  const char* defect_ = nullptr;  // of the thread that is wanted
+  Input<msg::ThreadAxis> thread_;
+  Input<msg::JointState> measured_js_, handpiece_js_;
+  Output<msg::JointState> servo_jp_;
+};
+
+}  // namespace armature::handpiece::threading
+
+ARMATURE_PLUGIN(armature::handpiece::threading::Threading);

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+namespace armature::report::implant {
+
+/// Whether an implant is turned as it goes in: how far it went in, against its turns.
+class ThreadMonitor {
+ public:
+  /// The thread of one implant.
+  struct Thread {
+    Eigen::Vector3d start, axis;  // [m] and unit, in the base frame, of the robot file's tool
+    double pitch_m;
+  };
+
+  void engage(const std::optional<Thread>& thread) {
+    thread_ = thread;
+    begun_at_.reset();
+  }
+  /// At one instant: where the file's tool is [m], and how far the handpiece has turned [rad].
+  void see(const Eigen::Vector3d& tool, double angle);
+  /// [m] The most that an implant was ahead of its turns or behind them, if any was seen.
+  const std::optional<double>& max_error_m() const { return max_error_m_; }
+
+ private:
+  std::optional<Thread> thread_;
+  std::optional<double> begun_at_;  // its angle, when it was engaged
+  std::optional<double> max_error_m_;
+};
+
+}  // namespace armature::report::implant

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "site_way.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <numbers>
+#include <string>
+#include <utility>
+
+namespace armature::task::implant {
+namespace {
+
+using Eigen::Isometry3d;
+
+using Eigen::Translation3d;
+
+/// Of the robot file's tool.
+struct SitePoses {
+  ToolPose above, bottom;
+};
+
+/// The file's tool, when the tool of `chain` is at a place of the image.
+ToolPose pose_at(const GuidedChain& chain, const Isometry3d& flange_T_file_tool,
+                 const Isometry3d& image_T_place) {
+  const Isometry3d pose = chain.base_T_flange(image_T_place) * flange_T_file_tool;
+  return {pose.translation(), Eigen::Quaterniond{pose.linear()}.normalized()};
+}
+
+std::vector<Pass> in_one_motion(const std::vector<SitePoses>& sites) {
+  Pass pass{.goal = {}, .asks = true, .sites = sites.size()};
+  auto& through = pass.goal.through;
+  for (const SitePoses& site : sites) {
+    if (!through.empty()) through.push_back(site.above);
+    through.push_back(site.bottom);
+    through.push_back(site.above);
+  }
+  pass.goal.pose = through.back();
+  through.pop_back();
+  pass.name = sites.size() == 1 ? "site 1" : fmt::format("sites 1 to {}", sites.size());
+  return {pass};
+}
+
+std::vector<Pass> site_by_site(const std::vector<SitePoses>& sites) {
+  std::vector<Pass> passes;
+  for (std::size_t i = 0; i < sites.size(); ++i) {
+    Pass in{.goal = {.pose = sites[i].bottom},
+            .asks = true,
+            .ends_at_bottom = true,
+            .site = i,
+            .sites = i + 1,
+            .name = fmt::format("site {}", i + 1)};
+    if (i > 0) in.goal.through = {sites[i].above};
+    Pass out{
+        .goal = {.pose = sites[i].above}, .site = i, .sites = i + 1, .name = "out of " + in.name};
+    passes.push_back(std::move(in));
+    passes.push_back(std::move(out));
+  }
+  return passes;
+}
+
+}  // namespace
+
+std::optional<std::string> defect(const std::vector<PlannedImplant>& implants, std::size_t sites,
+                                  double depth_m) {
+  if (implants.size() != sites) {
+    return fmt::format("{} implants for {} sites", implants.size(), sites);
+  }
+  for (std::size_t i = 0; i < implants.size(); ++i) {
+    const PlannedImplant& implant = implants[i];
+    const auto wrong = [&](const char* what, double metres, const std::string& wanted) {
+      return fmt::format("implant {}: {} is {:g} mm, {}", i + 1, what, 1e3 * metres, wanted);
+    };
+    if (!(implant.above_bottom_m >= 0 && implant.above_bottom_m < depth_m)) {
+      return wrong(
+          "its end above the bottom", implant.above_bottom_m,
+          fmt::format("from 0 to below the bore's depth, {:g}, are wanted", 1e3 * depth_m));
+    }
+    constexpr double kMaxLength_m = 0.1, kMinPitch_m = 1e-4;
+    if (!(implant.length_m > 0 && implant.length_m <= kMaxLength_m)) {
+      return wrong("its length", implant.length_m, "more than 0 and at most 100 are wanted");
+    }
+    if (!(implant.pitch_m >= kMinPitch_m && implant.pitch_m <= implant.length_m)) {
+      return wrong("its pitch", implant.pitch_m, "from 0.1 to its length are wanted");
+    }
+  }
+  return std::nullopt;
+}
+
+SiteWay drilling_way(const GuidedChain& chain, const Isometry3d& flange_T_file_tool,
+                     const std::vector<Isometry3d>& image_T_sites, const Parameters& parameters) {
+  const Translation3d up{0, 0, -parameters.stand_off};
+  std::vector<SitePoses> sites;
+  for (const Isometry3d& site : image_T_sites) {
+    sites.push_back(
+        {pose_at(chain, flange_T_file_tool, site * up), pose_at(chain, flange_T_file_tool, site)});
+  }
+  SiteWay way;
+  for (const SitePoses& site : sites) way.above.push_back(site.above);
+  const bool stops = parameters.stop_at_sites || !parameters.auto_confirm;
+  way.passes = stops ? site_by_site(sites) : in_one_motion(sites);
+  return way;
+}
+
+SiteWay placing_way(const GuidedChain& chain, const Isometry3d& flange_T_file_tool,
+                    const std::vector<Isometry3d>& image_T_sites,
+                    const std::vector<PlannedImplant>& implants, const Parameters& parameters) {
+  SiteWay way;
+  for (std::size_t i = 0; i < image_T_sites.size(); ++i) {
+    const GuidedChain end = with_implant(chain, implants[i]);
+    const auto goal = [&](const Isometry3d& image_T_place) -> MotionGoal {
+      return {.pose = pose_at(end, flange_T_file_tool, image_T_place)};
+    };
+    const Isometry3d& site = image_T_sites[i];
+    const MotionGoal above = goal(site * Translation3d{0, 0, -parameters.stand_off});
+    const std::string name = fmt::format("implant {}", i + 1);
+    Pass to_the_bone{.goal = goal(site * Translation3d{0, 0, -parameters.depth}),
+                     .asks = true,
+                     .site = i,
+                     .sites = i,
+                     .name = name};
+    if (i > 0) to_the_bone.goal.through = {above.pose};
+    Pass in{.goal = goal(place_of(site, implants[i])),
+            .turns = true,
+            .ends_at_bottom = true,
+            .site = i,
+            .sites = i + 1,
+            .name = name};
+    in.goal.max_speed = implants[i].pitch_m * parameters.max_turn / (2 * std::numbers::pi);
+    Pass out{.goal = above, .site = i, .sites = i + 1, .name = "off " + name};
+    way.above.push_back(above.pose);
+    way.passes.insert(way.passes.end(), {std::move(to_the_bone), std::move(in), std::move(out)});
+  }
+  return way;
+}
+
+GuidedChain with_implant(GuidedChain chain, const PlannedImplant& implant) {
+  chain.tip = chain.flange_T_body.inverse() *
+              (chain.flange_T_tool() * Eigen::Vector3d{0, 0, implant.length_m});
+  return chain;
+}
+
+Isometry3d place_of(const Isometry3d& image_T_site, const PlannedImplant& implant) {
+  return image_T_site * Translation3d{0, 0, -implant.above_bottom_m};
+}
+
+bool is_above(const SiteWay& way, const Eigen::Vector3d& tool, std::size_t site) {
+  constexpr double kThere_m = 1e-4;
+  return (way.above[site].position - tool).norm() <= kThere_m;
+}
+
+MotionGoal way_out(const SiteWay& way, const Eigen::Vector3d& tool, std::size_t site) {
+  const auto from_tool = [&](const ToolPose& pose) { return (pose.position - tool).norm(); };
+  const auto nearest = std::ranges::min_element(way.above, {}, from_tool);
+  MotionGoal goal;
+  for (auto at = static_cast<std::size_t>(nearest - way.above.begin()); at > site; --at) {
+    if (!is_above(way, tool, at)) goal.through.push_back(way.above[at]);
+  }
+  goal.pose = way.above[site];
+  return goal;
+}
+
+}  // namespace armature::task::implant

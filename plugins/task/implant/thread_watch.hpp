@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+
+#include "armature/values/time.hpp"
+#include "task_implant_parameters.hpp"
+
+namespace armature::task::implant {
+
+/// The thread of an implant: what holds it turns as it goes in.
+struct Thread {
+  Eigen::Vector3d start;  // [m] in the base frame, of the robot file's tool where it begins
+  Eigen::Vector3d axis;   // unit, in the base frame, into the bone
+  double pitch_m = 0;
+};
+
+/// Whether the handpiece turns an implant as its thread wants it: one that is pushed strips the
+/// bone.
+class ThreadWatch {
+ public:
+  explicit ThreadWatch(const Parameters& parameters) : parameters_{parameters} {}
+
+  /// `angle`: how far the handpiece has turned [rad], over all turns.
+  void see(double angle, Time now);
+  /// An implant begins to go in.
+  void engage(const Thread& thread, Time now);
+  void release() { thread_.reset(); }
+  const std::optional<Thread>& thread() const { return thread_; }
+  bool heard_of() const { return angle_.has_value(); }
+  /// "the implant went in by 1.20 mm, and was turned by 0.3 of the 1 turns that its thread wants",
+  /// or that the handpiece is silent, or nullopt. `tool`: where the file's tool is [m].
+  std::optional<std::string> trouble(const Eigen::Vector3d& tool, Time now) const;
+
+ private:
+  Parameters parameters_;
+  std::optional<Thread> thread_;
+  std::optional<double> angle_;  // as last told
+  double begun_at_ = 0;          // that angle when the implant began to go in
+  Time heard_;
+};
+
+}  // namespace armature::task::implant

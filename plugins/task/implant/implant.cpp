@@ -6,15 +6,10 @@
 #include <algorithm>
 #include <utility>
 
-#include "armature/task/obey.hpp"
-
 namespace armature::task::implant {
 namespace {
 
 using Eigen::Isometry3d;
-
-/// The steps that are known before there is a way.
-enum Step : std::size_t { kPivot, kCalibration, kRegistration, kApproach };
 
 Destination destination(const GuidedChain& chain, const Isometry3d& image_T_place) {
   return {chain.flange_T_tool().translation(), chain.base_T_site(image_T_place).translation()};
@@ -378,110 +373,6 @@ std::size_t Implant::first_of_step() const {
   std::size_t first = pass_;
   while (!rounds_[round_].way.passes[first].asks) --first;
   return first;
-}
-
-Expected<void> Implant::hear(const OperatorCommand& command, Time now) {
-  if (phase_ == Phase::held && command.word != "abort") {
-    return armature::refuse("the tool is held near the jaw: abort leads it out");
-  }
-  return obey(
-      command, procedure_, goal_, [&] { return go_back(now); }, [&] { return abort(); });
-}
-
-/// Out of the bone, where its step asks again; from above the first site, and before, to the
-/// registration.
-Expected<void> Implant::go_back(Time now) {
-  switch (phase_) {
-    case Phase::going_back:
-    case Phase::aborting:
-      return armature::refuse("the tool goes back already");
-    case Phase::withdrawing:
-    case Phase::changing_tool:
-      return armature::refuse("the sites are drilled, or served: the tool is out");
-    case Phase::approaching:
-    case Phase::drilling:
-    case Phase::placing:
-      break;
-    default:
-      return armature::refuse("before the approach there is no step to go back to");
-  }
-  const bool again = phase_ == Phase::approaching || (pass_ == 0 && !set_out_);
-  const bool placed = placing() && (set_out_ ? !pass().asks && !pass().turns : pass().asks);
-  if (!again && placed) return armature::refuse("the implant before stays where it was placed");
-  procedure_.turn_back();
-  goal_.pause();
-  if (again) {
-    register_again(now);
-  } else if (!set_out_) {
-    --pass_;
-    come_to_pass(first_of_step(), now);  // into the site before
-  } else {
-    phase_ = Phase::going_back;
-    turned_ = false;
-  }
-  return {};
-}
-
-void Implant::register_again(Time now) {
-  forecasts_.clear();
-  enter(Phase::registering, now);
-  procedure_.enter(kRegistration);
-}
-
-/// Out of the bone, over the sites, and to where the approach began.
-Expected<void> Implant::abort() {
-  if (phase_ == Phase::aborting) return armature::refuse("it is being aborted already");
-  procedure_.turn_back();
-  if (near_the_jaw()) {
-    if (!turned_ || phase_ != Phase::going_back) goal_.pause();
-    set_out_ = true;
-    trouble_.clear();
-    phase_ = Phase::aborting;
-    turned_ = false;
-    return {};
-  }
-  goal_.pause();
-  phase_ = Phase::aborted;
-  procedure_.end(Procedure::StepState::broken_off);
-  return {};
-}
-
-void Implant::turn_back() {
-  if (procedure_.paused() || !base_T_flange_) return;
-  turned_ = true;
-  const bool approached = procedure_.step() > rounds_[round_].approach;
-  homing_ = !approached;
-  if (!approached) return goal_.retrace(false);
-  if (phase_ == Phase::aborting) return lead_out();
-  MotionGoal out = way_out(rounds_[round_].way, tool(), pass().site);
-  if (thread()) out.max_speed = pass().goal.max_speed;  // it is turned out again
-  goal_.set_once(out);
-}
-
-void Implant::lead_out() {
-  const SiteWay& way = rounds_[round_].way;
-  homing_ = homing_ || is_above(way, tool(), 0);
-  if (homing_) return goal_.set_once({.pose = *came_from_});
-  MotionGoal out = way_out(way, tool(), 0);
-  if (thread()) out.max_speed = pass().goal.max_speed;
-  goal_.set_once(out);
-}
-
-void Implant::come_back(Time now) {
-  if (goal_.state() == PursuedGoal::State::failed) {
-    return refuse("the way back: " + goal_.reason());
-  }
-  if (phase_ == Phase::aborting && !homing_) {
-    homing_ = true;
-    thread_watch_.release();
-    return lead_out();
-  }
-  turned_ = false;
-  if (phase_ == Phase::aborting) {
-    phase_ = Phase::aborted;
-    return procedure_.end(Procedure::StepState::broken_off);
-  }
-  come_to_pass(first_of_step(), now);
 }
 
 void Implant::go_on(Time now) {

@@ -107,6 +107,8 @@ class Implant {
     std::size_t withdrawal = 0;
   };
 
+  /// The steps that are known before there is a way.
+  enum Step : std::size_t { kPivot, kCalibration, kRegistration, kApproach };
   void enter(Phase phase, Time now);
   Expected<void> go_back(Time now);
   Expected<void> abort();

@@ -40,6 +40,7 @@ std::string entry_of(const PluginManifest& plugin) {
        "{plugin: "
        "select/nearest}, trajectory: {plugin: trajectory/quintic}}"},
       {"operator/pendant", "{plugin: operator/pendant, params: {device: /dev/null}}"},
+      {"task/biopsy", "{plugin: task/biopsy, params: {touch_markers: true}}"},
       {"task/waypoints", "{plugin: task/waypoints, params: {positions_mm: [900, 0, 500]}}"},
   };
   const auto found = kEntries.find(plugin.id);

@@ -20,7 +20,7 @@ constexpr int kRefused = 1, kInvalid = 3, kTimedOut = 5;
 class OperatorTest : public testing::Test {
  protected:
   std::vector<std::string> biopsy(const std::string& verb) const {
-    return {armature(), verb, source_file("configs/sr1_biopsy.yaml"), "--domain", domain_};
+    return {armature(), verb, source_file("configs/" + file_), "--domain", domain_};
   }
   std::vector<std::string> operated_biopsy() const {
     std::vector<std::string> command = biopsy("run");
@@ -34,6 +34,7 @@ class OperatorTest : public testing::Test {
     return run_command(command, {}, kAtMost);
   }
   const std::string domain_ = std::to_string(unique_dds_domain());
+  std::string file_ = "sr1_biopsy.yaml";
 };
 
 TEST_F(OperatorTest, ConfirmsPausesResumesAndAborts) {
@@ -58,6 +59,25 @@ TEST_F(OperatorTest, ConfirmsPausesResumesAndAborts) {
   const CommandResult ended = run.finish(kAtMost);
   EXPECT_EQ(ended.exit_code, 1) << "a run that was broken off has not met its goals";
   EXPECT_THAT(ended.out, HasSubstr("aborted"));
+}
+
+TEST_F(OperatorTest, ConfirmsATouchOnceTheTipRestsAndTakesItBack) {
+  file_ = "sr1_touching.yaml";
+  Command run{operated_biopsy(), {}};
+  ASSERT_TRUE(run.wait_for_err("asks the operator to confirm 'marker 1'", kAtMost)) << run.err();
+  const auto until = std::chrono::steady_clock::now() + kAtMost;
+  CommandResult confirmed = say("confirm");
+  while (confirmed.exit_code == kRefused && std::chrono::steady_clock::now() < until) {
+    EXPECT_THAT(confirmed.err, HasSubstr("'confirm' was refused: the tip ")) << "the hand leads it";
+    confirmed = say("confirm");
+  }
+  EXPECT_EQ(confirmed.exit_code, 0) << confirmed.err;
+  EXPECT_TRUE(run.wait_for_err("asks the operator to confirm 'marker 2'", kAtMost)) << run.err();
+  EXPECT_EQ(say("back").exit_code, 0);
+  EXPECT_TRUE(run.wait_for_err("0 of 6 markers touched", kAtMost)) << run.err();
+  EXPECT_EQ(say("abort").exit_code, 0);
+  EXPECT_TRUE(run.wait_for_err("task      aborted", kAtMost)) << run.err();
+  EXPECT_EQ(run.finish(kAtMost).exit_code, 1);
 }
 
 TEST_F(OperatorTest, TypesHisWords) {

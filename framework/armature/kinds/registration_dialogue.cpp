@@ -28,7 +28,7 @@ void RegistrationDialogue::ask(const Question& question, Time now) {
   loan->robot_markers_() = question.robot_markers;
   loan->ordered_(false);
   loan->match_tolerance_(match_tolerance_);
-  loan->marker_error_(marker_error_);
+  loan->marker_error_(question.marker_error > 0 ? question.marker_error : marker_error_);
   loan->targets_() = question.targets;
   loan.publish();
 }

@@ -21,6 +21,7 @@ class RegistrationDialogue {
   struct Question {
     std::string robot_frame;  // of robot_markers
     std::vector<msg::Point> image_markers, robot_markers, targets;
+    double marker_error = 0;  // [m] that was told with the markers; 0: none, the parameter counts
   };
 
   /// `marker_error` [m]: how well a marker is measured. `match_tolerance` [m]: how far two

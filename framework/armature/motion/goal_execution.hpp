@@ -19,7 +19,7 @@ struct GoalStatus {
   enum class State : std::uint8_t { accepted = 0, executing, done, superseded, failed };
   std::uint64_t goal_id = 0;
   State state = State::accepted;
-  /// path, ik, select, trajectory, execution; accept: it was refused
+  /// path, ik, select, trajectory, links, execution; accept: it was refused
   InlineText<16> stage;
   ReasonText reason;       // why it failed
   double remaining_s = 0;  // until the goal's trajectory ends

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "armature/robot/kinematics/kinematics.hpp"
+#include "armature/robot/kinematics/link_clearance.hpp"
 #include "armature/robot/trajectories/retiming.hpp"
 #include "armature/values/guarded.hpp"
 
@@ -213,7 +214,24 @@ PlanResult GoalPlanner::attempt(const MotionGoal& goal, const JointState& from, 
     if (!path) return fail("path", path.error().text);
     plan.path = std::move(*path);
   }
-  auto joint_path = this->joint_path(plan.path, from.q);
+  if (auto solved = solve_samples(plan.path, from.q); !solved) {
+    return tl::unexpected{solved.error()};
+  }
+  std::optional<std::string> first_obstacle;
+  for (;;) {
+    PlanResult timed = this->timed(plan.path, goal, from, start);
+    if (!timed) return first_obstacle ? fail("links", *first_obstacle) : std::move(timed);
+    const auto obstacle = this->obstacle(timed->trajectory, goal);
+    if (!obstacle) return timed;
+    if (!first_obstacle) first_obstacle = obstacle;
+    if (!without_branch_of(*timed)) return fail("links", *first_obstacle);
+  }
+}
+
+PlanResult GoalPlanner::timed(const Path& path, const MotionGoal& goal, const JointState& from,
+                              Time start) {
+  Plan plan{.path = path};
+  auto joint_path = this->joint_path(path, from.q);
   if (!joint_path) return tl::unexpected{joint_path.error()};
   plan.joint_path = std::move(*joint_path);
   auto trajectory = guarded([&] {
@@ -238,6 +256,36 @@ PlanResult GoalPlanner::attempt(const MotionGoal& goal, const JointState& from, 
     if (slower > 1) plan.trajectory = stretched(plan.trajectory, slower);
   }
   return plan;
+}
+
+std::optional<std::string> GoalPlanner::obstacle(const Trajectory& trajectory,
+                                                 const MotionGoal& goal) const {
+  const auto found =
+      first_violation(model_, trajectory.view(), goal.forbidden, options_.min_link_clearance);
+  if (!found) return std::nullopt;
+  return fmt::format(
+      "link '{}' comes nearer than {:g} mm (min_link_clearance_mm) to '{}', {:.2f} s after the "
+      "start of the way, and the arm has no other branch from here that keeps away: lead it to "
+      "another start",
+      model_.capsules()[found->where.capsule].name, 1e3 * options_.min_link_clearance,
+      goal.forbidden[found->where.zone].name, found->t_s);
+}
+
+bool GoalPlanner::without_branch_of(const Plan& plan) {
+  // Off a line the arm may not swing to another branch.
+  if (plan.path.front().space != PathSegment::Space::joint) return false;
+  const IkBranch* taken = nearest_branch(waypoints_.front(), plan.joint_path.front().q[1], model_);
+  if (!taken) return false;
+  const std::string label{taken->label};
+  for (IkBranches& branches : waypoints_) {
+    IkBranches others;
+    for (const IkBranch& branch : branches) {
+      if (branch.label != label) others.add() = branch;
+    }
+    if (others.count == 0) return false;
+    branches = others;
+  }
+  return true;
 }
 
 tl::expected<void, PlanFailure> GoalPlanner::solve_samples(const Path& path,
@@ -275,7 +323,6 @@ tl::expected<void, PlanFailure> GoalPlanner::solve_samples(const Path& path,
 
 tl::expected<std::vector<JointSegment>, PlanFailure> GoalPlanner::joint_path(
     const Path& path, const JointVector& start) {
-  if (auto solved = solve_samples(path, start); !solved) return tl::unexpected{solved.error()};
   if (waypoints_.empty()) return fail("path", "the path has no samples");
   auto chosen = guarded([&] { return stages_.select->choose(start, waypoints_); });
   if (!chosen) return fail("select", chosen.error().text);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "armature/kinds/ik/ik.hpp"
@@ -20,8 +22,9 @@ struct PlanStages {
 };
 
 struct PlanningOptions {
-  bool path_only = false;      // a goal that the path plugin's path does not reach is refused
-  bool narrow_solver = false;  // the solver was made for narrower limits, which its reasons tell
+  bool path_only = false;         // a goal that the path plugin's path does not reach is refused
+  bool narrow_solver = false;     // the solver was made for narrower limits, which its reasons tell
+  double min_link_clearance = 0;  // [m] of the links that the robot file states to forbidden zones
 };
 
 /// From a goal to a trajectory: path, inverse kinematics at every sample, one branch per sample for
@@ -38,6 +41,8 @@ class GoalPlanner {
   /// that is stepwise never goes straight: its stops are the path's. With key poses only the path
   /// plugin's path, from rest: anything else would miss them. With a greatest speed from rest, too;
   /// a stop that comes first counts for nothing there.
+  /// With forbidden zones every link that the robot file states keeps `min_link_clearance` on the
+  /// whole way; where it does not, the way begins in another branch, if there is one that does.
   PlanResult plan(const MotionGoal& goal, const JointState& from, Time start);
 
   /// The joint position nearest to `near` that reaches `pose`.
@@ -48,6 +53,13 @@ class GoalPlanner {
 
  private:
   PlanResult attempt(const MotionGoal& goal, const JointState& from, Time start, bool straight);
+  /// `path`, whose samples are solved, in the branch that is chosen for it.
+  PlanResult timed(const Path& path, const MotionGoal& goal, const JointState& from, Time start);
+  /// Leaves the branch in which `plan` begins out of every waypoint; false when that leaves no
+  /// choice, or the way begins on a line.
+  bool without_branch_of(const Plan& plan);
+  /// Which link comes too near to which zone, or nullopt.
+  std::optional<std::string> obstacle(const Trajectory& trajectory, const MotionGoal& goal) const;
   PlanResult after_stop(const MotionGoal& goal, const JointState& from, Time start, bool straight);
   tl::expected<std::vector<JointSegment>, PlanFailure> joint_path(const Path& path,
                                                                   const JointVector& start);

@@ -60,8 +60,9 @@ Expected<RobotModel> narrowed(const RobotModel& model, const JointBound& margin)
     return refuse(
         fmt::format("a margin for joints that slide, and robot {} has none", model.name()));
   }
-  RobotModel narrow{model.name(), model.convention(),    joints,       model.frames(),
-                    model.tool(), model.pointing_axis(), model.home(), model.shaft()};
+  RobotModel narrow{model.name(),   model.convention(), joints,
+                    model.frames(), model.tool(),       model.pointing_axis(),
+                    model.home(),   model.shaft(),      model.capsules()};
   if (auto defect = home_outside(narrow)) return refuse(*defect);
   return narrow;
 }

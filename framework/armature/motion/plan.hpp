@@ -22,7 +22,7 @@ struct Plan {
 
 /// Which stage refused, and why.
 struct PlanFailure {
-  std::string stage;  // path, ik, select, trajectory
+  std::string stage;  // path, ik, select, trajectory, links
   std::string reason;
 };
 using PlanResult = tl::expected<Plan, PlanFailure>;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -37,7 +40,8 @@ class BiopsyReport final : public Component {
         truth_{setup.input<msg::TransformStamped>("truth")},
         registration_{setup},
         measured_js_{setup.input<msg::JointState>("measured_js")},
-        task_state_{setup.input<msg::TaskState>("task_state")} {
+        task_state_{setup.input<msg::TaskState>("task_state")},
+        touched_{setup.input<msg::MeasuredMarkers>("touched")} {
     setup.activate_every(kPeriod);
   }
 
@@ -58,6 +62,7 @@ class BiopsyReport final : public Component {
       if (value) summary.metric(key, title, *value * unit);
     };
     metric("time_to_target_s", "time to the target [s]", time_to_target_s_);
+    metric("touch_error_mm", "touches off their markers, rms [mm]", touch_error_m(), 1e3);
     const auto error = target_error_m();
     metric("target_error_mm", "error of the tip at the true target [mm]", error, 1e3);
     if (const auto& needle = monitor_.needle()) {
@@ -94,6 +99,24 @@ class BiopsyReport final : public Component {
     if (!tip_at_target_ || !plan_.latest() || !truth_.latest()) return {};
     const Eigen::Isometry3d robot_T_image = to_eigen(truth_.latest()->transform_());
     return (*tip_at_target_ - robot_T_image * to_eigen(plan_.latest()->target_())).norm();
+  }
+
+  /// Rms distance of the touched places to the true markers that they are nearest to; none when
+  /// nothing was touched.
+  std::optional<double> touch_error_m() const {
+    if (!touched_.latest() || touched_.latest()->points_().empty()) return {};
+    if (!plan_.latest() || !truth_.latest()) return {};
+    const Eigen::Isometry3d robot_T_image = to_eigen(truth_.latest()->transform_());
+    double squares = 0;
+    for (const msg::Point& place : touched_.latest()->points_()) {
+      double nearest = std::numeric_limits<double>::infinity();
+      for (const msg::Point& marker : plan_.latest()->markers_()) {
+        const Eigen::Vector3d off = to_eigen(place) - robot_T_image * to_eigen(marker);
+        nearest = std::min(nearest, off.squaredNorm());
+      }
+      squares += nearest;
+    }
+    return std::sqrt(squares / static_cast<double>(touched_.latest()->points_().size()));
   }
 
   void read(const msg::RegistrationResponse& response) {
@@ -146,6 +169,7 @@ class BiopsyReport final : public Component {
   OverheardRegistration registration_;
   Input<msg::JointState> measured_js_;
   Input<msg::TaskState> task_state_;
+  Input<msg::MeasuredMarkers> touched_;
 };
 
 }  // namespace armature::report::biopsy

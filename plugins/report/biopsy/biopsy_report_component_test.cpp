@@ -3,6 +3,7 @@
 // scenario ends, 3. bad samples.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdint>
 
 #include "armature/messages/armature_msgs.hpp"
@@ -109,6 +110,23 @@ TEST_F(BiopsyReportTest, OfAnErrorThatNobodyExpectsNothingIsAPart) {
   EXPECT_FALSE(report_.figures().metrics.contains("target_error_of_bound"));
   EXPECT_EQ(report_.figures().unmeasured.at("target_error_of_bound"),
             "the registration expects an error of 0 mm, which is none");
+}
+
+TEST_F(BiopsyReportTest, TellsHowFarOffTheMarkersTouchesWere) {
+  msg::NeedlePlan plan;
+  for (const double x : {0.0, 0.1}) {
+    assign(plan.markers_().emplace_back(), Eigen::Vector3d{x, 0, 0});
+  }
+  report_.send("plan", plan);
+  report_.send("truth", msg::TransformStamped{});
+  report_.step(1);
+  EXPECT_EQ(report_.figures().metrics.count("touch_error_mm"), 0u);
+  msg::MeasuredMarkers touched;
+  assign(touched.points_().emplace_back(), Eigen::Vector3d{0.1, 0.003, 0});
+  assign(touched.points_().emplace_back(), Eigen::Vector3d{0, 0, 0.004});
+  report_.send("touched", touched);
+  report_.step(1.1);
+  EXPECT_NEAR(report_.figures().metrics.at("touch_error_mm"), std::sqrt(12.5), 1e-12);
 }
 
 TEST_F(BiopsyReportTest, TellsHowStraightTheNeedleWentIn) {

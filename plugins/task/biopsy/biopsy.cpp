@@ -45,28 +45,57 @@ ToolPose pose_at_target(const NeedleLine& line, const RobotModel& robot) {
 Biopsy::Biopsy(const Parameters& parameters, const RobotModel& robot)
     : parameters_{parameters},
       robot_{robot},
-      procedure_{{{.name = "registration"},
-                  {.name = "approach", .asks = true},
-                  {.name = "entry", .asks = true},
-                  {.name = "insertion", .asks = true},
-                  {.name = "withdrawal"}},
-                 parameters.auto_confirm} {}
+      touching_{parameters},
+      procedure_{steps(), parameters.auto_confirm} {}
 
-void Biopsy::see_head(const NeedleLine& plan) {
+std::vector<Procedure::Step> Biopsy::steps() const {
+  std::vector<Procedure::Step> steps;
+  if (parameters_.touch_markers) steps.push_back({.name = "hand guidance"});
+  for (std::size_t i = 1; i <= touching_.count(); ++i) {
+    steps.push_back({.name = fmt::format("marker {}", i), .asks = true});
+  }
+  steps.push_back({.name = "registration"});
+  for (const char* name : {"approach", "entry", "insertion"}) {
+    steps.push_back({.name = name, .asks = true});
+  }
+  steps.push_back({.name = "withdrawal"});
+  return steps;
+}
+
+Biopsy::Step Biopsy::step() const {
+  constexpr std::size_t kBehindTouching = 5;
+  const std::size_t ahead = procedure_.steps().size() - procedure_.step();
+  return ahead > kBehindTouching ? Step::touching : static_cast<Step>(1 + kBehindTouching - ahead);
+}
+
+void Biopsy::enter(Step step) {
+  const std::size_t touches = parameters_.touch_markers ? 1 + touching_.count() : 0;
+  procedure_.enter(touches + static_cast<std::size_t>(step) - 1);
+}
+
+void Biopsy::see_head(const NeedleLine& plan, const std::vector<Vector3d>& markers, Time now) {
   if (has_plan_) return;
   plan_ = plan;
   has_plan_ = true;
+  if (!parameters_.touch_markers) return;
+  touching_.begin(markers);
+  const auto all = steps();
+  procedure_.set_steps_ahead({all.begin() + 1, all.end()});
+  give_to_hand(now);
 }
 
-void Biopsy::see_registration(const RegisteredHead& head) {
+void Biopsy::see_registration(const RegisteredHead& head, Time now) {
   if (!wants_registration()) return;
   if (head.fiducial_error_m > parameters_.max_fre) {
-    return refuse(fmt::format("the markers fit to {:.2f} mm rms, {:g} mm are allowed",
-                              1e3 * head.fiducial_error_m, 1e3 * parameters_.max_fre));
+    return refuse_registration(fmt::format("the markers fit to {:.2f} mm rms, {:g} mm are allowed",
+                                           1e3 * head.fiducial_error_m, 1e3 * parameters_.max_fre),
+                               now);
   }
   if (!(head.target_error95_m <= parameters_.max_tre)) {
-    return refuse(fmt::format("the target is known to {:.2f} mm (95 %), {:g} mm are required",
-                              1e3 * head.target_error95_m, 1e3 * parameters_.max_tre));
+    return refuse_registration(
+        fmt::format("the target is known to {:.2f} mm (95 %), {:g} mm are required",
+                    1e3 * head.target_error95_m, 1e3 * parameters_.max_tre),
+        now);
   }
   const NeedleLine line = moved(plan_, head.robot_T_image);
   if (!((line.target - line.entry).norm() > 0)) return refuse("entry and target are one point");
@@ -82,9 +111,14 @@ void Biopsy::update(Time now) {
   }
   if (!procedure_.may_act() || heading_ != Heading::none || held_) return;
   switch (step()) {
+    case Step::touching:
+      touch_by_itself(now);
+      break;
     case Step::registration:
       break;
     case Step::approach:
+      if (waits_to_be_led_away(now)) break;
+      [[fallthrough]];
     case Step::entry:
     case Step::insertion:
       set_out();
@@ -113,6 +147,7 @@ void Biopsy::turn_to(Heading heading) {
 
 void Biopsy::hear(const GoalReport& report, Time now) {
   goal_.hear(report, now);
+  if (in_hand() && goal_.state() == PursuedGoal::State::failed) return refuse(goal_.reason());
   if (procedure_.over() || heading_ == Heading::none) return;
   if (goal_.state() == PursuedGoal::State::failed) {
     return break_down((heading_ == Heading::onward ? "" : "the way back failed: ") +
@@ -148,7 +183,7 @@ Biopsy::Step Biopsy::step_from(int place) const {
   return place == way_stops_ - 2 ? Step::entry : Step::approach;
 }
 
-Expected<void> Biopsy::hear(const OperatorCommand& command) {
+Expected<void> Biopsy::hear(const OperatorCommand& command, Time now) {
   if (held_ && command.word != "back" && command.word != "abort") {
     return armature::refuse("the needle has broken down on its way: back or abort leads it out");
   }
@@ -156,28 +191,36 @@ Expected<void> Biopsy::hear(const OperatorCommand& command) {
   if (!word) return tl::unexpected{word.error()};
   switch (*word) {
     case OperatorWord::confirm:
+      if (step() == Step::touching) return touch(now);
+      if (const auto clear = may_leave_hand(now); !clear) {
+        procedure_.enter(procedure_.step());
+        return clear;
+      }
       break;
     case OperatorWord::pause:
       goal_.pause();
       break;
     case OperatorWord::resume:
       if (turning_to_ == Heading::none) goal_.resume();
+      waits_since_ = now;
       break;
     case OperatorWord::back:
-      return go_back();
+      return go_back(now);
     case OperatorWord::abort:
       return abort();
   }
   return {};
 }
 
-Expected<void> Biopsy::go_back() {
+Expected<void> Biopsy::go_back(Time now) {
   if (heading() != Heading::none && heading() != Heading::onward) {
     return armature::refuse("the needle goes back already");
   }
+  const bool stands_where_it_began = heading_ == Heading::none && place_ == 0 && !held_;
+  if (stands_where_it_began && parameters_.touch_markers) return touch_again(now);
   if (step() == Step::registration) return armature::refuse("there is no step before this one");
   procedure_.turn_back();
-  if (heading_ == Heading::none && place_ == 0 && !held_) {
+  if (stands_where_it_began) {
     line_.reset();
     way_stops_ = 0;
     enter(Step::registration);
@@ -195,6 +238,7 @@ Expected<void> Biopsy::abort() {
   const bool stands_where_it_began = place_ == 0 && heading_ == Heading::none && !held_;
   if (stands_where_it_began) {
     ended_as_ = Phase::aborted;
+    hold();
     procedure_.end(Procedure::StepState::broken_off);
     return {};
   }
@@ -213,8 +257,9 @@ void Biopsy::break_down(const std::string& why) {
 }
 
 void Biopsy::refuse(const std::string& why) {
+  trouble_ = why;  // which may be the goal's
+  hold();
   ended_as_ = Phase::refused;
-  trouble_ = why;
   procedure_.end(Procedure::StepState::broken_off);
 }
 
@@ -233,6 +278,7 @@ Biopsy::Phase Biopsy::phase() const {
     case Heading::none:
       break;
   }
+  if (step() == Step::touching) return has_plan_ ? Phase::touching : Phase::waiting;
   if (procedure_.asks()) return Phase::asking;
   if (step() == Step::registration) return has_plan_ ? Phase::registering : Phase::waiting;
   return step() == Step::withdrawal ? Phase::at_target : Phase::moving;
@@ -242,6 +288,8 @@ const char* to_string(Biopsy::Phase phase) {
   switch (phase) {
     case Biopsy::Phase::waiting:
       return "waiting";
+    case Biopsy::Phase::touching:
+      return "touching";
     case Biopsy::Phase::registering:
       return "registering";
     case Biopsy::Phase::asking:

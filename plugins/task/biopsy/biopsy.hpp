@@ -12,6 +12,7 @@
 #include "armature/task/procedure.hpp"
 #include "armature/task/pursued_goal.hpp"
 #include "task_biopsy_parameters.hpp"
+#include "touching.hpp"
 
 namespace armature::task::biopsy {
 
@@ -41,9 +42,10 @@ ToolPose pose_at_target(const NeedleLine& line, const RobotModel& robot);
 /// entry and at the target, and comes back along it.
 class Biopsy {
  public:
-  enum class Step : std::size_t { registration, approach, entry, insertion, withdrawal };
+  enum class Step : std::size_t { touching, registration, approach, entry, insertion, withdrawal };
   enum class Phase {
     waiting,      // for plan and markers
+    touching,     // an arm in a hand touches the markers
     registering,  // until the registration has answered
     asking,       // the operator is to confirm a step
     moving,       // towards the target
@@ -60,19 +62,26 @@ class Biopsy {
   Biopsy(const Parameters& parameters, const RobotModel& robot);
 
   /// The plan on the image and where points were found before the robot are there.
-  void see_head(const NeedleLine& plan);
-  void see_registration(const RegisteredHead& head);
-  void see_refused_registration(const std::string& reason) { refuse(reason); }
+  void see_head(const NeedleLine& plan, const std::vector<Eigen::Vector3d>& markers, Time now);
+  /// Where the tip is [m], in the base frame: only where the markers are touched.
+  void see_tip(const Eigen::Vector3d& tip, Time stamp) { touching_.see_tip(tip, stamp); }
+  void see_registration(const RegisteredHead& head, Time now);
+  void see_refused_registration(const std::string& reason, Time now) {
+    if (wants_registration()) refuse_registration(reason, now);
+  }
   void hear(const GoalReport& report, Time now);
-  Expected<void> hear(const OperatorCommand& command);
+  Expected<void> hear(const OperatorCommand& command, Time now);
   void update(Time now);
 
   /// True from the plan until the registration has answered.
-  bool wants_registration() const { return has_plan_ && !line_ && !procedure_.over(); }
+  bool wants_registration() const {
+    return has_plan_ && !line_ && !procedure_.over() && step() == Step::registration;
+  }
   std::optional<MotionGoal> outgoing_goal(Time now) { return goal_.outgoing(now); }
 
   Phase phase() const;
   const Procedure& procedure() const { return procedure_; }
+  const Touching& touching() const { return touching_; }
   /// Why it does not go on, or "".
   const std::string& trouble() const { return trouble_; }
 
@@ -81,13 +90,15 @@ class Biopsy {
   /// Where it goes, or will as soon as the arm rests.
   Heading heading() const { return turning_to_ != Heading::none ? turning_to_ : heading_; }
 
-  Step step() const { return static_cast<Step>(procedure_.step()); }
-  void enter(Step step) { procedure_.enter(static_cast<std::size_t>(step)); }
+  /// Every marker that is touched is a step of its own, behind the first one.
+  Step step() const;
+  void enter(Step step);
+  std::vector<Procedure::Step> steps() const;
   void set_out();
   void arrive(Time now);
   /// The step that begins at a stop of the way: 0 is its start, `way_stops_` the target.
   Step step_from(int place) const;
-  Expected<void> go_back();
+  Expected<void> go_back(Time now);
   Expected<void> abort();
   /// Along the way, once the arm rests.
   void turn_to(Heading heading);
@@ -95,8 +106,31 @@ class Biopsy {
   void break_down(const std::string& why);
   void refuse(const std::string& why);
 
+  // While a hand leads the arm: biopsy_in_hand.cpp.
+  /// Nothing has been planned yet: a hand moves the arm, or may again.
+  bool in_hand() const;
+  void give_to_hand(Time now);
+  /// No hand moves the arm any more.
+  void hold();
+  void touch_by_itself(Time now);
+  /// The tip rests on the marker whose step it is; or why it does not.
+  Expected<void> touch(Time now);
+  /// The last place that was touched counts no more.
+  Expected<void> touch_again(Time now);
+  /// The tip rests far from the markers, so that the arm may move by itself; or why not.
+  Expected<void> may_leave_hand(Time now) const;
+  bool waits_to_be_led_away(Time now);
+  struct Wait {
+    std::string what, last;  // for what, and why it was not so last
+  };
+  /// Not for ever.
+  void wait_for_hand(const Wait& wait, Time now);
+  /// Markers that were touched badly are touched again where somebody is there to do it.
+  void refuse_registration(const std::string& why, Time now);
+
   Parameters parameters_;
   const RobotModel& robot_;
+  Touching touching_;
   Procedure procedure_;
   NeedleLine plan_;
   bool has_plan_ = false;
@@ -107,6 +141,7 @@ class Biopsy {
   int way_stops_ = 0;                   // 0: no way is planned
   int place_ = 0;                       // the stop where the arm rests, or rested last
   Time at_target_since_;
+  Time waits_since_;  // for a hand
   Phase ended_as_ = Phase::withdrawn;
   bool held_ = false;
   std::string trouble_;

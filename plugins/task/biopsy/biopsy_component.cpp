@@ -3,11 +3,15 @@
 
 #include <algorithm>
 #include <string>
+#include <vector>
 
+#include "armature/kinds/joint_messages.hpp"
 #include "armature/kinds/registration_dialogue.hpp"
 #include "armature/kinds/registration_messages.hpp"
 #include "armature/kinds/setup_robot.hpp"
+#include "armature/messages/sensor_msgs.hpp"
 #include "armature/motion/goal_messages.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
 #include "armature/runtime/component/component.hpp"
 #include "armature/runtime/component/setup.hpp"
 #include "armature/runtime/plugins/plugin.hpp"
@@ -21,6 +25,12 @@ constexpr Duration kPeriod = seconds(0.02);
 
 NeedleLine line_of(const msg::NeedlePlan& plan) {
   return {to_eigen(plan.entry_()), to_eigen(plan.target_()), zones_of(plan.forbidden_())};
+}
+
+std::vector<Eigen::Vector3d> points_of(const std::vector<msg::Point>& messages) {
+  std::vector<Eigen::Vector3d> points;
+  for (const msg::Point& message : messages) points.push_back(to_eigen(message));
+  return points;
 }
 
 RegisteredHead head_of(const msg::RegistrationResponse& response) {
@@ -45,17 +55,25 @@ class BiopsyComponent final : public Component {
         ports_{setup},
         registration_{setup, parameters_.marker_error, parameters_.match_tolerance},
         motion_status_{setup.input<msg::MotionStatus>("motion_status")},
-        goal_{setup.output<msg::MotionGoal>("goal")} {
+        measured_js_{setup.input<msg::JointState>("measured_js")},
+        goal_{setup.output<msg::MotionGoal>("goal")},
+        touched_{setup.output<msg::MeasuredMarkers>("touched")} {
+    if (!parameters_.touch_markers && !setup.is_written("markers")) {
+      throw SetupError(
+          "nobody writes its input 'markers': add a component that measures markers, or have them "
+          "touched (touch_markers: true)");
+    }
     setup.activate_every(kPeriod);
   }
 
   void step(Time now) override {
     for (const std::string& line : ports_.hear(
-             task_.procedure(), [this](const auto& command) { return task_.hear(command); })) {
+             task_.procedure(), [&](const auto& command) { return task_.hear(command, now); })) {
       log(line);
     }
     read(now);
     task_.update(now);
+    publish_touches(now);
     if (task_.wants_registration() && registration_.due(now)) ask(now);
     if (const auto goal = task_.outgoing_goal(now)) {
       auto loan = goal_.loan();
@@ -67,18 +85,45 @@ class BiopsyComponent final : public Component {
 
  private:
   void read(Time now) {
-    if (plan_.latest() && markers_.latest()) task_.see_head(line_of(*plan_.latest()));
+    if (parameters_.touch_markers) read_tip();
+    const bool is_ready = parameters_.touch_markers ? sees_tip_ : markers_.latest() != nullptr;
+    if (plan_.latest() && is_ready) {
+      task_.see_head(line_of(*plan_.latest()), points_of(plan_.latest()->markers_()), now);
+    }
     registration_.listen([&](const msg::RegistrationResponse& response) {
       if (!response.valid_()) {
-        task_.see_refused_registration(response.reason_());
+        task_.see_refused_registration(response.reason_(), now);
       } else if (!response.targets_().empty()) {
         tell(response);
-        task_.see_registration(head_of(response));
+        task_.see_registration(head_of(response), now);
       }
     });
     for (std::size_t i = 0; i < motion_status_.size(); ++i) {
       task_.hear(report_of(motion_status_[i]), now);
     }
+  }
+
+  void read_tip() {
+    for (std::size_t i = 0; i < measured_js_.size(); ++i) {
+      const auto q = joints_of(robot_, measured_js_[i]);
+      if (!q) return degraded("measured_js: " + q.error().text);
+      healthy();
+      sees_tip_ = true;
+      task_.see_tip(forward_kinematics(robot_, *q).translation(),
+                    stamp_of(measured_js_[i].header_().stamp_()));
+    }
+  }
+
+  void publish_touches(Time now) {
+    const auto& places = task_.touching().places();
+    if (places.size() == told_touches_) return;
+    told_touches_ = places.size();
+    log(fmt::format("{} of {} markers touched", places.size(), task_.touching().count()));
+    touches_.points_().clear();
+    for (const Eigen::Vector3d& place : places) assign(touches_.points_().emplace_back(), place);
+    touches_.error_(parameters_.touch_error);
+    write_header(touches_.header_(), now, kBaseFrame);
+    touched_.publish(touches_);
   }
 
   void tell(const msg::RegistrationResponse& response) {
@@ -90,10 +135,12 @@ class BiopsyComponent final : public Component {
 
   void ask(Time now) {
     const msg::NeedlePlan& plan = *plan_.latest();
+    const msg::MeasuredMarkers& markers = parameters_.touch_markers ? touches_ : *markers_.latest();
     registration_.ask({.robot_frame = std::string{kBaseFrame},
                        .image_markers = plan.markers_(),
-                       .robot_markers = markers_.latest()->points_(),
-                       .targets = {plan.target_(), plan.entry_()}},
+                       .robot_markers = markers.points_(),
+                       .targets = {plan.target_(), plan.entry_()},
+                       .marker_error = markers.error_()},
                       now);
   }
 
@@ -102,6 +149,8 @@ class BiopsyComponent final : public Component {
     const bool moving = task_.phase() == Biopsy::Phase::moving;
     const TaskReport report{
         .state = moving ? procedure.steps()[procedure.step()].name : to_string(task_.phase()),
+        .step = task_.touching().places().size(),
+        .steps = task_.touching().count(),
         .detail = task_.trouble()};
     if (const auto said = ports_.publish(now, report, report.line(), procedure)) log(*said);
   }
@@ -114,7 +163,12 @@ class BiopsyComponent final : public Component {
   TaskPorts ports_;
   RegistrationDialogue registration_;
   Input<msg::MotionStatus> motion_status_;
+  Input<msg::JointState> measured_js_;
   Output<msg::MotionGoal> goal_;
+  Output<msg::MeasuredMarkers> touched_;
+  msg::MeasuredMarkers touches_;
+  std::size_t told_touches_ = 0;
+  bool sees_tip_ = false;
 };
 
 }  // namespace armature::task::biopsy

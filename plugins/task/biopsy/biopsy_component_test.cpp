@@ -49,7 +49,8 @@ class BiopsyComponentTest : public testing::Test {
       built_plugins(),
       {.component = "{plugin: task/biopsy, params: {auto_confirm: true}}",
        .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/sr1_needle.yaml"),
-       .rig = {}}};
+       .rig = {},
+       .written = {"markers"}}};
   double now_s_ = 100;
 };
 
@@ -68,6 +69,15 @@ TEST_F(BiopsyComponentTest, AsksForARegistrationOfUnorderedMarkersOnceItHasThem)
   EXPECT_DOUBLE_EQ(request.marker_error_(), 0.0005);
   ASSERT_EQ(request.targets_().size(), 2u);
   EXPECT_EQ(request.targets_()[0].z_(), -0.03);
+}
+
+TEST_F(BiopsyComponentTest, AnErrorThatIsToldWithTheMarkersCounts) {
+  show_head();
+  msg::MeasuredMarkers markers;
+  assign(markers.points_().emplace_back(), Eigen::Vector3d{7, 8, 9});
+  markers.error_(0.0012);
+  task_.send("markers", markers);
+  EXPECT_DOUBLE_EQ(asked().marker_error_(), 0.0012);
 }
 
 TEST_F(BiopsyComponentTest, SendsTheRegisteredTargetAsAGoal) {
@@ -147,6 +157,19 @@ TEST_F(BiopsyComponentTest, SaysWhyItDoesNotGoOn) {
   EXPECT_EQ(state.state_(), "refused");
   EXPECT_EQ(state.detail_(), "the markers lie nearly on one line");
   EXPECT_EQ(task_.lines().back(), "refused: the markers lie nearly on one line");
+}
+
+TEST(BiopsyPorts, MarkersComeFromSomebodyOrAreTouched) {
+  const auto refused = [](const std::string& params) {
+    return refusal_of(built_plugins(),
+                      {.component = "{plugin: task/biopsy, params: {" + params + "}}",
+                       .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/sr1_needle.yaml"),
+                       .rig = {}});
+  };
+  EXPECT_EQ(refused("touch_markers: false"),
+            "nobody writes its input 'markers': add a component that measures markers, or have "
+            "them touched (touch_markers: true)");
+  EXPECT_EQ(refused("touch_markers: true"), "");
 }
 
 TEST(BiopsyParams, MarkersWithoutAnErrorAreNoStatement) {

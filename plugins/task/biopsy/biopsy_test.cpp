@@ -40,8 +40,8 @@ class BiopsyTest : public testing::Test {
     return head;
   }
   void register_head() {
-    task_->see_head(kPlan);
-    task_->see_registration(good());
+    task_->see_head(kPlan, {}, at(1));
+    task_->see_registration(good(), at(1));
   }
   /// The motion has done the goal that is sent now, of which `stops_ahead` are left.
   MotionGoal reach(int stops_ahead) {
@@ -69,7 +69,8 @@ class BiopsyTest : public testing::Test {
   }
   /// What the operator is answered.
   std::string say(const std::string& word, const std::string& step = "") {
-    const auto obeyed = task_->hear(OperatorCommand{.id = ++said_, .word = word, .step = step});
+    const auto obeyed =
+        task_->hear(OperatorCommand{.id = ++said_, .word = word, .step = step}, now_);
     return obeyed ? "" : obeyed.error().text;
   }
   std::string asked() const {
@@ -84,10 +85,10 @@ class BiopsyTest : public testing::Test {
 
 TEST_F(BiopsyTest, GoesFromThePlanToTheTargetStopByStopAndOutAgain) {
   EXPECT_FALSE(task_->wants_registration());
-  task_->see_head(kPlan);
+  task_->see_head(kPlan, {}, at(1));
   EXPECT_EQ(task_->phase(), Phase::registering);
   EXPECT_TRUE(task_->wants_registration());
-  task_->see_registration(good());
+  task_->see_registration(good(), at(1));
   EXPECT_FALSE(task_->wants_registration());
   EXPECT_EQ(task_->phase(), Phase::moving);
   const MotionGoal goal = reach(2);
@@ -125,25 +126,25 @@ TEST_F(BiopsyTest, AWayThatBeginsOnItsLineHasAStopLess) {
 }
 
 TEST_F(BiopsyTest, DoesNotTrustMarkersThatFitBadly) {
-  task_->see_head(kPlan);
+  task_->see_head(kPlan, {}, at(1));
   RegisteredHead head = good();
   head.fiducial_error_m = 0.0012;
-  task_->see_registration(head);
+  task_->see_registration(head, at(1));
   EXPECT_EQ(task_->phase(), Phase::refused);
   EXPECT_EQ(task_->trouble(), "the markers fit to 1.20 mm rms, 1 mm are allowed");
   EXPECT_FALSE(task_->outgoing_goal(at(1)));
 }
 
 TEST_F(BiopsyTest, DoesNotApproachATargetThatIsNotKnownWellEnough) {
-  task_->see_head(kPlan);
+  task_->see_head(kPlan, {}, at(1));
   RegisteredHead head = good();
   head.target_error95_m = 0.0023;
-  task_->see_registration(head);
+  task_->see_registration(head, at(1));
   EXPECT_EQ(task_->trouble(), "the target is known to 2.30 mm (95 %), 1 mm are required");
   head.target_error95_m = NAN;
   Biopsy another{{.auto_confirm = true}, needle_arm()};
-  another.see_head(kPlan);
-  another.see_registration(head);
+  another.see_head(kPlan, {}, at(1));
+  another.see_registration(head, at(1));
   EXPECT_EQ(another.phase(), Phase::refused);
 }
 
@@ -226,7 +227,7 @@ TEST_F(OperatedBiopsyTest, BackBeforeAnythingHasMovedRegistersAgain) {
   EXPECT_EQ(say("back"), "");
   EXPECT_TRUE(task_->wants_registration());
   EXPECT_EQ(say("back"), "there is no step before this one");
-  task_->see_registration(good());
+  task_->see_registration(good(), at(1));
   EXPECT_EQ(asked(), "approach");
 }
 

@@ -8,6 +8,7 @@
 
 #include "armature/config/document.hpp"
 #include "armature/config/reader.hpp"
+#include "armature/robot/files/capsule_reader.hpp"
 #include "armature/robot/files/frame_reader.hpp"
 #include "armature/robot/files/joint_reader.hpp"
 #include "armature/robot/files/robot_keys.hpp"
@@ -187,6 +188,9 @@ std::optional<RobotModel> read(const Node& document, Problems& problems) {
       urdf ? read_urdf(*urdf, map, problems) : read_rows(map, problems);
   const auto axis = read_axis(map, "pointing_axis");
   const auto shaft = read_shaft(map, problems);
+  const Node* bodies = map.node("capsules");
+  const auto capsules =
+      bodies ? read_capsules(*bodies, joints, frames, problems) : std::vector<LinkCapsule>{};
   const auto home = read_home(map, joints);
   map.finish();
   if (!problems.empty() || !tool) return std::nullopt;
@@ -195,7 +199,7 @@ std::optional<RobotModel> read(const Node& document, Problems& problems) {
     home_all.emplace(static_cast<Eigen::Index>(home->size()));
     std::ranges::copy(*home, home_all->begin());
   }
-  RobotModel model{name, convention, joints, frames, *tool, axis, home_all, shaft};
+  RobotModel model{name, convention, joints, frames, *tool, axis, home_all, shaft, capsules};
   check_whole(model, map);
   if (!problems.empty()) return std::nullopt;
   return model;

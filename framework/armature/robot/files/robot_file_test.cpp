@@ -12,6 +12,7 @@ namespace armature {
 namespace {
 
 using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 using testing::joint_vector;
 
 RobotModel read_good(const std::string& text) {
@@ -48,6 +49,34 @@ TEST(RobotFile, NamesTheShaftOfAnInstrument) {
   ASSERT_TRUE(robot.shaft());
   EXPECT_TRUE(robot.shaft()->axis == -Eigen::Vector3d::UnitZ());
   EXPECT_NEAR(robot.shaft()->length, 0.28, 1e-15);
+}
+
+TEST(RobotFile, StatesTheBodiesOfItsLinks) {
+  const std::string good =
+      with(kGoodJoint, "frames: {tool: {parent: b, translation_m: [1, 0, 0]}}");
+  EXPECT_TRUE(read_good(good).capsules().empty());
+  const RobotModel robot =
+      read_good(good +
+                "capsules:\n"
+                "  arm: {parent: a, from_m: [0, 0, 0], to_m: [0.4, 0, 0], radius_mm: 80}\n"
+                "  tip: {parent: tool, from_mm: [0, 0, 10], to_mm: [0, 0, 10], radius_m: 0.02}\n");
+  ASSERT_EQ(robot.capsules().size(), 2u);
+  EXPECT_EQ(robot.capsules()[0].name, "arm");
+  EXPECT_EQ(robot.capsules()[0].parent_joint, 0);
+  EXPECT_EQ(robot.capsules()[0].to, Eigen::Vector3d(0.4, 0, 0));
+  EXPECT_NEAR(robot.capsules()[0].radius, 0.08, 1e-15);
+  EXPECT_EQ(robot.capsules()[1].parent_joint, 1);
+  EXPECT_LT((robot.capsules()[1].from - Eigen::Vector3d{1, 0, 0.01}).norm(), 1e-15);
+}
+
+TEST(RobotFile, ABodyHangsOnALinkAndHasARadius) {
+  const std::string good = with(kGoodJoint, kGoodFrames);
+  EXPECT_THAT(problems_in(good + "capsules: {arm: {parent: bb, from_m: [0, 0, 0], radius_m: 0}}\n"),
+              ElementsAre("arm.yaml:7:17: missing key 'to_m' in capsule 'arm'",
+                          "arm.yaml:7:26: there is no joint or frame 'bb'; did you mean 'b'?",
+                          "arm.yaml:7:59: 'radius_m' is 0, must be more than 0"));
+  EXPECT_THAT(problems_in(good + "capsules: [arm]\n"),
+              ElementsAre(HasSubstr("'capsules' must be a map of capsules, not")));
 }
 
 TEST(RobotFile, AShaftIsALineWithALength) {
@@ -173,9 +202,10 @@ TEST(RobotFile, ReportsEverythingThatIsWrongAtOnceWithItsPlace) {
           "arm.yaml:12:11: 'home_deg' cannot state the prismatic joint 'b'; write 'home' in "
           "radians and metres",
           "arm.yaml:12:11: 'home_deg' needs a value for each of the 5 joints, not 2",
-          "arm.yaml:13:1: unknown key 'colour' in robot; known: armature_robot, convention, "
+          "arm.yaml:13:1: unknown key 'colour' in robot; known: armature_robot, capsules, "
+          "convention, "
           "frames, "
-          "home, home_deg, joints, name, pointing_axis, ..."));
+          "home, home_deg, joints, name, ..."));
 }
 
 TEST(RobotFile, WithoutAToolFrameSaysHowToAddIt) {

@@ -26,6 +26,11 @@ const KeySpec kShaft{.name = "shaft",
                      .type = Type::section,
                      .doc = "The straight shaft of an instrument whose tip is the tool's origin.",
                      .optional = true};
+const KeySpec kCapsules{
+    .name = "capsules",
+    .type = Type::section,
+    .doc = "The bodies of the links by name, which keep away from forbidden zones.",
+    .optional = true};
 const KeySpec kHome{.name = "home_deg",
                     .type = Type::numbers,
                     .doc = "The position of all joints at the start.",
@@ -76,6 +81,7 @@ const std::vector<KeySpec>& robot_keys() {
       kFrames,
       kPointingAxis,
       kShaft,
+      kCapsules,
       kHome};
   return kKeys;
 }
@@ -97,6 +103,7 @@ const std::vector<KeySpec>& urdf_robot_keys() {
       kFrames,
       kPointingAxis,
       kShaft,
+      kCapsules,
       kHome};
   return kKeys;
 }
@@ -163,6 +170,18 @@ const std::vector<KeySpec>& frame_keys() {
        .type = Type::text,
        .doc = "A file of `armature calibrate` that found where it is, relative to this one.",
        .optional = true}};
+  return kKeys;
+}
+
+const std::vector<KeySpec>& capsule_keys() {
+  const auto end = [](const char* name, const char* also, const char* doc) {
+    return KeySpec{.name = name, .type = Type::numbers, .doc = doc, .count = 3, .also = also};
+  };
+  static const std::vector<KeySpec> kKeys{
+      {.name = "parent", .type = Type::text, .doc = "A joint, 'base' or a frame."},
+      end("from_m", "from_mm", "Where its middle line begins in the parent, x, y, z."),
+      end("to_m", "to_mm", "Where it ends; the same point for a ball."),
+      {.name = "radius_m", .doc = "About that line.", .above = 0, .also = "radius_mm"}};
   return kKeys;
 }
 

@@ -23,6 +23,8 @@ std::vector<config::KeySpec> coupling_keys(Joint::Type type);
 /// Of an entry of `frames:`.
 const std::vector<config::KeySpec>& frame_keys();
 
+/// Of an entry of `capsules:`.
+const std::vector<config::KeySpec>& capsule_keys();
 /// Of `shaft:`.
 const std::vector<config::KeySpec>& shaft_keys();
 

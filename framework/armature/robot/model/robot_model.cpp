@@ -49,7 +49,8 @@ ChainLink link_of(const Joint& joint) {
 RobotModel::RobotModel(std::string name, Convention convention, std::vector<Joint> joints,
                        std::vector<NamedFrame> frames, FrameId tool,
                        std::optional<Eigen::Vector3d> pointing_axis,
-                       std::optional<JointVector> home_all, std::optional<Shaft> shaft)
+                       std::optional<JointVector> home_all, std::optional<Shaft> shaft,
+                       std::vector<LinkCapsule> capsules)
     : name_(std::move(name)),
       convention_(convention),
       joints_(std::move(joints)),
@@ -57,7 +58,8 @@ RobotModel::RobotModel(std::string name, Convention convention, std::vector<Join
       tool_(tool),
       pointing_axis_(std::move(pointing_axis)),
       home_(std::move(home_all)),
-      shaft_(std::move(shaft)) {
+      shaft_(std::move(shaft)),
+      capsules_(std::move(capsules)) {
   require(!joints_.empty() && joint_count() <= kMaxJoints,
           fmt::format("a robot has 1 to {} joints, not {}", kMaxJoints, joint_count()));
   const int frame_count = static_cast<int>(frames_.size());
@@ -66,6 +68,9 @@ RobotModel::RobotModel(std::string name, Convention convention, std::vector<Join
   for (const NamedFrame& frame : frames_)
     require(frame.parent_joint >= -1 && frame.parent_joint < joint_count(),
             fmt::format("frame {}: joint {} is not there", frame.name, frame.parent_joint));
+  for (const LinkCapsule& capsule : capsules_)
+    require(capsule.parent_joint >= -1 && capsule.parent_joint < joint_count(),
+            fmt::format("capsule {}: joint {} is not there", capsule.name, capsule.parent_joint));
   require(!home_ || home_->size() == joint_count(), "home needs a value for every joint");
   if (pointing_axis_) pointing_axis_->normalize();
   if (shaft_) shaft_->axis.normalize();

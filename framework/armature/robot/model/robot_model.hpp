@@ -68,6 +68,15 @@ struct Shaft {
   double length = 0;                                // [m] of the straight part behind the tip
 };
 
+/// The body of a link, or a part of it: everything within `radius` of the straight line between two
+/// points of a joint's frame; a ball where they are one point.
+struct LinkCapsule {
+  std::string name;
+  int parent_joint = -1;     // index into joints(), -1: the base
+  Eigen::Vector3d from, to;  // [m] in that joint's frame
+  double radius = 0;         // [m]
+};
+
 /// A joint as kinematics needs it, everything that does not change worked out: the joint's value is
 /// ratio * q[independent] + offset.
 struct ChainLink {
@@ -95,7 +104,7 @@ class RobotModel {
   RobotModel(std::string name, Convention convention, std::vector<Joint> joints,
              std::vector<NamedFrame> frames, FrameId tool,
              std::optional<Eigen::Vector3d> pointing_axis, std::optional<JointVector> home_all,
-             std::optional<Shaft> shaft = std::nullopt);
+             std::optional<Shaft> shaft = std::nullopt, std::vector<LinkCapsule> capsules = {});
 
   const std::string& name() const { return name_; }
   Convention convention() const { return convention_; }
@@ -115,6 +124,8 @@ class RobotModel {
   const std::optional<Eigen::Vector3d>& pointing_axis() const { return pointing_axis_; }
   /// The instrument's shaft, if the file names one; its axis has length 1.
   const std::optional<Shaft>& shaft() const { return shaft_; }
+  /// The bodies of the links, as far as the file states them.
+  const std::vector<LinkCapsule>& capsules() const { return capsules_; }
   /// Home position of all joints, if the file names one.
   const std::optional<JointVector>& home() const { return home_; }
 
@@ -159,6 +170,7 @@ class RobotModel {
   std::optional<Eigen::Vector3d> pointing_axis_;
   std::optional<JointVector> home_;
   std::optional<Shaft> shaft_;
+  std::vector<LinkCapsule> capsules_;
   std::vector<int> independent_;
   std::vector<ChainLink> chain_;
   bool is_placed_ = false;

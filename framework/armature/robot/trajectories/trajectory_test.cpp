@@ -11,7 +11,7 @@ namespace {
 
 using testing::joint_vector;
 
-constexpr Time kStart{1'700'000'000'000'000'000};  // the system clock's epoch is far away
+constexpr Time kEpochStart{1'700'000'000'000'000'000};  // the system clock's epoch is far away
 
 double distance(const JointVector& a, const JointVector& b) {
   return (a - b).cwiseAbs().maxCoeff();
@@ -26,7 +26,7 @@ void expect_same(const JointState& a, const JointState& b, double tolerance) {
 /// A spline of three joints through random points, at rest at both ends.
 Trajectory random_trajectory(std::mt19937& random) {
   std::uniform_real_distribution<double> any{-1, 1}, step{0.2, 0.8};
-  Trajectory trajectory{.goal_id = 7, .dof = 3, .start = kStart, .knots = {}, .pieces = {}};
+  Trajectory trajectory{.goal_id = 7, .dof = 3, .start = kEpochStart, .knots = {}, .pieces = {}};
   std::vector<JointVector> points;
   double t = 0;
   for (int i = 0; i < 5; ++i, t += step(random)) {
@@ -60,9 +60,9 @@ TEST(Trajectory, IsContinuousAtItsKnotsAndConstantBeforeAndAfter) {
   std::mt19937 random{41};
   const Trajectory trajectory = random_trajectory(random);
   expect_continuous(trajectory);
-  const JointState first = trajectory.at(kStart), last = trajectory.at(trajectory.end());
+  const JointState first = trajectory.at(kEpochStart), last = trajectory.at(trajectory.end());
   for (const double late : {1e-9, 0.5, 1e6}) {
-    expect_same(trajectory.at(kStart - seconds(late)), first, 1e-12);
+    expect_same(trajectory.at(kEpochStart - seconds(late)), first, 1e-12);
     const JointState after = trajectory.at(trajectory.end() + seconds(late));
     EXPECT_LT(distance(after.q, last.q), 1e-12);
     EXPECT_LT(after.v.cwiseAbs().maxCoeff(), 1e-12);
@@ -75,8 +75,8 @@ TEST(Trajectory, EvaluatesThePieceThatHoldsTheInstant) {
   const Trajectory trajectory = random_trajectory(random);
   for (int k = 0; k < trajectory.piece_count(); ++k) {
     const double knot = trajectory.knots[static_cast<std::size_t>(k)];
-    const JointState state = trajectory.at(kStart + seconds(knot + 0.1));
-    const JointVector jerk = trajectory.jerk_at(kStart + seconds(knot + 0.1));
+    const JointState state = trajectory.at(kEpochStart + seconds(knot + 0.1));
+    const JointVector jerk = trajectory.jerk_at(kEpochStart + seconds(knot + 0.1));
     for (int j = 0; j < 3; ++j) {
       const Quintic& piece = trajectory.pieces[static_cast<std::size_t>(3 * k + j)];
       EXPECT_NEAR(state.q[j], piece.position(0.1), 1e-8);  // time is in nanoseconds
@@ -90,25 +90,25 @@ TEST(Trajectory, EvaluatesThePieceThatHoldsTheInstant) {
 TEST(Trajectory, WithoutPiecesIsAtZero) {
   Trajectory nothing;
   nothing.dof = 2;
-  EXPECT_TRUE(nothing.at(kStart).q == JointVector::Zero(2));
-  EXPECT_TRUE(nothing.jerk_at(kStart) == JointVector::Zero(2));
+  EXPECT_TRUE(nothing.at(kEpochStart).q == JointVector::Zero(2));
+  EXPECT_TRUE(nothing.jerk_at(kEpochStart) == JointVector::Zero(2));
   EXPECT_EQ(nothing.duration_s(), 0);
 }
 
 TEST(Hold, StaysWhereItIs) {
   const JointVector q = joint_vector({0.3, -2});
-  const Trajectory hold = hold_at(q, kStart, 3);
+  const Trajectory hold = hold_at(q, kEpochStart, 3);
   EXPECT_EQ(hold.goal_id, 3u);
-  EXPECT_EQ(hold.end(), kStart);
+  EXPECT_EQ(hold.end(), kEpochStart);
   for (const double t : {-1.0, 0.0, 5.0}) {
-    const JointState state = hold.at(kStart + seconds(t));
+    const JointState state = hold.at(kEpochStart + seconds(t));
     EXPECT_TRUE(state.q == q);
     EXPECT_TRUE(state.v.isZero(0) && state.a.isZero(0));
   }
 }
 
 TEST(LimitUse, IsThatOfTheJointAndPieceThatNeedMost) {
-  Trajectory trajectory{.dof = 2, .start = kStart, .knots = {0, 1, 3}, .pieces = {}};
+  Trajectory trajectory{.dof = 2, .start = kEpochStart, .knots = {0, 1, 3}, .pieces = {}};
   trajectory.pieces = {Quintic::between({}, {.q = 1}, 1), Quintic{{5}},
                        Quintic::between({.q = 1}, {.q = 2}, 2),
                        Quintic::between({.q = 5}, {.q = 9}, 2)};
@@ -123,8 +123,8 @@ TEST(Stretched, IsTheSamePathMoreSlowly) {
   const Trajectory slow = stretched(trajectory, 2.5);
   EXPECT_NEAR(slow.duration_s(), 2.5 * trajectory.duration_s(), 1e-12);
   for (double t = 0; t < trajectory.duration_s(); t += 0.07) {
-    const JointState a = trajectory.at(kStart + seconds(t));
-    const JointState b = slow.at(kStart + seconds(2.5 * t));
+    const JointState a = trajectory.at(kEpochStart + seconds(t));
+    const JointState b = slow.at(kEpochStart + seconds(2.5 * t));
     EXPECT_LT(distance(a.q, b.q), 1e-7);
     EXPECT_LT(distance(a.v / 2.5, b.v), 1e-6);
     EXPECT_LT(distance(a.a / 6.25, b.a), 1e-5);
@@ -139,13 +139,14 @@ TEST_P(Splice, LeavesFromTheMovingReferenceAndEndsAtRestWhereThePlanEnds) {
   for (int n = 0; n < 200; ++n) {
     SCOPED_TRACE("seed 44");
     const Trajectory plan = random_trajectory(random);
-    const JointState from{plan.at(kStart).q, joint_vector({any(random), any(random), any(random)}),
+    const JointState from{plan.at(kEpochStart).q,
+                          joint_vector({any(random), any(random), any(random)}),
                           joint_vector({any(random), any(random), any(random)})};
     const double blend = GetParam() * plan.duration_s();
     const Trajectory result = spliced(plan, from, blend);
     ASSERT_EQ(result.pieces.size(), static_cast<std::size_t>(3 * result.piece_count()));
     expect_continuous(result);
-    const JointState first = result.at(kStart), last = result.at(result.end());
+    const JointState first = result.at(kEpochStart), last = result.at(result.end());
     EXPECT_TRUE(first.q == from.q && first.v == from.v && first.a == from.a);
     EXPECT_LT(distance(last.q, plan.at(plan.end()).q), 1e-10);
     EXPECT_LT(last.v.cwiseAbs().maxCoeff(), 1e-9);
@@ -153,7 +154,7 @@ TEST_P(Splice, LeavesFromTheMovingReferenceAndEndsAtRestWhereThePlanEnds) {
     EXPECT_TRUE(result.at(result.end() + seconds(3)).q == last.q);
     EXPECT_NEAR(result.duration_s(), std::max(plan.duration_s(), blend), 1e-9);
     for (double t = blend + 1e-6; t < plan.duration_s(); t += 0.01)
-      expect_same(result.at(kStart + seconds(t)), plan.at(kStart + seconds(t)), 1e-7);
+      expect_same(result.at(kEpochStart + seconds(t)), plan.at(kEpochStart + seconds(t)), 1e-7);
     if (HasFailure()) return;
   }
 }
@@ -162,7 +163,7 @@ INSTANTIATE_TEST_SUITE_P(Blends, Splice, ::testing::Values(0.01, 0.3, 0.5, 1.0, 
 TEST(Splice, OnAKnotOrNextToItAddsNoPiece) {
   std::mt19937 random{45};
   const Trajectory plan = random_trajectory(random);
-  const JointState from{plan.at(kStart).q, JointVector::Ones(3), JointVector::Zero(3)};
+  const JointState from{plan.at(kEpochStart).q, JointVector::Ones(3), JointVector::Zero(3)};
   EXPECT_EQ(spliced(plan, from, plan.knots[2]).piece_count(), plan.piece_count());
   EXPECT_EQ(spliced(plan, from, plan.knots[2] + 1e-8).piece_count(), plan.piece_count());
   EXPECT_EQ(spliced(plan, from, plan.knots[2] + 1e-3).piece_count(), plan.piece_count() + 1);
@@ -171,21 +172,21 @@ TEST(Splice, OnAKnotOrNextToItAddsNoPiece) {
 TEST(Splice, MeetsAPlanThatStartsElsewhereAndMoving) {
   std::mt19937 random{46};
   Trajectory plan = random_trajectory(random);
-  plan = spliced(plan, {plan.at(kStart).q, JointVector::Ones(3), JointVector::Ones(3)}, 0.2);
+  plan = spliced(plan, {plan.at(kEpochStart).q, JointVector::Ones(3), JointVector::Ones(3)}, 0.2);
   const JointState from{JointVector::Constant(3, 0.1), JointVector::Constant(3, -0.4),
                         JointVector::Constant(3, 2)};
   const Trajectory result = spliced(plan, from, 0.5);
   expect_continuous(result);
-  expect_same(result.at(kStart), from, 1e-12);
-  expect_same(result.at(kStart + seconds(0.6)), plan.at(kStart + seconds(0.6)), 1e-8);
+  expect_same(result.at(kEpochStart), from, 1e-12);
+  expect_same(result.at(kEpochStart + seconds(0.6)), plan.at(kEpochStart + seconds(0.6)), 1e-8);
 }
 
 TEST(Splice, OfAHoldIsAStopThatReturns) {
   const JointVector q = joint_vector({1, 2});
   const JointState from{q, joint_vector({0.5, 0}), joint_vector({0, 0})};
-  const Trajectory result = spliced(hold_at(q, kStart, 1), from, 0.4);
+  const Trajectory result = spliced(hold_at(q, kEpochStart, 1), from, 0.4);
   EXPECT_DOUBLE_EQ(result.duration_s(), 0.4);
-  EXPECT_TRUE(result.at(kStart).v == from.v);
+  EXPECT_TRUE(result.at(kEpochStart).v == from.v);
   EXPECT_LT(distance(result.at(result.end()).q, q), 1e-14);
 }
 

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+// A goal with forbidden zones: the bodies of the links keep away from them on the whole way.
+#include <gmock/gmock.h>
+
+#include "armature/motion/gantry_stages_test.hpp"
+
+namespace armature {
+namespace {
+
+using test::Gantry;
+using test::goal_at;
+using test::rest_at;
+
+constexpr Time kGoStart{1'000'000'000};
+
+/// The gantry with a ball of 50 mm about its tool.
+Gantry with_body() {
+  Gantry gantry;
+  const RobotModel bare = gantry.model;
+  gantry.model =
+      RobotModel{bare.name(),   bare.convention(), bare.joints(),
+                 bare.frames(), bare.tool(),       bare.pointing_axis(),
+                 bare.home(),   bare.shaft(),      {{"carriage", 2, {0, 0, 0}, {0, 0, 0}, 0.05}}};
+  return gantry;
+}
+
+MotionGoal past_a_vessel() {
+  MotionGoal goal = goal_at(1, 1, 0, 0);
+  goal.forbidden = {{"vessel", {0.5, -0.1, 0}, {0.5, 0.1, 0}, 0.05}};
+  return goal;
+}
+
+PlanningOptions keep(double clearance_m) { return {.min_link_clearance = clearance_m}; }
+
+TEST(GoalLinks, ALinkThatComesTooNearIsNamedWithTheZoneAndThePlace) {
+  const Gantry gantry = with_body();
+  const auto plan = gantry.planner(keep(0.01)).plan(past_a_vessel(), rest_at(0, 0, 0), kGoStart);
+  ASSERT_FALSE(plan);
+  EXPECT_EQ(plan.error().stage, "links");
+  EXPECT_THAT(
+      plan.error().reason,
+      testing::MatchesRegex(
+          "link 'carriage' comes nearer than 10 mm \\(min_link_clearance_mm\\) to 'vessel', "
+          "[0-9.]+ s after the start of the way, and the arm has no other branch from here "
+          "that keeps away: lead it to another start"));
+}
+
+TEST(GoalLinks, AWayBesideTheZoneAndARobotWithoutBodiesGo) {
+  const Gantry gantry = with_body();
+  MotionGoal goal = past_a_vessel();
+  goal.forbidden[0].from.y() = goal.forbidden[0].to.y() = 0.111;
+  EXPECT_TRUE(gantry.planner(keep(0.01)).plan(goal, rest_at(0, 0, 0), kGoStart));
+  EXPECT_FALSE(gantry.planner(keep(0.012)).plan(goal, rest_at(0, 0, 0), kGoStart));
+  EXPECT_TRUE(Gantry{}.planner(keep(0.01)).plan(past_a_vessel(), rest_at(0, 0, 0), kGoStart));
+}
+
+/// A second branch, which ends beside the goal: the planner takes a solver's word for it.
+class TwoBranches final : public test::GantryIk {
+ public:
+  IkStatus solve(const IkGoal& goal, const JointVector& seed, IkBranches& out,
+                 IkState& state) const override {
+    const IkStatus status = GantryIk::solve(goal, seed, out, state);
+    IkBranch& other = out.add();
+    other = out.branch[0];
+    other.label = "other";
+    other.q[1] += 0.5;
+    return status;
+  }
+};
+
+TEST(GoalLinks, AnotherBranchIsTakenWhereTheFirstComesTooNear) {
+  const Gantry gantry = with_body();
+  const TwoBranches ik;
+  const PlanStages stages{gantry.path, ik, gantry.select, gantry.trajectory};
+  GoalPlanner planner{gantry.model, stages, gantry.limits, keep(0.01)};
+  const auto plan = planner.plan(past_a_vessel(), rest_at(0, 0, 0), kGoStart);
+  ASSERT_TRUE(plan) << plan.error().reason;
+  EXPECT_EQ(plan->joint_path[0].q.back()[1], 0.5);
+  MotionGoal between = past_a_vessel();
+  between.forbidden[0].to.y() = 0.7;
+  EXPECT_FALSE(planner.plan(between, rest_at(0, 0, 0), kGoStart)) << "both come too near";
+}
+
+/// It is where it is: on a line it must not swing away.
+TEST(GoalLinks, AWayThatBeginsOnALineTakesNoOtherBranch) {
+  const Gantry gantry = with_body();
+  const TwoBranches ik;
+  const PlanStages stages{gantry.path, ik, gantry.select, gantry.trajectory};
+  GoalPlanner planner{
+      gantry.model, stages, gantry.limits, {.path_only = true, .min_link_clearance = 0.01}};
+  MotionGoal goal = past_a_vessel();
+  goal.focus = Eigen::Vector3d{0.25, 0, 0};
+  const auto plan = planner.plan(goal, rest_at(0, 0, 0), kGoStart);
+  ASSERT_FALSE(plan);
+  EXPECT_EQ(plan.error().stage, "links");
+}
+
+}  // namespace
+}  // namespace armature

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "armature/config/reader.hpp"
+#include "armature/robot/model/robot_model.hpp"
+
+namespace armature {
+
+/// Reads the map under `capsules:` of a robot file. A capsule that hangs on a frame is returned as
+/// hanging on that one's joint. Every problem goes to `problems`.
+std::vector<LinkCapsule> read_capsules(const config::Node& map, const std::vector<Joint>& joints,
+                                       const std::vector<NamedFrame>& frames,
+                                       config::Problems& problems);
+
+}  // namespace armature

@@ -66,6 +66,11 @@ TEST(Completion, BashCompletesAssignmentsOfTheDeploymentThatWasNamed) {
               Contains("ik/numeric"));
 }
 
+TEST(Completion, BashCompletesTheHomeOfARobotThatSaysItsFileInAMap) {
+  EXPECT_THAT(after_tab("run configs/experiments/lamp_section_5.yaml --set robots.arm."),
+              ElementsAre("robots.arm.file=", "robots.arm.home_deg="));
+}
+
 TEST(Completion, AsksAWrongFileForNothing) {
   const auto asked = run_command({armature(), "__complete", "run", "nonsense", "--set", "comp"});
   EXPECT_EQ(asked.exit_code, 0);

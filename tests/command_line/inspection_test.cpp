@@ -23,6 +23,18 @@ TEST(Check, CountsWhatItFoundSound) {
   EXPECT_EQ(result.out.rfind("dental_lamp: ok, 9 components, ", 0), 0U) << result.out;
 }
 
+TEST(Check, TellsWhatPartOfItsPromiseTheSearchOfTheLampSees) {
+  const auto result = run_command({armature(), "check", kLampDeployment});
+  EXPECT_NE(
+      result.out.find("\ntask: the search sees 48 % of the faces that it promises: mouths at "),
+      std::string::npos)
+      << result.out;
+  const auto without_cameras =
+      run_command({armature(), "check", kLampDeployment, "--set", "components.task.rig=none"});
+  EXPECT_EQ(without_cameras.exit_code, 0) << without_cameras.err;
+  EXPECT_EQ(without_cameras.out.find("\ntask: "), std::string::npos) << without_cameras.out;
+}
+
 /// A new folder for a deployment, where the robots and rigs of `configs/` are.
 std::filesystem::path folder_beside_robots() {
   const auto folder =

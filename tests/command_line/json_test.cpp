@@ -74,6 +74,13 @@ TEST(CheckAsJson, HasTheWarningsThatPeopleRead) {
               testing::StartsWith("component 'arm' moves an arm and shares the executor"));
 }
 
+TEST(CheckAsJson, HasWhatComponentsNote) {
+  const json notes = told({"check", kLampFile}, 0)["notes"];
+  ASSERT_EQ(notes.size(), 2U);
+  EXPECT_EQ(notes[0]["component"], "task");
+  EXPECT_THAT(notes[0]["text"].get<std::string>(), testing::StartsWith("the search sees 48 % "));
+}
+
 TEST(CheckAsJson, SaysWhatWasNotTriedAsItWouldRunAProgram) {
   const json check = told({"check", kLampFile, "--set",
                            "components.motion.ik={plugin: ik/process, params: {command: [none]}}"},

@@ -39,6 +39,8 @@ TEST_F(RobotSchema, RefusesMisspeltKeysWrongTypesAndNumbersOutOfRange) {
       {head + "pointing_axis: w", "pointing_axis: "},
       {head + "pointing_axis: [0, 1]", "pointing_axis: "},
       {head + "shaft: {axis: w, length_mm: 280}", "shaft.axis: "},
+      {head + "capsules: {arm: {parent: a, from_m: [0, 0], to_m: [0, 0, 1], radius_m: 1}}",
+       "capsules.arm.from_m: "},
       {head + "home_deg: [a]", "home_deg.0: "},
       {head + "tip: tool0", "tip"},
       {head + "urdf: a.urdf\nconvention: standard", "convention"},
@@ -53,6 +55,8 @@ TEST_F(RobotSchema, TakesWhatReadingTakes) {
                         "  - {name: b, type: prismatic, coupled: {to: a, offset_mm: 5}}\n"
                         "frames: {tool: {parent: b, translation_mm: [0, 0, 1]},\n"
                         "         body: {parent: b, calibrated: found.yaml}}\n"
+                        "capsules: {arm: {parent: b, from_mm: [0, 0, 0], to_m: [0, 0, 1], "
+                        "radius_mm: 80}}\n"
                         "pointing_axis: [0, 0, -2]\nhome: [0.1, 0.1]\n"),
             "");
   EXPECT_EQ(judged_text("armature_robot: 1\nname: r\nurdf: a.urdf\nbase: foot\ntip: tool0\n"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a task asks of an arm's tip, beside what the motion of that arm lets the tip do.
+// What a task asks of an arm's tip, beside what the motion of that arm lets the tip do: its speed,
+// and how near it comes to an incision.
 #include <gmock/gmock.h>
 
 #include "command.hpp"
@@ -39,6 +40,25 @@ TEST(SpeedCaps, BothTogetherOrNoneOfTheMotionPassTheCheck) {
   EXPECT_EQ(check_leader({kTipSpeed + "=0.2", kTrackingSpeed + "=0.2"}).exit_code, 0);
   const CommandResult any = check_leader({kTipSpeed + "=0.2", kTrackingSpeed + "=0"});
   EXPECT_EQ(any.exit_code, 0) << any.err;
+}
+
+const std::string kTaskDepth = "components.task.params.min_depth_mm";
+
+TEST(MinDepth, OfATaskThatIsNotThatOfItsFollowersMotionIsRefusedWhereItStands) {
+  const CommandResult result = check_leader({kTaskDepth + "=5"});
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_EQ(result.err, "--set " + kTaskDepth +
+                            "=5: 'min_depth_mm' of component 'task' must be the same as that of "
+                            "component 'motion', and is not; leave one of them out, or make them "
+                            "equal\n");
+}
+
+TEST(MinDepth, IsSaidOnceByTheMotionOrTwiceTheSameAndThatOfTheLeaderIsItsOwn) {
+  const std::string motion = "components.motion.params.min_depth_mm=5";
+  EXPECT_EQ(check_leader({motion}).exit_code, 0);
+  EXPECT_EQ(check_leader({motion, kTaskDepth + "=5"}).exit_code, 0);
+  const CommandResult of_leader = check_leader({"components.leader_motion.params.min_depth_mm=5"});
+  EXPECT_EQ(of_leader.exit_code, 0) << of_leader.err;
 }
 
 }  // namespace

@@ -57,7 +57,7 @@ struct Place {
 
 class WideSearch : public testing::TestWithParam<Place> {};
 
-/// High and low, and tilted away from the lamp: the cameras of configs/rigs/default.yaml see none.
+/// High and low, and looking at the lamp: the cameras of configs/rigs/default.yaml see one of them.
 TEST_P(WideSearch, FindsTheFaceAndAligns) {
   const DeploymentRun run = run_deployment(
       {.files = {source_file("configs/dental_lamp_wide.yaml")},
@@ -73,6 +73,41 @@ INSTANTIATE_TEST_SUITE_P(Places, WideSearch,
                                          Place{"HighAside", "[1.3, 0.3, 0.9]", -40},
                                          Place{"LowAside", "[1.2, -0.3, 0.1]", 40}),
                          [](const auto& place) { return place.param.name; });
+
+/// A face, and what `armature check` counts it as (search_coverage_test.cpp).
+struct CountedFace {
+  std::string name, file, mouth_m;
+  int tilt_up_deg, tilt_side_deg;
+  bool is_seen;
+
+  friend void PrintTo(const CountedFace& face, std::ostream* out) { *out << face.name; }
+};
+
+class SearchCoverage : public testing::TestWithParam<CountedFace> {};
+
+TEST_P(SearchCoverage, IsWhatTheSearchFindsInOneRound) {
+  const CountedFace& face = GetParam();
+  const DeploymentRun run = run_deployment(
+      {.files = {source_file("configs/" + face.file + ".yaml")},
+       .settings = {
+           kSimulated, "run.time_limit_s=17", "components.scene.params.mouth_m=" + face.mouth_m,
+           "components.scene.params.tilt_up_deg=" + std::to_string(face.tilt_up_deg),
+           "components.scene.params.tilt_side_deg=" + std::to_string(face.tilt_side_deg)}});
+  EXPECT_EQ(run.command.err.find("task      aligning") != std::string::npos, face.is_seen)
+      << run.text();
+  EXPECT_NE(run.command.err.find("task      searching"), std::string::npos) << run.text();
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Rigs, SearchCoverage,
+    testing::Values(
+        CountedFace{"DefaultSeen", "dental_lamp", "[1.45, -0.1, 0.9]", -25, 20, true},
+        CountedFace{"DefaultNotWhole", "dental_lamp", "[1.25, 0, 0.98]", 0, 0, false},
+        CountedFace{"PaperSeen", "dental_lamp_paper", "[1.5, 0.1, 0.5]", 5, -20, true},
+        CountedFace{"PaperNotWhole", "dental_lamp_paper", "[1.25, 0.18, 0.27]", -15, 0, false},
+        CountedFace{"WideSeen", "dental_lamp_wide", "[1.25, -0.25, 0.25]", 20, 25, true},
+        CountedFace{"WideTurnedAway", "dental_lamp_wide", "[1.4, 0.25, 0.75]", 30, 30, false}),
+    [](const auto& place) { return place.param.name; });
 
 TEST(LampFull, NamesAFaceOutOfReach) {
   const DeploymentRun run =

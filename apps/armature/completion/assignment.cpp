@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "armature/config/document.hpp"
+#include "armature/runtime/deployment_file/deployment_keys.hpp"
 #include "armature/runtime/plugins/plugin_registry.hpp"
 #include "verbs/shipped_configs.hpp"
 
@@ -50,6 +51,10 @@ Candidates keys_at(const std::string& path, const Node& root, const PluginRegist
       const bool is_map = entry.value.kind() == Node::Kind::map;
       all.push_back({path + entry.key + (is_map ? "." : "="), entry.value.text()});
     }
+  }
+  const bool is_robot = spot.name_above == "robots" && spot.node && !spot.node->entries().empty();
+  for (const config::KeySpec& key : robot_entry_keys()) {
+    if (is_robot && !spot.node->find(key.name)) all.push_back({path + key.name + "=", key.doc});
   }
   const bool is_component = spot.name_above == "components";
   if (is_component && spot.node && !spot.node->find("params"))

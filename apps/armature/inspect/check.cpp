@@ -30,6 +30,11 @@ struct NotTried {
   std::string component, plugin;
 };
 
+/// What a component says of the deployment.
+struct Note {
+  std::string component, text;
+};
+
 /// What a check has found so far; what was found before a problem counts beside it.
 struct Findings {
   std::string deployment;
@@ -37,6 +42,7 @@ struct Findings {
   std::size_t topics = 0;
   std::vector<std::string> plugin_warnings, warnings;
   std::vector<NotTried> not_tried;
+  std::vector<Note> notes;
 };
 
 /// The plugin of the component, or of one of its slots, that starts a program which a parameter
@@ -96,6 +102,11 @@ void construct(DeploymentConfig config, PluginRegistry& plugins, Findings& findi
        {executor_warnings(constructed.config()), isolation_warnings(constructed.config())}) {
     findings.warnings.insert(findings.warnings.end(), warnings.begin(), warnings.end());
   }
+  for (const auto& runner : constructed.runners()) {
+    for (std::string& text : runner->notes_for_check()) {
+      findings.notes.push_back({runner->name(), std::move(text)});
+    }
+  }
 }
 
 /// Where it is, what it is, and apart the known names that are near.
@@ -129,6 +140,10 @@ Json findings_json(const Findings& findings, Json problems) {
   std::vector<std::string> warnings = findings.plugin_warnings;
   warnings.insert(warnings.end(), findings.warnings.begin(), findings.warnings.end());
   json["warnings"] = std::move(warnings);
+  json["notes"] = Json::array();
+  for (const auto& [component, text] : findings.notes) {
+    json["notes"].push_back({{"component", component}, {"text", text}});
+  }
   json["not_tried"] = Json::array();
   for (const auto& [component, plugin] : findings.not_tried) {
     json["not_tried"].push_back({{"component", component}, {"runs_program", plugin}});
@@ -170,6 +185,7 @@ int check_deployment(const DeploymentSource& source, bool json) {
   }
   fmt::print("{}: ok, {} components, {} topics\n", findings.deployment, findings.components,
              findings.topics);
+  for (const auto& [component, text] : findings.notes) fmt::print("{}: {}\n", component, text);
   return kOk;
 }
 

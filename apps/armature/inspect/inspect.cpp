@@ -70,6 +70,14 @@ void make_absolute(config::Node& file) {
   file.set_text(std::filesystem::absolute(path).lexically_normal().string());
 }
 
+/// The same of an entry that says `file:` and what is other here.
+void make_file_absolute(config::Node& entry) {
+  if (entry.kind() != config::Node::Kind::map) return make_absolute(entry);
+  auto& entries = entry.mutable_entries();
+  const auto file = std::ranges::find(entries, "file", &config::Node::Entry::key);
+  if (file != entries.end()) make_absolute(file->value);
+}
+
 config::Node with_origin(const config::Node& node, const config::Origin& origin) {
   if (node.kind() != config::Node::Kind::sequence) {
     return config::Node::scalar(node.text(), node.quoted(), origin);
@@ -144,7 +152,7 @@ config::Node completed(config::Node root, const PluginRegistry& plugins) {
     const auto names_section = [&](const auto& known) { return known.first == section.key; };
     const bool of_files = std::ranges::any_of(kDocumentSections, names_section);
     for (auto& entry : section.value.mutable_entries()) {
-      if (of_files) make_absolute(entry.value);
+      if (of_files) make_file_absolute(entry.value);
       if (section.key == "components") complete_all_params(entry.value, entry.key, plugins);
     }
   }

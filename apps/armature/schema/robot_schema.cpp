@@ -87,6 +87,8 @@ Json robot_schema() {
   allow_axis(shaft["axis"]);
   properties["shaft"] =
       map_schema(properties["shaft"]["description"].get<std::string>(), std::move(shaft));
+  properties["capsules"] = names_schema(properties["capsules"]["description"].get<std::string>(),
+                                        map_schema("", properties_of(capsule_keys())));
   Json schema = file_schema("Armature robot", "A robot file of Armature.", std::move(properties));
   schema["allOf"] = Json::array({sort_rule()});
   return schema;

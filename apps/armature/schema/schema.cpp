@@ -76,7 +76,11 @@ Json section_schema(const config::KeySpec& key, const PluginRegistry& plugins) {
     return names_schema(key.doc, map_schema("", properties_of(executor_keys())));
   }
   if (key.name != "components") {  // robots and rigs
-    return names_schema(key.doc, text_schema("A path, relative to this file."));
+    const Json path = text_schema("A path, relative to this file.");
+    if (key.name != "robots") return names_schema(key.doc, path);
+    const Json entry =
+        map_schema("A file, and what is other here.", properties_of(robot_entry_keys()));
+    return names_schema(key.doc, Json{{"anyOf", Json::array({path, entry})}});
   }
   Json schema = names_schema(key.doc, Json{{"$ref", "#/$defs/component"}});
   schema["propertyNames"]["not"]["enum"] = Json::array({kStateComponent, kClockComponent});

@@ -121,6 +121,12 @@ ParamSpec read_param_spec(const Node::Entry& entry, Problems& problems) {
     map.problem("same_as", fmt::format("'same_as' needs a default, for deployments without '{}'",
                                        spec.same_as));
   }
+  const std::size_t dot = spec.same_as.find('.');
+  if (dot != std::string::npos && spec.same_as.substr(dot + 1) != spec.name) {
+    map.problem("same_as", fmt::format("behind the output 'same_as' must name '{}', too: both "
+                                       "parameters are called the same",
+                                       spec.name));
+  }
   const bool is_one = spec.type == Type::number || spec.type == Type::integer;
   for (const auto& [key, limit] : {std::pair{"at_most", &spec.at_most}, {"below", &spec.below}}) {
     if (!limit->empty() && !is_one) map.problem(key, fmt::format("'{}' belongs to a number", key));

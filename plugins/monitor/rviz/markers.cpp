@@ -123,4 +123,8 @@ msg::Marker removal(const MarkerHead& head) {
   return begin(head, MarkerType::arrow, MarkerAction::remove, Vector3d::Ones());
 }
 
+msg::Marker removal_of_all(const MarkerHead& head) {
+  return begin(head, MarkerType::arrow, MarkerAction::remove_all, Vector3d::Ones());
+}
+
 }  // namespace armature::monitor::rviz

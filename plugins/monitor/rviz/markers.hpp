@@ -23,7 +23,7 @@ enum class MarkerType {
   sphere_list = 7,
   triangle_list = 11
 };
-enum class MarkerAction { add = 0, remove = 2 };
+enum class MarkerAction { add = 0, remove = 2, remove_all = 3 };
 
 /// Red, green, blue and opacity, 0..1.
 struct Color {
@@ -57,5 +57,7 @@ msg::Marker line_strip(const MarkerHead& head, const std::vector<msg::Point>& po
 msg::Marker cone(const MarkerHead& head, const Segment& axis, double half_angle);
 /// Takes the marker away.
 msg::Marker removal(const MarkerHead& head);
+/// Takes all markers of the topic away: the first of an array that says everything anew.
+msg::Marker removal_of_all(const MarkerHead& head);
 
 }  // namespace armature::monitor::rviz

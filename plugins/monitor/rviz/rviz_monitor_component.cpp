@@ -4,6 +4,7 @@
 
 #include "armature/kinds/geometry_params.hpp"
 #include "armature/kinds/joint_messages.hpp"
+#include "armature/kinds/registration_dialogue.hpp"
 #include "armature/kinds/setup_robot.hpp"
 #include "armature/messages/geometry.hpp"
 #include "armature/messages/header.hpp"
@@ -14,7 +15,9 @@
 #include "armature/runtime/execution/rate_limiter.hpp"
 #include "armature/runtime/plugins/plugin.hpp"
 #include "frame_tree.hpp"
+#include "image_in_base.hpp"
 #include "picture.hpp"
+#include "plan_picture.hpp"
 
 namespace armature::monitor::rviz {
 namespace {
@@ -51,16 +54,24 @@ class RvizMonitor final : public Component {
         face_{setup.input<msg::FacePose>("face")},
         path_{setup.input<msg::ToolPath>("path")},
         motion_status_{setup.input<msg::MotionStatus>("motion_status")},
+        needle_plan_{setup.input<msg::NeedlePlan>("needle_plan")},
+        implant_plan_{setup.input<msg::ImplantPlan>("implant_plan")},
+        registration_{setup},
+        chain_{setup.input<msg::TFMessage>("chain")},
+        incision_{setup.input<msg::PointStamped>("incision")},
+        goal_{setup.input<msg::MotionGoal>("goal")},
         tf_{setup.output<msg::TFMessage>("tf")},
         tf_static_{setup.output<msg::TFMessage>("tf_static")},
         tool_pose_{setup.output<msg::PoseStamped>("tool_pose")},
-        markers_{setup.output<msg::MarkerArray>("markers")} {
+        markers_{setup.output<msg::MarkerArray>("markers")},
+        plan_markers_{setup.output<msg::MarkerArray>("plan_markers")} {
     setup.activate_every(seconds(1 / parameters_.rate));
   }
 
   void step(Time now) override {
     for (std::size_t i = 0; i < motion_status_.size(); ++i) goals_.see(motion_status_[i]);
     publish_fixed_frames(now);
+    if (hear_plans()) publish_plans(now);
     if (!rate_limiter_.due(now)) return;
     const msg::JointState* arm = measured_js_.latest();
     if (!arm) return;
@@ -83,6 +94,32 @@ class RvizMonitor final : public Component {
     auto fixed = tf_static_.loan();
     tree_.write_fixed(now, *fixed);
     fixed.publish();
+  }
+
+  /// True when something is known that was not before.
+  bool hear_plans() {
+    bool is_news = needle_plan_.fresh() || implant_plan_.fresh() || incision_.fresh();
+    registration_.listen([&](const msg::RegistrationResponse& answer) {
+      image_.hear(answer);
+      is_news = true;
+    });
+    if (chain_.fresh()) image_.hear(*chain_.latest());
+    if (goal_.latest()) newest_goal_ = *goal_.latest();
+    const bool was_pursued =
+        std::exchange(goal_is_pursued_, newest_goal_ && goals_.pursues(newest_goal_->goal_id_()));
+    return is_news || chain_.fresh() || goal_.latest() || goal_is_pursued_ != was_pursued;
+  }
+
+  /// Once for each change: DDS keeps the last array for those who come later.
+  void publish_plans(Time now) {
+    auto markers = plan_markers_.loan();
+    *markers = draw_plans({.needle = needle_plan_.latest(),
+                           .implant = implant_plan_.latest(),
+                           .incision = incision_.latest(),
+                           .goal = newest_goal_ ? &*newest_goal_ : nullptr,
+                           .goal_is_pursued = goal_is_pursued_},
+                          image_, tree_.name(kBaseFrame), now);
+    markers.publish();
   }
 
   void publish_frames(const JointVector& q, Time stamp) {
@@ -126,9 +163,18 @@ class RvizMonitor final : public Component {
   Input<msg::FacePose> face_;
   Input<msg::ToolPath> path_;
   Input<msg::MotionStatus> motion_status_;
+  Input<msg::NeedlePlan> needle_plan_;
+  Input<msg::ImplantPlan> implant_plan_;
+  OverheardRegistration registration_;
+  Input<msg::TFMessage> chain_;
+  Input<msg::PointStamped> incision_;
+  Input<msg::MotionGoal> goal_;
+  ImageInBase image_;
+  std::optional<msg::MotionGoal> newest_goal_;
+  bool goal_is_pursued_ = false;
   Output<msg::TFMessage> tf_, tf_static_;
   Output<msg::PoseStamped> tool_pose_;
-  Output<msg::MarkerArray> markers_;
+  Output<msg::MarkerArray> markers_, plan_markers_;
 };
 
 }  // namespace armature::monitor::rviz

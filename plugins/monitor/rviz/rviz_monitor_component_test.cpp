@@ -7,6 +7,7 @@
 
 #include "armature/kinds/joint_messages.hpp"
 #include "armature/messages/armature_msgs.hpp"
+#include "armature/messages/geometry_msgs.hpp"
 #include "armature/messages/header.hpp"
 #include "armature/messages/visualization_msgs.hpp"
 #include "armature/robot/files/stereo_rig.hpp"
@@ -109,6 +110,62 @@ TEST_F(RvizMonitorTest, DrawsWhatItIsTold) {
   steps(150);
   EXPECT_EQ(namespaces(),
             (std::set<std::string>{"links", "pointing", "target", "truth", "face", "path"}));
+}
+
+TEST_F(RvizMonitorTest, TellsPlansOnceForEachChangeAndNothingWhereThereAreNone) {
+  steps(100);
+  EXPECT_TRUE(monitor_.take<msg::MarkerArray>("plan_markers").empty());
+  msg::PointStamped incision;
+  incision.header_().frame_id_("base");
+  monitor_.send("incision", incision);
+  steps(100);
+  const auto told = monitor_.take<msg::MarkerArray>("plan_markers");
+  ASSERT_EQ(told.size(), 1U);
+  ASSERT_EQ(told[0].markers_().size(), 2U);
+  EXPECT_EQ(told[0].markers_()[1].ns_(), "incision");
+  EXPECT_EQ(monitor_.status().state, StatusReporter::State::ok);
+}
+
+TEST_F(RvizMonitorTest, ShowsTheZonesOfAGoalUntilItIsOver) {
+  msg::MotionGoal goal;
+  goal.goal_id_(4);
+  goal.forbidden_().resize(1);
+  goal.forbidden_()[0].radius_(0.1);
+  monitor_.send("goal", goal);
+  step();
+  EXPECT_EQ(monitor_.take<msg::MarkerArray>("plan_markers").back().markers_().size(), 2U);
+  msg::MotionStatus done;
+  done.goal_id_(4);
+  done.state_(2);
+  monitor_.send("motion_status", done);
+  step();
+  const auto told = monitor_.take<msg::MarkerArray>("plan_markers");
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_EQ(told[0].markers_().size(), 1U) << "all is taken away";
+}
+
+TEST_F(RvizMonitorTest, DrawsAPlanOnImagesOnceTheAnswerToTheTasksQuestionIsThere) {
+  msg::NeedlePlan plan;
+  plan.markers_().resize(3);
+  monitor_.send("needle_plan", plan);
+  msg::RegistrationRequest request;
+  request.request_id_(7);
+  monitor_.send("request", request);
+  step();
+  EXPECT_EQ(monitor_.take<msg::MarkerArray>("plan_markers").back().markers_().size(), 1U);
+  msg::RegistrationResponse answer;
+  answer.header_().frame_id_("base");
+  answer.valid_(true);
+  for (const std::uint64_t id : {6, 7}) {
+    answer.request_id_(id);
+    monitor_.send("registration", answer);
+    step();
+    const auto told = monitor_.take<msg::MarkerArray>("plan_markers");
+    EXPECT_EQ(told.size(), id == 7 ? 1U : 0U) << "that of somebody else is none";
+    if (id == 7 && !told.empty()) {
+      EXPECT_EQ(told[0].markers_()[1].ns_(), "head");
+    }
+  }
 }
 
 TEST_F(RvizMonitorTest, TellsNothingOfJointsThatAreNone) {

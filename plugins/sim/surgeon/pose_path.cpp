@@ -15,6 +15,8 @@
 #include <string>
 #include <utility>
 
+#include "armature/messages/geometry.hpp"
+
 namespace armature::sim::surgeon {
 namespace {
 
@@ -61,15 +63,28 @@ Expected<Numbers> numbers_of(const std::vector<std::string_view>& fields) {
   return numbers;
 }
 
+Expected<PosePath::Row> row_of(double t, const Vector3d& position,
+                               const Eigen::Quaterniond& rotation) {
+  if (std::abs(rotation.norm() - 1) > 0.01) {
+    return refuse(fmt::format("the quaternion has length {:.4g}, not 1", rotation.norm()));
+  }
+  return PosePath::Row{.t = t, .position = position, .rotation = rotation.normalized()};
+}
+
 Expected<PosePath::Row> row_of(const std::vector<std::string_view>& fields) {
   const auto numbers = numbers_of(fields);
   if (!numbers) return tl::unexpected{numbers.error()};
   const auto& [t, x, y, z, qx, qy, qz, qw] = *numbers;
-  const Eigen::Quaterniond rotation{qw, qx, qy, qz};
-  if (std::abs(rotation.norm() - 1) > 0.01) {
-    return refuse(fmt::format("the quaternion has length {:.4g}, not 1", rotation.norm()));
+  return row_of(t, {x, y, z}, {qw, qx, qy, qz});
+}
+
+Expected<PosePath::Row> row_of(double t, const msg::Pose& pose) {
+  const Vector3d position = to_eigen(pose.position_());
+  const Eigen::Quaterniond rotation = to_eigen(pose.orientation_());
+  if (!position.allFinite() || !rotation.coeffs().allFinite()) {
+    return refuse("a number is not finite");
   }
-  return PosePath::Row{.t = t, .position = {x, y, z}, .rotation = rotation.normalized()};
+  return row_of(t, position, rotation);
 }
 
 }  // namespace
@@ -138,6 +153,30 @@ Expected<PosePath> load_pose_path(const std::filesystem::path& file) {
     return refuse(fmt::format("cannot read '{}': {}", file.string(), std::strerror(errno)));
   }
   return read_pose_path(text, file.string());
+}
+
+Expected<PosePath> pose_path_through(const msg::PoseArray& poses, double speed,
+                                     std::string_view name) {
+  constexpr double kTurnSpeed_rad_s = 0.5, kSameTime_s = 1e-9;
+  std::vector<PosePath::Row> rows;
+  for (std::size_t i = 0; i < poses.poses_().size(); ++i) {
+    auto row = row_of(0, poses.poses_()[i]);
+    if (!row) return refuse(fmt::format("pose {} of {}: {}", i, name, row.error().text));
+    if (!rows.empty()) {
+      const PosePath::Row& last = rows.back();
+      const double takes_s =
+          std::max((row->position - last.position).norm() / speed,
+                   row->rotation.angularDistance(last.rotation) / kTurnSpeed_rad_s);
+      if (takes_s < kSameTime_s) continue;
+      row->t = last.t + takes_s;
+    }
+    rows.push_back(*row);
+  }
+  if (rows.size() < 2) {
+    return refuse(
+        fmt::format("{} has {} different poses; a path has two at least", name, rows.size()));
+  }
+  return PosePath{std::move(rows)};
 }
 
 }  // namespace armature::sim::surgeon

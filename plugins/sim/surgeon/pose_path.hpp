@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "armature/messages/geometry_msgs.hpp"
 #include "armature/robot/trajectories/cubic_spline.hpp"
 #include "armature/values/expected.hpp"
 
@@ -40,5 +41,12 @@ class PosePath {
 Expected<PosePath> read_pose_path(std::string_view text, std::string_view name);
 /// The same of a file; or why it cannot be read.
 Expected<PosePath> load_pose_path(const std::filesystem::path& file);
+
+/// Through poses that have no times, at a mean of `speed` [m/s], and where it turns more than it
+/// goes at most half a radian per second; a pose that is the one before it is passed over. Refuses,
+/// as `name`, what is not finite, a quaternion whose length is not 1 within 1 %, and fewer than two
+/// poses.
+Expected<PosePath> pose_path_through(const msg::PoseArray& poses, double speed,
+                                     std::string_view name);
 
 }  // namespace armature::sim::surgeon

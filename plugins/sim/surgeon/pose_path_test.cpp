@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// A planned path from a file: 1. it goes through its poses, from rest to rest, 2. the exact text of
-// each error.
+// A planned path from a file or a topic: 1. it goes through its poses, from rest to rest, 2. the
+// exact text of each error.
 #include "pose_path.hpp"
 
 #include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "armature/messages/geometry.hpp"
 
 namespace armature::sim::surgeon {
 namespace {
@@ -55,6 +59,42 @@ TEST(PosePath, WhatIsNoPathIsToldWithLineAndValue) {
   EXPECT_EQ(error_of(first), "knife.csv has 1 rows of poses; a path has two at least");
   EXPECT_EQ(load_pose_path("/nowhere/knife.csv").error().text,
             "cannot read '/nowhere/knife.csv': No such file or directory");
+}
+
+msg::PoseArray poses_at(std::initializer_list<Vector3d> positions) {
+  msg::PoseArray poses;
+  for (const Vector3d& position : positions) {
+    assign(poses.poses_().emplace_back(), Eigen::Isometry3d{Eigen::Translation3d{position}});
+  }
+  return poses;
+}
+
+std::string error_of(const msg::PoseArray& poses) {
+  const auto path = pose_path_through(poses, 0.01, "the path");
+  return path ? "" : path.error().text;
+}
+
+TEST(PosesWithoutTimes, TakeAsLongAsTheirWaysAtTheMeanSpeedOrTheirTurns) {
+  msg::PoseArray poses = poses_at({{0, 0, 0}, {0.01, 0, 0}, {0.01, 0, 0}, {0.01, 0.02, 0}});
+  poses.poses_().push_back(poses.poses_().back());
+  assign(poses.poses_().back().orientation_(),
+         Eigen::Quaterniond{Eigen::AngleAxisd{0.25, Vector3d::UnitZ()}});
+  const PosePath path = pose_path_through(poses, 0.01, "the path").value();
+  EXPECT_NEAR(path.duration_s(), 1 + 2 + 0.5, 1e-9);
+  EXPECT_LT((path.moved(1).translation() - Vector3d{0.01, 0, 0}).norm(), 1e-9);
+  EXPECT_LT((path.moved(3).translation() - Vector3d{0.01, 0.02, 0}).norm(), 1e-9);
+  EXPECT_NEAR(Eigen::AngleAxisd{path.moved(9).linear()}.angle(), 0.25, 1e-9);
+}
+
+TEST(PosesWithoutTimes, ThatAreNoPathAreRefusedWithTheirNumber) {
+  EXPECT_EQ(error_of(poses_at({})), "the path has 0 different poses; a path has two at least");
+  EXPECT_EQ(error_of(poses_at({{1, 2, 3}, {1, 2, 3}})),
+            "the path has 1 different poses; a path has two at least");
+  EXPECT_EQ(error_of(poses_at({{0, 0, 0}, {0, std::nan(""), 0}})),
+            "pose 1 of the path: a number is not finite");
+  msg::PoseArray poses = poses_at({{0, 0, 0}, {0.1, 0, 0}});
+  poses.poses_()[0].orientation_().w_(0);
+  EXPECT_EQ(error_of(poses), "pose 0 of the path: the quaternion has length 0, not 1");
 }
 
 }  // namespace

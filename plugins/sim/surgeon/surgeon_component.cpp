@@ -3,20 +3,23 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <string_view>
 
 #include "armature/kinds/geometry_params.hpp"
 #include "armature/kinds/joint_messages.hpp"
 #include "armature/kinds/setup_robot.hpp"
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/geometry.hpp"
+#include "armature/messages/geometry_msgs.hpp"
 #include "armature/messages/header.hpp"
+#include "armature/robot/kinematics/held_arm.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
 #include "armature/runtime/component/component.hpp"
 #include "armature/runtime/component/setup.hpp"
 #include "armature/runtime/plugins/plugin.hpp"
 #include "hand_motion.hpp"
-#include "held_arm.hpp"
 
 namespace armature::sim::surgeon {
 namespace {
@@ -50,9 +53,11 @@ class Surgeon final : public Component {
       : Component{setup},
         robot_{robot_of(setup)},
         parameters_{parameters_of(setup.params())},
-        hand_{parameters_, setup.seed(), path_of(parameters_, setup.params())},
+        seed_{setup.seed()},
+        hand_{parameters_, seed_, path_of(parameters_, setup.params())},
         task_state_{setup.input<msg::TaskState>("task_state")},
         measured_js_{setup.input<msg::JointState>("measured_js")},
+        path_{setup.input<msg::PoseArray>("path")},
         console_{setup.output<msg::TransformStamped>("console")},
         incision_{setup.output<msg::PointStamped>("incision")},
         hand_js_{setup.output<msg::JointState>("hand_js")},
@@ -63,6 +68,7 @@ class Surgeon final : public Component {
 
   void step(Time now) override {
     if (!console_told_) tell_console(now);
+    if (path_.fresh()) take_path(*path_.latest());
     if (!taken_at_) take_hold(now);
     if (!taken_at_) return;
     const double t = to_seconds(now - *taken_at_);
@@ -111,6 +117,23 @@ class Surgeon final : public Component {
     loan.publish();
   }
 
+  void take_path(const msg::PoseArray& poses) {
+    const auto path = path_from(poses);
+    if (path) {
+      hand_ = HandMotion{parameters_, seed_, *path};
+      log("the hand follows the path of the topic");
+    } else {
+      log(path.error().text + "; the hand goes its way");
+    }
+  }
+
+  Expected<PosePath> path_from(const msg::PoseArray& poses) const {
+    constexpr std::string_view kName = "the path of the topic";
+    if (auto wrong = not_in_base(poses.header_(), kName)) return refuse(*wrong);
+    if (taken_at_) return refuse(fmt::format("{} came when the leader was taken", kName));
+    return pose_path_through(poses, parameters_.path_speed, kName);
+  }
+
   void take_hold(Time now) {
     if (!task_state_.latest() || task_state_.latest()->state_() != "aligned") return;
     if (!measured_js_.latest()) return;
@@ -125,7 +148,8 @@ class Surgeon final : public Component {
   void move(double t, Time now) {
     const Eigen::Isometry3d pose = hand_.actual(t, start_);
     const auto q =
-        joints_of_held_arm(robot_, {pose.translation(), Eigen::Quaterniond{pose.linear()}}, q_);
+        joints_of_held_arm(robot_, {pose.translation(), Eigen::Quaterniond{pose.linear()}}, q_,
+                           JointVector::Ones(robot_.dof()));
     if (q) {
       healthy();
     } else {
@@ -142,6 +166,7 @@ class Surgeon final : public Component {
 
   RobotModel robot_;
   Parameters parameters_;
+  std::uint64_t seed_;
   HandMotion hand_;
   bool console_told_ = false;
   std::optional<Time> taken_at_;
@@ -152,6 +177,7 @@ class Surgeon final : public Component {
   JointVector q_;
   Input<msg::TaskState> task_state_;
   Input<msg::JointState> measured_js_;
+  Input<msg::PoseArray> path_;
   Output<msg::TransformStamped> console_;
   Output<msg::PointStamped> incision_;
   Output<msg::JointState> hand_js_;

@@ -6,6 +6,7 @@
 #include "armature/kinds/joint_messages.hpp"
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/geometry.hpp"
+#include "armature/messages/geometry_msgs.hpp"
 #include "armature/messages/header.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
 #include "armature/runtime/testing/component_harness.hpp"
@@ -126,6 +127,46 @@ TEST_F(SurgeonTest, AHandThatTheLeaderCannotFollowStops) {
     ASSERT_TRUE(leader_.within_limits(leader_.to_independent(state.position_()).value()));
   }
   EXPECT_EQ(hand.back().velocity_(), std::vector<double>(6, 0.0));
+}
+
+msg::PoseArray straight_path(const std::string& frame) {
+  msg::PoseArray poses;
+  poses.header_().frame_id_(frame);
+  for (const double x : {0.3, 0.31}) {
+    assign(poses.poses_().emplace_back(), Eigen::Isometry3d{Eigen::Translation3d{x, 0, 0}});
+  }
+  return poses;
+}
+
+TEST_F(SurgeonTest, APathOfItsTopicIsFollowedWhenItComesBeforeTheHandTakesTheLeader) {
+  make("tremor_mm: 0, path_speed_m_s: 0.01, path_scale: 0.5, path_starts_s: 1");
+  bench_->send("path", straight_path("base"));
+  steps(1);
+  align();
+  steps(3000);
+  const auto intended = bench_->take<msg::PoseStamped>("intended_cp");
+  const auto at = [&](std::size_t ms) {
+    return Eigen::Vector3d{to_eigen(intended[ms].pose_()).translation() -
+                           to_eigen(intended[0].pose_()).translation()};
+  };
+  EXPECT_LT(at(900).norm(), 1e-12) << "it has not begun";
+  EXPECT_LT((at(2500) - Eigen::Vector3d{0.02, 0, 0}).norm(), 1e-9)
+      << "10 mm of the knife in a second are 20 mm of the hand";
+}
+
+TEST_F(SurgeonTest, APathThatIsNoneOrComesTooLateIsNotFollowedAndSaid) {
+  make("tremor_mm: 0");
+  bench_->send("path", straight_path("camera"));
+  steps(1);
+  EXPECT_EQ(
+      bench_->lines().back(),
+      "the path of the topic is stated in frame 'camera', not in 'base'; the hand goes its way");
+  align();
+  steps(10);
+  bench_->send("path", straight_path("base"));
+  steps(1);
+  EXPECT_EQ(bench_->lines().back(),
+            "the path of the topic came when the leader was taken; the hand goes its way");
 }
 
 TEST_F(SurgeonTest, TheHandRestsWhileTheTaskIsHeldAndGoesOnWhereItWas) {

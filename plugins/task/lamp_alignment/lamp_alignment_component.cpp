@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/core.h>
 
+#include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "armature/kinds/setup_robot.hpp"
 #include "armature/kinds/target/target_messages.hpp"
@@ -11,6 +14,8 @@
 #include "armature/runtime/plugins/plugin.hpp"
 #include "armature/task/task_ports.hpp"
 #include "lamp_alignment.hpp"
+#include "search_coverage.hpp"
+#include "search_poses.hpp"
 
 namespace armature::task::lamp_alignment {
 namespace {
@@ -23,7 +28,24 @@ Parameters parameters_of(const Params& params) {
     params.refuse({"search_yaw_deg", "search_pitch_deg"},
                   "'search_yaw_deg' and 'search_pitch_deg' need at least one angle each");
   }
+  for (std::size_t i = 0; i < parameters.min_mouth.size(); ++i) {
+    if (parameters.min_mouth[i] > parameters.max_mouth[i]) {
+      params.refuse({"min_mouth_m", "max_mouth_m"},
+                    fmt::format("'min_mouth_m' is above 'max_mouth_m' in {}: {:g} m and {:g} m",
+                                std::string_view{"xyz"}.substr(i, 1), parameters.min_mouth[i],
+                                parameters.max_mouth[i]));
+    }
+  }
   return parameters;
+}
+
+/// What the cameras see from the search poses, when the deployment has cameras.
+std::optional<SearchCoverage> coverage_of(Setup& setup, const Parameters& parameters) {
+  const auto rig = optional_rig_of(setup);
+  if (!rig) return std::nullopt;
+  const RobotModel robot = robot_of(setup);
+  return SearchCoverage::make(parameters, robot, *rig,
+                              search_poses(parameters, robot.joints().back().a));
 }
 
 }  // namespace
@@ -33,6 +55,7 @@ class LampAlignmentComponent : public Component {
   explicit LampAlignmentComponent(Setup& setup)
       : Component(setup),
         task_{parameters_of(setup.params()), robot_of(setup).joints().back().a},
+        coverage_{coverage_of(setup, parameters_of(setup.params()))},
         target_{setup.input<msg::Target>("target")},
         landmarks_{setup.input<msg::FaceLandmarks>("landmarks")},
         motion_status_{setup.input<msg::MotionStatus>("motion_status")},
@@ -51,6 +74,10 @@ class LampAlignmentComponent : public Component {
     send_goal(now);
     send_light_and_capture(now);
     publish_state(now);
+  }
+
+  std::vector<std::string> notes_for_check() const override {
+    return coverage_ ? coverage_->lines() : std::vector<std::string>{};
   }
 
  private:
@@ -114,6 +141,7 @@ class LampAlignmentComponent : public Component {
   }
 
   LampAlignment task_;
+  std::optional<SearchCoverage> coverage_;
   Input<msg::Target> target_;
   Input<msg::FaceLandmarks> landmarks_;
   Input<msg::MotionStatus> motion_status_;

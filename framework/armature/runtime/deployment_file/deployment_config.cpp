@@ -51,23 +51,53 @@ std::span<const Node::Entry> entries_of(const Node* section, std::string_view na
   return section->entries();
 }
 
+/// The file that an entry names, or none and a problem.
+std::optional<Node> load_document(const Node& named, Problems& problems) {
+  const auto file = config::as_text(named, problems);
+  if (!file) return std::nullopt;
+  try {
+    return config::load(config::folder_of(named.origin()) / *file);
+  } catch (const config::ConfigError& error) {
+    for (const auto& problem : error.problems()) {
+      // A file that is not there is a mistake of the line that names it.
+      problems.add(problem.origin.line > 0 ? problem.origin : named.origin(), problem.message);
+    }
+    return std::nullopt;
+  }
+}
+
+/// `{file: robot.yaml, home_deg: [..]}`: the file, with another home, which whoever reads the robot
+/// refuses at the place where it stands.
+std::optional<Node> load_robot(const Node::Entry& entry, Problems& problems) {
+  MapReader map{entry.value, fmt::format("robot '{}'", entry.key), robot_entry_keys(), problems};
+  map.text("file");
+  map.optional_numbers("home_deg");
+  map.finish();
+  const Node* file = entry.value.find("file");
+  auto document = file ? load_document(*file, problems) : std::nullopt;
+  if (!document || document->kind() != Node::Kind::map) return document;
+  const std::string home = map.written("home_deg");
+  const auto& written = entry.value.entries();
+  const auto given = std::ranges::find(written, home, &Node::Entry::key);
+  if (given == written.end()) return document;
+  auto& entries = document->mutable_entries();
+  std::erase_if(entries, [](const Node::Entry& of_file) {
+    return of_file.key == "home_deg" || of_file.key == "home";
+  });
+  entries.push_back(*given);
+  return document;
+}
+
 /// `name: file.yaml` entries; the files are relative to the YAML file that names them.
-std::map<std::string, Node> read_documents(std::span<const Node::Entry> section,
+std::map<std::string, Node> read_documents(std::span<const Node::Entry> section, bool of_robots,
                                            Problems& problems) {
   std::map<std::string, Node> documents;
-  for (const auto& [name, name_origin, value] : section) {
-    documents.emplace(name, Node::null(value.origin()));  // known, even when it cannot be read
-    const auto file = config::as_text(value, problems);
-    if (!file) continue;
-    const std::filesystem::path path = config::folder_of(value.origin()) / *file;
-    try {
-      documents.insert_or_assign(name, config::load(path));
-    } catch (const config::ConfigError& error) {
-      for (const auto& problem : error.problems()) {
-        // A file that is not there is a mistake of the line that names it.
-        problems.add(problem.origin.line > 0 ? problem.origin : value.origin(), problem.message);
-      }
-    }
+  for (const Node::Entry& entry : section) {
+    const bool is_map = of_robots && entry.value.kind() == Node::Kind::map;
+    auto document = is_map ? load_robot(entry, problems) : load_document(entry.value, problems);
+    // Known, even when it cannot be read.
+    documents.emplace(entry.key,
+                      document ? std::move(*document) : Node::null(entry.value.origin()));
   }
   return documents;
 }
@@ -197,7 +227,8 @@ DeploymentConfig read_deployment(const Node& root, const PluginRegistry& plugins
       read_executors(entries_of(map.node("executors"), "executors", problems), problems);
   for (const auto& [section, word] : kDocumentSections) {
     deployment.documents[std::string{section}] =
-        read_documents(entries_of(map.node(section), section, problems), problems);
+        read_documents(entries_of(map.node(section), section, problems),
+                       section == kDocumentSections.front().first, problems);
   }
   deployment.goals = read_goals(map.node("goals"), problems);
   deployment.sweep_goals = read_sweep_goals(map.node("sweep_goals"), deployment.goals, problems);

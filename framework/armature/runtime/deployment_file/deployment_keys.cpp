@@ -132,6 +132,17 @@ const std::vector<KeySpec>& sweep_goal_keys() {
   return kKeys;
 }
 
+const std::vector<KeySpec>& robot_entry_keys() {
+  static const std::vector<KeySpec> kKeys{
+      {.name = "file", .type = Type::text, .doc = "The robot file, relative to this one."},
+      {.name = "home_deg",
+       .type = Type::numbers,
+       .doc = "Where all joints begin here, instead of at the home of the file.",
+       .optional = true,
+       .also = "home"}};
+  return kKeys;
+}
+
 std::vector<KeySpec> component_keys(const PluginManifest& runner, bool is_host) {
   KeySpec plugin = kPlugin;
   plugin.optional = true;  // the framework's own are named by their key: `motion:`

@@ -28,6 +28,8 @@ const std::vector<config::KeySpec>& run_keys();
 const std::vector<config::KeySpec>& executor_keys();
 /// Of an entry of `sweep_goals:`.
 const std::vector<config::KeySpec>& sweep_goal_keys();
+/// Of an entry of `robots:` that is more than a path.
+const std::vector<config::KeySpec>& robot_entry_keys();
 /// Of an entry of `components:` that `runner` runs: its slots are keys, too. A host fills the first
 /// of them itself.
 std::vector<config::KeySpec> component_keys(const PluginManifest& runner, bool is_host);

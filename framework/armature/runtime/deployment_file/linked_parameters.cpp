@@ -25,6 +25,19 @@ bool reads(const ComponentConfig& reader, const ComponentConfig& writer, std::st
   });
 }
 
+/// Whether the parameter of `component` is to be the same as that of `other`: of a plugin with
+/// which it exchanges topics, "task/mine", or of whoever reads one of its outputs, "goal.depth_mm".
+bool is_meant(const ParamSpec& spec, const ComponentConfig& component,
+              const ComponentConfig& other) {
+  const std::string_view same_as = spec.same_as;
+  const std::size_t dot = same_as.find('.');
+  if (dot == std::string_view::npos) {
+    return same_as == other.plugin_id && exchange_topics(component, other);
+  }
+  return other.unit == kMainUnit && reads(other, component, same_as.substr(0, dot)) &&
+         has_param(other, spec.name);
+}
+
 /// Where a number stands, or that it is a default.
 std::string place_of(const Params& params, std::string_view name) {
   return params.is_written(name) ? params.origin(name).text() : "its default";
@@ -65,7 +78,7 @@ void link_parameters(DeploymentConfig& deployment, config::Problems& problems) {
         check_at_most(component, spec, deployment, problems);
       }
       for (const ComponentConfig& other : deployment.components) {
-        if (spec.same_as != other.plugin_id || !exchange_topics(component, other)) continue;
+        if (spec.same_as.empty() || !is_meant(spec, component, other)) continue;
         if (component.params.agree(spec.name, other.params)) continue;
         problems.add(component.params.origin(spec.name),
                      fmt::format("'{}' of component '{}' must be the same as that of component "

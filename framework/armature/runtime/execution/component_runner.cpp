@@ -142,6 +142,11 @@ void ComponentRunner::summarize(Summary& summary) {
   }
 }
 
+std::vector<std::string> ComponentRunner::notes_for_check() const {
+  const RunningComponent running{name_, "notes for check"};
+  return component_->notes_for_check();
+}
+
 void ComponentRunner::fault(std::string_view when, const std::string& what) {
   reporter_->set(StatusReporter::State::fault, fmt::format("{} failed: {}", when, what));
   faulted_.store(true, std::memory_order_release);

@@ -84,6 +84,8 @@ class ComponentRunner {
   void stop(Time now);
   /// Asks the component for its figures, once it has stopped; an exception is its fault.
   void summarize(Summary& summary);
+  /// What the component can say before it runs. Throws what it throws.
+  std::vector<std::string> notes_for_check() const;
 
   bool faulted() const { return faulted_.load(std::memory_order_acquire); }
   /// True when the component was asked to come to rest and is there. One that has failed is not

@@ -8,6 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <chrono>
@@ -15,7 +16,10 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <memory>
 #include <stdexcept>
+#include <thread>
+#include <vector>
 
 namespace armature {
 namespace {
@@ -102,13 +106,38 @@ Isolated IsolatedWork::outcome() {
 }
 
 Isolated isolated(double timeout_s, const std::function<std::string()>& work) {
-  constexpr int kLongest_ms = 100;
-  IsolatedWork running{timeout_s, work};
-  while (!running.is_over()) {
-    pollfd ready{running.descriptor(), POLLIN, 0};
-    poll(&ready, 1, kLongest_ms);
-  }
-  return running.outcome();
+  Isolated only;
+  isolated_each(
+      1, 1, timeout_s, [&](std::size_t) { return work(); },
+      [&](std::size_t, const Isolated& outcome) { only = outcome; });
+  return only;
 }
+
+void isolated_each(std::size_t count, std::size_t at_once, double timeout_s,
+                   const std::function<std::string(std::size_t)>& work,
+                   const std::function<void(std::size_t, const Isolated&)>& take) {
+  constexpr int kLongestWait_ms = 100;
+  struct Running {
+    std::size_t index;
+    std::unique_ptr<IsolatedWork> work;
+  };
+  std::vector<Running> running;
+  for (std::size_t next = 0; next < count || !running.empty();) {
+    for (; next < count && running.size() < at_once; ++next) {
+      running.push_back(
+          {next, std::make_unique<IsolatedWork>(timeout_s, [&] { return work(next); })});
+    }
+    std::vector<pollfd> ready;
+    for (const Running& one : running) ready.push_back({one.work->descriptor(), POLLIN, 0});
+    poll(ready.data(), ready.size(), kLongestWait_ms);
+    std::erase_if(running, [&](Running& one) {
+      if (!one.work->is_over()) return false;
+      take(one.index, one.work->outcome());
+      return true;
+    });
+  }
+}
+
+std::size_t processors() { return std::max(1u, std::thread::hardware_concurrency()); }
 
 }  // namespace armature

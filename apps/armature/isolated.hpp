@@ -4,6 +4,7 @@
 #include <sys/types.h>
 
 #include <chrono>
+#include <cstddef>
 #include <functional>
 #include <string>
 
@@ -46,5 +47,14 @@ class IsolatedWork {
 
 /// Does `work` in a child process and waits for it; it is killed after `timeout_s`.
 Isolated isolated(double timeout_s, const std::function<std::string()>& work);
+
+/// Does `work(0)` to `work(count - 1)`, each in a child process that is killed after `timeout_s`,
+/// `at_once` at a time; `take` has each outcome as soon as it is there, in any order.
+void isolated_each(std::size_t count, std::size_t at_once, double timeout_s,
+                   const std::function<std::string(std::size_t)>& work,
+                   const std::function<void(std::size_t, const Isolated&)>& take);
+
+/// How many of them the machine does at once.
+std::size_t processors();
 
 }  // namespace armature

@@ -56,6 +56,10 @@ const std::vector<KeySpec> kFigureKeys{
     {.name = "equal",
      .type = Type::flag,
      .doc = "Of places: both axes to one scale.",
+     .fallback = config::default_value("false")},
+    {.name = "long",
+     .type = Type::flag,
+     .doc = "Takes more than a few seconds.",
      .fallback = config::default_value("false")}};
 const std::vector<KeySpec> kFileKeys{
     {.name = "paper", .type = Type::text, .doc = "Who and what."},
@@ -146,7 +150,8 @@ DeclaredFigure read_figure(const config::Node& node, Problems& problems) {
                         .source = map.text("source"),
                         .x = map.text("x"),
                         .panels = map.optional_texts("panels").value_or(std::vector<std::string>{}),
-                        .is_equal = map.flag("equal")};
+                        .is_equal = map.flag("equal"),
+                        .is_long = map.flag("long")};
   map.finish();
   return figure;
 }

@@ -42,6 +42,7 @@ struct DeclaredFigure {
   std::string x;                    // label with unit
   std::vector<std::string> panels;  // labels with units
   bool is_equal = false;            // of places: both axes to one scale
+  bool is_long = false;             // takes more than a few seconds
 };
 
 /// The file docs/papers/<paper>.yaml: what `armature reproduce` shows of a paper.

@@ -48,7 +48,7 @@ JudgedRow judge_row(const std::string& table, const DeclaredRow& row, const Resu
   return judged;
 }
 
-void find_undeclared(const Declaration& declaration, const Results& results,
+void find_undeclared(const Declaration& declaration, const Results& results, bool with_long,
                      std::vector<std::string>& faults) {
   for (const auto& [table, rows] : results.values()) {
     const auto declared = std::ranges::find(declaration.tables, table, &DeclaredTable::name);
@@ -67,7 +67,8 @@ void find_undeclared(const Declaration& declaration, const Results& results,
     }
   }
   for (const DeclaredFigure& figure : declaration.figures) {
-    if (!results.curves().contains(figure.name)) {
+    const bool is_asked = with_long || !figure.is_long;
+    if (is_asked && !results.curves().contains(figure.name)) {
       faults.push_back(fmt::format("{} was not computed", figure.name));
     }
   }
@@ -113,7 +114,7 @@ Judgement judge(const Declaration& declaration, const Results& results, bool wit
     }
     judgement.tables.push_back(std::move(judged));
   }
-  find_undeclared(declaration, results, judgement.faults);
+  find_undeclared(declaration, results, with_long, judgement.faults);
   return judgement;
 }
 

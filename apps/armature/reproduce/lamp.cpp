@@ -7,6 +7,7 @@
 #include "armature/robot/geometry/stereo_camera.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
 #include "reproduce/experiment.hpp"
+#include "reproduce/lamp_detection.hpp"
 #include "reproduce/lamp_example.hpp"
 #include "reproduce/papers.hpp"
 
@@ -254,7 +255,9 @@ void compute_lamp(const Numbers& numbers, bool with_long, Results& results) {
   add_motion(lamp, plan, results);
   add_comparison(lamp, plan, results);
   add_simulation(numbers, lamp, results);
-  if (with_long) add_experiment(results);
+  if (!with_long) return;
+  add_experiment(results);
+  add_detection(results);
 }
 
 }  // namespace armature::reproduce

@@ -3,17 +3,14 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <poll.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <functional>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
-#include <thread>
 #include <utility>
 
 #include "armature/runtime/reporting/output_folder.hpp"
@@ -72,58 +69,21 @@ Json report_of(const Isolated& outcome) {
               {"reason", outcome.fault}};
 }
 
-/// Runs what is missing, so many at a time.
-class Runs {
- public:
-  Runs(const SweepOptions& options, PluginRegistry& plugins, sweep::FinishedRuns& finished)
-      : options_{options}, plugins_{plugins}, finished_{finished} {}
-
-  void run(const std::vector<Job>& jobs) {
-    Progress progress{"runs"};
-    for (std::size_t next = 0, done = 0; done < jobs.size();) {
-      while (next < jobs.size() && running_.size() < at_once()) start(jobs[next++]);
-      wait();
-      done += collect();
-      progress.of(done, jobs.size());
-    }
-  }
-
- private:
-  struct Running {
-    const Job* job;
-    std::unique_ptr<IsolatedWork> work;
-  };
-
-  std::size_t at_once() const {
-    const unsigned processors = std::max(1u, std::thread::hardware_concurrency());
-    return options_.jobs > 0 ? static_cast<std::size_t>(options_.jobs) : processors;
-  }
-
-  void start(const Job& job) {
-    running_.push_back({&job, std::make_unique<IsolatedWork>(
-                                  options_.timeout_s, [&] { return run_once(job, plugins_); })});
-  }
-
-  void wait() const {
-    constexpr int kLongest_ms = 100;
-    std::vector<pollfd> ready;
-    for (const Running& one : running_) ready.push_back({one.work->descriptor(), POLLIN, 0});
-    poll(ready.data(), ready.size(), kLongest_ms);
-  }
-
-  std::size_t collect() {
-    return std::erase_if(running_, [&](Running& one) {
-      if (!one.work->is_over()) return false;
-      finished_.add(one.job->key, report_of(one.work->outcome()));
-      return true;
-    });
-  }
-
-  const SweepOptions& options_;
-  PluginRegistry& plugins_;
-  sweep::FinishedRuns& finished_;
-  std::vector<Running> running_;
-};
+/// Runs what is missing.
+void run(const std::vector<Job>& jobs, const SweepOptions& options, PluginRegistry& plugins,
+         sweep::FinishedRuns& finished) {
+  Progress progress{"runs"};
+  std::size_t done = 0;
+  const std::size_t at_once =
+      options.jobs > 0 ? static_cast<std::size_t>(options.jobs) : processors();
+  isolated_each(
+      jobs.size(), at_once, options.timeout_s,
+      [&](std::size_t i) { return run_once(jobs[i], plugins); },
+      [&](std::size_t i, const Isolated& outcome) {
+        finished.add(jobs[i].key, report_of(outcome));
+        progress.of(++done, jobs.size());
+      });
+}
 
 bool same_goals(const DeploymentConfig& a, const DeploymentConfig& b) {
   const auto same = [](const SweepGoal& x, const SweepGoal& y) {
@@ -201,7 +161,7 @@ int sweep_deployment(const SweepOptions& options) {
     fmt::print(stderr, "armature: {} of {} runs are in {} already\n", known, known + missing.size(),
                options.out->string());
   }
-  Runs{options, plugins, finished}.run(missing);
+  run(missing, options, plugins, finished);
 
   std::vector<sweep::RunSpread> spreads;
   std::vector<sweep::SeedReport> reports;

@@ -4,17 +4,9 @@
 #include <Eigen/Core>
 #include <optional>
 
+#include "armature/robot/geometry/thread.hpp"
+
 namespace armature::handpiece::threading {
-
-/// The thread of an implant, in the base frame.
-struct Thread {
-  Eigen::Vector3d start = Eigen::Vector3d::Zero();  // [m] of the tool, where the turning begins
-  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  // unit, into the bone
-  double pitch_m = 0;                               // a turn, right-handed
-};
-
-/// What is wrong with a thread, or nullptr.
-const char* defect(const Thread& thread);
 
 /// Where a joint shall be.
 struct Turn {

@@ -3,6 +3,7 @@
 
 #include "armature/kinds/joint_messages.hpp"
 #include "armature/kinds/setup_robot.hpp"
+#include "armature/kinds/thread_messages.hpp"
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/geometry.hpp"
 #include "armature/messages/header.hpp"
@@ -58,18 +59,12 @@ class Threading final : public Component {
   void follow_thread(double angle) {
     if (!found_) gearing_.stay(angle);
     found_ = true;
-    const msg::ThreadAxis* thread = thread_.latest();
-    const bool engaged = thread && thread->engaged_();
-    if (engaged == wanted_) return;
-    wanted_ = engaged;
+    const auto thread = thread_.latest() ? thread_of(*thread_.latest()) : std::nullopt;
+    if (thread.has_value() == wanted_) return;
+    wanted_ = thread.has_value();
     gearing_.release();
-    defect_ = nullptr;
-    if (!engaged) return;
-    const Thread axis{.start = to_eigen(thread->start_()),
-                      .axis = to_eigen(thread->axis_()),
-                      .pitch_m = thread->pitch_()};
-    defect_ = defect(axis);
-    if (!defect_) gearing_.engage(axis, angle);
+    defect_ = thread ? defect(*thread) : nullptr;
+    if (thread && !defect_) gearing_.engage(*thread, angle);
   }
 
   RobotModel robot_;

@@ -17,6 +17,7 @@
 #include "armature/kinds/registration_messages.hpp"
 #include "armature/kinds/setup_flange.hpp"
 #include "armature/kinds/setup_robot.hpp"
+#include "armature/kinds/thread_messages.hpp"
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/geometry.hpp"
 #include "armature/messages/sensor_msgs.hpp"
@@ -174,12 +175,6 @@ class ImplantReport final : public Component {
     driver->patient_T_image = *jaw_T_image_;
     true_driver_ = *true_driver;
     implants_.emplace(places, *driver, parameters_);
-  }
-
-  static std::optional<ThreadMonitor::Thread> thread_of(const msg::ThreadAxis& axis) {
-    if (!axis.engaged_()) return std::nullopt;
-    return ThreadMonitor::Thread{
-        .start = to_eigen(axis.start_()), .axis = to_eigen(axis.axis_()), .pitch_m = axis.pitch_()};
   }
 
   /// How far the handpiece had turned at an instant, when it says so.

@@ -4,17 +4,14 @@
 #include <Eigen/Core>
 #include <optional>
 
+#include "armature/robot/geometry/thread.hpp"
+
 namespace armature::report::implant {
 
 /// Whether an implant is turned as it goes in: how far it went in, against its turns.
 class ThreadMonitor {
  public:
-  /// The thread of one implant.
-  struct Thread {
-    Eigen::Vector3d start, axis;  // [m] and unit, in the base frame, of the robot file's tool
-    double pitch_m;
-  };
-
+  /// With the thread of one implant.
   void engage(const std::optional<Thread>& thread) {
     thread_ = thread;
     begun_at_.reset();

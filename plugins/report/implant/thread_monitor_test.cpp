@@ -11,8 +11,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kTurn = 2 * std::numbers::pi;
-const ThreadMonitor::Thread kThread{
-    .start = {0, 0, 0.4}, .axis = Vector3d::UnitX(), .pitch_m = 0.001};
+const Thread kThread{.start = {0, 0, 0.4}, .axis = Vector3d::UnitX(), .pitch_m = 0.001};
 
 TEST(ThreadMonitor, TellsTheMostThatAnImplantWasAheadOfItsTurnsOrBehind) {
   ThreadMonitor monitor;

@@ -12,6 +12,7 @@
 #include "armature/kinds/registration_messages.hpp"
 #include "armature/kinds/setup_flange.hpp"
 #include "armature/kinds/setup_robot.hpp"
+#include "armature/kinds/thread_messages.hpp"
 #include "armature/messages/sensor_msgs.hpp"
 #include "armature/motion/goal_messages.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
@@ -199,12 +200,7 @@ class ImplantComponent final : public Component {
     if (std::exchange(engaged_, engaged) == engaged) return;
     msg::ThreadAxis message;
     write_header(message.header_(), now, kBaseFrame);
-    message.engaged_(engaged);
-    if (const auto& thread = task_.thread()) {
-      assign(message.start_(), thread->start);
-      assign(message.axis_(), thread->axis);
-      message.pitch_(thread->pitch_m);
-    }
+    write_thread(task_.thread(), message);
     thread_.publish(message);
   }
 

@@ -26,15 +26,15 @@ std::optional<std::string> ThreadWatch::trouble(const Eigen::Vector3d& tool, Tim
     return fmt::format("the handpiece has not told for {:.2f} s how far it has turned",
                        to_seconds(now - heard_));
   }
-  const double advance_m = std::max(thread_->axis.dot(tool - thread_->start), 0.0);
-  const double turns = (angle_.value_or(0) - begun_at_) / (2 * std::numbers::pi);
-  const double error_m = std::abs(advance_m - turns * thread_->pitch_m);
+  const double turned = angle_.value_or(0) - begun_at_;
+  const double advance_m = thread_->advance_m(tool);
   // Not a number is no turn.
-  if (error_m <= parameters_.max_thread_error) return std::nullopt;
+  if (std::abs(thread_->ahead_m(tool, turned)) <= parameters_.max_thread_error) return std::nullopt;
   return fmt::format(
       "the implant went in by {:.2f} mm, and was turned by {:.2f} of the {:.2f} turns that its "
       "thread wants; {:g} mm off are allowed",
-      1e3 * advance_m, turns, advance_m / thread_->pitch_m, 1e3 * parameters_.max_thread_error);
+      1e3 * advance_m, turned / (2 * std::numbers::pi), advance_m / thread_->pitch_m,
+      1e3 * parameters_.max_thread_error);
 }
 
 }  // namespace armature::task::implant

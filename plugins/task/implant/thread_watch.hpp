@@ -5,17 +5,11 @@
 #include <optional>
 #include <string>
 
+#include "armature/robot/geometry/thread.hpp"
 #include "armature/values/time.hpp"
 #include "task_implant_parameters.hpp"
 
 namespace armature::task::implant {
-
-/// The thread of an implant: what holds it turns as it goes in.
-struct Thread {
-  Eigen::Vector3d start;  // [m] in the base frame, of the robot file's tool where it begins
-  Eigen::Vector3d axis;   // unit, in the base frame, into the bone
-  double pitch_m = 0;
-};
 
 /// Whether the handpiece turns an implant as its thread wants it: one that is pushed strips the
 /// bone.

@@ -110,7 +110,7 @@ void add_loading_test(const PluginManifest& plugin, const Params& params,
     });
     ASSERT_NE(served, robots.end());
     const LawReport report =
-        check_loading({ARMATURE_PLUGIN_BUILD_DIR}, plugin.id, **served, params);
+        check_loading({ARMATURE_PLUGIN_BUILD_DIR}, plugin.id, **served, params, 100);
     for (const auto& [what, question] : report.violations) ADD_FAILURE() << what;
   });
 }

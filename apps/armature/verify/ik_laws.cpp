@@ -2,11 +2,13 @@
 #include <fmt/format.h>
 #include <sys/mman.h>
 
+#include <algorithm>
 #include <new>
 #include <stdexcept>
 
 #include "armature/kinds/ik/lines/asking.hpp"
 #include "armature/kinds/ik/verify/plugin_subject.hpp"
+#include "armature/robot/kinematics/locked_joints.hpp"
 #include "bench/allocations.hpp"
 #include "exit_code.hpp"
 #include "plugin_laws.hpp"
@@ -53,7 +55,7 @@ class IkLawsOfPlugin final : public PluginLaws {
  public:
   explicit IkLawsOfPlugin(const VerifiedPlugin& verified)
       : verified_{verified},
-        model_{std::make_shared<const RobotModel>(load_arm(verified.arm))},
+        model_{std::make_shared<const RobotModel>(without_locked_joints(load_arm(verified.arm)))},
         plugins_{verified.search_path},
         plugin_{*plugins_.find(verified.id)},
         params_{params_of(plugin_, verified.options.params)} {
@@ -74,7 +76,8 @@ class IkLawsOfPlugin final : public PluginLaws {
                       }});
     }
     runs.push_back({std::string{kIkLoadingLaw}, [this] {
-                      return check_loading(verified_.search_path, verified_.id, *model_, params_);
+                      return check_loading(verified_.search_path, verified_.id, *model_, params_,
+                                           std::clamp(verified_.options.poses, 100, 1000));
                     }});
     return runs;
   }

@@ -64,8 +64,8 @@ std::string wrong_promises(const PluginManifest& plugin) {
 }
 
 LawReport check_loading(const std::vector<std::filesystem::path>& search_path,
-                        std::string_view plugin_id, const RobotModel& model, const Params& params) {
-  constexpr int kCycles = 1000;
+                        std::string_view plugin_id, const RobotModel& model, const Params& params,
+                        int cycles) {
   constexpr double kBudget_s = 60;
   PluginRegistry plugins{search_path};
   const PluginManifest* plugin = plugins.find(plugin_id);
@@ -78,7 +78,7 @@ LawReport check_loading(const std::vector<std::filesystem::path>& search_path,
   const JointVector seed = resting_position(model);
   goal.pose.position = {0.1, 0.2, 0.3};
   if (!model.pointing_axis()) goal.pose.orientation = Eigen::Quaterniond::Identity();
-  const LeakCheck leaks = check_for_leaks(plugin->file, kCycles, kBudget_s, [&] {
+  const LeakCheck leaks = check_for_leaks(plugin->file, cycles, kBudget_s, [&] {
     const auto solver = plugins.make<IkSolver>(plugin_id, model, params);
     if (!solver) return;
     IkBranches found;
@@ -87,7 +87,7 @@ LawReport check_loading(const std::vector<std::filesystem::path>& search_path,
     ++report.questions;
   });
   report.note = fmt::format("{} times{}{}", leaks.cycles,
-                            leaks.cycles < kCycles ? ", as often as 60 s allow" : "",
+                            leaks.cycles < cycles ? ", as often as 60 s allow" : "",
                             kSanitized ? ", memory is not counted under a sanitizer" : "");
   if (const std::string fault = leaks.fault(); !fault.empty()) {
     report.failed = 1;

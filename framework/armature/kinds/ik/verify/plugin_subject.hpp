@@ -20,10 +20,11 @@ Expected<IkSubject> plugin_subject(PluginRegistry& plugins, const PluginManifest
 /// kind ik; did you mean 'all_branches'?"; empty when nothing is.
 std::string wrong_promises(const PluginManifest& plugin);
 
-/// The law of the library itself: loaded, asked once and unloaded 1000 times (fewer when that takes
-/// more than 60 s), the process is as it was.
+/// The law of the library itself: loaded, asked once and unloaded `cycles` times (fewer when that
+/// takes more than 60 s), the process is as it was.
 inline constexpr std::string_view kIkLoadingLaw = "loading leaves nothing behind";
 LawReport check_loading(const std::vector<std::filesystem::path>& search_path,
-                        std::string_view plugin_id, const RobotModel& model, const Params& params);
+                        std::string_view plugin_id, const RobotModel& model, const Params& params,
+                        int cycles);
 
 }  // namespace armature

@@ -30,8 +30,10 @@ RobotModel load_arm(const ArmChoice& arm) {
                                     config::did_you_mean(arm.tip, names)));
   }
   // The pointing axis is one of the tool frame; another tip is given as a full rotation.
-  return {robot.name(), robot.convention(), robot.joints(), robot.frames(),
-          *tip,         std::nullopt,       robot.home()};
+  RobotParts parts = robot.parts();
+  parts.tool = *tip;
+  parts.pointing_axis.reset();
+  return parts;
 }
 
 Params params_of(const PluginManifest& plugin, const std::string& given) {

@@ -69,6 +69,14 @@ TEST(MasterManipulator, SolversSelectorsAndTrajectoriesAreSwappedAndLimitsLowere
   }
 }
 
+/// A lift, a rail and a turn that stand still, with the tip where the arm alone has it.
+TEST(MasterManipulator, AFollowerOnAMobileBaseThatIsLockedDoesTheSame) {
+  const DeploymentRun run =
+      teleoperation({"robots.follower=" + source_file("configs/robots/med7_scope_mobile.yaml")});
+  expect_teleoperated(run);
+  EXPECT_LE(run.figure("incision_deviation_mm"), 0.2);
+}
+
 TEST(MasterManipulator, AnyHandsTremorIsTakenOut) {
   for (const char* seed : {"seed=2", "seed=3", "seed=4"}) {
     SCOPED_TRACE(seed);

@@ -15,6 +15,7 @@
 #include <system_error>
 
 #include "armature/kinds/ik/lines/answering.hpp"
+#include "armature/robot/kinematics/locked_joints.hpp"
 #include "armature/robot/model/robot_model.hpp"
 #include "armature/runtime/plugins/plugin_registry.hpp"
 #include "armature/runtime/plugins/running_component.hpp"
@@ -83,7 +84,8 @@ int run_ik(const ArmChoice& arm, const SolverChoice& choice, const std::string& 
   if (!plugin) throw InvalidChoice(plugins.unknown_text(choice.plugin));
   const Params params = params_of(*plugin, choice.params);
   name_crashing_components();
-  const auto solver = plugins.make<IkSolver>(choice.plugin, robot, params);
+  const RobotModel solver_model = without_locked_joints(robot);
+  const auto solver = plugins.make<IkSolver>(choice.plugin, solver_model, params);
   if (!solver) {
     throw InvalidChoice(
         fmt::format("{} refuses robot '{}': {}", choice.plugin, robot.name(), solver.error().text));

@@ -22,21 +22,19 @@ T value_of(Expected<T> result, const std::string& who) {
 }  // namespace
 
 RobotModel with_lengths(const Lengths& lengths) {
-  const RobotModel file = shipped_robot("sr1");
-  std::vector<Joint> joints = file.joints();
-  joints[0].d = lengths.d1;
-  joints[1].a = lengths.a1;
-  joints[3].a = lengths.a3;
-  const NamedFrame tool{"tool", 5, Eigen::Isometry3d{Eigen::Translation3d{0, 0, lengths.d6}}};
-  return {file.name(), file.convention(), std::move(joints), {tool}, FrameId{}, {}, file.home()};
+  RobotParts arm = shipped_robot("sr1").parts();
+  arm.joints[0].d = lengths.d1;
+  arm.joints[1].a = lengths.a1;
+  arm.joints[3].a = lengths.a3;
+  arm.frames = {{"tool", 5, Eigen::Isometry3d{Eigen::Translation3d{0, 0, lengths.d6}}}};
+  arm.tool = FrameId{};
+  return arm;
 }
 
 RobotModel without_limits() {
-  const RobotModel file = shipped_robot("sr1");
-  std::vector<Joint> joints = file.joints();
-  for (Joint& joint : joints) joint.lower = -1000, joint.upper = 1000;
-  return {file.name(), file.convention(),    std::move(joints), file.frames(),
-          file.tool(), file.pointing_axis(), file.home()};
+  RobotParts arm = shipped_robot("sr1").parts();
+  for (Joint& joint : arm.joints) joint.lower = -1000, joint.upper = 1000;
+  return arm;
 }
 
 Eigen::Matrix3d rotation_of(const Numbers& rows) {
@@ -69,6 +67,11 @@ std::vector<JointVector> Arm::chosen(const std::string& selector, const std::str
 
 std::vector<JointVector> Arm::chosen_by_minmax(const std::vector<IkBranches>& waypoints) {
   return chosen("select/minmax", "{first_move: free, one_branch: true}", waypoints);
+}
+
+std::vector<JointVector> Arm::chosen_by_inertia(const std::vector<IkBranches>& waypoints) {
+  return chosen("select/minmax", "{first_move: free, one_branch: true, move_size: inertia}",
+                waypoints);
 }
 
 std::vector<JointVector> Arm::chosen_by_nearest(const std::vector<IkBranches>& waypoints) {

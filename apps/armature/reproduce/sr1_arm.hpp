@@ -44,6 +44,8 @@ class Arm {
 
   /// The joints at every waypoint as select/minmax chooses them in configs/sr1_biopsy.yaml.
   std::vector<JointVector> chosen_by_minmax(const std::vector<IkBranches>& waypoints);
+  /// The same with `move_size: inertia`.
+  std::vector<JointVector> chosen_by_inertia(const std::vector<IkBranches>& waypoints);
   /// The same by select/nearest, which starts at home.
   std::vector<JointVector> chosen_by_nearest(const std::vector<IkBranches>& waypoints);
 

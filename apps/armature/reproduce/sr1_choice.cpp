@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "armature/robot/kinematics/joint_inertia.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
 #include "reproduce/results.hpp"
 #include "reproduce/sr1_arm.hpp"
@@ -81,6 +82,16 @@ double greatest_step(const RobotModel& model, const std::vector<JointVector>& jo
   return step;
 }
 
+/// The longest move between two waypoints, as the arm feels it [kg^1/2 m].
+double heaviest_move(const RobotModel& model, const std::vector<JointVector>& joints) {
+  double move = 0;
+  for (std::size_t k = 1; k < joints.size(); ++k) {
+    const JointVector way = joints[k] - joints[k - 1];
+    move = worst(move, std::sqrt(way.dot(joint_inertia(model, joints[k]) * way)));
+  }
+  return move;
+}
+
 /// How far the path stays from the singular sets.
 struct Dexterity {
   double manipulability = std::numeric_limits<double>::infinity();
@@ -148,6 +159,11 @@ void add_choice(const Numbers& numbers, Results& results) {
   results.value(table, "nearest within limits", greatest(ratios_of(nearest)));
   results.value(table, "min-max without limits", greatest(ratios_of(free_minmax)));
   results.value(table, "nearest without limits", greatest(ratios_of(free_nearest)));
+  const std::vector<JointVector> free_lightest = free.chosen_by_inertia(free_waypoints);
+  results.value(table, "min-max by inertia without limits", greatest(ratios_of(free_lightest)));
+  results.value(
+      table, "heaviest move without limits, by inertia over by time",
+      heaviest_move(limited.model(), free_lightest) / heaviest_move(limited.model(), free_minmax));
   results.curve("speed_ratios", 0, "select/minmax within limits", time, ratios_of(minmax),
                 Results::Look::dots);
   results.curve("speed_ratios", 0, "select/minmax without limits", time, ratios_of(free_minmax),

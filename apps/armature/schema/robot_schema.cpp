@@ -89,6 +89,8 @@ Json robot_schema() {
       map_schema(properties["shaft"]["description"].get<std::string>(), std::move(shaft));
   properties["capsules"] = names_schema(properties["capsules"]["description"].get<std::string>(),
                                         map_schema("", properties_of(capsule_keys())));
+  properties["masses"] = names_schema(properties["masses"]["description"].get<std::string>(),
+                                      map_schema("", properties_of(mass_keys())));
   Json schema = file_schema("Armature robot", "A robot file of Armature.", std::move(properties));
   schema["allOf"] = Json::array({sort_rule()});
   return schema;

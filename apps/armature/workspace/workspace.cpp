@@ -12,6 +12,7 @@
 
 #include "armature/plot/chart.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
+#include "armature/robot/kinematics/locked_joints.hpp"
 #include "armature/runtime/plugins/plugin_registry.hpp"
 #include "armature/runtime/plugins/running_component.hpp"
 #include "armature/runtime/reporting/write_atomically.hpp"
@@ -69,7 +70,8 @@ Workspace workspace_of(const RobotModel& robot, const RemoteCentre& centre,
   if (!plugin) throw InvalidChoice(plugins.unknown_text(id));
   const Params params = params_of(*plugin, options.solver.params);
   name_crashing_components();
-  const auto solver = plugins.make<IkSolver>(id, robot, params);
+  const RobotModel solver_model = without_locked_joints(robot);
+  const auto solver = plugins.make<IkSolver>(id, solver_model, params);
   if (!solver) {
     throw InvalidChoice(
         fmt::format("{} refuses robot '{}': {}", id, robot.name(), solver.error().text));

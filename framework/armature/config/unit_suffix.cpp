@@ -27,13 +27,14 @@ constexpr std::array kUnits{
     UnitSuffix{"rad_s3", 1, "rad_s3"}, UnitSuffix{"deg_s3", kDegree, "rad_s3"},
     UnitSuffix{"s", 1, "s"},           UnitSuffix{"ms", kMilli, "s"},
     UnitSuffix{"hz", 1, "hz"},         UnitSuffix{"px", 1, "px"},
-    UnitSuffix{"db", 1, "db"},
+    UnitSuffix{"db", 1, "db"},         UnitSuffix{"kg", 1, "kg"},
+    UnitSuffix{"kg_m2", 1, "kg_m2"},
 };
 
 /// Words that are part of a unit, whether it is read here or not.
-constexpr std::array<std::string_view, 25> kUnitWords{
-    "m",  "mm",  "cm",  "km",  "um",   "inch", "s",  "s2",  "s3",  "ms", "us", "ns", "min",
-    "hz", "khz", "mhz", "rad", "mrad", "deg",  "px", "rpm", "rps", "kg", "nm", "db"};
+constexpr std::array<std::string_view, 26> kUnitWords{
+    "m",   "m2", "mm",  "cm",  "km",  "um",   "inch", "s",  "s2",  "s3",  "ms", "us", "ns",
+    "min", "hz", "khz", "mhz", "rad", "mrad", "deg",  "px", "rpm", "rps", "kg", "nm", "db"};
 
 bool is_unit_word(std::string_view word) {
   return std::ranges::find(kUnitWords, word) != kUnitWords.end();

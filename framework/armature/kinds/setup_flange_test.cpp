@@ -11,13 +11,13 @@ namespace {
 RobotModel robot_with(std::vector<NamedFrame> frames, int tool) {
   Joint first{.name = "a", .coupling = {}, .placement = {}};
   Joint second{.name = "b", .a = 0.3, .coupling = {}, .placement = {}};
-  return RobotModel{"stick",
-                    RobotModel::Convention::standard,
-                    {first, second},
-                    std::move(frames),
-                    FrameId{tool},
-                    {},
-                    {}};
+  return RobotModel{{"stick",
+                     RobotModel::Convention::standard,
+                     {first, second},
+                     std::move(frames),
+                     FrameId{tool},
+                     {},
+                     {}}};
 }
 
 std::string refusal_of(const RobotModel& robot) {

@@ -31,8 +31,8 @@ inline RobotModel gantry() {
   std::vector<Joint> joints{joint("z", 0, -kQuarterTurn), joint("y", kQuarterTurn, kQuarterTurn),
                             joint("x", 0, 0)};
   std::vector<NamedFrame> frames{{.name = "tool", .parent_joint = 2}};
-  return RobotModel{"gantry",   RobotModel::Convention::standard, joints,      frames,
-                    FrameId{0}, Eigen::Vector3d::UnitZ(),         std::nullopt};
+  return RobotModel{{"gantry", RobotModel::Convention::standard, joints, frames, FrameId{0},
+                     Eigen::Vector3d::UnitZ(), std::nullopt}};
 }
 
 /// Throws when it is told to.

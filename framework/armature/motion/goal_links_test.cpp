@@ -16,11 +16,9 @@ constexpr Time kGoStart{1'000'000'000};
 /// The gantry with a ball of 50 mm about its tool.
 Gantry with_body() {
   Gantry gantry;
-  const RobotModel bare = gantry.model;
-  gantry.model =
-      RobotModel{bare.name(),   bare.convention(), bare.joints(),
-                 bare.frames(), bare.tool(),       bare.pointing_axis(),
-                 bare.home(),   bare.shaft(),      {{"carriage", 2, {0, 0, 0}, {0, 0, 0}, 0.05}}};
+  RobotParts parts = gantry.model.parts();
+  parts.capsules = {{"carriage", 2, {0, 0, 0}, {0, 0, 0}, 0.05}};
+  gantry.model = parts;
   return gantry;
 }
 

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <optional>
 #include <string>
-#include <vector>
+#include <utility>
 
 namespace armature {
 namespace {
@@ -38,9 +38,10 @@ std::optional<std::string> home_outside(const RobotModel& narrow) {
 }  // namespace
 
 Expected<RobotModel> narrowed(const RobotModel& model, const JointBound& margin) {
-  std::vector<Joint> joints = model.joints();
+  RobotParts parts = model.parts();
   bool any_turns = false, any_slides = false;
-  for (Joint& joint : joints) {
+  for (Joint& joint : parts.joints) {
+    if (joint.locked) continue;
     (turns(joint) ? any_turns : any_slides) = true;
     const double range = joint.upper - joint.lower;
     const double each = turns(joint) ? margin.turning_rad : margin.sliding_m;
@@ -60,9 +61,7 @@ Expected<RobotModel> narrowed(const RobotModel& model, const JointBound& margin)
     return refuse(
         fmt::format("a margin for joints that slide, and robot {} has none", model.name()));
   }
-  RobotModel narrow{model.name(),   model.convention(), joints,
-                    model.frames(), model.tool(),       model.pointing_axis(),
-                    model.home(),   model.shaft(),      model.capsules()};
+  RobotModel narrow{std::move(parts)};
   if (auto defect = home_outside(narrow)) return refuse(*defect);
   return narrow;
 }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "armature/motion/limit_margin.hpp"
+#include "armature/robot/kinematics/locked_joints.hpp"
 #include "armature/runtime/component/setup.hpp"
 
 namespace armature {
@@ -76,13 +77,13 @@ MotionLimits limits_of(const Params& params, const RobotModel& model) {
           max_jerk_of(parameters, model)};
 }
 
-/// The robot as the solver has it.
+/// The robot as the solver has it: narrower, and without what is locked.
 RobotModel solver_model_of(const Params& params, const RobotModel& model) {
   const auto parameters = Parameters::read(params);
   auto narrow = narrowed(
       model, {.turning_rad = parameters.limit_margin_rad, .sliding_m = parameters.limit_margin_m});
   if (!narrow) params.refuse({"limit_margin_deg", "limit_margin_mm"}, narrow.error().text);
-  return std::move(*narrow);
+  return without_locked_joints(*narrow);
 }
 
 PlanningOptions planning_of(const Parameters& parameters) {

@@ -59,9 +59,8 @@ RobotModel with_shaft(const char* file) {
     const double room = 0.3 * (arm.upper()[i] - arm.lower()[i]);
     home[i] = std::clamp(home[i], arm.lower()[i] + room, arm.upper()[i] - room);
   }
-  return {
-      arm.name(), arm.convention(), arm.joints(), arm.frames(),
-      arm.tool(), std::nullopt,     home,         Shaft{.axis = Vector3d{0, 0, 1}, .length = 0.28}};
+  return {{arm.name(), arm.convention(), arm.joints(), arm.frames(), arm.tool(), std::nullopt, home,
+           Shaft{.axis = Vector3d{0, 0, 1}, .length = 0.28}}};
 }
 
 /// An arm whose shaft is in an incision, step by step as motion drives it. Every step asserts that

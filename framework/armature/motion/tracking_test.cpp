@@ -154,10 +154,13 @@ TEST(Tracking, MeetsATargetThatTurnsWithItsAngularVelocity) {
   joint.upper = 3;
   joint.max_velocity = 2;
   joint.max_acceleration = 20;
-  const RobotModel turntable{"turntable", RobotModel::Convention::standard,
-                             {joint},     {{.name = "tool", .parent_joint = 0}},
-                             FrameId{0},  Eigen::Vector3d::UnitX(),
-                             std::nullopt};
+  const RobotModel turntable{{"turntable",
+                              RobotModel::Convention::standard,
+                              {joint},
+                              {{.name = "tool", .parent_joint = 0}},
+                              FrameId{0},
+                              Eigen::Vector3d::UnitX(),
+                              std::nullopt}};
   const TurntableIk ik;
   const Tracker tracker{
       turntable, {turntable.max_velocity(), turntable.max_acceleration()}, ik, kHorizon};

@@ -19,10 +19,13 @@ RobotModel one_joint() {
   joint.upper = 1;
   joint.max_velocity = 2.5;
   joint.max_acceleration = 8;
-  return {"one_joint", RobotModel::Convention::standard,
-          {joint},     {{.name = "tool", .parent_joint = 0}},
-          FrameId{0},  std::nullopt,
-          std::nullopt};
+  return {{"one_joint",
+           RobotModel::Convention::standard,
+           {joint},
+           {{.name = "tool", .parent_joint = 0}},
+           FrameId{0},
+           std::nullopt,
+           std::nullopt}};
 }
 
 JointVector value(double v) { return JointVector::Constant(1, v); }

@@ -64,9 +64,13 @@ TEST(KdlRefuses, CoupledJointsDirectionsAndJointsBehindTheTool) {
             "KDL knows no coupled joints");
   EXPECT_EQ(refusal(*robot("sr1_needle")), "KDL solves for rotations, not for directions");
   const ModelPtr sr1 = robot("sr1");
-  const RobotModel short_of{
-      sr1->name(), sr1->convention(), sr1->joints(), {{"tool", 4, Eigen::Isometry3d::Identity()}},
-      FrameId{0},  std::nullopt,      std::nullopt};
+  const RobotModel short_of{{sr1->name(),
+                             sr1->convention(),
+                             sr1->joints(),
+                             {{"tool", 4, Eigen::Isometry3d::Identity()}},
+                             FrameId{0},
+                             std::nullopt,
+                             std::nullopt}};
   EXPECT_EQ(refusal(short_of), "its tool must hang on the last joint");
 }
 

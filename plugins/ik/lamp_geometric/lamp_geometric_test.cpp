@@ -20,11 +20,11 @@ std::shared_ptr<const RobotModel> lamp() {
 /// The lamp with some joints changed.
 template <class Change>
 RobotModel changed_lamp(Change change) {
-  auto joints = lamp()->joints();
-  auto frames = lamp()->frames();
-  change(joints, frames);
-  return {"changed",      lamp()->convention(),    joints, frames,
-          lamp()->tool(), lamp()->pointing_axis(), {}};
+  RobotParts parts = lamp()->parts();
+  parts.name = "changed";
+  parts.home.reset();
+  change(parts.joints, parts.frames);
+  return parts;
 }
 
 std::shared_ptr<const IkSolver> solver_for(const RobotModel& model) {

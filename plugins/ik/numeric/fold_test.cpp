@@ -27,13 +27,13 @@ RobotModel limb() {
                       .max_acceleration = 1,
                       .coupling = {}});
   }
-  return {"limb",
-          RobotModel::Convention::standard,
-          std::move(joints),
-          {{"tool", 6, Eigen::Isometry3d::Identity()}},
-          FrameId{0},
-          {},
-          {}};
+  return {{"limb",
+           RobotModel::Convention::standard,
+           std::move(joints),
+           {{"tool", 6, Eigen::Isometry3d::Identity()}},
+           FrameId{0},
+           {},
+           {}}};
 }
 
 const JointVector kStretched = Eigen::Matrix<double, 7, 1>{0.3, 0.8, 0, 0, 0, 0.9, 0.5};
@@ -80,10 +80,13 @@ TEST(FoldStep, IsNoneForAGoalThatAnArmReachesByBendingMore) {
 TEST(FoldStep, IsNoneForAnArmWithFewerJointsThanTheGoalHasRows) {
   auto joints = limb().joints();
   joints.resize(5);
-  const RobotModel model{"short",    RobotModel::Convention::standard,
-                         joints,     {{"tool", 4, Eigen::Isometry3d::Identity()}},
-                         FrameId{0}, {},
-                         {}};
+  const RobotModel model{{"short",
+                          RobotModel::Convention::standard,
+                          joints,
+                          {{"tool", 4, Eigen::Isometry3d::Identity()}},
+                          FrameId{0},
+                          {},
+                          {}}};
   const JointVector q = JointVector::Constant(5, 0.3);
   EXPECT_FALSE(fold_step(model, pose_goal_of(model, q), 0, q.array() + 0.01));
 }

@@ -39,13 +39,13 @@ class RandomArms {
       joints.back().type = joints[static_cast<std::size_t>(to)].type;
       joints.back().lower = -kNone, joints.back().upper = kNone;
     }
-    return {"random",
-            RobotModel::Convention::standard,
-            std::move(joints),
-            {{"tool", count - 1, Eigen::Isometry3d::Identity()}},
-            FrameId{0},
-            {},
-            {}};
+    return {{"random",
+             RobotModel::Convention::standard,
+             std::move(joints),
+             {{"tool", count - 1, Eigen::Isometry3d::Identity()}},
+             FrameId{0},
+             {},
+             {}}};
   }
 
   /// Joints within limits, half of those that have limits at one of them.
@@ -155,13 +155,13 @@ RobotModel industrial_arm_on(Joint first) {
                       .max_acceleration = 1,
                       .coupling = {}});
   }
-  return {"on_first",
-          RobotModel::Convention::standard,
-          std::move(joints),
-          {{"tool", 6, Eigen::Isometry3d::Identity()}},
-          FrameId{0},
-          {},
-          {}};
+  return {{"on_first",
+           RobotModel::Convention::standard,
+           std::move(joints),
+           {{"tool", 6, Eigen::Isometry3d::Identity()}},
+           FrameId{0},
+           {},
+           {}}};
 }
 
 TEST(Numeric, FindsWhatAnArmReachesOfWhichOneJointFollowsAnEndlessOneByHalfItsAngle) {
@@ -170,10 +170,13 @@ TEST(Numeric, FindsWhatAnArmReachesOfWhichOneJointFollowsAnEndlessOneByHalfItsAn
   std::vector<Joint> joints = uncoupled.joints();
   joints[6].coupling = Joint::Coupling{.to = 0, .ratio = 0.5, .offset = 0};
   joints[6].lower = -kNone, joints[6].upper = kNone;
-  const RobotModel model{"half",     RobotModel::Convention::standard,
-                         joints,     {{"tool", 6, Eigen::Isometry3d::Identity()}},
-                         FrameId{0}, {},
-                         {}};
+  const RobotModel model{{"half",
+                          RobotModel::Convention::standard,
+                          joints,
+                          {{"tool", 6, Eigen::Isometry3d::Identity()}},
+                          FrameId{0},
+                          {},
+                          {}}};
   RandomArms arms{2};
   Count count;
   ask(arms, model, 1000, 5000, count);

@@ -22,8 +22,8 @@ RobotModel robot(const std::string& name) {
 /// The SR-1 whose sixth joint turns the needle, for goals that leave that turn free.
 RobotModel pointing_sr1() {
   const RobotModel sr1 = robot("sr1");
-  return {sr1.name(), sr1.convention(),         sr1.joints(), sr1.frames(),
-          sr1.tool(), Eigen::Vector3d::UnitZ(), sr1.home()};
+  return {{sr1.name(), sr1.convention(), sr1.joints(), sr1.frames(), sr1.tool(),
+           Eigen::Vector3d::UnitZ(), sr1.home()}};
 }
 
 class NumericRedundancy : public testing::Test {

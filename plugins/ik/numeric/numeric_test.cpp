@@ -29,13 +29,13 @@ RobotModel arm(std::string name, const std::vector<Row>& rows,
                       .coupling = {}});
   }
   const int last = static_cast<int>(joints.size()) - 1;
-  return {std::move(name),
-          convention,
-          std::move(joints),
-          {{"tool", last, Eigen::Isometry3d::Identity()}},
-          FrameId{0},
-          {},
-          {}};
+  return {{std::move(name),
+           convention,
+           std::move(joints),
+           {{"tool", last, Eigen::Isometry3d::Identity()}},
+           FrameId{0},
+           {},
+           {}}};
 }
 
 /// PUMA 560.
@@ -69,10 +69,13 @@ RobotModel gantry() {
   joints[0].type = Joint::Type::prismatic;
   joints[0].lower = 0.2, joints[0].upper = 0.8;
   joints[5].coupling = Joint::Coupling{.to = 1, .ratio = 0.5, .offset = 0.1};
-  return {"gantry",   RobotModel::Convention::modified,
-          joints,     {{"tool", 5, Eigen::Isometry3d{Eigen::Translation3d{0, 0, 0.1}}}},
-          FrameId{0}, Eigen::Vector3d{0, 0.6, 0.8},
-          {}};
+  return {{"gantry",
+           RobotModel::Convention::modified,
+           joints,
+           {{"tool", 5, Eigen::Isometry3d{Eigen::Translation3d{0, 0, 0.1}}}},
+           FrameId{0},
+           Eigen::Vector3d{0, 0.6, 0.8},
+           {}}};
 }
 /// Seven joints, two of them elbows: stretched, the rim hardly bends along the turn of the nearly
 /// straight wrist within itself.
@@ -100,13 +103,13 @@ RobotModel askew() {
                               RobotModel::Convention::modified);
   const Eigen::Isometry3d tool =
       Eigen::Translation3d{0, -0.01, 0.15} * Eigen::AngleAxisd{0.3, Eigen::Vector3d::UnitX()};
-  return {"askew",
-          base.convention(),
-          base.joints(),
-          {{"tool", 5, tool}},
-          FrameId{0},
-          Eigen::Vector3d::UnitZ(),
-          {}};
+  return {{"askew",
+           base.convention(),
+           base.joints(),
+           {{"tool", 5, tool}},
+           FrameId{0},
+           Eigen::Vector3d::UnitZ(),
+           {}}};
 }
 RobotModel lamp() {
   return load_robot_model(ARMATURE_SOURCE_DIR "/configs/robots/dental_lamp.yaml");
@@ -163,7 +166,8 @@ TEST(Numeric, AGoalThatOnlySolutionsBeyondTheLimitsReachIsAJointLimit) {
   RobotModel wide = puma();
   auto joints = wide.joints();
   joints[0].lower = -0.1, joints[0].upper = 0.1;
-  const RobotModel narrow{"narrow", wide.convention(), joints, wide.frames(), wide.tool(), {}, {}};
+  const RobotModel narrow{
+      {"narrow", wide.convention(), joints, wide.frames(), wide.tool(), {}, {}}};
   const JointVector q = Eigen::Matrix<double, 6, 1>{1.2, -0.6, 0.9, 0.4, 0.7, -0.2};
   IkBranches found;
   IkState state;

@@ -24,13 +24,13 @@ inline RobotModel gantry() {
     joint.max_velocity = joint.max_acceleration = 1;
     return joint;
   };
-  return {"gantry",
-          RobotModel::Convention::standard,
-          {slide("z", 0, -kQuarterTurn), slide("y", kQuarterTurn, kQuarterTurn), slide("x", 0, 0)},
-          {{.name = "tool", .parent_joint = 2}},
-          FrameId{0},
-          Eigen::Vector3d::UnitZ(),
-          std::nullopt};
+  return {{"gantry",
+           RobotModel::Convention::standard,
+           {slide("z", 0, -kQuarterTurn), slide("y", kQuarterTurn, kQuarterTurn), slide("x", 0, 0)},
+           {{.name = "tool", .parent_joint = 2}},
+           FrameId{0},
+           Eigen::Vector3d::UnitZ(),
+           std::nullopt}};
 }
 
 inline IkGoal at(double x, double y, double z) {

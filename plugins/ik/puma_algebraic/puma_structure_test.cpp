@@ -117,8 +117,13 @@ TEST_F(PumaStructure, TheFirstMismatchIsNamed) {
 }
 
 TEST_F(PumaStructure, AToolThatDoesNotHangOnTheLastJointIsRefused) {
-  const RobotModel model{"arm",     sr1()->convention(), sr1()->joints(), {{"tool", 4, {}}},
-                         FrameId{}, std::nullopt,        std::nullopt};
+  const RobotModel model{{"arm",
+                          sr1()->convention(),
+                          sr1()->joints(),
+                          {{"tool", 4, {}}},
+                          FrameId{},
+                          std::nullopt,
+                          std::nullopt}};
   EXPECT_EQ(puma_arm(model).error().text,
             "not a PUMA-pattern arm: its tool must hang on joint 'j6'");
   EXPECT_FALSE(PumaAlgebraic::make(model, Params{}));

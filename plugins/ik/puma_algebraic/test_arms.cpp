@@ -20,9 +20,9 @@ ModelPtr robot(const std::string& name) {
 }
 
 ModelPtr with_axis(const RobotModel& model, std::optional<Eigen::Vector3d> axis) {
-  return std::make_shared<const RobotModel>(model.name(), model.convention(), model.joints(),
-                                            model.frames(), model.tool(), std::move(axis),
-                                            model.home());
+  RobotParts parts = model.parts();
+  parts.pointing_axis = std::move(axis);
+  return std::make_shared<const RobotModel>(std::move(parts));
 }
 
 /// Rows {theta, d, a, alpha} in degrees and metres.
@@ -114,9 +114,11 @@ ModelPtr random_arm(std::mt19937_64& random) {
 ModelPtr arm_of(RobotModel::Convention convention, std::vector<Joint> joints,
                 const Eigen::Isometry3d& last_T_tool, std::optional<Eigen::Vector3d> axis) {
   const int last = static_cast<int>(joints.size()) - 1;
-  return std::make_shared<const RobotModel>("arm", convention, std::move(joints),
-                                            std::vector<NamedFrame>{{"tool", last, last_T_tool}},
-                                            FrameId{}, std::move(axis), std::nullopt);
+  return std::make_shared<const RobotModel>(RobotParts{.name = "arm",
+                                                       .convention = convention,
+                                                       .joints = std::move(joints),
+                                                       .frames = {{"tool", last, last_T_tool}},
+                                                       .pointing_axis = std::move(axis)});
 }
 
 std::shared_ptr<const IkSolver> solver_for(const RobotModel& model) {

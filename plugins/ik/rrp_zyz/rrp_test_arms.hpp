@@ -20,12 +20,12 @@ inline std::shared_ptr<const RobotModel> master() {
 /// The master manipulator with some of its joints or its tool changed.
 template <class Change>
 std::shared_ptr<const RobotModel> changed_master(Change change) {
-  auto joints = master()->joints();
-  Eigen::Isometry3d tool = Eigen::Isometry3d::Identity();
-  change(joints, tool);
-  return std::make_shared<const RobotModel>("changed", master()->convention(), joints,
-                                            std::vector<NamedFrame>{{"tool", 5, tool}}, FrameId{0},
-                                            std::nullopt, std::nullopt);
+  RobotParts parts{.name = "changed",
+                   .convention = master()->convention(),
+                   .joints = master()->joints(),
+                   .frames = {{"tool", 5, Eigen::Isometry3d::Identity()}}};
+  change(parts.joints, parts.frames.front().parent_T_frame);
+  return std::make_shared<const RobotModel>(std::move(parts));
 }
 
 inline void turn_all_the_way(std::vector<Joint>& joints) {

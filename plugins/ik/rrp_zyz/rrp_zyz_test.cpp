@@ -124,7 +124,7 @@ TEST(RrpStructure, TheFirstMismatchIsNamed) {
   const RobotModel& m = *master();
   const auto made = [&](RobotModel::Convention convention, std::vector<NamedFrame> frames,
                         std::optional<Eigen::Vector3d> axis) {
-    const RobotModel other{"other", convention, m.joints(), frames, FrameId{0}, axis, {}};
+    const RobotModel other{{"other", convention, m.joints(), frames, FrameId{0}, axis, {}}};
     return RrpZyz::make(other, Params{}).error().text;
   };
   EXPECT_EQ(made(RobotModel::Convention::standard, m.frames(), {}),

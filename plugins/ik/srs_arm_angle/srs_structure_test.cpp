@@ -104,13 +104,13 @@ TEST(SrsStructure, TheFirstMismatchIsNamed) {
 
 TEST(SrsStructure, AToolElsewhereOrAPointingAxisIsRefused) {
   const auto refused = [](int parent, std::optional<Eigen::Vector3d> axis) {
-    const RobotModel other{"other",
-                           med7()->convention(),
-                           med7()->joints(),
-                           {{"tool", parent, Eigen::Isometry3d::Identity()}},
-                           FrameId{0},
-                           axis,
-                           {}};
+    const RobotModel other{{"other",
+                            med7()->convention(),
+                            med7()->joints(),
+                            {{"tool", parent, Eigen::Isometry3d::Identity()}},
+                            FrameId{0},
+                            axis,
+                            {}}};
     return srs_arm(other).error().text;
   };
   EXPECT_EQ(refused(5, {}), "not an S-R-S arm: its tool must hang on joint 'j7'");

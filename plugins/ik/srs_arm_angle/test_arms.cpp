@@ -18,7 +18,7 @@ constexpr double kPi = std::numbers::pi, kDegree = kPi / 180;
 
 RobotModel arm_of(RobotModel::Convention convention, std::vector<Joint> joints,
                   const Eigen::Isometry3d& last_T_tool) {
-  return {"arm", convention, std::move(joints), {{"tool", 6, last_T_tool}}, FrameId{}, {}, {}};
+  return {{"arm", convention, std::move(joints), {{"tool", 6, last_T_tool}}, FrameId{}, {}, {}}};
 }
 
 /// Rows {theta, d, a, alpha} in degrees and metres.

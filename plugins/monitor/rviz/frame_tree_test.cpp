@@ -94,7 +94,7 @@ RobotModel robot_with_links(const std::vector<NamedFrame>& links) {
   std::vector<Joint> joints(2);
   joints[0].name = "link1", joints[0].a = 0.3;
   joints[1].name = "wrist", joints[1].a = 0.2;
-  return {"urdf", Convention::modified, joints, links, FrameId{0}, std::nullopt, std::nullopt};
+  return {{"urdf", Convention::modified, joints, links, FrameId{0}, std::nullopt, std::nullopt}};
 }
 
 TEST(FrameTree, LeavesALinkThatIsCalledAsAJointItsName) {
@@ -159,14 +159,14 @@ TEST(FrameTree, RefusesNamesThatTf2CannotTake) {
             "'/left/' begins with '/', which no tf2 frame may");
   EXPECT_EQ(reason(lamp, {.world_frame = "tool"}), "two frames would be called 'tool'");
   EXPECT_EQ(reason(lamp, {.world_frame = "base"}), "two frames would be called 'base'");
-  const RobotModel camera_robot{"r",
-                                Convention::standard,
-                                lamp.joints(),
-                                {{"tool", 5, Eigen::Isometry3d::Identity()},
-                                 {"left_camera_optical", 5, Eigen::Isometry3d::Identity()}},
-                                FrameId{0},
-                                std::nullopt,
-                                std::nullopt};
+  const RobotModel camera_robot{{"r",
+                                 Convention::standard,
+                                 lamp.joints(),
+                                 {{"tool", 5, Eigen::Isometry3d::Identity()},
+                                  {"left_camera_optical", 5, Eigen::Isometry3d::Identity()}},
+                                 FrameId{0},
+                                 std::nullopt,
+                                 std::nullopt}};
   EXPECT_EQ(reason(camera_robot, {}), "two frames would be called 'left_camera_optical'");
 }
 

@@ -15,7 +15,7 @@ RobotModel arm_of(const std::string& first, const std::string& second) {
   Joint turns{.name = first, .type = Joint::Type::revolute};
   Joint slides{.name = second, .type = Joint::Type::prismatic};
   const NamedFrame tool{.name = "tool", .parent_joint = 1};
-  return {"two", RobotModel::Convention::standard, {turns, slides}, {tool}, FrameId{0}, {}, {}};
+  return {{"two", RobotModel::Convention::standard, {turns, slides}, {tool}, FrameId{0}, {}, {}}};
 }
 
 JointVector two(double a, double b) { return Eigen::Vector2d{a, b}; }

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <random>
 
+#include "armature/robot/kinematics/joint_inertia.hpp"
 #include "min_path.hpp"
 #include "test_robots.hpp"
 
@@ -47,6 +48,7 @@ class Cases {
     Case made{
         .model = below(2) == 0 ? crane() : winder(), .rules = {}, .start = {}, .solutions = {}};
     if (below(3) == 0) made.rules.first_move = Parameters::FirstMove::free;
+    if (below(3) == 0) made.rules.move_size = Parameters::MoveSize::inertia;
     made.rules.one_branch = below(4) == 0;
     if (below(4) == 0) made.rules.jump_limit = between(1, 5);
     made.start = posture(made.model);
@@ -82,6 +84,12 @@ class Cases {
   std::mt19937_64 random_;
 };
 
+/// The length of a move as the arm feels it where it ends.
+double length(const RobotModel& model, const JointVector& from, const JointVector& to) {
+  const JointVector way = to - from;
+  return std::sqrt(way.dot(joint_inertia(model, to) * way));
+}
+
 /// Nothing when the rules forbid one of its moves. Says again what a move is, in its own words.
 std::optional<Choice> followed(const Case& given, std::vector<std::size_t> branch) {
   Choice choice{.branch = std::move(branch), .path = {}};
@@ -91,19 +99,20 @@ std::optional<Choice> followed(const Case& given, std::vector<std::size_t> branc
     JointVector next = to.q;
     unwind(given.model, q, next);
     const bool counts = k > 0 || given.rules.first_move == Parameters::FirstMove::counts;
-    double time_s = 0;
+    double size = 0;
     for (int i = 0; i < q.size(); ++i) {
       const double way = std::abs(next[i] - q[i]);
-      time_s = std::max(time_s, way / given.model.max_velocity()[i]);
+      size = std::max(size, way / given.model.max_velocity()[i]);
       const bool limited = given.rules.jump_limit > 0 && counts && given.model.is_revolute(i);
       if (limited && way > given.rules.jump_limit + 1e-9) return std::nullopt;
     }
+    if (given.rules.move_size == Parameters::MoveSize::inertia) size = length(given.model, q, next);
     if (k > 0 && given.rules.one_branch) {
       const IkBranch& from = given.solutions[k - 1].branch[choice.branch[k - 1]];
       if (from.label != to.label) return std::nullopt;
     }
-    if (counts) choice.greatest = std::max(choice.greatest, time_s);
-    choice.sum += time_s;
+    if (counts) choice.greatest = std::max(choice.greatest, size);
+    choice.sum += size;
     choice.path.push_back(next);
     q = next;
   }
@@ -129,7 +138,7 @@ const Choice* best_of(std::vector<Choice>& all) {
   if (all.empty()) return nullptr;
   const auto keep_least = [&](double Choice::*figure) {
     const double least = (*std::ranges::min_element(all, {}, figure)).*figure;
-    std::erase_if(all, [&](const Choice& choice) { return choice.*figure > least + kEqual_s; });
+    std::erase_if(all, [&](const Choice& choice) { return choice.*figure > least + kEqual; });
   };
   keep_least(&Choice::greatest);
   keep_least(&Choice::sum);
@@ -157,10 +166,10 @@ TEST(MinMaxExactness, NoChoiceThatCanBeMadeIsBetter) {
       ++refused;
       continue;
     }
-    ASSERT_NEAR(greatest.least(), best->greatest, kEqual_s);
-    const LeastPath search{moves, waypoints, Measure::sum, greatest.least() + kEqual_s};
+    ASSERT_NEAR(greatest.least(), best->greatest, kEqual);
+    const LeastPath search{moves, waypoints, Measure::sum, greatest.least() + kEqual};
     const auto sum = search.from(given.start);
-    ASSERT_NEAR(sum.least(), best->sum, kEqual_s);
+    ASSERT_NEAR(sum.least(), best->sum, kEqual);
     ASSERT_EQ(search.first_of(sum), best->path);
     ++chosen;
     if (all.size() > 1) ++ties;

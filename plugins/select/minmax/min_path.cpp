@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
-
 #include "min_path.hpp"
+
+#include <algorithm>
 
 namespace armature::select::minmax {
 namespace {
@@ -21,9 +21,9 @@ double Layers::least() const {
   return std::ranges::min_element(of.back(), {}, &Place::so_far)->so_far;
 }
 
-double LeastPath::joined(double so_far, double time_s, bool counts) const {
-  if (measure_ == Measure::sum) return so_far + time_s;
-  return counts ? std::max(so_far, time_s) : so_far;
+double LeastPath::joined(double so_far, double size, bool counts) const {
+  if (measure_ == Measure::sum) return so_far + size;
+  return counts ? std::max(so_far, size) : so_far;
 }
 
 /// For every branch of every waypoint the least that the moves behind it can come to.
@@ -39,8 +39,8 @@ LeastPath::Bounds LeastPath::bounds() const {
     for (const IkBranch* branch : branches) {
       double least = kNever;
       for (std::size_t b = 0; b < nexts.size(); ++b) {
-        const double time_s = moves_->min_time(*branch, *nexts[b]);
-        if (allowed(time_s, true)) least = std::min(least, joined(ahead[k + 1][b], time_s, true));
+        const double size = moves_->min_size(*branch, *nexts[b]);
+        if (allowed(size, true)) least = std::min(least, joined(ahead[k + 1][b], size, true));
       }
       ahead[k].push_back(least);
     }
@@ -58,8 +58,8 @@ double LeastPath::some_path(const JointVector& start, const Bounds& ahead) const
     for (std::size_t b = 0; b < (*waypoints_)[k].size(); ++b) {
       const IkBranch* branch = (*waypoints_)[k][b];
       const auto move = moves_->between(here.at, *branch);
-      if (!move || !allowed(move->time_s, move->counts)) continue;
-      const double so_far = joined(here.so_far, move->time_s, move->counts);
+      if (!move || !allowed(move->size, move->counts)) continue;
+      const double so_far = joined(here.so_far, move->size, move->counts);
       const double promise = joined(so_far, ahead[k][b], true);
       if (promise < least) best = {{move->q, branch}, so_far}, least = promise;
     }
@@ -76,8 +76,8 @@ std::vector<Place> LeastPath::next(const std::vector<Place>& places, std::size_t
     for (std::size_t b = 0; b < (*waypoints_)[waypoint].size(); ++b) {
       const IkBranch* branch = (*waypoints_)[waypoint][b];
       const auto move = moves_->between(place.at, *branch);
-      if (!move || !allowed(move->time_s, move->counts)) continue;
-      const double so_far = joined(place.so_far, move->time_s, move->counts);
+      if (!move || !allowed(move->size, move->counts)) continue;
+      const double so_far = joined(place.so_far, move->size, move->counts);
       if (joined(so_far, ahead[waypoint][b], true) > bound) continue;
       if (Place* known = find(reached, branch, move->q)) {
         known->so_far = std::min(known->so_far, so_far);
@@ -91,7 +91,7 @@ std::vector<Place> LeastPath::next(const std::vector<Place>& places, std::size_t
 
 Layers LeastPath::from(const JointVector& start) const {
   const Bounds ahead = bounds();
-  const double bound = some_path(start, ahead) + kEqual_s;
+  const double bound = some_path(start, ahead) + kEqual;
   Layers layers{{{Place{{start, nullptr}, 0}}}};
   for (std::size_t k = 0; k < waypoints_->size(); ++k) {
     auto reached = next(layers.of.back(), k, ahead, bound);
@@ -103,7 +103,7 @@ Layers LeastPath::from(const JointVector& start) const {
 
 std::vector<JointVector> LeastPath::first_of(const Layers& layers) const {
   std::vector<JointVector> path(waypoints_->size());
-  double budget = layers.least() + kEqual_s;
+  double budget = layers.least() + kEqual;
   const Place* behind = nullptr;  // the place chosen at the waypoint after
   for (std::size_t k = waypoints_->size(); k > 0; --k) {
     const auto rank = [&](const Place& place) {
@@ -113,16 +113,16 @@ std::vector<JointVector> LeastPath::first_of(const Layers& layers) const {
     const Place* chosen = nullptr;
     double left = 0;
     for (const Place& place : layers.of[k]) {
-      double time_s = 0;
+      double size = 0;
       if (behind) {
         const auto move = moves_->between(place.at, *behind->at.branch);
-        if (!move || move->q != behind->at.q || !allowed(move->time_s, move->counts)) continue;
-        time_s = move->time_s;
+        if (!move || move->q != behind->at.q || !allowed(move->size, move->counts)) continue;
+        size = move->size;
       }
-      if (place.so_far + time_s > budget) continue;
+      if (place.so_far + size > budget) continue;
       if (chosen && rank(*chosen) <= rank(place)) continue;
       chosen = &place;
-      left = std::max(budget - time_s, place.so_far);
+      left = std::max(budget - size, place.so_far);
     }
     path[k - 1] = chosen->at.q;
     behind = chosen;

@@ -11,14 +11,14 @@ namespace armature::select::minmax {
 /// The branches of every waypoint that can stand, in the solver's order.
 using Waypoints = std::vector<std::vector<const IkBranch*>>;
 
-/// How the times of a path's moves become one figure.
+/// How the sizes of a path's moves become one figure.
 enum class Measure {
   greatest,  // of the moves that count
   sum,       // of all
 };
 
-/// What two paths may differ by and still be equal [s]: rounding must not choose between them.
-inline constexpr double kEqual_s = 1e-9;
+/// What two paths may differ by and still be equal: rounding must not choose between them.
+inline constexpr double kEqual = 1e-9;
 
 /// A branch of a waypoint at one of the turns that moves lead to, and the least that the moves up
 /// to there come to.
@@ -33,7 +33,7 @@ struct Layers {
   std::vector<std::vector<Place>> of;  // one more than waypoints; fewer when one is not reached
 
   bool complete(const Waypoints& waypoints) const { return of.size() == waypoints.size() + 1; }
-  /// The least of the measure over all paths [s]. Complete layers only.
+  /// The least of the measure over all paths. Complete layers only.
   double least() const;
 };
 
@@ -45,10 +45,10 @@ struct Layers {
 /// out is left out of the search over turns (forward).
 class LeastPath {
  public:
-  /// All outlive the search. A move that counts and takes longer than `max_s` is not made.
+  /// All outlive the search. A move that counts and is greater than `max_size` is not made.
   LeastPath(const Moves& moves, const Waypoints& waypoints, Measure measure,
-            double max_s = std::numeric_limits<double>::infinity())
-      : moves_{&moves}, waypoints_{&waypoints}, measure_{measure}, max_s_{max_s} {}
+            double max_size = std::numeric_limits<double>::infinity())
+      : moves_{&moves}, waypoints_{&waypoints}, measure_{measure}, max_size_{max_size} {}
 
   /// Without places where no path goes on: ends before the waypoint that none reaches.
   Layers from(const JointVector& start) const;
@@ -64,13 +64,13 @@ class LeastPath {
   std::vector<Place> next(const std::vector<Place>& places, std::size_t waypoint,
                           const Bounds& ahead, double bound) const;
 
-  double joined(double so_far, double time_s, bool counts) const;
-  bool allowed(double time_s, bool counts) const { return !counts || time_s <= max_s_; }
+  double joined(double so_far, double size, bool counts) const;
+  bool allowed(double size, bool counts) const { return !counts || size <= max_size_; }
 
   const Moves* moves_;
   const Waypoints* waypoints_;
   Measure measure_;
-  double max_s_;
+  double max_size_;
 };
 
 }  // namespace armature::select::minmax

@@ -3,11 +3,28 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numbers>
 
 #include "armature/runtime/plugins/plugin.hpp"
 
 namespace armature::select::minmax {
+
+Expected<std::unique_ptr<BranchSelector>> MinMax::make(const RobotModel& model,
+                                                       const Params& params) {
+  const auto parameters = Parameters::read(params);
+  const bool weighs =
+      !model.masses().empty() || std::ranges::any_of(model.joints(), [](const Joint& joint) {
+        return joint.drive_inertia > 0;
+      });
+  if (parameters.move_size == Parameters::MoveSize::inertia && !weighs) {
+    return refuse(
+        fmt::format("move_size: inertia, and the file of robot '{}' states none; add "
+                    "masses: or drive_inertia_kg_m2",
+                    model.name()));
+  }
+  return std::make_unique<MinMax>(model, parameters);
+}
 
 Expected<Waypoints> MinMax::that_can_stand(std::span<const IkBranches> waypoints) const {
   Waypoints standing(waypoints.size());
@@ -48,7 +65,7 @@ Expected<std::vector<JointVector>> MinMax::choose(const JointVector& start,
   if (standing->empty()) return std::vector<JointVector>{};
   const auto least = LeastPath{moves_, *standing, Measure::greatest}.from(start);
   if (!least.complete(*standing)) return refuse(blocked(least, *standing));
-  const LeastPath shortest{moves_, *standing, Measure::sum, least.least() + kEqual_s};
+  const LeastPath shortest{moves_, *standing, Measure::sum, least.least() + kEqual};
   return shortest.first_of(shortest.from(start));
 }
 

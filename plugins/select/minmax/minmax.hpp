@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
+
 #include "armature/kinds/select/select.hpp"
 #include "min_path.hpp"
 #include "moves.hpp"
@@ -13,7 +15,9 @@ class MinMax final : public BranchSelector {
  public:
   MinMax(const RobotModel& model, const Parameters& parameters)
       : model_{&model}, parameters_{parameters}, moves_{model, parameters} {}
-  MinMax(const RobotModel& model, const Params& params) : MinMax{model, Parameters::read(params)} {}
+  /// Refuses to go by the inertia of a robot that states none.
+  static Expected<std::unique_ptr<BranchSelector>> make(const RobotModel& model,
+                                                        const Params& params);
 
   Expected<std::vector<JointVector>> choose(const JointVector& start,
                                             std::span<const IkBranches> waypoints) const override;

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "armature/robot/kinematics/joint_inertia.hpp"
+
 namespace armature::select::minmax {
 
 bool Moves::can_stand(const IkBranch& branch) const {
@@ -18,20 +20,21 @@ std::optional<Move> Moves::between(const Origin& from, const IkBranch& branch) c
   move.q = branch.q;
   unwind(*model_, from.q, move.q);
   const JointVector way = move.q - from.q;
-  move.time_s = time_of(way);
+  move.size = size_of(way, move.q);
   move.counts = from.branch || parameters_.first_move == Parameters::FirstMove::counts;
   if (move.counts && jumps(way)) return std::nullopt;
   return move;
 }
 
-double Moves::min_time(const IkBranch& from, const IkBranch& branch) const {
+double Moves::min_size(const IkBranch& from, const IkBranch& branch) const {
   constexpr double kNever = std::numeric_limits<double>::infinity();
   if (!same_branch(from, branch)) return kNever;
   JointVector way = branch.q - from.q;
   for (int i = 0; i < way.size(); ++i) {
     if (turns_freely(*model_, i)) way[i] = std::remainder(way[i], 2 * std::numbers::pi);
   }
-  return jumps(way) ? kNever : time_of(way);
+  if (jumps(way)) return kNever;
+  return parameters_.move_size == Parameters::MoveSize::inertia ? 0 : size_of(way, branch.q);
 }
 
 bool Moves::jumps(const JointVector& way) const {
@@ -44,7 +47,10 @@ bool Moves::jumps(const JointVector& way) const {
   return false;
 }
 
-double Moves::time_of(const JointVector& way) const {
+double Moves::size_of(const JointVector& way, const JointVector& to) const {
+  if (parameters_.move_size == Parameters::MoveSize::inertia) {
+    return std::sqrt(way.dot(joint_inertia(*model_, to) * way));
+  }
   return way.cwiseAbs().cwiseQuotient(model_->max_velocity()).maxCoeff();
 }
 

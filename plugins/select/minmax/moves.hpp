@@ -17,11 +17,11 @@ struct Origin {
 /// A move to a branch of the next waypoint.
 struct Move {
   JointVector q;       // where it ends: the branch, whole turns added
-  double time_s = 0;   // of the slowest joint at its highest velocity
+  double size = 0;     // [s] or [kg^1/2 m], by `move_size`
   bool counts = true;  // false: the first one, where that is free
 };
 
-/// What moves there are and how long they take.
+/// What moves there are and how large they are.
 class Moves {
  public:
   Moves(const RobotModel& model, const Parameters& parameters)
@@ -32,16 +32,19 @@ class Moves {
   /// The move from `from` to `branch`, turning the near way where limits allow it and the far way
   /// where they do not; none when the parameters forbid it. The branch can stand.
   std::optional<Move> between(const Origin& from, const IkBranch& branch) const;
-  /// A bound from below of what `between` says for any turns of `from`: the near way always [s];
-  /// infinite where no turn makes the move allowed.
-  double min_time(const IkBranch& from, const IkBranch& branch) const;
+  /// A bound from below of what `between` says for any turns of `from`: of times the near way's
+  /// always, of inertia 0; infinite where no turn makes the move allowed.
+  double min_size(const IkBranch& from, const IkBranch& branch) const;
 
  private:
   bool same_branch(const IkBranch& a, const IkBranch& b) const {
     return !parameters_.one_branch || a.label == b.label;
   }
   bool jumps(const JointVector& way) const;
-  double time_of(const JointVector& way) const;
+  /// By time that of the slowest joint at its highest velocity [s]. By inertia the way as the arm
+  /// feels it where it ends, sqrt(way^T M(to) way) [kg^1/2 m]: the length of which the kinetic
+  /// energy is half the square of the speed.
+  double size_of(const JointVector& way, const JointVector& to) const;
 
   const RobotModel* model_;
   Parameters parameters_;

@@ -21,17 +21,20 @@ inline Joint joint(std::string name, Joint::Type type, double limit, double velo
 
 inline RobotModel robot_of(std::string name, std::vector<Joint> joints) {
   const NamedFrame tool{"tool", static_cast<int>(joints.size()) - 1, Eigen::Isometry3d::Identity()};
-  return {std::move(name),
-          RobotModel::Convention::standard,
-          std::move(joints),
-          {tool},
-          FrameId{0},
-          {},
-          {}};
+  return {{std::move(name),
+           RobotModel::Convention::standard,
+           std::move(joints),
+           {tool},
+           FrameId{0},
+           {},
+           {},
+           {},
+           {},
+           {{"load", tool.parent_joint, {0.5, 0.2, 0}, 2}}}};
 }
 
-/// Two revolute joints and a slide; the second joint is four times faster than the first, which
-/// reaches some postures at two turns.
+/// With a load of 2 kg on the last joint. Two revolute joints and a slide; the second joint is four
+/// times faster than the first, which reaches some postures at two turns.
 inline RobotModel crane() {
   using enum Joint::Type;
   return robot_of("crane", {joint("turn", revolute, 4, 1), joint("tilt", revolute, 3, 4),

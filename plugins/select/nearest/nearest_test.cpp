@@ -19,14 +19,14 @@ RobotModel robot() {
                  .max_acceleration = 1,
                  .coupling = {}};
   };
-  return {"crane",
-          RobotModel::Convention::standard,
-          {joint("turn", Joint::Type::revolute, 4, 1), joint("tilt", Joint::Type::revolute, 3, 4),
-           joint("slide", Joint::Type::prismatic, 10, 1)},
-          {{"tool", 2, Eigen::Isometry3d::Identity()}},
-          FrameId{0},
-          {},
-          {}};
+  return {{"crane",
+           RobotModel::Convention::standard,
+           {joint("turn", Joint::Type::revolute, 4, 1), joint("tilt", Joint::Type::revolute, 3, 4),
+            joint("slide", Joint::Type::prismatic, 10, 1)},
+           {{"tool", 2, Eigen::Isometry3d::Identity()}},
+           FrameId{0},
+           {},
+           {}}};
 }
 
 JointVector joints(double turn, double tilt, double slide) {

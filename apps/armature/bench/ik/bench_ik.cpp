@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "armature/kinds/ik/verify/plugin_subject.hpp"
+#include "armature/robot/kinematics/locked_joints.hpp"
 #include "armature/runtime/plugins/running_component.hpp"
 #include "armature/runtime/reporting/output_folder.hpp"
 #include "armature/runtime/reporting/write_atomically.hpp"
@@ -67,7 +68,8 @@ void write_files(const std::filesystem::path& folder, const Report& report,
 
 int bench_ik(const BenchOptions& options) {
   if (options.out) prepare_output_folder(*options.out);
-  const auto model = std::make_shared<const RobotModel>(load_arm(options.arm));
+  const auto model =
+      std::make_shared<const RobotModel>(without_locked_joints(load_arm(options.arm)));
   PluginRegistry registry;
   name_crashing_components();
   Report report;

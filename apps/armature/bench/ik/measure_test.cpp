@@ -22,13 +22,13 @@ RobotModel slide_and_turn() {
   slide.lower = 0, slide.upper = 0.4;
   turn.name = "turn";
   turn.lower = -1, turn.upper = 2;
-  return {"slide_and_turn",
-          RobotModel::Convention::standard,
-          {slide, turn},
-          {{"tool", 1, Eigen::Isometry3d::Identity()}},
-          FrameId{0},
-          Eigen::Vector3d::UnitX(),
-          {}};
+  return {{"slide_and_turn",
+           RobotModel::Convention::standard,
+           {slide, turn},
+           {{"tool", 1, Eigen::Isometry3d::Identity()}},
+           FrameId{0},
+           Eigen::Vector3d::UnitX(),
+           {}}};
 }
 
 /// The closed form, off by `off_m`, and saying what it likes of limits.
@@ -114,8 +114,13 @@ TEST_F(Measure, ASolverThatMissesIsNotBelieved) {
 TEST_F(Measure, ASolutionBeyondTheLimitsIsNotReachedWhateverTheSolverSays) {
   auto joints = model.joints();
   joints[1].upper = 0;
-  const RobotModel narrow{"narrow",     model.convention(),    joints, model.frames(),
-                          model.tool(), model.pointing_axis(), {}};
+  const RobotModel narrow{{"narrow",
+                           model.convention(),
+                           joints,
+                           model.frames(),
+                           model.tool(),
+                           model.pointing_axis(),
+                           {}}};
   const auto series =
       measure(narrow, {{"ik/it", std::make_shared<const Solver>()}}, list, {.repetitions = 1});
   const double part = part_reached(series[0]);

@@ -29,13 +29,13 @@ RobotModel winder() {
                  .max_acceleration = 1,
                  .coupling = {}};
   };
-  return {"winder",
-          RobotModel::Convention::standard,
-          {joint("turn", Joint::Type::revolute, 8), joint("slide", Joint::Type::prismatic, 10)},
-          {{"tool", 1, Eigen::Isometry3d::Identity()}},
-          FrameId{0},
-          {},
-          {}};
+  return {{"winder",
+           RobotModel::Convention::standard,
+           {joint("turn", Joint::Type::revolute, 8), joint("slide", Joint::Type::prismatic, 10)},
+           {{"tool", 1, Eigen::Isometry3d::Identity()}},
+           FrameId{0},
+           {},
+           {}}};
 }
 
 /// Takes the first branch within limits of every waypoint; what it answers is spoilt.

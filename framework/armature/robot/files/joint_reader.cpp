@@ -43,6 +43,15 @@ void read_limits(MapReader& map, Joint& joint, bool endless = false) {
   take(revolute ? "acceleration_rad_s2" : "acceleration_m_s2", joint.max_acceleration);
 }
 
+void read_drive(MapReader& map, Joint& joint) {
+  const bool revolute = joint.type == Joint::Type::revolute;
+  joint.locked = map.flag("locked");
+  joint.drive_inertia = map.number(revolute ? "drive_inertia_kg_m2" : "drive_mass_kg");
+  if (joint.locked && joint.coupling) {
+    map.problem("locked", "a joint is coupled or locked, not both");
+  }
+}
+
 /// The node that names the leader.
 const Node* read_coupling(const Node& node, Joint& joint, Problems& problems) {
   const auto keys = coupling_keys(joint.type);
@@ -79,6 +88,7 @@ ReadJoint read_joint(const Node& node, Problems& problems) {
     result.leader = read_coupling(*coupled, joint, problems);
   }
   read_limits(map, joint, endless);
+  read_drive(map, joint);
   map.finish();
   return result;
 }
@@ -103,6 +113,7 @@ void read_limits_of(const Node& node, std::vector<Joint>& joints, Problems& prob
   const bool says = node.find("acceleration_rad_s2") || node.find("acceleration_m_s2");
   if (joint->max_velocity != before && !says)
     joint->max_acceleration = usual_acceleration(joint->max_velocity);
+  read_drive(map, *joint);
   map.finish();
 }
 
@@ -131,12 +142,13 @@ void resolve_couplings(std::vector<ReadJoint>& joints, Problems& problems) {
     }
     const auto leader = found - names.begin();
     joint.joint.coupling->to = static_cast<int>(leader);
-    if (joints[static_cast<std::size_t>(leader)].joint.coupling)
+    const Joint& followed = joints[static_cast<std::size_t>(leader)].joint;
+    if (followed.coupling || followed.locked)
       problems.add(
           joint.leader->origin(),
-          fmt::format("joint '{}' cannot follow '{}', which is coupled itself; name a joint that "
+          fmt::format("joint '{}' cannot follow '{}', which is {}; name a joint that "
                       "moves by itself",
-                      joint.joint.name, to));
+                      joint.joint.name, to, followed.locked ? "locked" : "coupled itself"));
   }
 }
 

@@ -8,7 +8,7 @@
 
 #include "armature/config/document.hpp"
 #include "armature/config/reader.hpp"
-#include "armature/robot/files/capsule_reader.hpp"
+#include "armature/robot/files/body_reader.hpp"
 #include "armature/robot/files/frame_reader.hpp"
 #include "armature/robot/files/joint_reader.hpp"
 #include "armature/robot/files/robot_keys.hpp"
@@ -92,6 +92,14 @@ std::string in_file_units(double value, bool revolute) {
                   : fmt::format("{:.6g} m", value);
 }
 
+/// "'home_deg': j1 = 200 deg is outside of -170 deg to 170 deg".
+std::string outside(MapReader& map, const Joint& joint, double q, double lower, double upper) {
+  const bool revolute = joint.type == Joint::Type::revolute;
+  return fmt::format("'{}': {} = {} is outside of {} to {}", map.written("home_deg"), joint.name,
+                     in_file_units(q, revolute), in_file_units(lower, revolute),
+                     in_file_units(upper, revolute));
+}
+
 /// What only shows when all joints are together: couplings that leave no room, a home out of reach.
 void check_whole(const RobotModel& model, MapReader& map) {
   for (int i = 0; i < model.dof(); ++i)
@@ -111,34 +119,19 @@ void check_whole(const RobotModel& model, MapReader& map) {
   for (int i = 0; i < model.dof(); ++i) {
     const double q = (*independent)[i];
     if (q >= model.lower()[i] && q <= model.upper()[i]) continue;
-    const bool revolute = model.is_revolute(i);
-    map.problem(
-        "home_deg",
-        fmt::format("'{}': {} = {} is outside of {} to {}", home,
-                    model.joints()[static_cast<std::size_t>(model.independent_joint(i))].name,
-                    in_file_units(q, revolute), in_file_units(model.lower()[i], revolute),
-                    in_file_units(model.upper()[i], revolute)));
+    const auto& joint = model.joints()[static_cast<std::size_t>(model.independent_joint(i))];
+    map.problem("home_deg", outside(map, joint, q, model.lower()[i], model.upper()[i]));
   }
 }
 
-/// How a robot is built.
-struct Build {
-  RobotModel::Convention convention;
-  std::vector<Joint> joints;
-  std::vector<NamedFrame> frames;
-  std::optional<FrameId> tool;
-};
-
-/// From the rows in the file itself.
-Build read_rows(MapReader& map, Problems& problems) {
+/// From the rows in the file itself; the tool's frame.
+std::optional<FrameId> read_rows(MapReader& map, RobotParts& parts, Problems& problems) {
   const bool modified = map.text("convention") == "modified";
-  Build build{
-      modified ? RobotModel::Convention::modified : RobotModel::Convention::standard, {}, {}, {}};
-  if (const Node* list = map.node("joints")) build.joints = read_joints(*list, problems);
+  parts.convention = modified ? RobotModel::Convention::modified : RobotModel::Convention::standard;
+  if (const Node* list = map.node("joints")) parts.joints = read_joints(*list, problems);
   if (const Node* frames = map.node("frames"))
-    build.frames = read_frames(*frames, build.joints, {}, problems);
-  build.tool = find_tool(map, build.frames, build.joints);
-  return build;
+    parts.frames = read_frames(*frames, parts.joints, {}, problems);
+  return find_tool(map, parts.frames, parts.joints);
 }
 
 /// Motion needs every joint's speed; URDF may leave a continuous joint's open.
@@ -153,7 +146,8 @@ void check_speeds(const std::vector<Joint>& joints, MapReader& map) {
 }
 
 /// From a URDF file; its frames are the links from base to tip, and what the robot file adds.
-Build read_urdf(const Node& file, MapReader& map, Problems& problems) {
+std::optional<FrameId> read_urdf(const Node& file, MapReader& map, RobotParts& parts,
+                                 Problems& problems) {
   const auto link = [](const Node* node, const Node& otherwise) {
     return node ? LinkName{node->text(), node->origin()} : LinkName{"", otherwise.origin()};
   };
@@ -161,21 +155,40 @@ Build read_urdf(const Node& file, MapReader& map, Problems& problems) {
   const LinkName tip = link(map.node("tip"), file);
   const Node* limits = map.node("joints");
   const Node* more = map.node("frames");
-  Build build{RobotModel::Convention::modified, {}, {}, {}};
-  if (tip.name.empty()) return build;  // noted as missing
+  parts.convention = RobotModel::Convention::modified;
+  if (tip.name.empty()) return std::nullopt;  // noted as missing
   UrdfArm arm = read_urdf_arm(config::folder_of(file.origin()) / file.text(), base, tip, problems);
-  build = {build.convention, std::move(arm.joints), std::move(arm.frames), arm.tip};
-  if (build.joints.empty()) return build;
-  if (limits) read_other_limits(*limits, build.joints, problems);
-  check_speeds(build.joints, map);
-  if (!more) return build;
-  const auto added = read_frames(*more, {}, build.frames, problems);
+  parts.joints = std::move(arm.joints);
+  parts.frames = std::move(arm.frames);
+  if (parts.joints.empty()) return arm.tip;
+  if (limits) read_other_limits(*limits, parts.joints, problems);
+  check_speeds(parts.joints, map);
+  if (!more) return arm.tip;
+  const auto added = read_frames(*more, {}, parts.frames, problems);
+  const std::size_t first = parts.frames.size();
+  parts.frames.insert(parts.frames.end(), added.begin(), added.end());
   const auto tool = std::ranges::find(added, "tool", &NamedFrame::name);
-  if (tool != added.end())
-    build.tool = FrameId{
-        static_cast<int>(build.frames.size() + static_cast<std::size_t>(tool - added.begin()))};
-  build.frames.insert(build.frames.end(), added.begin(), added.end());
-  return build;
+  if (tool == added.end()) return arm.tip;
+  return FrameId{static_cast<int>(first + static_cast<std::size_t>(tool - added.begin()))};
+}
+
+void check_locked(const RobotParts& parts, MapReader& map) {
+  for (std::size_t i = 0; i < parts.joints.size(); ++i) {
+    const Joint& joint = parts.joints[i];
+    if (!joint.locked) continue;
+    if (!parts.home) {
+      map.problem("joints", fmt::format("joint '{}' is locked where it is at home, and the file "
+                                        "has none; add home_deg: or home:",
+                                        joint.name));
+      continue;
+    }
+    const double q = (*parts.home)[static_cast<Eigen::Index>(i)];
+    if (q < joint.lower || q > joint.upper)
+      map.problem("home_deg", outside(map, joint, q, joint.lower, joint.upper));
+  }
+  const bool all_locked =
+      !parts.joints.empty() && std::ranges::all_of(parts.joints, &Joint::locked);
+  if (all_locked) map.problem("joints", "every joint is locked; leave one that moves");
 }
 
 std::optional<RobotModel> read(const Node& document, Problems& problems) {
@@ -183,23 +196,27 @@ std::optional<RobotModel> read(const Node& document, Problems& problems) {
   MapReader map{document, "robot", is_urdf ? urdf_robot_keys() : robot_keys(), problems};
   const Node* urdf = map.node("urdf");
   map.integer("armature_robot");
-  const std::string name = map.text("name");
-  const auto [convention, joints, frames, tool] =
-      urdf ? read_urdf(*urdf, map, problems) : read_rows(map, problems);
-  const auto axis = read_axis(map, "pointing_axis");
-  const auto shaft = read_shaft(map, problems);
-  const Node* bodies = map.node("capsules");
-  const auto capsules =
-      bodies ? read_capsules(*bodies, joints, frames, problems) : std::vector<LinkCapsule>{};
-  const auto home = read_home(map, joints);
+  RobotParts parts;
+  parts.name = map.text("name");
+  const std::optional<FrameId> tool =
+      urdf ? read_urdf(*urdf, map, parts, problems) : read_rows(map, parts, problems);
+  parts.pointing_axis = read_axis(map, "pointing_axis");
+  parts.shaft = read_shaft(map, problems);
+  if (const Node* capsules = map.node("capsules")) {
+    parts.capsules = read_capsules(*capsules, parts.joints, parts.frames, problems);
+  }
+  if (const Node* masses = map.node("masses")) {
+    parts.masses = read_masses(*masses, parts.joints, parts.frames, problems);
+  }
+  if (const auto home = read_home(map, parts.joints)) {
+    parts.home.emplace(
+        Eigen::Map<const Eigen::VectorXd>{home->data(), static_cast<Eigen::Index>(home->size())});
+  }
+  check_locked(parts, map);
   map.finish();
   if (!problems.empty() || !tool) return std::nullopt;
-  std::optional<JointVector> home_all;
-  if (home) {
-    home_all.emplace(static_cast<Eigen::Index>(home->size()));
-    std::ranges::copy(*home, home_all->begin());
-  }
-  RobotModel model{name, convention, joints, frames, *tool, axis, home_all, shaft, capsules};
+  parts.tool = *tool;
+  RobotModel model{std::move(parts)};
   check_whole(model, map);
   if (!problems.empty()) return std::nullopt;
   return model;

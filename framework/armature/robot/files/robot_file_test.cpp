@@ -79,6 +79,44 @@ TEST(RobotFile, ABodyHangsOnALinkAndHasARadius) {
               ElementsAre(HasSubstr("'capsules' must be a map of capsules, not")));
 }
 
+TEST(RobotFile, StatesMassesAndDrives) {
+  const RobotModel robot =
+      read_good(with("{name: b, limits_deg: [-90, 90], velocity_rad_s: 1, acceleration_rad_s2: 1, "
+                     "drive_inertia_kg_m2: 0.8}",
+                     kGoodFrames) +
+                "masses: {arm: {parent: b, centre_mm: [100, 0, 0], mass_kg: 4.8}}\n");
+  EXPECT_EQ(robot.joints()[1].drive_inertia, 0.8);
+  ASSERT_EQ(robot.masses().size(), 1u);
+  EXPECT_EQ(robot.masses()[0].parent_joint, 1);
+  EXPECT_LT((robot.masses()[0].centre - Eigen::Vector3d{0.1, 0, 0}).norm(), 1e-15);
+  EXPECT_EQ(robot.masses()[0].mass, 4.8);
+  EXPECT_THAT(
+      problems_in(with(kGoodJoint, kGoodFrames) + "masses: {arm: {parent: b, mass_kg: -1}}\n"),
+      ElementsAre("arm.yaml:7:15: missing key 'centre_m' in mass 'arm'",
+                  "arm.yaml:7:36: 'mass_kg' is -1, must be more than 0"));
+}
+
+const std::string kLockedJoint =
+    "{name: b, locked: true, limits_deg: [-90, 90], velocity_rad_s: 1, acceleration_rad_s2: 1}";
+
+TEST(RobotFile, LocksAJointWhereItIsAtHome) {
+  const RobotModel robot = read_good(with(kLockedJoint, kGoodFrames + "\nhome_deg: [0, 30]"));
+  EXPECT_EQ(robot.joint_count(), 2);
+  EXPECT_EQ(robot.dof(), 1);
+  EXPECT_NEAR(robot.to_all(JointVector::Zero(1))[1], std::numbers::pi / 6, 1e-15);
+}
+
+TEST(RobotFile, RefusesALockWithoutAHomeOutOfLimitsOrOnACoupledJoint) {
+  EXPECT_THAT(problems_in(with(kLockedJoint, kGoodFrames)),
+              ElementsAre(HasSubstr("joint 'b' is locked where it is at home, and the file has "
+                                    "none; add home_deg: or home:")));
+  EXPECT_THAT(problems_in(with(kLockedJoint, kGoodFrames + "\nhome_deg: [0, 91]")),
+              ElementsAre("arm.yaml:7:11: 'home_deg': b = 91 deg is outside of -90 deg to 90 deg"));
+  EXPECT_THAT(problems_in(with("{name: b, locked: true, coupled: {to: a}}",
+                               kGoodFrames + "\nhome: [0, 0]")),
+              ElementsAre(HasSubstr("a joint is coupled or locked, not both")));
+}
+
 TEST(RobotFile, AShaftIsALineWithALength) {
   const std::string good = with(kGoodJoint, kGoodFrames);
   EXPECT_THAT(problems_in(good + "shaft: {axis: w, length_m: 0}\n"),
@@ -205,7 +243,7 @@ TEST(RobotFile, ReportsEverythingThatIsWrongAtOnceWithItsPlace) {
           "arm.yaml:13:1: unknown key 'colour' in robot; known: armature_robot, capsules, "
           "convention, "
           "frames, "
-          "home, home_deg, joints, name, ..."));
+          "home, home_deg, joints, masses, ..."));
 }
 
 TEST(RobotFile, WithoutAToolFrameSaysHowToAddIt) {

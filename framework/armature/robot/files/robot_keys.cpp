@@ -31,6 +31,10 @@ const KeySpec kCapsules{
     .type = Type::section,
     .doc = "The bodies of the links by name, which keep away from forbidden zones.",
     .optional = true};
+const KeySpec kMasses{.name = "masses",
+                      .type = Type::section,
+                      .doc = "The masses of the links by name, each in one point.",
+                      .optional = true};
 const KeySpec kHome{.name = "home_deg",
                     .type = Type::numbers,
                     .doc = "The position of all joints at the start.",
@@ -41,6 +45,22 @@ const KeySpec kJointName{.name = "name", .type = Type::text, .doc = "The joint's
 
 void append(std::vector<KeySpec>& keys, const std::vector<KeySpec>& more) {
   keys.insert(keys.end(), more.begin(), more.end());
+}
+
+/// What a joint may be besides its limits, in a row and in what is said of a URDF joint.
+std::vector<KeySpec> drive_keys(Joint::Type type) {
+  KeySpec inertia{.name = "drive_inertia_kg_m2",
+                  .doc = "Of its drive, as the joint feels it.",
+                  .fallback = default_value("0"),
+                  .min = 0};
+  if (type == Joint::Type::prismatic) {
+    inertia.name = "drive_mass_kg";
+  }
+  return {{.name = "locked",
+           .type = Type::flag,
+           .doc = "Stands where it is at home while the arm works.",
+           .fallback = default_value("false")},
+          inertia};
 }
 
 std::vector<KeySpec> limit_keys(Joint::Type type, bool optional) {
@@ -82,6 +102,7 @@ const std::vector<KeySpec>& robot_keys() {
       kPointingAxis,
       kShaft,
       kCapsules,
+      kMasses,
       kHome};
   return kKeys;
 }
@@ -104,6 +125,7 @@ const std::vector<KeySpec>& urdf_robot_keys() {
       kPointingAxis,
       kShaft,
       kCapsules,
+      kMasses,
       kHome};
   return kKeys;
 }
@@ -130,12 +152,14 @@ std::vector<KeySpec> joint_keys(Joint::Type type, bool is_coupled) {
        .doc = "This joint follows another one.",
        .optional = true}};
   append(keys, limit_keys(type, is_coupled));
+  append(keys, drive_keys(type));
   return keys;
 }
 
 std::vector<KeySpec> urdf_joint_keys(Joint::Type type) {
   std::vector<KeySpec> keys{kJointName};
   append(keys, limit_keys(type, true));
+  append(keys, drive_keys(type));
   return keys;
 }
 
@@ -182,6 +206,18 @@ const std::vector<KeySpec>& capsule_keys() {
       end("from_m", "from_mm", "Where its middle line begins in the parent, x, y, z."),
       end("to_m", "to_mm", "Where it ends; the same point for a ball."),
       {.name = "radius_m", .doc = "About that line.", .above = 0, .also = "radius_mm"}};
+  return kKeys;
+}
+
+const std::vector<KeySpec>& mass_keys() {
+  static const std::vector<KeySpec> kKeys{
+      {.name = "parent", .type = Type::text, .doc = "A joint, 'base' or a frame."},
+      {.name = "centre_m",
+       .type = Type::numbers,
+       .doc = "Where it is in the parent, x, y, z.",
+       .count = 3,
+       .also = "centre_mm"},
+      {.name = "mass_kg", .doc = "How much.", .above = 0}};
   return kKeys;
 }
 

@@ -25,6 +25,8 @@ const std::vector<config::KeySpec>& frame_keys();
 
 /// Of an entry of `capsules:`.
 const std::vector<config::KeySpec>& capsule_keys();
+/// Of an entry of `masses:`.
+const std::vector<config::KeySpec>& mass_keys();
 /// Of `shaft:`.
 const std::vector<config::KeySpec>& shaft_keys();
 

@@ -37,13 +37,8 @@ RobotModel load_urdf_robot(const std::filesystem::path& file, const LinkName& ba
   config::Problems problems;
   UrdfArm arm = read_urdf_arm(file, base, tip, problems);
   problems.throw_if_any();
-  return {std::move(arm.name),
-          RobotModel::Convention::modified,
-          std::move(arm.joints),
-          std::move(arm.frames),
-          arm.tip,
-          std::nullopt,
-          std::nullopt};
+  return {{std::move(arm.name), RobotModel::Convention::modified, std::move(arm.joints),
+           std::move(arm.frames), arm.tip, std::nullopt, std::nullopt}};
 }
 
 }  // namespace armature

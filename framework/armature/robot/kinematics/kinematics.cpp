@@ -79,6 +79,32 @@ Carried walk(const RobotModel& model, const JointVector& q, int last, Visit visi
                            : walk_rows<false>(model, q, last, visit);
 }
 
+using Axes = std::array<Axis, kMaxJoints>;
+
+/// Walks to joint `last` and notes the axes on the way.
+Carried walk_axes(const RobotModel& model, const JointVector& q, int last, Axes& axes) {
+  return walk(model, q, last, [&](int i, const Axis& axis, const Carried&) {
+    axes[static_cast<std::size_t>(i)] = axis;
+  });
+}
+
+/// Of the point `tip`, which joint `last` carries, seen from the base.
+Jacobian jacobian_at(const RobotModel& model, const Axes& axes, int last, const Vector3d& tip) {
+  Jacobian jacobian = Jacobian::Zero(6, model.dof());
+  for (int i = 0; i <= last; ++i) {
+    const auto& [direction, point] = axes[static_cast<std::size_t>(i)];
+    const ChainLink& link = model.chain()[static_cast<std::size_t>(i)];
+    auto column = jacobian.col(link.independent);
+    if (link.prismatic) {
+      column.head<3>() += link.ratio * direction;
+    } else {
+      column.head<3>() += link.ratio * direction.cross(tip - point);
+      column.tail<3>() += link.ratio * direction;
+    }
+  }
+  return jacobian;
+}
+
 Eigen::Isometry3d frame_on(const Carried& link, const NamedFrame& frame) {
   return link.pose() * frame.parent_T_frame;
 }
@@ -105,25 +131,17 @@ void joint_frames(const RobotModel& model, const JointVector& q,
 PoseAndJacobian forward_kinematics_with_jacobian(const RobotModel& model, const JointVector& q,
                                                  FrameId frame) {
   const NamedFrame& named = model.frame(frame);
-  std::array<Axis, kMaxJoints> axes;
-  const Carried last = walk(
-      model, q, named.parent_joint,
-      [&](int i, const Axis& axis, const Carried&) { axes[static_cast<std::size_t>(i)] = axis; });
+  Axes axes;
+  const Carried last = walk_axes(model, q, named.parent_joint, axes);
+  const Eigen::Isometry3d base_T_frame = frame_on(last, named);
+  return {base_T_frame, jacobian_at(model, axes, named.parent_joint, base_T_frame.translation())};
+}
 
-  PoseAndJacobian result{frame_on(last, named), Jacobian::Zero(6, model.dof())};
-  const Vector3d tip = result.base_T_frame.translation();
-  for (int i = 0; i <= named.parent_joint; ++i) {
-    const auto& [direction, point] = axes[static_cast<std::size_t>(i)];
-    const ChainLink& link = model.chain()[static_cast<std::size_t>(i)];
-    auto column = result.jacobian.col(link.independent);
-    if (link.prismatic) {
-      column.head<3>() += link.ratio * direction;
-    } else {
-      column.head<3>() += link.ratio * direction.cross(tip - point);
-      column.tail<3>() += link.ratio * direction;
-    }
-  }
-  return result;
+Jacobian point_jacobian(const RobotModel& model, const JointVector& q, int parent,
+                        const Vector3d& point) {
+  Axes axes;
+  const Carried last = walk_axes(model, q, parent, axes);
+  return jacobian_at(model, axes, parent, last.pose() * point);
 }
 
 double manipulability(const RobotModel& model, const JointVector& q) {

@@ -29,6 +29,11 @@ struct PoseAndJacobian {
 PoseAndJacobian forward_kinematics_with_jacobian(const RobotModel& model, const JointVector& q,
                                                  FrameId frame);
 
+/// The same Jacobian of a point [m] of joint `parent`'s frame (-1: the base): rows 0 to 2 are the
+/// point's, the others those of the frame's rotation.
+Jacobian point_jacobian(const RobotModel& model, const JointVector& q, int parent,
+                        const Eigen::Vector3d& point);
+
 /// Yoshikawa's manipulability sqrt(det(J J^T)) of the rows that the task uses: 6, or with a
 /// pointing axis 5.
 double manipulability(const RobotModel& model, const JointVector& q);

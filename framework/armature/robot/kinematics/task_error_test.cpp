@@ -59,8 +59,8 @@ TEST_F(TaskErrorTest, OfTheOppositeDirectionIsHalfATurn) {
 
 TEST_F(TaskErrorTest, HasTheRowsOfTheRobotsTask) {
   EXPECT_EQ(task_jacobian(lamp, q).rows(), 5);
-  const RobotModel turning{lamp.name(), lamp.convention(), lamp.joints(), lamp.frames(),
-                           lamp.tool(), std::nullopt,      std::nullopt};
+  const RobotModel turning{{lamp.name(), lamp.convention(), lamp.joints(), lamp.frames(),
+                            lamp.tool(), std::nullopt, std::nullopt}};
   EXPECT_EQ(task_jacobian(turning, q).rows(), 6);
 }
 

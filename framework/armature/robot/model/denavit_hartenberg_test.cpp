@@ -47,10 +47,13 @@ Chain convert(std::vector<Isometry3d> before_T_axis) {
 /// The last axis by the rows, and by the steps themselves.
 void expect_same_axes(const Chain& chain, std::mt19937& random) {
   const int last = static_cast<int>(chain.joints.size()) - 1;
-  const RobotModel model{"chain",      RobotModel::Convention::modified,
-                         chain.joints, {{"tool", last, chain.row_T_axis.back()}},
-                         FrameId{0},   std::nullopt,
-                         std::nullopt};
+  const RobotModel model{{"chain",
+                          RobotModel::Convention::modified,
+                          chain.joints,
+                          {{"tool", last, chain.row_T_axis.back()}},
+                          FrameId{0},
+                          std::nullopt,
+                          std::nullopt}};
   std::uniform_real_distribution<double> any{-3, 3};
   for (int n = 0; n < 20; ++n) {
     JointVector q(model.dof());

@@ -11,7 +11,9 @@
 namespace armature {
 namespace {
 
-constexpr double kCouplingTolerance = 1e-6;  // [rad] or [m]
+// [rad] or [m]
+constexpr double kCouplingTolerance = 1e-6;
+constexpr double kLockTolerance = 1e-4;  // what a sensor may tell of a joint that stands still
 
 void require(bool condition, const std::string& message) {
   if (!condition) throw std::invalid_argument(message);
@@ -46,60 +48,58 @@ ChainLink link_of(const Joint& joint) {
 
 }  // namespace
 
-RobotModel::RobotModel(std::string name, Convention convention, std::vector<Joint> joints,
-                       std::vector<NamedFrame> frames, FrameId tool,
-                       std::optional<Eigen::Vector3d> pointing_axis,
-                       std::optional<JointVector> home_all, std::optional<Shaft> shaft,
-                       std::vector<LinkCapsule> capsules)
-    : name_(std::move(name)),
-      convention_(convention),
-      joints_(std::move(joints)),
-      frames_(std::move(frames)),
-      tool_(tool),
-      pointing_axis_(std::move(pointing_axis)),
-      home_(std::move(home_all)),
-      shaft_(std::move(shaft)),
-      capsules_(std::move(capsules)) {
-  require(!joints_.empty() && joint_count() <= kMaxJoints,
+RobotModel::RobotModel(RobotParts parts) : parts_{std::move(parts)} {
+  require(!joints().empty() && joint_count() <= kMaxJoints,
           fmt::format("a robot has 1 to {} joints, not {}", kMaxJoints, joint_count()));
-  const int frame_count = static_cast<int>(frames_.size());
-  require(static_cast<int>(tool_) >= 0 && static_cast<int>(tool_) < frame_count,
-          fmt::format("frame {} is not one of {} frames", static_cast<int>(tool_), frame_count));
-  for (const NamedFrame& frame : frames_)
-    require(frame.parent_joint >= -1 && frame.parent_joint < joint_count(),
-            fmt::format("frame {}: joint {} is not there", frame.name, frame.parent_joint));
-  for (const LinkCapsule& capsule : capsules_)
-    require(capsule.parent_joint >= -1 && capsule.parent_joint < joint_count(),
-            fmt::format("capsule {}: joint {} is not there", capsule.name, capsule.parent_joint));
-  require(!home_ || home_->size() == joint_count(), "home needs a value for every joint");
-  if (pointing_axis_) pointing_axis_->normalize();
-  if (shaft_) shaft_->axis.normalize();
+  const int tool = static_cast<int>(parts_.tool), frame_count = static_cast<int>(frames().size());
+  require(tool >= 0 && tool < frame_count,
+          fmt::format("frame {} is not one of {} frames", tool, frame_count));
+  const auto require_parents = [&](const char* what, const auto& all) {
+    for (const auto& each : all) {
+      require(each.parent_joint >= -1 && each.parent_joint < joint_count(),
+              fmt::format("{} {}: joint {} is not there", what, each.name, each.parent_joint));
+    }
+  };
+  require_parents("frame", frames());
+  require_parents("capsule", capsules());
+  require_parents("mass", masses());
+  require(!home() || home()->size() == joint_count(), "home needs a value for every joint");
+  if (parts_.pointing_axis) parts_.pointing_axis->normalize();
+  if (parts_.shaft) parts_.shaft->axis.normalize();
   number_joints();
   fold_limits();
 }
 
 void RobotModel::number_joints() {
-  std::vector<int> place(joints_.size(), -1);  // among the independent joints
-  for (std::size_t i = 0; i < joints_.size(); ++i) {
-    if (joints_[i].coupling) continue;
+  std::vector<int> place(joints().size(), -1);  // among the independent joints
+  for (std::size_t i = 0; i < joints().size(); ++i) {
+    const Joint& joint = joints()[i];
+    if (joint.coupling || joint.locked) continue;
     place[i] = dof();
     independent_.push_back(static_cast<int>(i));
   }
-  for (std::size_t i = 0; i < joints_.size(); ++i) {
-    ChainLink link = link_of(joints_[i]);
+  require(dof() > 0, "a robot needs a joint that moves by itself");
+  for (std::size_t i = 0; i < joints().size(); ++i) {
+    ChainLink link = link_of(joints()[i]);
     link.independent = place[i];
-    if (const auto& coupling = joints_[i].coupling) {
+    if (joints()[i].locked) {
+      require(home().has_value(),
+              fmt::format("joint {} is locked at home, and there is none", joints()[i].name));
+      link.independent = 0;
+      link.ratio = 0;
+      link.offset = (*home())[static_cast<Eigen::Index>(i)];
+    } else if (const auto& coupling = joints()[i].coupling) {
       require(coupling->to >= 0 && coupling->to < joint_count() &&
                   place[static_cast<std::size_t>(coupling->to)] >= 0 && coupling->ratio != 0,
               fmt::format("joint {} must be coupled to an independent joint, with a ratio other "
                           "than 0",
-                          joints_[i].name));
+                          joints()[i].name));
       link.independent = place[static_cast<std::size_t>(coupling->to)];
       link.ratio = coupling->ratio;
       link.offset = coupling->offset;
     }
     chain_.push_back(link);
-    is_placed_ = is_placed_ || joints_[i].placement;
+    is_placed_ = is_placed_ || joints()[i].placement;
   }
 }
 
@@ -108,8 +108,9 @@ void RobotModel::fold_limits() {
   lower_ = JointVector::Constant(dof(), -kInfinity);
   upper_ = JointVector::Constant(dof(), kInfinity);
   max_velocity_ = max_acceleration_ = upper_;
-  for (std::size_t i = 0; i < joints_.size(); ++i) {
-    const Joint& joint = joints_[i];
+  for (std::size_t i = 0; i < joints().size(); ++i) {
+    const Joint& joint = joints()[i];
+    if (joint.locked) continue;
     const int k = chain_[i].independent;
     const auto range = leader_range({joint.lower, joint.upper},
                                     {.ratio = chain_[i].ratio, .offset = chain_[i].offset});
@@ -122,9 +123,9 @@ void RobotModel::fold_limits() {
 }
 
 std::optional<FrameId> RobotModel::find_frame(std::string_view name) const {
-  const auto found = std::ranges::find(frames_, name, &NamedFrame::name);
-  if (found == frames_.end()) return std::nullopt;
-  return FrameId{static_cast<int>(found - frames_.begin())};
+  const auto found = std::ranges::find(frames(), name, &NamedFrame::name);
+  if (found == frames().end()) return std::nullopt;
+  return FrameId{static_cast<int>(found - frames().begin())};
 }
 
 JointVector RobotModel::to_all(const JointVector& independent) const {
@@ -171,23 +172,30 @@ ReasonText RobotModel::contract_rates(std::span<const double> all, JointVector& 
 
 ReasonText RobotModel::contracted(std::span<const double> all, double offset_factor,
                                   JointVector& independent) const {
-  if (all.size() != joints_.size())
-    return ReasonText::format("{} joint values; {} has {} joints", all.size(), name_,
+  if (all.size() != joints().size())
+    return ReasonText::format("{} joint values; {} has {} joints", all.size(), name(),
                               joint_count());
   for (std::size_t i = 0; i < all.size(); ++i)
     if (!std::isfinite(all[i]))
-      return ReasonText::format("{} = {} is not a number", joints_[i].name, all[i]);
+      return ReasonText::format("{} = {} is not a number", joints()[i].name, all[i]);
   independent.resize(dof());
   for (int i = 0; i < dof(); ++i) {
     independent[i] = all[static_cast<std::size_t>(independent_joint(i))];
   }
   for (std::size_t i = 0; i < all.size(); ++i) {
     const ChainLink& link = chain_[i];
+    const Joint& joint = joints()[i];
+    if (joint.locked) {
+      const bool moved = std::abs(all[i] - link.offset) > kLockTolerance;
+      if (offset_factor == 0 || !moved) continue;
+      return ReasonText::format("{} = {:.6g}, and it is locked at {:.6g}", joint.name, all[i],
+                                link.offset);
+    }
     const double follows = link.ratio * independent[link.independent] + offset_factor * link.offset;
     if (std::abs(all[i] - follows) > kCouplingTolerance)
       return ReasonText::format(
-          "{} = {:.6g} contradicts its coupling to {}, which makes it {:.6g}", joints_[i].name,
-          all[i], joints_[static_cast<std::size_t>(joints_[i].coupling->to)].name, follows);
+          "{} = {:.6g} contradicts its coupling to {}, which makes it {:.6g}", joint.name, all[i],
+          joints()[static_cast<std::size_t>(joint.coupling->to)].name, follows);
   }
   return {};
 }
@@ -200,7 +208,7 @@ bool RobotModel::within_limits(const JointVector& independent, double tolerance)
 }
 
 bool RobotModel::is_revolute(int i) const {
-  return joints_[static_cast<std::size_t>(independent_joint(i))].type == Joint::Type::revolute;
+  return joints()[static_cast<std::size_t>(independent_joint(i))].type == Joint::Type::revolute;
 }
 
 JointVector resting_position(const RobotModel& model) {

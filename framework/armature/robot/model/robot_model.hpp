@@ -49,6 +49,9 @@ struct Joint {
   double max_velocity = std::numeric_limits<double>::infinity();      // [rad/s] or [m/s]
   double max_acceleration = std::numeric_limits<double>::infinity();  // [rad/s2] or [m/s2]
   std::optional<Coupling> coupling;                                   // none: an independent joint
+  bool locked = false;  // stands where it is at home, and is no independent joint
+  double drive_inertia =
+      0;  // [kg m2] of a revolute joint's drive, at the joint; else its mass [kg]
   /// Constant, in front of the row: how it hangs on the frame before where no row can say it well
   /// (a base turned in space, axes nearly parallel). None: identity.
   std::optional<Eigen::Isometry3d> placement;
@@ -77,8 +80,16 @@ struct LinkCapsule {
   double radius = 0;         // [m]
 };
 
+/// A part of a link's mass, as if it were in one point.
+struct LinkMass {
+  std::string name;
+  int parent_joint = -1;                             // index into joints(), -1: the base
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  // [m] in that joint's frame
+  double mass = 0;                                   // [kg]
+};
+
 /// A joint as kinematics needs it, everything that does not change worked out: the joint's value is
-/// ratio * q[independent] + offset.
+/// ratio * q[independent] + offset. Of a locked joint the ratio is 0.
 struct ChainLink {
   int independent = 0;  // index into the independent joints
   double ratio = 1, offset = 0;
@@ -91,52 +102,72 @@ struct ChainLink {
 /// Index of a named frame of a robot model.
 enum class FrameId : int {};
 
+/// What a robot model is made of.
+struct RobotParts {
+  enum class Convention { standard, modified };
+
+  std::string name;
+  Convention convention = Convention::standard;
+  std::vector<Joint> joints;
+  std::vector<NamedFrame> frames;
+  FrameId tool{};                                               // the tip that goals are stated for
+  std::optional<Eigen::Vector3d> pointing_axis = std::nullopt;  // in the tool frame
+  std::optional<JointVector> home = std::nullopt;               // of all joints
+  std::optional<Shaft> shaft = std::nullopt;
+  std::vector<LinkCapsule> capsules = {};
+  std::vector<LinkMass> masses = {};
+};
+
 /// A serial arm as data: joints, couplings, limits, named frames, pointing axis and home.
 /// Immutable after it was read; shared by every solver that was made for it.
 /// "independent" vectors have dof() entries, "all" vectors joint_count().
 class RobotModel {
  public:
-  enum class Convention { standard, modified };
+  using Convention = RobotParts::Convention;
 
   /// Throws std::invalid_argument when the parts do not fit together (a coupling to a joint that is
-  /// coupled itself or not there, a frame on such a joint, no joints or more than kMaxJoints, a
-  /// home of another length); files are checked by read_robot_model, which says more.
-  RobotModel(std::string name, Convention convention, std::vector<Joint> joints,
-             std::vector<NamedFrame> frames, FrameId tool,
-             std::optional<Eigen::Vector3d> pointing_axis, std::optional<JointVector> home_all,
-             std::optional<Shaft> shaft = std::nullopt, std::vector<LinkCapsule> capsules = {});
+  /// coupled itself, locked or not there, a frame on such a joint, no joints or more than
+  /// kMaxJoints, none that is independent, a home of another length, a locked joint and no home);
+  /// files are checked by read_robot_model, which says more.
+  RobotModel(RobotParts parts);
 
-  const std::string& name() const { return name_; }
-  Convention convention() const { return convention_; }
-  const std::vector<Joint>& joints() const { return joints_; }
-  const std::vector<NamedFrame>& frames() const { return frames_; }
-  int joint_count() const { return static_cast<int>(joints_.size()); }
+  /// To make another one that differs in some.
+  const RobotParts& parts() const { return parts_; }
+  const std::string& name() const { return parts_.name; }
+  Convention convention() const { return parts_.convention; }
+  const std::vector<Joint>& joints() const { return parts_.joints; }
+  const std::vector<NamedFrame>& frames() const { return parts_.frames; }
+  int joint_count() const { return static_cast<int>(parts_.joints.size()); }
   int dof() const { return static_cast<int>(independent_.size()); }
   /// Index into joints() of the i-th independent joint.
   int independent_joint(int i) const { return independent_[static_cast<std::size_t>(i)]; }
 
   /// The frame named `tool`: the tip that goals are stated for.
-  FrameId tool() const { return tool_; }
+  FrameId tool() const { return parts_.tool; }
   std::optional<FrameId> find_frame(std::string_view name) const;
-  const NamedFrame& frame(FrameId id) const { return frames_[static_cast<std::size_t>(id)]; }
+  const NamedFrame& frame(FrameId id) const { return parts_.frames[static_cast<std::size_t>(id)]; }
 
   /// The unit axis of the tool frame that a pointing goal aligns with a direction.
-  const std::optional<Eigen::Vector3d>& pointing_axis() const { return pointing_axis_; }
+  const std::optional<Eigen::Vector3d>& pointing_axis() const { return parts_.pointing_axis; }
   /// The instrument's shaft, if the file names one; its axis has length 1.
-  const std::optional<Shaft>& shaft() const { return shaft_; }
+  const std::optional<Shaft>& shaft() const { return parts_.shaft; }
   /// The bodies of the links, as far as the file states them.
-  const std::vector<LinkCapsule>& capsules() const { return capsules_; }
+  const std::vector<LinkCapsule>& capsules() const { return parts_.capsules; }
+  /// The masses of the links, as far as the file states them.
+  const std::vector<LinkMass>& masses() const { return parts_.masses; }
   /// Home position of all joints, if the file names one.
-  const std::optional<JointVector>& home() const { return home_; }
+  const std::optional<JointVector>& home() const { return parts_.home; }
 
   /// Independent values -> all joints, couplings applied.
   JointVector to_all(const JointVector& independent) const;
-  /// All joints -> independent values; a reason when the length is wrong, a value is not finite or
-  /// a coupled joint contradicts its coupling by more than 1e-6.
+  /// All joints -> independent values; a reason when the length is wrong, a value is not finite, a
+  /// coupled joint contradicts its coupling by more than 1e-6, or a locked joint has left its place
+  /// by more than 1e-4 (metres or radians).
   Expected<JointVector> to_independent(const JointVector& all) const;
   /// The same from a list that may have any length, as it comes from outside.
   Expected<JointVector> to_independent(std::span<const double> all) const;
-  /// The same of velocities or accelerations: a coupling's offset does not count.
+  /// The same of velocities or accelerations: a coupling's offset does not count, and a locked
+  /// joint not at all.
   Expected<JointVector> contract_rates(std::span<const double> all) const;
   /// The same into `independent`: empty, or the reason. Real-time safe.
   ReasonText to_independent(std::span<const double> all, JointVector& independent) const;
@@ -162,15 +193,7 @@ class RobotModel {
   ReasonText contracted(std::span<const double> all, double offset_factor,
                         JointVector& independent) const;
 
-  std::string name_;
-  Convention convention_;
-  std::vector<Joint> joints_;
-  std::vector<NamedFrame> frames_;
-  FrameId tool_;
-  std::optional<Eigen::Vector3d> pointing_axis_;
-  std::optional<JointVector> home_;
-  std::optional<Shaft> shaft_;
-  std::vector<LinkCapsule> capsules_;
+  RobotParts parts_;
   std::vector<int> independent_;
   std::vector<ChainLink> chain_;
   bool is_placed_ = false;

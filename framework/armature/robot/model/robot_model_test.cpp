@@ -112,7 +112,7 @@ TEST(RobotModel, RefusesPartsThatDoNotFit) {
   const std::vector<NamedFrame> frames{{"tool", 1, Eigen::Isometry3d::Identity()}};
   const auto make = [&](FrameId tool) {
     return RobotModel{
-        "r", RobotModel::Convention::standard, joints, frames, tool, std::nullopt, std::nullopt};
+        {"r", RobotModel::Convention::standard, joints, frames, tool, std::nullopt, std::nullopt}};
   };
   EXPECT_THROW(make(FrameId{0}), std::invalid_argument);
   joints[1].coupling.reset();

@@ -37,10 +37,13 @@ inline RobotModel synthetic_robot(RobotModel::Convention convention, unsigned se
   Eigen::Isometry3d offset = Eigen::Isometry3d::Identity();
   offset.translate(Eigen::Vector3d{0.1, -0.2, 0.3});
   offset.rotate(Eigen::AngleAxisd{0.7, Eigen::Vector3d{1, 2, 3}.normalized()});
-  return RobotModel{"synthetic", convention,
-                    joints,      {{"foot", -1, offset}, {"elbow", 3, offset}, {"tool", 6, offset}},
-                    FrameId{2},  std::nullopt,
-                    std::nullopt};
+  return RobotModel{{"synthetic",
+                     convention,
+                     joints,
+                     {{"foot", -1, offset}, {"elbow", 3, offset}, {"tool", 6, offset}},
+                     FrameId{2},
+                     std::nullopt,
+                     std::nullopt}};
 }
 
 /// The same with placements in front of the first and the fourth row.
@@ -48,7 +51,7 @@ inline RobotModel placed_robot(RobotModel::Convention convention, unsigned seed)
   const RobotModel plain = synthetic_robot(convention, seed);
   std::vector<Joint> joints = plain.joints();
   joints[0].placement = joints[3].placement = plain.frames()[0].parent_T_frame;
-  return RobotModel{"placed", convention, joints, plain.frames(), plain.tool(), {}, {}};
+  return RobotModel{{"placed", convention, joints, plain.frames(), plain.tool(), {}, {}}};
 }
 
 inline RobotModel dental_lamp() {

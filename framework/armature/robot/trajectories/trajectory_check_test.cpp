@@ -25,13 +25,13 @@ RobotModel hinge_and_slide() {
     joint.lower = -2, joint.upper = 2;
     joint.max_velocity = 1, joint.max_acceleration = 2.5;
   }
-  return RobotModel{"hinge_and_slide",
-                    RobotModel::Convention::standard,
-                    joints,
-                    {{.name = "tool", .parent_joint = 1}},
-                    FrameId{0},
-                    std::nullopt,
-                    std::nullopt};
+  return RobotModel{{"hinge_and_slide",
+                     RobotModel::Convention::standard,
+                     joints,
+                     {{.name = "tool", .parent_joint = 1}},
+                     FrameId{0},
+                     std::nullopt,
+                     std::nullopt}};
 }
 
 JointState resting(double hinge, double slide) {
@@ -115,12 +115,12 @@ TEST_F(TrajectoryCheck, ASpikeThatNoCoarseSamplingSeesIsFound) {
   const double highest = range(trajectory.pieces[0], 2).highest;
   std::vector<Joint> joints = model_.joints();
   joints[0].upper = highest - 2e-6;
-  const RobotModel tight{"tight",    model_.convention(), joints,      model_.frames(),
-                         FrameId{0}, std::nullopt,        std::nullopt};
+  const RobotModel tight{{"tight", model_.convention(), joints, model_.frames(), FrameId{0},
+                          std::nullopt, std::nullopt}};
   EXPECT_FALSE(trajectory_defect(trajectory.view(), tight, limits_, from, kTakeOver).empty());
   joints[0].upper = highest;
-  const RobotModel wide{"wide",     model_.convention(), joints,      model_.frames(),
-                        FrameId{0}, std::nullopt,        std::nullopt};
+  const RobotModel wide{{"wide", model_.convention(), joints, model_.frames(), FrameId{0},
+                         std::nullopt, std::nullopt}};
   EXPECT_TRUE(trajectory_defect(trajectory.view(), wide, limits_, from, kTakeOver).empty());
 }
 

@@ -33,15 +33,16 @@ RobotModel pan_tilt_gantry() {
     return made;
   };
   using Type = Joint::Type;
-  return {"pan_tilt_gantry",
-          RobotModel::Convention::standard,
-          {joint("z", Type::prismatic, 0, -kQuarter, 1),
-           joint("y", Type::prismatic, kQuarter, kQuarter, 1), joint("x", Type::prismatic, 0, 0, 1),
-           joint("pan", Type::revolute, 0, kQuarter, 3), joint("tilt", Type::revolute, 0, 0, 2)},
-          {{"tool", 4, Eigen::Isometry3d::Identity()}},
-          FrameId{0},
-          Eigen::Vector3d::UnitX(),
-          {}};
+  return {
+      {"pan_tilt_gantry",
+       RobotModel::Convention::standard,
+       {joint("z", Type::prismatic, 0, -kQuarter, 1),
+        joint("y", Type::prismatic, kQuarter, kQuarter, 1), joint("x", Type::prismatic, 0, 0, 1),
+        joint("pan", Type::revolute, 0, kQuarter, 3), joint("tilt", Type::revolute, 0, 0, 2)},
+       {{"tool", 4, Eigen::Isometry3d::Identity()}},
+       FrameId{0},
+       Eigen::Vector3d::UnitX(),
+       {}}};
 }
 
 enum class Fault {

@@ -34,10 +34,13 @@ RobotModel plain_arm() {
     joint.lower = -limit, joint.upper = limit;
     joints.push_back(joint);
   }
-  return {"plain",    RobotModel::Convention::standard,
-          joints,     {{"tool", 5, Eigen::Isometry3d::Identity()}},
-          FrameId{0}, {},
-          {}};
+  return {{"plain",
+           RobotModel::Convention::standard,
+           joints,
+           {{"tool", 5, Eigen::Isometry3d::Identity()}},
+           FrameId{0},
+           {},
+           {}}};
 }
 
 Eigen::Vector3d tip(const RobotModel& model, const JointVector& q) {
@@ -83,10 +86,13 @@ RobotModel arm_with_a_coupled_wrist(double ratio) {
     joints[i].lower = -2, joints[i].upper = 2;
   }
   joints[2].coupling = Joint::Coupling{.to = 1, .ratio = ratio, .offset = -2 * kPi * ratio};
-  return {"coupled",  RobotModel::Convention::standard,
-          joints,     {{"tool", 2, Eigen::Isometry3d::Identity()}},
-          FrameId{0}, {},
-          {}};
+  return {{"coupled",
+           RobotModel::Convention::standard,
+           joints,
+           {{"tool", 2, Eigen::Isometry3d::Identity()}},
+           FrameId{0},
+           {},
+           {}}};
 }
 
 TEST_F(Postures, TheReachBallIsAsWideAsACoupledArmGetsInAsManyTurnsAsMakeItTheSame) {

@@ -46,13 +46,13 @@ RobotModel pointing_gantry(Free free) {
   } else {
     joints.insert(joints.begin() + 3, joint("x2", Type::prismatic, 0, 0, -0.5, 0.25));
   }
-  return {"pointing_gantry",
-          RobotModel::Convention::standard,
-          joints,
-          {{"tool", 5, Eigen::Isometry3d::Identity()}},
-          FrameId{0},
-          Eigen::Vector3d::UnitZ(),
-          {}};
+  return {{"pointing_gantry",
+           RobotModel::Convention::standard,
+           joints,
+           {{"tool", 5, Eigen::Isometry3d::Identity()}},
+           FrameId{0},
+           Eigen::Vector3d::UnitZ(),
+           {}}};
 }
 
 enum class Fault {

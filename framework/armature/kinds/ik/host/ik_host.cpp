@@ -7,6 +7,7 @@
 #include "armature/kinds/request_host.hpp"
 #include "armature/kinds/setup_robot.hpp"
 #include "armature/kinds/tool_pose_messages.hpp"
+#include "armature/robot/kinematics/locked_joints.hpp"
 #include "armature/runtime/plugins/plugin.hpp"
 #include "armature/values/guarded.hpp"
 
@@ -34,13 +35,14 @@ class IkHost final : public RequestHost<msg::IkRequest, msg::IkResponse> {
   explicit IkHost(Setup& setup)
       : RequestHost{setup},
         robot_{robot_of(setup)},
-        solver_{setup.slot<IkSolver>("solver", robot_)} {}
+        solver_model_{without_locked_joints(robot_)},
+        solver_{setup.slot<IkSolver>("solver", solver_model_)} {}
 
  private:
   void answer(const msg::IkRequest& request, msg::IkResponse& response) override;
   IkStatus solve(const msg::IkRequest& request, std::string& reason);
 
-  const RobotModel robot_;
+  const RobotModel robot_, solver_model_;
   Slot<IkSolver> solver_;
   IkState state_;
   IkBranches branches_;

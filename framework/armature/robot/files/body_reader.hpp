@@ -8,10 +8,13 @@
 
 namespace armature {
 
-/// Reads the map under `capsules:` of a robot file. A capsule that hangs on a frame is returned as
-/// hanging on that one's joint. Every problem goes to `problems`.
+/// Read the maps under `capsules:` and `masses:` of a robot file. What hangs on a frame is returned
+/// as hanging on that one's joint. Every problem goes to `problems`.
 std::vector<LinkCapsule> read_capsules(const config::Node& map, const std::vector<Joint>& joints,
                                        const std::vector<NamedFrame>& frames,
                                        config::Problems& problems);
+std::vector<LinkMass> read_masses(const config::Node& map, const std::vector<Joint>& joints,
+                                  const std::vector<NamedFrame>& frames,
+                                  config::Problems& problems);
 
 }  // namespace armature

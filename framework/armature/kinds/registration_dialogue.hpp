@@ -31,6 +31,8 @@ class RegistrationDialogue {
   /// True when it has not been asked yet, or not been answered in time.
   bool due(Time now) const;
   void ask(const Question& question, Time now);
+  /// No answer to the last question counts any more: what it asked of has changed.
+  void forget() { last_id_.reset(); }
   /// Calls `hear` with every answer to the last question; those to somebody else's are none.
   template <class Hear>
   void listen(const Hear& hear) const {

@@ -42,7 +42,8 @@ class GoalPlanner {
   /// plugin's path, from rest: anything else would miss them. With a greatest speed from rest, too;
   /// a stop that comes first counts for nothing there.
   /// With forbidden zones every link that the robot file states keeps `min_link_clearance` on the
-  /// whole way; where it does not, the way begins in another branch, if there is one that does.
+  /// whole way, a stop before it left out; where it does not, the way begins in another branch, if
+  /// there is one that does.
   PlanResult plan(const MotionGoal& goal, const JointState& from, Time start);
 
   /// The joint position nearest to `near` that reaches `pose`.

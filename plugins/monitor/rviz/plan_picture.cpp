@@ -45,7 +45,7 @@ msg::MarkerArray draw_plans(const Plans& plans, const ImageInBase& image,
     }
   }
   if (plans.incision) add_incision(head, *plans.incision, array);
-  if (plans.goal && plans.goal_is_pursued) add_zones(head, *plans.goal, array);
+  if (plans.way) add_zones(head, *plans.way, array);
   return array;
 }
 

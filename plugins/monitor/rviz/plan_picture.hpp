@@ -16,13 +16,12 @@ struct Plans {
   const msg::NeedlePlan* needle = nullptr;
   const msg::ImplantPlan* implant = nullptr;
   const msg::PointStamped* incision = nullptr;
-  const msg::MotionGoal* goal = nullptr;
-  bool goal_is_pursued = false;
+  const msg::MotionGoal* way = nullptr;  // the planned goal whose way the arm is on, or was last
 };
 
 /// All of it as markers in `base_frame`, each array complete: it begins by taking everything away.
 /// Namespaces `head`, `vessels`, `lesion`, `entry`, `needle`; `jaw`, `sites`; `incision`; `zones`,
-/// those of the goal that is pursued. A plan on images is not drawn before it is known where the
+/// those of the way. A plan on images is not drawn before it is known where the
 /// image lies.
 msg::MarkerArray draw_plans(const Plans& plans, const ImageInBase& image,
                             const std::string& base_frame, Time stamp);

@@ -165,18 +165,18 @@ TEST(PlanPicture, OfImplantsIsTheJawAndAnArrowIntoEverySiteWhereTheTrackerSeesTh
   expect_at(marker_of(array, "sites", 1).points_()[0], {0.97, 0.47, 2});
 }
 
-TEST(PlanPicture, HasTheIncisionInTheBaseAndTheZonesOfTheGoalThatIsPursued) {
+TEST(PlanPicture, HasTheIncisionInTheBaseAndTheZonesOfTheWay) {
   msg::PointStamped incision;
   incision.header_().frame_id_("base");
   incision.point_(point(0.3, 0, 0.2));
   msg::MotionGoal goal;
   goal.forbidden_() = {zone({0, 0, 0}, {0, 0, 0.4}, 0.05)};
-  Plans plans{.incision = &incision, .goal = &goal, .goal_is_pursued = true};
+  Plans plans{.incision = &incision, .way = &goal};
   const msg::MarkerArray array = draw(plans, {});
   EXPECT_EQ(drawn(array), (std::map<std::string, std::size_t>{{"incision", 1}, {"zones", 3}}));
   expect_at(marker_of(array, "incision").pose_().position_(), {0.3, 0, 0.2});
   expect_at(marker_of(array, "zones", 1).pose_().position_(), {0, 0, 0.2});
-  plans.goal_is_pursued = false;
+  plans.way = nullptr;
   EXPECT_EQ(drawn(draw(plans, {})).count("zones"), 0U);
 }
 

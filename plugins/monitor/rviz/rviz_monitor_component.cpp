@@ -9,6 +9,7 @@
 #include "armature/messages/geometry.hpp"
 #include "armature/messages/header.hpp"
 #include "armature/messages/sensor_msgs.hpp"
+#include "armature/motion/goal.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
 #include "armature/runtime/component/component.hpp"
 #include "armature/runtime/component/setup.hpp"
@@ -104,10 +105,27 @@ class RvizMonitor final : public Component {
       is_news = true;
     });
     if (chain_.fresh()) image_.hear(*chain_.latest());
-    if (goal_.latest()) newest_goal_ = *goal_.latest();
-    const bool was_pursued =
-        std::exchange(goal_is_pursued_, newest_goal_ && goals_.pursues(newest_goal_->goal_id_()));
-    return is_news || chain_.fresh() || goal_.latest() || goal_is_pursued_ != was_pursued;
+    return hear_goals() || is_news || chain_.fresh();
+  }
+
+  /// True when the arm is on another way: a pause, going on and going back are the same one.
+  bool hear_goals() {
+    bool is_news = false;
+    for (std::size_t i = 0; i < goal_.size(); ++i) {
+      switch (static_cast<MotionMode>(goal_[i].mode_())) {
+        case MotionMode::planned:
+          way_ = goal_[i];
+          is_news = true;
+          break;
+        case MotionMode::pause:
+        case MotionMode::resume:
+        case MotionMode::retrace:
+          break;
+        default:
+          is_news = std::exchange(way_, std::nullopt).has_value() || is_news;
+      }
+    }
+    return is_news;
   }
 
   /// Once for each change: DDS keeps the last array for those who come later.
@@ -116,8 +134,7 @@ class RvizMonitor final : public Component {
     *markers = draw_plans({.needle = needle_plan_.latest(),
                            .implant = implant_plan_.latest(),
                            .incision = incision_.latest(),
-                           .goal = newest_goal_ ? &*newest_goal_ : nullptr,
-                           .goal_is_pursued = goal_is_pursued_},
+                           .way = way_ ? &*way_ : nullptr},
                           image_, tree_.name(kBaseFrame), now);
     markers.publish();
   }
@@ -170,8 +187,7 @@ class RvizMonitor final : public Component {
   Input<msg::PointStamped> incision_;
   Input<msg::MotionGoal> goal_;
   ImageInBase image_;
-  std::optional<msg::MotionGoal> newest_goal_;
-  bool goal_is_pursued_ = false;
+  std::optional<msg::MotionGoal> way_;
   Output<msg::TFMessage> tf_, tf_static_;
   Output<msg::PoseStamped> tool_pose_;
   Output<msg::MarkerArray> markers_, plan_markers_;

@@ -10,6 +10,7 @@
 #include "armature/messages/geometry_msgs.hpp"
 #include "armature/messages/header.hpp"
 #include "armature/messages/visualization_msgs.hpp"
+#include "armature/motion/goal.hpp"
 #include "armature/robot/files/stereo_rig.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
 #include "armature/runtime/testing/component_harness.hpp"
@@ -126,7 +127,7 @@ TEST_F(RvizMonitorTest, TellsPlansOnceForEachChangeAndNothingWhereThereAreNone) 
   EXPECT_EQ(monitor_.status().state, StatusReporter::State::ok);
 }
 
-TEST_F(RvizMonitorTest, ShowsTheZonesOfAGoalUntilItIsOver) {
+TEST_F(RvizMonitorTest, ShowsTheZonesOfAWayUntilAnotherMotionBegins) {
   msg::MotionGoal goal;
   goal.goal_id_(4);
   goal.forbidden_().resize(1);
@@ -134,14 +135,24 @@ TEST_F(RvizMonitorTest, ShowsTheZonesOfAGoalUntilItIsOver) {
   monitor_.send("goal", goal);
   step();
   EXPECT_EQ(monitor_.take<msg::MarkerArray>("plan_markers").back().markers_().size(), 2U);
-  msg::MotionStatus done;
-  done.goal_id_(4);
-  done.state_(2);
-  monitor_.send("motion_status", done);
-  step();
-  const auto told = monitor_.take<msg::MarkerArray>("plan_markers");
-  ASSERT_EQ(told.size(), 1U);
-  EXPECT_EQ(told[0].markers_().size(), 1U) << "all is taken away";
+  for (const MotionMode mode : {MotionMode::pause, MotionMode::resume, MotionMode::retrace}) {
+    msg::MotionGoal along;
+    along.mode_(static_cast<std::uint8_t>(mode));
+    monitor_.send("goal", along);
+    step();
+    EXPECT_TRUE(monitor_.take<msg::MarkerArray>("plan_markers").empty()) << "it is the same way";
+  }
+  for (const std::size_t told : {1U, 0U}) {
+    msg::MotionGoal tracked;
+    tracked.mode_(static_cast<std::uint8_t>(MotionMode::tracking));
+    monitor_.send("goal", tracked);
+    step();
+    const auto arrays = monitor_.take<msg::MarkerArray>("plan_markers");
+    ASSERT_EQ(arrays.size(), told) << "a target that goes on is no news";
+    if (told > 0) {
+      EXPECT_EQ(arrays[0].markers_().size(), 1U) << "all is taken away";
+    }
+  }
 }
 
 TEST_F(RvizMonitorTest, DrawsAPlanOnImagesOnceTheAnswerToTheTasksQuestionIsThere) {

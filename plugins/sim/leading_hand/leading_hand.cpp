@@ -81,10 +81,7 @@ void LeadingHand::rest(const Touches& touches, Time now) {
     holds_ = false;
     return;
   }
-  if (!rests_since_) {
-    rests_since_ = now;
-    taken_before_ = taken_;
-  }
+  if (!rests_since_) rests_since_ = now;
   const bool waited = touches.by_itself && now - *rests_since_ >= seconds(parameters_.rest);
   if (taken_ > taken_before_ || waited) ++visit_;
 }
@@ -93,6 +90,7 @@ void LeadingHand::begin_way(std::optional<std::size_t> visit) {
   const Vector3d to = visit ? Vector3d{markers_[order_[*visit]] + touch_error()} : home_;
   way_ = TipWay{at_, to, parameters_.lift, parameters_.speed};
   towards_ = visit;
+  taken_before_ = taken_;
   on_way_s_ = 0;
   rests_since_.reset();
 }

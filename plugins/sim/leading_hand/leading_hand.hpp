@@ -56,7 +56,7 @@ class LeadingHand {
   Eigen::Vector3d home_ = Eigen::Vector3d::Zero(), at_ = home_;
   bool holds_ = false;
   std::size_t visit_ = 0;                     // the one that it goes to, or makes
-  std::size_t taken_ = 0, taken_before_ = 0;  // touches: now, and when it came to rest
+  std::size_t taken_ = 0, taken_before_ = 0;  // touches: now, and when its way began
   std::optional<std::size_t> towards_;        // a visit; none: home
   TipWay way_;
   double on_way_s_ = 0, pace_ = 1;  // of its own time

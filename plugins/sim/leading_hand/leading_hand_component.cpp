@@ -81,6 +81,7 @@ class LeadingHandComponent final : public Component {
     for (const auto& marker : plan_.latest()->markers_()) {
       markers.push_back(base_T_image * to_eigen(marker));
     }
+    if (markers.empty()) return degraded("the plan has no markers");
     for (const double number : parameters_.order) {
       if (number <= static_cast<double>(markers.size())) continue;
       return degraded(

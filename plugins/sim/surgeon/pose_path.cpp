@@ -161,13 +161,16 @@ Expected<PosePath> pose_path_through(const msg::PoseArray& poses, double speed,
   std::vector<PosePath::Row> rows;
   for (std::size_t i = 0; i < poses.poses_().size(); ++i) {
     auto row = row_of(0, poses.poses_()[i]);
-    if (!row) return refuse(fmt::format("pose {} of {}: {}", i, name, row.error().text));
+    if (!row) return refuse(fmt::format("pose {} of {}: {}", i + 1, name, row.error().text));
     if (!rows.empty()) {
       const PosePath::Row& last = rows.back();
       const double takes_s =
           std::max((row->position - last.position).norm() / speed,
                    row->rotation.angularDistance(last.rotation) / kTurnSpeed_rad_s);
       if (takes_s < kSameTime_s) continue;
+      if (!std::isfinite(takes_s)) {
+        return refuse(fmt::format("pose {} of {}: the way there has no length", i + 1, name));
+      }
       row->t = last.t + takes_s;
     }
     rows.push_back(*row);

@@ -91,10 +91,12 @@ TEST(PosesWithoutTimes, ThatAreNoPathAreRefusedWithTheirNumber) {
   EXPECT_EQ(error_of(poses_at({{1, 2, 3}, {1, 2, 3}})),
             "the path has 1 different poses; a path has two at least");
   EXPECT_EQ(error_of(poses_at({{0, 0, 0}, {0, std::nan(""), 0}})),
-            "pose 1 of the path: a number is not finite");
+            "pose 2 of the path: a number is not finite");
+  EXPECT_EQ(error_of(poses_at({{0, 0, 0}, {0, 1e200, 0}})),
+            "pose 2 of the path: the way there has no length");
   msg::PoseArray poses = poses_at({{0, 0, 0}, {0.1, 0, 0}});
   poses.poses_()[0].orientation_().w_(0);
-  EXPECT_EQ(error_of(poses), "pose 0 of the path: the quaternion has length 0, not 1");
+  EXPECT_EQ(error_of(poses), "pose 1 of the path: the quaternion has length 0, not 1");
 }
 
 }  // namespace

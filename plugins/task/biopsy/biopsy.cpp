@@ -63,7 +63,7 @@ std::vector<Procedure::Step> Biopsy::steps() const {
 }
 
 Biopsy::Step Biopsy::step() const {
-  constexpr std::size_t kBehindTouching = 5;
+  constexpr auto kBehindTouching = static_cast<std::size_t>(Step::withdrawal);
   const std::size_t ahead = procedure_.steps().size() - procedure_.step();
   return ahead > kBehindTouching ? Step::touching : static_cast<Step>(1 + kBehindTouching - ahead);
 }
@@ -78,6 +78,11 @@ void Biopsy::see_head(const NeedleLine& plan, const std::vector<Vector3d>& marke
   plan_ = plan;
   has_plan_ = true;
   if (!parameters_.touch_markers) return;
+  constexpr std::size_t kFewest = 3;
+  if (markers.size() < kFewest) {
+    return refuse(fmt::format("the plan has {} markers, at least {} tell how a head lies",
+                              markers.size(), kFewest));
+  }
   touching_.begin(markers);
   const auto all = steps();
   procedure_.set_steps_ahead({all.begin() + 1, all.end()});
@@ -117,7 +122,7 @@ void Biopsy::update(Time now) {
     case Step::registration:
       break;
     case Step::approach:
-      if (waits_to_be_led_away(now)) break;
+      if (!has_left_hand(now)) break;
       [[fallthrough]];
     case Step::entry:
     case Step::insertion:
@@ -146,12 +151,14 @@ void Biopsy::turn_to(Heading heading) {
 }
 
 void Biopsy::hear(const GoalReport& report, Time now) {
+  const bool was_led = led();
   goal_.hear(report, now);
+  if (led() && !was_led) touching_.begin_rest();
   if (in_hand() && goal_.state() == PursuedGoal::State::failed) return refuse(goal_.reason());
   if (procedure_.over() || heading_ == Heading::none) return;
   if (goal_.state() == PursuedGoal::State::failed) {
-    return break_down((heading_ == Heading::onward ? "" : "the way back failed: ") +
-                      goal_.reason());
+    return break_down((heading_ == Heading::onward ? "" : "the way back failed: ") + goal_.reason(),
+                      now);
   }
   if (goal_.state() == PursuedGoal::State::done) arrive(now);
 }
@@ -217,7 +224,11 @@ Expected<void> Biopsy::go_back(Time now) {
     return armature::refuse("the needle goes back already");
   }
   const bool stands_where_it_began = heading_ == Heading::none && place_ == 0 && !held_;
-  if (stands_where_it_began && parameters_.touch_markers) return touch_again(now);
+  if (stands_where_it_began && parameters_.touch_markers) {
+    if (touching_.places().empty()) return armature::refuse("there is no step before this one");
+    touch_again(now);
+    return {};
+  }
   if (step() == Step::registration) return armature::refuse("there is no step before this one");
   procedure_.turn_back();
   if (stands_where_it_began) {
@@ -238,7 +249,7 @@ Expected<void> Biopsy::abort() {
   const bool stands_where_it_began = place_ == 0 && heading_ == Heading::none && !held_;
   if (stands_where_it_began) {
     ended_as_ = Phase::aborted;
-    hold();
+    take_from_hand();
     procedure_.end(Procedure::StepState::broken_off);
     return {};
   }
@@ -248,8 +259,14 @@ Expected<void> Biopsy::abort() {
   return {};
 }
 
-void Biopsy::break_down(const std::string& why) {
+void Biopsy::break_down(const std::string& why, Time now) {
   const bool has_set_out = way_stops_ > 0 || goal_.begun();
+  if (!has_set_out && parameters_.touch_markers && !parameters_.auto_confirm) {
+    heading_ = Heading::none;
+    trouble_ = why;
+    give_to_hand(now);
+    return enter(Step::approach);
+  }
   if (parameters_.auto_confirm || !has_set_out) return refuse(why);
   held_ = true;
   heading_ = turning_to_ = Heading::none;
@@ -258,7 +275,7 @@ void Biopsy::break_down(const std::string& why) {
 
 void Biopsy::refuse(const std::string& why) {
   trouble_ = why;  // which may be the goal's
-  hold();
+  take_from_hand();
   ended_as_ = Phase::refused;
   procedure_.end(Procedure::StepState::broken_off);
 }
@@ -278,7 +295,9 @@ Biopsy::Phase Biopsy::phase() const {
     case Heading::none:
       break;
   }
-  if (step() == Step::touching) return has_plan_ ? Phase::touching : Phase::waiting;
+  if (step() == Step::touching) {
+    return procedure_.step() > 0 ? Phase::touching : Phase::waiting;
+  }
   if (procedure_.asks()) return Phase::asking;
   if (step() == Step::registration) return has_plan_ ? Phase::registering : Phase::waiting;
   return step() == Step::withdrawal ? Phase::at_target : Phase::moving;

@@ -44,7 +44,7 @@ class Biopsy {
  public:
   enum class Step : std::size_t { touching, registration, approach, entry, insertion, withdrawal };
   enum class Phase {
-    waiting,      // for plan and markers
+    waiting,      // for plan and markers, or to be given to a hand
     touching,     // an arm in a hand touches the markers
     registering,  // until the registration has answered
     asking,       // the operator is to confirm a step
@@ -75,7 +75,7 @@ class Biopsy {
 
   /// True from the plan until the registration has answered.
   bool wants_registration() const {
-    return has_plan_ && !line_ && !procedure_.over() && step() == Step::registration;
+    return has_plan_ && !line_ && step() == Step::registration && procedure_.may_act();
   }
   std::optional<MotionGoal> outgoing_goal(Time now) { return goal_.outgoing(now); }
 
@@ -103,23 +103,27 @@ class Biopsy {
   /// Along the way, once the arm rests.
   void turn_to(Heading heading);
   /// For good; or, of a needle that has set out, until an operator who is there leads it back.
-  void break_down(const std::string& why);
+  void break_down(const std::string& why, Time now);
   void refuse(const std::string& why);
 
   // While a hand leads the arm: biopsy_in_hand.cpp.
   /// Nothing has been planned yet: a hand moves the arm, or may again.
   bool in_hand() const;
+  /// A hand moves the arm now.
+  bool led() const;
   void give_to_hand(Time now);
-  /// No hand moves the arm any more.
-  void hold();
+  /// The arm holds where it is, if it is in a hand.
+  void take_from_hand();
   void touch_by_itself(Time now);
   /// The tip rests on the marker whose step it is; or why it does not.
   Expected<void> touch(Time now);
   /// The last place that was touched counts no more.
-  Expected<void> touch_again(Time now);
-  /// The tip rests far from the markers, so that the arm may move by itself; or why not.
+  void touch_again(Time now);
+  /// The tip rests far from the head, so that the arm may move by itself; or why not.
   Expected<void> may_leave_hand(Time now) const;
-  bool waits_to_be_led_away(Time now);
+  /// Takes the arm from the hand where it may leave it, and looks again once it holds: a hand may
+  /// have moved it meanwhile. True when it may set out.
+  bool has_left_hand(Time now);
   struct Wait {
     std::string what, last;  // for what, and why it was not so last
   };
@@ -141,7 +145,8 @@ class Biopsy {
   int way_stops_ = 0;                   // 0: no way is planned
   int place_ = 0;                       // the stop where the arm rests, or rested last
   Time at_target_since_;
-  Time waits_since_;  // for a hand
+  Time waits_since_;         // for a hand
+  bool takes_back_ = false;  // the arm holds, or will, before it moves by itself
   Phase ended_as_ = Phase::withdrawn;
   bool held_ = false;
   std::string trouble_;

@@ -2,7 +2,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "armature/kinds/joint_messages.hpp"
@@ -31,6 +33,12 @@ std::vector<Eigen::Vector3d> points_of(const std::vector<msg::Point>& messages) 
   std::vector<Eigen::Vector3d> points;
   for (const msg::Point& message : messages) points.push_back(to_eigen(message));
   return points;
+}
+
+bool is_other(const msg::NeedlePlan& plan, const msg::NeedlePlan& than) {
+  return to_eigen(plan.entry_()) != to_eigen(than.entry_()) ||
+         to_eigen(plan.target_()) != to_eigen(than.target_()) ||
+         points_of(plan.markers_()) != points_of(than.markers_());
 }
 
 RegisteredHead head_of(const msg::RegistrationResponse& response) {
@@ -87,8 +95,13 @@ class BiopsyComponent final : public Component {
   void read(Time now) {
     if (parameters_.touch_markers) read_tip();
     const bool is_ready = parameters_.touch_markers ? sees_tip_ : markers_.latest() != nullptr;
-    if (plan_.latest() && is_ready) {
-      task_.see_head(line_of(*plan_.latest()), points_of(plan_.latest()->markers_()), now);
+    if (!begun_with_ && plan_.latest() && is_ready) {
+      begun_with_ = *plan_.latest();
+      task_.see_head(line_of(*begun_with_), points_of(begun_with_->markers_()), now);
+    }
+    if (begun_with_ && !told_other_plan_ && is_other(*plan_.latest(), *begun_with_)) {
+      told_other_plan_ = true;
+      log("another plan has come; this procedure goes on with the one that it began with");
     }
     registration_.listen([&](const msg::RegistrationResponse& response) {
       if (!response.valid_()) {
@@ -116,9 +129,11 @@ class BiopsyComponent final : public Component {
 
   void publish_touches(Time now) {
     const auto& places = task_.touching().places();
-    if (places.size() == told_touches_) return;
-    told_touches_ = places.size();
-    log(fmt::format("{} of {} markers touched", places.size(), task_.touching().count()));
+    const std::size_t version = task_.touching().version();
+    if (std::exchange(told_touches_, version) == version) return;
+    registration_.forget();  // of other places
+    if (!places.empty())
+      log(fmt::format("{} of {} markers touched", places.size(), task_.touching().count()));
     touches_.points_().clear();
     for (const Eigen::Vector3d& place : places) assign(touches_.points_().emplace_back(), place);
     touches_.error_(parameters_.touch_error);
@@ -134,7 +149,7 @@ class BiopsyComponent final : public Component {
   }
 
   void ask(Time now) {
-    const msg::NeedlePlan& plan = *plan_.latest();
+    const msg::NeedlePlan& plan = *begun_with_;
     const msg::MeasuredMarkers& markers = parameters_.touch_markers ? touches_ : *markers_.latest();
     registration_.ask({.robot_frame = std::string{kBaseFrame},
                        .image_markers = plan.markers_(),
@@ -169,6 +184,8 @@ class BiopsyComponent final : public Component {
   msg::MeasuredMarkers touches_;
   std::size_t told_touches_ = 0;
   bool sees_tip_ = false;
+  std::optional<msg::NeedlePlan> begun_with_;
+  bool told_other_plan_ = false;
 };
 
 }  // namespace armature::task::biopsy

@@ -11,24 +11,31 @@ bool Biopsy::in_hand() const {
          heading_ == Heading::none;
 }
 
+bool Biopsy::led() const {
+  return in_hand() && !takes_back_ && goal_.state() == PursuedGoal::State::moving;
+}
+
 void Biopsy::give_to_hand(Time now) {
   waits_since_ = now;
+  takes_back_ = false;
   goal_.set({.mode = MotionMode::guided, .pose = {}});
 }
 
-void Biopsy::hold() {
-  if (!parameters_.touch_markers || way_stops_ > 0) return;
+void Biopsy::take_from_hand() {
+  if (!in_hand()) return;
+  takes_back_ = true;
   goal_.set({.mode = MotionMode::hold, .pose = {}});
 }
 
 void Biopsy::touch_by_itself(Time now) {
   if (!has_plan_) return;
   if (procedure_.step() == 0) {
+    if (!led()) return wait_for_hand({"the arm was not given to a hand", goal_.reason()}, now);
     waits_since_ = now;
-    if (goal_.state() == PursuedGoal::State::moving) procedure_.enter_next();
+    procedure_.enter_next();
     return;
   }
-  if (touching_.rests_anew(now)) {
+  if (led() && touching_.rests_anew(now)) {
     if (const auto taken = touch(now); !taken) trouble_ = taken.error().text;
     return;
   }
@@ -47,7 +54,9 @@ void Biopsy::wait_for_hand(const Wait& wait, Time now) {
 }
 
 Expected<void> Biopsy::touch(Time now) {
-  if (const auto taken = touching_.take(now); !taken) {
+  const auto taken = led() ? touching_.take(now)
+                           : armature::refuse("the arm is in no hand: its tip touches nothing");
+  if (!taken) {
     procedure_.enter(procedure_.step());  // and asks again
     return taken;
   }
@@ -57,8 +66,7 @@ Expected<void> Biopsy::touch(Time now) {
   return {};
 }
 
-Expected<void> Biopsy::touch_again(Time now) {
-  if (touching_.places().empty()) return armature::refuse("there is no step before this one");
+void Biopsy::touch_again(Time now) {
   touching_.drop_last();
   procedure_.turn_back();
   trouble_.clear();
@@ -66,7 +74,6 @@ Expected<void> Biopsy::touch_again(Time now) {
   way_stops_ = 0;
   give_to_hand(now);
   procedure_.enter(1 + touching_.places().size());
-  return {};
 }
 
 Expected<void> Biopsy::may_leave_hand(Time now) const {
@@ -74,19 +81,33 @@ Expected<void> Biopsy::may_leave_hand(Time now) const {
   return touching_.is_clear(now);
 }
 
-/// An operator has confirmed that it was.
-bool Biopsy::waits_to_be_led_away(Time now) {
-  if (!procedure_.auto_confirm() || !in_hand()) return false;
+bool Biopsy::has_left_hand(Time now) {
+  if (!in_hand()) return true;
+  if (takes_back_ && goal_.state() != PursuedGoal::State::done) return false;
   const auto clear = may_leave_hand(now);
-  if (clear) trouble_.clear();
-  if (!clear && trouble_.empty()) trouble_ = clear.error().text;  // said once, not at every step
-  if (!clear) wait_for_hand({"the tip was not led away from the markers", clear.error().text}, now);
-  return !clear;
+  if (clear && takes_back_) {
+    trouble_.clear();
+    return true;
+  }
+  if (clear) {
+    take_from_hand();
+    return false;
+  }
+  if (takes_back_) give_to_hand(now);
+  if (trouble_.empty()) trouble_ = clear.error().text;  // said once, not at every step
+  if (!procedure_.auto_confirm()) {
+    procedure_.enter(procedure_.step());  // and asks again
+    return false;
+  }
+  wait_for_hand({"the tip was not led away from the head", clear.error().text}, now);
+  return false;
 }
 
 void Biopsy::refuse_registration(const std::string& why, Time now) {
-  if (!parameters_.touch_markers || procedure_.auto_confirm()) return refuse(why);
-  if (touch_again(now)) trouble_ = why;
+  const bool touched = parameters_.touch_markers && !touching_.places().empty();
+  if (!touched || procedure_.auto_confirm()) return refuse(why);
+  touch_again(now);
+  trouble_ = why;
 }
 
 }  // namespace armature::task::biopsy

@@ -18,11 +18,13 @@ class TouchedBiopsyTest : public testing::Test {
  protected:
   void begin(bool auto_confirm) {
     task_.emplace(Parameters{.touch_markers = true, .auto_confirm = auto_confirm}, arm());
+    follows_ = false;
     task_->see_head({{0, 0, 0.05}, {0, 0, -0.03}, {}}, kMarkers, now_);
     run(0.1);
     EXPECT_EQ(goal_.mode, MotionMode::guided);
     EXPECT_EQ(asked(), "") << "the arm is not in a hand yet";
     hear(GoalReport::State::executing);
+    follows_ = true;
     run(0.1);
   }
   static const RobotModel& arm() {
@@ -30,12 +32,16 @@ class TouchedBiopsyTest : public testing::Test {
         load_robot_model(ARMATURE_SOURCE_DIR "/configs/robots/sr1_needle.yaml");
     return model;
   }
-  /// The tip at `tip_` is seen, and the goals that are sent are `goal_`.
+  /// The tip at `tip_` is seen, and the goals that are sent are `goal_`; an arm that is given to a
+  /// hand follows it.
   void run(double duration_s) {
     for (const Time end = now_ + seconds(duration_s); now_ < end;) {
       for (int i = 0; i < 20; ++i) task_->see_tip(tip_, now_ = now_ + seconds(0.001));
       task_->update(now_);
-      if (const auto goal = task_->outgoing_goal(now_)) goal_ = *goal;
+      if (const auto goal = task_->outgoing_goal(now_)) {
+        goal_ = *goal;
+        if (follows_ && goal_.mode == MotionMode::guided) hear(GoalReport::State::executing);
+      }
     }
   }
   void lead_to(const Vector3d& tip) {
@@ -45,6 +51,13 @@ class TouchedBiopsyTest : public testing::Test {
     run(0.6);
   }
   void lead_away() { lead_to({0.6, 0, 0.6}); }
+  /// The arm holds, and is looked at once more before it moves by itself.
+  void take_back() {
+    EXPECT_EQ(goal_.mode, MotionMode::hold);
+    hear(GoalReport::State::executing);
+    hear(GoalReport::State::done);
+    run(0.1);
+  }
   void hear(GoalReport::State state, const std::string& stage = "", const std::string& why = "") {
     task_->hear({.goal_id = goal_.id, .state = state, .stage = stage, .reason = why}, now_);
   }
@@ -75,6 +88,7 @@ class TouchedBiopsyTest : public testing::Test {
   Vector3d tip_{0.5, 0.2, 0.5};
   MotionGoal goal_;
   std::uint64_t said_ = 0;
+  bool follows_ = false;
   std::optional<Biopsy> task_;
 };
 
@@ -87,9 +101,12 @@ TEST_F(TouchedBiopsyTest, ByItselfTakesEveryRestAndGoesOnOnceTheTipIsLedAway) {
   register_head();
   run(1);
   EXPECT_EQ(goal_.mode, MotionMode::guided) << "the tip is at a marker";
-  EXPECT_NE(task_->trouble().find("the tip is 0.0 mm from the place of touch 3"),
-            std::string::npos);
+  EXPECT_NE(task_->trouble().find("the tip is 93 mm from the middle of the touched places, 123 mm "
+                                  "are required"),
+            std::string::npos)
+      << task_->trouble();
   lead_away();
+  take_back();
   EXPECT_EQ(goal_.mode, MotionMode::planned);
   EXPECT_TRUE(goal_.stepwise);
   EXPECT_EQ(task_->trouble(), "");
@@ -115,10 +132,11 @@ TEST_F(TouchedBiopsyTest, ByItselfDoesNotWaitForeverForTheTipToBeLedAway) {
   register_head();
   run(31);
   EXPECT_EQ(task_->phase(), Phase::refused);
-  EXPECT_EQ(task_->trouble(),
-            "the tip was not led away from the markers for 30 s (touch_timeout_s): the tip is 0.0 "
-            "mm from the place of touch 3, 30 mm are required (min_touch_clearance_mm): lead it "
-            "away from the head");
+  EXPECT_EQ(
+      task_->trouble(),
+      "the tip was not led away from the head for 30 s (touch_timeout_s): the tip is 93 mm from "
+      "the middle of the touched places, 123 mm are required, 30 mm more than the farthest of "
+      "them (min_touch_clearance_mm): lead it away from the head");
 }
 
 TEST_F(TouchedBiopsyTest, ATipThatNeverRestsIsSaid) {
@@ -129,7 +147,7 @@ TEST_F(TouchedBiopsyTest, ATipThatNeverRestsIsSaid) {
   }
   EXPECT_EQ(task_->phase(), Phase::refused);
   EXPECT_NE(task_->trouble().find("marker 1 of 3 was not touched for 30 s (touch_timeout_s): the "
-                                  "tip moved by 2.0"),
+                                  "tip was up to 2.0"),
             std::string::npos)
       << task_->trouble();
 }
@@ -209,7 +227,107 @@ TEST_F(TouchedBiopsyTest, TheApproachIsNotBegunWithTheTipAtTheHead) {
   EXPECT_EQ(goal_.mode, MotionMode::guided) << "it asks first";
   EXPECT_EQ(say("confirm", "approach"), "");
   run(0.1);
+  take_back();
   EXPECT_EQ(goal_.mode, MotionMode::planned);
+}
+
+TEST_F(TouchedBiopsyTest, AHandThatMovesTheArmWhileItIsTakenBackHasItAgain) {
+  begin(false);
+  touch_all();
+  register_head();
+  lead_away();
+  say("confirm", "approach");
+  run(0.1);
+  tip_ = kMarkers[1];
+  run(0.6);
+  take_back();
+  EXPECT_EQ(goal_.mode, MotionMode::guided);
+  EXPECT_EQ(asked(), "approach");
+  EXPECT_NE(task_->trouble().find("lead it away from the head"), std::string::npos);
+}
+
+TEST_F(TouchedBiopsyTest, AConfirmedApproachThatIsPausedAtOnceIsLookedAtAgain) {
+  begin(false);
+  touch_all();
+  register_head();
+  lead_away();
+  say("confirm", "approach");
+  say("pause");
+  run(0.1);
+  hear(GoalReport::State::done);
+  tip_ = kMarkers[1];
+  run(0.6);
+  say("resume");
+  run(0.6);
+  EXPECT_EQ(goal_.mode, MotionMode::guided);
+  EXPECT_EQ(asked(), "approach");
+}
+
+TEST_F(TouchedBiopsyTest, AWayThatCannotBePlannedGivesTheArmToTheHandAgain) {
+  begin(false);
+  touch_all();
+  register_head();
+  lead_away();
+  say("confirm", "approach");
+  run(0.1);
+  take_back();
+  hear(GoalReport::State::failed, "links", "lead it to another start");
+  run(0.1);
+  EXPECT_EQ(goal_.mode, MotionMode::guided);
+  EXPECT_EQ(asked(), "approach");
+  EXPECT_EQ(task_->trouble(), "links: lead it to another start");
+  EXPECT_EQ(touched(), 3u);
+}
+
+TEST_F(TouchedBiopsyTest, WhereTheArmIsHeldIsNoTouch) {
+  begin(true);
+  tip_ = {0.45, 0.1, 0.4};
+  run(0.1);
+  say("pause");
+  run(1);
+  hear(GoalReport::State::done);
+  say("resume");
+  run(2);
+  EXPECT_EQ(touched(), 0u);
+  lead_to(kMarkers[0]);
+  EXPECT_EQ(touched(), 1u);
+}
+
+TEST_F(TouchedBiopsyTest, AnArmThatIsInNoHandTouchesNothing) {
+  begin(false);
+  lead_to(kMarkers[0]);
+  follows_ = false;
+  hear(GoalReport::State::failed, "stop", "stopped until it is rearmed");
+  run(0.6);
+  EXPECT_EQ(say("confirm", "marker 1"), "the arm is in no hand: its tip touches nothing");
+  EXPECT_EQ(asked(), "marker 1");
+}
+
+TEST_F(TouchedBiopsyTest, AnArmThatIsNeverGivenToAHandIsSaid) {
+  task_.emplace(Parameters{.touch_markers = true, .auto_confirm = false}, arm());
+  task_->see_head({{0, 0, 0.05}, {0, 0, -0.03}, {}}, kMarkers, now_);
+  run(31);
+  EXPECT_EQ(task_->phase(), Phase::refused);
+  EXPECT_EQ(task_->trouble(), "the arm was not given to a hand for 30 s (touch_timeout_s)");
+}
+
+TEST_F(TouchedBiopsyTest, APlanWithTooFewMarkersIsRefused) {
+  task_.emplace(Parameters{.touch_markers = true}, arm());
+  task_->see_head({{0, 0, 0.05}, {0, 0, -0.03}, {}}, {kMarkers[0], kMarkers[1]}, now_);
+  EXPECT_EQ(task_->phase(), Phase::refused);
+  EXPECT_EQ(task_->trouble(), "the plan has 2 markers, at least 3 tell how a head lies");
+}
+
+TEST_F(TouchedBiopsyTest, ARefusalThatComesInAPauseWaitsForItsEnd) {
+  begin(false);
+  touch_all();
+  say("pause");
+  task_->see_refused_registration("they do not fit", now_);
+  run(0.1);
+  EXPECT_TRUE(task_->procedure().paused());
+  EXPECT_EQ(touched(), 3u);
+  say("resume");
+  EXPECT_TRUE(task_->wants_registration());
 }
 
 TEST_F(TouchedBiopsyTest, BackFromTheApproachGivesTheArmToTheHand) {
@@ -219,6 +337,7 @@ TEST_F(TouchedBiopsyTest, BackFromTheApproachGivesTheArmToTheHand) {
   lead_away();
   say("confirm", "approach");
   run(0.1);
+  take_back();
   hear(GoalReport::State::executing);
   EXPECT_EQ(say("back"), "");
   run(0.1);
@@ -259,6 +378,7 @@ TEST_F(TouchedBiopsyTest, PausedItIsInNoHandAndResumedItIsAgain) {
   EXPECT_EQ(say("resume"), "");
   run(0.1);
   EXPECT_EQ(goal_.mode, MotionMode::guided);
+  run(0.6);
   EXPECT_EQ(say("confirm", "marker 1"), "");
 }
 

@@ -15,8 +15,11 @@ constexpr Duration kMaxGap = seconds(0.1);
 TipRest::TipRest(Duration window, double max_spread) : window_{window}, max_spread_{max_spread} {}
 
 void TipRest::see(const Eigen::Vector3d& tip, Time stamp) {
-  if (!samples_.empty() && stamp <= samples_.back().stamp) return;
-  if (!samples_.empty() && stamp - samples_.back().stamp > kMaxGap) samples_.clear();
+  if (!samples_.empty()) {
+    const Duration step = stamp - samples_.back().stamp;
+    if (step == Duration{}) return;
+    if (step < Duration{} || step > kMaxGap) samples_.clear();
+  }
   samples_.push_back({tip, stamp});
   while (samples_.size() > 1 && stamp - samples_[1].stamp >= window_) samples_.pop_front();
 }
@@ -45,6 +48,10 @@ bool TipRest::moves() const { return full() && !(spread() <= max_spread_); }
 Expected<Eigen::Vector3d> TipRest::place(Time now) const {
   if (samples_.empty()) return refuse("the arm has not told yet where it is");
   const Duration age = now - samples_.back().stamp;
+  if (age < -kMaxGap) {
+    return refuse(
+        fmt::format("the arm's stamps are {:.2f} s ahead of this clock", -to_seconds(age)));
+  }
   if (age > kMaxGap) {
     return refuse(fmt::format("the arm has not told for {:.2f} s where it is", to_seconds(age)));
   }
@@ -56,7 +63,7 @@ Expected<Eigen::Vector3d> TipRest::place(Time now) const {
   }
   if (moves()) {
     return refuse(
-        fmt::format("the tip moved by {:.2f} mm from its mean place within {:g} s, {:g} "
+        fmt::format("the tip was up to {:.2f} mm from its mean place within {:g} s, {:g} "
                     "mm are allowed (max_touch_spread_mm): hold it still",
                     1e3 * spread(), to_seconds(window_), 1e3 * max_spread_));
   }

@@ -15,8 +15,10 @@ class TipRest {
   /// It rests where it was for `window` no farther than `max_spread` [m] from its mean place.
   TipRest(Duration window, double max_spread);
 
-  /// Samples in ascending order of their stamps; after a gap of 0.1 s they begin anew.
+  /// Samples in ascending order of their stamps; after a gap of 0.1 s, or a step back, they begin
+  /// anew.
   void see(const Eigen::Vector3d& tip, Time stamp);
+  void forget() { samples_.clear(); }
   /// Its mean place [m] over the window, or why it does not rest: it moves, it was not seen for so
   /// long, it is not seen now.
   Expected<Eigen::Vector3d> place(Time now) const;

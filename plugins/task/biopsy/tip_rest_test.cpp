@@ -38,7 +38,7 @@ TEST_F(TipRestTest, OneThatMovesDoesNotRest) {
   for (int i = 0; i <= 500; ++i) see({1e-6 * i, 0, 0});
   EXPECT_TRUE(rest_.moves());
   EXPECT_EQ(why(),
-            "the tip moved by 0.25 mm from its mean place within 0.5 s, 0.2 mm are allowed "
+            "the tip was up to 0.25 mm from its mean place within 0.5 s, 0.2 mm are allowed "
             "(max_touch_spread_mm): hold it still");
 }
 
@@ -54,6 +54,14 @@ TEST_F(TipRestTest, OneThatWasSeenTooBrieflyOrIsNotSeenNowHasNoPlace) {
   see({1, 2, 3});
   EXPECT_EQ(why(), "the tip has been seen for 0.00 s only, 0.5 s are required (touch_rest_s)")
       << "what was between is not known";
+}
+
+TEST_F(TipRestTest, StampsThatStepBackBeginAnewAndOnesThatLieAheadAreSaid) {
+  see_for(0.6, {1, 2, 3});
+  rest_.see({1, 2, 3}, now_ + seconds(3600.0));
+  EXPECT_EQ(why(), "the arm's stamps are 3600.00 s ahead of this clock");
+  see_for(0.6, {1, 2, 3});
+  EXPECT_EQ(why(), "");
 }
 
 }  // namespace

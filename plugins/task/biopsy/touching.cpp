@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -32,7 +33,18 @@ Touching::Touching(const Parameters& parameters)
 void Touching::begin(std::vector<Vector3d> planned) {
   planned_ = std::move(planned);
   places_.clear();
+  ++version_;
+  begin_rest();
+}
+
+void Touching::begin_rest() {
+  rest_.forget();
   moved_ = false;
+}
+
+void Touching::drop_last() {
+  places_.pop_back();
+  ++version_;
 }
 
 bool Touching::rests_anew(Time now) {
@@ -47,6 +59,7 @@ Expected<void> Touching::take(Time now) {
   const std::string wrong = contradiction(*place);
   if (!wrong.empty()) return refuse(wrong);
   places_.push_back(*place);
+  ++version_;
   return {};
 }
 
@@ -71,15 +84,17 @@ std::string Touching::contradiction(const Vector3d& place) const {
 Expected<void> Touching::is_clear(Time now) const {
   const auto tip = rest_.place(now);
   if (!tip) return tl::unexpected{tip.error()};
-  for (std::size_t i = 0; i < places_.size(); ++i) {
-    const double apart = (*tip - places_[i]).norm();
-    if (apart >= parameters_.min_touch_clearance) continue;
-    return refuse(
-        fmt::format("the tip is {:.1f} mm from the place of touch {}, {:g} mm are "
-                    "required (min_touch_clearance_mm): lead it away from the head",
-                    1e3 * apart, i + 1, 1e3 * parameters_.min_touch_clearance));
-  }
-  return {};
+  if (places_.empty()) return {};
+  Vector3d middle = Vector3d::Zero();
+  for (const Vector3d& place : places_) middle += place / static_cast<double>(places_.size());
+  double radius = 0;
+  for (const Vector3d& place : places_) radius = std::max(radius, (place - middle).norm());
+  const double apart = (*tip - middle).norm(), wanted = radius + parameters_.min_touch_clearance;
+  if (apart >= wanted) return {};
+  return refuse(fmt::format(
+      "the tip is {:.0f} mm from the middle of the touched places, {:.0f} mm are required, {:g} "
+      "mm more than the farthest of them (min_touch_clearance_mm): lead it away from the head",
+      1e3 * apart, 1e3 * wanted, 1e3 * parameters_.min_touch_clearance));
 }
 
 }  // namespace armature::task::biopsy

@@ -22,6 +22,8 @@ class Touching {
   void begin(std::vector<Eigen::Vector3d> planned);
   /// Where the tip is [m], in the base frame.
   void see_tip(const Eigen::Vector3d& tip, Time stamp) { rest_.see(tip, stamp); }
+  /// A hand begins to lead the arm: what was seen of the tip before is no touch.
+  void begin_rest();
 
   /// The place where the tip rests is the next one; or why it is none.
   Expected<void> take(Time now);
@@ -29,14 +31,16 @@ class Touching {
   bool rests_anew(Time now);
   /// Where it rests [m], or why it does not.
   Expected<Eigen::Vector3d> place(Time now) const { return rest_.place(now); }
-  void drop_last() { places_.pop_back(); }
-  /// The tip rests so far from every place that the arm may move by itself; or why not.
+  void drop_last();
+  /// The tip rests outside of the ball about all places, with `min_touch_clearance` to spare, so
+  /// that the arm may move by itself; or why not.
   Expected<void> is_clear(Time now) const;
 
   /// [m], in the base frame.
   const std::vector<Eigen::Vector3d>& places() const { return places_; }
   std::size_t count() const { return planned_.size(); }
-  bool complete() const { return places_.size() == planned_.size(); }
+  /// Is another one after every change of `places`.
+  std::size_t version() const { return version_; }
 
  private:
   /// Why it cannot be a marker besides those before, or "".
@@ -46,6 +50,7 @@ class Touching {
   TipRest rest_;
   std::vector<Eigen::Vector3d> planned_, places_;
   bool moved_ = false;
+  std::size_t version_ = 0;
 };
 
 }  // namespace armature::task::biopsy

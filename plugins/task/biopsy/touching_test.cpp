@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 namespace armature::task::biopsy {
 namespace {
 
@@ -30,16 +32,18 @@ class TouchingTest : public testing::Test {
   Time now_;
 };
 
-TEST_F(TouchingTest, TakesAsManyPlacesAsThePlanHasMarkers) {
+TEST_F(TouchingTest, TakesOnePlaceAfterTheOtherAndDropsTheLast) {
+  std::size_t version = touching_.version();
   for (const Vector3d& place : {Vector3d{1, 1, 1}, Vector3d{1, 1.1, 1}, Vector3d{1.06, 1, 1}}) {
-    EXPECT_FALSE(touching_.complete());
     rest_at(place);
     EXPECT_EQ(take(), "");
     EXPECT_LT((touching_.places().back() - place).norm(), 1e-12);
+    EXPECT_NE(std::exchange(version, touching_.version()), touching_.version());
   }
-  EXPECT_TRUE(touching_.complete());
+  EXPECT_EQ(touching_.places().size(), touching_.count());
   touching_.drop_last();
-  EXPECT_FALSE(touching_.complete());
+  EXPECT_EQ(touching_.places().size(), 2u);
+  EXPECT_NE(version, touching_.version());
 }
 
 TEST_F(TouchingTest, TheSameMarkerTwiceIsNamed) {
@@ -70,19 +74,30 @@ TEST_F(TouchingTest, RestsAnewOnlyAfterItHasMoved) {
   EXPECT_FALSE(touching_.rests_anew(now_)) << "it was taken";
 }
 
-TEST_F(TouchingTest, IsClearWhenItRestsFarFromEveryPlace) {
+TEST_F(TouchingTest, IsClearWhereItRestsOutsideOfTheBallAboutAllPlaces) {
   rest_at({1, 1, 1});
   take();
-  rest_at({1.004, 1, 1});
+  rest_at({1, 1.1, 1});
+  take();
+  rest_at({1, 1.05, 1.04});  // between both, 64 mm from each
   const auto near = touching_.is_clear(now_);
   ASSERT_FALSE(near);
-  EXPECT_EQ(near.error().text,
-            "the tip is 4.0 mm from the place of touch 1, 30 mm are required "
-            "(min_touch_clearance_mm): lead it away from the head");
-  touching_.see_tip({1.2, 1, 1}, now_ = now_ + seconds(0.001));
+  EXPECT_EQ(
+      near.error().text,
+      "the tip is 40 mm from the middle of the touched places, 80 mm are required, 30 mm more "
+      "than the farthest of them (min_touch_clearance_mm): lead it away from the head");
+  touching_.see_tip({1, 1.05, 1.2}, now_ = now_ + seconds(0.001));
   EXPECT_FALSE(touching_.is_clear(now_)) << "it moves";
-  rest_at({1.2, 1, 1});
+  rest_at({1, 1.05, 1.2});
   EXPECT_TRUE(touching_.is_clear(now_));
+}
+
+TEST_F(TouchingTest, WhatWasSeenBeforeAHandHadTheArmIsNoRest) {
+  move_to({1, 1.5, 1});
+  rest_at({1, 1.5, 1});
+  touching_.begin_rest();
+  EXPECT_FALSE(touching_.rests_anew(now_));
+  EXPECT_NE(take().find("the arm has not told yet where it is"), std::string::npos);
 }
 
 }  // namespace

@@ -205,11 +205,12 @@ std::vector<std::string> SearchCoverage::lines() const {
   const Shares shares = this->shares();
   const auto &low = parameters_.min_mouth, &high = parameters_.max_mouth;
   const double seen = shares.of_sight[static_cast<std::size_t>(Sight::seen)];
+  // Not 100 where something is missed.
+  const double percent = seen < 1 ? std::min(99.0, std::round(100 * seen)) : 100;
   std::vector<std::string> lines{fmt::format(
       "the search sees {:.0f} % of the faces that it promises: mouths at x {:g}..{:g} m, y "
       "{:g}..{:g} m, z {:g}..{:g} m, turned up, down and aside by up to {:g} degrees",
-      100 * seen, low[0], high[0], low[1], high[1], low[2], high[2],
-      parameters_.max_tilt / kDegree)};
+      percent, low[0], high[0], low[1], high[1], low[2], high[2], parameters_.max_tilt / kDegree)};
   if (seen == 1) return lines;
   std::vector<std::string> blind;
   constexpr std::size_t kMostNamed = 4;

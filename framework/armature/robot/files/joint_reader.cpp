@@ -142,13 +142,12 @@ void resolve_couplings(std::vector<ReadJoint>& joints, Problems& problems) {
     }
     const auto leader = found - names.begin();
     joint.joint.coupling->to = static_cast<int>(leader);
-    const Joint& followed = joints[static_cast<std::size_t>(leader)].joint;
-    if (followed.coupling || followed.locked)
+    if (joints[static_cast<std::size_t>(leader)].joint.coupling)
       problems.add(
           joint.leader->origin(),
-          fmt::format("joint '{}' cannot follow '{}', which is {}; name a joint that "
+          fmt::format("joint '{}' cannot follow '{}', which is coupled itself; name a joint that "
                       "moves by itself",
-                      joint.joint.name, to, followed.locked ? "locked" : "coupled itself"));
+                      joint.joint.name, to));
   }
 }
 

@@ -137,7 +137,7 @@ std::optional<FrameId> read_rows(MapReader& map, RobotParts& parts, Problems& pr
 /// Motion needs every joint's speed; URDF may leave a continuous joint's open.
 void check_speeds(const std::vector<Joint>& joints, MapReader& map) {
   for (const Joint& joint : joints) {
-    if (joint.coupling || std::isfinite(joint.max_velocity)) continue;
+    if (joint.coupling || joint.locked || std::isfinite(joint.max_velocity)) continue;
     const bool slides = joint.type == Joint::Type::prismatic;
     map.problem("urdf", fmt::format("joint '{0}' has no velocity limit; state it in the URDF file, "
                                     "or here: joints: [{{name: {0}, {1}: 1}}]",
@@ -175,6 +175,13 @@ std::optional<FrameId> read_urdf(const Node& file, MapReader& map, RobotParts& p
 void check_locked(const RobotParts& parts, MapReader& map) {
   for (std::size_t i = 0; i < parts.joints.size(); ++i) {
     const Joint& joint = parts.joints[i];
+    if (joint.coupling) {
+      const Joint& leader = parts.joints[static_cast<std::size_t>(joint.coupling->to)];
+      if (leader.locked) {
+        map.problem("joints", fmt::format("joint '{}' follows '{}', which is locked", joint.name,
+                                          leader.name));
+      }
+    }
     if (!joint.locked) continue;
     if (!parts.home) {
       map.problem("joints", fmt::format("joint '{}' is locked where it is at home, and the file "

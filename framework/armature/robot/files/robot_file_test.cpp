@@ -115,6 +115,13 @@ TEST(RobotFile, RefusesALockWithoutAHomeOutOfLimitsOrOnACoupledJoint) {
   EXPECT_THAT(problems_in(with("{name: b, locked: true, coupled: {to: a}}",
                                kGoodFrames + "\nhome: [0, 0]")),
               ElementsAre(HasSubstr("a joint is coupled or locked, not both")));
+  const std::string locked_leader =
+      "armature_robot: 1\nname: three\nhome: [0, 0, 0]\njoints:\n  - " + kLockedJoint +
+      "\n  - {name: c, coupled: {to: b}}\n"
+      "  - {name: d, limits_deg: [-90, 90], velocity_rad_s: 1, acceleration_rad_s2: 1}\n"
+      "frames: {tool: {parent: d}}\n";
+  EXPECT_THAT(problems_in(locked_leader),
+              ElementsAre(HasSubstr("joint 'c' follows 'b', which is locked")));
 }
 
 TEST(RobotFile, AShaftIsALineWithALength) {

@@ -13,8 +13,8 @@ namespace armature {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// What a link may move beyond its room before it is looked at again: out and back, half of it is
-/// how much nearer it can have been between.
+/// Added to every step, so that steps end. Between two instants a link can have been nearer by half
+/// of it.
 constexpr double kResolution_m = 1e-4;
 
 /// A capsule's middle line at one posture.
@@ -76,6 +76,15 @@ JointVector reach_of(const LinkCapsule& capsule, const RobotModel& model) {
   return reach;
 }
 
+/// Of any point of a capsule [m/s]. A joint that stands still adds nothing, however far it reaches.
+double greatest_speed(const JointVector& reach, const JointVector& joint_speeds) {
+  double speed = 0;
+  for (int i = 0; i < reach.size(); ++i) {
+    if (joint_speeds[i] > 0) speed += reach[i] * joint_speeds[i];
+  }
+  return speed;
+}
+
 JointVector greatest_speeds(const TrajectoryView& trajectory, int piece) {
   const auto k = static_cast<std::size_t>(piece);
   const double duration = trajectory.knots[k + 1] - trajectory.knots[k];
@@ -95,7 +104,7 @@ std::optional<LinkClearance> link_clearance(const RobotModel& model, const Joint
   LinkClearance least{.distance_m = kInfinity};
   for (std::size_t c = 0; c < model.capsules().size(); ++c) {
     const LinkClearance found = nearest_zone(posture, model.capsules()[c], c, zones);
-    if (found.distance_m < least.distance_m) least = found;
+    if (std::isnan(found.distance_m) || found.distance_m < least.distance_m) least = found;
   }
   return least;
 }
@@ -120,7 +129,7 @@ std::optional<LinkViolation> first_violation(const RobotModel& model,
         const double room = near.distance_m - min_distance_m;
         const bool nearest = !too_near || near.distance_m < too_near->distance_m;
         if (!(room >= 0) && nearest) too_near = near;
-        step = std::min(step, (room + kResolution_m) / reach[c].dot(speeds));
+        step = std::min(step, (room + kResolution_m) / greatest_speed(reach[c], speeds));
       }
       if (too_near) return LinkViolation{*too_near, t};
       if (t == end) break;

@@ -228,7 +228,7 @@ DeploymentConfig read_deployment(const Node& root, const PluginRegistry& plugins
   for (const auto& [section, word] : kDocumentSections) {
     deployment.documents[std::string{section}] =
         read_documents(entries_of(map.node(section), section, problems),
-                       section == kDocumentSections.front().first, problems);
+                       section == kRobotsSection, problems);
   }
   deployment.goals = read_goals(map.node("goals"), problems);
   deployment.sweep_goals = read_sweep_goals(map.node("sweep_goals"), deployment.goals, problems);

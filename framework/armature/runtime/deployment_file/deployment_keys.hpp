@@ -14,10 +14,11 @@ namespace armature ARMATURE_EXPORT {
 // The keys of a deployment file, map by map, all but those that its plugins bring: what reading
 // asks for, and what the JSON Schema is made of.
 
+inline constexpr std::string_view kRobotsSection = "robots";
 // The sections whose entries are files that components are bound to, and the word that a
 // component (and a plugin's `uses:`) says for one of them.
 inline constexpr std::array<std::pair<std::string_view, std::string_view>, 2> kDocumentSections{{
-    {"robots", "robot"},
+    {kRobotsSection, "robot"},
     {"rigs", "rig"},
 }};
 

@@ -41,8 +41,8 @@ TEST_P(Sanitized, DeploymentMovesOnTheSystemClockInSeveralProcesses) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Sanitized,
-                         testing::Values("dental_lamp", "sr1_biopsy", "dental_implant",
-                                         "master_manipulator"),
+                         testing::Values("dental_lamp", "sr1_biopsy", "sr1_touching",
+                                         "dental_implant", "master_manipulator"),
                          [](const auto& deployment) { return std::string{deployment.param}; });
 
 }  // namespace

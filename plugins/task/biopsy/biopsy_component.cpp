@@ -129,10 +129,10 @@ class BiopsyComponent final : public Component {
 
   void publish_touches(Time now) {
     const auto& places = task_.touching().places();
-    const std::size_t version = task_.touching().version();
-    if (std::exchange(told_touches_, version) == version) return;
+    const std::size_t before = std::exchange(told_touches_, task_.touching().version());
+    if (before == told_touches_) return;
     registration_.forget();  // of other places
-    if (!places.empty())
+    if (before > 0)
       log(fmt::format("{} of {} markers touched", places.size(), task_.touching().count()));
     touches_.points_().clear();
     for (const Eigen::Vector3d& place : places) assign(touches_.points_().emplace_back(), place);

@@ -13,7 +13,7 @@ namespace {
 CommandResult sweep(const std::string& deployment, const std::string& seeds) {
   return run_command(
       {armature(), "sweep", source_file("configs/" + deployment + ".yaml"), "--seeds", seeds}, {},
-      std::chrono::minutes{9});
+      std::chrono::minutes{20});
 }
 
 TEST(Sweeps, OfABiopsyHoldTheBoundOf95PercentAndThePredictedError) {
@@ -22,7 +22,7 @@ TEST(Sweeps, OfABiopsyHoldTheBoundOf95PercentAndThePredictedError) {
 }
 
 TEST(Sweeps, OfAnImplantComeWithinFourTenthsOfAMillimetreAndEverySourceErrsAsExpected) {
-  const auto result = sweep("dental_implant", "1..200");
+  const auto result = sweep("dental_implant", "1..400");
   EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
 }
 

@@ -54,7 +54,7 @@ void isolated_each(std::size_t count, std::size_t at_once, double timeout_s,
                    const std::function<std::string(std::size_t)>& work,
                    const std::function<void(std::size_t, const Isolated&)>& take);
 
-/// How many of them the machine does at once.
+/// The number of processors of this machine, at least 1.
 std::size_t processors();
 
 }  // namespace armature

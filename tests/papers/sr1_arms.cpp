@@ -28,11 +28,11 @@ const RobotModel& file() {
 }
 
 SolvedArm with_joints(std::vector<Joint> joints, double d6) {
-  return solved_arm(RobotParts{
-      .name = "sr1",
-      .convention = file().convention(),
-      .joints = std::move(joints),
-      .frames = {{"tool", 5, Eigen::Isometry3d{Eigen::Translation3d{0, 0, d6}}}}});
+  return solved_arm(
+      RobotParts{.name = "sr1",
+                 .convention = file().convention(),
+                 .joints = std::move(joints),
+                 .frames = {{"tool", 5, Eigen::Isometry3d{Eigen::Translation3d{0, 0, d6}}}}});
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ struct NotTried {
   std::string component, plugin;
 };
 
-/// What a component says of the deployment.
+/// A line that a component says of the deployment before it runs.
 struct Note {
   std::string component, text;
 };

@@ -7,7 +7,7 @@
 
 namespace armature::reproduce {
 
-/// What is other in one run of an experiment, as `--set` takes it.
+/// The settings of one run of an experiment, as `--set` takes them.
 using Variation = std::vector<std::string>;
 
 /// Runs `configs/experiments/<name>.yaml` in lockstep, once for each variation and each time in a

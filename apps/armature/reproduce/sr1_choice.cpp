@@ -86,8 +86,7 @@ double greatest_step(const RobotModel& model, const std::vector<JointVector>& jo
 double heaviest_move(const RobotModel& model, const std::vector<JointVector>& joints) {
   double move = 0;
   for (std::size_t k = 1; k < joints.size(); ++k) {
-    const JointVector way = joints[k] - joints[k - 1];
-    move = worst(move, std::sqrt(way.dot(joint_inertia(model, joints[k]) * way)));
+    move = worst(move, felt_length(model, joints[k] - joints[k - 1], joints[k]));
   }
   return move;
 }
@@ -162,8 +161,8 @@ void add_choice(const Numbers& numbers, Results& results) {
   const std::vector<JointVector> free_lightest = free.chosen_by_inertia(free_waypoints);
   results.value(table, "min-max by inertia without limits", greatest(ratios_of(free_lightest)));
   results.value(
-      table, "heaviest move without limits, by inertia over by time",
-      heaviest_move(limited.model(), free_lightest) / heaviest_move(limited.model(), free_minmax));
+      table, "heaviest move without limits, by inertia over nearest",
+      heaviest_move(limited.model(), free_lightest) / heaviest_move(limited.model(), free_nearest));
   results.curve("speed_ratios", 0, "select/minmax within limits", time, ratios_of(minmax),
                 Results::Look::dots);
   results.curve("speed_ratios", 0, "select/minmax without limits", time, ratios_of(free_minmax),

@@ -49,7 +49,7 @@ bool Moves::jumps(const JointVector& way) const {
 
 double Moves::size_of(const JointVector& way, const JointVector& to) const {
   if (parameters_.move_size == Parameters::MoveSize::inertia) {
-    return std::sqrt(way.dot(joint_inertia(*model_, to) * way));
+    return felt_length(*model_, way, to);
   }
   return way.cwiseAbs().cwiseQuotient(model_->max_velocity()).maxCoeff();
 }

@@ -41,9 +41,7 @@ class Moves {
     return !parameters_.one_branch || a.label == b.label;
   }
   bool jumps(const JointVector& way) const;
-  /// By time that of the slowest joint at its highest velocity [s]. By inertia the way as the arm
-  /// feels it where it ends, sqrt(way^T M(to) way) [kg^1/2 m]: the length of which the kinetic
-  /// energy is half the square of the speed.
+  /// By time that of the slowest joint at its highest velocity [s], by inertia `felt_length`.
   double size_of(const JointVector& way, const JointVector& to) const;
 
   const RobotModel* model_;

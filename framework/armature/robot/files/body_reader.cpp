@@ -16,7 +16,7 @@ using config::Node;
 using config::Problems;
 using Eigen::Vector3d;
 
-/// What a body hangs on.
+/// The joint that a body hangs on, -1 for the base, and where on it.
 struct Parent {
   int joint = -1;
   Eigen::Isometry3d joint_T_parent = Eigen::Isometry3d::Identity();
@@ -38,7 +38,7 @@ Parent find_parent(const Node& named, const std::vector<Joint>& joints,
   return {};
 }
 
-/// What a section of bodies is called, and one of them.
+/// The name of a section of bodies, and the word for one of them.
 struct Words {
   const char *section, *one;
 };

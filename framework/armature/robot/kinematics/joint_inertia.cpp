@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/robot/kinematics/joint_inertia.hpp"
 
+#include <cmath>
+
 #include "armature/robot/kinematics/kinematics.hpp"
 
 namespace armature {
@@ -17,6 +19,10 @@ JointInertia joint_inertia(const RobotModel& model, const JointVector& q) {
     inertia += mass.mass * jacobian.topRows<3>().transpose() * jacobian.topRows<3>();
   }
   return inertia;
+}
+
+double felt_length(const RobotModel& model, const JointVector& way, const JointVector& to) {
+  return std::sqrt(way.dot(joint_inertia(model, to) * way));
 }
 
 }  // namespace armature

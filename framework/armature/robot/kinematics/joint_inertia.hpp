@@ -15,4 +15,8 @@ using JointInertia =
 /// the drives; what the robot file does not state weighs nothing. Real-time safe.
 JointInertia joint_inertia(const RobotModel& model, const JointVector& q);
 
+/// The length of a move as the arm feels it where it ends, sqrt(way^T M(to) way) [kg^1/2 m]: the
+/// kinetic energy is half the square of its rate. Real-time safe.
+double felt_length(const RobotModel& model, const JointVector& way, const JointVector& to);
+
 }  // namespace armature

@@ -226,9 +226,8 @@ DeploymentConfig read_deployment(const Node& root, const PluginRegistry& plugins
   deployment.executors =
       read_executors(entries_of(map.node("executors"), "executors", problems), problems);
   for (const auto& [section, word] : kDocumentSections) {
-    deployment.documents[std::string{section}] =
-        read_documents(entries_of(map.node(section), section, problems),
-                       section == kRobotsSection, problems);
+    deployment.documents[std::string{section}] = read_documents(
+        entries_of(map.node(section), section, problems), section == kRobotsSection, problems);
   }
   deployment.goals = read_goals(map.node("goals"), problems);
   deployment.sweep_goals = read_sweep_goals(map.node("sweep_goals"), deployment.goals, problems);

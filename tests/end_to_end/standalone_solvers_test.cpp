@@ -19,8 +19,8 @@ using std::chrono::seconds;
 const std::string kDeployment = source_file("tests/end_to_end/solvers_alone.yaml");
 
 std::unique_ptr<Transport> join(int domain) {
-  return std::move(
-      *FastDdsTransport::make({.domain = domain, .deployment = "asker", .now = system_now}));
+  return std::move(*FastDdsTransport::make(
+      {.network = {.domain = domain}, .deployment = "asker", .now = system_now}));
 }
 
 class StandaloneSolvers : public testing::Test {

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "two_hosts.hpp"
 
+#include <csignal>
 #include <filesystem>
+#include <string_view>
 #include <thread>
+#include <utility>
 
 namespace armature::test {
 namespace {
@@ -45,9 +48,16 @@ std::vector<std::string> TwoHosts::Host::command(std::vector<std::string> words)
                   words);
 }
 
-TwoHosts::TwoHosts() : missing_{make()} {}
+TwoHosts::TwoHosts(const std::vector<std::string>& faults) : missing_{make(faults)} {}
 
-std::string TwoHosts::make() {
+int TwoHosts::counted() {
+  cable_->signal(SIGTERM);
+  const std::string out = cable_->finish(kMadeWithin).out;
+  const std::string_view word = "counted ";
+  return std::stoi(out.substr(out.rfind(word) + word.size()));
+}
+
+std::string TwoHosts::make(const std::vector<std::string>& faults) {
   const std::vector<std::string> unshare{"/usr/bin/unshare", "--user", "--map-root-user", "--net",
                                          "--mount"};
   if (!std::filesystem::exists(kIp)) return "no " + kIp + " here (iproute2)";
@@ -57,10 +67,8 @@ std::string TwoHosts::make() {
   if (!hold(robot_, appended(unshare, kHold))) return "no host: " + robot_.holder->err();
   const auto beside = robot_.command(appended({"/usr/bin/unshare", "--net", "--mount"}, kHold));
   if (!hold(desk_, beside)) return "no second host: " + desk_.holder->err();
-  const auto cable = run_command(
-      robot_.command({kIp, "link", "add", "dev", kInterface, "type", "veth", "peer", "name",
-                      kInterface, "netns", std::to_string(desk_.holder->pid())}));
-  if (cable.exit_code != 0) return "no cable between them: " + cable.err;
+  if (!faults.empty() && !hold(between_, beside)) return "no cable: " + between_.holder->err();
+  if (const std::string failed = connect(faults); !failed.empty()) return failed;
   for (const Host* host : {&robot_, &desk_}) {
     for (const auto& words : std::vector<std::vector<std::string>>{
              {kIp, "address", "add", host->address + "/24", "dev", kInterface},
@@ -70,6 +78,26 @@ std::string TwoHosts::make() {
     }
   }
   return wait_for_link(robot_) && wait_for_link(desk_) ? "" : "no link between them";
+}
+
+std::string TwoHosts::connect(const std::vector<std::string>& faults) {
+  const auto plug = [](const Host& host, const std::string& far_end, const Host& there) {
+    return run_command(
+        host.command({kIp, "link", "add", "dev", kInterface, "type", "veth", "peer", "name",
+                      far_end, "netns", std::to_string(there.holder->pid())}));
+  };
+  if (faults.empty()) {
+    const auto cable = plug(robot_, kInterface, desk_);
+    return cable.exit_code == 0 ? "" : "no cable between them: " + cable.err;
+  }
+  for (const auto& [host, end] : {std::pair{&robot_, "robot"}, std::pair{&desk_, "desk"}}) {
+    const auto cable = plug(*host, end, between_);
+    const auto up = run_command(between_.command({kIp, "link", "set", "dev", end, "up"}));
+    if (cable.exit_code != 0 || up.exit_code != 0) return "no cable: " + cable.err + up.err;
+  }
+  cable_ =
+      std::make_unique<Command>(between_.command(appended({CABLE_RELAY, "robot", "desk"}, faults)));
+  return cable_->wait_for_out("ready", kMadeWithin) ? "" : "no relay: " + cable_->err();
 }
 
 }  // namespace armature::test

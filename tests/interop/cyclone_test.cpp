@@ -34,7 +34,7 @@ TEST(CycloneDds, ReadsOurJointStatesWithEqualValues) {
   const int domain = unique_dds_domain();
   constexpr int kSamples = 20;
   TransportOptions options;
-  options.domain = domain;
+  options.network.domain = domain;
   options.deployment = "lamp";
   options.now = [] {
     return Time{

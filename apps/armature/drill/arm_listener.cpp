@@ -15,8 +15,8 @@ namespace armature::drill {
 ArmListener::ArmListener(PluginRegistry& plugins, const DrilledDeployment& deployment, int domain)
     : deployment_{deployment} {
   for (const DrilledArm& arm : deployment.arms) heard_.emplace_back(ArmRecord{arm.limits});
-  auto observer = plugins.make<DdsObserver>("observer/fast_dds",
-                                            ObserverOptions{.domain = domain, .asks_again = false});
+  auto observer = plugins.make<DdsObserver>(
+      "observer/fast_dds", ObserverOptions{.network = {.domain = domain}, .asks_again = false});
   if (!observer) throw PluginError("a drill cannot listen: " + observer.error().text);
   observer_ = std::move(*observer);
 }

@@ -9,7 +9,7 @@
 namespace armature::drill {
 
 PowerSwitch::PowerSwitch(PluginRegistry& plugins, const std::vector<DrilledArm>& arms, int domain) {
-  const TransportOptions options{.domain = domain,
+  const TransportOptions options{.network = {.domain = domain},
                                  .deployment = "power_switch",
                                  .fingerprint = std::string(64, '0'),
                                  .on_event = [](const TransportEvent&) {},

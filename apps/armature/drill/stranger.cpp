@@ -31,7 +31,7 @@ void write_elsewhere(const std::vector<ArmRecord>& records, Time now, msg::Joint
 void write_as_stranger(PluginRegistry& plugins, const DrilledDeployment& deployment, int domain,
                        const std::vector<ArmRecord>& records, Duration duration) {
   const SystemClock clock;
-  const TransportOptions options{.domain = domain,
+  const TransportOptions options{.network = {.domain = domain},
                                  .deployment = "stranger",
                                  .fingerprint = std::string(64, '0'),
                                  .on_event = [](const TransportEvent&) {},

@@ -43,7 +43,7 @@ std::vector<std::string> arguments_of(const TrialOptions& options, const Fault& 
   };
   for (const std::string& setting : options.source.assignments) set(setting);
   set("clock=system");
-  set("dds.interfaces=[]");     // the arms of other machines are not drilled
+  set("dds={}");                // the arms of other machines are not drilled
   set("run.time_limit_s=120");  // whatever happens
   if (form == Form::split) {
     for (const std::string& setting : options.deployment.apart) set(setting);

@@ -169,6 +169,17 @@ class Dialogue {
   bool ended_ = false;
 };
 
+/// What the file says and what the options add to it.
+NetworkOptions network_of(const OperatorOptions& options, const DeploymentConfig& deployment) {
+  NetworkOptions network = deployment.dds.network(options.domain.value_or(deployment.domain));
+  const NetworkOptions& more = options.network;
+  std::ranges::copy(more.interfaces, std::back_inserter(network.interfaces));
+  std::ranges::copy(more.peers, std::back_inserter(network.peers));
+  if (!more.discovery_server.empty()) network.discovery_server = more.discovery_server;
+  network.shared_memory = network.shared_memory && more.shared_memory;
+  return network;
+}
+
 }  // namespace
 
 int be_operator(const OperatorOptions& options) {
@@ -182,9 +193,7 @@ int be_operator(const OperatorOptions& options) {
                       plugins, problems);
   problems.throw_if_any();
   const TaskTopics topics = find_task(deployment, options.component);
-  std::vector<std::string> interfaces = options.interfaces;
-  std::ranges::copy(deployment.dds.interface_names(), std::back_inserter(interfaces));
-  TaskLink link{plugins, topics, options.domain.value_or(deployment.domain), interfaces};
+  TaskLink link{plugins, topics, network_of(options, deployment)};
   Dialogue dialogue{options, deployment, link};
   if (const int code = dialogue.meet(); code != kOk || g_left) return code;
   if (options.say.empty()) return dialogue.listen();

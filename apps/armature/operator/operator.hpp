@@ -3,19 +3,19 @@
 
 #include <optional>
 #include <string>
-#include <vector>
 
+#include "armature/bus/network.hpp"
 #include "run/run.hpp"
 
 namespace armature {
 
 struct OperatorOptions {
   DeploymentSource source;
-  std::optional<int> domain;            // instead of the file's
-  std::vector<std::string> interfaces;  // joined beside loopback and those of the file
-  std::string component;                // which task, when the deployment has several
-  std::string say, step;                // one word, and the step that it confirms; or a dialogue
-  double timeout_s = 3;                 // for the task to be found, and to answer
+  std::optional<int> domain;  // instead of the file's
+  NetworkOptions network;     // beside what the file says
+  std::string component;      // which task, when the deployment has several
+  std::string say, step;      // one word, and the step that it confirms; or a dialogue
+  double timeout_s = 3;       // for the task to be found, and to answer
   bool json = false;
 };
 

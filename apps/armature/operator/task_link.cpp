@@ -9,11 +9,10 @@
 
 namespace armature {
 
-TaskLink::TaskLink(PluginRegistry& plugins, const TaskTopics& topics, int domain,
-                   const std::vector<std::string>& interfaces) {
+TaskLink::TaskLink(PluginRegistry& plugins, const TaskTopics& topics,
+                   const NetworkOptions& network) {
   const TransportOptions options{
-      .domain = domain,
-      .interfaces = interfaces,
+      .network = network,
       .deployment = "armature operator",
       .fingerprint = {},
       .on_event =

@@ -24,8 +24,7 @@ struct TaskTopics {
 class TaskLink {
  public:
   /// Throws PluginError when the domain cannot be joined.
-  TaskLink(PluginRegistry& plugins, const TaskTopics& topics, int domain,
-           const std::vector<std::string>& interfaces);
+  TaskLink(PluginRegistry& plugins, const TaskTopics& topics, const NetworkOptions& network);
 
   /// What the task told last; nothing: it has told nothing yet.
   std::optional<msg::TaskState> state() const;

@@ -215,7 +215,7 @@ void leave_if_necessary(const Deployment& deployment, const ProcessWatch& watch,
 struct Process {
   std::string name;
   int domain;
-  std::vector<NetworkInterface> joined;  // beside loopback
+  Network network;
   RunOptions::Origin origin;
 };
 
@@ -228,12 +228,14 @@ std::string run_of(const RunOptions& options, const Process& process) {
   return fmt::format("{:x}-{:x}", clock_offset.count(), start.ns);
 }
 
-void tell_joined(const std::vector<NetworkInterface>& joined, Console& console) {
-  if (joined.empty()) return;
-  console.line("runtime",
-               fmt::format("DDS joins lo, {}: programs there may read every topic, and only DDS "
-                           "Security helps against one that copies the fingerprint",
-                           to_text(joined)));
+void tell_network(const Network& network, Console& console) {
+  if (to_text(network) == to_text(Network{})) return;
+  console.line("runtime", fmt::format("DDS joins {}{}", to_text(network),
+                                      network.joined.empty()
+                                          ? ""
+                                          : ". Programs there may read every topic, and only DDS "
+                                            "Security helps against one that copies the "
+                                            "fingerprint"));
 }
 
 int run_main(const RunOptions& options, const Process& process, Deployment& deployment,
@@ -245,7 +247,7 @@ int run_main(const RunOptions& options, const Process& process, Deployment& depl
                    stops_run(other, deployment.config()) ? OnFault::stop : OnFault::isolate);
   }
   deployment.connect(plugins, process.domain, run_of(options, process));
-  tell_joined(process.joined, console);
+  tell_network(process.network, console);
   MainWatch watch{console, children, deployment.config()};
   deployment.run(watch);
   RunReport::Ending ending{.faults = watch.end_all(), .stopped = watch.interruption()};
@@ -313,7 +315,7 @@ int run(const RunOptions& options) {
   }
   Process process{.name = is_child ? options.process : std::string{kMainProcess},
                   .domain = options.domain.value_or(config.domain),
-                  .joined = find_interfaces(config.dds),
+                  .network = find_network(config.dds),
                   .origin = options.origin.value_or(
                       RunOptions::Origin{SystemClock{}.unix_minus_monotonic(), Time{}})};
   check_process(config, process.name);

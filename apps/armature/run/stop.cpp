@@ -77,8 +77,7 @@ int stop_arms(const StopOptions& options) {
   SamplePool pool{message_type<msg::Bool>(),
                   64};  // outlives the writer, which may still be sending
   std::atomic<bool> one_fell_silent = false;
-  const TransportOptions transport_options{.domain = options.domain,
-                                           .interfaces = options.interfaces,
+  const TransportOptions transport_options{.network = options.network,
                                            .deployment = "armature stop",
                                            .fingerprint = {},
                                            .on_event =
@@ -102,12 +101,11 @@ int stop_arms(const StopOptions& options) {
     if (!of_deployment) fmt::print(stderr, "armature: {} reads /stop, and is no deployment\n", who);
   }
   if (!found) {
-    fmt::print(
-        stderr,
-        "armature: no deployment in domain {} heard the stop within {:g} s; a deployment "
-        "says its domain with `domain:` or --domain, and with `dds:` the interfaces to join by "
-        "--interface\n",
-        options.domain, options.timeout_s);
+    fmt::print(stderr,
+               "armature: no deployment in domain {} heard the stop within {:g} s; a deployment "
+               "says its domain with `domain:` or --domain, and with `dds:` what to join by "
+               "--interface, --peer or --discovery-server\n",
+               options.network.domain, options.timeout_s);
     return kTimedOut;
   }
   const bool taken = stopping.acknowledged() && !one_fell_silent;

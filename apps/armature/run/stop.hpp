@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <string>
-#include <vector>
+#include "armature/bus/network.hpp"
 
 namespace armature {
 
 struct StopOptions {
-  int domain = 0;
-  std::vector<std::string> interfaces;  // joined beside loopback
-  double timeout_s = 3;                 // for a deployment to be found, and to take it
+  NetworkOptions network;
+  double timeout_s = 3;  // for a deployment to be found, and to take it
 };
 
 /// `armature stop`: every arm of the domain stops and stays stopped, whoever runs it. Exit code 0

@@ -108,8 +108,8 @@ void describe_messages(const PluginRegistry& plugins) {
 PluginPtr<DdsObserver> observe(PluginRegistry& plugins, const TopicOptions& options) {
   tell_warnings(plugins);
   describe_messages(plugins);
-  const ObserverOptions observer_options{.domain = options.domain,
-                                         .interfaces = options.interfaces};
+  const ObserverOptions observer_options{.network = options.network,
+                                         .asks_again = !options.best_effort};
   auto observer = plugins.make<DdsObserver>("observer/fast_dds", observer_options);
   if (!observer) throw PluginError(observer.error().text);
   return std::move(*observer);
@@ -123,15 +123,17 @@ int too_short(DdsObserver& observer, const TopicOptions& options) {
   fmt::print(stderr,
              "armature: no topic of domain {} was found within {:g} s, which is too short to find "
              "out; give it {:g} s\n",
-             options.domain, options.timeout_s, to_seconds(kDiscovery));
+             options.network.domain, options.timeout_s, to_seconds(kDiscovery));
   return kTimedOut;
 }
 
 std::string no_topics(const TopicOptions& options) {
-  const char* elsewhere = options.interfaces.empty()
-                              ? " on loopback; a deployment with `dds:` is heard by --interface"
-                              : "";
-  return fmt::format("domain {} has no topics{}", options.domain, elsewhere);
+  const auto& [domain, interfaces, peers, server, shared_memory] = options.network;
+  const bool elsewhere = !interfaces.empty() || !server.empty();
+  return fmt::format("domain {} has no topics{}", domain,
+                     elsewhere ? ""
+                               : " on loopback; a deployment with `dds:` is heard by --interface, "
+                                 "--peer or --discovery-server");
 }
 
 /// "; did you mean '/lamp/target'?" or "; topics that are there: ...", or that there are none.

@@ -3,17 +3,18 @@
 
 #include <cstdint>
 #include <string>
-#include <vector>
+
+#include "armature/bus/network.hpp"
 
 namespace armature {
 
 /// How `armature topic` watches; it joins the domain as a stranger and reads, nothing else.
 struct TopicOptions {
-  int domain = 0;
-  std::vector<std::string> interfaces;  // joined beside loopback
-  std::string topic;                    // "/dental_lamp/arm/measured_js"
-  std::uint64_t count = 0;              // 0: until interrupted
-  double timeout_s = 0;                 // 0: never
+  NetworkOptions network;
+  std::string topic;         // "/dental_lamp/arm/measured_js"
+  std::uint64_t count = 0;   // 0: until interrupted
+  double timeout_s = 0;      // 0: never
+  bool best_effort = false;  // a sample that was lost is not asked for again
   bool json = false;
   bool full = false;  // long byte arrays in full
 };

@@ -1,18 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <CLI/CLI.hpp>
-#include <string>
-#include <vector>
 
 #include "verbs/option_checks.hpp"
 #include "verbs/verbs.hpp"
 
 namespace armature {
 
-void add_interfaces(CLI::App& verb, std::vector<std::string>& interfaces) {
-  verb.add_option("--interface", interfaces,
+void add_network(CLI::App& verb, NetworkOptions& network) {
+  verb.add_option("--interface", network.interfaces,
                   "join this one beside loopback, by name or IPv4 address")
       ->allow_extra_args(false)
       ->check(no_interface);
+  verb.add_option("--peer", network.peers,
+                  "find the processes of this host without multicast, by name or IPv4 address")
+      ->allow_extra_args(false)
+      ->check(no_host);
+  verb.add_option("--discovery-server", network.discovery_server,
+                  "find others through this one: host or host:port")
+      ->check(no_server)
+      ->excludes("--peer");
+  verb.add_flag("--no-shared-memory{false}", network.shared_memory,
+                "over UDP only, as between containers");
 }
 
 void add_arm(CLI::App* verb, ArmChoice& arm) {

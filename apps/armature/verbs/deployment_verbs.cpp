@@ -155,10 +155,10 @@ void add_stop(CLI::App& app, Action& action) {
   auto options = std::make_shared<StopOptions>();
   CLI::App* verb = app.add_subcommand(
       "stop", "Stop every arm of a DDS domain: they stay stopped until they are rearmed");
-  verb->add_option("--domain", options->domain, "DDS domain")
+  verb->add_option("--domain", options->network.domain, "DDS domain")
       ->capture_default_str()
       ->check(CLI::Range(0, 232));
-  add_interfaces(*verb, options->interfaces);
+  add_network(*verb, options->network);
   verb->add_option("--timeout", options->timeout_s,
                    "seconds for a deployment to be found, and to take it")
       ->capture_default_str()
@@ -178,7 +178,7 @@ void add_operator(CLI::App& app, Action& action) {
   verb->add_option("--component", options->component, "the task, where there are several");
   verb->add_option("--domain", options->domain, "DDS domain, instead of the file's")
       ->check(CLI::Range(0, 232));
-  add_interfaces(*verb, options->interfaces);
+  add_network(*verb, options->network);
   verb->add_option("--timeout", options->timeout_s,
                    "seconds for the task to be found, and to answer")
       ->capture_default_str()

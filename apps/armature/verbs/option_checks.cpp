@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <system_error>
 
-#include "armature/bus/network_interface.hpp"
+#include "armature/bus/network.hpp"
 
 namespace armature {
 namespace {
@@ -42,6 +42,16 @@ std::string not_positive(const std::string& text) {
 std::string no_interface(const std::string& text) {
   const auto found = find_interfaces({text});
   return found ? "" : found.error().text;
+}
+
+std::string no_host(const std::string& text) {
+  const auto possible = check_host_name(text);
+  return possible ? "" : possible.error().text;
+}
+
+std::string no_server(const std::string& text) {
+  const auto possible = read_server_address(text);
+  return possible ? "" : possible.error().text;
 }
 
 }  // namespace armature

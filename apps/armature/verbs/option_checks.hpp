@@ -16,5 +16,9 @@ std::string wrong_number(const std::string& text);
 std::string not_positive(const std::string& text);
 /// No interface of this machine that DDS can join, by name or IPv4 address.
 std::string no_interface(const std::string& text);
+/// No name of a host and no IPv4 address; whether there is such a host is not asked.
+std::string no_host(const std::string& text);
+/// No "host" or "host:port" of a discovery server.
+std::string no_server(const std::string& text);
 
 }  // namespace armature

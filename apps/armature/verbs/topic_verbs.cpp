@@ -15,11 +15,16 @@ void add_topic_verbs(CLI::App& app, Action& action) {
   topic->require_subcommand(1);
   auto options = std::make_shared<TopicOptions>();
   const auto add_common = [&](CLI::App* verb) {
-    verb->add_option("--domain", options->domain, "DDS domain")->check(CLI::Range(0, 232));
-    add_interfaces(*verb, options->interfaces);
+    verb->add_option("--domain", options->network.domain, "DDS domain")->check(CLI::Range(0, 232));
+    add_network(*verb, options->network);
     verb->add_option("--timeout", options->timeout_s, "give up after this many seconds")
         ->check(not_positive);
     verb->add_flag("--json", options->json, "as JSON");
+  };
+  const auto add_best_effort = [&](CLI::App* verb) {
+    verb->add_flag("--best-effort", options->best_effort,
+                   "take samples as they come: one that was lost is not asked for again, and those "
+                   "after it do not wait for it");
   };
   CLI::App* list = topic->add_subcommand("list", "Topics, types, and how many write and read them");
   add_common(list);
@@ -30,6 +35,7 @@ void add_topic_verbs(CLI::App& app, Action& action) {
   echo->add_option("-n,--count", options->count, "end after this many samples")
       ->check(CLI::Range(1, kMaxSamples));
   echo->add_flag("--full", options->full, "long byte arrays in full");
+  add_best_effort(echo);
   add_common(echo);
   echo->callback([=, &action] { action = [=] { return echo_topic(*options); }; });
 
@@ -37,6 +43,7 @@ void add_topic_verbs(CLI::App& app, Action& action) {
   hz->add_option("topic", options->topic, "e.g. /dental_lamp/arm/measured_js")->required();
   hz->add_option("-n,--count", options->count, "end after this many samples, at least 2")
       ->check(CLI::Range(2, kMaxSamples));
+  add_best_effort(hz);
   add_common(hz);
   hz->callback([=, &action] { action = [=] { return topic_rate(*options); }; });
 }

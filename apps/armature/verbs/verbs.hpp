@@ -2,10 +2,9 @@
 #pragma once
 
 #include <functional>
-#include <string>
-#include <vector>
 
 #include "arm_choice.hpp"
+#include "armature/bus/network.hpp"
 
 namespace CLI {
 class App;
@@ -26,9 +25,9 @@ void add_paper_verbs(CLI::App& app, Action& action);
 /// Of the machine and its shells: doctor, completion, man.
 void add_machine_verbs(CLI::App& app, Action& action);
 
-/// Options that several verbs have: which arm; which interfaces a verb that joins DDS from outside
-/// of any deployment takes.
+/// Options that several verbs have: which arm; how a verb joins DDS that is no part of a
+/// deployment, beside its domain.
 void add_arm(CLI::App* verb, ArmChoice& arm);
-void add_interfaces(CLI::App& verb, std::vector<std::string>& interfaces);
+void add_network(CLI::App& verb, NetworkOptions& network);
 
 }  // namespace armature

@@ -31,6 +31,9 @@ struct QosSettings {
   /// judges, by the system clock, what it keeps for those who come later.
   Duration lifespan = Duration{0};
   Duration liveliness_lease = seconds(0.5);
+  /// How often a reliable writer tells its readers what they should have, while one has not said
+  /// that it has: how long a lost last sample stays lost. Fast DDS waits 3 s when not told.
+  Duration heartbeat = seconds(0.2);
 };
 QosSettings settings(QosProfile profile);
 

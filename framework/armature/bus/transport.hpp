@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "armature/bus/network.hpp"
 #include "armature/bus/qos.hpp"
 #include "armature/bus/sample.hpp"
 #include "armature/messages/message_type.hpp"
@@ -75,9 +76,7 @@ struct TransportEvent {
 };
 
 struct TransportOptions {
-  int domain = 0;
-  /// Interfaces of this machine that are joined beside loopback, by name or IPv4 address.
-  std::vector<std::string> interfaces = {};
+  NetworkOptions network = {};
   std::string deployment;    // its name, and
   std::string fingerprint;   // the hash of its resolved configuration
   std::string run = {};      // what its processes share that were started together; nothing by hand
@@ -86,9 +85,6 @@ struct TransportOptions {
   /// The deployment's clock, the same in all of its processes. None: the system clock.
   std::function<Time()> now;
   bool simulated = false;  // that clock has nothing to do with anybody else's
-  /// False: over UDP only. Whoever is lost while it uses shared memory may hold a lock there, for
-  /// which all that send to it wait.
-  bool shared_memory = true;
 };
 
 /// The way to other processes. Plugins of kind `transport`; the runtime loads `transport/fast_dds`.

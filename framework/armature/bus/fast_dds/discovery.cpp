@@ -11,6 +11,11 @@ void Discovery::participant_found(const GuidPrefix& participant, ParticipantIden
   participants_[participant] = std::move(identity);
 }
 
+bool Discovery::knows(const GuidPrefix& participant) const {
+  const std::scoped_lock lock{mutex_};
+  return participants_.contains(participant);
+}
+
 bool Discovery::ignore(const GuidPrefix& participant) {
   const std::scoped_lock lock{mutex_};
   return ignored_.insert(participant).second;

@@ -58,6 +58,7 @@ class Discovery {
   explicit Discovery(Watcher watcher) : watcher_{std::move(watcher)} {}
 
   void participant_found(const GuidPrefix& participant, ParticipantIdentity identity);
+  bool knows(const GuidPrefix& participant) const;
   /// Nothing is known of its endpoints, and no sample of it is taken. False: it was ignored before.
   bool ignore(const GuidPrefix& participant);
   bool is_ignored(const GuidPrefix& participant) const;

@@ -55,8 +55,7 @@ DataWriterQos writer_qos(const QosSettings& settings, const std::string& user_da
   qos.liveliness().lease_duration = dds_duration(settings.liveliness_lease);
   qos.liveliness().announcement_period = dds_duration(settings.liveliness_lease * 2 / 5);
   qos.publish_mode().kind = SYNCHRONOUS_PUBLISH_MODE;  // the egress thread may wait, others never
-  // The default of 3 s is how long a lost last sample would stay lost.
-  qos.reliable_writer_qos().times.heartbeatPeriod = Duration_t{0.2L};
+  qos.reliable_writer_qos().times.heartbeatPeriod = dds_duration(settings.heartbeat);
   qos.representation().m_value = {XCDR_DATA_REPRESENTATION};
   return qos;
 }

@@ -83,7 +83,7 @@ TEST_F(FastDds, LatchedSamplesReachLateComers) {
   writer->offer(sample(7));
   Peer peer{domain_, "lamp", "f00d", "latched_reader"};
   EXPECT_TRUE(eventually([&] { return writer->matched_readers() == 1; }));
-  const auto observer = DdsObserver::make({.domain = domain_}).value();
+  const auto observer = DdsObserver::make({.network = {.domain = domain_}}).value();
   std::atomic<int> seen{0};
   ASSERT_TRUE(
       observer->watch("/test/to_peer", seconds(30), [&](const ObservedSample&) { ++seen; }));
@@ -109,7 +109,7 @@ TEST_F(FastDds, MessagesLargerThanADatagramCross) {
     SamplePool images{image_type, 2};
     const auto writer =
         transport->advertise({"rt/test/image", &image_type, QosProfile::sensor}).value();
-    const auto observer = DdsObserver::make({.domain = domain_}).value();
+    const auto observer = DdsObserver::make({.network = {.domain = domain_}}).value();
     std::atomic<std::size_t> bytes{0};
     ASSERT_TRUE(observer->watch("rt/test/image", seconds(30),
                                 [&](const ObservedSample& seen) { bytes = seen.cdr.size(); }));

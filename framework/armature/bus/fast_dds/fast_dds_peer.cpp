@@ -70,7 +70,7 @@ void latched_reader(Transport& transport) {
 int main(int argc, char** argv) {
   if (argc != 5) return 2;
   TransportOptions options;
-  options.domain = std::atoi(argv[1]);
+  options.network.domain = std::atoi(argv[1]);
   options.deployment = argv[2];
   options.fingerprint = argv[3];
   options.now = system_now;

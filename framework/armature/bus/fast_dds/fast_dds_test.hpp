@@ -94,7 +94,7 @@ class FastDds : public testing::Test {
   std::unique_ptr<Transport> make_transport(std::function<Time()> now,
                                             const SharedMemory& shared_memory = {}) {
     TransportOptions options;
-    options.domain = domain_;
+    options.network.domain = domain_;
     options.deployment = "lamp";
     options.fingerprint = "f00d";
     options.now = std::move(now);

@@ -63,13 +63,11 @@ Expected<std::unique_ptr<Transport>> FastDdsTransport::make(const TransportOptio
   const auto note = [raw = link.get()](const std::string& text) {
     raw->conflicts.report({TransportEvent::Kind::note, "", text});
   };
-  auto participant = Participant::make({.domain = options.domain,
-                                        .interfaces = options.interfaces,
+  auto participant = Participant::make({.network = options.network,
                                         .name = participant_name(options),
                                         .watcher = watch(link),
                                         .on_note = note,
-                                        .shared_memory = shared_memory,
-                                        .uses_shared_memory = options.shared_memory});
+                                        .shared_memory = shared_memory});
   if (!participant) return tl::unexpected{participant.error()};
   link->participant = std::move(*participant);
   link->egress = std::make_unique<Egress>();

@@ -116,16 +116,16 @@ class Observer final : public DdsObserver {
 }  // namespace
 
 Expected<std::unique_ptr<DdsObserver>> DdsObserver::make(const ObserverOptions& options) {
-  auto participant = Participant::make({.domain = options.domain,
-                                        .interfaces = options.interfaces,
+  NetworkOptions network = options.network;
+  // One that is killed must leave no lock behind for which those that it watched wait. With other
+  // interfaces joined Fast DDS does not tell its loopback address, and programs that know no other
+  // meet it in shared memory only.
+  network.shared_memory = network.shared_memory && !network.interfaces.empty();
+  auto participant = Participant::make({.network = std::move(network),
                                         .name = "armature observer",
                                         .watcher = {},
                                         .on_note = {},
-                                        // One that is killed must leave no lock behind for which
-                                        // those that it watched wait. With other interfaces joined
-                                        // Fast DDS does not tell its loopback address, and
-                                        // programs that know no other meet it there only.
-                                        .uses_shared_memory = !options.interfaces.empty()});
+                                        .sees_all = true});
   if (!participant) return tl::unexpected{participant.error()};
   return std::make_unique<Observer>(std::move(*participant), options.asks_again);
 }

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "armature/bus/network.hpp"
 #include "armature/values/expected.hpp"
 #include "armature/values/time.hpp"
 
@@ -30,8 +31,7 @@ struct ObservedSample {
 };
 
 struct ObserverOptions {
-  int domain = 0;
-  std::vector<std::string> interfaces = {};  // as in TransportOptions
+  NetworkOptions network = {};
   /// Whether a reliable writer is asked again for a sample that was lost. Until it comes, all that
   /// follow it are held back; when the writer is gone by then, they never come.
   bool asks_again = true;

@@ -15,7 +15,7 @@ TEST_F(FastDds, TheObserverReadsATopicByItsName) {
   const auto transport = make_transport();
   const auto writer = transport->advertise(to_peer_).value();
   const auto reader = transport->subscribe(from_peer_, false, collect()).value();
-  const auto observer = DdsObserver::make({.domain = domain_}).value();
+  const auto observer = DdsObserver::make({.network = {.domain = domain_}}).value();
   std::mutex mutex;
   std::string shown;
   ASSERT_TRUE(observer->watch("/test/to_peer", seconds(30), [&](const ObservedSample& seen) {
@@ -41,7 +41,7 @@ TEST_F(FastDds, TheObserverReadsATopicByItsName) {
 }
 
 TEST_F(FastDds, AnUnwrittenTopicIsRefusedByTheObserver) {
-  const auto observer = DdsObserver::make({.domain = domain_}).value();
+  const auto observer = DdsObserver::make({.network = {.domain = domain_}}).value();
   const auto watched = observer->watch("/none", seconds(0.1), [](const ObservedSample&) {});
   ASSERT_FALSE(watched);
   EXPECT_EQ(watched.error().text, "nobody writes '/none'");

@@ -6,6 +6,7 @@
 #include <fastrtps/utils/IPLocator.h>
 
 #include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <fastdds/dds/core/policy/ParameterTypes.hpp>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
@@ -15,6 +16,7 @@
 #include <fastdds/dds/subscriber/Subscriber.hpp>
 #include <fastdds/dds/topic/Topic.hpp>
 #include <fastdds/dds/topic/TypeSupport.hpp>
+#include <thread>
 #include <utility>
 
 #include "armature/bus/fast_dds/dds_log.hpp"
@@ -33,6 +35,15 @@ using eprosima::fastrtps::Duration_t;
 
 constexpr std::uint32_t kGreatestMessageBytes = 4U << 20;
 constexpr int kGreatestDomain = 232;  // beyond it, RTPS port numbers pass 65535
+/// How many participants of a peer are asked without multicast; Fast DDS asks 4 when not told.
+constexpr std::uint32_t kParticipantsOfAPeer = 20;
+constexpr std::chrono::milliseconds kServerAnswersWithin{3000};
+
+rtps::GuidPrefix_t server_prefix() {
+  rtps::GuidPrefix_t prefix;
+  rtps::get_server_client_default_guidPrefix(0, prefix);
+  return prefix;
+}
 
 /// Threads that are started meanwhile leave the process' signals to the program's own threads.
 class SignalsBlocked {
@@ -51,15 +62,16 @@ class SignalsBlocked {
 };
 
 void use_transports(dds::DomainParticipantQos& qos, const ParticipantSettings& settings,
-                    const std::vector<NetworkInterface>& joined) {
+                    const Network& network) {
   qos.transport().use_builtin_transports = false;
   auto udp = std::make_shared<UDPv4TransportDescriptor>();
   udp->interfaceWhiteList = {"127.0.0.1"};
-  for (const NetworkInterface& interface : joined) {
+  for (const NetworkInterface& interface : network.joined) {
     std::ranges::copy(interface.addresses, std::back_inserter(udp->interfaceWhiteList));
   }
+  udp->maxInitialPeersRange = kParticipantsOfAPeer;
   qos.transport().user_transports.push_back(udp);
-  if (!settings.uses_shared_memory) return;
+  if (!settings.network.shared_memory) return;
 
   clean_shared_memory(settings.shared_memory.folder);
   if (const auto usable = check_shared_memory(settings.shared_memory, kSharedMemoryOfProcess);
@@ -73,19 +85,61 @@ void use_transports(dds::DomainParticipantQos& qos, const ParticipantSettings& s
   qos.transport().user_transports.push_back(shared_memory);
 }
 
+rtps::Locator_t udp_locator(const std::string& address, std::uint32_t port) {
+  rtps::Locator_t locator;
+  locator.kind = LOCATOR_KIND_UDPv4;
+  rtps::IPLocator::setIPv4(locator, address);
+  locator.port = port;
+  return locator;
+}
+
+/// Where announcements go beside the peers: where they go when there are none.
+void announce_as_usual(rtps::LocatorList_t& destinations, std::uint32_t multicast_port) {
+  destinations.push_back(udp_locator("239.255.0.1", multicast_port));
+  rtps::Locator_t shared_memory;
+  shared_memory.kind = LOCATOR_KIND_SHM;
+  shared_memory.address[0] = 'M';
+  shared_memory.port = multicast_port;
+  destinations.push_back(shared_memory);
+}
+
+/// How others are found.
+void use_discovery(rtps::BuiltinAttributes& builtin, const ParticipantSettings& settings,
+                   const Network& network) {
+  auto& discovery = builtin.discovery_config;
+  if (network.server) {
+    rtps::RemoteServerAttributes server;
+    server.guidPrefix = server_prefix();
+    server.metatrafficUnicastLocatorList.push_back(
+        udp_locator(network.server->host, network.server->port));
+    discovery.m_DiscoveryServers.push_back(server);
+    discovery.discoveryProtocol = settings.sees_all ? rtps::DiscoveryProtocol_t::SUPER_CLIENT
+                                                    : rtps::DiscoveryProtocol_t::CLIENT;
+  } else if (!network.peers.empty()) {
+    const rtps::PortParameters ports;
+    announce_as_usual(builtin.initialPeersList,
+                      ports.getMulticastPort(static_cast<std::uint32_t>(settings.network.domain)));
+    constexpr std::uint32_t kAllPorts = 0;
+    for (const std::string& peer : network.peers) {
+      builtin.initialPeersList.push_back(udp_locator(peer, kAllPorts));
+    }
+  }
+}
+
 dds::DomainParticipantQos participant_qos(const ParticipantSettings& settings,
-                                          const std::vector<NetworkInterface>& joined) {
+                                          const Network& network) {
   dds::DomainParticipantQos qos;
   qos.name(settings.name);
-  use_transports(qos, settings, joined);
-  auto& discovery = qos.wire_protocol().builtin.discovery_config;
-  discovery.leaseDuration = Duration_t{1, 0};  // a killed process is gone after this
-  discovery.leaseDuration_announcementperiod = Duration_t{0.25L};
-  discovery.initial_announcements.count = 10;
-  discovery.initial_announcements.period = Duration_t{0.05L};
-  qos.wire_protocol().builtin.use_WriterLivelinessProtocol = true;
-  qos.wire_protocol().builtin.typelookup_config.use_client = false;
-  qos.wire_protocol().builtin.typelookup_config.use_server = false;
+  use_transports(qos, settings, network);
+  auto& builtin = qos.wire_protocol().builtin;
+  use_discovery(builtin, settings, network);
+  builtin.discovery_config.leaseDuration = Duration_t{1, 0};  // a killed process is gone after this
+  builtin.discovery_config.leaseDuration_announcementperiod = Duration_t{0.25L};
+  builtin.discovery_config.initial_announcements.count = 10;
+  builtin.discovery_config.initial_announcements.period = Duration_t{0.05L};
+  builtin.use_WriterLivelinessProtocol = true;
+  builtin.typelookup_config.use_client = false;
+  builtin.typelookup_config.use_server = false;
   return qos;
 }
 
@@ -147,6 +201,7 @@ class Participant::Listener final : public dds::DomainParticipantListener {
     if (found.status == Info::DISCOVERED_PARTICIPANT) {
       discovery().participant_found(prefix, identity_of(found.info));
       ignore_if_elsewhere(prefix, found.info);
+      report_unreachable_memory(prefix, found.info);
     } else if (found.status != Info::CHANGED_QOS_PARTICIPANT) {
       discovery().participant_gone(prefix, found.status == Info::DROPPED_PARTICIPANT);
     }
@@ -176,11 +231,28 @@ class Participant::Listener final : public dds::DomainParticipantListener {
                          return participant_.reaches(one);
                        });
     if (heard || !discovery().ignore(prefix)) return;
-    const auto& joined = participant_.joined_;
+    const auto& joined = participant_.network_.joined;
     on_note_(discovery().who(prefix) + " is ignored: it is not on this machine (it answers at " +
              addresses.back() + "), and " +
              (joined.empty() ? "only the loopback interface is joined"
                              : "no joined interface leads there: " + to_text(joined)));
+  }
+
+  /// Fast DDS sends to whoever has shared memory on this machine through that alone, also when it
+  /// cannot open it.
+  void report_unreachable_memory(const GuidPrefix& prefix,
+                                 const rtps::ParticipantProxyData& found) {
+    if (!participant_.uses_shared_memory_) return;
+    for (const rtps::Locator_t& locator : found.default_locators.unicast) {
+      if (locator.kind != LOCATOR_KIND_SHM) continue;
+      const auto reached = check_shared_memory_port(participant_.memory_folder_, locator.port);
+      if (reached) continue;
+      on_note_(discovery().who(prefix) +
+               " is on this machine and gets nothing from here through shared memory (" +
+               reached.error().text +
+               "): it is in another container, or another user's. Let one of the two use none: "
+               "`dds: {shared_memory: off}`, or --no-shared-memory");
+    }
   }
 
   template <class ProxyData>
@@ -203,20 +275,24 @@ class Participant::Listener final : public dds::DomainParticipantListener {
 };
 
 Expected<std::unique_ptr<Participant>> Participant::make(ParticipantSettings settings) {
-  if (settings.domain < 0 || settings.domain > kGreatestDomain) {
-    return refuse("DDS domain " + std::to_string(settings.domain) + " is not within 0 and " +
+  const int domain = settings.network.domain;
+  if (domain < 0 || domain > kGreatestDomain) {
+    return refuse("DDS domain " + std::to_string(domain) + " is not within 0 and " +
                   std::to_string(kGreatestDomain));
   }
-  auto joined = find_interfaces(settings.interfaces);
-  if (!joined) return tl::unexpected{joined.error()};
+  auto network = find_network(settings.network);
+  if (!network) return tl::unexpected{network.error()};
   if (!settings.on_note) settings.on_note = [](const std::string&) {};
-  std::unique_ptr<Participant> made{new Participant{settings, std::move(*joined)}};
+  std::unique_ptr<Participant> made{new Participant{settings, std::move(*network)}};
   if (const auto opened = made->open(settings); !opened) return tl::unexpected{opened.error()};
+  if (const auto met = made->meet_server(); !met) return tl::unexpected{met.error()};
   return made;
 }
 
-Participant::Participant(ParticipantSettings& settings, std::vector<NetworkInterface> joined)
-    : joined_{std::move(joined)},
+Participant::Participant(ParticipantSettings& settings, Network network)
+    : network_{std::move(network)},
+      memory_folder_{settings.shared_memory.folder},
+      uses_shared_memory_{settings.network.shared_memory},
       discovery_{std::move(settings.watcher)},
       log_{std::make_unique<DdsLog>(settings.on_note)},
       listener_{std::make_unique<Listener>(*this, settings.on_note)} {}
@@ -224,7 +300,7 @@ Participant::Participant(ParticipantSettings& settings, std::vector<NetworkInter
 Expected<void> Participant::open(const ParticipantSettings& settings) {
   const SignalsBlocked signals_blocked;
   const auto refused = [&](const std::string& what) {
-    return refuse("DDS: no " + what + " in domain " + std::to_string(settings.domain) +
+    return refuse("DDS: no " + what + " in domain " + std::to_string(settings.network.domain) +
                   "; is the loopback interface up, and are UDP ports free?");
   };
   auto* factory = dds::DomainParticipantFactory::get_instance();
@@ -233,8 +309,8 @@ Expected<void> Participant::open(const ParticipantSettings& settings) {
   factory->get_qos(factory_qos);
   factory_qos.entity_factory().autoenable_created_entities = false;
   factory->set_qos(factory_qos);
-  participant_ = factory->create_participant(static_cast<dds::DomainId_t>(settings.domain),
-                                             participant_qos(settings, joined_), listener_.get(),
+  participant_ = factory->create_participant(static_cast<dds::DomainId_t>(settings.network.domain),
+                                             participant_qos(settings, network_), listener_.get(),
                                              dds::StatusMask::none());
   factory_qos.entity_factory().autoenable_created_entities = true;
   factory->set_qos(factory_qos);
@@ -249,11 +325,27 @@ Expected<void> Participant::open(const ParticipantSettings& settings) {
   return {};
 }
 
+Expected<void> Participant::meet_server() const {
+  if (!network_.server) return {};
+  const GuidPrefix server = prefix_of(server_prefix());
+  const auto deadline = std::chrono::steady_clock::now() + kServerAnswersWithin;
+  while (!discovery_.knows(server)) {
+    if (std::chrono::steady_clock::now() > deadline) {
+      const std::string port = std::to_string(network_.server->port);
+      return refuse("no discovery server answers at " + network_.server->host + ":" + port +
+                    "; start it there: fastdds discovery -i 0 -l " + network_.server->host +
+                    " -p " + port);
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds{10});
+  }
+  return {};
+}
+
 bool Participant::reaches(const std::string& address) const {
-  if (joined_.empty()) return false;
+  if (network_.joined.empty()) return false;
   const auto interface = interface_towards(address);
-  return interface &&
-         std::ranges::find(joined_, *interface, &NetworkInterface::name) != joined_.end();
+  return interface && std::ranges::find(network_.joined, *interface, &NetworkInterface::name) !=
+                          network_.joined.end();
 }
 
 Participant::~Participant() {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
@@ -10,7 +11,7 @@
 
 #include "armature/bus/fast_dds/discovery.hpp"
 #include "armature/bus/fast_dds/shared_memory.hpp"
-#include "armature/bus/network_interface.hpp"
+#include "armature/bus/network.hpp"
 #include "armature/values/expected.hpp"
 
 namespace eprosima::fastdds::dds {
@@ -25,13 +26,13 @@ namespace armature ARMATURE_EXPORT {
 class DdsLog;
 
 struct ParticipantSettings {
-  int domain = 0;
-  std::vector<std::string> interfaces = {};  // as in TransportOptions
+  NetworkOptions network = {};
   std::string name;
   Discovery::Watcher watcher;
   std::function<void(const std::string&)> on_note;  // any thread; must only enqueue
-  SharedMemory shared_memory;                       // looked at before Fast DDS uses it
-  bool uses_shared_memory = true;
+  SharedMemory shared_memory = {};                  // looked at before Fast DDS uses it
+  /// A discovery server tells it all that there is, not only who shares its topics.
+  bool sees_all = false;
 };
 
 /// The one DDS participant of the process: shared memory, UDP on the loopback interface and on
@@ -53,12 +54,16 @@ class Participant {
 
  private:
   class Listener;
-  Participant(ParticipantSettings& settings, std::vector<NetworkInterface> joined);
+  Participant(ParticipantSettings& settings, Network network);
   Expected<void> open(const ParticipantSettings& settings);
+  /// Waits for the discovery server, if there is one to be.
+  Expected<void> meet_server() const;
   /// Whether the way to that address of another machine leads over a joined interface.
   bool reaches(const std::string& address) const;
 
-  const std::vector<NetworkInterface> joined_;  // beside loopback
+  const Network network_;
+  const std::filesystem::path memory_folder_;
+  const bool uses_shared_memory_;
   Discovery discovery_;
   std::unique_ptr<DdsLog> log_;
   std::unique_ptr<Listener> listener_;

@@ -17,7 +17,7 @@ namespace {
 TEST_F(FastDds, ADomainOutOfRangeIsRefused) {
   domain_ = 233;
   TransportOptions options;
-  options.domain = 233;
+  options.network.domain = 233;
   const auto made = FastDdsTransport::make(options);
   ASSERT_FALSE(made);
   EXPECT_EQ(made.error().text, "DDS domain 233 is not within 0 and 232");
@@ -25,8 +25,8 @@ TEST_F(FastDds, ADomainOutOfRangeIsRefused) {
 
 TEST_F(FastDds, AnInterfaceThatIsAbsentIsRefused) {
   TransportOptions options;
-  options.domain = domain_;
-  options.interfaces = {"lo", "elsewhere0"};
+  options.network.domain = domain_;
+  options.network.interfaces = {"lo", "elsewhere0"};
   const auto made = FastDdsTransport::make(options);
   ASSERT_FALSE(made);
   EXPECT_THAT(made.error().text,
@@ -54,7 +54,7 @@ TEST_F(FastDds, AParticipantOfAnotherMachineIsIgnoredAndNamed) {
             "participant 'stranger' is ignored: it is not on this machine (it answers at "
             "203.0.113.7), and only the loopback interface is joined");
   ASSERT_TRUE(announce(domain_, elsewhere));
-  const auto observer = DdsObserver::make({.domain = domain_}).value();
+  const auto observer = DdsObserver::make({.network = {.domain = domain_}}).value();
   EXPECT_EQ(events(Kind::note), 1);
 }
 
@@ -100,7 +100,7 @@ TEST_F(FastDds, ThePluginLibraryUnloadsAfterUse) {
     EXPECT_EQ(std::string{entry->kind}, "transport");
     {
       TransportOptions options;
-      options.domain = domain_;
+      options.network.domain = domain_;
       const auto made = reinterpret_cast<Transport::Factory>(entry->factory)(options);
       ASSERT_TRUE(made) << made.error().text;
       EXPECT_TRUE((*made)->advertise(to_peer_));

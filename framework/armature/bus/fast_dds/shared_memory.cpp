@@ -200,6 +200,12 @@ Expected<void> check_shared_memory(const SharedMemory& memory, std::uint64_t byt
   return {};
 }
 
+Expected<void> check_shared_memory_port(const fs::path& folder, std::uint32_t port) {
+  const fs::path file = folder / ("fastrtps_port" + std::to_string(port));
+  if (access(file.c_str(), R_OK | W_OK) == 0) return {};
+  return refuse(file.string() + ": " + std::strerror(errno));
+}
+
 void make_shared_memory_private(const fs::path& folder) {
   std::set<fs::path> mapped;
   add_mapped_files("/proc/self", folder, mapped);

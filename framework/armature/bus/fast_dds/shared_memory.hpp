@@ -29,6 +29,9 @@ struct SharedMemory {
 /// SIGBUS in the middle of a write.
 Expected<void> check_shared_memory(const SharedMemory& memory, std::uint64_t bytes);
 
+/// Whether this process may send to a participant that takes samples at that port of `folder`.
+Expected<void> check_shared_memory_port(const std::filesystem::path& folder, std::uint32_t port);
+
 /// Makes what Fast DDS has made for this process in `folder` its user's only: it gives its files to
 /// all users to read, whatever the umask, and samples lie there. A program that opened one before
 /// keeps it, so this is called at once.

@@ -261,19 +261,19 @@ void Deployment::assign_runners() {
 }
 
 void Deployment::connect(PluginRegistry& plugins, int domain, const std::string& run) {
+  NetworkOptions network = config_.dds.network(domain);
   // A process that the others go on without must leave nothing behind that they wait for.
   const bool isolated = options_.process != kMainProcess && !stops_run(options_.process, config_);
+  network.shared_memory = network.shared_memory && !isolated;
   const TransportOptions options{
-      .domain = domain,
-      .interfaces = config_.dds.interface_names(),
+      .network = std::move(network),
       .deployment = config_.name,
       .fingerprint = config_.fingerprint,
       .run = run,
       .process = options_.process,
       .on_event = [this](const TransportEvent& event) { on_event(event); },
       .now = [this] { return clock_->now(); },
-      .simulated = config_.simulated,
-      .shared_memory = !isolated};
+      .simulated = config_.simulated};
   auto transport = plugins.make<Transport>("transport/fast_dds", options);
   if (!transport) throw PluginError("cannot join DDS: " + transport.error().text);
   remote_.emplace(std::move(*transport), config_, options_.process);

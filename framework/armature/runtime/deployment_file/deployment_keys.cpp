@@ -72,7 +72,20 @@ const std::vector<KeySpec>& dds_keys() {
       {.name = "interfaces",
        .type = Type::texts,
        .doc = "Network interfaces beside loopback, by name or IPv4 address.",
-       .optional = true}};
+       .optional = true},
+      {.name = "peers",
+       .type = Type::texts,
+       .doc = "Hosts whose processes are found without multicast, by name or IPv4 address.",
+       .optional = true},
+      {.name = "discovery_server",
+       .type = Type::text,
+       .doc = "Where the discovery server is that all find each other through: host or host:port.",
+       .optional = true},
+      {.name = "shared_memory",
+       .type = Type::choice,
+       .doc = "off: processes of one machine send over UDP, as between containers.",
+       .fallback = default_value("on"),
+       .choices = {"on", "off"}}};
   return kKeys;
 }
 

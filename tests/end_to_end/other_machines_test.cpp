@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+// Machines that a cable with faults joins: one that carries no multicast, as many networks do not,
+// and one that loses and doubles what it carries.
+#include <gmock/gmock.h>
+
+#include <csignal>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "deployment_run.hpp"
+#include "tests/dds_domain.hpp"
+#include "two_hosts.hpp"
+
+namespace armature::test {
+namespace {
+
+using std::chrono::seconds;
+using testing::HasSubstr;
+
+constexpr seconds kTimeout{30};
+const std::string kJoined = "dds.interfaces=[eth0]";
+
+class OtherMachines : public testing::Test {
+ protected:
+  explicit OtherMachines(const std::vector<std::string>& faults) : hosts_{faults} {}
+  void SetUp() override {
+    if (!hosts_.missing().empty()) GTEST_SKIP() << hosts_.missing();
+  }
+
+  std::unique_ptr<Command> start(const TwoHosts::Host& host, const std::string& file,
+                                 std::vector<std::string> settings) const {
+    const DeploymentStart start{.files = {source_file(file)},
+                                .settings = std::move(settings),
+                                .domain = domain_,
+                                .options = {}};
+    return std::make_unique<Command>(
+        host.command(deployment_command(start)),
+        Command::Options{.environment = {{"ARMATURE_PLUGIN_PATH", TEST_PLUGINS}}, .input = {}});
+  }
+
+  std::unique_ptr<Command> start_pulse(std::vector<std::string> settings) const {
+    settings.push_back("components.ear.params.listens_s=1000");
+    return start(robot_, "tests/end_to_end/pulse.yaml", std::move(settings));
+  }
+
+  /// `armature topic hz TOPIC WORDS` on that host, over eth0.
+  std::vector<std::string> hz_on(const TwoHosts::Host& host, const std::string& topic,
+                                 const std::vector<std::string>& words) const {
+    std::vector<std::string> all{armature(),    "topic",    "hz",
+                                 topic,         "--domain", std::to_string(domain_),
+                                 "--interface", "eth0"};
+    all.insert(all.end(), words.begin(), words.end());
+    return host.command(all);
+  }
+
+  const int domain_ = unique_dds_domain();
+  TwoHosts hosts_;
+  const TwoHosts::Host& robot_ = hosts_.robot();
+  const TwoHosts::Host& desk_ = hosts_.desk();
+};
+
+class WithoutMulticast : public OtherMachines {
+ protected:
+  WithoutMulticast() : OtherMachines{{"--no-multicast"}} {}
+};
+
+TEST_F(WithoutMulticast, NobodyIsFoundUnlessItIsNamed) {
+  const auto pulse = start_pulse({kJoined});
+  const auto unnamed = run_command(hz_on(desk_, "/pulse/beat", {"--timeout", "3"}));
+  EXPECT_THAT(unnamed.err, HasSubstr("nobody writes '/pulse/beat'")) << unnamed.out;
+  const auto named = run_command(
+      hz_on(desk_, "/pulse/beat", {"-n", "20", "--timeout", "8", "--peer", robot_.address}));
+  EXPECT_EQ(named.exit_code, 0) << named.err << pulse->err();
+}
+
+TEST_F(WithoutMulticast, APeerIsFoundWhateverElseItsMachineRuns) {
+  // Each takes a port of the machine, and Fast DDS asks four when it is not told.
+  std::vector<std::unique_ptr<Command>> others;
+  for (int i = 0; i < 6; ++i) {
+    others.push_back(std::make_unique<Command>(hz_on(robot_, "/pulse/beat", {})));
+    ASSERT_TRUE(others.back()->wait_for_err("waiting for it", kTimeout)) << others.back()->err();
+  }
+  const auto pulse = start_pulse({kJoined});
+  const auto named = run_command(
+      hz_on(desk_, "/pulse/beat", {"-n", "20", "--timeout", "8", "--peer", robot_.address}));
+  EXPECT_EQ(named.exit_code, 0) << named.err << pulse->err();
+}
+
+TEST_F(WithoutMulticast, ADeploymentFindsAPeerThatAsksNobody) {
+  const auto watch =
+      std::make_unique<Command>(hz_on(desk_, "/pulse/beat", {"-n", "20", "--timeout", "15"}));
+  const auto pulse = start_pulse({kJoined, "dds.peers=[" + desk_.address + "]"});
+  EXPECT_EQ(watch->finish(kTimeout).exit_code, 0) << pulse->err();
+  EXPECT_THAT(pulse->err(), HasSubstr("and looks for others also at " + desk_.address));
+}
+
+TEST_F(WithoutMulticast, ADiscoveryServerLeadsToEverybody) {
+  const std::string server = "/usr/bin/fast-discovery-server";
+  if (!std::filesystem::exists(server)) GTEST_SKIP() << "no " << server << " (fastdds-tools)";
+  const Command serves{robot_.command({server, "-i", "0", "-l", robot_.address, "-p", "11811"})};
+  const auto pulse = start_pulse({kJoined, "dds.discovery_server=" + robot_.address});
+  const auto watch = run_command(
+      hz_on(desk_, "/pulse/beat",
+            {"-n", "20", "--timeout", "8", "--discovery-server", robot_.address + ":11811"}));
+  EXPECT_EQ(watch.exit_code, 0) << watch.err << pulse->err() << serves.err() << serves.out();
+}
+
+TEST_F(WithoutMulticast, ADiscoveryServerThatDoesNotAnswerEndsTheStart) {
+  const auto pulse = start_pulse({kJoined, "dds.discovery_server=" + desk_.address});
+  const auto ended = pulse->finish(kTimeout);
+  EXPECT_NE(ended.exit_code, 0);
+  EXPECT_THAT(ended.err, HasSubstr("no discovery server answers at 10.77.0.2:11811; start it "
+                                   "there: fastdds discovery -i 0 -l 10.77.0.2 -p 11811"));
+}
+
+class OverALossyCable : public OtherMachines {
+ protected:
+  OverALossyCable()
+      : OtherMachines{
+            {"--seed", "7", "--lost", "0.2", "--doubled", "0.1", "--count", "counted_joint"}} {}
+};
+
+TEST_F(OverALossyCable, AMonitorGetsEveryPacketThatCameThroughOnce) {
+  const auto arm = start(
+      robot_, "tests/end_to_end/arm_watched.yaml",
+      {kJoined, "clock=system", "robots.arm=" + source_file("tests/end_to_end/counted_arm.yaml")});
+  Command watch{hz_on(desk_, "/watched/arm/measured_js", {"--best-effort", "--json"})};
+  ASSERT_TRUE(watch.wait_for_out("\"second\"", kTimeout)) << watch.err() << arm->err();
+  arm->signal(SIGINT);
+  arm->finish(kTimeout);
+  watch.signal(SIGINT);
+  const std::string out = watch.finish(kTimeout).out;
+  const auto all = nlohmann::json::parse(out.substr(out.rfind("{\"over\"")));
+  EXPECT_GT(all.at("samples").get<int>(), 500) << out;
+  EXPECT_EQ(all.at("samples").get<int>(), hosts_.counted()) << out;
+}
+
+}  // namespace
+}  // namespace armature::test

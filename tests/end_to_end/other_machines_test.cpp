@@ -17,11 +17,11 @@ namespace {
 using std::chrono::seconds;
 using testing::HasSubstr;
 
-constexpr seconds kTimeout{30};
-const std::string kJoined = "dds.interfaces=[eth0]";
-
 class OtherMachines : public testing::Test {
  protected:
+  static constexpr seconds kTimeout{30};
+  static inline const std::string kJoined = "dds.interfaces=[eth0]";
+
   explicit OtherMachines(const std::vector<std::string>& faults) : hosts_{faults} {}
   void SetUp() override {
     if (!hosts_.missing().empty()) GTEST_SKIP() << hosts_.missing();

@@ -73,7 +73,7 @@ TEST_F(Interfaces, ThatADeploymentJoinsCarryItsTopicsToAnotherMachine) {
     EXPECT_THAT(result.out, HasSubstr(" Hz over 20 samples in all"));
   }
   const auto run = interrupt(*pulse);
-  EXPECT_THAT(run.err, HasSubstr("DDS joins lo, eth0 (10.77.0.1): programs there may read every "
+  EXPECT_THAT(run.err, HasSubstr("DDS joins lo, eth0 (10.77.0.1). Programs there may read every "
                                  "topic, and only DDS Security helps against one that copies the "
                                  "fingerprint\n"));
 }

@@ -78,7 +78,9 @@ TEST_F(WithoutMulticast, APeerIsFoundWhateverElseItsMachineRuns) {
   std::vector<std::unique_ptr<Command>> others;
   for (int i = 0; i < 6; ++i) {
     others.push_back(std::make_unique<Command>(hz_on(robot_, "/pulse/beat", {})));
-    ASSERT_TRUE(others.back()->wait_for_err("waiting for it", kTimeout)) << others.back()->err();
+  }
+  for (const auto& other : others) {
+    ASSERT_TRUE(other->wait_for_err("waiting for it", kTimeout)) << other->err();
   }
   const auto pulse = start_pulse({kJoined});
   const auto named = run_command(

@@ -26,20 +26,22 @@
 
 namespace armature {
 
-/// fast_dds_peer as a child; asked to end when the test is over.
+/// fast_dds_peer as a child; asked to end when the test is over. `within`: words before its own.
 class Peer {
  public:
   Peer(int domain, const std::string& deployment, const std::string& fingerprint,
-       const std::string& task) {
+       const std::string& task, std::vector<std::string> within = {}) {
     int pipe_ends[2];
     EXPECT_EQ(pipe2(pipe_ends, O_CLOEXEC), 0);
     input_ = pipe_ends[1];
     SpawnPlan plan;
     plan.hand_over(pipe_ends[0], STDIN_FILENO);
-    EXPECT_EQ(
-        plan.start(FAST_DDS_PEER,
-                   {FAST_DDS_PEER, std::to_string(domain), deployment, fingerprint, task}, pid_),
-        0);
+    std::vector<std::string> words = std::move(within);
+    for (const auto& word :
+         {std::string{FAST_DDS_PEER}, std::to_string(domain), deployment, fingerprint, task}) {
+      words.push_back(word);
+    }
+    EXPECT_EQ(plan.start(words.front(), words, pid_), 0);
     close(pipe_ends[0]);
   }
   ~Peer() {

@@ -3,6 +3,7 @@
 #include <dlfcn.h>
 #include <gmock/gmock.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
@@ -64,6 +65,48 @@ TEST_F(FastDds, AParticipantOfThisMachineIsNot) {
   ASSERT_TRUE(announce(domain_, spdp_announcement("stranger", {203, 0, 113, 7}, 8)));
   EXPECT_EQ(event(Kind::note).substr(0, 22), "participant 'stranger'");
   EXPECT_EQ(events(Kind::note), 1);
+}
+
+/// A container: its processes share the network of this machine, and not its /dev/shm.
+const std::vector<std::string> kContainer{"/usr/bin/unshare",
+                                          "--user",
+                                          "--map-root-user",
+                                          "--mount",
+                                          "/bin/sh",
+                                          "-c",
+                                          "mount -t tmpfs tmpfs /dev/shm && exec \"$0\" \"$@\""};
+
+bool has_containers() {
+  return std::system("/usr/bin/unshare --user --map-root-user --mount true 2>/dev/null") == 0;
+}
+
+TEST_F(FastDds, WhoeverCannotBeReachedThroughSharedMemoryIsNamed) {
+  if (!has_containers()) GTEST_SKIP() << "no user namespace may be made here";
+  const auto transport = make_transport();
+  Peer peer{domain_, "lamp", "f00d", "echo", kContainer};
+  EXPECT_THAT(
+      event(Kind::note),
+      testing::ContainsRegex(
+          "participant 'armature lamp' \\(pid [0-9]+ on [^)]+\\) is on this machine and gets "
+          "nothing from here through shared memory \\(/dev/shm/fastrtps_port[0-9]+: No such "
+          "file or directory\\): it is in another container, or another user's. Let one of "
+          "the two use none: `dds: \\{shared_memory: off\\}`, or --no-shared-memory"));
+}
+
+TEST_F(FastDds, WithoutSharedMemoryContainersHearEachOther) {
+  if (!has_containers()) GTEST_SKIP() << "no user namespace may be made here";
+  TransportOptions options;
+  options.network = {.domain = domain_, .shared_memory = false};
+  options.deployment = "lamp";
+  options.fingerprint = "f00d";
+  const auto transport = FastDdsTransport::make(options).value();
+  Peer peer{domain_, "lamp", "f00d", "echo", kContainer};
+  const auto writer = transport->advertise(to_peer_).value();
+  const auto reader = transport->subscribe(from_peer_, false, collect()).value();
+  EXPECT_TRUE(eventually([&] {
+    writer->offer(sample(1));
+    return received() > 0;
+  }));
 }
 
 TEST_F(FastDds, SharedMemoryIsItsUsersOnly) {

@@ -238,8 +238,8 @@ class Participant::Listener final : public dds::DomainParticipantListener {
                              : "no joined interface leads there: " + to_text(joined)));
   }
 
-  /// Fast DDS sends to whoever has shared memory on this machine through that alone, also when it
-  /// cannot open it.
+  /// Fast DDS sends to whoever has shared memory on this machine through that alone, whether it
+  /// arrives there or not.
   void report_unreachable_memory(const GuidPrefix& prefix,
                                  const rtps::ParticipantProxyData& found) {
     if (!participant_.uses_shared_memory_) return;

@@ -91,6 +91,16 @@ void add_mapped_files(const fs::path& proc_folder, const fs::path& folder,
   }
 }
 
+/// The files that the process of `proc_folder` has open.
+std::set<fs::path> open_files(const fs::path& proc_folder) {
+  std::set<fs::path> files;
+  std::error_code error;
+  for (const auto& open : fs::directory_iterator{proc_folder / "fd", error}) {
+    files.insert(fs::read_symlink(open.path(), error));
+  }
+  return files;
+}
+
 /// The files of `folder` that some process has open or mapped (of those processes that may be
 /// looked at: this user's, and nobody else may write the files). Whoever makes a file has it open
 /// at once, and mapped before he closes it: so what is open is looked at first, and a file that was
@@ -100,8 +110,7 @@ std::set<fs::path> files_in_use(const fs::path& folder) {
   std::set<fs::path> files;
   std::error_code error;
   for (const auto& process : fs::directory_iterator{"/proc", error}) {
-    for (const auto& open : fs::directory_iterator{process.path() / "fd", error}) {
-      const fs::path file = fs::read_symlink(open.path(), error);
+    for (const fs::path& file : open_files(process.path())) {
       if (file.string().starts_with(inside)) files.insert(file);
     }
     add_mapped_files(process.path(), folder, files);
@@ -202,8 +211,15 @@ Expected<void> check_shared_memory(const SharedMemory& memory, std::uint64_t byt
 
 Expected<void> check_shared_memory_port(const fs::path& folder, std::uint32_t port) {
   const fs::path file = folder / ("fastrtps_port" + std::to_string(port));
-  if (access(file.c_str(), R_OK | W_OK) == 0) return {};
-  return refuse(file.string() + ": " + std::strerror(errno));
+  if (access(file.c_str(), R_OK | W_OK) != 0) {
+    return refuse(file.string() + ": " + std::strerror(errno));
+  }
+  const fs::path listens = group_of(folder, file.filename())[1];  // held by whoever does
+  if (open_files("/proc/self").contains(listens)) return refuse(file.string() + " is its own");
+  if (!fs::exists(listens) || FreeLock{listens}.free()) {
+    return refuse("nobody listens at " + file.string());
+  }
+  return {};
 }
 
 void make_shared_memory_private(const fs::path& folder) {

@@ -29,7 +29,8 @@ struct SharedMemory {
 /// SIGBUS in the middle of a write.
 Expected<void> check_shared_memory(const SharedMemory& memory, std::uint64_t bytes);
 
-/// Whether this process may send to a participant that takes samples at that port of `folder`.
+/// Whether what this process sends to that port of `folder` reaches a participant of another
+/// process. Participants of two such folders have the same ports.
 Expected<void> check_shared_memory_port(const std::filesystem::path& folder, std::uint32_t port);
 
 /// Makes what Fast DDS has made for this process in `folder` its user's only: it gives its files to

@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <signal.h>
 #include <sys/file.h>
 #include <sys/mman.h>
 #include <sys/wait.h>
@@ -111,6 +112,28 @@ TEST_F(SharedMemoryTest, WhatSomebodyLocksStays) {
   EXPECT_EQ(clean_shared_memory(folder_), 0);
   EXPECT_EQ(files(), names);
   for (const int lock : locks) close(lock);
+}
+
+TEST_F(SharedMemoryTest, APortReachesWhoeverElseListensThere) {
+  const auto checked = [&] { return check_shared_memory_port(folder_, 7411); };
+  const std::string file = (folder_ / "fastrtps_port7411").string();
+  EXPECT_EQ(checked().error().text, file + ": No such file or directory");
+  touch("fastrtps_port7411");
+  EXPECT_EQ(checked().error().text, "nobody listens at " + file);
+  touch("fastrtps_port7411_el");
+  EXPECT_EQ(checked().error().text, "nobody listens at " + file);
+  const int lock = open((file + "_el").c_str(), O_RDWR | O_CLOEXEC);
+  EXPECT_EQ(checked().error().text, file + " is its own");
+  close(lock);
+  const pid_t listener = fork();
+  if (listener == 0) {
+    const int held = open((file + "_el").c_str(), O_RDWR | O_CLOEXEC);
+    _exit(flock(held, LOCK_EX) == 0 && pause() ? 0 : 1);
+  }
+  for (int i = 0; i < 1000 && !checked(); ++i) usleep(1000);
+  EXPECT_TRUE(checked());
+  kill(listener, SIGKILL);
+  waitpid(listener, nullptr, 0);
 }
 
 TEST_F(SharedMemoryTest, WhatIsMappedStays) {

@@ -1,63 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // Machines that a cable with faults joins: one that carries no multicast, as many networks do not,
 // and one that loses and doubles what it carries.
+#include "other_machines_test.hpp"
+
 #include <gmock/gmock.h>
 
 #include <csignal>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "deployment_run.hpp"
-#include "tests/dds_domain.hpp"
-#include "two_hosts.hpp"
-
 namespace armature::test {
 namespace {
 
 using std::chrono::seconds;
 using testing::HasSubstr;
-
-class OtherMachines : public testing::Test {
- protected:
-  static constexpr seconds kTimeout{30};
-  static inline const std::string kJoined = "dds.interfaces=[eth0]";
-
-  explicit OtherMachines(const std::vector<std::string>& faults) : hosts_{faults} {}
-  void SetUp() override {
-    if (!hosts_.missing().empty()) GTEST_SKIP() << hosts_.missing();
-  }
-
-  std::unique_ptr<Command> start(const TwoHosts::Host& host, const std::string& file,
-                                 std::vector<std::string> settings) const {
-    const DeploymentStart start{.files = {source_file(file)},
-                                .settings = std::move(settings),
-                                .domain = domain_,
-                                .options = {}};
-    return std::make_unique<Command>(
-        host.command(deployment_command(start)),
-        Command::Options{.environment = {{"ARMATURE_PLUGIN_PATH", TEST_PLUGINS}}, .input = {}});
-  }
-
-  std::unique_ptr<Command> start_pulse(std::vector<std::string> settings) const {
-    settings.push_back("components.ear.params.listens_s=1000");
-    return start(robot_, "tests/end_to_end/pulse.yaml", std::move(settings));
-  }
-
-  /// `armature topic hz TOPIC WORDS` on that host, over eth0.
-  std::vector<std::string> hz_on(const TwoHosts::Host& host, const std::string& topic,
-                                 const std::vector<std::string>& words) const {
-    std::vector<std::string> all{armature(),    "topic",    "hz",
-                                 topic,         "--domain", std::to_string(domain_),
-                                 "--interface", "eth0"};
-    all.insert(all.end(), words.begin(), words.end());
-    return host.command(all);
-  }
-
-  const int domain_ = unique_dds_domain();
-  TwoHosts hosts_;
-  const TwoHosts::Host& robot_ = hosts_.robot();
-  const TwoHosts::Host& desk_ = hosts_.desk();
-};
 
 class WithoutMulticast : public OtherMachines {
  protected:

@@ -42,9 +42,14 @@ bool wait_for_link(const TwoHosts::Host& host) {
 
 }  // namespace
 
+pid_t TwoHosts::Host::pid() const {
+  const pid_t forked = holder->child();
+  return forked > 0 ? forked : holder->pid();
+}
+
 std::vector<std::string> TwoHosts::Host::command(std::vector<std::string> words) const {
-  return appended({"/usr/bin/nsenter", "--target", std::to_string(holder->pid()), "--user",
-                   "--preserve-credentials", "--net", "--mount"},
+  return appended({"/usr/bin/nsenter", "--target", std::to_string(pid()), "--user",
+                   "--preserve-credentials", "--net", "--mount", "--time"},
                   words);
 }
 
@@ -66,7 +71,10 @@ std::string TwoHosts::make(const std::vector<std::string>& faults) {
   }
   if (!hold(robot_, appended(unshare, kHold))) return "no host: " + robot_.holder->err();
   const auto beside = robot_.command(appended({"/usr/bin/unshare", "--net", "--mount"}, kHold));
-  if (!hold(desk_, beside)) return "no second host: " + desk_.holder->err();
+  const auto later = robot_.command(appended({"/usr/bin/unshare", "--net", "--mount", "--time",
+                                              "--monotonic", "5000", "--fork", "--kill-child"},
+                                             kHold));
+  if (!hold(desk_, later)) return "no second host: " + desk_.holder->err();
   if (!faults.empty() && !hold(between_, beside)) return "no cable: " + between_.holder->err();
   if (const std::string failed = connect(faults); !failed.empty()) return failed;
   for (const Host* host : {&robot_, &desk_}) {
@@ -82,9 +90,8 @@ std::string TwoHosts::make(const std::vector<std::string>& faults) {
 
 std::string TwoHosts::connect(const std::vector<std::string>& faults) {
   const auto plug = [](const Host& host, const std::string& far_end, const Host& there) {
-    return run_command(
-        host.command({kIp, "link", "add", "dev", kInterface, "type", "veth", "peer", "name",
-                      far_end, "netns", std::to_string(there.holder->pid())}));
+    return run_command(host.command({kIp, "link", "add", "dev", kInterface, "type", "veth", "peer",
+                                     "name", far_end, "netns", std::to_string(there.pid())}));
   };
   if (faults.empty()) {
     const auto cable = plug(robot_, kInterface, desk_);

@@ -10,8 +10,8 @@
 namespace armature::test {
 
 /// Two machines with a cable between them, as far as DDS can tell: network namespaces, each with
-/// a loopback interface and shared memory of its own. They are gone with this object. With
-/// `faults`, options of cable_relay, the cable has those.
+/// a loopback interface and shared memory of its own. The desk has been on for 5000 s longer. They
+/// are gone with this object. With `faults`, options of cable_relay, the cable has those.
 class TwoHosts {
  public:
   static constexpr const char* kInterface = "eth0";  // of both, at the cable
@@ -20,6 +20,8 @@ class TwoHosts {
     std::string address;
     std::unique_ptr<Command> holder{};  // sleeps in the namespaces of the host
 
+    /// The process that holds the namespaces.
+    pid_t pid() const;
     /// The command that runs `words` there.
     std::vector<std::string> command(std::vector<std::string> words) const;
   };

@@ -34,6 +34,7 @@
 #include "inspect/plugins.hpp"
 #include "run/console.hpp"
 #include "run/end_signals.hpp"
+#include "run/host_agent.hpp"
 #include "run/joint_reports.hpp"
 #include "run/run_watches.hpp"
 
@@ -43,28 +44,6 @@ namespace {
 /// Where report.json stands once there is a folder for it.
 std::filesystem::path report_file(const std::filesystem::path& folder) {
   return folder / "report.json";
-}
-
-std::vector<std::string> child_arguments(const RunOptions& options, int domain,
-                                         const std::string& process,
-                                         const RunOptions::Origin& origin) {
-  std::vector<std::string> arguments{"run",
-                                     "--process",
-                                     process,
-                                     "--domain",
-                                     std::to_string(domain),
-                                     "--clock-offset-ns",
-                                     std::to_string(origin.clock_offset.count()),
-                                     "--clock-start-ns",
-                                     std::to_string(origin.start.ns)};
-  if (options.timing) arguments.push_back("--timing");
-  if (options.keep_running) arguments.push_back("--keep-running");
-  if (options.inject) arguments.insert(arguments.end(), {"--inject", *options.inject});
-  for (const auto& assignment : options.source.assignments) {
-    arguments.insert(arguments.end(), {"--set", assignment});
-  }
-  for (const auto& file : options.source.files) arguments.push_back(file.string());
-  return arguments;
 }
 
 /// As JSON, what there is to say of a run without figures.
@@ -219,13 +198,34 @@ struct Process {
   RunOptions::Origin origin;
 };
 
-/// What the processes that one `armature run` has started share, and no other run on any machine;
-/// nothing when they are started by hand.
-std::string run_of(const RunOptions& options, const Process& process) {
-  const bool by_hand = !options.process.empty() && !options.origin;
-  if (by_hand) return "";
-  const auto& [clock_offset, start] = process.origin;
-  return fmt::format("{:x}-{:x}", clock_offset.count(), start.ns);
+/// What the processes that one `armature run` has started share, and no other run on any machine.
+std::string new_run(const RunOptions::Origin& origin) {
+  return fmt::format("{:x}-{:x}", origin.clock_offset.count(), origin.start.ns);
+}
+
+/// The processes of the other hosts, once their agents are there.
+void expect_hosts(ChildProcesses& children, const RunOptions& options, const Process& process,
+                  Deployment& deployment) {
+  const DeploymentConfig& config = deployment.config();
+  for (const std::string& host : config.hosts()) {
+    if (host == kMainHost) continue;
+    ChildProcesses::Host expected{
+        .link = std::make_unique<HostLink>(
+            deployment.transport(),
+            HostLinkEnd{
+                .deployment = config.name, .host = host, .of_main = true, .id = process.origin.run},
+            deployment.clock()),
+        .processes = {},
+        .fingerprint = config.fingerprint,
+        .welcome = fmt::format("run {} {} {:d} {:d}", process.origin.run, process.origin.start.ns,
+                               options.timing, options.keep_running)};
+    for (const std::string& other : config.processes()) {
+      if (config.host_of(other) != host) continue;
+      expected.processes.emplace_back(other,
+                                      stops_run(other, config) ? OnFault::stop : OnFault::isolate);
+    }
+    children.expect(std::move(expected));
+  }
 }
 
 void tell_network(const Network& network, Console& console) {
@@ -242,12 +242,13 @@ int run_main(const RunOptions& options, const Process& process, Deployment& depl
              PluginRegistry& plugins, Console& console, LastWord& last_word) {
   ChildProcesses children;
   for (const auto& other : deployment.config().processes()) {
-    if (other == process.name) continue;
-    children.start(other, child_arguments(options, process.domain, other, process.origin),
+    if (other == process.name || deployment.config().host_of(other) != kMainHost) continue;
+    children.start(other, process_arguments(options, process.domain, other, process.origin),
                    stops_run(other, deployment.config()) ? OnFault::stop : OnFault::isolate);
   }
-  deployment.connect(plugins, process.domain, run_of(options, process));
+  deployment.connect(plugins, process.domain, process.origin.run);
   tell_network(process.network, console);
+  expect_hosts(children, options, process, deployment);
   MainWatch watch{console, children, deployment.config()};
   deployment.run(watch);
   RunReport::Ending ending{.faults = watch.end_all(), .stopped = watch.interruption()};
@@ -267,7 +268,8 @@ int run_main(const RunOptions& options, const Process& process, Deployment& depl
 
 int run_other(const RunOptions& options, const Process& process, Deployment& deployment,
               PluginRegistry& plugins, Console& console, ChildWatch& watch, LastWord& last_word) {
-  deployment.connect(plugins, process.domain, run_of(options, process));
+  deployment.connect(plugins, process.domain, process.origin.run);
+  watch.on_clock([&](Duration offset) { deployment.follow_clock(offset); });
   deployment.run(watch);
   const int code = conclude_child(options, deployment, watch, last_word);
   console.flush();
@@ -280,6 +282,13 @@ void check_process(const DeploymentConfig& config, const std::string& process) {
   if (std::ranges::find(processes, process) != processes.end()) return;
   throw InvalidChoice(fmt::format("deployment '{}' has no process '{}'{}", config.name, process,
                                   config::did_you_mean(process, processes)));
+}
+
+void check_host(const DeploymentConfig& config, const std::string& host) {
+  const std::vector<std::string> hosts = config.hosts();
+  if (std::ranges::find(hosts, host) != hosts.end()) return;
+  throw InvalidChoice(fmt::format("deployment '{}' has no host '{}'{}", config.name, host,
+                                  config::did_you_mean(host, hosts)));
 }
 
 /// `notes` gets what the assignments leave out.
@@ -319,6 +328,12 @@ int run(const RunOptions& options) {
                   .origin = options.origin.value_or(
                       RunOptions::Origin{SystemClock{}.unix_minus_monotonic(), Time{}})};
   check_process(config, process.name);
+  if (!options.host.empty()) check_host(config, options.host);
+  if (!options.host.empty() && options.host != kMainHost) {
+    const int code = run_host(options, config, process.domain, plugins);
+    if (options.json) fmt::print("{}", ending(code == kOk ? "ok" : "fault", ""));
+    return code;
+  }
   if (options.report && !is_child) add_joint_reports(config, plugins, *options.report);
   if (options.keep_running && config.simulated) {
     throw InvalidChoice(
@@ -352,6 +367,7 @@ int run(const RunOptions& options) {
   end_signals::stop_in_order();
   if (is_child && options.control >= 0) prctl(PR_SET_PDEATHSIG, 0);
   if (!options.origin) process.origin.start = deployment.clock().now();
+  if (!is_child) process.origin.run = new_run(process.origin);
   console.start(deployment.clock(), process.origin.start);
   return is_child
              ? run_other(options, process, deployment, plugins, console, *child_watch, last_word)
@@ -359,6 +375,30 @@ int run(const RunOptions& options) {
 }
 
 }  // namespace
+
+std::vector<std::string> process_arguments(const RunOptions& options, int domain,
+                                           const std::string& process,
+                                           const RunOptions::Origin& origin) {
+  std::vector<std::string> arguments{"run",
+                                     "--process",
+                                     process,
+                                     "--domain",
+                                     std::to_string(domain),
+                                     "--clock-offset-ns",
+                                     std::to_string(origin.clock_offset.count()),
+                                     "--clock-start-ns",
+                                     std::to_string(origin.start.ns),
+                                     "--run-id",
+                                     origin.run};
+  if (options.timing) arguments.push_back("--timing");
+  if (options.keep_running) arguments.push_back("--keep-running");
+  if (options.inject) arguments.insert(arguments.end(), {"--inject", *options.inject});
+  for (const auto& assignment : options.source.assignments) {
+    arguments.insert(arguments.end(), {"--set", assignment});
+  }
+  for (const auto& file : options.source.files) arguments.push_back(file.string());
+  return arguments;
+}
 
 int run_deployment(const RunOptions& options) {
   umask(077);  // what a run writes is about a patient

@@ -45,14 +45,29 @@ MainWatch::MainWatch(Console& console, ChildProcesses& children, const Deploymen
   }
 }
 
+void MainWatch::tell_notes() {
+  while (const auto note = children_->next_note()) console().line("runtime", *note);
+}
+
 bool MainWatch::may_start(const std::optional<std::string>& waiting) {
   children_->update();
+  tell_notes();
   if (children_->stop_cause()) return false;
   const auto now = SteadyClock::now();
+  if (const auto host = children_->missing_host()) {
+    if (told_missing_ != *host) {
+      console().line("runtime", fmt::format("waiting for host '{}': run the same file there with "
+                                            "--host {}",
+                                            *host, *host));
+    }
+    told_missing_ = *host;
+    asked_first_ = now;
+    return false;
+  }
   if (const auto late = children_->not_joined()) {
     if (!told_of_late_ && now - asked_first_ > kMeetWithin) {
       told_of_late_ = true;
-      console().line("runtime", fmt::format("waiting for process '{}' to be constructed", *late));
+      console().line("runtime", fmt::format("waiting for {} to be constructed", *late));
     }
     return false;
   }
@@ -87,7 +102,7 @@ void MainWatch::tell_clock_step() {
 std::optional<std::string> MainWatch::stop_cause() {
   tell_clock_step();
   children_->update();
-  while (const auto lost = children_->next_isolated()) console().line("runtime", *lost);
+  tell_notes();
   if (auto cause = interruption_now()) return cause;
   auto lost = children_->stop_cause();
   if (lost && !started_) throw std::runtime_error{*lost + " before the start"};
@@ -139,6 +154,7 @@ void ChildWatch::hear() {
     started_ = started_ || *line == "start";
     told_end_ = told_end_ || *line == "end";
     if (line->starts_with("stop ")) stop_ = line->substr(5);
+    if (line->starts_with("clock ")) follow_clock_(Duration{std::stoll(line->substr(6))});
   }
 }
 

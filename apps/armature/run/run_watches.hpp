@@ -2,8 +2,10 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "armature/runtime/deployment/run_watch.hpp"
@@ -56,6 +58,7 @@ class MainWatch final : public ProcessWatch {
  private:
   using SteadyClock = std::chrono::steady_clock;
   void tell_clock_step();
+  void tell_notes();
   [[noreturn]] void refuse_to_start(const std::string& waiting) const;
 
   ChildProcesses* children_;
@@ -65,6 +68,7 @@ class MainWatch final : public ProcessWatch {
   SteadyClock::time_point asked_first_ = SteadyClock::now();
   std::optional<SteadyClock::time_point> joined_;
   bool started_ = false, told_of_late_ = false;
+  std::string told_missing_;  // host that was waited for
   int told_signals_ = 1;
   std::vector<std::string> moving_;  // in other processes, when the time was over
 };
@@ -81,6 +85,10 @@ class ChildWatch final : public ProcessWatch {
   void stopping(const std::string& cause) override;
   bool may_end(const std::vector<std::string>& moving, Duration left) override;
 
+  /// Who is told the main process' clock as the agent of this host sees it.
+  void on_clock(std::function<void(Duration unix_minus_monotonic)> follow) {
+    follow_clock_ = std::move(follow);
+  }
   /// True without a main process.
   bool alone() const { return control_.file() < 0; }
   /// Tells the main process what failed here, "" for nothing.
@@ -96,7 +104,8 @@ class ChildWatch final : public ProcessWatch {
   /// Sends a line unless it is the last one of its kind again.
   void say(std::string& last, std::string line);
 
-  ControlChannel control_;
+  SocketChannel control_;
+  std::function<void(Duration)> follow_clock_ = [](Duration) {};
   bool started_ = false, told_end_ = false;
   std::string stop_;      // as the main process said
   std::string own_stop_;  // which it is to answer

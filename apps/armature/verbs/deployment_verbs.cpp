@@ -47,6 +47,9 @@ void add_handed_over(CLI::App& verb, RunOptions& options) {
   verb.add_option_function<std::int64_t>(
           "--clock-offset-ns", [origin](std::int64_t ns) { origin().clock_offset = Duration{ns}; })
       ->group("");
+  verb.add_option_function<std::string>("--run-id",
+                                        [origin](const std::string& run) { origin().run = run; })
+      ->group("");
   verb.add_option_function<std::int64_t>("--clock-start-ns",
                                          [origin](std::int64_t ns) { origin().start = Time{ns}; })
       ->group("");
@@ -59,7 +62,11 @@ void add_run(CLI::App& app, Action& action) {
   add_source(*verb, options->source);
   verb->add_option("--domain", options->domain, "DDS domain, instead of the file's")
       ->check(CLI::Range(0, 232));
-  verb->add_option("--process", options->process, "run only this process of the deployment");
+  CLI::Option* process =
+      verb->add_option("--process", options->process, "run only this process of the deployment");
+  verb->add_option("--host", options->host,
+                   "run the processes of this host, of a deployment that names several (main)")
+      ->excludes(process);
   verb->add_flag("--json", options->json, "print the result as one JSON object");
   verb->add_flag("--timing", options->timing, "tell how late and how long every step was");
   verb->add_flag("--keep-running", options->keep_running,

@@ -260,6 +260,10 @@ void Deployment::assign_runners() {
   }
 }
 
+void Deployment::follow_clock(Duration unix_minus_monotonic) {
+  if (auto* clock = dynamic_cast<SystemClock*>(clock_.get())) clock->follow(unix_minus_monotonic);
+}
+
 void Deployment::connect(PluginRegistry& plugins, int domain, const std::string& run) {
   NetworkOptions network = config_.dds.network(domain);
   // A process that the others go on without must leave nothing behind that they wait for.

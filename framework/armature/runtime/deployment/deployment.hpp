@@ -62,6 +62,11 @@ class Deployment {
   /// feeds. Another machine may run the same file: processes with another `run` are strangers.
   /// Throws PluginError with the transport's reason.
   void connect(PluginRegistry& plugins, int domain, const std::string& run = {});
+  /// The way to other processes; after connect().
+  Transport& transport() { return remote_->transport(); }
+  /// The main process' offset, as the agent of this host sees it now (SystemClock::follow). Nothing
+  /// on the simulated clock.
+  void follow_clock(Duration unix_minus_monotonic);
 
   /// Waits until the topics between this and the other processes have met, so that what is sent
   /// once is not lost, and until `watch` lets it begin. Then runs until a component is finished or

@@ -34,6 +34,7 @@ class RemoteTopics {
   std::optional<std::string> waiting() const;
   /// What strangers wrote to inputs that are the deployment's own, a sentence for each.
   std::vector<std::string> refusals() const;
+  Transport& transport() { return *transport_; }
   /// No sample is delivered afterwards. Writers stay with their topics, which go before this.
   void stop_reading() { readers_.clear(); }
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 
 #include "armature/runtime/component/component.hpp"
 #include "armature/runtime/component/topic_name.hpp"
@@ -74,6 +75,13 @@ void ComponentReader::report_missing_plugin(const Node::Entry& entry) const {
                             entry.key, hint.find("did you mean") == std::string::npos ? "" : hint));
 }
 
+bool is_name(std::string_view text) {
+  const bool digit = !text.empty() && std::isdigit(static_cast<unsigned char>(text.front()));
+  return !text.empty() && !digit && std::all_of(text.begin(), text.end(), [](unsigned char c) {
+    return std::isalnum(c) || c == '_';
+  });
+}
+
 std::optional<ComponentConfig> ComponentReader::read(const Node::Entry& entry) const {
   ComponentConfig component;
   component.name = entry.key;
@@ -118,7 +126,14 @@ std::optional<ComponentConfig> ComponentReader::read(const Node::Entry& entry) c
     map.problem("executor", fmt::format("unknown executor '{}'{}", component.executor,
                                         config::did_you_mean(component.executor, executors)));
   }
+  component.host = map.text("host");
+  if (!is_name(component.host)) {
+    map.problem("host", fmt::format("'{}' must consist of letters, digits and '_', and begin with "
+                                    "no digit",
+                                    component.host));
+  }
   component.process = map.text("process");
+  if (component.process.empty()) component.process = component.host;  // the main ones' are the same
   if (component.process != kMainProcess && deployment_.simulated) {
     map.problem("process",
                 "the simulated clock runs one process; remove 'process' or set "

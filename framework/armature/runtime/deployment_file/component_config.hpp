@@ -11,6 +11,9 @@
 
 namespace armature ARMATURE_EXPORT {
 
+/// Whether `text` consists of letters, digits and '_', and begins with no digit.
+bool is_name(std::string_view text);
+
 /// Reads one entry of `components:` against the manifests of the plugins it names.
 class ComponentReader {
  public:

@@ -33,13 +33,6 @@ using config::MapReader;
 using config::Node;
 using config::Problems;
 
-bool is_name(std::string_view text) {
-  const bool digit = !text.empty() && std::isdigit(static_cast<unsigned char>(text.front()));
-  return !text.empty() && !digit && std::all_of(text.begin(), text.end(), [](unsigned char c) {
-    return std::isalnum(c) || c == '_';
-  });
-}
-
 /// The entries of a section that must be a map; none when it is missing or wrong.
 std::span<const Node::Entry> entries_of(const Node* section, std::string_view name,
                                         Problems& problems) {
@@ -191,6 +184,21 @@ std::vector<std::string> DeploymentConfig::processes() const {
   return all;
 }
 
+std::vector<std::string> DeploymentConfig::hosts() const {
+  std::set<std::string> others;
+  for (const auto& component : components) {
+    if (component.host != kMainHost) others.insert(component.host);
+  }
+  std::vector<std::string> all{std::string{kMainHost}};
+  all.insert(all.end(), others.begin(), others.end());
+  return all;
+}
+
+std::string DeploymentConfig::host_of(std::string_view process) const {
+  const auto found = std::ranges::find(components, process, &ComponentConfig::process);
+  return found == components.end() ? std::string{kMainHost} : found->host;
+}
+
 bool check_is_deployment(const Node& root, Problems& problems) {
   if (root.find("armature")) return true;
   const std::array<std::pair<std::string_view, std::string_view>, 3> others{
@@ -205,6 +213,35 @@ bool check_is_deployment(const Node& root, Problems& problems) {
                fmt::format("not a deployment{}: it must begin with 'armature: 1'", what));
   return false;
 }
+
+namespace {
+
+/// A process is on one host, the main one on the main host, and hosts hear each other.
+void check_hosts(const DeploymentConfig& deployment, Problems& problems) {
+  bool apart = false;
+  for (const ComponentConfig& component : deployment.components) {
+    if (component.unit != kMainUnit) continue;
+    const std::string expected = deployment.host_of(component.process);
+    apart = apart || component.host != kMainHost;
+    if (component.process == kMainProcess && component.host != kMainHost) {
+      problems.add(component.origin,
+                   fmt::format("component '{}' is of process '{}', which runs on host '{}' and not "
+                               "on '{}'; name another process",
+                               component.name, kMainProcess, kMainHost, component.host));
+    } else if (component.host != expected) {
+      problems.add(component.origin,
+                   fmt::format("process '{}' is on host '{}', and component '{}' of it on '{}'",
+                               component.process, expected, component.name, component.host));
+    }
+  }
+  if (apart && deployment.dds.interfaces.empty()) {
+    problems.add(deployment.components.front().origin,
+                 "the deployment has several hosts and joins no network between them: "
+                 "dds: {interfaces: [eth0]}");
+  }
+}
+
+}  // namespace
 
 DeploymentConfig read_deployment(const Node& root, const PluginRegistry& plugins,
                                  Problems& problems) {
@@ -248,6 +285,7 @@ DeploymentConfig read_deployment(const Node& root, const PluginRegistry& plugins
       open_inputs(open, deployment, problems);
       check_graph(deployment, plugins, problems);
       check_isolation(deployment, problems);
+      check_hosts(deployment, problems);
       decide_on_faults(deployment);
       check_component_needs(deployment, plugins, problems);
       link_parameters(deployment, problems);

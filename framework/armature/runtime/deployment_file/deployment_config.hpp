@@ -51,6 +51,7 @@ struct ComponentConfig {
   std::map<std::string, std::string> documents;  // section -> the bound entry's name
   std::string executor;
   std::string process;
+  std::string host;
   Duration sim_latency{0};
   std::optional<OnFault> on_fault;  // as the file says, else as the graph does (on_fault.hpp)
   int place = 0;                    // in the graph, sources first
@@ -90,11 +91,15 @@ struct DeploymentConfig {
   std::string fingerprint;  // SHA-256 of the resolved file and of all documents
 
   std::vector<std::string> processes() const;  // "main" first
+  std::vector<std::string> hosts() const;      // "main" first
+  /// The host that a process runs on.
+  std::string host_of(std::string_view process) const;
 };
 
 /// What a file may let anything wait for: a longer time is a slip of the pen.
 inline constexpr double kLongestWait_s = 3600;
 inline constexpr std::string_view kMainProcess = "main";
+inline constexpr std::string_view kMainHost = "main";  // where the main process runs
 inline constexpr std::string_view kMainExecutor = "main";
 inline constexpr std::string_view kRuntimeExecutor = "runtime";  // of the runtime's own components
 // The runtime's own components, which every process has (the clock: on the simulated clock).

@@ -42,7 +42,11 @@ void append_named_files(std::string& text, const Node& node) {
 
 std::string fingerprint_of(const Node& root, const DeploymentConfig& deployment) {
   std::string text;
-  append(text, config::to_yaml(root, false));
+  for (const auto& [key, origin, value] : root.entries()) {
+    if (key == "dds" || key == "domain") continue;  // of a machine, not of what runs
+    append(text, key);
+    append(text, config::to_yaml(value, false));
+  }
   for (const auto& [section, documents] : deployment.documents) {
     for (const auto& [name, document] : documents) {
       append(text, section + "." + name);

@@ -10,7 +10,8 @@ namespace armature ARMATURE_EXPORT {
 
 /// What the processes of one deployment know each other by: SHA-256 over the resolved file, the
 /// documents that `robots:` and `rigs:` name, and the files that those name in turn (a
-/// URDF, a calibration). Models and pictures are not part of it.
+/// URDF, a calibration). Models and pictures are not part of it, and how a machine joins DDS
+/// (`dds:`, `domain:`) is not.
 std::string fingerprint_of(const config::Node& root, const DeploymentConfig& deployment);
 
 }  // namespace armature

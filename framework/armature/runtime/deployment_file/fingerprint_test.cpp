@@ -66,5 +66,12 @@ TEST_F(Fingerprint, DoesNotChangeWithACommentOrAPicture) {
   EXPECT_EQ(now(), before);
 }
 
+TEST_F(Fingerprint, IsThatOfEveryMachineHoweverItJoinsDds) {
+  const std::string before = now();
+  write("deployment.yaml",
+        "name: lamp\ndds: {interfaces: [enp3s0]}\ndomain: 7\nphoto: photo.png\n");
+  EXPECT_EQ(now(), before);
+}
+
 }  // namespace
 }  // namespace armature

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/runtime/execution/clock.hpp"
 
+#include <algorithm>
 #include <chrono>
 
 namespace armature {
@@ -23,9 +24,38 @@ Duration measured_offset() {
 
 }  // namespace
 
-SystemClock::SystemClock() : unix_minus_monotonic_{measured_offset()} {}
+SystemClock::SystemClock() : SystemClock{measured_offset()} {}
 
-Time SystemClock::now() const { return {(monotonic_now() + unix_minus_monotonic_).count()}; }
+SystemClock::SystemClock(Duration unix_minus_monotonic) {
+  courses_[0].from = courses_[0].to = unix_minus_monotonic.count();
+}
+
+Time SystemClock::now() const {
+  const Duration monotonic = monotonic_now();
+  return {(monotonic + offset_at(monotonic)).count()};
+}
+
+Duration SystemClock::unix_minus_monotonic() const { return offset_at(monotonic_now()); }
+
+Duration SystemClock::offset_at(Duration monotonic) const {
+  constexpr std::int64_t kSlowness = 2000;  // 1 / 0.5 ms in a second
+  const Course& course = courses_[course_.load(std::memory_order_acquire)];
+  const std::int64_t from = course.from.load(std::memory_order_relaxed);
+  const std::int64_t way = course.to.load(std::memory_order_relaxed) - from;
+  const std::int64_t most =
+      (monotonic.count() - course.since.load(std::memory_order_relaxed)) / kSlowness;
+  return Duration{
+      from + std::clamp(way, -std::max<std::int64_t>(most, 0), std::max<std::int64_t>(most, 0))};
+}
+
+void SystemClock::follow(Duration unix_minus_monotonic) {
+  const std::size_t next = (course_.load(std::memory_order_relaxed) + 1) % courses_.size();
+  const Duration now = monotonic_now();
+  courses_[next].since.store(now.count(), std::memory_order_relaxed);
+  courses_[next].from.store(offset_at(now).count(), std::memory_order_relaxed);
+  courses_[next].to.store(unix_minus_monotonic.count(), std::memory_order_relaxed);
+  course_.store(next, std::memory_order_release);
+}
 
 std::optional<Duration> ClockSteps::next() {
   constexpr Duration kSmallest = std::chrono::milliseconds{100};

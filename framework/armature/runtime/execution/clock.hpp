@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <atomic>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 
 #include "armature/values/time.hpp"
@@ -22,13 +25,24 @@ class SystemClock final : public Clock {
  public:
   SystemClock();
   /// With another process' offset.
-  explicit SystemClock(Duration unix_minus_monotonic)
-      : unix_minus_monotonic_{unix_minus_monotonic} {}
+  explicit SystemClock(Duration unix_minus_monotonic);
   Time now() const override;
-  Duration unix_minus_monotonic() const { return unix_minus_monotonic_; }
+  Duration unix_minus_monotonic() const;
+
+  /// Goes over to another offset, by at most 0.5 ms in a second: the clock of another host is
+  /// followed as both drift. From one thread, at most every 0.1 s.
+  void follow(Duration unix_minus_monotonic);
 
  private:
-  Duration unix_minus_monotonic_;
+  /// From which offset it goes to which, since when.
+  struct Course {
+    std::atomic<std::int64_t> since{0}, from{0}, to{0};  // [ns]
+  };
+  Duration offset_at(Duration monotonic) const;
+
+  /// In turn, so that whoever reads one while the next is written is not disturbed.
+  std::array<Course, 8> courses_;
+  std::atomic<std::size_t> course_{0};
 };
 
 /// Sees when somebody sets the system clock, which the deployment's clock does not follow. Not for

@@ -41,7 +41,7 @@ std::string real_name(const std::string& device) {
 struct Arm {
   std::string lock;  // its name
   std::string text;  // "the arm at '/dev/ttyUSB0'"
-  std::string process;
+  std::string process, host = {};
 };
 
 std::vector<Arm> arms_of_metal(const DeploymentConfig& deployment) {
@@ -56,6 +56,7 @@ std::vector<Arm> arms_of_metal(const DeploymentConfig& deployment) {
             ? Arm{"plugin " + id, fmt::format("the arm of '{}'", id), {}}
             : Arm{"device " + real_name(device), fmt::format("the arm at '{}'", device), {}});
     arms.back().process = component.process;
+    arms.back().host = component.host;
   }
   return arms;
 }
@@ -96,7 +97,7 @@ std::vector<InstanceLock> own_arms(const DeploymentConfig& deployment, const std
       auto taken = InstanceLock::take(arm.lock);
       refuse_if(taken);
       locks.push_back(std::move(*taken));
-    } else if (is_main) {
+    } else if (is_main && arm.host == kMainHost) {
       refuse_if(InstanceLock::check(arm.lock));
     }
   }

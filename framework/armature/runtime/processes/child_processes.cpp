@@ -3,33 +3,22 @@
 
 #include <fmt/format.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
-#include <cstring>
-#include <system_error>
 #include <thread>
 #include <utility>
 
 #include "armature/bus/qos.hpp"
+#include "armature/runtime/processes/started_process.hpp"
 #include "armature/values/sanitizer.hpp"
-#include "armature/values/spawn_plan.hpp"
 
 namespace armature {
 namespace {
 
 /// What is moving in a process that has not said so yet.
 const std::string kNotSaid = "?";
-
-std::string text_of_status(int status) {
-  if (WIFSIGNALED(status)) {
-    return fmt::format("was killed by signal {} ({})", WTERMSIG(status),
-                       strsignal(WTERMSIG(status)));
-  }
-  return fmt::format("ended with exit code {}", WEXITSTATUS(status));
-}
 
 }  // namespace
 
@@ -39,23 +28,46 @@ ChildProcesses::~ChildProcesses() {
 
 void ChildProcesses::start(const std::string& name, std::vector<std::string> arguments,
                            OnFault on_loss) {
-  constexpr int kControlFile = STDERR_FILENO + 1;
-  auto [ours, theirs] = ControlChannel::make();
-  const std::string program = "/proc/self/exe";
-  arguments.insert(arguments.begin(), program);
-  arguments.insert(arguments.end(), {std::string{kControlOption}, std::to_string(kControlFile)});
-  // Ctrl-C reaches the main process, which ends the others in order. Not fork: afterwards a thread
-  // of this process would pay for every page that it touches.
-  SpawnPlan plan;
-  plan.hand_over(theirs.file(), kControlFile).own_group().unblock_signals();
-  pid_t pid = 0;
-  if (const int error = plan.start(program, arguments, pid)) {
-    throw std::system_error(error, std::generic_category(), "cannot start " + name);
+  auto [pid, control] = start_process(name, std::move(arguments));
+  children_.push_back({.name = name,
+                       .label = fmt::format("process '{}'", name),
+                       .on_loss = on_loss,
+                       .control = std::make_unique<SocketChannel>(std::move(control)),
+                       .pid = pid});
+}
+
+void ChildProcesses::expect(Host host) {
+  HostLink* link = hosts_.emplace_back(std::move(host.link)).get();
+  for (const auto& [name, on_loss] : host.processes) {
+    children_.push_back({.name = name,
+                         .label = fmt::format("process '{}' of host '{}'", name, link->host()),
+                         .on_loss = on_loss,
+                         .control = std::make_unique<HostChannel>(*link, name),
+                         .host = link});
   }
-  children_.push_back({.name = name, .pid = pid, .on_loss = on_loss, .control = std::move(ours)});
+  children_.push_back({.name = "",
+                       .label = fmt::format("host '{}'", link->host()),
+                       .on_loss = OnFault::stop,
+                       .control = std::make_unique<HostChannel>(*link, HostLink::kAgent),
+                       .host = link,
+                       .fingerprint = std::move(host.fingerprint),
+                       .welcome = std::move(host.welcome)});
+}
+
+void ChildProcesses::welcome(Child& agent, const std::string& fingerprint) {
+  if (fingerprint == agent.fingerprint) return agent.control->send(agent.welcome);
+  const std::string why = fmt::format(
+      "{} has another configuration (fingerprint {:.8}, here {:.8}): start it with the same file, "
+      "overlays and --set",
+      agent.label, fingerprint, agent.fingerprint);
+  agent.control->send("refuse " + why);
+  agent.host->update();
+  agent.host->begin_again();
+  notes_.push_back(why);
 }
 
 void ChildProcesses::update() {
+  for (const auto& host : hosts_) host->update();
   for (Child& child : children_) {
     hear(child);
     watch(child);
@@ -63,7 +75,7 @@ void ChildProcesses::update() {
 }
 
 void ChildProcesses::hear(Child& child) {
-  while (const auto line = child.control.receive()) {
+  while (const auto line = child.control->receive()) {
     const std::size_t space = line->find(' ');
     const std::string word = line->substr(0, space);
     const std::string text = space == std::string::npos ? "" : line->substr(space + 1);
@@ -71,25 +83,35 @@ void ChildProcesses::hear(Child& child) {
     if (word == "waiting") child.waiting = text;
     if (word == "ready") child.ready = true;
     if (word == "stop") {
-      child.stop_cause = fmt::format("process '{}': {}", child.name, text);
+      child.stop_cause = fmt::format("{}: {}", child.label, text);
       child.moving = kNotSaid;
     }
     if (word == "moving") child.moving = text;
     if (word == "timing") child.timing.push_back(text);
-    if (word == "fault") faults_.push_back(fmt::format("process '{}': {}", child.name, text));
+    if (word == "fault") faults_.push_back(fmt::format("{}: {}", child.label, text));
+    if (word == "here") return welcome(child, text);
+    if (word == "note") notes_.push_back(fmt::format("{}: {}", child.label, text));
+    if (word == "ended") on_ended(child, text, !text.starts_with("was killed"));
   }
 }
 
 void ChildProcesses::watch(Child& child) {
+  if (child.host && !child.ended && child.control->lost()) {
+    on_ended(child,
+             fmt::format("fell silent for {:g} s: it is dead, or the network between is",
+                         to_seconds(HostLink::kSilence)),
+             false);
+  }
   int status = 0;
-  while (!child.ended &&
+  while (child.pid > 0 && !child.ended &&
          waitpid(child.pid, &status, WNOHANG | WUNTRACED | WCONTINUED) == child.pid) {
     if (WIFSTOPPED(status)) {
       child.halted_at = SteadyClock::now();
     } else if (WIFCONTINUED(status)) {
       on_continued(child);
     } else {
-      on_ended(child, status);
+      hear(child);  // what it said before
+      on_ended(child, text_of_status(status), WIFEXITED(status));
     }
   }
 }
@@ -98,20 +120,18 @@ void ChildProcesses::on_continued(Child& child) {
   if (!child.halted_at) return;
   const Duration halted = SteadyClock::now() - *std::exchange(child.halted_at, std::nullopt);
   if (halted <= settings(QosProfile::command).liveliness_lease) return;
-  faults_.push_back(fmt::format("process '{}' (pid {}) fell silent: it was stopped for {:.1f} s",
-                                child.name, child.pid, to_seconds(halted)));
+  faults_.push_back(fmt::format("{} (pid {}) fell silent: it was stopped for {:.1f} s", child.label,
+                                child.pid, to_seconds(halted)));
 }
 
-void ChildProcesses::on_ended(Child& child, int status) {
-  hear(child);  // what it said before
+void ChildProcesses::on_ended(Child& child, const std::string& how, bool well) {
   child.ended = true;
   child.moving.clear();
-  const bool well = WIFEXITED(status) && WEXITSTATUS(status) == 0;
-  if (child.told_end && (well || WIFEXITED(status))) return;  // its faults it has told
-  const std::string lost =
-      fmt::format("process '{}' (pid {}) {}", child.name, child.pid, text_of_status(status));
+  if (child.told_end && well) return;  // its faults it has told
+  const std::string pid = child.pid > 0 ? fmt::format(" (pid {})", child.pid) : "";
+  const std::string lost = fmt::format("{}{} {}", child.label, pid, how);
   if (begun_ && !child.told_end && child.on_loss == OnFault::isolate) {
-    isolated_.push_back(lost + ", isolated: the run goes on without it");
+    notes_.push_back(lost + ", isolated: the run goes on without it");
     faults_.push_back(lost + " (the run went on without it)");
     return;
   }
@@ -126,22 +146,28 @@ void ChildProcesses::begin() {
 
 void ChildProcesses::send(std::string_view line) {
   for (Child& child : children_) {
-    child.control.send(line);
+    child.control->send(line);
     const bool stops_by_itself = child.ended || !child.stop_cause.empty();
     if (line.starts_with("stop") && !stops_by_itself) child.moving = kNotSaid;
   }
 }
 
+std::optional<std::string> ChildProcesses::missing_host() const {
+  const auto missing =
+      std::ranges::find_if(hosts_, [](const auto& link) { return link->other().empty(); });
+  return missing == hosts_.end() ? std::nullopt : std::optional{(*missing)->host()};
+}
+
 std::optional<std::string> ChildProcesses::not_joined() const {
   const auto late = std::ranges::find(children_, false, &Child::joined);
-  return late == children_.end() ? std::nullopt : std::optional{late->name};
+  return late == children_.end() ? std::nullopt : std::optional{late->label};
 }
 
 std::optional<std::string> ChildProcesses::waiting() const {
   const auto late = std::ranges::find(children_, false, &Child::ready);
   if (late == children_.end()) return std::nullopt;
   if (!late->waiting.empty()) return late->waiting;
-  return fmt::format("process '{}' has not said that it is ready", late->name);
+  return late->label + " has not said that it is ready";
 }
 
 std::optional<std::string> ChildProcesses::stop_cause() const {
@@ -151,11 +177,11 @@ std::optional<std::string> ChildProcesses::stop_cause() const {
   return std::nullopt;
 }
 
-std::optional<std::string> ChildProcesses::next_isolated() {
-  if (isolated_.empty()) return std::nullopt;
-  std::string lost = std::move(isolated_.front());
-  isolated_.pop_front();
-  return lost;
+std::optional<std::string> ChildProcesses::next_note() {
+  if (notes_.empty()) return std::nullopt;
+  std::string note = std::move(notes_.front());
+  notes_.pop_front();
+  return note;
 }
 
 std::vector<std::string> ChildProcesses::moving() const {
@@ -163,8 +189,8 @@ std::vector<std::string> ChildProcesses::moving() const {
   for (const Child& child : children_) {
     if (child.moving.empty()) continue;
     moving.push_back(child.moving == kNotSaid
-                         ? fmt::format("process '{}'", child.name)
-                         : fmt::format("'{}' in process '{}'", child.moving, child.name));
+                         ? child.label
+                         : fmt::format("'{}' in {}", child.moving, child.label));
   }
   return moving;
 }
@@ -175,21 +201,36 @@ void ChildProcesses::add_timing(RunTiming& timing) const {
   }
 }
 
+/// The agent of a host passes on what its processes say, and ends when they have.
+bool ChildProcesses::may_end(const Child& child) const {
+  return !child.name.empty() || std::ranges::all_of(children_, [&](const Child& other) {
+    return other.host != child.host || other.name.empty() || other.ended;
+  });
+}
+
+void ChildProcesses::give_up(Child& child, std::chrono::seconds timeout) {
+  if (child.pid > 0) {
+    kill(child.pid, SIGKILL);
+  } else {
+    on_ended(child, fmt::format("has not ended within {} s", timeout.count()), false);
+  }
+}
+
 void ChildProcesses::end(const std::function<bool(const std::string& name)>& which) {
   constexpr std::chrono::seconds kTimeout{kSanitized ? 15 : 3};
-  const auto is_meant = [&](const Child& child) { return !child.ended && which(child.name); };
-  for (Child& child : children_) {
-    if (!is_meant(child)) continue;
-    child.told_end = true;
-    child.control.send("end");
-  }
-  const auto deadline = SteadyClock::now() + kTimeout;
+  const auto is_meant = [&](const Child& child) {
+    return !child.ended && which(child.name) && may_end(child);
+  };
+  auto deadline = SteadyClock::now() + kTimeout;
   while (std::ranges::any_of(children_, is_meant)) {
+    for (Child& child : children_) {
+      if (!is_meant(child) || std::exchange(child.told_end, true)) continue;
+      child.control->send("end");
+      deadline = SteadyClock::now() + kTimeout;
+    }
     update();
-    if (SteadyClock::now() > deadline) {
-      for (const Child& child : children_) {
-        if (is_meant(child)) kill(child.pid, SIGKILL);
-      }
+    for (Child& child : children_) {
+      if (is_meant(child) && SteadyClock::now() > deadline) give_up(child, kTimeout);
     }
     std::this_thread::sleep_for(std::chrono::milliseconds{5});
   }

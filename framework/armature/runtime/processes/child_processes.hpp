@@ -6,19 +6,22 @@
 #include <chrono>
 #include <deque>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "armature/runtime/deployment_file/deployment_config.hpp"
+#include "armature/runtime/hosts/host_link.hpp"
 #include "armature/runtime/processes/control_channel.hpp"
 #include "armature/runtime/reporting/run_timing.hpp"
 
 namespace armature ARMATURE_EXPORT {
 
-/// The other processes of a deployment, started by the main one and ended by it. They talk over a
-/// control channel each. A process says:
+/// The other processes of a deployment, started by the main one, or by the agent of another host,
+/// and ended by it. They talk over a control channel each. A process says:
 ///   joined            its components are constructed and its topics are there
 ///   waiting TEXT      which of its topics has not met its other end
 ///   ready             all have; it waits for `start`
@@ -27,7 +30,10 @@ namespace armature ARMATURE_EXPORT {
 ///   fault TEXT        what failed in it
 ///   timing TEXT       how late and how long an executor or a component of it was (run_timing.hpp)
 /// and the main one: start, stop TEXT, end. A process whose main one is gone comes to rest by
-/// itself and ends.
+/// itself and ends. The agent of a host says, of itself and of its processes:
+///   here FINGERPRINT  it waits to be welcomed; `refuse TEXT`: it does not fit
+///   note TEXT         what the operator is to know
+///   ended TEXT        how it has ended
 class ChildProcesses {
  public:
   ChildProcesses() = default;
@@ -36,12 +42,17 @@ class ChildProcesses {
   /// Ends those that still run.
   ~ChildProcesses();
 
-  /// The option by which a process is told the descriptor of its control channel.
-  static constexpr std::string_view kControlOption = "--control";
-
   /// Runs this executable again with `arguments` and the control option. `on_loss` says what it
   /// does when the process ends by itself after begin(). Throws std::system_error.
   void start(const std::string& name, std::vector<std::string> arguments, OnFault on_loss);
+  /// The processes of another host, which its agent starts.
+  struct Host {
+    std::unique_ptr<HostLink> link;
+    std::vector<std::pair<std::string, OnFault>> processes;  // each with what its loss does
+    std::string fingerprint;                                 // that its agent has to have
+    std::string welcome;                                     // what the agent is told then
+  };
+  void expect(Host host);
   bool empty() const { return children_.empty(); }
 
   /// Hears what they have said, and sees who has ended or was stopped.
@@ -50,14 +61,17 @@ class ChildProcesses {
   void begin();
   void send(std::string_view line);
 
-  /// One that has not said `joined`, if any.
+  /// A host whose agent has not come, if any.
+  std::optional<std::string> missing_host() const;
+  /// A process that has not said `joined`, if any.
   std::optional<std::string> not_joined() const;
   /// Which topic of one of them waits for which other process, or that one is not ready.
   std::optional<std::string> waiting() const;
   /// Why the run is to stop: one is stopping, or has ended by itself and is not isolated.
   std::optional<std::string> stop_cause() const;
-  /// How the next one was lost without which the run goes on; each is told once.
-  std::optional<std::string> next_isolated();
+  /// What the operator is to know, each once: how one was lost without which the run goes on, what
+  /// the agent of a host says.
+  std::optional<std::string> next_note();
   /// What is not at rest, by process; one that has ended is.
   std::vector<std::string> moving() const;
   /// What went wrong with them: ended by themselves, failed, were stopped for too long.
@@ -66,17 +80,20 @@ class ChildProcesses {
   /// Adds what they have told of their timing.
   void add_timing(RunTiming& timing) const;
 
-  /// Ends those processes that `which` names and waits for them; one that takes longer than 3 s is
-  /// killed, which is a fault.
+  /// Ends those processes that `which` names and waits for them, and the agents of hosts that have
+  /// none left; one that takes longer than 3 s is killed, which is a fault.
   void end(const std::function<bool(const std::string& name)>& which);
 
  private:
   using SteadyClock = std::chrono::steady_clock;
   struct Child {
-    std::string name;
-    pid_t pid;
+    std::string name;   // of the process; "" of the agent of a host
+    std::string label;  // "process 'vision'"
     OnFault on_loss;
-    ControlChannel control;
+    std::unique_ptr<ControlChannel> control;
+    pid_t pid = 0;                               // 0: on another host
+    HostLink* host = nullptr;                    // which
+    std::string fingerprint = {}, welcome = {};  // of an agent
     bool joined = false, ready = false, told_end = false, ended = false;
     std::string waiting = {}, stop_cause = {};
     std::string moving = {};  // of one that has been told to stop
@@ -84,13 +101,18 @@ class ChildProcesses {
     std::vector<std::string> timing = {};
   };
   void hear(Child& child);
+  void welcome(Child& agent, const std::string& fingerprint);
   void watch(Child& child);
-  void on_ended(Child& child, int status);
+  /// `how`: "was killed by signal 9"; `well`: it has told what went wrong, if anything.
+  void on_ended(Child& child, const std::string& how, bool well);
   void on_continued(Child& child);
+  bool may_end(const Child& child) const;
+  void give_up(Child& child, std::chrono::seconds timeout);
 
-  std::deque<Child> children_;
+  std::vector<std::unique_ptr<HostLink>> hosts_;
+  std::deque<Child> children_;  // those of a host go before it
   bool begun_ = false;
-  std::deque<std::string> isolated_;  // lost, and not told yet
+  std::deque<std::string> notes_;  // not told yet
   std::vector<std::string> faults_;
 };
 

@@ -11,7 +11,7 @@ namespace armature {
 namespace {
 
 TEST(ControlChannel, LinesCrossWholeAndInOrder) {
-  auto [ours, theirs] = ControlChannel::make();
+  auto [ours, theirs] = SocketChannel::make();
   ours.send("start");
   ours.send("stop the scenario is over");
   EXPECT_EQ(theirs.receive(), "start");
@@ -23,8 +23,8 @@ TEST(ControlChannel, LinesCrossWholeAndInOrder) {
 }
 
 TEST(ControlChannel, AnEndThatIsGoneIsKnownWhenItsLastLineHasBeenRead) {
-  std::optional<std::pair<ControlChannel, ControlChannel>> ends{ControlChannel::make()};
-  ControlChannel theirs{std::move(ends->second)};
+  std::optional<std::pair<SocketChannel, SocketChannel>> ends{SocketChannel::make()};
+  SocketChannel theirs{std::move(ends->second)};
   ends->first.send("end");
   ends.reset();
   EXPECT_EQ(theirs.receive(), "end");
@@ -35,13 +35,13 @@ TEST(ControlChannel, AnEndThatIsGoneIsKnownWhenItsLastLineHasBeenRead) {
 }
 
 TEST(ControlChannel, AFullOneLosesLinesInsteadOfWaiting) {
-  auto [ours, theirs] = ControlChannel::make();
+  auto [ours, theirs] = SocketChannel::make();
   for (int i = 0; i < 10000; ++i) ours.send(std::string(4000, 'x'));
   EXPECT_EQ(theirs.receive(), std::string(4000, 'x'));
 }
 
 TEST(ControlChannel, WithoutAnOtherEndNothingIsHeardOrLost) {
-  ControlChannel none;
+  SocketChannel none;
   none.send("hello");
   EXPECT_EQ(none.receive(), std::nullopt);
   EXPECT_FALSE(none.lost());

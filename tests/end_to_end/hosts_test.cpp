@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+// One deployment on two machines: each is given the same file, and all that a run on one machine
+// promises holds over the cable between them, or ends in order when that is cut.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <thread>
+
+#include "other_machines_test.hpp"
+
+namespace armature::test {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using testing::ContainsRegex;
+using testing::HasSubstr;
+using testing::Not;
+
+class Hosts : public OtherMachines {
+ protected:
+  explicit Hosts(const std::vector<std::string>& faults = {}) : OtherMachines{faults} {}
+
+  /// The pulse, whose beat is at the desk.
+  static std::vector<std::string> pulse(const std::string& listens_s) {
+    return {kJoined, "components.beat.host=desk", "components.ear.params.listens_s=" + listens_s};
+  }
+  std::unique_ptr<Command> start_main(std::vector<std::string> settings) const {
+    return start(robot_, kPulse, std::move(settings));
+  }
+  std::unique_ptr<Command> start_desk(std::vector<std::string> settings) const {
+    return start(desk_, kPulse, std::move(settings), {"--host", "desk"});
+  }
+  void expect_started(const Command& main, const Command& desk) const {
+    ASSERT_TRUE(desk.wait_for_err("process 'aside' is started", kTimeout))
+        << desk.err() << main.err();
+    std::this_thread::sleep_for(milliseconds{500});
+  }
+
+  static constexpr const char* kPulse = "tests/end_to_end/pulse.yaml";
+};
+
+TEST_F(Hosts, RunOneDeploymentByOneClock) {
+  const auto main = start_main(pulse("1")), desk = start_desk(pulse("1"));
+  const auto ended = main->finish(kTimeout), desk_ended = desk->finish(kTimeout);
+  EXPECT_EQ(ended.exit_code, 0) << ended.err << desk_ended.err;
+  EXPECT_EQ(desk_ended.exit_code, 0) << desk_ended.err;
+  EXPECT_THAT(ended.err, HasSubstr("waiting for host 'desk': run the same file there with --host "
+                                   "desk"));
+  EXPECT_THAT(ended.err, ContainsRegex("host 'desk': its clock was [0-9.]+ ms (behind|before) this "
+                                       "one \\(round trip [0-9.]+ ms\\), and follows it"));
+  // Its monotonic clock is 5000 s ahead.
+  auto delays = nlohmann::json::parse(ended.out).at("delays_s").get<std::vector<double>>();
+  ASSERT_GT(delays.size(), 50U) << ended.out;
+  std::ranges::sort(delays);
+  EXPECT_GT(delays.front(), -0.001);
+  EXPECT_LT(delays[delays.size() / 2], 0.02);
+}
+
+TEST_F(Hosts, TheOtherOneMayBeThereFirst) {
+  const auto desk = start_desk(pulse("0.5"));
+  ASSERT_TRUE(desk->wait_for_err("'desk' waits for the main process of 'pulse'", kTimeout));
+  std::this_thread::sleep_for(seconds{1});
+  const auto main = start_main(pulse("0.5"));
+  EXPECT_EQ(main->finish(kTimeout).exit_code, 0) << main->err() << desk->err();
+  EXPECT_EQ(desk->finish(kTimeout).exit_code, 0) << desk->err();
+}
+
+TEST_F(Hosts, WithAnotherConfigurationAreRefused) {
+  const auto main = start_main(pulse("0.5"));
+  auto other = pulse("0.5");
+  other.push_back("seed=2");
+  const auto refused = start_desk(other)->finish(kTimeout);
+  EXPECT_EQ(refused.exit_code, 1);
+  const std::string why =
+      "host 'desk' has another configuration \\(fingerprint [0-9a-f]{8}, here "
+      "[0-9a-f]{8}\\): start it with the same file, overlays and --set";
+  EXPECT_THAT(refused.err, ContainsRegex("armature: " + why));
+  EXPECT_THAT(main->err(), ContainsRegex(why));
+  const auto desk = start_desk(pulse("0.5"));
+  EXPECT_EQ(main->finish(kTimeout).exit_code, 0) << main->err() << "the right one comes later";
+}
+
+TEST_F(Hosts, AreStoppedTogetherFromEither) {
+  for (const bool at_the_desk : {false, true}) {
+    const auto main = start_main(pulse("1000")), desk = start_desk(pulse("1000"));
+    expect_started(*main, *desk);
+    (at_the_desk ? desk : main)->signal(SIGINT);
+    const auto ended = main->finish(kTimeout), desk_ended = desk->finish(kTimeout);
+    EXPECT_THAT(ended.err, HasSubstr(at_the_desk ? "stopping: host 'desk': interrupted"
+                                                 : "stopping: interrupted"));
+    EXPECT_EQ(desk_ended.exit_code, 0) << desk_ended.err;
+    EXPECT_THAT(desk_ended.err, Not(HasSubstr("fell silent")));
+  }
+}
+
+TEST_F(Hosts, ThatACutCableSeparatesEndEachForItself) {
+  const auto main = start_main(pulse("1000")), desk = start_desk(pulse("1000"));
+  expect_started(*main, *desk);
+  run_command(robot_.command({"/bin/ip", "link", "set", "dev", "eth0", "down"}));
+  const auto ended = main->finish(kTimeout), desk_ended = desk->finish(kTimeout);
+  EXPECT_EQ(ended.exit_code, 1);
+  EXPECT_THAT(ended.err,
+              ContainsRegex("stopping: (process 'aside' of )?host 'desk' fell silent for 1 "
+                            "s: it is dead, or the network between is"));
+  EXPECT_EQ(desk_ended.exit_code, 1);
+  EXPECT_THAT(desk_ended.err, HasSubstr("the main process fell silent for 1 s: it is dead, or the "
+                                        "network between is; what runs here comes to rest"));
+  EXPECT_THAT(desk_ended.err, HasSubstr("stopping: the main process is gone"));
+}
+
+TEST_F(Hosts, WhoseMainProcessIsKilledComeToRest) {
+  const auto main = start_main(pulse("1000")), desk = start_desk(pulse("1000"));
+  expect_started(*main, *desk);
+  main->signal(SIGKILL);
+  const auto desk_ended = desk->finish(kTimeout);
+  EXPECT_EQ(desk_ended.exit_code, 1);
+  EXPECT_THAT(desk_ended.err, HasSubstr("stopping: the main process is gone"));
+}
+
+TEST_F(Hosts, WhoseAgentIsKilledStopTheRun) {
+  const auto main = start_main(pulse("1000")), desk = start_desk(pulse("1000"));
+  expect_started(*main, *desk);
+  const pid_t aside = desk->child();
+  desk->signal(SIGKILL);
+  const auto ended = main->finish(kTimeout);
+  EXPECT_EQ(ended.exit_code, 1);
+  EXPECT_THAT(ended.err, HasSubstr("host 'desk' fell silent for 1 s"));
+  EXPECT_TRUE(ends_within(aside, kTimeout));
+}
+
+TEST_F(Hosts, ThatAreUnknownOrTakenAreRefused) {
+  const auto unknown = start(desk_, kPulse, pulse("1"), {"--host", "desc"})->finish(kTimeout);
+  EXPECT_EQ(unknown.exit_code, 3);
+  EXPECT_THAT(unknown.err,
+              HasSubstr("deployment 'pulse' has no host 'desc'; did you mean 'desk'?"));
+  const auto first = start_desk(pulse("1"));
+  ASSERT_TRUE(first->wait_for_err("waits for the main process", kTimeout));
+  const auto second = start_desk(pulse("1"))->finish(kTimeout);
+  EXPECT_EQ(second.exit_code, 1);
+  EXPECT_THAT(second.err, HasSubstr("host 'desk' of deployment 'pulse' already runs as pid "));
+}
+
+/// The greatest speed of a joint in a line of `armature topic echo --json` [rad/s].
+double speed_in(const std::string& line) {
+  double greatest = 0;
+  for (const double speed : nlohmann::json::parse(line).at("velocity")) {
+    greatest = std::max(greatest, std::abs(speed));
+  }
+  return greatest;
+}
+
+TEST_F(Hosts, AnArmWhoseCommandsAreCutOffComesToRest) {
+  const std::vector<std::string> settings{kJoined, "clock=system", "components.arm.host=desk"};
+  const auto main = start(robot_, "configs/sr1_biopsy.yaml", settings);
+  const auto desk = start(desk_, "configs/sr1_biopsy.yaml", settings, {"--host", "desk"});
+  Command watch{desk_.command({armature(), "topic", "echo", "/sr1_biopsy/arm/measured_js", "--json",
+                               "--interface", "eth0", "--domain", std::to_string(domain_)})};
+  ASSERT_TRUE(main->wait_for_err("task      approach", kTimeout)) << main->err() << desk->err();
+  std::this_thread::sleep_for(milliseconds{700});
+  run_command(robot_.command({"/bin/ip", "link", "set", "dev", "eth0", "down"}));
+  const auto ended = main->finish(kTimeout), desk_ended = desk->finish(kTimeout);
+  EXPECT_EQ(ended.exit_code, 1);
+  EXPECT_EQ(desk_ended.exit_code, 1);
+  EXPECT_THAT(desk_ended.err, Not(HasSubstr("not at rest")));
+  watch.signal(SIGINT);
+  std::istringstream lines{watch.finish(kTimeout).out};
+  double greatest = 0, last = -1;
+  for (std::string line; std::getline(lines, line);) {
+    last = speed_in(line);
+    greatest = std::max(greatest, last);
+  }
+  EXPECT_GT(greatest, 0.05) << "it has moved";
+  EXPECT_EQ(last, 0) << desk_ended.err;
+}
+
+class HostsOverABadCable : public Hosts {
+ protected:
+  HostsOverABadCable()
+      : Hosts{{"--seed", "3", "--lost", "0.05", "--doubled", "0.05", "--delay-ms", "1",
+               "--jitter-ms", "1"}} {}
+};
+
+TEST_F(HostsOverABadCable, RunAndEndAsOverAGoodOne) {
+  const auto main = start_main(pulse("3")), desk = start_desk(pulse("3"));
+  const auto ended = main->finish(kTimeout), desk_ended = desk->finish(kTimeout);
+  EXPECT_EQ(ended.exit_code, 0) << ended.err << desk_ended.err;
+  EXPECT_EQ(desk_ended.exit_code, 0) << desk_ended.err;
+}
+
+TEST_F(HostsOverABadCable, AnArmIsLedByTheOtherHost) {
+  const std::vector<std::string> settings{kJoined, "clock=system", "components.arm.host=desk"};
+  const auto main = start(robot_, "configs/sr1_biopsy.yaml", settings);
+  const auto desk = start(desk_, "configs/sr1_biopsy.yaml", settings, {"--host", "desk"});
+  const auto ended = main->finish(seconds{50}), desk_ended = desk->finish(kTimeout);
+  EXPECT_EQ(ended.exit_code, 0) << ended.err << ended.out << desk_ended.err;
+  EXPECT_EQ(desk_ended.exit_code, 0) << desk_ended.err;
+}
+
+}  // namespace
+}  // namespace armature::test

@@ -147,6 +147,7 @@ ComponentConfig Deployment::own_config(std::string_view name, const PluginManife
                             .manifest = &manifest,
                             .executor = std::string{kRuntimeExecutor},
                             .process = process,
+                            .host = config_.host_of(process),
                             .place = place};
   for (const PortSpec& spec : manifest.outputs) {
     const bool absolute = spec.topic.starts_with('/');

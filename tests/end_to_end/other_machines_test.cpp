@@ -89,7 +89,7 @@ TEST_F(OverALossyCable, AMonitorGetsEveryPacketThatCameThroughOnce) {
   watch.signal(SIGINT);
   const std::string out = watch.finish(kTimeout).out;
   const auto all = nlohmann::json::parse(out.substr(out.rfind("{\"over\"")));
-  EXPECT_GT(all.at("samples").get<int>(), 500) << out;
+  EXPECT_GT(all.at("samples").get<int>(), 100) << out;
   EXPECT_EQ(all.at("samples").get<int>(), hosts_.counted()) << out;
 }
 

@@ -275,10 +275,10 @@ class HostAgent {
 
 int run_host(const RunOptions& options, const DeploymentConfig& deployment, int domain,
              PluginRegistry& plugins) {
-  if (options.json || options.report || options.keep_running) {
+  if (options.report || options.keep_running) {
     throw InvalidChoice(
-        "--json, --report and --keep-running belong to the main host, which ends "
-        "the run and has its figures");
+        "--report and --keep-running belong to the main host, which has the figures of the run and "
+        "ends it");
   }
   const auto lock = InstanceLock::take(
       fmt::format("deployment {} domain {} host {}", deployment.name, domain, options.host));

@@ -38,6 +38,11 @@ class SpawnPlan {
     posix_spawn_file_actions_addopen(&files_, file, "/dev/null", O_RDWR, 0);
     return *this;
   }
+  /// The program gets none of our descriptors from `first` on.
+  SpawnPlan& close_from(int first) {
+    posix_spawn_file_actions_addclosefrom_np(&files_, first);
+    return *this;
+  }
   SpawnPlan& in_folder(const std::string& folder) {
     posix_spawn_file_actions_addchdir_np(&files_, folder.c_str());
     return *this;

@@ -107,8 +107,8 @@ HostLink::~HostLink() = default;
 
 bool HostLink::lost() const { return !other().empty() && steady_now() - lines_.heard() > kSilence; }
 
-void HostLink::begin_again() {
-  lines_ = LineExchange{end_.id};
+void HostLink::turn_away() {
+  lines_.turn_away();
   received_.clear();
 }
 

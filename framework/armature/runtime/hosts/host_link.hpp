@@ -46,8 +46,8 @@ class HostLink {
   /// The id of the other end; "" before they have met.
   const std::string& other() const { return lines_.other(); }
   bool lost() const;
-  /// Forgets the other end and what it said, and waits for another one.
-  void begin_again();
+  /// Forgets the other end, and waits for another one.
+  void turn_away();
 
   void send(std::string_view process, std::string_view line);
   std::optional<std::string> receive(std::string_view process);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <utility>
 
 namespace armature {
 namespace {
@@ -34,6 +35,13 @@ std::optional<std::string> LineExchange::receive() {
   return line;
 }
 
+void LineExchange::turn_away() {
+  turned_away_.insert(other_);
+  std::set<std::string, std::less<>> all = std::move(turned_away_);
+  *this = LineExchange{std::move(own_)};
+  turned_away_ = std::move(all);
+}
+
 /// "TO FROM TAKEN FIRST" and the lines from number FIRST, counted from 1.
 std::string LineExchange::message() const {
   std::string text = (other_.empty() ? std::string{kAnybody} : other_) + ' ' + own_ + ' ' +
@@ -50,6 +58,7 @@ bool LineExchange::take(std::string_view message, Time now) {
   const std::string_view to = first_part(head, ' '), from = first_part(head, ' ');
   const auto taken = number(first_part(head, ' ')), first = number(head);
   if (!taken || !first || from.empty() || (to != own_ && to != kAnybody)) return false;
+  if (turned_away_.contains(from)) return false;
   if (other_.empty()) other_ = from;
   if (from != other_ || *taken > acknowledged_ + unacknowledged_.size()) return false;
   heard_ = std::max(heard_, now);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 
@@ -23,6 +24,9 @@ class LineExchange {
   const std::string& own() const { return own_; }
   /// The end that it talks to: the first one that has answered, or asked for anybody; or "".
   const std::string& other() const { return other_; }
+
+  /// Forgets the other end, what it said and what it was to be told, and never hears it again.
+  void turn_away();
 
   /// `line` is not empty, and has no line end.
   void send(std::string line) { unacknowledged_.push_back(std::move(line)); }
@@ -44,6 +48,7 @@ class LineExchange {
   std::uint64_t acknowledged_ = 0;  // of our lines
   std::uint64_t taken_ = 0;         // of the other's lines
   Time heard_;
+  std::set<std::string, std::less<>> turned_away_;
 };
 
 }  // namespace armature

@@ -41,6 +41,23 @@ TEST(LineExchange, TakesNothingOfAThird) {
   EXPECT_EQ(main.heard(), Time{1});
 }
 
+TEST(LineExchange, NeverHearsAgainWhomItHasTurnedAway) {
+  LineExchange stranger{"stranger"}, desk{"desk"}, main{"main"};
+  stranger.send("here");
+  EXPECT_TRUE(main.take(stranger.message(), Time{1}));
+  main.send("go");
+  EXPECT_TRUE(stranger.take(main.message(), Time{1}));
+  main.turn_away();
+  EXPECT_EQ(main.other(), "");
+  EXPECT_FALSE(main.take(stranger.message(), Time{2}));
+  EXPECT_FALSE(main.receive());
+  desk.send("here");
+  EXPECT_TRUE(main.take(desk.message(), Time{3}));
+  EXPECT_EQ(received(main), std::vector<std::string>{"here"});
+  EXPECT_TRUE(desk.take(main.message(), Time{3}));
+  EXPECT_FALSE(desk.receive()) << "what the stranger was told";
+}
+
 TEST(LineExchange, TakesNoMessageThatIsNone) {
   LineExchange main{"main"};
   for (const char* text : {"", "\n", "main", "main desk", "main desk 0", "main desk x 1",

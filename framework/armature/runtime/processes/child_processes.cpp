@@ -62,7 +62,7 @@ void ChildProcesses::welcome(Child& agent, const std::string& fingerprint) {
       agent.label, fingerprint, agent.fingerprint);
   agent.control->send("refuse " + why);
   agent.host->update();
-  agent.host->begin_again();
+  agent.host->turn_away();
   notes_.push_back(why);
 }
 
@@ -84,7 +84,7 @@ void ChildProcesses::hear(Child& child) {
     if (word == "ready") child.ready = true;
     if (word == "stop") {
       child.stop_cause = fmt::format("{}: {}", child.label, text);
-      child.moving = kNotSaid;
+      if (!child.name.empty()) child.moving = kNotSaid;
     }
     if (word == "moving") child.moving = text;
     if (word == "timing") child.timing.push_back(text);
@@ -147,7 +147,7 @@ void ChildProcesses::begin() {
 void ChildProcesses::send(std::string_view line) {
   for (Child& child : children_) {
     child.control->send(line);
-    const bool stops_by_itself = child.ended || !child.stop_cause.empty();
+    const bool stops_by_itself = child.name.empty() || child.ended || !child.stop_cause.empty();
     if (line.starts_with("stop") && !stops_by_itself) child.moving = kNotSaid;
   }
 }

@@ -20,9 +20,13 @@ StartedProcess start_process(const std::string& name, std::vector<std::string> a
   arguments.insert(arguments.begin(), program);
   arguments.insert(arguments.end(), {std::string{kControlOption}, std::to_string(kControlFile)});
   // Ctrl-C reaches whoever starts it, who ends it in order. Not fork: afterwards a thread of this
-  // process would pay for every page that it touches.
+  // process would pay for every page that it touches. Fast DDS leaves its locks open to a program
+  // that is started, which would hold them on.
   SpawnPlan plan;
-  plan.hand_over(theirs.file(), kControlFile).own_group().unblock_signals();
+  plan.hand_over(theirs.file(), kControlFile)
+      .close_from(kControlFile + 1)
+      .own_group()
+      .unblock_signals();
   pid_t pid = 0;
   if (const int error = plan.start(program, arguments, pid)) {
     throw std::system_error(error, std::generic_category(), "cannot start " + name);

@@ -8,6 +8,7 @@
 #include <csignal>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 namespace armature::test {
 namespace {
@@ -84,6 +85,7 @@ TEST_F(OverALossyCable, AMonitorGetsEveryPacketThatCameThroughOnce) {
       {kJoined, "clock=system", "robots.arm=" + source_file("tests/end_to_end/counted_arm.yaml")});
   Command watch{hz_on(desk_, "/watched/arm/measured_js", {"--best-effort", "--json"})};
   ASSERT_TRUE(watch.wait_for_out("\"second\"", kTimeout)) << watch.err() << arm->err();
+  std::this_thread::sleep_for(seconds{2});
   arm->signal(SIGINT);
   arm->finish(kTimeout);
   watch.signal(SIGINT);

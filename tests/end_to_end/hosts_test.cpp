@@ -34,10 +34,10 @@ class Hosts : public OtherMachines {
   std::unique_ptr<Command> start_desk(std::vector<std::string> settings) const {
     return start(desk_, kPulse, std::move(settings), {"--host", "desk"});
   }
+  /// Once the beat of the desk is heard.
   void expect_started(const Command& main, const Command& desk) const {
-    ASSERT_TRUE(desk.wait_for_err("process 'aside' is started", kTimeout))
-        << desk.err() << main.err();
-    std::this_thread::sleep_for(milliseconds{500});
+    const auto heard = run_command(hz_on(robot_, "/pulse/beat", {"-n", "5", "--timeout", "20"}));
+    ASSERT_EQ(heard.exit_code, 0) << heard.err << main.err() << desk.err();
   }
 
   static constexpr const char* kPulse = "tests/end_to_end/pulse.yaml";

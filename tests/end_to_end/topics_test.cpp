@@ -178,7 +178,7 @@ TEST_F(Watched, TopicEchoOfATopicThatNobodyWritesNamesItAsRosDoes) {
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_EQ(result.err, "armature: nobody writes '/lamp/trget'; domain " + std::to_string(domain_) +
                             " has no topics on loopback; a deployment with `dds:` is heard by "
-                            "--interface\n");
+                            "--interface, --peer or --discovery-server\n");
 }
 
 TEST_F(Watched, TopicEchoWaitsForItsTopicAndSaysSo) {

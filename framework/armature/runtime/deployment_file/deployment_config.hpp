@@ -16,6 +16,16 @@
 
 namespace armature ARMATURE_EXPORT {
 
+/// What a file may let anything wait for: a longer time is a slip of the pen.
+inline constexpr double kLongestWait_s = 3600;
+inline constexpr std::string_view kMainProcess = "main";
+inline constexpr std::string_view kMainHost = "main";  // where the main process runs
+inline constexpr std::string_view kMainExecutor = "main";
+inline constexpr std::string_view kRuntimeExecutor = "runtime";  // of the runtime's own components
+// The runtime's own components, which every process has (the clock: on the simulated clock).
+inline constexpr std::string_view kStateComponent = "runtime";
+inline constexpr std::string_view kClockComponent = "runtime_clock";
+
 /// A plugin in a slot, resolved: known by its manifest, its parameters checked.
 struct SlotConfig {
   std::string name;
@@ -51,7 +61,7 @@ struct ComponentConfig {
   std::map<std::string, std::string> documents;  // section -> the bound entry's name
   std::string executor;
   std::string process;
-  std::string host;
+  std::string host{kMainHost};
   Duration sim_latency{0};
   std::optional<OnFault> on_fault;  // as the file says, else as the graph does (on_fault.hpp)
   int place = 0;                    // in the graph, sources first
@@ -95,16 +105,6 @@ struct DeploymentConfig {
   /// The host that a process runs on.
   std::string host_of(std::string_view process) const;
 };
-
-/// What a file may let anything wait for: a longer time is a slip of the pen.
-inline constexpr double kLongestWait_s = 3600;
-inline constexpr std::string_view kMainProcess = "main";
-inline constexpr std::string_view kMainHost = "main";  // where the main process runs
-inline constexpr std::string_view kMainExecutor = "main";
-inline constexpr std::string_view kRuntimeExecutor = "runtime";  // of the runtime's own components
-// The runtime's own components, which every process has (the clock: on the simulated clock).
-inline constexpr std::string_view kStateComponent = "runtime";
-inline constexpr std::string_view kClockComponent = "runtime_clock";
 
 /// False, and a problem, when `root` is another file. What that one says must not be told: it may
 /// be any file that the user named by mistake.

@@ -15,7 +15,6 @@
 #include "armature/runtime/execution/clock.hpp"
 #include "armature/runtime/hosts/clock_offset.hpp"
 #include "armature/runtime/hosts/line_exchange.hpp"
-#include "armature/runtime/processes/control_channel.hpp"
 
 namespace armature ARMATURE_EXPORT {
 
@@ -75,19 +74,6 @@ class HostLink {
   Time told_;
   std::unique_ptr<Inbox> inbox_;
   std::unique_ptr<RemoteReader> reader_;  // goes first
-};
-
-/// The way to one process of another host.
-class HostChannel final : public ControlChannel {
- public:
-  HostChannel(HostLink& link, std::string_view process) : link_{&link}, process_{process} {}
-  void send(std::string_view line) override { link_->send(process_, line); }
-  std::optional<std::string> receive() override { return link_->receive(process_); }
-  bool lost() const override { return link_->lost(); }
-
- private:
-  HostLink* link_;
-  std::string process_;
 };
 
 }  // namespace armature

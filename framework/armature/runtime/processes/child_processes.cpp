@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "armature/bus/qos.hpp"
+#include "armature/runtime/processes/host_channel.hpp"
 #include "armature/runtime/processes/started_process.hpp"
 #include "armature/values/sanitizer.hpp"
 

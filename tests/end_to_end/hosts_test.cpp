@@ -176,6 +176,22 @@ TEST_F(Hosts, AnArmWhoseCommandsAreCutOffComesToRest) {
   EXPECT_LT(last_speed_in(watch.finish(kTimeout).out), 1e-9) << desk_ended.err;
 }
 
+TEST(HostsOfAFile, AreThoseOfItsProcesses) {
+  const auto checked = [](const std::string& word) {
+    return run_command({armature(), "check", source_file("tests/end_to_end/pulse.yaml"), "--set",
+                        "components.beat.host=desk", "--set", word},
+                       {.environment = {{"ARMATURE_PLUGIN_PATH", TEST_PLUGINS}}, .input = {}});
+  };
+  EXPECT_EQ(checked("dds.interfaces=[eth0]").exit_code, 0);
+  EXPECT_THAT(checked("seed=1").err,
+              HasSubstr("component 'beat' is on another host, and no network "
+                        "leads there: name the interfaces to join, dds: "
+                        "{interfaces: [eth0]}"));
+  EXPECT_THAT(checked("components.beat.process=main").err,
+              HasSubstr("component 'beat' is on host 'desk', and its process 'main' on 'main', as "
+                        "always"));
+}
+
 class HostsOverABadCable : public Hosts {
  protected:
   HostsOverABadCable()

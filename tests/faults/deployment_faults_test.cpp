@@ -68,7 +68,8 @@ const Fault kFaults[] = {
      "deployment.yaml:12:60: 'distance_m' must be a number, not 'half'\n"},
     {"ParameterOutOfRange", "tilt_up_deg: 0", "tilt_up_deg: 120",
      "deployment.yaml:8:76: 'tilt_up_deg' is 120, must be from -90 to 90\n"},
-    {"AThresholdThatNothingMeets", "{plugin: task/lamp_alignment, params: {distance_m: 0.5, auto_confirm: true}}",
+    {"AThresholdThatNothingMeets",
+     "{plugin: task/lamp_alignment, params: {distance_m: 0.5, auto_confirm: true}}",
      "{plugin: task/lamp_alignment, params: {settled_position_mm: 0}}",
      "deployment.yaml:12:69: 'settled_position_mm' is 0, must be at least 0.001\n"},
     {"ParameterUnknownChoice", "photo: generated", "photo: astronout",
@@ -296,6 +297,25 @@ const Fault kFaults[] = {
      "interface\n"
      "deployment.yaml:6:39: '192.168.7.2/24' is neither the name of an interface (at most 15 "
      "characters) nor an IPv4 address (192.168.7.2)\n"},
+    {"PeersThatAreNone", "executors:", "dds: {peers: [theatre-2, 10.0.0, 'a b']}\nexecutors:",
+     "deployment.yaml:6:26: '10.0.0' is neither the name of a host nor an IPv4 address "
+     "(192.168.7.2)\n"
+     "deployment.yaml:6:34: 'a b' is neither the name of a host nor an IPv4 address "
+     "(192.168.7.2)\n"},
+    {"DiscoveryServerAtNoPort", "executors:", "dds: {discovery_server: 'desk:99999'}\nexecutors:",
+     "deployment.yaml:6:25: '99999' in 'desk:99999' is no port, from 1 to 65535\n"},
+    {"DiscoveryServerBesidePeers",
+     "executors:", "dds: {peers: [desk], discovery_server: desk}\nexecutors:",
+     "deployment.yaml:6:40: 'peers' are asked without a discovery server; the file names both\n"},
+    {"SharedMemoryThatIsNeitherOnNorOff", "executors:", "dds: {shared_memory: false}\nexecutors:",
+     "deployment.yaml:6:22: 'shared_memory' cannot be 'false'; known: on, off\n"},
+    {"HostOnTheSimulatedClock", "executor: control}", "executor: control, host: desk}",
+     "deployment.yaml:20:57: the simulated clock runs on one host; remove 'host' or set 'clock: "
+     "system'\n"},
+    {"HostWithANameThatIsNone", "executor: control}", "executor: control, host: theatre-2}",
+     "deployment.yaml:20:57: 'theatre-2' must consist of letters, digits and '_', and begin with "
+     "no "
+     "digit\n"},
     {"UnknownKeyOfDds", "executors:", "dds: {interface: [lo]}\nexecutors:",
      "deployment.yaml:6:7: unknown key 'interface' in dds; did you mean 'interfaces'?\n"},
     {"OpenedInputThatIsMistyped", "executors:", "open: [report.measurd_js]\nexecutors:",

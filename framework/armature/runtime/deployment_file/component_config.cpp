@@ -131,6 +131,11 @@ std::optional<ComponentConfig> ComponentReader::read(const Node::Entry& entry) c
     map.problem("host", fmt::format("'{}' must consist of letters, digits and '_', and begin with "
                                     "no digit",
                                     component.host));
+    component.host = kMainHost;
+  } else if (component.host != kMainHost && deployment_.simulated) {
+    map.problem("host",
+                "the simulated clock runs on one host; remove 'host' or set 'clock: system'");
+    component.host = kMainHost;
   }
   component.process = map.text("process");
   if (component.process.empty()) component.process = component.host;  // the main ones' are the same

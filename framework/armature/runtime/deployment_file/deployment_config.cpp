@@ -218,26 +218,24 @@ namespace {
 
 /// A process is on one host, the main one on the main host, and hosts hear each other.
 void check_hosts(const DeploymentConfig& deployment, Problems& problems) {
-  bool apart = false;
+  const ComponentConfig* apart = nullptr;
   for (const ComponentConfig& component : deployment.components) {
     if (component.unit != kMainUnit) continue;
-    const std::string expected = deployment.host_of(component.process);
-    apart = apart || component.host != kMainHost;
-    if (component.process == kMainProcess && component.host != kMainHost) {
-      problems.add(component.origin,
-                   fmt::format("component '{}' is of process '{}', which runs on host '{}' and not "
-                               "on '{}'; name another process",
-                               component.name, kMainProcess, kMainHost, component.host));
-    } else if (component.host != expected) {
-      problems.add(component.origin,
-                   fmt::format("process '{}' is on host '{}', and component '{}' of it on '{}'",
-                               component.process, expected, component.name, component.host));
-    }
+    if (!apart && component.host != kMainHost) apart = &component;
+    const bool is_main = component.process == kMainProcess;
+    const std::string host =
+        is_main ? std::string{kMainHost} : deployment.host_of(component.process);
+    if (component.host == host) continue;
+    problems.add(component.origin,
+                 fmt::format("component '{}' is on host '{}', and its process '{}' on '{}'{}",
+                             component.name, component.host, component.process, host,
+                             is_main ? ", as always" : ""));
   }
   if (apart && deployment.dds.interfaces.empty()) {
-    problems.add(deployment.components.front().origin,
-                 "the deployment has several hosts and joins no network between them: "
-                 "dds: {interfaces: [eth0]}");
+    problems.add(apart->origin,
+                 fmt::format("component '{}' is on another host, and no network leads there: name "
+                             "the interfaces to join, dds: {{interfaces: [eth0]}}",
+                             apart->name));
   }
 }
 

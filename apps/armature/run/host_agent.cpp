@@ -13,6 +13,7 @@
 #include <stdexcept>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include "armature/bus/transport.hpp"
 #include "armature/runtime/hosts/host_link.hpp"
@@ -22,6 +23,7 @@
 #include "exit_code.hpp"
 #include "run/console.hpp"
 #include "run/end_signals.hpp"
+#include "run/other_processes.hpp"
 
 namespace armature {
 namespace {
@@ -34,7 +36,7 @@ constexpr std::chrono::seconds kClockAnswersWithin{5};
 constexpr std::chrono::milliseconds kAskFirst{20}, kAskEvery{200}, kFollowEvery{1000};
 /// The main process' clock is known to half of the round trip of a question.
 constexpr Duration kMaxRoundTrip = seconds(0.02);
-/// So far two clocks that go on drift apart in a second only when one of them is broken.
+/// Two clocks that go on drift apart by microseconds in a second; by more, one of them is broken.
 constexpr Duration kMaxClockJump = seconds(0.01);
 
 std::string random_id() {
@@ -167,7 +169,7 @@ class HostAgent {
     say("ready");
   }
 
-  /// What was said since the last time, both ways, and who has ended.
+  /// Passes on what was said since the last time, both ways, and tells who has ended.
   void pass_on() {
     while (const auto line = told()) told_end_ = told_end_ || *line == "end";
     for (Process& process : processes_) {
@@ -210,7 +212,7 @@ class HostAgent {
     for (Process& process : processes_) process.started.control.send(line);
   }
 
-  /// The main process has ended it, or is gone and nothing runs here any more.
+  /// True when the main process has ended all that runs here, or is gone.
   bool over() {
     const bool none_runs = std::ranges::all_of(processes_, &Process::ended);
     if (told_end_ && none_runs) return true;
@@ -224,18 +226,16 @@ class HostAgent {
     return true;
   }
 
-  /// What still runs has no main process any more, comes to rest, and ends.
+  /// Closes the ways to the processes that still run. Without a main process they come to rest and
+  /// end by themselves; one that does not is killed.
   void take_leave() {
     if (told_end_) say("ended well");
     tell_rest();
-    std::deque<Process> left;
-    for (Process& process : processes_) {
-      if (!process.ended) left.push_back(std::move(process));
+    std::vector<pid_t> pids;
+    for (const Process& process : processes_) {
+      if (!process.ended) pids.push_back(process.started.pid);
     }
     processes_.clear();
-    std::vector<pid_t> pids;
-    for (const Process& process : left) pids.push_back(process.started.pid);
-    left.clear();  // closes the ways to them
     const auto deadline =
         SteadyClock::now() + std::chrono::duration_cast<SteadyClock::duration>(
                                  seconds(deployment_.stop_within_s + 2) * (kSanitized ? 5 : 1));

@@ -36,6 +36,7 @@
 #include "run/end_signals.hpp"
 #include "run/host_agent.hpp"
 #include "run/joint_reports.hpp"
+#include "run/other_processes.hpp"
 #include "run/run_watches.hpp"
 
 namespace armature {
@@ -198,34 +199,9 @@ struct Process {
   RunOptions::Origin origin;
 };
 
-/// What the processes that one `armature run` has started share, and no other run on any machine.
+/// The name of a run: all of its processes have it, and no other run on any machine.
 std::string new_run(const RunOptions::Origin& origin) {
   return fmt::format("{:x}-{:x}", origin.clock_offset.count(), origin.start.ns);
-}
-
-/// The processes of the other hosts, once their agents are there.
-void expect_hosts(ChildProcesses& children, const RunOptions& options, const Process& process,
-                  Deployment& deployment) {
-  const DeploymentConfig& config = deployment.config();
-  for (const std::string& host : config.hosts()) {
-    if (host == kMainHost) continue;
-    ChildProcesses::Host expected{
-        .link = std::make_unique<HostLink>(
-            deployment.transport(),
-            HostLinkEnd{
-                .deployment = config.name, .host = host, .of_main = true, .id = process.origin.run},
-            deployment.clock()),
-        .processes = {},
-        .fingerprint = config.fingerprint,
-        .welcome = fmt::format("run {} {} {:d} {:d}", process.origin.run, process.origin.start.ns,
-                               options.timing, options.keep_running)};
-    for (const std::string& other : config.processes()) {
-      if (config.host_of(other) != host) continue;
-      expected.processes.emplace_back(other,
-                                      stops_run(other, config) ? OnFault::stop : OnFault::isolate);
-    }
-    children.expect(std::move(expected));
-  }
 }
 
 void tell_network(const Network& network, Console& console) {
@@ -241,14 +217,10 @@ void tell_network(const Network& network, Console& console) {
 int run_main(const RunOptions& options, const Process& process, Deployment& deployment,
              PluginRegistry& plugins, Console& console, LastWord& last_word) {
   ChildProcesses children;
-  for (const auto& other : deployment.config().processes()) {
-    if (other == process.name || deployment.config().host_of(other) != kMainHost) continue;
-    children.start(other, process_arguments(options, process.domain, other, process.origin),
-                   stops_run(other, deployment.config()) ? OnFault::stop : OnFault::isolate);
-  }
+  start_processes(children, options, deployment.config(), process.domain, process.origin);
   deployment.connect(plugins, process.domain, process.origin.run);
   tell_network(process.network, console);
-  expect_hosts(children, options, process, deployment);
+  expect_hosts(children, options, deployment, process.origin);
   MainWatch watch{console, children, deployment.config()};
   deployment.run(watch);
   RunReport::Ending ending{.faults = watch.end_all(), .stopped = watch.interruption()};
@@ -277,18 +249,12 @@ int run_other(const RunOptions& options, const Process& process, Deployment& dep
   return code;
 }
 
-void check_process(const DeploymentConfig& config, const std::string& process) {
-  const std::vector<std::string> processes = config.processes();
-  if (std::ranges::find(processes, process) != processes.end()) return;
-  throw InvalidChoice(fmt::format("deployment '{}' has no process '{}'{}", config.name, process,
-                                  config::did_you_mean(process, processes)));
-}
-
-void check_host(const DeploymentConfig& config, const std::string& host) {
-  const std::vector<std::string> hosts = config.hosts();
-  if (std::ranges::find(hosts, host) != hosts.end()) return;
-  throw InvalidChoice(fmt::format("deployment '{}' has no host '{}'{}", config.name, host,
-                                  config::did_you_mean(host, hosts)));
+/// `what` is "process" or "host", and `names` are those of the deployment.
+void check_name(const DeploymentConfig& config, const char* what, const std::string& name,
+                const std::vector<std::string>& names) {
+  if (std::ranges::find(names, name) != names.end()) return;
+  throw InvalidChoice(fmt::format("deployment '{}' has no {} '{}'{}", config.name, what, name,
+                                  config::did_you_mean(name, names)));
 }
 
 /// `notes` gets what the assignments leave out.
@@ -327,9 +293,9 @@ int run(const RunOptions& options) {
                   .network = find_network(config.dds),
                   .origin = options.origin.value_or(
                       RunOptions::Origin{SystemClock{}.unix_minus_monotonic(), Time{}})};
-  check_process(config, process.name);
-  if (!options.host.empty()) check_host(config, options.host);
-  if (!options.host.empty() && options.host != kMainHost) {
+  check_name(config, "process", process.name, config.processes());
+  check_name(config, "host", options.host, config.hosts());
+  if (options.host != kMainHost) {
     const int code = run_host(options, config, process.domain, plugins);
     if (options.json) fmt::print("{}", ending(code == kOk ? "ok" : "fault", ""));
     return code;
@@ -375,30 +341,6 @@ int run(const RunOptions& options) {
 }
 
 }  // namespace
-
-std::vector<std::string> process_arguments(const RunOptions& options, int domain,
-                                           const std::string& process,
-                                           const RunOptions::Origin& origin) {
-  std::vector<std::string> arguments{"run",
-                                     "--process",
-                                     process,
-                                     "--domain",
-                                     std::to_string(domain),
-                                     "--clock-offset-ns",
-                                     std::to_string(origin.clock_offset.count()),
-                                     "--clock-start-ns",
-                                     std::to_string(origin.start.ns),
-                                     "--run-id",
-                                     origin.run};
-  if (options.timing) arguments.push_back("--timing");
-  if (options.keep_running) arguments.push_back("--keep-running");
-  if (options.inject) arguments.insert(arguments.end(), {"--inject", *options.inject});
-  for (const auto& assignment : options.source.assignments) {
-    arguments.insert(arguments.end(), {"--set", assignment});
-  }
-  for (const auto& file : options.source.files) arguments.push_back(file.string());
-  return arguments;
-}
 
 int run_deployment(const RunOptions& options) {
   umask(077);  // what a run writes is about a patient

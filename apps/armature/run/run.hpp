@@ -20,12 +20,12 @@ struct RunOptions {
   DeploymentSource source;
   std::optional<int> domain;  // instead of the file's
   std::string process;  // only this one of the deployment; empty: main, and it starts the rest
-  std::string host;     // only the processes of this one; empty: those of the main host
+  std::string host = "main";  // whose processes
   /// What the main process hands to the others that it starts.
   struct Origin {
     Duration clock_offset;  // of its SystemClock
     Time start;             // which the operator's lines count from
-    std::string run = {};   // what all processes of this run share, and those of no other
+    std::string run = {};   // the name of the run; "" of a process that is started by hand
   };
   std::optional<Origin> origin;  // none: this process' own
   int control = -1;              // descriptor of the way to the main process, if that started it
@@ -35,11 +35,6 @@ struct RunOptions {
   std::optional<std::filesystem::path> report;
   std::optional<std::string> inject;  // a drill's fault, "motion:throw", struck at SIGUSR1
 };
-
-/// What another process of the deployment is started with.
-std::vector<std::string> process_arguments(const RunOptions& options, int domain,
-                                           const std::string& process,
-                                           const RunOptions::Origin& origin);
 
 /// `armature run`: exit code 0 only when the deployment's goals are met.
 int run_deployment(const RunOptions& options);

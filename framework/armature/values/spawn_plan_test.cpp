@@ -53,6 +53,18 @@ TEST(SpawnPlanTest, AFileThatGivesNothingIsAtItsEndAndTakesEverything) {
   EXPECT_EQ(said(plan, "cat && echo lost >&2 && echo end"), "end\n");
 }
 
+TEST(SpawnPlanTest, AProgramGetsNoFileFromTheOneOnWhichIsClosed) {
+  const int null = open("/dev/null", O_RDONLY);
+  const int file = fcntl(null, F_DUPFD, 100);  // above those that the program is given
+  close(null);
+  const std::string is_open =
+      "test -e /proc/$$/fd/" + std::to_string(file) + " && echo open || echo no";
+  SpawnPlan as_here, closed;
+  EXPECT_EQ(said(as_here, is_open), "open\n");
+  EXPECT_EQ(said(closed.close_from(file), is_open), "no\n");
+  close(file);
+}
+
 TEST(SpawnPlanTest, AProgramRunsInItsFolder) {
   SpawnPlan plan;
   EXPECT_EQ(said(plan.in_folder("/usr"), "pwd"), "/usr\n");

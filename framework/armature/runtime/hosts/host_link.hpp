@@ -64,7 +64,6 @@ class HostLink {
 
  private:
   class Inbox;
-  void tell(const std::string& text);
 
   HostLinkEnd end_;
   const Clock& clock_;

@@ -85,7 +85,7 @@ void ChildProcesses::hear(Child& child) {
     if (word == "ready") child.ready = true;
     if (word == "stop") {
       child.stop_cause = fmt::format("{}: {}", child.label, text);
-      if (!child.name.empty()) child.moving = kNotSaid;
+      if (!child.is_agent()) child.moving = kNotSaid;
     }
     if (word == "moving") child.moving = text;
     if (word == "timing") child.timing.push_back(text);
@@ -148,7 +148,7 @@ void ChildProcesses::begin() {
 void ChildProcesses::send(std::string_view line) {
   for (Child& child : children_) {
     child.control->send(line);
-    const bool stops_by_itself = child.name.empty() || child.ended || !child.stop_cause.empty();
+    const bool stops_by_itself = child.is_agent() || child.ended || !child.stop_cause.empty();
     if (line.starts_with("stop") && !stops_by_itself) child.moving = kNotSaid;
   }
 }
@@ -204,8 +204,8 @@ void ChildProcesses::add_timing(RunTiming& timing) const {
 
 /// The agent of a host passes on what its processes say, and ends when they have.
 bool ChildProcesses::may_end(const Child& child) const {
-  return !child.name.empty() || std::ranges::all_of(children_, [&](const Child& other) {
-    return other.host != child.host || other.name.empty() || other.ended;
+  return !child.is_agent() || std::ranges::all_of(children_, [&](const Child& other) {
+    return other.host != child.host || other.is_agent() || other.ended;
   });
 }
 

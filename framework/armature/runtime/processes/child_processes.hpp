@@ -99,6 +99,7 @@ class ChildProcesses {
     std::string moving = {};  // of one that has been told to stop
     std::optional<SteadyClock::time_point> halted_at = {};
     std::vector<std::string> timing = {};
+    bool is_agent() const { return name.empty(); }
   };
   void hear(Child& child);
   void welcome(Child& agent, const std::string& fingerprint);

@@ -61,7 +61,7 @@ int run_command_line(int argc, char** argv) {
   Action action;
   add_deployment_verbs(app, action);
   add_plugin_verbs(app, action);
-  add_topic_verbs(app, action);
+  add_watch_verbs(app, action);
   add_arm_verbs(app, action);
   add_bench_verbs(app, action);
   add_paper_verbs(app, action);

@@ -20,7 +20,7 @@ const std::string kLampDeployment = source_file("configs/dental_lamp.yaml");
 TEST(Check, CountsWhatItFoundSound) {
   const auto result = run_command({armature(), "check", kLampDeployment});
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_EQ(result.out.rfind("dental_lamp: ok, 9 components, ", 0), 0U) << result.out;
+  EXPECT_EQ(result.out.rfind("dental_lamp: ok, 11 components, ", 0), 0U) << result.out;
 }
 
 TEST(Check, TellsWhatPartOfItsPromiseTheSearchOfTheLampSees) {

@@ -34,7 +34,7 @@ TEST(CheckAsJson, OfASoundDeploymentIsOk) {
   const json lamp = told({"check", kLampFile}, 0);
   EXPECT_EQ(lamp["ok"], true);
   EXPECT_EQ(lamp["deployment"], "dental_lamp");
-  EXPECT_EQ(lamp["components"], 9);
+  EXPECT_EQ(lamp["components"], 11);
   EXPECT_EQ(lamp["problems"], json::array());
   EXPECT_EQ(lamp["warnings"], json::array());
 }

@@ -82,7 +82,7 @@ TEST_F(DeploymentTest, ASampleThatIsTooOldForAPortIsNotShownThere) {
 }
 
 TEST_F(DeploymentTest, TheRuntimeTellsOfEveryComponentAndOfItself) {
-  EXPECT_EQ(run("", "").texts.at("told_of"), "beat ear runtime runtime_clock ");
+  EXPECT_EQ(run("", "").texts.at("told_of"), "beat ear runtime runtime_clock runtime_log ");
 }
 
 TEST_F(DeploymentTest, HowLateAndHowLongStepsWereIsToldWhenAskedFor) {

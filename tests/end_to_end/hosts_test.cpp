@@ -187,6 +187,8 @@ TEST(HostsOfAFile, AreThoseOfItsProcesses) {
               HasSubstr("component 'beat' is on another host, and no network "
                         "leads there: name the interfaces to join, dds: "
                         "{interfaces: [eth0]}"));
+  EXPECT_THAT(checked("components.beat.process=two words").err,
+              HasSubstr("'two words' must consist of letters, digits and '_' on another host"));
   EXPECT_THAT(checked("components.beat.process=main").err,
               HasSubstr("component 'beat' is on host 'desk', and its process 'main' on 'main', as "
                         "always"));
@@ -213,6 +215,43 @@ TEST_F(HostsOverABadCable, AnArmIsLedByTheOtherHost) {
   const auto ended = main->finish(seconds{50}), desk_ended = desk->finish(kTimeout);
   EXPECT_EQ(ended.exit_code, 0) << ended.err << ended.out << desk_ended.err;
   EXPECT_EQ(desk_ended.exit_code, 0) << desk_ended.err;
+}
+
+class HostsOverAVeryBadCable : public Hosts {
+ protected:
+  HostsOverAVeryBadCable()
+      : Hosts{{"--seed", "7", "--lost", "0.15", "--doubled", "0.2", "--delay-ms", "1", "--jitter-ms",
+               "2"}} {}
+};
+
+TEST_F(HostsOverAVeryBadCable, GetCommandsLateOrNeverButNeverTwiceOutOfOrderOrTooOld) {
+  auto settings = pulse("3");
+  settings.emplace_back("components.ear.params.minds_silence=false");
+  const auto main = start(robot_, kPulse, settings, {"--json"}), desk = start_desk(settings);
+  const auto ended = main->finish(kTimeout), desk_ended = desk->finish(kTimeout);
+  ASSERT_EQ(ended.exit_code, 0) << ended.err << desk_ended.err;
+  const auto told = nlohmann::json::parse(ended.out);
+  EXPECT_GT(told["orders"], 100) << "of 300 that were sent";
+  EXPECT_EQ(told["orders_again"], 0);
+  EXPECT_GT(told["oldest_order_s"], 0.01) << "the cable is bad";
+  EXPECT_LE(told["oldest_order_s"], 0.1);
+}
+
+class HostsFarApart : public Hosts {
+ protected:
+  HostsFarApart() : Hosts{{"--delay-ms", "15"}} {}
+};
+
+TEST_F(HostsFarApart, AreRefusedSinceTheirClocksCannotBeKnown) {
+  const auto main = start_main(pulse("1")), desk = start_desk(pulse("1"));
+  const auto ended = main->finish(kTimeout), desk_ended = desk->finish(kTimeout);
+  const std::string why =
+      "its clock can be known to half of the round trip of a question only, which "
+      "takes 3[0-9].[0-9] ms \\(at most 20 ms\\)";
+  EXPECT_EQ(ended.exit_code, 1);
+  EXPECT_THAT(ended.err, ContainsRegex("host 'desk': " + why + " before the start"));
+  EXPECT_EQ(desk_ended.exit_code, 1);
+  EXPECT_THAT(desk_ended.err, ContainsRegex("armature: " + why));
 }
 
 }  // namespace

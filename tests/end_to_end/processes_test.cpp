@@ -29,7 +29,8 @@ TEST(TwoProcesses, WhatOneSendsOnlyOnceAtItsStartReachesTheOther) {
       run_pulse({"components.beat.params.beats=1", "components.ear.params.listens_s=1"});
   EXPECT_EQ(run.command.exit_code, 0) << run.text();
   EXPECT_TRUE(run.tells("delay_s")) << run.text();
-  EXPECT_EQ(run.word("told_of"), "beat ear runtime ") << "of both processes' components";
+  EXPECT_EQ(run.word("told_of"), "beat ear runtime runtime_log ")
+      << "of both processes' components";
 }
 
 TEST(TwoProcesses, AStoryThatEndsInTheOtherOneEndsTheRun) {

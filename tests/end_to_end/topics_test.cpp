@@ -112,7 +112,8 @@ TEST_F(Watched, TwoArmsShareOneTreeOfFrames) {
     for (int steps = 0; steps < 20 && parents.contains(at); ++steps) at = parents[at];
     EXPECT_EQ(at, "room") << arm << run.err();
   }
-  EXPECT_EQ(parents.size(), 2U * (1 + 6 + 1)) << "base, six joints and the tool of each arm";
+  EXPECT_EQ(parents.size(), 2U * (1 + 6 + 5 + 1))
+      << "base, six joints, five of them turned away from their axis, and the tool of each arm";
 }
 
 TEST_F(Watched, TopicEchoWhoseReaderGoesAwayEndsInOrder) {

@@ -131,7 +131,7 @@ TEST_F(ComponentFaults, AMonitorThatHangsIsNamedAndShownAndTheRunGoesOn) {
       broken.wait_for_err("the step of 'monitor' has not returned for ", std::chrono::seconds{30}))
       << broken.err();
   const CommandResult states =
-      run_command({armature(), "topic", "echo", "/broken/component_state", "-n", "16", "--json",
+      run_command({armature(), "topic", "echo", "/broken/component_states", "-n", "4", "--json",
                    "--domain", std::to_string(domain_)});
   EXPECT_EQ(states.exit_code, 0) << states.err;
   EXPECT_THAT(states.out, HasSubstr(R"("state":3,"reason":"its step has not returned for )"));

@@ -31,7 +31,7 @@ namespace {
 using Steady = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
-constexpr milliseconds kLook{20}, kSayAgain{100};
+constexpr milliseconds kAskAgain{20}, kSayAgain{100};
 
 std::atomic<bool> g_left{false};
 
@@ -142,7 +142,7 @@ class Dialogue {
                                              std::chrono::duration<double>{options_.timeout_s});
     while (!g_left && Steady::now() < give_up) {
       if (done()) return true;
-      std::this_thread::sleep_for(kLook);
+      std::this_thread::sleep_for(kAskAgain);
     }
     return false;
   }
@@ -150,7 +150,7 @@ class Dialogue {
   /// True when a line was typed, or none will be any more.
   bool read_line(std::string& line) {
     pollfd input{.fd = STDIN_FILENO, .events = POLLIN, .revents = 0};
-    if (poll(&input, 1, static_cast<int>(kLook.count())) <= 0) return false;
+    if (poll(&input, 1, static_cast<int>(kAskAgain.count())) <= 0) return false;
     char letter = 0;
     if (read(STDIN_FILENO, &letter, 1) <= 0) return ended_ = true;
     if (letter != '\n') {

@@ -83,7 +83,7 @@ Json section_schema(const config::KeySpec& key, const PluginRegistry& plugins) {
     return names_schema(key.doc, Json{{"anyOf", Json::array({path, entry})}});
   }
   Json schema = names_schema(key.doc, Json{{"$ref", "#/$defs/component"}});
-  schema["propertyNames"]["not"]["enum"] = Json::array({kStateComponent, kClockComponent});
+  schema["propertyNames"]["not"]["enum"] = kRuntimeComponents;
   return schema;
 }
 

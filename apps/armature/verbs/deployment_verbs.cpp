@@ -16,6 +16,7 @@
 #include "verbs/option_checks.hpp"
 #include "verbs/shipped_configs.hpp"
 #include "verbs/verbs.hpp"
+#include "watch/live_graph.hpp"
 
 namespace armature {
 namespace {
@@ -207,14 +208,50 @@ void add_inspection(CLI::App& app, Action& action) {
   add_source(*show, *source);
   show->add_flag("--json", *json, "as JSON");
   show->callback([=, &action] { action = [=] { return show_deployment(*source, *json); }; });
+}
 
-  auto dot = std::make_shared<bool>(false);
-  CLI::App* graph = app.add_subcommand("graph", "Print who writes and who reads every topic");
-  add_source(*graph, *source);
-  graph->add_flag("--dot", *dot, "as Graphviz");
-  graph->add_flag("--json", *json, "as JSON");
-  graph->callback(
-      [=, &action] { action = [=] { return graph_deployment(*source, *dot, *json); }; });
+void add_graph(CLI::App& app, Action& action) {
+  struct Options {
+    DeploymentSource source;
+    WatchOptions watch;
+    std::string name;
+    bool dot = false, mermaid = false;
+  };
+  auto options = std::make_shared<Options>();
+  CLI::App* verb =
+      app.add_subcommand("graph",
+                         "Print who writes and who reads every topic, of a file or of what runs: "
+                         "armature graph --live");
+  add_source(*verb, options->source);
+  CLI::Option* files = verb->get_option("files")->required(false);
+  CLI::Option* live =
+      verb->add_option("--live", options->name,
+                       "as a running deployment tells it; its name, where several run")
+          ->expected(0, 1)
+          ->excludes(files);
+  verb->add_option("--domain", options->watch.network.domain, "DDS domain, with --live")
+      ->check(CLI::Range(0, 232));
+  add_network(*verb, options->watch.network);
+  verb->add_option("--timeout", options->watch.timeout_s,
+                   "with --live: give up after this many seconds")
+      ->check(not_positive);
+  CLI::Option* dot = verb->add_flag("--dot", options->dot, "for Graphviz");
+  CLI::Option* mermaid = verb->add_flag("--mermaid", options->mermaid, "for Mermaid");
+  CLI::Option* json = verb->add_flag("--json", options->watch.json, "as JSON");
+  mermaid->excludes(dot)->excludes(json);
+  dot->excludes(json);
+  verb->callback([options, live, &action] {
+    const GraphFormat format = options->dot          ? GraphFormat::dot
+                               : options->mermaid    ? GraphFormat::mermaid
+                               : options->watch.json ? GraphFormat::json
+                                                     : GraphFormat::text;
+    if (live->count() > 0) {
+      action = [=] { return draw_live_graph(options->watch, options->name, format); };
+      return;
+    }
+    if (options->source.files.empty()) throw CLI::RequiredError("files, or --live,");
+    action = [=] { return graph_deployment(options->source, format); };
+  });
 }
 
 void add_schema(CLI::App& app, Action& action) {
@@ -236,6 +273,7 @@ void add_deployment_verbs(CLI::App& app, Action& action) {
   add_stop(app, action);
   add_operator(app, action);
   add_inspection(app, action);
+  add_graph(app, action);
   add_schema(app, action);
 }
 

@@ -18,7 +18,8 @@ using Action = std::function<int()>;
 /// Each adds verbs to the command line; the one that is chosen sets `action`, which outlives it.
 void add_deployment_verbs(CLI::App& app, Action& action);
 void add_plugin_verbs(CLI::App& app, Action& action);
-void add_topic_verbs(CLI::App& app, Action& action);
+/// Of running deployments: topic, top, log.
+void add_watch_verbs(CLI::App& app, Action& action);
 void add_arm_verbs(CLI::App& app, Action& action);
 void add_bench_verbs(CLI::App& app, Action& action);
 void add_paper_verbs(CLI::App& app, Action& action);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -11,41 +12,66 @@
 
 namespace armature {
 
-/// How often samples came, by the time stamps of their writer.
-struct Rate {
-  std::uint64_t samples = 0, intervals = 0;
-  Duration over{0};  // the sum of the intervals
-  Duration shortest{std::numeric_limits<std::int64_t>::max()}, longest{0};
+/// The least, the greatest and the sum of some values.
+template <class Value>
+struct Spread {
+  Value sum{}, least = std::numeric_limits<Value>::max(),
+               greatest = std::numeric_limits<Value>::lowest();
 
-  double hz() const {
-    return over.count() > 0 ? static_cast<double>(intervals) / to_seconds(over) : 0;
-  }
-  void add(std::optional<Duration> interval) {
-    ++samples;
-    if (!interval) return;
-    ++intervals;
-    over += *interval;
-    shortest = std::min(shortest, *interval);
-    longest = std::max(longest, *interval);
+  void add(Value value) {
+    sum += value;
+    least = std::min(least, value);
+    greatest = std::max(greatest, value);
   }
 };
 
-/// Counts a topic's samples, in all and since the last look. One thread at a time.
-class RateMeter {
- public:
-  void add(Time source) {
-    const auto interval = last_ ? std::optional{source - *last_} : std::nullopt;
-    all_.add(interval);
-    recent_.add(interval);
-    last_ = source;
+/// What a sample of a topic is measured by.
+struct MeasuredSample {
+  Time source;  // when its writer sent it
+  std::size_t bytes = 0;
+  double delay_s = 0;  // from its stamp to its arrival
+};
+
+/// How a topic's samples came.
+struct TopicFigures {
+  std::uint64_t samples = 0, intervals = 0;
+  Spread<double> interval_s;  // by the time stamps of the writer
+  Spread<std::size_t> bytes;
+  std::size_t bytes_of_intervals = 0;  // of the samples that ended one
+  Spread<double> delay_s;
+
+  double hz() const { return over(static_cast<double>(intervals)); }
+  double bytes_per_s() const { return over(static_cast<double>(bytes_of_intervals)); }
+  void add(const MeasuredSample& sample, std::optional<Duration> interval) {
+    ++samples;
+    bytes.add(sample.bytes);
+    delay_s.add(sample.delay_s);
+    if (!interval) return;
+    ++intervals;
+    interval_s.add(to_seconds(*interval));
+    bytes_of_intervals += sample.bytes;
   }
-  const Rate& all() const { return all_; }
+
+ private:
+  double over(double amount) const { return interval_s.sum > 0 ? amount / interval_s.sum : 0; }
+};
+
+/// Measures a topic's samples, in all and since the last look. One thread at a time.
+class TopicMeter {
+ public:
+  void add(const MeasuredSample& sample) {
+    const auto interval = last_ ? std::optional{sample.source - *last_} : std::nullopt;
+    all_.add(sample, interval);
+    recent_.add(sample, interval);
+    last_ = sample.source;
+  }
+  const TopicFigures& all() const { return all_; }
   /// Since the last call; the interval that ends with its first sample belongs to it.
-  Rate take_recent() { return std::exchange(recent_, Rate{}); }
+  TopicFigures take_recent() { return std::exchange(recent_, TopicFigures{}); }
 
  private:
   std::optional<Time> last_;
-  Rate all_, recent_;
+  TopicFigures all_, recent_;
 };
 
 }  // namespace armature

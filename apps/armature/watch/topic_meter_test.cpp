@@ -1,41 +1,63 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "topics/rate_meter.hpp"
+#include "watch/topic_meter.hpp"
 
 #include <gtest/gtest.h>
 
 namespace armature {
 namespace {
 
-Time ms(std::int64_t milliseconds) { return Time{milliseconds * 1'000'000}; }
-
-TEST(RateMeter, DividesTheIntervalsByTheTimeTheyTook) {
-  RateMeter meter;
-  for (const int t : {0, 10, 30, 40}) meter.add(ms(t));
-  EXPECT_EQ(meter.all().samples, 4U);
-  EXPECT_DOUBLE_EQ(meter.all().hz(), 75);
-  EXPECT_EQ(meter.all().shortest, ms(10) - ms(0));
-  EXPECT_EQ(meter.all().longest, ms(20) - ms(0));
+MeasuredSample sample_at(std::int64_t milliseconds, std::size_t bytes = 0, double delay_s = 0) {
+  return {.source = Time{milliseconds * 1'000'000}, .bytes = bytes, .delay_s = delay_s};
 }
 
-TEST(RateMeter, TellsWhatCameSinceTheLastLookWithoutAGapBetweenTheLooks) {
-  RateMeter meter;
-  for (int t = 0; t < 1000; t += 100) meter.add(ms(t));
+TEST(TopicMeter, DividesTheIntervalsByTheTimeTheyTook) {
+  TopicMeter meter;
+  for (const int t : {0, 10, 30, 40}) meter.add(sample_at(t));
+  EXPECT_EQ(meter.all().samples, 4U);
+  EXPECT_DOUBLE_EQ(meter.all().hz(), 75);
+  EXPECT_DOUBLE_EQ(meter.all().interval_s.least, 0.010);
+  EXPECT_DOUBLE_EQ(meter.all().interval_s.greatest, 0.020);
+}
+
+TEST(TopicMeter, TellsWhatCameSinceTheLastLookWithoutAGapBetweenTheLooks) {
+  TopicMeter meter;
+  for (int t = 0; t < 1000; t += 100) meter.add(sample_at(t));
   EXPECT_DOUBLE_EQ(meter.take_recent().hz(), 10);
-  for (int t = 1000; t < 2000; t += 50) meter.add(ms(t));
-  const Rate second = meter.take_recent();
+  for (int t = 1000; t < 2000; t += 50) meter.add(sample_at(t));
+  const TopicFigures second = meter.take_recent();
   EXPECT_EQ(second.samples, 20U);
   EXPECT_EQ(second.intervals, 20U);
-  EXPECT_EQ(second.longest, ms(100) - ms(0));
+  EXPECT_DOUBLE_EQ(second.interval_s.greatest, 0.100);
   EXPECT_EQ(meter.take_recent().samples, 0U);
   EXPECT_EQ(meter.all().samples, 30U);
 }
 
-TEST(RateMeter, HasNoRateBeforeTheSecondSample) {
-  RateMeter meter;
+TEST(TopicMeter, HasNoRateBeforeTheSecondSample) {
+  TopicMeter meter;
   EXPECT_EQ(meter.all().hz(), 0);
-  meter.add(ms(5));
+  meter.add(sample_at(5, 100));
   EXPECT_EQ(meter.all().intervals, 0U);
   EXPECT_EQ(meter.all().hz(), 0);
+  EXPECT_EQ(meter.all().bytes_per_s(), 0);
+}
+
+TEST(TopicMeter, CountsTheBytesOfTheTimeThatItMeasured) {
+  TopicMeter meter;
+  meter.add(sample_at(0, 1'000'000));  // was sent before
+  meter.add(sample_at(500, 100));
+  meter.add(sample_at(1000, 300));
+  EXPECT_DOUBLE_EQ(meter.all().bytes_per_s(), 400);
+  EXPECT_EQ(meter.all().bytes.least, 100U);
+  EXPECT_EQ(meter.all().bytes.greatest, 1'000'000U);
+}
+
+TEST(TopicMeter, TellsTheDelayOfEverySample) {
+  TopicMeter meter;
+  meter.add(sample_at(0, 0, 0.004));
+  meter.add(sample_at(10, 0, 0.002));
+  EXPECT_DOUBLE_EQ(meter.all().delay_s.least, 0.002);
+  EXPECT_DOUBLE_EQ(meter.all().delay_s.greatest, 0.004);
+  EXPECT_DOUBLE_EQ(meter.all().delay_s.sum, 0.006);
 }
 
 }  // namespace

@@ -4,23 +4,25 @@
 #include <cstdint>
 #include <string>
 
-#include "armature/bus/network.hpp"
+#include "watch/outsider.hpp"
 
 namespace armature {
 
-/// How `armature topic` watches; it joins the domain as a stranger and reads, nothing else.
-struct TopicOptions {
-  NetworkOptions network;
+/// How `armature topic` watches.
+struct TopicOptions : WatchOptions {
   std::string topic;         // "/dental_lamp/arm/measured_js"
   std::uint64_t count = 0;   // 0: until interrupted
-  double timeout_s = 0;      // 0: never
   bool best_effort = false;  // a sample that was lost is not asked for again
-  bool json = false;
-  bool full = false;  // long byte arrays in full
+  bool full = false;         // long byte arrays in full
 };
 
 int list_topics(const TopicOptions& options);
+/// Who writes and reads a topic, and with which quality of service.
+int describe_topic(const TopicOptions& options);
 int echo_topic(const TopicOptions& options);
-int topic_rate(const TopicOptions& options);
+
+/// What of a topic's samples is measured.
+enum class TopicMeasure { rate, bandwidth, delay };
+int measure_topic(TopicMeasure what, const TopicOptions& options);
 
 }  // namespace armature

@@ -7,12 +7,13 @@
 namespace armature {
 namespace {
 
-constexpr std::array<std::pair<QosProfile, std::string_view>, 5> kNames{{
+constexpr std::array<std::pair<QosProfile, std::string_view>, 6> kNames{{
     {QosProfile::sensor, "sensor"},
     {QosProfile::state, "state"},
     {QosProfile::command, "command"},
     {QosProfile::reply, "reply"},
     {QosProfile::latched, "latched"},
+    {QosProfile::log, "log"},
 }};
 
 }  // namespace
@@ -40,6 +41,8 @@ QosSettings settings(QosProfile profile) {
       return {.transient_local = true, .depth = 10, .lifespan = seconds(5)};
     case QosProfile::latched:
       return {.transient_local = true, .depth = 1};
+    case QosProfile::log:
+      return {.transient_local = true, .depth = 100};
   }
   return {};
 }

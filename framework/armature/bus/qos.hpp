@@ -16,7 +16,8 @@ namespace armature ARMATURE_EXPORT {
 ///   the
 ///            answering end discovers its reader a moment after its question
 ///   latched  reliable, transient local, newest only: late joiners get the last sample
-enum class QosProfile { sensor, state, command, reply, latched };
+///   log      reliable, transient local, the newest hundred: late joiners get what was just said
+enum class QosProfile { sensor, state, command, reply, latched, log };
 
 std::optional<QosProfile> find_qos_profile(std::string_view name);
 std::string_view to_string(QosProfile profile);

@@ -14,11 +14,18 @@
 
 namespace armature ARMATURE_EXPORT {
 
+/// What was measured, and when, that a sample answers to.
+struct Measurement {
+  int source = -1;  // which of the deployment's measuring components; -1: of none
+  Time at;          // the stamp of its sample
+};
+
 /// What travels beside a message.
 struct SampleInfo {
   /// Deployment clock; of a writer that is not the deployment's own, when it arrived.
   Time published;
   std::uint64_t sequence = 0;  // counts from 1 per writer
+  Measurement answers_to;      // from another process: nothing
 };
 
 class SamplePool;

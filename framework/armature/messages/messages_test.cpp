@@ -54,9 +54,10 @@ msg::JointState joint_state() {
 const TypeDescriptions& idl_types() {
   static const TypeDescriptions types = [] {
     TypeDescriptions read;
-    for (const char* package : {"builtin_interfaces", "std_msgs", "geometry_msgs", "tf2_msgs",
-                                "sensor_msgs", "trajectory_msgs", "diagnostic_msgs",
-                                "rosgraph_msgs", "visualization_msgs", "armature_msgs"}) {
+    for (const char* package :
+         {"builtin_interfaces", "std_msgs", "geometry_msgs", "tf2_msgs", "sensor_msgs",
+          "trajectory_msgs", "diagnostic_msgs", "rosgraph_msgs", "rcl_interfaces",
+          "visualization_msgs", "armature_msgs"}) {
       const std::string file = std::string{ARMATURE_SOURCE_DIR "/idl/"} + package + ".idl";
       const auto added = read.add(test::text_of(file), file);
       EXPECT_TRUE(added) << added.error().text;
@@ -336,7 +337,7 @@ TEST(Idl, RosMessageFilesSayTheSame) {
     EXPECT_EQ(stated, expected) << name;
     ++compared;
   }
-  EXPECT_EQ(compared, 48);
+  EXPECT_EQ(compared, 56);
 }
 
 }  // namespace

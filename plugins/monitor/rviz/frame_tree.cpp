@@ -23,6 +23,23 @@ void write_edge(const std::string& parent, const std::string& child,
 
 }  // namespace
 
+JointPlace joint_place(const RobotModel& model, int joint) {
+  const ChainLink& link = model.chain()[static_cast<std::size_t>(joint)];
+  Eigen::Isometry3d screw = Eigen::Isometry3d::Identity(), bend = screw;  // along z, along x
+  screw.linear() = Eigen::AngleAxisd{link.theta, Eigen::Vector3d::UnitZ()}.toRotationMatrix();
+  screw.translation().z() = link.d;
+  bend.linear() << 1, 0, 0, 0, link.cos_alpha, -link.sin_alpha, 0, link.sin_alpha, link.cos_alpha;
+  bend.translation().x() = link.a;
+  if (model.convention() == RobotModel::Convention::modified) {
+    return {link.placement * bend * screw, Eigen::Vector3d::UnitZ(), {}};
+  }
+  // The axis goes through the joint's own origin too when that is not moved away from it.
+  if (link.prismatic || link.a == 0) {
+    return {link.placement * screw * bend, {0, link.sin_alpha, link.cos_alpha}, {}};
+  }
+  return {link.placement * screw, Eigen::Vector3d::UnitZ(), bend};
+}
+
 Expected<FrameTree> FrameTree::make(const RobotModel& model, const std::optional<StereoRig>& rig,
                                     const Parameters& parameters) {
   FrameTree tree{model, parameters};
@@ -67,6 +84,8 @@ Expected<void> FrameTree::check_names() const {
   };
   for (int joint = 0; joint < model_->joint_count(); ++joint) {
     if (const auto taking = take(joint_frame(joint)); !taking) return taking;
+    if (!joint_place(*model_, joint).moved_T_joint) continue;
+    if (const auto taking = take(moved_frame(joint)); !taking) return taking;
   }
   for (const Edge& edge : fixed_) {
     if (const auto taking = take(edge.child); !taking) return taking;
@@ -96,10 +115,15 @@ void FrameTree::write_moving(const JointVector& q, Time stamp, msg::TFMessage& m
 }
 
 void FrameTree::write_fixed(Time stamp, msg::TFMessage& message) const {
-  message.transforms_().resize(fixed_.size());
-  for (std::size_t i = 0; i < fixed_.size(); ++i) {
-    const Edge& edge = fixed_[i];
-    write_edge(edge.parent, edge.child, edge.parent_T_child, stamp, message.transforms_()[i]);
+  message.transforms_().clear();
+  const auto add = [&](const Edge& edge) {
+    message.transforms_().emplace_back();
+    write_edge(edge.parent, edge.child, edge.parent_T_child, stamp, message.transforms_().back());
+  };
+  for (const Edge& edge : fixed_) add(edge);
+  for (int joint = 0; joint < model_->joint_count(); ++joint) {
+    const auto moved_T_joint = joint_place(*model_, joint).moved_T_joint;
+    if (moved_T_joint) add({joint_frame(joint), moved_frame(joint), moved_T_joint->inverse()});
   }
 }
 

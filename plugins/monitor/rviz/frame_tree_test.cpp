@@ -62,12 +62,17 @@ TEST_P(FramesOfEveryRobot, HasItsFramesWhereForwardKinematicsPutsThem) {
 TEST_P(FramesOfEveryRobot, HasOneChainOfJointsFromTheBase) {
   const RobotModel model = robot();
   const TfListener tf = heard(tree_of(model), JointVector::Zero(model.dof()));
-  EXPECT_EQ(tf.size(), model.joints().size() + model.frames().size());
   std::string parent = "base";
-  for (const Joint& joint : model.joints()) {
-    EXPECT_EQ(tf.parent(joint.name), parent);
-    parent = joint.name;
+  std::size_t moved_frames = 0;  // of joints that are away from their axis
+  for (int i = 0; i < model.joint_count(); ++i) {
+    const std::string& joint = model.joints()[static_cast<std::size_t>(i)].name;
+    EXPECT_EQ(tf.parent(joint), parent);
+    parent = joint;
+    if (!joint_place(model, i).moved_T_joint) continue;
+    EXPECT_EQ(tf.parent(joint + "_moved"), joint);
+    ++moved_frames;
   }
+  EXPECT_EQ(tf.size(), model.joints().size() + model.frames().size() + moved_frames);
 }
 
 INSTANTIATE_TEST_SUITE_P(FrameTree, FramesOfEveryRobot, testing::kEveryRobot,

@@ -13,7 +13,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kRadiusOfSize = 0.012;  // of a link, as a share of the robot's length
 constexpr double kNormalLength = 0.1;    // [m] of a target's arrow
 constexpr double kPointDiameter = 0.02;  // [m] of a target's and a face's points
 constexpr double kShaftDiameter = 0.008, kPathWidth = 0.004;  // [m]
@@ -41,10 +40,7 @@ bool GoalWatch::pursues(std::uint64_t goal_id) const {
 }
 
 Picture::Picture(const RobotModel& model, const FrameTree& tree, const Parameters& parameters)
-    : model_{&model},
-      tree_{&tree},
-      parameters_{parameters},
-      radius_{kRadiusOfSize * robot_size(model)} {}
+    : model_{&model}, tree_{&tree}, parameters_{parameters}, radius_{link_radius(model)} {}
 
 msg::MarkerArray Picture::draw(const JointVector& q, Time stamp, const Surroundings& around) const {
   msg::MarkerArray array;
@@ -70,9 +66,7 @@ void Picture::add_links(const JointVector& q, Time stamp, msg::MarkerArray& arra
       continue;
     }
     head.color = kJoint;
-    const Vector3d middle = 0.5 * (part.segment.from + part.segment.to);
-    const Vector3d half = 2 * radius_ * (part.segment.to - part.segment.from);
-    const Segment body{middle - half, middle + half};
+    const Segment body = joint_body(part, radius_);
     array.markers_().push_back(part.kind == RobotPart::Kind::revolute_joint
                                    ? cylinder(head, body, 1.5 * radius_)
                                    : bar(head, body, 3 * radius_));

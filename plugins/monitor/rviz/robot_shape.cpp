@@ -75,6 +75,9 @@ std::vector<RobotPart> robot_shape(const RobotModel& model, const JointVector& q
   return parts;
 }
 
+namespace {
+
+/// The length of the stretched robot [m].
 double robot_size(const RobotModel& model) {
   double size = 0;
   for (const Joint& joint : model.joints()) {
@@ -87,6 +90,19 @@ double robot_size(const RobotModel& model) {
     if (joint.placement) size += joint.placement->translation().norm();
   }
   return size;
+}
+
+}  // namespace
+
+double link_radius(const RobotModel& model) {
+  constexpr double kShareOfSize = 0.012;
+  return kShareOfSize * robot_size(model);
+}
+
+Segment joint_body(const RobotPart& part, double link_radius) {
+  const Vector3d middle = 0.5 * (part.segment.from + part.segment.to);
+  const Vector3d half = 2 * link_radius * (part.segment.to - part.segment.from);
+  return {middle - half, middle + half};
 }
 
 }  // namespace armature::monitor::rviz

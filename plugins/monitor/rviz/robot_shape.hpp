@@ -28,8 +28,9 @@ struct RobotPart {
 /// row. Lines of no length are left out, except the one that a prismatic joint moves.
 std::vector<RobotPart> robot_shape(const RobotModel& model, const JointVector& q);
 
-/// The length of the stretched robot [m], from its rows and limits: what its parts' thickness is
-/// chosen by.
-double robot_size(const RobotModel& model);
+/// How thick the robot is drawn [m]: a share of its stretched length, from its rows and limits.
+double link_radius(const RobotModel& model);
+/// The body of a joint, when its links have this radius: 4 times that long, and 1.5 times as thick.
+Segment joint_body(const RobotPart& part, double link_radius);
 
 }  // namespace armature::monitor::rviz

@@ -115,8 +115,8 @@ TEST(RobotShape, KeepsTheIdsOfItsPartsWhereverTheJointsAre) {
   EXPECT_EQ(ids(testing::random_joints(robot, random)), ids(JointVector::Zero(robot.dof())));
 }
 
-TEST(RobotShape, SizeOfTheLampIsThatOfItsTable) {
-  EXPECT_NEAR(robot_size(testing::dental_lamp()), 2.59407, 1e-9);
+TEST(RobotShape, IsAsThickAsTheTableOfTheLampIsLong) {
+  EXPECT_NEAR(link_radius(testing::dental_lamp()), 0.012 * 2.59407, 1e-11);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "armature/messages/geometry.hpp"
 #include "armature/messages/header.hpp"
 #include "armature/messages/sensor_msgs.hpp"
+#include "armature/messages/std_msgs.hpp"
 #include "armature/motion/goal.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
 #include "armature/runtime/component/component.hpp"
@@ -19,6 +20,7 @@
 #include "image_in_base.hpp"
 #include "picture.hpp"
 #include "plan_picture.hpp"
+#include "urdf_text.hpp"
 
 namespace armature::monitor::rviz {
 namespace {
@@ -63,15 +65,17 @@ class RvizMonitor final : public Component {
         goal_{setup.input<msg::MotionGoal>("goal")},
         tf_{setup.output<msg::TFMessage>("tf")},
         tf_static_{setup.output<msg::TFMessage>("tf_static")},
+        joint_states_{setup.output<msg::JointState>("joint_states")},
         tool_pose_{setup.output<msg::PoseStamped>("tool_pose")},
         markers_{setup.output<msg::MarkerArray>("markers")},
-        plan_markers_{setup.output<msg::MarkerArray>("plan_markers")} {
+        plan_markers_{setup.output<msg::MarkerArray>("plan_markers")},
+        robot_description_{setup.output<msg::String>("robot_description")} {
     setup.activate_every(seconds(1 / parameters_.rate));
   }
 
   void step(Time now) override {
     for (std::size_t i = 0; i < motion_status_.size(); ++i) goals_.see(motion_status_[i]);
-    publish_fixed_frames(now);
+    publish_what_never_changes(now);
     if (hear_plans()) publish_plans(now);
     if (!rate_limiter_.due(now)) return;
     const msg::JointState* arm = measured_js_.latest();
@@ -82,6 +86,7 @@ class RvizMonitor final : public Component {
     const Time stamp = stamp_of(arm->header_().stamp_());
     if (!published_at_ || stamp > *published_at_) {
       publish_frames(*q, stamp);
+      publish_joints(*arm);
       publish_tool_pose(*q, stamp);
       published_at_ = stamp;
     }
@@ -90,11 +95,14 @@ class RvizMonitor final : public Component {
 
  private:
   /// Once: DDS keeps them for those who come later.
-  void publish_fixed_frames(Time now) {
-    if (std::exchange(told_fixed_, true)) return;
+  void publish_what_never_changes(Time now) {
+    if (std::exchange(told_once_, true)) return;
     auto fixed = tf_static_.loan();
     tree_.write_fixed(now, *fixed);
     fixed.publish();
+    auto description = robot_description_.loan();
+    description->data_(urdf_text(model_, tree_));
+    description.publish();
   }
 
   /// True when something is known that was not before.
@@ -146,6 +154,13 @@ class RvizMonitor final : public Component {
     frames.publish();
   }
 
+  void publish_joints(const msg::JointState& arm) {
+    if (!joint_states_.has_subscribers()) return;
+    auto joints = joint_states_.loan();
+    *joints = arm;
+    joints.publish();
+  }
+
   void publish_tool_pose(const JointVector& q, Time stamp) {
     if (!tool_pose_.has_subscribers()) return;
     auto pose = tool_pose_.loan();
@@ -173,7 +188,7 @@ class RvizMonitor final : public Component {
   Picture picture_;
   GoalWatch goals_;
   RateLimiter rate_limiter_, marker_rate_limiter_;
-  bool told_fixed_ = false;
+  bool told_once_ = false;
   std::optional<Time> published_at_;
   Input<msg::JointState> measured_js_;
   Input<msg::Target> target_, truth_;
@@ -189,8 +204,10 @@ class RvizMonitor final : public Component {
   ImageInBase image_;
   std::optional<msg::MotionGoal> way_;
   Output<msg::TFMessage> tf_, tf_static_;
+  Output<msg::JointState> joint_states_;
   Output<msg::PoseStamped> tool_pose_;
   Output<msg::MarkerArray> markers_, plan_markers_;
+  Output<msg::String> robot_description_;
 };
 
 }  // namespace armature::monitor::rviz

@@ -18,7 +18,8 @@ class Beat final : public Component {
   explicit Beat(Setup& setup)
       : Component{setup},
         parameters_{Parameters::read(setup.params())},
-        beat_{setup.output<msg::Capture>("beat")} {
+        beat_{setup.output<msg::Capture>("beat")},
+        order_{setup.output<msg::Capture>("order")} {
     setup.activate_every(seconds(0.01));
     throw_in(Parameters::ThrowsIn::construction);
     if (parameters_.construction == 0) return;
@@ -32,11 +33,13 @@ class Beat final : public Component {
     throw_in(Parameters::ThrowsIn::step);
     if (parameters_.beats > 0 && sent_ == parameters_.beats) return;
     ++sent_;
-    auto loan = beat_.loan();
-    set_stamp(loan->header_().stamp_(), now);
-    loan->header_().frame_id_().clear();
-    loan->on_(true);
-    loan.publish();
+    for (Output<msg::Capture>* output : {&beat_, &order_}) {
+      auto loan = output->loan();
+      set_stamp(loan->header_().stamp_(), now);
+      loan->header_().frame_id_().clear();
+      loan->on_(true);
+      loan.publish();
+    }
   }
 
   void stop(Time) override {
@@ -68,7 +71,7 @@ class Beat final : public Component {
 
   Parameters parameters_;
   std::uint64_t sent_ = 0;
-  Output<msg::Capture> beat_;
+  Output<msg::Capture> beat_, order_;
 };
 
 }  // namespace armature::test::beat

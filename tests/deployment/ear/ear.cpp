@@ -21,7 +21,8 @@ class Ear final : public Component {
         parameters_{Parameters::read(setup.params())},
         beat_{setup.input<msg::Capture>("beat")},
         young_{setup.input<msg::Capture>("young")},
-        states_{setup.input<msg::ComponentState>("states")} {
+        order_{setup.input<msg::Capture>("order")},
+        states_{setup.input<msg::ComponentStates>("states")} {
     setup.activate_every(seconds(0.01));
   }
 
@@ -31,7 +32,16 @@ class Ear final : public Component {
     if (beat_.fresh()) delays_s_.push_back(age_s(beat_, now));
     if (beat_.latest()) oldest_s_ = std::max(oldest_s_, age_s(beat_, now));
     if (young_.latest()) oldest_young_s_ = std::max(oldest_young_s_, age_s(young_, now));
-    for (std::size_t i = 0; i < states_.size(); ++i) told_of_.insert(states_[i].component_());
+    for (std::size_t i = 0; i < order_.size(); ++i) {
+      const Time ordered = stamp_of(order_[i].header_().stamp_());
+      ++orders_;
+      if (ordered <= last_order_) ++orders_again_;
+      last_order_ = ordered;
+      oldest_order_s_ = std::max(oldest_order_s_, to_seconds(now - ordered));
+    }
+    for (std::size_t i = 0; i < states_.size(); ++i) {
+      for (const auto& state : states_[i].components_()) told_of_.insert(state.component_());
+    }
   }
 
   bool finished() const override { return finished_; }
@@ -45,6 +55,9 @@ class Ear final : public Component {
     }
     summary.metric("oldest_s", "oldest beat [s]", oldest_s_);
     summary.metric("oldest_young_s", "oldest young beat [s]", oldest_young_s_);
+    summary.metric("orders", "commands", orders_);
+    summary.metric("orders_again", "commands told again", orders_again_);
+    summary.metric("oldest_order_s", "oldest command [s]", oldest_order_s_);
     if (parameters_.undeclared) summary.metric("surprise_s", "surprise [s]", 1);
     std::string names;
     for (const std::string& name : told_of_) names += name + " ";
@@ -57,12 +70,14 @@ class Ear final : public Component {
   }
 
   Parameters parameters_;
-  Input<msg::Capture> beat_, young_;
-  Input<msg::ComponentState> states_;
+  Input<msg::Capture> beat_, young_, order_;
+  Input<msg::ComponentStates> states_;
   std::optional<Time> start_;
   bool finished_ = false;
   std::vector<double> delays_s_;
-  double oldest_s_ = 0, oldest_young_s_ = 0;
+  double oldest_s_ = 0, oldest_young_s_ = 0, oldest_order_s_ = 0;
+  int orders_ = 0, orders_again_ = 0;
+  Time last_order_{-1};
   std::set<std::string> told_of_;
 };
 

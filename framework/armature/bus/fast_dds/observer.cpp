@@ -64,15 +64,24 @@ class Observer final : public DdsObserver {
     const auto add_once = [](std::vector<std::string>& texts, const std::string& text) {
       if (std::ranges::find(texts, text) == texts.end()) texts.push_back(text);
     };
-    for (const Endpoint& endpoint : participant_->discovery().endpoints()) {
+    const Discovery& discovery = participant_->discovery();
+    for (const Endpoint& endpoint : discovery.endpoints()) {
       ObservedTopic& topic = by_name[endpoint.topic];
       topic.name = endpoint.topic;
       add_once(topic.types, endpoint.type);
       if (endpoint.tag.ours) add_once(topic.deployments, endpoint.tag.deployment);
       ++(endpoint.writes ? topic.writers : topic.readers);
+      topic.endpoints.push_back({.writes = endpoint.writes,
+                                 .owner = discovery.owner(endpoint),
+                                 .type = endpoint.type,
+                                 .reliable = endpoint.reliable,
+                                 .transient_local = endpoint.transient_local});
     }
     std::vector<ObservedTopic> sorted;
-    for (auto& [name, topic] : by_name) sorted.push_back(std::move(topic));
+    for (auto& [name, topic] : by_name) {
+      std::ranges::stable_partition(topic.endpoints, std::identity{}, &ObservedEndpoint::writes);
+      sorted.push_back(std::move(topic));
+    }
     return sorted;
   }
 
@@ -83,10 +92,11 @@ class Observer final : public DdsObserver {
     if (!writer) return refuse("nobody writes '" + ros_topic_name(name) + "'");
     const auto dds_topic = participant_->topic(name, writer->type);
     if (!dds_topic) return tl::unexpected{dds_topic.error()};
-    // Asks for what the writer offers and no more, so that it always matches.
+    // Asks for what the writer offers and no more, so that it always matches. What it keeps for
+    // late joiners comes all at once.
     const QosSettings settings{.reader_reliable = writer->reliable && asks_again_,
                                .transient_local = writer->transient_local,
-                               .depth = 10};
+                               .depth = writer->transient_local ? 100 : 10};
     auto watch = std::make_unique<Watch>(writer->type, std::move(on_sample));
     watch->reader = participant_->subscriber().create_datareader(
         *dds_topic, reader_qos(settings, std::nullopt, ""), watch.get());

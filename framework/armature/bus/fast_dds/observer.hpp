@@ -15,6 +15,15 @@
 
 namespace armature ARMATURE_EXPORT {
 
+/// A writer or reader as discovery shows it.
+struct ObservedEndpoint {
+  bool writes = false;
+  std::string owner;  // "deployment 'dental_lamp', process 'vision' (pid 123 on theatre-2)"
+  std::string type;   // DDS name
+  bool reliable = false;
+  bool transient_local = false;
+};
+
 /// A topic as discovery shows it.
 struct ObservedTopic {
   std::string name;                      // DDS name: "rt/dental_lamp/arm/measured_js"
@@ -22,6 +31,7 @@ struct ObservedTopic {
   std::vector<std::string> deployments;  // those of ours that have endpoints there
   int writers = 0;
   int readers = 0;
+  std::vector<ObservedEndpoint> endpoints;  // writers first
 };
 
 struct ObservedSample {

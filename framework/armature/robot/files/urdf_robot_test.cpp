@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <iterator>
 
 #include "armature/config/document.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
@@ -260,6 +261,21 @@ TEST_F(UrdfFile, InARobotFileIsHeldToWhatMotionNeedsAndToItsWords) {
               ElementsAre(HasSubstr("there is no joint 'j3'"),
                           "arm.yaml:6:10: 'hand' is the name of a link; a frame needs its own",
                           HasSubstr("there is no joint or frame 'l2'")));
+}
+
+// tinyxml2 and urdfdom read such a file, browsers and other strict parsers refuse it.
+TEST(ShippedUrdfFiles, HaveNoTwoHyphensInAComment) {
+  for (const auto& file :
+       std::filesystem::directory_iterator{ARMATURE_SOURCE_DIR "/configs/robots"}) {
+    if (file.path().extension() != ".urdf") continue;
+    std::ifstream stream{file.path()};
+    const std::string text{std::istreambuf_iterator<char>{stream}, {}};
+    for (std::size_t begin = text.find("<!--"); begin != std::string::npos;
+         begin = text.find("<!--", begin)) {
+      begin += 4;
+      EXPECT_EQ(text.find("--", begin), text.find("-->", begin)) << file.path();
+    }
+  }
 }
 
 }  // namespace

@@ -61,9 +61,12 @@ inline RobotModel dental_lamp() {
 
 /// Uniform inside the limits.
 inline JointVector random_joints(const RobotModel& model, std::mt19937& random) {
+  constexpr double kTurn = 6.283185307179586;  // of a joint without limits
   JointVector q(model.dof());
-  for (int i = 0; i < model.dof(); ++i)
-    q[i] = std::uniform_real_distribution<double>{model.lower()[i], model.upper()[i]}(random);
+  for (int i = 0; i < model.dof(); ++i) {
+    q[i] = std::uniform_real_distribution<double>{std::max(model.lower()[i], -kTurn),
+                                                  std::min(model.upper()[i], kTurn)}(random);
+  }
   return q;
 }
 

@@ -12,6 +12,7 @@ InputPort::InputPort(PortSpec spec, const MessageType& type, Inbox& inbox)
     : spec_{std::move(spec)},
       type_{&type},
       inbox_{&inbox},
+      is_answered_{!spec_.feedback},
       capacity_{static_cast<std::size_t>(spec_.queue.value_or(1))} {
   waiting_.reserve(capacity_);
   shown_.reserve(capacity_);
@@ -54,6 +55,18 @@ bool InputPort::is_too_far_ahead(const SampleRef& sample, Time now) {
   return true;
 }
 
+Measurement InputPort::oldest_measurement() const {
+  if (!fresh_ || !is_answered_) return {};
+  if (source_ >= 0) return {.source = source_, .at = stamp_of(shown_.front())};
+  Measurement oldest;
+  for (const SampleRef& sample : shown_) {
+    const Measurement& answered = sample.info().answers_to;
+    const bool is_older = oldest.source < 0 || answered.at < oldest.at;
+    if (answered.source >= 0 && is_older) oldest = answered;
+  }
+  return oldest;
+}
+
 InputPort& Inbox::add(PortSpec spec, const MessageType& type) {
   ports_.push_back(std::make_unique<InputPort>(std::move(spec), type, *this));
   InputPort& port = *ports_.back();
@@ -65,6 +78,7 @@ void Inbox::arrived(InputPort& port, const SampleRef& sample) {
   bool triggered = false;
   {
     const std::scoped_lock lock{mutex_};
+    if (closed_) return;
     if (port.spec_.join) {
       if (port.unmatched_.size() == InputPort::kJoinDepth)
         port.unmatched_.erase(port.unmatched_.begin());
@@ -104,7 +118,20 @@ bool Inbox::match_joined() {
 
 void Inbox::show(Time now) {
   const std::scoped_lock lock{mutex_};
-  for (const auto& port : ports_) port->show(now);
+  Measurement oldest;
+  for (const auto& port : ports_) {
+    port->show(now);
+    const Measurement measured = port->oldest_measurement();
+    const bool is_older = oldest.source < 0 || measured.at < oldest.at;
+    if (measured.source >= 0 && is_older) oldest = measured;
+  }
+  source_.store(oldest.source, std::memory_order_relaxed);
+  measured_at_ns_.store(oldest.at.ns, std::memory_order_relaxed);
+}
+
+void Inbox::close() {
+  const std::scoped_lock lock{mutex_};
+  closed_ = true;
 }
 
 std::uint64_t Inbox::dropped() const {

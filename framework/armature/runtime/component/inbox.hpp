@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -27,6 +28,13 @@ class InputPort final : public Subscriber {
   const MessageType& type() const { return *type_; }
   const std::vector<SampleRef>& shown() const { return shown_; }
   bool fresh() const { return fresh_; }
+  /// Before the first sample arrives: whose measurements these are (SampleInfo::answers_to), and
+  /// whether the component answers to them. Otherwise: to what its samples answer to, unless the
+  /// input is feedback.
+  void set_source(int source, bool is_answered) {
+    source_ = source;
+    is_answered_ = is_answered;
+  }
   /// Before the first sample arrives; see Setup::input_if.
   void heed_only(bool (*heeds)(const void* message)) { heeds_ = heeds; }
 
@@ -43,11 +51,14 @@ class InputPort final : public Subscriber {
     return spec_.outside ? sample.info().published : stamp_of(sample);
   }
   bool is_too_far_ahead(const SampleRef& sample, Time now);
+  Measurement oldest_measurement() const;
 
   PortSpec spec_;
   const MessageType* type_;
   Inbox* inbox_;
   bool (*heeds_)(const void* message) = nullptr;  // none: every sample
+  int source_ = -1;
+  bool is_answered_;
   // Oldest first, with memory for as many as there ever are.
   std::vector<SampleRef> waiting_;
   std::size_t capacity_;
@@ -68,6 +79,13 @@ class Inbox {
 
   /// Freezes what the next activation sees.
   void show(Time now);
+  /// There is no further activation: what arrives is not kept, nor counted as lost. Any thread.
+  void close();
+  /// The oldest measurement among what the running activation was newly shown. Any thread.
+  Measurement answers_to() const {
+    return {.source = source_.load(std::memory_order_relaxed),
+            .at = Time{measured_at_ns_.load(std::memory_order_relaxed)}};
+  }
   /// Samples that full queues have lost.
   std::uint64_t dropped() const;
   /// Samples that were not shown because they are stamped too far ahead of now: how many, which
@@ -88,8 +106,11 @@ class Inbox {
   mutable RealTimeMutex mutex_;
   std::vector<std::unique_ptr<InputPort>> ports_;
   std::vector<InputPort*> joined_;  // those of them that are shown only together
+  bool closed_ = false;
   std::uint64_t dropped_ = 0;
   Ahead ahead_;
+  std::atomic<int> source_{-1};
+  std::atomic<std::int64_t> measured_at_ns_{0};
 };
 
 }  // namespace armature

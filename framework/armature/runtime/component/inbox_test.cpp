@@ -75,6 +75,42 @@ TEST_F(InboxTest, WhatArrivesWhileAStepRunsIsShownToTheNextOne) {
   EXPECT_EQ(shown(port), std::vector<int>{2});
 }
 
+Time at_ms(std::int64_t milliseconds) { return Time{milliseconds * 1'000'000}; }
+
+TEST_F(InboxTest, AnswersToTheOldestMeasurementThatIsNew) {
+  InputPort& image = add({.name = "image"});
+  InputPort& joints = add({.name = "joints"});
+  image.set_source(0, true);
+  joints.set_source(1, true);
+  send(image, 1, at_ms(30));
+  send(joints, 1, at_ms(10));
+  inbox.show({});
+  EXPECT_EQ(inbox.answers_to().source, 1);
+  EXPECT_EQ(inbox.answers_to().at, at_ms(10));
+  send(image, 2, at_ms(40));
+  inbox.show({});
+  EXPECT_EQ(inbox.answers_to().source, 0);
+  EXPECT_EQ(inbox.answers_to().at, at_ms(40));
+  inbox.show({});
+  EXPECT_EQ(inbox.answers_to().source, -1) << "nothing is new";
+}
+
+TEST_F(InboxTest, AnswersToWhatItsSamplesAnswerTo) {
+  InputPort& face = add({.name = "face", .queue = 4});
+  InputPort& feedback = add({.name = "measured", .feedback = true});
+  const auto send_answer = [&](InputPort& port, int source, Time at) {
+    SampleRef sample = pool.loan();
+    sample.mutable_info().answers_to = {.source = source, .at = at};
+    port.deliver(sample);
+  };
+  send_answer(face, 2, at_ms(20));
+  send_answer(face, 3, at_ms(15));
+  send_answer(feedback, 4, at_ms(5));
+  inbox.show({});
+  EXPECT_EQ(inbox.answers_to().source, 3);
+  EXPECT_EQ(inbox.answers_to().at, at_ms(15)) << "feedback is what came of an answer";
+}
+
 TEST_F(InboxTest, OnlyTriggerInputsTrigger) {
   InputPort& quiet = add({.name = "quiet"});
   InputPort& loud = add({.name = "loud", .trigger = true});

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "armature/bus/topic.hpp"
+#include "armature/runtime/component/inbox.hpp"
 #include "armature/runtime/plugins/plugin_manifest.hpp"
 #include "armature/values/time.hpp"
 
@@ -17,11 +18,11 @@ class Delivery {
   virtual void publish(Topic& topic, SampleRef sample) = 0;
 };
 
-/// One output of a component.
+/// One output of a component. What it publishes answers to what `inbox` shows.
 class OutputPort {
  public:
-  OutputPort(PortSpec spec, Topic& topic, Delivery& delivery)
-      : spec_{std::move(spec)}, topic_{&topic}, delivery_{&delivery} {}
+  OutputPort(PortSpec spec, Topic& topic, Delivery& delivery, const Inbox& inbox)
+      : spec_{std::move(spec)}, topic_{&topic}, delivery_{&delivery}, inbox_{&inbox} {}
 
   const PortSpec& spec() const { return spec_; }
   Topic& topic() { return *topic_; }
@@ -29,7 +30,9 @@ class OutputPort {
     return !closed() && (settings(spec_.qos).transient_local || topic_->has_readers());
   }
   void publish(SampleRef sample) {
-    if (!closed()) delivery_->publish(*topic_, std::move(sample));
+    if (closed()) return;
+    sample.mutable_info().answers_to = inbox_->answers_to();
+    delivery_->publish(*topic_, std::move(sample));
   }
   /// Nothing is published from now on, whichever thread of the component tries. Any thread.
   void close() { closed_.store(true, std::memory_order_release); }
@@ -40,6 +43,7 @@ class OutputPort {
   PortSpec spec_;
   Topic* topic_;
   Delivery* delivery_;
+  const Inbox* inbox_;
   std::atomic<bool> closed_{false};
 };
 

@@ -21,8 +21,9 @@ TEST(OutputPort, IsWantedWhenSomebodyReadsOrItIsLatched) {
   type.destroy = [](void* message) { delete static_cast<int*>(message); };
   Topic topic{{.name = "rt/n", .type = &type}, 1};
   AtOnce delivery;
-  OutputPort state{{.name = "n", .qos = QosProfile::state}, topic, delivery};
-  OutputPort latched{{.name = "n", .qos = QosProfile::latched}, topic, delivery};
+  const Inbox inbox{[] {}};
+  OutputPort state{{.name = "n", .qos = QosProfile::state}, topic, delivery, inbox};
+  OutputPort latched{{.name = "n", .qos = QosProfile::latched}, topic, delivery, inbox};
   EXPECT_FALSE(Output<int>{state}.has_subscribers());
   EXPECT_TRUE(Output<int>{latched}.has_subscribers()) << "for those who come later";
   Reader reader;

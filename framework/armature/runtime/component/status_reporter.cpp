@@ -32,7 +32,7 @@ void StatusReporter::log(std::string_view text) {
     if (text == last_line_) return;
     last_line_.assign(text);
   }
-  if (sink_) sink_(component_, text);
+  if (sink_) sink_(component_, text, State::ok);
 }
 
 void StatusReporter::set(State state, std::string_view reason) {
@@ -46,7 +46,7 @@ void StatusReporter::set(State state, std::string_view reason) {
     status_.reason.assign(reason);
     if (was_quiet || (quiet_ && state != State::fault)) return;
   }
-  if (sink_) sink_(component_, line_of(state, reason));
+  if (sink_) sink_(component_, line_of(state, reason), state);
 }
 
 void StatusReporter::keep_to_itself(bool quiet) {

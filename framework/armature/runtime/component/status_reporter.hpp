@@ -19,8 +19,9 @@ class StatusReporter {
     State state = State::ok;
     std::string reason;
   };
-  /// As real-time safe as the components that speak.
-  using Sink = std::function<void(std::string_view component, std::string_view line)>;
+  /// `state`: what the line is about; `ok` for whatever is no trouble. As real-time safe as the
+  /// components that speak.
+  using Sink = std::function<void(std::string_view component, std::string_view line, State state)>;
 
   StatusReporter(std::string component, Sink sink);
 

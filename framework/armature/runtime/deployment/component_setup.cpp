@@ -16,10 +16,8 @@ config::Problem problem_of(const ComponentConfig& component, const SlotError& er
   if (!has_line) {
     return {component.origin, fmt::format("component '{}': {}", component.name, error.what())};
   }
-  std::string name = component.name;
-  if (component.unit != kMainUnit) name.resize(name.size() - component.unit.size() - 1);
-  return {slot->origin,
-          fmt::format("slot '{}' of component '{}': {}", slot->name, name, error.what())};
+  return {slot->origin, fmt::format("slot '{}' of component '{}': {}", slot->name,
+                                    component.component(), error.what())};
 }
 
 ComponentSetup::ComponentSetup(const ComponentConfig& config, const DeploymentConfig& deployment,
@@ -83,14 +81,29 @@ const PortBinding& ComponentSetup::declared(const std::vector<PortBinding>& port
 InputPort& ComponentSetup::claim_input(std::string_view port, const MessageType& type) {
   const PortBinding& binding = declared(config_.inputs, "input", port, type);
   InputPort& input = runner_.inbox().add(binding.spec, type);
+  set_source(input, binding);
   find_topic_(binding, type)
       .connect(input, binding.spec.outside ? Sources::any : Sources::deployment);
   return input;
 }
 
+void ComponentSetup::set_source(InputPort& input, const PortBinding& binding) const {
+  bool is_answered = !binding.spec.feedback;
+  int source = -1;
+  for (const ComponentConfig& writer : deployment_.components) {
+    const auto output = std::ranges::find(writer.outputs, binding.topic, &PortBinding::topic);
+    if (output == writer.outputs.end()) continue;
+    // What another unit of the same component says goes with the flow of the whole.
+    is_answered = is_answered || writer.component() == config_.component();
+    if (output->spec.measured) source = deployment_.measuring_index(writer.name);
+  }
+  input.set_source(source, is_answered);
+}
+
 OutputPort& ComponentSetup::claim_output(std::string_view port, const MessageType& type) {
   const PortBinding& binding = declared(config_.outputs, "output", port, type);
-  return runner_.outputs().emplace_back(binding.spec, find_topic_(binding, type), delivery_);
+  return runner_.outputs().emplace_back(binding.spec, find_topic_(binding, type), delivery_,
+                                        runner_.inbox());
 }
 
 bool ComponentSetup::is_written(std::string_view input) const {

@@ -50,6 +50,8 @@ class ComponentSetup final : public Setup {
   void keep_thread(std::unique_ptr<DriverThread> thread) override;
 
  private:
+  /// Tells an input whose measurements it gets, and whether they are answered to.
+  void set_source(InputPort& input, const PortBinding& binding) const;
   const SlotConfig& slot_config(std::string_view slot_name) const;
   const PortBinding& declared(const std::vector<PortBinding>& ports, std::string_view direction,
                               std::string_view name, const MessageType& type);

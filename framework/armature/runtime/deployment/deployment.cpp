@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "armature/config/problems.hpp"
+#include "armature/runtime/deployment/description.hpp"
 #include "armature/runtime/deployment_file/injected_fault.hpp"
 #include "armature/runtime/deployment_file/on_fault.hpp"
 #include "armature/runtime/execution/clock_publisher.hpp"
@@ -59,7 +60,7 @@ Deployment::Deployment(DeploymentConfig config, PluginRegistry& plugins, Options
     : config_{std::move(config)},
       options_{std::move(options)},
       lost_peers_{config_.name, config_.processes(), options_.process} {
-  if (!options_.on_note) options_.on_note = [](const std::string&) {};
+  listen_for_log();
   if (!options_.on_ending) options_.on_ending = [](const std::string&) {};
   make_scheduler();
   std::vector<const ComponentConfig*> order;
@@ -100,6 +101,17 @@ Deployment::~Deployment() {
   remote_.reset();
 }
 
+void Deployment::listen_for_log() {
+  options_.on_note = [this, tell = std::move(options_.on_note)](const std::string& text) {
+    log_.put(clock_->now(), kStateComponent, text, StatusReporter::State::degraded);
+    if (tell) tell(text);
+  };
+  sink_ = [this](std::string_view component, std::string_view line, StatusReporter::State state) {
+    log_.put(clock_->now(), component, line, state);
+    if (options_.on_line) options_.on_line(component, line);
+  };
+}
+
 void Deployment::make_scheduler() {
   if (config_.simulated) {
     auto clock = std::make_unique<SimulatedClock>();
@@ -118,7 +130,7 @@ void Deployment::make_runner(const ComponentConfig& component, PluginRegistry& p
   // Outlives the exceptions that its code throws, and the slots that it makes.
   const auto library = plugins.load(*component.manifest, Component::kKind);
   auto runner = std::make_unique<ComponentRunner>(component.name, component.plugin_id,
-                                                  component.place, options_.on_line);
+                                                  component.place, sink_);
   ComponentSetup setup = setup_of(component, plugins, *runner);
   try {
     const auto make = reinterpret_cast<Component::Factory>(library->factory());
@@ -164,8 +176,14 @@ void Deployment::make_own_units(PluginRegistry& plugins) {
                   [](Setup& setup) { return std::make_unique<ClockPublisher>(setup); });
   }
   const int last = static_cast<int>(config_.components.size());
-  make_own_unit(kStateComponent, StatePublisher::manifest(), last, plugins,
-                [this](Setup& setup) { return std::make_unique<StatePublisher>(setup, runners_); });
+  make_own_unit(kStateComponent, StatePublisher::manifest(), last, plugins, [this](Setup& setup) {
+    return std::make_unique<StatePublisher>(
+        setup, options_.process, runners_, config_.measuring(),
+        [this] { return description_of(config_, options_.process, run_); });
+  });
+  make_own_unit(kLogComponent, LogPublisher::manifest(), last + 1, plugins, [this](Setup& setup) {
+    return std::make_unique<LogPublisher>(setup, config_.name, log_);
+  });
   // The other processes tell how their components are, too: a component that reads it hears all.
   for (const std::string& process : config_.processes()) {
     if (process == options_.process || options_.process.empty()) continue;
@@ -174,6 +192,7 @@ void Deployment::make_own_units(PluginRegistry& plugins) {
   }
   std::sort(runners_.begin(), runners_.end(),
             [](const auto& a, const auto& b) { return a->place() < b->place(); });
+  for (const auto& runner : runners_) runner->expect_measurements(config_.measuring().size());
 }
 
 void Deployment::make_own_unit(std::string_view name, const PluginManifest& manifest, int place,
@@ -181,8 +200,7 @@ void Deployment::make_own_unit(std::string_view name, const PluginManifest& mani
                                const std::function<std::unique_ptr<Component>(Setup&)>& make) {
   config_.components.push_back(own_config(name, manifest, place, options_.process));
   const ComponentConfig& config = config_.components.back();
-  auto runner =
-      std::make_unique<ComponentRunner>(config.name, manifest.id, place, options_.on_line);
+  auto runner = std::make_unique<ComponentRunner>(config.name, manifest.id, place, sink_);
   ComponentSetup setup = setup_of(config, plugins, *runner);
   runner->install(nullptr, make(setup));
   runners_.push_back(std::move(runner));
@@ -249,15 +267,15 @@ void Deployment::inject(const InjectedFault& fault) {
 }
 
 void Deployment::assign_runners() {
+  for (const auto& runner : runners_) {
+    runner->set_latency(std::max(config_of(*runner).sim_latency, runner->latency()));
+  }
   for (const ExecutorSpec& spec : config_.executors) {
     std::vector<ComponentRunner*> assigned;
     for (const auto& runner : runners_) {
       if (config_of(*runner).executor == spec.name) assigned.push_back(runner.get());
     }
-    if (!assigned.empty())
-      scheduler_->assign(spec, assigned, [this](const ComponentRunner& runner) {
-        return std::max(config_of(runner).sim_latency, runner.latency());
-      });
+    if (!assigned.empty()) scheduler_->assign(spec, assigned);
   }
 }
 
@@ -266,6 +284,7 @@ void Deployment::follow_clock(Duration unix_minus_monotonic) {
 }
 
 void Deployment::connect(PluginRegistry& plugins, int domain, const std::string& run) {
+  run_ = run;
   NetworkOptions network = config_.dds.network(domain);
   // A process that the others go on without must leave nothing behind that they wait for.
   const bool isolated = options_.process != kMainProcess && !stops_run(options_.process, config_);

@@ -19,6 +19,7 @@
 #include "armature/runtime/deployment_file/deployment_config.hpp"
 #include "armature/runtime/execution/clock.hpp"
 #include "armature/runtime/execution/component_runner.hpp"
+#include "armature/runtime/execution/log_publisher.hpp"
 #include "armature/runtime/execution/scheduler.hpp"
 #include "armature/runtime/execution/watchdog.hpp"
 #include "armature/values/sanitizer.hpp"
@@ -32,7 +33,8 @@ class Deployment {
  public:
   struct Options {
     std::string process{kMainProcess};  // constructs only its components; empty: all of them
-    StatusReporter::Sink on_line;       // what components tell the operator
+    /// What components tell the operator, as real-time safe as the components.
+    std::function<void(std::string_view component, std::string_view line)> on_line;
     std::function<void(const std::string&)> on_note;  // what the runtime tells the operator
     std::optional<Duration> clock_offset =
         {};  // of the main process' SystemClock; none: an own one
@@ -105,6 +107,8 @@ class Deployment {
   static constexpr Duration kThreadTimeout = seconds(kSanitized ? 5 : 1);
 
  private:
+  /// Lets the log hear what the operator is told.
+  void listen_for_log();
   void make_scheduler();
   void make_runner(const ComponentConfig& component, PluginRegistry& plugins,
                    config::Problems& problems);
@@ -134,7 +138,10 @@ class Deployment {
 
   DeploymentConfig config_;
   Options options_;
+  std::string run_;
   std::unique_ptr<Clock> clock_;
+  LogQueue log_;
+  StatusReporter::Sink sink_;                             // of components
   std::map<std::string, std::unique_ptr<Topic>> topics_;  // by name, of shared ones also by writer
   std::unique_ptr<Scheduler> scheduler_;
   std::vector<std::unique_ptr<ComponentRunner>> runners_;  // in the order of the graph

@@ -86,7 +86,7 @@ std::optional<ComponentConfig> ComponentReader::read(const Node::Entry& entry) c
   ComponentConfig component;
   component.name = entry.key;
   component.origin = entry.key_origin;
-  if (entry.key == kStateComponent || entry.key == kClockComponent) {
+  if (std::ranges::find(kRuntimeComponents, entry.key) != kRuntimeComponents.end()) {
     problems_.add(
         entry.key_origin,
         fmt::format("'{}' is a component of the runtime; choose another name", entry.key));
@@ -139,6 +139,11 @@ std::optional<ComponentConfig> ComponentReader::read(const Node::Entry& entry) c
   }
   component.process = map.text("process");
   if (component.process.empty()) component.process = component.host;  // the main ones' are the same
+  if (component.host != kMainHost && !is_name(component.process)) {
+    map.problem("process", fmt::format("'{}' must consist of letters, digits and '_' on another "
+                                       "host, and begin with no digit",
+                                       component.process));
+  }
   if (component.process != kMainProcess && deployment_.simulated) {
     map.problem("process",
                 "the simulated clock runs one process; remove 'process' or set "

@@ -17,6 +17,7 @@
 #include "armature/config/document.hpp"
 #include "armature/config/reader.hpp"
 #include "armature/runtime/deployment_file/capabilities.hpp"
+#include "armature/runtime/deployment_file/completed_file.hpp"
 #include "armature/runtime/deployment_file/component_config.hpp"
 #include "armature/runtime/deployment_file/component_units.hpp"
 #include "armature/runtime/deployment_file/deployment_keys.hpp"
@@ -172,26 +173,39 @@ void open_inputs(const Node* list, DeploymentConfig& deployment, Problems& probl
   for (const Node& item : list->items()) open_input(item, deployment, problems);
 }
 
-}  // namespace
-
-std::vector<std::string> DeploymentConfig::processes() const {
+/// What the components name there, each once, the main one first.
+std::vector<std::string> names_at(std::string ComponentConfig::*place, std::string_view main_one,
+                                  const std::vector<ComponentConfig>& components) {
   std::set<std::string> others;
-  for (const auto& component : components) {
-    if (component.process != kMainProcess) others.insert(component.process);
-  }
-  std::vector<std::string> all{std::string{kMainProcess}};
+  for (const ComponentConfig& component : components) others.insert(component.*place);
+  others.erase(std::string{main_one});
+  std::vector<std::string> all{std::string{main_one}};
   all.insert(all.end(), others.begin(), others.end());
   return all;
 }
 
+}  // namespace
+
+std::vector<std::string> DeploymentConfig::processes() const {
+  return names_at(&ComponentConfig::process, kMainProcess, components);
+}
+
 std::vector<std::string> DeploymentConfig::hosts() const {
-  std::set<std::string> others;
-  for (const auto& component : components) {
-    if (component.host != kMainHost) others.insert(component.host);
+  return names_at(&ComponentConfig::host, kMainHost, components);
+}
+
+std::vector<std::string> DeploymentConfig::measuring() const {
+  std::vector<std::string> names;
+  for (const ComponentConfig& component : components) {
+    const auto is_measured = [](const PortBinding& output) { return output.spec.measured; };
+    if (std::ranges::any_of(component.outputs, is_measured)) names.push_back(component.name);
   }
-  std::vector<std::string> all{std::string{kMainHost}};
-  all.insert(all.end(), others.begin(), others.end());
-  return all;
+  return names;
+}
+
+int DeploymentConfig::measuring_index(std::string_view component) const {
+  const std::vector<std::string> names = measuring();
+  return static_cast<int>(std::ranges::find(names, component) - names.begin());
 }
 
 std::string DeploymentConfig::host_of(std::string_view process) const {
@@ -292,6 +306,7 @@ DeploymentConfig read_deployment(const Node& root, const PluginRegistry& plugins
   }
   map.finish();
   deployment.fingerprint = fingerprint_of(root, deployment);
+  if (problems.empty()) deployment.file = completed_file(root, plugins);
   return deployment;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -16,7 +17,7 @@
 
 namespace armature ARMATURE_EXPORT {
 
-/// What a file may let anything wait for: a longer time is a slip of the pen.
+/// The longest time that a file may let anything wait: a longer one is a slip of the pen.
 inline constexpr double kLongestWait_s = 3600;
 inline constexpr std::string_view kMainProcess = "main";
 inline constexpr std::string_view kMainHost = "main";  // where the main process runs
@@ -24,7 +25,9 @@ inline constexpr std::string_view kMainExecutor = "main";
 inline constexpr std::string_view kRuntimeExecutor = "runtime";  // of the runtime's own components
 // The runtime's own components, which every process has (the clock: on the simulated clock).
 inline constexpr std::string_view kStateComponent = "runtime";
+inline constexpr std::string_view kLogComponent = "runtime_log";
 inline constexpr std::string_view kClockComponent = "runtime_clock";
+inline constexpr std::array kRuntimeComponents{kStateComponent, kLogComponent, kClockComponent};
 
 /// A plugin in a slot, resolved: known by its manifest, its parameters checked.
 struct SlotConfig {
@@ -65,6 +68,12 @@ struct ComponentConfig {
   Duration sim_latency{0};
   std::optional<OnFault> on_fault;  // as the file says, else as the graph does (on_fault.hpp)
   int place = 0;                    // in the graph, sources first
+
+  /// The entry of `components:` that it is a unit of.
+  std::string_view component() const {
+    const std::string_view all{name};
+    return unit == kMainUnit ? all : all.substr(0, all.size() - unit.size() - 1);
+  }
 };
 
 /// `goals:`: a metric of the summary that must not exceed its limit.
@@ -99,9 +108,14 @@ struct DeploymentConfig {
   std::vector<Goal> goals;
   std::vector<SweepGoal> sweep_goals;
   std::string fingerprint;  // SHA-256 of the resolved file and of all documents
+  config::Node file;        // with nothing left to defaults (completed_file.hpp)
 
   std::vector<std::string> processes() const;  // "main" first
   std::vector<std::string> hosts() const;      // "main" first
+  /// The components with an output that is `measured`, in their order.
+  std::vector<std::string> measuring() const;
+  /// The place of `component` among them.
+  int measuring_index(std::string_view component) const;
   /// The host that a process runs on.
   std::string host_of(std::string_view process) const;
 };

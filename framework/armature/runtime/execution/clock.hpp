@@ -30,7 +30,8 @@ class SystemClock final : public Clock {
   Duration unix_minus_monotonic() const;
 
   /// Goes over to another offset, by at most 0.5 ms in a second: the clock of another host is
-  /// followed as both drift. From one thread, at most every 0.1 s.
+  /// followed as both drift. From one thread, at most every 0.1 s. Whoever is held up in now() just
+  /// then may be told a time that is earlier than the last one by 1/2000 of how long.
   void follow(Duration unix_minus_monotonic);
 
  private:

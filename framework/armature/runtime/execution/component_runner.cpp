@@ -52,7 +52,9 @@ ComponentRunner::ComponentRunner(std::string name, std::string plugin_id, int pl
 
 void ComponentRunner::activate(Time now, Duration lateness) {
   answer_stop_request(now);
-  if (!finished()) step(now, lateness);
+  if (finished()) return;
+  step(now, lateness);
+  if (finished()) inbox_.close();
 }
 
 void ComponentRunner::step(Time now, Duration lateness) {
@@ -72,7 +74,17 @@ void ComponentRunner::step(Time now, Duration lateness) {
     fault("step", current_exception_text());
   }
   times_.processor.add(read_clock(CLOCK_THREAD_CPUTIME_ID) - processor);
-  times_.duration.add(read_clock(CLOCK_MONOTONIC) - running.start());
+  const Duration duration = read_clock(CLOCK_MONOTONIC) - running.start();
+  times_.duration.add(duration);
+  count_reaction(now, duration);
+}
+
+void ComponentRunner::count_reaction(Time now, Duration duration) {
+  const auto [source, at] = inbox_.answers_to();
+  if (source < 0 || static_cast<std::size_t>(source) >= reactions_.size()) return;
+  // In lockstep a step takes what it was said to take.
+  const Duration took = executor_times_ ? duration : latency_;
+  reactions_[static_cast<std::size_t>(source)].add(now + took - at);
 }
 
 void ComponentRunner::answer_stop_request(Time now) {

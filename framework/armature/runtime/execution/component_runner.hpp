@@ -99,6 +99,12 @@ class ComponentRunner {
 
   /// Of its steps since the start. Any thread.
   const StepTimes& times() const { return times_; }
+  /// From how many components measurements come (SampleInfo::answers_to). Before the run.
+  void expect_measurements(std::size_t sources) {
+    reactions_ = std::vector<TimingHistogram>(sources);
+  }
+  /// How old the measurements of each of them were when a step had answered to them. Any thread.
+  const std::vector<TimingHistogram>& reactions() const { return reactions_; }
   /// Told by the executor that runs it, which outlives it; in lockstep there is none.
   void set_executor(const std::string& name, const CycleTimes& times) {
     executor_name_ = &name;
@@ -119,6 +125,8 @@ class ComponentRunner {
  private:
   class Running;
   void ask_stopped();
+  /// Counts a step that was activated at `now` and took `duration`.
+  void count_reaction(Time now, Duration duration);
   void fault(std::string_view when, const std::string& what);
 
   std::string name_, plugin_id_;
@@ -141,6 +149,7 @@ class ComponentRunner {
   bool threads_started_ = false;
   std::atomic<std::uint64_t> activations_{0}, overruns_{0};
   StepTimes times_;
+  std::vector<TimingHistogram> reactions_;
   const std::string* executor_name_ = nullptr;
   const CycleTimes* executor_times_ = nullptr;
   std::atomic<std::int64_t> running_since_ns_{0}, stalled_ns_{0};

@@ -6,16 +6,14 @@
 namespace armature {
 
 void LockstepScheduler::assign(const ExecutorSpec& executor,
-                               const std::vector<ComponentRunner*>& runners,
-                               const std::function<Duration(const ComponentRunner&)>& latency) {
+                               const std::vector<ComponentRunner*>& runners) {
   for (ComponentRunner* runner : runners) {
-    add(*runner, executor.period ? executor.period : runner->period(), latency(*runner));
+    add(*runner, executor.period ? executor.period : runner->period());
   }
 }
 
-void LockstepScheduler::add(ComponentRunner& runner, std::optional<Duration> period,
-                            Duration latency) {
-  entries_.push_back({&runner, period, latency, std::nullopt});
+void LockstepScheduler::add(ComponentRunner& runner, std::optional<Duration> period) {
+  entries_.push_back({&runner, period, std::nullopt});
   Entry& entry = entries_.back();
   runner.on_triggered([this, &entry] {
     const Time now = clock_->now();
@@ -34,11 +32,12 @@ void LockstepScheduler::schedule(Event event) {
 }
 
 void LockstepScheduler::publish(Topic& topic, SampleRef sample) {
-  if (!running_ || running_->latency.count() == 0) {
+  const Duration latency = running_ ? running_->runner->latency() : Duration{0};
+  if (latency.count() == 0) {
     topic.publish(std::move(sample), clock_->now());
     return;
   }
-  schedule({.time = clock_->now() + running_->latency,
+  schedule({.time = clock_->now() + latency,
             .place = running_->runner->place(),
             .topic = &topic,
             .sample = std::move(sample)});

@@ -19,8 +19,7 @@ class LockstepScheduler final : public Scheduler {
  public:
   explicit LockstepScheduler(SimulatedClock& clock) : clock_{&clock} {}
 
-  void assign(const ExecutorSpec& executor, const std::vector<ComponentRunner*>& runners,
-              const std::function<Duration(const ComponentRunner&)>& latency) override;
+  void assign(const ExecutorSpec& executor, const std::vector<ComponentRunner*>& runners) override;
   void run(const std::function<bool()>& done) override;
   void begin_stop() override;
   /// Drops what is on its way too: its samples belong to topics, which go before the scheduler.
@@ -34,7 +33,6 @@ class LockstepScheduler final : public Scheduler {
   struct Entry {
     ComponentRunner* runner;
     std::optional<Duration> period;
-    Duration latency;
     std::optional<Time> triggered_at;  // an activation by trigger is already queued for then
   };
   struct Event {
@@ -51,7 +49,7 @@ class LockstepScheduler final : public Scheduler {
       return std::tie(a.time.ns, a.place, a.sequence) > std::tie(b.time.ns, b.place, b.sequence);
     }
   };
-  void add(ComponentRunner& runner, std::optional<Duration> period, Duration latency);
+  void add(ComponentRunner& runner, std::optional<Duration> period);
   void schedule(Event event);
   void handle(Event& event);
 

@@ -15,10 +15,9 @@ namespace armature ARMATURE_EXPORT {
 /// simulated one.
 class Scheduler : public Delivery {
  public:
-  /// Gives `runners` (in graph order) to an executor; `latency` is how long after an activation a
-  /// component's samples reach their readers on the simulated clock. Before `run`.
-  virtual void assign(const ExecutorSpec& executor, const std::vector<ComponentRunner*>& runners,
-                      const std::function<Duration(const ComponentRunner&)>& latency) = 0;
+  /// Gives `runners` (in graph order) to an executor. Before `run`.
+  virtual void assign(const ExecutorSpec& executor,
+                      const std::vector<ComponentRunner*>& runners) = 0;
   /// Runs until `done` (asked at least every 20 ms of the wall clock and after every activation
   /// of the simulated one) says so. Components go on being activated on the system clock when it
   /// has returned; called again it goes on where it was.

@@ -19,10 +19,6 @@ MessageType number_type() {
   return type;
 }
 
-const std::function<Duration(const ComponentRunner&)> kNoLatency = [](const ComponentRunner&) {
-  return Duration{0};
-};
-
 TEST(LockstepScheduler, ActivatesInTheOrderOfTimeThenGraph) {
   SimulatedClock clock;
   LockstepScheduler scheduler{clock};
@@ -32,8 +28,8 @@ TEST(LockstepScheduler, ActivatesInTheOrderOfTimeThenGraph) {
   };
   const auto late = make_runner("late", 1, record("late"));
   const auto early = make_runner("early", 0, record("early"));
-  scheduler.assign({.name = "a", .period = Duration{20}, .cpu = {}}, {late.get()}, kNoLatency);
-  scheduler.assign({.name = "b", .period = Duration{10}, .cpu = {}}, {early.get()}, kNoLatency);
+  scheduler.assign({.name = "a", .period = Duration{20}, .cpu = {}}, {late.get()});
+  scheduler.assign({.name = "b", .period = Duration{10}, .cpu = {}}, {early.get()});
   scheduler.run([&] { return log.size() >= 5; });
   EXPECT_EQ(log,
             (std::vector<std::string>{"early@0", "late@0", "early@10", "early@20", "late@20"}));
@@ -50,9 +46,9 @@ TEST(LockstepScheduler, DeliversAtOnceWithoutLatencyAndLaterWithOne) {
     std::vector<std::int64_t> seen;
     const auto sink = make_runner("sink", 1, [&](Time now) { seen.push_back(now.ns); });
     topic.connect(sink->inbox().add({.name = "in", .trigger = true}, type));
-    scheduler.assign({.name = "a", .period = Duration{100}, .cpu = {}}, {source.get()},
-                     [&](const ComponentRunner&) { return latency; });
-    scheduler.assign({.name = "b", .period = {}, .cpu = {}}, {sink.get()}, kNoLatency);
+    source->set_latency(latency);
+    scheduler.assign({.name = "a", .period = Duration{100}, .cpu = {}}, {source.get()});
+    scheduler.assign({.name = "b", .period = {}, .cpu = {}}, {sink.get()});
     scheduler.run([&] { return seen.size() >= 2; });
     EXPECT_EQ(seen, (std::vector<std::int64_t>{latency.count(), 100 + latency.count()}));
   }
@@ -65,8 +61,8 @@ TEST(LockstepScheduler, WhenItStopsNothingIsOnItsWayAnyMore) {
   Topic topic{{.name = "rt/n", .type = &type}, 1};
   const auto source =
       make_runner("source", 0, [&](Time) { scheduler.publish(topic, topic.loan()); });
-  scheduler.assign({.name = "a", .period = Duration{100}, .cpu = {}}, {source.get()},
-                   [](const ComponentRunner&) { return Duration{7}; });
+  source->set_latency(Duration{7});
+  scheduler.assign({.name = "a", .period = Duration{100}, .cpu = {}}, {source.get()});
   scheduler.run([&] { return source->activations() == 1; });
   scheduler.stop(seconds(60));
   topic.loan();
@@ -99,7 +95,8 @@ TEST(ComponentRunner, AFaultEndsItsOutputsWhicheverOfItsThreadsStillPublishes) {
   const MessageType type = number_type();
   Topic topic{{.name = "rt/n", .type = &type}, 2};
   const auto runner = make_runner("camera", 0, [](Time) { throw std::runtime_error("no light"); });
-  OutputPort& output = runner->outputs().emplace_back(PortSpec{.name = "n"}, topic, scheduler);
+  OutputPort& output =
+      runner->outputs().emplace_back(PortSpec{.name = "n"}, topic, scheduler, runner->inbox());
   output.publish(topic.loan());
   EXPECT_EQ(topic.published(), 1U);
   runner->activate({});
@@ -134,6 +131,23 @@ class Mover final : public Component {
   bool stopping_ = false;
 };
 
+TEST(ComponentRunner, LosesNothingOnceItsScenarioIsTold) {
+  const MessageType type = number_type();
+  SamplePool pool{type, 4};
+  ComponentRunner runner{"report", "test/mover", 0, {}};
+  FakeSetup setup{runner};
+  auto report = std::make_unique<Mover>(setup, 0);
+  Mover& scenario = *report;
+  runner.install(nullptr, std::move(report));
+  InputPort& samples = runner.inbox().add({.name = "in", .queue = 2}, pool.type());
+  for (int i = 0; i < 5; ++i) samples.deliver(pool.loan());
+  scenario.told = true;
+  runner.activate({});
+  EXPECT_EQ(runner.dropped(), 3U);
+  for (int i = 0; i < 5; ++i) samples.deliver(pool.loan());
+  EXPECT_EQ(runner.dropped(), 3U) << "it reads no more";
+}
+
 class StoppingUnit : public testing::Test {
  protected:
   void make(int steps_to_rest) {
@@ -143,9 +157,10 @@ class StoppingUnit : public testing::Test {
     runner_.install(nullptr, std::move(mover));
   }
   std::vector<std::string> lines_;
-  ComponentRunner runner_{
-      "mover", "test/mover", 0,
-      [this](std::string_view, std::string_view line) { lines_.emplace_back(line); }};
+  ComponentRunner runner_{"mover", "test/mover", 0,
+                          [this](std::string_view, std::string_view line, StatusReporter::State) {
+                            lines_.emplace_back(line);
+                          }};
   Mover* mover_ = nullptr;
 };
 
@@ -217,9 +232,8 @@ TEST(ThreadedScheduler, ActivatesPeriodicallyAndOnTriggersAndStops) {
   });
   const auto sink = make_runner("sink", 1, [&](Time) { ++received; });
   topic.connect(sink->inbox().add({.name = "in", .queue = 32, .trigger = true}, type));
-  scheduler.assign({.name = "periodic", .period = seconds(0.001), .cpu = {}}, {source.get()},
-                   kNoLatency);
-  scheduler.assign({.name = "triggered", .period = {}, .cpu = {}}, {sink.get()}, kNoLatency);
+  scheduler.assign({.name = "periodic", .period = seconds(0.001), .cpu = {}}, {source.get()});
+  scheduler.assign({.name = "triggered", .period = {}, .cpu = {}}, {sink.get()});
   scheduler.run([&] { return sent >= 20 && received >= 1; });
   scheduler.stop(seconds(60));
   const int after_stop = received;
@@ -235,8 +249,7 @@ TEST(ThreadedScheduler, CountsMissedPeriodsInsteadOfCatchingUp) {
   const auto slow = make_runner("slow", 0, [&](Time) {
     if (calls++ == 0) std::this_thread::sleep_for(std::chrono::milliseconds{50});
   });
-  scheduler.assign({.name = "control", .period = seconds(0.005), .cpu = {}}, {slow.get()},
-                   kNoLatency);
+  scheduler.assign({.name = "control", .period = seconds(0.005), .cpu = {}}, {slow.get()});
   scheduler.run([&] { return calls >= 3; });
   scheduler.stop(seconds(60));
   EXPECT_GE(slow->overruns(), 8U);

@@ -19,7 +19,8 @@ id: runtime/state_publisher
 kind: component
 doc: Tells how every component of this process is.
 out:
-  state: {type: armature_msgs/ComponentState, topic: component_state, doc: "One message per component, twice a second."}
+  states: {type: armature_msgs/ComponentStates, topic: component_states, doc: "All components of this process, twice a second"}
+  description: {type: armature_msgs/DeploymentDescription, topic: description, qos: latched, doc: "Once: what this process consists of"}
   diagnostics: {type: diagnostic_msgs/DiagnosticArray, topic: /diagnostics, shared: true, doc: "The same for ROS tools."}
 )";
 
@@ -43,6 +44,7 @@ void add_times(const std::string& what, const TimingFigures& figures,
   };
   add("last", figures.last_s);
   add("mean", figures.mean_s);
+  add("p50", figures.p50_s);
   add("p99", figures.p99_s);
   add("max", figures.max_s);
 }
@@ -50,6 +52,7 @@ void add_times(const std::string& what, const TimingFigures& figures,
 void set_times(msg::StepTiming& message, const TimingFigures& figures) {
   message.last_(figures.last_s);
   message.mean_(figures.mean_s);
+  message.p50_(figures.p50_s);
   message.p99_(figures.p99_s);
   message.max_(figures.max_s);
 }
@@ -61,11 +64,16 @@ const PluginManifest& StatePublisher::manifest() {
   return manifest;
 }
 
-StatePublisher::StatePublisher(Setup& setup,
-                               const std::vector<std::unique_ptr<ComponentRunner>>& runners)
+StatePublisher::StatePublisher(Setup& setup, std::string process,
+                               const std::vector<std::unique_ptr<ComponentRunner>>& runners,
+                               std::vector<std::string> measuring, Describe describe)
     : Component{setup},
+      process_{std::move(process)},
       runners_{runners},
-      state_{setup.output<msg::ComponentState>("state")},
+      measuring_{std::move(measuring)},
+      describe_{std::move(describe)},
+      states_{setup.output<msg::ComponentStates>("states")},
+      description_{setup.output<msg::DeploymentDescription>("description")},
       diagnostics_{setup.output<msg::DiagnosticArray>("diagnostics")} {
   setup.activate_every(seconds(0.5));
 }
@@ -83,6 +91,10 @@ void StatePublisher::move_on() {
     counted_[i].lateness.move_on(runner.times().lateness);
     counted_[i].duration.move_on(runner.times().duration);
     counted_[i].processor.move_on(runner.times().processor);
+    counted_[i].reactions.resize(runner.reactions().size());
+    for (std::size_t k = 0; k < runner.reactions().size(); ++k) {
+      counted_[i].reactions[k].move_on(runner.reactions()[k]);
+    }
     if (runner.executor_times()) executors_[runner.executor_times()].name = runner.executor_name();
   }
   for (auto& [times, executor] : executors_) {
@@ -109,7 +121,8 @@ StatusReporter::Status StatePublisher::status_of(const ComponentRunner& runner, 
   constexpr int kLate = 2;  // times: once may be while everything starts
   const auto kept = runner.activations() - std::exchange(counted.activations, runner.activations());
   const auto missed = runner.overruns() - std::exchange(counted.overruns, runner.overruns());
-  counted.late = missed > kept ? counted.late + 1 : 0;
+  // One that has told its scenario is not activated any more.
+  counted.late = missed > kept && !runner.finished() ? counted.late + 1 : 0;
   if (const Duration stalled = runner.stalled(); stalled > Duration{0}) {
     return {StatusReporter::State::stalled,
             fmt::format("its step has not returned for {:.1f} s", to_seconds(stalled))};
@@ -127,29 +140,40 @@ StatusReporter::Status StatePublisher::status_of(const ComponentRunner& runner, 
   return status;
 }
 
-void StatePublisher::publish_state(const ComponentRunner& runner, const Counted& counted,
-                                   const StatusReporter::Status& status, Time now) {
-  auto message = state_.loan();
-  set_stamp(message->header_().stamp_(), now);
-  message->header_().frame_id_().clear();
-  message->component_(runner.name());
-  message->plugin_(runner.plugin_id());
-  message->state_(static_cast<std::uint8_t>(status.state));
-  message->reason_(status.reason);
-  message->activations_(runner.activations());
-  message->overruns_(runner.overruns());
-  message->dropped_(runner.dropped());
-  set_times(message->lateness_(), counted.lateness.figures);
-  set_times(message->step_(), counted.duration.figures);
-  set_times(message->processor_(), counted.processor.figures);
+void StatePublisher::write_state(const ComponentRunner& runner, const Counted& counted,
+                                 const StatusReporter::Status& status,
+                                 msg::ComponentState& state) const {
+  state.component_(runner.name());
+  state.plugin_(runner.plugin_id());
+  state.state_(static_cast<std::uint8_t>(status.state));
+  state.reason_(status.reason);
+  state.activations_(runner.activations());
+  state.overruns_(runner.overruns());
+  state.dropped_(runner.dropped());
+  set_times(state.lateness_(), counted.lateness.figures);
+  set_times(state.step_(), counted.duration.figures);
+  set_times(state.processor_(), counted.processor.figures);
   const auto executor = executors_.find(runner.executor_times());
   const bool threaded = executor != executors_.end();
-  message->executor_(threaded ? *executor->second.name : "");
-  set_times(message->executor_lateness_(),
+  state.executor_(threaded ? *executor->second.name : "");
+  set_times(state.executor_lateness_(),
             threaded ? executor->second.lateness.figures : TimingFigures{});
-  set_times(message->executor_cycle_(),
+  set_times(state.executor_cycle_(),
             threaded ? executor->second.duration.figures : TimingFigures{});
-  message.publish();
+  set_reactions(counted, state.reactions_());
+}
+
+void StatePublisher::set_reactions(const Counted& counted,
+                                   std::vector<msg::ReactionTiming>& reactions) const {
+  reactions.clear();
+  for (std::size_t i = 0; i < counted.reactions.size(); ++i) {
+    const TimingFigures& figures = counted.reactions[i].figures;
+    if (figures.count == 0) continue;
+    reactions.emplace_back();
+    reactions.back().source_(measuring_[i]);
+    reactions.back().count_(figures.count);
+    set_times(reactions.back().age_(), figures);
+  }
 }
 
 msg::DiagnosticStatus StatePublisher::diagnostic_of(const ComponentRunner& runner,
@@ -181,21 +205,35 @@ msg::DiagnosticStatus StatePublisher::diagnostic_of(const CountedExecutor& execu
   return diagnostic;
 }
 
+void StatePublisher::publish_description(Time now) {
+  auto description = describe_();
+  describe_ = nullptr;
+  set_stamp(description.header_().stamp_(), now);
+  description_.publish(description);
+}
+
 void StatePublisher::step(Time now) {
+  if (describe_) publish_description(now);
   auto array = diagnostics_.loan();
   set_stamp(array->header_().stamp_(), now);
   array->header_().frame_id_().clear();
   array->status_().clear();
+  auto states = states_.loan();
+  set_stamp(states->header_().stamp_(), now);
+  states->header_().frame_id_().clear();
+  states->process_(process_);
+  states->components_().resize(runners_.size());
   move_on();
   for (std::size_t i = 0; i < runners_.size(); ++i) {
     const ComponentRunner& runner = *runners_[i];
     const StatusReporter::Status status = status_of(runner, counted_[i]);
-    publish_state(runner, counted_[i], status, now);
+    write_state(runner, counted_[i], status, states->components_()[i]);
     array->status_().push_back(diagnostic_of(runner, counted_[i], status));
   }
   for (const auto& [times, executor] : executors_) {
     array->status_().push_back(diagnostic_of(executor));
   }
+  states.publish();
   array.publish();
 }
 

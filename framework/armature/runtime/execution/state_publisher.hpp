@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -17,14 +18,20 @@
 namespace armature ARMATURE_EXPORT {
 
 /// The runtime's own component in every process: tells twice a second how each component is, as
-/// armature_msgs/ComponentState and, for ROS tools, on /diagnostics, with the times of its steps
-/// and of its executor since the last time. One that has missed more periods than it kept for a
-/// second is degraded, and the operator is told. It runs on an executor of its own: nobody else's
-/// step can silence it.
+/// armature_msgs/ComponentStates and, for ROS tools, on /diagnostics, with the times of its steps
+/// and of its executor since the last time; and once what the process consists of. One that has
+/// missed more periods than it kept for a second is degraded, and the operator is told. It runs on
+/// an executor of its own: nobody else's step can silence it.
 class StatePublisher final : public Component {
  public:
-  /// `runners` outlives it and holds the components to tell about.
-  StatePublisher(Setup& setup, const std::vector<std::unique_ptr<ComponentRunner>>& runners);
+  /// Makes the description of this process, in the first step.
+  using Describe = std::function<msg::DeploymentDescription()>;
+
+  /// `runners` outlives it and holds the components of `process`; `measuring` are the names of
+  /// those whose measurements they answer to (ComponentRunner::reactions).
+  StatePublisher(Setup& setup, std::string process,
+                 const std::vector<std::unique_ptr<ComponentRunner>>& runners,
+                 std::vector<std::string> measuring, Describe describe);
 
   static const PluginManifest& manifest();
   void step(Time now) override;
@@ -41,6 +48,7 @@ class StatePublisher final : public Component {
     std::uint64_t activations = 0, overruns = 0, ahead = 0;
     int late = 0;
     Window lateness, duration, processor;
+    std::vector<Window> reactions;  // to each of measuring_
   };
   struct CountedExecutor {
     const std::string* name;
@@ -51,16 +59,22 @@ class StatePublisher final : public Component {
   StatusReporter::Status status_of(const ComponentRunner& runner, Counted& counted);
   /// The same, without its periods: an input that is stamped too far ahead is a reason.
   StatusReporter::Status status_with_stamps(const ComponentRunner& runner, Counted& counted);
-  void publish_state(const ComponentRunner& runner, const Counted& counted,
-                     const StatusReporter::Status& status, Time now);
+  void write_state(const ComponentRunner& runner, const Counted& counted,
+                   const StatusReporter::Status& status, msg::ComponentState& state) const;
+  void set_reactions(const Counted& counted, std::vector<msg::ReactionTiming>& reactions) const;
+  void publish_description(Time now);
   static msg::DiagnosticStatus diagnostic_of(const ComponentRunner& runner, const Counted& counted,
                                              const StatusReporter::Status& status);
   static msg::DiagnosticStatus diagnostic_of(const CountedExecutor& executor);
 
+  std::string process_;
   const std::vector<std::unique_ptr<ComponentRunner>>& runners_;
+  std::vector<std::string> measuring_;
+  Describe describe_;             // until it has described
   std::vector<Counted> counted_;  // of runners_
   std::map<const CycleTimes*, CountedExecutor> executors_;
-  Output<msg::ComponentState> state_;
+  Output<msg::ComponentStates> states_;
+  Output<msg::DeploymentDescription> description_;
   Output<msg::DiagnosticArray> diagnostics_;
 };
 

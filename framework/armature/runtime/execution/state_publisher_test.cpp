@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "armature/messages/sensor_msgs.hpp"
 #include "armature/messages/stamp.hpp"
 #include "armature/runtime/testing/fake_setup.hpp"
 
@@ -23,6 +24,19 @@ class Collector final : public Subscriber {
   std::vector<Message> messages;
 };
 
+/// Keeps what is told of components, one after the other.
+class StateCollector final : public Subscriber {
+ public:
+  void deliver(const SampleRef& sample) override {
+    const auto& told = *static_cast<const msg::ComponentStates*>(sample.message());
+    EXPECT_EQ(told.process_(), "main");
+    stamp = stamp_of(told.header_().stamp_());
+    messages.insert(messages.end(), told.components_().begin(), told.components_().end());
+  }
+  Time stamp;
+  std::vector<msg::ComponentState> messages;
+};
+
 /// Three components: one is well, one misses something and has lost samples and periods, one threw.
 class StatePublisherTest : public testing::Test {
  protected:
@@ -37,31 +51,67 @@ class StatePublisherTest : public testing::Test {
     runners_[1]->count_overruns(7);
     for (int i = 0; i < 5; ++i) runners_[0]->activate({});
     for (int i = 0; i < 5; ++i) runners_[2]->activate({});
-    setup_.topic("state").connect(states_);
+    setup_.topic("states").connect(states_);
     setup_.topic("diagnostics").connect(diagnostics_);
+    setup_.topic("description").connect(descriptions_);
     publisher_.step(Time{} + seconds(1.5));
   }
 
-  SamplePool pool_{message_type<msg::ComponentState>(), 4};
+  SamplePool pool_{message_type<msg::Image>(), 4};
   std::vector<std::unique_ptr<ComponentRunner>> runners_;
   std::vector<std::string> lines_;
-  ComponentRunner own_{
-      "runtime", "runtime/state_publisher", 3,
-      [this](std::string_view, std::string_view line) { lines_.emplace_back(line); }};
+  ComponentRunner own_{"runtime", "runtime/state_publisher", 3,
+                       [this](std::string_view, std::string_view line, StatusReporter::State) {
+                         lines_.emplace_back(line);
+                       }};
   FakeSetup setup_{own_};
-  StatePublisher publisher_{setup_, runners_};
-  Collector<msg::ComponentState> states_;
+  StatePublisher publisher_{setup_, "main", runners_, {"camera"}, [] {
+                              msg::DeploymentDescription description;
+                              description.deployment_("lamp");
+                              return description;
+                            }};
+  StateCollector states_;
   Collector<msg::DiagnosticArray> diagnostics_;
+  Collector<msg::DeploymentDescription> descriptions_;
 };
+
+TEST_F(StatePublisherTest, TellsOnceWhatTheProcessConsistsOf) {
+  publisher_.step(Time{} + seconds(2));
+  ASSERT_EQ(descriptions_.messages.size(), 1U);
+  EXPECT_EQ(descriptions_.messages[0].deployment_(), "lamp");
+  EXPECT_EQ(stamp_of(descriptions_.messages[0].header_().stamp_()), Time{} + seconds(1.5));
+}
+
+TEST_F(StatePublisherTest, TellsHowOldAMeasurementWasWhenItWasAnswered) {
+  EXPECT_TRUE(states_.messages[0].reactions_().empty());
+  runners_[0]->expect_measurements(1);
+  InputPort& image = runners_[0]->inbox().add({.name = "image"}, pool_.type());
+  image.set_source(0, true);
+  for (const double age_s : {0.004, 0.016}) {
+    SampleRef sample = pool_.loan();
+    auto& message = *static_cast<msg::Image*>(sample.mutable_message());
+    set_stamp(message.header_().stamp_(), Time{} + seconds(1.6));
+    image.deliver(sample);
+    runners_[0]->activate(Time{} + seconds(1.6 + age_s));
+  }
+  runners_[0]->activate(Time{} + seconds(1.9));  // with nothing new
+  publisher_.step(Time{} + seconds(2));
+  const auto& reactions = states_.messages[3].reactions_();
+  ASSERT_EQ(reactions.size(), 1U);
+  EXPECT_EQ(reactions[0].source_(), "camera");
+  EXPECT_EQ(reactions[0].count_(), 2U);
+  EXPECT_NEAR(reactions[0].age_().mean_(), 0.010, 1e-9);
+  EXPECT_NEAR(reactions[0].age_().max_(), 0.016, 1e-9);
+}
 
 TEST_F(StatePublisherTest, TellsOfEveryComponentWhetherItIsWellAndWhyNot) {
   ASSERT_EQ(states_.messages.size(), 3U);
   const auto told = [&](std::size_t i) {
     const msg::ComponentState& state = states_.messages[i];
-    EXPECT_EQ(stamp_of(state.header_().stamp_()), Time{} + seconds(1.5));
     EXPECT_EQ(state.plugin_(), "test/lambda");
     return std::tuple{state.component_(), static_cast<int>(state.state_()), state.reason_()};
   };
+  EXPECT_EQ(states_.stamp, Time{} + seconds(1.5));
   EXPECT_EQ(told(0), (std::tuple{"arm", 0, ""}));
   EXPECT_EQ(told(1), (std::tuple{"camera", 1, "no light"}));
   EXPECT_EQ(told(2), (std::tuple{"motion", 2, "step failed: no way"}));
@@ -93,13 +143,13 @@ TEST_F(StatePublisherTest, TellsRosToolsTheSameOnDiagnostics) {
     for (const auto& value : diagnostic.values_()) {
       values.push_back(value.key_() + "=" + value.value_());
     }
-    ASSERT_EQ(values.size(), 15U);
+    ASSERT_EQ(values.size(), 18U);
     const std::vector<std::string> counts{values.begin(), values.begin() + 3};
     EXPECT_EQ(counts,
               (std::vector<std::string>{"activations=" + std::to_string(state.activations_()),
                                         "overruns=" + std::to_string(state.overruns_()),
                                         "dropped=" + std::to_string(state.dropped_())}));
-    EXPECT_EQ(values[10], fmt::format("step_max_us={:.3f}", 1e6 * state.step_().max_()));
+    EXPECT_EQ(values[12], fmt::format("step_max_us={:.3f}", 1e6 * state.step_().max_()));
   }
 }
 
@@ -141,8 +191,8 @@ TEST_F(StatePublisherTest, TellsTheSameOfEveryExecutorOnce) {
   const msg::DiagnosticArray& array = diagnostics_.messages[1];
   ASSERT_EQ(array.status_().size(), 4U);
   EXPECT_EQ(array.status_()[3].name_(), "executor control");
-  EXPECT_EQ(array.status_()[3].values_()[5].key_(), "cycle_mean_us");
-  EXPECT_EQ(array.status_()[3].values_()[5].value_(), "200.000");
+  EXPECT_EQ(array.status_()[3].values_()[6].key_(), "cycle_mean_us");
+  EXPECT_EQ(array.status_()[3].values_()[6].value_(), "200.000");
 }
 
 TEST_F(StatePublisherTest, AStepThatHangsIsStalledForAsLongAsItDoes) {
@@ -181,11 +231,35 @@ TEST_F(StatePublisherTest, AComponentThatMissesMostOfItsPeriodsForASecondIsDegra
   EXPECT_EQ(arm_after(200, 300), (Told{0, ""})) << "a busy machine";
 }
 
+/// Its scenario is told at once.
+class Told final : public Component {
+ public:
+  using Component::Component;
+  void step(Time) override {}
+  bool finished() const override { return true; }
+};
+
+TEST_F(StatePublisherTest, AComponentThatHasToldItsScenarioMissesNoPeriods) {
+  runners_.push_back(
+      std::make_unique<ComponentRunner>("report", "test/told", 3, StatusReporter::Sink{}));
+  ComponentRunner& report = *runners_.back();
+  FakeSetup setup{report};
+  report.install(nullptr, std::make_unique<Told>(setup));
+  report.activate({});
+  for (int i = 0; i < 3; ++i) {
+    report.count_overruns(50);
+    publisher_.step({});
+  }
+  EXPECT_EQ(states_.messages.back().component_(), "report");
+  EXPECT_EQ(states_.messages.back().reason_(), "");
+  runners_.pop_back();
+}
+
 TEST_F(StatePublisherTest, AnInputThatIsStampedAheadOfNowIsAReasonWhileItComes) {
   const auto of_arm = [&] { return states_.messages[states_.messages.size() - 3]; };
   InputPort& port = runners_[0]->inbox().add({.name = "measured_js"}, pool_.type());
   SampleRef sample = pool_.loan();
-  set_stamp(static_cast<msg::ComponentState*>(sample.mutable_message())->header_().stamp_(),
+  set_stamp(static_cast<msg::Image*>(sample.mutable_message())->header_().stamp_(),
             Time{} + seconds(3600));
   port.deliver(sample);
   runners_[0]->activate({});
@@ -202,9 +276,10 @@ TEST_F(StatePublisherTest, AnInputThatIsStampedAheadOfNowIsAReasonWhileItComes) 
 TEST_F(StatePublisherTest, TellsTwiceASecondOnTheTopicsThatRosToolsKnow) {
   EXPECT_EQ(own_.period(), seconds(0.5));
   const auto& outputs = StatePublisher::manifest().outputs;
-  ASSERT_EQ(outputs.size(), 2U);
-  EXPECT_EQ(outputs[0].topic, "component_state");  // of the deployment
-  EXPECT_EQ(outputs[1].topic, "/diagnostics");     // of everybody
+  ASSERT_EQ(outputs.size(), 3U);
+  EXPECT_EQ(outputs[0].topic, "component_states");  // of the deployment
+  EXPECT_EQ(outputs[1].topic, "description");
+  EXPECT_EQ(outputs[2].topic, "/diagnostics");  // of everybody
 }
 
 }  // namespace

@@ -10,8 +10,7 @@
 namespace armature {
 
 void ThreadedScheduler::assign(const ExecutorSpec& executor,
-                               const std::vector<ComponentRunner*>& runners,
-                               const std::function<Duration(const ComponentRunner&)>&) {
+                               const std::vector<ComponentRunner*>& runners) {
   Executor& thread = executors_.emplace_back(executor, *clock_);
   for (ComponentRunner* runner : runners) thread.assign(*runner);
 }

@@ -17,8 +17,7 @@ class ThreadedScheduler final : public Scheduler {
   ThreadedScheduler(const Clock& clock, std::function<void(const std::string&)> note)
       : clock_{&clock}, note_{std::move(note)} {}
 
-  void assign(const ExecutorSpec& executor, const std::vector<ComponentRunner*>& runners,
-              const std::function<Duration(const ComponentRunner&)>& latency) override;
+  void assign(const ExecutorSpec& executor, const std::vector<ComponentRunner*>& runners) override;
   void run(const std::function<bool()>& done) override;
   void begin_stop() override;
   std::vector<const ComponentRunner*> stop(Duration timeout) override;

@@ -86,6 +86,7 @@ TimingFigures TimingHistogram::Counts::figures_since(const Counts& earlier) cons
       .last_s = 1e-9 * static_cast<double>(last_ns),
       .mean_s = 1e-9 * static_cast<double>(sum_ns - earlier.sum_ns) / static_cast<double>(count),
       .max_s = last_used + 1 == kBuckets ? max_s : std::min(max_s, bucket_end_s)};
+  figures.p50_s = quantile_s(since.buckets, count, 0.5, figures.max_s);
   figures.p99_s = quantile_s(since.buckets, count, 0.99, figures.max_s);
   figures.p999_s = quantile_s(since.buckets, count, 0.999, figures.max_s);
   return figures;

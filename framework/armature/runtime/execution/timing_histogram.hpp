@@ -14,7 +14,7 @@ namespace armature ARMATURE_EXPORT {
 /// interpolated in their bucket, which is at most 6 % wide.
 struct TimingFigures {
   std::uint64_t count = 0;
-  double last_s = 0, mean_s = 0, p99_s = 0, p999_s = 0, max_s = 0;
+  double last_s = 0, mean_s = 0, p50_s = 0, p99_s = 0, p999_s = 0, max_s = 0;
 };
 
 /// Counts durations in buckets, 16 to an octave, from 1 ns to more than two minutes: what a control

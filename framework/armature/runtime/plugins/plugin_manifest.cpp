@@ -156,12 +156,13 @@ std::vector<PortSpec> read_ports(const Node* table, const PluginManifest& manife
     port.doc = map.text("doc", "");
     port.units = read_units_of(map, manifest.units);
     const auto qos = find_qos_profile(
-        map.choice("qos", {"sensor", "state", "command", "reply", "latched"}, "state"));
+        map.choice("qos", {"sensor", "state", "command", "reply", "latched", "log"}, "state"));
     port.qos = qos.value_or(QosProfile::state);
     if (inputs) {
       read_input_rules(map, manifest.params, port, problems);
     } else {
       port.shared = map.flag("shared", false);
+      port.measured = map.flag("measured", false);
     }
     map.finish();
     ports.push_back(std::move(port));

@@ -58,7 +58,8 @@ struct PortSpec {
   std::optional<LeaseSpec> lease;   // with max_age there is one always
 
   // Outputs only.
-  bool shared = false;  // other components may write the topic too, as ROS does with /tf
+  bool shared = false;    // other components may write the topic too, as ROS does with /tf
+  bool measured = false;  // a measurement of the time in its stamp, that others react to
 };
 
 /// A place in a component where a plugin of a kind sits.

@@ -13,7 +13,9 @@ ComponentHarness::ComponentHarness(PluginRegistry& plugins, const Options& optio
   const auto library = plugins.load(*config_.manifest, Component::kKind);
   auto runner = std::make_unique<ComponentRunner>(
       config_.name, config_.plugin_id, 0,
-      [this](std::string_view, std::string_view line) { lines_.emplace_back(line); });
+      [this](std::string_view, std::string_view line, StatusReporter::State) {
+        lines_.emplace_back(line);
+      });
   runner->on_triggered([this] { triggered_ = true; });
   ComponentSetup setup{config_,
                        deployment_,

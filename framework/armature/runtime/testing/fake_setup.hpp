@@ -46,7 +46,7 @@ class FakeSetup final : public Setup, public Delivery {
   }
   OutputPort& claim_output(std::string_view port, const MessageType& type) override {
     return runner_.outputs().emplace_back(PortSpec{.name = std::string{port}},
-                                          make_topic(port, type), *this);
+                                          make_topic(port, type), *this, runner_.inbox());
   }
   SlotPlugin slot_plugin(std::string_view, std::string_view) override {
     throw std::logic_error("no slots");

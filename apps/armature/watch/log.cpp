@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "watch/log.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <ctime>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+#include "armature/messages/rcl_interfaces.hpp"
+#include "armature/messages/stamp.hpp"
+#include "colour.hpp"
+#include "exit_code.hpp"
+
+namespace armature {
+namespace {
+
+struct Level {
+  std::string_view name;
+  int least;
+};
+constexpr std::array<Level, 5> kLevels{
+    {{"debug", 10}, {"info", 20}, {"warning", 30}, {"error", 40}, {"fatal", 50}}};
+
+std::string_view name_of(int level) {
+  const auto above =
+      std::ranges::find_if(kLevels, [&](const Level& one) { return one.least > level; });
+  return above == kLevels.begin() ? kLevels.front().name : std::prev(above)->name;
+}
+
+int level_named(std::string_view name) {
+  return std::ranges::find(kLevels, name, &Level::name)->least;
+}
+
+/// Local time of day; of a simulated clock, which starts at 0, its seconds.
+std::string time_text(Time time) {
+  constexpr std::int64_t kSecond = 1'000'000'000, kYear = 366 * 86400 * kSecond;
+  if (time.ns < kYear) return fmt::format("{:12.3f}", 1e-9 * static_cast<double>(time.ns));
+  const std::time_t whole = time.ns / kSecond;
+  std::tm local{};
+  localtime_r(&whole, &local);
+  return fmt::format("{:%H:%M:%S}.{:03}", local, time.ns % kSecond / 1'000'000);
+}
+
+void print(const msg::Log& line, bool json) {
+  const Time at = stamp_of(line.stamp_());
+  const std::string_view level = name_of(line.level_());
+  if (json) {
+    tell(nlohmann::ordered_json{
+        {"stamp_ns", at.ns}, {"level", level}, {"name", line.name_()}, {"text", line.msg_()}}
+             .dump());
+    return;
+  }
+  const std::string text =
+      fmt::format("{} {:<7} {}: {}", time_text(at), level, line.name_(), line.msg_());
+  if (line.level_() < level_named("warning")) return tell(text);
+  tell(coloured(text, line.level_() < level_named("error") ? Tone::doubtful : Tone::bad, stdout));
+}
+
+/// The lines that are wanted. What was said before comes from several processes, each in its own
+/// order: they are kept until all have come, and told by their stamps.
+class Lines {
+ public:
+  explicit Lines(const LogOptions& options) : options_{options} {}
+
+  void add(const msg::Log& line) {
+    const bool wanted = line.level_() >= level_named(options_.level) &&
+                        (options_.component.empty() || line.name_() == options_.component ||
+                         line.name_().ends_with("." + options_.component));
+    if (!wanted) return;
+    const std::scoped_lock lock{mutex_};
+    if (keeps_) {
+      kept_.push_back(line);
+    } else {
+      print(line, options_.json);
+    }
+  }
+  void tell_kept() {
+    const std::scoped_lock lock{mutex_};
+    keeps_ = false;
+    std::ranges::stable_sort(kept_, {},
+                             [](const msg::Log& line) { return stamp_of(line.stamp_()); });
+    for (const msg::Log& line : kept_) print(line, options_.json);
+    kept_.clear();
+  }
+
+ private:
+  const LogOptions& options_;
+  std::mutex mutex_;
+  bool keeps_ = true;
+  std::vector<msg::Log> kept_;
+};
+
+}  // namespace
+
+int print_log(const LogOptions& options) {
+  leave_in_order();
+  const auto start = std::chrono::steady_clock::now();
+  Lines lines{options};
+  Outsider outsider{options};  // goes before what its callback uses
+  const int watching = outsider.watch("/rosout", [&](const ObservedSample& sample) {
+    if (const auto line = decoded<msg::Log>(sample)) lines.add(*line);
+  });
+  if (watching != kOk || left()) return watching;
+  std::this_thread::sleep_for(kDiscovery);
+  lines.tell_kept();
+  const auto is_over = [&] {
+    const Duration waited = std::chrono::steady_clock::now() - start;
+    return options.timeout_s > 0 && waited > seconds(options.timeout_s);
+  };
+  while (options.follow && !left() && !is_over()) {
+    std::this_thread::sleep_for(std::chrono::milliseconds{50});
+  }
+  return kOk;
+}
+
+}  // namespace armature

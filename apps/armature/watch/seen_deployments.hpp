@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "armature/messages/armature_msgs.hpp"
+#include "watch/outsider.hpp"
+
+namespace armature {
+
+/// How a component last told that it is, and how often it ran between that and the time before.
+struct SeenComponent {
+  msg::ComponentState state;
+  Time stamp;            // by the deployment's clock
+  Time told;             // by the clock of the machine that it runs on
+  Time heard;            // by the monotonic clock of this one
+  double rate_hz = 0;    // activations in a second of the deployment's clock
+  double processor = 0;  // share of one processor
+};
+
+/// What the processes of a running deployment tell of themselves.
+struct SeenDeployment {
+  std::map<std::string, msg::DeploymentDescription> processes;              // by name
+  std::map<std::pair<std::string, std::string>, SeenComponent> components;  // by process and name
+
+  /// Whether all its processes have told what they consist of.
+  bool is_whole() const;
+};
+
+/// What a component told now, with the rates since `before`.
+SeenComponent seen_after(const std::optional<SeenComponent>& before, SeenComponent now);
+/// Of the monotonic clock.
+Time monotonic_now();
+
+/// All deployments of a domain that tell of themselves, or the one of a name.
+class SeenDeployments {
+ public:
+  /// `name`: empty for all of them.
+  SeenDeployments(const WatchOptions& options, std::string name);
+
+  /// Watches what came up since the last look, and forgets what has left.
+  void look();
+  std::map<std::string, SeenDeployment> all() const;
+  Outsider& outsider() { return outsider_; }
+
+ private:
+  void add(const msg::DeploymentDescription& description);
+  void add(const std::string& deployment, const msg::ComponentStates& states, Time told);
+
+  std::string name_;
+  mutable std::mutex mutex_;
+  std::map<std::string, SeenDeployment> seen_;
+  std::set<std::string> watched_;  // topics
+  Outsider outsider_;              // goes before what its callbacks use
+};
+
+}  // namespace armature

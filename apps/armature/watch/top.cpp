@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "watch/top.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <thread>
+
+#include "exit_code.hpp"
+#include "watch/seen_deployments.hpp"
+#include "watch/top_screen.hpp"
+#include "watch/top_table.hpp"
+
+namespace armature {
+namespace {
+
+constexpr const char* kKeys =
+    "F1 help  F4 filter  P cpu  T step  L late  D dropped  S state  N name  G graph  I invert  "
+    "Z pause  q quit";
+
+std::vector<TopLine> help() {
+  std::vector<TopLine> lines;
+  for (const char* text :
+       {"HZ           activations in a second of the deployment's clock",
+        "LATE99       99 of 100 steps began at most this long after they were due",
+        "STEP50/99    half of the steps, and 99 of 100, took at most this long",
+        "CPU%         share of one processor",
+        "MISSED       periods that were passed over since the start",
+        "DROPPED      samples that a full input queue lost since the start",
+        "ANSWERS TO   the oldest measurement that a step answered to, and how old it was then", "",
+        "F4 or \\ or /  show only what has this in its name, process or plugin; Enter ends it",
+        "P T L D S N  sort by processor, step, lateness, drops, state, name; G: by the graph",
+        "I            the other way round", "Z or space   stand still, and go on",
+        "arrows, PgUp, PgDn, Home, End   scroll",
+        "q or F10     leave; nothing that runs is changed"}) {
+    lines.push_back({std::string{"  "} + text, std::nullopt});
+  }
+  return lines;
+}
+
+/// The live table: what is shown, and what the keys do to it.
+class LiveTable {
+ public:
+  explicit LiveTable(SeenDeployments& seen) : seen_{seen} {}
+
+  int run(double interval_s) {
+    Time next;
+    while (!left() && !quits_) {
+      const bool due = monotonic_now() >= next;
+      if (due) {
+        seen_.look();
+        if (!stands_) shown_ = seen_.all();
+        next = monotonic_now() + seconds(interval_s);
+      }
+      const TopScreen::Pressed pressed = screen_.pressed();
+      if (pressed.key != TopScreen::Key::none) take(pressed);
+      if (due || pressed.key != TopScreen::Key::none) draw();
+    }
+    return kOk;
+  }
+
+ private:
+  using Key = TopScreen::Key;
+
+  void draw() {
+    lines_ = helps_ ? help() : top_table(shown_, view_, monotonic_now());
+    if (lines_.empty()) lines_.push_back({"no deployment tells how it is; waiting for one", {}});
+    const std::size_t last = lines_.size() > screen_.room() ? lines_.size() - screen_.room() : 0;
+    first_ = std::min(first_, last);
+    const std::string filter = "filter: " + view_.filter;
+    screen_.show(top_title(), lines_, first_,
+                 types_ ? filter + "_" : (view_.filter.empty() ? kKeys : filter + "   " + kKeys));
+  }
+
+  void take(const TopScreen::Pressed& pressed) {
+    if (types_) return type(pressed);
+    const std::size_t page = screen_.room();
+    switch (pressed.key) {
+      case Key::quit:
+        quits_ = true;
+        return;
+      case Key::help:
+        helps_ = !helps_;
+        return;
+      case Key::up:
+        first_ -= std::min<std::size_t>(first_, 1);
+        return;
+      case Key::down:
+        ++first_;
+        return;
+      case Key::page_up:
+        first_ -= std::min(first_, page);
+        return;
+      case Key::page_down:
+        first_ += page;
+        return;
+      case Key::home:
+        first_ = 0;
+        return;
+      case Key::end:
+        first_ = lines_.size();
+        return;
+      case Key::other:
+        return take_letter(pressed.letter);
+      case Key::none:
+      case Key::erase:
+      case Key::enter:
+        helps_ = false;
+    }
+  }
+
+  void take_letter(char letter) {
+    switch (letter) {
+      case 'P':
+        return sort(TopOrder::processor);
+      case 'T':
+        return sort(TopOrder::step);
+      case 'L':
+        return sort(TopOrder::lateness);
+      case 'D':
+        return sort(TopOrder::dropped);
+      case 'S':
+        return sort(TopOrder::state);
+      case 'N':
+        return sort(TopOrder::name);
+      case 'G':
+        return sort(TopOrder::graph);
+      case 'I':
+        view_.reversed = !view_.reversed;
+        return;
+      case 'Z':
+      case 'z':
+      case ' ':
+        stands_ = !stands_;
+        return;
+      case 'h':
+      case '?':
+        helps_ = !helps_;
+        return;
+      case '\\':
+      case '/':
+        view_.filter.clear();
+        types_ = true;
+        return;
+      default:
+        return;
+    }
+  }
+
+  void sort(TopOrder order) {
+    view_.order = order;
+    view_.reversed = false;
+  }
+
+  void type(const TopScreen::Pressed& pressed) {
+    if (pressed.key == Key::enter) {
+      types_ = false;
+    } else if (pressed.key == Key::erase) {
+      if (!view_.filter.empty()) view_.filter.pop_back();
+    } else if (pressed.letter != 0) {
+      view_.filter += pressed.letter;
+    }
+  }
+
+  SeenDeployments& seen_;
+  TopScreen screen_;
+  TopView view_;
+  std::map<std::string, SeenDeployment> shown_;
+  std::vector<TopLine> lines_;
+  std::size_t first_ = 0;  // line that is shown
+  bool quits_ = false, helps_ = false, stands_ = false, types_ = false;
+};
+
+/// Waits until a deployment has told how its components are, twice: rates need it.
+int meet(SeenDeployments& seen, const TopOptions& options) {
+  const Time start = monotonic_now();
+  for (bool told = false; !left();) {
+    seen.look();
+    for (const auto& [name, deployment] : seen.all()) {
+      const bool twice = std::ranges::any_of(
+          deployment.components, [](const auto& one) { return one.second.rate_hz > 0; });
+      if (twice && deployment.is_whole()) return kOk;
+    }
+    const Duration waited = monotonic_now() - start;
+    if (options.timeout_s > 0 && waited > seconds(options.timeout_s)) {
+      fmt::print(stderr, "armature: no deployment {}tells how it is in domain {} within {:g} s\n",
+                 options.deployment.empty() ? "" : "'" + options.deployment + "' ",
+                 options.network.domain, options.timeout_s);
+      return kTimedOut;
+    }
+    if (!told && options.timeout_s <= 0 && waited > 2 * kDiscovery) {
+      told = true;
+      fmt::print(stderr,
+                 "armature: no deployment tells how it is in domain {} yet, waiting for "
+                 "one\n",
+                 options.network.domain);
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds{50});
+  }
+  return kOk;
+}
+
+int print_tables(SeenDeployments& seen, const TopOptions& options) {
+  if (const int code = meet(seen, options); code != kOk) return code;
+  for (std::uint64_t i = 0; !left() && (options.count == 0 || i < options.count); ++i) {
+    const Time next = monotonic_now() + (i == 0 ? Duration{0} : seconds(options.interval_s));
+    while (!left() && monotonic_now() < next) {
+      std::this_thread::sleep_for(std::chrono::milliseconds{20});
+    }
+    seen.look();
+    if (left()) break;
+    if (options.json) {
+      tell(top_json(seen.all(), monotonic_now()).dump());
+      continue;
+    }
+    tell(top_title());
+    for (const auto& [text, tone] : top_table(seen.all(), {}, monotonic_now())) {
+      tell(tone ? coloured(text, *tone, stdout) : text);
+    }
+  }
+  return kOk;
+}
+
+}  // namespace
+
+int watch_components(const TopOptions& options) {
+  leave_in_order();
+  SeenDeployments seen{options, options.deployment};
+  const bool live = !options.json && options.count == 0 && isatty(STDOUT_FILENO) != 0 &&
+                    isatty(STDIN_FILENO) != 0;
+  if (!live) return print_tables(seen, options);
+  return LiveTable{seen}.run(options.interval_s);
+}
+
+}  // namespace armature

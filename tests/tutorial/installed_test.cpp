@@ -151,21 +151,23 @@ TEST_F(Installed, TheMessagesPageBuildsAndRuns) {
 TEST_F(Installed, TheExamplesOfMonitorsBuildAndSeeARunningDeployment) {
   for (const std::string example : {"monitor_cyclone", "monitor_fast_dds"}) {
     const std::string domain = std::to_string(unique_dds_domain());
-    const auto result = shell(
-        "set -e\ncp -r " ARMATURE_SOURCE_DIR "/apps/examples/" + example + " .\ncd " + example +
-        "\n(cmake -B build -DCMAKE_PREFIX_PATH=" + prefix_.string() +
-        " && cmake --build build) > build.log || { cat build.log; exit 1; }\n"
-        "armature run dental_lamp --keep-running --domain " +
-        domain +
-        " > run.log 2>&1 & run=$!\n"
-        "timeout -s INT 15 build/" +
-        example + " dental_lamp " + domain +
-        " | tee seen.log | "
-        "grep -q 'main/landmarks: ok, 99 of 100' || true\ncat seen.log\nkill -INT $run\nwait $run");
+    const auto result =
+        shell("set -e\ncp -r " ARMATURE_SOURCE_DIR "/apps/examples/" + example + " .\ncd " +
+              example + "\n(cmake -B build -DCMAKE_PREFIX_PATH=" + prefix_.string() +
+              " && cmake --build build) > build.log || { cat build.log; exit 1; }\n"
+              "armature run dental_lamp --keep-running --domain " +
+              domain +
+              " > run.log 2>&1 & run=$!\n"
+              "timeout -s INT 15 build/" +
+              example + " dental_lamp " + domain +
+              " | tee seen.log | "
+              "grep -q 'main/landmarks: ok, 99 of 100' || true\ncat seen.log\nkill -INT $run\nwait "
+              "$run || true");
     EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
-    for (const char* shown : {"dental_lamp: process main of Armature ", "  motion (motion)\n",
-                              "    -> /dental_lamp/arm/measured_js [sensor_msgs/JointState]\n",
-                              "main/arm: ok, 99 of 100"}) {
+    for (const char* shown :
+         {"dental_lamp: process main of Armature ", "  landmarks (landmarks/dlib68)\n",
+          "    -> /dental_lamp/arm/measured_js [sensor_msgs/JointState]\n",
+          "main/arm: ok, 99 of 100"}) {
       EXPECT_NE(result.out.find(shown), std::string::npos) << example << ": " << shown << "\n"
                                                            << result.out;
     }

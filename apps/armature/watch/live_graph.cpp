@@ -14,18 +14,9 @@
 namespace armature {
 namespace {
 
-/// The plugin that the file names. A solver that stands alone is in a slot of a host of its kind.
-std::string plugin_of(const msg::ComponentDescription& component) {
-  const std::string& own = component.plugins_().front().plugin_();
-  for (const msg::PluginDescription& plugin : component.plugins_()) {
-    if (!plugin.slot_().empty() && own == "host/" + plugin.slot_()) return plugin.plugin_();
-  }
-  return own;
-}
-
 /// What the runtime adds to every process is left out, as in the graph of a file.
 bool is_of_runtime(const msg::ComponentDescription& component) {
-  return plugin_of(component).starts_with("runtime/");
+  return component.plugin_().starts_with("runtime/");
 }
 
 DrawnGraph graph_of(const std::string& name, const SeenDeployment& deployment) {
@@ -33,7 +24,7 @@ DrawnGraph graph_of(const std::string& name, const SeenDeployment& deployment) {
   for (const std::string& process : deployment.processes.begin()->second.processes_()) {
     for (const auto& component : deployment.processes.at(process).components_()) {
       if (is_of_runtime(component)) continue;
-      graph.components.push_back({component.name_(), plugin_of(component), process});
+      graph.components.push_back({component.name_(), component.plugin_(), process});
       for (const msg::PortDescription& port : component.ports_()) {
         DrawnGraph::Topic& topic = graph.topics[port.topic_()];
         topic.type = port.type_();

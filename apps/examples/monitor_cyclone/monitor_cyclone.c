@@ -38,7 +38,7 @@ static void show_description(const description *told) {
          told->version_, told->fingerprint_);
   for (uint32_t i = 0; i < told->components_._length; ++i) {
     const armature_msgs_msg_dds__ComponentDescription_ *component = &told->components_._buffer[i];
-    printf("  %s (%s)\n", component->name_, component->plugins_._buffer[0].plugin_);
+    printf("  %s (%s)\n", component->name_, component->plugin_);
     for (uint32_t k = 0; k < component->ports_._length; ++k) {
       const armature_msgs_msg_dds__PortDescription_ *port = &component->ports_._buffer[k];
       printf("    %s %s [%s]\n", port->output_ ? "->" : "<-", port->topic_, port->type_);

@@ -87,8 +87,7 @@ void show_description(const msg::DeploymentDescription& told) {
   std::printf("%s: process %s of Armature %s, fingerprint %.12s\n", told.deployment_().c_str(),
               told.process_().c_str(), told.version_().c_str(), told.fingerprint_().c_str());
   for (const auto& component : told.components_()) {
-    std::printf("  %s (%s)\n", component.name_().c_str(),
-                component.plugins_().front().plugin_().c_str());
+    std::printf("  %s (%s)\n", component.name_().c_str(), component.plugin_().c_str());
     for (const auto& port : component.ports_()) {
       std::printf("    %s %s [%s]\n", port.output_() ? "->" : "<-", port.topic_().c_str(),
                   port.type_().c_str());

@@ -269,6 +269,7 @@ void Deployment::inject(const InjectedFault& fault) {
 void Deployment::assign_runners() {
   for (const auto& runner : runners_) {
     runner->set_latency(std::max(config_of(*runner).sim_latency, runner->latency()));
+    runner->tell_end(one_ended_);
   }
   for (const ExecutorSpec& spec : config_.executors) {
     std::vector<ComponentRunner*> assigned;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <deque>
 #include <functional>
 #include <map>
@@ -77,7 +78,6 @@ class Deployment {
   /// then it ends, sources first. Throws what `watch` throws.
   void run(RunWatch& watch);
 
-  bool any_finished() const;
   /// Whether a component had finished when the run began to stop.
   bool scenario_over() const { return scenario_over_; }
   /// True when the run ended because its time limit was over.
@@ -131,6 +131,12 @@ class Deployment {
   /// Returns why it is to stop.
   std::string run_until_stop(RunWatch& watch);
   std::optional<std::string> stop_cause(RunWatch& watch, Time start);
+  bool any_finished() const;
+  std::string component_fault() const;
+  std::string hang_fault() const;
+  /// Whether the watch is asked now: it asks the system, which costs more than most activations of
+  /// a lockstep run, and once in a millisecond will do there.
+  bool is_time_to_ask();
   void come_to_rest(RunWatch& watch);
   std::vector<std::string> find_moving() const;
   void end();
@@ -144,10 +150,12 @@ class Deployment {
   StatusReporter::Sink sink_;                             // of components
   std::map<std::string, std::unique_ptr<Topic>> topics_;  // by name, of shared ones also by writer
   std::unique_ptr<Scheduler> scheduler_;
+  std::atomic<bool> one_ended_{false};  // finished or failed, and nobody has looked who
   std::vector<std::unique_ptr<ComponentRunner>> runners_;  // in the order of the graph
   std::optional<Watchdog> watchdog_;
   bool scenario_over_ = false;  // a component has finished
   bool timed_out_ = false;
+  std::chrono::steady_clock::time_point asked_{};  // the watch, of a lockstep run
   std::atomic<bool> stopping_{false};
   mutable std::mutex silent_mutex_;
   std::vector<std::string> silent_;

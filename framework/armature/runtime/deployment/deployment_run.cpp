@@ -70,16 +70,30 @@ std::string Deployment::run_until_stop(RunWatch& watch) {
 }
 
 std::optional<std::string> Deployment::stop_cause(RunWatch& watch, Time start) {
-  if (std::string failed = fault(); !failed.empty()) return failed;
-  if (any_finished() && !std::exchange(scenario_over_, true) && options_.keeps_running) {
-    options_.on_note("the scenario is over; the run goes on until Ctrl-C");
+  // Asked at every event of a lockstep run: who failed or finished is looked for when one did.
+  if (one_ended_.load(std::memory_order_relaxed) && one_ended_.exchange(false)) {
+    if (std::string failed = component_fault(); !failed.empty()) return failed;
+    if (any_finished() && !std::exchange(scenario_over_, true) && options_.keeps_running) {
+      options_.on_note("the scenario is over; the run goes on until Ctrl-C");
+    }
   }
+  if (std::string hang = hang_fault(); !hang.empty()) return hang;
   if (scenario_over_ && !options_.keeps_running) return "the scenario is over";
-  if (auto cause = watch.stop_cause()) return cause;
+  if (is_time_to_ask()) {
+    if (auto cause = watch.stop_cause()) return cause;
+  }
   if (options_.keeps_running) return std::nullopt;
   timed_out_ = config_.time_limit_s > 0 && clock_->now() - start > seconds(config_.time_limit_s);
   if (timed_out_) return fmt::format("the time limit of {:g} s is over", config_.time_limit_s);
   return std::nullopt;
+}
+
+bool Deployment::is_time_to_ask() {
+  if (!config_.simulated) return true;
+  const auto now = std::chrono::steady_clock::now();
+  if (now - asked_ < std::chrono::milliseconds{1}) return false;
+  asked_ = now;
+  return true;
 }
 
 void Deployment::come_to_rest(RunWatch& watch) {
@@ -152,11 +166,20 @@ bool Deployment::any_finished() const {
                      [](const auto& runner) { return runner->finished(); });
 }
 
-std::string Deployment::fault() const {
+std::string Deployment::component_fault() const {
   for (const auto& runner : runners_) {
     if (runner->faulted() && stops_run(config_of(*runner))) return fault_text(*runner);
   }
+  return {};
+}
+
+std::string Deployment::hang_fault() const {
   return watchdog_ ? watchdog_->verdict() : std::string{};
+}
+
+std::string Deployment::fault() const {
+  std::string failed = component_fault();
+  return failed.empty() ? hang_fault() : failed;
 }
 
 std::vector<std::string> Deployment::isolated_faults() const {

@@ -79,6 +79,7 @@ msg::ComponentDescription description_of(const ComponentConfig& component, const
   const Node* entry = components ? components->find(component.component()) : nullptr;
   msg::ComponentDescription description;
   description.name_(component.name);
+  description.plugin_(component.plugin_id);
   description.executor_(component.executor);
   description.stops_run_(stops_run(component));
   description.plugins_().push_back(description_of(*component.manifest, "", entry));

@@ -54,7 +54,9 @@ void ComponentRunner::activate(Time now, Duration lateness) {
   answer_stop_request(now);
   if (finished()) return;
   step(now, lateness);
-  if (finished()) inbox_.close();
+  if (!finished()) return;
+  inbox_.close();
+  if (ended_) ended_->store(true, std::memory_order_release);
 }
 
 void ComponentRunner::step(Time now, Duration lateness) {
@@ -64,7 +66,9 @@ void ComponentRunner::step(Time now, Duration lateness) {
   activations_.fetch_add(1, std::memory_order_relaxed);
   times_.lateness.add(lateness);
   const Running running{*this, "step"};
-  const Duration processor = read_clock(CLOCK_THREAD_CPUTIME_ID);
+  // In lockstep there is one thread, which waits for nobody: the system need not be asked.
+  const bool is_shared = executor_times_ != nullptr;
+  const Duration processor = is_shared ? read_clock(CLOCK_THREAD_CPUTIME_ID) : Duration{0};
   try {
     if (injected_) injected_->strike_if_armed();
     component_->step(now);
@@ -73,8 +77,8 @@ void ComponentRunner::step(Time now, Duration lateness) {
   } catch (...) {
     fault("step", current_exception_text());
   }
-  times_.processor.add(read_clock(CLOCK_THREAD_CPUTIME_ID) - processor);
   const Duration duration = read_clock(CLOCK_MONOTONIC) - running.start();
+  times_.processor.add(is_shared ? read_clock(CLOCK_THREAD_CPUTIME_ID) - processor : duration);
   times_.duration.add(duration);
   count_reaction(now, duration);
 }
@@ -163,6 +167,7 @@ void ComponentRunner::fault(std::string_view when, const std::string& what) {
   reporter_->set(StatusReporter::State::fault, fmt::format("{} failed: {}", when, what));
   faulted_.store(true, std::memory_order_release);
   for (OutputPort& output : outputs_) output.close();
+  if (ended_) ended_->store(true, std::memory_order_release);
 }
 
 }  // namespace armature

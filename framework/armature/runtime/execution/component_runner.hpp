@@ -66,6 +66,8 @@ class ComponentRunner {
   /// A drill's fault, which outlives the component.
   void inject(const InjectedFault& fault) { injected_ = &fault; }
 
+  /// Set once it has finished or failed; any thread reads it, and it outlives the run.
+  void tell_end(std::atomic<bool>& ended) { ended_ = &ended; }
   /// Called when a trigger input gets a sample; any thread.
   void on_triggered(std::function<void()> callback) { triggered_ = std::move(callback); }
 
@@ -132,6 +134,7 @@ class ComponentRunner {
   std::string name_, plugin_id_;
   int place_;
   std::function<void()> triggered_;
+  std::atomic<bool>* ended_ = nullptr;
   Inbox inbox_;
   std::deque<OutputPort> outputs_;
   std::shared_ptr<StatusReporter> reporter_;

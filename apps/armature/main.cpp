@@ -62,6 +62,7 @@ int run_command_line(int argc, char** argv) {
   add_deployment_verbs(app, action);
   add_plugin_verbs(app, action);
   add_watch_verbs(app, action);
+  add_record_verbs(app, action);
   add_arm_verbs(app, action);
   add_bench_verbs(app, action);
   add_paper_verbs(app, action);

@@ -23,6 +23,14 @@ void add_network(CLI::App& verb, NetworkOptions& network) {
                 "over UDP only, as between containers");
 }
 
+void add_watch(CLI::App& verb, WatchOptions& options) {
+  verb.add_option("--domain", options.network.domain, "DDS domain")->check(CLI::Range(0, 232));
+  add_network(verb, options.network);
+  verb.add_option("--timeout", options.timeout_s, "give up after this many seconds")
+      ->check(not_positive);
+  verb.add_flag("--json", options.json, "as JSON");
+}
+
 void add_arm(CLI::App* verb, ArmChoice& arm) {
   verb->add_option("--robot", arm.robot, "robot file, or URDF file (*.urdf) with --tip");
   verb->add_option("--tip", arm.tip,

@@ -5,6 +5,7 @@
 
 #include "arm_choice.hpp"
 #include "armature/bus/network.hpp"
+#include "watch/outsider.hpp"
 
 namespace CLI {
 class App;
@@ -18,6 +19,8 @@ using Action = std::function<int()>;
 /// Each adds verbs to the command line; the one that is chosen sets `action`, which outlives it.
 void add_deployment_verbs(CLI::App& app, Action& action);
 void add_plugin_verbs(CLI::App& app, Action& action);
+/// Of recordings: record, info.
+void add_record_verbs(CLI::App& app, Action& action);
 /// Of running deployments: topic, top, log.
 void add_watch_verbs(CLI::App& app, Action& action);
 void add_arm_verbs(CLI::App& app, Action& action);
@@ -30,5 +33,7 @@ void add_machine_verbs(CLI::App& app, Action& action);
 /// deployment, beside its domain.
 void add_arm(CLI::App* verb, ArmChoice& arm);
 void add_network(CLI::App& verb, NetworkOptions& network);
+/// The domain too, --timeout and --json.
+void add_watch(CLI::App& verb, WatchOptions& options);
 
 }  // namespace armature

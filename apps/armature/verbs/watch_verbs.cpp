@@ -14,20 +14,12 @@ namespace {
 
 constexpr int kMaxSamples = std::numeric_limits<int>::max();
 
-void add_common(CLI::App& verb, WatchOptions& options) {
-  verb.add_option("--domain", options.network.domain, "DDS domain")->check(CLI::Range(0, 232));
-  add_network(verb, options.network);
-  verb.add_option("--timeout", options.timeout_s, "give up after this many seconds")
-      ->check(not_positive);
-  verb.add_flag("--json", options.json, "as JSON");
-}
-
 void add_topic(CLI::App& app, Action& action) {
   CLI::App* topic = app.add_subcommand("topic", "Watch a running deployment over DDS");
   topic->require_subcommand(1);
   auto options = std::make_shared<TopicOptions>();
   CLI::App* list = topic->add_subcommand("list", "Topics, types, and how many write and read them");
-  add_common(*list, *options);
+  add_watch(*list, *options);
   list->callback([=, &action] { action = [=] { return list_topics(*options); }; });
 
   const auto add_one = [&](const char* name, const char* what) {
@@ -46,20 +38,20 @@ void add_topic(CLI::App& app, Action& action) {
   };
   CLI::App* info =
       add_one("info", "Who writes and reads a topic, and with which quality of service");
-  add_common(*info, *options);
+  add_watch(*info, *options);
   info->callback([=, &action] { action = [=] { return describe_topic(*options); }; });
 
   CLI::App* echo = add_one("echo", "Print the samples of a topic");
   echo->add_flag("--full", options->full, "long byte arrays in full");
   add_samples(*echo, 1);
-  add_common(*echo, *options);
+  add_watch(*echo, *options);
   echo->callback([=, &action] { action = [=] { return echo_topic(*options); }; });
 
   const auto add_measure = [&](const char* name, const char* what, TopicMeasure measure,
                                int least) {
     CLI::App* verb = add_one(name, what);
     add_samples(*verb, least);
-    add_common(*verb, *options);
+    add_watch(*verb, *options);
     verb->callback([=, &action] { action = [=] { return measure_topic(measure, *options); }; });
   };
   add_measure("hz", "How often a topic is written", TopicMeasure::rate, 2);
@@ -79,7 +71,7 @@ void add_top(CLI::App& app, Action& action) {
   verb->add_option("--interval", options->interval_s, "seconds between two tables")
       ->capture_default_str()
       ->check(not_positive);
-  add_common(*verb, *options);
+  add_watch(*verb, *options);
   verb->callback([=, &action] { action = [=] { return watch_components(*options); }; });
 }
 
@@ -92,7 +84,7 @@ void add_log(CLI::App& app, Action& action) {
       ->check(CLI::IsMember({"debug", "info", "warning", "error"}))
       ->capture_default_str();
   verb->add_option("--component", options->component, "only what this one says");
-  add_common(*verb, *options);
+  add_watch(*verb, *options);
   verb->callback([=, &action] { action = [=] { return print_log(*options); }; });
 }
 

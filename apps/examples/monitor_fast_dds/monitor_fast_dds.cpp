@@ -22,32 +22,32 @@
 #include <thread>
 #include <vector>
 
-namespace dds = eprosima::fastdds::dds;
+namespace fast_dds = eprosima::fastdds::dds;
 namespace msg = armature::msg;
 
 std::atomic<bool> g_ended{false};
 
 /// A message type of Armature as Fast DDS wants it. Only for reading.
 template <class Message>
-class ReadType final : public dds::TopicDataType {
+class ReadType final : public fast_dds::TopicDataType {
  public:
   ReadType() {
-    setName(std::string{kType.dds_name}.c_str());
+    setName(std::string{type_.dds_name}.c_str());
     m_typeSize = 512;  // at first; it grows to what is sent
     auto_fill_type_information(false);
     auto_fill_type_object(false);
   }
   bool deserialize(eprosima::fastrtps::rtps::SerializedPayload_t* payload, void* message) override {
-    return kType.decode(std::as_bytes(std::span{payload->data, payload->length}), message);
+    return type_.decode(std::as_bytes(std::span{payload->data, payload->length}), message);
   }
-  void* createData() override { return kType.create(); }
-  void deleteData(void* message) override { kType.destroy(message); }
+  void* createData() override { return type_.create(); }
+  void deleteData(void* message) override { type_.destroy(message); }
   bool serialize(void*, eprosima::fastrtps::rtps::SerializedPayload_t*) override { return false; }
   std::function<std::uint32_t()> getSerializedSizeProvider(void*) override { return {}; }
   bool getKey(void*, eprosima::fastrtps::rtps::InstanceHandle_t*, bool) override { return false; }
 
  private:
-  const armature::MessageType& kType = armature::message_type<Message>();
+  const armature::MessageType& type_ = armature::message_type<Message>();
 };
 
 /// Reads "<deployment>/<name>". ROS and Armature put "rt/" before every topic's name. One who comes
@@ -55,32 +55,33 @@ class ReadType final : public dds::TopicDataType {
 template <class Message>
 class Reader {
  public:
-  Reader(dds::DomainParticipant& participant, const std::string& topic, bool latched) {
-    const dds::TypeSupport type{new ReadType<Message>};
+  Reader(fast_dds::DomainParticipant& participant, const std::string& topic, bool latched) {
+    const fast_dds::TypeSupport type{new ReadType<Message>};
     type.register_type(&participant);
-    dds::DataReaderQos qos;
-    qos.reliability().kind = dds::RELIABLE_RELIABILITY_QOS;
+    fast_dds::DataReaderQos qos;
+    qos.reliability().kind = fast_dds::RELIABLE_RELIABILITY_QOS;
     qos.durability().kind =
-        latched ? dds::TRANSIENT_LOCAL_DURABILITY_QOS : dds::VOLATILE_DURABILITY_QOS;
+        latched ? fast_dds::TRANSIENT_LOCAL_DURABILITY_QOS : fast_dds::VOLATILE_DURABILITY_QOS;
     qos.history().depth = 100;  // every process writes one
     qos.endpoint().history_memory_policy =
         eprosima::fastrtps::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
-    auto* subscriber = participant.create_subscriber(dds::SUBSCRIBER_QOS_DEFAULT);
+    auto* subscriber = participant.create_subscriber(fast_dds::SUBSCRIBER_QOS_DEFAULT);
     reader_ = subscriber->create_datareader(
-        participant.create_topic("rt/" + topic, type.get_type_name(), dds::TOPIC_QOS_DEFAULT), qos);
+        participant.create_topic("rt/" + topic, type.get_type_name(), fast_dds::TOPIC_QOS_DEFAULT),
+        qos);
   }
   /// Hands all samples that have come to `show`.
   template <class Show>
   void take(const Show& show) {
     Message message;
-    dds::SampleInfo info;
+    fast_dds::SampleInfo info;
     while (reader_->take_next_sample(&message, &info) == ReturnCode_t::RETCODE_OK) {
       if (info.valid_data) show(message);
     }
   }
 
  private:
-  dds::DataReader* reader_ = nullptr;
+  fast_dds::DataReader* reader_ = nullptr;
 };
 
 void show_description(const msg::DeploymentDescription& told) {
@@ -113,9 +114,10 @@ int main(int argc, char** argv) {
   }
   for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, [](int) { g_ended = true; });
   const std::string deployment = argv[1];
-  auto* factory = dds::DomainParticipantFactory::get_instance();
-  auto* participant = factory->create_participant(
-      argc > 2 ? static_cast<std::uint32_t>(std::atoi(argv[2])) : 0, dds::PARTICIPANT_QOS_DEFAULT);
+  auto* factory = fast_dds::DomainParticipantFactory::get_instance();
+  auto* participant =
+      factory->create_participant(argc > 2 ? static_cast<std::uint32_t>(std::atoi(argv[2])) : 0,
+                                  fast_dds::PARTICIPANT_QOS_DEFAULT);
   if (!participant) {
     std::fprintf(stderr, "monitor_fast_dds: cannot join DDS\n");
     return 1;

@@ -9,7 +9,6 @@
 
 #include <cstring>
 #include <fstream>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -18,6 +17,7 @@
 #include "armature/messages/cdr_to_json.hpp"
 #include "armature/messages/geometry.hpp"
 #include "armature/messages/known_types.hpp"
+#include "armature/messages/ros_definition.hpp"
 #include "armature/messages/sensor_msgs.hpp"
 #include "armature/messages/stamp.hpp"
 #include "armature/messages/test_messages.hpp"
@@ -302,24 +302,6 @@ TEST(Idl, MistakesAreToldWithTheirLine) {
 
 TEST(Idl, UnknownTypesAreNotDescribed) { EXPECT_EQ(describe_type("a/B"), nullptr); }
 
-/// "float64[] left  # comment" of a .msg file, as name and type.
-std::string ros_spelling(const FieldDescription& field) {
-  static const std::map<FieldKind, std::string> kNames{
-      {FieldKind::boolean, "bool"},   {FieldKind::octet, "uint8"},
-      {FieldKind::int16, "int16"},    {FieldKind::uint16, "uint16"},
-      {FieldKind::int32, "int32"},    {FieldKind::uint32, "uint32"},
-      {FieldKind::int64, "int64"},    {FieldKind::uint64, "uint64"},
-      {FieldKind::text, "string"},    {FieldKind::float32, "float32"},
-      {FieldKind::float64, "float64"}};
-  std::string type =
-      field.kind == FieldKind::structure ? field.structure->ros_name : kNames.at(field.kind);
-  if (type.starts_with("armature_msgs/")) type = type.substr(type.find('/') + 1);
-  if (field.shape == FieldDescription::Shape::array)
-    type += "[" + std::to_string(field.bound) + "]";
-  if (field.shape == FieldDescription::Shape::sequence) type += "[]";
-  return type + " " + field.name;
-}
-
 TEST(Idl, RosMessageFilesSayTheSame) {
   int compared = 0;
   for (const auto& type : idl_types().all()) {
@@ -333,7 +315,9 @@ TEST(Idl, RosMessageFilesSayTheSame) {
       if (!line.empty()) stated.push_back(line);
     }
     std::vector<std::string> expected;
-    for (const FieldDescription& field : type->fields) expected.push_back(ros_spelling(field));
+    for (const FieldDescription& field : type->fields) {
+      expected.push_back(ros_field(field, "armature_msgs"));
+    }
     EXPECT_EQ(stated, expected) << name;
     ++compared;
   }

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "record/record.hpp"
+#include "verbs/option_checks.hpp"
+#include "verbs/verbs.hpp"
+
+namespace armature {
+namespace {
+
+void add_record(CLI::App& app, Action& action) {
+  auto options = std::make_shared<RecordOptions>();
+  auto cut = std::make_shared<std::filesystem::path>();
+  auto plain = std::make_shared<bool>(false);
+  CLI::App* verb = app.add_subcommand(
+      "record", "Record topics of running deployments as MCAP: armature record -o run.mcap");
+  verb->add_option("-o,--out", options->out, "the file; one that is there is replaced")->required();
+  verb->add_option("topics", options->topics,
+                   "only these, a name or the beginning of names: '/dental_lamp/*' (all)");
+  verb->add_flag("--uncompressed", *plain, "without zstd: more bytes, less processor");
+  verb->add_option("--repair", *cut,
+                   "write what can be read of this recording, which was cut off, instead")
+      ->check(CLI::ExistingFile)
+      ->excludes("topics");
+  add_watch(*verb, *options);
+  verb->callback([=, &action] {
+    options->compress = !*plain;
+    action = [=] {
+      return cut->empty() ? record_topics(*options) : repair_recording(*cut, options->out);
+    };
+  });
+}
+
+void add_info(CLI::App& app, Action& action) {
+  auto file = std::make_shared<std::filesystem::path>();
+  auto json = std::make_shared<bool>(false);
+  CLI::App* verb = app.add_subcommand(
+      "info", "Tell what is in a recording, and whether it is whole: armature info run.mcap");
+  verb->add_option("recording", *file, "an MCAP file")->required()->check(CLI::ExistingFile);
+  verb->add_flag("--json", *json, "as JSON");
+  verb->callback([=, &action] { action = [=] { return describe_recording(*file, *json); }; });
+}
+
+}  // namespace
+
+void add_record_verbs(CLI::App& app, Action& action) {
+  add_record(app, action);
+  add_info(app, action);
+}
+
+}  // namespace armature

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+// `armature record`: what runs is in a file afterwards, whatever ends the recording.
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "armature/recording/mcap_reader.hpp"
+#include "command.hpp"
+#include "tests/dds_domain.hpp"
+
+namespace armature::test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+
+constexpr std::chrono::seconds kEnough{60};
+
+class Recorded : public testing::Test {
+ protected:
+  Recorded() { fs::create_directories(folder_); }
+  ~Recorded() override { fs::remove_all(folder_); }
+
+  std::vector<std::string> record(std::vector<std::string> more) const {
+    more.insert(more.begin(), {armature(), "record", "-o", file_});
+    more.insert(more.end(), {"--domain", std::to_string(domain_)});
+    return more;
+  }
+  json info(const std::string& file, int exit_code) const {
+    const CommandResult result = run_command({armature(), "info", file, "--json"});
+    EXPECT_EQ(result.exit_code, exit_code) << result.err;
+    return json::parse(result.out);
+  }
+  /// How many messages of a topic `info` tells of.
+  static std::uint64_t messages_of(const std::string& topic, const json& info) {
+    for (const json& one : info["topics"]) {
+      if (one["topic"] == topic) return one["messages"];
+    }
+    return 0;
+  }
+  static std::uint64_t all_messages(const json& info) {
+    std::uint64_t count = 0;
+    for (const json& one : info["topics"]) count += one["messages"].get<std::uint64_t>();
+    return count;
+  }
+
+  const int domain_ = unique_dds_domain();
+  const fs::path folder_ =
+      fs::temp_directory_path() / ("armature-recorded-" + std::to_string(getpid()));
+  const std::string file_ = folder_ / "run.mcap";
+  Command run_{{armature(), "run", source_file("tests/end_to_end/arm_watched.yaml"), "--set",
+                "clock=system", "--domain", std::to_string(domain_)}};
+};
+
+const std::string kJoints = "/watched/arm/measured_js";
+
+TEST_F(Recorded, ARunIsInTheFileWithWhatItWasMadeFrom) {
+  const CommandResult result = run_command(record({"--timeout", "5", "--json"}), {}, kEnough);
+  ASSERT_EQ(result.exit_code, 0) << result.err << run_.err();
+  const json told = json::parse(result.out);
+  EXPECT_EQ(told["dropped"], 0);
+  const json in_it = info(file_, 0);
+  EXPECT_EQ(in_it["whole"], true);
+  EXPECT_EQ(all_messages(in_it), told["messages"]);
+  EXPECT_GT(messages_of(kJoints, in_it), 1000U);
+  std::vector<std::string> attached;
+  for (const json& attachment : in_it["attachments"]) attached.push_back(attachment["name"]);
+  EXPECT_THAT(attached, Contains("watched/watched.yaml"));
+  EXPECT_THAT(attached, Contains("watched/robots/arm.yaml"));
+  EXPECT_EQ(in_it["metadata"][0]["values"]["deployment"], "watched");
+  EXPECT_EQ(in_it["metadata"][0]["values"]["fingerprint"].get<std::string>().size(), 64U);
+
+  // Each topic in the order in which it was written, and none twice.
+  std::map<std::string, Time> last;
+  McapReader reader{file_};
+  while (const auto message = reader.next()) {
+    const auto [place, is_first] = last.try_emplace(message->channel->topic, message->publish_time);
+    EXPECT_TRUE(is_first || message->publish_time > place->second) << message->channel->topic;
+    place->second = message->publish_time;
+  }
+  for (const auto& [id, channel] : reader.channels()) {
+    EXPECT_EQ(reader.schemas().at(channel.schema_id).encoding, "ros2msg") << channel.topic;
+  }
+}
+
+TEST_F(Recorded, OnlyWhatIsAskedForIsInTheFile) {
+  const CommandResult result =
+      run_command(record({kJoints, "/tf*", "--uncompressed", "--timeout", "4"}), {}, kEnough);
+  ASSERT_EQ(result.exit_code, 0) << result.err << run_.err();
+  const json in_it = info(file_, 0);
+  std::vector<std::string> topics;
+  for (const json& one : in_it["topics"]) topics.push_back(one["topic"]);
+  EXPECT_THAT(topics, testing::UnorderedElementsAre(kJoints, "/tf", "/tf_static"));
+  EXPECT_EQ(in_it["packed_bytes"], in_it["unpacked_bytes"]);
+}
+
+TEST_F(Recorded, ARecordingThatDiesIsReadableToItsLastChunkAndCanBeMadeWhole) {
+  Command recording{record({})};
+  const auto give_up = std::chrono::steady_clock::now() + kEnough;
+  while (!fs::exists(file_) || fs::file_size(file_) < 50'000) {
+    ASSERT_LT(std::chrono::steady_clock::now(), give_up) << recording.err() << run_.err();
+    std::this_thread::sleep_for(std::chrono::milliseconds{20});
+  }
+  recording.signal(SIGKILL);
+  EXPECT_EQ(recording.finish(kEnough).exit_code, 128 + SIGKILL);
+  const json cut = info(file_, 1);
+  EXPECT_EQ(cut["whole"], false);
+  EXPECT_GT(messages_of(kJoints, cut), 100U);
+  const std::string whole = folder_ / "whole.mcap";
+  const CommandResult repaired =
+      run_command({armature(), "record", "--repair", file_, "-o", whole});
+  EXPECT_EQ(repaired.exit_code, 0) << repaired.err;
+  const json mended = info(whole, 0);
+  EXPECT_EQ(all_messages(mended), all_messages(cut));
+  EXPECT_EQ(mended["attachments"], cut["attachments"]);
+}
+
+TEST_F(Recorded, CtrlCEndsTheFileInOrder) {
+  Command recording{record({})};
+  const auto give_up = std::chrono::steady_clock::now() + kEnough;
+  while (!fs::exists(file_) || fs::file_size(file_) < 50'000) {
+    ASSERT_LT(std::chrono::steady_clock::now(), give_up) << recording.err() << run_.err();
+    std::this_thread::sleep_for(std::chrono::milliseconds{20});
+  }
+  recording.signal(SIGINT);
+  EXPECT_EQ(recording.finish(kEnough).exit_code, 0);
+  EXPECT_EQ(info(file_, 0)["whole"], true);
+}
+
+TEST_F(Recorded, AFullDiskIsToldAndEndsTheRecording) {
+  const CommandResult result = run_command({armature(), "record", "-o", "/dev/full", "--domain",
+                                            std::to_string(domain_), "--timeout", "20"},
+                                           {}, kEnough);
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.err, "armature: cannot write '/dev/full': No space left on device\n");
+}
+
+TEST(Info, OfWhatIsNoRecordingSaysSo) {
+  const CommandResult result = run_command({armature(), "info", source_file("README.md")});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr("README.md' is no MCAP file"));
+}
+
+}  // namespace
+}  // namespace armature::test

@@ -14,13 +14,19 @@
 namespace armature {
 namespace {
 
-/// range(0): bytes of a message; range(1): whether it is packed. Half of its bytes are random.
+/// range(0): bytes of a message; range(1): whether it is packed. Half of its bytes are random, and
+/// no two messages are the same.
 void write_messages(benchmark::State& state) {
   const auto file = std::filesystem::path{"/dev/shm"} /
                     ("armature-kernels-" + std::to_string(getpid()) + ".mcap");
   std::mt19937 random{1};
-  std::vector<std::byte> message(static_cast<std::size_t>(state.range(0)));
-  for (std::size_t i = 0; i < message.size(); i += 2) message[i] = static_cast<std::byte>(random());
+  const auto size = static_cast<std::size_t>(state.range(0));
+  constexpr std::size_t kSource = std::size_t{64}
+                                  << 20;  // messages begin at different places of it
+  std::vector<std::byte> source(kSource + size);
+  for (std::size_t i = 0; i < source.size(); i += 2) source[i] = static_cast<std::byte>(random());
+  constexpr std::uint64_t kMostKept = std::uint64_t{256} << 20;
+  std::uint64_t emptied = 0;
   std::uint32_t count = 0;
   {
     McapWriter writer{file, {.compress = state.range(1) != 0}};
@@ -28,10 +34,13 @@ void write_messages(benchmark::State& state) {
     const auto channel =
         writer.add(McapChannel{.schema_id = schema, .topic = "/b", .message_encoding = "cdr"});
     for (auto _ : state) {
-      writer.write(channel, count, Time{count}, Time{count}, message);
-      // The file begins again before the memory is full.
-      if (writer.bytes() > (std::uint64_t{256} << 20)) std::filesystem::resize_file(file, 0);
+      const std::size_t begin = (count * std::size_t{7919} * 64) % kSource;
+      writer.write(channel, count, Time{count}, Time{count},
+                   std::span{source}.subspan(begin, size));
       ++count;
+      if (writer.bytes() < emptied + kMostKept) continue;
+      emptied = writer.bytes();  // the file gives its memory back, and goes on behind it
+      std::filesystem::resize_file(file, 0);
     }
   }
   std::filesystem::remove(file);

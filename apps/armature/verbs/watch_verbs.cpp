@@ -5,6 +5,7 @@
 
 #include "verbs/option_checks.hpp"
 #include "verbs/verbs.hpp"
+#include "monitor/monitor.hpp"
 #include "watch/log.hpp"
 #include "watch/top.hpp"
 #include "watch/topics.hpp"
@@ -88,12 +89,33 @@ void add_log(CLI::App& app, Action& action) {
   verb->callback([=, &action] { action = [=] { return print_log(*options); }; });
 }
 
+void add_monitor(CLI::App& app, Action& action) {
+  auto options = std::make_shared<MonitorOptions>();
+  CLI::App* verb = app.add_subcommand(
+      "monitor", "Show running deployments to Foxglove and Lichtblick, over a WebSocket");
+  verb->add_option("--bind", options->address,
+                   "IPv4 address of this machine to listen at; beyond loopback a token is asked for")
+      ->capture_default_str()
+      ->check(CLI::ValidIPV4);
+  verb->add_option("--port", options->port, "0: any that is free")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 65535));
+  verb->add_option("--origin", options->origins,
+                   "let pages from there connect, too: http://localhost:8080")
+      ->allow_extra_args(false);
+  verb->add_option("--token", options->token, "what clients must say: ws://HOST:PORT/?token=...");
+  verb->add_option("--domain", options->network.domain, "DDS domain")->check(CLI::Range(0, 232));
+  add_network(*verb, options->network);
+  verb->callback([=, &action] { action = [=] { return show_to_browsers(*options); }; });
+}
+
 }  // namespace
 
 void add_watch_verbs(CLI::App& app, Action& action) {
   add_topic(app, action);
   add_top(app, action);
   add_log(app, action);
+  add_monitor(app, action);
 }
 
 }  // namespace armature

@@ -49,6 +49,10 @@ void leave_in_order() {
 
 bool left() { return g_leaves; }
 
+Time monotonic_now() {
+  return Time{Duration{std::chrono::steady_clock::now().time_since_epoch()}.count()};
+}
+
 void tell(const std::string& line) {
   const bool written = std::fputs((line + '\n').c_str(), stdout) >= 0;
   if (written && std::fflush(stdout) == 0) return;

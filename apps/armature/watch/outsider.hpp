@@ -26,6 +26,8 @@ inline constexpr Duration kDiscovery = seconds(1.5);
 /// nobody reads what is printed: a process that is killed in the midst of DDS makes those wait that
 /// send to it.
 void leave_in_order();
+/// Of the monotonic clock.
+Time monotonic_now();
 /// It is time to leave.
 bool left();
 /// Prints a line, and leaves when nobody reads it any more, as behind `| head -n 1`.

@@ -2,7 +2,6 @@
 #include "watch/seen_deployments.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <string_view>
 #include <utility>
 
@@ -33,10 +32,6 @@ bool SeenDeployment::is_whole() const {
   return !processes.empty() &&
          std::ranges::all_of(processes.begin()->second.processes_(),
                              [&](const auto& process) { return processes.contains(process); });
-}
-
-Time monotonic_now() {
-  return Time{Duration{std::chrono::steady_clock::now().time_since_epoch()}.count()};
 }
 
 SeenComponent seen_after(const std::optional<SeenComponent>& before, SeenComponent now) {

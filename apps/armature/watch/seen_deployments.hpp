@@ -34,8 +34,6 @@ struct SeenDeployment {
 
 /// What a component told now, with the rates since `before`.
 SeenComponent seen_after(const std::optional<SeenComponent>& before, SeenComponent now);
-/// Of the monotonic clock.
-Time monotonic_now();
 
 /// All deployments of a domain that tell of themselves, or the one of a name.
 class SeenDeployments {

@@ -9,6 +9,7 @@
 #include <fastdds/dds/subscriber/Subscriber.hpp>
 #include <fastdds/dds/subscriber/qos/DataReaderQos.hpp>
 #include <fastdds/dds/topic/Topic.hpp>
+#include <fastdds/dds/topic/TopicDescription.hpp>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -53,10 +54,7 @@ class Observer final : public DdsObserver {
       : participant_{std::move(participant)}, asks_again_{asks_again} {}
 
   ~Observer() override {
-    for (const auto& watch : watches_) {
-      watch->reader->set_listener(nullptr);
-      participant_->subscriber().delete_datareader(watch->reader);
-    }
+    for (const auto& watch : watches_) end(*watch);
   }
 
   std::vector<ObservedTopic> topics() const override {
@@ -106,7 +104,21 @@ class Observer final : public DdsObserver {
     return {};
   }
 
+  void unwatch(const std::string& topic) override {
+    const std::string name = dds_topic_name(topic);
+    std::erase_if(watches_, [&](const auto& watch) {
+      const bool is_it = watch->reader->get_topicdescription()->get_name() == name;
+      if (is_it) end(*watch);
+      return is_it;
+    });
+  }
+
  private:
+  void end(const Watch& watch) {
+    watch.reader->set_listener(nullptr);
+    participant_->subscriber().delete_datareader(watch.reader);
+  }
+
   std::optional<Endpoint> wait_for_writer(const std::string& topic, Duration timeout) const {
     const auto deadline = std::chrono::steady_clock::now() + timeout;
     do {

@@ -64,6 +64,8 @@ class DdsObserver {
   /// one sample at a time, until the observer is destroyed. Takes "rt/a/b" and "/a/b".
   virtual Expected<void> watch(const std::string& topic, Duration timeout,
                                std::function<void(const ObservedSample&)> on_sample) = 0;
+  /// No sample of it is handed on when this has returned. Not from `on_sample`.
+  virtual void unwatch(const std::string& topic) = 0;
 };
 
 }  // namespace armature

@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "monitor/web_server.hpp"
+
+#include <arpa/inet.h>
+#include <fmt/format.h>
+#include <libwebsockets.h>
+#include <sys/socket.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <deque>
+#include <map>
+#include <stdexcept>
+#include <utility>
+
+namespace armature {
+namespace {
+
+constexpr std::size_t kLongestText = 1U << 20;  // [byte] of what a client says
+constexpr std::size_t kHead = 16;
+constexpr const char* kNoProtocol = "http-only";
+constexpr lws_usec_t kRound_us = 100'000;
+
+/// Without telling by its time how much of it is right.
+bool same_token(std::string_view a, std::string_view b) {
+  unsigned different = a.size() == b.size() ? 0 : 1;
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
+    different |= static_cast<unsigned char>(a[i] ^ b[i]);
+  }
+  return different == 0;
+}
+
+std::string header_of(lws* connection, lws_token_indexes header) {
+  std::array<char, 512> text{};
+  const int length = lws_hdr_copy(connection, text.data(), static_cast<int>(text.size()), header);
+  return length > 0 ? std::string{text.data(), static_cast<std::size_t>(length)} : std::string{};
+}
+
+struct Outgoing {
+  bool binary = false;
+  std::string text;
+  std::array<std::byte, kHead> head{};
+  std::size_t head_size = 0;
+  WebServer::Body body;
+
+  std::size_t size() const { return text.size() + head_size + (body ? body->size() : 0); }
+};
+
+struct Session {
+  lws* connection = nullptr;
+  std::deque<Outgoing> queue;
+  std::size_t queued_bytes = 0;  // of binary messages
+  std::uint64_t dropped = 0;
+  std::string heard;  // the beginning of a message
+};
+
+}  // namespace
+
+class WebServer::Impl {
+ public:
+  Impl(Options options, Events events) : options_{std::move(options)}, events_{std::move(events)} {
+    lws_set_log_level(0, nullptr);
+    // A client that asks for no protocol gets the first one, which none may use.
+    protocols_.push_back({.name = kNoProtocol, .callback = &Impl::call});
+    for (const std::string& name : options_.protocols) {
+      protocols_.push_back(
+          {.name = name.c_str(), .callback = &Impl::call, .per_session_data_size = sizeof(Client)});
+    }
+    protocols_.push_back({});
+    lws_context_creation_info info{};
+    info.port = options_.port;
+    info.iface = options_.address.c_str();
+    info.protocols = protocols_.data();
+    info.user = this;
+    info.gid = static_cast<gid_t>(-1);
+    info.uid = static_cast<uid_t>(-1);
+    info.options = LWS_SERVER_OPTION_VALIDATE_UTF8 | LWS_SERVER_OPTION_DISABLE_IPV6 |
+                   LWS_SERVER_OPTION_EXPLICIT_VHOSTS | LWS_SERVER_OPTION_FAIL_UPON_UNABLE_TO_BIND;
+    context_ = lws_create_context(&info);
+    vhost_ = context_ ? lws_create_vhost(context_, &info) : nullptr;
+    if (vhost_) return;
+    if (context_) lws_context_destroy(context_);
+    throw std::runtime_error(
+        fmt::format("cannot listen at {}:{}; is another program there, or "
+                    "the address not of this machine? --port, --bind",
+                    options_.address, options_.port));
+  }
+  ~Impl() {
+    ends_ = true;  // whom the events are for may be gone
+    lws_context_destroy(context_);
+  }
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+
+  int port() const { return lws_get_vhost_listen_port(vhost_); }
+  void serve() {
+    lws_sul_schedule(
+        context_, 0, &round_, [](lws_sorted_usec_list_t*) {}, kRound_us);
+    lws_service(context_, 0);
+  }
+  void wake() { lws_cancel_service(context_); }
+
+  void send(Client client, Outgoing message) {
+    const auto found = sessions_.find(client);
+    if (found == sessions_.end()) return;
+    Session& session = found->second;
+    if (message.binary) {
+      session.queued_bytes += message.size();
+      while (session.queued_bytes > options_.queue_bytes && drop_oldest(session)) continue;
+      if (session.queued_bytes > options_.queue_bytes) {  // larger than the whole queue
+        session.queued_bytes -= message.size();
+        ++session.dropped;
+        return;
+      }
+    }
+    session.queue.push_back(std::move(message));
+    lws_callback_on_writable(session.connection);
+  }
+  std::uint64_t dropped(Client client) const {
+    const auto found = sessions_.find(client);
+    return found == sessions_.end() ? 0 : found->second.dropped;
+  }
+
+ private:
+  static int call(lws* connection, lws_callback_reasons reason, void* user, void* in,
+                  std::size_t size) {
+    lws_context* context = lws_get_context(connection);
+    auto* self = context ? static_cast<Impl*>(lws_context_user(context)) : nullptr;
+    return self ? self->handle(connection, reason, static_cast<Client*>(user), in, size) : 0;
+  }
+
+  int handle(lws* connection, lws_callback_reasons reason, Client* client, void* in,
+             std::size_t size) {
+    const bool is_of_session = reason == LWS_CALLBACK_RECEIVE || reason == LWS_CALLBACK_CLOSED ||
+                               reason == LWS_CALLBACK_SERVER_WRITEABLE;
+    if (ends_) return 0;
+    if (is_of_session && (!client || !sessions_.contains(*client))) return 0;  // was refused
+    switch (reason) {
+      case LWS_CALLBACK_HTTP:
+        return answer_browser(connection);
+      case LWS_CALLBACK_FILTER_PROTOCOL_CONNECTION:
+        return may_connect(connection) ? 0 : 1;
+      case LWS_CALLBACK_ESTABLISHED:
+        *client = ++last_client_;
+        sessions_[*client].connection = connection;
+        events_.opened(*client);
+        return 0;
+      case LWS_CALLBACK_RECEIVE:
+        return hear(connection, *client, {static_cast<const char*>(in), size});
+      case LWS_CALLBACK_SERVER_WRITEABLE:
+        return write_next(connection, sessions_.at(*client));
+      case LWS_CALLBACK_CLOSED:
+        events_.closed(*client);
+        sessions_.erase(*client);
+        return 0;
+      case LWS_CALLBACK_EVENT_WAIT_CANCELLED:  // told to each protocol
+        if (lws_get_protocol(connection) == first_protocol()) events_.woken();
+        return 0;
+      default:
+        return 0;
+    }
+  }
+
+  const lws_protocols* first_protocol() const {
+    return lws_vhost_name_to_protocol(vhost_, kNoProtocol);
+  }
+
+  bool may_connect(lws* connection) const {
+    const lws_protocols* protocol = lws_get_protocol(connection);
+    if (!protocol || std::ranges::find(options_.protocols, std::string_view{protocol->name}) ==
+                         options_.protocols.end()) {
+      return false;
+    }
+    std::array<char, 512> argument{};
+    const char* token = lws_get_urlarg_by_name(connection, "token=", argument.data(),
+                                               static_cast<int>(argument.size()));
+    if (!options_.token.empty() && !same_token(token ? token : "", options_.token)) return false;
+    // A browser says where a page came from; other programs need not.
+    const std::string origin = header_of(connection, WSI_TOKEN_ORIGIN);
+    if (origin.empty()) return true;
+    const std::string own = header_of(connection, WSI_TOKEN_HOST);
+    const std::string bound = fmt::format("{}:{}", options_.address, port());
+    const bool is_own =
+        origin == "http://" + own && (own == bound || own == fmt::format("localhost:{}", port()));
+    return is_own || std::ranges::find(options_.origins, origin) != options_.origins.end();
+  }
+
+  int answer_browser(lws* connection) const {
+    std::array<unsigned char, LWS_PRE + 2048> buffer{};
+    unsigned char* start = buffer.data() + LWS_PRE;
+    unsigned char* at = start;
+    unsigned char* end = buffer.data() + buffer.size() - 1;
+    const std::string& page = options_.page;
+    if (lws_add_http_common_headers(connection, HTTP_STATUS_OK, "text/plain; charset=utf-8",
+                                    page.size(), &at, end) != 0 ||
+        lws_finalize_write_http_header(connection, start, &at, end) != 0) {
+      return 1;
+    }
+    std::vector<unsigned char> body(LWS_PRE + page.size());
+    std::memcpy(body.data() + LWS_PRE, page.data(), page.size());
+    if (lws_write(connection, body.data() + LWS_PRE, page.size(), LWS_WRITE_HTTP_FINAL) < 0) {
+      return 1;
+    }
+    return lws_http_transaction_completed(connection) != 0 ? -1 : 0;
+  }
+
+  int hear(lws* connection, Client client, std::string_view part) {
+    Session& session = sessions_.at(client);
+    if (session.heard.size() + part.size() > kLongestText) return -1;
+    session.heard += part;
+    if (lws_is_final_fragment(connection) == 0 || lws_remaining_packet_payload(connection) != 0) {
+      return 0;
+    }
+    const std::string text = std::exchange(session.heard, {});
+    events_.said(client, text);
+    return 0;
+  }
+
+  int write_next(lws* connection, Session& session) {
+    if (session.queue.empty()) return 0;
+    const Outgoing message = std::move(session.queue.front());
+    session.queue.pop_front();
+    if (message.binary) session.queued_bytes -= message.size();
+    scratch_.resize(LWS_PRE + message.size());
+    unsigned char* at = scratch_.data() + LWS_PRE;
+    std::memcpy(at, message.text.data(), message.text.size());
+    std::memcpy(at, message.head.data(), message.head_size);
+    if (message.body) {
+      std::memcpy(at + message.head_size, message.body->data(), message.body->size());
+    }
+    const int written = lws_write(connection, at, message.size(),
+                                  message.binary ? LWS_WRITE_BINARY : LWS_WRITE_TEXT);
+    if (written < static_cast<int>(message.size())) return -1;
+    if (!session.queue.empty()) lws_callback_on_writable(connection);
+    return 0;
+  }
+
+  static bool drop_oldest(Session& session) {
+    const auto oldest = std::ranges::find(session.queue, true, &Outgoing::binary);
+    if (oldest == session.queue.end()) return false;
+    session.queued_bytes -= oldest->size();
+    session.queue.erase(oldest);
+    ++session.dropped;
+    return true;
+  }
+
+  Options options_;
+  Events events_;
+  std::vector<lws_protocols> protocols_;
+  lws_context* context_ = nullptr;
+  lws_vhost* vhost_ = nullptr;
+  lws_sorted_usec_list_t round_{};
+  bool ends_ = false;
+  Client last_client_ = 0;
+  std::map<Client, Session> sessions_;
+  std::vector<unsigned char> scratch_;
+};
+
+WebServer::WebServer(Options options, Events events)
+    : impl_{std::make_unique<Impl>(std::move(options), std::move(events))} {}
+WebServer::~WebServer() = default;
+
+int WebServer::port() const { return impl_->port(); }
+void WebServer::serve() { impl_->serve(); }
+void WebServer::wake() { impl_->wake(); }
+
+void WebServer::send(Client client, std::string text) {
+  impl_->send(client, {.text = std::move(text)});
+}
+
+void WebServer::send(Client client, std::span<const std::byte> head, Body body) {
+  Outgoing message{.binary = true, .head_size = head.size(), .body = std::move(body)};
+  std::ranges::copy(head, message.head.begin());
+  impl_->send(client, std::move(message));
+}
+
+std::uint64_t WebServer::dropped(Client client) const { return impl_->dropped(client); }
+
+}  // namespace armature

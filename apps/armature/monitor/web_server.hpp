@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace armature {
+
+/// A WebSocket server on one thread. A client that reads slowly has a bounded queue, and loses its
+/// oldest binary messages when that is full: it slows nobody. Clients are refused that ask for no
+/// protocol the server speaks, that come from a page of a foreign origin, or have no right token.
+class WebServer {
+ public:
+  struct Options {
+    std::string address = "127.0.0.1";  // IPv4, that it is bound to
+    int port = 0;                       // 0: any that is free
+    std::vector<std::string> protocols;
+    /// Pages that may connect, beside those of this address and port: "https://app.foxglove.dev".
+    std::vector<std::string> origins;
+    std::string token;                    // empty: none is asked for
+    std::size_t queue_bytes = 16U << 20;  // of a client
+    std::string page;                     // plain text for whoever comes with a browser
+  };
+  using Client = std::uint64_t;  // never used twice
+  /// All are called by `serve`.
+  struct Events {
+    std::function<void(Client)> opened, closed;
+    std::function<void(Client, std::string_view text)> said;
+    std::function<void()> woken;
+  };
+  using Body = std::shared_ptr<const std::vector<std::byte>>;
+
+  /// Throws std::runtime_error when the port cannot be had.
+  WebServer(Options options, Events events);
+  ~WebServer();
+  WebServer(const WebServer&) = delete;
+  WebServer& operator=(const WebServer&) = delete;
+
+  int port() const;
+  /// Handles what there is to do, and waits for more until `wake` or at most 0.1 s.
+  void serve();
+  /// From any thread.
+  void wake();
+
+  // By the thread that serves:
+  void send(Client client, std::string text);
+  /// A binary message: `head`, then `body`, which several clients may share.
+  void send(Client client, std::span<const std::byte> head, Body body);
+  /// How many binary messages this client has lost.
+  std::uint64_t dropped(Client client) const;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace armature

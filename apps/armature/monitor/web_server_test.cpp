@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "monitor/web_server.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstring>
+#include <thread>
+
+#include "tests/web_socket.hpp"
+
+namespace armature {
+namespace {
+
+using test::WebSocket;
+
+const std::string kProtocol = "Sec-WebSocket-Protocol: lamp.v1\r\n";
+
+/// A server whose thread serves, and sends on the word of the test.
+class WebServerTest : public testing::Test {
+ protected:
+  explicit WebServerTest(WebServer::Options options = {.protocols = {"lamp.v1"},
+                                                       .origins = {"https://lamp.example"},
+                                                       .queue_bytes = 64 << 10})
+      : server_{std::move(options),
+                {.opened = [this](WebServer::Client client) { last_ = client; },
+                 .closed = [this](WebServer::Client) { ++closed_; },
+                 .said =
+                     [this](WebServer::Client client, std::string_view text) {
+                       server_.send(client, "heard " + std::string{text});
+                     },
+                 .woken = [this] { send_all(); }}},
+        thread_{[this] {
+          while (!ends_) server_.serve();
+        }} {}
+  ~WebServerTest() override {
+    ends_ = true;
+    thread_.join();
+  }
+
+  /// Messages of 1 kB with their numbers, to every client there has been.
+  void send_all() {
+    for (int i = 0; i < to_send_; ++i) {
+      auto body = std::make_shared<std::vector<std::byte>>(1024);
+      std::memcpy(body->data(), &sent_, sizeof sent_);
+      ++sent_;
+      const std::array<std::byte, 1> head{std::byte{7}};
+      for (WebServer::Client client = 1; client <= last_; ++client) {
+        server_.send(client, head, body);
+      }
+    }
+    dropped_of_first_ = server_.dropped(1);
+    ++rounds_;
+  }
+  bool opens(const std::string& headers, const std::string& path = "/") {
+    return WebSocket{server_.port(), headers, path}.is_open();
+  }
+
+  std::atomic<WebServer::Client> last_{0};
+  std::atomic<int> closed_{0}, to_send_{0}, rounds_{0};
+  std::atomic<std::uint64_t> dropped_of_first_{0};
+  std::atomic<bool> ends_{false};
+  int sent_ = 0;
+  WebServer server_;
+  std::thread thread_;
+};
+
+TEST_F(WebServerTest, AnswersWhoSpeaksItsProtocol) {
+  WebSocket socket{server_.port(), kProtocol};
+  ASSERT_TRUE(socket.is_open());
+  socket.send_text("light");
+  const auto frame = socket.next();
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(frame->op, 1);
+  EXPECT_EQ(frame->payload, "heard light");
+}
+
+TEST_F(WebServerTest, RefusesWhoAsksForNoProtocolOrAnother) {
+  EXPECT_FALSE(opens(""));
+  EXPECT_FALSE(opens("Sec-WebSocket-Protocol: other.v1\r\n"));
+  EXPECT_FALSE(opens("Sec-WebSocket-Protocol: http-only\r\n"));
+  EXPECT_TRUE(opens("Sec-WebSocket-Protocol: other.v1, lamp.v1\r\n"));
+}
+
+TEST_F(WebServerTest, RefusesPagesOfForeignOrigins) {
+  const std::string own = std::to_string(server_.port());
+  EXPECT_TRUE(opens(kProtocol + "Origin: https://lamp.example\r\n"));
+  EXPECT_TRUE(opens(kProtocol + "Origin: http://127.0.0.1:" + own + "\r\n"));
+  EXPECT_FALSE(opens(kProtocol + "Origin: https://evil.example\r\n"));
+  EXPECT_FALSE(opens(kProtocol + "Origin: https://lamp.example.evil.example\r\n"));
+  EXPECT_FALSE(opens(kProtocol + "Origin: http://127.0.0.1:1\r\n"));
+  EXPECT_FALSE(opens(kProtocol + "Origin: null\r\n"));
+}
+
+TEST_F(WebServerTest, AClientThatDoesNotReadLosesItsOldestMessagesAndSlowsNobody) {
+  WebSocket lazy{server_.port(), kProtocol}, reader{server_.port(), kProtocol};
+  ASSERT_TRUE(lazy.is_open() && reader.is_open());
+  constexpr int kRounds = 500, kOfRound = 40;
+  to_send_ = kOfRound;
+  for (int round = 0, expected = 0; round < kRounds; ++round) {
+    server_.wake();
+    for (int i = 0; i < kOfRound; ++i, ++expected) {
+      const auto frame = reader.next();
+      ASSERT_TRUE(frame);
+      int number = -1;
+      std::memcpy(&number, frame->payload.data() + 1, sizeof number);
+      ASSERT_EQ(number, expected);
+    }
+  }
+  EXPECT_GT(dropped_of_first_, 0U) << "of 20 MB";
+  // What it reads at last is in order, and ends with the newest.
+  int last = -1, number = -1;
+  while (number != kRounds * kOfRound - 1) {
+    const auto frame = lazy.next();
+    ASSERT_TRUE(frame);
+    std::memcpy(&number, frame->payload.data() + 1, sizeof number);
+    ASSERT_GT(number, last);
+    last = number;
+  }
+}
+
+TEST_F(WebServerTest, WhoSaysTooMuchIsShownOut) {
+  WebSocket socket{server_.port(), kProtocol};
+  for (int i = 0; i < 100 && closed_ == 0; ++i) socket.send_text(std::string(60'000, 'x'));
+  WebSocket other{server_.port(), kProtocol};
+  EXPECT_TRUE(other.is_open()) << "the server goes on";
+}
+
+class WebServerWithToken : public WebServerTest {
+ protected:
+  WebServerWithToken() : WebServerTest{{.protocols = {"lamp.v1"}, .token = "secret"}} {}
+};
+
+TEST_F(WebServerWithToken, RefusesWhoDoesNotKnowIt) {
+  EXPECT_FALSE(opens(kProtocol));
+  EXPECT_FALSE(opens(kProtocol, "/?token=secre"));
+  EXPECT_FALSE(opens(kProtocol, "/?token=secretsecret"));
+  EXPECT_TRUE(opens(kProtocol, "/?token=secret"));
+}
+
+TEST(WebServer, SaysThatItsPortIsTaken) {
+  WebServer first{{.protocols = {"lamp.v1"}}, {}};
+  try {
+    WebServer{{.port = first.port(), .protocols = {"lamp.v1"}}, {}};
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string{error.what()}.find("cannot listen at 127.0.0.1:"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace armature

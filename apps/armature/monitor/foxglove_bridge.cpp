@@ -27,18 +27,15 @@ std::string status(Level level, const std::string& text) {
   return Json{{"op", "status"}, {"level", level}, {"message", text}}.dump();
 }
 
-WebServer::Events events_of(auto&& opened, auto&& closed, auto&& said, auto&& woken) {
-  return {.opened = opened, .closed = closed, .said = said, .woken = woken};
-}
-
 }  // namespace
 
 FoxgloveBridge::FoxgloveBridge(const WatchOptions& options, WebServer::Options server)
     : server_{std::move(server),
-              events_of([this](Client client) { opened(client); },
-                        [this](Client client) { closed(client); },
-                        [this](Client client, std::string_view text) { said(client, text); },
-                        [this] { forward(); })},
+              {.opened = [this](Client client) { opened(client); },
+               .closed = [this](Client client) { closed(client); },
+               .said = [this](Client client, std::string_view text) { said(client, text); },
+               .woken = [this] { forward(); },
+               .refused = [this](const std::string& why) { tell_refusal(why); }}},
       outsider_{options} {}
 
 void FoxgloveBridge::run() {
@@ -241,6 +238,12 @@ void FoxgloveBridge::send(Client client, std::uint32_t subscription, const Sampl
   std::memcpy(head.data() + 1, &subscription, sizeof subscription);
   std::memcpy(head.data() + 1 + sizeof subscription, &sample.sent.ns, sizeof sample.sent.ns);
   server_.send(client, head, sample.cdr);
+}
+
+void FoxgloveBridge::tell_refusal(const std::string& why) {
+  constexpr std::size_t kMostReasons = 100;
+  const bool is_new = refusals_.size() < kMostReasons && refusals_.insert(why).second;
+  if (is_new) fmt::print(stderr, "armature: {}\n", why);
 }
 
 void FoxgloveBridge::tell_dropped() {

@@ -65,10 +65,13 @@ class FoxgloveBridge {
   void forward();
   void send(Client client, std::uint32_t subscription, const Sample& sample);
   void tell_dropped();
+  /// Once for each reason: some clients try for ever.
+  void tell_refusal(const std::string& why);
 
   std::map<std::uint32_t, Channel> channels_;
   std::map<std::string, std::uint32_t> by_topic_;
   std::map<Client, Subscriber> clients_;
+  std::set<std::string> refusals_;
   std::uint32_t last_channel_ = 0;
   std::uint64_t dropped_ = 0;  // of those who have left
 

@@ -3,6 +3,7 @@
 
 #include <arpa/inet.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <libwebsockets.h>
 #include <sys/socket.h>
 
@@ -13,6 +14,8 @@
 #include <map>
 #include <stdexcept>
 #include <utility>
+
+#include "armature/config/problems.hpp"
 
 namespace armature {
 namespace {
@@ -167,23 +170,37 @@ class WebServer::Impl {
   }
 
   bool may_connect(lws* connection) const {
+    const std::string why = refusal_of(connection);
+    if (!why.empty()) events_.refused(why);
+    return why.empty();
+  }
+
+  /// Empty: it is welcome.
+  std::string refusal_of(lws* connection) const {
     const lws_protocols* protocol = lws_get_protocol(connection);
     if (!protocol || std::ranges::find(options_.protocols, std::string_view{protocol->name}) ==
                          options_.protocols.end()) {
-      return false;
+      return fmt::format("a client was refused that speaks none of: {}",
+                         fmt::join(options_.protocols, ", "));
     }
     std::array<char, 512> argument{};
     const char* token = lws_get_urlarg_by_name(connection, "token=", argument.data(),
                                                static_cast<int>(argument.size()));
-    if (!options_.token.empty() && !same_token(token ? token : "", options_.token)) return false;
+    if (!options_.token.empty() && !same_token(token ? token : "", options_.token)) {
+      return "a client was refused that does not know the token: it belongs into the address, "
+             "/?token=...";
+    }
     // A browser says where a page came from; other programs need not.
     const std::string origin = header_of(connection, WSI_TOKEN_ORIGIN);
-    if (origin.empty()) return true;
+    if (origin.empty()) return "";
     const std::string own = header_of(connection, WSI_TOKEN_HOST);
     const std::string bound = fmt::format("{}:{}", options_.address, port());
     const bool is_own =
         origin == "http://" + own && (own == bound || own == fmt::format("localhost:{}", port()));
-    return is_own || std::ranges::find(options_.origins, origin) != options_.origins.end();
+    const bool is_known = std::ranges::find(options_.origins, origin) != options_.origins.end();
+    if (is_own || is_known) return "";
+    return fmt::format("a page from {0} was refused; to let it in: --origin {0}",
+                       config::in_quotes(origin));
   }
 
   int answer_browser(lws* connection) const {

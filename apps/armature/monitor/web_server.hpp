@@ -33,6 +33,8 @@ class WebServer {
     std::function<void(Client)> opened, closed;
     std::function<void(Client, std::string_view text)> said;
     std::function<void()> woken;
+    /// Why somebody was not let in, and what would let him.
+    std::function<void(const std::string& why)> refused = [](const std::string&) {};
   };
   using Body = std::shared_ptr<const std::vector<std::byte>>;
 

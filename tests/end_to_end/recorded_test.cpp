@@ -121,6 +121,26 @@ TEST_F(Recorded, ARecordingThatDiesIsReadableToItsLastChunkAndCanBeMadeWhole) {
   EXPECT_EQ(mended["attachments"], cut["attachments"]);
 }
 
+TEST_F(Recorded, AFileThatIsThereIsNotReplacedUnlessItIsWanted) {
+  ASSERT_EQ(run_command(record({"--timeout", "4"}), {}, kEnough).exit_code, 0);
+  const auto size = fs::file_size(file_);
+  const CommandResult again = run_command(record({"--timeout", "4"}), {}, kEnough);
+  EXPECT_EQ(again.exit_code, 3);
+  EXPECT_THAT(again.err, HasSubstr("is there already; --force replaces it"));
+  EXPECT_EQ(fs::file_size(file_), size);
+  EXPECT_EQ(run_command(record({"--timeout", "4", "--force"}), {}, kEnough).exit_code, 0);
+}
+
+TEST_F(Recorded, ANameThatNobodyWritesIsTold) {
+  const CommandResult result =
+      run_command(record({kJoints, "/watched/arm/mesured_js", "--timeout", "4"}), {}, kEnough);
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.err, "armature: nobody wrote '/watched/arm/mesured_js'\n");
+  const CommandResult pattern = run_command(record({"*joint*"}));
+  EXPECT_EQ(pattern.exit_code, 2);
+  EXPECT_THAT(pattern.err, HasSubstr("has a '*' that is not at its end"));
+}
+
 TEST_F(Recorded, CtrlCEndsTheFileInOrder) {
   Command recording{record({})};
   const auto give_up = std::chrono::steady_clock::now() + kEnough;

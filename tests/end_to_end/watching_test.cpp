@@ -144,6 +144,24 @@ TEST_F(Watching, TheLiveGraphOfSeveralProcessesIsWhole) {
               HasSubstr("subgraph \"cluster_apart\""));
 }
 
+TEST_F(Watching, AProcessThatDiedIsNamedAndTheRestIsShown) {
+  const Command run = start("tests/end_to_end/arm_watched.yaml",
+                            {"--set", "clock=system", "--set", "components.monitor.process=apart"});
+  out_of({"graph", "--live", "--timeout", "40"});  // all is there
+  kill(run.child(), SIGKILL);
+  Command log{line({"log", "-f"})};
+  EXPECT_TRUE(log.wait_for_out("process 'apart' (pid ", kLongEnough)) << run.err();
+  const CommandResult graph =
+      run_command(line({"graph", "--live", "--timeout", "5"}), {}, kLongEnough);
+  const CommandResult top =
+      run_command(line({"top", "-n", "1", "--timeout", "10"}), {}, kLongEnough);
+  EXPECT_EQ(graph.exit_code, 0) << graph.err;
+  EXPECT_THAT(graph.err, HasSubstr("nothing was heard of process 'apart'"));
+  EXPECT_THAT(graph.out, HasSubstr("/watched/arm/measured_js"));
+  EXPECT_EQ(top.exit_code, 0) << top.err;
+  EXPECT_THAT(top.out, HasSubstr("nothing is heard of process 'apart'"));
+}
+
 TEST_F(Watching, WhoIsNotThereIsNamedWhenTheTimeIsOver) {
   const auto graph = run_command(line({"graph", "--live", "nobody", "--timeout", "2"}));
   EXPECT_EQ(graph.exit_code, 5);

@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
 #include <thread>
 
 #include "armature/bus/topic_name.hpp"
+#include "armature/config/problems.hpp"
 #include "armature/recording/mcap_reader.hpp"
 #include "exit_code.hpp"
 #include "record/recorder.hpp"
@@ -20,11 +22,30 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-bool is_wanted(const std::string& topic, const std::vector<std::string>& wanted) {
-  return wanted.empty() || std::ranges::any_of(wanted, [&](const std::string& one) {
-           return one.ends_with('*') ? topic.starts_with(one.substr(0, one.size() - 1))
-                                     : topic == ros_topic_name(dds_topic_name(one));
-         });
+/// `wanted`: a name, or the beginning of names and "*".
+bool matches(const std::string& topic, const std::string& wanted) {
+  return wanted.ends_with('*') ? topic.starts_with(wanted.substr(0, wanted.size() - 1))
+                               : topic == ros_topic_name(dds_topic_name(wanted));
+}
+
+/// A recording is not lost by a word that was typed wrongly.
+void refuse_to_replace(const std::filesystem::path& file, bool force) {
+  std::error_code error;
+  const bool has_content =
+      std::filesystem::is_regular_file(file, error) && std::filesystem::file_size(file, error) > 0;
+  if (!has_content || force) return;
+  throw InvalidChoice(fmt::format("'{}' is there already; --force replaces it", file.string()));
+}
+
+/// A name from a file, as a terminal may be shown it.
+std::string shown(std::string name) {
+  std::ranges::replace_if(
+      name, [](unsigned char c) { return c < ' ' || c == 0x7F; }, '?');
+  return name;
+}
+
+std::string text_of(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 /// Watches the wanted topics, those that come up later, too.
@@ -37,7 +58,11 @@ class Topics {
     for (const ObservedTopic& topic : outsider_.dds().topics()) {
       const std::string name = ros_topic_name(topic.name);
       const bool is_new = topic.writers > 0 && !watched_.contains(name);
-      if (!is_new || !is_wanted(name, options_.topics)) continue;
+      const bool is_wanted = options_.topics.empty() ||
+                             std::ranges::any_of(options_.topics, [&](const std::string& wanted) {
+                               return matches(name, wanted);
+                             });
+      if (!is_new || !is_wanted) continue;
       const auto watching = outsider_.dds().watch(
           topic.name, Duration{0},
           [this, name](const ObservedSample& sample) { recorder_.add(name, sample); });
@@ -45,6 +70,15 @@ class Topics {
     }
   }
   std::size_t count() const { return watched_.size(); }
+  /// What was asked for and nobody wrote.
+  std::vector<std::string> missing() const {
+    std::vector<std::string> missing;
+    std::ranges::copy_if(options_.topics, std::back_inserter(missing), [&](const auto& wanted) {
+      return std::ranges::none_of(watched_,
+                                  [&](const auto& name) { return matches(name, wanted); });
+    });
+    return missing;
+  }
 
  private:
   const RecordOptions& options_;
@@ -67,15 +101,25 @@ void tell_dropped(const Recorder& recorder) {
 struct TopicCount {
   std::string type;
   std::uint64_t messages = 0, bytes = 0;
-  Time first, last;
+  Time first, last;  // when they arrived
+  Time sent_first, sent_last;
+
+  double hz() const {
+    const double length = to_seconds(sent_last - sent_first);
+    return length > 0 ? static_cast<double>(messages - 1) / length : 0;
+  }
 };
 
 std::map<std::string, TopicCount> count_topics(McapReader& reader) {
   std::map<std::string, TopicCount> topics;
   while (const auto message = reader.next()) {
     TopicCount& topic = topics[message->channel->topic];
-    if (topic.messages++ == 0) topic.first = message->log_time;
+    if (topic.messages++ == 0) {
+      topic.first = message->log_time;
+      topic.sent_first = message->publish_time;
+    }
     topic.last = std::max(topic.last, message->log_time);
+    topic.sent_last = std::max(topic.sent_last, message->publish_time);
     topic.bytes += message->data.size();
   }
   for (const auto& [id, channel] : reader.channels()) {
@@ -100,8 +144,8 @@ double length_of(const std::map<std::string, TopicCount>& topics) {
 
 Json json_of(const McapReader& reader, const std::map<std::string, TopicCount>& topics) {
   Json json{{"library", reader.library()},
-            {"whole", reader.problem().empty()},
-            {"problem", reader.problem()},
+            {"whole", reader.problems().empty()},
+            {"problems", reader.problems()},
             {"length_s", length_of(topics)},
             {"chunks", reader.chunks()},
             {"packed_bytes", reader.packed_bytes()},
@@ -130,17 +174,17 @@ void print(const McapReader& reader, const std::map<std::string, TopicCount>& to
   std::size_t width = 0;
   for (const auto& [name, topic] : topics) width = std::max(width, name.size());
   for (const auto& [name, topic] : topics) {
-    const double length = to_seconds(topic.last - topic.first);
-    const double hz = length > 0 ? static_cast<double>(topic.messages - 1) / length : 0;
-    fmt::print("  {:<{}}  {:<40} {:>9} messages {:>9.1f} Hz {:>14}\n", name, width, topic.type,
-               topic.messages, hz, megabytes(topic.bytes));
+    fmt::print("  {:<{}}  {:<40} {:>9} messages {:>9.1f} Hz {:>14}\n", shown(name), width,
+               shown(topic.type), topic.messages, topic.hz(), megabytes(topic.bytes));
   }
   for (const McapAttachment& attachment : reader.attachments()) {
-    fmt::print("  attached: {}, {} bytes\n", attachment.name, attachment.data.size());
+    fmt::print("  attached: {}, {} bytes\n", shown(attachment.name), attachment.data.size());
   }
   for (const McapMetadata& metadata : reader.metadata()) {
-    fmt::print("  {}:", metadata.name);
-    for (const auto& [key, value] : metadata.values) fmt::print(" {}={}", key, value);
+    fmt::print("  {}:", shown(metadata.name));
+    for (const auto& [key, value] : metadata.values) {
+      fmt::print(" {}={}", shown(key), shown(value));
+    }
     fmt::print("\n");
   }
 }
@@ -149,8 +193,10 @@ void print(const McapReader& reader, const std::map<std::string, TopicCount>& to
 
 int record_topics(const RecordOptions& options) {
   leave_in_order();
+  refuse_to_replace(options.out, options.force);
   Recorder recorder{options.out, options.compress};
   const auto start = std::chrono::steady_clock::now();
+  std::vector<std::string> missing;
   {
     Topics topics{options, recorder};
     bool told = false;
@@ -165,9 +211,21 @@ int record_topics(const RecordOptions& options) {
       }
       std::this_thread::sleep_for(std::chrono::milliseconds{50});
     }
+    missing = topics.missing();
   }
-  recorder.close();
+  for (const std::string& topic : missing) {
+    fmt::print(stderr, "armature: nobody wrote {}\n", config::in_quotes(topic));
+  }
   tell_dropped(recorder);
+  try {
+    recorder.close();
+  } catch (const std::runtime_error& error) {
+    if (recorder.messages() == 0) throw;
+    throw std::runtime_error(fmt::format(
+        "{}; what was written before is readable, and made whole by: armature record --repair {} "
+        "-o whole.mcap",
+        error.what(), options.out.string()));
+  }
   if (options.json) {
     std::uint64_t dropped = 0;
     for (const auto& [topic, count] : recorder.dropped()) dropped += count;
@@ -186,11 +244,13 @@ int record_topics(const RecordOptions& options) {
   return kTimedOut;
 }
 
-int repair_recording(const std::filesystem::path& cut, const std::filesystem::path& whole) {
+int repair_recording(const std::filesystem::path& cut, const std::filesystem::path& whole,
+                     bool force) {
   std::error_code error;
   if (std::filesystem::equivalent(cut, whole, error)) {
     throw InvalidChoice(fmt::format("'{}' cannot be repaired in place: -o OTHER", cut.string()));
   }
+  refuse_to_replace(whole, force);
   McapReader reader{cut};
   McapWriter writer{whole, {.library = "armature " ARMATURE_VERSION}};
   std::map<std::uint16_t, std::uint16_t> schemas, channels;  // ids there by ids here
@@ -212,9 +272,11 @@ int repair_recording(const std::filesystem::path& cut, const std::filesystem::pa
   for (const McapAttachment& attachment : reader.attachments()) writer.attach(attachment);
   for (const McapMetadata& metadata : reader.metadata()) writer.add(metadata);
   writer.close();
-  fmt::print("{}: {} messages, {}\n", whole.string(), writer.messages(),
-             reader.problem().empty() ? "all of a file that was whole"
-                                      : "what was before " + reader.problem());
+  for (const std::string& problem : reader.problems()) {
+    fmt::print(stderr, "armature: '{}': {}\n", cut.string(), problem);
+  }
+  fmt::print("{}: {} messages{}\n", whole.string(), writer.messages(),
+             reader.problems().empty() ? ", all of a file that was whole" : "");
   return kOk;
 }
 
@@ -222,13 +284,18 @@ int describe_recording(const std::filesystem::path& file, bool json) {
   McapReader reader{file};
   const auto topics = count_topics(reader);
   if (json) {
-    fmt::print("{}\n", json_of(reader, topics).dump());
+    fmt::print("{}\n", text_of(json_of(reader, topics)));
   } else {
     print(reader, topics);
   }
-  if (reader.problem().empty()) return kOk;
-  fmt::print(stderr, "armature: '{}' is not whole: {}; armature record --repair {} -o whole.mcap\n",
-             file.string(), reader.problem(), file.string());
+  if (reader.problems().empty()) return kOk;
+  for (const std::string& problem : reader.problems()) {
+    fmt::print(stderr, "armature: '{}' is not whole: {}\n", file.string(), problem);
+  }
+  fmt::print(stderr,
+             "armature: what can be read of it is saved by: armature record --repair {} -o "
+             "whole.mcap\n",
+             file.string());
   return kFailed;
 }
 

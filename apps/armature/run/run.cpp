@@ -221,7 +221,7 @@ int run_main(const RunOptions& options, const Process& process, Deployment& depl
   deployment.connect(plugins, process.domain, process.origin.run);
   tell_network(process.network, console);
   expect_hosts(children, options, deployment, process.origin);
-  MainWatch watch{console, children, deployment.config()};
+  MainWatch watch{console, children, deployment};
   deployment.run(watch);
   RunReport::Ending ending{.faults = watch.end_all(), .stopped = watch.interruption()};
   // Somebody has looked at it for long enough: that is how such a run ends.

@@ -35,18 +35,27 @@ std::optional<std::string> ProcessWatch::interruption_now() {
   return interruption_;
 }
 
-MainWatch::MainWatch(Console& console, ChildProcesses& children, const DeploymentConfig& deployment)
+MainWatch::MainWatch(Console& console, ChildProcesses& children, Deployment& deployment)
     : ProcessWatch{console},
       children_{&children},
-      simulated_{deployment.simulated},
-      stop_within_s_{deployment.stop_within_s} {
-  for (const ComponentConfig& component : deployment.components) {
+      deployment_{&deployment},
+      simulated_{deployment.config().simulated},
+      stop_within_s_{deployment.config().stop_within_s} {
+  for (const ComponentConfig& component : deployment.config().components) {
     if (component.manifest && component.manifest->driver) with_driver_.push_back(component.process);
   }
 }
 
+void MainWatch::tell_step(const std::string& text) {
+  deployment_->tell(text, StatusReporter::State::ok);
+}
+
+void MainWatch::tell_trouble(const std::string& text) {
+  deployment_->tell(text, StatusReporter::State::degraded);
+}
+
 void MainWatch::tell_notes() {
-  while (const auto note = children_->next_note()) console().line("runtime", *note);
+  while (const auto note = children_->next_note()) tell_trouble(*note);
 }
 
 bool MainWatch::may_start(const std::optional<std::string>& waiting) {
@@ -56,9 +65,10 @@ bool MainWatch::may_start(const std::optional<std::string>& waiting) {
   const auto now = SteadyClock::now();
   if (const auto host = children_->missing_host()) {
     if (told_missing_ != *host) {
-      console().line("runtime", fmt::format("waiting for host '{}': run the same file there with "
-                                            "--host {}",
-                                            *host, *host));
+      tell_step(
+          fmt::format("waiting for host '{}': run the same file there with "
+                      "--host {}",
+                      *host, *host));
     }
     told_missing_ = *host;
     asked_first_ = now;
@@ -67,7 +77,7 @@ bool MainWatch::may_start(const std::optional<std::string>& waiting) {
   if (const auto late = children_->not_joined()) {
     if (!told_of_late_ && now - asked_first_ > kMeetWithin) {
       told_of_late_ = true;
-      console().line("runtime", fmt::format("waiting for {} to be constructed", *late));
+      tell_step(fmt::format("waiting for {} to be constructed", *late));
     }
     return false;
   }
@@ -93,10 +103,10 @@ void MainWatch::refuse_to_start(const std::string& waiting) const {
 void MainWatch::tell_clock_step() {
   const auto step = clock_step();
   if (!step || simulated_) return;
-  console().line("runtime",
-                 fmt::format("the system clock stepped by {:+g} s; the deployment's clock goes on "
-                             "as before, and so do ages and leases",
-                             std::round(to_seconds(*step) * 10) / 10));
+  tell_trouble(
+      fmt::format("the system clock stepped by {:+g} s; the deployment's clock goes on "
+                  "as before, and so do ages and leases",
+                  std::round(to_seconds(*step) * 10) / 10));
 }
 
 std::optional<std::string> MainWatch::stop_cause() {
@@ -110,7 +120,7 @@ std::optional<std::string> MainWatch::stop_cause() {
 }
 
 void MainWatch::stopping(const std::string& cause) {
-  console().line("runtime", "stopping: " + cause);
+  tell_step("stopping: " + cause);
   children_->send("stop " + cause);
 }
 
@@ -119,9 +129,10 @@ bool MainWatch::may_end(const std::vector<std::string>& moving, Duration left) {
   children_->update();
   if (end_signals::count() > told_signals_) {
     told_signals_ = end_signals::count();
-    console().line("runtime", fmt::format("stopping, at most {:.1f} s more; a third signal ends at "
-                                          "once",
-                                          std::max(0.0, to_seconds(left))));
+    tell_step(
+        fmt::format("stopping, at most {:.1f} s more; a third signal ends at "
+                    "once",
+                    std::max(0.0, to_seconds(left))));
   }
   moving_ = children_->moving();
   return (moving.empty() && moving_.empty()) || left <= Duration{0};

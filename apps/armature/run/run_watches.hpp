@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "armature/runtime/deployment/deployment.hpp"
 #include "armature/runtime/deployment/run_watch.hpp"
 #include "armature/runtime/deployment_file/deployment_config.hpp"
 #include "armature/runtime/execution/clock.hpp"
@@ -43,8 +44,7 @@ class ProcessWatch : public RunWatch {
 /// those that move something last.
 class MainWatch final : public ProcessWatch {
  public:
-  /// `simulated`: the deployment does not go by the system clock at all.
-  MainWatch(Console& console, ChildProcesses& children, const DeploymentConfig& deployment);
+  MainWatch(Console& console, ChildProcesses& children, Deployment& deployment);
 
   bool may_start(const std::optional<std::string>& waiting) override;
   std::optional<std::string> stop_cause() override;
@@ -57,11 +57,14 @@ class MainWatch final : public ProcessWatch {
 
  private:
   using SteadyClock = std::chrono::steady_clock;
+  void tell_step(const std::string& text);
+  void tell_trouble(const std::string& text);
   void tell_clock_step();
   void tell_notes();
   [[noreturn]] void refuse_to_start(const std::string& waiting) const;
 
   ChildProcesses* children_;
+  Deployment* deployment_;
   std::vector<std::string> with_driver_;  // processes that move something
   bool simulated_;
   double stop_within_s_;

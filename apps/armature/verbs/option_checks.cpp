@@ -54,4 +54,11 @@ std::string no_server(const std::string& text) {
   return possible ? "" : possible.error().text;
 }
 
+std::string no_pattern(const std::string& text) {
+  const std::size_t star = text.find('*');
+  return star == std::string::npos || star + 1 == text.size()
+             ? ""
+             : config::in_quotes(text) + " has a '*' that is not at its end";
+}
+
 }  // namespace armature

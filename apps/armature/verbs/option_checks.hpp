@@ -18,6 +18,8 @@ std::string not_positive(const std::string& text);
 std::string no_interface(const std::string& text);
 /// No name of a host and no IPv4 address; whether there is such a host is not asked.
 std::string no_host(const std::string& text);
+/// A "*" that is not at its end.
+std::string no_pattern(const std::string& text);
 /// No "host" or "host:port" of a discovery server.
 std::string no_server(const std::string& text);
 

@@ -15,9 +15,11 @@ void add_record(CLI::App& app, Action& action) {
   auto plain = std::make_shared<bool>(false);
   CLI::App* verb = app.add_subcommand(
       "record", "Record topics of running deployments as MCAP: armature record -o run.mcap");
-  verb->add_option("-o,--out", options->out, "the file; one that is there is replaced")->required();
+  verb->add_option("-o,--out", options->out, "the file")->required();
   verb->add_option("topics", options->topics,
-                   "only these, a name or the beginning of names: '/dental_lamp/*' (all)");
+                   "only these, a name or the beginning of names: '/dental_lamp/*' (all)")
+      ->check(no_pattern);
+  verb->add_flag("--force", options->force, "replace a file that is there");
   verb->add_flag("--uncompressed", *plain, "without zstd: more bytes, less processor");
   verb->add_option("--repair", *cut,
                    "write what can be read of this recording, which was cut off, instead")
@@ -27,7 +29,8 @@ void add_record(CLI::App& app, Action& action) {
   verb->callback([=, &action] {
     options->compress = !*plain;
     action = [=] {
-      return cut->empty() ? record_topics(*options) : repair_recording(*cut, options->out);
+      return cut->empty() ? record_topics(*options)
+                          : repair_recording(*cut, options->out, options->force);
     };
   });
 }

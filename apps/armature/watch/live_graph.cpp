@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <chrono>
-#include <thread>
+#include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "exit_code.hpp"
@@ -22,6 +22,7 @@ bool is_of_runtime(const msg::ComponentDescription& component) {
 DrawnGraph graph_of(const std::string& name, const SeenDeployment& deployment) {
   DrawnGraph graph{.deployment = name};
   for (const std::string& process : deployment.processes.begin()->second.processes_()) {
+    if (!deployment.processes.contains(process)) continue;
     for (const auto& component : deployment.processes.at(process).components_()) {
       if (is_of_runtime(component)) continue;
       graph.components.push_back({component.name_(), component.plugin_(), process});
@@ -39,14 +40,18 @@ DrawnGraph graph_of(const std::string& name, const SeenDeployment& deployment) {
   return graph;
 }
 
-std::string missing_processes(const std::string& name, const SeenDeployment& deployment) {
-  std::vector<std::string> missing;
-  if (deployment.processes.empty()) return fmt::format("deployment '{}' has told nothing", name);
-  for (const std::string& process : deployment.processes.begin()->second.processes_()) {
-    if (!deployment.processes.contains(process)) missing.push_back(process);
+/// "deployment 'lamp': nothing was heard of process 'vision'"; empty: all is known.
+std::string incomplete(const std::map<std::string, SeenDeployment>& all) {
+  for (const auto& [name, deployment] : all) {
+    if (deployment.processes.empty()) {
+      return fmt::format("deployment '{}' has not told what it consists of", name);
+    }
+    if (!deployment.is_whole()) {
+      return fmt::format("deployment '{}': nothing was heard of process '{}'", name,
+                         fmt::join(deployment.missing(), "', '"));
+    }
   }
-  return fmt::format("deployment '{}' is not whole; nothing was heard of process {}", name,
-                     fmt::join(missing, ", "));
+  return "";
 }
 
 int timed_out(const WatchOptions& options, const std::string& wrong) {
@@ -60,37 +65,41 @@ int draw_live_graph(const WatchOptions& options, const std::string& name, GraphF
   leave_in_order();
   SeenDeployments seen{options, name};
   const Time start = monotonic_now();
+  const Duration patience = options.timeout_s > 0 ? seconds(options.timeout_s) : 2 * kDiscovery;
   std::map<std::string, SeenDeployment> all;
-  std::string wrong;
-  for (bool told = false; !left();) {
+  for (bool told = false; wait_for(seconds(0.05));) {
     seen.look();
     all = seen.all();
     const Duration waited = monotonic_now() - start;
-    wrong = all.empty() ? fmt::format("no deployment {}tells of itself in domain {}",
-                                      name.empty() ? "" : "'" + name + "' ", options.network.domain)
-                        : "";
-    for (const auto& [deployment, parts] : all) {
-      if (!parts.is_whole()) wrong = missing_processes(deployment, parts);
-    }
+    const bool is_told =
+        std::ranges::any_of(all, [](const auto& one) { return !one.second.processes.empty(); });
     // Others may be there, which are found at about the same time.
-    if (wrong.empty() && (!name.empty() || waited > kDiscovery)) break;
-    if (options.timeout_s > 0 && waited > seconds(options.timeout_s) && !wrong.empty()) {
-      return timed_out(options, wrong);
+    const bool all_found = !name.empty() || waited > kDiscovery;
+    if (is_told && incomplete(all).empty() && all_found) break;
+    if (waited < patience) continue;
+    if (is_told) break;  // one of its processes may have died
+    const std::string none =
+        fmt::format("no deployment {}tells of itself in domain {}",
+                    name.empty() ? "" : "'" + name + "' ", options.network.domain);
+    if (options.timeout_s > 0) return timed_out(options, none);
+    if (!std::exchange(told, true)) {
+      fmt::print(stderr, "armature: {} yet, waiting for it\n", none);
     }
-    if (!told && !wrong.empty() && options.timeout_s <= 0 && waited > 2 * kDiscovery) {
-      told = true;
-      fmt::print(stderr, "armature: {} yet, waiting for it\n", wrong);
-    }
-    std::this_thread::sleep_for(std::chrono::milliseconds{50});
   }
   if (left()) return kOk;
+  std::erase_if(all, [](const auto& one) { return one.second.processes.empty(); });
+  if (const std::string missing = incomplete(all); !missing.empty()) {
+    fmt::print(stderr, "armature: {}\n", missing);
+  }
   if (all.size() > 1) {
     std::vector<std::string> names;
     for (const auto& [deployment, parts] : all) names.push_back(deployment);
     throw InvalidChoice(fmt::format("domain {} has several deployments; name one: {}",
                                     options.network.domain, fmt::join(names, ", ")));
   }
-  fmt::print("{}", drawing_of(graph_of(all.begin()->first, all.begin()->second), format));
+  std::string drawing = drawing_of(graph_of(all.begin()->first, all.begin()->second), format);
+  drawing.pop_back();
+  tell(drawing);
   return kOk;
 }
 

@@ -11,9 +11,9 @@
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <string_view>
-#include <thread>
 #include <vector>
 
+#include "armature/config/problems.hpp"
 #include "armature/messages/rcl_interfaces.hpp"
 #include "armature/messages/stamp.hpp"
 #include "colour.hpp"
@@ -82,12 +82,18 @@ class Lines {
       print(line, options_.json);
     }
   }
+  /// How many have been printed.
+  std::size_t told() {
+    const std::scoped_lock lock{mutex_};
+    return told_;
+  }
   void tell_kept() {
     const std::scoped_lock lock{mutex_};
     keeps_ = false;
     std::ranges::stable_sort(kept_, {},
                              [](const msg::Log& line) { return stamp_of(line.stamp_()); });
     for (const msg::Log& line : kept_) print(line, options_.json);
+    told_ += kept_.size();
     kept_.clear();
   }
 
@@ -95,6 +101,7 @@ class Lines {
   const LogOptions& options_;
   std::mutex mutex_;
   bool keeps_ = true;
+  std::size_t told_ = 0;
   std::vector<msg::Log> kept_;
 };
 
@@ -109,14 +116,16 @@ int print_log(const LogOptions& options) {
     if (const auto line = decoded<msg::Log>(sample)) lines.add(*line);
   });
   if (watching != kOk || left()) return watching;
-  std::this_thread::sleep_for(kDiscovery);
+  wait_for(kDiscovery);
   lines.tell_kept();
   const auto is_over = [&] {
     const Duration waited = std::chrono::steady_clock::now() - start;
     return options.timeout_s > 0 && waited > seconds(options.timeout_s);
   };
-  while (options.follow && !left() && !is_over()) {
-    std::this_thread::sleep_for(std::chrono::milliseconds{50});
+  while (options.follow && !is_over() && wait_for(seconds(0.05))) continue;
+  if (!options.follow && !left() && lines.told() == 0) {
+    fmt::print(stderr, "armature: nothing was told lately{}\n",
+               options.component.empty() ? "" : " by " + config::in_quotes(options.component));
   }
   return kOk;
 }

@@ -10,6 +10,7 @@
 #include <csignal>
 #include <cstdio>
 #include <stdexcept>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -53,6 +54,14 @@ Time monotonic_now() {
   return Time{Duration{std::chrono::steady_clock::now().time_since_epoch()}.count()};
 }
 
+bool wait_for(Duration time) {
+  const Time end = monotonic_now() + time;
+  while (!left() && monotonic_now() < end) {
+    std::this_thread::sleep_for(std::chrono::milliseconds{10});
+  }
+  return !left();
+}
+
 void tell(const std::string& line) {
   const bool written = std::fputs((line + '\n').c_str(), stdout) >= 0;
   if (written && std::fflush(stdout) == 0) return;
@@ -90,7 +99,6 @@ std::string Outsider::no_topics() const {
                                  "--peer or --discovery-server");
 }
 
-/// "; did you mean '/lamp/target'?" or "; topics that are there: ...", or that there are none.
 std::string Outsider::topics_there(const std::string& topic) {
   std::vector<std::string> names;
   for (const auto& there : observer_->topics()) {

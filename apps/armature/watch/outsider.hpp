@@ -30,6 +30,8 @@ void leave_in_order();
 Time monotonic_now();
 /// It is time to leave.
 bool left();
+/// Waits; false as soon as it is time to leave.
+bool wait_for(Duration time);
 /// Prints a line, and leaves when nobody reads it any more, as behind `| head -n 1`.
 void tell(const std::string& line);
 
@@ -50,9 +52,10 @@ class Outsider {
   /// That the domain has no topics, and what may be missing to hear them.
   std::string no_topics() const;
 
- private:
+  /// "; did you mean '/lamp/target'?" or "; topics that are there: ...", or that there are none.
   std::string topics_there(const std::string& topic);
 
+ private:
   WatchOptions options_;
   PluginRegistry plugins_;
   PluginPtr<DdsObserver> observer_;

@@ -2,6 +2,7 @@
 #include "watch/seen_deployments.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <string_view>
 #include <utility>
 
@@ -28,10 +29,12 @@ double per(double amount, Duration time) {
 
 }  // namespace
 
-bool SeenDeployment::is_whole() const {
-  return !processes.empty() &&
-         std::ranges::all_of(processes.begin()->second.processes_(),
-                             [&](const auto& process) { return processes.contains(process); });
+std::vector<std::string> SeenDeployment::missing() const {
+  std::vector<std::string> missing;
+  if (processes.empty()) return missing;
+  std::ranges::copy_if(processes.begin()->second.processes_(), std::back_inserter(missing),
+                       [&](const std::string& process) { return !processes.contains(process); });
+  return missing;
 }
 
 SeenComponent seen_after(const std::optional<SeenComponent>& before, SeenComponent now) {

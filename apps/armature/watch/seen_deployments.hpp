@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "armature/messages/armature_msgs.hpp"
 #include "watch/outsider.hpp"
@@ -28,8 +29,10 @@ struct SeenDeployment {
   std::map<std::string, msg::DeploymentDescription> processes;              // by name
   std::map<std::pair<std::string, std::string>, SeenComponent> components;  // by process and name
 
+  /// The processes of which nothing was heard yet, or that have died.
+  std::vector<std::string> missing() const;
   /// Whether all its processes have told what they consist of.
-  bool is_whole() const;
+  bool is_whole() const { return !processes.empty() && missing().empty(); }
 };
 
 /// What a component told now, with the rates since `before`.

@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string_view>
 #include <thread>
 
 #include "exit_code.hpp"
@@ -32,7 +34,8 @@ std::vector<TopLine> help() {
         "MISSED       periods that were passed over since the start",
         "DROPPED      samples that a full input queue lost since the start",
         "ANSWERS TO   the oldest measurement that a step answered to, and how old it was then", "",
-        "F4 or \\ or /  show only what has this in its name, process or plugin; Enter ends it",
+        "F4 or \\ or /  show only what has this in its name, process or plugin; Enter ends, Esc "
+        "clears it",
         "P T L D S N  sort by processor, step, lateness, drops, state, name; G: by the graph",
         "I            the other way round", "Z or space   stand still, and go on",
         "arrows, PgUp, PgDn, Home, End   scroll",
@@ -47,14 +50,19 @@ class LiveTable {
  public:
   explicit LiveTable(SeenDeployments& seen) : seen_{seen} {}
 
-  int run(double interval_s) {
+  /// `timeout_s`: 0 for ever.
+  int run(double interval_s, double timeout_s) {
+    const Time start = monotonic_now();
     Time next;
     while (!left() && !quits_) {
+      if (timeout_s > 0 && monotonic_now() - start > seconds(timeout_s)) return kOk;
       const bool due = monotonic_now() >= next;
       if (due) {
         seen_.look();
         if (!stands_) shown_ = seen_.all();
-        next = monotonic_now() + seconds(interval_s);
+        // What is found at first is not kept back for a long interval.
+        const bool is_young = monotonic_now() - start < 2 * kDiscovery;
+        next = monotonic_now() + (is_young ? seconds(0.2) : seconds(interval_s));
       }
       const TopScreen::Pressed pressed = screen_.pressed();
       if (pressed.key != TopScreen::Key::none) take(pressed);
@@ -67,12 +75,13 @@ class LiveTable {
   using Key = TopScreen::Key;
 
   void draw() {
-    lines_ = helps_ ? help() : top_table(shown_, view_, monotonic_now());
-    if (lines_.empty()) lines_.push_back({"no deployment tells how it is; waiting for one", {}});
+    TopTable table = top_table(shown_, view_, monotonic_now());
+    lines_ = helps_ ? help() : std::move(table.lines);
+    if (lines_.empty()) lines_.push_back({"waiting for a deployment that tells how it is", {}});
     const std::size_t last = lines_.size() > screen_.room() ? lines_.size() - screen_.room() : 0;
     first_ = std::min(first_, last);
     const std::string filter = "filter: " + view_.filter;
-    screen_.show(top_title(), lines_, first_,
+    screen_.show(table.title, lines_, first_,
                  types_ ? filter + "_" : (view_.filter.empty() ? kKeys : filter + "   " + kKeys));
   }
 
@@ -104,11 +113,16 @@ class LiveTable {
       case Key::end:
         first_ = lines_.size();
         return;
+      case Key::filter:
+        view_.filter.clear();
+        types_ = true;
+        return;
       case Key::other:
         return take_letter(pressed.letter);
       case Key::none:
       case Key::erase:
       case Key::enter:
+      case Key::escape:
         helps_ = false;
     }
   }
@@ -141,11 +155,6 @@ class LiveTable {
       case '?':
         helps_ = !helps_;
         return;
-      case '\\':
-      case '/':
-        view_.filter.clear();
-        types_ = true;
-        return;
       default:
         return;
     }
@@ -157,12 +166,15 @@ class LiveTable {
   }
 
   void type(const TopScreen::Pressed& pressed) {
-    if (pressed.key == Key::enter) {
-      types_ = false;
-    } else if (pressed.key == Key::erase) {
-      if (!view_.filter.empty()) view_.filter.pop_back();
-    } else if (pressed.letter != 0) {
+    if (pressed.letter != 0) {
       view_.filter += pressed.letter;
+    } else if (pressed.key == Key::quit) {
+      quits_ = true;
+    } else if (pressed.key == Key::enter || pressed.key == Key::escape) {
+      if (pressed.key == Key::escape) view_.filter.clear();
+      types_ = false;
+    } else if (pressed.key == Key::erase && !view_.filter.empty()) {
+      view_.filter.pop_back();
     }
   }
 
@@ -183,7 +195,7 @@ int meet(SeenDeployments& seen, const TopOptions& options) {
     for (const auto& [name, deployment] : seen.all()) {
       const bool twice = std::ranges::any_of(
           deployment.components, [](const auto& one) { return one.second.rate_hz > 0; });
-      if (twice && deployment.is_whole()) return kOk;
+      if (twice && (deployment.is_whole() || monotonic_now() - start > 2 * kDiscovery)) return kOk;
     }
     const Duration waited = monotonic_now() - start;
     if (options.timeout_s > 0 && waited > seconds(options.timeout_s)) {
@@ -217,8 +229,9 @@ int print_tables(SeenDeployments& seen, const TopOptions& options) {
       tell(top_json(seen.all(), monotonic_now()).dump());
       continue;
     }
-    tell(top_title());
-    for (const auto& [text, tone] : top_table(seen.all(), {}, monotonic_now())) {
+    const TopTable table = top_table(seen.all(), {}, monotonic_now());
+    tell(table.title);
+    for (const auto& [text, tone] : table.lines) {
       tell(tone ? coloured(text, *tone, stdout) : text);
     }
   }
@@ -230,10 +243,12 @@ int print_tables(SeenDeployments& seen, const TopOptions& options) {
 int watch_components(const TopOptions& options) {
   leave_in_order();
   SeenDeployments seen{options, options.deployment};
-  const bool live = !options.json && options.count == 0 && isatty(STDOUT_FILENO) != 0 &&
+  const char* term = std::getenv("TERM");
+  const bool is_dumb = term && std::string_view{term} == "dumb";
+  const bool live = !options.json && options.count == 0 && !is_dumb && isatty(STDOUT_FILENO) != 0 &&
                     isatty(STDIN_FILENO) != 0;
   if (!live) return print_tables(seen, options);
-  return LiveTable{seen}.run(options.interval_s);
+  return LiveTable{seen}.run(options.interval_s, options.timeout_s);
 }
 
 }  // namespace armature

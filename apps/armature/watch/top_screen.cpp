@@ -61,12 +61,16 @@ TopScreen::Pressed TopScreen::pressed() const {
     case ERR:
       return {};
     case KEY_F(10):
+      return {Key::quit};
     case 'q':
       return {Key::quit, 'q'};
     case KEY_F(1):
       return {Key::help};
     case KEY_F(4):
-      return {Key::other, '\\'};
+      return {Key::filter};
+    case '/':
+    case '\\':
+      return {Key::filter, static_cast<char>(key)};
     case KEY_UP:
       return {Key::up};
     case KEY_DOWN:
@@ -86,8 +90,9 @@ TopScreen::Pressed TopScreen::pressed() const {
     case '\n':
     case '\r':
     case KEY_ENTER:
-    case kEscape:
       return {Key::enter};
+    case kEscape:
+      return {Key::escape};
     default:
       return {Key::other, key >= ' ' && key < kDelete ? static_cast<char>(key) : '\0'};
   }

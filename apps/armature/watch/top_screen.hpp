@@ -11,10 +11,25 @@ namespace armature {
 /// The terminal, as long as the table has it for itself. There is one at a time.
 class TopScreen {
  public:
-  enum class Key { none, other, quit, help, up, down, page_up, page_down, home, end, erase, enter };
+  enum class Key {
+    none,
+    other,
+    quit,
+    help,
+    filter,
+    up,
+    down,
+    page_up,
+    page_down,
+    home,
+    end,
+    erase,
+    enter,
+    escape
+  };
   struct Pressed {
     Key key = Key::none;
-    char letter = 0;  // Key::other
+    char letter = 0;  // as it was typed
   };
 
   /// Throws std::runtime_error where the terminal is not known.

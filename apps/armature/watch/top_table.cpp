@@ -2,6 +2,7 @@
 #include "watch/top_table.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -24,6 +25,7 @@ struct Row {
   std::size_t place = kUnplaced;  // in the graph
   std::string state, reason;
   std::optional<Tone> tone;
+  double rate_hz = 0, processor = 0;
 
   const msg::ComponentState& told() const { return component->state; }
 };
@@ -38,7 +40,10 @@ const msg::ReactionTiming* slowest(const msg::ComponentState& state) {
 
 Row row_of(const std::string& process, const SeenComponent& component, Time now) {
   constexpr std::array<std::string_view, 4> kStates{"ok", "degraded", "fault", "stalled"};
-  Row row{.process = process, .component = &component};
+  Row row{.process = process,
+          .component = &component,
+          .rate_hz = component.rate_hz,
+          .processor = component.processor};
   const std::size_t state = component.state.state_();
   row.state = state < kStates.size() ? kStates[state] : fmt::format("state {}", state);
   row.reason = component.state.reason_();
@@ -47,6 +52,7 @@ Row row_of(const std::string& process, const SeenComponent& component, Time now)
     row.state = "silent";
     row.reason = fmt::format("has told nothing for {:.0f} s", to_seconds(now - component.heard));
     row.tone = Tone::bad;
+    row.rate_hz = row.processor = 0;
   }
   return row;
 }
@@ -79,7 +85,7 @@ bool is_before(const Row& a, const Row& b, TopOrder order) {
     case TopOrder::state:
       return left.state_() > right.state_();
     case TopOrder::processor:
-      return a.component->processor > b.component->processor;
+      return a.processor > b.processor;
     case TopOrder::step:
       return left.step_().p99_() > right.step_().p99_();
     case TopOrder::lateness:
@@ -104,19 +110,21 @@ std::string reaction_text(const msg::ReactionTiming* reaction) {
                      time_text(reaction->age_().p99_()));
 }
 
-constexpr const char* kRow =
-    "  {:<18} {:<9} {:<8} {:>7} {:>8} {:>8} {:>8} {:>5} {:>6} {:>7}  {:<26} {}";
+constexpr const char* kRow = "  {:<{}} {:<{}} {:<8} {:>7} {:>8} {:>8} {:>8} {:>5} {:>6} {:>7}  {}";
 
-std::string text_of(const Row& row) {
+/// How wide the names are.
+struct Widths {
+  std::size_t component = std::string_view{"COMPONENT"}.size();
+  std::size_t process = std::string_view{"PROCESS"}.size();
+};
+
+std::string text_of(const Row& row, const Widths& widths) {
   const msg::ComponentState& told = row.told();
-  std::string text =
-      fmt::format(fmt::runtime(kRow), told.component_(), row.process, row.state,
-                  fmt::format("{:.1f}", row.component->rate_hz), time_text(told.lateness_().p99_()),
-                  time_text(told.step_().p50_()), time_text(told.step_().p99_()),
-                  fmt::format("{:.1f}", 100 * row.component->processor), told.overruns_(),
-                  told.dropped_(), reaction_text(slowest(told)), row.reason);
-  text.erase(text.find_last_not_of(' ') + 1);
-  return text;
+  return fmt::format(fmt::runtime(kRow), told.component_(), widths.component, row.process,
+                     widths.process, row.state, fmt::format("{:.1f}", row.rate_hz),
+                     time_text(told.lateness_().p99_()), time_text(told.step_().p50_()),
+                     time_text(told.step_().p99_()), fmt::format("{:.1f}", 100 * row.processor),
+                     told.overruns_(), told.dropped_(), reaction_text(slowest(told)));
 }
 
 bool passes(const Row& row, const std::string& filter) {
@@ -127,17 +135,20 @@ bool passes(const Row& row, const std::string& filter) {
   return contains(told.component_()) || contains(row.process) || contains(told.plugin_());
 }
 
-std::string summary_of(const std::string& name, const SeenDeployment& deployment,
-                       const std::vector<Row>& rows) {
+TopLine summary_of(const std::string& name, const SeenDeployment& deployment,
+                   const std::vector<Row>& rows) {
   const auto well =
       std::ranges::count_if(rows, [](const Row& row) { return !row.tone.has_value(); });
   std::string text = fmt::format("{}: {} of {} components ok", name, well, rows.size());
-  if (deployment.processes.empty()) return text;
+  if (deployment.processes.empty()) return {text, std::nullopt};
   const msg::DeploymentDescription& told = deployment.processes.begin()->second;
   text += fmt::format(", {} of {} processes, {} clock, fingerprint {}", deployment.processes.size(),
                       told.processes_().size(), told.simulated_() ? "simulated" : "system",
                       told.fingerprint_().substr(0, 12));
-  return text;
+  const std::vector<std::string> missing = deployment.missing();
+  if (missing.empty()) return {text, std::nullopt};
+  return {text + fmt::format("; nothing is heard of process '{}'", fmt::join(missing, "', '")),
+          Tone::bad};
 }
 
 Json json_of(const msg::StepTiming& timing) {
@@ -155,8 +166,8 @@ Json json_of(const Row& row) {
             {"plugin", told.plugin_()},
             {"state", row.state},
             {"reason", row.reason},
-            {"rate_hz", row.component->rate_hz},
-            {"processor", row.component->processor},
+            {"rate_hz", row.rate_hz},
+            {"processor", row.processor},
             {"activations", told.activations_()},
             {"missed", told.overruns_()},
             {"dropped", told.dropped_()},
@@ -173,25 +184,31 @@ Json json_of(const Row& row) {
 
 }  // namespace
 
-std::string top_title() {
-  return fmt::format(fmt::runtime(kRow), "COMPONENT", "PROCESS", "STATE", "HZ", "LATE99", "STEP50",
-                     "STEP99", "CPU%", "MISSED", "DROPPED", "ANSWERS TO, P50, P99", "REASON");
-}
-
-std::vector<TopLine> top_table(const std::map<std::string, SeenDeployment>& seen,
-                               const TopView& view, Time now) {
-  std::vector<TopLine> lines;
+TopTable top_table(const std::map<std::string, SeenDeployment>& seen, const TopView& view,
+                   Time now) {
+  Widths widths;
+  for (const auto& [name, deployment] : seen) {
+    for (const auto& [place, component] : deployment.components) {
+      widths.process = std::max(widths.process, place.first.size());
+      widths.component = std::max(widths.component, place.second.size());
+    }
+  }
+  TopTable table{.title = fmt::format(fmt::runtime(kRow), "COMPONENT", widths.component, "PROCESS",
+                                      widths.process, "STATE", "HZ", "LATE99", "STEP50", "STEP99",
+                                      "CPU%", "MISSED", "DROPPED", "ANSWERS TO, P50, P99")};
   for (const auto& [name, deployment] : seen) {
     std::vector<Row> rows = rows_of(deployment, now);
-    lines.push_back({summary_of(name, deployment, rows), std::nullopt});
+    table.lines.push_back(summary_of(name, deployment, rows));
     std::ranges::stable_sort(
         rows, [&](const Row& a, const Row& b) { return is_before(a, b, view.order); });
     if (view.reversed) std::ranges::reverse(rows);
     for (const Row& row : rows) {
-      if (passes(row, view.filter)) lines.push_back({text_of(row), row.tone});
+      if (!passes(row, view.filter)) continue;
+      table.lines.push_back({text_of(row, widths), row.tone});
+      if (!row.reason.empty()) table.lines.push_back({"      " + row.reason, row.tone});
     }
   }
-  return lines;
+  return table;
 }
 
 Json top_json(const std::map<std::string, SeenDeployment>& seen, Time now) {

@@ -27,12 +27,14 @@ struct TopLine {
   std::optional<Tone> tone;
 };
 
-/// The title of the columns.
-std::string top_title();
-/// How the components of all deployments are, `now` on the monotonic clock: for each deployment a
-/// line of its own and one for every component.
-std::vector<TopLine> top_table(const std::map<std::string, SeenDeployment>& seen,
-                               const TopView& view, Time now);
+struct TopTable {
+  std::string title;           // of the columns
+  std::vector<TopLine> lines;  // for each deployment one, and for every component; and reasons
+};
+
+/// How the components of all deployments are, `now` on the monotonic clock.
+TopTable top_table(const std::map<std::string, SeenDeployment>& seen, const TopView& view,
+                   Time now);
 /// The same, for programs: `[{"deployment", "run", "components": [...]}]`, in SI units.
 nlohmann::ordered_json top_json(const std::map<std::string, SeenDeployment>& seen, Time now);
 

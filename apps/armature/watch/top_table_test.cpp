@@ -13,9 +13,9 @@ using ::testing::HasSubstr;
 constexpr Time kNow{1'000'000'000'000};
 
 /// Two components of one process, "motion" after "camera" in the graph.
-class TopTable : public testing::Test {
+class TopTableTest : public testing::Test {
  protected:
-  TopTable() {
+  TopTableTest() {
     msg::DeploymentDescription& description = seen_["lamp"].processes["main"];
     description.processes_({"main"});
     description.components_().resize(2);
@@ -33,23 +33,31 @@ class TopTable : public testing::Test {
   }
   std::vector<std::string> names(const TopView& view = {}) const {
     std::vector<std::string> all;
-    for (const TopLine& line : top_table(seen_, view, kNow)) {
-      if (line.text.starts_with("  "))
+    for (const TopLine& line : top_table(seen_, view, kNow).lines) {
+      if (line.text.starts_with("  ") && line.text[2] != ' ')
         all.push_back(line.text.substr(2, line.text.find(' ', 2) - 2));
     }
     return all;
   }
   /// The line of a component.
   TopLine line_of(const std::string& name, Time now = kNow) const {
-    for (const TopLine& line : top_table(seen_, {}, now)) {
+    for (const TopLine& line : top_table(seen_, {}, now).lines) {
       if (line.text.starts_with("  " + name)) return line;
+    }
+    return {};
+  }
+  /// The one below it.
+  std::string below(const std::string& name, Time now = kNow) const {
+    const std::vector<TopLine> lines = top_table(seen_, {}, now).lines;
+    for (std::size_t i = 0; i + 1 < lines.size(); ++i) {
+      if (lines[i].text.starts_with("  " + name)) return lines[i + 1].text;
     }
     return {};
   }
   std::map<std::string, SeenDeployment> seen_;
 };
 
-TEST_F(TopTable, HasTheOrderOfTheGraphUnlessItIsSorted) {
+TEST_F(TopTableTest, HasTheOrderOfTheGraphUnlessItIsSorted) {
   EXPECT_THAT(names(), testing::ElementsAre("camera", "motion"));
   EXPECT_THAT(names({.reversed = true}), testing::ElementsAre("motion", "camera"));
   add("motion", 0.010);
@@ -57,28 +65,44 @@ TEST_F(TopTable, HasTheOrderOfTheGraphUnlessItIsSorted) {
   EXPECT_THAT(names({.order = TopOrder::name}), testing::ElementsAre("camera", "motion"));
 }
 
-TEST_F(TopTable, ShowsOnlyWhatTheFilterLetsThrough) {
+TEST_F(TopTableTest, ShowsOnlyWhatTheFilterLetsThrough) {
   EXPECT_THAT(names({.filter = "mot"}), testing::ElementsAre("motion"));
   EXPECT_THAT(names({.filter = "main"}), testing::ElementsAre("camera", "motion"));
 }
 
-TEST_F(TopTable, TellsTheReasonOfTrouble) {
+TEST_F(TopTableTest, TellsTheReasonOfTrouble) {
   SeenComponent& motion = add("motion", 0.001);
   motion.state.state_(2);
   motion.state.reason_("no solution");
   EXPECT_THAT(line_of("motion").text, HasSubstr("fault"));
-  EXPECT_THAT(line_of("motion").text, HasSubstr("no solution"));
+  EXPECT_EQ(below("motion"), "      no solution") << "where a narrow terminal shows it, too";
   EXPECT_EQ(line_of("motion").tone, Tone::bad);
   EXPECT_FALSE(line_of("camera").tone);
 }
 
-TEST_F(TopTable, SaysOfAComponentThatTellsNothingHowLongItHasBeenSilent) {
+TEST_F(TopTableTest, SaysOfAComponentThatTellsNothingHowLongItHasBeenSilent) {
   EXPECT_THAT(line_of("camera", kNow + seconds(2)).text, HasSubstr(" ok "));
-  EXPECT_THAT(line_of("camera", kNow + seconds(5)).text, HasSubstr("has told nothing for 5 s"));
+  EXPECT_EQ(below("camera", kNow + seconds(5)), "      has told nothing for 5 s");
   EXPECT_EQ(top_json(seen_, kNow + seconds(5))[0]["components"][0]["state"], "silent");
 }
 
-TEST_F(TopTable, TellsTheSlowestPathFromAMeasurement) {
+TEST_F(TopTableTest, NamesTheProcessOfWhichNothingIsHeard) {
+  EXPECT_FALSE(top_table(seen_, {}, kNow).lines[0].tone);
+  seen_["lamp"].processes["main"].processes_({"main", "vision"});
+  const TopLine summary = top_table(seen_, {}, kNow).lines[0];
+  EXPECT_THAT(summary.text, HasSubstr("nothing is heard of process 'vision'"));
+  EXPECT_EQ(summary.tone, Tone::bad);
+}
+
+TEST_F(TopTableTest, KeepsItsColumnsBesideALongName) {
+  add("a_component_with_quite_a_long_name", 0.001);
+  const TopTable table = top_table(seen_, {}, kNow);
+  for (const TopLine& line : table.lines) {
+    if (line.text.starts_with("  ")) EXPECT_EQ(line.text.find(" ok "), table.title.find(" STATE"));
+  }
+}
+
+TEST_F(TopTableTest, TellsTheSlowestPathFromAMeasurement) {
   SeenComponent& motion = add("motion", 0.001);
   motion.state.reactions_().resize(2);
   motion.state.reactions_()[0].source_("camera");

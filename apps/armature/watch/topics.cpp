@@ -4,10 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <thread>
 
 #include "armature/bus/topic_name.hpp"
 #include "armature/messages/cdr_to_json.hpp"
@@ -44,14 +42,18 @@ std::optional<ObservedTopic> find_topic(Outsider& outsider, const TopicOptions& 
     const auto topic = std::ranges::find(topics, name, &ObservedTopic::name);
     return topic == topics.end() ? std::nullopt : std::optional{*topic};
   };
-  const auto start = std::chrono::steady_clock::now();
-  while (!left() && !found()) {
-    const Duration waited = std::chrono::steady_clock::now() - start;
-    if (options.timeout_s > 0 && waited > seconds(options.timeout_s)) return std::nullopt;
-    std::this_thread::sleep_for(std::chrono::milliseconds{20});
+  const Time start = monotonic_now();
+  for (bool told = false; !found(); wait_for(seconds(0.02))) {
+    const Duration waited = monotonic_now() - start;
+    const bool is_over = options.timeout_s > 0 && waited > seconds(options.timeout_s);
+    if (left() || is_over) return std::nullopt;
+    if (told || options.timeout_s > 0 || waited < kDiscovery) continue;
+    told = true;
+    fmt::print(stderr, "armature: nobody writes or reads '{}' yet, waiting for it{}\n",
+               options.topic, outsider.topics_there(options.topic));
   }
   // Whoever else uses it is found at about the same time.
-  std::this_thread::sleep_for(left() ? Duration{0} : kDiscovery);
+  wait_for(kDiscovery);
   return found();
 }
 
@@ -66,8 +68,9 @@ Json json_of(const ObservedTopic& topic) {
 }  // namespace
 
 int list_topics(const TopicOptions& options) {
+  leave_in_order();
   Outsider outsider{options};
-  std::this_thread::sleep_for(options.timeout_s > 0 ? seconds(options.timeout_s) : kDiscovery);
+  if (!wait_for(options.timeout_s > 0 ? seconds(options.timeout_s) : kDiscovery)) return kOk;
   if (const int code = outsider.too_short(); code != kOk) return code;
   const auto topics = outsider.dds().topics();
   if (topics.empty()) fmt::print(stderr, "armature: {}\n", outsider.no_topics());
@@ -78,13 +81,13 @@ int list_topics(const TopicOptions& options) {
     if (options.json) {
       json.push_back(json_of(topic));
     } else {
-      fmt::print("{:<{}} {:<32} {}, {} in other processes{}\n", ros_topic_name(topic.name), width,
-                 ros_types(topic), counted(topic.writers, "writer"),
-                 counted(topic.readers, "reader"),
-                 topic.types.size() > 1 ? "   CONFLICT: two types on one topic" : "");
+      tell(fmt::format("{:<{}} {:<32} {}, {} in other processes{}", ros_topic_name(topic.name),
+                       width, ros_types(topic), counted(topic.writers, "writer"),
+                       counted(topic.readers, "reader"),
+                       topic.types.size() > 1 ? "   CONFLICT: two types on one topic" : ""));
     }
   }
-  if (options.json) fmt::print("{}\n", json.dump());
+  if (options.json) tell(json.dump());
   return kOk;
 }
 
@@ -94,8 +97,8 @@ int describe_topic(const TopicOptions& options) {
   const auto topic = find_topic(outsider, options);
   if (!topic && left()) return kOk;
   if (!topic) {
-    fmt::print(stderr, "armature: nobody writes or reads '{}' within {:g} s\n", options.topic,
-               options.timeout_s);
+    fmt::print(stderr, "armature: nobody writes or reads '{}' within {:g} s{}\n", options.topic,
+               options.timeout_s, outsider.topics_there(options.topic));
     return kTimedOut;
   }
   Json json = json_of(*topic);
@@ -114,7 +117,8 @@ int describe_topic(const TopicOptions& options) {
                                  {"durability", durability},
                                  {"owner", endpoint.owner}});
   }
-  fmt::print("{}", options.json ? json.dump() + "\n" : text);
+  text.pop_back();
+  tell(options.json ? json.dump() : text);
   return kOk;
 }
 

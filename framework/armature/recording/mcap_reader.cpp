@@ -92,7 +92,8 @@ class McapReader::Cursor {
   bool ok_ = true;
 };
 
-McapReader::McapReader(const std::filesystem::path& file) : file_{map_file(file)} {
+McapReader::McapReader(const std::filesystem::path& file)
+    : file_{map_file(file)}, name_{file.string()} {
   Cursor start{file_};
   const auto magic = start.take(mcap::kMagic.size());
   if (magic.empty() || std::memcmp(magic.data(), mcap::kMagic.data(), magic.size()) != 0) {
@@ -115,13 +116,14 @@ std::optional<McapMessage> McapReader::next() {
   }
 }
 
-/// Reads records of the running chunk until one is a message.
+/// Reads a record of the running chunk; true when it is a message.
 bool McapReader::read_message(McapMessage& message) {
   Cursor cursor{chunk_};
   const auto op = static_cast<Op>(cursor.number<std::uint8_t>());
   Cursor record{cursor.take(cursor.number<std::uint64_t>())};
   if (!cursor.ok()) {
-    fail(fmt::format("a record of the chunk at byte {} is longer than the chunk", chunk_at_));
+    chunk_ = {};
+    note(fmt::format("a record of the chunk at byte {} is longer than the chunk", chunk_at_));
     return false;
   }
   chunk_ = cursor.left();
@@ -137,7 +139,8 @@ bool McapReader::read_message(McapMessage& message) {
     message.channel = &channel->second;
     return true;
   }
-  fail(fmt::format("a message of the chunk at byte {} has no channel", chunk_at_));
+  note(fmt::format("a message of the chunk at byte {} {}", chunk_at_,
+                   record.ok() ? "has no channel" : "is too short"));
   return false;
 }
 
@@ -148,8 +151,9 @@ bool McapReader::read_record() {
   Cursor record{cursor.take(cursor.number<std::uint64_t>())};
   if (!cursor.ok()) {
     const bool cut = position_ < file_.size();
-    fail(fmt::format("it ends {}, at byte {}", cut ? "in the midst of a record" : "without an end",
-                     position_));
+    note(fmt::format("it ends {}, at byte {}",
+                     cut ? "in the midst of a record" : "before its summary", position_));
+    ended_ = true;
     return false;
   }
   position_ += kRecordHead + record.left().size();
@@ -182,8 +186,9 @@ bool McapReader::read_record() {
     case Op::data_end: {
       const auto crc = record.number<std::uint32_t>();
       if (crc != 0 && crc != checksum_of(file_.first(at))) {
-        fail("its checksum is wrong: it was changed");
+        note("the checksum of its messages is wrong: it was changed");
       }
+      check_end();
       ended_ = true;
       break;
     }
@@ -201,22 +206,25 @@ void McapReader::open_chunk(Cursor record, std::uint64_t at) {
   const std::string compression = record.text();
   const auto packed = record.take(record.number<std::uint64_t>());
   const std::string chunk = fmt::format("the chunk at byte {}", at);
-  if (!record.ok() || size > kLargestChunk) return fail(chunk + " is broken");
-  if (compression.empty()) {
-    chunk_ = packed;
-  } else if (compression == "zstd") {
+  if (!record.ok() || size > kLargestChunk) return note(chunk + " is broken");
+  std::span<const std::byte> unpacked = packed;
+  if (compression == "zstd") {
+    // Before memory is taken for what may be a lie.
+    if (ZSTD_getFrameContentSize(packed.data(), packed.size()) != size) {
+      return note(chunk + " is broken");
+    }
     unpacked_.resize(size);
-    const std::size_t unpacked =
-        ZSTD_decompress(unpacked_.data(), size, packed.data(), packed.size());
-    if (ZSTD_isError(unpacked) != 0 || unpacked != size) return fail(chunk + " is broken");
-    chunk_ = unpacked_;
-  } else {
-    return fail(fmt::format("{} is packed with '{}', which is not read here", chunk, compression));
+    const std::size_t got = ZSTD_decompress(unpacked_.data(), size, packed.data(), packed.size());
+    unpacked = std::span{unpacked_}.first(ZSTD_isError(got) != 0 ? 0 : got);
+  } else if (!compression.empty()) {
+    throw std::runtime_error(
+        fmt::format("'{}' cannot be read: {} is packed with '{}', only zstd "
+                    "is known here",
+                    name_, chunk, compression));
   }
-  if (crc != 0 && crc != checksum_of(chunk_)) {
-    chunk_ = {};
-    return fail(chunk + " has a wrong checksum");
-  }
+  if (unpacked.size() != size) return note(chunk + " is broken");
+  if (crc != 0 && crc != checksum_of(unpacked)) return note(chunk + " has a wrong checksum");
+  chunk_ = unpacked;
   chunk_at_ = at;
   ++chunks_;
   packed_bytes_ += packed.size();
@@ -232,7 +240,7 @@ void McapReader::read_attachment(Cursor record, std::uint64_t at) {
   const auto crc = record.number<std::uint32_t>();
   const bool right =
       record.ok() && (crc == 0 || crc == checksum_of(all.first(all.size() - sizeof crc)));
-  if (!right) return fail(fmt::format("the attachment at byte {} has a wrong checksum", at));
+  if (!right) return note(fmt::format("the attachment at byte {} is broken", at));
   attachments_.push_back(std::move(attachment));
 }
 
@@ -253,10 +261,32 @@ void McapReader::add_channel(Cursor record) {
   if (record.ok()) channels_[channel.id] = std::move(channel);
 }
 
-void McapReader::fail(std::string problem) {
-  if (problem_.empty()) problem_ = std::move(problem);
-  chunk_ = {};
-  ended_ = true;
+void McapReader::check_end() {
+  const std::uint64_t start = position_;
+  std::uint64_t footer_end = 0;
+  std::uint32_t crc = 0;
+  for (Cursor cursor{file_.subspan(start)}; cursor.ok() && footer_end == 0;) {
+    const auto op = static_cast<Op>(cursor.number<std::uint8_t>());
+    Cursor record{cursor.take(cursor.number<std::uint64_t>())};
+    if (!cursor.ok() || op != Op::footer) continue;
+    record.take(2 * sizeof(std::uint64_t));
+    crc = record.number<std::uint32_t>();
+    footer_end = file_.size() - cursor.left().size();
+  }
+  if (footer_end == 0) return note("it ends in the midst of its summary");
+  const auto summed = file_.subspan(start, footer_end - sizeof crc - start);
+  if (crc != 0 && crc != checksum_of(summed)) note("the checksum of its summary is wrong");
+  const auto behind = file_.subspan(footer_end);
+  if (behind.size() < mcap::kMagic.size() ||
+      std::memcmp(behind.data(), mcap::kMagic.data(), mcap::kMagic.size()) != 0) {
+    return note("its last bytes are missing");
+  }
+  if (behind.size() > mcap::kMagic.size()) note("something stands behind its end");
+}
+
+void McapReader::note(std::string problem) {
+  constexpr std::size_t kMostProblems = 100;
+  if (problems_.size() < kMostProblems) problems_.push_back(std::move(problem));
 }
 
 }  // namespace armature

@@ -21,8 +21,9 @@ struct McapMessage {
   std::span<const std::byte> data;  // valid until the next message is read
 };
 
-/// Reads an MCAP file from its beginning, as far as it is whole: also one without a summary, whose
-/// program died. Chunks may be uncompressed or packed with zstd. One thread at a time.
+/// Reads an MCAP file from its beginning: also one without a summary, whose program died, and one
+/// with damaged chunks, which are passed over. Chunks may be uncompressed or packed with zstd. One
+/// thread at a time.
 class McapReader {
  public:
   /// Throws std::runtime_error for a file that cannot be read or is no MCAP file.
@@ -31,7 +32,8 @@ class McapReader {
   McapReader(const McapReader&) = delete;
   McapReader& operator=(const McapReader&) = delete;
 
-  /// The next message, in the order of the file; nothing after the last one.
+  /// The next message, in the order of the file; nothing after the last one. Throws
+  /// std::runtime_error for a chunk that is packed with something else.
   std::optional<McapMessage> next();
   /// What has been met so far; all of it after the last message.
   const std::map<std::uint16_t, McapSchema>& schemas() const { return schemas_; }
@@ -43,9 +45,9 @@ class McapReader {
   std::uint64_t chunks() const { return chunks_; }
   std::uint64_t packed_bytes() const { return packed_bytes_; }
   std::uint64_t unpacked_bytes() const { return unpacked_bytes_; }
-  /// After the last message: why the file ends there, "it ends in the midst of a record, at byte
-  /// 1234"; empty: it is whole.
-  const std::string& problem() const { return problem_; }
+  /// After the last message: what is wrong with the file, "it ends in the midst of a record, at
+  /// byte 1234"; empty: it is whole.
+  const std::vector<std::string>& problems() const { return problems_; }
 
  private:
   class Cursor;
@@ -56,7 +58,9 @@ class McapReader {
   void read_attachment(Cursor record, std::uint64_t at);
   void add_schema(Cursor record);
   void add_channel(Cursor record);
-  void fail(std::string problem);
+  /// The summary, and what stands behind it, from `data_end` on.
+  void check_end();
+  void note(std::string problem);
 
   std::span<const std::byte> file_;  // mapped
   std::uint64_t position_ = 0;
@@ -68,7 +72,8 @@ class McapReader {
   std::map<std::uint16_t, McapChannel> channels_;
   std::vector<McapAttachment> attachments_;
   std::vector<McapMetadata> metadata_;
-  std::string library_, problem_;
+  std::string name_, library_;
+  std::vector<std::string> problems_;
   std::uint64_t chunks_ = 0, packed_bytes_ = 0, unpacked_bytes_ = 0;
 };
 

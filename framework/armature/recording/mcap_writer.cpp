@@ -286,7 +286,8 @@ void McapWriter::close() {
   end_record(bytes, begin);
   put(bytes);
   put_summary();
-  if (fsync(descriptor_) != 0 || ::close(std::exchange(descriptor_, -1)) != 0) {
+  const bool synced = fsync(descriptor_) == 0 || errno == EINVAL || errno == EROFS;  // a pipe
+  if (!synced || ::close(std::exchange(descriptor_, -1)) != 0) {
     throw std::runtime_error(fmt::format("cannot write '{}': {}", file_.string(),
                                          std::generic_category().message(errno)));
   }

@@ -102,14 +102,19 @@ Deployment::~Deployment() {
 }
 
 void Deployment::listen_for_log() {
-  options_.on_note = [this, tell = std::move(options_.on_note)](const std::string& text) {
-    log_.put(clock_->now(), kStateComponent, text, StatusReporter::State::degraded);
-    if (tell) tell(text);
+  print_note_ = std::move(options_.on_note);
+  options_.on_note = [this](const std::string& text) {
+    tell(text, StatusReporter::State::degraded);
   };
   sink_ = [this](std::string_view component, std::string_view line, StatusReporter::State state) {
     log_.put(clock_->now(), component, line, state);
     if (options_.on_line) options_.on_line(component, line);
   };
+}
+
+void Deployment::tell(const std::string& text, StatusReporter::State state) {
+  log_.put(clock_->now(), kStateComponent, text, state);
+  if (print_note_) print_note_(text);
 }
 
 void Deployment::make_scheduler() {

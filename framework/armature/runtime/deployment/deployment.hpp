@@ -78,6 +78,9 @@ class Deployment {
   /// then it ends, sources first. Throws what `watch` throws.
   void run(RunWatch& watch);
 
+  /// Tells the operator something of the whole run, and whoever reads /rosout; `state`: what it is
+  /// about, `ok` for whatever is no trouble.
+  void tell(const std::string& text, StatusReporter::State state);
   /// Whether a component had finished when the run began to stop.
   bool scenario_over() const { return scenario_over_; }
   /// True when the run ended because its time limit was over.
@@ -153,6 +156,7 @@ class Deployment {
   std::atomic<bool> one_ended_{false};  // finished or failed, and nobody has looked who
   std::vector<std::unique_ptr<ComponentRunner>> runners_;  // in the order of the graph
   std::optional<Watchdog> watchdog_;
+  std::function<void(const std::string&)> print_note_;
   bool scenario_over_ = false;  // a component has finished
   bool timed_out_ = false;
   std::chrono::steady_clock::time_point asked_{};  // the watch, of a lockstep run

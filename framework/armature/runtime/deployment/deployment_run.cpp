@@ -74,7 +74,7 @@ std::optional<std::string> Deployment::stop_cause(RunWatch& watch, Time start) {
   if (one_ended_.load(std::memory_order_relaxed) && one_ended_.exchange(false)) {
     if (std::string failed = component_fault(); !failed.empty()) return failed;
     if (any_finished() && !std::exchange(scenario_over_, true) && options_.keeps_running) {
-      options_.on_note("the scenario is over; the run goes on until Ctrl-C");
+      tell("the scenario is over; the run goes on until Ctrl-C", StatusReporter::State::ok);
     }
   }
   if (std::string hang = hang_fault(); !hang.empty()) return hang;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/messages/ros_definition.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <vector>
 
@@ -78,7 +80,7 @@ std::string ros_definition(const TypeDescription& type) {
   add_nested(type, nested);
   std::string text = fields_of(type);
   for (const TypeDescription* one : nested) {
-    text += std::string(80, '=') + "\nMSG: " + one->ros_name + "\n" + fields_of(*one);
+    text += fmt::format("{:=<80}\nMSG: {}\n{}", "", one->ros_name, fields_of(*one));
   }
   return text;
 }

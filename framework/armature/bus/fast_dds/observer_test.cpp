@@ -2,6 +2,7 @@
 // The observer sees and reads what it has no code for.
 #include "armature/bus/fast_dds/observer.hpp"
 
+#include <atomic>
 #include <nlohmann/json.hpp>
 
 #include "armature/bus/fast_dds/fast_dds_test.hpp"
@@ -38,6 +39,31 @@ TEST_F(FastDds, TheObserverReadsATopicByItsName) {
   EXPECT_EQ(topics[1].writers, 1);
   EXPECT_EQ(topics[1].types, std::vector<std::string>{"sensor_msgs::msg::dds_::JointState_"});
   EXPECT_EQ(topics[1].deployments, std::vector<std::string>{"lamp"});
+}
+
+TEST_F(FastDds, TheObserverReadsATopicOnlyAsLongAsItIsWatched) {
+  const auto transport = make_transport();
+  const auto writer = transport->advertise(to_peer_).value();
+  const auto observer = DdsObserver::make({.network = {.domain = domain_}}).value();
+  std::atomic<int> count{0};
+  const auto watch = [&] {
+    return observer->watch("/test/to_peer", seconds(30), [&](const ObservedSample&) { ++count; });
+  };
+  const auto offered = [&](int before) {
+    return eventually([&] {
+      writer->offer(sample(1));
+      return count > before;
+    });
+  };
+  ASSERT_TRUE(watch());
+  EXPECT_TRUE(offered(0));
+  observer->unwatch("/test/to_peer");
+  const int before = count;
+  EXPECT_TRUE(eventually([&] { return writer->matched_readers() == 0; }));
+  for (int i = 0; i < 10; ++i) writer->offer(sample(1));
+  EXPECT_EQ(count, before);
+  ASSERT_TRUE(watch());
+  EXPECT_TRUE(offered(before));
 }
 
 TEST_F(FastDds, AnUnwrittenTopicIsRefusedByTheObserver) {

@@ -26,6 +26,7 @@ void add_record(CLI::App& app, Action& action) {
       ->check(CLI::ExistingFile)
       ->excludes("topics");
   add_watch(*verb, *options);
+  verb->get_option("--timeout")->description("end after this many seconds");
   verb->callback([=, &action] {
     options->compress = !*plain;
     action = [=] {

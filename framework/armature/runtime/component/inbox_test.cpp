@@ -75,7 +75,7 @@ TEST_F(InboxTest, WhatArrivesWhileAStepRunsIsShownToTheNextOne) {
   EXPECT_EQ(shown(port), std::vector<int>{2});
 }
 
-Time at_ms(std::int64_t milliseconds) { return Time{milliseconds * 1'000'000}; }
+Time at_ms(std::int64_t stamp) { return Time{stamp * 1'000'000}; }
 
 TEST_F(InboxTest, AnswersToTheOldestMeasurementThatIsNew) {
   InputPort& image = add({.name = "image"});

@@ -44,17 +44,9 @@ class WebSocket {
 
   bool is_open() const { return is_open_; }
 
-  void send_text(const std::string& text) {
-    std::string frame{"\x81"};  // masked with zeros, as its payload is
-    if (text.size() < 126) {
-      frame += static_cast<char>(0x80 | text.size());
-    } else {
-      frame += static_cast<char>(0x80 | 126);
-      frame += static_cast<char>(text.size() >> 8);
-      frame += static_cast<char>(text.size());
-    }
-    say(frame + std::string(4, '\0') + text);
-  }
+  void send_text(const std::string& text) { send_frame('\x81', text); }
+  /// A part of a text, the first one or a later one, without an end.
+  void send_part(const std::string& text, bool first) { send_frame(first ? '\x01' : '\0', text); }
   /// The next frame; nothing: the connection is closed, or it is silent for 20 s.
   std::optional<Frame> next() {
     if (!has(2)) return std::nullopt;
@@ -73,6 +65,18 @@ class WebSocket {
   }
 
  private:
+  /// Masked with zeros.
+  void send_frame(char head, const std::string& text) {
+    std::string frame(1, head);
+    if (text.size() < 126) {
+      frame += static_cast<char>(0x80 | text.size());
+    } else {
+      frame += static_cast<char>(0x80 | 126);
+      frame += static_cast<char>(text.size() >> 8);
+      frame += static_cast<char>(text.size());
+    }
+    say(frame + std::string(4, '\0') + text);
+  }
   std::size_t byte(std::size_t i) const { return static_cast<unsigned char>(heard_[i]); }
   bool has(std::size_t size) {
     while (heard_.size() < size) {

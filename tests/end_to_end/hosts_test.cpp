@@ -220,8 +220,8 @@ TEST_F(HostsOverABadCable, AnArmIsLedByTheOtherHost) {
 class HostsOverAVeryBadCable : public Hosts {
  protected:
   HostsOverAVeryBadCable()
-      : Hosts{{"--seed", "7", "--lost", "0.15", "--doubled", "0.2", "--delay-ms", "1", "--jitter-ms",
-               "2"}} {}
+      : Hosts{{"--seed", "7", "--lost", "0.15", "--doubled", "0.2", "--delay-ms", "1",
+               "--jitter-ms", "2"}} {}
 };
 
 TEST_F(HostsOverAVeryBadCable, GetCommandsLateOrNeverButNeverTwiceOutOfOrderOrTooOld) {

@@ -170,9 +170,10 @@ TEST_F(Monitor, AsksForATokenBeyondLoopbackAndKnowsWherePagesComeFrom) {
   EXPECT_TRUE(WebSocket(port, name + "Origin: http://lab.example\r\n", path).is_open());
   EXPECT_TRUE(WebSocket(port, name + "Origin: https://app.foxglove.dev\r\n", path).is_open());
   EXPECT_FALSE(WebSocket(port, name + "Origin: http://evil.example\r\n", path).is_open());
-  EXPECT_TRUE(open.wait_for_err("a page from 'http://evil.example' was refused; to let it in: "
-                                "--origin",
-                                kPatience));
+  EXPECT_TRUE(
+      open.wait_for_err("a page from 'http://evil.example' was refused; to let it in: "
+                        "--origin",
+                        kPatience));
 }
 
 }  // namespace

@@ -28,8 +28,8 @@ struct DrawnGraph {
 
 enum class GraphFormat { text, json, dot, mermaid };
 
-/// As a table, as JSON, for Graphviz or for Mermaid. The drawings have a frame for each process,
-/// where there are several, and dashed arrows for feedback.
+/// Draws the graph: as a table, as JSON, for Graphviz or for Mermaid. The last two have a frame for
+/// each process, where there are several, and dashed arrows for feedback.
 std::string drawing_of(const DrawnGraph& graph, GraphFormat format);
 
 }  // namespace armature

@@ -21,7 +21,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kMostKept = 100;  // samples of a latched topic
 constexpr std::size_t kHeadBytes = 13;
-enum Level { kInfo = 0, kWarning = 1, kError = 2 };
+enum Level { kWarning = 1, kError = 2 };
 
 std::string status(Level level, const std::string& text) {
   return Json{{"op", "status"}, {"level", level}, {"message", text}}.dump();

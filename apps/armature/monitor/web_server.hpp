@@ -54,7 +54,7 @@ class WebServer {
   void send(Client client, std::string text);
   /// A binary message: `head`, then `body`, which several clients may share.
   void send(Client client, std::span<const std::byte> head, Body body);
-  /// How many binary messages this client has lost.
+  /// The number of binary messages that this client has lost.
   std::uint64_t dropped(Client client) const;
 
  private:

@@ -4,12 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
-#include <thread>
 
 #include "armature/bus/topic_name.hpp"
 #include "armature/config/problems.hpp"
@@ -70,7 +68,7 @@ class Topics {
     }
   }
   std::size_t count() const { return watched_.size(); }
-  /// What was asked for and nobody wrote.
+  /// The names that were asked for and that nobody wrote.
   std::vector<std::string> missing() const {
     std::vector<std::string> missing;
     std::ranges::copy_if(options_.topics, std::back_inserter(missing), [&](const auto& wanted) {
@@ -195,21 +193,21 @@ int record_topics(const RecordOptions& options) {
   leave_in_order();
   refuse_to_replace(options.out, options.force);
   Recorder recorder{options.out, options.compress};
-  const auto start = std::chrono::steady_clock::now();
+  const Time start = monotonic_now();
   std::vector<std::string> missing;
   {
     Topics topics{options, recorder};
     bool told = false;
     while (!left() && recorder.problem().empty()) {
       topics.look();
-      const Duration waited = std::chrono::steady_clock::now() - start;
+      const Duration waited = monotonic_now() - start;
       if (options.timeout_s > 0 && waited > seconds(options.timeout_s)) break;
       if (!told && waited > kDiscovery && topics.count() == 0) {
         told = true;
         fmt::print(stderr, "armature: none of the topics is written in domain {} yet, waiting\n",
                    options.network.domain);
       }
-      std::this_thread::sleep_for(std::chrono::milliseconds{50});
+      wait_for(seconds(0.05));
     }
     missing = topics.missing();
   }

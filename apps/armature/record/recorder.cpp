@@ -8,15 +8,12 @@
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/known_types.hpp"
 #include "armature/messages/ros_definition.hpp"
+#include "armature/runtime/execution/clock.hpp"
 
 namespace armature {
 namespace {
 
 constexpr std::chrono::seconds kLongestChunk{1};  // what is lost when the program dies
-
-Time system_now() {
-  return Time{Duration{std::chrono::system_clock::now().time_since_epoch()}.count()};
-}
 
 }  // namespace
 
@@ -34,7 +31,7 @@ Recorder::~Recorder() {
 }
 
 void Recorder::add(const std::string& topic, const ObservedSample& sample) {
-  const Time now = system_now();
+  const Time now = SystemClock{}.now();
   {
     const std::scoped_lock lock{mutex_};
     if (waiting_bytes_ + sample.cdr.size() > kMostWaiting || !problem_.empty()) {

@@ -39,7 +39,7 @@ class Recorder {
   std::uint64_t messages() const { return writer_.messages(); }
   std::uint64_t bytes() const { return writer_.bytes(); }
   std::size_t topics() const { return channels_.size(); }
-  /// How many samples of which topic were dropped.
+  /// The number of samples that were dropped, by topic.
   std::map<std::string, std::uint64_t> dropped() const;
 
  private:

@@ -19,9 +19,9 @@ using Action = std::function<int()>;
 /// Each adds verbs to the command line; the one that is chosen sets `action`, which outlives it.
 void add_deployment_verbs(CLI::App& app, Action& action);
 void add_plugin_verbs(CLI::App& app, Action& action);
-/// Of recordings: record, info.
+/// Adds the verbs of recordings: record, info.
 void add_record_verbs(CLI::App& app, Action& action);
-/// Of running deployments: topic, top, log.
+/// Adds those that watch running deployments: topic, top, log, monitor.
 void add_watch_verbs(CLI::App& app, Action& action);
 void add_arm_verbs(CLI::App& app, Action& action);
 void add_bench_verbs(CLI::App& app, Action& action);

@@ -3,9 +3,9 @@
 #include <limits>
 #include <memory>
 
+#include "monitor/monitor.hpp"
 #include "verbs/option_checks.hpp"
 #include "verbs/verbs.hpp"
-#include "monitor/monitor.hpp"
 #include "watch/log.hpp"
 #include "watch/top.hpp"
 #include "watch/topics.hpp"
@@ -93,8 +93,9 @@ void add_monitor(CLI::App& app, Action& action) {
   auto options = std::make_shared<MonitorOptions>();
   CLI::App* verb = app.add_subcommand(
       "monitor", "Show running deployments to Foxglove and Lichtblick, over a WebSocket");
-  verb->add_option("--bind", options->address,
-                   "IPv4 address of this machine to listen at; beyond loopback a token is asked for")
+  verb->add_option(
+          "--bind", options->address,
+          "IPv4 address of this machine to listen at; beyond loopback a token is asked for")
       ->capture_default_str()
       ->check(CLI::ValidIPV4);
   verb->add_option("--port", options->port, "0: any that is free")

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <ctime>
 #include <mutex>
 #include <nlohmann/json.hpp>
@@ -109,7 +108,7 @@ class Lines {
 
 int print_log(const LogOptions& options) {
   leave_in_order();
-  const auto start = std::chrono::steady_clock::now();
+  const Time start = monotonic_now();
   Lines lines{options};
   Outsider outsider{options};  // goes before what its callback uses
   const int watching = outsider.watch("/rosout", [&](const ObservedSample& sample) {
@@ -119,8 +118,7 @@ int print_log(const LogOptions& options) {
   wait_for(kDiscovery);
   lines.tell_kept();
   const auto is_over = [&] {
-    const Duration waited = std::chrono::steady_clock::now() - start;
-    return options.timeout_s > 0 && waited > seconds(options.timeout_s);
+    return options.timeout_s > 0 && monotonic_now() - start > seconds(options.timeout_s);
   };
   while (options.follow && !is_over() && wait_for(seconds(0.05))) continue;
   if (!options.follow && !left() && lines.told() == 0) {

@@ -5,12 +5,10 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string_view>
-#include <thread>
 
 #include "exit_code.hpp"
 #include "watch/seen_deployments.hpp"
@@ -211,20 +209,16 @@ int meet(SeenDeployments& seen, const TopOptions& options) {
                  "one\n",
                  options.network.domain);
     }
-    std::this_thread::sleep_for(std::chrono::milliseconds{50});
+    wait_for(seconds(0.05));
   }
   return kOk;
 }
 
 int print_tables(SeenDeployments& seen, const TopOptions& options) {
   if (const int code = meet(seen, options); code != kOk) return code;
-  for (std::uint64_t i = 0; !left() && (options.count == 0 || i < options.count); ++i) {
-    const Time next = monotonic_now() + (i == 0 ? Duration{0} : seconds(options.interval_s));
-    while (!left() && monotonic_now() < next) {
-      std::this_thread::sleep_for(std::chrono::milliseconds{20});
-    }
+  for (std::uint64_t i = 0; options.count == 0 || i < options.count; ++i) {
+    if (!wait_for(i == 0 ? Duration{0} : seconds(options.interval_s))) break;
     seen.look();
-    if (left()) break;
     if (options.json) {
       tell(top_json(seen.all(), monotonic_now()).dump());
       continue;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <chrono>
 #include <cmath>
 #include <mutex>
 #include <nlohmann/json.hpp>
@@ -9,6 +8,7 @@
 
 #include "armature/messages/cdr_reader.hpp"
 #include "armature/messages/known_types.hpp"
+#include "armature/runtime/execution/clock.hpp"
 #include "exit_code.hpp"
 #include "watch/sample_count.hpp"
 #include "watch/topic_meter.hpp"
@@ -20,12 +20,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double kAnotherClock_s = 86400;
-
-Time now() {
-  return Time{
-      std::chrono::duration_cast<Duration>(std::chrono::system_clock::now().time_since_epoch())
-          .count()};
-}
 
 /// From the stamp of a sample's header to now. Throws where there is none, and where it is not by
 /// the clock of this machine.
@@ -45,7 +39,7 @@ double delay_of(const ObservedSample& sample, const std::string& topic) {
   if (!reader.ok()) {
     throw std::runtime_error(fmt::format("'{}' sent what is no {}", topic, type->ros_name));
   }
-  const double delay_s = to_seconds(now() - Time{sec * 1'000'000'000 + nanosec});
+  const double delay_s = to_seconds(SystemClock{}.now() - Time{sec * 1'000'000'000 + nanosec});
   if (std::abs(delay_s) < kAnotherClock_s) return delay_s;
   throw std::runtime_error(
       fmt::format("'{}' is stamped {:.0f} days from this machine's clock: by a simulated one, or "
@@ -85,12 +79,12 @@ void describe(const TopicFigures& figures, TopicMeasure what, const char* of_all
 }
 
 /// How many samples there must be before there is something to tell.
-std::uint64_t least_of(TopicMeasure what) { return what == TopicMeasure::delay ? 1 : 2; }
+std::uint64_t min_samples_of(TopicMeasure what) { return what == TopicMeasure::delay ? 1 : 2; }
 
 /// One line; `over` is "second" or "all".
 void print(const TopicFigures& figures, TopicMeasure what, std::string_view over, bool json) {
   const bool all = over == "all";
-  const bool enough = figures.samples > 0 && (least_of(what) < 2 || figures.intervals > 0);
+  const bool enough = figures.samples > 0 && (min_samples_of(what) < 2 || figures.intervals > 0);
   std::string text = "no samples";
   Json line{{"over", over}, {"samples", figures.samples}};
   if (enough) describe(figures, what, all ? " in all" : "", text, line);
@@ -101,7 +95,7 @@ void print(const TopicFigures& figures, TopicMeasure what, std::string_view over
 
 int measure_topic(TopicMeasure what, const TopicOptions& options) {
   leave_in_order();
-  SampleCount count{options, least_of(what)};
+  SampleCount count{options, min_samples_of(what)};
   std::mutex mutex;
   TopicMeter meter;
   std::string wrong;
@@ -127,10 +121,10 @@ int measure_topic(TopicMeasure what, const TopicOptions& options) {
   });
   const std::scoped_lock lock{mutex};
   if (!wrong.empty()) throw std::runtime_error(wrong);
-  if (meter.all().samples < least_of(what)) {
+  if (meter.all().samples < min_samples_of(what)) {
     if (code != kOk) return code;
     throw std::runtime_error(fmt::format("interrupted before {} of '{}' came",
-                                         least_of(what) < 2 ? "a sample" : "two samples",
+                                         min_samples_of(what) < 2 ? "a sample" : "two samples",
                                          options.topic));
   }
   print(meter.all(), what, "all", options.json);

@@ -214,11 +214,30 @@ void tell_network(const Network& network, Console& console) {
                                             "fingerprint"));
 }
 
+/// As `record:` says, from before the first activation on.
+void begin_recording(Deployment& deployment, const Process& process) {
+  const auto& record = deployment.config().record;
+  if (!record) return;
+  const Time start = deployment.config().simulated ? SystemClock{}.now() : process.origin.start;
+  const std::filesystem::path file = record->file_of(process.name, start);
+  config::Problems problems;
+  if (std::filesystem::exists(file)) {
+    problems.add(record->origin,
+                 fmt::format("the recording '{}' is there already: move it, or let the name say "
+                             "the time, run-%Y%m%d-%H%M%S.mcap",
+                             file.string()));
+  }
+  problems.throw_if_any();
+  std::filesystem::create_directories(file.parent_path());
+  deployment.record(file);
+}
+
 int run_main(const RunOptions& options, const Process& process, Deployment& deployment,
              PluginRegistry& plugins, Console& console, LastWord& last_word) {
   ChildProcesses children;
   start_processes(children, options, deployment.config(), process.domain, process.origin);
   deployment.connect(plugins, process.domain, process.origin.run);
+  begin_recording(deployment, process);
   tell_network(process.network, console);
   expect_hosts(children, options, deployment, process.origin);
   MainWatch watch{console, children, deployment};
@@ -241,6 +260,7 @@ int run_main(const RunOptions& options, const Process& process, Deployment& depl
 int run_other(const RunOptions& options, const Process& process, Deployment& deployment,
               PluginRegistry& plugins, Console& console, ChildWatch& watch, LastWord& last_word) {
   deployment.connect(plugins, process.domain, process.origin.run);
+  begin_recording(deployment, process);
   watch.on_clock([&](Duration offset) { deployment.follow_clock(offset); });
   deployment.run(watch);
   const int code = conclude_child(options, deployment, watch, last_word);

@@ -70,6 +70,7 @@ Json sweep_goal_properties(const PluginRegistry& plugins) {
 Json section_schema(const config::KeySpec& key, const PluginRegistry& plugins) {
   if (key.name == "dds") return map_schema(key.doc, properties_of(dds_keys()));
   if (key.name == "run") return map_schema(key.doc, properties_of(run_keys()));
+  if (key.name == "record") return map_schema(key.doc, properties_of(record_keys()));
   if (key.name == "goals") return map_schema(key.doc, goal_properties(plugins));
   if (key.name == "sweep_goals") return map_schema(key.doc, sweep_goal_properties(plugins));
   if (key.name == "executors") {

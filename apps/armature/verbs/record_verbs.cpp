@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "record/record.hpp"
+#include "replay/replay.hpp"
 #include "verbs/option_checks.hpp"
 #include "verbs/verbs.hpp"
 
@@ -46,11 +47,32 @@ void add_info(CLI::App& app, Action& action) {
   verb->callback([=, &action] { action = [=] { return describe_recording(*file, *json); }; });
 }
 
+void add_replay(CLI::App& app, Action& action) {
+  auto options = std::make_shared<ReplayOptions>();
+  CLI::App* verb = app.add_subcommand(
+      "replay", "Repeat a recorded run, bit for bit: armature replay run.mcap --check");
+  verb->add_option("recordings", options->files,
+                   "what a deployment recorded of itself (record:), a file for each process")
+      ->required()
+      ->check(CLI::ExistingFile);
+  verb->add_flag("--check", options->check,
+                 "repeat every activation and compare all outputs with the recorded ones")
+      ->required();
+  verb->add_option("--set", options->assignments,
+                   "change one value before: --set components.motion.ik.plugin=ik/numeric")
+      ->allow_extra_args(false);
+  verb->add_flag("--allow-ulp", options->allow_ulp,
+                 "compare what another kind of processor has recorded, too");
+  verb->add_flag("--json", options->json, "as JSON");
+  verb->callback([=, &action] { action = [=] { return replay_recording(*options); }; });
+}
+
 }  // namespace
 
 void add_record_verbs(CLI::App& app, Action& action) {
   add_record(app, action);
   add_info(app, action);
+  add_replay(app, action);
 }
 
 }  // namespace armature

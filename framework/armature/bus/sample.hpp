@@ -24,6 +24,7 @@ struct Measurement {
 struct SampleInfo {
   /// Deployment clock; of a writer that is not the deployment's own, when it arrived.
   Time published;
+  std::uint32_t writer = 0;    // a number of its own in this process, once it is known
   std::uint64_t sequence = 0;  // counts from 1 per writer
   Measurement answers_to;      // from another process: nothing
 };

@@ -9,8 +9,12 @@ Topic::Topic(TopicSpec spec, std::size_t preallocated)
     : spec_{std::move(spec)}, pool_{*spec_.type, preallocated} {}
 
 void Topic::publish(SampleRef sample, Time now) {
+  sample.mutable_info().sequence = next_sequence();
+  send(std::move(sample), now);
+}
+
+void Topic::send(SampleRef sample, Time now) {
   sample.mutable_info().published = now;
-  sample.mutable_info().sequence = ++sequence_;
   deliver(sample);
   if (hub_) hub_->deliver(sample);
   if (remote_) remote_->offer(sample);

@@ -48,10 +48,16 @@ class Topic {
   bool has_readers() const;
 
   SampleRef loan() { return pool_.loan(); }
+  /// Keeps `more` samples ready, for somebody who holds them. Before the run.
+  void reserve(std::size_t more) { pool_.reserve(more); }
   /// Copies `message` into every sample that is kept ready, now or later.
   void prepare(const void* message) { pool_.prepare(message); }
-  /// Stamps the sample with `now` and the next sequence number and hands it to everybody.
+  /// The number of the next sample; every sample takes one.
+  std::uint64_t next_sequence() { return ++sequence_; }
+  /// Gives the sample the next sequence number, and sends it.
   void publish(SampleRef sample, Time now);
+  /// Stamps a sample that has its number with `now`, and hands it to everybody.
+  void send(SampleRef sample, Time now);
   /// Hands a sample of another writer of this process to all subscribers (its info is kept).
   void deliver(const SampleRef& sample);
   /// Hands a sample of another process to the subscribers with these `sources`, for which it was

@@ -27,10 +27,14 @@ inline constexpr std::string_view kInclude = "include";
 /// file; later ones and the file itself override) resolved. A cycle of includes is an error.
 Node load(const std::filesystem::path& file);
 
-/// The files, each with its includes, merged in order and then the `--set path.to.key=value`
-/// assignments (`a.0.b` reaches into a list; maps that are missing on the way are made). A `--set`
-/// value is parsed as YAML; its origin is the option itself. What a `--set ...plugin=` leaves out
-/// is told in `notes`, one sentence each. Throws ConfigError.
+/// `document` with `--set path.to.key=value` assignments made (`a.0.b` reaches into a list; maps
+/// that are missing on the way are made). A `--set` value is parsed as YAML; its origin is the
+/// option itself. What a `--set ...plugin=` leaves out is told in `notes`, one sentence each.
+/// Throws ConfigError.
+Node with_assignments(Node document, const std::vector<std::string>& assignments,
+                      std::vector<std::string>* notes = nullptr);
+
+/// The files, each with its includes, merged in order and then the assignments. Throws ConfigError.
 Node load_with_overlays(const std::vector<std::filesystem::path>& files,
                         const std::vector<std::string>& assignments,
                         std::vector<std::string>* notes = nullptr);

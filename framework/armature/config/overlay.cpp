@@ -242,6 +242,11 @@ Node load_with_overlays(const std::vector<std::filesystem::path>& files,
   for (const std::filesystem::path& file : files) {
     document = document.kind() == Node::Kind::null ? load(file) : merge(document, load(file));
   }
+  return with_assignments(std::move(document), assignments, notes);
+}
+
+Node with_assignments(Node document, const std::vector<std::string>& assignments,
+                      std::vector<std::string>* notes) {
   Problems problems;
   for (const std::string& option : assignments) {
     try {

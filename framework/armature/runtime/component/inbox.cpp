@@ -119,7 +119,10 @@ bool Inbox::match_joined() {
 void Inbox::show(Time now) {
   const std::scoped_lock lock{mutex_};
   Measurement oldest;
+  int input = 0;
   for (const auto& port : ports_) {
+    if (tap_ && !port->waiting_.empty()) tap_->read(input, port->waiting_);
+    ++input;
     port->show(now);
     const Measurement measured = port->oldest_measurement();
     const bool is_older = oldest.source < 0 || measured.at < oldest.at;
@@ -127,6 +130,11 @@ void Inbox::show(Time now) {
   }
   source_.store(oldest.source, std::memory_order_relaxed);
   measured_at_ns_.store(oldest.at.ns, std::memory_order_relaxed);
+}
+
+void Inbox::put(InputPort& port, const SampleRef& sample) {
+  const std::scoped_lock lock{mutex_};
+  port.keep(sample);
 }
 
 void Inbox::close() {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "armature/bus/topic.hpp"
+#include "armature/runtime/component/activation_tap.hpp"
 #include "armature/runtime/plugins/plugin_manifest.hpp"
 #include "armature/values/real_time_mutex.hpp"
 
@@ -79,6 +80,11 @@ class Inbox {
 
   /// Freezes what the next activation sees.
   void show(Time now);
+  /// Who is told what the component reads and writes, and outlives it. Before the run.
+  void set_tap(ActivationTap* tap) { tap_ = tap; }
+  ActivationTap* tap() const { return tap_; }
+  /// For a replay: what the next activation is newly shown on `port`, after what was put before.
+  void put(InputPort& port, const SampleRef& sample);
   /// There is no further activation: what arrives is not kept, nor counted as lost. Any thread.
   void close();
   /// The oldest measurement among what the running activation was newly shown. Any thread.
@@ -103,6 +109,7 @@ class Inbox {
   bool match_joined();
 
   std::function<void()> on_trigger_;
+  ActivationTap* tap_ = nullptr;
   mutable RealTimeMutex mutex_;
   std::vector<std::unique_ptr<InputPort>> ports_;
   std::vector<InputPort*> joined_;  // those of them that are shown only together

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <utility>
 
 #include "armature/bus/topic.hpp"
@@ -15,23 +16,37 @@ namespace armature ARMATURE_EXPORT {
 class Delivery {
  public:
   virtual ~Delivery() = default;
+  /// `sample` has its sequence number.
   virtual void publish(Topic& topic, SampleRef sample) = 0;
 };
 
 /// One output of a component. What it publishes answers to what `inbox` shows.
 class OutputPort {
  public:
-  OutputPort(PortSpec spec, Topic& topic, Delivery& delivery, const Inbox& inbox)
-      : spec_{std::move(spec)}, topic_{&topic}, delivery_{&delivery}, inbox_{&inbox} {}
+  /// `writer` is its number in this process (SampleInfo).
+  OutputPort(PortSpec spec, Topic& topic, Delivery& delivery, const Inbox& inbox,
+             std::uint32_t writer = 0)
+      : spec_{std::move(spec)},
+        topic_{&topic},
+        delivery_{&delivery},
+        inbox_{&inbox},
+        writer_{writer} {}
 
   const PortSpec& spec() const { return spec_; }
+  std::uint32_t writer() const { return writer_; }
   Topic& topic() { return *topic_; }
+  const Topic& topic() const { return *topic_; }
   bool has_subscribers() const {
-    return !closed() && (settings(spec_.qos).transient_local || topic_->has_readers());
+    const bool truly = !closed() && (settings(spec_.qos).transient_local || topic_->has_readers());
+    return inbox_->tap() ? inbox_->tap()->has_subscribers(truly) : truly;
   }
   void publish(SampleRef sample) {
     if (closed()) return;
-    sample.mutable_info().answers_to = inbox_->answers_to();
+    SampleInfo& info = sample.mutable_info();
+    info.writer = writer_;
+    info.sequence = topic_->next_sequence();
+    info.answers_to = inbox_->answers_to();
+    if (inbox_->tap()) inbox_->tap()->published(sample);
     delivery_->publish(*topic_, std::move(sample));
   }
   /// Nothing is published from now on, whichever thread of the component tries. Any thread.
@@ -44,6 +59,7 @@ class OutputPort {
   Topic* topic_;
   Delivery* delivery_;
   const Inbox* inbox_;
+  std::uint32_t writer_;
   std::atomic<bool> closed_{false};
 };
 

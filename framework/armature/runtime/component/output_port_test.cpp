@@ -9,7 +9,7 @@ namespace armature {
 namespace {
 
 struct AtOnce final : Delivery {
-  void publish(Topic& topic, SampleRef sample) override { topic.publish(std::move(sample), {}); }
+  void publish(Topic& topic, SampleRef sample) override { topic.send(std::move(sample), {}); }
 };
 struct Reader final : Subscriber {
   void deliver(const SampleRef&) override {}

@@ -8,6 +8,11 @@
 #include <utility>
 
 namespace armature {
+namespace {
+
+constexpr std::uint32_t kMaxOutputs = 1024;  // of a component
+
+}  // namespace
 
 config::Problem problem_of(const ComponentConfig& component, const SlotError& error) {
   const auto slot = std::ranges::find(component.slots, error.slot(), &SlotConfig::name);
@@ -102,8 +107,10 @@ void ComponentSetup::set_source(InputPort& input, const PortBinding& binding) co
 
 OutputPort& ComponentSetup::claim_output(std::string_view port, const MessageType& type) {
   const PortBinding& binding = declared(config_.outputs, "output", port, type);
+  const auto index = static_cast<std::uint32_t>(runner_.outputs().size());
+  const auto writer = static_cast<std::uint32_t>(runner_.place() + 2) * kMaxOutputs + index;
   return runner_.outputs().emplace_back(binding.spec, find_topic_(binding, type), delivery_,
-                                        runner_.inbox());
+                                        runner_.inbox(), writer);
 }
 
 bool ComponentSetup::is_written(std::string_view input) const {

@@ -96,6 +96,7 @@ Deployment::~Deployment() {
     const RunningComponent running{name, "destructor"};
     runner.reset();
   }
+  recorder_.reset();  // holds samples of topics
   options_.on_ending(kTransport);
   topics_.clear();  // outside writers go before the transport
   remote_.reset();
@@ -287,6 +288,15 @@ void Deployment::assign_runners() {
 
 void Deployment::follow_clock(Duration unix_minus_monotonic) {
   if (auto* clock = dynamic_cast<SystemClock*>(clock_.get())) clock->follow(unix_minus_monotonic);
+}
+
+void Deployment::record(const std::filesystem::path& file) {
+  RunRecorder::Options options{.file = file,
+                               .topics = config_.record->topics,
+                               .compress = config_.record->compress,
+                               .description = description_of(config_, options_.process, run_),
+                               .on_problem = options_.on_note};
+  recorder_ = std::make_unique<RunRecorder>(std::move(options), config_, runners_, *clock_);
 }
 
 void Deployment::connect(PluginRegistry& plugins, int domain, const std::string& run) {

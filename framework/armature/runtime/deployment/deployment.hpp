@@ -4,6 +4,7 @@
 #include <atomic>
 #include <chrono>
 #include <deque>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
@@ -23,6 +24,7 @@
 #include "armature/runtime/execution/log_publisher.hpp"
 #include "armature/runtime/execution/scheduler.hpp"
 #include "armature/runtime/execution/watchdog.hpp"
+#include "armature/runtime/recording/run_recorder.hpp"
 #include "armature/values/sanitizer.hpp"
 
 namespace armature ARMATURE_EXPORT {
@@ -70,6 +72,10 @@ class Deployment {
   /// The main process' offset, as the agent of this host sees it now (SystemClock::follow). Nothing
   /// on the simulated clock.
   void follow_clock(Duration unix_minus_monotonic);
+
+  /// Records the run into `file` as `record:` says. After connect(). Throws std::runtime_error
+  /// when the file cannot be written.
+  void record(const std::filesystem::path& file);
 
   /// Waits until the topics between this and the other processes have met, so that what is sent
   /// once is not lost, and until `watch` lets it begin. Then runs until a component is finished or
@@ -134,6 +140,7 @@ class Deployment {
   /// Returns why it is to stop.
   std::string run_until_stop(RunWatch& watch);
   std::optional<std::string> stop_cause(RunWatch& watch, Time start);
+  void end_recording();
   bool any_finished() const;
   std::string component_fault() const;
   std::string hang_fault() const;
@@ -155,6 +162,7 @@ class Deployment {
   std::unique_ptr<Scheduler> scheduler_;
   std::atomic<bool> one_ended_{false};  // finished or failed, and nobody has looked who
   std::vector<std::unique_ptr<ComponentRunner>> runners_;  // in the order of the graph
+  std::unique_ptr<RunRecorder> recorder_;                  // null: none
   std::optional<Watchdog> watchdog_;
   std::function<void(const std::string&)> print_note_;
   bool scenario_over_ = false;  // a component has finished

@@ -140,9 +140,23 @@ void Deployment::end() {
     tell_ending("driver thread", *runner);
     if (!runner->join_threads(threads_end)) add_hung(*runner, "driver thread", kThreadTimeout);
   }
+  end_recording();
   options_.on_ending("the end of the run");
   if (!remote_) return;
   for (const std::string& refusal : remote_->refusals()) options_.on_note(refusal);
+}
+
+void Deployment::end_recording() {
+  if (!recorder_) return;
+  options_.on_ending("the end of the recording");
+  try {
+    tell("recorded: " + recorder_->close(), StatusReporter::State::ok);
+  } catch (const std::exception& error) {
+    options_.on_note(
+        fmt::format("the recording has no end: {}; what is in it is made whole by: "
+                    "armature record --repair",
+                    error.what()));
+  }
 }
 
 void Deployment::add_hung(const ComponentRunner& runner, std::string_view what, Duration timeout) {

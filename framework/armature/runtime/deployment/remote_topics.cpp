@@ -8,6 +8,13 @@
 #include <utility>
 
 namespace armature {
+namespace {
+
+/// Numbers of writers elsewhere: whose samples one reader gets count as one writer's, in the order
+/// in which they come.
+constexpr std::uint32_t kRemote = 1U << 31;
+
+}  // namespace
 
 void RemoteTopics::advertise(const PortBinding& output, Topic& topic) {
   TopicSpec spec = topic.spec();
@@ -30,7 +37,12 @@ void RemoteTopics::subscribe(const PortBinding& input, Topic& topic) {
   spec.qos = input.spec.qos;
   auto reader = transport_->subscribe(
       spec, sources == Sources::deployment,
-      [&topic, sources](SampleRef sample) { topic.deliver(sample, sources); });
+      [&topic, sources, writer = kRemote + static_cast<std::uint32_t>(readers_.size()),
+       received = std::uint64_t{0}](SampleRef sample) mutable {
+        sample.mutable_info().writer = writer;
+        sample.mutable_info().sequence = ++received;
+        topic.deliver(sample, sources);
+      });
   if (!reader) throw PluginError("cannot read " + input.topic + ": " + reader.error().text);
   if (elsewhere) {
     links_.push_back({text_of(input.topic, processes_with(input.topic, &ComponentConfig::outputs)),

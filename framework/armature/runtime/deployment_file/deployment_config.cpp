@@ -83,11 +83,17 @@ std::optional<Node> load_robot(const Node::Entry& entry, Problems& problems) {
 }
 
 /// `name: file.yaml` entries; the files are relative to the YAML file that names them.
-std::map<std::string, Node> read_documents(std::span<const Node::Entry> section, bool of_robots,
-                                           Problems& problems) {
+std::map<std::string, Node> read_documents(std::string_view name,
+                                           std::span<const Node::Entry> section,
+                                           const RecordedDocuments& recorded, Problems& problems) {
   std::map<std::string, Node> documents;
   for (const Node::Entry& entry : section) {
-    const bool is_map = of_robots && entry.value.kind() == Node::Kind::map;
+    const auto known = recorded.find(fmt::format("{}/{}", name, entry.key));
+    if (known != recorded.end() && entry.value.origin().line > 0) {
+      documents.emplace(entry.key, known->second);
+      continue;
+    }
+    const bool is_map = name == kRobotsSection && entry.value.kind() == Node::Kind::map;
     auto document = is_map ? load_robot(entry, problems) : load_document(entry.value, problems);
     // Known, even when it cannot be read.
     documents.emplace(entry.key,
@@ -256,7 +262,7 @@ void check_hosts(const DeploymentConfig& deployment, Problems& problems) {
 }  // namespace
 
 DeploymentConfig read_deployment(const Node& root, const PluginRegistry& plugins,
-                                 Problems& problems) {
+                                 Problems& problems, const RecordedDocuments& recorded) {
   DeploymentConfig deployment;
   MapReader map{root, "the deployment", deployment_keys(), problems};
   if (!check_is_deployment(root, problems)) return deployment;
@@ -272,11 +278,13 @@ DeploymentConfig read_deployment(const Node& root, const PluginRegistry& plugins
   deployment.dds = read_dds(map.node("dds"), problems);
   deployment.seed = map.natural("seed");
   if (const Node* run = map.node("run")) read_run(*run, deployment, problems);
+  const Node* record = map.node("record");
+  if (record) deployment.record = read_record(*record, problems);
   deployment.executors =
       read_executors(entries_of(map.node("executors"), "executors", problems), problems);
   for (const auto& [section, word] : kDocumentSections) {
     deployment.documents[std::string{section}] = read_documents(
-        entries_of(map.node(section), section, problems), section == kRobotsSection, problems);
+        section, entries_of(map.node(section), section, problems), recorded, problems);
   }
   deployment.goals = read_goals(map.node("goals"), problems);
   deployment.sweep_goals = read_sweep_goals(map.node("sweep_goals"), deployment.goals, problems);
@@ -302,6 +310,7 @@ DeploymentConfig read_deployment(const Node& root, const PluginRegistry& plugins
       check_component_needs(deployment, plugins, problems);
       link_parameters(deployment, problems);
       check_goals(deployment, plugins, problems);
+      if (record) check_record(*deployment.record, *record, deployment.components, problems);
     }
   }
   map.finish();

@@ -12,6 +12,7 @@
 #include "armature/config/params.hpp"
 #include "armature/runtime/deployment_file/dds_config.hpp"
 #include "armature/runtime/deployment_file/executor_spec.hpp"
+#include "armature/runtime/deployment_file/record_config.hpp"
 #include "armature/runtime/plugins/plugin_manifest.hpp"
 #include "armature/runtime/plugins/plugin_registry.hpp"
 
@@ -102,6 +103,7 @@ struct DeploymentConfig {
   std::uint64_t seed = 0;
   double time_limit_s = 0;   // 0: none
   double stop_within_s = 3;  // how long the end of a run waits for what moves to come to rest
+  std::optional<RecordConfig> record;
   std::vector<ExecutorSpec> executors;
   std::map<std::string, std::map<std::string, config::Node>> documents;  // section -> name -> file
   std::vector<ComponentConfig> components;                               // in file order
@@ -124,9 +126,14 @@ struct DeploymentConfig {
 /// be any file that the user named by mistake.
 bool check_is_deployment(const config::Node& root, config::Problems& problems);
 
+/// Robots and rigs that a recording holds: "robots/arm".
+using RecordedDocuments = std::map<std::string, config::Node>;
+
 /// Reads `root` (a merged document). Every mistake that can be known without loading a library is
-/// added to `problems`; the result is usable only when there is none.
+/// added to `problems`; the result is usable only when there is none. `recorded` documents stand
+/// for the files that entries name, but for those that the command line names.
 DeploymentConfig read_deployment(const config::Node& root, const PluginRegistry& plugins,
-                                 config::Problems& problems);
+                                 config::Problems& problems,
+                                 const RecordedDocuments& recorded = {});
 
 }  // namespace armature

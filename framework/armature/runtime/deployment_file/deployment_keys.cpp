@@ -48,6 +48,7 @@ const std::vector<KeySpec>& deployment_keys() {
          .min = 0,
          .max = 0x1p64},
         section("run", "How a run ends."),
+        section("record", "What a run keeps of itself, to be replayed."),
         section("executors", "Threads, by name; components name theirs."),
         {.name = "open",
          .type = Type::texts,
@@ -103,6 +104,22 @@ const std::vector<KeySpec>& run_keys() {
        .min = 0.1,
        .max = kLongestWait_s,
        .because = "what moves comes to rest before anything ends"}};
+  return kKeys;
+}
+
+const std::vector<KeySpec>& record_keys() {
+  static const std::vector<KeySpec> kKeys{
+      {.name = "file",
+       .type = Type::text,
+       .doc = "An MCAP file that is not there yet; may say the time: run-%Y%m%d-%H%M%S.mcap."},
+      {.name = "topics",
+       .type = Type::texts,
+       .doc = "Only these: names, or beginnings of names and '*'.",
+       .optional = true},
+      {.name = "compress",
+       .type = Type::flag,
+       .doc = "With zstd.",
+       .fallback = default_value("true")}};
   return kKeys;
 }
 

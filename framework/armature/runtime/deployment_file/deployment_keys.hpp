@@ -25,6 +25,7 @@ inline constexpr std::array<std::pair<std::string_view, std::string_view>, 2> kD
 const std::vector<config::KeySpec>& deployment_keys();
 const std::vector<config::KeySpec>& dds_keys();
 const std::vector<config::KeySpec>& run_keys();
+const std::vector<config::KeySpec>& record_keys();
 /// Of an entry of `executors:`.
 const std::vector<config::KeySpec>& executor_keys();
 /// Of an entry of `sweep_goals:`.

@@ -43,7 +43,8 @@ void append_named_files(std::string& text, const Node& node) {
 std::string fingerprint_of(const Node& root, const DeploymentConfig& deployment) {
   std::string text;
   for (const auto& [key, origin, value] : root.entries()) {
-    if (key == "dds" || key == "domain") continue;  // of a machine, not of what runs
+    // Of a machine and of who watches, not of what runs.
+    if (key == "dds" || key == "domain" || key == "record") continue;
     append(text, key);
     append(text, config::to_yaml(value, false));
   }

@@ -126,6 +126,7 @@ class ComponentRunner {
 
  private:
   class Running;
+  class Tapped;
   void ask_stopped();
   /// Counts a step that was activated at `now` and took `duration`.
   void count_reaction(Time now, Duration duration);

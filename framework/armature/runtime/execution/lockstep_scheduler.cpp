@@ -34,7 +34,7 @@ void LockstepScheduler::schedule(Event event) {
 void LockstepScheduler::publish(Topic& topic, SampleRef sample) {
   const Duration latency = running_ ? running_->runner->latency() : Duration{0};
   if (latency.count() == 0) {
-    topic.publish(std::move(sample), clock_->now());
+    topic.send(std::move(sample), clock_->now());
     return;
   }
   schedule({.time = clock_->now() + latency,
@@ -45,7 +45,7 @@ void LockstepScheduler::publish(Topic& topic, SampleRef sample) {
 
 void LockstepScheduler::handle(Event& event) {
   if (!event.activate) {
-    event.topic->publish(std::move(event.sample), event.time);
+    event.topic->send(std::move(event.sample), event.time);
     return;
   }
   Entry& entry = *event.activate;

@@ -22,7 +22,7 @@ class ThreadedScheduler final : public Scheduler {
   void begin_stop() override;
   std::vector<const ComponentRunner*> stop(Duration timeout) override;
   void publish(Topic& topic, SampleRef sample) override {
-    topic.publish(std::move(sample), clock_->now());
+    topic.send(std::move(sample), clock_->now());
   }
 
  private:

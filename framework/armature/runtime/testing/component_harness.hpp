@@ -123,7 +123,7 @@ class ComponentHarness final : private Delivery {
   };
 
   void publish(Topic& topic, SampleRef sample) override {
-    topic.publish(std::move(sample), now_.now());
+    topic.send(std::move(sample), now_.now());
   }
   void read(const PluginRegistry& plugins, const Options& options);
   Topic& topic_for(const PortBinding& port, const MessageType& type);

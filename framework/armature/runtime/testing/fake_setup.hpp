@@ -33,7 +33,7 @@ class FakeSetup final : public Setup, public Delivery {
     throw std::logic_error("no slots");
   }
   std::shared_ptr<StatusReporter> reporter() override { return runner_.reporter(); }
-  void publish(Topic& topic, SampleRef sample) override { topic.publish(std::move(sample), {}); }
+  void publish(Topic& topic, SampleRef sample) override { topic.send(std::move(sample), {}); }
 
   /// The topic of a port that has been claimed.
   Topic& topic(const std::string& port) { return *topics_.at(port); }

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "replay/recorded_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <stdexcept>
+#include <string_view>
+
+#include "armature/config/document.hpp"
+#include "armature/runtime/recording/recorded_description.hpp"
+
+namespace armature {
+namespace {
+
+constexpr Duration kKept = seconds(5);
+
+std::uint32_t number_of(std::string_view text) {
+  std::uint32_t number = 0;
+  std::from_chars(text.data(), text.data() + text.size(), number);
+  return number;
+}
+
+/// What stands behind `beginning`, or nothing.
+std::optional<std::string> behind(std::string_view beginning, const std::string& key) {
+  if (!key.starts_with(beginning)) return std::nullopt;
+  return key.substr(beginning.size());
+}
+
+}  // namespace
+
+RecordedRun::RecordedRun(const std::filesystem::path& file) : file_{file}, reader_{file} {
+  read_metadata(file);
+  if (!deployment_.empty() && !components_.empty()) return;
+  throw std::runtime_error(fmt::format(
+      "'{}' holds no activations: only what a deployment records of itself can be replayed, "
+      "record: {{file: run.mcap}}",
+      file.string()));
+}
+
+/// They stand at the beginning, but behind everything in a recording that was repaired.
+void RecordedRun::read_metadata(const std::filesystem::path& file) {
+  McapReader reader{file};
+  const auto has_all = [&] {
+    return std::ranges::any_of(reader.metadata(), [](const McapMetadata& metadata) {
+      return metadata.name == kComponentMetadata;
+    });
+  };
+  while (reader.next() && !has_all()) continue;
+  for (const McapMetadata& metadata : reader.metadata()) {
+    for (const auto& [key, value] : metadata.values) {
+      if (metadata.name == kDeploymentMetadata) {
+        if (key == "deployment") deployment_ = value;
+        if (const auto name = behind("file of ", key)) files_[*name] = value;
+      } else if (metadata.name == kProcessMetadata) {
+        if (key == "process") process_ = value;
+        if (key == "processor") processor_ = value;
+        if (const auto plugin = behind("library of ", key)) libraries_[*plugin] = value;
+      }
+    }
+    if (metadata.name == kComponentMetadata) read_ports(metadata);
+  }
+  for (const McapAttachment& attachment : reader.attachments()) {
+    if (const auto name = behind(deployment_ + "/", attachment.name)) {
+      texts_[*name] = attachment.data;
+    }
+  }
+}
+
+void RecordedRun::read_ports(const McapMetadata& metadata) {
+  RecordedPorts ports;
+  std::string component;
+  for (const auto& [key, value] : metadata.values) {
+    if (key == "component") component = value;
+    if (const auto writer = behind("writer ", key)) ports.outputs[number_of(*writer)] = value;
+    if (const auto input = behind("input ", key)) {
+      const std::size_t index = number_of(*input);
+      if (ports.inputs.size() <= index) ports.inputs.resize(index + 1);
+      ports.inputs[index] = value;
+    }
+  }
+  components_[component] = std::move(ports);
+}
+
+DeploymentConfig RecordedRun::read_config(const PluginRegistry& plugins,
+                                          const std::vector<std::string>& assignments,
+                                          std::vector<std::string>& notes) const {
+  RecordedDocuments documents;
+  config::Node root;
+  for (const auto& [name, text] : texts_) {
+    const std::string document = name.substr(0, name.rfind(".yaml"));
+    const auto file = files_.find(document);
+    if (file == files_.end()) {
+      root = config::parse_text(text, file_.string() + ":" + name);
+    } else {  // what it names is found from where it was
+      documents.emplace(document, config::parse_text(text, file->second));
+    }
+  }
+  config::Problems problems;
+  DeploymentConfig config = read_deployment(
+      config::with_assignments(std::move(root), assignments, &notes), plugins, problems, documents);
+  problems.throw_if_any();
+  return config;
+}
+
+std::optional<msg::Activation> RecordedRun::next() {
+  const MessageType& type = message_type<msg::Activation>();
+  while (const auto message = reader_.next()) {
+    const auto dds_type = message->channel->metadata.find("dds_type");
+    if (dds_type == message->channel->metadata.end()) continue;
+    if (dds_type->second != type.dds_name) {
+      keep(*message);
+      continue;
+    }
+    msg::Activation activation;
+    if (type.decode(message->data, &activation)) return activation;
+    throw std::runtime_error(
+        fmt::format("'{}' holds activations of another version", file_.string()));
+  }
+  return std::nullopt;
+}
+
+void RecordedRun::keep(const McapMessage& message) {
+  auto writer = writers_.find(message.channel->id);
+  if (writer == writers_.end()) {
+    const auto known = message.channel->metadata.find("writer");
+    if (known == message.channel->metadata.end()) return;
+    writer = writers_.emplace(message.channel->id, number_of(known->second)).first;
+  }
+  std::deque<Sample>& samples = samples_[writer->second];
+  samples.push_back({.sequence = message.sequence,
+                     .at = message.log_time,
+                     .cdr = {message.data.begin(), message.data.end()}});
+  while (samples.size() > min_kept_ && samples.front().at < message.log_time - kKept) {
+    samples.pop_front();
+  }
+}
+
+std::optional<std::span<const std::byte>> RecordedRun::sample(std::uint32_t writer,
+                                                              std::uint64_t sequence) const {
+  const auto samples = samples_.find(writer);
+  if (samples == samples_.end()) return std::nullopt;
+  const auto wanted = static_cast<std::uint32_t>(sequence);
+  const auto found = std::find_if(samples->second.rbegin(), samples->second.rend(),
+                                  [&](const Sample& sample) { return sample.sequence == wanted; });
+  if (found == samples->second.rend()) return std::nullopt;
+  return found->cdr;
+}
+
+}  // namespace armature

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "armature/messages/armature_msgs.hpp"
+#include "armature/recording/mcap_reader.hpp"
+#include "armature/runtime/deployment_file/deployment_config.hpp"
+
+namespace armature {
+
+/// The ports of a component as its recording numbers them.
+struct RecordedPorts {
+  std::vector<std::string> inputs;               // by number
+  std::map<std::uint32_t, std::string> outputs;  // by writer
+};
+
+/// The recording of one process of a run (`record:` in a deployment), read once from its beginning:
+/// activations in the order in which each component had them, and before each the samples that it
+/// read and wrote. Holds the samples of the last seconds only.
+class RecordedRun {
+ public:
+  /// Throws std::runtime_error for a file that is no such recording.
+  explicit RecordedRun(const std::filesystem::path& file);
+
+  const std::string& process() const { return process_; }
+  const std::string& processor() const { return processor_; }
+  /// The hashes of the plugins' libraries, by plugin.
+  const std::map<std::string, std::string>& libraries() const { return libraries_; }
+  const std::map<std::string, RecordedPorts>& components() const { return components_; }
+  /// The deployment that was recorded, with `--set` assignments made. Throws ConfigError.
+  DeploymentConfig read_config(const PluginRegistry& plugins,
+                               const std::vector<std::string>& assignments,
+                               std::vector<std::string>& notes) const;
+
+  /// The samples that an input may have been shown are at most so many behind the newest.
+  void keep_at_least(std::size_t samples) { min_kept_ = samples; }
+  /// The next activation, or nothing at the end of the file. Throws std::runtime_error.
+  std::optional<msg::Activation> next();
+  /// A sample of an activation that was returned last; nothing when it was not recorded.
+  std::optional<std::span<const std::byte>> sample(std::uint32_t writer,
+                                                   std::uint64_t sequence) const;
+  /// After the end: what is wrong with the file.
+  const std::vector<std::string>& problems() const { return reader_.problems(); }
+
+ private:
+  struct Sample {
+    std::uint32_t sequence;
+    Time at;
+    std::vector<std::byte> cdr;
+  };
+
+  void read_metadata(const std::filesystem::path& file);
+  void read_ports(const McapMetadata& metadata);
+  void keep(const McapMessage& message);
+
+  std::filesystem::path file_;
+  std::string deployment_, process_, processor_;
+  std::map<std::string, std::string> texts_;  // attachments by name: "robots/arm.yaml"
+  std::map<std::string, std::string> files_;  // where they were
+  std::map<std::string, std::string> libraries_;
+  std::map<std::string, RecordedPorts> components_;
+  std::size_t min_kept_ = 64;
+  McapReader reader_;
+  std::map<std::uint16_t, std::uint32_t> writers_;       // by channel
+  std::map<std::uint32_t, std::deque<Sample>> samples_;  // by writer
+};
+
+}  // namespace armature

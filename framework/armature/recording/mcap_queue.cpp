@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/recording/mcap_queue.hpp"
+
+#include <chrono>
+#include <stdexcept>
+#include <utility>
+
+#include "armature/messages/known_types.hpp"
+#include "armature/messages/ros_definition.hpp"
+
+namespace armature {
+namespace {
+
+constexpr std::chrono::seconds kLongestChunk{1};  // what is lost when the program dies
+
+}  // namespace
+
+McapQueue::McapQueue(const std::filesystem::path& file, McapWriter::Options options,
+                     WhenFull when_full)
+    : writer_{file, std::move(options)}, when_full_{when_full}, thread_{[this] { run(); }} {}
+
+McapQueue::~McapQueue() { end_thread(); }
+
+void McapQueue::end_thread() {
+  {
+    const std::scoped_lock lock{mutex_};
+    ends_ = true;
+  }
+  news_.notify_one();
+  if (thread_.joinable()) thread_.join();
+}
+
+/// Schemas and channels are numbered as the writer numbers them, which gets them in this order.
+std::uint16_t McapQueue::add_channel(const std::string& topic, const std::string& dds_type,
+                                     std::map<std::string, std::string> metadata) {
+  const TypeDescription* type = describe_type(dds_type);
+  metadata.emplace("dds_type", dds_type);
+  const std::scoped_lock lock{mutex_};
+  std::uint16_t schema = 0;  // none
+  if (type) {
+    const auto number = static_cast<std::uint16_t>(schemas_.size() + 1);
+    const auto [place, is_new] = schemas_.try_emplace(dds_type, number);
+    schema = place->second;
+    if (is_new) {
+      waiting_.emplace_back(McapSchema{
+          .name = ros2_name(*type), .encoding = "ros2msg", .data = ros_definition(*type)});
+    }
+  }
+  waiting_.emplace_back(McapChannel{.schema_id = schema,
+                                    .topic = topic,
+                                    .message_encoding = "cdr",
+                                    .metadata = std::move(metadata)});
+  return channels_++;
+}
+
+void McapQueue::write(std::uint16_t channel, std::uint32_t sequence, Time log_time,
+                      Time publish_time, std::vector<std::byte> data) {
+  const std::size_t bytes = data.size();
+  put(Message{channel, sequence, log_time, publish_time, std::move(data)}, bytes);
+}
+
+void McapQueue::put(Item item, std::size_t bytes) {
+  {
+    std::unique_lock lock{mutex_};
+    const auto has_space = [&] {
+      return waiting_bytes_ + bytes <= kMaxWaiting || waiting_.empty() || !problem_.empty();
+    };
+    if (when_full_ == WhenFull::wait) space_.wait(lock, has_space);
+    if (!has_space() || !problem_.empty()) {
+      if (const auto* message = std::get_if<Message>(&item)) ++dropped_[message->channel];
+      return;
+    }
+    waiting_bytes_ += bytes;
+    waiting_.push_back(std::move(item));
+  }
+  news_.notify_one();
+}
+
+std::string McapQueue::problem() const {
+  const std::scoped_lock lock{mutex_};
+  return problem_;
+}
+
+std::map<std::uint16_t, std::uint64_t> McapQueue::dropped() const {
+  const std::scoped_lock lock{mutex_};
+  return dropped_;
+}
+
+void McapQueue::close() {
+  end_thread();
+  if (!problem_.empty()) throw std::runtime_error(problem_);
+  writer_.close();
+}
+
+void McapQueue::run() {
+  auto chunk_end = std::chrono::steady_clock::now() + kLongestChunk;
+  std::unique_lock lock{mutex_};
+  while (!ends_ || !waiting_.empty()) {
+    news_.wait_until(lock, chunk_end, [this] { return ends_ || !waiting_.empty(); });
+    std::deque<Item> taken = std::exchange(waiting_, {});
+    const std::size_t bytes = waiting_bytes_;
+    lock.unlock();
+    std::string problem;
+    try {
+      for (Item& item : taken) write(item);
+      if (std::chrono::steady_clock::now() >= chunk_end) {
+        writer_.end_chunk();
+        chunk_end = std::chrono::steady_clock::now() + kLongestChunk;
+      }
+    } catch (const std::exception& error) {
+      problem = error.what();
+    }
+    lock.lock();
+    waiting_bytes_ -= bytes;
+    problem_ = std::move(problem);
+    space_.notify_all();
+    if (!problem_.empty()) return;
+  }
+}
+
+void McapQueue::write(Item& item) {
+  if (const auto* message = std::get_if<Message>(&item)) {
+    writer_.write(message->channel, message->sequence, message->log_time, message->publish_time,
+                  message->data);
+  } else if (auto* schema = std::get_if<McapSchema>(&item)) {
+    writer_.add(std::move(*schema));
+  } else if (auto* channel = std::get_if<McapChannel>(&item)) {
+    writer_.add(std::move(*channel));
+  } else if (const auto* metadata = std::get_if<McapMetadata>(&item)) {
+    writer_.add(*metadata);
+  } else {
+    writer_.attach(std::get<McapAttachment>(item));
+  }
+}
+
+}  // namespace armature

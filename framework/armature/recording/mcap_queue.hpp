@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <condition_variable>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <map>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <variant>
+#include <vector>
+
+#include "armature/recording/mcap_writer.hpp"
+
+namespace armature ARMATURE_EXPORT {
+
+/// Writes an MCAP file on a thread of its own, so that nobody waits for the disk. Messages that
+/// come faster than they can be written are dropped and counted, or waited for. All functions may
+/// be called on any thread.
+class McapQueue {
+ public:
+  static constexpr std::size_t kMaxWaiting = 256U << 20;  // [byte]
+
+  enum class WhenFull { drop, wait };
+
+  /// Throws std::runtime_error when the file cannot be written.
+  McapQueue(const std::filesystem::path& file, McapWriter::Options options, WhenFull when_full);
+  /// Leaves the file without a summary, unless it was closed.
+  ~McapQueue();
+  McapQueue(const McapQueue&) = delete;
+  McapQueue& operator=(const McapQueue&) = delete;
+
+  /// A channel for messages of a type, in CDR, with the schema that the type's description gives.
+  /// One topic may have several channels.
+  std::uint16_t add_channel(const std::string& topic, const std::string& dds_type,
+                            std::map<std::string, std::string> metadata = {});
+  void add(McapMetadata metadata) { put(std::move(metadata), 0); }
+  void attach(McapAttachment attachment) { put(std::move(attachment), 0); }
+  /// A message of a channel, as McapWriter takes it.
+  void write(std::uint16_t channel, std::uint32_t sequence, Time log_time, Time publish_time,
+             std::vector<std::byte> data);
+
+  /// Why it cannot write any more; empty: all is well.
+  std::string problem() const;
+  /// The number of messages that were dropped, by channel.
+  std::map<std::uint16_t, std::uint64_t> dropped() const;
+  /// Writes what waits, and ends the file. Throws std::runtime_error.
+  void close();
+  // After `close`, or while it has thrown:
+  std::uint64_t messages() const { return writer_.messages(); }
+  std::uint64_t bytes() const { return writer_.bytes(); }
+
+ private:
+  struct Message {
+    std::uint16_t channel;
+    std::uint32_t sequence;
+    Time log_time, publish_time;
+    std::vector<std::byte> data;
+  };
+  using Item = std::variant<McapSchema, McapChannel, McapMetadata, McapAttachment, Message>;
+
+  void put(Item item, std::size_t bytes);
+  void end_thread();
+  void run();
+  void write(Item& item);
+
+  McapWriter writer_;
+  const WhenFull when_full_;
+  mutable std::mutex mutex_;
+  std::condition_variable news_, space_;
+  std::deque<Item> waiting_;
+  std::size_t waiting_bytes_ = 0;
+  std::map<std::string, std::uint16_t> schemas_;  // by type
+  std::uint16_t channels_ = 0;
+  std::map<std::uint16_t, std::uint64_t> dropped_;
+  std::string problem_;
+  bool ends_ = false;
+  std::thread thread_;
+};
+
+}  // namespace armature

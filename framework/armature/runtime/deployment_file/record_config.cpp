@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/runtime/deployment_file/record_config.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <ctime>
+
+#include "armature/config/document.hpp"
+#include "armature/config/reader.hpp"
+#include "armature/runtime/deployment_file/deployment_config.hpp"
+#include "armature/runtime/deployment_file/deployment_keys.hpp"
+
+namespace armature {
+
+std::filesystem::path RecordConfig::file_of(std::string_view process, Time start) const {
+  const std::time_t second = start.ns / 1'000'000'000;
+  tm local{};
+  localtime_r(&second, &local);
+  std::array<char, 4096> name{};
+  const std::size_t size = std::strftime(name.data(), name.size(), file.c_str(), &local);
+  std::filesystem::path path{std::string{name.data(), size}};
+  if (process == kMainProcess) return path;
+  const std::string extension = path.extension();
+  return path.replace_extension(fmt::format("{}{}", process, extension));
+}
+
+RecordConfig read_record(const config::Node& section, config::Problems& problems) {
+  RecordConfig record;
+  config::MapReader map{section, "record", record_keys(), problems};
+  const std::string file = map.text("file");
+  const config::Node* named = section.find("file");
+  record.origin = named ? named->origin() : section.origin();
+  record.file = config::folder_of(record.origin) / file;
+  if (!file.empty() && record.file.extension() != ".mcap") {
+    map.problem("file", fmt::format("{} is no name of a recording: they end in .mcap",
+                                    config::in_quotes(file)));
+  }
+  record.topics = map.optional_texts("topics").value_or(std::vector<std::string>{});
+  record.compress = map.flag("compress");
+  map.finish();
+  return record;
+}
+
+void check_record(const RecordConfig& record, const config::Node& section,
+                  const std::vector<ComponentConfig>& components, config::Problems& problems) {
+  std::vector<std::string> topics;
+  for (const ComponentConfig& component : components) {
+    for (const auto* ports : {&component.inputs, &component.outputs}) {
+      for (const PortBinding& port : *ports) topics.push_back(port.topic);
+    }
+  }
+  const config::Node* list = section.find("topics");
+  for (const std::string& wanted : record.topics) {
+    const auto is_meant = [&](const std::string& topic) { return matches_topic(wanted, topic); };
+    if (std::ranges::any_of(topics, is_meant)) continue;
+    problems.add(list->origin(),
+                 fmt::format("'record' names the topic {}, which no component writes or reads{}",
+                             config::in_quotes(wanted), config::did_you_mean(wanted, topics)));
+  }
+}
+
+bool matches_topic(std::string_view pattern, std::string_view topic) {
+  return pattern.ends_with('*') ? topic.starts_with(pattern.substr(0, pattern.size() - 1))
+                                : topic == pattern;
+}
+
+}  // namespace armature

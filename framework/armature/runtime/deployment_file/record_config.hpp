@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "armature/config/node.hpp"
+#include "armature/config/problems.hpp"
+#include "armature/values/time.hpp"
+
+namespace armature ARMATURE_EXPORT {
+
+struct ComponentConfig;
+
+/// `record:` of a deployment file: what a run keeps of itself, to be replayed.
+struct RecordConfig {
+  std::filesystem::path file;       // may say the time as strftime does: "%Y%m%d-%H%M%S.mcap"
+  std::vector<std::string> topics;  // "/dental_lamp/*" for all that begin so; empty: all
+  bool compress = true;
+  config::Origin origin;  // of the file's name
+
+  /// Where `process` of a run that began at `start` (Unix time) writes: every process but "main"
+  /// has a file of its own, "run.vision.mcap".
+  std::filesystem::path file_of(std::string_view process, Time start) const;
+};
+
+RecordConfig read_record(const config::Node& section, config::Problems& problems);
+
+/// Refuses topics that none of `components` writes or reads.
+void check_record(const RecordConfig& record, const config::Node& section,
+                  const std::vector<ComponentConfig>& components, config::Problems& problems);
+
+/// True when `pattern` is `topic`, or ends in '*' and `topic` begins with what stands before.
+bool matches_topic(std::string_view pattern, std::string_view topic);
+
+}  // namespace armature

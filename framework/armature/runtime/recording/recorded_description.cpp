@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/runtime/recording/recorded_description.hpp"
+
+#include <sys/utsname.h>
+
+#include <utility>
+
+namespace armature {
+
+void attach_description(const msg::DeploymentDescription& description, Time at, McapQueue& queue) {
+  const auto attach = [&](const std::string& name, const std::string& text) {
+    queue.attach({.log_time = at,
+                  .create_time = at,
+                  .name = description.deployment_() + "/" + name + ".yaml",
+                  .media_type = "application/yaml",
+                  .data = text});
+  };
+  std::map<std::string, std::string> values{
+      {"deployment", description.deployment_()},
+      {"fingerprint", description.fingerprint_()},
+      {"run", description.run_()},
+      {"version", description.version_()},
+      {"clock", description.simulated_() ? "simulated" : "system"}};
+  attach(description.deployment_(), description.configuration_());
+  for (const auto& document : description.documents_()) {
+    const std::string name = document.section_() + "/" + document.name_();
+    attach(name, document.text_());
+    values["file of " + name] = document.file_();
+  }
+  queue.add(McapMetadata{.name = std::string{kDeploymentMetadata}, .values = std::move(values)});
+}
+
+std::string processor_level() {
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("x86-64-v4")) return "x86-64-v4";
+  if (__builtin_cpu_supports("x86-64-v3")) return "x86-64-v3";
+  if (__builtin_cpu_supports("x86-64-v2")) return "x86-64-v2";
+#endif
+  utsname name{};
+  uname(&name);
+  return name.machine;
+}
+
+}  // namespace armature

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "armature/messages/armature_msgs.hpp"
+#include "armature/recording/mcap_queue.hpp"
+
+namespace armature ARMATURE_EXPORT {
+
+/// Names of the metadata in a recording.
+inline constexpr std::string_view kDeploymentMetadata = "armature.deployment";
+inline constexpr std::string_view kProcessMetadata = "armature.process";
+inline constexpr std::string_view kComponentMetadata = "armature.component";
+
+/// Puts what a deployment was made from into a recording: the file, its robots and rigs as
+/// attachments, `dental_lamp/dental_lamp.yaml`, `dental_lamp/robots/arm.yaml`, and as metadata its
+/// fingerprint and where those files were. `at` is when it was told.
+void attach_description(const msg::DeploymentDescription& description, Time at, McapQueue& queue);
+
+/// What the arithmetic of this processor is called, "x86-64-v3": solvers choose instructions by it,
+/// and their last bits follow.
+std::string processor_level();
+
+}  // namespace armature

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/runtime/recording/run_recorder.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <stdexcept>
+#include <utility>
+
+#include "armature/bus/topic_name.hpp"
+#include "armature/messages/known_types.hpp"
+#include "armature/messages/stamp.hpp"
+#include "armature/runtime/execution/real_time_thread.hpp"
+#include "armature/runtime/recording/recorded_description.hpp"
+
+namespace armature {
+namespace {
+
+constexpr std::size_t kRing = 1U << 12;  // parts of calls: about 0.5 s of a component at 1 kHz
+constexpr std::chrono::milliseconds kPause{5};
+constexpr std::size_t kMaxOutOfOrder = 4096;
+
+/// Whether a message may be as large as a picture.
+bool has_bytes(const TypeDescription& type) {
+  return std::ranges::any_of(type.fields, [](const FieldDescription& field) {
+    if (field.kind == FieldKind::structure) return has_bytes(*field.structure);
+    return field.kind == FieldKind::octet && field.shape == FieldDescription::Shape::sequence;
+  });
+}
+
+/// How many samples of a topic wait for the recorder at a time.
+std::size_t max_waiting(const MessageType& type) {
+  const TypeDescription* description = describe_type(type.dds_name);
+  return description && !has_bytes(*description) ? 64 : 4;
+}
+
+}  // namespace
+
+bool RunRecorder::Sequences::add(std::uint64_t sequence) {
+  if (sequence <= through_ || !ahead_.insert(sequence).second) return false;
+  while (!ahead_.empty() && (*ahead_.begin() == through_ + 1 || ahead_.size() > kMaxOutOfOrder)) {
+    through_ = *ahead_.begin();
+    ahead_.erase(ahead_.begin());
+  }
+  return true;
+}
+
+RunRecorder::RunRecorder(Options options, const DeploymentConfig& deployment,
+                         const Runners& runners, const Clock& clock)
+    : options_{std::move(options)},
+      queue_{options_.file,
+             {.library = "armature " ARMATURE_VERSION, .compress = options_.compress},
+             deployment.simulated ? McapQueue::WhenFull::wait : McapQueue::WhenFull::drop} {
+  const msg::DeploymentDescription& description = options_.description;
+  attach_description(description, clock.now(), queue_);
+  std::map<std::string, std::string> process{{"process", description.process_()},
+                                             {"processor", processor_level()}};
+  for (const auto& component : description.components_()) {
+    for (const auto& plugin : component.plugins_()) {
+      if (!plugin.library_().empty()) process["library of " + plugin.plugin_()] = plugin.sha256_();
+    }
+  }
+  queue_.add(McapMetadata{.name = std::string{kProcessMetadata}, .values = std::move(process)});
+  activations_ = queue_.add_channel("/" + deployment.name + "/activations",
+                                    std::string{message_type<msg::Activation>().dds_name});
+  for (const auto& runner : runners) {
+    const auto config =
+        std::ranges::find(deployment.components, runner->name(), &ComponentConfig::name);
+    add(*runner, *config, clock, deployment.simulated);
+  }
+  thread_ = std::thread{[this] { run(); }};
+}
+
+RunRecorder::~RunRecorder() { end_thread(); }
+
+void RunRecorder::add(ComponentRunner& runner, const ComponentConfig& config, const Clock& clock,
+                      bool simulated) {
+  Component& component = *components_.emplace_back(
+      std::make_unique<Component>(runner.name(), kRing, clock, simulated));
+  component.is_of_runtime = config.manifest->file.empty();
+  std::map<std::string, std::string> ports{{"component", runner.name()},
+                                           {"plugin", runner.plugin_id()}};
+  int index = 0;
+  for (const auto& input : runner.inbox().ports()) {
+    const auto binding = std::ranges::find(config.inputs, input->spec().name,
+                                           [](const PortBinding& port) { return port.spec.name; });
+    component.inputs.push_back({.topic = binding->topic, .type = &input->type()});
+    ports[fmt::format("input {}", index++)] = input->spec().name;
+  }
+  for (OutputPort& output : runner.outputs()) {
+    const MessageType& type = *output.topic().spec().type;
+    const std::string topic = ros_topic_name(output.topic().spec().name);
+    ports[fmt::format("writer {}", output.writer())] = output.spec().name;
+    if (Channel& channel = add_channel(output.writer(), topic, type); !channel.is_kept) continue;
+    output.topic().reserve(max_waiting(type));
+    const bool is_named = std::ranges::find(options_.topics, topic) != options_.topics.end();
+    if (is_named) output.topic().connect(reader_);
+  }
+  if (!component.is_of_runtime) {
+    queue_.add(McapMetadata{.name = std::string{kComponentMetadata}, .values = std::move(ports)});
+  }
+  runner.inbox().set_tap(&component.log);
+}
+
+RunRecorder::Channel& RunRecorder::add_channel(std::uint32_t writer, const std::string& topic,
+                                               const MessageType& type) {
+  const bool is_kept = options_.topics.empty() ||
+                       std::ranges::any_of(options_.topics, [&](const std::string& pattern) {
+                         return matches_topic(pattern, topic);
+                       });
+  return channels_[writer] = {.topic = topic, .type = &type, .is_kept = is_kept};
+}
+
+void RunRecorder::run() {
+  prepare_thread({.name = "recorder"});
+  while (!ends_.load(std::memory_order_acquire)) {
+    take_all();
+    std::this_thread::sleep_for(kPause);
+  }
+  take_all();
+}
+
+void RunRecorder::take_all() {
+  for (const auto& component : components_) {
+    while (auto entry = component->log.take()) take(*component, *entry);
+  }
+  if (told_problem_) return;
+  const std::string problem = queue_.problem();
+  if (problem.empty()) return;
+  told_problem_ = true;
+  options_.on_problem(fmt::format("the recording ends here, the run goes on: {}", problem));
+}
+
+void RunRecorder::take(Component& component, ActivationLog::Entry& entry) {
+  using Kind = ActivationLog::Entry::Kind;
+  msg::Activation& call = component.call;
+  switch (entry.kind) {
+    case Kind::begin:
+      call.call_(static_cast<std::uint8_t>(entry.call));
+      set_stamp(call.now_(), Time{entry.number});
+      call.lost_before_(0);
+      call.read_().clear();
+      call.had_subscribers_().clear();
+      call.written_().clear();
+      return;
+    case Kind::lost:
+      call.lost_before_(static_cast<std::uint64_t>(entry.number));
+      return;
+    case Kind::read: {
+      const SampleInfo& info = entry.sample.info();
+      const auto& input = component.inputs[static_cast<std::size_t>(entry.input)];
+      const auto known = channels_.find(info.writer);
+      keep(entry.sample, info.published,
+           known == channels_.end() ? add_channel(info.writer, input.topic, *input.type)
+                                    : known->second);
+      msg::SampleRead& read = call.read_().emplace_back();
+      read.input_(static_cast<std::uint16_t>(entry.input));
+      read.writer_(info.writer);
+      read.sequence_(info.sequence);
+      set_stamp(read.published_(), info.published);
+      return;
+    }
+    case Kind::answer:
+      call.had_subscribers_().push_back(entry.answer);
+      return;
+    case Kind::published: {
+      const SampleInfo& info = entry.sample.info();
+      keep(entry.sample, Time{entry.number}, channels_.at(info.writer));
+      msg::SampleWritten& written = call.written_().emplace_back();
+      written.writer_(info.writer);
+      written.sequence_(info.sequence);
+      return;
+    }
+    case Kind::end:
+      if (!component.is_of_runtime) write(call, stamp_of(call.now_()));
+  }
+}
+
+/// Writes the sample, unless that was done for another reader of it.
+void RunRecorder::keep(const SampleRef& sample, Time at, Channel& channel) {
+  const SampleInfo& info = sample.info();
+  if (!channel.is_kept || !channel.written.add(info.sequence)) return;
+  if (!channel.id) {
+    channel.id = queue_.add_channel(channel.topic, std::string{channel.type->dds_name},
+                                    {{"writer", fmt::format("{}", info.writer)}});
+  }
+  std::vector<std::byte> cdr;
+  channel.type->encode(sample.message(), cdr);
+  queue_.write(*channel.id, static_cast<std::uint32_t>(info.sequence), at, at, std::move(cdr));
+}
+
+void RunRecorder::write(const msg::Activation& call, Time at) {
+  std::vector<std::byte> cdr;
+  message_type<msg::Activation>().encode(&call, cdr);
+  queue_.write(activations_, static_cast<std::uint32_t>(++count_), at, at, std::move(cdr));
+}
+
+void RunRecorder::end_thread() {
+  ends_.store(true, std::memory_order_release);
+  if (thread_.joinable()) thread_.join();
+}
+
+std::string RunRecorder::close() {
+  end_thread();
+  queue_.close();
+  std::uint64_t lost = 0;
+  for (const auto& component : components_) lost += component->log.lost();
+  for (const auto& [channel, count] : queue_.dropped()) lost += count;
+  return fmt::format(
+      "{}: {} messages, {} activations, {:.3f} MB{}", options_.file.string(), queue_.messages(),
+      count_, 1e-6 * static_cast<double>(queue_.bytes()),
+      lost == 0 ? "" : fmt::format("; {} came faster than they could be written", lost));
+}
+
+}  // namespace armature

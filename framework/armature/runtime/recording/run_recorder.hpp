@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <thread>
+#include <unordered_map>
+#include <vector>
+
+#include "armature/messages/armature_msgs.hpp"
+#include "armature/recording/mcap_queue.hpp"
+#include "armature/runtime/deployment_file/deployment_config.hpp"
+#include "armature/runtime/execution/component_runner.hpp"
+#include "armature/runtime/recording/activation_log.hpp"
+
+namespace armature ARMATURE_EXPORT {
+
+/// Records one process of a run from inside: what its components publish, what they get from other
+/// processes, and their activations, so that `armature replay` can repeat each call bit for bit.
+/// Components never wait for it: they leave references to samples in a ring, and a thread of the
+/// recorder encodes and writes them. On the simulated clock they wait, and nothing is lost.
+class RunRecorder {
+ public:
+  struct Options {
+    std::filesystem::path file;
+    /// "/dental_lamp/*" stands for all that begin so; empty: all. The recording of a topic that is
+    /// named whole counts as a reader of it.
+    std::vector<std::string> topics;
+    bool compress = true;
+    msg::DeploymentDescription description;  // of the process
+    /// Told once, on another thread, when nothing more can be written.
+    std::function<void(const std::string&)> on_problem;
+  };
+  using Runners = std::vector<std::unique_ptr<ComponentRunner>>;
+
+  /// Before the run. `deployment`, `runners` and `clock` outlive it, and the topics of the runners
+  /// do. Throws std::runtime_error when the file cannot be written.
+  RunRecorder(Options options, const DeploymentConfig& deployment, const Runners& runners,
+              const Clock& clock);
+  ~RunRecorder();
+  RunRecorder(const RunRecorder&) = delete;
+  RunRecorder& operator=(const RunRecorder&) = delete;
+
+  /// After the last call of a component: writes what waits, and ends the file. What became of it:
+  /// "run.mcap: 61124 messages, 12000 activations, 69.1 MB".
+  std::string close();
+
+ private:
+  struct Input {
+    std::string topic;
+    const MessageType* type;
+  };
+  /// One that is recorded: its ring, and the call that is being taken from it.
+  struct Component {
+    Component(const std::string& name, std::size_t capacity, const Clock& clock, bool waits)
+        : log{capacity, clock, waits} {
+      call.component_(name);
+    }
+    ActivationLog log;
+    msg::Activation call;
+    std::vector<Input> inputs;
+    bool is_of_runtime = false;  // no replay repeats it
+  };
+  /// The numbers of samples that have been written. Readers may be heard before the writer, so
+  /// they come nearly in order.
+  class Sequences {
+   public:
+    /// False when it was there.
+    bool add(std::uint64_t sequence);
+
+   private:
+    std::uint64_t through_ = 0;  // all up to here, and
+    std::set<std::uint64_t> ahead_;
+  };
+  /// The samples of one writer.
+  struct Channel {
+    std::string topic;
+    const MessageType* type = nullptr;
+    bool is_kept = false;
+    std::optional<std::uint16_t> id = {};  // in the file, from its first sample on
+    Sequences written = {};
+  };
+  struct Reader final : Subscriber {
+    void deliver(const SampleRef&) override {}
+  };
+
+  void add(ComponentRunner& runner, const ComponentConfig& config, const Clock& clock,
+           bool simulated);
+  Channel& add_channel(std::uint32_t writer, const std::string& topic, const MessageType& type);
+  void run();
+  void take_all();
+  void take(Component& component, ActivationLog::Entry& entry);
+  void keep(const SampleRef& sample, Time at, Channel& channel);
+  void write(const msg::Activation& call, Time at);
+  void end_thread();
+
+  Options options_;
+  McapQueue queue_;
+  std::uint16_t activations_ = 0;  // the channel
+  std::uint64_t count_ = 0;        // of them
+  std::vector<std::unique_ptr<Component>> components_;
+  std::unordered_map<std::uint32_t, Channel> channels_;  // by writer
+  Reader reader_;                                        // of topics that are named whole
+  bool told_problem_ = false;
+  std::atomic<bool> ends_{false};
+  std::thread thread_;
+};
+
+}  // namespace armature

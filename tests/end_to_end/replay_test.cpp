@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+// 1. What a deployment records of itself comes back bit for bit, on whichever clock, in however
+//    many processes and threads it ran. 2. A component that does something else than it did is
+//    named, with the place of the first difference. 3. What cannot be compared is told.
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "armature/recording/mcap_writer.hpp"
+#include "command.hpp"
+#include "tests/dds_domain.hpp"
+
+namespace armature::test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using ::testing::HasSubstr;
+
+constexpr std::chrono::seconds kEnough{120};
+
+class Replay : public testing::Test {
+ protected:
+  Replay() { fs::create_directories(folder_); }
+  ~Replay() override { fs::remove_all(folder_); }
+
+  /// Runs the lamp for a while and records it.
+  CommandResult record(std::vector<std::string> more) const {
+    more.insert(more.begin(), {armature(), "run", source_file("configs/dental_lamp.yaml"), "--set",
+                               "record.file=" + file(), "--set", "run.time_limit_s=4", "--domain",
+                               std::to_string(unique_dds_domain())});
+    return run_command(more, {}, kEnough);
+  }
+  std::string file(const std::string& name = "run.mcap") const { return folder_ / name; }
+  static json check(std::vector<std::string> arguments, int exit_code) {
+    arguments.insert(arguments.begin(), {armature(), "replay", "--check", "--json"});
+    const CommandResult result = run_command(arguments, {}, kEnough);
+    EXPECT_EQ(result.exit_code, exit_code) << result.out << result.err;
+    return json::parse(result.out);
+  }
+  /// Of the components that did something else.
+  static std::map<std::string, json> differences_of(const json& checked) {
+    std::map<std::string, json> differences;
+    for (const json& component : checked["components"]) {
+      if (component.contains("difference")) {
+        differences[component["component"]] = component["difference"];
+      }
+    }
+    return differences;
+  }
+  static json component_of(const json& checked, const std::string& name) {
+    for (const json& component : checked["components"]) {
+      if (component["component"] == name) return component;
+    }
+    return {};
+  }
+
+  const fs::path folder_ =
+      fs::temp_directory_path() / ("armature-replay-" + std::to_string(getpid()));
+};
+
+TEST_F(Replay, ARunOnTheSystemClockComesBackBitForBit) {
+  const CommandResult run = record({});
+  EXPECT_THAT(run.err, HasSubstr("recorded: " + file()));
+  EXPECT_THAT(run.err, Not(HasSubstr("came faster")));
+  const json checked = check({file()}, 0);
+  EXPECT_TRUE(checked["identical"]);
+  EXPECT_GT(checked["outputs"], 10'000);
+  for (const char* name : {"scene", "landmarks", "face", "target", "task", "motion",
+                           "motion.planner", "arm", "report"}) {
+    const json component = component_of(checked, name);
+    EXPECT_FALSE(component.contains("not_replayed")) << component;
+    EXPECT_FALSE(component.contains("ends")) << component;
+    EXPECT_GT(component["activations"], 0) << name;
+  }
+  EXPECT_GT(component_of(checked, "motion")["activations"], 2'000);
+}
+
+TEST_F(Replay, ARunOnTheSimulatedClockComesBackBitForBit) {
+  record({"--set", "clock=simulated"});
+  const json checked = check({file()}, 0);
+  EXPECT_TRUE(checked["identical"]);
+  EXPECT_GT(component_of(checked, "motion")["activations"], 3'900) << "none of 4 s was lost";
+}
+
+TEST_F(Replay, ARunInSeveralProcessesComesBackBitForBit) {
+  record(
+      {"--set", "components.landmarks.process=vision", "--set", "components.face.process=vision"});
+  const json checked = check({file(), file("run.vision.mcap")}, 0);
+  EXPECT_TRUE(checked["identical"]);
+  EXPECT_EQ(component_of(checked, "face")["process"], "vision");
+  EXPECT_GT(component_of(checked, "face")["outputs"], 5);
+  EXPECT_GT(component_of(checked, "target")["outputs"], 5) << "which the other process feeds";
+}
+
+TEST_F(Replay, AChangedConstantIsFoundAndNamesItsComponentOnly) {
+  record({});
+  const json checked =
+      check({file(), "--set", "components.target.params.still_speed_m_s=0.00031"}, 1);
+  EXPECT_FALSE(checked["identical"]);
+  const auto differences = differences_of(checked);
+  ASSERT_EQ(differences.size(), 1U) << checked.dump(1);
+  const json& difference = differences.at("target");
+  EXPECT_EQ(difference["topic"], "/dental_lamp/target");
+  EXPECT_GT(difference["activation"], 1);
+  EXPECT_GT(difference["ulps"], 0);
+  EXPECT_NE(difference["recorded"], difference["replayed"]);
+}
+
+TEST_F(Replay, WhatIsNotInTheRecordingIsNotCompared) {
+  record({"--set", "record.topics=[/dental_lamp/arm/*]"});
+  const json checked = check({file()}, 0);
+  EXPECT_EQ(component_of(checked, "landmarks")["ends"],
+            "its input 'left_image' is not in the recording");
+  EXPECT_GT(component_of(checked, "arm")["outputs"], 1'000);
+}
+
+TEST_F(Replay, AnotherProcessorIsRefusedUnlessLastBitsMayDiffer) {
+  record({});
+  // The level of the processor stands between other texts of the same length.
+  std::fstream recording{file(), std::ios::in | std::ios::out | std::ios::binary};
+  std::string bytes{std::istreambuf_iterator<char>{recording}, {}};
+  const std::size_t level = bytes.find("x86-64-v");
+  if (level == std::string::npos) GTEST_SKIP() << "only known of x86-64";
+  recording.seekp(static_cast<std::streamoff>(level));
+  recording.write("x86-64-v9", 9);
+  recording.close();
+  const CommandResult refused = run_command({armature(), "replay", file(), "--check"});
+  EXPECT_EQ(refused.exit_code, 3);
+  EXPECT_THAT(refused.err, HasSubstr("--allow-ulp"));
+  const CommandResult allowed =
+      run_command({armature(), "replay", file(), "--check", "--allow-ulp"}, {}, kEnough);
+  EXPECT_THAT(allowed.out, HasSubstr("identical: "));
+}
+
+TEST_F(Replay, ARecordingThatIsThereStopsARunBeforeItBegins) {
+  std::ofstream{file()} << "yesterday's";
+  const CommandResult run = record({});
+  EXPECT_EQ(run.exit_code, 3);
+  EXPECT_THAT(run.err, HasSubstr("is there already: move it, or let the name say the time"));
+  EXPECT_EQ(fs::file_size(file()), 11U);
+}
+
+TEST_F(Replay, AWrongTopicIsFoundBeforeTheRun) {
+  const CommandResult run = record({"--set", "record.topics=[/dental_lamp/arm/measured]"});
+  EXPECT_EQ(run.exit_code, 3);
+  EXPECT_THAT(run.err, HasSubstr("which no component writes or reads; did you mean "
+                                 "'/dental_lamp/arm/measured_js'"));
+}
+
+TEST_F(Replay, ARecordingFromOutsideHasNoActivations) {
+  McapWriter empty{file(), {}};
+  empty.close();
+  const CommandResult replay = run_command({armature(), "replay", file(), "--check"});
+  EXPECT_EQ(replay.exit_code, 1);
+  EXPECT_THAT(replay.err, HasSubstr("holds no activations"));
+}
+
+}  // namespace
+}  // namespace armature::test

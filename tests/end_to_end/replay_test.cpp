@@ -111,6 +111,41 @@ TEST_F(Replay, AChangedConstantIsFoundAndNamesItsComponentOnly) {
   EXPECT_NE(difference["recorded"], difference["replayed"]);
 }
 
+TEST_F(Replay, TwoSolversAreComparedOnRecordedDataAndTheirCallsCanBeRepeated) {
+  record({});
+  const CommandResult result = run_command(
+      {armature(), "replay", file(), "--set", "components.motion.ik.plugin=ik/numeric", "--json"},
+      {}, kEnough);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json compared = json::parse(result.out)[0];
+  json planner;
+  for (const json& component : compared["components"]) {
+    EXPECT_THAT(std::string{component["component"]}, testing::StartsWith("motion"));
+    if (component["component"] == "motion.planner") planner = component;
+  }
+  const json& joint_path = planner["topics"]["/dental_lamp/motion/joint_path"];
+  EXPECT_GT(joint_path["differing"], 0) << "not one bit differs between two ways to solve";
+  EXPECT_LT(joint_path["fields"]["points[].positions[]"]["largest"], 1e-9);
+  const json& solver = compared["solvers"][1];
+  EXPECT_EQ(solver["recorded"]["plugin"], "ik/lamp_geometric");
+  EXPECT_EQ(solver["now"]["plugin"], "ik/numeric");
+  EXPECT_GT(solver["now"]["calls"], 0);
+  EXPECT_EQ(solver["now"]["calls"], solver["recorded"]["calls"]);
+  EXPECT_EQ(solver["now"]["failed"], 0);
+  std::string line = solver["now"]["slowest"]["line"];
+  line.replace(line.find("armature ik"), 8, armature());
+  const CommandResult again = run_command({"/bin/sh", "-c", line});
+  EXPECT_EQ(json::parse(again.out)["status"], "ok") << line << again.err;
+}
+
+TEST_F(Replay, AssignmentsThatChangeNothingAreRefused) {
+  record({});
+  const CommandResult replay =
+      run_command({armature(), "replay", file(), "--set", "components.task.params.distance_m=0.5"});
+  EXPECT_EQ(replay.exit_code, 3);
+  EXPECT_THAT(replay.err, HasSubstr("change no component of the recording"));
+}
+
 TEST_F(Replay, WhatIsNotInTheRecordingIsNotCompared) {
   record({"--set", "record.topics=[/dental_lamp/arm/*]"});
   const json checked = check({file()}, 0);

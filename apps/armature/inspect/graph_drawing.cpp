@@ -12,9 +12,9 @@
 namespace armature {
 namespace {
 
-using Component = DrawnGraph::Component;
+using DrawnComponent = DrawnGraph::Component;
 using Reader = DrawnGraph::Reader;
-using Topic = DrawnGraph::Topic;
+using DrawnTopic = DrawnGraph::Topic;
 
 std::vector<std::string> names_of(const std::vector<Reader>& readers) {
   std::vector<std::string> names;
@@ -50,16 +50,16 @@ std::string json_of(const DrawnGraph& graph) {
 /// Writes the components of each process between `open(process)` and `close`; without them when
 /// there is one process only.
 std::string framed(const DrawnGraph& graph,
-                   const std::function<std::string(const Component&)>& node,
+                   const std::function<std::string(const DrawnComponent&)>& node,
                    const std::function<std::string(const std::string&)>& open,
                    const std::string& close) {
   std::set<std::string> processes;
-  for (const Component& component : graph.components) processes.insert(component.process);
+  for (const DrawnComponent& component : graph.components) processes.insert(component.process);
   std::string text;
   for (const std::string& process : processes) {
     const bool framed = processes.size() > 1;
     if (framed) text += open(process);
-    for (const Component& component : graph.components) {
+    for (const DrawnComponent& component : graph.components) {
       if (component.process == process) text += (framed ? "  " : "") + node(component);
     }
     if (framed) text += close;
@@ -81,7 +81,7 @@ std::string arrows(const DrawnGraph& graph,
 }
 
 std::string dot_of(const DrawnGraph& graph) {
-  const auto node = [](const Component& component) {
+  const auto node = [](const DrawnComponent& component) {
     return fmt::format("  \"{0}\" [label=\"{0}\\n{1}\"];\n", component.name, component.plugin);
   };
   const auto open = [](const std::string& process) {
@@ -105,7 +105,7 @@ std::string mermaid_name(std::string component) {
 }
 
 std::string mermaid_of(const DrawnGraph& graph) {
-  const auto node = [](const Component& component) {
+  const auto node = [](const DrawnComponent& component) {
     return fmt::format("  {}[\"{}<br>{}\"]\n", mermaid_name(component.name), component.name,
                        component.plugin);
   };

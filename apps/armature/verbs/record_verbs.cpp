@@ -49,22 +49,28 @@ void add_info(CLI::App& app, Action& action) {
 
 void add_replay(CLI::App& app, Action& action) {
   auto options = std::make_shared<ReplayOptions>();
+  auto check = std::make_shared<bool>(false);
   CLI::App* verb = app.add_subcommand(
       "replay", "Repeat a recorded run, bit for bit: armature replay run.mcap --check");
   verb->add_option("recordings", options->files,
                    "what a deployment recorded of itself (record:), a file for each process")
       ->required()
       ->check(CLI::ExistingFile);
-  verb->add_flag("--check", options->check,
-                 "repeat every activation and compare all outputs with the recorded ones")
-      ->required();
+  verb->add_flag("--check", *check,
+                 "repeat every activation and compare all outputs with the recorded ones");
   verb->add_option("--set", options->assignments,
-                   "change one value before: --set components.motion.ik.plugin=ik/numeric")
+                   "change one value: --set components.motion.ik.plugin=ik/numeric; without "
+                   "--check, compare the changed components with the recorded ones")
       ->allow_extra_args(false);
   verb->add_flag("--allow-ulp", options->allow_ulp,
                  "compare what another kind of processor has recorded, too");
   verb->add_flag("--json", options->json, "as JSON");
-  verb->callback([=, &action] { action = [=] { return replay_recording(*options); }; });
+  verb->callback([=, &action] {
+    if (!*check && options->assignments.empty()) {
+      throw CLI::ValidationError("replay", "say --check, or what to change: --set KEY=VALUE");
+    }
+    action = [=] { return *check ? check_recording(*options) : compare_with_recording(*options); };
+  });
 }
 
 }  // namespace

@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "armature/messages/known_types.hpp"
+#include "armature/messages/stamp.hpp"
+#include "armature/runtime/plugins/running_component.hpp"
+#include "exit_code.hpp"
+#include "replay/message_difference.hpp"
+#include "replay/recorded_run.hpp"
+#include "replay/replay.hpp"
+#include "replay/replayed_process.hpp"
+#include "watch/outsider.hpp"
+
+namespace armature {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Where a component did something else than in the recording.
+struct Difference {
+  std::uint64_t activation = 0;  // counts from 1
+  std::string call;
+  double at_s = 0;  // since the recording began
+  std::string topic;
+  std::string text;  // "position[2]: recorded 1, replayed 2, 4503599627370496 ULP apart"
+  std::optional<MessageDifference> field;
+};
+
+/// What came of the calls of a component.
+struct Compared {
+  std::uint64_t outputs = 0, unrecorded = 0;
+  std::optional<Difference> difference;
+};
+
+std::string_view call_name(std::uint8_t call) {
+  constexpr std::array<std::string_view, 3> kNames{"step", "begin_stop", "stop"};
+  return call < kNames.size() ? kNames[call] : "?";
+}
+
+std::string with_commas(std::uint64_t number) {
+  std::string text = std::to_string(number);
+  for (std::size_t i = text.size(); i > 3; i -= 3) text.insert(i - 3, ",");
+  return text;
+}
+
+/// All components of one process.
+class Check {
+ public:
+  Check(const std::filesystem::path& file, const ReplayOptions& options, PluginRegistry& plugins)
+      : run_{file}, process_{run_, plugins, options.assignments} {
+    if (!options.allow_ulp) check_processor(run_);
+    for (const auto& [name, entry] : process_.entries()) compared_[name];
+  }
+
+  void run() {
+    std::optional<Time> start;
+    while (const auto call = run_.next()) {
+      const Time now = stamp_of(call->now_());
+      if (!start) start = now;
+      length_ = std::max(length_, now - *start);
+      repeat(*call, to_seconds(now - *start));
+    }
+  }
+
+  const std::map<std::string, ReplayedProcess::Entry>& entries() const {
+    return process_.entries();
+  }
+  const Compared& of(const std::string& component) const { return compared_.at(component); }
+  const std::vector<std::string>& notes() const { return process_.notes(); }
+  const std::vector<std::string>& problems() const { return run_.problems(); }
+  const std::string& process() const { return run_.process(); }
+  double length_s() const { return to_seconds(length_); }
+
+ private:
+  void repeat(const msg::Activation& call, double at_s) {
+    const auto found = process_.entries().find(call.component_());
+    if (found == process_.entries().end()) return;
+    Compared& compared = compared_[found->first];
+    ReplayedProcess::Entry& entry = found->second;
+    const bool has_failed = entry.component && entry.component->failure();
+    if (process_.repeat(call, at_s)) {
+      compare(call, at_s, entry, compared);
+    } else if (has_failed && !compared.difference) {
+      compared.difference =
+          difference(call, at_s, entry.activations, "", *entry.component->failure());
+    }
+  }
+
+  void compare(const msg::Activation& call, double at_s, const ReplayedProcess::Entry& entry,
+               Compared& compared) {
+    const auto note = [&](const std::string& topic, std::string text) {
+      if (compared.difference) return;
+      compared.difference = difference(call, at_s, entry.activations, topic, std::move(text));
+    };
+    const auto& published = entry.component->published();
+    const std::size_t common = std::min(published.size(), call.written_().size());
+    for (std::size_t i = 0; i < common; ++i) {
+      const msg::SampleWritten& written = call.written_()[i];
+      if (published[i].writer != written.writer_()) {
+        return note(published[i].topic, "published where it had not");
+      }
+      const auto recorded = run_.sample(written.writer_(), written.sequence_());
+      if (!recorded) {
+        ++compared.unrecorded;
+      } else if (std::ranges::equal(*recorded, published[i].cdr)) {
+        ++compared.outputs;
+      } else if (!compared.difference) {
+        const auto field = field_difference(published[i], *recorded);
+        note(published[i].topic, text_of(field));
+        compared.difference->field = field;
+      }
+    }
+    if (published.size() == call.written_().size()) return;
+    note(
+        published.size() > common ? published[common].topic : "",
+        fmt::format("recorded {} messages, replayed {}", call.written_().size(), published.size()));
+  }
+
+  static std::optional<MessageDifference> field_difference(const ReplayedMessage& message,
+                                                           std::span<const std::byte> recorded) {
+    const TypeDescription* type = describe_type(message.type->dds_name);
+    return type ? first_difference(*type, recorded, message.cdr) : std::nullopt;
+  }
+
+  static std::string text_of(const std::optional<MessageDifference>& field) {
+    if (!field) return "other bytes of equal values";
+    std::string text =
+        fmt::format("{}: recorded {}, replayed {}", field->field, field->recorded, field->replayed);
+    if (field->ulps) text += fmt::format(", {} ULP apart", with_commas(*field->ulps));
+    return text;
+  }
+
+  static Difference difference(const msg::Activation& call, double at_s, std::uint64_t activation,
+                               const std::string& topic, std::string text) {
+    return {.activation = activation,
+            .call = std::string{call_name(call.call_())},
+            .at_s = at_s,
+            .topic = topic,
+            .text = std::move(text),
+            .field = {}};
+  }
+
+  RecordedRun run_;
+  ReplayedProcess process_;
+  std::map<std::string, Compared> compared_;
+  Duration length_{0};
+};
+
+struct Totals {
+  std::uint64_t components = 0, activations = 0, outputs = 0, differing = 0;
+  double length_s = 0;
+};
+
+Totals totals_of(const std::vector<std::unique_ptr<Check>>& checks) {
+  Totals totals;
+  for (const auto& check : checks) {
+    totals.length_s = std::max(totals.length_s, check->length_s());
+    for (const auto& [name, entry] : check->entries()) {
+      totals.components += entry.component ? 1 : 0;
+      totals.activations += entry.activations;
+      totals.outputs += check->of(name).outputs;
+      totals.differing += check->of(name).difference ? 1 : 0;
+    }
+  }
+  return totals;
+}
+
+std::string text_of(const std::string& component, const Difference& difference) {
+  return fmt::format("'{}' differs first at {:.6f} s, in its activation {} ({}){}{}: {}", component,
+                     difference.at_s, with_commas(difference.activation), difference.call,
+                     difference.topic.empty() ? "" : ", ", difference.topic, difference.text);
+}
+
+Json json_of(const Check& check, const std::string& name, const ReplayedProcess::Entry& entry) {
+  Json json{{"component", name}, {"process", check.process()}};
+  if (!entry.component) {
+    json["not_replayed"] = entry.why_not;
+    return json;
+  }
+  const Compared& compared = check.of(name);
+  json["activations"] = entry.activations;
+  json["outputs"] = compared.outputs;
+  if (compared.unrecorded > 0) json["not_recorded"] = compared.unrecorded;
+  if (entry.ends) json["ends"] = *entry.ends;
+  if (!compared.difference) return json;
+  const Difference& difference = *compared.difference;
+  json["difference"] = {{"activation", difference.activation},
+                        {"call", difference.call},
+                        {"at_s", difference.at_s},
+                        {"topic", difference.topic},
+                        {"text", difference.text}};
+  if (!difference.field) return json;
+  json["difference"]["field"] = difference.field->field;
+  json["difference"]["recorded"] = difference.field->recorded;
+  json["difference"]["replayed"] = difference.field->replayed;
+  if (difference.field->ulps) json["difference"]["ulps"] = *difference.field->ulps;
+  return json;
+}
+
+void print_json(const std::vector<std::unique_ptr<Check>>& checks, const Totals& totals,
+                double took_s) {
+  Json json{{"identical", totals.differing == 0},
+            {"outputs", totals.outputs},
+            {"activations", totals.activations},
+            {"length_s", totals.length_s},
+            {"took_s", took_s},
+            {"components", Json::array()}};
+  for (const auto& check : checks) {
+    for (const auto& [name, entry] : check->entries()) {
+      json["components"].push_back(json_of(*check, name, entry));
+    }
+  }
+  fmt::print("{}\n", json.dump());
+}
+
+void print(const std::vector<std::unique_ptr<Check>>& checks, const Totals& totals, double took_s) {
+  for (const auto& check : checks) {
+    for (const auto& [name, entry] : check->entries()) {
+      const auto& difference = check->of(name).difference;
+      if (difference) fmt::print("{}\n", text_of(name, *difference));
+    }
+  }
+  fmt::print("{}: {} outputs of {} activations of {} components; {:.1f} s of the run in {:.1f} s\n",
+             totals.differing == 0 ? "identical" : "identical otherwise",
+             with_commas(totals.outputs), with_commas(totals.activations), totals.components,
+             totals.length_s, took_s);
+  for (const auto& check : checks) {
+    for (const auto& [name, entry] : check->entries()) {
+      if (!entry.component) fmt::print("not replayed: '{}', {}\n", name, entry.why_not);
+      if (entry.ends) {
+        fmt::print("replayed up to its activation {}: '{}', {}\n", with_commas(entry.activations),
+                   name, *entry.ends);
+      }
+      if (const auto unrecorded = check->of(name).unrecorded; unrecorded > 0) {
+        fmt::print("not compared: {} outputs of '{}', which are not in the recording\n",
+                   with_commas(unrecorded), name);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+int check_recording(const ReplayOptions& options) {
+  name_crashing_components();
+  PluginRegistry plugins;
+  std::vector<std::unique_ptr<Check>> checks;
+  const Time start = monotonic_now();
+  bool is_whole = true;
+  for (const std::filesystem::path& file : options.files) {
+    checks.push_back(std::make_unique<Check>(file, options, plugins));
+    for (const std::string& note : checks.back()->notes()) {
+      fmt::print(stderr, "armature: {}\n", note);
+    }
+    checks.back()->run();
+    for (const std::string& problem : checks.back()->problems()) {
+      is_whole = false;
+      fmt::print(stderr, "armature: '{}': {}\n", file.string(), problem);
+    }
+  }
+  const Totals totals = totals_of(checks);
+  const double took_s = to_seconds(monotonic_now() - start);
+  if (options.json) {
+    print_json(checks, totals, took_s);
+  } else {
+    print(checks, totals, took_s);
+  }
+  return totals.differing == 0 && is_whole ? kOk : kFailed;
+}
+
+}  // namespace armature

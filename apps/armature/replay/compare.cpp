@@ -1,0 +1,376 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <deque>
+#include <iterator>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+
+#include "armature/config/document.hpp"
+#include "armature/messages/stamp.hpp"
+#include "armature/runtime/plugins/running_component.hpp"
+#include "exit_code.hpp"
+#include "replay/field_differences.hpp"
+#include "replay/replay.hpp"
+#include "replay/replayed_process.hpp"
+#include "replay/watched_ik.hpp"
+
+namespace armature {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The entry of a component in its file, with what it is bound to, as text.
+std::string text_of(const ComponentConfig& component, const DeploymentConfig& deployment) {
+  const config::Node* components = deployment.file.find("components");
+  const config::Node* entry = components ? components->find(component.component()) : nullptr;
+  std::string text = entry ? config::to_yaml(*entry, false) : "";
+  for (const auto& [section, name] : component.documents) {
+    text += config::to_yaml(deployment.documents.at(section).at(name), false);
+  }
+  return text;
+}
+
+/// The components of `run` that are other ones with the assignments.
+std::vector<std::string> changed_components(const RecordedRun& run, PluginRegistry& plugins,
+                                            const std::vector<std::string>& assignments) {
+  std::vector<std::string> notes;
+  const DeploymentConfig before = run.read_config(plugins, {}, notes);
+  const DeploymentConfig now = run.read_config(plugins, assignments, notes);
+  std::vector<std::string> changed;
+  for (const ComponentConfig& component : before.components) {
+    const auto same = std::ranges::find(now.components, component.name, &ComponentConfig::name);
+    const bool is_recorded = run.components().contains(component.name);
+    if (!is_recorded || same == now.components.end()) continue;
+    if (text_of(component, before) != text_of(*same, now)) changed.push_back(component.name);
+  }
+  return changed;
+}
+
+/// One of the two that are compared, with its solvers of inverse kinematics watched.
+struct Side {
+  struct Solver {
+    std::string component, plugin, robot, params;
+    IkCalls calls;
+  };
+
+  Side(RecordedRun& run, PluginRegistry& plugins, const std::vector<std::string>& assignments,
+       const std::vector<std::string>& changed)
+      : process{run, plugins, assignments, changed} {
+    for (auto& [name, entry] : process.entries()) {
+      if (entry.component) watch(name, *entry.component, plugins);
+    }
+  }
+
+  void watch(const std::string& name, ReplayedComponent& component, PluginRegistry& plugins) {
+    const DeploymentConfig& deployment = process.config();
+    const auto config = std::ranges::find(deployment.components, name, &ComponentConfig::name);
+    for (const SlotConfig& slot : config->slots) {
+      if (slot.manifest->kind != IkSolver::kKind) continue;
+      const auto place = std::ranges::find(component.runner().slots(), slot.name,
+                                           [](const auto& known) { return known->name(); });
+      if (place == component.runner().slots().end()) continue;
+      Solver& solver = solvers.emplace_back();
+      solver = {.component = name,
+                .plugin = slot.plugin_id,
+                .robot = robot_of(*config),
+                .params = given_params(*config, slot.name),
+                .calls = {}};
+      const auto watching = watch_ik(
+          **place, {plugins.load(*slot.manifest, slot.manifest->kind), *slot.manifest, slot.params},
+          solver.calls);
+      if (!watching) throw std::runtime_error(watching.error().text);
+    }
+  }
+
+  /// The parameters of a slot that are not its plugin's own defaults, "{max_steps: 20}", or
+  /// nothing.
+  std::string given_params(const ComponentConfig& component, const std::string& slot) const {
+    const config::Node* entry = process.config().file.find("components");
+    for (const std::string& key :
+         {std::string{component.component()}, slot, std::string{"params"}}) {
+      entry = entry ? entry->find(key) : nullptr;
+    }
+    std::string text;
+    if (!entry) return text;
+    for (const auto& [key, origin, value] : entry->entries()) {
+      if (value.origin().file.starts_with("default of ")) continue;
+      text += fmt::format("{}{}: {}", text.empty() ? "{" : ", ", key, value.text());
+    }
+    return text.empty() ? text : text + "}";
+  }
+
+  std::string robot_of(const ComponentConfig& component) const {
+    const auto bound = component.documents.find("robots");
+    if (bound == component.documents.end()) return "ROBOT";
+    return process.config().documents.at("robots").at(bound->second).origin().file;
+  }
+
+  ReplayedProcess process;
+  std::deque<Solver> solvers;  // stay where they are
+};
+
+/// What is compared of one component.
+struct ComparedComponent {
+  std::map<std::string, TopicDifferences> topics;
+  std::optional<double> slowest_at_s;
+  Duration slowest{0};
+};
+
+class Comparison {
+ public:
+  Comparison(const std::filesystem::path& file, const ReplayOptions& options,
+             PluginRegistry& plugins)
+      : run_{file},
+        changed_{changed_components(run_, plugins, options.assignments)},
+        before_{run_, plugins, {}, or_none(changed_)},
+        now_{run_, plugins, options.assignments, or_none(changed_)} {}
+
+  void run() {
+    std::optional<Time> start;
+    while (const auto call = run_.next()) {
+      const Time now = stamp_of(call->now_());
+      if (!start) start = now;
+      repeat(*call, to_seconds(now - *start));
+    }
+  }
+
+  const std::vector<std::string>& changed() const { return changed_; }
+  const std::map<std::string, ComparedComponent>& components() const { return components_; }
+  const Side& before() const { return before_; }
+  const Side& now() const { return now_; }
+
+ private:
+  /// No component has this name: none is constructed, instead of all.
+  static std::vector<std::string> or_none(const std::vector<std::string>& names) {
+    return names.empty() ? std::vector<std::string>{""} : names;
+  }
+
+  void repeat(const msg::Activation& call, double at_s) {
+    // In turn, so that neither always finds the caches warm.
+    now_first_ = !now_first_;
+    ReplayedProcess::Entry* first = (now_first_ ? now_ : before_).process.repeat(call, at_s);
+    ReplayedProcess::Entry* second = (now_first_ ? before_ : now_).process.repeat(call, at_s);
+    if (!first || !second) return;
+    const auto& before = now_first_ ? *second : *first;
+    const auto& now = now_first_ ? *first : *second;
+    ComparedComponent& compared = components_[call.component_()];
+    compare(before.component->published(), now.component->published(), at_s, compared);
+    const Duration took{now.component->runner().times().duration.counts().last_ns};
+    if (compared.slowest_at_s && took <= compared.slowest) return;
+    compared.slowest_at_s = at_s;
+    compared.slowest = took;
+  }
+
+  static void compare(const std::vector<ReplayedMessage>& before,
+                      const std::vector<ReplayedMessage>& now, double at_s,
+                      ComparedComponent& compared) {
+    std::set<std::string> topics;
+    for (const ReplayedMessage& message : before) topics.insert(message.topic);
+    for (const ReplayedMessage& message : now) topics.insert(message.topic);
+    for (const std::string& topic : topics) {
+      const auto first = messages_of(before, topic), second = messages_of(now, topic);
+      const std::size_t common = std::min(first.size(), second.size());
+      TopicDifferences& differences = compared.topics[topic];
+      for (std::size_t i = 0; i < common; ++i) {
+        differences.compare(*first[i]->type, first[i]->cdr, second[i]->cdr, at_s);
+      }
+      differences.add_unmatched(first.size() - common, second.size() - common);
+    }
+  }
+
+  static std::vector<const ReplayedMessage*> messages_of(const std::vector<ReplayedMessage>& all,
+                                                         const std::string& topic) {
+    std::vector<const ReplayedMessage*> messages;
+    for (const ReplayedMessage& message : all) {
+      if (message.topic == topic) messages.push_back(&message);
+    }
+    return messages;
+  }
+
+  RecordedRun run_;
+  std::vector<std::string> changed_;
+  Side before_, now_;
+  std::map<std::string, ComparedComponent> components_;
+  bool now_first_ = false;
+};
+
+std::string line_for(const IkCalls::Call& call, const Side::Solver& solver) {
+  return fmt::format("echo '{}' | armature ik --robot {} --plugin {}{}", call.question,
+                     solver.robot, solver.plugin,
+                     solver.params.empty() ? "" : fmt::format(" --params '{}'", solver.params));
+}
+
+TimingFigures times_of(const Side& side, const std::string& component) {
+  const auto& entry = side.process.entries().at(component);
+  return entry.component->runner().times().duration.counts().figures();
+}
+
+bool is_same(const TopicDifferences& differences) {
+  return differences.differing() + differences.only_before() + differences.only_now() == 0;
+}
+
+void print_fields(const std::string& topic, const TopicDifferences& differences) {
+  fmt::print("  {}: {} of {} messages differ\n", topic, differences.differing(),
+             differences.messages());
+  if (differences.only_before() + differences.only_now() > 0) {
+    fmt::print("    {} messages only in the recording, {} only now\n", differences.only_before(),
+               differences.only_now());
+  }
+  for (const auto& [name, field] : differences.fields()) {
+    const std::string what = field.is_number
+                                 ? fmt::format("by up to {:.3g}", field.largest)
+                                 : fmt::format("first {} now {}", field.before, field.now);
+    fmt::print("    {:<28} {:>6} of them, {} at {:.3f} s\n", name, field.messages, what,
+               field.at_s);
+  }
+  const auto& steps = differences.joint_steps();
+  if (steps[0] + steps[1] > 0) {
+    fmt::print("    largest step of a joint      recorded {:.6g}, now {:.6g}\n", steps[0],
+               steps[1]);
+  }
+}
+
+void print_solver(const Side::Solver& before, const Side::Solver& now) {
+  fmt::print("inverse kinematics of '{}': {} calls of {}, {} failed; {} of {}, {} failed\n",
+             now.component, before.calls.count, before.plugin, before.calls.failed, now.calls.count,
+             now.plugin, now.calls.failed);
+  if (now.calls.count > 0 && before.calls.count > 0) {
+    const double mean = now.calls.took_s / static_cast<double>(now.calls.count);
+    const double mean_before = before.calls.took_s / static_cast<double>(before.calls.count);
+    fmt::print("  a call takes {:.2f} times as long: {:.2f} us instead of {:.2f} us\n",
+               mean / mean_before, 1e6 * mean, 1e6 * mean_before);
+  }
+  if (now.calls.first_failed) {
+    fmt::print("  first failure, {}:\n  {}\n", now.calls.first_failed->answer,
+               line_for(*now.calls.first_failed, now));
+  }
+  if (now.calls.slowest) {
+    fmt::print("  slowest call, {:.2f} us, {}:\n  {}\n", 1e6 * now.calls.slowest->took_s,
+               now.calls.slowest->answer, line_for(*now.calls.slowest, now));
+  }
+}
+
+void print(const Comparison& comparison) {
+  for (const auto& [name, compared] : comparison.components()) {
+    const TimingFigures before = times_of(comparison.before(), name);
+    const TimingFigures now = times_of(comparison.now(), name);
+    fmt::print(
+        "'{}', {} activations: a step takes {:.2f} times as long (p50 {:.2f} us instead of "
+        "{:.2f}, p99 {:.2f} us instead of {:.2f}), the slowest {:.2f} us at {:.3f} s\n",
+        name, now.count, now.p50_s / before.p50_s, 1e6 * now.p50_s, 1e6 * before.p50_s,
+        1e6 * now.p99_s, 1e6 * before.p99_s, 1e6 * now.max_s, *compared.slowest_at_s);
+    std::string same;
+    for (const auto& [topic, differences] : compared.topics) {
+      if (is_same(differences)) {
+        same += (same.empty() ? "" : ", ") + topic;
+      } else {
+        print_fields(topic, differences);
+      }
+    }
+    if (!same.empty()) fmt::print("  the same to the last bit: {}\n", same);
+  }
+  const auto& before = comparison.before().solvers;
+  const auto& now = comparison.now().solvers;
+  for (std::size_t i = 0; i < std::min(before.size(), now.size()); ++i) {
+    print_solver(before[i], now[i]);
+  }
+  for (const auto& [name, entry] : comparison.now().process.entries()) {
+    if (!entry.component) fmt::print("not replayed: '{}', {}\n", name, entry.why_not);
+    if (entry.ends) {
+      fmt::print("replayed up to its activation {}: '{}', {}\n", entry.activations, name,
+                 *entry.ends);
+    }
+  }
+}
+
+Json json_of(const TopicDifferences& differences) {
+  Json json{{"messages", differences.messages()},
+            {"differing", differences.differing()},
+            {"only_recorded", differences.only_before()},
+            {"only_now", differences.only_now()},
+            {"largest_joint_step", differences.joint_steps()},
+            {"fields", Json::object()}};
+  for (const auto& [name, field] : differences.fields()) {
+    Json& told = json["fields"][name] = {{"messages", field.messages}, {"at_s", field.at_s}};
+    if (field.is_number) {
+      told["largest"] = field.largest;
+    } else {
+      told["recorded"] = field.before;
+      told["now"] = field.now;
+    }
+  }
+  return json;
+}
+
+Json json_of(const Side::Solver& solver) {
+  Json json{{"component", solver.component},
+            {"plugin", solver.plugin},
+            {"calls", solver.calls.count},
+            {"failed", solver.calls.failed},
+            {"took_s", solver.calls.took_s}};
+  if (solver.calls.first_failed) {
+    json["first_failed"] = {{"answer", solver.calls.first_failed->answer},
+                            {"line", line_for(*solver.calls.first_failed, solver)}};
+  }
+  if (solver.calls.slowest) {
+    json["slowest"] = {{"took_s", solver.calls.slowest->took_s},
+                       {"line", line_for(*solver.calls.slowest, solver)}};
+  }
+  return json;
+}
+
+Json json_of(const Comparison& comparison) {
+  Json json{{"components", Json::array()}, {"solvers", Json::array()}};
+  for (const auto& [name, compared] : comparison.components()) {
+    const TimingFigures before = times_of(comparison.before(), name);
+    const TimingFigures now = times_of(comparison.now(), name);
+    Json& told = json["components"].emplace_back();
+    told = {{"component", name},
+            {"activations", now.count},
+            {"recorded_step_s", {{"p50", before.p50_s}, {"p99", before.p99_s}}},
+            {"step_s", {{"p50", now.p50_s}, {"p99", now.p99_s}, {"max", now.max_s}}},
+            {"slowest_at_s", *compared.slowest_at_s},
+            {"topics", Json::object()}};
+    for (const auto& [topic, differences] : compared.topics) {
+      told["topics"][topic] = json_of(differences);
+    }
+    const auto& ends = comparison.now().process.entries().at(name).ends;
+    if (ends) told["ends"] = *ends;
+  }
+  const auto& before = comparison.before().solvers;
+  const auto& now = comparison.now().solvers;
+  for (std::size_t i = 0; i < std::min(before.size(), now.size()); ++i) {
+    json["solvers"].push_back({{"recorded", json_of(before[i])}, {"now", json_of(now[i])}});
+  }
+  return json;
+}
+
+}  // namespace
+
+int compare_with_recording(const ReplayOptions& options) {
+  name_crashing_components();
+  PluginRegistry plugins;
+  Json json = Json::array();
+  bool any = false;
+  for (const std::filesystem::path& file : options.files) {
+    Comparison comparison{file, options, plugins};
+    any = any || !comparison.changed().empty();
+    if (comparison.changed().empty()) continue;
+    comparison.run();
+    if (options.json) {
+      json.push_back(json_of(comparison));
+    } else {
+      print(comparison);
+    }
+  }
+  if (!any) throw InvalidChoice("the assignments change no component of the recording");
+  if (options.json) fmt::print("{}\n", json.dump());
+  return kOk;
+}
+
+}  // namespace armature

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "replay/field_differences.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "armature/messages/cdr_to_json.hpp"
+#include "armature/messages/known_types.hpp"
+
+namespace armature {
+
+void TopicDifferences::compare(const MessageType& type, std::span<const std::byte> before,
+                               std::span<const std::byte> now, double at_s) {
+  ++messages_;
+  const TypeDescription* description = describe_type(type.dds_name);
+  if (!description) return;
+  const auto first = cdr_to_json(*description, before);
+  const auto second = cdr_to_json(*description, now);
+  if (!first || !second) return;
+  follow_joints(*first, 0);
+  follow_joints(*second, 1);
+  if (std::ranges::equal(before, now)) return;
+  ++differing_;
+  in_message_.clear();
+  walk(*first, *second, "", at_s);
+  for (const auto& [name, differs] : in_message_) ++fields_[name].messages;
+}
+
+void TopicDifferences::walk(const Json& before, const Json& now, const std::string& name,
+                            double at_s) {
+  if (before.is_object() && now.is_object()) {
+    for (const auto& [key, value] : before.items()) {
+      walk(value, now.value(key, Json{}), name.empty() ? key : name + "." + key, at_s);
+    }
+  } else if (before.is_array() && now.is_array()) {
+    for (std::size_t i = 0; i < std::min(before.size(), now.size()); ++i) {
+      walk(before[i], now[i], name + "[]", at_s);
+    }
+    if (before.size() != now.size()) {
+      add("elements of " + name, Json(std::to_string(before.size())),
+          Json(std::to_string(now.size())), at_s);
+    }
+  } else if (!(before == now)) {  // NaN is neither equal nor unequal to anything here
+    add(name, before, now, at_s);
+  }
+}
+
+void TopicDifferences::add(const std::string& name, const Json& before, const Json& now,
+                           double at_s) {
+  in_message_[name] = true;
+  const auto [place, is_new] = fields_.try_emplace(name);
+  FieldDifferences& field = place->second;
+  if (before.is_number_float() && now.is_number_float()) {
+    field.is_number = true;
+    double apart = std::abs(now.get<double>() - before.get<double>());
+    if (std::isnan(apart)) apart = std::numeric_limits<double>::infinity();
+    if (!is_new && apart <= field.largest) return;
+    field.largest = apart;
+    field.at_s = at_s;
+  } else if (is_new) {
+    field.at_s = at_s;
+    field.before = before.dump();
+    field.now = now.dump();
+  }
+}
+
+void TopicDifferences::follow_joints(const Json& message, std::size_t run) {
+  if (const auto points = message.find("points"); points != message.end()) {
+    joints_[run].clear();  // another way begins where it will
+    for (const Json& point : *points) {
+      if (point.contains("positions")) add_joints(point["positions"], run);
+    }
+  } else if (message.contains("name") && message.contains("position")) {
+    add_joints(message["position"], run);
+  }
+}
+
+void TopicDifferences::add_joints(const Json& joints, std::size_t run) {
+  if (!joints.is_array() ||
+      !std::ranges::all_of(joints, [](const Json& joint) { return joint.is_number(); })) {
+    return;
+  }
+  const auto now = joints.get<std::vector<double>>();
+  std::vector<double>& before = joints_[run];
+  for (std::size_t i = 0; i < std::min(before.size(), now.size()); ++i) {
+    joint_steps_[run] = std::max(joint_steps_[run], std::abs(now[i] - before[i]));
+  }
+  before = now;
+}
+
+}  // namespace armature

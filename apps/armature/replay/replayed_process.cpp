@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "replay/replayed_process.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "armature/runtime/deployment/description.hpp"
+#include "armature/runtime/plugins/running_component.hpp"
+#include "armature/runtime/recording/recorded_description.hpp"
+#include "exit_code.hpp"
+
+namespace armature {
+namespace {
+
+/// Why it cannot be repeated, or nothing.
+std::string why_not_replayed(const ComponentConfig& component) {
+  const auto is_impure = [](const SlotConfig& slot) { return !slot.manifest->pure; };
+  if (!component.manifest->pure) return component.plugin_id + " says pure: false";
+  const auto slot = std::ranges::find_if(component.slots, is_impure);
+  return slot == component.slots.end() ? "" : slot->plugin_id + " says pure: false";
+}
+
+}  // namespace
+
+ReplayedProcess::ReplayedProcess(RecordedRun& run, PluginRegistry& plugins,
+                                 const std::vector<std::string>& assignments,
+                                 const std::vector<std::string>& only)
+    : run_{&run}, config_{run.read_config(plugins, assignments, notes_)} {
+  note_other_libraries(run);
+  std::size_t deepest = 0;
+  for (const ComponentConfig& component : config_.components) {
+    for (const PortBinding& input : component.inputs) {
+      deepest = std::max(deepest, static_cast<std::size_t>(input.spec.queue.value_or(1)));
+    }
+  }
+  run.keep_at_least(deepest);
+  for (const auto& [name, ports] : run.components()) {
+    const bool is_wanted = only.empty() || std::ranges::find(only, name) != only.end();
+    if (is_wanted) construct(name, ports, plugins);
+  }
+}
+
+void ReplayedProcess::note_other_libraries(const RecordedRun& run) {
+  std::map<std::string, std::string> here;
+  const msg::DeploymentDescription description = description_of(config_, run.process(), "");
+  for (const auto& component : description.components_()) {
+    for (const auto& plugin : component.plugins_()) here[plugin.plugin_()] = plugin.sha256_();
+  }
+  for (const auto& [plugin, sha256] : run.libraries()) {
+    const auto found = here.find(plugin);
+    if (found == here.end() || found->second == sha256) continue;
+    notes_.push_back(fmt::format("{} is another build than the recorded one", plugin));
+  }
+}
+
+void ReplayedProcess::construct(const std::string& name, const RecordedPorts& ports,
+                                PluginRegistry& plugins) {
+  Entry& entry = entries_[name];
+  const auto config = std::ranges::find(config_.components, name, &ComponentConfig::name);
+  entry.why_not =
+      config == config_.components.end() ? "it is not in the file" : why_not_replayed(*config);
+  if (!entry.why_not.empty()) return;
+  const RunningComponent running{name, "constructor"};
+  entry.component = std::make_unique<ReplayedComponent>(*config, config_, plugins, ports);
+}
+
+ReplayedProcess::Entry* ReplayedProcess::repeat(const msg::Activation& call, double at_s) {
+  const auto found = entries_.find(call.component_());
+  if (found == entries_.end() || !found->second.component || found->second.ends) return nullptr;
+  Entry& entry = found->second;
+  if (call.lost_before_() > 0) {
+    entry.ends = fmt::format("{} of its activations were not recorded before {:.6f} s",
+                             call.lost_before_(), at_s);
+  } else if (const auto failure = entry.component->failure()) {
+    entry.ends = "here " + *failure;
+  } else if (const auto lacks = entry.component->repeat(call, *run_)) {
+    entry.ends = *lacks;
+  } else {
+    ++entry.activations;
+    return &entry;
+  }
+  return nullptr;
+}
+
+void check_processor(const RecordedRun& run) {
+  if (run.processor() == processor_level()) return;
+  throw InvalidChoice(fmt::format(
+      "it was recorded on a processor of level {}, and this one is of level {}: solvers choose "
+      "their instructions by it, and the last bits of numbers follow; --allow-ulp compares all "
+      "the same",
+      run.processor(), processor_level()));
+}
+
+}  // namespace armature

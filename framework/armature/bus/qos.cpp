@@ -32,7 +32,12 @@ std::string_view to_string(QosProfile profile) {
 QosSettings settings(QosProfile profile) {
   switch (profile) {
     case QosProfile::sensor:
-      return {.reader_reliable = false, .depth = 2};
+      // A picture is many datagrams, which arrive all at once: a small receive buffer loses some of
+      // them every time, and the picture is whole only when they are sent again before the next.
+      return {.reader_reliable = false,
+              .depth = 2,
+              .heartbeat = seconds(0.02),
+              .repair_delay = seconds(0.0005)};
     case QosProfile::state:
       return {.depth = 10};
     case QosProfile::command:
@@ -45,6 +50,12 @@ QosSettings settings(QosProfile profile) {
       return {.transient_local = true, .depth = 100};
   }
   return {};
+}
+
+QosSettings reader_settings(QosProfile profile, bool same_deployment_only) {
+  QosSettings made = settings(profile);
+  made.reader_reliable = made.reader_reliable || same_deployment_only;
+  return made;
 }
 
 }  // namespace armature

@@ -27,6 +27,9 @@ struct SampleInfo {
   std::uint32_t writer = 0;    // a number of its own in this process, once it is known
   std::uint64_t sequence = 0;  // counts from 1 per writer
   Measurement answers_to;      // from another process: nothing
+  /// Samples of the same writer, in another process, that were sent after the one that was
+  /// delivered before this, and did not arrive.
+  std::uint64_t lost_before = 0;
 };
 
 class SamplePool;

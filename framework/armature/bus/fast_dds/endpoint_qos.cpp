@@ -56,6 +56,7 @@ DataWriterQos writer_qos(const QosSettings& settings, const std::string& user_da
   qos.liveliness().announcement_period = dds_duration(settings.liveliness_lease * 2 / 5);
   qos.publish_mode().kind = SYNCHRONOUS_PUBLISH_MODE;  // the egress thread may wait, others never
   qos.reliable_writer_qos().times.heartbeatPeriod = dds_duration(settings.heartbeat);
+  qos.reliable_writer_qos().times.nackResponseDelay = dds_duration(settings.repair_delay);
   qos.representation().m_value = {XCDR_DATA_REPRESENTATION};
   return qos;
 }
@@ -70,6 +71,7 @@ DataReaderQos reader_qos(const QosSettings& settings, std::optional<Duration> li
   qos.time_based_filter().minimum_separation = Duration_t{0, 0};
   qos.reader_data_lifecycle().autopurge_disposed_samples_delay = c_TimeInfinite;
   qos.reader_data_lifecycle().autopurge_no_writer_samples_delay = c_TimeInfinite;
+  qos.reliable_reader_qos().times.heartbeatResponseDelay = dds_duration(settings.repair_delay);
   qos.expects_inline_qos(false);
   qos.type_consistency().representation.m_value = {XCDR_DATA_REPRESENTATION};
   return qos;

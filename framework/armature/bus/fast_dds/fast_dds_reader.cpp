@@ -13,6 +13,7 @@
 #include "armature/bus/fast_dds/fast_dds_link.hpp"
 #include "armature/bus/fast_dds/guid_of.hpp"
 #include "armature/bus/fast_dds/raw_cdr_type.hpp"
+#include "armature/bus/fast_dds/sequence_gaps.hpp"
 #include "armature/bus/topic_name.hpp"
 
 namespace armature {
@@ -30,7 +31,7 @@ class FastDdsReader final : public RemoteReader, private dds::DataReaderListener
   Expected<void> open() {
     Participant& participant = *link_->participant;
     const MessageType& type = *own_.topic.type;
-    const QosSettings settings = armature::settings(own_.topic.qos);
+    const QosSettings settings = reader_settings(own_.topic.qos, own_.same_deployment_only);
     const auto topic = participant.topic(own_.topic.name, std::string{type.dds_name});
     if (!topic) return tl::unexpected{topic.error()};
     auto pool = std::make_unique<SamplePool>(type, static_cast<std::size_t>(settings.depth) + 2);
@@ -82,6 +83,8 @@ class FastDdsReader final : public RemoteReader, private dds::DataReaderListener
         count_refused(*stranger);
         continue;
       }
+      const std::uint64_t sequence = info.sample_identity.sequence_number().to64long();
+      if (counts_lost()) lost_ += gaps_.lost_before(writer, sequence);
       const Time published = published_at(writer, Time{info.source_timestamp.to_ns()});
       if (is_expired(published)) continue;
       SampleRef sample = pool_->loan();
@@ -89,11 +92,14 @@ class FastDdsReader final : public RemoteReader, private dds::DataReaderListener
         report_undecodable(writer);
         continue;
       }
-      sample.mutable_info() = {.published = published,
-                               .sequence = info.sample_identity.sequence_number().to64long()};
+      sample.mutable_info() = {
+          .published = published, .sequence = sequence, .lost_before = std::exchange(lost_, 0)};
       deliver_(std::move(sample));
     }
   }
+
+  /// Of what changes seldom the newest is wanted, and no more.
+  bool counts_lost() const { return own_.topic.qos != QosProfile::latched; }
 
   /// Whose samples of that writer are refused; nothing when they are taken. A writer that is not
   /// discovered (yet) is nobody's.
@@ -189,6 +195,8 @@ class FastDdsReader final : public RemoteReader, private dds::DataReaderListener
   mutable std::mutex mutex_;  // guards what follows
   bool closed_ = false;
   RawCdr cdr_;
+  SequenceGaps gaps_;
+  std::uint64_t lost_ = 0;  // since the sample that was delivered last
   std::map<Guid, std::optional<std::string>> strangers_;  // nothing: a writer that is heard
   std::map<Guid, bool> peer_writers_;
   std::vector<RefusedSamples> refused_;

@@ -51,7 +51,8 @@ Expected<std::unique_ptr<Transport>> FastDdsTransport::make(const TransportOptio
 }
 
 Expected<std::unique_ptr<Transport>> FastDdsTransport::make(const TransportOptions& options,
-                                                            const SharedMemory& shared_memory) {
+                                                            const SharedMemory& shared_memory,
+                                                            std::uint32_t receive_buffer) {
   const EndpointTag tag{.ours = true,
                         .deployment = options.deployment,
                         .fingerprint = options.fingerprint,
@@ -67,7 +68,8 @@ Expected<std::unique_ptr<Transport>> FastDdsTransport::make(const TransportOptio
                                         .name = participant_name(options),
                                         .watcher = watch(link),
                                         .on_note = note,
-                                        .shared_memory = shared_memory});
+                                        .shared_memory = shared_memory,
+                                        .receive_buffer = receive_buffer});
   if (!participant) return tl::unexpected{participant.error()};
   link->participant = std::move(*participant);
   link->egress = std::make_unique<Egress>();

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "armature/bus/fast_dds/receive_buffer.hpp"
 #include "armature/bus/fast_dds/shared_memory.hpp"
 #include "armature/bus/transport.hpp"
 
@@ -15,9 +16,11 @@ struct FastDdsLink;
 class FastDdsTransport final : public Transport {
  public:
   static Expected<std::unique_ptr<Transport>> make(const TransportOptions& options);
-  /// `shared_memory`: what is looked at before shared memory is used.
+  /// `shared_memory`: what is looked at before shared memory is used. `receive_buffer`: what the
+  /// system is asked for to keep datagrams [B].
   static Expected<std::unique_ptr<Transport>> make(const TransportOptions& options,
-                                                   const SharedMemory& shared_memory);
+                                                   const SharedMemory& shared_memory,
+                                                   std::uint32_t receive_buffer = kReceiveBuffer);
   explicit FastDdsTransport(std::shared_ptr<FastDdsLink> link) : link_{std::move(link)} {}
 
   Expected<std::unique_ptr<RemoteWriter>> advertise(const TopicSpec& topic) override;

@@ -17,8 +17,10 @@
 #include <utility>
 
 #include "armature/bus/fast_dds/endpoint_qos.hpp"
+#include "armature/bus/fast_dds/guid_of.hpp"
 #include "armature/bus/fast_dds/participant.hpp"
 #include "armature/bus/fast_dds/raw_cdr_type.hpp"
+#include "armature/bus/fast_dds/sequence_gaps.hpp"
 #include "armature/bus/topic_name.hpp"
 
 namespace armature {
@@ -35,7 +37,11 @@ class Watch final : public dds::DataReaderListener {
     const std::scoped_lock lock{mutex_};
     dds::SampleInfo info;
     while (from->take_next_sample(&cdr_, &info) == ReturnCode_t::RETCODE_OK) {
-      if (info.valid_data) on_sample_({cdr_.bytes, Time{info.source_timestamp.to_ns()}, type_});
+      if (!info.valid_data) continue;
+      const std::uint64_t lost =
+          gaps_.lost_before(guid_of(info.sample_identity.writer_guid()),
+                            info.sample_identity.sequence_number().to64long());
+      on_sample_({cdr_.bytes, Time{info.source_timestamp.to_ns()}, type_, lost});
     }
   }
 
@@ -46,6 +52,7 @@ class Watch final : public dds::DataReaderListener {
   std::function<void(const ObservedSample&)> on_sample_;
   std::mutex mutex_;
   RawCdr cdr_;
+  SequenceGaps gaps_;
 };
 
 class Observer final : public DdsObserver {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <span>
@@ -38,6 +39,8 @@ struct ObservedSample {
   std::span<const std::byte> cdr;  // with encapsulation header; valid during the call
   Time source;                     // time stamp of the writer
   const std::string& type;         // DDS name
+  /// Samples that the same writer sent since the one before, and that did not arrive.
+  std::uint64_t lost_before = 0;
 };
 
 struct ObserverOptions {

@@ -70,6 +70,7 @@ void use_transports(dds::DomainParticipantQos& qos, const ParticipantSettings& s
     std::ranges::copy(interface.addresses, std::back_inserter(udp->interfaceWhiteList));
   }
   udp->maxInitialPeersRange = kParticipantsOfAPeer;
+  udp->receiveBufferSize = settings.receive_buffer;
   qos.transport().user_transports.push_back(udp);
   if (!settings.network.shared_memory) return;
 

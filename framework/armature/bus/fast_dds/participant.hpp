@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "armature/bus/fast_dds/discovery.hpp"
+#include "armature/bus/fast_dds/receive_buffer.hpp"
 #include "armature/bus/fast_dds/shared_memory.hpp"
 #include "armature/bus/network.hpp"
 #include "armature/values/expected.hpp"
@@ -31,6 +33,7 @@ struct ParticipantSettings {
   Discovery::Watcher watcher;
   std::function<void(const std::string&)> on_note;  // any thread; must only enqueue
   SharedMemory shared_memory = {};                  // looked at before Fast DDS uses it
+  std::uint32_t receive_buffer = kReceiveBuffer;    // [B] of a UDP socket, if the system gives it
   /// A discovery server tells it all that there is, not only who shares its topics.
   bool sees_all = false;
 };

@@ -21,7 +21,8 @@ namespace {
 using config::Node;
 
 msg::PortDescription description_of(const PortBinding& port, bool output) {
-  const QosSettings qos = settings(port.spec.qos);
+  const QosSettings qos =
+      output ? settings(port.spec.qos) : reader_settings(port.spec.qos, !port.spec.outside);
   msg::PortDescription description;
   description.name_(port.spec.name);
   description.output_(output);

@@ -79,6 +79,7 @@ void Inbox::arrived(InputPort& port, const SampleRef& sample) {
   {
     const std::scoped_lock lock{mutex_};
     if (closed_) return;
+    dropped_ += sample.info().lost_before;
     if (port.spec_.join) {
       if (port.unmatched_.size() == InputPort::kJoinDepth)
         port.unmatched_.erase(port.unmatched_.begin());

@@ -92,7 +92,7 @@ class Inbox {
     return {.source = source_.load(std::memory_order_relaxed),
             .at = Time{measured_at_ns_.load(std::memory_order_relaxed)}};
   }
-  /// Samples that full queues have lost.
+  /// Samples that full queues have lost, and those that did not arrive from another process.
   std::uint64_t dropped() const;
   /// Samples that were not shown because they are stamped too far ahead of now: how many, which
   /// input the last one was for, and how far. Any thread.

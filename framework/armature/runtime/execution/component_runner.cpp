@@ -154,6 +154,9 @@ bool ComponentRunner::join_threads(std::chrono::steady_clock::time_point end) {
 std::uint64_t ComponentRunner::dropped() const {
   std::uint64_t dropped = inbox_.dropped();
   for (const auto& thread : threads_) dropped += thread->dropped();
+  for (const OutputPort& output : outputs_) {
+    if (const RemoteWriter* remote = output.topic().remote()) dropped += remote->dropped();
+  }
   return dropped;
 }
 

@@ -199,6 +199,7 @@ void FoxgloveBridge::watch(Channel& channel) {
             std::make_shared<const std::vector<std::byte>>(sample.cdr.begin(), sample.cdr.end());
         {
           const std::scoped_lock lock{mutex_};
+          arrived_dropped_ += sample.lost_before;
           if (arrived_bytes_ + cdr->size() > kMostArrived) {
             ++arrived_dropped_;
             return;

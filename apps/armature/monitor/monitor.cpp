@@ -45,7 +45,9 @@ int show_to_browsers(const MonitorOptions& options) {
   tell(fmt::format("ws://{}:{}{}", options.address, bridge.port(), query));
   bridge.run();
   if (bridge.dropped() > 0) {
-    fmt::print(stderr, "armature: {} messages came faster than they were read\n", bridge.dropped());
+    fmt::print(stderr,
+               "armature: {} messages came faster than they were read, or were lost on the way\n",
+               bridge.dropped());
   }
   return kOk;
 }

@@ -88,6 +88,8 @@ void print(const TopicFigures& figures, TopicMeasure what, std::string_view over
   std::string text = "no samples";
   Json line{{"over", over}, {"samples", figures.samples}};
   if (enough) describe(figures, what, all ? " in all" : "", text, line);
+  if (figures.lost > 0) text += fmt::format(", {} lost", figures.lost);
+  line["lost"] = figures.lost;
   tell(json ? line.dump() : text);
 }
 
@@ -107,7 +109,8 @@ int measure_topic(TopicMeasure what, const TopicOptions& options) {
       const bool delay = what == TopicMeasure::delay;
       meter.add({.source = sample.source,
                  .bytes = sample.cdr.size(),
-                 .delay_s = delay ? delay_of(sample, options.topic) : 0});
+                 .delay_s = delay ? delay_of(sample, options.topic) : 0,
+                 .lost_before = sample.lost_before});
       count.add();
     } catch (const std::runtime_error& error) {
       wrong = error.what();

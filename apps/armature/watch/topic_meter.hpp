@@ -30,11 +30,13 @@ struct MeasuredSample {
   Time source;  // when its writer sent it
   std::size_t bytes = 0;
   double delay_s = 0;  // from its stamp to its arrival
+  std::uint64_t lost_before = 0;
 };
 
 /// How a topic's samples came.
 struct TopicFigures {
   std::uint64_t samples = 0, intervals = 0;
+  std::uint64_t lost = 0;     // sent between two samples that came, and not arrived
   Spread<double> interval_s;  // by the time stamps of the writer
   Spread<std::size_t> bytes;
   std::size_t bytes_of_intervals = 0;  // of the samples that ended one
@@ -44,6 +46,7 @@ struct TopicFigures {
   double bytes_per_s() const { return over(static_cast<double>(bytes_of_intervals)); }
   void add(const MeasuredSample& sample, std::optional<Duration> interval) {
     ++samples;
+    lost += sample.lost_before;
     bytes.add(sample.bytes);
     delay_s.add(sample.delay_s);
     if (!interval) return;

@@ -40,6 +40,8 @@ struct KernelFacts {
 struct NetworkFacts {
   std::vector<NetworkInterface> interfaces;
   std::string multicast_lost;  // why a datagram to a group on loopback does not come back
+  /// What a socket may keep at most until it is read [B]; nothing: the system does not tell.
+  std::optional<std::uint64_t> max_receive_buffer = {};
 };
 
 struct ClockFacts {

@@ -136,6 +136,12 @@ std::string multicast_over_loopback() {
   return poll(&ready, 1, 1000) == 1 ? "" : "what was sent did not come back within 1 s";
 }
 
+std::optional<std::uint64_t> max_receive_buffer() {
+  std::uint64_t bytes = 0;
+  if (std::ifstream{"/proc/sys/net/core/rmem_max"} >> bytes) return bytes;
+  return std::nullopt;
+}
+
 ClockFacts clock_facts() {
   ClockFacts facts;
   timespec resolution{};
@@ -161,7 +167,7 @@ Facts facts_of_this_machine() {
   return {.shared_memory = shared_memory_facts(),
           .rights = rights_facts(),
           .kernel = kernel_facts(),
-          .network = {network_interfaces(), multicast_over_loopback()},
+          .network = {network_interfaces(), multicast_over_loopback(), max_receive_buffer()},
           .clock = clock_facts(),
           .plugins = plugin_facts(),
           .versions = versions()};

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "armature/bus/fast_dds/receive_buffer.hpp"
 #include "armature/bus/fast_dds/shared_memory.hpp"
 
 namespace armature::doctor {
@@ -124,6 +125,22 @@ bool is_loopback(const NetworkInterface& interface) {
                              [](const std::string& text) { return text.starts_with("127."); });
 }
 
+void judge_receive_buffer(std::optional<std::uint64_t> bytes, Findings& findings) {
+  if (!bytes) return;  // no Linux of ours
+  const bool small = *bytes < kReceiveBuffer;
+  findings.push_back(
+      {small ? Level::warning : Level::ok, "receive buffer",
+       fmt::format("at most {} bytes (net.core.rmem_max)", *bytes),
+       small
+           ? "of a picture over UDP a part is lost: what a deployment's own processes miss is sent "
+             "again and late, what others miss is gone (armature topic hz tells)"
+           : "a pair of pictures over UDP waits there until it is read",
+       small ? fmt::format("echo net.core.rmem_max={} | sudo tee /etc/sysctl.d/60-armature.conf && "
+                           "sudo sysctl --system",
+                           kReceiveBuffer)
+             : ""});
+}
+
 void judge_network(const NetworkFacts& network, Findings& findings) {
   const auto loopback = std::ranges::find_if(network.interfaces, is_loopback);
   if (loopback == network.interfaces.end() || !loopback->up) {
@@ -143,6 +160,7 @@ void judge_network(const NetworkFacts& network, Findings& findings) {
        lost ? network.multicast_lost : "239.255.0.1 answers",
        lost ? "DDS finds nobody; a firewall takes it, or the sandbox" : "DDS finds others by it",
        lost ? "sudo nft list ruleset  # what drops 239.255.0.1" : ""});
+  judge_receive_buffer(network.max_receive_buffer, findings);
   std::vector<NetworkInterface> others;
   std::ranges::copy_if(network.interfaces, std::back_inserter(others), [](const auto& one) {
     return one.up && one.has_link && !one.addresses.empty() && !is_loopback(one);

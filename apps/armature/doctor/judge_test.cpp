@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "armature/bus/fast_dds/receive_buffer.hpp"
 #include "armature/bus/fast_dds/shared_memory.hpp"
 
 namespace armature::doctor {
@@ -25,7 +26,8 @@ Facts good() {
                      .processors = 2,
                      .governors = {"performance"}},
           .network = {.interfaces = {{"lo", {"127.0.0.1"}, true, true},
-                                     {"eth0", {"10.0.0.5"}, true, true}}},
+                                     {"eth0", {"10.0.0.5"}, true, true}},
+                      .max_receive_buffer = kReceiveBuffer},
           .clock = {.resolution_ns = 1, .synchronised = true},
           .plugins = {.folders = {"/opt/plugins"}, .usable = 3},
           .versions = {{"armature", "1.2.3"}}};
@@ -55,14 +57,23 @@ TEST(Doctor, FindsNothingWrongWithAGoodMachine) {
   EXPECT_EQ(about("other interfaces", good()).value, "eth0 (10.0.0.5)");
 }
 
+TEST(Doctor, WarnsWhereTheSystemKeepsLessThanPicturesNeed) {
+  Facts facts = good();
+  facts.network.max_receive_buffer = 212'992;
+  EXPECT_EQ(about("receive buffer", facts).level, Level::warning);
+  EXPECT_EQ(about("receive buffer", facts).value, "at most 212992 bytes (net.core.rmem_max)");
+  EXPECT_THAT(about("receive buffer", facts).hint,
+              HasSubstr("echo net.core.rmem_max=4194304 | sudo tee /etc/sysctl.d/"));
+}
+
 TEST(Doctor, SaysAWayOutOfEverythingThatIsNotOk) {
   const Facts bad{.shared_memory = {.free_bytes = 1, .left_over = {"/dev/shm/a"}},
                   .rights = {.nofile = 8, .priority_refused = "no", .memory_refused = "no"},
                   .kernel = {.processors = 1, .governors = {"powersave"}},
-                  .network = {.multicast_lost = "lost"},
+                  .network = {.multicast_lost = "lost", .max_receive_buffer = 212'992},
                   .clock = {.resolution_ns = 4000000},
                   .plugins = {.warnings = {"no folder"}, .unusable = {{"/x.so", "broken"}}}};
-  EXPECT_EQ(not_ok(bad).size(), 15U);
+  EXPECT_EQ(not_ok(bad).size(), 16U);
   for (const Finding& finding : judge(bad)) {
     EXPECT_EQ(finding.level == Level::ok, finding.hint.empty()) << finding.what;
   }

@@ -14,7 +14,8 @@
 namespace armature {
 namespace {
 
-/// range(0): bytes of a message; range(1): whether it is packed. Half of its bytes are random, and
+/// range(0): bytes of a message; range(1): whether it is packed; range(2): whether it is in a chain
+/// of hashes. Half of its bytes are random, and
 /// no two messages are the same.
 void write_messages(benchmark::State& state) {
   const auto file = std::filesystem::path{"/dev/shm"} /
@@ -29,7 +30,7 @@ void write_messages(benchmark::State& state) {
   std::uint64_t emptied = 0;
   std::uint32_t count = 0;
   {
-    McapWriter writer{file, {.compress = state.range(1) != 0}};
+    McapWriter writer{file, {.compress = state.range(1) != 0, .chain = state.range(2) != 0}};
     const auto schema = writer.add(McapSchema{.name = "a/msg/B", .encoding = "ros2msg"});
     const auto channel =
         writer.add(McapChannel{.schema_id = schema, .topic = "/b", .message_encoding = "cdr"});
@@ -50,8 +51,8 @@ void write_messages(benchmark::State& state) {
 
 BENCHMARK(write_messages)
     ->Name("recording")
-    ->ArgNames({"bytes", "zstd"})
-    ->ArgsProduct({{64, 921'664}, {0, 1}});
+    ->ArgNames({"bytes", "zstd", "chain"})
+    ->ArgsProduct({{64, 921'664}, {0, 1}, {0, 1}});
 
 }  // namespace
 }  // namespace armature

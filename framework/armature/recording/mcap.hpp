@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <map>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -43,6 +46,11 @@ struct McapMetadata {
 namespace mcap {
 
 inline constexpr std::string_view kMagic{"\x89MCAP0\r\n", 8};
+
+inline bool begins_with_magic(std::span<const std::byte> bytes) {
+  return bytes.size() >= kMagic.size() &&
+         std::memcmp(bytes.data(), kMagic.data(), kMagic.size()) == 0;
+}
 
 enum class Op : std::uint8_t {
   header = 0x01,

@@ -1,20 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/recording/mcap_reader.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/mman.h>
-#include <sys/stat.h>
-#include <unistd.h>
 #include <zlib.h>
 #include <zstd.h>
 
-#include <cerrno>
 #include <cstring>
+#include <new>
 #include <stdexcept>
-#include <string_view>
-#include <system_error>
 #include <utility>
+
+#include "armature/recording/mapped_file.hpp"
+#include "armature/recording/mcap_cursor.hpp"
 
 namespace armature {
 namespace {
@@ -22,88 +19,24 @@ namespace {
 using mcap::Op;
 
 constexpr std::uint64_t kLargestChunk = std::uint64_t{1} << 30;  // [byte], unpacked
-constexpr std::uint64_t kRecordHead = 9;                         // [byte] op and length
 
 std::uint32_t checksum_of(std::span<const std::byte> bytes) {
   return static_cast<std::uint32_t>(
       crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
 }
 
-std::span<const std::byte> map_file(const std::filesystem::path& file) {
-  const auto refuse = [&] {
-    throw std::runtime_error(
-        fmt::format("cannot read '{}': {}", file.string(), std::generic_category().message(errno)));
-  };
-  const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) refuse();
-  struct stat about {};
-  const bool known = fstat(descriptor, &about) == 0 && S_ISREG(about.st_mode);
-  const auto size = static_cast<std::size_t>(known ? about.st_size : 0);
-  void* memory = size == 0 ? nullptr : mmap(nullptr, size, PROT_READ, MAP_PRIVATE, descriptor, 0);
-  close(descriptor);
-  if (memory == MAP_FAILED) refuse();
-  return {static_cast<const std::byte*>(memory), size};
-}
-
 }  // namespace
 
-/// Reads the parts of a record. Past its end it reads zeros and remembers that it failed.
-class McapReader::Cursor {
- public:
-  explicit Cursor(std::span<const std::byte> bytes) : left_{bytes} {}
-
-  bool ok() const { return ok_; }
-  std::span<const std::byte> left() const { return left_; }
-  std::span<const std::byte> take(std::uint64_t size) {
-    ok_ = ok_ && size <= left_.size();
-    if (!ok_) return {};
-    const auto taken = left_.first(size);
-    left_ = left_.subspan(size);
-    return taken;
-  }
-  template <class Number>
-  Number number() {
-    Number number{};
-    if (const auto bytes = take(sizeof number); ok_) {
-      std::memcpy(&number, bytes.data(), sizeof number);
-    }
-    return number;
-  }
-  std::string text() { return text_of(take(number<std::uint32_t>())); }
-  std::string long_text() { return text_of(take(number<std::uint64_t>())); }
-  std::map<std::string, std::string> map() {
-    std::map<std::string, std::string> map;
-    Cursor inside{take(number<std::uint32_t>())};
-    while (inside.ok() && !inside.left().empty()) {
-      std::string key = inside.text();
-      map[std::move(key)] = inside.text();
-    }
-    ok_ = ok_ && inside.ok();
-    return map;
-  }
-  Time time() { return Time{number<std::int64_t>()}; }
-
- private:
-  static std::string text_of(std::span<const std::byte> bytes) {
-    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-  }
-
-  std::span<const std::byte> left_;
-  bool ok_ = true;
-};
-
-McapReader::McapReader(const std::filesystem::path& file)
-    : file_{map_file(file)}, name_{file.string()} {
-  Cursor start{file_};
-  const auto magic = start.take(mcap::kMagic.size());
-  if (magic.empty() || std::memcmp(magic.data(), mcap::kMagic.data(), magic.size()) != 0) {
-    if (!file_.empty()) munmap(const_cast<std::byte*>(file_.data()), file_.size());
+McapReader::McapReader(const std::filesystem::path& file, bool follow_chain)
+    : mapped_{std::make_unique<MappedFile>(file)}, file_{mapped_->bytes()}, name_{file.string()} {
+  if (!mcap::begins_with_magic(file_)) {
     throw std::runtime_error(fmt::format("'{}' is no MCAP file", file.string()));
   }
   position_ = mcap::kMagic.size();
+  if (follow_chain) chain_.emplace(file_);
 }
 
-McapReader::~McapReader() { munmap(const_cast<std::byte*>(file_.data()), file_.size()); }
+McapReader::~McapReader() = default;
 
 std::optional<McapMessage> McapReader::next() {
   McapMessage message;
@@ -118,73 +51,96 @@ std::optional<McapMessage> McapReader::next() {
 
 /// Reads a record of the running chunk; true when it is a message.
 bool McapReader::read_message(McapMessage& message) {
-  Cursor cursor{chunk_};
-  const auto op = static_cast<Op>(cursor.number<std::uint8_t>());
-  Cursor record{cursor.take(cursor.number<std::uint64_t>())};
-  if (!cursor.ok()) {
+  McapRecord next = next_record(chunk_);
+  if (next.size == 0) {
     chunk_ = {};
     note(fmt::format("a record of the chunk at byte {} is longer than the chunk", chunk_at_));
     return false;
   }
-  chunk_ = cursor.left();
-  if (op == Op::schema) add_schema(record);
-  if (op == Op::channel) add_channel(record);
-  if (op != Op::message) return false;
-  const auto channel = channels_.find(record.number<std::uint16_t>());
+  chunk_ = chunk_.subspan(next.size);
+  McapCursor& record = next.body;
+  if (next.op == Op::schema) add_schema(record, chunk_at_);
+  if (next.op == Op::channel) add_channel(record, chunk_at_);
+  if (next.op != Op::message) return false;
+  const auto id = record.number<std::uint16_t>();
+  const auto channel = channels_.find(id);
   message.sequence = record.number<std::uint32_t>();
   message.log_time = record.time();
   message.publish_time = record.time();
   message.data = record.left();
-  if (record.ok() && channel != channels_.end()) {
-    message.channel = &channel->second;
-    return true;
+  ++messages_;
+  ++messages_of_chunk_;
+  if (!record.ok() || channel == channels_.end()) {
+    note(fmt::format(
+        "message {} of the chunk at byte {} {}", messages_of_chunk_, chunk_at_,
+        record.ok() ? fmt::format("is of channel {}, which is not there", id) : "is too short"));
+    return false;
   }
-  note(fmt::format("a message of the chunk at byte {} {}", chunk_at_,
-                   record.ok() ? "has no channel" : "is too short"));
-  return false;
+  message.channel = &channel->second;
+  check_times(message);
+  check_schema(channel->second);
+  return true;
+}
+
+void McapReader::check_times(const McapMessage& message) {
+  const std::int64_t ns = message.log_time.ns;
+  const auto where = [&] {
+    return fmt::format("message {} of the chunk at byte {}, of '{}', has the log time",
+                       messages_of_chunk_, chunk_at_, message.channel->topic);
+  };
+  if (ns < 0) {
+    note(fmt::format("{} {} ns, which no clock tells", where(), static_cast<std::uint64_t>(ns)));
+  } else if (has_bounds_ && (message.log_time < chunk_first_ || message.log_time > chunk_last_)) {
+    note(fmt::format("{} {} ns, and the chunk says that its times are from {} to {} ns", where(),
+                     ns, chunk_first_.ns, chunk_last_.ns));
+  }
+}
+
+/// CDR does not say what it is: without a schema nobody can read it.
+void McapReader::check_schema(const McapChannel& channel) {
+  if (!checked_channels_.insert(channel.id).second || channel.message_encoding != "cdr") return;
+  if (schemas_.contains(channel.schema_id)) return;
+  note(fmt::format("channel {}, '{}', is of encoding cdr and names {}", channel.id, channel.topic,
+                   channel.schema_id == 0
+                       ? "no schema"
+                       : fmt::format("schema {}, which is not there", channel.schema_id)));
 }
 
 bool McapReader::read_record() {
   const std::uint64_t at = position_;
-  Cursor cursor{file_.subspan(position_)};
-  const auto op = static_cast<Op>(cursor.number<std::uint8_t>());
-  Cursor record{cursor.take(cursor.number<std::uint64_t>())};
-  if (!cursor.ok()) {
-    const bool cut = position_ < file_.size();
-    note(fmt::format("it ends {}, at byte {}",
-                     cut ? "in the midst of a record" : "before its summary", position_));
-    ended_ = true;
-    return false;
-  }
-  position_ += kRecordHead + record.left().size();
-  switch (op) {
+  const McapRecord record = next_record(file_.subspan(position_));
+  if (record.size == 0) return pass_over_damage();
+  position_ += record.size;
+  if (chain_) chain_->take(static_cast<std::uint8_t>(record.op), record.body.left(), position_);
+  McapCursor body = record.body;
+  switch (record.op) {
     case Op::header:
-      record.text();
-      library_ = record.text();
+      body.text();
+      library_ = body.text();
       break;
     case Op::schema:
-      add_schema(record);
+      add_schema(body, at);
       break;
     case Op::channel:
-      add_channel(record);
+      add_channel(body, at);
       break;
     case Op::message:  // outside of a chunk: as a chunk of its own
       chunk_ = file_.subspan(at, position_ - at);
       chunk_at_ = at;
+      has_bounds_ = false;
+      messages_of_chunk_ = 0;
       break;
     case Op::chunk:
-      open_chunk(record, at);
+      open_chunk(body, at);
       break;
     case Op::attachment:
-      read_attachment(record, at);
+      read_attachment(body, at);
       break;
-    case Op::metadata: {
-      std::string name = record.text();
-      metadata_.push_back({std::move(name), record.map()});
+    case Op::metadata:
+      read_metadata(body, at);
       break;
-    }
     case Op::data_end: {
-      const auto crc = record.number<std::uint32_t>();
+      const auto crc = body.number<std::uint32_t>();
       if (crc != 0 && crc != checksum_of(file_.first(at))) {
         note("the checksum of its messages is wrong: it was changed");
       }
@@ -198,40 +154,81 @@ bool McapReader::read_record() {
   return true;
 }
 
-void McapReader::open_chunk(Cursor record, std::uint64_t at) {
-  record.time();
-  record.time();
+/// Where no record can be read: goes on behind the next link of the chain, if there is one. False:
+/// the file ends here.
+bool McapReader::pass_over_damage() {
+  const auto left = file_.subspan(position_);
+  const auto link = left.empty() ? std::nullopt : ChainRecord::find(left.subspan(1));
+  if (!link) {
+    note(fmt::format("it ends {}, at byte {}",
+                     left.empty() ? "before its summary" : "in the midst of a record", position_));
+    ended_ = true;
+    return false;
+  }
+  const std::uint64_t from = std::exchange(position_, position_ + 1 + *link);
+  note(fmt::format("the record at byte {} is damaged: it was passed over, to byte {}", from,
+                   position_));
+  if (chain_) chain_->skip(position_);
+  return true;
+}
+
+void McapReader::open_chunk(McapCursor record, std::uint64_t at) {
+  chunk_first_ = record.time();
+  chunk_last_ = record.time();
+  has_bounds_ = true;
   const auto size = record.number<std::uint64_t>();
   const auto crc = record.number<std::uint32_t>();
   const std::string compression = record.text();
   const auto packed = record.take(record.number<std::uint64_t>());
   const std::string chunk = fmt::format("the chunk at byte {}", at);
-  if (!record.ok() || size > kLargestChunk) return note(chunk + " is broken");
+  if (!record.ok()) return note(chunk + " is broken");
+  if (size > kLargestChunk) {
+    return note(fmt::format("{} is broken, or has {} bytes: more than {} are not unpacked", chunk,
+                            size, kLargestChunk));
+  }
   std::span<const std::byte> unpacked = packed;
   if (compression == "zstd") {
-    // Before memory is taken for what may be a lie.
-    if (ZSTD_getFrameContentSize(packed.data(), packed.size()) != size) {
-      return note(chunk + " is broken");
-    }
-    unpacked_.resize(size);
-    const std::size_t got = ZSTD_decompress(unpacked_.data(), size, packed.data(), packed.size());
-    unpacked = std::span{unpacked_}.first(ZSTD_isError(got) != 0 ? 0 : got);
-  } else if (!compression.empty()) {
+    unpacked = unpack(packed, size);
+  } else if (compression == "lz4") {
     throw std::runtime_error(
         fmt::format("'{}' cannot be read: {} is packed with '{}', only zstd "
                     "is known here",
                     name_, chunk, compression));
+  } else if (!compression.empty()) {
+    return note(chunk + " is packed with what the format does not know");
   }
   if (unpacked.size() != size) return note(chunk + " is broken");
   if (crc != 0 && crc != checksum_of(unpacked)) return note(chunk + " has a wrong checksum");
+  if (chunk_first_ > chunk_last_) {
+    note(fmt::format("{} says that its times are from {} to {} ns", chunk, chunk_first_.ns,
+                     chunk_last_.ns));
+  }
   chunk_ = unpacked;
   chunk_at_ = at;
+  messages_of_chunk_ = 0;
   ++chunks_;
   packed_bytes_ += packed.size();
   unpacked_bytes_ += size;
 }
 
-void McapReader::read_attachment(Cursor record, std::uint64_t at) {
+/// Fewer bytes than `size` when they are not what was packed.
+std::span<const std::byte> McapReader::unpack(std::span<const std::byte> packed,
+                                              std::uint64_t size) {
+  // Before memory is taken for what may be a lie.
+  const auto told = ZSTD_getFrameContentSize(packed.data(), packed.size());
+  if (told != size && told != ZSTD_CONTENTSIZE_UNKNOWN) return {};
+  if (room_ < size) {
+    room_ = 0;
+    // Not set to zero: memory that nothing is unpacked to costs nothing.
+    unpacked_.reset(new (std::nothrow) std::byte[size]);
+    if (!unpacked_) return {};
+    room_ = size;
+  }
+  const std::size_t got = ZSTD_decompress(unpacked_.get(), size, packed.data(), packed.size());
+  return {unpacked_.get(), ZSTD_isError(got) != 0 ? 0 : got};
+}
+
+void McapReader::read_attachment(McapCursor record, std::uint64_t at) {
   const auto all = record.left();
   McapAttachment attachment{.log_time = record.time(), .create_time = record.time()};
   attachment.name = record.text();
@@ -244,49 +241,67 @@ void McapReader::read_attachment(Cursor record, std::uint64_t at) {
   attachments_.push_back(std::move(attachment));
 }
 
-void McapReader::add_schema(Cursor record) {
-  McapSchema schema{.id = record.number<std::uint16_t>()};
-  schema.name = record.text();
-  schema.encoding = record.text();
-  schema.data = record.text();
-  if (record.ok()) schemas_[schema.id] = std::move(schema);
+void McapReader::read_metadata(McapCursor record, std::uint64_t at) {
+  std::string name = record.text();
+  McapCursor before = record;
+  const auto told = before.number<std::uint32_t>();
+  McapMetadata metadata{std::move(name), record.map()};
+  if (!record.ok() || !record.left().empty()) {
+    return note(fmt::format("the metadata at byte {} has a map of {} bytes that says it has {}", at,
+                            before.left().size(), told));
+  }
+  metadata_.push_back(std::move(metadata));
 }
 
-void McapReader::add_channel(Cursor record) {
-  McapChannel channel{.id = record.number<std::uint16_t>(),
-                      .schema_id = record.number<std::uint16_t>()};
-  channel.topic = record.text();
-  channel.message_encoding = record.text();
-  channel.metadata = record.map();
-  if (record.ok()) channels_[channel.id] = std::move(channel);
+void McapReader::add_schema(McapCursor record, std::uint64_t at) {
+  McapSchema schema = read_schema(record);
+  if (!record.ok()) return note(fmt::format("a schema at byte {} is broken", at));
+  schemas_[schema.id] = std::move(schema);
+}
+
+void McapReader::add_channel(McapCursor record, std::uint64_t at) {
+  McapChannel channel = read_channel(record);
+  if (!record.ok() || !record.left().empty()) {
+    return note(fmt::format("a channel at byte {} is broken, or has a map of wrong length", at));
+  }
+  channels_[channel.id] = std::move(channel);
 }
 
 void McapReader::check_end() {
+  if (chain_) chain_->data_ended();
   const std::uint64_t start = position_;
-  std::uint64_t footer_end = 0;
-  std::uint32_t crc = 0;
-  for (Cursor cursor{file_.subspan(start)}; cursor.ok() && footer_end == 0;) {
-    const auto op = static_cast<Op>(cursor.number<std::uint8_t>());
-    Cursor record{cursor.take(cursor.number<std::uint64_t>())};
-    if (!cursor.ok() || op != Op::footer) continue;
-    record.take(2 * sizeof(std::uint64_t));
-    crc = record.number<std::uint32_t>();
-    footer_end = file_.size() - cursor.left().size();
+  std::optional<std::uint32_t> crc;
+  while (!crc) {
+    const McapRecord record = next_record(file_.subspan(position_));
+    if (record.size == 0) return note("it ends in the midst of its summary");
+    position_ += record.size;
+    if (chain_) chain_->take(static_cast<std::uint8_t>(record.op), record.body.left(), position_);
+    McapCursor body = record.body;
+    if (record.op == Op::statistics) check_statistics(body);
+    if (record.op != Op::footer) continue;
+    body.take(2 * sizeof(std::uint64_t));
+    crc = body.number<std::uint32_t>();
   }
-  if (footer_end == 0) return note("it ends in the midst of its summary");
-  const auto summed = file_.subspan(start, footer_end - sizeof crc - start);
-  if (crc != 0 && crc != checksum_of(summed)) note("the checksum of its summary is wrong");
-  const auto behind = file_.subspan(footer_end);
-  if (behind.size() < mcap::kMagic.size() ||
-      std::memcmp(behind.data(), mcap::kMagic.data(), mcap::kMagic.size()) != 0) {
-    return note("its last bytes are missing");
-  }
+  const auto summed = file_.subspan(start, position_ - sizeof *crc - start);
+  if (*crc != 0 && *crc != checksum_of(summed)) note("the checksum of its summary is wrong");
+  const auto behind = file_.subspan(position_);
+  if (!mcap::begins_with_magic(behind)) return note("its last bytes are missing");
   if (behind.size() > mcap::kMagic.size()) note("something stands behind its end");
+}
+
+/// Where nothing else is wrong: a chunk that was passed over is missed here, too.
+void McapReader::check_statistics(McapCursor record) {
+  const auto messages = record.number<std::uint64_t>();
+  if (problems_.empty() && record.ok() && messages != messages_) {
+    note(fmt::format("its summary tells of {} messages, and it has {}", messages, messages_));
+  }
 }
 
 void McapReader::note(std::string problem) {
   constexpr std::size_t kMostProblems = 100;
-  if (problems_.size() < kMostProblems) problems_.push_back(std::move(problem));
+  if (problems_.size() > kMostProblems) return;
+  if (problems_.size() == kMostProblems) problem = "more is wrong with it";
+  problems_.push_back(std::move(problem));
 }
 
 }  // namespace armature

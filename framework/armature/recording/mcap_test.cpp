@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <fstream>
-#include <iterator>
+#include <algorithm>
 #include <random>
 #include <stdexcept>
+#include <vector>
 
 #include "armature/recording/mcap_reader.hpp"
-#include "armature/recording/mcap_writer.hpp"
+#include "armature/recording/recording_test.hpp"
 
 namespace armature {
 namespace {
@@ -19,34 +18,15 @@ std::string text_of(std::span<const std::byte> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-std::string payload(int i) { return "message " + std::to_string(i) + std::string(100, 'x'); }
-
 /// Two channels in small chunks, an attachment and metadata.
 class Mcap : public testing::TestWithParam<bool> {
  protected:
-  ~Mcap() override { fs::remove(file_); }
-
   static constexpr int kMessages = 1000;
 
   void write() {
     McapWriter writer{file_, {.compress = GetParam(), .chunk_bytes = 4096}};
-    write_all_but_the_end(writer);
+    write_all_but_the_end(writer, kMessages);
     writer.close();
-  }
-  static void write_all_but_the_end(McapWriter& writer) {
-    const auto schema = writer.add(
-        McapSchema{.name = "std_msgs/msg/String", .encoding = "ros2msg", .data = "string data\n"});
-    const auto a = writer.add(McapChannel{
-        .schema_id = schema, .topic = "/a", .message_encoding = "cdr", .metadata = {{"k", "v"}}});
-    writer.attach({.name = "lamp.yaml", .media_type = "application/yaml", .data = "armature: 1\n"});
-    const auto b =
-        writer.add(McapChannel{.schema_id = schema, .topic = "/b", .message_encoding = "cdr"});
-    for (int i = 0; i < kMessages; ++i) {
-      const std::string text = payload(i);
-      writer.write(i % 3 == 0 ? b : a, static_cast<std::uint32_t>(i), Time{1000 + i}, Time{i},
-                   std::as_bytes(std::span{text}));
-    }
-    writer.add(McapMetadata{.name = "run", .values = {{"seed", "1"}}});
   }
   /// How many messages are read; each must be the one that was written.
   static int read_whole_messages(McapReader& reader) {
@@ -61,14 +41,11 @@ class Mcap : public testing::TestWithParam<bool> {
     }
     return count;
   }
-  std::string bytes() const {
-    std::ifstream stream{file_, std::ios::binary};
-    return {std::istreambuf_iterator<char>{stream}, {}};
-  }
-  void replace(const std::string& bytes) const { std::ofstream{file_, std::ios::binary} << bytes; }
+  std::string bytes() const { return recording_.bytes(); }
+  void replace(const std::string& bytes) const { recording_.replace(bytes); }
 
-  const fs::path file_ = fs::temp_directory_path() / ("armature-" + std::to_string(getpid()) +
-                                                      (GetParam() ? "-zstd.mcap" : ".mcap"));
+  const RecordingFile recording_{GetParam() ? "zstd" : "plain"};
+  const fs::path file_ = recording_.path();
 };
 
 TEST_P(Mcap, IsReadAsItWasWritten) {
@@ -90,7 +67,7 @@ TEST_P(Mcap, IsReadAsItWasWritten) {
 TEST_P(Mcap, WithoutItsEndIsReadToItsLastChunk) {
   {
     McapWriter writer{file_, {.compress = GetParam(), .chunk_bytes = 4096}};
-    write_all_but_the_end(writer);
+    write_all_but_the_end(writer, kMessages);
   }
   McapReader reader{file_};
   EXPECT_EQ(read_whole_messages(reader), kMessages) << "metadata ends a chunk";
@@ -101,9 +78,8 @@ TEST_P(Mcap, WithoutItsEndIsReadToItsLastChunk) {
 TEST_P(Mcap, CutOffAnywhereIsReadAsFarAsItIsWhole) {
   write();
   const std::string whole = bytes();
-  const unsigned seed = std::random_device{}();
-  SCOPED_TRACE("seed " + std::to_string(seed));
-  std::mt19937 random{seed};
+  const Seed seed;
+  std::mt19937 random = seed.generator();
   int last = 0;
   std::vector<std::size_t> lengths;
   for (int i = 0; i < 100; ++i) {
@@ -123,9 +99,8 @@ TEST_P(Mcap, CutOffAnywhereIsReadAsFarAsItIsWhole) {
 TEST_P(Mcap, WithAChangedByteIsNotTakenForWhole) {
   write();
   const std::string whole = bytes();
-  const unsigned seed = std::random_device{}();
-  SCOPED_TRACE("seed " + std::to_string(seed));
-  std::mt19937 random{seed};
+  const Seed seed;
+  std::mt19937 random = seed.generator();
   for (int i = 0; i < 300; ++i) {
     std::string changed = whole;
     changed[std::uniform_int_distribution<std::size_t>{8, whole.size() - 1}(random)] ^= 0x10;
@@ -176,6 +151,66 @@ TEST(McapWriter, TellsThatTheDiskIsFull) {
     FAIL();
   } catch (const std::runtime_error& error) {
     EXPECT_STREQ(error.what(), "cannot write '/dev/full': No space left on device");
+  }
+}
+
+/// What a reader says of records that a wrong program wrote.
+std::vector<std::string> problems_of(const std::string& records) {
+  const RecordingFile file{"raw"};
+  file.replace(RawMcap::file(records));
+  McapReader reader{file.path()};
+  while (reader.next()) continue;
+  return reader.problems();
+}
+
+const std::string kNoMap = RawMcap::number(std::uint32_t{0});
+const std::string kChannel = RawMcap::schema(1) + RawMcap::channel(2, 1, kNoMap);
+using Problems = std::vector<std::string>;
+
+TEST(McapReader, FindsNothingWrongWithWhatIsRight) {
+  EXPECT_EQ(problems_of(RawMcap::chunk(5, 7, kChannel + RawMcap::message(2, 6))), Problems{});
+}
+
+TEST(McapReader, TellsLogTimesThatTheirChunkDoesNotHave) {
+  EXPECT_EQ(problems_of(RawMcap::chunk(5, 7,
+                                       kChannel + RawMcap::message(2, 6) + RawMcap::message(2, 4) +
+                                           RawMcap::message(2, 8'000))),
+            (Problems{"message 2 of the chunk at byte 29, of '/b', has the log time 4 ns, and the "
+                      "chunk says that its times are from 5 to 7 ns",
+                      "message 3 of the chunk at byte 29, of '/b', has the log time 8000 ns, and "
+                      "the chunk says that its times are from 5 to 7 ns"}));
+  EXPECT_EQ(problems_of(RawMcap::chunk(5, 7, kChannel + RawMcap::message(2, 1ULL << 63))),
+            Problems{"message 1 of the chunk at byte 29, of '/b', has the log time "
+                     "9223372036854775808 ns, which no clock tells"});
+  EXPECT_EQ(problems_of(RawMcap::chunk(7, 5, "")),
+            Problems{"the chunk at byte 29 says that its times are from 7 to 5 ns"});
+}
+
+TEST(McapReader, TellsCdrOfWhichNoSchemaSaysWhatItIs) {
+  EXPECT_EQ(
+      problems_of(RawMcap::chunk(
+          5, 7, RawMcap::channel(3, 0, kNoMap) + RawMcap::message(3, 6) + RawMcap::message(3, 6))),
+      Problems{"channel 3, '/b', is of encoding cdr and names no schema"});
+  EXPECT_EQ(
+      problems_of(RawMcap::chunk(5, 7, RawMcap::channel(3, 9, kNoMap) + RawMcap::message(3, 6))),
+      Problems{"channel 3, '/b', is of encoding cdr and names schema 9, which is not there"});
+}
+
+TEST(McapReader, TellsAMapOfWrongLength) {
+  const std::string entry = RawMcap::text("key") + RawMcap::text("value");
+  const auto metadata = [&](std::uint32_t length) {
+    return RawMcap::record(RawMcap::kMetadata,
+                           RawMcap::text("run") + RawMcap::number(length) + entry);
+  };
+  const auto size = static_cast<std::uint32_t>(entry.size());
+  EXPECT_EQ(problems_of(metadata(size)), Problems{});
+  for (const std::uint32_t wrong : {std::uint32_t{0}, size - 1, size + 1, ~std::uint32_t{0}}) {
+    EXPECT_EQ(problems_of(metadata(wrong)),
+              Problems{"the metadata at byte 29 has a map of 16 bytes that says it has " +
+                       std::to_string(wrong)});
+    EXPECT_EQ(
+        problems_of(RawMcap::schema(1) + RawMcap::channel(2, 1, RawMcap::number(wrong) + entry)),
+        Problems{"a channel at byte 75 is broken, or has a map of wrong length"});
   }
 }
 

@@ -97,22 +97,35 @@ McapWriter::McapWriter(std::filesystem::path file, Options options)
     throw std::runtime_error(fmt::format("cannot write '{}': {}", file_.string(),
                                          std::generic_category().message(errno)));
   }
+  if (options_.chain) chain_.emplace();
   Bytes bytes;
   append_bytes(bytes, std::as_bytes(std::span{mcap::kMagic}));
   const std::size_t begin = begin_record(bytes, Op::header);
   append_text(bytes, "ros2");
   append_text(bytes, options_.library);
   end_record(bytes, begin);
-  put(bytes);
+  put_hashed(bytes);
+  put_link();
 }
 
 McapWriter::~McapWriter() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }
 
-void McapWriter::put(const Bytes& bytes) {
+void McapWriter::put_hashed(std::span<const std::byte> bytes) {
+  put(bytes);
+  if (chain_) chain_->add(bytes);
+}
+
+void McapWriter::put_link() {
+  if (!chain_) return;
+  head_ = chain_->end_link();
+  put(ChainRecord{.number = ++links_, .hash = head_}.bytes());
+}
+
+void McapWriter::put(std::span<const std::byte> bytes) {
   if (broken_) throw std::runtime_error(fmt::format("'{}' takes nothing more", file_.string()));
-  std::span<const std::byte> left{bytes};
+  std::span<const std::byte> left = bytes;
   while (!left.empty()) {
     const ssize_t written = ::write(descriptor_, left.data(), left.size());
     if (written < 0 && errno == EINTR) continue;
@@ -214,7 +227,8 @@ void McapWriter::end_chunk() {
     end_record(bytes, begin);
   }
   const std::uint64_t index_length = bytes.size() - chunk_length;
-  put(bytes);
+  put_hashed(bytes);
+  put_link();
 
   Bytes& index = chunk_indexes_.emplace_back();
   begin = begin_record(index, Op::chunk_index);
@@ -246,7 +260,8 @@ void McapWriter::attach(const McapAttachment& attachment) {
   append(bytes, crc_of(std::span{bytes}.subspan(begin)));
   end_record(bytes, begin);
   const std::uint64_t start = position_;
-  put(bytes);
+  put_hashed(bytes);
+  put_link();
 
   Bytes& index = attachment_indexes_.emplace_back();
   begin = begin_record(index, Op::attachment_index);
@@ -268,7 +283,8 @@ void McapWriter::add(const McapMetadata& metadata) {
   append_map(bytes, metadata.values);
   end_record(bytes, begin);
   const std::uint64_t start = position_;
-  put(bytes);
+  put_hashed(bytes);
+  put_link();
 
   Bytes& index = metadata_indexes_.emplace_back();
   begin = begin_record(index, Op::metadata_index);
@@ -284,7 +300,7 @@ void McapWriter::close() {
   const std::size_t begin = begin_record(bytes, Op::data_end);
   append(bytes, crc_);
   end_record(bytes, begin);
-  put(bytes);
+  put_hashed(bytes);
   put_summary();
   const bool synced = fsync(descriptor_) == 0 || errno == EINVAL || errno == EROFS;  // a pipe
   if (!synced || ::close(std::exchange(descriptor_, -1)) != 0) {
@@ -331,6 +347,11 @@ void McapWriter::put_summary() {
   put_group(Op::chunk_index, chunk_indexes_, summary, offsets, start);
   put_group(Op::attachment_index, attachment_indexes_, summary, offsets, start);
   put_group(Op::metadata_index, metadata_indexes_, summary, offsets, start);
+  if (chain_) {  // the last link is of the summary; what follows says only where things stand
+    chain_->add(summary);
+    head_ = chain_->end_link();
+    append_bytes(summary, ChainRecord{.number = ++links_, .hash = head_}.bytes());
+  }
   const std::uint64_t offsets_start = start + summary.size();
   append_bytes(summary, offsets);
   begin = begin_record(summary, Op::footer);

@@ -6,25 +6,28 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "armature/recording/hash_chain.hpp"
 #include "armature/recording/mcap.hpp"
 
 namespace armature ARMATURE_EXPORT {
 
 /// Writes an MCAP file: messages in chunks, each with its index and CRC, and a summary at the end,
-/// so that viewers seek in it. What stands in the file when the program dies, or the disk is full,
-/// is readable to its last chunk. Every function throws std::runtime_error with the file's name and
-/// the system's reason when writing fails, and the file takes nothing from then on. One thread at a
-/// time; not real-time safe.
+/// so that viewers seek in it, all in a chain of hashes. What stands in the file when the program
+/// dies, or the disk is full, is readable to its last chunk. Every function throws
+/// std::runtime_error with the file's name and the system's reason when writing fails, and the file
+/// takes nothing from then on. One thread at a time; not real-time safe.
 class McapWriter {
  public:
   struct Options {
     std::string library = "armature";
     bool compress = true;                // chunks, with zstd
     std::size_t chunk_bytes = 1U << 20;  // of messages, until a chunk is written
+    bool chain = true;                   // of hashes, by which a change is found
   };
 
   McapWriter(std::filesystem::path file, Options options);
@@ -48,6 +51,10 @@ class McapWriter {
 
   std::uint64_t messages() const { return messages_; }
   std::uint64_t bytes() const { return position_; }
+  /// How many links of the chain stand in the file, and the hash of the last one. After close() it
+  /// tells the whole file from every other.
+  std::uint64_t links() const { return links_; }
+  const Hash& head() const { return head_; }
 
  private:
   using Bytes = std::vector<std::byte>;
@@ -62,7 +69,11 @@ class McapWriter {
   };
   class Zstd;
 
-  void put(const Bytes& bytes);
+  void put(std::span<const std::byte> bytes);
+  /// Writes what is part of the chain.
+  void put_hashed(std::span<const std::byte> bytes);
+  /// All that was written since the last link is one now.
+  void put_link();
   void put_summary();
   void put_group(mcap::Op op, const std::vector<Bytes>& records, Bytes& summary, Bytes& offsets,
                  std::uint64_t start) const;
@@ -74,6 +85,9 @@ class McapWriter {
   std::uint64_t position_ = 0, messages_ = 0;
   std::uint32_t crc_ = 0;  // of all that stands in the file
   Time first_, last_;
+  std::optional<HashChain> chain_;
+  std::uint64_t links_ = 0;
+  Hash head_{};
   Chunk chunk_;
   Bytes packed_;
   std::unique_ptr<Zstd> zstd_;

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/recording/mcap_summary.hpp"
+
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include <span>
+#include <stdexcept>
+#include <utility>
+
+#include "armature/recording/hash_chain.hpp"
+#include "armature/recording/mapped_file.hpp"
+#include "armature/recording/mcap_cursor.hpp"
+
+namespace armature {
+namespace {
+
+using mcap::Op;
+using View = std::span<const std::byte>;
+
+constexpr std::uint64_t kFooterBytes = 1 + 8 + 8 + 8 + 4;
+
+/// The records of the summary, without its footer; nothing when its end is missing or its checksum
+/// is not right.
+std::optional<View> summary_of(View file) {
+  if (file.size() < 2 * mcap::kMagic.size() + kFooterBytes) return std::nullopt;
+  const std::uint64_t footer_at = file.size() - mcap::kMagic.size() - kFooterBytes;
+  McapRecord footer = next_record(file.subspan(footer_at));
+  const auto start = footer.body.number<std::uint64_t>();
+  footer.body.number<std::uint64_t>();
+  const auto crc = footer.body.number<std::uint32_t>();
+  const bool is_one = footer.op == Op::footer && footer.size == kFooterBytes &&
+                      mcap::begins_with_magic(file.last(mcap::kMagic.size())) && start != 0 &&
+                      start <= footer_at && crc != 0;
+  if (!is_one) return std::nullopt;
+  const View summed = file.subspan(start, footer_at + kFooterBytes - sizeof crc - start);
+  const auto got = crc32_z(0, reinterpret_cast<const Bytef*>(summed.data()), summed.size());
+  if (got != crc) return std::nullopt;
+  return file.subspan(start, footer_at - start);
+}
+
+/// Returns how many chunks there are.
+std::uint32_t read_statistics(McapCursor record, McapSummary& summary) {
+  record.take(8 + 2 + 4 + 4 + 4);  // messages, schemas, channels, attachments, metadata
+  const auto chunks = record.number<std::uint32_t>();
+  summary.first = record.time();
+  summary.last = record.time();
+  McapCursor counts{record.take(record.number<std::uint32_t>())};
+  while (counts.ok() && !counts.left().empty()) {
+    const auto channel = counts.number<std::uint16_t>();
+    summary.messages[channel] = counts.number<std::uint64_t>();
+  }
+  return chunks;
+}
+
+void read_chunk_index(McapCursor record, McapSummary& summary) {
+  record.take(4 * 8);  // times, place, length
+  record.take(record.number<std::uint32_t>());
+  record.number<std::uint64_t>();
+  record.text();
+  summary.packed_bytes += record.number<std::uint64_t>();
+  summary.unpacked_bytes += record.number<std::uint64_t>();
+  ++summary.chunks;
+}
+
+void read_attachment_index(McapCursor record, McapSummary& summary) {
+  record.take(4 * 8);  // place, length, times
+  const auto bytes = record.number<std::uint64_t>();
+  summary.attachments.push_back({.name = record.text(), .bytes = bytes});
+}
+
+std::optional<ChainRecord> link_in(const McapRecord& record) {
+  if (static_cast<std::uint8_t>(record.op) != ChainRecord::kOp) return std::nullopt;
+  return ChainRecord::parse(record.body.left());
+}
+
+/// The metadata stands elsewhere in the file.
+void read_metadata_index(McapCursor record, View file, McapSummary& summary) {
+  const auto at = record.number<std::uint64_t>();
+  if (!record.ok() || at > file.size()) return;
+  McapRecord metadata = next_record(file.subspan(at));
+  if (metadata.op != Op::metadata || metadata.size == 0) return;
+  std::string name = metadata.body.text();
+  auto values = metadata.body.map();
+  if (metadata.body.ok()) summary.metadata.push_back({std::move(name), std::move(values)});
+}
+
+}  // namespace
+
+std::optional<McapSummary> read_summary(const std::filesystem::path& file) {
+  const MappedFile mapped{file};
+  const View bytes = mapped.bytes();
+  if (!mcap::begins_with_magic(bytes)) {
+    throw std::runtime_error(fmt::format("'{}' is no MCAP file", file.string()));
+  }
+  const auto records = summary_of(bytes);
+  if (!records) return std::nullopt;
+  McapSummary summary;
+  McapRecord header = next_record(bytes.subspan(mcap::kMagic.size()));
+  if (header.op == Op::header) {
+    header.body.text();
+    summary.library = header.body.text();
+  }
+  std::optional<std::uint32_t> chunks;
+  for (View left = *records; !left.empty();) {
+    McapRecord record = next_record(left);
+    if (record.size == 0) return std::nullopt;
+    left = left.subspan(record.size);
+    if (const auto link = link_in(record)) {
+      summary.links = link->number;
+      summary.head = to_hex(link->hash);
+      break;  // what stands behind it has no hash
+    }
+    switch (record.op) {
+      case Op::schema: {
+        McapSchema schema = read_schema(record.body);
+        summary.schemas[schema.id] = std::move(schema);
+        break;
+      }
+      case Op::channel: {
+        McapChannel channel = read_channel(record.body);
+        summary.channels[channel.id] = std::move(channel);
+        break;
+      }
+      case Op::statistics:
+        chunks = read_statistics(record.body, summary);
+        break;
+      case Op::chunk_index:
+        read_chunk_index(record.body, summary);
+        break;
+      case Op::attachment_index:
+        read_attachment_index(record.body, summary);
+        break;
+      case Op::metadata_index:
+        read_metadata_index(record.body, bytes, summary);
+        break;
+      default:
+        break;
+    }
+  }
+  if (chunks != summary.chunks) return std::nullopt;
+  return summary;
+}
+
+}  // namespace armature

@@ -5,6 +5,7 @@
 
 #include <csignal>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -18,6 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 using ::testing::Contains;
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 
 constexpr std::chrono::seconds kEnough{60};
@@ -119,6 +121,49 @@ TEST_F(Recorded, ARecordingThatDiesIsReadableToItsLastChunkAndCanBeMadeWhole) {
   const json mended = info(whole, 0);
   EXPECT_EQ(all_messages(mended), all_messages(cut));
   EXPECT_EQ(mended["attachments"], cut["attachments"]);
+
+  // The chain tells how far the file is as it was written, and the new one what it was made of.
+  const CommandResult verified = run_command({armature(), "info", file_, "--verify"});
+  EXPECT_EQ(verified.exit_code, 1);
+  EXPECT_THAT(verified.err, ContainsRegex("run.mcap': cut off after [-0-9]+ [:0-9.]+ UTC: the "
+                                          "chain is right up to there, [0-9]+ chunks"));
+  EXPECT_EQ(run_command({armature(), "info", whole, "--verify"}).exit_code, 0);
+  const json from = mended["metadata"].back();
+  EXPECT_EQ(from["name"], "armature.repaired");
+  EXPECT_EQ(from["values"]["chain"], "cut");
+  EXPECT_EQ(from["values"]["file"], "run.mcap");
+  EXPECT_THAT(run_command({"/usr/bin/sha256sum", file_}).out,
+              HasSubstr(from["values"]["sha256"].get<std::string>()));
+}
+
+TEST_F(Recorded, AByteThatIsChangedAfterwardsIsFound) {
+  const CommandResult result = run_command(record({"--timeout", "4", "--json"}), {}, kEnough);
+  ASSERT_EQ(result.exit_code, 0) << result.err << run_.err();
+  const std::string head = json::parse(result.out)["head"];
+  const std::vector<std::string> verify{armature(), "info", file_, "--verify", "--head"};
+  const auto verify_by = [&](const std::string& hash) {
+    std::vector<std::string> words = verify;
+    words.push_back(hash);
+    return run_command(words);
+  };
+  EXPECT_EQ(verify_by(head).exit_code, 0);
+  EXPECT_THAT(verify_by(head).out,
+              ContainsRegex("whole and unchanged: [0-9]+ links, the last is " + head));
+  EXPECT_THAT(verify_by(std::string(64, '0')).err, HasSubstr("it is another file"));
+  EXPECT_EQ(verify_by(std::string(64, '0')).exit_code, 1);
+  EXPECT_EQ(verify_by("abc").exit_code, 2);
+
+  std::fstream stream{file_, std::ios::binary | std::ios::in | std::ios::out};
+  const auto middle = static_cast<std::streamoff>(fs::file_size(file_) / 2);
+  stream.seekg(middle);
+  const char byte = static_cast<char>(stream.get());
+  stream.seekp(middle);
+  stream.put(static_cast<char>(byte ^ 1));
+  stream.close();
+  EXPECT_EQ(run_command({armature(), "info", file_}).exit_code, 0) << "the summary is right";
+  EXPECT_EQ(verify_by(head).exit_code, 1);
+  EXPECT_THAT(verify_by(head).err,
+              ContainsRegex("changed: chunk [0-9]+, within the [0-9]+ bytes from byte [0-9]+"));
 }
 
 TEST_F(Recorded, AFileThatIsThereIsNotReplacedUnlessItIsWanted) {

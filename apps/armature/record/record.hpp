@@ -21,7 +21,13 @@ int record_topics(const RecordOptions& options);
 /// Writes what can be read of a recording that was cut off as a whole one.
 int repair_recording(const std::filesystem::path& cut, const std::filesystem::path& whole,
                      bool force);
-/// Tells what is in a recording.
-int describe_recording(const std::filesystem::path& file, bool json);
+struct InfoOptions {
+  std::filesystem::path file;
+  bool json = false;
+  bool verify = false;  // every byte is read and held to the chain of hashes
+  std::string head;     // what the last hash shall be; empty: that is not asked
+};
+/// Tells what is in a recording, as its summary says it, or as all of it does.
+int describe_recording(const InfoOptions& options);
 
 }  // namespace armature

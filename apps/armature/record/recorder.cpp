@@ -15,6 +15,7 @@ Recorder::Recorder(const std::filesystem::path& file, bool compress)
 void Recorder::add(const std::string& topic, const ObservedSample& sample) {
   const Time now = SystemClock{}.now();
   const std::scoped_lock lock{mutex_};
+  if (sample.lost_before > 0) lost_[topic] += sample.lost_before;
   Channel& channel = channel_of(topic, sample.type);
   queue_.write(channel.id, ++channel.messages, now, sample.source,
                {sample.cdr.begin(), sample.cdr.end()});
@@ -34,6 +35,11 @@ void Recorder::attach_new(const ObservedSample& description, Time arrived) {
   // All processes of a run tell the same files.
   if (!attached_.insert(told.deployment_() + " " + told.run_()).second) return;
   attach_description(told, arrived, queue_);
+}
+
+std::map<std::string, std::uint64_t> Recorder::lost() const {
+  const std::scoped_lock lock{mutex_};
+  return lost_;
 }
 
 std::map<std::string, std::uint64_t> Recorder::dropped() const {

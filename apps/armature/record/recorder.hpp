@@ -28,9 +28,13 @@ class Recorder {
 
   std::uint64_t messages() const { return queue_.messages(); }
   std::uint64_t bytes() const { return queue_.bytes(); }
+  /// The last hash of the file's chain, after close().
+  std::string head() const { return queue_.head(); }
   std::size_t topics() const { return channels_.size(); }
   /// The number of samples that were dropped, by topic.
   std::map<std::string, std::uint64_t> dropped() const;
+  /// The number of samples that were sent and did not arrive, by topic.
+  std::map<std::string, std::uint64_t> lost() const;
 
  private:
   struct Channel {
@@ -44,6 +48,7 @@ class Recorder {
   mutable std::mutex mutex_;
   std::map<std::string, Channel> channels_;  // by topic
   std::set<std::string> attached_;           // runs
+  std::map<std::string, std::uint64_t> lost_;
 };
 
 }  // namespace armature

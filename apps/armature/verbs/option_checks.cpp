@@ -61,4 +61,11 @@ std::string no_pattern(const std::string& text) {
              : config::in_quotes(text) + " has a '*' that is not at its end";
 }
 
+std::string no_hash(const std::string& text) {
+  constexpr std::size_t kDigits = 64;
+  const bool is_one =
+      text.size() == kDigits && text.find_first_not_of("0123456789abcdef") == std::string::npos;
+  return is_one ? "" : config::in_quotes(text) + " is no SHA-256, 64 hexadecimal digits";
+}
+
 }  // namespace armature

@@ -38,13 +38,19 @@ void add_record(CLI::App& app, Action& action) {
 }
 
 void add_info(CLI::App& app, Action& action) {
-  auto file = std::make_shared<std::filesystem::path>();
-  auto json = std::make_shared<bool>(false);
+  auto options = std::make_shared<InfoOptions>();
   CLI::App* verb = app.add_subcommand(
       "info", "Tell what is in a recording, and whether it is whole: armature info run.mcap");
-  verb->add_option("recording", *file, "an MCAP file")->required()->check(CLI::ExistingFile);
-  verb->add_flag("--json", *json, "as JSON");
-  verb->callback([=, &action] { action = [=] { return describe_recording(*file, *json); }; });
+  verb->add_option("recording", options->file, "an MCAP file")
+      ->required()
+      ->check(CLI::ExistingFile);
+  verb->add_flag("--json", options->json, "as JSON");
+  CLI::Option* verify = verb->add_flag("--verify", options->verify,
+                                       "read all of it, and tell whether it is as it was written");
+  verb->add_option("--head", options->head, "and whether this is its last hash, as record told it")
+      ->check(no_hash)
+      ->needs(verify);
+  verb->callback([=, &action] { action = [=] { return describe_recording(*options); }; });
 }
 
 void add_replay(CLI::App& app, Action& action) {

@@ -36,17 +36,15 @@ std::uint16_t McapQueue::add_channel(const std::string& topic, const std::string
   const TypeDescription* type = describe_type(dds_type);
   metadata.emplace("dds_type", dds_type);
   const std::scoped_lock lock{mutex_};
-  std::uint16_t schema = 0;  // none
-  if (type) {
-    const auto number = static_cast<std::uint16_t>(schemas_.size() + 1);
-    const auto [place, is_new] = schemas_.try_emplace(dds_type, number);
-    schema = place->second;
-    if (is_new) {
-      waiting_.emplace_back(McapSchema{
-          .name = ros2_name(*type), .encoding = "ros2msg", .data = ros_definition(*type)});
-    }
+  const auto number = static_cast<std::uint16_t>(schemas_.size() + 1);
+  const auto [schema, is_new] = schemas_.try_emplace(dds_type, number);
+  if (is_new) {
+    waiting_.emplace_back(type ? McapSchema{.name = ros2_name(*type),
+                                            .encoding = "ros2msg",
+                                            .data = ros_definition(*type)}
+                               : McapSchema{.name = dds_type});
   }
-  waiting_.emplace_back(McapChannel{.schema_id = schema,
+  waiting_.emplace_back(McapChannel{.schema_id = schema->second,
                                     .topic = topic,
                                     .message_encoding = "cdr",
                                     .metadata = std::move(metadata)});

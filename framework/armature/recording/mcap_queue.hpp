@@ -33,8 +33,8 @@ class McapQueue {
   McapQueue(const McapQueue&) = delete;
   McapQueue& operator=(const McapQueue&) = delete;
 
-  /// A channel for messages of a type, in CDR, with the schema that the type's description gives.
-  /// One topic may have several channels.
+  /// A channel for messages of a type, in CDR, with the schema that the type's description gives;
+  /// of a type that is not known here only the name can be told. One topic may have several.
   std::uint16_t add_channel(const std::string& topic, const std::string& dds_type,
                             std::map<std::string, std::string> metadata = {});
   void add(McapMetadata metadata) { put(std::move(metadata), 0); }
@@ -52,6 +52,8 @@ class McapQueue {
   // After `close`, or while it has thrown:
   std::uint64_t messages() const { return writer_.messages(); }
   std::uint64_t bytes() const { return writer_.bytes(); }
+  /// The last hash of the file's chain.
+  std::string head() const { return to_hex(writer_.head()); }
 
  private:
   struct Message {

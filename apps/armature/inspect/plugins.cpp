@@ -72,7 +72,8 @@ Json manifest_json(const PluginManifest& plugin) {
   Json json{{"id", plugin.id},     {"kind", plugin.kind},
             {"doc", plugin.doc},   {"file", plugin.file.string()},
             {"abi", plugin.abi},   {"allocates", plugin.allocates},
-            {"pure", plugin.pure}, {"runs_programs", plugin.runs_programs}};
+            {"pure", plugin.pure}, {"uses_files", plugin.uses_files},
+            {"runs_programs", plugin.runs_programs}};
   json["params"] = params_json(plugin.params);
   json["slots"] = Json::object();
   for (const auto& slot : plugin.slots) json["slots"][slot.name] = slot.kind;

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "armature/config/problems.hpp"
 #include "armature/messages/known_types.hpp"
 #include "armature/messages/stamp.hpp"
 #include "armature/runtime/plugins/running_component.hpp"
@@ -67,6 +68,17 @@ class Check {
       length_ = std::max(length_, now - *start);
       repeat(*call, to_seconds(now - *start));
     }
+    for (const auto& [name, end] : run_.unrecorded_ends()) {
+      const auto found = process_.entries().find(name);
+      if (found != process_.entries().end() && !found->second.ends) found->second.ends = end;
+    }
+  }
+
+  /// Whether all that can be repeated was repeated, and compared.
+  bool is_complete() const {
+    return problems().empty() && std::ranges::all_of(entries(), [&](const auto& entry) {
+             return !entry.second.ends && of(entry.first).unrecorded == 0;
+           });
   }
 
   const std::map<std::string, ReplayedProcess::Entry>& entries() const {
@@ -74,23 +86,26 @@ class Check {
   }
   const Compared& of(const std::string& component) const { return compared_.at(component); }
   const std::vector<std::string>& notes() const { return process_.notes(); }
-  const std::vector<std::string>& problems() const { return run_.problems(); }
+  std::vector<std::string> problems() const { return run_.problems(); }
+  const std::string& run_id() const { return run_.run(); }
+  const std::filesystem::path& file() const { return run_.file(); }
   const std::string& process() const { return run_.process(); }
   double length_s() const { return to_seconds(length_); }
 
  private:
   void repeat(const msg::Activation& call, double at_s) {
-    const auto found = process_.entries().find(call.component_());
-    if (found == process_.entries().end()) return;
-    Compared& compared = compared_[found->first];
-    ReplayedProcess::Entry& entry = found->second;
-    const bool has_failed = entry.component && entry.component->failure();
-    if (process_.repeat(call, at_s)) {
-      compare(call, at_s, entry, compared);
-    } else if (has_failed && !compared.difference) {
-      compared.difference =
-          difference(call, at_s, entry.activations, "", *entry.component->failure());
-    }
+    ReplayedProcess::Entry* entry = process_.repeat(call, at_s);
+    if (!entry) return;
+    Compared& compared = compared_[call.component_()];
+    compare(call, at_s, *entry, compared);
+    const std::string failure = entry->component->failure().value_or("");
+    if (failure == call.failure_() || compared.difference) return;
+    const auto told = [](const std::string& text) {
+      return text.empty() ? std::string{"it does not fail"} : config::in_quotes(text);
+    };
+    compared.difference =
+        difference(call, at_s, entry->activations, "",
+                   fmt::format("recorded {}, replayed {}", told(call.failure_()), told(failure)));
   }
 
   void compare(const msg::Activation& call, double at_s, const ReplayedProcess::Entry& entry,
@@ -154,6 +169,7 @@ class Check {
 };
 
 struct Totals {
+  bool is_complete = true;
   std::uint64_t components = 0, activations = 0, outputs = 0, differing = 0;
   double length_s = 0;
 };
@@ -162,6 +178,7 @@ Totals totals_of(const std::vector<std::unique_ptr<Check>>& checks) {
   Totals totals;
   for (const auto& check : checks) {
     totals.length_s = std::max(totals.length_s, check->length_s());
+    totals.is_complete = totals.is_complete && check->is_complete();
     for (const auto& [name, entry] : check->entries()) {
       totals.components += entry.component ? 1 : 0;
       totals.activations += entry.activations;
@@ -170,6 +187,11 @@ Totals totals_of(const std::vector<std::unique_ptr<Check>>& checks) {
     }
   }
   return totals;
+}
+
+std::string_view verdict_of(const Totals& totals) {
+  if (totals.differing > 0) return "identical otherwise";
+  return totals.is_complete ? "identical" : "incomplete, identical as far as it was compared";
 }
 
 std::string text_of(const std::string& component, const Difference& difference) {
@@ -207,12 +229,15 @@ Json json_of(const Check& check, const std::string& name, const ReplayedProcess:
 void print_json(const std::vector<std::unique_ptr<Check>>& checks, const Totals& totals,
                 double took_s) {
   Json json{{"identical", totals.differing == 0},
+            {"complete", totals.is_complete},
+            {"problems", Json::array()},
             {"outputs", totals.outputs},
             {"activations", totals.activations},
             {"length_s", totals.length_s},
             {"took_s", took_s},
             {"components", Json::array()}};
   for (const auto& check : checks) {
+    for (const std::string& problem : check->problems()) json["problems"].push_back(problem);
     for (const auto& [name, entry] : check->entries()) {
       json["components"].push_back(json_of(*check, name, entry));
     }
@@ -228,9 +253,8 @@ void print(const std::vector<std::unique_ptr<Check>>& checks, const Totals& tota
     }
   }
   fmt::print("{}: {} outputs of {} activations of {} components; {:.1f} s of the run in {:.1f} s\n",
-             totals.differing == 0 ? "identical" : "identical otherwise",
-             with_commas(totals.outputs), with_commas(totals.activations), totals.components,
-             totals.length_s, took_s);
+             verdict_of(totals), with_commas(totals.outputs), with_commas(totals.activations),
+             totals.components, totals.length_s, took_s);
   for (const auto& check : checks) {
     for (const auto& [name, entry] : check->entries()) {
       if (!entry.component) fmt::print("not replayed: '{}', {}\n", name, entry.why_not);
@@ -246,6 +270,23 @@ void print(const std::vector<std::unique_ptr<Check>>& checks, const Totals& tota
   }
 }
 
+/// Of the file that came last and those before it.
+void check_same_run(const std::vector<std::unique_ptr<Check>>& checks) {
+  const Check& last = *checks.back();
+  for (const auto& check : checks) {
+    if (check == checks.back()) return;
+    if (check->run_id() != last.run_id()) {
+      throw InvalidChoice(fmt::format("'{}' and '{}' are of different runs", check->file().string(),
+                                      last.file().string()));
+    }
+    if (check->process() == last.process()) {
+      throw InvalidChoice(fmt::format("'{}' and '{}' are both of process '{}'",
+                                      check->file().string(), last.file().string(),
+                                      last.process()));
+    }
+  }
+}
+
 }  // namespace
 
 int check_recording(const ReplayOptions& options) {
@@ -253,15 +294,14 @@ int check_recording(const ReplayOptions& options) {
   PluginRegistry plugins;
   std::vector<std::unique_ptr<Check>> checks;
   const Time start = monotonic_now();
-  bool is_whole = true;
   for (const std::filesystem::path& file : options.files) {
     checks.push_back(std::make_unique<Check>(file, options, plugins));
+    check_same_run(checks);
     for (const std::string& note : checks.back()->notes()) {
       fmt::print(stderr, "armature: {}\n", note);
     }
     checks.back()->run();
     for (const std::string& problem : checks.back()->problems()) {
-      is_whole = false;
       fmt::print(stderr, "armature: '{}': {}\n", file.string(), problem);
     }
   }
@@ -272,7 +312,7 @@ int check_recording(const ReplayOptions& options) {
   } else {
     print(checks, totals, took_s);
   }
-  return totals.differing == 0 && is_whole ? kOk : kFailed;
+  return totals.differing == 0 && totals.is_complete && totals.activations > 0 ? kOk : kFailed;
 }
 
 }  // namespace armature

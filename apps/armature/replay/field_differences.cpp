@@ -61,8 +61,8 @@ void TopicDifferences::add(const std::string& name, const Json& before, const Js
     field.at_s = at_s;
   } else if (is_new) {
     field.at_s = at_s;
-    field.before = before.dump();
-    field.now = now.dump();
+    field.before = before.dump(-1, ' ', false, Json::error_handler_t::replace);
+    field.now = now.dump(-1, ' ', false, Json::error_handler_t::replace);
   }
 }
 

@@ -34,6 +34,10 @@ std::optional<MessageDifference> number_difference(const Json& a, const Json& b)
                            .ulps = first > second ? first - second : second - first};
 }
 
+std::string text_of(const Json& value) {
+  return value.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
 std::optional<MessageDifference> structure_difference(const TypeDescription& type, const Json& a,
                                                       const Json& b);
 
@@ -43,7 +47,7 @@ std::optional<MessageDifference> element_difference(const FieldDescription& fiel
   if (field.kind == FieldKind::float64) return number_difference<double, std::uint64_t>(a, b);
   if (field.kind == FieldKind::float32) return number_difference<float, std::uint32_t>(a, b);
   if (a == b) return std::nullopt;
-  return MessageDifference{.field = {}, .recorded = a.dump(), .replayed = b.dump(), .ulps = {}};
+  return MessageDifference{.field = {}, .recorded = text_of(a), .replayed = text_of(b), .ulps = {}};
 }
 
 std::optional<MessageDifference> array_difference(const FieldDescription& field, const Json& a,
@@ -82,7 +86,12 @@ std::optional<MessageDifference> first_difference(const TypeDescription& type,
                                                   std::span<const std::byte> replayed) {
   const auto a = cdr_to_json(type, recorded, OctetArrays::whole);
   const auto b = cdr_to_json(type, replayed, OctetArrays::whole);
-  if (!a || !b) return std::nullopt;
+  if (!a || !b) {
+    const auto told = [](const auto& message) {
+      return message ? std::string{"a message"} : message.error().text;
+    };
+    return MessageDifference{.field = "all", .recorded = told(a), .replayed = told(b), .ulps = {}};
+  }
   return structure_difference(type, *a, *b);
 }
 

@@ -18,8 +18,7 @@ struct MessageDifference {
   std::optional<std::uint64_t> ulps;  // of numbers: how many floating-point numbers lie between
 };
 
-/// Nothing: they are the same, or one of them is no encoding of the type. Numbers are compared by
-/// their bits, so that NaN equals NaN.
+/// Nothing: they are the same. Numbers are compared by their bits, so that NaN equals NaN.
 std::optional<MessageDifference> first_difference(const TypeDescription& type,
                                                   std::span<const std::byte> recorded,
                                                   std::span<const std::byte> replayed);

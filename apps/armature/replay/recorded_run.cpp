@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <limits>
 #include <stdexcept>
 #include <string_view>
 
@@ -15,11 +16,17 @@ namespace armature {
 namespace {
 
 constexpr Duration kKept = seconds(5);
+constexpr std::size_t kMinKept = 8;
+constexpr std::uint32_t kMaxInputs = 1000;  // of a component
 
-std::uint32_t number_of(std::string_view text) {
+/// Throws std::runtime_error for what is no number up to `max`.
+std::uint32_t number_of(std::string_view text,
+                        std::uint32_t max = std::numeric_limits<std::uint32_t>::max()) {
   std::uint32_t number = 0;
-  std::from_chars(text.data(), text.data() + text.size(), number);
-  return number;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error == std::errc{} && end == text.data() + text.size() && number <= max) return number;
+  throw std::runtime_error(
+      fmt::format("the recording numbers its ports by {}", config::in_quotes(text)));
 }
 
 /// What stands behind `beginning`, or nothing.
@@ -48,14 +55,22 @@ void RecordedRun::read_metadata(const std::filesystem::path& file) {
     });
   };
   while (reader.next() && !has_all()) continue;
+  problems_ = reader.problems();
   for (const McapMetadata& metadata : reader.metadata()) {
     for (const auto& [key, value] : metadata.values) {
       if (metadata.name == kDeploymentMetadata) {
         if (key == "deployment") deployment_ = value;
+        if (key == "run") run_ = value;
         if (const auto name = behind("file of ", key)) files_[*name] = value;
       } else if (metadata.name == kProcessMetadata) {
         if (key == "process") process_ = value;
         if (key == "processor") processor_ = value;
+        if (key == "whole" && value == "no") {
+          throw std::runtime_error(
+              fmt::format("'{}' begins in the midst of a run (around_faults_s), and components "
+                          "cannot be repeated without what they had done before",
+                          file.string()));
+        }
         if (const auto plugin = behind("library of ", key)) libraries_[*plugin] = value;
       }
     }
@@ -75,7 +90,7 @@ void RecordedRun::read_ports(const McapMetadata& metadata) {
     if (key == "component") component = value;
     if (const auto writer = behind("writer ", key)) ports.outputs[number_of(*writer)] = value;
     if (const auto input = behind("input ", key)) {
-      const std::size_t index = number_of(*input);
+      const std::size_t index = number_of(*input, kMaxInputs);
       if (ports.inputs.size() <= index) ports.inputs.resize(index + 1);
       ports.inputs[index] = value;
     }
@@ -113,12 +128,51 @@ std::optional<msg::Activation> RecordedRun::next() {
       keep(*message);
       continue;
     }
+    if (!is_next(message->sequence)) return std::nullopt;
     msg::Activation activation;
     if (type.decode(message->data, &activation)) return activation;
     throw std::runtime_error(
         fmt::format("'{}' holds activations of another version", file_.string()));
   }
   return std::nullopt;
+}
+
+/// Activations are numbered without a gap, whatever component they are of.
+bool RecordedRun::is_next(std::uint32_t sequence) {
+  const std::uint32_t missing = sequence - last_activation_ - 1;
+  last_activation_ = sequence;
+  if (missing == 0) return true;
+  problems_.push_back(fmt::format(
+      "activations are missing before the {}th: everything is replayed up to there", sequence));
+  return false;
+}
+
+void RecordedRun::keep_at_least(const std::string& topic, std::size_t samples) {
+  std::size_t& kept = min_kept_[topic];
+  kept = std::max(kept, samples + kMinKept);
+}
+
+std::vector<std::string> RecordedRun::problems() const {
+  std::vector<std::string> problems = problems_;
+  for (const std::string& problem : reader_.problems()) {
+    if (std::ranges::find(problems, problem) == problems.end()) problems.push_back(problem);
+  }
+  return problems;
+}
+
+std::map<std::string, std::string> RecordedRun::unrecorded_ends() const {
+  std::map<std::string, std::string> ends;
+  for (const McapMetadata& metadata : reader_.metadata()) {
+    if (metadata.name != kEndMetadata) continue;
+    for (const auto& [key, value] : metadata.values) {
+      if (const auto name = behind("lost of ", key)) {
+        ends[*name] = fmt::format("{} of its activations were not recorded", value);
+      }
+      if (const auto name = behind("running in ", key))
+        ends[*name] = "its last call did not return";
+    }
+  }
+  return ends;
 }
 
 void RecordedRun::keep(const McapMessage& message) {
@@ -132,7 +186,9 @@ void RecordedRun::keep(const McapMessage& message) {
   samples.push_back({.sequence = message.sequence,
                      .at = message.log_time,
                      .cdr = {message.data.begin(), message.data.end()}});
-  while (samples.size() > min_kept_ && samples.front().at < message.log_time - kKept) {
+  const auto known = min_kept_.find(message.channel->topic);
+  const std::size_t min_kept = known == min_kept_.end() ? kMinKept : known->second;
+  while (samples.size() > min_kept && samples.front().at < message.log_time - kKept) {
     samples.pop_front();
   }
 }

@@ -31,7 +31,10 @@ class RecordedRun {
   /// Throws std::runtime_error for a file that is no such recording.
   explicit RecordedRun(const std::filesystem::path& file);
 
+  const std::filesystem::path& file() const { return file_; }
   const std::string& process() const { return process_; }
+  /// What all files of one run have in common.
+  const std::string& run() const { return run_; }
   const std::string& processor() const { return processor_; }
   /// The hashes of the plugins' libraries, by plugin.
   const std::map<std::string, std::string>& libraries() const { return libraries_; }
@@ -41,15 +44,20 @@ class RecordedRun {
                                const std::vector<std::string>& assignments,
                                std::vector<std::string>& notes) const;
 
-  /// The samples that an input may have been shown are at most so many behind the newest.
-  void keep_at_least(std::size_t samples) { min_kept_ = samples; }
-  /// The next activation, or nothing at the end of the file. Throws std::runtime_error.
+  /// The samples of `topic` that an input may have been shown are at most so many behind the
+  /// newest.
+  void keep_at_least(const std::string& topic, std::size_t samples);
+  /// The next activation, or nothing at the end of the file, or where activations are missing: no
+  /// component can be followed any further then. Throws std::runtime_error.
   std::optional<msg::Activation> next();
   /// A sample of an activation that was returned last; nothing when it was not recorded.
   std::optional<std::span<const std::byte>> sample(std::uint32_t writer,
                                                    std::uint64_t sequence) const;
-  /// After the end: what is wrong with the file.
-  const std::vector<std::string>& problems() const { return reader_.problems(); }
+  /// After the last activation: what is wrong with the file.
+  std::vector<std::string> problems() const;
+  /// After the last activation: of components whose last ones were lost, or did not return, what
+  /// became of them.
+  std::map<std::string, std::string> unrecorded_ends() const;
 
  private:
   struct Sample {
@@ -61,14 +69,17 @@ class RecordedRun {
   void read_metadata(const std::filesystem::path& file);
   void read_ports(const McapMetadata& metadata);
   void keep(const McapMessage& message);
+  bool is_next(std::uint32_t sequence);
 
   std::filesystem::path file_;
-  std::string deployment_, process_, processor_;
+  std::string deployment_, process_, processor_, run_;
   std::map<std::string, std::string> texts_;  // attachments by name: "robots/arm.yaml"
   std::map<std::string, std::string> files_;  // where they were
   std::map<std::string, std::string> libraries_;
   std::map<std::string, RecordedPorts> components_;
-  std::size_t min_kept_ = 64;
+  std::map<std::string, std::size_t> min_kept_;  // by topic
+  std::uint32_t last_activation_ = 0;
+  std::vector<std::string> problems_;
   McapReader reader_;
   std::map<std::uint16_t, std::uint32_t> writers_;       // by channel
   std::map<std::uint32_t, std::deque<Sample>> samples_;  // by writer

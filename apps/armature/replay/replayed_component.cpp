@@ -68,10 +68,13 @@ Topic& ReplayedComponent::topic_for(const PortBinding& port, const MessageType& 
 std::optional<std::string> ReplayedComponent::repeat(const msg::Activation& call,
                                                      const RecordedRun& run) {
   for (const msg::SampleRead& read : call.read_()) {
-    const Input& input = inputs_.at(read.input_());
+    if (read.input_() >= inputs_.size()) {
+      return fmt::format("it is shown an input {}, of {}", read.input_(), inputs_.size());
+    }
+    const Input& input = inputs_[read.input_()];
     if (!input.port) return fmt::format("it has no input '{}' any more", input.name);
     const auto cdr = run.sample(read.writer_(), read.sequence_());
-    if (!cdr) return fmt::format("its input '{}' is not in the recording", input.name);
+    if (!cdr) return fmt::format("a sample of its input '{}' is not in the recording", input.name);
     SampleRef sample = input.pool->loan();
     if (!input.port->type().decode(*cdr, sample.mutable_message())) {
       return fmt::format("its input '{}' has another layout now", input.name);
@@ -88,6 +91,8 @@ std::optional<std::string> ReplayedComponent::repeat(const msg::Activation& call
   const Time now = stamp_of(call.now_());
   clock_.set(now);
   switch (static_cast<ComponentCall>(call.call_())) {
+    default:
+      return fmt::format("there is no call {}", call.call_());
     case ComponentCall::step:
       runner_->step(now);
       break;

@@ -60,7 +60,7 @@ class ReplayedComponent final : private Delivery, private ActivationTap {
 
   void publish(Topic& topic, SampleRef sample) override;
   void begin(ComponentCall, Time) override {}
-  void end() override {}
+  void end(std::string_view) override {}
   void read(int, std::span<const SampleRef>) override {}
   bool has_subscribers(bool truly) override;
   void published(const SampleRef&) override {}

@@ -17,6 +17,9 @@ namespace {
 std::string why_not_replayed(const ComponentConfig& component) {
   const auto is_impure = [](const SlotConfig& slot) { return !slot.manifest->pure; };
   if (!component.manifest->pure) return component.plugin_id + " says pure: false";
+  if (component.manifest->uses_files) {
+    return component.plugin_id + " writes files, or reads those that messages name";
+  }
   const auto slot = std::ranges::find_if(component.slots, is_impure);
   return slot == component.slots.end() ? "" : slot->plugin_id + " says pure: false";
 }
@@ -28,13 +31,11 @@ ReplayedProcess::ReplayedProcess(RecordedRun& run, PluginRegistry& plugins,
                                  const std::vector<std::string>& only)
     : run_{&run}, config_{run.read_config(plugins, assignments, notes_)} {
   note_other_libraries(run);
-  std::size_t deepest = 0;
   for (const ComponentConfig& component : config_.components) {
     for (const PortBinding& input : component.inputs) {
-      deepest = std::max(deepest, static_cast<std::size_t>(input.spec.queue.value_or(1)));
+      run.keep_at_least(input.topic, static_cast<std::size_t>(input.spec.queue.value_or(1)));
     }
   }
-  run.keep_at_least(deepest);
   for (const auto& [name, ports] : run.components()) {
     const bool is_wanted = only.empty() || std::ranges::find(only, name) != only.end();
     if (is_wanted) construct(name, ports, plugins);

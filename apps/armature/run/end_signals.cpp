@@ -38,11 +38,11 @@ bool is_of_operator(int signal) {
 }
 
 /// Every signal that ends a process which does not handle it, but those of a crash, those that
-/// cannot be handled, and SIGPIPE; and Ctrl-Z, which would halt it with a moving arm.
+/// cannot be handled, SIGPIPE and SIGXFSZ; and Ctrl-Z, which would halt it with a moving arm.
 std::vector<int> all_end_signals() {
   std::vector<int> all{kOfOperator.begin(), kOfOperator.end()};
   all.insert(all.end(), {SIGHUP, SIGUSR1, SIGUSR2, SIGALRM, SIGVTALRM, SIGPROF, SIGIO, SIGPWR,
-                         SIGSTKFLT, SIGXCPU, SIGXFSZ, SIGTSTP});
+                         SIGSTKFLT, SIGXCPU, SIGTSTP});
   for (int signal = SIGRTMIN; signal <= SIGRTMAX; ++signal) all.push_back(signal);
   return all;
 }

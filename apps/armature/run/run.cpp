@@ -214,26 +214,48 @@ void tell_network(const Network& network, Console& console) {
                                             "fingerprint"));
 }
 
-/// As `record:` says, from before the first activation on.
-void begin_recording(Deployment& deployment, const Process& process) {
-  const auto& record = deployment.config().record;
-  if (!record) return;
-  const Time start = deployment.config().simulated ? SystemClock{}.now() : process.origin.start;
-  const std::filesystem::path file = record->file_of(process.name, start);
+/// When the run began, by the system's clock.
+Time started_at(const Deployment& deployment, const Process& process) {
+  return deployment.config().simulated ? SystemClock{}.now() : process.origin.start;
+}
+
+/// Before anything starts: no process of this host may write over a recording that is there.
+void check_recordings(const Deployment& deployment, const Process& process) {
+  const DeploymentConfig& config = deployment.config();
+  if (!config.record || config.record->around_faults) return;
   config::Problems problems;
-  if (std::filesystem::exists(file)) {
-    problems.add(record->origin,
+  for (const std::string& name : config.processes()) {
+    if (config.host_of(name) != config.host_of(process.name)) continue;
+    const std::filesystem::path file =
+        config.record->file_of(name, started_at(deployment, process));
+    std::error_code none;
+    if (std::filesystem::file_size(file, none) == 0 || none) continue;
+    problems.add(config.record->origin,
                  fmt::format("the recording '{}' is there already: move it, or let the name say "
                              "the time, run-%Y%m%d-%H%M%S.mcap",
                              file.string()));
   }
   problems.throw_if_any();
-  std::filesystem::create_directories(file.parent_path());
-  deployment.record(file);
+}
+
+/// As `record:` says, from before the first activation on.
+void begin_recording(Deployment& deployment, const Process& process) {
+  const auto& record = deployment.config().record;
+  if (!record) return;
+  const bool is_simulated = deployment.config().simulated;
+  const auto name_at = [record = *record, name = process.name, is_simulated](Time time) {
+    const std::filesystem::path file =
+        record.file_of(name, is_simulated ? SystemClock{}.now() : time);
+    if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path());
+    return file;
+  };
+  const bool is_around = record->around_faults.has_value();
+  deployment.record(is_around ? record->file : name_at(started_at(deployment, process)), name_at);
 }
 
 int run_main(const RunOptions& options, const Process& process, Deployment& deployment,
              PluginRegistry& plugins, Console& console, LastWord& last_word) {
+  check_recordings(deployment, process);
   ChildProcesses children;
   start_processes(children, options, deployment.config(), process.domain, process.origin);
   deployment.connect(plugins, process.domain, process.origin.run);
@@ -252,6 +274,7 @@ int run_main(const RunOptions& options, const Process& process, Deployment& depl
     children.add_timing(*ending.timing);
   }
   const int code = conclude(options, deployment, ending, console, last_word);
+  deployment.end_recording();
   console.flush();
   leave_if_necessary(deployment, watch, code);
   return code;
@@ -264,6 +287,7 @@ int run_other(const RunOptions& options, const Process& process, Deployment& dep
   watch.on_clock([&](Duration offset) { deployment.follow_clock(offset); });
   deployment.run(watch);
   const int code = conclude_child(options, deployment, watch, last_word);
+  deployment.end_recording();
   console.flush();
   leave_if_necessary(deployment, watch, code);
   return code;
@@ -363,7 +387,8 @@ int run(const RunOptions& options) {
 }  // namespace
 
 int run_deployment(const RunOptions& options) {
-  umask(077);  // what a run writes is about a patient
+  umask(077);                     // what a run writes is about a patient
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may grow no further is told by who writes it
   end_signals::say(
       {.json = options.json, .report_file = options.report ? report_file(*options.report) : ""});
   try {

@@ -17,7 +17,15 @@ constexpr std::chrono::seconds kLongestChunk{1};  // what is lost when the progr
 
 McapQueue::McapQueue(const std::filesystem::path& file, McapWriter::Options options,
                      WhenFull when_full)
-    : writer_{file, std::move(options)}, when_full_{when_full}, thread_{[this] { run(); }} {}
+    : options_{std::move(options)}, when_full_{when_full} {
+  open(file);
+  thread_ = std::thread{[this] { run(); }};
+}
+
+McapQueue::McapQueue(Around around, McapWriter::Options options)
+    : options_{std::move(options)}, when_full_{WhenFull::drop}, around_{std::move(around)} {
+  thread_ = std::thread{[this] { run(); }};
+}
 
 McapQueue::~McapQueue() { end_thread(); }
 
@@ -87,7 +95,7 @@ std::map<std::uint16_t, std::uint64_t> McapQueue::dropped() const {
 void McapQueue::close() {
   end_thread();
   if (!problem_.empty()) throw std::runtime_error(problem_);
-  writer_.close();
+  end_file();
 }
 
 void McapQueue::run() {
@@ -100,9 +108,9 @@ void McapQueue::run() {
     lock.unlock();
     std::string problem;
     try {
-      for (Item& item : taken) write(item);
+      for (Item& item : taken) handle(item);
       if (std::chrono::steady_clock::now() >= chunk_end) {
-        writer_.end_chunk();
+        if (writer_) writer_->end_chunk();
         chunk_end = std::chrono::steady_clock::now() + kLongestChunk;
       }
     } catch (const std::exception& error) {
@@ -116,19 +124,71 @@ void McapQueue::run() {
   }
 }
 
-void McapQueue::write(Item& item) {
-  if (const auto* message = std::get_if<Message>(&item)) {
-    writer_.write(message->channel, message->sequence, message->log_time, message->publish_time,
-                  message->data);
-  } else if (auto* schema = std::get_if<McapSchema>(&item)) {
-    writer_.add(std::move(*schema));
-  } else if (auto* channel = std::get_if<McapChannel>(&item)) {
-    writer_.add(std::move(*channel));
-  } else if (const auto* metadata = std::get_if<McapMetadata>(&item)) {
-    writer_.add(*metadata);
+void McapQueue::handle(Item& item) {
+  auto* message = std::get_if<Message>(&item);
+  if (const auto* mark = std::get_if<Mark>(&item)) {
+    if (around_) begin_around(mark->moment);
+  } else if (!message) {
+    if (writer_) write(item);
+    if (around_) preamble_.push_back(std::move(item));
+  } else if (around_ && writer_ && message->log_time > until_) {
+    end_file();
+    keep(*message);
+  } else if (writer_) {
+    write(item);
   } else {
-    writer_.attach(std::get<McapAttachment>(item));
+    keep(*message);
   }
+}
+
+void McapQueue::write(const Item& item) {
+  if (const auto* message = std::get_if<Message>(&item)) {
+    writer_->write(message->channel, message->sequence, message->log_time, message->publish_time,
+                   message->data);
+  } else if (const auto* schema = std::get_if<McapSchema>(&item)) {
+    writer_->add(*schema);
+  } else if (const auto* channel = std::get_if<McapChannel>(&item)) {
+    writer_->add(*channel);
+  } else if (const auto* metadata = std::get_if<McapMetadata>(&item)) {
+    writer_->add(*metadata);
+  } else if (const auto* attachment = std::get_if<McapAttachment>(&item)) {
+    writer_->attach(*attachment);
+  }
+}
+
+void McapQueue::keep(Message& message) {
+  const Time oldest = message.log_time - around_->before_and_after;
+  kept_bytes_ += message.data.size();
+  kept_.push_back(std::move(message));
+  while (!kept_.empty() && (kept_.front().log_time < oldest || kept_bytes_ > kMaxWaiting)) {
+    kept_bytes_ -= kept_.front().data.size();
+    kept_.pop_front();
+  }
+}
+
+void McapQueue::open(const std::filesystem::path& file) {
+  file_ = file;
+  writer_.emplace(file, options_);
+}
+
+void McapQueue::begin_around(Time moment) {
+  until_ = moment + around_->before_and_after;
+  if (writer_) return;
+  open(around_->file(moment));
+  for (const Item& item : preamble_) write(item);
+  for (Message& message : kept_) write(Item{std::move(message)});
+  kept_.clear();
+  kept_bytes_ = 0;
+}
+
+void McapQueue::end_file() {
+  if (!writer_) return;
+  writer_->close();
+  messages_ += writer_->messages();
+  bytes_ += writer_->bytes();
+  head_ = to_hex(writer_->head());
+  writer_.reset();
+  if (around_) around_->told(file_);
 }
 
 }  // namespace armature

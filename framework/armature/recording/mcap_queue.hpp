@@ -6,8 +6,10 @@
 #include <cstdint>
 #include <deque>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <variant>
@@ -18,16 +20,24 @@
 namespace armature ARMATURE_EXPORT {
 
 /// Writes an MCAP file on a thread of its own, so that nobody waits for the disk. Messages that
-/// come faster than they can be written are dropped and counted, or waited for. All functions may
-/// be called on any thread.
+/// come faster than they can be written are dropped and counted, or waited for. Or keeps the last
+/// seconds in memory, and writes a file around each moment that is marked. All functions may be
+/// called on any thread.
 class McapQueue {
  public:
   static constexpr std::size_t kMaxWaiting = 256U << 20;  // [byte]
 
   enum class WhenFull { drop, wait };
+  /// What is kept in memory, at most kMaxWaiting bytes, and written when a moment is marked.
+  struct Around {
+    Duration before_and_after;
+    std::function<std::filesystem::path(Time)> file;         // of a moment
+    std::function<void(const std::filesystem::path&)> told;  // that the file is whole
+  };
 
   /// Throws std::runtime_error when the file cannot be written.
   McapQueue(const std::filesystem::path& file, McapWriter::Options options, WhenFull when_full);
+  McapQueue(Around around, McapWriter::Options options);
   /// Leaves the file without a summary, unless it was closed.
   ~McapQueue();
   McapQueue(const McapQueue&) = delete;
@@ -43,17 +53,21 @@ class McapQueue {
   void write(std::uint16_t channel, std::uint32_t sequence, Time log_time, Time publish_time,
              std::vector<std::byte> data);
 
+  /// A moment, by the log time of messages, around which everything is to be written. One that
+  /// comes while a file is being written goes into that.
+  void mark(Time moment) { put(Mark{moment}, 0); }
+
   /// Why it cannot write any more; empty: all is well.
   std::string problem() const;
   /// The number of messages that were dropped, by channel.
   std::map<std::uint16_t, std::uint64_t> dropped() const;
   /// Writes what waits, and ends the file. Throws std::runtime_error.
   void close();
-  // After `close`, or while it has thrown:
-  std::uint64_t messages() const { return writer_.messages(); }
-  std::uint64_t bytes() const { return writer_.bytes(); }
-  /// The last hash of the file's chain.
-  std::string head() const { return to_hex(writer_.head()); }
+  // After `close`, or when it has thrown:
+  std::uint64_t messages() const { return messages_; }
+  std::uint64_t bytes() const { return bytes_; }
+  /// The last hash of the last file's chain; empty: there is none.
+  const std::string& head() const { return head_; }
 
  private:
   struct Message {
@@ -62,15 +76,34 @@ class McapQueue {
     Time log_time, publish_time;
     std::vector<std::byte> data;
   };
-  using Item = std::variant<McapSchema, McapChannel, McapMetadata, McapAttachment, Message>;
+  struct Mark {
+    Time moment;
+  };
+  using Item = std::variant<McapSchema, McapChannel, McapMetadata, McapAttachment, Message, Mark>;
 
   void put(Item item, std::size_t bytes);
   void end_thread();
   void run();
-  void write(Item& item);
+  void handle(Item& item);
+  void write(const Item& item);
+  void keep(Message& message);
+  void open(const std::filesystem::path& file);
+  void begin_around(Time moment);
+  void end_file();
 
-  McapWriter writer_;
+  const McapWriter::Options options_;
   const WhenFull when_full_;
+  std::optional<Around> around_;
+  // Of the thread:
+  std::optional<McapWriter> writer_;  // none: what comes is kept
+  std::filesystem::path file_;
+  Time until_;                  // when the file around a moment ends
+  std::vector<Item> preamble_;  // all but messages
+  std::deque<Message> kept_;    // before the next moment
+  std::size_t kept_bytes_ = 0;
+  std::uint64_t messages_ = 0, bytes_ = 0;  // of files that have ended
+  std::string head_;
+  // Of all:
   mutable std::mutex mutex_;
   std::condition_variable news_, space_;
   std::deque<Item> waiting_;

@@ -96,6 +96,7 @@ Deployment::~Deployment() {
     const RunningComponent running{name, "destructor"};
     runner.reset();
   }
+  marked_ = nullptr;
   recorder_.reset();  // holds samples of topics
   options_.on_ending(kTransport);
   topics_.clear();  // outside writers go before the transport
@@ -109,12 +110,14 @@ void Deployment::listen_for_log() {
   };
   sink_ = [this](std::string_view component, std::string_view line, StatusReporter::State state) {
     log_.put(clock_->now(), component, line, state);
+    mark_trouble(state);
     if (options_.on_line) options_.on_line(component, line);
   };
 }
 
 void Deployment::tell(const std::string& text, StatusReporter::State state) {
   log_.put(clock_->now(), kStateComponent, text, state);
+  mark_trouble(state);
   if (print_note_) print_note_(text);
 }
 
@@ -290,13 +293,28 @@ void Deployment::follow_clock(Duration unix_minus_monotonic) {
   if (auto* clock = dynamic_cast<SystemClock*>(clock_.get())) clock->follow(unix_minus_monotonic);
 }
 
-void Deployment::record(const std::filesystem::path& file) {
+void Deployment::record(const std::filesystem::path& file,
+                        const std::function<std::filesystem::path(Time)>& file_at) {
+  const auto tell_file = [this](const std::string& name) {
+    tell("what happened around the trouble is recorded: " + name, StatusReporter::State::ok);
+  };
   RunRecorder::Options options{.file = file,
+                               .around_faults = config_.record->around_faults,
+                               .file_at = file_at,
                                .topics = config_.record->topics,
                                .compress = config_.record->compress,
                                .description = description_of(config_, options_.process, run_),
-                               .on_problem = options_.on_note};
+                               .on_problem = options_.on_note,
+                               .on_file = tell_file};
   recorder_ = std::make_unique<RunRecorder>(std::move(options), config_, runners_, *clock_);
+  marked_.store(recorder_.get(), std::memory_order_release);
+}
+
+void Deployment::mark_trouble(StatusReporter::State state) {
+  if (state == StatusReporter::State::ok) return;
+  if (RunRecorder* recorder = marked_.load(std::memory_order_acquire)) {
+    recorder->mark_trouble(clock_->now());
+  }
 }
 
 void Deployment::connect(PluginRegistry& plugins, int domain, const std::string& run) {

@@ -73,9 +73,13 @@ class Deployment {
   /// on the simulated clock.
   void follow_clock(Duration unix_minus_monotonic);
 
-  /// Records the run into `file` as `record:` says. After connect(). Throws std::runtime_error
-  /// when the file cannot be written.
-  void record(const std::filesystem::path& file);
+  /// Records the run into `file` as `record:` says, or what happens around each trouble into
+  /// `file_at` its time. After connect(). Throws std::runtime_error when the file cannot be
+  /// written.
+  void record(const std::filesystem::path& file,
+              const std::function<std::filesystem::path(Time)>& file_at);
+  /// After the run: ends the recording, if there is one, and tells what became of it.
+  void end_recording();
 
   /// Waits until the topics between this and the other processes have met, so that what is sent
   /// once is not lost, and until `watch` lets it begin. Then runs until a component is finished or
@@ -140,7 +144,7 @@ class Deployment {
   /// Returns why it is to stop.
   std::string run_until_stop(RunWatch& watch);
   std::optional<std::string> stop_cause(RunWatch& watch, Time start);
-  void end_recording();
+  void mark_trouble(StatusReporter::State state);
   bool any_finished() const;
   std::string component_fault() const;
   std::string hang_fault() const;
@@ -163,6 +167,7 @@ class Deployment {
   std::atomic<bool> one_ended_{false};  // finished or failed, and nobody has looked who
   std::vector<std::unique_ptr<ComponentRunner>> runners_;  // in the order of the graph
   std::unique_ptr<RunRecorder> recorder_;                  // null: none
+  std::atomic<RunRecorder*> marked_{nullptr};              // told of troubles
   std::optional<Watchdog> watchdog_;
   std::function<void(const std::string&)> print_note_;
   bool scenario_over_ = false;  // a component has finished

@@ -23,6 +23,7 @@ void Deployment::run(RunWatch& watch) {
   if (await_start(watch)) {
     const std::string cause = run_until_stop(watch);
     stopping_ = true;
+    if (!scenario_over_) mark_trouble(StatusReporter::State::degraded);
     watch.stopping(cause);
     come_to_rest(watch);
   }
@@ -140,7 +141,6 @@ void Deployment::end() {
     tell_ending("driver thread", *runner);
     if (!runner->join_threads(threads_end)) add_hung(*runner, "driver thread", kThreadTimeout);
   }
-  end_recording();
   options_.on_ending("the end of the run");
   if (!remote_) return;
   for (const std::string& refusal : remote_->refusals()) options_.on_note(refusal);
@@ -150,7 +150,8 @@ void Deployment::end_recording() {
   if (!recorder_) return;
   options_.on_ending("the end of the recording");
   try {
-    tell("recorded: " + recorder_->close(), StatusReporter::State::ok);
+    const std::string file = recorder_->close();
+    if (!file.empty()) tell("recorded: " + file, StatusReporter::State::ok);
   } catch (const std::exception& error) {
     options_.on_note(
         fmt::format("the recording has no end: {}; what is in it is made whole by: "

@@ -85,12 +85,17 @@ std::optional<Node> load_robot(const Node::Entry& entry, Problems& problems) {
 /// `name: file.yaml` entries; the files are relative to the YAML file that names them.
 std::map<std::string, Node> read_documents(std::string_view name,
                                            std::span<const Node::Entry> section,
-                                           const RecordedDocuments& recorded, Problems& problems) {
+                                           const RecordedDocuments* recorded, Problems& problems) {
   std::map<std::string, Node> documents;
   for (const Node::Entry& entry : section) {
-    const auto known = recorded.find(fmt::format("{}/{}", name, entry.key));
-    if (known != recorded.end() && entry.value.origin().line > 0) {
-      documents.emplace(entry.key, known->second);
+    if (recorded && entry.value.origin().line > 0) {
+      const std::string file = fmt::format("{}/{}", name, entry.key);
+      const auto known = recorded->find(file);
+      if (known == recorded->end()) {
+        problems.add(entry.key_origin, fmt::format("the recording has no '{}'", file));
+      }
+      documents.emplace(
+          entry.key, known == recorded->end() ? Node::null(entry.value.origin()) : known->second);
       continue;
     }
     const bool is_map = name == kRobotsSection && entry.value.kind() == Node::Kind::map;
@@ -262,7 +267,7 @@ void check_hosts(const DeploymentConfig& deployment, Problems& problems) {
 }  // namespace
 
 DeploymentConfig read_deployment(const Node& root, const PluginRegistry& plugins,
-                                 Problems& problems, const RecordedDocuments& recorded) {
+                                 Problems& problems, const RecordedDocuments* recorded) {
   DeploymentConfig deployment;
   MapReader map{root, "the deployment", deployment_keys(), problems};
   if (!check_is_deployment(root, problems)) return deployment;
@@ -310,7 +315,8 @@ DeploymentConfig read_deployment(const Node& root, const PluginRegistry& plugins
       check_component_needs(deployment, plugins, problems);
       link_parameters(deployment, problems);
       check_goals(deployment, plugins, problems);
-      if (record) check_record(*deployment.record, *record, deployment.components, problems);
+      if (record)
+        check_record(*deployment.record, *record, deployment.name, deployment.components, problems);
     }
   }
   map.finish();

@@ -131,9 +131,10 @@ using RecordedDocuments = std::map<std::string, config::Node>;
 
 /// Reads `root` (a merged document). Every mistake that can be known without loading a library is
 /// added to `problems`; the result is usable only when there is none. `recorded` documents stand
-/// for the files that entries name, but for those that the command line names.
+/// for the files that entries name, but for those that the command line names; null: files are
+/// read.
 DeploymentConfig read_deployment(const config::Node& root, const PluginRegistry& plugins,
                                  config::Problems& problems,
-                                 const RecordedDocuments& recorded = {});
+                                 const RecordedDocuments* recorded = nullptr);
 
 }  // namespace armature

@@ -119,7 +119,12 @@ const std::vector<KeySpec>& record_keys() {
       {.name = "compress",
        .type = Type::flag,
        .doc = "With zstd.",
-       .fallback = default_value("true")}};
+       .fallback = default_value("true")},
+      {.name = "around_faults_s",
+       .doc = "Only so long before and after something went wrong, a file for each time.",
+       .min = 0.1,
+       .max = kLongestWait_s,
+       .optional = true}};
   return kKeys;
 }
 

@@ -39,13 +39,26 @@ RecordConfig read_record(const config::Node& section, config::Problems& problems
   }
   record.topics = map.optional_texts("topics").value_or(std::vector<std::string>{});
   record.compress = map.flag("compress");
+  if (const auto around = map.optional_number("around_faults_s")) {
+    record.around_faults = seconds(*around);
+    if (file.find('%') == std::string::npos) {
+      map.problem("file", fmt::format("{} would be written once: with 'around_faults_s' the name "
+                                      "must say the time, fault-%Y%m%d-%H%M%S.mcap",
+                                      config::in_quotes(file)));
+    }
+  }
   map.finish();
   return record;
 }
 
 void check_record(const RecordConfig& record, const config::Node& section,
-                  const std::vector<ComponentConfig>& components, config::Problems& problems) {
-  std::vector<std::string> topics;
+                  const std::string& deployment, const std::vector<ComponentConfig>& components,
+                  config::Problems& problems) {
+  // The runtime writes some itself, in every process.
+  std::vector<std::string> topics{"/rosout", "/diagnostics", "/clock"};
+  for (const char* own : {"component_states", "description"}) {
+    topics.push_back(fmt::format("/{}/{}", deployment, own));
+  }
   for (const ComponentConfig& component : components) {
     for (const auto* ports : {&component.inputs, &component.outputs}) {
       for (const PortBinding& port : *ports) topics.push_back(port.topic);

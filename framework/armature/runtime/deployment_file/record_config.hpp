@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,7 +20,8 @@ struct RecordConfig {
   std::filesystem::path file;       // may say the time as strftime does: "%Y%m%d-%H%M%S.mcap"
   std::vector<std::string> topics;  // "/dental_lamp/*" for all that begin so; empty: all
   bool compress = true;
-  config::Origin origin;  // of the file's name
+  std::optional<Duration> around_faults;  // only so long before and after one
+  config::Origin origin;                  // of the file's name
 
   /// Where `process` of a run that began at `start` (Unix time) writes: every process but "main"
   /// has a file of its own, "run.vision.mcap".
@@ -28,9 +30,10 @@ struct RecordConfig {
 
 RecordConfig read_record(const config::Node& section, config::Problems& problems);
 
-/// Refuses topics that none of `components` writes or reads.
+/// Refuses topics that neither one of `components` writes or reads nor the runtime writes.
 void check_record(const RecordConfig& record, const config::Node& section,
-                  const std::vector<ComponentConfig>& components, config::Problems& problems);
+                  const std::string& deployment, const std::vector<ComponentConfig>& components,
+                  config::Problems& problems);
 
 /// True when `pattern` is `topic`, or ends in '*' and `topic` begins with what stands before.
 bool matches_topic(std::string_view pattern, std::string_view topic);

@@ -43,16 +43,18 @@ class ComponentRunner::Running {
 /// Tells the tap, if there is one, of a call while it exists.
 class ComponentRunner::Tapped {
  public:
-  Tapped(ActivationTap* tap, ComponentCall call, Time now) : tap_{tap} {
+  Tapped(const ComponentRunner& runner, ComponentCall call, Time now)
+      : runner_{runner}, tap_{runner.inbox().tap()} {
     if (tap_) tap_->begin(call, now);
   }
   ~Tapped() {
-    if (tap_) tap_->end();
+    if (tap_) tap_->end(runner_.faulted() ? runner_.status().reason : std::string{});
   }
   Tapped(const Tapped&) = delete;
   Tapped& operator=(const Tapped&) = delete;
 
  private:
+  const ComponentRunner& runner_;
   ActivationTap* tap_;
 };
 
@@ -78,7 +80,7 @@ void ComponentRunner::activate(Time now, Duration lateness) {
 void ComponentRunner::step(Time now, Duration lateness) {
   if (faulted()) return;
   for (const auto& slot : slots_) slot->exchange();
-  const Tapped tapped{inbox_.tap(), ComponentCall::step, now};
+  const Tapped tapped{*this, ComponentCall::step, now};
   inbox_.show(now);
   activations_.fetch_add(1, std::memory_order_relaxed);
   times_.lateness.add(lateness);
@@ -111,7 +113,7 @@ void ComponentRunner::count_reaction(Time now, Duration duration) {
 void ComponentRunner::answer_stop_request(Time now) {
   if (stop_begun_ || faulted() || !stop_requested_.load(std::memory_order_acquire)) return;
   stop_begun_ = true;
-  const Tapped tapped{inbox_.tap(), ComponentCall::begin_stop, now};
+  const Tapped tapped{*this, ComponentCall::begin_stop, now};
   const Running running{*this, "begin_stop"};
   try {
     component_->begin_stop(now);
@@ -162,7 +164,7 @@ std::uint64_t ComponentRunner::dropped() const {
 
 void ComponentRunner::stop(Time now) {
   if (!component_ || faulted()) return;
-  const Tapped tapped{inbox_.tap(), ComponentCall::stop, now};
+  const Tapped tapped{*this, ComponentCall::stop, now};
   const RunningComponent running{name_, "stop"};
   try {
     component_->stop(now);

@@ -296,6 +296,7 @@ PluginManifest parse_manifest(std::string_view yaml, std::string_view name, Prob
   manifest.hosts = map.text("hosts", "");
   manifest.doc = map.text("doc", "");
   manifest.allocates = map.flag("allocates", false);
+  manifest.uses_files = map.flag("uses_files", false);
   manifest.pure = map.flag("pure", true);
   manifest.runs_programs = map.flag("runs_programs", false);
   if (const Node* uses = map.optional_node("uses")) {

@@ -103,6 +103,7 @@ struct PluginManifest {
   std::string hosts;  // the pure kind that this component runs alone on topics
   std::string doc;
   bool allocates = false;
+  bool uses_files = false;  // besides its parameters: no replay repeats it
   bool pure = true;  // false: equal input may give other output, so no place on the simulated clock
   bool runs_programs = false;        // starts a program that a parameter names
   std::vector<std::string> uses;     // "robot", "rig"

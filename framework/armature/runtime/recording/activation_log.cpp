@@ -21,7 +21,11 @@ void ActivationLog::begin(ComponentCall call, Time now) {
   }
 }
 
-void ActivationLog::end() {
+void ActivationLog::end(std::string_view failure) {
+  if (!failure.empty()) {
+    failure_ = failure;
+    put({.kind = Entry::Kind::failed});
+  }
   put({.kind = Entry::Kind::end});
   is_called_.store(false, std::memory_order_release);
   if (is_too_long_) {
@@ -41,19 +45,20 @@ void ActivationLog::read(int input, std::span<const SampleRef> samples) {
 }
 
 bool ActivationLog::has_subscribers(bool truly) {
-  put({.kind = Entry::Kind::answer, .answer = truly});
+  if (is_of_call()) put({.kind = Entry::Kind::answer, .answer = truly});
   return truly;
 }
 
+bool ActivationLog::is_of_call() const {
+  return is_called() && pthread_equal(thread_.load(std::memory_order_relaxed), pthread_self()) != 0;
+}
+
 void ActivationLog::published(const SampleRef& sample) {
-  const bool is_of_call =
-      is_called_.load(std::memory_order_acquire) &&
-      pthread_equal(thread_.load(std::memory_order_relaxed), pthread_self()) != 0;
-  if (!is_of_call) {
+  if (is_of_call()) {
+    put({.kind = Entry::Kind::published, .number = clock_->now().ns, .sample = sample});
+  } else {
     strays_.fetch_add(1, std::memory_order_relaxed);
-    return;
   }
-  put({.kind = Entry::Kind::published, .number = clock_->now().ns, .sample = sample});
 }
 
 bool ActivationLog::has_room() {

@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "armature/runtime/component/activation_tap.hpp"
@@ -21,7 +23,7 @@ class ActivationLog final : public ActivationTap {
  public:
   /// A part of a call. Its parts follow each other, from `begin` to `end`.
   struct Entry {
-    enum class Kind : std::uint8_t { begin, lost, read, answer, published, end };
+    enum class Kind : std::uint8_t { begin, lost, read, answer, published, failed, end };
     Kind kind = Kind::begin;
     ComponentCall call = ComponentCall::step;  // begin
     bool answer = false;                       // of has_subscribers
@@ -36,13 +38,17 @@ class ActivationLog final : public ActivationTap {
   ActivationLog(std::size_t capacity, const Clock& clock, bool waits);
 
   void begin(ComponentCall call, Time now) override;
-  void end() override;
+  void end(std::string_view failure) override;
   void read(int input, std::span<const SampleRef> samples) override;
   bool has_subscribers(bool truly) override;
   void published(const SampleRef& sample) override;
 
   /// The next part of a call that has ended. Of the recorder's thread.
   std::optional<Entry> take();
+  /// What came out of the call that failed; after its `failed` was taken.
+  const std::string& failure() const { return failure_; }
+  /// Whether a call has begun and not ended. Any thread.
+  bool is_called() const { return is_called_.load(std::memory_order_acquire); }
   /// Calls that were not kept. Any thread.
   std::uint64_t lost() const { return lost_.load(std::memory_order_relaxed); }
   /// Samples that came from other threads than the one that called the component; they belong to no
@@ -53,6 +59,8 @@ class ActivationLog final : public ActivationTap {
   void put(Entry entry);
   void wait_for_room();
   bool has_room();
+  /// Whether this thread is the one that calls the component.
+  bool is_of_call() const;
   Entry& at(std::uint64_t position) { return ring_[position & (ring_.size() - 1)]; }
 
   const Clock* clock_;
@@ -62,6 +70,7 @@ class ActivationLog final : public ActivationTap {
   std::uint64_t next_ = 0;                          // of the running call
   std::uint64_t known_taken_ = 0;                   // as its thread has seen it last
   bool is_too_long_ = false;                        // the running call does not fit
+  std::string failure_;
   std::atomic<bool> is_called_{false};
   std::atomic<pthread_t> thread_{};
   std::atomic<std::uint64_t> lost_{0}, strays_{0};

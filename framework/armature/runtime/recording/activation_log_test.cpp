@@ -23,7 +23,7 @@ class ActivationLogTest : public ::testing::Test {
     const std::array read{pool_.loan()};
     log.read(0, read);
     log.published(read.front());
-    log.end();
+    log.end("");
   }
   static std::vector<Kind> take_all(ActivationLog& log) {
     std::vector<Kind> kinds;
@@ -43,7 +43,7 @@ TEST_F(ActivationLogTest, ShowsACallOnceItHasEnded) {
   EXPECT_TRUE(log.has_subscribers(true));
   log.published(pool_.loan());
   EXPECT_FALSE(log.take());
-  log.end();
+  log.end("");
   const auto begin = log.take();
   ASSERT_TRUE(begin);
   EXPECT_EQ(begin->call, ComponentCall::begin_stop);
@@ -76,6 +76,16 @@ TEST_F(ActivationLogTest, LetsSamplesGoWhenTheyAreTaken) {
   EXPECT_EQ(pool_.grown(), 0U);
 }
 
+TEST_F(ActivationLogTest, KeepsWhatCameOutOfACallThatFailed) {
+  ActivationLog log{16, clock_, false};
+  log.begin(ComponentCall::step, Time{1});
+  EXPECT_TRUE(log.is_called());
+  log.end("step failed: no light");
+  EXPECT_FALSE(log.is_called());
+  EXPECT_EQ(take_all(log), (std::vector{Kind::begin, Kind::failed, Kind::end}));
+  EXPECT_EQ(log.failure(), "step failed: no light");
+}
+
 TEST_F(ActivationLogTest, OnTheSimulatedClockTheComponentWaitsForRoom) {
   ActivationLog log{8, clock_, true};
   std::thread component{[&] {
@@ -98,7 +108,7 @@ TEST_F(ActivationLogTest, WhatAnotherThreadPublishesBelongsToNoCall) {
   ActivationLog log{16, clock_, false};
   log.begin(ComponentCall::step, Time{1});
   std::thread{[&] { log.published(pool_.loan()); }}.join();
-  log.end();
+  log.end("");
   log.published(pool_.loan());
   EXPECT_EQ(take_all(log).size(), 2U);
   EXPECT_EQ(log.strays(), 2U);

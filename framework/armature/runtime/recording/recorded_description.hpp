@@ -3,6 +3,7 @@
 
 #include <map>
 #include <string>
+#include <string_view>
 
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/recording/mcap_queue.hpp"
@@ -13,6 +14,7 @@ namespace armature ARMATURE_EXPORT {
 inline constexpr std::string_view kDeploymentMetadata = "armature.deployment";
 inline constexpr std::string_view kProcessMetadata = "armature.process";
 inline constexpr std::string_view kComponentMetadata = "armature.component";
+inline constexpr std::string_view kEndMetadata = "armature.end";  // missing: it was cut off
 
 /// Puts what a deployment was made from into a recording: the file, its robots and rigs as
 /// attachments, `dental_lamp/dental_lamp.yaml`, `dental_lamp/robots/arm.yaml`, and as metadata its

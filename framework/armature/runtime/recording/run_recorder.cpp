@@ -37,6 +37,18 @@ std::size_t max_waiting(const MessageType& type) {
 
 }  // namespace
 
+McapQueue RunRecorder::queue_of(const Options& options, bool simulated) {
+  McapWriter::Options writer{.library = "armature " ARMATURE_VERSION, .compress = options.compress};
+  if (options.around_faults) {
+    return McapQueue{{.before_and_after = *options.around_faults,
+                      .file = options.file_at,
+                      .told = [told = options.on_file](const auto& file) { told(file.string()); }},
+                     std::move(writer)};
+  }
+  return McapQueue{options.file, std::move(writer),
+                   simulated ? McapQueue::WhenFull::wait : McapQueue::WhenFull::drop};
+}
+
 bool RunRecorder::Sequences::add(std::uint64_t sequence) {
   if (sequence <= through_ || !ahead_.insert(sequence).second) return false;
   while (!ahead_.empty() && (*ahead_.begin() == through_ + 1 || ahead_.size() > kMaxOutOfOrder)) {
@@ -48,14 +60,12 @@ bool RunRecorder::Sequences::add(std::uint64_t sequence) {
 
 RunRecorder::RunRecorder(Options options, const DeploymentConfig& deployment,
                          const Runners& runners, const Clock& clock)
-    : options_{std::move(options)},
-      queue_{options_.file,
-             {.library = "armature " ARMATURE_VERSION, .compress = options_.compress},
-             deployment.simulated ? McapQueue::WhenFull::wait : McapQueue::WhenFull::drop} {
+    : options_{std::move(options)}, queue_{queue_of(options_, deployment.simulated)} {
   const msg::DeploymentDescription& description = options_.description;
   attach_description(description, clock.now(), queue_);
   std::map<std::string, std::string> process{{"process", description.process_()},
-                                             {"processor", processor_level()}};
+                                             {"processor", processor_level()},
+                                             {"whole", options_.around_faults ? "no" : "yes"}};
   for (const auto& component : description.components_()) {
     for (const auto& plugin : component.plugins_()) {
       if (!plugin.library_().empty()) process["library of " + plugin.plugin_()] = plugin.sha256_();
@@ -68,6 +78,9 @@ RunRecorder::RunRecorder(Options options, const DeploymentConfig& deployment,
     const auto config =
         std::ranges::find(deployment.components, runner->name(), &ComponentConfig::name);
     add(*runner, *config, clock, deployment.simulated);
+  }
+  for (std::size_t i = 0; i < runners.size(); ++i) {
+    runners[i]->inbox().set_tap(&components_[i]->log);
   }
   thread_ = std::thread{[this] { run(); }};
 }
@@ -100,7 +113,6 @@ void RunRecorder::add(ComponentRunner& runner, const ComponentConfig& config, co
   if (!component.is_of_runtime) {
     queue_.add(McapMetadata{.name = std::string{kComponentMetadata}, .values = std::move(ports)});
   }
-  runner.inbox().set_tap(&component.log);
 }
 
 RunRecorder::Channel& RunRecorder::add_channel(std::uint32_t writer, const std::string& topic,
@@ -114,21 +126,28 @@ RunRecorder::Channel& RunRecorder::add_channel(std::uint32_t writer, const std::
 
 void RunRecorder::run() {
   prepare_thread({.name = "recorder"});
-  while (!ends_.load(std::memory_order_acquire)) {
+  try {
+    while (!ends_.load(std::memory_order_acquire)) {
+      take_all();
+      std::this_thread::sleep_for(kPause);
+    }
     take_all();
-    std::this_thread::sleep_for(kPause);
+  } catch (const std::exception& error) {
+    tell_problem(error.what());
   }
-  take_all();
 }
 
 void RunRecorder::take_all() {
   for (const auto& component : components_) {
     while (auto entry = component->log.take()) take(*component, *entry);
   }
-  if (told_problem_) return;
-  const std::string problem = queue_.problem();
-  if (problem.empty()) return;
-  told_problem_ = true;
+  const std::int64_t trouble_ns = trouble_ns_.exchange(kNoTrouble, std::memory_order_relaxed);
+  if (trouble_ns != kNoTrouble) queue_.mark(Time{trouble_ns});
+  if (const std::string problem = queue_.problem(); !problem.empty()) tell_problem(problem);
+}
+
+void RunRecorder::tell_problem(const std::string& problem) {
+  if (std::exchange(told_problem_, true)) return;
   options_.on_problem(fmt::format("the recording ends here, the run goes on: {}", problem));
 }
 
@@ -143,6 +162,7 @@ void RunRecorder::take(Component& component, ActivationLog::Entry& entry) {
       call.read_().clear();
       call.had_subscribers_().clear();
       call.written_().clear();
+      call.failure_().clear();
       return;
     case Kind::lost:
       call.lost_before_(static_cast<std::uint64_t>(entry.number));
@@ -172,6 +192,9 @@ void RunRecorder::take(Component& component, ActivationLog::Entry& entry) {
       written.sequence_(info.sequence);
       return;
     }
+    case Kind::failed:
+      call.failure_(component.log.failure());
+      return;
     case Kind::end:
       if (!component.is_of_runtime) write(call, stamp_of(call.now_()));
   }
@@ -203,14 +226,37 @@ void RunRecorder::end_thread() {
 
 std::string RunRecorder::close() {
   end_thread();
+  add_end();
   queue_.close();
-  std::uint64_t lost = 0;
-  for (const auto& component : components_) lost += component->log.lost();
+  if (options_.around_faults) return {};
+  std::uint64_t lost = 0, strays = 0;
+  for (const auto& component : components_) {
+    lost += component->log.lost();
+    strays += component->log.strays();
+  }
   for (const auto& [channel, count] : queue_.dropped()) lost += count;
-  return fmt::format(
-      "{}: {} messages, {} activations, {:.3f} MB{}", options_.file.string(), queue_.messages(),
-      count_, 1e-6 * static_cast<double>(queue_.bytes()),
-      lost == 0 ? "" : fmt::format("; {} came faster than they could be written", lost));
+  std::string text = fmt::format("{}: {} messages, {} activations, {:.3f} MB, last hash {}",
+                                 options_.file.string(), queue_.messages(), count_,
+                                 1e-6 * static_cast<double>(queue_.bytes()), queue_.head());
+  if (lost > 0) text += fmt::format("; {} came faster than they could be written", lost);
+  if (strays > 0)
+    text += fmt::format("; {} samples of threads of components are not in it", strays);
+  return text;
+}
+
+/// What a replay cannot see in the activations: those that were lost last, and calls that have not
+/// returned. Where this is missing, the recording was cut off.
+void RunRecorder::add_end() {
+  std::map<std::string, std::string> values;
+  for (const auto& component : components_) {
+    const std::string& name = component->call.component_();
+    if (component->is_of_runtime) continue;
+    if (const auto lost = component->log.lost()) {
+      values["lost of " + name] = fmt::format("{}", lost);
+    }
+    if (component->log.is_called()) values["running in " + name] = "1";
+  }
+  queue_.add(McapMetadata{.name = std::string{kEndMetadata}, .values = std::move(values)});
 }
 
 }  // namespace armature

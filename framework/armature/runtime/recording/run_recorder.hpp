@@ -28,6 +28,9 @@ class RunRecorder {
  public:
   struct Options {
     std::filesystem::path file;
+    /// Only so long before and after each trouble; then `file_at` names the file of each.
+    std::optional<Duration> around_faults = {};
+    std::function<std::filesystem::path(Time)> file_at = {};
     /// "/dental_lamp/*" stands for all that begin so; empty: all. The recording of a topic that is
     /// named whole counts as a reader of it.
     std::vector<std::string> topics;
@@ -35,6 +38,8 @@ class RunRecorder {
     msg::DeploymentDescription description;  // of the process
     /// Told once, on another thread, when nothing more can be written.
     std::function<void(const std::string&)> on_problem;
+    /// Told of each file around a trouble, on another thread.
+    std::function<void(const std::string&)> on_file = {};
   };
   using Runners = std::vector<std::unique_ptr<ComponentRunner>>;
 
@@ -46,8 +51,12 @@ class RunRecorder {
   RunRecorder(const RunRecorder&) = delete;
   RunRecorder& operator=(const RunRecorder&) = delete;
 
+  /// Something has gone wrong at `now`, by the deployment's clock. Any thread; real-time safe.
+  void mark_trouble(Time now) { trouble_ns_.store(now.ns, std::memory_order_relaxed); }
+
   /// After the last call of a component: writes what waits, and ends the file. What became of it:
-  /// "run.mcap: 61124 messages, 12000 activations, 69.1 MB".
+  /// "run.mcap: 61124 messages, 12000 activations, 69.1 MB, last hash 5d1c..", or nothing where
+  /// each file was told.
   std::string close();
 
  private:
@@ -89,6 +98,9 @@ class RunRecorder {
     void deliver(const SampleRef&) override {}
   };
 
+  static McapQueue queue_of(const Options& options, bool simulated);
+  void add_end();
+  void tell_problem(const std::string& problem);
   void add(ComponentRunner& runner, const ComponentConfig& config, const Clock& clock,
            bool simulated);
   Channel& add_channel(std::uint32_t writer, const std::string& topic, const MessageType& type);
@@ -107,6 +119,8 @@ class RunRecorder {
   std::unordered_map<std::uint32_t, Channel> channels_;  // by writer
   Reader reader_;                                        // of topics that are named whole
   bool told_problem_ = false;
+  static constexpr std::int64_t kNoTrouble = -1;
+  std::atomic<std::int64_t> trouble_ns_{kNoTrouble};
   std::atomic<bool> ends_{false};
   std::thread thread_;
 };

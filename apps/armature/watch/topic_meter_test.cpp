@@ -32,6 +32,16 @@ TEST(TopicMeter, TellsWhatCameSinceTheLastLookWithoutAGapBetweenTheLooks) {
   EXPECT_EQ(meter.all().samples, 30U);
 }
 
+TEST(TopicMeter, CountsWhatWasLostInAllAndSinceTheLastLook) {
+  TopicMeter meter;
+  meter.add({.source = Time{0}});
+  meter.add({.source = Time{1}, .lost_before = 3});
+  EXPECT_EQ(meter.take_recent().lost, 3U);
+  meter.add({.source = Time{2}, .lost_before = 1});
+  EXPECT_EQ(meter.take_recent().lost, 1U);
+  EXPECT_EQ(meter.all().lost, 4U);
+}
+
 TEST(TopicMeter, HasNoRateBeforeTheSecondSample) {
   TopicMeter meter;
   EXPECT_EQ(meter.all().hz(), 0);

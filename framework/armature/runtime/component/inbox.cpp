@@ -20,6 +20,7 @@ InputPort::InputPort(PortSpec spec, const MessageType& type, Inbox& inbox)
 }
 
 void InputPort::deliver(const SampleRef& sample) {
+  if (const auto lost = sample.info().lost_before) inbox_->count_lost(lost);
   if (!heeds_ || heeds_(sample.message())) inbox_->arrived(*this, sample);
 }
 
@@ -74,12 +75,16 @@ InputPort& Inbox::add(PortSpec spec, const MessageType& type) {
   return port;
 }
 
+void Inbox::count_lost(std::uint64_t samples) {
+  const std::scoped_lock lock{mutex_};
+  if (!closed_) dropped_ += samples;
+}
+
 void Inbox::arrived(InputPort& port, const SampleRef& sample) {
   bool triggered = false;
   {
     const std::scoped_lock lock{mutex_};
     if (closed_) return;
-    dropped_ += sample.info().lost_before;
     if (port.spec_.join) {
       if (port.unmatched_.size() == InputPort::kJoinDepth)
         port.unmatched_.erase(port.unmatched_.begin());

@@ -106,6 +106,7 @@ class Inbox {
  private:
   friend class InputPort;
   void arrived(InputPort& port, const SampleRef& sample);
+  void count_lost(std::uint64_t samples);
   bool match_joined();
 
   std::function<void()> on_trigger_;

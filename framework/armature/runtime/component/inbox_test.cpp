@@ -65,6 +65,26 @@ TEST_F(InboxTest, QueueShowsEverySampleOnceAndDropsTheOldestWhenFull) {
   EXPECT_TRUE(shown(port).empty());
 }
 
+TEST_F(InboxTest, SamplesThatWereLostOnTheWayCountAsDroppedAlsoWhereTheNextIsNotHeeded) {
+  InputPort& port = add({.name = "in"});
+  const auto send_after = [&](std::uint64_t lost) {
+    SampleRef sample = pool.loan();
+    sample.mutable_info().lost_before = lost;
+    port.deliver(sample);
+    sample.mutable_info().lost_before = 0;
+  };
+  send_after(0);
+  EXPECT_EQ(inbox.dropped(), 0U) << "overwritten by the newest, as `latest` wants it";
+  send_after(2);
+  EXPECT_EQ(inbox.dropped(), 2U);
+  port.heed_only([](const void*) { return false; });
+  send_after(1);
+  EXPECT_EQ(inbox.dropped(), 3U);
+  inbox.close();
+  send_after(5);
+  EXPECT_EQ(inbox.dropped(), 3U);
+}
+
 TEST_F(InboxTest, WhatArrivesWhileAStepRunsIsShownToTheNextOne) {
   InputPort& port = add({.name = "in", .queue = 4});
   send(port, 1);

@@ -120,6 +120,8 @@ struct Contents {
   std::map<std::string, TopicCount> topics;
   std::vector<McapSummary::Attachment> attachments;
   std::vector<McapMetadata> metadata;
+  std::uint64_t links = 0;  // of the chain of hashes, as the summary says
+  std::string head;
 };
 
 double rate(std::uint64_t messages, Duration length) {
@@ -141,7 +143,9 @@ Contents contents_of(const McapSummary& summary) {
                     .unpacked_bytes = summary.unpacked_bytes,
                     .topics = {},
                     .attachments = summary.attachments,
-                    .metadata = summary.metadata};
+                    .metadata = summary.metadata,
+                    .links = summary.links,
+                    .head = summary.head};
   for (const auto& [id, channel] : summary.channels) {
     TopicCount& topic = contents.topics[channel.topic];
     topic.type = type_of(channel, summary.schemas);
@@ -212,6 +216,7 @@ Json json_of(const Contents& contents, const std::vector<std::string>& problems)
   for (const McapMetadata& metadata : contents.metadata) {
     json["metadata"].push_back({{"name", metadata.name}, {"values", metadata.values}});
   }
+  if (contents.links > 0) json["chain"] = {{"links", contents.links}, {"head", contents.head}};
   return json;
 }
 
@@ -235,6 +240,10 @@ void print(const Contents& contents) {
       fmt::print(" {}={}", shown(key), shown(value));
     }
     fmt::print("\n");
+  }
+  if (contents.links > 0) {
+    fmt::print("  {} links, the last is {}: --verify holds the file to them\n", contents.links,
+               contents.head);
   }
 }
 

@@ -26,7 +26,15 @@ struct FastDdsLink {
   std::mutex pools_mutex;
   std::vector<std::unique_ptr<SamplePool>> pools;  // of the readers; may outlive them
   std::unique_ptr<Participant> participant;        // goes first: its threads use the rest
-  std::unique_ptr<Egress> egress;
+  std::unique_ptr<Egress> egress, picture_egress;
+
+  /// Pictures have a thread of their own: while DDS sends parts of one again, or the network takes
+  /// no more, its writer waits, and a command must not.
+  Egress& egress_for(QosProfile qos) {
+    auto& one = qos == QosProfile::sensor ? picture_egress : egress;
+    if (!one) one = std::make_unique<Egress>();
+    return *one;
+  }
 
   EndpointTag tag_for(const MessageType& type) const {
     EndpointTag made = tag;

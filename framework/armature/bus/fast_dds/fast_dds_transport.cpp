@@ -72,7 +72,6 @@ Expected<std::unique_ptr<Transport>> FastDdsTransport::make(const TransportOptio
                                         .receive_buffer = receive_buffer});
   if (!participant) return tl::unexpected{participant.error()};
   link->participant = std::move(*participant);
-  link->egress = std::make_unique<Egress>();
   return std::make_unique<FastDdsTransport>(std::move(link));
 }
 

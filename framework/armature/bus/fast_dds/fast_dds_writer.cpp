@@ -32,8 +32,9 @@ class FastDdsWriter final : public RemoteWriter, private dds::DataWriterListener
         *topic, writer_qos(settings_, to_user_data(link_->tag_for(*topic_.type))), this);
     if (!writer_)
       return refuse("DDS: cannot create a writer on '" + ros_topic_name(topic_.name) + "'");
-    queue_ = link_->egress->open(static_cast<std::size_t>(settings_.depth),
-                                 [this](const SampleRef& sample) { send(sample); });
+    queue_ = link_->egress_for(topic_.qos)
+                 .open(static_cast<std::size_t>(settings_.depth),
+                       [this](const SampleRef& sample) { send(sample); });
     link_->conflicts.own_endpoint_added({.writes = true, .topic = topic_}, participant.discovery());
     return {};
   }

@@ -92,6 +92,32 @@ TEST_F(Pictures, ThatOneProcessIsSlowToTakeReachTheOthersInTime) {
   expect_all_accounted_for(now(late));
 }
 
+TEST_F(Pictures, ThatTakeLongToSendHoldUpNoCommand) {
+  static std::atomic<bool> is_sending{false}, may_end{false};
+  MessageType slow = message_type<msg::Image>();
+  slow.encode = [](const void* message, std::vector<std::byte>& cdr) {
+    is_sending = true;
+    while (!may_end) std::this_thread::sleep_for(1ms);
+    message_type<msg::Image>().encode(message, cdr);
+  };
+  const auto camera = make_transport(), arm = make_transport();
+  SamplePool pool{slow, 1};
+  const TopicSpec left{"rt/test/left", &slow, QosProfile::sensor};
+  const auto picture = camera->advertise(left).value();
+  const auto command = camera->advertise(command_).value();
+  const auto eye = arm->subscribe(left, true, [](const SampleRef&) {}).value();
+  const auto reader = arm->subscribe(command_, true, collect()).value();
+  EXPECT_TRUE(eventually([&] { return picture->peers() == 1 && command->peers() == 1; }));
+  picture->offer(pool.loan());
+  EXPECT_TRUE(eventually([] { return is_sending.load(); }));
+  EXPECT_TRUE(eventually([&] {
+    command->offer(sample(1));
+    std::this_thread::sleep_for(10ms);
+    return received() > 0;
+  })) << "while the picture is being sent";
+  may_end = true;
+}
+
 TEST_F(Pictures, LoseNoCommandAndHoldNoneUp) {
   Peer peer{domain_, "lamp", "f00d", "pictures"};
   const auto transport = process(kReceiveBuffer);

@@ -24,6 +24,8 @@ constexpr std::size_t kLongestText = 1U << 20;  // [byte] of what a client says
 constexpr std::size_t kHead = 16;
 constexpr const char* kNoProtocol = "http-only";
 constexpr lws_usec_t kRound_us = 100'000;
+constexpr std::size_t kPagePart = 32U << 10;  // [byte] of a page, at a time
+constexpr int kPagePatience_s = 20;           // for who reads no part of it
 
 /// Without telling by its time how much of it is right.
 bool same_token(std::string_view a, std::string_view b) {
@@ -142,6 +144,11 @@ class WebServer::Impl {
     switch (reason) {
       case LWS_CALLBACK_HTTP:
         return answer_browser(connection);
+      case LWS_CALLBACK_HTTP_WRITEABLE:
+        return write_page(connection);
+      case LWS_CALLBACK_CLOSED_HTTP:
+        page_written_.erase(connection);
+        return 0;
       case LWS_CALLBACK_FILTER_PROTOCOL_CONNECTION:
         return may_connect(connection) ? 0 : 1;
       case LWS_CALLBACK_ESTABLISHED:
@@ -195,30 +202,78 @@ class WebServer::Impl {
     if (origin.empty()) return "";
     const std::string own = header_of(connection, WSI_TOKEN_HOST);
     const std::string bound = fmt::format("{}:{}", options_.address, port());
+    // The token was right where there is one: a name that somebody else bends to this machine has
+    // none.
     const bool is_own =
-        origin == "http://" + own && (own == bound || own == fmt::format("localhost:{}", port()));
+        origin == "http://" + own &&
+        (own == bound || own == fmt::format("localhost:{}", port()) || !options_.token.empty());
     const bool is_known = std::ranges::find(options_.origins, origin) != options_.origins.end();
     if (is_own || is_known) return "";
     return fmt::format("a page from {0} was refused; to let it in: --origin {0}",
                        config::in_quotes(origin));
   }
 
-  int answer_browser(lws* connection) const {
-    std::array<unsigned char, LWS_PRE + 2048> buffer{};
+  int answer_browser(lws* connection) {
+    const bool gets = lws_hdr_total_length(connection, WSI_TOKEN_GET_URI) > 0;
+    const bool asks_head = lws_hdr_total_length(connection, WSI_TOKEN_HEAD_URI) > 0;
+    if (!gets && !asks_head) {
+      return lws_return_http_status(connection, HTTP_STATUS_METHOD_NOT_ALLOWED, nullptr) != 0 ? -1
+                                                                                              : 0;
+    }
+    if (header_of(connection, gets ? WSI_TOKEN_GET_URI : WSI_TOKEN_HEAD_URI) != "/") {
+      return lws_return_http_status(connection, HTTP_STATUS_NOT_FOUND, nullptr) != 0 ? -1 : 0;
+    }
+    if (!write_page_head(connection)) return 1;
+    if (asks_head || options_.page.text.empty()) return completed(connection);
+    page_written_[connection] = 0;
+    lws_callback_on_writable(connection);
+    return 0;
+  }
+
+  bool write_page_head(lws* connection) const {
+    const Page& page = options_.page;
+    std::array<unsigned char, LWS_PRE + 4096> buffer{};
     unsigned char* start = buffer.data() + LWS_PRE;
     unsigned char* at = start;
     unsigned char* end = buffer.data() + buffer.size() - 1;
-    const std::string& page = options_.page;
-    if (lws_add_http_common_headers(connection, HTTP_STATUS_OK, "text/plain; charset=utf-8",
-                                    page.size(), &at, end) != 0 ||
-        lws_finalize_write_http_header(connection, start, &at, end) != 0) {
-      return 1;
+    const auto add = [&](const char* name, const std::string& value) {
+      return lws_add_http_header_by_name(connection, reinterpret_cast<const unsigned char*>(name),
+                                         reinterpret_cast<const unsigned char*>(value.data()),
+                                         static_cast<int>(value.size()), &at, end) == 0;
+    };
+    return lws_add_http_common_headers(connection, HTTP_STATUS_OK, page.type.c_str(),
+                                       page.text.size(), &at, end) == 0 &&
+           add("content-security-policy:", page.security_policy) &&
+           add("cache-control:", "no-store") &&  // another armature may be at this port tomorrow
+           add("referrer-policy:", "no-referrer") &&  // the address may have the token
+           add("x-content-type-options:", "nosniff") &&
+           lws_finalize_write_http_header(connection, start, &at, end) == 0;
+  }
+
+  /// A part of the page: others are served between two of them.
+  int write_page(lws* connection) {
+    const auto found = page_written_.find(connection);
+    if (found == page_written_.end()) return 0;
+    const std::string& text = options_.page.text;
+    const std::size_t size = std::min(kPagePart, text.size() - found->second);
+    scratch_.resize(LWS_PRE + size);
+    std::memcpy(scratch_.data() + LWS_PRE, text.data() + found->second, size);
+    found->second += size;
+    const bool is_last = found->second == text.size();
+    if (lws_write(connection, scratch_.data() + LWS_PRE, size,
+                  is_last ? LWS_WRITE_HTTP_FINAL : LWS_WRITE_HTTP) < static_cast<int>(size)) {
+      return -1;
     }
-    std::vector<unsigned char> body(LWS_PRE + page.size());
-    std::memcpy(body.data() + LWS_PRE, page.data(), page.size());
-    if (lws_write(connection, body.data() + LWS_PRE, page.size(), LWS_WRITE_HTTP_FINAL) < 0) {
-      return 1;
+    if (is_last) {
+      page_written_.erase(found);
+      return completed(connection);
     }
+    lws_set_timeout(connection, PENDING_TIMEOUT_HTTP_CONTENT, kPagePatience_s);
+    lws_callback_on_writable(connection);
+    return 0;
+  }
+
+  static int completed(lws* connection) {
     return lws_http_transaction_completed(connection) != 0 ? -1 : 0;
   }
 
@@ -271,6 +326,7 @@ class WebServer::Impl {
   bool ends_ = false;
   Client last_client_ = 0;
   std::map<Client, Session> sessions_;
+  std::map<lws*, std::size_t> page_written_;  // [byte] to each browser that reads it
   std::vector<unsigned char> scratch_;
 };
 

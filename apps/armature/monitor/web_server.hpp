@@ -17,6 +17,12 @@ namespace armature {
 /// protocol the server speaks, that come from a page of a foreign origin, or have no right token.
 class WebServer {
  public:
+  /// What is told over HTTP, at `/` alone, whole and to everybody.
+  struct Page {
+    std::string text;
+    std::string type = "text/plain; charset=utf-8";
+    std::string security_policy = "default-src 'none'";  // Content-Security-Policy
+  };
   struct Options {
     std::string address = "127.0.0.1";  // IPv4, that it is bound to
     int port = 0;                       // 0: any that is free
@@ -25,7 +31,7 @@ class WebServer {
     std::vector<std::string> origins;
     std::string token;                    // empty: none is asked for
     std::size_t queue_bytes = 16U << 20;  // of a client
-    std::string page;                     // plain text for whoever comes with a browser
+    Page page;                            // for whoever comes with a browser
   };
   using Client = std::uint64_t;  // never used twice
   /// All are called by `serve`.

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a running deployment tells of itself: its components with parameters and ports, how they
+// are, what its files say.
+import type {Hub} from './hub';
+import type {Message} from './message/decoder';
+
+export const kStates = ['ok', 'degraded', 'fault', 'stalled'] as const;
+
+export interface Port {
+  name: string;
+  output: boolean;
+  feedback: boolean;
+  topic: string;
+  type: string;
+  qos: string;
+  reliable: boolean;
+  doc: string;
+}
+export interface Component {
+  name: string;
+  plugin: string;
+  executor: string;
+  process: string;
+  plugins: {slot: string; plugin: string; parameters: {name: string; value: string; origin: string}[]}[];
+  ports: Port[];
+}
+export interface ComponentCondition {
+  state: number;
+  reason: string;
+  hz: number;
+  missed: number;
+  dropped: number;
+  stepP99: number;  // [s]
+  latenessP99: number;
+  reaction: {source: string; p99: number} | undefined;  // the slowest
+}
+
+export class Deployment {
+  components: Component[] = [];
+  configuration = '';
+  run = '';
+  version = '';
+  fingerprint = '';
+  processes: string[] = [];
+  told: string[] = [];  // processes that have told of themselves
+  documents: {section: string; name: string; text: string}[] = [];
+  private seen = -1;
+
+  constructor(private readonly hub: Hub, readonly name: string, readonly namespace: string) {}
+
+  get descriptionTopic() { return `${this.namespace}/description`; }
+  get statesTopic() { return `${this.namespace}/component_states`; }
+  /// A topic as layouts name it: "tool_pose" stands in the namespace, "/tf" does not.
+  topic(name: string) { return name.startsWith('/') ? name : `${this.namespace}/${name}`; }
+
+  /// Reads again what has come since; true: something has changed.
+  update(): boolean {
+    const log = this.hub.log(this.descriptionTopic);
+    if (log.version === this.seen) return false;
+    this.seen = log.version;
+    const newest: Message | undefined = log.message(log.last);
+    if (!newest) return false;
+    const byProcess = new Map<string, Message>();
+    for (let i = 0; i < log.length; ++i) {
+      const message = log.message(log.entry(i));
+      if (message?.run === newest.run) byProcess.set(message.process, message);
+    }
+    this.run = newest.run;
+    this.version = newest.version;
+    this.fingerprint = newest.fingerprint;
+    this.processes = newest.processes;
+    this.told = [...byProcess.keys()];
+    this.configuration = newest.configuration;
+    this.documents = newest.documents;
+    this.components = [...byProcess.values()].flatMap(
+        (message) => message.components.map((one: Component) => ({...one, process: message.process})));
+    return true;
+  }
+
+  /// How the components were at a time, from the newest message of each process.
+  conditionsAt(t: number): Map<string, ComponentCondition> {
+    const log = this.hub.log(this.statesTopic);
+    const found = new Map<string, ComponentCondition>();
+    const done = new Set<string>();
+    for (let i = log.indexAt(t), steps = 0; i >= 0 && steps < 4 * Math.max(1, this.processes.length); --i, ++steps) {
+      const entry = log.entry(i)!;
+      if (entry.t < t - 5 && done.size > 0) break;
+      const message = log.message(entry);
+      if (!message || done.has(message.process)) continue;
+      done.add(message.process);
+      const previous = this.previous(i, message.process);
+      for (const one of message.components) {
+        const before = previous?.message.components.find((other: Message) => other.component === one.component);
+        const activations = before ? Number(one.activations) - Number(before.activations) : NaN;
+        const reactions = [...one.reactions].sort((a: Message, b: Message) => b.age.p99 - a.age.p99);
+        found.set(one.component, {
+          state: one.state,
+          reason: one.reason,
+          hz: previous ? activations / (entry.t - previous.t) : NaN,
+          missed: Number(one.overruns),
+          dropped: Number(one.dropped),
+          stepP99: one.step.p99,
+          latenessP99: one.lateness.p99,
+          reaction: reactions[0] ? {source: reactions[0].source, p99: reactions[0].age.p99} : undefined,
+        });
+      }
+    }
+    return found;
+  }
+  private previous(i: number, process: string): {t: number; message: Message} | undefined {
+    const log = this.hub.log(this.statesTopic);
+    for (let j = i - 1; j >= 0 && j >= i - 8; --j) {
+      const message = log.message(log.entry(j));
+      if (message?.process === process) return {t: log.entry(j)!.t, message};
+    }
+    return undefined;
+  }
+
+  /// The limits that the deployment file sets: `goals:` of its YAML.
+  goals(): Map<string, number> {
+    const goals = new Map<string, number>();
+    const part = /^goals:[^\n]*\n((?:[ \t]+[^\n]*\n?|#[^\n]*\n)*)/m.exec(this.configuration)?.[1] ?? '';
+    for (const [, name, value] of part.matchAll(/^\s+(\w+):\s*(-?[\d.eE+-]+)/gm)) goals.set(name!, Number(value));
+    return goals;
+  }
+}
+
+/// All deployments that the topics tell of, by name.
+export function deploymentsOf(hub: Hub): {name: string; namespace: string}[] {
+  return hub.ofType('armature_msgs/msg/DeploymentDescription').map((topic) => {
+    const namespace = topic.replace(/\/description$/, '');
+    return {name: namespace.replace(/^\//, ''), namespace};
+  });
+}

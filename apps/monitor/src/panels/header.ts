@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// The head of the page, for those who stand two metres away: what runs, what it does, how near it is
+// to its goals, whether all is well.
+import {kStateSigns} from '../colours';
+import {kStates, type Deployment} from '../deployment';
+import type {Series} from '../layouts/layout';
+import {make, write, type View} from '../view';
+import {formatted} from './plot_panel';
+
+export interface Headline {
+  series: Series;
+  unit: string;
+  value: number;
+  goal: number | undefined;
+}
+const kStepSigns = ['○', '?', '▶', '✓', '✖'];
+const kStepWords = ['ahead', 'waits for its confirmation', 'active', 'done', 'broken off'];
+
+export class Header {
+  private readonly chooser = make('select', {'aria-label': 'Deployment', hidden: true});
+  private readonly name = make('h1', {}, 'Armature');
+  private readonly story = make('p', {class: 'story'});
+  private readonly task = make('strong', {class: 'task', role: 'status'});
+  private readonly steps = make('ol', {class: 'steps', 'aria-label': 'Steps of the procedure'});
+  private readonly figures = make('ul', {class: 'figures', 'aria-label': 'Figures against their goals'});
+  private readonly health = make('p', {class: 'health', role: 'status'});
+  private readonly connection = make('p', {class: 'connection', role: 'status'});
+  private names = '';
+
+  constructor(element: HTMLElement, onChoose: (namespace: string) => void) {
+    this.chooser.addEventListener('change', () => onChoose(this.chooser.value));
+    element.append(
+        make('div', {class: 'who'}, make('div', {class: 'title'}, this.name, this.chooser), this.story),
+        make('div', {class: 'doing'}, this.task, this.steps), this.figures,
+        make('div', {class: 'well'}, this.health, this.connection));
+  }
+  static taskTopic(deployment: Deployment | undefined) { return deployment?.topic('task/state') ?? ''; }
+
+  draw(view: View, deployments: {name: string; namespace: string}[], headlines: Headline[]) {
+    const {hub, deployment, layout, t} = view;
+    const key = deployments.map(({namespace}) => namespace).join();
+    if (key !== this.names) {
+      this.names = key;
+      this.chooser.replaceChildren(...deployments.map(({name, namespace}) => make('option', {value: namespace}, name)));
+    }
+    this.chooser.hidden = deployments.length < 2;
+    if (deployment) this.chooser.value = deployment.namespace;
+    this.name.hidden = !this.chooser.hidden;
+    write(this.name, layout.title ?? deployment?.name ?? 'Armature');
+    write(this.story, deployment ? layout.story : hub.condition === 'connected' ? 'No deployment runs on this domain' : '');
+    this.drawTask(view);
+    this.drawFigures(headlines);
+    this.drawHealth(view, t);
+    const lost = hub.condition === 'lost' || hub.condition === 'refused';
+    write(this.connection, `${lost ? '▲ ' : ''}${hub.condition === 'connected' ? (view.isLive ? '● live' : '❚❚ paused') : hub.text}`);
+    this.connection.classList.toggle('lost', lost);
+    document.body.classList.toggle('lost', lost);
+  }
+
+  private drawTask({hub, deployment, t}: View) {
+    const state = deployment ? hub.at(Header.taskTopic(deployment), t) : undefined;
+    const position = state?.steps > 0 ? ` ${state.step}/${state.steps}` : '';
+    write(this.task, state ? `${state.paused ? '❚❚ paused: ' : ''}${state.state}${position}` : '');
+    const steps: {name: string; state: number}[] = state?.procedure ?? [];
+    while (this.steps.children.length > steps.length) this.steps.lastChild!.remove();
+    steps.forEach(({name, state: how}, i) => {
+      const item = (this.steps.children[i] as HTMLElement | undefined) ?? this.steps.appendChild(make('li'));
+      write(item, `${kStepSigns[how] ?? ''} ${name}`);
+      item.className = `step${how}`;
+      item.setAttribute('aria-label', `${name}: ${kStepWords[how] ?? ''}`);
+    });
+  }
+  private drawFigures(headlines: Headline[]) {
+    while (this.figures.children.length > headlines.length) this.figures.lastChild!.remove();
+    headlines.forEach(({series, unit, value, goal}, i) => {
+      const item = (this.figures.children[i] as HTMLElement | undefined) ??
+          this.figures.appendChild(make('li', {}, make('span', {class: 'name'}), make('b'), make('span', {class: 'goal'})));
+      const met = goal !== undefined && Number.isFinite(value) ? (value <= goal ? 'met' : 'not met') : '';
+      write(item.children[0]!, series.label);
+      write(item.children[1]!, `${formatted(value, series.digits)} ${unit}`);
+      write(item.children[2]!, goal === undefined ? '' : `goal ${goal}${met === 'met' ? ' ✓' : met ? ' ✗' : ''}`);
+      item.className = met.replace(' ', '-');
+    });
+  }
+  private drawHealth({deployment, hub}: View, t: number) {
+    if (!deployment || deployment.components.length === 0) return write(this.health, '');
+    const conditions = deployment.conditionsAt(t);
+    const bad = [...conditions].filter(([, one]) => one.state !== 0);
+    const silent = deployment.processes.filter((process) => !deployment.told.includes(process));
+    const newest = hub.log(deployment.statesTopic).last?.t ?? NaN;
+    const worst = Math.max(0, ...bad.map(([, one]) => one.state));
+    let text = `${kStateSigns[worst]} ${conditions.size - bad.length} of ${deployment.components.length} ok`;
+    if (bad[0]) text += `; ${bad[0][0]} ${kStates[bad[0][1].state] ?? '?'}: ${bad[0][1].reason}`;
+    if (silent.length > 0) text += `; ${silent.join(', ')} has told nothing`;
+    if (t - newest > 3 && t >= newest) text = `▲ nothing told of the components for ${(t - newest).toFixed(0)} s`;
+    write(this.health, text);
+    this.health.title = text;
+    this.health.className = `health state${t - newest > 3 && t >= newest ? 1 : worst}`;
+    return undefined;
+  }
+}

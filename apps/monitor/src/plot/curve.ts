@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// The values of one expression over time, as far back as its topics are remembered.
+import type {Hub} from '../hub';
+import {parseExpression, type Expression} from './expression';
+
+const kMaxPoints = 20000;
+
+export class Curve {
+  readonly topics: string[];  // in full
+  times: number[] = [];
+  values: (number | null)[] = [];
+  version = 0;
+  private expression: Expression;
+  private seenTo = -Infinity;
+  private clock: string;
+
+  /// `full` makes a topic's full name of that in the expression. Throws what parseExpression throws.
+  constructor(private readonly text: string, private readonly full: (topic: string) => string) {
+    this.expression = parseExpression(text);
+    this.topics = [...new Set(this.expression.topics.map(full))];
+    this.clock = this.topics[0] ?? '';
+    if (this.clock === '') throw new Error('an expression needs a topic, in braces');
+  }
+  clear() {
+    this.expression = parseExpression(this.text);  // what it remembers, too
+    this.times = [];
+    this.values = [];
+    this.seenTo = -Infinity;
+    ++this.version;
+  }
+  /// Evaluates what has come since, at every message of the first topic.
+  update(hub: Hub) {
+    const clock = hub.log(this.clock);
+    if (clock.length === 0) {
+      if (this.times.length > 0) this.clear();
+      return;
+    }
+    if (this.times.length > 0 && clock.first!.t < this.times[0]! - 0.5) this.clear();
+    const others = this.topics.slice(1).map((topic) => hub.log(topic));
+    for (let i = clock.indexAt(this.seenTo) + 1; i < clock.length; ++i) {
+      const {t} = clock.entry(i)!;
+      // What does not come yet may come a little later: the first values wait for it.
+      if (this.times.length === 0 && others.some((log) => log.length === 0)) break;
+      const value = this.expression.evaluate((topic) => {
+        const name = this.full(topic);
+        if (name === this.clock) return clock.message(clock.entry(i));
+        const log = hub.log(name);
+        return log.at(t) ?? (log.length <= 2 ? log.message(log.first) : undefined);
+      });
+      this.times.push(t);
+      this.values.push(Number.isFinite(value) ? value : null);
+      this.seenTo = t;
+      ++this.version;
+    }
+    this.forgetBefore(hub.recording ? -Infinity : hub.store.newest - hub.store.windowS);
+  }
+  at(t: number): number {
+    let low = 0, high = this.times.length;
+    while (low < high) {
+      const middle = (low + high) >> 1;
+      if (this.times[middle]! <= t) low = middle + 1;
+      else high = middle;
+    }
+    return low > 0 && t - this.times[low - 1]! < 5 ? this.values[low - 1] ?? NaN : NaN;
+  }
+  private forgetBefore(t: number) {
+    let count = Math.max(0, this.times.length - kMaxPoints);
+    while (count < this.times.length && this.times[count]! < t) ++count;
+    if (count < 50 && count < this.times.length) return;
+    this.times.splice(0, count);
+    this.values.splice(0, count);
+  }
+}

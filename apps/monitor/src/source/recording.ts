@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+// A recording as a source: keeps the messages round the time that is looked at, the seldom ones all.
+import type {RecordingFile} from './recording_file';
+import type {Source, SourceEvents} from './source';
+
+const kWholeS = 150;     // [s] a recording that is no longer is kept whole
+const kAroundS = 45;     // [s] before and after, of a longer one
+const kSeldom = 600;     // messages of a topic that is kept whole: what still holds may be old
+const kSliceMs = 10;     // reading leaves the page time to draw
+
+export class Recording implements Source {
+  readonly kind = 'recording';
+  from: number;
+  to: number;
+  /// Nothing is being read.
+  isIdle = true;
+  private wanted: ReadonlySet<string> = new Set();
+  private loaded = new Set<string>();
+  private job = 0;
+
+  constructor(readonly file: RecordingFile, private readonly events: SourceEvents) {
+    const isShort = file.end - file.start <= kWholeS;
+    this.from = file.start;
+    this.to = isShort ? file.end : file.start + 2 * kAroundS;
+    events.topics(file.topics);
+    this.tell();
+  }
+  want(topics: ReadonlySet<string>) {
+    this.wanted = topics;
+    const missing = [...topics].filter((topic) => this.file.topics.has(topic) && !this.loaded.has(topic));
+    if (missing.length > 0) void this.load();
+  }
+  /// Moves what is kept so that `t` is in it.
+  lookAt(t: number) {
+    const nearEdge = (t < this.from + 5 && this.from > this.file.start) ||
+                     (t > this.to - 5 && this.to < this.file.end);
+    if (!nearEdge) return;
+    this.from = Math.max(this.file.start, t - kAroundS);
+    this.to = Math.min(this.file.end, t + kAroundS);
+    for (const topic of [...this.loaded]) {
+      if (this.isSeldom(topic)) continue;
+      this.events.forget(topic);
+      this.loaded.delete(topic);
+    }
+    ++this.job;
+    this.isIdle = true;
+    void this.load();
+  }
+  close() { ++this.job; }
+
+  private isSeldom(topic: string) { return (this.file.topics.get(topic)?.count ?? 0) <= kSeldom; }
+  private tell() {
+    const {name, messages, topics, remark} = this.file;
+    this.events.condition(
+        this.isIdle ? 'read' : 'reading',
+        `${name}: ${messages} messages of ${topics.size} topics${remark ? `. ${remark}` : ''}`);
+  }
+
+  /// One after the other, until all that is wanted is there.
+  private async load() {
+    if (!this.isIdle) return;
+    this.isIdle = false;
+    const job = ++this.job;
+    this.tell();
+    try {
+      for (;;) {
+        const missing = [...this.wanted].filter((t) => this.file.topics.has(t) && !this.loaded.has(t));
+        if (missing.length === 0) break;
+        missing.forEach((topic) => this.loaded.add(topic));
+        const seldom = new Set(missing.filter((topic) => this.isSeldom(topic)));
+        const often = new Set(missing.filter((topic) => !this.isSeldom(topic)));
+        await this.read(seldom, -Infinity, Infinity, job);
+        await this.read(often, this.from, this.to, job);
+        if (job !== this.job) return;
+      }
+    } catch (error) {
+      this.events.warning(`The recording cannot be read: ${(error as Error).message}`);
+    }
+    if (job !== this.job) return;
+    this.isIdle = true;
+    this.tell();
+  }
+  private async read(topics: ReadonlySet<string>, from: number, to: number, job: number) {
+    if (topics.size === 0) return;
+    let sliceEnd = performance.now() + kSliceMs;
+    for await (const {topic, t, bytes} of this.file.read(topics, from, to)) {
+      if (job !== this.job) return;
+      this.events.message(topic, t, bytes);
+      if (performance.now() < sliceEnd) continue;
+      await new Promise((resolve) => setTimeout(resolve));
+      sliceEnd = performance.now() + kSliceMs;
+    }
+  }
+}

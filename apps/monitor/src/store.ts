@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+// Remembers the messages of every topic that somebody looks at, as far back as the window reaches
+// and in bounded memory. Messages stay packed until somebody wants one.
+import type {Decode, Message} from './message/decoder';
+
+export interface Entry {
+  t: number;  // [s] when it was sent
+  bytes: Uint8Array;
+}
+
+const kOverhead = 160;  // [byte] of an entry, beside its message
+const kUnpacked = 96;   // messages of a topic that stay unpacked
+
+export class TopicLog {
+  private entries: Entry[] = [];
+  private unpacked = new Map<Entry, Message>();
+  decode: Decode | string = 'its type is not known yet';
+  bytes = 0;
+  received = 0;  // since it was cleared
+  version = 0;   // changes with the entries
+
+  constructor(readonly name: string) {}
+
+  get length() { return this.entries.length; }
+  get first() { return this.entries[0]; }
+  get last() { return this.entries[this.entries.length - 1]; }
+  entry(i: number): Entry | undefined { return this.entries[i]; }
+
+  /// In order of time; several writers of a topic may come out of turn.
+  add(entry: Entry) {
+    let i = this.entries.length;
+    while (i > 0 && this.entries[i - 1]!.t > entry.t) --i;
+    if (i === this.entries.length) this.entries.push(entry);
+    else this.entries.splice(i, 0, entry);
+    this.bytes += entry.bytes.byteLength + kOverhead;
+    ++this.received;
+    ++this.version;
+  }
+
+  /// Forgets what is older than `t`, but for the last of those: it still holds.
+  forgetBefore(t: number) {
+    let count = 0;
+    while (count + 1 < this.entries.length && this.entries[count + 1]!.t <= t) ++count;
+    this.drop(count);
+  }
+  drop(count: number) {
+    if (count <= 0) return;
+    for (const entry of this.entries.splice(0, count)) {
+      this.bytes -= entry.bytes.byteLength + kOverhead;
+      this.unpacked.delete(entry);
+    }
+    ++this.version;
+  }
+  clear() {
+    this.entries = [];
+    this.unpacked.clear();
+    this.bytes = 0;
+    this.received = 0;
+    ++this.version;
+  }
+
+  /// Index of the last entry that was sent until `t`; -1: there is none.
+  indexAt(t: number): number {
+    let low = 0, high = this.entries.length;
+    while (low < high) {
+      const middle = (low + high) >> 1;
+      if (this.entries[middle]!.t <= t) low = middle + 1;
+      else high = middle;
+    }
+    return low - 1;
+  }
+  /// The message of an entry; undefined when it is not what its type says.
+  message(entry: Entry | undefined): Message | undefined {
+    if (!entry || typeof this.decode === 'string') return undefined;
+    const known = this.unpacked.get(entry);
+    if (known !== undefined) return known;
+    let message: Message;
+    try {
+      message = this.decode(entry.bytes);
+    } catch (error) {
+      this.decode = `a message of it cannot be read: ${(error as Error).message}`;
+      return undefined;
+    }
+    if (this.unpacked.size >= kUnpacked) this.unpacked.delete(this.unpacked.keys().next().value!);
+    this.unpacked.set(entry, message);
+    return message;
+  }
+  at(t: number): Message | undefined { return this.message(this.entries[this.indexAt(t)]); }
+}
+
+export class Store {
+  readonly topics = new Map<string, TopicLog>();
+  windowS = 60;
+  maxBytes = 192e6;
+  newest = NaN;  // [s] of all messages
+  private sinceTrim = 0;
+
+  log(topic: string): TopicLog {
+    let log = this.topics.get(topic);
+    if (!log) this.topics.set(topic, (log = new TopicLog(topic)));
+    return log;
+  }
+  add(topic: string, t: number, bytes: Uint8Array) {
+    this.log(topic).add({t, bytes});
+    if (!(t <= this.newest)) this.newest = t;
+    if (++this.sinceTrim >= 500) this.trim();
+  }
+  bytes(): number {
+    let sum = 0;
+    for (const log of this.topics.values()) sum += log.bytes;
+    return sum;
+  }
+  /// What is too old goes, and when that is not enough the oldest of what takes most.
+  trim() {
+    this.sinceTrim = 0;
+    for (const log of this.topics.values()) log.forgetBefore(this.newest - this.windowS);
+    while (this.bytes() > this.maxBytes) {
+      const largest = [...this.topics.values()].reduce((a, b) => (a.bytes >= b.bytes ? a : b));
+      if (largest.length <= 1) break;
+      largest.drop(Math.ceil(largest.length / 8));
+    }
+  }
+  /// The earliest time at which something that moves can be shown.
+  get oldest(): number {
+    let oldest = this.newest;
+    for (const log of this.topics.values()) {
+      if (log.length > 8) oldest = Math.min(oldest, log.first!.t);
+    }
+    return Math.max(oldest, this.newest - this.windowS);
+  }
+  clear() {
+    for (const log of this.topics.values()) log.clear();
+    this.newest = NaN;
+  }
+}

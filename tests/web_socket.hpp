@@ -23,14 +23,17 @@ class WebSocket {
   };
 
   /// `headers`: lines of the request beside the usual ones, "Origin: http://..".
-  WebSocket(int port, const std::string& headers, const std::string& path = "/")
+  /// `host`: by which name the machine was asked, 127.0.0.1 with the port unless said otherwise.
+  WebSocket(int port, const std::string& headers, const std::string& path = "/",
+            const std::string& host = "")
       : file_{socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)} {
     sockaddr_in address{};
     address.sin_family = AF_INET;
     address.sin_port = htons(static_cast<std::uint16_t>(port));
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
     if (connect(file_, reinterpret_cast<sockaddr*>(&address), sizeof address) != 0) return;
-    say("GET " + path + " HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(port) +
+    say("GET " + path +
+        " HTTP/1.1\r\nHost: " + (host.empty() ? "127.0.0.1:" + std::to_string(port) : host) +
         "\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
         "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n" +
         headers + "\r\n");

@@ -10,6 +10,8 @@
 #include "armature/messages/known_types.hpp"
 #include "command.hpp"
 #include "tests/dds_domain.hpp"
+#include "tests/http.hpp"
+#include "tests/text.hpp"
 #include "tests/web_socket.hpp"
 
 namespace armature::test {
@@ -28,10 +30,10 @@ class Monitor : public testing::Test {
     words.insert(words.end(), more.begin(), more.end());
     return Command{words};
   }
-  /// The port of its first line, "ws://127.0.0.1:39201/?token=..".
+  /// The port of its first line, "http://127.0.0.1:39201/?token=..".
   static int port_of(const Command& monitor) {
     EXPECT_TRUE(monitor.wait_for_out("\n", kPatience)) << monitor.err();
-    const std::string line = monitor.out();
+    const std::string line = monitor.out().substr(0, monitor.out().find('\n'));
     return std::stoi(line.substr(line.rfind(':') + 1));
   }
   static std::string protocol(const std::string& name) {
@@ -98,6 +100,16 @@ TEST_F(Monitor, ShowsTopicsAsTheyAreOnDdsInBothProtocols) {
   }
   monitor.signal(SIGINT);
   EXPECT_EQ(monitor.finish(kPatience).exit_code, 0);
+}
+
+TEST_F(Monitor, TellsItsPageAndItsSocketAndServesThePage) {
+  const Command monitor = start({});
+  const std::string place = "127.0.0.1:" + std::to_string(port_of(monitor));
+  EXPECT_TRUE(monitor.wait_for_out("ws://" + place + "\n", kPatience));
+  EXPECT_EQ(monitor.out(), "http://" + place + "/\nws://" + place + "\n");
+  const std::string answer = HttpClient{port_of(monitor), "GET /"}.read_all();
+  const std::string page = text_of(source_file("apps/monitor/bundle/index.html"));
+  EXPECT_TRUE(answer.ends_with("\r\n\r\n" + page)) << answer.substr(0, 400);
 }
 
 TEST_F(Monitor, GivesWhatIsKeptForLateComersToEachOfThem) {

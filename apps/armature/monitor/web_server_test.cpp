@@ -6,13 +6,17 @@
 #include <atomic>
 #include <chrono>
 #include <cstring>
+#include <memory>
 #include <thread>
+#include <vector>
 
+#include "tests/http.hpp"
 #include "tests/web_socket.hpp"
 
 namespace armature {
 namespace {
 
+using test::HttpClient;
 using test::WebSocket;
 
 const std::string kProtocol = "Sec-WebSocket-Protocol: lamp.v1\r\n";
@@ -143,6 +147,79 @@ TEST_F(WebServerWithToken, RefusesWhoDoesNotKnowIt) {
   EXPECT_FALSE(opens(kProtocol, "/?token=secre"));
   EXPECT_FALSE(opens(kProtocol, "/?token=secretsecret"));
   EXPECT_TRUE(opens(kProtocol, "/?token=secret"));
+}
+
+TEST_F(WebServerWithToken, LetsItsOwnPageInByWhateverNameTheMachineHas) {
+  const std::string port = std::to_string(server_.port()), host = "lamp.local:" + port;
+  const std::string page = kProtocol + "Origin: http://" + host + "\r\n";
+  EXPECT_TRUE(WebSocket(server_.port(), page, "/?token=secret", host).is_open());
+  EXPECT_FALSE(WebSocket(server_.port(), page, "/?token=wrong", host).is_open());
+  EXPECT_FALSE(WebSocket(server_.port(), page, "/?token=secret").is_open()) << "of another host";
+}
+
+TEST_F(WebServerTest, RefusesANameThatSomebodyElseBendsToThisMachine) {
+  const std::string host = "evil.example:" + std::to_string(server_.port());
+  EXPECT_FALSE(WebSocket(server_.port(), kProtocol + "Origin: http://" + host + "\r\n", "/", host)
+                   .is_open());
+}
+
+/// A page that is larger than what a connection takes at once.
+class WebServerWithPage : public WebServerTest {
+ protected:
+  WebServerWithPage()
+      : WebServerTest{{.protocols = {"lamp.v1"},
+                       .page = {.text = page(),
+                                .type = "text/html; charset=utf-8",
+                                .security_policy = "default-src 'none'; script-src 'self'"}}} {}
+  static std::string page() {
+    std::string text;
+    while (text.size() < (3U << 20)) text += std::to_string(text.size()) + " light\n";
+    return text;
+  }
+};
+
+TEST_F(WebServerWithPage, GivesItWholeWithWhatItMayDo) {
+  const std::string answer = HttpClient{server_.port(), "GET /"}.read_all();
+  const std::size_t end = answer.find("\r\n\r\n");
+  ASSERT_NE(end, std::string::npos) << answer.substr(0, 100);
+  const std::string head = answer.substr(0, end);
+  EXPECT_TRUE(head.starts_with("HTTP/1.1 200 "));
+  EXPECT_NE(head.find("content-security-policy: default-src 'none'; script-src 'self'\r\n"),
+            std::string::npos)
+      << head;
+  EXPECT_NE(head.find("content-type: text/html; charset=utf-8\r\n"), std::string::npos) << head;
+  EXPECT_NE(head.find("cache-control: no-store"), std::string::npos) << head;
+  EXPECT_TRUE(answer.substr(end + 4) == page()) << answer.size() - end - 4 << " bytes";
+}
+
+TEST_F(WebServerWithPage, GivesTheHeadAloneToWhoAsksForThat) {
+  const std::string answer = HttpClient{server_.port(), "HEAD /"}.read_all();
+  EXPECT_TRUE(answer.starts_with("HTTP/1.1 200 ")) << answer;
+  EXPECT_TRUE(answer.ends_with("\r\n\r\n")) << answer;
+  EXPECT_NE(answer.find("content-length: " + std::to_string(page().size())), std::string::npos);
+}
+
+TEST_F(WebServerWithPage, HasNothingElseAndTakesNothing) {
+  EXPECT_TRUE(HttpClient(server_.port(), "GET /secret").read_all().starts_with("HTTP/1.1 404 "));
+  EXPECT_TRUE(
+      HttpClient(server_.port(), "GET /../etc/passwd").read_all().starts_with("HTTP/1.1 404 "));
+  EXPECT_TRUE(HttpClient(server_.port(), "POST /").read_all().starts_with("HTTP/1.1 405 "));
+}
+
+TEST_F(WebServerWithPage, BrowsersThatReadNothingOfItSlowNobody) {
+  std::vector<std::unique_ptr<HttpClient>> lazy;
+  for (int i = 0; i < 10; ++i) {
+    lazy.push_back(std::make_unique<HttpClient>(server_.port(), "GET /"));
+  }
+  WebSocket socket{server_.port(), kProtocol};
+  ASSERT_TRUE(socket.is_open());
+  for (int i = 0; i < 100; ++i) {
+    socket.send_text(std::to_string(i));
+    const auto frame = socket.next();
+    ASSERT_TRUE(frame);
+    ASSERT_EQ(frame->payload, "heard " + std::to_string(i));
+  }
+  EXPECT_TRUE(HttpClient(server_.port(), "GET /").read_all().ends_with(page().substr(1U << 20)));
 }
 
 TEST(WebServer, SaysThatItsPortIsTaken) {

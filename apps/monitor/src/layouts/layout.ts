@@ -27,7 +27,8 @@ export interface PlotLayout {
 export interface Tool {
   frame: string;
   kind: 'lamp' | 'needle' | 'drill' | 'shaft';
-  length?: number;  // [m] behind the tip
+  length?: number;   // [m] behind the tip
+  instead?: string;  // the link of the arm that it is: its own drawing tells nothing of it
 }
 export interface ImageLayout {
   title: string;
@@ -46,6 +47,7 @@ export interface Layout {
     frames: string[];  // topics with transforms, beside /tf
     bodies: {topic: string; label: string}[];
     face?: string;
+    labels?: {at: string; text: string}[];  // at a frame, or at a marker: namespace/id
     hide?: string[];     // markers that something else shows better: namespace, or namespace/id
   };
   images: ImageLayout[];

@@ -61,7 +61,7 @@ export class Header {
     const state = deployment ? hub.at(Header.taskTopic(deployment), t) : undefined;
     const position = state?.steps > 0 ? ` ${state.step}/${state.steps}` : '';
     write(this.task, state ? `${state.paused ? '❚❚ paused: ' : ''}${state.state}${position}` : '');
-    const steps: {name: string; state: number}[] = state?.procedure ?? [];
+    const steps = shortened(state?.procedure ?? []);
     while (this.steps.children.length > steps.length) this.steps.lastChild!.remove();
     steps.forEach(({name, state: how}, i) => {
       const item = (this.steps.children[i] as HTMLElement | undefined) ?? this.steps.appendChild(make('li'));
@@ -98,4 +98,15 @@ export class Header {
     this.health.className = `health state${t - newest > 3 && t >= newest ? 1 : worst}`;
     return undefined;
   }
+}
+
+/// Of many steps the one that is active and its neighbours; how many others are done and ahead.
+function shortened(steps: {name: string; state: number}[]): {name: string; state: number}[] {
+  if (steps.length <= 5) return steps;
+  const done = steps.filter(({state}) => state === 3).length;
+  const others = steps.filter(({state}) => state !== 3 && state !== 0), ahead = steps.filter(({state}) => state === 0);
+  const shown = done > 0 ? [{name: `${done} done`, state: 3}, ...others] : others;
+  shown.push(...ahead.slice(0, 2));
+  if (ahead.length > 2) shown.push({name: `${ahead.length - 2} more`, state: 0});
+  return shown;
 }

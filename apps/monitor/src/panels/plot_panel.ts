@@ -11,7 +11,7 @@ import {numericFields} from '../message/fields';
 import {Curve} from '../plot/curve';
 import {make, write, type Panel, type View} from '../view';
 
-const kSecondsShown = 60;
+const kSecondsShown = 60, kFewestSecondsShown = 10;
 
 interface Shown {
   series: Series;
@@ -80,7 +80,10 @@ export class PlotPanel implements Panel {
     const {width, height} = this.size();
     if (this.plot.width !== width || this.plot.height !== height) this.plot.setSize({width, height});
     this.offset = view.isLive ? t : view.hub.recording ? view.hub.recording.file.start : view.hub.store.newest;
-    const from = view.hub.recording ? Math.max(view.hub.recording.from, t - kSecondsShown) : this.offset - kSecondsShown;
+    // As far back as there is something to see.
+    const first = Math.min(...this.shown.map(({curve}) => curve.times[0] ?? Infinity));
+    const back = Math.min(kSecondsShown, Math.max(kFewestSecondsShown, this.offset - first));
+    const from = view.hub.recording ? Math.max(view.hub.recording.from, t - kSecondsShown) : this.offset - (view.isLive ? back : Math.max(back, this.offset - t));
     const to = view.hub.recording ? Math.min(view.hub.recording.to, Math.max(t, from + kSecondsShown)) : this.offset;
     this.plot.setData(this.table(), false);
     this.plot.batch(() => {
@@ -125,7 +128,7 @@ export class PlotPanel implements Panel {
       axes: [
         {...axis, values: (_, splits) => splits.map((s) => `${Number(s.toFixed(3))} s`), space: 70, size: 30},
         {...axis, size: 62, values: (_, splits) => splits.map((v) => (v === null ? '' : shortNumber(v))), label: this.layout.unit, labelSize: 18, labelFont: '13px system-ui, sans-serif', labelGap: 0,
-         ...(log ? {filter: (_: uPlot, splits: number[]) => splits.map((v) => (Math.abs(Math.log10(v) - Math.round(Math.log10(v))) < 1e-6 ? v : null)) as number[]} : {})},
+         ...(log ? {filter: decades, grid: {...axis.grid, filter: decades}, ticks: {...axis.ticks, filter: decades}} : {})},
       ],
       series: [{}, ...this.shown.map((_, i) => ({
         stroke: kCurves[i % kCurves.length]!, width: 2.2, dash: kDashes[i % kDashes.length]!, spanGaps: false, points: {show: false},
@@ -221,6 +224,10 @@ export class PlotPanel implements Panel {
 
 export function formatted(value: number, digits = 3): string {
   return Number.isFinite(value) ? (Math.abs(value) < 1e4 ? value.toFixed(digits) : value.toExponential(2)) : '–';
+}
+/// Of a logarithmic axis: powers of ten alone.
+function decades(_: uPlot, splits: number[]): (number | null)[] {
+  return splits.map((v) => (Math.abs(Math.log10(v) - Math.round(Math.log10(v))) < 1e-6 ? v : null));
 }
 function shortNumber(value: number): string {
   return value !== 0 && (Math.abs(value) < 1e-3 || Math.abs(value) >= 1e5) ? value.toExponential(0) : String(Number(value.toPrecision(6)));

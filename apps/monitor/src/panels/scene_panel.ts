@@ -26,10 +26,10 @@ export class ScenePanel implements Panel {
   readonly id = 'scene';
   readonly title = 'Arm';
   readonly element = make('div', {class: 'scene'});
-  readonly intervalMs = 33;
   readonly frames = new Frames();
   readonly robots = new Robots();
   readonly frameTimes: number[] = [];  // [ms] of the last drawings
+  private readonly labels = make('div', {class: 'labels', 'aria-hidden': 'true'});
   private readonly canvas = make('canvas', {
     tabindex: 0, role: 'img',
     'aria-label': 'The arm in three dimensions. Drag to turn, wheel or pinch to come nearer. Keys F, S, T: front, side, top; V: as at first.',
@@ -64,7 +64,7 @@ export class ScenePanel implements Panel {
       buttons.append(this.button(name, key, () => this.lookFrom(new Vector3(...direction))));
     }
     buttons.append(this.button('View', 'v', () => (this.framed = false)));
-    this.element.append(this.canvas, buttons, this.legend, this.note);
+    this.element.append(this.canvas, this.labels, buttons, this.legend, this.note);
     this.canvas.addEventListener('keydown', (event) => {
       const view = kViews.find(([, key]) => key === event.key.toLowerCase());
       if (view) this.lookFrom(new Vector3(...view[2]));
@@ -79,6 +79,11 @@ export class ScenePanel implements Panel {
     }
   }
 
+  /// At most 30 a second, and half of the time where drawing is slow.
+  get intervalMs() {
+    const times = this.frameTimes.slice(-8);
+    return Math.max(33, (2 * times.reduce((a, b) => a + b, 0)) / Math.max(1, times.length));
+  }
   topics({hub, layout, deployment}: View): string[] {
     const of = (topic: string) => deployment?.topic(topic) ?? topic;
     const descriptions = Robots.descriptions(hub);
@@ -116,7 +121,7 @@ export class ScenePanel implements Panel {
     const {hub, layout, deployment, t} = view;
     const of = (topic: string) => deployment?.topic(topic) ?? topic;
     this.frames.update(hub, ['/tf_static', '/tf', ...layout.scene.frames.map(of)], t);
-    this.robots.update(hub, this.frames, t);
+    this.robots.update(hub, this.frames, t, new Set(layout.scene.tools.map(({instead}) => instead ?? '')));
     this.drawMarkers(view);
     for (const trail of this.trails) trail.update(hub, this.frames, t);
     this.cameras.update(hub, this.frames);
@@ -126,6 +131,7 @@ export class ScenePanel implements Panel {
     this.tellMissing(hub);
     if (!this.framed) this.frame(view);
     this.render();
+    this.drawLabels(view);
     this.frameTimes.push(performance.now() - began);
     if (this.frameTimes.length > 120) this.frameTimes.shift();
   }
@@ -173,6 +179,34 @@ export class ScenePanel implements Panel {
       if (!frame) return;
       frame.multiply(matrixOf(message.pose.position, message.pose.orientation)).decompose(group.position, group.quaternion, group.scale);
     });
+  }
+  /// Names beside what they name.
+  private drawLabels({layout}: View) {
+    const wanted = layout.scene.labels ?? [];
+    while (this.labels.children.length < wanted.length) this.labels.append(make('span'));
+    while (this.labels.children.length > wanted.length) this.labels.lastChild!.remove();
+    const width = this.element.clientWidth, height = this.element.clientHeight;
+    const placed: {x: number; y: number}[] = [];
+    wanted.forEach(({at, text}, i) => {
+      const label = this.labels.children[i] as HTMLElement, place = this.whereIs(at);
+      const on = place?.project(this.camera);
+      label.hidden = !on || on.z > 1 || Math.abs(on.x) > 1 || Math.abs(on.y) > 1;
+      if (!on || label.hidden) return;
+      write(label, text);
+      const x = ((on.x + 1) / 2) * width;
+      let y = ((1 - on.y) / 2) * height;
+      while (placed.some((other) => Math.abs(other.x - x) < 150 && Math.abs(other.y - y) < 24)) y -= 8;
+      placed.push({x, y});
+      label.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
+    });
+  }
+  private whereIs(at: string): Vector3 | undefined {
+    for (const markers of this.markers.values()) {
+      const place = markers.place(at);
+      if (place) return place;
+    }
+    const frame = this.frames.toRoot(at);
+    return frame && new Vector3().setFromMatrixPosition(frame);
   }
   private tellMissing(hub: Hub) {
     const missing = this.robots.problems();

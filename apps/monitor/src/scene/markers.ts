@@ -55,6 +55,11 @@ export class Markers {
     }
     return changed;
   }
+  /// Where a marker is; undefined: it is not there.
+  place(key: string): Vector3 | undefined {
+    const object = this.drawn.get(key)?.object;
+    return object?.visible ? new Vector3().setFromMatrixPosition(object.matrix) : undefined;
+  }
   names(): string[] { return [...this.drawn.keys()]; }
   clear() {
     for (const {object} of this.drawn.values()) dispose(object);

@@ -27,7 +27,7 @@ export class Robots {
   static jointsOf(description: string) { return description.slice(0, -kEnd.length) + 'joint_states'; }
 
   /// Whether something has changed.
-  update(hub: Hub, frames: Frames, t: number): boolean {
+  update(hub: Hub, frames: Frames, t: number, hiddenLinks: ReadonlySet<string>): boolean {
     let changed = false;
     const there = Robots.descriptions(hub);
     for (const [topic, arm] of this.arms) {
@@ -37,6 +37,11 @@ export class Robots {
       changed = true;
     }
     for (const topic of there) changed = this.updateArm(topic, hub, frames, t) || changed;
+    for (const [name, link] of this.links()) {
+      for (const part of link.children) {
+        if ((part as {isURDFVisual?: boolean}).isURDFVisual) part.visible = !hiddenLinks.has(name);
+      }
+    }
     return changed;
   }
   /// What is missing, for those who look.

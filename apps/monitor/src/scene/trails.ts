@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The way that a pose has come, as far back as is remembered.
+// The way that a pose has come lately.
 import {BufferAttribute, BufferGeometry, Color, Group, Line, LineBasicMaterial, Vector3} from 'three';
 
 import type {Hub} from '../hub';
 import type {Frames} from './frames';
 
+const kShownS = 20;
 const kMaxPoints = 3000;
 const kStep = 0.0005;  // [m] that a point is from the one before, at least
 
@@ -45,7 +46,7 @@ export class Trail {
     let shown = this.times.length;
     while (shown > 0 && this.times[shown - 1]! > t) --shown;
     let from = 0;
-    while (from < shown && this.times[from]! < log.first!.t) ++from;
+    while (from < shown && this.times[from]! < t - kShownS) ++from;
     this.geometry.setDrawRange(from, shown - from);
     this.geometry.attributes.position!.needsUpdate = true;
     const frame = log.message(log.last)?.header?.frame_id ?? '';

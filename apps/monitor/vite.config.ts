@@ -2,6 +2,8 @@
 // Builds bundle/index.html: one file with its script and style in it, that loads nothing. The same
 // sources give the same bytes.
 import {createHash} from 'node:crypto';
+import {existsSync, readFileSync, readdirSync} from 'node:fs';
+import {join} from 'node:path';
 import {defineConfig, type Plugin} from 'vite';
 
 const hashOf = (text: string) => `'sha256-${createHash('sha256').update(text).digest('base64')}'`;
@@ -37,8 +39,33 @@ function oneFile(): Plugin {
   };
 }
 
+/// Writes licences.txt: of each package whose code is in the page, its licence as it came.
+function licences(): Plugin {
+  return {
+    name: 'licences',
+    generateBundle(_, bundle) {
+      const packages = new Set<string>();
+      for (const file of Object.values(bundle)) {
+        if (file.type !== 'chunk') continue;
+        for (const [id, {renderedLength}] of Object.entries(file.modules)) {
+          const name = /node_modules\/((?:@[^/]+\/)?[^/]+)\//.exec(id)?.[1];
+          if (name && renderedLength > 0) packages.add(name);
+        }
+      }
+      const parts = [...packages].sort().map((name) => {
+        const folder = join('node_modules', name);
+        const {version, license} = JSON.parse(readFileSync(join(folder, 'package.json'), 'utf8'));
+        const file = readdirSync(folder).filter((one) => /^licen[sc]e/i.test(one)).sort()[0];
+        const text = file && existsSync(join(folder, file)) ? readFileSync(join(folder, file), 'utf8').trim() : `(${license}; the package has no file of it)`;
+        return `${name} ${version}: ${license}\n\n${text}\n`;
+      });
+      this.emitFile({type: 'asset', fileName: 'licences.txt', source: `The page is Apache-2.0, as all of Armature is. It contains these packages:\n\n${parts.join(`\n${'-'.repeat(100)}\n\n`)}`});
+    },
+  };
+}
+
 export default defineConfig({
-  plugins: [oneFile()],
+  plugins: [licences(), oneFile()],
   build: {
     outDir: process.env.ARMATURE_BUNDLE_DIR ?? 'bundle',
     emptyOutDir: true,

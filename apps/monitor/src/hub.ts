@@ -8,6 +8,8 @@ import type {RecordingFile} from './source/recording_file';
 import type {Condition, Source, SourceEvents, TopicInfo} from './source/source';
 import {Store, TopicLog} from './store';
 
+const kSoonMs = 2000;  // topics that are told later were not there when the page began
+
 export interface Arrival {
   topic: string;
   t: number;
@@ -20,9 +22,10 @@ export class Hub {
   text = '';
   source?: Source;
   received = 0;
-  firstDataMs = NaN;     // after the page began
+  firstDataMs = NaN;     // after the page began, or after there was something to see
   topicsVersion = 0;     // changes with the topics
   warnings: {t: number; text: string}[] = [];
+  private sinceMs = NaN;
   private wanted = new Set<string>();
   private arrivals: ((arrival: Arrival) => void)[] = [];
   private forgotten: ((topic: string) => void)[] = [];
@@ -82,6 +85,8 @@ export class Hub {
         this.text = text;
       },
       topics: (topics) => {
+        const now = performance.now();
+        if (topics.size > 0 && Number.isNaN(this.sinceMs)) this.sinceMs = now < kSoonMs ? 0 : now;
         this.topics = topics;
         ++this.topicsVersion;
         for (const topic of topics.values()) {
@@ -90,7 +95,7 @@ export class Hub {
         }
       },
       message: (topic, t, bytes) => {
-        if (Number.isNaN(this.firstDataMs)) this.firstDataMs = performance.now();
+        if (Number.isNaN(this.firstDataMs)) this.firstDataMs = performance.now() - this.sinceMs;
         ++this.received;
         this.store.add(topic, t, bytes);
         for (const call of this.arrivals) call({topic, t});

@@ -15,6 +15,7 @@ let code = 0;
 try {
   if (name === 'nonsense') process.env.PAGE_URL = (await monitor(domain)).url;
   await scenario(Number(domain));
+  console.log(`${name}: ok`);
 } catch (error) {
   console.error(error.stack ?? error);
   code = 1;

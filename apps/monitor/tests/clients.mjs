@@ -2,12 +2,14 @@
 // Other programs' clients as witnesses: Foxglove's own for the protocol, MCAP's own for recordings.
 import {open} from 'node:fs/promises';
 
-import {FoxgloveClient} from '@foxglove/ws-protocol';
+import foxglove from '@foxglove/ws-protocol';
 import {parse} from '@foxglove/rosmsg';
 import {MessageReader} from '@foxglove/rosmsg2-serialization';
 import {McapIndexedReader} from '@mcap/core';
 import {decompress} from 'fzstd';
 import WebSocket from 'ws';
+
+const {FoxgloveClient} = foxglove;
 
 /// Subscribes to all topics for a time, and decodes every message.
 export async function decodeLive(url, seconds, wanted = () => true) {

@@ -9,7 +9,7 @@ const kSystem = ['--set', 'clock=system'];
 const kPictures = [
   ['lamp', ['dental_lamp'], 'holding', 3],
   ['sr1', ['sr1_biopsy', ...kSystem], 'at target', 0.1],
-  ['implant', ['dental_implant', ...kSystem], 'drilling', 1.6],
+  ['implant', ['dental_implant', ...kSystem], 'drilling', 3.2],
   ['master', ['master_manipulator', ...kSystem], 'clutch open', 4.5],
 ];
 

@@ -21,7 +21,8 @@ export interface PlotLayout {
   title: string;
   unit: string;
   log?: boolean;
-  min?: number;
+  min?: number;  // of a logarithmic axis
+  max?: number;
   series: Series[];
 }
 export interface Tool {
@@ -48,6 +49,8 @@ export interface Layout {
     bodies: {topic: string; label: string}[];
     face?: string;
     labels?: {at: string; text: string}[];  // at a frame, or at a marker: namespace/id
+    closeUp?: {frame: string; distance: number; from: number[]};  // a second look, at a tip [m]
+    trailS?: number;     // how far back the ways are drawn [s]
     hide?: string[];     // markers that something else shows better: namespace, or namespace/id
   };
   images: ImageLayout[];

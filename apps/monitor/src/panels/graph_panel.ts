@@ -59,7 +59,8 @@ export class GraphPanel implements Panel {
     write(node.state, kStateSigns[state] ?? '○');
     node.state.style.fill = kStateColours[state] ?? '#aab4c0';
     node.box.style.stroke = state > 0 ? kStateColours[state]! : '';
-    const numbers = condition ? `${hertz(condition.hz)} · ${short(condition.reaction?.p99 ?? condition.stepP99)}${state > 0 ? ` · ${word}` : ''}` : 'not told';
+    const late = short(condition?.reaction?.p99 ?? condition?.stepP99 ?? NaN);
+    const numbers = condition ? `${hertz(condition.hz)} · ${state > 0 ? word : late}` : 'not told';
     write(node.numbers, numbers);
     node.group.dataset.state = word;
     node.group.setAttribute('aria-label', `${name}, ${word}${condition?.reason ? `: ${condition.reason}` : ''}, ${numbers}`);
@@ -81,7 +82,7 @@ export class GraphPanel implements Panel {
       const box = svg('rect', {width: kWidth, height: kHeight, rx: 7, class: 'box'});
       const state = svg('text', {x: 10, y: 19, class: 'state'}), numbers = svg('text', {x: 10, y: 38, class: 'numbers'});
       const group = svg('g', {transform: `translate(${x} ${y})`, class: 'node', tabindex: 0, role: 'button', 'data-component': component.name},
-          box, state, svg('text', {x: 28, y: 19, class: 'name', ...(component.name.length > 13 ? {textLength: kWidth - 36, lengthAdjust: 'spacingAndGlyphs'} : {})}, component.name), numbers, svg('title', {}, `${component.name}: ${component.plugin}`));
+          box, state, svg('text', {x: 28, y: 19, class: 'name', ...(component.name.length > 12 ? {textLength: kWidth - 36, lengthAdjust: 'spacingAndGlyphs'} : {})}, component.name), numbers, svg('title', {}, `${component.name}: ${component.plugin}`));
       group.addEventListener('click', () => this.select(component.name));
       group.addEventListener('keydown', (event) => {
         const {key} = event as KeyboardEvent;

@@ -75,11 +75,12 @@ export class Header {
     headlines.forEach(({series, unit, value, goal}, i) => {
       const item = (this.figures.children[i] as HTMLElement | undefined) ??
           this.figures.appendChild(make('li', {}, make('span', {class: 'name'}), make('b'), make('span', {class: 'goal'})));
-      const met = goal !== undefined && Number.isFinite(value) ? (value <= goal ? 'met' : 'not met') : '';
+      // A goal is for the end: on the way there it is not missed, it is not met yet.
+      const met = goal !== undefined && Number.isFinite(value) ? (value <= goal ? 'met' : 'ahead') : '';
       write(item.children[0]!, series.label);
       write(item.children[1]!, `${formatted(value, series.digits)} ${unit}`);
-      write(item.children[2]!, goal === undefined ? '' : `goal ${goal}${met === 'met' ? ' ✓' : met ? ' ✗' : ''}`);
-      item.className = met.replace(' ', '-');
+      write(item.children[2]!, goal === undefined ? '' : `goal ${goal}${met === 'met' ? ' ✓' : ''}`);
+      item.className = met;
     });
   }
   private drawHealth({deployment, hub}: View, t: number) {

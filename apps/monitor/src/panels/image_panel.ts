@@ -2,13 +2,13 @@
 // A camera's pictures, with what was found in them drawn over.
 import {kGreen, kOrange, kSky, kYellow} from '../colours';
 import type {Hub} from '../hub';
-import {secondsOf, type Message} from '../message/decoder';
+import type {Message} from '../message/decoder';
 import type {ImageLayout} from '../layouts/layout';
 import {make, write, type Panel, type View} from '../view';
 import {rawPixels} from './raw_image';
 
 const kRaw = 'sensor_msgs/msg/Image', kCompressed = 'sensor_msgs/msg/CompressedImage';
-const kLatestLandmarksS = 0.3;  // that a picture waits for what is found in it
+const kLatestLandmarksS = 0.6;  // that a picture waits for what is found in it
 const kAxisLength = 0.06;       // [m] of a face's axes
 
 /// Groups of the 68 landmarks of iBUG that belong together.
@@ -16,6 +16,11 @@ const kIbug68: [number, number, boolean][] = [
   [0, 16, false], [17, 21, false], [22, 26, false], [27, 30, false], [31, 35, false], [36, 41, true],
   [42, 47, true], [48, 59, true], [60, 67, true],
 ];
+
+function stampOf(message: Message | undefined): string {
+  const {sec, nsec} = message?.header.stamp ?? {};
+  return `${sec}.${nsec}`;
+}
 
 export class ImagePanel implements Panel {
   readonly element = make('div', {class: 'image'});
@@ -67,14 +72,14 @@ export class ImagePanel implements Panel {
       return;
     }
     if (this.layout.side) {
-      found = hub.at(of('landmarks'), t);
-      const stamp = secondsOf(found?.header.stamp);
-      if (found && log.entry(index)!.t - stamp < kLatestLandmarksS) {
-        // The newest picture that has been looked through already.
-        while (index > 0 && secondsOf(log.message(log.entry(index))?.header.stamp) > stamp + 1e-6) --index;
+      // The newest picture that has been looked through already, unless that takes too long.
+      const results = this.resultsBy(view), newest = log.entry(index)!.t;
+      for (let i = index; i >= 0 && log.entry(i)!.t > newest - kLatestLandmarksS; --i) {
+        found = results.get(stampOf(log.message(log.entry(i))));
+        if (!found) continue;
+        index = i;
+        break;
       }
-      const shownStamp = secondsOf(log.message(log.entry(index))?.header.stamp);
-      if (!(Math.abs(shownStamp - stamp) < 1e-4)) found = undefined;
     }
     const entry = log.entry(index)!, message = log.message(entry);
     if (!message || this.shown === entry || this.isBusy) return;
@@ -94,6 +99,15 @@ export class ImagePanel implements Panel {
     return n < 2 ? 0 : ((n - 1) * 1000) / (this.arrivals[n - 1]! - this.arrivals[0]!);
   }
 
+  /// What was found lately, by the stamp of the picture.
+  private resultsBy({hub, deployment, t}: View): Map<string, Message> {
+    const log = hub.log(deployment?.topic('landmarks') ?? 'landmarks'), results = new Map<string, Message>();
+    for (let i = log.indexAt(t), steps = 0; i >= 0 && steps < 8; --i, ++steps) {
+      const message = log.message(log.entry(i));
+      if (message) results.set(stampOf(message), message);
+    }
+    return results;
+  }
   private tellRate(compressed: boolean) {
     this.arrivals.push(performance.now());
     if (this.arrivals.length > 30) this.arrivals.shift();
@@ -105,10 +119,10 @@ export class ImagePanel implements Panel {
     return log.message(log.last);
   }
   private faceAt({hub, deployment, t}: View, found: Message | undefined) {
-    const log = hub.log(deployment?.topic('face') ?? 'face'), stamp = secondsOf(found?.header.stamp);
-    for (let i = log.indexAt(t), steps = 0; i >= 0 && steps < 5; --i, ++steps) {
+    const log = hub.log(deployment?.topic('face') ?? 'face');
+    for (let i = log.indexAt(t), steps = 0; i >= 0 && steps < 8; --i, ++steps) {
       const face = log.message(log.entry(i));
-      if (face?.valid && Math.abs(secondsOf(face.header.stamp) - stamp) < 1e-4) return face;
+      if (found && face?.valid && stampOf(face) === stampOf(found)) return face;
     }
     return undefined;
   }

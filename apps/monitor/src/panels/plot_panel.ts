@@ -114,7 +114,7 @@ export class PlotPanel implements Panel {
         y: log ? {
           distr: 3, log: 10,
           range: (_, low, high) => {
-            const top = Math.max(high ?? least, least * 10, ...goals.map((goal) => (goal ?? 0) * 2));
+            const top = Math.min(this.layout.max ?? Infinity, Math.max(high ?? least, least * 10, ...goals.map((goal) => (goal ?? 0) * 2)));
             return [Math.max(least, 10 ** Math.floor(Math.log10(Math.max(low ?? least, least)))), 10 ** Math.ceil(Math.log10(top))];
           },
         } : {
@@ -160,7 +160,7 @@ export class PlotPanel implements Panel {
   /// A dashed line for each goal, with its number.
   private drawGoals(plot: uPlot) {
     const {ctx, bbox} = plot;
-    const drawn = new Set<number>();
+    const drawn = new Set<number>(), labels: number[] = [];
     this.shown.forEach(({series}, i) => {
       const goal = this.goalOf(series);
       if (goal === undefined || drawn.has(goal)) return;
@@ -179,7 +179,9 @@ export class PlotPanel implements Panel {
       ctx.textAlign = 'left';
       ctx.textBaseline = 'alphabetic';
       ctx.font = `${12 * devicePixelRatio}px system-ui, sans-serif`;
-      ctx.fillText(`goal ${goal}`, bbox.left + 6 * devicePixelRatio, y - 5 * devicePixelRatio);
+      const beside = labels.filter((other) => Math.abs(other - y) < 15 * devicePixelRatio).length;
+      labels.push(y);
+      ctx.fillText(`goal ${goal}`, bbox.left + (6 + 70 * beside) * devicePixelRatio, y - 5 * devicePixelRatio);
       ctx.restore();
     });
   }

@@ -38,6 +38,8 @@ export class ScenePanel implements Panel {
   private readonly legend = make('ul', {class: 'legend'});
   private readonly scene = new Scene();
   private readonly camera = new PerspectiveCamera(40, 1, 0.01, 50);
+  private readonly near = new PerspectiveCamera(32, 1, 0.005, 20);
+  private readonly inset = make('div', {class: 'inset', hidden: true, 'aria-hidden': 'true'}, 'close-up');
   private readonly cameras = new Cameras();
   private readonly face = new Face();
   private readonly tools = new Tools();
@@ -50,6 +52,7 @@ export class ScenePanel implements Panel {
   private trails: Trail[] = [];
   private framed = false;
   private hadLinks = false;
+  private drawnLook = '';
 
   constructor() {
     this.scene.background = new Color('#10161f');
@@ -58,13 +61,14 @@ export class ScenePanel implements Panel {
         this.floor(), this.robots.group, this.markersGroup, this.trailsGroup, this.cameras.group, this.face.group,
         this.tools.group, this.bodies);
     this.camera.up.set(0, 0, 1);
+    this.near.up.set(0, 0, 1);
     this.camera.position.set(2, -2, 1.5);
     const buttons = make('div', {class: 'tools'});
     for (const [name, key, direction] of kViews) {
       buttons.append(this.button(name, key, () => this.lookFrom(new Vector3(...direction))));
     }
     buttons.append(this.button('View', 'v', () => (this.framed = false)));
-    this.element.append(this.canvas, this.labels, buttons, this.legend, this.note);
+    this.element.append(this.canvas, this.labels, this.inset, buttons, this.legend, this.note);
     this.canvas.addEventListener('keydown', (event) => {
       const view = kViews.find(([, key]) => key === event.key.toLowerCase());
       if (view) this.lookFrom(new Vector3(...view[2]));
@@ -123,15 +127,19 @@ export class ScenePanel implements Panel {
     this.frames.update(hub, ['/tf_static', '/tf', ...layout.scene.frames.map(of)], t);
     this.robots.update(hub, this.frames, t, new Set(layout.scene.tools.map(({instead}) => instead ?? '')));
     this.drawMarkers(view);
-    for (const trail of this.trails) trail.update(hub, this.frames, t);
+    for (const trail of this.trails) trail.update(hub, this.frames, t, layout.scene.trailS ?? 20);
     this.cameras.update(hub, this.frames);
     if (layout.scene.face) this.face.update(hub, of(layout.scene.face), this.frames, t);
     this.tools.update(this.frames);
     this.drawBodies(view);
     this.tellMissing(hub);
     if (!this.framed) this.frame(view);
-    this.render();
-    this.drawLabels(view);
+    const look = this.look();
+    if (look !== this.drawnLook) {  // an arm that stands still is drawn once
+      this.drawnLook = look;
+      this.render(view);
+      this.drawLabels(view);
+    }
     this.frameTimes.push(performance.now() - began);
     if (this.frameTimes.length > 120) this.frameTimes.shift();
   }
@@ -197,6 +205,8 @@ export class ScenePanel implements Panel {
       let y = ((1 - on.y) / 2) * height;
       while (placed.some((other) => Math.abs(other.x - x) < 150 && Math.abs(other.y - y) < 24)) y -= 8;
       placed.push({x, y});
+      // None lies on the close-up.
+      label.hidden = !this.inset.hidden && x + label.offsetWidth > width - this.inset.offsetWidth - 12 && y > height - this.inset.offsetHeight - 8;
       label.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
     });
   }
@@ -246,7 +256,19 @@ export class ScenePanel implements Panel {
     this.place(centre.clone().add(direction.normalize().multiplyScalar(1.5 * box.getSize(new Vector3()).length())), centre);
     this.framed = true;
   }
-  private render() {
+  /// Differs when what is drawn does.
+  private look(): string {
+    let sum = 0, weight = 1;
+    this.scene.traverseVisible((one) => {
+      const {elements} = one.matrixAutoUpdate ? one.matrixWorld : one.matrix;
+      for (let i = 0; i < 16; ++i) sum += elements[i]! * (weight = (weight * 1.37) % 7);
+      sum += one.id * weight;
+    });
+    const camera = this.camera.position.toArray().concat(this.controls?.target.toArray() ?? []);
+    return [sum.toPrecision(9), ...camera, this.element.clientWidth, this.element.clientHeight,
+            ...this.trails.map((trail) => trail.shown)].join();
+  }
+  private render({layout}: View) {
     if (!this.renderer) return;
     const width = this.element.clientWidth, height = this.element.clientHeight;
     if (width === 0 || height === 0) return;
@@ -257,7 +279,22 @@ export class ScenePanel implements Panel {
       this.camera.aspect = width / height;
       this.camera.updateProjectionMatrix();
     }
+    this.renderer.setViewport(0, 0, width, height);
     this.renderer.render(this.scene, this.camera);
+    const {closeUp} = layout.scene, tip = closeUp && this.frames.toRoot(closeUp.frame);
+    this.inset.hidden = !tip || width < 420;
+    if (!closeUp || !tip || this.inset.hidden) return;
+    // A second look from nearby, in a corner.
+    const side = Math.round(Math.min(0.36 * width, 0.46 * height)), edge = 8;
+    const at = new Vector3().setFromMatrixPosition(tip);
+    this.near.position.copy(at).add(new Vector3(...(closeUp.from as [number, number, number])).normalize().multiplyScalar(closeUp.distance));
+    this.near.lookAt(at);
+    this.inset.style.width = this.inset.style.height = `${side}px`;
+    this.renderer.setScissorTest(true);
+    this.renderer.setScissor(width - side - edge, edge, side, side);
+    this.renderer.setViewport(width - side - edge, edge, side, side);
+    this.renderer.render(this.scene, this.near);
+    this.renderer.setScissorTest(false);
   }
   private button(name: string, key: string, act: () => void) {
     const button = make('button', {type: 'button', title: `${name} (${key.toUpperCase()})`}, name);

@@ -5,12 +5,12 @@ import {BufferAttribute, BufferGeometry, Color, Group, Line, LineBasicMaterial, 
 import type {Hub} from '../hub';
 import type {Frames} from './frames';
 
-const kShownS = 20;
 const kMaxPoints = 3000;
 const kStep = 0.0005;  // [m] that a point is from the one before, at least
 
 export class Trail {
   readonly group = new Group();
+  shown = '';  // which of its points
   private times: number[] = [];
   private positions = new Float32Array(3 * kMaxPoints);
   private count = 0;
@@ -31,7 +31,7 @@ export class Trail {
     this.seenFrom = Infinity;
   }
   /// Points until `t`; returns how many are shown.
-  update(hub: Hub, frames: Frames, t: number): number {
+  update(hub: Hub, frames: Frames, t: number, shownS: number): number {
     const log = hub.log(this.topic);
     if (log.length === 0) return 0;
     if (log.first!.t < this.seenFrom - 1) this.clear();  // older ones have been read meanwhile
@@ -46,8 +46,9 @@ export class Trail {
     let shown = this.times.length;
     while (shown > 0 && this.times[shown - 1]! > t) --shown;
     let from = 0;
-    while (from < shown && this.times[from]! < t - kShownS) ++from;
+    while (from < shown && this.times[from]! < t - shownS) ++from;
     this.geometry.setDrawRange(from, shown - from);
+    this.shown = `${this.times[from]} ${shown - from}`;
     this.geometry.attributes.position!.needsUpdate = true;
     const frame = log.message(log.last)?.header?.frame_id ?? '';
     const toRoot = frames.toRoot(frame);

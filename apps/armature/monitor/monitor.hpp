@@ -15,7 +15,8 @@ struct MonitorOptions : WatchOptions {
   std::string token;                 // empty: a new one where one is needed
 };
 
-/// `armature monitor`: shows a DDS domain to Foxglove and Lichtblick, until it is interrupted.
+/// `armature monitor`: shows a DDS domain in a browser, by its own page, and to Foxglove and
+/// Lichtblick, until it is interrupted.
 int show_to_browsers(const MonitorOptions& options);
 
 }  // namespace armature

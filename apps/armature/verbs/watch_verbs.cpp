@@ -92,7 +92,7 @@ void add_log(CLI::App& app, Action& action) {
 void add_monitor(CLI::App& app, Action& action) {
   auto options = std::make_shared<MonitorOptions>();
   CLI::App* verb = app.add_subcommand(
-      "monitor", "Show running deployments to Foxglove and Lichtblick, over a WebSocket");
+      "monitor", "Show running deployments in a browser, and to Foxglove and Lichtblick");
   verb->add_option(
           "--bind", options->address,
           "IPv4 address of this machine to listen at; beyond loopback a token is asked for")

@@ -116,6 +116,12 @@ export class Deployment {
     return undefined;
   }
 
+  /// A number that a component was told; NaN: it has no such parameter.
+  parameter(component: string, name: string): number {
+    const [own] = this.components.find((one) => one.name === component)?.plugins ?? [];
+    return Number(own?.parameters.find((one) => one.name === name)?.value ?? NaN);
+  }
+
   /// The limits that the deployment file sets: `goals:` of its YAML.
   goals(): Map<string, number> {
     const goals = new Map<string, number>();

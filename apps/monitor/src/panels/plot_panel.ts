@@ -47,7 +47,7 @@ export class PlotPanel implements Panel {
   reset(view: View) {
     this.lastView = view;
     const full = (topic: string) => view.deployment?.topic(topic) ?? topic;
-    this.shown = this.layout.series.map((series) => ({series, curve: new Curve(series.value, full)}));
+    this.shown = this.layout.series.map((series) => ({series, curve: new Curve(series.value, full, (component, name) => view.deployment?.parameter(component, name) ?? NaN)}));
     this.goals = view.deployment?.goals() ?? new Map();
     this.build();
   }
@@ -73,7 +73,7 @@ export class PlotPanel implements Panel {
     this.update(view);
     this.offerFields(view.hub);
     const {t} = view;
-    this.writeLegend(t);
+    this.writeLegend(t, view.hub);
     const version = `${this.shown.map(({curve}) => curve.version).join()} ${t.toFixed(2)} ${this.area.clientWidth}x${this.area.clientHeight}`;
     if (version === this.drawnVersion || !this.plot || !Number.isFinite(t)) return;
     this.drawnVersion = version;
@@ -120,7 +120,8 @@ export class PlotPanel implements Panel {
         } : {
           range: (_, low, high) => {
             const all = [low ?? 0, high ?? 1, ...goals.filter((goal) => goal !== undefined)];
-            const a = Math.min(...all), b = Math.max(...all), room = Math.max(0.06 * (b - a), 1e-9);
+            const a = Math.min(...all), b = Math.max(...all), size = Math.max(Math.abs(a), Math.abs(b));
+            const room = b - a > 1e-6 * size ? 0.06 * (b - a) : Math.max(0.1 * size, 1);
             return [a >= 0 && a < 0.3 * b ? 0 : a - room, b + room];
           },
         },
@@ -149,10 +150,12 @@ export class PlotPanel implements Panel {
       return make('li', {title: series.value}, swatch, make('span', {class: 'label'}, series.label), make('b', {class: 'value'}));
     }));
   }
-  private writeLegend(t: number) {
+  private writeLegend(t: number, hub: Hub) {
     this.shown.forEach(({series, curve}, i) => {
       const goal = this.goalOf(series), value = curve.at(t);
-      const text = `${formatted(value, series.digits)} ${this.layout.unit}` + (goal === undefined ? '' : ` (goal ${goal})`);
+      const label = this.legend.children[i]?.querySelector('.label');
+      if (label) write(label, jointName(series, curve, hub) ?? series.label);
+      const text = `${formatted(value, series.digits)} ${this.layout.unit.includes(' ') ? '' : this.layout.unit}` + (goal === undefined ? '' : ` (goal ${goal})`);
       const item = this.legend.children[i]?.querySelector('.value');
       if (item) write(item, text);
     });
@@ -222,6 +225,14 @@ export class PlotPanel implements Panel {
     const why = !hub.topics.has(this.wantsFields) ? 'There is no such topic' : typeof log.decode === 'string' ? log.decode : '';
     write(this.note, message ? '' : why || 'Waiting for a first message');
   }
+}
+
+/// A number of a joint is called as the joint.
+function jointName(series: Series, curve: Curve, hub: Hub): string | undefined {
+  const [, field, i] = /^\{[^}]*\}\.(position|velocity|effort)\[(\d+)\]$/.exec(series.value) ?? [];
+  if (i === undefined) return undefined;
+  const log = hub.log(curve.topics[0]!), name = log.message(log.last)?.name?.[Number(i)];
+  return name && (field === 'position' ? name : `${name}, ${field}`);
 }
 
 export function formatted(value: number, digits = 3): string {

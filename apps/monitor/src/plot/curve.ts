@@ -15,14 +15,22 @@ export class Curve {
   private clock: string;
 
   /// `full` makes a topic's full name of that in the expression. Throws what parseExpression throws.
-  constructor(private readonly text: string, private readonly full: (topic: string) => string) {
-    this.expression = parseExpression(text);
+  constructor(private readonly text: string, private readonly full: (topic: string) => string,
+              private readonly parameter: (component: string, name: string) => number = () => NaN) {
+    this.expression = this.parse();
     this.topics = [...new Set(this.expression.topics.map(full))];
     this.clock = this.topics[0] ?? '';
     if (this.clock === '') throw new Error('an expression needs a topic, in braces');
   }
+  /// What a component was told by the deployment file stands in it as a number.
+  private parse() {
+    return parseExpression(this.text.replace(/parameter\("([\w.]+)", "(\w+)"\)/g, (_, component, name) => {
+      const value = this.parameter(component, name);
+      return Number.isFinite(value) ? `(${value})` : '(0 / 0)';
+    }));
+  }
   clear() {
-    this.expression = parseExpression(this.text);  // what it remembers, too
+    this.expression = this.parse();  // what it remembers, too
     this.times = [];
     this.values = [];
     this.seenTo = -Infinity;

@@ -46,6 +46,22 @@ function chain(list: Value, from: string, to: string): Value {
   return {position: at, orientation: turn};
 }
 
+function composed(frames: Value[]): Value {
+  const at = new Vector3(), turn = new Quaternion();
+  for (const frame of frames) {
+    const step = place(frame);
+    at.add(step.at.applyQuaternion(turn));
+    turn.multiply(step.turn);
+  }
+  return {position: at, orientation: turn};
+}
+
+function inverse(frame: Value): Value {
+  const {at, turn} = place(frame);
+  turn.invert();
+  return {position: at.applyQuaternion(turn).negate(), orientation: turn};
+}
+
 const pure = (apply: Apply) => () => apply;
 
 export const functions: Record<string, () => Apply> = {
@@ -63,6 +79,8 @@ export const functions: Record<string, () => Apply> = {
   axis_z: pure(([q]) => new Vector3(0, 0, 1).applyQuaternion(rotation(q))),
   /// A point of a frame, in the frame that this one stands in.
   transform: pure(([frame, point]) => transformed(frame, point)),
+  compose: pure(composed),
+  inverse: pure(([frame]) => inverse(frame)),
   chain: pure(([list, from, to]) => chain(list, from, to)),
   /// Of a point from the line through two others.
   off_line: pure(([p, a, b]) => distanceToLine(vector(p), vector(a), vector(b).sub(vector(a)))),
@@ -73,7 +91,7 @@ export const functions: Record<string, () => Apply> = {
   }),
   /// Of a point from the nearest of a list of places in a frame.
   nearest: pure(([p, places, frame]) => Math.min(
-      ...[...(places ?? [])].map((one) => vector(p).distanceTo(transformed(frame, one.position ?? one))), Infinity)),
+      ...[...(places ?? [])].map((one) => vector(p?.position ?? p).distanceTo(transformed(frame, one.position ?? one))), Infinity)),
   /// [deg] between an axis and the z axis of the nearest of a list of places in a frame.
   nearest_angle: pure(([pose, places, frame]) => {
     const own = place(pose);

@@ -46,6 +46,7 @@ export class App {
   private condition = '';
   private told = 0;  // warnings of the source
   private slowAt = 0;
+  private unreadable = new Set<string>();  // topics of which that was told
 
   constructor(header: HTMLElement, private readonly panels: HTMLElement, timeline: HTMLElement) {
     this.header = new Header(header, (namespace) => this.choose(namespace));
@@ -218,6 +219,11 @@ export class App {
       const isFirst = this.condition === '';
       this.condition = condition;
       if (!isFirst) this.log.add({t: this.now(), level: condition === 'lost' ? 'warning' : 'info', who: 'page', text});
+    }
+    for (const log of this.hub.store.topics.values()) {
+      if (log.failures === 0 || this.unreadable.has(log.name)) continue;
+      this.unreadable.add(log.name);
+      this.log.add({t: this.now(), level: 'warning', who: 'page', text: `a message of ${log.name} cannot be read: ${log.failure}`});
     }
     if (warnings.length < this.told) this.told = 0;
     for (; this.told < warnings.length; ++this.told) {

@@ -15,6 +15,8 @@ export class TopicLog {
   private entries: Entry[] = [];
   private unpacked = new Map<Entry, Message>();
   decode: Decode | string = 'its type is not known yet';
+  failures = 0;   // messages that are not what their type says
+  failure = '';   // what was wrong with the last of them
   bytes = 0;
   received = 0;  // since it was cleared
   version = 0;   // changes with the entries
@@ -73,17 +75,18 @@ export class TopicLog {
   message(entry: Entry | undefined): Message | undefined {
     if (!entry || typeof this.decode === 'string') return undefined;
     const known = this.unpacked.get(entry);
-    if (known !== undefined) return known;
+    if (known !== undefined) return known ?? undefined;
     let message: Message;
     try {
       message = this.decode(entry.bytes);
     } catch (error) {
-      this.decode = `a message of it cannot be read: ${(error as Error).message}`;
-      return undefined;
+      ++this.failures;  // the next one may be as it should
+      this.failure = (error as Error).message;
+      message = null;
     }
     if (this.unpacked.size >= kUnpacked) this.unpacked.delete(this.unpacked.keys().next().value!);
     this.unpacked.set(entry, message);
-    return message;
+    return message ?? undefined;
   }
   at(t: number): Message | undefined { return this.message(this.entries[this.indexAt(t)]); }
 }

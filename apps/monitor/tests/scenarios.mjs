@@ -240,6 +240,11 @@ async function nonsense() {
     return [topic, String(armature.hub.log(topic).decode)];
   })));
   assert.match(logs['/odd'], /'protobuf', not CDR/);
+  assert.match(logs['/broken'], /its type cannot be read/);
+  // One that is cut off is named, and those behind it are read.
+  await page.evaluate(() => armature.plots[0].shown[1].curve.update(armature.hub));
+  await until(() => page.locator('.log').getByText('a message of /joint_states cannot be read').count(), 'the message that was cut off to be named');
+  assert.ok(await app(page, () => armature.plots[0].shown[1].curve.values.filter((value) => value === 1).length > 20), 'the others are shown');
   assert.deepEqual(page.problems, []);
   server.close();
 }

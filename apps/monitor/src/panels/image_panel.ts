@@ -101,11 +101,20 @@ export class ImagePanel implements Panel {
 
   /// What was found lately, by the stamp of the picture.
   private resultsBy({hub, deployment, t}: View): Map<string, Message> {
-    const log = hub.log(deployment?.topic('landmarks') ?? 'landmarks'), results = new Map<string, Message>();
-    for (let i = log.indexAt(t), steps = 0; i >= 0 && steps < 8; --i, ++steps) {
-      const message = log.message(log.entry(i));
-      if (message) results.set(stampOf(message), message);
-    }
+    const results = new Map<string, Message>();
+    const faces = new Set<string>();
+    const lately = (topic: string, take: (message: Message) => void) => {
+      const one = hub.log(deployment?.topic(topic) ?? topic);
+      for (let i = one.indexAt(t), steps = 0; i >= 0 && steps < 8; --i, ++steps) {
+        const message = one.message(one.entry(i));
+        if (message) take(message);
+      }
+    };
+    lately('face', (message) => faces.add(stampOf(message)));
+    // The face is told a moment after its landmarks: they are shown together.
+    lately('landmarks', (message) => {
+      if (faces.size === 0 || faces.has(stampOf(message))) results.set(stampOf(message), message);
+    });
     return results;
   }
   private tellRate(compressed: boolean) {

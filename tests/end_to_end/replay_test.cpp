@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -148,10 +149,104 @@ TEST_F(Replay, AssignmentsThatChangeNothingAreRefused) {
 
 TEST_F(Replay, WhatIsNotInTheRecordingIsNotCompared) {
   record({"--set", "record.topics=[/dental_lamp/arm/*]"});
-  const json checked = check({file()}, 0);
+  const json checked = check({file()}, 1);
+  EXPECT_FALSE(checked["complete"]);
   EXPECT_EQ(component_of(checked, "landmarks")["ends"],
-            "its input 'left_image' is not in the recording");
+            "a sample of its input 'left_image' is not in the recording");
   EXPECT_GT(component_of(checked, "arm")["outputs"], 1'000);
+}
+
+TEST_F(Replay, ADamagedRecordingAccusesNobody) {
+  record({});
+  std::fstream recording{file(), std::ios::in | std::ios::out | std::ios::binary};
+  recording.seekp(static_cast<std::streamoff>(fs::file_size(file()) / 2));
+  recording.write("damaged!", 8);
+  recording.close();
+  const json checked = check({file()}, 1);
+  EXPECT_TRUE(differences_of(checked).empty()) << checked.dump(1);
+  EXPECT_FALSE(checked["complete"]);
+  EXPECT_THAT(checked["problems"].dump(), HasSubstr("everything is replayed up to there"));
+  EXPECT_GT(checked["outputs"], 0);
+}
+
+TEST_F(Replay, AFailureIsRecordedAndAReplayWithoutItDiffers) {
+  Command run{{armature(), "run", source_file("configs/dental_lamp.yaml"), "--set",
+               "record.file=" + file(), "--inject", "motion:throw", "--domain",
+               std::to_string(unique_dds_domain())}};
+  ASSERT_TRUE(run.wait_for_err("searching 1", kEnough));
+  run.signal(SIGUSR1);
+  run.finish(kEnough);
+  const auto differences = differences_of(check({file()}, 1));
+  ASSERT_TRUE(differences.contains("motion"));
+  EXPECT_EQ(differences.size(), 1U);
+}
+
+TEST_F(Replay, WhatARunHasWrittenIsNotWrittenAgain) {
+  record({"--set", "clock=simulated", "--set",
+          "components.rows={plugin: report/joints, params: {file: " + file("rows") + "}}"});
+  ASSERT_TRUE(fs::exists(file("rows.csv")));
+  std::ofstream{file("rows.csv")} << "mine";
+  const json checked = check({file()}, 0);
+  EXPECT_THAT(std::string{component_of(checked, "rows")["not_replayed"]},
+              HasSubstr("writes files"));
+  EXPECT_EQ(fs::file_size(file("rows.csv")), 4U);
+}
+
+TEST_F(Replay, WhatHappenedAroundATroubleIsInAFileOfItsOwn) {
+  const fs::path named = file("trouble-%H.mcap");
+  Command run{{armature(), "run", source_file("configs/dental_lamp.yaml"), "--set",
+               "record={file: \"" + named.string() + "\", around_faults_s: 1}", "--inject",
+               "monitor:throw", "--domain", std::to_string(unique_dds_domain())}};
+  ASSERT_TRUE(run.wait_for_err("aligning", kEnough));
+  EXPECT_TRUE(fs::is_empty(folder_)) << "nothing has happened yet";
+  run.signal(SIGUSR1);
+  const CommandResult result = run.finish(kEnough);
+  EXPECT_THAT(result.err, HasSubstr("what happened around the trouble is recorded: "));
+  ASSERT_FALSE(fs::is_empty(folder_));
+  const std::string written = fs::directory_iterator { folder_ } -> path();
+  const json info = json::parse(run_command({armature(), "info", written, "--json"}).out);
+  EXPECT_TRUE(info["whole"]);
+  EXPECT_GT(info["length_s"], 1.0) << "before and after";
+  const CommandResult replay = run_command({armature(), "replay", written, "--check"});
+  EXPECT_EQ(replay.exit_code, 1);
+  EXPECT_THAT(replay.err, HasSubstr("begins in the midst of a run"));
+}
+
+TEST_F(Replay, WhatWasRecordedIsPublishedAgainUnderNamesOfItsOwn) {
+  record({});
+  const std::string domain = std::to_string(unique_dds_domain());
+  Command playing{{armature(), "replay", file(), "--loop", "--rate", "2", "--domain", domain}};
+  const CommandResult joints =
+      run_command({armature(), "topic", "echo", "/replay/dental_lamp/arm/measured_js", "-n", "1",
+                   "--timeout", "20", "--domain", domain});
+  EXPECT_EQ(joints.exit_code, 0) << joints.err;
+  EXPECT_THAT(joints.out, HasSubstr("\"position\""));
+  const CommandResult description =
+      run_command({armature(), "topic", "echo", "/replay/dental_lamp/description", "-n", "1",
+                   "--timeout", "20", "--domain", domain});
+  EXPECT_THAT(description.out, HasSubstr("ik/lamp_geometric")) << "also for those who come later";
+  playing.signal(SIGINT);
+  const CommandResult played = playing.finish(kEnough);
+  EXPECT_EQ(played.exit_code, 0) << played.err;
+  EXPECT_THAT(played.out, HasSubstr("topics under /replay"));
+}
+
+TEST_F(Replay, FilesOfDifferentRunsAreRefused) {
+  record({});
+  fs::rename(file(), file("first.mcap"));
+  record({});
+  const CommandResult replay =
+      run_command({armature(), "replay", "--check", file("first.mcap"), file()}, {}, kEnough);
+  EXPECT_EQ(replay.exit_code, 3);
+  EXPECT_THAT(replay.err, HasSubstr("are of different runs"));
+}
+
+TEST_F(Replay, ANameWithoutAFolderIsInTheFolderWhereTheRunIs) {
+  const std::string run = armature() + " run " + source_file("configs/dental_lamp.yaml") +
+                          " --set record.file=here.mcap --set run.time_limit_s=1 --domain " +
+                          std::to_string(unique_dds_domain());
+  run_command({"/bin/sh", "-c", "cd '" + folder_.string() + "' && " + run}, {}, kEnough);
+  EXPECT_TRUE(fs::exists(file("here.mcap")));
 }
 
 TEST_F(Replay, AnotherProcessorIsRefusedUnlessLastBitsMayDiffer) {

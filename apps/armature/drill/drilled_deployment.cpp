@@ -189,7 +189,9 @@ std::string_view to_string(Form form) { return form == Form::single ? "single" :
 DrilledDeployment read_drilled(const DeploymentSource& source, const PluginRegistry& plugins) {
   const DeploymentConfig deployment = read(source, plugins);
   check_simulated(deployment);
-  DrilledDeployment drilled{.name = deployment.name, .stop_within_s = deployment.stop_within_s};
+  DrilledDeployment drilled{.name = deployment.name,
+                            .stop_within_s = deployment.stop_within_s,
+                            .records = deployment.record.has_value()};
   Splitter splitter{drilled};
   std::set<std::string> arm_executors;
   for (const ComponentConfig& component : deployment.components) {

@@ -43,6 +43,7 @@ struct HeedsPendant {
 struct DrilledDeployment {
   std::string name;
   double stop_within_s = 0;
+  bool records = false;  // its runs, which a drill's do not
   std::vector<DrilledArm> arms;
   DrilledComponent commander;           // that arms take commands from: motion
   std::vector<std::string> commanders;  // all of them

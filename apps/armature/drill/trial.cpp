@@ -45,6 +45,7 @@ std::vector<std::string> arguments_of(const TrialOptions& options, const Fault& 
   set("clock=system");
   set("dds={}");                // the arms of other machines are not drilled
   set("run.time_limit_s=120");  // whatever happens
+  if (options.deployment.records) set("record=null");
   if (form == Form::split) {
     for (const std::string& setting : options.deployment.apart) set(setting);
   }

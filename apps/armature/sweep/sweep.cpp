@@ -138,6 +138,11 @@ int sweep_deployment(const SweepOptions& options) {
   tell_warnings(plugins);
   const std::vector<Combination> combinations = combinations_of(options, plugins);
   check(combinations, options.pool);
+  if (std::ranges::any_of(combinations, [](const Combination& combination) {
+        return combination.config.record.has_value();
+      })) {
+    fmt::print(stderr, "armature: 'record:' is left out, a sweep records none of its runs\n");
+  }
   const std::string build = build_of(plugins);
   const auto key_of = [&](const Combination& combination, std::uint64_t seed) {
     return RunKey{combination.config.fingerprint + '/' + build, seed};

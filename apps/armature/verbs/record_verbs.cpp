@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "record/record.hpp"
+#include "replay/publish.hpp"
 #include "replay/replay.hpp"
 #include "verbs/option_checks.hpp"
 #include "verbs/verbs.hpp"
@@ -55,11 +56,13 @@ void add_info(CLI::App& app, Action& action) {
 
 void add_replay(CLI::App& app, Action& action) {
   auto options = std::make_shared<ReplayOptions>();
+  auto publish = std::make_shared<PublishOptions>();
   auto check = std::make_shared<bool>(false);
   CLI::App* verb = app.add_subcommand(
       "replay", "Repeat a recorded run, bit for bit: armature replay run.mcap --check");
   verb->add_option("recordings", options->files,
-                   "what a deployment recorded of itself (record:), a file for each process")
+                   "what a deployment recorded of itself (record:), a file for each process; to "
+                   "publish, any one")
       ->required()
       ->check(CLI::ExistingFile);
   verb->add_flag("--check", *check,
@@ -70,12 +73,29 @@ void add_replay(CLI::App& app, Action& action) {
       ->allow_extra_args(false);
   verb->add_flag("--allow-ulp", options->allow_ulp,
                  "compare what another kind of processor has recorded, too");
-  verb->add_flag("--json", options->json, "as JSON");
+  verb->add_option("--prefix", publish->prefix,
+                   "without --check and --set, topics are published again, under this name")
+      ->capture_default_str();
+  verb->add_option("--rate", publish->rate, "so many times as fast")->check(not_positive);
+  verb->add_option("--from", publish->from_s, "so many seconds after the beginning")
+      ->check(CLI::NonNegativeNumber);
+  verb->add_flag("--loop", publish->loop, "again and again");
+  add_watch(*verb, *publish);
+  verb->get_option("--timeout")->description("end after this many seconds");
   verb->callback([=, &action] {
-    if (!*check && options->assignments.empty()) {
-      throw CLI::ValidationError("replay", "say --check, or what to change: --set KEY=VALUE");
+    options->json = publish->json;
+    publish->file = options->files.front();
+    const bool is_publishing = !*check && options->assignments.empty();
+    if (is_publishing && options->files.size() > 1) {
+      throw CLI::ValidationError("recordings", "only one at a time is published again");
     }
-    action = [=] { return *check ? check_recording(*options) : compare_with_recording(*options); };
+    if (!publish->prefix.starts_with('/') || publish->prefix.size() < 2) {
+      throw CLI::ValidationError("--prefix", "it begins with '/' and a name follows: /replay");
+    }
+    action = [=] {
+      if (is_publishing) return publish_recording(*publish);
+      return *check ? check_recording(*options) : compare_with_recording(*options);
+    };
   });
 }
 

@@ -98,14 +98,16 @@ void RunRecorder::add(ComponentRunner& runner, const ComponentConfig& config, co
   for (const auto& input : runner.inbox().ports()) {
     const auto binding = std::ranges::find(config.inputs, input->spec().name,
                                            [](const PortBinding& port) { return port.spec.name; });
-    component.inputs.push_back({.topic = binding->topic, .type = &input->type()});
+    component.inputs.push_back(
+        {.topic = binding->topic, .type = &input->type(), .qos = input->spec().qos});
     ports[fmt::format("input {}", index++)] = input->spec().name;
   }
   for (OutputPort& output : runner.outputs()) {
     const MessageType& type = *output.topic().spec().type;
     const std::string topic = ros_topic_name(output.topic().spec().name);
     ports[fmt::format("writer {}", output.writer())] = output.spec().name;
-    if (Channel& channel = add_channel(output.writer(), topic, type); !channel.is_kept) continue;
+    const Port port{.topic = topic, .type = &type, .qos = output.spec().qos};
+    if (!add_channel(output.writer(), port).is_kept) continue;
     output.topic().reserve(max_waiting(type));
     const bool is_named = std::ranges::find(options_.topics, topic) != options_.topics.end();
     if (is_named) output.topic().connect(reader_);
@@ -115,13 +117,13 @@ void RunRecorder::add(ComponentRunner& runner, const ComponentConfig& config, co
   }
 }
 
-RunRecorder::Channel& RunRecorder::add_channel(std::uint32_t writer, const std::string& topic,
-                                               const MessageType& type) {
+RunRecorder::Channel& RunRecorder::add_channel(std::uint32_t writer, const Port& port) {
   const bool is_kept = options_.topics.empty() ||
                        std::ranges::any_of(options_.topics, [&](const std::string& pattern) {
-                         return matches_topic(pattern, topic);
+                         return matches_topic(pattern, port.topic);
                        });
-  return channels_[writer] = {.topic = topic, .type = &type, .is_kept = is_kept};
+  return channels_[writer] = {
+             .topic = port.topic, .type = port.type, .qos = port.qos, .is_kept = is_kept};
 }
 
 void RunRecorder::run() {
@@ -172,8 +174,7 @@ void RunRecorder::take(Component& component, ActivationLog::Entry& entry) {
       const auto& input = component.inputs[static_cast<std::size_t>(entry.input)];
       const auto known = channels_.find(info.writer);
       keep(entry.sample, info.published,
-           known == channels_.end() ? add_channel(info.writer, input.topic, *input.type)
-                                    : known->second);
+           known == channels_.end() ? add_channel(info.writer, input) : known->second);
       msg::SampleRead& read = call.read_().emplace_back();
       read.input_(static_cast<std::uint16_t>(entry.input));
       read.writer_(info.writer);
@@ -205,8 +206,9 @@ void RunRecorder::keep(const SampleRef& sample, Time at, Channel& channel) {
   const SampleInfo& info = sample.info();
   if (!channel.is_kept || !channel.written.add(info.sequence)) return;
   if (!channel.id) {
-    channel.id = queue_.add_channel(channel.topic, std::string{channel.type->dds_name},
-                                    {{"writer", fmt::format("{}", info.writer)}});
+    channel.id = queue_.add_channel(
+        channel.topic, std::string{channel.type->dds_name},
+        {{"writer", fmt::format("{}", info.writer)}, {"qos", std::string{to_string(channel.qos)}}});
   }
   std::vector<std::byte> cdr;
   channel.type->encode(sample.message(), cdr);

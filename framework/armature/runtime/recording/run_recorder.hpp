@@ -60,9 +60,11 @@ class RunRecorder {
   std::string close();
 
  private:
-  struct Input {
+  /// A topic as a port sees it.
+  struct Port {
     std::string topic;
     const MessageType* type;
+    QosProfile qos;
   };
   /// One that is recorded: its ring, and the call that is being taken from it.
   struct Component {
@@ -72,7 +74,7 @@ class RunRecorder {
     }
     ActivationLog log;
     msg::Activation call;
-    std::vector<Input> inputs;
+    std::vector<Port> inputs;
     bool is_of_runtime = false;  // no replay repeats it
   };
   /// The numbers of samples that have been written. Readers may be heard before the writer, so
@@ -90,6 +92,7 @@ class RunRecorder {
   struct Channel {
     std::string topic;
     const MessageType* type = nullptr;
+    QosProfile qos = QosProfile::state;
     bool is_kept = false;
     std::optional<std::uint16_t> id = {};  // in the file, from its first sample on
     Sequences written = {};
@@ -103,7 +106,7 @@ class RunRecorder {
   void tell_problem(const std::string& problem);
   void add(ComponentRunner& runner, const ComponentConfig& config, const Clock& clock,
            bool simulated);
-  Channel& add_channel(std::uint32_t writer, const std::string& topic, const MessageType& type);
+  Channel& add_channel(std::uint32_t writer, const Port& port);
   void run();
   void take_all();
   void take(Component& component, ActivationLog::Entry& entry);

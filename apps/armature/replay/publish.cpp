@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "replay/publish.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <stdexcept>
+
+#include "armature/bus/topic_name.hpp"
+#include "armature/bus/transport.hpp"
+#include "armature/recording/mcap_reader.hpp"
+#include "armature/runtime/execution/clock.hpp"
+#include "armature/runtime/plugins/plugin_registry.hpp"
+#include "exit_code.hpp"
+
+namespace armature {
+namespace {
+
+/// What nobody who comes later would get twice: of recordings that do not say how a topic was sent.
+bool is_latched(const std::string& topic) {
+  return topic.ends_with("/description") || topic.ends_with("/robot_description") ||
+         topic.ends_with("/tf_static") || topic.ends_with("/camera_info");
+}
+
+/// Everything is watched and nothing is commanded: samples do not expire.
+QosProfile profile_of(const McapChannel& channel) {
+  const auto told = channel.metadata.find("qos");
+  const auto profile =
+      told == channel.metadata.end() ? std::nullopt : find_qos_profile(told->second);
+  if (!profile) return is_latched(channel.topic) ? QosProfile::latched : QosProfile::state;
+  return *profile == QosProfile::command || *profile == QosProfile::reply ? QosProfile::state
+                                                                          : *profile;
+}
+
+class Player {
+ public:
+  explicit Player(const PublishOptions& options) : options_{options} {
+    auto transport = plugins_.make<Transport>(
+        "transport/fast_dds", TransportOptions{.network = options.network,
+                                               .deployment = "a recording",
+                                               .fingerprint = "",
+                                               .on_event = [](const TransportEvent&) {},
+                                               .now = [this] { return clock_.now(); }});
+    if (!transport) throw std::runtime_error("cannot join DDS: " + transport.error().text);
+    transport_ = std::move(*transport);
+  }
+
+  /// From the beginning to the end, or until it is time to leave.
+  void play() {
+    McapReader reader{options_.file};
+    std::optional<Time> first;
+    const Time start = monotonic_now();
+    while (const auto message = reader.next()) {
+      if (!first) first = message->log_time;
+      Topic* topic = topic_of(*message->channel);
+      if (!topic) continue;
+      const double at_s = to_seconds(message->log_time - *first) - options_.from_s;
+      // What is kept for those who come later counts from the beginning of the recording.
+      if (at_s < 0 && !topic->is_latched) continue;
+      const Time due = start + seconds(at_s / options_.rate);
+      if (due > monotonic_now() && !wait_until(due)) return;
+      if (left() || is_over()) return;
+      publish(*topic, message->data);
+    }
+    for (const std::string& problem : reader.problems()) problems_.insert(problem);
+  }
+
+  bool is_over() const {
+    return options_.timeout_s > 0 && monotonic_now() - begin_ > seconds(options_.timeout_s);
+  }
+  std::uint64_t messages() const { return messages_; }
+  std::size_t topics() const { return topics_.size() - unknown_.size(); }
+  const std::set<std::string>& unknown() const { return unknown_; }
+  const std::set<std::string>& problems() const { return problems_; }
+
+ private:
+  struct Topic {
+    bool is_latched = false;
+    std::unique_ptr<SamplePool> pool;  // outlives the writer, which may still be sending
+    std::unique_ptr<RemoteWriter> writer;
+  };
+
+  /// Null: of a type that is not known here.
+  Topic* topic_of(const McapChannel& channel) {
+    const auto [place, is_new] = topics_.try_emplace(channel.topic);
+    Topic& topic = place->second;
+    if (!is_new) return topic.writer ? &topic : nullptr;
+    const auto dds_type = channel.metadata.find("dds_type");
+    const MessageType* type =
+        dds_type == channel.metadata.end() ? nullptr : find_message_type(dds_type->second);
+    if (!type) {
+      unknown_.insert(channel.topic);
+      return nullptr;
+    }
+    const QosProfile profile = profile_of(channel);
+    topic.is_latched = settings(profile).transient_local;
+    topic.pool = std::make_unique<SamplePool>(*type, 16);
+    auto writer = transport_->advertise(
+        {.name = dds_topic_name(options_.prefix + channel.topic), .type = type, .qos = profile});
+    if (!writer) throw std::runtime_error(writer.error().text);
+    topic.writer = std::move(*writer);
+    return &topic;
+  }
+
+  void publish(Topic& topic, std::span<const std::byte> cdr) {
+    SampleRef sample = topic.pool->loan();
+    if (!topic.pool->type().decode(cdr, sample.mutable_message())) return;
+    sample.mutable_info().published = clock_.now();
+    topic.writer->offer(sample);
+    ++messages_;
+  }
+
+  bool wait_until(Time due) const {
+    while (!is_over()) {
+      const Duration left = due - monotonic_now();
+      if (left <= Duration{0}) return true;
+      if (!wait_for(std::min(left, seconds(0.1)))) return false;
+    }
+    return false;
+  }
+
+  const PublishOptions& options_;
+  const Time begin_ = monotonic_now();
+  SystemClock clock_;
+  PluginRegistry plugins_;
+  PluginPtr<Transport> transport_;
+  std::map<std::string, Topic> topics_;
+  std::uint64_t messages_ = 0;
+  std::set<std::string> unknown_, problems_;
+};
+
+}  // namespace
+
+int publish_recording(const PublishOptions& options) {
+  leave_in_order();
+  Player player{options};
+  do {
+    player.play();
+  } while (options.loop && player.messages() > 0 && !left() && !player.is_over());
+  for (const std::string& topic : player.unknown()) {
+    fmt::print(stderr, "armature: '{}' is of a type that is not known here\n", topic);
+  }
+  for (const std::string& problem : player.problems()) {
+    fmt::print(stderr, "armature: '{}': {}\n", options.file.string(), problem);
+  }
+  if (options.json) {
+    fmt::print("{}\n", nlohmann::ordered_json{{"messages", player.messages()},
+                                              {"topics", player.topics()},
+                                              {"prefix", options.prefix}}
+                           .dump());
+  } else {
+    fmt::print("{} messages of {} topics under {}\n", player.messages(), player.topics(),
+               options.prefix);
+  }
+  return player.messages() > 0 ? kOk : kFailed;
+}
+
+}  // namespace armature

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/recording/mcap_queue.hpp"
+
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "armature/recording/mcap_reader.hpp"
+
+namespace armature {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+constexpr const char* kType = "std_msgs::msg::dds_::Bool_";
+
+class McapQueueTest : public ::testing::Test {
+ protected:
+  McapQueueTest() { fs::create_directories(folder_); }
+  ~McapQueueTest() override { fs::remove_all(folder_); }
+
+  static void write(McapQueue& queue, std::uint16_t channel, double at_s) {
+    queue.write(channel, 1, Time{} + seconds(at_s), Time{} + seconds(at_s),
+                std::vector<std::byte>(5));
+  }
+  /// Of its messages [s].
+  static std::vector<double> times_in(const fs::path& file) {
+    McapReader reader{file};
+    std::vector<double> times;
+    while (const auto message = reader.next())
+      times.push_back(to_seconds(message->log_time - Time{}));
+    EXPECT_THAT(reader.problems(), testing::IsEmpty());
+    return times;
+  }
+  McapQueue::Around around(double around_s) {
+    return {.before_and_after = seconds(around_s),
+            .file =
+                [this](Time moment) {
+                  return folder_ / (std::to_string(moment.ns / 1'000'000'000) + ".mcap");
+                },
+            .told = [this](const fs::path& file) { told_.push_back(file.filename()); }};
+  }
+
+  const fs::path folder_ =
+      fs::temp_directory_path() / ("armature-mcap-queue-" + std::to_string(getpid()));
+  std::vector<std::string> told_;
+};
+
+TEST_F(McapQueueTest, WritesChannelsAndMessagesInTheirOrder) {
+  McapQueue queue{folder_ / "a.mcap", {}, McapQueue::WhenFull::wait};
+  const auto first = queue.add_channel("/a", kType);
+  const auto second = queue.add_channel("/b", kType);
+  EXPECT_NE(first, second);
+  for (int i = 0; i < 1000; ++i) write(queue, i % 2 == 0 ? first : second, i);
+  queue.close();
+  EXPECT_EQ(queue.messages(), 1000U);
+  const std::vector<double> times = times_in(folder_ / "a.mcap");
+  ASSERT_EQ(times.size(), 1000U);
+  EXPECT_TRUE(std::ranges::is_sorted(times));
+}
+
+TEST_F(McapQueueTest, WritesWhatHappenedAroundAMoment) {
+  McapQueue queue{around(2), {}};
+  const auto channel = queue.add_channel("/a", kType);
+  for (int i = 0; i < 20; ++i) {
+    write(queue, channel, i);
+    if (i == 10) queue.mark(Time{} + seconds(10));
+  }
+  queue.close();
+  EXPECT_THAT(times_in(folder_ / "10.mcap"), ElementsAre(8, 9, 10, 11, 12));
+  EXPECT_THAT(told_, ElementsAre("10.mcap"));
+}
+
+TEST_F(McapQueueTest, AMomentWithinTheFileOfAnotherMakesItLonger) {
+  McapQueue queue{around(2), {}};
+  const auto channel = queue.add_channel("/a", kType);
+  for (int i = 0; i < 20; ++i) {
+    write(queue, channel, i);
+    if (i == 5 || i == 6 || i == 15) queue.mark(Time{} + seconds(i));
+  }
+  queue.close();
+  EXPECT_THAT(times_in(folder_ / "5.mcap"), ElementsAre(3, 4, 5, 6, 7, 8));
+  EXPECT_THAT(times_in(folder_ / "15.mcap"), ElementsAre(13, 14, 15, 16, 17));
+  EXPECT_THAT(told_, ElementsAre("5.mcap", "15.mcap"));
+}
+
+TEST_F(McapQueueTest, WithoutAMomentThereIsNoFile) {
+  McapQueue queue{around(2), {}};
+  write(queue, queue.add_channel("/a", kType), 1);
+  queue.close();
+  EXPECT_TRUE(fs::is_empty(folder_));
+}
+
+TEST_F(McapQueueTest, TellsWhatItCannotWriteAndTakesNoMore) {
+  McapQueue queue{"/dev/full", {.compress = false}, McapQueue::WhenFull::wait};
+  const auto channel = queue.add_channel("/a", kType);
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds{10};
+  while (queue.problem().empty() && std::chrono::steady_clock::now() < end) {
+    queue.write(channel, 1, {}, {}, std::vector<std::byte>(1U << 20));
+  }
+  EXPECT_THAT(queue.problem(), HasSubstr("No space left"));
+  write(queue, channel, 1);
+  EXPECT_GE(queue.dropped().at(channel), 1U);
+  EXPECT_THROW(queue.close(), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace armature

@@ -27,7 +27,7 @@ export class Inspector {
     for (const {slot, plugin, parameters} of component.plugins) {
       if (parameters.length === 0) continue;
       parts.push(make('h4', {}, slot ? `Parameters of ${slot}: ${plugin}` : `Parameters of ${plugin}`));
-      parts.push(table(['Name', 'Value', 'From'], parameters.map((one) => [one.name, one.value, one.origin.replace(/^.*\//, '')])));
+      parts.push(table(['Name', 'Value', 'From'], parameters.map((one) => [one.name, one.value, one.origin.replace(/^\/.*\//, '')])));
     }
     for (const [title, output] of [['Reads', false], ['Writes', true]] as const) {
       const ports = component.ports.filter((port) => port.output === output);

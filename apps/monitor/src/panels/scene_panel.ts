@@ -52,6 +52,7 @@ export class ScenePanel implements Panel {
   private trails: Trail[] = [];
   private framed = false;
   private hadLinks = false;
+  private isTurned = false;  // by hand
   private drawnLook = '';
 
   constructor() {
@@ -67,17 +68,18 @@ export class ScenePanel implements Panel {
     for (const [name, key, direction] of kViews) {
       buttons.append(this.button(name, key, () => this.lookFrom(new Vector3(...direction))));
     }
-    buttons.append(this.button('View', 'v', () => (this.framed = false)));
+    buttons.append(this.button('View', 'v', () => this.lookAsAtFirst()));
     this.element.append(this.canvas, this.labels, this.inset, buttons, this.legend, this.note);
     this.canvas.addEventListener('keydown', (event) => {
       const view = kViews.find(([, key]) => key === event.key.toLowerCase());
       if (view) this.lookFrom(new Vector3(...view[2]));
-      if (event.key.toLowerCase() === 'v') this.framed = false;
+      if (event.key.toLowerCase() === 'v') this.lookAsAtFirst();
     });
     try {
       this.renderer = new WebGLRenderer({canvas: this.canvas, antialias: true, preserveDrawingBuffer: false});
       this.controls = new OrbitControls(this.camera, this.canvas);
       this.controls.enableDamping = false;
+      this.controls.addEventListener('start', () => (this.isTurned = true));
     } catch {
       write(this.note, 'This browser draws nothing in three dimensions (WebGL is missing); everything else works');
     }
@@ -133,6 +135,7 @@ export class ScenePanel implements Panel {
     this.tools.update(this.frames);
     this.drawBodies(view);
     this.tellMissing(hub);
+    this.fit();
     if (!this.framed) this.frame(view);
     const look = this.look();
     if (look !== this.drawnLook) {  // an arm that stands still is drawn once
@@ -244,10 +247,14 @@ export class ScenePanel implements Panel {
   }
   private place(eye: Vector3, target: Vector3) {
     // A narrow picture shows as much of what is in the middle: from farther away.
-    const narrow = Math.max(1, 1.25 / Math.max(0.3, this.camera.aspect));
+    const narrow = Math.max(1, 1.55 / Math.max(0.3, this.camera.aspect));
     this.camera.position.copy(target).add(eye.sub(target).multiplyScalar(narrow));
     this.controls?.target.copy(target);
     this.controls?.update();
+  }
+  private lookAsAtFirst() {
+    this.isTurned = false;
+    this.framed = false;
   }
   private lookFrom(direction: Vector3) {
     const box = new Box3().setFromObject(this.robots.group).expandByObject(this.face.group);
@@ -255,6 +262,7 @@ export class ScenePanel implements Panel {
     const centre = box.getCenter(new Vector3());
     this.place(centre.clone().add(direction.normalize().multiplyScalar(1.5 * box.getSize(new Vector3()).length())), centre);
     this.framed = true;
+    this.isTurned = true;
   }
   /// Differs when what is drawn does.
   private look(): string {
@@ -268,17 +276,22 @@ export class ScenePanel implements Panel {
     return [sum.toPrecision(9), ...camera, this.element.clientWidth, this.element.clientHeight,
             ...this.trails.map((trail) => trail.shown)].join();
   }
+  /// Takes the size that the page gives it. Who has turned the picture himself keeps his view.
+  private fit() {
+    const width = this.element.clientWidth, height = this.element.clientHeight;
+    const ratio = Math.min(window.devicePixelRatio, 2);
+    if (!this.renderer || width === 0 || height === 0) return;
+    if (this.canvas.width === Math.floor(width * ratio) && this.canvas.height === Math.floor(height * ratio)) return;
+    this.renderer.setPixelRatio(ratio);
+    this.renderer.setSize(width, height, false);
+    this.camera.aspect = width / height;
+    this.camera.updateProjectionMatrix();
+    if (!this.isTurned) this.framed = false;
+  }
   private render({layout}: View) {
     if (!this.renderer) return;
     const width = this.element.clientWidth, height = this.element.clientHeight;
     if (width === 0 || height === 0) return;
-    const ratio = Math.min(window.devicePixelRatio, 2);
-    if (this.canvas.width !== Math.floor(width * ratio) || this.canvas.height !== Math.floor(height * ratio)) {
-      this.renderer.setPixelRatio(ratio);
-      this.renderer.setSize(width, height, false);
-      this.camera.aspect = width / height;
-      this.camera.updateProjectionMatrix();
-    }
     this.renderer.setViewport(0, 0, width, height);
     this.renderer.render(this.scene, this.camera);
     const {closeUp} = layout.scene, tip = closeUp && this.frames.toRoot(closeUp.frame);

@@ -6,7 +6,8 @@ import type {Source, SourceEvents} from './source';
 const kWholeS = 150;     // [s] a recording that is no longer is kept whole
 const kAroundS = 45;     // [s] before and after, of a longer one
 const kSeldom = 600;     // messages of a topic that is kept whole: what still holds may be old
-const kSliceMs = 10;     // reading leaves the page time to draw
+const kSettleMs = 200;    // in which the page finds out what it wants
+const kSliceMs = 40;     // reading leaves the page time to draw
 
 export class Recording implements Source {
   readonly kind = 'recording';
@@ -16,7 +17,9 @@ export class Recording implements Source {
   isIdle = true;
   private wanted: ReadonlySet<string> = new Set();
   private loaded = new Set<string>();
+  private wantedAt = 0;  // [ms] when that changed last
   private job = 0;
+  private progress = 0;  // of the pass that runs, 0 to 1
 
   constructor(readonly file: RecordingFile, private readonly events: SourceEvents) {
     const isShort = file.end - file.start <= kWholeS;
@@ -27,6 +30,7 @@ export class Recording implements Source {
   }
   want(topics: ReadonlySet<string>) {
     this.wanted = topics;
+    this.wantedAt = performance.now();
     const missing = [...topics].filter((topic) => this.file.topics.has(topic) && !this.loaded.has(topic));
     if (missing.length > 0) void this.load();
   }
@@ -51,9 +55,10 @@ export class Recording implements Source {
   private isSeldom(topic: string) { return (this.file.topics.get(topic)?.count ?? 0) <= kSeldom; }
   private tell() {
     const {name, messages, topics, remark} = this.file;
+    const reading = this.isIdle ? '' : `reading ${(100 * this.progress).toFixed(0)} %: `;
     this.events.condition(
         this.isIdle ? 'read' : 'reading',
-        `${name}: ${messages} messages of ${topics.size} topics${remark ? `. ${remark}` : ''}`);
+        `${reading}${name}: ${messages} messages of ${topics.size} topics${remark ? `. ${remark}` : ''}`);
   }
 
   /// One after the other, until all that is wanted is there.
@@ -64,13 +69,18 @@ export class Recording implements Source {
     this.tell();
     try {
       for (;;) {
+        // The seldom ones first: they say what else will be looked at, and every pass through the rest
+        // unpacks all of it.
+        do await new Promise((resolve) => setTimeout(resolve, kSettleMs));
+        while (performance.now() - this.wantedAt < kSettleMs);
+        if (job !== this.job) return;
         const missing = [...this.wanted].filter((t) => this.file.topics.has(t) && !this.loaded.has(t));
         if (missing.length === 0) break;
-        missing.forEach((topic) => this.loaded.add(topic));
         const seldom = new Set(missing.filter((topic) => this.isSeldom(topic)));
-        const often = new Set(missing.filter((topic) => !this.isSeldom(topic)));
-        await this.read(seldom, -Infinity, Infinity, job);
-        await this.read(often, this.from, this.to, job);
+        const next = seldom.size > 0 ? seldom : new Set(missing);
+        for (const topic of next) this.loaded.add(topic);
+        if (seldom.size > 0) await this.read(next, -Infinity, Infinity, job);
+        else await this.read(next, this.from, this.to, job);
         if (job !== this.job) return;
       }
     } catch (error) {
@@ -87,6 +97,8 @@ export class Recording implements Source {
       if (job !== this.job) return;
       this.events.message(topic, t, bytes);
       if (performance.now() < sliceEnd) continue;
+      this.progress = Number.isFinite(from) ? (t - from) / (to - from) : 0;
+      this.tell();
       await new Promise((resolve) => setTimeout(resolve));
       sliceEnd = performance.now() + kSliceMs;
     }

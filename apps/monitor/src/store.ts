@@ -11,6 +11,10 @@ export interface Entry {
 const kOverhead = 160;  // [byte] of an entry, beside its message
 const kUnpacked = 96;   // messages of a topic that stay unpacked
 
+function isSame(a: Uint8Array, b: Uint8Array): boolean {
+  return a.byteLength === b.byteLength && a.every((byte, i) => byte === b[i]);
+}
+
 export class TopicLog {
   private entries: Entry[] = [];
   private unpacked = new Map<Entry, Message>();
@@ -32,6 +36,10 @@ export class TopicLog {
   add(entry: Entry) {
     let i = this.entries.length;
     while (i > 0 && this.entries[i - 1]!.t > entry.t) --i;
+    // What is kept for late comers is told again after a connection was lost.
+    for (let j = i - 1; j >= 0 && this.entries[j]!.t === entry.t; --j) {
+      if (isSame(this.entries[j]!.bytes, entry.bytes)) return;
+    }
     if (i === this.entries.length) this.entries.push(entry);
     else this.entries.splice(i, 0, entry);
     this.bytes += entry.bytes.byteLength + kOverhead;

@@ -159,8 +159,11 @@ async function again(domain) {
   await server.end('SIGKILL');
   await until(() => page.locator('.connection.lost').count(), 'the page to say that the connection is lost', 10_000);
   const server2 = await monitor(domain, server.port);
-  const before = await app(page, () => armature.hub.received);
+  const [before, points] = await app(page, () => [armature.hub.received, armature.plots[0].shown[0].curve.times.length]);
   await until(() => app(page, (count) => armature.hub.condition === 'connected' && armature.hub.received > count + 100, before), 'messages after the connection was made again', 30_000);
+  assert.ok(await app(page, () => armature.plots[0].shown[0].curve.times.length) >= points, 'what was remembered before is still there');
+  const lines = await page.locator('.log .text').allTextContents();
+  assert.equal(lines.filter((line) => line === 'checking light').length, 1, 'what the operator was told stands there once');
   const run1 = await app(page, () => armature.deployment.run);
   await deployment.end();
   const next = run(domain, kLampArm);

@@ -72,6 +72,13 @@ test('messages of several writers stand in order of their times', () => {
   assert.deepEqual([0, 1, 2, 3, 4].map((i) => store.log('/tf').entry(i)!.t), [1, 2, 3, 4, 5]);
 });
 
+test('a message that is told again is kept once', () => {
+  const store = new Store(), bytes = () => new Uint8Array([1, 2, 3]);
+  for (const t of [1, 2, 1, 2]) store.add('/rosout', t, bytes());
+  store.add('/rosout', 2, new Uint8Array([1, 2, 4]));
+  assert.equal(store.log('/rosout').length, 3);
+});
+
 test('types that cannot be read are named with a reason', () => {
   assert.match(String(decoderOf({encoding: 'json', schemaEncoding: 'jsonschema', text: ''})), /'json', not CDR/);
   assert.match(String(decoderOf({encoding: 'cdr', schemaEncoding: 'omgidl', text: ''})), /'omgidl'/);

@@ -6,6 +6,7 @@ import type {Source, SourceEvents, TopicInfo} from './source';
 
 const kProtocols = ['foxglove.sdk.v1', 'foxglove.websocket.v1'];
 const kHeadBytes = 13;
+const kSoonMs = 1500;  // in which a server says what there is
 const kRetryMs = [300, 1000, 2000, 3000];
 
 interface Channel {
@@ -24,6 +25,7 @@ export class Connection implements Source {
   private byTopic = new Map<string, number>();
   private subscriptions = new Map<string, number>();  // by topic
   private topicOf = new Map<number, string>();        // by subscription
+  private gone = new Set<string>();  // topics of something that has ended; not of a lost connection
   private wanted: ReadonlySet<string> = new Set();
   private lastSubscription = 0;
   private failures = 0;
@@ -58,6 +60,7 @@ export class Connection implements Source {
       this.failures = 0;
       this.wasOpen = true;
       this.events.condition('connected', `Connected to ${this.place()}`);
+      setTimeout(() => this.closed || this.tellTopics(), kSoonMs);  // where nothing is there any more
     };
     socket.onmessage = ({data}) => (typeof data === 'string' ? this.told(data) : this.data(data));
     socket.onclose = () => this.lost();
@@ -70,7 +73,7 @@ export class Connection implements Source {
     this.byTopic.clear();
     this.subscriptions.clear();
     this.topicOf.clear();
-    this.tellTopics();
+    // What was there stays in the page until the server, or another one, says what is there now.
     const wait = kRetryMs[Math.min(this.failures++, kRetryMs.length - 1)]!;
     this.events.condition(
         'lost', this.wasOpen ? 'Connection lost, trying again'
@@ -84,7 +87,7 @@ export class Connection implements Source {
       for (const channel of message.channels as Channel[]) {
         this.channels.set(channel.id, channel);
         this.byTopic.set(channel.topic, channel.id);
-        this.events.forget(channel.topic);
+        if (this.gone.delete(channel.topic)) this.events.forget(channel.topic);
       }
       this.tellTopics();
       this.update();
@@ -93,6 +96,7 @@ export class Connection implements Source {
         const topic = this.channels.get(id)?.topic;
         this.channels.delete(id);
         if (topic === undefined) continue;
+        this.gone.add(topic);
         this.byTopic.delete(topic);
         this.topicOf.delete(this.subscriptions.get(topic) ?? 0);
         this.subscriptions.delete(topic);

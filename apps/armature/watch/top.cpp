@@ -30,7 +30,7 @@ std::vector<TopLine> help() {
         "STEP50/99    half of the steps, and 99 of 100, took at most this long",
         "CPU%         share of one processor",
         "MISSED       periods that were passed over since the start",
-        "DROPPED      samples that a full input queue lost since the start",
+        "DROPPED      samples lost since the start: by full queues, and between processes",
         "ANSWERS TO   the oldest measurement that a step answered to, and how old it was then", "",
         "F4 or \\ or /  show only what has this in its name, process or plugin; Enter ends, Esc "
         "clears it",

@@ -96,7 +96,8 @@ class ComponentRunner {
   bool finished() const { return finished_.load(std::memory_order_acquire); }
   std::uint64_t activations() const { return activations_.load(std::memory_order_relaxed); }
   std::uint64_t overruns() const { return overruns_.load(std::memory_order_relaxed); }
-  /// What full queues have lost, of inputs and of driver threads.
+  /// What full queues have lost, of inputs, driver threads and the way to other processes, and what
+  /// did not arrive from these.
   std::uint64_t dropped() const;
 
   /// Of its steps since the start. Any thread.

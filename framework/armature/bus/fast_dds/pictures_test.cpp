@@ -2,6 +2,7 @@
 // Pictures between processes without shared memory: they arrive, also where the system keeps less
 // than one of them for a reader; what is lost is counted; commands are not held up.
 #include "armature/bus/fast_dds/fast_dds_test.hpp"
+#include "armature/bus/fast_dds/observer.hpp"
 
 namespace armature {
 namespace {
@@ -90,6 +91,18 @@ TEST_F(Pictures, ThatOneProcessIsSlowToTakeReachTheOthersInTime) {
   EXPECT_GE(now(in_time).count, 0.9 * now(in_time).sent());
   ASSERT_TRUE(eventually([&] { return now(late).lost > 0; }));
   expect_all_accounted_for(now(late));
+}
+
+TEST_F(Pictures, ThatAnOnlookerMissesAreCounted) {
+  Peer peer{domain_, "lamp", "f00d", "pictures"};
+  const auto observer =
+      DdsObserver::make({.network = {.domain = domain_}, .asks_again = false}).value();
+  std::atomic<std::uint64_t> lost{0};
+  ASSERT_TRUE(observer->watch("/test/left", seconds(30), [&](const ObservedSample& sample) {
+    lost += sample.lost_before;
+    std::this_thread::sleep_for(100ms);  // three times too long
+  }));
+  EXPECT_TRUE(eventually([&] { return lost > 0; }));
 }
 
 TEST_F(Pictures, ThatTakeLongToSendHoldUpNoCommand) {

@@ -34,7 +34,7 @@ std::optional<MessageDifference> number_difference(const Json& a, const Json& b)
                            .ulps = first > second ? first - second : second - first};
 }
 
-std::string text_of(const Json& value) {
+std::string json_text(const Json& value) {
   return value.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
@@ -47,7 +47,7 @@ std::optional<MessageDifference> element_difference(const FieldDescription& fiel
   if (field.kind == FieldKind::float64) return number_difference<double, std::uint64_t>(a, b);
   if (field.kind == FieldKind::float32) return number_difference<float, std::uint32_t>(a, b);
   if (a == b) return std::nullopt;
-  return MessageDifference{.field = {}, .recorded = text_of(a), .replayed = text_of(b), .ulps = {}};
+  return MessageDifference{.field = {}, .recorded = json_text(a), .replayed = json_text(b), .ulps = {}};
 }
 
 std::optional<MessageDifference> array_difference(const FieldDescription& field, const Json& a,

@@ -2,9 +2,13 @@
 #include "armature/recording/mcap_queue.hpp"
 
 #include <gmock/gmock.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
+#include <csignal>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <thread>
@@ -21,6 +25,23 @@ using ::testing::HasSubstr;
 
 constexpr const char* kType = "std_msgs::msg::dds_::Bool_";
 
+/// No file of this process grows longer while it exists.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t bytes) {
+    std::signal(SIGXFSZ, SIG_IGN);
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit now{.rlim_cur = bytes, .rlim_max = before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &now);
+  }
+  ~FileSizeLimit() { setrlimit(RLIMIT_FSIZE, &before_); }
+  FileSizeLimit(const FileSizeLimit&) = delete;
+  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+
+ private:
+  rlimit before_{};
+};
+
 class McapQueueTest : public ::testing::Test {
  protected:
   McapQueueTest() { fs::create_directories(folder_); }
@@ -31,11 +52,11 @@ class McapQueueTest : public ::testing::Test {
                 std::vector<std::byte>(5));
   }
   /// Of its messages [s].
-  static std::vector<double> times_in(const fs::path& file) {
+  static std::vector<std::int64_t> times_in(const fs::path& file) {
     McapReader reader{file};
-    std::vector<double> times;
+    std::vector<std::int64_t> times;
     while (const auto message = reader.next())
-      times.push_back(to_seconds(message->log_time - Time{}));
+      times.push_back(message->log_time.ns / 1'000'000'000);
     EXPECT_THAT(reader.problems(), testing::IsEmpty());
     return times;
   }
@@ -61,7 +82,7 @@ TEST_F(McapQueueTest, WritesChannelsAndMessagesInTheirOrder) {
   for (int i = 0; i < 1000; ++i) write(queue, i % 2 == 0 ? first : second, i);
   queue.close();
   EXPECT_EQ(queue.messages(), 1000U);
-  const std::vector<double> times = times_in(folder_ / "a.mcap");
+  const std::vector<std::int64_t> times = times_in(folder_ / "a.mcap");
   ASSERT_EQ(times.size(), 1000U);
   EXPECT_TRUE(std::ranges::is_sorted(times));
 }
@@ -99,13 +120,16 @@ TEST_F(McapQueueTest, WithoutAMomentThereIsNoFile) {
 }
 
 TEST_F(McapQueueTest, TellsWhatItCannotWriteAndTakesNoMore) {
-  McapQueue queue{"/dev/full", {.compress = false}, McapQueue::WhenFull::wait};
+  EXPECT_THROW(McapQueue("/dev/full", {}, McapQueue::WhenFull::wait), std::runtime_error);
+
+  const FileSizeLimit limit{4U << 20};
+  McapQueue queue{folder_ / "a.mcap", {.compress = false}, McapQueue::WhenFull::wait};
   const auto channel = queue.add_channel("/a", kType);
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds{10};
   while (queue.problem().empty() && std::chrono::steady_clock::now() < end) {
     queue.write(channel, 1, {}, {}, std::vector<std::byte>(1U << 20));
   }
-  EXPECT_THAT(queue.problem(), HasSubstr("No space left"));
+  EXPECT_THAT(queue.problem(), HasSubstr("File too large"));
   write(queue, channel, 1);
   EXPECT_GE(queue.dropped().at(channel), 1U);
   EXPECT_THROW(queue.close(), std::runtime_error);

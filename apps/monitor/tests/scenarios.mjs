@@ -268,6 +268,7 @@ async function lazy(domain) {
   const server = await monitor(domain);
   run(domain, kLampArm);
   await until(async () => (await output(['topic', 'list', '--domain', String(domain)]).catch(() => '')).includes('/tf_static'), 'the topics');
+  await sleep(5);  // until the pictures flow
   const alone = await decodeLive(server.socket, 5);
   const sockets = await lazyClients(server.socket, 10);
   await sleep(3);

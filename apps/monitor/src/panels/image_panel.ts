@@ -34,6 +34,7 @@ export class ImagePanel implements Panel {
   private shown: unknown;
   private isBusy = false;
   private arrivals: number[] = [];
+  private scale = 1;  // pixels of the canvas for one of the camera
 
   constructor(readonly id: string, private readonly layout: ImageLayout) {
     this.title = layout.title;
@@ -142,7 +143,10 @@ export class ImagePanel implements Panel {
     try {
       if (compressed) {
         const type = /png/i.test(message.format) ? 'image/png' : 'image/jpeg';
-        const picture = await createImageBitmap(new Blob([message.data as Uint8Array<ArrayBuffer>], {type}));
+        // No larger than it is seen: the less there is to copy for every picture.
+        const wanted = Math.ceil(Math.max(160, this.canvas.clientWidth) * Math.min(devicePixelRatio, 2));
+        const size = over.info?.width > wanted ? {resizeWidth: wanted, resizeHeight: Math.round((wanted * over.info.height) / over.info.width), resizeQuality: 'medium' as const} : {};
+        const picture = await createImageBitmap(new Blob([message.data as Uint8Array<ArrayBuffer>], {type}), size);
         this.resize(picture.width, picture.height);
         context.drawImage(picture, 0, 0);
         picture.close();
@@ -156,8 +160,12 @@ export class ImagePanel implements Panel {
       return `A picture cannot be read: ${(error as Error).message}`;
     }
     this.landmarks = 0;
+    // From here on in the pixels of the camera.
+    this.scale = over.info?.width > 0 ? this.canvas.width / over.info.width : 1;
+    context.setTransform(this.scale, 0, 0, this.scale, 0, 0);
     if (over.found?.valid) this.drawLandmarks(context, over.found);
     if (over.face && over.info) this.drawFace(context, over.face, over.info);
+    context.setTransform(1, 0, 0, 1, 0, 0);
     return over.found && !over.found.valid ? over.found.reason : '';
   }
   private resize(width: number, height: number) {
@@ -168,7 +176,7 @@ export class ImagePanel implements Panel {
   /// Of the picture's pixels on one of the page: lines are as thick whatever the size of the panel.
   private unit() {
     const shown = Math.min(this.canvas.clientWidth, (this.canvas.clientHeight * this.canvas.width) / this.canvas.height);
-    return this.canvas.width / Math.max(160, shown);
+    return this.canvas.width / this.scale / Math.max(160, shown);
   }
   private drawLandmarks(context: CanvasRenderingContext2D, found: Message) {
     const side = this.layout.side!, points = found[side] as Float64Array;

@@ -46,6 +46,7 @@ export class App {
   private condition = '';
   private told = 0;  // warnings of the source
   private slowAt = 0;
+  private tickedAt = performance.now();
   private unreadable = new Set<string>();  // topics of which that was told
 
   constructor(header: HTMLElement, private readonly panels: HTMLElement, timeline: HTMLElement) {
@@ -170,6 +171,8 @@ export class App {
 
   private tick() {
     const now = performance.now();
+    this.scene.roundMs += 0.1 * (Math.min(500, now - this.tickedAt) - this.scene.roundMs);
+    this.tickedAt = now;
     this.playhead.tick();
     this.follow();
     this.tellCondition();

@@ -85,11 +85,10 @@ export class ScenePanel implements Panel {
     }
   }
 
-  /// At most 30 a second, and half of the time where drawing is slow.
-  get intervalMs() {
-    const times = this.frameTimes.slice(-8);
-    return Math.max(33, (2 * times.reduce((a, b) => a + b, 0)) / Math.max(1, times.length));
-  }
+  /// At most 30 a second; less often where the page comes round seldom because of it, as without a
+  /// graphics card: pictures and curves need the time, too.
+  get intervalMs() { return Math.min(250, Math.max(33, 4 * (this.roundMs - 17))); }
+  roundMs = 17;  // from one frame of the page to the next, the mean of late
   topics({hub, layout, deployment}: View): string[] {
     const of = (topic: string) => deployment?.topic(topic) ?? topic;
     const descriptions = Robots.descriptions(hub);

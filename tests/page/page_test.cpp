@@ -60,6 +60,7 @@ TEST_F(PageInABrowser, ShowsEveryComponentAsItsStateIsTold) { expect_true("graph
 TEST_F(PageInABrowser, ShowsWhatWasWhenItIsPausedAndGoneBack) { expect_true("scrub"); }
 TEST_F(PageInABrowser, ComesBackAfterALostConnectionAndFollowsANewRun) { expect_true("again"); }
 TEST_F(PageInABrowser, OpensARecordingWholeOrCutOff) { expect_true("recording"); }
+TEST_F(PageInABrowser, OpensAReportOfARunFromTheDisk) { expect_true("report"); }
 TEST_F(PageInABrowser, LetsChooseBetweenTwoDeployments) { expect_true("two"); }
 TEST_F(PageInABrowser, SurvivesMessagesThatMakeNoSense) { expect_true("nonsense"); }
 TEST_F(PageInABrowser, FitsLaptopAndTabletAndIsUsedByKeyboard) { expect_true("sizes"); }

@@ -32,15 +32,6 @@ bool matches(const std::string& topic, const std::string& wanted) {
                                : topic == ros_topic_name(dds_topic_name(wanted));
 }
 
-/// A recording is not lost by a word that was typed wrongly.
-void refuse_to_replace(const std::filesystem::path& file, bool force) {
-  std::error_code error;
-  const bool has_content =
-      std::filesystem::is_regular_file(file, error) && std::filesystem::file_size(file, error) > 0;
-  if (!has_content || force) return;
-  throw InvalidChoice(fmt::format("'{}' is there already; --force replaces it", file.string()));
-}
-
 /// A name from a file, as a terminal may be shown it.
 std::string shown(std::string name) {
   std::ranges::replace_if(
@@ -328,6 +319,14 @@ McapMetadata repaired_from(const std::filesystem::path& cut, const McapReader& r
 }
 
 }  // namespace
+
+void refuse_to_replace(const std::filesystem::path& file, bool force) {
+  std::error_code error;
+  const bool has_content =
+      std::filesystem::is_regular_file(file, error) && std::filesystem::file_size(file, error) > 0;
+  if (!has_content || force) return;
+  throw InvalidChoice(fmt::format("'{}' is there already; --force replaces it", file.string()));
+}
 
 int record_topics(const RecordOptions& options) {
   leave_in_order();

@@ -21,6 +21,9 @@ int record_topics(const RecordOptions& options);
 /// Writes what can be read of a recording that was cut off as a whole one.
 int repair_recording(const std::filesystem::path& cut, const std::filesystem::path& whole,
                      bool force);
+/// Throws InvalidChoice when there is such a file with something in it, unless it may be replaced.
+void refuse_to_replace(const std::filesystem::path& file, bool force);
+
 struct InfoOptions {
   std::filesystem::path file;
   bool json = false;

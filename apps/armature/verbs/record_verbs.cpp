@@ -5,6 +5,7 @@
 #include "record/record.hpp"
 #include "replay/publish.hpp"
 #include "replay/replay.hpp"
+#include "report/report.hpp"
 #include "verbs/option_checks.hpp"
 #include "verbs/verbs.hpp"
 
@@ -99,12 +100,30 @@ void add_replay(CLI::App& app, Action& action) {
   });
 }
 
+void add_report(CLI::App& app, Action& action) {
+  auto options = std::make_shared<ReportOptions>();
+  auto without_pictures = std::make_shared<bool>(false);
+  CLI::App* verb = app.add_subcommand(
+      "report", "Write a recorded run as one page: armature report run.mcap -o report.html");
+  verb->add_option("recording", options->recording, "an MCAP file")
+      ->required()
+      ->check(CLI::ExistingFile);
+  verb->add_option("-o,--out", options->out, "the page")->required();
+  verb->add_flag("--without-pictures", *without_pictures, "leave out what the cameras saw");
+  verb->add_flag("--force", options->force, "replace a file that is there");
+  verb->callback([=, &action] {
+    options->pictures = !*without_pictures;
+    action = [=] { return write_report(*options); };
+  });
+}
+
 }  // namespace
 
 void add_record_verbs(CLI::App& app, Action& action) {
   add_record(app, action);
   add_info(app, action);
   add_replay(app, action);
+  add_report(app, action);
 }
 
 }  // namespace armature

@@ -3,6 +3,7 @@
 import {Deployment, deploymentsOf} from './deployment';
 import {Hub} from './hub';
 import {derivedLayout, kEmpty, shippedLayout, type Layout} from './layouts/layout';
+import {AboutDialog} from './panels/about';
 import {GraphPanel} from './panels/graph_panel';
 import {Header, type Headline} from './panels/header';
 import {helpDialog} from './panels/help';
@@ -37,6 +38,7 @@ export class App {
   private alone: string | undefined;  // the panel that has all the room
   private readonly header: Header;
   private readonly timeline: Timeline;
+  private readonly isReport: boolean;
   private readonly inspector = new Inspector(() => this.inspect(''));
   private readonly help = helpDialog();
   private readonly topicsList = make('datalist', {id: 'topics-there'});
@@ -49,9 +51,13 @@ export class App {
   private tickedAt = performance.now();
   private unreadable = new Set<string>();  // topics of which that was told
 
-  constructor(header: HTMLElement, private readonly panels: HTMLElement, timeline: HTMLElement) {
+  /// `told`: of a report, where its recording came from.
+  constructor(header: HTMLElement, private readonly panels: HTMLElement, timeline: HTMLElement, told?: [string, string][]) {
     this.header = new Header(header, (namespace) => this.choose(namespace));
-    this.timeline = new Timeline(timeline, this.playhead, (file) => void this.openFile(file), () => this.help.showModal());
+    this.isReport = told !== undefined;
+    const about = told && new AboutDialog(told);
+    this.timeline = new Timeline(timeline, this.playhead, (file) => void this.openFile(file), () => this.help.showModal(),
+                                 about && (() => this.tellAbout(about)));
     document.body.append(this.topicsList, this.inspector.element);
     this.hub.onForget((topic) => {
       this.scene.forget(topic);
@@ -80,7 +86,7 @@ export class App {
     try {
       const recording = await openRecording(file, file.name);
       this.startAnew();
-      this.hub.open(recording);
+      this.hub.open(recording, this.isReport);
       this.playhead.reset();
       this.log.add({t: recording.start, level: recording.remark ? 'warning' : 'info', who: 'page',
                     text: `${file.name}: ${recording.messages} messages of ${recording.topics.size} topics${recording.remark ? `. ${recording.remark}` : ''}`});
@@ -92,6 +98,12 @@ export class App {
     return {t: this.playhead.t, isLive: this.playhead.isLive, hub: this.hub, deployment: this.deployment, layout: this.layout};
   }
 
+  /// Of the end of the run where that is read, else of what is looked at.
+  private tellAbout(about: AboutDialog) {
+    const {start, end, t: shown} = this.playhead, hasEnd = this.hub.recording?.hasEnd ?? false;
+    const t = hasEnd ? end : shown;
+    about.show(this.deployment, this.headlines({...this.view(), t}), t, hasEnd ? 'at the end' : `at ${(t - start).toFixed(1)} s`);
+  }
   private startAnew() {
     this.deployment = undefined;
     this.run = '';
@@ -241,7 +253,7 @@ export class App {
     addEventListener('drop', (event) => {
       event.preventDefault();
       const file = event.dataTransfer?.files[0];
-      if (file) void this.openFile(file);
+      if (file && !this.isReport) void this.openFile(file);
     });
     addEventListener('resize', () => this.arrange());
   }

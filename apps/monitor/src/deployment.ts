@@ -21,7 +21,7 @@ export interface Component {
   plugin: string;
   executor: string;
   process: string;
-  plugins: {slot: string; plugin: string; parameters: {name: string; value: string; origin: string}[]}[];
+  plugins: {slot: string; plugin: string; abi: string; sha256: string; parameters: {name: string; value: string; origin: string}[]}[];
   ports: Port[];
 }
 export interface ComponentCondition {

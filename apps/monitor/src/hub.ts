@@ -36,10 +36,10 @@ export class Hub {
     this.source = new Connection(url, this.events());
     this.source.want(this.wanted);
   }
-  open(file: RecordingFile) {
+  open(file: RecordingFile, isReport = false) {
     this.leave();
     this.store.windowS = Infinity;
-    this.source = new Recording(file, this.events());
+    this.source = new Recording(file, this.events(), isReport);
     this.source.want(this.wanted);
   }
   get recording(): Recording | undefined {

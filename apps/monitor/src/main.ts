@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import './style.css';
 import {App} from './app';
+import {embeddedRecording} from './source/embedded';
 
 const query = new URLSearchParams(location.search);
 
@@ -12,7 +13,13 @@ function socketUrl(): string {
   return token && !other ? `${base}?token=${encodeURIComponent(token)}` : base;
 }
 
-const app = new App(document.getElementById('header')!, document.getElementById('panels')!, document.getElementById('timeline')!);
-app.connect(location.protocol.startsWith('http') || query.has('ws') ? socketUrl() : '');
+const report = embeddedRecording();
+const app = new App(document.getElementById('header')!, document.getElementById('panels')!, document.getElementById('timeline')!, report?.told);
+if (report) {
+  document.title = `${report.file.name} - Armature`;
+  void app.openFile(report.file);
+} else {
+  app.connect(location.protocol.startsWith('http') || query.has('ws') ? socketUrl() : '');
+}
 // For those who test the page: what it shows, to be read.
 Object.assign(window, {armature: app});

@@ -5,6 +5,7 @@ import assert from 'node:assert/strict';
 import {copyFile, mkdtemp, readFile, rm, truncate, writeFile} from 'node:fs/promises';
 import {tmpdir} from 'node:os';
 import {join} from 'node:path';
+import {pathToFileURL} from 'node:url';
 
 import {decodeLive, decodeRecording, lazyClients} from './clients.mjs';
 import {fakeServer} from './fake_server.mjs';
@@ -213,6 +214,54 @@ async function recording(domain) {
   }
 }
 
+/// A report is opened from the disk, without a server: it shows its run with as many messages as were
+/// recorded of a topic that is not thinned, says where it came from, and has nothing that is live.
+async function report(domain) {
+  const folder = await mkdtemp(join(tmpdir(), 'armature-page-'));
+  try {
+    const deployment = run(domain, kLampArm);
+    const file = join(folder, 'run.mcap'), out = join(folder, 'report.html');
+    const {head} = JSON.parse(await output(['record', '-o', file, '--timeout', '12', '--json', '--domain', String(domain)]));
+    await deployment.end();
+    await output(['report', file, '-o', out]);
+    const recorded = Object.fromEntries(JSON.parse(await output(['info', file, '--json'])).topics.map(({topic, messages}) => [topic, messages]));
+    await rm(file);
+    const page = await openPage('about:blank');
+    const requests = [];
+    page.on('request', (request) => requests.push(request.url()));
+    await page.goto(pathToFileURL(out).href);
+    await until(() => app(page, () => armature.hub.condition === 'read' && armature.scene.robots.count === 1), 'the arm of the report');
+    await page.keyboard.press('Space');
+    await page.keyboard.press('End');
+    await until(() => app(page, () => armature.images.length === 2 && armature.images.every(({pictures}) => pictures > 0)), 'its pictures');
+    const shown = await app(page, () => Object.fromEntries([...armature.hub.topics.values()].map(({name, count}) => [name, count])));
+    for (const topic of ['/dental_lamp/target', '/dental_lamp/task/state', '/rosout', '/tf']) assert.equal(shown[topic], recorded[topic], topic);
+    assert.equal(await app(page, () => armature.hub.log('/dental_lamp/task/state').length), recorded['/dental_lamp/task/state'], 'messages that are read');
+    const js = '/dental_lamp/arm/measured_js';
+    assert.ok(shown[js] > 0 && shown[js] <= recorded[js], `${shown[js]} of ${recorded[js]} messages of ${js}`);
+    assert.ok(!shown['/dental_lamp/left/image_raw'], 'no picture comes raw where there is a JPEG');
+    // The arm stands where the recording has it, at its end and at its beginning.
+    const tool = async () => [(await links(page)).tool, await app(page, () => armature.hub.at('/dental_lamp/tool_pose', armature.playhead.t)?.pose.position)];
+    await sleep(1);
+    const [drawn, told] = await tool();
+    ['x', 'y', 'z'].forEach((axis, i) => near(drawn[i], told[axis], 2e-3, `tool ${axis} [m]`));
+    assert.ok((await page.locator('.scene canvas').screenshot()).length > 8000, 'the picture of the arm is not empty');
+    assert.equal(await page.locator('button.live').count(), 0);
+    assert.equal(await page.locator('#open').count(), 0);
+    await until(() => app(page, () => armature.hub.recording.hasEnd), 'all of it to be read');
+    await page.getByRole('button', {name: 'About this run'}).click();
+    const about = page.locator('dialog.about');
+    assert.ok((await about.locator('tr', {hasText: 'Last hash'}).textContent()).endsWith(head));
+    for (const text of ['run.mcap', 'whole and unchanged', 'Figures at the end', 'Timing at the end', 'landmarks/dlib68', 'rate_hz']) {
+      assert.ok(await about.getByText(text).count(), `${text} in the report`);
+    }
+    assert.deepEqual(requests.filter((url) => !/^(file|data|blob):/.test(url)), [], 'nothing comes from elsewhere');
+    assert.deepEqual(page.problems, []);
+  } finally {
+    await rm(folder, {recursive: true});
+  }
+}
+
 /// Two deployments on one domain: the page shows one, and lets choose.
 async function two(domain) {
   const server = await monitor(domain);
@@ -338,4 +387,4 @@ async function sizes(domain) {
   assert.deepEqual(page.problems, []);
 }
 
-export const scenarios = {arm, pictures, plots, graph, scrub, again, recording, two, nonsense, clients, lazy, figures, pairs, sizes};
+export const scenarios = {arm, pictures, plots, graph, scrub, again, recording, report, two, nonsense, clients, lazy, figures, pairs, sizes};

@@ -24,7 +24,8 @@ export class Inspector {
       make('p', {}, `${component.plugin} · executor ${component.executor} · process ${component.process}`),
       this.condition,
     ];
-    for (const {slot, plugin, parameters} of component.plugins) {
+    for (const {slot, plugin, sha256, parameters} of component.plugins) {
+      if (sha256) parts.push(make('p', {class: 'hash'}, `${plugin}: SHA-256 ${sha256}`));
       if (parameters.length === 0) continue;
       parts.push(make('h4', {}, slot ? `Parameters of ${slot}: ${plugin}` : `Parameters of ${plugin}`));
       parts.push(table(['Name', 'Value', 'From'], parameters.map((one) => [one.name, one.value, one.origin.replace(/^\/.*\//, '')])));
@@ -46,7 +47,7 @@ export class Inspector {
   }
 }
 
-function table(head: string[], rows: string[][]): HTMLElement {
+export function table(head: string[], rows: string[][]): HTMLElement {
   return make('table', {},
       make('thead', {}, make('tr', {}, ...head.map((text) => make('th', {scope: 'col'}, text)))),
       make('tbody', {}, ...rows.map((row) => make('tr', {}, ...row.map((text) => make('td', {}, text))))));

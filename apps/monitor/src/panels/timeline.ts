@@ -15,7 +15,7 @@ export class Timeline {
   private readonly performance = make('span', {class: 'performance', title: 'Time that drawing takes, memory of what is remembered'});
   private tickKey = '';
 
-  constructor(element: HTMLElement, private readonly playhead: Playhead, onFile: (file: File) => void, onHelp: () => void) {
+  constructor(element: HTMLElement, private readonly playhead: Playhead, onFile: (file: File) => void, onHelp: () => void, onAbout?: () => void) {
     const opener = make('label', {for: 'open', class: 'button', title: 'Open a recording (MCAP)'}, 'Open recording');
     const help = make('button', {type: 'button', title: 'Keys (?)', 'aria-label': 'Help'}, '?');
     this.play.addEventListener('click', () => this.playhead.toggle());
@@ -31,7 +31,11 @@ export class Timeline {
       if (file) onFile(file);
       this.open.value = '';
     });
-    element.append(this.play, make('div', {class: 'track'}, this.ticks, this.slider), this.label, this.live, this.open, opener, this.performance, help);
+    const about = make('button', {type: 'button', class: 'about'}, 'About this run');
+    if (onAbout) about.addEventListener('click', onAbout);
+    // A report shows its own run and no other.
+    const source = onAbout ? [about] : [this.live, this.open, opener];
+    element.append(this.play, make('div', {class: 'track'}, this.ticks, this.slider), this.label, ...source, this.performance, help);
   }
 
   draw(hub: Hub, events: LogEvent[], frameMs: number) {

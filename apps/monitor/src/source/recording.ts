@@ -4,6 +4,7 @@ import type {RecordingFile} from './recording_file';
 import type {Source, SourceEvents} from './source';
 
 const kWholeS = 150;     // [s] a recording that is no longer is kept whole
+const kWholeReportS = 400;  // [s] the same of a report, which has fewer messages
 const kAroundS = 45;     // [s] before and after, of a longer one
 const kSeldom = 600;     // messages of a topic that is kept whole: what still holds may be old
 const kSettleMs = 200;    // in which the page finds out what it wants
@@ -21,13 +22,15 @@ export class Recording implements Source {
   private job = 0;
   private progress = 0;  // of the pass that runs, 0 to 1
 
-  constructor(readonly file: RecordingFile, private readonly events: SourceEvents) {
-    const isShort = file.end - file.start <= kWholeS;
+  constructor(readonly file: RecordingFile, private readonly events: SourceEvents, isReport = false) {
+    const isShort = file.end - file.start <= (isReport ? kWholeReportS : kWholeS);
     this.from = file.start;
     this.to = isShort ? file.end : file.start + 2 * kAroundS;
     events.topics(file.topics);
     this.tell();
   }
+  /// All that is wanted is there up to the end.
+  get hasEnd() { return this.isIdle && this.to >= this.file.end; }
   want(topics: ReadonlySet<string>) {
     this.wanted = topics;
     this.wantedAt = performance.now();

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a report tells of its run: where it came from, its figures, its timing, what it was made of.
+import type {Deployment} from '../deployment';
+import {make} from '../view';
+import {hertz, short} from './graph_panel';
+import type {Headline} from './header';
+import {table} from './inspector';
+import {formatted} from './plot_panel';
+
+export class AboutDialog {
+  private readonly content = make('div');
+  private readonly dialog = make('dialog', {class: 'help about', 'aria-label': 'About this run'});
+
+  constructor(private readonly told: [string, string][]) {
+    const close = make('button', {type: 'button', class: 'close', 'aria-label': 'Close'}, '✕');
+    close.addEventListener('click', () => this.dialog.close());
+    this.dialog.append(make('header', {}, make('h2', {}, 'About this run'), close), this.content);
+    document.body.append(this.dialog);
+  }
+
+  /// `headlines` are the figures at `t` [s], which is `when`: 'at the end'.
+  show(deployment: Deployment | undefined, headlines: Headline[], t: number, when: string) {
+    const parts: HTMLElement[] = [table(['', ''], this.told)];
+    const add = (title: string, ...elements: HTMLElement[]) => parts.push(make('h3', {}, title), ...elements);
+    if (headlines.length > 0) {
+      add(`Figures ${when}`, table(['Figure', 'Value', 'Goal'], headlines.map(({series, unit, value, goal}) =>
+        [series.label, `${formatted(value, series.digits)} ${unit}`, goal === undefined ? '' : `${goal} ${unit}`])));
+    }
+    if (deployment) {
+      const timing = [...deployment.conditionsAt(t)].sort(([a], [b]) => a.localeCompare(b));
+      add(`Timing ${when}`, table(['Component', 'Rate', 'Step (99 %)', 'Late (99 %)', 'Missed', 'Dropped', 'Answers after (99 %)'], timing.map(([name, one]) =>
+        [name, hertz(one.hz), short(one.stepP99), short(one.latenessP99), String(one.missed), String(one.dropped),
+         one.reaction ? `${short(one.reaction.p99)} to ${one.reaction.source}` : ''])));
+      const plugins = deployment.components.flatMap((component) => component.plugins.map((one) => ({...one, component: component.name})));
+      add('Plugins', table(['Component', 'Plugin', 'Built for', 'SHA-256 of its library'], plugins.map(({component, slot, plugin, abi, sha256}) =>
+        [slot ? `${component}, ${slot}` : component, plugin, abi, sha256 || 'part of the runtime'])));
+      add('Parameters', table(['Component', 'Plugin', 'Parameter', 'Value', 'From'], plugins.flatMap(({component, plugin, parameters}) =>
+        parameters.map((one) => [component, plugin, one.name, one.value, one.origin.replace(/^\/.*\//, '')]))));
+      add('Configuration', folded('The deployment, resolved', deployment.configuration),
+          ...deployment.documents.map(({section, name, text}) => folded(`${section}/${name}`, text)));
+    }
+    this.content.replaceChildren(...parts);
+    this.dialog.showModal();
+  }
+}
+
+function folded(title: string, text: string): HTMLElement {
+  return make('details', {}, make('summary', {}, title), make('pre', {}, text));
+}

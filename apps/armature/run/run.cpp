@@ -387,8 +387,8 @@ int run(const RunOptions& options) {
 }  // namespace
 
 int run_deployment(const RunOptions& options) {
-  umask(077);                     // what a run writes is about a patient
-  std::signal(SIGXFSZ, SIG_IGN);  // a file that may grow no further is told by who writes it
+  umask(077);                        // what a run writes is about a patient
+  std::signal(SIGXFSZ, [](int) {});  // whoever writes a file that may grow no further tells it
   end_signals::say(
       {.json = options.json, .report_file = options.report ? report_file(*options.report) : ""});
   try {

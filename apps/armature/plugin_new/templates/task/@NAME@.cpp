@@ -6,6 +6,7 @@
 #include "armature/runtime/component/component.hpp"
 #include "armature/runtime/component/setup.hpp"
 #include "armature/runtime/plugins/plugin.hpp"
+#include "armature/task/pursued_goal.hpp"
 
 namespace @NAMESPACE@ {
 /// There and back. What a goal needs besides (its number, another try) PursuedGoal knows.

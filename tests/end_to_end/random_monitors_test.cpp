@@ -141,7 +141,9 @@ TEST_F(RandomMonitorsTest, LoseNothingAndLeaveNothingBehindOnTheSystemClock) {
     // deployment itself reads is never lost, however many come at once.
     const bool writes_at_1_khz =
         component["component"] == "motion" || component["component"] == "arm";
-    if (!writes_at_1_khz) EXPECT_EQ(component["dropped"], 0) << component["component"];
+    if (!writes_at_1_khz) {
+      EXPECT_EQ(component["dropped"], 0) << component["component"];
+    }
     EXPECT_EQ(component["state"], "ok") << component;
     ++components;
   }

@@ -69,10 +69,14 @@ Json capabilities_json(const std::vector<Capability>& capabilities) {
 }
 
 Json manifest_json(const PluginManifest& plugin) {
-  Json json{{"id", plugin.id},     {"kind", plugin.kind},
-            {"doc", plugin.doc},   {"file", plugin.file.string()},
-            {"abi", plugin.abi},   {"allocates", plugin.allocates},
-            {"pure", plugin.pure}, {"uses_files", plugin.uses_files},
+  Json json{{"id", plugin.id},
+            {"kind", plugin.kind},
+            {"doc", plugin.doc},
+            {"file", plugin.file.string()},
+            {"abi", plugin.abi},
+            {"allocates", plugin.allocates},
+            {"pure", plugin.pure},
+            {"uses_files", plugin.uses_files},
             {"runs_programs", plugin.runs_programs}};
   json["params"] = params_json(plugin.params);
   json["slots"] = Json::object();

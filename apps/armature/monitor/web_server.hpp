@@ -17,7 +17,7 @@ namespace armature {
 /// protocol the server speaks, that come from a page of a foreign origin, or have no right token.
 class WebServer {
  public:
-  /// What is told over HTTP, at `/` alone, whole and to everybody.
+  /// The page that HTTP serves, at `/` only and to everybody.
   struct Page {
     std::string text;
     std::string type = "text/plain; charset=utf-8";

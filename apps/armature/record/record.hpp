@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "armature/recording/chain_check.hpp"
 #include "watch/outsider.hpp"
 
 namespace armature {
@@ -23,6 +26,11 @@ int repair_recording(const std::filesystem::path& cut, const std::filesystem::pa
                      bool force);
 /// Throws InvalidChoice when there is such a file with something in it, unless it may be replaced.
 void refuse_to_replace(const std::filesystem::path& file, bool force);
+
+/// "69.062 MB".
+std::string megabytes(std::uint64_t bytes);
+/// "whole", "cut", "changed" or "none".
+std::string_view word_of(McapChain::Verdict verdict);
 
 struct InfoOptions {
   std::filesystem::path file;

@@ -17,7 +17,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// What `work` prints is not shown.
+/// Runs `work` and hides what it prints.
 template <class Work>
 int in_silence(const Work& work) {
   testing::internal::CaptureStdout();

@@ -34,7 +34,7 @@ struct Difference {
   std::optional<MessageDifference> field;
 };
 
-/// What came of the calls of a component.
+/// The result of comparing all calls of a component.
 struct Compared {
   std::uint64_t outputs = 0, unrecorded = 0;
   std::optional<Difference> difference;

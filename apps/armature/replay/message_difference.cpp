@@ -47,7 +47,8 @@ std::optional<MessageDifference> element_difference(const FieldDescription& fiel
   if (field.kind == FieldKind::float64) return number_difference<double, std::uint64_t>(a, b);
   if (field.kind == FieldKind::float32) return number_difference<float, std::uint32_t>(a, b);
   if (a == b) return std::nullopt;
-  return MessageDifference{.field = {}, .recorded = json_text(a), .replayed = json_text(b), .ulps = {}};
+  return MessageDifference{
+      .field = {}, .recorded = json_text(a), .replayed = json_text(b), .ulps = {}};
 }
 
 std::optional<MessageDifference> array_difference(const FieldDescription& field, const Json& a,

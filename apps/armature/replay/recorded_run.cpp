@@ -113,8 +113,9 @@ DeploymentConfig RecordedRun::read_config(const PluginRegistry& plugins,
     }
   }
   config::Problems problems;
-  DeploymentConfig config = read_deployment(
-      config::with_assignments(std::move(root), assignments, &notes), plugins, problems, &documents);
+  DeploymentConfig config =
+      read_deployment(config::with_assignments(std::move(root), assignments, &notes), plugins,
+                      problems, &documents);
   problems.throw_if_any();
   return config;
 }

@@ -26,6 +26,7 @@
 #include "armature/recording/mcap_writer.hpp"
 #include "armature/runtime/reporting/write_atomically.hpp"
 #include "exit_code.hpp"
+#include "record/message_copy.hpp"
 #include "record/record.hpp"
 #include "verbs/shipped_configs.hpp"
 
@@ -149,7 +150,7 @@ Reduced reduced(const ReportOptions& options, const RunContents& contents) {
   const MemoryFile file;
   McapReader reader{options.recording};
   McapWriter writer{file.path(), {.library = "armature " ARMATURE_VERSION}};
-  std::map<std::uint16_t, std::uint16_t> schemas{{0, 0}}, channels;  // ids there by ids here
+  MessageCopy copy{reader, writer};
   std::map<std::string, Thinning> topics;
   while (const auto message = reader.next()) {
     const McapChannel& channel = *message->channel;
@@ -157,17 +158,7 @@ Reduced reduced(const ReportOptions& options, const RunContents& contents) {
       topics.emplace(channel.topic, kept_hz(channel.topic, contents, options.pictures));
     }
     if (!topics.at(channel.topic).passes(message->log_time - contents.first)) continue;
-    if (!channels.contains(channel.id)) {
-      const auto schema = reader.schemas().find(channel.schema_id);
-      if (!schemas.contains(channel.schema_id) && schema != reader.schemas().end()) {
-        schemas[channel.schema_id] = writer.add(schema->second);
-      }
-      McapChannel copy = channel;
-      copy.schema_id = schemas[channel.schema_id];
-      channels[channel.id] = writer.add(copy);
-    }
-    writer.write(channels[channel.id], message->sequence, message->log_time, message->publish_time,
-                 message->data);
+    copy.write(*message);
     if (writer.bytes() > kMaxBytes) {
       throw InvalidChoice(fmt::format(
           "'{}' is too long for a page: more than {} MB even with fewer messages; record a shorter "

@@ -18,6 +18,8 @@ namespace {
 
 /// How long processes that have joined may take to meet.
 constexpr std::chrono::seconds kMeetWithin{kSanitized ? 25 : 5};
+/// The same between hosts: a lost packet of a meeting is sent again after a second (Fast DDS).
+constexpr std::chrono::seconds kHostsMeetWithin{5 * kMeetWithin};
 /// How long the main process, which looks every 20 ms, may take to answer that another one stops.
 constexpr std::chrono::seconds kAnswersWithin{kSanitized ? 5 : 1};
 
@@ -40,6 +42,7 @@ MainWatch::MainWatch(Console& console, ChildProcesses& children, Deployment& dep
       children_{&children},
       deployment_{&deployment},
       simulated_{deployment.config().simulated},
+      meet_within_{deployment.config().hosts().size() > 1 ? kHostsMeetWithin : kMeetWithin},
       stop_within_s_{deployment.config().stop_within_s} {
   for (const ComponentConfig& component : deployment.config().components) {
     if (component.manifest && component.manifest->driver) with_driver_.push_back(component.process);
@@ -83,7 +86,7 @@ bool MainWatch::may_start(const std::optional<std::string>& waiting) {
   }
   if (!joined_) joined_ = now;
   const auto there = waiting ? waiting : children_->waiting();
-  if (there && now - *joined_ > kMeetWithin) {
+  if (there && now - *joined_ > meet_within_) {
     refuse_to_start(*there);
   }
   if (there) return false;
@@ -94,7 +97,7 @@ bool MainWatch::may_start(const std::optional<std::string>& waiting) {
 
 void MainWatch::refuse_to_start(const std::string& waiting) const {
   throw std::runtime_error{
-      fmt::format("not started: {} within {} s{}", waiting, kMeetWithin.count(),
+      fmt::format("not started: {} within {} s{}", waiting, meet_within_.count(),
                   has_loopback() ? "; is the machine very busy, or is there a firewall?"
                                  : "; the loopback interface is down, and processes meet over it: "
                                    "'ip link set lo up'")};

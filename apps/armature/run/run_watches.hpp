@@ -67,6 +67,7 @@ class MainWatch final : public ProcessWatch {
   Deployment* deployment_;
   std::vector<std::string> with_driver_;  // processes that move something
   bool simulated_;
+  std::chrono::seconds meet_within_;
   double stop_within_s_;
   SteadyClock::time_point asked_first_ = SteadyClock::now();
   std::optional<SteadyClock::time_point> joined_;

@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 
+#include "bench/bus/bench_bus.hpp"
 #include "bench/ik/bench_ik.hpp"
 #include "bench/loop/bench_loop.hpp"
 #include "bench/plan/bench_plan.hpp"
@@ -70,6 +71,24 @@ void add_bench_loop(CLI::App* bench, Action& action) {
   });
 }
 
+void add_bench_bus(CLI::App* bench, Action& action) {
+  auto options = std::make_shared<BusBenchOptions>();
+  CLI::App* bus = bench->add_subcommand(
+      "bus", "What a topic costs beside a wake and beside Fast DDS alone: armature bench bus");
+  bus->add_option("--rounds", options->rounds, "of everything in turn")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 10000));
+  bus->add_option("--picture-bytes", options->picture_bytes, "size of a picture")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1'900'000));
+  bus->add_option("--domain", options->domain, "DDS domain")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 232));
+  bus->add_flag("--answers", options->answers)->group("");  // what the bench starts
+  bus->add_flag("--json", options->json, "as JSON");
+  bus->callback([options, &action] { action = [options] { return bench_bus(*options); }; });
+}
+
 }  // namespace
 
 void add_bench_verbs(CLI::App& app, Action& action) {
@@ -77,6 +96,7 @@ void add_bench_verbs(CLI::App& app, Action& action) {
   bench->require_subcommand(1);
   add_bench_plan(bench, action);
   add_bench_loop(bench, action);
+  add_bench_bus(bench, action);
   auto options = std::make_shared<BenchOptions>();
   CLI::App* ik = bench->add_subcommand(
       "ik", "Solvers on the same goals: armature bench ik --robot configs/robots/dental_lamp.yaml");

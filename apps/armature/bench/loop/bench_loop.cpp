@@ -2,7 +2,6 @@
 #include "bench/loop/bench_loop.hpp"
 
 #include <fmt/format.h>
-#include <sched.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -20,6 +19,7 @@
 #include "armature/values/spawn_plan.hpp"
 #include "bench/loop/loop_report.hpp"
 #include "bench/loop/measured_loop.hpp"
+#include "bench/processors.hpp"
 #include "bench/statistics.hpp"
 #include "exit_code.hpp"
 #include "progress.hpp"
@@ -60,23 +60,6 @@ class Readers {
  private:
   std::vector<pid_t> processes_;
 };
-
-/// Two processors that this process may use.
-std::pair<int, int> two_cpus() {
-  cpu_set_t set;
-  CPU_ZERO(&set);
-  sched_getaffinity(0, sizeof set, &set);
-  std::vector<int> cpus;
-  for (int cpu = 0; cpu < CPU_SETSIZE && cpus.size() < 2; ++cpu) {
-    if (CPU_ISSET(static_cast<std::size_t>(cpu), &set)) cpus.push_back(cpu);
-  }
-  if (cpus.size() < 2) {
-    throw std::runtime_error{
-        "two processors are needed, one for each of the loops that are "
-        "compared; this process may use one"};
-  }
-  return {cpus[0], cpus[1]};
-}
 
 void wait_for(double seconds) {
   std::this_thread::sleep_for(std::chrono::duration<double>{seconds});
@@ -153,7 +136,7 @@ std::string wrong_round(const LoopBenchOptions& options) {
 }
 
 int bench_loop(const LoopBenchOptions& options) {
-  const auto cpus = two_cpus();
+  const auto cpus = bench::two_cpus();
   const bench::LoopSettings settings{
       .period_s = options.period_s, .priority = options.priority, .domain = options.domain};
   LoopReport report{.options = options,

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/loop/loop_work.hpp"
 
-#include <pthread.h>
-#include <sched.h>
 #include <sys/resource.h>
 
 #include <chrono>
@@ -12,6 +10,7 @@
 #include "armature/messages/stamp.hpp"
 #include "armature/runtime/component/setup.hpp"
 #include "bench/allocations.hpp"
+#include "bench/processors.hpp"
 
 namespace armature::bench {
 
@@ -32,13 +31,6 @@ void tiny_work(std::uint64_t step, msg::JointState& state) {
     state.position_()[i] = std::sin(phase);
     state.velocity_()[i] = std::cos(phase);
   }
-}
-
-void move_to_cpu(int cpu) {
-  cpu_set_t set;
-  CPU_ZERO(&set);
-  CPU_SET(static_cast<std::size_t>(cpu), &set);
-  pthread_setaffinity_np(pthread_self(), sizeof set, &set);
 }
 
 ThreadCounts counts_of_this_thread() {

@@ -16,9 +16,6 @@ inline constexpr std::size_t kJoints = 7;
 /// What a control step may be: some trigonometry into the joint state of an arm; 1 to 2 us.
 void tiny_work(std::uint64_t step, msg::JointState& state);
 
-/// Moves the calling thread to a CPU.
-void move_to_cpu(int cpu);
-
 /// What the operating system and malloc have counted for a thread.
 struct ThreadCounts {
   std::uint64_t page_faults = 0, allocations = 0;

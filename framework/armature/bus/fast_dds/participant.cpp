@@ -33,7 +33,6 @@ using eprosima::fastdds::rtps::SharedMemTransportDescriptor;
 using eprosima::fastdds::rtps::UDPv4TransportDescriptor;
 using eprosima::fastrtps::Duration_t;
 
-constexpr std::uint32_t kGreatestMessageBytes = 4U << 20;
 constexpr int kGreatestDomain = 232;  // beyond it, RTPS port numbers pass 65535
 /// How many participants of a peer are asked without multicast; Fast DDS asks 4 when not told.
 constexpr std::uint32_t kParticipantsOfAPeer = 20;
@@ -226,6 +225,11 @@ class Participant::Listener final : public dds::DomainParticipantListener {
  private:
   Discovery& discovery() { return participant_.discovery_; }
 
+  /// Host, process and a random number are the first eight bytes.
+  bool is_of_this_process(const GuidPrefix& other) const {
+    return std::equal(other.begin(), other.begin() + 8, participant_.guid_prefix_.begin());
+  }
+
   void ignore_if_elsewhere(const GuidPrefix& prefix, const rtps::ParticipantProxyData& found) {
     const std::vector<std::string> addresses = addresses_elsewhere(found);
     const bool heard = addresses.empty() || std::ranges::any_of(addresses, [&](const auto& one) {
@@ -243,7 +247,7 @@ class Participant::Listener final : public dds::DomainParticipantListener {
   /// arrives there or not.
   void report_unreachable_memory(const GuidPrefix& prefix,
                                  const rtps::ParticipantProxyData& found) {
-    if (!participant_.uses_shared_memory_) return;
+    if (!participant_.uses_shared_memory_ || is_of_this_process(prefix)) return;
     for (const rtps::Locator_t& locator : found.default_locators.unicast) {
       if (locator.kind != LOCATOR_KIND_SHM) continue;
       const auto reached = check_shared_memory_port(participant_.memory_folder_, locator.port);

@@ -13,6 +13,8 @@ namespace armature ARMATURE_EXPORT {
 // A camera image must fit several times; the default of 512 KiB makes its round trip 50 times
 // longer.
 inline constexpr std::uint32_t kSharedMemorySegment = 16U << 20;
+/// Greatest message that goes through it [B].
+inline constexpr std::uint32_t kGreatestMessageBytes = 4U << 20;
 /// What a process takes in all [B].
 inline constexpr std::uint64_t kSharedMemoryOfProcess = kSharedMemorySegment + (2U << 20);  // ports
 

@@ -123,6 +123,8 @@ TEST_F(SharedMemoryTest, APortReachesWhoeverElseListensThere) {
   touch("fastrtps_port7411_el");
   EXPECT_EQ(checked().error().text, "nobody listens at " + file);
   const int lock = open((file + "_el").c_str(), O_RDWR | O_CLOEXEC);
+  EXPECT_EQ(checked().error().text, "nobody listens at " + file) << "whoever sends opens it, too";
+  ASSERT_EQ(flock(lock, LOCK_EX), 0);
   EXPECT_EQ(checked().error().text, file + " is its own");
   close(lock);
   const pid_t listener = fork();

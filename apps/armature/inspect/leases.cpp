@@ -64,7 +64,7 @@ void add_liveliness(const ComponentConfig& reader, const PortBinding& input,
     const std::string& process = writer.component->process;
     if (process == reader.process) continue;
     rows.push_back({reader.name, fmt::format("{} of process {}", text_of(writer), process),
-                    text_of(settings(QosProfile::command).liveliness_lease),
+                    text_of(settings(QosProfile::command).liveliness_lease.value()),
                     "it is told, and the run counts as failed: status fault"});
   }
 }

@@ -7,6 +7,7 @@
 #include "bench/ik/bench_ik.hpp"
 #include "bench/loop/bench_loop.hpp"
 #include "bench/plan/bench_plan.hpp"
+#include "bench/watched/bench_watched.hpp"
 #include "verbs/option_checks.hpp"
 #include "verbs/verbs.hpp"
 
@@ -89,6 +90,30 @@ void add_bench_bus(CLI::App* bench, Action& action) {
   bus->callback([options, &action] { action = [options] { return bench_bus(*options); }; });
 }
 
+void add_bench_watched(CLI::App* bench, Action& action) {
+  auto options = std::make_shared<WatchedBenchOptions>();
+  CLI::App* watched = bench->add_subcommand(
+      "watched",
+      "What it costs a deployment to be recorded and read: armature bench watched "
+      "dental_lamp --set components.scene.params.rate_hz=30");
+  add_source(*watched, options->source);
+  watched->add_option("--readers", options->readers, "other processes that read what is measured")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 32));
+  watched->add_option("--rounds", options->rounds, "of a run each")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1000));
+  watched->add_option("--seconds", options->seconds, "of a run")
+      ->capture_default_str()
+      ->check(wrong_number)
+      ->check(CLI::Range(1.0, 3600.0));
+  watched->add_option("--domain", options->domain, "DDS domain")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 232));
+  watched->add_flag("--json", options->json, "as JSON");
+  watched->callback([options, &action] { action = [options] { return bench_watched(*options); }; });
+}
+
 }  // namespace
 
 void add_bench_verbs(CLI::App& app, Action& action) {
@@ -97,6 +122,7 @@ void add_bench_verbs(CLI::App& app, Action& action) {
   add_bench_plan(bench, action);
   add_bench_loop(bench, action);
   add_bench_bus(bench, action);
+  add_bench_watched(bench, action);
   auto options = std::make_shared<BenchOptions>();
   CLI::App* ik = bench->add_subcommand(
       "ik", "Solvers on the same goals: armature bench ik --robot configs/robots/dental_lamp.yaml");

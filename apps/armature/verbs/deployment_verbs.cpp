@@ -14,27 +14,11 @@
 #include "schema/schema.hpp"
 #include "sweep/sweep.hpp"
 #include "verbs/option_checks.hpp"
-#include "verbs/shipped_configs.hpp"
 #include "verbs/verbs.hpp"
 #include "watch/live_graph.hpp"
 
 namespace armature {
 namespace {
-
-void add_source(CLI::App& verb, DeploymentSource& source) {
-  const auto to_file = [](std::string& given) {
-    given = deployment_file(given);
-    return std::string{};
-  };
-  verb.add_option("files", source.files,
-                  "deployment: a file, or a name that came with armature (dental_lamp); then "
-                  "overlays that change it")
-      ->required()
-      ->transform(CLI::Validator{to_file, ""});
-  verb.add_option("--set", source.assignments,
-                  "change one value: --set components.motion.ik.plugin=ik/numeric")
-      ->allow_extra_args(false);
-}
 
 /// What the main process of a deployment tells the others that it starts, and a drill the run that
 /// it drills; nobody types it.

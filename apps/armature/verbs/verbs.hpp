@@ -5,6 +5,7 @@
 
 #include "arm_choice.hpp"
 #include "armature/bus/network.hpp"
+#include "run/run.hpp"
 #include "watch/outsider.hpp"
 
 namespace CLI {
@@ -29,8 +30,9 @@ void add_paper_verbs(CLI::App& app, Action& action);
 /// Of the machine and its shells: doctor, completion, man.
 void add_machine_verbs(CLI::App& app, Action& action);
 
-/// Options that several verbs have: which arm; how a verb joins DDS that is no part of a
-/// deployment, beside its domain.
+/// Options that several verbs have: which deployment; which arm; how a verb joins DDS that is no
+/// part of a deployment, beside its domain.
+void add_source(CLI::App& verb, DeploymentSource& source);
 void add_arm(CLI::App* verb, ArmChoice& arm);
 void add_network(CLI::App& verb, NetworkOptions& network);
 /// The domain too, --timeout and --json.

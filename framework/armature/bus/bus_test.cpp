@@ -142,6 +142,21 @@ TEST(SamplePool, DestroysEveryMessageItMade) {
   EXPECT_EQ(g_created, 0);
 }
 
+TEST(SamplePool, OfPicturesUsesTheBlockThatCameBackLast) {
+  EXPECT_EQ(reuse_for(QosProfile::sensor), Reuse::newest);
+  EXPECT_EQ(reuse_for(QosProfile::state), Reuse::in_turn);
+  const MessageType type = number_type();
+  SamplePool pool{type, 3, Reuse::newest};
+  const void* last = nullptr;
+  {
+    const SampleRef first = pool.loan(), second = pool.loan(), third = pool.loan();
+    last = first.message();
+  }
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(pool.loan().message(), last);
+  const SampleRef a = pool.loan(), b = pool.loan(), c = pool.loan();
+  EXPECT_EQ(pool.grown(), 0U);
+}
+
 TEST(SamplePool, UsesItsBlocksInTurnSoThatEachHasTheMemoryItNeeds) {
   const MessageType type = number_type();
   SamplePool pool{type, 3};

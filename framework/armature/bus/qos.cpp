@@ -41,7 +41,10 @@ QosSettings settings(QosProfile profile) {
     case QosProfile::state:
       return {.depth = 10};
     case QosProfile::command:
-      return {.depth = 10, .lifespan = seconds(0.5), .heartbeat = seconds(0.02)};
+      return {.depth = 10,
+              .lifespan = seconds(0.5),
+              .liveliness_lease = seconds(0.5),
+              .heartbeat = seconds(0.02)};
     case QosProfile::reply:
       return {.transient_local = true, .depth = 10, .lifespan = seconds(5)};
     case QosProfile::latched:

@@ -12,8 +12,12 @@ SampleRef::~SampleRef() {
   }
 }
 
-SamplePool::SamplePool(const MessageType& type, std::size_t preallocated)
-    : type_{&type}, preallocated_{preallocated} {
+Reuse reuse_for(QosProfile qos) {
+  return qos == QosProfile::sensor ? Reuse::newest : Reuse::in_turn;
+}
+
+SamplePool::SamplePool(const MessageType& type, std::size_t preallocated, Reuse reuse)
+    : type_{&type}, reuse_{reuse}, preallocated_{preallocated} {
   for (std::size_t i = 0; i < preallocated; ++i) {
     put_last(allocate());
   }
@@ -40,6 +44,11 @@ SampleRef SamplePool::loan() {
   return SampleRef{block};
 }
 
+void SamplePool::put_first(SampleBlock* block) {
+  block->next_free = std::exchange(first_free_, block);
+  if (!last_free_) last_free_ = block;
+}
+
 void SamplePool::put_last(SampleBlock* block) {
   block->next_free = nullptr;
   SampleBlock* before = std::exchange(last_free_, block);
@@ -48,7 +57,7 @@ void SamplePool::put_last(SampleBlock* block) {
 
 void SamplePool::give_back(SampleBlock* block) {
   const std::scoped_lock lock{mutex_};
-  put_last(block);
+  reuse_ == Reuse::newest ? put_first(block) : put_last(block);
 }
 
 void SamplePool::prepare(const void* message) {

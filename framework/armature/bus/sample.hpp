@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "armature/bus/qos.hpp"
 #include "armature/messages/message_type.hpp"
 #include "armature/values/real_time_mutex.hpp"
 #include "armature/values/time.hpp"
@@ -70,13 +71,19 @@ class SampleRef {
   SampleBlock* block_ = nullptr;
 };
 
+/// Which of a pool's free messages is used next.
+enum class Reuse {
+  in_turn,  // after one round each has the memory that its sequences need, so that a control thread
+            // which suddenly needs more of them allocates nothing
+  newest    // the one that came back last: a picture that is still in the processor's cache
+};
+Reuse reuse_for(QosProfile qos);
+
 /// Preallocated messages of one type. When all are out it allocates another and counts that, so a
-/// slow watcher costs memory, never data. They are used in turn: after one round each has the
-/// memory that its sequences need, so that a control thread which suddenly needs more of them
-/// allocates nothing. Must outlive its samples: held by shared_ptr in the bus.
+/// slow watcher costs memory, never data. Must outlive its samples: held by shared_ptr in the bus.
 class SamplePool {
  public:
-  SamplePool(const MessageType& type, std::size_t preallocated);
+  SamplePool(const MessageType& type, std::size_t preallocated, Reuse reuse = Reuse::in_turn);
   ~SamplePool();
   SamplePool(const SamplePool&) = delete;
   SamplePool& operator=(const SamplePool&) = delete;
@@ -97,9 +104,11 @@ class SamplePool {
   friend class SampleRef;
   void give_back(SampleBlock* block);
   SampleBlock* allocate();
+  void put_first(SampleBlock* block);
   void put_last(SampleBlock* block);
 
   const MessageType* type_;
+  const Reuse reuse_;
   mutable RealTimeMutex mutex_;
   SampleBlock* first_free_ = nullptr;
   SampleBlock* last_free_ = nullptr;

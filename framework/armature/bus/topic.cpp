@@ -6,7 +6,7 @@
 namespace armature {
 
 Topic::Topic(TopicSpec spec, std::size_t preallocated)
-    : spec_{std::move(spec)}, pool_{*spec_.type, preallocated} {}
+    : spec_{std::move(spec)}, pool_{*spec_.type, preallocated, reuse_for(spec_.qos)} {}
 
 void Topic::publish(SampleRef sample, Time now) {
   sample.mutable_info().sequence = next_sequence();

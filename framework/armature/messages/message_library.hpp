@@ -45,20 +45,21 @@ class MessageLibrary {
 namespace detail {
 
 template <class Message>
-void encode(const void* message, std::vector<std::byte>& cdr) {
-  using eprosima::fastcdr::Cdr;
+std::size_t encoded_size(const void* message) {
   constexpr std::size_t kHeader = 4;
-  const auto& typed = *static_cast<const Message*>(message);
   CdrSize size;
-  typed.serialize(size);
-  const std::size_t start = cdr.size();
-  cdr.resize(start + kHeader + size.bytes());
-  eprosima::fastcdr::FastBuffer buffer{reinterpret_cast<char*>(cdr.data() + start),
-                                       cdr.size() - start};
+  static_cast<const Message*>(message)->serialize(size);
+  return kHeader + size.bytes();
+}
+
+template <class Message>
+std::size_t encode_into(const void* message, std::span<std::byte> cdr) {
+  using eprosima::fastcdr::Cdr;
+  eprosima::fastcdr::FastBuffer buffer{reinterpret_cast<char*>(cdr.data()), cdr.size()};
   Cdr encoder{buffer, Cdr::LITTLE_ENDIANNESS, Cdr::DDS_CDR};
   encoder.serialize_encapsulation();
-  typed.serialize(encoder);
-  cdr.resize(start + encoder.getSerializedDataLength());  // a text may end before its size
+  static_cast<const Message*>(message)->serialize(encoder);
+  return encoder.getSerializedDataLength();
 }
 
 /// Of bytes that passed check_cdr: fastcdr trusts the lengths of nested sequences.
@@ -99,7 +100,8 @@ MessageType MessageLibrary::define(std::string_view dds_name) const {
   if constexpr (requires(const Message& m) { stamp_of(m.header_().stamp_()); }) {
     type.stamp = &detail::header_stamp<Message>;
   }
-  type.encode = &detail::encode<Message>;
+  type.encoded_size = &detail::encoded_size<Message>;
+  type.encode_into = &detail::encode_into<Message>;
   type.decode = &detail::decode<Message>;
   return type;
 }

@@ -21,10 +21,20 @@ struct MessageType {
   void (*destroy)(void* message) = nullptr;
   /// header.stamp, or nullptr for types without a header.
   Time (*stamp)(const void* message) = nullptr;
-  /// Appends the CDR encoding (little endian, with its 4-byte encapsulation header) to `cdr`.
-  void (*encode)(const void* message, std::vector<std::byte>& cdr) = nullptr;
+  /// How many bytes the CDR encoding (little endian, with its 4-byte encapsulation header) needs.
+  std::size_t (*encoded_size)(const void* message) = nullptr;
+  /// Writes the encoding to the begin of `cdr`, which has at least encoded_size() bytes. Returns
+  /// how many it has: fewer than that when a text in it ends early, at a zero.
+  std::size_t (*encode_into)(const void* message, std::span<std::byte> cdr) = nullptr;
   /// False when `cdr` is not an encoding of this type.
   bool (*decode)(std::span<const std::byte> cdr, void* message) = nullptr;
+
+  /// Appends the encoding to `cdr`.
+  void encode(const void* message, std::vector<std::byte>& cdr) const {
+    const std::size_t start = cdr.size();
+    cdr.resize(start + encoded_size(message));
+    cdr.resize(start + encode_into(message, std::span{cdr}.subspan(start)));
+  }
 };
 
 /// Defined in the library of the type. The layout is part of the symbol's name: what was compiled

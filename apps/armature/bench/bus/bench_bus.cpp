@@ -3,29 +3,26 @@
 
 #include <fmt/format.h>
 #include <poll.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
-#include <csignal>
 #include <functional>
 #include <memory>
 #include <random>
 #include <stdexcept>
 #include <string>
-#include <system_error>
 #include <thread>
 #include <utility>
 #include <vector>
 
 #include "armature/bus/fast_dds/plain_exchange.hpp"
 #include "armature/runtime/plugins/plugin_registry.hpp"
-#include "armature/values/spawn_plan.hpp"
 #include "armature/values/wake_up.hpp"
 #include "bench/bus/bus_report.hpp"
 #include "bench/bus/topic_exchange.hpp"
 #include "bench/processors.hpp"
+#include "bench/program.hpp"
 #include "bench/statistics.hpp"
 #include "exit_code.hpp"
 #include "progress.hpp"
@@ -38,35 +35,6 @@ using bench::BusRound;
 using bench::TopicExchange;
 using bench::TripTimes;
 using Clock = std::chrono::steady_clock;
-
-/// The process that answers: this program again. It ends with this object, and when its input ends.
-class AnsweringProcess {
- public:
-  explicit AnsweringProcess(int domain) {
-    if (pipe(life_) != 0) fail(errno);
-    SpawnPlan plan;
-    plan.hand_over(life_[0], STDIN_FILENO).close_from(STDERR_FILENO + 1);
-    const int error = plan.start(
-        "/proc/self/exe",
-        {"armature", "bench", "bus", "--answers", "--domain", std::to_string(domain)}, process_);
-    close(life_[0]);
-    if (error != 0) fail(error);
-  }
-  ~AnsweringProcess() {
-    close(life_[1]);
-    waitpid(process_, nullptr, 0);
-  }
-  AnsweringProcess(const AnsweringProcess&) = delete;
-  AnsweringProcess& operator=(const AnsweringProcess&) = delete;
-
- private:
-  [[noreturn]] static void fail(int error) {
-    throw std::system_error(error, std::generic_category(),
-                            "cannot start the process that answers");
-  }
-  int life_[2] = {-1, -1};
-  pid_t process_ = 0;
-};
 
 PluginPtr<PlainExchange> plain_exchange(PluginRegistry& plugins, const BusBenchOptions& options) {
   auto made = plugins.make<PlainExchange>(
@@ -96,7 +64,8 @@ class HandOvers {
   HandOvers(const HandOvers&) = delete;
   HandOvers& operator=(const HandOvers&) = delete;
 
-  std::vector<double> round_trips(int count) {
+  /// As an exchange, whatever is sent.
+  std::vector<double> round_trips(QosProfile, std::size_t, int count) {
     std::vector<double> times;
     std::thread{[&] {
       bench::move_to_cpu(cpu_);
@@ -117,9 +86,9 @@ class HandOvers {
   std::thread thread_;
 };
 
-TripTimes figures(const std::vector<double>& times, int expected, const char* what) {
+TripTimes figures(const std::vector<double>& times, int expected) {
   if (std::cmp_less(times.size(), expected)) {
-    throw std::runtime_error{fmt::format("{}: an answer did not come within a second", what)};
+    throw std::runtime_error{"an answer did not come within a second"};
   }
   return {.p50_s = bench::quantile(times, 0.5), .p99_s = bench::quantile(times, 0.99)};
 }
@@ -150,68 +119,77 @@ int answer(const BusBenchOptions& options, int cpu) {
   return kOk;
 }
 
+/// All that is measured. A process stays on one processor each: where the system puts threads would
+/// decide more than who carries the message.
+class Contestants {
+ public:
+  Contestants(const BusBenchOptions& options, int here, int there)
+      : picture_bytes_{options.picture_bytes},
+        across_processors_{here, there},
+        on_one_{here, here},
+        plain_{plain_exchange(plugins_, options)},
+        across_{{.part = TopicExchange::Part::asks, .domain = options.domain}},
+        inside_{{.domain = options.domain, .ask_cpu = here, .answer_cpu = there}} {
+    await([&] { return plain_->met(); }, "Fast DDS");
+    // The other process may begin later than this one, and hears nothing before.
+    for (const QosProfile qos : {QosProfile::state, QosProfile::sensor}) {
+      await([&] { return across_.round_trips(qos, kSmall, 1).size() == 1; }, "a topic");
+    }
+    await([&] { return inside_.round_trips(QosProfile::state, kSmall, 1).size() == 1; }, "a hop");
+  }
+
+  /// Everything once, in this order.
+  BusRound round(std::mt19937& order) {
+    BusRound round;
+    std::vector<std::function<void()>> parts{
+        [&] { round.hand_over_here = half(small_trips(on_one_)); },
+        [&] { round.hand_over_across = half(small_trips(across_processors_)); },
+        [&] { round.hop = half(small_trips(inside_)); },
+        [&] { round.plain_small = small_trips(*plain_); },
+        [&] { round.small = small_trips(across_); },
+        [&] { round.plain_picture = picture_trips(*plain_); },
+        [&] { round.picture = picture_trips(across_); }};
+    std::ranges::shuffle(parts, order);
+    for (const auto& part : parts) part();
+    return round;
+  }
+
+ private:
+  static constexpr std::size_t kSmall = 24;  // with the 40 B of an empty picture
+
+  template <class Exchange>
+  TripTimes small_trips(Exchange& exchange) {
+    constexpr int kTrips = 200;
+    return figures(exchange.round_trips(QosProfile::state, kSmall, kTrips), kTrips);
+  }
+  template <class Exchange>
+  TripTimes picture_trips(Exchange& exchange) {
+    constexpr int kTrips = 40;
+    return figures(exchange.round_trips(QosProfile::sensor, picture_bytes_, kTrips), kTrips);
+  }
+
+  std::size_t picture_bytes_;
+  HandOvers across_processors_, on_one_;
+  PluginRegistry plugins_;
+  PluginPtr<PlainExchange> plain_;
+  TopicExchange across_, inside_;
+};
+
 }  // namespace
 
 int bench_bus(const BusBenchOptions& options) {
-  // CDR of a picture without any pixel has 40 B.
-  constexpr std::size_t kSmall = 24;
   const auto [here, there] = bench::two_cpus();
   if (options.answers) return answer(options, there);
-  const AnsweringProcess process{options.domain};
-  bench::move_to_cpu(here);
-  PluginRegistry plugins;
-  const auto plain = plain_exchange(plugins, options);
-  TopicExchange across{{.part = TopicExchange::Part::asks, .domain = options.domain}};
-  TopicExchange inside{{.domain = options.domain, .ask_cpu = here, .answer_cpu = there}};
-  HandOvers across_processors{here, there}, on_one{here, here};
-  await([&] { return plain->met(); }, "Fast DDS");
-  // The other process may begin later than this one, and hears nothing before.
-  await([&] { return inside.round_trips(QosProfile::state, kSmall, 1).size() == 1; },
-        "a component");
-  for (const QosProfile qos : {QosProfile::state, QosProfile::sensor}) {
-    await([&] { return across.round_trips(qos, kSmall, 1).size() == 1; }, "the deployment");
-  }
-
-  constexpr int kSmallTrips = 200, kPictureTrips = 40;
-  BusRound round;
-  std::vector<std::function<void()>> parts{
-      [&] {
-        round.hand_over_here =
-            half(figures(on_one.round_trips(kSmallTrips), kSmallTrips, "a thread"));
-      },
-      [&] {
-        round.hand_over_across =
-            half(figures(across_processors.round_trips(kSmallTrips), kSmallTrips, "a thread"));
-      },
-      [&] {
-        round.hop = half(figures(inside.round_trips(QosProfile::state, kSmall, kSmallTrips),
-                                 kSmallTrips, "a component"));
-      },
-      [&] {
-        round.plain_small = figures(plain->round_trips(QosProfile::state, kSmall, kSmallTrips),
-                                    kSmallTrips, "Fast DDS");
-      },
-      [&] {
-        round.small = figures(across.round_trips(QosProfile::state, kSmall, kSmallTrips),
-                              kSmallTrips, "a small topic");
-      },
-      [&] {
-        round.plain_picture =
-            figures(plain->round_trips(QosProfile::sensor, options.picture_bytes, kPictureTrips),
-                    kPictureTrips, "Fast DDS");
-      },
-      [&] {
-        round.picture =
-            figures(across.round_trips(QosProfile::sensor, options.picture_bytes, kPictureTrips),
-                    kPictureTrips, "a topic of pictures");
-      }};
   BusReport report{.options = options, .machine = bench::this_machine(), .rounds = {}};
-  Progress progress{"rounds"};
+  const bench::Program answerer{
+      {"bench", "bus", "--answers", "--domain", std::to_string(options.domain)}};
+  bench::move_to_cpu(here);
+  Contestants contestants{options, here, there};
   std::mt19937 order{1};
-  for (int i = -1; i < options.rounds; ++i) {  // the first one touches memory for the first time
-    std::ranges::shuffle(parts, order);
-    for (const auto& part : parts) part();
-    if (i >= 0) report.rounds.push_back(round);
+  contestants.round(order);  // touches memory for the first time
+  Progress progress{"rounds"};
+  for (int i = 0; i < options.rounds; ++i) {
+    report.rounds.push_back(contestants.round(order));
     progress.part((i + 1.0) / options.rounds);
   }
   fmt::print("{}", options.json ? bench::to_json(report) + "\n" : bench::table(report));

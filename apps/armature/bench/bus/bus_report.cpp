@@ -40,7 +40,7 @@ double median_over(const BusReport& report, const std::function<double(const Bus
 
 double allowed_small_excess_s(const BusReport& report) {
   return kMaxHandOvers *
-         median_over(report, [](const BusRound& round) { return round.hand_over_here.p50_s; });
+         median_over(report, [](const BusRound& round) { return round.hand_over_across.p50_s; });
 }
 
 bool is_hop_met(const BusReport& report) {
@@ -84,8 +84,7 @@ std::string table(const BusReport& report) {
   text += fmt::format(
       "\na hop takes {:.1f} us longer than to wake a thread (goal {:g}): {}\n"
       "64 B there and back take {:.1f} us longer than with Fast DDS alone (goal {:.1f}, as to wake "
-      "a "
-      "thread {} times), {:.2f} times as long: {}\n"
+      "a thread on another processor {} times), {:.2f} times as long: {}\n"
       "a picture of {} B takes {:.2f} times as long (goal {:g}): {}\n",
       1e6 * median_excess_s(report, &BusRound::hop, &BusRound::hand_over_across),
       1e6 * kMaxHopExcess_s, verdict(is_hop_met(report)),

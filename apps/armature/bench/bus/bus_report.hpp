@@ -36,8 +36,8 @@ double median_ratio(const BusReport& report, TripTimes BusRound::*a, TripTimes B
 
 /// A hop takes at most so much longer than to wake a thread,
 inline constexpr double kMaxHopExcess_s = 5e-6;
-/// a small round trip at most so many times longer than that of Fast DDS alone as to wake a thread
-/// of the same process: from and to an executor, there and back,
+/// a small round trip at most so much longer than that of Fast DDS alone as to wake so many threads
+/// on another processor, which is what happens from and to an executor, there and back,
 inline constexpr int kMaxHandOvers = 4;
 /// and a picture's at most so many times as long.
 inline constexpr double kMaxPictureRatio = 1.15;

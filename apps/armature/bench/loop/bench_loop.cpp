@@ -2,24 +2,21 @@
 #include "bench/loop/bench_loop.hpp"
 
 #include <fmt/format.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <chrono>
-#include <csignal>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <set>
 #include <stdexcept>
 #include <string>
-#include <system_error>
 #include <thread>
 #include <vector>
 
-#include "armature/values/spawn_plan.hpp"
 #include "bench/loop/loop_report.hpp"
 #include "bench/loop/measured_loop.hpp"
 #include "bench/processors.hpp"
+#include "bench/program.hpp"
 #include "bench/statistics.hpp"
 #include "exit_code.hpp"
 #include "progress.hpp"
@@ -31,35 +28,15 @@ using bench::LoopReport;
 using bench::LoopSide;
 using bench::MeasuredLoop;
 
-/// Other processes that read the bench's joint state: `armature topic hz`, silent. They end with
-/// this object, and with this process.
-class Readers {
- public:
-  /// Throws std::system_error.
-  Readers(int count, int domain) {
-    SpawnPlan plan;
-    plan.give_nothing(STDOUT_FILENO).give_nothing(STDERR_FILENO);
-    const std::vector<std::string> words{
-        "armature", "topic", "hz", "/bench_loop/joint_state", "--domain", std::to_string(domain)};
-    int error = 0;
-    for (int i = 0; i < count && error == 0; ++i) {
-      pid_t process = 0;
-      error = plan.start("/proc/self/exe", words, process);
-      if (error == 0) processes_.push_back(process);
-    }
-    if (error != 0)
-      throw std::system_error(error, std::generic_category(), "cannot start a reader");
+/// Other processes that read the bench's joint state: `armature topic hz`, silent.
+std::vector<std::unique_ptr<bench::Program>> start_readers(int count, int domain) {
+  std::vector<std::unique_ptr<bench::Program>> readers;
+  while (std::ssize(readers) < count) {
+    readers.push_back(std::make_unique<bench::Program>(std::vector<std::string>{
+        "topic", "hz", "/bench_loop/joint_state", "--domain", std::to_string(domain)}));
   }
-  ~Readers() {
-    for (const pid_t process : processes_) kill(process, SIGKILL);
-    for (const pid_t process : processes_) waitpid(process, nullptr, 0);
-  }
-  Readers(const Readers&) = delete;
-  Readers& operator=(const Readers&) = delete;
-
- private:
-  std::vector<pid_t> processes_;
-};
+  return readers;
+}
 
 void wait_for(double seconds) {
   std::this_thread::sleep_for(std::chrono::duration<double>{seconds});
@@ -157,7 +134,7 @@ int bench_loop(const LoopBenchOptions& options) {
       progress.part(++done / work);
     }
     for (auto& watched : report.watched) {
-      const Readers readers{watched.readers, options.domain};
+      const auto readers = start_readers(watched.readers, options.domain);
       bench::OurLoop ours{settings, [&](const std::string& note) { report.notes.insert(note); }};
       bench::Twin twin{settings};
       await_readers(ours, watched.readers);

@@ -52,8 +52,10 @@ DataWriterQos writer_qos(const QosSettings& settings, const std::string& user_da
   DataWriterQos qos;
   state_common(qos, settings, settings.writer_reliable, user_data);
   qos.liveliness().kind = AUTOMATIC_LIVELINESS_QOS;
-  qos.liveliness().lease_duration = dds_duration(settings.liveliness_lease);
-  qos.liveliness().announcement_period = dds_duration(settings.liveliness_lease * 2 / 5);
+  if (const auto lease = settings.liveliness_lease) {
+    qos.liveliness().lease_duration = dds_duration(*lease);
+    qos.liveliness().announcement_period = dds_duration(*lease * 2 / 5);
+  }
   qos.publish_mode().kind = SYNCHRONOUS_PUBLISH_MODE;  // the egress thread may wait, others never
   qos.reliable_writer_qos().times.heartbeatPeriod = dds_duration(settings.heartbeat);
   qos.reliable_writer_qos().times.nackResponseDelay = dds_duration(settings.repair_delay);

@@ -63,9 +63,9 @@ TEST_F(FastDds, OwnSamplesDoNotComeBack) {
 TEST_F(FastDds, NothingIsEncodedWhileNobodyWatches) {
   static std::atomic<int> encoded{0};
   MessageType counting = type_;
-  counting.encode = [](const void* message, std::vector<std::byte>& cdr) {
+  counting.encode_into = [](const void* message, std::span<std::byte> cdr) {
     ++encoded;
-    message_type<msg::JointState>().encode(message, cdr);
+    return message_type<msg::JointState>().encode_into(message, cdr);
   };
   const auto transport = make_transport();
   const auto writer = transport->advertise({"rt/test/unwatched", &counting, QosProfile::state});

@@ -9,10 +9,10 @@
 #include <map>
 #include <utility>
 
+#include "armature/bus/fast_dds/cdr_payload.hpp"
 #include "armature/bus/fast_dds/endpoint_qos.hpp"
 #include "armature/bus/fast_dds/fast_dds_link.hpp"
 #include "armature/bus/fast_dds/guid_of.hpp"
-#include "armature/bus/fast_dds/raw_cdr_type.hpp"
 #include "armature/bus/fast_dds/sequence_gaps.hpp"
 #include "armature/bus/topic_name.hpp"
 
@@ -34,7 +34,8 @@ class FastDdsReader final : public RemoteReader, private dds::DataReaderListener
     const QosSettings settings = reader_settings(own_.topic.qos, own_.same_deployment_only);
     const auto topic = participant.topic(own_.topic.name, std::string{type.dds_name});
     if (!topic) return tl::unexpected{topic.error()};
-    auto pool = std::make_unique<SamplePool>(type, static_cast<std::size_t>(settings.depth) + 2);
+    auto pool = std::make_unique<SamplePool>(type, static_cast<std::size_t>(settings.depth) + 2,
+                                             reuse_for(own_.topic.qos));
     pool_ = pool.get();
     {
       const std::scoped_lock lock{link_->pools_mutex};
@@ -43,9 +44,7 @@ class FastDdsReader final : public RemoteReader, private dds::DataReaderListener
     // Commands come from writers of ours, which promise to be heard every 0.5 s; elsewhere a writer
     // of ROS 2 promises nothing and must match all the same.
     std::optional<Duration> lease;
-    if (own_.same_deployment_only && own_.topic.qos == QosProfile::command) {
-      lease = settings.liveliness_lease;
-    }
+    if (own_.same_deployment_only) lease = settings.liveliness_lease;
     reader_ = participant.subscriber().create_datareader(
         *topic, reader_qos(settings, lease, to_user_data(link_->tag_for(type))), this);
     if (!reader_)
@@ -74,28 +73,36 @@ class FastDdsReader final : public RemoteReader, private dds::DataReaderListener
  private:
   void on_data_available(dds::DataReader* reader) override {
     const std::scoped_lock lock{mutex_};  // several receive threads, one order
-    dds::SampleInfo info;
-    while (reader->take_next_sample(&cdr_, &info) == ReturnCode_t::RETCODE_OK) {
-      if (closed_ || !info.valid_data) continue;
-      const Guid writer = guid_of(info.sample_identity.writer_guid());
-      if (writer.participant == link_->participant->guid_prefix()) continue;
-      if (const auto stranger = stranger_of(writer)) {
-        count_refused(*stranger);
-        continue;
-      }
-      const std::uint64_t sequence = info.sample_identity.sequence_number().to64long();
-      if (counts_lost()) lost_ += gaps_.lost_before(writer, sequence);
-      const Time published = published_at(writer, Time{info.source_timestamp.to_ns()});
-      if (is_expired(published)) continue;
-      SampleRef sample = pool_->loan();
-      if (!own_.topic.type->decode(cdr_.bytes, sample.mutable_message())) {
-        report_undecodable(writer);
-        continue;
-      }
-      sample.mutable_info() = {
-          .published = published, .sequence = sequence, .lost_before = std::exchange(lost_, 0)};
-      deliver_(std::move(sample));
+    while (take_next(*reader)) {
     }
+  }
+
+  /// Takes a sample and delivers it, unless it is refused; false when there is none.
+  bool take_next(dds::DataReader& reader) {
+    dds::SampleInfo info;
+    if (!next_) next_ = pool_->loan();
+    IncomingMessage message{*own_.topic.type, next_.mutable_message()};
+    Incoming& taken = message;
+    if (reader.take_next_sample(&taken, &info) != ReturnCode_t::RETCODE_OK) return false;
+    if (closed_ || !info.valid_data) return true;
+    const Guid writer = guid_of(info.sample_identity.writer_guid());
+    if (writer.participant == link_->participant->guid_prefix()) return true;
+    if (const auto stranger = stranger_of(writer)) {
+      count_refused(*stranger);
+      return true;
+    }
+    const std::uint64_t sequence = info.sample_identity.sequence_number().to64long();
+    if (counts_lost()) lost_ += gaps_.lost_before(writer, sequence);
+    const Time published = published_at(writer, Time{info.source_timestamp.to_ns()});
+    if (is_expired(published)) return true;
+    if (!message.decoded()) {
+      report_undecodable(writer);
+      return true;
+    }
+    next_.mutable_info() = {
+        .published = published, .sequence = sequence, .lost_before = std::exchange(lost_, 0)};
+    deliver_(std::move(next_));
+    return true;
   }
 
   /// Of what changes seldom the newest is wanted, and no more.
@@ -194,7 +201,7 @@ class FastDdsReader final : public RemoteReader, private dds::DataReaderListener
   std::atomic<int> writers_{0}, peers_{0};
   mutable std::mutex mutex_;  // guards what follows
   bool closed_ = false;
-  RawCdr cdr_;
+  SampleRef next_;  // what the next sample is decoded into
   SequenceGaps gaps_;
   std::uint64_t lost_ = 0;  // since the sample that was delivered last
   std::map<Guid, std::optional<std::string>> strangers_;  // nothing: a writer that is heard

@@ -7,10 +7,10 @@
 #include <fastdds/dds/topic/Topic.hpp>
 #include <utility>
 
+#include "armature/bus/fast_dds/cdr_payload.hpp"
 #include "armature/bus/fast_dds/endpoint_qos.hpp"
 #include "armature/bus/fast_dds/fast_dds_link.hpp"
 #include "armature/bus/fast_dds/guid_of.hpp"
-#include "armature/bus/fast_dds/raw_cdr_type.hpp"
 #include "armature/bus/topic_name.hpp"
 
 namespace armature {
@@ -75,15 +75,14 @@ class FastDdsWriter final : public RemoteWriter, private dds::DataWriterListener
   }
 
   void send(const SampleRef& sample) {
-    cdr_.bytes.clear();
-    topic_.type->encode(sample.message(), cdr_.bytes);
+    OutgoingMessage outgoing{.type = topic_.type, .message = sample.message()};
     rtps::WriteParams params;
     if (link_->shared_clock && !keeps_lifespan()) {
       rtps::Time_t stamp;
       stamp.from_ns(sample.info().published.ns);
       params.source_timestamp(stamp);
     }
-    if (!writer_->write(&cdr_, params)) {
+    if (!writer_->write(&outgoing, params)) {
       link_->conflicts.report(
           {TransportEvent::Kind::note, topic_.name,
            "DDS did not take a sample of '" + ros_topic_name(topic_.name) + "'"});
@@ -115,7 +114,6 @@ class FastDdsWriter final : public RemoteWriter, private dds::DataWriterListener
   QosSettings settings_;
   dds::DataWriter* writer_ = nullptr;
   std::atomic<int> watchers_{0}, peers_{0};
-  RawCdr cdr_;  // of the egress thread
   std::unique_ptr<Egress::Queue> queue_;
 };
 

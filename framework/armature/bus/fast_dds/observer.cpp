@@ -16,10 +16,10 @@
 #include <thread>
 #include <utility>
 
+#include "armature/bus/fast_dds/cdr_payload.hpp"
 #include "armature/bus/fast_dds/endpoint_qos.hpp"
 #include "armature/bus/fast_dds/guid_of.hpp"
 #include "armature/bus/fast_dds/participant.hpp"
-#include "armature/bus/fast_dds/raw_cdr_type.hpp"
 #include "armature/bus/fast_dds/sequence_gaps.hpp"
 #include "armature/bus/topic_name.hpp"
 
@@ -36,7 +36,8 @@ class Watch final : public dds::DataReaderListener {
   void on_data_available(dds::DataReader* from) override {
     const std::scoped_lock lock{mutex_};
     dds::SampleInfo info;
-    while (from->take_next_sample(&cdr_, &info) == ReturnCode_t::RETCODE_OK) {
+    Incoming& taken = cdr_;
+    while (from->take_next_sample(&taken, &info) == ReturnCode_t::RETCODE_OK) {
       if (!info.valid_data) continue;
       const std::uint64_t lost =
           gaps_.lost_before(guid_of(info.sample_identity.writer_guid()),
@@ -51,7 +52,7 @@ class Watch final : public dds::DataReaderListener {
   std::string type_;
   std::function<void(const ObservedSample&)> on_sample_;
   std::mutex mutex_;
-  RawCdr cdr_;
+  IncomingBytes cdr_;
   SequenceGaps gaps_;
 };
 

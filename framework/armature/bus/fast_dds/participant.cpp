@@ -19,9 +19,9 @@
 #include <thread>
 #include <utility>
 
+#include "armature/bus/fast_dds/cdr_payload.hpp"
 #include "armature/bus/fast_dds/dds_log.hpp"
 #include "armature/bus/fast_dds/guid_of.hpp"
-#include "armature/bus/fast_dds/raw_cdr_type.hpp"
 #include "armature/bus/topic_name.hpp"
 
 namespace armature {
@@ -369,7 +369,7 @@ Expected<dds::Topic*> Participant::topic(const std::string& name, const std::str
                   found->second->get_type_name() + " and with " + type + " in this process");
   }
   if (participant_->find_type(type).empty()) {
-    participant_->register_type(make_raw_cdr_type(type));
+    participant_->register_type(make_cdr_type(type));
   }
   dds::Topic* made = participant_->create_topic(name, type, dds::TopicQos{});
   if (!made) return refuse("DDS: cannot create the topic '" + ros_topic_name(name) + "'");

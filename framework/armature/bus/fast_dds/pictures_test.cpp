@@ -108,10 +108,10 @@ TEST_F(Pictures, ThatAnOnlookerMissesAreCounted) {
 TEST_F(Pictures, ThatTakeLongToSendHoldUpNoCommand) {
   static std::atomic<bool> is_sending{false}, may_end{false};
   MessageType slow = message_type<msg::Image>();
-  slow.encode = [](const void* message, std::vector<std::byte>& cdr) {
+  slow.encode_into = [](const void* message, std::span<std::byte> cdr) {
     is_sending = true;
     while (!may_end) std::this_thread::sleep_for(1ms);
-    message_type<msg::Image>().encode(message, cdr);
+    return message_type<msg::Image>().encode_into(message, cdr);
   };
   const auto camera = make_transport(), arm = make_transport();
   SamplePool pool{slow, 1};

@@ -120,7 +120,7 @@ void ChildProcesses::watch(Child& child) {
 void ChildProcesses::on_continued(Child& child) {
   if (!child.halted_at) return;
   const Duration halted = SteadyClock::now() - *std::exchange(child.halted_at, std::nullopt);
-  if (halted <= settings(QosProfile::command).liveliness_lease) return;
+  if (halted <= settings(QosProfile::command).liveliness_lease.value()) return;
   faults_.push_back(fmt::format("{} (pid {}) fell silent: it was stopped for {:.1f} s", child.label,
                                 child.pid, to_seconds(halted)));
 }

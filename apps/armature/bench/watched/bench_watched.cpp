@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/watched/bench_watched.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <regex>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "armature/bus/topic_name.hpp"
+#include "armature/config/document.hpp"
+#include "armature/runtime/deployment_file/deployment_config.hpp"
+#include "armature/runtime/plugins/plugin_registry.hpp"
+#include "bench/program.hpp"
+#include "bench/watched/watched_report.hpp"
+#include "exit_code.hpp"
+#include "progress.hpp"
+
+namespace armature {
+namespace {
+
+namespace fs = std::filesystem;
+using bench::Program;
+using bench::WatchedReport;
+using bench::WatchedRound;
+using bench::WatchedRun;
+using bench::Watching;
+
+/// Gone with what is in it at the end.
+class Folder {
+ public:
+  Folder() {
+    std::string name = fs::temp_directory_path() / "armature-bench-XXXXXX";
+    if (!mkdtemp(name.data())) throw std::runtime_error{"no temporary folder can be made"};
+    path_ = name;
+  }
+  ~Folder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+std::string content(const fs::path& file) {
+  std::ifstream stream{file};
+  return {std::istreambuf_iterator<char>{stream}, {}};
+}
+
+/// What the bench knows of a deployment before it runs.
+struct Subject {
+  std::vector<std::string> measured;  // topics of what is measured: "/dental_lamp/arm/measured_js"
+  std::set<std::string> threads;      // names of its own threads
+};
+
+Subject subject_of(const DeploymentSource& source) {
+  constexpr std::size_t kThreadName = 15;
+  PluginRegistry plugins;
+  config::Problems problems;
+  const DeploymentConfig config = read_deployment(
+      config::load_with_overlays(source.files, source.assignments), plugins, problems);
+  problems.throw_if_any();
+  if (config.processes().size() > 1) {
+    throw InvalidChoice("what a deployment in several processes costs is not measured here");
+  }
+  Subject subject;
+  for (const ExecutorSpec& executor : config.executors) {
+    subject.threads.insert(executor.name.substr(0, kThreadName));
+  }
+  for (const ComponentConfig& component : config.components) {
+    subject.threads.insert(component.name.substr(0, kThreadName));
+    for (const PortBinding& output : component.outputs) {
+      if (output.spec.measured) subject.measured.push_back(ros_topic_name(output.topic));
+    }
+  }
+  if (subject.measured.empty())
+    throw InvalidChoice("nothing is measured there, so none can read it");
+  return subject;
+}
+
+/// Processor time that the threads of a process have had [s]: the own ones, all others.
+std::pair<double, double> processor_time(pid_t process, const std::set<std::string>& own) {
+  double own_s = 0, others_s = 0;
+  for (const auto& thread : fs::directory_iterator{fmt::format("/proc/{}/task", process)}) {
+    std::string name = content(thread.path() / "comm");
+    name = name.substr(0, name.find('\n'));
+    const double time_s = 1e-9 * std::strtod(content(thread.path() / "schedstat").c_str(), nullptr);
+    (own.contains(name) ? own_s : others_s) += time_s;
+  }
+  return {own_s, others_s};
+}
+
+void sleep_s(double seconds) {
+  std::this_thread::sleep_for(std::chrono::duration<double>{seconds});
+}
+
+/// Waits until the run has begun: its first thread has stepped.
+void await_start(const Program& run, const Subject& subject, const fs::path& output) {
+  constexpr int kTimeout_s = 60;
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds{kTimeout_s};
+  while (processor_time(run.pid(), subject.threads).first == 0) {
+    if (std::chrono::steady_clock::now() > end) {
+      throw std::runtime_error{fmt::format("the deployment has not begun within {} s: {}",
+                                           kTimeout_s, content(output.string() + ".err"))};
+    }
+    sleep_s(0.005);
+  }
+}
+
+std::vector<std::string> run_words(const WatchedBenchOptions& options) {
+  std::vector<std::string> words{"run", "--keep-running", "--domain",
+                                 std::to_string(options.domain)};
+  for (const auto& assignment : options.source.assignments) {
+    words.insert(words.end(), {"--set", assignment});
+  }
+  for (const auto& file : options.source.files) words.push_back(file.string());
+  return words;
+}
+
+/// Messages that came faster than the run wrote them.
+std::uint64_t lost_by_run(const fs::path& output) {
+  const std::string told = content(output.string() + ".err");
+  std::smatch match;
+  if (!std::regex_search(told, match, std::regex{"; ([0-9]+) came faster than"})) return 0;
+  return std::stoull(match[1]);
+}
+
+std::uint64_t lost_by_recorder(const fs::path& output) {
+  const auto told = nlohmann::json::parse(content(output.string() + ".out"), nullptr, false);
+  if (told.is_discarded()) {
+    throw std::runtime_error{"the recorder says: " + content(output.string() + ".err")};
+  }
+  return told.value("lost", std::uint64_t{0}) + told.value("dropped", std::uint64_t{0});
+}
+
+WatchedRun measure(const WatchedBenchOptions& options, const Subject& subject, Watching watching) {
+  const Folder folder;
+  const fs::path run_output = folder.path() / "run", recorder_output = folder.path() / "recorder";
+  const std::string domain = std::to_string(options.domain);
+  auto words = run_words(options);
+  if (watching == Watching::recorded) {
+    const std::string file = folder.path() / "run.mcap";
+    words.insert(words.end(), {"--set", "record.file=" + file});
+  }
+  std::unique_ptr<Program> recorder;
+  std::vector<std::unique_ptr<Program>> readers;
+  if (watching == Watching::read) {
+    const std::string file = folder.path() / "topics.mcap";
+    recorder = std::make_unique<Program>(
+        std::vector<std::string>{"record", "-o", file, "--json", "--domain", domain},
+        recorder_output);
+    for (int i = 0; i < options.readers; ++i) {
+      const auto& topic = subject.measured[static_cast<std::size_t>(i) % subject.measured.size()];
+      readers.push_back(std::make_unique<Program>(
+          std::vector<std::string>{"topic", "hz", topic, "--domain", domain}));
+    }
+    sleep_s(1);  // they are there before what they watch
+  }
+  Program run{words, run_output};
+  await_start(run, subject, run_output);
+  sleep_s(options.seconds);
+  const auto [own_s, others_s] = processor_time(run.pid(), subject.threads);
+  WatchedRun measured{
+      .own = own_s / options.seconds, .others = others_s / options.seconds, .lost = 0};
+  run.interrupt();
+  run.wait();
+  if (watching == Watching::recorded) measured.lost = lost_by_run(run_output);
+  if (recorder) {
+    recorder->interrupt();
+    recorder->wait();
+    measured.lost = lost_by_recorder(recorder_output);
+  }
+  return measured;
+}
+
+}  // namespace
+
+int bench_watched(const WatchedBenchOptions& options) {
+  const Subject subject = subject_of(options.source);
+  WatchedReport report{.options = options, .machine = bench::this_machine(), .rounds = {}};
+  std::vector<Watching> order{bench::kWatching.begin(), bench::kWatching.end()};
+  std::mt19937 random{1};
+  Progress progress{"runs"};
+  const auto runs = static_cast<std::size_t>(options.rounds) * order.size();
+  std::size_t done = 0;
+  for (int i = 0; i < options.rounds; ++i) {
+    WatchedRound round;
+    std::ranges::shuffle(order, random);
+    for (const Watching watching : order) {
+      round[static_cast<std::size_t>(watching)] = measure(options, subject, watching);
+      progress.of(++done, runs);
+    }
+    report.rounds.push_back(round);
+  }
+  fmt::print("{}", options.json ? bench::to_json(report) + "\n" : bench::table(report));
+  return bench::is_met(report) ? kOk : kFailed;
+}
+
+}  // namespace armature

@@ -24,8 +24,9 @@ TEST(BenchWatched, RunsADeploymentAloneRecordedAndRead) {
   const auto report = nlohmann::json::parse(result.out);
   for (const char* way : {"alone", "recorded", "read"}) {
     ASSERT_EQ(report[way]["runs"].size(), 1U);
-    EXPECT_GT(report[way]["runs"][0]["own"], 0) << way;
-    EXPECT_LT(report[way]["runs"][0]["own"], 4) << way << ": it has few threads";
+    const auto& control = report[way]["runs"][0]["own"]["control"];
+    EXPECT_GT(control["processor_s"], 0) << way;
+    EXPECT_GT(control["cycles"], 100) << way << ": a thousand a second, where there is time";
   }
 }
 

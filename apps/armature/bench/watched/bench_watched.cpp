@@ -9,11 +9,11 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <regex>
-#include <set>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -64,14 +64,16 @@ std::string content(const fs::path& file) {
   return {std::istreambuf_iterator<char>{stream}, {}};
 }
 
+/// Linux cuts a thread's name there.
+constexpr std::size_t kThreadName = 15;
+
 /// What the bench knows of a deployment before it runs.
 struct Subject {
   std::vector<std::string> measured;  // topics of what is measured: "/dental_lamp/arm/measured_js"
-  std::set<std::string> threads;      // names of its own threads
+  std::vector<std::string> executors;
 };
 
 Subject subject_of(const DeploymentSource& source) {
-  constexpr std::size_t kThreadName = 15;
   PluginRegistry plugins;
   config::Problems problems;
   const DeploymentConfig config = read_deployment(
@@ -81,11 +83,8 @@ Subject subject_of(const DeploymentSource& source) {
     throw InvalidChoice("what a deployment in several processes costs is not measured here");
   }
   Subject subject;
-  for (const ExecutorSpec& executor : config.executors) {
-    subject.threads.insert(executor.name.substr(0, kThreadName));
-  }
+  for (const ExecutorSpec& executor : config.executors) subject.executors.push_back(executor.name);
   for (const ComponentConfig& component : config.components) {
-    subject.threads.insert(component.name.substr(0, kThreadName));
     for (const PortBinding& output : component.outputs) {
       if (output.spec.measured) subject.measured.push_back(ros_topic_name(output.topic));
     }
@@ -95,16 +94,33 @@ Subject subject_of(const DeploymentSource& source) {
   return subject;
 }
 
-/// Processor time that the threads of a process have had [s]: the own ones, all others.
-std::pair<double, double> processor_time(pid_t process, const std::set<std::string>& own) {
-  double own_s = 0, others_s = 0;
+/// Processor time that the threads of a process have had, by name [s].
+std::map<std::string, double> processor_times(pid_t process) {
+  std::map<std::string, double> times;
   for (const auto& thread : fs::directory_iterator{fmt::format("/proc/{}/task", process)}) {
     std::string name = content(thread.path() / "comm");
     name = name.substr(0, name.find('\n'));
-    const double time_s = 1e-9 * std::strtod(content(thread.path() / "schedstat").c_str(), nullptr);
-    (own.contains(name) ? own_s : others_s) += time_s;
+    times[name] += 1e-9 * std::strtod(content(thread.path() / "schedstat").c_str(), nullptr);
   }
-  return {own_s, others_s};
+  return times;
+}
+
+/// Threads whose cycles the run has told at its end (--timing --json).
+WatchedRun run_of(std::map<std::string, double> times, const Subject& subject,
+                  const fs::path& output) {
+  const auto told = nlohmann::json::parse(content(output.string() + ".out"), nullptr, false);
+  if (told.is_discarded() || !told.contains("timing")) {
+    throw std::runtime_error{"the run says: " + content(output.string() + ".err")};
+  }
+  WatchedRun run;
+  for (const std::string& executor : subject.executors) {
+    const auto time = times.extract(executor.substr(0, kThreadName));
+    if (time.empty()) continue;
+    const auto& cycle = told["timing"]["executors"][executor]["cycle"];
+    run.own[executor] = {.processor_s = time.mapped(), .cycles = cycle.value("count", 0U)};
+  }
+  for (const auto& [name, time] : times) run.others_s += time;
+  return run;
 }
 
 void sleep_s(double seconds) {
@@ -115,7 +131,14 @@ void sleep_s(double seconds) {
 void await_start(const Program& run, const Subject& subject, const fs::path& output) {
   constexpr int kTimeout_s = 60;
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds{kTimeout_s};
-  while (processor_time(run.pid(), subject.threads).first == 0) {
+  const auto has_stepped = [&] {
+    const auto times = processor_times(run.pid());
+    return std::ranges::any_of(subject.executors, [&](const std::string& executor) {
+      const auto time = times.find(executor.substr(0, kThreadName));
+      return time != times.end() && time->second > 0;
+    });
+  };
+  while (!has_stepped()) {
     if (std::chrono::steady_clock::now() > end) {
       throw std::runtime_error{fmt::format("the deployment has not begun within {} s: {}",
                                            kTimeout_s, content(output.string() + ".err"))};
@@ -125,8 +148,8 @@ void await_start(const Program& run, const Subject& subject, const fs::path& out
 }
 
 std::vector<std::string> run_words(const WatchedBenchOptions& options) {
-  std::vector<std::string> words{"run", "--keep-running", "--domain",
-                                 std::to_string(options.domain)};
+  std::vector<std::string> words{"run",    "--keep-running", "--timing",
+                                 "--json", "--domain",       std::to_string(options.domain)};
   for (const auto& assignment : options.source.assignments) {
     words.insert(words.end(), {"--set", assignment});
   }
@@ -176,11 +199,10 @@ WatchedRun measure(const WatchedBenchOptions& options, const Subject& subject, W
   Program run{words, run_output};
   await_start(run, subject, run_output);
   sleep_s(options.seconds);
-  const auto [own_s, others_s] = processor_time(run.pid(), subject.threads);
-  WatchedRun measured{
-      .own = own_s / options.seconds, .others = others_s / options.seconds, .lost = 0};
+  auto times = processor_times(run.pid());
   run.interrupt();
   run.wait();
+  WatchedRun measured = run_of(std::move(times), subject, run_output);
   if (watching == Watching::recorded) measured.lost = lost_by_run(run_output);
   if (recorder) {
     recorder->interrupt();

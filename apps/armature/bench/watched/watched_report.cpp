@@ -40,9 +40,16 @@ double median_over(const WatchedReport& report,
   return quantile(std::move(values), 0.5);
 }
 
-double median(const WatchedReport& report, Watching watching, double WatchedRun::*part) {
-  return median_over(report,
-                     [&](const WatchedRound& round) { return round[place(watching)].*part; });
+/// What `run` would have taken for the cycles of `alone` [s].
+double own_s(const WatchedRun& run, const WatchedRun& alone) {
+  double sum = 0;
+  for (const auto& [name, time] : alone.own) {
+    const auto same = run.own.find(name);
+    if (same == run.own.end() || same->second.cycles == 0) continue;
+    sum += same->second.processor_s / static_cast<double>(same->second.cycles) *
+           static_cast<double>(time.cycles);
+  }
+  return sum;
 }
 
 std::uint64_t lost(const WatchedReport& report, Watching watching) {
@@ -60,7 +67,8 @@ bool is_met(const WatchedReport& report, Watching watching) {
 
 double median_ratio(const WatchedReport& report, Watching watching) {
   return median_over(report, [&](const WatchedRound& round) {
-    return round[place(watching)].own / round[place(Watching::alone)].own;
+    const WatchedRun& alone = round[place(Watching::alone)];
+    return own_s(round[place(watching)], alone) / own_s(alone, alone);
   });
 }
 
@@ -74,10 +82,14 @@ std::string table(const WatchedReport& report) {
       fmt::format("{:<36} {:>12} {:>8} {:>14} {:>6}\n", "processor time [ms/s], medians",
                   "own threads", "ratio", "other threads", "lost");
   for (const Watching watching : kWatching) {
+    const auto own = [&](const WatchedRound& round) {
+      return own_s(round[place(watching)], round[place(Watching::alone)]);
+    };
+    const auto others = [&](const WatchedRound& round) { return round[place(watching)].others_s; };
     text += fmt::format(
         "{:<36} {:>12.1f} {:>8.3f} {:>14.1f} {:>6}{}\n", title(watching, report.options),
-        1e3 * median(report, watching, &WatchedRun::own), median_ratio(report, watching),
-        1e3 * median(report, watching, &WatchedRun::others), lost(report, watching),
+        1e3 * median_over(report, own) / report.options.seconds, median_ratio(report, watching),
+        1e3 * median_over(report, others) / report.options.seconds, lost(report, watching),
         is_met(report, watching) ? "" : "  MISSED");
   }
   return text + fmt::format(
@@ -95,7 +107,11 @@ std::string to_json(const WatchedReport& report) {
     auto runs = nlohmann::ordered_json::array();
     for (const WatchedRound& round : report.rounds) {
       const WatchedRun& run = round[place(watching)];
-      runs.push_back({{"own", run.own}, {"others", run.others}, {"lost", run.lost}});
+      nlohmann::ordered_json own;
+      for (const auto& [name, time] : run.own) {
+        own[name] = {{"processor_s", time.processor_s}, {"cycles", time.cycles}};
+      }
+      runs.push_back({{"own", std::move(own)}, {"others_s", run.others_s}, {"lost", run.lost}});
     }
     json[key(watching)] = {{"median_ratio", median_ratio(report, watching)},
                            {"lost", lost(report, watching)},

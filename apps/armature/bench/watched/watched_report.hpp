@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -16,10 +17,15 @@ namespace armature::bench {
 enum class Watching { alone, recorded, read };
 inline constexpr std::array kWatching{Watching::alone, Watching::recorded, Watching::read};
 
-/// Of a run, from its first step on.
+/// A thread of a run, from the begin of the run on.
+struct ThreadTime {
+  double processor_s = 0;
+  std::uint64_t cycles = 0;  // how often it began to work
+};
+
 struct WatchedRun {
-  double own = 0;          // processor time of its executors' and drivers' threads, of the time [1]
-  double others = 0;       // of the process' other threads: recorder, DDS
+  std::map<std::string, ThreadTime> own;  // threads of the executors, by name
+  double others_s = 0;     // processor time of the process' other threads: drivers, recorder, DDS
   std::uint64_t lost = 0;  // messages that did not come to the recording
 };
 
@@ -32,7 +38,8 @@ struct WatchedReport {
   std::vector<WatchedRound> rounds;
 };
 
-/// How many times as much time the own threads take as alone: the median over the rounds.
+/// How many times as much time a cycle of the own threads takes as alone: the median over the
+/// rounds. The threads count as often as they work alone, since one that is late works less often.
 double median_ratio(const WatchedReport& report, Watching watching);
 inline constexpr double kMaxWatchedRatio = 1.03;
 

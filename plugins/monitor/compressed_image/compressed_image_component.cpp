@@ -36,7 +36,7 @@ class CompressedImage final : public Component {
         image_{setup.input<msg::Image>("image")},
         compressed_{setup.output<msg::CompressedImage>("compressed")} {}
 
-  JpegEncoder encoder_;
+  jpeg::JpegEncoder encoder_;
   RateLimiter rate_limiter_;
   Input<msg::Image> image_;
   Output<msg::CompressedImage> compressed_;

@@ -8,7 +8,7 @@
 #include "armature/messages/sensor_msgs.hpp"
 #include "armature/values/expected.hpp"
 
-namespace armature::monitor::compressed_image {
+namespace armature::jpeg {
 
 /// Compresses pictures with libjpeg-turbo. One thread at a time; not real-time safe.
 class JpegEncoder {
@@ -27,4 +27,4 @@ class JpegEncoder {
   int quality_;
 };
 
-}  // namespace armature::monitor::compressed_image
+}  // namespace armature::jpeg

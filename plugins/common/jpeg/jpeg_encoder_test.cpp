@@ -6,7 +6,7 @@
 
 #include <opencv2/imgcodecs.hpp>
 
-namespace armature::monitor::compressed_image {
+namespace armature::jpeg {
 namespace {
 
 constexpr std::uint32_t kWidth = 64, kHeight = 48, kPadding = 5;
@@ -78,4 +78,4 @@ TEST(JpegEncoder, RefusesWhatIsNoPicture) {
 }
 
 }  // namespace
-}  // namespace armature::monitor::compressed_image
+}  // namespace armature::jpeg

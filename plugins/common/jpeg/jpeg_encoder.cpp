@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <string_view>
 
-namespace armature::monitor::compressed_image {
+namespace armature::jpeg {
 namespace {
 
 struct Encoding {
@@ -61,4 +61,4 @@ Expected<void> JpegEncoder::encode(const msg::Image& image, std::vector<std::uin
   return {};
 }
 
-}  // namespace armature::monitor::compressed_image
+}  // namespace armature::jpeg

@@ -10,7 +10,9 @@
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
+#include "armature/recording/mcap_reader.hpp"
 #include "armature/recording/mcap_writer.hpp"
 #include "command.hpp"
 #include "tests/dds_domain.hpp"
@@ -37,6 +39,19 @@ class Replay : public testing::Test {
     return run_command(more, {}, kEnough);
   }
   std::string file(const std::string& name = "run.mcap") const { return folder_ / name; }
+  static std::string text_of(const fs::path& file) {
+    std::ifstream stream{file, std::ios::binary};
+    return {std::istreambuf_iterator<char>{stream}, {}};
+  }
+  /// What an attachment of a recording says.
+  static std::string attached(const std::string& file, const std::string& name) {
+    McapReader reader{file};
+    while (reader.next()) continue;
+    for (const McapAttachment& attachment : reader.attachments()) {
+      if (attachment.name == name) return attachment.data;
+    }
+    return {};
+  }
   static json check(std::vector<std::string> arguments, int exit_code) {
     arguments.insert(arguments.begin(), {armature(), "replay", "--check", "--json"});
     const CommandResult result = run_command(arguments, {}, kEnough);
@@ -96,6 +111,69 @@ TEST_F(Replay, ARunInSeveralProcessesComesBackBitForBit) {
   EXPECT_EQ(component_of(checked, "face")["process"], "vision");
   EXPECT_GT(component_of(checked, "face")["outputs"], 0);
   EXPECT_GT(component_of(checked, "target")["outputs"], 0) << "which the other process feeds";
+}
+
+TEST_F(Replay, TheFiguresOfARunAreInItsRecordingAsTheRunToldThem) {
+  const CommandResult run = record({"--set", "clock=simulated", "--json"});
+  const json told = json::parse(run.out);
+  const json figures = json::parse(attached(file(), "figures.json"));
+  EXPECT_EQ(figures["status"], told["status"]);
+  EXPECT_EQ(figures["reasons"], told["reasons"]) << "its time was over before its end";
+  EXPECT_GT(figures["figures"].size(), 5U);
+  for (const json& figure : figures["figures"]) {
+    EXPECT_EQ(figure["value"], told[std::string{figure["key"]}]) << figure;
+    if (figure["key"] != "mouth_position_error_mm") continue;
+    EXPECT_EQ(figure["title"], "mouth position error [mm]");
+    EXPECT_EQ(figure["goal"], 2.5);
+  }
+  EXPECT_GT(figures["timing"]["components"]["motion"]["step"]["count"], 3'900);
+  EXPECT_FALSE(told.contains("timing")) << "nobody asked for it";
+  EXPECT_EQ(run_command({armature(), "info", "--verify", file()}).exit_code, 0);
+  EXPECT_TRUE(check({file()}, 0)["identical"]);
+}
+
+TEST_F(Replay, ARunThatRecordsItselfHasWhatItsPageShows) {
+  record({});
+  const json info = json::parse(run_command({armature(), "info", "--json", file()}).out);
+  std::set<std::string> topics;
+  for (const json& topic : info["topics"]) topics.insert(topic["topic"]);
+  for (const char* topic : {"/tf", "/tf_static", "/joint_states", "/robot_description", "/rosout",
+                            "/dental_lamp/tool_pose", "/dental_lamp/markers"}) {
+    EXPECT_TRUE(topics.contains(topic)) << topic;
+  }
+  EXPECT_FALSE(topics.contains("/dental_lamp/left/image_raw/compressed"))
+      << "a picture is recorded once";
+  const CommandResult report =
+      run_command({armature(), "report", file(), "-o", file("report.html")}, {}, kEnough);
+  EXPECT_EQ(report.exit_code, 0);
+  EXPECT_EQ(report.err, "");
+}
+
+TEST_F(Replay, TheReportOfARunHasItsPage) {
+  const fs::path out = folder_ / "out 50%d";
+  const auto run = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {armature(), "run", source_file("configs/dental_lamp.yaml"), "--json",
+                               "--report", out, "--set", "run.time_limit_s=4", "--domain",
+                               std::to_string(unique_dds_domain())});
+    return run_command(more, {}, kEnough);
+  };
+  for (int times = 0; times < 2; ++times) {  // the second takes the place of the first
+    const CommandResult result = run({});
+    EXPECT_EQ(json::parse(result.out)["status"], "goals_missed") << "nothing else on the output";
+    EXPECT_THAT(text_of(out / "report.html"), HasSubstr("data-figures=\"{&quot;status&quot;"));
+    const CommandResult replay = run_command({armature(), "replay", "--check", out / "run.mcap"});
+    EXPECT_EQ(replay.exit_code, 1);
+    EXPECT_THAT(replay.err, HasSubstr("only what a page of the run shows"));
+  }
+  EXPECT_LT(fs::file_size(out / "run.mcap"), 8'000'000U);
+  fs::remove_all(out);
+  run({"--set", "record.file=" + file()});
+  EXPECT_TRUE(fs::exists(out / "report.html"));
+  EXPECT_FALSE(fs::exists(out / "run.mcap")) << "it has a recording of its own";
+  const CommandResult around =
+      run({"--set", "record={file: \"" + file("%H.mcap") + "\", around_faults_s: 1}"});
+  EXPECT_THAT(around.err, HasSubstr("so its report has no page"));
+  EXPECT_FALSE(fs::exists(out / "report.html")) << "that of the run before";
 }
 
 TEST_F(Replay, AChangedConstantIsFoundAndNamesItsComponentOnly) {

@@ -61,6 +61,7 @@ TEST_F(PageInABrowser, ShowsWhatWasWhenItIsPausedAndGoneBack) { expect_true("scr
 TEST_F(PageInABrowser, ComesBackAfterALostConnectionAndFollowsANewRun) { expect_true("again"); }
 TEST_F(PageInABrowser, OpensARecordingWholeOrCutOff) { expect_true("recording"); }
 TEST_F(PageInABrowser, OpensAReportOfARunFromTheDisk) { expect_true("report"); }
+TEST_F(PageInABrowser, OpensThePageThatARunWritesIntoItsReport) { expect_true("ownReport"); }
 TEST_F(PageInABrowser, LetsChooseBetweenTwoDeployments) { expect_true("two"); }
 TEST_F(PageInABrowser, SurvivesMessagesThatMakeNoSense) { expect_true("nonsense"); }
 TEST_F(PageInABrowser, FitsLaptopAndTabletAndIsUsedByKeyboard) { expect_true("sizes"); }

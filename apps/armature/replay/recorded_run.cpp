@@ -71,6 +71,12 @@ void RecordedRun::read_metadata(const std::filesystem::path& file) {
                           "cannot be repeated without what they had done before",
                           file.string()));
         }
+        if (key == "whole" && value == "thin") {
+          throw std::runtime_error(
+              fmt::format("'{}' has only what a page of the run shows (record: thin), and no "
+                          "activations to be repeated",
+                          file.string()));
+        }
         if (const auto plugin = behind("library of ", key)) libraries_[*plugin] = value;
       }
     }

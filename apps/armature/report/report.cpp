@@ -19,13 +19,20 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "armature/config/problems.hpp"
+#include "armature/messages/known_types.hpp"
+#include "armature/messages/ros_definition.hpp"
+#include "armature/messages/sensor_msgs.hpp"
 #include "armature/recording/hash_chain.hpp"
 #include "armature/recording/mcap_reader.hpp"
 #include "armature/recording/mcap_writer.hpp"
+#include "armature/runtime/recording/page_rate.hpp"
+#include "armature/runtime/recording/recorded_description.hpp"
 #include "armature/runtime/reporting/write_atomically.hpp"
 #include "exit_code.hpp"
+#include "jpeg_encoder.hpp"
 #include "record/message_copy.hpp"
 #include "record/record.hpp"
 #include "verbs/shipped_configs.hpp"
@@ -33,9 +40,8 @@
 namespace armature {
 namespace {
 
-constexpr double kMaxHz = 50;                     // of a topic that comes more often
-constexpr double kMaxPictureHz = 2;               // of one camera
 constexpr std::uint64_t kMaxBytes = 256'000'000;  // browsers hold texts of 512 MB at most
+constexpr int kJpegQuality = 80;
 constexpr std::string_view kImage = "sensor_msgs/msg/Image";
 constexpr std::string_view kCompressedImage = "sensor_msgs/msg/CompressedImage";
 
@@ -51,6 +57,7 @@ struct RunContents {
   McapChain chain;
   bool is_whole = true;
   std::map<std::string, std::string> deployment;  // version, fingerprint, ..
+  std::string figures;                            // of the run, as JSON; empty: it has none
 
   double hz(const Topic& topic) const {
     const double length_s = to_seconds(last - first);
@@ -76,7 +83,10 @@ RunContents read_all(const std::filesystem::path& file) {
   contents.chain = reader.chain();
   contents.is_whole = reader.problems().empty();
   for (const McapMetadata& metadata : reader.metadata()) {
-    if (metadata.name == "armature.deployment") contents.deployment = metadata.values;
+    if (metadata.name == kDeploymentMetadata) contents.deployment = metadata.values;
+  }
+  for (const McapAttachment& attachment : reader.attachments()) {
+    if (attachment.name == kFiguresAttachment) contents.figures = attachment.data;
   }
   return contents;
 }
@@ -84,36 +94,12 @@ RunContents read_all(const std::filesystem::path& file) {
 /// How often a topic is kept: 0: not at all; nothing: all of it.
 std::optional<double> kept_hz(const std::string& name, const RunContents& contents, bool pictures) {
   const RunContents::Topic& topic = contents.topics.at(name);
-  if (topic.type == "armature_msgs/msg/Activation") return 0;
-  const bool is_raw = topic.type == kImage;
-  if (is_raw || topic.type == kCompressedImage) {
-    if (!pictures || (is_raw && contents.topics.contains(name + "/compressed"))) return 0;
-    return kMaxPictureHz;
-  }
-  // Each of these messages is about something else.
-  const bool is_each_its_own =
-      topic.type == "rcl_interfaces/msg/Log" || topic.type == "tf2_msgs/msg/TFMessage";
-  if (is_each_its_own || contents.hz(topic) <= kMaxHz) return std::nullopt;
-  return kMaxHz;
+  const bool is_raw = topic.type == kImage, is_picture = is_raw || topic.type == kCompressedImage;
+  const bool has_jpeg = is_raw && contents.topics.contains(name + "/compressed");
+  if ((is_picture && !pictures) || has_jpeg) return 0;
+  const std::optional<double> hz = page_rate_hz(topic.type);
+  return hz == kMaxPageHz && contents.hz(topic) <= kMaxPageHz ? std::nullopt : hz;
 }
-
-/// Passes the first of each period.
-class Thinning {
- public:
-  explicit Thinning(std::optional<double> hz) : hz_{hz} {}
-  bool passes(Duration since_start) {
-    if (!hz_) return true;
-    if (*hz_ == 0) return false;
-    const auto period = static_cast<std::int64_t>(to_seconds(since_start) * *hz_);
-    if (period == last_) return false;
-    last_ = period;
-    return true;
-  }
-
- private:
-  std::optional<double> hz_;
-  std::int64_t last_ = -1;
-};
 
 /// A file without a name, in memory: it is gone with its owner, however the program ends.
 class MemoryFile {
@@ -140,6 +126,52 @@ std::string bytes_of(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>{stream}, {}};
 }
 
+/// Puts raw pictures as JPEG where the page looks for such: <image>/compressed.
+class PictureCopy {
+ public:
+  /// `to` outlives it.
+  explicit PictureCopy(McapWriter& to) : to_{to} {}
+
+  /// False: it is of another encoding than JPEG has, or no picture; nothing was written.
+  bool write(const McapMessage& message) {
+    const MessageType& raw = message_type<msg::Image>();
+    if (!raw.decode(message.data, &image_)) return false;
+    if (!encoder_.encode(image_, compressed_.data_())) return false;
+    compressed_.header_(image_.header_());
+    compressed_.format_("jpeg");
+    cdr_.clear();
+    message_type<msg::CompressedImage>().encode(&compressed_, cdr_);
+    to_.write(channel_of(message.channel->topic + "/compressed"), message.sequence,
+              message.log_time, message.publish_time, cdr_);
+    return true;
+  }
+
+ private:
+  std::uint16_t channel_of(const std::string& topic) {
+    const auto [place, is_new] = channels_.try_emplace(topic);
+    if (!is_new) return place->second;
+    const std::string dds_type{message_type<msg::CompressedImage>().dds_name};
+    if (schema_ == 0) {
+      const TypeDescription& type = *describe_type(dds_type);
+      schema_ = to_.add(
+          McapSchema{.name = ros2_name(type), .encoding = "ros2msg", .data = ros_definition(type)});
+    }
+    place->second = to_.add(McapChannel{.schema_id = schema_,
+                                        .topic = topic,
+                                        .message_encoding = "cdr",
+                                        .metadata = {{"dds_type", dds_type}}});
+    return place->second;
+  }
+
+  McapWriter& to_;
+  jpeg::JpegEncoder encoder_{kJpegQuality};
+  msg::Image image_;
+  msg::CompressedImage compressed_;
+  std::vector<std::byte> cdr_;
+  std::uint16_t schema_ = 0;
+  std::map<std::string, std::uint16_t> channels_;  // by topic
+};
+
 struct Reduced {
   std::string bytes;
   std::uint64_t messages = 0;
@@ -151,14 +183,16 @@ Reduced reduced(const ReportOptions& options, const RunContents& contents) {
   McapReader reader{options.recording};
   McapWriter writer{file.path(), {.library = "armature " ARMATURE_VERSION}};
   MessageCopy copy{reader, writer};
+  PictureCopy pictures{writer};
   std::map<std::string, Thinning> topics;
   while (const auto message = reader.next()) {
     const McapChannel& channel = *message->channel;
     if (!topics.contains(channel.topic)) {
       topics.emplace(channel.topic, kept_hz(channel.topic, contents, options.pictures));
     }
-    if (!topics.at(channel.topic).passes(message->log_time - contents.first)) continue;
-    copy.write(*message);
+    if (!topics.at(channel.topic).passes(message->log_time)) continue;
+    const bool is_raw = contents.topics.at(channel.topic).type == kImage;
+    if (!is_raw || !pictures.write(*message)) copy.write(*message);
     if (writer.bytes() > kMaxBytes) {
       throw InvalidChoice(fmt::format(
           "'{}' is too long for a page: more than {} MB even with fewer messages; record a shorter "
@@ -262,15 +296,32 @@ nlohmann::ordered_json provenance(const ReportOptions& options, const RunContent
   add("Clock", of_deployment("clock"));
   add("In this page", fmt::format("{} of {} messages: at most {} a second of a topic, {} of a "
                                   "camera{}",
-                                  kept.messages, contents.messages, kMaxHz, kMaxPictureHz,
+                                  kept.messages, contents.messages, kMaxPageHz, kMaxPagePictureHz,
                                   options.pictures ? "" : "; without pictures"));
   add("Page by", "armature " ARMATURE_VERSION);
   return told;
 }
 
+/// What whoever made the page should know.
+std::vector<std::string> notes_on(const ReportOptions& options, const RunContents& contents) {
+  std::vector<std::string> notes;
+  const auto note = [&](std::string_view text) {
+    notes.push_back(fmt::format("'{}' {}", options.recording.string(), text));
+  };
+  if (!contents.is_whole || contents.chain.verdict == McapChain::Verdict::changed) {
+    note(fmt::format("is {}: the page says so", state_of(contents)));
+  }
+  if (!shows_moving_arm(contents)) {
+    note(
+        "has no /joint_states or no /tf: the page does not show how the arm moved (name both "
+        "under record: topics)");
+  }
+  return notes;
+}
+
 }  // namespace
 
-int write_report(const ReportOptions& options) {
+WrittenReport write_report(const ReportOptions& options) {
   std::error_code error;
   if (std::filesystem::equivalent(options.recording, options.out, error)) {
     throw InvalidChoice(fmt::format("'{}' is the recording itself", options.out.string()));
@@ -289,25 +340,23 @@ int write_report(const ReportOptions& options) {
   const Reduced kept = reduced(options, contents);
   page.insert(place,
               fmt::format("<script type=\"application/octet-stream;base64\" id=\"recording\" "
-                          "data-name=\"{}\" data-told=\"{}\">{}</script>\n",
+                          "data-name=\"{}\" data-told=\"{}\" data-figures=\"{}\">{}</script>\n",
                           escaped(options.recording.filename().string()),
                           escaped(provenance(options, contents, kept)
                                       .dump(-1, ' ', false,
                                             nlohmann::ordered_json::error_handler_t::replace)),
-                          base64(kept.bytes)));
-  write_atomically(options.out, page, FileUse::named_by_user);
-  if (!contents.is_whole || contents.chain.verdict == McapChain::Verdict::changed) {
-    fmt::print(stderr, "armature: '{}' is {}: the page says so\n", options.recording.string(),
-               state_of(contents));
-  }
-  if (!shows_moving_arm(contents)) {
-    fmt::print(stderr,
-               "armature: '{}' has no /joint_states or no /tf: the page does not show how the arm "
-               "moved (a run that records itself: name both under record: topics)\n",
-               options.recording.string());
-  }
-  fmt::print("{}: {} of {} messages, {:.3f} MB\n", options.out.string(), kept.messages,
-             contents.messages, 1e-6 * static_cast<double>(page.size()));
+                          escaped(contents.figures), base64(kept.bytes)));
+  write_atomically(options.out, page, options.use);
+  return {
+      .text = fmt::format("{}: {} of {} messages, {:.3f} MB", options.out.string(), kept.messages,
+                          contents.messages, 1e-6 * static_cast<double>(page.size())),
+      .notes = notes_on(options, contents)};
+}
+
+int print_report(const ReportOptions& options) {
+  const WrittenReport written = write_report(options);
+  for (const std::string& note : written.notes) fmt::print(stderr, "armature: {}\n", note);
+  fmt::print("{}\n", written.text);
   return kOk;
 }
 

@@ -7,6 +7,7 @@
 #include <map>
 #include <vector>
 
+#include "armature/messages/sensor_msgs.hpp"
 #include "armature/recording/mcap_reader.hpp"
 #include "armature/recording/recording_test.hpp"
 #include "exit_code.hpp"
@@ -52,7 +53,7 @@ class ReportTest : public testing::Test {
     int count = 0;
     std::int64_t period_ms = 1;
   };
-  void record(const std::vector<Topic>& topics) {
+  void record(const std::vector<Topic>& topics, const std::string& figures = {}) {
     McapWriter writer{recording_.path(), {}};
     for (const Topic& topic : topics) {
       const auto schema = writer.add(
@@ -67,6 +68,9 @@ class ReportTest : public testing::Test {
       }
     }
     writer.attach({.name = "lamp.yaml", .media_type = "application/yaml", .data = "armature: 1\n"});
+    if (!figures.empty()) {
+      writer.attach({.name = "figures.json", .media_type = "application/json", .data = figures});
+    }
     writer.add(McapMetadata{.name = "armature.deployment",
                             .values = {{"fingerprint", "</script><b a=\"1\">"}}});
     writer.close();
@@ -77,7 +81,7 @@ class ReportTest : public testing::Test {
     int code = kFailed;
     reason_.clear();
     try {
-      code = write_report({.recording = recording_.path(),
+      code = print_report({.recording = recording_.path(),
                            .out = out_.path(),
                            .page = page_.path(),
                            .pictures = pictures,
@@ -170,6 +174,52 @@ TEST_F(ReportTest, KeepsFiftyMessagesASecondAndTwoPictures) {
   EXPECT_EQ(counts(), kept);
   ASSERT_EQ(report(false, true), kOk) << reason_;
   EXPECT_EQ(counts().size(), 3U) << "no pictures";
+}
+
+TEST_F(ReportTest, HasRawPicturesAsJpegWhereThePageLooksForThem) {
+  msg::Image image;
+  image.header_().frame_id_("right_camera_optical");
+  image.encoding_("rgb8");
+  image.width_(640);
+  image.height_(480);
+  image.step_(3 * 640);
+  image.data_().resize(std::size_t{480} * 3 * 640);
+  for (std::size_t i = 0; i < image.data_().size(); ++i) {
+    image.data_()[i] = static_cast<std::uint8_t>(i / 1920 + (i * 2654435761U >> 28 & 7));  // noise
+  }
+  std::vector<std::byte> cdr;
+  message_type<msg::Image>().encode(&image, cdr);
+  {
+    McapWriter writer{recording_.path(), {}};
+    const auto schema = writer.add(
+        McapSchema{.name = "sensor_msgs/msg/Image", .encoding = "ros2msg", .data = "uint8 a\n"});
+    const auto channel = writer.add(
+        McapChannel{.schema_id = schema, .topic = "/right/image_raw", .message_encoding = "cdr"});
+    writer.write(channel, 1, Time{kMs}, Time{kMs}, cdr);
+    writer.close();
+  }
+  ASSERT_EQ(report(), kOk) << reason_;
+  McapReader reader{inside()};
+  const auto message = reader.next();
+  ASSERT_TRUE(message);
+  EXPECT_EQ(message->channel->topic, "/right/image_raw/compressed");
+  EXPECT_EQ(reader.schemas().at(message->channel->schema_id).name,
+            "sensor_msgs/msg/CompressedImage");
+  msg::CompressedImage compressed;
+  ASSERT_TRUE(message_type<msg::CompressedImage>().decode(message->data, &compressed));
+  EXPECT_EQ(compressed.format_(), "jpeg");
+  EXPECT_EQ(compressed.header_().frame_id_(), "right_camera_optical");
+  EXPECT_LT(10 * compressed.data_().size(), image.data_().size());
+  EXPECT_FALSE(reader.next()) << "no raw one beside it";
+}
+
+TEST_F(ReportTest, HasTheFiguresThatTheRunTold) {
+  record({{"/a", "std_msgs/msg/String", 100, 100}}, R"({"status":"ok","title":"<b>"})");
+  ASSERT_EQ(report(), kOk) << reason_;
+  EXPECT_THAT(
+      out_.bytes(),
+      HasSubstr(
+          "data-figures=\"{&quot;status&quot;:&quot;ok&quot;,&quot;title&quot;:&quot;&lt;b&gt;"));
 }
 
 TEST_F(ReportTest, ReplacesNothingUnasked) {

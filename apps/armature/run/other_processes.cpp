@@ -18,6 +18,10 @@ OnFault on_loss(const std::string& process, const DeploymentConfig& config) {
 
 }  // namespace
 
+bool wants_timing(const RunOptions& options, const DeploymentConfig& config) {
+  return options.timing || config.record;
+}
+
 std::vector<std::string> process_arguments(const RunOptions& options, int domain,
                                            const std::string& process,
                                            const RunOptions::Origin& origin) {
@@ -44,9 +48,11 @@ std::vector<std::string> process_arguments(const RunOptions& options, int domain
 
 void start_processes(ChildProcesses& children, const RunOptions& options,
                      const DeploymentConfig& config, int domain, const RunOptions::Origin& origin) {
+  RunOptions theirs = options;
+  theirs.timing = wants_timing(options, config);
   for (const std::string& process : config.processes()) {
     if (process == kMainProcess || config.host_of(process) != kMainHost) continue;
-    children.start(process, process_arguments(options, domain, process, origin),
+    children.start(process, process_arguments(theirs, domain, process, origin),
                    on_loss(process, config));
   }
 }
@@ -62,8 +68,8 @@ void expect_hosts(ChildProcesses& children, const RunOptions& options, Deploymen
         .link = std::make_unique<HostLink>(deployment.transport(), end, deployment.clock()),
         .processes = {},
         .fingerprint = config.fingerprint,
-        .welcome = fmt::format("run {} {} {:d} {:d}", origin.run, origin.start.ns, options.timing,
-                               options.keep_running)};
+        .welcome = fmt::format("run {} {} {:d} {:d}", origin.run, origin.start.ns,
+                               wants_timing(options, config), options.keep_running)};
     for (const std::string& process : config.processes()) {
       if (config.host_of(process) != host) continue;
       expected.processes.emplace_back(process, on_loss(process, config));

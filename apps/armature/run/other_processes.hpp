@@ -10,6 +10,10 @@
 
 namespace armature {
 
+/// Whether the processes of a run measure how late and how long its steps are: for the operator, or
+/// for the figures in the recording.
+bool wants_timing(const RunOptions& options, const DeploymentConfig& config);
+
 /// The command line of another process of the deployment, without the program.
 std::vector<std::string> process_arguments(const RunOptions& options, int domain,
                                            const std::string& process,

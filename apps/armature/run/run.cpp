@@ -12,6 +12,7 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string_view>
@@ -32,6 +33,7 @@
 #include "colour.hpp"
 #include "exit_code.hpp"
 #include "inspect/plugins.hpp"
+#include "report/report.hpp"
 #include "run/console.hpp"
 #include "run/end_signals.hpp"
 #include "run/host_agent.hpp"
@@ -55,14 +57,38 @@ std::string ending(std::string_view status, const std::string& reason) {
   return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';
 }
 
+std::filesystem::path page_file(const std::filesystem::path& folder) {
+  return folder / "report.html";
+}
+
+void remove_older(const std::filesystem::path& file) {
+  std::error_code none;
+  const auto older = std::filesystem::symlink_status(file, none);
+  if (std::filesystem::is_regular_file(older)) std::filesystem::remove(file, none);
+}
+
 /// Makes the folder of the report. What an older run left there is not this one's, however this one
 /// ends.
 void begin_report(const std::filesystem::path& folder) {
   prepare_output_folder(folder);
-  std::error_code none;
-  const auto older = std::filesystem::symlink_status(report_file(folder), none);
-  if (std::filesystem::is_regular_file(older)) std::filesystem::remove(report_file(folder), none);
+  remove_older(report_file(folder));
+  remove_older(page_file(folder));
   end_signals::allow_report();
+}
+
+/// A run that does not record itself records as much as its page shows, into the folder of its
+/// report.
+void record_for_page(DeploymentConfig& config, RunOptions& options) {
+  std::string file = std::filesystem::absolute(*options.report / "run.mcap").string();
+  for (std::size_t at = 0; (at = file.find('%', at)) != std::string::npos; at += 2) {
+    file.insert(at, 1, '%');  // the name of a recording may say the time
+  }
+  config.record = RecordConfig{.file = file, .thin = true, .origin = {}};
+  for (const std::string& process : config.processes()) {
+    remove_older(config.record->file_of(process, Time{}));
+  }
+  const nlohmann::json record{{"file", file}, {"thin", true}};
+  options.source.assignments.push_back("record=" + record.dump());
 }
 
 /// What a run that did not begin says, where its report would be.
@@ -130,6 +156,52 @@ std::string_view status_of(const std::exception& error) {
   }
 }
 
+/// Watches the end of a process, except for work on files that takes as long as they are.
+class WatchedEnd {
+ public:
+  /// As EndWatch.
+  WatchedEnd(Duration timeout, std::function<void(const std::string&)> on_hung)
+      : timeout_{timeout}, on_hung_{std::move(on_hung)} {
+    watch_.emplace(timeout_, on_hung_);
+  }
+
+  void begin(const std::string& what) { watch_->begin(what); }
+  /// `work` throws nothing.
+  void do_unwatched(const std::function<void()>& work) {
+    watch_.reset();
+    work();
+    watch_.emplace(timeout_, on_hung_);
+  }
+
+ private:
+  Duration timeout_;
+  std::function<void(const std::string&)> on_hung_;
+  std::optional<EndWatch> watch_;
+};
+
+/// Writes report.html of what the run has recorded. False: the file could not be written.
+bool page_written(const std::optional<std::filesystem::path>& recording,
+                  const std::filesystem::path& folder, Console& console) {
+  if (!recording) {
+    console.tell(
+        "the run records only what happens around a trouble (around_faults_s), so its report has "
+        "no page");
+    return true;
+  }
+  try {
+    const WrittenReport page = write_report(
+        {.recording = *recording, .out = page_file(folder), .force = true, .use = FileUse::report});
+    console.line("runtime", "page of the run: " + page.text);
+    for (const std::string& note : page.notes) console.tell(note);
+  } catch (const InvalidChoice& refusal) {  // the run is what it was without its page
+    console.tell(refusal.what());
+  } catch (const std::exception& error) {
+    console.tell(error.what());
+    return false;
+  }
+  return true;
+}
+
 bool report_written(const RunReport& report, const Deployment& deployment,
                     const std::filesystem::path& folder, Console& console) {
   try {
@@ -141,9 +213,8 @@ bool report_written(const RunReport& report, const Deployment& deployment,
   }
 }
 
-int conclude(const RunOptions& options, const Deployment& deployment,
+int conclude(const RunOptions& options, const Deployment& deployment, const RunReport& report,
              const RunReport::Ending& ending, Console& console, LastWord& last_word) {
-  const RunReport report{deployment, ending};
   if (options.json) {
     fmt::print("{}\n", to_json(report));
   } else {
@@ -238,10 +309,12 @@ void check_recordings(const Deployment& deployment, const Process& process) {
   problems.throw_if_any();
 }
 
-/// As `record:` says, from before the first activation on.
-void begin_recording(Deployment& deployment, const Process& process) {
+/// As `record:` says, from before the first activation on. The file of the whole run, if it has
+/// one.
+std::optional<std::filesystem::path> begin_recording(Deployment& deployment,
+                                                     const Process& process) {
   const auto& record = deployment.config().record;
-  if (!record) return;
+  if (!record) return std::nullopt;
   const bool is_simulated = deployment.config().simulated;
   const auto name_at = [record = *record, name = process.name, is_simulated](Time time) {
     const std::filesystem::path file =
@@ -249,17 +322,23 @@ void begin_recording(Deployment& deployment, const Process& process) {
     if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path());
     return file;
   };
-  const bool is_around = record->around_faults.has_value();
-  deployment.record(is_around ? record->file : name_at(started_at(deployment, process)), name_at);
+  if (record->around_faults) {
+    deployment.record(record->file, name_at);
+    return std::nullopt;
+  }
+  std::filesystem::path file = name_at(started_at(deployment, process));
+  deployment.record(file, name_at);
+  return file;
 }
 
 int run_main(const RunOptions& options, const Process& process, Deployment& deployment,
-             PluginRegistry& plugins, Console& console, LastWord& last_word) {
+             PluginRegistry& plugins, Console& console, LastWord& last_word,
+             WatchedEnd& watched_end) {
   check_recordings(deployment, process);
   ChildProcesses children;
   start_processes(children, options, deployment.config(), process.domain, process.origin);
   deployment.connect(plugins, process.domain, process.origin.run);
-  begin_recording(deployment, process);
+  const auto recording = begin_recording(deployment, process);
   tell_network(process.network, console);
   expect_hosts(children, options, deployment, process.origin);
   MainWatch watch{console, children, deployment};
@@ -269,12 +348,18 @@ int run_main(const RunOptions& options, const Process& process, Deployment& depl
   if (options.keep_running && deployment.scenario_over() && ending.stopped == "interrupted") {
     ending.stopped.reset();
   }
-  if (options.timing) {
-    ending.timing = timing_of(deployment);
-    children.add_timing(*ending.timing);
+  RunTiming timing;
+  if (wants_timing(options, deployment.config())) {
+    timing = timing_of(deployment);
+    children.add_timing(timing);
   }
-  const int code = conclude(options, deployment, ending, console, last_word);
-  deployment.end_recording();
+  if (options.timing) ending.timing = timing;
+  const RunReport report{deployment, ending};
+  int code = conclude(options, deployment, report, ending, console, last_word);
+  deployment.end_recording(figures_json(report, timing));
+  watched_end.do_unwatched([&] {
+    if (options.report && !page_written(recording, *options.report, console)) code = kFailed;
+  });
   console.flush();
   leave_if_necessary(deployment, watch, code);
   return code;
@@ -318,7 +403,7 @@ std::string starting_text(const DeploymentConfig& config) {
   return fmt::format("starting {}: {} component{}", config.name, count, count == 1 ? "" : "s");
 }
 
-int run(const RunOptions& options) {
+int run(RunOptions options) {
   const bool is_child = !options.process.empty();
   // Another process of a deployment just ends: its main process tells, and asks it for no JSON.
   if (!is_child || options.json) end_signals::end_before_start();
@@ -344,7 +429,10 @@ int run(const RunOptions& options) {
     if (options.json) fmt::print("{}", ending(code == kOk ? "ok" : "fault", ""));
     return code;
   }
-  if (options.report && !is_child) add_joint_reports(config, plugins, *options.report);
+  if (options.report && !is_child) {
+    add_joint_reports(config, plugins, *options.report);
+    if (!config.record) record_for_page(config, options);
+  }
   if (options.keep_running && config.simulated) {
     throw InvalidChoice(
         "--keep-running is for watching, and a run on the simulated clock is as "
@@ -361,7 +449,7 @@ int run(const RunOptions& options) {
   std::optional<ChildWatch> child_watch;
   if (is_child) child_watch.emplace(console, options.control);
   LastWord last_word{options, console, is_child ? &*child_watch : nullptr};
-  EndWatch end_watch{last_word.timeout(), [&](const auto& hung) { last_word.leave(hung); }};
+  WatchedEnd watched_end{last_word.timeout(), [&](const auto& hung) { last_word.leave(hung); }};
   name_crashing_components();
   if (!is_child) console.line("runtime", starting_text(config));
   Deployment deployment{
@@ -372,7 +460,7 @@ int run(const RunOptions& options) {
        .on_note = [&](const auto& text) { console.line("runtime", text); },
        .clock_offset = process.origin.clock_offset,
        .keeps_running = options.keep_running,
-       .on_ending = [&](const auto& what) { end_watch.begin(what); }}};
+       .on_ending = [&](const auto& what) { watched_end.begin(what); }}};
   if (injected) deployment.inject(*injected);
   end_signals::stop_in_order();
   if (is_child && options.control >= 0) prctl(PR_SET_PDEATHSIG, 0);
@@ -381,7 +469,7 @@ int run(const RunOptions& options) {
   console.start(deployment.clock(), process.origin.start);
   return is_child
              ? run_other(options, process, deployment, plugins, console, *child_watch, last_word)
-             : run_main(options, process, deployment, plugins, console, last_word);
+             : run_main(options, process, deployment, plugins, console, last_word, watched_end);
 }
 
 }  // namespace

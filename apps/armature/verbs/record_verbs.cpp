@@ -113,7 +113,7 @@ void add_report(CLI::App& app, Action& action) {
   verb->add_flag("--force", options->force, "replace a file that is there");
   verb->callback([=, &action] {
     options->pictures = !*without_pictures;
-    action = [=] { return write_report(*options); };
+    action = [=] { return print_report(*options); };
   });
 }
 

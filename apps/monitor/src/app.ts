@@ -14,6 +14,7 @@ import {PlotPanel} from './panels/plot_panel';
 import {ScenePanel} from './panels/scene_panel';
 import {Timeline} from './panels/timeline';
 import {Playhead} from './playhead';
+import type {Embedded} from './source/embedded';
 import {openRecording} from './source/recording_file';
 import {make, type Panel, type View} from './view';
 
@@ -51,11 +52,11 @@ export class App {
   private tickedAt = performance.now();
   private unreadable = new Set<string>();  // topics of which that was told
 
-  /// `told`: of a report, where its recording came from.
-  constructor(header: HTMLElement, private readonly panels: HTMLElement, timeline: HTMLElement, told?: [string, string][]) {
+  /// `report`: what the page was made of, where it is a report.
+  constructor(header: HTMLElement, private readonly panels: HTMLElement, timeline: HTMLElement, report?: Embedded) {
     this.header = new Header(header, (namespace) => this.choose(namespace));
-    this.isReport = told !== undefined;
-    const about = told && new AboutDialog(told);
+    this.isReport = report !== undefined;
+    const about = report && new AboutDialog(report);
     this.timeline = new Timeline(timeline, this.playhead, (file) => void this.openFile(file), () => this.help.showModal(),
                                  about && (() => this.tellAbout(about)));
     document.body.append(this.topicsList, this.inspector.element);

@@ -14,7 +14,7 @@ function socketUrl(): string {
 }
 
 const report = embeddedRecording();
-const app = new App(document.getElementById('header')!, document.getElementById('panels')!, document.getElementById('timeline')!, report?.told);
+const app = new App(document.getElementById('header')!, document.getElementById('panels')!, document.getElementById('timeline')!, report);
 if (report) {
   document.title = `${report.file.name} - Armature`;
   void app.openFile(report.file);

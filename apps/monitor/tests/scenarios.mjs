@@ -214,6 +214,44 @@ async function recording(domain) {
   }
 }
 
+/// The page that a run writes into the folder of its report, though nobody recorded the run: the arm moves
+/// in it, pictures come as JPEG, and the figures are those that the run told.
+async function ownReport(domain) {
+  const folder = await mkdtemp(join(tmpdir(), 'armature-page-'));
+  try {
+    const figures = JSON.parse(await output(['run', 'dental_lamp', '--json', '--report', folder, '--domain', String(domain)]));
+    const page = await openPage(pathToFileURL(join(folder, 'report.html')).href);
+    await until(() => app(page, () => armature.hub.condition === 'read' && armature.scene.robots.count === 1), 'the arm of the report');
+    await page.keyboard.press('Space');
+    await page.keyboard.press('Home');
+    const tool = async () => {
+      await until(() => app(page, () => armature.images.every(({pictures}) => pictures > 0)), 'its pictures');
+      return (await links(page)).tool;
+    };
+    const first = await tool();
+    await page.keyboard.press('End');
+    await until(async () => {
+      const now = await tool();
+      return Math.hypot(...now.map((x, i) => x - first[i])) > 0.1;
+    }, 'the arm to be elsewhere at the end [m]');
+    const topics = await app(page, () => Object.fromEntries([...armature.hub.topics.values()].map(({name, type}) => [name, type])));
+    for (const side of ['left', 'right']) {
+      assert.equal(topics[`/dental_lamp/${side}/image_raw/compressed`], 'sensor_msgs/msg/CompressedImage');
+      assert.ok(!topics[`/dental_lamp/${side}/image_raw`], 'no picture is raw');
+    }
+    await page.getByRole('button', {name: 'About this run'}).click();
+    const about = page.locator('dialog.about');
+    await until(() => about.getByText(`Figures of the run: ${figures.status}`).count(), 'the figures of the run');
+    const row = await about.locator('tr', {hasText: 'mouth position error [mm]'}).textContent();
+    assert.equal(row, `mouth position error [mm]${figures.mouth_position_error_mm.toFixed(3)}2.5✓ met`);
+    assert.ok(await about.getByText('Timing of the run').count());
+    assert.ok(await about.locator('tr', {hasText: 'motion.planner'}).count());
+    assert.deepEqual(page.problems, []);
+  } finally {
+    await rm(folder, {recursive: true});
+  }
+}
+
 /// A report is opened from the disk, without a server: it shows its run with as many messages as were
 /// recorded of a topic that is not thinned, says where it came from, and has nothing that is live.
 async function report(domain) {
@@ -387,4 +425,4 @@ async function sizes(domain) {
   assert.deepEqual(page.problems, []);
 }
 
-export const scenarios = {arm, pictures, plots, graph, scrub, again, recording, report, two, nonsense, clients, lazy, figures, pairs, sizes};
+export const scenarios = {arm, pictures, plots, graph, scrub, again, recording, report, ownReport, two, nonsense, clients, lazy, figures, pairs, sizes};

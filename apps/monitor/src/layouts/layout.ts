@@ -77,7 +77,8 @@ export function derivedLayout(hub: Hub, deployment: Deployment | undefined): Lay
       deployment && topic.startsWith(`${deployment.namespace}/`) ? topic.slice(deployment.namespace.length + 1) : topic;
   const colours = ['#56b4e9', '#e69f00', '#009e73', '#cc79a7'];
   const trails = hub.ofType('geometry_msgs/msg/PoseStamped').filter((topic) => topic.endsWith('/tool_pose'));
-  const images = hub.ofType('sensor_msgs/msg/Image').slice(0, 2);
+  const jpegs = hub.ofType('sensor_msgs/msg/CompressedImage').map((topic) => topic.replace(/\/compressed$/, ''));
+  const images = [...new Set([...hub.ofType('sensor_msgs/msg/Image'), ...jpegs])].slice(0, 2);
   const joints = hub.ofType('sensor_msgs/msg/JointState').filter((topic) => topic.endsWith('/joint_states') || topic === '/joint_states');
   const measured = hub.ofType('sensor_msgs/msg/JointState').filter((topic) => topic.endsWith('/measured_js'));
   return {

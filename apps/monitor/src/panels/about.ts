@@ -3,6 +3,7 @@
 import type {Deployment} from '../deployment';
 import {make} from '../view';
 import {hertz, short} from './graph_panel';
+import type {Embedded, RunFigures, Timing} from '../source/embedded';
 import type {Headline} from './header';
 import {table} from './inspector';
 import {formatted} from './plot_panel';
@@ -11,7 +12,7 @@ export class AboutDialog {
   private readonly content = make('div');
   private readonly dialog = make('dialog', {class: 'help about', 'aria-label': 'About this run'});
 
-  constructor(private readonly told: [string, string][]) {
+  constructor(private readonly report: Pick<Embedded, 'told' | 'figures'>) {
     const close = make('button', {type: 'button', class: 'close', 'aria-label': 'Close'}, '✕');
     close.addEventListener('click', () => this.dialog.close());
     this.dialog.append(make('header', {}, make('h2', {}, 'About this run'), close), this.content);
@@ -20,9 +21,14 @@ export class AboutDialog {
 
   /// `headlines` are the figures at `t` [s], which is `when`: 'at the end'.
   show(deployment: Deployment | undefined, headlines: Headline[], t: number, when: string) {
-    const parts: HTMLElement[] = [table(['', ''], this.told)];
+    const {told, figures} = this.report;
+    const parts: HTMLElement[] = [table(['', ''], told)];
     const add = (title: string, ...elements: HTMLElement[]) => parts.push(make('h3', {}, title), ...elements);
-    if (headlines.length > 0) {
+    if (figures) {
+      add(`Figures of the run: ${figures.status}`, ...figures.reasons.map((reason) => make('p', {class: 'reason'}, reason)),
+          table(['Figure', 'Value', 'Goal, at most', ''], figureRows(figures)));
+      add('Timing of the run', table(['Component', 'Steps', 'Step (mean)', 'Step (99 %)', 'Step (max)', 'Late (99 %)', 'Late (max)', 'Processor (mean)'], timingRows(figures)));
+    } else if (headlines.length > 0) {
       add(`Figures ${when}`, table(['Figure', 'Value', 'Goal'], headlines.map(({series, unit, value, goal}) =>
         [series.label, `${formatted(value, series.digits)} ${unit}`, goal === undefined ? '' : `${goal} ${unit}`])));
     }
@@ -42,6 +48,22 @@ export class AboutDialog {
     this.content.replaceChildren(...parts);
     this.dialog.showModal();
   }
+}
+
+function figureRows({figures}: RunFigures): string[][] {
+  const shown = (value: number | string | null) =>
+      value === null ? '–' : typeof value === 'string' || Number.isInteger(value) ? String(value) : Math.abs(value) < 0.0005 ? value.toExponential(0) : value.toFixed(3);
+  return figures.map(({title, value, goal, met, not_measured}) => [
+    title, not_measured ? `not measured: ${not_measured}` : Array.isArray(value) ? value.map(shown).join(', ') : shown(value),
+    goal === undefined ? '' : String(goal), goal === undefined ? '' : met ? '✓ met' : '✖ missed',
+  ]);
+}
+
+function timingRows({timing}: RunFigures): string[][] {
+  return Object.entries(timing.components).map(([name, {step, lateness, processor}]) => [
+    name, String(step?.count ?? ''), ...([[step, 'mean_s'], [step, 'p99_s'], [step, 'max_s'], [lateness, 'p99_s'], [lateness, 'max_s'], [processor, 'mean_s']] as const)
+        .map(([one, which]: readonly [Timing | undefined, keyof Timing]) => one ? short(one[which]) : ''),
+  ]);
 }
 
 function folded(title: string, text: string): HTMLElement {

@@ -303,6 +303,7 @@ void Deployment::record(const std::filesystem::path& file,
                                .file_at = file_at,
                                .topics = config_.record->topics,
                                .compress = config_.record->compress,
+                               .thin = config_.record->thin,
                                .description = description_of(config_, options_.process, run_),
                                .on_problem = options_.on_note,
                                .on_file = tell_file};

@@ -9,6 +9,7 @@
 
 #include "armature/runtime/deployment/deployment.hpp"
 #include "armature/runtime/deployment_file/on_fault.hpp"
+#include "armature/runtime/recording/recorded_description.hpp"
 
 namespace armature {
 namespace {
@@ -146,11 +147,19 @@ void Deployment::end() {
   for (const std::string& refusal : remote_->refusals()) options_.on_note(refusal);
 }
 
-void Deployment::end_recording() {
+void Deployment::end_recording(const std::string& figures) {
   if (!recorder_) return;
   options_.on_ending("the end of the recording");
+  std::optional<McapAttachment> attached;
+  if (!figures.empty()) {
+    attached = {.log_time = clock_->now(),
+                .create_time = clock_->now(),
+                .name = std::string{kFiguresAttachment},
+                .media_type = "application/json",
+                .data = figures};
+  }
   try {
-    const std::string file = recorder_->close();
+    const std::string file = recorder_->close(attached);
     if (!file.empty()) tell("recorded: " + file, StatusReporter::State::ok);
   } catch (const std::exception& error) {
     options_.on_note(

@@ -39,6 +39,7 @@ RecordConfig read_record(const config::Node& section, config::Problems& problems
   }
   record.topics = map.optional_texts("topics").value_or(std::vector<std::string>{});
   record.compress = map.flag("compress");
+  record.thin = map.flag("thin");
   if (const auto around = map.optional_number("around_faults_s")) {
     record.around_faults = seconds(*around);
     if (file.find('%') == std::string::npos) {

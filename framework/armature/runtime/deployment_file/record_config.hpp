@@ -20,6 +20,7 @@ struct RecordConfig {
   std::filesystem::path file;       // may say the time as strftime does: "%Y%m%d-%H%M%S.mcap"
   std::vector<std::string> topics;  // "/dental_lamp/*" for all that begin so; empty: all
   bool compress = true;
+  bool thin = false;                      // only as much as a page of the run shows, no activations
   std::optional<Duration> around_faults;  // only so long before and after one
   config::Origin origin;                  // of the file's name
 

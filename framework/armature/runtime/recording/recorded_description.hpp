@@ -16,6 +16,10 @@ inline constexpr std::string_view kProcessMetadata = "armature.process";
 inline constexpr std::string_view kComponentMetadata = "armature.component";
 inline constexpr std::string_view kEndMetadata = "armature.end";  // missing: it was cut off
 
+/// Name of the attachment with the figures of the run (figures_json): of its main process, and of a
+/// run that came to its end.
+inline constexpr std::string_view kFiguresAttachment = "figures.json";
+
 /// Puts what a deployment was made from into a recording: the file, its robots and rigs as
 /// attachments, `dental_lamp/dental_lamp.yaml`, `dental_lamp/robots/arm.yaml`, and as metadata its
 /// fingerprint and where those files were. `at` is when it was told.

@@ -10,6 +10,8 @@
 
 #include "armature/bus/topic_name.hpp"
 #include "armature/messages/known_types.hpp"
+#include "armature/messages/ros_definition.hpp"
+#include "armature/messages/sensor_msgs.hpp"
 #include "armature/messages/stamp.hpp"
 #include "armature/runtime/execution/real_time_thread.hpp"
 #include "armature/runtime/recording/recorded_description.hpp"
@@ -33,6 +35,20 @@ bool has_bytes(const TypeDescription& type) {
 std::size_t max_waiting(const MessageType& type) {
   const TypeDescription* description = describe_type(type.dds_name);
   return description && !has_bytes(*description) ? 64 : 4;
+}
+
+/// What the metadata of the process says of it.
+std::string wholeness_of(const RunRecorder::Options& options) {
+  if (options.around_faults) return "no";
+  return options.thin ? "thin" : "yes";
+}
+
+/// How often messages are kept in a thin recording: twice as often as a page shows them, because
+/// topics near its rate are shown whole.
+std::optional<double> thin_rate_hz(const MessageType& type) {
+  const TypeDescription* description = describe_type(type.dds_name);
+  const auto hz = page_rate_hz(description ? ros2_name(*description) : "");
+  return hz == kMaxPageHz ? 2 * kMaxPageHz : hz;
 }
 
 }  // namespace
@@ -65,15 +81,17 @@ RunRecorder::RunRecorder(Options options, const DeploymentConfig& deployment,
   attach_description(description, clock.now(), queue_);
   std::map<std::string, std::string> process{{"process", description.process_()},
                                              {"processor", processor_level()},
-                                             {"whole", options_.around_faults ? "no" : "yes"}};
+                                             {"whole", wholeness_of(options_)}};
   for (const auto& component : description.components_()) {
     for (const auto& plugin : component.plugins_()) {
       if (!plugin.library_().empty()) process["library of " + plugin.plugin_()] = plugin.sha256_();
     }
   }
   queue_.add(McapMetadata{.name = std::string{kProcessMetadata}, .values = std::move(process)});
-  activations_ = queue_.add_channel("/" + deployment.name + "/activations",
-                                    std::string{message_type<msg::Activation>().dds_name});
+  if (!options_.thin) {
+    activations_ = queue_.add_channel("/" + deployment.name + "/activations",
+                                      std::string{message_type<msg::Activation>().dds_name});
+  }
   for (const auto& runner : runners) {
     const auto config =
         std::ranges::find(deployment.components, runner->name(), &ComponentConfig::name);
@@ -109,12 +127,20 @@ void RunRecorder::add(ComponentRunner& runner, const ComponentConfig& config, co
     const Port port{.topic = topic, .type = &type, .qos = output.spec().qos};
     if (!add_channel(output.writer(), port).is_kept) continue;
     output.topic().reserve(max_waiting(type));
-    const bool is_named = std::ranges::find(options_.topics, topic) != options_.topics.end();
-    if (is_named) output.topic().connect(reader_);
+    if (is_read(topic, type)) output.topic().connect(reader_);
   }
   if (!component.is_of_runtime) {
     queue_.add(McapMetadata{.name = std::string{kComponentMetadata}, .values = std::move(ports)});
   }
+}
+
+/// Whether the topic is computed for the recording, too. Compressed pictures show what is recorded
+/// raw.
+bool RunRecorder::is_read(const std::string& topic, const MessageType& type) const {
+  if (options_.topics.empty()) {
+    return type.dds_name != message_type<msg::CompressedImage>().dds_name;
+  }
+  return std::ranges::find(options_.topics, topic) != options_.topics.end();
 }
 
 RunRecorder::Channel& RunRecorder::add_channel(std::uint32_t writer, const Port& port) {
@@ -123,7 +149,11 @@ RunRecorder::Channel& RunRecorder::add_channel(std::uint32_t writer, const Port&
                          return matches_topic(pattern, port.topic);
                        });
   return channels_[writer] = {
-             .topic = port.topic, .type = port.type, .qos = port.qos, .is_kept = is_kept};
+             .topic = port.topic,
+             .type = port.type,
+             .qos = port.qos,
+             .is_kept = is_kept,
+             .thinning = Thinning{options_.thin ? thin_rate_hz(*port.type) : std::nullopt}};
 }
 
 void RunRecorder::run() {
@@ -204,7 +234,9 @@ void RunRecorder::take(Component& component, ActivationLog::Entry& entry) {
 /// Writes the sample, unless that was done for another reader of it.
 void RunRecorder::keep(const SampleRef& sample, Time at, Channel& channel) {
   const SampleInfo& info = sample.info();
-  if (!channel.is_kept || !channel.written.add(info.sequence)) return;
+  if (!channel.is_kept || !channel.written.add(info.sequence) || !channel.thinning.passes(at)) {
+    return;
+  }
   if (!channel.id) {
     channel.id = queue_.add_channel(
         channel.topic, std::string{channel.type->dds_name},
@@ -216,6 +248,7 @@ void RunRecorder::keep(const SampleRef& sample, Time at, Channel& channel) {
 }
 
 void RunRecorder::write(const msg::Activation& call, Time at) {
+  if (options_.thin) return;
   std::vector<std::byte> cdr;
   message_type<msg::Activation>().encode(&call, cdr);
   queue_.write(activations_, static_cast<std::uint32_t>(++count_), at, at, std::move(cdr));
@@ -226,8 +259,9 @@ void RunRecorder::end_thread() {
   if (thread_.joinable()) thread_.join();
 }
 
-std::string RunRecorder::close() {
+std::string RunRecorder::close(const std::optional<McapAttachment>& figures) {
   end_thread();
+  if (figures) queue_.attach(*figures);
   add_end();
   queue_.close();
   if (options_.around_faults) return {};

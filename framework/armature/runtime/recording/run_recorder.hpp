@@ -17,6 +17,7 @@
 #include "armature/runtime/deployment_file/deployment_config.hpp"
 #include "armature/runtime/execution/component_runner.hpp"
 #include "armature/runtime/recording/activation_log.hpp"
+#include "armature/runtime/recording/page_rate.hpp"
 
 namespace armature ARMATURE_EXPORT {
 
@@ -31,10 +32,11 @@ class RunRecorder {
     /// Only so long before and after each trouble; then `file_at` names the file of each.
     std::optional<Duration> around_faults = {};
     std::function<std::filesystem::path(Time)> file_at = {};
-    /// "/dental_lamp/*" stands for all that begin so; empty: all. The recording of a topic that is
-    /// named whole counts as a reader of it.
+    /// "/dental_lamp/*" stands for all that begin so; empty: all. The recording counts as a reader
+    /// of a topic that is named whole; where none is named, of all but compressed pictures.
     std::vector<std::string> topics;
     bool compress = true;
+    bool thin = false;  // no activations, and of topics that come often not all messages
     msg::DeploymentDescription description;  // of the process
     /// Told once, on another thread, when nothing more can be written.
     std::function<void(const std::string&)> on_problem;
@@ -54,10 +56,10 @@ class RunRecorder {
   /// Something has gone wrong at `now`, by the deployment's clock. Any thread; real-time safe.
   void mark_trouble(Time now) { trouble_ns_.store(now.ns, std::memory_order_relaxed); }
 
-  /// After the last call of a component: writes what waits, and ends the file. What became of it:
-  /// "run.mcap: 61124 messages, 12000 activations, 69.1 MB, last hash 5d1c..", or nothing where
-  /// each file was told.
-  std::string close();
+  /// After the last call of a component: writes what waits and the `figures` of the run, if there
+  /// are any, and ends the file. What became of it: "run.mcap: 61124 messages, 12000 activations,
+  /// 69.1 MB, last hash 5d1c..", or nothing where each file was told. Throws std::runtime_error.
+  std::string close(const std::optional<McapAttachment>& figures = {});
 
  private:
   /// A topic as a port sees it.
@@ -94,6 +96,7 @@ class RunRecorder {
     const MessageType* type = nullptr;
     QosProfile qos = QosProfile::state;
     bool is_kept = false;
+    Thinning thinning{std::nullopt};
     std::optional<std::uint16_t> id = {};  // in the file, from its first sample on
     Sequences written = {};
   };
@@ -104,6 +107,7 @@ class RunRecorder {
   static McapQueue queue_of(const Options& options, bool simulated);
   void add_end();
   void tell_problem(const std::string& problem);
+  bool is_read(const std::string& topic, const MessageType& type) const;
   void add(ComponentRunner& runner, const ComponentConfig& config, const Clock& clock,
            bool simulated);
   Channel& add_channel(std::uint32_t writer, const Port& port);

@@ -169,6 +169,26 @@ std::string to_json(const RunReport& report) {
   return json.dump();
 }
 
+std::string figures_json(const RunReport& report, const RunTiming& timing) {
+  Json json{{"status", report.status()}, {"reasons", Json::array()}, {"figures", Json::array()}};
+  if (!report.story_reason().empty()) json["reasons"].push_back(report.story_reason());
+  for (const std::string& reason : report.reasons()) json["reasons"].push_back(reason);
+  for (const auto& figure : report.figures()) {
+    Json& told = json["figures"].emplace_back();
+    told = {{"key", figure.key},
+            {"title", figure.title},
+            {"value", std::visit([](const auto& value) { return to_json(value); }, figure.value)}};
+    if (figure.goal) {
+      told["goal"] = figure.goal->limit;
+      told["met"] = figure.met;
+    }
+    if (!figure.unmeasured.empty()) told["not_measured"] = figure.unmeasured;
+  }
+  json["timing"] = to_json(timing);
+  // What a component tells need not be UTF-8, and a recording ends all the same.
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
 std::string to_table(const RunReport& report, const Mark& mark) {
   std::size_t width = 0;
   for (const auto& figure : report.figures()) width = std::max(width, figure.title.size());

@@ -71,6 +71,10 @@ class RunReport final : public Summary {
 /// is null under `not_measured`, and `reasons`; numbers as the shortest text that reads back the
 /// same.
 std::string to_json(const RunReport& report);
+/// One JSON object with what the closing table says, so that a page can show it again: `status`,
+/// `reasons`, `figures` in order, each with `key`, `title`, `value`, and where there are such
+/// `goal`, `met` and `not_measured`; and `timing`.
+std::string figures_json(const RunReport& report, const RunTiming& timing);
 using Mark = std::function<std::string(std::string_view word, bool good)>;
 /// The closing table for people. `mark` gets the words that judge, "met" or "MISSED" of a goal and
 /// the status, and whether they are good news; what it answers stands in their place.

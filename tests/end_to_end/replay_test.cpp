@@ -106,11 +106,83 @@ TEST_F(Replay, ARunOnTheSimulatedClockComesBackBitForBit) {
 TEST_F(Replay, ARunInSeveralProcessesComesBackBitForBit) {
   record(
       {"--set", "components.landmarks.process=vision", "--set", "components.face.process=vision"});
-  const json checked = check({file(), file("run.vision.mcap")}, 0);
+  EXPECT_FALSE(fs::exists(file("run.vision.mcap"))) << "it is in the one that was named";
+  EXPECT_EQ(run_command({armature(), "info", "--verify", file()}).exit_code, 0);
+  const json checked = check({file()}, 0);
   EXPECT_TRUE(checked["identical"]);
   EXPECT_EQ(component_of(checked, "face")["process"], "vision");
   EXPECT_GT(component_of(checked, "face")["outputs"], 0);
   EXPECT_GT(component_of(checked, "target")["outputs"], 0) << "which the other process feeds";
+}
+
+TEST_F(Replay, WhatWasJoinedComesBackAsItsPartsDo) {
+  const std::string domain = std::to_string(unique_dds_domain());
+  const auto process = [&](const std::string& name) {
+    return std::vector<std::string>{armature(),
+                                    "run",
+                                    source_file("configs/dental_lamp.yaml"),
+                                    "--set",
+                                    "record.file=" + file(),
+                                    "--set",
+                                    "run.time_limit_s=4",
+                                    "--set",
+                                    "components.landmarks.process=vision",
+                                    "--set",
+                                    "components.face.process=vision",
+                                    "--domain",
+                                    domain,
+                                    "--process",
+                                    name};
+  };
+  Command vision{process("vision")};  // started by hand, each keeps the file of its own
+  run_command(process("main"), {}, kEnough);
+  vision.finish(kEnough);
+  const std::string part = file("run.vision.mcap"), all = file("all.mcap");
+  json of_parts = check({file(), part}, 0);
+  const CommandResult merge =
+      run_command({armature(), "record", "--merge", file(), part, "-o", all}, {}, kEnough);
+  EXPECT_EQ(merge.exit_code, 0) << merge.err;
+  EXPECT_EQ(run_command({armature(), "info", "--verify", all}).exit_code, 0);
+  json of_all = check({all}, 0);
+  of_all.erase("took_s");
+  of_parts.erase("took_s");
+  EXPECT_EQ(of_all, of_parts);
+
+  McapReader reader{all};
+  std::map<std::string, int> attachments;
+  std::uint64_t messages = 0, doubled = 0;
+  while (const auto message = reader.next()) {
+    ++messages;
+    doubled += message->channel->metadata.contains("from") ? 1 : 0;
+  }
+  for (const McapAttachment& attachment : reader.attachments()) ++attachments[attachment.name];
+  for (const auto& [name, count] : attachments) EXPECT_EQ(count, 1) << name;
+  EXPECT_TRUE(attachments.contains("dental_lamp/robots/arm.yaml"));
+  EXPECT_GT(doubled, 20U) << "what one process has read of the other";
+  const CommandResult report =
+      run_command({armature(), "report", all, "-o", file("all.html")}, {}, kEnough);
+  EXPECT_THAT(report.out, HasSubstr(" of " + std::to_string(messages - doubled) + " messages"))
+      << "a page shows nothing twice";
+}
+
+TEST_F(Replay, AProcessThatWasKilledIsInTheJoinedRecordingAsFarAsItCame) {
+  Command run{{armature(), "run", source_file("configs/dental_lamp.yaml"), "--set",
+               "record.file=" + file(), "--set", "components.landmarks.process=vision", "--set",
+               "components.face.process=vision", "--domain", std::to_string(unique_dds_domain())}};
+  ASSERT_TRUE(run.wait_for_err("aligning", kEnough));
+  ASSERT_GT(run.child(), 0);
+  kill(run.child(), SIGKILL);
+  const CommandResult result = run.finish(kEnough);
+  EXPECT_THAT(result.err, HasSubstr("joined: " + file()));
+  EXPECT_FALSE(fs::exists(file("run.vision.mcap")));
+  EXPECT_EQ(run_command({armature(), "info", "--verify", file()}).exit_code, 0);
+  const json checked = check({file()}, 1);
+  EXPECT_TRUE(differences_of(checked).empty()) << checked.dump(1);
+  EXPECT_FALSE(checked["complete"]);
+  EXPECT_THAT(checked["problems"].dump(),
+              HasSubstr("the recording of process 'vision' was not whole: it ends"));
+  EXPECT_GT(component_of(checked, "face")["outputs"], 0);
+  EXPECT_GT(component_of(checked, "motion")["outputs"], 1'000);
 }
 
 TEST_F(Replay, TheFiguresOfARunAreInItsRecordingAsTheRunToldThem) {

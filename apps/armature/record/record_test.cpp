@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `armature info` and `armature record --repair` do with files that were damaged at random.
+// What `armature info` and `armature record --repair` do with files that were damaged at random,
+// and
+// `--merge` with the files of a run.
 #include "record/record.hpp"
 
 #include <gmock/gmock.h>
 
 #include <chrono>
+#include <map>
 #include <random>
 #include <stdexcept>
 
 #include "armature/recording/mcap_reader.hpp"
 #include "armature/recording/recording_test.hpp"
 #include "exit_code.hpp"
+#include "record/merge.hpp"
 
 namespace armature {
 namespace {
@@ -88,6 +92,101 @@ TEST(DamagedRecording, IsNamedInTheOneThatWasMadeOfIt) {
   EXPECT_EQ(told.at("chain"), "changed");
   EXPECT_EQ(told.at("chain_head"), chain_of(file.path()).head);
   EXPECT_EQ(told.at("sha256"), sha256_of_file(file.path()));
+}
+
+/// A recording as a process leaves it: so many messages, one a millisecond from `first_ms` on.
+void write_part(const std::filesystem::path& file, const std::string& process, int first_ms,
+                const std::string& run = "1") {
+  McapWriter writer{file, {.chunk_bytes = 1024}};
+  writer.attach(
+      {.name = "lamp/lamp.yaml", .media_type = "application/yaml", .data = "armature: 1"});
+  writer.add(McapMetadata{.name = "armature.deployment",
+                          .values = {{"deployment", "lamp"}, {"run", run}}});
+  writer.add(McapMetadata{.name = "armature.process", .values = {{"process", process}}});
+  const auto schema = writer.add(
+      McapSchema{.name = "std_msgs/msg/String", .encoding = "ros2msg", .data = "string data\n"});
+  const auto channel = writer.add(McapChannel{.schema_id = schema,
+                                              .topic = "/a",
+                                              .message_encoding = "cdr",
+                                              .metadata = {{"process", process}}});
+  for (int i = 0; i < 100; ++i) {
+    const std::string text = payload(i);
+    const Time time{1'000'000 * (first_ms + 2 * i)};
+    writer.write(channel, static_cast<std::uint32_t>(i), time, time,
+                 std::as_bytes(std::span{text}));
+  }
+  writer.add(McapMetadata{.name = "armature.end", .values = {{"process", process}}});
+  writer.close();
+}
+
+TEST(JoinedRecording, HasTheMessagesOfAllInTheOrderOfTheirTimesAndTheRestOnce) {
+  const RecordingFile a{"a"}, b{"b"}, out{"out"};
+  write_part(a.path(), "main", 10);
+  write_part(b.path(), "vision", 11);
+  const JoinedRecording joined = join_recordings({a.path(), b.path()}, out.path());
+  EXPECT_EQ(joined.messages, 200U);
+  EXPECT_THAT(joined.problems, testing::IsEmpty());
+  McapReader reader{out.path(), true};
+  std::int64_t expected_ms = 10;
+  std::map<std::string, std::uint32_t> sequences;
+  while (const auto message = reader.next()) {
+    EXPECT_EQ(message->log_time.ns, 1'000'000 * expected_ms++);
+    EXPECT_EQ(message->sequence, sequences[message->channel->metadata.at("process")]++);
+  }
+  EXPECT_EQ(reader.chain().verdict, McapChain::Verdict::whole);
+  EXPECT_EQ(reader.chain().head, joined.head);
+  EXPECT_EQ(reader.attachments().size(), 1U);
+  std::vector<std::string> names;
+  for (const McapMetadata& metadata : reader.metadata()) names.push_back(metadata.name);
+  EXPECT_THAT(names, testing::ElementsAre("armature.deployment", "armature.process",
+                                          "armature.process", "armature.end", "armature.part",
+                                          "armature.end", "armature.part"));
+  EXPECT_EQ(reader.metadata().back().values.at("sha256"), sha256_of_file(b.path()));
+  EXPECT_EQ(reader.metadata().back().values.at("chain"), "whole");
+}
+
+TEST(JoinedRecording, TakesThePlaceOfAPartAndSaysWhatWasCutOff) {
+  const RecordingFile a{"a"}, b{"b"};
+  write_part(a.path(), "main", 10);
+  write_part(b.path(), "vision", 11);
+  std::string bytes = b.bytes();
+  bytes.resize(places_of(mcap::Op::chunk, bytes).at(3));
+  b.replace(bytes);
+  const JoinedRecording joined = join_recordings({a.path(), b.path()}, a.path());
+  ASSERT_EQ(joined.problems.size(), 1U);
+  EXPECT_THAT(joined.problems[0], HasSubstr(b.path().string() + "': it ends before its summary"));
+  EXPECT_GT(joined.messages, 100U);
+  McapReader reader{a.path(), true};
+  while (reader.next()) continue;
+  EXPECT_EQ(reader.chain().verdict, McapChain::Verdict::whole);
+  EXPECT_EQ(reader.metadata().back().values.at("chain"), "cut");
+  EXPECT_THAT(reader.metadata().back().values.at("first_problem"), HasSubstr("it ends before"));
+}
+
+TEST(JoinedRecording, IsNotMadeOfWhatIsNotOneRunAndLeavesEverythingAsItWas) {
+  const RecordingFile a{"a"}, b{"b"};
+  const auto reason = [&] {
+    try {
+      join_recordings({a.path(), b.path()}, a.path());
+      return std::string{};
+    } catch (const InvalidChoice& refusal) {
+      return std::string{refusal.what()};
+    }
+  };
+  write_part(a.path(), "main", 10);
+  const std::string before = a.bytes();
+  write_part(b.path(), "vision", 11, "2");
+  EXPECT_THAT(reason(), HasSubstr("are of different runs"));
+  write_part(b.path(), "main", 11);
+  EXPECT_THAT(reason(), HasSubstr("are both of process 'main'"));
+  {
+    McapWriter writer{b.path(), {}};
+    write_all_but_the_end(writer, 10);
+    writer.close();
+  }
+  EXPECT_THAT(reason(), HasSubstr("is no part of a run"));
+  EXPECT_EQ(a.bytes(), before);
+  EXPECT_FALSE(std::filesystem::exists(a.path().string() + ".joining"));
 }
 
 }  // namespace

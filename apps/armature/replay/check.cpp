@@ -7,12 +7,14 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 
 #include "armature/config/problems.hpp"
 #include "armature/messages/known_types.hpp"
 #include "armature/messages/stamp.hpp"
 #include "armature/runtime/plugins/running_component.hpp"
 #include "exit_code.hpp"
+#include "record/recorded_processes.hpp"
 #include "replay/message_difference.hpp"
 #include "replay/recorded_run.hpp"
 #include "replay/replay.hpp"
@@ -58,8 +60,9 @@ std::string with_commas(std::uint64_t number) {
 /// All components of one process.
 class Check {
  public:
-  Check(const std::filesystem::path& file, const ReplayOptions& options, PluginRegistry& plugins)
-      : run_{file}, process_{run_, plugins, options.assignments} {
+  Check(const std::filesystem::path& file, const std::string& process, const ReplayOptions& options,
+        PluginRegistry& plugins)
+      : run_{file, process}, process_{run_, plugins, options.assignments} {
     if (!options.allow_ulp) check_processor(run_);
     for (const auto& [name, entry] : process_.entries()) compared_[name];
   }
@@ -240,8 +243,11 @@ void print_json(const std::vector<std::unique_ptr<Check>>& checks, const Totals&
             {"length_s", totals.length_s},
             {"took_s", took_s},
             {"components", Json::array()}};
+  std::set<std::pair<std::filesystem::path, std::string>> told;
   for (const auto& check : checks) {
-    for (const std::string& problem : check->problems()) json["problems"].push_back(problem);
+    for (const std::string& problem : check->problems()) {
+      if (told.emplace(check->file(), problem).second) json["problems"].push_back(problem);
+    }
     for (const auto& [name, entry] : check->entries()) {
       json["components"].push_back(json_of(*check, name, entry));
     }
@@ -298,15 +304,19 @@ int check_recording(const ReplayOptions& options) {
   PluginRegistry plugins;
   std::vector<std::unique_ptr<Check>> checks;
   const Time start = monotonic_now();
+  std::set<std::string> told;  // of a file with several processes, once
+  const auto tell = [&](const std::string& text) {
+    if (told.insert(text).second) fmt::print(stderr, "armature: {}\n", text);
+  };
   for (const std::filesystem::path& file : options.files) {
-    checks.push_back(std::make_unique<Check>(file, options, plugins));
-    check_same_run(checks);
-    for (const std::string& note : checks.back()->notes()) {
-      fmt::print(stderr, "armature: {}\n", note);
-    }
-    checks.back()->run();
-    for (const std::string& problem : checks.back()->problems()) {
-      fmt::print(stderr, "armature: '{}': {}\n", file.string(), problem);
+    for (const std::string& process : recorded_processes(file)) {
+      Check& check = *checks.emplace_back(std::make_unique<Check>(file, process, options, plugins));
+      check_same_run(checks);
+      for (const std::string& note : check.notes()) tell(note);
+      check.run();
+      for (const std::string& problem : check.problems()) {
+        tell(fmt::format("'{}': {}", file.string(), problem));
+      }
     }
   }
   const Totals totals = totals_of(checks);

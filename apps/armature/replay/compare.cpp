@@ -14,6 +14,7 @@
 #include "armature/messages/stamp.hpp"
 #include "armature/runtime/plugins/running_component.hpp"
 #include "exit_code.hpp"
+#include "record/recorded_processes.hpp"
 #include "replay/field_differences.hpp"
 #include "replay/replay.hpp"
 #include "replay/replayed_process.hpp"
@@ -123,9 +124,9 @@ struct ComparedComponent {
 
 class Comparison {
  public:
-  Comparison(const std::filesystem::path& file, const ReplayOptions& options,
-             PluginRegistry& plugins)
-      : run_{file},
+  Comparison(const std::filesystem::path& file, const std::string& process,
+             const ReplayOptions& options, PluginRegistry& plugins)
+      : run_{file, process},
         changed_{changed_components(run_, plugins, options.assignments)},
         before_{run_, plugins, {}, or_none(changed_)},
         now_{run_, plugins, options.assignments, or_none(changed_)} {}
@@ -358,14 +359,16 @@ int compare_with_recording(const ReplayOptions& options) {
   Json json = Json::array();
   bool any = false;
   for (const std::filesystem::path& file : options.files) {
-    Comparison comparison{file, options, plugins};
-    any = any || !comparison.changed().empty();
-    if (comparison.changed().empty()) continue;
-    comparison.run();
-    if (options.json) {
-      json.push_back(json_of(comparison));
-    } else {
-      print(comparison);
+    for (const std::string& process : recorded_processes(file)) {
+      Comparison comparison{file, process, options, plugins};
+      any = any || !comparison.changed().empty();
+      if (comparison.changed().empty()) continue;
+      comparison.run();
+      if (options.json) {
+        json.push_back(json_of(comparison));
+      } else {
+        print(comparison);
+      }
     }
   }
   if (!any) throw InvalidChoice("the assignments change no component of the recording");

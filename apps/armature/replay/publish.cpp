@@ -10,6 +10,8 @@
 #include <optional>
 #include <set>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "armature/bus/topic_name.hpp"
 #include "armature/bus/transport.hpp"
@@ -17,6 +19,7 @@
 #include "armature/runtime/execution/clock.hpp"
 #include "armature/runtime/plugins/plugin_registry.hpp"
 #include "exit_code.hpp"
+#include "record/recorded_processes.hpp"
 
 namespace armature {
 namespace {
@@ -39,7 +42,8 @@ QosProfile profile_of(const McapChannel& channel) {
 
 class Player {
  public:
-  explicit Player(const PublishOptions& options) : options_{options} {
+  explicit Player(const PublishOptions& options)
+      : options_{options}, processes_{recorded_processes(options.file)} {
     auto transport = plugins_.make<Transport>(
         "transport/fast_dds", TransportOptions{.network = options.network,
                                                .deployment = "a recording",
@@ -57,6 +61,7 @@ class Player {
     const Time start = monotonic_now();
     while (const auto message = reader.next()) {
       if (!first) first = message->log_time;
+      if (is_doubled(*message->channel, processes_)) continue;
       Topic* topic = topic_of(*message->channel);
       if (!topic) continue;
       const double at_s = to_seconds(message->log_time - *first) - options_.from_s;
@@ -125,6 +130,7 @@ class Player {
   }
 
   const PublishOptions& options_;
+  const std::vector<std::string> processes_;
   const Time begin_ = monotonic_now();
   SystemClock clock_;
   PluginRegistry plugins_;

@@ -8,6 +8,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 
 #include "armature/config/document.hpp"
 #include "armature/runtime/recording/recorded_description.hpp"
@@ -37,13 +38,20 @@ std::optional<std::string> behind(std::string_view beginning, const std::string&
 
 }  // namespace
 
-RecordedRun::RecordedRun(const std::filesystem::path& file) : file_{file}, reader_{file} {
+RecordedRun::RecordedRun(const std::filesystem::path& file, std::string process)
+    : file_{file}, process_{std::move(process)}, reader_{file} {
   read_metadata(file);
   if (!deployment_.empty() && !components_.empty()) return;
   throw std::runtime_error(fmt::format(
       "'{}' holds no activations: only what a deployment records of itself can be replayed, "
       "record: {{file: run.mcap}}",
       file.string()));
+}
+
+/// True also for what was recorded before files could be joined.
+bool RecordedRun::is_mine(const std::map<std::string, std::string>& metadata) const {
+  const auto process = metadata.find(kProcessKey);
+  return process == metadata.end() || process->second == process_;
 }
 
 /// They stand at the beginning, but behind everything in a recording that was repaired.
@@ -57,35 +65,40 @@ void RecordedRun::read_metadata(const std::filesystem::path& file) {
   while (reader.next() && !has_all()) continue;
   problems_ = reader.problems();
   for (const McapMetadata& metadata : reader.metadata()) {
-    for (const auto& [key, value] : metadata.values) {
-      if (metadata.name == kDeploymentMetadata) {
+    if (metadata.name == kDeploymentMetadata) {
+      for (const auto& [key, value] : metadata.values) {
         if (key == "deployment") deployment_ = value;
         if (key == "run") run_ = value;
         if (const auto name = behind("file of ", key)) files_[*name] = value;
-      } else if (metadata.name == kProcessMetadata) {
-        if (key == "process") process_ = value;
-        if (key == "processor") processor_ = value;
-        if (key == "whole" && value == "no") {
-          throw std::runtime_error(
-              fmt::format("'{}' begins in the midst of a run (around_faults_s), and components "
-                          "cannot be repeated without what they had done before",
-                          file.string()));
-        }
-        if (key == "whole" && value == "thin") {
-          throw std::runtime_error(
-              fmt::format("'{}' has only what a page of the run shows (record: thin), and no "
-                          "activations to be repeated",
-                          file.string()));
-        }
-        if (const auto plugin = behind("library of ", key)) libraries_[*plugin] = value;
       }
     }
+    if (!is_mine(metadata.values)) continue;
+    if (metadata.name == kProcessMetadata) read_process(metadata);
     if (metadata.name == kComponentMetadata) read_ports(metadata);
   }
   for (const McapAttachment& attachment : reader.attachments()) {
     if (const auto name = behind(deployment_ + "/", attachment.name)) {
       texts_[*name] = attachment.data;
     }
+  }
+}
+
+void RecordedRun::read_process(const McapMetadata& metadata) {
+  for (const auto& [key, value] : metadata.values) {
+    if (key == "processor") processor_ = value;
+    if (key == "whole" && value == "no") {
+      throw std::runtime_error(
+          fmt::format("'{}' begins in the midst of a run (around_faults_s), and components "
+                      "cannot be repeated without what they had done before",
+                      file_.string()));
+    }
+    if (key == "whole" && value == "thin") {
+      throw std::runtime_error(
+          fmt::format("'{}' has only what a page of the run shows (record: thin), and no "
+                      "activations to be repeated",
+                      file_.string()));
+    }
+    if (const auto plugin = behind("library of ", key)) libraries_[*plugin] = value;
   }
 }
 
@@ -129,8 +142,9 @@ DeploymentConfig RecordedRun::read_config(const PluginRegistry& plugins,
 std::optional<msg::Activation> RecordedRun::next() {
   const MessageType& type = message_type<msg::Activation>();
   while (const auto message = reader_.next()) {
-    const auto dds_type = message->channel->metadata.find("dds_type");
-    if (dds_type == message->channel->metadata.end()) continue;
+    const auto& channel = message->channel->metadata;
+    const auto dds_type = channel.find("dds_type");
+    if (dds_type == channel.end() || !is_mine(channel)) continue;
     if (dds_type->second != type.dds_name) {
       keep(*message);
       continue;
@@ -161,8 +175,16 @@ void RecordedRun::keep_at_least(const std::string& topic, std::size_t samples) {
 
 std::vector<std::string> RecordedRun::problems() const {
   std::vector<std::string> problems = problems_;
-  for (const std::string& problem : reader_.problems()) {
+  const auto add = [&](const std::string& problem) {
     if (std::ranges::find(problems, problem) == problems.end()) problems.push_back(problem);
+  };
+  for (const std::string& problem : reader_.problems()) add(problem);
+  // Of what was joined, the file is whole where the part was not.
+  for (const McapMetadata& metadata : reader_.metadata()) {
+    const auto first = metadata.values.find("first_problem");
+    if (metadata.name != kPartMetadata || !is_mine(metadata.values)) continue;
+    if (first == metadata.values.end() || first->second.empty()) continue;
+    add(fmt::format("the recording of process '{}' was not whole: {}", process_, first->second));
   }
   return problems;
 }
@@ -170,7 +192,7 @@ std::vector<std::string> RecordedRun::problems() const {
 std::map<std::string, std::string> RecordedRun::unrecorded_ends() const {
   std::map<std::string, std::string> ends;
   for (const McapMetadata& metadata : reader_.metadata()) {
-    if (metadata.name != kEndMetadata) continue;
+    if (metadata.name != kEndMetadata || !is_mine(metadata.values)) continue;
     for (const auto& [key, value] : metadata.values) {
       if (const auto name = behind("lost of ", key)) {
         ends[*name] = fmt::format("{} of its activations were not recorded", value);

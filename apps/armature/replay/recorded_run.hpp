@@ -28,8 +28,9 @@ struct RecordedPorts {
 /// read and wrote. Holds the samples of the last seconds only.
 class RecordedRun {
  public:
-  /// Throws std::runtime_error for a file that is no such recording.
-  explicit RecordedRun(const std::filesystem::path& file);
+  /// `process` is one of recorded_processes(). Throws std::runtime_error for a file that is no such
+  /// recording.
+  RecordedRun(const std::filesystem::path& file, std::string process);
 
   const std::filesystem::path& file() const { return file_; }
   const std::string& process() const { return process_; }
@@ -67,6 +68,8 @@ class RecordedRun {
   };
 
   void read_metadata(const std::filesystem::path& file);
+  void read_process(const McapMetadata& metadata);
+  bool is_mine(const std::map<std::string, std::string>& metadata) const;
   void read_ports(const McapMetadata& metadata);
   void keep(const McapMessage& message);
   bool is_next(std::uint32_t sequence);

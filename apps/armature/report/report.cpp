@@ -35,6 +35,7 @@
 #include "jpeg_encoder.hpp"
 #include "record/message_copy.hpp"
 #include "record/record.hpp"
+#include "record/recorded_processes.hpp"
 #include "verbs/shipped_configs.hpp"
 
 namespace armature {
@@ -56,6 +57,7 @@ struct RunContents {
   Time first, last;
   McapChain chain;
   bool is_whole = true;
+  std::vector<std::string> processes;             // whose recordings are in it
   std::map<std::string, std::string> deployment;  // version, fingerprint, ..
   std::string figures;                            // of the run, as JSON; empty: it has none
 
@@ -68,7 +70,9 @@ struct RunContents {
 RunContents read_all(const std::filesystem::path& file) {
   McapReader reader{file, true};
   RunContents contents;
+  contents.processes = recorded_processes(file);
   while (const auto message = reader.next()) {
+    if (is_doubled(*message->channel, contents.processes)) continue;
     ++contents.topics[message->channel->topic].messages;
     const bool is_first = contents.messages++ == 0;
     contents.first = is_first ? message->log_time : std::min(contents.first, message->log_time);
@@ -187,6 +191,7 @@ Reduced reduced(const ReportOptions& options, const RunContents& contents) {
   std::map<std::string, Thinning> topics;
   while (const auto message = reader.next()) {
     const McapChannel& channel = *message->channel;
+    if (is_doubled(channel, contents.processes)) continue;
     if (!topics.contains(channel.topic)) {
       topics.emplace(channel.topic, kept_hz(channel.topic, contents, options.pictures));
     }

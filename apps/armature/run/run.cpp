@@ -33,6 +33,9 @@
 #include "colour.hpp"
 #include "exit_code.hpp"
 #include "inspect/plugins.hpp"
+#include "record/merge.hpp"
+#include "record/record.hpp"
+#include "record/recorded_processes.hpp"
 #include "report/report.hpp"
 #include "run/console.hpp"
 #include "run/end_signals.hpp"
@@ -178,6 +181,49 @@ class WatchedEnd {
   std::function<void(const std::string&)> on_hung_;
   std::optional<EndWatch> watch_;
 };
+
+/// Whether a file has enough of the recording of a process to be joined with others.
+bool is_part(const std::filesystem::path& file) {
+  try {
+    return !recorded_processes(file).front().empty();
+  } catch (
+      const std::exception&) {  // it is not there, or its process died before it wrote anything
+    return false;
+  }
+}
+
+/// What is joined at the end of a run: the recordings of this host's processes.
+std::vector<std::filesystem::path> parts_of(const std::filesystem::path& recording,
+                                            const DeploymentConfig& config) {
+  std::vector<std::filesystem::path> parts{recording};
+  for (const std::string& name : config.processes()) {
+    if (name == kMainProcess || config.host_of(name) != kMainHost) continue;
+    std::filesystem::path part = RecordConfig::part_of(recording, name);
+    if (is_part(part)) parts.push_back(std::move(part));
+  }
+  return parts;
+}
+
+/// Joins the recordings of all processes into the one that the deployment names. They stay as they
+/// are when that is not possible.
+void join_parts(const std::filesystem::path& recording, const DeploymentConfig& config,
+                Console& console) {
+  const auto parts = parts_of(recording, config);
+  if (parts.size() < 2) return;
+  try {
+    const JoinedRecording joined = join_recordings(parts, recording);
+    std::error_code none;
+    for (const auto& part : parts) {
+      if (part != recording) std::filesystem::remove(part, none);
+    }
+    console.line("runtime", fmt::format("joined: {}: {} messages of {} processes, {}, last hash {}",
+                                        recording.string(), joined.messages, parts.size(),
+                                        megabytes(joined.bytes), joined.head));
+    for (const std::string& problem : joined.problems) console.tell(problem);
+  } catch (const std::exception& error) {
+    console.tell(fmt::format("the recordings of the processes were not joined: {}", error.what()));
+  }
+}
 
 /// Writes report.html of what the run has recorded. False: the file could not be written.
 bool page_written(const std::optional<std::filesystem::path>& recording,
@@ -358,6 +404,7 @@ int run_main(const RunOptions& options, const Process& process, Deployment& depl
   int code = conclude(options, deployment, report, ending, console, last_word);
   deployment.end_recording(figures_json(report, timing));
   watched_end.do_unwatched([&] {
+    if (recording) join_parts(*recording, deployment.config(), console);
     if (options.report && !page_written(recording, *options.report, console)) code = kFailed;
   });
   console.flush();

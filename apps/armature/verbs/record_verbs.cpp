@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "record/merge.hpp"
 #include "record/record.hpp"
 #include "replay/publish.hpp"
 #include "replay/replay.hpp"
@@ -15,6 +16,7 @@ namespace {
 void add_record(CLI::App& app, Action& action) {
   auto options = std::make_shared<RecordOptions>();
   auto cut = std::make_shared<std::filesystem::path>();
+  auto parts = std::make_shared<std::vector<std::filesystem::path>>();
   auto plain = std::make_shared<bool>(false);
   CLI::App* verb = app.add_subcommand(
       "record", "Record topics of running deployments as MCAP: armature record -o run.mcap");
@@ -28,11 +30,17 @@ void add_record(CLI::App& app, Action& action) {
                    "write what can be read of this recording, which was cut off, instead")
       ->check(CLI::ExistingFile)
       ->excludes("topics");
+  verb->add_option("--merge", *parts,
+                   "join what the processes of a run have recorded of themselves, a file each, "
+                   "instead: --merge run.mcap run.vision.mcap")
+      ->check(CLI::ExistingFile)
+      ->excludes("topics", "--repair");
   add_watch(*verb, *options);
   verb->get_option("--timeout")->description("end after this many seconds");
   verb->callback([=, &action] {
     options->compress = !*plain;
     action = [=] {
+      if (!parts->empty()) return merge_recordings(*parts, options->out, options->force);
       return cut->empty() ? record_topics(*options)
                           : repair_recording(*cut, options->out, options->force);
     };

@@ -20,10 +20,14 @@ std::filesystem::path RecordConfig::file_of(std::string_view process, Time start
   localtime_r(&second, &local);
   std::array<char, 4096> name{};
   const std::size_t size = std::strftime(name.data(), name.size(), file.c_str(), &local);
-  std::filesystem::path path{std::string{name.data(), size}};
-  if (process == kMainProcess) return path;
-  const std::string extension = path.extension();
-  return path.replace_extension(fmt::format("{}{}", process, extension));
+  return part_of(std::string{name.data(), size}, process);
+}
+
+std::filesystem::path RecordConfig::part_of(std::filesystem::path main_file,
+                                            std::string_view process) {
+  if (process == kMainProcess) return main_file;
+  const std::string extension = main_file.extension();
+  return main_file.replace_extension(fmt::format("{}{}", process, extension));
 }
 
 RecordConfig read_record(const config::Node& section, config::Problems& problems) {

@@ -27,6 +27,8 @@ struct RecordConfig {
   /// Where `process` of a run that began at `start` (Unix time) writes: every process but "main"
   /// has a file of its own, "run.vision.mcap".
   std::filesystem::path file_of(std::string_view process, Time start) const;
+  /// The same of the main process' file, which has its time already.
+  static std::filesystem::path part_of(std::filesystem::path main_file, std::string_view process);
 };
 
 RecordConfig read_record(const config::Node& section, config::Problems& problems);

@@ -14,7 +14,12 @@ namespace armature ARMATURE_EXPORT {
 inline constexpr std::string_view kDeploymentMetadata = "armature.deployment";
 inline constexpr std::string_view kProcessMetadata = "armature.process";
 inline constexpr std::string_view kComponentMetadata = "armature.component";
-inline constexpr std::string_view kEndMetadata = "armature.end";  // missing: it was cut off
+inline constexpr std::string_view kEndMetadata = "armature.end";    // missing: it was cut off
+inline constexpr std::string_view kPartMetadata = "armature.part";  // of files that were joined
+/// Keys of a channel's metadata: the process that recorded it, and of samples that came from other
+/// processes of the deployment the names of these, "vision,arm".
+inline constexpr const char* kProcessKey = "process";
+inline constexpr const char* kFromKey = "from";
 
 /// Name of the attachment with the figures of the run (figures_json): of its main process, and of a
 /// run that came to its end.

@@ -2,6 +2,7 @@
 #include "armature/runtime/recording/run_recorder.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
@@ -41,6 +42,19 @@ std::size_t max_waiting(const MessageType& type) {
 std::string wholeness_of(const RunRecorder::Options& options) {
   if (options.around_faults) return "no";
   return options.thin ? "thin" : "yes";
+}
+
+/// The other processes of the deployment that write a topic: "vision,arm".
+std::string writers_elsewhere(const std::string& topic, const std::string& process,
+                              const DeploymentConfig& deployment) {
+  std::set<std::string> processes;
+  for (const ComponentConfig& component : deployment.components) {
+    if (component.process == process) continue;
+    const bool is_writer =
+        std::ranges::find(component.outputs, topic, &PortBinding::topic) != component.outputs.end();
+    if (is_writer) processes.insert(component.process);
+  }
+  return fmt::format("{}", fmt::join(processes, ","));
 }
 
 /// How often messages are kept in a thin recording: twice as often as a page shows them, because
@@ -90,12 +104,13 @@ RunRecorder::RunRecorder(Options options, const DeploymentConfig& deployment,
   queue_.add(McapMetadata{.name = std::string{kProcessMetadata}, .values = std::move(process)});
   if (!options_.thin) {
     activations_ = queue_.add_channel("/" + deployment.name + "/activations",
-                                      std::string{message_type<msg::Activation>().dds_name});
+                                      std::string{message_type<msg::Activation>().dds_name},
+                                      {{kProcessKey, description.process_()}});
   }
   for (const auto& runner : runners) {
     const auto config =
         std::ranges::find(deployment.components, runner->name(), &ComponentConfig::name);
-    add(*runner, *config, clock, deployment.simulated);
+    add(*runner, *config, deployment, clock);
   }
   for (std::size_t i = 0; i < runners.size(); ++i) {
     runners[i]->inbox().set_tap(&components_[i]->log);
@@ -105,19 +120,25 @@ RunRecorder::RunRecorder(Options options, const DeploymentConfig& deployment,
 
 RunRecorder::~RunRecorder() { end_thread(); }
 
-void RunRecorder::add(ComponentRunner& runner, const ComponentConfig& config, const Clock& clock,
-                      bool simulated) {
+void RunRecorder::add(ComponentRunner& runner, const ComponentConfig& config,
+                      const DeploymentConfig& deployment, const Clock& clock) {
   Component& component = *components_.emplace_back(
-      std::make_unique<Component>(runner.name(), kRing, clock, simulated));
+      std::make_unique<Component>(runner.name(), kRing, clock, deployment.simulated));
   component.is_of_runtime = config.manifest->file.empty();
-  std::map<std::string, std::string> ports{{"component", runner.name()},
-                                           {"plugin", runner.plugin_id()}};
+  const std::string& process = options_.description.process_();
+  std::map<std::string, std::string> ports{
+      {"component", runner.name()}, {"plugin", runner.plugin_id()}, {kProcessKey, process}};
   int index = 0;
   for (const auto& input : runner.inbox().ports()) {
     const auto binding = std::ranges::find(config.inputs, input->spec().name,
                                            [](const PortBinding& port) { return port.spec.name; });
     component.inputs.push_back(
-        {.topic = binding->topic, .type = &input->type(), .qos = input->spec().qos});
+        {.topic = binding->topic,
+         .type = &input->type(),
+         .qos = input->spec().qos,
+         // What is open may also come from programs that record nothing.
+         .from =
+             input->spec().outside ? "" : writers_elsewhere(binding->topic, process, deployment)});
     ports[fmt::format("input {}", index++)] = input->spec().name;
   }
   for (OutputPort& output : runner.outputs()) {
@@ -152,6 +173,7 @@ RunRecorder::Channel& RunRecorder::add_channel(std::uint32_t writer, const Port&
              .topic = port.topic,
              .type = port.type,
              .qos = port.qos,
+             .from = port.from,
              .is_kept = is_kept,
              .thinning = Thinning{options_.thin ? thin_rate_hz(*port.type) : std::nullopt}};
 }
@@ -238,9 +260,12 @@ void RunRecorder::keep(const SampleRef& sample, Time at, Channel& channel) {
     return;
   }
   if (!channel.id) {
-    channel.id = queue_.add_channel(
-        channel.topic, std::string{channel.type->dds_name},
-        {{"writer", fmt::format("{}", info.writer)}, {"qos", std::string{to_string(channel.qos)}}});
+    std::map<std::string, std::string> metadata{{"writer", fmt::format("{}", info.writer)},
+                                                {"qos", std::string{to_string(channel.qos)}},
+                                                {kProcessKey, options_.description.process_()}};
+    if (!channel.from.empty()) metadata[kFromKey] = channel.from;
+    channel.id =
+        queue_.add_channel(channel.topic, std::string{channel.type->dds_name}, std::move(metadata));
   }
   std::vector<std::byte> cdr;
   channel.type->encode(sample.message(), cdr);
@@ -283,7 +308,7 @@ std::string RunRecorder::close(const std::optional<McapAttachment>& figures) {
 /// What a replay cannot see in the activations: those that were lost last, and calls that have not
 /// returned. Where this is missing, the recording was cut off.
 void RunRecorder::add_end() {
-  std::map<std::string, std::string> values;
+  std::map<std::string, std::string> values{{kProcessKey, options_.description.process_()}};
   for (const auto& component : components_) {
     const std::string& name = component->call.component_();
     if (component->is_of_runtime) continue;

@@ -67,6 +67,7 @@ class RunRecorder {
     std::string topic;
     const MessageType* type;
     QosProfile qos;
+    std::string from = {};  // the deployment's other processes that write what is read; or ""
   };
   /// One that is recorded: its ring, and the call that is being taken from it.
   struct Component {
@@ -95,6 +96,7 @@ class RunRecorder {
     std::string topic;
     const MessageType* type = nullptr;
     QosProfile qos = QosProfile::state;
+    std::string from = {};
     bool is_kept = false;
     Thinning thinning{std::nullopt};
     std::optional<std::uint16_t> id = {};  // in the file, from its first sample on
@@ -108,8 +110,8 @@ class RunRecorder {
   void add_end();
   void tell_problem(const std::string& problem);
   bool is_read(const std::string& topic, const MessageType& type) const;
-  void add(ComponentRunner& runner, const ComponentConfig& config, const Clock& clock,
-           bool simulated);
+  void add(ComponentRunner& runner, const ComponentConfig& config,
+           const DeploymentConfig& deployment, const Clock& clock);
   Channel& add_channel(std::uint32_t writer, const Port& port);
   void run();
   void take_all();

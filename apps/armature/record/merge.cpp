@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "record/merge.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <set>
+#include <system_error>
+#include <utility>
+
+#include "armature/recording/hash_chain.hpp"
+#include "armature/recording/mcap_reader.hpp"
+#include "armature/recording/mcap_writer.hpp"
+#include "armature/runtime/recording/recorded_description.hpp"
+#include "exit_code.hpp"
+#include "record/message_copy.hpp"
+#include "record/record.hpp"
+
+namespace armature {
+namespace {
+
+/// One of the files, read from its beginning.
+class Part {
+ public:
+  Part(const std::filesystem::path& file, McapWriter& writer)
+      : file_{file}, reader_{file, true}, copy_{reader_, writer} {
+    step();
+    for (const McapMetadata& metadata : reader_.metadata()) {
+      const auto value = [&](const char* key) {
+        const auto found = metadata.values.find(key);
+        return found == metadata.values.end() ? std::string{} : found->second;
+      };
+      if (metadata.name == kDeploymentMetadata) run_ = value("deployment") + " " + value("run");
+      if (metadata.name == kProcessMetadata) process_ = value("process");
+    }
+    if (!run_.empty() && !process_.empty()) return;
+    throw InvalidChoice(fmt::format(
+        "'{}' is no part of a run: only what a deployment records of itself (record:) can be "
+        "joined",
+        file.string()));
+  }
+
+  const std::filesystem::path& file() const { return file_; }
+  const std::string& run() const { return run_; }
+  const std::string& process() const { return process_; }
+  const McapReader& reader() const { return reader_; }
+  /// When its next message was written; nothing: there is none.
+  std::optional<Time> next_time() const {
+    return next_ ? std::optional{next_->log_time} : std::nullopt;
+  }
+  /// Copies that message.
+  void copy() {
+    copy_.write(*next_);
+    step();
+  }
+  /// After the last message.
+  McapMetadata metadata() const {
+    const McapChain chain = reader_.chain();
+    return {.name = std::string{kPartMetadata},
+            .values = {
+                {"process", process_},
+                {"file", file_.filename().string()},
+                {"sha256", sha256_of_file(file_)},
+                {"chain", std::string{word_of(chain.verdict)}},
+                {"chain_links", std::to_string(chain.links)},
+                {"chain_head", chain.head},
+                {"problems", std::to_string(reader_.problems().size())},
+                {"first_problem", reader_.problems().empty() ? "" : reader_.problems().front()}}};
+  }
+
+ private:
+  void step() { next_ = reader_.next(); }
+
+  std::filesystem::path file_;
+  McapReader reader_;
+  MessageCopy copy_;
+  std::optional<McapMessage> next_;
+  std::string run_, process_;
+};
+
+using Parts = std::vector<std::unique_ptr<Part>>;
+
+void check_one_run(const Parts& parts) {
+  for (const auto& part : parts) {
+    for (const auto& other : parts) {
+      if (other == part) break;
+      if (other->run() != part->run()) {
+        throw InvalidChoice(fmt::format("'{}' and '{}' are of different runs",
+                                        other->file().string(), part->file().string()));
+      }
+      if (other->process() == part->process()) {
+        throw InvalidChoice(fmt::format("'{}' and '{}' are both of process '{}'",
+                                        other->file().string(), part->file().string(),
+                                        part->process()));
+      }
+    }
+  }
+}
+
+/// Attachments and metadata, those that several parts have once.
+class Surroundings {
+ public:
+  explicit Surroundings(McapWriter& writer) : writer_{writer} {}
+
+  /// What the part has had up to now.
+  void copy_of(const Part& part) {
+    for (const McapAttachment& attachment : part.reader().attachments()) {
+      if (attached_.emplace(attachment.name, attachment.data).second) writer_.attach(attachment);
+    }
+    for (const McapMetadata& metadata : part.reader().metadata()) {
+      if (told_.emplace(metadata.name, metadata.values).second) writer_.add(metadata);
+    }
+  }
+
+ private:
+  McapWriter& writer_;
+  std::set<std::pair<std::string, std::string>> attached_;
+  std::set<std::pair<std::string, std::map<std::string, std::string>>> told_;
+};
+
+/// Of those that have one, the part whose next message is the earliest.
+Part* earliest(const Parts& parts) {
+  Part* first = nullptr;
+  for (const auto& part : parts) {
+    const auto time = part->next_time();
+    if (time && (!first || *time < *first->next_time())) first = part.get();
+  }
+  return first;
+}
+
+/// A file that is being written, and taken away again unless it has got its name.
+class Draft {
+ public:
+  explicit Draft(std::filesystem::path named)
+      : named_{std::move(named)}, path_{named_.string() + ".joining"} {}
+  ~Draft() {
+    std::error_code none;
+    if (!path_.empty()) std::filesystem::remove(path_, none);
+  }
+  Draft(const Draft&) = delete;
+  Draft& operator=(const Draft&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+  void give_name() { std::filesystem::rename(std::exchange(path_, {}), named_); }
+
+ private:
+  std::filesystem::path named_, path_;
+};
+
+}  // namespace
+
+JoinedRecording join_recordings(const std::vector<std::filesystem::path>& parts,
+                                const std::filesystem::path& out) {
+  Draft draft{out};
+  McapWriter writer{draft.path(), {.library = "armature " ARMATURE_VERSION}};
+  Parts open;
+  for (const auto& file : parts) open.push_back(std::make_unique<Part>(file, writer));
+  check_one_run(open);
+  Surroundings surroundings{writer};
+  for (const auto& part : open) surroundings.copy_of(*part);
+  while (Part* part = earliest(open)) part->copy();
+  JoinedRecording joined;
+  for (const auto& part : open) {
+    surroundings.copy_of(*part);
+    writer.add(part->metadata());
+    for (const std::string& problem : part->reader().problems()) {
+      joined.problems.push_back(fmt::format("'{}': {}", part->file().string(), problem));
+    }
+  }
+  writer.close();
+  draft.give_name();
+  joined.messages = writer.messages();
+  joined.bytes = writer.bytes();
+  joined.head = to_hex(writer.head());
+  return joined;
+}
+
+int merge_recordings(const std::vector<std::filesystem::path>& parts,
+                     const std::filesystem::path& out, bool force) {
+  refuse_to_replace(out, force);
+  const JoinedRecording joined = join_recordings(parts, out);
+  for (const std::string& problem : joined.problems) {
+    fmt::print(stderr, "armature: {}\n", problem);
+  }
+  fmt::print("{}: {} messages of {} processes, {}\n", out.string(), joined.messages, parts.size(),
+             megabytes(joined.bytes));
+  fmt::print("last hash {}\n", joined.head);
+  return kOk;
+}
+
+}  // namespace armature

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "armature/recording/mcap.hpp"
+
+namespace armature {
+
+/// The processes whose recordings stand in a file: one, unless files were joined; of a recording
+/// from outside one without a name. Throws std::runtime_error for a file that is no recording.
+std::vector<std::string> recorded_processes(const std::filesystem::path& file);
+
+/// True when a channel has what one process got from others, and the recordings of all of these are
+/// in the file, too: a viewer would show it twice.
+bool is_doubled(const McapChannel& channel, const std::vector<std::string>& processes);
+
+}  // namespace armature

@@ -15,6 +15,7 @@
 #include "armature/runtime/plugins/running_component.hpp"
 #include "exit_code.hpp"
 #include "record/recorded_processes.hpp"
+#include "replay/exchanged_samples.hpp"
 #include "replay/message_difference.hpp"
 #include "replay/recorded_run.hpp"
 #include "replay/replay.hpp"
@@ -179,10 +180,12 @@ struct Totals {
   bool is_complete = true;
   std::uint64_t components = 0, activations = 0, outputs = 0, differing = 0;
   double length_s = 0;
+  ExchangedSamples exchanged;
 };
 
-Totals totals_of(const std::vector<std::unique_ptr<Check>>& checks) {
-  Totals totals;
+Totals totals_of(const std::vector<std::unique_ptr<Check>>& checks,
+                 const ExchangedSamples& exchanged) {
+  Totals totals{.is_complete = exchanged.unwritten == 0, .exchanged = exchanged};
   for (const auto& check : checks) {
     totals.length_s = std::max(totals.length_s, check->length_s());
     totals.is_complete = totals.is_complete && check->is_complete();
@@ -242,6 +245,8 @@ void print_json(const std::vector<std::unique_ptr<Check>>& checks, const Totals&
             {"activations", totals.activations},
             {"length_s", totals.length_s},
             {"took_s", took_s},
+            {"exchanged",
+             {{"compared", totals.exchanged.compared}, {"unwritten", totals.exchanged.unwritten}}},
             {"components", Json::array()}};
   std::set<std::pair<std::filesystem::path, std::string>> told;
   for (const auto& check : checks) {
@@ -255,6 +260,19 @@ void print_json(const std::vector<std::unique_ptr<Check>>& checks, const Totals&
   fmt::print("{}\n", json.dump());
 }
 
+void print(const ExchangedSamples& exchanged) {
+  if (exchanged.compared > 0) {
+    fmt::print("{} samples that processes read of each other are as they were written\n",
+               with_commas(exchanged.compared));
+  }
+  if (!exchanged.first) return;
+  fmt::print(
+      "{} are not: process '{}' read a sample of {} first at {:.6f} s that is not in the "
+      "recording of its writer\n",
+      with_commas(exchanged.unwritten), exchanged.first->reader, exchanged.first->topic,
+      exchanged.first->at_s);
+}
+
 void print(const std::vector<std::unique_ptr<Check>>& checks, const Totals& totals, double took_s) {
   for (const auto& check : checks) {
     for (const auto& [name, entry] : check->entries()) {
@@ -265,6 +283,7 @@ void print(const std::vector<std::unique_ptr<Check>>& checks, const Totals& tota
   fmt::print("{}: {} outputs of {} activations of {} components; {:.1f} s of the run in {:.1f} s\n",
              verdict_of(totals), with_commas(totals.outputs), with_commas(totals.activations),
              totals.components, totals.length_s, took_s);
+  print(totals.exchanged);
   for (const auto& check : checks) {
     for (const auto& [name, entry] : check->entries()) {
       if (!entry.component) fmt::print("not replayed: '{}', {}\n", name, entry.why_not);
@@ -308,7 +327,9 @@ int check_recording(const ReplayOptions& options) {
   const auto tell = [&](const std::string& text) {
     if (told.insert(text).second) fmt::print(stderr, "armature: {}\n", text);
   };
+  ExchangedSamples exchanged;  // of a file that was joined
   for (const std::filesystem::path& file : options.files) {
+    exchanged += compare_exchanged(file);
     for (const std::string& process : recorded_processes(file)) {
       Check& check = *checks.emplace_back(std::make_unique<Check>(file, process, options, plugins));
       check_same_run(checks);
@@ -319,7 +340,7 @@ int check_recording(const ReplayOptions& options) {
       }
     }
   }
-  const Totals totals = totals_of(checks);
+  const Totals totals = totals_of(checks, exchanged);
   const double took_s = to_seconds(monotonic_now() - start);
   if (options.json) {
     print_json(checks, totals, took_s);

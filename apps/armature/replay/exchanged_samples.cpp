@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "replay/exchanged_samples.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <functional>
+#include <map>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "armature/recording/mcap_reader.hpp"
+#include "armature/runtime/recording/recorded_description.hpp"
+#include "record/recorded_processes.hpp"
+
+namespace armature {
+namespace {
+
+std::size_t hash_of(const McapMessage& message) {
+  return std::hash<std::string_view>{}(
+      {reinterpret_cast<const char*>(message.data.data()), message.data.size()});
+}
+
+std::string process_of(const McapChannel& channel) {
+  const auto process = channel.metadata.find(kProcessKey);
+  return process == channel.metadata.end() ? std::string{} : process->second;
+}
+
+/// What one writer has recorded: where in its order each content stands.
+struct Written {
+  std::uint64_t count = 0;
+  std::unordered_map<std::size_t, std::vector<std::uint64_t>> places;  // by hash, ascending
+
+  /// The first place of it behind `after`.
+  std::optional<std::uint64_t> find(std::size_t hash, std::uint64_t after) const {
+    const auto known = places.find(hash);
+    if (known == places.end()) return std::nullopt;
+    const auto place = std::ranges::upper_bound(known->second, after);
+    return place == known->second.end() ? std::nullopt : std::optional{*place};
+  }
+};
+
+/// By topic and channel.
+using Writers = std::map<std::string, std::map<std::uint16_t, Written>>;
+
+/// Whether it has what the process itself has published. It numbers writers elsewhere, also those
+/// of other programs, from 2^31 on (RemoteTopics).
+bool is_original(const McapChannel& channel) {
+  const auto writer = channel.metadata.find("writer");
+  if (writer == channel.metadata.end()) return false;
+  std::uint32_t number = 0;
+  const std::string& text = writer->second;
+  const auto end = std::from_chars(text.data(), text.data() + text.size(), number).ptr;
+  return end == text.data() + text.size() && number < 1U << 31;
+}
+
+Writers all_written(const std::filesystem::path& file) {
+  McapReader reader{file};
+  Writers writers;
+  while (const auto message = reader.next()) {
+    if (!is_original(*message->channel)) continue;
+    Written& written = writers[message->channel->topic][message->channel->id];
+    written.places[hash_of(*message)].push_back(++written.count);
+  }
+  return writers;
+}
+
+}  // namespace
+
+ExchangedSamples compare_exchanged(const std::filesystem::path& file) {
+  ExchangedSamples exchanged;
+  const std::vector<std::string> processes = recorded_processes(file);
+  if (processes.size() < 2) return exchanged;
+  const Writers writers = all_written(file);
+  std::map<std::pair<std::uint16_t, std::uint16_t>, std::uint64_t> last;  // by reader and writer
+  std::optional<Time> start;
+  McapReader reader{file};
+  while (const auto message = reader.next()) {
+    if (!start) start = message->log_time;
+    const McapChannel& channel = *message->channel;
+    const auto candidates = writers.find(channel.topic);
+    if (!is_doubled(channel, processes) || candidates == writers.end()) continue;
+    const std::size_t hash = hash_of(*message);
+    const bool is_written = std::ranges::any_of(candidates->second, [&](const auto& candidate) {
+      std::uint64_t& after = last[{channel.id, candidate.first}];
+      const auto place = candidate.second.find(hash, after);
+      if (place) after = *place;
+      return place.has_value();
+    });
+    ++(is_written ? exchanged.compared : exchanged.unwritten);
+    if (is_written || exchanged.first) continue;
+    exchanged.first = {.topic = channel.topic,
+                       .reader = process_of(channel),
+                       .at_s = to_seconds(message->log_time - *start)};
+  }
+  return exchanged;
+}
+
+}  // namespace armature

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// Two processes in one file: 'vision' writes /face, and 'main' has recorded what it read of it.
+#include "replay/exchanged_samples.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "armature/recording/recording_test.hpp"
+
+namespace armature {
+namespace {
+
+class ExchangedSamplesTest : public testing::Test {
+ protected:
+  ExchangedSamples compare(const std::vector<int>& written, const std::vector<int>& read) {
+    McapWriter writer{file_.path(), {}};
+    for (const char* process : {"main", "vision"}) {
+      writer.add(McapMetadata{.name = "armature.process", .values = {{"process", process}}});
+    }
+    const auto channel = [&](std::map<std::string, std::string> metadata) {
+      return writer.add(
+          McapChannel{.topic = "/face", .message_encoding = "", .metadata = std::move(metadata)});
+    };
+    const auto original = channel({{"process", "vision"}, {"writer", "4096"}});
+    const auto copy = channel({{"process", "main"}, {"writer", "2147483648"}, {"from", "vision"}});
+    int at = 0;
+    const auto write = [&](std::uint16_t to, int content) {
+      const std::string text = payload(content);
+      const Time time{1'000'000 * ++at};
+      writer.write(to, 1, time, time, std::as_bytes(std::span{text}));
+    };
+    for (const int content : read) write(copy, content);  // also before it was written
+    for (const int content : written) write(original, content);
+    writer.close();
+    return compare_exchanged(file_.path());
+  }
+
+  RecordingFile file_{"exchanged"};
+};
+
+TEST_F(ExchangedSamplesTest, AreThoseThatWereWrittenSomeOfThemInTheirOrder) {
+  const ExchangedSamples exchanged = compare({1, 2, 2, 3, 4}, {1, 2, 2, 4});
+  EXPECT_EQ(exchanged.compared, 4U);
+  EXPECT_EQ(exchanged.unwritten, 0U);
+}
+
+TEST_F(ExchangedSamplesTest, OneThatIsOtherThanWrittenIsNamed) {
+  const ExchangedSamples exchanged = compare({1, 2, 3}, {1, 7, 3});
+  EXPECT_EQ(exchanged.compared, 2U);
+  EXPECT_EQ(exchanged.unwritten, 1U);
+  ASSERT_TRUE(exchanged.first);
+  EXPECT_EQ(exchanged.first->topic, "/face");
+  EXPECT_EQ(exchanged.first->reader, "main");
+  EXPECT_DOUBLE_EQ(exchanged.first->at_s, 0.001);
+}
+
+TEST_F(ExchangedSamplesTest, OneThatComesTwiceOrTooLateIsNotAsItWasWritten) {
+  EXPECT_EQ(compare({1, 2, 3}, {1, 2, 2, 3}).unwritten, 1U) << "twice";
+  EXPECT_EQ(compare({1, 2, 3}, {1, 3, 2}).unwritten, 1U) << "out of order";
+}
+
+TEST_F(ExchangedSamplesTest, TopicsOfWhichTheWriterRecordedNothingAreLeftOut) {
+  const ExchangedSamples exchanged = compare({}, {1, 2});
+  EXPECT_EQ(exchanged.compared + exchanged.unwritten, 0U);
+}
+
+}  // namespace
+}  // namespace armature

@@ -45,6 +45,7 @@ export class Deployment {
   told: string[] = [];  // processes that have told of themselves
   documents: {section: string; name: string; text: string}[] = [];
   private seen = -1;
+  private shared = new Set<string>();  // names of components that several processes have: the runtime's own
 
   constructor(private readonly hub: Hub, readonly name: string, readonly namespace: string) {}
 
@@ -72,9 +73,16 @@ export class Deployment {
     this.told = [...byProcess.keys()];
     this.configuration = newest.configuration;
     this.documents = newest.documents;
-    this.components = [...byProcess.values()].flatMap(
-        (message) => message.components.map((one: Component) => ({...one, process: message.process})));
+    const all = [...byProcess.values()].flatMap(
+        (message) => message.components.map((one: Component) => ({...one, process: message.process as string})));
+    const names = all.map(({name}) => name);
+    this.shared = new Set(names.filter((name, i) => names.indexOf(name) !== i));
+    this.components = all.map((one) => ({...one, name: this.nameOf(one.name, one.process)}));
     return true;
+  }
+  /// What a component is called here: 'runtime@vision' where the main process has one of that name, too.
+  private nameOf(component: string, process: string): string {
+    return this.shared.has(component) && process !== 'main' ? `${component}@${process}` : component;
   }
 
   /// How the components were at a time, from the newest message of each process.
@@ -93,7 +101,7 @@ export class Deployment {
         const before = previous?.message.components.find((other: Message) => other.component === one.component);
         const activations = before ? Number(one.activations) - Number(before.activations) : NaN;
         const reactions = [...one.reactions].sort((a: Message, b: Message) => b.age.p99 - a.age.p99);
-        found.set(one.component, {
+        found.set(this.nameOf(one.component, message.process), {
           state: one.state,
           reason: one.reason,
           hz: previous ? activations / (entry.t - previous.t) : NaN,

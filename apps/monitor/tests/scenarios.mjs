@@ -214,12 +214,14 @@ async function recording(domain) {
   }
 }
 
-/// The page that a run writes into the folder of its report, though nobody recorded the run: the arm moves
-/// in it, pictures come as JPEG, and the figures are those that the run told.
+/// The page that a run in two processes writes into the folder of its report, though nobody recorded the
+/// run: the arm moves in it, pictures come as JPEG, all components of both are there, and the figures are
+/// those that the run told.
 async function ownReport(domain) {
   const folder = await mkdtemp(join(tmpdir(), 'armature-page-'));
   try {
-    const figures = JSON.parse(await output(['run', 'dental_lamp', '--json', '--report', folder, '--domain', String(domain)]));
+    const apart = ['landmarks', 'face'].flatMap((name) => ['--set', `components.${name}.process=vision`]);
+    const figures = JSON.parse(await output(['run', 'dental_lamp', ...apart, '--json', '--report', folder, '--domain', String(domain)]));
     const page = await openPage(pathToFileURL(join(folder, 'report.html')).href);
     await until(() => app(page, () => armature.hub.condition === 'read' && armature.scene.robots.count === 1), 'the arm of the report');
     await page.keyboard.press('Space');
@@ -239,6 +241,10 @@ async function ownReport(domain) {
       assert.equal(topics[`/dental_lamp/${side}/image_raw/compressed`], 'sensor_msgs/msg/CompressedImage');
       assert.ok(!topics[`/dental_lamp/${side}/image_raw`], 'no picture is raw');
     }
+    await until(() => app(page, () => armature.hub.recording.hasEnd), 'all of it to be read');
+    const [there, told] = await app(page, () => [armature.deployment.components.map(({name}) => name), [...armature.deployment.conditionsAt(armature.playhead.t).keys()]]);
+    assert.deepEqual(told.sort(), there.sort(), 'every component of both processes is told of, by a name of its own');
+    assert.ok(there.includes('runtime') && there.includes('runtime@vision'));
     await page.getByRole('button', {name: 'About this run'}).click();
     const about = page.locator('dialog.about');
     await until(() => about.getByText(`Figures of the run: ${figures.status}`).count(), 'the figures of the run');

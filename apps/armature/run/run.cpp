@@ -210,6 +210,14 @@ void join_parts(const std::filesystem::path& recording, const DeploymentConfig& 
                 Console& console) {
   const auto parts = parts_of(recording, config);
   if (parts.size() < 2) return;
+  constexpr std::uintmax_t kTakesSeconds = 200'000'000;
+  std::uintmax_t bytes = 0;
+  std::error_code gone;
+  for (const auto& part : parts) bytes += std::filesystem::file_size(part, gone);
+  if (bytes > kTakesSeconds) {
+    console.line("runtime", fmt::format("joining the recordings of {} processes, {}", parts.size(),
+                                        megabytes(bytes)));
+  }
   try {
     const JoinedRecording joined = join_recordings(parts, recording);
     std::error_code none;

@@ -48,6 +48,7 @@ class WebSocket {
   bool is_open() const { return is_open_; }
 
   void send_text(const std::string& text) { send_frame('\x81', text); }
+  void send_binary(const std::string& bytes) { send_frame('\x82', bytes); }
   /// A part of a text, the first one or a later one, without an end.
   void send_part(const std::string& text, bool first) { send_frame(first ? '\x01' : '\0', text); }
   /// The next frame; nothing: the connection is closed, or it is silent for 20 s.

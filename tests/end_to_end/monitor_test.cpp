@@ -3,16 +3,13 @@
 #include <gmock/gmock.h>
 
 #include <csignal>
-#include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "armature/messages/cdr_to_json.hpp"
-#include "armature/messages/known_types.hpp"
 #include "command.hpp"
+#include "foxglove_client.hpp"
 #include "tests/dds_domain.hpp"
 #include "tests/http.hpp"
 #include "tests/text.hpp"
-#include "tests/web_socket.hpp"
 
 namespace armature::test {
 namespace {
@@ -35,43 +32,6 @@ class Monitor : public testing::Test {
     EXPECT_TRUE(monitor.wait_for_out("\n", kPatience)) << monitor.err();
     const std::string line = monitor.out().substr(0, monitor.out().find('\n'));
     return std::stoi(line.substr(line.rfind(':') + 1));
-  }
-  static std::string protocol(const std::string& name) {
-    return "Sec-WebSocket-Protocol: " + name + "\r\n";
-  }
-  /// The channel of a topic, once it is advertised.
-  static json channel_of(const std::string& topic, WebSocket& socket) {
-    while (const auto frame = socket.next()) {
-      if (frame->op != 1) continue;
-      const json told = json::parse(frame->payload);
-      if (told["op"] != "advertise") continue;
-      for (const json& channel : told["channels"]) {
-        if (channel["topic"] == topic) return channel;
-      }
-    }
-    ADD_FAILURE() << topic << " was not advertised";
-    return {};
-  }
-  static void subscribe(int subscription, const json& channel, WebSocket& socket) {
-    socket.send_text(json{{"op", "subscribe"},
-                          {"subscriptions", {{{"id", subscription}, {"channelId", channel["id"]}}}}}
-                         .dump());
-  }
-  /// The next message of a subscription, read by its type.
-  static json message_of(std::uint32_t subscription, const char* type, WebSocket& socket) {
-    constexpr std::size_t kHead = 13;
-    while (const auto frame = socket.next()) {
-      if (frame->op != 2) continue;
-      std::uint32_t told = 0;
-      std::memcpy(&told, frame->payload.data() + 1, sizeof told);
-      if (frame->payload[0] != 1 || told != subscription) continue;
-      const std::string cdr = frame->payload.substr(kHead);
-      const auto read = cdr_to_json(*describe_type(type), std::as_bytes(std::span{cdr}));
-      EXPECT_TRUE(read) << read.error().text;
-      return read ? json::parse(read->dump()) : json{};
-    }
-    ADD_FAILURE() << "no message of " << type;
-    return {};
   }
 
   const int domain_ = unique_dds_domain();

@@ -20,25 +20,10 @@
 #include "armature/runtime/plugins/plugin_registry.hpp"
 #include "exit_code.hpp"
 #include "record/recorded_processes.hpp"
+#include "replay/recorded_qos.hpp"
 
 namespace armature {
 namespace {
-
-/// What nobody who comes later would get twice: of recordings that do not say how a topic was sent.
-bool is_latched(const std::string& topic) {
-  return topic.ends_with("/description") || topic.ends_with("/robot_description") ||
-         topic.ends_with("/tf_static") || topic.ends_with("/camera_info");
-}
-
-/// Everything is watched and nothing is commanded: samples do not expire.
-QosProfile profile_of(const McapChannel& channel) {
-  const auto told = channel.metadata.find("qos");
-  const auto profile =
-      told == channel.metadata.end() ? std::nullopt : find_qos_profile(told->second);
-  if (!profile) return is_latched(channel.topic) ? QosProfile::latched : QosProfile::state;
-  return *profile == QosProfile::command || *profile == QosProfile::reply ? QosProfile::state
-                                                                          : *profile;
-}
 
 class Player {
  public:
@@ -102,7 +87,7 @@ class Player {
       unknown_.insert(channel.topic);
       return nullptr;
     }
-    const QosProfile profile = profile_of(channel);
+    const QosProfile profile = replayed_profile(channel);
     topic.is_latched = settings(profile).transient_local;
     topic.pool = std::make_unique<SamplePool>(*type, 16);
     auto writer = transport_->advertise(

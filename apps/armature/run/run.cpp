@@ -515,7 +515,8 @@ int run(RunOptions options) {
        .on_note = [&](const auto& text) { console.line("runtime", text); },
        .clock_offset = process.origin.clock_offset,
        .keeps_running = options.keep_running,
-       .on_ending = [&](const auto& what) { watched_end.begin(what); }}};
+       .on_ending = [&](const auto& what) { watched_end.begin(what); },
+       .domain = process.domain}};
   if (injected) deployment.inject(*injected);
   end_signals::stop_in_order();
   if (is_child && options.control >= 0) prctl(PR_SET_PDEATHSIG, 0);

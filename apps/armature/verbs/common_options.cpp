@@ -39,6 +39,20 @@ void add_network(CLI::App& verb, NetworkOptions& network) {
                 "over UDP only, as between containers");
 }
 
+void add_monitor_address(CLI::App& verb, MonitorAddress& server) {
+  verb.add_option("--bind", server.address,
+                  "IPv4 address of this machine to listen at; beyond loopback a token is asked for")
+      ->capture_default_str()
+      ->check(CLI::ValidIPV4);
+  verb.add_option("--port", server.port, "0: any that is free")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 65535));
+  verb.add_option("--origin", server.origins,
+                  "let pages from there connect, too: http://localhost:8080")
+      ->allow_extra_args(false);
+  verb.add_option("--token", server.token, "what clients must say: ws://HOST:PORT/?token=...");
+}
+
 void add_watch(CLI::App& verb, WatchOptions& options) {
   verb.add_option("--domain", options.network.domain, "DDS domain")->check(CLI::Range(0, 232));
   add_network(verb, options.network);

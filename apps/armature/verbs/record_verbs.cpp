@@ -6,6 +6,7 @@
 #include "record/record.hpp"
 #include "replay/publish.hpp"
 #include "replay/replay.hpp"
+#include "replay/show.hpp"
 #include "report/report.hpp"
 #include "verbs/option_checks.hpp"
 #include "verbs/verbs.hpp"
@@ -65,7 +66,7 @@ void add_info(CLI::App& app, Action& action) {
 
 void add_replay(CLI::App& app, Action& action) {
   auto options = std::make_shared<ReplayOptions>();
-  auto publish = std::make_shared<PublishOptions>();
+  auto publish = std::make_shared<ShowOptions>();
   auto check = std::make_shared<bool>(false);
   CLI::App* verb = app.add_subcommand(
       "replay", "Repeat a recorded run, bit for bit: armature replay run.mcap --check");
@@ -89,19 +90,30 @@ void add_replay(CLI::App& app, Action& action) {
   verb->add_option("--from", publish->from_s, "so many seconds after the beginning")
       ->check(CLI::NonNegativeNumber);
   verb->add_flag("--loop", publish->loop, "again and again");
+  CLI::Option* monitor = verb->add_flag(
+      "--monitor", publish->monitor,
+      "show it in a browser and to Foxglove, which plays, pauses and seeks, under its "
+      "own names and without DDS");
+  for (const char* other : {"--check", "--set", "--prefix"}) monitor->excludes(other);
+  add_monitor_address(*verb, publish->server);
+  for (const char* option : {"--bind", "--port", "--origin", "--token"}) {
+    verb->get_option(option)->needs(monitor);
+  }
   add_watch(*verb, *publish);
+  for (const char* other : {"--json", "--domain"}) monitor->excludes(other);
   verb->get_option("--timeout")->description("end after this many seconds");
   verb->callback([=, &action] {
     options->json = publish->json;
     publish->file = options->files.front();
     const bool is_publishing = !*check && options->assignments.empty();
     if (is_publishing && options->files.size() > 1) {
-      throw CLI::ValidationError("recordings", "only one at a time is published again");
+      throw CLI::ValidationError("recordings", "only one at a time is published or shown");
     }
     if (!publish->prefix.starts_with('/') || publish->prefix.size() < 2) {
       throw CLI::ValidationError("--prefix", "it begins with '/' and a name follows: /replay");
     }
     action = [=] {
+      if (publish->monitor) return show_recording(*publish);
       if (is_publishing) return publish_recording(*publish);
       return *check ? check_recording(*options) : compare_with_recording(*options);
     };

@@ -5,6 +5,7 @@
 
 #include "arm_choice.hpp"
 #include "armature/bus/network.hpp"
+#include "armature/web/monitor_server.hpp"
 #include "run/run.hpp"
 #include "watch/outsider.hpp"
 
@@ -35,6 +36,8 @@ void add_machine_verbs(CLI::App& app, Action& action);
 void add_source(CLI::App& verb, DeploymentSource& source);
 void add_arm(CLI::App* verb, ArmChoice& arm);
 void add_network(CLI::App& verb, NetworkOptions& network);
+/// Where a page is served: --bind, --port, --origin, --token.
+void add_monitor_address(CLI::App& verb, MonitorAddress& server);
 /// The domain too, --timeout and --json.
 void add_watch(CLI::App& verb, WatchOptions& options);
 

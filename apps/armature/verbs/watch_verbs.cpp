@@ -93,18 +93,7 @@ void add_monitor(CLI::App& app, Action& action) {
   auto options = std::make_shared<MonitorOptions>();
   CLI::App* verb = app.add_subcommand(
       "monitor", "Show running deployments in a browser, and to Foxglove and Lichtblick");
-  verb->add_option(
-          "--bind", options->address,
-          "IPv4 address of this machine to listen at; beyond loopback a token is asked for")
-      ->capture_default_str()
-      ->check(CLI::ValidIPV4);
-  verb->add_option("--port", options->port, "0: any that is free")
-      ->capture_default_str()
-      ->check(CLI::Range(0, 65535));
-  verb->add_option("--origin", options->origins,
-                   "let pages from there connect, too: http://localhost:8080")
-      ->allow_extra_args(false);
-  verb->add_option("--token", options->token, "what clients must say: ws://HOST:PORT/?token=...");
+  add_monitor_address(*verb, options->server);
   verb->add_option("--domain", options->network.domain, "DDS domain")->check(CLI::Range(0, 232));
   add_network(*verb, options->network);
   verb->callback([=, &action] { action = [=] { return show_to_browsers(*options); }; });

@@ -16,7 +16,7 @@
 
 #include "armature/bus/topic_name.hpp"
 #include "armature/config/problems.hpp"
-#include "armature/messages/known_types.hpp"
+#include "armature/runtime/plugins/described_messages.hpp"
 #include "exit_code.hpp"
 #include "inspect/plugins.hpp"
 
@@ -24,21 +24,6 @@ namespace armature {
 namespace {
 
 std::atomic<bool> g_leaves{false};
-
-/// Makes the types of message libraries in the plugin path known here, by the text that they hold.
-void describe_messages(const PluginRegistry& plugins) {
-  std::vector<PluginRegistry::Messages> left = plugins.messages();
-  for (std::size_t before = left.size() + 1; left.size() < before;) {  // one may nest another's
-    before = left.size();
-    std::erase_if(left, [](const auto& library) {
-      return add_descriptions(library.idl, library.file.string()).has_value();
-    });
-  }
-  for (const auto& [file, idl] : left) {
-    fmt::print(stderr, "armature: its messages cannot be shown: {}\n",
-               add_descriptions(idl, file.string()).error().text);
-  }
-}
 
 }  // namespace
 
@@ -73,7 +58,9 @@ void tell(const std::string& line) {
 
 Outsider::Outsider(const WatchOptions& options, bool asks_again) : options_{options} {
   tell_warnings(plugins_);
-  describe_messages(plugins_);
+  for (const std::string& problem : describe_messages(plugins_)) {
+    fmt::print(stderr, "armature: {}\n", problem);
+  }
   auto observer = plugins_.make<DdsObserver>(
       "observer/fast_dds", ObserverOptions{.network = options.network, .asks_again = asks_again});
   if (!observer) throw PluginError(observer.error().text);

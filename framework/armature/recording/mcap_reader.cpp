@@ -49,6 +49,12 @@ std::optional<McapMessage> McapReader::next() {
   }
 }
 
+void McapReader::go_to(std::uint64_t chunk) {
+  position_ = chunk;
+  chunk_ = {};
+  ended_ = false;
+}
+
 /// Reads a record of the running chunk; true when it is a message.
 bool McapReader::read_message(McapMessage& message) {
   McapRecord next = next_record(chunk_);

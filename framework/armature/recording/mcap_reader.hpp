@@ -43,6 +43,12 @@ class McapReader {
   /// The next message, in the order of the file; nothing after the last one. Throws
   /// std::runtime_error for a chunk that is packed with lz4.
   std::optional<McapMessage> next();
+  /// Where the chunk of the last message begins [byte].
+  std::uint64_t chunk() const { return chunk_at_; }
+  /// Goes on with the first message of a chunk that chunk() has told. What is met twice is counted
+  /// twice: problems() and the numbers of chunks and bytes mean nothing afterwards. Not for a
+  /// reader that follows the chain.
+  void go_to(std::uint64_t chunk);
   /// What has been met so far; all of it after the last message.
   const std::map<std::uint16_t, McapSchema>& schemas() const { return schemas_; }
   const std::map<std::uint16_t, McapChannel>& channels() const { return channels_; }

@@ -5,11 +5,13 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
 
+#include "armature/bus/network.hpp"
 #include "armature/config/node.hpp"
 #include "armature/config/params.hpp"
 #include "armature/runtime/component/driver_thread.hpp"
@@ -46,6 +48,10 @@ class Setup {
   virtual void deliver_after(Duration latency) = 0;
   /// Whether a component of the deployment writes the topic of this input.
   virtual bool is_written(std::string_view input) const = 0;
+  /// How the run joins DDS, for a component that joins a domain by itself or listens on the
+  /// network. Nothing when the component is constructed and not run: by `armature check`, by a
+  /// replay, on a test bench. What is only there for a run (a port) is left alone then.
+  virtual std::optional<NetworkOptions> network() const = 0;
   /// What the plugin in slot `slot_name` says of itself.
   virtual const PluginManifest& slot_manifest(std::string_view slot_name) const = 0;
 

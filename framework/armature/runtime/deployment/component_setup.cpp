@@ -27,13 +27,14 @@ config::Problem problem_of(const ComponentConfig& component, const SlotError& er
 
 ComponentSetup::ComponentSetup(const ComponentConfig& config, const DeploymentConfig& deployment,
                                PluginRegistry& plugins, ComponentRunner& runner, Delivery& delivery,
-                               FindTopic find_topic)
+                               FindTopic find_topic, std::optional<NetworkOptions> network)
     : config_{config},
       deployment_{deployment},
       plugins_{plugins},
       runner_{runner},
       delivery_{delivery},
-      find_topic_{std::move(find_topic)} {}
+      find_topic_{std::move(find_topic)},
+      network_{std::move(network)} {}
 
 std::uint64_t ComponentSetup::seed() const {
   // FNV-1a: the same on every machine.

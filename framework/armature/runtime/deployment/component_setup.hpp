@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -23,7 +24,7 @@ class ComponentSetup final : public Setup {
 
   ComponentSetup(const ComponentConfig& config, const DeploymentConfig& deployment,
                  PluginRegistry& plugins, ComponentRunner& runner, Delivery& delivery,
-                 FindTopic find_topic);
+                 FindTopic find_topic, std::optional<NetworkOptions> network = {});
 
   const std::string& name() const override { return config_.name; }
   std::string_view unit() const override { return config_.unit; }
@@ -34,6 +35,7 @@ class ComponentSetup final : public Setup {
   void activate_every(Duration period) override;
   void deliver_after(Duration latency) override { runner_.set_latency(latency); }
   bool is_written(std::string_view input) const override;
+  std::optional<NetworkOptions> network() const override { return network_; }
   const PluginManifest& slot_manifest(std::string_view slot_name) const override;
   std::shared_ptr<StatusReporter> reporter() override { return runner_.reporter(); }
 
@@ -62,6 +64,7 @@ class ComponentSetup final : public Setup {
   ComponentRunner& runner_;
   Delivery& delivery_;
   FindTopic find_topic_;
+  std::optional<NetworkOptions> network_;
   std::set<const PortBinding*> claimed_;
 };
 

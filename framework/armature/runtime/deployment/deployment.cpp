@@ -241,7 +241,8 @@ ComponentSetup Deployment::setup_of(const ComponentConfig& component, PluginRegi
           *scheduler_,
           [this, &component](const PortBinding& port, const MessageType& type) -> Topic& {
             return topic_for(component, port, type);
-          }};
+          },
+          options_.domain ? std::optional{config_.dds.network(*options_.domain)} : std::nullopt};
 }
 
 Topic& Deployment::topic_for(const ComponentConfig& component, const PortBinding& port,

@@ -45,6 +45,8 @@ class Deployment {
     bool keeps_running = false;
     /// Before each call at the end of the run that might not return: "the stop of 'arm'".
     std::function<void(const std::string& what)> on_ending = {};
+    /// The DDS domain that connect() will join; none: it is constructed and not run.
+    std::optional<int> domain = {};
   };
 
   /// Loads the plugins and constructs the components. Throws config::ConfigError (a plugin refuses

@@ -4,6 +4,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -29,6 +30,7 @@ class FakeSetup final : public Setup, public Delivery {
   void activate_every(Duration period) override { runner_.set_period(period); }
   void deliver_after(Duration latency) override { runner_.set_latency(latency); }
   bool is_written(std::string_view) const override { return true; }
+  std::optional<NetworkOptions> network() const override { return std::nullopt; }
   const PluginManifest& slot_manifest(std::string_view) const override {
     throw std::logic_error("no slots");
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -10,7 +11,9 @@
 #include <string_view>
 #include <vector>
 
-namespace armature {
+#include "armature/values/time.hpp"
+
+namespace armature ARMATURE_EXPORT {
 
 /// A WebSocket server on one thread. A client that reads slowly has a bounded queue, and loses its
 /// oldest binary messages when that is full: it slows nobody. Clients are refused that ask for no
@@ -29,15 +32,20 @@ class WebServer {
     std::vector<std::string> protocols;
     /// Pages that may connect, beside those of this address and port: "https://app.foxglove.dev".
     std::vector<std::string> origins;
-    std::string token;                    // empty: none is asked for
-    std::size_t queue_bytes = 16U << 20;  // of a client
-    Page page;                            // for whoever comes with a browser
+    std::string origin_option = "--origin";  // what lets another one in, for people
+    std::string token;                       // empty: none is asked for
+    std::size_t queue_bytes = 16U << 20;     // of a client
+    Page page;                               // for whoever comes with a browser
   };
   using Client = std::uint64_t;  // never used twice
   /// All are called by `serve`.
   struct Events {
-    std::function<void(Client)> opened, closed;
+    /// `protocol`: which of the server's it speaks.
+    std::function<void(Client, std::string_view protocol)> opened;
+    std::function<void(Client)> closed;
     std::function<void(Client, std::string_view text)> said;
+    std::function<void(Client, std::string_view bytes)> said_binary = [](Client, std::string_view) {
+    };
     std::function<void()> woken;
     /// Why somebody was not let in, and what would let him.
     std::function<void(const std::string& why)> refused = [](const std::string&) {};
@@ -51,15 +59,17 @@ class WebServer {
   WebServer& operator=(const WebServer&) = delete;
 
   int port() const;
-  /// Handles what there is to do, and waits for more until `wake` or at most 0.1 s.
-  void serve();
+  /// Handles what there is to do, and waits for more until `wake`, but no longer than `at_most`.
+  void serve(Duration at_most = std::chrono::milliseconds{100});
   /// From any thread.
   void wake();
 
   // By the thread that serves:
   void send(Client client, std::string text);
-  /// A binary message: `head`, then `body`, which several clients may share.
+  /// A binary message: `head` of at most 16 bytes, then `body`, which several clients may share.
   void send(Client client, std::span<const std::byte> head, Body body);
+  /// A binary message that is not dropped, as a text is not.
+  void send_for_sure(Client client, std::span<const std::byte> message);
   /// The number of binary messages that this client has lost.
   std::uint64_t dropped(Client client) const;
 

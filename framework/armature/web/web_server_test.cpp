@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "monitor/web_server.hpp"
+#include "armature/web/web_server.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cstring>
 #include <memory>
+#include <span>
 #include <thread>
 #include <vector>
 
@@ -28,11 +29,19 @@ class WebServerTest : public testing::Test {
                                                        .origins = {"https://lamp.example"},
                                                        .queue_bytes = 64 << 10})
       : server_{std::move(options),
-                {.opened = [this](WebServer::Client client) { last_ = client; },
+                {.opened =
+                     [this](WebServer::Client client, std::string_view protocol) {
+                       protocol_ = protocol == "lamp.v1";
+                       last_ = client;
+                     },
                  .closed = [this](WebServer::Client) { ++closed_; },
                  .said =
                      [this](WebServer::Client client, std::string_view text) {
                        server_.send(client, "heard " + std::string{text});
+                     },
+                 .said_binary =
+                     [this](WebServer::Client client, std::string_view bytes) {
+                       server_.send_for_sure(client, std::as_bytes(std::span{bytes}));
                      },
                  .woken = [this] { send_all(); }}},
         thread_{[this] {
@@ -64,7 +73,7 @@ class WebServerTest : public testing::Test {
   std::atomic<WebServer::Client> last_{0};
   std::atomic<int> closed_{0}, to_send_{0}, rounds_{0};
   std::atomic<std::uint64_t> dropped_of_first_{0};
-  std::atomic<bool> ends_{false};
+  std::atomic<bool> ends_{false}, protocol_{false};
   int sent_ = 0;
   WebServer server_;
   std::thread thread_;
@@ -78,6 +87,16 @@ TEST_F(WebServerTest, AnswersWhoSpeaksItsProtocol) {
   ASSERT_TRUE(frame);
   EXPECT_EQ(frame->op, 1);
   EXPECT_EQ(frame->payload, "heard light");
+  EXPECT_TRUE(protocol_) << "the server is told which protocol it is";
+}
+
+TEST_F(WebServerTest, KnowsABinaryMessageFromAText) {
+  WebSocket socket{server_.port(), kProtocol};
+  socket.send_binary(std::string{"\0\1", 2});
+  const auto frame = socket.next();
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(frame->op, 2);
+  EXPECT_EQ(frame->payload, (std::string{"\0\1", 2}));
 }
 
 TEST_F(WebServerTest, RefusesWhoAsksForNoProtocolOrAnother) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "monitor/web_server.hpp"
+#include "armature/web/web_server.hpp"
 
 #include <arpa/inet.h>
 #include <fmt/format.h>
@@ -23,7 +23,6 @@ namespace {
 constexpr std::size_t kLongestText = 1U << 20;  // [byte] of what a client says
 constexpr std::size_t kHead = 16;
 constexpr const char* kNoProtocol = "http-only";
-constexpr lws_usec_t kRound_us = 100'000;
 constexpr std::size_t kPagePart = 32U << 10;  // [byte] of a page, at a time
 constexpr int kPagePatience_s = 20;           // for who reads no part of it
 
@@ -44,7 +43,8 @@ std::string header_of(lws* connection, lws_token_indexes header) {
 
 struct Outgoing {
   bool binary = false;
-  std::string text;
+  bool may_drop = false;
+  std::string text;  // or a binary message that is not shared
   std::array<std::byte, kHead> head{};
   std::size_t head_size = 0;
   WebServer::Body body;
@@ -55,7 +55,7 @@ struct Outgoing {
 struct Session {
   lws* connection = nullptr;
   std::deque<Outgoing> queue;
-  std::size_t queued_bytes = 0;  // of binary messages
+  std::size_t queued_bytes = 0;  // of messages that may be dropped
   std::uint64_t dropped = 0;
   std::string heard;  // the beginning of a message
 };
@@ -87,8 +87,8 @@ class WebServer::Impl {
     if (vhost_) return;
     if (context_) lws_context_destroy(context_);
     throw std::runtime_error(
-        fmt::format("cannot listen at {}:{}; is another program there, or "
-                    "the address not of this machine? --port, --bind",
+        fmt::format("cannot listen at {}:{}: another program is there, or the address is not of "
+                    "this machine; take another port, or 0 for any that is free",
                     options_.address, options_.port));
   }
   ~Impl() {
@@ -99,9 +99,10 @@ class WebServer::Impl {
   Impl& operator=(const Impl&) = delete;
 
   int port() const { return lws_get_vhost_listen_port(vhost_); }
-  void serve() {
+  void serve(Duration at_most) {
+    const auto us = std::chrono::duration_cast<std::chrono::microseconds>(at_most).count();
     lws_sul_schedule(
-        context_, 0, &round_, [](lws_sorted_usec_list_t*) {}, kRound_us);
+        context_, 0, &round_, [](lws_sorted_usec_list_t*) {}, std::max<lws_usec_t>(us, 1));
     lws_service(context_, 0);
   }
   void wake() { lws_cancel_service(context_); }
@@ -110,7 +111,7 @@ class WebServer::Impl {
     const auto found = sessions_.find(client);
     if (found == sessions_.end()) return;
     Session& session = found->second;
-    if (message.binary) {
+    if (message.may_drop) {
       session.queued_bytes += message.size();
       while (session.queued_bytes > options_.queue_bytes && drop_oldest(session)) continue;
       if (session.queued_bytes > options_.queue_bytes) {  // larger than the whole queue
@@ -154,7 +155,7 @@ class WebServer::Impl {
       case LWS_CALLBACK_ESTABLISHED:
         *client = ++last_client_;
         sessions_[*client].connection = connection;
-        events_.opened(*client);
+        events_.opened(*client, lws_get_protocol(connection)->name);
         return 0;
       case LWS_CALLBACK_RECEIVE:
         return hear(connection, *client, {static_cast<const char*>(in), size});
@@ -209,8 +210,8 @@ class WebServer::Impl {
         (own == bound || own == fmt::format("localhost:{}", port()) || !options_.token.empty());
     const bool is_known = std::ranges::find(options_.origins, origin) != options_.origins.end();
     if (is_own || is_known) return "";
-    return fmt::format("a page from {0} was refused; to let it in: --origin {0}",
-                       config::in_quotes(origin));
+    return fmt::format("a page from {0} was refused; to let it in: {1} {0}",
+                       config::in_quotes(origin), options_.origin_option);
   }
 
   int answer_browser(lws* connection) {
@@ -284,8 +285,9 @@ class WebServer::Impl {
     if (lws_is_final_fragment(connection) == 0 || lws_remaining_packet_payload(connection) != 0) {
       return 0;
     }
-    const std::string text = std::exchange(session.heard, {});
-    events_.said(client, text);
+    const std::string heard = std::exchange(session.heard, {});
+    const bool is_binary = lws_frame_is_binary(connection) != 0;
+    (is_binary ? events_.said_binary : events_.said)(client, heard);
     return 0;
   }
 
@@ -293,7 +295,7 @@ class WebServer::Impl {
     if (session.queue.empty()) return 0;
     const Outgoing message = std::move(session.queue.front());
     session.queue.pop_front();
-    if (message.binary) session.queued_bytes -= message.size();
+    if (message.may_drop) session.queued_bytes -= message.size();
     scratch_.resize(LWS_PRE + message.size());
     unsigned char* at = scratch_.data() + LWS_PRE;
     std::memcpy(at, message.text.data(), message.text.size());
@@ -309,7 +311,7 @@ class WebServer::Impl {
   }
 
   static bool drop_oldest(Session& session) {
-    const auto oldest = std::ranges::find(session.queue, true, &Outgoing::binary);
+    const auto oldest = std::ranges::find(session.queue, true, &Outgoing::may_drop);
     if (oldest == session.queue.end()) return false;
     session.queued_bytes -= oldest->size();
     session.queue.erase(oldest);
@@ -335,7 +337,7 @@ WebServer::WebServer(Options options, Events events)
 WebServer::~WebServer() = default;
 
 int WebServer::port() const { return impl_->port(); }
-void WebServer::serve() { impl_->serve(); }
+void WebServer::serve(Duration at_most) { impl_->serve(at_most); }
 void WebServer::wake() { impl_->wake(); }
 
 void WebServer::send(Client client, std::string text) {
@@ -343,9 +345,15 @@ void WebServer::send(Client client, std::string text) {
 }
 
 void WebServer::send(Client client, std::span<const std::byte> head, Body body) {
-  Outgoing message{.binary = true, .head_size = head.size(), .body = std::move(body)};
+  Outgoing message{
+      .binary = true, .may_drop = true, .head_size = head.size(), .body = std::move(body)};
   std::ranges::copy(head, message.head.begin());
   impl_->send(client, std::move(message));
+}
+
+void WebServer::send_for_sure(Client client, std::span<const std::byte> message) {
+  const auto* bytes = reinterpret_cast<const char*>(message.data());
+  impl_->send(client, {.binary = true, .text = {bytes, message.size()}});
 }
 
 std::uint64_t WebServer::dropped(Client client) const { return impl_->dropped(client); }

@@ -1,0 +1,325 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/web/foxglove_bridge.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "armature/web/foxglove_messages.hpp"
+
+namespace armature {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::string_view kWithPlayback = "foxglove.sdk.v1";
+enum Level { kWarning = 1, kError = 2 };
+
+std::string status(Level level, const std::string& text) {
+  return Json{{"op", "status"}, {"level", level}, {"message", text}}.dump();
+}
+
+/// A time as it stands in JSON, where numbers have 53 bits.
+Json json_of(Time time) {
+  constexpr std::int64_t kSecond = 1'000'000'000;
+  return {{"sec", time.ns / kSecond}, {"nsec", time.ns % kSecond}};
+}
+
+Time steady_now() {
+  return Time{Duration{std::chrono::steady_clock::now().time_since_epoch()}.count()};
+}
+
+}  // namespace
+
+FoxgloveBridge::FoxgloveBridge(TopicSource& topics, Options options)
+    : topics_{topics},
+      options_{std::move(options)},
+      server_{std::move(options_.server), events()} {}
+
+FoxgloveBridge::~FoxgloveBridge() {
+  for (const auto& [id, channel] : channels_) {
+    if (channel.is_watched) topics_.unwatch(channel.topic.name);
+  }
+}
+
+WebServer::Events FoxgloveBridge::events() {
+  return {.opened = [this](Client client, std::string_view protocol) { opened(client, protocol); },
+          .closed = [this](Client client) { closed(client); },
+          .said = [this](Client client, std::string_view text) { said(client, text); },
+          .said_binary = [this](Client client,
+                                std::string_view message) { said_binary(client, message); },
+          .woken = [this] { forward(); },
+          .refused = [this](const std::string& why) { tell_refusal(why); }};
+}
+
+void FoxgloveBridge::run(const std::function<bool()>& ends) {
+  constexpr Duration kRound = seconds(0.1);
+  Time next;
+  while (!ends()) {
+    if (const Time now = steady_now(); now >= next) {
+      look();
+      tell_dropped();
+      next = now + 2 * kRound;
+    }
+    server_.serve(options_.playback ? std::min(play(), kRound) : kRound);
+  }
+}
+
+std::uint64_t FoxgloveBridge::dropped() const {
+  std::uint64_t dropped = dropped_;
+  for (const auto& [client, subscriber] : clients_) dropped += server_.dropped(client);
+  return dropped;
+}
+
+void FoxgloveBridge::opened(Client client, std::string_view protocol) {
+  Subscriber& subscriber = clients_[client];
+  Json info{{"op", "serverInfo"},
+            {"name", "armature"},
+            {"capabilities", Json::array()},
+            {"metadata", Json::object()},
+            {"sessionId", fmt::format("{}", steady_now().ns)}};
+  if (const Playback* playback = options_.playback) {
+    subscriber.controls = protocol == kWithPlayback;
+    info["capabilities"].push_back("time");
+    if (subscriber.controls) info["capabilities"].push_back("playbackControl");
+    info["dataStartTime"] = json_of(playback->first());
+    info["dataEndTime"] = json_of(playback->last());
+  }
+  server_.send(client, info.dump());
+  std::vector<const Channel*> all;
+  for (const auto& [id, channel] : channels_) {
+    if (channel.is_there) all.push_back(&channel);
+  }
+  advertise(all, client);
+  if (options_.playback) tell_playback(false);
+}
+
+void FoxgloveBridge::closed(Client client) {
+  dropped_ += server_.dropped(client);
+  std::vector<std::uint32_t> subscriptions;
+  for (const auto& [subscription, channel] : clients_[client].channels) {
+    subscriptions.push_back(subscription);
+  }
+  for (const std::uint32_t subscription : subscriptions) unsubscribe(client, subscription);
+  clients_.erase(client);
+}
+
+void FoxgloveBridge::said(Client client, std::string_view text) {
+  const auto json = nlohmann::json::parse(text, nullptr, false);
+  const auto refuse_with = [&](const std::string& why) { send_error(client, why); };
+  if (!json.is_object()) return refuse_with("what was said is no JSON object");
+  try {
+    const std::string op = json.at("op");
+    if (op == "subscribe") {
+      for (const auto& one : json.at("subscriptions")) {
+        subscribe(client, one.at("id"), one.at("channelId"));
+      }
+    } else if (op == "unsubscribe") {
+      for (const auto& subscription : json.at("subscriptionIds")) unsubscribe(client, subscription);
+    } else {
+      refuse_with(fmt::format("'{}' is not done here: a monitor only shows", op));
+    }
+  } catch (const nlohmann::json::exception& error) {
+    refuse_with(error.what());
+  }
+}
+
+void FoxgloveBridge::said_binary(Client client, std::string_view message) {
+  if (!clients_.at(client).controls) {
+    return send_error(client, "a binary message is not taken here: a monitor only shows");
+  }
+  const auto control = read_playback_control(message);
+  if (!control) return send_error(client, control.error().text);
+  const bool jumped = options_.playback->request(control->request);
+  if (jumped) {
+    for (auto& [id, channel] : channels_) channel.kept.clear();
+  }
+  tell_playback(jumped, client, control->id);
+  forward();
+  tell_time();
+}
+
+void FoxgloveBridge::subscribe(Client client, std::uint32_t subscription,
+                               std::uint32_t channel_id) {
+  auto& subscriptions = clients_.at(client).channels;
+  const auto channel = channels_.find(channel_id);
+  if (channel == channels_.end() || !channel->second.is_there) {
+    return send_error(client, fmt::format("there is no channel {}", channel_id));
+  }
+  if (!subscriptions.emplace(subscription, channel_id).second) {
+    return send_error(client, fmt::format("subscription {} is used already", subscription));
+  }
+  if (!channel->second.is_watched) return watch(channel->second);
+  for (const Message& message : channel->second.kept) send(client, subscription, message);
+}
+
+void FoxgloveBridge::unsubscribe(Client client, std::uint32_t subscription) {
+  auto& subscriptions = clients_.at(client).channels;
+  const auto found = subscriptions.find(subscription);
+  if (found == subscriptions.end()) return;
+  const std::uint32_t channel = found->second;
+  subscriptions.erase(found);
+  leave_alone(channel);
+}
+
+void FoxgloveBridge::leave_alone(std::uint32_t channel_id) {
+  for (const auto& [client, subscriber] : clients_) {
+    for (const auto& [subscription, channel] : subscriber.channels) {
+      if (channel == channel_id) return;
+    }
+  }
+  Channel& channel = channels_.at(channel_id);
+  if (!std::exchange(channel.is_watched, false)) return;
+  topics_.unwatch(channel.topic.name);
+  channel.kept.clear();
+}
+
+void FoxgloveBridge::look() {
+  std::set<std::uint32_t> there;
+  std::vector<const Channel*> came;
+  for (TopicSource::Topic& topic : topics_.topics()) {
+    const auto [place, is_new] = by_topic_.try_emplace(topic.name, last_channel_ + 1);
+    if (is_new) channels_[place->second].id = ++last_channel_;
+    Channel& channel = channels_[place->second];
+    there.insert(channel.id);
+    if (!is_new && channel.is_there) {
+      channel.topic.keeps = topic.keeps;
+      continue;
+    }
+    channel.topic = std::move(topic);
+    channel.is_there = true;
+    came.push_back(&channel);
+  }
+  Json gone = Json::array();
+  for (auto& [id, channel] : channels_) {
+    if (!channel.is_there || there.contains(id)) continue;
+    channel.is_there = false;
+    channel.kept.clear();
+    if (std::exchange(channel.is_watched, false)) topics_.unwatch(channel.topic.name);
+    for (auto& [client, subscriber] : clients_) {
+      std::erase_if(subscriber.channels, [&](const auto& entry) { return entry.second == id; });
+    }
+    gone.push_back(id);
+  }
+  for (const auto& [client, subscriber] : clients_) {
+    if (!gone.empty()) {
+      server_.send(client, Json{{"op", "unadvertise"}, {"channelIds", gone}}.dump());
+    }
+    advertise(came, client);
+  }
+}
+
+void FoxgloveBridge::advertise(const std::vector<const Channel*>& channels, Client client) {
+  if (channels.empty()) return;
+  Json list = Json::array();
+  for (const Channel* channel : channels) {
+    const TopicSource::Schema schema = topics_.schema_of(channel->topic);
+    list.push_back({{"id", channel->id},
+                    {"topic", channel->topic.name},
+                    {"encoding", "cdr"},
+                    {"schemaName", schema.name},
+                    {"schema", schema.text},
+                    {"schemaEncoding", "ros2msg"}});
+  }
+  server_.send(client, Json{{"op", "advertise"}, {"channels", list}}.dump());
+}
+
+void FoxgloveBridge::watch(Channel& channel) {
+  const std::uint32_t id = channel.id;
+  channel.is_watched =
+      topics_.watch(channel.topic.name, [this, id](const TopicSource::Message& message) {
+        auto cdr =
+            std::make_shared<const std::vector<std::byte>>(message.cdr.begin(), message.cdr.end());
+        {
+          const std::scoped_lock lock{mutex_};
+          arrived_dropped_ += message.lost_before;
+          if (arrived_bytes_ + cdr->size() > kMostArrived) {
+            ++arrived_dropped_;
+            return;
+          }
+          arrived_bytes_ += cdr->size();
+          arrived_.emplace_back(id, Message{message.time, std::move(cdr)});
+        }
+        server_.wake();
+      });
+}
+
+void FoxgloveBridge::forward() {
+  std::deque<std::pair<std::uint32_t, Message>> messages;
+  {
+    const std::scoped_lock lock{mutex_};
+    messages = std::exchange(arrived_, {});
+    arrived_bytes_ = 0;
+    dropped_ += std::exchange(arrived_dropped_, 0);
+  }
+  for (const auto& [id, message] : messages) {
+    Channel& channel = channels_.at(id);
+    for (const auto& [client, subscriber] : clients_) {
+      for (const auto& [subscription, subscribed] : subscriber.channels) {
+        if (subscribed == id) send(client, subscription, message);
+      }
+    }
+    if (channel.topic.keeps == 0 || !channel.is_watched) continue;
+    if (channel.kept.size() >= channel.topic.keeps) channel.kept.pop_front();
+    channel.kept.push_back(message);
+  }
+}
+
+void FoxgloveBridge::send(Client client, std::uint32_t subscription, const Message& message) {
+  server_.send(client, message_head(subscription, message.time), message.cdr);
+}
+
+void FoxgloveBridge::send_error(Client client, const std::string& why) {
+  server_.send(client, status(kError, why));
+}
+
+Duration FoxgloveBridge::play() {
+  Playback& playback = *options_.playback;
+  const Playback::State before = playback.state();
+  const Playback::Advance advance = playback.advance();
+  const Playback::State after = playback.state();
+  if (advance.jumped) {
+    for (auto& [id, channel] : channels_) channel.kept.clear();
+  }
+  if (advance.jumped || after.status != before.status) tell_playback(advance.jumped);
+  forward();
+  if (after != before) tell_time();
+  return advance.next;
+}
+
+void FoxgloveBridge::tell_playback(bool jumped, Client asker, std::string_view request_id) {
+  const Playback::State state = options_.playback->state();
+  for (const auto& [client, subscriber] : clients_) {
+    if (!subscriber.controls) continue;
+    const std::string_view id = client == asker ? request_id : std::string_view{};
+    server_.send_for_sure(client, playback_state_message(state, jumped, id));
+  }
+}
+
+void FoxgloveBridge::tell_time() {
+  const std::vector<std::byte> time = time_message(options_.playback->state().at);
+  for (const auto& [client, subscriber] : clients_) server_.send(client, time, nullptr);
+}
+
+void FoxgloveBridge::tell_refusal(const std::string& why) {
+  constexpr std::size_t kMostReasons = 100;
+  const bool is_new = refusals_.size() < kMostReasons && refusals_.insert(why).second;
+  if (is_new && options_.on_refusal) options_.on_refusal(why);
+}
+
+void FoxgloveBridge::tell_dropped() {
+  for (auto& [client, subscriber] : clients_) {
+    const std::uint64_t dropped = server_.dropped(client);
+    if (dropped == subscriber.told_dropped) continue;
+    server_.send(client,
+                 status(kWarning, fmt::format("{} messages were dropped: they came faster than "
+                                              "this client reads",
+                                              dropped - subscriber.told_dropped)));
+    subscriber.told_dropped = dropped;
+  }
+}
+
+}  // namespace armature

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <arpa/inet.h>
+
+#include <fstream>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "armature/config/problems.hpp"
+#include "armature/runtime/component/component.hpp"
+#include "armature/runtime/component/setup.hpp"
+#include "armature/runtime/plugins/described_messages.hpp"
+#include "armature/runtime/plugins/plugin.hpp"
+#include "armature/web/dds_topics.hpp"
+#include "armature/web/foxglove_bridge.hpp"
+#include "armature/web/monitor_server.hpp"
+#include "bridge_web_parameters.hpp"
+
+namespace armature::bridge::web {
+namespace {
+
+/// The token of a file: its first line.
+std::string token_of(const std::string& file, const Params& params) {
+  if (file.empty()) return "";
+  std::ifstream stream{file};
+  std::string token;
+  std::getline(stream, token);
+  if (!stream || token.find_first_of(" \t\r") != std::string::npos || token.empty()) {
+    params.refuse({"token_file"}, "the first line of " + config::in_quotes(file) +
+                                      " is no token: it cannot be read, is empty, or has blanks");
+  }
+  return token;
+}
+
+MonitorAddress address_of(const Parameters& parameters, const Params& params) {
+  const std::string& address = parameters.address;
+  if (in_addr parsed{}; inet_pton(AF_INET, address.c_str(), &parsed) != 1) {
+    params.refuse({"address"}, config::in_quotes(address) +
+                                   " is no IPv4 address; 127.0.0.1 is for programs of this "
+                                   "machine, 0.0.0.0 for all others, too");
+  }
+  MonitorAddress server{.address = address,
+                        .port = parameters.port,
+                        .origins = parameters.origins,
+                        .token = token_of(parameters.token_file, params)};
+  if (!is_loopback(address) && server.token.empty()) {
+    params.refuse({"address"}, config::in_quotes(address) +
+                                   " is reached by other machines, who must say a token: name a "
+                                   "file that has one, token_file: monitor.token");
+  }
+  return server;
+}
+
+}  // namespace
+
+/// Reads the domain as a stranger does, and serves on a thread of its own: nobody waits for it.
+class WebBridgeComponent : public Component {
+ public:
+  explicit WebBridgeComponent(Setup& setup) : Component(setup) {
+    address_ = address_of(Parameters::read(setup.params()), setup.params());
+    const auto network = setup.network();
+    if (!network) return;  // it is constructed and not run: the port is not its own
+    lines_ = &setup.driver_thread<std::string>(kLines, [this] { serve(); });
+    topics_.emplace(plugins_.emplace(), *network);
+    WebServer::Options server = monitor_server(address_);
+    server.origin_option = "origins:";
+    try {
+      bridge_.emplace(
+          *topics_, FoxgloveBridge::Options{.server = std::move(server),
+                                            .on_refusal = [this](const auto& why) { tell(why); }});
+    } catch (const std::runtime_error& error) {
+      setup.params().refuse({"port", "address"}, error.what());
+    }
+  }
+
+  /// Tells the operator what the serving thread has said.
+  void step(Time) override {
+    while (lines_) {
+      const auto line = lines_->take();
+      if (!line) return;
+      log(line->sample);
+    }
+  }
+
+ private:
+  static constexpr std::size_t kLines = 16;  // that wait for the operator
+
+  void serve() {
+    // The log is on a topic, and the token is not for all who read that.
+    MonitorAddress told = address_;
+    if (!told.token.empty()) told.token = "...";
+    const std::string links = monitor_links(told, bridge_->port());
+    tell(links.substr(0, links.find('\n')));
+    for (const std::string& problem : describe_messages(*plugins_)) tell(problem);
+    bridge_->run([this] { return lines_->stopping(); });
+  }
+  /// On the serving thread.
+  void tell(const std::string& line) { lines_->push(lines_->now(), line); }
+
+  MonitorAddress address_;
+  DriverQueue<std::string>* lines_ = nullptr;  // none: it is not run
+  std::optional<PluginRegistry> plugins_;
+  std::optional<DdsTopics> topics_;
+  std::optional<FoxgloveBridge> bridge_;
+};
+
+}  // namespace armature::bridge::web
+
+ARMATURE_PLUGIN(armature::bridge::web::WebBridgeComponent);

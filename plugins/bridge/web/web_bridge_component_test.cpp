@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is judged where no run is; tests/end_to_end/web_bridge_test.cpp has the runs.
+#include <gmock/gmock.h>
+
+#include <fstream>
+
+#include "armature/runtime/testing/component_harness.hpp"
+#include "armature/runtime/testing/test_plugins.hpp"
+#include "armature/web/web_server.hpp"
+
+namespace armature::bridge::web {
+namespace {
+
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+
+ComponentHarness::Options bridge_with(const std::string& params) {
+  return {.component = "{plugin: bridge/web, params: {" + params + "}}", .robot = {}, .rig = {}};
+}
+
+std::string refusal_with(const std::string& params) {
+  return refusal_of(built_plugins(), bridge_with(params));
+}
+
+/// A file with a token, gone with the test.
+class TokenFile {
+ public:
+  explicit TokenFile(const std::string& text) : path_{testing::TempDir() + "web_bridge.token"} {
+    std::ofstream{path_} << text;
+  }
+  ~TokenFile() { std::remove(path_.c_str()); }
+  TokenFile(const TokenFile&) = delete;
+  TokenFile& operator=(const TokenFile&) = delete;
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+TEST(WebBridgeParameters, LeavesThePortAloneWhereItIsNotRun) {
+  const WebServer other{{.protocols = {"lamp.v1"}}, {}};
+  const ComponentHarness bench{built_plugins(),
+                               bridge_with("port: " + std::to_string(other.port()))};
+  EXPECT_EQ(bench.status().state, StatusReporter::State::ok);
+}
+
+TEST(WebBridgeParameters, RefusesWhatIsNoAddress) {
+  EXPECT_EQ(refusal_with("address: localhost"),
+            "bench:1:47: 'localhost' is no IPv4 address; 127.0.0.1 is for programs of this "
+            "machine, 0.0.0.0 for all others, too");
+}
+
+TEST(WebBridgeParameters, RefusesAnAddressOfTheNetworkWithoutAToken) {
+  EXPECT_EQ(refusal_with("address: 0.0.0.0"),
+            "bench:1:47: '0.0.0.0' is reached by other machines, who must say a token: name a "
+            "file that has one, token_file: monitor.token");
+  const TokenFile file{"0123456789abcdef\n"};
+  EXPECT_EQ(refusal_with("address: 0.0.0.0, token_file: " + file.path()), "");
+}
+
+TEST(WebBridgeParameters, RefusesATokenFileWithoutAToken) {
+  EXPECT_THAT(refusal_with("token_file: /nowhere/monitor.token"),
+              HasSubstr("the first line of '/nowhere/monitor.token' is no token"));
+  EXPECT_THAT(refusal_with("token_file: " + TokenFile{"\nsecret\n"}.path()),
+              EndsWith("is no token: it cannot be read, is empty, or has blanks"));
+  EXPECT_THAT(refusal_with("token_file: " + TokenFile{"my secret\n"}.path()),
+              EndsWith("is no token: it cannot be read, is empty, or has blanks"));
+}
+
+}  // namespace
+}  // namespace armature::bridge::web

@@ -133,11 +133,11 @@ void FoxgloveBridge::said_binary(Client client, std::string_view message) {
   }
   const auto control = read_playback_control(message);
   if (!control) return send_error(client, control.error().text);
-  const bool jumped = options_.playback->request(control->request);
-  if (jumped) {
-    for (auto& [id, channel] : channels_) channel.kept.clear();
+  if (options_.playback->request(control->request)) {
+    tell_jump(client, control->id);
+  } else {
+    tell_playback(false, client, control->id);
   }
-  tell_playback(jumped, client, control->id);
   forward();
   tell_time();
 }
@@ -281,11 +281,10 @@ Duration FoxgloveBridge::play() {
   const Playback::State before = playback.state();
   const Playback::Advance advance = playback.advance();
   const Playback::State after = playback.state();
-  if (advance.jumped) {
-    for (auto& [id, channel] : channels_) channel.kept.clear();
-  }
-  if (advance.jumped || after.status != before.status) tell_playback(advance.jumped);
+  // A client forgets what came before a jump, and expects nothing behind an end.
+  if (advance.jumped) tell_jump();
   forward();
+  if (!advance.jumped && after.status != before.status) tell_playback(false);
   if (after != before) tell_time();
   return advance.next;
 }
@@ -297,6 +296,11 @@ void FoxgloveBridge::tell_playback(bool jumped, Client asker, std::string_view r
     const std::string_view id = client == asker ? request_id : std::string_view{};
     server_.send_for_sure(client, playback_state_message(state, jumped, id));
   }
+}
+
+void FoxgloveBridge::tell_jump(Client asker, std::string_view request_id) {
+  for (auto& [id, channel] : channels_) channel.kept.clear();
+  tell_playback(true, asker, request_id);
 }
 
 void FoxgloveBridge::tell_time() {

@@ -85,6 +85,8 @@ class FoxgloveBridge {
   Duration play();
   /// Tells everybody how the playback is; `asker` with the number of its request.
   void tell_playback(bool jumped, Client asker = 0, std::string_view request_id = {});
+  /// The same of one that has jumped; what was kept is of another time.
+  void tell_jump(Client asker = 0, std::string_view request_id = {});
   void tell_time();
   void tell_dropped();
   void tell_refusal(const std::string& why);

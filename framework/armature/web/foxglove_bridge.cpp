@@ -57,14 +57,23 @@ WebServer::Events FoxgloveBridge::events() {
 
 void FoxgloveBridge::run(const std::function<bool()>& ends) {
   constexpr Duration kRound = seconds(0.1);
-  Time next;
+  Time next, next_play;
+  auto status = Playback::Status::paused;
   while (!ends()) {
-    if (const Time now = steady_now(); now >= next) {
+    const Time now = steady_now();
+    if (now >= next) {
       look();
       tell_dropped();
       next = now + 2 * kRound;
     }
-    server_.serve(options_.playback ? std::min(play(), kRound) : kRound);
+    Duration wait = kRound;
+    if (Playback* playback = options_.playback) {
+      // Serving a client returns sooner, and is no reason to play on, unless that has begun.
+      if (now >= next_play || playback->state().status != status) next_play = now + play();
+      status = playback->state().status;
+      wait = std::clamp(next_play - now, Duration{0}, kRound);
+    }
+    server_.serve(wait);
   }
 }
 

@@ -60,6 +60,23 @@ struct Session {
   std::string heard;  // the beginning of a message
 };
 
+/// Ends the wait of lws_service.
+struct Round {
+  lws_sorted_usec_list_t timer{};  // the first member: its callback finds the rest behind it
+  lws_context* context = nullptr;
+
+  void begin(lws_context* of, lws_usec_t us) {
+    context = of;
+    lws_sul_schedule(context, 0, &timer, &over, us);
+  }
+  /// It may be over before the wait begins, which would then have no end: another one follows.
+  static void over(lws_sorted_usec_list_t* timer) {
+    constexpr lws_usec_t kNext_us = 10'000;
+    auto* round = reinterpret_cast<Round*>(timer);
+    round->begin(round->context, kNext_us);
+  }
+};
+
 }  // namespace
 
 class WebServer::Impl {
@@ -100,9 +117,9 @@ class WebServer::Impl {
 
   int port() const { return lws_get_vhost_listen_port(vhost_); }
   void serve(Duration at_most) {
+    constexpr std::int64_t kShortest_us = 1000;  // what is over sooner is over before it waits
     const auto us = std::chrono::duration_cast<std::chrono::microseconds>(at_most).count();
-    lws_sul_schedule(
-        context_, 0, &round_, [](lws_sorted_usec_list_t*) {}, std::max<lws_usec_t>(us, 1));
+    round_.begin(context_, std::max(us, kShortest_us));
     lws_service(context_, 0);
   }
   void wake() { lws_cancel_service(context_); }
@@ -324,7 +341,7 @@ class WebServer::Impl {
   std::vector<lws_protocols> protocols_;
   lws_context* context_ = nullptr;
   lws_vhost* vhost_ = nullptr;
-  lws_sorted_usec_list_t round_{};
+  Round round_;
   bool ends_ = false;
   Client last_client_ = 0;
   std::map<Client, Session> sessions_;

@@ -75,6 +75,9 @@ function(armature_add_plugin id)
   armature_header_tags_of(ARMATURE_PLUGIN_HEADERS "${kind}" ${arg_LINK})
   configure_file("${CMAKE_CURRENT_FUNCTION_LIST_DIR}/plugin_manifest.cpp.in" "${CMAKE_CURRENT_BINARY_DIR}/${target}_manifest.cpp"
                  @ONLY)
+  # It changes with the tag of any library, the plugin does not: it is compiled alone.
+  set_source_files_properties("${CMAKE_CURRENT_BINARY_DIR}/${target}_manifest.cpp" PROPERTIES
+                              SKIP_UNITY_BUILD_INCLUSION ON SKIP_PRECOMPILE_HEADERS ON)
 
   set(parameters "${CMAKE_CURRENT_BINARY_DIR}/${target}_parameters.hpp")
   add_custom_command(OUTPUT "${parameters}"

@@ -11,7 +11,7 @@
 
 #include "armature/messages/cdr_to_json.hpp"
 #include "armature/messages/known_types.hpp"
-#include "tests/web_socket.hpp"
+#include "armature/web/web_socket.hpp"
 
 namespace armature::test {
 

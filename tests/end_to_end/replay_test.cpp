@@ -32,11 +32,17 @@ class Replay : public testing::Test {
   ~Replay() override { fs::remove_all(folder_); }
 
   /// Runs the lamp for a while and records it.
-  CommandResult record(std::vector<std::string> more) const {
+  CommandResult record(std::vector<std::string> more, double time_limit_s = 4) const {
     more.insert(more.begin(), {armature(), "run", source_file("configs/dental_lamp.yaml"), "--set",
-                               "record.file=" + file(), "--set", "run.time_limit_s=4", "--domain",
+                               "record.file=" + file(), "--set",
+                               "run.time_limit_s=" + std::to_string(time_limit_s), "--domain",
                                std::to_string(unique_dds_domain())});
     return run_command(more, {}, kEnough);
+  }
+  /// The same for a moment: for what needs no more than some samples of everything.
+  CommandResult record_shortly(const std::vector<std::string>& more = {}) const {
+    constexpr double kShortly_s = 1.5;
+    return record(more, kShortly_s);
   }
   std::string file(const std::string& name = "run.mcap") const { return folder_ / name; }
   static std::string text_of(const fs::path& file) {
@@ -209,7 +215,7 @@ TEST_F(Replay, TheFiguresOfARunAreInItsRecordingAsTheRunToldThem) {
 }
 
 TEST_F(Replay, ARunThatRecordsItselfHasWhatItsPageShows) {
-  record({});
+  record_shortly();
   const json info = json::parse(run_command({armature(), "info", "--json", file()}).out);
   std::set<std::string> topics;
   for (const json& topic : info["topics"]) topics.insert(topic["topic"]);
@@ -229,7 +235,7 @@ TEST_F(Replay, TheReportOfARunHasItsPage) {
   const fs::path out = folder_ / "out 50%d";
   const auto run = [&](std::vector<std::string> more) {
     more.insert(more.begin(), {armature(), "run", source_file("configs/dental_lamp.yaml"), "--json",
-                               "--report", out, "--set", "run.time_limit_s=4", "--domain",
+                               "--report", out, "--set", "run.time_limit_s=1.5", "--domain",
                                std::to_string(unique_dds_domain())});
     return run_command(more, {}, kEnough);
   };
@@ -295,7 +301,7 @@ TEST_F(Replay, TwoSolversAreComparedOnRecordedDataAndTheirCallsCanBeRepeated) {
 }
 
 TEST_F(Replay, AssignmentsThatChangeNothingAreRefused) {
-  record({});
+  record_shortly();
   const CommandResult replay =
       run_command({armature(), "replay", file(), "--set", "components.task.params.distance_m=0.5"});
   EXPECT_EQ(replay.exit_code, 3);
@@ -303,7 +309,7 @@ TEST_F(Replay, AssignmentsThatChangeNothingAreRefused) {
 }
 
 TEST_F(Replay, WhatIsNotInTheRecordingIsNotCompared) {
-  record({"--set", "record.topics=[/dental_lamp/arm/*]"});
+  record_shortly({"--set", "record.topics=[/dental_lamp/arm/*]"});
   const json checked = check({file()}, 1);
   EXPECT_FALSE(checked["complete"]);
   EXPECT_EQ(component_of(checked, "landmarks")["ends"],
@@ -312,7 +318,7 @@ TEST_F(Replay, WhatIsNotInTheRecordingIsNotCompared) {
 }
 
 TEST_F(Replay, ADamagedRecordingAccusesNobody) {
-  record({});
+  record_shortly();
   std::fstream recording{file(), std::ios::in | std::ios::out | std::ios::binary};
   // In several places: between two chunks stand indexes, of which a replay needs none.
   const auto size = static_cast<std::streamoff>(fs::file_size(file()));
@@ -372,7 +378,7 @@ TEST_F(Replay, WhatHappenedAroundATroubleIsInAFileOfItsOwn) {
 }
 
 TEST_F(Replay, WhatWasRecordedIsPublishedAgainUnderNamesOfItsOwn) {
-  record({});
+  record_shortly();
   const std::string domain = std::to_string(unique_dds_domain());
   Command playing{{armature(), "replay", file(), "--loop", "--rate", "2", "--domain", domain}};
   const CommandResult joints =
@@ -391,9 +397,9 @@ TEST_F(Replay, WhatWasRecordedIsPublishedAgainUnderNamesOfItsOwn) {
 }
 
 TEST_F(Replay, FilesOfDifferentRunsAreRefused) {
-  record({});
+  record_shortly();
   fs::rename(file(), file("first.mcap"));
-  record({});
+  record_shortly();
   const CommandResult replay =
       run_command({armature(), "replay", "--check", file("first.mcap"), file()}, {}, kEnough);
   EXPECT_EQ(replay.exit_code, 3);
@@ -409,7 +415,7 @@ TEST_F(Replay, ANameWithoutAFolderIsInTheFolderWhereTheRunIs) {
 }
 
 TEST_F(Replay, AnotherProcessorIsRefusedUnlessLastBitsMayDiffer) {
-  record({});
+  record_shortly();
   // The level of the processor stands between other texts of the same length.
   std::fstream recording{file(), std::ios::in | std::ios::out | std::ios::binary};
   std::string bytes{std::istreambuf_iterator<char>{recording}, {}};

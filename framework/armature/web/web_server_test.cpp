@@ -12,13 +12,12 @@
 #include <vector>
 
 #include "tests/http.hpp"
-#include "tests/web_socket.hpp"
+#include "armature/web/web_socket.hpp"
 
 namespace armature {
 namespace {
 
 using test::HttpClient;
-using test::WebSocket;
 
 const std::string kProtocol = "Sec-WebSocket-Protocol: lamp.v1\r\n";
 

@@ -3,10 +3,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
+#include <filesystem>
+#include <fstream>
 #include <functional>
+#include <iterator>
 #include <memory>
 #include <optional>
+#include <regex>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -15,9 +20,11 @@
 
 #include "bench/loop/loop_report.hpp"
 #include "bench/loop/measured_loop.hpp"
+#include "bench/loop/page.hpp"
 #include "bench/processors.hpp"
 #include "bench/program.hpp"
 #include "bench/statistics.hpp"
+#include "bench/temporary_folder.hpp"
 #include "exit_code.hpp"
 #include "progress.hpp"
 
@@ -28,15 +35,50 @@ using bench::LoopReport;
 using bench::LoopSide;
 using bench::MeasuredLoop;
 
-/// Other processes that read the bench's joint state: `armature topic hz`, silent.
-std::vector<std::unique_ptr<bench::Program>> start_readers(int count, int domain) {
-  std::vector<std::unique_ptr<bench::Program>> readers;
-  while (std::ssize(readers) < count) {
-    readers.push_back(std::make_unique<bench::Program>(std::vector<std::string>{
-        "topic", "hz", "/bench_loop/joint_state", "--domain", std::to_string(domain)}));
+/// The port that `armature monitor` has told into a file. Throws std::runtime_error.
+int port_told_in(const std::filesystem::path& file) {
+  constexpr int kTimeout_ms = 20'000;
+  const std::regex address{"ws://127\\.0\\.0\\.1:([0-9]+)"};
+  for (int waited_ms = 0; waited_ms < kTimeout_ms; waited_ms += 10) {
+    std::ifstream stream{file};
+    const std::string told{std::istreambuf_iterator<char>{stream}, {}};
+    std::smatch match;
+    if (std::regex_search(told, match, address)) return std::stoi(match[1]);
+    std::this_thread::sleep_for(std::chrono::milliseconds{10});
   }
-  return readers;
+  throw std::runtime_error{"the monitor has not told its address within 20 s"};
 }
+
+/// Other processes that watch the bench's loop: some that read its joint state, and with
+/// `everything` a recorder of all topics and a page of a monitor.
+class Watchers {
+ public:
+  Watchers(int readers, bool everything, int domain) : readers_{readers} {
+    const std::string number = std::to_string(domain);
+    for (int i = 0; i < readers; ++i) {
+      start({"topic", "hz", "/bench_loop/joint_state", "--domain", number});
+    }
+    if (!everything) return;
+    const std::filesystem::path monitor = folder_.path() / "monitor";
+    start({"record", "-o", folder_.path() / "topics.mcap", "--domain", number});
+    start({"monitor", "--port", "0", "--domain", number}, monitor);
+    start({"bench", "loop", "--page", std::to_string(port_told_in(monitor.string() + ".out"))});
+    readers_ += 2;  // the monitor reads for its page
+  }
+  /// How many processes read the joint state once all are there.
+  int readers() const { return readers_; }
+  /// Where the loop may record itself.
+  std::string recording() const { return folder_.path() / "run.mcap"; }
+
+ private:
+  void start(std::vector<std::string> words, const std::filesystem::path& output = {}) {
+    programs_.push_back(std::make_unique<bench::Program>(std::move(words), output));
+  }
+
+  int readers_;
+  bench::TemporaryFolder folder_;
+  std::vector<std::unique_ptr<bench::Program>> programs_;
+};
 
 void wait_for(double seconds) {
   std::this_thread::sleep_for(std::chrono::duration<double>{seconds});
@@ -113,6 +155,7 @@ std::string wrong_round(const LoopBenchOptions& options) {
 }
 
 int bench_loop(const LoopBenchOptions& options) {
+  if (options.page) return bench::read_as_a_page(*options.page);
   const auto cpus = bench::two_cpus();
   const bench::LoopSettings settings{
       .period_s = options.period_s, .priority = options.priority, .domain = options.domain};
@@ -121,12 +164,14 @@ int bench_loop(const LoopBenchOptions& options) {
                     .notes = {},
                     .noise = {},
                     .watched = {}};
-  std::vector<int> reader_counts{0};
-  if (options.readers > 0) reader_counts.push_back(options.readers);
+  report.watched.emplace_back();
+  if (options.readers > 0) report.watched.push_back({.readers = options.readers});
+  if (options.everything) {
+    report.watched.push_back({.readers = std::max(options.readers, 4), .everything = true});
+  }
   Progress progress{"rounds"};
-  const double work = options.rounds * static_cast<double>(1 + reader_counts.size());
+  const double work = options.rounds * static_cast<double>(1 + report.watched.size());
   double done = 0;
-  for (const int count : reader_counts) report.watched.push_back({.readers = count, .rounds = {}});
   for (int round = 0; round < options.rounds; ++round) {
     {
       bench::Twin a{settings}, b{settings};
@@ -134,10 +179,12 @@ int bench_loop(const LoopBenchOptions& options) {
       progress.part(++done / work);
     }
     for (auto& watched : report.watched) {
-      const auto readers = start_readers(watched.readers, options.domain);
-      bench::OurLoop ours{settings, [&](const std::string& note) { report.notes.insert(note); }};
+      const Watchers watchers{watched.readers, watched.everything, options.domain};
+      bench::LoopSettings own = settings;
+      if (watched.everything) own.recording = watchers.recording();
+      bench::OurLoop ours{own, [&](const std::string& note) { report.notes.insert(note); }};
       bench::Twin twin{settings};
-      await_readers(ours, watched.readers);
+      await_readers(ours, watchers.readers());
       watched.rounds.push_back(round_of(ours, twin, cpus, options.seconds));
       progress.part(++done / work);
     }

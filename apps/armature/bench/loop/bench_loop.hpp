@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 
 namespace armature {
 
 struct LoopBenchOptions {
-  int readers = 0;
+  int readers = 0;          // other processes, in further rounds
+  bool everything = false;  // in further rounds it is recorded, and read by all that can read it
   int rounds = 5;
   double seconds = 4;  // of a round
   double period_s = 0.001;
-  int priority = 80;  // SCHED_FIFO, where it is allowed; 0: the normal scheduler
-  int domain = 100;   // DDS
+  int priority = 80;             // SCHED_FIFO, where it is allowed; 0: the normal scheduler
+  int domain = 100;              // DDS
+  std::optional<int> page = {};  // this is the process that the bench has started to read there
   bool json = false;
 };
 

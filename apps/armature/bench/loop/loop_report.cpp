@@ -50,6 +50,7 @@ std::string rows(const std::string& what, const std::vector<LoopRound>& rounds) 
 }
 
 std::string name_of(const WatchedRounds& watched) {
+  if (watched.everything) return "executor, all watch it";
   return fmt::format("executor, {} readers", watched.readers);
 }
 
@@ -104,6 +105,11 @@ std::string table(const LoopReport& report) {
         total(watched.rounds, &LoopSide::page_faults),
         total(watched.rounds, &LoopSide::allocations), is_met(watched, noise) ? "met" : "MISSED");
   }
+  if (report.options.everything) {
+    text +=
+        fmt::format("all: {} readers, a recorder of all topics, a page, and it records itself\n",
+                    report.watched.back().readers);
+  }
   for (const std::string& note : report.notes) text += fmt::format("note: {}\n", note);
   return text +
          fmt::format(
@@ -128,6 +134,7 @@ std::string to_json(const LoopReport& report) {
   for (const WatchedRounds& watched : report.watched) {
     const double ratio = median_ratio(watched.rounds);
     json["executor"].push_back({{"readers", watched.readers},
+                                {"everything", watched.everything},
                                 {"median_p999_ratio", ratio},
                                 {"of_the_twins", ratio / noise},
                                 {"goal", kMaxRatio},

@@ -22,9 +22,11 @@ struct LoopRound {
   LoopSide a, b;
 };
 
-/// Rounds of our loop (a) and a twin (b) while so many others read.
+/// Rounds of our loop (a) and a twin (b) while so many others read; `everything`: while it is
+/// recorded, too, by itself and by another process, and a page shows it.
 struct WatchedRounds {
   int readers = 0;
+  bool everything = false;
   std::vector<LoopRound> rounds;
 };
 

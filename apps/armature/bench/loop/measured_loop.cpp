@@ -31,8 +31,10 @@ DeploymentConfig read(const LoopSettings& settings, const PluginRegistry& plugin
       "armature: 1\n"
       "name: bench_loop\n"
       "executors: {{control: {{period_s: {:g}, priority: {}, lock_memory: true}}}}\n"
-      "components: {{loop: {{plugin: bench/loop, executor: control}}}}\n",
-      settings.period_s, settings.priority);
+      "components: {{loop: {{plugin: bench/loop, executor: control}}}}\n"
+      "{}",
+      settings.period_s, settings.priority,
+      settings.recording.empty() ? "" : "record: {file: \"" + settings.recording + "\"}\n");
   config::Problems problems;
   DeploymentConfig config =
       read_deployment(config::parse_text(text, "bench loop"), plugins, problems);
@@ -88,6 +90,7 @@ OurLoop::OurLoop(const LoopSettings& settings, std::function<void(const std::str
     component_ = &dynamic_cast<LoopComponent&>(runner->component());
   }
   deployment_->connect(plugins_, settings.domain);
+  if (!settings.recording.empty()) deployment_->record(settings.recording, nullptr);
   thread_ = std::thread{[this] {
     UntilEnd until_end{end_};
     deployment_->run(until_end);
@@ -97,6 +100,7 @@ OurLoop::OurLoop(const LoopSettings& settings, std::function<void(const std::str
 OurLoop::~OurLoop() {
   end_ = true;
   if (thread_.joinable()) thread_.join();
+  deployment_->end_recording();
 }
 
 int OurLoop::readers() const {

@@ -15,8 +15,9 @@ namespace armature::bench {
 /// How a measured loop runs.
 struct LoopSettings {
   double period_s = 0.001;
-  int priority = 0;  // SCHED_FIFO; 0: the normal scheduler
-  int domain = 0;    // of our own loop
+  int priority = 0;            // SCHED_FIFO; 0: the normal scheduler
+  int domain = 0;              // of our own loop
+  std::string recording = {};  // file that our own one records itself into; empty: it does not
 };
 
 /// A loop at a fixed period whose lateness is measured.

@@ -3,13 +3,13 @@
 
 #include <nlohmann/json.hpp>
 
-#include "armature/web/web_socket_client.hpp"
+#include "armature/web/web_socket.hpp"
 #include "exit_code.hpp"
 
 namespace armature::bench {
 
 int read_as_a_page(int port) {
-  WebSocketClient monitor{port, "Sec-WebSocket-Protocol: foxglove.sdk.v1\r\n"};
+  WebSocket monitor{port, "Sec-WebSocket-Protocol: foxglove.sdk.v1\r\n"};
   if (!monitor.is_open()) return kFailed;
   constexpr int kText = 1;
   while (const auto frame = monitor.next()) {

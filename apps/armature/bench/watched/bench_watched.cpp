@@ -25,6 +25,7 @@
 #include "armature/runtime/deployment_file/deployment_config.hpp"
 #include "armature/runtime/plugins/plugin_registry.hpp"
 #include "bench/program.hpp"
+#include "bench/temporary_folder.hpp"
 #include "bench/watched/watched_report.hpp"
 #include "exit_code.hpp"
 #include "progress.hpp"
@@ -38,26 +39,6 @@ using bench::WatchedReport;
 using bench::WatchedRound;
 using bench::WatchedRun;
 using bench::Watching;
-
-/// Gone with what is in it at the end.
-class Folder {
- public:
-  Folder() {
-    std::string name = fs::temp_directory_path() / "armature-bench-XXXXXX";
-    if (!mkdtemp(name.data())) throw std::runtime_error{"no temporary folder can be made"};
-    path_ = name;
-  }
-  ~Folder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
 
 std::string content(const fs::path& file) {
   std::ifstream stream{file};
@@ -174,7 +155,7 @@ std::uint64_t lost_by_recorder(const fs::path& output) {
 }
 
 WatchedRun measure(const WatchedBenchOptions& options, const Subject& subject, Watching watching) {
-  const Folder folder;
+  const bench::TemporaryFolder folder;
   const fs::path run_output = folder.path() / "run", recorder_output = folder.path() / "recorder";
   const std::string domain = std::to_string(options.domain);
   auto words = run_words(options);

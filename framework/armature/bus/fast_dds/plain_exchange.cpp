@@ -146,7 +146,9 @@ class Channel final : public dds::DataReaderListener {
     while (reader->take_next_sample(&received_, &info) == ReturnCode_t::RETCODE_OK) {
       if (!info.valid_data) continue;
       if (answers_) {
-        writer_->write(&received_);
+        sent_.step_(received_.step_());
+        sent_.data_().resize(received_.data_().size());
+        writer_->write(&sent_);
       } else {
         arrived_ = now;
         answer_ = received_.step_();

@@ -13,12 +13,13 @@ namespace armature ARMATURE_EXPORT {
 
 struct PlainExchangeOptions {
   int domain = 0;
-  bool answers = false;  // this end sends back what comes; the other one asks
+  bool answers = false;  // this end answers with a message of the same size; the other one asks
 };
 
-/// A sensor_msgs/Image that goes to another process and back as in a program which uses Fast DDS
-/// alone: fastcdr writes the message into the payload, and the reader's listener answers. It has
-/// the transports and the QoS of a topic. `armature bench bus` compares topics with it.
+/// A sensor_msgs/Image that goes to another process, and one that comes back, as in a program which
+/// uses Fast DDS alone: fastcdr writes the message into the payload, and the reader's listener
+/// answers. It has the transports and the QoS of a topic. `armature bench bus` compares topics with
+/// it.
 class PlainExchange {
  public:
   static constexpr std::string_view kKind = "exchange";

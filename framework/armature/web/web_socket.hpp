@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace armature::test {
+namespace armature {
 
 /// A client of a WebSocket server on this machine, that can also be one that misbehaves.
 class WebSocket {
@@ -107,4 +107,4 @@ class WebSocket {
   std::string heard_;
 };
 
-}  // namespace armature::test
+}  // namespace armature

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/run_recording.hpp"
+
+#include <fmt/format.h>
+
+#include <exception>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "exit_code.hpp"
+#include "record/merge.hpp"
+#include "record/record.hpp"
+#include "record/recorded_processes.hpp"
+#include "report/report.hpp"
+
+namespace armature {
+namespace {
+
+/// Whether a file has enough of the recording of a process to be joined with others.
+bool is_part(const std::filesystem::path& file) {
+  try {
+    return !recorded_processes(file).front().empty();
+  } catch (
+      const std::exception&) {  // it is not there, or its process died before it wrote anything
+    return false;
+  }
+}
+
+/// What is joined at the end of a run: the recordings of this host's processes.
+std::vector<std::filesystem::path> parts_of(const std::filesystem::path& recording,
+                                            const DeploymentConfig& config) {
+  std::vector<std::filesystem::path> parts{recording};
+  for (const std::string& name : config.processes()) {
+    if (name == kMainProcess || config.host_of(name) != kMainHost) continue;
+    std::filesystem::path part = RecordConfig::part_of(recording, name);
+    if (is_part(part)) parts.push_back(std::move(part));
+  }
+  return parts;
+}
+
+}  // namespace
+
+std::filesystem::path page_file(const std::filesystem::path& folder) {
+  return folder / "report.html";
+}
+
+void remove_older(const std::filesystem::path& file) {
+  std::error_code none;
+  const auto older = std::filesystem::symlink_status(file, none);
+  if (std::filesystem::is_regular_file(older)) std::filesystem::remove(file, none);
+}
+
+void record_for_page(DeploymentConfig& config, RunOptions& options) {
+  std::string file = std::filesystem::absolute(*options.report / "run.mcap").string();
+  for (std::size_t at = 0; (at = file.find('%', at)) != std::string::npos; at += 2) {
+    file.insert(at, 1, '%');  // the name of a recording may say the time
+  }
+  config.record = RecordConfig{.file = file, .thin = true, .origin = {}};
+  for (const std::string& process : config.processes()) {
+    remove_older(config.record->file_of(process, Time{}));
+  }
+  const nlohmann::json record{{"file", file}, {"thin", true}};
+  options.source.assignments.push_back("record=" + record.dump());
+}
+
+void join_parts(const std::filesystem::path& recording, const DeploymentConfig& config,
+                Console& console) {
+  const auto parts = parts_of(recording, config);
+  if (parts.size() < 2) return;
+  constexpr std::uintmax_t kTakesSeconds = 200'000'000;
+  std::uintmax_t bytes = 0;
+  std::error_code gone;
+  for (const auto& part : parts) bytes += std::filesystem::file_size(part, gone);
+  if (bytes > kTakesSeconds) {
+    console.line("runtime", fmt::format("joining the recordings of {} processes, {}", parts.size(),
+                                        megabytes(bytes)));
+  }
+  try {
+    const JoinedRecording joined = join_recordings(parts, recording);
+    std::error_code none;
+    for (const auto& part : parts) {
+      if (part != recording) std::filesystem::remove(part, none);
+    }
+    console.line("runtime", fmt::format("joined: {}: {} messages of {} processes, {}, last hash {}",
+                                        recording.string(), joined.messages, parts.size(),
+                                        megabytes(joined.bytes), joined.head));
+    for (const std::string& problem : joined.problems) console.tell(problem);
+  } catch (const std::exception& error) {
+    console.tell(fmt::format("the recordings of the processes were not joined: {}", error.what()));
+  }
+}
+
+bool page_written(const std::optional<std::filesystem::path>& recording,
+                  const std::filesystem::path& folder, Console& console) {
+  if (!recording) {
+    console.tell(
+        "the run records only what happens around a trouble (around_faults_s), so its report has "
+        "no page");
+    return true;
+  }
+  try {
+    const WrittenReport page = write_report(
+        {.recording = *recording, .out = page_file(folder), .force = true, .use = FileUse::report});
+    console.line("runtime", "page of the run: " + page.text);
+    for (const std::string& note : page.notes) console.tell(note);
+  } catch (const InvalidChoice& refusal) {  // the run is what it was without its page
+    console.tell(refusal.what());
+  } catch (const std::exception& error) {
+    console.tell(error.what());
+    return false;
+  }
+  return true;
+}
+
+}  // namespace armature

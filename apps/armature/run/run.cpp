@@ -166,7 +166,7 @@ bool report_written(const RunReport& report, const Deployment& deployment,
 }
 
 int conclude(const RunOptions& options, const Deployment& deployment, const RunReport& report,
-             const RunReport::Ending& ending, Console& console, LastWord& last_word) {
+             Console& console, LastWord& last_word) {
   if (options.json) {
     fmt::print("{}\n", to_json(report));
   } else {
@@ -177,8 +177,6 @@ int conclude(const RunOptions& options, const Deployment& deployment, const RunR
   }
   std::fflush(stdout);
   last_word.result_told();
-  for (const std::string& fault : ending.faults) console.tell(fault);
-  if (ending.stopped) console.tell(*ending.stopped);
   if (options.report && !report_written(report, deployment, *options.report, console)) {
     return kFailed;
   }
@@ -307,12 +305,14 @@ int run_main(const RunOptions& options, const Process& process, Deployment& depl
   }
   if (options.timing) ending.timing = timing;
   const RunReport report{deployment, ending};
-  int code = conclude(options, deployment, report, ending, console, last_word);
+  int code = conclude(options, deployment, report, console, last_word);
   deployment.end_recording(figures_json(report, timing));
   watched_end.do_unwatched([&] {
     if (recording) join_parts(*recording, deployment.config(), console);
     if (options.report && !page_written(recording, *options.report, console)) code = kFailed;
   });
+  for (const std::string& fault : ending.faults) console.tell(fault);
+  if (ending.stopped) console.tell(*ending.stopped);
   console.flush();
   leave_if_necessary(deployment, watch, code);
   return code;

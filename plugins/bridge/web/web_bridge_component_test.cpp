@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is judged where no run is; tests/end_to_end/web_bridge_test.cpp has the runs.
 #include <gmock/gmock.h>
+#include <unistd.h>
 
 #include <fstream>
 
@@ -25,7 +26,8 @@ std::string refusal_with(const std::string& params) {
 /// A file with a token, gone with the test.
 class TokenFile {
  public:
-  explicit TokenFile(const std::string& text) : path_{testing::TempDir() + "web_bridge.token"} {
+  explicit TokenFile(const std::string& text)
+      : path_{testing::TempDir() + "web_bridge_" + std::to_string(getpid()) + ".token"} {
     std::ofstream{path_} << text;
   }
   ~TokenFile() { std::remove(path_.c_str()); }

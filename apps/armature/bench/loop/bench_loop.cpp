@@ -182,7 +182,9 @@ int bench_loop(const LoopBenchOptions& options) {
       const Watchers watchers{watched.readers, watched.everything, options.domain};
       bench::LoopSettings own = settings;
       if (watched.everything) own.recording = watchers.recording();
-      bench::OurLoop ours{own, [&](const std::string& note) { report.notes.insert(note); }};
+      bench::OurLoop ours{own, [&](const std::string& note) {
+                            if (!note.starts_with("recorded: ")) report.notes.insert(note);
+                          }};
       bench::Twin twin{settings};
       await_readers(ours, watchers.readers());
       watched.rounds.push_back(round_of(ours, twin, cpus, options.seconds));

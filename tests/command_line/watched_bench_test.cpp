@@ -19,7 +19,7 @@ CommandResult bench_watched(const std::string& deployment, std::vector<std::stri
 }
 
 TEST(BenchWatched, RunsADeploymentAloneRecordedAndRead) {
-  const CommandResult result = bench_watched("configs/dental_lamp.yaml", {});
+  const CommandResult result = bench_watched("configs/sr1_biopsy.yaml", {"--set", "clock=system"});
   ASSERT_THAT(result.exit_code, testing::AnyOf(0, 1)) << result.err;
   const auto report = nlohmann::json::parse(result.out);
   for (const char* way : {"alone", "recorded", "read"}) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Monitors that come, go and die at random change no byte of what an arm does in lockstep, cost
 // the deployment no sample that it reads itself on the system clock, and leave nothing behind in
-// it. For so many seconds: ARMATURE_MONITORS_S, 15 without.
+// it. For so many seconds: ARMATURE_MONITORS_S, 8 without.
 #include <gmock/gmock.h>
 #include <unistd.h>
 
@@ -34,7 +34,7 @@ constexpr std::chrono::seconds kAtMost{60};
 
 std::chrono::seconds length() {
   const char* told = std::getenv("ARMATURE_MONITORS_S");
-  return std::chrono::seconds{told ? std::atoi(told) : 15};
+  return std::chrono::seconds{told ? std::atoi(told) : 8};
 }
 
 /// At most four at a time, each for as long as chance will have it.

@@ -32,11 +32,12 @@ class Replay : public testing::Test {
   ~Replay() override { fs::remove_all(folder_); }
 
   /// Runs the lamp for a while and records it.
-  CommandResult record(std::vector<std::string> more, double time_limit_s = 4) const {
-    more.insert(more.begin(), {armature(), "run", source_file("configs/dental_lamp.yaml"), "--set",
-                               "record.file=" + file(), "--set",
-                               "run.time_limit_s=" + std::to_string(time_limit_s), "--domain",
-                               std::to_string(unique_dds_domain())});
+  CommandResult record(std::vector<std::string> more, double time_limit_s = 4,
+                       const std::string& deployment = "configs/dental_lamp.yaml") const {
+    more.insert(more.begin(),
+                {armature(), "run", source_file(deployment), "--set", "record.file=" + file(),
+                 "--set", "run.time_limit_s=" + std::to_string(time_limit_s), "--domain",
+                 std::to_string(unique_dds_domain())});
     return run_command(more, {}, kEnough);
   }
   /// The same for a moment: for what needs no more than some samples of everything.
@@ -44,6 +45,8 @@ class Replay : public testing::Test {
     constexpr double kShortly_s = 1.5;
     return record(more, kShortly_s);
   }
+  /// Another deployment, on the simulated clock: it has no pictures, and is done at once.
+  CommandResult record_needle() const { return record({}, 2, "configs/sr1_biopsy.yaml"); }
   std::string file(const std::string& name = "run.mcap") const { return folder_ / name; }
   static std::string text_of(const fs::path& file) {
     std::ifstream stream{file, std::ios::binary};
@@ -318,7 +321,7 @@ TEST_F(Replay, WhatIsNotInTheRecordingIsNotCompared) {
 }
 
 TEST_F(Replay, ADamagedRecordingAccusesNobody) {
-  record_shortly();
+  record_needle();
   std::fstream recording{file(), std::ios::in | std::ios::out | std::ios::binary};
   // In several places: between two chunks stand indexes, of which a replay needs none.
   const auto size = static_cast<std::streamoff>(fs::file_size(file()));
@@ -397,9 +400,9 @@ TEST_F(Replay, WhatWasRecordedIsPublishedAgainUnderNamesOfItsOwn) {
 }
 
 TEST_F(Replay, FilesOfDifferentRunsAreRefused) {
-  record_shortly();
+  record_needle();
   fs::rename(file(), file("first.mcap"));
-  record_shortly();
+  record_needle();
   const CommandResult replay =
       run_command({armature(), "replay", "--check", file("first.mcap"), file()}, {}, kEnough);
   EXPECT_EQ(replay.exit_code, 3);
@@ -415,7 +418,7 @@ TEST_F(Replay, ANameWithoutAFolderIsInTheFolderWhereTheRunIs) {
 }
 
 TEST_F(Replay, AnotherProcessorIsRefusedUnlessLastBitsMayDiffer) {
-  record_shortly();
+  record_needle();
   // The level of the processor stands between other texts of the same length.
   std::fstream recording{file(), std::ios::in | std::ios::out | std::ios::binary};
   std::string bytes{std::istreambuf_iterator<char>{recording}, {}};

@@ -234,12 +234,9 @@ class WebServer::Impl {
   int answer_browser(lws* connection) {
     const bool gets = lws_hdr_total_length(connection, WSI_TOKEN_GET_URI) > 0;
     const bool asks_head = lws_hdr_total_length(connection, WSI_TOKEN_HEAD_URI) > 0;
-    if (!gets && !asks_head) {
-      return lws_return_http_status(connection, HTTP_STATUS_METHOD_NOT_ALLOWED, nullptr) != 0 ? -1
-                                                                                              : 0;
-    }
+    if (!gets && !asks_head) return refuse(connection, HTTP_STATUS_METHOD_NOT_ALLOWED);
     if (header_of(connection, gets ? WSI_TOKEN_GET_URI : WSI_TOKEN_HEAD_URI) != "/") {
-      return lws_return_http_status(connection, HTTP_STATUS_NOT_FOUND, nullptr) != 0 ? -1 : 0;
+      return refuse(connection, HTTP_STATUS_NOT_FOUND);
     }
     if (!write_page_head(connection)) return 1;
     if (asks_head || options_.page.text.empty()) return completed(connection);
@@ -291,6 +288,9 @@ class WebServer::Impl {
     return 0;
   }
 
+  static int refuse(lws* connection, unsigned status) {
+    return lws_return_http_status(connection, status, nullptr) != 0 ? -1 : completed(connection);
+  }
   static int completed(lws* connection) {
     return lws_http_transaction_completed(connection) != 0 ? -1 : 0;
   }

@@ -7,7 +7,6 @@
 #include <mutex>
 #include <utility>
 
-#include "armature/config/document.hpp"
 #include "armature/messages/sensor_msgs.hpp"
 #include "armature/runtime/component/setup.hpp"
 #include "armature/values/wake_up.hpp"
@@ -155,11 +154,11 @@ class Asker final : public Component {
 
 namespace {
 
-DeploymentConfig read(const TopicExchange::Settings& settings, const PluginRegistry& plugins) {
+std::string text_of(const TopicExchange::Settings& settings) {
   const bool both = settings.part == TopicExchange::Part::both;
   // An executor goes where its process is put, unless both are in one.
   const auto cpu = [&](int number) { return both ? fmt::format("cpu: {}", number) : ""; };
-  const std::string text = fmt::format(
+  return fmt::format(
       "armature: 1\n"
       "name: {}\n"
       "executors: {{ask: {{{}}}, answer: {{{}}}}}\n"
@@ -168,25 +167,7 @@ DeploymentConfig read(const TopicExchange::Settings& settings, const PluginRegis
       "  answer: {{plugin: bench/answer, executor: answer{}}}\n",
       both ? "bench_bus_inside" : "bench_bus", cpu(settings.ask_cpu), cpu(settings.answer_cpu),
       both ? "" : ", process: other");
-  config::Problems problems;
-  DeploymentConfig config =
-      read_deployment(config::parse_text(text, "bench bus"), plugins, problems);
-  problems.throw_if_any();
-  return config;
 }
-
-/// Runs until it is told to end.
-class UntilTheEnd final : public RunWatch {
- public:
-  explicit UntilTheEnd(const std::atomic<bool>& end) : end_{end} {}
-  std::optional<std::string> stop_cause() override {
-    if (!end_) return std::nullopt;
-    return "all is measured";
-  }
-
- private:
-  const std::atomic<bool>& end_;
-};
 
 }  // namespace
 
@@ -195,21 +176,11 @@ TopicExchange::TopicExchange(const Settings& settings) {
   plugins_.add<Answerer>(kAnswerPlugin);
   Deployment::Options options;
   if (settings.part == Part::answers) options.process = "other";
-  deployment_ =
-      std::make_unique<Deployment>(read(settings, plugins_), plugins_, std::move(options));
-  for (const auto& runner : deployment_->runners()) {
-    if (runner->name() == "ask") asker_ = &dynamic_cast<Asker&>(runner->component());
+  running_.emplace(text_of(settings), plugins_, std::move(options), settings.domain);
+  if (ComponentRunner* runner = running_->find("ask")) {
+    asker_ = &dynamic_cast<Asker&>(runner->component());
   }
-  deployment_->connect(plugins_, settings.domain);
-  thread_ = std::thread{[this] {
-    UntilTheEnd until_the_end{end_};
-    deployment_->run(until_the_end);
-  }};
-}
-
-TopicExchange::~TopicExchange() {
-  end_ = true;
-  thread_.join();
+  running_->start();
 }
 
 std::vector<double> TopicExchange::round_trips(QosProfile qos, std::size_t bytes, int count) {

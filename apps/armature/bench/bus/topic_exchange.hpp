@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <atomic>
-#include <memory>
 #include <optional>
-#include <string>
-#include <thread>
 #include <vector>
 
 #include "armature/bus/qos.hpp"
-#include "armature/runtime/deployment/deployment.hpp"
 #include "armature/runtime/plugins/plugin_registry.hpp"
+#include "bench/running_deployment.hpp"
 
 namespace armature::bench {
 
@@ -33,10 +29,6 @@ class TopicExchange {
 
   /// Throws what a deployment throws that cannot start. Runs from then on.
   explicit TopicExchange(const Settings& settings);
-  ~TopicExchange();
-  TopicExchange(const TopicExchange&) = delete;
-  TopicExchange& operator=(const TopicExchange&) = delete;
-
   /// Asks `count` times, each time in the step that the answer to the one before has activated.
   /// `bytes` is the size of the picture, which goes with `qos`: `state` or `sensor`. The times from
   /// publishing a question to the step that sees its answer [s]; none when they did not come within
@@ -45,10 +37,8 @@ class TopicExchange {
 
  private:
   PluginRegistry plugins_;
-  std::unique_ptr<Deployment> deployment_;
+  std::optional<RunningDeployment> running_;
   Asker* asker_ = nullptr;
-  std::atomic<bool> end_{false};
-  std::thread thread_;
 };
 
 }  // namespace armature::bench

@@ -6,7 +6,6 @@
 
 #include <utility>
 
-#include "armature/config/document.hpp"
 #include "armature/runtime/execution/real_time_thread.hpp"
 
 namespace armature::bench {
@@ -26,8 +25,8 @@ void sleep_until(std::int64_t ns) {
   }
 }
 
-DeploymentConfig read(const LoopSettings& settings, const PluginRegistry& plugins) {
-  const std::string text = fmt::format(
+std::string text_of(const LoopSettings& settings) {
+  return fmt::format(
       "armature: 1\n"
       "name: bench_loop\n"
       "executors: {{control: {{period_s: {:g}, priority: {}, lock_memory: true}}}}\n"
@@ -35,25 +34,7 @@ DeploymentConfig read(const LoopSettings& settings, const PluginRegistry& plugin
       "{}",
       settings.period_s, settings.priority,
       settings.recording.empty() ? "" : "record: {file: \"" + settings.recording + "\"}\n");
-  config::Problems problems;
-  DeploymentConfig config =
-      read_deployment(config::parse_text(text, "bench loop"), plugins, problems);
-  problems.throw_if_any();
-  return config;
 }
-
-/// Runs until it is told to end.
-class UntilEnd final : public RunWatch {
- public:
-  explicit UntilEnd(const std::atomic<bool>& end) : end_{end} {}
-  std::optional<std::string> stop_cause() override {
-    if (!end_) return std::nullopt;
-    return "all is measured";
-  }
-
- private:
-  const std::atomic<bool>& end_;
-};
 
 }  // namespace
 
@@ -81,26 +62,12 @@ void Twin::loop() {
 
 OurLoop::OurLoop(const LoopSettings& settings, std::function<void(const std::string&)> note) {
   plugins_.add<LoopComponent>(LoopComponent::kPlugin);
-  deployment_ =
-      std::make_unique<Deployment>(read(settings, plugins_), plugins_,
-                                   Deployment::Options{.on_line = {}, .on_note = std::move(note)});
-  for (const auto& runner : deployment_->runners()) {
-    if (runner->name() != "loop") continue;
-    runner_ = runner.get();
-    component_ = &dynamic_cast<LoopComponent&>(runner->component());
-  }
-  deployment_->connect(plugins_, settings.domain);
-  if (!settings.recording.empty()) deployment_->record(settings.recording, nullptr);
-  thread_ = std::thread{[this] {
-    UntilEnd until_end{end_};
-    deployment_->run(until_end);
-  }};
-}
-
-OurLoop::~OurLoop() {
-  end_ = true;
-  if (thread_.joinable()) thread_.join();
-  deployment_->end_recording();
+  running_.emplace(text_of(settings), plugins_,
+                   Deployment::Options{.on_line = {}, .on_note = std::move(note)}, settings.domain);
+  runner_ = running_->find("loop");
+  component_ = &dynamic_cast<LoopComponent&>(runner_->component());
+  if (!settings.recording.empty()) running_->deployment().record(settings.recording, nullptr);
+  running_->start();
 }
 
 int OurLoop::readers() const {

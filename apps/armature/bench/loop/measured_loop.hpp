@@ -2,13 +2,13 @@
 #pragma once
 
 #include <atomic>
-#include <memory>
+#include <functional>
 #include <optional>
 #include <string>
 #include <thread>
 
-#include "armature/runtime/deployment/deployment.hpp"
 #include "bench/loop/loop_work.hpp"
+#include "bench/running_deployment.hpp"
 
 namespace armature::bench {
 
@@ -53,7 +53,6 @@ class OurLoop final : public MeasuredLoop {
   /// Throws what a deployment throws that cannot start. `note` is called with what the system does
   /// not allow.
   OurLoop(const LoopSettings& settings, std::function<void(const std::string&)> note);
-  ~OurLoop() override;
   const TimingHistogram& lateness() const override { return runner_->times().lateness; }
   Requests& requests() override { return component_->requests(); }
   /// How many other processes read its joint state now.
@@ -61,11 +60,9 @@ class OurLoop final : public MeasuredLoop {
 
  private:
   PluginRegistry plugins_;
-  std::unique_ptr<Deployment> deployment_;
+  std::optional<RunningDeployment> running_;
   ComponentRunner* runner_ = nullptr;
   LoopComponent* component_ = nullptr;
-  std::atomic<bool> end_{false};
-  std::thread thread_;
 };
 
 }  // namespace armature::bench

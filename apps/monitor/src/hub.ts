@@ -68,11 +68,14 @@ export class Hub {
   private leave() {
     this.source?.close();
     this.source = undefined;
-    for (const topic of this.store.topics.keys()) this.forget(topic);
-    this.store.clear();
+    this.forgetAll();
     this.topics = new Map();
     ++this.topicsVersion;
     this.warnings = [];
+  }
+  private forgetAll() {
+    for (const topic of this.store.topics.keys()) this.forget(topic);
+    this.store.clear();
   }
   private forget(topic: string) {
     this.store.topics.get(topic)?.clear();
@@ -101,6 +104,7 @@ export class Hub {
         for (const call of this.arrivals) call({topic, t});
       },
       forget: (topic) => this.forget(topic),
+      jumped: () => this.forgetAll(),
       warning: (text) => {
         this.warnings.push({t: this.store.newest, text});
         if (this.warnings.length > 100) this.warnings.shift();

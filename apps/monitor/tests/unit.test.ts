@@ -6,6 +6,7 @@ import {test} from 'node:test';
 import type {Component} from '../src/deployment';
 import {numericFields, valueAt} from '../src/message/fields';
 import {decoderOf} from '../src/message/decoder';
+import {Hub} from '../src/hub';
 import {placeComponents} from '../src/panels/graph_layout';
 import {parseExpression} from '../src/plot/expression';
 import {Store} from '../src/store';
@@ -77,6 +78,47 @@ test('a message that is told again is kept once', () => {
   for (const t of [1, 2, 1, 2]) store.add('/rosout', t, bytes());
   store.add('/rosout', 2, new Uint8Array([1, 2, 4]));
   assert.equal(store.log('/rosout').length, 3);
+});
+
+test('what was told before a playback jumps is forgotten, and what follows is kept', () => {
+  let socket: {onmessage?: (event: {data: unknown}) => void} = {};
+  const topic = '/lamp/light';
+  Object.assign(globalThis, {
+    window: globalThis,
+    WebSocket: class {
+      static readonly OPEN = 1;
+      readonly readyState = 1;
+      constructor() { socket = this as typeof socket; }
+      send() {}
+      close() {}
+    },
+  });
+  const hub = new Hub();
+  hub.want(new Set([topic]));
+  hub.connect('ws://recording');
+  const channel = {id: 7, topic, encoding: 'cdr', schemaName: 'std_msgs/msg/Float64', schemaEncoding: 'ros2msg', schema: 'float64 data'};
+  socket.onmessage!({data: JSON.stringify({op: 'advertise', channels: [channel]})});
+  const message = (seconds: number) => {
+    const view = new DataView(new ArrayBuffer(25));
+    view.setUint8(0, 1);
+    view.setUint32(1, 1, true);
+    view.setBigUint64(5, BigInt(seconds) * 1_000_000_000n, true);
+    socket.onmessage!({data: view.buffer});
+  };
+  const state = (didSeek: number) => {
+    const view = new DataView(new ArrayBuffer(19));
+    view.setUint8(0, 5);
+    view.setUint8(14, didSeek);
+    socket.onmessage!({data: view.buffer});
+  };
+  message(50);
+  state(0);
+  assert.equal(hub.log(topic).length, 1);
+  state(1);
+  message(20);
+  assert.equal(hub.log(topic).length, 1);
+  assert.equal(hub.store.newest, 20);
+  hub.source!.close();
 });
 
 test('types that cannot be read are named with a reason', () => {

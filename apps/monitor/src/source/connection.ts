@@ -5,7 +5,9 @@
 import type {Source, SourceEvents, TopicInfo} from './source';
 
 const kProtocols = ['foxglove.sdk.v1', 'foxglove.websocket.v1'];
+const kMessage = 1, kPlaybackState = 5;  // what a binary frame begins with
 const kHeadBytes = 13;
+const kDidSeekAt = 14;  // behind status, time and speed of a playback
 const kSoonMs = 1500;  // in which a server says what there is
 const kRetryMs = [300, 1000, 2000, 3000];
 
@@ -109,7 +111,12 @@ export class Connection implements Source {
 
   private data(buffer: ArrayBuffer) {
     const view = new DataView(buffer);
-    if (buffer.byteLength < kHeadBytes || view.getUint8(0) !== 1) return;
+    if (buffer.byteLength < kHeadBytes) return;
+    const kind = view.getUint8(0);
+    if (kind === kPlaybackState && buffer.byteLength > kDidSeekAt && view.getUint8(kDidSeekAt) === 1) {
+      this.events.jumped();
+    }
+    if (kind !== kMessage) return;
     const topic = this.topicOf.get(view.getUint32(1, true));
     if (topic === undefined) return;
     const t = view.getUint32(9, true) * 4.294967296 + view.getUint32(5, true) * 1e-9;

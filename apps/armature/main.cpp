@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "armature/config/problems.hpp"
+#include "bench/program.hpp"
 #include "completion/complete.hpp"
 #include "exit_code.hpp"
 #include "verbs/verb_tree.hpp"
@@ -50,6 +51,7 @@ std::vector<std::string> words_of(int argc, char** argv) {
 }
 
 int run_command_line(int argc, char** argv) {
+  bench::end_with_starter();
   CLI::App app{
       "Config-driven robot systems over DDS.\n\n"
       "Example: armature run configs/dental_lamp.yaml --set "

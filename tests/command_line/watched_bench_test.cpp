@@ -3,7 +3,9 @@
 // tests its times mean nothing; that each way ran, with threads that worked, does.
 #include <gmock/gmock.h>
 
+#include <csignal>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "command.hpp"
 #include "tests/dds_domain.hpp"
@@ -31,10 +33,29 @@ TEST(BenchWatched, RunsADeploymentAloneRecordedAndRead) {
 }
 
 TEST(BenchWatched, RefusesWhatItCannotMeasure) {
-  const CommandResult result =
-      bench_watched("configs/dental_lamp.yaml", {"--set", "components.face.process=vision"});
-  EXPECT_EQ(result.exit_code, 3);
-  EXPECT_THAT(result.err, testing::HasSubstr("several processes"));
+  const auto refusal_of = [](const std::string& assignment) {
+    const CommandResult result = bench_watched("configs/dental_lamp.yaml", {"--set", assignment});
+    EXPECT_EQ(result.exit_code, 3) << assignment;
+    return result.err;
+  };
+  EXPECT_THAT(refusal_of("components.face.process=vision"),
+              testing::HasSubstr("several processes"));
+  EXPECT_THAT(refusal_of("clock=simulated"), testing::HasSubstr("--set clock=system"));
+  EXPECT_THAT(refusal_of("record.file=x.mcap"), testing::HasSubstr("leave record: out"));
+}
+
+TEST(BenchWatched, WhatItHasStartedEndsWithIt) {
+  const std::string domain = std::to_string(unique_dds_domain());
+  Command bench{{armature(), "bench", "watched", source_file("configs/sr1_biopsy.yaml"), "--set",
+                 "clock=system", "--rounds", "1", "--seconds", "60", "--domain", domain}};
+  pid_t run = 0;
+  for (int i = 0; i < 2000 && run == 0; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds{10});
+    run = bench.child();
+  }
+  ASSERT_NE(run, 0) << bench.err();
+  bench.signal(SIGKILL);
+  EXPECT_TRUE(ends_within(run, std::chrono::seconds{20}));
 }
 
 }  // namespace

@@ -147,6 +147,9 @@ TEST_F(Replay, WhatWasJoinedComesBackAsItsPartsDo) {
   run_command(process("main"), {}, kEnough);
   vision.finish(kEnough);
   const std::string part = file("run.vision.mcap"), all = file("all.mcap");
+  const json of_one = check({file()}, 1);
+  EXPECT_FALSE(of_one["complete"]);
+  EXPECT_EQ(of_one["missing_processes"], json::array({"vision"}));
   json of_parts = check({file(), part}, 0);
   const CommandResult merge =
       run_command({armature(), "record", "--merge", file(), part, "-o", all}, {}, kEnough);
@@ -260,6 +263,19 @@ TEST_F(Replay, TheReportOfARunHasItsPage) {
       run({"--set", "record={file: \"" + file("%H.mcap") + "\", around_faults_s: 1}"});
   EXPECT_THAT(around.err, HasSubstr("so its report has no page"));
   EXPECT_FALSE(fs::exists(out / "report.html")) << "that of the run before";
+}
+
+TEST_F(Replay, AResultThatCannotBePrintedCostsNeitherReportNorRecording) {
+  const std::string run = armature() + " run " + source_file("configs/sr1_biopsy.yaml") +
+                          " --json --timing --report '" + folder_.string() +
+                          "' --set record.file=" + file() + " --domain " +
+                          std::to_string(unique_dds_domain());
+  const CommandResult result = run_command({"/bin/sh", "-c", run + " > /dev/full"}, {}, kEnough);
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr("the result was not printed: No space left on device"));
+  EXPECT_EQ(json::parse(text_of(folder_ / "report.json"))["status"], "ok");
+  EXPECT_TRUE(fs::exists(folder_ / "report.html"));
+  EXPECT_TRUE(json::parse(run_command({armature(), "info", file(), "--json"}).out)["whole"]);
 }
 
 TEST_F(Replay, AChangedConstantIsFoundAndNamesItsComponentOnly) {

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "record/merge.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstdlib>
 #include <memory>
 #include <optional>
 #include <set>
+#include <stdexcept>
 #include <system_error>
 #include <utility>
 
@@ -130,11 +135,21 @@ Part* earliest(const Parts& parts) {
   return first;
 }
 
-/// A file that is being written, and taken away again unless it has got its name.
+/// A file that is being written, and taken away again unless it has got its name. Nobody else's can
+/// be in its place, and nobody else may read it.
 class Draft {
  public:
-  explicit Draft(std::filesystem::path named)
-      : named_{std::move(named)}, path_{named_.string() + ".joining"} {}
+  /// Throws std::runtime_error when it cannot be made.
+  explicit Draft(std::filesystem::path named) : named_{std::move(named)} {
+    std::string name = named_.string() + ".joining-XXXXXX";
+    const int made = mkostemp(name.data(), O_CLOEXEC);
+    if (made < 0) {
+      throw std::runtime_error(
+          fmt::format("cannot write '{}': {}", name, std::generic_category().message(errno)));
+    }
+    close(made);
+    path_ = name;
+  }
   ~Draft() {
     std::error_code none;
     if (!path_.empty()) std::filesystem::remove(path_, none);

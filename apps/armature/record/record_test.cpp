@@ -186,7 +186,25 @@ TEST(JoinedRecording, IsNotMadeOfWhatIsNotOneRunAndLeavesEverythingAsItWas) {
   }
   EXPECT_THAT(reason(), HasSubstr("is no part of a run"));
   EXPECT_EQ(a.bytes(), before);
-  EXPECT_FALSE(std::filesystem::exists(a.path().string() + ".joining"));
+  for (const auto& entry : std::filesystem::directory_iterator{a.path().parent_path()}) {
+    EXPECT_FALSE(entry.path().string().starts_with(a.path().string() + ".joining"));
+  }
+}
+
+TEST(JoinedRecording, IsForItsUserAloneAndFollowsNoLink) {
+  const RecordingFile a{"a"}, b{"b"}, victim{"victim"};
+  write_part(a.path(), "main", 10);
+  write_part(b.path(), "vision", 11);
+  victim.replace("not ours");
+  const std::string draft = a.path().string() + ".joining";  // as a draft might be called
+  std::filesystem::create_symlink(victim.path(), draft);
+  join_recordings({a.path(), b.path()}, a.path());
+  std::filesystem::remove(draft);
+  EXPECT_EQ(victim.bytes(), "not ours");
+  EXPECT_FALSE(std::filesystem::is_symlink(a.path()));
+  using std::filesystem::perms;
+  EXPECT_EQ(std::filesystem::status(a.path()).permissions(),
+            perms::owner_read | perms::owner_write);
 }
 
 }  // namespace

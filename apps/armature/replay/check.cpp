@@ -99,6 +99,7 @@ class Check {
   const std::filesystem::path& file() const { return run_.file(); }
   const std::string& process() const { return run_.process(); }
   double length_s() const { return to_seconds(length_); }
+  const DeploymentConfig& config() const { return process_.config(); }
 
  private:
   void repeat(const msg::Activation& call, double at_s) {
@@ -181,11 +182,19 @@ struct Totals {
   std::uint64_t components = 0, activations = 0, outputs = 0, differing = 0;
   double length_s = 0;
   ExchangedSamples exchanged;
+  std::vector<std::string> missing;  // processes of the run whose recording was not given
 };
+
+std::vector<std::string> missing_of(const std::vector<std::unique_ptr<Check>>& checks) {
+  std::vector<std::string> missing = checks.front()->config().processes();
+  for (const auto& check : checks) std::erase(missing, check->process());
+  return missing;
+}
 
 Totals totals_of(const std::vector<std::unique_ptr<Check>>& checks,
                  const ExchangedSamples& exchanged) {
-  Totals totals{.is_complete = exchanged.unwritten == 0, .exchanged = exchanged};
+  Totals totals{.exchanged = exchanged, .missing = missing_of(checks)};
+  totals.is_complete = exchanged.unwritten == 0 && totals.missing.empty();
   for (const auto& check : checks) {
     totals.length_s = std::max(totals.length_s, check->length_s());
     totals.is_complete = totals.is_complete && check->is_complete();
@@ -241,6 +250,7 @@ void print_json(const std::vector<std::unique_ptr<Check>>& checks, const Totals&
   Json json{{"identical", totals.differing == 0},
             {"complete", totals.is_complete},
             {"problems", Json::array()},
+            {"missing_processes", totals.missing},
             {"outputs", totals.outputs},
             {"activations", totals.activations},
             {"length_s", totals.length_s},
@@ -341,6 +351,9 @@ int check_recording(const ReplayOptions& options) {
     }
   }
   const Totals totals = totals_of(checks, exchanged);
+  for (const std::string& process : totals.missing) {
+    tell(fmt::format("the recording of process '{}' of this run is missing", process));
+  }
   const double took_s = to_seconds(monotonic_now() - start);
   if (options.json) {
     print_json(checks, totals, took_s);

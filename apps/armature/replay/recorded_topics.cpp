@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "armature/config/problems.hpp"
+#include "record/recorded_processes.hpp"
 #include "replay/recorded_qos.hpp"
 #include "watch/outsider.hpp"
 
@@ -30,7 +31,10 @@ std::size_t kept_of(const McapChannel& channel) {
 }  // namespace
 
 RecordedTopics::RecordedTopics(const std::filesystem::path& file, const Options& options)
-    : reader_{file}, loops_{options.loop}, speed_{options.rate} {
+    : reader_{file},
+      processes_{recorded_processes(file)},
+      loops_{options.loop},
+      speed_{options.rate} {
   read_all();
   add_topics();
   if (chunks_.empty()) {
@@ -46,7 +50,7 @@ RecordedTopics::RecordedTopics(const std::filesystem::path& file, const Options&
 }
 
 void RecordedTopics::read_all() {
-  while (const auto message = reader_.next()) {
+  while (const auto message = read()) {
     const bool is_first = chunks_.empty();
     const Time time = message->log_time;
     first_ = is_first ? time : std::min(first_, time);
@@ -58,6 +62,14 @@ void RecordedTopics::read_all() {
     chunks_.back().topics.insert(message->channel->topic);
   }
   problems_ = reader_.problems();
+}
+
+std::optional<McapMessage> RecordedTopics::read() {
+  std::optional<McapMessage> message;
+  do {
+    message = reader_.next();
+  } while (message && is_doubled(*message->channel, processes_));
+  return message;
 }
 
 void RecordedTopics::add_topics() {
@@ -127,7 +139,7 @@ void RecordedTopics::add_past(const Chunk& chunk, Time time, std::map<std::strin
   std::map<std::string, std::deque<Past::Message>> found;
   reader_.go_to(chunk.at);
   for (std::uint64_t i = 0; i < chunk.messages; ++i) {
-    const auto message = reader_.next();
+    const auto message = read();
     if (!message) break;
     const auto wanted = past.find(message->channel->topic);
     if (wanted == past.end() || message->log_time > time) continue;
@@ -153,7 +165,7 @@ void RecordedTopics::read_next() {
   // Where no message follows the reader would check the sum of the whole file, every time.
   const Chunk& end = chunks_.back();
   const bool is_last = next_chunk_ == end.at && next_of_chunk_ + 1 == end.messages;
-  next_ = is_last ? std::nullopt : reader_.next();
+  next_ = is_last ? std::nullopt : read();
   if (!next_) return;
   next_of_chunk_ = reader_.chunk() == next_chunk_ ? next_of_chunk_ + 1 : 0;
   next_chunk_ = reader_.chunk();

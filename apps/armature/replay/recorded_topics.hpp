@@ -70,6 +70,9 @@ class RecordedTopics final : public TopicSource, public Playback {
   };
 
   void read_all();
+  /// The next message of the file; of what is recorded twice, in a joined recording, the one that
+  /// its writer has recorded.
+  std::optional<McapMessage> read();
   void add_topics();
   /// Hands on what was written last of `names` until `time`.
   void tell_past(const std::set<std::string>& names, Time time);
@@ -87,6 +90,7 @@ class RecordedTopics final : public TopicSource, public Playback {
   void settle();
 
   McapReader reader_;
+  const std::vector<std::string> processes_;  // whose recordings are in the file
   const bool loops_;
   std::vector<Chunk> chunks_;
   std::map<std::string, RecordedTopic> topics_;

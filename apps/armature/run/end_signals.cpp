@@ -23,7 +23,7 @@ namespace {
 constexpr std::array kOfOperator{SIGINT, SIGTERM, SIGQUIT};
 
 std::atomic<int> g_signal{0}, g_count{0};
-std::atomic<bool> g_json{false}, g_reports{false};
+std::atomic<bool> g_json{false}, g_reports{false}, g_result_told{false};
 std::string g_report_file;  // set before any handler
 
 /// Never waits for a reader.
@@ -67,8 +67,8 @@ Text text_of(int signal) {
 
 /// In a signal handler, which may open and write, and little else.
 [[noreturn]] void leave(std::string_view json, std::string_view line) {
-  if (g_json) write_out(STDOUT_FILENO, json);
-  if (g_reports) {
+  if (g_json && !g_result_told) write_out(STDOUT_FILENO, json);
+  if (g_reports && !g_result_told) {
     const int report =
         ::open(g_report_file.c_str(),
                O_WRONLY | O_CREAT | O_TRUNC | O_NONBLOCK | O_NOFOLLOW | O_CLOEXEC, 0600);
@@ -92,6 +92,8 @@ void on_signal(int signal) {
   const int count = ++g_count;
   if (count == 1) g_signal = signal;
   if (count < 3) return;
+  if (g_result_told)
+    leave("", "armature: ended at once by a third signal; its recording is not finished\n");
   leave(
       "{\"status\":\"fault\",\"reason\":\"ended at once by a third signal, before everything was "
       "at rest\"}\n",
@@ -117,6 +119,8 @@ void say(const Words& words) {
 }
 void allow_report() { g_reports = true; }
 bool report_allowed() { return g_reports; }
+void result_told() { g_result_told = true; }
+bool is_result_told() { return g_result_told; }
 
 void end_before_start() { handle(on_signal_before_start); }
 

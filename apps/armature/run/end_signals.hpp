@@ -20,6 +20,9 @@ void say(const Words& words);
 /// From when on the report's file can be written.
 void allow_report();
 bool report_allowed();
+/// From when on the result stands: no signal writes another one in its place.
+void result_told();
+bool is_result_told();
 
 /// Nothing runs yet, and constructing components (a landmark model is read) cannot be told to stop:
 /// the process ends at once, and says so.

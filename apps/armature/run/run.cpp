@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -16,6 +17,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string_view>
+#include <system_error>
 
 #include "armature/config/document.hpp"
 #include "armature/config/source_text.hpp"
@@ -165,22 +167,29 @@ bool report_written(const RunReport& report, const Deployment& deployment,
   }
 }
 
+/// Prints the result. False: it could not be printed, as when the terminal is gone or the disk is
+/// full.
+bool result_printed(const RunOptions& options, const RunReport& report, Console& console) {
+  const auto mark = [](std::string_view word, bool good) {
+    return coloured(word, good ? Tone::good : Tone::bad, stdout);
+  };
+  const std::string text = options.json ? to_json(report) + "\n" : to_table(report, mark);
+  const bool printed = std::fputs(text.c_str(), stdout) >= 0 && std::fflush(stdout) == 0;
+  if (!printed) {
+    console.tell(
+        fmt::format("the result was not printed: {}", std::generic_category().message(errno)));
+  }
+  return printed;
+}
+
 int conclude(const RunOptions& options, const Deployment& deployment, const RunReport& report,
              Console& console, LastWord& last_word) {
-  if (options.json) {
-    fmt::print("{}\n", to_json(report));
-  } else {
-    const auto mark = [](std::string_view word, bool good) {
-      return coloured(word, good ? Tone::good : Tone::bad, stdout);
-    };
-    fmt::print("{}", to_table(report, mark));
-  }
-  std::fflush(stdout);
+  const bool printed = result_printed(options, report, console);
   last_word.result_told();
-  if (options.report && !report_written(report, deployment, *options.report, console)) {
-    return kFailed;
-  }
-  return report.status() == "ok" ? kOk : kFailed;
+  const bool written =
+      !options.report || report_written(report, deployment, *options.report, console);
+  end_signals::result_told();
+  return printed && written && report.status() == "ok" ? kOk : kFailed;
 }
 
 /// What failed in a process that does not judge the deployment's goals, or "".
@@ -308,7 +317,7 @@ int run_main(const RunOptions& options, const Process& process, Deployment& depl
   int code = conclude(options, deployment, report, console, last_word);
   deployment.end_recording(figures_json(report, timing));
   watched_end.do_unwatched([&] {
-    if (recording) join_parts(*recording, deployment.config(), console);
+    if (recording && !joined(*recording, deployment.config(), console)) code = kFailed;
     if (options.report && !page_written(recording, *options.report, console)) code = kFailed;
   });
   for (const std::string& fault : ending.faults) console.tell(fault);
@@ -436,6 +445,7 @@ int run_deployment(const RunOptions& options) {
   try {
     return run(options);
   } catch (const std::exception& error) {
+    if (end_signals::is_result_told()) throw;
     const std::string told = ending(status_of(error), error.what());
     if (options.json) fmt::print("{}", told);
     if (end_signals::report_allowed()) write_ending(*options.report, told);

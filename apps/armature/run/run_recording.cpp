@@ -2,6 +2,7 @@
 #include "run/run_recording.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <exception>
 #include <nlohmann/json.hpp>
@@ -29,14 +30,25 @@ bool is_part(const std::filesystem::path& file) {
   }
 }
 
-/// What is joined at the end of a run: the recordings of this host's processes.
+std::vector<std::string> names_of(const std::vector<std::filesystem::path>& files) {
+  return {files.begin(), files.end()};
+}
+
+/// What is joined at the end of a run: the recordings of this host's processes. Those that are
+/// missing are `missing`.
 std::vector<std::filesystem::path> parts_of(const std::filesystem::path& recording,
-                                            const DeploymentConfig& config) {
+                                            const DeploymentConfig& config,
+                                            std::vector<std::string>& missing) {
   std::vector<std::filesystem::path> parts{recording};
   for (const std::string& name : config.processes()) {
     if (name == kMainProcess || config.host_of(name) != kMainHost) continue;
     std::filesystem::path part = RecordConfig::part_of(recording, name);
-    if (is_part(part)) parts.push_back(std::move(part));
+    if (is_part(part)) {
+      parts.push_back(std::move(part));
+    } else {
+      missing.push_back(fmt::format(
+          "the recording of process '{}' is missing, or cannot be read: {}", name, part.string()));
+    }
   }
   return parts;
 }
@@ -66,10 +78,12 @@ void record_for_page(DeploymentConfig& config, RunOptions& options) {
   options.source.assignments.push_back("record=" + record.dump());
 }
 
-void join_parts(const std::filesystem::path& recording, const DeploymentConfig& config,
-                Console& console) {
-  const auto parts = parts_of(recording, config);
-  if (parts.size() < 2) return;
+bool joined(const std::filesystem::path& recording, const DeploymentConfig& config,
+            Console& console) {
+  std::vector<std::string> missing;
+  const auto parts = parts_of(recording, config, missing);
+  for (const std::string& part : missing) console.tell(part);
+  if (parts.size() < 2) return missing.empty();
   constexpr std::uintmax_t kTakesSeconds = 200'000'000;
   std::uintmax_t bytes = 0;
   std::error_code gone;
@@ -88,8 +102,13 @@ void join_parts(const std::filesystem::path& recording, const DeploymentConfig& 
                                         recording.string(), joined.messages, parts.size(),
                                         megabytes(joined.bytes), joined.head));
     for (const std::string& problem : joined.problems) console.tell(problem);
+    return missing.empty();
   } catch (const std::exception& error) {
-    console.tell(fmt::format("the recordings of the processes were not joined: {}", error.what()));
+    console.tell(
+        fmt::format("the recordings of the processes were not joined: {}; join them where "
+                    "there is room: armature record --merge {} -o whole.mcap",
+                    error.what(), fmt::join(names_of(parts), " ")));
+    return false;
   }
 }
 

@@ -23,10 +23,10 @@ void remove_older(const std::filesystem::path& file);
 /// report.
 void record_for_page(DeploymentConfig& config, RunOptions& options);
 
-/// Joins the recordings of all processes of this host into the one that the deployment names. They
-/// stay as they are, and the console is told why, when that is not possible.
-void join_parts(const std::filesystem::path& recording, const DeploymentConfig& config,
-                Console& console);
+/// Joins the recordings of all processes of this host into the one that the deployment names.
+/// False, and the console is told why: one of them is missing, or they stay as they are.
+bool joined(const std::filesystem::path& recording, const DeploymentConfig& config,
+            Console& console);
 
 /// Writes report.html of what the run has recorded; none: it has no recording of all of it. False:
 /// the file could not be written.

@@ -88,7 +88,8 @@ void add_replay(CLI::App& app, Action& action) {
       ->capture_default_str();
   verb->add_option("--rate", publish->rate, "so many times as fast")->check(not_positive);
   verb->add_option("--from", publish->from_s, "so many seconds after the beginning")
-      ->check(CLI::NonNegativeNumber);
+      ->check(wrong_number)
+      ->check(CLI::Range(0.0, 1e9));
   verb->add_flag("--loop", publish->loop, "again and again");
   CLI::Option* monitor = verb->add_flag(
       "--monitor", publish->monitor,
@@ -100,7 +101,14 @@ void add_replay(CLI::App& app, Action& action) {
     verb->get_option(option)->needs(monitor);
   }
   add_watch(*verb, *publish);
-  for (const char* other : {"--json", "--domain"}) monitor->excludes(other);
+  for (const char* other : {"--json", "--domain", "--interface", "--peer", "--discovery-server",
+                            "--no-shared-memory", "--allow-ulp"}) {
+    monitor->excludes(other);
+  }
+  for (const char* other : {"--prefix", "--rate", "--from", "--loop", "--timeout"}) {
+    verb->get_option("--check")->excludes(other);
+    verb->get_option("--set")->excludes(other);
+  }
   verb->get_option("--timeout")->description("end after this many seconds");
   verb->callback([=, &action] {
     options->json = publish->json;

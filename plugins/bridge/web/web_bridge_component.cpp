@@ -40,6 +40,16 @@ MonitorAddress address_of(const Parameters& parameters, const Params& params) {
                                    " is no IPv4 address; 127.0.0.1 is for programs of this "
                                    "machine, 0.0.0.0 for all others, too");
   }
+  for (const std::string& origin : parameters.origins) {
+    const std::size_t host = origin.find("://");
+    if (origin.starts_with("http") && host != std::string::npos && host + 3 < origin.size() &&
+        origin.find('/', host + 3) == std::string::npos) {
+      continue;
+    }
+    params.refuse({"origins"}, config::in_quotes(origin) +
+                                   " is no origin, which is a scheme and a host, with a port where "
+                                   "it has one: http://localhost:8080");
+  }
   MonitorAddress server{.address = address,
                         .port = parameters.port,
                         .origins = parameters.origins,

@@ -52,6 +52,14 @@ TEST(WebBridgeParameters, RefusesWhatIsNoAddress) {
             "machine, 0.0.0.0 for all others, too");
 }
 
+TEST(WebBridgeParameters, RefusesWhatIsNoOrigin) {
+  for (const char* wrong : {"foo", "http://a/", "http://"}) {
+    EXPECT_THAT(refusal_with("origins: ['" + std::string{wrong} + "']"),
+                HasSubstr("'" + std::string{wrong} + "' is no origin"));
+  }
+  EXPECT_EQ(refusal_with("origins: ['http://localhost:8080']"), "");
+}
+
 TEST(WebBridgeParameters, RefusesAnAddressOfTheNetworkWithoutAToken) {
   EXPECT_EQ(refusal_with("address: 0.0.0.0"),
             "bench:1:47: '0.0.0.0' is reached by other machines, who must say a token: name a "

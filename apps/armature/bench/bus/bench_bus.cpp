@@ -21,11 +21,13 @@
 #include "armature/values/wake_up.hpp"
 #include "bench/bus/bus_report.hpp"
 #include "bench/bus/topic_exchange.hpp"
+#include "bench/pause.hpp"
 #include "bench/processors.hpp"
 #include "bench/program.hpp"
 #include "bench/statistics.hpp"
 #include "exit_code.hpp"
 #include "progress.hpp"
+#include "watch/outsider.hpp"
 
 namespace armature {
 namespace {
@@ -88,7 +90,9 @@ class HandOvers {
 
 TripTimes figures(const std::vector<double>& times, int expected) {
   if (std::cmp_less(times.size(), expected)) {
-    throw std::runtime_error{"an answer did not come within a second"};
+    throw std::runtime_error{
+        "an answer did not come within a second; does another bench run in this domain "
+        "(--domain)?"};
   }
   return {.p50_s = bench::quantile(times, 0.5), .p99_s = bench::quantile(times, 0.99)};
 }
@@ -104,17 +108,19 @@ void await(const std::function<bool()>& met, const char* what) {
     if (Clock::now() > end) {
       throw std::runtime_error{fmt::format("{} has not met the process that answers", what)};
     }
-    std::this_thread::sleep_for(std::chrono::milliseconds{5});
+    bench::pause_s(0.005);
   }
 }
 
 int answer(const BusBenchOptions& options, int cpu) {
+  leave_in_order();
   bench::move_to_cpu(cpu);
   PluginRegistry plugins;
   const auto plain = plain_exchange(plugins, options);
   const TopicExchange topics{{.part = TopicExchange::Part::answers, .domain = options.domain}};
   pollfd input{.fd = STDIN_FILENO, .events = POLLIN, .revents = 0};
-  while (poll(&input, 1, -1) < 0) {
+  constexpr int kLook_ms = 200;
+  while (!left() && poll(&input, 1, kLook_ms) <= 0) {
   }
   return kOk;
 }
@@ -180,6 +186,7 @@ class Contestants {
 int bench_bus(const BusBenchOptions& options) {
   const auto [here, there] = bench::two_cpus();
   if (options.answers) return answer(options, there);
+  leave_in_order();
   BusReport report{.options = options, .machine = bench::this_machine(), .rounds = {}};
   const bench::Program answerer{
       {"bench", "bus", "--answers", "--domain", std::to_string(options.domain)}};
@@ -189,6 +196,7 @@ int bench_bus(const BusBenchOptions& options) {
   contestants.round(order);  // touches memory for the first time
   Progress progress{"rounds"};
   for (int i = 0; i < options.rounds; ++i) {
+    bench::pause_s(0);
     report.rounds.push_back(contestants.round(order));
     progress.part((i + 1.0) / options.rounds);
   }

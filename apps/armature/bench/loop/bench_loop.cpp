@@ -15,18 +15,19 @@
 #include <set>
 #include <stdexcept>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "bench/loop/loop_report.hpp"
 #include "bench/loop/measured_loop.hpp"
 #include "bench/loop/page.hpp"
+#include "bench/pause.hpp"
 #include "bench/processors.hpp"
 #include "bench/program.hpp"
 #include "bench/statistics.hpp"
 #include "bench/temporary_folder.hpp"
 #include "exit_code.hpp"
 #include "progress.hpp"
+#include "watch/outsider.hpp"
 
 namespace armature {
 namespace {
@@ -44,7 +45,7 @@ int port_told_in(const std::filesystem::path& file) {
     const std::string told{std::istreambuf_iterator<char>{stream}, {}};
     std::smatch match;
     if (std::regex_search(told, match, address)) return std::stoi(match[1]);
-    std::this_thread::sleep_for(std::chrono::milliseconds{10});
+    bench::pause_s(0.01);
   }
   throw std::runtime_error{"the monitor has not told its address within 20 s"};
 }
@@ -80,10 +81,6 @@ class Watchers {
   std::vector<std::unique_ptr<bench::Program>> programs_;
 };
 
-void wait_for(double seconds) {
-  std::this_thread::sleep_for(std::chrono::duration<double>{seconds});
-}
-
 /// What a contestant had counted when a round began.
 struct Begin {
   TimingHistogram::Counts lateness;
@@ -113,7 +110,7 @@ void settle(MeasuredLoop& contestant) {
   const auto end = std::chrono::steady_clock::now() + kTimeout;
   while (contestant.lateness().counts().figures().count < kSteps) {
     if (std::chrono::steady_clock::now() > end) throw std::runtime_error{"a loop stands still"};
-    wait_for(0.01);
+    bench::pause_s(0.01);
   }
 }
 
@@ -125,10 +122,10 @@ bench::LoopRound round_of(MeasuredLoop& a, MeasuredLoop& b, std::pair<int, int> 
   settle(a);
   settle(b);
   const Begin begin_a = begin_of(a), begin_b = begin_of(b);
-  wait_for(seconds / 2);
+  bench::pause_s(seconds / 2);
   a.requests().move(cpus.second);
   b.requests().move(cpus.first);
-  wait_for(seconds / 2);
+  bench::pause_s(seconds / 2);
   return {.a = side_since(a, begin_a), .b = side_since(b, begin_b)};
 }
 
@@ -139,7 +136,7 @@ void await_readers(const bench::OurLoop& loop, int count) {
       throw std::runtime_error{
           fmt::format("only {} of {} readers have come", loop.readers(), count)};
     }
-    std::this_thread::sleep_for(std::chrono::milliseconds{1});
+    bench::pause_s(0.001);
   }
 }
 
@@ -156,6 +153,7 @@ std::string wrong_round(const LoopBenchOptions& options) {
 
 int bench_loop(const LoopBenchOptions& options) {
   if (options.page) return bench::read_as_a_page(*options.page);
+  leave_in_order();
   const auto cpus = bench::two_cpus();
   const bench::LoopSettings settings{
       .period_s = options.period_s, .priority = options.priority, .domain = options.domain};

@@ -24,11 +24,13 @@
 #include "armature/config/document.hpp"
 #include "armature/runtime/deployment_file/deployment_config.hpp"
 #include "armature/runtime/plugins/plugin_registry.hpp"
+#include "bench/pause.hpp"
 #include "bench/program.hpp"
 #include "bench/temporary_folder.hpp"
 #include "bench/watched/watched_report.hpp"
 #include "exit_code.hpp"
 #include "progress.hpp"
+#include "watch/outsider.hpp"
 
 namespace armature {
 namespace {
@@ -60,6 +62,12 @@ Subject subject_of(const DeploymentSource& source) {
   const DeploymentConfig config = read_deployment(
       config::load_with_overlays(source.files, source.assignments), plugins, problems);
   problems.throw_if_any();
+  if (config.simulated) {
+    throw InvalidChoice("on the simulated clock nobody waits for a watcher: --set clock=system");
+  }
+  if (config.record) {
+    throw InvalidChoice("the bench itself says what is recorded: leave record: out");
+  }
   if (config.processes().size() > 1) {
     throw InvalidChoice("what a deployment in several processes costs is not measured here");
   }
@@ -104,12 +112,8 @@ WatchedRun run_of(std::map<std::string, double> times, const Subject& subject,
   return run;
 }
 
-void sleep_s(double seconds) {
-  std::this_thread::sleep_for(std::chrono::duration<double>{seconds});
-}
-
 /// Waits until the run has begun: its first thread has stepped.
-void await_start(const Program& run, const Subject& subject, const fs::path& output) {
+void await_start(Program& run, const Subject& subject, const fs::path& output) {
   constexpr int kTimeout_s = 60;
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds{kTimeout_s};
   const auto has_stepped = [&] {
@@ -120,11 +124,15 @@ void await_start(const Program& run, const Subject& subject, const fs::path& out
     });
   };
   while (!has_stepped()) {
+    if (run.has_ended()) {
+      throw std::runtime_error{"the deployment ended before it began: " +
+                               content(output.string() + ".err")};
+    }
     if (std::chrono::steady_clock::now() > end) {
       throw std::runtime_error{fmt::format("the deployment has not begun within {} s: {}",
                                            kTimeout_s, content(output.string() + ".err"))};
     }
-    sleep_s(0.005);
+    bench::pause_s(0.005);
   }
 }
 
@@ -175,11 +183,11 @@ WatchedRun measure(const WatchedBenchOptions& options, const Subject& subject, W
       readers.push_back(std::make_unique<Program>(
           std::vector<std::string>{"topic", "hz", topic, "--domain", domain}));
     }
-    sleep_s(1);  // they are there before what they watch
+    bench::pause_s(1);  // they are there before what they watch
   }
   Program run{words, run_output};
   await_start(run, subject, run_output);
-  sleep_s(options.seconds);
+  bench::pause_s(options.seconds);
   auto times = processor_times(run.pid());
   run.interrupt();
   run.wait();
@@ -196,6 +204,7 @@ WatchedRun measure(const WatchedBenchOptions& options, const Subject& subject, W
 }  // namespace
 
 int bench_watched(const WatchedBenchOptions& options) {
+  leave_in_order();
   const Subject subject = subject_of(options.source);
   WatchedReport report{.options = options, .machine = bench::this_machine(), .rounds = {}};
   std::vector<Watching> order{bench::kWatching.begin(), bench::kWatching.end()};

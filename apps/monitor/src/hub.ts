@@ -20,6 +20,7 @@ export class Hub {
   topics = new Map<string, TopicInfo>();
   condition: Condition = 'connecting';
   text = '';
+  isPlayed = false;      // a recording is played to the page, and to whoever else looks
   source?: Source;
   received = 0;
   firstDataMs = NaN;     // after the page began, or after there was something to see
@@ -68,6 +69,7 @@ export class Hub {
   private leave() {
     this.source?.close();
     this.source = undefined;
+    this.isPlayed = false;
     this.forgetAll();
     this.topics = new Map();
     ++this.topicsVersion;
@@ -104,6 +106,9 @@ export class Hub {
         for (const call of this.arrivals) call({topic, t});
       },
       forget: (topic) => this.forget(topic),
+      played: () => {
+        this.isPlayed = true;
+      },
       jumped: () => this.forgetAll(),
       warning: (text) => {
         this.warnings.push({t: this.store.newest, text});

@@ -96,6 +96,8 @@ test('what was told before a playback jumps is forgotten, and what follows is ke
   const hub = new Hub();
   hub.want(new Set([topic]));
   hub.connect('ws://recording');
+  socket.onmessage!({data: JSON.stringify({op: 'serverInfo', capabilities: ['playbackControl', 'time']})});
+  assert.ok(hub.isPlayed);
   const channel = {id: 7, topic, encoding: 'cdr', schemaName: 'std_msgs/msg/Float64', schemaEncoding: 'ros2msg', schema: 'float64 data'};
   socket.onmessage!({data: JSON.stringify({op: 'advertise', channels: [channel]})});
   const message = (seconds: number) => {

@@ -52,7 +52,7 @@ export class Header {
     this.drawFigures(headlines);
     this.drawHealth(view, t);
     const lost = hub.condition === 'lost' || hub.condition === 'refused';
-    write(this.connection, `${lost ? '▲ ' : ''}${hub.condition === 'connected' ? (view.isLive ? '● live' : '❚❚ paused') : hub.text}`);
+    write(this.connection, `${lost ? '▲ ' : ''}${hub.condition === 'connected' ? (!view.isLive ? '❚❚ paused' : hub.isPlayed ? '▷ recording' : '● live') : hub.text}`);
     this.connection.classList.toggle('lost', lost);
     document.body.classList.toggle('lost', lost);
   }

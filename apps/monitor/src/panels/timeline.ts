@@ -44,10 +44,11 @@ export class Timeline {
     write(this.play, runs ? '❚❚ Pause' : '▶ Play');
     this.play.setAttribute('aria-pressed', String(!runs));
     this.live.hidden = hub.source?.kind !== 'live';
+    write(this.live, hub.isPlayed ? 'Newest' : 'Live');
     this.live.classList.toggle('on', isLive);
     const value = span > 0 ? Math.round(((t - start) / span) * 1000) : 1000;
     if (document.activeElement !== this.slider || runs) this.slider.value = String(value);
-    write(this.label, !Number.isFinite(t) ? 'no data yet' : hub.recording ? `${(t - start).toFixed(1)} of ${span.toFixed(1)} s` : isLive ? 'live' : `${(t - end).toFixed(1)} s`);
+    write(this.label, !Number.isFinite(t) ? 'no data yet' : hub.recording ? `${(t - start).toFixed(1)} of ${span.toFixed(1)} s` : isLive ? (hub.isPlayed ? 'recording' : 'live') : `${(t - end).toFixed(1)} s`);
     this.slider.setAttribute('aria-valuetext', this.label.textContent ?? '');
     this.drawTicks(events, start, span);
     const first = Number.isFinite(hub.firstDataMs) ? `first data ${(hub.firstDataMs / 1000).toFixed(2)} s` : 'no data yet';

@@ -85,7 +85,9 @@ export class Connection implements Source {
 
   private told(text: string) {
     const message = JSON.parse(text);
-    if (message.op === 'advertise') {
+    if (message.op === 'serverInfo') {
+      if (message.capabilities?.includes('playbackControl')) this.events.played();
+    } else if (message.op === 'advertise') {
       for (const channel of message.channels as Channel[]) {
         this.channels.set(channel.id, channel);
         this.byTopic.set(channel.topic, channel.id);

@@ -18,6 +18,8 @@ export interface SourceEvents {
   message(topic: string, t: number, bytes: Uint8Array): void;
   /// What was kept of this topic belongs to something that is over.
   forget(topic: string): void;
+  /// What comes is no running deployment: a recording is played.
+  played(): void;
   /// What follows is of another time: a recording that is played has been sought in.
   jumped(): void;
   warning(text: string): void;

@@ -46,10 +46,9 @@ void add_bench_loop(CLI::App* bench, Action& action) {
       "loop", "How late an executor's steps begin, beside a bare thread: armature bench loop");
   loop->add_option("--readers", options->readers, "other processes that read, in further rounds")
       ->check(CLI::Range(0, 32));
-  loop->add_flag(
-      "--everything", options->everything,
-      "in further rounds it records itself, and a recorder of all topics, a page and four "
-      "others read");
+  loop->add_flag("--everything", options->everything,
+                 "in further rounds the loop is recorded, by itself and by another process, and a "
+                 "page and four others read it");
   loop->add_option("--page", options->page)->group("");  // what the bench starts
   loop->add_option("--rounds", options->rounds, "of each comparison")
       ->capture_default_str()

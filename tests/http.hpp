@@ -1,27 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <arpa/inet.h>
-#include <netinet/in.h>
 #include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include <cstdint>
 #include <string>
+
+#include "armature/web/web_socket.hpp"
 
 namespace armature::test {
 
 /// A browser that asks a server on this machine for a page, and reads as much of it as it is told.
 class HttpClient {
  public:
-  HttpClient(int port, const std::string& request)
-      : file_{socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)} {
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_port = htons(static_cast<std::uint16_t>(port));
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    if (connect(file_, reinterpret_cast<sockaddr*>(&address), sizeof address) != 0) return;
+  HttpClient(int port, const std::string& request) : file_{connect_here(port)} {
     const std::string text = request + " HTTP/1.1\r\nHost: 127.0.0.1\r\nConnection: close\r\n\r\n";
     send(file_, text.data(), text.size(), MSG_NOSIGNAL);
   }

@@ -51,7 +51,7 @@ std::vector<std::string> words_of(int argc, char** argv) {
 }
 
 int run_command_line(int argc, char** argv) {
-  bench::end_with_starter();
+  bench::end_with_bench();
   CLI::App app{
       "Config-driven robot systems over DDS.\n\n"
       "Example: armature run configs/dental_lamp.yaml --set "

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `armature bench bus`: topics beside Fast DDS alone. On a machine that is busy with tests its times
-// mean nothing; that every question is answered, and nobody complains, does.
+// `armature bench bus`: topics beside Fast DDS alone. On a machine that is busy with tests its
+// times mean nothing; that every question is answered, and nobody complains, does.
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
@@ -12,10 +12,9 @@ namespace armature::test {
 namespace {
 
 TEST(BenchBus, MeasuresTopicsBesideFastDdsAlone) {
-  const CommandResult result =
-      run_command({armature(), "bench", "bus", "--rounds", "1", "--domain",
-                   std::to_string(unique_dds_domain()), "--json"},
-                  {}, std::chrono::seconds{60});
+  const CommandResult result = run_command({armature(), "bench", "bus", "--rounds", "1", "--domain",
+                                            std::to_string(unique_dds_domain()), "--json"},
+                                           {}, std::chrono::seconds{60});
   ASSERT_THAT(result.exit_code, testing::AnyOf(0, 1)) << result.err;
   EXPECT_EQ(result.err, "");
   const auto report = nlohmann::json::parse(result.out);

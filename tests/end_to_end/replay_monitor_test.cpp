@@ -229,5 +229,16 @@ TEST_F(ReplayMonitor, OptionsOfAPageNeedIt) {
   EXPECT_THAT(without.err, HasSubstr("--port requires --monitor"));
 }
 
+TEST_F(ReplayMonitor, OptionsThatWouldDoNothingAreRefused) {
+  const auto refused = [&](std::vector<std::string> options) {
+    options.insert(options.begin(), {armature(), "replay", file_.path()});
+    return run_command(options).exit_code == 2;
+  };
+  EXPECT_TRUE(refused({"--check", "--loop"}));
+  EXPECT_TRUE(refused({"--check", "--from", "1"}));
+  EXPECT_TRUE(refused({"--monitor", "--no-shared-memory"}));
+  EXPECT_TRUE(refused({"--monitor", "--from", "nan"}));
+}
+
 }  // namespace
 }  // namespace armature::test

@@ -9,12 +9,18 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
 #include <system_error>
+#include <utility>
 
 #include "armature/values/spawn_plan.hpp"
 
 namespace armature::bench {
 namespace {
+
+/// In the environment of what a bench starts: the bench's process number.
+constexpr const char* kBench = "ARMATURE_BENCH";
 
 /// Where the process may write to. Throws std::system_error.
 int open_output(const std::filesystem::path& output, const char* ending) {
@@ -24,33 +30,33 @@ int open_output(const std::filesystem::path& output, const char* ending) {
   return opened;
 }
 
-}  // namespace
-
-Program::Program(std::vector<std::string> words, const std::filesystem::path& output) {
-  int ends[2];
-  if (pipe2(ends, O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
-  input_ = ends[1];
-  const int out = open_output(output, ".out"), err = open_output(output, ".err");
-  SpawnPlan plan;
-  plan.hand_over(ends[0], STDIN_FILENO).hand_over(out, STDOUT_FILENO).hand_over(err, STDERR_FILENO);
-  plan.close_from(STDERR_FILENO + 1);
-  plan.default_signals().unblock_signals();
-  words.insert(words.begin(), "armature");
-  std::vector<std::string> environment{std::string{kEndsWithStarter} + "=" +
-                                       std::to_string(getpid())};
-  for (char** entry = environ; *entry; ++entry) environment.emplace_back(*entry);
-  const int error = plan.start("/proc/self/exe", std::move(words), pid_, std::move(environment));
-  for (const int file : {ends[0], out, err}) close(file);
-  if (error == 0) return;
-  close(input_);
-  throw std::system_error(error, std::generic_category(), "cannot start another process");
+std::string content(const std::string& file) {
+  std::ifstream stream{file};
+  return {std::istreambuf_iterator<char>{stream}, {}};
 }
 
-void end_with_starter() {
-  const char* starter = std::getenv(kEndsWithStarter);
-  if (!starter) return;
+}  // namespace
+
+void end_with_bench() {
+  const char* bench = std::getenv(kBench);
+  if (!bench) return;
   prctl(PR_SET_PDEATHSIG, SIGTERM);
-  if (std::to_string(getppid()) != starter) raise(SIGTERM);  // it has ended before
+  if (std::to_string(getppid()) != bench) raise(SIGTERM);  // it has ended before
+}
+
+Program::Program(std::vector<std::string> words, std::filesystem::path output)
+    : output_{std::move(output)} {
+  const int out = open_output(output_, ".out"), err = open_output(output_, ".err");
+  SpawnPlan plan;
+  plan.give_nothing(STDIN_FILENO).hand_over(out, STDOUT_FILENO).hand_over(err, STDERR_FILENO);
+  plan.close_from(STDERR_FILENO + 1).default_signals().unblock_signals();
+  words.insert(words.begin(), "armature");
+  std::vector<std::string> environment{std::string{kBench} + "=" + std::to_string(getpid())};
+  for (char** entry = environ; *entry; ++entry) environment.emplace_back(*entry);
+  const int error = plan.start("/proc/self/exe", std::move(words), pid_, std::move(environment));
+  for (const int file : {out, err}) close(file);
+  if (error == 0) return;
+  throw std::system_error(error, std::generic_category(), "cannot start another process");
 }
 
 Program::~Program() {
@@ -59,26 +65,25 @@ Program::~Program() {
   for (int i = 0; i < kTimeout_ms && !has_ended(); ++i) usleep(1000);
   if (!has_ended()) kill(pid_, SIGKILL);
   wait();
-  close(input_);
 }
 
-void Program::interrupt() const { kill(pid_, SIGINT); }
+std::string Program::out() const { return content(output_.string() + ".out"); }
+std::string Program::err() const { return content(output_.string() + ".err"); }
+
+void Program::interrupt() {
+  if (!has_ended()) kill(pid_, SIGINT);
+  wait();
+}
 
 bool Program::has_ended() {
-  int status = 0;
-  if (ended_ || waitpid(pid_, &status, WNOHANG) != pid_) return ended_;
-  code_ = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  return ended_ = true;
+  ended_ = ended_ || waitpid(pid_, nullptr, WNOHANG) == pid_;
+  return ended_;
 }
 
-int Program::wait() {
-  int status = 0;
-  while (!ended_ && waitpid(pid_, &status, 0) != pid_) {
-    if (errno != EINTR) break;
+void Program::wait() {
+  while (!ended_) {
+    ended_ = waitpid(pid_, nullptr, 0) == pid_ || errno != EINTR;
   }
-  if (!ended_) code_ = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  ended_ = true;
-  return code_;
 }
 
 }  // namespace armature::bench

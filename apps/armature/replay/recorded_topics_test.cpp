@@ -8,10 +8,12 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <map>
 #include <random>
 #include <thread>
 
 #include "armature/recording/recording_test.hpp"
+#include "armature/runtime/recording/recorded_description.hpp"
 
 namespace armature {
 namespace {
@@ -47,6 +49,28 @@ void write(const std::filesystem::path& path) {
   for (int number = 0; number < kCount; ++number) {
     put(fast, number);
     if (number % kSlow == 0) put(slow, number);
+  }
+  writer.close();
+}
+
+/// A joined recording: what "main" has written to /fast, and the same as "vision" has read it.
+void write_joined(const std::filesystem::path& path) {
+  McapWriter writer{path, {}};
+  for (const char* process : {"main", "vision"}) {
+    writer.add(
+        McapMetadata{.name = std::string{kProcessMetadata}, .values = {{kProcessKey, process}}});
+  }
+  const auto schema = writer.add(
+      McapSchema{.name = "std_msgs/msg/String", .encoding = "ros2msg", .data = "string data\n"});
+  for (const std::map<std::string, std::string>& metadata :
+       {std::map<std::string, std::string>{{"qos", "state"}},
+        {{"qos", "state"}, {kFromKey, "main"}}}) {
+    const auto channel = writer.add(McapChannel{
+        .schema_id = schema, .topic = "/fast", .message_encoding = "cdr", .metadata = metadata});
+    for (int number = 0; number < 3; ++number) {
+      writer.write(channel, 0, time_of(number), time_of(number),
+                   std::as_bytes(std::span{&number, std::size_t{1}}));
+    }
   }
   writer.close();
 }
@@ -209,6 +233,18 @@ TEST_F(RecordedTopicsTest, RefusesABeginningBehindItsEnd) {
   } catch (const std::runtime_error& error) {
     EXPECT_THAT(error.what(), HasSubstr("is 1.99 s long: nothing is there from 3 s on"));
   }
+}
+
+TEST_F(RecordedTopicsTest, WhatIsRecordedByWriterAndReaderIsToldOnce) {
+  write_joined(file_.path());
+  open();
+  watch("/fast");
+  recording_->request({.plays = true, .speed = 1000, .seek = {}});
+  for (int i = 0; i < 2000 && recording_->state().status != Playback::Status::ended; ++i) {
+    recording_->advance();
+    std::this_thread::sleep_for(std::chrono::milliseconds{1});
+  }
+  EXPECT_THAT(told("/fast"), ElementsAre(0, 1, 2));
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ namespace {
 
 /// How long processes that have joined may take to meet.
 constexpr std::chrono::seconds kMeetWithin{kSanitized ? 25 : 5};
-/// The same between hosts: a lost packet of a meeting is sent again after a second (Fast DDS).
+/// The same between hosts, where packets are lost and Fast DDS takes its time to send them again.
 constexpr std::chrono::seconds kHostsMeetWithin{5 * kMeetWithin};
 /// How long the main process, which looks every 20 ms, may take to answer that another one stops.
 constexpr std::chrono::seconds kAnswersWithin{kSanitized ? 5 : 1};

@@ -33,7 +33,7 @@ struct QosSettings {
   /// judges, by the system clock, what it keeps for those who come later.
   Duration lifespan = Duration{0};
   /// After which a writer that says nothing counts as dead; none: when its participant does, after
-  /// a second. It costs the writing thread three wakes of another one with each sample (Fast DDS).
+  /// a second. With one, Fast DDS sets a timer of another thread with each sample.
   std::optional<Duration> liveliness_lease = {};
   /// How often a reliable writer tells its readers what they should have, while one has not said
   /// that it has: how long a lost last sample stays lost. Fast DDS waits 3 s when not told.

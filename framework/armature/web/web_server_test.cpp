@@ -11,8 +11,8 @@
 #include <thread>
 #include <vector>
 
-#include "tests/http.hpp"
 #include "armature/web/web_socket.hpp"
+#include "tests/http.hpp"
 
 namespace armature {
 namespace {

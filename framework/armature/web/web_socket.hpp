@@ -14,6 +14,17 @@
 
 namespace armature {
 
+/// A connection to a port of this machine; not open when nobody listens there.
+inline int connect_here(int port) {
+  const int file = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(static_cast<std::uint16_t>(port));
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  static_cast<void>(connect(file, reinterpret_cast<sockaddr*>(&address), sizeof address));
+  return file;
+}
+
 /// A client of a WebSocket server on this machine, that can also be one that misbehaves.
 class WebSocket {
  public:
@@ -26,12 +37,7 @@ class WebSocket {
   /// `host`: by which name the machine was asked, 127.0.0.1 with the port unless said otherwise.
   WebSocket(int port, const std::string& headers, const std::string& path = "/",
             const std::string& host = "")
-      : file_{socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)} {
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_port = htons(static_cast<std::uint16_t>(port));
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    if (connect(file_, reinterpret_cast<sockaddr*>(&address), sizeof address) != 0) return;
+      : file_{connect_here(port)} {
     say("GET " + path +
         " HTTP/1.1\r\nHost: " + (host.empty() ? "127.0.0.1:" + std::to_string(port) : host) +
         "\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"

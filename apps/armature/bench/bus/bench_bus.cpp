@@ -2,13 +2,11 @@
 #include "bench/bus/bench_bus.hpp"
 
 #include <fmt/format.h>
-#include <poll.h>
-#include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <functional>
-#include <memory>
 #include <random>
 #include <stdexcept>
 #include <string>
@@ -66,7 +64,7 @@ class HandOvers {
   HandOvers(const HandOvers&) = delete;
   HandOvers& operator=(const HandOvers&) = delete;
 
-  /// As an exchange, whatever is sent.
+  /// The signature is that of an exchange; what is sent does not matter to threads.
   std::vector<double> round_trips(QosProfile, std::size_t, int count) {
     std::vector<double> times;
     std::thread{[&] {
@@ -118,9 +116,7 @@ int answer(const BusBenchOptions& options, int cpu) {
   PluginRegistry plugins;
   const auto plain = plain_exchange(plugins, options);
   const TopicExchange topics{{.part = TopicExchange::Part::answers, .domain = options.domain}};
-  pollfd input{.fd = STDIN_FILENO, .events = POLLIN, .revents = 0};
-  constexpr int kLook_ms = 200;
-  while (!left() && poll(&input, 1, kLook_ms) <= 0) {
+  while (wait_for(seconds(1))) {  // until the bench ends it
   }
   return kOk;
 }
@@ -144,8 +140,8 @@ class Contestants {
     await([&] { return inside_.round_trips(QosProfile::state, kSmall, 1).size() == 1; }, "a hop");
   }
 
-  /// Everything once, in this order.
-  BusRound round(std::mt19937& order) {
+  /// Measures everything once, in an order by chance.
+  BusRound round(std::mt19937& random) {
     BusRound round;
     std::vector<std::function<void()>> parts{
         [&] { round.hand_over_here = half(small_trips(on_one_)); },
@@ -155,7 +151,7 @@ class Contestants {
         [&] { round.small = small_trips(across_); },
         [&] { round.plain_picture = picture_trips(*plain_); },
         [&] { round.picture = picture_trips(across_); }};
-    std::ranges::shuffle(parts, order);
+    std::ranges::shuffle(parts, random);
     for (const auto& part : parts) part();
     return round;
   }

@@ -9,7 +9,7 @@
 
 namespace armature::bench {
 
-/// Of what was repeated in a round.
+/// Times of one part of a round, which is repeated often.
 struct TripTimes {
   double p50_s = 0, p99_s = 0;
 };
@@ -29,8 +29,7 @@ struct BusReport {
   std::vector<BusRound> rounds;
 };
 
-/// How far apart the medians of two parts of a round are, and how many times longer one takes:
-/// medians over the rounds.
+/// The medians over the rounds of p50(a) - p50(b) and of p50(a) / p50(b).
 double median_excess_s(const BusReport& report, TripTimes BusRound::*a, TripTimes BusRound::*b);
 double median_ratio(const BusReport& report, TripTimes BusRound::*a, TripTimes BusRound::*b);
 

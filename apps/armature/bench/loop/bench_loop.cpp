@@ -6,9 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
-#include <fstream>
 #include <functional>
-#include <iterator>
 #include <memory>
 #include <optional>
 #include <regex>
@@ -36,18 +34,17 @@ using bench::LoopReport;
 using bench::LoopSide;
 using bench::MeasuredLoop;
 
-/// The port that `armature monitor` has told into a file. Throws std::runtime_error.
-int port_told_in(const std::filesystem::path& file) {
+/// The port that `armature monitor` has told. Throws std::runtime_error.
+int port_of(const bench::Program& monitor) {
   constexpr int kTimeout_ms = 20'000;
   const std::regex address{"ws://127\\.0\\.0\\.1:([0-9]+)"};
   for (int waited_ms = 0; waited_ms < kTimeout_ms; waited_ms += 10) {
-    std::ifstream stream{file};
-    const std::string told{std::istreambuf_iterator<char>{stream}, {}};
+    const std::string told = monitor.out();
     std::smatch match;
     if (std::regex_search(told, match, address)) return std::stoi(match[1]);
     bench::pause_s(0.01);
   }
-  throw std::runtime_error{"the monitor has not told its address within 20 s"};
+  throw std::runtime_error{"the monitor has not told its address within 20 s: " + monitor.err()};
 }
 
 /// Other processes that watch the bench's loop: some that read its joint state, and with
@@ -60,20 +57,22 @@ class Watchers {
       start({"topic", "hz", "/bench_loop/joint_state", "--domain", number});
     }
     if (!everything) return;
-    const std::filesystem::path monitor = folder_.path() / "monitor";
     start({"record", "-o", folder_.path() / "topics.mcap", "--domain", number});
-    start({"monitor", "--port", "0", "--domain", number}, monitor);
-    start({"bench", "loop", "--page", std::to_string(port_told_in(monitor.string() + ".out"))});
+    const auto& monitor =
+        start({"monitor", "--port", "0", "--domain", number}, folder_.path() / "monitor");
+    start({"bench", "loop", "--page", std::to_string(port_of(monitor))});
     readers_ += 2;  // the monitor reads for its page
   }
-  /// How many processes read the joint state once all are there.
+  /// The number of processes that read the joint state once all are there.
   int readers() const { return readers_; }
   /// Where the loop may record itself.
   std::string recording() const { return folder_.path() / "run.mcap"; }
 
  private:
-  void start(std::vector<std::string> words, const std::filesystem::path& output = {}) {
+  const bench::Program& start(std::vector<std::string> words,
+                              const std::filesystem::path& output = {}) {
     programs_.push_back(std::make_unique<bench::Program>(std::move(words), output));
+    return *programs_.back();
   }
 
   int readers_;

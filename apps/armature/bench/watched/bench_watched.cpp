@@ -2,7 +2,6 @@
 #include "bench/watched/bench_watched.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -16,7 +15,6 @@
 #include <regex>
 #include <stdexcept>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -96,10 +94,10 @@ std::map<std::string, double> processor_times(pid_t process) {
 
 /// Threads whose cycles the run has told at its end (--timing --json).
 WatchedRun run_of(std::map<std::string, double> times, const Subject& subject,
-                  const fs::path& output) {
-  const auto told = nlohmann::json::parse(content(output.string() + ".out"), nullptr, false);
+                  const Program& program) {
+  const auto told = nlohmann::json::parse(program.out(), nullptr, false);
   if (told.is_discarded() || !told.contains("timing")) {
-    throw std::runtime_error{"the run says: " + content(output.string() + ".err")};
+    throw std::runtime_error{"the run says: " + program.err()};
   }
   WatchedRun run;
   for (const std::string& executor : subject.executors) {
@@ -113,7 +111,7 @@ WatchedRun run_of(std::map<std::string, double> times, const Subject& subject,
 }
 
 /// Waits until the run has begun: its first thread has stepped.
-void await_start(Program& run, const Subject& subject, const fs::path& output) {
+void await_start(Program& run, const Subject& subject) {
   constexpr int kTimeout_s = 60;
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds{kTimeout_s};
   const auto has_stepped = [&] {
@@ -125,12 +123,11 @@ void await_start(Program& run, const Subject& subject, const fs::path& output) {
   };
   while (!has_stepped()) {
     if (run.has_ended()) {
-      throw std::runtime_error{"the deployment ended before it began: " +
-                               content(output.string() + ".err")};
+      throw std::runtime_error{"the deployment ended before it began: " + run.err()};
     }
     if (std::chrono::steady_clock::now() > end) {
-      throw std::runtime_error{fmt::format("the deployment has not begun within {} s: {}",
-                                           kTimeout_s, content(output.string() + ".err"))};
+      throw std::runtime_error{
+          fmt::format("the deployment has not begun within {} s: {}", kTimeout_s, run.err())};
     }
     bench::pause_s(0.005);
   }
@@ -146,25 +143,26 @@ std::vector<std::string> run_words(const WatchedBenchOptions& options) {
   return words;
 }
 
-/// Messages that came faster than the run wrote them.
-std::uint64_t lost_by_run(const fs::path& output) {
-  const std::string told = content(output.string() + ".err");
+/// Messages that came faster than the run wrote them. Throws std::runtime_error when it has not
+/// told of its recording.
+std::uint64_t lost_by_run(const Program& run) {
+  const std::string told = run.err();
+  if (told.find("recorded: ") == std::string::npos) {
+    throw std::runtime_error{"the run has recorded nothing: " + told};
+  }
   std::smatch match;
   if (!std::regex_search(told, match, std::regex{"; ([0-9]+) came faster than"})) return 0;
   return std::stoull(match[1]);
 }
 
-std::uint64_t lost_by_recorder(const fs::path& output) {
-  const auto told = nlohmann::json::parse(content(output.string() + ".out"), nullptr, false);
-  if (told.is_discarded()) {
-    throw std::runtime_error{"the recorder says: " + content(output.string() + ".err")};
-  }
-  return told.value("lost", std::uint64_t{0}) + told.value("dropped", std::uint64_t{0});
+std::uint64_t lost_by_recorder(const Program& recorder) {
+  const auto told = nlohmann::json::parse(recorder.out(), nullptr, false);
+  if (told.is_discarded()) throw std::runtime_error{"the recorder says: " + recorder.err()};
+  return told.at("lost").get<std::uint64_t>() + told.at("dropped").get<std::uint64_t>();
 }
 
 WatchedRun measure(const WatchedBenchOptions& options, const Subject& subject, Watching watching) {
   const bench::TemporaryFolder folder;
-  const fs::path run_output = folder.path() / "run", recorder_output = folder.path() / "recorder";
   const std::string domain = std::to_string(options.domain);
   auto words = run_words(options);
   if (watching == Watching::recorded) {
@@ -177,7 +175,7 @@ WatchedRun measure(const WatchedBenchOptions& options, const Subject& subject, W
     const std::string file = folder.path() / "topics.mcap";
     recorder = std::make_unique<Program>(
         std::vector<std::string>{"record", "-o", file, "--json", "--domain", domain},
-        recorder_output);
+        folder.path() / "recorder");
     for (int i = 0; i < options.readers; ++i) {
       const auto& topic = subject.measured[static_cast<std::size_t>(i) % subject.measured.size()];
       readers.push_back(std::make_unique<Program>(
@@ -185,18 +183,16 @@ WatchedRun measure(const WatchedBenchOptions& options, const Subject& subject, W
     }
     bench::pause_s(1);  // they are there before what they watch
   }
-  Program run{words, run_output};
-  await_start(run, subject, run_output);
+  Program run{words, folder.path() / "run"};
+  await_start(run, subject);
   bench::pause_s(options.seconds);
   auto times = processor_times(run.pid());
   run.interrupt();
-  run.wait();
-  WatchedRun measured = run_of(std::move(times), subject, run_output);
-  if (watching == Watching::recorded) measured.lost = lost_by_run(run_output);
+  WatchedRun measured = run_of(std::move(times), subject, run);
+  if (watching == Watching::recorded) measured.lost = lost_by_run(run);
   if (recorder) {
     recorder->interrupt();
-    recorder->wait();
-    measured.lost = lost_by_recorder(recorder_output);
+    measured.lost = lost_by_recorder(*recorder);
   }
   return measured;
 }

@@ -85,9 +85,9 @@ TEST(Rooms, NeverStandOnEachOther) {
 }
 
 TEST(Rooms, OfALayerStandOnLayersBelowIt) {
-  constexpr std::array<std::string_view, 15> kOrder{
-      "values", "laws",    "plot", "config", "volume",      "robot",  "messages", "recording",
-      "bus",    "runtime", "web",  "kinds",  "calibration", "motion", "task"};
+  constexpr std::array<std::string_view, 16> kOrder{
+      "values",    "laws", "plot",    "config", "volume", "robot",       "scene",  "messages",
+      "recording", "bus",  "runtime", "web",    "kinds",  "calibration", "motion", "task"};
   const auto place = [&](const std::string& room) {
     const auto found = std::ranges::find(kOrder, layer_of(room));
     EXPECT_NE(found, kOrder.end()) << "the layer of " << room << " has no place in the order";

@@ -5,15 +5,13 @@
 
 #include <filesystem>
 
-#include "../../sim/photo_scene/drawn_face.hpp"
 #include "armature/kinds/declared_params.hpp"
 #include "armature/kinds/detector/contract.hpp"
+#include "armature/kinds/drawn_face.hpp"
 #include "armature/runtime/plugins/plugin_library.hpp"
 
 namespace armature::detector::hog {
 namespace {
-
-using sim::photo_scene::drawn_face, sim::photo_scene::placed;
 
 PluginPtr<FaceDetector> make(std::string_view params = "") {
   auto library = PluginLibrary::load(

@@ -10,8 +10,8 @@
 #include <memory>
 #include <vector>
 
-#include "../../sim/photo_scene/drawn_face.hpp"
 #include "armature/kinds/declared_params.hpp"
+#include "armature/kinds/drawn_face.hpp"
 #include "armature/kinds/landmarks/contract.hpp"
 #include "armature/kinds/landmarks/stereo_face_finder.hpp"
 #include "armature/runtime/plugins/plugin_library.hpp"
@@ -19,8 +19,7 @@
 namespace armature::landmarks::dlib68 {
 namespace {
 
-using sim::photo_scene::drawn_face, sim::photo_scene::placed, sim::photo_scene::DrawnPair;
-const StereoCamera& kCamera = sim::photo_scene::kDrawnCamera;
+const StereoCamera& kCamera = kDrawnCamera;
 
 template <class Kind>
 Expected<PluginPtr<Kind>> make(const std::string& name, std::string_view params = "") {

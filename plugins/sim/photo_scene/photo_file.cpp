@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "photo_file.hpp"
+
 #include <algorithm>
 #include <cstring>
 #include <fstream>
 #include <iterator>
 #include <opencv2/imgcodecs.hpp>
-
-#include "photo.hpp"
+#include <vector>
 
 namespace armature::sim::photo_scene {
 namespace {
@@ -34,9 +35,9 @@ std::vector<std::uint8_t> without_colour_profile(const std::vector<std::uint8_t>
 
 }  // namespace
 
-Expected<Photo> read_photo(const std::string& file, const Eigen::Vector2d& left_eye,
-                           const Eigen::Vector2d& right_eye, const Eigen::Vector2d& mouth,
-                           double eye_distance_m) {
+Expected<scene::Photo> read_photo(const std::string& file, const Eigen::Vector2d& left_eye,
+                                  const Eigen::Vector2d& right_eye, const Eigen::Vector2d& mouth,
+                                  double eye_distance_m) {
   std::ifstream stream{file, std::ios::binary};
   if (!stream) return refuse("cannot open the photo " + file);
   const std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>{stream}, {}};
@@ -46,11 +47,11 @@ Expected<Photo> read_photo(const std::string& file, const Eigen::Vector2d& left_
   }
   if (image.empty()) return refuse(file + " is not an image that can be read");
 
-  Photo photo{.image = {.width = image.cols, .height = image.rows, .pixels = {}},
-              .left_eye = left_eye,
-              .right_eye = right_eye,
-              .mouth = mouth,
-              .m_per_px = eye_distance_m / (right_eye - left_eye).norm()};
+  scene::Photo photo{.image = {.width = image.cols, .height = image.rows, .pixels = {}},
+                     .left_eye = left_eye,
+                     .right_eye = right_eye,
+                     .mouth = mouth,
+                     .m_per_px = eye_distance_m / (right_eye - left_eye).norm()};
   photo.image.pixels.assign(image.begin<std::uint8_t>(), image.end<std::uint8_t>());
   return photo;
 }

@@ -13,18 +13,19 @@
 #include "armature/runtime/component/component.hpp"
 #include "armature/runtime/component/setup.hpp"
 #include "armature/runtime/plugins/plugin.hpp"
+#include "armature/scene/generated_face.hpp"
+#include "armature/scene/plane_renderer.hpp"
 #include "patient.hpp"
-#include "photo.hpp"
-#include "plane_renderer.hpp"
+#include "photo_file.hpp"
 
 namespace armature::sim::photo_scene {
 namespace {
 
 constexpr const char* kCameraFrame = kLeftCameraFrame;  // of both: the pair is rectified
 
-Photo photo_of(const Parameters& parameters) {
+scene::Photo photo_of(const Parameters& parameters) {
   if (parameters.photo == Parameters::Photo::generated) {
-    return generated_face(parameters.face_seed, parameters.eye_distance);
+    return scene::generated_face(parameters.face_seed, parameters.eye_distance);
   }
   // Eyes and mouth of NASA's portrait of Eileen Collins, in its pixels.
   auto photo = read_photo(parameters.astronaut_file, {203.6, 101.8}, {246.9, 104.0}, {223.1, 144.4},
@@ -79,7 +80,7 @@ class PhotoScene final : public Component {
   StereoRig rig_;
   FrameId mount_;
   Parameters parameters_;
-  PlaneRenderer renderer_;
+  scene::PlaneRenderer renderer_;
   Input<msg::JointState> measured_js_;
   Input<msg::LightLevel> light_level_;
   Input<msg::Capture> capture_;
@@ -109,10 +110,10 @@ PhotoScene::PhotoScene(Setup& setup)
       left_info_{setup.output<msg::CameraInfo>("left_info")},
       right_info_{setup.output<msg::CameraInfo>("right_info")},
       truth_{setup.output<msg::Target>("truth")} {
-  if (rig_.camera.width > PlaneRenderer::kWidestImage) {
+  if (rig_.camera.width > scene::PlaneRenderer::kWidestImage) {
     throw SetupError("the rig '" + rig_.name + "' is " + std::to_string(rig_.camera.width) +
                      " px wide; the scene draws at most " +
-                     std::to_string(PlaneRenderer::kWidestImage));
+                     std::to_string(scene::PlaneRenderer::kWidestImage));
   }
   setup.activate_every(seconds(1.0 / parameters_.rate));
 }

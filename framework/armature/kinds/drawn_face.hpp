@@ -5,11 +5,11 @@
 
 #include "armature/kinds/face_picture.hpp"
 #include "armature/robot/geometry/stereo_camera.hpp"
-#include "photo.hpp"
-#include "plane_renderer.hpp"
+#include "armature/scene/generated_face.hpp"
+#include "armature/scene/plane_renderer.hpp"
 
-// A drawn face before two cameras, for the tests of what looks at faces.
-namespace armature::sim::photo_scene {
+// A drawn face before two cameras, for the laws and the tests of what looks at faces.
+namespace armature {
 
 inline const StereoCamera kDrawnCamera{
     .width = 1280, .height = 720, .focal_px = 914, .cx = 639.5, .cy = 359.5, .baseline_m = 0.12};
@@ -19,10 +19,10 @@ struct DrawnPair {
 };
 
 /// The pictures that both cameras take of a drawn face with eyes 63 mm apart, 65 mm above the
-/// mouth, which is the origin of its frame.
+/// mouth, which is the origin of its frame (x to the picture's right, y down, z into the face).
 inline DrawnPair drawn_face(const Eigen::Isometry3d& left_T_face, double brightness = 1) {
-  static const auto photo = generated_face(1, 0.063);
-  static PlaneRenderer renderer{photo, {.noise = 2, .blur_px = 0.5, .background = 120}, 1};
+  static const auto photo = scene::generated_face(1, 0.063);
+  static scene::PlaneRenderer renderer{photo, {.noise = 2, .blur_px = 0.5, .background = 120}, 1};
   const Picture black = Picture::of_one_grey(0, kDrawnCamera.width, kDrawnCamera.height);
   DrawnPair pair{black, black};
   Eigen::Isometry3d right_T_face = left_T_face;
@@ -32,9 +32,11 @@ inline DrawnPair drawn_face(const Eigen::Isometry3d& left_T_face, double brightn
   return pair;
 }
 
+/// left_T_face of a mouth at (x, y, z) [m], the face turned by `pitch` about x, then by `yaw` about
+/// y [rad]; without both it looks at the camera's plane.
 inline Eigen::Isometry3d placed(double x, double y, double z, double yaw = 0, double pitch = 0) {
   return Eigen::Translation3d{x, y, z} * (Eigen::AngleAxisd{yaw, Eigen::Vector3d::UnitY()} *
                                           Eigen::AngleAxisd{pitch, Eigen::Vector3d::UnitX()});
 }
 
-}  // namespace armature::sim::photo_scene
+}  // namespace armature

@@ -4,12 +4,9 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
-#include <string>
 #include <vector>
 
-#include "armature/values/expected.hpp"
-
-namespace armature::sim::photo_scene {
+namespace armature::scene {
 
 /// A mono8 image without padding.
 struct GrayImage {
@@ -30,12 +27,4 @@ struct Photo {
   double m_per_px = 0;
 };
 
-/// Reads a PNG or JPEG as mono8 and scales it so that the eyes are `eye_distance_m` apart.
-Expected<Photo> read_photo(const std::string& file, const Eigen::Vector2d& left_eye,
-                           const Eigen::Vector2d& right_eye, const Eigen::Vector2d& mouth,
-                           double eye_distance_m);
-
-/// Draws a face with fine skin texture from `seed`; eyes and mouth are where they were drawn.
-Photo generated_face(std::uint64_t seed, double eye_distance_m);
-
-}  // namespace armature::sim::photo_scene
+}  // namespace armature::scene

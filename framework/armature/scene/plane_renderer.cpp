@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "plane_renderer.hpp"
+#include "armature/scene/plane_renderer.hpp"
 
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
 #include <random>
 
-namespace armature::sim::photo_scene {
+namespace armature::scene {
 namespace {
 
 constexpr std::size_t kNoiseLength = std::size_t{1} << 16;
-constexpr double kBlurReach = 3.0;  // sigmas
 constexpr int kSmallestLevel = 16;  // px
 
 std::uint64_t hashed(std::uint64_t x) {  // splitmix64
@@ -46,7 +44,11 @@ double minification(const Eigen::Matrix3d& image_H_photo, const Eigen::Vector2d&
 
 PlaneRenderer::PlaneRenderer(const Photo& photo, const ImagingSettings& settings,
                              std::uint64_t seed)
-    : mouth_{photo.mouth}, m_per_px_{photo.m_per_px}, settings_{settings}, seed_{seed} {
+    : mouth_{photo.mouth},
+      m_per_px_{photo.m_per_px},
+      settings_{settings},
+      blur_{settings.blur_px},
+      seed_{seed} {
   Level level{photo.image.width, photo.image.height, {}};
   level.pixels.assign(photo.image.pixels.begin(), photo.image.pixels.end());
   pyramid_.push_back(std::move(level));
@@ -110,8 +112,8 @@ void PlaneRenderer::render(const Eigen::Isometry3d& camera_T_photo, const Stereo
   quantise(picture, out);
 }
 
-PlaneRenderer::Region PlaneRenderer::covered(const Eigen::Matrix3d& image_H_photo,
-                                             const StereoCamera& camera) const {
+PixelRegion PlaneRenderer::covered(const Eigen::Matrix3d& image_H_photo,
+                                   const StereoCamera& camera) const {
   const double right = pyramid_[0].width - 0.5, bottom = pyramid_[0].height - 0.5;
   Eigen::Matrix<double, 3, 4> corners;
   corners << -0.5, right, right, -0.5, -0.5, -0.5, bottom, bottom, 1, 1, 1, 1;
@@ -126,7 +128,7 @@ PlaneRenderer::Region PlaneRenderer::covered(const Eigen::Matrix3d& image_H_phot
           pixel(u.maxCoeff() + 1, camera.width), pixel(v.maxCoeff() + 1, camera.height)};
 }
 
-void PlaneRenderer::draw(const Region& region, const Eigen::Matrix3d& photo_H_image,
+void PlaneRenderer::draw(const PixelRegion& region, const Eigen::Matrix3d& photo_H_image,
                          const Level& level, int samples_per_side, float brightness,
                          float background) {
   if (region.empty()) return;
@@ -153,18 +155,7 @@ void PlaneRenderer::draw(const Region& region, const Eigen::Matrix3d& photo_H_im
       }
     }
   }
-  blur(region);
-}
-
-void PlaneRenderer::blur(const Region& region) {
-  if (settings_.blur_px <= 0) return;
-  const int reach = static_cast<int>(std::ceil(kBlurReach * settings_.blur_px));
-  cv::Mat canvas{height_, width_, CV_32F, canvas_.data()};
-  const cv::Rect around{cv::Point{region.left - reach, region.top - reach},
-                        cv::Point{region.right + reach, region.bottom + reach}};
-  cv::Mat part = canvas(around & cv::Rect{0, 0, width_, height_});
-  cv::GaussianBlur(part, part, {2 * reach + 1, 2 * reach + 1}, settings_.blur_px, 0,
-                   cv::BORDER_REPLICATE);
+  blur_.apply(canvas_, width_, region.grown(blur_.reach(), width_, height_));
 }
 
 void PlaneRenderer::quantise(std::uint64_t picture, std::span<std::uint8_t> out) const {
@@ -180,4 +171,4 @@ void PlaneRenderer::quantise(std::uint64_t picture, std::span<std::uint8_t> out)
   }
 }
 
-}  // namespace armature::sim::photo_scene
+}  // namespace armature::scene

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "armature/scene/generated_face.hpp"
+
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
-#include "photo.hpp"
-
-namespace armature::sim::photo_scene {
+namespace armature::scene {
 namespace {
 
 // The face is drawn in millimetres for eyes 63 mm apart: x to the right, y down, origin between the
@@ -182,4 +181,4 @@ Photo generated_face(std::uint64_t seed, double eye_distance_m) {
   return photo;
 }
 
-}  // namespace armature::sim::photo_scene
+}  // namespace armature::scene

@@ -7,9 +7,10 @@
 #include <vector>
 
 #include "armature/robot/geometry/stereo_camera.hpp"
-#include "photo.hpp"
+#include "armature/scene/gaussian_blur.hpp"
+#include "armature/scene/photo.hpp"
 
-namespace armature::sim::photo_scene {
+namespace armature::scene {
 
 /// What lies between the printed plane and the picture of it.
 struct ImagingSettings {
@@ -21,7 +22,7 @@ struct ImagingSettings {
 /// Renders a flat photo into a pinhole camera. A plane is seen through a homography, so the picture
 /// is exact to the interpolation of the photo: no polygons, no fixed-point coordinates (Hartley and
 /// Zisserman, Multiple View Geometry, (8.7)).
-class PlaneRenderer {
+class ARMATURE_EXPORT PlaneRenderer {
  public:
   static constexpr int kWidestImage = 8192;  // [px]
 
@@ -41,25 +42,21 @@ class PlaneRenderer {
     std::vector<float> pixels;
     float sample(float u, float v) const;
   };
-  struct Region {
-    int left, top, right, bottom;  // half open
-    bool empty() const { return left >= right || top >= bottom; }
-  };
 
-  Region covered(const Eigen::Matrix3d& image_H_photo, const StereoCamera& camera) const;
-  void draw(const Region& region, const Eigen::Matrix3d& photo_H_image, const Level& level,
+  PixelRegion covered(const Eigen::Matrix3d& image_H_photo, const StereoCamera& camera) const;
+  void draw(const PixelRegion& region, const Eigen::Matrix3d& photo_H_image, const Level& level,
             int samples_per_side, float brightness, float background);
-  void blur(const Region& region);
   void quantise(std::uint64_t picture, std::span<std::uint8_t> out) const;
 
   std::vector<Level> pyramid_;
   Eigen::Vector2d mouth_;
   double m_per_px_;
   ImagingSettings settings_;
+  GaussianBlur blur_;
   std::uint64_t seed_;
   std::vector<float> noise_;
   int width_ = 0, height_ = 0;
   std::vector<float> canvas_;
 };
 
-}  // namespace armature::sim::photo_scene
+}  // namespace armature::scene

@@ -6,7 +6,7 @@
 #include "armature/kinds/face_picture.hpp"
 #include "armature/robot/geometry/stereo_camera.hpp"
 #include "armature/scene/generated_face.hpp"
-#include "armature/scene/plane_renderer.hpp"
+#include "armature/scene/scene_renderer.hpp"
 
 // A drawn face before two cameras, for the laws and the tests of what looks at faces.
 namespace armature {
@@ -22,7 +22,8 @@ struct DrawnPair {
 /// mouth, which is the origin of its frame (x to the picture's right, y down, z into the face).
 inline DrawnPair drawn_face(const Eigen::Isometry3d& left_T_face, double brightness = 1) {
   static const auto photo = scene::generated_face(1, 0.063);
-  static scene::PlaneRenderer renderer{photo, {.noise = 2, .blur_px = 0.5, .background = 120}, 1};
+  static scene::SceneRenderer renderer{
+      photo, {}, {.noise = 2, .blur_px = 0.5, .background = 120}, 1};
   const Picture black = Picture::of_one_grey(0, kDrawnCamera.width, kDrawnCamera.height);
   DrawnPair pair{black, black};
   Eigen::Isometry3d right_T_face = left_T_face;

@@ -32,8 +32,9 @@ TEST(GaussianBlur, MakesAGaussianOfAPoint) {
     double sum = 0, second = 0;
     for (int v = 0; v < kBlurHeight; ++v) {
       for (int u = 0; u < kBlurWidth; ++u) {
-        sum += pixel(picture, u, v);
-        second += pixel(picture, u, v) * (u - 30) * (u - 30);
+        const double value = pixel(picture, u, v);
+        sum += value;
+        second += value * (u - 30) * (u - 30);
       }
     }
     EXPECT_NEAR(sum, 1000, 1e-2);

@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
+#include <cstddef>
+
+#include "armature/scene/drawing.hpp"
+#include "armature/scene/face_traits.hpp"
 
 namespace armature::scene {
 namespace {
@@ -15,76 +18,29 @@ constexpr double kMouthY = 65.0;
 constexpr double kMmPerPx = 0.45;
 constexpr double kLeft = -135, kTop = -140, kWidth = 270, kHeight = 330;
 
-struct Point {
-  double x, y;
-};
-
-/// 0 outside, 1 inside, with a soft edge `softness` wide.
-double soft(double signed_distance, double softness) {
-  const double t = std::clamp(0.5 - signed_distance / softness, 0.0, 1.0);
-  return t * t * (3 - 2 * t);
-}
-
-/// How much of an ellipse covers p, [0, 1]; softness in mm.
-double ellipse(Point p, Point centre, double rx, double ry, double softness, double turn = 0) {
-  const double c = turn == 0 ? 1 : std::cos(turn), s = turn == 0 ? 0 : std::sin(turn);
-  const double dx = p.x - centre.x, dy = p.y - centre.y;
-  const double x = (c * dx + s * dy) / rx, y = (-s * dx + c * dy) / ry;
-  const double radius = std::min(rx, ry);
-  // Most points lie far outside, which is seen without a square root.
-  if ((std::max(std::abs(x), std::abs(y)) - 1) * radius > softness / 2) return 0;
-  return soft((std::hypot(x, y) - 1) * radius, softness);
-}
-
-double mix(double a, double b, double share) { return a + (b - a) * share; }
-
-/// A smooth noise value in [-1, 1] at a grid of `cell` mm.
-class SkinTexture {
- public:
-  explicit SkinTexture(std::uint64_t seed) : seed_{seed} {}
-  double operator()(Point p, double cell, std::uint64_t layer) const {
-    const double x = p.x / cell, y = p.y / cell;
-    const double fx = std::floor(x), fy = std::floor(y);
-    const double u = fade(x - fx), v = fade(y - fy);
-    const auto i = static_cast<std::int64_t>(fx), j = static_cast<std::int64_t>(fy);
-    return mix(mix(at(i, j, layer), at(i + 1, j, layer), u),
-               mix(at(i, j + 1, layer), at(i + 1, j + 1, layer), u), v);
-  }
-
- private:
-  static double fade(double t) { return t * t * (3 - 2 * t); }
-  double at(std::int64_t i, std::int64_t j, std::uint64_t layer) const {
-    std::uint64_t h = seed_ + layer * 0x9e3779b97f4a7c15ULL +
-                      static_cast<std::uint64_t>(i) * 0xbf58476d1ce4e5b9ULL +
-                      static_cast<std::uint64_t>(j) * 0x94d049bb133111ebULL;
-    h = (h ^ (h >> 30)) * 0xbf58476d1ce4e5b9ULL;
-    h = (h ^ (h >> 27)) * 0x94d049bb133111ebULL;
-    h ^= h >> 31;
-    return static_cast<double>(h >> 11) * 0x1p-52 - 1.0;
-  }
-  std::uint64_t seed_;
-};
-
-double draw_hair_and_body(Point p) {
+double draw_hair_and_body(Point p, const FaceTraits& traits) {
   double value = mix(150, 135, std::clamp((p.y - kTop) / kHeight, 0.0, 1.0));  // wall
   value = mix(value, 70, ellipse(p, {0, 215}, 125, 75, 6));                    // shoulders
-  value = mix(value, 128, ellipse(p, {0, 118}, 46, 75, 10));                   // neck
-  value = mix(value, 42, ellipse(p, {0, -18}, 88, 104, 8));                    // hair
-  return value;
+  value = mix(value, 128 + traits.skin, ellipse(p, {0, 118}, 46, 75, 10));     // neck
+  if (traits.is_bald) return value;
+  return mix(value, 42 + traits.hair, ellipse(p, {0, -18}, 88, 104, 8));
 }
 
-double draw_head(Point p, double value) {
+double draw_head(Point p, const FaceTraits& traits, double value) {
   const double ears = std::max(ellipse(p, {-75, 18}, 10, 24, 4), ellipse(p, {75, 18}, 10, 24, 4));
-  value = mix(value, 150, ears);
+  value = mix(value, 150 + traits.skin, ears);
+  const double forehead = traits.is_bald ? ellipse(p, {0, -22}, 70, 80, 4) : 0.0;
   // Skull and jaw together; brighter in the middle as if lit from the front.
-  const double face = std::max(ellipse(p, {0, 4}, 71, 80, 4), ellipse(p, {0, 44}, 60, 71, 4));
+  const double face =
+      std::max({forehead, ellipse(p, {0, 4}, 71, 80, 4), ellipse(p, {0, 44}, 60, 71, 4)});
   const double edge = std::hypot(p.x / 74, (p.y - 20) / 105);
-  const double skin = 196 - 58 * edge * edge;
+  const double skin = 196 + traits.skin - 58 * edge * edge;
   value = mix(value, skin, face);
+  if (traits.is_bald) return value;
   // Hairline: hair over the forehead.
   const double fringe =
       soft(p.y + 62 + 14 * std::cos(p.x / 38), 8) * ellipse(p, {0, -18}, 84, 100, 6);
-  return mix(value, 45, fringe);
+  return mix(value, 45 + traits.hair, fringe);
 }
 
 double draw_eye(Point p, double side, double value) {
@@ -146,10 +102,40 @@ double draw_mouth(Point p, double value) {
   return mix(value, 200, 0.35 * ellipse(p, {0, 92}, 15, 10, 14));  // chin
 }
 
-double draw(Point p, const SkinTexture& texture) {
-  double value = draw_head(p, draw_hair_and_body(p));
+/// Cheeks and chin, and what grows above the lip.
+double draw_beard(Point p, const FaceTraits& traits, const SkinTexture& texture, double value) {
+  const double jaw = ellipse(p, {0, 52}, 62, 66, 8) * soft(52 - p.y - 0.2 * std::abs(p.x), 14);
+  const double lip = ellipse(p, {0, 55}, 28, 5, 5);
+  const double hairs = 0.75 + 0.25 * texture(p, 1.6, 5);
+  return mix(value, 60 + traits.hair, 0.85 * std::max(jaw, lip) * hairs);
+}
+
+double draw_glasses(Point p, double value) {
+  constexpr double kRim = 1.5;
+  const double x = std::abs(p.x);
+  const Point lens{kEyeDistance / 2 + 1, 1};
+  // Signed distances of the rim around a lens, of the bridge and of the temple.
+  const double rx = 24, ry = 19;
+  const double round = std::pow(
+      std::pow(std::abs((x - lens.x) / rx), 3) + std::pow(std::abs((p.y - lens.y) / ry), 3),
+      1.0 / 3);
+  const double rim = std::abs((round - 1) * ry) - kRim;
+  const double bridge = std::max(std::abs(p.y + 5) - kRim, x - (lens.x - rx));
+  const double temple = std::max(std::abs(p.y + 4) - kRim, std::abs(x - 65) - 9);
+  value = mix(value, 30, 0.95 * soft(std::min({rim, bridge, temple}), 1.2));
+  return mix(value, 235, 0.12 * soft((round - 0.9) * ry, 3));  // the glass mirrors a little
+}
+
+/// The face in its own proportions: head and lower face are stretched, the eyes are not.
+double draw(Point p, const FaceTraits& traits, const SkinTexture& texture) {
+  const double stretch = p.y > 0 ? kMouthY / traits.eyes_to_mouth_mm : 1.0;
+  const Point in_head{p.x / traits.width, p.y * stretch}, in_lower_face{p.x, p.y * stretch};
+  double value = draw_head(in_head, traits, draw_hair_and_body(in_head, traits));
   for (const double side : {-1.0, 1.0}) value = draw_eye(p, side, value);
-  value = draw_mouth(p, draw_nose(p, value));
+  value = draw_nose(in_lower_face, value);
+  if (traits.has_beard) value = draw_beard(in_lower_face, traits, texture, value);
+  value = draw_mouth(in_lower_face, value);
+  if (traits.has_glasses) value = draw_glasses(p, value);
   value += 7.0 * texture(p, 1.3, 1) + 5.0 * texture(p, 3.1, 2) + 4.0 * texture(p, 9.0, 3);
   const double mole = texture(p, 4.0, 4);
   if (mole > 0.55) value -= 45 * (mole - 0.55);
@@ -160,6 +146,7 @@ double draw(Point p, const SkinTexture& texture) {
 
 Photo generated_face(std::uint64_t seed, double eye_distance_m) {
   const SkinTexture texture{seed};
+  const FaceTraits traits = traits_of(seed);
   Photo photo;
   photo.image.width = static_cast<int>(kWidth / kMmPerPx);
   photo.image.height = static_cast<int>(kHeight / kMmPerPx);
@@ -167,7 +154,7 @@ Photo generated_face(std::uint64_t seed, double eye_distance_m) {
                              static_cast<std::size_t>(photo.image.height));
   for (int v = 0; v < photo.image.height; ++v) {
     for (int u = 0; u < photo.image.width; ++u) {
-      const double value = draw({kLeft + u * kMmPerPx, kTop + v * kMmPerPx}, texture);
+      const double value = draw({kLeft + u * kMmPerPx, kTop + v * kMmPerPx}, traits, texture);
       photo.image.pixels.push_back(static_cast<std::uint8_t>(std::clamp(value, 0.0, 255.0) + 0.5));
     }
   }
@@ -176,7 +163,7 @@ Photo generated_face(std::uint64_t seed, double eye_distance_m) {
   };
   photo.left_eye = pixel(-kEyeDistance / 2, 0);
   photo.right_eye = pixel(kEyeDistance / 2, 0);
-  photo.mouth = pixel(0, kMouthY);
+  photo.mouth = pixel(0, traits.eyes_to_mouth_mm);
   photo.m_per_px = eye_distance_m / kEyeDistance * kMmPerPx;
   return photo;
 }

@@ -44,7 +44,18 @@ MovingHead at(const Parameters& parameters, double t_s) {
   const double cs = std::cos(head.pose.tilt_side), ss = std::sin(head.pose.tilt_side);
   head.normal_rate = rate * (turn_up * Eigen::Vector3d{su * cs, -su * ss, cu} +
                              turn_side * Eigen::Vector3d{cu * ss, cu * cs, 0});
+  head.tilt_side_rate = rate * turn_side;
   return head;
+}
+
+TurningDirection carried(const MovingHead& head, const Eigen::Vector3d& in_photo) {
+  const Eigen::Matrix3d axes = base_T_photo(head.pose).linear();
+  const double side = head.pose.tilt_side;
+  Eigen::Matrix3d rates;
+  rates.col(0) = head.tilt_side_rate * Eigen::Vector3d{-std::cos(side), std::sin(side), 0};
+  rates.col(2) = -head.normal_rate;
+  rates.col(1) = rates.col(2).cross(axes.col(0)) + axes.col(2).cross(rates.col(0));
+  return {axes * in_photo, rates * in_photo};
 }
 
 }  // namespace armature::sim::photo_scene

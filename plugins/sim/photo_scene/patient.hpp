@@ -24,10 +24,18 @@ Eigen::Isometry3d base_T_photo(const HeadPose& pose);
 struct MovingHead {
   HeadPose pose;
   Eigen::Vector3d velocity;     // [m/s] of the mouth
-  Eigen::Vector3d normal_rate;  // [1/s]
+  Eigen::Vector3d normal_rate;  // [1/s] of `face_normal`
+  double tilt_side_rate;        // [rad/s]
 };
 /// Where the head is `t_s` after the start, while it moves once from rest to rest: a quintic
 /// without jerk at its ends, 10 s^3 - 15 s^4 + 6 s^5.
 MovingHead at(const Parameters& parameters, double t_s);
+
+/// A direction of the base frame and how fast it changes [1/s].
+struct TurningDirection {
+  Eigen::Vector3d direction, rate;
+};
+/// A unit vector of the photo's frame, which the head carries with it, in the base frame.
+TurningDirection carried(const MovingHead& head, const Eigen::Vector3d& in_photo);
 
 }  // namespace armature::sim::photo_scene

@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
 #include <optional>
 #include <string>
 
+#include "appearance.hpp"
 #include "armature/kinds/geometry_params.hpp"
 #include "armature/kinds/joint_messages.hpp"
 #include "armature/kinds/setup_robot.hpp"
@@ -13,34 +19,27 @@
 #include "armature/runtime/component/component.hpp"
 #include "armature/runtime/component/setup.hpp"
 #include "armature/runtime/plugins/plugin.hpp"
-#include "armature/scene/generated_face.hpp"
-#include "armature/scene/plane_renderer.hpp"
+#include "armature/scene/right_camera.hpp"
+#include "armature/scene/scene_renderer.hpp"
+#include "armature/scene/splitmix.hpp"
 #include "patient.hpp"
-#include "photo_file.hpp"
+#include "pose_history.hpp"
 
 namespace armature::sim::photo_scene {
 namespace {
 
 constexpr const char* kCameraFrame = kLeftCameraFrame;  // of both: the pair is rectified
 
-scene::Photo photo_of(const Parameters& parameters) {
-  if (parameters.photo == Parameters::Photo::generated) {
-    return scene::generated_face(parameters.face_seed, parameters.eye_distance);
-  }
-  // Eyes and mouth of NASA's portrait of Eileen Collins, in its pixels.
-  auto photo = read_photo(parameters.astronaut_file, {203.6, 101.8}, {246.9, 104.0}, {223.1, 144.4},
-                          parameters.eye_distance);
-  if (!photo) {
-    throw SetupError(photo.error().text +
-                     "; install the Debian package python3-imageio, or set photo: generated");
-  }
-  return std::move(*photo);
-}
-
 Parameters parameters_of(const Params& params) {
   const Parameters parameters = Parameters::read(params);
   const bool moves = !vector_of(parameters.move).isZero(0) || parameters.move_tilt_up != 0 ||
                      parameters.move_tilt_side != 0;
+  if (parameters.dropped + parameters.repeated > 1) {
+    throw SetupError(
+        fmt::format("dropped and repeated are parts of all pairs, and {} + {} is "
+                    "more than 1",
+                    parameters.dropped, parameters.repeated));
+  }
   if (parameters.move_duration > 0 && !moves) {
     throw SetupError(
         "move_duration_s is set but nothing moves; set move_mm, move_tilt_up_deg or "
@@ -73,14 +72,22 @@ class PhotoScene final : public Component {
 
  private:
   void publish_truth(Time now, const MovingHead& head);
-  void take_pictures(Time stamp, const JointVector& q, const HeadPose& head);
+  enum class Delivery { sound, dropped, repeated };
+  Delivery draw_delivery();
+  double brightness(Time stamp) const;
+  void take_pictures(Time stamp);
+  void draw(Time stamp, bool of_the_left, msg::Image& image);
+  Eigen::Isometry3d left_T_face(Time then) const;
   void publish_info(Time stamp);
 
   RobotModel robot_;
   StereoRig rig_;
   FrameId mount_;
   Parameters parameters_;
-  scene::PlaneRenderer renderer_;
+  scene::SceneRenderer renderer_;
+  scene::RightCamera right_camera_;
+  PoseHistory base_T_left_;
+  std::uint64_t seed_;
   Input<msg::JointState> measured_js_;
   Input<msg::LightLevel> light_level_;
   Input<msg::Capture> capture_;
@@ -88,7 +95,8 @@ class PhotoScene final : public Component {
   Output<msg::CameraInfo> left_info_, right_info_;
   Output<msg::Target> truth_;
   std::optional<Time> start_, last_picture_;
-  std::uint64_t pictures_ = 0;
+  std::uint64_t pairs_ = 0;
+  std::array<msg::Image, 2> last_pair_;  // kept while pairs may be repeated
 };
 
 PhotoScene::PhotoScene(Setup& setup)
@@ -97,11 +105,11 @@ PhotoScene::PhotoScene(Setup& setup)
       rig_{rig_of(setup)},
       mount_{mount_of(rig_, robot_)},
       parameters_{parameters_of(setup.params())},
-      renderer_{photo_of(parameters_),
-                {.noise = parameters_.noise,
-                 .blur_px = parameters_.blur,
-                 .background = parameters_.background},
+      renderer_{photo_of(parameters_), staging_of(parameters_), imaging_of(parameters_),
                 setup.seed()},
+      right_camera_{right_camera_of(parameters_)},
+      base_T_left_{parameters_.right_delay},
+      seed_{setup.seed()},
       measured_js_{setup.input<msg::JointState>("measured_js")},
       light_level_{setup.input<msg::LightLevel>("light_level")},
       capture_{setup.input<msg::Capture>("capture")},
@@ -110,10 +118,10 @@ PhotoScene::PhotoScene(Setup& setup)
       left_info_{setup.output<msg::CameraInfo>("left_info")},
       right_info_{setup.output<msg::CameraInfo>("right_info")},
       truth_{setup.output<msg::Target>("truth")} {
-  if (rig_.camera.width > scene::PlaneRenderer::kWidestImage) {
+  if (rig_.camera.width > scene::SceneRenderer::kWidestImage) {
     throw SetupError("the rig '" + rig_.name + "' is " + std::to_string(rig_.camera.width) +
                      " px wide; the scene draws at most " +
-                     std::to_string(scene::PlaneRenderer::kWidestImage));
+                     std::to_string(scene::SceneRenderer::kWidestImage));
   }
   setup.activate_every(seconds(1.0 / parameters_.rate));
 }
@@ -132,16 +140,18 @@ void PhotoScene::step(Time now) {
   healthy();
   if (!last_picture_) publish_info(stamp);
   last_picture_ = stamp;
-  take_pictures(stamp, *q, at(parameters_, to_seconds(stamp - *start_)).pose);
+  base_T_left_.add(stamp, forward_kinematics(robot_, *q, mount_) * rig_.mount_T_left);
+  take_pictures(stamp);
 }
 
 void PhotoScene::publish_truth(Time now, const MovingHead& head) {
+  const TurningDirection normal = carried(head, renderer_.truth().normal());
   auto truth = truth_.loan();
   write_estimate({.stamp = now,
                   .position = head.pose.mouth,
-                  .normal = face_normal(head.pose),
+                  .normal = normal.direction,
                   .velocity = head.velocity,
-                  .normal_rate = head.normal_rate,
+                  .normal_rate = normal.rate,
                   .measurements = 1},
                  *truth);
   truth.publish();
@@ -156,25 +166,60 @@ void PhotoScene::publish_info(Time stamp) {
   }
 }
 
-void PhotoScene::take_pictures(Time stamp, const JointVector& q, const HeadPose& head) {
+double PhotoScene::brightness(Time stamp) const {
   const double light = light_level_.latest() ? light_level_.latest()->level_() : 0.0;
-  const double brightness =
-      parameters_.gain * (1 + parameters_.light_response * std::clamp(light, 0.0, 1.0));
-  const Eigen::Isometry3d base_T_left = forward_kinematics(robot_, q, mount_) * rig_.mount_T_left;
-  Eigen::Isometry3d camera_T_photo = base_T_left.inverse() * base_T_photo(head);
-  for (auto* output : {&left_image_, &right_image_}) {
-    auto image = output->loan();
+  const double turns = parameters_.flicker_hz * to_seconds(stamp - *start_);
+  return parameters_.gain * (1 + parameters_.light_response * std::clamp(light, 0.0, 1.0)) *
+         (1 + parameters_.flicker * std::sin(2 * std::numbers::pi * turns));
+}
+
+PhotoScene::Delivery PhotoScene::draw_delivery() {
+  const double drawn = static_cast<double>(scene::splitmix(seed_ + ++pairs_) >> 11) * 0x1p-53;
+  if (drawn < parameters_.dropped) return Delivery::dropped;
+  const bool repeats = pairs_ > 1 && drawn < parameters_.dropped + parameters_.repeated;
+  return repeats ? Delivery::repeated : Delivery::sound;
+}
+
+/// The face before the left camera, where patient and arm were then.
+Eigen::Isometry3d PhotoScene::left_T_face(Time then) const {
+  return base_T_left_.at(then).inverse() *
+         base_T_photo(at(parameters_, to_seconds(then - *start_)).pose);
+}
+
+void PhotoScene::take_pictures(Time stamp) {
+  const Delivery delivery = draw_delivery();
+  if (delivery == Delivery::dropped) return;
+  for (const bool of_the_left : {true, false}) {
+    Output<msg::Image>& output = of_the_left ? left_image_ : right_image_;
+    msg::Image& last = last_pair_[of_the_left ? 0 : 1];
+    auto image = output.loan();
+    if (delivery == Delivery::repeated && !last.data_().empty()) {
+      *image = last;
+    } else {
+      draw(stamp, of_the_left, *image);
+    }
     write_header(image->header_(), stamp, kCameraFrame);
-    image->width_(static_cast<std::uint32_t>(rig_.camera.width));
-    image->height_(static_cast<std::uint32_t>(rig_.camera.height));
-    image->step_(static_cast<std::uint32_t>(rig_.camera.width));
-    image->encoding_("mono8");
-    image->is_bigendian_(0);
-    image->data_().resize(std::size_t{image->width_()} * image->height_());
-    renderer_.render(camera_T_photo, rig_.camera, brightness, pictures_++, image->data_());
+    if (parameters_.repeated > 0) last = *image;
     image.publish();
-    camera_T_photo.pretranslate(Eigen::Vector3d{-rig_.camera.baseline_m, 0, 0});  // next: the right
   }
+}
+
+void PhotoScene::draw(Time stamp, bool of_the_left, msg::Image& image) {
+  image.width_(static_cast<std::uint32_t>(rig_.camera.width));
+  image.height_(static_cast<std::uint32_t>(rig_.camera.height));
+  image.step_(static_cast<std::uint32_t>(rig_.camera.width));
+  image.encoding_("mono8");
+  image.is_bigendian_(0);
+  image.data_().resize(std::size_t{image.width_()} * image.height_());
+  const std::uint64_t picture = 2 * (pairs_ - 1) + (of_the_left ? 0 : 1);
+  if (of_the_left) {
+    renderer_.render(left_T_face(stamp), rig_.camera, brightness(stamp), picture, image.data_());
+    return;
+  }
+  const Eigen::Isometry3d right_T_face = right_camera_.right_T_left(rig_.camera) *
+                                         left_T_face(stamp - seconds(parameters_.right_delay));
+  renderer_.render(right_T_face, right_camera_.of(rig_.camera),
+                   right_camera_.gain * brightness(stamp), picture, image.data_());
 }
 
 }  // namespace armature::sim::photo_scene

@@ -3,40 +3,17 @@
 // 3. an arm that tells nonsense. Rendering itself is tested beside it.
 #include <gtest/gtest.h>
 
-#include <numeric>
+#include <cmath>
+#include <string>
+#include <vector>
 
-#include "armature/kinds/joint_messages.hpp"
 #include "armature/kinds/target/target_messages.hpp"
-#include "armature/messages/sensor_msgs.hpp"
-#include "armature/runtime/testing/component_harness.hpp"
-#include "armature/runtime/testing/test_plugins.hpp"
+#include "photo_scene_harness_test.hpp"
 
 namespace armature::sim::photo_scene {
 namespace {
 
 using Eigen::Vector3d;
-
-const std::string kLamp = ARMATURE_SOURCE_DIR "/configs/robots/dental_lamp.yaml";
-
-/// Small cameras: quick to draw.
-config::Node small_rig(const std::string& mount = "tool") {
-  return config::parse_text(
-      "{armature_rig: 1, name: small, resolution: [160, 90], fov_deg: 70, baseline_mm: 120, "
-      "mount: {frame: " +
-          mount + ", forward: [1, 0, 0], right: [0, 0, 1]}}",
-      "rig.yaml");
-}
-
-ComponentHarness::Options scene_with(const std::string& params) {
-  return {.component = "{plugin: sim/photo_scene, params: {" + params + "}}",
-          .robot = config::load(kLamp),
-          .rig = small_rig()};
-}
-
-double mean(const msg::Image& image) {
-  return std::accumulate(image.data_().begin(), image.data_().end(), 0.0) /
-         static_cast<double>(image.data_().size());
-}
 
 class PhotoSceneComponentTest : public testing::Test {
  protected:

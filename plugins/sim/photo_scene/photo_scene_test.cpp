@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scene: 1. the patient moves as told, 2. photos are read from files. What draws them is
-// tested beside it.
+// The scene: 1. the patient moves as told, 2. where the cameras were is known for a while, 3.
+// photos are read from files. What draws them is tested in framework/armature/scene.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -12,6 +12,7 @@
 
 #include "patient.hpp"
 #include "photo_file.hpp"
+#include "pose_history.hpp"
 
 namespace armature::sim::photo_scene {
 namespace {
@@ -64,6 +65,22 @@ TEST(Patient, MovesWithTheVelocityThatItTellsAndStopsWhereItWasTold) {
     EXPECT_TRUE(now.normal_rate.isApprox(
         (face_normal(after.pose) - face_normal(before.pose)) / (2 * h), 1e-6));
   }
+}
+
+TEST(PoseHistory, TellsPosesBetweenThoseThatItWasGivenAsFarBackAsAsked) {
+  PoseHistory history{0.3};
+  const auto pose = [](double t_s) {
+    Eigen::Isometry3d at{Eigen::AngleAxisd{t_s, Eigen::Vector3d::UnitZ()}};
+    at.translation() = Eigen::Vector3d{2 * t_s, 0, -t_s};
+    return at;
+  };
+  const auto at = [](double t_s) { return Time{} + seconds(t_s); };
+  for (int i = 0; i <= 10; ++i) history.add(at(0.1 * i), pose(0.1 * i));
+  for (const double t : {0.7, 0.75, 0.92, 1.0}) {
+    EXPECT_TRUE(history.at(at(t)).isApprox(pose(t), 1e-9)) << t;
+  }
+  EXPECT_TRUE(history.at(at(0.1)).isApprox(pose(0.7), 1e-9)) << "it is not kept for ever";
+  EXPECT_TRUE(history.at(at(5)).isApprox(pose(1), 1e-9));
 }
 
 TEST(PhotoFile, OfTheAstronautIsPrintedAtItsScale) {

@@ -124,8 +124,10 @@ std::string default_text(const ParamSpec& spec) {
 void print_slots(const std::vector<SlotSpec>& slots) {
   if (!slots.empty()) fmt::print("slots:\n");
   for (const SlotSpec& slot : slots) {
-    const std::string otherwise =
-        slot.otherwise.empty() ? "" : fmt::format(" (default {})", slot.otherwise);
+    const std::string otherwise = slot.optional ? " (may be empty)"
+                                  : slot.otherwise.empty()
+                                      ? ""
+                                      : fmt::format(" (default {})", slot.otherwise);
     fmt::print("  {:<16} {:<12} {}{}\n", slot.name, slot.kind, slot.doc, otherwise);
   }
 }

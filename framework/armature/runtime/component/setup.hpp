@@ -52,6 +52,8 @@ class Setup {
   /// network. Nothing when the component is constructed and not run: by `armature check`, by a
   /// replay, on a test bench. What is only there for a run (a port) is left alone then.
   virtual std::optional<NetworkOptions> network() const = 0;
+  /// Whether a plugin sits in slot `slot_name`. Always, unless the slot is optional.
+  virtual bool is_filled(std::string_view slot_name) const = 0;
   /// What the plugin in slot `slot_name` says of itself.
   virtual const PluginManifest& slot_manifest(std::string_view slot_name) const = 0;
 
@@ -87,6 +89,13 @@ class Setup {
     Slot<Kind> slot{*place};
     keep_slot(std::move(place));
     return slot;
+  }
+
+  /// The same of a slot that may be empty.
+  template <class Kind, class... Args>
+  std::optional<Slot<Kind>> optional_slot(std::string_view slot_name, const Args&... args) {
+    if (!is_filled(slot_name)) return std::nullopt;
+    return slot<Kind>(slot_name, args...);
   }
 
   /// A thread for a device whose calls wait, and the queue of at most `capacity` samples from it to

@@ -135,6 +135,10 @@ const SlotConfig& ComponentSetup::slot_config(std::string_view slot) const {
   return *found;
 }
 
+bool ComponentSetup::is_filled(std::string_view slot) const {
+  return std::ranges::find(config_.slots, slot, &SlotConfig::name) != config_.slots.end();
+}
+
 const PluginManifest& ComponentSetup::slot_manifest(std::string_view slot) const {
   return *slot_config(slot).manifest;
 }

@@ -109,7 +109,11 @@ void check_slot_needs(const ComponentConfig& component, const PluginRegistry& pl
   // Alone on topics: who it works with does not stand in its entry.
   if (!component.manifest->hosts.empty()) return;
   // With a slot missing, what its plugin would provide is missing too, and that slot is a problem.
-  if (component.slots.size() != component.manifest->slots.size()) return;
+  const auto is_missing = [&](const SlotSpec& spec) {
+    return !spec.optional && std::ranges::find(component.slots, spec.name, &SlotConfig::name) ==
+                                 component.slots.end();
+  };
+  if (std::ranges::any_of(component.manifest->slots, is_missing)) return;
   const std::vector<Provider> providers = slots_of(component);
   const auto fits_a_slot = [&](const PluginManifest& plugin) {
     const auto& slots = component.manifest->slots;

@@ -207,6 +207,7 @@ void ComponentReader::read_slots(MapReader& map, ComponentConfig& component) con
         component.slots, [&](const SlotConfig& slot) { return slot.name == spec.name; });
     if (is_filled) continue;  // a host's own kind
     const Node* node = map.node(spec.name);
+    if (!node && spec.optional) continue;
     if (!node && !spec.otherwise.empty()) {
       read_slot(spec, plugin_node_of(spec.otherwise, component.origin), component);
       continue;

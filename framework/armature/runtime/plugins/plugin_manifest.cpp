@@ -179,6 +179,7 @@ std::vector<SlotSpec> read_slots(const Node* table, const std::vector<UnitSpec>&
     slots.push_back({.name = key,
                      .kind = map.text("kind"),
                      .otherwise = map.text("default", ""),
+                     .optional = map.flag("optional", false),
                      .doc = map.text("doc", ""),
                      .units = read_units_of(map, units)});
     map.finish();

@@ -67,6 +67,7 @@ struct SlotSpec {
   std::string name;
   std::string kind;
   std::string otherwise;  // the plugin that sits there when a deployment names none; empty: it must
+  bool optional = false;  // unless it may stay empty
   std::string doc;
   std::vector<std::string> units{std::string{kMainUnit}};  // each has an instance of its own
 };

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "armature/kinds/face_pose/face_pose.hpp"
+#include "armature/kinds/face_pose/stereo_points.hpp"
 #include "face_pose_three_point_parameters.hpp"
 
 namespace armature::face_pose::three_point {
@@ -18,12 +19,7 @@ class ThreePoint final : public FacePoseEstimator {
   Expected<FacePose> estimate(const FacePoseInput& input, PluginState& state) override;
 
  private:
-  /// A point of the left camera's frame [m] and its covariance [m2].
-  struct Point {
-    Eigen::Vector3d at;
-    Eigen::Matrix3d covariance;
-  };
-  Expected<Point> triangulate(FaceFeature feature, const FacePoseInput& input) const;
+  Expected<StereoPoint> triangulate(FaceFeature feature, const FacePoseInput& input) const;
 
   Parameters parameters_;
 };

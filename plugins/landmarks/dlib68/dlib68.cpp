@@ -3,6 +3,9 @@
 
 #include <cmath>
 #include <fstream>
+#include <map>
+#include <memory>
+#include <mutex>
 
 #include "armature/kinds/landmarks/landmarks.hpp"
 #include "armature/runtime/plugins/plugin.hpp"
@@ -18,6 +21,22 @@ constexpr double kChipScale = 1.4;  // landmarks are sought in the box, this muc
 constexpr double kMinFace = 1;      // [px] width of a box that can hold a face at all
 constexpr double kMaxFace = 1e5;
 
+using Predictor = std::shared_ptr<const dlib::shape_predictor>;
+
+/// The model of a file, which is read once for all finders of the process that live at a time:
+/// 99 MB, of which reading takes most of a lamp's start. Throws what dlib throws.
+Predictor predictor_of(const std::string& file) {
+  static std::mutex mutex;
+  static std::map<std::string, std::weak_ptr<const dlib::shape_predictor>> models;
+  const std::lock_guard lock{mutex};
+  std::weak_ptr<const dlib::shape_predictor>& model = models[file];
+  if (Predictor known = model.lock()) return known;
+  auto read = std::make_shared<dlib::shape_predictor>();
+  dlib::deserialize(file) >> *read;
+  model = read;
+  return read;
+}
+
 }  // namespace
 
 /// The 68-landmark regression trees of dlib (see README).
@@ -32,7 +51,7 @@ class Dlib68 final : public LandmarkFinder {
  private:
   void add_landmarks(const Chip& chip, const PixelBox& box, std::vector<Landmark>& sum) const;
 
-  dlib::shape_predictor predictor_;
+  Predictor predictor_;
   Parameters parameters_;
 };
 
@@ -44,12 +63,12 @@ Expected<std::unique_ptr<LandmarkFinder>> Dlib68::make(const Params& params) {
       "/usr/share/dlib/shape_predictor_68_face_landmarks.dat";
   if (!std::ifstream{model}) return refuse("cannot open the landmark model " + model + hint);
   try {
-    dlib::deserialize(model) >> finder->predictor_;
+    finder->predictor_ = predictor_of(model);
   } catch (const std::exception& error) {
     return refuse(model + " is not a landmark model of dlib (" + error.what() + ")" + hint);
   }
-  if (finder->predictor_.num_parts() != landmark_count(LandmarkScheme::ibug68)) {
-    return refuse(model + " has " + std::to_string(finder->predictor_.num_parts()) +
+  if (finder->predictor_->num_parts() != landmark_count(LandmarkScheme::ibug68)) {
+    return refuse(model + " has " + std::to_string(finder->predictor_->num_parts()) +
                   " landmarks, not 68" + hint);
   }
   return finder;
@@ -93,7 +112,7 @@ void Dlib68::add_landmarks(const Chip& chip, const PixelBox& box,
   const dlib::drectangle r = dlib_chip::rectangle(box);
   const dlib::rectangle in_chip{
       dlib::drectangle{chip.chip_T_image(r.tl_corner()), chip.chip_T_image(r.br_corner())}};
-  const dlib::full_object_detection shape = predictor_(chip.image, in_chip);
+  const dlib::full_object_detection shape = (*predictor_)(chip.image, in_chip);
   for (unsigned long i = 0; i < sum.size(); ++i) {
     const dlib::dpoint p = chip.image_T_chip(dlib::dpoint{shape.part(i)});
     sum[i].point += Eigen::Vector2d{p.x(), p.y()};

@@ -29,6 +29,8 @@ struct FacePoseInput {
   ImageView left, right;
   StereoLandmarks landmarks;
   StereoCamera camera;
+  /// Finds landmarks again in a picture that the estimator makes of the face; or nullptr.
+  LandmarkFinder* finder = nullptr;
 };
 
 /// Mouth, eyes and normal of a face from a stereo pair and its landmarks.

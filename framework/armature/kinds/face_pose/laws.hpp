@@ -10,7 +10,7 @@
 #include "armature/kinds/face_pose/face_pose.hpp"
 #include "armature/laws/law.hpp"
 
-// The laws that every `face_pose` plugin that works from landmarks keeps.
+// The laws that every `face_pose` plugin keeps.
 namespace armature ARMATURE_EXPORT {
 
 struct FacePoseSubject {
@@ -31,7 +31,7 @@ std::span<const Law<FacePoseSubject>> face_pose_laws();
 
 // The laws by name: LAW(TheSentence, the_function, "in short").
 #define ARMATURE_FACE_POSE_LAWS(LAW)                                                       \
-  LAW(RecoversTheExactPoseFromExactLandmarks, recovers_pose,                               \
-      "exact landmarks give the exact pose")                                               \
+  LAW(RecoversThePoseOfADrawnFaceFromExactLandmarks, recovers_pose,                        \
+      "a drawn face with exact landmarks: its pose to 0.5 mm and 0.3 degrees")             \
   LAW(GivesTheSameBitsForTheSameInput, repeats_bits, "the same input gives the same bits") \
   LAW(RefusesLandmarksThatAreNoFace, refuses_no_face, "landmarks that are no face are refused")

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/kinds/landmarks/landmarks.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 
@@ -50,6 +52,22 @@ Landmark FaceLandmarks::feature(FaceFeature which) const {
   }
   centre.point /= static_cast<double>(around.size());
   return centre;
+}
+
+std::optional<std::string> invalid_input(const FaceLandmarks& face) {
+  const std::size_t count = landmark_count(face.scheme);
+  if (face.points.size() != count) {
+    return fmt::format("{} landmarks, and {} has {}", face.points.size(), to_string(face.scheme),
+                       count);
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    const Landmark& landmark = face.points[i];
+    if (!landmark.point.allFinite()) return fmt::format("landmark {} is not finite", i);
+    if (!(landmark.sigma > 0 && std::isfinite(landmark.sigma))) {
+      return fmt::format("landmark {} has a sigma of {} px, not a positive one", i, landmark.sigma);
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace armature

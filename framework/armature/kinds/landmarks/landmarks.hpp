@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -64,6 +65,10 @@ struct FaceLandmarks {
   /// theirs, since neighbours err together.
   Landmark feature(FaceFeature which) const;
 };
+
+/// nullopt, or why these are no landmarks: not as many as their scheme has, or one that is not
+/// finite or has no sigma.
+std::optional<std::string> invalid_input(const FaceLandmarks& face);
 
 struct StereoLandmarks {
   FaceLandmarks left, right;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 #include <cstdint>
+#include <optional>
 
 #include "armature/kinds/face_pose/face_pose.hpp"
 #include "armature/kinds/landmarks/landmark_messages.hpp"
@@ -47,6 +48,7 @@ class FacePoseHost final : public Component {
   explicit FacePoseHost(Setup& setup)
       : Component{setup},
         estimator_{setup.slot<FacePoseEstimator>("face_pose")},
+        finder_{setup.optional_slot<LandmarkFinder>("landmarks")},
         left_image_{setup.input<msg::Image>("left_image")},
         right_image_{setup.input<msg::Image>("right_image")},
         landmarks_{setup.input<msg::FaceLandmarks>("landmarks")},
@@ -59,6 +61,7 @@ class FacePoseHost final : public Component {
   Expected<FacePose> estimate();
 
   Slot<FacePoseEstimator> estimator_;
+  std::optional<Slot<LandmarkFinder>> finder_;
   PluginState state_;
   Input<msg::Image> left_image_, right_image_;
   Input<msg::FaceLandmarks> landmarks_;
@@ -77,8 +80,12 @@ Expected<FacePose> FacePoseHost::estimate() {
   const auto camera = camera_of(*right_info_.latest(), *right);
   if (!camera) return tl::unexpected{camera.error()};
   return guarded(state_, [&](PluginState& state) {
-    return estimator_->estimate(
-        {.left = *left, .right = *right, .landmarks = *landmarks, .camera = *camera}, state);
+    return estimator_->estimate({.left = *left,
+                                 .right = *right,
+                                 .landmarks = *landmarks,
+                                 .camera = *camera,
+                                 .finder = finder_ ? &**finder_ : nullptr},
+                                state);
   });
 }
 

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <memory>
+
+#include "armature/kinds/face_pose/face_pose.hpp"
+#include "armature/kinds/face_pose/stereo_points.hpp"
+#include "face_fit.hpp"
+#include "face_pose_surface_parameters.hpp"
+#include "frontal_view.hpp"
+
+namespace armature::face_pose::surface {
+
+/// Face pose from a surface that is aligned with the pixels of both pictures (see README).
+class Surface final : public FacePoseEstimator {
+ public:
+  explicit Surface(const Parameters& parameters) : parameters_{parameters} {}
+  static Expected<std::unique_ptr<FacePoseEstimator>> make(const Params& params);
+
+  Expected<FacePose> estimate(const FacePoseInput& input, PluginState& state) override;
+
+ private:
+  /// The features of one face in the left picture, their sigmas [px], and each one's own surface.
+  struct Located {
+    Features at;
+    std::array<double, 3> sigma;
+    std::array<Alignment, 3> own;
+  };
+
+  Expected<Alignment> align(const FacePoseInput& input, const Features& features,
+                            const PluginState& state);
+  Expected<void> agree(const Alignment& aligned) const;
+  Expected<void> rectified(const Alignment& aligned, const StereoCamera& camera) const;
+  Expected<void> see_features(const Alignment& aligned, const StereoCamera& camera,
+                              Located& located);
+  Expected<void> find_again(const FacePoseInput& input, const Alignment& aligned, Located& located);
+  FacePose pose(const Alignment& aligned, const StereoCamera& camera, const Located& located) const;
+  Expected<void> believable(const FacePose& face) const;
+
+  Parameters parameters_;
+  FaceFit fit_;
+  FrontalView view_;
+};
+
+}  // namespace armature::face_pose::surface

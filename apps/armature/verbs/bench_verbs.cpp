@@ -6,9 +6,11 @@
 #include "bench/bus/bench_bus.hpp"
 #include "bench/ik/bench_ik.hpp"
 #include "bench/loop/bench_loop.hpp"
+#include "bench/perception/bench_perception.hpp"
 #include "bench/plan/bench_plan.hpp"
 #include "bench/watched/bench_watched.hpp"
 #include "verbs/option_checks.hpp"
+#include "verbs/shipped_configs.hpp"
 #include "verbs/verbs.hpp"
 
 namespace armature {
@@ -118,12 +120,46 @@ void add_bench_watched(CLI::App* bench, Action& action) {
   watched->callback([options, &action] { action = [options] { return bench_watched(*options); }; });
 }
 
+void add_bench_perception(CLI::App* bench, Action& action) {
+  auto options = std::make_shared<PerceptionBenchOptions>();
+  CLI::App* perception = bench->add_subcommand(
+      "perception",
+      "Face detector, landmarks and face pose of a deployment on drawn pairs whose truth is known: "
+      "armature bench perception dental_lamp");
+  add_source(*perception, options->source);
+  perception->get_option("files")->required(false);
+  perception->add_option("--pairs", options->pairs, "in all, at least one of each group")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1000000));
+  perception->add_option("--seed", options->seed, "of the cases")
+      ->capture_default_str()
+      ->check(wrong_seed);
+  const char* instead = ", instead of the deployment's, with its defaults";
+  perception->add_option("--detector", options->choice.detector,
+                         std::string{"'detector/hog'"} + instead);
+  perception->add_option("--landmarks", options->choice.landmarks,
+                         std::string{"'landmarks/dlib68'"} + instead);
+  perception->add_option("--face-pose", options->choice.face_pose,
+                         std::string{"'face_pose/three_point'"} + instead);
+  perception->add_option("--csv", options->csv, "a line per pair, into this file");
+  perception->add_option("--worst", options->worst,
+                         "the worst pairs as JPEG with truth and estimate, into this folder");
+  perception->add_flag("--json", options->json, "as JSON");
+  perception->callback([options, &action] {
+    if (options->source.files.empty()) {
+      options->source.files = {deployment_file("dental_lamp")};
+    }
+    action = [options] { return bench_perception(*options); };
+  });
+}
+
 }  // namespace
 
 void add_bench_verbs(CLI::App& app, Action& action) {
   CLI::App* bench = app.add_subcommand("bench", "Measure plugins side by side");
   bench->require_subcommand(1);
   add_bench_plan(bench, action);
+  add_bench_perception(bench, action);
   add_bench_loop(bench, action);
   add_bench_bus(bench, action);
   add_bench_watched(bench, action);

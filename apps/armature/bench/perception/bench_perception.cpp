@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/perception/bench_perception.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "armature/runtime/plugins/running_component.hpp"
+#include "armature/runtime/reporting/output_folder.hpp"
+#include "armature/runtime/reporting/write_atomically.hpp"
+#include "bench/perception/cases.hpp"
+#include "bench/perception/measure_pairs.hpp"
+#include "bench/perception/perception_report.hpp"
+#include "bench/perception/worst_pairs.hpp"
+#include "exit_code.hpp"
+#include "progress.hpp"
+
+namespace armature {
+
+int bench_perception(const PerceptionBenchOptions& options) {
+  if (options.worst) prepare_output_folder(*options.worst);
+  PluginRegistry registry;
+  name_crashing_components();
+  const bench::ChosenPerception chosen =
+      bench::chosen_perception(registry, options.source, options.choice);
+  const auto cases = bench::perception_cases(chosen.camera, options.pairs, options.seed);
+  std::vector<bench::PairResult> results;
+  {
+    Progress progress{"stereo pairs"};
+    results = bench::measure_pairs(cases,
+                                   {.detector = *chosen.detector,
+                                    .landmarks = *chosen.landmarks,
+                                    .estimator = *chosen.face_pose,
+                                    .stretch_below = chosen.stretch_below},
+                                   [&](std::size_t done) { progress.of(done, cases.size()); });
+  }
+  const bench::PerceptionReport report{.detector = chosen.detector_id,
+                                       .landmarks = chosen.landmarks_id,
+                                       .face_pose = chosen.face_pose_id,
+                                       .deployment = chosen.deployment,
+                                       .rig = chosen.rig,
+                                       .seed = options.seed,
+                                       .machine = bench::this_machine(),
+                                       .rows = bench::rows_of(results),
+                                       .stages = bench::stages_of(results)};
+  fmt::print("{}", options.json ? to_json(report) + "\n" : table(report));
+  std::fflush(stdout);  // also when the files cannot be written
+  if (options.csv) write_atomically(*options.csv, bench::csv_of(results), FileUse::named_by_user);
+  if (options.worst) bench::write_worst_pairs(*options.worst, cases, results);
+  return kOk;
+}
+
+}  // namespace armature

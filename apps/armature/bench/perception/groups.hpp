@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <numbers>
+#include <random>
+#include <span>
+#include <string_view>
+
+#include "bench/perception/cases.hpp"
+
+namespace armature::bench {
+
+/// Numbers that are the same in every standard library.
+class Draw {
+ public:
+  explicit Draw(std::uint64_t seed) : random_{seed} {}
+  double between(double low, double high) {
+    return low + (high - low) * static_cast<double>(random_() >> 11) * 0x1p-53;
+  }
+  /// The same, or its opposite.
+  double either_side(double low, double high) {
+    const double value = between(low, high);
+    return random_() >> 63 ? value : -value;
+  }
+  std::uint64_t below(std::uint64_t end) { return (random_() >> 32) * end >> 32; }
+
+ private:
+  std::mt19937_64 random_;
+};
+
+/// A case as it is drawn: the face looks along the cameras' axes but for its angles, and its mouth
+/// is `aside` right of the middle between them and `below` it.
+struct DrawnCase {
+  PerceptionCase drawn;
+  double distance_m = 0.6, aside_m = 0, below_m = 0;
+  double yaw = 0, pitch = 0, roll = 0;  // [rad]
+  Eigen::Vector3d late_m =
+      Eigen::Vector3d::Zero();  // how far the face was elsewhere for the right camera
+};
+
+/// A kind of cases: `draw` changes what every case has.
+struct CaseGroup {
+  std::string_view name;
+  void (*draw)(DrawnCase& one, Draw& draw);
+  enum class Sequence { none, tracked, with_lost_frames } sequence = Sequence::none;
+};
+
+std::span<const CaseGroup> case_groups();
+
+inline constexpr double kDegree = std::numbers::pi / 180;
+
+}  // namespace armature::bench

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+// `armature bench perception`: 1. plugins of a deployment are measured against drawn truth, 2. an
+// estimator that is wrong and says that it is valid is counted as that, 3. files of the pairs, 4.
+// what cannot be measured is refused.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "command.hpp"
+
+namespace armature::test {
+namespace {
+
+using testing::HasSubstr;
+
+CommandResult bench_perception(std::vector<std::string> options) {
+  std::vector<std::string> words{armature(), "bench", "perception"};
+  words.insert(words.end(), options.begin(), options.end());
+  return run_command(
+      words,
+      {.environment = {{"ARMATURE_PLUGIN_PATH", ARMATURE_BINARY_DIR "/tests/plugins"}},
+       .input = {}},
+      std::chrono::seconds{230});
+}
+
+TEST(BenchPerception, FindsTheDrawnFacesAndStaysNearTheTruthWhereNothingIsWrong) {
+  const auto folder = std::filesystem::path{testing::TempDir()} / "bench_perception";
+  const std::string csv = folder / "pairs.csv";
+  std::filesystem::create_directories(folder);
+  const CommandResult result = bench_perception(
+      {"dental_lamp", "--pairs", "1", "--json", "--csv", csv, "--worst", folder / "worst"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.err, "");
+  const auto report = nlohmann::json::parse(result.out);
+  EXPECT_EQ(report["face_pose"], "face_pose/three_point");
+  EXPECT_EQ(report["rig"], "default");
+  const auto& all = report["groups"].back();
+  const int groups = static_cast<int>(report["groups"].size()) - 1;
+  EXPECT_EQ(all["pairs"], groups);
+  EXPECT_GE(all["found"], groups * 9 / 10);
+  const auto& frontal = report["groups"][0];
+  EXPECT_EQ(frontal["group"], "frontal");
+  EXPECT_EQ(frontal["found"], 1);
+  // What the estimator's own README expects of a face from nearby, with a margin for one pair.
+  EXPECT_LT(frontal["mouth_m"]["median"], 0.006);
+  EXPECT_LT(frontal["normal_rad"]["median"], 0.06);
+  EXPECT_GT(report["stages"][1]["full_passes"], 0.9) << "both pictures take at least the first";
+
+  std::ifstream stream{csv};
+  EXPECT_EQ(std::count(std::istreambuf_iterator<char>{stream}, {}, '\n'), groups + 1);
+  int pictures = 0;
+  for (const auto& entry : std::filesystem::directory_iterator{folder / "worst"}) {
+    EXPECT_EQ(entry.path().extension(), ".jpg");
+    EXPECT_GT(entry.file_size(), 10000U);
+    ++pictures;
+  }
+  EXPECT_EQ(pictures, 12);
+  std::filesystem::remove_all(folder);
+}
+
+TEST(BenchPerception, CountsAnEstimatorThatIsWrongAndSaysItIsValid) {
+  const CommandResult result =
+      bench_perception({"--pairs", "1", "--json", "--face-pose", "face_pose/shifted"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto report = nlohmann::json::parse(result.out);
+  EXPECT_EQ(report["face_pose"], "face_pose/shifted");
+  const auto& frontal = report["groups"][0];
+  EXPECT_EQ(frontal["wrong_but_valid"], 1);
+  EXPECT_NEAR(frontal["mouth_m"]["median"], 0.02, 0.006);
+  const auto& all = report["groups"].back();
+  EXPECT_EQ(all["refused"], 0);
+  EXPECT_GE(all["wrong_but_valid"], static_cast<int>(all["found"]) * 9 / 10);
+}
+
+TEST(BenchPerception, RefusesWhatItCannotMeasure) {
+  const auto refusal = [](std::vector<std::string> options) {
+    const CommandResult result = bench_perception(std::move(options));
+    EXPECT_EQ(result.exit_code, 3) << result.out;
+    return result.err;
+  };
+  EXPECT_THAT(refusal({"sr1_biopsy"}),
+              HasSubstr("no component of 'sr1_biopsy' is a 'landmarks' plugin"));
+  EXPECT_THAT(refusal({"--face-pose", "face_pose/three_points"}),
+              HasSubstr("did you mean 'face_pose/three_point'"));
+  EXPECT_THAT(refusal({"--detector", "landmarks/dlib68"}),
+              HasSubstr("'landmarks/dlib68' is of kind 'landmarks', and a 'detector' is needed"));
+}
+
+}  // namespace
+}  // namespace armature::test

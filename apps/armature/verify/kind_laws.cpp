@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "armature/kinds/detector/laws.hpp"
+#include "armature/kinds/drawn_face.hpp"
 #include "armature/kinds/face_pose/laws.hpp"
 #include "armature/kinds/landmarks/laws.hpp"
 #include "armature/kinds/markers/laws.hpp"
@@ -159,17 +160,21 @@ std::unique_ptr<PluginLaws> laws_of_face_pose(const VerifiedPlugin& verified) {
 }
 std::unique_ptr<PluginLaws> laws_of_detector(const VerifiedPlugin& verified) {
   return laws_with<FaceDetector>(verified, detector_laws(), [](const Maker& maker, auto detector) {
+    const DrawnPortrait drawn;
     return DetectorSubject{.name = maker.plugin().id,
                            .detector = [detector]() -> FaceDetector& { return *detector; },
-                           .face = {}};
+                           .face = [picture = drawn.picture] { return picture; },
+                           .middle_x = drawn.middle.x(),
+                           .middle_y = drawn.middle.y()};
   });
 }
 std::unique_ptr<PluginLaws> laws_of_landmarks(const VerifiedPlugin& verified) {
   return laws_with<LandmarkFinder>(verified, landmark_laws(), [](const Maker& maker, auto finder) {
+    const DrawnPortrait drawn;
     return LandmarkSubject{.name = maker.plugin().id,
                            .finder = [finder]() -> LandmarkFinder& { return *finder; },
-                           .face = {},
-                           .box = {}};
+                           .face = [picture = drawn.picture] { return picture; },
+                           .box = drawn.box};
   });
 }
 

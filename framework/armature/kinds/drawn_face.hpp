@@ -40,4 +40,12 @@ inline Eigen::Isometry3d placed(double x, double y, double z, double yaw = 0, do
                                           Eigen::AngleAxisd{pitch, Eigen::Vector3d::UnitX()});
 }
 
+/// What the laws of detectors and landmark finders look at: one face from the front, half a metre
+/// away. `middle` [px] is half-way from its mouth to its eyes, `box` is as a detector sees it.
+struct DrawnPortrait {
+  Picture picture = drawn_face(placed(0.06, 0, 0.5)).left;
+  Eigen::Vector2d middle = kDrawnCamera.project_left({0.06, -0.03, 0.5});
+  PixelBox box{640, 190, 220, 220};
+};
+
 }  // namespace armature

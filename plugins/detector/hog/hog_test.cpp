@@ -28,14 +28,13 @@ FaceDetector& detector() {
   return *shared;
 }
 
-// The middle of the face is half-way from the mouth to the eyes.
 INSTANTIATE_TEST_SUITE_P(Hog, DetectorLaws,
                          testing::Values(DetectorSubject{
                              .name = "hog",
                              .detector = &detector,
-                             .face = [] { return drawn_face(placed(0.06, 0, 0.5)).left; },
-                             .middle_x = 639.5 + 914 * 0.06 / 0.5,
-                             .middle_y = 359.5 - 914 * 0.03 / 0.5}),
+                             .face = [] { return DrawnPortrait{}.picture; },
+                             .middle_x = DrawnPortrait{}.middle.x(),
+                             .middle_y = DrawnPortrait{}.middle.y()}),
                          testing::PrintToStringParamName());
 
 TEST(Hog, EnlargesThePictureForFacesSmallerThanItsWindow) {

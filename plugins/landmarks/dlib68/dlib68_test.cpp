@@ -73,8 +73,8 @@ INSTANTIATE_TEST_SUITE_P(Dlib68, LandmarkLaws,
                          testing::Values(LandmarkSubject{
                              .name = "dlib68",
                              .finder = &landmark_finder,
-                             .face = [] { return drawn_face(placed(0.06, 0, 0.5)).left; },
-                             .box = {640, 190, 220, 220}}),
+                             .face = [] { return DrawnPortrait{}.picture; },
+                             .box = DrawnPortrait{}.box}),
                          testing::PrintToStringParamName());
 
 TEST(Dlib68, FindsEyesAndMouthWhereTheyWereDrawn) {

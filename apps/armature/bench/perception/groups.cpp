@@ -84,7 +84,7 @@ constexpr std::array kGroups{
               [](DrawnCase& one, Draw& draw) {
                 one.drawn.staging.second_face =
                     Eigen::Vector3d{draw.either_side(0.25, 0.35), draw.between(-0.05, 0.05),
-                                    draw.between(0.05, 0.2)};
+                                    draw.between(0.2, 0.35)};
               }},
     CaseGroup{"right gain 0.5 to 0.8",
               [](DrawnCase& one, Draw& draw) { one.drawn.right.gain = draw.between(0.5, 0.8); }},

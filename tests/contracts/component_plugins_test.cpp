@@ -25,6 +25,9 @@ PluginRegistry& registry() {
 /// Entries of components that cannot be made with defaults alone.
 std::string entry_of(const PluginManifest& plugin) {
   static const std::map<std::string, std::string> kEntries{
+      {"camera/images",
+       "{plugin: camera/images, params: {left: " ARMATURE_SOURCE_DIR
+       "/docs/figures/lamp, right: " ARMATURE_SOURCE_DIR "/docs/figures/sr1, bad_pictures: skip}}"},
       {"host/face_pose", "{plugin: face_pose/three_point}"},
       {"host/ik", "{plugin: ik/numeric}"},
       {"host/landmarks", "{plugin: landmarks/dlib68}"},

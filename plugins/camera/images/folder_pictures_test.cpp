@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+// 1. Pairs are found by their names, in two folders or one, in the order of the numbers in them.
+// 2. Times come from a file, or from a rate. 3. What is wrong is told with the file and the way
+// out.
+#include "folder_pictures.hpp"
+
+#include <gtest/gtest.h>
+
+#include "armature/runtime/plugins/setup_error.hpp"
+#include "picture_files_test.hpp"
+
+namespace armature::camera::images {
+namespace {
+
+class FolderPicturesTest : public testing::Test {
+ protected:
+  FolderPictures::Options two_folders() const {
+    return {.left = files_.path("left"),
+            .right = files_.path("right"),
+            .timestamps = {},
+            .interval = seconds(0.5)};
+  }
+  /// "side grey @ time" of every picture.
+  static std::vector<std::string> played(FolderPictures& pictures) {
+    std::vector<std::string> all;
+    while (const auto timed = pictures.next()) {
+      const int grey = timed->picture ? timed->picture->pixels.front() : -1;
+      all.push_back((timed->side == Side::left ? "left " : "right ") + std::to_string(grey) +
+                    " @ " + std::to_string((timed->stamp - Time{}) / std::chrono::milliseconds{1}));
+      EXPECT_EQ(timed->published, timed->stamp);
+    }
+    return all;
+  }
+  static std::string refusal(const FolderPictures::Options& options) {
+    try {
+      FolderPictures{options};
+    } catch (const SetupError& error) {
+      return error.what();
+    }
+    return "";
+  }
+  PictureFolder files_;
+};
+
+TEST_F(FolderPicturesTest, PlaysPairsOfTwoFoldersInTheOrderOfTheirNumbers) {
+  for (const auto& [name, grey] :
+       {std::pair{"img2.png", 20}, {"img10.png", 100}, {"img1.png", 10}}) {
+    files_.write(std::string{"left/"} + name, grey);
+    files_.write(std::string{"right/"} + name, grey + 1);
+  }
+  files_.write_text("left/notes.txt", "no picture");
+  FolderPictures pictures{two_folders()};
+  const std::vector<std::string> expected{"left 10 @ 0",    "right 11 @ 0",    "left 20 @ 500",
+                                          "right 21 @ 500", "left 100 @ 1000", "right 101 @ 1000"};
+  EXPECT_EQ(played(pictures), expected);
+  pictures.rewind();
+  EXPECT_EQ(played(pictures), expected);
+  EXPECT_EQ(pictures.last_interval(), seconds(0.5));
+}
+
+TEST_F(FolderPicturesTest, FindsPairsOfOneFolderByTheWordsLeftAndRight) {
+  files_.write("left01.png", 10);
+  files_.write("right01.png", 11);
+  files_.write("other.png", 99);
+  FolderPictures pictures{
+      {.left = files_.path(), .right = files_.path(), .timestamps = {}, .interval = seconds(1)}};
+  EXPECT_EQ(played(pictures), (std::vector<std::string>{"left 10 @ 0", "right 11 @ 0"}));
+}
+
+TEST_F(FolderPicturesTest, TurnsColoursGreyAndKeepsWhatTheSensorHad) {
+  std::filesystem::create_directories(files_.path("left"));
+  std::filesystem::create_directories(files_.path("right"));
+  const cv::Mat green{6, 8, CV_8UC3, cv::Scalar{0, 200, 0}};
+  ASSERT_TRUE(cv::imwrite(files_.path("left/a.png"), green));
+  ASSERT_TRUE(cv::imwrite(files_.path("right/a.png"), green));
+  FolderPictures pictures{two_folders()};
+  const auto timed = pictures.next();
+  ASSERT_TRUE(timed && timed->picture);
+  EXPECT_EQ(timed->picture->width, 8);
+  EXPECT_EQ(timed->picture->height, 6);
+  EXPECT_NEAR(timed->picture->pixels.at(20), 0.587 * 200, 1) << "the green of ITU-R BT.601";
+}
+
+TEST_F(FolderPicturesTest, TakesTimesFromAFileInTheirOrder) {
+  for (const std::string name : {"a.png", "b.png", "c.png"}) {
+    files_.write("left/" + name, name[0]);
+    files_.write("right/" + name, name[0]);
+  }
+  files_.write_text("times.txt",
+                    "# of the cameras' clock\na.png 1000.25\n\nc.png 1000.5\nb.png 1002\n");
+  auto options = two_folders();
+  options.timestamps = files_.path("times.txt");
+  FolderPictures pictures{options};
+  EXPECT_EQ(played(pictures),
+            (std::vector<std::string>{"left 97 @ 0", "right 97 @ 0", "left 99 @ 250",
+                                      "right 99 @ 250", "left 98 @ 1750", "right 98 @ 1750"}));
+  EXPECT_EQ(pictures.last_interval(), seconds(1.5));
+}
+
+TEST_F(FolderPicturesTest, NamesTheLineOfAFileOfTimesThatIsWrong) {
+  files_.write("left/a.png", 1);
+  files_.write("right/a.png", 1);
+  auto options = two_folders();
+  options.timestamps = files_.path("times.txt");
+  EXPECT_EQ(refusal(options), "timestamps: '" + files_.path("times.txt") + "' cannot be opened");
+  for (const auto& [text, told] :
+       {std::pair{"a.png soon\n", ":1: 'soon' is no time in seconds; a line is 'NAME SECONDS'"},
+        {"\na.png nan\n", ":2: 'nan' is no time in seconds; a line is 'NAME SECONDS'"},
+        {"a.png\n", ":1: 'a.png' has not two words; a line is 'NAME SECONDS'"},
+        {"a.png 1\na.png 2\n", ":2: 'a.png' has a time already; a line is 'NAME SECONDS'"},
+        {"b.png 1\n", ": has no time for 'a.png'; write a line 'a.png SECONDS'"}}) {
+    files_.write_text("times.txt", text);
+    EXPECT_EQ(refusal(options), files_.path("times.txt") + told);
+  }
+  files_.write("left/b.png", 1);
+  files_.write("right/b.png", 1);
+  files_.write_text("times.txt", "a.png 1\nb.png 1\n");
+  EXPECT_EQ(refusal(options),
+            files_.path("times.txt") + ": 'a.png' and 'b.png' have the same time");
+}
+
+TEST_F(FolderPicturesTest, NamesFoldersWithoutPicturesAndPicturesWithoutAPartner) {
+  files_.write("left/a.png", 1);
+  EXPECT_NE(refusal(two_folders())
+                .find("right: the folder '" + files_.path("right") +
+                      "' cannot be read: No such file or directory"),
+            std::string::npos)
+      << refusal(two_folders());
+  files_.write_text("right/notes.txt", "");
+  EXPECT_NE(
+      refusal(two_folders())
+          .find("right: the folder '" + files_.path("right") + "' has no pictures (.png, .jpg,"),
+      std::string::npos)
+      << refusal(two_folders());
+  files_.write("right/b.png", 1);
+  EXPECT_EQ(refusal(two_folders()),
+            "without a partner on the other side: " + files_.path("left/a.png") + ", " +
+                files_.path("right/b.png") +
+                "; the names of a pair are the same behind 'left' and 'right'; bad_pictures: skip "
+                "leaves them out");
+  auto skipping = two_folders();
+  skipping.skip = true;
+  EXPECT_NE(refusal(skipping).find("and no two files are one"), std::string::npos);
+  files_.write("right/a.png", 1);
+  FolderPictures pictures{skipping};
+  EXPECT_EQ(pictures.pairs(), 1U);
+  EXPECT_EQ(pictures.left_out(), 1U);
+  EXPECT_EQ(pictures.remark(),
+            "without a partner on the other side: " + files_.path("right/b.png"));
+}
+
+TEST_F(FolderPicturesTest, TellsAFileThatIsNoPictureWhenItsTurnComes) {
+  files_.write("left/a.png", 1);
+  files_.write_text("right/a.png", "no PNG");
+  FolderPictures pictures{two_folders()};
+  ASSERT_TRUE(pictures.next()->picture);
+  const auto bad = pictures.next();
+  ASSERT_FALSE(bad->picture);
+  EXPECT_EQ(bad->picture.error().text,
+            files_.path("right/a.png") + ": it is not a picture that can be read");
+}
+
+}  // namespace
+}  // namespace armature::camera::images

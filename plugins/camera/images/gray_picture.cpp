@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gray_picture.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <string_view>
+
+namespace armature::camera::images {
+namespace {
+
+constexpr int kMaxSide = 16384;  // [px]
+
+struct Encoding {
+  std::string_view name;
+  int channels;
+  int to_gray;  // OpenCV's conversion; -1: none is needed
+};
+constexpr std::array<Encoding, 5> kEncodings{{{"mono8", 1, -1},
+                                              {"rgb8", 3, cv::COLOR_RGB2GRAY},
+                                              {"bgr8", 3, cv::COLOR_BGR2GRAY},
+                                              {"rgba8", 4, cv::COLOR_RGBA2GRAY},
+                                              {"bgra8", 4, cv::COLOR_BGRA2GRAY}}};
+
+GrayPicture picture_of(const cv::Mat& gray) {
+  GrayPicture picture{.width = gray.cols, .height = gray.rows, .pixels = {}};
+  picture.pixels.reserve(gray.total());
+  for (int v = 0; v < gray.rows; ++v) {
+    const auto* row = gray.ptr<std::uint8_t>(v);
+    picture.pixels.insert(picture.pixels.end(), row, row + gray.cols);
+  }
+  return picture;
+}
+
+}  // namespace
+
+Expected<GrayPicture> decode_picture(std::span<const std::uint8_t> bytes) {
+  if (bytes.empty()) return refuse("it is empty");
+  cv::Mat gray;
+  try {
+    const cv::Mat file{1, static_cast<int>(bytes.size()), CV_8UC1,
+                       const_cast<std::uint8_t*>(bytes.data())};
+    gray = cv::imdecode(file, cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION);
+  } catch (const cv::Exception& error) {
+    return refuse("it is not a picture that can be read: " + error.err);
+  }
+  if (gray.empty()) return refuse("it is not a picture that can be read");
+  if (std::max(gray.cols, gray.rows) > kMaxSide) {
+    return refuse(
+        fmt::format("it has {} x {} pixels; a side may have {}", gray.cols, gray.rows, kMaxSide));
+  }
+  return picture_of(gray);
+}
+
+Expected<GrayPicture> read_picture(const std::filesystem::path& file) {
+  std::ifstream stream{file, std::ios::binary};
+  if (!stream) return refuse(file.string() + ": cannot be opened: " + std::strerror(errno));
+  const std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>{stream}, {}};
+  auto picture = decode_picture(bytes);
+  if (!picture) return refuse(file.string() + ": " + picture.error().text);
+  return picture;
+}
+
+Expected<GrayPicture> gray_picture_of(const msg::Image& image) {
+  const auto encoding = std::ranges::find(kEncodings, image.encoding_(), &Encoding::name);
+  if (encoding == kEncodings.end()) {
+    return refuse(fmt::format("it is '{}', which is none of mono8, rgb8, bgr8, rgba8, bgra8",
+                              image.encoding_()));
+  }
+  const std::uint32_t width = image.width_(), height = image.height_();
+  const std::size_t row = std::size_t{width} * static_cast<std::size_t>(encoding->channels);
+  if (width == 0 || height == 0 || width > kMaxSide || height > kMaxSide || image.step_() < row ||
+      image.data_().size() < std::size_t{image.step_()} * (height - 1) + row) {
+    return refuse(fmt::format("it has {} x {} pixels and {} bytes, {} a row", width, height,
+                              image.data_().size(), image.step_()));
+  }
+  const cv::Mat pixels{static_cast<int>(height), static_cast<int>(width),
+                       CV_8UC(encoding->channels), const_cast<std::uint8_t*>(image.data_().data()),
+                       image.step_()};
+  if (encoding->to_gray < 0) return picture_of(pixels);
+  cv::Mat gray;
+  cv::cvtColor(pixels, gray, encoding->to_gray);
+  return picture_of(gray);
+}
+
+}  // namespace armature::camera::images

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <opencv2/imgcodecs.hpp>
+#include <string>
+
+// Pictures in files, for the tests.
+namespace armature::camera::images {
+
+/// A folder of this test, gone with it.
+class PictureFolder {
+ public:
+  PictureFolder()
+      : path_{std::filesystem::temp_directory_path() /
+              ("armature-pictures-" + std::to_string(getpid()) + "-" +
+               testing::UnitTest::GetInstance()->current_test_info()->name())} {
+    std::filesystem::remove_all(path_);
+    std::filesystem::create_directories(path_);
+  }
+  ~PictureFolder() { std::filesystem::remove_all(path_); }
+  PictureFolder(const PictureFolder&) = delete;
+  PictureFolder& operator=(const PictureFolder&) = delete;
+
+  std::string path(const std::string& name = "") const { return (path_ / name).string(); }
+  /// All pixels are `grey`.
+  void write(const std::string& name, int grey, int width = 8, int height = 6) const {
+    std::filesystem::create_directories((path_ / name).parent_path());
+    ASSERT_TRUE(cv::imwrite(path(name), cv::Mat{height, width, CV_8UC1, cv::Scalar::all(grey)}));
+  }
+  void write_text(const std::string& name, const std::string& text) const {
+    std::filesystem::create_directories((path_ / name).parent_path());
+    std::ofstream{path_ / name} << text;
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace armature::camera::images

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "recorded_pictures.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "armature/messages/stamp.hpp"
+#include "armature/recording/mcap_summary.hpp"
+#include "armature/runtime/plugins/setup_error.hpp"
+
+namespace armature::camera::images {
+namespace {
+
+constexpr Duration kUsualInterval = seconds(0.1);  // until two pictures tell a better one
+constexpr std::string_view kImage = "sensor_msgs/msg/Image";
+constexpr std::string_view kCompressed = "sensor_msgs/msg/CompressedImage";
+
+bool is_named(std::string_view topic, std::string_view name) {
+  return topic == name || (topic.ends_with(name) && !name.starts_with('/') &&
+                           topic.substr(0, topic.size() - name.size()).ends_with('/'));
+}
+
+bool has_pictures(const std::map<std::uint16_t, McapSchema>& schemas, const McapChannel& channel) {
+  const auto schema = schemas.find(channel.schema_id);
+  return schema != schemas.end() &&
+         (schema->second.name == kImage || schema->second.name == kCompressed);
+}
+
+/// The one topic that is meant by `name`.
+std::string topic_of(const McapSummary& summary, const std::filesystem::path& file,
+                     const std::string& parameter, const std::string& name) {
+  std::vector<std::string> pictures, meant;
+  for (const auto& [id, channel] : summary.channels) {
+    if (!has_pictures(summary.schemas, channel)) continue;
+    pictures.push_back(channel.topic);
+    if (is_named(channel.topic, name)) meant.push_back(channel.topic);
+  }
+  for (auto* names : {&pictures, &meant}) {
+    std::ranges::sort(*names);
+    names->erase(std::unique(names->begin(), names->end()), names->end());
+  }
+  if (meant.size() == 1) return meant.front();
+  if (meant.size() > 1) {
+    throw SetupError(fmt::format("{}: '{}' may be any of {} in '{}'; write the whole name",
+                                 parameter, name, fmt::join(meant, ", "), file.string()));
+  }
+  throw SetupError(fmt::format(
+      "{}: '{}' has no pictures of '{}'; {}", parameter, file.string(), name,
+      pictures.empty() ? "there is no topic of sensor_msgs/Image in it"
+                       : fmt::format("those with pictures are {}", fmt::join(pictures, ", "))));
+}
+
+template <class Message>
+std::optional<Message> decoded(const McapMessage& message) {
+  Message decoded_message;
+  if (!message_type<Message>().decode(message.data, &decoded_message)) return std::nullopt;
+  return decoded_message;
+}
+
+}  // namespace
+
+RecordedPictures::RecordedPictures(std::filesystem::path file, std::string left, std::string right)
+    : file_{std::move(file)},
+      left_{std::move(left)},
+      right_{std::move(right)},
+      last_interval_{kUsualInterval} {
+  if (left_ == right_) {
+    throw SetupError(fmt::format("left_topic and right_topic are both '{}'", left_));
+  }
+  try {
+    if (const auto summary = read_summary(file_)) {
+      left_ = topic_of(*summary, file_, "left_topic", left_);
+      right_ = topic_of(*summary, file_, "right_topic", right_);
+    }
+    reader_ = std::make_unique<McapReader>(file_);
+  } catch (const SetupError&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    throw SetupError(fmt::format("recording: {}", error.what()));
+  }
+}
+
+std::optional<Side> RecordedPictures::side_of(const McapMessage& message) const {
+  if (!has_pictures(reader_->schemas(), *message.channel)) return std::nullopt;
+  if (is_named(message.channel->topic, left_)) return Side::left;
+  if (is_named(message.channel->topic, right_)) return Side::right;
+  return std::nullopt;
+}
+
+TimedPicture RecordedPictures::picture_of(Side side, const McapMessage& message) const {
+  TimedPicture timed{.side = side,
+                     .stamp = message.publish_time,
+                     .published = message.publish_time,
+                     .picture = refuse("")};
+  const auto because = [&](const std::string& reason) {
+    return refuse(fmt::format("{}: the picture of {} that was published at {:.6f} s: {}",
+                              file_.string(), message.channel->topic,
+                              to_seconds(message.publish_time - Time{}), reason));
+  };
+  const auto take = [&](Time stamp, Expected<GrayPicture> picture) {
+    timed.stamp = stamp;
+    timed.picture = picture ? std::move(picture) : because(picture.error().text);
+  };
+  if (reader_->schemas().at(message.channel->schema_id).name == kImage) {
+    if (const auto image = decoded<msg::Image>(message)) {
+      take(stamp_of(image->header_().stamp_()), gray_picture_of(*image));
+      return timed;
+    }
+  } else if (const auto image = decoded<msg::CompressedImage>(message)) {
+    take(stamp_of(image->header_().stamp_()), decode_picture(image->data_()));
+    return timed;
+  }
+  timed.picture = because("its bytes are no message of its type");
+  return timed;
+}
+
+std::optional<TimedPicture> RecordedPictures::next() {
+  try {
+    while (const auto message = reader_->next()) {
+      const auto side = side_of(*message);
+      if (!side) continue;
+      if (*side == Side::left) {
+        if (last_left_ && message->publish_time > *last_left_) {
+          last_interval_ = message->publish_time - *last_left_;
+        }
+        last_left_ = message->publish_time;
+      }
+      return picture_of(*side, *message);
+    }
+    if (!reader_->problems().empty()) problem_ = reader_->problems().front();
+  } catch (const std::runtime_error& error) {
+    problem_ = error.what();
+  }
+  return std::nullopt;
+}
+
+void RecordedPictures::rewind() {
+  reader_ = std::make_unique<McapReader>(file_);
+  last_left_.reset();
+}
+
+std::string RecordedPictures::remark() const {
+  return problem_.empty() ? "" : file_.string() + ": " + problem_;
+}
+
+}  // namespace armature::camera::images

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "armature/recording/mcap_reader.hpp"
+#include "picture_source.hpp"
+
+namespace armature::camera::images {
+
+/// The pictures of two topics of an MCAP file: sensor_msgs/Image, or sensor_msgs/CompressedImage.
+class RecordedPictures final : public PictureSource {
+ public:
+  /// `left` and `right` are whole names of topics, or their last words: "left/image_raw" of
+  /// "/dental_lamp/left/image_raw". Throws SetupError when the file is none, when its summary has
+  /// no such topic, or several. A file without a summary is looked through by `next` alone.
+  RecordedPictures(std::filesystem::path file, std::string left, std::string right);
+
+  std::optional<TimedPicture> next() override;
+  void rewind() override;
+  Duration last_interval() const override { return last_interval_; }
+  std::string remark() const override;
+
+ private:
+  std::optional<Side> side_of(const McapMessage& message) const;
+  TimedPicture picture_of(Side side, const McapMessage& message) const;
+
+  std::filesystem::path file_;
+  std::string left_, right_;
+  std::unique_ptr<McapReader> reader_;
+  std::optional<Time> last_left_;
+  Duration last_interval_;
+  std::string problem_;
+};
+
+}  // namespace armature::camera::images

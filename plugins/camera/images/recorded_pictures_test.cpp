@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pictures of a recording: 1. both topics are found by their last words, and every message of them
+// is played with its own stamp, 2. what is wrong with the file or a message is told.
+#include "recorded_pictures.hpp"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "armature/messages/header.hpp"
+#include "armature/recording/recording_test.hpp"
+#include "armature/runtime/plugins/setup_error.hpp"
+
+namespace armature::camera::images {
+namespace {
+
+msg::Image grey_image(double stamp_s, std::uint8_t grey) {
+  msg::Image image;
+  write_header(image.header_(), Time{} + seconds(stamp_s), "camera");
+  image.encoding_() = "mono8";
+  image.width_() = image.step_() = 4;
+  image.height_() = 2;
+  image.data_().assign(8, grey);
+  return image;
+}
+
+class RecordedPicturesTest : public testing::Test {
+ protected:
+  void write(const std::function<void(McapWriter&)>& fill) {
+    McapWriter writer{file_.path(), {}};
+    const auto image =
+        writer.add(McapSchema{.name = "sensor_msgs/msg/Image", .encoding = "ros2msg", .data = ""});
+    const auto text =
+        writer.add(McapSchema{.name = "std_msgs/msg/String", .encoding = "ros2msg", .data = ""});
+    left_ = channel(writer, image, "/lamp/left/image_raw");
+    right_ = channel(writer, image, "/lamp/right/image_raw");
+    other_ = channel(writer, text, "/other/left/image_raw");
+    fill(writer);
+    writer.close();
+  }
+  static std::uint16_t channel(McapWriter& writer, std::uint16_t schema, const std::string& topic) {
+    return writer.add(McapChannel{.schema_id = schema, .topic = topic, .message_encoding = "cdr"});
+  }
+  void put(McapWriter& writer, std::uint16_t channel, const msg::Image& image, double at_s) {
+    std::vector<std::byte> cdr;
+    message_type<msg::Image>().encode(&image, cdr);
+    const Time at = Time{} + seconds(at_s);
+    writer.write(channel, ++sequence_, at + seconds(9), at, cdr);
+  }
+  std::string refusal(const std::string& left, const std::string& right) const {
+    try {
+      RecordedPictures{file_.path(), left, right};
+    } catch (const SetupError& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  RecordingFile file_{"pictures"};
+  std::uint16_t left_ = 0, right_ = 0, other_ = 0;
+  std::uint32_t sequence_ = 0;
+};
+
+TEST_F(RecordedPicturesTest, PlaysBothTopicsWithTheirOwnTimesAgainAndAgain) {
+  write([&](McapWriter& writer) {
+    put(writer, left_, grey_image(1.0, 10), 1.03);
+    put(writer, other_, grey_image(1.0, 99), 1.03);
+    put(writer, right_, grey_image(1.001, 20), 1.04);
+    put(writer, left_, grey_image(1.2, 11), 1.23);
+  });
+  RecordedPictures pictures{file_.path(), "left/image_raw", "/lamp/right/image_raw"};
+  for (int round = 0; round < 2; ++round) {
+    const auto first = pictures.next(), second = pictures.next(), third = pictures.next();
+    ASSERT_TRUE(first && second && third);
+    EXPECT_EQ(first->side, Side::left);
+    EXPECT_EQ(first->stamp, Time{} + seconds(1.0));
+    EXPECT_EQ(first->published, Time{} + seconds(1.03));
+    EXPECT_EQ(first->picture.value().pixels, std::vector<std::uint8_t>(8, 10));
+    EXPECT_EQ(second->side, Side::right);
+    EXPECT_EQ(second->stamp, Time{} + seconds(1.001));
+    EXPECT_EQ(second->picture.value().pixels.front(), 20);
+    EXPECT_EQ(third->picture.value().pixels.front(), 11);
+    EXPECT_FALSE(pictures.next());
+    EXPECT_EQ(pictures.last_interval(), seconds(0.2));
+    EXPECT_EQ(pictures.remark(), "");
+    pictures.rewind();
+  }
+}
+
+TEST_F(RecordedPicturesTest, NamesTheTopicsThatHavePicturesWhereNoneIsMeant) {
+  write([&](McapWriter& writer) { put(writer, left_, grey_image(1, 1), 1); });
+  EXPECT_EQ(refusal("left/raw", "right/image_raw"),
+            "left_topic: '" + file_.path().string() +
+                "' has no pictures of 'left/raw'; those with pictures are /lamp/left/image_raw, "
+                "/lamp/right/image_raw");
+  EXPECT_NE(refusal("image_raw", "right/image_raw")
+                .find("left_topic: 'image_raw' may be any of /lamp/left/image_raw, "
+                      "/lamp/right/image_raw in"),
+            std::string::npos);
+  EXPECT_EQ(refusal("image_raw", "image_raw"), "left_topic and right_topic are both 'image_raw'");
+}
+
+TEST_F(RecordedPicturesTest, RefusesAFileThatIsNoRecordingAndPlaysOneThatWasCutOffToItsEnd) {
+  file_.replace("no recording");
+  EXPECT_NE(refusal("left/image_raw", "right/image_raw").find("recording: "), std::string::npos);
+  write([&](McapWriter& writer) {
+    put(writer, left_, grey_image(1, 1), 1);
+    writer.end_chunk();
+    put(writer, right_, grey_image(1, 1), 1);
+    writer.end_chunk();
+  });
+  std::filesystem::resize_file(file_.path(), std::filesystem::file_size(file_.path()) * 2 / 3);
+  RecordedPictures pictures{file_.path(), "left/image_raw", "right/image_raw"};
+  while (pictures.next()) {
+  }
+  EXPECT_NE(pictures.remark(), "");
+}
+
+TEST_F(RecordedPicturesTest, TellsAMessageThatIsNoPictureItCanRead) {
+  write([&](McapWriter& writer) {
+    msg::Image depth = grey_image(1, 1);
+    depth.encoding_() = "16UC1";
+    put(writer, left_, depth, 1);
+    msg::Image cut = grey_image(2, 1);
+    cut.data_().pop_back();
+    put(writer, left_, cut, 2);
+  });
+  RecordedPictures pictures{file_.path(), "left/image_raw", "right/image_raw"};
+  EXPECT_EQ(pictures.next()->picture.error().text,
+            file_.path().string() +
+                ": the picture of /lamp/left/image_raw that was published at 1.000000 s: it is "
+                "'16UC1', which is none of mono8, rgb8, bgr8, rgba8, bgra8");
+  EXPECT_NE(pictures.next()->picture.error().text.find("it has 4 x 2 pixels and 7 bytes, 4 a row"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace armature::camera::images

@@ -28,6 +28,9 @@ std::string entry_of(const PluginManifest& plugin) {
       {"camera/images",
        "{plugin: camera/images, params: {left: " ARMATURE_SOURCE_DIR
        "/docs/figures/lamp, right: " ARMATURE_SOURCE_DIR "/docs/figures/sr1, bad_pictures: skip}}"},
+      {"camera/stereo_pair",
+       "{plugin: camera/stereo_pair, params: {calibration: " ARMATURE_SOURCE_DIR
+       "/configs/cameras/default.yaml}}"},
       {"host/face_pose", "{plugin: face_pose/three_point}"},
       {"host/ik", "{plugin: ik/numeric}"},
       {"host/landmarks", "{plugin: landmarks/dlib68}"},

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "armature/config/problems.hpp"
+#include "armature/kinds/landmarks/landmark_messages.hpp"
+#include "armature/kinds/setup_robot.hpp"
+#include "armature/messages/header.hpp"
+#include "armature/runtime/component/component.hpp"
+#include "armature/runtime/component/setup.hpp"
+#include "armature/runtime/plugins/plugin.hpp"
+#include "calibrated_pair.hpp"
+#include "camera_stereo_pair_parameters.hpp"
+#include "pair_matcher.hpp"
+
+namespace armature::camera::stereo_pair {
+namespace {
+
+constexpr Duration kLookEvery = seconds(0.1);
+constexpr Duration kTellEvery = seconds(1);
+
+const char* name_of(Side side) { return side == Side::left ? "left" : "right"; }
+
+}  // namespace
+
+/// Raw pictures in, a rectified pair out.
+class StereoPair final : public Component {
+ public:
+  explicit StereoPair(Setup& setup);
+
+  void step(Time now) override;
+  std::vector<std::string> notes_for_check() const override { return {pair_.description()}; }
+  void summarize(Summary& summary) const override;
+
+ private:
+  void take(Side side, const Input<msg::Image>& raw, Time now);
+  void publish(const MatchedPair& matched);
+  void publish_info(Time stamp);
+  void publish_picture(Side side, const ImageView& raw, Time stamp);
+  std::string trouble(Time now) const;
+  void tell(Time now);
+
+  Parameters parameters_;
+  CalibratedPair pair_;
+  PairMatcher matcher_;
+  Input<msg::Image> left_raw_, right_raw_;
+  Output<msg::Image> left_image_, right_image_;
+  Output<msg::CameraInfo> left_info_, right_info_;
+  std::array<std::optional<Time>, 2> heard_;  // of each camera; at first when it was waited for
+  std::optional<Time> unpaired_at_, refused_at_, told_;
+  std::uint64_t pairs_ = 0, refused_ = 0;
+  std::string refusal_;
+  Duration max_skew_{0};
+};
+
+StereoPair::StereoPair(Setup& setup)
+    : Component{setup},
+      parameters_{Parameters::read(setup.params())},
+      pair_{parameters_, optional_rig_of(setup)},
+      matcher_{seconds(parameters_.max_skew)},
+      left_raw_{setup.input<msg::Image>("left_raw")},
+      right_raw_{setup.input<msg::Image>("right_raw")},
+      left_image_{setup.output<msg::Image>("left_image")},
+      right_image_{setup.output<msg::Image>("right_image")},
+      left_info_{setup.output<msg::CameraInfo>("left_info")},
+      right_info_{setup.output<msg::CameraInfo>("right_info")} {
+  setup.activate_every(kLookEvery);
+}
+
+void StereoPair::step(Time now) {
+  for (auto& heard : heard_) {
+    if (!heard) heard = now;
+  }
+  const std::uint64_t unpaired = matcher_.unpaired();
+  take(Side::left, left_raw_, now);
+  take(Side::right, right_raw_, now);
+  while (const auto matched = matcher_.next()) {
+    refusal_.clear();
+    publish(*matched);
+    if (!refusal_.empty()) refused_at_ = now;
+  }
+  if (matcher_.unpaired() > unpaired) unpaired_at_ = now;
+  tell(now);
+}
+
+void StereoPair::take(Side side, const Input<msg::Image>& raw, Time now) {
+  if (!raw.fresh()) return;
+  heard_[static_cast<std::size_t>(side)] = now;
+  for (std::size_t i = 0; i < raw.size(); ++i) {
+    matcher_.add(side, {.stamp = stamp_of(raw[i].header_().stamp_()), .picture = raw.sample(i)});
+  }
+}
+
+void StereoPair::publish(const MatchedPair& matched) {
+  std::array<ImageView, 2> views;
+  for (const auto& [side, picture] :
+       {std::pair{Side::left, &matched.left}, {Side::right, &matched.right}}) {
+    const auto& message = *static_cast<const msg::Image*>(picture->picture.message());
+    const auto view = image_of(message);
+    if (!view) {
+      refusal_ = fmt::format("{}: {}", name_of(side), view.error().text);
+    } else if (view->width != pair_.camera().width || view->height != pair_.camera().height) {
+      refusal_ = fmt::format("the {} picture has {} x {} pixels, and the calibration is of {} x {}",
+                             name_of(side), view->width, view->height, pair_.camera().width,
+                             pair_.camera().height);
+    }
+    if (!refusal_.empty()) {
+      ++refused_;
+      return;
+    }
+    views[static_cast<std::size_t>(side)] = *view;
+  }
+  if (pairs_++ == 0) publish_info(matched.stamp());
+  publish_picture(Side::left, views[0], matched.stamp());
+  publish_picture(Side::right, views[1], matched.stamp());
+  max_skew_ = std::max(max_skew_, matched.skew());
+}
+
+void StereoPair::publish_info(Time stamp) {
+  left_info_.publish(pair_.info(Side::left, stamp));
+  right_info_.publish(pair_.info(Side::right, stamp));
+}
+
+void StereoPair::publish_picture(Side side, const ImageView& raw, Time stamp) {
+  auto image = (side == Side::left ? left_image_ : right_image_).loan();
+  write_header(image->header_(), stamp, kLeftCameraFrame);
+  image->width_() = image->step_() = static_cast<std::uint32_t>(raw.width);
+  image->height_() = static_cast<std::uint32_t>(raw.height);
+  image->encoding_() = "mono8";
+  image->is_bigendian_() = 0;
+  pair_.rectify(side, raw, image->data_());
+  image.publish();
+}
+
+/// What is wrong now, or was a moment ago; empty: nothing.
+std::string StereoPair::trouble(Time now) const {
+  for (const Side side : {Side::left, Side::right}) {
+    if (now - *heard_[static_cast<std::size_t>(side)] < seconds(parameters_.timeout)) continue;
+    return fmt::format("no picture of the {} camera for {:g} s", name_of(side),
+                       parameters_.timeout);
+  }
+  if (refused_at_ && now - *refused_at_ < kTellEvery) {
+    return fmt::format("{}; pairs refused: {}", refusal_, refused_);
+  }
+  if (unpaired_at_ && now - *unpaired_at_ < kTellEvery) {
+    const auto distance = matcher_.last_distance();
+    return fmt::format("pictures without a partner within max_skew_ms ({:g}): {}; {}",
+                       1e3 * parameters_.max_skew, matcher_.unpaired(),
+                       distance ? fmt::format("the last one's nearest is {:.1f} ms away",
+                                              1e3 * to_seconds(*distance))
+                                : "of the other camera there is none");
+  }
+  return {};
+}
+
+void StereoPair::tell(Time now) {
+  const std::string what = trouble(now);
+  if (what.empty()) {
+    told_.reset();
+    return healthy();
+  }
+  if (told_ && now - *told_ < kTellEvery) return;
+  told_ = now;
+  degraded(what);
+}
+
+void StereoPair::summarize(Summary& summary) const {
+  summary.metric("pairs", "pairs", static_cast<double>(pairs_));
+  summary.metric("unpaired_pictures", "pictures without a partner",
+                 static_cast<double>(matcher_.unpaired()));
+  summary.metric("refused_pairs", "pairs of another size or encoding",
+                 static_cast<double>(refused_));
+  summary.metric("max_pair_skew_ms", "stamps of a pair apart, at most [ms]",
+                 1e3 * to_seconds(max_skew_));
+}
+
+}  // namespace armature::camera::stereo_pair
+
+ARMATURE_PLUGIN(armature::camera::stereo_pair::StereoPair);

@@ -51,6 +51,7 @@ class StereoPair final : public Component {
   CalibratedPair pair_;
   PairMatcher matcher_;
   Input<msg::Image> left_raw_, right_raw_;
+  Input<msg::Capture> capture_;
   Output<msg::Image> left_image_, right_image_;
   Output<msg::CameraInfo> left_info_, right_info_;
   std::array<std::optional<Time>, 2> heard_;  // of each camera; at first when it was waited for
@@ -67,6 +68,7 @@ StereoPair::StereoPair(Setup& setup)
       matcher_{seconds(parameters_.max_skew)},
       left_raw_{setup.input<msg::Image>("left_raw")},
       right_raw_{setup.input<msg::Image>("right_raw")},
+      capture_{setup.input<msg::Capture>("capture")},
       left_image_{setup.output<msg::Image>("left_image")},
       right_image_{setup.output<msg::Image>("right_image")},
       left_info_{setup.output<msg::CameraInfo>("left_info")},
@@ -75,13 +77,15 @@ StereoPair::StereoPair(Setup& setup)
 }
 
 void StereoPair::step(Time now) {
+  const bool off = capture_.latest() && !capture_.latest()->on_();
   for (auto& heard : heard_) {
-    if (!heard) heard = now;
+    if (!heard || off) heard = now;
   }
   const std::uint64_t unpaired = matcher_.unpaired();
   take(Side::left, left_raw_, now);
   take(Side::right, right_raw_, now);
   while (const auto matched = matcher_.next()) {
+    if (off) continue;
     refusal_.clear();
     publish(*matched);
     if (!refusal_.empty()) refused_at_ = now;

@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/header.hpp"
 #include "armature/messages/sensor_msgs.hpp"
 #include "armature/robot/geometry/rotation.hpp"
@@ -249,6 +250,26 @@ TEST_F(StereoPairTest, ACameraThatIsSilentIsNamedUntilItIsHeardAgain) {
     pair.step(now);
   }
   EXPECT_TRUE(is_well(pair));
+}
+
+TEST_F(StereoPairTest, WhileCaptureIsOffThereAreNoPairsAndNobodyMissesThem) {
+  ComponentHarness pair{built_plugins(), options(", timeout_s: 0.5")};
+  msg::Capture capture;
+  capture.on_() = false;
+  pair.send("capture", capture);
+  send(pair, 0.1, 0.1);
+  pair.step(0.1);
+  pair.step(3);
+  EXPECT_TRUE(is_well(pair));
+  EXPECT_TRUE(pair.take<msg::Image>("left_image").empty());
+  EXPECT_EQ(pair.figures().metrics.at("unpaired_pictures"), 0);
+  capture.on_() = true;
+  pair.send("capture", capture);
+  send(pair, 3.1, 3.1);
+  pair.step(3.1);
+  EXPECT_EQ(pair.take<msg::Image>("left_image").size(), 1U);
+  pair.step(3.7);
+  EXPECT_FALSE(is_well(pair));
 }
 
 TEST_F(StereoPairTest, PicturesOfAnotherSizeOrEncodingAreRefusedCountedAndTold) {

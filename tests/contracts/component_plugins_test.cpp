@@ -31,6 +31,7 @@ std::string entry_of(const PluginManifest& plugin) {
       {"camera/stereo_pair",
        "{plugin: camera/stereo_pair, params: {calibration: " ARMATURE_SOURCE_DIR
        "/configs/cameras/default.yaml}}"},
+      {"camera/v4l2", "{plugin: camera/v4l2, params: {device: /dev/null}}"},
       {"host/face_pose", "{plugin: face_pose/three_point}"},
       {"host/ik", "{plugin: ik/numeric}"},
       {"host/landmarks", "{plugin: landmarks/dlib68}"},

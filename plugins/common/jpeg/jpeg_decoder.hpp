@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "armature/values/expected.hpp"
+
+namespace armature::jpeg {
+
+/// Unpacks pictures with libjpeg-turbo, such as a camera's motion JPEG. One thread at a time; not
+/// real-time safe.
+class JpegDecoder {
+ public:
+  JpegDecoder();
+  /// Writes the brightness of a picture into `pixels`, `width * height` bytes. Refuses a picture of
+  /// another size, and one of which bytes are missing or wrong: part of it would be grey.
+  Expected<void> decode_gray(std::span<const std::uint8_t> jpeg, int width, int height,
+                             std::vector<std::uint8_t>& pixels);
+
+ private:
+  struct Close {
+    void operator()(void* decompressor) const;
+  };
+  std::unique_ptr<void, Close> decompressor_;
+};
+
+}  // namespace armature::jpeg

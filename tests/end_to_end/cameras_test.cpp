@@ -26,8 +26,6 @@ class LampWithCameras : public testing::Test {
         "components.cameras.params.recording=" + recording_.string(),
         "components.cameras.params.left_topic=left/image_raw",
         "components.cameras.params.right_topic=right/image_raw",
-        // The first pair of the scene is from its second activation, 0.1 s after the start.
-        "components.cameras.params.start_s=0.1",
         // The truth, for the report; nobody sees the pictures of this scene.
         "components.scene={plugin: sim/photo_scene, out: {left_image: unseen/left, right_image: "
         "unseen/right, left_info: unseen/left_info, right_info: unseen/right_info}}",

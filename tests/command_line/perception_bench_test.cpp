@@ -36,7 +36,7 @@ TEST(BenchPerception, FindsTheDrawnFacesAndStaysNearTheTruthWhereNothingIsWrong)
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(result.err, "");
   const auto report = nlohmann::json::parse(result.out);
-  EXPECT_EQ(report["face_pose"], "face_pose/three_point");
+  EXPECT_EQ(report["face_pose"], "face_pose/surface");
   EXPECT_EQ(report["rig"], "default");
   const auto& all = report["groups"].back();
   const int groups = static_cast<int>(report["groups"].size()) - 1;

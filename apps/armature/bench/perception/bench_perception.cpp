@@ -27,12 +27,14 @@ int bench_perception(const PerceptionBenchOptions& options) {
   std::vector<bench::PairResult> results;
   {
     Progress progress{"stereo pairs"};
-    results = bench::measure_pairs(cases,
-                                   {.detector = *chosen.detector,
-                                    .landmarks = *chosen.landmarks,
-                                    .estimator = *chosen.face_pose,
-                                    .stretch_below = chosen.stretch_below},
-                                   [&](std::size_t done) { progress.of(done, cases.size()); });
+    results = bench::measure_pairs(
+        cases,
+        {.detector = *chosen.detector,
+         .landmarks = *chosen.landmarks,
+         .estimator = *chosen.face_pose,
+         .of_estimator = chosen.frontal_landmarks ? &*chosen.frontal_landmarks : nullptr,
+         .stretch_below = chosen.stretch_below},
+        [&](std::size_t done) { progress.of(done, cases.size()); });
   }
   const bench::PerceptionReport report{.detector = chosen.detector_id,
                                        .landmarks = chosen.landmarks_id,

@@ -95,6 +95,13 @@ ChosenPerception chosen_perception(PluginRegistry& plugins, const DeploymentSour
   chosen.landmarks = make<LandmarkFinder>(plugins, finds, choice.landmarks, chosen.landmarks_id);
   chosen.face_pose =
       make<FacePoseEstimator>(plugins, estimates, choice.face_pose, chosen.face_pose_id);
+  const bool asks_again = std::ranges::any_of(estimates.slots, [](const SlotConfig& slot) {
+    return slot.manifest->kind == LandmarkFinder::kKind;
+  });
+  if (asks_again) {
+    chosen.frontal_landmarks =
+        make<LandmarkFinder>(plugins, estimates, choice.landmarks, chosen.landmarks_id);
+  }
   return chosen;
 }
 

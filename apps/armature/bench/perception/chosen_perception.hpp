@@ -26,6 +26,7 @@ struct ChosenPerception {
   PluginPtr<FaceDetector> detector;
   PluginPtr<LandmarkFinder> landmarks;
   PluginPtr<FacePoseEstimator> face_pose;
+  PluginPtr<LandmarkFinder> frontal_landmarks;  // of the estimator; nullptr: it has none
 };
 
 /// Throws config::ConfigError for what is wrong in the files, InvalidChoice for an id that means

@@ -84,7 +84,8 @@ PairResult measure_pair(const PerceptionCase& one, const StagedPair& pair,
       return plugins.estimator.estimate({.left = pair.left.view(),
                                          .right = pair.right.view(),
                                          .landmarks = *found,
-                                         .camera = one.camera},
+                                         .camera = one.camera,
+                                         .finder = plugins.of_estimator},
                                         state);
     });
   });

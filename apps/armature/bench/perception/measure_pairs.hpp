@@ -51,6 +51,7 @@ struct MeasuredPlugins {
   FaceDetector& detector;
   LandmarkFinder& landmarks;
   FacePoseEstimator& estimator;
+  LandmarkFinder* of_estimator;  // which it asks again; nullptr: there is none
   double stretch_below;  // of StereoFaceFinder
 };
 

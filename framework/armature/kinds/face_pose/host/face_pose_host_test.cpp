@@ -49,9 +49,22 @@ class FirstLandmark final : public FacePoseEstimator {
   };
 };
 
+class NoLandmarks final : public LandmarkFinder {
+ public:
+  LandmarkScheme scheme() const override { return LandmarkScheme::five; }
+  Expected<std::vector<Landmark>> find(const ImageView&, const PixelBox&) override {
+    return refuse("none");
+  }
+};
+
 PluginRegistry& plugins() {
-  return built_plugins_with<FirstLandmark>(
-      "{armature_plugin: 1, id: face_pose/first, kind: face_pose}");
+  static PluginRegistry& registry = []() -> PluginRegistry& {
+    PluginRegistry& built = built_plugins_with<FirstLandmark>(
+        "{armature_plugin: 1, id: face_pose/first, kind: face_pose}");
+    built.add<NoLandmarks>("{armature_plugin: 1, id: landmarks/none, kind: landmarks}");
+    return built;
+  }();
+  return registry;
 }
 
 msg::Image image(double stamp_s) {
@@ -92,6 +105,8 @@ msg::CameraInfo info() {
 
 class FacePoseHostTest : public ::testing::Test {
  protected:
+  explicit FacePoseHostTest(const char* component = "{plugin: face_pose/first}")
+      : host_{plugins(), {.component = component, .robot = {}, .rig = {}}} {}
   msg::FacePose see(const msg::Image& left, const msg::Image& right,
                     const msg::FaceLandmarks& found) {
     host_.send("left_image", left);
@@ -106,9 +121,27 @@ class FacePoseHostTest : public ::testing::Test {
   msg::FacePose see(double stamp_s, double u) {
     return see(image(stamp_s), image(stamp_s), landmarks(stamp_s, u));
   }
-  ComponentHarness host_{plugins(),
-                         {.component = "{plugin: face_pose/first}", .robot = {}, .rig = {}}};
+  ComponentHarness host_;
 };
+
+class FacePoseHostWithFinder : public FacePoseHostTest {
+ protected:
+  FacePoseHostWithFinder()
+      : FacePoseHostTest{"{plugin: face_pose/first, landmarks: {plugin: landmarks/none}}"} {}
+};
+
+TEST_F(FacePoseHostWithFinder, LendsTheEstimatorTheFinderThatSitsInItsSlot) {
+  host_.send("right_info", info());
+  see(0.5, 2);
+  ASSERT_NE(FirstLandmark::asked.finder, nullptr);
+  EXPECT_EQ(FirstLandmark::asked.finder->find({}, {}).error().text, "none");
+}
+
+TEST_F(FacePoseHostTest, HasNoFinderToLendWhereItsSlotIsEmpty) {
+  host_.send("right_info", info());
+  see(0.5, 2);
+  EXPECT_EQ(FirstLandmark::asked.finder, nullptr);
+}
 
 TEST_F(FacePoseHostTest, TellsThePoseUnderTheHeaderOfThePictures) {
   host_.send("right_info", info());

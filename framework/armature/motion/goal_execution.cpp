@@ -353,6 +353,7 @@ void GoalExecution::track(const MotionGoal& goal, Time now) {
   const TrackingFailure failure = under_way ? tracker_->follow(goal, from, start, way_)
                                             : tracker_->begin(goal, from, start, way_);
   if (failure.stage.empty()) reference_.splice(way_);
+  behind_ = tracker_->waits_for();
   // A target under way that is not met yet may be met by the next search.
   if (failure.stage.empty() || (under_way && failure.stage == "trajectory")) {
     return execute(goal.id, goal.mode, now);
@@ -365,7 +366,8 @@ void GoalExecution::execute(std::uint64_t goal_id, MotionMode mode, Time now, in
   stops_ahead_ = stops_ahead;
   active_ = goal_id;
   active_mode_ = mode;
-  report(goal_id, State::executing).remaining_s = current(now)->remaining_s;
+  const GoalStatus executing = *current(now);
+  report(goal_id, State::executing, {}, executing.reason).remaining_s = executing.remaining_s;
 }
 
 void GoalExecution::halt(const ReasonText& why, Time now) {
@@ -409,7 +411,7 @@ std::optional<GoalStatus> GoalExecution::current(Time now) const {
   return GoalStatus{.goal_id = *active_,
                     .state = State::executing,
                     .stage = {},
-                    .reason = {},
+                    .reason = active_mode_ == MotionMode::tracking ? behind_ : ReasonText{},
                     .remaining_s = std::max(0.0, to_seconds(reference_.last().end() - now)),
                     .stops_ahead = stops_ahead_};
 }

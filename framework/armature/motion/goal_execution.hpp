@@ -21,7 +21,7 @@ struct GoalStatus {
   State state = State::accepted;
   /// path, ik, select, trajectory, links, execution; accept: it was refused
   InlineText<16> stage;
-  ReasonText reason;       // why it failed
+  ReasonText reason;       // why it failed, or why the tool is not on a target that is tracked
   double remaining_s = 0;  // until the goal's trajectory ends
   int stops_ahead = 0;     // of its way, behind where the goal ends
 };
@@ -185,6 +185,7 @@ class GoalExecution {
   std::array<GoalStatus, 40> statuses_;  // more than eight goals and an update can tell
   std::size_t status_count_ = 0;
   ShortTrajectory way_;   // of a target that is tracked
+  ReasonText behind_;     // why the tool is not on it
   bool spliced_ = false;  // since the last update
   bool astray_ = false;   // the arm is not where the reference is
   bool follows_ = true;

@@ -179,8 +179,8 @@ void Motion::see_waiting(Time now) {
   if (!waits_since_) waits_since_ = now;
   // A target that is only far away is come to; the first words stay, whose numbers change.
   if (now - *waits_since_ < kTimeout || !waits_for_.empty()) return;
-  waits_for_ =
-      ReasonText::format("the tip waits before its target: {}", tracker_->waits_for().view());
+  const char* how = tracker_->pivots() ? "the tip waits before" : "the tool keeps only near";
+  waits_for_ = ReasonText::format("{} its target: {}", how, tracker_->waits_for().view());
 }
 
 void Motion::read_goals(Time now) {

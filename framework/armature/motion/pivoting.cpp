@@ -5,7 +5,6 @@
 #include <cmath>
 #include <variant>
 
-#include "armature/motion/target_motion.hpp"
 #include "armature/motion/tracking.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
 
@@ -14,7 +13,6 @@ namespace {
 
 using Eigen::Isometry3d;
 
-constexpr double kDifference_s = 2e-3;  // of the difference quotients
 constexpr double kShortestStop_s = 0.01;
 constexpr double kStopMargin = 1.05, kStopGrowth = 1.15;
 constexpr int kStopAttempts = 12;
@@ -31,42 +29,41 @@ Isometry3d transform(const ToolPose& pose) {
 }
 
 /// A part of the way from one pose to another one, the tip along a straight line.
-Isometry3d between(const Isometry3d& from, const Isometry3d& to, double share) {
+ToolPose between(const Isometry3d& from, const Isometry3d& to, double share) {
   const Eigen::Quaterniond turned =
       Eigen::Quaterniond{from.linear()}.slerp(share, Eigen::Quaterniond{to.linear()});
-  return Eigen::Translation3d{from.translation() +
-                              share * (to.translation() - from.translation())} *
-         turned;
+  return {.position = from.translation() + share * (to.translation() - from.translation()),
+          .orientation = turned};
 }
 
 }  // namespace
 
 /// As `solve`, of the pose with its shaft brought through the incision.
-bool Tracker::solve_pivoted(const Isometry3d& base_T_tool, const JointVector& near,
-                            JointVector& q) {
+bool Tracker::solve_pivoted(const ToolPose& pose, const JointVector& near, JointVector& q) {
+  const Isometry3d base_T_tool = transform(pose);
   defect_ = pivot_->depth_defect(base_T_tool);
   return defect_.empty() && solve(tool_pose(pivot_->pivoted(base_T_tool)), near, q);
 }
 
 /// As `meeting_point`. A target that is too far for a way about the incision is met on the way to
 /// it, and one out of reach is waited for at the border; the arm rests there.
-bool Tracker::pivoted_meeting_point(const MotionGoal& goal, const JointState& from,
-                                    double horizon_s, JointState& meet) {
+bool Tracker::pivoted_meeting_point(const JointState& from, double horizon_s, JointState& meet) {
   const double ahead_s = std::min(horizon_s, trusted_s_);
   const Isometry3d here = forward_kinematics(model_, from.q);
-  const Isometry3d target = transform(after(goal, ahead_s));
+  const ToolPose met = target_.after(ahead_s);
+  const Isometry3d target = transform(met);
   double share = 0;
-  if (solve_pivoted(target, from.q, meet.q)) {
+  const bool reached = solve_pivoted(met, from.q, meet.q);
+  if (reached) {
     share = boldness_ * pivot_->share_of_way(from.q, meet.q);
-    if (share == 1 && horizon_s <= trusted_s_) return move_along(goal, ahead_s, meet);
     if (share < 1 && !solve_pivoted(between(here, target, share), from.q, meet.q)) return false;
   } else {
     const ReasonText why = defect_;
     JointVector q;
     for (double step = 0.5; step >= std::pow(0.5, kHalvings); step /= 2) {
-      const bool reached = solve_pivoted(between(here, target, share + step), from.q, q) &&
-                           pivot_->share_of_way(from.q, q) == 1;
-      if (!reached) continue;
+      const bool goes = solve_pivoted(between(here, target, share + step), from.q, q) &&
+                        pivot_->share_of_way(from.q, q) == 1;
+      if (!goes) continue;
       share += step;
       meet.q = q;
     }
@@ -74,26 +71,7 @@ bool Tracker::pivoted_meeting_point(const MotionGoal& goal, const JointState& fr
     if (share == 0) return false;
   }
   meet.v = meet.a = JointVector::Zero(meet.q.size());
-  return true;
-}
-
-/// With the velocity, and the acceleration, that the target's own motion about the incision asks of
-/// the joints. Where it cannot go on it is waited for.
-bool Tracker::move_along(const MotionGoal& goal, double ahead_s, JointState& meet) {
-  meet.v = meet.a = JointVector::Zero(meet.q.size());
-  if (goal.velocity.isZero() && goal.angular_velocity.isZero()) return true;
-  JointVector before, next;
-  const bool goes_on =
-      solve_pivoted(transform(after(goal, ahead_s - kDifference_s)), meet.q, before) &&
-      solve_pivoted(transform(after(goal, ahead_s + kDifference_s)), meet.q, next);
-  if (!goes_on) return true;
-  const JointVector v = (next - before) / (2 * kDifference_s);
-  const JointVector a = (next - 2 * meet.q + before) / (kDifference_s * kDifference_s);
-  const double use = v.cwiseQuotient(limits_.max_velocity).cwiseAbs().maxCoeff();
-  const double slower = std::min(1.0, kMeetingUse / use);
-  const JointState moving{.q = meet.q, .v = slower * v, .a = slower * slower * a};
-  JointState rest;
-  if (rest_behind(moving, stop_time_s(moving), rest)) meet = moving;
+  if (reached && share == 1 && horizon_s <= trusted_s_) move_along(ahead_s, meet);
   return true;
 }
 
@@ -113,7 +91,7 @@ bool Tracker::keeps_to_incision(const ShortTrajectory& way, const JointState& fr
 /// Where a stop in joint space would end, brought back to the incision.
 bool Tracker::rest_behind(const JointState& state, double stop_s, JointState& rest) {
   const JointVector end = state.q + state.v * (stop_s / 2) + state.a * (stop_s * stop_s / 12);
-  if (!solve_pivoted(forward_kinematics(model_, end), end, rest.q)) return false;
+  if (!solve_pivoted(tool_pose(forward_kinematics(model_, end)), end, rest.q)) return false;
   rest.v = rest.a = JointVector::Zero(rest.q.size());
   return true;
 }
@@ -125,7 +103,7 @@ bool Tracker::stop(const JointState& from, Time start, std::uint64_t goal_id,
   for (int i = 0; i < kStopAttempts; ++i, stop_s *= kStopGrowth) {
     JointState rest;
     if (!rest_behind(from, stop_s, rest)) continue;
-    out = quintic_to(from, rest, start, stop_s, goal_id);
+    out = short_quintic(from, rest, start, stop_s, goal_id);
     if (!trajectory_defect(out.view(), model_, limits_, from, start).empty()) continue;
     if (pivot_->defect(out.view(), allowed).empty()) return true;
   }
@@ -135,14 +113,14 @@ bool Tracker::stop(const JointState& from, Time start, std::uint64_t goal_id,
 /// A goal that is not met yet does not fail: an arm that moves goes on to the rest that every way
 /// ends in, one that rests stays.
 TrackingFailure Tracker::wait_at_border(const TrackingFailure& failure, const JointState& from,
-                                        Time start, std::uint64_t goal_id, ShortTrajectory& out) {
+                                        Time start, ShortTrajectory& out) {
   if (failure.stage.empty()) return {};
   waits_for_ = failure.reason;
   if (at_rest(from)) {
-    out = short_hold_at(from.q, start, goal_id);
+    out = short_hold_at(from.q, start, goal_id_);
     return {};
   }
-  if (!under_way_ && stop(from, start, goal_id, out)) return {};
+  if (!under_way_ && stop(from, start, goal_id_, out)) return {};
   return {"trajectory", failure.reason};
 }
 

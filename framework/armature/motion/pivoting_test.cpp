@@ -8,10 +8,10 @@
 #include <cmath>
 #include <random>
 
+#include "armature/motion/newton_ik_test.hpp"
 #include "armature/motion/tracking.hpp"
 #include "armature/robot/geometry/rotation_vector.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
-#include "armature/robot/kinematics/task_error.hpp"
 
 namespace armature {
 namespace {
@@ -21,34 +21,6 @@ using Eigen::Vector3d;
 
 constexpr double kPeriod_s = 0.001;
 constexpr PivotOptions kPivot{.max_deviation = 1e-4, .max_offset = 1e-3, .min_depth = 0.01};
-
-/// The solution nearest to the seed: Newton steps.
-class NewtonIk : public IkSolver {
- public:
-  explicit NewtonIk(const RobotModel& model) : model_{model} {}
-
-  IkStatus solve(const IkGoal& goal, const JointVector& seed, IkBranches& out,
-                 IkState&) const override {
-    out.clear();
-    JointVector q = seed;
-    for (int i = 0; i < 12; ++i) {
-      const TaskError missing = task_error(model_, q, goal.pose);
-      if (missing.within(1e-12, 1e-12)) {
-        out.add() = branch_at(model_, goal, q, "newton");
-        const bool within = out.begin()->within_limits;
-        return {.code = within ? IkStatus::Code::ok : IkStatus::Code::joint_limit,
-                .shortfall = 0,
-                .detail = ""};
-      }
-      const JointVector step = missing.min_step();
-      q += step * std::min(1.0, 0.3 / step.cwiseAbs().maxCoeff());
-    }
-    return {.code = IkStatus::Code::out_of_reach, .shortfall = 0, .detail = "Newton"};
-  }
-
- private:
-  const RobotModel& model_;
-};
 
 /// An arm with a shaft, whatever its file says, and home within the middle of its limits.
 RobotModel with_shaft(const char* file) {
@@ -128,7 +100,7 @@ class PivotingArm {
   }
 
   const RobotModel& model_;
-  NewtonIk ik_;
+  test::NewtonIk ik_;
   MotionLimits limits_;
   TrackingOptions options_;
   Tracker tracker_;

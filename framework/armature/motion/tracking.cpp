@@ -6,10 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
-#include <variant>
 
-#include "armature/motion/target_motion.hpp"
-#include "armature/robot/geometry/rotation_vector.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
 #include "armature/values/guarded.hpp"
 
@@ -19,8 +16,14 @@ namespace {
 constexpr double kHorizonGrowth = 1.25;
 constexpr double kLongestHorizon = 20.0;    // [s]
 constexpr double kLongestPrediction = 1.0;  // [s] a velocity is not trusted longer
-constexpr double kFollowing = 0.25;         // [s] nor that of a target that is followed behind
-constexpr double kVelocityStep = 1e-3;      // [s] for the difference quotient
+constexpr double kTimePerAttempt_s = 0.0025;
+constexpr double kFollowing = 0.25;     // [s] nor that of a target that is followed behind
+constexpr double kDifference_s = 2e-3;  // of the difference quotients
+
+/// How much of its limit the joint takes that takes most of it.
+double share_of(const JointVector& limits, const JointVector& rates) {
+  return rates.cwiseQuotient(limits).cwiseAbs().maxCoeff();
+}
 
 /// [m/s] of the tool's origin.
 double tool_speed(const RobotModel& model, const JointState& state) {
@@ -80,29 +83,6 @@ int growths_for(double longer) {
 
 }  // namespace
 
-ToolPose after(const MotionGoal& goal, double time_s) {
-  ToolPose pose = goal.pose;
-  pose.position += goal.velocity * time_s;
-  const Eigen::Quaterniond turn = rotation_of(goal.angular_velocity * time_s);
-  if (auto* direction = std::get_if<Direction>(&pose.orientation)) {
-    direction->unit = turn * direction->unit;
-  } else {
-    pose.orientation = turn * std::get<Eigen::Quaterniond>(pose.orientation);
-  }
-  return pose;
-}
-
-ShortTrajectory quintic_to(const JointState& from, const JointState& to, Time start,
-                           double horizon_s, std::uint64_t goal_id) {
-  ShortTrajectory way{.goal_id = goal_id, .dof = static_cast<int>(from.q.size()), .start = start};
-  way.add_piece(horizon_s);
-  for (int i = 0; i < way.dof; ++i) {
-    way.piece(0, i) =
-        Quintic::between({from.q[i], from.v[i], from.a[i]}, {to.q[i], to.v[i], to.a[i]}, horizon_s);
-  }
-  return way;
-}
-
 Tracker::Tracker(const RobotModel& model, const MotionLimits& limits, Slot<const IkSolver> ik,
                  const TrackingOptions& options)
     : model_{model},
@@ -133,22 +113,44 @@ bool Tracker::solve(const ToolPose& pose, const JointVector& near, JointVector& 
   return false;
 }
 
-/// Where the joints shall be after `horizon_s`, and how fast they move there.
-bool Tracker::meeting_point(const MotionGoal& goal, const JointState& from, double horizon_s,
-                            JointState& meet) {
-  if (pivots()) return pivoted_meeting_point(goal, from, horizon_s, meet);
-  const double ahead = std::min(horizon_s, trusted_s_);
-  if (!solve(after(goal, ahead), from.q, meet.q)) return false;
+/// Where the joints shall be after `horizon_s`, and how they move there.
+bool Tracker::meeting_point(const JointState& from, double horizon_s, JointState& meet) {
+  if (pivots()) return pivoted_meeting_point(from, horizon_s, meet);
+  const double ahead_s = std::min(horizon_s, trusted_s_);
+  if (!solve(target_.after(ahead_s), from.q, meet.q)) return false;
   meet.v = meet.a = JointVector::Zero(meet.q.size());
-  const bool moves = !goal.velocity.isZero() || !goal.angular_velocity.isZero();
-  if (!moves || horizon_s > trusted_s_) return true;
-  JointVector next;
-  // A target that leaves the reach is waited for at the border.
-  if (!solve(after(goal, ahead + kVelocityStep), meet.q, next)) return true;
-  meet.v = (next - meet.q) / kVelocityStep;
-  const double use = meet.v.cwiseQuotient(limits_.max_velocity).cwiseAbs().maxCoeff();
-  if (use > kMeetingUse) meet.v *= kMeetingUse / use;
+  if (horizon_s <= trusted_s_) move_along(ahead_s, meet);
   return true;
+}
+
+bool Tracker::reach(const ToolPose& pose, const JointVector& near, JointVector& q) {
+  return pivots() ? solve_pivoted(pose, near, q) : solve(pose, near, q);
+}
+
+/// The velocity and the acceleration that the target's own motion asks of the joints at meet.q.
+/// False where it leaves the reach.
+bool Tracker::target_rates(double ahead_s, JointState& meet) {
+  JointVector before, next;
+  const bool goes_on = reach(target_.after(ahead_s - kDifference_s), meet.q, before) &&
+                       reach(target_.after(ahead_s + kDifference_s), meet.q, next);
+  if (!goes_on) return false;
+  meet.v = (next - before) / (2 * kDifference_s);
+  meet.a = (next - 2 * meet.q + before) / (kDifference_s * kDifference_s);
+  return true;
+}
+
+/// With the target, as far as the limits allow. A target that leaves the reach is waited for at the
+/// border, at rest.
+void Tracker::move_along(double ahead_s, JointState& meet) {
+  if (!target_.moves()) return;
+  JointState moving{.q = meet.q, .v = {}, .a = {}};
+  if (!target_rates(ahead_s, moving)) return;
+  const double slower = std::min(1.0, kMeetingUse / share_of(limits_.max_velocity, moving.v));
+  const double calmer = std::min(1.0, kMeetingUse / share_of(limits_.max_acceleration, moving.a));
+  moving.v *= slower;
+  moving.a *= std::min(calmer, slower * slower);
+  JointState rest;
+  if (!pivots() || rest_behind(moving, stop_time_s(moving), rest)) meet = moving;
 }
 
 /// Empty, or which joint the way to the meeting point would jerk beyond its limit.
@@ -196,22 +198,22 @@ bool Tracker::append_stop(const JointState& meet, ShortTrajectory& out) {
   JointState rest;
   const double stop_s = stop_time_s(meet);
   return rest_behind(meet, stop_s, rest) &&
-         out.append(quintic_to(meet, rest, end, stop_s, out.goal_id));
+         out.append(short_quintic(meet, rest, end, stop_s, out.goal_id));
 }
 
 /// The defect says why a target is not met. What costs least is looked at first.
-Tracker::Attempt Tracker::attempt(const MotionGoal& goal, const JointState& from, Time start,
-                                  double horizon_s, ShortTrajectory& out) {
+Tracker::Attempt Tracker::attempt(const JointState& from, Time start, double horizon_s,
+                                  ShortTrajectory& out) {
   using enum Attempt::Outcome;
   ++attempts_;
   JointState meet;
-  if (!meeting_point(goal, from, horizon_s, meet)) return {out_of_reach};
+  if (!meeting_point(from, horizon_s, meet)) return {out_of_reach};
   const bool limited = std::isfinite(options_.max_tool_speed);
   if (const double speed = limited ? tool_speed(model_, meet) : 0; speed > allowed_speed_) {
     defect_ = speed_defect(speed);
     return {too_short, trusted_s_ / horizon_s};  // behind which it ends at rest
   }
-  out = quintic_to(from, meet, start, horizon_s, goal.id);
+  out = short_quintic(from, meet, start, horizon_s, goal_id_);
   if (!at_rest(meet) && !append_stop(meet, out)) return {out_of_reach};
   defect_ = jerk_defect(out, horizon_s);
   if (defect_.empty()) defect_ = trajectory_defect(out.view(), model_, limits_, from, start);
@@ -234,7 +236,10 @@ void Tracker::begin_search(Horizons among) {
 }
 
 /// What holds for every horizon of a call.
-void Tracker::look_around(const MotionGoal& goal, const JointState& from) {
+void Tracker::look_around(const MotionGoal& goal, const JointState& from, Time start) {
+  target_.see(goal, start);
+  last_start_ = start;
+  goal_id_ = goal.id;
   attempts_ = 0;
   waits_for_.clear();
   allowed_speed_ = options_.max_tool_speed;
@@ -248,29 +253,36 @@ void Tracker::look_around(const MotionGoal& goal, const JointState& from) {
 
 TrackingFailure Tracker::begin(const MotionGoal& goal, const JointState& from, Time start,
                                ShortTrajectory& out) {
-  under_way_ = false;
-  look_around(goal, from);
+  under_way_ = keeps_near_ = false;
+  look_around(goal, from, start);
   begin_search({0, horizons_});
-  while (attempts_ < kMaxAttempts && !search_.left.empty()) try_next(goal, from, start, out);
-  if (pivots()) return wait_at_border(outcome(), from, start, goal.id, out);
+  while (attempts_ < kMaxAttempts && !search_.left.empty()) try_next(from, start, out);
+  if (pivots()) return wait_at_border(outcome(), from, start, out);
   return outcome();
 }
 
 TrackingFailure Tracker::follow(const MotionGoal& goal, const JointState& from, Time start,
                                 ShortTrajectory& out) {
   under_way_ = true;
-  look_around(goal, from);
-  try_next(goal, from, start, out);
-  if (pivots()) return wait_at_border(outcome(), from, start, goal.id, out);
+  const auto passed = (start - last_start_) / seconds(kTimePerAttempt_s);
+  const int affordable = static_cast<int>(std::clamp<std::int64_t>(passed, 1, kMaxAttempts));
+  look_around(goal, from, start);
+  while (attempts_ < affordable && !search_.left.empty()) try_next(from, start, out);
+  keeps_near_ = keeps_near(from, start, out);
+  if (keeps_near_) return {};
+  if (pivots()) return wait_at_border(outcome(), from, start, out);
   return outcome();
 }
 
-void Tracker::try_next(const MotionGoal& goal, const JointState& from, Time start,
-                       ShortTrajectory& out) {
+double Tracker::horizon_s(int growths) const {
+  return options_.shortest_horizon_s * std::pow(kHorizonGrowth, growths);
+}
+
+void Tracker::try_next(const JointState& from, Time start, ShortTrajectory& out) {
   using enum Attempt::Outcome;
   auto& [among, left, next, found, by_limits, by_reach] = search_;
-  const double horizon_s = options_.shortest_horizon_s * std::pow(kHorizonGrowth, next);
-  const Attempt tried = attempt(goal, from, start, horizon_s, found ? way_ : out);
+  const double horizon_s = this->horizon_s(next);
+  const Attempt tried = attempt(from, start, horizon_s, found ? way_ : out);
   switch (tried.outcome) {
     case too_short:
       by_limits = defect_;

@@ -8,12 +8,17 @@
 #include "armature/kinds/ik/ik.hpp"
 #include "armature/motion/goal.hpp"
 #include "armature/motion/pivot.hpp"
+#include "armature/motion/target_motion.hpp"
 #include "armature/robot/trajectories/short_trajectory.hpp"
 #include "armature/robot/trajectories/trajectory_check.hpp"
 #include "armature/runtime/component/slot.hpp"
 #include "armature/values/inline_text.hpp"
 
 namespace armature ARMATURE_EXPORT {
+
+/// How much of a velocity or acceleration limit a meeting point may take: more leaves nothing to
+/// catch up with.
+inline constexpr double kMeetingUse = 0.9;
 
 struct TrackingOptions {
   double shortest_horizon_s;
@@ -30,16 +35,24 @@ struct TrackingFailure {
 
 /// Makes trajectories towards a target that moves and turns, as often as the arm is told where to
 /// be: one quintic per joint from `from` to where the target will be after the horizon, with the
-/// target's joint velocity there and no acceleration, and then to rest, so that an arm whose target
-/// falls silent stops by itself. The horizon is the shortest one with which the limits on velocity,
-/// acceleration and, until the target is met, jerk and the tool's speed hold; a tool that is faster
-/// already does not become faster.
+/// target's joint velocity and acceleration there, and then to rest, so that an arm whose target
+/// falls silent stops by itself. How the target goes on is estimated from the velocities that were
+/// told of it (`TargetMotion`) and trusted for a second; later than that it is met at rest. The
+/// horizon is the shortest one with which the limits on velocity, acceleration and, until the
+/// target is met, jerk and the tool's speed hold; a tool that is faster already does not become
+/// faster.
 ///
 /// The horizons that are tried grow by a quarter each, from `shortest_horizon_s` to 20 s. The
 /// search leaps up as far as the broken limits ask for, then halves what it leapt over.
 ///
 /// A target under way that is nearly as fast as `max_tool_speed`, or faster, is followed behind:
 /// its velocity is trusted for a quarter of a second only.
+///
+/// A target under way that asks more of the joints than they can, as near a singular pose, is kept
+/// near instead, if it is not met within 0.8 s: the joints take those accelerations within their
+/// limits that bring the tool nearest to it 0.1 s ahead (`waits_for` says which joint cannot). The
+/// arm does so until it can meet the target again. An arm that pivots, or whose tool's speed is
+/// limited, does not.
 ///
 /// Of an arm whose shaft pivots about an incision the pose of a goal says where the tip shall be
 /// and how the shaft shall be rolled; its tilt follows from the incision. No way is made that
@@ -48,8 +61,9 @@ struct TrackingFailure {
 /// line to it, and waited for there: such a goal does not fail (`waits_for` says why the tip
 /// waits).
 ///
-/// Real-time safe. With each horizon the solver is asked at most twice and at most 16 Jacobians are
-/// computed; of a shaft that pivots at most 12 times.
+/// Real-time safe. With each horizon the solver is asked at most three times and at most 16
+/// Jacobians are computed; of a shaft that pivots at most 12 times. A target that is not met within
+/// 0.8 s costs three times more in a call.
 class Tracker {
  public:
   static constexpr int kMaxAttempts = 8;
@@ -64,8 +78,9 @@ class Tracker {
   TrackingFailure begin(const MotionGoal& goal, const JointState& from, Time start,
                         ShortTrajectory& out);
 
-  /// The next target of one that is under way: tries one horizon, the one below the last that met
-  /// its target. Where that fails the search goes on with the next call, and the arm on its last
+  /// The next target of one that is under way: tries horizons from the one below the last that met
+  /// its target on, one for every 2.5 ms since the last call, at least one and at most
+  /// `kMaxAttempts`. Where none does the search goes on with the next call, and the arm on its last
   /// trajectory: the stage of the failure is `trajectory` until the search is over.
   TrackingFailure follow(const MotionGoal& goal, const JointState& from, Time start,
                          ShortTrajectory& out);
@@ -81,7 +96,7 @@ class Tracker {
   /// A stop about the incision from `from`, as short as the limits allow. False when there is none;
   /// `out` is then of no use. Needs pivots().
   bool stop(const JointState& from, Time start, std::uint64_t goal_id, ShortTrajectory& out);
-  /// Why the tip waits before its target, or empty.
+  /// Why the tip waits before its target, or the tool keeps only near it, or empty.
   const ReasonText& waits_for() const { return waits_for_; }
 
  private:
@@ -102,27 +117,34 @@ class Tracker {
     std::optional<int> found;
     ReasonText by_limits, by_reach;  // why the last ones that are too short or too long do not do
   };
+  double horizon_s(int growths) const;
   void begin_search(Horizons among);
-  void look_around(const MotionGoal& goal, const JointState& from);
-  void try_next(const MotionGoal& goal, const JointState& from, Time start, ShortTrajectory& out);
+  void look_around(const MotionGoal& goal, const JointState& from, Time start);
+  void try_next(const JointState& from, Time start, ShortTrajectory& out);
   TrackingFailure outcome();
-  Attempt attempt(const MotionGoal& goal, const JointState& from, Time start, double horizon_s,
-                  ShortTrajectory& out);
-  bool meeting_point(const MotionGoal& goal, const JointState& from, double horizon_s,
-                     JointState& meet);
+  Attempt attempt(const JointState& from, Time start, double horizon_s, ShortTrajectory& out);
+  bool meeting_point(const JointState& from, double horizon_s, JointState& meet);
+  bool target_rates(double ahead_s, JointState& meet);
+  void move_along(double ahead_s, JointState& meet);
+  bool reach(const ToolPose& pose, const JointVector& near, JointVector& q);
   bool solve(const ToolPose& pose, const JointVector& near, JointVector& q);
   bool append_stop(const JointState& meet, ShortTrajectory& out);
 
+  // Of a target that asks more of the joints than they can (keeping_near.cpp).
+  bool asks_too_much(const JointState& meet);
+  bool keeps_near(const JointState& from, Time start, ShortTrajectory& out);
+  bool keep_near(const JointState& from, const JointState& meet, Time start, ShortTrajectory& out);
+  void bound_accelerations(const JointState& from, const JointVector& q, const JointVector& v,
+                           JointVector& low, JointVector& high) const;
+
   // Of a shaft that pivots (pivoting.cpp).
-  bool pivoted_meeting_point(const MotionGoal& goal, const JointState& from, double horizon_s,
-                             JointState& meet);
-  bool move_along(const MotionGoal& goal, double ahead_s, JointState& meet);
-  bool solve_pivoted(const Eigen::Isometry3d& base_T_tool, const JointVector& near, JointVector& q);
+  bool pivoted_meeting_point(const JointState& from, double horizon_s, JointState& meet);
+  bool solve_pivoted(const ToolPose& pose, const JointVector& near, JointVector& q);
   bool rest_behind(const JointState& state, double stop_s, JointState& rest);
   double stop_time_s(const JointState& state) const;
   bool keeps_to_incision(const ShortTrajectory& way, const JointState& from);
   TrackingFailure wait_at_border(const TrackingFailure& failure, const JointState& from, Time start,
-                                 std::uint64_t goal_id, ShortTrajectory& out);
+                                 ShortTrajectory& out);
   ReasonText jerk_defect(const ShortTrajectory& way, double horizon_s) const;
   ReasonText speed_defect(double speed) const;
   double longer_for_joints(const ShortTrajectory& way, double horizon_s) const;
@@ -131,6 +153,9 @@ class Tracker {
   MotionLimits limits_;
   Slot<const IkSolver> ik_;
   TrackingOptions options_;
+  TargetMotion target_;
+  std::uint64_t goal_id_ = 0;  // of the last call
+  Time last_start_;
   double trusted_s_ = 0;      // how far ahead the target's velocity is, in the last call
   double allowed_speed_ = 0;  // [m/s] of the tool's origin, in the last call
   int horizons_ = 0;          // how many there are
@@ -138,8 +163,9 @@ class Tracker {
   ShortTrajectory way_;       // of an attempt at a shorter one than was found
   ReasonText defect_;         // of the last attempt
   Search search_;
-  int attempts_ = 0;        // of the last call
-  bool under_way_ = false;  // a target, in the last call
+  int attempts_ = 0;         // of the last call
+  bool under_way_ = false;   // a target, in the last call
+  bool keeps_near_ = false;  // the arm, to the target, in the last call
   std::optional<Pivot> pivot_;
   double boldness_ = 1;  // how much of the way that the pivot seems to allow is gone
   ReasonText waits_for_;

@@ -41,6 +41,17 @@ ShortTrajectory short_hold_at(const JointVector& q, Time start, std::uint64_t go
   return hold;
 }
 
+ShortTrajectory short_quintic(const JointState& from, const JointState& to, Time start,
+                              double duration_s, std::uint64_t goal_id) {
+  ShortTrajectory way{.goal_id = goal_id, .dof = static_cast<int>(from.q.size()), .start = start};
+  way.add_piece(duration_s);
+  for (int i = 0; i < way.dof; ++i) {
+    way.piece(0, i) = Quintic::between({from.q[i], from.v[i], from.a[i]},
+                                       {to.q[i], to.v[i], to.a[i]}, duration_s);
+  }
+  return way;
+}
+
 double shortest_move_s(const JointVector& way, const JointVector& max_velocity,
                        const JointVector& max_acceleration) {
   double by_velocity = 0, by_acceleration = 0;

@@ -38,6 +38,10 @@ struct ShortTrajectory {
 /// A trajectory that stays at `q`.
 ShortTrajectory short_hold_at(const JointVector& q, Time start, std::uint64_t goal_id);
 
+/// One quintic per joint, from one state to another one `duration_s` > 0 later. Real-time safe.
+ShortTrajectory short_quintic(const JointState& from, const JointState& to, Time start,
+                              double duration_s, std::uint64_t goal_id);
+
 /// As stop_from. Real-time safe.
 ShortTrajectory short_stop_from(const JointState& from, const JointVector& max_velocity,
                                 const JointVector& max_acceleration, Time start,

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -14,6 +15,8 @@
 
 namespace armature::sim::photo_scene {
 namespace {
+
+constexpr double kMaxTurn = 1.45;  // [rad] of the eyes from the mouth around a head
 
 // Eyes and mouth of NASA's portrait of Eileen Collins, in its pixels.
 scene::Photo astronaut(const Parameters& parameters) {
@@ -59,6 +62,17 @@ scene::Photo photo_from_file(const Parameters& parameters) {
   return std::move(*photo);
 }
 
+/// How far the eyes are from the mouth along the surface [m], where it bends.
+double bent_reach(scene::Surface::Shape shape, const scene::Photo& photo) {
+  double reach = 0;
+  for (const Eigen::Vector2d& eye : {photo.left_eye, photo.right_eye}) {
+    const Eigen::Vector2d away = (eye - photo.mouth) * photo.m_per_px;
+    const bool is_sphere = shape == scene::Surface::Shape::sphere;
+    reach = std::max(reach, is_sphere ? away.norm() : std::abs(away.x()));
+  }
+  return reach;
+}
+
 }  // namespace
 
 scene::Photo photo_of(const Parameters& parameters) {
@@ -73,9 +87,20 @@ scene::Photo photo_of(const Parameters& parameters) {
   return {};
 }
 
-scene::Staging staging_of(const Parameters& parameters) {
+scene::Staging staging_of(const Parameters& parameters, const scene::Photo& photo) {
   // The choices stand in plugin.yaml in the order of the library's enumerators.
-  return {.surface = {static_cast<scene::Surface::Shape>(parameters.surface), parameters.radius},
+  const scene::Surface surface{static_cast<scene::Surface::Shape>(parameters.surface),
+                               parameters.radius};
+  if (surface.shape != scene::Surface::Shape::plane) {
+    const double least = bent_reach(surface.shape, photo) / kMaxTurn;
+    if (parameters.radius < least) {
+      throw SetupError(fmt::format(
+          "radius_mm: {:.0f} bends the photo so far that its eyes leave the front of the head; at "
+          "least {:.0f} is needed",
+          parameters.radius * 1e3, std::ceil(least * 1e3)));
+    }
+  }
+  return {.surface = surface,
           .occluder = static_cast<scene::Occluder>(parameters.occluder),
           .second_face = parameters.second_face
                              ? std::optional{vector_of(parameters.second_face_position)}

@@ -12,7 +12,8 @@ namespace armature::sim::photo_scene {
 /// Throws SetupError for a photo that cannot be read, and for features that are not on it.
 scene::Photo photo_of(const Parameters& parameters);
 
-scene::Staging staging_of(const Parameters& parameters);
+/// Throws SetupError for a head so small that the photo's eyes would come to lie on its back.
+scene::Staging staging_of(const Parameters& parameters, const scene::Photo& photo);
 scene::ImagingSettings imaging_of(const Parameters& parameters);
 scene::RightCamera right_camera_of(const Parameters& parameters);
 

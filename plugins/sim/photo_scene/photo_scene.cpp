@@ -48,6 +48,11 @@ Parameters parameters_of(const Params& params) {
   return parameters;
 }
 
+scene::SceneRenderer renderer_of(const Parameters& parameters, std::uint64_t seed) {
+  const scene::Photo photo = photo_of(parameters);
+  return {photo, staging_of(parameters, photo), imaging_of(parameters), seed};
+}
+
 msg::CameraInfo camera_info(const StereoCamera& camera, double offset_m) {
   const double f = camera.focal_px;
   msg::CameraInfo info;
@@ -105,8 +110,7 @@ PhotoScene::PhotoScene(Setup& setup)
       rig_{rig_of(setup)},
       mount_{mount_of(rig_, robot_)},
       parameters_{parameters_of(setup.params())},
-      renderer_{photo_of(parameters_), staging_of(parameters_), imaging_of(parameters_),
-                setup.seed()},
+      renderer_{renderer_of(parameters_, setup.seed())},
       right_camera_{right_camera_of(parameters_)},
       base_T_left_{parameters_.right_delay},
       seed_{setup.seed()},

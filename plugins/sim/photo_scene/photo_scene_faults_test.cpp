@@ -169,6 +169,11 @@ TEST(PhotoSceneFaults, PhotosAndPartsThatCannotBeAreRefusedWithTheWayOut) {
                            "photo: file, photo_eyes_px: [203, 101, 246, 104], photo_mouth_px: "
                            "[223, 90]")),
               HasSubstr("the mouth is below the eyes"));
+  EXPECT_EQ(refusal("surface: sphere, radius_mm: 50, eye_distance_mm: 126"),
+            "radius_mm: 50 bends the photo so far that its eyes leave the front of the head; at "
+            "least 100 is needed");
+  EXPECT_EQ(refusal("surface: cylinder, radius_mm: 50, eye_distance_mm: 126"), "");
+  EXPECT_THAT(refusal("motion_px: [1e9, 0]"), HasSubstr("must be from -200 to 200"));
   EXPECT_EQ(refusal("dropped: 0.7, repeated: 0.6"),
             "dropped and repeated are parts of all pairs, and 0.7 + 0.6 is more than 1");
 }

@@ -84,30 +84,27 @@ Expected<FacePose> Surface::estimate(const FacePoseInput& input, PluginState& st
   for (std::size_t i = 0; i < kFeatures.size(); ++i) {
     located.sigma[i] = input.landmarks.left.feature(kFeatures[i]).sigma;
   }
-  const auto aligned = align(input, located.at, state);
-  if (!aligned) return tl::unexpected{aligned.error()};
-  for (const auto& sound : {agree(*aligned), see_features(*aligned, input.camera, located),
-                            rectified(*aligned, input.camera)}) {
-    if (!sound) return tl::unexpected{sound.error()};
+  const auto starts = starts_of(located.at, features_of(input.landmarks.right), state);
+  if (!starts) return tl::unexpected{starts.error()};
+  Alignment aligned;
+  auto face = look(input, *starts, aligned, located);
+  // Landmarks of a turned face may be so far off that the frontal view they lead to is a poor one.
+  // What was found in it leads to a good one.
+  if (!face && located.is_unsettled) {
+    face = look(input, {aligned.surface.tangent(aligned.surface.middle)}, aligned, located);
   }
-  if (input.finder) {
-    if (auto found = find_again(input, *aligned, located); !found) {
-      return tl::unexpected{found.error()};
-    }
-  }
-  const FacePose face = pose(*aligned, input.camera, located);
-  if (auto sound = believable(face); !sound) return tl::unexpected{sound.error()};
-  const DisparitySurface plane = aligned->surface.tangent(aligned->surface.middle);
+  if (!face) return face;
+  const DisparitySurface plane = aligned.surface.tangent(aligned.surface.middle);
   state.set(Memory{.at_origin = plane.at(Vector2d::Zero()),
                    .by_column = plane.c[1] / plane.reach,
                    .by_row = plane.c[2] / plane.reach});
   return face;
 }
 
-Expected<Alignment> Surface::align(const FacePoseInput& input, const Features& features,
-                                   const PluginState& state) {
-  const Features right = features_of(input.landmarks.right);
-  std::vector starts{plane_of(features, right)};
+Expected<std::vector<DisparitySurface>> Surface::starts_of(const Features& left,
+                                                           const Features& right,
+                                                           const PluginState& state) {
+  std::vector starts{plane_of(left, right)};
   if (!starts.front().c.allFinite() || !(starts.front().c[0] > 0)) {
     return refuse(fmt::format("the face has a disparity of {:.2f} px, not a positive one",
                               starts.front().c[0]));
@@ -119,7 +116,30 @@ Expected<Alignment> Surface::align(const FacePoseInput& input, const Features& f
     plane.c.segment<2>(1) = slope * plane.reach;
     starts.push_back(plane);
   }
-  return fit_.align(features, starts);
+  return starts;
+}
+
+/// One look at the face, starting with the features that are `located`, which become those of the
+/// frontal view.
+Expected<FacePose> Surface::look(const FacePoseInput& input,
+                                 const std::vector<DisparitySurface>& starts, Alignment& aligned,
+                                 Located& located) {
+  located.is_unsettled = false;
+  const auto fitted = fit_.align(located.at, starts);
+  if (!fitted) return tl::unexpected{fitted.error()};
+  aligned = *fitted;
+  for (const auto& sound : {agree(aligned), see_features(aligned, input.camera, located),
+                            rectified(aligned, input.camera)}) {
+    if (!sound) return tl::unexpected{sound.error()};
+  }
+  if (input.finder) {
+    if (auto found = find_again(input, aligned, located); !found) {
+      return tl::unexpected{found.error()};
+    }
+  }
+  const FacePose face = pose(aligned, input.camera, located);
+  if (auto sound = believable(face); !sound) return tl::unexpected{sound.error()};
+  return face;
 }
 
 Expected<void> Surface::agree(const Alignment& aligned) const {
@@ -157,42 +177,40 @@ Expected<void> Surface::rectified(const Alignment& aligned, const StereoCamera& 
 Expected<void> Surface::find_again(const FacePoseInput& input, const Alignment& aligned,
                                    Located& located) {
   view_.render(input.left, input.right, aligned, located.at, input.camera);
-  std::array<Vector2d, 3> sum{Vector2d::Zero(), Vector2d::Zero(), Vector2d::Zero()}, first = sum;
-  for (const PixelBox& box : view_.face_boxes()) {
-    const auto found = input.finder->find(view_.image(), box);
+  std::array<std::array<Landmark, 3>, 2> looks;
+  for (std::size_t look = 0; look < looks.size(); ++look) {
+    const auto found = input.finder->find(view_.image(), view_.face_boxes()[look]);
     if (!found) return refuse("frontal view: " + found.error().text);
     const FaceLandmarks face{.scheme = input.finder->scheme(), .points = *found, .box = {}};
     if (auto wrong = invalid_input(face)) return refuse("frontal view: " + *wrong);
-    for (std::size_t i = 0; i < kFeatures.size(); ++i) {
-      const Landmark seen = face.feature(kFeatures[i]);
-      if (sum[i].isZero()) first[i] = seen.point;
-      sum[i] += 0.5 * seen.point;
-      located.sigma[i] = seen.sigma;
-    }
+    for (std::size_t i = 0; i < kFeatures.size(); ++i) looks[look][i] = face.feature(kFeatures[i]);
   }
   const Features before = located.at;
-  const double eyes = before.across().norm();
   std::array<Vector2d, 3> in_left;
+  std::string unsettled;
   for (std::size_t i = 0; i < kFeatures.size(); ++i) {
-    in_left[i] = view_.in_left(sum[i]);
-    const Vector2d beside = view_.in_left(sum[i] + Vector2d{1, 0});
-    located.sigma[i] *= (beside - in_left[i]).norm();
-    const double with_box = 2 * (sum[i] - first[i]).norm() / view_.eye_distance();
+    const Vector2d &one = looks[0][i].point, &other = looks[1][i].point;
+    const Vector2d mean = 0.5 * (one + other);
+    in_left[i] = view_.in_left(mean);
+    const double px_per_px = (view_.in_left(mean + Vector2d{1, 0}) - in_left[i]).norm();
+    located.sigma[i] = looks[0][i].sigma * px_per_px;
+    const double with_box = (one - other).norm() / view_.eye_distance();
+    const double moved = (in_left[i] - feature(before, i)).norm() / before.across().norm();
     if (!(with_box <= parameters_.max_unsteadiness)) {
-      return refuse(
-          fmt::format("the {} is not to be seen: it is taken to be elsewhere by {:.0f} % "
-                      "of the eyes' distance when it is sought from another box",
-                      kNames[i], 100 * with_box));
-    }
-    const double moved = (in_left[i] - feature(before, i)).norm();
-    if (!(moved <= parameters_.max_disagreement * eyes)) {
-      return refuse(
-          fmt::format("the {} is elsewhere in a frontal view, by {:.0f} % of the eyes' "
-                      "distance",
-                      kNames[i], 100 * moved / eyes));
+      unsettled = fmt::format(
+          "the {} is not to be seen: sought from another box it seems to be "
+          "elsewhere, by {:.0f} % of the eyes' distance",
+          kNames[i], 100 * with_box);
+    } else if (!(moved <= parameters_.max_disagreement)) {
+      unsettled = fmt::format(
+          "the {} is elsewhere in a frontal view, by {:.0f} % of the eyes' "
+          "distance",
+          kNames[i], 100 * moved);
     }
   }
   located.at = {in_left[0], in_left[1], in_left[2]};
+  located.is_unsettled = !unsettled.empty();
+  if (located.is_unsettled) return refuse(unsettled);
   return {};
 }
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <memory>
+#include <vector>
 
 #include "armature/kinds/face_pose/face_pose.hpp"
 #include "armature/kinds/face_pose/stereo_points.hpp"
@@ -26,10 +27,14 @@ class Surface final : public FacePoseEstimator {
     Features at;
     std::array<double, 3> sigma;
     std::array<Alignment, 3> own;
+    bool is_unsettled = false;  // another look may settle where they are
   };
 
-  Expected<Alignment> align(const FacePoseInput& input, const Features& features,
-                            const PluginState& state);
+  static Expected<std::vector<DisparitySurface>> starts_of(const Features& left,
+                                                           const Features& right,
+                                                           const PluginState& state);
+  Expected<FacePose> look(const FacePoseInput& input, const std::vector<DisparitySurface>& starts,
+                          Alignment& aligned, Located& located);
   Expected<void> agree(const Alignment& aligned) const;
   Expected<void> rectified(const Alignment& aligned, const StereoCamera& camera) const;
   Expected<void> see_features(const Alignment& aligned, const StereoCamera& camera,

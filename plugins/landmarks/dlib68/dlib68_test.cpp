@@ -51,7 +51,7 @@ FaceDetector& detector() {
 }
 
 Expected<StereoLandmarks> find(StereoFaceFinder::State& state, const DrawnPair& pair) {
-  StereoFaceFinder finder{detector(), landmark_finder(), 100};
+  StereoFaceFinder finder{detector(), landmark_finder(), {.stretch_below = 100}};
   return finder.find(pair.left.view(), pair.right.view(), state);
 }
 

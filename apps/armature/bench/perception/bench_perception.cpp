@@ -33,7 +33,7 @@ int bench_perception(const PerceptionBenchOptions& options) {
          .landmarks = *chosen.landmarks,
          .estimator = *chosen.face_pose,
          .of_estimator = chosen.frontal_landmarks ? &*chosen.frontal_landmarks : nullptr,
-         .stretch_below = chosen.stretch_below},
+         .search = chosen.search},
         [&](std::size_t done) { progress.of(done, cases.size()); });
   }
   const bench::PerceptionReport report{.detector = chosen.detector_id,

@@ -90,7 +90,8 @@ ChosenPerception chosen_perception(PluginRegistry& plugins, const DeploymentSour
   chosen.deployment = deployment.name;
   chosen.rig = rig.name;
   chosen.camera = rig.camera;
-  chosen.stretch_below = finds.params.number("stretch_below");
+  chosen.search = {.stretch_below = finds.params.number("stretch_below"),
+                   .detect_every = static_cast<int>(finds.params.integer("detect_every"))};
   chosen.detector = make<FaceDetector>(plugins, finds, choice.detector, chosen.detector_id);
   chosen.landmarks = make<LandmarkFinder>(plugins, finds, choice.landmarks, chosen.landmarks_id);
   chosen.face_pose =

@@ -6,6 +6,7 @@
 #include "armature/kinds/detector/detector.hpp"
 #include "armature/kinds/face_pose/face_pose.hpp"
 #include "armature/kinds/landmarks/landmarks.hpp"
+#include "armature/kinds/landmarks/stereo_face_finder.hpp"
 #include "armature/robot/geometry/stereo_camera.hpp"
 #include "armature/runtime/plugins/plugin_registry.hpp"
 #include "run/run.hpp"
@@ -21,7 +22,7 @@ struct PerceptionChoice {
 /// What looks at faces in a deployment, made as its hosts make it.
 struct ChosenPerception {
   std::string deployment, rig, detector_id, landmarks_id, face_pose_id;
-  double stretch_below = 0;  // of the component that finds landmarks
+  StereoFaceFinder::Options search{};  // of the component that finds landmarks
   StereoCamera camera;
   PluginPtr<FaceDetector> detector;
   PluginPtr<LandmarkFinder> landmarks;

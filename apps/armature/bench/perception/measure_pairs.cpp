@@ -64,7 +64,7 @@ PairResult measure_pair(const PerceptionCase& one, const StagedPair& pair,
                         const MeasuredPlugins& plugins, Memory& memory) {
   TimedDetector detector{plugins.detector};
   TimedLandmarks landmarks{plugins.landmarks};
-  StereoFaceFinder finder{detector, landmarks, plugins.stretch_below};
+  StereoFaceFinder finder{detector, landmarks, plugins.search};
   PairResult result{
       .group = one.group, .number = one.number, .is_tracked = one.continues, .truth = pair.truth};
   const auto found = guarded(memory.finder, [&](StereoFaceFinder::State& state) {

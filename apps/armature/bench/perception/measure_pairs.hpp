@@ -9,6 +9,7 @@
 #include "armature/kinds/detector/detector.hpp"
 #include "armature/kinds/face_pose/face_pose.hpp"
 #include "armature/kinds/landmarks/landmarks.hpp"
+#include "armature/kinds/landmarks/stereo_face_finder.hpp"
 #include "armature/scene/surface.hpp"
 #include "bench/perception/cases.hpp"
 
@@ -52,7 +53,7 @@ struct MeasuredPlugins {
   LandmarkFinder& landmarks;
   FacePoseEstimator& estimator;
   LandmarkFinder* of_estimator;  // which it asks again; nullptr: there is none
-  double stretch_below;  // of StereoFaceFinder
+  StereoFaceFinder::Options search;
 };
 
 /// Finds the face of every case and estimates its pose, one after the other. An exception out of a

@@ -76,7 +76,8 @@ std::vector<PairResult> measured(FacePoseEstimator& estimator, double mouth_low_
                                  const std::vector<PerceptionCase>& cases = some_cases()) {
   EdgeDetector detector;
   BoxFinder finder{mouth_low_mm};
-  return measure_pairs(cases, {detector, finder, estimator, nullptr, 0}, [](std::size_t) {});
+  return measure_pairs(cases, {detector, finder, estimator, nullptr, {.stretch_below = 0}},
+                       [](std::size_t) {});
 }
 
 TEST(MeasuredPairs, OfASoundEstimatorAreRight) {

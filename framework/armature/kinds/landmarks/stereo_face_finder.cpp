@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 #include <string>
+#include <utility>
 
 #include "armature/kinds/landmarks/stretched_image.hpp"
 
@@ -58,31 +59,60 @@ double distance(const PixelBox& a, const PixelBox& b) {
   return centres.norm() + std::abs(a.width - b.width);
 }
 
+/// Moves the face's box as its landmarks have moved and grown since the last pair.
+void follow(const FaceLandmarks& found, StereoFaceFinder::State::Face& face) {
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+  for (const Landmark& landmark : found.points) middle += landmark.point;
+  middle /= static_cast<double>(found.points.size());
+  double spread = 0;
+  for (const Landmark& landmark : found.points) spread += (landmark.point - middle).norm();
+  if (face.spread > 0) {
+    PixelBox& box = face.where.box;
+    box = box.scaled(spread / face.spread);
+    box.left += middle.x() - face.middle.x();
+    box.top += middle.y() - face.middle.y();
+  }
+  face.middle = middle;
+  face.spread = spread;
+}
+
 }  // namespace
 
 Expected<StereoLandmarks> StereoFaceFinder::find(const ImageView& left, const ImageView& right,
                                                  State& state) {
   if (auto wrong = no_pair(left, right)) return refuse(*wrong);
-  const ImageView left_image = stretched_if_dark(left, stretch_below_, left_pixels_);
-  const ImageView right_image = stretched_if_dark(right, stretch_below_, right_pixels_);
-
-  const Faces in_left = find_left(left_image, state.left);
-  if (!in_left || !*in_left) {
-    state = {};
-    return in_left ? refuse("no face in the left image") : tl::unexpected{in_left.error()};
+  const ImageView left_image = stretched_if_dark(left, options_.stretch_below, left_pixels_);
+  const ImageView right_image = stretched_if_dark(right, options_.stretch_below, right_pixels_);
+  const bool is_followed =
+      state.left && state.right && state.pairs_since + 1 < options_.detect_every;
+  if (is_followed) {
+    ++state.pairs_since;
+  } else if (auto missing = detect_both(left_image, right_image, state)) {
+    return tl::unexpected{*missing};
   }
-  state.left = (*in_left)->box;
-  const Faces in_right = find_right(right_image, state.right, *state.left);
-  state.right.reset();
-  if (!in_right) return tl::unexpected{in_right.error()};
-  if (!*in_right) return refuse("no face in the right image");
-  state.right = (*in_right)->box;
-
-  auto of_left = landmarks(left, left_image, **in_left);
+  auto of_left = landmarks(left, left_image, *state.left);
   if (!of_left) return refuse("left: " + of_left.error().text);
-  auto of_right = landmarks(right, right_image, **in_right);
+  auto of_right = landmarks(right, right_image, *state.right);
   if (!of_right) return refuse("right: " + of_right.error().text);
   return StereoLandmarks{std::move(*of_left), std::move(*of_right)};
+}
+
+/// Why there is no face in both pictures, or nothing: then the state has them.
+std::optional<Reason> StereoFaceFinder::detect_both(const ImageView& left, const ImageView& right,
+                                                    State& state) {
+  const State last = std::exchange(state, {});
+  const auto box = [](const std::optional<State::Face>& face) {
+    return face ? std::optional{face->where.box} : std::nullopt;
+  };
+  const Faces in_left = find_left(left, box(last.left));
+  if (!in_left) return in_left.error();
+  if (!*in_left) return Reason{"no face in the left image"};
+  state.left = State::Face{.where = **in_left};
+  const Faces in_right = find_right(right, box(last.right), state.left->where.box);
+  if (!in_right) return in_right.error();
+  if (!*in_right) return Reason{"no face in the right image"};
+  state.right = State::Face{.where = **in_right};
+  return std::nullopt;
 }
 
 StereoFaceFinder::Faces StereoFaceFinder::find_left(const ImageView& left,
@@ -125,20 +155,21 @@ StereoFaceFinder::Faces StereoFaceFinder::detect(const ImageView& image, const S
 }
 
 Expected<FaceLandmarks> StereoFaceFinder::landmarks(const ImageView& original,
-                                                    const ImageView& stretched,
-                                                    const DetectedFace& face) {
-  auto points = landmarks_.find(stretched, face.box);
+                                                    const ImageView& stretched, State::Face& face) {
+  auto points = landmarks_.find(stretched, face.where.box);
   if (!points) return tl::unexpected{points.error()};
   if (points->size() != landmark_count(landmarks_.scheme())) {
     return refuse(std::to_string(points->size()) + " landmarks, and " +
                   std::string{to_string(landmarks_.scheme())} + " has " +
                   std::to_string(landmark_count(landmarks_.scheme())));
   }
-  return FaceLandmarks{.scheme = landmarks_.scheme(),
-                       .points = std::move(*points),
-                       .box = face.box,
-                       .score = face.score,
-                       .mean_intensity = mean_intensity(original, face.box)};
+  FaceLandmarks found{.scheme = landmarks_.scheme(),
+                      .points = std::move(*points),
+                      .box = face.where.box,
+                      .score = face.where.score,
+                      .mean_intensity = mean_intensity(original, face.where.box)};
+  follow(found, face);
+  return found;
 }
 
 }  // namespace armature

@@ -15,20 +15,32 @@ namespace armature ARMATURE_EXPORT {
 /// other.
 ///
 /// The face is sought near where it was last, then everywhere; in the right picture in the rows of
-/// the left one first. Of several faces it keeps to the one that it has: the nearest to the last
-/// one, and the largest where there was none. The detector's score chooses nothing: it changes from
-/// picture to picture.
+/// the left one first. With `detect_every` above 1 it is sought in every so many pairs only; in
+/// between its landmarks are sought where those of the last pair say that the face is. Of several
+/// faces it keeps to the one that it has: the nearest to the last one, and the largest where there
+/// was none. The detector's score chooses nothing: it changes from picture to picture.
 class StereoFaceFinder {
  public:
   /// Where the face was last, which the caller owns; value-initialised: it is sought everywhere.
   struct State {
-    std::optional<PixelBox> left, right;
+    struct Face {
+      DetectedFace where;
+      Eigen::Vector2d middle = Eigen::Vector2d::Zero();  // [px] of its landmarks
+      double spread = 0;  // [px] of them about their middle; 0: none were found yet
+    };
+    std::optional<Face> left, right;
+    int pairs_since = 0;  // it was detected
+  };
+  struct Options {
+    /// Pictures whose brightest part (99.5 %) is darker are stretched to the whole range of grey
+    /// values before they are searched.
+    double stretch_below;
+    int detect_every = 1;  // pairs
   };
 
-  /// Pictures whose brightest part (99.5 %) is darker than `stretch_below` are stretched to the
-  /// whole range of grey values before they are searched. The plugins outlive this.
-  StereoFaceFinder(FaceDetector& detector, LandmarkFinder& landmarks, double stretch_below)
-      : detector_{detector}, landmarks_{landmarks}, stretch_below_{stretch_below} {}
+  /// The plugins outlive this.
+  StereoFaceFinder(FaceDetector& detector, LandmarkFinder& landmarks, const Options& options)
+      : detector_{detector}, landmarks_{landmarks}, options_{options} {}
 
   /// The landmarks in both pictures, or why not ("no face in the left image"). A face that is not
   /// found is forgotten. Allocates.
@@ -36,17 +48,18 @@ class StereoFaceFinder {
 
  private:
   using Faces = Expected<std::optional<DetectedFace>>;
+  std::optional<Reason> detect_both(const ImageView& left, const ImageView& right, State& state);
   Faces find_left(const ImageView& left, const std::optional<PixelBox>& last);
   Faces find_right(const ImageView& right, const std::optional<PixelBox>& last,
                    const PixelBox& in_left);
   Faces detect(const ImageView& image, const SearchRegion& region,
                const std::optional<PixelBox>& near);
   Expected<FaceLandmarks> landmarks(const ImageView& original, const ImageView& stretched,
-                                    const DetectedFace& face);
+                                    State::Face& face);
 
   FaceDetector& detector_;
   LandmarkFinder& landmarks_;
-  double stretch_below_;
+  Options options_;
   std::vector<std::uint8_t> left_pixels_, right_pixels_;  // of stretched pictures
 };
 

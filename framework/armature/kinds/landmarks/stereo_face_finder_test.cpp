@@ -40,7 +40,9 @@ class PlacedFaces final : public FaceDetector {
 class BoxCorners final : public LandmarkFinder {
  public:
   LandmarkScheme scheme() const override { return LandmarkScheme::five; }
-  Expected<std::vector<Landmark>> find(const ImageView&, const PixelBox& b) override {
+  Expected<std::vector<Landmark>> find(const ImageView&, const PixelBox& box) override {
+    PixelBox b = box.scaled(larger);
+    b.left += aside;
     std::vector<Landmark> points;
     for (const Eigen::Vector2d& p : {Eigen::Vector2d{b.left, b.top},
                                      {b.right(), b.top},
@@ -53,6 +55,7 @@ class BoxCorners final : public LandmarkFinder {
     return points;
   }
   bool is_short = false;
+  double aside = 0, larger = 1;  // [px]; of the box
 };
 
 class StereoFaceFinderTest : public ::testing::Test {
@@ -74,7 +77,7 @@ class StereoFaceFinderTest : public ::testing::Test {
   Picture left_ = picture(PlacedFaces::kLeft), right_ = picture(1);
   PlacedFaces detector_;
   BoxCorners corners_;
-  StereoFaceFinder finder_{detector_, corners_, 100};
+  StereoFaceFinder finder_{detector_, corners_, {.stretch_below = 100}};
   StereoFaceFinder::State state_;
 };
 
@@ -202,6 +205,38 @@ TEST_F(StereoFaceFinderTest, RefusesLandmarksThatAreNotAsManyAsTheirScheme) {
   detector_.right = {face(150, 100, 80)};
   corners_.is_short = true;
   EXPECT_EQ(find().error().text, "left: 4 landmarks, and five has 5");
+}
+
+TEST_F(StereoFaceFinderTest, WithDetectEveryItFollowsTheLandmarksBetweenTwoDetections) {
+  StereoFaceFinder finder{detector_, corners_, {.stretch_below = 100, .detect_every = 3}};
+  detector_.left = {face(200, 100, 80)};
+  detector_.right = {face(150, 100, 80)};
+  std::vector<std::size_t> searches;
+  for (int pair = 0; pair < 7; ++pair) {
+    detector_.searched.clear();
+    // The landmarks move by 3 px a pair, and so does the box in which the next ones are sought.
+    corners_.aside = 3 * pair;
+    const auto found = finder.find(left_.view(), right_.view(), state_);
+    ASSERT_TRUE(found) << found.error().text;
+    searches.push_back(detector_.searched.size());
+  }
+  EXPECT_EQ(searches, (std::vector<std::size_t>{2, 0, 0, 2, 0, 0, 2}));
+}
+
+TEST_F(StereoFaceFinderTest, ABoxThatIsFollowedMovesAndGrowsWithItsLandmarks) {
+  StereoFaceFinder finder{detector_, corners_, {.stretch_below = 100, .detect_every = 9}};
+  detector_.left = {face(200, 100, 80)};
+  detector_.right = {face(150, 100, 80)};
+  ASSERT_TRUE(finder.find(left_.view(), right_.view(), state_));
+  corners_.aside = 5;
+  corners_.larger = 1.1;
+  ASSERT_TRUE(finder.find(left_.view(), right_.view(), state_));
+  corners_.aside = 0;
+  corners_.larger = 1;
+  const auto found = finder.find(left_.view(), right_.view(), state_);
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(found->left.box.width, 88, 1e-9);
+  EXPECT_NEAR(found->left.box.left + 0.5 * found->left.box.width, 245, 1e-9);
 }
 
 }  // namespace

@@ -22,6 +22,10 @@ double mean_intensity(const ImageView& image) {
   return static_cast<double>(sum) / (static_cast<double>(image.width) * image.height);
 }
 
+StereoFaceFinder::Options options_of(const Parameters& parameters) {
+  return {.stretch_below = parameters.stretch_below, .detect_every = parameters.detect_every};
+}
+
 }  // namespace
 
 /// Images in, landmarks out.
@@ -31,7 +35,7 @@ class LandmarksHost final : public Component {
       : Component{setup},
         detector_{setup.slot<FaceDetector>("detector")},
         landmark_finder_{setup.slot<LandmarkFinder>("landmarks")},
-        finder_{*detector_, *landmark_finder_, Parameters::read(setup.params()).stretch_below},
+        finder_{*detector_, *landmark_finder_, options_of(Parameters::read(setup.params()))},
         left_image_{setup.input<msg::Image>("left_image")},
         right_image_{setup.input<msg::Image>("right_image")},
         landmarks_{setup.output<msg::FaceLandmarks>("landmarks")} {}

@@ -17,7 +17,7 @@ namespace {
 constexpr int kLargest_deg = 45, kStep_deg = 5;
 const std::string kScene = "components.scene.params.";
 
-/// Both photos, the drawn one with two skins.
+/// Two drawn faces and the portrait.
 const std::vector<Variation> kPhotos{{kScene + "photo=generated", kScene + "face_seed=1"},
                                      {kScene + "photo=generated", kScene + "face_seed=2"},
                                      {kScene + "photo=astronaut"}};

@@ -77,7 +77,7 @@ SceneRenderer& SceneRenderer::operator=(SceneRenderer&&) noexcept = default;
 const FacePoints& SceneRenderer::truth() const { return parts_->truth; }
 
 // From what is far to what is near: an occluder lies in front of its face for every camera that
-// sees the face from the front.
+// sees the face from the front. From behind the head hides it.
 void SceneRenderer::render(const Eigen::Isometry3d& camera_T_face, const StereoCamera& camera,
                            double brightness, std::uint64_t picture, std::span<std::uint8_t> out) {
   auto& [truth, photo, occluder, second_face, background, lens, canvas] = *parts_;
@@ -97,7 +97,8 @@ void SceneRenderer::render(const Eigen::Isometry3d& camera_T_face, const StereoC
       second_face && (camera_T_face * *second_face).z() >= camera_T_face.translation().z();
   if (second_face && second_is_far) draw_second();
   drawn = both(drawn, photo.draw(canvas, view));
-  if (!occluder.empty()) drawn = both(drawn, draw_occluder(canvas, view, occluder));
+  const bool from_front = camera_T_face.inverse().translation().z() < 0;
+  if (from_front && !occluder.empty()) drawn = both(drawn, draw_occluder(canvas, view, occluder));
   if (second_face && !second_is_far) draw_second();
   lens.blur(canvas, drawn);
   lens.expose(canvas, picture, out);

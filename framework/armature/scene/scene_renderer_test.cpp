@@ -139,6 +139,16 @@ TEST(SceneRenderer, DrawsNothingOfARoundHeadSeenFromBehind) {
   }
 }
 
+TEST(SceneRenderer, DrawsNoOccluderOfAFaceSeenFromBehind) {
+  for (const auto occluder : {Occluder::mask, Occluder::hand_over_mouth}) {
+    SceneRenderer renderer{
+        flat_photo(120), {.occluder = occluder}, {.noise = 0, .blur_px = 0, .background = 90}, 1};
+    EXPECT_EQ(render(renderer, placed({0, 0, 0.6}, std::numbers::pi)), Picture(640 * 480, 90));
+    EXPECT_NE(render(renderer, placed({0, 0, 0.6})),
+              render(renderer, placed({0, 0, 0.6}, std::numbers::pi)));
+  }
+}
+
 TEST(SceneRenderer, MultipliesByTheBrightnessAndClamps) {
   SceneRenderer renderer{flat_photo(120), {}, {.noise = 0, .blur_px = 0.5, .background = 120}, 1};
   for (const auto& [brightness, expected] :

@@ -75,8 +75,8 @@ TEST(PerceptionCases, AreWhatTheNameOfTheirGroupSays) {
     EXPECT_GE(yaw, 29);
     EXPECT_LE(yaw, 46);
   }
-  for (const auto& one : groups["distance 800 to 1200 mm"]) {
-    EXPECT_GE(one.left_T_face.translation().z(), 0.8);
+  for (const auto& one : groups["distance 700 to 1200 mm"]) {
+    EXPECT_GE(one.left_T_face.translation().z(), 0.7);
     EXPECT_LE(one.left_T_face.translation().z(), 1.2);
   }
   for (const auto& one : groups["mask"]) EXPECT_EQ(one.staging.occluder, scene::Occluder::mask);

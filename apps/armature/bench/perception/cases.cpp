@@ -10,9 +10,8 @@
 namespace armature::bench {
 namespace {
 
-constexpr std::uint64_t kFaces = 8;  // seeds of drawn faces: 1 to 8
-constexpr int kSequence = 20;        // pairs of one face that is tracked
-constexpr double kPeriod_s = 0.1;    // between them
+constexpr int kSequence = 20;      // pairs of one face that is tracked
+constexpr double kPeriod_s = 0.1;  // between them
 
 Eigen::Isometry3d left_T_face(const DrawnCase& one) {
   using Eigen::AngleAxisd, Eigen::Vector3d;
@@ -35,7 +34,7 @@ PerceptionCase placed(DrawnCase one) {
 DrawnCase usual_case(const StereoCamera& camera, Draw& draw) {
   DrawnCase one;
   one.drawn.camera = camera;
-  one.drawn.face_seed = 1 + draw.below(kFaces);
+  one.drawn.face_seed = draw.face(FaceWears::nothing);
   one.distance_m = draw.between(0.5, 0.7);
   one.aside_m = draw.between(-0.06, 0.06);
   one.below_m = draw.between(-0.01, 0.05);

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <map>
 
+#include "armature/scene/face_traits.hpp"
 #include "bench/perception/groups.hpp"
 
 namespace armature::bench {
@@ -78,6 +79,13 @@ TEST(PerceptionCases, AreWhatTheNameOfTheirGroupSays) {
   for (const auto& one : groups["distance 700 to 1200 mm"]) {
     EXPECT_GE(one.left_T_face.translation().z(), 0.7);
     EXPECT_LE(one.left_T_face.translation().z(), 1.2);
+  }
+  for (const auto& [group, cases] : groups) {
+    for (const auto& one : cases) {
+      const scene::FaceTraits traits = scene::traits_of(one.face_seed);
+      EXPECT_EQ(traits.has_glasses, group == "with glasses") << group;
+      EXPECT_EQ(traits.has_beard, group == "with a beard") << group;
+    }
   }
   for (const auto& one : groups["mask"]) EXPECT_EQ(one.staging.occluder, scene::Occluder::mask);
   for (const auto& one : groups["baseline 60 mm"]) EXPECT_EQ(one.camera.baseline_m, 0.06);

@@ -3,6 +3,8 @@
 
 #include <array>
 
+#include "armature/scene/face_traits.hpp"
+
 namespace armature::bench {
 namespace {
 
@@ -37,10 +39,16 @@ template <Surface::Shape shape>
 void glue(DrawnCase& one, Draw& draw) {
   one.drawn.staging.surface = {shape, draw.between(0.08, 0.11)};
 }
+template <FaceWears what>
+void wear(DrawnCase& one, Draw& draw) {
+  one.drawn.face_seed = draw.face(what);
+}
 void leave(DrawnCase&, Draw&) {}
 
 constexpr std::array kGroups{
     CaseGroup{"frontal", leave},
+    CaseGroup{"with glasses", wear<FaceWears::glasses>},
+    CaseGroup{"with a beard", wear<FaceWears::beard>},
     CaseGroup{"yaw 15 to 30 deg",
               [](DrawnCase& one, Draw& draw) { one.yaw = draw.either_side(15, 30) * kDegree; }},
     CaseGroup{"yaw 30 to 45 deg",
@@ -115,6 +123,17 @@ constexpr std::array kGroups{
 };
 
 }  // namespace
+
+std::uint64_t Draw::face(FaceWears what) {
+  constexpr std::uint64_t kFaces = 6;
+  std::uint64_t left = (random_() >> 32) * kFaces >> 32;
+  for (std::uint64_t seed = 1;; ++seed) {
+    const scene::FaceTraits traits = scene::traits_of(seed);
+    const bool wears_it = traits.has_glasses == (what == FaceWears::glasses) &&
+                          traits.has_beard == (what == FaceWears::beard);
+    if (wears_it && left-- == 0) return seed;
+  }
+}
 
 std::span<const CaseGroup> case_groups() { return kGroups; }
 

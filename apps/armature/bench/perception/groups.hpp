@@ -11,6 +11,9 @@
 
 namespace armature::bench {
 
+/// What a drawn face wears that leads landmark finders astray.
+enum class FaceWears { nothing, glasses, beard };
+
 /// Numbers that are the same in every standard library.
 class Draw {
  public:
@@ -23,7 +26,8 @@ class Draw {
     const double value = between(low, high);
     return random_() >> 63 ? value : -value;
   }
-  std::uint64_t below(std::uint64_t end) { return (random_() >> 32) * end >> 32; }
+  /// The seed of one of six drawn faces that wear this and nothing else.
+  std::uint64_t face(FaceWears what);
 
  private:
   std::mt19937_64 random_;

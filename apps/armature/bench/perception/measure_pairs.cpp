@@ -65,8 +65,11 @@ PairResult measure_pair(const PerceptionCase& one, const StagedPair& pair,
   TimedDetector detector{plugins.detector};
   TimedLandmarks landmarks{plugins.landmarks};
   StereoFaceFinder finder{detector, landmarks, plugins.search};
-  PairResult result{
-      .group = one.group, .number = one.number, .is_tracked = one.continues, .truth = pair.truth};
+  PairResult result{.group = one.group,
+                    .number = one.number,
+                    .face_seed = one.face_seed,
+                    .is_tracked = one.continues,
+                    .truth = pair.truth};
   const auto found = guarded(memory.finder, [&](StereoFaceFinder::State& state) {
     return finder.find(pair.left.view(), pair.right.view(), state);
   });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -36,6 +37,7 @@ struct StageTimes {
 struct PairResult {
   std::string group;
   int number = 0;
+  std::uint64_t face_seed = 0;
   bool is_tracked = false;  // what was remembered of the pair before was kept
   bool detected = false;    // landmarks were found in both pictures
   std::string reason;       // why there is no valid pose; empty: there is one

@@ -176,17 +176,17 @@ std::string to_json(const PerceptionReport& report) {
 
 std::string csv_of(const std::vector<PairResult>& results) {
   std::string csv =
-      "group,number,tracked,found,valid,wrong,mouth_m,normal_rad,stereo_only_mouth_m,"
+      "group,number,face_seed,tracked,found,valid,wrong,mouth_m,normal_rad,stereo_only_mouth_m,"
       "stereo_only_normal_rad,full_pass_s,detector_s,landmarks_s,face_pose_s,reason\n";
   for (const PairResult& result : results) {
     const auto of_valid = [&](const std::optional<PoseError>& error, double PoseError::*part) {
       return result.pose && error ? fmt::format("{:.6g}", (*error).*part) : std::string{};
     };
     csv += fmt::format(
-        "{},{},{:d},{:d},{:d},{:d},{},{},{},{},{},{:.6g},{:.6g},{},{}\n", csv_field(result.group),
-        result.number, result.is_tracked, result.detected, result.pose.has_value(),
-        result.is_wrong(), of_valid(result.drawn, &PoseError::mouth_m),
-        of_valid(result.drawn, &PoseError::normal_rad),
+        "{},{},{},{:d},{:d},{:d},{:d},{},{},{},{},{},{:.6g},{:.6g},{},{}\n",
+        csv_field(result.group), result.number, result.face_seed, result.is_tracked,
+        result.detected, result.pose.has_value(), result.is_wrong(),
+        of_valid(result.drawn, &PoseError::mouth_m), of_valid(result.drawn, &PoseError::normal_rad),
         of_valid(result.stereo_only, &PoseError::mouth_m),
         of_valid(result.stereo_only, &PoseError::normal_rad),
         number_or_nothing(result.times.full_pass), result.times.detector, result.times.landmarks,

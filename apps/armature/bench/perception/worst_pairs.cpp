@@ -5,17 +5,15 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <numbers>
-#include <numeric>
+#include <functional>
 #include <stdexcept>
-#include <string>
 
 #include "armature/messages/sensor_msgs.hpp"
 #include "armature/runtime/reporting/write_atomically.hpp"
+#include "bench/perception/perception_report.hpp"
 #include "bench/perception/stage.hpp"
 #include "jpeg_encoder.hpp"
 
@@ -97,14 +95,6 @@ void draw_face(Sheet& sheet, const StereoCamera& camera, const scene::FacePoints
   }
 }
 
-/// "mask" of "mask", "yaw_15_to_30_deg" of "yaw 15 to 30 deg".
-std::string as_file_name(std::string text) {
-  for (char& c : text) {
-    if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
-  }
-  return text;
-}
-
 }  // namespace
 
 std::vector<std::size_t> worst_of(const std::vector<PairResult>& results, std::size_t count) {
@@ -123,10 +113,10 @@ void write_worst_pairs(const std::filesystem::path& folder,
                        const std::vector<PairResult>& results) {
   Stage stage;
   jpeg::JpegEncoder encoder{kJpegQuality};
-  int rank = 0;
+  std::vector<PairResult> worst;
   for (const std::size_t i : worst_of(results, kWorst)) {
-    const PairResult& result = results[i];
-    const FacePose& pose = *result.pose;
+    worst.push_back(results[i]);
+    const FacePose& pose = *results[i].pose;
     const StagedPair pair = stage.take(cases[i]);
     Sheet sheet{pair};
     draw_face(sheet, cases[i].camera, pair.truth, pair.truth.normal(), kGreen);
@@ -136,13 +126,11 @@ void write_worst_pairs(const std::filesystem::path& folder,
     if (const auto done = encoder.encode(sheet.image(), jpeg); !done) {
       throw std::runtime_error(done.error().text);
     }
-    const std::string name =
-        fmt::format("{:02}_{}_{}_mouth_{:.1f}_mm_normal_{:.1f}_deg.jpg", ++rank,
-                    as_file_name(result.group), result.number, result.drawn.mouth_m * 1e3,
-                    result.drawn.normal_rad * 180 / std::numbers::pi);
-    write_atomically(folder / name, {reinterpret_cast<const char*>(jpeg.data()), jpeg.size()},
+    write_atomically(folder / fmt::format("{:02}.jpg", worst.size()),
+                     {reinterpret_cast<const char*>(jpeg.data()), jpeg.size()},
                      FileUse::named_by_user);
   }
+  write_atomically(folder / "worst.csv", csv_of(worst), FileUse::named_by_user);
 }
 
 }  // namespace armature::bench

@@ -85,6 +85,13 @@ TEST(BenchPerception, RefusesWhatItCannotMeasure) {
   };
   EXPECT_THAT(refusal({"sr1_biopsy"}),
               HasSubstr("no component of 'sr1_biopsy' is a 'landmarks' plugin"));
+  const std::string rig = std::filesystem::path{testing::TempDir()} / "too_wide.yaml";
+  std::ofstream{rig}
+      << "{armature_rig: 1, name: too_wide, resolution: [9000, 720], fov_deg: 70, "
+         "baseline_mm: 120, mount: {frame: tool, forward: [1, 0, 0], right: [0, 0, 1]}}";
+  EXPECT_THAT(refusal({"dental_lamp", "--set", "rigs.head=" + rig}),
+              HasSubstr("the rig 'too_wide' is 9000 px wide; the bench draws at most 8192"));
+  std::filesystem::remove(rig);
   EXPECT_THAT(refusal({"--face-pose", "face_pose/three_points"}),
               HasSubstr("did you mean 'face_pose/three_point'"));
   EXPECT_THAT(refusal({"--detector", "landmarks/dlib68"}),

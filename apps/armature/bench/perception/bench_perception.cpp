@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <filesystem>
 
 #include "armature/runtime/plugins/running_component.hpp"
 #include "armature/runtime/reporting/output_folder.hpp"
@@ -19,6 +20,7 @@ namespace armature {
 
 int bench_perception(const PerceptionBenchOptions& options) {
   if (options.worst) prepare_output_folder(*options.worst);
+  if (options.csv) prepare_output_folder(std::filesystem::absolute(*options.csv).parent_path());
   PluginRegistry registry;
   name_crashing_components();
   const bench::ChosenPerception chosen =

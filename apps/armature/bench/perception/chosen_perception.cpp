@@ -12,6 +12,7 @@
 #include "armature/config/source_text.hpp"
 #include "armature/robot/files/stereo_rig.hpp"
 #include "armature/runtime/deployment_file/deployment_config.hpp"
+#include "armature/scene/scene_renderer.hpp"
 #include "exit_code.hpp"
 #include "inspect/plugins.hpp"
 
@@ -43,7 +44,11 @@ StereoRig rig_of(const DeploymentConfig& deployment) {
   for (const ComponentConfig& component : deployment.components) {
     const auto bound = component.documents.find("rigs");
     if (bound == component.documents.end()) continue;
-    return read_stereo_rig(deployment.documents.at("rigs").at(bound->second));
+    StereoRig rig = read_stereo_rig(deployment.documents.at("rigs").at(bound->second));
+    if (rig.camera.width <= scene::SceneRenderer::kWidestImage) return rig;
+    throw InvalidChoice(fmt::format("the rig '{}' is {} px wide; the bench draws at most {}",
+                                    rig.name, rig.camera.width,
+                                    scene::SceneRenderer::kWidestImage));
   }
   throw InvalidChoice(
       fmt::format("no component of '{}' has a rig: there is no stereo pair to "

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 
 #include "armature/robot/geometry/stereo_camera.hpp"
 
@@ -39,6 +40,12 @@ struct DisparitySurface {
     plane.c[2] = c[2] + c[4] * p.x() + 2 * c[5] * p.y();
     plane.c[0] = at(pixel) - plane.c[1] * p.x() - plane.c[2] * p.y();
     return plane;
+  }
+  /// [px] by which it is nearer at `reach` from the middle than its tangent there, in the direction
+  /// where it is that most; negative: it bulges in all directions, as faces do.
+  double hollowness() const {
+    const double mean = 0.5 * (c[3] + c[5]);
+    return mean + std::hypot(0.5 * (c[3] - c[5]), 0.5 * c[4]);
   }
   bool is_plane() const { return c.tail<3>().isZero(); }
 

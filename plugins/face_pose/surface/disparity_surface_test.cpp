@@ -68,5 +68,17 @@ TEST(DisparitySurface, TheTangentTouchesAndHasTheSlopeOfTheSurface) {
   EXPECT_NEAR(tangent.at(beside), curved.at(beside), 1e-6);
 }
 
+TEST(DisparitySurface, IsHollowWhereItComesNearerAwayFromItsMiddle) {
+  DisparitySurface curved{.middle = {600, 300}, .reach = 100};
+  curved.c << 200, 3, -2, -1.5, 0, -2.2;
+  EXPECT_NEAR(curved.hollowness(), -1.5, 1e-12);
+  curved.c[4] = 6;  // a saddle
+  EXPECT_NEAR(curved.hollowness(), -1.85 + std::hypot(0.35, 3), 1e-12);
+  const Vector2d along =
+      curved.middle + curved.reach * Vector2d{std::cos(0.7282), std::sin(0.7282)};
+  EXPECT_NEAR(curved.at(along) - curved.tangent(curved.middle).at(along), curved.hollowness(),
+              1e-4);
+}
+
 }  // namespace
 }  // namespace armature::face_pose::surface

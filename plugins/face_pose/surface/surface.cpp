@@ -55,6 +55,12 @@ std::optional<std::string> invalid(const FacePoseInput& input) {
   return std::nullopt;
 }
 
+/// [m/px] by how much a pixel of disparity moves what is in the middle of the face.
+double depth_by_pixel(const DisparitySurface& surface, const StereoCamera& camera) {
+  const double disparity = surface.at(surface.middle);
+  return camera.focal_px * camera.baseline_m / (disparity * disparity);
+}
+
 /// The plane through the features' own disparities.
 DisparitySurface plane_of(const Features& left, const Features& right) {
   const Vector2d middle = left.between_eyes() + 0.45 * left.down();
@@ -128,8 +134,9 @@ Expected<FacePose> Surface::look(const FacePoseInput& input,
   const auto fitted = fit_.align(located.at, starts);
   if (!fitted) return tl::unexpected{fitted.error()};
   aligned = *fitted;
-  for (const auto& sound : {agree(aligned), see_features(aligned, input.camera, located),
-                            rectified(aligned, input.camera)}) {
+  for (const auto& sound :
+       {agree(aligned, input.camera), see_features(aligned, input.camera, located),
+        rectified(aligned, input.camera)}) {
     if (!sound) return tl::unexpected{sound.error()};
   }
   if (input.finder) {
@@ -142,7 +149,7 @@ Expected<FacePose> Surface::look(const FacePoseInput& input,
   return face;
 }
 
-Expected<void> Surface::agree(const Alignment& aligned) const {
+Expected<void> Surface::agree(const Alignment& aligned, const StereoCamera& camera) const {
   if (aligned.agreeing < parameters_.min_agreement) {
     return refuse(fmt::format("the pictures agree in {:.0f} % of the face only, less than {:.0f} %",
                               aligned.agreeing * 100, parameters_.min_agreement * 100));
@@ -152,6 +159,13 @@ Expected<void> Surface::agree(const Alignment& aligned) const {
         fmt::format("the left picture is {:.2f} times as bright as the right one, more "
                     "than {:.2f} times",
                     aligned.gain, parameters_.max_gain));
+  }
+  const double hollow = aligned.surface.hollowness() * depth_by_pixel(aligned.surface, camera);
+  if (hollow > parameters_.max_hollowness) {
+    return refuse(
+        fmt::format("the face would be hollow by {:.1f} mm, more than {:.1f}: something "
+                    "covers a part of it",
+                    hollow * 1e3, parameters_.max_hollowness * 1e3));
   }
   return {};
 }

@@ -35,7 +35,7 @@ class Surface final : public FacePoseEstimator {
                                                            const PluginState& state);
   Expected<FacePose> look(const FacePoseInput& input, const std::vector<DisparitySurface>& starts,
                           Alignment& aligned, Located& located);
-  Expected<void> agree(const Alignment& aligned) const;
+  Expected<void> agree(const Alignment& aligned, const StereoCamera& camera) const;
   Expected<void> rectified(const Alignment& aligned, const StereoCamera& camera) const;
   Expected<void> see_features(const Alignment& aligned, const StereoCamera& camera,
                               Located& located);

@@ -128,7 +128,7 @@ TEST_P(SurfaceWith, IsRightOrSaysNo) {
 
 constexpr double kDegree = std::numbers::pi / 180;
 const std::string kCovered =
-    "looks different to both|covers it|agree in|no .*compared|shows too little";
+    "looks different to both|covers it|hollow|agree in|no .*compared|shows too little";
 const std::string kNotRectified = "not rectified";
 
 INSTANTIATE_TEST_SUITE_P(

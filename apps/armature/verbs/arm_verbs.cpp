@@ -5,6 +5,7 @@
 
 #include "calculate/calculator.hpp"
 #include "calculate/calibrate.hpp"
+#include "calculate/calibrate_stereo.hpp"
 #include "verbs/verbs.hpp"
 #include "workspace/workspace.hpp"
 
@@ -58,9 +59,37 @@ void add_workspace(CLI::App& app, Action& action) {
   workspace->callback([=, &action] { action = [=] { return run_workspace(*options); }; });
 }
 
+void add_stereo_calibration(CLI::App* calibrate, Action& action) {
+  auto options = std::make_shared<StereoCalibrationOptions>();
+  CLI::App* stereo = calibrate->add_subcommand(
+      "stereo",
+      "Two cameras, from pictures of a chessboard: armature calibrate stereo --left pictures/left "
+      "--right pictures/right --board 9 6 --square-mm 25 -o head.yaml");
+  stereo->add_option("--left", options->left, "folder with the left camera's pictures")->required();
+  stereo->add_option("--right", options->right, "folder with the right one's; may be the same")
+      ->required();
+  stereo
+      ->add_option("--board", options->board, "inner corners along its rows, and along its columns")
+      ->required()
+      ->expected(2)
+      ->allow_extra_args(false)
+      ->check(CLI::Range(3, 50));
+  stereo->add_option("--square-mm", options->square_mm, "side of a square, measured")
+      ->required()
+      ->check(CLI::Range(1.0, 500.0));
+  stereo->add_option("-o,--output", options->output, "file for camera/stereo_pair to write")
+      ->required();
+  stereo->add_option("--rig", options->rig, "rig file to write, with the same cameras");
+  stereo->add_option("--coverage", options->coverage,
+                     "picture (SVG) to write: where the corners were in the pictures");
+  stereo->add_flag("--k3", options->with_k3, "of the distortion, too: for wide lenses");
+  stereo->add_flag("--json", options->json, "as JSON");
+  stereo->callback([=, &action] { action = [=] { return run_stereo_calibration(*options); }; });
+}
+
 void add_calibrations(CLI::App& app, Action& action) {
-  CLI::App* calibrate =
-      app.add_subcommand("calibrate", "Where a tool or a tracker is, from recorded poses");
+  CLI::App* calibrate = app.add_subcommand(
+      "calibrate", "Where a tool, a tracker or two cameras are, from recorded poses or pictures");
   calibrate->require_subcommand(1);
   auto options = std::make_shared<CalibrationOptions>();
   const auto add = [&](const char* name, const char* what, int (*run)(const CalibrationOptions&)) {
@@ -91,6 +120,7 @@ void add_calibrations(CLI::App& app, Action& action) {
                        "poses.jsonl -o tool.yaml",
                        run_tool_calibration);
   tool->add_option("--tool", options->tool, "name of its frame")->capture_default_str();
+  add_stereo_calibration(calibrate, action);
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ namespace {
 constexpr Duration kLookEvery = seconds(0.001);
 constexpr int kMaxPicturesAStep = 2;  // a pair: what came late is caught up in several steps
 
-std::unique_ptr<PictureSource> source_of(const Parameters& parameters) {
+std::unique_ptr<pictures::PictureSource> source_of(const Parameters& parameters) {
   const bool folders = !parameters.left.empty() || !parameters.right.empty();
   if (folders == !parameters.recording.empty()) {
     throw SetupError(folders ? "both folders and a recording are given; keep one"
@@ -43,12 +43,12 @@ std::unique_ptr<PictureSource> source_of(const Parameters& parameters) {
       throw SetupError(fmt::format("{}: there is no folder '{}'", name, folder));
     }
   }
-  return std::make_unique<FolderPictures>(
-      FolderPictures::Options{.left = parameters.left,
-                              .right = parameters.right,
-                              .timestamps = parameters.timestamps,
-                              .interval = seconds(1 / parameters.rate),
-                              .skip = parameters.bad_pictures == Parameters::BadPictures::skip});
+  return std::make_unique<pictures::FolderPictures>(pictures::FolderPictures::Options{
+      .left = parameters.left,
+      .right = parameters.right,
+      .timestamps = parameters.timestamps,
+      .interval = seconds(1 / parameters.rate),
+      .skip = parameters.bad_pictures == Parameters::BadPictures::skip});
 }
 
 }  // namespace
@@ -71,14 +71,14 @@ class Images final : public Component {
 
  private:
   void fetch();
-  bool is_usable(const TimedPicture& timed);
+  bool is_usable(const pictures::TimedPicture& timed);
   void go_round(Time now);
   void publish(Time now);
 
   Parameters parameters_;
-  std::unique_ptr<PictureSource> source_;
+  std::unique_ptr<pictures::PictureSource> source_;
   Output<msg::Image> left_image_, right_image_;
-  std::optional<TimedPicture> next_;
+  std::optional<pictures::TimedPicture> next_;
   bool begun_ = false, exhausted_ = false, finished_ = false;
   Time first_;         // when the first picture came, by the clock of the source
   Duration shift_{0};  // from the source's clock to the deployment's
@@ -90,7 +90,7 @@ class Images final : public Component {
 };
 
 /// True for a picture that may be published; any other is refused, or counted.
-bool Images::is_usable(const TimedPicture& timed) {
+bool Images::is_usable(const pictures::TimedPicture& timed) {
   std::string why = timed.picture ? std::string{} : timed.picture.error().text;
   if (timed.picture) {
     const int width = timed.picture->width, height = timed.picture->height;
@@ -101,8 +101,8 @@ bool Images::is_usable(const TimedPicture& timed) {
     if (width == width_ && height == height_) return true;
     why =
         fmt::format("the {} picture stamped {:.6f} s has {} x {} pixels, the first one has {} x {}",
-                    timed.side == Side::left ? "left" : "right", to_seconds(timed.stamp - Time{}),
-                    width, height, width_, height_);
+                    timed.side == pictures::Side::left ? "left" : "right",
+                    to_seconds(timed.stamp - Time{}), width, height, width_, height_);
   }
   if (parameters_.bad_pictures == Parameters::BadPictures::refuse) {
     refusal_ = why + "; bad_pictures: skip leaves such a picture out";
@@ -169,7 +169,7 @@ void Images::go_round(Time now) {
 }
 
 void Images::publish(Time now) {
-  const bool left = next_->side == Side::left;
+  const bool left = next_->side == pictures::Side::left;
   const Time due = next_->published + shift_;
   auto image = (left ? left_image_ : right_image_).loan();
   write_header(image->header_(), next_->stamp + shift_,

@@ -40,7 +40,7 @@ class ImagesTest : public testing::Test {
     }
     return all;
   }
-  PictureFolder files_;
+  pictures::PictureFolder files_;
 };
 
 TEST_F(ImagesTest, PlaysBothCamerasAtTheirTimesAfterTheStart) {

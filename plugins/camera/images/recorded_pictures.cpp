@@ -88,46 +88,47 @@ RecordedPictures::RecordedPictures(std::filesystem::path file, std::string left,
   }
 }
 
-std::optional<Side> RecordedPictures::side_of(const McapMessage& message) const {
+std::optional<pictures::Side> RecordedPictures::side_of(const McapMessage& message) const {
   if (!has_pictures(reader_->schemas(), *message.channel)) return std::nullopt;
-  if (is_named(message.channel->topic, left_)) return Side::left;
-  if (is_named(message.channel->topic, right_)) return Side::right;
+  if (is_named(message.channel->topic, left_)) return pictures::Side::left;
+  if (is_named(message.channel->topic, right_)) return pictures::Side::right;
   return std::nullopt;
 }
 
-TimedPicture RecordedPictures::picture_of(Side side, const McapMessage& message) const {
-  TimedPicture timed{.side = side,
-                     .stamp = message.publish_time,
-                     .published = message.publish_time,
-                     .picture = refuse("")};
+pictures::TimedPicture RecordedPictures::picture_of(pictures::Side side,
+                                                    const McapMessage& message) const {
+  pictures::TimedPicture timed{.side = side,
+                               .stamp = message.publish_time,
+                               .published = message.publish_time,
+                               .picture = refuse("")};
   const auto because = [&](const std::string& reason) {
     return refuse(fmt::format("{}: the picture of {} that was published at {:.6f} s: {}",
                               file_.string(), message.channel->topic,
                               to_seconds(message.publish_time - Time{}), reason));
   };
-  const auto take = [&](Time stamp, Expected<GrayPicture> picture) {
+  const auto take = [&](Time stamp, Expected<pictures::GrayPicture> picture) {
     timed.stamp = stamp;
     timed.picture = picture ? std::move(picture) : because(picture.error().text);
   };
   if (reader_->schemas().at(message.channel->schema_id).name == kImage) {
     if (const auto image = decoded<msg::Image>(message)) {
-      take(stamp_of(image->header_().stamp_()), gray_picture_of(*image));
+      take(stamp_of(image->header_().stamp_()), pictures::gray_picture_of(*image));
       return timed;
     }
   } else if (const auto image = decoded<msg::CompressedImage>(message)) {
-    take(stamp_of(image->header_().stamp_()), decode_picture(image->data_()));
+    take(stamp_of(image->header_().stamp_()), pictures::decode_picture(image->data_()));
     return timed;
   }
   timed.picture = because("its bytes are no message of its type");
   return timed;
 }
 
-std::optional<TimedPicture> RecordedPictures::next() {
+std::optional<pictures::TimedPicture> RecordedPictures::next() {
   try {
     while (const auto message = reader_->next()) {
       const auto side = side_of(*message);
       if (!side) continue;
-      if (*side == Side::left) {
+      if (*side == pictures::Side::left) {
         if (last_left_ && message->publish_time > *last_left_) {
           last_interval_ = message->publish_time - *last_left_;
         }

@@ -13,21 +13,21 @@
 namespace armature::camera::images {
 
 /// The pictures of two topics of an MCAP file: sensor_msgs/Image, or sensor_msgs/CompressedImage.
-class RecordedPictures final : public PictureSource {
+class RecordedPictures final : public pictures::PictureSource {
  public:
   /// `left` and `right` are whole names of topics, or their last words: "left/image_raw" of
   /// "/dental_lamp/left/image_raw". Throws SetupError when the file is none, when its summary has
   /// no such topic, or several. A file without a summary is looked through by `next` alone.
   RecordedPictures(std::filesystem::path file, std::string left, std::string right);
 
-  std::optional<TimedPicture> next() override;
+  std::optional<pictures::TimedPicture> next() override;
   void rewind() override;
   Duration last_interval() const override { return last_interval_; }
   std::string remark() const override;
 
  private:
-  std::optional<Side> side_of(const McapMessage& message) const;
-  TimedPicture picture_of(Side side, const McapMessage& message) const;
+  std::optional<pictures::Side> side_of(const McapMessage& message) const;
+  pictures::TimedPicture picture_of(pictures::Side side, const McapMessage& message) const;
 
   std::filesystem::path file_;
   std::string left_, right_;

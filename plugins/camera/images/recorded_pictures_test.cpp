@@ -72,11 +72,11 @@ TEST_F(RecordedPicturesTest, PlaysBothTopicsWithTheirOwnTimesAgainAndAgain) {
   for (int round = 0; round < 2; ++round) {
     const auto first = pictures.next(), second = pictures.next(), third = pictures.next();
     ASSERT_TRUE(first && second && third);
-    EXPECT_EQ(first->side, Side::left);
+    EXPECT_EQ(first->side, pictures::Side::left);
     EXPECT_EQ(first->stamp, Time{} + seconds(1.0));
     EXPECT_EQ(first->published, Time{} + seconds(1.03));
     EXPECT_EQ(first->picture.value().pixels, std::vector<std::uint8_t>(8, 10));
-    EXPECT_EQ(second->side, Side::right);
+    EXPECT_EQ(second->side, pictures::Side::right);
     EXPECT_EQ(second->stamp, Time{} + seconds(1.001));
     EXPECT_EQ(second->picture.value().pixels.front(), 20);
     EXPECT_EQ(third->picture.value().pixels.front(), 11);

@@ -48,11 +48,10 @@ Eigen::Vector2d Lens::project(const Eigen::Vector2d& ray) const {
   return {fx * bent.x() + cx, fy * bent.y() + cy};
 }
 
-std::optional<Eigen::Vector2d> Lens::ray_of(const Eigen::Vector2d& pixel) const {
+std::optional<Eigen::Vector2d> Lens::ray_of(const Eigen::Vector2d& pixel, double max) const {
   constexpr int kMaxSteps = 50;
   constexpr double kClose = 1e-12, kLongestStep = 0.1;
   const Eigen::Vector2d seen{(pixel.x() - cx) / fx, (pixel.y() - cy) / fy};
-  const double max = max_radius();
   Eigen::Vector2d ray = seen.norm() < max ? seen : Eigen::Vector2d{0.5 * max * seen.normalized()};
   for (int i = 0; i < kMaxSteps; ++i) {  // Newton
     const Eigen::Vector2d error = distort(ray) - seen;

@@ -22,7 +22,11 @@ struct Lens {
   /// The pixel of the ray (x, y, 1).
   Eigen::Vector2d project(const Eigen::Vector2d& ray) const;
   /// The ray of a pixel, to 1e-12; nothing for a pixel that no ray within max_radius() reaches.
-  std::optional<Eigen::Vector2d> ray_of(const Eigen::Vector2d& pixel) const;
+  std::optional<Eigen::Vector2d> ray_of(const Eigen::Vector2d& pixel) const {
+    return ray_of(pixel, max_radius());
+  }
+  /// The same for many pixels: max_radius() takes longer than all the rest.
+  std::optional<Eigen::Vector2d> ray_of(const Eigen::Vector2d& pixel, double max_radius) const;
   /// How far a ray may be from the axis, |(x, y)|. Beyond it the polynomial turns back, and would
   /// show the same pixels again; 10 (84 degrees) where it does not.
   double max_radius() const;

@@ -13,7 +13,7 @@
 #include <opencv2/imgproc.hpp>
 #include <string_view>
 
-namespace armature::camera::images {
+namespace armature::pictures {
 namespace {
 
 constexpr int kMaxSide = 16384;  // [px]
@@ -90,4 +90,4 @@ Expected<GrayPicture> gray_picture_of(const msg::Image& image) {
   return picture_of(gray);
 }
 
-}  // namespace armature::camera::images
+}  // namespace armature::pictures

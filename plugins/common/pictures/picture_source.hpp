@@ -9,7 +9,7 @@
 #include "armature/values/time.hpp"
 #include "gray_picture.hpp"
 
-namespace armature::camera::images {
+namespace armature::pictures {
 
 enum class Side { left, right };
 
@@ -37,4 +37,4 @@ class PictureSource {
   virtual std::size_t left_out() const { return 0; }
 };
 
-}  // namespace armature::camera::images
+}  // namespace armature::pictures

@@ -10,7 +10,7 @@
 #include <string>
 
 // Pictures in files, for the tests.
-namespace armature::camera::images {
+namespace armature::pictures {
 
 /// A folder of this test, gone with it.
 class PictureFolder {
@@ -41,4 +41,4 @@ class PictureFolder {
   std::filesystem::path path_;
 };
 
-}  // namespace armature::camera::images
+}  // namespace armature::pictures

@@ -8,7 +8,12 @@
 
 #include "picture_source.hpp"
 
-namespace armature::camera::images {
+namespace armature::pictures {
+
+struct FilePair {
+  std::filesystem::path left, right;
+  Time at;
+};
 
 /// Pairs of picture files by their names.
 class FolderPictures final : public PictureSource {
@@ -32,21 +37,17 @@ class FolderPictures final : public PictureSource {
   std::string remark() const override { return remark_; }
   std::size_t left_out() const override { return left_out_; }
 
-  std::size_t pairs() const { return pairs_.size(); }
+  const std::vector<FilePair>& files() const { return pairs_; }
 
  private:
-  struct Pair {
-    std::filesystem::path left, right;
-    Time at;
-  };
   void find_pairs(const Options& options);
   void read_times(const std::filesystem::path& file);
 
-  std::vector<Pair> pairs_;
+  std::vector<FilePair> pairs_;
   Duration interval_;
   std::string remark_;
   std::size_t left_out_ = 0;
   std::size_t next_ = 0;  // counts pictures
 };
 
-}  // namespace armature::camera::images
+}  // namespace armature::pictures

@@ -9,7 +9,7 @@
 #include "armature/messages/sensor_msgs.hpp"
 #include "armature/values/expected.hpp"
 
-namespace armature::camera::images {
+namespace armature::pictures {
 
 /// A mono8 picture without padding.
 struct GrayPicture {
@@ -25,4 +25,4 @@ Expected<GrayPicture> gray_picture_of(const msg::Image& image);
 /// The same of the bytes of a file.
 Expected<GrayPicture> decode_picture(std::span<const std::uint8_t> bytes);
 
-}  // namespace armature::camera::images
+}  // namespace armature::pictures

@@ -18,7 +18,7 @@
 
 #include "armature/runtime/plugins/setup_error.hpp"
 
-namespace armature::camera::images {
+namespace armature::pictures {
 namespace {
 
 namespace fs = std::filesystem;
@@ -156,7 +156,7 @@ void FolderPictures::read_times(const fs::path& file) {
     }
     if (!times.emplace(name, at).second) wrong(fmt::format("'{}' has a time already", name));
   }
-  for (Pair& pair : pairs_) {
+  for (FilePair& pair : pairs_) {
     const auto found = times.find(pair.left.filename());
     if (found == times.end()) {
       throw SetupError(fmt::format("{}: has no time for '{}'; write a line '{} SECONDS'",
@@ -165,8 +165,8 @@ void FolderPictures::read_times(const fs::path& file) {
     }
     pair.at = Time{} + seconds(found->second - times.at(pairs_.front().left.filename()));
   }
-  std::ranges::stable_sort(pairs_, {}, &Pair::at);
-  const auto twice = std::ranges::adjacent_find(pairs_, {}, &Pair::at);
+  std::ranges::stable_sort(pairs_, {}, &FilePair::at);
+  const auto twice = std::ranges::adjacent_find(pairs_, {}, &FilePair::at);
   if (twice != pairs_.end()) {
     throw SetupError(fmt::format("{}: '{}' and '{}' have the same time", file.string(),
                                  twice->left.filename().string(),
@@ -176,7 +176,7 @@ void FolderPictures::read_times(const fs::path& file) {
 
 std::optional<TimedPicture> FolderPictures::next() {
   if (next_ >= 2 * pairs_.size()) return std::nullopt;
-  const Pair& pair = pairs_[next_ / 2];
+  const FilePair& pair = pairs_[next_ / 2];
   const Side side = next_ % 2 == 0 ? Side::left : Side::right;
   ++next_;
   return TimedPicture{.side = side,
@@ -190,4 +190,4 @@ Duration FolderPictures::last_interval() const {
   return pairs_.back().at - pairs_[pairs_.size() - 2].at;
 }
 
-}  // namespace armature::camera::images
+}  // namespace armature::pictures

@@ -9,7 +9,7 @@
 #include "armature/runtime/plugins/setup_error.hpp"
 #include "picture_files_test.hpp"
 
-namespace armature::camera::images {
+namespace armature::pictures {
 namespace {
 
 class FolderPicturesTest : public testing::Test {
@@ -143,7 +143,7 @@ TEST_F(FolderPicturesTest, NamesFoldersWithoutPicturesAndPicturesWithoutAPartner
   EXPECT_NE(refusal(skipping).find("and no two files are one"), std::string::npos);
   files_.write("right/a.png", 1);
   FolderPictures pictures{skipping};
-  EXPECT_EQ(pictures.pairs(), 1U);
+  EXPECT_EQ(pictures.files().size(), 1U);
   EXPECT_EQ(pictures.left_out(), 1U);
   EXPECT_EQ(pictures.remark(),
             "without a partner on the other side: " + files_.path("right/b.png"));
@@ -161,4 +161,4 @@ TEST_F(FolderPicturesTest, TellsAFileThatIsNoPictureWhenItsTurnComes) {
 }
 
 }  // namespace
-}  // namespace armature::camera::images
+}  // namespace armature::pictures

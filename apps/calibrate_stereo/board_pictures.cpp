@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "board_pictures.hpp"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "folder_pictures.hpp"
+
+namespace armature {
+namespace {
+
+using pictures::GrayPicture;
+
+void check_size(BoardPictures& found, const GrayPicture& picture, const std::string& name) {
+  if (found.width == 0) {
+    found.width = picture.width;
+    found.height = picture.height;
+  }
+  if (picture.width == found.width && picture.height == found.height) return;
+  throw std::runtime_error(
+      fmt::format("{}: has {} x {} pixels, the first picture has {} x {}; a calibration is of one "
+                  "size",
+                  name, picture.width, picture.height, found.width, found.height));
+}
+
+}  // namespace
+
+BoardPictures read_board_pictures(const std::filesystem::path& left,
+                                  const std::filesystem::path& right,
+                                  const chessboard::BoardShape& shape) {
+  pictures::FolderPictures folders{{.left = left, .right = right, .timestamps = {}, .skip = true}};
+  if (!folders.remark().empty()) fmt::print(stderr, "left out: {}\n", folders.remark());
+  BoardPictures found;
+  for (const pictures::FilePair& pair : folders.files()) {
+    ++found.pairs;
+    stereo::BoardView view;
+    std::string why;
+    for (const auto& [file, corners] :
+         {std::pair{&pair.left, &view.left}, {&pair.right, &view.right}}) {
+      const auto picture = pictures::read_picture(*file);
+      if (!picture) {
+        why = picture.error().text;
+        break;
+      }
+      check_size(found, *picture, file->string());
+      auto board = chessboard::find_board(picture->pixels, picture->width, picture->height, shape);
+      if (!board) {
+        why = fmt::format("{}: {}", file->string(), board.error().text);
+        break;
+      }
+      *corners = std::move(*board);
+    }
+    if (!why.empty()) {
+      fmt::print(stderr, "left out: {}\n", why);
+      continue;
+    }
+    found.views.push_back(std::move(view));
+    found.names.push_back(pair.left.filename());
+  }
+  return found;
+}
+
+}  // namespace armature

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+// The program behind `armature calibrate stereo`, which gives it its options as one JSON object.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "armature/runtime/plugins/setup_error.hpp"
+#include "armature/runtime/reporting/write_atomically.hpp"
+#include "board_pictures.hpp"
+#include "rectification.hpp"
+#include "written_calibration.hpp"
+
+namespace armature {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kOk = 0, kFailed = 1, kInvalid = 3;  // as the command line's exit codes are
+constexpr double kOutlier = 3;                     // times the median of a pair's residual
+constexpr double kWellCovered = 0.7;
+
+/// How far the rows of a corner's two rectified pixels are apart: rms and the worst [px].
+struct RowErrors {
+  double rms = 0, worst = 0;
+};
+
+RowErrors row_errors(const stereo::StereoCalibration& calibration,
+                     const stereo::Rectification& made,
+                     const std::vector<stereo::BoardView>& views) {
+  const double left_max = calibration.left.max_radius(), right_max = calibration.right.max_radius();
+  RowErrors errors;
+  double squares = 0, count = 0;
+  for (const stereo::BoardView& view : views) {
+    for (std::size_t i = 0; i < view.left.size(); ++i) {
+      const auto left = calibration.left.ray_of(view.left[i], left_max);
+      const auto right = calibration.right.ray_of(view.right[i], right_max);
+      if (!left || !right) continue;
+      const double off = made.camera.focal_px *
+                         ((made.rectified_R_left * left->homogeneous()).hnormalized().y() -
+                          (made.rectified_R_right * right->homogeneous()).hnormalized().y());
+      squares += off * off;
+      ++count;
+      errors.worst = std::max(errors.worst, std::abs(off));
+    }
+  }
+  errors.rms = std::sqrt(squares / std::max(count, 1.0));
+  return errors;
+}
+
+void warn(const stereo::StereoFit& fit, const BoardPictures& pictures, const Json& told) {
+  std::vector<double> sorted = fit.view_rms_px;
+  std::ranges::sort(sorted);
+  const double median = sorted[sorted.size() / 2];
+  for (std::size_t i = 0; i < fit.view_rms_px.size(); ++i) {
+    if (fit.view_rms_px[i] <= kOutlier * median) continue;
+    fmt::print(stderr,
+               "{}: {:.3f} px remain, and {:.3f} px in the middle of all pairs; leave it out\n",
+               pictures.names[i], fit.view_rms_px[i], median);
+  }
+  for (const char* side : {"left_coverage", "right_coverage"}) {
+    if (told[side].get<double>() >= kWellCovered) continue;
+    fmt::print(
+        stderr,
+        "{}: corners in {:.0f} % of the picture; hold the board into its rims and corners, too\n",
+        side, 100 * told[side].get<double>());
+  }
+}
+
+double rounded(double value) { return std::stod(fmt::format("{:.4g}", value)); }
+
+Json told(const BoardPictures& pictures, const stereo::StereoFit& fit,
+          const stereo::Rectification& made) {
+  const RowErrors rows = row_errors(fit.calibration, made, pictures.views);
+  const auto cover = [&](auto side) {
+    return rounded(coverage(pictures.views, side, pictures.width, pictures.height));
+  };
+  const Eigen::AngleAxisd turn{Eigen::Matrix3d{fit.calibration.right_T_left->linear()}};
+  return {{"pairs", pictures.pairs},
+          {"pairs_used", pictures.views.size()},
+          {"left_residual_rms_px", rounded(fit.left_rms_px)},
+          {"right_residual_rms_px", rounded(fit.right_rms_px)},
+          {"row_error_rms_px", rounded(rows.rms)},
+          {"row_error_max_px", rounded(rows.worst)},
+          {"focal_px", std::round(1e3 * made.camera.focal_px) / 1e3},
+          {"focal_sigma_px", rounded(fit.errors.focal_px)},
+          {"centre_sigma_px", rounded(fit.errors.centre_px)},
+          {"baseline_mm", std::round(1e6 * made.camera.baseline_m) / 1e3},
+          {"baseline_sigma_mm", rounded(1e3 * fit.errors.baseline_m)},
+          {"turned_deg", rounded(turn.angle() * 180 / std::numbers::pi)},
+          {"turned_sigma_deg", rounded(fit.errors.rotation * 180 / std::numbers::pi)},
+          {"left_coverage", cover(&stereo::BoardView::left)},
+          {"right_coverage", cover(&stereo::BoardView::right)}};
+}
+
+std::vector<Eigen::Vector2d> corners_of(const chessboard::BoardShape& shape, double square_m) {
+  std::vector<Eigen::Vector2d> corners;
+  for (int row = 0; row < shape.rows; ++row) {
+    for (int column = 0; column < shape.columns; ++column) {
+      corners.emplace_back(square_m * column, square_m * row);
+    }
+  }
+  return corners;
+}
+
+int calibrate(const Json& options) {
+  const chessboard::BoardShape shape{.columns = options["board"][0], .rows = options["board"][1]};
+  const double square_m = 1e-3 * options["square_mm"].get<double>();
+  const std::string output = options["output"], rig = options["rig"], cover = options["coverage"];
+  const BoardPictures pictures = read_board_pictures(options["left"].get<std::string>(),
+                                                     options["right"].get<std::string>(), shape);
+  const auto fit = stereo::fit_stereo(
+      corners_of(shape, square_m), pictures.views,
+      {.width = pictures.width, .height = pictures.height, .with_k3 = options["with_k3"]});
+  if (!fit) throw std::runtime_error(fit.error().text);
+  const auto made = stereo::rectification_of(fit->calibration);
+  if (!made) throw std::runtime_error(made.error().text);
+  const Json figures = told(pictures, *fit, *made);
+  warn(*fit, pictures, figures);
+
+  std::string comment =
+      fmt::format("# armature calibrate stereo, a board of {} x {} corners, {:g} mm apart\n",
+                  shape.columns, shape.rows, 1e3 * square_m);
+  std::string table;
+  for (const auto& [name, value] : figures.items()) {
+    comment += fmt::format("#   {:<24}{}\n", name, value.dump());
+    table += fmt::format("  {:<24}{}\n", name, value.dump());
+  }
+  write_atomically(output, opencv_text(fit->calibration, comment), FileUse::named_by_user);
+  if (!rig.empty()) write_atomically(rig, rig_text(made->camera, output), FileUse::named_by_user);
+  if (!cover.empty()) {
+    write_atomically(cover, coverage_svg(pictures.views, pictures.width, pictures.height),
+                     FileUse::named_by_user);
+  }
+  fmt::print("{}", options["json"].get<bool>() ? figures.dump(1) + "\n" : table);
+  return kOk;
+}
+
+int run(const char* options) {
+  try {
+    return calibrate(Json::parse(options));
+  } catch (const SetupError& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return kInvalid;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return kFailed;
+  }
+}
+
+}  // namespace
+}  // namespace armature
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    fmt::print(stderr, "this is a part of armature calibrate stereo\n");
+    return 2;
+  }
+  return armature::run(argv[1]);
+}

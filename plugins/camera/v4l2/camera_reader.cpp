@@ -3,12 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace armature::camera::v4l2 {
 namespace {
 
 constexpr Duration kOldest = seconds(10);
+constexpr int kMaxEmpty = 100;                 // wakes without a picture, one after the other
 constexpr std::uint32_t kMaxLost = 1'000'000;  // more is a driver that counts otherwise
 
 }  // namespace
@@ -32,22 +34,30 @@ void CameraReader::run(DriverQueue<Report>& reports) {
 }
 
 std::string CameraReader::read_pictures(VideoStream& stream, DriverQueue<Report>& reports) {
-  while (true) {
-    switch (device_->wait(reports.stop_descriptor(), timing_.timeout)) {
+  Duration timeout = std::max(timing_.first_within, timing_.timeout);
+  for (int empty = 0; empty < kMaxEmpty;) {
+    switch (device_->wait(reports.stop_descriptor(), timeout)) {
       case VideoDevice::Wake::stop:
         return {};
       case VideoDevice::Wake::timeout:
         return fmt::format("{}: no picture for {:g} s; the camera is started again",
-                           settings_.device, to_seconds(timing_.timeout));
+                           settings_.device, to_seconds(timeout));
       case VideoDevice::Wake::frame:
         break;
     }
     const auto frame = stream.take();
     if (!frame) return frame.error().text;
-    if (!*frame) continue;
+    if (!*frame) {
+      ++empty;
+      continue;
+    }
+    empty = 0;
+    timeout = timing_.timeout;
     const auto handed_over = hand_over(stream, **frame, reports);
     if (!handed_over) return handed_over.error().text;
   }
+  return settings_.device +
+         ": its driver tells of pictures and gives none; the camera is started again";
 }
 
 Expected<void> CameraReader::hand_over(VideoStream& stream, const VideoStream::Frame& frame,

@@ -26,9 +26,10 @@ struct Report {
 class CameraReader {
  public:
   struct Timing {
-    Duration delay{0};                  // from the middle of an exposure to the kernel's time of it
-    Duration timeout = seconds(1);      // without a picture
-    Duration try_again = seconds(0.5);  // after a camera could not be opened
+    Duration delay{0};              // from the middle of an exposure to the kernel's time of it
+    Duration timeout = seconds(1);  // without a picture
+    Duration first_within = seconds(5);  // of a start, which takes many cameras longer
+    Duration try_again = seconds(0.5);   // after a camera could not be opened
   };
 
   CameraReader(std::unique_ptr<VideoDevice> device, StreamSettings settings, Timing timing)

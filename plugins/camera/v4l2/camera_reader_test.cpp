@@ -41,6 +41,7 @@ class CameraReaderTest : public testing::Test {
     queue.request_stop();
     EXPECT_TRUE(queue.join_until(std::chrono::steady_clock::now() + std::chrono::seconds{10}));
     EXPECT_FALSE(camera->is_open);
+    timeouts_ = camera->timeouts;
     std::vector<std::string> lines;
     while (const auto report = queue.take())
       lines.push_back(line_of(report->stamp, report->sample));
@@ -60,6 +61,7 @@ class CameraReaderTest : public testing::Test {
   StreamSettings settings_{.device = "/dev/video7", .width = 4, .height = 2};
   CameraReader::Timing timing_{.try_again = seconds(0.001)};
   std::size_t queued_at_the_end_ = 0;
+  std::vector<Duration> timeouts_;
 };
 
 using Lines = std::vector<std::string>;
@@ -133,6 +135,29 @@ TEST_F(CameraReaderTest, ACameraThatFailsOrFallsSilentIsStartedAgain) {
                    "/dev/video7 (Fake) gives no more pictures: Input/output error", "started",
                    "2 -100 ms", "/dev/video7: no picture for 1 s; the camera is started again",
                    "started", "3 -100 ms", "4 -100 ms"}));
+}
+
+TEST_F(CameraReaderTest, TheFirstPictureOfAStartMayTakeLongerThanTheOthers) {
+  camera_->events = {{.silence = true}, grey(1), {.silence = true}, grey(2)};
+  timing_.timeout = seconds(0.5);
+  EXPECT_EQ(
+      reports(),
+      (Lines{"started", "/dev/video7: no picture for 5 s; the camera is started again", "started",
+             "1 -100 ms", "/dev/video7: no picture for 0.5 s; the camera is started again",
+             "started", "2 -100 ms"}));
+  EXPECT_EQ(timeouts_,
+            (std::vector{seconds(5), seconds(5), seconds(0.5), seconds(5), seconds(0.5)}));
+}
+
+TEST_F(CameraReaderTest, ADriverThatTellsOfPicturesAndGivesNoneIsStartedAgain) {
+  for (int i = 0; i < 100; ++i) camera_->events.push_back({.error = EAGAIN});
+  camera_->events.push_back(grey(1));
+  EXPECT_EQ(
+      reports(),
+      (Lines{
+          "started",
+          "/dev/video7: its driver tells of pictures and gives none; the camera is started again",
+          "started", "1 -100 ms"}));
 }
 
 TEST_F(CameraReaderTest, PicturesThatTheKernelHasDroppedAreCounted) {

@@ -48,6 +48,7 @@ class FakeCamera final : public VideoDevice {
   // What was done to it.
   std::map<std::uint32_t, int> set;  // controls
   int openings = 0, starts = 0;
+  std::vector<Duration> timeouts;    // of each wait
   std::atomic<bool> is_idle{false};  // all events have happened, and somebody waits for more
   bool is_open = false;
 
@@ -73,7 +74,8 @@ class FakeCamera final : public VideoDevice {
     buffer.resize(length);
     return buffer;
   }
-  Wake wait(int stop_descriptor, Duration) override {
+  Wake wait(int stop_descriptor, Duration timeout) override {
+    timeouts.push_back(timeout);
     if (!events.empty() && events.front().silence) {
       events.pop_front();
       return Wake::timeout;

@@ -55,6 +55,25 @@ std::optional<std::string> invalid(const FacePoseInput& input) {
   return std::nullopt;
 }
 
+/// Why these are no features of a face in that camera's picture, or nothing. How large the face is
+/// in the picture bounds what is computed.
+std::optional<std::string> invalid(const Features& features, const StereoCamera& camera) {
+  constexpr double kFewestPixels = 8;  // between the eyes, and from them to the mouth
+  for (std::size_t i = 0; i < kFeatures.size(); ++i) {
+    const Vector2d& at = feature(features, i);
+    if (!(at.x() >= 0 && at.y() >= 0 && at.x() < camera.width && at.y() < camera.height)) {
+      return fmt::format("the {} at ({:.0f}, {:.0f}) px is not in the picture", kNames[i], at.x(),
+                         at.y());
+    }
+  }
+  const Vector2d across = features.across(), down = features.down();
+  const double area = across.x() * down.y() - across.y() * down.x();
+  if (!(area >= kFewestPixels * kFewestPixels)) {
+    return fmt::format("eyes and mouth span {:.0f} px2, too few for a face", area);
+  }
+  return std::nullopt;
+}
+
 /// [m/px] by how much a pixel of disparity moves what is in the middle of the face.
 double depth_by_pixel(const DisparitySurface& surface, const StereoCamera& camera) {
   const double disparity = surface.at(surface.middle);
@@ -131,6 +150,7 @@ Expected<FacePose> Surface::look(const FacePoseInput& input,
                                  const std::vector<DisparitySurface>& starts, Alignment& aligned,
                                  Located& located) {
   located.is_unsettled = false;
+  if (auto wrong = invalid(located.at, input.camera)) return refuse(*wrong);
   const auto fitted = fit_.align(located.at, starts);
   if (!fitted) return tl::unexpected{fitted.error()};
   aligned = *fitted;

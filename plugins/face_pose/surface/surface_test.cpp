@@ -194,6 +194,28 @@ TEST(SurfaceGuards, RefusePicturesThatAreNoneOrOfAnotherCamera) {
               testing::Not("accepted"));
 }
 
+TEST(SurfaceGuards, RefuseLandmarksOutsideThePictureAndFacesOfAFewPixelsAtOnce) {
+  const PosedFace face = posed_face({}, 1);
+  const auto refusal = [&](auto moved) {
+    PosedFace elsewhere = face;
+    for (FaceLandmarks* in : {&elsewhere.landmarks.left, &elsewhere.landmarks.right}) {
+      for (Landmark& landmark : in->points) landmark.point = moved(landmark.point);
+    }
+    const auto found = estimated(elsewhere);
+    return found ? "accepted" : found.error().text;
+  };
+  using Eigen::Vector2d;
+  EXPECT_THAT(refusal([](const Vector2d& p) { return Vector2d{p * 1e6}; }),
+              testing::HasSubstr("is not in the picture"));
+  EXPECT_THAT(refusal([](const Vector2d& p) {
+                return Vector2d{p - Vector2d{1200, 0}};
+              }),
+              testing::HasSubstr("the left eye at (-"));
+  const Vector2d mouth = face.landmarks.left.feature(FaceFeature::mouth).point;
+  EXPECT_THAT(refusal([&](const Vector2d& p) { return Vector2d{mouth + 0.02 * (p - mouth)}; }),
+              testing::HasSubstr("too few for a face"));
+}
+
 /// Finds a face in its box, where detectors' boxes have it; or `aside` [px], in part with the box.
 class FakeFinder final : public LandmarkFinder {
  public:

@@ -34,7 +34,11 @@ void Course::go_on(const Eigen::Vector3d& velocity, double passed_s, double max_
 
 void Course::look(double max_acceleration) {
   const Eigen::Vector3d before = acceleration_;
-  acceleration_ = (velocity_ - last_look_) / since_look_s_;
+  const Eigen::Vector3d change = (velocity_ - last_look_) / since_look_s_;
+  // A velocity that is told in steps jumps after it has stood: that is no acceleration.
+  const bool jumps = looks_ > 0 && last_change_.norm() < 0.1 * change.norm();
+  acceleration_ = jumps ? Eigen::Vector3d::Zero() : change;
+  last_change_ = change;
   age_s_ = since_look_s_ / 2;
   if (looks_++ > 0) {
     acceleration_ += kSmoothing_s / (since_look_s_ + kSmoothing_s) * (before - acceleration_);

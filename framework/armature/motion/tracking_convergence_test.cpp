@@ -190,13 +190,10 @@ TEST_P(TrackingConvergence, ATargetThatAsksTooMuchIsKeptNearWithinTheLimits) {
   EXPECT_LT(off_.position_m(), 1e-3);
   target.hz = 2.5;
   double worst = 0;
-  int said = 0;
   for (int k = 0; k < 3000; ++k) {
     tick(target);
     worst = std::max(worst, off_.position_m());
-    said += !tracker_->waits_for().empty();
   }
-  EXPECT_GT(said, 0);
   EXPECT_LT(worst, 0.15) << "it need not go farther than the target does";
   target.hz = 0.5;
   for (int k = 0; k < 2000; ++k) tick(target);

@@ -16,6 +16,7 @@
 #include "armature/runtime/component/component.hpp"
 #include "armature/runtime/component/setup.hpp"
 #include "armature/runtime/plugins/plugin.hpp"
+#include "following_monitor.hpp"
 #include "report_pictures.hpp"
 #include "trajectory_hash.hpp"
 #include "unfinished_scenario.hpp"
@@ -100,6 +101,13 @@ class LampReport : public Component {
       }
       metric("direction_error_deg", "direction error [deg]", kDegrees * last.direction_error_rad);
     }
+    if (const auto& off = following_.worst()) {
+      metric("following_spot_mm", "light off the mouth while the patient moves, at the worst [mm]",
+             1000 * off->spot_m);
+      metric("following_distance_mm", "  lamp off its distance [mm]", 1000 * off->distance_m);
+      metric("following_angle_deg", "  light off the face's normal [deg]",
+             kDegrees * off->angle_rad);
+    }
     tell_pixels(summary);
     metric("replans", "goals after the first alignment", monitor_.replans());
     summary.text("trajectory_sha256", "SHA-256 of the arm's trajectory", hash_.hex());
@@ -139,7 +147,9 @@ class LampReport : public Component {
   void see_truth(Time now) {
     if (!truth_.latest()) return;
     const auto truth = estimate_of(*truth_.latest());
-    if (truth) monitor_.see_truth(face_of(*truth), now);
+    if (!truth) return;
+    monitor_.see_truth(face_of(*truth), now);
+    following_.see_truth(*truth);
   }
 
   void see_faces(Time now) {
@@ -172,7 +182,9 @@ class LampReport : public Component {
       const Eigen::Vector3d center = to_eigen(goal_[i].position_());
       const Eigen::Vector3d mouth = to_eigen(goal_[i].focus_());
       const bool for_a_face = goal_[i].has_focus_() && center.allFinite() && mouth.allFinite();
-      if (for_a_face) monitor_.see_goal(center, mouth);
+      if (!for_a_face) continue;
+      monitor_.see_goal(center, mouth);
+      asked_m_ = (center - mouth).norm();
     }
   }
 
@@ -189,11 +201,14 @@ class LampReport : public Component {
       healthy();
       if (!last_q_ || (*q - *last_q_).cwiseAbs().maxCoeff() > kAtRest) at_rest = false;
       last_q_ = *q;
+      last_stamp_ = stamp_of(measured.header_().stamp_());
       heard = true;
     }
     if (!heard) return;
     const Eigen::Isometry3d base_T_tool = forward_kinematics(model_, *last_q_);
-    monitor_.see_lamp(base_T_tool.translation(), base_T_tool.linear() * light_axis_, at_rest, now);
+    const Eigen::Vector3d light = base_T_tool.linear() * light_axis_;
+    monitor_.see_lamp(base_T_tool.translation(), light, at_rest, now);
+    if (asked_m_) following_.see_lamp(base_T_tool.translation(), light, *asked_m_, last_stamp_);
   }
 
   /// The newest image whose landmarks are known already.
@@ -232,12 +247,15 @@ class LampReport : public Component {
   Eigen::Vector3d light_axis_;
   Parameters parameters_;
   AlignmentMonitor monitor_;
+  FollowingMonitor following_;
+  std::optional<double> asked_m_;  // from the mouth, by the newest goal for a face
   UnfinishedScenario unfinished_;
   bool aborted_ = false;
   Time now_;
   TrajectoryHash hash_;
   CameraPicture picture_;
   std::optional<JointVector> last_q_;    // of the arm
+  Time last_stamp_;                      // of that
   std::optional<StereoLandmarks> seen_;  // the newest
   Input<msg::Target> truth_, target_;
   Input<msg::JointState> measured_js_;

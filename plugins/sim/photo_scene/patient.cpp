@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "patient.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "armature/kinds/geometry_params.hpp"
@@ -27,11 +26,43 @@ Eigen::Isometry3d base_T_photo(const HeadPose& pose) {
   return result;
 }
 
+namespace {
+
+/// How much of the move is done, and how fast that grows [1/s].
+struct Progress {
+  double share, rate;
+};
+
+/// From rest to rest in one quintic without jerk at its ends.
+Progress smooth(double t_s, double duration_s) {
+  const double s = t_s / duration_s;
+  return {s * s * s * (10 + s * (-15 + 6 * s)), 30 * s * s * (1 - s) * (1 - s) / duration_s};
+}
+
+/// The speed rises as 3 u^2 - 2 u^3 over the ramp, stays, and falls in the same way.
+Progress steady(double t_s, double duration_s, double ramp_s) {
+  const double speed = 1 / (duration_s - ramp_s);
+  if (t_s > duration_s / 2) {
+    const Progress mirrored = steady(duration_s - t_s, duration_s, ramp_s);
+    return {1 - mirrored.share, mirrored.rate};
+  }
+  if (t_s >= ramp_s) return {speed * (t_s - ramp_s / 2), speed};
+  const double u = t_s / ramp_s;
+  return {speed * ramp_s * u * u * u * (1 - u / 2), speed * u * u * (3 - 2 * u)};
+}
+
+Progress progress(const Parameters& parameters, double t_s) {
+  const double duration_s = parameters.move_duration;
+  if (duration_s <= 0 || t_s <= 0) return {0, 0};
+  if (t_s >= duration_s) return {1, 0};
+  const double ramp_s = parameters.move_ramp;
+  return ramp_s > 0 ? steady(t_s, duration_s, ramp_s) : smooth(t_s, duration_s);
+}
+
+}  // namespace
+
 MovingHead at(const Parameters& parameters, double t_s) {
-  const double duration = parameters.move_duration;
-  const double s = duration > 0 ? std::clamp((t_s - parameters.move_at) / duration, 0.0, 1.0) : 0.0;
-  const double share = s * s * s * (10 + s * (-15 + 6 * s));
-  const double rate = duration > 0 ? 30 * s * s * (1 - s) * (1 - s) / duration : 0.0;
+  const auto [share, rate] = progress(parameters, t_s - parameters.move_at);
   const double turn_up = parameters.move_tilt_up, turn_side = parameters.move_tilt_side;
   const Eigen::Vector3d shift = vector_of(parameters.move);
 

@@ -28,7 +28,8 @@ struct MovingHead {
   double tilt_side_rate;        // [rad/s]
 };
 /// Where the head is `t_s` after the start, while it moves once from rest to rest: a quintic
-/// without jerk at its ends, 10 s^3 - 15 s^4 + 6 s^5.
+/// without jerk at its ends, 10 s^3 - 15 s^4 + 6 s^5, or with move_ramp_s at one speed between two
+/// ramps.
 MovingHead at(const Parameters& parameters, double t_s);
 
 /// A direction of the base frame and how fast it changes [1/s].

@@ -45,6 +45,12 @@ Parameters parameters_of(const Params& params) {
         "move_duration_s is set but nothing moves; set move_mm, move_tilt_up_deg or "
         "move_tilt_side_deg, or move_duration_s to 0");
   }
+  if (2 * parameters.move_ramp > parameters.move_duration) {
+    params.refuse(
+        {"move_ramp_s", "move_duration_s"},
+        fmt::format("two ramps of move_ramp_s, {:g}, do not fit into move_duration_s, {:g}",
+                    parameters.move_ramp, parameters.move_duration));
+  }
   return parameters;
 }
 

@@ -67,6 +67,26 @@ TEST(Patient, MovesWithTheVelocityThatItTellsAndStopsWhereItWasTold) {
   }
 }
 
+TEST(Patient, KeepsOneSpeedBetweenTwoRamps) {
+  const Parameters parameters{.mouth = {1.5, 0, 0.4},
+                              .move_at = 2,
+                              .move_duration = 3.2,
+                              .move_ramp = 0.2,
+                              .move = {0, 0.15, 0},
+                              .move_tilt_side = 0.3};
+  constexpr double h = 1e-6;
+  for (double t = 2.03; t < 5.2; t += 0.05) {
+    const MovingHead before = at(parameters, t - h), now = at(parameters, t),
+                     after = at(parameters, t + h);
+    EXPECT_TRUE(now.velocity.isApprox((after.pose.mouth - before.pose.mouth) / (2 * h), 1e-5));
+    if (t < 2.2 || t > 5) continue;
+    EXPECT_NEAR(now.velocity.y(), 0.05, 1e-12) << t;
+    EXPECT_NEAR(now.normal_rate.norm(), 0.1, 1e-12) << t;
+  }
+  EXPECT_NEAR(at(parameters, 5.2).pose.mouth.y(), 0.15, 1e-12);
+  EXPECT_TRUE(at(parameters, 5.2).velocity.isZero());
+}
+
 TEST(PoseHistory, TellsPosesBetweenThoseThatItWasGivenAsFarBackAsAsked) {
   PoseHistory history{0.3};
   const auto pose = [](double t_s) {

@@ -5,7 +5,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "armature/robot/geometry/rotation_vector.hpp"
+
 namespace armature::task::lamp_alignment {
+
+FaceEstimate FaceEstimate::at(Time time) const {
+  const double passed_s = to_seconds(time - stamp);
+  const Eigen::Quaterniond turn = rotation_of(passed_s * angular_velocity());
+  return {.stamp = time,
+          .mouth = mouth + passed_s * velocity,
+          .normal = turn * normal,
+          .velocity = velocity,
+          .normal_rate = turn * normal_rate};
+}
 
 bool FaceBand::left_by(const FaceEstimate& a, const FaceEstimate& b) const {
   if ((a.mouth - b.mouth).norm() > position_m) return true;

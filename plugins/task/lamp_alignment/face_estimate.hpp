@@ -12,8 +12,15 @@ namespace armature::task::lamp_alignment {
 /// Where the mouth is and where the face looks, in the base frame.
 struct FaceEstimate {
   Time stamp;
-  Eigen::Vector3d mouth = Eigen::Vector3d::Zero();    // [m]
-  Eigen::Vector3d normal = Eigen::Vector3d::UnitX();  // unit, out of the face
+  Eigen::Vector3d mouth = Eigen::Vector3d::Zero();        // [m]
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitX();      // unit, out of the face
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();     // [m/s] of the mouth
+  Eigen::Vector3d normal_rate = Eigen::Vector3d::Zero();  // [1/s]
+
+  /// Where the face will be when it goes on as it does.
+  FaceEstimate at(Time time) const;
+  /// [rad/s] With which the normal turns.
+  Eigen::Vector3d angular_velocity() const { return normal.cross(normal_rate); }
 };
 
 /// How far two estimates are apart, and whether that is beyond a band.

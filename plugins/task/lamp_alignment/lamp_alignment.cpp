@@ -14,12 +14,31 @@ constexpr int kPicturesForEstimate = 10;
 /// When every search pose failed, the next one is tried after so long.
 constexpr double kNextTry_s = 1;
 
+/// So many estimates in a row say that the patient moves.
+constexpr int kBeginsToMove = 2;
+/// Of a face that is farther from where the lamp was sent its path is planned.
+constexpr FaceBand kAlong{.position_m = 0.1, .angle_rad = 0.4};
+
 MotionGoal face_goal(const FaceEstimate& face, double distance_m) {
   MotionGoal goal;
   goal.pose = {.position = face.mouth + distance_m * face.normal,
                .orientation = Direction{-face.normal}};
   goal.focus = face.mouth;
   return goal;
+}
+
+/// Of a lamp that goes along with the face.
+MotionGoal moving_goal(const FaceEstimate& face, double distance_m) {
+  MotionGoal goal = face_goal(face, distance_m);
+  goal.mode = MotionMode::tracking;
+  goal.velocity = face.velocity + distance_m * face.normal_rate;
+  goal.angular_velocity = face.angular_velocity();
+  return goal;
+}
+
+Eigen::Vector3d shortened(const Eigen::Vector3d& vector, double most) {
+  const double length = vector.norm();
+  return length > most ? Eigen::Vector3d{vector * (most / length)} : vector;
 }
 
 std::size_t window_of(const Parameters& parameters) {
@@ -58,7 +77,7 @@ LampAlignment::LampAlignment(const Parameters& parameters, double joint_6_to_lam
                   {.name = "alignment", .asks = true}},
                  parameters.auto_confirm},
       settled_{parameters.settled_position, parameters.settled_angle},
-      still_{parameters.replan_position, parameters.replan_angle},
+      replan_{parameters.replan_position, parameters.replan_angle},
       moved_{parameters.moved_position, parameters.moved_angle},
       poses_{search_poses(parameters, joint_6_to_lamp)},
       light_{parameters},
@@ -79,7 +98,13 @@ void LampAlignment::see(const Picture& picture, Time now) {
 }
 
 void LampAlignment::see(const FaceEstimate& estimate) {
+  const bool moves = estimate.velocity.norm() > parameters_.moving_speed ||
+                     estimate.normal_rate.norm() > parameters_.moving_turn;
+  moving_ = moves ? moving_ + 1 : 0;
+  still_ = moves ? 0 : still_ + 1;
   latest_ = estimate;
+  latest_->velocity = shortened(estimate.velocity, parameters_.max_speed);
+  latest_->normal_rate = shortened(estimate.normal_rate, parameters_.max_turn);
   no_estimate_.clear();
   ++fresh_;
   if (goals_.state() == GoalState::done && estimate.stamp >= goals_.done_at()) {
@@ -101,7 +126,11 @@ void LampAlignment::step(Time now) {
       break;
     case Phase::aligning:
     case Phase::following:
-      come_to_rest(now);
+      if (goes_along_) {
+        go_along(now);
+      } else {
+        come_to_rest(now);
+      }
       break;
     case Phase::holding:
       hold(now);
@@ -250,6 +279,7 @@ void LampAlignment::wait_for_a_view(Time now) {
 
 void LampAlignment::align_with(const FaceEstimate& estimate, Phase phase, Time now) {
   phase_ = phase;
+  goes_along_ = false;
   capture_ = true;
   trouble_.clear();
   goal_estimate_ = estimate;
@@ -264,6 +294,31 @@ bool LampAlignment::follow_if_moved(Time now) {
   if (!latest_ || fresh_ == 0 || !moved_.left_by(*latest_, *goal_estimate_)) return false;
   align_with(*latest_, phase_, now);  // the first approach stays one
   return true;
+}
+
+bool LampAlignment::may_go_along() const {
+  return fresh_ > 0 && moving_ >= kBeginsToMove && settled_.left_by(*latest_, *goal_estimate_) &&
+         !kAlong.left_by(*latest_, *goal_estimate_);
+}
+
+/// A new target in every step, so that the arm never waits for the next picture.
+void LampAlignment::go_along(Time now) {
+  phase_ = Phase::following;
+  if (goals_.state() == GoalState::failed) return align_with(*latest_, phase_, now);
+  const Time last = latest_->stamp + seconds(parameters_.max_prediction);
+  if (still_ >= parameters_.settle_frames || now > last) return end_going_along(now);
+  goes_along_ = true;
+  goal_estimate_ = latest_->at(now);
+  goal_set_at_ = now;
+  goals_.set(moving_goal(*goal_estimate_, parameters_.distance));
+}
+
+/// To where the patient has stopped; there the estimates are averaged.
+void LampAlignment::end_going_along(Time now) {
+  const Time last = latest_->stamp + seconds(parameters_.max_prediction);
+  FaceEstimate rests = still_ > 0 ? *latest_ : latest_->at(std::min(now, last));
+  rests.velocity = rests.normal_rate = Eigen::Vector3d::Zero();
+  align_with(rests, Phase::following, now);
 }
 
 bool LampAlignment::lost(Time now) const {
@@ -285,6 +340,7 @@ void LampAlignment::come_to_rest(Time now) {
     search_for_lost_face(now);
     return;
   }
+  if (may_go_along()) return go_along(now);
   const auto frames = static_cast<std::size_t>(parameters_.settle_frames);
   const auto few = static_cast<std::size_t>(parameters_.moved_frames);
   if (at_rest_.count() == few && moved_.left_by(at_rest_.mean(few), *goal_estimate_)) {
@@ -305,6 +361,7 @@ void LampAlignment::hold(Time now) {
     search_for_lost_face(now);
     return;
   }
+  if (may_go_along()) return go_along(now);
   const auto few = static_cast<std::size_t>(parameters_.moved_frames);
   const FaceEstimate recent = at_rest_.mean(few);
   if (moved_.left_by(recent, *goal_estimate_)) {
@@ -312,7 +369,7 @@ void LampAlignment::hold(Time now) {
     return;
   }
   const FaceEstimate mean = at_rest_.mean(window_of(parameters_));
-  if (at_rest_.count() >= window_of(parameters_) && still_.left_by(mean, *goal_estimate_)) {
+  if (at_rest_.count() >= window_of(parameters_) && replan_.left_by(mean, *goal_estimate_)) {
     align_with(mean, Phase::aligning, now);
   }
 }

@@ -84,18 +84,24 @@ class LampAlignment {
   void hold(Time now);
   void wait_for_another_face_position(Time now);
   bool follow_if_moved(Time now);
+  /// Whether the patient has begun to move, and the lamp is near enough to go with him.
+  bool may_go_along() const;
+  void go_along(Time now);
+  void end_going_along(Time now);
   bool lost(Time now) const;
   bool face_since(Time time) const { return latest_ && latest_->stamp >= time; }
 
   Parameters parameters_;
   Procedure procedure_;
-  FaceBand settled_, still_, moved_;
+  FaceBand settled_, replan_, moved_;
   std::vector<ToolPose> poses_;
   LightControl light_;
   PursuedGoal goals_;
   FaceAverage at_rest_;  // estimates since the arm came to rest
   std::optional<FaceEstimate> latest_, goal_estimate_;
-  std::size_t fresh_ = 0;  // estimates since the goal was set
+  std::size_t fresh_ = 0;       // estimates since the goal was set
+  int moving_ = 0, still_ = 0;  // estimates in a row that say so of the patient
+  bool goes_along_ = false;     // with the patient, in tracking mode
   Phase phase_ = Phase::checking_light;
   bool capture_ = true;
   std::size_t pose_ = 0, views_looked_at_ = 0;

@@ -99,7 +99,11 @@ class LampAlignmentComponent : public Component {
         task_.see_no_estimate(face.error().text);
         continue;
       }
-      task_.see({.stamp = face->stamp, .mouth = face->position, .normal = face->normal});
+      task_.see({.stamp = face->stamp,
+                 .mouth = face->position,
+                 .normal = face->normal,
+                 .velocity = face->velocity,
+                 .normal_rate = face->normal_rate});
     }
   }
 

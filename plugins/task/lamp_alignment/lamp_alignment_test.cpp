@@ -45,6 +45,49 @@ TEST_F(LampAlignmentTest, FollowsThePatient) {
   EXPECT_NEAR((std::get<Direction>(goals_.back().pose.orientation).unit + normal_).norm(), 0, 0.02);
 }
 
+TEST_F(LampAlignmentTest, GoesAlongWithAPatientWhoMovesAndHoldsWhereHeStops) {
+  ASSERT_TRUE(run_until(Phase::holding, 15));
+  const std::size_t before = goals_.size();
+  velocity_ = {0, 0.05, 0};
+  for (int k = 0; k < 100; ++k) {
+    mouth_ += 0.02 * velocity_;
+    tick();
+  }
+  EXPECT_EQ(task_.phase(), Phase::following);
+  ASSERT_GT(goals_.size(), before + 50) << "one in every step";
+  const MotionGoal& along = goals_.back();
+  EXPECT_EQ(along.mode, MotionMode::tracking);
+  EXPECT_NEAR((along.velocity - velocity_).norm(), 0, 1e-9);
+  EXPECT_NEAR((*along.focus - mouth_).norm(), 0, 0.003) << "where he is now, between two pictures";
+  velocity_.setZero();
+  ASSERT_TRUE(run_until(Phase::holding, 10));
+  EXPECT_EQ(goals_.back().mode, MotionMode::planned);
+  EXPECT_NEAR((*goals_.back().focus - mouth_).norm(), 0, 0.002);
+}
+
+TEST_F(LampAlignmentTest, StopsWhenAFaceThatItGoesAlongWithIsSeenNoMore) {
+  ASSERT_TRUE(run_until(Phase::holding, 15));
+  velocity_ = {0, 0.05, 0};
+  for (int k = 0; k < 50; ++k) {
+    mouth_ += 0.02 * velocity_;
+    tick();
+  }
+  ASSERT_EQ(goals_.back().mode, MotionMode::tracking);
+  present_ = false;
+  run(0.5);
+  EXPECT_EQ(goals_.back().mode, MotionMode::planned);
+  EXPECT_TRUE(run_until(Phase::searching, 5));
+}
+
+TEST_F(LampAlignmentTest, RatesThatNobodyHasAreNotBelieved) {
+  ASSERT_TRUE(run_until(Phase::holding, 15));
+  velocity_ = {0, 5, 0};
+  mouth_.y() += 0.005;
+  run(0.4);
+  ASSERT_EQ(goals_.back().mode, MotionMode::tracking);
+  EXPECT_NEAR(goals_.back().velocity.norm(), 0.08, 1e-9);
+}
+
 TEST_F(LampAlignmentTest, SearchesAgainWhenTheFaceIsLostAndStartsWhereItWas) {
   ASSERT_TRUE(run_until(Phase::holding, 15));
   present_ = false;

@@ -78,8 +78,10 @@ class LampAlignmentTest : public testing::Test {
     const double gray = gain_ * (100 + 200 * light_);
     task_.see(Picture{now_, seen, gray, gray}, now_);
     if (seen)
-      task_.see(
-          FaceEstimate{now_, mouth_ + noise(noise_m_), (normal_ + noise(noise_rad_)).normalized()});
+      task_.see(FaceEstimate{.stamp = now_,
+                             .mouth = mouth_ + noise(noise_m_),
+                             .normal = (normal_ + noise(noise_rad_)).normalized(),
+                             .velocity = velocity_});
   }
   Eigen::Vector3d noise(double sigma) {
     std::normal_distribution<double> normal{0, sigma};
@@ -96,7 +98,7 @@ class LampAlignmentTest : public testing::Test {
   bool present_ = true, stopped_ = false;
   double reach_m_ = 10, gain_ = 1, light_ = 0;
   double noise_m_ = 0.0005, noise_rad_ = 0.01;
-  Eigen::Vector3d mouth_{1.55, 0, 0.45}, normal_{-1, 0, 0};
+  Eigen::Vector3d mouth_{1.55, 0, 0.45}, normal_{-1, 0, 0}, velocity_{0, 0, 0};
   std::mt19937 random_{5};
 };
 

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// The lamp goes along with a patient who moves at one speed. Told the truth it shows its own lag
+// alone; with two cameras what they and the filter see of a face that turns comes on top.
+#include <gtest/gtest.h>
+
+#include "deployment_run.hpp"
+
+namespace armature::test {
+namespace {
+
+/// A patient who moves for 3 s with 50 mm/s and 10 degrees/s, or one of them.
+DeploymentRun run_along(int pictures_hz, bool moves, bool turns, bool told_the_truth) {
+  const std::string scene = "components.scene.params.";
+  std::vector<std::string> settings{
+      kSimulated,
+      "components.monitor=null",
+      scene + "rate_hz=" + std::to_string(pictures_hz),
+      scene + "move_at_s=10",
+      scene + "move_duration_s=3.2",
+      scene + "move_ramp_s=0.2",
+      scene + "move_mm=" + (moves ? "[0,150,0]" : "[0,0,0]"),
+      scene + "move_tilt_side_deg=" + (turns ? "30" : "0"),
+      "components.report.params.expect_move=true",
+  };
+  if (told_the_truth) settings.push_back("components.task.in.target=truth");
+  DeploymentRun run = run_deployment({.settings = settings});
+  EXPECT_EQ(run.status(), "ok") << run.text();
+  std::printf("%d Hz,%s%s %s: %.1f mm beside, %.1f mm off the distance, %.2f deg\n", pictures_hz,
+              moves ? " 50 mm/s" : "", turns ? " 10 deg/s" : "",
+              told_the_truth ? "the truth" : "as seen", run.figure("following_spot_mm"),
+              run.figure("following_distance_mm"), run.figure("following_angle_deg"));
+  return run;
+}
+
+TEST(LampGoesAlong, ToldTheTruthItIsWithin5MillimetresAndOneDegreeAfterASecond) {
+  for (const int pictures_hz : {10, 30}) {
+    const DeploymentRun run = run_along(pictures_hz, true, true, true);
+    EXPECT_LE(run.figure("following_spot_mm"), 5);
+    EXPECT_LE(run.figure("following_distance_mm"), 5);
+    EXPECT_LE(run.figure("following_angle_deg"), 1);
+  }
+}
+
+TEST(LampGoesAlong, SeenByItsCamerasTheLightStaysOnTheMouth) {
+  const DeploymentRun run = run_along(10, true, true, false);
+  EXPECT_LE(run.figure("following_spot_mm"), 10);
+  EXPECT_LE(run.figure("following_angle_deg"), 5);
+}
+
+}  // namespace
+}  // namespace armature::test

@@ -83,9 +83,9 @@ void recovers_pose(const FacePoseSubject& subject, LawCheck& check) {
   std::mt19937_64 random{4711};
   std::uniform_real_distribution<double> unit{-1, 1};
   for (int i = 0; i < 15; ++i) {
-    const Eigen::Isometry3d pose = placed(0.1 * unit(random), 0.06 * unit(random),
-                                          0.6 + 0.2 * unit(random), 0.5 * unit(random),
-                                          0.5 * unit(random));
+    const Eigen::Isometry3d pose =
+        placed(0.1 * unit(random), 0.06 * unit(random), 0.6 + 0.2 * unit(random),
+               0.5 * unit(random), 0.5 * unit(random));
     const Eigen::Vector3d mouth = pose.translation(), normal = -pose.linear().col(2);
     check.asks(fmt::format("seed 4711, round {}: the mouth at {} m, the normal {}", i, text(mouth),
                            text(normal)));

@@ -32,20 +32,18 @@ DeploymentRun run_along(int pictures_hz, bool moves, bool turns, bool told_the_t
   return run;
 }
 
-TEST(LampGoesAlong, ToldTheTruthItIsWithin5MillimetresAndOneDegreeAfterASecond) {
-  for (const int pictures_hz : {10, 30}) {
-    const DeploymentRun run = run_along(pictures_hz, true, true, true);
-    EXPECT_LE(run.figure("following_spot_mm"), 5);
-    EXPECT_LE(run.figure("following_distance_mm"), 5);
-    EXPECT_LE(run.figure("following_angle_deg"), 1);
-  }
-}
-
-TEST(LampGoesAlong, SeenByItsCamerasItIsSoWithTenPicturesASecond) {
-  const DeploymentRun run = run_along(10, true, true, false);
+void expect_near(const DeploymentRun& run) {
   EXPECT_LE(run.figure("following_spot_mm"), 5);
   EXPECT_LE(run.figure("following_distance_mm"), 5);
   EXPECT_LE(run.figure("following_angle_deg"), 1);
+}
+
+TEST(LampGoesAlong, ToldTheTruthItIsWithin5MillimetresAndOneDegreeAfterASecond) {
+  for (const int pictures_hz : {10, 30}) expect_near(run_along(pictures_hz, true, true, true));
+}
+
+TEST(LampGoesAlong, SeenByItsCamerasItIsSo) {
+  for (const int pictures_hz : {10, 30}) expect_near(run_along(pictures_hz, true, true, false));
 }
 
 }  // namespace

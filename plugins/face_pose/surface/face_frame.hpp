@@ -2,9 +2,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cmath>
+#include <cstddef>
 
 #include "armature/kinds/image_view.hpp"
+#include "armature/kinds/landmarks/landmarks.hpp"
 
 namespace armature::face_pose::surface {
 
@@ -12,6 +15,10 @@ namespace armature::face_pose::surface {
 struct Features {
   Eigen::Vector2d left_eye, right_eye, mouth;
 
+  /// In the order of kFaceFeatures.
+  const Eigen::Vector2d& operator[](std::size_t i) const {
+    return i == 0 ? left_eye : i == 1 ? right_eye : mouth;
+  }
   Eigen::Vector2d between_eyes() const { return 0.5 * (left_eye + right_eye); }
   Eigen::Vector2d across() const { return right_eye - left_eye; }
   Eigen::Vector2d down() const { return mouth - between_eyes(); }
@@ -30,9 +37,17 @@ struct FaceArea {
 };
 
 inline constexpr FaceArea kWholeFace{{0, 0.45}, 1.0, 1.1};
-inline constexpr FaceArea kLeftEye{{-0.5, 0}, 0.32, 0.22};
-inline constexpr FaceArea kRightEye{{0.5, 0}, 0.32, 0.22};
-inline constexpr FaceArea kMouth{{0, 1}, 0.45, 0.28};
+
+/// An eye or the mouth, and what is to be seen of it and around it.
+struct FeatureArea {
+  FaceFeature which;
+  const char* name;
+  FaceArea area;
+};
+inline constexpr std::array<FeatureArea, 3> kFaceFeatures{
+    {{FaceFeature::left_eye, "left eye", {{-0.5, 0}, 0.32, 0.22}},
+     {FaceFeature::right_eye, "right eye", {{0.5, 0}, 0.32, 0.22}},
+     {FaceFeature::mouth, "mouth", {{0, 1}, 0.45, 0.28}}}};
 
 /// The pixels of the left picture that belong to places on a face: an affine map, which a face that
 /// is small before its distance is seen by.

@@ -35,13 +35,10 @@ class Surface final : public FacePoseEstimator {
                                                            const PluginState& state);
   Expected<FacePose> look(const FacePoseInput& input, const std::vector<DisparitySurface>& starts,
                           Alignment& aligned, Located& located);
-  Expected<void> agree(const Alignment& aligned, const StereoCamera& camera) const;
-  Expected<void> rectified(const Alignment& aligned, const StereoCamera& camera) const;
   Expected<void> see_features(const Alignment& aligned, const StereoCamera& camera,
                               Located& located);
   Expected<void> find_again(const FacePoseInput& input, const Alignment& aligned, Located& located);
   FacePose pose(const Alignment& aligned, const StereoCamera& camera, const Located& located) const;
-  Expected<void> believable(const FacePose& face) const;
 
   Parameters parameters_;
   FaceFit fit_;

@@ -16,20 +16,12 @@
 #include "inspect/graph_drawing.hpp"
 #include "inspect/leases.hpp"
 #include "inspect/origin_json.hpp"
+#include "run/named_deployment.hpp"
 
 namespace armature {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-DeploymentConfig read(const DeploymentSource& source, const PluginRegistry& plugins) {
-  const config::PipeTimeLimit one_for_all;
-  config::Problems problems;
-  auto config = read_deployment(config::load_with_overlays(source.files, source.assignments),
-                                plugins, problems);
-  problems.throw_if_any();
-  return config;
-}
 
 DrawnGraph graph_of(const DeploymentConfig& deployment) {
   DrawnGraph graph{.deployment = deployment.name};
@@ -86,7 +78,7 @@ int show_deployment(const DeploymentSource& source, bool json) {
 
 int graph_deployment(const DeploymentSource& source, GraphFormat format) {
   const PluginRegistry plugins;
-  fmt::print("{}", drawing_of(graph_of(read(source, plugins)), format));
+  fmt::print("{}", drawing_of(graph_of(read_named(source, plugins)), format));
   return kOk;
 }
 

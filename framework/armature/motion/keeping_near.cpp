@@ -30,8 +30,8 @@ JointVector within(const JointVector& rates, const JointVector& limits) {
 }
 
 /// The least x'Ax/2 - b'x between `low` and `high`, by one component after the other.
-JointVector least_between(const Square& A, const JointVector& b, const JointVector& low,
-                          const JointVector& high) {
+JointVector bounded_least_squares(const Square& A, const JointVector& b, const JointVector& low,
+                                  const JointVector& high) {
   JointVector x = JointVector::Zero(b.size()).cwiseMax(low).cwiseMin(high);
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
     for (Eigen::Index i = 0; i < x.size(); ++i) {
@@ -120,7 +120,7 @@ bool Tracker::keep_near(const JointState& from, const JointState& meet, Time sta
 
   JointVector low, high;
   bound_accelerations(from, q, v, low, high);
-  const JointVector a = least_between(A, b, low, high);
+  const JointVector a = bounded_least_squares(A, b, low, high);
   out = ShortTrajectory{.goal_id = goal_id_, .dof = model_.dof(), .start = start};
   out.add_piece(kMoment_s);
   for (int i = 0; i < out.dof; ++i) {

@@ -50,14 +50,14 @@ double correlation(const ImageView& a, const ImageView& b) {
 }
 
 TEST(FrontalView, ShowsATurnedFaceAsOneThatLooksStraightAtTheCamera) {
-  Seen turned = frontal({.landmark_error = 0, .most_turned = 40}, 6);
-  Seen straight = frontal({.landmark_error = 0, .most_turned = 0}, 6);
+  Seen turned = frontal({.landmark_error = 0, .max_turn_deg = 40}, 6);
+  Seen straight = frontal({.landmark_error = 0, .max_turn_deg = 0}, 6);
   EXPECT_GT(correlation(turned.view.image(), straight.view.image()), 0.97);
 }
 
 TEST(FrontalView, KnowsWhereInTheLeftPictureAPointOfItIs) {
   // Of a face that is turned far, the middle between its eyes is not where it is in the picture.
-  const Seen seen = frontal({.landmark_error = 0, .most_turned = 8}, 2);
+  const Seen seen = frontal({.landmark_error = 0, .max_turn_deg = 8}, 2);
   const double eyes = seen.view.eye_distance();
   const PixelBox a = seen.view.face_boxes()[0], b = seen.view.face_boxes()[1];
   const Eigen::Vector2d middle{0.25 * (a.left + a.right() + b.left + b.right()),

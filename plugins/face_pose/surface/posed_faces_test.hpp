@@ -34,7 +34,7 @@ struct Circumstances {
   double noise = 2;
   double landmark_error = 1.5;  // [px] standard deviation in each picture, of a whole feature
   double depth = 0.5;           // [m]
-  double most_turned = 30;      // [degrees] about the upright and the level axis
+  double max_turn_deg = 30;     // [degrees] about the upright and the level axis
 };
 
 /// One face as both cameras see it.
@@ -79,7 +79,7 @@ inline PosedFace posed_face(const Circumstances& how, std::uint64_t seed) {
   std::mt19937_64 random{seed};
   std::uniform_real_distribution<double> unit{-1, 1};
   std::normal_distribution<double> error{0, how.landmark_error};
-  const double turned = how.most_turned * std::numbers::pi / 180;
+  const double turned = how.max_turn_deg * std::numbers::pi / 180;
   const Eigen::Vector3d mouth{0.05 * unit(random), 0.03 + 0.04 * unit(random),
                               how.depth * (1 + 0.1 * unit(random))};
   const double yaw = turned * unit(random), pitch = turned * unit(random);

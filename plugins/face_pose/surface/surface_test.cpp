@@ -88,7 +88,7 @@ TEST(Surface, StatesTheUncertaintyOfTheNormalThatItHas) {
 }
 
 TEST(Surface, StartsWhereTheLastPairEndedWhenTheLandmarksAreFarOff) {
-  const PosedFace face = posed_face({.landmark_error = 0.3, .most_turned = 35}, 3);
+  const PosedFace face = posed_face({.landmark_error = 0.3, .max_turn_deg = 35}, 3);
   Surface estimator{Parameters{}};
   PluginState state;
   ASSERT_TRUE(estimator.estimate(face.input(), state));

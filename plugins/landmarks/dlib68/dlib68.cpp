@@ -23,8 +23,8 @@ constexpr double kMaxFace = 1e5;
 
 using Predictor = std::shared_ptr<const dlib::shape_predictor>;
 
-/// The model of a file, which is read once for all finders of the process that live at a time:
-/// 99 MB, of which reading takes most of a lamp's start. Throws what dlib throws.
+/// The model of a file, which is read once for all finders of the process that live at a time.
+/// Throws what dlib throws.
 Predictor predictor_of(const std::string& file) {
   static std::mutex mutex;
   static std::map<std::string, std::weak_ptr<const dlib::shape_predictor>> models;

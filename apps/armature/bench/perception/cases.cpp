@@ -44,7 +44,7 @@ DrawnCase usual_case(const StereoCamera& camera, Draw& draw) {
   return one;
 }
 
-/// How a face moves that is tracked: to and fro and around, at most 50 mm/s and 15 deg/s.
+/// The motion of a tracked face: to and fro and around, at most 50 mm/s and 15 deg/s.
 struct Motion {
   explicit Motion(Draw& draw) {
     for (double& phase : phases) phase = draw.between(0, 2 * std::numbers::pi);

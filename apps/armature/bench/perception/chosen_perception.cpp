@@ -15,18 +15,10 @@
 #include "armature/scene/scene_renderer.hpp"
 #include "exit_code.hpp"
 #include "inspect/plugins.hpp"
+#include "run/named_deployment.hpp"
 
 namespace armature::bench {
 namespace {
-
-DeploymentConfig read(const DeploymentSource& source, const PluginRegistry& plugins) {
-  const config::PipeTimeLimit one_for_all;
-  config::Problems problems;
-  auto config = read_deployment(config::load_with_overlays(source.files, source.assignments),
-                                plugins, problems);
-  problems.throw_if_any();
-  return config;
-}
 
 /// The component of the deployment that runs `kind` on topics.
 const ComponentConfig& host_of(std::string_view kind, const DeploymentConfig& deployment) {
@@ -87,7 +79,7 @@ PluginPtr<Kind> make(PluginRegistry& plugins, const ComponentConfig& host,
 ChosenPerception chosen_perception(PluginRegistry& plugins, const DeploymentSource& source,
                                    const PerceptionChoice& choice) {
   tell_warnings(plugins);
-  const DeploymentConfig deployment = read(source, plugins);
+  const DeploymentConfig deployment = read_named(source, plugins);
   const ComponentConfig& finds = host_of(LandmarkFinder::kKind, deployment);
   const ComponentConfig& estimates = host_of(FacePoseEstimator::kKind, deployment);
   const StereoRig rig = rig_of(deployment);
@@ -105,8 +97,8 @@ ChosenPerception chosen_perception(PluginRegistry& plugins, const DeploymentSour
     return slot.manifest->kind == LandmarkFinder::kKind;
   });
   if (asks_again) {
-    chosen.frontal_landmarks =
-        make<LandmarkFinder>(plugins, estimates, choice.landmarks, chosen.landmarks_id);
+    std::string id;  // of the report is the one that sees the pictures first
+    chosen.frontal_landmarks = make<LandmarkFinder>(plugins, estimates, choice.landmarks, id);
   }
   return chosen;
 }

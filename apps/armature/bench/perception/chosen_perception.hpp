@@ -19,7 +19,7 @@ struct PerceptionChoice {
   std::string detector, landmarks, face_pose;
 };
 
-/// What looks at faces in a deployment, made as its hosts make it.
+/// The plugins of a deployment that look at faces, made as their hosts make them.
 struct ChosenPerception {
   std::string deployment, rig, detector_id, landmarks_id, face_pose_id;
   StereoFaceFinder::Options search{};  // of the component that finds landmarks

@@ -11,7 +11,7 @@
 
 namespace armature::bench {
 
-/// What a drawn face wears that leads landmark finders astray.
+/// Glasses or a beard of a drawn face, which lead landmark finders astray.
 enum class FaceWears { nothing, glasses, beard };
 
 /// Numbers that are the same in every standard library.

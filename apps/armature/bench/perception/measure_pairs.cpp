@@ -54,7 +54,7 @@ class TimedLandmarks final : public LandmarkFinder {
   LandmarkFinder& finder_;
 };
 
-/// What is remembered from pair to pair.
+/// The states of finder and estimator, kept from pair to pair.
 struct Memory {
   StereoFaceFinder::State finder;
   PluginState estimator;
@@ -110,7 +110,7 @@ PoseError error_of(const FacePose& pose, const scene::FacePoints& truth) {
           .normal_rad = std::atan2(pose.normal.cross(normal).norm(), pose.normal.dot(normal))};
 }
 
-// What is not a number is wrong, too.
+// An error that is not a number is wrong, too.
 bool PairResult::is_wrong() const {
   return pose && !(drawn.mouth_m <= kMaxMouthError_m && drawn.normal_rad <= kMaxNormalError_rad);
 }

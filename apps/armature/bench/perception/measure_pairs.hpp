@@ -20,7 +20,7 @@ namespace armature::bench {
 inline constexpr double kMaxMouthError_m = 0.005;
 inline constexpr double kMaxNormalError_rad = 3 * 3.14159265358979323846 / 180;
 
-/// How far an estimate is from points.
+/// The distance of an estimate from points.
 struct PoseError {
   double mouth_m = 0, normal_rad = 0;
 };

@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "armature/runtime/plugins/plugin.hpp"
+#include "outliers.hpp"
 
 namespace armature::target::constant_velocity {
 namespace {
@@ -130,9 +131,10 @@ TargetEstimate estimate_of(Time stamp, int measurements, const Vector12& mean) {
 
 /// What is remembered, as plain numbers.
 struct Memory {
-  static constexpr auto kLayout = layout_id("target/constant_velocity", 1);
+  static constexpr auto kLayout = layout_id("target/constant_velocity", 2);
   Time stamp;
-  int measurements, rejected;
+  int measurements;
+  Outliers outliers;
   double nis;
   bool moving;
   std::array<double, 12> mean;
@@ -145,8 +147,8 @@ struct Memory {
 struct ConstantVelocity::Belief {
   Time stamp;
   int measurements = 1;
-  int rejected = 0;  // in a row
-  double nis = 1;    // smoothed normalised innovation: about 1 while the model holds
+  Outliers outliers{};
+  double nis = 1;  // smoothed normalised innovation: about 1 while the model holds
   bool moving = false;
   Vector12 mean = Vector12::Zero();
   Matrix12 covariance = Matrix12::Zero();
@@ -156,7 +158,7 @@ struct ConstantVelocity::Belief {
     if (!m) return std::nullopt;
     return Belief{m->stamp,
                   m->measurements,
-                  m->rejected,
+                  m->outliers,
                   m->nis,
                   m->moving,
                   Eigen::Map<const Vector12>{m->mean.data()},
@@ -165,7 +167,7 @@ struct ConstantVelocity::Belief {
   void keep_in(PluginState& state) const {
     Memory m{.stamp = stamp,
              .measurements = measurements,
-             .rejected = rejected,
+             .outliers = outliers,
              .nis = nis,
              .moving = moving,
              .mean = {},
@@ -225,6 +227,26 @@ Expected<TargetEstimate> ConstantVelocity::update(const TargetMeasurement& measu
   return next.map([](const Belief& b) { return estimate_of(b.stamp, b.measurements, b.mean); });
 }
 
+std::optional<std::string> ConstantVelocity::why_outlier(const TargetMeasurement& measurement,
+                                                         const Belief& belief,
+                                                         const Belief& predicted) const {
+  const double dt_s = to_seconds(predicted.stamp - belief.stamp);
+  const Deviation is = deviation(measurement.position - predicted.mean.segment<3>(kPosition),
+                                 measurement.normal - predicted.mean.segment<3>(kNormal));
+  const auto known = [&](int block) -> Eigen::Matrix3d {
+    return belief.covariance.block<3, 3>(block, block);
+  };
+  const Deviation widest =
+      widest_deviation(dt_s, known(kPosition) + measurement.position_covariance,
+                       known(kNormal) + measurement.normal_covariance, parameters_);
+  if (is.is_within(widest)) return std::nullopt;
+  return fmt::format(
+      "outlier: {:.0f} mm and {:.0f} degrees from where the target should be; within {:.0f} ms and "
+      "as well as it is known {:.0f} mm and {:.0f} degrees are possible",
+      is.distance_m * 1e3, is.angle_rad * kDegreesPerRadian, dt_s * 1e3, widest.distance_m * 1e3,
+      widest.angle_rad * kDegreesPerRadian);
+}
+
 /// The next belief, or why the measurement was rejected, which `belief` counts.
 Expected<ConstantVelocity::Belief> ConstantVelocity::updated(const TargetMeasurement& measurement,
                                                              Belief& belief) const {
@@ -239,17 +261,10 @@ Expected<ConstantVelocity::Belief> ConstantVelocity::updated(const TargetMeasure
   const auto innovation_of = [&](const Belief& b) {
     return innovation(measurement, b.mean, b.covariance);
   };
-  const Vector6 off = innovation_of(moving).value;
-  const double distance = off.head<3>().norm();
-  const double angle = 2 * std::asin(std::min(0.5 * off.tail<3>().norm(), 1.0));
-  if (!(distance <= parameters_.outlier_position && angle <= parameters_.outlier_angle)) {
-    if (++belief.rejected < parameters_.restart_after) {
-      return refuse(
-          fmt::format("outlier: {:.0f} mm and {:.0f} degrees from where the target "
-                      "should be, more than {:.0f} mm or {:.0f} degrees",
-                      distance * 1e3, angle * kDegreesPerRadian, parameters_.outlier_position * 1e3,
-                      parameters_.outlier_angle * kDegreesPerRadian));
-    }
+  if (const auto outlier = why_outlier(measurement, belief, moving)) {
+    // An estimate is worth as many outliers as it has measurements, at most restart_after.
+    const int enough = std::min(parameters_.restart_after, belief.measurements);
+    if (belief.outliers.count_with(measurement, parameters_) < enough) return refuse(*outlier);
     return started_at(measurement);
   }
 
@@ -267,7 +282,7 @@ Expected<ConstantVelocity::Belief> ConstantVelocity::updated(const TargetMeasure
   next.covariance = (0.5 * (next.covariance + next.covariance.transpose())).eval();
   next.mean.segment<3>(kNormal).normalize();
   next.stamp = measurement.stamp;
-  next.rejected = 0;
+  next.outliers = {};
   next.nis = smoothed;
   next.moving = is_moving;
   ++next.measurements;

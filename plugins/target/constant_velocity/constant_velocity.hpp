@@ -2,6 +2,8 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <string>
 
 #include "armature/kinds/target/target.hpp"
 #include "target_constant_velocity_parameters.hpp"
@@ -25,6 +27,9 @@ class ConstantVelocity final : public TargetFilter {
   struct Belief;
   Belief started_at(const TargetMeasurement& measurement) const;
   Expected<Belief> updated(const TargetMeasurement& measurement, Belief& belief) const;
+  /// Why no target is seen like this that was as `belief` says and is `predicted` where it goes on.
+  std::optional<std::string> why_outlier(const TargetMeasurement& measurement, const Belief& belief,
+                                         const Belief& predicted) const;
   void advance(Belief& belief, double dt_s, bool moving) const;
 
   Parameters parameters_;

@@ -11,7 +11,9 @@
 #include <optional>
 
 #include "armature/runtime/plugins/plugin.hpp"
+#include "measurement_noise.hpp"
 #include "outliers.hpp"
+#include "scatter.hpp"
 
 namespace armature::target::constant_velocity {
 namespace {
@@ -29,8 +31,7 @@ constexpr double kDegreesPerRadian = 180 / std::numbers::pi;
 constexpr double kSmoothing = 0.4;        // weight of the newest innovation
 constexpr double kSettledSurprise = 1.5;  // moving -> still, and
 constexpr double kSettledRates = 1.3;     // normalised square of the rates: 1 for a still target
-constexpr double kMinVariance = 1e-12;    // [m2], [rad2]
-constexpr double kMaxVariance = 1e6;      // the same: such a measurement says nothing
+constexpr double kMaxVariance = 1e6;      // [m2], [rad2]: such a measurement says nothing
 
 /// Over dt, positions go on with their rates; `decay` is what is left of a rate.
 void carry_on(Vector12& mean, double dt, double decay) {
@@ -60,16 +61,6 @@ void add_process_noise(Matrix12& covariance, int block, double dt, double rate,
   covariance.block<3, 3>(block, block + 3).diagonal().array() += 0.5 * acceleration * dt2 * dt;
   covariance.block<3, 3>(block + 3, block).diagonal().array() += 0.5 * acceleration * dt2 * dt;
   covariance.block<3, 3>(block + 3, block + 3).diagonal().array() += acceleration * dt2 + rate;
-}
-
-/// The covariances of position and normal. Along the normal, where a direction has none, it takes
-/// what it has across, so that the length that noise seems to give a direction is no nis.
-Matrix6 measurement_noise(const TargetMeasurement& m) {
-  Matrix6 r = kMinVariance * Matrix6::Identity();
-  r.topLeftCorner<3, 3>() += m.position_covariance;
-  r.bottomRightCorner<3, 3>() +=
-      m.normal_covariance + 0.5 * m.normal_covariance.trace() * m.normal * m.normal.transpose();
-  return r;
 }
 
 bool is_sound(const TargetMeasurement& m) {
@@ -135,6 +126,7 @@ struct Memory {
   Time stamp;
   int measurements;
   Outliers outliers;
+  Scatter scatter;
   double nis;
   bool moving;
   std::array<double, 12> mean;
@@ -148,6 +140,7 @@ struct ConstantVelocity::Belief {
   Time stamp;
   int measurements = 1;
   Outliers outliers{};
+  Scatter scatter{};
   double nis = 1;  // smoothed normalised innovation: about 1 while the model holds
   bool moving = false;
   Vector12 mean = Vector12::Zero();
@@ -159,6 +152,7 @@ struct ConstantVelocity::Belief {
     return Belief{m->stamp,
                   m->measurements,
                   m->outliers,
+                  m->scatter,
                   m->nis,
                   m->moving,
                   Eigen::Map<const Vector12>{m->mean.data()},
@@ -168,6 +162,7 @@ struct ConstantVelocity::Belief {
     Memory m{.stamp = stamp,
              .measurements = measurements,
              .outliers = outliers,
+             .scatter = scatter,
              .nis = nis,
              .moving = moving,
              .mean = {},
@@ -184,6 +179,7 @@ Expected<std::unique_ptr<TargetFilter>> ConstantVelocity::make(const Params& par
 
 ConstantVelocity::Belief ConstantVelocity::started_at(const TargetMeasurement& measurement) const {
   Belief belief{.stamp = measurement.stamp};
+  belief.scatter.add(measurement);
   belief.mean.segment<3>(kPosition) = measurement.position;
   belief.mean.segment<3>(kNormal) = measurement.normal;
   const Matrix6 r = measurement_noise(measurement);
@@ -248,13 +244,14 @@ std::optional<std::string> ConstantVelocity::why_outlier(const TargetMeasurement
 }
 
 /// The next belief, or why the measurement was rejected, which `belief` counts.
-Expected<ConstantVelocity::Belief> ConstantVelocity::updated(const TargetMeasurement& measurement,
+Expected<ConstantVelocity::Belief> ConstantVelocity::updated(const TargetMeasurement& told,
                                                              Belief& belief) const {
-  const double dt = to_seconds(measurement.stamp - belief.stamp);
+  const double dt = to_seconds(told.stamp - belief.stamp);
   if (dt <= 0) {
     return refuse(fmt::format("the measurement is {:.1f} ms older than the newest one", -dt * 1e3));
   }
 
+  const TargetMeasurement measurement = belief.scatter.explained(told);
   Belief still = belief, moving = belief;
   advance(still, dt, false);
   advance(moving, dt, true);
@@ -283,6 +280,7 @@ Expected<ConstantVelocity::Belief> ConstantVelocity::updated(const TargetMeasure
   next.mean.segment<3>(kNormal).normalize();
   next.stamp = measurement.stamp;
   next.outliers = {};
+  next.scatter.add(told);
   next.nis = smoothed;
   next.moving = is_moving;
   ++next.measurements;

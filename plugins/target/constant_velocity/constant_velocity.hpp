@@ -26,7 +26,7 @@ class ConstantVelocity final : public TargetFilter {
  private:
   struct Belief;
   Belief started_at(const TargetMeasurement& measurement) const;
-  Expected<Belief> updated(const TargetMeasurement& measurement, Belief& belief) const;
+  Expected<Belief> updated(const TargetMeasurement& told, Belief& belief) const;
   /// Why no target is seen like this that was as `belief` says and is `predicted` where it goes on.
   std::optional<std::string> why_outlier(const TargetMeasurement& measurement, const Belief& belief,
                                          const Belief& predicted) const;

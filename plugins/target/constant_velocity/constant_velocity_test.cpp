@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The target filter: 1. it averages a still target, 2. it follows one that moves, 3. it forgets
-// outliers and believes a target that stays elsewhere, 4. its memory is the State alone, 5. bad
-// input.
+// outliers and believes a target that stays elsewhere, 4. it learns how much measurements scatter,
+// 5. its memory is the State alone, 6. bad input.
 #include "constant_velocity.hpp"
 
 #include <gmock/gmock.h>
@@ -235,6 +235,77 @@ TEST(ConstantVelocity, WhatIsKnownPoorlyMayBeFarther) {
   const auto taken = filter.update(look, state);
   ASSERT_TRUE(taken) << taken.error().text;
   EXPECT_LT((taken->position - kMouth).norm(), 0.005) << "and it counts for little";
+}
+
+/// How often a filter says that a target moves faster than 10 mm/s or turns faster than 3
+/// degrees/s, and how far its estimate is off, rms, from the fourth second on.
+struct Rest {
+  double share_moving = 0, position_rms = 0, normal_rms = 0;
+};
+Rest rest_of(double rate_hz, double understated) {
+  constexpr double kPosition = 0.002, kTurn = 0.6 * kDegree;
+  Rest rest;
+  int count = 0;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const ConstantVelocity filter{{}};
+    Camera camera{seed, kPosition, kTurn};
+    PluginState state;
+    for (int i = 0; i < 10 * rate_hz; ++i) {
+      TargetMeasurement look = camera.look(i / rate_hz, kMouth, kNormal);
+      look.position_covariance /= understated * understated;
+      look.normal_covariance /= understated * understated;
+      const auto estimate = filter.update(look, state);
+      if (!estimate || i < 4 * rate_hz) continue;
+      ++count;
+      rest.share_moving +=
+          estimate->velocity.norm() > 0.01 || estimate->normal_rate.norm() > 3 * kDegree;
+      rest.position_rms += (estimate->position - kMouth).squaredNorm();
+      rest.normal_rms += std::pow(angle(estimate->normal, kNormal), 2);
+    }
+  }
+  rest.share_moving /= count;
+  rest.position_rms = std::sqrt(rest.position_rms / count);
+  rest.normal_rms = std::sqrt(rest.normal_rms / count);
+  return rest;
+}
+
+TEST(ConstantVelocity, LearnsHowMuchMeasurementsScatterAndTakesThatForNoMotion) {
+  for (const double rate_hz : {10.0, 30.0}) {
+    const Rest stated = rest_of(rate_hz, 1);
+    EXPECT_LT(stated.share_moving, 0.002);
+    for (const double understated : {3.0, 10.0}) {
+      const Rest rest = rest_of(rate_hz, understated);
+      std::printf(
+          "%g Hz, understated %g times: moving %.3f, %.2f mm, %.2f deg (stated right: %.3f, %.2f, "
+          "%.2f)\n",
+          rate_hz, understated, rest.share_moving, rest.position_rms * 1e3,
+          rest.normal_rms / kDegree, stated.share_moving, stated.position_rms * 1e3,
+          stated.normal_rms / kDegree);
+      EXPECT_LT(rest.share_moving, 0.01);
+      EXPECT_LT(rest.position_rms, 1.5 * stated.position_rms);
+      EXPECT_LT(rest.normal_rms, 1.5 * stated.normal_rms);
+    }
+  }
+}
+
+TEST(ConstantVelocity, FollowsATargetWhoseMeasurementsScatterMoreThanTheySay) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const ConstantVelocity filter{{}};
+    Camera camera{seed, 0.001, 0.3 * kDegree};
+    PluginState state;
+    double worst = 0;
+    for (int i = 0; i < 30 * 8; ++i) {  // still for 4 s, then 50 mm/s
+      const double t = i / 30.0;
+      const Vector3d mouth = kMouth + std::max(t - 4, 0.0) * Vector3d{0, 0.05, 0};
+      TargetMeasurement look = camera.look(t, mouth, kNormal);
+      look.position_covariance /= 25;
+      look.normal_covariance /= 25;
+      const auto estimate = filter.update(look, state);
+      ASSERT_TRUE(estimate) << estimate.error().text;
+      if (t > 5) worst = std::max(worst, (estimate->position - mouth).norm());
+    }
+    EXPECT_LT(worst, 0.005) << "seed " << seed;
+  }
 }
 
 TEST(ConstantVelocity, PredictsAlongTheVelocity) {

@@ -38,6 +38,7 @@ void AlignmentMonitor::see_truth(const Face& truth, Time now) {
 void AlignmentMonitor::see_estimate(const Face& estimate, Time stamp, Time now) {
   if (!start_) start_ = now;
   if (!found_s_) found_s_ = since_start(now);
+  newest_ = estimate;
   if (!at_rest_ || stamp < rest_since_) return;
   sum_.mouth += estimate.mouth;
   sum_.normal += estimate.normal;
@@ -56,6 +57,10 @@ void AlignmentMonitor::see_lamp(const Eigen::Vector3d& center, const Eigen::Vect
                           .direction_error_rad = angle_between(light, -truth_->normal)});
   if (asked_distance_m_) {
     lamp_errors_.back().distance_error_m = std::abs(distance - *asked_distance_m_);
+  }
+  if (newest_) {
+    lamp_errors_.back().mouth_error_m = (newest_->mouth - truth_->mouth).norm();
+    lamp_errors_.back().normal_error_rad = angle_between(newest_->normal, truth_->normal);
   }
 }
 

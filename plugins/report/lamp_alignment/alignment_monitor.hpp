@@ -23,6 +23,8 @@ struct LampError {
   double time_s = 0;  // since the start
   double distance_m = 0, direction_error_rad = 0;
   std::optional<double> distance_error_m;  // none: no goal has asked for a distance yet
+  // Of the newest estimate of the face, whose age is a part of it while the patient moves.
+  std::optional<double> mouth_error_m, normal_error_rad;
 };
 
 /// How far the averaged estimate is from the truth.
@@ -83,7 +85,7 @@ class AlignmentMonitor {
 
   Parameters parameters_;
   std::optional<Time> start_;
-  std::optional<Face> truth_;
+  std::optional<Face> truth_, newest_;
   Face sum_;  // of the estimates since rest_since_
   int count_ = 0;
   std::optional<double> asked_distance_m_;

@@ -87,6 +87,18 @@ TEST_F(AlignmentMonitorTest, HoldsTheDistanceAgainstWhatTheNewestGoalAsksFor) {
   EXPECT_TRUE(monitor_.finished());
 }
 
+TEST_F(AlignmentMonitorTest, HoldsTheNewestEstimateAgainstTheTruth) {
+  seen_ = false;
+  run(1);
+  EXPECT_FALSE(monitor_.lamp_errors().back().mouth_error_m);
+  seen_ = true;
+  estimate_.mouth.z() += 0.003;
+  estimate_.normal = Eigen::Vector3d{-1, 0.1, 0}.normalized();
+  run(1);
+  EXPECT_NEAR(*monitor_.lamp_errors().back().mouth_error_m, 0.003, 1e-12);
+  EXPECT_NEAR(*monitor_.lamp_errors().back().normal_error_rad, std::atan(0.1), 1e-12);
+}
+
 TEST_F(AlignmentMonitorTest, AveragesTheEstimatesAtRestAndNeedsEnoughOfThem) {
   align();
   estimate_.mouth.z() += 0.001;

@@ -16,6 +16,7 @@
 #include "armature/runtime/component/component.hpp"
 #include "armature/runtime/component/setup.hpp"
 #include "armature/runtime/plugins/plugin.hpp"
+#include "error_table.hpp"
 #include "following_monitor.hpp"
 #include "report_pictures.hpp"
 #include "trajectory_hash.hpp"
@@ -121,6 +122,7 @@ class LampReport : public Component {
   void write_files(const std::filesystem::path& directory) const override {
     if (!picture_.gray.empty()) write_camera_picture(picture_, directory / "left_camera.png");
     write_error_plot(monitor_.lamp_errors(), parameters_, directory / "errors.png");
+    write_error_table(monitor_.lamp_errors(), directory / "errors.csv");
   }
 
  private:

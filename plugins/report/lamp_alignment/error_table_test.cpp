@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "error_table.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+namespace armature::report::lamp_alignment {
+namespace {
+
+TEST(ErrorTable, HasARowForEveryErrorAndLeavesEmptyWhatIsNotKnown) {
+  const auto file = std::filesystem::temp_directory_path() /
+                    ("error_table_" + std::to_string(::getpid()) + ".csv");
+  write_error_table(
+      std::vector<LampError>{{.time_s = 0.02, .distance_m = 0.75, .direction_error_rad = 0.5},
+                             {.time_s = 0.04,
+                              .distance_m = 0.505,
+                              .direction_error_rad = 0.25,
+                              .distance_error_m = 0.005,
+                              .mouth_error_m = 0.0008,
+                              .normal_error_rad = 0.001}},
+      file);
+  std::ifstream stream{file};
+  const std::string table{std::istreambuf_iterator<char>{stream}, {}};
+  std::filesystem::remove(file);
+  EXPECT_EQ(
+      table,
+      "time_s,distance_m,distance_error_m,direction_error_rad,mouth_error_m,normal_error_rad\n"
+      "0.020000,0.75,,0.5,,\n"
+      "0.040000,0.505,0.005,0.25,0.0008,0.001\n");
+}
+
+}  // namespace
+}  // namespace armature::report::lamp_alignment

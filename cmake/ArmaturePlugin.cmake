@@ -10,6 +10,8 @@
 # VERIFY [options]: in somebody else's project, a test that is `armature plugin verify` with these options.
 # TEST_ONLY: for the framework's own tests; kept apart from the plugins and not installed.
 # TEST_OPTIONS: of armature_add_test.
+# LEVELS x86-64-v3 ...: in this tree, the same again for processors of these levels, each a library of its own in a
+# folder of that name beside the plugin, which the runtime loads there instead.
 
 # armature_left_out(result id Armature::runtime opencv::core ...): true, with a line that says so, when
 # one of the libraries is not built because of ARMATURE_DDS or ARMATURE_VISION.
@@ -55,9 +57,39 @@ function(armature_header_tags_of result kind)
   set(${result} "${text}" PARENT_SCOPE)
 endfunction()
 
+# The library of the plugin that armature_add_plugin adds, or of one level of it.
+macro(armature_add_plugin_library library)
+  add_library(${library} MODULE ${arg_SOURCES} "${parameters}"
+                                "${CMAKE_CURRENT_BINARY_DIR}/${target}_manifest.cpp")
+  target_include_directories(${library} PRIVATE "${CMAKE_CURRENT_BINARY_DIR}")
+  target_link_libraries(${library} PRIVATE Armature::abi ${arg_LINK})
+  if(NOT ARMATURE_SANITIZE)  # a missing symbol is found here, not when the plugin is loaded
+    target_link_options(${library} PRIVATE LINKER:-z,defs)
+  endif()
+  set_target_properties(${library} PROPERTIES PREFIX "" CXX_VISIBILITY_PRESET hidden
+                                              VISIBILITY_INLINES_HIDDEN ON)
+endmacro()
+
+# Under a sanitizer the plain library alone is looked at.
+macro(armature_add_plugin_levels plugin)
+  foreach(level ${ARGN})
+    if(ARMATURE_SANITIZE OR NOT CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64")
+      break()
+    endif()
+    armature_add_plugin_library(${plugin}.${level})
+    add_dependencies(${plugin}.${level} armature_header_tags)
+    add_dependencies(${plugin} ${plugin}.${level})
+    target_compile_options(${plugin}.${level} PRIVATE -march=${level})
+    target_link_libraries(${plugin}.${level} PRIVATE armature_warnings)
+    set_target_properties(${plugin}.${level} PROPERTIES OUTPUT_NAME ${plugin}
+      LIBRARY_OUTPUT_DIRECTORY "${ARMATURE_PLUGIN_BUILD_DIR}/${level}" INSTALL_RPATH "$ORIGIN/../../..")
+    install(TARGETS ${plugin}.${level} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/armature/plugins/${level})
+  endforeach()
+endmacro()
+
 function(armature_add_plugin id)
   cmake_parse_arguments(arg "TEST_ONLY" ""
-                        "SOURCES;LINK;TESTS;TEST_LINK;TEST_OPTIONS;VERIFY" ${ARGN})
+                        "SOURCES;LINK;TESTS;TEST_LINK;TEST_OPTIONS;VERIFY;LEVELS" ${ARGN})
   string(REPLACE "/" "_" target "${id}")
   list(FIND ARGN VERIFY verify_at)
   armature_left_out(left_out "${id}" ${arg_LINK})
@@ -84,15 +116,7 @@ function(armature_add_plugin id)
                      COMMAND Armature::parameters plugin.yaml "${parameters}"
                      WORKING_DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}"
                      DEPENDS plugin.yaml Armature::parameters VERBATIM)
-  add_library(${target} MODULE ${arg_SOURCES} "${parameters}"
-                               "${CMAKE_CURRENT_BINARY_DIR}/${target}_manifest.cpp")
-  target_include_directories(${target} PRIVATE "${CMAKE_CURRENT_BINARY_DIR}")
-  target_link_libraries(${target} PRIVATE Armature::abi ${arg_LINK})
-  if(NOT ARMATURE_SANITIZE)  # a missing symbol is found here, not when the plugin is loaded
-    target_link_options(${target} PRIVATE LINKER:-z,defs)
-  endif()
-  set_target_properties(${target} PROPERTIES PREFIX "" CXX_VISIBILITY_PRESET hidden
-                                             VISIBILITY_INLINES_HIDDEN ON)
+  armature_add_plugin_library(${target})
   set(of_the_framework OFF)
   if(PROJECT_NAME STREQUAL "Armature")
     set(of_the_framework ON)
@@ -111,6 +135,7 @@ function(armature_add_plugin id)
     set_property(GLOBAL APPEND PROPERTY ARMATURE_PLUGINS ${target})
     armature_precompile(${target} plugins)
     armature_compile_together(${target} 8)
+    armature_add_plugin_levels(${target} ${arg_LEVELS})
     if(arg_TESTS)
       if(TARGET Armature::${kind}_contract)  # the laws of its kind
         list(APPEND arg_TEST_LINK Armature::${kind}_contract)

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "armature/runtime/deployment/description.hpp"
+#include "armature/runtime/plugins/processor_level.hpp"
 #include "armature/runtime/plugins/running_component.hpp"
 #include "armature/runtime/recording/recorded_description.hpp"
 #include "exit_code.hpp"

@@ -13,6 +13,7 @@
 #include "armature/runtime/plugins/elf_section.hpp"
 #include "armature/runtime/plugins/library_folder.hpp"
 #include "armature/runtime/plugins/plugin_folder.hpp"
+#include "armature/runtime/plugins/processor_level.hpp"
 
 namespace armature {
 std::vector<std::filesystem::path> PluginRegistry::default_search_path() {
@@ -94,8 +95,10 @@ void PluginRegistry::scan(const std::filesystem::path& folder) {
     }
   }
   std::sort(files.begin(), files.end());  // the directory's own order is not reproducible
+  const std::string level = processor_level();
   for (const auto& file : files) {
-    if (may_load(file)) add(file);
+    const auto own = library_for(level, file);
+    if (may_load(own)) add(own);
   }
 }
 

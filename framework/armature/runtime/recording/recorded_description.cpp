@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/runtime/recording/recorded_description.hpp"
 
-#include <sys/utsname.h>
-
 #include <utility>
 
 namespace armature {
@@ -28,17 +26,6 @@ void attach_description(const msg::DeploymentDescription& description, Time at, 
     values["file of " + name] = document.file_();
   }
   queue.add(McapMetadata{.name = std::string{kDeploymentMetadata}, .values = std::move(values)});
-}
-
-std::string processor_level() {
-#if defined(__x86_64__)
-  if (__builtin_cpu_supports("x86-64-v4")) return "x86-64-v4";
-  if (__builtin_cpu_supports("x86-64-v3")) return "x86-64-v3";
-  if (__builtin_cpu_supports("x86-64-v2")) return "x86-64-v2";
-#endif
-  utsname name{};
-  uname(&name);
-  return name.machine;
 }
 
 }  // namespace armature

@@ -30,8 +30,4 @@ inline constexpr std::string_view kFiguresAttachment = "figures.json";
 /// fingerprint and where those files were. `at` is when it was told.
 void attach_description(const msg::DeploymentDescription& description, Time at, McapQueue& queue);
 
-/// What the arithmetic of this processor is called, "x86-64-v3": solvers choose instructions by it,
-/// and their last bits follow.
-std::string processor_level();
-
 }  // namespace armature

@@ -15,6 +15,7 @@
 #include "armature/messages/sensor_msgs.hpp"
 #include "armature/messages/stamp.hpp"
 #include "armature/runtime/execution/real_time_thread.hpp"
+#include "armature/runtime/plugins/processor_level.hpp"
 #include "armature/runtime/recording/recorded_description.hpp"
 
 namespace armature {

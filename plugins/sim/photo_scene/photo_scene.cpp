@@ -40,6 +40,11 @@ Parameters parameters_of(const Params& params) {
                     "more than 1",
                     parameters.dropped, parameters.repeated));
   }
+  const bool occluder_comes = parameters.occluder_at > 0 || parameters.occluder_duration > 0;
+  if (occluder_comes && parameters.occluder == Parameters::Occluder::none) {
+    params.refuse({"occluder_at_s", "occluder_duration_s"},
+                  "occluder_at_s or occluder_duration_s is set but there is no occluder; name one");
+  }
   if (parameters.move_duration > 0 && !moves) {
     throw SetupError(
         "move_duration_s is set but nothing moves; set move_mm, move_tilt_up_deg or "
@@ -57,6 +62,14 @@ Parameters parameters_of(const Params& params) {
 scene::SceneRenderer renderer_of(const Parameters& parameters, std::uint64_t seed) {
   const scene::Photo photo = photo_of(parameters);
   return {photo, staging_of(parameters, photo), imaging_of(parameters), seed};
+}
+
+/// Of the face without the occluder, where that does not stay from the start to the end.
+std::optional<scene::SceneRenderer> uncovered_renderer_of(Parameters parameters,
+                                                          std::uint64_t seed) {
+  if (parameters.occluder_at == 0 && parameters.occluder_duration == 0) return std::nullopt;
+  parameters.occluder = Parameters::Occluder::none;
+  return renderer_of(parameters, seed);
 }
 
 msg::CameraInfo camera_info(const StereoCamera& camera, double offset_m) {
@@ -86,6 +99,7 @@ class PhotoScene final : public Component {
   enum class Delivery { sound, dropped, repeated };
   Delivery draw_delivery();
   double brightness(Time stamp) const;
+  scene::SceneRenderer& renderer_at(Time stamp);
   void take_pictures(Time stamp);
   void draw(Time stamp, bool of_the_left, msg::Image& image);
   Eigen::Isometry3d left_T_face(Time then) const;
@@ -96,6 +110,7 @@ class PhotoScene final : public Component {
   FrameId mount_;
   Parameters parameters_;
   scene::SceneRenderer renderer_;
+  std::optional<scene::SceneRenderer> uncovered_;  // while the occluder is not there
   scene::RightCamera right_camera_;
   PoseHistory base_T_left_;
   std::uint64_t seed_;
@@ -107,6 +122,7 @@ class PhotoScene final : public Component {
   Output<msg::Target> truth_;
   std::optional<Time> start_, last_picture_;
   std::uint64_t pairs_ = 0;
+  int truths_ = 0;                       // told
   std::array<msg::Image, 2> last_pair_;  // kept while pairs may be repeated
 };
 
@@ -117,6 +133,7 @@ PhotoScene::PhotoScene(Setup& setup)
       mount_{mount_of(rig_, robot_)},
       parameters_{parameters_of(setup.params())},
       renderer_{renderer_of(parameters_, setup.seed())},
+      uncovered_{uncovered_renderer_of(parameters_, setup.seed())},
       right_camera_{right_camera_of(parameters_)},
       base_T_left_{parameters_.right_delay},
       seed_{setup.seed()},
@@ -162,7 +179,7 @@ void PhotoScene::publish_truth(Time now, const MovingHead& head) {
                   .normal = normal.direction,
                   .velocity = head.velocity,
                   .normal_rate = normal.rate,
-                  .measurements = 1},
+                  .measurements = ++truths_},
                  *truth);
   truth.publish();
 }
@@ -181,6 +198,12 @@ double PhotoScene::brightness(Time stamp) const {
   const double turns = parameters_.flicker_hz * to_seconds(stamp - *start_);
   return parameters_.gain * (1 + parameters_.light_response * std::clamp(light, 0.0, 1.0)) *
          (1 + parameters_.flicker * std::sin(2 * std::numbers::pi * turns));
+}
+
+scene::SceneRenderer& PhotoScene::renderer_at(Time stamp) {
+  const double since = to_seconds(stamp - *start_) - parameters_.occluder_at;
+  const bool gone = parameters_.occluder_duration > 0 && since >= parameters_.occluder_duration;
+  return uncovered_ && (since < 0 || gone) ? *uncovered_ : renderer_;
 }
 
 PhotoScene::Delivery PhotoScene::draw_delivery() {
@@ -223,13 +246,15 @@ void PhotoScene::draw(Time stamp, bool of_the_left, msg::Image& image) {
   image.data_().resize(std::size_t{image.width_()} * image.height_());
   const std::uint64_t picture = 2 * (pairs_ - 1) + (of_the_left ? 0 : 1);
   if (of_the_left) {
-    renderer_.render(left_T_face(stamp), rig_.camera, brightness(stamp), picture, image.data_());
+    renderer_at(stamp).render(left_T_face(stamp), rig_.camera, brightness(stamp), picture,
+                              image.data_());
     return;
   }
-  const Eigen::Isometry3d right_T_face = right_camera_.right_T_left(rig_.camera) *
-                                         left_T_face(stamp - seconds(parameters_.right_delay));
-  renderer_.render(right_T_face, right_camera_.of(rig_.camera),
-                   right_camera_.gain * brightness(stamp), picture, image.data_());
+  const Time seen_at = stamp - seconds(parameters_.right_delay);
+  const Eigen::Isometry3d right_T_face =
+      right_camera_.right_T_left(rig_.camera) * left_T_face(seen_at);
+  renderer_at(seen_at).render(right_T_face, right_camera_.of(rig_.camera),
+                              right_camera_.gain * brightness(stamp), picture, image.data_());
 }
 
 }  // namespace armature::sim::photo_scene

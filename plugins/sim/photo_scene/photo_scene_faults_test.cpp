@@ -118,6 +118,18 @@ TEST(PhotoSceneFaults, WhatIsStagedIsSeenInBothPictures) {
   }
 }
 
+TEST(PhotoSceneFaults, AnOccluderComesAndGoesWhenTold) {
+  ScenePictures plain{kStill}, covered{with(kStill, "occluder: hand_over_mouth")},
+      passing{with(kStill, "occluder: hand_over_mouth, occluder_at_s: 2, occluder_duration_s: 3")};
+  for (int t = 0; t <= 7; ++t) {  // the scene starts with the first one
+    SCOPED_TRACE(t);
+    const auto without = plain.pair(t), with = covered.pair(t), seen = passing.pair(t);
+    const bool is_there = t >= 2 && t < 5;
+    EXPECT_TRUE(same_picture(seen.left, is_there ? with.left : without.left));
+    EXPECT_TRUE(same_picture(seen.right, is_there ? with.right : without.right));
+  }
+}
+
 TEST(PhotoSceneFaults, OfARoundHeadTheNormalOfThePaperIsToldWithItsRate) {
   ScenePictures scene{
       "surface: cylinder, radius_mm: 80, move_at_s: 0, move_duration_s: 4, move_tilt_up_deg: 20, "

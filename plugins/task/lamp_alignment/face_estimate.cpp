@@ -16,7 +16,8 @@ FaceEstimate FaceEstimate::at(Time time) const {
           .mouth = mouth + passed_s * velocity,
           .normal = turn * normal,
           .velocity = velocity,
-          .normal_rate = turn * normal_rate};
+          .normal_rate = turn * normal_rate,
+          .measurements = measurements};
 }
 
 bool FaceBand::left_by(const FaceEstimate& a, const FaceEstimate& b) const {

@@ -16,6 +16,7 @@ struct FaceEstimate {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitX();      // unit, out of the face
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();     // [m/s] of the mouth
   Eigen::Vector3d normal_rate = Eigen::Vector3d::Zero();  // [1/s]
+  int measurements = 0;  // that went into it; one that is predicted has no more than the last one
 
   /// Where the face will be when it goes on as it does.
   FaceEstimate at(Time time) const;

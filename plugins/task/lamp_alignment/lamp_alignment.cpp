@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lamp_alignment.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "armature/task/obey.hpp"
@@ -11,6 +14,8 @@ namespace {
 
 /// A face in the picture but no estimate yet: so many more pictures to wait for one.
 constexpr int kPicturesForEstimate = 10;
+/// The wait between two goals that are refused has long been the longest by then.
+constexpr int kMostRefusals = 20;
 /// When every search pose failed, the next one is tried after so long.
 constexpr double kNextTry_s = 1;
 
@@ -84,6 +89,7 @@ LampAlignment::LampAlignment(const Parameters& parameters, double joint_6_to_lam
       at_rest_{window_of(parameters)} {}
 
 void LampAlignment::see(const Picture& picture, Time now) {
+  if (picture.face) face_in_picture_at_ = picture.stamp;
   if (picture.face || phase_ == Phase::checking_light) {
     const double intensity = picture.face ? picture.face_intensity : picture.image_intensity;
     const bool answers = light_.answers(picture.stamp);
@@ -97,7 +103,14 @@ void LampAlignment::see(const Picture& picture, Time now) {
   }
 }
 
+// A prediction over pictures without a measurement moves nothing: at(now) predicts better.
 void LampAlignment::see(const FaceEstimate& estimate) {
+  if (std::exchange(measurements_, estimate.measurements) == estimate.measurements) return;
+  if (estimate.measurements < parameters_.min_measurements) {
+    no_estimate_ = fmt::format("the face was measured {} times, {} times are wanted",
+                               estimate.measurements, parameters_.min_measurements);
+    return;
+  }
   const bool moves = estimate.velocity.norm() > parameters_.moving_speed ||
                      estimate.normal_rate.norm() > parameters_.moving_turn;
   moving_ = moves ? moving_ + 1 : 0;
@@ -322,14 +335,21 @@ void LampAlignment::end_going_along(Time now) {
 }
 
 bool LampAlignment::lost(Time now) const {
-  const Time since = std::max(latest_->stamp, goals_.done_at());
+  const Time since = std::max({latest_->stamp, face_in_picture_at_, goals_.done_at()});
   return goals_.state() == GoalState::done && to_seconds(now - since) > parameters_.lost;
+}
+
+void LampAlignment::tell_disbelief(Time now) {
+  const Time since = std::max(latest_->stamp, goals_.done_at());
+  const bool disbelieved = !no_estimate_.empty() && to_seconds(now - since) > parameters_.lost;
+  trouble_ = disbelieved ? "a face is seen but not believed: " + no_estimate_ : "";
 }
 
 void LampAlignment::come_to_rest(Time now) {
   if (goals_.state() == GoalState::failed) {
     phase_ = Phase::unreachable;
     trouble_ = goals_.reason();
+    refused_ = 1;
     return;
   }
   if (goals_.state() != GoalState::done) {
@@ -340,6 +360,7 @@ void LampAlignment::come_to_rest(Time now) {
     search_for_lost_face(now);
     return;
   }
+  tell_disbelief(now);
   if (may_go_along()) return go_along(now);
   const auto frames = static_cast<std::size_t>(parameters_.settle_frames);
   const auto few = static_cast<std::size_t>(parameters_.moved_frames);
@@ -361,6 +382,7 @@ void LampAlignment::hold(Time now) {
     search_for_lost_face(now);
     return;
   }
+  tell_disbelief(now);
   if (may_go_along()) return go_along(now);
   const auto few = static_cast<std::size_t>(parameters_.moved_frames);
   const FaceEstimate recent = at_rest_.mean(few);
@@ -385,11 +407,14 @@ void LampAlignment::wait_for_another_face_position(Time now) {
     search_for_lost_face(now);
     return;
   }
-  if (to_seconds(now - goal_set_at_) < parameters_.replan_interval) return;
+  const double wait_s = std::min(std::ldexp(parameters_.replan_interval, refused_ - 1),
+                                 parameters_.max_retry_interval);
+  if (to_seconds(now - goal_set_at_) < wait_s) return;
   const auto& elsewhere = goals_.stopped() ? moved_ : settled_;
   if (elsewhere.left_by(*latest_, *goal_estimate_)) {
     const std::string why = trouble_;
     align_with(*latest_, Phase::unreachable, now);
+    refused_ = std::min(refused_ + 1, kMostRefusals);
     trouble_ = why;  // until a goal is accepted
   }
 }

@@ -89,6 +89,8 @@ class LampAlignment {
   void go_along(Time now);
   void end_going_along(Time now);
   bool lost(Time now) const;
+  /// Says so while a face is in the pictures and no estimate of it is believed.
+  void tell_disbelief(Time now);
   bool face_since(Time time) const { return latest_ && latest_->stamp >= time; }
 
   Parameters parameters_;
@@ -100,6 +102,8 @@ class LampAlignment {
   FaceAverage at_rest_;  // estimates since the arm came to rest
   std::optional<FaceEstimate> latest_, goal_estimate_;
   std::size_t fresh_ = 0;       // estimates since the goal was set
+  int measurements_ = 0;        // of the newest estimate, confirmed or not
+  Time face_in_picture_at_;     // the newest picture with a face, believed or not
   int moving_ = 0, still_ = 0;  // estimates in a row that say so of the patient
   bool goes_along_ = false;     // with the patient, in tracking mode
   Phase phase_ = Phase::checking_light;
@@ -108,6 +112,7 @@ class LampAlignment {
   std::size_t failed_views_ = 0;             // one after the other
   bool looking_ = false, sets_out_ = false;  // to the first view of a search
   Time looking_since_, goal_set_at_;
+  int refused_ = 0;   // goals in a row, on the way to a face
   int pictures_ = 0;  // in this view
   bool face_in_picture_ = false;
   std::optional<double> new_level_;

@@ -103,7 +103,8 @@ class LampAlignmentComponent : public Component {
                  .mouth = face->position,
                  .normal = face->normal,
                  .velocity = face->velocity,
-                 .normal_rate = face->normal_rate});
+                 .normal_rate = face->normal_rate,
+                 .measurements = face->measurements});
     }
   }
 

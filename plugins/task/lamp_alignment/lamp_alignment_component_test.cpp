@@ -42,12 +42,13 @@ class LampAlignmentComponentTest : public testing::Test {
     message.image_intensity_(grey);
     task_.send("landmarks", message);
   }
-  msg::Target face() const {
+  /// As the pictures of the same confirmed face tell it, one after the other.
+  msg::Target face() {
     msg::Target message;
     write_estimate({.stamp = Time{} + seconds(now_s_),
                     .position = {1.55, 0, 0.45},
                     .normal = {-1, 0, 0},
-                    .measurements = 1},
+                    .measurements = ++measurements_},
                    message);
     return message;
   }
@@ -63,6 +64,7 @@ class LampAlignmentComponentTest : public testing::Test {
 
   ComponentHarness task_{built_plugins(), task_with("")};
   double now_s_ = 100;
+  int measurements_ = 10;
   std::vector<msg::MotionGoal> goals_;
   std::vector<msg::LightLevel> levels_;
   std::vector<msg::Capture> captures_;
@@ -163,6 +165,17 @@ TEST_F(LampAlignmentComponentTest, TakesNothingForAFaceThatIsNone) {
   see([](auto& t) { t.header_().frame_id_() = "left_camera_optical"; });
   EXPECT_TRUE(goals_.empty());
   see([](auto&) {});
+  EXPECT_EQ(goals_.size(), 1u);
+}
+
+TEST_F(LampAlignmentComponentTest, TakesNoTargetForAFaceBeforeThreePicturesConfirmIt) {
+  measurements_ = 0;
+  step();
+  for (int i = 1; i <= 3; ++i) {
+    EXPECT_TRUE(goals_.empty());
+    task_.send("target", face());
+    step();
+  }
   EXPECT_EQ(goals_.size(), 1u);
 }
 

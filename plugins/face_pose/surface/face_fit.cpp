@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "armature/kinds/face_pose/face_pose.hpp"
+
 namespace armature::face_pose::surface {
 namespace {
 
@@ -101,7 +103,8 @@ Expected<Alignment> FaceFit::align(const Features& face,
     if (step == kCoarsest) found.surface = best(starts);
     if (!aligner_.align(pixels_, in_right_, {.terms = DisparitySurface::kPlane, .rows = true}, 0,
                         found)) {
-      return refuse("both pictures show nothing of a face that could be compared");
+      return refuse(FaceRefusal::uncertain,
+                    "both pictures show nothing of a face that could be compared");
     }
   }
   Alignment curved = found;

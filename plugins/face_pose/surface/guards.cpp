@@ -24,15 +24,16 @@ double depth_by_pixel(const DisparitySurface& surface, const StereoCamera& camer
 
 Expected<void> input_is_sound(const FacePoseInput& input) {
   for (const ImageView* image : {&input.left, &input.right}) {
-    if (auto wrong = invalid_input(*image)) return refuse(*wrong);
+    if (auto wrong = invalid_input(*image)) return refuse(FaceRefusal::bad_input, *wrong);
     if (image->width != input.camera.width || image->height != input.camera.height) {
-      return refuse(fmt::format("a picture of {} x {} pixels of a camera with {} x {}",
-                                image->width, image->height, input.camera.width,
-                                input.camera.height));
+      return refuse(
+          FaceRefusal::bad_input,
+          fmt::format("a picture of {} x {} pixels of a camera with {} x {}", image->width,
+                      image->height, input.camera.width, input.camera.height));
     }
   }
   for (const FaceLandmarks* face : {&input.landmarks.left, &input.landmarks.right}) {
-    if (auto wrong = invalid_input(*face)) return refuse(*wrong);
+    if (auto wrong = invalid_input(*face)) return refuse(FaceRefusal::bad_input, *wrong);
   }
   return {};
 }
@@ -42,14 +43,16 @@ Expected<void> face_is_in_picture(const Features& features, const StereoCamera& 
   for (std::size_t i = 0; i < kFaceFeatures.size(); ++i) {
     const Eigen::Vector2d& at = features[i];
     if (!(at.x() >= 0 && at.y() >= 0 && at.x() < camera.width && at.y() < camera.height)) {
-      return refuse(fmt::format("the {} at ({:.0f}, {:.0f}) px is not in the picture",
+      return refuse(FaceRefusal::implausible,
+                    fmt::format("the {} at ({:.0f}, {:.0f}) px is not in the picture",
                                 kFaceFeatures[i].name, at.x(), at.y()));
     }
   }
   const Eigen::Vector2d across = features.across(), down = features.down();
   const double area = across.x() * down.y() - across.y() * down.x();
   if (!(area >= kFewestPixels * kFewestPixels)) {
-    return refuse(fmt::format("eyes and mouth span {:.0f} px2, too few for a face", area));
+    return refuse(FaceRefusal::implausible,
+                  fmt::format("eyes and mouth span {:.0f} px2, too few for a face", area));
   }
   return {};
 }
@@ -57,21 +60,22 @@ Expected<void> face_is_in_picture(const Features& features, const StereoCamera& 
 Expected<void> pictures_agree(const Alignment& aligned, const StereoCamera& camera,
                               const Parameters& parameters) {
   if (aligned.agreeing < parameters.min_agreement) {
-    return refuse(fmt::format("the pictures agree in {:.0f} % of the face only, less than {:.0f} %",
+    return refuse(FaceRefusal::covered,
+                  fmt::format("the pictures agree in {:.0f} % of the face only, less than {:.0f} %",
                               aligned.agreeing * 100, parameters.min_agreement * 100));
   }
   if (aligned.gain < 1 / parameters.max_gain || aligned.gain > parameters.max_gain) {
-    return refuse(
-        fmt::format("the left picture is {:.2f} times as bright as the right one, more "
-                    "than {:.2f} times",
-                    aligned.gain, parameters.max_gain));
+    return refuse(FaceRefusal::brightness,
+                  fmt::format("the left picture is {:.2f} times as bright as the right one, more "
+                              "than {:.2f} times",
+                              aligned.gain, parameters.max_gain));
   }
   const double hollow = aligned.surface.hollowness() * depth_by_pixel(aligned.surface, camera);
   if (hollow > parameters.max_hollowness) {
-    return refuse(
-        fmt::format("the face would be hollow by {:.1f} mm, more than {:.1f}: something "
-                    "covers a part of it",
-                    hollow * 1e3, parameters.max_hollowness * 1e3));
+    return refuse(FaceRefusal::covered,
+                  fmt::format("the face would be hollow by {:.1f} mm, more than {:.1f}: something "
+                              "covers a part of it",
+                              hollow * 1e3, parameters.max_hollowness * 1e3));
   }
   return {};
 }
@@ -80,26 +84,26 @@ Expected<void> feature_is_uncovered(const char* name, const Eigen::Vector2d& at,
                                     const Alignment& own, const Alignment& aligned,
                                     const StereoCamera& camera, const Parameters& parameters) {
   if (own.agreeing < parameters.min_agreement) {
-    return refuse(
-        fmt::format("the {} looks different to both cameras: {:.0f} % of it agree, "
-                    "less than {:.0f} %",
-                    name, own.agreeing * 100, parameters.min_agreement * 100));
+    return refuse(FaceRefusal::covered,
+                  fmt::format("the {} looks different to both cameras: {:.0f} % of it agree, "
+                              "less than {:.0f} %",
+                              name, own.agreeing * 100, parameters.min_agreement * 100));
   }
   const double relief = own.surface.point(at, camera).z() - aligned.surface.point(at, camera).z();
   if (!(std::abs(relief) <= parameters.max_relief)) {
-    return refuse(
-        fmt::format("the {} lies {:.1f} mm {} the face, more than {:.1f}: something "
-                    "covers it",
-                    name, std::abs(relief) * 1e3, relief < 0 ? "before" : "behind",
-                    parameters.max_relief * 1e3));
+    return refuse(FaceRefusal::covered,
+                  fmt::format("the {} lies {:.1f} mm {} the face, more than {:.1f}: something "
+                              "covers it",
+                              name, std::abs(relief) * 1e3, relief < 0 ? "before" : "behind",
+                              parameters.max_relief * 1e3));
   }
   const double sigma = own.surface.point(at, camera).z() / own.surface.at(at) *
                        std::sqrt(own.surface.variance(at, own.covariance));
   if (!(sigma <= parameters.max_depth_sigma)) {
-    return refuse(
-        fmt::format("the {} shows too little: its depth is known to {:.1f} mm only, "
-                    "not to {:.1f}",
-                    name, sigma * 1e3, parameters.max_depth_sigma * 1e3));
+    return refuse(FaceRefusal::uncertain,
+                  fmt::format("the {} shows too little: its depth is known to {:.1f} mm only, "
+                              "not to {:.1f}",
+                              name, sigma * 1e3, parameters.max_depth_sigma * 1e3));
   }
   return {};
 }
@@ -114,6 +118,7 @@ Expected<void> pictures_are_rectified(const Alignment& aligned, const StereoCame
   if (tilt > parameters.max_misrectification_tilt ||
       std::abs(aligned.rows[0]) > parameters.max_row_error) {
     return refuse(
+        FaceRefusal::not_rectified,
         fmt::format("the pictures are not rectified: their rows differ by {:.2f} px, and "
                     "by {:.2f} px from one side of the face to the other, which is a "
                     "tilt of {:.1f} degrees; calibrate the cameras again",
@@ -125,23 +130,27 @@ Expected<void> pictures_are_rectified(const Alignment& aligned, const StereoCame
 Expected<void> face_is_believable(const FacePose& face, const Parameters& parameters) {
   const double depth = face.mouth.z();
   if (!(depth >= parameters.min_depth && depth <= parameters.max_depth)) {
-    return refuse(fmt::format("the mouth would be {:.3f} m away, outside {} to {} m", depth,
+    return refuse(FaceRefusal::implausible,
+                  fmt::format("the mouth would be {:.3f} m away, outside {} to {} m", depth,
                               parameters.min_depth, parameters.max_depth));
   }
   const double eyes = (face.right_eye - face.left_eye).norm();
   if (!(eyes >= parameters.min_eye_distance && eyes <= parameters.max_eye_distance)) {
-    return refuse(fmt::format("the eyes would be {:.1f} mm apart, outside {:.0f} to {:.0f} mm",
-                              eyes * 1e3, parameters.min_eye_distance * 1e3,
-                              parameters.max_eye_distance * 1e3));
+    return refuse(
+        FaceRefusal::implausible,
+        fmt::format("the eyes would be {:.1f} mm apart, outside {:.0f} to {:.0f} mm", eyes * 1e3,
+                    parameters.min_eye_distance * 1e3, parameters.max_eye_distance * 1e3));
   }
   const double tilt = std::acos(std::clamp(facing(face), -1.0, 1.0));
   if (!(tilt <= parameters.max_tilt)) {
-    return refuse(fmt::format("the face would be seen from {:.0f} degrees aside, more than {:.0f}",
+    return refuse(FaceRefusal::implausible,
+                  fmt::format("the face would be seen from {:.0f} degrees aside, more than {:.0f}",
                               tilt * kDegrees, parameters.max_tilt * kDegrees));
   }
   const double sigma = std::sqrt(face.normal_covariance.trace());
   if (!(sigma <= parameters.max_normal_sigma)) {
-    return refuse(fmt::format("the normal would be known to {:.2f} degrees only, not to {:.2f}",
+    return refuse(FaceRefusal::uncertain,
+                  fmt::format("the normal would be known to {:.2f} degrees only, not to {:.2f}",
                               sigma * kDegrees, parameters.max_normal_sigma * kDegrees));
   }
   return {};

@@ -31,6 +31,17 @@ Features features_of(const FaceLandmarks& face) {
           face.feature(FaceFeature::mouth).point};
 }
 
+/// [px] of eyes and mouth, rms.
+double row_difference(const Alignment& aligned, const Features& features) {
+  double squares = 0;
+  for (std::size_t i = 0; i < kFaceFeatures.size(); ++i) {
+    const Vector2d at = aligned.surface.local(features[i]);
+    const double rows = aligned.rows.dot(Vector3d{1, at.x(), at.y()});
+    squares += rows * rows;
+  }
+  return std::sqrt(squares / kFaceFeatures.size());
+}
+
 /// The plane through the features' own disparities.
 DisparitySurface plane_of(const Features& left, const Features& right) {
   const Vector2d middle = left.between_eyes() + 0.45 * left.down();
@@ -82,7 +93,8 @@ Expected<std::vector<DisparitySurface>> Surface::starts_of(const Features& left,
                                                            const PluginState& state) {
   std::vector starts{plane_of(left, right)};
   if (!starts.front().c.allFinite() || !(starts.front().c[0] > 0)) {
-    return refuse(fmt::format("the face has a disparity of {:.2f} px, not a positive one",
+    return refuse(FaceRefusal::implausible,
+                  fmt::format("the face has a disparity of {:.2f} px, not a positive one",
                               starts.front().c[0]));
   }
   if (const Memory* last = state.get<Memory>()) {
@@ -130,9 +142,10 @@ Expected<void> Surface::find_again(const FacePoseInput& input, const Alignment& 
   std::array<std::array<Landmark, 3>, 2> looks;
   for (std::size_t look = 0; look < looks.size(); ++look) {
     const auto found = input.finder->find(view_.image(), view_.face_boxes()[look]);
-    if (!found) return refuse("frontal view: " + found.error().text);
+    if (!found) return refuse(FaceRefusal::covered, "frontal view: " + found.error().text);
     const FaceLandmarks face{.scheme = input.finder->scheme(), .points = *found, .box = {}};
-    if (auto wrong = invalid_input(face)) return refuse("frontal view: " + *wrong);
+    if (auto wrong = invalid_input(face))
+      return refuse(FaceRefusal::covered, "frontal view: " + *wrong);
     for (std::size_t i = 0; i < kFaceFeatures.size(); ++i)
       looks[look][i] = face.feature(kFaceFeatures[i].which);
   }
@@ -161,7 +174,7 @@ Expected<void> Surface::find_again(const FacePoseInput& input, const Alignment& 
   }
   located.at = {in_left[0], in_left[1], in_left[2]};
   located.is_unsettled = !unsettled.empty();
-  if (located.is_unsettled) return refuse(unsettled);
+  if (located.is_unsettled) return refuse(FaceRefusal::covered, unsettled);
   return {};
 }
 
@@ -171,7 +184,8 @@ Expected<void> Surface::see_features(const Alignment& aligned, const StereoCamer
     const auto& [which, name, area] = kFaceFeatures[i];
     Alignment& own = located.own[i] = aligned;
     if (!fit_.align_feature(area, own)) {
-      return refuse(fmt::format("too little of the {} is in both pictures", name));
+      return refuse(FaceRefusal::uncertain,
+                    fmt::format("too little of the {} is in both pictures", name));
     }
     auto seen = feature_is_uncovered(name, located.at[i], own, aligned, camera, parameters_);
     if (!seen) return seen;
@@ -204,6 +218,7 @@ FacePose Surface::pose(const Alignment& aligned, const StereoCamera& camera,
                  by * Vector3d{of_landmark, of_landmark, variance}.asDiagonal() * by.transpose()};
   }
   FacePose face = face_through(points[0], points[1], points[2]);
+  face.residual_px = row_difference(aligned, located.at);
   if (!is_plane) return face;
   face.normal = aligned.surface.plane_normal(camera);
   // The normal of a plane does not depend on where on it the landmarks are.

@@ -118,6 +118,7 @@ TEST_P(SurfaceWith, IsRightOrSaysNo) {
     const auto found = estimated(face);
     if (!found) {
       EXPECT_THAT(found.error().text, testing::ContainsRegex(GetParam().reason)) << seed;
+      EXPECT_NE(found.error().code, 0) << "a program can tell, too: " << found.error().text;
       continue;
     }
     const PoseError error = error_of(*found, face);

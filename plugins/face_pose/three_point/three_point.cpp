@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -14,6 +15,18 @@ namespace armature::face_pose::three_point {
 namespace {
 
 constexpr double kMinFacing = 0.05;  // cosine between normal and line of sight
+
+/// [px] of eyes and mouth, rms.
+double row_difference(const StereoLandmarks& landmarks) {
+  constexpr std::array kFeatures{FaceFeature::left_eye, FaceFeature::right_eye, FaceFeature::mouth};
+  double squares = 0;
+  for (const FaceFeature feature : kFeatures) {
+    const double rows =
+        landmarks.left.feature(feature).point.y() - landmarks.right.feature(feature).point.y();
+    squares += rows * rows;
+  }
+  return std::sqrt(squares / kFeatures.size());
+}
 
 const char* name_of(FaceFeature feature) {
   if (feature == FaceFeature::left_eye) return "left eye";
@@ -35,17 +48,20 @@ Expected<StereoPoint> ThreePoint::triangulate(FaceFeature feature,
   const Landmark right = input.landmarks.right.feature(feature);
   const double rows = std::abs(left.point.y() - right.point.y());
   if (rows > parameters_.max_epipolar_error) {
-    return refuse(fmt::format("the {} differs by {:.1f} rows between the images, more than {:.1f}",
+    return refuse(FaceRefusal::not_rectified,
+                  fmt::format("the {} differs by {:.1f} rows between the images, more than {:.1f}",
                               name_of(feature), rows, parameters_.max_epipolar_error));
   }
   const double disparity = left.point.x() - right.point.x();
   if (disparity <= 0) {
-    return refuse(fmt::format("the {} has a disparity of {:.2f} px, not a positive one",
+    return refuse(FaceRefusal::implausible,
+                  fmt::format("the {} has a disparity of {:.2f} px, not a positive one",
                               name_of(feature), disparity));
   }
   const Eigen::Vector3d point = camera.triangulate(left.point, right.point);
   if (point.z() < parameters_.min_depth || point.z() > parameters_.max_depth) {
-    return refuse(fmt::format("the {} would be {:.3f} m away, outside {} to {} m", name_of(feature),
+    return refuse(FaceRefusal::implausible,
+                  fmt::format("the {} would be {:.3f} m away, outside {} to {} m", name_of(feature),
                               point.z(), parameters_.min_depth, parameters_.max_depth));
   }
   const Eigen::Matrix3d by_pixels = derivative_by_pixels(point, camera.baseline_m, disparity);
@@ -58,7 +74,7 @@ Expected<StereoPoint> ThreePoint::triangulate(FaceFeature feature,
 
 Expected<FacePose> ThreePoint::estimate(const FacePoseInput& input, PluginState&) {
   for (const FaceLandmarks* face : {&input.landmarks.left, &input.landmarks.right}) {
-    if (auto wrong = invalid_input(*face)) return refuse(*wrong);
+    if (auto wrong = invalid_input(*face)) return refuse(FaceRefusal::bad_input, *wrong);
   }
   const auto left_eye = triangulate(FaceFeature::left_eye, input);
   if (!left_eye) return tl::unexpected{left_eye.error()};
@@ -69,16 +85,19 @@ Expected<FacePose> ThreePoint::estimate(const FacePoseInput& input, PluginState&
 
   const double eye_distance = (right_eye->at - left_eye->at).norm();
   if (eye_distance < parameters_.min_eye_distance || eye_distance > parameters_.max_eye_distance) {
-    return refuse(fmt::format("the eyes would be {:.1f} mm apart, outside {:.0f} to {:.0f} mm",
+    return refuse(FaceRefusal::implausible,
+                  fmt::format("the eyes would be {:.1f} mm apart, outside {:.0f} to {:.0f} mm",
                               eye_distance * 1e3, parameters_.min_eye_distance * 1e3,
                               parameters_.max_eye_distance * 1e3));
   }
 
-  const FacePose face = face_through(*left_eye, *right_eye, *mouth);
+  FacePose face = face_through(*left_eye, *right_eye, *mouth);
   if (const double seen = facing(face); !(seen > kMinFacing)) {
-    return refuse(fmt::format("the face would be seen from {:.0f} degrees aside, or from behind",
+    return refuse(FaceRefusal::implausible,
+                  fmt::format("the face would be seen from {:.0f} degrees aside, or from behind",
                               std::acos(std::clamp(seen, -1.0, 1.0)) * 180 / std::numbers::pi));
   }
+  face.residual_px = row_difference(input.landmarks);
   return face;
 }
 

@@ -138,9 +138,19 @@ TEST(ThreePoint, StatesTheUncertaintyThatNoiseProduces) {
   }
 }
 
+TEST(ThreePoint, TellsByHowManyRowsThePicturesDiffer) {
+  ThreePoint estimator{{}};
+  PluginState state;
+  FacePoseInput in = exact_face(kDefault, placed({0, 0, 0.5}, 0, 0));
+  EXPECT_NEAR(estimator.estimate(in, state).value().residual_px, 0, 1e-9);
+  for (Landmark& landmark : in.landmarks.right.points) landmark.point.y() += 2;
+  EXPECT_NEAR(estimator.estimate(in, state).value().residual_px, 2, 1e-9);
+}
+
 struct Guard {
   std::string name;
   std::function<void(FacePoseInput&)> spoil;
+  FaceRefusal code;
   std::string reason;
 };
 
@@ -154,6 +164,7 @@ TEST_P(ThreePointGuards, RefuseWithTheReason) {
   const auto face = estimator.estimate(in, state);
   ASSERT_FALSE(face);
   EXPECT_THAT(face.error().text, testing::HasSubstr(GetParam().reason));
+  EXPECT_EQ(face.error().code, static_cast<int>(GetParam().code));
 }
 
 void shift_mouth(FacePoseInput& in, double du, double dv) {
@@ -163,28 +174,31 @@ void shift_mouth(FacePoseInput& in, double du, double dv) {
 
 INSTANTIATE_TEST_SUITE_P(
     All, ThreePointGuards,
-    testing::Values(Guard{"disparity", [](FacePoseInput& in) { shift_mouth(in, 230, 0); },
-                          "the mouth has a disparity of -10.64 px, not a positive one"},
-                    Guard{"near", [](FacePoseInput& in) { shift_mouth(in, -500, 0); },
-                          "the mouth would be 0.152 m away, outside 0.2 to 2 m"},
-                    Guard{"rows", [](FacePoseInput& in) { shift_mouth(in, 0, 8); },
-                          "the mouth differs by 8.0 rows between the images, more than 6.0"},
-                    Guard{"not_finite", [](FacePoseInput& in) { shift_mouth(in, NAN, 0); },
-                          "landmark 60 is not finite"},
-                    Guard{"tiny_face",
-                          [](FacePoseInput& in) {
-                            in.camera.baseline_m = 0.05;
-                            in.camera.focal_px *= 1.2;
-                          },
-                          "the eyes would be 26.2 mm apart, outside 30 to 150 mm"},
-                    Guard{"mirrored",
-                          [](FacePoseInput& in) {
-                            for (auto* face : {&in.landmarks.left, &in.landmarks.right}) {
-                              for (std::size_t i = 36; i <= 41; ++i)
-                                std::swap(face->points[i], face->points[i + 6]);
-                            }
-                          },
-                          "the face would be seen from 180 degrees aside, or from behind"}),
+    testing::Values(
+        Guard{"disparity", [](FacePoseInput& in) { shift_mouth(in, 230, 0); },
+              FaceRefusal::implausible,
+              "the mouth has a disparity of -10.64 px, not a positive one"},
+        Guard{"near", [](FacePoseInput& in) { shift_mouth(in, -500, 0); }, FaceRefusal::implausible,
+              "the mouth would be 0.152 m away, outside 0.2 to 2 m"},
+        Guard{"rows", [](FacePoseInput& in) { shift_mouth(in, 0, 8); }, FaceRefusal::not_rectified,
+              "the mouth differs by 8.0 rows between the images, more than 6.0"},
+        Guard{"not_finite", [](FacePoseInput& in) { shift_mouth(in, NAN, 0); },
+              FaceRefusal::bad_input, "landmark 60 is not finite"},
+        Guard{"tiny_face",
+              [](FacePoseInput& in) {
+                in.camera.baseline_m = 0.05;
+                in.camera.focal_px *= 1.2;
+              },
+              FaceRefusal::implausible, "the eyes would be 26.2 mm apart, outside 30 to 150 mm"},
+        Guard{"mirrored",
+              [](FacePoseInput& in) {
+                for (auto* face : {&in.landmarks.left, &in.landmarks.right}) {
+                  for (std::size_t i = 36; i <= 41; ++i)
+                    std::swap(face->points[i], face->points[i + 6]);
+                }
+              },
+              FaceRefusal::implausible,
+              "the face would be seen from 180 degrees aside, or from behind"}),
     [](const auto& test) { return test.param.name; });
 
 TEST(ThreePointParams, RefuseLimitsThatExcludeEachOther) {

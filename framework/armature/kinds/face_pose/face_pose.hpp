@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <string_view>
 
 #include "armature/kinds/landmarks/landmarks.hpp"
@@ -23,6 +24,19 @@ struct FacePose {
   Eigen::Matrix3d right_eye_covariance = Eigen::Matrix3d::Zero();  // [m2]
   Eigen::Matrix3d mouth_covariance = Eigen::Matrix3d::Zero();      // [m2]
   Eigen::Matrix3d normal_covariance = Eigen::Matrix3d::Zero();  // [rad2] across the normal, along 0
+  double residual_px = 0;  // by how many rows eyes and mouth differ between the pictures, rms
+};
+
+/// Why there is no pose, for programs: the code of the reason, and of the message.
+enum class FaceRefusal : std::uint8_t {
+  other,
+  no_face,        // none is in both pictures
+  bad_input,      // pictures, landmarks or camera are none, or do not belong together
+  covered,        // something is before the eyes or the mouth, or they are not to be seen
+  brightness,     // the pictures differ in brightness
+  not_rectified,  // what is in one row of one picture is in another row of the other
+  implausible,    // no face of a person in front of the cameras
+  uncertain       // the pictures tell too little
 };
 
 struct FacePoseInput {
@@ -40,9 +54,9 @@ class FacePoseEstimator {
   using Factory = MadeFromParams<FacePoseEstimator>;
 
   virtual ~FacePoseEstimator() = default;
-  /// The pose, or why the estimate would not be trustworthy. `state` is what it remembers of the
-  /// pictures before, such as where to start. Not const: it may keep scratch memory, never
-  /// knowledge. May allocate.
+  /// The pose, or why the estimate would not be trustworthy, with a FaceRefusal as its code.
+  /// `state` is what it remembers of the pictures before, such as where to start. Not const: it may
+  /// keep scratch memory, never knowledge. May allocate.
   virtual Expected<FacePose> estimate(const FacePoseInput& input, PluginState& state) = 0;
 };
 

@@ -70,15 +70,16 @@ class FacePoseHost final : public Component {
 };
 
 Expected<FacePose> FacePoseHost::estimate() {
-  if (!landmarks_.latest()->valid_()) return refuse(landmarks_.latest()->reason_());
-  if (!right_info_.latest()) return refuse("no camera_info yet");
+  using enum FaceRefusal;
+  if (!landmarks_.latest()->valid_()) return refuse(no_face, landmarks_.latest()->reason_());
+  if (!right_info_.latest()) return refuse(bad_input, "no camera_info yet");
   const auto landmarks = landmarks_of(*landmarks_.latest());
-  if (!landmarks) return tl::unexpected{landmarks.error()};
+  if (!landmarks) return refuse(bad_input, landmarks.error().text);
   const auto left = image_of(*left_image_.latest()), right = image_of(*right_image_.latest());
-  if (!left) return refuse("left: " + left.error().text);
-  if (!right) return refuse("right: " + right.error().text);
+  if (!left) return refuse(bad_input, "left: " + left.error().text);
+  if (!right) return refuse(bad_input, "right: " + right.error().text);
   const auto camera = camera_of(*right_info_.latest(), *right);
-  if (!camera) return tl::unexpected{camera.error()};
+  if (!camera) return refuse(bad_input, camera.error().text);
   return guarded(state_, [&](PluginState& state) {
     return estimator_->estimate({.left = *left,
                                  .right = *right,
@@ -99,7 +100,9 @@ void FacePoseHost::step(Time) {
   auto face = face_.loan();
   face->header_() = landmarks_.latest()->header_();
   face->valid_(estimated.has_value());
-  face->reason_(estimated ? std::string{} : estimated.error().text);
+  const Reason reason = estimated ? Reason{} : estimated.error();
+  face->reason_(reason.text);
+  face->code_(reason.code);
   assign(face->left_eye_(), pose.left_eye);
   assign(face->right_eye_(), pose.right_eye);
   assign(face->mouth_(), pose.mouth);
@@ -108,6 +111,7 @@ void FacePoseHost::step(Time) {
   assign(face->right_eye_covariance_(), pose.right_eye_covariance);
   assign(face->mouth_covariance_(), pose.mouth_covariance);
   assign(face->normal_covariance_(), pose.normal_covariance);
+  face->residual_px_(pose.residual_px);
   face.publish();
 }
 

@@ -31,15 +31,16 @@ class FirstLandmark final : public FacePoseEstimator {
     state.set(Count{before ? before->calls + 1 : 1});
     if (throws) throw std::runtime_error{"the matrix is singular"};
     const double u = input.landmarks.left.points[0].point.x();
-    if (u < 0) return refuse("the mouth is outside the image");
+    if (u < 0) return refuse(FaceRefusal::covered, "a hand is before the mouth");
     return FacePose{
         .left_eye = {1, 2, 3},
         .right_eye = {4, 5, 6},
         .mouth = {u, 0, 1},
         .normal = {0, 0, -1},
         .mouth_covariance = Vector3d{1, 2, 3}.asDiagonal(),
-        .normal_covariance = (Eigen::Matrix3d{} << 1, 2, 3, 4, 5, 6, 7, 8, 9).finished() *
-                             state.get<Count>()->calls};
+        .normal_covariance =
+            (Eigen::Matrix3d{} << 1, 2, 3, 4, 5, 6, 7, 8, 9).finished() * state.get<Count>()->calls,
+        .residual_px = 0.25};
   }
 
  private:
@@ -153,6 +154,8 @@ TEST_F(FacePoseHostTest, TellsThePoseUnderTheHeaderOfThePictures) {
   EXPECT_EQ(to_eigen(face.right_eye_()), (Vector3d{4, 5, 6}));
   EXPECT_EQ(to_eigen(face.mouth_()), (Vector3d{2, 0, 1}));
   EXPECT_EQ(to_eigen(face.normal_()), (Vector3d{0, 0, -1}));
+  EXPECT_EQ(face.code_(), 0);
+  EXPECT_EQ(face.residual_px_(), 0.25);
   EXPECT_EQ(face.mouth_covariance_(), (std::array<double, 9>{1, 0, 0, 0, 2, 0, 0, 0, 3}));
   EXPECT_EQ(face.normal_covariance_(), (std::array<double, 9>{1, 2, 3, 4, 5, 6, 7, 8, 9}));
 }
@@ -192,12 +195,15 @@ TEST_F(FacePoseHostTest, WaitsForPicturesAndLandmarksOfOneStampAndAnswersThemOnc
 }
 
 TEST_F(FacePoseHostTest, SaysWhyThereIsNoPoseAndTellsNothingOfTheOneBefore) {
-  EXPECT_EQ(see(1, 2).reason_(), "no camera_info yet");
+  const msg::FacePose early = see(1, 2);
+  EXPECT_EQ(early.reason_(), "no camera_info yet");
+  EXPECT_EQ(early.code_(), 2) << "bad input";
   host_.send("right_info", info());
   ASSERT_TRUE(see(2, 2).valid_());
   const msg::FacePose none = see(3, -1);
   EXPECT_FALSE(none.valid_());
-  EXPECT_EQ(none.reason_(), "the mouth is outside the image");
+  EXPECT_EQ(none.reason_(), "a hand is before the mouth");
+  EXPECT_EQ(none.code_(), 3) << "covered";
   EXPECT_EQ(to_eigen(none.mouth_()), Vector3d::Zero());
   EXPECT_EQ(to_eigen(none.normal_()), Vector3d::Zero());
   EXPECT_EQ(none.mouth_covariance_(), (std::array<double, 9>{}));
@@ -206,6 +212,7 @@ TEST_F(FacePoseHostTest, SaysWhyThereIsNoPoseAndTellsNothingOfTheOneBefore) {
 TEST_F(FacePoseHostTest, AnswersBadInputWithItsReason) {
   host_.send("right_info", info());
   double stamp = 10;
+  int code = 0;
   const auto refusal = [&](auto change) {
     ++stamp;
     msg::Image left = image(stamp), right = image(stamp);
@@ -214,6 +221,7 @@ TEST_F(FacePoseHostTest, AnswersBadInputWithItsReason) {
     const msg::FacePose face = see(left, right, found);
     EXPECT_FALSE(face.valid_());
     EXPECT_EQ(stamp_of(face.header_().stamp_()), Time{} + seconds(stamp));
+    code = face.code_();
     return face.reason_();
   };
   EXPECT_EQ(refusal([](auto&, auto&, auto& found) {
@@ -221,6 +229,7 @@ TEST_F(FacePoseHostTest, AnswersBadInputWithItsReason) {
               found.reason_("no face in the right image");
             }),
             "no face in the right image");
+  EXPECT_EQ(code, 1) << "no face";
   EXPECT_EQ(refusal([](auto&, auto&, auto& found) { found.right_().pop_back(); }),
             "right: 135 coordinates and 68 sigmas of landmarks, and ibug68 has 136 and 68");
   EXPECT_EQ(refusal([](auto&, auto&, auto& found) { found.left_sigma_().clear(); }),
@@ -231,6 +240,7 @@ TEST_F(FacePoseHostTest, AnswersBadInputWithItsReason) {
             "left: the image is 'bgr8', not mono8");
   EXPECT_EQ(refusal([](auto&, auto& right, auto&) { right.data_().clear(); }),
             "right: an image of 4 x 2 pixels with 0 bytes in steps of 4");
+  EXPECT_EQ(code, 2) << "bad input";
   EXPECT_TRUE(see(50, 2).valid_());
 }
 

@@ -160,6 +160,9 @@ class LampReport : public Component {
       unfinished_.see_face(stamp_of(landmarks_[i].header_().stamp_()));
       if (auto face = landmarks_of(landmarks_[i])) seen_ = std::move(*face);
     }
+    for (std::size_t i = 0; i < face_.size(); ++i) {
+      unfinished_.see_code(stamp_of(face_[i].header_().stamp_()), face_[i].code_());
+    }
     for (std::size_t i = 0; i < target_.size(); ++i) {
       const auto estimate = estimate_of(target_[i]);
       if (estimate) {

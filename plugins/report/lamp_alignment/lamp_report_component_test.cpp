@@ -127,18 +127,23 @@ TEST_F(LampReportTest, EndsWithoutAFace) {
             "no face was found for 4 s; the task had been holding for 4.2 s");
 }
 
-TEST_F(LampReportTest, TellsWhyTheLastFaceThatWasSeenWasRefusedAndWhatTheTaskWasAt) {
+TEST_F(LampReportTest, TellsWhyMostFacesThatWereSeenWereRefusedAndWhatTheTaskWasAt) {
   msg::FaceLandmarks landmarks;
   msg::Target refused;
-  const auto see = [&](double stamp_s, bool face, const char* why) {
+  const auto see = [&](double stamp_s, bool face, std::uint8_t code, const char* why) {
     write_header(landmarks.header_(), Time{} + seconds(stamp_s), "left_camera_optical");
     landmarks.valid_(face);
     report_.send("landmarks", landmarks);
+    msg::FacePose pose;
+    pose.header_() = landmarks.header_();
+    pose.code_(code);
+    report_.send("face", pose);
     write_no_estimate(Time{} + seconds(stamp_s), Reason{why}, refused);
     report_.send("target", refused);
   };
-  see(100, true, "the eyes would be 198.3 mm apart");
-  see(100.1, false, "no face in the left image");
+  see(100, true, 6, "the eyes would be 190.0 mm apart");
+  see(100.1, true, 6, "the eyes would be 198.3 mm apart");
+  see(100.2, false, 1, "no face in the left image");
   msg::TaskState task;
   task.state_("searching");
   task.step_(2);
@@ -149,8 +154,9 @@ TEST_F(LampReportTest, TellsWhyTheLastFaceThatWasSeenWasRefusedAndWhatTheTaskWas
   report_.step(104.1);
   EXPECT_EQ(report_.figures().status, "face_not_found");
   EXPECT_EQ(report_.figures().reason,
-            "no face was found for 4 s; the last that was seen was refused: the eyes would be "
-            "198.3 mm apart; the task had been searching 2/9 for 4.1 s: search pose: out_of_reach");
+            "no face was found for 4 s; of 2 pictures of a face that were refused most (2) were "
+            "so: the eyes would be 198.3 mm apart; the task had been searching 2/9 for 4.1 s: "
+            "search pose: out_of_reach");
 }
 
 TEST_F(LampReportTest, CountsNoEstimateThatIsNone) {

@@ -14,12 +14,25 @@ constexpr std::size_t kPictures = 64;
 }  // namespace
 
 void UnfinishedScenario::see_face(Time picture) {
-  faces_.push_back(picture);
+  faces_.push_back({picture, 0});
   if (faces_.size() > kPictures) faces_.pop_front();
 }
 
+UnfinishedScenario::Seen* UnfinishedScenario::seen_at(Time picture) {
+  const auto seen = std::ranges::find(faces_, picture, &Seen::picture);
+  return seen == faces_.end() ? nullptr : &*seen;
+}
+
+void UnfinishedScenario::see_code(Time picture, std::uint8_t code) {
+  if (Seen* seen = seen_at(picture)) seen->code = code;
+}
+
 void UnfinishedScenario::see_refusal(Time picture, const std::string& why) {
-  if (std::ranges::find(faces_, picture) != faces_.end()) refusal_ = why;
+  const Seen* seen = seen_at(picture);
+  if (!seen) return;
+  Refusals& like = refusals_[seen->code];
+  ++like.count;
+  like.newest = why;
 }
 
 void UnfinishedScenario::see_task(const std::string& doing, const std::string& why, Time now) {
@@ -30,7 +43,17 @@ void UnfinishedScenario::see_task(const std::string& doing, const std::string& w
 
 std::string UnfinishedScenario::told(Time now) const {
   std::string text;
-  if (!refusal_.empty()) text += "; the last that was seen was refused: " + refusal_;
+  int refused = 0;
+  const Refusals* most = nullptr;
+  for (const auto& [code, like] : refusals_) {
+    refused += like.count;
+    if (!most || like.count > most->count) most = &like;
+  }
+  if (refused == 1) text += "; a picture of a face was refused: " + most->newest;
+  if (refused > 1) {
+    text += fmt::format("; of {} pictures of a face that were refused most ({}) were so: {}",
+                        refused, most->count, most->newest);
+  }
   if (doing_.empty()) return text;
   text +=
       fmt::format("; the task had been {} for {:.1f} s", doing_, to_seconds(now - doing_since_));

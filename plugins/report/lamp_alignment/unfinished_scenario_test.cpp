@@ -12,14 +12,20 @@ TEST(UnfinishedScenario, OfWhichNothingWasHeardTellsNothing) {
   EXPECT_EQ(UnfinishedScenario{}.told(at(3)), "");
 }
 
-TEST(UnfinishedScenario, TellsWhyTheLastFaceThatWasSeenWasRefused) {
+TEST(UnfinishedScenario, TellsWhyMostOfTheFacesThatWereSeenWereRefused) {
   UnfinishedScenario scenario;
-  scenario.see_face(at(1));
-  scenario.see_face(at(1.1));
-  scenario.see_refusal(at(1), "too wide");
-  scenario.see_refusal(at(1.1), "too narrow");
-  scenario.see_refusal(at(1.2), "no face in the left image");
-  EXPECT_EQ(scenario.told(at(2)), "; the last that was seen was refused: too narrow");
+  const auto refuse = [&](double t_s, std::uint8_t code, const char* why) {
+    scenario.see_face(at(t_s));
+    scenario.see_code(at(t_s), code);
+    scenario.see_refusal(at(t_s), why);
+  };
+  refuse(1, 5, "rows differ by 1 px");
+  EXPECT_EQ(scenario.told(at(2)), "; a picture of a face was refused: rows differ by 1 px");
+  scenario.see_refusal(at(1.05), "no face in the left image");
+  refuse(1.1, 5, "rows differ by 2 px");
+  refuse(1.2, 7, "shows too little");
+  EXPECT_EQ(scenario.told(at(2)),
+            "; of 3 pictures of a face that were refused most (2) were so: rows differ by 2 px");
   scenario.see_estimate();
   EXPECT_EQ(scenario.told(at(2)), "");
 }
@@ -30,7 +36,7 @@ TEST(UnfinishedScenario, RemembersTheFacesOfTheNewestPictures) {
   scenario.see_refusal(at(0), "forgotten");
   EXPECT_EQ(scenario.told(at(65)), "");
   scenario.see_refusal(at(1), "the oldest");
-  EXPECT_EQ(scenario.told(at(65)), "; the last that was seen was refused: the oldest");
+  EXPECT_EQ(scenario.told(at(65)), "; a picture of a face was refused: the oldest");
 }
 
 TEST(UnfinishedScenario, TellsWhatTheTaskWasAtAndForHowLong) {

@@ -89,6 +89,7 @@ LampAlignment::LampAlignment(const Parameters& parameters, double joint_6_to_lam
       at_rest_{window_of(parameters)} {}
 
 void LampAlignment::see(const Picture& picture, Time now) {
+  shows_face_ = picture.face;
   if (picture.face) face_in_picture_at_ = picture.stamp;
   if (picture.face || phase_ == Phase::checking_light) {
     const double intensity = picture.face ? picture.face_intensity : picture.image_intensity;
@@ -103,12 +104,17 @@ void LampAlignment::see(const Picture& picture, Time now) {
   }
 }
 
+void LampAlignment::see_no_estimate(const std::string& why) {
+  no_estimate_ = why;
+  if (shows_face_) disbelief_ = why;
+}
+
 // A prediction over pictures without a measurement moves nothing: at(now) predicts better.
 void LampAlignment::see(const FaceEstimate& estimate) {
   if (std::exchange(measurements_, estimate.measurements) == estimate.measurements) return;
   if (estimate.measurements < parameters_.min_measurements) {
-    no_estimate_ = fmt::format("the face was measured {} times, {} times are wanted",
-                               estimate.measurements, parameters_.min_measurements);
+    see_no_estimate(fmt::format("it was measured {} times, {} times are wanted",
+                                estimate.measurements, parameters_.min_measurements));
     return;
   }
   const bool moves = estimate.velocity.norm() > parameters_.moving_speed ||
@@ -119,6 +125,7 @@ void LampAlignment::see(const FaceEstimate& estimate) {
   latest_->velocity = shortened(estimate.velocity, parameters_.max_speed);
   latest_->normal_rate = shortened(estimate.normal_rate, parameters_.max_turn);
   no_estimate_.clear();
+  disbelief_.clear();
   ++fresh_;
   if (goals_.state() == GoalState::done && estimate.stamp >= goals_.done_at()) {
     at_rest_.add(estimate);
@@ -248,17 +255,21 @@ void LampAlignment::search(Time now) {
     if (goals_.state() == GoalState::failed) {
       leave_failed_view(now);
     } else if (goals_.state() == GoalState::done) {
-      trouble_.clear();
       failed_views_ = 0;
       looking_ = capture_ = true;
       looking_since_ = now;
       pictures_ = 0;
       face_in_picture_ = false;
+      disbelief_.clear();
     }
     return;
   }
   const int enough = parameters_.frames_per_view + (face_in_picture_ ? kPicturesForEstimate : 0);
-  if (pictures_ >= enough) next_view();
+  if (pictures_ < enough) return;
+  trouble_ = disbelief_.empty() ? ""
+                                : fmt::format("in view {} a face was seen but not believed: {}",
+                                              views_looked_at_, disbelief_);
+  next_view();
 }
 
 void LampAlignment::leave_failed_view(Time now) {
@@ -341,8 +352,8 @@ bool LampAlignment::lost(Time now) const {
 
 void LampAlignment::tell_disbelief(Time now) {
   const Time since = std::max(latest_->stamp, goals_.done_at());
-  const bool disbelieved = !no_estimate_.empty() && to_seconds(now - since) > parameters_.lost;
-  trouble_ = disbelieved ? "a face is seen but not believed: " + no_estimate_ : "";
+  const bool disbelieved = !disbelief_.empty() && to_seconds(now - since) > parameters_.lost;
+  trouble_ = disbelieved ? "a face is seen but not believed: " + disbelief_ : "";
 }
 
 void LampAlignment::come_to_rest(Time now) {

@@ -45,7 +45,7 @@ class LampAlignment {
   void see(const Picture& picture, Time now);
   void see(const FaceEstimate& estimate);
   /// Why a picture gave no estimate.
-  void see_no_estimate(const std::string& why) { no_estimate_ = why; }
+  void see_no_estimate(const std::string& why);
   void hear(const GoalReport& report, Time now) { goals_.hear(report, now); }
   Expected<void> hear(const OperatorCommand& command, Time now);
   void step(Time now);
@@ -116,7 +116,9 @@ class LampAlignment {
   int pictures_ = 0;  // in this view
   bool face_in_picture_ = false;
   std::optional<double> new_level_;
-  std::string trouble_, no_estimate_;
+  bool shows_face_ = false;  // the newest picture
+  std::string trouble_;
+  std::string no_estimate_, disbelief_;  // of the newest picture, and of the newest with a face
 };
 
 /// "checking light", "searching", ...

@@ -109,7 +109,7 @@ TEST_F(LampAlignmentTest, AveragesWhatWasMeasuredAndNothingThatWasPredicted) {
   run(5);
   EXPECT_EQ(task_.phase(), Phase::aligning) << "at rest, and forty predictions judge nothing";
   predicts_ = false;
-  EXPECT_TRUE(run_until(Phase::holding, 2));
+  EXPECT_TRUE(run_until(Phase::holding, 6));
 }
 
 TEST_F(LampAlignmentTest, HoldsWhileAFaceIsSeenButNotBelievedAndSaysWhy) {
@@ -250,6 +250,19 @@ TEST_F(LampAlignmentTest, AlignsWithAFaceThatComesBeforeItThoughNoSearchPoseIsIn
   ASSERT_TRUE(run_until(Phase::aligning, 0.4));
   EXPECT_EQ(task_.trouble(), "");
   EXPECT_TRUE(run_until(Phase::holding, 10));
+}
+
+TEST_F(LampAlignmentTest, TellsOfAViewThatItLeavesThatAFaceWasSeenThereAndWhyItWasNotBelieved) {
+  believed_ = false;
+  while (task_.view() < 3) {
+    tick();
+    const bool before_the_face = task_.view() == 2;
+    if (before_the_face) task_.see_no_estimate("the pictures are not rectified");
+  }
+  EXPECT_EQ(task_.trouble(),
+            "in view 2 a face was seen but not believed: the pictures are not rectified");
+  while (task_.view() < 4) tick();
+  EXPECT_EQ(task_.trouble(), "") << "none was seen there";
 }
 
 TEST_F(LampAlignmentTest, TellsWhyTheFaceWasLost) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // `armature bench perception`: 1. plugins of a deployment are measured against drawn truth, 2. an
 // estimator that is wrong and says that it is valid is counted as that, 3. files of the pairs, 4.
-// what cannot be measured is refused.
+// groups by name, 5. what cannot be measured is refused.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -77,6 +77,16 @@ TEST(BenchPerception, CountsAnEstimatorThatIsWrongAndSaysItIsValid) {
   EXPECT_GE(all["wrong_but_valid"], static_cast<int>(all["found"]) * 9 / 10);
 }
 
+TEST(BenchPerception, MeasuresTheGroupsThatAreAskedForOnly) {
+  const CommandResult result = bench_perception({"--pairs", "34", "--json", "--group", "yaw"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto report = nlohmann::json::parse(result.out);
+  ASSERT_EQ(report["groups"].size(), 3U);
+  EXPECT_EQ(report["groups"][0]["group"], "yaw 15 to 30 deg");
+  EXPECT_EQ(report["groups"][1]["group"], "yaw 30 to 45 deg");
+  EXPECT_EQ(report["groups"][2]["pairs"], 2);
+}
+
 TEST(BenchPerception, RefusesWhatItCannotMeasure) {
   const auto refusal = [](std::vector<std::string> options) {
     const CommandResult result = bench_perception(std::move(options));
@@ -94,6 +104,8 @@ TEST(BenchPerception, RefusesWhatItCannotMeasure) {
   std::filesystem::remove(rig);
   EXPECT_THAT(refusal({"--face-pose", "face_pose/three_points"}),
               HasSubstr("did you mean 'face_pose/three_point'"));
+  EXPECT_THAT(refusal({"--group", "roof"}),
+              HasSubstr("no group has 'roof' in its name; these are there:\n  frontal\n"));
   EXPECT_THAT(refusal({"--detector", "landmarks/dlib68"}),
               HasSubstr("'landmarks/dlib68' is of kind 'landmarks', and a 'detector' is needed"));
 }

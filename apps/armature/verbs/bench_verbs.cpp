@@ -134,6 +134,9 @@ void add_bench_perception(CLI::App* bench, Action& action) {
   perception->add_option("--seed", options->seed, "of the cases")
       ->capture_default_str()
       ->check(wrong_seed);
+  perception->add_option("--group", options->group,
+                         "only groups with this in their name, 'glasses'; their pairs are those of "
+                         "a run of all");
   const char* instead = ", instead of the deployment's, with its defaults";
   perception->add_option("--detector", options->choice.detector,
                          std::string{"'detector/hog'"} + instead);

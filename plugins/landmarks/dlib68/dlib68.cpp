@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <dlib/image_processing.h>
-
 #include <cmath>
 #include <fstream>
 #include <map>
@@ -9,6 +7,7 @@
 
 #include "armature/kinds/landmarks/landmarks.hpp"
 #include "armature/runtime/plugins/plugin.hpp"
+#include "cascade.hpp"
 #include "dlib_chip.hpp"
 #include "landmarks_dlib68_parameters.hpp"
 
@@ -21,18 +20,18 @@ constexpr double kChipScale = 1.4;  // landmarks are sought in the box, this muc
 constexpr double kMinFace = 1;      // [px] width of a box that can hold a face at all
 constexpr double kMaxFace = 1e5;
 
-using Predictor = std::shared_ptr<const dlib::shape_predictor>;
+using Model = std::shared_ptr<const Cascade>;
 
 /// The model of a file, which is read once for all finders of the process that live at a time.
 /// Throws what dlib throws.
-Predictor predictor_of(const std::string& file) {
+Model model_of(const std::string& file) {
   static std::mutex mutex;
-  static std::map<std::string, std::weak_ptr<const dlib::shape_predictor>> models;
+  static std::map<std::string, std::weak_ptr<const Cascade>> models;
   const std::lock_guard lock{mutex};
-  std::weak_ptr<const dlib::shape_predictor>& model = models[file];
-  if (Predictor known = model.lock()) return known;
-  auto read = std::make_shared<dlib::shape_predictor>();
-  dlib::deserialize(file) >> *read;
+  std::weak_ptr<const Cascade>& model = models[file];
+  if (Model known = model.lock()) return known;
+  std::ifstream in{file, std::ios::binary};
+  auto read = std::make_shared<const Cascade>(Cascade::read(in));
   model = read;
   return read;
 }
@@ -51,7 +50,7 @@ class Dlib68 final : public LandmarkFinder {
  private:
   void add_landmarks(const Chip& chip, const PixelBox& box, std::vector<Landmark>& sum) const;
 
-  Predictor predictor_;
+  Model model_;
   Parameters parameters_;
 };
 
@@ -63,20 +62,20 @@ Expected<std::unique_ptr<LandmarkFinder>> Dlib68::make(const Params& params) {
       "/usr/share/dlib/shape_predictor_68_face_landmarks.dat";
   if (!std::ifstream{model}) return refuse("cannot open the landmark model " + model + hint);
   try {
-    finder->predictor_ = predictor_of(model);
+    finder->model_ = model_of(model);
   } catch (const std::exception& error) {
     return refuse(model + " is not a landmark model of dlib (" + error.what() + ")" + hint);
   }
-  if (finder->predictor_->num_parts() != landmark_count(LandmarkScheme::ibug68)) {
-    return refuse(model + " has " + std::to_string(finder->predictor_->num_parts()) +
+  if (finder->model_->landmarks() != landmark_count(LandmarkScheme::ibug68)) {
+    return refuse(model + " has " + std::to_string(finder->model_->landmarks()) +
                   " landmarks, not 68" + hint);
   }
   return finder;
 }
 
-// dlib rounds landmarks to whole pixels and samples the image at whole pixels. On a chip in which
-// the face is `face_width_px` wide that rounding is a fraction of an image pixel; the mean over
-// `boxes` shifted and scaled boxes removes most of what depends on the detector's coarse box.
+// The trees sample the image at whole pixels. On a chip in which the face is `face_width_px` wide
+// such a pixel is a fraction of an image pixel; the mean over `boxes` shifted and scaled boxes
+// removes most of what depends on the detector's coarse box.
 Expected<std::vector<Landmark>> Dlib68::find(const ImageView& image, const PixelBox& face) {
   if (auto wrong = invalid_input(image)) return refuse(*wrong);
   // Written so that what is not finite is refused, too.
@@ -112,9 +111,9 @@ void Dlib68::add_landmarks(const Chip& chip, const PixelBox& box,
   const dlib::drectangle r = dlib_chip::rectangle(box);
   const dlib::rectangle in_chip{
       dlib::drectangle{chip.chip_T_image(r.tl_corner()), chip.chip_T_image(r.br_corner())}};
-  const dlib::full_object_detection shape = (*predictor_)(chip.image, in_chip);
-  for (unsigned long i = 0; i < sum.size(); ++i) {
-    const dlib::dpoint p = chip.image_T_chip(dlib::dpoint{shape.part(i)});
+  const std::vector<Eigen::Vector2d> found = model_->find(chip.image, in_chip);
+  for (std::size_t i = 0; i < sum.size(); ++i) {
+    const dlib::dpoint p = chip.image_T_chip(dlib::dpoint{found[i].x(), found[i].y()});
     sum[i].point += Eigen::Vector2d{p.x(), p.y()};
   }
 }

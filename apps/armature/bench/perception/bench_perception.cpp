@@ -5,6 +5,8 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "armature/runtime/plugins/running_component.hpp"
 #include "armature/runtime/reporting/output_folder.hpp"
@@ -17,6 +19,26 @@
 #include "progress.hpp"
 
 namespace armature {
+namespace {
+
+/// Those of the groups that were asked for; the same ones as in a run of all groups.
+std::vector<bench::PerceptionCase> chosen_cases(const StereoCamera& camera,
+                                                const PerceptionBenchOptions& options) {
+  auto cases = bench::perception_cases(camera, options.pairs, options.seed);
+  std::string names, last;
+  for (const bench::PerceptionCase& one : cases) {
+    if (one.group != last) names += "\n  " + one.group;
+    last = one.group;
+  }
+  std::erase_if(cases, [&](const bench::PerceptionCase& one) {
+    return one.group.find(options.group) == std::string::npos;
+  });
+  if (!cases.empty()) return cases;
+  throw InvalidChoice(
+      fmt::format("no group has '{}' in its name; these are there:{}", options.group, names));
+}
+
+}  // namespace
 
 int bench_perception(const PerceptionBenchOptions& options) {
   if (options.worst) prepare_output_folder(*options.worst);
@@ -25,7 +47,7 @@ int bench_perception(const PerceptionBenchOptions& options) {
   name_crashing_components();
   const bench::ChosenPerception chosen =
       bench::chosen_perception(registry, options.source, options.choice);
-  const auto cases = bench::perception_cases(chosen.camera, options.pairs, options.seed);
+  const auto cases = chosen_cases(chosen.camera, options);
   std::vector<bench::PairResult> results;
   {
     Progress progress{"stereo pairs"};

@@ -15,6 +15,7 @@ struct PerceptionBenchOptions {
   bench::PerceptionChoice choice;
   int pairs = 300;
   std::uint64_t seed = 1;
+  std::string group;                 // only groups with this in their name
   std::optional<std::string> csv;    // file: one line per pair
   std::optional<std::string> worst;  // folder: pictures of the worst pairs
   bool json = false;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -12,9 +13,11 @@
 namespace armature {
 namespace {
 
-constexpr double kSearchScale = 2.0;   // the last box, this much larger, is searched first
-constexpr double kStripSlack = 0.35;   // of the box height: rows searched above and below
-constexpr double kMaxDisparity = 1.6;  // of the box width: columns searched to the left
+constexpr double kSearchScale = 2.0;    // the last box, this much larger, is searched first
+constexpr double kStripSlack = 0.35;    // of the box height: rows searched above and below
+constexpr double kMaxDisparity = 1.6;   // of the box width: columns searched to the left
+constexpr double kCoarseness = 0.15;    // of the box width: by which a detector's box may be aside
+constexpr double kMaxWidthRatio = 1.3;  // of the boxes of one face: a step of detectors is 1.2
 
 /// Why the views are no stereo pair.
 std::optional<std::string> no_pair(const ImageView& left, const ImageView& right) {
@@ -52,11 +55,32 @@ bool is_sound(const PixelBox& box) {
          std::isfinite(box.height) && box.width > 0 && box.height > 0;
 }
 
+Eigen::Vector2d centre(const PixelBox& box) {
+  return {box.left + 0.5 * box.width, box.top + 0.5 * box.height};
+}
+
 /// The distance of two boxes: between their centres and in width [px].
 double distance(const PixelBox& a, const PixelBox& b) {
-  const Eigen::Vector2d centres{a.left + 0.5 * a.width - b.left - 0.5 * b.width,
-                                a.top + 0.5 * a.height - b.top - 0.5 * b.height};
-  return centres.norm() + std::abs(a.width - b.width);
+  return (centre(a) - centre(b)).norm() + std::abs(a.width - b.width);
+}
+
+// What a face costs as a choice; no face that costs infinitely much is chosen.
+constexpr double kImpossible = std::numeric_limits<double>::infinity();
+
+/// By how much two boxes of a pair differ where those of one face do not: in rows and in width
+/// [px]. A face is never further right in the right picture.
+double difference(const PixelBox& in_right, const PixelBox& in_left) {
+  const Eigen::Vector2d aside = centre(in_right) - centre(in_left);
+  if (aside.x() > kCoarseness * in_left.width) return kImpossible;
+  return std::abs(aside.y()) + std::abs(in_right.width - in_left.width);
+}
+
+/// Whether boxes of a pair that is rectified can be of one face.
+bool can_be_one_face(const PixelBox& in_right, const PixelBox& in_left) {
+  const double ratio = in_right.width / in_left.width;
+  return difference(in_right, in_left) < kImpossible && ratio < kMaxWidthRatio &&
+         ratio > 1 / kMaxWidthRatio &&
+         std::abs(centre(in_right).y() - centre(in_left).y()) < kStripSlack * in_left.height;
 }
 
 /// Moves the face's box as its landmarks have moved and grown since the last pair.
@@ -118,11 +142,14 @@ std::optional<Reason> StereoFaceFinder::detect_both(const ImageView& left, const
 StereoFaceFinder::Faces StereoFaceFinder::find_left(const ImageView& left,
                                                     const std::optional<PixelBox>& last) {
   if (last) {
+    const auto to_last = [&](const PixelBox& face) { return distance(face, *last); };
     const Faces near =
-        detect(left, {.box = last->scaled(kSearchScale), .face_width = last->width}, last);
+        detect(left, {.box = last->scaled(kSearchScale), .face_width = last->width}, to_last);
     if (!near || *near) return near;
+    return detect(left, {.box = whole(left), .face_width = {}}, to_last);
   }
-  return detect(left, {.box = whole(left), .face_width = {}}, last);
+  const auto by_size = [](const PixelBox& face) { return -face.width; };
+  return detect(left, {.box = whole(left), .face_width = {}}, by_size);
 }
 
 // The pair is rectified: the right picture has the face in the same rows, further left.
@@ -130,28 +157,33 @@ StereoFaceFinder::Faces StereoFaceFinder::find_right(const ImageView& right,
                                                      const std::optional<PixelBox>& last,
                                                      const PixelBox& in_left) {
   if (last) {
+    const auto to_last = [&](const PixelBox& face) {
+      return can_be_one_face(face, in_left) ? distance(face, *last) : kImpossible;
+    };
     const Faces near =
-        detect(right, {.box = last->scaled(kSearchScale), .face_width = last->width}, last);
+        detect(right, {.box = last->scaled(kSearchScale), .face_width = last->width}, to_last);
     if (!near || *near) return near;
   }
+  const auto to_left = [&](const PixelBox& face) { return difference(face, in_left); };
   const PixelBox strip{
       in_left.left - kMaxDisparity * in_left.width, in_left.top - kStripSlack * in_left.height,
       (kMaxDisparity + 1.2) * in_left.width, (1 + 2 * kStripSlack) * in_left.height};
-  const Faces in_strip = detect(right, {.box = strip, .face_width = in_left.width}, in_left);
+  const Faces in_strip = detect(right, {.box = strip, .face_width = in_left.width}, to_left);
   if (!in_strip || *in_strip) return in_strip;
-  return detect(right, {.box = whole(right), .face_width = {}}, in_left);
+  return detect(right, {.box = whole(right), .face_width = {}}, to_left);
 }
 
+/// The face that costs least; nothing when there is none that is possible.
 StereoFaceFinder::Faces StereoFaceFinder::detect(const ImageView& image, const SearchRegion& region,
-                                                 const std::optional<PixelBox>& near) {
+                                                 const Cost& cost) {
   auto faces = detector_.detect(image, region);
   if (!faces) return tl::unexpected{faces.error()};
-  std::erase_if(*faces, [](const DetectedFace& face) { return !is_sound(face.box); });
+  std::erase_if(*faces, [&](const DetectedFace& face) {
+    return !is_sound(face.box) || cost(face.box) == kImpossible;
+  });
   if (faces->empty()) return std::optional<DetectedFace>{};
-  const auto cost = [&](const DetectedFace& face) {
-    return near ? distance(face.box, *near) : -face.box.width;
-  };
-  return *std::ranges::min_element(*faces, {}, cost);
+  return *std::ranges::min_element(*faces, {},
+                                   [&](const DetectedFace& face) { return cost(face.box); });
 }
 
 Expected<FaceLandmarks> StereoFaceFinder::landmarks(const ImageView& original,

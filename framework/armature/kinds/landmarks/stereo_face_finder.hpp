@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -16,9 +17,13 @@ namespace armature ARMATURE_EXPORT {
 ///
 /// The face is sought near where it was last, then everywhere; in the right picture in the rows of
 /// the left one first. With `detect_every` above 1 it is sought in every so many pairs only; in
-/// between its landmarks are sought where those of the last pair say that the face is. Of several
-/// faces it keeps to the one that it has: the nearest to the last one, and the largest where there
-/// was none. The detector's score chooses nothing: it changes from picture to picture.
+/// between its landmarks are sought where those of the last pair say that the face is.
+///
+/// Of several faces in the left picture it keeps to the one that it has: the nearest to the last
+/// one, and the largest where there was none. In the right picture it takes the same face: not
+/// further right than in the left one; near the last one, where that has about the same rows and
+/// size; else the one whose rows and size are most alike. The detector's score chooses nothing: it
+/// changes from picture to picture.
 class StereoFaceFinder {
  public:
   /// Where the face was last, which the caller owns; value-initialised: it is sought everywhere.
@@ -52,8 +57,8 @@ class StereoFaceFinder {
   Faces find_left(const ImageView& left, const std::optional<PixelBox>& last);
   Faces find_right(const ImageView& right, const std::optional<PixelBox>& last,
                    const PixelBox& in_left);
-  Faces detect(const ImageView& image, const SearchRegion& region,
-               const std::optional<PixelBox>& near);
+  using Cost = std::function<double(const PixelBox& face)>;
+  Faces detect(const ImageView& image, const SearchRegion& region, const Cost& cost);
   Expected<FaceLandmarks> landmarks(const ImageView& original, const ImageView& stretched,
                                     State::Face& face);
 

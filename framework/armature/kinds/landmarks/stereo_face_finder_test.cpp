@@ -131,6 +131,28 @@ TEST_F(StereoFaceFinderTest, TakesTheLargestFaceAndKeepsToItWhateverTheScores) {
   EXPECT_EQ(found->right.box.left, 155);
 }
 
+TEST_F(StereoFaceFinderTest, TakesTheSameFaceInBothPicturesWhenTwoAreThere) {
+  // The second face is farther away, and in the right picture where the first one is in the left.
+  detector_.left = {face(200, 100, 80), face(250, 104, 55)};
+  detector_.right = {face(205, 104, 55), face(120, 101, 80)};
+  auto found = find();
+  ASSERT_TRUE(found) << found.error().text;
+  EXPECT_EQ(found->left.box.left, 200);
+  EXPECT_EQ(found->right.box.left, 120);
+  // The first one leaves the left picture: the right one does not stay with it.
+  detector_.left = {face(250, 104, 55)};
+  found = find();
+  ASSERT_TRUE(found) << found.error().text;
+  EXPECT_EQ(found->left.box.left, 250);
+  EXPECT_EQ(found->right.box.left, 205);
+}
+
+TEST_F(StereoFaceFinderTest, AFaceThatIsFurtherRightInTheRightPictureIsAnotherOne) {
+  detector_.left = {face(200, 100, 80)};
+  detector_.right = {face(260, 100, 80)};
+  EXPECT_EQ(find().error().text, "no face in the right image");
+}
+
 TEST_F(StereoFaceFinderTest, SearchesTheRightPictureInTheRowsOfTheLeftOneAndThenEverywhere) {
   detector_.left = {face(200, 100, 80)};
   detector_.right = {face(150, 100, 80)};

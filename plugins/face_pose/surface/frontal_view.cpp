@@ -6,13 +6,15 @@
 #include <cmath>
 
 #include "armature/kinds/landmarks/stretched_image.hpp"
+#include "feature_plane.hpp"
 
 namespace armature::face_pose::surface {
 namespace {
 
-// In distances between the eyes, of the boxes that HOG and cascade detectors put around frontal
-// faces: how wide they are, and how far below the eyes their middle is.
-constexpr double kBoxWidth = 2.4, kBoxBelowEyes = 0.5;
+// In distances between the eyes, of the boxes: how wide they are, as HOG and cascade detectors put
+// them around frontal faces, and how far below the eyes their middle is. Those of detectors are
+// lower by an eighth; there finders lose eyes behind glasses.
+constexpr double kBoxWidth = 2.4, kBoxBelowEyes = 0.36;
 constexpr double kBoxPixels = 290;
 constexpr double kDark = 100;  // grey value of the brightest part of a view that is stretched
 
@@ -35,7 +37,10 @@ float value_at(const ImageView& image, float u, float v) {
 
 void FrontalView::render(const ImageView& left, const ImageView& right, const Alignment& alignment,
                          const Features& features, const StereoCamera& camera) {
-  const DisparitySurface plane = alignment.surface.tangent(features.between_eyes());
+  const DisparitySurface& surface = alignment.surface;
+  const DisparitySurface plane = plane_through(
+      features,
+      {surface.at(features.left_eye), surface.at(features.right_eye), surface.at(features.mouth)});
   const Eigen::Vector3d into = -plane.plane_normal(camera);
   const Eigen::Vector3d eyes = plane.point(features.between_eyes(), camera);
   const Eigen::Vector3d to_right =
@@ -51,13 +56,12 @@ void FrontalView::render(const ImageView& left, const ImageView& right, const Al
 
   pixels_.resize(std::size_t{kSize} * kSize);
   const Eigen::Matrix3f h = left_H_view_.cast<float>();
-  const DisparitySurface& s = alignment.surface;
-  const Eigen::Matrix<float, 6, 1> c = s.c.cast<float>();
+  const Eigen::Matrix<float, 6, 1> c = surface.c.cast<float>();
   const Eigen::Vector3f rows = alignment.rows.cast<float>();
   const auto gain = static_cast<float>(alignment.gain),
              offset = static_cast<float>(alignment.offset);
-  const auto per_reach = static_cast<float>(1 / s.reach);
-  const Eigen::Vector2f from = s.middle.cast<float>();
+  const auto per_reach = static_cast<float>(1 / surface.reach);
+  const Eigen::Vector2f from = surface.middle.cast<float>();
   std::uint8_t* to = pixels_.data();
   for (int j = 0; j < kSize; ++j) {
     Eigen::Vector3f p = h.col(1) * static_cast<float>(j) + h.col(2);
@@ -82,11 +86,14 @@ ImageView FrontalView::image() {
   return stretched_if_dark(as_seen, kDark, stretched_);
 }
 
-std::array<PixelBox, 2> FrontalView::face_boxes() const {
+std::array<PixelBox, 4> FrontalView::face_boxes() const {
   constexpr double kShift = 0.06;  // of the box
-  const double side = kBoxPixels, first = 0.5 * (kSize - 1 - side);
-  const double a = first - kShift * side, b = first + kShift * side;
-  return {PixelBox{a, a, side, side}.scaled(0.96), PixelBox{b, b, side, side}.scaled(1.04)};
+  const auto box = [](double right, double down, double scale) {
+    const double first = 0.5 * (kSize - 1 - kBoxPixels), step = kShift * kBoxPixels;
+    return PixelBox{first + right * step, first + down * step, kBoxPixels, kBoxPixels}.scaled(
+        scale);
+  };
+  return {box(-1, -1, 0.96), box(1, 1, 1.04), box(1, -1, 0.96), box(-1, 1, 1.04)};
 }
 
 double FrontalView::eye_distance() const { return kBoxPixels / kBoxWidth; }

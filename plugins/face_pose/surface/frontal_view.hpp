@@ -13,8 +13,9 @@
 namespace armature::face_pose::surface {
 
 /// A picture of the face as a camera would take it that stands before it, upright and square to the
-/// plane that touches its surface: both pictures are warped into it and averaged. There landmark
-/// finders err least, and by the same in every pose.
+/// plane of its eyes and mouth: both pictures are warped into it and averaged. There landmark
+/// finders err least, and by the same in every pose. A plane that touches a round face between the
+/// eyes would show the mouth a third too far down, where no finder looks for it.
 class FrontalView {
  public:
   /// The face takes as many pixels as finders want it to, however far away it is.
@@ -23,9 +24,9 @@ class FrontalView {
 
   /// The view, stretched if it is dark.
   ImageView image();
-  /// Where a detector that was trained on upright faces might put its box, once up and left, once
-  /// down and right.
-  std::array<PixelBox, 2> face_boxes() const;
+  /// Where a detector that was trained on upright faces might put its box: two that lie up and
+  /// left, and down and right, then two in the other corners.
+  std::array<PixelBox, 4> face_boxes() const;
   double eye_distance() const;  // [px]
   /// The pixel of the left picture that a point [px] of the view shows.
   Eigen::Vector2d in_left(const Eigen::Vector2d& in_view) const {

@@ -62,13 +62,27 @@ TEST(FrontalView, KnowsWhereInTheLeftPictureAPointOfItIs) {
   const PixelBox a = seen.view.face_boxes()[0], b = seen.view.face_boxes()[1];
   const Eigen::Vector2d middle{0.25 * (a.left + a.right() + b.left + b.right()),
                                0.25 * (a.top + a.bottom() + b.top + b.bottom())};
-  const Eigen::Vector2d between_eyes{middle.x(), middle.y() - 0.5 * eyes};
+  const Eigen::Vector2d between_eyes{middle.x(), middle.y() - 0.36 * eyes};
   EXPECT_LT((seen.view.in_left(between_eyes) - seen.features.between_eyes()).norm(), 0.6);
   const auto& truth = seen.face.truth;
   const double down = (truth.mouth - 0.5 * (truth.left_eye + truth.right_eye)).norm();
   const double apart = (truth.right_eye - truth.left_eye).norm();
   const Eigen::Vector2d mouth = between_eyes + Eigen::Vector2d{0, eyes * down / apart};
   EXPECT_LT((seen.view.in_left(mouth) - seen.features.mouth).norm(), 0.6);
+}
+
+TEST(FrontalView, ShowsTheMouthOfARoundFaceAsFarBelowItsEyesAsItIs) {
+  const scene::Staging round{.surface = {scene::Surface::Shape::sphere, 0.09}};
+  const Seen seen = frontal({.staging = round, .landmark_error = 0, .max_turn_deg = 0}, 3);
+  ASSERT_FALSE(seen.aligned.surface.is_plane());
+  const double eyes = seen.view.eye_distance();
+  const auto& truth = seen.face.truth;
+  const double down = (truth.mouth - 0.5 * (truth.left_eye + truth.right_eye)).norm() /
+                      (truth.right_eye - truth.left_eye).norm();
+  const Eigen::Vector2d between_eyes{209.5, 209.5 - 0.36 * eyes};
+  const Eigen::Vector2d mouth = between_eyes + Eigen::Vector2d{0, eyes * down};
+  // A plane that touches the sphere between the eyes would show it 40 px farther down.
+  EXPECT_LT((seen.view.in_left(mouth) - seen.features.mouth).norm(), 4);
 }
 
 TEST(FrontalView, IsAsBrightAsFindersExpectOfADarkPicture) {

@@ -3,13 +3,14 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
 
 #include "armature/runtime/plugins/plugin.hpp"
+#include "feature_plane.hpp"
+#include "frontal_looks.hpp"
 #include "guards.hpp"
 
 namespace armature::face_pose::surface {
@@ -44,18 +45,11 @@ double row_difference(const Alignment& aligned, const Features& features) {
 
 /// The plane through the features' own disparities.
 DisparitySurface plane_of(const Features& left, const Features& right) {
-  const Vector2d middle = left.between_eyes() + 0.45 * left.down();
-  DisparitySurface plane{.middle = middle,
-                         .reach = std::max(left.across().norm(), left.down().norm())};
-  Eigen::Matrix3d terms;
   Vector3d disparities;
   for (std::size_t i = 0; i < kFaceFeatures.size(); ++i) {
-    const auto row = static_cast<Eigen::Index>(i);
-    terms.row(row) << 1, plane.local(left[i]).transpose();
-    disparities[row] = left[i].x() - right[i].x();
+    disparities[static_cast<Eigen::Index>(i)] = left[i].x() - right[i].x();
   }
-  plane.c.head<3>() = terms.partialPivLu().solve(disparities);
-  return plane;
+  return plane_through(left, disparities);
 }
 
 }  // namespace
@@ -135,36 +129,25 @@ Expected<FacePose> Surface::look(const FacePoseInput& input,
   return face;
 }
 
-// What a finder sees stays where it is when its box moves; what it makes up moves with the box.
 Expected<void> Surface::find_again(const FacePoseInput& input, const Alignment& aligned,
                                    Located& located) {
   view_.render(input.left, input.right, aligned, located.at, input.camera);
-  std::array<std::array<Landmark, 3>, 2> looks;
-  for (std::size_t look = 0; look < looks.size(); ++look) {
-    const auto found = input.finder->find(view_.image(), view_.face_boxes()[look]);
-    if (!found) return refuse(FaceRefusal::covered, "frontal view: " + found.error().text);
-    const FaceLandmarks face{.scheme = input.finder->scheme(), .points = *found, .box = {}};
-    if (auto wrong = invalid_input(face))
-      return refuse(FaceRefusal::covered, "frontal view: " + *wrong);
-    for (std::size_t i = 0; i < kFaceFeatures.size(); ++i)
-      looks[look][i] = face.feature(kFaceFeatures[i].which);
-  }
+  const auto seen = look_at_features(view_, *input.finder, parameters_.max_unsteadiness);
+  if (!seen) return tl::unexpected{seen.error()};
   const Features before = located.at;
   std::array<Vector2d, 3> in_left;
   std::string unsettled;
   for (std::size_t i = 0; i < kFaceFeatures.size(); ++i) {
-    const Vector2d &one = looks[0][i].point, &other = looks[1][i].point;
-    const Vector2d mean = 0.5 * (one + other);
-    in_left[i] = view_.in_left(mean);
-    const double px_per_px = (view_.in_left(mean + Vector2d{1, 0}) - in_left[i]).norm();
-    located.sigma[i] = looks[0][i].sigma * px_per_px;
-    const double with_box = (one - other).norm() / view_.eye_distance();
+    const SeenFeature& feature = (*seen)[i];
+    in_left[i] = view_.in_left(feature.at);
+    const double px_per_px = (view_.in_left(feature.at + Vector2d{1, 0}) - in_left[i]).norm();
+    located.sigma[i] = feature.sigma * px_per_px;
     const double moved = (in_left[i] - before[i]).norm() / before.across().norm();
-    if (!(with_box <= parameters_.max_unsteadiness)) {
+    if (!(feature.moved <= parameters_.max_unsteadiness)) {
       unsettled = fmt::format(
           "the {} is not to be seen: sought from another box it seems to be "
           "elsewhere, by {:.0f} % of the eyes' distance",
-          kFaceFeatures[i].name, 100 * with_box);
+          kFaceFeatures[i].name, 100 * feature.moved);
     } else if (!(moved <= parameters_.max_disagreement)) {
       unsettled = fmt::format(
           "the {} is elsewhere in a frontal view, by {:.0f} % of the eyes' "

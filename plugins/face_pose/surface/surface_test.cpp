@@ -229,7 +229,7 @@ class FakeFinder final : public LandmarkFinder {
     ++asked;
     if (fails) return refuse("no nose");
     const double eyes = 290 / 2.4;
-    Eigen::Vector2d middle{0.5 * (image.width - 1), 0.5 * (image.height - 1) - 0.5 * eyes};
+    Eigen::Vector2d middle{0.5 * (image.width - 1), 0.5 * (image.height - 1) - 0.36 * eyes};
     if (moves_with_box) {
       middle.x() += box.left + 0.5 * box.width - 0.5 * (image.width - 1);
     }

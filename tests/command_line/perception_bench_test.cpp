@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // `armature bench perception`: 1. plugins of a deployment are measured against drawn truth, 2. an
 // estimator that is wrong and says that it is valid is counted as that, 3. files of the pairs, 4.
-// groups by name, 5. what cannot be measured is refused.
+// groups by name, 5. faults that begin in a sequence, 6. what cannot be measured is refused.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -9,6 +9,7 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -85,6 +86,33 @@ TEST(BenchPerception, MeasuresTheGroupsThatAreAskedForOnly) {
   EXPECT_EQ(report["groups"][0]["group"], "yaw 15 to 30 deg");
   EXPECT_EQ(report["groups"][1]["group"], "yaw 30 to 45 deg");
   EXPECT_EQ(report["groups"][2]["pairs"], 2);
+}
+
+// Of a moving face's pairs the first three are sound; the detector looks at the first and at the
+// sixth one only.
+TEST(BenchPerception, WhatComesBeforeATrackedFaceIsRefusedFromItsFirstPairOn) {
+  const auto csv = std::filesystem::path{testing::TempDir()} / "bench_perception_then.csv";
+  const CommandResult result =
+      bench_perception({"--pairs", "300", "--group", "tracked, then", "--csv", csv});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  std::ifstream stream{csv};
+  std::string line;
+  std::getline(stream, line);
+  int lines = 0;
+  while (std::getline(stream, line)) {
+    std::vector<std::string> fields;
+    // "tracked, then ..." stands in quotes, since it has a comma.
+    std::istringstream rest{line.substr(line.find('"', 1) + 2)};
+    for (std::string field; std::getline(rest, field, ',');) fields.push_back(field);
+    const bool is_valid = fields.at(4) == "1";
+    const bool is_sound =
+        std::stoi(fields.at(0)) < 3 || line.find("right gain") != std::string::npos;
+    EXPECT_EQ(is_valid, is_sound) << line;
+    EXPECT_EQ(fields.at(5), "0") << "wrong and called valid: " << line;
+    ++lines;
+  }
+  EXPECT_GE(lines, 5 * 6) << "five groups";
+  std::filesystem::remove(csv);
 }
 
 TEST(BenchPerception, RefusesWhatItCannotMeasure) {

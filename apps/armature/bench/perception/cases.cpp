@@ -59,16 +59,18 @@ struct Motion {
   double phases[4];
 };
 
-/// Of five frames the third never comes and the fifth shows the one before; the light goes up and
-/// down by a quarter.
+/// A face that moves. With frames lost, of five the third never comes and the fifth shows the one
+/// before; the light goes up and down by a quarter.
 void add_sequence(const CaseGroup& group, const StereoCamera& camera, int pairs, Draw& draw,
                   std::vector<PerceptionCase>& cases) {
-  const DrawnCase one = usual_case(camera, draw);
+  const DrawnCase sound = usual_case(camera, draw);
   const Motion motion{draw};
+  DrawnCase faulty = sound;
+  group.draw(faulty, draw);
   const bool lost = group.sequence == CaseGroup::Sequence::with_lost_frames;
   for (int pair = 0, frame = 0; pair < pairs; ++pair, ++frame) {
     if (lost && frame % 5 == 2) ++frame;
-    PerceptionCase now = placed(motion.at(one, kPeriod_s * frame));
+    PerceptionCase now = placed(motion.at(pair < kSoundPairs ? sound : faulty, kPeriod_s * frame));
     if (lost && frame % 5 == 4) now.left_shows = now.right_shows = cases.back().left_shows;
     if (lost) now.brightness = 0.8 + 0.2 * std::sin(2 * std::numbers::pi * 0.17 * frame);
     now.continues = pair > 0;

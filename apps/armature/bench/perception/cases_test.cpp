@@ -118,5 +118,18 @@ TEST(PerceptionCases, ThatAreTrackedContinueAndMoveLittle) {
   }
 }
 
+TEST(PerceptionCases, WhatBeginsInASequenceBeginsAfterItsSoundPairsAndStays) {
+  auto groups = by_group(8 * static_cast<int>(case_groups().size()));
+  const auto& rolled = groups["tracked, then right rolled"];
+  ASSERT_EQ(rolled.size(), 8U);
+  for (const PerceptionCase& one : rolled) {
+    EXPECT_EQ(one.right.roll != 0, one.number >= kSoundPairs) << one.number;
+    EXPECT_EQ(one.right.roll, one.number >= kSoundPairs ? rolled.back().right.roll : 0);
+    EXPECT_EQ(one.continues, one.number > 0);
+  }
+  EXPECT_GT((rolled[4].left_shows.translation() - rolled[3].left_shows.translation()).norm(), 1e-4)
+      << "the face goes on moving";
+}
+
 }  // namespace
 }  // namespace armature::bench

@@ -43,6 +43,10 @@ template <FaceWears what>
 void wear(DrawnCase& one, Draw& draw) {
   one.drawn.face_seed = draw.face(what);
 }
+void darken_right(DrawnCase& one, Draw& draw) { one.drawn.right.gain = draw.between(0.5, 0.8); }
+void roll_right(DrawnCase& one, Draw& draw) {
+  one.drawn.right.roll = draw.either_side(0.2, 1) * kDegree;
+}
 void leave(DrawnCase&, Draw&) {}
 
 constexpr std::array kGroups{
@@ -94,12 +98,8 @@ constexpr std::array kGroups{
                     Eigen::Vector3d{draw.either_side(0.25, 0.35), draw.between(-0.05, 0.05),
                                     draw.between(0.2, 0.35)};
               }},
-    CaseGroup{"right gain 0.5 to 0.8",
-              [](DrawnCase& one, Draw& draw) { one.drawn.right.gain = draw.between(0.5, 0.8); }},
-    CaseGroup{"right rolled 0.2 to 1 deg",
-              [](DrawnCase& one, Draw& draw) {
-                one.drawn.right.roll = draw.either_side(0.2, 1) * kDegree;
-              }},
+    CaseGroup{"right gain 0.5 to 0.8", darken_right},
+    CaseGroup{"right rolled 0.2 to 1 deg", roll_right},
     CaseGroup{"right 1 to 5 rows off",
               [](DrawnCase& one, Draw& draw) {
                 one.drawn.right.shift_px = {0, draw.either_side(1, 5)};
@@ -120,6 +120,13 @@ constexpr std::array kGroups{
         }},
     CaseGroup{"tracked", leave, Sequence::tracked},
     CaseGroup{"tracked, frames lost, flicker", leave, Sequence::with_lost_frames},
+    CaseGroup{"tracked, then an instrument", hold<Occluder::instrument_over_mouth>,
+              Sequence::it_begins},
+    CaseGroup{"tracked, then a hand on the mouth", hold<Occluder::hand_over_mouth>,
+              Sequence::it_begins},
+    CaseGroup{"tracked, then a hand on an eye", hold<Occluder::hand_over_eye>, Sequence::it_begins},
+    CaseGroup{"tracked, then right rolled", roll_right, Sequence::it_begins},
+    CaseGroup{"tracked, then right gain 0.5 to 0.8", darken_right, Sequence::it_begins},
 };
 
 }  // namespace

@@ -43,12 +43,15 @@ struct DrawnCase {
       Eigen::Vector3d::Zero();  // how far the face was elsewhere for the right camera
 };
 
-/// A kind of cases: `draw` changes what every case has.
+/// A kind of cases: `draw` changes what every case has; of a sequence in which it begins, what the
+/// cases from the kSoundPairs-th on have.
 struct CaseGroup {
   std::string_view name;
   void (*draw)(DrawnCase& one, Draw& draw);
-  enum class Sequence { none, tracked, with_lost_frames } sequence = Sequence::none;
+  enum class Sequence { none, tracked, with_lost_frames, it_begins } sequence = Sequence::none;
 };
+
+inline constexpr int kSoundPairs = 3;  // of a sequence, before something begins
 
 std::span<const CaseGroup> case_groups();
 

@@ -14,9 +14,10 @@ using Look = std::array<Landmark, 3>;
 
 Expected<Look> look(const ImageView& view, const PixelBox& box, LandmarkFinder& finder) {
   const auto found = finder.find(view, box);
-  if (!found) return refuse("frontal view: " + found.error().text);
+  if (!found) return refuse(FaceRefusal::covered, "frontal view: " + found.error().text);
   const FaceLandmarks face{.scheme = finder.scheme(), .points = *found, .box = {}};
-  if (auto wrong = invalid_input(face)) return refuse("frontal view: " + *wrong);
+  if (auto wrong = invalid_input(face))
+    return refuse(FaceRefusal::covered, "frontal view: " + *wrong);
   Look seen;
   for (std::size_t i = 0; i < seen.size(); ++i) seen[i] = face.feature(kFaceFeatures[i].which);
   return seen;

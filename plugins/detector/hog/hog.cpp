@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <dlib/image_processing/frontal_face_detector.h>
+#include <dlib/image_processing/object_detector.h>
+#include <dlib/image_processing/scan_fhog_pyramid.h>
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "armature/kinds/detector/detector.hpp"
 #include "armature/runtime/plugins/plugin.hpp"
 #include "detector_hog_parameters.hpp"
 #include "dlib_chip.hpp"
+#include "trained_detector.hpp"
 
 namespace armature::detector::hog {
 namespace {
@@ -28,9 +31,17 @@ PixelBox clipped(const PixelBox& box, const ImageView& image) {
   return {left, top, right - left, bottom - top};
 }
 
-/// The detector that dlib ships, unpacked once for the process.
-const dlib::frontal_face_detector& trained_detector() {
-  static const dlib::frontal_face_detector detector = dlib::get_frontal_face_detector();
+/// dlib's frontal_face_detector.
+using Detector = dlib::object_detector<dlib::scan_fhog_pyramid<dlib::pyramid_down<6>>>;
+
+/// The detector that dlib ships, read once for the process.
+const Detector& trained_detector() {
+  static const Detector detector = [] {
+    Detector read;
+    std::istringstream stream{std::string{kTrainedDetector}};
+    dlib::deserialize(read, stream);
+    return read;
+  }();
   return detector;
 }
 
@@ -48,7 +59,7 @@ class Hog final : public FaceDetector {
                                              const SearchRegion& region) override;
 
  private:
-  dlib::frontal_face_detector detector_ = trained_detector();
+  Detector detector_ = trained_detector();
   Parameters parameters_;
 };
 

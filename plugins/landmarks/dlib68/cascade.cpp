@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstdlib>
+
+#include "numbers_file.hpp"
 
 namespace armature::landmarks::dlib68 {
 namespace {
@@ -15,6 +18,23 @@ std::size_t read_size(std::istream& in) {
   dlib::deserialize(size, in);
   if (size > kMost) refuse_model("a part of it has " + std::to_string(size) + " pieces");
   return size;
+}
+
+/// Appends a column of `size` numbers to `numbers`. A model has millions of them, for which dlib
+/// asks the stream six times each.
+void read_column(std::istream& in, std::size_t size, std::vector<float>& numbers) {
+  long rows = 0, columns = 0;  // both negative: the form in which dlib writes them today
+  dlib::deserialize(rows, in);
+  dlib::deserialize(columns, in);
+  if (std::abs(columns) != 1 || static_cast<std::size_t>(std::abs(rows)) != size) {
+    refuse_model("a leaf is of another number of landmarks");
+  }
+  auto* file = dynamic_cast<NumbersFile*>(in.rdbuf());
+  for (std::size_t i = 0; i < size; ++i) {
+    float number = 0;
+    if (!file || !file->take(number)) dlib::deserialize(number, in);
+    numbers.push_back(number);
+  }
 }
 
 }  // namespace
@@ -49,29 +69,24 @@ Cascade::Level Cascade::read_level(std::istream& in, std::size_t leaf_size) {
   Level level;
   level.trees = read_size(in);
   for (std::size_t i = 0; i < level.trees; ++i) {
-    dlib::impl::regression_tree tree;
-    deserialize(tree, in);
+    std::vector<dlib::impl::split_feature> splits;
+    dlib::deserialize(splits, in);
+    const std::size_t leaves = read_size(in);
     if (i == 0) {
-      level.splits_of_tree = tree.splits.size();
-      level.splits.reserve(level.trees * level.splits_of_tree);
-      level.leaves.reserve(level.trees * (level.splits_of_tree + 1) * leaf_size);
+      level.splits_of_tree = splits.size();
+      level.splits.reserve(level.trees * splits.size());
+      level.leaves.reserve(level.trees * leaves * leaf_size);
     }
-    if (tree.splits.size() != level.splits_of_tree ||
-        tree.leaf_values.size() != tree.splits.size() + 1 ||
-        !std::has_single_bit(tree.leaf_values.size())) {
+    if (splits.size() != level.splits_of_tree || leaves != splits.size() + 1 ||
+        !std::has_single_bit(leaves)) {
       refuse_model("its trees are not of one depth");
     }
-    for (const auto& split : tree.splits) {
+    for (const auto& split : splits) {
       level.splits.push_back({.one = static_cast<std::uint32_t>(split.idx1),
                               .other = static_cast<std::uint32_t>(split.idx2),
                               .threshold = split.thresh});
     }
-    for (const auto& leaf : tree.leaf_values) {
-      if (static_cast<std::size_t>(leaf.size()) != leaf_size) {
-        refuse_model("a leaf is of another number of landmarks");
-      }
-      level.leaves.insert(level.leaves.end(), leaf.begin(), leaf.end());
-    }
+    for (std::size_t leaf = 0; leaf < leaves; ++leaf) read_column(in, leaf_size, level.leaves);
   }
   return level;
 }

@@ -10,6 +10,7 @@
 #include "cascade.hpp"
 #include "dlib_chip.hpp"
 #include "landmarks_dlib68_parameters.hpp"
+#include "numbers_file.hpp"
 
 namespace armature::landmarks::dlib68 {
 namespace {
@@ -30,7 +31,8 @@ Model model_of(const std::string& file) {
   const std::lock_guard lock{mutex};
   std::weak_ptr<const Cascade>& model = models[file];
   if (Model known = model.lock()) return known;
-  std::ifstream in{file, std::ios::binary};
+  NumbersFile numbers{file};
+  std::istream in{&numbers};
   auto read = std::make_shared<const Cascade>(Cascade::read(in));
   model = read;
   return read;

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // The landmark finder with the detector of detector/hog, both loaded as the plugins that they are:
 // 1. the laws of every landmark finder, 2. landmarks lie where the face was drawn, 3. the face is
-// sought where it was, and everywhere when it is lost, 4. light, 5. refusals.
+// sought where it was, and everywhere when it is lost, 4. light, 5. refusals, 6. the numbers of a
+// model are those that dlib reads.
+#include <dlib/serialize.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <memory>
+#include <random>
 #include <vector>
 
 #include "armature/kinds/declared_params.hpp"
@@ -15,6 +20,7 @@
 #include "armature/kinds/landmarks/contract.hpp"
 #include "armature/kinds/landmarks/stereo_face_finder.hpp"
 #include "armature/runtime/plugins/plugin_library.hpp"
+#include "numbers_file.hpp"
 
 namespace armature::landmarks::dlib68 {
 namespace {
@@ -144,6 +150,53 @@ TEST(Dlib68, RefusesAFileThatIsNoModel) {
   ASSERT_FALSE(refused);
   EXPECT_THAT(refused.error().text, testing::StartsWith(file + " is not a landmark model of dlib"));
   EXPECT_THAT(refused.error().text, testing::HasSubstr("libdlib-data"));
+}
+
+/// Numbers of every size and sign, more than a buffer of the file holds.
+std::vector<float> many_numbers() {
+  using Limits = std::numeric_limits<float>;
+  std::vector<float> numbers{0,
+                             -0.0F,
+                             1,
+                             -1,
+                             256,
+                             Limits::max(),
+                             Limits::lowest(),
+                             Limits::min(),
+                             Limits::min() / 3,
+                             Limits::denorm_min(),
+                             Limits::infinity(),
+                             -Limits::infinity()};
+  std::mt19937 random{68};
+  std::uniform_real_distribution<float> mantissa{-1, 1};
+  std::uniform_int_distribution<int> exponent{-150, 128};
+  while (numbers.size() < 300'000)
+    numbers.push_back(std::ldexp(mantissa(random), exponent(random)));
+  return numbers;
+}
+
+TEST(NumbersFile, GivesTheNumbersThatDlibHasWrittenOrLeavesThemToIt) {
+  const std::string name = testing::TempDir() + "numbers.dat";
+  const std::vector<float> written = many_numbers();
+  std::ofstream out{name, std::ios::binary};
+  for (const float number : written) dlib::serialize(number, out);
+  out.close();
+  ASSERT_GT(std::filesystem::file_size(name), 1U << 20U);
+
+  NumbersFile file{name};
+  std::istream stream{&file};
+  int left_to_dlib = 0;
+  for (const float number : written) {
+    float read = 12345;
+    if (!file.take(read)) {
+      dlib::deserialize(read, stream);
+      ++left_to_dlib;
+    }
+    ASSERT_EQ(read, number);
+  }
+  EXPECT_GT(left_to_dlib, 2);
+  EXPECT_LT(left_to_dlib, 60'000) << "a number below 2^-103 has an exponent that no float has";
+  EXPECT_EQ(stream.peek(), std::istream::traits_type::eof());
 }
 
 }  // namespace

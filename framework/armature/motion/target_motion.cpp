@@ -38,12 +38,16 @@ void Course::look(double max_acceleration) {
   // A velocity that is told in steps jumps after it has stood: that is no acceleration.
   const bool jumps = looks_ > 0 && last_change_.norm() < 0.1 * change.norm();
   acceleration_ = jumps ? Eigen::Vector3d::Zero() : change;
+  const double kept = std::exp(-since_look_s_ / kMemory_s);
+  if (looks_ > 0) {
+    changes_ = kept * changes_ + change.squaredNorm();
+    turns_ = kept * turns_ + (change - last_change_).squaredNorm();
+  }
   last_change_ = change;
   age_s_ = since_look_s_ / 2;
   if (looks_++ > 0) {
     acceleration_ += kSmoothing_s / (since_look_s_ + kSmoothing_s) * (before - acceleration_);
     age_s_ += kSmoothing_s;
-    const double kept = std::exp(-since_look_s_ / kMemory_s);
     fall_ = kept * fall_ - (acceleration_ - before).dot(last_look_);
     square_ = kept * square_ + last_look_.squaredNorm() * since_look_s_;
   }
@@ -53,9 +57,18 @@ void Course::look(double max_acceleration) {
   since_look_s_ = 0;
 }
 
+/// How much of the changes is the target's, 0 to 1. Of velocities that only jitter the change turns
+/// round with each look, and its differences have three times its square; of a target that goes
+/// round they have (angle between two looks)^2 times it, which counts as nothing up to 0.5 rad.
+double Course::smoothness() const {
+  constexpr double kRound = 0.25;  // [rad2]
+  return changes_ > 0 ? std::clamp((3 - turns_ / changes_) / (3 - kRound), 0.0, 1.0) : 1;
+}
+
 Eigen::Vector3d Course::way(double time_s) const {
-  const double stiffness = fall_ > 0 ? std::min(fall_ / square_, kMaxStiffness) : 0;
-  const Eigen::Vector3d now = acceleration_ - stiffness * age_s_ * velocity_;
+  const double smooth = smoothness();
+  const double stiffness = fall_ > 0 ? smooth * std::min(fall_ / square_, kMaxStiffness) : 0;
+  const Eigen::Vector3d now = smooth * acceleration_ - stiffness * age_s_ * velocity_;
   const double rate = std::sqrt(stiffness), turned = rate * time_s;
   if (std::abs(turned) < 1e-3) return velocity_ * time_s + now * (0.5 * time_s * time_s);
   return velocity_ * (std::sin(turned) / rate) + now * ((1 - std::cos(turned)) / stiffness);

@@ -25,13 +25,15 @@ class Course {
 
  private:
   void look(double max_acceleration);
+  double smoothness() const;
 
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();      // the newest
   Eigen::Vector3d last_look_ = Eigen::Vector3d::Zero();     // the velocity then
   Eigen::Vector3d last_change_ = Eigen::Vector3d::Zero();   // of the velocity, a second, then
   Eigen::Vector3d acceleration_ = Eigen::Vector3d::Zero();  // `age_s_` ago
   double since_look_s_ = 0, age_s_ = 0;
-  double fall_ = 0, square_ = 0;  // sums over the last looks: of -da v and of v v dt
+  double fall_ = 0, square_ = 0;    // sums over the last looks: of -da v and of v v dt,
+  double changes_ = 0, turns_ = 0;  // of squares of the changes, and of how they differ
   int looks_ = 0;
 };
 

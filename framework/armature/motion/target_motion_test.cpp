@@ -114,6 +114,26 @@ TEST(TargetMotion, AVelocityThatIsToldInStepsIsNoAcceleration) {
   }
 }
 
+TEST(TargetMotion, AVelocityThatJittersHasNoAcceleration) {
+  constexpr double kNoise = 0.007;  // [m/s]
+  const Vector3d velocity{0.14, 0, 0};
+  for (const int period_ms : {1, 20, 33}) {
+    std::mt19937_64 random{7};
+    std::normal_distribution<double> noise{0, kNoise};
+    TargetMotion motion;
+    double squares = 0;
+    int count = 0;
+    for (int t_ms = 0; t_ms < 20'000; t_ms += period_ms, ++count) {
+      const double t = 1e-3 * t_ms;
+      const Vector3d jitter{noise(random), noise(random), noise(random)};
+      motion.see(target_at(t * velocity, velocity + jitter), Time{} + seconds(t));
+      squares += (motion.after(0.5).position - (t + 0.5) * velocity).squaredNorm();
+    }
+    // Twice what the jitter itself would move in half a second.
+    EXPECT_LT(std::sqrt(squares / count), 2 * 0.5 * kNoise * std::sqrt(3)) << period_ms << " ms";
+  }
+}
+
 TEST(TargetMotion, NoiseOnTheVelocityOfATargetAtRestMovesItLittle) {
   constexpr int kSeed = 3;
   std::mt19937_64 random{kSeed};

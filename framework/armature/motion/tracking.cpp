@@ -231,6 +231,7 @@ void Tracker::begin_search(Horizons among) {
   search_.among = search_.left = among;
   search_.next = among.begin;
   search_.found.reset();
+  search_.last_resort = false;
   search_.by_limits.clear();
   search_.by_reach.clear();
 }
@@ -280,7 +281,7 @@ double Tracker::horizon_s(int growths) const {
 
 void Tracker::try_next(const JointState& from, Time start, ShortTrajectory& out) {
   using enum Attempt::Outcome;
-  auto& [among, left, next, found, by_limits, by_reach] = search_;
+  auto& [among, left, next, found, last_resort, by_limits, by_reach] = search_;
   const double horizon_s = this->horizon_s(next);
   const Attempt tried = attempt(from, start, horizon_s, found ? way_ : out);
   switch (tried.outcome) {
@@ -302,16 +303,19 @@ void Tracker::try_next(const JointState& from, Time start, ShortTrajectory& out)
   const int leap = under_way_ && next == among.begin ? 1 : growths_for(tried.longer);
   next = bounded ? (left.begin + left.end) / 2 : std::min(next + leap, among.end - 1);
   // Better a slow way than none.
-  if (!found && !bounded && attempts_ + 1 == kMaxAttempts) next = among.end - 1;
+  last_resort = !found && !bounded && attempts_ + 1 == kMaxAttempts;
+  if (last_resort) next = among.end - 1;
 }
 
 /// Of a call; and prepares the search of the next one.
 TrackingFailure Tracker::outcome() {
   if (search_.found) {
-    begin_search({std::max(0, *search_.found - 1), horizons_});
+    // A last resort is no horizon to go on from: shorter ones are sought anew.
+    const int from = search_.last_resort ? 0 : std::max(0, *search_.found - 1);
+    begin_search({from, horizons_});
     return {};
   }
-  const auto& [among, left, next, found, by_limits, by_reach] = search_;
+  const auto& [among, left, next, found, last_resort, by_limits, by_reach] = search_;
   const Horizons below{0, among.begin};
   const bool over = left.empty() && (below.empty() || !under_way_);
   TrackingFailure failure{"ik", defect_};

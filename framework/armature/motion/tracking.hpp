@@ -115,6 +115,7 @@ class Tracker {
     Horizons among, left;
     int next;
     std::optional<int> found;
+    bool last_resort;                // the longest, taken since a call has no time for others
     ReasonText by_limits, by_reach;  // why the last ones that are too short or too long do not do
   };
   double horizon_s(int growths) const;

@@ -100,7 +100,7 @@ void LampAlignment::see(const Picture& picture, Time now) {
   }
   if (phase_ == Phase::searching && looking_ && picture.stamp >= looking_since_) {
     ++pictures_;
-    face_in_picture_ = picture.face;
+    face_in_picture_ = face_in_picture_ || picture.face;
   }
 }
 

@@ -112,9 +112,9 @@ class LampAlignment {
   std::size_t failed_views_ = 0;             // one after the other
   bool looking_ = false, sets_out_ = false;  // to the first view of a search
   Time looking_since_, goal_set_at_;
-  int refused_ = 0;   // goals in a row, on the way to a face
-  int pictures_ = 0;  // in this view
-  bool face_in_picture_ = false;
+  int refused_ = 0;               // goals in a row, on the way to a face
+  int pictures_ = 0;              // in this view
+  bool face_in_picture_ = false;  // in one of them
   std::optional<double> new_level_;
   bool shows_face_ = false;  // the newest picture
   std::string trouble_;

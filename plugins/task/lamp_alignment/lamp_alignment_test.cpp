@@ -88,6 +88,12 @@ TEST_F(LampAlignmentTest, RatesThatNobodyHasAreNotBelieved) {
   EXPECT_NEAR(goals_.back().velocity.norm(), 0.08, 1e-9);
 }
 
+TEST_F(LampAlignmentTest, WaitsForAFaceThatIsFoundInEveryOtherPicture) {
+  flickers_ = true;
+  ASSERT_TRUE(run_until(Phase::aligning, 6));
+  EXPECT_EQ(task_.view(), 2u);
+}
+
 TEST_F(LampAlignmentTest, MovesForAFaceOnlyOnceThreePicturesConfirmIt) {
   const auto see = [&](int measurements) {
     task_.see(FaceEstimate{

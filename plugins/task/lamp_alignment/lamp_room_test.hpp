@@ -74,10 +74,11 @@ class LampAlignmentTest : public testing::Test {
 
   void take_picture() {
     const Eigen::Vector3d looks_along = std::get<Direction>(lamp_.orientation).unit;
-    const bool seen = present_ && looks_along.x() > 0.8;
+    const bool in_view = present_ && looks_along.x() > 0.8;
+    const bool seen = in_view && !(flickers_ && ++pictures_ % 2 == 0);
     const double gray = gain_ * (100 + 200 * light_);
     task_.see(Picture{now_, seen, gray, gray}, now_);
-    if (!seen) measurements_ = 0;
+    if (!in_view) measurements_ = 0;
     if (seen && believed_)
       task_.see(FaceEstimate{.stamp = now_,
                              .mouth = mouth_ + noise(noise_m_),
@@ -97,8 +98,8 @@ class LampAlignmentTest : public testing::Test {
   Time arrival_;
   ToolPose lamp_{.position = {0.6, 0, 0.5}, .orientation = Direction{Eigen::Vector3d::UnitY()}};
   std::vector<MotionGoal> goals_;
-  bool present_ = true, believed_ = true, predicts_ = false, stopped_ = false;
-  int measurements_ = 0;
+  bool present_ = true, believed_ = true, predicts_ = false, flickers_ = false, stopped_ = false;
+  int measurements_ = 0, pictures_ = 0;
   double reach_m_ = 10, gain_ = 1, light_ = 0;
   double noise_m_ = 0.0005, noise_rad_ = 0.01;
   Eigen::Vector3d mouth_{1.55, 0, 0.45}, normal_{-1, 0, 0}, velocity_{0, 0, 0};

@@ -18,6 +18,14 @@ constexpr double kMouthY = 65.0;
 constexpr double kMmPerPx = 0.45;
 constexpr double kLeft = -135, kTop = -140, kWidth = 270, kHeight = 330;
 
+/// Where a feature can be seen [mm]. Elsewhere its share is 0, which changes no value: most of a
+/// photo is elsewhere.
+struct Extent {
+  double beside, top, bottom;
+  bool has(double x, double y) const { return std::abs(x) <= beside && y >= top && y <= bottom; }
+};
+constexpr Extent kEye{37, -26, 20}, kNose{21, -15, 62}, kMouth{36, 37, 110};
+
 double draw_hair_and_body(Point p, const FaceTraits& traits) {
   double value = mix(150, 135, std::clamp((p.y - kTop) / kHeight, 0.0, 1.0));  // wall
   value = mix(value, 70, ellipse(p, {0, 215}, 125, 75, 6));                    // shoulders
@@ -33,19 +41,22 @@ double draw_head(Point p, const FaceTraits& traits, double value) {
   // Skull and jaw together; brighter in the middle as if lit from the front.
   const double face =
       std::max({forehead, ellipse(p, {0, 4}, 71, 80, 4), ellipse(p, {0, 44}, 60, 71, 4)});
-  const double edge = std::hypot(p.x / 74, (p.y - 20) / 105);
-  const double skin = 196 + traits.skin - 58 * edge * edge;
-  value = mix(value, skin, face);
-  if (traits.is_bald) return value;
+  if (face > 0) {
+    const double edge = std::hypot(p.x / 74, (p.y - 20) / 105);
+    const double skin = 196 + traits.skin - 58 * edge * edge;
+    value = mix(value, skin, face);
+  }
+  const double hair = traits.is_bald ? 0.0 : ellipse(p, {0, -18}, 84, 100, 6);
+  if (hair == 0) return value;
   // Hairline: hair over the forehead.
-  const double fringe =
-      soft(p.y + 62 + 14 * std::cos(p.x / 38), 8) * ellipse(p, {0, -18}, 84, 100, 6);
+  const double fringe = soft(p.y + 62 + 14 * std::cos(p.x / 38), 8) * hair;
   return mix(value, 45 + traits.hair, fringe);
 }
 
 double draw_eye(Point p, double side, double value) {
   const Point centre{side * kEyeDistance / 2, 0};
   const double x = (p.x - centre.x) * side, y = p.y;  // x grows away from the nose
+  if (!kEye.has(x, y)) return value;
   value = mix(value, 138, 0.75 * ellipse(p, {centre.x, -3}, 23, 14, 16));  // eye socket
   // The opening: between two arcs that meet at the corners, 15 mm from the centre.
   const double t = std::clamp(1 - (x * x) / (15.0 * 15.0), 0.0, 1.0);
@@ -67,6 +78,7 @@ double draw_eye(Point p, double side, double value) {
 }
 
 double draw_nose(Point p, double value) {
+  if (!kNose.has(p.x, p.y)) return value;
   const double ridge = std::clamp((p.y + 4) / 46, 0.0, 1.0);
   const double below = soft(p.y - 44, 8);
   const double flank = soft(std::abs(std::abs(p.x) - (6 + 7 * ridge)) - 1.5, 7);
@@ -82,6 +94,7 @@ double draw_nose(Point p, double value) {
 }
 
 double draw_mouth(Point p, double value) {
+  if (!kMouth.has(p.x, p.y)) return value;
   const double x = p.x, y = p.y - kMouthY;
   const double t = std::clamp(1 - (x * x) / (25.0 * 25.0), 0.0, 1.0);
   const double bow = 1.6 * std::exp(-(x * x) / 18.0);

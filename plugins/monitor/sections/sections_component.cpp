@@ -6,7 +6,6 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
-#include <opencv2/imgcodecs.hpp>
 #include <optional>
 #include <string>
 
@@ -23,8 +22,10 @@
 #include "armature/runtime/component/component.hpp"
 #include "armature/runtime/component/setup.hpp"
 #include "armature/runtime/plugins/plugin.hpp"
+#include "armature/runtime/reporting/write_atomically.hpp"
 #include "drawing.hpp"
 #include "monitor_sections_parameters.hpp"
+#include "png_encoder.hpp"
 
 namespace armature::monitor::sections {
 
@@ -94,10 +95,13 @@ class SectionsComponent final : public Component {
                                         ? point()
                                         : to_eigen(plan_now_->target_());
     for (const Picture& picture : kPictures) {
-      const std::string file = directory / fmt::format("section_{}.png", picture.name);
-      if (!cv::imwrite(file, drawn_through(picture, through))) {
-        throw std::runtime_error("cannot write '" + file + "'");
-      }
+      const cv::Mat drawn = drawn_through(picture, through);
+      write_atomically(directory / fmt::format("section_{}.png", picture.name),
+                       png::encoded({.width = drawn.cols,
+                                     .height = drawn.rows,
+                                     .channels = drawn.channels(),
+                                     .data = drawn.data,
+                                     .stride = drawn.step}));
     }
   }
 

@@ -7,12 +7,12 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string>
 #include <vector>
 
 #include "armature/runtime/reporting/write_atomically.hpp"
+#include "png_encoder.hpp"
 
 namespace armature::report::lamp_alignment {
 namespace {
@@ -22,9 +22,11 @@ const cv::Scalar kGreen{60, 220, 60}, kRed{40, 40, 255}, kBlue{255, 120, 40};
 constexpr double kAxisLength = 0.05;  // [m]
 
 void save(const cv::Mat& image, const std::filesystem::path& file) {
-  std::vector<unsigned char> png;
-  cv::imencode(".png", image, png);
-  write_atomically(file, {reinterpret_cast<const char*>(png.data()), png.size()});
+  write_atomically(file, png::encoded({.width = image.cols,
+                                       .height = image.rows,
+                                       .channels = image.channels(),
+                                       .data = image.data,
+                                       .stride = image.step}));
 }
 
 void text(cv::Mat& image, const std::string& words, cv::Point at, double scale = 0.45) {

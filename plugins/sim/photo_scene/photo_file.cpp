@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "photo_file.hpp"
 
+#include <dlfcn.h>
+
 #include <algorithm>
 #include <cstring>
 #include <fstream>
 #include <iterator>
-#include <opencv2/imgcodecs.hpp>
+#include <memory>
 #include <vector>
+
+#include "photo_decoder.hpp"
 
 namespace armature::sim::photo_scene {
 namespace {
@@ -33,6 +37,24 @@ std::vector<std::uint8_t> without_colour_profile(const std::vector<std::uint8_t>
   return kept;
 }
 
+struct Close {
+  void operator()(void* library) const { dlclose(library); }
+};
+
+/// The picture in the bytes of `file`.
+Expected<scene::GrayImage> decoded(const std::vector<std::uint8_t>& bytes,
+                                   const std::string& file) {
+  const std::unique_ptr<void, Close> library{dlopen(kPhotoDecoder, RTLD_NOW | RTLD_LOCAL)};
+  if (!library) return refuse("cannot decode the photo " + file + ": " + dlerror());
+  const auto decode = reinterpret_cast<DecodePhoto*>(dlsym(library.get(), kDecodePhoto));
+  if (!decode) return refuse("cannot decode the photo " + file + ": " + dlerror());
+  scene::GrayImage image;
+  if (bytes.empty() || !decode(bytes, image)) {
+    return refuse(file + " is not an image that can be read");
+  }
+  return image;
+}
+
 }  // namespace
 
 Expected<scene::Photo> read_photo(const std::string& file, const Eigen::Vector2d& left_eye,
@@ -41,19 +63,13 @@ Expected<scene::Photo> read_photo(const std::string& file, const Eigen::Vector2d
   std::ifstream stream{file, std::ios::binary};
   if (!stream) return refuse("cannot open the photo " + file);
   const std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>{stream}, {}};
-  cv::Mat image;
-  if (!bytes.empty()) {
-    image = cv::imdecode(without_colour_profile(bytes), cv::IMREAD_GRAYSCALE);
-  }
-  if (image.empty()) return refuse(file + " is not an image that can be read");
-
-  scene::Photo photo{.image = {.width = image.cols, .height = image.rows, .pixels = {}},
-                     .left_eye = left_eye,
-                     .right_eye = right_eye,
-                     .mouth = mouth,
-                     .m_per_px = eye_distance_m / (right_eye - left_eye).norm()};
-  photo.image.pixels.assign(image.begin<std::uint8_t>(), image.end<std::uint8_t>());
-  return photo;
+  auto image = decoded(without_colour_profile(bytes), file);
+  if (!image) return tl::unexpected{image.error()};
+  return scene::Photo{.image = std::move(*image),
+                      .left_eye = left_eye,
+                      .right_eye = right_eye,
+                      .mouth = mouth,
+                      .m_per_px = eye_distance_m / (right_eye - left_eye).norm()};
 }
 
 }  // namespace armature::sim::photo_scene

@@ -30,6 +30,16 @@ TEST(FaultyLibrary, OneThatCrashesIsNamedAndTheProgramLives) {
                         "/crashing.so: it crashes when it is loaded (Aborted)\n");
 }
 
+TEST(FaultyLibrary, OneThatCrashesIsNamedAmongSoundOnesThatAreTriedWithIt) {
+  const auto result =
+      run_command({armature(), "check", source_file("configs/dental_lamp.yaml"), "--set",
+                   "components.motion.ik.plugin=ik/crashing"},
+                  kFaultyPath);
+  EXPECT_EQ(result.exit_code, 4);
+  EXPECT_EQ(result.err, "armature: plugin 'ik/crashing' cannot be used: " FAULTY_LIBRARIES
+                        "/crashing.so: it crashes when it is loaded (Aborted)\n");
+}
+
 /// The process in which a library is tried.
 pid_t trial_of(const Command& command) {
   pid_t trial = 0;

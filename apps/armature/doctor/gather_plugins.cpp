@@ -2,6 +2,7 @@
 // Which plugin libraries of this machine load.
 #include "armature/runtime/plugins/plugin_library.hpp"
 #include "armature/runtime/plugins/plugin_registry.hpp"
+#include "armature/runtime/plugins/plugin_trial.hpp"
 #include "doctor/gather.hpp"
 #include "isolated.hpp"
 
@@ -25,6 +26,9 @@ PluginFacts plugin_facts() {
   const PluginRegistry plugins;
   PluginFacts facts{.folders = plugins.search_path(), .warnings = plugins.warnings()};
   for (const auto& [file, reason] : plugins.unusable()) facts.unusable.push_back({file, reason});
+  std::vector<std::filesystem::path> files;
+  for (const PluginManifest& plugin : plugins.plugins()) files.push_back(plugin.file);
+  try_plugins(files);
   for (const PluginManifest& plugin : plugins.plugins()) {
     const std::string reason = reason_of(plugin);
     if (reason.empty()) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "armature/runtime/deployment/description.hpp"
+#include "armature/runtime/deployment/tried_together.hpp"
 #include "armature/runtime/plugins/processor_level.hpp"
 #include "armature/runtime/plugins/running_component.hpp"
 #include "armature/runtime/recording/recorded_description.hpp"
@@ -37,6 +38,7 @@ ReplayedProcess::ReplayedProcess(RecordedRun& run, PluginRegistry& plugins,
       run.keep_at_least(input.topic, static_cast<std::size_t>(input.spec.queue.value_or(1)));
     }
   }
+  try_together(config_, run.process());
   for (const auto& [name, ports] : run.components()) {
     const bool is_wanted = only.empty() || std::ranges::find(only, name) != only.end();
     if (is_wanted) construct(name, ports, plugins);

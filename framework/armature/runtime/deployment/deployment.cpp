@@ -12,6 +12,7 @@
 
 #include "armature/config/problems.hpp"
 #include "armature/runtime/deployment/description.hpp"
+#include "armature/runtime/deployment/tried_together.hpp"
 #include "armature/runtime/deployment_file/injected_fault.hpp"
 #include "armature/runtime/deployment_file/on_fault.hpp"
 #include "armature/runtime/execution/clock_publisher.hpp"
@@ -71,6 +72,7 @@ Deployment::Deployment(DeploymentConfig config, PluginRegistry& plugins, Options
   }
   std::sort(order.begin(), order.end(),
             [](const auto* a, const auto* b) { return a->place < b->place; });
+  try_together(config_, options_.process);
   config::Problems problems;
   for (const ComponentConfig* component : order) make_runner(*component, plugins, problems);
   problems.throw_if_any();

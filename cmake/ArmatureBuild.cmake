@@ -174,18 +174,25 @@ endfunction()
 # armature_add_test(robot_test SOURCES a_test.cpp ... LINK Armature::robot ... [DEPENDS plugin...])
 # One GoogleTest program; every case runs alone and in any order. Its files are compiled a few at a
 # time, which reads headers and makes templates once for them; SEPARATELY: they use the same names
-# for other things.
+# for other things. QUARTERS: of a core that a case keeps busy on the average, 4 unless it waits most
+# of the time. Whoever needs a TIMEOUT of its own is long, and begins before all others: what is short
+# fills the cores at the end.
 function(armature_add_test name)
   if(NOT ARMATURE_BUILD_TESTS)
     return()
   endif()
-  cmake_parse_arguments(arg "SEPARATELY;WAITS" "TIMEOUT" "SOURCES;LINK;DEPENDS;LABELS" ${ARGN})
+  cmake_parse_arguments(arg "SEPARATELY" "QUARTERS;TIMEOUT" "SOURCES;LINK;DEPENDS;LABELS" ${ARGN})
   armature_left_out(left_out "${name}" ${arg_LINK})
   if(left_out)
     return()
   endif()
+  set(cost 1)
   if(NOT arg_TIMEOUT)
     set(arg_TIMEOUT 60)
+    set(cost 0)
+  endif()
+  if(NOT arg_QUARTERS)
+    set(arg_QUARTERS 4)
   endif()
   if(ARMATURE_SANITIZE)  # which slows everything down
     math(EXPR arg_TIMEOUT "${arg_TIMEOUT} * 5")
@@ -200,13 +207,9 @@ function(armature_add_test name)
   if(arg_DEPENDS)
     add_dependencies(${name} ${arg_DEPENDS})
   endif()
-  set(half_cores 2)
-  if(arg_WAITS)
-    set(half_cores 1)
-  endif()
   include(GoogleTest)
   gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST TEST_PREFIX "${name}."
-    PROPERTIES TIMEOUT ${arg_TIMEOUT} PROCESSORS ${half_cores} LABELS "${arg_LABELS}")
+    PROPERTIES TIMEOUT ${arg_TIMEOUT} PROCESSORS ${arg_QUARTERS} COST ${cost} LABELS "${arg_LABELS}")
 endfunction()
 
 # armature_add_contract(path [SOURCES sound_path.cpp] LINK Armature::path): laws.cpp and SOURCES, what

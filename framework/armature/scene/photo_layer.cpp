@@ -86,14 +86,16 @@ void PhotoLayer::draw_flat(Canvas& canvas, const PixelRegion& region,
                                   1};
       Eigen::Vector3d p = photo_H_image * first;  // p.z = 1 / depth, up to a positive factor
       for (int u = region.left; u < region.right; ++u) {
+        float sum = row[u];
         for (int sub = 0; sub < samples_per_side; ++sub, p += across) {
           const double inverse = 1.0 / p.z();
           const auto x = static_cast<float>(p.x() * inverse);
           const auto y = static_cast<float>(p.y() * inverse);
           const bool inside = p.z() > 0 && level.contains(x, y);
-          row[u] += share * (inside ? brightness * level.sample(x, y)
-                                    : under_[static_cast<std::size_t>(u)]);
+          sum += share *
+                 (inside ? brightness * level.sample(x, y) : under_[static_cast<std::size_t>(u)]);
         }
+        row[u] = sum;
       }
     }
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lamp with cameras: the deployment for real ones is right as it is shipped, and pictures that
-// a run has recorded, played into it, move the arm exactly as they did then.
+// The lamp with cameras: 1. the deployment for real ones is right as it is shipped, 2. pictures
+// that a run has recorded, played into it, move the arm exactly as they did then, 3. cameras that
+// freeze are refused and named, those that drift are told of.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -66,6 +67,36 @@ TEST_F(LampWithCameras, GoesWhereItWentWhenItsPicturesArePlayedAgain) {
   EXPECT_EQ(again.figure("unpaired_pictures"), 0);
   EXPECT_GT(again.figure("pairs"), 20);
   EXPECT_EQ(again.figure("pictures"), 2 * again.figure("pairs"));
+}
+
+/// Until shortly after the lamp has seen the face.
+DeploymentRun with_fault(const std::vector<std::string>& scene) {
+  std::vector<std::string> settings{kSimulated, "run.time_limit_s=6"};
+  for (const std::string& one : scene) settings.push_back("components.scene.params." + one);
+  return run_deployment({.settings = settings});
+}
+
+TEST(LampWhoseCameras, FreezeSaysWhichOneAndAlignsToNoPictureOfIt) {
+  for (const std::string which : {"left", "both"}) {
+    const DeploymentRun run = with_fault({"frozen=" + which, "frozen_at_s=3.8"});
+    const std::string who = which == "left" ? "the left camera is" : "both cameras are";
+    EXPECT_NE(run.text().find(who + " frozen: repeat 3 of the same picture"), std::string::npos)
+        << run.text();
+    EXPECT_EQ(run.status(), "goals_missed") << run.text();
+  }
+}
+
+TEST(LampWhoseCameras, DriftIsWarnedWhileItsGoalsAreStillMet) {
+  const DeploymentRun run = with_fault({"right_roll_deg=0.07"});
+  EXPECT_NE(run.text().find("the cameras are no longer well calibrated"), std::string::npos)
+      << run.text();
+  expect_aligned(run);
+}
+
+TEST(LampWhoseCameras, HaveNoNoiseAndSeeAStillFaceAreNotFrozen) {
+  const DeploymentRun run = with_fault({"noise=0"});
+  EXPECT_EQ(run.text().find("frozen"), std::string::npos) << run.text();
+  expect_aligned(run);
 }
 
 }  // namespace

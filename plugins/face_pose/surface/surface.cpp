@@ -202,6 +202,10 @@ FacePose Surface::pose(const Alignment& aligned, const StereoCamera& camera,
   }
   FacePose face = face_through(points[0], points[1], points[2]);
   face.residual_px = row_difference(aligned, located.at);
+  const double reach = aligned.surface.reach;
+  face.rows = RowDifference{.at_face_px = aligned.rows[0],
+                            .by_column = aligned.rows[1] / reach,
+                            .by_row = aligned.rows[2] / reach};
   if (!is_plane) return face;
   face.normal = aligned.surface.plane_normal(camera);
   // The normal of a plane does not depend on where on it the landmarks are.

@@ -98,8 +98,12 @@ class PhotoScene final : public Component {
   void publish_truth(Time now, const MovingHead& head);
   enum class Delivery { sound, dropped, repeated };
   Delivery draw_delivery();
+  bool is_frozen(bool of_the_left, Time stamp) const;
   double brightness(Time stamp) const;
   scene::SceneRenderer& renderer_at(Time stamp);
+  bool keeps_last_pair() const {
+    return parameters_.repeated > 0 || parameters_.frozen != Parameters::Frozen::none;
+  }
   void take_pictures(Time stamp);
   void draw(Time stamp, bool of_the_left, msg::Image& image);
   Eigen::Isometry3d left_T_face(Time then) const;
@@ -122,8 +126,8 @@ class PhotoScene final : public Component {
   Output<msg::Target> truth_;
   std::optional<Time> start_, last_picture_;
   std::uint64_t pairs_ = 0;
-  int truths_ = 0;                       // told
-  std::array<msg::Image, 2> last_pair_;  // kept while pairs may be repeated
+  int truths_ = 0;  // told
+  std::array<msg::Image, 2> last_pair_;  // kept where pictures may come again
 };
 
 PhotoScene::PhotoScene(Setup& setup)
@@ -219,6 +223,13 @@ Eigen::Isometry3d PhotoScene::left_T_face(Time then) const {
          base_T_photo(at(parameters_, to_seconds(then - *start_)).pose);
 }
 
+bool PhotoScene::is_frozen(bool of_the_left, Time stamp) const {
+  using enum Parameters::Frozen;
+  const auto which = parameters_.frozen;
+  return (which == both || which == (of_the_left ? left : right)) &&
+         to_seconds(stamp - *start_) >= parameters_.frozen_at;
+}
+
 void PhotoScene::take_pictures(Time stamp) {
   const Delivery delivery = draw_delivery();
   if (delivery == Delivery::dropped) return;
@@ -226,13 +237,14 @@ void PhotoScene::take_pictures(Time stamp) {
     Output<msg::Image>& output = of_the_left ? left_image_ : right_image_;
     msg::Image& last = last_pair_[of_the_left ? 0 : 1];
     auto image = output.loan();
-    if (delivery == Delivery::repeated && !last.data_().empty()) {
+    const bool comes_again = delivery == Delivery::repeated || is_frozen(of_the_left, stamp);
+    if (comes_again && !last.data_().empty()) {
       *image = last;
     } else {
       draw(stamp, of_the_left, *image);
     }
     write_header(image->header_(), stamp, kCameraFrame);
-    if (parameters_.repeated > 0) last = *image;
+    if (keeps_last_pair()) last = *image;
     image.publish();
   }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What cameras and rooms do wrong, on the scene's topics: 1. the right camera differs from the left
-// one, 2. it is late, 3. pairs are dropped and repeated, 4. the light flickers; 5. round heads and
-// their truth, 6. photos of one's own.
+// one, 2. it is late, 3. pairs are dropped and repeated, 4. a camera freezes, 5. the light
+// flickers; 6. round heads and their truth, 7. photos of one's own.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -75,6 +75,27 @@ TEST(PhotoSceneFaults, ALateRightCameraShowsWherePatientAndArmWere) {
     EXPECT_FALSE(same_picture(delayed[i].right, in_time[i].right));
     EXPECT_EQ(delayed[i].right.header_().stamp_(), delayed[i].left.header_().stamp_());
   }
+}
+
+TEST(PhotoSceneFaults, AFrozenCameraGivesItsLastPictureAgainWithNewStamps) {
+  const auto is_frozen_of = [](const char* which) {
+    ScenePictures scene{
+        with(in_view("move_at_s: 1000"), std::string{"frozen_at_s: 0.25, frozen: "} + which)};
+    std::vector<ScenePictures::Pair> pairs;
+    for (int i = 0; i < 5; ++i) pairs.push_back(scene.pair(0.1 * i));
+    EXPECT_FALSE(same_picture(pairs[1].left, pairs[2].left)) << "noise";
+    for (std::size_t i : {3U, 4U}) {
+      EXPECT_NE(pairs[i].left.header_().stamp_(), pairs[i - 1].left.header_().stamp_());
+      EXPECT_EQ(same_picture(pairs[i].left, pairs[2].left),
+                same_picture(pairs[3].left, pairs[2].left));
+    }
+    return std::pair{same_picture(pairs[3].left, pairs[2].left),
+                     same_picture(pairs[3].right, pairs[2].right)};
+  };
+  EXPECT_EQ(is_frozen_of("none"), (std::pair{false, false}));
+  EXPECT_EQ(is_frozen_of("left"), (std::pair{true, false}));
+  EXPECT_EQ(is_frozen_of("right"), (std::pair{false, true}));
+  EXPECT_EQ(is_frozen_of("both"), (std::pair{true, true}));
 }
 
 TEST(PhotoSceneFaults, DropsAndRepeatsAsManyPairsAsTold) {

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 
 #include "armature/kinds/landmarks/landmarks.hpp"
@@ -12,6 +13,14 @@
 #include "armature/values/plugin_state.hpp"
 
 namespace armature ARMATURE_EXPORT {
+
+/// By how much lower the right picture shows what the left one shows, as an estimator measures it:
+/// nothing in a rectified pair.
+struct RowDifference {
+  double at_face_px = 0;  // in the middle of the face
+  double by_column = 0;   // [px/px] how it grows to the right
+  double by_row = 0;      // [px/px] how it grows down
+};
 
 /// A face in the left camera's optical frame, [m]. "left" and "right" are sides of the image: the
 /// image's left eye is the subject's right one (iBUG 36-41).
@@ -25,6 +34,7 @@ struct FacePose {
   Eigen::Matrix3d mouth_covariance = Eigen::Matrix3d::Zero();      // [m2]
   Eigen::Matrix3d normal_covariance = Eigen::Matrix3d::Zero();  // [rad2] across the normal, along 0
   double residual_px = 0;  // by how many rows eyes and mouth differ between the pictures, rms
+  std::optional<RowDifference> rows = std::nullopt;  // of an estimator that measures them
 };
 
 /// Why there is no pose, for programs: the code of the reason, and of the message.

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include "armature/kinds/face_pose/face_pose.hpp"
 #include "armature/kinds/landmarks/landmark_messages.hpp"
@@ -10,9 +11,14 @@
 #include "armature/runtime/component/setup.hpp"
 #include "armature/runtime/plugins/plugin.hpp"
 #include "armature/values/guarded.hpp"
+#include "frozen_cameras.hpp"
+#include "row_drift.hpp"
 
-namespace armature {
+namespace armature::host::face_pose {
 namespace {
+
+constexpr int kToldRepeats = 3;
+constexpr Duration kTellEvery = seconds(10);  // its numbers change with every pair
 
 /// The rectified pair whose right camera `info` describes and that took `image`.
 Expected<StereoCamera> camera_of(const msg::CameraInfo& info, const ImageView& image) {
@@ -42,7 +48,8 @@ Expected<StereoCamera> camera_of(const msg::CameraInfo& info, const ImageView& i
 
 }  // namespace
 
-/// Images and landmarks in, the face's pose out.
+/// Images and landmarks in, the face's pose out. What is wrong with the cameras is told in the
+/// state.
 class FacePoseHost final : public Component {
  public:
   explicit FacePoseHost(Setup& setup)
@@ -53,12 +60,16 @@ class FacePoseHost final : public Component {
         right_image_{setup.input<msg::Image>("right_image")},
         landmarks_{setup.input<msg::FaceLandmarks>("landmarks")},
         right_info_{setup.input<msg::CameraInfo>("right_info")},
-        face_{setup.output<msg::FacePose>("face")} {}
+        face_{setup.output<msg::FacePose>("face")},
+        row_drift_{Parameters::read(setup.params())} {}
 
-  void step(Time) override;
+  void step(Time now) override;
 
  private:
   Expected<FacePose> estimate();
+  bool is_frozen() const { return frozen_ && frozen_->repeats >= kToldRepeats; }
+  std::optional<std::string> trouble() const;
+  void tell(Time now);
 
   Slot<FacePoseEstimator> estimator_;
   std::optional<Slot<LandmarkFinder>> finder_;
@@ -67,17 +78,25 @@ class FacePoseHost final : public Component {
   Input<msg::FaceLandmarks> landmarks_;
   Input<msg::CameraInfo> right_info_;
   Output<msg::FacePose> face_;
+  FrozenCameras cameras_;
+  RowDrift row_drift_;
+  std::optional<FrozenCameras::Frozen> frozen_;  // the last pair, which is no pair then
+  std::optional<Time> told_;
+  bool tells_of_frozen_ = false;
 };
 
 Expected<FacePose> FacePoseHost::estimate() {
   using enum FaceRefusal;
+  frozen_.reset();
+  const auto left = image_of(*left_image_.latest()), right = image_of(*right_image_.latest());
+  if (!left) return refuse(bad_input, "left: " + left.error().text);
+  if (!right) return refuse(bad_input, "right: " + right.error().text);
+  frozen_ = cameras_.look_at(*left, *right);
+  if (frozen_) return refuse(bad_input, frozen_->why);
   if (!landmarks_.latest()->valid_()) return refuse(no_face, landmarks_.latest()->reason_());
   if (!right_info_.latest()) return refuse(bad_input, "no camera_info yet");
   const auto landmarks = landmarks_of(*landmarks_.latest());
   if (!landmarks) return refuse(bad_input, landmarks.error().text);
-  const auto left = image_of(*left_image_.latest()), right = image_of(*right_image_.latest());
-  if (!left) return refuse(bad_input, "left: " + left.error().text);
-  if (!right) return refuse(bad_input, "right: " + right.error().text);
   const auto camera = camera_of(*right_info_.latest(), *right);
   if (!camera) return refuse(bad_input, camera.error().text);
   return guarded(state_, [&](PluginState& state) {
@@ -90,12 +109,36 @@ Expected<FacePose> FacePoseHost::estimate() {
   });
 }
 
-void FacePoseHost::step(Time) {
+/// What is wrong with the cameras now. A picture that has come again once or twice is refused, and
+/// no state of a camera.
+std::optional<std::string> FacePoseHost::trouble() const {
+  if (is_frozen()) return frozen_->why;
+  const msg::CameraInfo* info = right_info_.latest();
+  if (!info) return std::nullopt;
+  return row_drift_.warning(static_cast<int>(info->width_()), static_cast<int>(info->height_()));
+}
+
+void FacePoseHost::tell(Time now) {
+  const auto wrong = trouble();
+  if (!wrong) {
+    told_.reset();
+    return healthy();
+  }
+  const bool is_known = told_ && tells_of_frozen_ == is_frozen();
+  if (is_known && now - *told_ < kTellEvery) return;
+  told_ = now;
+  tells_of_frozen_ = is_frozen();
+  degraded(*wrong);
+}
+
+void FacePoseHost::step(Time now) {
   if (!landmarks_.fresh() || !landmarks_.latest() || !left_image_.latest() ||
       !right_image_.latest()) {
     return;
   }
   const auto estimated = estimate();
+  if (estimated && estimated->rows) row_drift_.add(*estimated->rows);
+  tell(now);
   const FacePose pose = estimated.value_or(FacePose{});
   auto face = face_.loan();
   face->header_() = landmarks_.latest()->header_();
@@ -115,6 +158,6 @@ void FacePoseHost::step(Time) {
   face.publish();
 }
 
-}  // namespace armature
+}  // namespace armature::host::face_pose
 
-ARMATURE_PLUGIN(armature::FacePoseHost);
+ARMATURE_PLUGIN(armature::host::face_pose::FacePoseHost);

@@ -17,9 +17,16 @@ struct Scheme {
 
 const Scheme& scheme_of(LandmarkScheme scheme) {
   // A mouth opens to both sides of the mean of its inner points.
-  static const std::array<Scheme, 2> schemes{
+  static const std::array<Scheme, 3> schemes{
       Scheme{"ibug68", 68, {36, 37, 38, 39, 40, 41}, {42, 43, 44, 45, 46, 47}, {60, 62, 64, 66}},
       Scheme{"five", 5, {0}, {1}, {3, 4}},
+      // Corners and lids of the eyes, as in ibug68, and all of the inner lips.
+      Scheme{"mesh468",
+             468,
+             {33, 160, 158, 133, 153, 144},
+             {362, 385, 387, 263, 373, 380},
+             {78,  191, 80,  81,  82,  13, 312, 311, 310, 415,
+              308, 324, 318, 402, 317, 14, 87,  178, 88,  95}},
   };
   return schemes[static_cast<std::size_t>(scheme)];
 }
@@ -37,7 +44,8 @@ std::span<const std::size_t> landmarks_around(FaceFeature feature, LandmarkSchem
 std::string_view to_string(LandmarkScheme scheme) { return scheme_of(scheme).name; }
 
 std::optional<LandmarkScheme> find_landmark_scheme(std::string_view name) {
-  for (const LandmarkScheme scheme : {LandmarkScheme::ibug68, LandmarkScheme::five}) {
+  for (const LandmarkScheme scheme :
+       {LandmarkScheme::ibug68, LandmarkScheme::five, LandmarkScheme::mesh468}) {
     if (to_string(scheme) == name) return scheme;
   }
   return std::nullopt;

@@ -17,8 +17,9 @@ namespace armature ARMATURE_EXPORT {
 
 /// Which points of a face a finder tells, and in what order.
 enum class LandmarkScheme {
-  ibug68,  // the 68 points of iBUG 300-W, counted from 0
-  five,    // left eye, right eye, tip of the nose, left and right corner of the mouth
+  ibug68,   // the 68 points of iBUG 300-W, counted from 0
+  five,     // left eye, right eye, tip of the nose, left and right corner of the mouth
+  mesh468,  // the 468 points of MediaPipe's face mesh, counted from 0
 };
 
 /// A part of a face that several landmarks surround. "left" and "right" are sides of the image: the
@@ -29,7 +30,7 @@ enum class FaceFeature { left_eye, right_eye, mouth };
 std::size_t landmark_count(LandmarkScheme scheme);
 /// The landmarks whose mean is the centre of a feature.
 std::span<const std::size_t> landmarks_around(FaceFeature feature, LandmarkScheme scheme);
-/// "ibug68", "five".
+/// "ibug68", "five", "mesh468".
 std::string_view to_string(LandmarkScheme scheme);
 /// Nothing for a name that no scheme has.
 std::optional<LandmarkScheme> find_landmark_scheme(std::string_view name);

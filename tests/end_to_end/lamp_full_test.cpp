@@ -147,6 +147,16 @@ TEST_P(LampSwap, AlignsWithAnotherPluginByOneWord) {
   expect_aligned(run_deployment({.settings = settings}));
 }
 
+TEST(LampFull, AlignsWithTheFaceMeshThatWasFetchedInBothSlots) {
+  const DeploymentRun run =
+      run_deployment({.settings = {kSimulated, "components.landmarks.plugin=landmarks/face_mesh",
+                                   "components.face.landmarks.plugin=landmarks/face_mesh"}});
+  if (run.command.err.find("cannot open the face mesh") != std::string::npos) {
+    GTEST_SKIP() << "tools/fetch-face-mesh was not run here";
+  }
+  expect_aligned(run);
+}
+
 const std::string kNumericIk = "components.motion.ik.plugin=ik/numeric";
 const std::string kPaperPath = "components.motion.path.plugin=path/mouth_points";
 const std::string kPaperQuintics = "components.motion.trajectory.plugin=trajectory/quintic";

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -19,7 +20,8 @@
 namespace armature::landmarks::face_mesh {
 namespace {
 
-constexpr double kCropScale = 1.4;  // the network looks at the detector's box, this much larger
+constexpr double kBoxScale = 1.8;   // the network looks at the detector's box, this much larger,
+constexpr double kMeshScale = 1.4;  // then at what it found there, this much larger
 constexpr double kMinFace = 1;      // [px] width of a box that can hold a face at all
 constexpr double kMaxFace = 1e5;
 
@@ -34,17 +36,11 @@ std::optional<std::string> invalid_box(const PixelBox& face) {
   return std::nullopt;
 }
 
-/// What the network looks at for the box `i` of `boxes`: those after the first lie about it, evenly
-/// on a disc, and are larger or smaller.
-Crop crop_of(const PixelBox& face, int i, int boxes) {
-  constexpr double kShift = 0.05, kSize = 0.05;       // of the box
-  constexpr double kGoldenAngle = 2.399963229728653;  // [rad]
-  const double side = std::max(face.width, face.height);
-  const double away = kShift * side * std::sqrt(static_cast<double>(i) / boxes);
-  const double size = 1 + kSize * std::sin(i);
-  return {.middle = {face.left + 0.5 * face.width + away * std::cos(i * kGoldenAngle),
-                     face.top + 0.5 * face.height + away * std::sin(i * kGoldenAngle)},
-          .side = kCropScale * size * side};
+/// The square about a mesh, larger by kMeshScale.
+Crop crop_around(const Mesh& mesh) {
+  Eigen::AlignedBox2d box;
+  for (const Eigen::Vector2d& point : mesh.points) box.extend(point);
+  return {.middle = box.center(), .side = kMeshScale * box.sizes().maxCoeff()};
 }
 
 void mirror(std::span<float> picture) {
@@ -61,6 +57,12 @@ Mesh mirrored(const Mesh& mesh) {
     result.points[i] = {Network::kPixels - 1 - point.x(), point.y()};
   }
   return result;
+}
+
+/// The mesh of the picture of a crop as one of the image.
+Mesh in_image(Mesh mesh, const Crop& crop) {
+  for (Eigen::Vector2d& point : mesh.points) point = crop.in_image(point, Network::kPixels);
+  return mesh;
 }
 
 /// The distance of the eyes' centres [px].
@@ -94,7 +96,9 @@ class FaceMesh final : public LandmarkFinder {
   Expected<std::vector<Landmark>> find(const ImageView& image, const PixelBox& face) override;
 
  private:
-  Expected<Mesh> look(const ImageView& image, const Crop& crop, double& variance);
+  Expected<Mesh> present(const Mesh& mesh) const;
+  Expected<Mesh> search(const ImageView& image, const Crop& crop);
+  Expected<std::vector<Landmark>> look(const ImageView& image, const Crop& crop);
 
   Parameters parameters_;
   std::unique_ptr<Network> network_;
@@ -107,25 +111,29 @@ Expected<std::unique_ptr<LandmarkFinder>> FaceMesh::make(const Params& params) {
   return std::make_unique<FaceMesh>(parameters, std::move(*network));
 }
 
+Expected<Mesh> FaceMesh::present(const Mesh& mesh) const {
+  if (mesh.presence >= parameters_.min_presence) return mesh;
+  return refuse(fmt::format("the presence of a face is {:.2f}, less than {:.2f}", mesh.presence,
+                            parameters_.min_presence));
+}
+
+/// Where the face is, roughly.
+Expected<Mesh> FaceMesh::search(const ImageView& image, const Crop& crop) {
+  cut(image, crop, Network::kPixels, network_->picture());
+  return present(in_image(network_->look(), crop));
+}
+
 // The network is no better on one side of a face than on the other: the mean of what it sees in a
 // picture and in the mirrored one errs less than either, and their distance tells by how much.
-Expected<Mesh> FaceMesh::look(const ImageView& image, const Crop& crop, double& variance) {
+Expected<std::vector<Landmark>> FaceMesh::look(const ImageView& image, const Crop& crop) {
   cut(image, crop, Network::kPixels, network_->picture());
-  const Mesh seen = network_->look();
+  const auto seen = present(in_image(network_->look(), crop));
+  if (!seen) return tl::unexpected{seen.error()};
   mirror(network_->picture());
-  const Mesh other = mirrored(network_->look());
+  const auto other = present(in_image(mirrored(network_->look()), crop));
+  if (!other) return tl::unexpected{other.error()};
 
-  Mesh mean{.points = {}, .presence = std::min(seen.presence, other.presence)};
-  if (!(mean.presence >= parameters_.min_presence)) {
-    return refuse(fmt::format("the presence of a face is {:.2f}, less than {:.2f}", mean.presence,
-                              parameters_.min_presence));
-  }
-  for (std::size_t i = 0; i < kPoints; ++i) {
-    const Eigen::Vector2d point = 0.5 * (seen.points[i] + other.points[i]);
-    mean.points.push_back(crop.in_image(point, Network::kPixels));
-  }
-  const double apart = distance(seen, other) * crop.side / Network::kPixels;
-  const double eyes = eye_distance(mean);
+  const double apart = distance(*seen, *other), eyes = eye_distance(*seen);
   if (!(apart <= parameters_.max_asymmetry * eyes)) {
     return refuse(
         fmt::format("the mirrored picture shows the face elsewhere, by {:.0f} % of the distance of "
@@ -134,27 +142,22 @@ Expected<Mesh> FaceMesh::look(const ImageView& image, const Crop& crop, double& 
   }
   // Half of a squared distance belongs to each direction, and a quarter of that is the variance of
   // a mean of two.
-  variance = apart * apart / 8;
-  return mean;
+  const double sigma = std::max(apart / std::sqrt(8.0), parameters_.min_sigma);
+  std::vector<Landmark> landmarks;
+  for (std::size_t i = 0; i < kPoints; ++i) {
+    landmarks.push_back({.point = 0.5 * (seen->points[i] + other->points[i]), .sigma = sigma});
+  }
+  return landmarks;
 }
 
 Expected<std::vector<Landmark>> FaceMesh::find(const ImageView& image, const PixelBox& face) {
   if (auto wrong = invalid_input(image)) return refuse(*wrong);
   if (auto wrong = invalid_box(face)) return refuse(*wrong);
-  const int boxes = parameters_.boxes;
-  std::vector<Landmark> landmarks(kPoints);
-  double variance = 0;
-  for (int i = 0; i < boxes; ++i) {
-    double of_look = 0;
-    const auto mesh = look(image, crop_of(face, i, boxes), of_look);
-    if (!mesh) return tl::unexpected{mesh.error()};
-    for (std::size_t k = 0; k < kPoints; ++k) landmarks[k].point += mesh->points[k] / boxes;
-    variance += of_look / (boxes * boxes);
-  }
-  for (Landmark& landmark : landmarks) {
-    landmark.sigma = std::max(std::sqrt(variance), parameters_.min_sigma);
-  }
-  return landmarks;
+  const auto rough =
+      search(image, {.middle = {face.left + 0.5 * face.width, face.top + 0.5 * face.height},
+                     .side = kBoxScale * std::max(face.width, face.height)});
+  if (!rough) return tl::unexpected{rough.error()};
+  return look(image, crop_around(*rough));
 }
 
 }  // namespace armature::landmarks::face_mesh

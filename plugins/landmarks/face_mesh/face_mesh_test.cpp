@@ -78,15 +78,17 @@ Picture halves(std::uint8_t left, std::uint8_t right) {
   return picture;
 }
 
-constexpr PixelBox kAll{50, 50, 200, 200};  // the network sees 280 x 280 px about (150, 150)
+constexpr PixelBox kAll{50, 50, 200, 200};  // the network sees 360 x 360 px about (150, 150) first
+/// [px] of the image for a pixel that the network sees at last: the stand-in's mesh is 137 px high.
+constexpr double kPerPixel = 360 * 1.4 * 137 / 192 / 192;
 
 TEST(FaceMesh, TellsPointsInPixelsOfTheImage) {
   const auto found = stand_in().find(halves(200, 200).view(), kAll);
   ASSERT_TRUE(found) << found.error().text;
   const FaceLandmarks face{.scheme = LandmarkScheme::mesh468, .points = *found, .box = kAll};
-  // Of 192 pixels the middle is 95.5; each is 280 / 192 px of the image.
+  // Of 192 pixels the middle is 95.5.
   const auto at = [](double x, double y) {
-    return Eigen::Vector2d{150 + (x - 95.5) * 280 / 192, 150 + (y - 95.5) * 280 / 192};
+    return Eigen::Vector2d{150 + (x - 95.5) * kPerPixel, 150 + (y - 95.5) * kPerPixel};
   };
   EXPECT_LT((face.feature(FaceFeature::left_eye).point - at(65.5, 80)).norm(), 1e-3);
   EXPECT_LT((face.feature(FaceFeature::right_eye).point - at(125.5, 80)).norm(), 1e-3);
@@ -98,23 +100,9 @@ TEST(FaceMesh, StatesTheSigmaByWhichThePictureAndTheMirroredOneDiffer) {
   const auto found = stand_in().find(halves(240, 189).view(), kAll);
   ASSERT_TRUE(found) << found.error().text;
   // Brighter by 0.2 of white on the left: 4 px down, and as much up when it is mirrored.
-  EXPECT_NEAR(found->front().sigma, 2 * 4 / std::sqrt(8.0) * 280 / 192, 1e-3);
-  EXPECT_NEAR((*found)[13].point.y(), 150 + (130 - 95.5) * 280 / 192, 1e-3) << "the mean stays";
-}
-
-TEST(FaceMesh, AveragesOverSeveralBoxes) {
-  const std::string file = stand_in_onnx("boxes.onnx");
-  const auto of = [&](int boxes) {
-    auto found = finder_with("{boxes: " + std::to_string(boxes) + ", model: " + file + "}")
-                     ->find(halves(240, 189).view(), kAll);
-    if (!found) throw std::runtime_error(found.error().text);
-    return found->front();
-  };
-  const Landmark one = of(1), nine = of(9);
-  std::filesystem::remove(file);
-  EXPECT_NE(one.point, nine.point);
-  EXPECT_LT((one.point - nine.point).norm(), 0.05 * kAll.width);
-  EXPECT_NEAR(nine.sigma, one.sigma / 3, 0.05 * one.sigma);
+  EXPECT_NEAR(found->front().sigma, 2 * 4 / std::sqrt(8.0) * kPerPixel, 1e-3);
+  // The first look moves the second one by 4 px.
+  EXPECT_NEAR((*found)[13].point.y(), 150 + 4 * 360.0 / 192 + (130 - 95.5) * kPerPixel, 1e-3);
 }
 
 TEST(FaceMesh, RefusesAPictureWhoseMirroredOneShowsAnotherFace) {
@@ -234,9 +222,10 @@ TEST_F(FetchedFaceMesh, ShowsAMirroredFaceByTheMirroredPoints) {
   ASSERT_TRUE(found && mirrored);
   for (std::size_t i = 0; i < kPoints; ++i) {
     const Eigen::Vector2d& point = (*mirrored)[kMirroredPoints[i]].point;
-    // What float32 leaves of 192 pixels.
-    EXPECT_NEAR((*found)[i].point.x(), picture.width - 1 - point.x(), 0.01) << "point " << i;
-    EXPECT_NEAR((*found)[i].point.y(), point.y(), 0.01) << "point " << i;
+    // The square that is looked at last depends on the first look, which is at one picture only:
+    // by some 2 % of the distance of the eyes, which is 115 px.
+    EXPECT_NEAR((*found)[i].point.x(), picture.width - 1 - point.x(), 3) << "point " << i;
+    EXPECT_NEAR((*found)[i].point.y(), point.y(), 3) << "point " << i;
   }
 }
 

@@ -13,9 +13,9 @@
 namespace armature::landmarks::face_mesh {
 
 /// A network with the inputs and outputs of the face mesh, for tests where that is not there. Its
-/// points are those of an upright face in the middle of the picture; they move down by how much
-/// brighter the picture's left side is than its right one, by 20 px for white and black. The
-/// presence is 1/2 where the picture's middle is of grey value 64.
+/// points are those of an upright face of 137 px in the middle of the picture; they move down by
+/// how much brighter the picture's left side is than its right one, by 20 px for white and black.
+/// The presence is 1/2 where the picture's middle is of grey value 64.
 inline std::string stand_in_tflite(std::size_t points = kPoints) {
   namespace tfl = tflite;
   const auto count = static_cast<std::int32_t>(3 * points);
@@ -35,6 +35,8 @@ inline std::string stand_in_tflite(std::size_t points = kPoints) {
       }
     }
   };
+  place({10}, 95.5f, 27);
+  place({152}, 95.5f, 164);
   place({33, 160, 158, 133, 153, 144}, 65.5f, 80);
   place({78, 191, 80, 81, 82, 13, 14, 87, 178, 88, 95}, 95.5f, 130);
   std::vector<float> brightness(27);

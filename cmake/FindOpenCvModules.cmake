@@ -2,7 +2,7 @@
 # The OpenCV modules that are used, as targets. OpenCVConfig.cmake stands in libopencv-dev, which would install
 # every module with its 180 dependencies.
 function(armature_opencv_module module)
-  add_library(opencv::${module} UNKNOWN IMPORTED GLOBAL)
+  add_library(opencv::${module} UNKNOWN IMPORTED)
   set_target_properties(opencv::${module} PROPERTIES
     IMPORTED_LOCATION "${OPENCV_${module}_LIBRARY}"
     INTERFACE_INCLUDE_DIRECTORIES "${OPENCV_INCLUDE_DIR}")

@@ -15,8 +15,8 @@ struct Pixels {
   std::size_t stride = 0;
 };
 
-/// The bytes of a PNG file. Throws std::invalid_argument for a picture without pixels or of other
-/// channels. Allocates: not real-time safe. Source: Portable Network Graphics (W3C), 2nd edition.
+/// The bytes of a PNG file, as libpng writes them. Throws std::invalid_argument for a picture
+/// without pixels or of other channels, std::runtime_error with libpng's words. Not real-time safe.
 std::string encoded(const Pixels& pixels);
 
 }  // namespace armature::png

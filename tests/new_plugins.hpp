@@ -35,7 +35,8 @@ class NewPlugins {
   static std::string id(const std::string& family) { return family + "/my_" + family; }
   std::filesystem::path folder(const std::string& family) const { return folder_ / family; }
   Command::Options environment() const {
-    return {.environment = {{"ARMATURE_PLUGIN_PATH", (folder_ / "build/plugins").string()}},
+    return {.environment = {{"ARMATURE_PLUGIN_PATH", (folder_ / "build/plugins").string()},
+                            {"CCACHE_SLOPPINESS", "pch_defines,time_macros"}},  // see ArmatureBuild
             .input = {}};
   }
 
@@ -57,7 +58,8 @@ class NewPlugins {
     project.close();
     const std::string build = folder_ / "build";
     // -O0: what takes time is to compile them.
-    expect_ok({CMAKE_PROGRAM, "-G", "Ninja", "-S", folder_, "-B", build, "-DCMAKE_CXX_FLAGS=-O0",
+    expect_ok({CMAKE_PROGRAM, "-G", "Ninja", "-S", folder_, "-B", build,
+               "-DCMAKE_CXX_FLAGS=-O0 " ARMATURE_COMPILER_FLAGS,
                "-DCMAKE_CXX_COMPILER_LAUNCHER=" ARMATURE_COMPILER_LAUNCHER});
     expect_ok({CMAKE_PROGRAM, "--build", build, "--parallel", "2"});
   }

@@ -31,10 +31,9 @@ TEST(FaultyLibrary, OneThatCrashesIsNamedAndTheProgramLives) {
 }
 
 TEST(FaultyLibrary, OneThatCrashesIsNamedAmongSoundOnesThatAreTriedWithIt) {
-  const auto result =
-      run_command({armature(), "check", source_file("configs/dental_lamp.yaml"), "--set",
-                   "components.motion.ik.plugin=ik/crashing"},
-                  kFaultyPath);
+  const auto result = run_command({armature(), "check", source_file("configs/dental_lamp.yaml"),
+                                   "--set", "components.motion.ik.plugin=ik/crashing"},
+                                  kFaultyPath);
   EXPECT_EQ(result.exit_code, 4);
   EXPECT_EQ(result.err, "armature: plugin 'ik/crashing' cannot be used: " FAULTY_LIBRARIES
                         "/crashing.so: it crashes when it is loaded (Aborted)\n");

@@ -52,27 +52,35 @@ SeenFeature seen_in(std::span<const Look> looks, std::size_t feature, std::size_
   return seen;
 }
 
+/// Whether no feature moves too far between looks; of more than two each loses its outlier.
+bool are_steady(std::span<const Look> looks, double eye_distance, double max_unsteadiness,
+                std::array<SeenFeature, 3>& seen) {
+  bool result = true;
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    seen[i] = seen_in(looks, i, looks.size() > 2 ? outlier(looks, i) : looks.size(), eye_distance);
+    result = result && seen[i].moved <= max_unsteadiness;
+  }
+  return result;
+}
+
 }  // namespace
 
 Expected<std::array<SeenFeature, 3>> look_at_features(FrontalView& view, LandmarkFinder& finder,
-                                                      double max_unsteadiness) {
-  const auto boxes = view.face_boxes();
+                                                      double max_unsteadiness,
+                                                      bool tries_lower_boxes) {
   const ImageView image = view.image();
-  std::vector<Look> looks;
   std::array<SeenFeature, 3> seen;
-  for (const std::size_t count : {boxes.size() / 2, boxes.size()}) {
-    while (looks.size() < count) {
-      const auto next = look(image, boxes[looks.size()], finder);
-      if (!next) return tl::unexpected{next.error()};
-      looks.push_back(*next);
+  for (const auto& corners : view.face_boxes()) {
+    std::vector<Look> looks;
+    for (const std::size_t count : {corners.size() / 2, corners.size()}) {
+      while (looks.size() < count) {
+        const auto next = look(image, corners[looks.size()], finder);
+        if (!next) return tl::unexpected{next.error()};
+        looks.push_back(*next);
+      }
+      if (are_steady(looks, view.eye_distance(), max_unsteadiness, seen)) return seen;
     }
-    bool is_steady = true;
-    for (std::size_t i = 0; i < seen.size(); ++i) {
-      const bool votes = looks.size() > 2;
-      seen[i] = seen_in(looks, i, votes ? outlier(looks, i) : looks.size(), view.eye_distance());
-      is_steady = is_steady && seen[i].moved <= max_unsteadiness;
-    }
-    if (is_steady) break;
+    if (!tries_lower_boxes) break;
   }
   return seen;
 }

@@ -22,8 +22,10 @@ struct SeenFeature {
 /// `max_unsteadiness`, the other two corners are tried, and of each feature the look that is
 /// farthest from the others is left out: any three corners of a square have two opposite ones among
 /// them, so that what moves with the box moves as far as before, while a finder that went astray in
-/// one look (behind glasses it does) is outvoted.
+/// one look (behind glasses it does) is outvoted. With `tries_lower_boxes` the same is tried from
+/// lower boxes where that does not help.
 Expected<std::array<SeenFeature, 3>> look_at_features(FrontalView& view, LandmarkFinder& finder,
-                                                      double max_unsteadiness);
+                                                      double max_unsteadiness,
+                                                      bool tries_lower_boxes);
 
 }  // namespace armature::face_pose::surface

@@ -12,8 +12,7 @@ namespace armature::face_pose::surface {
 namespace {
 
 // In distances between the eyes, of the boxes: how wide they are, as HOG and cascade detectors put
-// them around frontal faces, and how far below the eyes their middle is. Those of detectors are
-// lower by an eighth; there finders lose eyes behind glasses.
+// them around frontal faces, and how far below the eyes the middle of the first four is.
 constexpr double kBoxWidth = 2.4, kBoxBelowEyes = 0.36;
 constexpr double kBoxPixels = 290;
 constexpr double kDark = 100;  // grey value of the brightest part of a view that is stretched
@@ -86,14 +85,18 @@ ImageView FrontalView::image() {
   return stretched_if_dark(as_seen, kDark, stretched_);
 }
 
-std::array<PixelBox, 4> FrontalView::face_boxes() const {
+std::array<std::array<PixelBox, 4>, 2> FrontalView::face_boxes() const {
   constexpr double kShift = 0.06;  // of the box
   const auto box = [](double right, double down, double scale) {
     const double first = 0.5 * (kSize - 1 - kBoxPixels), step = kShift * kBoxPixels;
     return PixelBox{first + right * step, first + down * step, kBoxPixels, kBoxPixels}.scaled(
         scale);
   };
-  return {box(-1, -1, 0.96), box(1, 1, 1.04), box(1, -1, 0.96), box(-1, 1, 1.04)};
+  const auto corners = [&](double lower) {
+    return std::array{box(-1, lower - 1, 0.96), box(1, lower + 1, 1.04), box(1, lower - 1, 0.96),
+                      box(-1, lower + 1, 1.04)};
+  };
+  return {corners(0), corners(1)};
 }
 
 double FrontalView::eye_distance() const { return kBoxPixels / kBoxWidth; }

@@ -24,9 +24,10 @@ class FrontalView {
 
   /// The view, stretched if it is dark.
   ImageView image();
-  /// Where a detector that was trained on upright faces might put its box: two that lie up and
-  /// left, and down and right, then two in the other corners.
-  std::array<PixelBox, 4> face_boxes() const;
+  /// Boxes in which to seek the face, in two squares: of each the upper left corner, the lower
+  /// right one, then the other two. The second square is lower, where detectors put their boxes:
+  /// there finders see a mouth in the dark; from the first one they see eyes behind glasses.
+  std::array<std::array<PixelBox, 4>, 2> face_boxes() const;
   double eye_distance() const;  // [px]
   /// The pixel of the left picture that a point [px] of the view shows.
   Eigen::Vector2d in_left(const Eigen::Vector2d& in_view) const {

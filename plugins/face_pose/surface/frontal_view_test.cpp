@@ -59,7 +59,7 @@ TEST(FrontalView, KnowsWhereInTheLeftPictureAPointOfItIs) {
   // Of a face that is turned far, the middle between its eyes is not where it is in the picture.
   const Seen seen = frontal({.landmark_error = 0, .max_turn_deg = 8}, 2);
   const double eyes = seen.view.eye_distance();
-  const PixelBox a = seen.view.face_boxes()[0], b = seen.view.face_boxes()[1];
+  const PixelBox a = seen.view.face_boxes()[0][0], b = seen.view.face_boxes()[0][1];
   const Eigen::Vector2d middle{0.25 * (a.left + a.right() + b.left + b.right()),
                                0.25 * (a.top + a.bottom() + b.top + b.bottom())};
   const Eigen::Vector2d between_eyes{middle.x(), middle.y() - 0.36 * eyes};

@@ -72,6 +72,7 @@ Expected<FacePose> Surface::estimate(const FacePoseInput& input, PluginState& st
   // Landmarks of a turned face may be so far off that the frontal view they lead to is a poor one.
   // What was found in it leads to a good one.
   if (!face && located.is_unsettled) {
+    located.is_last_look = true;
     face = look(input, {aligned.surface.tangent(aligned.surface.middle)}, aligned, located);
   }
   if (!face) return face;
@@ -132,7 +133,8 @@ Expected<FacePose> Surface::look(const FacePoseInput& input,
 Expected<void> Surface::find_again(const FacePoseInput& input, const Alignment& aligned,
                                    Located& located) {
   view_.render(input.left, input.right, aligned, located.at, input.camera);
-  const auto seen = look_at_features(view_, *input.finder, parameters_.max_unsteadiness);
+  const auto seen =
+      look_at_features(view_, *input.finder, parameters_.max_unsteadiness, located.is_last_look);
   if (!seen) return tl::unexpected{seen.error()};
   const Features before = located.at;
   std::array<Vector2d, 3> in_left;

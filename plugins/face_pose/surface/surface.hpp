@@ -28,6 +28,7 @@ class Surface final : public FacePoseEstimator {
     std::array<double, 3> sigma;
     std::array<Alignment, 3> own;
     bool is_unsettled = false;  // another look may settle where they are
+    bool is_last_look = false;
   };
 
   static Expected<std::vector<DisparitySurface>> starts_of(const Features& left,

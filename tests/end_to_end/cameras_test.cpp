@@ -71,7 +71,7 @@ TEST_F(LampWithCameras, GoesWhereItWentWhenItsPicturesArePlayedAgain) {
 
 /// Until shortly after the lamp has seen the face.
 DeploymentRun with_fault(const std::vector<std::string>& scene) {
-  std::vector<std::string> settings{kSimulated, "run.time_limit_s=6"};
+  std::vector<std::string> settings{kSimulated, "run.time_limit_s=8"};
   for (const std::string& one : scene) settings.push_back("components.scene.params." + one);
   return run_deployment({.settings = settings});
 }

@@ -74,7 +74,7 @@ TEST_F(LampAlignmentTest, StopsWhenAFaceThatItGoesAlongWithIsSeenNoMore) {
   }
   ASSERT_EQ(goals_.back().mode, MotionMode::tracking);
   present_ = false;
-  run(0.5);
+  run(0.7);
   EXPECT_EQ(goals_.back().mode, MotionMode::planned);
   EXPECT_TRUE(run_until(Phase::searching, 5));
 }

@@ -2,6 +2,7 @@
 // The master manipulator: from the instrument's pose to a follower that a hand leads, by one file;
 // and every way in which the follower must stand still.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -176,7 +177,8 @@ TEST(MasterManipulator, AnIncisionThatTheShaftIsNotInHoldsTheFollowerAndNothingM
 class KnifePath {
  public:
   explicit KnifePath(const std::string& rows)
-      : file_{std::filesystem::path{testing::TempDir()} / "knife.csv"} {
+      : file_{std::filesystem::path{testing::TempDir()} /
+              (std::to_string(::getpid()) + "-knife.csv")} {
     std::ofstream{file_} << "t,x,y,z,qx,qy,qz,qw\n" << rows;
   }
   ~KnifePath() { std::filesystem::remove(file_); }

@@ -352,8 +352,10 @@ bool LampAlignment::lost(Time now) const {
 
 void LampAlignment::tell_disbelief(Time now) {
   const Time since = std::max(latest_->stamp, goals_.done_at());
-  const bool disbelieved = !disbelief_.empty() && to_seconds(now - since) > parameters_.lost;
-  trouble_ = disbelieved ? "a face is seen but not believed: " + disbelief_ : "";
+  trouble_.clear();
+  if (to_seconds(now - since) <= parameters_.lost) return;
+  trouble_ = "a face is seen but not believed: " +
+             (disbelief_.empty() ? "nobody tells where it is" : disbelief_);
 }
 
 void LampAlignment::come_to_rest(Time now) {

@@ -121,8 +121,10 @@ TEST_F(LampAlignmentTest, AveragesWhatWasMeasuredAndNothingThatWasPredicted) {
 TEST_F(LampAlignmentTest, HoldsWhileAFaceIsSeenButNotBelievedAndSaysWhy) {
   ASSERT_TRUE(run_until(Phase::holding, 15));
   believed_ = false;
-  task_.see_no_estimate("the mouth lies 22 mm before the face: something covers it");
   const std::size_t goals = goals_.size();
+  run(3);
+  EXPECT_EQ(task_.trouble(), "a face is seen but not believed: nobody tells where it is");
+  task_.see_no_estimate("the mouth lies 22 mm before the face: something covers it");
   run(60);
   EXPECT_EQ(task_.phase(), Phase::holding);
   EXPECT_EQ(goals_.size(), goals);

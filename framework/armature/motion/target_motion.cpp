@@ -57,9 +57,10 @@ void Course::look(double max_acceleration) {
   since_look_s_ = 0;
 }
 
-/// How much of the changes is the target's, 0 to 1. Of velocities that only jitter the change turns
-/// round with each look, and its differences have three times its square; of a target that goes
-/// round they have (angle between two looks)^2 times it, which counts as nothing up to 0.5 rad.
+/// The share of the velocity's changes that is the target's own, 0 to 1; the rest is jitter. The
+/// squared difference of two changes in a row is three times the square of a change where
+/// velocities only jitter. Where the target goes round it is (angle between two looks)^2 times that
+/// square, which counts as no jitter up to 0.5 rad.
 double Course::smoothness() const {
   constexpr double kRound = 0.25;  // [rad2]
   return changes_ > 0 ? std::clamp((3 - turns_ / changes_) / (3 - kRound), 0.0, 1.0) : 1;

@@ -126,7 +126,7 @@ class PhotoScene final : public Component {
   Output<msg::Target> truth_;
   std::optional<Time> start_, last_picture_;
   std::uint64_t pairs_ = 0;
-  int truths_ = 0;  // told
+  int truths_ = 0;                       // told
   std::array<msg::Image, 2> last_pair_;  // kept where pictures may come again
 };
 

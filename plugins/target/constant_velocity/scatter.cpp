@@ -15,7 +15,7 @@ constexpr int kFewest = 5;  // ratios whose median tells something
 // Medians of the chi-square distributions with 3 and 2 degrees of freedom.
 constexpr double kMedianOfPoint = 2.366, kMedianOfDirection = 1.386;
 
-/// Of how far `now` is from the line through the two before: its square in units of what
+/// The squared distance of `now` from the line through the two before, in units of what
 /// `covariance`, the same for all three, explains. `forward`: the time from `last` to `now` over
 /// the one before it.
 double square(const Eigen::Vector3d& now, const std::array<double, 3>& last,
@@ -24,8 +24,7 @@ double square(const Eigen::Vector3d& now, const std::array<double, 3>& last,
   const Eigen::Vector3d one{last.data()}, other{before_last.data()};
   const Eigen::Vector3d off = now - one - forward * (one - other);
   const double parts = 1 + (1 + forward) * (1 + forward) + forward * forward;
-  const Eigen::Matrix3d explained =
-      parts * (covariance + kMinVariance * Eigen::Matrix3d::Identity());
+  const Eigen::Matrix3d explained = parts * covariance;
   return off.dot(explained.llt().solve(off));
 }
 

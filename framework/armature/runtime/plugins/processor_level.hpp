@@ -7,8 +7,8 @@
 
 namespace armature ARMATURE_EXPORT {
 
-/// What the arithmetic of this processor is called, "x86-64-v3": solvers choose instructions by it,
-/// and their last bits follow.
+/// The name of this processor's instruction set, "x86-64-v3": solvers choose instructions by it,
+/// and the last bits of their answers depend on it.
 std::string processor_level();
 
 /// The library that does the work of `library` on a processor of `level`: NAME.so of a folder

@@ -109,8 +109,8 @@ Expected<FacePose> FacePoseHost::estimate() {
   });
 }
 
-/// What is wrong with the cameras now. A picture that has come again once or twice is refused, and
-/// no state of a camera.
+/// The fault of the cameras to tell in the state, if there is one. A picture that has come again
+/// once or twice is refused, but is no fault of a camera yet.
 std::optional<std::string> FacePoseHost::trouble() const {
   if (is_frozen()) return frozen_->why;
   const msg::CameraInfo* info = right_info_.latest();

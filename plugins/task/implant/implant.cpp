@@ -27,43 +27,16 @@ Implant::Implant(const Parameters& parameters, const RobotModel& robot,
                   {.name = "approach", .asks = true},
                   {.name = "drilling", .asks = true}},
                  parameters.auto_confirm},
-      calibration_{parameters, robot},
-      drill_{parameters, "the drill"},
-      driver_{parameters, "the driver"},
-      flange_watch_{"the flange", seconds(parameters.timeout)},
-      jaw_watch_{"the jaw", seconds(parameters.timeout)},
-      thread_watch_{parameters},
-      jaw_{parameters} {
-  chain_.flange_R_tool = flange_T_file_tool.linear();
-}
+      guidance_{parameters, robot, flange_T_file_tool.linear()},
+      thread_watch_{parameters} {}
 
-void Implant::begin(Time now) { enter(Phase::pivoting, now); }
-
-void Implant::enter(Phase phase, Time now) {
-  phase_ = phase;
-  if (phase == Phase::pivoting) drill_.begin(now);
-  if (phase == Phase::locating || phase == Phase::approaching) jaw_watch_.begin(now);
-  if (phase == Phase::approaching) flange_watch_.begin(now);
-}
+void Implant::begin(Time now) { guidance_.begin(now); }
 
 void Implant::see_plan(const std::vector<ToolPose>& sites,
                        const std::vector<PlannedImplant>& implants) {
-  if (!sites_.empty() || phase_ == Phase::refused) return;
-  if (sites.empty()) return refuse("the plan has no sites");
-  for (const ToolPose& site : sites) {
-    const auto valid = checked(site, fmt::format("site {}'s", sites_.size() + 1));
-    if (!valid) return refuse("the plan: " + valid.error().text);
-    sites_.emplace_back(Eigen::Translation3d{valid->position} *
-                        std::get<Eigen::Quaterniond>(valid->orientation));
-  }
-  if (implants.empty()) return;
-  if (const auto wrong = defect(implants, sites.size(), parameters_.depth)) {
-    return refuse("the plan: " + *wrong);
-  }
-  if (phase_ != Phase::pivoting) {
-    return refuse("the plan with implants came when the driver's tip could not be found any more");
-  }
-  implants_ = implants;
+  if (phase_ == Phase::refused) return;
+  const auto sound = guidance_.see_plan(sites, implants);
+  if (!sound) refuse(sound.error().text);
 }
 
 void Implant::see_arm(const Isometry3d& base_T_flange) {
@@ -71,27 +44,33 @@ void Implant::see_arm(const Isometry3d& base_T_flange) {
   if (at_sites()) rounds_[round_].bottoms.see(base_T_flange);
 }
 
+void Implant::see_handpiece(double angle, Time now) {
+  guidance_.see_handpiece();
+  thread_watch_.see(angle, now);
+}
+
 void Implant::see_drill_in_hand(const Sighting& sighting) {
-  if (phase_ == Phase::pivoting && !drill_tip_) drill_.see(sighting);
+  if (phase_ == Phase::pivoting) guidance_.see_drill_in_hand(sighting);
 }
 
 void Implant::see_driver_in_hand(const Sighting& sighting) {
-  if (phase_ == Phase::pivoting && drill_tip_) driver_.see(sighting);
+  if (phase_ == Phase::pivoting) guidance_.see_driver_in_hand(sighting);
 }
 
 void Implant::see_flange(const Sighting& sighting) {
-  flange_watch_.see(sighting);
-  if (phase_ == Phase::calibrating && base_T_flange_) calibration_.see(sighting, *base_T_flange_);
+  guidance_.see_flange(sighting, phase_ == Phase::calibrating ? base_T_flange_ : std::nullopt);
 }
 
 void Implant::see_jaw(const Sighting& sighting) {
-  jaw_watch_.see(sighting);
-  if (!sighting.tracker_T_body) return;
-  if (phase_ == Phase::locating) {
-    if (const auto moved = jaw_.see(*sighting.tracker_T_body)) refuse(*moved);
-  } else if (phase_ == Phase::approaching || at_sites()) {
-    if (const auto moved = jaw_.guard(*sighting.tracker_T_body)) refuse(*moved);
-  }
+  const auto rests = guidance_.see_jaw(sighting, watches_the_jaw());
+  if (!rests) refuse(rests.error().text);
+}
+
+void Implant::see_registration(const RegisteredJaw& jaw, Time now) {
+  if (phase_ != Phase::registering) return;
+  const auto registered = guidance_.see_registration(jaw, now);
+  if (!registered) return refuse(registered.error().text);
+  phase_ = Phase::locating;
 }
 
 void Implant::hear(const GoalReport& report, Time now) {
@@ -99,11 +78,11 @@ void Implant::hear(const GoalReport& report, Time now) {
   const bool there = goal_.state() == PursuedGoal::State::done;
   const bool failed = goal_.state() == PursuedGoal::State::failed;
   if (turned_ && (there || failed)) return come_back(now);
-  if (phase_ == Phase::calibrating && sent_to_ == calibration_.number()) {
-    if (there) calibration_.arrive(goal_.done_at());
+  if (phase_ == Phase::calibrating && sent_to_ == guidance_.calibration().number()) {
+    if (there) guidance_.calibration().arrive(goal_.done_at());
     // Or it would go on with the poses that it has, and move once somebody rearms the arm.
     if (failed && goal_.stopped()) return refuse("hand-eye: " + goal_.reason());
-    if (failed) calibration_.leave_out(goal_.reason());
+    if (failed) guidance_.calibration().leave_out(goal_.reason());
   }
   const bool above = phase_ == Phase::approaching, out = phase_ == Phase::withdrawing;
   if (!set_out_ || !(above || out || at_sites())) return;
@@ -127,28 +106,17 @@ void Implant::update(Time now) {
     const auto wrong = thread_watch_.trouble(tool(), now);
     if (wrong) return refuse(pass().name + ": " + *wrong);
   }
-  const bool watches_the_jaw = phase_ == Phase::approaching || at_sites();
-  if (procedure_.paused() && !watches_the_jaw) return;
+  if (procedure_.paused() && !watches_the_jaw()) return;
   switch (phase_) {
     case Phase::pivoting:
-      if ((drill_tip_ ? driver_ : drill_).complete(now)) return finish_pivot(now);
-      if (const auto blind = (drill_tip_ ? driver_ : drill_).blind(now)) refuse("pivot: " + *blind);
-      break;
     case Phase::calibrating:
-      calibration_.update(now);
-      if (!calibration_.trouble().empty()) return refuse("hand-eye: " + calibration_.trouble());
-      if (!calibration_.destination()) return finish_calibration(now);
-      go_on_calibrating();
-      break;
+    case Phase::registering:
     case Phase::locating:
-      if (jaw_.located()) return finish_locating(now);
-      if (const auto blind = jaw_watch_.blind(now)) refuse(*blind);
-      break;
+      return find(now);
     case Phase::approaching:
     case Phase::drilling:
     case Phase::placing:
-      if (const auto blind = jaw_watch_.blind(now)) return refuse(*blind);
-      if (const auto blind = flange_watch_.blind(now)) return refuse(*blind);
+      if (const auto seen = guidance_.guard(now); !seen) return refuse(seen.error().text);
       if (!set_out_) return set_out(now);
       if (at_sites() && procedure_.may_act()) go_on(now);
       break;
@@ -163,7 +131,6 @@ void Implant::update(Time now) {
     case Phase::aborting:
       if (!turned_ && goal_.state() != PursuedGoal::State::pausing) turn_back();
       break;
-    case Phase::registering:
     case Phase::drilled:
     case Phase::placed:
     case Phase::held:
@@ -173,142 +140,56 @@ void Implant::update(Time now) {
   }
 }
 
-/// Of the drill, and then of the driver where there are implants.
-void Implant::finish_pivot(Time now) {
-  const bool of_driver = drill_tip_.has_value();
-  const PivotRun& run = of_driver ? driver_ : drill_;
-  const auto pivot = run.result();
-  const char* tool = of_driver ? "driver" : "pivot";
-  if (!pivot) return refuse(fmt::format("{}: {}", tool, pivot.error().text));
-  news_.push_back(fmt::format(
-      "{}: {} poses, the tip stood still to {:.2f} mm and is known to {:.2f} mm (95 %)", tool,
-      run.poses(), 1e3 * pivot->residual_rms_m, 1e3 * pivot->tip_error.bound95_m));
-  (of_driver ? driver_tip_ : drill_tip_) = *pivot;
-  if (!of_driver) {
-    chain_.tip = pivot->tip;
-    if (!implants_.empty()) {
-      news_.push_back("pivot: waits for the driver, turned about its tip");
+void Implant::find(Time now) {
+  const Guidance::Step before = guidance_.step();
+  const auto found = guidance_.update(now);
+  if (!found) return refuse(found.error().text);
+  const bool goes_on = guidance_.step() != before;
+  switch (guidance_.step()) {
+    case Guidance::Step::hand_eye:
+      if (!goes_on) return go_on_calibrating();
+      phase_ = Phase::calibrating;
+      return procedure_.enter(kCalibration);
+    case Guidance::Step::registration:
+      if (!goes_on) return;
+      phase_ = Phase::registering;
+      return procedure_.enter(kRegistration);
+    case Guidance::Step::complete:
+      plan_rounds();
+      if (base_T_flange_ && !came_from_) {
+        const Isometry3d at = *base_T_flange_ * flange_T_file_tool_;
+        came_from_ = {at.translation(), Eigen::Quaterniond{at.linear()}.normalized()};
+      }
+      return enter_approach(now);
+    case Guidance::Step::pivot:
+    case Guidance::Step::place:
       return;
-    }
-  } else if (!thread_watch_.heard_of()) {
-    return refuse("the plan has implants, and no handpiece tells how far it turns them");
   }
-  enter(Phase::calibrating, now);
-  procedure_.enter(kCalibration);
 }
 
 void Implant::go_on_calibrating() {
-  if (sent_to_ == calibration_.number()) return;
-  sent_to_ = calibration_.number();
-  goal_.set({.pose = *calibration_.destination(), .focus = {}});
-}
-
-void Implant::finish_calibration(Time now) {
-  const auto found = calibrate_hand_eye(calibration_.poses());
-  if (!found) return refuse("hand-eye: " + found.error().text);
-  if (found->residual_rms_m > parameters_.max_hand_eye_rms) {
-    return refuse(fmt::format("hand-eye: the poses fit to {:.2f} mm rms, {:g} mm are allowed",
-                              1e3 * found->residual_rms_m, 1e3 * parameters_.max_hand_eye_rms));
-  }
-  hand_eye_ = *found;
-  chain_.flange_T_body = hand_eye_.flange_T_body;
-  chain_.base_T_tracker = hand_eye_.base_T_tracker;
-  std::string line =
-      fmt::format("hand-eye: {} of {} poses fit to {:.2f} mm", calibration_.poses().size(),
-                  calibration_.count(), 1e3 * hand_eye_.residual_rms_m);
-  if (!calibration_.left_out().empty()) line += "; left out: " + calibration_.left_out();
-  news_.push_back(line);
-  enter(Phase::registering, now);
-  procedure_.enter(kRegistration);
-}
-
-void Implant::see_registration(const RegisteredJaw& jaw, Time now) {
-  if (phase_ != Phase::registering) return;
-  if (jaw.sites.size() != sites_.size()) {
-    return refuse(fmt::format("the registration tells the error of {} sites, the plan has {}",
-                              jaw.sites.size(), sites_.size()));
-  }
-  if (!(jaw.fiducial_error_m <= parameters_.max_fre)) {
-    return refuse(fmt::format("the markers fit to {:.2f} mm rms, {:g} mm are allowed",
-                              1e3 * jaw.fiducial_error_m, 1e3 * parameters_.max_fre));
-  }
-  news_.push_back(
-      fmt::format("registration: the markers fit to {:.2f} mm", 1e3 * jaw.fiducial_error_m));
-  registered_ = jaw;
-  chain_.patient_T_image = jaw.jaw_T_image;
-  std::vector<Eigen::Vector3d> ends;
-  for (const Isometry3d& site : sites_) {
-    for (const double above_m : {0.0, parameters_.depth}) {
-      ends.emplace_back(chain_.patient_T_image * (site * Eigen::Vector3d{0, 0, -above_m}));
-    }
-  }
-  jaw_.locate(std::move(ends));
-  enter(Phase::locating, now);
-}
-
-void Implant::finish_locating(Time now) {
-  chain_.tracker_T_patient = jaw_.average().mean();
-  auto drilling = forecast(std::vector(sites_.size(), chain_), *drill_tip_, "site");
-  if (!drilling) return refuse(drilling.error().text);
-  forecasts_ = std::move(*drilling);
-  if (driver_tip_) {
-    std::vector<GuidedChain> ends;
-    for (const PlannedImplant& implant : implants_) {
-      ends.push_back(with_implant(*driver_chain(), implant));
-    }
-    const auto placing = forecast(ends, *driver_tip_, "implant");
-    if (!placing) return refuse(placing.error().text);
-  }
-  plan_rounds();
-  if (base_T_flange_ && !came_from_) {
-    const Isometry3d at = *base_T_flange_ * flange_T_file_tool_;
-    came_from_ = {at.translation(), Eigen::Quaterniond{at.linear()}.normalized()};
-  }
-  enter_approach(now);
-}
-
-Expected<std::vector<ErrorForecast>> Implant::forecast(const std::vector<GuidedChain>& chains,
-                                                       const Pivot& pivot, const char* tool) {
-  std::vector<ErrorForecast> forecasts;
-  double worst_m = 0;
-  for (std::size_t i = 0; i < sites_.size(); ++i) {
-    forecasts.push_back(
-        forecast_at(sites_[i], chains[i], pivot, hand_eye_, jaw_.average(), registered_.sites[i]));
-    const double bound_m = forecasts.back().bound95_m();
-    worst_m = std::max(worst_m, bound_m);
-    if (!(bound_m <= parameters_.max_tre)) {
-      return armature::refuse(
-          fmt::format("{} {} is known to {:.2f} mm (95 %), {:g} mm are required", tool, i + 1,
-                      1e3 * bound_m, 1e3 * parameters_.max_tre));
-    }
-  }
-  news_.push_back(fmt::format("the worst of {} {}s is known to {:.2f} mm (95 %)", sites_.size(),
-                              tool, 1e3 * worst_m));
-  return forecasts;
-}
-
-std::optional<GuidedChain> Implant::driver_chain() const {
-  if (!driver_tip_) return std::nullopt;
-  GuidedChain chain = chain_;
-  chain.tip = driver_tip_->tip;
-  return chain;
+  if (sent_to_ == guidance_.calibration().number()) return;
+  sent_to_ = guidance_.calibration().number();
+  goal_.set({.pose = *guidance_.calibration().destination(), .focus = {}});
 }
 
 void Implant::plan_rounds() {
   rounds_.clear();
+  const std::vector<Isometry3d>& sites = guidance_.sites();
+  const std::vector<PlannedImplant>& implants = guidance_.implants();
   std::vector<Destination> bottoms;
-  for (const Isometry3d& site : sites_) bottoms.push_back(destination(chain_, site));
-  rounds_.push_back({.way = drilling_way(chain_, flange_T_file_tool_, sites_, parameters_),
-                     .bottoms = {bottoms, "the drill", "the bottom of"}});
-  if (driver_tip_) {
-    const GuidedChain driver = *driver_chain();
+  for (const Isometry3d& site : sites) bottoms.push_back(destination(guidance_.chain(), site));
+  rounds_.push_back(
+      {.way = drilling_way(guidance_.chain(), flange_T_file_tool_, sites, parameters_),
+       .bottoms = {bottoms, "the drill", "the bottom of"}});
+  if (const auto driver = guidance_.driver_chain()) {
     bottoms.clear();
-    for (std::size_t i = 0; i < sites_.size(); ++i) {
+    for (std::size_t i = 0; i < sites.size(); ++i) {
       bottoms.push_back(
-          destination(with_implant(driver, implants_[i]), place_of(sites_[i], implants_[i])));
+          destination(with_implant(*driver, implants[i]), place_of(sites[i], implants[i])));
     }
     rounds_.push_back(
-        {.way = placing_way(driver, flange_T_file_tool_, sites_, implants_, parameters_),
+        {.way = placing_way(*driver, flange_T_file_tool_, sites, implants, parameters_),
          .bottoms = {bottoms, "the implant", "its place in"}});
   }
   std::vector<Procedure::Step> ahead;
@@ -328,7 +209,8 @@ void Implant::plan_rounds() {
 
 void Implant::enter_approach(Time now) {
   set_out_ = false;
-  enter(Phase::approaching, now);
+  phase_ = Phase::approaching;
+  guidance_.begin_to_guard(now);
   procedure_.enter(rounds_[round_].approach);
   set_out(now);
 }
@@ -345,10 +227,11 @@ void Implant::set_out(Time now) {
       return lead_out();
     default:
       if (pass().turns) {
-        const Isometry3d site = chain_.base_T_site(sites_[pass().site]);
+        const std::size_t site = pass().site;
+        const Isometry3d base_T_site = guidance_.chain().base_T_site(guidance_.sites()[site]);
         thread_watch_.engage({.start = way.passes[pass_ - 1].goal.pose.position,
-                              .axis = site.linear().col(2),
-                              .pitch_m = implants_[pass().site].pitch_m},
+                              .axis = base_T_site.linear().col(2),
+                              .pitch_m = guidance_.implants()[site].pitch_m},
                              now);
       }
       return goal_.set_once(pass().goal);
@@ -356,7 +239,7 @@ void Implant::set_out(Time now) {
 }
 
 void Implant::come_to_pass(std::size_t pass, Time now) {
-  enter(placing() ? Phase::placing : Phase::drilling, now);
+  phase_ = placing() ? Phase::placing : Phase::drilling;
   thread_watch_.release();
   pass_ = pass;
   set_out_ = false;
@@ -387,21 +270,21 @@ void Implant::go_on(Time now) {
 
 void Implant::withdraw(Time now) {
   set_out_ = false;
-  enter(Phase::withdrawing, now);
+  phase_ = Phase::withdrawing;
   procedure_.enter(rounds_[round_].withdrawal);
   set_out(now);
 }
 
 void Implant::finish_round(Time now) {
   if (round_ + 1 == rounds_.size()) {
-    enter(placing() ? Phase::placed : Phase::drilled, now);
+    phase_ = placing() ? Phase::placed : Phase::drilled;
     return procedure_.end();
   }
   out_at_ = now;
   ++round_;
   pass_ = 0;
   set_out_ = false;
-  enter(Phase::changing_tool, now);
+  phase_ = Phase::changing_tool;
   procedure_.enter(rounds_[round_].approach - 1);
 }
 
@@ -436,8 +319,6 @@ void Implant::refuse(const std::string& why) {
       goal_.state() == PursuedGoal::State::waiting || goal_.state() == PursuedGoal::State::moving;
   if (on_its_way) goal_.set({.mode = MotionMode::hold, .pose = {}, .focus = {}});
 }
-
-std::vector<std::string> Implant::take_news() { return std::exchange(news_, {}); }
 
 const char* to_string(Implant::Phase phase) {
   switch (phase) {

@@ -10,10 +10,7 @@
 #include "armature/task/procedure.hpp"
 #include "armature/task/pursued_goal.hpp"
 #include "bottom_watch.hpp"
-#include "calibration_run.hpp"
-#include "error_forecast.hpp"
-#include "jaw_place.hpp"
-#include "pivot_run.hpp"
+#include "guidance.hpp"
 #include "sighting.hpp"
 #include "site_way.hpp"
 #include "task_implant_parameters.hpp"
@@ -21,18 +18,10 @@
 
 namespace armature::task::implant {
 
-/// What a registration answered.
-struct RegisteredJaw {
-  Eigen::Affine3d jaw_T_image = Eigen::Affine3d::Identity();
-  double fiducial_error_m = 0;
-  std::vector<RegisteredSite> sites;
-};
-
-/// The scenario of a drilling: the drill's tip is found (pivot), where tracker and body are
-/// (hand-eye), how the image lies in the jaw (registration), where the jaw is (tracker), and then
-/// the drill goes through all sites and back to where it came from. Where the plan has implants,
-/// the driver that holds them takes its place there and goes through them the same way. Everything
-/// it knows comes in through the `see` and `hear` calls.
+/// The scenario of a drilling: once it is known where everything is (guidance), the drill goes
+/// through all sites and back to where it came from. Where the plan has implants, the driver that
+/// holds them takes its place there and goes through them the same way. Everything it knows comes
+/// in through the `see` and `hear` calls.
 class Implant {
  public:
   enum class Phase {
@@ -65,7 +54,7 @@ class Implant {
   /// Every sample of the arm.
   void see_arm(const Eigen::Isometry3d& base_T_flange);
   /// How far the handpiece has turned [rad].
-  void see_handpiece(double angle, Time now) { thread_watch_.see(angle, now); }
+  void see_handpiece(double angle, Time now);
   void see_drill_in_hand(const Sighting& sighting);
   void see_driver_in_hand(const Sighting& sighting);
   void see_flange(const Sighting& sighting);
@@ -77,26 +66,20 @@ class Implant {
   void update(Time now);
 
   /// True as long as there is a plan to register and no answer.
-  bool wants_registration() const { return phase_ == Phase::registering && !sites_.empty(); }
+  bool wants_registration() const {
+    return phase_ == Phase::registering && !guidance_.sites().empty();
+  }
   std::optional<MotionGoal> outgoing_goal(Time now) { return goal_.outgoing(now); }
   /// Into which an implant is being turned, or out of which, if any.
   const std::optional<Thread>& thread() const { return thread_watch_.thread(); }
 
   Phase phase() const { return phase_; }
   const Procedure& procedure() const { return procedure_; }
-  /// Where in the calibration it is, from 1.
-  std::size_t calibration_pose() const { return static_cast<std::size_t>(calibration_.number()); }
-  std::size_t calibration_poses() const { return static_cast<std::size_t>(calibration_.count()); }
   /// Why it does not go on, or "".
   const std::string& trouble() const { return trouble_; }
   /// What was found, each said once.
-  std::vector<std::string> take_news();
-  /// As far as it is known: complete from `approaching` on. With the drill's tip.
-  const GuidedChain& chain() const { return chain_; }
-  /// The same with the driver's, where there are implants.
-  std::optional<GuidedChain> driver_chain() const;
-  /// Of every site, from `approaching` on: of the drill.
-  const std::vector<ErrorForecast>& forecasts() const { return forecasts_; }
+  std::vector<std::string> take_news() { return guidance_.take_news(); }
+  const Guidance& guidance() const { return guidance_; }
 
  private:
   /// The way of one tool through the sites.
@@ -109,10 +92,9 @@ class Implant {
 
   /// The steps that are known before there is a way.
   enum Step : std::size_t { kPivot, kCalibration, kRegistration, kApproach };
-  void enter(Phase phase, Time now);
   Expected<void> go_back(Time now);
   Expected<void> abort();
-  void register_again(Time now);
+  void register_again();
   void come_to_pass(std::size_t pass, Time now);
   /// For the approach, or for the pass, once it may.
   void set_out(Time now);
@@ -121,13 +103,9 @@ class Implant {
   void come_back(Time now);
   /// Over the sites to above the first, and then to where the approach began.
   void lead_out();
-  void finish_pivot(Time now);
+  /// Goes on with the guidance, to the step that it has come to.
+  void find(Time now);
   void go_on_calibrating();
-  void finish_calibration(Time now);
-  void finish_locating(Time now);
-  /// How well every site is known, for a tool whose tip was found so, or why that is not enough.
-  Expected<std::vector<ErrorForecast>> forecast(const std::vector<GuidedChain>& chains,
-                                                const Pivot& pivot, const char* tool);
   void plan_rounds();
   void enter_approach(Time now);
   void go_on(Time now);
@@ -135,6 +113,8 @@ class Implant {
   void finish_round(Time now);
   bool placing() const { return round_ == 1; }
   bool at_sites() const { return phase_ == Phase::drilling || phase_ == Phase::placing; }
+  /// The jaw must be seen, and rest.
+  bool watches_the_jaw() const { return phase_ == Phase::approaching || at_sites(); }
   /// On its way there, or not out yet.
   bool near_the_jaw() const;
   const Pass& pass() const { return rounds_[round_].way.passes[pass_]; }
@@ -148,21 +128,12 @@ class Implant {
   Parameters parameters_;
   Eigen::Isometry3d flange_T_file_tool_;
   Procedure procedure_;
-  CalibrationRun calibration_;
-  PivotRun drill_, driver_;
-  BodyWatch flange_watch_, jaw_watch_;
+  Guidance guidance_;
   ThreadWatch thread_watch_;
   PursuedGoal goal_;
   int sent_to_ = 0;  // the calibration pose that goal_ is
   Phase phase_ = Phase::pivoting;
-  std::vector<Eigen::Isometry3d> sites_;
-  std::vector<PlannedImplant> implants_;
   std::optional<Eigen::Isometry3d> base_T_flange_;
-  std::optional<Pivot> drill_tip_, driver_tip_;
-  HandEye hand_eye_;
-  JawPlace jaw_;
-  RegisteredJaw registered_;
-  GuidedChain chain_;
   std::vector<Round> rounds_;
   std::optional<ToolPose> came_from_;  // where the approach began
   std::size_t round_ = 0, pass_ = 0;   // of rounds_, and of its way
@@ -170,8 +141,6 @@ class Implant {
   bool set_out_ = false;               // for the approach, or for the pass
   bool turned_ = false;                // going back or aborting: the way back is under way
   bool homing_ = false;                // led out: on the way to where the approach began
-  std::vector<ErrorForecast> forecasts_;
-  std::vector<std::string> news_;
   std::string trouble_;
 };
 

@@ -127,7 +127,7 @@ class ImplantComponent final : public Component {
   }
 
   void summarize(Summary& summary) const override {
-    const auto& sites = task_.forecasts();
+    const auto& sites = task_.guidance().forecasts();
     if (sites.empty()) return;
     const auto metric = [&](const char* key, const char* title, auto error_of) {
       summary.metric(key, title, 1e3 * rms_of(sites, error_of));
@@ -187,11 +187,12 @@ class ImplantComponent final : public Component {
   }
 
   void publish_estimate(Time now) {
-    const bool known = !task_.forecasts().empty();
+    const bool known = !task_.guidance().forecasts().empty();
     if (std::exchange(published_, known) || !known) return;
     msg::TFMessage estimate;
-    write_chain(task_.chain(), now, estimate);
-    if (const auto driver = task_.driver_chain()) write_tool(*driver, kDriver, now, estimate);
+    write_chain(task_.guidance().chain(), now, estimate);
+    if (const auto driver = task_.guidance().driver_chain())
+      write_tool(*driver, kDriver, now, estimate);
     estimate_.publish(estimate);
   }
 
@@ -206,10 +207,12 @@ class ImplantComponent final : public Component {
 
   void publish_state(Time now) {
     const bool calibrating = task_.phase() == Implant::Phase::calibrating;
-    const TaskReport report{.state = to_string(task_.phase()),
-                            .step = calibrating ? task_.calibration_pose() : 0,
-                            .steps = calibrating ? task_.calibration_poses() : 0,
-                            .detail = task_.trouble()};
+    const CalibrationRun& calibration = task_.guidance().calibration();
+    const TaskReport report{
+        .state = to_string(task_.phase()),
+        .step = calibrating ? static_cast<std::size_t>(calibration.number()) : 0,
+        .steps = calibrating ? static_cast<std::size_t>(calibration.count()) : 0,
+        .detail = task_.trouble()};
     const auto said = ports_.publish(now, report, report.line(), task_.procedure());
     if (said) log(*said);
   }

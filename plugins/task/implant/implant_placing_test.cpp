@@ -110,7 +110,7 @@ TEST_F(PlacingTest, WaitsForTheDriverInTheHandAsLongAsItTakes) {
   EXPECT_EQ(task_.phase(), Phase::pivoting);
   see_driver_ = true;
   go_to(Phase::calibrating);
-  EXPECT_LT((task_.driver_chain()->tip - driver_tip_).norm(), 1e-9);
+  EXPECT_LT((task_.guidance().driver_chain()->tip - driver_tip_).norm(), 1e-9);
 }
 
 TEST_F(PlacingTest, ImplantsThatCannotBeAreToldByNumberAndValue) {

@@ -20,8 +20,10 @@ TEST_F(ImplantTest, GoesFromThePivotThroughAllSites) {
   go_to(Phase::registering);
   EXPECT_EQ(goals_.size(), 8u);
   go_to(Phase::drilling);
-  EXPECT_LT((task_.chain().base_T_tracker.matrix() - chain_.base_T_tracker.matrix()).norm(), 1e-9);
-  EXPECT_LT((task_.chain().tip - chain_.tip).norm(), 1e-9);
+  EXPECT_LT(
+      (task_.guidance().chain().base_T_tracker.matrix() - chain_.base_T_tracker.matrix()).norm(),
+      1e-9);
+  EXPECT_LT((task_.guidance().chain().tip - chain_.tip).norm(), 1e-9);
   go_to(Phase::drilled);
   ASSERT_EQ(goals_.size(), 12u) << "over the sites, and to where it came from";
   const MotionGoal& bores = goals_[9];
@@ -29,9 +31,10 @@ TEST_F(ImplantTest, GoesFromThePivotThroughAllSites) {
   ASSERT_EQ(bores.through.size(), 4u);
   expect_tip_at(bores.through[0], 0);
   expect_tip_at(bores.through[3], 1);
-  ASSERT_EQ(task_.forecasts().size(), 2u);
-  EXPECT_NEAR(task_.forecasts()[0].rms_m(), 0.0003, 1e-9) << "only the registration errs";
-  EXPECT_NEAR(task_.forecasts()[1].bound95_m(), 0.0004, 1e-9);
+  ASSERT_EQ(task_.guidance().forecasts().size(), 2u);
+  EXPECT_NEAR(task_.guidance().forecasts()[0].rms_m(), 0.0003, 1e-9)
+      << "only the registration errs";
+  EXPECT_NEAR(task_.guidance().forecasts()[1].bound95_m(), 0.0004, 1e-9);
   const auto news = task_.take_news();
   ASSERT_EQ(news.size(), 4u);
   EXPECT_EQ(news[2], "registration: the markers fit to 0.40 mm");
@@ -204,7 +207,7 @@ TEST_F(ImplantTest, AJawThatTurnsAboutTheFirstSiteStopsTheArmToo) {
   begin();
   go_to(Phase::drilling);
   done_ = 0;
-  const Vector3d site = task_.chain().patient_T_image * sites_[0].position;
+  const Vector3d site = task_.guidance().chain().patient_T_image * sites_[0].position;
   chain_.tracker_T_patient = chain_.tracker_T_patient * Eigen::Translation3d{site} *
                              Eigen::AngleAxisd{10 * M_PI / 180, Vector3d::UnitZ()} *
                              Eigen::Translation3d{-site};

@@ -36,7 +36,7 @@ Expected<void> Implant::go_back(Time now) {
   procedure_.turn_back();
   goal_.pause();
   if (again) {
-    register_again(now);
+    register_again();
   } else if (!set_out_) {
     --pass_;
     come_to_pass(first_of_step(), now);  // into the site before
@@ -47,9 +47,9 @@ Expected<void> Implant::go_back(Time now) {
   return {};
 }
 
-void Implant::register_again(Time now) {
-  forecasts_.clear();
-  enter(Phase::registering, now);
+void Implant::register_again() {
+  guidance_.register_again();
+  phase_ = Phase::registering;
   procedure_.enter(kRegistration);
 }
 

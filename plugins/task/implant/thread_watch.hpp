@@ -23,7 +23,6 @@ class ThreadWatch {
   void engage(const Thread& thread, Time now);
   void release() { thread_.reset(); }
   const std::optional<Thread>& thread() const { return thread_; }
-  bool heard_of() const { return angle_.has_value(); }
   /// "the implant went in by 1.20 mm, and was turned by 0.3 of the 1 turns that its thread wants",
   /// or that the handpiece is silent, or nullopt. `tool`: where the file's tool is [m].
   std::optional<std::string> trouble(const Eigen::Vector3d& tool, Time now) const;

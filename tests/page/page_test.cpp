@@ -60,6 +60,7 @@ TEST_F(PageInABrowser, ShowsEveryComponentAsItsStateIsTold) { expect_true("graph
 TEST_F(PageInABrowser, ShowsWhatWasWhenItIsPausedAndGoneBack) { expect_true("scrub"); }
 TEST_F(PageInABrowser, ComesBackAfterALostConnectionAndFollowsANewRun) { expect_true("again"); }
 TEST_F(PageInABrowser, OpensARecordingWholeOrCutOff) { expect_true("recording"); }
+TEST_F(PageInABrowser, PlaysPausesAndSeeksInARecordingOfAServer) { expect_true("playback"); }
 TEST_F(PageInABrowser, OpensAReportOfARunFromTheDisk) { expect_true("report"); }
 TEST_F(PageInABrowser, OpensThePageThatARunWritesIntoItsReport) { expect_true("ownReport"); }
 TEST_F(PageInABrowser, LetsChooseBetweenTwoDeployments) { expect_true("two"); }

@@ -265,6 +265,7 @@ export class App {
     const step = event.shiftKey ? 0.1 : 1;
     const onButton = target.matches('button, summary, label, [role=button]');
     if (event.key === ' ' && !onButton) this.playhead.toggle();
+    else if (event.key === '<' || event.key === '>') this.playhead.changeSpeed(event.key === '>');
     else if (event.key === 'ArrowLeft') this.playhead.step(-step);
     else if (event.key === 'ArrowRight') this.playhead.step(step);
     else if (event.key === 'Home') this.playhead.seek(this.playhead.start);

@@ -3,6 +3,7 @@
 // what somebody looks at and nothing else.
 import {decoderOf, type Message} from './message/decoder';
 import {Connection} from './source/connection';
+import type {Playback} from './source/playback';
 import {Recording} from './source/recording';
 import type {RecordingFile} from './source/recording_file';
 import type {Condition, Source, SourceEvents, TopicInfo} from './source/source';
@@ -20,7 +21,7 @@ export class Hub {
   topics = new Map<string, TopicInfo>();
   condition: Condition = 'connecting';
   text = '';
-  isPlayed = false;      // a recording is played to the page, and to whoever else looks
+  playback?: Playback | undefined;  // of a recording that is played to the page, and to whoever else looks
   source?: Source;
   received = 0;
   firstDataMs = NaN;     // after the page began, or after there was something to see
@@ -69,7 +70,7 @@ export class Hub {
   private leave() {
     this.source?.close();
     this.source = undefined;
-    this.isPlayed = false;
+    this.playback = undefined;
     this.forgetAll();
     this.topics = new Map();
     ++this.topicsVersion;
@@ -106,8 +107,8 @@ export class Hub {
         for (const call of this.arrivals) call({topic, t});
       },
       forget: (topic) => this.forget(topic),
-      played: () => {
-        this.isPlayed = true;
+      played: (playback) => {
+        this.playback = playback;
       },
       jumped: () => this.forgetAll(),
       warning: (text) => {

@@ -37,6 +37,13 @@ export async function monitor(domain, port = 0) {
   return Object.assign(program, {url: `http://${place}/`, socket: `ws://${place}`, port: Number(place.split(':')[1])});
 }
 
+/// A recording that is played to browsers.
+export async function played(file) {
+  const program = new Program(['replay', file, '--monitor', '--port', '0']);
+  const [, place] = await program.tells(/http:\/\/([\d.]+:\d+)\//);
+  return Object.assign(program, {url: `http://${place}/`});
+}
+
 /// The output of a command of armature that ends.
 export async function output(words) {
   const {stdout} = await promisify(execFile)(armature, words, {maxBuffer: 1 << 28});
@@ -49,12 +56,12 @@ export async function sample(domain, topic) {
 
 let browser;
 /// A page in Debian's Chromium. Whatever it throws makes the test fail.
-export async function openPage(url, size = {width: 1366, height: 768}) {
+export async function openPage(url, size = {width: 1366, height: 768}, hasTouch = false) {
   browser ??= await chromium.launch({
     executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
     args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-gpu-compositing'],
   });
-  const page = await browser.newPage({viewport: size});
+  const page = await browser.newPage({viewport: size, hasTouch, isMobile: hasTouch});
   page.problems = [];
   page.on('pageerror', (error) => page.problems.push(error.stack));
   page.on('console', (message) => {

@@ -9,7 +9,7 @@ import {pathToFileURL} from 'node:url';
 
 import {decodeLive, decodeRecording, lazyClients} from './clients.mjs';
 import {fakeServer} from './fake_server.mjs';
-import {monitor, openPage, output, run, sample, sleep, until} from './running.mjs';
+import {monitor, openPage, output, played, run, sample, sleep, until} from './running.mjs';
 
 const kLampArm = ['dental_lamp'];
 const app = (page, look, argument) => page.evaluate(look, argument);
@@ -144,6 +144,7 @@ async function scrub(domain) {
   ['x', 'y', 'z'].forEach((axis, i) => near(then.tool[i], told.tool[axis], 2e-3, `tool ${axis} then [m]`));
   assert.ok(Math.hypot(...[0, 1, 2].map((i) => then.tool[i] - now.tool[i])) > 1e-3, 'it has moved since');
   assert.match(told.label, /^-\d+\.\d s$/);
+  assert.ok(await page.locator('select.speed').isHidden(), 'a running deployment has no speed');
   // What is looked at stays, while new messages come.
   await sleep(1);
   assert.deepEqual(await links(page), then);
@@ -209,6 +210,69 @@ async function recording(domain) {
     await page.locator('#open').setInputFiles(cut);
     await until(() => page.locator('.log').getByText('is no recording that can be read').count(), 'the page to say so');
     assert.deepEqual(page.problems, []);
+  } finally {
+    await rm(folder, {recursive: true});
+  }
+}
+
+/// A recording that a server plays is paused, sought in and made faster by the page, with keys, mouse and
+/// finger, for all who watch it; what the page shows then is what was so at that time.
+async function playback(domain) {
+  const folder = await mkdtemp(join(tmpdir(), 'armature-page-'));
+  try {
+    const file = join(folder, 'run.mcap');
+    const deployment = run(domain, kLampArm);
+    await output(['record', '-o', file, '--timeout', '10', '--domain', String(domain)]);
+    await deployment.end();
+    const server = await played(file);
+    const page = await openPage(server.url), tablet = await openPage(server.url, {width: 1024, height: 768}, true);
+    const of = (one) => one.evaluate(() => {
+      const {start, end, position, speed, isPlaying} = armature.playhead;
+      return {at: position - start, span: end - start, speed, isPlaying, shown: armature.hub.store.newest - start, store: armature.hub.store.newest};
+    });
+    await until(async () => (await of(page)).at > 0.5, 'it to play');
+    assert.ok((await of(page)).span > 5, 'the bar is that of the whole recording');
+    await page.keyboard.press('Space');
+    await until(async () => !(await of(tablet)).isPlaying, 'the pause to be told to the other page');
+    await sleep(0.3);
+    const still = (await of(page)).store;
+    await sleep(0.5);
+    assert.equal((await of(page)).store, still, 'no message comes while it is paused');
+    // Sought with the mouse: the arm stands where forward kinematics had the tool at that time.
+    const bar = await page.locator('#timeline input[type=range]').boundingBox();
+    await page.mouse.click(bar.x + 0.75 * bar.width, bar.y + bar.height / 2);
+    await until(async () => {
+      const {at, span, shown} = await of(page);
+      return Math.abs(at / span - 0.75) < 0.05 && Math.abs(shown - at) < 0.2;
+    }, 'the place that was asked for');
+    await until(async () => {
+      const [drawn, told] = [(await links(page)).tool, await app(page, () => armature.hub.at('/dental_lamp/tool_pose', armature.playhead.t)?.pose.position)];
+      return drawn && told && ['x', 'y', 'z'].every((axis, i) => Math.abs(drawn[i] - told[axis]) < 2e-3);
+    }, 'the arm to be drawn where it was');
+    assert.match(await page.locator('.when').textContent(), /^0:\d\d\.\d of 0:\d\d\.\d$/);
+    assert.ok(await page.locator('#timeline .scale span').count() > 2, 'times below the bar');
+    await page.keyboard.press('>');
+    await until(async () => (await of(tablet)).speed === 2, 'the speed to be told to the other page');
+    assert.equal(await tablet.locator('select.speed').inputValue(), '2');
+    await page.locator('select.speed').selectOption('4');
+    await until(async () => (await of(tablet)).speed === 4, 'the speed of the list');
+    // By finger: what is pressed is large enough, and End and Home are those of the recording.
+    for (const one of ['.play', 'select.speed', 'input[type=range]']) {
+      const {height} = await tablet.locator(`#timeline ${one}`).boundingBox();
+      assert.ok(height >= 44, `${one} is ${height} pixels high`);
+    }
+    await page.keyboard.press('End');
+    await until(async () => Math.abs((await of(tablet)).at - (await of(tablet)).span) < 1e-3, 'the end');
+    await tablet.locator('#timeline .play').tap();
+    await until(async () => (await of(page)).isPlaying && (await of(page)).at < 5, 'it to begin again');
+    await page.keyboard.press('Home');
+    assert.ok(await page.locator('button.live').isHidden(), 'nothing is live');
+    if (process.env.PICTURES) {
+      await sleep(1.5);
+      await page.screenshot({path: join(process.env.PICTURES, 'playback.png')});
+      await tablet.screenshot({path: join(process.env.PICTURES, 'playback_tablet.png')});
+    }
+    assert.deepEqual([...page.problems, ...tablet.problems], []);
   } finally {
     await rm(folder, {recursive: true});
   }
@@ -431,4 +495,4 @@ async function sizes(domain) {
   assert.deepEqual(page.problems, []);
 }
 
-export const scenarios = {arm, pictures, plots, graph, scrub, again, recording, report, ownReport, two, nonsense, clients, lazy, figures, pairs, sizes};
+export const scenarios = {arm, pictures, plots, graph, scrub, again, recording, playback, report, ownReport, two, nonsense, clients, lazy, figures, pairs, sizes};

@@ -9,6 +9,9 @@ import {decoderOf} from '../src/message/decoder';
 import {Hub} from '../src/hub';
 import {placeComponents} from '../src/panels/graph_layout';
 import {parseExpression} from '../src/plot/expression';
+import {clock, marksOf} from '../src/panels/time_scale';
+import {Playhead} from '../src/playhead';
+import {Playback} from '../src/source/playback';
 import {Store} from '../src/store';
 
 const messages: Record<string, unknown> = {
@@ -80,24 +83,55 @@ test('a message that is told again is kept once', () => {
   assert.equal(store.log('/rosout').length, 3);
 });
 
-test('what was told before a playback jumps is forgotten, and what follows is kept', () => {
-  let socket: {onmessage?: (event: {data: unknown}) => void} = {};
-  const topic = '/lamp/light';
+/// A socket of the page to a server that this test is.
+interface Socket {
+  onmessage?: (event: {data: unknown}) => void;
+  sent: unknown[];
+}
+function socketOf(hub: Hub): Socket {
+  let socket: Socket = {sent: []};
   Object.assign(globalThis, {
     window: globalThis,
     WebSocket: class {
       static readonly OPEN = 1;
       readonly readyState = 1;
-      constructor() { socket = this as typeof socket; }
-      send() {}
+      readonly sent: unknown[] = [];
+      constructor() { socket = this; }
+      send(data: unknown) { this.sent.push(data); }
       close() {}
     },
   });
-  const hub = new Hub();
-  hub.want(new Set([topic]));
   hub.connect('ws://recording');
-  socket.onmessage!({data: JSON.stringify({op: 'serverInfo', capabilities: ['playbackControl', 'time']})});
-  assert.ok(hub.isPlayed);
+  return socket;
+}
+const told = (socket: Socket, message: object) => socket.onmessage!({data: JSON.stringify(message)});
+const kPlayed = {op: 'serverInfo', capabilities: ['playbackControl', 'time'], dataStartTime: {sec: 100, nsec: 0}, dataEndTime: {sec: 120, nsec: 500_000_000}};
+/// A state of a playback, as the server tells it.
+function stateOf(status: number, t: number, speed: number, didSeek: number, id = ''): DataView {
+  const view = new DataView(new ArrayBuffer(19 + id.length));
+  view.setUint8(0, 5);
+  view.setUint8(1, status);
+  view.setBigUint64(2, BigInt(t * 1e9), true);
+  view.setFloat32(10, speed, true);
+  view.setUint8(14, didSeek);
+  view.setUint32(15, id.length, true);
+  for (let i = 0; i < id.length; ++i) view.setUint8(19 + i, id.charCodeAt(i));
+  return view;
+}
+/// What was asked: [plays, speed, seek or nothing, number].
+function requestOf(data: unknown) {
+  const bytes = data as Uint8Array, view = new DataView(bytes.buffer);
+  assert.equal(view.getUint8(0), 3);
+  const size = view.getUint32(15, true);
+  assert.equal(bytes.byteLength, 19 + size);
+  return [view.getUint8(1) === 0, view.getFloat32(2, true), view.getUint8(6) ? Number(view.getBigUint64(7, true)) / 1e9 : undefined, new TextDecoder().decode(bytes.subarray(19))];
+}
+
+test('what was told before a playback jumps is forgotten, and what follows is kept', () => {
+  const topic = '/lamp/light', hub = new Hub();
+  hub.want(new Set([topic]));
+  const socket = socketOf(hub);
+  told(socket, kPlayed);
   const channel = {id: 7, topic, encoding: 'cdr', schemaName: 'std_msgs/msg/Float64', schemaEncoding: 'ros2msg', schema: 'float64 data'};
   socket.onmessage!({data: JSON.stringify({op: 'advertise', channels: [channel]})});
   const message = (seconds: number) => {
@@ -107,12 +141,7 @@ test('what was told before a playback jumps is forgotten, and what follows is ke
     view.setBigUint64(5, BigInt(seconds) * 1_000_000_000n, true);
     socket.onmessage!({data: view.buffer});
   };
-  const state = (didSeek: number) => {
-    const view = new DataView(new ArrayBuffer(19));
-    view.setUint8(0, 5);
-    view.setUint8(14, didSeek);
-    socket.onmessage!({data: view.buffer});
-  };
+  const state = (didSeek: number) => socket.onmessage!({data: stateOf(0, 105, 1, didSeek).buffer});
   message(50);
   state(0);
   assert.equal(hub.log(topic).length, 1);
@@ -121,6 +150,65 @@ test('what was told before a playback jumps is forgotten, and what follows is ke
   assert.equal(hub.log(topic).length, 1);
   assert.equal(hub.store.newest, 20);
   hub.source!.close();
+});
+
+test('a recording that a server plays is paused, sought in and made faster there', () => {
+  const hub = new Hub(), playhead = new Playhead(hub), socket = socketOf(hub);
+  told(socket, kPlayed);
+  assert.deepEqual([playhead.isRecording, playhead.start, playhead.end, playhead.position], [true, 100, 120.5, 100]);
+  socket.onmessage!({data: stateOf(0, 105, 1, 0).buffer});
+  assert.deepEqual([playhead.isPlaying, playhead.position, playhead.speed], [true, 105, 1]);
+  playhead.toggle();
+  assert.deepEqual(requestOf(socket.sent[0]), [false, 1, undefined, '1']);
+  assert.equal(playhead.isPlaying, false, 'the page shows at once what was asked');
+  socket.onmessage!({data: stateOf(1, 106, 1, 0, '1').buffer});
+  playhead.step(-1);
+  assert.deepEqual(requestOf(socket.sent[1]), [false, 1, 105, '2']);
+  socket.onmessage!({data: stateOf(1, 105, 1, 1, '2').buffer});
+  playhead.changeSpeed(true);
+  assert.deepEqual(requestOf(socket.sent[2]), [false, 2, undefined, '3']);
+  socket.onmessage!({data: stateOf(1, 105, 2, 0, '3').buffer});
+  playhead.goLive();
+  assert.deepEqual(requestOf(socket.sent[3]), [false, 2, 120.5, '4']);
+  assert.deepEqual([playhead.position, playhead.speed], [120.5, 2]);
+  hub.source!.close();
+});
+test('while a request is on its way the slider asks nothing, and then for the last place', () => {
+  const sent: unknown[] = [], playback = new Playback(100, 200, (bytes) => sent.push(bytes));
+  for (const t of [110, 120, 130, 999]) playback.seek(t);
+  assert.equal(sent.length, 1);
+  assert.ok(!playback.told(stateOf(0, 50, 1, 0)), 'another who watches');
+  assert.equal(sent.length, 1);
+  assert.ok(playback.told(stateOf(1, 110, 1, 1, '1')), 'the answer to the first');
+  assert.deepEqual(sent.map((bytes) => requestOf(bytes)[2]), [110, 200]);
+  assert.equal(playback.t, 200, 'the bar stays where the finger is');
+  playback.told(stateOf(1, 200, 1, 1, '2'));
+  assert.deepEqual([playback.t, playback.isPlaying], [200, false]);
+});
+test('a recording that is over begins again', () => {
+  const sent: unknown[] = [], playback = new Playback(100, 200, (bytes) => sent.push(bytes));
+  playback.told(stateOf(3, 200, 1, 0));
+  assert.equal(playback.isPlaying, false);
+  playback.toggle();
+  assert.deepEqual(requestOf(sent[0]), [true, 1, 100, '1']);
+});
+test('a server that shows a running deployment has no controls, also where a recording was before', () => {
+  const hub = new Hub(), playhead = new Playhead(hub), socket = socketOf(hub);
+  told(socket, kPlayed);
+  assert.ok(playhead.isRecording);
+  told(socket, {op: 'serverInfo', capabilities: ['time']});
+  assert.equal(playhead.isRecording, false);
+  playhead.changeSpeed(true);
+  playhead.toggle();
+  assert.deepEqual(socket.sent, [], 'what a page does to a running deployment');
+  hub.source!.close();
+});
+test('times of a recording are written as on a clock, with few marks below the bar', () => {
+  assert.deepEqual([0, 7.46, 59.96, 750, 3723.4].map((s) => clock(s)), ['0:00.0', '0:07.5', '1:00.0', '12:30.0', '1:02:03.4']);
+  assert.equal(clock(59.9, 0), '1:00');
+  assert.deepEqual(marksOf(17.5), [0, 5, 10, 15]);
+  assert.deepEqual([0.5, NaN, 0].map((span) => marksOf(span).length), [1, 0, 0]);
+  for (let span = 1; span < 1e6; span *= 1.7) assert.ok(marksOf(span).length <= 9, `${span} s`);
 });
 
 test('types that cannot be read are named with a reason', () => {

@@ -52,7 +52,7 @@ export class Header {
     this.drawFigures(headlines);
     this.drawHealth(view, t);
     const lost = hub.condition === 'lost' || hub.condition === 'refused';
-    write(this.connection, `${lost ? '▲ ' : ''}${hub.condition === 'connected' ? (!view.isLive ? '❚❚ paused' : hub.isPlayed ? '▷ recording' : '● live') : hub.text}`);
+    write(this.connection, `${lost ? '▲ ' : ''}${hub.condition === 'connected' ? connected(view) : hub.text}`);
     this.connection.classList.toggle('lost', lost);
     document.body.classList.toggle('lost', lost);
   }
@@ -101,6 +101,10 @@ export class Header {
   }
 }
 
+function connected({hub, isLive}: View): string {
+  if (hub.playback) return hub.playback.isPlaying ? '▷ recording' : '❚❚ recording';
+  return isLive ? '● live' : '❚❚ paused';
+}
 /// Of many steps the one that is active and its neighbours; how many others are done and ahead.
 function shortened(steps: {name: string; state: number}[]): {name: string; state: number}[] {
   if (steps.length <= 5) return steps;

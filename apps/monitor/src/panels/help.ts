@@ -4,7 +4,8 @@ import {make} from '../view';
 const kKeys: [string, string][] = [
   ['Space', 'pause, and go on'],
   ['← →', 'a second back or on; with Shift a tenth'],
-  ['Home, End', 'to the beginning; to now'],
+  ['Home, End', 'to the beginning; to now, or to the end of a recording'],
+  ['< >', 'a recording slower, faster'],
   ['1 … 9', 'this panel alone, and all again'],
   ['Esc', 'all panels again; close what is open'],
   ['F S T V', 'in the picture of the arm: front, side, top, as at first'],

@@ -2,12 +2,12 @@
 // Speaks Foxglove's WebSocket protocol to `armature monitor`. A connection that is lost is made
 // again, with what was wanted.
 // Source: github.com/foxglove/ws-protocol, docs/spec.md
+import {Playback} from './playback';
 import type {Source, SourceEvents, TopicInfo} from './source';
 
 const kProtocols = ['foxglove.sdk.v1', 'foxglove.websocket.v1'];
-const kMessage = 1, kPlaybackState = 5;  // what a binary frame begins with
+const kMessage = 1, kTime = 2, kPlaybackState = 5;  // what a binary frame begins with
 const kHeadBytes = 13;
-const kDidSeekAt = 14;  // behind status, time and speed of a playback
 const kSoonMs = 1500;  // in which a server says what there is
 const kRetryMs = [300, 1000, 2000, 3000];
 
@@ -29,6 +29,7 @@ export class Connection implements Source {
   private topicOf = new Map<number, string>();        // by subscription
   private gone = new Set<string>();  // topics of something that has ended; not of a lost connection
   private wanted: ReadonlySet<string> = new Set();
+  private playback: Playback | undefined;  // where a recording is played
   private lastSubscription = 0;
   private failures = 0;
   private retry = 0;
@@ -86,7 +87,8 @@ export class Connection implements Source {
   private told(text: string) {
     const message = JSON.parse(text);
     if (message.op === 'serverInfo') {
-      if (message.capabilities?.includes('playbackControl')) this.events.played();
+      this.playback = playbackOf(message, (bytes) => this.control(bytes));
+      this.events.played(this.playback);
     } else if (message.op === 'advertise') {
       for (const channel of message.channels as Channel[]) {
         this.channels.set(channel.id, channel);
@@ -113,16 +115,18 @@ export class Connection implements Source {
 
   private data(buffer: ArrayBuffer) {
     const view = new DataView(buffer);
-    if (buffer.byteLength < kHeadBytes) return;
-    const kind = view.getUint8(0);
-    if (kind === kPlaybackState && buffer.byteLength > kDidSeekAt && view.getUint8(kDidSeekAt) === 1) {
-      this.events.jumped();
-    }
-    if (kind !== kMessage) return;
+    const kind = buffer.byteLength > 0 ? view.getUint8(0) : 0;
+    if (kind === kPlaybackState && this.playback?.told(view)) this.events.jumped();
+    if (kind === kTime) this.playback?.toldTime(view);
+    if (kind !== kMessage || buffer.byteLength < kHeadBytes) return;
     const topic = this.topicOf.get(view.getUint32(1, true));
     if (topic === undefined) return;
     const t = view.getUint32(9, true) * 4.294967296 + view.getUint32(5, true) * 1e-9;
     this.events.message(topic, t, new Uint8Array(buffer, kHeadBytes));
+  }
+
+  private control(bytes: Uint8Array) {
+    if (this.socket?.readyState === WebSocket.OPEN) this.socket.send(bytes);
   }
 
   private tellTopics() {
@@ -167,4 +171,18 @@ export class Connection implements Source {
       this.socket.send(JSON.stringify({op: 'unsubscribe', subscriptionIds}));
     }
   }
+}
+
+interface StoredTime {
+  sec: number;
+  nsec: number;
+}
+function secondsOf({sec, nsec}: StoredTime) { return sec + nsec * 1e-9; }
+
+/// What a server's first words tell of a recording that it plays.
+function playbackOf(info: {capabilities?: string[]; dataStartTime?: StoredTime; dataEndTime?: StoredTime},
+                    send: (bytes: Uint8Array) => void): Playback | undefined {
+  const {capabilities, dataStartTime, dataEndTime} = info;
+  if (!capabilities?.includes('playbackControl') || !dataStartTime || !dataEndTime) return undefined;
+  return new Playback(secondsOf(dataStartTime), secondsOf(dataEndTime), send);
 }

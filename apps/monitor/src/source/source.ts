@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where messages come from: a running deployment, or a recording.
 import type {Schema} from '../message/decoder';
+import type {Playback} from './playback';
 
 export interface TopicInfo {
   name: string;
@@ -18,8 +19,8 @@ export interface SourceEvents {
   message(topic: string, t: number, bytes: Uint8Array): void;
   /// What was kept of this topic belongs to something that is over.
   forget(topic: string): void;
-  /// What comes is no running deployment: a recording is played.
-  played(): void;
+  /// What comes is no running deployment: a recording is played; or it is one (nothing).
+  played(playback: Playback | undefined): void;
   /// What follows is of another time: a recording that is played has been sought in.
   jumped(): void;
   warning(text: string): void;

@@ -148,5 +148,18 @@ TEST_F(Monitor, AsksForATokenBeyondLoopbackAndKnowsWherePagesComeFrom) {
                         kPatience));
 }
 
+TEST_F(Monitor, TellsOnceOfEachAddressThatItsClientSpeaksAnotherProtocol) {
+  const Command monitor = start({});
+  const int port = port_of(monitor);
+  for (const char* asked : {"rosbridge.v2", "other.v1", "rosbridge.v2"}) {
+    const WebSocket socket{port, protocol(asked)};
+    EXPECT_TRUE(socket.answer().starts_with("HTTP/1.0 400 ")) << socket.answer();
+  }
+  EXPECT_TRUE(WebSocket(port, protocol("foxglove.sdk.v1")).is_open());
+  EXPECT_EQ(monitor.err(),
+            "armature: a WebSocket client at 127.0.0.1 was refused: it asks for the subprotocol "
+            "'rosbridge.v2', and only foxglove.sdk.v1 or foxglove.websocket.v1 is spoken here\n");
+}
+
 }  // namespace
 }  // namespace armature::test

@@ -52,7 +52,7 @@ WebServer::Events FoxgloveBridge::events() {
           .said_binary = [this](Client client,
                                 std::string_view message) { said_binary(client, message); },
           .woken = [this] { forward(); },
-          .refused = [this](const std::string& why) { tell_refusal(why); }};
+          .refused = [this](const WebServer::Refusal& refusal) { tell_refusal(refusal); }};
 }
 
 void FoxgloveBridge::run(const std::function<bool()>& ends) {
@@ -317,10 +317,10 @@ void FoxgloveBridge::tell_time() {
   for (const auto& [client, subscriber] : clients_) server_.send(client, time, nullptr);
 }
 
-void FoxgloveBridge::tell_refusal(const std::string& why) {
+void FoxgloveBridge::tell_refusal(const WebServer::Refusal& refusal) {
   constexpr std::size_t kMostReasons = 100;
-  const bool is_new = refusals_.size() < kMostReasons && refusals_.insert(why).second;
-  if (is_new && options_.on_refusal) options_.on_refusal(why);
+  const bool is_new = refusals_.size() < kMostReasons && refusals_.insert(refusal.about).second;
+  if (is_new && options_.on_refusal) options_.on_refusal(refusal.why);
 }
 
 void FoxgloveBridge::tell_dropped() {

@@ -28,7 +28,8 @@ class FoxgloveBridge {
  public:
   struct Options {
     WebServer::Options server;
-    /// Why somebody was not let in, once for each reason, as some clients try for ever. By `run`.
+    /// Why somebody was not let in, once for each reason, as some clients try for ever, and once
+    /// for each address that asks for another protocol; a hundred times at most. By `run`.
     std::function<void(const std::string& why)> on_refusal;
     Playback* playback = nullptr;  // of the topics, which is then served; outlives the bridge
   };
@@ -89,7 +90,7 @@ class FoxgloveBridge {
   void tell_jump(Client asker = 0, std::string_view request_id = {});
   void tell_time();
   void tell_dropped();
-  void tell_refusal(const std::string& why);
+  void tell_refusal(const WebServer::Refusal& refusal);
 
   TopicSource& topics_;
   Options options_;

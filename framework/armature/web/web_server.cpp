@@ -3,7 +3,6 @@
 
 #include <arpa/inet.h>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <libwebsockets.h>
 #include <sys/socket.h>
 
@@ -15,7 +14,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "armature/config/problems.hpp"
+#include "armature/web/web_admission.hpp"
 
 namespace armature {
 namespace {
@@ -26,19 +25,11 @@ constexpr const char* kNoProtocol = "http-only";
 constexpr std::size_t kPagePart = 32U << 10;  // [byte] of a page, at a time
 constexpr int kPagePatience_s = 20;           // for who reads no part of it
 
-/// Without telling by its time how much of it is right.
-bool same_token(std::string_view a, std::string_view b) {
-  unsigned different = a.size() == b.size() ? 0 : 1;
-  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
-    different |= static_cast<unsigned char>(a[i] ^ b[i]);
-  }
-  return different == 0;
-}
-
 std::string header_of(lws* connection, lws_token_indexes header) {
-  std::array<char, 512> text{};
+  std::string text(static_cast<std::size_t>(lws_hdr_total_length(connection, header)) + 1, '\0');
   const int length = lws_hdr_copy(connection, text.data(), static_cast<int>(text.size()), header);
-  return length > 0 ? std::string{text.data(), static_cast<std::size_t>(length)} : std::string{};
+  text.resize(static_cast<std::size_t>(std::max(length, 0)));
+  return text;
 }
 
 struct Outgoing {
@@ -167,8 +158,10 @@ class WebServer::Impl {
       case LWS_CALLBACK_CLOSED_HTTP:
         page_written_.erase(connection);
         return 0;
+      case LWS_CALLBACK_HTTP_CONFIRM_UPGRADE:
+        return admit(connection);
       case LWS_CALLBACK_FILTER_PROTOCOL_CONNECTION:
-        return may_connect(connection) ? 0 : 1;
+        return lws_get_protocol(connection) == first_protocol() ? 1 : 0;
       case LWS_CALLBACK_ESTABLISHED:
         *client = ++last_client_;
         sessions_[*client].connection = connection;
@@ -194,41 +187,26 @@ class WebServer::Impl {
     return lws_vhost_name_to_protocol(vhost_, kNoProtocol);
   }
 
-  bool may_connect(lws* connection) const {
-    const std::string why = refusal_of(connection);
-    if (!why.empty()) events_.refused(why);
-    return why.empty();
-  }
-
-  /// Empty: it is welcome.
-  std::string refusal_of(lws* connection) const {
-    const lws_protocols* protocol = lws_get_protocol(connection);
-    if (!protocol || std::ranges::find(options_.protocols, std::string_view{protocol->name}) ==
-                         options_.protocols.end()) {
-      return fmt::format("a client was refused that speaks none of: {}",
-                         fmt::join(options_.protocols, ", "));
-    }
-    std::array<char, 512> argument{};
+  Visitor visitor_of(lws* connection) const {
+    std::array<char, 512> argument{}, address{};
     const char* token = lws_get_urlarg_by_name(connection, "token=", argument.data(),
                                                static_cast<int>(argument.size()));
-    if (!options_.token.empty() && !same_token(token ? token : "", options_.token)) {
-      return "a client was refused that does not know the token: it belongs into the address, "
-             "/?token=...";
-    }
-    // A browser says where a page came from; other programs need not.
-    const std::string origin = header_of(connection, WSI_TOKEN_ORIGIN);
-    if (origin.empty()) return "";
-    const std::string own = header_of(connection, WSI_TOKEN_HOST);
-    const std::string bound = fmt::format("{}:{}", options_.address, port());
-    // The token was right where there is one: a name that somebody else bends to this machine has
-    // none.
-    const bool is_own =
-        origin == "http://" + own &&
-        (own == bound || own == fmt::format("localhost:{}", port()) || !options_.token.empty());
-    const bool is_known = std::ranges::find(options_.origins, origin) != options_.origins.end();
-    if (is_own || is_known) return "";
-    return fmt::format("a page from {0} was refused; to let it in: {1} {0}",
-                       config::in_quotes(origin), options_.origin_option);
+    const char* peer = lws_get_peer_simple(connection, address.data(), address.size());
+    return {.address = peer ? peer : "an unknown address",
+            .protocols = header_of(connection, WSI_TOKEN_PROTOCOL),
+            .token = token ? token : "",
+            .origin = header_of(connection, WSI_TOKEN_ORIGIN),
+            .host = header_of(connection, WSI_TOKEN_HOST)};
+  }
+
+  /// 0: the connection becomes a WebSocket; above: it was refused with an answer; below: it is
+  /// shut.
+  int admit(lws* connection) const {
+    const auto refused = admission(visitor_of(connection), options_, port());
+    if (!refused) return 0;
+    events_.refused(refused->told);
+    const int result = lws_return_http_status(connection, refused->status, refused->answer.c_str());
+    return result < 0 ? -1 : 1;
   }
 
   int answer_browser(lws* connection) {

@@ -17,7 +17,8 @@ namespace armature ARMATURE_EXPORT {
 
 /// A WebSocket server on one thread. A client that reads slowly has a bounded queue, and loses its
 /// oldest binary messages when that is full: it slows nobody. Clients are refused that ask for no
-/// protocol the server speaks, that come from a page of a foreign origin, or have no right token.
+/// protocol the server speaks, that come from a page of a foreign origin, or have no right token;
+/// the answer of HTTP tells them why.
 class WebServer {
  public:
   /// The page that HTTP serves, at `/` only and to everybody.
@@ -38,6 +39,11 @@ class WebServer {
     Page page;                               // for whoever comes with a browser
   };
   using Client = std::uint64_t;  // never used twice
+  /// Somebody was not let in.
+  struct Refusal {
+    std::string about;  // the same for what one need not be told twice
+    std::string why;    // and what would let him in
+  };
   /// All are called by `serve`.
   struct Events {
     /// `protocol`: which of the server's it speaks.
@@ -47,8 +53,7 @@ class WebServer {
     std::function<void(Client, std::string_view bytes)> said_binary = [](Client, std::string_view) {
     };
     std::function<void()> woken;
-    /// Why somebody was not let in, and what would let him.
-    std::function<void(const std::string& why)> refused = [](const std::string&) {};
+    std::function<void(const Refusal&)> refused = [](const Refusal&) {};
   };
   using Body = std::shared_ptr<const std::vector<std::byte>>;
 

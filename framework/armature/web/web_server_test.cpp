@@ -42,13 +42,15 @@ class WebServerTest : public testing::Test {
                      [this](WebServer::Client client, std::string_view bytes) {
                        server_.send_for_sure(client, std::as_bytes(std::span{bytes}));
                      },
-                 .woken = [this] { send_all(); }}},
+                 .woken = [this] { send_all(); },
+                 .refused = [this](const WebServer::Refusal& one) { refusals_.push_back(one); }}},
         thread_{[this] {
           while (!ends_) server_.serve();
         }} {}
-  ~WebServerTest() override {
+  ~WebServerTest() override { end(); }
+  void end() {
     ends_ = true;
-    thread_.join();
+    if (thread_.joinable()) thread_.join();
   }
 
   /// Messages of 1 kB with their numbers, to every client there has been.
@@ -74,6 +76,7 @@ class WebServerTest : public testing::Test {
   std::atomic<std::uint64_t> dropped_of_first_{0};
   std::atomic<bool> ends_{false}, protocol_{false};
   int sent_ = 0;
+  std::vector<WebServer::Refusal> refusals_;  // of the thread that serves, read when it has ended
   WebServer server_;
   std::thread thread_;
 };
@@ -103,6 +106,35 @@ TEST_F(WebServerTest, RefusesWhoAsksForNoProtocolOrAnother) {
   EXPECT_FALSE(opens("Sec-WebSocket-Protocol: other.v1\r\n"));
   EXPECT_FALSE(opens("Sec-WebSocket-Protocol: http-only\r\n"));
   EXPECT_TRUE(opens("Sec-WebSocket-Protocol: other.v1, lamp.v1\r\n"));
+}
+
+TEST_F(WebServerTest, TellsWhoAsksForNoProtocolOrAnotherWhichOneItSpeaks) {
+  const std::string other = "Sec-WebSocket-Protocol: other.v1<b>, more\r\n";
+  const std::string long_one = "Sec-WebSocket-Protocol: " + std::string(700, 'x') + "\r\n";
+  for (const std::string& headers : {std::string{}, other, long_one}) {
+    const WebSocket socket{server_.port(), headers};
+    EXPECT_TRUE(socket.answer().starts_with("HTTP/1.0 400 ")) << socket.answer();
+    EXPECT_NE(socket.answer().find("Ask for the WebSocket subprotocol lamp.v1"), std::string::npos)
+        << socket.answer();
+    EXPECT_EQ(socket.answer().find("<b>"), std::string::npos) << "nothing that it said itself";
+  }
+  EXPECT_TRUE(opens(kProtocol)) << "the server goes on";
+  end();
+  ASSERT_EQ(refusals_.size(), 3U);
+  EXPECT_EQ(refusals_[0].why,
+            "a WebSocket client at 127.0.0.1 was refused: it asks for no subprotocol, and only "
+            "lamp.v1 is spoken here");
+  EXPECT_EQ(refusals_[1].why,
+            "a WebSocket client at 127.0.0.1 was refused: it asks for the subprotocol "
+            "'other.v1<b>, more', and only lamp.v1 is spoken here");
+  EXPECT_NE(refusals_[2].why.find("'xxxxx"), std::string::npos) << refusals_[2].why;
+  EXPECT_EQ(refusals_[0].about, refusals_[1].about) << "one need be told once of an address";
+}
+
+TEST_F(WebServerTest, AnswersPagesOfForeignOriginsThatTheyAreNotLetIn) {
+  const WebSocket socket{server_.port(), kProtocol + "Origin: https://evil.example\r\n"};
+  EXPECT_TRUE(socket.answer().starts_with("HTTP/1.0 403 ")) << socket.answer();
+  EXPECT_NE(socket.answer().find("are let in with --origin"), std::string::npos);
 }
 
 TEST_F(WebServerTest, RefusesPagesOfForeignOrigins) {

@@ -45,6 +45,8 @@ class WebSocket {
         headers + "\r\n");
     while (heard_.find("\r\n\r\n") == std::string::npos && hear()) continue;
     is_open_ = heard_.starts_with("HTTP/1.1 101 ");
+    while (!is_open_ && hear()) continue;
+    if (!is_open_) answer_ = heard_;
     heard_.erase(0, heard_.find("\r\n\r\n") + 4);
   }
   ~WebSocket() { close(file_); }
@@ -52,6 +54,8 @@ class WebSocket {
   WebSocket& operator=(const WebSocket&) = delete;
 
   bool is_open() const { return is_open_; }
+  /// What HTTP answered where it did not open.
+  const std::string& answer() const { return answer_; }
 
   void send_text(const std::string& text) { send_frame('\x81', text); }
   void send_binary(const std::string& bytes) { send_frame('\x82', bytes); }
@@ -111,6 +115,7 @@ class WebSocket {
   int file_;
   bool is_open_ = false;
   std::string heard_;
+  std::string answer_;
 };
 
 }  // namespace armature

@@ -91,5 +91,32 @@ TEST_F(RunForAScript, TheReportIsWhatIsPrinted) {
   EXPECT_EQ(report(), result.out);
 }
 
+TEST_F(RunForAScript, FilesOfAnOlderRunGoFromTheFolderAndThoseOfOthersStay) {
+  fs::create_directories(folder_);
+  std::ofstream{folder_ / "notes.txt"} << "mine";
+  const auto first =
+      run_command({armature(), "run", source_file("configs/sr1_from_images.yaml"), "--json",
+                   "--report", folder_, "--domain", std::to_string(domain_)});
+  ASSERT_EQ(first.exit_code, 0) << first.err;
+  for (const char* name : {"needle_ways.csv", "arm_joints.csv", "report.html", "run.mcap"}) {
+    EXPECT_TRUE(fs::exists(folder_ / name)) << name;
+  }
+  const auto checked =
+      run_command({"/usr/bin/env", "-C", folder_, "sha256sum", "-c", "report.sha256"});
+  EXPECT_EQ(checked.exit_code, 0) << checked.out << checked.err;
+  EXPECT_THAT(checked.out, testing::HasSubstr("needle_ways.csv: OK\n"));
+  EXPECT_THAT(checked.out, testing::HasSubstr("report.html: OK\n"));
+  std::ofstream{folder_ / "arm_joints.svg", std::ios::app} << "<!-- seen by me -->";
+  const auto refused = run({"--report", folder_, "--set", "components.motion.ik.plugin=ik/numerc"});
+  EXPECT_EQ(refused.exit_code, 3);
+  EXPECT_THAT(refused.err,
+              testing::HasSubstr(
+                  "'" + (folder_ / "arm_joints.svg").string() +
+                  "' is of an older run into this folder; it stays, as it was changed since\n"));
+  std::vector<std::string> left;
+  for (const auto& entry : fs::directory_iterator{folder_}) left.push_back(entry.path().filename());
+  EXPECT_THAT(left, testing::UnorderedElementsAre("notes.txt", "arm_joints.svg", "report.json"));
+}
+
 }  // namespace
 }  // namespace armature::test

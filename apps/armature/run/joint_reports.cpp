@@ -64,6 +64,9 @@ std::string as_file_name(std::string name) {
   return name;
 }
 
+/// Without the ending.
+std::string file_name_for(const ComponentConfig& arm) { return as_file_name(arm.name) + "_joints"; }
+
 /// What a user would write for it.
 Node::Entry entry_for(const ComponentConfig& arm, const DeploymentConfig& deployment,
                       const std::filesystem::path& folder) {
@@ -75,7 +78,7 @@ Node::Entry entry_for(const ComponentConfig& arm, const DeploymentConfig& deploy
     return Node::map(std::move(entries), origin);
   };
   const std::string name = arm.name + ".joints";
-  const std::filesystem::path file = folder / (as_file_name(arm.name) + "_joints");
+  const std::filesystem::path file = folder / file_name_for(arm);
   std::vector<Node::Entry> entries;
   entries.push_back({"plugin", origin, text("report/joints")});
   entries.push_back({"robot", origin, text(arm.documents.at("robots"))});
@@ -109,6 +112,14 @@ void add_joint_reports(DeploymentConfig& deployment, const PluginRegistry& plugi
     deployment.components.push_back(std::move(*report));
   }
   problems.throw_if_any();
+}
+
+std::vector<std::string> joint_tables(const DeploymentConfig& deployment) {
+  std::vector<std::string> tables;
+  for (const ComponentConfig& component : deployment.components) {
+    if (is_reported(component)) tables.push_back(file_name_for(component) + ".csv");
+  }
+  return tables;
 }
 
 }  // namespace armature

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "armature/runtime/deployment_file/deployment_config.hpp"
 #include "armature/runtime/plugins/plugin_registry.hpp"
@@ -15,5 +17,8 @@ namespace armature {
 /// deployment's other processes do depends on it. Throws config::ConfigError.
 void add_joint_reports(DeploymentConfig& deployment, const PluginRegistry& plugins,
                        const std::filesystem::path& folder);
+
+/// The tables that those write, by their names in the folder.
+std::vector<std::string> joint_tables(const DeploymentConfig& deployment);
 
 }  // namespace armature

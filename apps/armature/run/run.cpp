@@ -40,6 +40,7 @@
 #include "run/host_agent.hpp"
 #include "run/joint_reports.hpp"
 #include "run/other_processes.hpp"
+#include "run/report_list.hpp"
 #include "run/run_recording.hpp"
 #include "run/run_watches.hpp"
 
@@ -63,6 +64,11 @@ std::string ending(std::string_view status, const std::string& reason) {
 /// ends.
 void begin_report(const std::filesystem::path& folder) {
   prepare_output_folder(folder);
+  for (const std::string& name : remove_listed_files(folder)) {
+    fmt::print(
+        stderr, "{} {} is of an older run into this folder; it stays, as it was changed since\n",
+        coloured("warning:", Tone::doubtful, stderr), config::in_quotes((folder / name).string()));
+  }
   remove_older(report_file(folder));
   remove_older(page_file(folder));
   end_signals::allow_report();
@@ -157,9 +163,9 @@ class WatchedEnd {
 };
 
 bool report_written(const RunReport& report, const Deployment& deployment,
-                    const std::filesystem::path& folder, Console& console) {
+                    const std::filesystem::path& folder, ReportList& list, Console& console) {
   try {
-    write_report(report, deployment, folder);
+    list.add_what([&] { write_report(report, deployment, folder); });
     return true;
   } catch (const std::runtime_error& error) {
     console.tell(error.what());
@@ -183,13 +189,28 @@ bool result_printed(const RunOptions& options, const RunReport& report, Console&
 }
 
 int conclude(const RunOptions& options, const Deployment& deployment, const RunReport& report,
-             Console& console, LastWord& last_word) {
+             ReportList& list, Console& console, LastWord& last_word) {
   const bool printed = result_printed(options, report, console);
   last_word.result_told();
   const bool written =
-      !options.report || report_written(report, deployment, *options.report, console);
+      !options.report || report_written(report, deployment, *options.report, list, console);
   end_signals::result_told();
   return printed && written && report.status() == "ok" ? kOk : kFailed;
+}
+
+/// Writes the list of the files of the report, once all are there. False: it could not be written.
+bool is_listed(const RunOptions& options, const DeploymentConfig& config, ReportList& list,
+               Console& console) {
+  list.add(page_file(*options.report).filename());
+  if (options.records_for_page) list.add(kRecordingForPage);
+  for (const std::string& table : joint_tables(config)) list.add(table);
+  try {
+    list.write();
+    return true;
+  } catch (const std::runtime_error& error) {
+    console.tell(error.what());
+    return false;
+  }
 }
 
 /// What failed in a process that does not judge the deployment's goals, or "".
@@ -314,11 +335,13 @@ int run_main(const RunOptions& options, const Process& process, Deployment& depl
   }
   if (options.timing) ending.timing = timing;
   const RunReport report{deployment, ending};
-  int code = conclude(options, deployment, report, console, last_word);
+  ReportList list{options.report.value_or("")};
+  int code = conclude(options, deployment, report, list, console, last_word);
   deployment.end_recording(figures_json(report, timing));
   watched_end.do_unwatched([&] {
     if (recording && !joined(*recording, deployment.config(), console)) code = kFailed;
     if (options.report && !page_written(recording, *options.report, console)) code = kFailed;
+    if (options.report && !is_listed(options, deployment.config(), list, console)) code = kFailed;
   });
   for (const std::string& fault : ending.faults) console.tell(fault);
   if (ending.stopped) console.tell(*ending.stopped);

@@ -66,10 +66,11 @@ void remove_older(const std::filesystem::path& file) {
 }
 
 void record_for_page(DeploymentConfig& config, RunOptions& options) {
-  std::string file = std::filesystem::absolute(*options.report / "run.mcap").string();
+  std::string file = std::filesystem::absolute(*options.report / kRecordingForPage).string();
   for (std::size_t at = 0; (at = file.find('%', at)) != std::string::npos; at += 2) {
     file.insert(at, 1, '%');  // the name of a recording may say the time
   }
+  options.records_for_page = true;
   config.record = RecordConfig{.file = file, .thin = true, .origin = {}};
   for (const std::string& process : config.processes()) {
     remove_older(config.record->file_of(process, Time{}));

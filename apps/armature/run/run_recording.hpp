@@ -13,6 +13,9 @@ namespace armature {
 // What becomes of the recording of a run, which the runtime writes: the page of its report, and one
 // file where every process has written its own.
 
+/// What a run that does not record itself records for its page, in the folder of a report.
+inline constexpr const char* kRecordingForPage = "run.mcap";
+
 /// report.html in the folder of a report.
 std::filesystem::path page_file(const std::filesystem::path& folder);
 

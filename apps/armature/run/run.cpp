@@ -2,19 +2,15 @@
 #include "run/run.hpp"
 
 #include <fmt/format.h>
-#include <poll.h>
 #include <sys/prctl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <exception>
-#include <functional>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
@@ -27,38 +23,24 @@
 #include "armature/runtime/plugins/running_component.hpp"
 #include "armature/runtime/processes/arm_ownership.hpp"
 #include "armature/runtime/processes/child_processes.hpp"
-#include "armature/runtime/processes/end_watch.hpp"
 #include "armature/runtime/reporting/output_folder.hpp"
 #include "armature/runtime/reporting/run_report.hpp"
-#include "armature/runtime/reporting/write_atomically.hpp"
-#include "armature/values/sanitizer.hpp"
 #include "colour.hpp"
 #include "exit_code.hpp"
 #include "inspect/plugins.hpp"
 #include "run/console.hpp"
 #include "run/end_signals.hpp"
+#include "run/ending.hpp"
 #include "run/host_agent.hpp"
 #include "run/joint_reports.hpp"
 #include "run/other_processes.hpp"
 #include "run/report_list.hpp"
 #include "run/run_recording.hpp"
 #include "run/run_watches.hpp"
+#include "run/watched_end.hpp"
 
 namespace armature {
 namespace {
-
-/// Where report.json stands once there is a folder for it.
-std::filesystem::path report_file(const std::filesystem::path& folder) {
-  return folder / "report.json";
-}
-
-/// As JSON, what there is to say of a run without figures.
-std::string ending(std::string_view status, const std::string& reason) {
-  nlohmann::ordered_json json{{"status", status}};
-  if (!reason.empty()) json["reason"] = reason;
-  // What is wrong may quote a file that is no UTF-8.
-  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';
-}
 
 /// Makes the folder of the report. What an older run left there is not this one's, however this one
 /// ends.
@@ -74,59 +56,6 @@ void begin_report(const std::filesystem::path& folder) {
   end_signals::allow_report();
 }
 
-/// What a run that did not begin says, where its report would be.
-void write_ending(const std::filesystem::path& folder, const std::string& ending) {
-  try {
-    write_atomically(report_file(folder), ending);
-  } catch (const std::runtime_error& error) {
-    fmt::print(stderr, "armature: {}\n", error.what());
-  }
-}
-
-/// How a process leaves whose end hangs: it says what does not return, and puts that where its
-/// result would be unless the result has been told. The thread that ends may hold the lock of a
-/// standard stream.
-class LastWord {
- public:
-  /// `child` is nullptr in the main process.
-  LastWord(const RunOptions& options, Console& console, ChildWatch* child)
-      : options_{&options}, console_{&console}, child_{child} {}
-
-  /// How long each part of the end may take; the main process kills another one after 3 s.
-  Duration timeout() const {
-    const bool is_awaited = child_ && !child_->alone();
-    return seconds((is_awaited ? 2 : 10) * (kSanitized ? 5 : 1));
-  }
-  void result_told() { result_told_ = true; }
-
-  [[noreturn]] void leave(const std::string& hung) const {
-    constexpr unsigned kFileWithin_s = 2;
-    if (child_) child_->tell_fault(hung);
-    if (!child_ || child_->alone()) console_->tell(hung);
-    const std::string told = ending("fault", hung);
-    if (options_->json && !result_told_) write_out(told);
-    console_->flush();
-    if (options_->report && !child_ && !result_told_) {
-      alarm(kFileWithin_s);  // the report's disk may be what hangs
-      write_ending(*options_->report, told);
-    }
-    _exit(kFailed);
-  }
-
- private:
-  /// Never waits for a reader.
-  static void write_out(std::string_view text) {
-    pollfd writable{.fd = STDOUT_FILENO, .events = POLLOUT, .revents = 0};
-    if (poll(&writable, 1, 0) <= 0) return;
-    [[maybe_unused]] const auto written = ::write(STDOUT_FILENO, text.data(), text.size());
-  }
-
-  const RunOptions* options_;
-  Console* console_;
-  ChildWatch* child_;
-  std::atomic<bool> result_told_{false};
-};
-
 /// Of a run that did not begin.
 std::string_view status_of(const std::exception& error) {
   switch (exit_code_of(error)) {
@@ -138,29 +67,6 @@ std::string_view status_of(const std::exception& error) {
       return "not_started";
   }
 }
-
-/// Watches the end of a process, except for work on files that takes as long as they are.
-class WatchedEnd {
- public:
-  /// As EndWatch.
-  WatchedEnd(Duration timeout, std::function<void(const std::string&)> on_hung)
-      : timeout_{timeout}, on_hung_{std::move(on_hung)} {
-    watch_.emplace(timeout_, on_hung_);
-  }
-
-  void begin(const std::string& what) { watch_->begin(what); }
-  /// `work` throws nothing.
-  void do_unwatched(const std::function<void()>& work) {
-    watch_.reset();
-    work();
-    watch_.emplace(timeout_, on_hung_);
-  }
-
- private:
-  Duration timeout_;
-  std::function<void(const std::string&)> on_hung_;
-  std::optional<EndWatch> watch_;
-};
 
 bool report_written(const RunReport& report, const Deployment& deployment,
                     const std::filesystem::path& folder, ReportList& list, Console& console) {
@@ -189,9 +95,9 @@ bool result_printed(const RunOptions& options, const RunReport& report, Console&
 }
 
 int conclude(const RunOptions& options, const Deployment& deployment, const RunReport& report,
-             ReportList& list, Console& console, LastWord& last_word) {
+             ReportList& list, Console& console, WatchedEnd& end) {
   const bool printed = result_printed(options, report, console);
-  last_word.result_told();
+  end.result_told();
   const bool written =
       !options.report || report_written(report, deployment, *options.report, list, console);
   end_signals::result_told();
@@ -225,12 +131,12 @@ std::string fault_of(const Deployment& deployment, const ChildWatch& watch) {
 }
 
 int conclude_child(const RunOptions& options, const Deployment& deployment, ChildWatch& watch,
-                   LastWord& last_word) {
+                   WatchedEnd& end) {
   const std::string fault = fault_of(deployment, watch);
   watch.tell_fault(fault);
   if (options.timing) watch.tell_timing(timing_of(deployment));
   if (options.json) fmt::print("{}", ending(fault.empty() ? "ok" : "fault", fault));
-  last_word.result_told();
+  end.result_told();
   return fault.empty() ? kOk : kFailed;
 }
 
@@ -265,60 +171,13 @@ void tell_network(const Network& network, Console& console) {
                                             "fingerprint"));
 }
 
-/// When the run began, by the system's clock.
-Time started_at(const Deployment& deployment, const Process& process) {
-  return deployment.config().simulated ? SystemClock{}.now() : process.origin.start;
-}
-
-/// Before anything starts: no process of this host may write over a recording that is there.
-void check_recordings(const Deployment& deployment, const Process& process) {
-  const DeploymentConfig& config = deployment.config();
-  if (!config.record || config.record->around_faults) return;
-  config::Problems problems;
-  for (const std::string& name : config.processes()) {
-    if (config.host_of(name) != config.host_of(process.name)) continue;
-    const std::filesystem::path file =
-        config.record->file_of(name, started_at(deployment, process));
-    std::error_code none;
-    if (std::filesystem::file_size(file, none) == 0 || none) continue;
-    problems.add(config.record->origin,
-                 fmt::format("the recording '{}' is there already: move it, or let the name say "
-                             "the time, run-%Y%m%d-%H%M%S.mcap",
-                             file.string()));
-  }
-  problems.throw_if_any();
-}
-
-/// As `record:` says, from before the first activation on. The file of the whole run, if it has
-/// one.
-std::optional<std::filesystem::path> begin_recording(Deployment& deployment,
-                                                     const Process& process) {
-  const auto& record = deployment.config().record;
-  if (!record) return std::nullopt;
-  const bool is_simulated = deployment.config().simulated;
-  const auto name_at = [record = *record, name = process.name, is_simulated](Time time) {
-    const std::filesystem::path file =
-        record.file_of(name, is_simulated ? SystemClock{}.now() : time);
-    if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path());
-    return file;
-  };
-  if (record->around_faults) {
-    deployment.record(record->file, name_at);
-    return std::nullopt;
-  }
-  std::filesystem::path file = name_at(started_at(deployment, process));
-  deployment.record(file, name_at);
-  return file;
-}
-
 int run_main(const RunOptions& options, const Process& process, Deployment& deployment,
-             PluginRegistry& plugins, Console& console, LastWord& last_word,
-             WatchedEnd& watched_end) {
-  check_recordings(deployment, process);
+             PluginRegistry& plugins, Console& console, WatchedEnd& end) {
+  check_recordings(deployment.config(), process.name, process.origin.start);
   ChildProcesses children;
   start_processes(children, options, deployment.config(), process.domain, process.origin);
   deployment.connect(plugins, process.domain, process.origin.run);
-  const auto recording = begin_recording(deployment, process);
+  const auto recording = begin_recording(deployment, process.name, process.origin.start);
   tell_network(process.network, console);
   expect_hosts(children, options, deployment, process.origin);
   MainWatch watch{console, children, deployment};
@@ -336,9 +195,9 @@ int run_main(const RunOptions& options, const Process& process, Deployment& depl
   if (options.timing) ending.timing = timing;
   const RunReport report{deployment, ending};
   ReportList list{options.report.value_or("")};
-  int code = conclude(options, deployment, report, list, console, last_word);
+  int code = conclude(options, deployment, report, list, console, end);
   deployment.end_recording(figures_json(report, timing));
-  watched_end.do_unwatched([&] {
+  end.do_unwatched([&] {
     if (recording && !joined(*recording, deployment.config(), console)) code = kFailed;
     if (options.report && !page_written(recording, *options.report, console)) code = kFailed;
     if (options.report && !is_listed(options, deployment.config(), list, console)) code = kFailed;
@@ -351,12 +210,12 @@ int run_main(const RunOptions& options, const Process& process, Deployment& depl
 }
 
 int run_other(const RunOptions& options, const Process& process, Deployment& deployment,
-              PluginRegistry& plugins, Console& console, ChildWatch& watch, LastWord& last_word) {
+              PluginRegistry& plugins, Console& console, ChildWatch& watch, WatchedEnd& end) {
   deployment.connect(plugins, process.domain, process.origin.run);
-  begin_recording(deployment, process);
+  begin_recording(deployment, process.name, process.origin.start);
   watch.on_clock([&](Duration offset) { deployment.follow_clock(offset); });
   deployment.run(watch);
-  const int code = conclude_child(options, deployment, watch, last_word);
+  const int code = conclude_child(options, deployment, watch, end);
   deployment.end_recording();
   console.flush();
   leave_if_necessary(deployment, watch, code);
@@ -433,8 +292,7 @@ int run(RunOptions options) {
   Console console;
   std::optional<ChildWatch> child_watch;
   if (is_child) child_watch.emplace(console, options.control);
-  LastWord last_word{options, console, is_child ? &*child_watch : nullptr};
-  WatchedEnd watched_end{last_word.timeout(), [&](const auto& hung) { last_word.leave(hung); }};
+  WatchedEnd end{options, console, is_child ? &*child_watch : nullptr};
   name_crashing_components();
   if (!is_child) console.line("runtime", starting_text(config));
   Deployment deployment{
@@ -445,7 +303,7 @@ int run(RunOptions options) {
        .on_note = [&](const auto& text) { console.line("runtime", text); },
        .clock_offset = process.origin.clock_offset,
        .keeps_running = options.keep_running,
-       .on_ending = [&](const auto& what) { watched_end.begin(what); },
+       .on_ending = [&](const auto& what) { end.begin(what); },
        .domain = process.domain}};
   if (injected) deployment.inject(*injected);
   end_signals::stop_in_order();
@@ -453,9 +311,8 @@ int run(RunOptions options) {
   if (!options.origin) process.origin.start = deployment.clock().now();
   if (!is_child) process.origin.run = new_run(process.origin);
   console.start(deployment.clock(), process.origin.start);
-  return is_child
-             ? run_other(options, process, deployment, plugins, console, *child_watch, last_word)
-             : run_main(options, process, deployment, plugins, console, last_word, watched_end);
+  return is_child ? run_other(options, process, deployment, plugins, console, *child_watch, end)
+                  : run_main(options, process, deployment, plugins, console, end);
 }
 
 }  // namespace

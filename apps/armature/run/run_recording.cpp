@@ -53,7 +53,46 @@ std::vector<std::filesystem::path> parts_of(const std::filesystem::path& recordi
   return parts;
 }
 
+/// When a recording begins, as its name says it. The simulated clock begins at 0.
+Time named_after(const DeploymentConfig& config, Time time) {
+  return config.simulated ? SystemClock{}.now() : time;
+}
+
 }  // namespace
+
+void check_recordings(const DeploymentConfig& config, const std::string& process, Time start) {
+  if (!config.record || config.record->around_faults) return;
+  config::Problems problems;
+  for (const std::string& name : config.processes()) {
+    if (config.host_of(name) != config.host_of(process)) continue;
+    const std::filesystem::path file = config.record->file_of(name, named_after(config, start));
+    std::error_code none;
+    if (std::filesystem::file_size(file, none) == 0 || none) continue;
+    problems.add(config.record->origin,
+                 fmt::format("the recording '{}' is there already: move it, or let the name say "
+                             "the time, run-%Y%m%d-%H%M%S.mcap",
+                             file.string()));
+  }
+  problems.throw_if_any();
+}
+
+std::optional<std::filesystem::path> begin_recording(Deployment& deployment,
+                                                     const std::string& process, Time start) {
+  const DeploymentConfig& config = deployment.config();
+  if (!config.record) return std::nullopt;
+  const auto name_at = [&config, process](Time time) {
+    const std::filesystem::path file = config.record->file_of(process, named_after(config, time));
+    if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path());
+    return file;
+  };
+  if (config.record->around_faults) {
+    deployment.record(config.record->file, name_at);
+    return std::nullopt;
+  }
+  std::filesystem::path file = name_at(start);
+  deployment.record(file, name_at);
+  return file;
+}
 
 std::filesystem::path page_file(const std::filesystem::path& folder) {
   return folder / "report.html";

@@ -3,15 +3,25 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 
-#include "armature/runtime/deployment_file/deployment_config.hpp"
+#include "armature/runtime/deployment/deployment.hpp"
 #include "run/console.hpp"
 #include "run/run.hpp"
 
 namespace armature {
 
-// What becomes of the recording of a run, which the runtime writes: the page of its report, and one
-// file where every process has written its own.
+// The recording of a run, which the runtime writes: where, and what becomes of it: the page of its
+// report, and one file where every process has written its own.
+
+/// Throws where a process of the same host as `process` would write over a recording that is there.
+/// `start`: of the run, by the system's clock.
+void check_recordings(const DeploymentConfig& config, const std::string& process, Time start);
+
+/// As `record:` says, from before the first activation of `process` on. The file of the whole run,
+/// if it has one.
+std::optional<std::filesystem::path> begin_recording(Deployment& deployment,
+                                                     const std::string& process, Time start);
 
 /// What a run that does not record itself records for its page, in the folder of a report.
 inline constexpr const char* kRecordingForPage = "run.mcap";

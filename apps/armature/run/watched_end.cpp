@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/watched_end.hpp"
+
+#include <poll.h>
+#include <unistd.h>
+
+#include <string_view>
+
+#include "armature/values/sanitizer.hpp"
+#include "exit_code.hpp"
+#include "run/ending.hpp"
+
+namespace armature {
+namespace {
+
+/// Never waits for a reader.
+void write_out(std::string_view text) {
+  pollfd writable{.fd = STDOUT_FILENO, .events = POLLOUT, .revents = 0};
+  if (poll(&writable, 1, 0) <= 0) return;
+  [[maybe_unused]] const auto written = ::write(STDOUT_FILENO, text.data(), text.size());
+}
+
+}  // namespace
+
+WatchedEnd::WatchedEnd(const RunOptions& options, Console& console, ChildWatch* child)
+    : options_{&options}, console_{&console}, child_{child} {
+  watch();
+}
+
+/// The main process kills another one after 3 s.
+void WatchedEnd::watch() {
+  const bool is_awaited = child_ && !child_->alone();
+  const Duration timeout = seconds((is_awaited ? 2 : 10) * (kSanitized ? 5 : 1));
+  watch_.emplace(timeout, [this](const std::string& hung) { leave(hung); });
+}
+
+void WatchedEnd::do_unwatched(const std::function<void()>& work) {
+  watch_.reset();
+  work();
+  watch();
+}
+
+void WatchedEnd::leave(const std::string& hung) const {
+  constexpr unsigned kFileWithin_s = 2;
+  if (child_) child_->tell_fault(hung);
+  if (!child_ || child_->alone()) console_->tell(hung);
+  const std::string told = ending("fault", hung);
+  if (options_->json && !result_told_) write_out(told);
+  console_->flush();
+  if (options_->report && !child_ && !result_told_) {
+    alarm(kFileWithin_s);  // the report's disk may be what hangs
+    write_ending(*options_->report, told);
+  }
+  _exit(kFailed);
+}
+
+}  // namespace armature

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 namespace armature {
@@ -37,6 +38,21 @@ TEST(SingularValues, SeeHowNearAMatrixIsToSingularToTheLastDigit) {
   EXPECT_NEAR(smallest_singular_value(matrix.transpose()), 1e-13, 1e-28);
   matrix(5, 5) = 0;
   EXPECT_EQ(smallest_singular_value(matrix), 0);
+}
+
+TEST(SingularValues, TheSmallestAloneIsThatOfTheDecomposition) {
+  for (const auto& [rows, columns] : {std::pair{6, 7}, {7, 6}, {6, 6}, {1, 1}, {12, 12}, {5, 1}}) {
+    const SmallMatrix matrix = random_matrix(rows, columns);
+    const double smallest = SingularValues{matrix}.values[std::min(rows, columns) - 1];
+    EXPECT_NEAR(smallest_singular_value(matrix), smallest, 1e-14) << rows << " x " << columns;
+  }
+}
+
+TEST(SingularValues, AColumnThatRepeatsMakesTheSmallestOneNothing) {
+  SmallMatrix matrix = random_matrix(6, 6);
+  matrix.col(4) = 3 * matrix.col(1);
+  EXPECT_LT(smallest_singular_value(matrix), 1e-15);
+  EXPECT_LT(smallest_singular_value(matrix.transpose()), 1e-15);
 }
 
 TEST(ShortestSolution, IsTheSolutionWithoutWhatChangesNothing) {

@@ -164,7 +164,9 @@ HandEyeFit told(std::span<const HandEyePose> poses, const RobotWorld& found,
   return result;
 }
 
-/// What the residuals show of the noise: sum of squares over redundancy, of shifts and of turns.
+/// What the residuals show of the noise: sum of squares over redundancy, of shifts and of turns. Of
+/// two that are too far apart the smaller one is told larger, never the larger one smaller: nobody
+/// is to be accused, or reassured, by less noise than there is.
 PoseNoise shown_by(const HandEyeFit& fit) {
   double shifts = 0, turns = 0;
   for (const PoseResidual& residual : fit.residuals) {
@@ -178,7 +180,7 @@ PoseNoise shown_by(const HandEyeFit& fit) {
   const double turn =
       std::max(std::sqrt(turns / std::max(fit.turn_freedom, kMinFreedom)), kRounding);
   const double shift = std::sqrt(shifts / std::max(fit.shift_freedom, kMinFreedom));
-  return {std::clamp(shift, kShortest * turn, kLongest * turn), turn};
+  return {std::max(shift, kShortest * turn), std::max(turn, shift / kLongest)};
 }
 
 }  // namespace

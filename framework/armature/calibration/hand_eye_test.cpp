@@ -215,6 +215,26 @@ TEST_F(HandEyeCalibration, DoesNotDoubtPosesThatAreAsGoodAsTheOthers) {
   }
 }
 
+TEST_F(HandEyeCalibration, ATrackerThatErrsInPositionOnlyIsNeitherDoubtedNorFlattered) {
+  constexpr double kNoise_m = 1e-4;
+  int accused = 0;
+  double told = 0;
+  constexpr int kTrials = 50;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    Poses poses = recorded(20, 0);
+    for (HandEyePose& pose : poses) pose.tracker_T_body.translation() += tracker_.gauss(kNoise_m);
+    const auto found = calibrate_hand_eye(poses);
+    if (!found) {
+      ++accused;
+      continue;
+    }
+    told += found->noise.position_m / kTrials;
+    EXPECT_LT(found->noise.rotation_rad, kNoise_m) << "rotations err less than they are said to";
+  }
+  EXPECT_EQ(accused, 0);
+  EXPECT_NEAR(told, kNoise_m, 0.1 * kNoise_m);
+}
+
 TEST_F(HandEyeCalibration, RefusesWhatDeterminesNothingWithAReason) {
   const Poses good = recorded(10, 0.12e-3);
   const auto refusal = [&](auto change) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace armature::arm::simulated {
 namespace {
@@ -153,7 +154,9 @@ std::optional<LimitExcess> SimulatedArm::jump_in_stream(int joint,
 std::optional<LimitExcess> SimulatedArm::sudden(int joint, double change, double window) const {
   const double limit = model_.max_acceleration()[joint];
   const double a = change / window;
-  if (std::abs(a) <= limit) return std::nullopt;
+  // Positions are rounded, and an acceleration is their second difference.
+  const double rounding = 8 * std::numeric_limits<double>::epsilon() * std::abs(q_[joint]);
+  if (std::abs(a) <= limit * (1 + kRounding) + rounding / (window * window)) return std::nullopt;
   return LimitExcess{joint, LimitExcess::Quantity::acceleration, a, limit};
 }
 

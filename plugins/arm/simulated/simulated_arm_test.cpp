@@ -12,13 +12,13 @@
 namespace armature::arm::simulated {
 namespace {
 
-RobotModel one_joint() {
+RobotModel one_joint(double limit = 1, double max_acceleration = 8) {
   Joint joint;
   joint.name = "j1";
-  joint.lower = -1;
-  joint.upper = 1;
+  joint.lower = -limit;
+  joint.upper = limit;
   joint.max_velocity = 2.5;
-  joint.max_acceleration = 8;
+  joint.max_acceleration = max_acceleration;
   return {{"one_joint",
            RobotModel::Convention::standard,
            {joint},
@@ -88,6 +88,20 @@ TEST_F(SimulatedArmTest, ExecutesAReachableReferenceExactly) {
     step(command(move.position(t), move.velocity(t)));
     ASSERT_EQ(arm_.measured()[0], move.position(t));
     ASSERT_FALSE(arm_.excess());
+  }
+}
+
+TEST(SimulatedArm, DoesNotTakeTheRoundingOfPositionsForAnAcceleration) {
+  constexpr double kFar = 4.5, kSlow = 0.01;  // from there, with the limit itself
+  const RobotModel model = one_joint(5, kSlow);
+  SimulatedArm arm{model, {}, value(-kFar)};
+  for (int k = 1; k <= 20000; ++k) {
+    const double t = 0.001 * k;
+    const double q = kSlow * t * t / 2 - kFar;
+    const Time now = Time{} + seconds(t);
+    arm.step(now, ServoCommand{now, value(q), value(kSlow * t)});
+    ASSERT_FALSE(arm.excess()) << "after " << t << " s: " << arm.excess()->wanted;
+    ASSERT_EQ(arm.measured()[0], q);
   }
 }
 

@@ -37,7 +37,7 @@ ReasonText describe(const LimitExcess& excess, const RobotModel& model, const ch
   const auto quantity = static_cast<std::size_t>(excess.quantity);
   const Joint& joint =
       model.joints()[static_cast<std::size_t>(model.independent_joint(excess.joint))];
-  return ReasonText::format("the {} asks joint {} for {} {:.3f} {}{}, limit {:.3f}", who,
+  return ReasonText::format("the {} asks joint {} for {} {:.6g} {}{}, limit {:.6g}", who,
                             joint.name, kQuantity[quantity], excess.wanted,
                             joint.type == Joint::Type::prismatic ? "m" : "rad", kPerTime[quantity],
                             excess.limit);

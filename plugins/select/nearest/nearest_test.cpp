@@ -3,13 +3,16 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "armature/kinds/select/contract.hpp"
 
 namespace armature::select::nearest {
 namespace {
 
-/// Two revolute joints and a slide; the second joint is four times faster than the first.
-RobotModel robot() {
+/// Two revolute joints and a slide; the second joint is four times faster than the first, which
+/// turns by `turn`.
+RobotModel robot(double turn = 4) {
   const auto joint = [](std::string name, Joint::Type type, double limit, double velocity) {
     return Joint{.name = std::move(name),
                  .type = type,
@@ -19,14 +22,15 @@ RobotModel robot() {
                  .max_acceleration = 1,
                  .coupling = {}};
   };
-  return {{"crane",
-           RobotModel::Convention::standard,
-           {joint("turn", Joint::Type::revolute, 4, 1), joint("tilt", Joint::Type::revolute, 3, 4),
-            joint("slide", Joint::Type::prismatic, 10, 1)},
-           {{"tool", 2, Eigen::Isometry3d::Identity()}},
-           FrameId{0},
-           {},
-           {}}};
+  return {
+      {"crane",
+       RobotModel::Convention::standard,
+       {joint("turn", Joint::Type::revolute, turn, 1), joint("tilt", Joint::Type::revolute, 3, 4),
+        joint("slide", Joint::Type::prismatic, 10, 1)},
+       {{"tool", 2, Eigen::Isometry3d::Identity()}},
+       FrameId{0},
+       {},
+       {}}};
 }
 
 JointVector joints(double turn, double tilt, double slide) {
@@ -58,6 +62,7 @@ INSTANTIATE_TEST_SUITE_P(
     Nearest, SelectLaws,
     testing::Values(
         subject("crane_by_slowest_joint", robot()), subject("crane_by_sum", robot(), kSum),
+        subject("crane_that_turns_without_limits", robot(std::numeric_limits<double>::infinity())),
         subject("lamp", load_robot_model(ARMATURE_SOURCE_DIR "/configs/robots/dental_lamp.yaml"))),
     testing::PrintToStringParamName());
 

@@ -18,7 +18,8 @@ namespace armature {
 namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
-constexpr double kStep = 0.3;  // [rad] or [m] between two postures of a random path
+constexpr double kStep = 0.3;    // [rad] or [m] between two postures of a random path
+constexpr double kWidest = 100;  // [rad] or [m] a joint without limits is asked to go so far
 constexpr std::uint64_t kSeed = 23;
 
 /// Postures and waypoints of a robot by lot.
@@ -28,7 +29,9 @@ class Postures {
 
   JointVector any() {
     JointVector q(model_.dof());
-    for (int i = 0; i < q.size(); ++i) q[i] = between(model_.lower()[i], model_.upper()[i]);
+    for (int i = 0; i < q.size(); ++i) {
+      q[i] = between(std::max(model_.lower()[i], -kWidest), std::min(model_.upper()[i], kWidest));
+    }
     return q;
   }
   JointVector neighbour(const JointVector& q) {
@@ -39,9 +42,10 @@ class Postures {
     return next;
   }
   /// A posture beyond the limits of one joint at every turn; nothing when every joint turns all
-  /// round.
+  /// round, or has no limits.
   std::optional<IkBranch> branch_outside() {
     for (int i = 0; i < model_.dof(); ++i) {
+      if (!std::isfinite(model_.upper()[i])) continue;
       JointVector q = any();
       q[i] = model_.upper()[i] + 0.01;
       IkBranch branch = branch_at(q);

@@ -62,6 +62,28 @@ TEST_F(NewPlugin, RefusesANameThatIsNoName) {
       "and '_'; `armature plugin new --help` lists the families\n");
 }
 
+TEST_F(NewPlugin, ItsClassIsNotCalledAsAnotherOfItsFile) {
+  const auto class_of = [&](const std::string& id) {
+    fs::remove_all(folder);
+    EXPECT_EQ(write(id).exit_code, 0);
+    std::ifstream in{folder / (id.substr(id.find('/') + 1) + ".cpp")};
+    const std::string text{std::istreambuf_iterator<char>{in}, {}};
+    const auto at = text.find("class ");
+    return text.substr(at, text.find(' ', at + 6) - at);
+  };
+  EXPECT_EQ(class_of("path/mine"), "class Mine");
+  EXPECT_EQ(class_of("path/path"), "class PathPlugin");
+  EXPECT_EQ(class_of("trajectory/trajectory"), "class TrajectoryPlugin");
+  EXPECT_EQ(class_of("ik/params"), "class ParamsPlugin");
+}
+
+TEST_F(NewPlugin, ANameThatCppHasTakenIsANamespaceWithAnUnderscore) {
+  ASSERT_EQ(write("ik/class").exit_code, 0);
+  std::ifstream in{folder / "class.cpp"};
+  const std::string text{std::istreambuf_iterator<char>{in}, {}};
+  EXPECT_NE(text.find("namespace armature::ik::class_ {"), std::string::npos) << text;
+}
+
 TEST_F(NewPlugin, RefusesAnIdThatIsTakenAndTellsByWhat) {
   const auto result = write("ik/kdl");
   EXPECT_EQ(result.exit_code, 3);

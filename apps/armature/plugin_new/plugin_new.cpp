@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "armature/config/document.hpp"
+#include "armature/config/parameters/cpp_name.hpp"
 #include "armature/config/problems.hpp"
 #include "armature/runtime/plugins/plugin_registry.hpp"
 #include "armature/runtime/reporting/output_folder.hpp"
@@ -39,14 +40,25 @@ void replace_all(std::string& text, std::string_view mark, std::string_view valu
   }
 }
 
-std::string class_name(std::string_view name) {
+/// Whether `text` names `word`.
+bool names(std::string_view text, std::string_view word) {
+  for (auto at = text.find(word); at != std::string_view::npos; at = text.find(word, at + 1)) {
+    const bool begins = at == 0 || !is_in_a_name(text[at - 1]);
+    const auto end = at + word.size();
+    if (begins && (end == text.size() || !is_in_a_name(text[end]))) return true;
+  }
+  return false;
+}
+
+/// The class of a plugin: "my_solver" is MySolver, unless its template means another class by that.
+std::string class_name(std::string_view name, std::string_view source) {
   std::string result;
   bool upper = true;
   for (const char c : name) {
     if (c != '_') result += upper ? static_cast<char>(std::toupper(c)) : c;
     upper = c == '_';
   }
-  return result;
+  return names(source, result) ? result + "Plugin" : result;
 }
 
 /// lib/cmake/Armature of the installation, or the build folder, that this program belongs to.
@@ -86,15 +98,16 @@ PluginId id_from(const std::string& text) {
                   text));
 }
 
-/// What stands for the marks of a template: each @MARK@ and its text.
+/// What stands for the marks of a template: each @MARK@ and its text. `source`: of the plugin, with
+/// its marks.
 class Marks {
  public:
-  explicit Marks(const PluginId& id)
+  Marks(const PluginId& id, std::string_view source)
       : marks_{{"@ID@", id.text},
                {"@NAME@", id.name},
-               {"@CLASS@", class_name(id.name)},
+               {"@CLASS@", class_name(id.name, source)},
                {"@TARGET@", id.family + '_' + id.name},
-               {"@NAMESPACE@", fmt::format("armature::{}::{}", id.family, id.name)},
+               {"@NAMESPACE@", namespace_of(id.text)},
                {"@PACKAGE@", package_folder().string()}} {}
 
   void add(const std::string& mark, std::string text) {
@@ -141,8 +154,8 @@ int new_plugin(const std::string& text, const fs::path& directory) {
     throw InvalidChoice(fmt::format("'{}' is there already and not empty", directory.string()));
   }
   prepare_output_folder(directory);
-  Marks marks{id};
   const fs::path from = template_folder() / id.family, common = template_folder() / "common";
+  Marks marks{id, text_of(from / "@NAME@.cpp")};
   const PluginFamily family =
       read_family(id.family, [&](std::string filled) { return marks.fill(std::move(filled)); });
   add_shared_marks(family, from, marks);

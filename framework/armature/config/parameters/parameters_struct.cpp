@@ -6,11 +6,11 @@
 
 #include <algorithm>
 #include <array>
-#include <functional>
 #include <limits>
 #include <utility>
 #include <vector>
 
+#include "armature/config/parameters/cpp_name.hpp"
 #include "armature/config/params.hpp"
 #include "armature/config/reader.hpp"
 #include "armature/config/unit_suffix.hpp"
@@ -19,45 +19,6 @@ namespace armature {
 namespace {
 
 using Type = ParamSpec::Type;
-
-constexpr std::array<std::string_view, 96> kKeywords{
-    "alignas",      "alignof",      "and",           "and_eq",
-    "asm",          "auto",         "bitand",        "bitor",
-    "bool",         "break",        "case",          "catch",
-    "char",         "char16_t",     "char32_t",      "char8_t",
-    "class",        "co_await",     "co_return",     "co_yield",
-    "compl",        "concept",      "const",         "const_cast",
-    "consteval",    "constexpr",    "constinit",     "continue",
-    "decltype",     "default",      "delete",        "do",
-    "double",       "dynamic_cast", "else",          "enum",
-    "explicit",     "export",       "extern",        "false",
-    "float",        "for",          "friend",        "goto",
-    "if",           "inline",       "int",           "long",
-    "mutable",      "namespace",    "new",           "noexcept",
-    "not",          "not_eq",       "nullptr",       "operator",
-    "or",           "or_eq",        "private",       "protected",
-    "public",       "read",         "register",      "reinterpret_cast",
-    "requires",     "return",       "short",         "signed",
-    "sizeof",       "static",       "static_assert", "static_cast",
-    "struct",       "switch",       "template",      "this",
-    "thread_local", "throw",        "true",          "try",
-    "typedef",      "typeid",       "typename",      "union",
-    "unsigned",     "using",        "virtual",       "void",
-    "volatile",     "wchar_t",      "while",         "xor",
-    "xor_eq",       "std",          "armature",      "params"};
-
-/// A keyword, or a name that the struct itself uses.
-bool is_taken(std::string_view name) {
-  return std::ranges::find(kKeywords, name) != kKeywords.end();
-}
-
-std::string in_cpp(std::string_view name) {
-  return is_taken(name) ? std::string{name} + "_" : std::string{name};
-}
-
-bool is_in_a_name(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
-}
 
 /// `name` without its unit, unless another parameter would have the same name then.
 std::string member_name(const ParamSpec& spec, const std::vector<ParamSpec>& all) {
@@ -203,19 +164,6 @@ void check_choices(const ParamSpec& spec, const config::Origin& place, config::P
                                     "digits and '_'",
                                     config::in_quotes(spec.name), config::in_quotes(choice)));
   }
-}
-
-/// "armature::task::lamp_alignment" of "task/lamp_alignment".
-std::string namespace_of(std::string_view id) {
-  std::string name = "armature";
-  while (!id.empty()) {
-    const std::size_t slash = std::min(id.find('/'), id.size());
-    std::string part = in_cpp(id.substr(0, slash));
-    std::ranges::replace_if(part, std::not_fn(is_in_a_name), '_');
-    name += "::" + part;
-    id.remove_prefix(std::min(slash + 1, id.size()));
-  }
-  return name;
 }
 
 }  // namespace

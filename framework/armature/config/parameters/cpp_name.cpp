@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/config/parameters/cpp_name.hpp"
+
+#include <algorithm>
+#include <array>
+#include <functional>
+
+namespace armature {
+namespace {
+
+constexpr std::array<std::string_view, 98> kKeywords{"alignas",
+                                                     "alignof",
+                                                     "and",
+                                                     "and_eq",
+                                                     "asm",
+                                                     "auto",
+                                                     "bitand",
+                                                     "bitor",
+                                                     "bool",
+                                                     "break",
+                                                     "case",
+                                                     "catch",
+                                                     "char",
+                                                     "char16_t",
+                                                     "char32_t",
+                                                     "char8_t",
+                                                     "class",
+                                                     "co_await",
+                                                     "co_return",
+                                                     "co_yield",
+                                                     "compl",
+                                                     "concept",
+                                                     "const",
+                                                     "const_cast",
+                                                     "consteval",
+                                                     "constexpr",
+                                                     "constinit",
+                                                     "continue",
+                                                     "decltype",
+                                                     "default",
+                                                     "delete",
+                                                     "do",
+                                                     "double",
+                                                     "dynamic_cast",
+                                                     "else",
+                                                     "enum",
+                                                     "explicit",
+                                                     "export",
+                                                     "extern",
+                                                     "false",
+                                                     "float",
+                                                     "for",
+                                                     "friend",
+                                                     "goto",
+                                                     "if",
+                                                     "inline",
+                                                     "int",
+                                                     "long",
+                                                     "mutable",
+                                                     "namespace",
+                                                     "new",
+                                                     "noexcept",
+                                                     "not",
+                                                     "not_eq",
+                                                     "nullptr",
+                                                     "operator",
+                                                     "or",
+                                                     "or_eq",
+                                                     "private",
+                                                     "protected",
+                                                     "public",
+                                                     "read",
+                                                     "register",
+                                                     "reinterpret_cast",
+                                                     "requires",
+                                                     "return",
+                                                     "short",
+                                                     "signed",
+                                                     "sizeof",
+                                                     "static",
+                                                     "static_assert",
+                                                     "static_cast",
+                                                     "struct",
+                                                     "switch",
+                                                     "template",
+                                                     "this",
+                                                     "thread_local",
+                                                     "throw",
+                                                     "true",
+                                                     "try",
+                                                     "typedef",
+                                                     "typeid",
+                                                     "typename",
+                                                     "union",
+                                                     "unsigned",
+                                                     "using",
+                                                     "virtual",
+                                                     "void",
+                                                     "volatile",
+                                                     "wchar_t",
+                                                     "while",
+                                                     "xor",
+                                                     "xor_eq",
+                                                     "std",
+                                                     "armature",
+                                                     "params",
+                                                     "fmt",
+                                                     "tl"};
+
+}  // namespace
+
+std::string in_cpp(std::string_view name) {
+  const bool is_taken = std::ranges::find(kKeywords, name) != kKeywords.end();
+  return is_taken ? std::string{name} + "_" : std::string{name};
+}
+
+bool is_in_a_name(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+}
+
+std::string namespace_of(std::string_view id) {
+  std::string name = "armature";
+  while (!id.empty()) {
+    const std::size_t slash = std::min(id.find('/'), id.size());
+    std::string part = in_cpp(id.substr(0, slash));
+    std::ranges::replace_if(part, std::not_fn(is_in_a_name), '_');
+    name += "::" + part;
+    id.remove_prefix(std::min(slash + 1, id.size()));
+  }
+  return name;
+}
+
+}  // namespace armature

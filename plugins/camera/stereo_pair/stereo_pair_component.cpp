@@ -44,6 +44,7 @@ class StereoPair final : public Component {
   void publish(const MatchedPair& matched);
   void publish_info(Time stamp);
   void publish_picture(Side side, const ImageView& raw, Time stamp);
+  bool is_missed(std::size_t side, Time now) const;
   std::string trouble(Time now) const;
   void tell(Time now);
 
@@ -55,6 +56,8 @@ class StereoPair final : public Component {
   Output<msg::Image> left_image_, right_image_;
   Output<msg::CameraInfo> left_info_, right_info_;
   std::array<std::optional<Time>, 2> heard_;  // of each camera; at first when it was waited for
+  std::array<bool, 2> missed_{};  // when the pictures were turned off, and not heard since
+  bool was_off_ = false;
   std::optional<Time> unpaired_at_, refused_at_, told_;
   std::uint64_t pairs_ = 0, refused_ = 0;
   std::string refusal_;
@@ -78,9 +81,13 @@ StereoPair::StereoPair(Setup& setup)
 
 void StereoPair::step(Time now) {
   const bool off = capture_.latest() && !capture_.latest()->on_();
-  for (auto& heard : heard_) {
-    if (!heard || off) heard = now;
+  const bool turned_off = off && !std::exchange(was_off_, off);
+  for (std::size_t side = 0; side < heard_.size(); ++side) {
+    if (turned_off) missed_[side] = is_missed(side, now);
+    // While nobody wants pictures, none is missing; a camera that was silent before stays named.
+    if (!heard_[side] || (off && !missed_[side])) heard_[side] = now;
   }
+  was_off_ = off;
   const std::uint64_t unpaired = matcher_.unpaired();
   take(Side::left, left_raw_, now);
   take(Side::right, right_raw_, now);
@@ -97,6 +104,7 @@ void StereoPair::step(Time now) {
 void StereoPair::take(Side side, const Input<msg::Image>& raw, Time now) {
   if (!raw.fresh()) return;
   heard_[static_cast<std::size_t>(side)] = now;
+  missed_[static_cast<std::size_t>(side)] = false;
   for (std::size_t i = 0; i < raw.size(); ++i) {
     matcher_.add(side, {.stamp = stamp_of(raw[i].header_().stamp_()), .picture = raw.sample(i)});
   }
@@ -143,10 +151,14 @@ void StereoPair::publish_picture(Side side, const ImageView& raw, Time stamp) {
   image.publish();
 }
 
+bool StereoPair::is_missed(std::size_t side, Time now) const {
+  return heard_[side] && now - *heard_[side] >= seconds(parameters_.timeout);
+}
+
 /// What is wrong now, or was a moment ago; empty: nothing.
 std::string StereoPair::trouble(Time now) const {
   for (const Side side : {Side::left, Side::right}) {
-    if (now - *heard_[static_cast<std::size_t>(side)] < seconds(parameters_.timeout)) continue;
+    if (!is_missed(static_cast<std::size_t>(side), now)) continue;
     return fmt::format("no picture of the {} camera for {:g} s", name_of(side),
                        parameters_.timeout);
   }

@@ -272,6 +272,25 @@ TEST_F(StereoPairTest, WhileCaptureIsOffThereAreNoPairsAndNobodyMissesThem) {
   EXPECT_FALSE(is_well(pair));
 }
 
+TEST_F(StereoPairTest, ACameraThatWasSilentBeforeCaptureWentOffStaysNamedUntilItIsHeard) {
+  ComponentHarness pair{built_plugins(), options(", timeout_s: 0.5")};
+  send(pair, 0.1, 0.1);
+  pair.step(0.1);
+  pair.step(1);
+  ASSERT_FALSE(is_well(pair));
+  msg::Capture capture;
+  capture.on_() = false;
+  pair.send("capture", capture);
+  pair.step(1.1);
+  pair.step(3);
+  EXPECT_FALSE(is_well(pair)) << "nobody asks now, and the cable is out all the same";
+  for (const double now : {3.1, 3.5, 3.9, 4.3}) {
+    send(pair, now, now);
+    pair.step(now);
+  }
+  EXPECT_TRUE(is_well(pair));
+}
+
 TEST_F(StereoPairTest, PicturesOfAnotherSizeOrEncodingAreRefusedCountedAndTold) {
   ComponentHarness pair{built_plugins(), options()};
   msg::Image small = picture(Time{} + seconds(1));

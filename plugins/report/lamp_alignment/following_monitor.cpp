@@ -21,7 +21,7 @@ void FollowingMonitor::see_truth(const TargetEstimate& truth) {
 
 void FollowingMonitor::see_lamp(const Eigen::Vector3d& center, const Eigen::Vector3d& light,
                                 double asked_m, Time stamp) {
-  if (!moves_since_ || stamp - *moves_since_ < kTimeToComeUp) return;
+  if (!has_held_ || !moves_since_ || stamp - *moves_since_ < kTimeToComeUp) return;
   if (stamp < truth_->stamp || stamp - truth_->stamp > kOldTruth) return;
   const double passed_s = to_seconds(stamp - truth_->stamp);
   const Eigen::Vector3d mouth = truth_->position + passed_s * truth_->velocity;

@@ -15,10 +15,12 @@ struct FollowingError {
   double angle_rad = 0;   // of the light off the face's normal, turned round
 };
 
-/// The largest errors while the patient moves, from one second after the start of every motion on,
-/// when there was time to come up with it.
+/// The largest errors while the patient moves, once the lamp has held before him: from one second
+/// after the start of every motion on, when there was time to come up with it.
 class FollowingMonitor {
  public:
+  /// The lamp holds.
+  void see_hold() { has_held_ = true; }
   void see_truth(const TargetEstimate& truth);
   /// The lamp's centre and the way its light points, in the base frame, at `stamp`.
   void see_lamp(const Eigen::Vector3d& center, const Eigen::Vector3d& light, double asked_m,
@@ -27,6 +29,7 @@ class FollowingMonitor {
   const std::optional<FollowingError>& worst() const { return worst_; }
 
  private:
+  bool has_held_ = false;
   std::optional<TargetEstimate> truth_;
   std::optional<Time> moves_since_;
   std::optional<FollowingError> worst_;

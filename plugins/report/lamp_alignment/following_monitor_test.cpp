@@ -21,6 +21,7 @@ TargetEstimate face_at(double t) {
 
 TEST(FollowingMonitor, CountsWhatTheLightIsOffFromASecondAfterTheStart) {
   FollowingMonitor monitor;
+  monitor.see_hold();
   const Vector3d light = Vector3d{1, 0.01, 0}.normalized();
   for (int k = 0; k < 30; ++k) {
     const double t = 0.1 * k;
@@ -43,8 +44,19 @@ TEST(FollowingMonitor, CountsWhatTheLightIsOffFromASecondAfterTheStart) {
   EXPECT_NEAR(monitor.worst()->spot_m, 0.5 * 0.01, 1e-6);
 }
 
+TEST(FollowingMonitor, TheWayToAPatientWhoMovesAlreadyIsNoFollowing) {
+  FollowingMonitor monitor;
+  for (const double t : {1.1, 2.3}) monitor.see_truth(face_at(t));
+  monitor.see_lamp({0, 0, 0}, Vector3d::UnitX(), 0.5, face_at(2.3).stamp);
+  EXPECT_FALSE(monitor.worst());
+  monitor.see_hold();
+  monitor.see_lamp({0, 0, 0}, Vector3d::UnitX(), 0.5, face_at(2.3).stamp);
+  EXPECT_TRUE(monitor.worst());
+}
+
 TEST(FollowingMonitor, ATruthThatIsOldSaysNothing) {
   FollowingMonitor monitor;
+  monitor.see_hold();
   monitor.see_truth(face_at(1.1));
   monitor.see_truth(face_at(2.3));
   monitor.see_lamp({0, 0, 0}, Vector3d::UnitX(), 0.5, Time{} + seconds(2.6));

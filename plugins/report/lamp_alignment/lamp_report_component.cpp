@@ -175,7 +175,9 @@ class LampReport : public Component {
   }
 
   void see_task(const msg::TaskState& task, Time now) {
-    monitor_.see_task(task.state_() == "holding");
+    const bool holds = task.state_() == "holding";
+    monitor_.see_task(holds);
+    if (holds) following_.see_hold();
     aborted_ = task.state_() == "aborted";
     const std::string part =
         task.steps_() == 0 ? "" : fmt::format(" {}/{}", task.step_(), task.steps_());

@@ -9,18 +9,12 @@
 #include "armature/task/procedure.hpp"
 #include "armature/task/pursued_goal.hpp"
 #include "face_estimate.hpp"
+#include "face_watch.hpp"
 #include "light_control.hpp"
 #include "search_poses.hpp"
 #include "task_lamp_alignment_parameters.hpp"
 
 namespace armature::task::lamp_alignment {
-
-/// One picture, as the landmark finder saw it.
-struct Picture {
-  Time stamp;
-  bool face = false;
-  double image_intensity = 0, face_intensity = 0;  // mean grey values
-};
 
 /// The behaviour of the lamp: check the light, search for a face, align with it, hold, follow. Its
 /// steps are the light, the search and the alignment; following is part of the last one.
@@ -45,7 +39,7 @@ class LampAlignment {
   void see(const Picture& picture, Time now);
   void see(const FaceEstimate& estimate);
   /// Why a picture gave no estimate.
-  void see_no_estimate(const std::string& why);
+  void see_no_estimate(const std::string& why) { face_.see_no_estimate(why); }
   void hear(const GoalReport& report, Time now) { goals_.hear(report, now); }
   Expected<void> hear(const OperatorCommand& command, Time now);
   void step(Time now);
@@ -58,8 +52,8 @@ class LampAlignment {
   const Procedure& procedure() const { return procedure_; }
   std::size_t view() const { return views_looked_at_; }  // 1..9 while searching
   std::size_t views() const { return poses_.size(); }
-  /// Why it does not go on, or "".
-  const std::string& trouble() const { return trouble_; }
+  /// Why it does not go on, or what it cannot mend, or "".
+  std::string trouble() const;
 
  private:
   using GoalState = PursuedGoal::State;
@@ -88,26 +82,24 @@ class LampAlignment {
   bool may_go_along() const;
   void go_along(Time now);
   void end_going_along(Time now);
-  bool lost(Time now) const;
-  /// Says so while a face is in the pictures and no estimate of it is believed.
-  void tell_disbelief(Time now);
-  bool face_since(Time time) const { return latest_ && latest_->stamp >= time; }
+  /// At rest before a face, or where one should be.
+  bool lost() const;
+  const FaceEstimate& latest() const { return *face_.latest(); }
 
   Parameters parameters_;
   Procedure procedure_;
   FaceBand settled_, replan_, moved_;
   std::vector<ToolPose> poses_;
   LightControl light_;
+  FaceWatch face_;
   PursuedGoal goals_;
   FaceAverage at_rest_;  // estimates since the arm came to rest
-  std::optional<FaceEstimate> latest_, goal_estimate_;
-  std::size_t fresh_ = 0;       // estimates since the goal was set
-  int measurements_ = 0;        // of the newest estimate, confirmed or not
-  Time face_in_picture_at_;     // the newest picture with a face, believed or not
-  int moving_ = 0, still_ = 0;  // estimates in a row that say so of the patient
-  bool goes_along_ = false;     // with the patient, in tracking mode
+  std::optional<FaceEstimate> goal_estimate_;
+  std::size_t fresh_ = 0;    // estimates since the goal was set
+  bool goes_along_ = false;  // with the patient, in tracking mode
   Phase phase_ = Phase::checking_light;
   bool capture_ = true;
+  std::optional<Time> captures_since_;
   std::size_t pose_ = 0, views_looked_at_ = 0;
   std::size_t failed_views_ = 0;             // one after the other
   bool looking_ = false, sets_out_ = false;  // to the first view of a search
@@ -116,9 +108,8 @@ class LampAlignment {
   int pictures_ = 0;              // in this view
   bool face_in_picture_ = false;  // in one of them
   std::optional<double> new_level_;
-  bool shows_face_ = false;  // the newest picture
-  std::string trouble_;
-  std::string no_estimate_, disbelief_;  // of the newest picture, and of the newest with a face
+  bool blind_ = false;  // no pictures come
+  std::string trouble_, light_trouble_;
 };
 
 /// "checking light", "searching", ...

@@ -202,7 +202,10 @@ TEST_F(LampAlignmentComponentTest, SaysWhyItLostAFace) {
   refused.valid_(false);
   refused.reason_("the mouth would be 0.150 m away, outside 0.2 to 3 m");
   task_.send("target", refused);
-  steps(105);
+  for (int k = 0; k < 105; ++k) {
+    see_picture(100);
+    step();
+  }
   EXPECT_EQ(
       task_.lines().back(),
       "searching 1/9: the face was lost: the mouth would be 0.150 m away, outside 0.2 to 3 m");

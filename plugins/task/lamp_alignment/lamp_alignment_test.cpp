@@ -138,6 +138,50 @@ TEST_F(LampAlignmentTest, HoldsWhileAFaceIsSeenButNotBelievedAndSaysWhy) {
   EXPECT_TRUE(run_until(Phase::searching, 3)) << "no face is in the pictures any more";
 }
 
+TEST_F(LampAlignmentTest, StaysWhereItIsWhenNoPicturesComeAndSaysSo) {
+  ASSERT_TRUE(run_until(Phase::holding, 15));
+  has_cameras_ = false;
+  const std::size_t goals = goals_.size();
+  run(60);
+  EXPECT_EQ(task_.phase(), Phase::holding);
+  EXPECT_EQ(goals_.size(), goals) << "a camera without a cable is no patient who has gone";
+  EXPECT_EQ(task_.trouble(), "no picture has come for 2 s");
+  has_cameras_ = true;
+  run(0.5);
+  EXPECT_EQ(task_.trouble(), "");
+  EXPECT_EQ(task_.phase(), Phase::holding);
+}
+
+TEST_F(LampAlignmentTest, SaysInTheSearchAndAtTheLightThatNoPicturesCome) {
+  has_cameras_ = false;
+  run(3);
+  EXPECT_EQ(task_.phase(), Phase::checking_light);
+  EXPECT_EQ(task_.trouble(), "no picture has come for 2 s");
+  has_cameras_ = true;
+  ASSERT_TRUE(run_until(Phase::searching, 1));
+  has_cameras_ = false;
+  run(5);
+  EXPECT_EQ(task_.phase(), Phase::searching);
+  EXPECT_EQ(task_.trouble(), "no picture has come for 2 s");
+  has_cameras_ = true;
+  EXPECT_TRUE(run_until(Phase::holding, 15));
+  EXPECT_EQ(task_.trouble(), "");
+}
+
+TEST_F(LampAlignmentTest, OutOfReachOfAFaceThatIsSeenButNotBelievedItStaysToo) {
+  ASSERT_TRUE(run_until(Phase::aligning, 10));
+  mouth_.x() = 3;
+  reach_m_ = 2;
+  ASSERT_TRUE(run_until(Phase::unreachable, 10));
+  believed_ = false;
+  task_.see_no_estimate("something covers it");
+  const std::size_t goals = goals_.size();
+  run(20);
+  EXPECT_EQ(task_.phase(), Phase::unreachable);
+  EXPECT_LE(goals_.size(), goals + 1);
+  EXPECT_EQ(task_.trouble(), "a face is seen but not believed: something covers it");
+}
+
 TEST_F(LampAlignmentTest, SearchesAgainWhenTheFaceIsLostAndStartsWhereItWas) {
   ASSERT_TRUE(run_until(Phase::holding, 15));
   present_ = false;
@@ -284,6 +328,15 @@ TEST_F(LampAlignmentTest, TellsWhyTheFaceWasLost) {
   present_ = false;
   ASSERT_TRUE(run_until(Phase::searching, 3));
   EXPECT_EQ(task_.trouble(), "") << "a reason from before the newest estimate is none";
+}
+
+TEST_F(LampAlignmentTest, SaysWhatTheLightCannotMend) {
+  gain_ = 0.1;
+  ASSERT_TRUE(run_until(Phase::searching, 15));
+  EXPECT_EQ(task_.trouble(), "the pictures are too dark, and the light is at its brightest");
+  gain_ = 1;
+  EXPECT_TRUE(run_until(Phase::holding, 25));
+  EXPECT_EQ(task_.trouble(), "");
 }
 
 TEST_F(LampAlignmentTest, RaisesTheLightInADarkRoomBeforeItSearches) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
+#include <string>
 
 #include "armature/values/time.hpp"
 #include "task_lamp_alignment_parameters.hpp"
@@ -37,6 +38,16 @@ class LightControl {
     return intensity >= parameters_.dark && intensity <= parameters_.bright;
   }
   double level() const { return level_; }
+  /// What the light cannot mend of a picture that answers, or "".
+  std::string end(double intensity) const {
+    if (intensity < parameters_.dark && level_ >= 1) {
+      return "the pictures are too dark, and the light is at its brightest";
+    }
+    if (intensity > parameters_.bright && level_ <= 0) {
+      return "the pictures are too bright, and the light is off";
+    }
+    return {};
+  }
 
  private:
   Parameters parameters_;

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "face_watch.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace armature::task::lamp_alignment {
+namespace {
+
+/// So many estimates in a row say that the patient moves.
+constexpr int kBeginsToMove = 2;
+
+Eigen::Vector3d shortened(const Eigen::Vector3d& vector, double most) {
+  const double length = vector.norm();
+  return length > most ? Eigen::Vector3d{vector * (most / length)} : vector;
+}
+
+}  // namespace
+
+void FaceWatch::see(const Picture& picture, Time now) {
+  face_ = picture.face;
+  if (picture.face) face_at_ = picture.stamp;
+  if (is_longer_than_lost(picture_at_, picture.stamp)) begins_at_ = picture.stamp;
+  picture_at_ = picture.stamp;
+  picture_came_ = now;
+}
+
+bool FaceWatch::see(const FaceEstimate& estimate) {
+  if (std::exchange(measurements_, estimate.measurements) == estimate.measurements) return false;
+  if (estimate.measurements < parameters_.min_measurements) {
+    see_no_estimate(fmt::format("it was measured {} times, {} times are wanted",
+                                estimate.measurements, parameters_.min_measurements));
+    return false;
+  }
+  const bool moves = estimate.velocity.norm() > parameters_.moving_speed ||
+                     estimate.normal_rate.norm() > parameters_.moving_turn;
+  moving_ = moves ? moving_ + 1 : 0;
+  still_ = moves ? 0 : still_ + 1;
+  latest_ = estimate;
+  latest_->velocity = shortened(estimate.velocity, parameters_.max_speed);
+  latest_->normal_rate = shortened(estimate.normal_rate, parameters_.max_turn);
+  no_estimate_.clear();
+  refusal_.clear();
+  return true;
+}
+
+void FaceWatch::see_no_estimate(const std::string& why) {
+  no_estimate_ = why;
+  if (face_) refusal_ = why;
+}
+
+bool FaceWatch::begins_to_move() const { return moving_ >= kBeginsToMove; }
+
+bool FaceWatch::is_blind(Time since, Time now) const {
+  return is_longer_than_lost(std::max(picture_came_, since), now);
+}
+
+std::string FaceWatch::blindness() const {
+  return fmt::format("no picture has come for {:g} s", parameters_.lost);
+}
+
+bool FaceWatch::lost(Time since) const {
+  return is_longer_than_lost(std::max({known_since(since), face_at_, begins_at_}), picture_at_);
+}
+
+std::string FaceWatch::disbelief(Time since) const {
+  if (!is_longer_than_lost(known_since(since), picture_at_)) return {};
+  return "a face is seen but not believed: " +
+         (refusal_.empty() ? "nobody tells where it is" : refusal_);
+}
+
+}  // namespace armature::task::lamp_alignment

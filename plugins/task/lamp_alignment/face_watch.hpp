@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <optional>
+#include <string>
+
+#include "face_estimate.hpp"
+#include "task_lamp_alignment_parameters.hpp"
+
+namespace armature::task::lamp_alignment {
+
+/// One picture, as the landmark finder saw it.
+struct Picture {
+  Time stamp;
+  bool face = false;
+  double image_intensity = 0, face_intensity = 0;  // mean grey values
+};
+
+/// What the cameras say of the face: whether pictures come, whether one shows a face, and whether
+/// an estimate of it is believed, which takes a few measurements, one after the other.
+class FaceWatch {
+ public:
+  explicit FaceWatch(const Parameters& parameters) : parameters_{parameters} {}
+
+  /// `now`: when the picture came.
+  void see(const Picture& picture, Time now);
+  /// True where it is a new measurement of a face that is confirmed. What is predicted over
+  /// pictures without a measurement is none: `latest()` at a later time predicts better.
+  bool see(const FaceEstimate& estimate);
+  /// Why a picture gave no estimate.
+  void see_no_estimate(const std::string& why);
+
+  /// The newest one that is believed, with rates that faces have.
+  const std::optional<FaceEstimate>& latest() const { return latest_; }
+  bool seen_since(Time time) const { return latest_ && latest_->stamp >= time; }
+  /// Two estimates in a row say so.
+  bool begins_to_move() const;
+  /// The newest estimate says so; all of the newest `settle_frames` do.
+  bool is_still() const { return still_ > 0; }
+  bool stays_still() const { return still_ >= parameters_.settle_frames; }
+
+  /// No picture has come for `lost_s` after `since`.
+  bool is_blind(Time since, Time now) const;
+  /// What is_blind says, in words.
+  std::string blindness() const;
+  /// The pictures have shown no face for `lost_s` after `since`. Where none come it is not lost.
+  bool lost(Time since) const;
+  /// Why a face that is in the pictures has not been believed for `lost_s` after `since`; or "".
+  std::string disbelief(Time since) const;
+  /// The same of the newest picture with a face, in the reason's own words.
+  const std::string& refusal() const { return refusal_; }
+  void forget_refusal() { refusal_.clear(); }
+  /// Why the newest picture gave no estimate, or "".
+  const std::string& no_estimate() const { return no_estimate_; }
+
+ private:
+  bool is_longer_than_lost(Time since, Time now) const {
+    return to_seconds(now - since) > parameters_.lost;
+  }
+
+  Time known_since(Time since) const { return latest_ ? std::max(latest_->stamp, since) : since; }
+
+  Parameters parameters_;
+  std::optional<FaceEstimate> latest_;
+  int measurements_ = 0;        // of the newest estimate, confirmed or not
+  int moving_ = 0, still_ = 0;  // estimates in a row that say so
+  Time picture_at_, picture_came_;
+  Time face_at_;       // the newest picture with a face, believed or not
+  Time begins_at_;     // the first picture after a time without any
+  bool face_ = false;  // in the newest picture
+  std::string no_estimate_, refusal_;
+};
+
+}  // namespace armature::task::lamp_alignment

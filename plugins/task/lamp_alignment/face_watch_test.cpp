@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "face_watch.hpp"
+
+#include <gtest/gtest.h>
+
+namespace armature::task::lamp_alignment {
+namespace {
+
+/// Pictures ten times a second.
+class FaceWatchTest : public testing::Test {
+ protected:
+  void see(double for_s, bool face) {
+    for (double s = 0; s < for_s - 1e-9; s += 0.1) {
+      now_ = now_ + seconds(0.1);
+      watch_.see(Picture{.stamp = now_, .face = face}, now_);
+    }
+  }
+  void measure(int measurements) {
+    watch_.see(FaceEstimate{.stamp = now_, .measurements = measurements});
+  }
+  void wait(double for_s) { now_ = now_ + seconds(for_s); }
+
+  FaceWatch watch_{Parameters{}};
+  Time now_, begin_;
+};
+
+TEST_F(FaceWatchTest, AFaceIsLostOnceThePicturesHaveShownNoneForLong) {
+  see(5, true);
+  see(2, false);
+  EXPECT_FALSE(watch_.lost(begin_));
+  see(0.1, false);
+  EXPECT_TRUE(watch_.lost(begin_));
+  EXPECT_FALSE(watch_.lost(now_)) << "of an arm that came to rest just now";
+}
+
+TEST_F(FaceWatchTest, WithoutPicturesNoFaceIsLost) {
+  see(5, true);
+  wait(60);
+  EXPECT_FALSE(watch_.lost(begin_));
+  EXPECT_TRUE(watch_.is_blind(begin_, now_));
+  EXPECT_FALSE(watch_.is_blind(now_, now_)) << "the cameras were told to look just now";
+  EXPECT_EQ(watch_.blindness(), "no picture has come for 2 s");
+}
+
+TEST_F(FaceWatchTest, TheFirstPictureAfterAGapBeginsTheWaitAnew) {
+  see(5, true);
+  wait(60);
+  see(0.1, false);
+  EXPECT_FALSE(watch_.is_blind(begin_, now_));
+  EXPECT_FALSE(watch_.lost(begin_));
+  see(2.1, false);
+  EXPECT_TRUE(watch_.lost(begin_));
+}
+
+TEST_F(FaceWatchTest, AFaceThatIsSeenIsNotLostThoughItIsNotBelieved) {
+  see(1, true);
+  measure(3);
+  see(5, true);
+  EXPECT_FALSE(watch_.lost(begin_));
+  EXPECT_EQ(watch_.disbelief(begin_), "a face is seen but not believed: nobody tells where it is");
+  watch_.see_no_estimate("something covers it");
+  EXPECT_EQ(watch_.disbelief(begin_), "a face is seen but not believed: something covers it");
+  wait(60);
+  measure(6);
+  EXPECT_EQ(watch_.disbelief(begin_), "");
+}
+
+TEST_F(FaceWatchTest, ARefusalOfAPictureWithoutAFaceIsNone) {
+  see(0.1, false);
+  watch_.see_no_estimate("no face in the picture");
+  EXPECT_EQ(watch_.refusal(), "");
+  EXPECT_EQ(watch_.no_estimate(), "no face in the picture");
+}
+
+}  // namespace
+}  // namespace armature::task::lamp_alignment

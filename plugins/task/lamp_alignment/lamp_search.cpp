@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+// The search for a face: from view to view, until one is seen and believed.
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "lamp_alignment.hpp"
+
+namespace armature::task::lamp_alignment {
+namespace {
+
+/// A face in the picture but no estimate yet: so many more pictures to wait for one.
+constexpr int kPicturesForEstimate = 10;
+/// When every search pose failed, the next one is tried after so long.
+constexpr double kNextTry_s = 1;
+
+}  // namespace
+
+void LampAlignment::start_search(Time now) {
+  phase_ = Phase::searching;
+  trouble_.clear();
+  views_looked_at_ = failed_views_ = 0;
+  pose_ = 0;
+  if (goal_estimate_) pose_ = nearest_pose(poses_, -goal_estimate_->normal);
+  pose_ = (pose_ + poses_.size() - 1) % poses_.size();
+  looking_since_ = now;
+  looking_ = false;
+  sets_out_ = true;
+  procedure_.enter(static_cast<std::size_t>(Step::search));
+  set_out();
+}
+
+void LampAlignment::set_out() {
+  if (procedure_.may_act() && std::exchange(sets_out_, false)) next_view();
+}
+
+void LampAlignment::search_for_lost_face(Time now) {
+  start_search(now);
+  if (!face_.no_estimate().empty()) trouble_ = "the face was lost: " + face_.no_estimate();
+}
+
+void LampAlignment::next_view() {
+  pose_ = (pose_ + 1) % poses_.size();
+  views_looked_at_ = views_looked_at_ % poses_.size() + 1;
+  looking_ = false;
+  capture_ = false;
+  MotionGoal goal;
+  goal.pose = poses_[pose_];
+  goals_.set(goal);
+}
+
+void LampAlignment::search(Time now) {
+  if (face_.seen_since(looking_since_) && looking_) {
+    if (may_align()) return align_with(latest(), Phase::aligning, now);
+    if (to_seconds(now - latest().stamp) <= parameters_.lost) return;
+    procedure_.enter(static_cast<std::size_t>(Step::search));  // it asks no more for what is lost
+    looking_since_ = now;
+    pictures_ = 0;
+  }
+  if (!procedure_.may_act()) return;
+  set_out();
+  if (!looking_) {
+    if (goals_.state() == GoalState::failed) {
+      leave_failed_view(now);
+    } else if (goals_.state() == GoalState::done) {
+      failed_views_ = 0;
+      looking_ = capture_ = true;
+      looking_since_ = now;
+      pictures_ = 0;
+      face_in_picture_ = false;
+      face_.forget_refusal();
+    }
+    return;
+  }
+  const int enough = parameters_.frames_per_view + (face_in_picture_ ? kPicturesForEstimate : 0);
+  if (pictures_ < enough) return;
+  const std::string& refusal = face_.refusal();
+  trouble_ = refusal.empty() ? ""
+                             : fmt::format("in view {} a face was seen but not believed: {}",
+                                           views_looked_at_, refusal);
+  next_view();
+}
+
+void LampAlignment::leave_failed_view(Time now) {
+  if (++failed_views_ < poses_.size() && !goals_.stopped()) {
+    trouble_ = "search pose: " + goals_.reason();
+    next_view();
+    return;
+  }
+  phase_ = Phase::no_view;
+  trouble_ = goals_.stopped() ? goals_.reason()
+                              : "every search pose failed, the last one: " + goals_.reason();
+  capture_ = true;
+  looking_since_ = goal_set_at_ = now;
+}
+
+void LampAlignment::wait_for_a_view(Time now) {
+  if (face_.seen_since(looking_since_)) {
+    if (may_align()) align_with(latest(), Phase::aligning, now);
+  } else if (goals_.state() == GoalState::moving || goals_.state() == GoalState::done) {
+    phase_ = Phase::searching;
+    trouble_.clear();
+    failed_views_ = 0;
+    capture_ = false;
+  } else if (goals_.state() == GoalState::failed && !goals_.stopped() &&
+             to_seconds(now - goal_set_at_) >= kNextTry_s) {
+    next_view();
+    capture_ = true;
+    goal_set_at_ = now;
+  }
+}
+
+}  // namespace armature::task::lamp_alignment

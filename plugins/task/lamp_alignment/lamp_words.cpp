@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// What an operator's words mean: the ways back.
+#include "armature/task/obey.hpp"
+#include "lamp_alignment.hpp"
+
+namespace armature::task::lamp_alignment {
+
+Expected<void> LampAlignment::hear(const OperatorCommand& command, Time now) {
+  return obey(
+      command, procedure_, goals_, [&] { return go_back(now); }, [&] { return abort(); });
+}
+
+Expected<void> LampAlignment::go_back(Time now) {
+  if (phase_ == Phase::aborting) return refuse("it is being aborted");
+  if (step() != Step::alignment) return refuse("the search is the first step that moves the lamp");
+  procedure_.turn_back();
+  goals_.set({.mode = MotionMode::hold, .pose = {}});
+  start_search(now);
+  return {};
+}
+
+/// To the view from which it saw the face, if it has left one; else it stays where it is.
+Expected<void> LampAlignment::abort() {
+  if (phase_ == Phase::aborting) return refuse("it is being aborted already");
+  procedure_.turn_back();
+  const bool came_from_a_view = step() == Step::alignment && views_looked_at_ > 0;
+  MotionGoal goal{.mode = MotionMode::hold, .pose = {}};
+  if (came_from_a_view) goal = {.pose = poses_[pose_]};
+  if (goals_.state() != GoalState::none) goals_.set(goal);
+  phase_ = Phase::aborting;
+  trouble_.clear();
+  capture_ = false;
+  return {};
+}
+
+void LampAlignment::end_abort() {
+  if (goals_.state() == GoalState::failed) trouble_ = "the way back failed: " + goals_.reason();
+  const bool under_way =
+      goals_.state() == GoalState::waiting || goals_.state() == GoalState::moving;
+  if (under_way) return;
+  phase_ = Phase::aborted;
+  procedure_.end(Procedure::StepState::broken_off);
+}
+
+}  // namespace armature::task::lamp_alignment

@@ -38,16 +38,18 @@ Time FrameBuffer::newest() const { return empty() ? Time{} : entry(count_ - 1).s
 
 Expected<JointVector> FrameBuffer::joints_at(Time t) const {
   if (empty()) return refuse("no joint positions have arrived yet");
-  if (t > newest()) return outside(t, t - newest(), "newer");
+  // A picture may come before the arm's own sample of that instant.
+  const Duration step = count_ < 2 ? Duration{0} : newest() - entry(count_ - 2).stamp;
+  if (t - newest() > step) return outside(t, t - newest(), "newer");
   if (t < entry(0).stamp) return outside(t, entry(0).stamp - t, "older");
 
-  std::size_t before = 0, after = count_ - 1;  // entry(before).stamp <= t <= entry(after).stamp
+  std::size_t before = 0, after = count_ - 1;  // next to t, or the newest two
   while (after - before > 1) {
     const std::size_t middle = (before + after) / 2;
     (entry(middle).stamp <= t ? before : after) = middle;
   }
   const Entry &a = entry(before), &b = entry(after);
-  if (t >= b.stamp) return b.q;
+  if (t == b.stamp) return b.q;
   if (t == a.stamp) return a.q;
   const double part = to_seconds(t - a.stamp) / to_seconds(b.stamp - a.stamp);
   return JointVector{a.q + part * (b.q - a.q)};

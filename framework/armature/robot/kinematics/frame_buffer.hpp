@@ -12,7 +12,8 @@
 namespace armature ARMATURE_EXPORT {
 
 /// Answers "base_T_frame at t" from a bounded history of joint positions and the robot's named
-/// frames. Joint positions are interpolated linearly between the two neighbours of t.
+/// frames. Joint positions are interpolated linearly between the two neighbours of t, and carried
+/// on beyond the newest sample for no longer than that is after the one before.
 /// No allocation after construction, except for the text of a refusal. Not thread-safe: one owner.
 class FrameBuffer {
  public:

@@ -42,6 +42,13 @@ TEST_F(FrameBufferOfTheLamp, InterpolatesLinearlyBetweenSamples) {
   }
 }
 
+TEST_F(FrameBufferOfTheLamp, GoesOnForOneSampleAsItDid) {
+  for (const int t : {1000, 1010, 1020}) add_ms(t);
+  EXPECT_LT((*buffer.joints_at(Time{1030 * kMillisecond}) - joints(1030)).cwiseAbs().maxCoeff(),
+            1e-12);
+  EXPECT_FALSE(buffer.joints_at(Time{1031 * kMillisecond}));
+}
+
 TEST_F(FrameBufferOfTheLamp, KeepsTheNewestSamplesOnly) {
   for (int t = 0; t < 1000; t += 10) add_ms(t);
   EXPECT_EQ(buffer.newest(), Time{990 * kMillisecond});
@@ -52,6 +59,7 @@ TEST_F(FrameBufferOfTheLamp, KeepsTheNewestSamplesOnly) {
 
 TEST_F(FrameBufferOfTheLamp, SaysByHowMuchAnInstantIsOutsideOfTheHistory) {
   add_ms(3400);
+  add_ms(3490);
   add_ms(3500);
   EXPECT_EQ(buffer.joints_at(Time{3512 * kMillisecond}).error().text,
             "t = 3.512 s is 12.0 ms newer than the history");

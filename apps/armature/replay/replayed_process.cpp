@@ -11,16 +11,21 @@
 #include "armature/runtime/plugins/running_component.hpp"
 #include "armature/runtime/recording/recorded_description.hpp"
 #include "exit_code.hpp"
+#include "replay/announced_volumes.hpp"
 
 namespace armature {
 namespace {
 
-/// Why it cannot be repeated, or nothing.
-std::string why_not_replayed(const ComponentConfig& component) {
+/// Why it cannot be repeated, or nothing. `lost`: of topics that announce volumes which are lost.
+std::string why_not_replayed(const ComponentConfig& component,
+                             const std::map<std::string, std::string>& lost) {
   const auto is_impure = [](const SlotConfig& slot) { return !slot.manifest->pure; };
   if (!component.manifest->pure) return component.plugin_id + " says pure: false";
   if (component.manifest->uses_files) {
     return component.plugin_id + " writes files, or reads those that messages name";
+  }
+  for (const PortBinding& input : component.inputs) {
+    if (const auto why = lost.find(input.topic); why != lost.end()) return why->second;
   }
   const auto slot = std::ranges::find_if(component.slots, is_impure);
   return slot == component.slots.end() ? "" : slot->plugin_id + " says pure: false";
@@ -39,6 +44,7 @@ ReplayedProcess::ReplayedProcess(RecordedRun& run, PluginRegistry& plugins,
     }
   }
   try_together(config_, run.process());
+  lost_volumes_ = lost_volumes(run.file());
   for (const auto& [name, ports] : run.components()) {
     const bool is_wanted = only.empty() || std::ranges::find(only, name) != only.end();
     if (is_wanted) construct(name, ports, plugins);
@@ -62,8 +68,8 @@ void ReplayedProcess::construct(const std::string& name, const RecordedPorts& po
                                 PluginRegistry& plugins) {
   Entry& entry = entries_[name];
   const auto config = std::ranges::find(config_.components, name, &ComponentConfig::name);
-  entry.why_not =
-      config == config_.components.end() ? "it is not in the file" : why_not_replayed(*config);
+  entry.why_not = config == config_.components.end() ? "it is not in the file"
+                                                     : why_not_replayed(*config, lost_volumes_);
   if (!entry.why_not.empty()) return;
   const RunningComponent running{name, "constructor"};
   entry.component = std::make_unique<ReplayedComponent>(*config, config_, plugins, ports);

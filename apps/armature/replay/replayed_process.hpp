@@ -48,6 +48,7 @@ class ReplayedProcess {
   RecordedRun* run_;
   std::vector<std::string> notes_;
   DeploymentConfig config_;
+  std::map<std::string, std::string> lost_volumes_;  // why, by the topic that announces one
   std::map<std::string, Entry> entries_;
 };
 

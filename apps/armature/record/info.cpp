@@ -11,6 +11,7 @@
 #include "armature/recording/mcap_summary.hpp"
 #include "exit_code.hpp"
 #include "record/record.hpp"
+#include "record/recorded_processes.hpp"
 
 namespace armature {
 namespace {
@@ -28,9 +29,10 @@ std::string text_of(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
+/// What was recorded twice, by the process that wrote it and by one that read it, counts once.
 struct TopicCount {
   std::string type;
-  std::uint64_t messages = 0;
+  std::uint64_t messages = 0, doubled = 0;
   std::optional<std::uint64_t> bytes;  // a summary does not tell
   double hz = 0;
 };
@@ -69,18 +71,20 @@ Contents contents_of(const McapSummary& summary) {
                     .metadata = summary.metadata,
                     .links = summary.links,
                     .head = summary.head};
+  const std::vector<std::string> processes = processes_of(summary.metadata);
   for (const auto& [id, channel] : summary.channels) {
     TopicCount& topic = contents.topics[channel.topic];
     topic.type = type_of(channel, summary.schemas);
     const auto messages = summary.messages.find(id);
-    if (messages != summary.messages.end()) topic.messages += messages->second;
+    if (messages == summary.messages.end()) continue;
+    (is_doubled(channel, processes) ? topic.doubled : topic.messages) += messages->second;
   }
   for (auto& [name, topic] : contents.topics) topic.hz = rate(topic.messages, contents.length);
   return contents;
 }
 
-/// Reads all messages.
-Contents contents_of(McapReader& reader) {
+/// Reads all messages. `processes`: those of the recording.
+Contents contents_of(McapReader& reader, const std::vector<std::string>& processes) {
   struct Times {
     Time first, last;
     void add(Time time, bool is_first) {
@@ -94,8 +98,12 @@ Contents contents_of(McapReader& reader) {
   bool is_first = true;
   while (const auto message = reader.next()) {
     TopicCount& topic = contents.topics[message->channel->topic];
-    sent[message->channel->topic].add(message->publish_time, topic.messages++ == 0);
     arrived.add(message->log_time, std::exchange(is_first, false));
+    if (is_doubled(*message->channel, processes)) {
+      ++topic.doubled;
+      continue;
+    }
+    sent[message->channel->topic].add(message->publish_time, topic.messages++ == 0);
     topic.bytes = topic.bytes.value_or(0) + message->data.size();
   }
   for (const auto& [id, channel] : reader.channels()) {
@@ -117,6 +125,12 @@ Contents contents_of(McapReader& reader) {
   return contents;
 }
 
+std::uint64_t doubled_in(const Contents& contents) {
+  std::uint64_t doubled = 0;
+  for (const auto& [name, topic] : contents.topics) doubled += topic.doubled;
+  return doubled;
+}
+
 Json json_of(const Contents& contents, const std::vector<std::string>& problems) {
   Json json{{"library", contents.library},
             {"whole", problems.empty()},
@@ -125,11 +139,13 @@ Json json_of(const Contents& contents, const std::vector<std::string>& problems)
             {"chunks", contents.chunks},
             {"packed_bytes", contents.packed_bytes},
             {"unpacked_bytes", contents.unpacked_bytes},
+            {"doubled", doubled_in(contents)},
             {"topics", Json::array()},
             {"attachments", Json::array()},
             {"metadata", Json::array()}};
   for (const auto& [name, topic] : contents.topics) {
     Json told{{"topic", name}, {"type", topic.type}, {"messages", topic.messages}};
+    if (topic.doubled > 0) told["doubled"] = topic.doubled;
     if (topic.bytes) told["bytes"] = *topic.bytes;
     json["topics"].push_back(std::move(told));
   }
@@ -153,6 +169,10 @@ void print(const Contents& contents) {
     fmt::print("  {:<{}}  {:<40} {:>9} messages {:>9.1f} Hz", shown(name), width, shown(topic.type),
                topic.messages, topic.hz);
     fmt::print("{}\n", topic.bytes ? fmt::format(" {:>14}", megabytes(*topic.bytes)) : "");
+  }
+  if (const std::uint64_t doubled = doubled_in(contents)) {
+    fmt::print("  {} more messages were recorded a second time, by a process that read them\n",
+               doubled);
   }
   for (const auto& [name, bytes] : contents.attachments) {
     fmt::print("  attached: {}, {} bytes\n", shown(name), bytes);
@@ -257,7 +277,7 @@ int describe_recording(const InfoOptions& options) {
     }
   }
   McapReader reader{options.file, options.verify};
-  const Contents contents = contents_of(reader);
+  const Contents contents = contents_of(reader, recorded_processes(options.file));
   const McapChain chain = reader.chain();
   const bool is_head = options.head.empty() || options.head == chain.head;
   if (options.json) {

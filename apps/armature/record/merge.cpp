@@ -22,6 +22,7 @@
 #include "exit_code.hpp"
 #include "record/message_copy.hpp"
 #include "record/record.hpp"
+#include "record/recorded_processes.hpp"
 
 namespace armature {
 namespace {
@@ -38,9 +39,9 @@ class Part {
         return found == metadata.values.end() ? std::string{} : found->second;
       };
       if (metadata.name == kDeploymentMetadata) run_ = value("deployment") + " " + value("run");
-      if (metadata.name == kProcessMetadata) process_ = value("process");
     }
-    if (!run_.empty() && !process_.empty()) return;
+    processes_ = processes_of(reader_.metadata());
+    if (!run_.empty() && !processes_.empty()) return;
     throw InvalidChoice(fmt::format(
         "'{}' is no part of a run: only what a deployment records of itself (record:) can be "
         "joined",
@@ -49,7 +50,8 @@ class Part {
 
   const std::filesystem::path& file() const { return file_; }
   const std::string& run() const { return run_; }
-  const std::string& process() const { return process_; }
+  /// One, or those of a file that was joined before.
+  const std::vector<std::string>& processes() const { return processes_; }
   const McapReader& reader() const { return reader_; }
   /// When its next message was written; nothing: there is none.
   std::optional<Time> next_time() const {
@@ -60,12 +62,12 @@ class Part {
     copy_.write(*next_);
     step();
   }
-  /// After the last message.
-  McapMetadata metadata() const {
+  /// What is to be known of the part with the recording of `process`, after the last message.
+  McapMetadata metadata_of(const std::string& process) const {
     const McapChain chain = reader_.chain();
     return {.name = std::string{kPartMetadata},
             .values = {
-                {"process", process_},
+                {"process", process},
                 {"file", file_.filename().string()},
                 {"sha256", sha256_of_file(file_)},
                 {"chain", std::string{word_of(chain.verdict)}},
@@ -82,7 +84,8 @@ class Part {
   McapReader reader_;
   MessageCopy copy_;
   std::optional<McapMessage> next_;
-  std::string run_, process_;
+  std::string run_;
+  std::vector<std::string> processes_;
 };
 
 using Parts = std::vector<std::unique_ptr<Part>>;
@@ -95,10 +98,10 @@ void check_one_run(const Parts& parts) {
         throw InvalidChoice(fmt::format("'{}' and '{}' are of different runs",
                                         other->file().string(), part->file().string()));
       }
-      if (other->process() == part->process()) {
+      for (const std::string& process : part->processes()) {
+        if (std::ranges::find(other->processes(), process) == other->processes().end()) continue;
         throw InvalidChoice(fmt::format("'{}' and '{}' are both of process '{}'",
-                                        other->file().string(), part->file().string(),
-                                        part->process()));
+                                        other->file().string(), part->file().string(), process));
       }
     }
   }
@@ -179,7 +182,8 @@ JoinedRecording join_recordings(const std::vector<std::filesystem::path>& parts,
   JoinedRecording joined;
   for (const auto& part : open) {
     surroundings.copy_of(*part);
-    writer.add(part->metadata());
+    for (const std::string& process : part->processes()) writer.add(part->metadata_of(process));
+    joined.processes += part->processes().size();
     for (const std::string& problem : part->reader().problems()) {
       joined.problems.push_back(fmt::format("'{}': {}", part->file().string(), problem));
     }
@@ -199,8 +203,8 @@ int merge_recordings(const std::vector<std::filesystem::path>& parts,
   for (const std::string& problem : joined.problems) {
     fmt::print(stderr, "armature: {}\n", problem);
   }
-  fmt::print("{}: {} messages of {} processes, {}\n", out.string(), joined.messages, parts.size(),
-             megabytes(joined.bytes));
+  fmt::print("{}: {} messages of {} processes, {}\n", out.string(), joined.messages,
+             joined.processes, megabytes(joined.bytes));
   fmt::print("last hash {}\n", joined.head);
   return kOk;
 }

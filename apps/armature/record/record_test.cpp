@@ -8,6 +8,7 @@
 
 #include <chrono>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <random>
 #include <stdexcept>
 
@@ -188,6 +189,78 @@ TEST(JoinedRecording, IsNotMadeOfWhatIsNotOneRunAndLeavesEverythingAsItWas) {
   EXPECT_EQ(a.bytes(), before);
   for (const auto& entry : std::filesystem::directory_iterator{a.path().parent_path()}) {
     EXPECT_FALSE(entry.path().string().starts_with(a.path().string() + ".joining"));
+  }
+}
+
+TEST(JoinedRecording, MayHaveBeenJoinedBeforeAndHasNoProcessTwice) {
+  const RecordingFile a{"a"}, b{"b"}, c{"c"}, joined{"joined"}, all{"all"};
+  write_part(a.path(), "main", 10);
+  write_part(b.path(), "vision", 11);
+  write_part(c.path(), "desk", 12);
+  join_recordings({a.path(), b.path()}, joined.path());
+  const JoinedRecording whole = join_recordings({joined.path(), c.path()}, all.path());
+  EXPECT_EQ(whole.messages, 300U);
+  EXPECT_EQ(whole.processes, 3U);
+  McapReader reader{all.path()};
+  while (reader.next()) continue;
+  std::map<std::string, std::string> last_file;  // of the parts with a process
+  for (const McapMetadata& metadata : reader.metadata()) {
+    if (metadata.name == "armature.part") {
+      last_file[metadata.values.at("process")] = metadata.values.at("file");
+    }
+  }
+  EXPECT_EQ(last_file.at("main"), joined.path().filename().string());
+  EXPECT_EQ(last_file.at("vision"), joined.path().filename().string());
+  EXPECT_EQ(last_file.at("desk"), c.path().filename().string());
+  for (const RecordingFile* again : {&a, &b}) {
+    EXPECT_THROW(join_recordings({joined.path(), again->path()}, all.path()), InvalidChoice);
+  }
+}
+
+/// What `armature info --json` tells.
+nlohmann::json info_of(const std::filesystem::path& file, bool verify) {
+  testing::internal::CaptureStdout();
+  EXPECT_EQ(describe_recording({.file = file, .json = true, .verify = verify}), kOk);
+  return nlohmann::json::parse(testing::internal::GetCapturedStdout());
+}
+
+TEST(Info, CountsAMessageOnceThatItsWriterAndAReaderHaveRecorded) {
+  const RecordingFile file{"info"};
+  {
+    McapWriter writer{file.path(), {.chunk_bytes = 1024}};
+    for (const char* process : {"main", "vision"}) {
+      writer.add(McapMetadata{.name = "armature.process", .values = {{"process", process}}});
+    }
+    const auto schema = writer.add(
+        McapSchema{.name = "std_msgs/msg/String", .encoding = "ros2msg", .data = "string data\n"});
+    const auto channel_of = [&](std::map<std::string, std::string> metadata) {
+      return writer.add(McapChannel{.schema_id = schema,
+                                    .topic = "/a",
+                                    .message_encoding = "cdr",
+                                    .metadata = std::move(metadata)});
+    };
+    const std::vector<std::pair<std::uint16_t, int>> counts{
+        {channel_of({{"process", "vision"}}), 100},
+        {channel_of({{"process", "main"}, {"from", "vision"}}), 40},
+        {channel_of({{"process", "main"}, {"from", "vision,desk"}}), 7}};  // desk is not in it
+    for (const auto& [channel, count] : counts) {
+      for (int i = 0; i < count; ++i) {
+        const std::string text = payload(1);
+        const Time time{10'000'000 * (i + 1)};
+        writer.write(channel, static_cast<std::uint32_t>(i), time, time,
+                     std::as_bytes(std::span{text}));
+      }
+    }
+    writer.close();
+  }
+  for (const bool verify : {false, true}) {
+    const nlohmann::json info = info_of(file.path(), verify);
+    EXPECT_EQ(info["doubled"], 40) << info.dump(1);
+    ASSERT_EQ(info["topics"].size(), 1U);
+    EXPECT_EQ(info["topics"][0]["messages"], 107);
+    EXPECT_EQ(info["topics"][0]["doubled"], 40);
+    if (!verify) continue;
+    EXPECT_EQ(info["topics"][0]["bytes"], 107 * payload(1).size());
   }
 }
 

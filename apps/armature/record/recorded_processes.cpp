@@ -11,21 +11,22 @@ namespace armature {
 
 std::vector<std::string> recorded_processes(const std::filesystem::path& file) {
   McapReader reader{file};
-  std::vector<std::string> processes;
-  const auto read = [&] {
-    processes.clear();
-    for (const McapMetadata& metadata : reader.metadata()) {
-      const auto process = metadata.values.find(kProcessKey);
-      if (metadata.name != kProcessMetadata || process == metadata.values.end()) continue;
-      if (std::ranges::find(processes, process->second) == processes.end()) {
-        processes.push_back(process->second);
-      }
-    }
-    return !processes.empty();
-  };
   // They stand at the beginning, but behind everything in a recording that was repaired.
-  while (reader.next() && !read()) continue;
-  if (!read()) processes.emplace_back();
+  while (reader.next() && processes_of(reader.metadata()).empty()) continue;
+  std::vector<std::string> processes = processes_of(reader.metadata());
+  if (processes.empty()) processes.emplace_back();
+  return processes;
+}
+
+std::vector<std::string> processes_of(const std::vector<McapMetadata>& metadata) {
+  std::vector<std::string> processes;
+  for (const McapMetadata& one : metadata) {
+    const auto process = one.values.find(kProcessKey);
+    if (one.name != kProcessMetadata || process == one.values.end()) continue;
+    if (std::ranges::find(processes, process->second) == processes.end()) {
+      processes.push_back(process->second);
+    }
+  }
   return processes;
 }
 

@@ -13,6 +13,9 @@ namespace armature {
 /// from outside one without a name. Throws std::runtime_error for a file that is no recording.
 std::vector<std::string> recorded_processes(const std::filesystem::path& file);
 
+/// The same of what a file says of itself; empty: it does not name one.
+std::vector<std::string> processes_of(const std::vector<McapMetadata>& metadata);
+
 /// True when a channel has what one process got from others, and the recordings of all of these are
 /// in the file, too: a viewer would show it twice.
 bool is_doubled(const McapChannel& channel, const std::vector<std::string>& processes);

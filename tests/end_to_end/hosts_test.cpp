@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <csignal>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -58,6 +59,43 @@ TEST_F(Hosts, RunOneDeploymentByOneClock) {
   std::ranges::sort(delays);
   EXPECT_GT(delays.front(), -0.001);
   EXPECT_LT(delays[delays.size() / 2], 0.02);
+}
+
+TEST_F(Hosts, HaveARecordingEachThatOneCommandJoinsAndThatComesBackBitForBit) {
+  namespace fs = std::filesystem;
+  const fs::path folder =
+      fs::temp_directory_path() / ("armature-hosts-" + std::to_string(getpid()));
+  fs::create_directories(folder);
+  const std::string file = folder / "run.mcap", part = folder / "run.aside.mcap",
+                    all = folder / "whole.mcap";
+  auto settings = pulse("1");
+  settings.push_back("record.file=" + file);
+  const auto main = start_main(settings), desk = start_desk(settings);
+  const auto ended = main->finish(kTimeout), desk_ended = desk->finish(kTimeout);
+  ASSERT_EQ(ended.exit_code, 0) << ended.err << desk_ended.err;
+  EXPECT_THAT(ended.err, HasSubstr("host 'desk' has recorded run.aside.mcap there; brought here, "
+                                   "it is joined by: armature record --merge run.mcap "
+                                   "run.aside.mcap -o whole.mcap"));
+  const auto merge = run_command({armature(), "record", "--merge", file, part, "-o", all});
+  EXPECT_EQ(merge.exit_code, 0) << merge.err;
+  EXPECT_THAT(merge.out, HasSubstr(" of 2 processes"));
+  const auto replay = run_command({"/usr/bin/env", "ARMATURE_PLUGIN_PATH=" TEST_PLUGINS, armature(),
+                                   "replay", all, "--check", "--json"});
+  EXPECT_EQ(replay.exit_code, 0) << replay.out << replay.err;
+  const auto checked = nlohmann::json::parse(replay.out);
+  EXPECT_TRUE(checked["identical"]);
+  EXPECT_GT(checked["exchanged"]["compared"], 50);
+  EXPECT_EQ(checked["exchanged"]["unwritten"], 0);
+  const auto info = nlohmann::json::parse(run_command({armature(), "info", all, "--json"}).out);
+  std::vector<std::string> clocks;  // of the desk, at the beginning and at the end
+  for (const auto& metadata : info["metadata"]) {
+    if (!metadata["values"].contains("clock_ahead_s")) continue;
+    EXPECT_EQ(metadata["values"]["process"], "aside");
+    clocks.push_back(metadata["values"]["clock_ahead_s"]);
+  }
+  ASSERT_EQ(clocks.size(), 2U) << info.dump(1);
+  for (const std::string& ahead_s : clocks) EXPECT_LT(std::abs(std::stod(ahead_s)), 0.02);
+  fs::remove_all(folder);
 }
 
 TEST_F(Hosts, TheOtherOneMayBeThereFirst) {

@@ -157,6 +157,7 @@ TEST_F(Replay, WhatWasJoinedComesBackAsItsPartsDo) {
   EXPECT_EQ(run_command({armature(), "info", "--verify", all}).exit_code, 0);
   json of_all = check({all}, 0);
   EXPECT_GT(of_all["exchanged"]["compared"], 20U);
+  EXPECT_EQ(of_all["exchanged"]["numbered"], of_all["exchanged"]["compared"]);
   EXPECT_EQ(of_all["exchanged"]["unwritten"], 0);
   for (const char* other : {"took_s", "exchanged"}) {
     of_all.erase(other);
@@ -179,6 +180,11 @@ TEST_F(Replay, WhatWasJoinedComesBackAsItsPartsDo) {
       run_command({armature(), "report", all, "-o", file("all.html")}, {}, kEnough);
   EXPECT_THAT(report.out, HasSubstr(" of " + std::to_string(messages - doubled) + " messages"))
       << "a page shows nothing twice";
+  const json info = json::parse(run_command({armature(), "info", all, "--json"}).out);
+  std::uint64_t counted = 0;
+  for (const json& topic : info["topics"]) counted += topic["messages"].get<std::uint64_t>();
+  EXPECT_EQ(counted, messages - doubled);
+  EXPECT_EQ(info["doubled"], doubled);
 }
 
 TEST_F(Replay, AProcessThatWasKilledIsInTheJoinedRecordingAsFarAsItCame) {
@@ -374,6 +380,41 @@ TEST_F(Replay, WhatARunHasWrittenIsNotWrittenAgain) {
   EXPECT_THAT(std::string{component_of(checked, "rows")["not_replayed"]},
               HasSubstr("writes files"));
   EXPECT_EQ(fs::file_size(file("rows.csv")), 4U);
+}
+
+TEST_F(Replay, WhatWasFoundInAVolumeIsFoundAgainWhereTheVolumeIsAsItWas) {
+  const fs::path scan = file("scan.nrrd");
+  const CommandResult run = run_command(
+      {armature(), "run", source_file("configs/sr1_from_images.yaml"), "--set",
+       "record.file=" + file(), "--set", "components.tomograph.params.file=" + scan.string(),
+       "--domain", std::to_string(unique_dds_domain())},
+      {}, kEnough);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const json checked = check({file()}, 0);
+  EXPECT_TRUE(checked["identical"]);
+  for (const char* name : {"markers", "planner", "sections"}) {
+    EXPECT_FALSE(component_of(checked, name).contains("not_replayed")) << name;
+    EXPECT_GT(component_of(checked, name)["outputs"], 0) << name;
+  }
+  EXPECT_THAT(std::string{component_of(checked, "tomograph")["not_replayed"]},
+              HasSubstr("writes files"));
+  {
+    std::fstream voxels{scan, std::ios::in | std::ios::out | std::ios::binary};
+    voxels.seekp(-1, std::ios::end);
+    voxels.put('\x7F');
+  }
+  const json changed = check({file()}, 0);
+  EXPECT_THAT(std::string{component_of(changed, "markers")["not_replayed"]},
+              HasSubstr("and '" + scan.string() +
+                        "' holds another volume than the one that was announced; put back the one "
+                        "with "));
+  fs::remove(scan);
+  const json gone = check({file()}, 0);
+  EXPECT_TRUE(gone["identical"]) << "of the others";
+  for (const char* name : {"markers", "planner", "sections"}) {
+    EXPECT_THAT(std::string{component_of(gone, name)["not_replayed"]},
+                HasSubstr("there is no '" + scan.string() + "'"));
+  }
 }
 
 TEST_F(Replay, WhatHappenedAroundATroubleIsInAFileOfItsOwn) {

@@ -61,6 +61,7 @@ TEST(CycloneDds, ReadsOurJointStatesWithEqualValues) {
       SampleRef sample = pool.loan();
       fill(*static_cast<msg::JointState*>(sample.mutable_message()), i);
       sample.mutable_info().published = options.now();
+      sample.mutable_info().sequence = static_cast<std::uint64_t>(i) + 1;
       writer->offer(sample);
       std::this_thread::sleep_for(std::chrono::milliseconds{10});
     }

@@ -256,7 +256,9 @@ void print_json(const std::vector<std::unique_ptr<Check>>& checks, const Totals&
             {"length_s", totals.length_s},
             {"took_s", took_s},
             {"exchanged",
-             {{"compared", totals.exchanged.compared}, {"unwritten", totals.exchanged.unwritten}}},
+             {{"compared", totals.exchanged.compared},
+              {"numbered", totals.exchanged.numbered},
+              {"unwritten", totals.exchanged.unwritten}}},
             {"components", Json::array()}};
   std::set<std::pair<std::filesystem::path, std::string>> told;
   for (const auto& check : checks) {
@@ -272,8 +274,11 @@ void print_json(const std::vector<std::unique_ptr<Check>>& checks, const Totals&
 
 void print(const ExchangedSamples& exchanged) {
   if (exchanged.compared > 0) {
-    fmt::print("{} samples that processes read of each other are as they were written\n",
-               with_commas(exchanged.compared));
+    fmt::print(
+        "{} samples that processes read of each other are as they were written, {} of them found "
+        "by "
+        "their writer's number\n",
+        with_commas(exchanged.compared), with_commas(exchanged.numbered));
   }
   if (!exchanged.first) return;
   fmt::print(

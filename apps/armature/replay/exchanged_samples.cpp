@@ -27,11 +27,19 @@ std::string process_of(const McapChannel& channel) {
   return process == channel.metadata.end() ? std::string{} : process->second;
 }
 
-/// What one writer has recorded: where in its order each content stands.
+/// What one writer has recorded: where in its order each content stands, and each number's content.
 struct Written {
   std::uint64_t count = 0;
   std::unordered_map<std::size_t, std::vector<std::uint64_t>> places;  // by hash, ascending
+  std::unordered_map<std::uint32_t, std::size_t> hashes;               // by number
 
+  /// The number, if it comes behind `after` and has that content.
+  std::optional<std::uint64_t> find_number(std::uint32_t number, std::size_t hash,
+                                           std::uint64_t after) const {
+    const auto known = hashes.find(number);
+    const bool is_it = known != hashes.end() && known->second == hash && number > after;
+    return is_it ? std::optional<std::uint64_t>{number} : std::nullopt;
+  }
   /// The first place of it behind `after`.
   std::optional<std::uint64_t> find(std::size_t hash, std::uint64_t after) const {
     const auto known = places.find(hash);
@@ -61,7 +69,9 @@ Writers all_written(const std::filesystem::path& file) {
   while (const auto message = reader.next()) {
     if (!is_original(*message->channel)) continue;
     Written& written = writers[message->channel->topic][message->channel->id];
-    written.places[hash_of(*message)].push_back(++written.count);
+    const std::size_t hash = hash_of(*message);
+    written.places[hash].push_back(++written.count);
+    written.hashes[message->sequence] = hash;
   }
   return writers;
 }
@@ -82,13 +92,16 @@ ExchangedSamples compare_exchanged(const std::filesystem::path& file) {
     const auto candidates = writers.find(channel.topic);
     if (!is_doubled(channel, processes) || candidates == writers.end()) continue;
     const std::size_t hash = hash_of(*message);
+    const bool is_numbered = channel.metadata.contains(kNumberedKey);
     const bool is_written = std::ranges::any_of(candidates->second, [&](const auto& candidate) {
       std::uint64_t& after = last[{channel.id, candidate.first}];
-      const auto place = candidate.second.find(hash, after);
+      const auto place = is_numbered ? candidate.second.find_number(message->sequence, hash, after)
+                                     : candidate.second.find(hash, after);
       if (place) after = *place;
       return place.has_value();
     });
     ++(is_written ? exchanged.compared : exchanged.unwritten);
+    if (is_written && is_numbered) ++exchanged.numbered;
     if (is_written || exchanged.first) continue;
     exchanged.first = {.topic = channel.topic,
                        .reader = process_of(channel),

@@ -4,17 +4,23 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "armature/recording/recording_test.hpp"
+#include "armature/runtime/recording/recorded_description.hpp"
 
 namespace armature {
 namespace {
 
 class ExchangedSamplesTest : public testing::Test {
  protected:
-  ExchangedSamples compare(const std::vector<int>& written, const std::vector<int>& read) {
+  /// `numbers` of those that were read, as their writer gave them; none: they are not told. It
+  /// numbered what it wrote from 1 on.
+  ExchangedSamples compare(const std::vector<int>& written, const std::vector<int>& read,
+                           const std::vector<std::uint32_t>& numbers = {}) {
     McapWriter writer{file_.path(), {}};
     for (const char* process : {"main", "vision"}) {
       writer.add(McapMetadata{.name = "armature.process", .values = {{"process", process}}});
@@ -24,15 +30,20 @@ class ExchangedSamplesTest : public testing::Test {
           McapChannel{.topic = "/face", .message_encoding = "", .metadata = std::move(metadata)});
     };
     const auto original = channel({{"process", "vision"}, {"writer", "4096"}});
-    const auto copy = channel({{"process", "main"}, {"writer", "2147483648"}, {"from", "vision"}});
+    std::map<std::string, std::string> of_copy{
+        {"process", "main"}, {"writer", "2147483648"}, {"from", "vision"}};
+    if (!numbers.empty()) of_copy[kNumberedKey] = "by its writer";
+    const auto copy = channel(of_copy);
     int at = 0;
-    const auto write = [&](std::uint16_t to, int content) {
+    const auto write = [&](std::uint16_t to, int content, std::uint32_t number) {
       const std::string text = payload(content);
       const Time time{1'000'000 * ++at};
-      writer.write(to, 1, time, time, std::as_bytes(std::span{text}));
+      writer.write(to, number, time, time, std::as_bytes(std::span{text}));
     };
-    for (const int content : read) write(copy, content);  // also before it was written
-    for (const int content : written) write(original, content);
+    for (std::size_t i = 0; i < read.size(); ++i) {  // also before it was written
+      write(copy, read[i], numbers.empty() ? 1 : numbers.at(i));
+    }
+    for (std::uint32_t i = 0; i < written.size(); ++i) write(original, written[i], i + 1);
     writer.close();
     return compare_exchanged(file_.path());
   }
@@ -59,6 +70,17 @@ TEST_F(ExchangedSamplesTest, OneThatIsOtherThanWrittenIsNamed) {
 TEST_F(ExchangedSamplesTest, OneThatComesTwiceOrTooLateIsNotAsItWasWritten) {
   EXPECT_EQ(compare({1, 2, 3}, {1, 2, 2, 3}).unwritten, 1U) << "twice";
   EXPECT_EQ(compare({1, 2, 3}, {1, 3, 2}).unwritten, 1U) << "out of order";
+}
+
+TEST_F(ExchangedSamplesTest, AreKnownByTheNumbersThatTheirWriterGaveAlsoWhenAllAreAlike) {
+  const ExchangedSamples some = compare({5, 5, 5, 6}, {5, 5, 6}, {1, 3, 4});
+  EXPECT_EQ(some.compared, 3U);
+  EXPECT_EQ(some.numbered, 3U);
+  EXPECT_EQ(some.unwritten, 0U);
+  EXPECT_EQ(compare({5, 5, 5}, {5, 5}, {2, 2}).unwritten, 1U) << "twice";
+  EXPECT_EQ(compare({5, 5, 5}, {5, 5}, {3, 2}).unwritten, 1U) << "out of order";
+  EXPECT_EQ(compare({5, 6, 5}, {5}, {2}).unwritten, 1U) << "another one's number";
+  EXPECT_EQ(compare({5, 5}, {5}, {3}).unwritten, 1U) << "a number that was not written";
 }
 
 TEST_F(ExchangedSamplesTest, TopicsOfWhichTheWriterRecordedNothingAreLeftOut) {

@@ -58,6 +58,25 @@ Time named_after(const DeploymentConfig& config, Time time) {
   return config.simulated ? SystemClock{}.now() : time;
 }
 
+/// Names what stays on other hosts, which are not reached from here, and what joins it.
+void tell_other_hosts(const std::filesystem::path& recording, const DeploymentConfig& config,
+                      Console& console) {
+  for (const std::string& host : config.hosts()) {
+    if (host == kMainHost) continue;
+    std::vector<std::string> files;
+    for (const std::string& name : config.processes()) {
+      if (config.host_of(name) != host) continue;
+      files.push_back(RecordConfig::part_of(recording.filename(), name).string());
+    }
+    if (files.empty()) continue;
+    console.line("runtime",
+                 fmt::format("host '{}' has recorded {} there; brought here, it is joined by: "
+                             "armature record --merge {} {} -o whole.mcap",
+                             host, fmt::join(files, " and "), recording.filename().string(),
+                             fmt::join(files, " ")));
+  }
+}
+
 }  // namespace
 
 void check_recordings(const DeploymentConfig& config, const std::string& process, Time start) {
@@ -123,6 +142,7 @@ bool joined(const std::filesystem::path& recording, const DeploymentConfig& conf
   std::vector<std::string> missing;
   const auto parts = parts_of(recording, config, missing);
   for (const std::string& part : missing) console.tell(part);
+  tell_other_hosts(recording, config, console);
   if (parts.size() < 2) return missing.empty();
   constexpr std::uintmax_t kTakesSeconds = 200'000'000;
   std::uintmax_t bytes = 0;

@@ -17,14 +17,16 @@ TEST_F(FastDds, TwoProcessesExchangeSamples) {
   const Time before = system_now();
   ASSERT_TRUE(eventually([&] { return writer->matched_readers() == 1 && reader->writers() == 1; }));
   ASSERT_TRUE(eventually([&] {
-    writer->offer(sample(0.125));
+    SampleRef numbered = sample(0.125);
+    numbered.mutable_info().sequence = 5'000'000'007;
+    writer->offer(numbered);
     return received() > 0;
   }));
   const std::scoped_lock lock{mutex_};
   EXPECT_EQ(received_[0].position_(), (std::vector<double>{0.125, -0.125}));
   EXPECT_EQ(received_[0].name_(), (std::vector<std::string>{"a", "b"}));
   EXPECT_EQ(stamp_of(received_[0].header_().stamp_()).ns, 42);
-  EXPECT_EQ(infos_[0].sequence, 1U);
+  EXPECT_EQ(infos_[0].sequence, 5'000'000'007U) << "there and back, as the writer numbers it";
   // The echo keeps the time at which this process published; DDS rounds to 2^-32 s.
   EXPECT_GE(infos_[0].published.ns, before.ns - 1);
   EXPECT_LE(infos_[0].published, system_now());
@@ -105,23 +107,30 @@ TEST_F(FastDds, MessagesLargerThanADatagramCross) {
   for (const char* folder : {"/dev/shm", "/proc"}) {
     SCOPED_TRACE(folder);
     const auto transport = make_transport({.folder = folder});
+    const auto viewer = make_transport({.folder = folder});
     const MessageType& image_type = message_type<msg::Image>();
     SamplePool images{image_type, 2};
     const auto writer =
         transport->advertise({"rt/test/image", &image_type, QosProfile::sensor}).value();
     const auto observer = DdsObserver::make({.network = {.domain = domain_}}).value();
     std::atomic<std::size_t> bytes{0};
+    std::atomic<std::uint64_t> number{0};
+    const auto reader =
+        viewer->subscribe({"rt/test/image", &image_type, QosProfile::sensor}, false,
+                          [&](const SampleRef& seen) { number = seen.info().sequence; });
     ASSERT_TRUE(observer->watch("rt/test/image", seconds(30),
                                 [&](const ObservedSample& seen) { bytes = seen.cdr.size(); }));
     ASSERT_TRUE(eventually([&] {
       SampleRef image = images.loan();
       static_cast<msg::Image*>(image.mutable_message())->data_().assign(1280 * 720, 200);
       image.mutable_info().published = system_now();
+      image.mutable_info().sequence = 42;
       writer->offer(image);
       std::this_thread::sleep_for(30ms);
-      return bytes > 0;
+      return bytes > 0 && number > 0;
     }));
     EXPECT_GT(bytes, 1280U * 720U);
+    EXPECT_EQ(number, 42U) << "it travels with the fragments, too";
   }
 }
 

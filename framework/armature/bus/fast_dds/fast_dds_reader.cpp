@@ -99,10 +99,18 @@ class FastDdsReader final : public RemoteReader, private dds::DataReaderListener
       report_undecodable(writer);
       return true;
     }
-    next_.mutable_info() = {
-        .published = published, .sequence = sequence, .lost_before = std::exchange(lost_, 0)};
+    next_.mutable_info() = {.published = published,
+                            .sequence = number_of(info),
+                            .lost_before = std::exchange(lost_, 0)};
     deliver_(std::move(next_));
     return true;
+  }
+
+  /// How its own process numbers the sample; 0: another program, which does not say.
+  static std::uint64_t number_of(const dds::SampleInfo& info) {
+    const auto& told = info.related_sample_identity;
+    const bool is_of_writer = told.writer_guid() == info.sample_identity.writer_guid();
+    return is_of_writer ? told.sequence_number().to64long() : 0;
   }
 
   /// Of what changes seldom the newest is wanted, and no more.

@@ -82,6 +82,11 @@ class FastDdsWriter final : public RemoteWriter, private dds::DataWriterListener
       stamp.from_ns(sample.info().published.ns);
       params.source_timestamp(stamp);
     }
+    if (const std::uint64_t number = sample.info().sequence; number > 0) {
+      // DDS numbers what it sends; readers in the deployment are told how the writer numbers it.
+      params.related_sample_identity().writer_guid(writer_->guid());
+      params.related_sample_identity().sequence_number(rtps::SequenceNumber_t{number});
+    }
     if (!writer_->write(&outgoing, params)) {
       link_->conflicts.report(
           {TransportEvent::Kind::note, topic_.name,

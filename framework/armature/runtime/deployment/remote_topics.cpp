@@ -14,6 +14,21 @@ namespace {
 /// in which they come.
 constexpr std::uint32_t kRemote = 1U << 31;
 
+/// The numbers of what one reader gets: those that the writer has given, where there is only one,
+/// else their count. They always rise, also where a writer begins anew.
+class Numbering {
+ public:
+  explicit Numbering(bool is_of_one_writer) : is_of_one_writer_{is_of_one_writer} {}
+  std::uint64_t next(std::uint64_t of_writer) {
+    last_ = is_of_one_writer_ && of_writer > last_ ? of_writer : last_ + 1;
+    return last_;
+  }
+
+ private:
+  bool is_of_one_writer_;
+  std::uint64_t last_ = 0;
+};
+
 }  // namespace
 
 void RemoteTopics::advertise(const PortBinding& output, Topic& topic) {
@@ -38,9 +53,10 @@ void RemoteTopics::subscribe(const PortBinding& input, Topic& topic) {
   auto reader = transport_->subscribe(
       spec, sources == Sources::deployment,
       [&topic, sources, writer = kRemote + static_cast<std::uint32_t>(readers_.size()),
-       received = std::uint64_t{0}](SampleRef sample) mutable {
+       numbers =
+           Numbering{writers == 1 && sources == Sources::deployment}](SampleRef sample) mutable {
         sample.mutable_info().writer = writer;
-        sample.mutable_info().sequence = ++received;
+        sample.mutable_info().sequence = numbers.next(sample.info().sequence);
         topic.deliver(sample, sources);
       });
   if (!reader) throw PluginError("cannot read " + input.topic + ": " + reader.error().text);

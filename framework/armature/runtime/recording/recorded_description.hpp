@@ -20,6 +20,13 @@ inline constexpr std::string_view kPartMetadata = "armature.part";  // of files 
 /// processes of the deployment the names of these, "vision,arm".
 inline constexpr const char* kProcessKey = "process";
 inline constexpr const char* kFromKey = "from";
+/// Key of a channel with samples of one writer in another process: they have the numbers that it
+/// gave them, and so have those that its own process recorded.
+inline constexpr const char* kNumberedKey = "numbered";
+/// Keys of the metadata of a process on another host than the main one: its name, and by how many
+/// seconds the deployment's clock, by which everything is recorded, was ahead of its own.
+inline constexpr const char* kHostKey = "host";
+inline constexpr const char* kClockAheadKey = "clock_ahead_s";
 
 /// Name of the attachment with the figures of the run (figures_json): of its main process, and of a
 /// run that came to its end.

@@ -45,17 +45,16 @@ std::string wholeness_of(const RunRecorder::Options& options) {
   return options.thin ? "thin" : "yes";
 }
 
-/// The other processes of the deployment that write a topic: "vision,arm".
-std::string writers_elsewhere(const std::string& topic, const std::string& process,
-                              const DeploymentConfig& deployment) {
-  std::set<std::string> processes;
+/// The other processes of the deployment that write a topic, one for each writer.
+std::multiset<std::string> writers_elsewhere(const std::string& topic, const std::string& process,
+                                             const DeploymentConfig& deployment) {
+  std::multiset<std::string> writers;
   for (const ComponentConfig& component : deployment.components) {
     if (component.process == process) continue;
-    const bool is_writer =
-        std::ranges::find(component.outputs, topic, &PortBinding::topic) != component.outputs.end();
-    if (is_writer) processes.insert(component.process);
+    const auto count = std::ranges::count(component.outputs, topic, &PortBinding::topic);
+    for (std::ptrdiff_t i = 0; i < count; ++i) writers.insert(component.process);
   }
-  return fmt::format("{}", fmt::join(processes, ","));
+  return writers;
 }
 
 /// How often messages are kept in a thin recording: twice as often as a page shows them, because
@@ -91,12 +90,21 @@ bool RunRecorder::Sequences::add(std::uint64_t sequence) {
 
 RunRecorder::RunRecorder(Options options, const DeploymentConfig& deployment,
                          const Runners& runners, const Clock& clock)
-    : options_{std::move(options)}, queue_{queue_of(options_, deployment.simulated)} {
+    : options_{std::move(options)},
+      clock_{clock},
+      other_host_{deployment.host_of(options_.description.process_())},
+      queue_{queue_of(options_, deployment.simulated)} {
+  if (other_host_ == kMainHost) other_host_.clear();
+
   const msg::DeploymentDescription& description = options_.description;
   attach_description(description, clock.now(), queue_);
   std::map<std::string, std::string> process{{"process", description.process_()},
                                              {"processor", processor_level()},
                                              {"whole", wholeness_of(options_)}};
+  if (!other_host_.empty()) {
+    process[kHostKey] = other_host_;
+    process[kClockAheadKey] = fmt::format("{:.6f}", to_seconds(clock_ahead()));
+  }
   for (const auto& component : description.components_()) {
     for (const auto& plugin : component.plugins_()) {
       if (!plugin.library_().empty()) process["library of " + plugin.plugin_()] = plugin.sha256_();
@@ -133,13 +141,16 @@ void RunRecorder::add(ComponentRunner& runner, const ComponentConfig& config,
   for (const auto& input : runner.inbox().ports()) {
     const auto binding = std::ranges::find(config.inputs, input->spec().name,
                                            [](const PortBinding& port) { return port.spec.name; });
+    // What is open may also come from programs that record nothing.
+    const auto writers = input->spec().outside
+                             ? std::multiset<std::string>{}
+                             : writers_elsewhere(binding->topic, process, deployment);
     component.inputs.push_back(
         {.topic = binding->topic,
          .type = &input->type(),
          .qos = input->spec().qos,
-         // What is open may also come from programs that record nothing.
-         .from =
-             input->spec().outside ? "" : writers_elsewhere(binding->topic, process, deployment)});
+         .from = fmt::format("{}", fmt::join(std::set(writers.begin(), writers.end()), ",")),
+         .is_of_one_writer = writers.size() == 1});
     ports[fmt::format("input {}", index++)] = input->spec().name;
   }
   for (OutputPort& output : runner.outputs()) {
@@ -175,6 +186,7 @@ RunRecorder::Channel& RunRecorder::add_channel(std::uint32_t writer, const Port&
              .type = port.type,
              .qos = port.qos,
              .from = port.from,
+             .is_of_one_writer = port.is_of_one_writer,
              .is_kept = is_kept,
              .thinning = Thinning{options_.thin ? thin_rate_hz(*port.type) : std::nullopt}};
 }
@@ -265,6 +277,7 @@ void RunRecorder::keep(const SampleRef& sample, Time at, Channel& channel) {
                                                 {"qos", std::string{to_string(channel.qos)}},
                                                 {kProcessKey, options_.description.process_()}};
     if (!channel.from.empty()) metadata[kFromKey] = channel.from;
+    if (channel.is_of_one_writer) metadata[kNumberedKey] = "by its writer";
     channel.id =
         queue_.add_channel(channel.topic, std::string{channel.type->dds_name}, std::move(metadata));
   }
@@ -306,10 +319,15 @@ std::string RunRecorder::close(const std::optional<McapAttachment>& figures) {
   return text;
 }
 
+Duration RunRecorder::clock_ahead() const { return clock_.now() - SystemClock{}.now(); }
+
 /// What a replay cannot see in the activations: those that were lost last, and calls that have not
 /// returned. Where this is missing, the recording was cut off.
 void RunRecorder::add_end() {
   std::map<std::string, std::string> values{{kProcessKey, options_.description.process_()}};
+  if (!other_host_.empty()) {
+    values[kClockAheadKey] = fmt::format("{:.6f}", to_seconds(clock_ahead()));
+  }
   for (const auto& component : components_) {
     const std::string& name = component->call.component_();
     if (component->is_of_runtime) continue;

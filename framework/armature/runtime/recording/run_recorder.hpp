@@ -68,6 +68,7 @@ class RunRecorder {
     const MessageType* type;
     QosProfile qos;
     std::string from = {};  // the deployment's other processes that write what is read; or ""
+    bool is_of_one_writer = false;  // there
   };
   /// One that is recorded: its ring, and the call that is being taken from it.
   struct Component {
@@ -97,6 +98,7 @@ class RunRecorder {
     const MessageType* type = nullptr;
     QosProfile qos = QosProfile::state;
     std::string from = {};
+    bool is_of_one_writer = false;
     bool is_kept = false;
     Thinning thinning{std::nullopt};
     std::optional<std::uint16_t> id = {};  // in the file, from its first sample on
@@ -106,6 +108,8 @@ class RunRecorder {
     void deliver(const SampleRef&) override {}
   };
 
+  /// By how much the deployment's clock is ahead of that of this host.
+  Duration clock_ahead() const;
   static McapQueue queue_of(const Options& options, bool simulated);
   void add_end();
   void tell_problem(const std::string& problem);
@@ -121,6 +125,8 @@ class RunRecorder {
   void end_thread();
 
   Options options_;
+  const Clock& clock_;
+  std::string other_host_;  // that this is; empty: the main one
   McapQueue queue_;
   std::uint16_t activations_ = 0;  // the channel
   std::uint64_t count_ = 0;        // of them

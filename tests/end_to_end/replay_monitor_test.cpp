@@ -119,6 +119,17 @@ TEST_F(ReplayMonitor, TellsFoxgloveThatItCanBePlayedAndHowLongItIs) {
   EXPECT_EQ(told.at_ns, kStart_ns);
 }
 
+TEST_F(ReplayMonitor, TellsThatItPlaysOnceSomebodyLooks) {
+  const Command replay = start();
+  WebSocket socket{port_of(replay), protocol("foxglove.sdk.v1")};
+  const json channel = channel_of("/count", socket);
+  EXPECT_EQ(next_state(socket).status, Told::paused);
+  subscribe(1, channel, socket);
+  const Told told = next_state(socket);
+  EXPECT_EQ(told.status, Told::playing) << "nobody has asked";
+  EXPECT_FALSE(told.jumped);
+}
+
 TEST_F(ReplayMonitor, PlaysPausesAndSeeksAsItIsAsked) {
   Command replay = start();
   WebSocket socket{port_of(replay), protocol("foxglove.sdk.v1")};

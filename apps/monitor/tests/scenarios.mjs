@@ -225,12 +225,14 @@ async function playback(domain) {
     await output(['record', '-o', file, '--timeout', '10', '--domain', String(domain)]);
     await deployment.end();
     const server = await played(file);
-    const page = await openPage(server.url), tablet = await openPage(server.url, {width: 1024, height: 768}, true);
+    const page = await openPage(server.url);
     const of = (one) => one.evaluate(() => {
       const {start, end, position, speed, isPlaying} = armature.playhead;
       return {at: position - start, span: end - start, speed, isPlaying, shown: armature.hub.store.newest - start, store: armature.hub.store.newest};
     });
-    await until(async () => (await of(page)).at > 0.5, 'it to play');
+    await until(async () => (await of(page)).at > 0.5 && (await of(page)).isPlaying, 'it to play, and to say so');
+    const tablet = await openPage(server.url, {width: 1024, height: 768}, true);
+    await until(async () => (await of(tablet)).isPlaying, 'the other page to say so, too');
     assert.ok((await of(page)).span > 5, 'the bar is that of the whole recording');
     await page.keyboard.press('Space');
     await until(async () => !(await of(tablet)).isPlaying, 'the pause to be told to the other page');
@@ -253,7 +255,7 @@ async function playback(domain) {
     assert.ok(await page.locator('#timeline .scale span').count() > 2, 'times below the bar');
     await page.keyboard.press('>');
     await until(async () => (await of(tablet)).speed === 2, 'the speed to be told to the other page');
-    assert.equal(await tablet.locator('select.speed').inputValue(), '2');
+    await until(async () => (await tablet.locator('select.speed').inputValue()) === '2', 'the speed to stand there');
     await page.locator('select.speed').selectOption('4');
     await until(async () => (await of(tablet)).speed === 4, 'the speed of the list');
     // By finger: what is pressed is large enough, and End and Home are those of the recording.
@@ -465,20 +467,22 @@ async function pairs(domain) {
 /// No panel lies on another, nothing is cut off, at the sizes of a laptop and of a tablet.
 async function sizes(domain) {
   const {page} = await lampPage(domain);
-  for (const size of [{width: 1366, height: 768}, {width: 1024, height: 768}, {width: 1920, height: 1080}]) {
+  for (const size of [{width: 1366, height: 768}, {width: 1024, height: 768}, {width: 768, height: 1024}, {width: 1920, height: 1080}]) {
     await page.setViewportSize(size);
     await sleep(0.7);
     const told = await page.evaluate(() => ({
       scrolls: document.documentElement.scrollHeight > innerHeight || document.documentElement.scrollWidth > innerWidth,
-      panels: [...document.querySelectorAll('.panel, #header, #timeline')].map((one) => {
-        const {left, top, right, bottom} = one.getBoundingClientRect();
-        return {name: one.getAttribute('aria-label') ?? one.id, left, top, right, bottom};
+      panels: [...document.querySelectorAll('.panel, #header > *, #timeline > :not(.visually-hidden)')].flatMap((one) => {
+        const {left, top, right, bottom, width} = one.getBoundingClientRect();
+        return width > 0 ? [{name: one.getAttribute('aria-label') ?? one.className, isPanel: one.matches('.panel'), left, top, right, bottom}] : [];
       }),
+      task: [document.querySelector('.doing').scrollWidth, document.querySelector('.doing').clientWidth],
     }));
+    assert.ok(told.task[0] <= told.task[1], `what it does has ${told.task[1]} of ${told.task[0]} pixels at ${size.width} x ${size.height}`);
     assert.ok(!told.scrolls, `${size.width} x ${size.height} scrolls`);
     for (const [i, a] of told.panels.entries()) {
       assert.ok(a.left >= 0 && a.top >= 0 && a.right <= size.width && a.bottom <= size.height, `${a.name} is inside ${size.width} x ${size.height}`);
-      assert.ok(a.right - a.left > 100 && a.bottom - a.top > 30, `${a.name} has room`);
+      assert.ok(!a.isPanel || (a.right - a.left > 100 && a.bottom - a.top > 30), `${a.name} has room`);
       for (const b of told.panels.slice(i + 1)) {
         assert.ok(a.right <= b.left + 1 || b.right <= a.left + 1 || a.bottom <= b.top + 1 || b.bottom <= a.top + 1, `${a.name} lies on ${b.name}`);
       }

@@ -206,9 +206,15 @@ test('a server that shows a running deployment has no controls, also where a rec
 test('times of a recording are written as on a clock, with few marks below the bar', () => {
   assert.deepEqual([0, 7.46, 59.96, 750, 3723.4].map((s) => clock(s)), ['0:00.0', '0:07.5', '1:00.0', '12:30.0', '1:02:03.4']);
   assert.equal(clock(59.9, 0), '1:00');
-  assert.deepEqual(marksOf(17.5), [0, 5, 10, 15]);
-  assert.deepEqual([0.5, NaN, 0].map((span) => marksOf(span).length), [1, 0, 0]);
-  for (let span = 1; span < 1e6; span *= 1.7) assert.ok(marksOf(span).length <= 9, `${span} s`);
+  assert.deepEqual(marksOf(17.5, 300), [0, 5, 10, 15]);
+  assert.deepEqual([0.5, NaN, 0].map((span) => marksOf(span, 500).length), [1, 0, 0]);
+  assert.deepEqual(marksOf(10, 0), [], 'a bar that nobody sees');
+  for (let span = 1; span < 1e6; span *= 1.7) {
+    for (const width of [60, 200, 700]) {
+      const marks = marksOf(span, width);
+      assert.ok(marks.length >= 1 && (marks.length < 2 || (marks[1]! / span) * width >= 56), `${span} s on ${width} pixels`);
+    }
+  }
 });
 
 test('types that cannot be read are named with a reason', () => {

@@ -293,13 +293,15 @@ Duration FoxgloveBridge::play() {
   // A client forgets what came before a jump, and expects nothing behind an end.
   if (advance.jumped) tell_jump();
   forward();
-  if (!advance.jumped && after.status != before.status) tell_playback(false);
+  // It also begins when somebody looks at a topic.
+  if (!advance.jumped && after.status != told_status_) tell_playback(false);
   if (after != before) tell_time();
   return advance.next;
 }
 
 void FoxgloveBridge::tell_playback(bool jumped, Client asker, std::string_view request_id) {
   const Playback::State state = options_.playback->state();
+  told_status_ = state.status;
   for (const auto& [client, subscriber] : clients_) {
     if (!subscriber.controls) continue;
     const std::string_view id = client == asker ? request_id : std::string_view{};

@@ -99,7 +99,8 @@ class FoxgloveBridge {
   std::map<Client, Subscriber> clients_;
   std::set<std::string> refusals_;
   std::uint32_t last_channel_ = 0;
-  std::uint64_t dropped_ = 0;  // of those who have left
+  Playback::Status told_status_ = Playback::Status::paused;  // of the playback, to everybody
+  std::uint64_t dropped_ = 0;                                // of those who have left
 
   static constexpr std::size_t kMostArrived = 64U << 20;  // [byte]
   std::mutex mutex_;

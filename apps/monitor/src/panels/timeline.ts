@@ -19,7 +19,7 @@ export class Timeline {
   private readonly open = make('input', {type: 'file', accept: '.mcap', id: 'open', class: 'visually-hidden', tabindex: 0});
   private readonly performance = make('span', {class: 'performance', title: 'Time that drawing takes, memory of what is remembered'});
   private tickKey = '';
-  private scaleSpan = NaN;
+  private scaleKey = '';
   private isHeld = false;  // the slider, by a finger or the mouse
 
   constructor(element: HTMLElement, private readonly playhead: Playhead, onFile: (file: File) => void, onHelp: () => void, onAbout?: () => void) {
@@ -99,10 +99,11 @@ export class Timeline {
     }));
   }
   private drawScale(span: number) {
-    if (Object.is(span, this.scaleSpan)) return;
-    this.scaleSpan = span;
     this.scale.hidden = !(span > 0);
-    this.scale.replaceChildren(...marksOf(span).map((t) => {
+    const width = this.scale.clientWidth, key = `${span} ${width}`;
+    if (key === this.scaleKey) return;
+    this.scaleKey = key;
+    this.scale.replaceChildren(...marksOf(span, width).map((t) => {
       const mark = make('span', {}, clock(t, 0));
       mark.style.left = `${(t / span) * 100}%`;
       return mark;

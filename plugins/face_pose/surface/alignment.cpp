@@ -11,7 +11,7 @@ namespace {
 constexpr int kIterations = 12;
 constexpr double kConverged = 3e-3;           // [px] change of any disparity
 constexpr Eigen::Index kFewest = 60;          // pixels
-constexpr float kBiweight = 4.685f;           // sigmas: 95 % efficient with normal noise
+constexpr float kBiweight = 6;                // sigmas: 98 % efficient with normal noise
 constexpr float kSmallestSigma = 0.3f;        // grey values: what rounding to whole ones leaves
 constexpr double kSmallestEigenvalue = 1e-9;  // of the equations, by the largest
 
@@ -121,7 +121,7 @@ bool Aligner::align(const ComparedPixels& pixels, const GreyLevel& right, const 
     if (!converged && iteration + 1 < kIterations) continue;
     alignment.covariance.setZero();
     alignment.covariance.topLeftCorner(terms, terms) =
-        sigma * sigma *
+        sigma * sigma * GreyLevel::shared_noise(1.0 * pixels.stride / right.step()) *
         solver.solve(Eigen::MatrixXd::Identity(unknowns, unknowns)).topLeftCorner(terms, terms);
     break;
   }

@@ -31,8 +31,9 @@ struct Sought {
 /// Whether a pixel tells nothing because it is over-exposed, or next to one that is.
 inline bool is_saturated(float grey) { return grey >= 250; }
 
-/// Pixels of the left picture to compare.
+/// Pixels of the left picture to compare: of each `stride` columns and rows one.
 struct ComparedPixels {
+  int stride = 1;                   // [px]
   std::vector<Eigen::Vector2f> at;  // [px]
   std::vector<float> value;
 };

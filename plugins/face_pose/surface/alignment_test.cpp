@@ -55,8 +55,9 @@ Compared compared(const Picture& left, const Picture& right_picture) {
   const PixelBox whole{0, 0, kWidth, kHeight};
   in_left.cut(left.view(), whole, 1);
   result.right.cut(right_picture.view(), whole, 1);
-  for (int v = 20; v < 100; v += 2) {
-    for (int u = 60; u < 160; u += 2) {
+  result.pixels.stride = 2;
+  for (int v = 20; v < 100; v += result.pixels.stride) {
+    for (int u = 60; u < 160; u += result.pixels.stride) {
       const Eigen::Vector2f at{static_cast<float>(u), static_cast<float>(v)};
       result.pixels.at.push_back(at);
       result.pixels.value.push_back(in_left.value(at.x(), at.y()));

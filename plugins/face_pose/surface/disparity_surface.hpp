@@ -66,7 +66,6 @@ struct DisparitySurface {
   }
 
  private:
- private:
   /// (a f, b f, c) of the plane's three terms.
   Eigen::Matrix3d across(const StereoCamera& camera) const {
     const double f = camera.focal_px / reach;

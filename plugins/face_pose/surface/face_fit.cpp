@@ -13,12 +13,15 @@ namespace armature::face_pose::surface {
 namespace {
 
 constexpr int kCoarsest = 4;          // pixels averaged along rows and columns
-constexpr int kStride = 2;            // every other pixel is compared in the end
+constexpr int kStride = 2;            // every other pixel is compared until the last alignment
 constexpr double kSearched = 24;      // [px] of disparity, nearer and farther than a start
 constexpr double kSlackColumns = 30;  // [px] around the face in the right picture
 constexpr double kSlackRows = 8;      // [px]
 constexpr double kFewestPixels = 60;
-constexpr double kLeastSeen = 0.3;  // of a feature, in both pictures and not over-exposed
+// Share of the middle half of a feature that must be in the left picture and not over-exposed.
+// Lips and eyes are darker than the skin around them, and are seen where it is over-exposed; what
+// is white and covers them is not.
+constexpr double kLeastSeen = 0.45;
 // A surface is curved when its second-order terms stand out of their noise: chi-square of three,
 // of which noise exceeds 20 once in 6000 pairs.
 constexpr double kCurved = 20;
@@ -26,7 +29,7 @@ constexpr double kCurved = 20;
 }  // namespace
 
 void FaceFit::cut(double disparity, int step) {
-  const PixelBox face = frame_.box(kWholeFace);
+  const PixelBox face = frame_.box(kFlatFace);
   const PixelBox with_edge{face.left - 3 * step, face.top - 3 * step, face.width + 6 * step,
                            face.height + 6 * step};
   in_left_.cut(left_, with_edge, step);
@@ -38,6 +41,7 @@ void FaceFit::cut(double disparity, int step) {
 
 /// Every `stride`th pixel of an area that the left picture shows, and the share of those.
 double FaceFit::choose_pixels(const FaceArea& area, int stride) {
+  pixels_.stride = stride;
   pixels_.at.clear();
   pixels_.value.clear();
   int all = 0;
@@ -95,16 +99,16 @@ DisparitySurface FaceFit::best(const std::vector<DisparitySurface>& starts) cons
 
 Expected<Alignment> FaceFit::align(const Features& face,
                                    const std::vector<DisparitySurface>& starts) {
+  constexpr auto kNothing = "both pictures show nothing of a face that could be compared";
+  constexpr Sought kPlaneAndRows{.terms = DisparitySurface::kPlane, .rows = true};
   frame_ = FaceFrame{face};
   Alignment found;
   for (int step = kCoarsest; step >= 1; step /= 2) {
     cut((step == kCoarsest ? starts.front() : found.surface).c[0], step);
     choose_pixels(kWholeFace, std::max(step, kStride));
     if (step == kCoarsest) found.surface = best(starts);
-    if (!aligner_.align(pixels_, in_right_, {.terms = DisparitySurface::kPlane, .rows = true}, 0,
-                        found)) {
-      return refuse(FaceRefusal::uncertain,
-                    "both pictures show nothing of a face that could be compared");
+    if (!aligner_.align(pixels_, in_right_, kPlaneAndRows, 0, found)) {
+      return refuse(FaceRefusal::uncertain, kNothing);
     }
   }
   Alignment curved = found;
@@ -114,11 +118,19 @@ Expected<Alignment> FaceFit::align(const Features& face,
     const Eigen::Matrix3d covariance = curved.covariance.bottomRightCorner<3, 3>();
     if (bend.dot(covariance.ldlt().solve(bend)) > kCurved) return curved;
   }
+  // A plane says where its points are, and takes part with every pixel; of a curved face its
+  // features say that themselves.
+  choose_pixels(kFlatFace, 1);
+  if (!aligner_.align(pixels_, in_right_, kPlaneAndRows, 0, found)) {
+    return refuse(FaceRefusal::uncertain, kNothing);
+  }
   return found;
 }
 
 bool FaceFit::align_feature(const FaceArea& feature, Alignment& alignment) {
-  if (choose_pixels(feature, 1) < kLeastSeen) return false;
+  const FaceArea middle{feature.middle, 0.5 * feature.half_width, 0.5 * feature.half_height};
+  if (choose_pixels(middle, 1) < kLeastSeen) return false;
+  choose_pixels(feature, 1);
   return aligner_.align(pixels_, in_right_, {.terms = DisparitySurface::kPlane, .rows = false},
                         alignment.sigma, alignment);
 }

@@ -37,6 +37,8 @@ struct FaceArea {
 };
 
 inline constexpr FaceArea kWholeFace{{0, 0.45}, 1.0, 1.1};
+/// What of a flat face can be compared, too; a round one turns away there.
+inline constexpr FaceArea kFlatFace{{0, 0.45}, 1.1, 1.2};
 
 /// An eye or the mouth, and what is to be seen of it and around it.
 struct FeatureArea {

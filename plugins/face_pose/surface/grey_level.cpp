@@ -1,9 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "grey_level.hpp"
 
+#include <Eigen/Core>
 #include <cmath>
 
 namespace armature::face_pose::surface {
+namespace {
+
+using Four = Eigen::Vector4f;
+
+/// What four pixels in a row weigh at `a` pixels behind the second one.
+Four weights(float a) {
+  const float b = 1 - a;
+  return Four{b * b * b, 4 - 3 * a * a * (2 - a), 4 - 3 * b * b * (2 - b), a * a * a} * (1.0f / 6);
+}
+/// Their derivatives by `a`.
+Four derivatives(float a) {
+  const float b = 1 - a;
+  return Four{-b * b, -a * (4 - 3 * a), b * (4 - 3 * b), a * a} * 0.5f;
+}
+
+}  // namespace
+
+// Noise of pixel values that were smoothed by a kernel h has an autocorrelation whose sum over all
+// pixels is (sum h)^2 / sum h^2; h is (1 2 1) / 4 and (1 4 1) / 6 one after the other, along rows
+// and along columns.
+double GreyLevel::shared_noise(double stride) {
+  constexpr double kSquares = (1 + 36 + 100 + 36 + 1) / (24.0 * 24.0);
+  return std::max(1.0, 1 / (kSquares * kSquares * stride * stride));
+}
 
 void GreyLevel::cut(const ImageView& image, const PixelBox& part, int step) {
   step_ = step;
@@ -57,21 +82,32 @@ void GreyLevel::smooth() {
   }
 }
 
+float GreyLevel::value(float u, float v) const {
+  const float x = column(u), y = row(v);
+  const auto i = static_cast<int>(x), j = static_cast<int>(y);
+  const Four down = weights(y - static_cast<float>(j));
+  const float* at = pixel(i - 1, j - 1);
+  Four column = Four::Zero();
+  for (int k = 0; k < 4; ++k, at += width_) column += down[k] * Eigen::Map<const Four>{at};
+  return weights(x - static_cast<float>(i)).dot(column);
+}
+
 GreyLevel::Sample GreyLevel::sample(float u, float v) const {
   const float x = column(u), y = row(v);
   const auto i = static_cast<int>(x), j = static_cast<int>(y);
   const float a = x - static_cast<float>(i), b = y - static_cast<float>(j);
-  const float* up = pixel(i, j - 1);
-  const float *at = up + width_, *down = at + width_, *last = down + width_;
-  const auto along = [a](float left, float right) { return left + a * (right - left); };
-  const float v0 = along(at[0], at[1]), v1 = along(down[0], down[1]);
-  const float half = 0.5f * per_step_;
-  const float u0 = along(at[1] - at[-1], at[2] - at[0]);
-  const float u1 = along(down[1] - down[-1], down[2] - down[0]);
-  const float w0 = v1 - along(up[0], up[1]), w1 = along(last[0], last[1]) - v0;
-  return {.value = v0 + b * (v1 - v0),
-          .by_u = half * (u0 + b * (u1 - u0)),
-          .by_v = half * (w0 + b * (w1 - w0))};
+  const Four down = weights(b), by_down = derivatives(b);
+  const float* at = pixel(i - 1, j - 1);
+  Four column = Four::Zero(), by_v = Four::Zero();
+  for (int k = 0; k < 4; ++k, at += width_) {
+    const Eigen::Map<const Four> row{at};
+    column += down[k] * row;
+    by_v += by_down[k] * row;
+  }
+  const Four along = weights(a);
+  return {.value = along.dot(column),
+          .by_u = per_step_ * derivatives(a).dot(column),
+          .by_v = per_step_ * along.dot(by_v)};
 }
 
 }  // namespace armature::face_pose::surface

@@ -10,7 +10,10 @@
 namespace armature::face_pose::surface {
 
 /// A part of a picture in floating point: `step` x `step` pixels averaged into one, then smoothed
-/// by (1 2 1) / 4 along rows and columns, so that what lies between pixels can be interpolated.
+/// by (1 2 1) / 4 along rows and columns. Between pixels it is a cubic B-spline of their values,
+/// which smooths by the same amount wherever a point lies between them (Unser 1999, "Splines: a
+/// perfect fit for signal and image processing"). A mean of the neighbours smooths most half-way
+/// between two pixels, and what that changes is taken for a disparity.
 class GreyLevel {
  public:
   /// A grey value between pixels, and its derivatives by the picture's columns and rows [1/px].
@@ -29,17 +32,13 @@ class GreyLevel {
            y < static_cast<float>(height_ - 2);
   }
   /// Needs `covers(u, v)`.
-  float value(float u, float v) const {
-    const float x = column(u), y = row(v);
-    const auto i = static_cast<int>(x), j = static_cast<int>(y);
-    const float a = x - static_cast<float>(i), b = y - static_cast<float>(j);
-    const float* at = pixel(i, j);
-    const float top = at[0] + a * (at[1] - at[0]);
-    const float bottom = at[width_] + a * (at[width_ + 1] - at[width_]);
-    return top + b * (bottom - top);
-  }
-  /// The same with derivatives: of the differences over two pixels, interpolated like the values.
+  float value(float u, float v) const;
+  /// The same with its derivatives.
   Sample sample(float u, float v) const;
+  /// At most how many times the variance of a mean over many pixels is what it would be if the
+  /// noise of each were its own, where every `stride`th one of those that are averaged counts:
+  /// neighbours share the noise of what both were smoothed from.
+  static double shared_noise(double stride);
 
  private:
   float column(float u) const { return (u - first_u_) * per_step_; }

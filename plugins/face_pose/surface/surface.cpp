@@ -169,8 +169,9 @@ Expected<void> Surface::see_features(const Alignment& aligned, const StereoCamer
     const auto& [which, name, area] = kFaceFeatures[i];
     Alignment& own = located.own[i] = aligned;
     if (!fit_.align_feature(area, own)) {
-      return refuse(FaceRefusal::uncertain,
-                    fmt::format("too little of the {} is in both pictures", name));
+      return refuse(
+          FaceRefusal::uncertain,
+          fmt::format("too little of the {} is in both pictures and not over-exposed", name));
     }
     auto seen = feature_is_uncovered(name, located.at[i], own, aligned, camera, parameters_);
     if (!seen) return seen;

@@ -63,6 +63,12 @@ TEST(Surface, KnowsItToATenthWithThePapersCamerasWhichAre24MillimetresApart) {
   EXPECT_LT(quantile(errors.normal_deg, 0.95), 0.35);
 }
 
+TEST(Surface, LosesLittleBetweenThePixelsOfPicturesWithoutNoise) {
+  const Errors errors = errors_of({.camera = kPapersRig, .noise = 0}, 30);
+  EXPECT_LT(quantile(errors.normal_deg, 0.5), 0.06);
+  EXPECT_LT(quantile(errors.normal_deg, 0.95), 0.15);
+}
+
 TEST(Surface, KnowsTheThreePointsOfARoundFace) {
   for (const double radius : {0.08, 0.15}) {
     const scene::Staging round{.surface = {scene::Surface::Shape::cylinder, radius}};
@@ -134,28 +140,37 @@ const std::string kNotRectified = "not rectified";
 
 INSTANTIATE_TEST_SUITE_P(
     Faults, SurfaceWith,
-    testing::Values(Fault{"nothing", {}, "never"}, Fault{"noise", {.noise = 8}, "never"},
-                    Fault{"dark", {.brightness = 0.15}, "never"},
-                    Fault{"over_exposed", {.brightness = 1.8}, "too little of the"},
-                    Fault{"far_away", {.landmark_error = 0.7, .depth = 1.1}, "never"},
-                    Fault{"sphere",
-                          {.staging = {.surface = {scene::Surface::Shape::sphere, 0.1}},
-                           .landmark_error = 0.7},
-                          kCovered},
-                    Fault{"instrument_over_the_mouth",
-                          {.staging = {.occluder = Occluder::instrument_over_mouth}},
-                          kCovered},
-                    Fault{"hand_over_the_mouth",
-                          {.staging = {.occluder = Occluder::hand_over_mouth}},
-                          kCovered + "|" + kNotRectified},
-                    Fault{"hand_over_an_eye",
-                          {.staging = {.occluder = Occluder::hand_over_eye}},
-                          kCovered + "|" + kNotRectified},
-                    Fault{"one_camera_darker", {.right = {.gain = 0.6}}, "never"},
-                    Fault{"one_camera_nearly_black", {.right = {.gain = 0.2}}, "times as bright"},
-                    Fault{"turned_camera", {.right = {.roll = 0.3 * kDegree}}, kNotRectified},
-                    Fault{"longer_focal_length", {.right = {.focal = 1.01}}, kNotRectified},
-                    Fault{"lower_camera", {.right = {.shift_px = {0, 1}}}, kNotRectified}),
+    testing::Values(
+        Fault{"nothing", {}, "never"}, Fault{"noise", {.noise = 8}, "never"},
+        Fault{"dark", {.brightness = 0.15}, "never"},
+        Fault{"over_exposed", {.brightness = 1.8}, "never"},
+        Fault{"over_exposed_behind_a_mask",
+              {.staging = {.occluder = Occluder::mask}, .brightness = 1.8},
+              "too little of the mouth"},
+        Fault{"over_exposed_behind_an_instrument",
+              {.staging = {.occluder = Occluder::instrument_over_mouth}, .brightness = 1.8},
+              "too little of the mouth|" + kCovered},
+        Fault{"over_exposed_behind_a_hand",
+              {.staging = {.occluder = Occluder::hand_over_eye}, .brightness = 1.8},
+              "too little of the right eye|" + kCovered},
+        Fault{"far_away", {.landmark_error = 0.7, .depth = 1.1}, "never"},
+        Fault{"sphere",
+              {.staging = {.surface = {scene::Surface::Shape::sphere, 0.1}}, .landmark_error = 0.7},
+              kCovered},
+        Fault{"instrument_over_the_mouth",
+              {.staging = {.occluder = Occluder::instrument_over_mouth}},
+              kCovered},
+        Fault{"hand_over_the_mouth",
+              {.staging = {.occluder = Occluder::hand_over_mouth}},
+              kCovered + "|" + kNotRectified},
+        Fault{"hand_over_an_eye",
+              {.staging = {.occluder = Occluder::hand_over_eye}},
+              kCovered + "|" + kNotRectified},
+        Fault{"one_camera_darker", {.right = {.gain = 0.6}}, "never"},
+        Fault{"one_camera_nearly_black", {.right = {.gain = 0.2}}, "times as bright"},
+        Fault{"turned_camera", {.right = {.roll = 0.3 * kDegree}}, kNotRectified},
+        Fault{"longer_focal_length", {.right = {.focal = 1.01}}, kNotRectified},
+        Fault{"lower_camera", {.right = {.shift_px = {0, 1}}}, kNotRectified}),
     [](const auto& test) { return test.param.name; });
 
 TEST(SurfaceGuards, RefuseAFaceThatIsTooFarTooSmallOrTooMuchAside) {

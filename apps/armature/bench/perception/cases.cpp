@@ -59,8 +59,9 @@ struct Motion {
   double phases[4];
 };
 
-/// A face that moves. With frames lost, of five the third never comes and the fifth shows the one
-/// before; the light goes up and down by a quarter.
+/// A face that moves. With frames lost, after the sound pairs, of five frames the third never
+/// comes, and the cameras give the fourth one again for the fifth; the light goes up and down by a
+/// quarter.
 void add_sequence(const CaseGroup& group, const StereoCamera& camera, int pairs, Draw& draw,
                   std::vector<PerceptionCase>& cases) {
   const DrawnCase sound = usual_case(camera, draw);
@@ -69,10 +70,15 @@ void add_sequence(const CaseGroup& group, const StereoCamera& camera, int pairs,
   group.draw(faulty, draw);
   const bool lost = group.sequence == CaseGroup::Sequence::with_lost_frames;
   for (int pair = 0, frame = 0; pair < pairs; ++pair, ++frame) {
-    if (lost && frame % 5 == 2) ++frame;
+    if (lost && pair >= kSoundPairs && frame % 5 == 2) ++frame;
     PerceptionCase now = placed(motion.at(pair < kSoundPairs ? sound : faulty, kPeriod_s * frame));
-    if (lost && frame % 5 == 4) now.left_shows = now.right_shows = cases.back().left_shows;
     if (lost) now.brightness = 0.8 + 0.2 * std::sin(2 * std::numbers::pi * 0.17 * frame);
+    if (lost && frame % 5 == 4) {
+      const Eigen::Isometry3d left_T_face = now.left_T_face;
+      now = cases.back();
+      now.left_T_face = left_T_face;
+      now.repeats = true;
+    }
     now.continues = pair > 0;
     cases.push_back(now);
   }
@@ -115,7 +121,8 @@ std::vector<PerceptionCase> perception_cases(const StereoCamera& camera, int pai
     for (std::size_t i = first; i < cases.size(); ++i) {
       cases[i].group = group.name;
       cases[i].number = static_cast<int>(i - first);
-      cases[i].noise_seed = scene::splitmix(own_seed + i - first);
+      cases[i].noise_seed =
+          cases[i].repeats ? cases[i - 1].noise_seed : scene::splitmix(own_seed + i - first);
     }
   }
   return cases;

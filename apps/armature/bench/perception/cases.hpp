@@ -25,9 +25,10 @@ struct PerceptionCase {
   double brightness = 1;
   /// Where the face is when the left picture is taken: the truth.
   Eigen::Isometry3d left_T_face = Eigen::Isometry3d::Identity();
-  /// Where the pictures show it: elsewhere where a camera is late or repeats itself.
+  /// Where the pictures show it: elsewhere where a camera is late or the pair is repeated.
   Eigen::Isometry3d left_shows = left_T_face, right_shows = left_T_face;
   bool continues = false;  // what was remembered of the case before is kept
+  bool repeats = false;    // the pictures are those of the case before, to the last bit
 };
 
 /// The cases of all groups, group by group, about `pairs` in all and at least one of each group.

@@ -35,6 +35,11 @@ template <Occluder which>
 void hold(DrawnCase& one, Draw&) {
   one.drawn.staging.occluder = which;
 }
+template <Occluder which>
+void over_expose(DrawnCase& one, Draw& draw) {
+  one.drawn.brightness = draw.between(1.4, 2);
+  one.drawn.staging.occluder = which;
+}
 template <Surface::Shape shape>
 void glue(DrawnCase& one, Draw& draw) {
   one.drawn.staging.surface = {shape, draw.between(0.08, 0.11)};
@@ -81,8 +86,11 @@ constexpr std::array kGroups{
               }},
     CaseGroup{"dark, gain 0.2 to 0.5",
               [](DrawnCase& one, Draw& draw) { one.drawn.brightness = draw.between(0.2, 0.5); }},
-    CaseGroup{"over-exposed, gain 1.4 to 2",
-              [](DrawnCase& one, Draw& draw) { one.drawn.brightness = draw.between(1.4, 2); }},
+    CaseGroup{"over-exposed, gain 1.4 to 2", over_expose<Occluder::none>},
+    CaseGroup{"over-exposed, instrument", over_expose<Occluder::instrument_over_mouth>},
+    CaseGroup{"over-exposed, hand over the mouth", over_expose<Occluder::hand_over_mouth>},
+    CaseGroup{"over-exposed, hand over an eye", over_expose<Occluder::hand_over_eye>},
+    CaseGroup{"over-exposed, mask", over_expose<Occluder::mask>},
     CaseGroup{
         "lower half in shadow",
         [](DrawnCase& one, Draw& draw) { one.drawn.staging.shadow = draw.between(0.5, 0.8); }},

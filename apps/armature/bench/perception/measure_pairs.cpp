@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "armature/kinds/face_pose/frozen_cameras.hpp"
 #include "armature/kinds/landmarks/stereo_face_finder.hpp"
 #include "armature/values/guarded.hpp"
 #include "bench/clock.hpp"
@@ -54,8 +55,9 @@ class TimedLandmarks final : public LandmarkFinder {
   LandmarkFinder& finder_;
 };
 
-/// The states of finder and estimator, kept from pair to pair.
+/// The states of finder and estimator, kept from pair to pair, and what their host keeps.
 struct Memory {
+  FrozenCameras cameras;
   StereoFaceFinder::State finder;
   PluginState estimator;
 };
@@ -70,6 +72,7 @@ PairResult measure_pair(const PerceptionCase& one, const StagedPair& pair,
                     .face_seed = one.face_seed,
                     .is_tracked = one.continues,
                     .truth = pair.truth};
+  const auto frozen = memory.cameras.look_at(pair.left.view(), pair.right.view());
   const auto found = guarded(memory.finder, [&](StereoFaceFinder::State& state) {
     return finder.find(pair.left.view(), pair.right.view(), state);
   });
@@ -79,6 +82,10 @@ PairResult measure_pair(const PerceptionCase& one, const StagedPair& pair,
   result.detected = found.has_value();
   if (!found) {
     result.reason = found.error().text;
+    return result;
+  }
+  if (frozen) {
+    result.reason = frozen->why;
     return result;
   }
   double took = 0;

@@ -133,6 +133,21 @@ TEST(MeasuredPairs, KeepWhatIsRememberedInASequenceOnly) {
   EXPECT_FALSE(results[1].times.full_pass || results[2].times.full_pass);
 }
 
+TEST(MeasuredPairs, ThatTheCamerasGiveAgainAreRefusedAsTheHostRefusesThem) {
+  std::vector<PerceptionCase> cases(6, frontal_case(0.03, 0.02, 0.6));
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    cases[i].continues = i > 0;
+    cases[i].imaging.noise = 0.5;
+    cases[i].noise_seed = i == 4 ? 3 : i;
+  }
+  Triangulating sound;
+  const auto results = measured(sound, 0, cases);
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    EXPECT_EQ(results[i].reason.starts_with("both cameras are frozen"), i == 4) << i;
+    EXPECT_EQ(results[i].pose.has_value(), i != 4) << i;
+  }
+}
+
 TEST(MeasuredPairs, TellTheFindersShareApart) {
   Triangulating sound;
   for (const PairResult& result : measured(sound, 4)) {

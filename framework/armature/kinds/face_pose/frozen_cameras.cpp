@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "frozen_cameras.hpp"
+#include "armature/kinds/face_pose/frozen_cameras.hpp"
 
 #include <fmt/format.h>
 
 #include <cstddef>
 #include <numeric>
 
-namespace armature::host::face_pose {
+namespace armature {
 namespace {
 
 constexpr std::size_t kThinning = 8;  // of eight columns and rows one is compared
@@ -89,4 +89,4 @@ std::optional<FrozenCameras::Frozen> FrozenCameras::look_at(const ImageView& lef
   return std::nullopt;
 }
 
-}  // namespace armature::host::face_pose
+}  // namespace armature

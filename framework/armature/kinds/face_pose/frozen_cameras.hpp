@@ -9,7 +9,7 @@
 
 #include "armature/kinds/image_view.hpp"
 
-namespace armature::host::face_pose {
+namespace armature ARMATURE_EXPORT {
 
 /// Sees cameras whose driver gives its last picture again with a new stamp, by a thinned copy of
 /// the picture before: 0 of its pixels differ.
@@ -47,4 +47,4 @@ class FrozenCameras {
   std::array<Camera, 2> cameras_;
 };
 
-}  // namespace armature::host::face_pose
+}  // namespace armature

@@ -5,13 +5,13 @@
 #include <string>
 
 #include "armature/kinds/face_pose/face_pose.hpp"
+#include "armature/kinds/face_pose/frozen_cameras.hpp"
 #include "armature/kinds/landmarks/landmark_messages.hpp"
 #include "armature/messages/geometry.hpp"
 #include "armature/runtime/component/component.hpp"
 #include "armature/runtime/component/setup.hpp"
 #include "armature/runtime/plugins/plugin.hpp"
 #include "armature/values/guarded.hpp"
-#include "frozen_cameras.hpp"
 #include "row_drift.hpp"
 
 namespace armature::host::face_pose {

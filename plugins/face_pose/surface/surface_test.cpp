@@ -64,9 +64,9 @@ TEST(Surface, KnowsItToATenthWithThePapersCamerasWhichAre24MillimetresApart) {
 }
 
 TEST(Surface, LosesLittleBetweenThePixelsOfPicturesWithoutNoise) {
-  const Errors errors = errors_of({.camera = kPapersRig, .noise = 0}, 30);
-  EXPECT_LT(quantile(errors.normal_deg, 0.5), 0.06);
-  EXPECT_LT(quantile(errors.normal_deg, 0.95), 0.15);
+  const Errors errors = errors_of({.camera = kPapersRig, .noise = 0, .max_turn_deg = 12}, 30);
+  EXPECT_LT(quantile(errors.normal_deg, 0.5), 0.025);
+  EXPECT_LT(quantile(errors.normal_deg, 0.95), 0.05);
 }
 
 TEST(Surface, KnowsTheThreePointsOfARoundFace) {

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "armature/kinds/face_pose/face_pose.hpp"
 #include "face_frame.hpp"
 
 namespace armature::face_pose::surface {

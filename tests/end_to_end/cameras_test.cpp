@@ -80,7 +80,7 @@ TEST(LampWhoseCameras, FreezeSaysWhichOneAndAlignsToNoPictureOfIt) {
   for (const std::string which : {"left", "both"}) {
     const DeploymentRun run = with_fault({"frozen=" + which, "frozen_at_s=3.8"});
     const std::string who = which == "left" ? "the left camera is" : "both cameras are";
-    EXPECT_NE(run.text().find(who + " frozen: repeat 3 of the same picture"), std::string::npos)
+    EXPECT_NE(run.text().find(who + " frozen: the same picture again"), std::string::npos)
         << run.text();
     EXPECT_EQ(run.status(), "goals_missed") << run.text();
   }

@@ -69,11 +69,10 @@ std::optional<FrozenCameras::Frozen> FrozenCameras::look_at(const ImageView& lef
   }
   const auto frozen = [&](std::size_t i, const std::string& who, const char* why,
                           const char* hint) {
-    const int repeats = cameras_[i].repeats;
-    return Frozen{.why = fmt::format("{}: repeat {} of the same picture, to the last bit, though "
-                                     "{}; {}",
-                                     who, repeats, why, hint),
-                  .repeats = repeats};
+    // Without a number, so that the reason stays the same as long as its cause.
+    return Frozen{.why = fmt::format("{}: the same picture again, to the last bit, though {}; {}",
+                                     who, why, hint),
+                  .repeats = cameras_[i].repeats};
   };
   if (is_frozen[0] && is_frozen[1]) {
     return frozen(0, "both cameras are frozen", "there was noise before",

@@ -68,7 +68,7 @@ TEST_F(FacePoseHostAndCameras, OneThatIsFrozenIsRefusedAtOnceAndToldOfWhenItStay
   ASSERT_TRUE(look().valid_());
   take(false, true);
   EXPECT_EQ(look().reason_(),
-            "the left camera is frozen: repeat 1 of the same picture, to the last bit, though the "
+            "the left camera is frozen: the same picture again, to the last bit, though the "
             "other camera's changes; look at its cable, and start its driver again");
   for (int repeat = 2; repeat <= 3; ++repeat) {
     EXPECT_EQ(host_.status().reason, "") << repeat;
@@ -76,18 +76,19 @@ TEST_F(FacePoseHostAndCameras, OneThatIsFrozenIsRefusedAtOnceAndToldOfWhenItStay
     EXPECT_FALSE(look().valid_());
   }
   EXPECT_THAT(host_.status().reason,
-              testing::StartsWith("the left camera is frozen: repeat 3 of the same picture"));
+              testing::StartsWith("the left camera is frozen: the same picture again"));
   take(true, true);
   EXPECT_TRUE(look().valid_());
   EXPECT_EQ(host_.status().reason, "");
   take(true, false);
-  EXPECT_THAT(look().reason_(), testing::HasSubstr("the right camera is frozen: repeat 1 of"));
+  EXPECT_THAT(look().reason_(),
+              testing::HasSubstr("the right camera is frozen: the same picture again"));
 }
 
 TEST_F(FacePoseHostAndCameras, BothFrozenIsSeenByTheNoiseThatIsNoMoreThere) {
   look_at_noise(4);
   EXPECT_THAT(look().reason_(),
-              testing::HasSubstr("both cameras are frozen: repeat 1 of the same picture"));
+              testing::HasSubstr("both cameras are frozen: the same picture again"));
   EXPECT_FALSE(look().valid_());
   take();
   EXPECT_TRUE(look().valid_());

@@ -24,8 +24,7 @@ double square(const Eigen::Vector3d& now, const std::array<double, 3>& last,
   const Eigen::Vector3d one{last.data()}, other{before_last.data()};
   const Eigen::Vector3d off = now - one - forward * (one - other);
   const double parts = 1 + (1 + forward) * (1 + forward) + forward * forward;
-  const Eigen::Matrix3d explained =
-      parts * (covariance + kMinVariance * Eigen::Matrix3d::Identity());
+  const Eigen::Matrix3d explained = parts * covariance;
   return off.dot(explained.llt().solve(off));
 }
 

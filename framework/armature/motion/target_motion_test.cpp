@@ -100,6 +100,25 @@ TEST(TargetMotion, AVelocityThatJumpsIsNotTakenForAnAcceleration) {
   EXPECT_NEAR(motion.after(0.1).position.x(), 0.1, 3e-3);
 }
 
+TEST(TargetMotion, ATargetThatSetsOutAndThenKeepsItsVelocityIsNotHeldBack) {
+  // What a filter makes of a face that begins to move, told 50 times a second.
+  const double told[] = {0.112, 0.148, 0.172, 0.177, 0.187, 0.173, 0.166, 0.176, 0.179, 0.172,
+                         0.171, 0.169, 0.180, 0.188, 0.183, 0.171, 0.168, 0.171, 0.179, 0.171};
+  TargetMotion motion;
+  int k = 0;
+  for (const double velocity : told) {
+    motion.see(target_at({0, 0, 0}, {velocity, 0, 0}), Time{} + k++ * seconds(0.02));
+    if (k > 10) EXPECT_NEAR(motion.after(0.3).position.x(), 0.3 * velocity, 0.015) << "told " << k;
+  }
+}
+
+TEST(TargetMotion, OfTwoVelocitiesAtOneInstantTheFirstCounts) {
+  TargetMotion motion;
+  motion.see(target_at({0, 0, 0}, {0.1, 0, 0}), Time{});
+  motion.see(target_at({0, 0, 0}, {0.2, 0, 0}), Time{});
+  EXPECT_NEAR(motion.after(0.5).position.x(), 0.05, 1e-12);
+}
+
 TEST(TargetMotion, AVelocityThatIsToldInStepsIsNoAcceleration) {
   // Estimates ten times a second, told fifty times a second with the rates of the newest.
   constexpr int kSeed = 4;

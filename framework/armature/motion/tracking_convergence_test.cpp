@@ -220,18 +220,22 @@ TEST_P(TrackingConvergence, ATargetWhoseVelocitiesJitterIsCaughtAllTheSame) {
                         .points = GetParam().points};
   for (double share = share_needed(target); share > 0.4; share = share_needed(target))
     target.scale(0.9);
-  jitter_ = 0.02 * target.sine.norm() * 2 * M_PI * target.hz;
-  double worst = 0;
-  for (jitter_seed_ = 0; jitter_seed_ < 20; ++jitter_seed_) {
-    begin_anew();
-    for (int k = 0; k < 4000; ++k) {
-      tick(target);
-      if (k >= 2000) worst = std::max(worst, off_.position_m());
+  const double speed = target.sine.norm() * 2 * M_PI * target.hz;
+  for (const double share : {0.02, 0.1, 0.2}) {
+    jitter_ = share * speed;
+    double worst = 0;
+    for (jitter_seed_ = 0; jitter_seed_ < 20; ++jitter_seed_) {
+      begin_anew();
+      for (int k = 0; k < 4000; ++k) {
+        tick(target);
+        if (k >= 2000) worst = std::max(worst, off_.position_m());
+      }
     }
+    std::printf("%s: %.2f of the limits, %.0f mm/s with a jitter of %.0f %%: %.1f mm off at most\n",
+                GetParam().file, share_needed(target), 1e3 * speed, 100 * share, 1e3 * worst);
+    // What the velocities are off by one sigma moves the target in half a second.
+    EXPECT_LT(worst, 0.5 * jitter_);
   }
-  std::printf("%s: %.2f of the limits, %.2f mm off at most\n", GetParam().file,
-              share_needed(target), 1e3 * worst);
-  EXPECT_LT(worst, 0.005);
 }
 
 TEST_P(TrackingConvergence, ATargetThatIsNotToldOfAnyMoreIsStoppedBehindWithinASecond) {

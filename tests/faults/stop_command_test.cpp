@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <chrono>
+#include <csignal>
 
 #include "command.hpp"
 #include "tests/dds_domain.hpp"
@@ -20,6 +21,23 @@ class StopCommand : public testing::Test {
   CommandResult stop(const std::string& timeout_s) const {
     return run_command({armature(), "stop", "--domain", domain_, "--timeout", timeout_s}, {},
                        kAtMost);
+  }
+  /// A deployment under that name whose arm stands still: its needle waits for an operator.
+  std::vector<std::string> waiting(const std::string& name) const {
+    return {armature(),
+            "run",
+            source_file("configs/sr1_biopsy.yaml"),
+            source_file("configs/overlays/operated.yaml"),
+            "--domain",
+            domain_,
+            "--set",
+            "name=" + name};
+  }
+  std::string halted(const std::string& name, pid_t pid) const {
+    return "deployment '" + name + "' (pid " + std::to_string(pid) +
+           ") runs on this machine in domain " + domain_ +
+           " and does not answer: it is halted. 'kill -CONT " + std::to_string(pid) +
+           "' lets it go on; until then use the arm's own emergency stop";
   }
   const std::string domain_ = std::to_string(unique_dds_domain());
 };
@@ -41,6 +59,29 @@ TEST_F(StopCommand, FailsWhereThereIsNoDeployment) {
   EXPECT_EQ(result.exit_code, kNobodyHeard);
   EXPECT_THAT(result.err,
               HasSubstr("no deployment in domain " + domain_ + " heard the stop within 0.5 s"));
+}
+
+TEST_F(StopCommand, NamesADeploymentThatIsHaltedAndNotAnotherDomain) {
+  Command run{waiting("needle")};
+  ASSERT_TRUE(run.wait_for_err("asks the operator", kAtMost)) << run.err();
+  run.signal(SIGSTOP);
+  const CommandResult result = stop("1.5");
+  run.signal(SIGCONT);
+  EXPECT_EQ(result.exit_code, kNobodyHeard);
+  EXPECT_THAT(result.err, HasSubstr(halted("needle", run.pid())));
+  EXPECT_THAT(result.err, testing::Not(HasSubstr("says its domain")));
+}
+
+TEST_F(StopCommand, FailsWhenOneOfTwoDeploymentsIsHalted) {
+  Command first{waiting("first")}, second{waiting("second")};
+  ASSERT_TRUE(first.wait_for_err("asks the operator", kAtMost)) << first.err();
+  ASSERT_TRUE(second.wait_for_err("asks the operator", kAtMost)) << second.err();
+  second.signal(SIGSTOP);
+  const CommandResult result = stop("20");
+  second.signal(SIGCONT);
+  EXPECT_EQ(result.exit_code, kNobodyHeard);
+  EXPECT_THAT(result.out, HasSubstr("deployment 'first'")) << result.err << first.err();
+  EXPECT_THAT(result.err, HasSubstr(halted("second", second.pid())));
 }
 
 TEST_F(StopCommand, FailsWhereOnlyARecorderHearsIt) {

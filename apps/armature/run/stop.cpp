@@ -15,6 +15,7 @@
 #include "armature/messages/std_msgs.hpp"
 #include "armature/runtime/execution/clock.hpp"
 #include "armature/runtime/plugins/plugin_registry.hpp"
+#include "armature/runtime/processes/running_processes.hpp"
 #include "exit_code.hpp"
 
 namespace armature {
@@ -69,6 +70,45 @@ class Stopping {
   std::map<std::string, bool> heard_by_;
 };
 
+void tell_halted(const RunningProcess& one, int domain) {
+  fmt::print(stderr,
+             "armature: {} runs on this machine in domain {} and does not answer: it is halted. "
+             "'kill -CONT {}' lets it go on; until then use the arm's own emergency stop\n",
+             one.text(), domain, one.pid);
+}
+
+/// Says of the processes of this machine which are halted. False: none is.
+bool halted_told(int domain) {
+  bool any = false;
+  for (const RunningProcess& one : running_processes(domain)) {
+    if (!one.halted) continue;
+    tell_halted(one, domain);
+    any = true;
+  }
+  return any;
+}
+
+/// When nobody was found: deployments of this machine are known by their locks.
+void tell_silent(const StopOptions& options) {
+  const auto running = running_processes(options.network.domain);
+  for (const RunningProcess& one : running) {
+    if (one.halted) {
+      tell_halted(one, options.network.domain);
+    } else {
+      fmt::print(stderr,
+                 "armature: {} runs on this machine in domain {} and does not hear /stop: it is "
+                 "about to start or to end, moves no arm, or cannot be reached from here\n",
+                 one.text(), options.network.domain);
+    }
+  }
+  if (!running.empty()) return;
+  fmt::print(stderr,
+             "armature: no deployment in domain {} heard the stop within {:g} s; a deployment "
+             "says its domain with `domain:` or --domain, and with `dds:` what to join by "
+             "--interface, --peer or --discovery-server\n",
+             options.network.domain, options.timeout_s);
+}
+
 }  // namespace
 
 int stop_arms(const StopOptions& options) {
@@ -101,24 +141,21 @@ int stop_arms(const StopOptions& options) {
     if (!of_deployment) fmt::print(stderr, "armature: {} reads /stop, and is no deployment\n", who);
   }
   if (!found) {
-    fmt::print(stderr,
-               "armature: no deployment in domain {} heard the stop within {:g} s; a deployment "
-               "says its domain with `domain:` or --domain, and with `dds:` what to join by "
-               "--interface, --peer or --discovery-server\n",
-               options.network.domain, options.timeout_s);
+    tell_silent(options);
     return kTimedOut;
   }
   const bool taken = stopping.acknowledged() && !one_fell_silent;
   for (const auto& [who, of_deployment] : stopping.heard_by()) {
     if (of_deployment) fmt::print("{} {}\n", taken ? "stopped:" : "sent to", who);
   }
-  if (!taken) {
+  const bool halted = halted_told(options.network.domain);
+  if (!taken && !halted) {
     fmt::print(stderr,
                "armature: not every process has taken the stop within {:g} s: one may be halted. "
                "Use the arm's own emergency stop\n",
                options.timeout_s);
-    return kTimedOut;
   }
+  if (!taken || halted) return kTimedOut;
   fmt::print("They stay stopped until they are rearmed\n");
   return kOk;
 }

@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "armature/runtime/processes/running_processes.hpp"
+
 namespace armature {
 namespace {
 
@@ -65,8 +67,7 @@ std::vector<Arm> arms_of_metal(const DeploymentConfig& deployment) {
 InstanceLock own_process(const DeploymentConfig& deployment, const std::string& process,
                          int domain) {
   const bool is_main = process == kMainProcess;
-  auto taken = InstanceLock::take(
-      fmt::format("deployment {} domain {} process {}", deployment.name, domain, process));
+  auto taken = InstanceLock::take(lock_of_process(deployment.name, domain, process));
   if (taken) return std::move(*taken);
   throw std::runtime_error{
       fmt::format("{}deployment '{}' already runs as {} on domain {}; stop it, or use another "

@@ -10,7 +10,9 @@
 #include <chrono>
 #include <cstddef>
 #include <cstring>
+#include <fstream>
 #include <optional>
+#include <set>
 #include <string_view>
 #include <thread>
 
@@ -19,11 +21,13 @@
 namespace armature {
 namespace {
 
+const std::string kOurs = "armature/";
+
 /// An address in the abstract namespace: it begins with a zero byte, and no file stands for it.
 struct Address {
   explicit Address(const std::string& name) {
-    std::string path = "armature/" + name;
-    if (path.size() >= sizeof address.sun_path) path = "armature/" + sha256(name);
+    std::string path = kOurs + name;
+    if (path.size() >= sizeof address.sun_path) path = kOurs + sha256(name);
     path.copy(address.sun_path + 1, path.size());
     size = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + path.size());
   }
@@ -35,18 +39,24 @@ struct Address {
 
 int open_socket() { return socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0); }
 
+struct Holder {
+  pid_t pid;  // 0: not known
+  std::string text;
+};
+
 /// Who listens there, as the kernel saw it; nothing: nobody does.
-std::optional<std::string> holder_of(const Address& address) {
+std::optional<Holder> holder_of(const Address& address) {
   const int own = open_socket();
   ucred holder{};
   socklen_t size = sizeof holder;
-  std::optional<std::string> told;
+  std::optional<Holder> told;
   if (connect(own, address.get(), address.size) == 0) {
     const bool known =
         getsockopt(own, SOL_SOCKET, SO_PEERCRED, &holder, &size) == 0 && holder.pid > 0;
-    told = known ? fmt::format("pid {}", holder.pid) : "a process of another container";
+    told = known ? Holder{holder.pid, fmt::format("pid {}", holder.pid)}
+                 : Holder{0, "a process of another container"};
   } else if (errno == EAGAIN) {
-    told = "a process that thousands have asked for already";
+    told = Holder{0, "a process that thousands have asked for already"};
   }
   close(own);
   return told;
@@ -67,7 +77,7 @@ Expected<InstanceLock> InstanceLock::take(const std::string& name) {
     }
     if (const auto holder = holder_of(address)) {
       close(own);
-      return refuse(*holder);
+      return refuse(holder->text);
     }
     std::this_thread::sleep_for(kPause);
   }
@@ -76,8 +86,26 @@ Expected<InstanceLock> InstanceLock::take(const std::string& name) {
 }
 
 Expected<void> InstanceLock::check(const std::string& name) {
-  if (const auto holder = holder_of(Address{name})) return refuse(*holder);
+  if (const auto holder = holder_of(Address{name})) return refuse(holder->text);
   return {};
+}
+
+std::vector<InstanceLock::Held> InstanceLock::held(const std::string& beginning) {
+  const std::string ours = " @" + kOurs;  // behind the columns of numbers
+  std::set<std::string> names;            // of those who listen and of those who have asked them
+  std::ifstream sockets{"/proc/net/unix"};
+  for (std::string line; std::getline(sockets, line);) {
+    const std::size_t place = line.find(ours);
+    if (place == std::string::npos) continue;
+    std::string name = line.substr(place + ours.size());
+    if (name.starts_with(beginning)) names.insert(std::move(name));
+  }
+  std::vector<Held> held;
+  for (const std::string& name : names) {
+    const auto holder = holder_of(Address{name});
+    if (holder && holder->pid > 0) held.push_back({name, holder->pid});
+  }
+  return held;
 }
 
 InstanceLock::~InstanceLock() {

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <sys/types.h>
+
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "armature/values/expected.hpp"
 
@@ -17,6 +20,14 @@ class InstanceLock {
   static Expected<InstanceLock> take(const std::string& name);
   /// The holder, without taking the lock; a reason as above, or nothing when nobody holds it.
   static Expected<void> check(const std::string& name);
+
+  struct Held {
+    std::string name;
+    pid_t holder;
+  };
+  /// Locks of this machine whose names begin so, and who holds them. Names that are too long for an
+  /// address (98 bytes) and holders of another container are left out.
+  static std::vector<Held> held(const std::string& beginning);
 
   InstanceLock(InstanceLock&& other) noexcept : socket_{std::exchange(other.socket_, -1)} {}
   InstanceLock& operator=(InstanceLock&&) = delete;

@@ -70,6 +70,9 @@ TEST_F(StopCommand, NamesADeploymentThatIsHaltedAndNotAnotherDomain) {
   EXPECT_EQ(result.exit_code, kNobodyHeard);
   EXPECT_THAT(result.err, HasSubstr(halted("needle", run.pid())));
   EXPECT_THAT(result.err, testing::Not(HasSubstr("says its domain")));
+  // Once it goes on it hears of that command, which has gone.
+  EXPECT_EQ(stop("20").exit_code, 0);
+  EXPECT_THAT(run.err(), testing::Not(HasSubstr("another container")));
 }
 
 TEST_F(StopCommand, FailsWhenOneOfTwoDeploymentsIsHalted) {

@@ -4,8 +4,12 @@
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 #include <fastdds/rtps/transport/shared_mem/SharedMemTransportDescriptor.h>
 #include <fastrtps/utils/IPLocator.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <cerrno>
+#include <charconv>
 #include <chrono>
 #include <csignal>
 #include <fastdds/dds/core/policy/ParameterTypes.hpp>
@@ -170,6 +174,20 @@ ParticipantIdentity identity_of(const rtps::ParticipantProxyData& participant) {
           .pid = printable(told({dds::parameter_policy_physical_data_process, "__Pid"}))};
 }
 
+/// True when the participant says that it is of this host, and there is no such process here. One
+/// with another host name, or with a process id of another container that is in use here, too, is
+/// not taken for gone.
+bool is_gone(const ParticipantIdentity& identity) {
+  std::array<char, 256> own_host{};
+  gethostname(own_host.data(), own_host.size() - 1);
+  if (identity.host != own_host.data()) return false;
+  pid_t pid = 0;
+  const char* const end = identity.pid.data() + identity.pid.size();
+  const auto read = std::from_chars(identity.pid.data(), end, pid);
+  if (read.ec != std::errc{} || read.ptr != end || pid <= 0) return false;
+  return kill(pid, 0) != 0 && errno == ESRCH;
+}
+
 /// The addresses of a participant that is on another machine; none of one of this machine.
 /// Multicast brings such announcements as soon as any program of this machine has joined the group
 /// on another interface.
@@ -244,14 +262,15 @@ class Participant::Listener final : public dds::DomainParticipantListener {
   }
 
   /// Fast DDS sends to whoever has shared memory on this machine through that alone, whether it
-  /// arrives there or not.
+  /// arrives there or not. A process that was halted hears late of others, and of those that have
+  /// ended meanwhile there is nothing to tell.
   void report_unreachable_memory(const GuidPrefix& prefix,
                                  const rtps::ParticipantProxyData& found) {
     if (!participant_.uses_shared_memory_ || is_of_this_process(prefix)) return;
     for (const rtps::Locator_t& locator : found.default_locators.unicast) {
       if (locator.kind != LOCATOR_KIND_SHM) continue;
       const auto reached = check_shared_memory_port(participant_.memory_folder_, locator.port);
-      if (reached) continue;
+      if (reached || is_gone(identity_of(found))) continue;
       on_note_(discovery().who(prefix) +
                " is on this machine and gets nothing from here through shared memory (" +
                reached.error().text +

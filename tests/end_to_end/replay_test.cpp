@@ -333,6 +333,17 @@ TEST_F(Replay, AssignmentsThatChangeNothingAreRefused) {
   EXPECT_THAT(replay.err, HasSubstr("change no component of the recording"));
 }
 
+TEST_F(Replay, AnotherSeedChangesEveryComponent) {
+  record_needle();
+  const CommandResult replay =
+      run_command({armature(), "replay", file(), "--set", "seed=7", "--json"});
+  ASSERT_EQ(replay.exit_code, 0) << replay.err;
+  const json head = component_of(json::parse(replay.out).at(0), "head");
+  std::uint64_t differing = 0;
+  for (const json& topic : head["topics"]) differing += topic["differing"].get<std::uint64_t>();
+  EXPECT_GT(differing, 0U) << head.dump(1);
+}
+
 TEST_F(Replay, WhatIsNotInTheRecordingIsNotCompared) {
   record_shortly({"--set", "record.topics=[/dental_lamp/arm/*]"});
   const json checked = check({file()}, 1);

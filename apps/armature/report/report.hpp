@@ -14,7 +14,7 @@ struct ReportOptions {
   std::filesystem::path page;  // of `armature monitor`; empty: the one that came with armature
   bool pictures = true;
   bool force = false;  // replace a file that is there
-  FileUse use = FileUse::named_by_user;
+  FileUse use = FileUse::patient_file;
 };
 
 /// What became of a page.

@@ -239,6 +239,14 @@ TEST_F(ReportTest, ReplacesNothingUnasked) {
   EXPECT_EQ(recording_.bytes(), before);
 }
 
+TEST_F(ReportTest, IsReadByItsOwnerOnly) {
+  record({{"/a", "std_msgs/msg/String", 100, 100}});
+  ASSERT_EQ(report(), kOk) << reason_;
+  using std::filesystem::perms;
+  EXPECT_EQ(std::filesystem::status(out_.path()).permissions(),
+            perms::owner_read | perms::owner_write);
+}
+
 TEST_F(ReportTest, RefusesWhatIsNoRecordingAndOneWithoutMessages) {
   recording_.replace("this is no recording");
   EXPECT_NE(report(), kOk);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <random>
 #include <stdexcept>
 #include <vector>
@@ -143,6 +144,20 @@ TEST_P(Mcap, WithSomethingBehindItsEndIsNotWhole) {
 INSTANTIATE_TEST_SUITE_P(, Mcap, testing::Bool(), [](const auto& test) {
   return std::string{test.param ? "Zstd" : "Plain"};
 });
+
+TEST(McapWriter, WritesForItsUserAloneAlsoWhereAFileWasBefore) {
+  using std::filesystem::perms;
+  const RecordingFile file{"private"};
+  file.replace("for all");
+  std::filesystem::permissions(
+      file.path(), perms::owner_read | perms::owner_write | perms::group_read | perms::others_read);
+  for (const bool is_there : {true, false}) {
+    if (!is_there) std::filesystem::remove(file.path());
+    McapWriter{file.path(), {}}.close();
+    EXPECT_EQ(std::filesystem::status(file.path()).permissions(),
+              perms::owner_read | perms::owner_write);
+  }
+}
 
 TEST(McapWriter, TellsThatTheDiskIsFull) {
   const auto fill = [] { McapWriter writer{"/dev/full", {}}; };

@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #include <zlib.h>
 #include <zstd.h>
@@ -69,6 +70,14 @@ std::uint32_t crc_of(std::span<const std::byte> bytes, std::uint32_t before = 0)
       crc32_z(before, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
 }
 
+/// What is recorded is about a patient: also a file that was there before becomes its owner's only.
+void make_private(int descriptor) {
+  struct stat about {};
+  const bool is_ours =
+      fstat(descriptor, &about) == 0 && S_ISREG(about.st_mode) && about.st_uid == geteuid();
+  if (is_ours) fchmod(descriptor, 0600);
+}
+
 }  // namespace
 
 class McapWriter::Zstd {
@@ -92,11 +101,12 @@ class McapWriter::Zstd {
 
 McapWriter::McapWriter(std::filesystem::path file, Options options)
     : file_{std::move(file)}, options_{std::move(options)}, zstd_{std::make_unique<Zstd>()} {
-  descriptor_ = open(file_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  descriptor_ = open(file_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
   if (descriptor_ < 0) {
     throw std::runtime_error(fmt::format("cannot write '{}': {}", file_.string(),
                                          std::generic_category().message(errno)));
   }
+  make_private(descriptor_);
   if (options_.chain) chain_.emplace();
   Bytes bytes;
   append_bytes(bytes, std::as_bytes(std::span{mcap::kMagic}));

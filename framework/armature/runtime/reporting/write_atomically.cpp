@@ -44,8 +44,8 @@ void write_atomically(const std::filesystem::path& target, std::string_view text
     return std::runtime_error{
         fmt::format("cannot write '{}': {}", file.string(), std::strerror(error))};
   };
-  const int descriptor =
-      open(beside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, is_report ? 0600 : 0666);
+  const int descriptor = open(beside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC,
+                              use == FileUse::named_by_user ? 0666 : 0600);
   if (descriptor < 0) throw failed(errno);
   const bool written = write_all(descriptor, text);
   const int error = errno;

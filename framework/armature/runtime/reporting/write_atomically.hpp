@@ -7,9 +7,9 @@
 namespace armature ARMATURE_EXPORT {
 
 /// What a file is for. A report is its owner's only (0600), and replaces a link that lies in its
-/// place. A file that the user names has the permissions that the user gives (umask), and a link
-/// keeps pointing to it.
-enum class FileUse { report, named_by_user };
+/// place. To a file that the user names a link keeps pointing; it has the permissions that the user
+/// gives (umask), but for one about a patient, which is its owner's only.
+enum class FileUse { report, named_by_user, patient_file };
 
 /// Whoever reads `file` finds what was there before or all of `text`, also after a crash. Throws
 /// std::runtime_error with the reason; then the file is as it was.

@@ -66,6 +66,17 @@ TEST_F(WriteAtomically, IsReadByItsOwnerOnlyUnlessTheUserSaysOtherwise) {
             fs::perms::group_read | fs::perms::others_read);
 }
 
+TEST_F(WriteAtomically, OfAPatientIsReadByItsOwnerOnlyAndALinkKeepsPointingToIt) {
+  const fs::path page = folder_ / "page.html";
+  const mode_t before = umask(022);
+  std::ofstream{page} << "readable by all";
+  fs::create_symlink(page, file_);
+  write_atomically(file_, "a patient's", FileUse::patient_file);
+  umask(before);
+  EXPECT_TRUE(fs::is_symlink(file_));
+  EXPECT_EQ(fs::status(page).permissions(), fs::perms::owner_read | fs::perms::owner_write);
+}
+
 TEST_F(WriteAtomically, DoesNotFollowALink) {
   const fs::path other = folder_ / "of_somebody_else";
   std::ofstream{other} << "theirs";

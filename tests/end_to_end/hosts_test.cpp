@@ -98,6 +98,16 @@ TEST_F(Hosts, HaveARecordingEachThatOneCommandJoinsAndThatComesBackBitForBit) {
   fs::remove_all(folder);
 }
 
+TEST_F(Hosts, AreNotAccusedWhenTheRunIsInterruptedBeforeTheyCame) {
+  const auto main = start_main(pulse("1"));
+  ASSERT_TRUE(main->wait_for_err("waiting for host 'desk'", kTimeout)) << main->err();
+  main->signal(SIGINT);
+  const auto ended = main->finish(kTimeout);
+  EXPECT_EQ(ended.exit_code, 1);
+  EXPECT_THAT(ended.err, HasSubstr("armature: interrupted while it waited for host 'desk'\n"));
+  EXPECT_THAT(ended.err, Not(HasSubstr("has not ended")));
+}
+
 TEST_F(Hosts, TheOtherOneMayBeThereFirst) {
   const auto desk = start_desk(pulse("0.5"));
   ASSERT_TRUE(desk->wait_for_err("'desk' waits for the main process of 'pulse'", kTimeout));

@@ -116,7 +116,11 @@ std::optional<std::string> MainWatch::stop_cause() {
   tell_clock_step();
   children_->update();
   tell_notes();
-  if (auto cause = interruption_now()) return cause;
+  if (auto cause = interruption_now()) {
+    const auto host = started_ ? std::nullopt : children_->missing_host();
+    if (host) throw std::runtime_error{*cause + " while it waited for host '" + *host + "'"};
+    return cause;
+  }
   auto lost = children_->stop_cause();
   if (lost && !started_) throw std::runtime_error{*lost + " before the start"};
   return lost;

@@ -220,7 +220,8 @@ void ChildProcesses::give_up(Child& child, std::chrono::seconds timeout) {
 void ChildProcesses::end(const std::function<bool(const std::string& name)>& which) {
   constexpr std::chrono::seconds kTimeout{kSanitized ? 15 : 3};
   const auto is_meant = [&](const Child& child) {
-    return !child.ended && which(child.name) && may_end(child);
+    const bool has_come = !child.host || !child.host->other().empty();
+    return has_come && !child.ended && which(child.name) && may_end(child);
   };
   auto deadline = SteadyClock::now() + kTimeout;
   while (std::ranges::any_of(children_, is_meant)) {

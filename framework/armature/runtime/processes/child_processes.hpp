@@ -81,7 +81,8 @@ class ChildProcesses {
   void add_timing(RunTiming& timing) const;
 
   /// Ends those processes that `which` names and waits for them, and the agents of hosts that have
-  /// none left; one that takes longer than 3 s is killed, which is a fault.
+  /// none left; one that takes longer than 3 s is killed, which is a fault. A host whose agent has
+  /// not come has nothing to end.
   void end(const std::function<bool(const std::string& name)>& which);
 
  private:

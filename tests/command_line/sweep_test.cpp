@@ -105,6 +105,14 @@ TEST_F(Sweep, AFolderOfAnotherSweepOrOfSomebodyElseIsLeftAlone) {
               HasSubstr("another sweep uses this folder"));
 }
 
+TEST_F(Sweep, RefusesAssignmentsOfWhatItSetsItself) {
+  for (const char* assignment : {"clock=system", "seed=7"}) {
+    const auto result = sweep({"--seeds", "1", "--set", assignment});
+    EXPECT_EQ(result.exit_code, 2) << assignment;
+    EXPECT_THAT(result.err, HasSubstr(std::string{"'"} + assignment + "': a sweep "));
+  }
+}
+
 TEST_F(Sweep, VariesKeysAndHoldsSweepGoalsAgainstEachCombination) {
   const auto result =
       sweep({"--seeds", "1..4", "--vary",

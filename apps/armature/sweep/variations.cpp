@@ -78,6 +78,28 @@ Vary vary_of(const std::string& text) {
   return vary;
 }
 
+void check_assignment(const std::string& text) {
+  const auto without_blanks = [](std::string_view word) {
+    const auto begin = word.find_first_not_of(' ');
+    if (begin == std::string_view::npos) return std::string_view{};
+    return word.substr(begin, word.find_last_not_of(' ') - begin + 1);
+  };
+  const auto equals = text.find('=');
+  if (equals == std::string::npos) return;
+  const auto key = without_blanks(std::string_view{text}.substr(0, equals));
+  const auto value = without_blanks(std::string_view{text}.substr(equals + 1));
+  if (key == "seed") {
+    throw std::invalid_argument(
+        fmt::format("'{}': a sweep sets the seed itself; say which with --seeds {}", text, value));
+  }
+  if (key == "clock" && value != "simulated") {
+    throw std::invalid_argument(
+        fmt::format("'{}': a sweep runs in lockstep on the simulated clock; leave it out, or run "
+                    "the deployment by itself: armature run",
+                    text));
+  }
+}
+
 std::vector<std::vector<std::string>> combinations(const std::vector<Vary>& vary) {
   std::vector<std::vector<std::string>> all{{}};
   std::set<std::string> keys;

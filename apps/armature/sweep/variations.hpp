@@ -20,6 +20,10 @@ struct Vary {
 /// brackets or braces belongs to its value.
 Vary vary_of(const std::string& text);
 
+/// Throws std::invalid_argument for an assignment (--set) of what a sweep sets itself: `seed`, and
+/// a `clock` that is not the simulated one.
+void check_assignment(const std::string& text);
+
 /// The assignments of each combination of values, in order: the last key changes fastest. One empty
 /// list of nothing to vary. Throws std::invalid_argument for a key that is there twice.
 std::vector<std::vector<std::string>> combinations(const std::vector<Vary>& vary);

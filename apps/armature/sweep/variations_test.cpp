@@ -44,6 +44,15 @@ TEST(Variations, AreEveryCombinationAndALastKeyThatChangesFastest) {
                           ElementsAre("a=2", "b.c=[x,y]"), ElementsAre("a=2", "b.c=z")));
 }
 
+TEST(AssignmentsOfASweep, AreNotOfWhatItSetsItself) {
+  EXPECT_THAT(refusal([] { check_assignment("seed=7"); }),
+              HasSubstr("'seed=7': a sweep sets the seed itself; say which with --seeds 7"));
+  EXPECT_THAT(refusal([] { check_assignment("clock = system"); }),
+              HasSubstr("a sweep runs in lockstep on the simulated clock; leave it out"));
+  EXPECT_EQ(refusal([] { check_assignment("clock=simulated"); }), "");
+  EXPECT_EQ(refusal([] { check_assignment("components.head.params.seeds=1"); }), "");
+}
+
 TEST(Variations, ThatAreNoneAreRefused) {
   EXPECT_THAT(refusal([] { vary_of("a"); }), HasSubstr("'a' is not key=a,b,c"));
   EXPECT_THAT(refusal([] { vary_of("=1"); }), HasSubstr("is not key=a,b,c"));

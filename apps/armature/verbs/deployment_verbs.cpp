@@ -113,6 +113,7 @@ void add_sweep(CLI::App& app, Action& action) {
       "Run a deployment for many seeds in lockstep and tell the spread of its figures: "
       "armature sweep sr1_biopsy --seeds 1..200 --out sweep");
   add_source(*verb, options->source);
+  verb->get_option("--set")->check(reading(sweep::check_assignment));
   verb->add_option("--seeds", *seeds, "1..200, or 1,2,5..9")
       ->capture_default_str()
       ->check(reading(sweep::seeds_of));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // `armature record`: what runs is in a file afterwards, whatever ends the recording.
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -10,6 +11,7 @@
 #include <thread>
 
 #include "armature/recording/mcap_reader.hpp"
+#include "armature/recording/mcap_writer.hpp"
 #include "command.hpp"
 #include "tests/dds_domain.hpp"
 
@@ -204,6 +206,35 @@ TEST_F(Recorded, AFullDiskIsToldAndEndsTheRecording) {
                                            {}, kEnough);
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_EQ(result.err, "armature: cannot write '/dev/full': No space left on device\n");
+}
+
+TEST(RecordedFile, IsNotStandardOutput) {
+  const CommandResult result = run_command({armature(), "record", "-o", "-", "--timeout", "1"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("is written into a file only, not to standard output"));
+}
+
+TEST(Info, OfAPipeSaysThatItIsNoFileAndDoesNotWaitForItsWriter) {
+  const std::string pipe = testing::TempDir() + "info-pipe-" + std::to_string(getpid());
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  const CommandResult result = run_command({armature(), "info", pipe}, {}, kEnough);
+  fs::remove(pipe);
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr("': it is no regular file"));
+}
+
+TEST(Info, OfADamagedFileTellsItsContentsBeforeWhatIsWrongWithIt) {
+  const std::string cut = testing::TempDir() + "info-cut-" + std::to_string(getpid());
+  {
+    McapWriter writer{cut, {}};
+    writer.add(McapMetadata{.name = "run", .values = {{"seed", "1"}}});
+  }
+  const CommandResult result =
+      run_command({"/bin/sh", "-c", "'" + armature() + "' info '" + cut + "' 2>&1"});
+  fs::remove(cut);
+  const std::size_t told = result.out.find(" chunks, "), wrong = result.out.find("is not whole");
+  ASSERT_NE(wrong, std::string::npos) << result.out;
+  EXPECT_LT(told, wrong) << result.out;
 }
 
 TEST(Info, OfWhatIsNoRecordingSaysSo) {

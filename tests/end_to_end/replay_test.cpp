@@ -201,6 +201,7 @@ TEST_F(Replay, AProcessThatWasKilledIsInTheJoinedRecordingAsFarAsItCame) {
   const json checked = check({file()}, 1);
   EXPECT_TRUE(differences_of(checked).empty()) << checked.dump(1);
   EXPECT_FALSE(checked["complete"]);
+  EXPECT_EQ(checked["identical"], json{}) << "nobody knows";
   EXPECT_THAT(checked["problems"].dump(),
               HasSubstr("the recording of process 'vision' was not whole: it ends"));
   EXPECT_GT(component_of(checked, "face")["outputs"], 0);
@@ -465,6 +466,21 @@ TEST_F(Replay, WhatWasRecordedIsPublishedAgainUnderNamesOfItsOwn) {
   const CommandResult played = playing.finish(kEnough);
   EXPECT_EQ(played.exit_code, 0) << played.err;
   EXPECT_THAT(played.out, HasSubstr("topics under /replay"));
+}
+
+TEST_F(Replay, WhatCannotBePublishedIsToldWithTheReason) {
+  record_needle();
+  const std::string domain = std::to_string(unique_dds_domain());
+  const CommandResult behind =
+      run_command({armature(), "replay", file(), "--from", "100", "--loop", "--domain", domain});
+  EXPECT_EQ(behind.exit_code, 3);
+  EXPECT_THAT(behind.err, testing::ContainsRegex("run.mcap' is [0-9.]+ s long: nothing is there "
+                                                 "from 100 s on"));
+  McapWriter{file("empty.mcap"), {}}.close();
+  const CommandResult empty =
+      run_command({armature(), "replay", file("empty.mcap"), "--domain", domain});
+  EXPECT_EQ(empty.exit_code, 1);
+  EXPECT_THAT(empty.err, HasSubstr("empty.mcap' has no messages to be published"));
 }
 
 TEST_F(Replay, FilesOfDifferentRunsAreRefused) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <ctime>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -288,6 +289,7 @@ int describe_recording(const InfoOptions& options) {
   } else {
     print(contents);
   }
+  std::fflush(stdout);  // a reader of both has this before what is wrong
   if (!reader.problems().empty()) tell_problems(options.file, reader.problems());
   if (!options.verify) return reader.problems().empty() ? kOk : kFailed;
   const bool is_whole = chain.verdict == McapChain::Verdict::whole && reader.problems().empty();

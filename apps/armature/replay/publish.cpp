@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <map>
 #include <memory>
@@ -16,6 +17,7 @@
 #include "armature/bus/topic_name.hpp"
 #include "armature/bus/transport.hpp"
 #include "armature/recording/mcap_reader.hpp"
+#include "armature/recording/mcap_summary.hpp"
 #include "armature/runtime/execution/clock.hpp"
 #include "armature/runtime/plugins/plugin_registry.hpp"
 #include "exit_code.hpp"
@@ -24,6 +26,28 @@
 
 namespace armature {
 namespace {
+
+/// Throws InvalidChoice when nothing was recorded so many seconds after the beginning.
+void check_from(const PublishOptions& options) {
+  if (options.from_s <= 0) return;
+  Time first, last;
+  if (const auto summary = read_summary(options.file)) {
+    first = summary->first;
+    last = summary->last;
+  } else {
+    McapReader reader{options.file};
+    bool any = false;
+    while (const auto message = reader.next()) {
+      first = any ? std::min(first, message->log_time) : message->log_time;
+      last = any ? std::max(last, message->log_time) : message->log_time;
+      any = true;
+    }
+  }
+  const double length_s = to_seconds(last - first);
+  if (options.from_s <= length_s) return;
+  throw InvalidChoice(fmt::format("'{}' is {:.3f} s long: nothing is there from {:g} s on",
+                                  options.file.string(), length_s, options.from_s));
+}
 
 class Player {
  public:
@@ -128,6 +152,7 @@ class Player {
 }  // namespace
 
 int publish_recording(const PublishOptions& options) {
+  check_from(options);
   leave_in_order();
   Player player{options};
   do {
@@ -138,6 +163,9 @@ int publish_recording(const PublishOptions& options) {
   }
   for (const std::string& problem : player.problems()) {
     fmt::print(stderr, "armature: '{}': {}\n", options.file.string(), problem);
+  }
+  if (player.messages() == 0 && player.unknown().empty() && !left()) {
+    fmt::print(stderr, "armature: '{}' has no messages to be published\n", options.file.string());
   }
   if (options.json) {
     fmt::print("{}\n", nlohmann::ordered_json{{"messages", player.messages()},

@@ -61,6 +61,12 @@ std::string no_pattern(const std::string& text) {
              : config::in_quotes(text) + " has a '*' that is not at its end";
 }
 
+std::string no_file(const std::string& text) {
+  return text == "-" ? "is written into a file only, not to standard output; for a file of that "
+                       "name say ./-"
+                     : "";
+}
+
 std::string no_hash(const std::string& text) {
   constexpr std::size_t kDigits = 64;
   const bool is_one =

@@ -21,7 +21,7 @@ void add_record(CLI::App& app, Action& action) {
   auto plain = std::make_shared<bool>(false);
   CLI::App* verb = app.add_subcommand(
       "record", "Record topics of running deployments as MCAP: armature record -o run.mcap");
-  verb->add_option("-o,--out", options->out, "the file")->required();
+  verb->add_option("-o,--out", options->out, "the file")->required()->check(no_file);
   verb->add_option("topics", options->topics,
                    "only these, a name or the beginning of names: '/dental_lamp/*' (all)")
       ->check(no_pattern);
@@ -136,7 +136,7 @@ void add_report(CLI::App& app, Action& action) {
   verb->add_option("recording", options->recording, "an MCAP file")
       ->required()
       ->check(CLI::ExistingFile);
-  verb->add_option("-o,--out", options->out, "the page")->required();
+  verb->add_option("-o,--out", options->out, "the page")->required()->check(no_file);
   verb->add_flag("--without-pictures", *without_pictures, "leave out what the cameras saw");
   verb->add_flag("--force", options->force, "replace a file that is there");
   verb->callback([=, &action] {

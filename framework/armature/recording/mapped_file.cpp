@@ -18,11 +18,15 @@ MappedFile::MappedFile(const std::filesystem::path& file) {
     throw std::runtime_error(
         fmt::format("cannot read '{}': {}", file.string(), std::generic_category().message(errno)));
   };
-  const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  // A pipe would wait for its writer.
+  const int descriptor = open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   if (descriptor < 0) refuse();
   struct stat about {};
-  const bool known = fstat(descriptor, &about) == 0 && S_ISREG(about.st_mode);
-  const auto size = static_cast<std::size_t>(known ? about.st_size : 0);
+  if (fstat(descriptor, &about) != 0 || !S_ISREG(about.st_mode)) {
+    close(descriptor);
+    throw std::runtime_error(fmt::format("cannot read '{}': it is no regular file", file.string()));
+  }
+  const auto size = static_cast<std::size_t>(about.st_size);
   void* memory = size == 0 ? nullptr : mmap(nullptr, size, PROT_READ, MAP_PRIVATE, descriptor, 0);
   close(descriptor);
   if (memory == MAP_FAILED) refuse();

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "armature/robot/files/calibrated_frame.hpp"
 #include "armature/robot/files/robot_keys.hpp"
@@ -58,12 +59,12 @@ ReadFrame read_frame(const Node::Entry& entry, Problems& problems) {
   return result;
 }
 
-/// Follows a frame's parents down to a joint or the base.
+/// Follows a frame's parents down to one that is there already.
 class ParentResolver {
  public:
-  ParentResolver(const std::vector<ReadFrame>& frames, const std::vector<Joint>& joints,
-                 const std::vector<NamedFrame>& links, Problems& problems)
-      : frames_(frames), joints_(joints), links_(links), problems_(problems) {}
+  ParentResolver(const std::vector<ReadFrame>& frames, const ParentNames& parents,
+                 Problems& problems)
+      : frames_(frames), parents_(parents), problems_(problems) {}
 
   NamedFrame resolve(const ReadFrame& frame) {
     NamedFrame result = frame.frame;
@@ -71,16 +72,9 @@ class ParentResolver {
     const ReadFrame* at = &frame;
     while (at && at->parent) {
       const std::string& parent = at->parent->text();
-      if (parent == "base") return result;
-      if (const auto joint = std::ranges::find(joints_, parent, &Joint::name);
-          joint != joints_.end()) {
-        result.parent_joint = static_cast<int>(joint - joints_.begin());
-        return result;
-      }
-      if (const auto link = std::ranges::find(links_, parent, &NamedFrame::name);
-          link != links_.end()) {
-        result.parent_joint = link->parent_joint;
-        result.parent_T_frame = link->parent_T_frame * result.parent_T_frame;
+      if (const auto found = parents_.find(parent)) {
+        result.parent_joint = found->joint;
+        result.parent_T_frame = found->joint_T_parent * result.parent_T_frame;
         return result;
       }
       const bool circle = std::ranges::find(way, parent) != way.end();
@@ -98,46 +92,45 @@ class ParentResolver {
 
  private:
   const ReadFrame* find(const Node& parent) {
-    const auto found =
-        std::ranges::find(frames_, parent.text(), [](const ReadFrame& f) { return f.frame.name; });
+    const auto name = [](const ReadFrame& read) { return read.frame.name; };
+    const auto found = std::ranges::find(frames_, parent.text(), name);
     if (found != frames_.end()) return &*found;
-    std::vector<std::string> known{"base"};
-    for (const Joint& joint : joints_) known.push_back(joint.name);
-    for (const NamedFrame& link : links_) known.push_back(link.name);
-    for (const ReadFrame& frame : frames_) known.push_back(frame.frame.name);
-    problems_.add(parent.origin(), fmt::format("there is no joint or frame '{}'{}", parent.text(),
-                                               config::did_you_mean(parent.text(), known)));
+    std::vector<std::string> names;
+    std::ranges::transform(frames_, std::back_inserter(names), name);
+    parents_.refuse(parent, names, problems_);
     return nullptr;
   }
 
   const std::vector<ReadFrame>& frames_;
-  const std::vector<Joint>& joints_;
-  const std::vector<NamedFrame>& links_;
+  const ParentNames& parents_;
   Problems& problems_;
 };
 
 }  // namespace
 
-std::vector<NamedFrame> read_frames(const Node& map, const std::vector<Joint>& joints,
-                                    const std::vector<NamedFrame>& links, Problems& problems) {
+std::vector<NamedFrame> read_frames(const Node& map, const ParentNames& parents,
+                                    Problems& problems) {
   if (map.kind() != Node::Kind::map) {
     problems.add(map.origin(),
                  fmt::format("'frames' must be a map of frames, not {}", map.describe()));
     return {};
   }
+  const auto has = [](const auto& named, const std::string& name) {
+    return std::ranges::any_of(named, [&](const auto& one) { return one.name == name; });
+  };
   std::vector<ReadFrame> read;
   for (const Node::Entry& entry : map.entries()) {
     read.push_back(read_frame(entry, problems));
-    if (std::ranges::find(links, entry.key, &NamedFrame::name) != links.end())
+    if (has(parents.frames, entry.key))
       problems.add(entry.key_origin,
                    fmt::format("'{}' is the name of a link; a frame needs its own", entry.key));
-    if (entry.key == "base" || std::ranges::find(joints, entry.key, &Joint::name) != joints.end())
+    if (entry.key == "base" || has(parents.joints, entry.key))
       problems.add(entry.key_origin,
                    fmt::format("'{}' is the name of a joint or of the base; a frame needs its own",
                                entry.key));
   }
   std::vector<NamedFrame> frames;
-  ParentResolver resolver{read, joints, links, problems};
+  ParentResolver resolver{read, parents, problems};
   for (const ReadFrame& frame : read) frames.push_back(resolver.resolve(frame));
   return frames;
 }

@@ -125,12 +125,15 @@ void check_whole(const RobotModel& model, MapReader& map) {
 }
 
 /// From the rows in the file itself; the tool's frame.
-std::optional<FrameId> read_rows(MapReader& map, RobotParts& parts, Problems& problems) {
+std::optional<FrameId> read_rows(MapReader& map, RobotParts& parts, ParentNames& parents,
+                                 Problems& problems) {
   const bool modified = map.text("convention") == "modified";
   parts.convention = modified ? RobotModel::Convention::modified : RobotModel::Convention::standard;
   if (const Node* list = map.node("joints")) parts.joints = read_joints(*list, problems);
+  parents.joints = parts.joints;
   if (const Node* frames = map.node("frames"))
-    parts.frames = read_frames(*frames, parts.joints, {}, problems);
+    parts.frames = read_frames(*frames, parents, problems);
+  parents.frames = parts.frames;
   return find_tool(map, parts.frames, parts.joints);
 }
 
@@ -147,7 +150,7 @@ void check_speeds(const std::vector<Joint>& joints, MapReader& map) {
 
 /// From a URDF file; its frames are the links from base to tip, and what the robot file adds.
 std::optional<FrameId> read_urdf(const Node& file, MapReader& map, RobotParts& parts,
-                                 Problems& problems) {
+                                 ParentNames& parents, Problems& problems) {
   const auto link = [](const Node* node, const Node& otherwise) {
     return node ? LinkName{node->text(), node->origin()} : LinkName{"", otherwise.origin()};
   };
@@ -160,13 +163,16 @@ std::optional<FrameId> read_urdf(const Node& file, MapReader& map, RobotParts& p
   UrdfArm arm = read_urdf_arm(config::folder_of(file.origin()) / file.text(), base, tip, problems);
   parts.joints = std::move(arm.joints);
   parts.frames = std::move(arm.frames);
+  parents = {
+      .joints = {}, .frames = parts.frames, .is_urdf = true, .no_frames = std::move(arm.no_frames)};
   if (parts.joints.empty()) return arm.tip;
   if (limits) read_other_limits(*limits, parts.joints, problems);
   check_speeds(parts.joints, map);
   if (!more) return arm.tip;
-  const auto added = read_frames(*more, {}, parts.frames, problems);
+  const auto added = read_frames(*more, parents, problems);
   const std::size_t first = parts.frames.size();
   parts.frames.insert(parts.frames.end(), added.begin(), added.end());
+  parents.frames = parts.frames;
   const auto tool = std::ranges::find(added, "tool", &NamedFrame::name);
   if (tool == added.end()) return arm.tip;
   return FrameId{static_cast<int>(first + static_cast<std::size_t>(tool - added.begin()))};
@@ -205,15 +211,16 @@ std::optional<RobotModel> read(const Node& document, Problems& problems) {
   map.integer("armature_robot");
   RobotParts parts;
   parts.name = map.text("name");
-  const std::optional<FrameId> tool =
-      urdf ? read_urdf(*urdf, map, parts, problems) : read_rows(map, parts, problems);
+  ParentNames parents;
+  const std::optional<FrameId> tool = urdf ? read_urdf(*urdf, map, parts, parents, problems)
+                                           : read_rows(map, parts, parents, problems);
   parts.pointing_axis = read_axis(map, "pointing_axis");
   parts.shaft = read_shaft(map, problems);
   if (const Node* capsules = map.node("capsules")) {
-    parts.capsules = read_capsules(*capsules, parts.joints, parts.frames, problems);
+    parts.capsules = read_capsules(*capsules, parents, problems);
   }
   if (const Node* masses = map.node("masses")) {
-    parts.masses = read_masses(*masses, parts.joints, parts.frames, problems);
+    parts.masses = read_masses(*masses, parents, problems);
   }
   if (const auto home = read_home(map, parts.joints)) {
     parts.home.emplace(

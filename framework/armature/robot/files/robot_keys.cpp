@@ -178,7 +178,9 @@ std::vector<KeySpec> coupling_keys(Joint::Type type) {
 
 const std::vector<KeySpec>& frame_keys() {
   static const std::vector<KeySpec> kKeys{
-      {.name = "parent", .type = Type::text, .doc = "A joint, 'base' or another frame."},
+      {.name = "parent",
+       .type = Type::text,
+       .doc = "A joint (with 'urdf' a link), 'base' or another frame."},
       {.name = "translation_m",
        .type = Type::numbers,
        .doc = "Of its origin in the parent, x, y, z.",
@@ -202,7 +204,9 @@ const std::vector<KeySpec>& capsule_keys() {
     return KeySpec{.name = name, .type = Type::numbers, .doc = doc, .count = 3, .also = also};
   };
   static const std::vector<KeySpec> kKeys{
-      {.name = "parent", .type = Type::text, .doc = "A joint, 'base' or a frame."},
+      {.name = "parent",
+       .type = Type::text,
+       .doc = "A joint (with 'urdf' a link), 'base' or a frame."},
       end("from_m", "from_mm", "Where its middle line begins in the parent, x, y, z."),
       end("to_m", "to_mm", "Where it ends; the same point for a ball."),
       {.name = "radius_m", .doc = "About that line.", .above = 0, .also = "radius_mm"}};
@@ -211,7 +215,9 @@ const std::vector<KeySpec>& capsule_keys() {
 
 const std::vector<KeySpec>& mass_keys() {
   static const std::vector<KeySpec> kKeys{
-      {.name = "parent", .type = Type::text, .doc = "A joint, 'base' or a frame."},
+      {.name = "parent",
+       .type = Type::text,
+       .doc = "A joint (with 'urdf' a link), 'base' or a frame."},
       {.name = "centre_m",
        .type = Type::numbers,
        .doc = "Where it is in the parent, x, y, z.",

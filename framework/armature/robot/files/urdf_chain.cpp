@@ -109,7 +109,7 @@ class ChainReader {
       problem(base, fmt::format("link '{}' does not carry '{}', which hangs on {}", from->name,
                                 tip.name, fmt::join(passed, " < ")));
     std::ranges::reverse(way);
-    chain_.links.push_back({from->name, -1, Isometry3d::Identity()});
+    chain_.links.push_back({.name = from->name});
     return way;
   }
 
@@ -120,8 +120,8 @@ class ChainReader {
                                  kind_of(joint)));
     else if (joint.type != urdf::Joint::FIXED)
       add_moving(joint);
-    chain_.links.push_back(
-        {joint.child_link_name, static_cast<int>(chain_.joints.size()) - 1, since_axis_});
+    chain_.links.push_back({joint.child_link_name, static_cast<int>(chain_.joints.size()) - 1,
+                            since_axis_, joint.name});
   }
 
   void add_moving(const urdf::Joint& joint) {

@@ -18,6 +18,7 @@ struct UrdfChain {
     std::string name;
     int joint = -1;  // that carries it; -1: it stands with the base
     Eigen::Isometry3d axis_T_link = Eigen::Isometry3d::Identity();  // base_T_link of a standing one
+    std::string urdf_joint = {};  // whose child it is, a fixed one maybe; none of the first link
   };
   std::vector<Joint> joints;  // names, types, limits, couplings; not how they hang together
   /// One per joint: its axis frame (z along the axis) seen from the one before, or the base.

@@ -1,12 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/robot/files/urdf_robot.hpp"
 
+#include <fmt/format.h>
 #include <urdf_model/model.h>
 
 #include "armature/robot/files/urdf_chain.hpp"
 #include "armature/robot/model/denavit_hartenberg.hpp"
 
 namespace armature {
+namespace {
+
+std::map<std::string, std::string> no_frames_of(const UrdfDocument& document,
+                                                const UrdfChain& chain) {
+  std::map<std::string, std::string> no_frames;
+  if (chain.links.empty()) return no_frames;
+  const std::string& base = chain.links.front().name;
+  for (const auto& link : chain.links) {
+    if (link.urdf_joint.empty()) continue;  // the first
+    no_frames.emplace(link.urdf_joint,
+                      fmt::format("a joint of {}; name the link that it carries: '{}'",
+                                  document.file(), link.name));
+  }
+  for (const auto& [name, link] : document.model().links_) {
+    no_frames.emplace(name, fmt::format("a link of {} that does not lie between '{}', on which "
+                                        "the arm stands, and '{}'; name one that does",
+                                        document.file(), base, chain.links.back().name));
+  }
+  for (const auto& link : chain.links) no_frames.erase(link.name);
+  return no_frames;
+}
+
+}  // namespace
 
 UrdfArm read_urdf_arm(const std::filesystem::path& file, const LinkName& base, const LinkName& tip,
                       config::Problems& problems) {
@@ -16,13 +40,14 @@ UrdfArm read_urdf_arm(const std::filesystem::path& file, const LinkName& base, c
     const UrdfDocument document = UrdfDocument::load(file);
     arm.name = document.model().getName();
     chain = read_urdf_chain(document, base, tip, problems);
+    arm.no_frames = no_frames_of(document, chain);
   } catch (const config::ConfigError& error) {
     for (const config::Problem& problem : error.problems())
       problems.add(problem.origin, problem.message);
   }
   const auto row_T_axis = to_denavit_hartenberg(chain.before_T_axis, chain.joints);
   arm.joints = std::move(chain.joints);
-  for (const auto& [name, joint, axis_T_link] : chain.links) {
+  for (const auto& [name, joint, axis_T_link, urdf_joint] : chain.links) {
     if (name == tip.name) arm.tip = FrameId{static_cast<int>(arm.frames.size())};
     const Eigen::Isometry3d parent_T_link =
         joint < 0 ? axis_T_link : row_T_axis[static_cast<std::size_t>(joint)] * axis_T_link;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,9 @@ struct UrdfArm {
   std::vector<Joint> joints;
   std::vector<NamedFrame> frames;
   FrameId tip{};
+  /// Names of joints, and of links that are not between base and tip: why that is no frame, and
+  /// what to name. A name that is a frame's, too, is not among them.
+  std::map<std::string, std::string> no_frames;
 };
 /// `base` without a name: the root link. Every problem goes to `problems`; with one the arm may be
 /// incomplete.

@@ -71,16 +71,9 @@ Expected<void> FrameTree::check_names() const {
   }
   std::set<std::string> taken{parameters_.world_frame.empty() ? name(kBaseFrame)
                                                               : parameters_.world_frame};
-  const bool link_called_base = model_->find_frame(kBaseFrame).has_value();
   const auto take = [&](const std::string& child) -> Expected<void> {
     if (taken.insert(child).second) return {};
-    std::string why = "two frames would be called '" + child + "'";
-    if (link_called_base && child == name(kBaseFrame)) {
-      why +=
-          ": the robot's foot and its link 'base'; with 'base: base' in the robot file the arm "
-          "stands on that link, and they are one";
-    }
-    return refuse(std::move(why));
+    return refuse("two frames would be called '" + child + "'");
   };
   for (int joint = 0; joint < model_->joint_count(); ++joint) {
     if (const auto taking = take(joint_frame(joint)); !taking) return taking;

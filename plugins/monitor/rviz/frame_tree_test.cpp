@@ -121,17 +121,6 @@ TEST(FrameTree, LeavesALinkThatIsCalledAsAJointItsName) {
   }
 }
 
-TEST(FrameTree, TellsTheWayOutOfALinkThatIsCalledAsTheFoot) {
-  const auto tree = FrameTree::make(
-      robot_with_links({{"tool", 1, Eigen::Isometry3d::Identity()},
-                        {"base", -1, Eigen::Isometry3d{Eigen::Translation3d{0, 0, 1}}}}),
-      std::nullopt, {});
-  ASSERT_FALSE(tree);
-  EXPECT_EQ(tree.error().text,
-            "two frames would be called 'base': the robot's foot and its link 'base'; with 'base: "
-            "base' in the robot file the arm stands on that link, and they are one");
-}
-
 TEST(FrameTree, StampsEveryFrameWithTheSample) {
   const RobotModel lamp = testing::dental_lamp();
   msg::TFMessage message;

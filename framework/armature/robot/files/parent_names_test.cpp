@@ -16,32 +16,32 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
+const std::string kRange = "<limit lower='-2' upper='2' effort='1' velocity='1'/></joint>\n";
+const std::string kArm =
+    "<robot name='arm'><link name='foot'/>\n"
+    "<joint name='turn' type='revolute'><parent link='foot'/><child link='column'/>"
+    "<origin xyz='0 0.15 0.2'/><axis xyz='0 0 1'/>" +
+    kRange +
+    "<link name='column'/>\n"
+    "<joint name='elbow' type='revolute'><parent link='column'/><child link='elbow'/>"
+    "<origin xyz='0.3 0.1 0'/><axis xyz='0 1 0'/>" +
+    kRange +
+    "<link name='elbow'/>\n"
+    "<joint name='wrist' type='revolute'><parent link='elbow'/><child link='palm'/>"
+    "<origin xyz='0.02 0 -0.4'/><axis xyz='0 0 -1'/>" +
+    kRange +
+    "<link name='palm'/>\n"
+    "<joint name='plate' type='fixed'><parent link='palm'/><child link='hand'/>"
+    "<origin xyz='0 0 -0.1'/></joint><link name='hand'/>\n"
+    "<joint name='post' type='fixed'><parent link='foot'/><child link='camera'/>"
+    "<origin xyz='1 0 0'/></joint><link name='camera'/>\n"
+    "</robot>\n";
+
 /// An arm whose joints do not turn about the z of their links, so that Denavit-Hartenberg frames
 /// are other frames than the links'.
 class UrdfParents : public testing::UrdfFile {
  protected:
-  UrdfParents() {
-    const std::string limit = "<limit lower='-2' upper='2' effort='1' velocity='1'/></joint>\n";
-    write("arm.urdf",
-          "<robot name='arm'><link name='foot'/>\n"
-          "<joint name='turn' type='revolute'><parent link='foot'/><child link='column'/>"
-          "<origin xyz='0 0.15 0.2'/><axis xyz='0 0 1'/>" +
-              limit +
-              "<link name='column'/>\n"
-              "<joint name='elbow' type='revolute'><parent link='column'/><child link='elbow'/>"
-              "<origin xyz='0.3 0.1 0'/><axis xyz='0 1 0'/>" +
-              limit +
-              "<link name='elbow'/>\n"
-              "<joint name='wrist' type='revolute'><parent link='elbow'/><child link='palm'/>"
-              "<origin xyz='0.02 0 -0.4'/><axis xyz='0 0 -1'/>" +
-              limit +
-              "<link name='palm'/>\n"
-              "<joint name='plate' type='fixed'><parent link='palm'/><child link='hand'/>"
-              "<origin xyz='0 0 -0.1'/></joint><link name='hand'/>\n"
-              "<joint name='post' type='fixed'><parent link='foot'/><child link='camera'/>"
-              "<origin xyz='1 0 0'/></joint><link name='camera'/>\n"
-              "</robot>\n");
-  }
+  UrdfParents() { write("arm.urdf", kArm); }
   RobotModel with(const std::string& rest) const { return robot(kHead + rest); }
   std::vector<std::string> problems_with(const std::string& rest) const {
     return problems_when([&] { with(rest); });
@@ -103,6 +103,33 @@ TEST_F(UrdfParents, ALinkBesideTheArmIsNoneAndUnknownNamesAreNoLinks) {
       ElementsAre("arm.yaml:5:22: 'camera' is a link of arm.urdf that does not lie between 'foot', "
                   "on which the arm stands, and 'hand'; name one that does",
                   "arm.yaml:6:24: there is no link or frame 'colum'; did you mean 'column'?"));
+}
+
+TEST_F(UrdfParents, BaseIsTheLinkThatTheArmStandsOnOrNone) {
+  const auto renamed = [](const std::string& link) {
+    std::string text = kArm;
+    for (auto at = text.find("'" + link + "'"); at != text.npos; at = text.find("'" + link + "'"))
+      text.replace(at + 1, link.size(), "base");
+    return text;
+  };
+  const std::string hung = "frames: {lamp: {parent: base, translation_m: [0, 0, 0.1]}}\n";
+  write("arm.urdf", renamed("foot"));
+  const RobotModel robot = with(hung);
+  EXPECT_EQ(robot.frame(*robot.find_frame("lamp")).parent_joint, -1);
+
+  write("arm.urdf", renamed("column"));
+  const std::string two =
+      "'base' would be two things: what the arm stands on, which is 'foot', and a link of arm.urdf "
+      "that hangs on it; stand the arm on that link (base: base, or --base base), or give it "
+      "another name";
+  EXPECT_THAT(problems_with(""), ElementsAre("arm.yaml:3:7: " + two));
+  EXPECT_THAT(problems_of(renamed("column")), ElementsAre("--base: " + two));
+  EXPECT_THAT(problems_of(renamed("column"), "base"), ElementsAre());
+
+  write("arm.urdf", renamed("camera"));
+  EXPECT_THAT(problems_with(""), ElementsAre());
+  EXPECT_THAT(problems_with(hung), ElementsAre(HasSubstr("'base' is a link of arm.urdf that does "
+                                                         "not lie between 'foot', on which")));
 }
 
 }  // namespace

@@ -30,6 +30,19 @@ std::map<std::string, std::string> no_frames_of(const UrdfDocument& document,
   return no_frames;
 }
 
+/// 'base' is the robot's foot in every robot file and on every topic.
+void check_base(const UrdfChain& chain, const UrdfDocument& document, const LinkName& base,
+                config::Problems& problems) {
+  for (std::size_t i = 1; i < chain.links.size(); ++i) {
+    if (chain.links[i].name != "base") continue;
+    problems.add(base.origin,
+                 fmt::format("'base' would be two things: what the arm stands on, which is '{}', "
+                             "and a link of {} that hangs on it; stand the arm on that link (base: "
+                             "base, or --base base), or give it another name",
+                             chain.links.front().name, document.file()));
+  }
+}
+
 }  // namespace
 
 UrdfArm read_urdf_arm(const std::filesystem::path& file, const LinkName& base, const LinkName& tip,
@@ -40,6 +53,7 @@ UrdfArm read_urdf_arm(const std::filesystem::path& file, const LinkName& base, c
     const UrdfDocument document = UrdfDocument::load(file);
     arm.name = document.model().getName();
     chain = read_urdf_chain(document, base, tip, problems);
+    check_base(chain, document, base, problems);
     arm.no_frames = no_frames_of(document, chain);
   } catch (const config::ConfigError& error) {
     for (const config::Problem& problem : error.problems())

@@ -29,6 +29,12 @@ RobotModel load_arm(const ArmChoice& arm) {
     throw InvalidChoice(fmt::format("robot '{}' has no frame '{}'{}", robot.name(), arm.tip,
                                     config::did_you_mean(arm.tip, names)));
   }
+  // 'tool' and the tip's link are one place of a URDF arm.
+  const NamedFrame &wanted = robot.frame(*tip), &tool = robot.frame(robot.tool());
+  if (wanted.parent_joint == tool.parent_joint &&
+      wanted.parent_T_frame.matrix() == tool.parent_T_frame.matrix()) {
+    return robot;
+  }
   // The pointing axis is one of the tool frame; another tip is given as a full rotation.
   RobotParts parts = robot.parts();
   parts.tool = *tip;

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
+#include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "armature/values/sanitizer.hpp"
@@ -182,6 +184,21 @@ TEST(FkCalculator, TakesAUrdfFileWithATipAndABase) {
                 bridge[0]["position_m"][i].get<double>() + rail_to_bridge[i], 1e-12);
   }
   EXPECT_EQ(bridge[1]["reason"], "'joints' has 5 numbers, must have 4");
+}
+
+TEST(FkCalculator, KnowsTheTipOfAUrdfArmAsItsToolToo) {
+  const std::filesystem::path file = std::filesystem::path{testing::TempDir()} / "puma_tool.yaml";
+  std::ofstream{file} << "{armature_robot: 1, name: puma, base: foot, tip: tool0, "
+                         "pointing_axis: y, urdf: "
+                      << source_file("tests/data/urdf/skew_puma.urdf") << "}\n";
+  const std::string q = "{\"joints\":[0.2,-1,-1.5,0.3,0.5,0.1]}\n";
+  const std::vector<std::string> fk_of{armature(), "fk", "--robot", file};
+  std::vector<std::string> of_tool = fk_of;
+  of_tool.insert(of_tool.end(), {"--tip", "tool"});
+  const json tip = answers(fk_of, q)[0];
+  EXPECT_EQ(tip["direction"].size(), 3U);
+  EXPECT_EQ(answers(of_tool, q)[0], tip);
+  std::filesystem::remove(file);
 }
 
 TEST(IkCalculator, ServesAUrdfArmThatHasASolversPatternInClosedForm) {

@@ -147,7 +147,8 @@ TEST(PhotoSceneComponent, DoesNotStartWithAFrameOrAPhotoThatIsNotThere) {
   ComponentHarness::Options lost = scene_with("");
   lost.rig = small_rig("elbow");
   EXPECT_EQ(refusal(lost),
-            "the rig 'small' is mounted on 'elbow', which is no frame of the robot 'dental_lamp'");
+            "the rig 'small' is mounted on 'elbow', which is no frame of the robot 'dental_lamp'; "
+            "known: tool");
   EXPECT_EQ(refusal(scene_with("photo: astronaut, astronaut_file: /no/such.png")),
             "cannot open the photo /no/such.png; install the Debian package python3-imageio, or "
             "set photo: generated");

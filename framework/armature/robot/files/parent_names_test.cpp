@@ -132,5 +132,26 @@ TEST_F(UrdfParents, BaseIsTheLinkThatTheArmStandsOnOrNone) {
                                                          "not lie between 'foot', on which")));
 }
 
+TEST_F(UrdfParents, TheToolIsTheTipUnlessALinkOrAFrameHasThatName) {
+  const RobotModel robot = with("capsules: {a: {parent: tool" + kAt + "}\n");
+  const LinkCapsule& capsule = robot.capsules()[0];
+  EXPECT_LT(apart(robot, capsule.parent_joint, capsule.from, "hand"), 1e-12);
+  EXPECT_LT(apart(robot, capsule.parent_joint, capsule.from, "tool"), 1e-12);
+  EXPECT_EQ(robot.frame(robot.tool()).name, "hand");
+
+  const RobotModel pen = with(
+      "frames: {tool: {parent: hand, translation_m: [0, 0, 0.2]}}\n"
+      "capsules: {a: {parent: tool" +
+      kAt + "}\n");
+  EXPECT_EQ(pen.tool(), *pen.find_frame("tool"));
+  EXPECT_LT(apart(pen, pen.capsules()[0].parent_joint, pen.capsules()[0].from, "tool"), 1e-12);
+
+  std::string text = kArm;
+  text.replace(text.rfind("'camera'"), 8, "'tool'");
+  text.replace(text.find("'camera'"), 8, "'tool'");
+  write("arm.urdf", text);
+  EXPECT_FALSE(with("").find_frame("tool"));
+}
+
 }  // namespace
 }  // namespace armature

@@ -148,7 +148,8 @@ void check_speeds(const std::vector<Joint>& joints, MapReader& map) {
   }
 }
 
-/// From a URDF file; its frames are the links from base to tip, and what the robot file adds.
+/// From a URDF file; its frames are the links from base to tip, 'tool', and what the robot file
+/// adds.
 std::optional<FrameId> read_urdf(const Node& file, MapReader& map, RobotParts& parts,
                                  ParentNames& parents, Problems& problems) {
   const auto link = [](const Node* node, const Node& otherwise) {
@@ -163,6 +164,7 @@ std::optional<FrameId> read_urdf(const Node& file, MapReader& map, RobotParts& p
   UrdfArm arm = read_urdf_arm(config::folder_of(file.origin()) / file.text(), base, tip, problems);
   parts.joints = std::move(arm.joints);
   parts.frames = std::move(arm.frames);
+  if (arm.tool && !(more && more->find("tool"))) parts.frames.push_back(*arm.tool);
   parents = {
       .joints = {}, .frames = parts.frames, .is_urdf = true, .no_frames = std::move(arm.no_frames)};
   if (parts.joints.empty()) return arm.tip;

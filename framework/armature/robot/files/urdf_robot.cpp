@@ -49,12 +49,14 @@ UrdfArm read_urdf_arm(const std::filesystem::path& file, const LinkName& base, c
                       config::Problems& problems) {
   UrdfArm arm;
   UrdfChain chain;
+  bool has_tool_link = false;
   try {
     const UrdfDocument document = UrdfDocument::load(file);
     arm.name = document.model().getName();
     chain = read_urdf_chain(document, base, tip, problems);
     check_base(chain, document, base, problems);
     arm.no_frames = no_frames_of(document, chain);
+    has_tool_link = document.model().getLink("tool") != nullptr;
   } catch (const config::ConfigError& error) {
     for (const config::Problem& problem : error.problems())
       problems.add(problem.origin, problem.message);
@@ -67,6 +69,7 @@ UrdfArm read_urdf_arm(const std::filesystem::path& file, const LinkName& base, c
         joint < 0 ? axis_T_link : row_T_axis[static_cast<std::size_t>(joint)] * axis_T_link;
     const bool is_base = &name == &chain.links.front().name && name == "base";
     if (!is_base) arm.frames.push_back({name, joint, parent_T_link});  // that frame is there anyway
+    if (name == tip.name && !has_tool_link) arm.tool = NamedFrame{"tool", joint, parent_T_link};
   }
   return arm;
 }

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,8 @@ struct UrdfArm {
   std::vector<Joint> joints;
   std::vector<NamedFrame> frames;
   FrameId tip{};
+  /// The tip once more by the name that rigs are mounted on; none where a link of the file has it.
+  std::optional<NamedFrame> tool;
   /// Names of joints, and of links that are not between base and tip: why that is no frame, and
   /// what to name. A name that is a frame's, too, is not among them.
   std::map<std::string, std::string> no_frames;

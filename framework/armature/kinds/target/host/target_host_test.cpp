@@ -274,7 +274,7 @@ TEST_F(TargetHostTest, DoesNotStartWithARigThatHangsOnNoFrameOfTheRobot) {
   } catch (const SetupError& error) {
     EXPECT_STREQ(error.what(),
                  "the rig 'lost' is mounted on 'elbow', which is no frame of the robot "
-                 "'dental_lamp'");
+                 "'dental_lamp'; known: tool");
   }
 }
 

@@ -162,13 +162,14 @@ std::optional<FrameId> read_urdf(const Node& file, MapReader& map, RobotParts& p
   parts.convention = RobotModel::Convention::modified;
   if (tip.name.empty()) return std::nullopt;  // noted as missing
   UrdfArm arm = read_urdf_arm(config::folder_of(file.origin()) / file.text(), base, tip, problems);
-  parts.joints = std::move(arm.joints);
+  parts.joints = arm.joints;
   parts.frames = std::move(arm.frames);
   if (arm.tool && !(more && more->find("tool"))) parts.frames.push_back(*arm.tool);
   parents = {
       .joints = {}, .frames = parts.frames, .is_urdf = true, .no_frames = std::move(arm.no_frames)};
   if (parts.joints.empty()) return arm.tip;
   if (limits) read_other_limits(*limits, parts.joints, problems);
+  check_urdf_limits(arm, parts.joints, problems);
   check_speeds(parts.joints, map);
   if (!more) return arm.tip;
   const auto added = read_frames(*more, parents, problems);

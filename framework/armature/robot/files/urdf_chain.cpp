@@ -136,23 +136,20 @@ class ChainReader {
     chain_.before_T_axis.push_back(since_axis_ * joint_T_axis);
     since_axis_ = joint_T_axis.inverse();
     chain_.joints.push_back({.name = joint.name, .coupling = {}, .placement = {}});
+    chain_.places.push_back(document_.joint(joint.name));
     if (joint.type == urdf::Joint::PRISMATIC) chain_.joints.back().type = Joint::Type::prismatic;
     if (joint.limits) limit(joint, chain_.joints.back());
   }
 
-  /// urdfdom sees to it that all but continuous joints have limits.
-  void limit(const urdf::Joint& joint, Joint& limited) {
+  /// urdfdom sees to it that all but continuous joints have limits. Whether they are any is judged
+  /// later: a robot file may state others.
+  static void limit(const urdf::Joint& joint, Joint& limited) {
     const auto& [lower, upper, effort, velocity] = *joint.limits;
     if (joint.type != urdf::Joint::CONTINUOUS) {
       limited.lower = lower;
       limited.upper = upper;
-      if (!(lower < upper))
-        problem(joint,
-                fmt::format("has no room to move: its limits are {:g} to {:g}", lower, upper));
     }
-    if (velocity < 0)
-      problem(joint, fmt::format("has a velocity limit of {:g}, which is below 0", velocity));
-    if (!(velocity > 0)) return;
+    if (velocity == 0) return;
     limited.max_velocity = velocity;
     limited.max_acceleration = usual_acceleration(velocity);
   }

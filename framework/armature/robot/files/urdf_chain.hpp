@@ -21,6 +21,7 @@ struct UrdfChain {
     std::string urdf_joint = {};  // whose child it is, a fixed one maybe; none of the first link
   };
   std::vector<Joint> joints;  // names, types, limits, couplings; not how they hang together
+  std::vector<config::Origin> places;  // where each joint is written
   /// One per joint: its axis frame (z along the axis) seen from the one before, or the base.
   std::vector<Eigen::Isometry3d> before_T_axis;
   std::vector<Link> links;  // from the base to the tip, both included
@@ -28,7 +29,8 @@ struct UrdfChain {
 
 /// The chain from `base` (without a name: the root) to `tip`. A mimicking joint is a coupled one. A
 /// velocity of 0 and a continuous joint without one mean no limit; accelerations reach the top
-/// speed in 0.25 s, which URDF has no word for. Every problem goes to `problems`.
+/// speed in 0.25 s, which URDF has no word for. Limits are as they are written (see
+/// check_urdf_limits). Every problem goes to `problems`.
 UrdfChain read_urdf_chain(const UrdfDocument& document, const LinkName& base, const LinkName& tip,
                           config::Problems& problems);
 

@@ -63,6 +63,7 @@ UrdfArm read_urdf_arm(const std::filesystem::path& file, const LinkName& base, c
   }
   const auto row_T_axis = to_denavit_hartenberg(chain.before_T_axis, chain.joints);
   arm.joints = std::move(chain.joints);
+  arm.places = std::move(chain.places);
   for (const auto& [name, joint, axis_T_link, urdf_joint] : chain.links) {
     if (name == tip.name) arm.tip = FrameId{static_cast<int>(arm.frames.size())};
     const Eigen::Isometry3d parent_T_link =
@@ -74,10 +75,35 @@ UrdfArm read_urdf_arm(const std::filesystem::path& file, const LinkName& base, c
   return arm;
 }
 
+void check_urdf_limits(const UrdfArm& arm, const std::vector<Joint>& joints,
+                       config::Problems& problems) {
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    const Joint &own = arm.joints[i], &joint = joints[i];
+    if (joint.locked) continue;
+    const bool slides = own.type == Joint::Type::prismatic;
+    const auto note = [&](const std::string& what, const std::string& instead) {
+      problems.add(arm.places[i],
+                   fmt::format("joint '{0}' {1}; correct it there, or in a robot file: joints: "
+                               "[{{name: {0}, {2}}}]",
+                               own.name, what, instead));
+    };
+    const bool same_range = joint.lower == own.lower && joint.upper == own.upper;
+    if (same_range && !(own.lower < own.upper)) {
+      note(fmt::format("has no room to move: its limits are {:g} to {:g}", own.lower, own.upper),
+           slides ? "limits_m: [0, 1]" : "limits_deg: [-90, 90]");
+    }
+    if (joint.max_velocity == own.max_velocity && own.max_velocity < 0) {
+      note(fmt::format("has a velocity limit of {:g}, which is below 0", own.max_velocity),
+           slides ? "velocity_m_s: 1" : "velocity_rad_s: 1");
+    }
+  }
+}
+
 RobotModel load_urdf_robot(const std::filesystem::path& file, const LinkName& base,
                            const LinkName& tip) {
   config::Problems problems;
   UrdfArm arm = read_urdf_arm(file, base, tip, problems);
+  check_urdf_limits(arm, arm.joints, problems);
   problems.throw_if_any();
   return {{std::move(arm.name), RobotModel::Convention::modified, std::move(arm.joints),
            std::move(arm.frames), arm.tip, std::nullopt, std::nullopt}};

@@ -24,6 +24,7 @@ struct LinkName {
 struct UrdfArm {
   std::string name;
   std::vector<Joint> joints;
+  std::vector<config::Origin> places;  // where each joint is written
   std::vector<NamedFrame> frames;
   FrameId tip{};
   /// The tip once more by the name that rigs are mounted on; none where a link of the file has it.
@@ -36,6 +37,11 @@ struct UrdfArm {
 /// incomplete.
 UrdfArm read_urdf_arm(const std::filesystem::path& file, const LinkName& base, const LinkName& tip,
                       config::Problems& problems);
+
+/// Notes every joint that has no room to move, or a speed below 0, by the file; `joints` are the
+/// arm's as they shall be: one that says otherwise by now or is locked is not looked at.
+void check_urdf_limits(const UrdfArm& arm, const std::vector<Joint>& joints,
+                       config::Problems& problems);
 
 /// The arm as a robot by itself: its tool is the tip, its goals are rotations, and a joint whose
 /// speed the file does not limit has no such limit. Throws config::ConfigError.

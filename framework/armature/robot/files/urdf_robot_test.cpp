@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <numbers>
 
 #include "armature/config/document.hpp"
 #include "armature/robot/files/urdf_file_test.hpp"
@@ -115,10 +116,37 @@ TEST_F(UrdfFile, SaysWhichJointHasNoUsableLimits) {
   EXPECT_THAT(problems_of(arm("revolute", "")),
               ElementsAre(HasSubstr("arm.urdf:3:1: not a robot description that urdfdom reads: ")));
   EXPECT_THAT(problems_of(arm("prismatic", "<limit effort='1' velocity='2'/>")),
-              ElementsAre("arm.urdf:3:1: joint 'j2' has no room to move: its limits are 0 to 0"));
+              ElementsAre("arm.urdf:3:1: joint 'j2' has no room to move: its limits are 0 to 0; "
+                          "correct it there, or in a robot file: joints: [{name: j2, limits_m: [0, "
+                          "1]}]"));
   EXPECT_THAT(
       problems_of(arm("revolute", "<limit lower='-1' upper='1' effort='1' velocity='-2'/>")),
-      ElementsAre("arm.urdf:3:1: joint 'j2' has a velocity limit of -2, which is below 0"));
+      ElementsAre("arm.urdf:3:1: joint 'j2' has a velocity limit of -2, which is below 0; correct "
+                  "it there, or in a robot file: joints: [{name: j2, velocity_rad_s: 1}]"));
+}
+
+TEST_F(UrdfFile, IsJudgedWithTheLimitsThatARobotFileStatesInPlaceOfItsOwn) {
+  write("arm.urdf", arm("revolute", "<limit effort='1' velocity='-2'/>"));
+  const std::string head = "armature_robot: 1\nname: mine\nurdf: arm.urdf\ntip: hand\n";
+  const auto said = [&](const std::string& rest) {
+    return problems_when([&] { robot(head + rest); });
+  };
+  EXPECT_THAT(said(""), ElementsAre(HasSubstr("has no room to move: its limits are 0 to 0"),
+                                    HasSubstr("has a velocity limit of -2")));
+  EXPECT_THAT(said("joints: [{name: j2, velocity_rad_s: 3}]\n"),
+              ElementsAre(HasSubstr("has no room to move")));
+  EXPECT_THAT(said("joints: [{name: j2, limits_deg: [20, 10], velocity_rad_s: 3}]\n"),
+              ElementsAre("arm.yaml:5:33: 'limits_deg' is [lower, upper], and 20 is not below 10"));
+  const RobotModel repaired =
+      robot(head + "joints: [{name: j2, limits_deg: [-90, 90], velocity_rad_s: 3}]\n");
+  EXPECT_NEAR(repaired.upper()[1], std::numbers::pi / 2, 1e-15);
+  EXPECT_EQ(repaired.max_velocity()[1], 3);
+  EXPECT_EQ(repaired.max_acceleration()[1], 12);
+
+  const RobotModel locked = robot(head + "joints: [{name: j2, locked: true}]\nhome: [0.5, 0]\n");
+  EXPECT_EQ(locked.dof(), 1);
+  EXPECT_THAT(said("joints: [{name: j2, locked: true}]\nhome: [0, 0.5]\n"),
+              ElementsAre(HasSubstr("j2 = 28.6479 deg is outside of 0 deg to 0 deg")));
 }
 
 TEST_F(UrdfFile, SaysWhichAxisAndWhichNumberIsNone) {

@@ -216,10 +216,8 @@ const Fault kFaults[] = {
      "'clock: system'\n"
      "deployment.yaml:17:48: 'command' must be a list of texts, not 'solver'\n"},
     {"VelocityAboveTheRobots", "max_velocity_rad_s: 1.0", "max_velocity_rad_s: 9.0",
-     "deployment.yaml:13:3: component 'motion': max_velocity_rad_s is 9, above the 2.5 rad/s of "
-     "joint j1 of robot dental_lamp\n"
-     "deployment.yaml:13:3: component 'motion.planner': max_velocity_rad_s is 9, above the 2.5 "
-     "rad/s of joint j1 of robot dental_lamp\n"},
+     "deployment.yaml:15:34: max_velocity_rad_s is 9, above the 2.5 rad/s of joint j1 of robot "
+     "dental_lamp\n"},
     {"GoalNotANumber", "distance_error_mm: 1.5", "distance_error_mm: small",
      "deployment.yaml:22:28: 'distance_error_mm' must be a number, not 'small'\n"},
     {"ComponentsMissing", "components:", "component:",

@@ -226,8 +226,9 @@ TEST_F(MotionComponentTest, AJointStateThatIsNoneIsTroubleUntilAGoodOneComes) {
 }
 
 TEST_F(MotionComponentTest, DoesNotStartWithMoreThanTheRobotCan) {
-  EXPECT_EQ(refusal_of(plugins(), motion_with("max_acceleration_m_s2: 3")),
-            "max_acceleration_m_s2 is 3, above the 2.5 m/s2 of joint z of robot gantry");
+  EXPECT_EQ(
+      refusal_of(plugins(), motion_with("max_acceleration_m_s2: 3")),
+      "bench:1:57: max_acceleration_m_s2 is 3, above the 2.5 m/s2 of joint z of robot gantry");
   EXPECT_EQ(refusal_of(plugins(), motion_with("limit_margin_mm: 1000")), "");
   EXPECT_EQ(refusal_of(plugins(), motion_with("limit_margin_deg: 1")),
             "bench:1:52: a margin for joints that turn, and robot gantry has none");

@@ -9,7 +9,6 @@
 
 #include "armature/motion/limit_margin.hpp"
 #include "armature/robot/kinematics/locked_joints.hpp"
-#include "armature/runtime/component/setup.hpp"
 
 namespace armature {
 namespace {
@@ -22,21 +21,21 @@ struct Limit {
   const char *name, *unit;
 };
 
-/// The same limit for every joint of a kind, refused where the robot's own is lower; 0: the robot's
-/// own.
-JointVector limits_from(const Limit& turning, const Limit& sliding, const RobotModel& model,
-                        const JointVector& robot_limit) {
+/// The same limit for every joint of a kind, 0: the robot's own. Where the robot's own is lower, a
+/// limit that was written is refused, and a default gives way.
+JointVector limits_from(const Limit& turning, const Limit& sliding, const Params& params,
+                        const RobotModel& model, const JointVector& robot_limit) {
   JointVector limits = robot_limit;
   for (int i = 0; i < model.dof(); ++i) {
     const Joint& joint = model.joints()[static_cast<std::size_t>(model.independent_joint(i))];
     const Limit& limit = joint.type == Joint::Type::prismatic ? sliding : turning;
     if (limit.value == 0) continue;
-    if (limit.value > robot_limit[i]) {
-      throw SetupError(fmt::format("{} is {}, above the {} {} of joint {} of robot {}", limit.name,
-                                   limit.value, robot_limit[i], limit.unit, joint.name,
-                                   model.name()));
+    if (limit.value > robot_limit[i] && params.is_written(limit.name)) {
+      params.refuse({limit.name},
+                    fmt::format("{} is {}, above the {} {} of joint {} of robot {}", limit.name,
+                                limit.value, robot_limit[i], limit.unit, joint.name, model.name()));
     }
-    limits[i] = limit.value;
+    limits[i] = std::min(limit.value, robot_limit[i]);
   }
   return limits;
 }
@@ -69,11 +68,11 @@ MotionLimits limits_of(const Params& params, const RobotModel& model) {
   const auto parameters = Parameters::read(params);
   refuse_idle_limits(parameters, params, model);
   return {limits_from({parameters.max_velocity_rad_s, "max_velocity_rad_s", "rad/s"},
-                      {parameters.max_velocity_m_s, "max_velocity_m_s", "m/s"}, model,
+                      {parameters.max_velocity_m_s, "max_velocity_m_s", "m/s"}, params, model,
                       model.max_velocity()),
           limits_from({parameters.max_acceleration_rad_s2, "max_acceleration_rad_s2", "rad/s2"},
-                      {parameters.max_acceleration_m_s2, "max_acceleration_m_s2", "m/s2"}, model,
-                      model.max_acceleration()),
+                      {parameters.max_acceleration_m_s2, "max_acceleration_m_s2", "m/s2"}, params,
+                      model, model.max_acceleration()),
           max_jerk_of(parameters, model)};
 }
 

@@ -10,8 +10,8 @@ namespace armature ARMATURE_EXPORT {
 
 // What plugin.yaml's parameters mean, for both units of motion.
 
-/// Throws SetupError where a limit is above the robot's own, config::ConfigError where it is for a
-/// kind of joint that the robot does not have.
+/// A default that is above a joint's own limit gives way to that. Throws config::ConfigError where
+/// a limit that was written is above it, or for a kind of joint that the robot does not have.
 MotionLimits limits_of(const Params& params, const RobotModel& model);
 /// The robot as the solver has it. Throws config::ConfigError where a margin leaves nothing.
 RobotModel solver_model_of(const Params& params, const RobotModel& model);

@@ -51,6 +51,13 @@ TEST(WorkspaceCommand, WritesEveryPointWithItsJointsAndAPicture) {
   fs::remove_all(folder);
 }
 
+TEST(WorkspaceCommand, IsThatOfAnArmWhoseJointsTurnWithoutAnEnd) {
+  const CommandResult result = workspace({"--tip", "gripper", "--samples", "100", "--json"},
+                                         source_file("tests/data/urdf/gantry.urdf"));
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(json::parse(result.out)["reached"], 100);
+}
+
 TEST(WorkspaceCommand, WhatCannotBeComputedIsSaid) {
   const auto expect_said = [](const CommandResult& result, int exit_code, const std::string& what) {
     EXPECT_EQ(result.exit_code, exit_code);

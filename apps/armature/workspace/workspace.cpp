@@ -81,12 +81,15 @@ Workspace workspace_of(const RobotModel& robot, const RemoteCentre& centre,
                          options.seed);
 }
 
-void refuse_open_joints(const RobotModel& robot) {
+/// A slide without limits comes to everywhere; of a joint that turns one turn is all that there is.
+void refuse_open_slides(const RobotModel& robot) {
   for (int i = 0; i < robot.dof(); ++i) {
+    if (robot.is_revolute(i)) continue;
     if (std::isfinite(robot.lower()[i]) && std::isfinite(robot.upper()[i])) continue;
     const auto joint = static_cast<std::size_t>(robot.independent_joint(i));
-    throw InvalidChoice(fmt::format("joint {} of robot '{}' has no limits; state them in its file",
-                                    robot.joints()[joint].name, robot.name()));
+    throw InvalidChoice(
+        fmt::format("joint {} of robot '{}' slides without limits; state them in its file",
+                    robot.joints()[joint].name, robot.name()));
   }
 }
 
@@ -179,7 +182,7 @@ void print(const nlohmann::ordered_json& told) {
 
 int run_workspace(const WorkspaceOptions& options) {
   const RobotModel robot = load_arm(options.arm);
-  refuse_open_joints(robot);
+  refuse_open_slides(robot);
   std::optional<RemoteCentre> centre;
   if (!options.incision_m.empty()) centre = centre_of(robot, options);
   const Workspace workspace = centre ? workspace_of(robot, *centre, options)

@@ -55,6 +55,20 @@ Vector3d any_place(const RemoteCentre& centre, double min_depth, std::mt19937_64
   return centre.point + depth * Vector3d{radius * std::cos(angle), radius * std::sin(angle), z};
 }
 
+struct Range {
+  double lower, upper;
+};
+
+/// Of a joint that turns without an end, one turn.
+Range range_of(const RobotModel& model, int joint) {
+  const double lower = model.lower()[joint], upper = model.upper()[joint];
+  if (std::isfinite(lower) && std::isfinite(upper)) return {lower, upper};
+  constexpr double kTurn = 2 * std::numbers::pi;
+  if (std::isfinite(lower)) return {lower, lower + kTurn};
+  if (std::isfinite(upper)) return {upper - kTurn, upper};
+  return {-kTurn / 2, kTurn / 2};
+}
+
 }  // namespace
 
 Workspace free_workspace(const RobotModel& model, std::size_t samples, std::uint64_t seed) {
@@ -64,7 +78,8 @@ Workspace free_workspace(const RobotModel& model, std::size_t samples, std::uint
   for (std::size_t i = 0; i < samples; ++i) {
     JointVector q{model.dof()};
     for (int j = 0; j < model.dof(); ++j) {
-      q[j] = model.lower()[j] + part(random) * (model.upper()[j] - model.lower()[j]);
+      const auto [lower, upper] = range_of(model, j);
+      q[j] = lower + part(random) * (upper - lower);
     }
     found.points.push_back({forward_kinematics(model, q).translation(), q});
   }

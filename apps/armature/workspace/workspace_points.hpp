@@ -23,7 +23,8 @@ struct Workspace {
 };
 
 /// Where the tip comes to at so many random joint positions within the limits, evenly over the
-/// joints (not over space). Needs limits on every joint.
+/// joints (not over space). A joint that turns without an end takes one turn; one that slides needs
+/// limits.
 Workspace free_workspace(const RobotModel& model, std::size_t samples, std::uint64_t seed);
 
 /// Where the tip comes to with the shaft in an incision: of so many places, evenly in the ball

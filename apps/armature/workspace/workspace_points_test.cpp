@@ -5,6 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <numbers>
+
+#include "armature/config/document.hpp"
 #include "armature/kinds/declared_params.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
 #include "armature/runtime/plugins/plugin_registry.hpp"
@@ -59,6 +63,27 @@ TEST_F(WorkspaceTest, OfAnIncisionOutOfReachIsEmpty) {
   RemoteCentre centre = centre_behind_home(0.1);
   centre.point.x() += 3;
   EXPECT_TRUE(workspace_about(centre, 0.01, arm_, *solver_, 50, 9).points.empty());
+}
+
+TEST(FreeWorkspace, HasOneTurnOfAJointThatTurnsWithoutAnEnd) {
+  const RobotModel arm = read_robot_model(config::parse_text(
+      "armature_robot: 1\n"
+      "name: spindle\n"
+      "joints:\n"
+      "  - {name: reach, type: prismatic, theta_deg: 90, alpha_deg: 90, limits_m: [0.2, 0.3],\n"
+      "     velocity_m_s: 1, acceleration_m_s2: 1}\n"
+      "  - {name: spin, type: continuous, a_m: 0.1, velocity_rad_s: 1, acceleration_rad_s2: 1}\n"
+      "frames: {tool: {parent: spin}}\n",
+      "spindle.yaml"));
+  const Workspace workspace = free_workspace(arm, 500, 5);
+  double lowest = 0, highest = 0;
+  for (const ReachedPoint& point : workspace.points) {
+    ASSERT_LT((forward_kinematics(arm, point.q).translation() - point.position).norm(), 1e-12);
+    lowest = std::min(lowest, point.q[1]);
+    highest = std::max(highest, point.q[1]);
+  }
+  EXPECT_GT(highest - lowest, 1.95 * std::numbers::pi);
+  EXPECT_LE(highest - lowest, 2 * std::numbers::pi);
 }
 
 TEST_F(WorkspaceTest, IsTheSameForTheSameSeed) {

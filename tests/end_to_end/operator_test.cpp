@@ -2,17 +2,21 @@
 // An operator at a running deployment, by DDS: what he confirms begins, what he pauses rests, and
 // what he aborts goes back.
 #include <gmock/gmock.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <nlohmann/json.hpp>
+#include <thread>
 
+#include "armature/messages/armature_msgs.hpp"
+#include "asker.hpp"
 #include "command.hpp"
 #include "tests/dds_domain.hpp"
 
 namespace armature::test {
 namespace {
 
-using testing::HasSubstr;
+using testing::ContainsRegex, testing::HasSubstr, testing::Not;
 
 constexpr std::chrono::seconds kAtMost{30};
 constexpr int kRefused = 1, kInvalid = 3, kTimedOut = 5;
@@ -78,6 +82,68 @@ TEST_F(OperatorTest, ConfirmsATouchOnceTheTipRestsAndTakesItBack) {
   EXPECT_EQ(say("abort").exit_code, 0);
   EXPECT_TRUE(run.wait_for_err("task      aborted", kAtMost)) << run.err();
   EXPECT_EQ(run.finish(kAtMost).exit_code, 1);
+}
+
+/// A program that writes what the biopsy's task tells, as the deployment that it says to be.
+class ForgedTask {
+ public:
+  ForgedTask(int domain, const std::string& deployment)
+      : transport_{std::move(*FastDdsTransport::make({.network = {.domain = domain},
+                                                      .deployment = deployment,
+                                                      .fingerprint = std::string(64, '0'),
+                                                      .now = system_now}))},
+        states_{message_type<msg::TaskState>(), 4},
+        writer_{std::move(*transport_->advertise(
+            {"rt/sr1_biopsy/task/state", &message_type<msg::TaskState>(), QosProfile::state}))},
+        thread_{[this](const std::stop_token& ended) { tell(ended); }} {}
+
+ private:
+  void tell(const std::stop_token& ended) {
+    while (!ended.stop_requested()) {
+      SampleRef sample = states_.loan();
+      auto& state = *static_cast<msg::TaskState*>(sample.mutable_message());
+      state.state_() = "forged\x1b[31m";
+      state.procedure_().resize(1);
+      state.procedure_()[0].name_() = "forged";
+      state.procedure_()[0].state_(1);  // waits for its confirmation
+      sample.mutable_info().published = system_now();
+      writer_->offer(sample);
+      std::this_thread::sleep_for(std::chrono::milliseconds{10});
+    }
+  }
+
+  std::unique_ptr<Transport> transport_;
+  SamplePool states_;
+  std::unique_ptr<RemoteWriter> writer_;
+  std::jthread thread_;
+};
+
+TEST_F(OperatorTest, BelievesNobodyButTheDeploymentsOwnTask) {
+  Command run{operated_biopsy(), {}};
+  ASSERT_TRUE(run.wait_for_err("asks the operator to confirm 'approach'", kAtMost)) << run.err();
+  const ForgedTask stranger{std::stoi(domain_), "stranger"};
+  ASSERT_TRUE(run.wait_for_err("writes '/sr1_biopsy/task/state', too", kAtMost)) << run.err();
+  const CommandResult confirmed = say("confirm");
+  EXPECT_EQ(confirmed.exit_code, 0) << confirmed.err;
+  EXPECT_THAT(confirmed.out, Not(HasSubstr("forged")));
+  EXPECT_THAT(confirmed.err, ContainsRegex("a writer of deployment 'stranger'.* writes "
+                                           "'/sr1_biopsy/task/state', too, and is no part of "
+                                           "deployment 'sr1_biopsy': what it tells is not taken"));
+  EXPECT_TRUE(run.wait_for_err("the operator says confirm approach", kAtMost)) << run.err();
+}
+
+TEST_F(OperatorTest, ConfirmsNothingWhereTwoSayThatTheyAreTheTask) {
+  Command run{operated_biopsy(), {}};
+  ASSERT_TRUE(run.wait_for_err("asks the operator to confirm 'approach'", kAtMost)) << run.err();
+  const ForgedTask second{std::stoi(domain_), "sr1_biopsy"};
+  ASSERT_TRUE(run.wait_for_err("writes '/sr1_biopsy/task/state', too", kAtMost)) << run.err();
+  const CommandResult confirmed = say("confirm");
+  EXPECT_EQ(confirmed.exit_code, kRefused);
+  EXPECT_THAT(confirmed.err, HasSubstr("2 writers say that they are the task of deployment "
+                                       "'sr1_biopsy'"));
+  EXPECT_THAT(confirmed.err, HasSubstr("pid " + std::to_string(run.pid())));
+  EXPECT_THAT(confirmed.err, HasSubstr("pid " + std::to_string(getpid())));
+  EXPECT_THAT(run.err(), Not(HasSubstr("the operator says")));
 }
 
 TEST_F(OperatorTest, TypesHisWords) {

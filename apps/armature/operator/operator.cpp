@@ -24,6 +24,7 @@
 #include "exit_code.hpp"
 #include "operator/procedure_view.hpp"
 #include "operator/task_link.hpp"
+#include "terminal_text.hpp"
 
 namespace armature {
 namespace {
@@ -49,7 +50,7 @@ TaskTopics find_task(const DeploymentConfig& deployment, const std::string& comp
     const PortBinding* command = port_of(one.inputs, "armature_msgs/OperatorCommand");
     const PortBinding* state = port_of(one.outputs, "armature_msgs/TaskState");
     if (!command || !state || (!component.empty() && one.name != component)) continue;
-    tasks.push_back({one.name, command->topic, state->topic});
+    tasks.push_back({deployment.name, one.name, command->topic, state->topic});
     names.push_back(one.name);
   }
   if (tasks.size() == 1) return tasks.front();
@@ -71,7 +72,7 @@ class Dialogue {
 
   /// kOk once the task has told what it does.
   int meet() {
-    const bool met = wait([&] { return link_.state().has_value(); });
+    const bool met = wait([&] { return link_.state() || link_.tasks().size() > 1; });
     if (met || g_left) return kOk;
     fmt::print(stderr,
                "armature: no task of '{}' tells what it does in domain {} within {:g} s; is it "
@@ -81,35 +82,43 @@ class Dialogue {
   }
 
   int say(const std::string& word, std::string step) {
-    if (word == "confirm" && step.empty()) step = step_that_asks(*link_.state());
+    // Whoever confirms must know that nobody else says that he is the task.
+    if (word == "confirm") wait([&] { return link_.knows_all(); });
+    if (is_ambiguous()) return kFailed;
+    auto state = link_.state();
+    if (word == "confirm" && step.empty() && state) step = step_that_asks(*state);
     const std::uint64_t id = ids_();
     Steady::time_point told{};
     const bool answered = wait([&] {
-      if (link_.state()->answered_() == id) return true;
-      if (Steady::now() - told < kSayAgain) return false;
+      state = link_.state();
+      if (state && state->answered_() == id) return true;
+      if (!state || Steady::now() - told < kSayAgain) return false;
       told = Steady::now();
       link_.say(id, word, step);
       return false;
     });
     if (!answered) {
+      if (is_ambiguous()) return kFailed;
       fmt::print(stderr, "armature: the task did not answer '{}' within {:g} s\n", word,
                  options_.timeout_s);
       return kTimedOut;
     }
-    const std::string refused = link_.state()->answer_();
+    const std::string refused = state->answer_();
     if (refused.empty()) return kOk;
-    fmt::print(stderr, "armature: '{}' was refused: {}\n", word, refused);
+    fmt::print(stderr, "armature: '{}' was refused: {}\n", word, terminal_text(refused));
     return kFailed;
   }
 
   void show_if_changed() {
-    const msg::TaskState state = *link_.state();
-    const std::string summary = summary_of(state);
+    link_.look();
+    const auto state = link_.state();
+    if (!state) return;
+    const std::string summary = summary_of(*state);
     if (summary == shown_) return;
     shown_ = summary;
-    fmt::print("{}\n", options_.json ? json_of(state).dump() : table_of(state));
-    if (const std::string asks = step_that_asks(state); !asks.empty() && !options_.json) {
-      fmt::print("c(onfirm) '{}', p(ause), b(ack), a(bort)?\n", asks);
+    fmt::print("{}\n", options_.json ? json_of(*state).dump() : table_of(*state));
+    if (const std::string asks = step_that_asks(*state); !asks.empty() && !options_.json) {
+      fmt::print("c(onfirm) '{}', p(ause), b(ack), a(bort)?\n", terminal_text(asks));
     }
     std::fflush(stdout);
   }
@@ -121,8 +130,9 @@ class Dialogue {
                  fmt::join(kOperatorWords, ", "));
     }
     std::string line;
-    while (!g_left) {
+    for (bool told = false; !g_left;) {
       show_if_changed();
+      if (link_.tasks().size() > 1 && !std::exchange(told, true)) is_ambiguous();
       if (!read_line(line)) continue;
       if (line == "q" || ended_) return kOk;
       const std::string word = word_of(line);
@@ -136,11 +146,23 @@ class Dialogue {
   }
 
  private:
+  /// Which of several is the task cannot be known: nothing is said to any of them.
+  bool is_ambiguous() const {
+    if (link_.tasks().size() < 2) return false;
+    fmt::print(stderr,
+               "armature: {} writers say that they are the task of deployment '{}', and no word is "
+               "said to any: {}. End the one that is not meant, or give each a domain of its own; "
+               "`armature stop` stops every arm meanwhile\n",
+               link_.tasks().size(), deployment_.name, fmt::join(link_.tasks(), ", and "));
+    return true;
+  }
+
   template <class Done>
   bool wait(const Done& done) {
     const auto give_up = Steady::now() + std::chrono::duration_cast<Steady::duration>(
                                              std::chrono::duration<double>{options_.timeout_s});
     while (!g_left && Steady::now() < give_up) {
+      link_.look();
       if (done()) return true;
       std::this_thread::sleep_for(kAskAgain);
     }

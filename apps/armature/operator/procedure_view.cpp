@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "armature/task/procedure.hpp"
+#include "terminal_text.hpp"
 
 namespace armature {
 namespace {
@@ -48,15 +49,15 @@ std::string summary_of(const msg::TaskState& state) {
 
 std::string table_of(const msg::TaskState& state) {
   std::string text = state.paused_() ? "paused, " : "";
-  text += state.state_();
-  if (!state.detail_().empty()) text += ": " + state.detail_();
+  text += terminal_text(state.state_());
+  if (!state.detail_().empty()) text += ": " + terminal_text(state.detail_());
   if (state.auto_confirm_()) text += " (nobody is asked: auto_confirm)";
   std::size_t width = 0;
   for (const msg::TaskStep& step : state.procedure_()) {
-    width = std::max(width, step.name_().size());
+    width = std::max(width, terminal_text(step.name_()).size());
   }
   for (const msg::TaskStep& step : state.procedure_()) {
-    text += fmt::format("\n  {:<{}}  {}", step.name_(), width, name_of(step));
+    text += fmt::format("\n  {:<{}}  {}", terminal_text(step.name_()), width, name_of(step));
   }
   return text;
 }

@@ -4,11 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <string_view>
 #include <utility>
 
 #include "armature/config/problems.hpp"
+#include "armature/values/utf8.hpp"
 
 namespace armature::config {
 namespace {
@@ -17,28 +17,10 @@ std::uint32_t byte_at(std::string_view text, std::size_t at) {
   return at < text.size() ? static_cast<unsigned char>(text[at]) : 0U;
 }
 
-/// Length of the UTF-8 character at `at`; 0 when there is none. RFC 3629: no overlong forms, no
-/// surrogates, at most U+10FFFF.
-std::size_t character_length(std::string_view text, std::size_t at) {
-  const std::uint32_t lead = byte_at(text, at);
-  if (lead < 0x80) return 1;
-  const std::size_t length = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
-  if (lead < 0xC2 || lead > 0xF4) return 0;
-  std::uint32_t code = lead & (0x7FU >> length);
-  for (std::size_t i = 1; i < length; ++i) {
-    const std::uint32_t next = byte_at(text, at + i);
-    if ((next & 0xC0U) != 0x80U) return 0;
-    code = code << 6U | (next & 0x3FU);
-  }
-  constexpr std::array<std::uint32_t, 5> kSmallest{0, 0, 0x80, 0x800, 0x10000};
-  const bool surrogate = code >= 0xD800 && code <= 0xDFFF;
-  return code < kSmallest[length] || code > 0x10FFFF || surrogate ? 0 : length;
-}
-
 /// What is wrong with the character at `at`; empty: nothing.
 std::string fault_at(std::string_view text, std::size_t at) {
   const std::uint32_t byte = byte_at(text, at);
-  if (character_length(text, at) == 0) {
+  if (first_character(text.substr(at)).length == 0) {
     return fmt::format("byte 0x{:02X} is not UTF-8; save the file as UTF-8", byte);
   }
   if (byte == '\r' && byte_at(text, at + 1) != '\n') {
@@ -61,7 +43,7 @@ SourceText::SourceText(std::string text, std::string name)
     const std::string fault = fault_at(text_, at);
     if (!fault.empty()) throw ConfigError{{{place(at), fault}}};
     if (text_[at] == '\n') line_starts_.push_back(at + 1);
-    const std::size_t next = at + character_length(text_, at);
+    const std::size_t next = at + first_character(std::string_view{text_}.substr(at)).length;
     while (++at < next) continuation_bytes_.push_back(at);
   }
 }

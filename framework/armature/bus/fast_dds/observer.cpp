@@ -28,10 +28,26 @@ namespace {
 
 namespace dds = eprosima::fastdds::dds;
 
+ObservedEndpoint observed(const Endpoint& endpoint, const Discovery& discovery) {
+  ObservedEndpoint seen{.writes = endpoint.writes,
+                        .owner = discovery.owner(endpoint),
+                        .type = endpoint.type,
+                        .reliable = endpoint.reliable,
+                        .transient_local = endpoint.transient_local};
+  if (endpoint.tag.ours) {
+    seen.deployment = endpoint.tag.deployment;
+    seen.layout = endpoint.tag.layout;
+  }
+  const auto entity = std::ranges::copy(endpoint.guid.participant, seen.guid.begin()).out;
+  std::ranges::copy(endpoint.guid.entity, entity);
+  return seen;
+}
+
 class Watch final : public dds::DataReaderListener {
  public:
-  Watch(std::string type, std::function<void(const ObservedSample&)> on_sample)
-      : type_{std::move(type)}, on_sample_{std::move(on_sample)} {}
+  Watch(std::string type, const Discovery& discovery,
+        std::function<void(const ObservedSample&)> on_sample)
+      : type_{std::move(type)}, discovery_{discovery}, on_sample_{std::move(on_sample)} {}
 
   void on_data_available(dds::DataReader* from) override {
     const std::scoped_lock lock{mutex_};
@@ -39,21 +55,30 @@ class Watch final : public dds::DataReaderListener {
     Incoming& taken = cdr_;
     while (from->take_next_sample(&taken, &info) == ReturnCode_t::RETCODE_OK) {
       if (!info.valid_data) continue;
+      const Guid writer = guid_of(info.sample_identity.writer_guid());
       const std::uint64_t lost =
-          gaps_.lost_before(guid_of(info.sample_identity.writer_guid()),
-                            info.sample_identity.sequence_number().to64long());
-      on_sample_({cdr_.bytes, Time{info.source_timestamp.to_ns()}, type_, lost});
+          gaps_.lost_before(writer, info.sample_identity.sequence_number().to64long());
+      on_sample_(
+          {cdr_.bytes, Time{info.source_timestamp.to_ns()}, type_, lost, writer_with(writer)});
     }
   }
 
   dds::DataReader* reader = nullptr;
 
  private:
+  const ObservedEndpoint* writer_with(const Guid& guid) {
+    if (const auto known = writers_.find(guid); known != writers_.end()) return &known->second;
+    const auto found = discovery_.find(guid);
+    return found ? &writers_.emplace(guid, observed(*found, discovery_)).first->second : nullptr;
+  }
+
   std::string type_;
+  const Discovery& discovery_;
   std::function<void(const ObservedSample&)> on_sample_;
   std::mutex mutex_;
   IncomingBytes cdr_;
   SequenceGaps gaps_;
+  std::map<Guid, ObservedEndpoint> writers_;
 };
 
 class Observer final : public DdsObserver {
@@ -77,11 +102,7 @@ class Observer final : public DdsObserver {
       add_once(topic.types, endpoint.type);
       if (endpoint.tag.ours) add_once(topic.deployments, endpoint.tag.deployment);
       ++(endpoint.writes ? topic.writers : topic.readers);
-      topic.endpoints.push_back({.writes = endpoint.writes,
-                                 .owner = discovery.owner(endpoint),
-                                 .type = endpoint.type,
-                                 .reliable = endpoint.reliable,
-                                 .transient_local = endpoint.transient_local});
+      topic.endpoints.push_back(observed(endpoint, discovery));
     }
     std::vector<ObservedTopic> sorted;
     for (auto& [name, topic] : by_name) {
@@ -103,7 +124,8 @@ class Observer final : public DdsObserver {
     const QosSettings settings{.reader_reliable = writer->reliable && asks_again_,
                                .transient_local = writer->transient_local,
                                .depth = writer->transient_local ? 100 : 10};
-    auto watch = std::make_unique<Watch>(writer->type, std::move(on_sample));
+    auto watch =
+        std::make_unique<Watch>(writer->type, participant_->discovery(), std::move(on_sample));
     watch->reader = participant_->subscriber().create_datareader(
         *dds_topic, reader_qos(settings, std::nullopt, ""), watch.get());
     if (!watch->reader)
@@ -130,9 +152,14 @@ class Observer final : public DdsObserver {
   std::optional<Endpoint> wait_for_writer(const std::string& topic, Duration timeout) const {
     const auto deadline = std::chrono::steady_clock::now() + timeout;
     do {
+      std::optional<Endpoint> any;
       for (Endpoint& endpoint : participant_->discovery().endpoints()) {
-        if (endpoint.topic == topic && endpoint.writes) return std::move(endpoint);
+        if (endpoint.topic != topic || !endpoint.writes) continue;
+        const auto& [ours, deployment, fingerprint, run, layout] = endpoint.tag;
+        if (ours && topic.starts_with("rt/" + deployment + "/")) return std::move(endpoint);
+        if (!any) any = std::move(endpoint);
       }
+      if (any) return any;
       std::this_thread::sleep_for(std::chrono::milliseconds{10});
     } while (std::chrono::steady_clock::now() < deadline);
     return std::nullopt;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -23,6 +24,9 @@ struct ObservedEndpoint {
   std::string type;   // DDS name
   bool reliable = false;
   bool transient_local = false;
+  std::string deployment = {};  // the one of ours that it says it is of; empty: another program's
+  std::uint64_t layout = 0;     // of its type, as MessageType::layout has it; 0: it does not say
+  std::array<std::uint8_t, 16> guid = {};  // no two have the same
 };
 
 /// A topic as discovery shows it.
@@ -41,6 +45,7 @@ struct ObservedSample {
   const std::string& type;         // DDS name
   /// Samples that the same writer sent since the one before, and that did not arrive.
   std::uint64_t lost_before = 0;
+  const ObservedEndpoint* writer = nullptr;  // null: discovery does not know it (yet)
 };
 
 struct ObserverOptions {
@@ -64,7 +69,9 @@ class DdsObserver {
   virtual std::vector<ObservedTopic> topics() const = 0;
 
   /// Waits until `topic` has a writer (at most `timeout`), then calls `on_sample` on a DDS thread,
-  /// one sample at a time, until the observer is destroyed. Takes "rt/a/b" and "/a/b".
+  /// one sample at a time, until the observer is destroyed. Takes "rt/a/b" and "/a/b". The reader
+  /// is made for the writer of the deployment that has the topic, when that has been found, else
+  /// for any.
   virtual Expected<void> watch(const std::string& topic, Duration timeout,
                                std::function<void(const ObservedSample&)> on_sample) = 0;
   /// No sample of it is handed on when this has returned. Not from `on_sample`.

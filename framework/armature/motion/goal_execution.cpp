@@ -228,7 +228,7 @@ ReasonText GoalExecution::refusal(const MotionGoal& goal, const ReasonText& wron
 
 bool GoalExecution::accept(const MotionGoal& goal, const ReasonText& wrong) {
   if (const ReasonText reason = refusal(goal, wrong); !reason.empty()) {
-    const bool by_stop = halted() && (took_any_ || was_stopped_);
+    const bool by_stop = is_stopped();
     report(goal.id, State::failed, by_stop ? kStopStage : "accept", reason);
     if (by_stop) untold_ = false;
     return false;
@@ -407,13 +407,29 @@ bool GoalExecution::at_rest(Time now) const {
 }
 
 std::optional<GoalStatus> GoalExecution::current(Time now) const {
-  if (!active_) return last_;
+  if (!active_) return last_while_resting();
   return GoalStatus{.goal_id = *active_,
                     .state = State::executing,
                     .stage = {},
                     .reason = active_mode_ == MotionMode::tracking ? behind_ : ReasonText{},
                     .remaining_s = std::max(0.0, to_seconds(reference_.last().end() - now)),
                     .stops_ahead = stops_ahead_};
+}
+
+bool GoalExecution::is_stopped() const { return halted() && (took_any_ || was_stopped_); }
+
+/// Stage `stop` says that the arm is stopped now, whatever became of the goal before.
+std::optional<GoalStatus> GoalExecution::last_while_resting() const {
+  std::optional<GoalStatus> told = last_;
+  if (!told) return told;
+  if (is_stopped()) {
+    told->stage = kStopStage;
+    told->reason = halted_;
+  } else if (told->stage.view() == kStopStage) {
+    told->stage = "accept";
+    told->reason = "the arm was stopped and rearmed since; give it again to go on";
+  }
+  return told;
 }
 
 std::span<const GoalStatus> GoalExecution::take_statuses() {

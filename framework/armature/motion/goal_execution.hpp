@@ -103,7 +103,7 @@ class GoalExecution {
   const Reference& reference() const { return reference_; }
   /// Statuses since the last call, in order; there until the next change.
   std::span<const GoalStatus> take_statuses();
-  /// The goal that is being executed, or was last.
+  /// The goal that is being executed, or was last; in stage `stop` as long as the arm is stopped.
   std::optional<GoalStatus> current(Time now) const;
   /// Why the arm is not driven, or empty.
   const ReasonText& trouble() const { return halted() ? halted_ : trouble_; }
@@ -137,6 +137,9 @@ class GoalExecution {
   void fail_all(std::string_view stage, const ReasonText& reason);
   void supersede_pending();
   void finish_active(GoalStatus::State state);
+  std::optional<GoalStatus> last_while_resting() const;
+  /// It was stopped, and waits for its rearm.
+  bool is_stopped() const;
   /// A plan that came between two slow steps begins late and not in its midst, if it begins at
   /// rest.
   void begin_late(Time now);

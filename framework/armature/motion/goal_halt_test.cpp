@@ -36,6 +36,25 @@ TEST_F(GoalExecutionTest, StoppedStaysStoppedUntilItIsRearmedWhereTheArmIs) {
   EXPECT_EQ(statuses_.back().state, State::executing);
 }
 
+TEST_F(GoalExecutionTest, TellsThatItIsStoppedAsLongAsItIsWhateverBecameOfTheGoal) {
+  step_to(0.1);
+  give(goal_at(1, 0.1, 0, 0));
+  step_to(5);
+  ASSERT_EQ(execution_.current(now_)->state, State::done);
+  EXPECT_EQ(execution_.current(now_)->stage, "");
+  execution_.halt("somebody pressed the button", now_);
+  EXPECT_EQ(execution_.current(now_)->state, State::done);
+  EXPECT_EQ(execution_.current(now_)->stage.view(), kStopStage);
+  EXPECT_EQ(execution_.current(now_)->reason, "somebody pressed the button");
+  ask(goal_at(2, 0, 0, 0));
+  EXPECT_EQ(execution_.current(now_)->state, State::failed);
+  EXPECT_EQ(execution_.current(now_)->stage.view(), kStopStage);
+  step_to(6);
+  ASSERT_TRUE(execution_.rearm(now_));
+  EXPECT_EQ(execution_.current(now_)->goal_id, 2u);
+  EXPECT_EQ(execution_.current(now_)->stage, "accept");
+}
+
 TEST_F(GoalExecutionTest, AHaltedArmThatRestsElsewhereIsNotAskedToComeToWhereItWasToStop) {
   step_to(0.1);
   give(goal_at(1, 2, -2, 2));

@@ -59,6 +59,7 @@ void PursuedGoal::go_on() { set_once({.mode = MotionMode::resume, .pose = {}, .s
 void PursuedGoal::hear(const GoalReport& report, Time now) {
   // A task that starts late, or again, goes on counting where the goals are.
   if (is_newer(report.goal_id, last_id_)) last_id_ = report.goal_id;
+  arm_is_stopped_ = report.stage == kStopStage;
   const bool mine = report.goal_id == goal_.id && sent_ > 0 && !send_at_;
   if (!mine || state_ == State::none || state_ == State::failed) return;
   switch (report.state) {
@@ -83,6 +84,11 @@ void PursuedGoal::hear(const GoalReport& report, Time now) {
       give_up_or_try_again(report, now);
       break;
   }
+}
+
+Expected<void> PursuedGoal::may_move() const {
+  if (arm_is_stopped_) return refuse("the arm is stopped: rearm it first");
+  return {};
 }
 
 void PursuedGoal::give_up_or_try_again(const GoalReport& report, Time now) {

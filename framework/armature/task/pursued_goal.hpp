@@ -7,6 +7,7 @@
 #include <string>
 
 #include "armature/motion/goal.hpp"
+#include "armature/values/expected.hpp"
 #include "armature/values/time.hpp"
 
 namespace armature ARMATURE_EXPORT {
@@ -43,6 +44,9 @@ class PursuedGoal {
   std::optional<MotionGoal> outgoing(Time now);
 
   State state() const { return state_; }
+  /// Refuses while the motion tells that the arm is stopped: a word that wants it moved would do
+  /// nothing then.
+  Expected<void> may_move() const;
   /// It has failed because the arm was stopped.
   bool stopped() const { return state_ == State::failed && stopped_; }
   Time done_at() const { return done_at_; }
@@ -73,6 +77,7 @@ class PursuedGoal {
   std::array<std::optional<Time>, 2> broke_down_;  // the last two times, the newest first
   int sent_ = 0;
   bool once_ = false, begun_ = false, accepted_ = false, stopped_ = false;
+  bool arm_is_stopped_ = false;
 };
 
 }  // namespace armature

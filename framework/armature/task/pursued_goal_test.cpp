@@ -262,6 +262,21 @@ TEST(PursuedGoal, ThatWasStoppedHasFailedAndIsNotGivenAgain) {
   EXPECT_FALSE(goals.stopped()) << "another goal is another one";
 }
 
+TEST(PursuedGoal, KnowsWhetherTheArmIsStoppedWhateverBecameOfTheGoal) {
+  PursuedGoal goals;
+  EXPECT_TRUE(goals.may_move());
+  goals.set({});
+  goals.outgoing(at(0));
+  goals.hear({.goal_id = 1, .state = Report::done}, at(1));
+  EXPECT_TRUE(goals.may_move());
+  goals.hear({.goal_id = 1, .state = Report::done, .stage = "stop", .reason = "stopped"}, at(2));
+  ASSERT_FALSE(goals.may_move());
+  EXPECT_EQ(goals.may_move().error().text, "the arm is stopped: rearm it first");
+  EXPECT_EQ(goals.state(), PursuedGoal::State::done);
+  goals.hear({.goal_id = 1, .state = Report::done}, at(3));
+  EXPECT_TRUE(goals.may_move()) << "it was rearmed";
+}
+
 TEST(PursuedGoal, ThatLetsAHandMoveTheArmIsGivenAgainAfterAStop) {
   PursuedGoal goals;
   goals.set({.mode = MotionMode::guided, .pose = {}});

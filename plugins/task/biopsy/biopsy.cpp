@@ -230,6 +230,7 @@ Expected<void> Biopsy::go_back(Time now) {
     return {};
   }
   if (step() == Step::registration) return armature::refuse("there is no step before this one");
+  if (const auto may = goal_.may_move(); !may && !stands_where_it_began) return may;
   procedure_.turn_back();
   if (stands_where_it_began) {
     line_.reset();
@@ -245,8 +246,9 @@ Expected<void> Biopsy::go_back(Time now) {
 
 Expected<void> Biopsy::abort() {
   if (heading() == Heading::home) return armature::refuse("it is being aborted already");
-  procedure_.turn_back();
   const bool stands_where_it_began = place_ == 0 && heading_ == Heading::none && !held_;
+  if (const auto may = goal_.may_move(); !may && !stands_where_it_began) return may;
+  procedure_.turn_back();
   if (stands_where_it_began) {
     ended_as_ = Phase::aborted;
     take_from_hand();

@@ -312,14 +312,36 @@ TEST_F(OperatedBiopsyTest, ANeedleThatBrokeDownOnItsWayIsLedOutByTheOperator) {
   EXPECT_EQ(task_->phase(), Phase::held);
   expect_no_goal();
   EXPECT_EQ(say("resume"), "the needle has broken down on its way: back or abort leads it out");
+  EXPECT_EQ(say("back"), "the arm is stopped: rearm it first");
+  EXPECT_EQ(say("abort"), "the arm is stopped: rearm it first");
+  EXPECT_EQ(task_->phase(), Phase::held);
+  expect_no_goal();
+  fail("accept", "the arm was stopped and rearmed since");  // as it is told from then on
   EXPECT_EQ(say("abort"), "");
   EXPECT_EQ(sent().mode, MotionMode::retrace);
-  fail("stop", "stopped until it is rearmed");  // it was not rearmed
+  fail("stop", "stopped until it is rearmed");  // again
   EXPECT_EQ(task_->phase(), Phase::held);
   EXPECT_EQ(task_->trouble(), "the way back failed: stop: stopped until it is rearmed");
+  fail("accept", "the arm was stopped and rearmed since");
   EXPECT_EQ(say("abort"), "") << "once more";
   reach(0);
   EXPECT_EQ(task_->phase(), Phase::aborted);
+}
+
+TEST_F(OperatedBiopsyTest, ANeedleThatWaitsForTheOperatorIsNotLedOutByAnArmThatIsStopped) {
+  EXPECT_EQ(asked(), "approach");
+  confirm("approach", 2);
+  const auto tell_resting = [&](const std::string& stage) {
+    task_->hear({.goal_id = id_, .state = Report::done, .stage = stage, .stops_ahead = 2}, now_);
+  };
+  tell_resting("stop");
+  EXPECT_EQ(say("back"), "the arm is stopped: rearm it first");
+  EXPECT_EQ(say("abort"), "the arm is stopped: rearm it first");
+  EXPECT_EQ(asked(), "entry") << "nothing has changed";
+  expect_no_goal();
+  tell_resting("");
+  EXPECT_EQ(say("abort"), "");
+  EXPECT_EQ(sent().mode, MotionMode::retrace);
 }
 
 TEST_F(OperatedBiopsyTest, BackFromABreakdownGoesToTheStopBefore) {

@@ -152,6 +152,12 @@ TEST_F(OperatedImplantTest, ADrillThatBreaksDownInTheBoneIsHeldUntilAnAbortLeads
   wait(2);
   EXPECT_EQ(goals_.size(), until_then) << "nothing moves by itself";
   EXPECT_EQ(say("back"), "the tool is held near the jaw: abort leads it out");
+  GoalReport told{.goal_id = goals_.back().id, .state = Report::failed, .stage = "stop"};
+  task_.hear(told, now());
+  EXPECT_EQ(say("abort"), "the arm is stopped: rearm it first");
+  EXPECT_EQ(task_.phase(), Phase::held);
+  told.stage = "accept";  // as it is told once the arm is rearmed
+  task_.hear(told, now());
   EXPECT_EQ(say("abort"), "");
   step();
   EXPECT_LT((goals_.back().pose.position - before_).norm(), 1e-9) << "out of the bone first";

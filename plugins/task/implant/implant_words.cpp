@@ -33,6 +33,7 @@ Expected<void> Implant::go_back(Time now) {
   const bool again = phase_ == Phase::approaching || (pass_ == 0 && !set_out_);
   const bool placed = placing() && (set_out_ ? !pass().asks && !pass().turns : pass().asks);
   if (!again && placed) return armature::refuse("the implant before stays where it was placed");
+  if (const auto may = goal_.may_move(); !may && !again) return may;
   procedure_.turn_back();
   goal_.pause();
   if (again) {
@@ -56,6 +57,7 @@ void Implant::register_again() {
 /// Out of the bone, over the sites, and to where the approach began.
 Expected<void> Implant::abort() {
   if (phase_ == Phase::aborting) return armature::refuse("it is being aborted already");
+  if (const auto may = goal_.may_move(); !may && near_the_jaw()) return may;
   procedure_.turn_back();
   if (near_the_jaw()) {
     if (!turned_ || phase_ != Phase::going_back) goal_.pause();

@@ -103,6 +103,21 @@ TEST_F(OperatedLampTest, AbortedAtTheFaceItGoesBackToTheViewFromWhichItCame) {
   EXPECT_EQ(say("back"), "the procedure is over");
 }
 
+TEST_F(OperatedLampTest, WhileTheLampIsStoppedBackAndAbortAreRefused) {
+  confirm("search");
+  run(20);
+  ASSERT_EQ(asked(), "alignment");
+  GoalReport resting{.goal_id = goals_.back().id, .state = GoalReport::State::done};
+  resting.stage = "stop";
+  task_.hear(resting, now_);
+  EXPECT_EQ(say("back"), "the arm is stopped: rearm it first");
+  EXPECT_EQ(say("abort"), "the arm is stopped: rearm it first");
+  EXPECT_EQ(asked(), "alignment") << "nothing has changed";
+  resting.stage.clear();
+  task_.hear(resting, now_);
+  EXPECT_EQ(say("abort"), "");
+}
+
 TEST_F(OperatedLampTest, AbortedInTheSearchItStaysWhereItIs) {
   confirm("search");
   run(0.5);

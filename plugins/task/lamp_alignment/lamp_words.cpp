@@ -13,6 +13,7 @@ Expected<void> LampAlignment::hear(const OperatorCommand& command, Time now) {
 Expected<void> LampAlignment::go_back(Time now) {
   if (phase_ == Phase::aborting) return refuse("it is being aborted");
   if (step() != Step::alignment) return refuse("the search is the first step that moves the lamp");
+  if (const auto may = goals_.may_move(); !may) return may;
   procedure_.turn_back();
   goals_.set({.mode = MotionMode::hold, .pose = {}});
   start_search(now);
@@ -22,8 +23,9 @@ Expected<void> LampAlignment::go_back(Time now) {
 /// To the view from which it saw the face, if it has left one; else it stays where it is.
 Expected<void> LampAlignment::abort() {
   if (phase_ == Phase::aborting) return refuse("it is being aborted already");
-  procedure_.turn_back();
   const bool came_from_a_view = step() == Step::alignment && views_looked_at_ > 0;
+  if (const auto may = goals_.may_move(); !may && came_from_a_view) return may;
+  procedure_.turn_back();
   MotionGoal goal{.mode = MotionMode::hold, .pose = {}};
   if (came_from_a_view) goal = {.pose = poses_[pose_]};
   if (goals_.state() != GoalState::none) goals_.set(goal);

@@ -82,6 +82,7 @@ Expected<void> Tour::go_back() {
   if (phase_ == Phase::aborting) return refuse("it is being aborted");
   if (phase_ == Phase::waiting || number_ == 0)
     return refuse("there is no waypoint before this one");
+  if (const auto may = goal_.may_move(); !may) return may;
   procedure_.turn_back();
   goal_.pause();
   come_to(number_ - 1);
@@ -90,8 +91,9 @@ Expected<void> Tour::go_back() {
 
 Expected<void> Tour::abort() {
   if (phase_ == Phase::aborting) return refuse("it is being aborted already");
-  procedure_.turn_back();
   const bool has_moved = goal_.state() != PursuedGoal::State::none;
+  if (const auto may = goal_.may_move(); !may && has_moved) return may;
+  procedure_.turn_back();
   if (!has_moved) {
     phase_ = Phase::aborted;
     procedure_.end(Procedure::StepState::broken_off);

@@ -119,6 +119,22 @@ TEST_F(OperatedTourTest, AbortedItGoesBackAlongTheWayThatItCame) {
   EXPECT_TRUE(follow(tour_, 3).empty());
 }
 
+TEST_F(OperatedTourTest, WhileTheArmIsStoppedBackAndAbortAreRefused) {
+  follow(tour_, 1);
+  say("confirm", "waypoint 1");
+  follow(tour_, 2);
+  say("confirm", "waypoint 2");
+  follow(tour_, 2);
+  GoalReport resting{.goal_id = id_, .state = GoalReport::State::done, .stage = "stop"};
+  tour_.hear(resting, now_);
+  EXPECT_EQ(say("back"), "the arm is stopped: rearm it first");
+  EXPECT_EQ(say("abort"), "the arm is stopped: rearm it first");
+  EXPECT_TRUE(follow(tour_, 1).empty());
+  resting.stage.clear();
+  tour_.hear(resting, now_);
+  EXPECT_EQ(say("abort"), "");
+}
+
 TEST_F(OperatedTourTest, AbortedBeforeAnythingMovedItIsOver) {
   follow(tour_, 1);
   EXPECT_EQ(say("abort"), "");

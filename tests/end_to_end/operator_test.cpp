@@ -146,6 +146,22 @@ TEST_F(OperatorTest, ConfirmsNothingWhereTwoSayThatTheyAreTheTask) {
   EXPECT_THAT(run.err(), Not(HasSubstr("the operator says")));
 }
 
+TEST_F(OperatorTest, IsToldThatTheArmIsStoppedWhereAWordWouldDoNothing) {
+  Command run{operated_biopsy(), {}};
+  ASSERT_TRUE(run.wait_for_err("asks the operator to confirm 'approach'", kAtMost)) << run.err();
+  EXPECT_EQ(say("confirm").exit_code, 0);
+  const CommandResult stopped = run_command({armature(), "stop", "--domain", domain_}, {}, kAtMost);
+  ASSERT_EQ(stopped.exit_code, 0) << stopped.err;
+  ASSERT_TRUE(run.wait_for_err("task      held: ", kAtMost)) << run.err();
+  for (const char* word : {"abort", "back"}) {
+    const CommandResult said = say(word);
+    EXPECT_EQ(said.exit_code, kRefused) << word;
+    EXPECT_EQ(said.err, std::string{"armature: '"} + word +
+                            "' was refused: the arm is stopped: rearm it first\n");
+  }
+  EXPECT_THAT(run.err(), Not(HasSubstr("task      aborting")));
+}
+
 TEST_F(OperatorTest, TypesHisWords) {
   Command run{operated_biopsy(), {}};
   ASSERT_TRUE(run.wait_for_err("asks the operator to confirm 'approach'", kAtMost)) << run.err();
